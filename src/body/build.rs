@@ -1,0 +1,154 @@
+//! What elements resolve their parts of a scene with.
+
+use super::{Probe, Signal};
+use crate::error::{Error, Result, suggest};
+use crate::math::expression::{Expression, Number, Parameters};
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+/// Index of a marker among all markers of a scene, those of the ground included.
+pub type MarkerId = usize;
+
+/// The markers of a scene by their full names, `body.marker`.
+#[derive(Clone, Debug, Default)]
+pub struct MarkerTable {
+    /// Full names in order; `body` alone names the marker at the body's own frame.
+    pub names: Vec<String>,
+    /// Index of the body that carries it; `None` is the ground.
+    pub bodies: Vec<Option<usize>>,
+    pub body_names: Vec<String>,
+    /// False for point masses, whose markers have no orientation.
+    pub oriented: Vec<bool>,
+}
+
+impl MarkerTable {
+    pub fn find(&self, name: &str) -> Result<MarkerId> {
+        self.names.iter().position(|known| known == name).ok_or_else(|| {
+            let hint = suggest(name, self.names.iter().map(String::as_str).filter(|known| known.contains('.')));
+            Error::input(format!("there is no marker `{name}`")).hint(hint)
+        })
+    }
+}
+
+/// The names that an element's numbers, functions and marker references are looked up in.
+pub struct Build<'a, const D: usize> {
+    pub parameters: &'a Parameters,
+    pub markers: &'a MarkerTable,
+    /// Named kinematic outputs that forces may use: name and expression.
+    pub outputs: &'a [(String, String)],
+    pub gravity: [f64; D],
+}
+
+impl<const D: usize> Build<'_, D> {
+    pub fn number(&self, field: &str, number: &Number) -> Result<f64> {
+        number.evaluate(self.parameters).map_err(|error| Error::from(error).under(field))
+    }
+
+    pub fn number_or(&self, field: &str, number: &Option<Number>, default: f64) -> Result<f64> {
+        number.as_ref().map_or(Ok(default), |number| self.number(field, number))
+    }
+
+    /// A number that must not be negative.
+    pub fn not_negative(&self, field: &str, number: &Number) -> Result<f64> {
+        let value = self.number(field, number)?;
+        if value < 0.0 {
+            return Err(Error::input(format!("{field} is {value}, but cannot be negative"))
+                .under(field)
+                .hint(format!("give a {field} of zero or more")));
+        }
+        Ok(value)
+    }
+
+    /// A number that must be above zero.
+    pub fn positive(&self, field: &str, number: &Number) -> Result<f64> {
+        let value = self.number(field, number)?;
+        if value <= 0.0 {
+            return Err(Error::input(format!("{field} is {value}, but must be above zero")).under(field));
+        }
+        Ok(value)
+    }
+
+    pub fn vector<const N: usize>(&self, field: &str, numbers: &[Number]) -> Result<[f64; N]> {
+        if numbers.len() != N {
+            return Err(Error::input(format!("expected {N} numbers, found {}", numbers.len()))
+                .under(field)
+                .hint(format!("the scene has \"dimension\": {D}")));
+        }
+        let mut vector = [0.0; N];
+        for (i, (place, number)) in vector.iter_mut().zip(numbers).enumerate() {
+            *place = self.number(&format!("{field}[{i}]"), number)?;
+        }
+        Ok(vector)
+    }
+
+    pub fn marker(&self, field: &str, name: &str) -> Result<MarkerId> {
+        self.markers.find(name).map_err(|error| error.under(field))
+    }
+
+    /// Two markers on different bodies.
+    pub fn between(&self, names: &[String; 2]) -> Result<Vec<MarkerId>> {
+        let ids = [self.marker("between[0]", &names[0])?, self.marker("between[1]", &names[1])?];
+        let [a, b] = ids.map(|id| self.markers.bodies[id]);
+        if a == b {
+            let body = a.map_or("ground", |body| self.markers.body_names[body].as_str());
+            return Err(Error::input(format!("both markers, `{}` and `{}`, are on `{body}`", names[0], names[1]))
+                .under("between")
+                .hint("name markers of two different bodies"));
+        }
+        Ok(ids.to_vec())
+    }
+
+    /// Refuses markers without an orientation.
+    pub fn oriented(&self, field: &str, markers: &[MarkerId]) -> Result<()> {
+        match markers.iter().find(|&&marker| !self.markers.oriented[marker]) {
+            None => Ok(()),
+            Some(&marker) => Err(Error::input(format!(
+                "`{}` is on a point mass, which has no orientation to hold",
+                self.markers.names[marker]
+            ))
+            .under(field)
+            .hint("use a body of type \"rigid\", or a joint that holds positions only")),
+        }
+    }
+
+    /// An expression over t alone.
+    pub fn function_of_time(&self, field: &str, number: &Number) -> Result<Expression> {
+        Signal::parse(&number.to_string(), self, false)
+            .map_err(|error| error.under(field))
+            .and_then(|signal| signal.function_of_time().map_err(|error| error.under(field)))
+    }
+
+    /// An expression over t and marker quantities; with their rates where `rates` says so.
+    pub fn signal(&self, field: &str, number: &Number, rates: bool) -> Result<Signal> {
+        Signal::parse(&number.to_string(), self, rates).map_err(|error| error.under(field))
+    }
+
+    /// A marker quantity such as `crank.C.x` or `crank.angle`.
+    pub fn probe(&self, name: &str) -> Option<Probe> {
+        Probe::parse::<D>(name, self.markers)
+    }
+}
+
+/// Reads a type from JSON; errors carry the path within it and suggest the nearest key.
+pub fn parse<T: DeserializeOwned>(json: Value) -> Result<T> {
+    serde_path_to_error::deserialize(json).map_err(|error| {
+        let path = error.path().to_string();
+        let message = error.inner().to_string();
+        let error = explain(&message);
+        if path == "." || path == "?" { error } else { error.under(path.trim_end_matches(".?")) }
+    })
+}
+
+/// Serde's words for a user: which key is unknown and which was meant.
+fn explain(message: &str) -> Error {
+    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    match (message.starts_with("unknown field"), quoted.split_first()) {
+        (true, Some((found, known))) => {
+            Error::input(format!("unknown key `{found}`")).hint(suggest(found, known.iter().copied()))
+        }
+        _ if message.starts_with("missing field") => {
+            Error::input(format!("the key `{}` is missing", quoted.first().unwrap_or(&"?")))
+        }
+        _ => Error::input(message.to_string()),
+    }
+}

@@ -1,0 +1,188 @@
+//! Frames: all that a joint or a force ever sees of a body.
+
+use crate::math::{Dual, Scalar, Taylor};
+use std::array::from_fn;
+
+/// Number of components of a twist or wrench: (x, y, angle) in the plane, three and three in space.
+pub const fn twist_len(dimension: usize) -> usize {
+    if dimension == 2 { 3 } else { 6 }
+}
+
+/// Position and orientation of a marker in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame<S, const D: usize> {
+    /// Origin in the world, m.
+    pub r: [S; D],
+    /// `axes[i]` is the marker's i-th unit axis in the world.
+    pub axes: [[S; D]; D],
+    /// Angle of turn in the plane, rad, counted through full turns; zero in space, where no such angle exists.
+    pub turn: S,
+}
+
+/// Force and torque that act at a marker, in world components. In the plane only `torque[2]` counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wrench<S, const D: usize> {
+    /// N
+    pub force: [S; D],
+    /// N m
+    pub torque: [S; 3],
+}
+
+/// A frame fixed to a rigid body, in the body's axes and from its centre of mass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Marker<const D: usize> {
+    /// m
+    pub offset: [f64; D],
+    pub axes: [[f64; D]; D],
+    /// rad, in the plane.
+    pub turn: f64,
+}
+
+impl<const D: usize> Marker<D> {
+    /// A point whose axes are the body's.
+    pub fn point(offset: [f64; D]) -> Self {
+        Marker { offset, axes: from_fn(|i| from_fn(|j| if i == j { 1.0 } else { 0.0 })), turn: 0.0 }
+    }
+}
+
+impl<S: Scalar, const D: usize> Frame<S, D> {
+    /// The world's own frame.
+    pub fn world() -> Self {
+        Frame { r: [S::zero(); D], axes: unit_axes(), turn: S::zero() }
+    }
+
+    /// The frame of a marker that is fixed in this one.
+    #[inline]
+    pub fn at(&self, marker: &Marker<D>) -> Self {
+        let mut r = self.r;
+        add_rotated(&mut r, &self.axes, &marker.offset);
+        let axes = from_fn(|i| {
+            let mut axis = [S::zero(); D];
+            add_rotated(&mut axis, &self.axes, &marker.axes[i]);
+            axis
+        });
+        Frame { r, axes, turn: self.turn + marker.turn }
+    }
+
+    #[inline]
+    pub fn map<T: Scalar>(&self, change: impl Fn(S) -> T) -> Frame<T, D> {
+        Frame { r: self.r.map(&change), axes: self.axes.map(|axis| axis.map(&change)), turn: change(self.turn) }
+    }
+}
+
+/// target += sum_j components_j axes_j
+#[inline]
+fn add_rotated<S: Scalar, const D: usize>(target: &mut [S; D], axes: &[[S; D]; D], components: &[f64; D]) {
+    for (axis, &component) in axes.iter().zip(components) {
+        if component != 0.0 {
+            for (t, &a) in target.iter_mut().zip(axis) {
+                *t += a * component;
+            }
+        }
+    }
+}
+
+impl<S: Scalar, const D: usize> Frame<Taylor<S>, D> {
+    /// Velocity of the origin, m/s.
+    pub fn velocity(&self) -> [S; D] {
+        self.r.map(|x| x.d)
+    }
+
+    /// Angular velocity in the world, rad/s, from w x e = e' for each axis; in the plane (0, 0, turn').
+    pub fn angular_velocity(&self) -> [S; 3] {
+        if D == 2 {
+            return [S::zero(), S::zero(), self.turn.d];
+        }
+        let mut twice = [S::zero(); 3];
+        for axis in &self.axes {
+            let spin = cross(&axis.map(|a| a.x), &axis.map(|a| a.d));
+            (0..3).for_each(|i| twice[i] += spin[i]);
+        }
+        twice.map(|w| w * 0.5)
+    }
+}
+
+impl<S: Scalar, const D: usize> Frame<S, D> {
+    /// The frame as a function of its own twist: `first` is the direction that moves it along x; rotations are about
+    /// the world's axes through its origin, so de = w x e.
+    #[inline]
+    pub fn seeded(&self, first: usize) -> Frame<Dual<S, 6>, D> {
+        let mut frame = self.map(Dual::fixed);
+        for i in 0..D {
+            frame.r[i].eps[first + i] = S::one();
+        }
+        if D == 2 {
+            frame.turn.eps[first + 2] = S::one();
+        }
+        for (axis, seeded) in self.axes.iter().zip(&mut frame.axes) {
+            if D == 2 {
+                seeded[0].eps[first + 2] = -axis[1];
+                seeded[1].eps[first + 2] = axis[0];
+            } else {
+                for k in 0..3 {
+                    let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+                    // (e_k x a): component next is -a_last, component last is a_next.
+                    seeded[next].eps[first + 3 + k] = -axis[last];
+                    seeded[last].eps[first + 3 + k] = axis[next];
+                }
+            }
+        }
+        frame
+    }
+}
+
+impl<S: Scalar, const D: usize> Wrench<S, D> {
+    pub fn zero() -> Self {
+        Wrench { force: [S::zero(); D], torque: [S::zero(); 3] }
+    }
+
+    pub fn force(force: [S; D]) -> Self {
+        Wrench { force, torque: [S::zero(); 3] }
+    }
+
+    /// From the components in the order of a twist: (fx, fy, m) in the plane, force and torque in space.
+    #[inline]
+    pub fn from_twist_order(components: &[S]) -> Self {
+        let mut wrench = Self::zero();
+        wrench.force.copy_from_slice(&components[..D]);
+        if D == 2 {
+            wrench.torque[2] = components[2];
+        } else {
+            wrench.torque.copy_from_slice(&components[3..6]);
+        }
+        wrench
+    }
+}
+
+pub fn unit_axes<S: Scalar, const D: usize>() -> [[S; D]; D] {
+    from_fn(|i| from_fn(|j| if i == j { S::one() } else { S::zero() }))
+}
+
+#[inline]
+pub fn dot<S: Scalar, const D: usize>(a: &[S; D], b: &[S; D]) -> S {
+    let mut sum = a[0] * b[0];
+    for i in 1..D {
+        sum += a[i] * b[i];
+    }
+    sum
+}
+
+#[inline]
+pub fn sub<S: Scalar, const D: usize>(a: &[S; D], b: &[S; D]) -> [S; D] {
+    from_fn(|i| a[i] - b[i])
+}
+
+#[inline]
+pub fn scale<S: Scalar, const D: usize>(a: &[S; D], factor: S) -> [S; D] {
+    a.map(|x| x * factor)
+}
+
+/// a x b in space; in the plane the vectors lie in it and only the third component is not zero.
+#[inline]
+pub fn cross<S: Scalar, const D: usize>(a: &[S; D], b: &[S; D]) -> [S; 3] {
+    let z = a[0] * b[1] - a[1] * b[0];
+    if D == 2 {
+        return [S::zero(), S::zero(), z];
+    }
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], z]
+}

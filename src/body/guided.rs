@@ -1,0 +1,132 @@
+//! A spatial body that may move along some world axes and turn about at most one: coordinates only for those.
+
+use super::{BodyKernel, Energy, Frame, Marker, Wrench, cross, sub};
+use crate::error::{Error, Result};
+use crate::math::Scalar;
+use crate::math::rotation::Matrix3;
+
+/// r = rest + the free translations, R = Rot(axis, angle) R_0. Turning about a fixed axis keeps the moment of inertia
+/// about it constant, so M is constant and diagonal and no velocity-dependent force does work.
+pub struct Guided<const D: usize> {
+    mass: f64,
+    /// Moment about the axis of rotation, kg m^2.
+    moment: f64,
+    slots: [Option<usize>; 3],
+    turn: Option<Turn>,
+    rest: [f64; 3],
+    /// Columns of R_0: the body's axes in the world at angle zero.
+    axes: Matrix3,
+    markers: Vec<Marker<D>>,
+}
+
+#[derive(Clone, Copy)]
+struct Turn {
+    slot: usize,
+    axis: usize,
+}
+
+const NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+const RATES: [&str; 6] = ["x'", "y'", "z'", "rx'", "ry'", "rz'"];
+
+impl<const D: usize> Guided<D> {
+    /// `rotation[i][j]`: world component i of body axis j; `free`: indices into x, y, z, rx, ry, rz.
+    pub fn new(
+        mass: f64,
+        inertia: &Matrix3,
+        rest: [f64; 3],
+        rotation: Matrix3,
+        free: &[usize],
+        markers: Vec<Marker<D>>,
+    ) -> Result<Self> {
+        let mut slots = [None; 3];
+        let mut turn = None;
+        for (slot, &i) in free.iter().enumerate() {
+            match (i < 3, turn) {
+                (true, _) => slots[i] = Some(slot),
+                (false, None) => turn = Some(Turn { slot, axis: i - 3 }),
+                (false, Some(_)) => {
+                    return Err(Error::input("a body may turn about one axis or about all")
+                        .under("free")
+                        .hint("keep one of rx, ry, rz, or leave \"free\" out and use joints"));
+                }
+            }
+        }
+        let moment = turn.map_or(0.0, |turn| {
+            let axis = rotation[turn.axis];
+            (0..3).map(|i| (0..3).map(|j| axis[i] * inertia[i][j] * axis[j]).sum::<f64>()).sum()
+        });
+        let axes = std::array::from_fn(|j| std::array::from_fn(|i| rotation[i][j]));
+        Ok(Guided { mass, moment, slots, turn, rest, axes, markers })
+    }
+
+    fn free(&self) -> Vec<usize> {
+        let along = (0..3).filter(|&i| self.slots[i].is_some());
+        along.chain(self.turn.map(|turn| turn.axis + 3)).collect()
+    }
+
+    fn position<S: Scalar>(&self, q: &[S]) -> [S; D] {
+        std::array::from_fn(|i| self.slots[i].map_or(S::constant(self.rest[i]), |slot| q[slot]))
+    }
+}
+
+impl<const D: usize> BodyKernel<D> for Guided<D> {
+    fn coordinate_names(&self) -> Vec<&'static str> {
+        self.free().into_iter().map(|i| NAMES[i]).collect()
+    }
+    fn velocity_names(&self) -> Vec<&'static str> {
+        self.free().into_iter().map(|i| RATES[i]).collect()
+    }
+    fn markers(&self) -> &[Marker<D>] {
+        &self.markers
+    }
+
+    fn frames<S: Scalar>(&self, q: &[S], out: &mut [Frame<S, D>]) {
+        let mut body = Frame::world();
+        body.r = self.position(q);
+        for (axis, start) in body.axes.iter_mut().zip(&self.axes) {
+            axis.iter_mut().zip(start).for_each(|(a, &s)| *a = S::constant(s));
+            if let Some(turn) = self.turn {
+                let (s, c) = (q[turn.slot].sin(), q[turn.slot].cos());
+                let (i, j) = ((turn.axis + 1) % 3, (turn.axis + 2) % 3);
+                axis[i] = c * start[i] - s * start[j];
+                axis[j] = s * start[i] + c * start[j];
+            }
+        }
+        out.iter_mut().zip(&self.markers).for_each(|(frame, marker)| *frame = body.at(marker));
+    }
+
+    fn pull_back<S: Scalar>(&self, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]) {
+        for (slot, force) in self.slots.iter().zip(wrench.force) {
+            if let Some(slot) = slot {
+                f[*slot] += force;
+            }
+        }
+        if let Some(turn) = self.turn {
+            let arm = cross(&sub(&frame.r, &self.position(q)), &wrench.force);
+            f[turn.slot] += wrench.torque[turn.axis] + arm[turn.axis];
+        }
+    }
+
+    fn mass_pattern(&self) -> Vec<(usize, usize)> {
+        (0..self.free().len()).map(|i| (i, i)).collect()
+    }
+    fn mass<S: Scalar>(&self, _q: &[S], values: &mut [S]) {
+        values.fill(S::constant(self.mass));
+        if let Some(turn) = self.turn {
+            values[turn.slot] = S::constant(self.moment);
+        }
+    }
+    fn own_forces<S: Scalar>(&self, _q: &[S], _v: &[S], gravity: &[f64; D], f: &mut [S]) {
+        for (slot, g) in self.slots.iter().zip(gravity) {
+            if let Some(slot) = slot {
+                f[*slot] += S::constant(self.mass * g);
+            }
+        }
+    }
+    fn energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy {
+        let moving: f64 = self.slots.iter().flatten().map(|&slot| self.mass * v[slot] * v[slot]).sum();
+        let turning = self.turn.map_or(0.0, |turn| self.moment * v[turn.slot] * v[turn.slot]);
+        let height: f64 = self.position(q).iter().zip(gravity).map(|(q, g)| -q * g).sum();
+        Energy { kinetic: 0.5 * (moving + turning), potential: self.mass * height }
+    }
+}

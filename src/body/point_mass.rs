@@ -1,0 +1,79 @@
+//! Point mass: position only, no orientation.
+
+use super::rigid::{Initial, start_vector};
+use super::{BodyKernel, BodySpec, Build, Built, Energy, Frame, Marker, Wrench};
+use crate::error::{Error, Result};
+use crate::math::Scalar;
+use crate::math::expression::Number;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// A mass without extension: two coordinates in the plane, three in space. It has no orientation, so joints that hold
+/// one and torques are refused.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PointMass {
+    /// kg
+    pub mass: Number,
+}
+
+impl BodySpec for PointMass {
+    const TYPE: &'static str = "point_mass";
+
+    fn build<const D: usize>(&self, markers: Vec<Marker<D>>, initial: &Initial, build: &Build<D>) -> Result<Built<D>> {
+        if markers.iter().any(|marker| marker.offset.iter().any(|&x| x != 0.0)) {
+            return Err(Error::input("a marker of a point mass lies at the mass itself")
+                .under("markers")
+                .hint("use position zero, or a body of type \"rigid\""));
+        }
+        initial.refuse_rotation()?;
+        let mass = build.not_negative("mass", &self.mass)?;
+        let q = start_vector::<D>("initial.position", &initial.position, build)?.to_vec();
+        let v = start_vector::<D>("initial.velocity", &initial.velocity, build)?.to_vec();
+        Ok(Built { body: Box::new(Particle { mass, markers }), q, v })
+    }
+}
+
+/// M = m I, no velocity-dependent forces.
+struct Particle<const D: usize> {
+    mass: f64,
+    markers: Vec<Marker<D>>,
+}
+
+impl<const D: usize> BodyKernel<D> for Particle<D> {
+    fn coordinate_names(&self) -> Vec<&'static str> {
+        ["x", "y", "z"][..D].to_vec()
+    }
+    fn velocity_names(&self) -> Vec<&'static str> {
+        ["x'", "y'", "z'"][..D].to_vec()
+    }
+    fn markers(&self) -> &[Marker<D>] {
+        &self.markers
+    }
+    fn oriented(&self) -> bool {
+        false
+    }
+    fn frames<S: Scalar>(&self, q: &[S], out: &mut [Frame<S, D>]) {
+        for (frame, marker) in out.iter_mut().zip(&self.markers) {
+            *frame = Frame::world().at(marker);
+            frame.r.copy_from_slice(q);
+        }
+    }
+    fn pull_back<S: Scalar>(&self, _q: &[S], _frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]) {
+        f.iter_mut().zip(wrench.force).for_each(|(f, w)| *f += w);
+    }
+    fn mass_pattern(&self) -> Vec<(usize, usize)> {
+        (0..D).map(|i| (i, i)).collect()
+    }
+    fn mass<S: Scalar>(&self, _q: &[S], values: &mut [S]) {
+        values.fill(S::constant(self.mass));
+    }
+    fn own_forces<S: Scalar>(&self, _q: &[S], _v: &[S], gravity: &[f64; D], f: &mut [S]) {
+        f.iter_mut().zip(gravity).for_each(|(f, g)| *f += S::constant(self.mass * g));
+    }
+    fn energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy {
+        let speed: f64 = v.iter().map(|v| v * v).sum();
+        let height: f64 = q.iter().zip(gravity).map(|(q, g)| -q * g).sum();
+        Energy { kinetic: 0.5 * self.mass * speed, potential: self.mass * height }
+    }
+}

@@ -1,0 +1,194 @@
+//! Scalars read off markers, and expressions over them.
+
+use super::frame::cross;
+use super::{Build, Frame, MarkerId, MarkerTable};
+use crate::error::{Error, Result};
+use crate::math::expression::{Expression, Name, Names};
+use crate::math::{Scalar, Taylor};
+
+/// One scalar of one marker.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Probe {
+    pub marker: MarkerId,
+    pub quantity: Quantity,
+}
+
+/// What a probe reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// World coordinate of the marker's origin, m.
+    Position(usize),
+    /// Its rate, m/s.
+    Velocity(usize),
+    /// Angle of turn in the plane, rad.
+    Angle,
+    /// World component of the angular velocity, rad/s; in the plane the third.
+    Spin(usize),
+}
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+impl Probe {
+    /// `body.marker.x`, `body.x`, `body.angle`, with `'` for rates; `body.wx` in space.
+    pub fn parse<const D: usize>(name: &str, markers: &MarkerTable) -> Option<Probe> {
+        let (place, quantity) = name.rsplit_once('.')?;
+        let marker = markers.find(place).ok()?;
+        let axis = |text: &str| AXES[..D].iter().position(|axis| *axis == text);
+        let quantity = match quantity.strip_suffix('\'') {
+            Some("angle") if D == 2 => Quantity::Spin(2),
+            Some(base) => Quantity::Velocity(axis(base)?),
+            None if quantity == "angle" && D == 2 => Quantity::Angle,
+            None if D == 3 && quantity.starts_with('w') => Quantity::Spin(axis(&quantity[1..])?),
+            None => Quantity::Position(axis(quantity)?),
+        };
+        Some(Probe { marker, quantity })
+    }
+
+    pub fn is_rate(&self) -> bool {
+        matches!(self.quantity, Quantity::Velocity(_) | Quantity::Spin(_))
+    }
+
+    /// A position-level quantity off a frame; rates need [`Probe::read`].
+    pub fn position<S: Scalar, const D: usize>(&self, frame: &Frame<S, D>) -> S {
+        match self.quantity {
+            Quantity::Position(axis) => frame.r[axis],
+            _ => frame.turn,
+        }
+    }
+
+    /// Any quantity off a frame that moves.
+    pub fn read<S: Scalar, const D: usize>(&self, frame: &Frame<Taylor<S>, D>) -> S {
+        match self.quantity {
+            Quantity::Position(axis) => frame.r[axis].x,
+            Quantity::Velocity(axis) => frame.r[axis].d,
+            Quantity::Angle => frame.turn.x,
+            Quantity::Spin(axis) => frame.angular_velocity()[axis],
+        }
+    }
+}
+
+/// An expression over t and probes; variable 0 is t, variable i + 1 is probe i.
+#[derive(Clone, Debug)]
+pub struct Signal {
+    pub expression: Expression,
+    pub probes: Vec<Probe>,
+}
+
+/// So many probes a signal may read: they are evaluated on the stack.
+pub const MOST_PROBES: usize = 24;
+
+impl Signal {
+    /// Parses `text`; named outputs are put in as their own expressions.
+    pub fn parse<const D: usize>(text: &str, build: &Build<D>, rates: bool) -> Result<Signal> {
+        let names = Scope { build, rates, probes: Default::default() };
+        let expression = Expression::parse(&expand(text, build.outputs)?, &names)?;
+        if expression.is_constant() {
+            expression.constant()?;
+        }
+        let probes = names.probes.into_inner();
+        if probes.len() > MOST_PROBES {
+            return Err(Error::input(format!("{} marker quantities in one expression", probes.len()))
+                .hint(format!("use at most {MOST_PROBES}")));
+        }
+        Ok(Signal { expression, probes })
+    }
+
+    pub fn function_of_time(self) -> Result<Expression> {
+        match self.probes.is_empty() {
+            true => Ok(self.expression),
+            false => Err(Error::input("may depend on t and parameters only, but uses a marker")),
+        }
+    }
+
+    /// The markers it reads, in the order of its probes, each once.
+    pub fn markers(&self) -> Vec<MarkerId> {
+        let mut markers = Vec::new();
+        for probe in &self.probes {
+            if !markers.contains(&probe.marker) {
+                markers.push(probe.marker);
+            }
+        }
+        markers
+    }
+
+    /// Value with `read` for the probes.
+    pub fn evaluate<S: Scalar>(&self, t: S, read: impl Fn(&Probe) -> S) -> S {
+        let mut variables = [t; MOST_PROBES + 1];
+        for (place, probe) in variables[1..].iter_mut().zip(&self.probes) {
+            *place = read(probe);
+        }
+        self.expression.eval(&variables[..=self.probes.len()])
+    }
+}
+
+/// Replaces names of outputs by their expressions in brackets, as deep as outputs use outputs.
+fn expand(text: &str, outputs: &[(String, String)]) -> Result<String> {
+    let mut text = text.to_string();
+    for _ in 0..=outputs.len() {
+        let next = replace_names(&text, outputs);
+        if next == text {
+            return Ok(text);
+        }
+        text = next;
+    }
+    Err(Error::input("outputs refer to each other in a circle"))
+}
+
+fn replace_names(text: &str, outputs: &[(String, String)]) -> String {
+    let is_name = |c: char| c.is_alphanumeric() || c == '_' || c == '.' || c == '\'';
+    let mut result = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(start) = rest.find(is_name) {
+        let (before, tail) = rest.split_at(start);
+        let (word, after) = tail.split_at(tail.find(|c| !is_name(c)).unwrap_or(tail.len()));
+        result.push_str(before);
+        match outputs.iter().find(|(name, _)| name == word) {
+            Some((_, expression)) => result.push_str(&format!("({expression})")),
+            None => result.push_str(word),
+        }
+        rest = after;
+    }
+    result + rest
+}
+
+struct Scope<'a, const D: usize> {
+    build: &'a Build<'a, D>,
+    rates: bool,
+    probes: std::cell::RefCell<Vec<Probe>>,
+}
+
+impl<const D: usize> Names for Scope<'_, D> {
+    fn resolve(&self, name: &str) -> Option<Name> {
+        if name == "t" {
+            return Some(Name::Variable(0));
+        }
+        if let Some(value) = self.build.parameters.get(name) {
+            return Some(Name::Constant(value));
+        }
+        let probe = self.build.probe(name).filter(|probe| self.rates || !probe.is_rate())?;
+        let mut probes = self.probes.borrow_mut();
+        let index = probes.iter().position(|known| *known == probe).unwrap_or_else(|| {
+            probes.push(probe);
+            probes.len() - 1
+        });
+        Some(Name::Variable(index + 1))
+    }
+
+    fn known(&self) -> Vec<String> {
+        let quantities: &[&str] = if D == 2 { &["x", "y", "angle"] } else { &["x", "y", "z"] };
+        let markers = self.build.markers.names.iter();
+        let probes = markers.flat_map(|marker| quantities.iter().map(move |q| format!("{marker}.{q}")));
+        self.build.parameters.known().into_iter().chain(["t".into()]).chain(probes).collect()
+    }
+}
+
+/// Rotation vector, rad, that turns frame `a` into frame `b`, for small relative rotations: the sum of the cross
+/// products of their axes, halved.
+pub fn small_rotation<S: Scalar, const D: usize>(a: &Frame<S, D>, b: &Frame<S, D>) -> [S; 3] {
+    let mut twice = [S::zero(); 3];
+    for (from, to) in a.axes.iter().zip(&b.axes) {
+        let turn = cross(from, to);
+        (0..3).for_each(|i| twice[i] += turn[i]);
+    }
+    twice.map(|x| x * 0.5)
+}

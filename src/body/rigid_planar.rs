@@ -1,0 +1,88 @@
+//! Rigid body in the plane: x, y of the centre of mass and the angle, or those of them that are free.
+
+use super::{BodyKernel, Energy, Frame, Marker, Wrench, cross, sub};
+use crate::math::Scalar;
+
+/// M = diag(m, m, I): constant, so there are no velocity-dependent forces.
+pub struct RigidPlanar<const D: usize> {
+    inertia: [f64; 3],
+    /// Where (x, y, angle) stand among the coordinates; `None` is held at `rest`.
+    slots: [Option<usize>; 3],
+    rest: [f64; 3],
+    markers: Vec<Marker<D>>,
+}
+
+const NAMES: [&str; 3] = ["x", "y", "angle"];
+const RATES: [&str; 3] = ["x'", "y'", "angle'"];
+
+impl<const D: usize> RigidPlanar<D> {
+    pub fn new(mass: f64, inertia: f64, rest: [f64; 3], free: &[usize], markers: Vec<Marker<D>>) -> Self {
+        let mut slots = [None; 3];
+        free.iter().enumerate().for_each(|(slot, &i)| slots[i] = Some(slot));
+        RigidPlanar { inertia: [mass, mass, inertia], slots, rest, markers }
+    }
+
+    #[inline]
+    fn coordinates<S: Scalar>(&self, q: &[S]) -> [S; 3] {
+        std::array::from_fn(|i| self.slots[i].map_or(S::constant(self.rest[i]), |slot| q[slot]))
+    }
+
+    fn free(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..3).filter(|&i| self.slots[i].is_some())
+    }
+}
+
+impl<const D: usize> BodyKernel<D> for RigidPlanar<D> {
+    fn coordinate_names(&self) -> Vec<&'static str> {
+        self.free().map(|i| NAMES[i]).collect()
+    }
+    fn velocity_names(&self) -> Vec<&'static str> {
+        self.free().map(|i| RATES[i]).collect()
+    }
+    fn markers(&self) -> &[Marker<D>] {
+        &self.markers
+    }
+
+    #[inline]
+    fn frames<S: Scalar>(&self, q: &[S], out: &mut [Frame<S, D>]) {
+        let [x, y, turn] = self.coordinates(q);
+        let (s, c) = (turn.sin(), turn.cos());
+        let mut body = Frame::world();
+        (body.r[0], body.r[1], body.turn) = (x, y, turn);
+        body.axes[0][..2].copy_from_slice(&[c, s]);
+        body.axes[1][..2].copy_from_slice(&[-s, c]);
+        out.iter_mut().zip(&self.markers).for_each(|(frame, marker)| *frame = body.at(marker));
+    }
+
+    #[inline]
+    fn pull_back<S: Scalar>(&self, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]) {
+        let [x, y, _] = self.coordinates(q);
+        let mut centre = [S::zero(); D];
+        (centre[0], centre[1]) = (x, y);
+        let moment = wrench.torque[2] + cross(&sub(&frame.r, &centre), &wrench.force)[2];
+        for (slot, force) in self.slots.iter().zip([wrench.force[0], wrench.force[1], moment]) {
+            if let Some(slot) = slot {
+                f[*slot] += force;
+            }
+        }
+    }
+
+    fn mass_pattern(&self) -> Vec<(usize, usize)> {
+        (0..self.free().count()).map(|i| (i, i)).collect()
+    }
+    fn mass<S: Scalar>(&self, _q: &[S], values: &mut [S]) {
+        self.free().zip(values).for_each(|(i, value)| *value = S::constant(self.inertia[i]));
+    }
+    fn own_forces<S: Scalar>(&self, _q: &[S], _v: &[S], gravity: &[f64; D], f: &mut [S]) {
+        for (slot, g) in self.slots.iter().zip(&gravity[..2]) {
+            if let Some(slot) = slot {
+                f[*slot] += S::constant(self.inertia[0] * g);
+            }
+        }
+    }
+    fn energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy {
+        let kinetic = self.free().zip(v).map(|(i, v)| 0.5 * self.inertia[i] * v * v).sum();
+        let [x, y, _] = self.coordinates(q);
+        Energy { kinetic, potential: -self.inertia[0] * (gravity[0] * x + gravity[1] * y) }
+    }
+}

@@ -1,0 +1,97 @@
+//! Rigid body in space: centre of mass, unit quaternion [w, x, y, z] and angular velocity in the body's axes.
+
+use super::{BodyKernel, Energy, Frame, Marker, Wrench, cross, dot, sub};
+use crate::math::Scalar;
+use crate::math::rotation::{Matrix3, axes_from_quaternion, quaternion_rate};
+use std::array::from_fn;
+
+/// M = diag(m, m, m, J) with J constant in the body's axes; f = (m g, -w x J w).
+pub struct RigidSpatial<const D: usize> {
+    pub mass: f64,
+    pub inertia: Matrix3,
+    pub markers: Vec<Marker<D>>,
+}
+
+impl<const D: usize> RigidSpatial<D> {
+    fn has_products(&self) -> bool {
+        self.inertia[1][0] != 0.0 || self.inertia[2][0] != 0.0 || self.inertia[2][1] != 0.0
+    }
+
+    fn angular_momentum<S: Scalar>(&self, w: &[S]) -> [S; 3] {
+        from_fn(|i| w[0] * self.inertia[i][0] + w[1] * self.inertia[i][1] + w[2] * self.inertia[i][2])
+    }
+}
+
+impl<const D: usize> BodyKernel<D> for RigidSpatial<D> {
+    fn coordinate_names(&self) -> Vec<&'static str> {
+        vec!["x", "y", "z", "qw", "qx", "qy", "qz"]
+    }
+    fn velocity_names(&self) -> Vec<&'static str> {
+        vec!["x'", "y'", "z'", "wx", "wy", "wz"]
+    }
+    fn markers(&self) -> &[Marker<D>] {
+        &self.markers
+    }
+
+    /// x' = v, and for the quaternion p' = p (0, w) / 2.
+    fn rate<S: Scalar>(&self, q: &[S], v: &[S], qdot: &mut [S]) {
+        qdot[..3].copy_from_slice(&v[..3]);
+        quaternion_rate(&q[3..7], &v[3..6], &mut qdot[3..7]);
+    }
+
+    #[inline]
+    fn frames<S: Scalar>(&self, q: &[S], out: &mut [Frame<S, D>]) {
+        let axes = axes_from_quaternion(&q[3..7]);
+        let mut body = Frame::world();
+        body.r.copy_from_slice(&q[..3]);
+        body.axes.iter_mut().zip(&axes).for_each(|(axis, column)| axis.copy_from_slice(column));
+        out.iter_mut().zip(&self.markers).for_each(|(frame, marker)| *frame = body.at(marker));
+    }
+
+    #[inline]
+    fn pull_back<S: Scalar>(&self, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]) {
+        let centre: [S; D] = from_fn(|i| q[i]);
+        let arm = cross(&sub(&frame.r, &centre), &wrench.force);
+        let moment: [S; 3] = from_fn(|i| wrench.torque[i] + arm[i]);
+        for i in 0..3 {
+            f[i] += wrench.force[i];
+        }
+        for (f, axis) in f[3..].iter_mut().zip(&axes_from_quaternion(&q[3..7])) {
+            *f += dot(axis, &moment);
+        }
+    }
+
+    fn mass_pattern(&self) -> Vec<(usize, usize)> {
+        let diagonal = (0..6).map(|i| (i, i));
+        match self.has_products() {
+            false => diagonal.collect(),
+            true => diagonal.chain([(4, 3), (5, 3), (5, 4)]).collect(),
+        }
+    }
+    fn mass<S: Scalar>(&self, _q: &[S], values: &mut [S]) {
+        let j = &self.inertia;
+        let all = [self.mass, self.mass, self.mass, j[0][0], j[1][1], j[2][2], j[1][0], j[2][0], j[2][1]];
+        values.iter_mut().zip(all).for_each(|(value, entry)| *value = S::constant(entry));
+    }
+    fn own_forces<S: Scalar>(&self, _q: &[S], v: &[S], gravity: &[f64; D], f: &mut [S]) {
+        for i in 0..3 {
+            f[i] += S::constant(self.mass * gravity[i]);
+        }
+        let w = [v[3], v[4], v[5]];
+        let gyroscopic = cross(&w, &self.angular_momentum(&w));
+        f[3..].iter_mut().zip(gyroscopic).for_each(|(f, g)| *f -= g);
+    }
+    fn energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy {
+        let w = [v[3], v[4], v[5]];
+        let translation: f64 = v[..3].iter().map(|v| v * v).sum();
+        let height: f64 = q.iter().zip(gravity).map(|(q, g)| -q * g).sum();
+        Energy {
+            kinetic: 0.5 * (self.mass * translation + dot(&w, &self.angular_momentum(&w))),
+            potential: self.mass * height,
+        }
+    }
+    fn normalize(&self, q: &mut [f64]) {
+        let norm = q[3..7].iter().map(|x| x * x).sum::<f64>().sqrt();
+        q[3..7].iter_mut().for_each(|x| *x /= norm);
+    }
+}

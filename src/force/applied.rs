@@ -1,0 +1,166 @@
+//! Applied force and torque: expressions of time, of marker quantities and of named outputs.
+
+use super::{Action, Built, ForceKernel, ForceSpec};
+use crate::body::{Build, Frame, MarkerId, Signal, Wrench};
+use crate::error::{Error, Result};
+use crate::joint::MOST_MARKERS;
+use crate::math::expression::Number;
+use crate::math::{Scalar, Taylor};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// A force at a marker.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AppliedForce {
+    /// Marker `body.marker` that it acts on.
+    pub at: String,
+    /// Components, N: expressions of t, marker quantities (`crank.tip.x'`) and named outputs.
+    pub force: Vec<Number>,
+    /// Axes of the components. Default: the world's.
+    #[serde(default)]
+    pub axes: Axes,
+    /// Marker that takes the opposite force. Default: none.
+    pub reaction_on: Option<String>,
+}
+
+/// A torque at a marker.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AppliedTorque {
+    /// Marker `body.marker` that it acts on.
+    pub at: String,
+    /// N m: one expression in the plane, three in space.
+    pub torque: OneOrMany,
+    /// Axes of the components. Default: the world's.
+    #[serde(default)]
+    pub axes: Axes,
+    /// Marker that takes the opposite torque. Default: none.
+    pub reaction_on: Option<String>,
+}
+
+#[derive(Deserialize, JsonSchema, Clone, Copy, Default, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Axes {
+    #[default]
+    World,
+    Marker,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum OneOrMany {
+    One(Number),
+    Many(Vec<Number>),
+}
+
+impl ForceSpec for AppliedForce {
+    const TYPE: &'static str = "applied_force";
+    const DRIVEN: bool = true;
+
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+        if self.force.len() != D {
+            return Err(Error::input(format!("expected {D} numbers, found {}", self.force.len())).under("force"));
+        }
+        let signals = signals("force", &self.force, build)?;
+        let markers = targets(&self.at, &self.reaction_on, build)?;
+        assemble(Kind::Force, signals, self.axes, markers)
+    }
+}
+
+impl ForceSpec for AppliedTorque {
+    const TYPE: &'static str = "applied_torque";
+    const DRIVEN: bool = true;
+
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+        let signals = match &self.torque {
+            OneOrMany::One(torque) if D == 2 => vec![build.signal("torque", torque, true)?],
+            OneOrMany::Many(torque) if D == 3 && torque.len() == 3 => signals("torque", torque, build)?,
+            _ if D == 2 => return Err(Error::input("expected one number").under("torque")),
+            _ => return Err(Error::input("expected 3 numbers").under("torque")),
+        };
+        let markers = targets(&self.at, &self.reaction_on, build)?;
+        build.oriented("at", &markers)?;
+        assemble(Kind::Torque, signals, self.axes, markers)
+    }
+}
+
+fn signals<const D: usize>(field: &str, numbers: &[Number], build: &Build<D>) -> Result<Vec<Signal>> {
+    numbers.iter().enumerate().map(|(i, number)| build.signal(&format!("{field}[{i}]"), number, true)).collect()
+}
+
+fn targets<const D: usize>(at: &str, reaction: &Option<String>, build: &Build<D>) -> Result<Vec<MarkerId>> {
+    let mut markers = vec![build.marker("at", at)?];
+    if let Some(name) = reaction {
+        markers.push(build.marker("reaction_on", name)?);
+    }
+    Ok(markers)
+}
+
+/// The acting and the reacting marker come first, then those that the expressions read.
+fn assemble<const D: usize>(kind: Kind, signals: Vec<Signal>, axes: Axes, targets: Vec<MarkerId>) -> Result<Built<D>> {
+    let mut markers = targets.clone();
+    for marker in signals.iter().flat_map(Signal::markers) {
+        if !markers.contains(&marker) {
+            markers.push(marker);
+        }
+    }
+    if markers.len() > MOST_MARKERS {
+        return Err(Error::input(format!("uses {} markers", markers.len()))
+            .hint(format!("use at most {MOST_MARKERS} in one force")));
+    }
+    let force = Applied { kind, signals, axes, reacts: targets.len() > 1, markers: markers.clone() };
+    Ok(Built { force: Box::new(force), markers })
+}
+
+enum Kind {
+    Force,
+    Torque,
+}
+
+struct Applied {
+    kind: Kind,
+    /// One a component; a planar torque has the third only.
+    signals: Vec<Signal>,
+    axes: Axes,
+    reacts: bool,
+    markers: Vec<MarkerId>,
+}
+
+impl Applied {
+    fn components<S: Scalar, const D: usize>(&self, frames: &[Frame<Taylor<S>, D>], t: S) -> [S; 3] {
+        let place = |marker: MarkerId| self.markers.iter().position(|&known| known == marker).unwrap_or(0);
+        let value = |signal: &Signal| signal.evaluate(t, |probe| probe.read(&frames[place(probe.marker)]));
+        match self.signals.as_slice() {
+            [torque] => [S::zero(), S::zero(), value(torque)],
+            all => std::array::from_fn(|i| all.get(i).map_or(S::zero(), value)),
+        }
+    }
+}
+
+impl<const D: usize> ForceKernel<D> for Applied {
+    fn act<S: Scalar>(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
+        let local = self.components(frames, t.x);
+        let mut vector = local;
+        if self.axes == Axes::Marker && !(D == 2 && matches!(self.kind, Kind::Torque)) {
+            vector = [S::zero(); 3];
+            for (axis, component) in frames[0].axes.iter().zip(local) {
+                axis.iter().zip(&mut vector).for_each(|(a, sum)| *sum += a.x * component);
+            }
+        }
+        match self.kind {
+            Kind::Force => out[0].force.copy_from_slice(&vector[..D]),
+            Kind::Torque => out[0].torque = vector,
+        }
+        if self.reacts {
+            // The reaction acts along the same line: at the other marker it has the moment of the gap.
+            let gap: [S; D] = std::array::from_fn(|i| frames[0].r[i].x - frames[1].r[i].x);
+            let lever = crate::body::cross(&gap, &out[0].force);
+            out[1].force = out[0].force.map(|x| -x);
+            out[1].torque = std::array::from_fn(|i| -(out[0].torque[i] + lever[i]));
+        }
+        let square = vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2];
+        let magnitude = if self.signals.len() == 1 || square.value() == 0.0 { vector[2] } else { square.sqrt() };
+        Action::without_potential(magnitude)
+    }
+}

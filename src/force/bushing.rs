@@ -1,0 +1,93 @@
+//! Bushing: springs and dampers along and about all axes.
+
+use super::{Action, Built, ForceKernel, ForceSpec};
+use crate::body::{Build, Frame, Wrench, cross, dot, scale, sub, twist_len};
+use crate::error::{Error, Result};
+use crate::math::expression::Number;
+use crate::math::{Scalar, Taylor};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::array::from_fn;
+
+/// Linear stiffness and damping against displacement and rotation of the second marker, in the axes of the first: 3
+/// numbers (x, y, angle) in the plane, 6 (x, y, z, rx, ry, rz) in space. Rotations in space are meant to be small: the
+/// rotation vector is that of the skew part of the relative rotation.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Bushing {
+    /// Markers `body.marker` of two bodies.
+    pub between: [String; 2],
+    /// N/m and N m/rad.
+    pub stiffness: Vec<Number>,
+    /// N s/m and N m s/rad. Default: zero.
+    pub damping: Option<Vec<Number>>,
+}
+
+impl ForceSpec for Bushing {
+    const TYPE: &'static str = "bushing";
+
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+        let markers = build.between(&self.between)?;
+        build.oriented("between", &markers)?;
+        let k = coefficients("stiffness", &self.stiffness, build)?;
+        let c = self.damping.as_ref().map_or(Ok([0.0; 6]), |damping| coefficients("damping", damping, build))?;
+        Ok(Built { force: Box::new(Cushion { k, c }), markers })
+    }
+}
+
+fn coefficients<const D: usize>(field: &str, numbers: &[Number], build: &Build<D>) -> Result<[f64; 6]> {
+    if numbers.len() != twist_len(D) {
+        return Err(Error::input(format!("expected {} numbers, found {}", twist_len(D), numbers.len())).under(field));
+    }
+    let mut all = [0.0; 6];
+    for (i, number) in numbers.iter().enumerate() {
+        all[i] = build.not_negative(&format!("{field}[{i}]"), number)?;
+    }
+    Ok(all)
+}
+
+struct Cushion {
+    k: [f64; 6],
+    c: [f64; 6],
+}
+
+impl Cushion {
+    /// Force along coordinate i, and the energy it stores.
+    fn law<S: Scalar>(&self, i: usize, displacement: Taylor<S>) -> (S, Taylor<S>) {
+        let force = -(displacement.x * self.k[i] + displacement.d * self.c[i]);
+        (force, displacement.square() * (0.5 * self.k[i]))
+    }
+}
+
+impl<const D: usize> ForceKernel<D> for Cushion {
+    fn act<S: Scalar>(&self, frames: &[Frame<Taylor<S>, D>], _t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
+        let [a, b] = [&frames[0], &frames[1]];
+        let gap = sub(&b.r, &a.r);
+        let mut potential = Taylor::fixed(S::zero());
+        let (mut force, mut torque) = ([S::zero(); D], [S::zero(); 3]);
+        for (i, axis) in a.axes.iter().enumerate() {
+            let (component, stored) = self.law(i, dot(axis, &gap));
+            potential += stored;
+            let along = scale(&axis.map(|x| x.x), component);
+            force = from_fn(|k| force[k] + along[k]);
+        }
+        if D == 2 {
+            let (moment, stored) = self.law(2, b.turn - a.turn);
+            potential += stored;
+            torque[2] = moment;
+        } else {
+            let rotation = crate::body::small_rotation(a, b);
+            for (i, axis) in a.axes.iter().enumerate() {
+                let angle = (0..3).fold(Taylor::fixed(S::zero()), |sum, k| sum + axis[k] * rotation[k]);
+                let (moment, stored) = self.law(3 + i, angle);
+                potential += stored;
+                (0..3).for_each(|k| torque[k] += axis[k].x * moment);
+            }
+        }
+        // The reaction acts at the second marker too; at the first it has the moment of the gap.
+        let lever = cross(&gap.map(|x| x.x), &force);
+        out[1] = Wrench { force, torque };
+        out[0] = Wrench { force: force.map(|x| -x), torque: from_fn(|k| -(torque[k] + lever[k])) };
+        Action { potential, magnitude: dot(&force, &force).sqrt() }
+    }
+}

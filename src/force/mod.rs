@@ -1,0 +1,99 @@
+//! Forces: wrenches at markers as functions of their motion and of time.
+//!
+//! A force is one kernel over moving frames; bodies pull its wrenches back to generalized forces. It also states its
+//! potential: what its wrenches do beyond that is the work that the energy ledger counts.
+//!
+//! To add one: a file with a [`ForceSpec`] and a [`ForceKernel`], and a line in [`registry`].
+
+mod applied;
+mod bushing;
+mod spring_damper;
+mod torsion_spring;
+mod tyre;
+
+use crate::body::{Build, Frame, MarkerId, Slope, Wrench, parse};
+use crate::error::Result;
+use crate::math::{Scalar, Taylor};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::de::DeserializeOwned;
+
+/// What a force says beside its wrenches.
+#[derive(Clone, Copy, Debug)]
+pub struct Action<S> {
+    /// Energy it stores, J, with its rate.
+    pub potential: Taylor<S>,
+    /// The scalar a user watches: tension of a spring (positive when it pulls), torque, tyre load; N or N m.
+    pub magnitude: S,
+}
+
+impl<S: Scalar> Action<S> {
+    /// A force that stores nothing.
+    pub fn without_potential(magnitude: S) -> Self {
+        Action { potential: Taylor::fixed(S::zero()), magnitude }
+    }
+}
+
+/// A force's equations, written once over any scalar.
+pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
+    /// One wrench a marker; `out` holds zeros on entry.
+    fn act<S: Scalar>(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S>;
+}
+
+/// A force over one scalar: what the model calls.
+pub trait ForceOver<S: Scalar, const D: usize> {
+    fn act(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S>;
+}
+
+impl<K: ForceKernel<D>, S: Scalar, const D: usize> ForceOver<S, D> for K {
+    fn act(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
+        ForceKernel::act(self, frames, t, out)
+    }
+}
+
+/// The object-safe form of a force; implemented for every [`ForceKernel`].
+pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Slope, D> + Send + Sync {}
+
+impl<K: ForceKernel<D>, const D: usize> Force<D> for K {}
+
+/// A force ready for the model, with the markers it sees.
+pub struct Built<const D: usize> {
+    pub force: Box<dyn Force<D>>,
+    pub markers: Vec<MarkerId>,
+}
+
+/// What a scene says of a kind of force.
+pub trait ForceSpec: DeserializeOwned + JsonSchema {
+    const TYPE: &'static str;
+    /// Whether an input of the scene can drive it.
+    const DRIVEN: bool = false;
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>>;
+}
+
+/// One kind of force as the scene format, its schema and its errors know it.
+pub struct Entry<const D: usize> {
+    pub name: &'static str,
+    pub driven: bool,
+    pub schema: fn(&mut SchemaGenerator) -> Schema,
+    pub build: fn(serde_json::Value, &Build<D>) -> Result<Built<D>>,
+}
+
+fn entry<T: ForceSpec, const D: usize>() -> Entry<D> {
+    Entry {
+        name: T::TYPE,
+        driven: T::DRIVEN,
+        schema: |generator| generator.subschema_for::<T>(),
+        build: |json, build| parse::<T>(json)?.build(build),
+    }
+}
+
+/// Every kind of force, in the order of the documentation. Gravity belongs to the scene.
+pub fn registry<const D: usize>() -> Vec<Entry<D>> {
+    vec![
+        entry::<spring_damper::SpringDamper, D>(),
+        entry::<torsion_spring::TorsionSpring, D>(),
+        entry::<bushing::Bushing, D>(),
+        entry::<applied::AppliedForce, D>(),
+        entry::<applied::AppliedTorque, D>(),
+        entry::<tyre::Tyre, D>(),
+    ]
+}

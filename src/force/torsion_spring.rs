@@ -1,0 +1,64 @@
+//! Linear torsion spring and damper.
+
+use super::spring_damper::optional_not_negative;
+use super::{Action, Built, ForceKernel, ForceSpec};
+use crate::body::{Build, Frame, Wrench, dot};
+use crate::error::Result;
+use crate::math::expression::Number;
+use crate::math::{Scalar, Taylor};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Torque -(k (angle - free_angle) + c angle') on the second marker and its opposite on the first. The angle is that
+/// of the second marker against the first; in space about the first one's z axis and within half a turn of free_angle.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TorsionSpring {
+    /// Markers `body.marker` of two bodies.
+    pub between: [String; 2],
+    /// k, N m/rad. Default: zero.
+    pub stiffness: Option<Number>,
+    /// c, N m s/rad. Default: zero.
+    pub damping: Option<Number>,
+    /// rad. Default: zero.
+    pub free_angle: Option<Number>,
+}
+
+impl ForceSpec for TorsionSpring {
+    const TYPE: &'static str = "torsion_spring";
+
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+        let markers = build.between(&self.between)?;
+        build.oriented("between", &markers)?;
+        let force = Torsion {
+            k: optional_not_negative("stiffness", &self.stiffness, build)?,
+            c: optional_not_negative("damping", &self.damping, build)?,
+            free: build.number_or("free_angle", &self.free_angle, 0.0)?,
+        };
+        Ok(Built { force: Box::new(force), markers })
+    }
+}
+
+struct Torsion {
+    k: f64,
+    c: f64,
+    free: f64,
+}
+
+impl<const D: usize> ForceKernel<D> for Torsion {
+    fn act<S: Scalar>(&self, frames: &[Frame<Taylor<S>, D>], _t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
+        let [a, b] = [&frames[0], &frames[1]];
+        let twist = if D == 2 {
+            b.turn - a.turn - self.free
+        } else {
+            let (c, s) = (dot(&a.axes[0], &b.axes[0]), dot(&a.axes[1], &b.axes[0]));
+            let (sin, cos) = self.free.sin_cos();
+            Taylor::atan2(s * cos - c * sin, c * cos + s * sin)
+        };
+        let torque = -(twist.x * self.k + twist.d * self.c);
+        let axis = if D == 2 { [S::zero(), S::zero(), S::one()] } else { std::array::from_fn(|i| a.axes[D - 1][i].x) };
+        out[0].torque = axis.map(|x| -(x * torque));
+        out[1].torque = axis.map(|x| x * torque);
+        Action { potential: twist.square() * (0.5 * self.k), magnitude: torque }
+    }
+}

@@ -1,0 +1,64 @@
+//! Vertical tyre on a road profile.
+
+use super::{Action, Built, ForceKernel, ForceSpec};
+use crate::body::{Build, Frame, Wrench};
+use crate::error::Result;
+use crate::math::expression::{Expression, Number};
+use crate::math::{Scalar, Taylor};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Vertical force k (radius - (z - road)) + c (road' - z') at the wheel centre, along y in the plane and z in space.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Tyre {
+    /// Marker `body.marker` at the wheel centre.
+    pub at: String,
+    /// k, N/m
+    pub stiffness: Number,
+    /// c, N s/m. Default: zero.
+    pub damping: Option<Number>,
+    /// Radius without load, m.
+    pub radius: Number,
+    /// Height of the road under the wheel, m, an expression of t. Default: zero.
+    pub road: Option<Number>,
+    /// Whether the wheel may leave the road (the force is then never below zero). Default: no.
+    #[serde(default)]
+    pub lift_off: bool,
+}
+
+impl ForceSpec for Tyre {
+    const TYPE: &'static str = "tyre";
+
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+        let road = self.road.clone().unwrap_or(Number::Value(0.0));
+        let force = Spring {
+            k: build.not_negative("stiffness", &self.stiffness)?,
+            c: super::spring_damper::optional_not_negative("damping", &self.damping, build)?,
+            radius: build.positive("radius", &self.radius)?,
+            road: build.function_of_time("road", &road)?,
+            lift_off: self.lift_off,
+        };
+        Ok(Built { force: Box::new(force), markers: vec![build.marker("at", &self.at)?] })
+    }
+}
+
+struct Spring {
+    k: f64,
+    c: f64,
+    radius: f64,
+    road: Expression,
+    lift_off: bool,
+}
+
+impl<const D: usize> ForceKernel<D> for Spring {
+    fn act<S: Scalar>(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
+        let squeeze = self.road.eval(&[t]) - frames[0].r[D - 1] + self.radius;
+        let load = squeeze.x * self.k + squeeze.d * self.c;
+        if self.lift_off && (squeeze.value() < 0.0 || load.value() < 0.0) {
+            return Action::without_potential(S::zero());
+        }
+        out[0].force[D - 1] = load;
+        Action { potential: squeeze.square() * (0.5 * self.k), magnitude: load }
+    }
+}

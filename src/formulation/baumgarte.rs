@@ -1,0 +1,48 @@
+//! Baumgarte stabilization.
+
+use super::{Dynamics, Entry, Formulation, Halt, OptionDoc};
+use crate::error::Result;
+
+/// ```text
+/// phi'' + 2 alpha phi' + beta^2 phi = 0
+/// ```
+///
+/// Source: Baumgarte, Comput. Methods Appl. Mech. Eng. 1 (1972) 1-16. Critically damped for alpha = beta. Small gains
+/// do not hold the drift, large ones make the equations stiff (explicit methods need 2 alpha h and beta h of order
+/// one), and the best gains depend on the step and the method. Order in q, v, lambda: that of the integrator; cost as
+/// index 1.
+pub const ENTRY: Entry = Entry {
+    name: "baumgarte",
+    about: "phi'' + 2 alpha phi' + beta^2 phi = 0; the best gains depend on the step",
+    options: &[
+        OptionDoc { name: "alpha", about: "damping of phi, 1/s (default 5)" },
+        OptionDoc { name: "beta", about: "frequency of phi, 1/s (default alpha)" },
+    ],
+    make: |choice, _| {
+        let alpha = choice.not_negative("alpha", 5.0)?;
+        Ok(Box::new(Baumgarte { alpha, beta: choice.not_negative("beta", alpha)? }))
+    },
+};
+
+struct Baumgarte {
+    alpha: f64,
+    beta: f64,
+}
+
+impl Formulation for Baumgarte {
+    fn derivative(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        dynamics: &mut Dynamics,
+        qdot: &mut [f64],
+        vdot: &mut [f64],
+    ) -> Result<(), Halt> {
+        let (alpha, beta) = (self.alpha, self.beta);
+        dynamics.solve(t, q, v, |phi, phi_dot| -2.0 * alpha * phi_dot - beta * beta * phi)?;
+        dynamics.system.rate(q, v, qdot);
+        vdot.copy_from_slice(&dynamics.vdot);
+        Ok(())
+    }
+}

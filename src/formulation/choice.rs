@@ -1,0 +1,164 @@
+//! A method as a user names it: `baumgarte:alpha=5,beta=5`, or `{"baumgarte": {"alpha": 5, "beta": 5}}` in a scene.
+
+use crate::error::{Error, Result, suggest};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::Value;
+use std::borrow::Cow;
+use std::fmt;
+
+/// A name with options in the order they were given.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Choice {
+    pub name: String,
+    pub options: Vec<(String, String)>,
+}
+
+/// An option of a method.
+#[derive(Clone, Copy, Debug)]
+pub struct OptionDoc {
+    pub name: &'static str,
+    /// What it is, with its unit and default.
+    pub about: &'static str,
+}
+
+impl Choice {
+    pub fn named(name: &str) -> Self {
+        Choice { name: name.to_string(), options: Vec::new() }
+    }
+
+    /// Parses `name` or `name:key=value,key=value`; hyphens count as underscores.
+    pub fn parse(text: &str) -> Result<Self> {
+        let (name, rest) = text.split_once(':').unwrap_or((text, ""));
+        let pairs = rest.split(',').filter(|pair| !pair.trim().is_empty());
+        let options = pairs.map(|pair| match pair.split_once('=') {
+            Some((key, value)) => Ok((canonical(key), value.trim().to_string())),
+            None => Err(Error::input(format!("`{pair}` has no value")).hint(format!(
+                "write {}:{}=VALUE",
+                name.trim(),
+                pair.trim()
+            ))),
+        });
+        Ok(Choice { name: canonical(name), options: options.collect::<Result<_>>()? })
+    }
+
+    /// Index of the entry with this name; an error that names the possible ones, also for unknown options.
+    pub fn find<'a>(
+        &self,
+        what: &str,
+        entries: impl Iterator<Item = (&'a str, &'a [OptionDoc])> + Clone,
+    ) -> Result<usize> {
+        let Some(index) = entries.clone().position(|(name, _)| name == self.name) else {
+            let known: Vec<&str> = entries.map(|(name, _)| name).collect();
+            let near = suggest(&self.name, known.iter().copied());
+            let hint = if near.starts_with("did") { near } else { format!("choose one of {}", known.join(", ")) };
+            return Err(Error::input(format!("there is no {what} `{}`", self.name)).hint(hint));
+        };
+        let known: &[OptionDoc] = entries.clone().nth(index).map_or(&[], |(_, options)| options);
+        for (key, _) in &self.options {
+            if known.iter().all(|option| option.name != key) {
+                let hint = match known.is_empty() {
+                    true => format!("{} takes no options", self.name),
+                    false => suggest(key, known.iter().map(|option| option.name)),
+                };
+                return Err(Error::input(format!("{what} {} has no option `{key}`", self.name)).hint(hint));
+            }
+        }
+        Ok(index)
+    }
+
+    pub fn text(&self, key: &str) -> Option<&str> {
+        self.options.iter().rev().find(|(known, _)| known == key).map(|(_, value)| value.as_str())
+    }
+
+    /// A number, or `default` where it is not given.
+    pub fn number(&self, key: &str, default: f64) -> Result<f64> {
+        let Some(text) = self.text(key) else { return Ok(default) };
+        let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
+        value.ok_or_else(|| {
+            Error::input(format!("{}: {key} is `{text}`", self.name)).hint(format!("give a number, as in {key}=5"))
+        })
+    }
+
+    /// A number that is not negative.
+    pub fn not_negative(&self, key: &str, default: f64) -> Result<f64> {
+        let value = self.number(key, default)?;
+        match value < 0.0 {
+            true => Err(Error::input(format!("{}: {key} is {value}, but cannot be negative", self.name))),
+            false => Ok(value),
+        }
+    }
+
+    /// A whole number within `range`.
+    pub fn whole(&self, key: &str, default: usize, range: std::ops::RangeInclusive<usize>) -> Result<usize> {
+        let value = self.number(key, default as f64)?;
+        let whole = value as usize;
+        match whole as f64 == value && range.contains(&whole) {
+            true => Ok(whole),
+            false => Err(Error::input(format!("{}: {key} is {value}", self.name)).hint(format!(
+                "give a whole number from {} to {}",
+                range.start(),
+                range.end()
+            ))),
+        }
+    }
+}
+
+fn canonical(name: &str) -> String {
+    name.trim().replace('-', "_").to_lowercase()
+}
+
+impl fmt::Display for Choice {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{}", self.name)?;
+        let options: Vec<String> = self.options.iter().map(|(key, value)| format!("{key}={value}")).collect();
+        if options.is_empty() { Ok(()) } else { write!(out, ":{}", options.join(",")) }
+    }
+}
+
+impl Serialize for Choice {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for Choice {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        from_json(&Value::deserialize(deserializer)?).map_err(serde::de::Error::custom)
+    }
+}
+
+fn from_json(value: &Value) -> Result<Choice> {
+    let wrong = || {
+        Error::input(format!("expected the name of a method or an object with its options, found {value}"))
+            .hint("write \"baumgarte\" or {\"baumgarte\": {\"alpha\": 5, \"beta\": 5}}")
+    };
+    match value {
+        Value::String(text) => Choice::parse(text),
+        Value::Object(map) if map.len() == 1 => {
+            let (name, options) = map.iter().next().ok_or_else(wrong)?;
+            let options = options.as_object().ok_or_else(wrong)?.iter().map(|(key, value)| {
+                let value = value.as_str().map_or_else(|| value.to_string(), str::to_string);
+                (canonical(key), value)
+            });
+            Ok(Choice { name: canonical(name), options: options.collect() })
+        }
+        _ => Err(wrong()),
+    }
+}
+
+impl JsonSchema for Choice {
+    fn schema_name() -> Cow<'static, str> {
+        "Choice".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "Name of a method, or an object {name: {option: value}}.",
+            "oneOf": [
+                { "type": "string" },
+                { "type": "object", "minProperties": 1, "maxProperties": 1, "additionalProperties": {
+                    "type": "object", "additionalProperties": { "type": ["number", "string"] } } }
+            ]
+        })
+    }
+}

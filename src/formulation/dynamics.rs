@@ -1,0 +1,127 @@
+//! The equations of motion of one system with the memory to solve them.
+
+use crate::error::Result;
+use crate::math::kkt::{SaddlePoint, Singular};
+use crate::system::{MechanicalSystem, Need, Scratch, Structure, Terms};
+use serde::Serialize;
+use std::fmt;
+
+/// Why a state cannot be evaluated.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Halt {
+    /// A term of the equations is infinite or not a number: the motion diverged, or an expression left its domain.
+    NotFinite,
+    /// The equations do not determine the accelerations.
+    Singular(Singular),
+}
+
+impl fmt::Display for Halt {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Halt::NotFinite => write!(out, "the equations of motion are no longer finite"),
+            Halt::Singular(singular) => write!(out, "{singular}"),
+        }
+    }
+}
+
+impl From<Singular> for Halt {
+    fn from(singular: Singular) -> Self {
+        Halt::Singular(singular)
+    }
+}
+
+/// Work done in a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Statistics {
+    pub steps: u64,
+    pub rejected: u64,
+    /// Solutions of the equations of motion.
+    pub rhs_evaluations: u64,
+    pub jacobian_evaluations: u64,
+    /// Factorizations of the saddle-point matrix.
+    pub factorizations: u64,
+    pub newton_iterations: u64,
+    /// Sweeps of the projection.
+    pub projections: u64,
+    /// Accepted states at which G was rank deficient.
+    pub rank_deficient: u64,
+}
+
+/// A system, the terms of its equations at the last state, and the factors of
+///
+/// ```text
+/// [ M  G^T ] [ v'     ]   [ f     ]
+/// [ G   0  ] [ lambda ] = [ gamma ]
+/// ```
+pub struct Dynamics<'a> {
+    pub system: &'a dyn MechanicalSystem,
+    pub structure: Structure,
+    pub terms: Terms,
+    pub kkt: SaddlePoint,
+    /// v' of the last solution.
+    pub vdot: Vec<f64>,
+    /// lambda of the last solution.
+    pub lambda: Vec<f64>,
+    pub statistics: Statistics,
+    pub scratch: Scratch,
+}
+
+impl<'a> Dynamics<'a> {
+    pub fn new(system: &'a dyn MechanicalSystem) -> Self {
+        let (n, structure) = (system.dimensions(), system.structure());
+        Dynamics {
+            system,
+            terms: Terms::new(system),
+            kkt: SaddlePoint::new(&structure.mass, &structure.g),
+            structure,
+            vdot: vec![0.0; n.v],
+            lambda: vec![0.0; n.lambda],
+            statistics: Statistics::default(),
+            scratch: Scratch::default(),
+        }
+    }
+
+    /// Evaluates terms at a state.
+    pub fn evaluate(&mut self, t: f64, q: &[f64], v: &[f64], need: Need) {
+        self.system.evaluate(t, q, v, need, &mut self.terms, &mut self.scratch);
+    }
+
+    /// Factors the saddle-point matrix of the terms.
+    pub fn factor(&mut self) -> Result<(), Halt> {
+        self.statistics.factorizations += 1;
+        Ok(self.kkt.factor(&self.terms.mass, &self.terms.g)?)
+    }
+
+    /// v' and lambda at a state: phi'' = `acceleration_level` of phi and phi', which is zero for the plain equations.
+    pub fn solve(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        acceleration_level: impl Fn(f64, f64) -> f64,
+    ) -> Result<(), Halt> {
+        self.statistics.rhs_evaluations += 1;
+        self.evaluate(t, q, v, Need::DYNAMICS);
+        self.factor()?;
+        self.vdot.copy_from_slice(&self.terms.f);
+        for (i, lambda) in self.lambda.iter_mut().enumerate() {
+            *lambda = self.terms.gamma[i] + acceleration_level(self.terms.phi[i], self.terms.phi_dot[i]);
+        }
+        self.kkt.solve(&mut self.vdot, &mut self.lambda)?;
+        match self.vdot.iter().chain(&self.lambda).all(|x| x.is_finite()) {
+            true => Ok(()),
+            false => Err(Halt::NotFinite),
+        }
+    }
+
+    /// Power that does not come from potentials: forces without one, and moving constraints, W.
+    pub fn power(&self) -> f64 {
+        self.terms.power + self.lambda.iter().zip(&self.terms.phi_t).map(|(l, p)| l * p).sum::<f64>()
+    }
+
+    /// max |phi''| = max |G v' - gamma| at the last solution. `row` has n_c places.
+    pub fn acceleration_residual(&self, row: &mut [f64]) {
+        row.iter_mut().zip(&self.terms.gamma).for_each(|(row, gamma)| *row = -gamma);
+        self.structure.g.multiply(&self.terms.g, &self.vdot, row);
+    }
+}

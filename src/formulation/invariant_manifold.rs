@@ -1,0 +1,60 @@
+//! Vector fields with a stabilized invariant manifold.
+
+use super::{Dynamics, Entry, Field, Formulation, Halt, OptionDoc, Stabilizer};
+use crate::error::Result;
+use crate::system::Need;
+
+/// ```text
+/// z' = fhat(z, t) - gamma F(z) h(z),   z = (q, v),  h = (phi, G v + phi_t)
+/// ```
+///
+/// with fhat of index 1. Where H F is positive definite with least eigenvalue l0, |h| decays monotonically for
+/// gamma > 1/l0. Source: Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149. Order in q, v, lambda: that of the
+/// integrator; an explicit one needs gamma h of order one. Cost of index 1 and the back-substitutions of F a stage.
+pub const ENTRY: Entry = Entry {
+    name: "invariant_manifold",
+    about: "z' = fhat - gamma F h: the constraint manifold attracts",
+    options: &[
+        OptionDoc { name: "gamma", about: "rate of attraction, 1/s (default 10)" },
+        OptionDoc {
+            name: "field",
+            about: "F: both (default), full, mass_weighted, triangular, position, velocity, gradient",
+        },
+    ],
+    make: |choice, system| {
+        let gamma = choice.not_negative("gamma", 10.0)?;
+        let stabilizer = Stabilizer::new(Field::from_choice(choice)?, system);
+        Ok(Box::new(InvariantManifold { gamma, stabilizer, rate: vec![0.0; system.dimensions().q] }))
+    },
+};
+
+struct InvariantManifold {
+    gamma: f64,
+    stabilizer: Stabilizer,
+    rate: Vec<f64>,
+}
+
+impl Formulation for InvariantManifold {
+    fn derivative(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        dynamics: &mut Dynamics,
+        qdot: &mut [f64],
+        vdot: &mut [f64],
+    ) -> Result<(), Halt> {
+        dynamics.solve(t, q, v, |_, _| 0.0)?;
+        dynamics.system.rate(q, v, qdot);
+        if self.stabilizer.field.needs().includes(Need::L) {
+            dynamics.evaluate(t, q, v, Need::L);
+        }
+        self.stabilizer.correction(dynamics)?;
+        dynamics.system.rate(q, &self.stabilizer.dq, &mut self.rate);
+        qdot.iter_mut().zip(&self.rate).for_each(|(rate, correction)| *rate -= self.gamma * correction);
+        for ((rate, vdot), correction) in vdot.iter_mut().zip(&dynamics.vdot).zip(&self.stabilizer.dv) {
+            *rate = vdot - self.gamma * correction;
+        }
+        Ok(())
+    }
+}

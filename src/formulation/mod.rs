@@ -1,0 +1,50 @@
+//! What is integrated: ways to turn the constrained equations into something an integrator can step.
+//!
+//! To add one: a file with a [`Formulation`] and an [`Entry`], and a line in [`registry`].
+
+mod baumgarte;
+mod choice;
+mod dynamics;
+mod index1;
+mod invariant_manifold;
+mod stabilizer;
+
+pub use choice::{Choice, OptionDoc};
+pub use dynamics::{Dynamics, Halt, Statistics};
+pub use stabilizer::{Field, Stabilizer};
+
+use crate::error::Result;
+use crate::system::MechanicalSystem;
+
+/// A vector field (q', v') = F(t, q, v) whose solutions are the motions of the mechanism.
+pub trait Formulation: Send {
+    /// Writes q' and v'; leaves v' of the equations of motion and lambda in `dynamics`.
+    fn derivative(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        dynamics: &mut Dynamics,
+        qdot: &mut [f64],
+        vdot: &mut [f64],
+    ) -> Result<(), Halt>;
+}
+
+/// One formulation as the command line, the scene format and the table of methods know it.
+pub struct Entry {
+    pub name: &'static str,
+    pub about: &'static str,
+    pub options: &'static [OptionDoc],
+    pub make: fn(&Choice, &dyn MechanicalSystem) -> Result<Box<dyn Formulation>>,
+}
+
+/// Every formulation, in the order of the documentation.
+pub fn registry() -> &'static [Entry] {
+    &[index1::ENTRY, baumgarte::ENTRY, invariant_manifold::ENTRY]
+}
+
+/// The formulation that `choice` names, for `system`.
+pub fn make(choice: &Choice, system: &dyn MechanicalSystem) -> Result<Box<dyn Formulation>> {
+    let entry = choice.find("formulation", registry().iter().map(|entry| (entry.name, entry.options)))?;
+    (registry()[entry].make)(choice, system)
+}

@@ -1,0 +1,35 @@
+//! The directions of motion that assembly must leave alone.
+
+use crate::error::{Error, Result, suggest};
+use crate::system::MechanicalSystem;
+
+/// Indices of the velocity directions that `hold` names: a coordinate (`crank.angle`), the rotation of a spatial body
+/// (`link.rotation`) or all of a body (`crank`).
+pub fn directions(system: &dyn MechanicalSystem, hold: &[String]) -> Result<Vec<usize>> {
+    let names = system.names().v;
+    let mut held = Vec::new();
+    for (i, wanted) in hold.iter().enumerate() {
+        let found: Vec<usize> = (0..names.len()).filter(|&k| matches(&names[k], wanted)).collect();
+        if found.is_empty() {
+            let mut known: Vec<&str> = names.iter().map(|name| name.trim_end_matches('\'')).collect();
+            known.extend(names.iter().filter_map(|name| name.split_once('.')).map(|(body, _)| body));
+            known.dedup();
+            return Err(Error::input(format!("there is no coordinate `{wanted}`"))
+                .under(format!("assembly.hold[{i}]"))
+                .hint(suggest(wanted, known)));
+        }
+        held.extend(found);
+    }
+    held.sort_unstable();
+    held.dedup();
+    Ok(held)
+}
+
+fn matches(direction: &str, wanted: &str) -> bool {
+    let Some((body, quantity)) = direction.split_once('.') else { return direction == wanted };
+    match wanted.split_once('.') {
+        None => wanted == body,
+        Some((wanted_body, "rotation")) => wanted_body == body && quantity.starts_with(['w', 'r']),
+        Some((wanted_body, coordinate)) => wanted_body == body && quantity.trim_end_matches('\'') == coordinate,
+    }
+}

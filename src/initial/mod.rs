@@ -1,0 +1,139 @@
+//! Consistent initial values: q, then v, then v' and lambda.
+
+mod holds;
+mod position;
+mod report;
+mod velocity;
+
+pub use report::{Assembly, Level, Move};
+
+use crate::error::{Error, Result};
+use crate::formulation::Dynamics;
+use crate::math::kkt::{Pattern, SaddlePoint};
+use crate::system::{MechanicalSystem, Need, Scratch, Terms};
+
+/// Makes a guess consistent at time `t`, moving least in the mass metric and keeping what `hold` names.
+///
+/// # Errors
+/// Bad input: a name in `hold` that does not exist, joints that cannot all be closed, velocities that contradict the
+/// joints or each other; a start at which the accelerations are not determined.
+pub fn assemble(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64]), hold: &[String]) -> Result<Assembly> {
+    let mut metric = Metric::new(system, holds::directions(system, hold)?);
+    let (mut assembled, mut rates) = (q.to_vec(), v.to_vec());
+    system.normalize(&mut assembled);
+    let before = metric.level(t, &assembled, &rates);
+    position::close(&mut metric, t, &mut assembled)?;
+    velocity::fit(&mut metric, t, &assembled, &mut rates)?;
+    let after = metric.level(t, &assembled, &rates);
+    let mut dynamics = Dynamics::new(system);
+    dynamics.solve(t, &assembled, &rates, |_, _| 0.0).map_err(|halt| {
+        Error::input(format!("at the start, {halt}")).under("bodies").hint(
+            "give every body mass and inertia, or hold it by joints; `holonom check` shows the degrees of freedom",
+        )
+    })?;
+    let moves = report::moves(system, (q, v), (&assembled, &rates));
+    Ok(Assembly { q: assembled, v: rates, vdot: dynamics.vdot, lambda: dynamics.lambda, before, after, moves })
+}
+
+/// The mass metric with the constraints and the held directions as rows.
+struct Metric<'a> {
+    system: &'a dyn MechanicalSystem,
+    terms: Terms,
+    scratch: Scratch,
+    kkt: SaddlePoint,
+    mass: Pattern,
+    rows: Pattern,
+    weights: Vec<f64>,
+    values: Vec<f64>,
+    scales: Vec<f64>,
+    held: Vec<usize>,
+}
+
+/// Directions without mass move freely: their weight is this part of the largest.
+const LEAST_WEIGHT: f64 = 1e-6;
+
+impl<'a> Metric<'a> {
+    fn new(system: &'a dyn MechanicalSystem, held: Vec<usize>) -> Self {
+        let structure = system.structure();
+        let mut rows = structure.g;
+        for &direction in &held {
+            rows.entries.push((rows.rows, direction));
+            rows.rows += 1;
+        }
+        Metric {
+            terms: Terms::new(system),
+            scratch: Scratch::default(),
+            kkt: SaddlePoint::new(&structure.mass, &rows),
+            weights: vec![0.0; structure.mass.entries.len()],
+            values: vec![1.0; rows.entries.len()],
+            mass: structure.mass,
+            rows,
+            scales: system.scales(),
+            held,
+            system,
+        }
+    }
+
+    /// Evaluates and factors at a state.
+    fn at(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<()> {
+        let need = Need::MASS | Need::CONSTRAINTS | Need::G;
+        self.system.evaluate(t, q, v, need, &mut self.terms, &mut self.scratch);
+        if self.terms.phi.iter().chain(&self.terms.phi_dot).any(|x| !x.is_finite()) {
+            return Err(Error::input("a constraint is not a finite number at the start")
+                .under("joints")
+                .hint("move the initial positions away from where an expression or a distance is undefined"));
+        }
+        self.weights.copy_from_slice(&self.terms.mass);
+        let largest = self.weights.iter().fold(f64::MIN_POSITIVE, |largest, w| largest.max(w.abs()));
+        for (weight, (i, j)) in self.weights.iter_mut().zip(&self.mass.entries) {
+            if i == j {
+                *weight = weight.max(LEAST_WEIGHT * largest);
+            }
+        }
+        let n = self.terms.g.len();
+        self.values[..n].copy_from_slice(&self.terms.g);
+        let factored = self.kkt.factor(&self.weights, &self.values);
+        factored.map_err(|singular| Error::input(format!("at the start, {singular}")))
+    }
+
+    /// Solves [W G^T; G 0] [d; .] = [top; bottom], with the held directions kept, for d in place of `top`.
+    fn solve(&mut self, top: &mut [f64], bottom: &[f64]) -> Result<()> {
+        let mut rows = bottom.to_vec();
+        rows.resize(self.rows.rows, 0.0);
+        self.kkt.solve(top, &mut rows).map_err(|singular| Error::input(format!("at the start, {singular}")))
+    }
+
+    /// W x
+    fn weigh(&self, x: &[f64]) -> Vec<f64> {
+        let mut product = vec![0.0; x.len()];
+        self.mass.multiply_symmetric(&self.weights, x, &mut product);
+        product
+    }
+
+    /// Residuals at a state, in units of the scene's scale.
+    fn level(&mut self, t: f64, q: &[f64], v: &[f64]) -> Level {
+        self.system.evaluate(t, q, v, Need::CONSTRAINTS, &mut self.terms, &mut self.scratch);
+        Level { phi: self.worst(&self.terms.phi), phi_dot: self.worst(&self.terms.phi_dot) }
+    }
+
+    fn worst(&self, rows: &[f64]) -> f64 {
+        rows.iter().zip(&self.scales).fold(0.0, |worst, (row, scale)| worst.max((row / scale).abs()))
+    }
+
+    /// The joints with the largest residuals, for a message.
+    fn culprits(&self, rows: &[f64]) -> String {
+        let worst = self.worst(rows);
+        let mut gaps: Vec<(String, f64)> = Vec::new();
+        for group in self.system.groups() {
+            let gap = group.rows.clone().fold(0.0f64, |gap, row| gap.max((rows[row] / self.scales[row]).abs()));
+            if gap > 0.01 * worst {
+                gaps.push((group.name, group.rows.map(|row| rows[row].abs()).fold(0.0, f64::max)));
+            }
+        }
+        gaps.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let more = gaps.len().saturating_sub(5);
+        let shown: Vec<String> = gaps.iter().take(5).map(|(name, gap)| format!("`{name}` by {gap:.3e}")).collect();
+        let tail = if more > 0 { format!(" and {more} more") } else { String::new() };
+        format!("{}{tail}", shown.join(", "))
+    }
+}

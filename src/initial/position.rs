@@ -1,0 +1,89 @@
+//! Positions: min |q - q_0|_W subject to phi(q, t) = 0 and the held coordinates.
+
+use super::Metric;
+use crate::error::{Error, Result};
+
+const MOST_ITERATIONS: usize = 200;
+/// A closed loop may keep this residual, in units of the scene's scale: round-off of chains of transformations.
+const CLOSED: f64 = 1e-10;
+
+/// Sequential quadratic programming: [W G^T; G 0] [d; .] = [-W (q - q_0); -phi]. The first part pulls back towards the
+/// guess within the tangent space, the second is Newton's step; where the pull does not help, Newton's step alone is
+/// taken, halved until the residual falls.
+pub fn close(metric: &mut Metric, t: f64, q: &mut [f64]) -> Result<()> {
+    let n = metric.system.dimensions();
+    let still = vec![0.0; n.v];
+    let mut moved = vec![0.0; n.v];
+    let (mut best, mut stalled) = (f64::INFINITY, 0);
+    for _ in 0..MOST_ITERATIONS {
+        metric.at(t, q, &still)?;
+        let residual = metric.worst(&metric.terms.phi);
+        let pulled = step(metric, Some(&moved))?;
+        let size = pulled.iter().fold(0.0f64, |size, d| size.max(d.abs()));
+        let settled = size <= 1e-12 * (1.0 + moved.iter().fold(0.0f64, |size, d| size.max(d.abs())));
+        stalled = if residual < 0.9 * best { 0 } else { stalled + 1 };
+        best = best.min(residual);
+        if residual < CLOSED && (settled || stalled > 8) {
+            return Ok(());
+        }
+        if stalled > 40 {
+            break;
+        }
+        let taken = advance(metric, t, q, &pulled, residual)?;
+        let (factor, direction) = match taken {
+            Some(factor) => (factor, pulled),
+            None => {
+                metric.at(t, q, &still)?;
+                let newton = step(metric, None)?;
+                match advance(metric, t, q, &newton, residual)? {
+                    Some(factor) => (factor, newton),
+                    None if residual < CLOSED => return Ok(()),
+                    None => break,
+                }
+            }
+        };
+        moved.iter_mut().zip(&direction).for_each(|(moved, d)| *moved += factor * d);
+    }
+    metric.at(t, q, &still)?;
+    Err(open(metric))
+}
+
+fn step(metric: &mut Metric, moved: Option<&[f64]>) -> Result<Vec<f64>> {
+    let n = metric.system.dimensions().v;
+    let mut top = moved.map_or(vec![0.0; n], |moved| metric.weigh(moved).iter().map(|x| -x).collect());
+    let bottom: Vec<f64> = metric.terms.phi.iter().map(|phi| -phi).collect();
+    metric.solve(&mut top, &bottom)?;
+    Ok(top)
+}
+
+/// Moves q along `step`, halved until the residual does not grow; `None` leaves q as it was.
+fn advance(metric: &mut Metric, t: f64, q: &mut [f64], step: &[f64], residual: f64) -> Result<Option<f64>> {
+    let start = q.to_vec();
+    let mut rate = vec![0.0; q.len()];
+    let mut factor = 1.0;
+    for _ in 0..12 {
+        let scaled: Vec<f64> = step.iter().map(|d| factor * d).collect();
+        metric.system.rate(&start, &scaled, &mut rate);
+        q.iter_mut().zip(&start).zip(&rate).for_each(|((q, start), rate)| *q = start + rate);
+        metric.system.normalize(q);
+        let now = metric.level(t, q, &scaled).phi;
+        if now.is_finite() && (now < residual * (1.0 - 0.1 * factor) || now < CLOSED) {
+            return Ok(Some(factor));
+        }
+        factor *= 0.5;
+    }
+    q.copy_from_slice(&start);
+    Ok(None)
+}
+
+fn open(metric: &Metric) -> Error {
+    let culprits = metric.culprits(&metric.terms.phi);
+    let error = Error::input(format!("the joints cannot all be closed: {culprits} remain open")).under("joints");
+    match metric.held.is_empty() {
+        true => error.hint(
+            "check lengths and markers of these joints, or start nearer to a closed position; inconsistent joints \
+             (one asking for what another forbids) can never be closed",
+        ),
+        false => error.hint("check these joints, or remove coordinates from assembly.hold"),
+    }
+}

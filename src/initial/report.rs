@@ -1,0 +1,46 @@
+//! What assembly did, for a person.
+
+use crate::system::MechanicalSystem;
+use serde::Serialize;
+
+/// A consistent start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assembly {
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    pub vdot: Vec<f64>,
+    pub lambda: Vec<f64>,
+    /// Residuals of the guess.
+    pub before: Level,
+    /// Residuals of the start.
+    pub after: Level,
+    /// Coordinates and velocities that changed, largest first.
+    pub moves: Vec<Move>,
+}
+
+/// Largest residuals, in units of the scene's scale.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Level {
+    pub phi: f64,
+    pub phi_dot: f64,
+}
+
+/// A coordinate or velocity that assembly changed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Move {
+    pub name: String,
+    pub from: f64,
+    pub to: f64,
+}
+
+/// Changes beyond rounding.
+pub(super) fn moves(system: &dyn MechanicalSystem, (q0, v0): (&[f64], &[f64]), (q, v): (&[f64], &[f64])) -> Vec<Move> {
+    let names = system.names();
+    let pairs = names.q.into_iter().zip(q0.iter().zip(q)).chain(names.v.into_iter().zip(v0.iter().zip(v)));
+    let mut moves: Vec<Move> = pairs
+        .filter(|(_, (from, to))| (*to - *from).abs() > 1e-9 * (1.0 + from.abs()))
+        .map(|(name, (&from, &to))| Move { name, from, to })
+        .collect();
+    moves.sort_by(|a, b| (b.to - b.from).abs().total_cmp(&(a.to - a.from).abs()));
+    moves
+}

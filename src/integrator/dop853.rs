@@ -1,0 +1,27 @@
+//! Dormand and Prince's method of order 8(5,3).
+
+use super::dop853_tableau::{A, B, C, D, E3, E5};
+use super::explicit::{ErrorEstimate, Explicit, Tableau};
+use super::{Control, Entry, VECTOR_FIELDS};
+
+/// Source: Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.5 (code DOP853); interpolation of
+/// order 7. Order 8 in q and v (and lambda); twelve evaluations a step, three more where outputs fall into the step.
+pub const ENTRY: Entry = Entry {
+    name: "dop853",
+    about: "Dormand-Prince 8(5,3), 12 evaluations a step, adaptive; the choice for high accuracy",
+    order: 8,
+    adaptive: true,
+    accepts: VECTOR_FIELDS,
+    options: &[],
+    make: |_, len| Ok(Box::new(Explicit::new(&TABLEAU, len))),
+};
+
+static TABLEAU: Tableau = Tableau {
+    order: 8,
+    c: &C,
+    a: &A,
+    b: &B,
+    error: ErrorEstimate::Pair { fifth: &E5, third: &E3 },
+    dense: &[&D[0], &D[1], &D[2], &D[3]],
+    control: || Control::new(8.0, 0.0, 0.333, 6.0),
+};

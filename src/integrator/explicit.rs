@@ -1,0 +1,159 @@
+//! Explicit Runge-Kutta methods: the step of any tableau.
+
+use super::{Control, From, Integrator, Problem, Tolerance};
+use crate::formulation::Halt;
+
+/// The constants of an explicit method.
+pub struct Tableau {
+    pub order: usize,
+    /// Nodes, one a stage, then those of the stages for interpolation.
+    pub c: &'static [f64],
+    /// Row i has i entries.
+    pub a: &'static [&'static [f64]],
+    pub b: &'static [f64],
+    pub error: ErrorEstimate,
+    /// Weights of all stages in the interpolation polynomial beyond the cubic Hermite part, row by row.
+    pub dense: &'static [&'static [f64]],
+    pub control: fn() -> Control,
+}
+
+/// How a tableau estimates the error of a step.
+pub enum ErrorEstimate {
+    None,
+    /// |h sum e_i k_i|; the last weight belongs to y' at the new state.
+    Embedded(&'static [f64]),
+    /// Combination of a fifth- and a third-order estimate (DOP853).
+    Pair {
+        fifth: &'static [f64],
+        third: &'static [f64],
+    },
+}
+
+/// k_i = F(t + c_i h, y + h sum_j a_ij k_j), y_1 = y + h sum b_i k_i.
+pub struct Explicit {
+    tableau: &'static Tableau,
+    /// Slopes of all stages; the first is given, so it stays empty.
+    k: Vec<Vec<f64>>,
+    stage: Vec<f64>,
+    polynomial: Vec<Vec<f64>>,
+}
+
+impl Explicit {
+    pub fn new(tableau: &'static Tableau, len: usize) -> Self {
+        let zeros = |n: usize| vec![vec![0.0; len]; n];
+        Explicit {
+            tableau,
+            k: zeros(tableau.c.len()),
+            stage: vec![0.0; len],
+            polynomial: zeros(3 + tableau.dense.len()),
+        }
+    }
+
+    fn stages(&self) -> usize {
+        self.tableau.b.len()
+    }
+
+    /// k_i at the nodes `range`.
+    fn evaluate(
+        &mut self,
+        problem: &mut Problem,
+        range: std::ops::Range<usize>,
+        from: From,
+        h: f64,
+    ) -> Result<(), Halt> {
+        for i in range {
+            combine(&mut self.stage, from.y, h, self.tableau.a[i], &self.k);
+            let t = from.t + self.tableau.c[i] * h;
+            problem.derivative(t, &self.stage, &mut self.k[i])?;
+        }
+        Ok(())
+    }
+
+    fn error(&self, tolerance: &Tolerance, from: &[f64], to: &[f64], h: f64) -> Option<f64> {
+        let n = from.len() - 1;
+        let sum = |weights: &[f64], i: usize| weights.iter().zip(&self.k).map(|(e, k)| e * k[i]).sum::<f64>();
+        let square = |weights: &[f64]| {
+            (0..n).map(|i| (h * sum(weights, i) / tolerance.weight(from[i], to[i])).powi(2)).sum::<f64>()
+        };
+        match &self.tableau.error {
+            ErrorEstimate::None => None,
+            ErrorEstimate::Embedded(weights) => Some((square(weights) / n as f64).sqrt()),
+            ErrorEstimate::Pair { fifth, third } => {
+                let (fifth, third) = (square(fifth), square(third));
+                // err5^2 / sqrt(err5^2 + 0.01 err3^2); no change at all leaves no error.
+                let both = fifth + 0.01 * third;
+                Some(if both == 0.0 { 0.0 } else { fifth / (both * n as f64).sqrt() })
+            }
+        }
+    }
+}
+
+/// out = y + h sum_j weights_j k_j
+fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[Vec<f64>]) {
+    out.copy_from_slice(y);
+    for (&weight, k) in weights.iter().zip(k).filter(|(weight, _)| **weight != 0.0) {
+        let factor = h * weight;
+        out.iter_mut().zip(k).for_each(|(out, k)| *out += factor * k);
+    }
+}
+
+impl Integrator for Explicit {
+    fn order(&self) -> usize {
+        self.tableau.order
+    }
+
+    fn control(&self) -> Control {
+        (self.tableau.control)()
+    }
+
+    fn attempt(
+        &mut self,
+        problem: &mut Problem,
+        tolerance: &Tolerance,
+        from: From,
+        h: f64,
+        to: &mut [f64],
+    ) -> Result<Option<f64>, Halt> {
+        self.k[0].copy_from_slice(from.slope);
+        self.evaluate(problem, 1..self.stages(), from, h)?;
+        combine(to, from.y, h, self.tableau.b, &self.k);
+        if let ErrorEstimate::Embedded(weights) = self.tableau.error
+            && weights.len() > self.stages()
+        {
+            problem.derivative(from.t + h, to, &mut self.k[weights.len() - 1])?;
+        }
+        Ok(self.error(tolerance, from.y, to, h))
+    }
+
+    /// The polynomial of Hairer's codes: y + theta (F0 + (1 - theta) (F1 + theta (F2 + (1 - theta) (F3 + ...)))), in
+    /// which F0 to F2 make a cubic Hermite interpolant and the rest comes from the stages.
+    fn prepare(&mut self, problem: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt> {
+        let stages = self.stages();
+        if self.k.len() > stages {
+            self.k[stages].copy_from_slice(slope);
+            self.evaluate(problem, stages + 1..self.k.len(), from, h)?;
+        }
+        for i in 0..from.y.len() {
+            let change = to[i] - from.y[i];
+            self.polynomial[0][i] = change;
+            self.polynomial[1][i] = h * from.slope[i] - change;
+            self.polynomial[2][i] = 2.0 * change - h * (slope[i] + from.slope[i]);
+        }
+        for (row, weights) in self.polynomial[3..].iter_mut().zip(self.tableau.dense) {
+            row.fill(0.0);
+            for (&weight, k) in weights.iter().zip(&self.k) {
+                row.iter_mut().zip(k).for_each(|(row, k)| *row += h * weight * k);
+            }
+        }
+        Ok(())
+    }
+
+    fn interpolate(&self, theta: f64, from: &[f64], out: &mut [f64]) {
+        out.fill(0.0);
+        for (i, row) in self.polynomial.iter().enumerate().rev() {
+            let factor = if i % 2 == 0 { theta } else { 1.0 - theta };
+            out.iter_mut().zip(row).for_each(|(out, f)| *out = (*out + f) * factor);
+        }
+        out.iter_mut().zip(from).for_each(|(out, y)| *out += y);
+    }
+}

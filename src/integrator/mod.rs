@@ -1,0 +1,81 @@
+//! Integrators: one step of a vector field.
+//!
+//! To add one: a file with its tableau (or a step of its own) and an [`Entry`], and a line in [`registry`].
+
+mod control;
+mod dop853;
+mod dop853_tableau;
+mod dopri5;
+mod explicit;
+mod heun;
+mod problem;
+mod rk4;
+
+pub use control::{Control, Tolerance, first_step};
+pub use problem::Problem;
+
+use crate::error::Result;
+use crate::formulation::{Choice, Halt, OptionDoc};
+
+/// A one-step method. States are flat: q, v, and the work done by forces without a potential.
+pub trait Integrator: Send {
+    /// Order of the solution, p: the error of a step is O(h^{p+1}).
+    fn order(&self) -> usize;
+
+    /// Tries a step from (t, y), where y' is `slope`, and writes the new state. Returns the error estimate in units of
+    /// the tolerance (accept at or below one), or `None` for a method that has none.
+    fn attempt(
+        &mut self,
+        problem: &mut Problem,
+        tolerance: &Tolerance,
+        from: From,
+        h: f64,
+        to: &mut [f64],
+    ) -> Result<Option<f64>, Halt>;
+
+    /// The constants of step control that go with the method.
+    fn control(&self) -> Control;
+
+    /// Prepares interpolation over the step just accepted; `slope` is y' at its end `to`.
+    fn prepare(&mut self, problem: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt>;
+
+    /// The state at the fraction `theta` of the prepared step.
+    fn interpolate(&self, theta: f64, from: &[f64], out: &mut [f64]);
+}
+
+/// Where a step starts.
+#[derive(Clone, Copy, Debug)]
+pub struct From<'a> {
+    pub t: f64,
+    pub y: &'a [f64],
+    /// y' at (t, y).
+    pub slope: &'a [f64],
+}
+
+/// One integrator as the command line, the scene format and the table of methods know it.
+pub struct Entry {
+    pub name: &'static str,
+    pub about: &'static str,
+    /// Proven order in q and v.
+    pub order: usize,
+    /// Whether it chooses its steps by an error estimate; otherwise a step must be given.
+    pub adaptive: bool,
+    /// Formulations it can integrate.
+    pub accepts: &'static [&'static str],
+    pub options: &'static [OptionDoc],
+    pub make: fn(&Choice, usize) -> Result<Box<dyn Integrator>>,
+}
+
+/// Formulations that are vector fields, which any explicit method takes.
+pub const VECTOR_FIELDS: &[&str] = &["index1", "baumgarte", "invariant_manifold"];
+
+/// Every integrator, in the order of the documentation.
+pub fn registry() -> &'static [Entry] {
+    &[heun::ENTRY, rk4::ENTRY, dopri5::ENTRY, dop853::ENTRY]
+}
+
+/// The registry's entry that `choice` names.
+pub fn find(choice: &Choice) -> Result<&'static Entry> {
+    let index = choice.find("integrator", registry().iter().map(|entry| (entry.name, entry.options)))?;
+    Ok(&registry()[index])
+}

@@ -1,0 +1,51 @@
+//! What an integrator integrates: a formulation of a system, as y' = F(t, y).
+
+use crate::formulation::{Dynamics, Formulation, Halt};
+use crate::system::Dimensions;
+
+/// y = (q, v, w) with w the work of forces without a potential and of moving constraints, J, which is carried along so
+/// that the energy balance has the accuracy of the method.
+pub struct Problem<'a> {
+    pub dynamics: Dynamics<'a>,
+    pub formulation: Box<dyn Formulation>,
+    dimensions: Dimensions,
+}
+
+impl<'a> Problem<'a> {
+    pub fn new(dynamics: Dynamics<'a>, formulation: Box<dyn Formulation>) -> Self {
+        Problem { dimensions: dynamics.system.dimensions(), dynamics, formulation }
+    }
+
+    /// Length of y.
+    pub fn len(&self) -> usize {
+        self.dimensions.q + self.dimensions.v + 1
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.dimensions.v == 0
+    }
+
+    /// (q, v) of a flat state.
+    pub fn split<'y>(&self, y: &'y [f64]) -> (&'y [f64], &'y [f64]) {
+        let (q, rest) = y.split_at(self.dimensions.q);
+        (q, &rest[..self.dimensions.v])
+    }
+
+    pub fn split_mut<'y>(&self, y: &'y mut [f64]) -> (&'y mut [f64], &'y mut [f64]) {
+        let (q, rest) = y.split_at_mut(self.dimensions.q);
+        (q, &mut rest[..self.dimensions.v])
+    }
+
+    /// y' at (t, y).
+    pub fn derivative(&mut self, t: f64, y: &[f64], slope: &mut [f64]) -> Result<(), Halt> {
+        if y.iter().any(|x| !x.is_finite()) {
+            return Err(Halt::NotFinite);
+        }
+        let (q, v) = self.split(y);
+        let (qdot, rest) = slope.split_at_mut(self.dimensions.q);
+        let (vdot, work) = rest.split_at_mut(self.dimensions.v);
+        self.formulation.derivative(t, q, v, &mut self.dynamics, qdot, vdot)?;
+        work[0] = self.dynamics.power();
+        Ok(())
+    }
+}

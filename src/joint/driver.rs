@@ -1,0 +1,101 @@
+//! Driver: a relative coordinate prescribed as a function of time.
+
+use super::lock::{Lock, NONE, direction};
+use super::{Built, JointKernel, JointSpec};
+use crate::body::{Build, Frame, dot, sub};
+use crate::error::{Error, Result};
+use crate::math::Scalar;
+use crate::math::expression::{Expression, Number};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Prescribes a coordinate of the second marker against the first as a function of t; its rate and acceleration follow
+/// exactly. 1 row, coordinate - value(t). The multiplier is the force or torque that the drive takes up.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Driver {
+    /// Markers `body.marker`: the reference (often on the ground), then the one that is driven.
+    pub between: [String; 2],
+    pub coordinate: Coordinate,
+    /// m or rad, an expression of t.
+    pub value: Number,
+    /// In space: the axis of rotation for `angle`, in both markers. Default: their z axes.
+    pub axis: Option<Vec<Number>>,
+}
+
+/// x, y and z are along the axes of the first marker.
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Coordinate {
+    X,
+    Y,
+    Z,
+    Angle,
+    Distance,
+}
+
+impl JointSpec for Driver {
+    const TYPE: &'static str = "driver";
+
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+        if D == 2 && self.coordinate == Coordinate::Z {
+            return Err(Error::input("a planar scene has no z").under("coordinate").hint("use x, y or angle"));
+        }
+        let markers = build.between(&self.between)?;
+        if self.coordinate == Coordinate::Angle {
+            build.oriented("between", &markers)?;
+        }
+        let value = build.function_of_time("value", &self.value)?;
+        let axes = match D {
+            2 => Lock::new(&[], NONE),
+            _ => Lock::new(&[], NONE).along(2, direction(build, &self.axis)?),
+        };
+        Ok(Built { joint: Box::new(Drive { coordinate: self.coordinate, value, axes }), markers })
+    }
+}
+
+struct Drive<const D: usize> {
+    coordinate: Coordinate,
+    value: Expression,
+    axes: Lock<D>,
+}
+
+impl<const D: usize> JointKernel<D> for Drive<D> {
+    fn row_names(&self) -> Vec<&'static str> {
+        vec![match self.coordinate {
+            Coordinate::X => "x",
+            Coordinate::Y => "y",
+            Coordinate::Z => "z",
+            Coordinate::Angle => "angle",
+            Coordinate::Distance => "length",
+        }]
+    }
+
+    fn depends_on_time(&self) -> bool {
+        true
+    }
+
+    fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], t: S, out: &mut [S]) {
+        let [a, b] = [&frames[0], &frames[1]];
+        let value = self.value.eval(&[t]);
+        let gap = sub(&b.r, &a.r);
+        out[0] = match self.coordinate {
+            Coordinate::X => dot(&a.axes[0], &gap) - value,
+            Coordinate::Y => dot(&a.axes[1], &gap) - value,
+            Coordinate::Z => dot(&a.axes[D - 1], &gap) - value,
+            Coordinate::Distance => dot(&gap, &gap).sqrt() - value,
+            Coordinate::Angle if D == 2 => b.turn - a.turn - value,
+            Coordinate::Angle => {
+                // The difference of the angles, not the difference of two atan2: no jump at half a turn.
+                let (c, s) = relative_turn(&self.axes, a, b);
+                S::atan2(s * value.cos() - c * value.sin(), c * value.cos() + s * value.sin())
+            }
+        };
+    }
+}
+
+/// Cosine and sine of the angle of B against A about A's joint axis.
+pub fn relative_turn<S: Scalar, const D: usize>(axes: &Lock<D>, a: &Frame<S, D>, b: &Frame<S, D>) -> (S, S) {
+    let x = axes.axis(b, 0);
+    (dot(&axes.axis(a, 0), &x), dot(&axes.axis(a, 1), &x))
+}

@@ -1,0 +1,62 @@
+//! A constraint given by an expression.
+
+use super::{Built, JointKernel, JointSpec, MOST_MARKERS};
+use crate::body::{Build, Frame, Probe, Signal};
+use crate::error::{Error, Result};
+use crate::math::Scalar;
+use crate::math::expression::Number;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// `expression` = 0, over t, parameters and marker coordinates such as `arm.tip.y` or `arm.angle`. 1 row, in the units
+/// of the expression. Its derivatives are exact.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Equation {
+    pub expression: Number,
+}
+
+impl JointSpec for Equation {
+    const TYPE: &'static str = "equation";
+
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+        let signal = build.signal("expression", &self.expression, false)?;
+        let markers = signal.markers();
+        if markers.iter().all(|&marker| build.markers.bodies[marker].is_none()) {
+            return Err(Error::input("the expression names no coordinate of a body")
+                .under("expression")
+                .hint("use marker coordinates such as `body.marker.x`"));
+        }
+        if markers.len() > MOST_MARKERS {
+            return Err(Error::input(format!("the expression uses {} markers", markers.len()))
+                .under("expression")
+                .hint(format!("use at most {MOST_MARKERS}")));
+        }
+        Ok(Built { joint: Box::new(Given { signal, markers: markers.clone() }), markers })
+    }
+}
+
+struct Given {
+    signal: Signal,
+    markers: Vec<usize>,
+}
+
+impl Given {
+    fn place(&self, probe: &Probe) -> usize {
+        self.markers.iter().position(|&marker| marker == probe.marker).unwrap_or(0)
+    }
+}
+
+impl<const D: usize> JointKernel<D> for Given {
+    fn row_names(&self) -> Vec<&'static str> {
+        vec!["value"]
+    }
+
+    fn depends_on_time(&self) -> bool {
+        self.signal.expression.depends_on(0)
+    }
+
+    fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], t: S, out: &mut [S]) {
+        out[0] = self.signal.evaluate(t, |probe| probe.position(&frames[self.place(probe)]));
+    }
+}

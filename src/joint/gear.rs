@@ -1,0 +1,80 @@
+//! Gear pair.
+
+use super::driver::relative_turn;
+use super::lock::{Lock, NONE};
+use super::{Built, JointKernel, JointSpec};
+use crate::body::{Build, Frame};
+use crate::error::{Error, Result};
+use crate::math::Scalar;
+use crate::math::expression::Number;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Two wheels roll on each other: z1 angle1 + z2 angle2 = offset with the numbers of teeth z1, z2 (negative for an
+/// internal gear). Angles are those of the wheels' markers against the carrier's. 1 row, divided by z1, in radians.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Gear {
+    /// Markers `body.marker` of the two wheels.
+    pub between: [String; 2],
+    /// Numbers of teeth, whole and not zero.
+    pub teeth: [i32; 2],
+    /// Markers against which the wheels turn; in space about their z axes. Default in the plane: the ground.
+    pub carrier: Option<[String; 2]>,
+    /// rad. Default: zero.
+    pub offset: Option<Number>,
+}
+
+impl JointSpec for Gear {
+    const TYPE: &'static str = "gear";
+
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+        if self.teeth.contains(&0) {
+            return Err(Error::input("a wheel has no teeth").under("teeth").hint("give two whole numbers, not zero"));
+        }
+        let mut markers = build.between(&self.between)?;
+        match &self.carrier {
+            Some(carrier) => {
+                markers.push(build.marker("carrier[0]", &carrier[0])?);
+                markers.push(build.marker("carrier[1]", &carrier[1])?);
+            }
+            None if D == 2 => {}
+            None => {
+                return Err(Error::input("the key `carrier` is missing")
+                    .hint("in space name two markers whose z axes are the axes of the wheels"));
+            }
+        }
+        build.oriented("between", &markers)?;
+        let offset = build.number_or("offset", &self.offset, 0.0)?;
+        Ok(Built { joint: Box::new(Pair { teeth: self.teeth.map(f64::from), offset }), markers })
+    }
+}
+
+struct Pair {
+    teeth: [f64; 2],
+    offset: f64,
+}
+
+impl<const D: usize> JointKernel<D> for Pair {
+    fn row_names(&self) -> Vec<&'static str> {
+        vec!["angle"]
+    }
+
+    fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], _t: S, out: &mut [S]) {
+        let [z1, z2] = self.teeth;
+        if D == 2 {
+            let turn = |i: usize| frames.get(i + 2).map_or(frames[i].turn, |carrier| frames[i].turn - carrier.turn);
+            out[0] = (turn(0) * z1 + turn(1) * z2 - self.offset) / z1;
+            return;
+        }
+        let axes = Lock::new(&[], NONE);
+        let angle = |i: usize| {
+            let (c, s) = relative_turn(&axes, &frames[i + 2], &frames[i]);
+            S::atan2(s, c)
+        };
+        // A full turn of a wheel adds 2 pi z, so the residual is known up to 2 pi: take the branch next to zero.
+        let sum = angle(0) * z1 + angle(1) * z2 - self.offset;
+        let turns = (sum.value() / std::f64::consts::TAU).round();
+        out[0] = (sum - turns * std::f64::consts::TAU) / z1;
+    }
+}

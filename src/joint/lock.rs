@@ -1,0 +1,138 @@
+//! The kernel behind most joints: some relative translations and rotations of two frames are locked.
+
+use super::{Built, JointKernel};
+use crate::body::{Build, Frame, dot, sub, unit_axes};
+use crate::error::{Error, Result};
+use crate::math::Scalar;
+use crate::math::expression::Number;
+use std::array::from_fn;
+
+/// What stays of the relative motion of marker B against marker A.
+///
+/// Translation rows: e_i . (r_B - r_A), along world axes when all are locked (then G is constant in r), else along the
+/// axes of A. Rotation rows: in the plane turn_B - turn_A; in space e_i(A) . e_j(B) for pairs of different axes. The
+/// pairs of a joint share one axis, so that no row loses its slope at a quarter turn about the free axis, as cyclic
+/// pairs would.
+#[derive(Clone)]
+pub struct Lock<const D: usize> {
+    /// Axes of A along which B is held.
+    pub translation: &'static [usize],
+    /// Pairs of axes (of A, of B) held at right angles; in the plane any pair stands for the angle.
+    pub rotation: &'static [(usize, usize)],
+    /// The joint's axes in both markers, by rows.
+    pub triad: Option<[[f64; D]; D]>,
+}
+
+/// Pairs that leave rotation about the third axis free.
+pub const ALL_BUT_Z: &[(usize, usize)] = &[(2, 0), (2, 1)];
+/// Pairs that leave no rotation free.
+pub const ALL: &[(usize, usize)] = &[(2, 0), (2, 1), (0, 1)];
+pub const NONE: &[(usize, usize)] = &[];
+
+const TRANSLATIONS: [&str; 3] = ["x", "y", "z"];
+
+impl<const D: usize> Lock<D> {
+    pub fn new(translation: &'static [usize], rotation: &'static [(usize, usize)]) -> Self {
+        Lock { translation, rotation, triad: None }
+    }
+
+    /// The same with the `principal` joint axis along `direction` in both markers instead of along the marker's own.
+    pub fn along(mut self, principal: usize, direction: Option<[f64; D]>) -> Self {
+        self.triad = direction.map(|direction| triad(principal, direction));
+        self
+    }
+
+    /// Checks that the markers can be held so, and names them.
+    pub fn between(self, names: &[String; 2], build: &Build<D>) -> Result<Built<D>> {
+        let markers = build.between(names)?;
+        if !self.rotation.is_empty() {
+            build.oriented("between", &markers)?;
+        }
+        Ok(Built { joint: Box::new(self), markers })
+    }
+
+    pub(super) fn axis<S: Scalar>(&self, frame: &Frame<S, D>, i: usize) -> [S; D] {
+        match &self.triad {
+            None => frame.axes[i],
+            Some(triad) => from_fn(|k| {
+                let mut sum = frame.axes[0][k] * triad[i][0];
+                for j in 1..D {
+                    sum += frame.axes[j][k] * triad[i][j];
+                }
+                sum
+            }),
+        }
+    }
+}
+
+impl<const D: usize> JointKernel<D> for Lock<D> {
+    fn row_names(&self) -> Vec<&'static str> {
+        let rotations = self.rotation.iter().map(|pair| match pair {
+            _ if D == 2 => "angle",
+            (2, 0) => "ry",
+            (2, 1) => "rx",
+            _ => "rz",
+        });
+        self.translation.iter().map(|&i| TRANSLATIONS[i]).chain(rotations).collect()
+    }
+
+    #[inline]
+    fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], _t: S, out: &mut [S]) {
+        let [a, b] = [&frames[0], &frames[1]];
+        let gap = sub(&b.r, &a.r);
+        let (translations, rotations) = out.split_at_mut(self.translation.len());
+        if translations.len() == D {
+            translations.copy_from_slice(&gap);
+        } else {
+            for (row, &i) in translations.iter_mut().zip(self.translation) {
+                *row = dot(&self.axis(a, i), &gap);
+            }
+        }
+        for (row, &(i, j)) in rotations.iter_mut().zip(self.rotation) {
+            *row = if D == 2 { b.turn - a.turn } else { dot(&self.axis(a, i), &self.axis(b, j)) };
+        }
+    }
+}
+
+/// Right-handed orthonormal axes, by rows, of which number `principal` is `direction`.
+fn triad<const D: usize>(principal: usize, direction: [f64; D]) -> [[f64; D]; D] {
+    let mut axes = unit_axes::<f64, D>();
+    let length = dot(&direction, &direction).sqrt();
+    let main = direction.map(|x| x / length);
+    if D == 2 {
+        (axes[0][0], axes[0][1]) = (main[0], main[1]);
+        (axes[1][0], axes[1][1]) = (-main[1], main[0]);
+        return axes;
+    }
+    let helper = (0..D).min_by(|&i, &j| main[i].abs().total_cmp(&main[j].abs())).unwrap_or(0);
+    let mut second: [f64; D] = from_fn(|i| if i == helper { 1.0 } else { 0.0 });
+    let along = dot(&second, &main);
+    second = from_fn(|i| second[i] - along * main[i]);
+    let norm = dot(&second, &second).sqrt();
+    second = second.map(|x| x / norm);
+    let third = crate::body::cross(&main, &second);
+    axes[principal] = main;
+    axes[(principal + 1) % D] = second;
+    axes[(principal + 2) % D] = from_fn(|i| third[i]);
+    axes
+}
+
+/// The direction of a joint axis in both markers.
+pub fn direction<const D: usize>(build: &Build<D>, axis: &Option<Vec<Number>>) -> Result<Option<[f64; D]>> {
+    let Some(numbers) = axis else { return Ok(None) };
+    let direction = build.vector::<D>("axis", numbers)?;
+    match direction.iter().all(|&x| x == 0.0) {
+        true => Err(Error::input("the axis has no direction").under("axis").hint("give a vector that is not zero")),
+        false => Ok(Some(direction)),
+    }
+}
+
+/// Refuses a joint that makes sense in one kind of scene only.
+pub fn needs_dimension<const D: usize>(name: &str, dimension: usize, instead: &str) -> Result<()> {
+    match D == dimension {
+        true => Ok(()),
+        false => Err(Error::input(format!("a {name} joint needs \"dimension\": {dimension}"))
+            .under("type")
+            .hint(format!("in this scene use {instead}"))),
+    }
+}

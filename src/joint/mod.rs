@@ -1,0 +1,146 @@
+//! Joints: holonomic constraints phi(markers, t) = 0.
+//!
+//! A joint is one kernel over frames. Evaluated along the motion (Taylor numbers) it gives phi, phi' and -gamma;
+//! evaluated with seeded frames (dual numbers) it gives its gradient with respect to the twists of its markers, which
+//! the bodies pull back to rows of G.
+//!
+//! To add one: a file with a [`JointSpec`] and a [`JointKernel`], and a line in [`registry`].
+
+mod cylindrical;
+mod distance;
+mod driver;
+mod equation;
+mod gear;
+mod lock;
+mod planar;
+mod point_on_line;
+mod prismatic;
+mod revolute;
+mod spherical;
+mod universal;
+mod weld;
+
+use crate::body::{Build, Frame, MarkerId, Slope, parse, twist_len};
+use crate::error::Result;
+use crate::math::{Dual, Scalar, Taylor};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::de::DeserializeOwned;
+use std::array::from_fn;
+
+/// So many markers an element may have: its frames are kept on the stack.
+pub const MOST_MARKERS: usize = 8;
+/// So many rows a joint may have.
+pub const MOST_ROWS: usize = 6;
+
+/// A joint's equations, written once over any scalar.
+pub trait JointKernel<const D: usize>: Send + Sync + 'static {
+    /// A name for each row: the direction it holds. `x, y, z` rows are in metres, others in radians.
+    fn row_names(&self) -> Vec<&'static str>;
+    /// Whether phi depends on t beside the frames.
+    fn depends_on_time(&self) -> bool {
+        false
+    }
+    /// One value a row at the frames of the joint's markers.
+    fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], t: S, out: &mut [S]);
+}
+
+/// A joint over one scalar: what the model calls.
+pub trait JointOver<S: Scalar, const D: usize> {
+    /// phi, phi' and phi'' along the motion of the frames.
+    fn levels(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Taylor<S>]);
+    /// d(phi)/d(twist) for the markers of pass `pass`: markers 2 pass and 2 pass + 1 in the plane (three components
+    /// each), marker `pass` in space (six components). One array a row.
+    fn gradient(&self, frames: &[Frame<Taylor<S>, D>], t: S, pass: usize, out: &mut [[S; 6]]);
+}
+
+/// The object-safe form of a joint; implemented for every [`JointKernel`].
+pub trait Joint<const D: usize>: JointOver<f64, D> + JointOver<Slope, D> + Send + Sync {
+    fn row_names(&self) -> Vec<&'static str>;
+    fn depends_on_time(&self) -> bool;
+}
+
+/// Markers that one pass of [`JointOver::gradient`] covers.
+pub const fn markers_per_pass(dimension: usize) -> usize {
+    6 / twist_len(dimension)
+}
+
+impl<K: JointKernel<D>, S: Scalar, const D: usize> JointOver<S, D> for K {
+    fn levels(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Taylor<S>]) {
+        self.phi(frames, t, out);
+    }
+
+    fn gradient(&self, frames: &[Frame<Taylor<S>, D>], t: S, pass: usize, out: &mut [[S; 6]]) {
+        let seeded = |i: usize| -> Frame<Dual<S, 6>, D> {
+            let frame = frames[i].map(|x| x.x);
+            match i / markers_per_pass(D) == pass {
+                true => frame.seeded(i % markers_per_pass(D) * twist_len(D)),
+                false => frame.map(Dual::fixed),
+            }
+        };
+        let mut rows = [Dual::fixed(S::zero()); MOST_ROWS];
+        let rows = &mut rows[..out.len()];
+        match frames.len() {
+            1 => self.phi(&[seeded(0)], Dual::fixed(t), rows),
+            2 => self.phi(&[seeded(0), seeded(1)], Dual::fixed(t), rows),
+            n => {
+                let all: [_; MOST_MARKERS] = from_fn(|i| seeded(i.min(n - 1)));
+                self.phi(&all[..n], Dual::fixed(t), rows);
+            }
+        }
+        out.iter_mut().zip(rows).for_each(|(out, row)| *out = row.eps);
+    }
+}
+
+impl<K: JointKernel<D>, const D: usize> Joint<D> for K {
+    fn row_names(&self) -> Vec<&'static str> {
+        JointKernel::row_names(self)
+    }
+    fn depends_on_time(&self) -> bool {
+        JointKernel::depends_on_time(self)
+    }
+}
+
+/// A joint ready for the model, with the markers it sees.
+pub struct Built<const D: usize> {
+    pub joint: Box<dyn Joint<D>>,
+    pub markers: Vec<MarkerId>,
+}
+
+/// What a scene says of a kind of joint.
+pub trait JointSpec: DeserializeOwned + JsonSchema {
+    const TYPE: &'static str;
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>>;
+}
+
+/// One kind of joint as the scene format, its schema and its errors know it.
+pub struct Entry<const D: usize> {
+    pub name: &'static str,
+    pub schema: fn(&mut SchemaGenerator) -> Schema,
+    pub build: fn(serde_json::Value, &Build<D>) -> Result<Built<D>>,
+}
+
+fn entry<T: JointSpec, const D: usize>() -> Entry<D> {
+    Entry {
+        name: T::TYPE,
+        schema: |generator| generator.subschema_for::<T>(),
+        build: |json, build| parse::<T>(json)?.build(build),
+    }
+}
+
+/// Every kind of joint, in the order of the documentation.
+pub fn registry<const D: usize>() -> Vec<Entry<D>> {
+    vec![
+        entry::<revolute::Revolute, D>(),
+        entry::<prismatic::Prismatic, D>(),
+        entry::<cylindrical::Cylindrical, D>(),
+        entry::<universal::Universal, D>(),
+        entry::<spherical::Spherical, D>(),
+        entry::<planar::Planar, D>(),
+        entry::<weld::Weld, D>(),
+        entry::<distance::Distance, D>(),
+        entry::<point_on_line::PointOnLine, D>(),
+        entry::<gear::Gear, D>(),
+        entry::<driver::Driver, D>(),
+        entry::<equation::Equation, D>(),
+    ]
+}

@@ -1,0 +1,17 @@
+//! holonom
+#![forbid(unsafe_code)]
+#![allow(clippy::suspicious_arithmetic_impl)]
+pub mod body;
+pub mod error;
+pub mod force;
+pub mod formulation;
+pub mod initial;
+pub mod integrator;
+pub mod joint;
+pub mod math;
+pub mod measure;
+pub mod projection;
+pub mod scene;
+pub mod simulate;
+pub mod system;
+pub mod trajectory;

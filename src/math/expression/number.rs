@@ -1,0 +1,202 @@
+//! A number as scenes write it: plain, or as an expression over their parameters.
+
+use super::{Expression, ExpressionError, Names, Parameters, finite};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{self, Deserialize, Deserializer, Visitor};
+use serde::{Serialize, Serializer};
+use std::borrow::Cow;
+use std::fmt;
+
+const EXPECTED: &str = "a number or an expression such as \"sqrt(2)*l\"";
+
+/// A JSON number, or a JSON string with an expression.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Number {
+    Value(f64),
+    Text(String),
+}
+
+impl Number {
+    /// The value for given parameters.
+    ///
+    /// # Errors
+    ///
+    /// If the expression cannot be parsed, depends on anything but parameters, or its value is not finite.
+    pub fn evaluate(&self, parameters: &Parameters) -> Result<f64, ExpressionError> {
+        match self {
+            Number::Value(value) => finite(*value, &value.to_string()),
+            Number::Text(text) => Expression::parse(text, parameters)?.constant(),
+        }
+    }
+
+    /// The expression over `names`, for fields that may depend on time or on measures.
+    ///
+    /// # Errors
+    ///
+    /// If the expression cannot be parsed, or its value is constant and not finite.
+    pub fn expression(&self, names: &dyn Names) -> Result<Expression, ExpressionError> {
+        let expression = match self {
+            Number::Value(value) => Expression::from(*value),
+            Number::Text(text) => Expression::parse(text, names)?,
+        };
+        if expression.is_constant() {
+            expression.constant()?;
+        }
+        Ok(expression)
+    }
+}
+
+impl Default for Number {
+    fn default() -> Self {
+        Number::Value(0.0)
+    }
+}
+
+impl From<f64> for Number {
+    fn from(value: f64) -> Self {
+        Number::Value(value)
+    }
+}
+
+impl From<&str> for Number {
+    fn from(text: &str) -> Self {
+        Number::Text(text.to_string())
+    }
+}
+
+impl fmt::Display for Number {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Number::Value(value) => write!(out, "{value}"),
+            Number::Text(text) => write!(out, "{text}"),
+        }
+    }
+}
+
+impl Serialize for Number {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Number::Value(value) => serializer.serialize_f64(*value),
+            Number::Text(text) => serializer.serialize_str(text),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Number {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(NumberVisitor)
+    }
+}
+
+struct NumberVisitor;
+
+/// serde's own message for a wrong type begins with what was found; this one says first what is wanted.
+fn wrong<E: de::Error>(found: impl fmt::Display) -> Result<Number, E> {
+    Err(E::custom(format_args!("expected {EXPECTED}, found {found}")))
+}
+
+impl<'de> Visitor<'de> for NumberVisitor {
+    type Value = Number;
+
+    fn expecting(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(EXPECTED)
+    }
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<Number, E> {
+        Ok(Number::Value(value))
+    }
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<Number, E> {
+        Ok(Number::Value(value as f64))
+    }
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<Number, E> {
+        Ok(Number::Value(value as f64))
+    }
+    fn visit_str<E: de::Error>(self, text: &str) -> Result<Number, E> {
+        Ok(Number::Text(text.to_string()))
+    }
+    fn visit_bool<E: de::Error>(self, value: bool) -> Result<Number, E> {
+        wrong(format_args!("`{value}`"))
+    }
+    fn visit_unit<E: de::Error>(self) -> Result<Number, E> {
+        wrong("null")
+    }
+    fn visit_seq<A: de::SeqAccess<'de>>(self, _: A) -> Result<Number, A::Error> {
+        wrong("a list")
+    }
+    fn visit_map<A: de::MapAccess<'de>>(self, _: A) -> Result<Number, A::Error> {
+        wrong("an object")
+    }
+}
+
+impl JsonSchema for Number {
+    fn schema_name() -> Cow<'static, str> {
+        "Number".into()
+    }
+
+    fn schema_id() -> Cow<'static, str> {
+        concat!(module_path!(), "::Number").into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "A number, or an expression over the scene's parameters.",
+            "oneOf": [
+                { "type": "number" },
+                { "type": "string", "minLength": 1, "examples": ["sqrt(2)*l", "m*l^2/12"] }
+            ]
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(json: &str) -> Result<Number, String> {
+        serde_json::from_str(json).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn json_numbers_and_strings_are_read_and_written() {
+        assert_eq!(read("3"), Ok(Number::Value(3.0)));
+        assert_eq!(read("-2"), Ok(Number::Value(-2.0)));
+        assert_eq!(read("9.81"), Ok(Number::Value(9.81)));
+        assert_eq!(read("\"sqrt(2)*l\""), Ok(Number::from("sqrt(2)*l")));
+        for number in [Number::Value(0.1), Number::from("2*l")] {
+            assert_eq!(read(&serde_json::to_string(&number).unwrap()), Ok(number));
+        }
+    }
+
+    #[test]
+    fn anything_else_is_refused_with_what_is_expected() {
+        let found = [("true", "`true`"), ("null", "null"), ("[1]", "a list"), ("{\"a\": 1}", "an object")];
+        for (json, found) in found {
+            let message = read(json).unwrap_err();
+            let expected = format!("expected a number or an expression such as \"sqrt(2)*l\", found {found}");
+            assert!(message.starts_with(&expected), "{message}");
+        }
+    }
+
+    #[test]
+    fn values_must_be_finite_and_constant() {
+        let parameters = Parameters::resolve(&[("l".to_string(), Number::Value(2.0))], &[]).unwrap();
+        let message = |number: Number| number.evaluate(&parameters).unwrap_err().to_string();
+        assert_eq!(Number::from("l^2/8").evaluate(&parameters), Ok(0.5));
+        assert_eq!(Number::Value(7.0).evaluate(&parameters), Ok(7.0));
+        assert_eq!(message(Number::from("1/(l-2)")), "`1/(l-2)` is infinite; expected a finite number");
+        assert_eq!(message(Number::Value(f64::NAN)), "`NaN` is not a number; expected a finite number");
+        assert_eq!(
+            message(Number::from("2*t")),
+            "unknown name `t` at character 3; what stands here must not depend on time"
+        );
+    }
+
+    #[test]
+    fn the_schema_allows_a_number_or_a_string() {
+        let schema = schemars::schema_for!(Number);
+        let kinds = schema.as_value().pointer("/oneOf").and_then(|kinds| kinds.as_array()).unwrap();
+        assert_eq!(
+            kinds.iter().map(|kind| kind["type"].as_str()).collect::<Vec<_>>(),
+            [Some("number"), Some("string")]
+        );
+    }
+}

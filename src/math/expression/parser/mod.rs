@@ -1,0 +1,275 @@
+//! Precedence climbing from tokens to a program.
+
+mod messages;
+
+use super::builder::Builder;
+use super::error::ExpressionError;
+use super::function::{self, Form};
+use super::lexer::{Kind, Token, tokens};
+use super::operation::{One, Two};
+use super::program::{MAX_STACK, Op, Program, Table};
+use super::{Name, Names};
+
+/// Operations inside one another; a parenthesis in a sum counts twice.
+const MAX_NESTING: usize = 150;
+
+/// Bytes of an expression, tables of points included.
+const MAX_LENGTH: usize = 1_000_000;
+
+type Result<T> = std::result::Result<T, ExpressionError>;
+
+/// How tight an operator binds. A prefix takes an operand of at least its own level.
+mod level {
+    pub const LOWEST: u8 = 0;
+    pub const OR: u8 = 1;
+    pub const AND: u8 = 2;
+    pub const NOT: u8 = 3;
+    pub const COMPARISON: u8 = 4;
+    pub const SUM: u8 = 5;
+    pub const PRODUCT: u8 = 6;
+    pub const SIGN: u8 = 7;
+    pub const POWER: u8 = 8;
+}
+
+/// Compiles `text`; the names of the variables come with their indices, in the order of their first mention.
+pub(super) fn parse(text: &str, names: &dyn Names) -> Result<(Program, Vec<(usize, String)>)> {
+    if text.len() > MAX_LENGTH {
+        return Err(ExpressionError::whole(text, format!("expression longer than {MAX_LENGTH} bytes")));
+    }
+    let mut parser = Parser::new(text, names)?;
+    parser.everything()?;
+    let program = parser.builder.finish().ok_or_else(|| {
+        let message = format!("expression needs more than {MAX_STACK} intermediate results at once");
+        ExpressionError::whole(text, message).hint("take a part of it out into a parameter, or nest it less")
+    })?;
+    let mut variables = parser.variables;
+    variables.retain(|(index, _)| program.ops.contains(&Op::Variable(*index)));
+    Ok((program, variables))
+}
+
+struct Parser<'a> {
+    text: &'a str,
+    tokens: Vec<Token>,
+    next: usize,
+    names: &'a dyn Names,
+    builder: Builder,
+    nesting: usize,
+    variables: Vec<(usize, String)>,
+}
+
+/// An argument of a call: where it begins in the program and in the text.
+#[derive(Clone, Copy)]
+struct Argument {
+    operand: usize,
+    start: usize,
+}
+
+impl<'a> Parser<'a> {
+    fn new(text: &'a str, names: &'a dyn Names) -> Result<Self> {
+        let (tokens, builder) = (tokens(text)?, Builder::default());
+        Ok(Parser { text, tokens, next: 0, names, builder, nesting: 0, variables: Vec::new() })
+    }
+
+    fn everything(&mut self) -> Result<()> {
+        if self.peek().kind == Kind::End {
+            let error = ExpressionError::whole(self.text, "empty expression");
+            return Err(error.hint("expected a number or a formula such as `2*l`"));
+        }
+        self.operation(level::LOWEST)?;
+        let rest = self.peek();
+        match rest.kind {
+            Kind::End => Ok(()),
+            Kind::Close => Err(self.error(rest, "unmatched ')'", "")),
+            Kind::Comma => Err(self.error(rest, "unexpected ','", "").hint("decimals are written with a point: `0.5`")),
+            _ => Err(self.missing_operator(rest)),
+        }
+    }
+
+    /// An operand followed by all operators that bind at least as tight as `minimum`.
+    fn operation(&mut self, minimum: u8) -> Result<()> {
+        self.nesting += 1;
+        if self.nesting > MAX_NESTING {
+            return Err(self.error(self.peek(), format!("nested more than {MAX_NESTING} levels deep"), ""));
+        }
+        let left = self.builder.here();
+        self.operand()?;
+        while let Some((two, binding)) = binary(self.peek().kind).filter(|(_, binding)| *binding >= minimum) {
+            self.take();
+            let right = self.builder.here();
+            // A power takes what stands on its right first; all others what stands on their left.
+            self.operation(if two == Two::Pow { binding } else { binding + 1 })?;
+            self.builder.two(two, left, right);
+            self.refuse_chain(binding)?;
+        }
+        self.nesting -= 1;
+        Ok(())
+    }
+
+    /// a < b < c would compare a truth value with c.
+    fn refuse_chain(&self, binding: u8) -> Result<()> {
+        let again = binary(self.peek().kind).is_some_and(|(_, next)| next == binding);
+        if binding == level::COMPARISON && again {
+            let error = self.error(self.peek(), "chained comparison", "");
+            return Err(error.hint("write `a < b and b < c`"));
+        }
+        Ok(())
+    }
+
+    fn operand(&mut self) -> Result<()> {
+        let token = self.take();
+        match token.kind {
+            Kind::Number(value) => self.builder.push(Op::Constant(value)),
+            Kind::Name if self.peek().kind == Kind::Open => return self.call(token),
+            Kind::Name => return self.name(token),
+            Kind::Plus => return self.operation(level::SIGN),
+            Kind::Minus => return self.prefix(One::Neg, level::SIGN),
+            Kind::Bang => return self.prefix(One::Not, level::SIGN),
+            Kind::Not => return self.prefix(One::Not, level::NOT),
+            Kind::Open => {
+                self.operation(level::LOWEST)?;
+                return self.close();
+            }
+            _ => return Err(self.missing_operand(token)),
+        }
+        Ok(())
+    }
+
+    fn prefix(&mut self, function: One, minimum: u8) -> Result<()> {
+        let start = self.builder.here();
+        self.operation(minimum)?;
+        self.builder.one(function, start);
+        Ok(())
+    }
+
+    fn name(&mut self, token: Token) -> Result<()> {
+        let name = self.slice(token);
+        if let Some(value) = function::constant(name) {
+            self.builder.push(Op::Constant(value));
+            return Ok(());
+        }
+        match self.names.resolve(name) {
+            Some(Name::Constant(value)) => self.builder.push(Op::Constant(value)),
+            Some(Name::Variable(index)) => self.variable(index, name),
+            None => return Err(self.unknown_name(token)),
+        }
+        Ok(())
+    }
+
+    fn variable(&mut self, index: usize, name: &str) {
+        self.builder.push(Op::Variable(index));
+        if self.variables.iter().all(|(known, _)| *known != index) {
+            self.variables.push((index, name.to_string()));
+        }
+    }
+
+    fn call(&mut self, token: Token) -> Result<()> {
+        let form = function::function(self.slice(token)).ok_or_else(|| self.unknown_function(token))?;
+        self.take();
+        let arguments = self.arguments()?;
+        if !form.takes(arguments.len()) {
+            return Err(self.wrong_arity(token, form, arguments.len()));
+        }
+        self.close()?;
+        self.apply(form, &arguments)
+    }
+
+    /// All arguments, up to the closing parenthesis.
+    fn arguments(&mut self) -> Result<Vec<Argument>> {
+        let mut arguments = Vec::new();
+        if self.peek().kind == Kind::Close {
+            return Ok(arguments);
+        }
+        loop {
+            arguments.push(Argument { operand: self.builder.here(), start: self.peek().start });
+            self.operation(level::LOWEST)?;
+            match self.peek().kind {
+                Kind::Comma => self.take(),
+                Kind::Close => return Ok(arguments),
+                _ => return self.close().map(|()| arguments),
+            };
+        }
+    }
+
+    fn apply(&mut self, form: Form, arguments: &[Argument]) -> Result<()> {
+        match (form, arguments) {
+            (Form::One(function), [x]) => self.builder.one(function, x.operand),
+            (Form::Two(function) | Form::Many(function), _) => {
+                let pairs = arguments.windows(2).rev();
+                pairs.for_each(|pair| self.builder.two(function, pair[0].operand, pair[1].operand));
+            }
+            (Form::If, [condition, yes, no]) => self.builder.select(condition.operand, yes.operand, no.operand),
+            (Form::Table, [x, points @ ..]) => return self.table(*x, points),
+            // `call` has counted the arguments.
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn table(&mut self, x: Argument, arguments: &[Argument]) -> Result<()> {
+        let mut values = Vec::with_capacity(arguments.len());
+        for (i, argument) in arguments.iter().enumerate() {
+            let end = arguments.get(i + 1).map_or(self.builder.here(), |next| next.operand);
+            let value = self.builder.constant(argument.operand, end).ok_or_else(|| {
+                self.error_at(argument.start, "points of a table must be constant,", ", found a variable")
+            })?;
+            values.push(value);
+        }
+        let points: Vec<[f64; 2]> = values.chunks_exact(2).map(|point| [point[0], point[1]]).collect();
+        if let Some(i) = points.windows(2).position(|pair| pair[0][0] >= pair[1][0]) {
+            let order = format!("x of a table must increase, found {} after {},", points[i + 1][0], points[i][0]);
+            return Err(self.error_at(arguments[2 * i + 2].start, order, ""));
+        }
+        let table = Table::new(&points).ok_or_else(|| {
+            self.error_at(x.start, "points and slopes of a table must be finite, found otherwise", "")
+        })?;
+        self.builder.table(table, x.operand, arguments[0].operand);
+        Ok(())
+    }
+
+    fn close(&mut self) -> Result<()> {
+        let token = self.peek();
+        match token.kind {
+            Kind::Close => {
+                self.take();
+                Ok(())
+            }
+            Kind::End | Kind::Comma => Err(self.error(token, "expected ')'", format!(", found {}", self.show(token)))),
+            _ => Err(self.missing_operator(token)),
+        }
+    }
+
+    fn peek(&self) -> Token {
+        let end = Token { kind: Kind::End, start: self.text.len(), end: self.text.len() };
+        self.tokens.get(self.next).copied().unwrap_or(end)
+    }
+
+    fn take(&mut self) -> Token {
+        let token = self.peek();
+        self.next += 1;
+        token
+    }
+
+    fn slice(&self, token: Token) -> &'a str {
+        self.text.get(token.start..token.end).unwrap_or("")
+    }
+}
+
+/// The operation that an infix operator stands for, and how tight it binds.
+fn binary(kind: Kind) -> Option<(Two, u8)> {
+    Some(match kind {
+        Kind::Or => (Two::Or, level::OR),
+        Kind::And => (Two::And, level::AND),
+        Kind::Less => (Two::Less, level::COMPARISON),
+        Kind::AtMost => (Two::AtMost, level::COMPARISON),
+        Kind::Greater => (Two::Greater, level::COMPARISON),
+        Kind::AtLeast => (Two::AtLeast, level::COMPARISON),
+        Kind::Equal => (Two::Equal, level::COMPARISON),
+        Kind::Unequal => (Two::Unequal, level::COMPARISON),
+        Kind::Plus => (Two::Add, level::SUM),
+        Kind::Minus => (Two::Sub, level::SUM),
+        Kind::Star => (Two::Mul, level::PRODUCT),
+        Kind::Slash => (Two::Div, level::PRODUCT),
+        Kind::Caret => (Two::Pow, level::POWER),
+        _ => return None,
+    })
+}

@@ -1,0 +1,195 @@
+//! L D L^T by faer, which works on dense blocks: for factors with much fill.
+
+use super::Pattern;
+use super::pivot::{Quality, Rule};
+use super::symbolic::Symbolic;
+use super::system::balance;
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
+use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
+};
+use faer::sparse::{Pair, SparseColMatRef, SymbolicSparseColMat};
+use faer::{MatMut, Par, Side, Spec};
+
+/// What faer puts in the place of a collapsed pivot: so large that its row and column of L vanish, so that the multiplier
+/// is left out.
+const LEFT_OUT: f64 = 1e200;
+
+/// Factors S K S, where S scales the coordinates to unit mass and the rows of G to (G diag(M)^-1 G^T)_jj = 1, so that
+/// the thresholds of the pivots, which faer takes absolute, are relative ones.
+pub(super) struct Blocked {
+    symbolic: Symbolic,
+    /// The upper triangle of S K S in the order of elimination.
+    matrix: SymbolicSparseColMat<usize>,
+    entries: Vec<f64>,
+    /// For each entry of M and of G its place in `entries`.
+    slots: Vec<u32>,
+    mass: Pattern,
+    g: Pattern,
+    cholesky: SymbolicCholesky<usize>,
+    factor: Vec<f64>,
+    memory: MemBuffer,
+    signs: Vec<i8>,
+    /// S by node, and by position.
+    scale: Vec<f64>,
+    late: Vec<bool>,
+    diagonal: Vec<f64>,
+    x: Vec<f64>,
+}
+
+impl Blocked {
+    /// None where faer cannot allocate.
+    pub fn new(symbolic: Symbolic, mass: &Pattern, g: &Pattern, late: &[bool]) -> Option<Self> {
+        let size = symbolic.size();
+        let places = places(&symbolic, mass, g);
+        let mut pairs = places.clone();
+        pairs.sort_unstable();
+        pairs.dedup();
+        let slots = places.iter().map(|p| pairs.partition_point(|q| q < p) as u32).collect();
+        let entries: Vec<_> = pairs.iter().map(|&(col, row)| Pair { row, col }).collect();
+        let (matrix, _) = SymbolicSparseColMat::try_new_from_indices(size, size, &entries).ok()?;
+        let parameters = CholeskySymbolicParams::default();
+        let identity = SymmetricOrdering::Identity;
+        let cholesky = factorize_symbolic_cholesky(matrix.as_ref(), Side::Upper, identity, parameters).ok()?;
+        let request = StackReq::or(
+            cholesky.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Spec::default()),
+            cholesky.solve_in_place_scratch::<f64>(1, Par::Seq),
+        );
+        Some(Blocked {
+            signs: symbolic.signs().collect(),
+            matrix,
+            entries: vec![0.0; entries.len()],
+            slots,
+            mass: mass.clone(),
+            g: g.clone(),
+            factor: vec![0.0; cholesky.len_val()],
+            memory: MemBuffer::try_new(request).ok()?,
+            cholesky,
+            scale: vec![1.0; size],
+            late: late.to_vec(),
+            diagonal: vec![0.0; size],
+            x: vec![0.0; size],
+            symbolic,
+        })
+    }
+
+    pub fn factor(&mut self, mass: &[f64], g: &[f64], rule: Rule, skipped: &mut Vec<usize>) -> Result<Quality, usize> {
+        balance((&self.mass, mass), (&self.g, g), Some(&self.late), &mut self.scale);
+        let replaced = self.assemble(mass, g, rule);
+        let regularization = LdltRegularization {
+            dynamic_regularization_signs: Some(&self.signs),
+            dynamic_regularization_delta: LEFT_OUT,
+            dynamic_regularization_epsilon: rule.collapsed,
+        };
+        let matrix = SparseColMatRef::new(self.matrix.as_ref(), &self.entries);
+        let stack = MemStack::new(&mut self.memory);
+        let result = self.cholesky.factorize_numeric_ldlt(
+            &mut self.factor,
+            matrix,
+            Side::Upper,
+            regularization,
+            Par::Seq,
+            stack,
+            Spec::default(),
+        );
+        if let Err(faer::linalg::cholesky::ldlt::factor::LdltError::ZeroPivot { index }) = result {
+            return Err(self.symbolic.order.nodes.get(index.saturating_sub(1)).copied().unwrap_or(0));
+        }
+        read_diagonal(&self.cholesky, &self.factor, &mut self.diagonal);
+        self.judge(rule, skipped, replaced)
+    }
+
+    /// Returns whether a coordinate without mass was given some (under a rule that allows it).
+    fn assemble(&mut self, mass: &[f64], g: &[f64], rule: Rule) -> bool {
+        let (n, scale) = (self.symbolic.n, &self.scale);
+        self.entries.fill(0.0);
+        let (mass_slots, g_slots) = self.slots.split_at(self.mass.entries.len());
+        for ((&(i, j), value), &slot) in self.mass.entries.iter().zip(mass).zip(mass_slots) {
+            self.entries[slot as usize] += value * scale[i] * scale[j];
+        }
+        for ((&(j, i), value), &slot) in self.g.entries.iter().zip(g).zip(g_slots) {
+            self.entries[slot as usize] += value * scale[i] * scale[n + j];
+        }
+        let Some(floor) = rule.floor else { return false };
+        let mut replaced = false;
+        let columns = self.matrix.col_ptr().windows(2);
+        for (columns, &node) in columns.zip(&self.symbolic.order.nodes).filter(|(_, node)| **node < n) {
+            // The diagonal is the last entry of its column in the upper triangle.
+            let own = &mut self.entries[columns[1] - 1];
+            if *own <= 0.0 {
+                *own = floor * scale[node] * scale[node];
+                replaced = true;
+            }
+        }
+        replaced
+    }
+
+    fn judge(&self, rule: Rule, skipped: &mut Vec<usize>, replaced: bool) -> Result<Quality, usize> {
+        let mut quality = Quality { replaced, ..Quality::GOOD };
+        for ((&d, &node), &sign) in self.diagonal.iter().zip(&self.symbolic.order.nodes).zip(&self.signs) {
+            let pivot = d * f64::from(sign);
+            let left_out = pivot.abs() >= 1e-3 * LEFT_OUT || pivot.is_nan();
+            if left_out || pivot <= rule.weak {
+                quality.judge((node, self.symbolic.n), (if left_out { 0.0 } else { pivot }, 1.0), rule, skipped)?;
+            }
+        }
+        Ok(quality)
+    }
+
+    /// Solves in place; a multiplier that was left out comes out as zero.
+    pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
+        let (n, nodes) = (self.symbolic.n, &self.symbolic.order.nodes);
+        for (x, &node) in self.x.iter_mut().zip(nodes) {
+            *x = self.scale[node] * if node < n { top[node] } else { bottom[node - n] };
+        }
+        let size = self.x.len();
+        let x = MatMut::from_column_major_slice_mut(&mut self.x, size, 1);
+        let factor = LdltRef::new(&self.cholesky, &self.factor);
+        factor.solve_in_place_with_conj(faer::Conj::No, x, Par::Seq, MemStack::new(&mut self.memory));
+        for (x, &node) in self.x.iter().zip(nodes) {
+            let value = x * self.scale[node];
+            if node < n { top[node] = value } else { bottom[node - n] = value }
+        }
+    }
+
+    /// The smallest pivot of the scaled matrix.
+    pub fn smallest_ratio(&self) -> f64 {
+        let pivots = self.diagonal.iter().zip(&self.signs).map(|(d, &sign)| d * f64::from(sign));
+        pivots.fold(1.0, f64::min)
+    }
+}
+
+/// For each entry of M and G its (column, row) in the upper triangle, by position; and the diagonal behind them.
+fn places(symbolic: &Symbolic, mass: &Pattern, g: &Pattern) -> Vec<(usize, usize)> {
+    let mut position = vec![0; symbolic.size()];
+    for (k, &node) in symbolic.order.nodes.iter().enumerate() {
+        position[node] = k;
+    }
+    let place = |a: usize, b: usize| (position[a].max(position[b]), position[a].min(position[b]));
+    let m = mass.entries.iter().map(|&(i, j)| place(i, j));
+    let g = g.entries.iter().map(|&(j, i)| place(symbolic.n + j, i));
+    m.chain(g).chain((0..symbolic.size()).map(|k| (k, k))).collect()
+}
+
+/// The pivots D, which faer keeps on the diagonal of L.
+fn read_diagonal(cholesky: &SymbolicCholesky<usize>, factor: &[f64], diagonal: &mut [f64]) {
+    match cholesky.raw() {
+        SymbolicCholeskyRaw::Simplicial(symbolic) => {
+            for (d, &start) in diagonal.iter_mut().zip(symbolic.col_ptr()) {
+                *d = factor[start];
+            }
+        }
+        SymbolicCholeskyRaw::Supernodal(symbolic) => {
+            let (begins, ends, places) =
+                (symbolic.supernode_begin(), symbolic.supernode_end(), symbolic.col_ptr_for_val());
+            for (s, (&begin, &end)) in begins.iter().zip(ends).enumerate() {
+                let rows = (places[s + 1] - places[s]) / (end - begin).max(1);
+                for k in 0..end - begin {
+                    diagonal[begin + k] = factor[places[s] + k * rows + k];
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! Which rows of a matrix repeat what earlier rows say.
+
+use super::Pattern;
+use super::system::{add_scaled, dot};
+
+/// Coefficients below this (for rows of unit length) are not named.
+const NEGLIGIBLE: f64 = 1e-8;
+
+/// The rank of a matrix, and its dependent rows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Dependence {
+    pub rank: usize,
+    pub rows: Vec<DependentRow>,
+}
+
+/// `row` = sum of coefficient times row over `combination`, all of them earlier and independent ones.
+/// Empty for a row of zeros.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DependentRow {
+    pub row: usize,
+    pub combination: Vec<(usize, f64)>,
+}
+
+/// Rows of which, scaled to unit length, less than `tolerance` is left orthogonal to the rows before them.
+/// Gram-Schmidt, done again where it cancels; columns that two rows do not share cost nothing. At most 2 m^2 n.
+/// A row with a value that is not finite counts as independent and takes no part.
+pub fn dependent_rows(g: &Pattern, values: &[f64], tolerance: f64) -> Dependence {
+    let mut rows = vec![vec![0.0; g.cols]; g.rows];
+    for (&(i, j), value) in g.entries.iter().zip(values) {
+        rows[i][j] += value;
+    }
+    let mut basis = Basis { members: Vec::new() };
+    let mut result = Dependence::default();
+    for (row, v) in rows.into_iter().enumerate() {
+        let length = dot(&v, &v).sqrt();
+        if length == 0.0 {
+            result.rows.push(DependentRow { row, combination: vec![] });
+        } else if !length.is_finite() {
+            result.rank += 1;
+        } else if let Some(combination) = basis.take(row, v, length, tolerance) {
+            result.rows.push(DependentRow { row, combination });
+        } else {
+            result.rank += 1;
+        }
+    }
+    result
+}
+
+/// The independent rows so far, as an orthonormal basis with the triangular factor: row_k / length_k = R^T q.
+struct Basis {
+    members: Vec<Member>,
+}
+
+struct Member {
+    row: usize,
+    length: f64,
+    /// The direction, between its first and last nonzero.
+    direction: Vec<f64>,
+    first: usize,
+    /// The unit row along the directions before, and along its own.
+    along: Vec<f64>,
+    left: f64,
+}
+
+impl Basis {
+    /// Takes an independent row in, or returns how a dependent one is combined.
+    fn take(&mut self, row: usize, mut v: Vec<f64>, length: f64, tolerance: f64) -> Option<Vec<(usize, f64)>> {
+        v.iter_mut().for_each(|x| *x /= length);
+        let mut along = vec![0.0; self.members.len()];
+        let mut left = 1.0;
+        for _ in 0..3 {
+            let before = left;
+            self.subtract(&mut v, &mut along);
+            left = dot(&v, &v).sqrt();
+            if left > 0.5 * before {
+                break;
+            }
+        }
+        if left < tolerance {
+            return Some(self.combination(along, length));
+        }
+        let first = v.iter().position(|x| *x != 0.0).unwrap_or(0);
+        let end = v.iter().rposition(|x| *x != 0.0).map_or(0, |last| last + 1);
+        let direction = v[first.min(end)..end].iter().map(|x| x / left).collect();
+        self.members.push(Member { row, length, direction, first, along, left });
+        None
+    }
+
+    fn subtract(&self, v: &mut [f64], along: &mut [f64]) {
+        for (member, along) in self.members.iter().zip(along) {
+            let part = &mut v[member.first..][..member.direction.len()];
+            let h = dot(&member.direction, part);
+            if h != 0.0 {
+                add_scaled(-h, &member.direction, part);
+                *along += h;
+            }
+        }
+    }
+
+    /// Solves R c = along.
+    fn combination(&self, mut along: Vec<f64>, length: f64) -> Vec<(usize, f64)> {
+        let mut combination = Vec::new();
+        for (k, member) in self.members.iter().enumerate().rev() {
+            let c = along[k] / member.left;
+            if c != 0.0 {
+                add_scaled(-c, &member.along, &mut along[..k]);
+            }
+            if c.abs() > NEGLIGIBLE {
+                combination.push((member.row, c * length / member.length));
+            }
+        }
+        combination.reverse();
+        combination
+    }
+}

@@ -1,0 +1,59 @@
+//! A factor L D L^T without pivoting, by the better of two ways.
+
+use super::Pattern;
+use super::blocked::Blocked;
+use super::compiled::Compiled;
+use super::pivot::{Quality, Rule};
+use super::symbolic::Symbolic;
+
+/// Multiplications per nonzero of L from which dense blocks win over a list of destinations, and the length of that list
+/// from which its memory counts. Measured: see `Compiled`.
+const FILL_FOR_BLOCKS: usize = 40;
+const LONGEST_LIST: usize = 30_000_000;
+
+pub(super) enum Fast {
+    Compiled(Box<Compiled>),
+    Blocked(Box<Blocked>),
+}
+
+impl Fast {
+    pub fn new(mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
+        let symbolic = Symbolic::new(mass, g, late);
+        let operations = symbolic.operations();
+        if operations > FILL_FOR_BLOCKS * (symbolic.rows.len() + symbolic.size()) || operations > LONGEST_LIST {
+            Self::blocked(mass, g, late)
+        } else {
+            Fast::Compiled(Box::new(Compiled::new(symbolic)))
+        }
+    }
+
+    pub fn blocked(mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
+        match Blocked::new(Symbolic::new(mass, g, late), mass, g, late) {
+            Some(blocked) => Fast::Blocked(Box::new(blocked)),
+            None => Fast::Compiled(Box::new(Compiled::new(Symbolic::new(mass, g, late)))),
+        }
+    }
+
+    /// `skipped` receives the multipliers that are left out. The error is the node whose pivot collapsed.
+    pub fn factor(&mut self, mass: &[f64], g: &[f64], rule: Rule, skipped: &mut Vec<usize>) -> Result<Quality, usize> {
+        skipped.clear();
+        match self {
+            Fast::Compiled(f) => f.factor(mass, g, rule, skipped),
+            Fast::Blocked(f) => f.factor(mass, g, rule, skipped),
+        }
+    }
+
+    pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
+        match self {
+            Fast::Compiled(f) => f.solve(top, bottom),
+            Fast::Blocked(f) => f.solve(top, bottom),
+        }
+    }
+
+    pub fn smallest_ratio(&self) -> f64 {
+        match self {
+            Fast::Compiled(f) => f.smallest_ratio(),
+            Fast::Blocked(f) => f.smallest_ratio(),
+        }
+    }
+}

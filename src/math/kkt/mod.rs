@@ -1,0 +1,56 @@
+//! The saddle-point (KKT) system of constrained motion,
+//!
+//! ```text
+//! [M  G^T] [a     ]   [r1]        M symmetric n x n, positive definite on the null space of G,
+//! [G  0  ] [lambda] = [r2]        G m x n.
+//! ```
+//!
+//! [`SaddlePoint`] does the symbolic work once, then factors and solves any number of times:
+//!
+//! 1. L D L^T without pivoting in an order that makes this safe (`order`), over a list of destinations (`compiled`) or,
+//!    where L fills, over faer's dense blocks (`blocked`). Each pivot is compared with its size before elimination.
+//! 2. When a pivot collapses: the same with dependent rows left out (`skipping`), if it is clear which these are.
+//! 3. Else, and not too large: a dense rank-revealing factorization (`null_space`).
+//!
+//! Redundant rows get multipliers of least norm, right sides that contradict each other least squares.
+
+mod blocked;
+mod compiled;
+mod condition;
+mod dependence;
+mod fast;
+mod null_space;
+mod order;
+mod pattern;
+mod pivot;
+mod reflect;
+mod saddle;
+#[cfg(test)]
+mod samples;
+mod skipping;
+mod symbolic;
+mod system;
+#[cfg(test)]
+mod tests;
+
+pub use condition::condition_number;
+pub use dependence::{Dependence, DependentRow, dependent_rows};
+pub use pattern::Pattern;
+pub use saddle::SaddlePoint;
+
+/// Why a saddle-point system cannot be solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Singular {
+    /// A direction of motion has neither mass nor constraint; `coordinate` moves most along it.
+    #[error("the motion is not determined: coordinate {coordinate} has neither mass nor constraint along a direction")]
+    Undetermined { coordinate: usize },
+    /// The matrix or a solution is not finite.
+    #[error("the saddle-point system or its solution is not finite")]
+    NotFinite,
+    /// Values or right sides do not fit the patterns.
+    #[error("the values do not fit the saddle-point system's patterns")]
+    Shape,
+    /// The last factorization failed, or there was none.
+    #[error("the saddle-point system is not factored")]
+    NotFactored,
+}

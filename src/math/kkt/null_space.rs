@@ -1,0 +1,214 @@
+//! The rank-revealing solve, dense: coordinates split by a pivoted QR of G^T into range and null space.
+
+use super::reflect::{Reflected, Squared};
+use super::system::{System, add, add_scaled, dot, index_of_largest};
+use super::{Pattern, Singular};
+
+/// A reduced mass whose pivot is below this part of the largest does not determine the motion.
+const MASSLESS: f64 = 1e-11;
+
+/// With S = diag(M)^-1/2 (massless coordinates: the largest of the others) and rows of G S scaled by D^-1 to unit norm:
+///
+/// ```text
+/// (D^-1 G S)^T Pi = [Y Z] [R11 R12; 0 0],   a = S (Y y + Z z),   R11^T y = (D^-1 r2)_1,
+/// (Z^T S M S Z) z = Z^T S (r1 - M S Y y),   R11 (D lambda)_1 = Y^T S (r1 - M a).
+/// ```
+///
+/// The null space of G^T is N = D^-1 Pi [-R11^-1 R12; I], made orthonormal; I - N N^T projects r2 before (least
+/// squares) and lambda after (least norm), both in the units of the given rows.
+/// Costs 3 n m^2 + 4 n^2 (n - r) to factor, about 8 n m to solve.
+pub(super) struct NullSpace {
+    qr: Reflected,
+    reduced: Squared,
+    scale: Vec<f64>,
+    norms: Vec<f64>,
+    /// N by columns, m x (m - r). Grows when the rank falls below any before.
+    null: Vec<f64>,
+    inconsistency: f64,
+    /// Scratch of n, then of m numbers.
+    a: Vec<f64>,
+    w: Vec<f64>,
+    top: Vec<f64>,
+    lambda: Vec<f64>,
+    bottom: Vec<f64>,
+}
+
+impl NullSpace {
+    pub fn new(mass: &Pattern, g: &Pattern) -> Self {
+        let (n, m) = (mass.rows, g.rows);
+        NullSpace {
+            qr: Reflected::new(n, m),
+            reduced: Squared::new(n),
+            scale: vec![1.0; n],
+            norms: vec![1.0; m],
+            null: Vec::new(),
+            inconsistency: 0.0,
+            a: vec![0.0; n],
+            w: vec![0.0; n],
+            top: vec![0.0; n],
+            lambda: vec![0.0; m],
+            bottom: vec![0.0; m],
+        }
+    }
+
+    pub fn rank(&self) -> usize {
+        self.qr.rank
+    }
+
+    /// The norm of the part of the last right side that no motion can meet.
+    pub fn inconsistency(&self) -> f64 {
+        self.inconsistency
+    }
+
+    /// |R_rr| / |R_00|, squared so that it compares with ratios of pivots; 0 when rows are dependent.
+    pub fn smallest_ratio(&self) -> f64 {
+        let (r, m) = (self.qr.rank, self.norms.len());
+        if r < m {
+            return 0.0;
+        }
+        r.checked_sub(1).map_or(1.0, |last| (self.qr.r(last)[last] / self.qr.r(0)[0]).powi(2))
+    }
+
+    pub fn factor(&mut self, system: &System, tolerance: f64) -> Result<(), Singular> {
+        self.fill_scaled(system);
+        self.qr.factor(tolerance);
+        self.factor_reduced(system)?;
+        self.span_null();
+        Ok(())
+    }
+
+    fn fill_scaled(&mut self, system: &System) {
+        self.scale.fill(0.0);
+        system.mass.add_diagonal(&system.mass_values, &mut self.scale);
+        self.scale.iter_mut().for_each(|s| *s = if *s > 0.0 { s.sqrt().recip() } else { 0.0 });
+        let largest = self.scale.iter().fold(0.0, |a: f64, &b| a.max(b));
+        let massless = if largest > 0.0 { largest } else { 1.0 };
+        self.scale.iter_mut().filter(|s| **s == 0.0).for_each(|s| *s = massless);
+        let n = self.scale.len();
+        self.qr.values.fill(0.0);
+        for (&(j, i), value) in system.g.entries.iter().zip(&system.g_values) {
+            self.qr.values[j * n + i] += value * self.scale[i];
+        }
+        for (column, norm) in self.qr.values.chunks_exact_mut(n.max(1)).zip(&mut self.norms) {
+            let length = dot(column, column).sqrt();
+            *norm = if length > 0.0 { length } else { 1.0 };
+            column.iter_mut().for_each(|v| *v /= *norm);
+        }
+    }
+
+    /// Z^T S M S Z by columns: Q^T S M S Q e_k, of which the lower part counts.
+    fn factor_reduced(&mut self, system: &System) -> Result<(), Singular> {
+        let (n, r) = (self.scale.len(), self.qr.rank);
+        let size = n - r;
+        self.reduced.size = size;
+        for k in 0..size {
+            self.a.fill(0.0);
+            self.a[r + k] = 1.0;
+            self.qr.apply(&mut self.a);
+            scale_by(&self.scale, &mut self.a);
+            self.w.fill(0.0);
+            system.mass.multiply_symmetric(&system.mass_values, &self.a, &mut self.w);
+            scale_by(&self.scale, &mut self.w);
+            self.qr.apply_transposed(&mut self.w);
+            self.reduced.values[k * size..(k + 1) * size].copy_from_slice(&self.w[r..]);
+        }
+        if self.reduced.factor(MASSLESS, &mut self.a[r..]).is_err() {
+            self.a[..r].fill(0.0);
+            self.qr.apply(&mut self.a);
+            scale_by(&self.scale, &mut self.a);
+            return Err(Singular::Undetermined { coordinate: index_of_largest(&self.a) });
+        }
+        Ok(())
+    }
+
+    /// N, by Gram-Schmidt done twice.
+    fn span_null(&mut self) {
+        let (m, r) = (self.norms.len(), self.qr.rank);
+        self.null.resize(m * (m - r), 0.0);
+        for k in r..m {
+            self.bottom.fill(0.0);
+            let column = self.qr.r(k);
+            self.bottom[..column.len()].iter_mut().zip(column).for_each(|(b, c)| *b = -c);
+            self.qr.solve(&mut self.bottom);
+            self.bottom[k] = 1.0;
+            let (done, rest) = self.null.split_at_mut((k - r) * m);
+            let own = &mut rest[..m];
+            for (&b, &p) in self.bottom.iter().zip(&self.qr.permutation) {
+                own[p] = b / self.norms[p];
+            }
+            for _ in 0..2 {
+                let length = dot(own, own).sqrt();
+                own.iter_mut().for_each(|v| *v /= length);
+                for other in done.chunks_exact(m) {
+                    add_scaled(-dot(other, own), other, own);
+                }
+            }
+            let length = dot(own, own).sqrt();
+            own.iter_mut().for_each(|v| *v /= length);
+        }
+    }
+
+    /// v := (I - N N^T) v; returns the norm of what was taken away.
+    fn project(null: &[f64], v: &mut [f64]) -> f64 {
+        let mut square = 0.0;
+        for column in null.chunks_exact(v.len().max(1)) {
+            let part = dot(column, v);
+            add_scaled(-part, column, v);
+            square += part * part;
+        }
+        square.sqrt()
+    }
+
+    /// Solves in place, with one refinement.
+    pub fn solve(&mut self, system: &System, top: &mut [f64], bottom: &mut [f64]) {
+        self.inconsistency = Self::project(&self.null, bottom);
+        let (mut t, mut b) = (std::mem::take(&mut self.top), std::mem::take(&mut self.bottom));
+        t.copy_from_slice(top);
+        b.copy_from_slice(bottom);
+        self.solve_once(system, &mut t, &mut b);
+        system.residual(&t, &b, top, bottom);
+        self.solve_once(system, top, bottom);
+        add(&t, top);
+        add(&b, bottom);
+        Self::project(&self.null, bottom);
+        (self.top, self.bottom) = (t, b);
+    }
+
+    fn solve_once(&mut self, system: &System, top: &mut [f64], bottom: &mut [f64]) {
+        let r = self.qr.rank;
+        for (x, &p) in self.lambda.iter_mut().zip(&self.qr.permutation) {
+            *x = bottom[p] / self.norms[p];
+        }
+        self.qr.solve_transposed(&mut self.lambda);
+        // a = S Y y, then w = Q^T S (r1 - M a) gives z.
+        self.a.fill(0.0);
+        self.a[..r].copy_from_slice(&self.lambda[..r]);
+        self.rotated_residual(system, top);
+        self.reduced.solve(&mut self.w[r..]);
+        self.a[..r].copy_from_slice(&self.lambda[..r]);
+        self.a[r..].copy_from_slice(&self.w[r..]);
+        self.rotated_residual(system, top);
+        self.qr.solve(&mut self.w);
+        bottom.fill(0.0);
+        for (&w, &p) in self.w[..r].iter().zip(&self.qr.permutation) {
+            bottom[p] = w / self.norms[p];
+        }
+        top.copy_from_slice(&self.a);
+    }
+
+    /// a := S Q a, w := Q^T S (top - M a).
+    fn rotated_residual(&mut self, system: &System, top: &[f64]) {
+        self.qr.apply(&mut self.a);
+        scale_by(&self.scale, &mut self.a);
+        self.w.copy_from_slice(top);
+        system.mass.subtract_symmetric(&system.mass_values, &self.a, &mut self.w);
+        scale_by(&self.scale, &mut self.w);
+        self.qr.apply_transposed(&mut self.w);
+    }
+}
+
+fn scale_by(scale: &[f64], x: &mut [f64]) {
+    for (x, s) in x.iter_mut().zip(scale) {
+        *x *= s;
+    }
+}

@@ -1,0 +1,150 @@
+//! The elimination order of the saddle-point matrix.
+//!
+//! The *early* coordinates come first, so that they are eliminated with pivots of the mass matrix alone; what is left
+//! is -G M^-1 G^T on the multipliers, semidefinite, which needs no pivoting either: a pivot vanishes there if and only if
+//! its row of G depends on the rows before it. *Late* coordinates come each behind all its multipliers: those without
+//! mass, which have no pivot before, and hubs, whose early elimination would couple all their multipliers.
+
+use super::Pattern;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::linalg::amd;
+use faer::sparse::{Pair, SymbolicSparseColMat};
+
+/// Node i < n is coordinate i, node n + j is multiplier j.
+pub(super) struct Order {
+    /// The nodes in the order of elimination.
+    pub nodes: Vec<usize>,
+    /// How many of them are early coordinates.
+    pub early: usize,
+}
+
+/// The order for M (n x n) and G (m x n), where `late[i]` says which coordinates wait for their multipliers.
+/// Fill-reducing (approximate minimum degree) among the early coordinates, and then in what is left of the graph.
+pub(super) fn order(mass: &Pattern, g: &Pattern, late: &[bool]) -> Order {
+    let (n, m) = (mass.rows, g.rows);
+    let mut nodes: Vec<usize> = (0..n).filter(|&i| !late[i]).collect();
+    let early = nodes.len();
+    nodes = ordered(&nodes, n + m, mass.entries.iter().copied());
+    let mut rest: Vec<usize> = (0..n).filter(|&i| late[i]).chain(n..n + m).collect();
+    let all: Vec<usize> = nodes.iter().chain(&rest).copied().collect();
+    let columns = columns(&lower_adjacency(mass, g, &all), early);
+    let cliques = columns.iter().filter(|c| c.first().is_some_and(|&parent| parent as usize >= early));
+    let mut edges: Vec<(usize, usize)> = cliques
+        .flat_map(|c| c.iter().enumerate().flat_map(|(k, &a)| c[..k].iter().map(move |&b| (b as usize, a as usize))))
+        .map(|(a, b)| (all[a], all[b]))
+        .collect();
+    edges.extend(edges_of(mass, g));
+    rest = ordered(&rest, n + m, edges.into_iter());
+    nodes.extend(delayed(&rest, n, g, late));
+    Order { nodes, early }
+}
+
+/// The entries of the saddle-point matrix as pairs of nodes.
+fn edges_of(mass: &Pattern, g: &Pattern) -> impl Iterator<Item = (usize, usize)> {
+    let n = mass.rows;
+    mass.entries.iter().copied().chain(g.entries.iter().map(move |&(j, i)| (n + j, i)))
+}
+
+/// `nodes` in approximate-minimum-degree order of their subgraph; `total` bounds the node numbers.
+fn ordered(nodes: &[usize], total: usize, edges: impl Iterator<Item = (usize, usize)>) -> Vec<usize> {
+    let mut local = vec![usize::MAX; total];
+    for (k, &node) in nodes.iter().enumerate() {
+        local[node] = k;
+    }
+    let mut upper: Vec<(usize, usize)> = edges
+        .map(|(a, b)| (local[a], local[b]))
+        .filter(|&(a, b)| a != usize::MAX && b != usize::MAX && a != b)
+        .map(|(a, b)| (a.max(b), a.min(b)))
+        .collect();
+    if upper.is_empty() {
+        return nodes.to_vec();
+    }
+    upper.sort_unstable();
+    upper.dedup();
+    let upper: Vec<_> = upper.into_iter().map(|(col, row)| Pair { row, col }).collect();
+    // Without memory for a good order any order is still right.
+    minimum_degree(nodes.len(), &upper).map_or(nodes.to_vec(), |order| order.iter().map(|&k| nodes[k]).collect())
+}
+
+fn minimum_degree(size: usize, upper: &[Pair<usize, usize>]) -> Option<Vec<usize>> {
+    let (graph, _) = SymbolicSparseColMat::<usize>::try_new_from_indices(size, size, upper).ok()?;
+    let (mut order, mut inverse) = (vec![0; size], vec![0; size]);
+    let mut memory = MemBuffer::try_new(amd::order_scratch::<usize>(size, upper.len())).ok()?;
+    let stack = MemStack::new(&mut memory);
+    amd::order(&mut order, &mut inverse, graph.as_ref(), amd::Control::default(), stack).ok()?;
+    Some(order)
+}
+
+/// `rest` with every late coordinate moved behind the last of its multipliers.
+fn delayed(rest: &[usize], n: usize, g: &Pattern, late: &[bool]) -> Vec<usize> {
+    let mut waiting = vec![0_usize; n];
+    let mut coordinates = vec![Vec::new(); g.rows];
+    for &(j, i) in g.entries.iter().filter(|&&(_, i)| late[i]) {
+        waiting[i] += 1;
+        coordinates[j].push(i);
+    }
+    let mut reached = vec![false; n];
+    let mut nodes = Vec::with_capacity(rest.len());
+    for &node in rest {
+        if node < n {
+            reached[node] = true;
+            if waiting[node] == 0 {
+                nodes.push(node);
+            }
+            continue;
+        }
+        nodes.push(node);
+        for &i in &coordinates[node - n] {
+            waiting[i] -= 1;
+            if waiting[i] == 0 && reached[i] {
+                nodes.push(i);
+            }
+        }
+    }
+    nodes
+}
+
+/// For each position in the order `nodes`, the later positions that the matrix couples it to, sorted.
+pub(super) fn lower_adjacency(mass: &Pattern, g: &Pattern, nodes: &[usize]) -> Vec<Vec<u32>> {
+    let mut position = vec![0; nodes.len()];
+    for (k, &node) in nodes.iter().enumerate() {
+        position[node] = k;
+    }
+    let mut adjacency = vec![Vec::new(); nodes.len()];
+    for (a, b) in edges_of(mass, g).map(|(a, b)| (position[a], position[b])).filter(|(a, b)| a != b) {
+        adjacency[a.min(b)].push(a.max(b) as u32);
+    }
+    for column in &mut adjacency {
+        column.sort_unstable();
+        column.dedup();
+    }
+    adjacency
+}
+
+/// The patterns below the diagonal of the first `count` columns of L, sorted: column j holds its own entries and what
+/// its children in the elimination tree hold beyond j.
+pub(super) fn columns(adjacency: &[Vec<u32>], count: usize) -> Vec<Vec<u32>> {
+    let mut children = vec![Vec::new(); adjacency.len()];
+    let mut seen = vec![usize::MAX; adjacency.len()];
+    let mut columns: Vec<Vec<u32>> = Vec::with_capacity(count);
+    for (j, own) in adjacency.iter().enumerate().take(count) {
+        let mut column = own.clone();
+        seen[j] = j;
+        column.iter().for_each(|&i| seen[i as usize] = j);
+        for &child in &children[j] {
+            let fill: &Vec<u32> = &columns[child];
+            for &i in fill {
+                if seen[i as usize] != j {
+                    seen[i as usize] = j;
+                    column.push(i);
+                }
+            }
+        }
+        column.sort_unstable();
+        if let Some(&parent) = column.first() {
+            children[parent as usize].push(j);
+        }
+        columns.push(column);
+    }
+    columns
+}

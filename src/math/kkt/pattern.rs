@@ -1,0 +1,88 @@
+//! Where the entries of a matrix stand, and products with their values.
+
+/// The places of the entries of a `rows` x `cols` matrix. Its values come as a slice in the order of `entries`; two
+/// entries that name the same place add. Every entry lies inside the matrix.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Pattern {
+    pub rows: usize,
+    pub cols: usize,
+    pub entries: Vec<(usize, usize)>,
+}
+
+impl Pattern {
+    /// All places, row after row.
+    pub fn dense(rows: usize, cols: usize) -> Self {
+        Pattern { rows, cols, entries: (0..rows).flat_map(|i| (0..cols).map(move |j| (i, j))).collect() }
+    }
+
+    /// The full lower triangle of an n x n matrix, row after row: (0,0), (1,0), (1,1), (2,0) ...
+    pub fn lower(n: usize) -> Self {
+        Pattern { rows: n, cols: n, entries: (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect() }
+    }
+
+    /// The diagonal of an n x n matrix.
+    pub fn diagonal(n: usize) -> Self {
+        Pattern { rows: n, cols: n, entries: (0..n).map(|i| (i, i)).collect() }
+    }
+
+    /// y += A x. `x` has `cols` entries, `y` has `rows`.
+    pub fn multiply(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
+        for (&(i, j), value) in self.entries.iter().zip(values) {
+            y[i] += value * x[j];
+        }
+    }
+
+    /// y += A^T x. `x` has `rows` entries, `y` has `cols`.
+    pub fn multiply_transposed(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
+        for (&(i, j), value) in self.entries.iter().zip(values) {
+            y[j] += value * x[i];
+        }
+    }
+
+    /// y += A x for a symmetric A of which the entries give one triangle.
+    pub fn multiply_symmetric(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
+        for (&(i, j), value) in self.entries.iter().zip(values) {
+            y[i] += value * x[j];
+            if i != j {
+                y[j] += value * x[i];
+            }
+        }
+    }
+
+    /// y -= A x.
+    pub(super) fn subtract(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
+        for (&(i, j), value) in self.entries.iter().zip(values) {
+            y[i] -= value * x[j];
+        }
+    }
+
+    /// y -= A^T x.
+    pub(super) fn subtract_transposed(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
+        for (&(i, j), value) in self.entries.iter().zip(values) {
+            y[j] -= value * x[i];
+        }
+    }
+
+    /// y -= A x for a symmetric A of which the entries give one triangle.
+    pub(super) fn subtract_symmetric(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
+        for (&(i, j), value) in self.entries.iter().zip(values) {
+            y[i] -= value * x[j];
+            if i != j {
+                y[j] -= value * x[i];
+            }
+        }
+    }
+
+    /// Adds the diagonal of the matrix to `diagonal`.
+    pub(super) fn add_diagonal(&self, values: &[f64], diagonal: &mut [f64]) {
+        for (&(i, j), value) in self.entries.iter().zip(values) {
+            if i == j {
+                diagonal[i] += value;
+            }
+        }
+    }
+
+    pub(super) fn is_inside(&self) -> bool {
+        self.entries.iter().all(|&(i, j)| i < self.rows && j < self.cols)
+    }
+}

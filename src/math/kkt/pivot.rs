@@ -1,0 +1,70 @@
+//! Which pivots are good enough, and what becomes of those that are not.
+
+/// Ratios of a pivot to its size before elimination. For a multiplier the ratio is the squared sine of the angle between
+/// its row of G and the rows before it, in the metric of M^-1; round-off of exactly dependent rows leaves 1e-16 to 1e-14.
+#[derive(Clone, Copy)]
+pub(super) struct Rule {
+    /// At or below: collapsed.
+    pub collapsed: f64,
+    /// At or below: kept, but solutions need a refinement.
+    pub weak: f64,
+    /// What a collapsed coordinate pivot becomes, at least; without it a collapse stops the factorization.
+    pub floor: Option<f64>,
+}
+
+/// Below this a collapsed multiplier pivot is round-off, so that its row is surely dependent.
+const ROUND_OFF: f64 = 1e-13;
+/// A collapsed coordinate pivot becomes this part of its size.
+const REPLACED: f64 = 1e-7;
+
+impl Rule {
+    /// Stops at a collapse: the fast path.
+    pub const STRICT: Rule = Rule { collapsed: 1e-11, weak: 1e-7, floor: None };
+
+    /// Goes on at a collapse: a multiplier is left out, a coordinate gets a small mass.
+    pub fn lenient(mass_diagonal: &[f64]) -> Rule {
+        let largest = mass_diagonal.iter().fold(0.0, |largest: f64, v| largest.max(v.abs()));
+        let floor = REPLACED * if largest > 0.0 { largest } else { 1.0 };
+        Rule { collapsed: 1e-12, weak: 1e-8, floor: Some(floor) }
+    }
+}
+
+#[derive(Clone, Copy)]
+pub(super) struct Quality {
+    /// Solutions need a refinement.
+    pub weak: bool,
+    /// A multiplier was left out, or kept, whose row is neither surely dependent nor surely independent.
+    pub doubtful: bool,
+    /// A coordinate pivot was replaced.
+    pub replaced: bool,
+}
+
+impl Quality {
+    pub const GOOD: Quality = Quality { weak: false, doubtful: false, replaced: false };
+
+    /// Judges a pivot (its sign turned so that it should be positive) at node `node` and returns its inverse; that of a
+    /// multiplier that is left out is zero. The error is the node.
+    pub fn judge(
+        &mut self,
+        (node, n): (usize, usize),
+        (pivot, size): (f64, f64),
+        rule: Rule,
+        skipped: &mut Vec<usize>,
+    ) -> Result<f64, usize> {
+        let sign = if node < n { 1.0 } else { -1.0 };
+        // Written so that a NaN collapses.
+        if pivot > rule.collapsed * size && pivot < f64::INFINITY {
+            self.weak = true;
+            self.doubtful = true;
+            return Ok(sign / pivot);
+        }
+        let Some(floor) = rule.floor else { return Err(node) };
+        if node < n {
+            self.replaced = true;
+            return Ok(1.0 / (REPLACED * size).max(floor));
+        }
+        self.doubtful |= pivot.abs() > ROUND_OFF * size;
+        skipped.push(node - n);
+        Ok(0.0)
+    }
+}

@@ -1,0 +1,228 @@
+//! Column-pivoted Householder QR and diagonally pivoted Cholesky on flat column-major slices, without allocation.
+
+use super::system::{add_scaled, dot};
+
+/// A Pi = Q R of a tall or wide `rows` x `cols` matrix, in place: R above, the reflectors (leading 1 not stored) below.
+pub(super) struct Reflected {
+    pub rows: usize,
+    pub values: Vec<f64>,
+    pub permutation: Vec<usize>,
+    pub rank: usize,
+    factors: Vec<f64>,
+    squares: Vec<f64>,
+}
+
+impl Reflected {
+    pub fn new(rows: usize, cols: usize) -> Self {
+        Reflected {
+            rows,
+            values: vec![0.0; rows * cols],
+            permutation: (0..cols).collect(),
+            rank: 0,
+            factors: vec![0.0; rows.min(cols)],
+            squares: vec![0.0; cols],
+        }
+    }
+
+    /// Factors `values` up to the first |R_kk| <= tolerance |R_00|. Column norms are recomputed, not downdated, so that
+    /// small ones mean something. 3 rows cols^2 operations.
+    pub fn factor(&mut self, tolerance: f64) {
+        let (rows, cols) = (self.rows, self.permutation.len());
+        self.permutation.iter_mut().enumerate().for_each(|(j, p)| *p = j);
+        self.rank = 0;
+        if rows == 0 {
+            return;
+        }
+        for (square, column) in self.squares.iter_mut().zip(self.values.chunks_exact(rows)) {
+            *square = dot(column, column);
+        }
+        let mut limit = 0.0;
+        for k in 0..rows.min(cols) {
+            let best = (k..cols).fold(k, |best, j| if self.squares[j] > self.squares[best] { j } else { best });
+            let norm = self.squares[best].sqrt();
+            if k == 0 {
+                limit = tolerance * norm;
+            }
+            if !(norm > limit && norm.is_finite()) {
+                return;
+            }
+            self.swap(k, best);
+            self.step(k, norm);
+            self.rank = k + 1;
+        }
+    }
+
+    fn swap(&mut self, k: usize, best: usize) {
+        if k != best {
+            self.permutation.swap(k, best);
+            self.squares.swap(k, best);
+            let (head, tail) = self.values.split_at_mut(best * self.rows);
+            head[k * self.rows..(k + 1) * self.rows].swap_with_slice(&mut tail[..self.rows]);
+        }
+    }
+
+    /// Column k becomes (.., beta, reflector); the columns behind it are reflected.
+    fn step(&mut self, k: usize, norm: f64) {
+        let rows = self.rows;
+        let (head, tail) = self.values.split_at_mut((k + 1) * rows);
+        let column = &mut head[k * rows + k..];
+        let alpha = column[0];
+        let beta = if alpha > 0.0 { -norm } else { norm };
+        self.factors[k] = (beta - alpha) / beta;
+        column[0] = beta;
+        column[1..].iter_mut().for_each(|v| *v /= alpha - beta);
+        for (other, square) in tail.chunks_exact_mut(rows).zip(&mut self.squares[k + 1..]) {
+            reflect(self.factors[k], &column[1..], &mut other[k..]);
+            *square = dot(&other[k + 1..], &other[k + 1..]);
+        }
+    }
+
+    /// x := Q x.
+    pub fn apply(&self, x: &mut [f64]) {
+        for k in (0..self.rank).rev() {
+            reflect(self.factors[k], self.reflector(k), &mut x[k..]);
+        }
+    }
+
+    /// x := Q^T x.
+    pub fn apply_transposed(&self, x: &mut [f64]) {
+        for k in 0..self.rank {
+            reflect(self.factors[k], self.reflector(k), &mut x[k..]);
+        }
+    }
+
+    fn reflector(&self, k: usize) -> &[f64] {
+        &self.values[k * self.rows + k + 1..(k + 1) * self.rows]
+    }
+
+    /// Column j of R, down to its diagonal or the rank.
+    pub fn r(&self, j: usize) -> &[f64] {
+        &self.values[j * self.rows..][..self.rank.min(j + 1)]
+    }
+
+    /// x[..rank] := R11^-1 x[..rank].
+    pub fn solve(&self, x: &mut [f64]) {
+        for k in (0..self.rank).rev() {
+            let column = self.r(k);
+            x[k] /= column[k];
+            let value = x[k];
+            add_scaled(-value, &column[..k], &mut x[..k]);
+        }
+    }
+
+    /// x[..rank] := R11^-T x[..rank].
+    pub fn solve_transposed(&self, x: &mut [f64]) {
+        for k in 0..self.rank {
+            let column = self.r(k);
+            x[k] = (x[k] - dot(&column[..k], &x[..k])) / column[k];
+        }
+    }
+}
+
+/// x := (I - factor v v^T) x with v = (1, below).
+fn reflect(factor: f64, below: &[f64], x: &mut [f64]) {
+    let Some((first, rest)) = x.split_first_mut() else { return };
+    let w = factor * (*first + dot(below, rest));
+    *first -= w;
+    add_scaled(-w, below, rest);
+}
+
+/// P^T H P = L L^T of a symmetric positive semidefinite H (lower triangle given), in place.
+pub(super) struct Squared {
+    pub size: usize,
+    pub values: Vec<f64>,
+    permutation: Vec<usize>,
+    x: Vec<f64>,
+}
+
+impl Squared {
+    pub fn new(largest: usize) -> Self {
+        Squared { size: 0, values: vec![0.0; largest * largest], permutation: vec![0; largest], x: vec![0.0; largest] }
+    }
+
+    /// Factors the leading size x size part. At a pivot <= tolerance times the largest diagonal entry it stops and leaves
+    /// a null vector of H in `null`.
+    pub fn factor(&mut self, tolerance: f64, null: &mut [f64]) -> Result<(), ()> {
+        let size = self.size;
+        self.permutation.iter_mut().enumerate().for_each(|(j, p)| *p = j);
+        let mut limit = 0.0;
+        for k in 0..size {
+            let diagonal = |j: usize| self.values[j * size + j];
+            let best = (k..size).fold(k, |best, j| if diagonal(j) > diagonal(best) { j } else { best });
+            let pivot = diagonal(best);
+            if k == 0 {
+                limit = tolerance * pivot;
+            }
+            self.swap(k, best);
+            if !(pivot > limit && pivot.is_finite()) {
+                self.null_vector(k, null);
+                return Err(());
+            }
+            self.step(k, pivot.sqrt());
+        }
+        Ok(())
+    }
+
+    /// Exchanges rows and columns k and best of the lower triangle.
+    fn swap(&mut self, k: usize, best: usize) {
+        let size = self.size;
+        if k == best {
+            return;
+        }
+        self.permutation.swap(k, best);
+        let place = |i: usize, j: usize| i.min(j) * size + i.max(j);
+        for i in (0..size).filter(|&i| i != k && i != best) {
+            self.values.swap(place(i, k), place(i, best));
+        }
+        self.values.swap(k * size + k, best * size + best);
+    }
+
+    fn step(&mut self, k: usize, root: f64) {
+        let size = self.size;
+        let (head, tail) = self.values.split_at_mut((k + 1) * size);
+        let column = &mut head[k * size + k..];
+        column[0] = root;
+        column[1..].iter_mut().for_each(|v| *v /= root);
+        for (j, other) in tail.chunks_exact_mut(size).take(size - k - 1).enumerate() {
+            add_scaled(-column[1 + j], &column[1 + j..], &mut other[k + 1 + j..size]);
+        }
+    }
+
+    /// With k columns done and the rest zero: (-L11^-T L21^T e, e).
+    fn null_vector(&mut self, k: usize, null: &mut [f64]) {
+        let size = self.size;
+        self.x.fill(0.0);
+        for j in 0..k {
+            self.x[j] = -self.values[j * size + k];
+        }
+        for j in (0..k).rev() {
+            let column = &self.values[j * size..(j + 1) * size];
+            self.x[j] = (self.x[j] - dot(&column[j + 1..k], &self.x[j + 1..k])) / column[j];
+        }
+        self.x[k] = 1.0;
+        for (x, &p) in self.x.iter().zip(&self.permutation[..size]) {
+            null[p] = *x;
+        }
+    }
+
+    /// b := H^-1 b.
+    pub fn solve(&mut self, b: &mut [f64]) {
+        let (size, x) = (self.size, &mut self.x);
+        for (x, &p) in x.iter_mut().zip(&self.permutation[..size]) {
+            *x = b[p];
+        }
+        for j in 0..size {
+            let column = &self.values[j * size..(j + 1) * size];
+            x[j] /= column[j];
+            let value = x[j];
+            add_scaled(-value, &column[j + 1..], &mut x[j + 1..size]);
+        }
+        for j in (0..size).rev() {
+            let column = &self.values[j * size..(j + 1) * size];
+            x[j] = (x[j] - dot(&column[j + 1..], &x[j + 1..size])) / column[j];
+        }
+        for (x, &p) in x.iter().zip(&self.permutation[..size]) {
+            b[p] = *x;
+        }
+    }
+}

@@ -1,0 +1,292 @@
+//! Factor and solve: which way is taken, and when another one.
+
+use super::fast::Fast;
+use super::null_space::NullSpace;
+use super::pivot::Rule;
+use super::skipping::Skipping;
+use super::system::{System, add};
+use super::{Pattern, Singular};
+
+/// Up to this n + m the rank-revealing factorization is dense: 0.1 s there.
+const DENSE: usize = 600;
+/// After this many failures in a row at the same pivot the fast way is only tried at every 64th call.
+const PATIENCE: u32 = 3;
+const RETRY: u32 = 64;
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Way {
+    None,
+    Fast { refine: bool },
+    Skipping,
+    Dense,
+}
+
+/// [M G^T; G 0] with frozen patterns. Nothing allocates after the first use of each way.
+pub struct SaddlePoint {
+    /// Rows of G count as dependent when their pivot in the QR of G^T (unit rows, mass metric) falls below this part of
+    /// the largest.
+    pub rank_tolerance: f64,
+    n: usize,
+    m: usize,
+    is_shaped: bool,
+    system: System,
+    fast: Fast,
+    /// Coordinates eliminated behind their multipliers: without mass, or with very many multipliers.
+    late: Vec<bool>,
+    has_hubs: bool,
+    skipping: Option<Box<Skipping>>,
+    dense: Option<Box<NullSpace>>,
+    way: Way,
+    /// The node whose pivot collapsed last, how often in a row, and the calls since the fast way was given up.
+    failed: usize,
+    failures: u32,
+    waited: u32,
+    skipped: Vec<usize>,
+    top: Vec<f64>,
+    bottom: Vec<f64>,
+    multipliers: Vec<f64>,
+}
+
+impl SaddlePoint {
+    /// The symbolic work: M by its lower triangle (or any one of the two places of an entry), G by its entries.
+    /// Coordinates without an entry on the diagonal of M are taken as massless.
+    pub fn new(mass: &Pattern, g: &Pattern) -> Self {
+        let is_shaped = mass.rows == mass.cols && mass.rows == g.cols && mass.is_inside() && g.is_inside();
+        let empty = Pattern::default();
+        let (mass, g) = if is_shaped { (mass, g) } else { (&empty, &empty) };
+        let (n, m) = (mass.rows, g.rows);
+        let mut late = vec![true; n];
+        mass.entries.iter().filter(|(i, j)| i == j).for_each(|&(i, _)| late[i] = false);
+        let has_hubs = mark_hubs(g, &mut late);
+        SaddlePoint {
+            rank_tolerance: 1e-10,
+            n,
+            m,
+            is_shaped,
+            system: System::new(mass, g),
+            fast: Fast::new(mass, g, &late),
+            late,
+            has_hubs,
+            skipping: None,
+            dense: None,
+            way: Way::None,
+            failed: usize::MAX,
+            failures: 0,
+            waited: 0,
+            skipped: Vec::with_capacity(m),
+            top: vec![0.0; n],
+            bottom: vec![0.0; m],
+            multipliers: vec![0.0; m],
+        }
+    }
+
+    /// Factors the matrix with these values. A pivot collapses on the fast way when elimination leaves it less than 1e-11
+    /// of its size; below 1e-7 solutions are refined once.
+    pub fn factor(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
+        self.way = Way::None;
+        let System { mass: m, g: j, .. } = &self.system;
+        if !self.is_shaped || mass.len() != m.entries.len() || g.len() != j.entries.len() {
+            return Err(Singular::Shape);
+        }
+        if self.tries_fast() && self.factor_fast(mass, g) {
+            return Ok(());
+        }
+        if !mass.iter().chain(g).all(|v| v.is_finite()) {
+            return Err(Singular::NotFinite);
+        }
+        self.system.store(mass, g);
+        self.way = self.factor_rank_revealing()?;
+        Ok(())
+    }
+
+    fn tries_fast(&mut self) -> bool {
+        if self.failures < PATIENCE {
+            return true;
+        }
+        self.waited = (self.waited + 1) % RETRY;
+        self.waited == 0
+    }
+
+    fn factor_fast(&mut self, mass: &[f64], g: &[f64]) -> bool {
+        loop {
+            match self.fast.factor(mass, g, Rule::STRICT, &mut self.skipped) {
+                Ok(quality) => {
+                    if quality.weak {
+                        self.system.store(mass, g);
+                    }
+                    self.failures = 0;
+                    self.way = Way::Fast { refine: quality.weak };
+                    return true;
+                }
+                Err(node) if self.reorders(node, mass) => {}
+                Err(node) => {
+                    self.failures = if node == self.failed { self.failures.saturating_add(1) } else { 1 };
+                    self.failed = node;
+                    return false;
+                }
+            }
+        }
+    }
+
+    /// Whether another order may help, which is then taken: coordinates found without mass go behind their multipliers;
+    /// hubs go ahead of theirs if a multiplier's pivot collapsed. Each happens at most once for each coordinate.
+    fn reorders(&mut self, node: usize, mass: &[f64]) -> bool {
+        if node < self.n && !self.late[node] {
+            self.top.fill(0.0);
+            self.system.mass.add_diagonal(mass, &mut self.top);
+            if self.top[node] != 0.0 {
+                return false;
+            }
+            self.late.iter_mut().zip(&self.top).filter(|(_, d)| **d == 0.0).for_each(|(late, _)| *late = true);
+        } else if node >= self.n && self.has_hubs {
+            self.has_hubs = false;
+            self.top.fill(0.0);
+            self.system.mass.add_diagonal(mass, &mut self.top);
+            self.late.iter_mut().zip(&self.top).for_each(|(late, d)| *late &= *d == 0.0);
+        } else {
+            return false;
+        }
+        self.fast = Fast::new(&self.system.mass, &self.system.g, &self.late);
+        true
+    }
+
+    fn factor_rank_revealing(&mut self) -> Result<Way, Singular> {
+        let System { mass, g, .. } = &self.system;
+        let is_large = self.n + self.m > DENSE;
+        let skipping = self.skipping.get_or_insert_with(|| Box::new(Skipping::new(mass, g)));
+        let quality = skipping.factor(&self.system)?;
+        // Of a large system near a singular configuration it is not asked which rows are dependent, only whether leaving
+        // some out, or giving coordinates a little mass, still gives a solution.
+        if is_large && (quality.replaced || quality.doubtful) {
+            skipping.probe(&self.system)?;
+        }
+        let is_clear =
+            !quality.replaced && !quality.doubtful && skipping.sine(&self.system) < 0.1 * self.rank_tolerance;
+        if is_large || is_clear {
+            return Ok(Way::Skipping);
+        }
+        let dense = self.dense.get_or_insert_with(|| Box::new(NullSpace::new(mass, g)));
+        dense.factor(&self.system, self.rank_tolerance)?;
+        Ok(Way::Dense)
+    }
+
+    /// (r1, r2) -> (a, lambda), in place.
+    pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) -> Result<(), Singular> {
+        if top.len() != self.n || bottom.len() != self.m {
+            return Err(Singular::Shape);
+        }
+        match (self.way, &mut self.skipping, &mut self.dense) {
+            (Way::Fast { refine: false }, ..) => self.fast.solve(top, bottom),
+            (Way::Fast { refine: true }, ..) => {
+                refine(&mut self.fast, (top, bottom), (&mut self.top, &mut self.bottom), |a, lambda, top, bottom| {
+                    self.system.residual(a, lambda, top, bottom)
+                })
+            }
+            (Way::Skipping, Some(skipping), _) => skipping.solve(&self.system, top, bottom),
+            (Way::Dense, _, Some(dense)) => dense.solve(&self.system, top, bottom),
+            _ => return Err(Singular::NotFactored),
+        }
+        finite(top, bottom)
+    }
+
+    /// Like [`Self::solve`] with one step of iterative refinement against these values.
+    pub fn solve_refined(
+        &mut self,
+        mass: &[f64],
+        g: &[f64],
+        top: &mut [f64],
+        bottom: &mut [f64],
+    ) -> Result<(), Singular> {
+        let Way::Fast { .. } = self.way else { return self.solve(top, bottom) };
+        let fits = mass.len() == self.system.mass.entries.len() && g.len() == self.system.g.entries.len();
+        if !fits || top.len() != self.n || bottom.len() != self.m {
+            return Err(Singular::Shape);
+        }
+        let System { mass: m, g: j, .. } = &self.system;
+        refine(&mut self.fast, (top, bottom), (&mut self.top, &mut self.bottom), |a, lambda, top, bottom| {
+            m.subtract_symmetric(mass, a, top);
+            j.subtract_transposed(g, lambda, top);
+            j.subtract(g, a, bottom);
+        });
+        finite(top, bottom)
+    }
+
+    /// The smallest correction in the mass metric that meets G d = b: [M G^T; G 0] [d; .] = [0; b].
+    pub fn solve_projection(&mut self, bottom: &[f64], correction: &mut [f64]) -> Result<(), Singular> {
+        if bottom.len() != self.m || correction.len() != self.n {
+            return Err(Singular::Shape);
+        }
+        let mut lambda = std::mem::take(&mut self.multipliers);
+        lambda.copy_from_slice(bottom);
+        correction.fill(0.0);
+        let result = self.solve(correction, &mut lambda);
+        self.multipliers = lambda;
+        result
+    }
+
+    /// The rank of G: m on the fast way, 0 without a factorization.
+    pub fn rank(&self) -> usize {
+        match (self.way, &self.skipping, &self.dense) {
+            (Way::Fast { .. }, ..) => self.m,
+            (Way::Skipping, Some(skipping), _) => skipping.rank(),
+            (Way::Dense, _, Some(dense)) => dense.rank(),
+            _ => 0,
+        }
+    }
+
+    pub fn is_rank_deficient(&self) -> bool {
+        self.rank() < self.m
+    }
+
+    /// The norm of the part of the last right side r2 that no a can meet; zero unless rows are dependent.
+    pub fn inconsistency(&self) -> f64 {
+        match (self.way, &self.skipping, &self.dense) {
+            (Way::Skipping, Some(skipping), _) => skipping.inconsistency(),
+            (Way::Dense, _, Some(dense)) => dense.inconsistency(),
+            _ => 0.0,
+        }
+    }
+
+    /// How near the matrix is to a singular one: the smallest pivot over its size before elimination, in [0, 1]; about
+    /// the square of the smallest sine between a row of G and the others (metric M^-1). Zero when rows are dependent.
+    pub fn smallest_pivot_ratio(&self) -> f64 {
+        match (self.way, &self.dense) {
+            (Way::Fast { .. }, _) => self.fast.smallest_ratio(),
+            (Way::Dense, Some(dense)) => dense.smallest_ratio(),
+            _ => 0.0,
+        }
+    }
+}
+
+/// Solves, and once more for the residual. `matrix(a, lambda, top, bottom)` subtracts the product from (top, bottom).
+fn refine(
+    fast: &mut Fast,
+    (top, bottom): (&mut [f64], &mut [f64]),
+    (a, lambda): (&mut [f64], &mut [f64]),
+    matrix: impl Fn(&[f64], &[f64], &mut [f64], &mut [f64]),
+) {
+    a.copy_from_slice(top);
+    lambda.copy_from_slice(bottom);
+    fast.solve(a, lambda);
+    matrix(a, lambda, top, bottom);
+    fast.solve(top, bottom);
+    add(a, top);
+    add(lambda, bottom);
+}
+
+fn finite(top: &[f64], bottom: &[f64]) -> Result<(), Singular> {
+    if top.iter().chain(bottom).all(|v| v.is_finite()) { Ok(()) } else { Err(Singular::NotFinite) }
+}
+
+/// Marks coordinates that very many multipliers touch; returns whether there are any. Eliminated early, one with k
+/// multipliers would leave a dense k x k block.
+fn mark_hubs(g: &Pattern, late: &mut [bool]) -> bool {
+    let mut degrees = vec![0_usize; g.cols];
+    g.entries.iter().for_each(|&(_, i)| degrees[i] += 1);
+    let limit = (4 * g.rows.isqrt()).max(32);
+    let mut any = false;
+    for (late, _) in late.iter_mut().zip(degrees).filter(|(_, degree)| *degree > limit) {
+        (*late, any) = (true, true);
+    }
+    any
+}

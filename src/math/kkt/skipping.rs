@@ -1,0 +1,212 @@
+//! Redundant rows in a sparse factor: they are left out, and least squares is done over what they leave.
+//!
+//! With all coordinates before all multipliers the rest of the elimination acts on -G M^-1 G^T. A pivot that vanishes
+//! there has a vanishing row, so its multiplier can be left out (zero) and nothing else changes: the others solve the
+//! system exactly if the right side lies in the range of G. Every left-out row j gives a null vector of G^T:
+//! n_j = e_j - c, where G^T c = G_j^T is solved with the factor itself. N = [n_j], whose part on the left-out rows is
+//! the identity, so that N^T N >= I is well conditioned. Then P = I - N (N^T N)^-1 N^T, applied by conjugate gradients
+//! without forming N, makes the right side consistent (least squares) and the multipliers least in norm.
+
+use super::Pattern;
+use super::Singular;
+use super::fast::Fast;
+use super::pivot::{Quality, Rule};
+use super::system::{System, add, add_scaled, dot, index_of_largest, largest};
+
+/// Refinements where the coordinate pivots are true ones, and where some were replaced.
+const SWEEPS: [usize; 2] = [3, 40];
+const MOST_GRADIENTS: usize = 300;
+
+pub(super) struct Skipping {
+    factor: Fast,
+    skipped: Vec<usize>,
+    is_skipped: Vec<bool>,
+    replaced: bool,
+    inconsistency: f64,
+    /// Scratch of n and of m numbers.
+    a: Vec<f64>,
+    top: Vec<f64>,
+    lambda: Vec<f64>,
+    bottom: Vec<f64>,
+    weights: Vec<f64>,
+    residual: Vec<f64>,
+    direction: Vec<f64>,
+    image: Vec<f64>,
+    probe: (Vec<f64>, Vec<f64>),
+}
+
+impl Skipping {
+    pub fn new(mass: &Pattern, g: &Pattern) -> Self {
+        let (n, m) = (g.cols, g.rows);
+        let zeros = || vec![0.0; m];
+        Skipping {
+            factor: Fast::new(mass, g, &vec![false; n]),
+            skipped: Vec::with_capacity(m),
+            is_skipped: vec![false; m],
+            replaced: false,
+            inconsistency: 0.0,
+            a: vec![0.0; n],
+            top: vec![0.0; n],
+            lambda: zeros(),
+            bottom: zeros(),
+            weights: zeros(),
+            residual: zeros(),
+            direction: zeros(),
+            image: zeros(),
+            probe: (vec![0.0; n], zeros()),
+        }
+    }
+
+    /// `doubtful` in what is returned: it is not sure which rows are dependent.
+    pub fn factor(&mut self, system: &System) -> Result<Quality, Singular> {
+        self.a.fill(0.0);
+        system.mass.add_diagonal(&system.mass_values, &mut self.a);
+        let rule = Rule::lenient(&self.a);
+        let result = self.factor.factor(&system.mass_values, &system.g_values, rule, &mut self.skipped);
+        let quality = result.map_err(|_| Singular::NotFinite)?;
+        self.is_skipped.fill(false);
+        self.skipped.iter().for_each(|&j| self.is_skipped[j] = true);
+        self.replaced = quality.replaced;
+        Ok(quality)
+    }
+
+    /// Whether the motion is determined although pivots were replaced: solves with an arbitrary right side and looks
+    /// whether refinement gets rid of what was replaced.
+    pub fn probe(&mut self, system: &System) -> Result<(), Singular> {
+        let (mut top, mut bottom) = std::mem::take(&mut self.probe);
+        bottom.fill(0.0);
+        top.iter_mut().enumerate().for_each(|(i, v)| *v = arbitrary(i));
+        self.solve(system, &mut top, &mut bottom);
+        let coordinate = index_of_largest(&top);
+        self.top.iter_mut().enumerate().for_each(|(i, v)| *v = arbitrary(i));
+        self.bottom.fill(0.0);
+        system.residual(&top, &bottom, &mut self.top, &mut self.bottom);
+        // Written so that a NaN is an error.
+        self.probe = (top, bottom);
+        let is_solved = self.top.iter().all(|v| v.abs() < 1e-6);
+        if is_solved { Ok(()) } else { Err(Singular::Undetermined { coordinate }) }
+    }
+
+    /// Pivots are squares of sines, so that round-off hides sines below 1e-7. Null vectors show them: the length (metric
+    /// M^-1) of G^T N w for a mix w of the left-out rows, all scaled to the same length.
+    pub fn sine(&mut self, system: &System) -> f64 {
+        if self.skipped.is_empty() {
+            return 0.0;
+        }
+        self.top.fill(0.0);
+        system.mass.add_diagonal(&system.mass_values, &mut self.top);
+        self.weights.fill(0.0);
+        for (&(j, i), value) in system.g.entries.iter().zip(&system.g_values) {
+            self.weights[j] += value * value / self.top[i];
+        }
+        self.direction.fill(0.0);
+        for &j in &self.skipped {
+            let length = self.weights[j].sqrt();
+            self.direction[j] = if length > 0.0 { (1.0 + 0.5 * arbitrary(j)) / length } else { 0.0 };
+        }
+        self.null(system);
+        self.a.fill(0.0);
+        system.g.subtract_transposed(&system.g_values, &self.image, &mut self.a);
+        self.a.iter().zip(&self.top).map(|(a, mass)| a * a / mass).sum::<f64>().sqrt()
+    }
+
+    pub fn rank(&self) -> usize {
+        self.bottom.len() - self.skipped.len()
+    }
+
+    /// The norm of the part of the last right side that no motion can meet.
+    pub fn inconsistency(&self) -> f64 {
+        self.inconsistency
+    }
+
+    /// Solves in place, refined to round-off.
+    pub fn solve(&mut self, system: &System, top: &mut [f64], bottom: &mut [f64]) {
+        self.inconsistency = self.project(system, bottom);
+        self.a.fill(0.0);
+        self.lambda.fill(0.0);
+        let mut last = [f64::INFINITY; 2];
+        for _ in 0..SWEEPS[usize::from(self.replaced)] {
+            self.top.copy_from_slice(top);
+            self.bottom.copy_from_slice(bottom);
+            system.residual(&self.a, &self.lambda, &mut self.top, &mut self.bottom);
+            self.factor.solve(&mut self.top, &mut self.bottom);
+            let sizes = [largest(&self.top), largest(&self.bottom)];
+            // A correction that does not shrink is round-off.
+            if !(sizes[0] < 0.5 * last[0] || sizes[1] < 0.5 * last[1]) {
+                break;
+            }
+            add(&self.top, &mut self.a);
+            add(&self.bottom, &mut self.lambda);
+            let small = 1e-16;
+            if sizes[0] <= small * largest(&self.a) && sizes[1] <= small * largest(&self.lambda) {
+                break;
+            }
+            last = sizes;
+        }
+        top.copy_from_slice(&self.a);
+        bottom.copy_from_slice(&self.lambda);
+        self.project(system, bottom);
+    }
+
+    /// v := P v; returns the norm of what was taken away.
+    fn project(&mut self, system: &System, v: &mut [f64]) -> f64 {
+        if self.skipped.is_empty() {
+            return 0.0;
+        }
+        let tolerance = 1e-15 * dot(v, v).sqrt();
+        self.weights.fill(0.0);
+        self.residual.copy_from_slice(v);
+        self.null_transposed(system);
+        self.direction.copy_from_slice(&self.residual);
+        let mut square = dot(&self.residual, &self.residual);
+        for _ in 0..MOST_GRADIENTS {
+            if square.sqrt() <= tolerance {
+                break;
+            }
+            // image = N p, and p^T N^T N p = |N p|^2.
+            self.null(system);
+            let step = square / dot(&self.image, &self.image);
+            add_scaled(step, &self.direction, &mut self.weights);
+            // r = N^T (v - N w) afresh would cost as much as this update.
+            std::mem::swap(&mut self.residual, &mut self.image);
+            self.null_transposed(system);
+            std::mem::swap(&mut self.residual, &mut self.image);
+            add_scaled(-step, &self.image, &mut self.residual);
+            let next = dot(&self.residual, &self.residual);
+            let ratio = next / square;
+            for (p, r) in self.direction.iter_mut().zip(&self.residual) {
+                *p = r + ratio * *p;
+            }
+            square = next;
+        }
+        self.direction.copy_from_slice(&self.weights);
+        self.null(system);
+        add_scaled(-1.0, &self.image, v);
+        dot(&self.image, &self.image).sqrt()
+    }
+
+    /// image = N direction, where `direction` is zero but on the left-out rows.
+    fn null(&mut self, system: &System) {
+        self.a.fill(0.0);
+        system.g.subtract_transposed(&system.g_values, &self.direction, &mut self.a);
+        self.image.fill(0.0);
+        self.factor.solve(&mut self.a, &mut self.image);
+        add(&self.direction, &mut self.image);
+    }
+
+    /// residual := N^T residual, standing on the left-out rows.
+    fn null_transposed(&mut self, system: &System) {
+        self.a.fill(0.0);
+        self.lambda.copy_from_slice(&self.residual);
+        self.factor.solve(&mut self.a, &mut self.lambda);
+        system.g.subtract(&system.g_values, &self.a, &mut self.residual);
+        for (r, &skipped) in self.residual.iter_mut().zip(&self.is_skipped) {
+            *r = if skipped { *r } else { 0.0 };
+        }
+    }
+}
+
+/// Numbers in [-1, 1] without pattern.
+fn arbitrary(i: usize) -> f64 {
+    (1.0 + 0.7 * i as f64 * (i as f64 + 3.0)).sin()
+}

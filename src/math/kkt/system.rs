@@ -1,0 +1,102 @@
+//! The matrix itself, for residuals.
+
+use super::Pattern;
+
+/// A copy of the patterns and of the values of the last factorization.
+pub(super) struct System {
+    pub mass: Pattern,
+    pub g: Pattern,
+    pub mass_values: Vec<f64>,
+    pub g_values: Vec<f64>,
+}
+
+impl System {
+    pub fn new(mass: &Pattern, g: &Pattern) -> Self {
+        System {
+            mass: mass.clone(),
+            g: g.clone(),
+            mass_values: vec![0.0; mass.entries.len()],
+            g_values: vec![0.0; g.entries.len()],
+        }
+    }
+
+    /// The lengths must agree.
+    pub fn store(&mut self, mass: &[f64], g: &[f64]) {
+        self.mass_values.copy_from_slice(mass);
+        self.g_values.copy_from_slice(g);
+    }
+
+    /// top -= M a + G^T lambda, bottom -= G a.
+    pub fn residual(&self, a: &[f64], lambda: &[f64], top: &mut [f64], bottom: &mut [f64]) {
+        self.mass.subtract_symmetric(&self.mass_values, a, top);
+        self.g.subtract_transposed(&self.g_values, lambda, top);
+        self.g.subtract(&self.g_values, a, bottom);
+    }
+}
+
+/// Scales that make the masses one and the rows of G of unit norm in the mass metric, (G diag(M)^-1 G^T)_jj = 1, by node.
+/// Late coordinates (by default those without mass) are scaled by what the rows make of them.
+pub(super) fn balance(
+    (mass, mass_values): (&Pattern, &[f64]),
+    (g, g_values): (&Pattern, &[f64]),
+    late: Option<&[bool]>,
+    scale: &mut [f64],
+) {
+    scale.fill(0.0);
+    let (coordinates, rows) = scale.split_at_mut(mass.rows);
+    mass.add_diagonal(mass_values, coordinates);
+    for (i, s) in coordinates.iter_mut().enumerate() {
+        let is_late = late.map_or(*s <= 0.0, |late| late[i]);
+        *s = if is_late { 0.0 } else { inverse_root(*s) };
+    }
+    for (&(j, i), value) in g.entries.iter().zip(g_values) {
+        rows[j] += (value * coordinates[i]).powi(2);
+    }
+    rows.iter_mut().for_each(|s| *s = inverse_root(*s));
+    // Squares of late coordinates gather with their sign turned, which tells them from scales.
+    for (&(j, i), value) in g.entries.iter().zip(g_values) {
+        if coordinates[i] <= 0.0 {
+            coordinates[i] -= (value * rows[j]).powi(2);
+        }
+    }
+    coordinates.iter_mut().filter(|s| **s <= 0.0).for_each(|s| *s = inverse_root(-*s));
+}
+
+fn inverse_root(square: f64) -> f64 {
+    if square > 0.0 { square.sqrt().recip() } else { 1.0 }
+}
+
+pub(super) fn add(x: &[f64], y: &mut [f64]) {
+    for (y, x) in y.iter_mut().zip(x) {
+        *y += x;
+    }
+}
+
+/// x^T y, in four sums so that it vectorizes.
+pub(super) fn dot(x: &[f64], y: &[f64]) -> f64 {
+    let (xs, ys) = (x.chunks_exact(4), y.chunks_exact(4));
+    let rest: f64 = xs.remainder().iter().zip(ys.remainder()).map(|(x, y)| x * y).sum();
+    let mut sums = [0.0; 4];
+    for (x, y) in xs.zip(ys) {
+        for k in 0..4 {
+            sums[k] += x[k] * y[k];
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
+/// y += factor x.
+pub(super) fn add_scaled(factor: f64, x: &[f64], y: &mut [f64]) {
+    for (y, x) in y.iter_mut().zip(x) {
+        *y += factor * x;
+    }
+}
+
+pub(super) fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |largest: f64, v| largest.max(v.abs()))
+}
+
+/// The index of the entry of largest magnitude.
+pub(super) fn index_of_largest(x: &[f64]) -> usize {
+    (0..x.len()).fold(0, |best, i| if x[i].abs() > x[best].abs() { i } else { best })
+}

@@ -1,0 +1,66 @@
+//! Rotations in space: unit quaternions p = [w, x, y, z] and their matrices.
+
+use super::Scalar;
+
+/// Row-major 3 x 3 matrix.
+pub type Matrix3 = [[f64; 3]; 3];
+
+/// The body's axes in the world (columns of R). A quaternion that is not of unit length is scaled, so that the stages
+/// of an integrator see a rotation.
+#[inline]
+pub fn axes_from_quaternion<S: Scalar>(p: &[S]) -> [[S; 3]; 3] {
+    let [w, x, y, z] = [p[0], p[1], p[2], p[3]];
+    let s = S::constant(2.0) / (w * w + x * x + y * y + z * z);
+    let (xs, ys, zs) = (x * s, y * s, z * s);
+    let (wx, wy, wz) = (w * xs, w * ys, w * zs);
+    let (xx, xy, xz) = (x * xs, x * ys, x * zs);
+    let (yy, yz, zz) = (y * ys, y * zs, z * zs);
+    let one = S::one();
+    [[one - (yy + zz), xy + wz, xz - wy], [xy - wz, one - (xx + zz), yz + wx], [xz + wy, yz - wx, one - (xx + yy)]]
+}
+
+/// R with `R[i][j]`: world component i of body axis j.
+pub fn matrix_from_quaternion(p: &[f64; 4]) -> Matrix3 {
+    let axes = axes_from_quaternion(p);
+    std::array::from_fn(|i| std::array::from_fn(|j| axes[j][i]))
+}
+
+/// p' = p (0, w) / 2 with w in the body's axes; linear in p.
+#[inline]
+pub fn quaternion_rate<S: Scalar>(p: &[S], w: &[S], rate: &mut [S]) {
+    rate[0] = (p[1] * w[0] + p[2] * w[1] + p[3] * w[2]) * -0.5;
+    rate[1] = (p[0] * w[0] + p[2] * w[2] - p[3] * w[1]) * 0.5;
+    rate[2] = (p[0] * w[1] + p[3] * w[0] - p[1] * w[2]) * 0.5;
+    rate[3] = (p[0] * w[2] + p[1] * w[1] - p[2] * w[0]) * 0.5;
+}
+
+/// Rotation by |a| about a: [cos |a|/2, sin(|a|/2) a/|a|].
+pub fn quaternion_from_vector(a: &[f64; 3]) -> [f64; 4] {
+    let angle = (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]).sqrt();
+    // sin(x/2)/x tends to 1/2.
+    let factor = if angle < 1e-8 { 0.5 } else { (0.5 * angle).sin() / angle };
+    [(0.5 * angle).cos(), factor * a[0], factor * a[1], factor * a[2]]
+}
+
+/// Quaternion of the rotation whose axes (columns) are given; the largest component is taken from the trace formulas,
+/// so that no cancellation occurs (Shepperd 1978).
+pub fn quaternion_from_axes(axes: &[[f64; 3]; 3]) -> [f64; 4] {
+    let m = |i: usize, j: usize| axes[j][i];
+    let squares = [
+        1.0 + m(0, 0) + m(1, 1) + m(2, 2),
+        1.0 + m(0, 0) - m(1, 1) - m(2, 2),
+        1.0 - m(0, 0) + m(1, 1) - m(2, 2),
+        1.0 - m(0, 0) - m(1, 1) + m(2, 2),
+    ];
+    let best = (0..4).max_by(|&i, &j| squares[i].total_cmp(&squares[j])).unwrap_or(0);
+    let big = 0.5 * squares[best].sqrt();
+    let small = 0.25 / big;
+    let (wx, wy, wz) = (m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1));
+    let (xy, xz, yz) = (m(0, 1) + m(1, 0), m(0, 2) + m(2, 0), m(1, 2) + m(2, 1));
+    match best {
+        0 => [big, small * wx, small * wy, small * wz],
+        1 => [small * wx, big, small * xy, small * xz],
+        2 => [small * wy, small * xy, big, small * yz],
+        _ => [small * wz, small * xz, small * yz, big],
+    }
+}

@@ -1,0 +1,202 @@
+//! The numbers an element is written over.
+//!
+//! An element states its equations once, generic over [`Scalar`]; the number put in decides what comes out: values
+//! (`f64`), derivatives with respect to coordinates ([`Dual`](super::Dual)), or time derivatives along a motion
+//! ([`Taylor`](super::Taylor)). The kinds nest: `Dual<Taylor<f64>, 6>` gives d(phi, phi', phi'')/dq.
+
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// A number that the equations of an element can be evaluated over.
+pub trait Scalar:
+    Copy
+    + Debug
+    + Send
+    + Sync
+    + 'static
+    + Neg<Output = Self>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Add<f64, Output = Self>
+    + Sub<f64, Output = Self>
+    + Mul<f64, Output = Self>
+    + Div<f64, Output = Self>
+    + AddAssign
+    + SubAssign
+{
+    /// The constant `x`: all its derivatives are zero.
+    fn constant(x: f64) -> Self;
+
+    /// The plain value; branches of an expression are decided on it.
+    fn value(&self) -> f64;
+
+    /// f(self) by the chain rule over the number that stands inside this one.
+    fn unary(self, function: Unary) -> Self;
+
+    fn zero() -> Self {
+        Self::constant(0.0)
+    }
+    fn one() -> Self {
+        Self::constant(1.0)
+    }
+    fn square(self) -> Self {
+        self * self
+    }
+    fn recip(self) -> Self {
+        Self::one() / self
+    }
+    fn sqrt(self) -> Self {
+        self.unary(Unary::Sqrt)
+    }
+    fn sin(self) -> Self {
+        self.unary(Unary::Sin)
+    }
+    fn cos(self) -> Self {
+        self.unary(Unary::Cos)
+    }
+    fn exp(self) -> Self {
+        self.unary(Unary::Exp)
+    }
+    fn ln(self) -> Self {
+        self.unary(Unary::Ln)
+    }
+    fn atan(self) -> Self {
+        self.unary(Unary::Atan)
+    }
+    fn tan(self) -> Self {
+        self.sin() / self.cos()
+    }
+    fn sinh(self) -> Self {
+        self.unary(Unary::Sinh)
+    }
+    fn cosh(self) -> Self {
+        self.unary(Unary::Cosh)
+    }
+    /// 1 - 2/(e^{2x} + 1), with the exponent's sign chosen so that it cannot overflow.
+    fn tanh(self) -> Self {
+        if self.value() < 0.0 {
+            return -(-self).tanh();
+        }
+        let decay = (self * -2.0).exp();
+        (Self::one() - decay) / (decay + 1.0)
+    }
+    fn asin(self) -> Self {
+        Self::atan2(self, ((Self::one() - self) * (self + 1.0)).sqrt())
+    }
+    fn acos(self) -> Self {
+        Self::atan2(((Self::one() - self) * (self + 1.0)).sqrt(), self)
+    }
+    fn abs(self) -> Self {
+        if self.value() < 0.0 { -self } else { self }
+    }
+    /// Larger by value; the first where both are equal.
+    fn max(self, other: Self) -> Self {
+        if other.value() > self.value() { other } else { self }
+    }
+    /// Smaller by value; the first where both are equal.
+    fn min(self, other: Self) -> Self {
+        if other.value() < self.value() { other } else { self }
+    }
+    /// Angle of the vector (x, y) in (-pi, pi]. The branch is a constant; the derivative is that of atan.
+    fn atan2(y: Self, x: Self) -> Self {
+        let angle = y.value().atan2(x.value());
+        // Rotate the argument by the known angle: what is left is near zero, where atan is smooth and exact.
+        let (s, c) = angle.sin_cos();
+        ((y * c - x * s) / (x * c + y * s)).atan() + angle
+    }
+    /// x^n by repeated squaring; exact at x = 0, where a logarithm would not be.
+    fn powi(self, n: i32) -> Self {
+        let (mut base, mut left, mut power) = (self, n.unsigned_abs(), Self::one());
+        while left > 0 {
+            if left & 1 == 1 {
+                power = power * base;
+            }
+            base = base.square();
+            left >>= 1;
+        }
+        if n < 0 { power.recip() } else { power }
+    }
+    /// x^y for x > 0; for whole constants y, [`powi`](Self::powi) takes any base.
+    fn pow(self, exponent: Self) -> Self {
+        (exponent * self.ln()).exp()
+    }
+}
+
+/// The functions that are not built from others: each with its first two derivatives in terms of other scalars.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unary {
+    Sqrt,
+    Sin,
+    Cos,
+    Exp,
+    Ln,
+    Atan,
+    Sinh,
+    Cosh,
+}
+
+impl Unary {
+    /// f, f' and f'' at `x`, over any scalar.
+    #[inline]
+    pub fn jet<S: Scalar>(self, x: S) -> [S; 3] {
+        match self {
+            Unary::Sqrt => {
+                let root = x.sqrt();
+                let slope = S::constant(0.5) / root;
+                [root, slope, slope / x * -0.5]
+            }
+            Unary::Sin => [x.sin(), x.cos(), -x.sin()],
+            Unary::Cos => [x.cos(), -x.sin(), -x.cos()],
+            Unary::Exp => [x.exp(); 3],
+            Unary::Ln => [x.ln(), x.recip(), -x.square().recip()],
+            Unary::Atan => {
+                let slope = (x.square() + 1.0).recip();
+                [x.atan(), slope, x * slope.square() * -2.0]
+            }
+            Unary::Sinh => [x.sinh(), x.cosh(), x.sinh()],
+            Unary::Cosh => [x.cosh(), x.sinh(), x.cosh()],
+        }
+    }
+
+    /// f and f' at `x`.
+    #[inline]
+    pub fn slope<S: Scalar>(self, x: S) -> [S; 2] {
+        let [f, df, _] = self.jet(x);
+        [f, df]
+    }
+}
+
+impl Scalar for f64 {
+    #[inline]
+    fn constant(x: f64) -> Self {
+        x
+    }
+    #[inline]
+    fn value(&self) -> f64 {
+        *self
+    }
+    #[inline]
+    fn unary(self, function: Unary) -> Self {
+        match function {
+            Unary::Sqrt => f64::sqrt(self),
+            Unary::Sin => f64::sin(self),
+            Unary::Cos => f64::cos(self),
+            Unary::Exp => f64::exp(self),
+            Unary::Ln => f64::ln(self),
+            Unary::Atan => f64::atan(self),
+            Unary::Sinh => f64::sinh(self),
+            Unary::Cosh => f64::cosh(self),
+        }
+    }
+    fn atan2(y: Self, x: Self) -> Self {
+        f64::atan2(y, x)
+    }
+    fn powi(self, n: i32) -> Self {
+        f64::powi(self, n)
+    }
+    fn pow(self, exponent: Self) -> Self {
+        f64::powf(self, exponent)
+    }
+}

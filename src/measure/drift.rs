@@ -1,0 +1,44 @@
+//! Drift off the constraints.
+
+use crate::simulate::Observation;
+use serde::Serialize;
+
+/// Drift at the three levels: phi, phi' = G v + phi_t and phi'' = G v' - gamma.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Drift {
+    pub position: DriftLevel,
+    pub velocity: DriftLevel,
+    pub acceleration: DriftLevel,
+}
+
+/// Largest component over the accepted steps, and at the end. Relative values are against the scene's scale (a length
+/// for rows in metres, 1 rad for angles) over powers of the time unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct DriftLevel {
+    pub max: f64,
+    #[serde(rename = "final")]
+    pub last: f64,
+    pub relative_max: f64,
+    pub relative_final: f64,
+}
+
+impl Drift {
+    pub fn add(&mut self, state: &Observation, scales: &[f64]) {
+        self.position.add(state.phi, scales);
+        self.velocity.add(state.phi_dot, scales);
+        self.acceleration.add(state.phi_ddot, scales);
+    }
+}
+
+impl DriftLevel {
+    fn add(&mut self, rows: &[f64], scales: &[f64]) {
+        self.last = largest(rows.iter().copied());
+        self.relative_final = largest(rows.iter().zip(scales).map(|(row, scale)| row / scale));
+        self.max = self.max.max(self.last);
+        self.relative_max = self.relative_max.max(self.relative_final);
+    }
+}
+
+pub(super) fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |largest: f64, value| largest.max(value.abs()))
+}

@@ -1,0 +1,73 @@
+//! A sink that keeps what a user wants of a run.
+
+use super::drift::{Drift, largest};
+use super::energy::{EnergyBalance, EnergyMeter, Ledger};
+use crate::simulate::{Observation, Sink};
+use crate::system::{MechanicalSystem, Scratch};
+use crate::trajectory::Trajectory;
+
+/// Trajectory, drift and energy of a run.
+pub struct Record {
+    pub trajectory: Trajectory,
+    pub drift: Drift,
+    /// `None` where the system states no potential.
+    pub energy: Option<EnergyBalance>,
+    /// Largest |phi|, |phi'|, |phi''| at each output row.
+    pub drift_rows: Vec<[f64; 3]>,
+    pub ledger_rows: Vec<Ledger>,
+}
+
+/// Collects a [`Record`] while the run goes on.
+pub struct Recorder<'a> {
+    system: &'a dyn MechanicalSystem,
+    scratch: Scratch,
+    scales: Vec<f64>,
+    meter: EnergyMeter,
+    record: Record,
+    progress: Box<dyn FnMut(f64) + 'a>,
+}
+
+impl<'a> Recorder<'a> {
+    pub fn new(system: &'a dyn MechanicalSystem) -> Self {
+        Recorder {
+            system,
+            scratch: Scratch::default(),
+            scales: system.scales(),
+            meter: EnergyMeter::default(),
+            record: Record {
+                trajectory: Trajectory::new(system),
+                drift: Drift::default(),
+                energy: None,
+                drift_rows: Vec::new(),
+                ledger_rows: Vec::new(),
+            },
+            progress: Box::new(|_| {}),
+        }
+    }
+
+    /// Calls `progress` with the time of every accepted step.
+    pub fn with_progress(mut self, progress: impl FnMut(f64) + 'a) -> Self {
+        self.progress = Box::new(progress);
+        self
+    }
+
+    pub fn finish(mut self) -> Record {
+        self.record.energy = self.meter.balance();
+        self.record
+    }
+}
+
+impl Sink for Recorder<'_> {
+    fn accepted(&mut self, state: &Observation) {
+        self.record.drift.add(state, &self.scales);
+        self.meter.add(self.system, state, &mut self.scratch);
+        (self.progress)(state.t);
+    }
+
+    fn row(&mut self, state: &Observation) {
+        let levels = [state.phi, state.phi_dot, state.phi_ddot].map(|rows| largest(rows.iter().copied()));
+        self.record.drift_rows.push(levels);
+        self.record.ledger_rows.extend(self.meter.ledger(self.system, state, &mut self.scratch));
+        self.record.trajectory.push(self.system, state, &mut self.scratch);
+    }
+}

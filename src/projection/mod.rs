@@ -1,0 +1,54 @@
+//! What is done after a step: the state is moved back to the constraints.
+//!
+//! To add one: a line in [`registry`], with a file where it is more than a choice of F.
+
+mod exact;
+mod post_stabilization;
+
+use crate::error::Result;
+use crate::formulation::{Choice, Dynamics, Halt, OptionDoc};
+use crate::system::MechanicalSystem;
+
+/// A correction of the state after an accepted step.
+pub trait Projection: Send {
+    /// Moves q and v in place.
+    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), Halt>;
+}
+
+/// One projection as the command line, the scene format and the table of methods know it.
+pub struct Entry {
+    pub name: &'static str,
+    pub about: &'static str,
+    pub options: &'static [OptionDoc],
+    pub make: Make,
+}
+
+type Make = fn(&Choice, &dyn MechanicalSystem) -> Result<Option<Box<dyn Projection>>>;
+
+/// Every projection, in the order of the documentation.
+pub fn registry() -> &'static [Entry] {
+    &[
+        NONE,
+        post_stabilization::POSITION,
+        post_stabilization::VELOCITY,
+        post_stabilization::MANIFOLD,
+        post_stabilization::FULL,
+        exact::ENTRY,
+    ]
+}
+
+const NONE: Entry =
+    Entry { name: "none", about: "the state as the integrator left it", options: &[], make: |_, _| Ok(None) };
+
+/// The projection that `choice` names, for `system`.
+pub fn make(choice: &Choice, system: &dyn MechanicalSystem) -> Result<Option<Box<dyn Projection>>> {
+    let entry = choice.find("projection", registry().iter().map(|entry| (entry.name, entry.options)))?;
+    (registry()[entry].make)(choice, system)
+}
+
+/// q moves by -dq (directions of v) and returns to its normal form.
+fn move_back(q: &mut [f64], dq: &[f64], rate: &mut [f64], system: &dyn MechanicalSystem) {
+    system.rate(q, dq, rate);
+    q.iter_mut().zip(rate.iter()).for_each(|(q, rate)| *q -= rate);
+    system.normalize(q);
+}

@@ -1,0 +1,78 @@
+//! Post-stabilization: z -= F(z) h(z) after each step.
+
+use super::{Entry, Projection, move_back};
+use crate::error::Result;
+use crate::formulation::{Choice, Dynamics, Field, Halt, OptionDoc, Stabilizer};
+use crate::system::MechanicalSystem;
+
+const SWEEPS: OptionDoc = OptionDoc { name: "sweeps", about: "how often F h is evaluated and taken off (default 1)" };
+
+/// S-pos: holds phi only; G v + phi_t drifts, faster than without.
+pub const POSITION: Entry = Entry {
+    name: "position",
+    about: "S-pos: only phi is held, drift of the velocities remains",
+    options: &[SWEEPS],
+    make: |choice, system| sweeps(Field::Position, choice, system),
+};
+
+/// S-vel: holds G v + phi_t only; phi drifts slowly.
+pub const VELOCITY: Entry = Entry {
+    name: "velocity",
+    about: "S-vel: only G v + phi_t is held, drift of the positions remains",
+    options: &[SWEEPS],
+    make: |choice, system| sweeps(Field::Velocity, choice, system),
+};
+
+/// S-both, the method of choice: one factorization and two back-substitutions. Drift of phi O(h^{2(p+1)}), of
+/// G v + phi_t O(h^{p+1}); with two sweeps O(h^{2(p+1)}) and round-off. Order p of the integrator is kept in q, v and
+/// lambda.
+pub const MANIFOLD: Entry = Entry {
+    name: "manifold",
+    about: "S-both: one factorization, two back-substitutions; drift O(h^2(p+1)), O(h^(p+1))",
+    options: &[OptionDoc { name: "sweeps", about: "1 (default) or 2: with 2 both levels reach O(h^2(p+1))" }],
+    make: |choice, system| sweeps(Field::Both, choice, system),
+};
+
+/// S-full: least change of (q, v) onto both levels, with L = d(G v)/dq; drift O(h^{2(p+1)}) on both.
+pub const FULL: Entry = Entry {
+    name: "full",
+    about: "S-full: F = H^T (H H^T)^-1 with second derivatives; drift O(h^2(p+1)) on both levels",
+    options: &[SWEEPS, OptionDoc { name: "metric", about: "identity (default) or mass" }],
+    make: |choice, system| {
+        let field = match choice.text("metric") {
+            None | Some("identity") => Field::Full,
+            Some("mass") => Field::MassWeighted,
+            Some(other) => {
+                return Err(crate::error::Error::input(format!("full: there is no metric `{other}`"))
+                    .hint("choose identity or mass"));
+            }
+        };
+        sweeps(field, choice, system)
+    },
+};
+
+fn sweeps(field: Field, choice: &Choice, system: &dyn MechanicalSystem) -> Result<Option<Box<dyn Projection>>> {
+    let sweeps = choice.whole("sweeps", 1, 1..=10)?;
+    let rate = vec![0.0; system.dimensions().q];
+    Ok(Some(Box::new(PostStabilization { sweeps, stabilizer: Stabilizer::new(field, system), rate })))
+}
+
+struct PostStabilization {
+    sweeps: usize,
+    stabilizer: Stabilizer,
+    rate: Vec<f64>,
+}
+
+impl Projection for PostStabilization {
+    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), Halt> {
+        for _ in 0..self.sweeps {
+            dynamics.statistics.projections += 1;
+            dynamics.evaluate(t, q, v, self.stabilizer.field.needs());
+            dynamics.factor()?;
+            self.stabilizer.correction(dynamics)?;
+            move_back(q, &self.stabilizer.dq, &mut self.rate, dynamics.system);
+            v.iter_mut().zip(&self.stabilizer.dv).for_each(|(v, dv)| *v -= dv);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,237 @@
+//! From the typed file to the checked model.
+
+use super::format::SceneFile;
+use super::model::{Connection, Model, Part};
+use super::outputs;
+use super::{AnyModel, Scene, markers};
+use crate::body::{self, Build, Initial, Marker, MarkerTable, parse};
+use crate::error::{Error, Result, suggest};
+use crate::math::expression::{Number, Parameters};
+use crate::{force, joint};
+use serde_json::{Map, Value};
+
+/// Resolves everything; what can be wrong with a scene alone is found here.
+pub fn build(file: SceneFile, overrides: &[(String, f64)]) -> Result<Scene> {
+    let parameters = markers::resolve(&file.parameters, overrides)?;
+    let (model, q, v) = match file.dimension {
+        2 => model::<2>(&file, &parameters).map(|(model, q, v)| (AnyModel::Planar(model), q, v))?,
+        3 => model::<3>(&file, &parameters).map(|(model, q, v)| (AnyModel::Spatial(model), q, v))?,
+        other => {
+            return Err(Error::input(format!("dimension is {other}"))
+                .under("dimension")
+                .hint("2 for a planar scene, 3 for a spatial one"));
+        }
+    };
+    Ok(Scene {
+        name: file.name,
+        about: file.about.unwrap_or_default(),
+        references: file.references,
+        dimension: usize::from(file.dimension),
+        parameters,
+        model,
+        q,
+        v,
+        hold: file.assembly.hold,
+        simulation: file.simulation,
+    })
+}
+
+fn model<const D: usize>(file: &SceneFile, parameters: &Parameters) -> Result<(Model<D>, Vec<f64>, Vec<f64>)> {
+    if file.bodies.is_empty() {
+        return Err(Error::input("the scene has no body").under("bodies").hint("nothing can move without one"));
+    }
+    let no_markers = MarkerTable::default();
+    let mut build = Build { parameters, markers: &no_markers, outputs: &[], gravity: [0.0; D] };
+    if let Some(gravity) = &file.gravity {
+        build.gravity = build.vector("gravity", gravity)?;
+    }
+    let gravity = build.gravity;
+    let ground = markers::markers(&file.ground.markers, &[0.0; D], &build).map_err(|error| error.under("ground"))?;
+    let mut parts = Parts::new(ground);
+    for (i, json) in file.bodies.iter().enumerate() {
+        let place = format!("bodies[{i}]");
+        parts.add(json.clone(), &build).map_err(|error| error.under(place))?;
+    }
+    let formulas = outputs::formulas::<D>(&file.outputs)?;
+    let build = Build { parameters, markers: &parts.table, outputs: &formulas, gravity };
+    let joints = elements(&file.joints, "joints", "joint", |kind, json| {
+        let entries = joint::registry::<D>();
+        let entry = entries.iter().find(|entry| entry.name == kind);
+        let entry = entry.ok_or_else(|| unknown(kind, "joint", entries.iter().map(|entry| entry.name)))?;
+        let built = (entry.build)(json, &build)?;
+        Ok((entry.name, built.joint, built.markers))
+    })?;
+    let forces = elements(&file.forces, "forces", "force", |kind, json| {
+        let entries = force::registry::<D>();
+        let entry = entries.iter().find(|entry| entry.name == kind);
+        let entry = entry.ok_or_else(|| unknown(kind, "force", entries.iter().map(|entry| entry.name)))?;
+        let built = (entry.build)(json, &build)?;
+        Ok((entry.name, built.force, built.markers))
+    })?;
+    let outputs = outputs::outputs(&file.outputs, &joints, &forces, &build)?;
+    let inputs = outputs::inputs::<D>(&file.inputs, &forces)?;
+    let Parts { table, ground, bodies, q, v } = parts;
+    Ok((Model { gravity, markers: table, ground, bodies, joints, forces, outputs, inputs }, q, v))
+}
+
+/// Bodies as they are collected, with their start.
+struct Parts<const D: usize> {
+    table: MarkerTable,
+    ground: Vec<Marker<D>>,
+    bodies: Vec<Part<D>>,
+    q: Vec<f64>,
+    v: Vec<f64>,
+}
+
+impl<const D: usize> Parts<D> {
+    fn new(ground: Vec<(String, Marker<D>)>) -> Self {
+        let mut parts = Parts {
+            table: MarkerTable::default(),
+            ground: Vec::new(),
+            bodies: Vec::new(),
+            q: Vec::new(),
+            v: Vec::new(),
+        };
+        parts.list("ground".to_string(), None, true);
+        parts.ground.push(Marker::point([0.0; D]));
+        for (name, marker) in ground {
+            parts.list(format!("ground.{name}"), None, true);
+            parts.ground.push(marker);
+        }
+        parts
+    }
+
+    fn list(&mut self, name: String, body: Option<usize>, oriented: bool) {
+        self.table.names.push(name);
+        self.table.bodies.push(body);
+        self.table.oriented.push(oriented);
+    }
+
+    fn add(&mut self, json: Value, build: &Build<D>) -> Result<()> {
+        let mut json = object(json)?;
+        let name = take_name(&mut json)?;
+        if name == "ground" || self.table.body_names.contains(&name) {
+            return Err(Error::input(format!("the name `{name}` is taken"))
+                .under("name")
+                .hint("give each body its own"));
+        }
+        self.table.body_names.push(name.clone());
+        self.read(&name, json, build).map_err(|error| error.element(&name))
+    }
+
+    fn read(&mut self, name: &str, mut json: Map<String, Value>, build: &Build<D>) -> Result<()> {
+        let kind = take_text(&mut json, "type")?;
+        let entries = body::registry::<D>();
+        let entry = entries.iter().find(|entry| entry.name == kind);
+        let entry = entry.ok_or_else(|| unknown(&kind, "body", entries.iter().map(|entry| entry.name)))?;
+        let origin = match json.remove("origin") {
+            Some(origin) => build.vector::<D>("origin", &parse::<Vec<Number>>(origin)?)?,
+            None => [0.0; D],
+        };
+        let mut initial: Initial = json
+            .remove("initial")
+            .map_or_else(|| Ok(Initial::default()), |initial| parse(initial).map_err(|error| error.under("initial")))?;
+        initial.origin = origin.to_vec();
+        let given = json
+            .remove("markers")
+            .map_or_else(|| Ok(Map::new()), |given| object(given).map_err(|e| e.under("markers")))?;
+        let mut all = vec![Marker::point(origin)];
+        let named = markers::markers(&given, &origin, build)?;
+        all.extend(named.iter().map(|(_, marker)| *marker));
+        let built = (entry.build)(Value::Object(json), all, &initial, build).map_err(shared_keys)?;
+        let index = self.bodies.len();
+        let first_marker = self.table.names.len();
+        self.list(name.to_string(), Some(index), built.body.oriented());
+        for (marker, _) in &named {
+            self.list(format!("{name}.{marker}"), Some(index), built.body.oriented());
+        }
+        self.bodies.push(Part {
+            name: name.to_string(),
+            first_marker,
+            first_q: self.q.len(),
+            first_v: self.v.len(),
+            nq: built.q.len(),
+            nv: built.v.len(),
+            body: built.body,
+        });
+        self.q.extend(built.q);
+        self.v.extend(built.v);
+        Ok(())
+    }
+}
+
+/// The list of keys that a message about an unknown key gives leaves out those that all bodies share.
+fn shared_keys(error: Error) -> Error {
+    let Error::Input(mut input) = error else { return error };
+    if let (Some(found), Some(_)) = (input.message.strip_prefix("unknown key `"), &input.hint) {
+        let found = found.trim_end_matches('`');
+        let near = suggest(found, ["markers", "initial", "origin", "name", "type"]);
+        if near.starts_with("did") && !input.hint.as_ref().is_some_and(|hint| hint.starts_with("did")) {
+            input.hint = Some(near);
+        }
+    }
+    Error::Input(input)
+}
+
+/// Joints or forces: name and type are taken off, the rest is the kind's own.
+fn elements<E>(
+    given: &[Value],
+    list: &str,
+    what: &str,
+    build: impl Fn(&str, Value) -> Result<(&'static str, E, Vec<usize>)>,
+) -> Result<Vec<Connection<E>>> {
+    let mut all: Vec<Connection<E>> = Vec::new();
+    for (i, json) in given.iter().enumerate() {
+        let mut read = || {
+            let mut json = object(json.clone())?;
+            let name = take_name(&mut json)?;
+            if all.iter().any(|known| known.name == name) {
+                return Err(Error::input(format!("the name `{name}` is taken"))
+                    .under("name")
+                    .hint(format!("give each {what} its own")));
+            }
+            let kind = take_text(&mut json, "type").map_err(|error| error.element(&name))?;
+            let (kind, element, markers) = build(&kind, Value::Object(json)).map_err(|error| error.element(&name))?;
+            all.push(Connection { name, kind, element, markers });
+            Ok(())
+        };
+        read().map_err(|error| error.under(format!("{list}[{i}]")))?;
+    }
+    Ok(all)
+}
+
+fn unknown<'a>(kind: &str, what: &str, known: impl Iterator<Item = &'a str>) -> Error {
+    Error::input(format!("there is no {what} of type `{kind}`")).under("type").hint(suggest(kind, known))
+}
+
+pub(super) fn object(json: Value) -> Result<Map<String, Value>> {
+    match json {
+        Value::Object(map) => Ok(map),
+        other => Err(Error::input(format!("expected an object {{...}}, found {other}"))),
+    }
+}
+
+fn take_text(json: &mut Map<String, Value>, key: &str) -> Result<String> {
+    match json.remove(key) {
+        Some(Value::String(text)) => Ok(text),
+        Some(other) => Err(Error::input(format!("expected text, found {other}")).under(key)),
+        None => Err(Error::input(format!("the key `{key}` is missing"))),
+    }
+}
+
+fn take_name(json: &mut Map<String, Value>) -> Result<String> {
+    let name = take_text(json, "name")?;
+    check_name(&name).map_err(|error| error.under("name"))?;
+    Ok(name)
+}
+
+/// Names appear in expressions and columns: a letter, then letters, digits and underscores.
+pub(super) fn check_name(name: &str) -> Result<()> {
+    let mut characters = name.chars();
+    let starts = characters.next().is_some_and(|c| c.is_alphabetic() || c == '_');
+    match starts && characters.all(|c| c.is_alphanumeric() || c == '_') {
+        true => Ok(()),
+        false => Err(Error::input(format!("`{name}` cannot be a name"))
+            .hint("use a letter, then letters, digits and underscores")),
+    }
+}

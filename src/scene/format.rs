@@ -1,0 +1,201 @@
+//! The scene file as it is typed: what a user may write, before anything is resolved.
+
+use crate::formulation::Choice;
+use crate::math::expression::Number;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_json::{Map, Value};
+
+/// A scene: a mechanism with its start, what to watch and how to simulate it. Every number may be an expression over
+/// `parameters`, as a string. SI units; angles in radians.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "holonom scene")]
+pub struct SceneFile {
+    /// Where the JSON Schema of this format is, for editors.
+    #[serde(rename = "$schema")]
+    pub schema: Option<String>,
+    pub name: String,
+    /// What the mechanism is and what to expect of it.
+    pub about: Option<String>,
+    /// Where its data and known results come from.
+    #[serde(default)]
+    pub references: Vec<String>,
+    /// 2 or 3
+    pub dimension: u8,
+    /// Named numbers and expressions over other parameters, in any order.
+    #[serde(default)]
+    #[schemars(with = "std::collections::BTreeMap<String, Number>")]
+    pub parameters: Map<String, Value>,
+    /// m/s^2. Default: none.
+    pub gravity: Option<Vec<Number>>,
+    #[serde(default)]
+    pub ground: Ground,
+    /// See the types of bodies.
+    #[schemars(with = "Vec<BodyPlace>")]
+    pub bodies: Vec<Value>,
+    #[serde(default)]
+    #[schemars(with = "Vec<JointPlace>")]
+    pub joints: Vec<Value>,
+    #[serde(default)]
+    #[schemars(with = "Vec<ForcePlace>")]
+    pub forces: Vec<Value>,
+    #[serde(default)]
+    pub inputs: Vec<InputSpec>,
+    #[serde(default)]
+    pub outputs: Vec<OutputSpec>,
+    #[serde(default)]
+    pub assembly: Assembly,
+    #[serde(default)]
+    pub simulation: Simulation,
+}
+
+/// The body that does not move.
+#[derive(Deserialize, JsonSchema, Default)]
+#[serde(deny_unknown_fields)]
+pub struct Ground {
+    #[serde(default)]
+    #[schemars(with = "std::collections::BTreeMap<String, MarkerSpec>")]
+    pub markers: Map<String, Value>,
+}
+
+/// A marker: its position, or an object with an orientation.
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[allow(dead_code)]
+pub enum MarkerSpec {
+    Point(Vec<Number>),
+    Oriented(OrientedMarker),
+}
+
+/// A marker with an orientation.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OrientedMarker {
+    /// From the body's origin, in its axes, m.
+    pub position: Vec<Number>,
+    /// In the plane: angle of the marker's x axis, rad.
+    pub angle: Option<Number>,
+    /// In space: unit quaternion [w, x, y, z] or rotation vector.
+    pub rotation: Option<Vec<Number>>,
+    /// In space, instead of a rotation: direction of the marker's z axis.
+    pub z_axis: Option<Vec<Number>>,
+    /// In space, with or without `z_axis`: direction of the x axis, made square to z.
+    pub x_axis: Option<Vec<Number>>,
+}
+
+/// Drives a component of an applied force or torque.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InputSpec {
+    pub name: String,
+    /// Name of an applied force or torque.
+    pub force: String,
+    /// x, y or z. Default: the only one, in the plane, of a torque.
+    pub component: Option<String>,
+}
+
+/// What a user watches: a column of the trajectory and a row of C.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OutputSpec {
+    pub name: String,
+    pub measure: MeasureKind,
+    /// The body, marker, joint or force that is measured.
+    pub of: Option<String>,
+    /// Two markers, for distances.
+    pub between: Option<[String; 2]>,
+    /// Marker or body in whose axes, and against which, it is measured. Default: the ground.
+    pub relative_to: Option<String>,
+    /// x, y, z; for reactions also mx, my, mz (default: the size of the force); kinetic, potential or total for energy.
+    pub component: Option<String>,
+    /// The expression.
+    pub value: Option<Number>,
+    /// Unit of an expression, for axes.
+    pub unit: Option<String>,
+}
+
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq, Debug)]
+#[serde(rename_all = "snake_case")]
+pub enum MeasureKind {
+    /// rad, of a body or marker; in space about the z axis of `relative_to`.
+    Angle,
+    /// rad/s
+    AngularVelocity,
+    /// m
+    Position,
+    /// m/s
+    Velocity,
+    /// m, `between` two markers
+    Distance,
+    /// m/s, `between` two markers
+    DistanceRate,
+    /// N or N m on the second body of joint `of`, in world axes
+    Reaction,
+    /// Tension of a spring (N), size of another force or torque `of`
+    Force,
+    /// J, of the whole scene
+    Energy,
+    /// `value`, over t and marker quantities
+    Expression,
+}
+
+/// How the start is made consistent with the joints.
+#[derive(Deserialize, JsonSchema, Default)]
+#[serde(deny_unknown_fields)]
+pub struct Assembly {
+    /// Coordinates that keep their values and rates: `crank.angle`, or `crank` for all of a body's.
+    #[serde(default)]
+    pub hold: Vec<String>,
+}
+
+/// How to simulate; the command line overrides.
+#[derive(Deserialize, JsonSchema, Default, Clone)]
+#[serde(deny_unknown_fields)]
+pub struct Simulation {
+    /// s. Default: zero.
+    pub t_start: Option<Number>,
+    /// s
+    pub t_end: Option<Number>,
+    /// Distance of the rows of the trajectory, s. Default: a two-hundredth of the time.
+    pub output_step: Option<Number>,
+    pub formulation: Option<Choice>,
+    pub integrator: Option<Choice>,
+    pub projection: Option<Choice>,
+    pub rtol: Option<Number>,
+    pub atol: Option<Number>,
+    /// Fixed step, s. Default: chosen by the integrator.
+    pub step: Option<Number>,
+}
+
+/// The keys that all bodies share.
+#[derive(JsonSchema)]
+#[allow(dead_code)]
+pub struct BodyPlace {
+    pub name: String,
+    /// The kind of body.
+    pub r#type: String,
+    /// Points of the body by name; frames for joints and forces.
+    pub markers: Option<std::collections::BTreeMap<String, MarkerSpec>>,
+    /// Position of the body's origin, which its markers and `initial` refer to, from its centre of mass, m.
+    pub origin: Option<Vec<Number>>,
+    pub initial: Option<crate::body::Initial>,
+}
+
+/// The keys that all joints share.
+#[derive(JsonSchema)]
+#[allow(dead_code)]
+pub struct JointPlace {
+    pub name: String,
+    /// The kind of joint.
+    pub r#type: String,
+}
+
+/// The keys that all forces share.
+#[derive(JsonSchema)]
+#[allow(dead_code)]
+pub struct ForcePlace {
+    pub name: String,
+    /// The kind of force.
+    pub r#type: String,
+}

@@ -1,0 +1,108 @@
+//! The checked, named model that a scene describes.
+
+use crate::body::{Body, Frame, Marker, MarkerId, MarkerTable, Quantity, Signal};
+use crate::force::Force;
+use crate::joint::Joint;
+
+/// Bodies, joints and forces with everything resolved; nothing in it can be wrong any more but the start.
+pub struct Model<const D: usize> {
+    pub gravity: [f64; D],
+    /// All markers: the ground's first, then each body's.
+    pub markers: MarkerTable,
+    pub ground: Vec<Marker<D>>,
+    pub bodies: Vec<Part<D>>,
+    pub joints: Vec<Connection<Box<dyn Joint<D>>>>,
+    pub forces: Vec<Connection<Box<dyn Force<D>>>>,
+    pub outputs: Vec<Watched>,
+    pub inputs: Vec<Driven>,
+}
+
+/// A body in its place.
+pub struct Part<const D: usize> {
+    pub name: String,
+    pub body: Box<dyn Body<D>>,
+    /// Index of its first marker in the table.
+    pub first_marker: MarkerId,
+    /// Places of its first coordinate and velocity.
+    pub first_q: usize,
+    pub first_v: usize,
+    pub nq: usize,
+    pub nv: usize,
+}
+
+/// A joint or force with its name, its kind in the scene and the markers it sees.
+pub struct Connection<E> {
+    pub name: String,
+    pub kind: &'static str,
+    pub element: E,
+    pub markers: Vec<MarkerId>,
+}
+
+/// A named output.
+pub struct Watched {
+    pub name: String,
+    /// Unit for axes and headings, such as `m` or `rad`.
+    pub unit: String,
+    pub measure: Measure,
+}
+
+/// What an output reads.
+pub enum Measure {
+    /// An expression over t and marker quantities.
+    Signal(Signal),
+    /// A component of a marker's position or velocity against another marker, in that one's axes.
+    Relative {
+        of: MarkerId,
+        to: MarkerId,
+        quantity: Quantity,
+    },
+    /// Angle about the third axis of `to`, counted through full turns along a trajectory.
+    Turn {
+        of: MarkerId,
+        to: MarkerId,
+    },
+    /// Distance between two markers and its rate.
+    Distance {
+        from: MarkerId,
+        to: MarkerId,
+        rate: bool,
+    },
+    /// Force (components 0 to 2), torque (3 to 5) or size of the force (6) on the second body of a joint, world axes.
+    Reaction {
+        joint: usize,
+        component: usize,
+    },
+    /// The magnitude of a force.
+    Force(usize),
+    Energy(EnergyPart),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EnergyPart {
+    Kinetic,
+    Potential,
+    Total,
+}
+
+/// A named input: a component of an applied force or torque.
+pub struct Driven {
+    pub name: String,
+    pub force: usize,
+    pub component: usize,
+}
+
+impl<const D: usize> Model<D> {
+    pub fn marker_count(&self) -> usize {
+        self.markers.names.len()
+    }
+
+    /// Frames of the ground's markers.
+    pub fn ground_frames(&self) -> impl Iterator<Item = Frame<f64, D>> + '_ {
+        self.ground.iter().map(|marker| Frame::world().at(marker))
+    }
+
+    /// The body that carries a marker, unless it is the ground.
+    pub fn carrier(&self, marker: MarkerId) -> Option<&Part<D>> {
+        self.markers.bodies[marker].map(|body| &self.bodies[body])
+    }
+}

@@ -1,0 +1,208 @@
+//! Outputs and inputs of a scene.
+
+use super::format::{InputSpec, MeasureKind, OutputSpec};
+use super::model::{Connection, Driven, EnergyPart, Measure, Watched};
+use crate::body::{Build, MarkerId, Quantity};
+use crate::error::{Error, Result, suggest};
+use crate::force::{self, Force};
+use crate::joint::Joint;
+
+type Joints<const D: usize> = [Connection<Box<dyn Joint<D>>>];
+type Forces<const D: usize> = [Connection<Box<dyn Force<D>>>];
+
+/// Kinematic outputs as expressions, by which forces may use them.
+pub fn formulas<const D: usize>(specs: &[OutputSpec]) -> Result<Vec<(String, String)>> {
+    let formula = |spec: &OutputSpec| {
+        let of = spec.of.as_deref()?;
+        let axis = spec.component.as_deref().unwrap_or("x");
+        if spec.relative_to.is_some() {
+            return None;
+        }
+        match spec.measure {
+            MeasureKind::Position => Some(format!("{of}.{axis}")),
+            MeasureKind::Velocity => Some(format!("{of}.{axis}'")),
+            MeasureKind::Angle if D == 2 => Some(format!("{of}.angle")),
+            MeasureKind::AngularVelocity if D == 2 => Some(format!("{of}.angle'")),
+            MeasureKind::AngularVelocity => Some(format!("{of}.w{}", spec.component.as_deref().unwrap_or("z"))),
+            _ => None,
+        }
+    };
+    let distance = |spec: &OutputSpec| {
+        let [a, b] = spec.between.as_ref()?;
+        let axes = &["x", "y", "z"][..D];
+        let gaps = axes.iter().map(|axis| format!("({b}.{axis} - {a}.{axis})^2")).collect::<Vec<_>>();
+        (spec.measure == MeasureKind::Distance).then(|| format!("sqrt({})", gaps.join(" + ")))
+    };
+    let given = |spec: &OutputSpec| match (&spec.measure, &spec.value) {
+        (MeasureKind::Expression, Some(value)) => Some(value.to_string()),
+        _ => None,
+    };
+    let all = specs.iter().filter_map(|spec| {
+        let text = formula(spec).or_else(|| distance(spec)).or_else(|| given(spec))?;
+        Some((spec.name.clone(), text))
+    });
+    Ok(all.collect())
+}
+
+/// The outputs with everything they name resolved.
+pub fn outputs<const D: usize>(
+    specs: &[OutputSpec],
+    joints: &Joints<D>,
+    forces: &Forces<D>,
+    build: &Build<D>,
+) -> Result<Vec<Watched>> {
+    let mut all: Vec<Watched> = Vec::new();
+    for (i, spec) in specs.iter().enumerate() {
+        let place = |error: Error| error.element(&spec.name).under(format!("outputs[{i}]"));
+        super::builder::check_name(&spec.name).map_err(|error| place(error.under("name")))?;
+        if all.iter().any(|known| known.name == spec.name) {
+            return Err(place(Error::input(format!("the name `{}` is taken", spec.name)).under("name")));
+        }
+        let reader = Reader { spec, build };
+        let measure = reader.measure(joints, forces).map_err(place)?;
+        all.push(Watched { name: spec.name.clone(), unit: reader.unit(&measure), measure });
+    }
+    Ok(all)
+}
+
+struct Reader<'a, const D: usize> {
+    spec: &'a OutputSpec,
+    build: &'a Build<'a, D>,
+}
+
+impl<const D: usize> Reader<'_, D> {
+    fn measure(&self, joints: &Joints<D>, forces: &Forces<D>) -> Result<Measure> {
+        match self.spec.measure {
+            MeasureKind::Angle => {
+                let (of, to) = (self.marker()?, self.reference()?);
+                self.build.oriented("of", &[of, to])?;
+                Ok(Measure::Turn { of, to })
+            }
+            MeasureKind::AngularVelocity => self.relative(Quantity::Spin(if D == 2 { 2 } else { self.axis("z")? })),
+            MeasureKind::Position => self.relative(Quantity::Position(self.axis("x")?)),
+            MeasureKind::Velocity => self.relative(Quantity::Velocity(self.axis("x")?)),
+            MeasureKind::Distance => self.distance(false),
+            MeasureKind::DistanceRate => self.distance(true),
+            MeasureKind::Reaction => {
+                let joint = find("joint", self.of()?, joints.iter().map(|joint| joint.name.as_str()))?;
+                Ok(Measure::Reaction { joint, component: self.reaction()? })
+            }
+            MeasureKind::Force => {
+                Ok(Measure::Force(find("force", self.of()?, forces.iter().map(|force| force.name.as_str()))?))
+            }
+            MeasureKind::Energy => Ok(Measure::Energy(match self.spec.component.as_deref() {
+                Some("kinetic") => EnergyPart::Kinetic,
+                Some("potential") => EnergyPart::Potential,
+                None | Some("total") => EnergyPart::Total,
+                Some(other) => return Err(wrong_component(other, &["kinetic", "potential", "total"])),
+            })),
+            MeasureKind::Expression => {
+                let value = self.spec.value.as_ref();
+                let value = value.ok_or_else(|| Error::input("the key `value` is missing"))?;
+                Ok(Measure::Signal(self.build.signal("value", value, true)?))
+            }
+        }
+    }
+
+    fn of(&self) -> Result<&str> {
+        self.spec.of.as_deref().ok_or_else(|| Error::input("the key `of` is missing").hint("name what is measured"))
+    }
+
+    fn marker(&self) -> Result<MarkerId> {
+        self.build.marker("of", self.of()?)
+    }
+
+    fn reference(&self) -> Result<MarkerId> {
+        self.build.marker("relative_to", self.spec.relative_to.as_deref().unwrap_or("ground"))
+    }
+
+    fn axis(&self, default: &str) -> Result<usize> {
+        let name = self.spec.component.as_deref().unwrap_or(default);
+        let axes = &["x", "y", "z"][..D];
+        axes.iter().position(|axis| *axis == name).ok_or_else(|| wrong_component(name, axes))
+    }
+
+    fn relative(&self, quantity: Quantity) -> Result<Measure> {
+        Ok(Measure::Relative { of: self.marker()?, to: self.reference()?, quantity })
+    }
+
+    fn distance(&self, rate: bool) -> Result<Measure> {
+        let names = self.spec.between.as_ref();
+        let names = names.ok_or_else(|| Error::input("the key `between` is missing").hint("name two markers"))?;
+        let from = self.build.marker("between[0]", &names[0])?;
+        Ok(Measure::Distance { from, to: self.build.marker("between[1]", &names[1])?, rate })
+    }
+
+    fn reaction(&self) -> Result<usize> {
+        let Some(name) = self.spec.component.as_deref() else { return Ok(6) };
+        let known: &[(&str, usize)] = match D {
+            2 => &[("x", 0), ("y", 1), ("mz", 5)],
+            _ => &[("x", 0), ("y", 1), ("z", 2), ("mx", 3), ("my", 4), ("mz", 5)],
+        };
+        let found = known.iter().find(|(known, _)| *known == name).map(|(_, component)| *component);
+        found.ok_or_else(|| wrong_component(name, &known.iter().map(|(name, _)| *name).collect::<Vec<_>>()))
+    }
+
+    fn unit(&self, measure: &Measure) -> String {
+        let unit = match (measure, self.spec.measure) {
+            (Measure::Reaction { component: 3..=5, .. }, _) => "N m",
+            (_, MeasureKind::Angle) => "rad",
+            (_, MeasureKind::AngularVelocity) => "rad/s",
+            (_, MeasureKind::Position | MeasureKind::Distance) => "m",
+            (_, MeasureKind::Velocity | MeasureKind::DistanceRate) => "m/s",
+            (_, MeasureKind::Reaction | MeasureKind::Force) => "N",
+            (_, MeasureKind::Energy) => "J",
+            (_, MeasureKind::Expression) => "",
+        };
+        self.spec.unit.clone().unwrap_or_else(|| unit.to_string())
+    }
+}
+
+fn wrong_component(found: &str, known: &[&str]) -> Error {
+    Error::input(format!("there is no component `{found}`"))
+        .under("component")
+        .hint(format!("choose one of {}", known.join(", ")))
+}
+
+fn find<'a>(what: &str, name: &str, mut known: impl Iterator<Item = &'a str> + Clone) -> Result<usize> {
+    let names = known.clone();
+    known
+        .position(|known| known == name)
+        .ok_or_else(|| Error::input(format!("there is no {what} `{name}`")).under("of").hint(suggest(name, names)))
+}
+
+/// The inputs with the components that they drive.
+pub fn inputs<const D: usize>(specs: &[InputSpec], forces: &Forces<D>) -> Result<Vec<Driven>> {
+    let mut all: Vec<Driven> = Vec::new();
+    for (i, spec) in specs.iter().enumerate() {
+        let place = |error: Error| error.element(&spec.name).under(format!("inputs[{i}]"));
+        super::builder::check_name(&spec.name).map_err(|error| place(error.under("name")))?;
+        all.push(input::<D>(spec, forces).map_err(place)?);
+    }
+    Ok(all)
+}
+
+fn input<const D: usize>(spec: &InputSpec, forces: &Forces<D>) -> Result<Driven> {
+    let force = find("force", &spec.force, forces.iter().map(|force| force.name.as_str())).map_err(|error| {
+        let Error::Input(mut input) = error else { return error };
+        input.path = "force".to_string();
+        Error::Input(input)
+    })?;
+    let kind = forces[force].kind;
+    if !force::registry::<D>().iter().any(|entry| entry.name == kind && entry.driven) {
+        return Err(Error::input(format!("`{}` is a {kind}, which an input cannot drive", spec.force))
+            .under("force")
+            .hint("name an applied_force or an applied_torque"));
+    }
+    let axes = &["x", "y", "z"][..D];
+    let component = match spec.component.as_deref() {
+        None if D == 2 && kind == "applied_torque" => 2,
+        None => {
+            return Err(
+                Error::input("the key `component` is missing").hint(format!("choose one of {}", axes.join(", ")))
+            );
+        }
+        Some(name) => axes.iter().position(|axis| *axis == name).ok_or_else(|| wrong_component(name, axes))?,
+    };
+    Ok(Driven { name: spec.name.clone(), force, component })
+}

@@ -1,0 +1,53 @@
+//! The JSON Schema of the format, generated from the types and the registries.
+
+use super::format::{BodyPlace, ForcePlace, JointPlace, SceneFile};
+use crate::{body, force, joint};
+use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde_json::{Value, json};
+
+/// The schema, for editors and for tests of the shipped scenes.
+pub fn schema() -> Value {
+    let mut generator = SchemaSettings::draft2020_12().into_generator();
+    let kinds = |registry: Vec<(&'static str, fn(&mut SchemaGenerator) -> Schema)>, generator: &mut SchemaGenerator| {
+        registry.into_iter().map(|(name, schema)| (name, resolved(schema(generator), generator))).collect::<Vec<_>>()
+    };
+    let bodies = body::registry::<3>().into_iter().map(|entry| (entry.name, entry.schema)).collect();
+    let joints = joint::registry::<3>().into_iter().map(|entry| (entry.name, entry.schema)).collect();
+    let forces = force::registry::<3>().into_iter().map(|entry| (entry.name, entry.schema)).collect();
+    let bodies = one_of::<BodyPlace>(kinds(bodies, &mut generator), &mut generator);
+    let joints = one_of::<JointPlace>(kinds(joints, &mut generator), &mut generator);
+    let forces = one_of::<ForcePlace>(kinds(forces, &mut generator), &mut generator);
+    let mut root = generator.into_root_schema_for::<SceneFile>().to_value();
+    for (key, items) in [("bodies", bodies), ("joints", joints), ("forces", forces)] {
+        root["properties"][key]["items"] = items;
+    }
+    root
+}
+
+/// The definition that a reference points to.
+fn resolved(schema: Schema, generator: &SchemaGenerator) -> Value {
+    let schema = schema.to_value();
+    let name = schema.get("$ref").and_then(Value::as_str).and_then(|path| path.rsplit('/').next());
+    match name.and_then(|name| generator.definitions().get(name)) {
+        Some(definition) => definition.clone(),
+        None => schema,
+    }
+}
+
+/// One alternative a kind: the shared keys with `type` fixed, and the kind's own.
+fn one_of<Place: JsonSchema>(kinds: Vec<(&'static str, Value)>, generator: &mut SchemaGenerator) -> Value {
+    let place = generator.subschema_for::<Place>();
+    let place = resolved(place, generator);
+    let alternatives = kinds.into_iter().map(|(name, mut kind)| {
+        for (key, value) in place["properties"].as_object().into_iter().flatten() {
+            kind["properties"][key] = value.clone();
+        }
+        kind["properties"]["type"] = json!({ "const": name });
+        let own = kind["required"].as_array().cloned().unwrap_or_default();
+        let required: Vec<Value> = [json!("name"), json!("type")].into_iter().chain(own).collect();
+        kind["required"] = Value::Array(required);
+        kind
+    });
+    json!({ "oneOf": alternatives.collect::<Vec<_>>() })
+}

@@ -1,0 +1,399 @@
+//! The only time loop: steps, step control, projection and output.
+
+use crate::error::{Error, Failure, Result};
+use crate::formulation::{self, Choice, Dynamics, Halt, Statistics};
+use crate::integrator::{self, Control, From, Integrator, Problem, Tolerance, first_step};
+use crate::projection::{self, Projection};
+use crate::system::MechanicalSystem;
+use serde::Serialize;
+
+/// A method: formulation x integrator x projection, with its accuracy.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Method {
+    pub formulation: Choice,
+    pub integrator: Choice,
+    pub projection: Choice,
+    pub rtol: f64,
+    pub atol: f64,
+    /// Fixed step, s; `None` lets the integrator choose.
+    pub step: Option<f64>,
+}
+
+impl Default for Method {
+    fn default() -> Self {
+        Method {
+            formulation: Choice::named("index1"),
+            integrator: Choice::named("dopri5"),
+            projection: Choice::named("manifold"),
+            rtol: 1e-8,
+            atol: 1e-10,
+            step: None,
+        }
+    }
+}
+
+impl Method {
+    /// Refuses combinations that make no sense, naming those that do.
+    pub fn check(&self) -> Result<()> {
+        let entry = integrator::find(&self.integrator)?;
+        if !entry.accepts.contains(&self.formulation.name.as_str()) {
+            let known = formulation::registry().iter().any(|known| known.name == self.formulation.name);
+            if known {
+                return Err(Error::input(format!("{} cannot integrate {}", entry.name, self.formulation.name))
+                    .hint(format!("{} accepts {}", entry.name, entry.accepts.join(", "))));
+            }
+        }
+        for (name, value) in [("rtol", self.rtol), ("atol", self.atol)] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(Error::input(format!("{name} is {value}, but must be above zero")).under(name));
+            }
+        }
+        match self.step {
+            Some(step) if !(step > 0.0 && step.is_finite()) => {
+                Err(Error::input(format!("the step is {step}, but must be above zero")).under("step"))
+            }
+            None if !entry.adaptive => Err(Error::input(format!("{} has no error estimate", entry.name))
+                .hint("give a fixed step: --step H, or \"step\" in the scene")),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The interval to simulate and where the output rows lie.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    pub start: f64,
+    pub end: f64,
+    /// Distance of the output rows, s.
+    pub output_step: f64,
+}
+
+impl Span {
+    /// Time of output row `row`: multiples of the output step, and the end.
+    fn row(&self, row: u64) -> f64 {
+        let t = self.start + row as f64 * self.output_step;
+        // The last multiple and the end are one row when they differ by rounding only.
+        if t > self.end - 1e-9 * self.output_step { self.end } else { t }
+    }
+}
+
+/// All that is known at a state of the motion.
+pub struct Observation<'a> {
+    pub t: f64,
+    pub q: &'a [f64],
+    pub v: &'a [f64],
+    pub vdot: &'a [f64],
+    pub lambda: &'a [f64],
+    pub phi: &'a [f64],
+    pub phi_dot: &'a [f64],
+    pub phi_ddot: &'a [f64],
+    /// Work of forces without potential and of moving constraints since the start, J.
+    pub work: f64,
+}
+
+/// Receives the motion while it is computed.
+pub trait Sink {
+    /// Every accepted step, the start included.
+    fn accepted(&mut self, state: &Observation);
+    /// Every output row, in order.
+    fn row(&mut self, state: &Observation);
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    pub statistics: Statistics,
+    pub t: f64,
+    /// The last good state.
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    pub failure: Option<Failure>,
+}
+
+/// Integrates `system` from (q, v), which should be consistent, over `span`. A run that cannot go on is no error: its
+/// outcome says where and why, and the sink holds what came before.
+///
+/// # Errors
+/// Bad input only: an unknown or impossible method, a bad span.
+pub fn simulate(
+    system: &dyn MechanicalSystem,
+    method: &Method,
+    span: Span,
+    (q, v): (&[f64], &[f64]),
+    sink: &mut dyn Sink,
+) -> Result<Outcome> {
+    method.check()?;
+    if !(span.end > span.start && span.output_step > 0.0) {
+        return Err(Error::input(format!("nothing to simulate from {} s to {} s", span.start, span.end))
+            .hint("the end must come after the start and the output step must be above zero"));
+    }
+    let mut run = Run::new(system, method, span, q, v)?;
+    let failure = run.integrate(sink).err();
+    let (q, v) = run.problem.split(&run.y);
+    Ok(Outcome { statistics: run.problem.dynamics.statistics, t: run.t, q: q.to_vec(), v: v.to_vec(), failure })
+}
+
+struct Run<'a> {
+    problem: Problem<'a>,
+    integrator: Box<dyn Integrator>,
+    projection: Option<Box<dyn Projection>>,
+    rows: Rows<'a>,
+    tolerance: Tolerance,
+    fixed: Option<f64>,
+    span: Span,
+    t: f64,
+    y: Vec<f64>,
+    slope: Vec<f64>,
+    next: Vec<f64>,
+    next_slope: Vec<f64>,
+    change: Vec<f64>,
+    phi_ddot: Vec<f64>,
+}
+
+/// Output rows have a problem of their own, so that they do not count in the statistics.
+struct Rows<'a> {
+    problem: Problem<'a>,
+    projection: Option<Box<dyn Projection>>,
+    next: u64,
+    y: Vec<f64>,
+    slope: Vec<f64>,
+    phi_ddot: Vec<f64>,
+}
+
+/// A correction that moves the state by more than this many tolerated errors refuses the step.
+const MOST_CORRECTION: f64 = 10.0;
+
+impl<'a> Run<'a> {
+    fn new(system: &'a dyn MechanicalSystem, method: &Method, span: Span, q: &[f64], v: &[f64]) -> Result<Self> {
+        let problem = || -> Result<Problem<'a>> {
+            Ok(Problem::new(Dynamics::new(system), formulation::make(&method.formulation, system)?))
+        };
+        let y = [q, v, &[0.0]].concat();
+        let zeros = || vec![0.0; y.len()];
+        let residual = || vec![0.0; system.dimensions().lambda];
+        let entry = integrator::find(&method.integrator)?;
+        Ok(Run {
+            problem: problem()?,
+            integrator: (entry.make)(&method.integrator, y.len())?,
+            projection: projection::make(&method.projection, system)?,
+            rows: Rows {
+                problem: problem()?,
+                projection: projection::make(&method.projection, system)?,
+                next: 0,
+                y: zeros(),
+                slope: zeros(),
+                phi_ddot: residual(),
+            },
+            tolerance: Tolerance { rtol: method.rtol, atol: method.atol },
+            fixed: method.step,
+            span,
+            t: span.start,
+            slope: zeros(),
+            next: zeros(),
+            next_slope: zeros(),
+            change: zeros(),
+            phi_ddot: residual(),
+            y,
+        })
+    }
+
+    fn integrate(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
+        self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.failure(halt.to_string()))?;
+        self.observe(sink);
+        self.rows.emit(self.t, &self.y, sink).map_err(|halt| self.failure(halt.to_string()))?;
+        self.rows.next = 1;
+        let mut control = self.integrator.control();
+        let mut h = self.first_step().map_err(|halt| self.failure(halt.to_string()))?;
+        let mut growing = true;
+        while self.t < self.span.end {
+            let (size, last) = self.fit(h);
+            let error = match self.step(size, last) {
+                Ok(error) => error,
+                Err(halt) => {
+                    h = self.retry(size, None, &control, &halt.to_string())?;
+                    growing = false;
+                    continue;
+                }
+            };
+            if error.is_some_and(|error| error > 1.0 || error.is_nan()) {
+                h = self.retry(size, error, &control, "the error of a step stays above the tolerance")?;
+                growing = false;
+                continue;
+            }
+            self.output(size, last, sink).map_err(|halt| self.failure(halt.to_string()))?;
+            self.accept(size, last, sink);
+            if let Some(error) = error {
+                let proposed = control.accept(size, error, growing);
+                // A step cut to hit the end says nothing against the size before it.
+                h = if last { h.max(proposed) } else { proposed };
+            }
+            growing = true;
+        }
+        Ok(())
+    }
+
+    fn first_step(&mut self) -> Result<f64, Halt> {
+        match self.fixed {
+            Some(step) => Ok(step),
+            None => {
+                let span = (self.t, self.span.end - self.t);
+                let order = self.integrator.order();
+                let step = first_step(&mut self.problem, &self.tolerance, span, &self.y, &self.slope, order)?;
+                // The probe left its own terms behind; those of the start are needed for nothing more.
+                Ok(step)
+            }
+        }
+    }
+
+    /// The step cut or stretched a little so that the end is met; and whether it is the last.
+    fn fit(&self, h: f64) -> (f64, bool) {
+        let left = self.span.end - self.t;
+        if h * (1.0 + 1e-9) >= left {
+            (left, true)
+        } else if self.fixed.is_none() && 1.01 * h > left {
+            (left, true)
+        } else {
+            (h, false)
+        }
+    }
+
+    /// Tries one step with its projection, and leaves y' at the new state in `next_slope`.
+    fn step(&mut self, h: f64, last: bool) -> Result<Option<f64>, Halt> {
+        let from = From { t: self.t, y: &self.y, slope: &self.slope };
+        let error = self.integrator.attempt(&mut self.problem, &self.tolerance, from, h, &mut self.next)?;
+        let error = if self.fixed.is_some() { None } else { error };
+        if error.is_some_and(|error| error > 1.0 || error.is_nan()) {
+            return Ok(error);
+        }
+        let t = if last { self.span.end } else { self.t + h };
+        let before = error.map(|_| self.change.copy_from_slice(&self.next));
+        project(t, &mut self.next, &mut self.problem, &mut self.projection)?;
+        if before.is_some() {
+            self.change.iter_mut().zip(&self.next).for_each(|(change, next)| *change -= next);
+            let correction = self.tolerance.norm(&self.next, &self.change);
+            if correction > MOST_CORRECTION {
+                return Ok(Some(correction));
+            }
+        }
+        self.problem.derivative(t, &self.next, &mut self.next_slope)?;
+        Ok(error)
+    }
+
+    /// Emits the rows within the step from `t` to `t + h`.
+    fn output(&mut self, h: f64, last: bool, sink: &mut dyn Sink) -> Result<(), Halt> {
+        let end = if last { self.span.end } else { self.t + h };
+        let slack = 1e-9 * h;
+        let mut prepared = false;
+        loop {
+            let t = self.span.row(self.rows.next);
+            if t > end + slack || self.rows.next > 0 && self.span.row(self.rows.next - 1) >= self.span.end {
+                return Ok(());
+            }
+            if t > end - slack {
+                self.rows.y.copy_from_slice(&self.next);
+            } else {
+                if !prepared {
+                    self.prepare(h, end)?;
+                    prepared = true;
+                }
+                self.integrator.interpolate((t - self.t) / h, &self.y, &mut self.rows.y);
+                let rows = &mut self.rows;
+                project(t, &mut rows.y, &mut rows.problem, &mut rows.projection)?;
+            }
+            self.rows.emit_own(t, sink)?;
+            self.rows.next += 1;
+        }
+    }
+
+    fn prepare(&mut self, h: f64, _end: f64) -> Result<(), Halt> {
+        let from = From { t: self.t, y: &self.y, slope: &self.slope };
+        // Interpolation stages run on the rows' problem: they are not part of the step.
+        self.integrator.prepare(&mut self.rows.problem, from, h, &self.next, &self.next_slope)
+    }
+
+    fn accept(&mut self, h: f64, last: bool, sink: &mut dyn Sink) {
+        self.t = if last { self.span.end } else { self.t + h };
+        std::mem::swap(&mut self.y, &mut self.next);
+        std::mem::swap(&mut self.slope, &mut self.next_slope);
+        self.problem.dynamics.statistics.steps += 1;
+        self.observe(sink);
+    }
+
+    fn observe(&mut self, sink: &mut dyn Sink) {
+        let deficient = self.problem.dynamics.kkt.is_rank_deficient();
+        self.problem.dynamics.statistics.rank_deficient += u64::from(deficient);
+        sink.accepted(&observation(self.t, &self.y, &self.problem, &mut self.phi_ddot));
+    }
+
+    /// The step to try after a failed one, or the end of the run where no smaller step makes sense.
+    fn retry(&mut self, h: f64, error: Option<f64>, control: &Control, reason: &str) -> Result<f64, Failure> {
+        self.problem.dynamics.statistics.rejected += 1;
+        if self.fixed.is_some() {
+            return Err(self.failure(format!("{reason} (with the fixed step {h:e} s)")));
+        }
+        let smaller = match error {
+            Some(error) if error.is_finite() => control.reject(h, error),
+            _ => 0.25 * h,
+        };
+        let smallest = 1e-15 * self.t.abs().max(1e-3 * (self.span.end - self.span.start));
+        match smaller > smallest {
+            true => Ok(smaller),
+            false => Err(self.failure(format!("{reason}, down to a step of {h:.1e} s"))),
+        }
+    }
+
+    fn failure(&self, reason: String) -> Failure {
+        let hint = match self.fixed {
+            Some(_) => "try a smaller --step, a projection such as `manifold`, or an adaptive integrator",
+            None => "try another tolerance or a projection such as `manifold`; look at the motion just before the end",
+        };
+        Failure { t: self.t, reason, hint: hint.to_string() }
+    }
+}
+
+impl Rows<'_> {
+    fn emit(&mut self, t: f64, y: &[f64], sink: &mut dyn Sink) -> Result<(), Halt> {
+        self.y.copy_from_slice(y);
+        self.emit_own(t, sink)
+    }
+
+    fn emit_own(&mut self, t: f64, sink: &mut dyn Sink) -> Result<(), Halt> {
+        self.problem.derivative(t, &self.y, &mut self.slope)?;
+        sink.row(&observation(t, &self.y, &self.problem, &mut self.phi_ddot));
+        Ok(())
+    }
+}
+
+fn project(
+    t: f64,
+    y: &mut [f64],
+    problem: &mut Problem,
+    projection: &mut Option<Box<dyn Projection>>,
+) -> Result<(), Halt> {
+    if y.iter().any(|x| !x.is_finite()) {
+        return Err(Halt::NotFinite);
+    }
+    let (q, v) = problem.split_mut(y);
+    problem.dynamics.system.normalize(q);
+    match projection {
+        Some(projection) => projection.project(t, q, v, &mut problem.dynamics),
+        None => Ok(()),
+    }
+}
+
+fn observation<'o>(t: f64, y: &'o [f64], problem: &'o Problem, phi_ddot: &'o mut [f64]) -> Observation<'o> {
+    let dynamics = &problem.dynamics;
+    let (q, v) = problem.split(y);
+    dynamics.acceleration_residual(phi_ddot);
+    Observation {
+        t,
+        q,
+        v,
+        vdot: &dynamics.vdot,
+        lambda: &dynamics.lambda,
+        phi: &dynamics.terms.phi,
+        phi_dot: &dynamics.terms.phi_dot,
+        phi_ddot,
+        work: y[y.len() - 1],
+    }
+}

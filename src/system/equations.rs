@@ -1,0 +1,172 @@
+//! Own equations, written once over any scalar.
+
+use super::{Column, Dimensions, Energy, MechanicalSystem, Need, Scratch, Terms};
+use crate::math::{Dual, Scalar, Taylor};
+
+/// A mechanism by its M, f and phi. G, phi', gamma and L follow by dual and Taylor numbers, so nothing is derived by
+/// hand; the cost is about (6 + n)/6 evaluations of phi for G.
+///
+/// ```
+/// use holonom::math::Scalar;
+/// use holonom::system::Equations;
+///
+/// /// Pendulum of unit mass and length in Cartesian coordinates.
+/// struct Pendulum;
+///
+/// impl Equations for Pendulum {
+///     fn size(&self) -> (usize, usize) {
+///         (2, 1)
+///     }
+///     fn mass<S: Scalar>(&self, _t: S, _q: &[S], mass: &mut [S]) {
+///         mass.copy_from_slice(&[S::one(), S::zero(), S::zero(), S::one()]);
+///     }
+///     fn force<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], f: &mut [S]) {
+///         f.copy_from_slice(&[S::zero(), S::constant(-9.81)]);
+///     }
+///     fn phi<S: Scalar>(&self, _t: S, q: &[S], phi: &mut [S]) {
+///         phi[0] = (q[0].square() + q[1].square() - 1.0) * 0.5;
+///     }
+/// }
+/// ```
+pub trait Equations: Send + Sync + 'static {
+    /// (n, n_c): coordinates, which are also the velocities, and constraints.
+    fn size(&self) -> (usize, usize);
+    /// M, n x n, row by row.
+    fn mass<S: Scalar>(&self, t: S, q: &[S], mass: &mut [S]);
+    /// f, n: all forces but the reactions, velocity-dependent inertia forces included.
+    fn force<S: Scalar>(&self, t: S, q: &[S], v: &[S], f: &mut [S]);
+    /// phi, n_c.
+    fn phi<S: Scalar>(&self, t: S, q: &[S], phi: &mut [S]);
+    /// Potential energy, J, of forces that have one; with it the energy is watched.
+    fn potential(&self, _t: f64, _q: &[f64]) -> Option<f64> {
+        None
+    }
+    /// Outputs by name and value. Default: none.
+    fn outputs(&self, _t: f64, _q: &[f64], _v: &[f64]) -> Vec<(String, f64)> {
+        Vec::new()
+    }
+}
+
+type Along = Dual<Taylor<f64>, 6>;
+
+struct Memory {
+    mass: Vec<f64>,
+    path: Vec<Taylor<f64>>,
+    levels: Vec<Taylor<f64>>,
+    seeded: Vec<Dual<f64, 6>>,
+    slopes: Vec<Dual<f64, 6>>,
+    moving: Vec<Along>,
+    curvatures: Vec<Along>,
+}
+
+impl Memory {
+    fn new(n: usize, m: usize) -> Self {
+        let zero = Taylor::fixed(0.0);
+        Memory {
+            mass: vec![0.0; n * n],
+            path: vec![zero; n],
+            levels: vec![zero; m],
+            seeded: vec![Dual::fixed(0.0); n],
+            slopes: vec![Dual::fixed(0.0); m],
+            moving: vec![Dual::fixed(zero); n],
+            curvatures: vec![Dual::fixed(zero); m],
+        }
+    }
+}
+
+impl<E: Equations> MechanicalSystem for E {
+    fn dimensions(&self) -> Dimensions {
+        let (n, m) = self.size();
+        Dimensions { q: n, v: n, lambda: m }
+    }
+
+    fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
+        let (n, m) = self.size();
+        let memory = scratch.get(|| Memory::new(n, m));
+        if need.includes(Need::MASS) {
+            self.mass(t, q, &mut memory.mass);
+            let lower = (0..n).flat_map(|i| (0..=i).map(move |j| i * n + j));
+            terms.mass.iter_mut().zip(lower).for_each(|(entry, place)| *entry = memory.mass[place]);
+        }
+        if need.includes(Need::FORCE) {
+            self.force(t, q, v, &mut terms.f);
+            terms.power = 0.0;
+        }
+        if need.includes(Need::CONSTRAINTS) {
+            levels(self, t, q, v, memory, terms);
+        }
+        if need.includes(Need::G) {
+            gradient(self, t, q, memory, terms);
+        }
+        if need.includes(Need::L) {
+            curvature(self, t, q, v, memory, terms);
+        }
+    }
+
+    fn energy(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<Energy> {
+        let potential = self.potential(t, q)?;
+        let (n, m) = self.size();
+        let mass = &mut scratch.get(|| Memory::new(n, m)).mass;
+        self.mass(t, q, mass);
+        let momentum = |i: usize| mass[i * n..(i + 1) * n].iter().zip(v).map(|(m, v)| m * v).sum::<f64>();
+        Some(Energy { kinetic: 0.5 * (0..n).map(|i| v[i] * momentum(i)).sum::<f64>(), potential })
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        let (n, _) = self.size();
+        let zeros = vec![0.0; n];
+        let outputs = Equations::outputs(self, 0.0, &zeros, &zeros).into_iter();
+        outputs.map(|(name, _)| Column { name, unit: String::new(), periodic: false }).collect()
+    }
+
+    fn outputs(&self, t: f64, q: &[f64], v: &[f64], _lambda: &[f64], out: &mut [f64], _scratch: &mut Scratch) {
+        let values = Equations::outputs(self, t, q, v);
+        out.iter_mut().zip(values).for_each(|(out, (_, value))| *out = value);
+    }
+}
+
+/// phi, phi' and -gamma along q + v s; phi_t with q held.
+fn levels<E: Equations>(system: &E, t: f64, q: &[f64], v: &[f64], memory: &mut Memory, terms: &mut Terms) {
+    for (i, place) in memory.path.iter_mut().enumerate() {
+        *place = Taylor::new(q[i], 0.0, 0.0);
+    }
+    system.phi(Taylor::time(t), &memory.path, &mut memory.levels);
+    terms.phi_t.iter_mut().zip(&memory.levels).for_each(|(phi_t, level)| *phi_t = level.d);
+    for (i, place) in memory.path.iter_mut().enumerate() {
+        *place = Taylor::new(q[i], v[i], 0.0);
+    }
+    system.phi(Taylor::time(t), &memory.path, &mut memory.levels);
+    for (i, level) in memory.levels.iter().enumerate() {
+        (terms.phi[i], terms.phi_dot[i], terms.gamma[i]) = (level.x, level.d, -level.dd);
+    }
+}
+
+/// G, six columns a pass.
+fn gradient<E: Equations>(system: &E, t: f64, q: &[f64], memory: &mut Memory, terms: &mut Terms) {
+    let n = q.len();
+    for first in (0..n).step_by(6) {
+        let columns = first..n.min(first + 6);
+        memory.seeded.iter_mut().zip(q).for_each(|(place, &q)| *place = Dual::fixed(q));
+        columns.clone().for_each(|i| memory.seeded[i] = Dual::seeded(q[i], i - first));
+        system.phi(Dual::fixed(t), &memory.seeded, &mut memory.slopes);
+        for (row, slope) in memory.slopes.iter().enumerate() {
+            columns.clone().for_each(|i| terms.g[row * n + i] = slope.eps[i - first]);
+        }
+    }
+}
+
+/// L = d(phi')/dq, six columns a pass.
+fn curvature<E: Equations>(system: &E, t: f64, q: &[f64], v: &[f64], memory: &mut Memory, terms: &mut Terms) {
+    let n = q.len();
+    for first in (0..n).step_by(6) {
+        let columns = first..n.min(first + 6);
+        for (i, place) in memory.moving.iter_mut().enumerate() {
+            *place = Dual::fixed(Taylor::new(q[i], v[i], 0.0));
+        }
+        columns.clone().for_each(|i| memory.moving[i].eps[i - first] = Taylor::fixed(1.0));
+        system.phi(Dual::fixed(Taylor::time(t)), &memory.moving, &mut memory.curvatures);
+        for (row, slope) in memory.curvatures.iter().enumerate() {
+            columns.clone().for_each(|i| terms.l[row * n + i] = slope.eps[i - first].d);
+        }
+    }
+}

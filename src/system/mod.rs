@@ -1,0 +1,112 @@
+//! The equations that everything above solves, whoever wrote them.
+//!
+//! [`MechanicalSystem`] is what solvers see: M, f, phi, phi', gamma and G at a state. A scene becomes one through
+//! [`Mechanism`]; a researcher implements it directly, or writes M, f and phi once over any scalar as [`Equations`]
+//! and gets the derivatives.
+
+mod equations;
+mod mechanism;
+mod output;
+mod terms;
+
+pub use equations::Equations;
+pub use mechanism::Mechanism;
+pub use output::Output;
+pub use terms::{Need, Scratch, Structure, Terms};
+
+pub use crate::body::Energy;
+use crate::math::kkt::Pattern;
+
+/// Numbers of coordinates, velocities and constraints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Dimensions {
+    /// n_q
+    pub q: usize,
+    /// n_v
+    pub v: usize,
+    /// n_c
+    pub lambda: usize,
+}
+
+/// Names of the columns that a user reads.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Names {
+    pub q: Vec<String>,
+    pub v: Vec<String>,
+    pub lambda: Vec<String>,
+}
+
+/// Rows of phi that belong together: a joint.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Group {
+    pub name: String,
+    /// Such as `revolute`.
+    pub kind: String,
+    pub rows: std::ops::Range<usize>,
+}
+
+/// An output's name and how to show it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Column {
+    pub name: String,
+    /// Such as `rad`; empty where it is not known.
+    pub unit: String,
+    /// Whether it is an angle known up to full turns, which a trajectory joins to a continuous curve.
+    pub periodic: bool,
+}
+
+/// M(q) v' + G(q,t)^T lambda = f(t,q,v), phi(q,t) = 0, q' = N(q) v.
+///
+/// Immutable while it is solved, so threads share it; scratch memory comes from the caller.
+pub trait MechanicalSystem: Send + Sync {
+    fn dimensions(&self) -> Dimensions;
+
+    /// Fills what `need` names of `terms` at (t, q, v); filling more is allowed. Where the entries of M and G stand is
+    /// said by [`structure`](Self::structure). All values there may be stale on entry.
+    fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch);
+
+    /// Places of the values of M (lower triangle) and G. Default: dense, row by row.
+    fn structure(&self) -> Structure {
+        let n = self.dimensions();
+        Structure { mass: Pattern::lower(n.v), g: Pattern::dense(n.lambda, n.v) }
+    }
+
+    /// Default: `q1, q2 ...`, `v1 ...`, `lambda1 ...`.
+    fn names(&self) -> Names {
+        let n = self.dimensions();
+        let numbered = |prefix: &str, n: usize| (1..=n).map(|i| format!("{prefix}{i}")).collect();
+        Names { q: numbered("q", n.q), v: numbered("v", n.v), lambda: numbered("lambda", n.lambda) }
+    }
+
+    /// q' = N(q) v. Default: N = I.
+    fn rate(&self, _q: &[f64], v: &[f64], qdot: &mut [f64]) {
+        qdot.copy_from_slice(v);
+    }
+
+    /// Brings redundant coordinates (quaternions) back to their normal form.
+    fn normalize(&self, _q: &mut [f64]) {}
+
+    /// Kinetic and potential energy; `None` where the author of the equations gave no potential.
+    fn energy(&self, _t: f64, _q: &[f64], _v: &[f64], _scratch: &mut Scratch) -> Option<Energy> {
+        None
+    }
+
+    /// The outputs. Default: none.
+    fn columns(&self) -> Vec<Column> {
+        Vec::new()
+    }
+
+    /// The outputs at a state with its multipliers.
+    fn outputs(&self, _t: f64, _q: &[f64], _v: &[f64], _lambda: &[f64], _out: &mut [f64], _scratch: &mut Scratch) {}
+
+    /// Units of phi by row that drift is measured against: a length for rows in metres, 1 rad for angles. Default: 1.
+    fn scales(&self) -> Vec<f64> {
+        vec![1.0; self.dimensions().lambda]
+    }
+
+    /// The rows of phi by joint. Default: each row for itself.
+    fn groups(&self) -> Vec<Group> {
+        let names = self.names().lambda.into_iter().enumerate();
+        names.map(|(i, name)| Group { name, kind: "constraint".to_string(), rows: i..i + 1 }).collect()
+    }
+}

@@ -1,0 +1,115 @@
+//! What a user watches: the outputs of a scene at a state.
+
+use super::mechanism::{Mechanism, Workspace, gather, size};
+use super::{MechanicalSystem, Scratch};
+use crate::body::{Frame, MarkerId, Quantity, Wrench, dot, sub};
+use crate::joint::{MOST_MARKERS, MOST_ROWS, markers_per_pass};
+use crate::math::Taylor;
+use crate::scene::{EnergyPart, Measure};
+
+/// A state with its multipliers, as the outputs see it.
+pub struct Output<'a, const D: usize> {
+    pub mechanism: &'a Mechanism<D>,
+    pub t: f64,
+    pub q: &'a [f64],
+    pub v: &'a [f64],
+    pub lambda: &'a [f64],
+}
+
+impl<const D: usize> Output<'_, D> {
+    /// All outputs in the order of the scene.
+    pub fn write(&self, out: &mut [f64], scratch: &mut Scratch) {
+        let energy = self.mechanism.energy(self.t, self.q, self.v, scratch).unwrap_or_default();
+        let work = self.mechanism.workspace(scratch);
+        for (out, output) in out.iter_mut().zip(&self.mechanism.model().outputs) {
+            *out = match &output.measure {
+                Measure::Signal(signal) => signal.evaluate(self.t, |probe| probe.read(&work.motion[probe.marker])),
+                Measure::Relative { of, to, quantity } => relative(work, *of, *to, *quantity),
+                Measure::Turn { of, to } => turn(&work.motion[*of], &work.motion[*to]),
+                Measure::Distance { from, to, rate } => {
+                    let gap = sub(&work.motion[*to].r, &work.motion[*from].r);
+                    if *rate { separation_rate(&gap) } else { size(&gap.map(|x| x.x)) }
+                }
+                Measure::Reaction { joint, component } => self.reaction(work, *joint, *component),
+                Measure::Force(force) => self.magnitude(work, *force),
+                Measure::Energy(EnergyPart::Kinetic) => energy.kinetic,
+                Measure::Energy(EnergyPart::Potential) => energy.potential,
+                Measure::Energy(EnergyPart::Total) => energy.kinetic + energy.potential,
+            };
+        }
+    }
+
+    fn magnitude(&self, work: &Workspace<D>, force: usize) -> f64 {
+        let force = &self.mechanism.model().forces[force];
+        let (frames, n) = gather(&work.motion, &force.markers);
+        let mut wrenches = [Wrench::zero(); MOST_MARKERS];
+        force.element.act(&frames[..n], Taylor::time(self.t), &mut wrenches[..n]).magnitude
+    }
+
+    /// -G^T lambda on the joint's second marker, as a wrench in world axes.
+    fn reaction(&self, work: &Workspace<D>, joint: usize, component: usize) -> f64 {
+        let rows = self.mechanism.rows_of_joint(joint);
+        let joint = &self.mechanism.model().joints[joint];
+        let (frames, n) = gather(&work.motion, &joint.markers);
+        let slot = 1.min(n - 1);
+        let mut slopes = [[0.0; 6]; MOST_ROWS];
+        joint.element.gradient(&frames[..n], self.t, slot / markers_per_pass(D), &mut slopes[..rows.len()]);
+        let first = slot % markers_per_pass(D) * crate::body::twist_len(D);
+        let mut wrench = [0.0; 6];
+        for (slope, row) in slopes.iter().zip(rows) {
+            for (sum, entry) in wrench.iter_mut().zip(&slope[first..]) {
+                *sum -= self.lambda[row] * entry;
+            }
+        }
+        match component {
+            6 => size::<D>(&std::array::from_fn(|i| wrench[i])),
+            5 if D == 2 => wrench[2],
+            component => wrench[component],
+        }
+    }
+}
+
+fn separation_rate<const D: usize>(gap: &[Taylor<f64>; D]) -> f64 {
+    let length = size(&gap.map(|x| x.x));
+    // At zero distance the rate is the speed of separation.
+    if length == 0.0 {
+        return size(&gap.map(|x| x.d));
+    }
+    dot(&gap.map(|x| x.x), &gap.map(|x| x.d)) / length
+}
+
+/// Position or velocity of a marker seen from another one and in its axes.
+fn relative<const D: usize>(work: &Workspace<D>, of: MarkerId, to: MarkerId, quantity: Quantity) -> f64 {
+    let (of, to) = (&work.motion[of], &work.motion[to]);
+    let gap = sub(&of.r, &to.r);
+    match quantity {
+        Quantity::Position(axis) => dot(&to.axes[axis], &gap).x,
+        Quantity::Velocity(axis) => dot(&to.axes[axis], &gap).d,
+        Quantity::Angle => turn(of, to),
+        Quantity::Spin(axis) => {
+            let (of, to_spin) = (of.angular_velocity(), to.angular_velocity());
+            if D == 2 {
+                return of[2] - to_spin[2];
+            }
+            (0..D).map(|i| to.axes[axis][i].x * (of[i] - to_spin[i])).sum()
+        }
+    }
+}
+
+/// Angle of one marker against another; in space about the other's third axis, in (-pi, pi].
+fn turn<const D: usize>(of: &Frame<Taylor<f64>, D>, to: &Frame<Taylor<f64>, D>) -> f64 {
+    if D == 2 {
+        return of.turn.x - to.turn.x;
+    }
+    dot(&to.axes[1], &of.axes[0]).x.atan2(dot(&to.axes[0], &of.axes[0]).x)
+}
+
+impl<const D: usize> Mechanism<D> {
+    /// World position of every marker at q, for drawings.
+    pub fn marker_positions(&self, q: &[f64], scratch: &mut Scratch) -> Vec<[f64; D]> {
+        let work = self.workspace(scratch);
+        let still = vec![0.0; self.dimensions().v];
+        self.place(q, &still, work);
+        work.motion.iter().map(|frame| frame.r.map(|x| x.x)).collect()
+    }
+}

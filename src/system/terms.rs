@@ -1,0 +1,103 @@
+//! The terms of the equations at one state.
+
+use super::MechanicalSystem;
+use crate::math::kkt::Pattern;
+use std::any::Any;
+use std::ops::BitOr;
+
+/// Which terms a caller needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Need(u8);
+
+impl Need {
+    /// M
+    pub const MASS: Need = Need(1);
+    /// f, and the power of the forces that have no potential.
+    pub const FORCE: Need = Need(2);
+    /// phi, phi', gamma and phi_t
+    pub const CONSTRAINTS: Need = Need(4);
+    /// G
+    pub const G: Need = Need(8);
+    /// L = d(G v + phi_t)/dq
+    pub const L: Need = Need(16);
+    /// All that v' and lambda need.
+    pub const DYNAMICS: Need = Need(1 | 2 | 4 | 8);
+
+    pub fn includes(self, other: Need) -> bool {
+        self.0 & other.0 == other.0
+    }
+}
+
+impl BitOr for Need {
+    type Output = Need;
+    fn bitor(self, other: Need) -> Need {
+        Need(self.0 | other.0)
+    }
+}
+
+/// Places of the values of M and G.
+#[derive(Clone, Debug)]
+pub struct Structure {
+    /// Lower triangle of M, n_v x n_v.
+    pub mass: Pattern,
+    /// G, n_c x n_v; L has the same places.
+    pub g: Pattern,
+}
+
+/// The terms at one state; the meaning of each is in the crate's documentation.
+#[derive(Clone, Debug)]
+pub struct Terms {
+    /// Values of M at the places of [`Structure::mass`].
+    pub mass: Vec<f64>,
+    /// n_v
+    pub f: Vec<f64>,
+    /// n_c, m or rad
+    pub phi: Vec<f64>,
+    /// phi' = G v + phi_t
+    pub phi_dot: Vec<f64>,
+    /// phi_t
+    pub phi_t: Vec<f64>,
+    /// -phi'' at v' = 0
+    pub gamma: Vec<f64>,
+    /// Values of G at the places of [`Structure::g`].
+    pub g: Vec<f64>,
+    /// Values of L = d(G v + phi_t)/dq along the directions of v, at the places of G; empty until needed.
+    pub l: Vec<f64>,
+    /// Power of the forces beyond what their potentials account for, W.
+    pub power: f64,
+}
+
+impl Terms {
+    pub fn new(system: &dyn MechanicalSystem) -> Self {
+        let (n, structure) = (system.dimensions(), system.structure());
+        let zeros = |n: usize| vec![0.0; n];
+        Terms {
+            mass: zeros(structure.mass.entries.len()),
+            f: zeros(n.v),
+            phi: zeros(n.lambda),
+            phi_dot: zeros(n.lambda),
+            phi_t: zeros(n.lambda),
+            gamma: zeros(n.lambda),
+            g: zeros(structure.g.entries.len()),
+            l: zeros(structure.g.entries.len()),
+            power: 0.0,
+        }
+    }
+}
+
+/// Memory that a system keeps between evaluations, of whatever type it likes.
+#[derive(Default)]
+pub struct Scratch(Option<Box<dyn Any + Send>>);
+
+impl Scratch {
+    /// The memory of type `T`, made the first time.
+    pub fn get<T: Any + Send>(&mut self, make: impl FnOnce() -> T) -> &mut T {
+        if !self.0.as_ref().is_some_and(|memory| memory.is::<T>()) {
+            self.0 = Some(Box::new(make()));
+        }
+        match self.0.as_mut().and_then(|memory| memory.downcast_mut()) {
+            Some(memory) => memory,
+            None => unreachable!("the memory was made with this type above"),
+        }
+    }
+}

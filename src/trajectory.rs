@@ -1,0 +1,65 @@
+//! The computed motion: named columns over time.
+
+use crate::simulate::Observation;
+use crate::system::{Column, MechanicalSystem, Names, Scratch};
+
+/// Rows of t, q, v, lambda and outputs, in memory as they will stand in the file.
+#[derive(Clone, Debug)]
+pub struct Trajectory {
+    pub names: Names,
+    pub outputs: Vec<Column>,
+    /// One row an output time: t, q, v, lambda, outputs.
+    pub rows: Vec<Vec<f64>>,
+}
+
+impl Trajectory {
+    pub fn new(system: &dyn MechanicalSystem) -> Self {
+        Trajectory { names: system.names(), outputs: system.columns(), rows: Vec::new() }
+    }
+
+    /// Headings of all columns: `t`, coordinates, velocities, multipliers, outputs.
+    pub fn headings(&self) -> Vec<&str> {
+        let Names { q, v, lambda } = &self.names;
+        let own = ["t"].into_iter().chain(q.iter().chain(v).chain(lambda).map(String::as_str));
+        own.chain(self.outputs.iter().map(|output| output.name.as_str())).collect()
+    }
+
+    /// Adds a row; angles that are known up to full turns are joined to the row before.
+    pub fn push(&mut self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) {
+        let mut outputs = vec![0.0; self.outputs.len()];
+        system.outputs(state.t, state.q, state.v, state.lambda, &mut outputs, scratch);
+        if let Some(last) = self.rows.last() {
+            let before = &last[last.len() - outputs.len()..];
+            for ((output, before), column) in outputs.iter_mut().zip(before).zip(&self.outputs) {
+                if column.periodic {
+                    *output += ((before - *output) / std::f64::consts::TAU).round() * std::f64::consts::TAU;
+                }
+            }
+        }
+        self.rows.push([&[state.t], state.q, state.v, state.lambda, &outputs].concat());
+    }
+
+    /// Times of the rows, s.
+    pub fn times(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
+        self.rows.iter().map(|row| row[0])
+    }
+
+    /// A column by its heading.
+    pub fn column(&self, heading: &str) -> Option<Vec<f64>> {
+        let index = self.headings().iter().position(|known| *known == heading)?;
+        Some(self.rows.iter().map(|row| row[index]).collect())
+    }
+
+    /// The outputs of a row.
+    pub fn row_outputs<'a>(&self, row: &'a [f64]) -> &'a [f64] {
+        &row[row.len() - self.outputs.len()..]
+    }
+
+    /// q, v and lambda of a row.
+    pub fn row_state<'a>(&self, row: &'a [f64]) -> (&'a [f64], &'a [f64], &'a [f64]) {
+        let (nq, nv, nc) = (self.names.q.len(), self.names.v.len(), self.names.lambda.len());
+        let (q, rest) = row[1..].split_at(nq);
+        let (v, rest) = rest.split_at(nv);
+        (q, v, &rest[..nc])
+    }
+}
