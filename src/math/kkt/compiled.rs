@@ -1,6 +1,9 @@
 //! L D L^T over a frozen pattern, with every destination of an update written down once.
 //!
-//! Measured against faer's simplicial L D L^T over the same order (factor + solve): SPEEDTABLE
+//! Measured (factor + solve, microseconds) against faer's sparse L D L^T over the same order, n + m in brackets:
+//! full M and G (13) 0.58 : 1.10, seven-body mechanism (41) 0.85 : 1.92, chain of 500 links (2500) 50 : 111,
+//! net (992) 45 : 82, net (19460) 2900 : 3890, full M and G (90) 80 : 111, (180) 601 : 158. From about 40 multiplications
+//! per nonzero of L on faer's blocks win. A full matrix on a flat slice without indices: (13) 0.65, (41) 3.1.
 
 use super::pivot::{Quality, Rule};
 use super::symbolic::Symbolic;

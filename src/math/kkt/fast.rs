@@ -43,6 +43,7 @@ impl Fast {
         }
     }
 
+    /// Solves in place; a multiplier that was left out comes out as zero.
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
         match self {
             Fast::Compiled(f) => f.solve(top, bottom),

@@ -25,8 +25,6 @@ mod pattern;
 mod pivot;
 mod reflect;
 mod saddle;
-#[cfg(test)]
-mod samples;
 mod skipping;
 mod symbolic;
 mod system;

@@ -7,8 +7,10 @@ use super::skipping::Skipping;
 use super::system::{System, add};
 use super::{Pattern, Singular};
 
-/// Up to this n + m the rank-revealing factorization is dense: 0.1 s there.
+/// Up to this n + m all doubts are settled by the dense rank-revealing factorization (10 to 100 ms
+/// there), up to the second those about whether the motion is determined.
 const DENSE: usize = 600;
+const LARGEST_DENSE: usize = 1500;
 /// After this many failures in a row at the same pivot the fast way is only tried at every 64th call.
 const PATIENCE: u32 = 3;
 const RETRY: u32 = 64;
@@ -152,17 +154,23 @@ impl SaddlePoint {
 
     fn factor_rank_revealing(&mut self) -> Result<Way, Singular> {
         let System { mass, g, .. } = &self.system;
-        let is_large = self.n + self.m > DENSE;
+        let total = self.n + self.m;
         let skipping = self.skipping.get_or_insert_with(|| Box::new(Skipping::new(mass, g)));
         let quality = skipping.factor(&self.system)?;
-        // Of a large system near a singular configuration it is not asked which rows are dependent, only whether leaving
-        // some out, or giving coordinates a little mass, still gives a solution.
-        if is_large && (quality.replaced || quality.doubtful) {
-            skipping.probe(&self.system)?;
-        }
-        let is_clear =
-            !quality.replaced && !quality.doubtful && skipping.sine(&self.system) < 0.1 * self.rank_tolerance;
-        if is_large || is_clear {
+        let is_doubtful = quality.replaced || quality.doubtful;
+        // Of a large system it is not asked which nearly dependent rows are so, only whether leaving some out, or giving
+        // coordinates a little mass, still gives a solution.
+        let is_accepted = if total <= DENSE {
+            !is_doubtful && skipping.sine(&self.system) < 0.1 * self.rank_tolerance
+        } else if is_doubtful {
+            match skipping.probe(&self.system) {
+                Err(error) if total > LARGEST_DENSE => return Err(error),
+                result => result.is_ok(),
+            }
+        } else {
+            true
+        };
+        if is_accepted {
             return Ok(Way::Skipping);
         }
         let dense = self.dense.get_or_insert_with(|| Box::new(NullSpace::new(mass, g)));
@@ -234,6 +242,11 @@ impl SaddlePoint {
         }
     }
 
+    /// Whether the last factorization needed no rank-revealing one.
+    pub fn is_fast(&self) -> bool {
+        matches!(self.way, Way::Fast { .. })
+    }
+
     pub fn is_rank_deficient(&self) -> bool {
         self.rank() < self.m
     }
@@ -250,9 +263,10 @@ impl SaddlePoint {
     /// How near the matrix is to a singular one: the smallest pivot over its size before elimination, in [0, 1]; about
     /// the square of the smallest sine between a row of G and the others (metric M^-1). Zero when rows are dependent.
     pub fn smallest_pivot_ratio(&self) -> f64 {
-        match (self.way, &self.dense) {
-            (Way::Fast { .. }, _) => self.fast.smallest_ratio(),
-            (Way::Dense, Some(dense)) => dense.smallest_ratio(),
+        match (self.way, &self.skipping, &self.dense) {
+            (Way::Fast { .. }, ..) => self.fast.smallest_ratio(),
+            (Way::Skipping, Some(skipping), _) => skipping.smallest_ratio(),
+            (Way::Dense, _, Some(dense)) => dense.smallest_ratio(),
             _ => 0.0,
         }
     }

@@ -114,6 +114,11 @@ impl Skipping {
         self.bottom.len() - self.skipped.len()
     }
 
+    /// The smallest pivot over its size; 0 when rows are left out.
+    pub fn smallest_ratio(&self) -> f64 {
+        if self.skipped.is_empty() { self.factor.smallest_ratio() } else { 0.0 }
+    }
+
     /// The norm of the part of the last right side that no motion can meet.
     pub fn inconsistency(&self) -> f64 {
         self.inconsistency

@@ -1,6 +1,6 @@
 //! Systems for tests, and dense oracles.
 
-use super::Pattern;
+use crate::math::kkt::Pattern;
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 
@@ -138,6 +138,15 @@ impl Sample {
             }
             v * c
         })
+    }
+
+    /// As `by_lu` without the last row of G.
+    pub fn by_lu_without_last(&self, r1: &[f64], r2: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let mut sample = self.clone();
+        sample.g.rows -= 1;
+        let kept = self.g.entries.iter().zip(&self.g_values).filter(|(e, _)| e.0 < sample.g.rows);
+        (sample.g.entries, sample.g_values) = kept.map(|(e, v)| (*e, *v)).unzip();
+        sample.by_lu(r1, &r2[..sample.g.rows])
     }
 
     fn apply(&self, r1: &[f64], r2: &[f64], f: impl FnOnce(Mat<f64>) -> Mat<f64>) -> (Vec<f64>, Vec<f64>) {

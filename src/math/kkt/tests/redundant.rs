@@ -1,0 +1,137 @@
+//! Dependent rows, and rows that become so.
+
+use super::samples::{Random, Sample, distance};
+use super::{agrees_with_lu, reachable, solved};
+use crate::math::kkt::null_space::NullSpace;
+use crate::math::kkt::system::System;
+use crate::math::kkt::{Pattern, SaddlePoint};
+
+#[test]
+fn redundant_rows_get_least_multipliers() {
+    let mut random = Random(4);
+    for _ in 0..10 {
+        let mut sample = Sample::mechanism(&mut random);
+        sample.append(&[(3, 1.0)]);
+        sample.append(&[(0, 2.0), (7, -1.0)]);
+        sample.append(&[(20, 30.0)]);
+        let r1 = random.vector(21);
+        let r2 = reachable(&sample, &mut random);
+        let (a, lambda, solver) = solved(&sample, &r1, &r2);
+        let (a_svd, lambda_svd) = sample.by_svd(&r1, &r2);
+        assert_eq!(solver.rank(), 20);
+        assert!(solver.is_rank_deficient() && solver.smallest_pivot_ratio() == 0.0 && solver.inconsistency() < 1e-13);
+        assert!(distance(&a, &a_svd) < 1e-10, "a {:e}", distance(&a, &a_svd));
+        assert!(distance(&lambda, &lambda_svd) < 1e-10, "lambda {:e}", distance(&lambda, &lambda_svd));
+    }
+}
+
+#[test]
+fn the_dense_way_agrees_with_the_pseudo_inverse() {
+    let mut random = Random(5);
+    for copies in [0, 1, 4] {
+        let mut sample = Sample::dense(12, 7, &mut random);
+        (0..copies).for_each(|k| sample.append(&[(k, 3.0), (k + 1, -1.0)]));
+        let r1 = random.vector(12);
+        let r2 = reachable(&sample, &mut random);
+        let mut system = System::new(&sample.mass, &sample.g);
+        system.store(&sample.mass_values, &sample.g_values);
+        let mut dense = NullSpace::new(&sample.mass, &sample.g);
+        dense.factor(&system, 1e-10).unwrap();
+        let (mut a, mut lambda) = (r1.clone(), r2.clone());
+        dense.solve(&system, &mut a, &mut lambda);
+        let (a_svd, lambda_svd) = sample.by_svd(&r1, &r2);
+        assert_eq!(dense.rank(), 7);
+        assert!(distance(&a, &a_svd) < 1e-11, "a {:e}", distance(&a, &a_svd));
+        assert!(distance(&lambda, &lambda_svd) < 1e-11, "lambda {:e}", distance(&lambda, &lambda_svd));
+    }
+}
+
+#[test]
+fn contradicting_right_sides_are_met_in_the_least_squares_sense() {
+    let mut random = Random(6);
+    let mut sample = Sample::mechanism(&mut random);
+    sample.append(&[(3, 1.0)]);
+    let mut r2 = vec![0.0; 21];
+    (r2[3], r2[20]) = (1.0, 2.0);
+    let (a, _, solver) = solved(&sample, &[0.0; 21], &r2);
+    let mut reached = vec![0.0; 21];
+    sample.g.multiply(&sample.g_values, &a, &mut reached);
+    assert!((reached[3] - 1.5).abs() < 1e-11 && (reached[20] - 1.5).abs() < 1e-11);
+    assert!((solver.inconsistency() - 0.5_f64.sqrt()).abs() < 1e-12);
+}
+
+#[test]
+fn a_large_system_with_massless_bodies_and_redundant_rows() {
+    let mut random = Random(8);
+    let mut sample = Sample::chain(130, &mut random);
+    sample.mass_values[30..33].fill(0.0);
+    sample.mass_values[200] = 0.0;
+    agrees_with_lu(&sample, &mut random, 1e-8);
+    (0..10).for_each(|k| sample.append(&[(4 * k, 1.0), (100 + k, 0.5)]));
+    let r1 = random.vector(390);
+    let r2 = reachable(&sample, &mut random);
+    let (a, lambda, solver) = solved(&sample, &r1, &r2);
+    let (a_svd, lambda_svd) = sample.by_svd(&r1, &r2);
+    assert_eq!(solver.rank(), 260);
+    assert!(distance(&a, &a_svd) < 1e-8, "a {:e}", distance(&a, &a_svd));
+    assert!(distance(&lambda, &lambda_svd) < 1e-8, "lambda {:e}", distance(&lambda, &lambda_svd));
+}
+
+#[test]
+fn a_singular_configuration_is_passed() {
+    // Two rows that become parallel at s = 0.
+    let mass = Pattern::diagonal(3);
+    let g = Pattern::dense(2, 3);
+    let mut solver = SaddlePoint::new(&mass, &g);
+    let values = |s: f64| [1.0, 2.0, 0.5, 1.0, 2.0 + s, 0.5];
+    for (s, rank) in [(1.0, 2), (1e-3, 2), (1e-5, 2), (1e-8, 2), (1e-13, 1), (0.0, 1), (-1e-8, 2), (-1.0, 2)] {
+        solver.factor(&[1.0, 2.0, 3.0], &values(s)).unwrap();
+        assert_eq!(solver.rank(), rank, "at {s}");
+        let (mut a, mut lambda) = ([1.0, 0.5, -1.0], [0.0, 0.0]);
+        solver.solve(&mut a, &mut lambda).unwrap();
+        let mut velocity = [0.0; 2];
+        g.multiply(&values(s), &a, &mut velocity);
+        assert!(velocity.iter().all(|v| v.abs() < 1e-12), "at {s}: {velocity:?}");
+        // In the limit G a = 0 for both rows (1, 2, 0.5) and (0, 1, 0); at s = 0 only for the first.
+        assert!(a[1].abs() < 1e-6 || rank == 1, "at {s}: {a:?}");
+    }
+}
+
+#[test]
+fn redundant_rows_in_a_net() {
+    let mut random = Random(14);
+    let mut sample = Sample::net(16, &mut random);
+    (0..40).for_each(|k| sample.append(&[(3 * k, 1.0), (3 * k + 50, -2.0)]));
+    let (n, m) = sample.sizes();
+    let r1 = random.vector(n);
+    let r2 = reachable(&sample, &mut random);
+    let (a_svd, lambda_svd) = sample.by_svd(&r1, &r2);
+    let (a, lambda, solver) = solved(&sample, &r1, &r2);
+    assert_eq!(solver.rank(), m - 40);
+    assert!(distance(&a, &a_svd) < 1e-9, "a {:e}", distance(&a, &a_svd));
+    assert!(distance(&lambda, &lambda_svd) < 1e-9, "lambda {:e}", distance(&lambda, &lambda_svd));
+}
+
+#[test]
+fn the_fast_way_is_given_up_and_tried_again() {
+    let mut random = Random(17);
+    let good = Sample::mechanism(&mut random);
+    let mut bad = good.clone();
+    for (k, &(i, _)) in good.g.entries.iter().enumerate() {
+        if i == 19 {
+            bad.g_values[k] = 0.0;
+        }
+    }
+    let mut solver = SaddlePoint::new(&good.mass, &good.g);
+    for _ in 0..10 {
+        solver.factor(&bad.mass_values, &bad.g_values).unwrap();
+        assert_eq!(solver.rank(), 19);
+    }
+    let mut calls = 0;
+    while !solver.is_fast() {
+        solver.factor(&good.mass_values, &good.g_values).unwrap();
+        assert_eq!(solver.rank(), 20);
+        calls += 1;
+    }
+    assert!(calls <= 64 && calls > 40, "{calls}");
+}

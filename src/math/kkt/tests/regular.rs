@@ -1,0 +1,177 @@
+//! Systems of full rank.
+
+use super::samples::{Random, Sample, distance};
+use super::{agrees_with_lu, reachable, right_side, solved};
+use crate::math::kkt::fast::Fast;
+use crate::math::kkt::pivot::Rule;
+use crate::math::kkt::system::System;
+use crate::math::kkt::{Pattern, SaddlePoint, compiled, symbolic};
+
+#[test]
+fn agrees_with_a_pivoted_lu() {
+    let mut random = Random(1);
+    for (n, m) in [(1, 0), (1, 1), (7, 6), (8, 8), (12, 4), (30, 20), (5, 0)] {
+        agrees_with_lu(&Sample::dense(n, m, &mut random), &mut random, 1e-12);
+    }
+    for _ in 0..20 {
+        agrees_with_lu(&Sample::mechanism(&mut random), &mut random, 1e-12);
+    }
+    agrees_with_lu(&Sample::chain(40, &mut random), &mut random, 1e-12);
+}
+
+#[test]
+fn blocks_of_mass_and_repeated_entries_add() {
+    let mut random = Random(2);
+    let mut sample = Sample::mechanism(&mut random);
+    for body in 0..7 {
+        for (i, j, v) in [(1, 0, 0.2), (2, 0, -0.3), (2, 1, 0.1), (2, 2, 0.7)] {
+            sample.mass.entries.push((3 * body + i, 3 * body + j));
+            sample.mass_values.push(v);
+        }
+    }
+    sample.g.entries.push(sample.g.entries[5]);
+    sample.g_values.push(0.3);
+    agrees_with_lu(&sample, &mut random, 1e-10);
+}
+
+/// No LU of the badly scaled matrix is an oracle, but the residual is.
+#[test]
+fn mass_ratios_of_1e16() {
+    let mut random = Random(3);
+    let mut sample = Sample::mechanism(&mut random);
+    for (i, v) in sample.mass_values.iter_mut().enumerate() {
+        *v *= [1e-8, 1.0, 1e8][(i / 3) % 3];
+    }
+    let (r1, r2) = right_side(&sample, &mut random);
+    let (a, lambda, _) = solved(&sample, &r1, &r2);
+    let mut residual = (r1.clone(), r2.clone());
+    let mut system = System::new(&sample.mass, &sample.g);
+    system.store(&sample.mass_values, &sample.g_values);
+    system.residual(&a, &lambda, &mut residual.0, &mut residual.1);
+    for (i, (left, r)) in residual.0.iter().zip(&r1).enumerate() {
+        let inertia = sample.mass_values[i] * a[i];
+        assert!(left.abs() < 1e-12 * (inertia.abs() + r.abs() + lambda.iter().fold(0.0, |s: f64, v| s.max(v.abs()))));
+    }
+    assert!(residual.1.iter().all(|v| v.abs() < 1e-11), "{:?}", residual.1);
+}
+
+#[test]
+fn massless_coordinates_move_with_their_constraints() {
+    let mut random = Random(7);
+    let mut sample = Sample::mechanism(&mut random);
+    sample.mass_values[3..6].fill(0.0);
+    sample.mass_values[10] = 0.0;
+    agrees_with_lu(&sample, &mut random, 1e-9);
+    // Structurally massless.
+    sample.mass.entries.retain(|&(i, _)| i != 10);
+    sample.mass_values.remove(10);
+    agrees_with_lu(&sample, &mut random, 1e-9);
+    // A row between massless coordinates only: no order without pivoting works.
+    let mut sample = Sample::dense(6, 2, &mut random);
+    sample.mass = Pattern::diagonal(6);
+    sample.mass_values = vec![1.0, 1.0, 1.0, 1.0, 0.0, 0.0];
+    sample.g_values = vec![0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+    agrees_with_lu(&sample, &mut random, 1e-12);
+}
+
+#[test]
+fn units_of_rows_do_not_change_the_motion() {
+    let mut random = Random(11);
+    let mut sample = Sample::mechanism(&mut random);
+    let (r1, mut r2) = right_side(&sample, &mut random);
+    let (a, _, solver) = solved(&sample, &r1, &r2);
+    let unit = |j: usize| [1e-6, 1.0, 1e6][j % 3];
+    for (&(j, _), v) in sample.g.entries.iter().zip(&mut sample.g_values) {
+        *v *= unit(j);
+    }
+    r2.iter_mut().enumerate().for_each(|(j, v)| *v *= unit(j));
+    let (scaled, _, other) = solved(&sample, &r1, &r2);
+    assert!(distance(&scaled, &a) < 1e-11);
+    assert!((solver.smallest_pivot_ratio() / other.smallest_pivot_ratio() - 1.0).abs() < 1e-9);
+    sample.append(&[(4, 1.0), (5, 1.0)]);
+    let r2 = reachable(&sample, &mut random);
+    let (a, _, solver) = solved(&sample, &r1, &r2);
+    let (expected, _) = sample.by_lu_without_last(&r1, &r2);
+    assert!(solver.rank() == 20 && distance(&a, &expected) < 1e-9);
+}
+
+#[test]
+fn a_long_chain_agrees_with_a_sparse_lu() {
+    use faer::linalg::solvers::Solve;
+    use faer::sparse::{SparseColMat, Triplet};
+    let mut random = Random(12);
+    let sample = Sample::chain(1000, &mut random);
+    let (n, m) = sample.sizes();
+    let mut triplets: Vec<_> = sample.mass_values.iter().enumerate().map(|(i, v)| Triplet::new(i, i, *v)).collect();
+    for (&(j, i), v) in sample.g.entries.iter().zip(&sample.g_values) {
+        triplets.extend([Triplet::new(n + j, i, *v), Triplet::new(i, n + j, *v)]);
+    }
+    let lu = SparseColMat::try_new_from_triplets(n + m, n + m, &triplets).unwrap().sp_lu().unwrap();
+    let (r1, r2) = right_side(&sample, &mut random);
+    let mut x = faer::Mat::from_fn(n + m, 1, |i, _| if i < n { r1[i] } else { r2[i - n] });
+    lu.solve_in_place(&mut x);
+    let (a, lambda, _) = solved(&sample, &r1, &r2);
+    let x: Vec<f64> = (0..n + m).map(|i| x[(i, 0)]).collect();
+    assert!(distance(&a, &x[..n]) < 1e-9 && distance(&lambda, &x[n..]) < 1e-9);
+}
+
+#[test]
+fn both_ways_of_elimination_agree() {
+    let mut random = Random(13);
+    for mut sample in [Sample::mechanism(&mut random), Sample::chain(50, &mut random), Sample::net(12, &mut random)] {
+        let (n, m) = sample.sizes();
+        // The last coordinate of the mechanism has no mass and comes late.
+        let late: Vec<bool> = (0..n).map(|i| n == 21 && i == 20).collect();
+        if n == 21 {
+            sample.mass_values[20] = 0.0;
+        }
+        let (r1, r2) = right_side(&sample, &mut random);
+        let mut results = vec![];
+        for mut fast in [
+            Fast::Compiled(Box::new(compiled::Compiled::new(symbolic::Symbolic::new(&sample.mass, &sample.g, &late)))),
+            Fast::blocked(&sample.mass, &sample.g, &late),
+        ] {
+            let mut skipped = vec![];
+            fast.factor(&sample.mass_values, &sample.g_values, Rule::STRICT, &mut skipped).ok().unwrap();
+            let (mut a, mut lambda) = (r1.clone(), r2.clone());
+            fast.solve(&mut a, &mut lambda);
+            results.push([a, lambda].concat());
+        }
+        assert!(distance(&results[0], &results[1]) < 1e-9, "{n} {m}: {:e}", distance(&results[0], &results[1]));
+    }
+}
+
+#[test]
+fn a_hub_does_not_couple_everything() {
+    let mut random = Random(15);
+    // Body 1 carries 400 others.
+    let joints: Vec<_> = (2..402).map(|k| (k, 1)).collect();
+    let sample = Sample::planar(401, &joints, &mut random);
+    let symbolic = symbolic::Symbolic::new(&sample.mass, &sample.g, &[vec![true; 3], vec![false; 1200]].concat());
+    assert!(symbolic.rows.len() < 10 * sample.g.rows);
+    let mut solver = SaddlePoint::new(&sample.mass, &sample.g);
+    solver.factor(&sample.mass_values, &sample.g_values).unwrap();
+    let (r1, r2) = right_side(&sample, &mut random);
+    let (mut a, mut lambda) = (r1.clone(), r2.clone());
+    solver.solve(&mut a, &mut lambda).unwrap();
+    let mut left = r2.clone();
+    sample.g.subtract(&sample.g_values, &a, &mut left);
+    assert!(left.iter().all(|v| v.abs() < 1e-12));
+}
+
+#[test]
+fn projections_and_refinement() {
+    let mut random = Random(16);
+    let sample = Sample::mechanism(&mut random);
+    let (r1, r2) = right_side(&sample, &mut random);
+    let (_, _, mut solver) = solved(&sample, &r1, &r2);
+    let mut correction = vec![9.0; 21];
+    solver.solve_projection(&r2, &mut correction).unwrap();
+    assert!(distance(&correction, &sample.by_lu(&[0.0; 21], &r2).0) < 1e-10);
+    // The factor of values nearby, refined against the true ones.
+    let near: Vec<f64> = sample.g_values.iter().map(|v| v * (1.0 + 1e-9 * random.next())).collect();
+    solver.factor(&sample.mass_values, &near).unwrap();
+    let (mut a, mut lambda) = (r1.clone(), r2.clone());
+    solver.solve_refined(&sample.mass_values, &sample.g_values, &mut a, &mut lambda).unwrap();
+    assert!(distance(&a, &sample.by_lu(&r1, &r2).0) < 1e-10);
+}

@@ -1,0 +1,235 @@
+//! What `check` finds.
+
+use super::Table;
+use super::summary::{AssemblySummary, significant};
+use crate::formulation::Dynamics;
+use crate::math::kkt::{condition_number, dependent_rows};
+use crate::scene::Model;
+use crate::study::{AnyMechanism, Study};
+use crate::system::{Group, MechanicalSystem, Need, Terms};
+use serde::Serialize;
+
+/// What is modelled, and how well posed it is at the start.
+#[derive(Clone, Debug, Serialize)]
+pub struct Check {
+    pub scene: String,
+    pub dimension: usize,
+    pub coordinates: usize,
+    pub velocities: usize,
+    pub constraints: usize,
+    pub rank: usize,
+    pub degrees_of_freedom: usize,
+    /// Rows that follow from others, by joint.
+    pub redundant: Vec<Redundant>,
+    pub assembly: AssemblySummary,
+    /// Condition number of the equilibrated saddle-point matrix.
+    pub condition: f64,
+    /// How near G is to losing rank: smallest pivot against its size before elimination, 1 is far.
+    pub distance_to_singularity: f64,
+    /// Largest and smallest entry on the diagonal of M, kg or kg m^2.
+    pub mass_range: [f64; 2],
+    /// Length that drift is measured against, m.
+    pub length_scale: f64,
+    pub bodies: Vec<Item>,
+    pub joints: Vec<Item>,
+    pub forces: Vec<Item>,
+    /// What the scene does not ask for, so that nothing of it is computed.
+    pub left_out: Vec<String>,
+}
+
+/// A redundant row.
+#[derive(Clone, Debug, Serialize)]
+pub struct Redundant {
+    pub joint: String,
+    pub row: String,
+    /// The joints whose rows it follows from.
+    pub follows_from: Vec<String>,
+}
+
+/// An element of the scene.
+#[derive(Clone, Debug, Serialize)]
+pub struct Item {
+    pub name: String,
+    pub kind: String,
+    /// Coordinates of a body, rows of a joint.
+    pub detail: String,
+}
+
+/// Looks at the assembled start of a scene.
+pub fn check(study: &Study) -> Check {
+    match &study.mechanism {
+        AnyMechanism::Planar(mechanism) => inspect(study, mechanism.model()),
+        AnyMechanism::Spatial(mechanism) => inspect(study, mechanism.model()),
+    }
+}
+
+/// Rows count as dependent below this part of their size.
+const DEPENDENT: f64 = 1e-10;
+
+fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
+    let system = study.system();
+    let (q, v) = study.start();
+    let mut dynamics = Dynamics::new(system);
+    dynamics.evaluate(0.0, q, v, Need::DYNAMICS);
+    // Assembly has solved at this state, so it can be factored; the ratio is one where it could not.
+    let distance = dynamics.factor().map_or(0.0, |()| dynamics.kkt.smallest_pivot_ratio());
+    let (terms, structure) = (&dynamics.terms, &dynamics.structure);
+    let dependence = dependent_rows(&structure.g, &terms.g, DEPENDENT);
+    let n = system.dimensions();
+    let groups = system.groups();
+    let redundant = dependence.rows.iter().map(|row| {
+        let others = row.combination.iter().map(|(other, _)| owner(&groups, *other));
+        redundant(system, row.row, owner(&groups, row.row), others)
+    });
+    Check {
+        scene: study.name.clone(),
+        dimension: D,
+        coordinates: n.q,
+        velocities: n.v,
+        constraints: n.lambda,
+        rank: dependence.rank,
+        degrees_of_freedom: n.v - dependence.rank,
+        redundant: redundant.collect(),
+        assembly: (&study.assembly).into(),
+        condition: condition_number(&structure.mass, &terms.mass, &structure.g, &terms.g),
+        distance_to_singularity: if dependence.rank < n.lambda { 0.0 } else { distance },
+        mass_range: mass_range(structure, terms),
+        length_scale: length_scale(system),
+        bodies: model.bodies.iter().map(body_item).collect(),
+        joints: groups.iter().map(|group| joint_item(group, &system.names().lambda)).collect(),
+        forces: model
+            .forces
+            .iter()
+            .map(|force| Item { name: force.name.clone(), kind: force.kind.to_string(), detail: String::new() })
+            .collect(),
+        left_out: left_out(model),
+    }
+}
+
+fn owner(groups: &[Group], row: usize) -> String {
+    groups.iter().find(|group| group.rows.contains(&row)).map_or(String::new(), |group| group.name.clone())
+}
+
+fn redundant(
+    system: &dyn MechanicalSystem,
+    row: usize,
+    joint: String,
+    others: impl Iterator<Item = String>,
+) -> Redundant {
+    let mut follows_from: Vec<String> = others.filter(|other| *other != joint).collect();
+    follows_from.dedup();
+    follows_from.sort();
+    follows_from.dedup();
+    let name = system.names().lambda[row].clone();
+    let row = name.rsplit('.').next().unwrap_or_default().to_string();
+    Redundant { joint, row, follows_from }
+}
+
+fn mass_range(structure: &crate::system::Structure, terms: &Terms) -> [f64; 2] {
+    let entries = structure.mass.entries.iter().zip(&terms.mass);
+    let diagonal = entries.filter(|((i, j), _)| i == j).map(|(_, mass)| *mass);
+    let range = diagonal.fold([f64::INFINITY, 0.0], |[low, high], mass| [mass.min(low), mass.max(high)]);
+    if range[0].is_finite() { range } else { [0.0, 0.0] }
+}
+
+fn length_scale(system: &dyn MechanicalSystem) -> f64 {
+    system.scales().into_iter().find(|scale| *scale != 1.0).unwrap_or(1.0)
+}
+
+fn body_item<const D: usize>(part: &crate::scene::Part<D>) -> Item {
+    let kind = match (part.nq, part.nv) {
+        (7, 6) => "rigid, quaternion",
+        _ if part.body.oriented() => "rigid",
+        _ => "point mass",
+    };
+    Item { name: part.name.clone(), kind: kind.to_string(), detail: part.body.coordinate_names().join(" ") }
+}
+
+fn joint_item(group: &Group, names: &[String]) -> Item {
+    let rows = names[group.rows.clone()].iter().filter_map(|name| name.rsplit('.').next());
+    Item { name: group.name.clone(), kind: group.kind.clone(), detail: rows.collect::<Vec<_>>().join(" ") }
+}
+
+fn left_out<const D: usize>(model: &Model<D>) -> Vec<String> {
+    let gravity = model.gravity.iter().all(|&g| g == 0.0);
+    let quaternions = model.bodies.iter().all(|part| part.nq == part.nv);
+    let driven = model.joints.iter().all(|joint| !joint.element.depends_on_time());
+    [
+        (gravity, "gravity: none is given"),
+        (D == 2, "the third dimension: no z, no quaternion"),
+        (D == 3 && quaternions, "quaternions: no body turns freely"),
+        (model.joints.is_empty(), "constraints: there is no joint"),
+        (driven && !model.joints.is_empty(), "moving constraints: no joint depends on t"),
+        (model.forces.is_empty(), "forces: none is given"),
+        (true, "contact, friction, flexibility: the scene has none"),
+    ]
+    .into_iter()
+    .filter_map(|(absent, text)| absent.then(|| text.to_string()))
+    .collect()
+}
+
+impl Check {
+    /// The report as a person reads it.
+    pub fn text(&self) -> String {
+        let mut text = format!(
+            "{}: {} coordinates, {} velocities, {} constraints of rank {}, {} degree{} of freedom\n\n",
+            self.scene,
+            self.coordinates,
+            self.velocities,
+            self.constraints,
+            self.rank,
+            self.degrees_of_freedom,
+            if self.degrees_of_freedom == 1 { "" } else { "s" }
+        );
+        for (heading, detail, items) in
+            [("body", "coordinates", &self.bodies), ("joint", "rows", &self.joints), ("force", "", &self.forces)]
+        {
+            if !items.is_empty() {
+                let mut table = Table::left(&[heading, "type", detail]);
+                items.iter().for_each(|item| table.row([&item.name, &item.kind, &item.detail].map(String::clone)));
+                text += &format!("{table}\n");
+            }
+        }
+        text + &self.redundancy_text() + &self.start_text() + &self.scales_text()
+    }
+
+    fn redundancy_text(&self) -> String {
+        if self.redundant.is_empty() {
+            return String::new();
+        }
+        let mut text = String::from("redundant constraints (consistent; multipliers of least norm are computed):\n");
+        for row in &self.redundant {
+            text += &format!("  joint `{}`, row {}: follows from {}\n", row.joint, row.row, row.follows_from.join(", "));
+        }
+        text + "\n"
+    }
+
+    fn start_text(&self) -> String {
+        let assembly = &self.assembly;
+        let mut text = format!(
+            "start: |phi| {:.1e} -> {:.1e}, |phi'| {:.1e} -> {:.1e} (given -> assembled, relative to the scale)\n",
+            assembly.before.phi, assembly.after.phi, assembly.before.phi_dot, assembly.after.phi_dot
+        );
+        for change in assembly.moves.iter().take(10) {
+            let [from, to] = [change.from, change.to].map(|value| significant(value, 8));
+            text += &format!("  moved {}: {from} -> {to}\n", change.name);
+        }
+        if assembly.moves.len() > 10 {
+            text += &format!("  and {} smaller moves\n", assembly.moves.len() - 10);
+        }
+        text
+    }
+
+    fn scales_text(&self) -> String {
+        format!(
+            "condition of the saddle-point matrix {:.1e}, distance to a singular state {:.1e} (1 is far)\n\
+             masses and inertias {:.3e} .. {:.3e}, length scale {} m\nleft out: {}\n",
+            self.condition,
+            self.distance_to_singularity,
+            self.mass_range[0],
+            self.mass_range[1],
+            significant(self.length_scale, 4),
+            self.left_out.join("; ")
+        )
+    }
+}

@@ -1,0 +1,74 @@
+//! Files appear whole or not at all.
+
+use crate::error::{Error, Result};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Writes beside the target and renames, so that an interrupted run leaves no half of a file.
+pub fn write_whole(path: &Path, contents: &[u8]) -> Result<()> {
+    if path.is_dir() {
+        return Err(Error::file(path, "cannot write: this is a directory"));
+    }
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let beside = path.with_file_name(format!(".{name}.{}", std::process::id()));
+    let written = std::fs::File::create(&beside)
+        .and_then(|mut file| file.write_all(contents).and_then(|()| file.sync_all()))
+        .and_then(|()| std::fs::rename(&beside, path));
+    written.map_err(|error| {
+        // Nothing is lost if the rest cannot be removed either.
+        let _ = std::fs::remove_file(&beside);
+        Error::file(path, format!("cannot write: {}", reason(&error)))
+    })
+}
+
+fn reason(error: &std::io::Error) -> String {
+    match error.kind() {
+        std::io::ErrorKind::PermissionDenied => "no permission; choose another folder with -o DIR".to_string(),
+        std::io::ErrorKind::NotFound => "the folder does not exist".to_string(),
+        std::io::ErrorKind::StorageFull => "the disk is full".to_string(),
+        _ => error.to_string(),
+    }
+}
+
+/// A folder that results go to.
+pub struct Folder {
+    path: PathBuf,
+    written: Vec<PathBuf>,
+}
+
+impl Folder {
+    /// Makes the folder and tries that it can be written to, before anything is computed.
+    pub fn create(path: &Path) -> Result<Folder> {
+        std::fs::create_dir_all(path)
+            .map_err(|error| Error::file(path, format!("cannot make this folder: {}", reason(&error))))?;
+        let probe = path.join(format!(".probe.{}", std::process::id()));
+        std::fs::File::create(&probe)
+            .and_then(|_| std::fs::remove_file(&probe))
+            .map_err(|error| Error::file(path, format!("cannot write here: {}", reason(&error))))?;
+        Ok(Folder { path: path.to_path_buf(), written: Vec::new() })
+    }
+
+    /// The path of a file that is about to be written here.
+    pub fn file(&mut self, name: &str) -> PathBuf {
+        let path = self.path.join(name);
+        self.written.push(path.clone());
+        path
+    }
+
+    pub fn write(&mut self, name: &str, contents: &[u8]) -> Result<()> {
+        write_whole(&self.file(name), contents)
+    }
+
+    /// Writes a value as indented JSON.
+    pub fn write_json(&mut self, name: &str, value: &impl serde::Serialize) -> Result<()> {
+        let text = serde_json::to_string_pretty(value).map_err(|error| Error::file(self.path.join(name), error))?;
+        self.write(name, format!("{text}\n").as_bytes())
+    }
+
+    /// What was written, for a person.
+    pub fn listing(&self) -> String {
+        let names: Vec<String> =
+            self.written.iter().filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned())).collect();
+        format!("{}: {}", self.path.display(), names.join(", "))
+    }
+}

@@ -1,0 +1,178 @@
+//! `summary.json`.
+
+use super::Table;
+use crate::error::Failure;
+use crate::formulation::Statistics;
+use crate::initial::{Assembly, Level, Move};
+use crate::measure::{Drift, EnergyBalance, Record};
+use crate::simulate::{Method, Outcome};
+use crate::study::Study;
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+/// A run in numbers.
+#[derive(Clone, Debug, Serialize)]
+pub struct Summary {
+    pub scene: String,
+    pub method: Method,
+    pub status: &'static str,
+    pub failure: Option<Failure>,
+    pub t_end: f64,
+    pub wall_seconds: f64,
+    pub statistics: Statistics,
+    pub drift: Drift,
+    pub energy: Option<EnergyBalance>,
+    pub assembly: AssemblySummary,
+    pub r#final: FinalState,
+}
+
+/// What assembly did.
+#[derive(Clone, Debug, Serialize)]
+pub struct AssemblySummary {
+    pub before: Level,
+    pub after: Level,
+    pub moves: Vec<Move>,
+}
+
+impl From<&Assembly> for AssemblySummary {
+    fn from(assembly: &Assembly) -> Self {
+        AssemblySummary { before: assembly.before, after: assembly.after, moves: assembly.moves.clone() }
+    }
+}
+
+/// The last row, by names.
+#[derive(Clone, Debug, Serialize)]
+pub struct FinalState {
+    pub t: f64,
+    pub q: Map<String, Value>,
+    pub v: Map<String, Value>,
+    pub lambda: Map<String, Value>,
+    pub outputs: Map<String, Value>,
+}
+
+/// Collects the summary of a run.
+pub fn summarize(study: &Study, method: &Method, outcome: &Outcome, record: &Record, wall_seconds: f64) -> Summary {
+    Summary {
+        scene: study.name.clone(),
+        method: method.clone(),
+        status: if outcome.failure.is_some() { "failed" } else { "completed" },
+        failure: outcome.failure.clone(),
+        t_end: outcome.t,
+        wall_seconds,
+        statistics: outcome.statistics,
+        drift: record.drift.clone(),
+        energy: record.energy,
+        assembly: (&study.assembly).into(),
+        r#final: final_state(record),
+    }
+}
+
+fn final_state(record: &Record) -> FinalState {
+    let trajectory = &record.trajectory;
+    let named = |names: &mut dyn Iterator<Item = &String>, values: &[f64]| -> Map<String, Value> {
+        names.zip(values).map(|(name, value)| (name.clone(), Value::from(*value))).collect()
+    };
+    let Some(row) = trajectory.rows.last() else {
+        let empty = Map::new;
+        return FinalState { t: 0.0, q: empty(), v: empty(), lambda: empty(), outputs: empty() };
+    };
+    let (q, v, lambda) = trajectory.row_state(row);
+    FinalState {
+        t: row[0],
+        q: named(&mut trajectory.names.q.iter(), q),
+        v: named(&mut trajectory.names.v.iter(), v),
+        lambda: named(&mut trajectory.names.lambda.iter(), lambda),
+        outputs: named(&mut trajectory.outputs.iter().map(|column| &column.name), trajectory.row_outputs(row)),
+    }
+}
+
+impl Summary {
+    /// The summary as a person reads it.
+    pub fn text(&self, units: &[(String, String)]) -> String {
+        let Method { formulation, integrator, projection, rtol, atol, step } = &self.method;
+        let accuracy = match step {
+            Some(step) => format!("step {step} s"),
+            None => format!("rtol {rtol:e}, atol {atol:e}"),
+        };
+        let s = &self.statistics;
+        let mut text = format!("{}: {formulation} + {integrator} + {projection}, {accuracy}\n", self.scene);
+        if let Some(failure) = &self.failure {
+            text += &format!("  FAILED at t = {:.6e} s: {}\n  help: {}\n", failure.t, failure.reason, failure.hint);
+        }
+        text += &self.assembly_text();
+        text += &format!(
+            "  t = {} s reached in {} ms: {} steps, {} rejected, {} evaluations, {} factorizations\n\n",
+            self.t_end,
+            significant(1e3 * self.wall_seconds, 3),
+            s.steps,
+            s.rejected,
+            s.rhs_evaluations,
+            s.factorizations
+        );
+        if s.rank_deficient > 0 {
+            let all = if s.rank_deficient > s.steps { "all" } else { "some" };
+            text += &format!("  redundant constraints at {all} states: multipliers are those of least norm\n\n");
+        }
+        let mut drift = Table::new(&["drift", "max", "final", "relative max"]);
+        for (name, level) in [
+            ("position |phi|", &self.drift.position),
+            ("velocity |phi'|", &self.drift.velocity),
+            ("acceleration |phi''|", &self.drift.acceleration),
+        ] {
+            let cells = [level.max, level.last, level.relative_max].map(|value| format!("{value:.2e}"));
+            drift.row([name.to_string()].into_iter().chain(cells));
+        }
+        text += &drift.to_string();
+        if let Some(energy) = &self.energy {
+            text += &format!(
+                "\n  energy {} J -> {} J, work {} J, error of the balance {:.2e} J ({:.1e} of the kinetic energy)\n",
+                significant(energy.initial, 6),
+                significant(energy.last, 6),
+                significant(energy.work, 6),
+                energy.max_error,
+                energy.relative_max_error
+            );
+        }
+        text + &self.outputs_text(units)
+    }
+
+    /// A line that says how far the start was moved, where it was.
+    fn assembly_text(&self) -> String {
+        let Some(largest) = self.assembly.moves.first() else { return String::new() };
+        format!(
+            "  assembly moved {} coordinates and velocities, most {}: {} -> {}\n",
+            self.assembly.moves.len(),
+            largest.name,
+            significant(largest.from, 6),
+            significant(largest.to, 6)
+        )
+    }
+
+    fn outputs_text(&self, units: &[(String, String)]) -> String {
+        if self.r#final.outputs.is_empty() {
+            return String::new();
+        }
+        let mut table = Table::new(&[&format!("at t = {} s", self.r#final.t), "", ""]);
+        for ((name, value), (_, unit)) in self.r#final.outputs.iter().zip(units) {
+            let value = value.as_f64().map_or("?".to_string(), |value| significant(value, 12));
+            table.row([name.clone(), value, unit.clone()]);
+        }
+        format!("\n{table}")
+    }
+}
+
+/// A number with so many significant digits, without an exponent where that is short.
+pub fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 {
+        return "0".to_string();
+    }
+    let size = value.abs().log10().floor() as i32;
+    if !(-4..digits as i32).contains(&size) {
+        return format!("{value:.*e}", digits - 1);
+    }
+    let text = format!("{value:.*}", (digits as i32 - 1 - size).max(0) as usize);
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_string(),
+        false => text,
+    }
+}

@@ -1,0 +1,47 @@
+//! Text tables for terminals.
+
+use std::fmt;
+
+/// Columns under headings; the first is aligned left, the others right unless all are aligned left.
+pub struct Table {
+    rows: Vec<Vec<String>>,
+    left: bool,
+}
+
+impl Table {
+    pub fn new(headings: &[&str]) -> Self {
+        Table { rows: vec![headings.iter().map(|heading| heading.to_string()).collect()], left: false }
+    }
+
+    /// A table of words.
+    pub fn left(headings: &[&str]) -> Self {
+        Table { left: true, ..Table::new(headings) }
+    }
+
+    pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
+        self.rows.push(cells.into_iter().collect());
+    }
+}
+
+impl fmt::Display for Table {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
+        let width = |column: usize| {
+            self.rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max().unwrap_or(0)
+        };
+        let widths: Vec<usize> = (0..columns).map(width).collect();
+        for row in &self.rows {
+            let mut line = String::from("  ");
+            for (i, (cell, &width)) in row.iter().zip(&widths).enumerate() {
+                let padding = " ".repeat(width - cell.chars().count());
+                let gap = if i == 0 { "" } else { "  " };
+                line += &match i == 0 || self.left {
+                    true => format!("{gap}{cell}{padding}"),
+                    false => format!("{gap}{padding}{cell}"),
+                };
+            }
+            writeln!(out, "{}", line.trim_end())?;
+        }
+        Ok(())
+    }
+}

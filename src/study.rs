@@ -1,0 +1,167 @@
+//! A scene made ready: its mechanism, a consistent start, and how to simulate it.
+
+use crate::error::{Error, Result};
+use crate::formulation::Choice;
+use crate::initial::{self, Assembly};
+use crate::integrator;
+use crate::math::expression::{Number, Parameters};
+use crate::scene::{AnyModel, Scene, Simulation};
+use crate::simulate::{Method, Span};
+use crate::system::{Mechanism, MechanicalSystem};
+use std::path::Path;
+
+/// A mechanism in the plane or in space.
+pub enum AnyMechanism {
+    Planar(Mechanism<2>),
+    Spatial(Mechanism<3>),
+}
+
+impl AnyMechanism {
+    pub fn system(&self) -> &dyn MechanicalSystem {
+        match self {
+            AnyMechanism::Planar(mechanism) => mechanism,
+            AnyMechanism::Spatial(mechanism) => mechanism,
+        }
+    }
+}
+
+/// What the command line changes of a scene's own settings.
+#[derive(Clone, Debug, Default)]
+pub struct Overrides {
+    pub set: Vec<(String, f64)>,
+    pub formulation: Option<Choice>,
+    pub integrator: Option<Choice>,
+    pub projection: Option<Choice>,
+    pub rtol: Option<f64>,
+    pub atol: Option<f64>,
+    pub step: Option<f64>,
+    pub until: Option<f64>,
+    pub output_step: Option<f64>,
+}
+
+/// A scene ready to run.
+pub struct Study {
+    pub name: String,
+    pub about: String,
+    pub references: Vec<String>,
+    pub parameters: Parameters,
+    pub mechanism: AnyMechanism,
+    pub method: Method,
+    pub assembly: Assembly,
+    /// `None` where neither the scene nor the command line says until when.
+    span: Option<Span>,
+}
+
+impl Study {
+    /// Reads a scene, assembles it and settles how to simulate it.
+    ///
+    /// # Errors
+    /// Bad input of any kind: see [`Scene::load`], [`initial::assemble`], [`Method::check`].
+    pub fn load(path: &Path, overrides: &Overrides) -> Result<Study> {
+        let scene = Scene::load(path, &overrides.set)?;
+        Study::new(scene, overrides).map_err(|error| match error {
+            Error::Input(mut input) if !input.path.starts_with('-') => {
+                input.file = Some(path.to_path_buf());
+                Error::Input(input)
+            }
+            other => other,
+        })
+    }
+
+    pub fn new(scene: Scene, overrides: &Overrides) -> Result<Study> {
+        let settings = Settings { parameters: &scene.parameters, scene: &scene.simulation, overrides };
+        let method = settings.method()?;
+        let start = settings.number("t_start", &scene.simulation.t_start)?.unwrap_or(0.0);
+        let span = settings.span(start)?;
+        let mechanism = match scene.model {
+            AnyModel::Planar(model) => AnyMechanism::Planar(Mechanism::new(model)),
+            AnyModel::Spatial(model) => AnyMechanism::Spatial(Mechanism::new(model)),
+        };
+        let assembly = initial::assemble(mechanism.system(), start, (&scene.q, &scene.v), &scene.hold)?;
+        Ok(Study {
+            name: scene.name,
+            about: scene.about,
+            references: scene.references,
+            parameters: scene.parameters,
+            mechanism,
+            method,
+            assembly,
+            span,
+        })
+    }
+
+    pub fn system(&self) -> &dyn MechanicalSystem {
+        self.mechanism.system()
+    }
+
+    /// When to simulate.
+    ///
+    /// # Errors
+    /// Where neither the scene nor the command line says until when.
+    pub fn span(&self) -> Result<Span> {
+        self.span.ok_or_else(|| {
+            Error::input("there is no end time").hint("give --until T, or \"t_end\" in \"simulation\" of the scene")
+        })
+    }
+
+    /// The consistent start (q, v).
+    pub fn start(&self) -> (&[f64], &[f64]) {
+        (&self.assembly.q, &self.assembly.v)
+    }
+}
+
+/// The scene's settings under those of the command line.
+struct Settings<'a> {
+    parameters: &'a Parameters,
+    scene: &'a Simulation,
+    overrides: &'a Overrides,
+}
+
+/// Rows of a trajectory where nothing is said.
+const ROWS: f64 = 200.0;
+
+impl Settings<'_> {
+    fn number(&self, field: &str, number: &Option<Number>) -> Result<Option<f64>> {
+        let Some(number) = number else { return Ok(None) };
+        let value = number.evaluate(self.parameters);
+        value.map(Some).map_err(|error| Error::from(error).under(field).under("simulation"))
+    }
+
+    fn method(&self) -> Result<Method> {
+        let (scene, given, default) = (self.scene, self.overrides, Method::default());
+        let pick = |given: &Option<Choice>, scene: &Option<Choice>, default: Choice| {
+            given.clone().or_else(|| scene.clone()).unwrap_or(default)
+        };
+        let integrator = pick(&given.integrator, &scene.integrator, default.integrator);
+        // A scene's fixed step goes with the scene's integrator.
+        let adaptive = integrator::find(&integrator)?.adaptive;
+        let own_step = if given.integrator.is_some() && adaptive { None } else { self.number("step", &scene.step)? };
+        let method = Method {
+            formulation: pick(&given.formulation, &scene.formulation, default.formulation),
+            integrator,
+            projection: pick(&given.projection, &scene.projection, default.projection),
+            rtol: given.rtol.or(self.number("rtol", &scene.rtol)?).unwrap_or(default.rtol),
+            atol: given.atol.or(self.number("atol", &scene.atol)?).unwrap_or(default.atol),
+            step: given.step.or(own_step),
+        };
+        method.check()?;
+        Ok(method)
+    }
+
+    fn span(&self, start: f64) -> Result<Option<Span>> {
+        let scene = self.scene;
+        let Some(end) = self.overrides.until.or(self.number("t_end", &scene.t_end)?) else { return Ok(None) };
+        if !(end > start && end.is_finite()) {
+            return Err(Error::input(format!("the end time {end} s is not after the start, {start} s"))
+                .hint("give --until T, or \"t_end\" in \"simulation\" of the scene"));
+        }
+        let given = self.overrides.output_step.or(self.number("output_step", &scene.output_step)?);
+        let output_step = given.unwrap_or((end - start) / ROWS);
+        match output_step > 0.0 && (end - start) / output_step < 1e7 {
+            true => Ok(Some(Span { start, end, output_step })),
+            false => Err(Error::input(format!("the output step is {output_step} s"))
+                .under("simulation.output_step")
+                .hint("it must be above zero and give fewer than ten million rows")),
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! Factor and solve allocate nothing after their first use.
+
+use holonom::math::kkt::{Pattern, SaddlePoint};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+thread_local!(static COUNT: Cell<usize> = const { Cell::new(0) });
+
+struct Counting;
+
+// The trait demands it; every call goes on to the system's allocator.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        COUNT.with(|c| c.set(c.get() + 1));
+        unsafe { System.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Allocations of a few rounds of factor, solve, projection and refinement, after a first one.
+fn allocations(mass: &Pattern, mass_values: &[f64], g: &Pattern, g_values: &[f64]) -> usize {
+    let mut solver = SaddlePoint::new(mass, g);
+    let (mut top, mut bottom, mut correction) = (vec![1.0; g.cols], vec![0.0; g.rows], vec![0.0; g.cols]);
+    let mut round = || {
+        solver.factor(mass_values, g_values).unwrap();
+        top.fill(1.0);
+        bottom.fill(0.0);
+        solver.solve(&mut top, &mut bottom).unwrap();
+        bottom.fill(0.0);
+        solver.solve_projection(&bottom, &mut correction).unwrap();
+        solver.solve_refined(mass_values, g_values, &mut top, &mut bottom).unwrap();
+    };
+    round();
+    let before = COUNT.with(Cell::get);
+    (0..70).for_each(|_| round());
+    COUNT.with(Cell::get) - before
+}
+
+/// Rods between neighbours in a row of `points` points in the plane, with the last `copies` rods given twice.
+fn rods(points: usize, copies: usize) -> (Pattern, Vec<f64>) {
+    let mut g = Pattern { rows: points - 1 + copies, cols: 2 * points, entries: vec![] };
+    let mut values = vec![];
+    for row in 0..g.rows {
+        let k = if row < points - 1 { row } else { row - copies };
+        let angle = 1.0 + k as f64;
+        for (column, value) in [(2 * k, angle.cos()), (2 * k + 1, angle.sin())] {
+            g.entries.extend([(row, column), (row, column + 2)]);
+            values.extend([value, -value]);
+        }
+    }
+    (g, values)
+}
+
+#[test]
+fn nothing_is_allocated_after_the_first_round() {
+    for points in [8, 500] {
+        for copies in [0, 3] {
+            let (g, values) = rods(points, copies);
+            let n = 2 * points;
+            assert_eq!(allocations(&Pattern::diagonal(n), &vec![1.0; n], &g, &values), 0, "{points} {copies}");
+            let mut mass = vec![1.0; n];
+            mass[n - 1] = 0.0;
+            assert_eq!(allocations(&Pattern::diagonal(n), &mass, &g, &values), 0, "massless {points} {copies}");
+        }
+    }
+}
+
+#[test]
+fn nor_by_dense_blocks_or_by_the_dense_way() {
+    let full = |n: usize, m: usize| -> Vec<f64> { (0..n * m).map(|k| ((k * k) as f64).sin()).collect() };
+    let g = Pattern::dense(150, 300);
+    assert_eq!(allocations(&Pattern::diagonal(300), &vec![1.0; 300], &g, &full(150, 300)), 0);
+    // Two rows at an angle of 1e-8 need the dense way.
+    let g = Pattern::dense(2, 3);
+    assert_eq!(allocations(&Pattern::diagonal(3), &[1.0; 3], &g, &[1.0, 2.0, 3.0, 1.0, 2.0, 3.0 + 1e-8]), 0);
+}
