@@ -1,1 +1,7 @@
-fn main() {}
+//! The command line of holonom.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    holonom::cli::run()
+}

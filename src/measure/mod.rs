@@ -5,5 +5,5 @@ mod energy;
 mod recorder;
 
 pub use drift::{Drift, DriftLevel};
-pub use energy::{EnergyBalance, EnergyMeter};
+pub use energy::{EnergyBalance, EnergyMeter, Ledger};
 pub use recorder::{Record, Recorder};

@@ -1,12 +1,14 @@
 //! Results as files and text.
 
 mod check;
+mod figures;
 mod files;
 mod summary;
 mod table;
 mod tables;
 
 pub use check::{Check, check};
+pub use figures::{drift_figure, energy_figure, outputs_figure};
 pub use files::{Folder, write_whole};
 pub use summary::{Summary, summarize};
 pub use table::Table;

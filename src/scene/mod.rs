@@ -1,6 +1,7 @@
 //! Scenes: JSON in, a checked model out.
 
 mod builder;
+pub mod generate;
 mod format;
 mod locate;
 mod markers;

@@ -1,0 +1,164 @@
+//! Options and habits that the subcommands share.
+
+use crate::error::{Error, Result, suggest};
+use crate::formulation::Choice;
+use crate::plot::Figure;
+use crate::report::Folder;
+use crate::study::{Overrides, Study};
+use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// The scene and how to solve it.
+#[derive(Args)]
+pub struct Common {
+    /// Scene file (JSON)
+    pub scene: PathBuf,
+    /// Formulation, such as index1 or baumgarte:alpha=5,beta=5
+    #[arg(long, value_parser = choice)]
+    pub formulation: Option<Choice>,
+    /// Integrator, such as dop853
+    #[arg(long, value_parser = choice)]
+    pub integrator: Option<Choice>,
+    /// Projection after each step, such as manifold:sweeps=2
+    #[arg(long, value_parser = choice)]
+    pub projection: Option<Choice>,
+    /// Relative tolerance
+    #[arg(long)]
+    pub rtol: Option<f64>,
+    /// Absolute tolerance
+    #[arg(long)]
+    pub atol: Option<f64>,
+    /// Fixed step, s
+    #[arg(long, value_name = "H")]
+    pub step: Option<f64>,
+    /// End time, s
+    #[arg(long, value_name = "T")]
+    pub until: Option<f64>,
+    /// Distance of the rows of the trajectory, s
+    #[arg(long, value_name = "DT")]
+    pub output_step: Option<f64>,
+    /// Replace a parameter of the scene
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub set: Vec<(String, f64)>,
+    /// Print the result as JSON on standard output, and nothing else there
+    #[arg(long)]
+    pub json: bool,
+    /// Print nothing but errors
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Where results go.
+#[derive(Args)]
+pub struct Output {
+    /// Folder for the results (default: out/NAME)
+    #[arg(short, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Format of the figures
+    #[arg(long, value_enum, default_value_t = Format::Svg)]
+    pub figures: Format,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    Svg,
+    Png,
+    None,
+}
+
+fn choice(text: &str) -> Result<Choice, String> {
+    Choice::parse(text).map_err(|error| error.to_string())
+}
+
+fn assignment(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, as in --set k1=200")?;
+    let value: f64 = value.trim().parse().map_err(|_| format!("`{value}` is not a number"))?;
+    Ok((name.trim().to_string(), value))
+}
+
+impl Common {
+    pub fn load(&self) -> Result<Study> {
+        for (option, value) in [("--rtol", self.rtol), ("--atol", self.atol), ("--step", self.step)] {
+            if value.is_some_and(|value| !(value > 0.0 && value.is_finite())) {
+                return Err(Error::input(format!("found {}, but it must be above zero", value.unwrap_or(0.0))).under(option));
+            }
+        }
+        Study::load(
+            &self.scene,
+            &Overrides {
+                set: self.set.clone(),
+                formulation: self.formulation.clone(),
+                integrator: self.integrator.clone(),
+                projection: self.projection.clone(),
+                rtol: self.rtol,
+                atol: self.atol,
+                step: self.step,
+                until: self.until,
+                output_step: self.output_step,
+            },
+        )
+    }
+
+    /// Prints the result: JSON where asked, else text unless quiet.
+    pub fn print(&self, json: &impl serde::Serialize, text: impl FnOnce() -> String) -> Result<()> {
+        match (self.json, self.quiet) {
+            (true, _) => print(&(to_json(json)? + "\n")),
+            (false, false) => print(&text()),
+            _ => Ok(()),
+        }
+    }
+
+    /// A progress bar in `unit`s on a terminal; nothing in a pipe.
+    pub fn progress(&self, length: u64, what: &str) -> ProgressBar {
+        if self.quiet {
+            return ProgressBar::hidden();
+        }
+        let template = "{msg} {wide_bar:.cyan/dim} {percent}% {eta}";
+        let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+        // A run that is over at once shows no bar.
+        let bar = ProgressBar::new(length).with_style(style).with_message(what.to_string());
+        bar.set_draw_target(indicatif::ProgressDrawTarget::stderr_with_hz(5));
+        bar
+    }
+}
+
+impl Output {
+    pub fn folder(&self, name: &str) -> Result<Folder> {
+        let default = || Path::new("out").join(name);
+        Folder::create(&self.output.clone().unwrap_or_else(default))
+    }
+
+    /// Saves a figure where figures are wanted.
+    pub fn figure(&self, folder: &mut Folder, name: &str, figure: Option<Figure>) -> Result<()> {
+        let extension = match self.figures {
+            Format::Svg => "svg",
+            Format::Png => "png",
+            Format::None => return Ok(()),
+        };
+        let Some(figure) = figure else { return Ok(()) };
+        let path = folder.file(&format!("{name}.{extension}"));
+        figure.save(&path).map_err(|error| Error::file(path, error))
+    }
+}
+
+pub fn to_json(value: &impl serde::Serialize) -> Result<String> {
+    serde_json::to_string_pretty(value).map_err(|error| Error::input(format!("cannot print as JSON: {error}")))
+}
+
+/// Writes to standard output; a reader that went away (`| head`) is no error.
+pub fn print(text: &str) -> Result<()> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Error::file("standard output", error)),
+        _ => Ok(()),
+    }
+}
+
+/// One of `names`, or an error that suggests the nearest.
+pub fn pick<'a>(what: &str, found: &str, names: &[&'a str]) -> Result<&'a str> {
+    let canonical = found.replace('-', "_");
+    names.iter().find(|name| **name == canonical).copied().ok_or_else(|| {
+        Error::input(format!("there is no {what} `{found}`")).hint(suggest(found, names.iter().copied()))
+    })
+}

@@ -1,0 +1,176 @@
+//! `holonom drift SCENE`
+
+use super::common::{Common, Output, print};
+use crate::error::{Error, Failure, Result};
+use crate::formulation::Choice;
+use crate::measure::{Drift, EnergyBalance, Record, Recorder};
+use crate::plot::{AxisSpec, Figure, Panel, Series};
+use crate::report::Table;
+use crate::simulate::{Method, Outcome, simulate};
+use crate::study::Study;
+use rayon::prelude::*;
+use serde::Serialize;
+use std::process::ExitCode;
+use std::time::Instant;
+
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    common: Common,
+    #[command(flatten)]
+    output: Output,
+}
+
+/// One stabilization's run.
+#[derive(Serialize)]
+struct Row {
+    method: String,
+    formulation: Choice,
+    projection: Choice,
+    status: &'static str,
+    failure: Option<Failure>,
+    drift: Drift,
+    energy: Option<EnergyBalance>,
+    steps: u64,
+    rhs_evaluations: u64,
+    factorizations: u64,
+    wall_seconds: f64,
+    #[serde(skip)]
+    record: Record,
+}
+
+pub fn run(args: Args) -> Result<ExitCode> {
+    let study = args.common.load()?;
+    let mut folder = args.output.folder(&study.name)?;
+    let bar = args.common.progress(stabilizations(1.0).len() as u64 + 1, "drift");
+    let plain = one(&study, &Choice::named("index1"), &Choice::named("none"))?;
+    bar.inc(1);
+    let step = study.method.step.unwrap_or(mean_step(&study, &plain)?);
+    let others: Vec<Row> = stabilizations(step)
+        .into_par_iter()
+        .map(|(formulation, projection)| {
+            let row = one(&study, &formulation, &projection);
+            bar.inc(1);
+            row
+        })
+        .collect::<Result<_>>()?;
+    bar.finish_and_clear();
+    let rows: Vec<Row> = [plain].into_iter().chain(others).collect();
+    folder.write_json("drift.json", &rows)?;
+    folder.write("drift.csv", &table_file(&rows)?)?;
+    args.output.figure(&mut folder, "drift", figure(&study.name, &rows))?;
+    args.common.print(&rows, || text(&study, &rows))?;
+    if !args.common.json && !args.common.quiet {
+        print(&format!("\nwritten to {}\n", folder.listing()))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Every stabilization, with gains that go with steps of size `step`: alpha = beta = 1/step is the pair (2/h, 1/h^2).
+fn stabilizations(step: f64) -> Vec<(Choice, Choice)> {
+    let gain = format!("{:.3}", 1.0 / step);
+    let gained = |name: &str, keys: &[&str]| Choice {
+        name: name.to_string(),
+        options: keys.iter().map(|key| (key.to_string(), gain.clone())).collect(),
+    };
+    let sweeps = Choice { name: "manifold".to_string(), options: vec![("sweeps".to_string(), "2".to_string())] };
+    let index1 = || Choice::named("index1");
+    let none = || Choice::named("none");
+    vec![
+        (Choice::named("baumgarte"), none()),
+        (gained("baumgarte", &["alpha", "beta"]), none()),
+        (gained("invariant_manifold", &["gamma"]), none()),
+        (index1(), Choice::named("position")),
+        (index1(), Choice::named("velocity")),
+        (index1(), Choice::named("manifold")),
+        (index1(), sweeps),
+        (index1(), Choice::named("full")),
+        (index1(), Choice::named("exact")),
+    ]
+}
+
+fn one(study: &Study, formulation: &Choice, projection: &Choice) -> Result<Row> {
+    let method = Method { formulation: formulation.clone(), projection: projection.clone(), ..study.method.clone() };
+    let mut recorder = Recorder::new(study.system());
+    let clock = Instant::now();
+    let Outcome { statistics, failure, .. } =
+        simulate(study.system(), &method, study.span()?, study.start(), &mut recorder)?;
+    let wall_seconds = clock.elapsed().as_secs_f64();
+    let record = recorder.finish();
+    Ok(Row {
+        method: match (formulation.name.as_str(), projection.name.as_str()) {
+            ("index1", _) => projection.to_string(),
+            (_, "none") => formulation.to_string(),
+            _ => format!("{formulation} + {projection}"),
+        },
+        formulation: formulation.clone(),
+        projection: projection.clone(),
+        status: if failure.is_some() { "failed" } else { "completed" },
+        failure,
+        drift: record.drift.clone(),
+        energy: record.energy,
+        steps: statistics.steps,
+        rhs_evaluations: statistics.rhs_evaluations,
+        factorizations: statistics.factorizations,
+        wall_seconds,
+        record,
+    })
+}
+
+fn mean_step(study: &Study, plain: &Row) -> Result<f64> {
+    let span = study.span()?;
+    Ok((span.end - span.start) / plain.steps.max(1) as f64)
+}
+
+fn text(study: &Study, rows: &[Row]) -> String {
+    let Method { integrator, rtol, atol, step, .. } = &study.method;
+    let accuracy = match step {
+        Some(step) => format!("step {step} s"),
+        None => format!("rtol {rtol:e}, atol {atol:e}"),
+    };
+    let mut table = Table::new(&["", "max |φ|", "max |φ′|", "final |φ|", "final |φ′|", "energy error", "steps", "rhs", "ms"]);
+    for row in rows {
+        let Drift { position, velocity, .. } = &row.drift;
+        let drift = [position.max, velocity.max, position.last, velocity.last].map(|value| format!("{value:.2e}"));
+        let energy = row.energy.map_or("-".to_string(), |energy| format!("{:.2e}", energy.max_error));
+        let work = [row.steps.to_string(), row.rhs_evaluations.to_string(), format!("{:.2}", 1e3 * row.wall_seconds)];
+        table.row([row.method.clone()].into_iter().chain(drift).chain([energy]).chain(work));
+    }
+    let mut text = format!("{}: drift with {integrator}, {accuracy}\n\n{table}", study.name);
+    for row in rows {
+        if let Some(failure) = &row.failure {
+            text += &format!("\n  {} FAILED at t = {:.4e} s: {}\n", row.method, failure.t, failure.reason);
+        }
+    }
+    text
+}
+
+/// `t`, then |phi| and |phi'| of every method; empty where a run had ended.
+fn table_file(rows: &[Row]) -> Result<Vec<u8>> {
+    let failed = |error: csv::Error| Error::input(format!("cannot write the table: {error}"));
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let names = rows.iter().flat_map(|row| [format!("position {}", row.method), format!("velocity {}", row.method)]);
+    writer.write_record(["t".to_string()].into_iter().chain(names)).map_err(failed)?;
+    let longest = rows.iter().map(|row| row.record.drift_rows.len()).max().unwrap_or(0);
+    for i in 0..longest {
+        let t = rows.iter().find_map(|row| row.record.trajectory.times().nth(i)).unwrap_or(0.0);
+        let cells = rows.iter().flat_map(|row| match row.record.drift_rows.get(i) {
+            Some([position, velocity, _]) => [position.to_string(), velocity.to_string()],
+            None => [String::new(), String::new()],
+        });
+        writer.write_record([t.to_string()].into_iter().chain(cells)).map_err(failed)?;
+    }
+    writer.into_inner().map_err(|error| Error::input(format!("cannot write the table: {error}")))
+}
+
+fn figure(name: &str, rows: &[Row]) -> Option<Figure> {
+    let panel = |level: usize, label: &str| {
+        rows.iter().fold(Panel::new("time (s)", AxisSpec::from(label).log()), |panel, row| {
+            let times = row.record.trajectory.times();
+            let points = times.zip(&row.record.drift_rows).map(|(t, levels)| (t, levels[level])).collect();
+            panel.series(Series::line(row.method.as_str(), points))
+        })
+    };
+    let figure = Figure::new().title(format!("{name}: drift under every stabilization"));
+    Some(figure.panel(panel(0, "position drift |φ| (m, rad)")).panel(panel(1, "velocity drift |φ′| (m/s, rad/s)")))
+}

@@ -1,0 +1,56 @@
+//! The command line: one file a subcommand.
+
+mod check;
+mod common;
+mod drift;
+mod generate;
+mod methods;
+mod schema;
+mod simulate;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Simulates mechanisms as differential-algebraic equations and measures how far every method drifts off the
+/// constraints.
+#[derive(Parser)]
+#[command(name = "holonom", version, about, max_term_width = 110, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// What is modelled: coordinates, constraints, rank, redundancy, consistency, conditioning
+    Check(check::Args),
+    /// Integrate: trajectory, drift and energy, with figures
+    Simulate(simulate::Args),
+    /// The same scene under every stabilization: drift against time, one table, one figure
+    Drift(drift::Args),
+    /// Print a scalable scene
+    Generate(generate::Args),
+    /// Formulations, integrators and projections, and what goes with what
+    Methods,
+    /// Print the JSON Schema of a scene
+    Schema,
+}
+
+/// Runs the command line and says how to exit: 0 done, 1 the run failed, 2 bad input.
+pub fn run() -> ExitCode {
+    let result = match Cli::parse().command {
+        Command::Check(args) => check::run(args),
+        Command::Simulate(args) => simulate::run(args),
+        Command::Drift(args) => drift::run(args),
+        Command::Generate(args) => generate::run(args),
+        Command::Methods => methods::run(),
+        Command::Schema => schema::run(),
+    };
+    match result {
+        Ok(code) => code,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(error.exit_code())
+        }
+    }
+}

@@ -1,0 +1,10 @@
+//! `holonom schema`
+
+use super::common::{print, to_json};
+use crate::error::Result;
+use std::process::ExitCode;
+
+pub fn run() -> Result<ExitCode> {
+    print(&(to_json(&crate::scene::schema())? + "\n"))?;
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,61 @@
+//! `holonom simulate SCENE`
+
+use super::common::{Common, Output, print};
+use crate::error::Result;
+use crate::measure::{Record, Recorder};
+use crate::report::{self, Folder, Summary, summarize};
+use crate::simulate::simulate;
+use crate::study::Study;
+use std::process::ExitCode;
+use std::time::Instant;
+
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    common: Common,
+    #[command(flatten)]
+    output: Output,
+}
+
+pub fn run(args: Args) -> Result<ExitCode> {
+    let study = args.common.load()?;
+    let span = study.span()?;
+    let mut folder = args.output.folder(&study.name)?;
+    let bar = args.common.progress(1000, &study.name);
+    let fraction = |t: f64| (1000.0 * (t - span.start) / (span.end - span.start)) as u64;
+    let mut recorder = Recorder::new(study.system()).with_progress(|t| bar.set_position(fraction(t)));
+    let clock = Instant::now();
+    let outcome = simulate(study.system(), &study.method, span, study.start(), &mut recorder)?;
+    let seconds = clock.elapsed().as_secs_f64();
+    let record = recorder.finish();
+    bar.finish_and_clear();
+    let summary = summarize(&study, &study.method, &outcome, &record, seconds);
+    write(&study, &record, &summary, &mut folder, &args.output)?;
+    args.common.print(&summary, || summary.text(&units(&record)))?;
+    if !args.common.json && !args.common.quiet {
+        print(&format!("\nwritten to {}\n", folder.listing()))?;
+    }
+    Ok(match &summary.failure {
+        None => ExitCode::SUCCESS,
+        Some(failure) => {
+            eprintln!("error: {}", crate::error::Error::from(failure.clone()));
+            ExitCode::from(1)
+        }
+    })
+}
+
+fn write(study: &Study, record: &Record, summary: &Summary, folder: &mut Folder, output: &Output) -> Result<()> {
+    folder.write("trajectory.csv", &report::trajectory_table(&record.trajectory)?)?;
+    folder.write("drift.csv", &report::drift_table(record)?)?;
+    if record.energy.is_some() {
+        folder.write("energy.csv", &report::energy_table(record)?)?;
+    }
+    folder.write_json("summary.json", summary)?;
+    output.figure(folder, "outputs", report::outputs_figure(&study.name, record))?;
+    output.figure(folder, "drift", report::drift_figure(&format!("{}: drift", study.name), record))?;
+    output.figure(folder, "energy", report::energy_figure(&format!("{}: energy", study.name), record))
+}
+
+fn units(record: &Record) -> Vec<(String, String)> {
+    record.trajectory.outputs.iter().map(|column| (column.name.clone(), column.unit.clone())).collect()
+}

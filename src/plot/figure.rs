@@ -1,0 +1,79 @@
+//! A whole figure, and how it becomes a file.
+
+use std::path::Path;
+
+use super::error::PlotError;
+use super::panel::Panel;
+use super::save::{self, Format};
+use super::shape::Drawing;
+use super::{bitmap, draw, svg};
+
+/// Width of one journal column in nominal pixels.
+const COLUMN_WIDTH: f64 = 640.0;
+
+/// One or several panels, stacked. Panels with the same x axis share it: the limits are common and only the
+/// last one is labelled. A legend that is the same in all panels is drawn once.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// Drawn above the panels.
+    pub title: Option<String>,
+    /// From top to bottom.
+    pub panels: Vec<Panel>,
+    /// Nominal pixels; 640 is one journal column (85 mm). The height follows from the panels.
+    pub width: f64,
+}
+
+impl Default for Figure {
+    fn default() -> Self {
+        Self { title: None, panels: Vec::new(), width: COLUMN_WIDTH }
+    }
+}
+
+impl Figure {
+    /// An empty figure, one journal column wide.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Sets the title.
+    pub fn title(mut self, title: impl Into<String>) -> Self {
+        self.title = Some(title.into());
+        self
+    }
+
+    /// Adds a panel below the others.
+    pub fn panel(mut self, panel: Panel) -> Self {
+        self.panels.push(panel);
+        self
+    }
+
+    /// Sets the width in nominal pixels (640 is one journal column); text keeps its size.
+    pub fn width(mut self, width: f64) -> Self {
+        self.width = width;
+        self
+    }
+
+    /// Writes the figure as SVG or PNG, by the extension of the path. The file is replaced in one step.
+    ///
+    /// # Errors
+    /// When the extension is another one, the path is a folder or cannot be written, or the figure has more pixels
+    /// than a PNG may have here.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), PlotError> {
+        let path = path.as_ref();
+        let bytes = match Format::of(path)? {
+            Format::Svg => self.to_svg().into_bytes(),
+            Format::Png => bitmap::render(&self.drawing())
+                .map_err(|reason| PlotError::Draw { path: path.to_path_buf(), reason })?,
+        };
+        save::write(path, &bytes)
+    }
+
+    /// The figure as SVG text.
+    pub fn to_svg(&self) -> String {
+        svg::render(&self.drawing())
+    }
+
+    pub(super) fn drawing(&self) -> Drawing {
+        draw::figure(self)
+    }
+}

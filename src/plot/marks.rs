@@ -1,0 +1,211 @@
+//! The data of a panel as shapes.
+
+use std::collections::BTreeMap;
+
+use super::clip;
+use super::color_bar::ColorBar;
+use super::layout::Placed;
+use super::palette::{Look, MARKER_RADIUS, NO_VALUE, TICK_SIZE, ink_on, scale_color};
+use super::series::{Series, Style};
+use super::shape::{Anchor, Color, Drawing, Marker, Pt, Rect, Shape, Text};
+use super::text::{self, Rich};
+use super::thin;
+
+/// Points that one figure may have, so that its file stays small.
+const LINE_POINTS: usize = 16_000;
+const DOTS: usize = 12_000;
+/// Coloured points cost more, each colour being a shape of its own.
+const COLORED: usize = 4_000;
+/// Least distance of markers along a line.
+const MARKER_DISTANCE: f64 = 16.0;
+const DOT_RADIUS: f64 = 2.7;
+/// A line that turns up or down more often than once in so many pixels is restless, if it moves as far between.
+const RESTLESS: f64 = 4.0;
+/// Size below which words upon cells become symbols.
+const LEAST_WORD: f64 = 10.0;
+const SYMBOLS: [Marker; 5] = [Marker::Cross, Marker::Plus, Marker::Diamond, Marker::Triangle, Marker::Square];
+
+/// Share of one series when a figure has `count` of them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Budget {
+    line: usize,
+    dots: usize,
+}
+
+impl Budget {
+    pub fn new(count: usize) -> Self {
+        let count = count.max(1);
+        Self { line: (LINE_POINTS / count).max(200), dots: (DOTS / count).max(60) }
+    }
+}
+
+/// Lines and points of a panel, in drawing order: restless lines below calm ones, then markers, then coloured points.
+pub(super) fn shapes(placed: &Placed, budget: Budget) -> Vec<Shape> {
+    let (mut drawn, mut marks) = (Vec::new(), Vec::new());
+    for (series, look) in placed.panel.series.iter().zip(&placed.looks) {
+        let runs = runs(placed, series);
+        drawn.push(lines(placed, look, &runs, budget));
+        marks.extend(markers(placed, series, look, &runs, budget));
+    }
+    drawn.sort_by_key(|(dense, _)| !dense);
+    let mut shapes: Vec<Shape> = drawn.into_iter().flat_map(|(_, shapes)| shapes).chain(marks).collect();
+    if let Some(bar) = &placed.bar {
+        colored(&mut shapes, placed, bar);
+    }
+    shapes
+}
+
+/// The points on the picture, broken where one of them is not a number.
+fn runs(placed: &Placed, series: &Series) -> Vec<Vec<Pt>> {
+    let places: Vec<Option<Pt>> = series.points.iter().map(|point| placed.at(point.0, point.1)).collect();
+    places.split(Option::is_none).map(|run| run.iter().flatten().copied().collect::<Vec<Pt>>()).collect()
+}
+
+/// The lines of a series, and whether they are restless: at full width they would be one blot, so they are thin.
+fn lines(placed: &Placed, look: &Look, runs: &[Vec<Pt>], budget: Budget) -> (bool, Vec<Shape>) {
+    let Some(mut stroke) = look.line else { return (false, Vec::new()) };
+    let full = runs.iter().map(Vec::len).sum::<usize>().max(1);
+    let share = |run: &[Pt]| (budget.line * run.len() / full).max(8);
+    let thinned = runs.iter().map(|run| clip::polyline(&thin::line(run, share(run)), &placed.frame));
+    let parts: Vec<Vec<Pt>> = thinned.flatten().collect();
+    let dense = parts.iter().map(|part| turns(part)).sum::<usize>() as f64 > placed.frame.width() / RESTLESS;
+    if dense {
+        stroke.width *= 0.5;
+    }
+    let mut shapes: Vec<Shape> = parts.into_iter().map(|points| Shape::Path { points, stroke }).collect();
+    // A point alone between two gaps has no line; a dot of the line's width would be missed.
+    let alone = runs.iter().filter(|run| run.len() == 1 && look.marker.is_none()).map(|run| run[0]);
+    let at: Vec<Pt> = alone.filter(|point| placed.frame.contains(*point)).collect();
+    if !at.is_empty() {
+        shapes.push(Shape::Marks { at, marker: Marker::Circle, radius: DOT_RADIUS, color: look.color });
+    }
+    (dense, shapes)
+}
+
+/// How often a line turns up or down, small ripples aside.
+fn turns(points: &[Pt]) -> usize {
+    let steps = points.windows(2).map(|pair| pair[1].1 - pair[0].1).filter(|step| step.abs() > RESTLESS);
+    let signs: Vec<bool> = steps.map(|step| step > 0.0).collect();
+    signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
+}
+
+fn markers(placed: &Placed, series: &Series, look: &Look, runs: &[Vec<Pt>], budget: Budget) -> Option<Shape> {
+    let marker = look.marker?;
+    let visible: Vec<Pt> = runs.iter().flatten().copied().filter(|point| placed.frame.contains(*point)).collect();
+    let at: Vec<Pt> = match series.style {
+        Style::LineDots => spaced(&visible),
+        _ => thin::dots(&visible, budget.dots).into_iter().map(|i| visible[i]).collect(),
+    };
+    let radius = MARKER_RADIUS * [1.0, 0.6, 0.35][usize::from(at.len() > 150) + usize::from(at.len() > 2000)];
+    (!at.is_empty()).then_some(Shape::Marks { at, marker, radius, color: look.color })
+}
+
+/// Points at least [`MARKER_DISTANCE`] from the one before.
+fn spaced(points: &[Pt]) -> Vec<Pt> {
+    let mut kept: Vec<Pt> = Vec::new();
+    for point in points {
+        let far = |last: &Pt| (point.0 - last.0).hypot(point.1 - last.1) >= MARKER_DISTANCE;
+        if kept.last().is_none_or(far) {
+            kept.push(*point);
+        }
+    }
+    kept
+}
+
+/// Points coloured by value, grouped by runs of one colour so that later points stay on top.
+fn colored(shapes: &mut Vec<Shape>, placed: &Placed, bar: &ColorBar) {
+    let points = placed.panel.color_series.iter().flat_map(|series| &series.points);
+    let known = points.filter_map(|point| Some((placed.at(point.0, point.1)?, bar.step(point.2)?)));
+    let visible: Vec<(Pt, usize)> = known.filter(|(point, _)| placed.frame.contains(*point)).collect();
+    let places: Vec<Pt> = visible.iter().map(|(point, _)| *point).collect();
+    let mut kept: Vec<(Pt, usize)> = thin::dots(&places, COLORED).into_iter().map(|i| visible[i]).collect();
+    if kept.chunk_by(|a, b| a.1 == b.1).count() > COLORED / 4 {
+        // Colours without order: grouping them all keeps the file small, and what lies on top is arbitrary anyway.
+        kept.sort_by_key(|point| point.1);
+    }
+    for group in kept.chunk_by(|a, b| a.1 == b.1) {
+        let at = group.iter().map(|(point, _)| *point).collect();
+        shapes.push(Shape::Marks { at, marker: Marker::Circle, radius: DOT_RADIUS, color: scale_color(group[0].1) });
+    }
+}
+
+/// Cells of the map and the words upon them.
+pub(super) fn cells(drawing: &mut Drawing, placed: &Placed) {
+    let (Some(map), Some(bar)) = (&placed.panel.heat_map, &placed.bar) else {
+        return;
+    };
+    let cells: Vec<(usize, usize, Rect)> =
+        map.cells(&placed.x, &placed.y).into_iter().map(|cell| (cell.0, cell.1, placed.rect(&cell.2))).collect();
+    let color = |column, row| map.value(column, row).and_then(|value| bar.color(value)).unwrap_or(NO_VALUE);
+    let mut groups: BTreeMap<(u8, u8, u8), Vec<Rect>> = BTreeMap::new();
+    for (column, row, rect) in &cells {
+        let Color(red, green, blue) = color(*column, *row);
+        groups.entry((red, green, blue)).or_default().push(*rect);
+    }
+    for ((red, green, blue), rects) in groups {
+        drawing.shapes.push(Shape::Rects { rects, fill: Color(red, green, blue) });
+    }
+    let places: BTreeMap<(usize, usize), Rect> = cells.iter().map(|cell| ((cell.0, cell.1), cell.2)).collect();
+    let mut symbols: Vec<Shape> = Vec::new();
+    for (column, row, word) in &map.words {
+        let Some(rect) = places.get(&(*column, *row)) else { continue };
+        let shape = word_shape(placed, word, rect, ink_on(color(*column, *row)));
+        if !join(&mut symbols, &shape) {
+            symbols.push(shape);
+        }
+    }
+    drawing.shapes.extend(symbols);
+}
+
+/// Adds markers to those of the same kind, if there are any.
+fn join(shapes: &mut [Shape], new: &Shape) -> bool {
+    let Shape::Marks { at: more, marker, radius, color } = new else { return false };
+    let same = |shape: &&mut Shape| matches!(shape, Shape::Marks { marker: m, radius: r, color: c, .. } if (m, r, c) == (marker, radius, color));
+    match shapes.iter_mut().find(same) {
+        Some(Shape::Marks { at, .. }) => {
+            at.extend(more);
+            true
+        }
+        _ => false,
+    }
+}
+
+/// A word in the middle of its cell, or its symbol.
+fn word_shape(placed: &Placed, word: &str, rect: &Rect, color: Color) -> Shape {
+    let (x, y) = rect.center();
+    if let Some(place) = placed.symbols.iter().position(|known| known == word) {
+        let radius = (0.32 * rect.width().min(rect.height())).clamp(1.0, 5.0);
+        return Shape::Marks { at: vec![(x, y)], marker: symbol(place), radius, color };
+    }
+    let size = placed.word_size;
+    Shape::Text(Text {
+        at: (x, y + 0.36 * size),
+        rich: Rich::new(word),
+        size,
+        color,
+        anchor: Anchor::Middle,
+        turned: false,
+    })
+}
+
+/// The symbol of word number `place`.
+pub(super) fn symbol(place: usize) -> Marker {
+    SYMBOLS[place % SYMBOLS.len()]
+}
+
+/// Size of the words upon cells; when they do not fit, the distinct words that symbols stand for.
+pub(super) fn words(placed: &Placed) -> (f64, Vec<String>) {
+    let Some(map) = &placed.panel.heat_map else {
+        return (TICK_SIZE, Vec::new());
+    };
+    let cells = map.cells(&placed.x, &placed.y);
+    let rects = cells.iter().map(|cell| placed.rect(&cell.2));
+    let (width, height) = rects
+        .fold((f64::INFINITY, f64::INFINITY), |least, rect| (least.0.min(rect.width()), least.1.min(rect.height())));
+    let mut distinct: Vec<String> = map.words.iter().map(|(_, _, word)| word.clone()).collect();
+    distinct.sort();
+    distinct.dedup();
+    let widest = distinct.iter().map(|word| text::width(word, 1.0)).fold(0.1, f64::max);
+    let size = TICK_SIZE.min(0.88 * width / widest).min(0.8 * height);
+    if size >= LEAST_WORD { (size, Vec::new()) } else { (size, distinct) }
+}

@@ -1,0 +1,89 @@
+//! Reference lines, their labels, and annotations.
+
+use super::axes;
+use super::layout::Placed;
+use super::legend::Taken;
+use super::palette::{INK, NOTE_INK, NOTE_SIZE, PAPER, REFERENCE};
+use super::shape::{Anchor, Color, Drawing, Pt, Rect, Shape, Text};
+use super::text::{self, HALF_DIGIT};
+
+/// Draws the reference lines and returns them.
+pub(super) fn references(drawing: &mut Drawing, placed: &Placed) -> Vec<Shape> {
+    let frame = placed.frame;
+    let line = |horizontal: bool, at: f64| {
+        let points = if horizontal {
+            let y = frame.bottom - placed.y.place(at)? * frame.height();
+            vec![(frame.left, y), (frame.right, y)]
+        } else {
+            let x = frame.left + placed.x.place(at)? * frame.width();
+            vec![(x, frame.top), (x, frame.bottom)]
+        };
+        let visible = points.iter().all(|point| frame.contains(*point));
+        visible.then_some(Shape::Path { points, stroke: REFERENCE })
+    };
+    let lines = placed.panel.reference_lines.iter().filter_map(|reference| line(reference.horizontal, reference.at));
+    let lines: Vec<Shape> = lines.collect();
+    drawing.shapes.extend(lines.iter().cloned());
+    lines
+}
+
+/// Labels of reference lines and annotations, each where it hides least.
+pub(super) fn texts(drawing: &mut Drawing, placed: &Placed, taken: &mut Taken) {
+    for line in placed.panel.reference_lines.iter().filter(|line| !line.label.trim().is_empty()) {
+        let middle = if line.horizontal { (placed.x.middle(), line.at) } else { (line.at, placed.y.middle()) };
+        if let Some(at) = placed.at(middle.0, middle.1).filter(|at| placed.frame.contains(*at)) {
+            let choices = beside_line(&placed.frame, at, &line.label, line.horizontal);
+            settle(drawing, placed, choices, taken, NOTE_INK);
+        }
+    }
+    for note in &placed.panel.annotations {
+        if let Some(at) = placed.at(note.x, note.y).filter(|at| placed.frame.contains(*at)) {
+            settle(drawing, placed, around(at, &note.text), taken, INK);
+        }
+    }
+}
+
+/// Draws the first of the texts that hides least; upon a map, in a box of paper.
+fn settle(drawing: &mut Drawing, placed: &Placed, choices: Vec<Text>, taken: &mut Taken, color: Color) {
+    let inside = |text: &&Text| placed.frame.holds(&text.bounds());
+    let best = choices.iter().filter(inside).min_by_key(|text| taken.cover(&text.bounds(), 2.0)).or(choices.first());
+    let Some(text) = best else { return };
+    taken.rects.push(text.bounds());
+    drawing.fill(text.bounds().grown(1.5), PAPER);
+    drawing.text(Text { color, ..text.clone() });
+}
+
+/// Places along a line, ends first, on both sides of it.
+fn beside_line(frame: &Rect, (x, y): Pt, label: &str, horizontal: bool) -> Vec<Text> {
+    let part = |k: usize| [1.0, 0.0, 0.5, 0.85, 0.15, 0.7, 0.3, 0.6, 0.4][k];
+    let width = text::width(label, NOTE_SIZE);
+    let place = |k: usize| {
+        if horizontal {
+            let x = frame.left + 8.0 + part(k) * (frame.width() - width - 16.0);
+            return [(x, y - 0.35 * NOTE_SIZE, Anchor::Start), (x, y + 0.95 * NOTE_SIZE, Anchor::Start)];
+        }
+        let y = frame.bottom - 0.5 * NOTE_SIZE - part(k) * (frame.height() - 1.6 * NOTE_SIZE);
+        [(x + 6.0, y, Anchor::Start), (x - 6.0, y, Anchor::End)]
+    };
+    (0..9).flat_map(place).map(|(x, y, anchor)| axes::text((x, y), label, NOTE_SIZE, anchor)).collect()
+}
+
+/// Places around a point, near ones first.
+fn around((x, y): Pt, label: &str) -> Vec<Text> {
+    const SIDES: [(f64, f64, Anchor); 8] = [
+        (1.0, 0.0, Anchor::Start),
+        (-1.0, 0.0, Anchor::End),
+        (0.0, -1.0, Anchor::Middle),
+        (0.0, 1.0, Anchor::Middle),
+        (0.8, -0.8, Anchor::Start),
+        (-0.8, -0.8, Anchor::End),
+        (0.8, 0.8, Anchor::Start),
+        (-0.8, 0.8, Anchor::End),
+    ];
+    let place = |distance: f64, (right, down, anchor): (f64, f64, Anchor)| {
+        // Down, the text hangs below the point by its height; up, it stands on its baseline.
+        let y = y + distance * down + HALF_DIGIT * NOTE_SIZE * (1.0 + down);
+        axes::text((x + distance * right, y), label, NOTE_SIZE, anchor)
+    };
+    [9.0, 18.0].into_iter().flat_map(|distance| SIDES.map(|side| place(distance, side))).collect()
+}

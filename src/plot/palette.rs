@@ -1,0 +1,81 @@
+//! Colours, dashes and markers, and the sizes that everything is drawn with.
+
+use plotters::style::colors::colormaps::ViridisRGB;
+
+use super::series::{Series, Style};
+use super::shape::{Color, Marker, Stroke};
+
+pub(super) const TITLE_SIZE: f64 = 19.0;
+pub(super) const LABEL_SIZE: f64 = 18.0;
+pub(super) const TICK_SIZE: f64 = 16.0;
+pub(super) const NOTE_SIZE: f64 = 14.5;
+pub(super) const TICK_LENGTH: f64 = 6.0;
+pub(super) const MARKER_RADIUS: f64 = 4.2;
+/// Free border around the figure.
+pub(super) const EDGE: f64 = 8.0;
+
+pub(super) const INK: Color = Color(26, 26, 26);
+pub(super) const NOTE_INK: Color = Color(85, 85, 85);
+pub(super) const PAPER: Color = Color(255, 255, 255);
+pub(super) const GRID: Color = Color(228, 228, 228);
+pub(super) const NO_VALUE: Color = Color(214, 214, 214);
+
+pub(super) const FRAME: Stroke = Stroke { color: Color(51, 51, 51), width: 1.4, dash: &[] };
+pub(super) const GRID_LINE: Stroke = Stroke { color: GRID, width: 1.0, dash: &[] };
+pub(super) const REFERENCE: Stroke = Stroke { color: Color(95, 95, 95), width: 1.5, dash: &[7.0, 4.0] };
+const LINE_WIDTH: f64 = 2.3;
+
+/// Okabe and Ito's colours, those with the most contrast on white first, black last. Their yellow is left
+/// out: a thin yellow line on white cannot be seen.
+const COLORS: [Color; 7] = [
+    Color(0, 114, 178),
+    Color(213, 94, 0),
+    Color(0, 158, 115),
+    Color(230, 159, 0),
+    Color(204, 121, 167),
+    Color(86, 180, 233),
+    Color(0, 0, 0),
+];
+const DASHES: [&[f64]; 4] = [&[], &[9.0, 4.0], &[2.4, 3.2], &[10.0, 3.5, 2.4, 3.5]];
+const MARKERS: [Marker; 5] = [Marker::Circle, Marker::Square, Marker::Triangle, Marker::Diamond, Marker::TriangleDown];
+
+/// How one series looks, in the panel and in the legend.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Look {
+    pub line: Option<Stroke>,
+    pub marker: Option<Marker>,
+    pub color: Color,
+}
+
+/// The look of series `index` of `count`. From eight on, dashes alternate too: four patterns and seven
+/// colours give 28 different lines, neighbours differing in both.
+pub(super) fn look(series: &Series, index: usize, count: usize) -> Look {
+    let place = series.color.unwrap_or(index);
+    let color = COLORS[place % COLORS.len()];
+    let pattern = if count > COLORS.len() { index % DASHES.len() } else { 0 };
+    let dash = if series.style == Style::Dashed { DASHES[pattern.max(1)] } else { DASHES[pattern] };
+    let line = series.style.has_line().then_some(Stroke { color, width: LINE_WIDTH, dash });
+    let marker = series.style.has_markers().then_some(MARKERS[place % MARKERS.len()]);
+    Look { line, marker, color }
+}
+
+/// Number of colours that a colour scale is drawn with: enough to look continuous, few enough to group by.
+pub(super) const COLOR_STEPS: usize = 128;
+
+/// Viridis at `step` of [`COLOR_STEPS`]. Its last yellow is cut off, being hard to see on white.
+pub(super) fn scale_color(step: usize) -> Color {
+    let at = 0.96 * step.min(COLOR_STEPS - 1) as f64 / (COLOR_STEPS - 1) as f64;
+    let color = ViridisRGB::get_color_normalized(at, 0.0, 1.0);
+    Color(color.0, color.1, color.2)
+}
+
+/// The step of a position between 0 and 1 on a colour scale.
+pub(super) fn color_step(unit: f64) -> usize {
+    ((unit.clamp(0.0, 1.0) * COLOR_STEPS as f64) as usize).min(COLOR_STEPS - 1)
+}
+
+/// Black or white, whichever can be read on `fill`.
+pub(super) fn ink_on(fill: Color) -> Color {
+    let luminance = 0.299 * f64::from(fill.0) + 0.587 * f64::from(fill.1) + 0.114 * f64::from(fill.2);
+    if luminance > 125.0 { INK } else { PAPER }
+}

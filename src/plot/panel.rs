@@ -1,0 +1,151 @@
+//! One panel: axes, and what is drawn between them.
+
+use super::heat::HeatMap;
+use super::series::{ColorSeries, Series};
+
+/// How values map to a length.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scale {
+    /// Equal lengths for equal differences.
+    #[default]
+    Linear,
+    /// Equal lengths for equal ratios. Zero and negative values are drawn at a floor, which the figure states.
+    Log,
+}
+
+/// What an axis shows. Build it from its label: `"time (s)".into()`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AxisSpec {
+    /// Quantity and unit, like `"position drift (m)"`. Superscript characters (`m/s²`) are set as superscripts.
+    pub label: String,
+    /// Linear or logarithmic.
+    pub scale: Scale,
+    /// Fixed limits; taken from the data when absent or unusable.
+    pub range: Option<(f64, f64)>,
+}
+
+impl From<&str> for AxisSpec {
+    fn from(label: &str) -> Self {
+        Self { label: label.to_string(), ..Self::default() }
+    }
+}
+
+impl From<String> for AxisSpec {
+    fn from(label: String) -> Self {
+        Self { label, ..Self::default() }
+    }
+}
+
+impl AxisSpec {
+    /// The same axis, logarithmic.
+    pub fn log(mut self) -> Self {
+        self.scale = Scale::Log;
+        self
+    }
+
+    /// The same axis with fixed limits.
+    pub fn range(mut self, low: f64, high: f64) -> Self {
+        self.range = Some((low, high));
+        self
+    }
+}
+
+/// A dashed line across the panel at one value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReferenceLine {
+    /// True: at one y; false: at one x.
+    pub horizontal: bool,
+    /// Where.
+    pub at: f64,
+    /// Small text beside it; may be empty.
+    pub label: String,
+}
+
+/// A text beside a point given in data coordinates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Annotation {
+    /// The point.
+    pub x: f64,
+    /// The point.
+    pub y: f64,
+    /// The text.
+    pub text: String,
+}
+
+/// Axes and what is drawn between them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Panel {
+    /// The horizontal axis.
+    pub x: AxisSpec,
+    /// The vertical axis.
+    pub y: AxisSpec,
+    /// Lines and points.
+    pub series: Vec<Series>,
+    /// Points coloured by a third value; all of a panel share one colour bar.
+    pub color_series: Vec<ColorSeries>,
+    /// A map of cells below everything else; it shares the colour bar.
+    pub heat_map: Option<HeatMap>,
+    /// Lines across the panel.
+    pub reference_lines: Vec<ReferenceLine>,
+    /// Texts at points.
+    pub annotations: Vec<Annotation>,
+    /// One unit of x is as long as one unit of y (both linear).
+    pub equal_aspect: bool,
+    /// Height between the axes in nominal pixels; chosen when absent.
+    pub height: Option<f64>,
+}
+
+impl Panel {
+    /// An empty panel between two axes.
+    pub fn new(x: impl Into<AxisSpec>, y: impl Into<AxisSpec>) -> Self {
+        Self { x: x.into(), y: y.into(), ..Self::default() }
+    }
+
+    /// Adds a series.
+    pub fn series(mut self, series: Series) -> Self {
+        self.series.push(series);
+        self
+    }
+
+    /// Adds points coloured by a third value.
+    pub fn color_series(mut self, series: ColorSeries) -> Self {
+        self.color_series.push(series);
+        self
+    }
+
+    /// Sets the map of cells.
+    pub fn heat_map(mut self, map: HeatMap) -> Self {
+        self.heat_map = Some(map);
+        self
+    }
+
+    /// Adds a horizontal line at `y`.
+    pub fn horizontal(mut self, y: f64, label: impl Into<String>) -> Self {
+        self.reference_lines.push(ReferenceLine { horizontal: true, at: y, label: label.into() });
+        self
+    }
+
+    /// Adds a vertical line at `x`.
+    pub fn vertical(mut self, x: f64, label: impl Into<String>) -> Self {
+        self.reference_lines.push(ReferenceLine { horizontal: false, at: x, label: label.into() });
+        self
+    }
+
+    /// Adds a text at a point.
+    pub fn annotate(mut self, x: f64, y: f64, text: impl Into<String>) -> Self {
+        self.annotations.push(Annotation { x, y, text: text.into() });
+        self
+    }
+
+    /// Makes one unit of x as long as one unit of y.
+    pub fn equal_aspect(mut self) -> Self {
+        self.equal_aspect = true;
+        self
+    }
+
+    /// Sets the height between the axes, in nominal pixels.
+    pub fn height(mut self, height: f64) -> Self {
+        self.height = Some(height);
+        self
+    }
+}

@@ -1,0 +1,95 @@
+//! The data of a panel.
+
+use super::panel::Scale;
+
+/// How a series is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Style {
+    /// A line; one of eight or more lines in a panel gets dashes as well, to be told apart in grey.
+    #[default]
+    Line,
+    /// A dashed line.
+    Dashed,
+    /// A marker at every point.
+    Dots,
+    /// A line with markers, not at every point when they would touch.
+    LineDots,
+}
+
+impl Style {
+    /// Whether the points are joined.
+    pub(super) fn has_line(self) -> bool {
+        self != Self::Dots
+    }
+
+    /// Whether the points carry markers.
+    pub(super) fn has_markers(self) -> bool {
+        matches!(self, Self::Dots | Self::LineDots)
+    }
+}
+
+/// Points that belong together. A NaN or an infinity breaks the line.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Series {
+    /// Name in the legend; empty: not listed.
+    pub label: String,
+    /// (x, y), in drawing order.
+    pub points: Vec<(f64, f64)>,
+    /// Line, dashes, dots.
+    pub style: Style,
+    /// Place in the palette (seven colours, repeated); the place in the panel when absent.
+    pub color: Option<usize>,
+}
+
+impl Series {
+    /// A line.
+    pub fn line(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Self { label: label.into(), points, ..Self::default() }
+    }
+
+    /// Separate points.
+    pub fn dots(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Self::line(label, points).style(Style::Dots)
+    }
+
+    /// The same data in another style.
+    pub fn style(mut self, style: Style) -> Self {
+        self.style = style;
+        self
+    }
+
+    /// The same data in a colour of the palette.
+    pub fn color(mut self, color: usize) -> Self {
+        self.color = Some(color);
+        self
+    }
+
+    /// Whether x never goes back, as in a function of time.
+    pub(super) fn is_function(&self) -> bool {
+        self.points.windows(2).all(|pair| pair[1].0 >= pair[0].0)
+    }
+}
+
+/// Points coloured by a third value, explained by a colour bar.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ColorSeries {
+    /// Title of the colour bar, with the unit.
+    pub label: String,
+    /// (x, y, value).
+    pub points: Vec<(f64, f64, f64)>,
+    /// Scale of the colour.
+    pub scale: Scale,
+}
+
+impl ColorSeries {
+    /// Points on a linear colour scale.
+    pub fn new(label: impl Into<String>, points: Vec<(f64, f64, f64)>) -> Self {
+        Self { label: label.into(), points, scale: Scale::Linear }
+    }
+
+    /// The same points on a logarithmic colour scale.
+    pub fn log(mut self) -> Self {
+        self.scale = Scale::Log;
+        self
+    }
+}

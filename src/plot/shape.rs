@@ -1,0 +1,182 @@
+//! The flat list of shapes between layout and file formats. Coordinates are nominal pixels, y down.
+
+use super::text::Rich;
+
+/// A point of the picture.
+pub(super) type Pt = (f64, f64);
+
+/// An opaque colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Color(pub u8, pub u8, pub u8);
+
+/// An upright rectangle.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Rect {
+    pub left: f64,
+    pub top: f64,
+    pub right: f64,
+    pub bottom: f64,
+}
+
+impl Rect {
+    pub fn new(left: f64, top: f64, width: f64, height: f64) -> Self {
+        Self { left, top, right: left + width, bottom: top + height }
+    }
+
+    pub fn width(&self) -> f64 {
+        self.right - self.left
+    }
+
+    pub fn height(&self) -> f64 {
+        self.bottom - self.top
+    }
+
+    pub fn center(&self) -> Pt {
+        (0.5 * (self.left + self.right), 0.5 * (self.top + self.bottom))
+    }
+
+    pub fn contains(&self, (x, y): Pt) -> bool {
+        x >= self.left && x <= self.right && y >= self.top && y <= self.bottom
+    }
+
+    /// This one, larger on every side.
+    pub fn grown(&self, by: f64) -> Self {
+        Self { left: self.left - by, top: self.top - by, right: self.right + by, bottom: self.bottom + by }
+    }
+
+    pub fn overlaps(&self, other: &Self) -> bool {
+        self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
+    }
+
+    pub fn holds(&self, other: &Self) -> bool {
+        self.contains((other.left, other.top)) && self.contains((other.right, other.bottom))
+    }
+
+    /// The outline, closed.
+    pub fn outline(&self) -> Vec<Pt> {
+        let corners = [(self.left, self.top), (self.right, self.top), (self.right, self.bottom)];
+        corners.into_iter().chain([(self.left, self.bottom), (self.left, self.top)]).collect()
+    }
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Stroke {
+    pub color: Color,
+    pub width: f64,
+    /// Lengths of dash, gap, dash, ...; empty: solid.
+    pub dash: &'static [f64],
+}
+
+impl Stroke {
+    pub fn solid(color: Color, width: f64) -> Self {
+        Self { color, width, dash: &[] }
+    }
+}
+
+/// Shape of a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Marker {
+    Circle,
+    Square,
+    Triangle,
+    Diamond,
+    TriangleDown,
+    Cross,
+    Plus,
+}
+
+/// Which point of a text its position is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// A line of text; `at` lies on its baseline.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Text {
+    pub at: Pt,
+    pub rich: Rich,
+    pub size: f64,
+    pub color: Color,
+    pub anchor: Anchor,
+    /// Turned a quarter, read upwards.
+    pub turned: bool,
+}
+
+impl Text {
+    /// The box around the text, as measured with the embedded font.
+    pub fn bounds(&self) -> Rect {
+        let width = self.rich.width(self.size);
+        let start = match self.anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => -0.5 * width,
+            Anchor::End => -width,
+        };
+        let (above, below) = (0.78 * self.size, 0.22 * self.size);
+        let (x, y) = self.at;
+        if self.turned {
+            return Rect { left: x - above, right: x + below, top: y - start - width, bottom: y - start };
+        }
+        Rect { left: x + start, right: x + start + width, top: y - above, bottom: y + below }
+    }
+}
+
+/// One thing to draw.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Shape {
+    Path { points: Vec<Pt>, stroke: Stroke },
+    Rects { rects: Vec<Rect>, fill: Color },
+    Marks { at: Vec<Pt>, marker: Marker, radius: f64, color: Color },
+    Text(Text),
+}
+
+/// A picture.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Drawing {
+    pub width: f64,
+    pub height: f64,
+    /// For screen readers and file browsers.
+    pub title: String,
+    pub shapes: Vec<Shape>,
+}
+
+impl Drawing {
+    pub fn line(&mut self, from: Pt, to: Pt, stroke: Stroke) {
+        self.shapes.push(Shape::Path { points: vec![from, to], stroke });
+    }
+
+    pub fn fill(&mut self, rect: Rect, fill: Color) {
+        self.shapes.push(Shape::Rects { rects: vec![rect], fill });
+    }
+
+    /// Adds a text, unless there is nothing to read.
+    pub fn text(&mut self, text: Text) {
+        if !text.rich.runs.is_empty() {
+            self.shapes.push(Shape::Text(text));
+        }
+    }
+}
+
+impl Marker {
+    /// Line width of markers made of strokes; the others are filled.
+    pub fn stroke_width(self, radius: f64) -> Option<f64> {
+        matches!(self, Self::Cross | Self::Plus).then_some(0.42 * radius)
+    }
+
+    /// Its lines or filled outlines around a point. Areas are about equal; the circle is drawn as such.
+    pub fn outlines(self, (x, y): Pt, radius: f64) -> Vec<Vec<Pt>> {
+        let at = |points: &[Pt]| points.iter().map(|p| (x + radius * p.0, y + radius * p.1)).collect::<Vec<Pt>>();
+        match self {
+            Self::Circle => Vec::new(),
+            Self::Square => vec![Rect::new(x, y, 0.0, 0.0).grown(0.89 * radius).outline()],
+            Self::Triangle => vec![at(&[(0.0, -1.3), (1.2, 0.85), (-1.2, 0.85), (0.0, -1.3)])],
+            Self::TriangleDown => vec![at(&[(0.0, 1.3), (1.2, -0.85), (-1.2, -0.85), (0.0, 1.3)])],
+            Self::Diamond => vec![at(&[(0.0, -1.35), (1.15, 0.0), (0.0, 1.35), (-1.15, 0.0), (0.0, -1.35)])],
+            Self::Cross => vec![at(&[(-0.9, -0.9), (0.9, 0.9)]), at(&[(-0.9, 0.9), (0.9, -0.9)])],
+            Self::Plus => vec![at(&[(-1.1, 0.0), (1.1, 0.0)]), at(&[(0.0, -1.1), (0.0, 1.1)])],
+        }
+    }
+}

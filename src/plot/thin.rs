@@ -1,0 +1,181 @@
+//! Fewer points for the same picture.
+
+use super::shape::Pt;
+
+/// A line whose picture does not differ visibly, with no more points than `most` if that is possible.
+///
+/// Of points in a row within one pixel column the first, lowest, highest and last are kept, so no extreme is
+/// lost; then points on straight stretches go.
+pub(super) fn line(points: &[Pt], most: usize) -> Vec<Pt> {
+    let mut kept = points.to_vec();
+    let mut width = 0.5;
+    // Each round doubles the column; eight of them reach 64 pixels, beyond which nothing is left to see.
+    for _ in 0..8 {
+        kept = straighten(&columns(&kept, width), 0.1 * width);
+        if kept.len() <= most {
+            break;
+        }
+        width *= 2.0;
+    }
+    kept
+}
+
+/// First, lowest, highest and last of each group of consecutive points in the same column.
+fn columns(points: &[Pt], width: f64) -> Vec<Pt> {
+    let column = |point: &Pt| (point.0 / width).floor();
+    let groups = points.chunk_by(|a, b| column(a) == column(b));
+    groups.flat_map(group_extremes).collect()
+}
+
+fn group_extremes(group: &[Pt]) -> impl Iterator<Item = Pt> {
+    let extreme = |better: fn(f64, f64) -> bool| {
+        (0..group.len()).fold(0, |best, i| if better(group[i].1, group[best].1) { i } else { best })
+    };
+    let mut places = [0, extreme(|a, b| a > b), extreme(|a, b| a < b), group.len() - 1];
+    places.sort_unstable();
+    let repeated = move |k: usize| k > 0 && places[k] == places[k - 1];
+    (0..4).filter(move |k| !repeated(*k)).map(move |k| group[places[k]])
+}
+
+/// Drops points that lie within `tolerance` of the line from the last point kept to a later one, as long as
+/// the line only moves away from that point: what turns back is kept.
+fn straighten(points: &[Pt], tolerance: f64) -> Vec<Pt> {
+    let Some((first, rest)) = points.split_first() else {
+        return Vec::new();
+    };
+    let mut kept = vec![*first];
+    let mut cone = Cone::new(*first);
+    let mut last = *first;
+    for point in rest {
+        if !cone.admits(*point) {
+            kept.push(last);
+            cone = Cone::new(last);
+        }
+        cone.narrow(*point, tolerance);
+        last = *point;
+    }
+    if rest.is_empty() {
+        return kept;
+    }
+    kept.push(last);
+    kept
+}
+
+/// The directions from a point in which a line passes all points seen since within the tolerance.
+struct Cone {
+    apex: Pt,
+    /// The two border directions, once there is a point outside the tolerance.
+    borders: Option<(Pt, Pt)>,
+    reach: f64,
+}
+
+impl Cone {
+    fn new(apex: Pt) -> Self {
+        Self { apex, borders: None, reach: 0.0 }
+    }
+
+    fn seen(&self, point: Pt) -> (Pt, f64) {
+        let direction = (point.0 - self.apex.0, point.1 - self.apex.1);
+        (direction, direction.0.hypot(direction.1))
+    }
+
+    fn admits(&self, point: Pt) -> bool {
+        let (direction, distance) = self.seen(point);
+        let between = |(left, right): &(Pt, Pt)| cross(*right, direction) >= 0.0 && cross(direction, *left) >= 0.0;
+        distance >= self.reach && self.borders.as_ref().is_none_or(between)
+    }
+
+    fn narrow(&mut self, point: Pt, tolerance: f64) {
+        let (direction, distance) = self.seen(point);
+        self.reach = self.reach.max(distance);
+        if distance <= tolerance {
+            return;
+        }
+        // The half-angle under which the tolerance is seen from the apex.
+        let sine = tolerance / distance;
+        let cosine = (1.0 - sine * sine).max(0.0).sqrt();
+        let turned = |s: f64| (cosine * direction.0 - s * direction.1, s * direction.0 + cosine * direction.1);
+        let (left, right) = (turned(sine), turned(-sine));
+        let tighter = |new: Pt, old: Pt, inner: bool| if inner { new } else { old };
+        self.borders = Some(match self.borders {
+            None => (left, right),
+            Some((l, r)) => (tighter(left, l, cross(left, l) > 0.0), tighter(right, r, cross(r, right) > 0.0)),
+        });
+    }
+}
+
+fn cross(a: Pt, b: Pt) -> f64 {
+    a.0 * b.1 - a.1 * b.0
+}
+
+/// Points without those hidden by another one, with at most `most` left: indices of the kept ones, in order. One
+/// stays of those in the same small cell.
+pub(super) fn dots(points: &[Pt], most: usize) -> Vec<usize> {
+    let mut kept: Vec<usize> = (0..points.len()).collect();
+    let mut cell = 0.7;
+    for _ in 0..12 {
+        kept = one_per_cell(points, kept, cell);
+        if kept.len() <= most {
+            break;
+        }
+        cell *= 1.5;
+    }
+    kept
+}
+
+fn one_per_cell(points: &[Pt], mut kept: Vec<usize>, cell: f64) -> Vec<usize> {
+    let key = |i: &usize| ((points[*i].0 / cell).floor() as i64, (points[*i].1 / cell).floor() as i64);
+    // By order of data the winners would all lie on one side of their cells and form stripes.
+    kept.sort_by_key(|i| (key(i), scattered(*i)));
+    kept.dedup_by_key(|i| key(i));
+    kept.sort_unstable();
+    kept
+}
+
+/// A number without visible relation to `i`, but always the same for it.
+fn scattered(i: usize) -> u64 {
+    let mixed = (i as u64).wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    (mixed ^ (mixed >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extremes_survive() {
+        let mut noise: Vec<Pt> = (0..50_000).map(|i| (f64::from(i) * 0.01, (f64::from(i) * 7.3).sin())).collect();
+        noise[777].1 = 90.0;
+        noise[31_234].1 = -80.0;
+        let thin = line(&noise, 4000);
+        assert!(thin.len() <= 4000, "{}", thin.len());
+        assert!(thin.contains(&noise[777]) && thin.contains(&noise[31_234]));
+        assert_eq!((thin.first(), thin.last()), (noise.first(), noise.last()));
+    }
+
+    #[test]
+    fn smooth_curves_stay_in_place() {
+        let curve: Vec<Pt> = (0..2000).map(|i| (f64::from(i) * 0.25, 100.0 * (f64::from(i) * 0.01).sin())).collect();
+        let thin = line(&curve, 4000);
+        assert!(thin.len() < 200, "{}", thin.len());
+        for (x, y) in curve {
+            let right = thin.partition_point(|point| point.0 < x).clamp(1, thin.len() - 1);
+            let (a, b) = (thin[right - 1], thin[right]);
+            let on_line = a.1 + (b.1 - a.1) * (x - a.0) / (b.0 - a.0);
+            assert!((on_line - y).abs() < 0.4, "{x} {y} {on_line}");
+        }
+    }
+
+    #[test]
+    fn a_line_that_turns_back_keeps_its_end() {
+        let thin = line(&[(0.0, 0.0), (10.0, 0.0), (30.0, 0.0), (20.0, 0.0)], 10);
+        assert!(thin.contains(&(30.0, 0.0)) && thin.contains(&(20.0, 0.0)));
+    }
+
+    #[test]
+    fn hidden_dots_go() {
+        let points: Vec<Pt> = (0..10_000).map(|i| (f64::from(i % 100), f64::from(i / 100 % 10))).collect();
+        assert_eq!(dots(&points, 5000).len(), 1000);
+        assert!(dots(&points, 300).len() <= 300);
+    }
+}

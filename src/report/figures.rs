@@ -1,0 +1,89 @@
+//! Figures of a run.
+
+use crate::measure::Record;
+use crate::plot::{Figure, Panel, Series};
+
+/// Outputs over time, one panel a unit; coordinates where the scene names no outputs. `None` without rows.
+pub fn outputs_figure(title: &str, record: &Record) -> Option<Figure> {
+    let trajectory = &record.trajectory;
+    if trajectory.rows.len() < 2 {
+        return None;
+    }
+    let mut units: Vec<(&str, Vec<(&str, usize)>)> = Vec::new();
+    let first = trajectory.headings().len() - trajectory.outputs.len();
+    let mut add = |unit, name, column| match units.iter_mut().find(|(known, _)| *known == unit) {
+        Some((_, members)) => members.push((name, column)),
+        None => units.push((unit, vec![(name, column)])),
+    };
+    for (i, column) in trajectory.outputs.iter().enumerate() {
+        add(column.unit.as_str(), column.name.as_str(), first + i);
+    }
+    if trajectory.outputs.is_empty() {
+        let names = trajectory.names.q.iter().take(MOST_COORDINATES).enumerate();
+        names.for_each(|(i, name)| add("m, rad", name.as_str(), 1 + i));
+    }
+    let mut figure = Figure::new().title(title);
+    for (unit, members) in units {
+        let quantity = if members.len() == 1 { members[0].0 } else { quantity(unit) };
+        let label = if unit.is_empty() { quantity.to_string() } else { format!("{quantity} ({unit})") };
+        let mut panel = Panel::new("time (s)", label);
+        for (name, column) in members {
+            let points = trajectory.rows.iter().map(|row| (row[0], row[column])).collect();
+            panel = panel.series(Series::line(name, points));
+        }
+        figure = figure.panel(panel);
+    }
+    Some(figure)
+}
+
+/// More curves than this tell nothing.
+const MOST_COORDINATES: usize = 12;
+
+fn quantity(unit: &str) -> &'static str {
+    match unit {
+        "rad" => "angle",
+        "rad/s" => "angular velocity",
+        "m" => "position",
+        "m/s" => "velocity",
+        "N" => "force",
+        "N m" => "torque",
+        "J" => "energy",
+        _ => "value",
+    }
+}
+
+/// Drift of positions, velocities and accelerations over time, on logarithmic axes.
+pub fn drift_figure(title: &str, record: &Record) -> Option<Figure> {
+    let times: Vec<f64> = record.trajectory.times().collect();
+    if times.len() < 2 || record.trajectory.names.lambda.is_empty() {
+        return None;
+    }
+    let labels = ["position |φ|", "velocity |φ′|", "acceleration |φ″|"];
+    let series = labels.iter().enumerate().map(|(i, label)| {
+        Series::line(*label, times.iter().zip(&record.drift_rows).map(|(t, levels)| (*t, levels[i])).collect())
+    });
+    let y = crate::plot::AxisSpec::from("drift (m or rad, per sⁿ)").log();
+    let panel = series.fold(Panel::new("time (s)", y), Panel::series);
+    Some(Figure::new().title(title).panel(panel))
+}
+
+/// Kinetic and potential energy and work, and the error of their balance.
+pub fn energy_figure(title: &str, record: &Record) -> Option<Figure> {
+    let times: Vec<f64> = record.trajectory.times().collect();
+    if times.len() < 2 || record.ledger_rows.len() != times.len() {
+        return None;
+    }
+    let curve = |label: &str, value: fn(&crate::measure::Ledger) -> f64| {
+        Series::line(label, times.iter().zip(&record.ledger_rows).map(|(t, row)| (*t, value(row))).collect())
+    };
+    let mut energies = Panel::new("time (s)", "energy (J)")
+        .series(curve("kinetic", |row| row.kinetic))
+        .series(curve("potential", |row| row.potential));
+    if record.ledger_rows.iter().any(|row| row.work != 0.0) {
+        energies = energies.series(curve("work put in", |row| row.work));
+    }
+    let total = curve("total less work", |row| row.kinetic + row.potential - row.work);
+    let error = crate::plot::AxisSpec::from("error of the balance (J)").log();
+    let errors = Panel::new("time (s)", error).series(curve("", |row| row.error.abs()).color(0));
+    Some(Figure::new().title(title).panel(energies.series(total)).panel(errors))
+}

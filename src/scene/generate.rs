@@ -1,0 +1,87 @@
+//! Scenes of any size, for measuring cost.
+
+use serde_json::{Value, json};
+
+type Make = fn(usize) -> Value;
+
+/// Every scalable scene: its name, and the scene for n loops or links.
+pub fn registry() -> &'static [(&'static str, Make)] {
+    &[("n_four_bar", n_four_bar), ("chain", chain)]
+}
+
+/// N four-bar linkages side by side: 2N + 1 uniform links of 1 m and 1 kg, vertical ones up, v_x(B0) = 1 m/s.
+/// IFToMM benchmark A02; one degree of freedom, N + 1 when flat. 6N + 3 coordinates, 6N + 2 constraints.
+pub fn n_four_bar(n: usize) -> Value {
+    let link = |name: String, position: [f64; 2], angle: Value, markers: Value, motion: Value| {
+        json!({ "name": name, "type": "rigid", "mass": "m", "inertia": "m*l^2/12", "markers": markers,
+            "initial": { "position": position, "angle": angle, "velocity": motion[0], "angular_velocity": motion[1] } })
+    };
+    let ends = json!({ "A": ["-l/2", 0], "B": ["l/2", 0] });
+    let (mut bodies, mut joints) = (Vec::new(), Vec::new());
+    let mut hinge = |name: String, a: String, b: String| {
+        joints.push(json!({ "name": name, "type": "revolute", "between": [a, b] }));
+    };
+    for i in 0..=n {
+        let x = i as f64;
+        let turning = json!([["v0/2", 0], "-v0/l"]);
+        bodies.push(link(format!("bar{i}"), [x, 0.5], json!("pi/2"), ends.clone(), turning));
+        hinge(format!("A{i}"), format!("ground.A{i}"), format!("bar{i}.A"));
+        if i > 0 {
+            let k = i - 1;
+            let sliding = json!([["v0", 0], 0]);
+            bodies.push(link(format!("coupler{k}"), [x - 0.5, 1.0], json!(0), ends.clone(), sliding));
+            hinge(format!("B{k}"), format!("bar{k}.B"), format!("coupler{k}.A"));
+            hinge(format!("C{i}"), format!("coupler{k}.B"), format!("bar{i}.B"));
+        }
+    }
+    let supports: serde_json::Map<String, Value> = (0..=n).map(|i| (format!("A{i}"), json!([i, 0]))).collect();
+    json!({
+        "name": format!("n_four_bar_{n}"),
+        "about": format!("{n} four-bar linkages in a row. One degree of freedom; singular when flat."),
+        "references": ["IFToMM multibody benchmark A02"],
+        "dimension": 2,
+        "parameters": { "l": 1.0, "m": 1.0, "v0": 1.0 },
+        "gravity": [0, -9.81],
+        "ground": { "markers": supports },
+        "bodies": bodies,
+        "joints": joints,
+        "outputs": [
+            { "name": "B0_x", "measure": "position", "of": "bar0.B", "component": "x" },
+            { "name": "B0_y", "measure": "position", "of": "bar0.B", "component": "y" }
+        ],
+        "simulation": { "t_end": 1.0, "output_step": 0.01, "integrator": "dop853", "rtol": 1e-9, "atol": 1e-9 }
+    })
+}
+
+/// A chain of n uniform rods of total length 1 m and mass 1 kg, hanging from one end and released level.
+/// 3n coordinates, 2n constraints, n degrees of freedom.
+pub fn chain(n: usize) -> Value {
+    let length = 1.0 / n as f64;
+    let (mut bodies, mut joints) = (Vec::new(), Vec::new());
+    for i in 0..n {
+        bodies.push(json!({
+            "name": format!("link{i}"), "type": "rigid", "mass": "m/n", "inertia": "m/n*(l/n)^2/12",
+            "markers": { "A": ["-l/n/2", 0], "B": ["l/n/2", 0] },
+            "initial": { "position": [(i as f64 + 0.5) * length, 0] }
+        }));
+        let before = if i == 0 { "ground.A".to_string() } else { format!("link{}.B", i - 1) };
+        let between = [before, format!("link{i}.A")];
+        joints.push(json!({ "name": format!("J{i}"), "type": "revolute", "between": between }));
+    }
+    let end = format!("link{}.B", n - 1);
+    json!({
+        "name": format!("chain_{n}"),
+        "about": format!("A chain of {n} rods, released level. {n} degrees of freedom; the motion is chaotic."),
+        "dimension": 2,
+        "parameters": { "l": 1.0, "m": 1.0, "n": n },
+        "gravity": [0, -9.81],
+        "ground": { "markers": { "A": [0, 0] } },
+        "bodies": bodies,
+        "joints": joints,
+        "outputs": [
+            { "name": "end_x", "measure": "position", "of": end, "component": "x" },
+            { "name": "end_y", "measure": "position", "of": end, "component": "y" }
+        ],
+        "simulation": { "t_end": 1.0, "output_step": 0.01, "integrator": "dopri5", "rtol": 1e-8, "atol": 1e-8 }
+    })
+}
