@@ -118,7 +118,7 @@ struct Settings<'a> {
 }
 
 /// Rows of a trajectory where nothing is said.
-const ROWS: f64 = 200.0;
+const ROWS: f64 = 500.0;
 
 impl Settings<'_> {
     fn number(&self, field: &str, number: &Option<Number>) -> Result<Option<f64>> {
