@@ -8,6 +8,7 @@ use crate::math::kkt::Pattern;
 use crate::math::{Scalar, Taylor};
 use crate::scene::{Connection, Measure, Model, Part, Watched};
 use std::array::from_fn;
+use std::ops::Range;
 
 /// A model with the places of its coordinates, rows and matrix entries fixed.
 pub struct Mechanism<const D: usize> {
@@ -15,8 +16,8 @@ pub struct Mechanism<const D: usize> {
     dimensions: Dimensions,
     structure: Structure,
     joints: Vec<Rows>,
-    /// Place of each body's first mass value.
-    masses: Vec<usize>,
+    /// Places of each body's values of M.
+    masses: Vec<Range<usize>>,
     pub(super) length: f64,
 }
 
@@ -53,9 +54,10 @@ impl<const D: usize> Mechanism<D> {
         let mut mass = Pattern { rows: v, cols: v, entries: Vec::new() };
         let mut masses = Vec::new();
         for part in &model.bodies {
-            masses.push(mass.entries.len());
+            let first = mass.entries.len();
             let places = part.body.mass_pattern().into_iter();
             mass.entries.extend(places.map(|(i, j)| (part.first_v + i, part.first_v + j)));
+            masses.push(first..mass.entries.len());
         }
         let mut g = Pattern { rows: 0, cols: v, entries: Vec::new() };
         let joints = model.joints.iter().map(|joint| {
@@ -79,7 +81,7 @@ impl<const D: usize> Mechanism<D> {
     }
 
     /// Rows of phi that joint `joint` has.
-    pub fn rows_of_joint(&self, joint: usize) -> std::ops::Range<usize> {
+    pub fn rows_of_joint(&self, joint: usize) -> Range<usize> {
         let rows = &self.joints[joint];
         rows.first..rows.first + rows.count
     }
@@ -101,11 +103,10 @@ impl<const D: usize> Mechanism<D> {
     }
 
     fn mass_and_own_forces(&self, q: &[f64], v: &[f64], need: Need, terms: &mut Terms) {
-        for (part, &first) in self.model.bodies.iter().zip(&self.masses) {
+        for (part, places) in self.model.bodies.iter().zip(&self.masses) {
             let (q, v) = (of(q, part, true), of(v, part, false));
             if need.includes(Need::MASS) {
-                let end = self.masses.iter().copied().find(|&next| next > first).unwrap_or(terms.mass.len());
-                part.body.mass(q, &mut terms.mass[first..end]);
+                part.body.mass(q, &mut terms.mass[places.clone()]);
             }
             if need.includes(Need::FORCE) {
                 let f = &mut terms.f[part.first_v..part.first_v + part.nv];
@@ -118,12 +119,14 @@ impl<const D: usize> Mechanism<D> {
     fn forces(&self, t: f64, q: &[f64], work: &Workspace<D>, terms: &mut Terms) {
         terms.power = 0.0;
         for force in &self.model.forces {
-            let (frames, n) = gather(&work.motion, &force.markers);
             let mut wrenches = [Wrench::zero(); MOST_MARKERS];
-            let wrenches = &mut wrenches[..n];
-            let action = force.element.act(&frames[..n], Taylor::time(t), wrenches);
+            let wrenches = &mut wrenches[..force.markers.len()];
+            let action = with_frames(&work.motion, &force.markers, |frames| {
+                force.element.act(frames, Taylor::time(t), wrenches)
+            });
             terms.power += action.potential.d;
-            for ((frame, wrench), &marker) in frames.iter().zip(wrenches.iter()).zip(&force.markers) {
+            for (wrench, &marker) in wrenches.iter().zip(&force.markers) {
+                let frame = &work.motion[marker];
                 terms.power += power(frame, wrench);
                 if let Some(part) = self.model.carrier(marker) {
                     let f = &mut terms.f[part.first_v..part.first_v + part.nv];
@@ -135,37 +138,14 @@ impl<const D: usize> Mechanism<D> {
 
     fn constraints(&self, t: f64, q: &[f64], need: Need, work: &Workspace<D>, terms: &mut Terms) {
         for (joint, rows) in self.model.joints.iter().zip(&self.joints) {
-            let (frames, n) = gather(&work.motion, &joint.markers);
-            if need.includes(Need::CONSTRAINTS) {
-                let mut levels = [Taylor::fixed(0.0); MOST_ROWS];
-                joint.element.levels(&frames[..n], Taylor::time(t), &mut levels[..rows.count]);
-                for (row, level) in (rows.first..).zip(&levels[..rows.count]) {
-                    (terms.phi[row], terms.phi_dot[row], terms.gamma[row]) = (level.x, level.d, -level.dd);
+            with_frames(&work.motion, &joint.markers, |frames| {
+                if need.includes(Need::CONSTRAINTS) {
+                    levels(t, rows, joint.element.as_ref(), frames, terms);
                 }
-                self.explicit_time_rate(t, rows, joint.element.as_ref(), &frames[..n], terms);
-            }
-            if need.includes(Need::G) {
-                self.gradient(t, q, rows, joint.element.as_ref(), &frames[..n], terms);
-            }
-        }
-    }
-
-    /// phi_t: the rate with all frames held.
-    fn explicit_time_rate(
-        &self,
-        t: f64,
-        rows: &Rows,
-        joint: &dyn crate::joint::Joint<D>,
-        frames: &[Frame<Taylor<f64>, D>],
-        terms: &mut Terms,
-    ) {
-        let phi_t = &mut terms.phi_t[rows.first..rows.first + rows.count];
-        phi_t.fill(0.0);
-        if rows.rheonomic {
-            let held: [_; MOST_MARKERS] = from_fn(|i| frames[i.min(frames.len() - 1)].map(|x| Taylor::fixed(x.x)));
-            let mut levels = [Taylor::fixed(0.0); MOST_ROWS];
-            joint.levels(&held[..frames.len()], Taylor::time(t), &mut levels[..rows.count]);
-            phi_t.iter_mut().zip(&levels).for_each(|(rate, level)| *rate = level.d);
+                if need.includes(Need::G) {
+                    self.gradient(t, q, rows, joint.element.as_ref(), frames, terms);
+                }
+            });
         }
     }
 
@@ -235,6 +215,29 @@ impl<const D: usize> Mechanism<D> {
     }
 }
 
+/// phi, phi' and gamma of a joint, and phi_t: the rate with all frames held.
+fn levels<const D: usize>(
+    t: f64,
+    rows: &Rows,
+    joint: &dyn crate::joint::Joint<D>,
+    frames: &[Frame<Taylor<f64>, D>],
+    terms: &mut Terms,
+) {
+    let mut levels = [Taylor::fixed(0.0); MOST_ROWS];
+    let levels = &mut levels[..rows.count];
+    joint.levels(frames, Taylor::time(t), levels);
+    for (row, level) in (rows.first..).zip(levels.iter()) {
+        (terms.phi[row], terms.phi_dot[row], terms.gamma[row]) = (level.x, level.d, -level.dd);
+    }
+    let phi_t = &mut terms.phi_t[rows.first..rows.first + rows.count];
+    phi_t.fill(0.0);
+    if rows.rheonomic {
+        let held: [_; MOST_MARKERS] = from_fn(|i| frames[i.min(frames.len() - 1)].map(|x| Taylor::fixed(x.x)));
+        joint.levels(&held[..frames.len()], Taylor::time(t), levels);
+        phi_t.iter_mut().zip(levels).for_each(|(rate, level)| *rate = level.d);
+    }
+}
+
 /// Frames of a body's markers as functions of six of its velocity directions: q + N(q) e_j, v held.
 fn vary<const D: usize>(part: &Part<D>, q: &[f64], v: &[f64], first: usize, out: &mut Vec<Frame<Taylor<Slope>, D>>) {
     let lifted = |x: &f64| Slope::fixed(*x);
@@ -262,13 +265,20 @@ pub(super) fn of<'a, const D: usize>(all: &'a [f64], part: &Part<D>, coordinates
     }
 }
 
-/// Copies the frames of an element's markers side by side.
-pub(super) fn gather<const D: usize>(
+/// Puts the frames of an element's markers side by side for `see`; most elements have one or two.
+pub(super) fn with_frames<R, const D: usize>(
     all: &[Frame<Taylor<f64>, D>],
     markers: &[usize],
-) -> ([Frame<Taylor<f64>, D>; MOST_MARKERS], usize) {
-    let n = markers.len();
-    (from_fn(|i| all[markers[i.min(n - 1)]]), n)
+    see: impl FnOnce(&[Frame<Taylor<f64>, D>]) -> R,
+) -> R {
+    match *markers {
+        [a] => see(&[all[a]]),
+        [a, b] => see(&[all[a], all[b]]),
+        _ => {
+            let many: [_; MOST_MARKERS] = from_fn(|i| all[markers[i.min(markers.len() - 1)]]);
+            see(&many[..markers.len()])
+        }
+    }
 }
 
 /// Power of a wrench at a moving frame, W.
@@ -366,9 +376,10 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
             total.potential += energy.potential;
         }
         for force in &self.model.forces {
-            let (frames, n) = gather(&work.motion, &force.markers);
             let mut wrenches = [Wrench::zero(); MOST_MARKERS];
-            total.potential += force.element.act(&frames[..n], Taylor::time(t), &mut wrenches[..n]).potential.x;
+            let wrenches = &mut wrenches[..force.markers.len()];
+            let act = |frames: &[_]| force.element.act(frames, Taylor::time(t), wrenches).potential.x;
+            total.potential += with_frames(&work.motion, &force.markers, act);
         }
         Some(total)
     }
