@@ -92,3 +92,8 @@ pub mod system;
 pub mod trajectory;
 
 pub use error::{Error, Result};
+
+/// The README's example, compiled and run by the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
