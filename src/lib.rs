@@ -75,6 +75,7 @@
 pub mod body;
 pub mod cli;
 pub mod error;
+pub mod files;
 pub mod force;
 pub mod formulation;
 pub mod initial;

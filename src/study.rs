@@ -7,7 +7,7 @@ use crate::integrator;
 use crate::math::expression::{Number, Parameters};
 use crate::scene::{AnyModel, Scene, Simulation};
 use crate::simulate::{Method, Span};
-use crate::system::{Mechanism, MechanicalSystem};
+use crate::system::{MechanicalSystem, Mechanism};
 use std::path::Path;
 
 /// A mechanism in the plane or in space.

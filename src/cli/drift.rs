@@ -128,7 +128,8 @@ fn text(study: &Study, rows: &[Row]) -> String {
         Some(step) => format!("step {step} s"),
         None => format!("rtol {rtol:e}, atol {atol:e}"),
     };
-    let mut table = Table::new(&["", "max |φ|", "max |φ′|", "final |φ|", "final |φ′|", "energy error", "steps", "rhs", "ms"]);
+    let mut table =
+        Table::new(&["", "max |φ|", "max |φ′|", "final |φ|", "final |φ′|", "energy error", "steps", "rhs", "ms"]);
     for row in rows {
         let Drift { position, velocity, .. } = &row.drift;
         let drift = [position.max, velocity.max, position.last, velocity.last].map(|value| format!("{value:.2e}"));
@@ -169,7 +170,12 @@ const WINDOWS: usize = 60;
 impl Row {
     /// The method, short enough for a legend.
     fn label(&self) -> String {
-        self.method.replace("alpha", "α").replace("beta", "β").replace("gamma", "γ").replace(':', " ").replace(',', ", ")
+        self.method
+            .replace("alpha", "α")
+            .replace("beta", "β")
+            .replace("gamma", "γ")
+            .replace(':', " ")
+            .replace(',', ", ")
     }
 }
 

@@ -203,7 +203,8 @@ impl Check {
         }
         let mut text = String::from("redundant constraints (consistent; multipliers of least norm are computed):\n");
         for row in &self.redundant {
-            text += &format!("  joint `{}`, row {}: follows from {}\n", row.joint, row.row, row.follows_from.join(", "));
+            text +=
+                &format!("  joint `{}`, row {}: follows from {}\n", row.joint, row.row, row.follows_from.join(", "));
         }
         text + "\n"
     }

@@ -303,11 +303,12 @@ fn blocks<const D: usize>(model: &Model<D>, markers: &[usize], rows: usize, g: &
     blocks
 }
 
-/// A length typical of the scene, m: the largest distance of a marker from its body's origin, or 1.
+/// A length typical of the scene, m: the largest distance of a marker from its body's origin; where all lie there, of
+/// the ground's markers; else 1.
 fn length_scale<const D: usize>(model: &Model<D>) -> f64 {
-    let ground = model.ground.iter().map(|marker| size(&marker.offset));
-    let largest = ground.chain(model.bodies.iter().map(|part| part.body.reach())).fold(0.0, f64::max);
-    if largest > 0.0 { largest } else { 1.0 }
+    let bodies = model.bodies.iter().map(|part| part.body.reach()).fold(0.0, f64::max);
+    let ground = model.ground.iter().map(|marker| size(&marker.offset)).fold(0.0, f64::max);
+    [bodies, ground].into_iter().find(|length| *length > 0.0).unwrap_or(1.0)
 }
 
 pub(super) fn size<const D: usize>(vector: &[f64; D]) -> f64 {
