@@ -33,6 +33,12 @@ pub trait Integrator: Send {
         to: &mut [f64],
     ) -> Result<Option<f64>, Halt>;
 
+    /// y' at the new state, where the last attempt evaluated it there, and last of all: the problem then holds the terms
+    /// of the new state, and the next step needs no evaluation of its own (first same as last).
+    fn last_slope(&self) -> Option<&[f64]> {
+        None
+    }
+
     /// The constants of step control that go with the method.
     fn control(&self) -> Control;
 

@@ -44,7 +44,17 @@ struct Block {
 pub(super) struct Workspace<const D: usize> {
     /// Frames of all markers with their velocities, and accelerations at v' = 0.
     pub motion: Vec<Frame<Taylor<f64>, D>>,
-    varied: Vec<Frame<Taylor<Slope>, D>>,
+    varied: Varied<D>,
+}
+
+/// One body as a function of six of its velocity directions.
+#[derive(Default)]
+struct Varied<const D: usize> {
+    frames: Vec<Frame<Taylor<Slope>, D>>,
+    q: Vec<Slope>,
+    v: Vec<Slope>,
+    directions: Vec<Slope>,
+    moved: Vec<Slope>,
 }
 
 impl<const D: usize> Mechanism<D> {
@@ -89,7 +99,7 @@ impl<const D: usize> Mechanism<D> {
     pub(super) fn workspace<'a>(&self, scratch: &'a mut Scratch) -> &'a mut Workspace<D> {
         scratch.get(|| Workspace {
             motion: self.model.ground_frames().map(|frame| frame.map(Taylor::fixed)).collect(),
-            varied: Vec::new(),
+            varied: Varied::default(),
         })
     }
 
@@ -195,10 +205,10 @@ impl<const D: usize> Mechanism<D> {
                     continue;
                 }
                 for first in (0..part.nv).step_by(6) {
-                    vary(part, of(q, part, true), of(v, part, false), first, &mut work.varied);
+                    work.varied.vary(part, of(q, part, true), of(v, part, false), first);
                     for (frame, &marker) in frames.iter_mut().zip(&joint.markers) {
                         *frame = match self.model.markers.bodies[marker] == Some(block.body) {
-                            true => work.varied[marker - part.first_marker],
+                            true => work.varied.frames[marker - part.first_marker],
                             false => fixed(&work.motion[marker]),
                         };
                     }
@@ -238,19 +248,26 @@ fn levels<const D: usize>(
     }
 }
 
-/// Frames of a body's markers as functions of six of its velocity directions: q + N(q) e_j, v held.
-fn vary<const D: usize>(part: &Part<D>, q: &[f64], v: &[f64], first: usize, out: &mut Vec<Frame<Taylor<Slope>, D>>) {
-    let lifted = |x: &f64| Slope::fixed(*x);
-    let directions: Vec<Slope> = (0..part.nv)
-        .map(|j| if (first..first + 6).contains(&j) { Slope::seeded(0.0, j - first) } else { Slope::fixed(0.0) })
-        .collect();
-    let q: Vec<Slope> = q.iter().map(lifted).collect();
-    let v: Vec<Slope> = v.iter().map(lifted).collect();
-    let mut moved = vec![Slope::fixed(0.0); q.len()];
-    part.body.rate(&q, &directions, &mut moved);
-    moved.iter_mut().zip(&q).for_each(|(moved, &q)| *moved += q);
-    out.resize(part.body.marker_count(), Frame::world());
-    part.body.motion(&moved, &v, None, out);
+impl<const D: usize> Varied<D> {
+    /// Frames of a body's markers as functions of six of its velocity directions: q + N(q) e_j, v held.
+    fn vary(&mut self, part: &Part<D>, q: &[f64], v: &[f64], first: usize) {
+        let lift = |from: &[f64], to: &mut Vec<Slope>| {
+            to.clear();
+            to.extend(from.iter().map(|&x| Slope::fixed(x)));
+        };
+        lift(q, &mut self.q);
+        lift(v, &mut self.v);
+        self.directions.clear();
+        self.directions.resize(part.nv, Slope::fixed(0.0));
+        let seeded = self.directions[first..].iter_mut().take(6).enumerate();
+        seeded.for_each(|(j, direction)| *direction = Slope::seeded(0.0, j));
+        self.moved.clear();
+        self.moved.resize(part.nq, Slope::fixed(0.0));
+        part.body.rate(&self.q, &self.directions, &mut self.moved);
+        self.moved.iter_mut().zip(&self.q).for_each(|(moved, &q)| *moved += q);
+        self.frames.resize(part.body.marker_count(), Frame::world());
+        part.body.motion(&self.moved, &self.v, None, &mut self.frames);
+    }
 }
 
 fn fixed<const D: usize>(frame: &Frame<Taylor<f64>, D>) -> Frame<Taylor<Slope>, D> {
