@@ -2,8 +2,8 @@
 
 use super::output::Output;
 use super::{Column, Dimensions, Energy, Group, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
-use crate::body::{Frame, Slope, Wrench, twist_len};
-use crate::joint::{MOST_MARKERS, MOST_ROWS, markers_per_pass};
+use crate::body::{Frame, MOST_MARKERS, Slope, Wrench, twist_len};
+use crate::joint::{MOST_ROWS, markers_per_pass};
 use crate::math::kkt::Pattern;
 use crate::math::{Scalar, Taylor};
 use crate::scene::{Connection, Measure, Model, Part, Watched};
