@@ -7,7 +7,9 @@
 mod equations;
 mod mechanism;
 mod output;
+mod rows;
 mod terms;
+mod variation;
 
 pub use equations::Equations;
 pub use mechanism::Mechanism;
