@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
+pub mod driven_pendulum;
 pub mod robot_arm;
 
 use holonom::formulation::Choice;
