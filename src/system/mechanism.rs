@@ -2,6 +2,7 @@
 
 use super::output::Output;
 use super::rows::{PlacedJoint, Rows};
+use super::tangent::{Couplings, Evaluation, Loaded, Tangent};
 use super::variation::Varied;
 use super::{Column, Dimensions, Energy, Group, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
 use crate::body::{Frame, MOST_MARKERS, Wrench};
@@ -16,7 +17,8 @@ pub struct Mechanism<const D: usize> {
     model: Model<D>,
     dimensions: Dimensions,
     structure: Structure,
-    joints: Vec<Rows>,
+    pub(super) joints: Vec<Rows>,
+    pub(super) couplings: Couplings,
     /// Places of each body's values of M.
     masses: Vec<Range<usize>>,
     pub(super) length: f64,
@@ -26,7 +28,7 @@ pub struct Mechanism<const D: usize> {
 pub(super) struct Workspace<const D: usize> {
     /// Frames of all markers with their velocities, and accelerations at v' = 0.
     pub motion: Vec<Frame<Taylor<f64>, D>>,
-    varied: Varied<D>,
+    pub varied: Varied<D>,
 }
 
 impl<const D: usize> Mechanism<D> {
@@ -45,7 +47,10 @@ impl<const D: usize> Mechanism<D> {
         let joints = model.joints.iter().map(|joint| Rows::new(&model, joint, &mut g)).collect();
         let dimensions = Dimensions { q, v, lambda: g.rows };
         let length = length_scale(&model);
-        Mechanism { model, dimensions, structure: Structure { mass, g }, joints, masses, length }
+        let mut tangent = Pattern { rows: v, cols: v, entries: Vec::new() };
+        let couplings = Couplings::new(&model, &mut tangent);
+        let structure = Structure { mass, g, tangent };
+        Mechanism { model, dimensions, structure, joints, couplings, masses, length }
     }
 
     pub fn model(&self) -> &Model<D> {
@@ -216,6 +221,13 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
             let Workspace { motion, varied } = work;
             self.placed_joints().for_each(|joint| joint.curvature(t, (q, v), motion, varied, terms));
         }
+    }
+
+    fn tangent(&self, at: Loaded, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
+        let work = self.workspace(scratch);
+        self.place(at.q, at.v, work);
+        Evaluation { mechanism: self, at, work, tangent }.run();
+        true
     }
 
     fn normalize(&self, q: &mut [f64]) {

@@ -2,7 +2,7 @@
 
 use super::Terms;
 use super::mechanism::of;
-use super::variation::{Varied, fixed};
+use super::variation::{Along, Varied, fixed};
 use crate::body::{Frame, MOST_MARKERS, Slope, Wrench, twist_len};
 use crate::joint::{Joint, MOST_ROWS, markers_per_pass};
 use crate::math::kkt::Pattern;
@@ -132,7 +132,7 @@ impl<const D: usize> PlacedJoint<'_, D> {
                 continue;
             }
             for first in (0..part.nv).step_by(6) {
-                varied.vary(part, of(q, part, true), of(v, part, false), first);
+                varied.vary(Along::Coordinates, part, of(q, part, true), of(v, part, false), first);
                 let frames: [Frame<Taylor<Slope>, D>; MOST_MARKERS] = from_fn(|i| {
                     let marker = self.joint.markers[i.min(self.joint.markers.len() - 1)];
                     match self.model.markers.bodies[marker] == Some(block.body) {
