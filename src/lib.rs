@@ -1,9 +1,82 @@
-//! holonom
+//! Mechanisms as differential-algebraic equations: simulated, their constraint drift measured.
+//!
+//! # Equations
+//!
+//! ```text
+//! q' = N(q) v                          n_q coordinates, n_v velocities; N = I except for quaternions
+//! M(q) v' + G(q,t)^T lambda = f(t,q,v)
+//! phi(q,t) = 0                         n_c holonomic constraints
+//! phi' = G v + phi_t = 0
+//! phi'' = G v' - gamma = 0             gamma: what is left of phi'' at v' = 0, with its sign turned
+//! ```
+//!
+//! SI units, angles in radians. `lambda` is signed so that `-G^T lambda` is the generalized force of the joints: the
+//! multiplier of a massless rod is its tension. `index` means the differential index and nothing else.
+//!
+//! | code | meaning | code | meaning |
+//! |---|---|---|---|
+//! | `q, v, vdot` | coordinates, velocities, accelerations | `mass`, `f` | mass matrix; all forces but the reactions |
+//! | `lambda` | multipliers | `phi, g, gamma` | as above |
+//! | `l` | d(G v + phi_t)/dq along the directions of v | `h, rtol, atol` | step, tolerances |
+//!
+//! # The way of the data
+//!
+//! ```text
+//! scene.json -> Scene -> Model -> MechanicalSystem -> Formulation -> Integrator (+ Projection) -> Trajectory, drift
+//! ```
+//!
+//! # Map
+//!
+//! Each layer uses only those above it in this list.
+//!
+//! | module | what is there | add one |
+//! |---|---|---|
+//! | [`error`], [`math`] | errors with place and remedy; dual and Taylor numbers, expressions, saddle-point solver | |
+//! | [`body`] | rigid bodies and point masses, their frames at markers | a file and a line in [`body::registry`] |
+//! | [`joint`], [`force`] | constraints and wrenches over frames | a file and a line in the registry |
+//! | [`scene`] | the JSON format, its checks and its schema | |
+//! | [`system`] | [`system::MechanicalSystem`], which solvers see; own equations by [`system::Equations`] | implement it |
+//! | [`formulation`] | what is integrated: index 1, Baumgarte, invariant manifold | a file and a line |
+//! | [`projection`] | what is done after a step: post-stabilization, coordinate projection | a file and a line |
+//! | [`initial`] | consistent q, v, then v' and lambda | |
+//! | [`integrator`] | one file a method | a file and a line |
+//! | [`simulate`], [`trajectory`], [`study`] | the only time loop; its rows; a scene made ready | |
+//! | [`measure`] | drift, energy balance | |
+//! | [`plot`], [`report`], [`cli`] | figures, files and text, the command line | one file a subcommand |
+//!
+//! # Example
+//!
+//! ```
+//! use holonom::measure::Recorder;
+//! use holonom::scene::Scene;
+//! use holonom::simulate::simulate;
+//! use holonom::study::Study;
+//!
+//! let scene = Scene::parse(r#"{
+//!     "name": "pendulum", "dimension": 2, "gravity": [0, -9.81],
+//!     "ground": { "markers": { "O": [0, 0] } },
+//!     "bodies": [{ "name": "bob", "type": "point_mass", "mass": 1, "initial": { "position": [1, 0] } }],
+//!     "joints": [{ "name": "rod", "type": "distance", "between": ["ground.O", "bob"], "length": 1 }],
+//!     "simulation": { "t_end": 1, "integrator": "dop853", "rtol": 1e-10, "atol": 1e-10 }
+//! }"#, &[])?;
+//! let study = Study::new(scene, &Default::default())?;
+//! let mut recorder = Recorder::new(study.system());
+//! let outcome = simulate(study.system(), &study.method, study.span()?, study.start(), &mut recorder)?;
+//! let record = recorder.finish();
+//! assert!(outcome.failure.is_none());
+//! assert!(record.drift.position.max < 1e-14);
+//! # Ok::<(), holonom::Error>(())
+//! ```
+
 #![forbid(unsafe_code)]
+// Derivatives of products and quotients are sums of products: that is no slip.
 #![allow(clippy::suspicious_arithmetic_impl)]
+
 pub mod body;
+pub mod choice;
 pub mod cli;
 pub mod error;
+pub mod files;
 pub mod force;
 pub mod formulation;
 pub mod initial;
@@ -21,3 +94,8 @@ pub mod system;
 pub mod trajectory;
 
 pub use error::{Error, Result};
+
+/// The README's example, compiled and run by the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Failure, Result};
 use crate::formulation::{self, Choice, Dynamics, Halt, Statistics};
-use crate::integrator::{self, Control, From, Integrator, Problem, Tolerance, first_step};
+use crate::integrator::{self, Control, From, Integrator, Problem, Setup, Tolerance, first_step};
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
 use serde::Serialize;
@@ -176,7 +176,11 @@ impl<'a> Run<'a> {
         let entry = integrator::find(&method.integrator)?;
         Ok(Run {
             problem: problem()?,
-            integrator: (entry.make)(&method.integrator, y.len())?,
+            integrator: (entry.make)(&Setup {
+                integrator: &method.integrator,
+                formulation: &method.formulation,
+                system,
+            })?,
             projection: projection::make(&method.projection, system)?,
             rows: Rows {
                 problem: problem()?,

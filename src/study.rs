@@ -7,7 +7,7 @@ use crate::integrator;
 use crate::math::expression::{Number, Parameters};
 use crate::scene::{AnyModel, Scene, Simulation};
 use crate::simulate::{Method, Span};
-use crate::system::{Mechanism, MechanicalSystem};
+use crate::system::{MechanicalSystem, Mechanism};
 use std::path::Path;
 
 /// A mechanism in the plane or in space.
@@ -118,7 +118,7 @@ struct Settings<'a> {
 }
 
 /// Rows of a trajectory where nothing is said.
-const ROWS: f64 = 200.0;
+const ROWS: f64 = 500.0;
 
 impl Settings<'_> {
     fn number(&self, field: &str, number: &Option<Number>) -> Result<Option<f64>> {

@@ -28,6 +28,9 @@ use serde::de::DeserializeOwned;
 /// Values with their derivatives along six coordinates: the second number every element is evaluated over.
 pub type Slope = Dual<f64, 6>;
 
+/// So many markers a joint or force may have: their frames are kept on the stack.
+pub const MOST_MARKERS: usize = 8;
+
 /// Energy of a body or force, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy {
@@ -43,7 +46,7 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
     fn velocity_names(&self) -> Vec<&'static str>;
     fn markers(&self) -> &[Marker<D>];
 
-    /// q' = N(q) v, with N linear in q. Default: N = I.
+    /// q' = N(q) v, with N affine in q: constant for positions, linear for quaternions. Default: N = I.
     fn rate<S: Scalar>(&self, _q: &[S], v: &[S], qdot: &mut [S]) {
         qdot.copy_from_slice(v);
     }
@@ -128,7 +131,7 @@ impl<K: BodyKernel<D>, S: Scalar, const D: usize> BodyOver<S, D> for K {
     }
 }
 
-/// q with q' = N(q) v and q'' = N(q') v + N(q) v', from N's being linear in q.
+/// q with q' = N(q) v and q'' = (N(q') - N(0)) v + N(q) v', from N's being affine in q.
 fn coordinate_path<K: BodyKernel<D>, S: Scalar, const D: usize>(
     body: &K,
     q: &[S],
@@ -142,16 +145,17 @@ fn coordinate_path<K: BodyKernel<D>, S: Scalar, const D: usize>(
         }
         return;
     }
-    let mut rates = [[S::zero(); ON_STACK]; 3];
-    let [first, second, applied] = &mut rates;
+    let mut rates = [[S::zero(); ON_STACK]; 4];
+    let [first, second, constant, applied] = &mut rates;
     let n = q.len();
     BodyKernel::rate(body, q, v, &mut first[..n]);
     BodyKernel::rate(body, &first[..n], v, &mut second[..n]);
+    BodyKernel::rate(body, &[S::zero(); ON_STACK][..n], v, &mut constant[..n]);
     if let Some(vdot) = vdot {
         BodyKernel::rate(body, q, vdot, &mut applied[..n]);
     }
     for (i, place) in path.iter_mut().enumerate() {
-        *place = Taylor::new(q[i], first[i], second[i] + applied[i]);
+        *place = Taylor::new(q[i], first[i], second[i] - constant[i] + applied[i]);
     }
 }
 

@@ -82,7 +82,9 @@ impl Common {
     pub fn load(&self) -> Result<Study> {
         for (option, value) in [("--rtol", self.rtol), ("--atol", self.atol), ("--step", self.step)] {
             if value.is_some_and(|value| !(value > 0.0 && value.is_finite())) {
-                return Err(Error::input(format!("found {}, but it must be above zero", value.unwrap_or(0.0))).under(option));
+                return Err(
+                    Error::input(format!("found {}, but it must be above zero", value.unwrap_or(0.0))).under(option)
+                );
             }
         }
         Study::load(

@@ -5,7 +5,7 @@ use crate::error::{Error, Failure, Result};
 use crate::formulation::Choice;
 use crate::measure::{Drift, EnergyBalance, Record, Recorder};
 use crate::plot::{AxisSpec, Figure, Panel, Series};
-use crate::report::Table;
+use crate::report::{Table, envelope};
 use crate::simulate::{Method, Outcome, simulate};
 use crate::study::Study;
 use rayon::prelude::*;
@@ -68,7 +68,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
 
 /// Every stabilization, with gains that go with steps of size `step`: alpha = beta = 1/step is the pair (2/h, 1/h^2).
 fn stabilizations(step: f64) -> Vec<(Choice, Choice)> {
-    let gain = format!("{:.3}", 1.0 / step);
+    let gain = crate::report::significant(1.0 / step, 3);
     let gained = |name: &str, keys: &[&str]| Choice {
         name: name.to_string(),
         options: keys.iter().map(|key| (key.to_string(), gain.clone())).collect(),
@@ -128,7 +128,8 @@ fn text(study: &Study, rows: &[Row]) -> String {
         Some(step) => format!("step {step} s"),
         None => format!("rtol {rtol:e}, atol {atol:e}"),
     };
-    let mut table = Table::new(&["", "max |φ|", "max |φ′|", "final |φ|", "final |φ′|", "energy error", "steps", "rhs", "ms"]);
+    let mut table =
+        Table::new(&["", "max |φ|", "max |φ′|", "final |φ|", "final |φ′|", "energy error", "steps", "rhs", "ms"]);
     for row in rows {
         let Drift { position, velocity, .. } = &row.drift;
         let drift = [position.max, velocity.max, position.last, velocity.last].map(|value| format!("{value:.2e}"));
@@ -163,12 +164,28 @@ fn table_file(rows: &[Row]) -> Result<Vec<u8>> {
     writer.into_inner().map_err(|error| Error::input(format!("cannot write the table: {error}")))
 }
 
+/// Points of a curve, each the largest drift of its window.
+const WINDOWS: usize = 60;
+
+impl Row {
+    /// The method, short enough for a legend.
+    fn label(&self) -> String {
+        self.method
+            .replace("alpha", "α")
+            .replace("beta", "β")
+            .replace("gamma", "γ")
+            .replace(':', " ")
+            .replace(',', ", ")
+    }
+}
+
 fn figure(name: &str, rows: &[Row]) -> Option<Figure> {
     let panel = |level: usize, label: &str| {
         rows.iter().fold(Panel::new("time (s)", AxisSpec::from(label).log()), |panel, row| {
             let times = row.record.trajectory.times();
-            let points = times.zip(&row.record.drift_rows).map(|(t, levels)| (t, levels[level])).collect();
-            panel.series(Series::line(row.method.as_str(), points))
+            let points = times.zip(&row.record.drift_rows).map(|(t, levels)| (t, levels[level]));
+            let curve = envelope(points, row.record.drift_rows.len(), WINDOWS);
+            panel.series(Series::line(row.label(), curve))
         })
     };
     let figure = Figure::new().title(format!("{name}: drift under every stabilization"));

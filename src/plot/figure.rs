@@ -2,9 +2,11 @@
 
 use std::path::Path;
 
+use crate::files::write_whole;
+
 use super::error::PlotError;
 use super::panel::Panel;
-use super::save::{self, Format};
+use super::save::Format;
 use super::shape::Drawing;
 use super::{bitmap, draw, svg};
 
@@ -65,7 +67,7 @@ impl Figure {
             Format::Png => bitmap::render(&self.drawing())
                 .map_err(|reason| PlotError::Draw { path: path.to_path_buf(), reason })?,
         };
-        save::write(path, &bytes)
+        write_whole(path, &bytes).map_err(|source| PlotError::Write { path: path.to_path_buf(), source })
     }
 
     /// The figure as SVG text.

@@ -3,7 +3,7 @@
 use super::Table;
 use super::summary::{AssemblySummary, significant};
 use crate::formulation::Dynamics;
-use crate::math::kkt::{condition_number, dependent_rows};
+use crate::math::kkt::{Dependence, condition_number, dependent_rows};
 use crate::scene::Model;
 use crate::study::{AnyMechanism, Study};
 use crate::system::{Group, MechanicalSystem, Need, Terms};
@@ -74,8 +74,12 @@ fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
     // Assembly has solved at this state, so it can be factored; the ratio is one where it could not.
     let distance = dynamics.factor().map_or(0.0, |()| dynamics.kkt.smallest_pivot_ratio());
     let (terms, structure) = (&dynamics.terms, &dynamics.structure);
-    let dependence = dependent_rows(&structure.g, &terms.g, DEPENDENT);
     let n = system.dimensions();
+    // The search for what depends on what is dense: it runs only where something does.
+    let dependence = match dynamics.kkt.is_rank_deficient() {
+        true => dependent_rows(&structure.g, &terms.g, DEPENDENT),
+        false => Dependence { rank: n.lambda, rows: Vec::new() },
+    };
     let groups = system.groups();
     let redundant = dependence.rows.iter().map(|row| {
         let others = row.combination.iter().map(|(other, _)| owner(&groups, *other));
@@ -199,7 +203,8 @@ impl Check {
         }
         let mut text = String::from("redundant constraints (consistent; multipliers of least norm are computed):\n");
         for row in &self.redundant {
-            text += &format!("  joint `{}`, row {}: follows from {}\n", row.joint, row.row, row.follows_from.join(", "));
+            text +=
+                &format!("  joint `{}`, row {}: follows from {}\n", row.joint, row.row, row.follows_from.join(", "));
         }
         text + "\n"
     }

@@ -1,5 +1,6 @@
 //! Figures of a run.
 
+use super::envelope;
 use crate::measure::Record;
 use crate::plot::{Figure, Panel, Series};
 
@@ -27,7 +28,9 @@ pub fn outputs_figure(title: &str, record: &Record) -> Option<Figure> {
         let quantity = if members.len() == 1 { members[0].0 } else { quantity(unit) };
         let label = if unit.is_empty() { quantity.to_string() } else { format!("{quantity} ({unit})") };
         let mut panel = Panel::new("time (s)", label);
+        let alone = members.len() == 1;
         for (name, column) in members {
+            let name = if alone { "" } else { name };
             let points = trajectory.rows.iter().map(|row| (row[0], row[column])).collect();
             panel = panel.series(Series::line(name, points));
         }
@@ -52,6 +55,9 @@ fn quantity(unit: &str) -> &'static str {
     }
 }
 
+/// Points of a drift curve, each the largest value of its window.
+const WINDOWS: usize = 100;
+
 /// Drift of positions, velocities and accelerations over time, on logarithmic axes.
 pub fn drift_figure(title: &str, record: &Record) -> Option<Figure> {
     let times: Vec<f64> = record.trajectory.times().collect();
@@ -60,9 +66,10 @@ pub fn drift_figure(title: &str, record: &Record) -> Option<Figure> {
     }
     let labels = ["position |φ|", "velocity |φ′|", "acceleration |φ″|"];
     let series = labels.iter().enumerate().map(|(i, label)| {
-        Series::line(*label, times.iter().zip(&record.drift_rows).map(|(t, levels)| (*t, levels[i])).collect())
+        let points = times.iter().zip(&record.drift_rows).map(|(t, levels)| (*t, levels[i]));
+        Series::line(*label, envelope(points, times.len(), WINDOWS))
     });
-    let y = crate::plot::AxisSpec::from("drift (m or rad, per sⁿ)").log();
+    let y = crate::plot::AxisSpec::from("drift (m, rad; per s, s²)").log();
     let panel = series.fold(Panel::new("time (s)", y), Panel::series);
     Some(Figure::new().title(title).panel(panel))
 }

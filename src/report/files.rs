@@ -1,24 +1,15 @@
-//! Files appear whole or not at all.
+//! The folder that results go to.
 
 use crate::error::{Error, Result};
-use std::io::Write;
+use crate::files;
 use std::path::{Path, PathBuf};
 
-/// Writes beside the target and renames, so that an interrupted run leaves no half of a file.
+/// Writes a file whole, or says why it cannot be.
 pub fn write_whole(path: &Path, contents: &[u8]) -> Result<()> {
     if path.is_dir() {
         return Err(Error::file(path, "cannot write: this is a directory"));
     }
-    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let beside = path.with_file_name(format!(".{name}.{}", std::process::id()));
-    let written = std::fs::File::create(&beside)
-        .and_then(|mut file| file.write_all(contents).and_then(|()| file.sync_all()))
-        .and_then(|()| std::fs::rename(&beside, path));
-    written.map_err(|error| {
-        // Nothing is lost if the rest cannot be removed either.
-        let _ = std::fs::remove_file(&beside);
-        Error::file(path, format!("cannot write: {}", reason(&error)))
-    })
+    files::write_whole(path, contents).map_err(|error| Error::file(path, format!("cannot write: {}", reason(&error))))
 }
 
 fn reason(error: &std::io::Error) -> String {

@@ -1,6 +1,7 @@
 //! Results as files and text.
 
 mod check;
+mod envelope;
 mod figures;
 mod files;
 mod summary;
@@ -8,8 +9,9 @@ mod table;
 mod tables;
 
 pub use check::{Check, check};
+pub use envelope::envelope;
 pub use figures::{drift_figure, energy_figure, outputs_figure};
 pub use files::{Folder, write_whole};
-pub use summary::{Summary, summarize};
+pub use summary::{Summary, significant, summarize};
 pub use table::Table;
-pub use tables::{energy_table, drift_table, trajectory_table};
+pub use tables::{drift_table, energy_table, trajectory_table};

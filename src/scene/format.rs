@@ -1,6 +1,6 @@
 //! The scene file as it is typed: what a user may write, before anything is resolved.
 
-use crate::formulation::Choice;
+use crate::choice::Choice;
 use crate::math::expression::Number;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -14,7 +14,7 @@ use serde_json::{Map, Value};
 pub struct SceneFile {
     /// Where the JSON Schema of this format is, for editors.
     #[serde(rename = "$schema")]
-    pub schema: Option<String>,
+    pub _schema: Option<String>,
     pub name: String,
     /// What the mechanism is and what to expect of it.
     pub about: Option<String>,
@@ -157,7 +157,7 @@ pub struct Simulation {
     pub t_start: Option<Number>,
     /// s
     pub t_end: Option<Number>,
-    /// Distance of the rows of the trajectory, s. Default: a two-hundredth of the time.
+    /// Distance of the rows of the trajectory, s. Default: a five-hundredth of the time.
     pub output_step: Option<Number>,
     pub formulation: Option<Choice>,
     pub integrator: Option<Choice>,

@@ -1,8 +1,8 @@
 //! Scenes: JSON in, a checked model out.
 
 mod builder;
-pub mod generate;
 mod format;
+pub mod generate;
 mod locate;
 mod markers;
 mod model;

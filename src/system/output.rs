@@ -1,9 +1,9 @@
 //! What a user watches: the outputs of a scene at a state.
 
-use super::mechanism::{Mechanism, Workspace, gather, size};
+use super::mechanism::{Mechanism, Workspace, size, with_frames};
 use super::{MechanicalSystem, Scratch};
-use crate::body::{Frame, MarkerId, Quantity, Wrench, dot, sub};
-use crate::joint::{MOST_MARKERS, MOST_ROWS, markers_per_pass};
+use crate::body::{Frame, MOST_MARKERS, MarkerId, Quantity, Wrench, dot, sub};
+use crate::joint::{MOST_ROWS, markers_per_pass};
 use crate::math::Taylor;
 use crate::scene::{EnergyPart, Measure};
 
@@ -41,19 +41,21 @@ impl<const D: usize> Output<'_, D> {
 
     fn magnitude(&self, work: &Workspace<D>, force: usize) -> f64 {
         let force = &self.mechanism.model().forces[force];
-        let (frames, n) = gather(&work.motion, &force.markers);
         let mut wrenches = [Wrench::zero(); MOST_MARKERS];
-        force.element.act(&frames[..n], Taylor::time(self.t), &mut wrenches[..n]).magnitude
+        let wrenches = &mut wrenches[..force.markers.len()];
+        let act = |frames: &[_]| force.element.act(frames, Taylor::time(self.t), wrenches).magnitude;
+        with_frames(&work.motion, &force.markers, act)
     }
 
     /// -G^T lambda on the joint's second marker, as a wrench in world axes.
     fn reaction(&self, work: &Workspace<D>, joint: usize, component: usize) -> f64 {
         let rows = self.mechanism.rows_of_joint(joint);
         let joint = &self.mechanism.model().joints[joint];
-        let (frames, n) = gather(&work.motion, &joint.markers);
-        let slot = 1.min(n - 1);
+        let slot = 1.min(joint.markers.len() - 1);
         let mut slopes = [[0.0; 6]; MOST_ROWS];
-        joint.element.gradient(&frames[..n], self.t, slot / markers_per_pass(D), &mut slopes[..rows.len()]);
+        let own = &mut slopes[..rows.len()];
+        let gradient = |frames: &[_]| joint.element.gradient(frames, self.t, slot / markers_per_pass(D), own);
+        with_frames(&work.motion, &joint.markers, gradient);
         let first = slot % markers_per_pass(D) * crate::body::twist_len(D);
         let mut wrench = [0.0; 6];
         for (slope, row) in slopes.iter().zip(rows) {
