@@ -148,6 +148,8 @@ struct Run<'a> {
     next_slope: Vec<f64>,
     change: Vec<f64>,
     phi_ddot: Vec<f64>,
+    /// Why the last step was refused.
+    refusal: &'static str,
 }
 
 /// Output rows have a problem of their own, so that they do not count in the statistics.
@@ -197,6 +199,7 @@ impl<'a> Run<'a> {
             next_slope: zeros(),
             change: zeros(),
             phi_ddot: residual(),
+            refusal: "",
             y,
         })
     }
@@ -220,7 +223,7 @@ impl<'a> Run<'a> {
                 }
             };
             if error.is_some_and(|error| error > 1.0 || error.is_nan()) {
-                h = self.retry(size, error, &control, "the error of a step stays above the tolerance")?;
+                h = self.retry(size, error, &control, self.refusal)?;
                 growing = false;
                 continue;
             }
@@ -275,6 +278,7 @@ impl<'a> Run<'a> {
         let error = self.integrator.attempt(&mut self.problem, &self.tolerance, from, h, &mut self.next)?;
         let error = if self.fixed.is_some() { None } else { error };
         if error.is_some_and(|error| error > 1.0 || error.is_nan()) {
+            self.refusal = "the error of a step stays above the tolerance";
             return Ok(error);
         }
         let t = self.end_of(h, last);
@@ -285,6 +289,7 @@ impl<'a> Run<'a> {
             self.change.iter_mut().zip(&self.next).for_each(|(change, next)| *change -= next);
             let correction = self.tolerance.norm(&self.next, &self.change);
             if correction > MOST_CORRECTION {
+                self.refusal = "the projection moves the state by far more than the tolerance (is the start consistent?)";
                 return Ok(Some(correction));
             }
         }

@@ -4,6 +4,7 @@
 
 pub mod driven_pendulum;
 pub mod robot_arm;
+pub mod unconstrained;
 
 use holonom::formulation::Choice;
 use holonom::measure::{Record, Recorder};
