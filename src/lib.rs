@@ -73,6 +73,7 @@
 #![allow(clippy::suspicious_arithmetic_impl)]
 
 pub mod body;
+pub mod choice;
 pub mod cli;
 pub mod error;
 pub mod files;

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Failure, Result};
 use crate::formulation::{self, Choice, Dynamics, Halt, Statistics};
-use crate::integrator::{self, Control, From, Integrator, Problem, Tolerance, first_step};
+use crate::integrator::{self, Control, From, Integrator, Problem, Setup, Tolerance, first_step};
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
 use serde::Serialize;
@@ -174,7 +174,11 @@ impl<'a> Run<'a> {
         let entry = integrator::find(&method.integrator)?;
         Ok(Run {
             problem: problem()?,
-            integrator: (entry.make)(&method.integrator, y.len())?,
+            integrator: (entry.make)(&Setup {
+                integrator: &method.integrator,
+                formulation: &method.formulation,
+                system,
+            })?,
             projection: projection::make(&method.projection, system)?,
             rows: Rows {
                 problem: problem()?,
@@ -248,12 +252,20 @@ impl<'a> Run<'a> {
     /// The step cut or stretched a little so that the end is met; and whether it is the last.
     fn fit(&self, h: f64) -> (f64, bool) {
         let left = self.span.end - self.t;
-        if h * (1.0 + 1e-9) >= left {
-            (left, true)
-        } else if self.fixed.is_none() && 1.01 * h > left {
-            (left, true)
-        } else {
-            (h, false)
+        // A fixed step is met up to rounding, of the step and of the time.
+        let stretched = match self.fixed {
+            Some(_) => h * (1.0 + 1e-9) + 4.0 * f64::EPSILON * self.span.end.abs(),
+            None => 1.01 * h,
+        };
+        if stretched >= left { (left, true) } else { (h, false) }
+    }
+
+    /// Where a step of size `h` ends. Fixed steps are counted, not added up, so that rounding does not gather.
+    fn end_of(&self, h: f64, last: bool) -> f64 {
+        match self.fixed {
+            _ if last => self.span.end,
+            Some(h) => self.span.start + (self.problem.dynamics.statistics.steps + 1) as f64 * h,
+            None => self.t + h,
         }
     }
 
@@ -265,23 +277,27 @@ impl<'a> Run<'a> {
         if error.is_some_and(|error| error > 1.0 || error.is_nan()) {
             return Ok(error);
         }
-        let t = if last { self.span.end } else { self.t + h };
-        let before = error.map(|_| self.change.copy_from_slice(&self.next));
+        let t = self.end_of(h, last);
+        self.change.copy_from_slice(&self.next);
         project(t, &mut self.next, &mut self.problem, &mut self.projection)?;
-        if before.is_some() {
+        let is_moved = self.projection.is_some() || self.change != self.next;
+        if error.is_some() && is_moved {
             self.change.iter_mut().zip(&self.next).for_each(|(change, next)| *change -= next);
             let correction = self.tolerance.norm(&self.next, &self.change);
             if correction > MOST_CORRECTION {
                 return Ok(Some(correction));
             }
         }
-        self.problem.derivative(t, &self.next, &mut self.next_slope)?;
+        match self.integrator.last_slope() {
+            Some(slope) if !is_moved => self.next_slope.copy_from_slice(slope),
+            _ => self.problem.derivative(t, &self.next, &mut self.next_slope)?,
+        }
         Ok(error)
     }
 
     /// Emits the rows within the step from `t` to `t + h`.
     fn output(&mut self, h: f64, last: bool, sink: &mut dyn Sink) -> Result<(), Halt> {
-        let end = if last { self.span.end } else { self.t + h };
+        let end = self.end_of(h, last);
         let slack = 1e-9 * h;
         let mut prepared = false;
         loop {
@@ -293,7 +309,7 @@ impl<'a> Run<'a> {
                 self.rows.y.copy_from_slice(&self.next);
             } else {
                 if !prepared {
-                    self.prepare(h, end)?;
+                    self.prepare(h)?;
                     prepared = true;
                 }
                 self.integrator.interpolate((t - self.t) / h, &self.y, &mut self.rows.y);
@@ -305,14 +321,14 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn prepare(&mut self, h: f64, _end: f64) -> Result<(), Halt> {
+    fn prepare(&mut self, h: f64) -> Result<(), Halt> {
         let from = From { t: self.t, y: &self.y, slope: &self.slope };
         // Interpolation stages run on the rows' problem: they are not part of the step.
         self.integrator.prepare(&mut self.rows.problem, from, h, &self.next, &self.next_slope)
     }
 
     fn accept(&mut self, h: f64, last: bool, sink: &mut dyn Sink) {
-        self.t = if last { self.span.end } else { self.t + h };
+        self.t = self.end_of(h, last);
         std::mem::swap(&mut self.y, &mut self.next);
         std::mem::swap(&mut self.slope, &mut self.next_slope);
         self.problem.dynamics.statistics.steps += 1;

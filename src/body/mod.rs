@@ -28,6 +28,9 @@ use serde::de::DeserializeOwned;
 /// Values with their derivatives along six coordinates: the second number every element is evaluated over.
 pub type Slope = Dual<f64, 6>;
 
+/// So many markers a joint or force may have: their frames are kept on the stack.
+pub const MOST_MARKERS: usize = 8;
+
 /// Energy of a body or force, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy {

@@ -1,9 +1,8 @@
 //! Applied force and torque: expressions of time, of marker quantities and of named outputs.
 
 use super::{Action, Built, ForceKernel, ForceSpec};
-use crate::body::{Build, Frame, MarkerId, Signal, Wrench};
+use crate::body::{Build, Frame, MOST_MARKERS, MarkerId, Signal, Wrench};
 use crate::error::{Error, Result};
-use crate::joint::MOST_MARKERS;
 use crate::math::expression::Number;
 use crate::math::{Scalar, Taylor};
 use schemars::JsonSchema;

@@ -26,7 +26,10 @@ impl fmt::Display for Halt {
 
 impl From<Singular> for Halt {
     fn from(singular: Singular) -> Self {
-        Halt::Singular(singular)
+        match singular {
+            Singular::NotFinite => Halt::NotFinite,
+            other => Halt::Singular(other),
+        }
     }
 }
 

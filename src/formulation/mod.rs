@@ -3,13 +3,12 @@
 //! To add one: a file with a [`Formulation`] and an [`Entry`], and a line in [`registry`].
 
 mod baumgarte;
-mod choice;
 mod dynamics;
 mod index1;
 mod invariant_manifold;
 mod stabilizer;
 
-pub use choice::{Choice, OptionDoc};
+pub use crate::choice::{Choice, OptionDoc};
 pub use dynamics::{Dynamics, Halt, Statistics};
 pub use stabilizer::{Field, Stabilizer};
 

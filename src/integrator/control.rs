@@ -42,7 +42,7 @@ const SAFETY: f64 = 0.9;
 
 impl Control {
     pub fn new(order: f64, beta: f64, shrink: f64, grow: f64) -> Self {
-        Control { exponent: 1.0 / order - 0.2 * beta, beta, shrink, grow, last: 1e-4 }
+        Control { exponent: 1.0 / order - 0.75 * beta, beta, shrink, grow, last: 1e-4 }
     }
 
     /// The next step after one of size `h` with error `error`; `growing` is false right after a rejection.

@@ -4,15 +4,16 @@ use super::explicit::{ErrorEstimate, Explicit, Tableau};
 use super::{Control, Entry, VECTOR_FIELDS};
 
 /// Source: Dormand, Prince, J. Comput. Appl. Math. 6 (1980) 19-26; interpolation of order 4 and step control as in
-/// Hairer's DOPRI5. Order 5 in q and v (and lambda); six evaluations a step and one more for the error estimate.
+/// Hairer's DOPRI5. Order 5 in q and v (and lambda); six evaluations a step, and one more after a projection, which
+/// moves the state that the last stage was evaluated at.
 pub const ENTRY: Entry = Entry {
     name: "dopri5",
-    about: "Dormand-Prince 5(4), 7 evaluations a step, adaptive",
+    about: "Dormand-Prince 5(4), 6 or (projected) 7 evaluations a step, adaptive",
     order: 5,
     adaptive: true,
     accepts: VECTOR_FIELDS,
     options: &[],
-    make: |_, len| Ok(Box::new(Explicit::new(&TABLEAU, len))),
+    make: |setup| Ok(Box::new(Explicit::new(&TABLEAU, setup.len()))),
 };
 
 static TABLEAU: Tableau = Tableau {

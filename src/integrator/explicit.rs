@@ -53,6 +53,14 @@ impl Explicit {
         self.tableau.b.len()
     }
 
+    /// The stage at the new state that an embedded error estimate needs, if it does.
+    fn end_stage(&self) -> Option<usize> {
+        match self.tableau.error {
+            ErrorEstimate::Embedded(weights) if weights.len() > self.stages() => Some(weights.len() - 1),
+            _ => None,
+        }
+    }
+
     /// k_i at the nodes `range`.
     fn evaluate(
         &mut self,
@@ -117,12 +125,14 @@ impl Integrator for Explicit {
         self.k[0].copy_from_slice(from.slope);
         self.evaluate(problem, 1..self.stages(), from, h)?;
         combine(to, from.y, h, self.tableau.b, &self.k);
-        if let ErrorEstimate::Embedded(weights) = self.tableau.error
-            && weights.len() > self.stages()
-        {
-            problem.derivative(from.t + h, to, &mut self.k[weights.len() - 1])?;
+        if let Some(end) = self.end_stage() {
+            problem.derivative(from.t + h, to, &mut self.k[end])?;
         }
         Ok(self.error(tolerance, from.y, to, h))
+    }
+
+    fn last_slope(&self) -> Option<&[f64]> {
+        self.end_stage().map(|end| &self.k[end][..])
     }
 
     /// The polynomial of Hairer's codes: y + theta (F0 + (1 - theta) (F1 + theta (F2 + (1 - theta) (F3 + ...)))), in

@@ -12,7 +12,7 @@ pub const ENTRY: Entry = Entry {
     adaptive: false,
     accepts: VECTOR_FIELDS,
     options: &[],
-    make: |_, len| Ok(Box::new(Explicit::new(&TABLEAU, len))),
+    make: |setup| Ok(Box::new(Explicit::new(&TABLEAU, setup.len()))),
 };
 
 static TABLEAU: Tableau = Tableau {

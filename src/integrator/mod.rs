@@ -16,6 +16,7 @@ pub use problem::Problem;
 
 use crate::error::Result;
 use crate::formulation::{Choice, Halt, OptionDoc};
+use crate::system::MechanicalSystem;
 
 /// A one-step method. States are flat: q, v, and the work done by forces without a potential.
 pub trait Integrator: Send {
@@ -32,6 +33,12 @@ pub trait Integrator: Send {
         h: f64,
         to: &mut [f64],
     ) -> Result<Option<f64>, Halt>;
+
+    /// y' at the new state, where the last attempt evaluated it there, and last of all: the problem then holds the terms
+    /// of the new state, and the next step needs no evaluation of its own (first same as last).
+    fn last_slope(&self) -> Option<&[f64]> {
+        None
+    }
 
     /// The constants of step control that go with the method.
     fn control(&self) -> Control;
@@ -52,6 +59,26 @@ pub struct From<'a> {
     pub slope: &'a [f64],
 }
 
+/// What an integrator is made for.
+pub struct Setup<'a> {
+    /// Its own name and options.
+    pub integrator: &'a Choice,
+    pub formulation: &'a Choice,
+    pub system: &'a dyn MechanicalSystem,
+}
+
+impl Setup<'_> {
+    /// Length of the flat state.
+    pub fn len(&self) -> usize {
+        let n = self.system.dimensions();
+        n.q + n.v + 1
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.system.dimensions().v == 0
+    }
+}
+
 /// One integrator as the command line, the scene format and the table of methods know it.
 pub struct Entry {
     pub name: &'static str,
@@ -63,7 +90,7 @@ pub struct Entry {
     /// Formulations it can integrate.
     pub accepts: &'static [&'static str],
     pub options: &'static [OptionDoc],
-    pub make: fn(&Choice, usize) -> Result<Box<dyn Integrator>>,
+    pub make: fn(&Setup) -> Result<Box<dyn Integrator>>,
 }
 
 /// Formulations that are vector fields, which any explicit method takes.

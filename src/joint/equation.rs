@@ -1,7 +1,7 @@
 //! A constraint given by an expression.
 
-use super::{Built, JointKernel, JointSpec, MOST_MARKERS};
-use crate::body::{Build, Frame, Probe, Signal};
+use super::{Built, JointKernel, JointSpec};
+use crate::body::{Build, Frame, MOST_MARKERS, Probe, Signal};
 use crate::error::{Error, Result};
 use crate::math::Scalar;
 use crate::math::expression::Number;

@@ -20,15 +20,13 @@ mod spherical;
 mod universal;
 mod weld;
 
-use crate::body::{Build, Frame, MarkerId, Slope, parse, twist_len};
+use crate::body::{Build, Frame, MOST_MARKERS, MarkerId, Slope, parse, twist_len};
 use crate::error::Result;
 use crate::math::{Dual, Scalar, Taylor};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 use std::array::from_fn;
 
-/// So many markers an element may have: its frames are kept on the stack.
-pub const MOST_MARKERS: usize = 8;
 /// So many rows a joint may have.
 pub const MOST_ROWS: usize = 6;
 

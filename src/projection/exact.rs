@@ -10,7 +10,8 @@ use crate::system::Need;
 /// ```
 ///
 /// Source: Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482. Newton's method with the mass matrix as metric, until the
-/// correction no longer falls; order of the integrator kept. One evaluation and factorization an iteration.
+/// residual no longer falls; order of the integrator kept. One evaluation and factorization an iteration, and one more,
+/// which the velocities share with the test of the residual.
 pub const ENTRY: Entry = Entry {
     name: "exact",
     about: "positions by Newton's method to round-off, then velocities",
@@ -34,22 +35,20 @@ struct Exact {
 impl Projection for Exact {
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), Halt> {
         let need = Need::MASS | Need::CONSTRAINTS | Need::G;
-        let mut last = f64::INFINITY;
-        for _ in 0..self.most {
+        let (mut last, mut iterations) = (f64::INFINITY, 0);
+        loop {
             dynamics.statistics.projections += 1;
             dynamics.evaluate(t, q, v, need);
-            let residual = largest(&dynamics.terms.phi);
             dynamics.factor()?;
+            let residual = largest(&dynamics.terms.phi);
             // Near round-off the residual stops falling; another step would only stir it.
-            if residual == 0.0 || residual > 0.5 * last {
+            if iterations == self.most || residual == 0.0 || residual > 0.5 * last {
                 break;
             }
-            last = residual;
+            (last, iterations) = (residual, iterations + 1);
             dynamics.kkt.solve_projection(&dynamics.terms.phi, &mut self.step)?;
             move_back(q, &self.step, &mut self.rate, dynamics.system);
         }
-        dynamics.evaluate(t, q, v, need);
-        dynamics.factor()?;
         dynamics.kkt.solve_projection(&dynamics.terms.phi_dot, &mut self.step)?;
         v.iter_mut().zip(&self.step).for_each(|(v, dv)| *v -= dv);
         Ok(())

@@ -1,6 +1,6 @@
 //! The scene file as it is typed: what a user may write, before anything is resolved.
 
-use crate::formulation::Choice;
+use crate::choice::Choice;
 use crate::math::expression::Number;
 use schemars::JsonSchema;
 use serde::Deserialize;

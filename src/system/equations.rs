@@ -1,6 +1,6 @@
 //! Own equations, written once over any scalar.
 
-use super::{Column, Dimensions, Energy, MechanicalSystem, Need, Scratch, Terms};
+use super::{Column, Dimensions, Energy, Loaded, MechanicalSystem, Need, Scratch, Tangent, Terms};
 use crate::math::{Dual, Scalar, Taylor};
 
 /// A mechanism by its M, f and phi. G, phi', gamma and L follow by dual and Taylor numbers, so nothing is derived by
@@ -103,6 +103,11 @@ impl<E: Equations> MechanicalSystem for E {
         }
     }
 
+    fn tangent(&self, at: Loaded, tangent: &mut Tangent, _scratch: &mut Scratch) -> bool {
+        tangent_of(self, at, tangent);
+        true
+    }
+
     fn energy(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<Energy> {
         let potential = self.potential(t, q)?;
         let (n, m) = self.size();
@@ -169,4 +174,48 @@ fn curvature<E: Equations>(system: &E, t: f64, q: &[f64], v: &[f64], memory: &mu
             columns.clone().for_each(|i| terms.l[row * n + i] = slope.eps[i - first].d);
         }
     }
+}
+
+/// K by nested dual numbers, C by dual numbers, six columns a pass.
+fn tangent_of<E: Equations>(system: &E, at: Loaded, tangent: &mut Tangent) {
+    let (n, m) = system.size();
+    let t = Dual::fixed(at.t);
+    let lift = |x: &[f64]| -> Vec<Dual<f64, 6>> { x.iter().map(|&x| Dual::fixed(x)).collect() };
+    let mut f = vec![Dual::fixed(0.0); n];
+    let mut mass = vec![Dual::fixed(0.0); n * n];
+    for first in (0..n).step_by(6) {
+        let columns = first..n.min(first + 6);
+        let (mut q, mut v) = (lift(at.q), lift(at.v));
+        columns.clone().for_each(|j| v[j] = Dual::seeded(at.v[j], j - first));
+        system.force(t, &q, &v, &mut f);
+        for (i, f) in f.iter().enumerate() {
+            columns.clone().for_each(|j| tangent.c[i * n + j] = -f.eps[j - first]);
+        }
+        columns.clone().for_each(|j| q[j] = Dual::seeded(at.q[j], j - first));
+        system.force(t, &q, &lift(at.v), &mut f);
+        system.mass(t, &q, &mut mass);
+        let reaction = reaction(system, at, &q, m);
+        for i in 0..n {
+            let mut row = reaction[i] - f[i];
+            (0..n).for_each(|j| row += mass[i * n + j] * at.vdot[j]);
+            columns.clone().for_each(|j| tangent.k[i * n + j] = row.eps[j - first]);
+        }
+    }
+}
+
+/// G^T lambda over dual numbers: the gradient of lambda . phi.
+fn reaction<E: Equations>(system: &E, at: Loaded, q: &[Dual<f64, 6>], m: usize) -> Vec<Dual<f64, 6>> {
+    let n = q.len();
+    let mut sum = vec![Dual::fixed(0.0); n];
+    let mut phi = vec![Dual::fixed(Dual::fixed(0.0)); m];
+    for first in (0..n).step_by(6) {
+        let columns = first..n.min(first + 6);
+        let mut nested: Vec<Dual<Dual<f64, 6>, 6>> = q.iter().map(|&q| Dual::fixed(q)).collect();
+        columns.clone().for_each(|i| nested[i] = Dual::seeded(q[i], i - first));
+        system.phi(Dual::fixed(Dual::fixed(at.t)), &nested, &mut phi);
+        for (phi, &lambda) in phi.iter().zip(at.lambda) {
+            columns.clone().for_each(|i| sum[i] += phi.eps[i - first] * lambda);
+        }
+    }
+    sum
 }

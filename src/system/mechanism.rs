@@ -1,11 +1,13 @@
 //! The equations of a scene's model.
 
 use super::output::Output;
+use super::rows::{PlacedJoint, Rows};
+use super::tangent::{Couplings, Evaluation, Loaded, Tangent};
+use super::variation::Varied;
 use super::{Column, Dimensions, Energy, Group, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
-use crate::body::{Frame, Slope, Wrench, twist_len};
-use crate::joint::{MOST_MARKERS, MOST_ROWS, markers_per_pass};
+use crate::body::{Frame, MOST_MARKERS, Wrench};
+use crate::math::Taylor;
 use crate::math::kkt::Pattern;
-use crate::math::{Scalar, Taylor};
 use crate::scene::{Connection, Measure, Model, Part, Watched};
 use std::array::from_fn;
 use std::ops::Range;
@@ -15,36 +17,18 @@ pub struct Mechanism<const D: usize> {
     model: Model<D>,
     dimensions: Dimensions,
     structure: Structure,
-    joints: Vec<Rows>,
+    pub(super) joints: Vec<Rows>,
+    pub(super) couplings: Couplings,
     /// Places of each body's values of M.
     masses: Vec<Range<usize>>,
     pub(super) length: f64,
-}
-
-/// Where a joint stands in phi and G.
-struct Rows {
-    first: usize,
-    count: usize,
-    /// Whether phi depends on t itself.
-    rheonomic: bool,
-    blocks: Vec<Block>,
-}
-
-/// Entries of G for one joint and one of its markers: `rows` x the velocities of the marker's body, row by row.
-struct Block {
-    /// Which of the joint's markers.
-    slot: usize,
-    body: usize,
-    first_entry: usize,
-    /// False where an earlier block of the joint has the same body.
-    first_of_body: bool,
 }
 
 /// Memory of one evaluation.
 pub(super) struct Workspace<const D: usize> {
     /// Frames of all markers with their velocities, and accelerations at v' = 0.
     pub motion: Vec<Frame<Taylor<f64>, D>>,
-    varied: Vec<Frame<Taylor<Slope>, D>>,
+    pub varied: Varied<D>,
 }
 
 impl<const D: usize> Mechanism<D> {
@@ -60,20 +44,13 @@ impl<const D: usize> Mechanism<D> {
             masses.push(first..mass.entries.len());
         }
         let mut g = Pattern { rows: 0, cols: v, entries: Vec::new() };
-        let joints = model.joints.iter().map(|joint| {
-            let rows = Rows {
-                first: g.rows,
-                count: joint.element.row_names().len(),
-                rheonomic: joint.element.depends_on_time(),
-                blocks: blocks(&model, &joint.markers, joint.element.row_names().len(), &mut g),
-            };
-            g.rows += rows.count;
-            rows
-        });
-        let joints = joints.collect();
+        let joints = model.joints.iter().map(|joint| Rows::new(&model, joint, &mut g)).collect();
         let dimensions = Dimensions { q, v, lambda: g.rows };
         let length = length_scale(&model);
-        Mechanism { model, dimensions, structure: Structure { mass, g }, joints, masses, length }
+        let mut tangent = Pattern { rows: v, cols: v, entries: Vec::new() };
+        let couplings = Couplings::new(&model, &mut tangent);
+        let structure = Structure { mass, g, tangent };
+        Mechanism { model, dimensions, structure, joints, couplings, masses, length }
     }
 
     pub fn model(&self) -> &Model<D> {
@@ -82,14 +59,13 @@ impl<const D: usize> Mechanism<D> {
 
     /// Rows of phi that joint `joint` has.
     pub fn rows_of_joint(&self, joint: usize) -> Range<usize> {
-        let rows = &self.joints[joint];
-        rows.first..rows.first + rows.count
+        self.joints[joint].range()
     }
 
     pub(super) fn workspace<'a>(&self, scratch: &'a mut Scratch) -> &'a mut Workspace<D> {
         scratch.get(|| Workspace {
             motion: self.model.ground_frames().map(|frame| frame.map(Taylor::fixed)).collect(),
-            varied: Vec::new(),
+            varied: Varied::default(),
         })
     }
 
@@ -137,124 +113,22 @@ impl<const D: usize> Mechanism<D> {
     }
 
     fn constraints(&self, t: f64, q: &[f64], need: Need, work: &Workspace<D>, terms: &mut Terms) {
-        for (joint, rows) in self.model.joints.iter().zip(&self.joints) {
-            with_frames(&work.motion, &joint.markers, |frames| {
+        for joint in self.placed_joints() {
+            with_frames(&work.motion, &joint.joint.markers, |frames| {
                 if need.includes(Need::CONSTRAINTS) {
-                    levels(t, rows, joint.element.as_ref(), frames, terms);
+                    joint.levels(t, frames, terms);
                 }
                 if need.includes(Need::G) {
-                    self.gradient(t, q, rows, joint.element.as_ref(), frames, terms);
+                    joint.gradient(t, q, frames, terms);
                 }
             });
         }
     }
 
-    /// Rows of G: the gradient with respect to each marker's twist, pulled back like a wrench.
-    fn gradient(
-        &self,
-        t: f64,
-        q: &[f64],
-        rows: &Rows,
-        joint: &dyn crate::joint::Joint<D>,
-        frames: &[Frame<Taylor<f64>, D>],
-        terms: &mut Terms,
-    ) {
-        let per_pass = markers_per_pass(D);
-        let mut slopes = [[0.0; 6]; MOST_ROWS];
-        let slopes = &mut slopes[..rows.count];
-        for pass in 0..frames.len().div_ceil(per_pass) {
-            let in_pass = |block: &&Block| block.slot / per_pass == pass;
-            if !rows.blocks.iter().any(|block| in_pass(&block)) {
-                continue;
-            }
-            joint.gradient(frames, t, pass, slopes);
-            for block in rows.blocks.iter().filter(in_pass) {
-                let part = &self.model.bodies[block.body];
-                let frame = frames[block.slot].map(|x| x.x);
-                let first = block.slot % per_pass * twist_len(D);
-                let entries = &mut terms.g[block.first_entry..][..rows.count * part.nv];
-                entries.fill(0.0);
-                for (entries, slope) in entries.chunks_exact_mut(part.nv).zip(slopes.iter()) {
-                    let wrench = Wrench::from_twist_order(&slope[first..first + twist_len(D)]);
-                    part.body.pull_back(of(q, part, true), &frame, &wrench, entries);
-                }
-            }
-        }
+    fn placed_joints(&self) -> impl Iterator<Item = PlacedJoint<'_, D>> {
+        let all = self.model.joints.iter().zip(&self.joints);
+        all.map(|(joint, rows)| PlacedJoint { model: &self.model, joint, rows })
     }
-
-    /// L = d(phi')/dq: each joint is evaluated with its bodies varied, one after the other.
-    fn curvature(&self, t: f64, q: &[f64], v: &[f64], work: &mut Workspace<D>, terms: &mut Terms) {
-        for (joint, rows) in self.model.joints.iter().zip(&self.joints) {
-            let mut frames: [Frame<Taylor<Slope>, D>; MOST_MARKERS] =
-                from_fn(|i| fixed(&work.motion[joint.markers[i.min(joint.markers.len() - 1)]]));
-            for block in &rows.blocks {
-                let part = &self.model.bodies[block.body];
-                let entries = &mut terms.l[block.first_entry..][..rows.count * part.nv];
-                entries.fill(0.0);
-                if !block.first_of_body {
-                    continue;
-                }
-                for first in (0..part.nv).step_by(6) {
-                    vary(part, of(q, part, true), of(v, part, false), first, &mut work.varied);
-                    for (frame, &marker) in frames.iter_mut().zip(&joint.markers) {
-                        *frame = match self.model.markers.bodies[marker] == Some(block.body) {
-                            true => work.varied[marker - part.first_marker],
-                            false => fixed(&work.motion[marker]),
-                        };
-                    }
-                    let mut levels = [Taylor::fixed(Slope::constant(0.0)); MOST_ROWS];
-                    let levels = &mut levels[..rows.count];
-                    joint.element.levels(&frames[..joint.markers.len()], Taylor::time(t), levels);
-                    for (row, level) in levels.iter().enumerate() {
-                        let columns = first..part.nv.min(first + 6);
-                        columns.for_each(|j| entries[row * part.nv + j] = level.d.eps[j - first]);
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// phi, phi' and gamma of a joint, and phi_t: the rate with all frames held.
-fn levels<const D: usize>(
-    t: f64,
-    rows: &Rows,
-    joint: &dyn crate::joint::Joint<D>,
-    frames: &[Frame<Taylor<f64>, D>],
-    terms: &mut Terms,
-) {
-    let mut levels = [Taylor::fixed(0.0); MOST_ROWS];
-    let levels = &mut levels[..rows.count];
-    joint.levels(frames, Taylor::time(t), levels);
-    for (row, level) in (rows.first..).zip(levels.iter()) {
-        (terms.phi[row], terms.phi_dot[row], terms.gamma[row]) = (level.x, level.d, -level.dd);
-    }
-    let phi_t = &mut terms.phi_t[rows.first..rows.first + rows.count];
-    phi_t.fill(0.0);
-    if rows.rheonomic {
-        let held: [_; MOST_MARKERS] = from_fn(|i| frames[i.min(frames.len() - 1)].map(|x| Taylor::fixed(x.x)));
-        joint.levels(&held[..frames.len()], Taylor::time(t), levels);
-        phi_t.iter_mut().zip(levels).for_each(|(rate, level)| *rate = level.d);
-    }
-}
-
-/// Frames of a body's markers as functions of six of its velocity directions: q + N(q) e_j, v held.
-fn vary<const D: usize>(part: &Part<D>, q: &[f64], v: &[f64], first: usize, out: &mut Vec<Frame<Taylor<Slope>, D>>) {
-    let lifted = |x: &f64| Slope::fixed(*x);
-    let directions: Vec<Slope> = (0..part.nv)
-        .map(|j| if (first..first + 6).contains(&j) { Slope::seeded(0.0, j - first) } else { Slope::fixed(0.0) })
-        .collect();
-    let q: Vec<Slope> = q.iter().map(lifted).collect();
-    let v: Vec<Slope> = v.iter().map(lifted).collect();
-    let mut moved = vec![Slope::fixed(0.0); q.len()];
-    part.body.rate(&q, &directions, &mut moved);
-    moved.iter_mut().zip(&q).for_each(|(moved, &q)| *moved += q);
-    out.resize(part.body.marker_count(), Frame::world());
-    part.body.motion(&moved, &v, None, out);
-}
-
-fn fixed<const D: usize>(frame: &Frame<Taylor<f64>, D>) -> Frame<Taylor<Slope>, D> {
-    frame.map(|x| Taylor::new(Slope::fixed(x.x), Slope::fixed(x.d), Slope::fixed(x.dd)))
 }
 
 /// The part of q or v that belongs to a body.
@@ -288,19 +162,6 @@ fn power<const D: usize>(frame: &Frame<Taylor<f64>, D>, wrench: &Wrench<f64, D>)
         true => force,
         false => force + frame.angular_velocity().iter().zip(wrench.torque).map(|(w, m)| w * m).sum::<f64>(),
     }
-}
-
-fn blocks<const D: usize>(model: &Model<D>, markers: &[usize], rows: usize, g: &mut Pattern) -> Vec<Block> {
-    let mut blocks: Vec<Block> = Vec::new();
-    for (slot, &marker) in markers.iter().enumerate() {
-        let Some(body) = model.markers.bodies[marker] else { continue };
-        let part = &model.bodies[body];
-        let first_of_body = blocks.iter().all(|block| block.body != body);
-        blocks.push(Block { slot, body, first_entry: g.entries.len(), first_of_body });
-        let places = (0..rows).flat_map(|i| (0..part.nv).map(move |j| (i, j)));
-        g.entries.extend(places.map(|(i, j)| (g.rows + i, part.first_v + j)));
-    }
-    blocks
 }
 
 /// A length typical of the scene, m: the largest distance of a marker from its body's origin; where all lie there, of
@@ -357,8 +218,16 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         }
         self.constraints(t, q, need, work, terms);
         if need.includes(Need::L) {
-            self.curvature(t, q, v, work, terms);
+            let Workspace { motion, varied } = work;
+            self.placed_joints().for_each(|joint| joint.curvature(t, (q, v), motion, varied, terms));
         }
+    }
+
+    fn tangent(&self, at: Loaded, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
+        let work = self.workspace(scratch);
+        self.place(at.q, at.v, work);
+        Evaluation { mechanism: self, at, work, tangent }.run();
+        true
     }
 
     fn normalize(&self, q: &mut [f64]) {
@@ -399,7 +268,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         let group = |(joint, rows): (&Connection<_>, &Rows)| Group {
             name: joint.name.clone(),
             kind: joint.kind.to_string(),
-            rows: rows.first..rows.first + rows.count,
+            rows: rows.range(),
         };
         joints.map(group).collect()
     }

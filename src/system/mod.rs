@@ -7,11 +7,15 @@
 mod equations;
 mod mechanism;
 mod output;
+mod rows;
+mod tangent;
 mod terms;
+mod variation;
 
 pub use equations::Equations;
 pub use mechanism::Mechanism;
 pub use output::Output;
+pub use tangent::{Loaded, Tangent};
 pub use terms::{Need, Scratch, Structure, Terms};
 
 pub use crate::body::Energy;
@@ -68,7 +72,13 @@ pub trait MechanicalSystem: Send + Sync {
     /// Places of the values of M (lower triangle) and G. Default: dense, row by row.
     fn structure(&self) -> Structure {
         let n = self.dimensions();
-        Structure { mass: Pattern::lower(n.v), g: Pattern::dense(n.lambda, n.v) }
+        Structure { mass: Pattern::lower(n.v), g: Pattern::dense(n.lambda, n.v), tangent: Pattern::dense(n.v, n.v) }
+    }
+
+    /// K and C of r = M v' + G^T lambda - f at a state with its v' and lambda, for implicit methods and linear models.
+    /// Returns false where the author of the equations gave none, which is the default.
+    fn tangent(&self, _at: Loaded, _tangent: &mut Tangent, _scratch: &mut Scratch) -> bool {
+        false
     }
 
     /// Default: `q1, q2 ...`, `v1 ...`, `lambda1 ...`.

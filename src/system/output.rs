@@ -2,8 +2,8 @@
 
 use super::mechanism::{Mechanism, Workspace, size, with_frames};
 use super::{MechanicalSystem, Scratch};
-use crate::body::{Frame, MarkerId, Quantity, Wrench, dot, sub};
-use crate::joint::{MOST_MARKERS, MOST_ROWS, markers_per_pass};
+use crate::body::{Frame, MOST_MARKERS, MarkerId, Quantity, Wrench, dot, sub};
+use crate::joint::{MOST_ROWS, markers_per_pass};
 use crate::math::Taylor;
 use crate::scene::{EnergyPart, Measure};
 

@@ -42,6 +42,8 @@ pub struct Structure {
     pub mass: Pattern,
     /// G, n_c x n_v; L has the same places.
     pub g: Pattern,
+    /// K and C, n_v x n_v.
+    pub tangent: Pattern,
 }
 
 /// The terms at one state; the meaning of each is in the crate's documentation.

@@ -1,0 +1,67 @@
+//! Bodies as functions of their velocity directions.
+
+use crate::body::{Frame, Slope};
+use crate::math::Taylor;
+use crate::scene::Part;
+
+/// What is varied.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Along {
+    /// q + N(q) e_j, v held.
+    Coordinates,
+    /// v + e_j, q held.
+    Velocities,
+}
+
+/// One body as a function of six of its velocity directions, with memory for what follows from it.
+#[derive(Default)]
+pub(super) struct Varied<const D: usize> {
+    pub frames: Vec<Frame<Taylor<Slope>, D>>,
+    /// The body's q.
+    pub moved: Vec<Slope>,
+    /// The body's v.
+    pub moved_v: Vec<Slope>,
+    /// Generalized forces.
+    pub f: Vec<Slope>,
+    /// Values of the mass matrix.
+    pub mass: Vec<Slope>,
+    /// q of a body that is not varied.
+    pub rest: Vec<Slope>,
+    directions: Vec<Slope>,
+}
+
+impl<const D: usize> Varied<D> {
+    /// Frames of a body's markers as functions of the directions `first` to `first + 5`.
+    pub fn vary(&mut self, along: Along, part: &Part<D>, q: &[f64], v: &[f64], first: usize) {
+        self.directions.clear();
+        self.directions.resize(part.nv, Slope::fixed(0.0));
+        let seeded = self.directions[first..].iter_mut().take(6).enumerate();
+        seeded.for_each(|(j, direction)| *direction = Slope::seeded(0.0, j));
+        lift(v, &mut self.moved_v);
+        lift(q, &mut self.rest);
+        match along {
+            Along::Coordinates => {
+                self.moved.clear();
+                self.moved.resize(part.nq, Slope::fixed(0.0));
+                part.body.rate(&self.rest, &self.directions, &mut self.moved);
+                self.moved.iter_mut().zip(&self.rest).for_each(|(moved, &q)| *moved += q);
+            }
+            Along::Velocities => {
+                lift(q, &mut self.moved);
+                self.moved_v.iter_mut().zip(&self.directions).for_each(|(v, &direction)| *v += direction);
+            }
+        }
+        self.frames.resize(part.body.marker_count(), Frame::world());
+        part.body.motion(&self.moved, &self.moved_v, None, &mut self.frames);
+    }
+}
+
+fn lift(from: &[f64], to: &mut Vec<Slope>) {
+    to.clear();
+    to.extend(from.iter().map(|&x| Slope::fixed(x)));
+}
+
+/// A frame that does not vary.
+pub(super) fn fixed<const D: usize>(frame: &Frame<Taylor<f64>, D>) -> Frame<Taylor<Slope>, D> {
+    frame.map(|x| Taylor::new(Slope::fixed(x.x), Slope::fixed(x.d), Slope::fixed(x.dd)))
+}

@@ -1,0 +1,71 @@
+//! What the integration tests share: models as own equations, and short ways to run a method.
+
+#![allow(dead_code, reason = "each test binary uses its own part")]
+
+pub mod driven_pendulum;
+pub mod robot_arm;
+
+use holonom::formulation::Choice;
+use holonom::measure::{Record, Recorder};
+use holonom::simulate::{Method, Outcome, Span, simulate};
+use holonom::system::MechanicalSystem;
+
+/// A method by its names as on the command line.
+pub fn method(formulation: &str, integrator: &str, projection: &str) -> Method {
+    let choice = |text: &str| Choice::parse(text).unwrap();
+    Method {
+        formulation: choice(formulation),
+        integrator: choice(integrator),
+        projection: choice(projection),
+        ..Method::default()
+    }
+}
+
+/// The same with a fixed step.
+pub fn fixed(formulation: &str, integrator: &str, projection: &str, step: f64) -> Method {
+    Method { step: Some(step), ..method(formulation, integrator, projection) }
+}
+
+/// Adaptive, with rtol = atol.
+pub fn adaptive(formulation: &str, integrator: &str, projection: &str, tolerance: f64) -> Method {
+    Method { rtol: tolerance, atol: tolerance, ..method(formulation, integrator, projection) }
+}
+
+/// From 0 to `end` with rows at both ends only.
+pub fn until(end: f64) -> Span {
+    Span { start: 0.0, end, output_step: end }
+}
+
+/// What a run left behind.
+pub struct Run {
+    pub outcome: Outcome,
+    pub record: Record,
+}
+
+impl Run {
+    /// q, v and lambda of the last row.
+    pub fn last(&self) -> (&[f64], &[f64], &[f64]) {
+        self.record.trajectory.row_state(self.record.trajectory.rows.last().unwrap())
+    }
+
+    /// max |phi| and max |G v + phi_t| over the accepted steps.
+    pub fn drift(&self) -> (f64, f64) {
+        (self.record.drift.position.max, self.record.drift.velocity.max)
+    }
+
+    pub fn completed(self) -> Self {
+        assert_eq!(self.outcome.failure, None);
+        self
+    }
+}
+
+pub fn run(system: &dyn MechanicalSystem, method: &Method, span: Span, start: (&[f64], &[f64])) -> Run {
+    let mut recorder = Recorder::new(system);
+    let outcome = simulate(system, method, span, start, &mut recorder).unwrap();
+    Run { outcome, record: recorder.finish() }
+}
+
+/// max |x - y|
+pub fn distance(x: &[f64], y: &[f64]) -> f64 {
+    x.iter().zip(y).fold(0.0, |largest: f64, (x, y)| largest.max((x - y).abs()))
+}

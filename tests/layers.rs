@@ -1,0 +1,263 @@
+//! The architecture as tests: who may use whom, and what no source file may contain.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// From the lowest to the highest; a module uses those of its own layer and of lower ones. The same order as DESIGN.md, section 3.
+const LAYERS: &[&[&str]] = &[
+    &["error", "choice", "math"],
+    &["state"],
+    &["body"],
+    &["joint", "force"],
+    &["scene"],
+    &["system"],
+    &["formulation", "projection", "initial"],
+    &["integrator"],
+    &["simulate", "trajectory", "study"],
+    &["linearize", "validate", "measure"],
+    &["plot"],
+    &["report"],
+    &["cli"],
+];
+
+const LONGEST: usize = 400;
+
+struct Source {
+    path: PathBuf,
+    /// `["body", "rigid"]` for src/body/rigid.rs; empty for lib.rs and main.rs.
+    module: Vec<String>,
+    /// Lines with their numbers, comments and tests left out.
+    code: Vec<(usize, String)>,
+    lines: usize,
+}
+
+impl Source {
+    fn place(&self, line: usize) -> String {
+        format!("{}:{line}", self.path.display())
+    }
+
+    /// Top-level modules that line number `line` names.
+    fn uses(&self, text: &str) -> Vec<String> {
+        let mut found = Vec::new();
+        for (at, _) in text.match_indices("crate::").filter(|(at, _)| starts_word(text, *at)) {
+            found.extend(heads(&text[at + "crate::".len()..]));
+        }
+        for (at, _) in text.match_indices("super::").filter(|(at, _)| starts_path(text, *at)) {
+            let (mut rest, mut up) = (&text[at..], 0);
+            while let Some(tail) = rest.strip_prefix("super::") {
+                (rest, up) = (tail, up + 1);
+            }
+            if up == self.module.len() {
+                found.extend(heads(rest));
+            }
+        }
+        found
+    }
+}
+
+fn starts_word(text: &str, at: usize) -> bool {
+    !text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_')
+}
+
+fn starts_path(text: &str, at: usize) -> bool {
+    starts_word(text, at) && !text[..at].ends_with("::")
+}
+
+/// First segments of `a::b`, or of each path in `{a::b, c}`.
+fn heads(text: &str) -> Vec<String> {
+    let head = |path: &str| path.trim().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
+    let Some(group) = text.strip_prefix('{') else { return vec![head(text)] };
+    let (mut depth, mut heads, mut start) = (0, Vec::new(), 0);
+    for (i, c) in group.char_indices() {
+        match c {
+            '{' => depth += 1,
+            '}' if depth == 0 => return [heads, vec![head(&group[start..i])]].concat(),
+            '}' => depth -= 1,
+            ',' if depth == 0 => {
+                heads.push(head(&group[start..i]));
+                start = i + 1;
+            }
+            _ => {}
+        }
+    }
+    heads
+}
+
+fn sources() -> Vec<Source> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut paths = Vec::new();
+    collect(&root, &mut paths);
+    paths.sort();
+    paths.iter().map(|path| read(&root, path)).collect()
+}
+
+fn collect(folder: &Path, paths: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        match path.is_dir() {
+            // Tests may use what they like.
+            true if name != "tests" => collect(&path, paths),
+            false if name.ends_with(".rs") && name != "tests.rs" => paths.push(path),
+            _ => {}
+        }
+    }
+}
+
+fn read(root: &Path, path: &Path) -> Source {
+    let relative = path.strip_prefix(root).unwrap().with_extension("");
+    let mut module: Vec<String> = relative.iter().map(|part| part.to_string_lossy().into_owned()).collect();
+    if ["mod", "lib", "main"].contains(&module.last().unwrap().as_str()) {
+        module.pop();
+    }
+    let text = fs::read_to_string(path).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    let tests = |i: usize| lines[i] == "#[cfg(test)]" && lines.get(i + 1).is_some_and(|next| next.ends_with('{'));
+    let end = (0..lines.len()).find(|&i| tests(i)).unwrap_or(lines.len());
+    let code = lines[..end].iter().enumerate().map(|(i, line)| (i + 1, without_comment(line)));
+    let path = Path::new("src").join(path.strip_prefix(root).unwrap());
+    Source { path, module, code: code.collect(), lines: end }
+}
+
+fn without_comment(line: &str) -> String {
+    let comment = line.match_indices("//").map(|(at, _)| at).find(|&at| line[..at].matches('"').count() % 2 == 0);
+    line[..comment.unwrap_or(line.len())].to_string()
+}
+
+fn layer(module: &str) -> Option<usize> {
+    LAYERS.iter().position(|layer| layer.contains(&module))
+}
+
+/// Top-level modules with the ones they use, and where.
+fn dependencies() -> BTreeMap<(String, String), String> {
+    let mut found = BTreeMap::new();
+    for source in sources().iter().filter(|source| !source.module.is_empty()) {
+        for (line, text) in statements(source) {
+            for used in source.uses(&text).into_iter().filter(|used| *used != source.module[0]) {
+                found.entry((source.module[0].clone(), used)).or_insert_with(|| source.place(line));
+            }
+        }
+    }
+    found
+}
+
+/// Lines, with imports over several lines joined.
+fn statements(source: &Source) -> Vec<(usize, String)> {
+    let mut joined: Vec<(usize, String)> = Vec::new();
+    let mut open = false;
+    for (line, text) in &source.code {
+        match joined.last_mut() {
+            Some((_, last)) if open => last.push_str(text),
+            _ => joined.push((*line, text.clone())),
+        }
+        let statement = &joined.last().unwrap().1;
+        let import = statement.trim_start().trim_start_matches("pub ").starts_with("use ");
+        open = import && !statement.contains(';');
+    }
+    joined
+}
+
+/// Functions and constants at the root of the crate (`crate::Error`) are re-exports, not modules.
+fn is_module(name: &str) -> bool {
+    name.starts_with(|c: char| c.is_lowercase())
+}
+
+#[test]
+fn every_module_has_a_layer() {
+    let modules: BTreeSet<String> = sources().iter().filter_map(|source| source.module.first().cloned()).collect();
+    let homeless: Vec<&String> = modules.iter().filter(|module| layer(module).is_none()).collect();
+    assert!(homeless.is_empty(), "give these a place in LAYERS: {homeless:?}");
+}
+
+#[test]
+fn no_layer_uses_a_higher_one() {
+    let upward: Vec<String> = dependencies()
+        .iter()
+        .filter(|((from, to), _)| is_module(to) && layer(to) > layer(from))
+        .map(|((from, to), place)| format!("{place}: {from} uses {to}"))
+        .collect();
+    assert!(upward.is_empty(), "upward imports:\n{}", upward.join("\n"));
+}
+
+#[test]
+fn joints_and_forces_do_not_know_each_other() {
+    let dependencies = dependencies();
+    for pair in [("joint", "force"), ("force", "joint")].map(|(a, b)| (a.to_string(), b.to_string())) {
+        assert_eq!(dependencies.get(&pair), None, "{} uses {}", pair.0, pair.1);
+    }
+}
+
+#[test]
+fn modules_do_not_use_each_other_in_a_circle() {
+    let dependencies = dependencies();
+    let mut open: BTreeSet<&str> = LAYERS.iter().flat_map(|layer| layer.iter().copied()).collect();
+    loop {
+        let free = |module: &str| {
+            dependencies.keys().filter(|(from, _)| from == module).all(|(_, to)| !open.contains(to.as_str()))
+        };
+        let Some(done) = open.iter().copied().find(|module| free(module)) else { break };
+        open.remove(done);
+    }
+    assert!(open.is_empty(), "in a circle: {open:?}");
+}
+
+fn refuse(what: &str, found: impl Fn(&str) -> bool) {
+    let places: Vec<String> = sources()
+        .iter()
+        .flat_map(|source| source.code.iter().filter(|(_, text)| found(text)).map(|(line, _)| source.place(*line)))
+        .collect();
+    assert!(places.is_empty(), "{what}:\n{}", places.join("\n"));
+}
+
+#[test]
+fn nothing_is_unsafe() {
+    refuse("unsafe code", |text| text.contains("unsafe ") || text.contains("allow(unsafe_code)"));
+}
+
+#[test]
+fn nothing_panics_on_purpose() {
+    let words = [".unwrap()", ".expect(", "panic!(", "todo!(", "unimplemented!(", "unreachable!("];
+    refuse("use Result instead", |text| words.iter().any(|word| text.contains(word)));
+}
+
+#[test]
+fn only_the_command_line_prints() {
+    let printing: Vec<String> = sources()
+        .iter()
+        .filter(|source| source.module.first().is_none_or(|module| module != "cli"))
+        .flat_map(|source| {
+            let prints = |text: &str| ["println!(", "print!(", "dbg!("].iter().any(|word| text.contains(word));
+            source.code.iter().filter(move |(_, text)| prints(text)).map(|(line, _)| source.place(*line))
+        })
+        .collect();
+    assert!(printing.is_empty(), "printing belongs to src/cli:\n{}", printing.join("\n"));
+}
+
+#[test]
+fn files_are_short() {
+    let long: Vec<String> = sources()
+        .iter()
+        .filter(|source| source.lines > LONGEST)
+        .map(|source| format!("{} has {} lines before its tests", source.path.display(), source.lines))
+        .collect();
+    assert!(long.is_empty(), "more than {LONGEST}:\n{}", long.join("\n"));
+}
+
+#[test]
+fn paths_are_read_as_the_compiler_does() {
+    let source = |module: &[&str]| Source {
+        path: PathBuf::new(),
+        module: module.iter().map(|part| part.to_string()).collect(),
+        code: Vec::new(),
+        lines: 0,
+    };
+    let deep = source(&["body", "rigid"]);
+    assert_eq!(deep.uses("use crate::{error::{Error, Result}, math, joint::Joint};"), ["error", "math", "joint"]);
+    assert_eq!(deep.uses("pub use crate::scene::Scene;"), ["scene"]);
+    assert_eq!(deep.uses("let x = crate::scene::load(crate::math::one());"), ["scene", "math"]);
+    assert_eq!(deep.uses("use super::{Built, joint};"), [""; 0]);
+    assert_eq!(deep.uses("use super::super::joint::Joint;"), ["joint"]);
+    assert_eq!(source(&["study"]).uses("use super::cli;"), ["cli"]);
+    assert_eq!(without_comment("let x = \"a//b\"; // crate::cli"), "let x = \"a//b\"; ");
+}

@@ -1,0 +1,126 @@
+//! Convergence orders of every accepted triple formulation x integrator x projection in q, v and lambda, and the
+//! orders of the drift.
+
+mod common;
+
+use common::driven_pendulum::{DrivenPendulum, start};
+use common::{fixed, run, until};
+use holonom::integrator::registry as integrators;
+use holonom::projection::registry as projections;
+use holonom::simulate::Span;
+use rayon::prelude::*;
+
+const END: f64 = 1.5;
+
+/// q, v and lambda at eight times; steps that are a multiple of eight in number need no interpolation.
+fn solution(formulation: &str, integrator: &str, projection: &str, steps: usize) -> Vec<Vec<f64>> {
+    let (q, v) = start();
+    let method = fixed(formulation, integrator, projection, END / steps as f64);
+    let span = Span { output_step: END / 8.0, ..until(END) };
+    run(&DrivenPendulum, &method, span, (&q, &v)).completed().record.trajectory.rows
+}
+
+/// Euclidean norms of the errors of q, v and lambda over all rows: one component alone may pass through zero.
+fn errors(rows: &[Vec<f64>], reference: &[Vec<f64>]) -> [f64; 3] {
+    [1..5, 5..9, 9..11].map(|columns| {
+        let error = |(row, exact): (&Vec<f64>, &Vec<f64>)| -> f64 {
+            columns.clone().map(|i| (row[i] - exact[i]).powi(2)).sum()
+        };
+        rows.iter().zip(reference).map(error).sum::<f64>().sqrt()
+    })
+}
+
+/// Numbers of steps at which the leading term of the error rules while the error is above 1e-12, four digits over
+/// round-off. That range is narrow for order 8, whose leading term is small.
+fn steps(order: usize) -> [usize; 2] {
+    match order {
+        ..=4 => [128, 256],
+        5 => [256, 512],
+        _ => [32, 40],
+    }
+}
+
+/// Gains with which the stabilizing terms are no faster than the motion; faster ones need smaller steps to show the
+/// order.
+fn gentle(formulation: &str) -> String {
+    match formulation {
+        "baumgarte" => "baumgarte:alpha=1".to_string(),
+        "invariant_manifold" => "invariant_manifold:gamma=1".to_string(),
+        other => other.to_string(),
+    }
+}
+
+#[test]
+fn every_triple_has_the_order_of_its_integrator() {
+    let reference = solution("index1", "dop853", "exact", 160);
+    let triples: Vec<_> = integrators()
+        .iter()
+        .flat_map(|entry| entry.accepts.iter().map(move |formulation| (entry, gentle(formulation))))
+        .flat_map(|(entry, formulation)| {
+            projections().iter().map(move |projection| (entry, formulation.clone(), projection.name))
+        })
+        .collect();
+    // 4 integrators x 3 formulations x 6 projections when this was written.
+    assert!(triples.len() >= 72);
+    triples.par_iter().for_each(|(entry, formulation, projection)| {
+        let [coarse, fine] = steps(entry.order);
+        let found = [coarse, fine].map(|n| errors(&solution(formulation, entry.name, projection, n), &reference));
+        for (level, name) in ["q", "v", "lambda"].into_iter().enumerate() {
+            let order = (found[0][level] / found[1][level]).ln() / (fine as f64 / coarse as f64).ln();
+            let what = format!("{formulation} + {} + {projection}: order {order:.2} in {name}, {found:?}", entry.name);
+            assert!((order - entry.order as f64).abs() < 0.3, "{what}");
+        }
+    });
+}
+
+/// Orders of max |phi| and max |G v + phi_t| from halving the step of index 1 with this projection.
+fn drift_orders(integrator: &str, projection: &str, steps: usize) -> [f64; 2] {
+    let (q, v) = start();
+    let drift = |steps: usize| {
+        let method = fixed("index1", integrator, projection, END / steps as f64);
+        run(&DrivenPendulum, &method, until(END), (&q, &v)).completed().drift()
+    };
+    let (coarse, fine) = (drift(steps), drift(2 * steps));
+    [(coarse.0 / fine.0).log2(), (coarse.1 / fine.1).log2()]
+}
+
+/// Ascher, Chin, Reich, Numer. Math. 67 (1994): one sweep leaves 2 (p + 1) where H F = I.
+#[test]
+fn drift_has_its_orders() {
+    // At these steps the smallest of the drifts is still 100 times above its round-off of 2e-16.
+    for (integrator, p, steps) in [("heun", 2.0, 96), ("rk4", 4.0, 16)] {
+        let expect = |projection: &str, orders: [Option<f64>; 2]| {
+            let found = drift_orders(integrator, projection, steps);
+            for (found, expected) in found.into_iter().zip(orders).filter_map(|(f, e)| Some((f, e?))) {
+                assert!((found - expected).abs() < 0.35, "{integrator} {projection}: {found:.2}, not {expected}");
+            }
+        };
+        let double = 2.0 * (p + 1.0);
+        expect("none", [Some(p), Some(p)]);
+        expect("manifold", [Some(double), Some(p + 1.0)]);
+        // phi is at round-off after the second sweep.
+        expect("manifold:sweeps=2", [None, Some(double)]);
+        expect("full", [Some(double), Some(double)]);
+        expect("full:metric=mass", [Some(double), Some(double)]);
+        // One Newton step, then the velocities, which are linear and so at round-off.
+        expect("exact:iterations=1", [Some(double), None]);
+    }
+}
+
+#[test]
+fn projections_that_end_at_round_off() {
+    let (q, v) = start();
+    let drift = |projection: &str| {
+        let method = fixed("index1", "rk4", projection, END / 32.0);
+        run(&DrivenPendulum, &method, until(END), (&q, &v)).completed().drift()
+    };
+    // A few units in the last place of squared lengths and their rates.
+    let round_off = 4.0 * f64::EPSILON;
+    assert!(drift("manifold:sweeps=2").0 < round_off);
+    assert!(drift("velocity").1 < round_off);
+    let (position, velocity) = drift("exact");
+    assert!(position < round_off && velocity < round_off);
+    assert!(drift("position:sweeps=2").0 < round_off);
+    // Holding one level alone leaves the other as it was, or worse.
+    assert!(drift("velocity").0 > 1e-6 && drift("position").1 > 1e-5);
+}
