@@ -45,8 +45,8 @@ pub fn load(path: &Path, parameters: &[(&str, f64)]) -> Ready {
 }
 
 pub fn parse(json: &str) -> Ready {
-    let study = Scene::parse(json, &[]).and_then(|scene| Study::new(scene, &Overrides::default()));
-    Ready(study.unwrap_or_else(|error| panic!("{error}\n{json}")))
+    let scene = Scene::parse(json, &[]).unwrap_or_else(|error| panic!("{error}\n{json}"));
+    Ready(Study::new(scene, &Overrides::default()).unwrap_or_else(|error| panic!("{error}")))
 }
 
 /// dop853 on index 1 with manifold projection at one tolerance, relative and absolute.
