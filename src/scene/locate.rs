@@ -136,8 +136,8 @@ mod tests {
         assert_eq!(locate(TEXT, ""), Some((1, 1)));
         assert_eq!(locate(TEXT, "a"), Some((2, 8)));
         assert_eq!(locate(TEXT, "a[1].b"), Some((2, 18)));
-        assert_eq!(locate(TEXT, "c.d[0][1]"), Some((3, 18)));
-        assert_eq!(locate(TEXT, "c.d[1]"), Some((3, 22)));
+        assert_eq!(locate(TEXT, "c.d[0][1]"), Some((3, 19)));
+        assert_eq!(locate(TEXT, "c.d[1]"), Some((3, 23)));
         assert_eq!(locate(TEXT, "c.missing"), Some((3, 8)));
         assert_eq!(locate("", "a"), Some((1, 1)));
     }
