@@ -35,25 +35,23 @@ impl Default for Method {
 impl Method {
     /// Refuses combinations that make no sense, naming those that do.
     pub fn check(&self) -> Result<()> {
-        let entry = integrator::find(&self.integrator)?;
-        if !entry.accepts.contains(&self.formulation.name.as_str()) {
-            let known = formulation::registry().iter().any(|known| known.name == self.formulation.name);
-            if known {
-                return Err(Error::input(format!("{} cannot integrate {}", entry.name, self.formulation.name))
-                    .hint(format!("{} accepts {}", entry.name, entry.accepts.join(", "))));
-            }
+        let entry = integrator::find(&self.integrator).map_err(|error| error.under("integrator"))?;
+        let known = formulation::registry().iter().any(|known| known.name == self.formulation.name);
+        if known && !entry.accepts.contains(&self.formulation.name.as_str()) {
+            return Err(Error::input(format!("{} cannot integrate {}", entry.name, self.formulation.name))
+                .under("formulation")
+                .hint(format!("{} accepts {}", entry.name, entry.accepts.join(", "))));
         }
-        for (name, value) in [("rtol", self.rtol), ("atol", self.atol)] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(Error::input(format!("{name} is {value}, but must be above zero")).under(name));
+        for (name, value) in [("rtol", Some(self.rtol)), ("atol", Some(self.atol)), ("step", self.step)] {
+            if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {
+                let error = Error::input(format!("{name} is {value}, but must be above zero")).under(name);
+                return Err(error.hint("give a positive number"));
             }
         }
         match self.step {
-            Some(step) if !(step > 0.0 && step.is_finite()) => {
-                Err(Error::input(format!("the step is {step}, but must be above zero")).under("step"))
-            }
             None if !entry.adaptive => Err(Error::input(format!("{} has no error estimate", entry.name))
-                .hint("give a fixed step: --step H, or \"step\" in the scene")),
+                .under("integrator")
+                .hint("give a fixed step: --step H, or \"step\" in \"simulation\" of the scene")),
             _ => Ok(()),
         }
     }

@@ -12,10 +12,14 @@ pub fn locate(text: &str, path: &str) -> Option<(usize, usize)> {
             break;
         }
     }
-    let before = text.get(..scanner.at)?;
-    let line = before.matches('\n').count() + 1;
-    let column = before.rsplit('\n').next().map_or(0, |last| last.chars().count()) + 1;
-    Some((line, column))
+    text.is_char_boundary(scanner.at).then(|| line_and_column(text, scanner.at))
+}
+
+/// Line and column, from one and in characters, of byte `offset`.
+pub fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
+    let before = text.get(..offset).unwrap_or(text);
+    let last = before.rsplit('\n').next().unwrap_or("");
+    (before.matches('\n').count() + 1, last.chars().count() + 1)
 }
 
 enum Segment {
