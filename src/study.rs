@@ -7,6 +7,7 @@ use crate::math::expression::{Number, Parameters};
 use crate::scene::{self, AnyModel, Scene, Simulation};
 use crate::simulate::{Method, Span};
 use crate::system::{MechanicalSystem, Mechanism};
+use crate::integrator::Setup;
 use crate::{formulation, integrator, projection};
 use std::path::Path;
 
@@ -111,7 +112,8 @@ impl Study {
 fn check_options(method: &Method, system: &dyn MechanicalSystem) -> Result<()> {
     formulation::make(&method.formulation, system).map_err(|error| error.under("formulation"))?;
     let entry = integrator::find(&method.integrator)?;
-    (entry.make)(&method.integrator, 1).map_err(|error| error.under("integrator"))?;
+    let setup = Setup { integrator: &method.integrator, formulation: &method.formulation, system };
+    (entry.make)(&setup).map_err(|error| error.under("integrator"))?;
     projection::make(&method.projection, system).map_err(|error| error.under("projection"))?;
     Ok(())
 }
