@@ -1,61 +1,11 @@
 //! The only time loop: steps, step control, projection and output.
 
 use crate::error::{Error, Failure, Result};
-use crate::formulation::{self, Choice, Dynamics, Halt, Statistics};
+use crate::formulation::{self, Dynamics, Halt, Statistics};
 use crate::integrator::{self, Control, From, Integrator, Problem, Setup, Tolerance, first_step};
+pub use crate::method::Method;
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
-use serde::Serialize;
-
-/// A method: formulation x integrator x projection, with its accuracy.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Method {
-    pub formulation: Choice,
-    pub integrator: Choice,
-    pub projection: Choice,
-    pub rtol: f64,
-    pub atol: f64,
-    /// Fixed step, s; `None` lets the integrator choose.
-    pub step: Option<f64>,
-}
-
-impl Default for Method {
-    fn default() -> Self {
-        Method {
-            formulation: Choice::named("index1"),
-            integrator: Choice::named("dopri5"),
-            projection: Choice::named("manifold"),
-            rtol: 1e-8,
-            atol: 1e-10,
-            step: None,
-        }
-    }
-}
-
-impl Method {
-    /// Refuses combinations that make no sense, naming those that do.
-    pub fn check(&self) -> Result<()> {
-        let entry = integrator::find(&self.integrator).map_err(|error| error.under("integrator"))?;
-        let known = formulation::registry().iter().any(|known| known.name == self.formulation.name);
-        if known && !entry.accepts.contains(&self.formulation.name.as_str()) {
-            return Err(Error::input(format!("{} cannot integrate {}", entry.name, self.formulation.name))
-                .under("formulation")
-                .hint(format!("{} accepts {}", entry.name, entry.accepts.join(", "))));
-        }
-        for (name, value) in [("rtol", Some(self.rtol)), ("atol", Some(self.atol)), ("step", self.step)] {
-            if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {
-                let error = Error::input(format!("{name} is {value}, but must be above zero")).under(name);
-                return Err(error.hint("give a positive number"));
-            }
-        }
-        match self.step {
-            None if !entry.adaptive => Err(Error::input(format!("{} has no error estimate", entry.name))
-                .under("integrator")
-                .hint("give a fixed step: --step H, or \"step\" in \"simulation\" of the scene")),
-            _ => Ok(()),
-        }
-    }
-}
 
 /// The interval to simulate and where the output rows lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -127,6 +77,9 @@ pub fn simulate(
     }
     let mut run = Run::new(system, method, span, q, v)?;
     let failure = run.integrate(sink).err();
+    if failure.is_some() {
+        run.last_good_row(sink);
+    }
     let (q, v) = run.problem.split(&run.y);
     Ok(Outcome { statistics: run.problem.dynamics.statistics, t: run.t, q: q.to_vec(), v: v.to_vec(), failure })
 }
@@ -287,7 +240,8 @@ impl<'a> Run<'a> {
             self.change.iter_mut().zip(&self.next).for_each(|(change, next)| *change -= next);
             let correction = self.tolerance.norm(&self.next, &self.change);
             if correction > MOST_CORRECTION {
-                self.refusal = "the projection moves the state by far more than the tolerance (is the start consistent?)";
+                self.refusal =
+                    "the projection moves the state by far more than the tolerance (is the start consistent?)";
                 return Ok(Some(correction));
             }
         }
@@ -361,8 +315,19 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// Where a run ends early, its last good state shows how it came to that.
+    fn last_good_row(&mut self, sink: &mut dyn Sink) {
+        if self.rows.next > 0 && self.span.row(self.rows.next - 1) < self.t {
+            // A state that cannot be evaluated is none to show.
+            let _ = self.rows.emit(self.t, &self.y, sink);
+        }
+    }
+
     fn failure(&self, reason: String) -> Failure {
         let hint = match self.fixed {
+            _ if reason.contains("infinite or not a number") => {
+                "an expression left its domain, or two points met: look at the motion just before the end"
+            }
             Some(_) => "try a smaller --step, a projection such as `manifold`, or an adaptive integrator",
             None => "try another tolerance or a projection such as `manifold`; look at the motion just before the end",
         };

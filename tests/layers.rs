@@ -14,7 +14,7 @@ const LAYERS: &[&[&str]] = &[
     &["system"],
     &["formulation", "projection", "initial"],
     &["integrator"],
-    &["simulate", "trajectory", "study"],
+    &["method", "simulate", "trajectory", "study"],
     &["linearize", "validate", "measure"],
     &["plot"],
     &["report"],
