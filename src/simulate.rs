@@ -3,6 +3,7 @@
 use crate::error::{Error, Failure, Result};
 use crate::formulation::{self, Choice, Dynamics, Halt, Statistics};
 use crate::integrator::{self, Control, From, Integrator, Problem, Setup, Tolerance, first_step};
+pub use crate::observation::{Observation, Sink, Span};
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
 use serde::Serialize;
@@ -55,46 +56,6 @@ impl Method {
             _ => Ok(()),
         }
     }
-}
-
-/// The interval to simulate and where the output rows lie.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Span {
-    pub start: f64,
-    pub end: f64,
-    /// Distance of the output rows, s.
-    pub output_step: f64,
-}
-
-impl Span {
-    /// Time of output row `row`: multiples of the output step, and the end.
-    fn row(&self, row: u64) -> f64 {
-        let t = self.start + row as f64 * self.output_step;
-        // The last multiple and the end are one row when they differ by rounding only.
-        if t > self.end - 1e-9 * self.output_step { self.end } else { t }
-    }
-}
-
-/// All that is known at a state of the motion.
-pub struct Observation<'a> {
-    pub t: f64,
-    pub q: &'a [f64],
-    pub v: &'a [f64],
-    pub vdot: &'a [f64],
-    pub lambda: &'a [f64],
-    pub phi: &'a [f64],
-    pub phi_dot: &'a [f64],
-    pub phi_ddot: &'a [f64],
-    /// Work of forces without potential and of moving constraints since the start, J.
-    pub work: f64,
-}
-
-/// Receives the motion while it is computed.
-pub trait Sink {
-    /// Every accepted step, the start included.
-    fn accepted(&mut self, state: &Observation);
-    /// Every output row, in order.
-    fn row(&mut self, state: &Observation);
 }
 
 /// How a run ended.
@@ -287,7 +248,8 @@ impl<'a> Run<'a> {
             self.change.iter_mut().zip(&self.next).for_each(|(change, next)| *change -= next);
             let correction = self.tolerance.norm(&self.next, &self.change);
             if correction > MOST_CORRECTION {
-                self.refusal = "the projection moves the state by far more than the tolerance (is the start consistent?)";
+                self.refusal =
+                    "the projection moves the state by far more than the tolerance (is the start consistent?)";
                 return Ok(Some(correction));
             }
         }

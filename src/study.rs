@@ -111,7 +111,8 @@ impl Study {
 fn check_options(method: &Method, system: &dyn MechanicalSystem) -> Result<()> {
     formulation::make(&method.formulation, system).map_err(|error| error.under("formulation"))?;
     let entry = integrator::find(&method.integrator)?;
-    (entry.make)(&method.integrator, 1).map_err(|error| error.under("integrator"))?;
+    let setup = integrator::Setup { integrator: &method.integrator, formulation: &method.formulation, system };
+    (entry.make)(&setup).map_err(|error| error.under("integrator"))?;
     projection::make(&method.projection, system).map_err(|error| error.under("projection"))?;
     Ok(())
 }

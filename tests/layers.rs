@@ -14,6 +14,7 @@ const LAYERS: &[&[&str]] = &[
     &["system"],
     &["formulation", "projection", "initial"],
     &["integrator"],
+    &["observation"],
     &["simulate", "trajectory", "study"],
     &["linearize", "validate", "measure"],
     &["plot"],
