@@ -289,7 +289,8 @@ impl<'a> Run<'a> {
             self.change.iter_mut().zip(&self.next).for_each(|(change, next)| *change -= next);
             let correction = self.tolerance.norm(&self.next, &self.change);
             if correction > MOST_CORRECTION {
-                self.refusal = "the projection moves the state by far more than the tolerance (is the start consistent?)";
+                self.refusal =
+                    "the projection moves the state by far more than the tolerance (is the start consistent?)";
                 return Ok(Some(correction));
             }
         }
