@@ -55,8 +55,8 @@ fn check(study: &Study) {
         let c = (r(&q, &faster(h)), r(&q, &faster(-h)));
         for (name, values, (plus, minus)) in [("K", &tangent.k, k), ("C", &tangent.c, c)] {
             let exact = dense(&pattern, values, j);
-            // Differences with h = 1e-6 lose ten digits of the largest force.
-            let scale = plus.iter().chain(&exact).fold(1.0f64, |s, x| s.max(x.abs()));
+            // Differences with h = 1e-6 lose ten digits of the largest force, reactions included.
+            let scale = plus.iter().chain(&exact).chain(&lambda).fold(1.0f64, |s, x| s.max(x.abs()));
             for (i, exact) in exact.iter().enumerate() {
                 let difference = (plus[i] - minus[i]) / (2.0 * h);
                 let error = (difference - exact).abs();

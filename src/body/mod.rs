@@ -16,7 +16,7 @@ mod rigid_spatial;
 
 pub use build::{Build, MarkerId, MarkerTable, parse};
 pub use frame::{Frame, Marker, Wrench, cross, dot, scale, sub, twist_len, unit_axes};
-pub use probe::{Probe, Quantity, Signal, small_rotation};
+pub use probe::{Probe, Quantity, Signal, small_rotation, small_rotation_torque};
 pub use rigid::Initial;
 pub(crate) use rigid::quaternion;
 

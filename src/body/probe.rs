@@ -1,6 +1,6 @@
 //! Scalars read off markers, and expressions over them.
 
-use super::frame::cross;
+use super::frame::{cross, dot};
 use super::{Build, Frame, MarkerId, MarkerTable};
 use crate::error::{Error, Result};
 use crate::math::expression::{Expression, Name, Names};
@@ -191,4 +191,15 @@ pub fn small_rotation<S: Scalar, const D: usize>(a: &Frame<S, D>, b: &Frame<S, D
         (0..3).for_each(|i| twice[i] += turn[i]);
     }
     twice.map(|x| x * 0.5)
+}
+
+/// Torque on `b`, with its opposite on `a`, whose power is `moment` times the rate of [`small_rotation`]: with
+/// b' = w x b, 2 rotation' = (sum a_j . b_j) w - sum b_j (a_j . w), so the torque is the transpose of that.
+pub fn small_rotation_torque<S: Scalar, const D: usize>(a: &Frame<S, D>, b: &Frame<S, D>, moment: &[S; 3]) -> [S; 3] {
+    let mut torque = [S::zero(); 3];
+    for (from, to) in a.axes.iter().zip(&b.axes) {
+        let (cosine, along) = (dot(from, to), (0..D).fold(S::zero(), |sum, k| sum + to[k] * moment[k]));
+        (0..D).for_each(|k| torque[k] += (cosine * moment[k] - from[k] * along) * 0.5);
+    }
+    torque
 }

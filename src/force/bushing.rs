@@ -1,7 +1,7 @@
 //! Bushing: springs and dampers along and about all axes.
 
 use super::{Action, Built, ForceKernel, ForceSpec};
-use crate::body::{Build, Frame, Wrench, cross, dot, scale, sub, twist_len};
+use crate::body::{Build, Frame, Wrench, cross, dot, scale, small_rotation, small_rotation_torque, sub, twist_len};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use crate::math::{Scalar, Taylor};
@@ -11,7 +11,8 @@ use std::array::from_fn;
 
 /// Linear stiffness and damping against displacement and rotation of the second marker, in the axes of the first: 3
 /// numbers (x, y, angle) in the plane, 6 (x, y, z, rx, ry, rz) in space. Rotations in space are meant to be small: the
-/// rotation vector is that of the skew part of the relative rotation.
+/// rotation vector is that of the skew part of the relative rotation, and the torque is minus the gradient of the energy
+/// stored in it.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Bushing {
@@ -76,13 +77,15 @@ impl<const D: usize> ForceKernel<D> for Cushion {
             potential += stored;
             torque[2] = moment;
         } else {
-            let rotation = crate::body::small_rotation(a, b);
+            let rotation = small_rotation(a, b);
+            let mut moment = [S::zero(); 3];
             for (i, axis) in a.axes.iter().enumerate() {
                 let angle = (0..3).fold(Taylor::fixed(S::zero()), |sum, k| sum + axis[k] * rotation[k]);
-                let (moment, stored) = self.law(3 + i, angle);
+                let (component, stored) = self.law(3 + i, angle);
                 potential += stored;
-                (0..3).for_each(|k| torque[k] += axis[k].x * moment);
+                (0..3).for_each(|k| moment[k] += axis[k].x * component);
             }
+            torque = small_rotation_torque(&a.map(|x| x.x), &b.map(|x| x.x), &moment);
         }
         // The reaction acts at the second marker too; at the first it has the moment of the gap.
         let lever = cross(&gap.map(|x| x.x), &force);

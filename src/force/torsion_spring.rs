@@ -2,15 +2,18 @@
 
 use super::spring_damper::optional_not_negative;
 use super::{Action, Built, ForceKernel, ForceSpec};
-use crate::body::{Build, Frame, Wrench, dot};
+use crate::body::{Build, Frame, Wrench, cross, dot};
 use crate::error::Result;
 use crate::math::expression::Number;
 use crate::math::{Scalar, Taylor};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::array::from_fn;
 
 /// Torque -(k (angle - free_angle) + c angle') on the second marker and its opposite on the first. The angle is that
 /// of the second marker against the first; in space about the first one's z axis and within half a turn of free_angle.
+/// Where the markers' z axes do not coincide, the torque is along the gradient of the angle, so that the spring gives
+/// back what it takes.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TorsionSpring {
@@ -48,17 +51,23 @@ struct Torsion {
 impl<const D: usize> ForceKernel<D> for Torsion {
     fn act<S: Scalar>(&self, frames: &[Frame<Taylor<S>, D>], _t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
         let [a, b] = [&frames[0], &frames[1]];
-        let twist = if D == 2 {
-            b.turn - a.turn - self.free
+        let (twist, axis) = if D == 2 {
+            (b.turn - a.turn - self.free, [S::zero(), S::zero(), S::one()])
         } else {
             let (c, s) = (dot(&a.axes[0], &b.axes[0]), dot(&a.axes[1], &b.axes[0]));
             let (sin, cos) = self.free.sin_cos();
-            Taylor::atan2(s * cos - c * sin, c * cos + s * sin)
+            (Taylor::atan2(s * cos - c * sin, c * cos + s * sin), gradient(a, b, c.x, s.x))
         };
         let torque = -(twist.x * self.k + twist.d * self.c);
-        let axis = if D == 2 { [S::zero(), S::zero(), S::one()] } else { std::array::from_fn(|i| a.axes[D - 1][i].x) };
         out[0].torque = axis.map(|x| -(x * torque));
         out[1].torque = axis.map(|x| x * torque);
         Action { potential: twist.square() * (0.5 * self.k), magnitude: torque }
     }
+}
+
+/// d(angle)/d(rotation of b) for the angle atan2(s, c), s = a_y . b_x and c = a_x . b_x: b_x x (c a_y - s a_x)/(c^2 + s^2).
+fn gradient<S: Scalar, const D: usize>(a: &Frame<Taylor<S>, D>, b: &Frame<Taylor<S>, D>, c: S, s: S) -> [S; 3] {
+    let square = c * c + s * s;
+    let normal = from_fn(|i| (a.axes[1][i].x * c - a.axes[0][i].x * s) / square);
+    cross::<S, D>(&b.axes[0].map(|x| x.x), &normal)
 }

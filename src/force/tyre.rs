@@ -54,9 +54,13 @@ struct Spring {
 impl<const D: usize> ForceKernel<D> for Spring {
     fn act<S: Scalar>(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
         let squeeze = self.road.eval(&[t]) - frames[0].r[D - 1] + self.radius;
-        let load = squeeze.x * self.k + squeeze.d * self.c;
-        if self.lift_off && (squeeze.value() < 0.0 || load.value() < 0.0) {
+        if self.lift_off && squeeze.value() < 0.0 {
             return Action::without_potential(S::zero());
+        }
+        let mut load = squeeze.x * self.k + squeeze.d * self.c;
+        // A damper that would pull lets the squeezed tyre go without force; what it stores is then lost as it relaxes.
+        if self.lift_off && load.value() < 0.0 {
+            load = S::zero();
         }
         out[0].force[D - 1] = load;
         Action { potential: squeeze.square() * (0.5 * self.k), magnitude: load }

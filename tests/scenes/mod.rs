@@ -14,9 +14,15 @@ use std::path::{Path, PathBuf};
 pub fn models() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
     let files = std::fs::read_dir(folder).expect("the folder models is there").map(|entry| entry.unwrap().path());
-    let mut scenes: Vec<_> = files.filter(|path| path.extension().is_some_and(|end| end == "json")).collect();
+    let is_scene = |path: &PathBuf| path.extension().is_some_and(|end| end == "json") && !is_schema(path);
+    let mut scenes: Vec<_> = files.filter(is_scene).collect();
     scenes.sort();
     scenes
+}
+
+/// The JSON Schema lies beside the scenes.
+fn is_schema(path: &Path) -> bool {
+    path.file_stem().is_some_and(|stem| stem.to_string_lossy().contains("schema"))
 }
 
 /// The file of a shipped scene.
@@ -45,8 +51,8 @@ pub fn load(path: &Path, parameters: &[(&str, f64)]) -> Ready {
 }
 
 pub fn parse(json: &str) -> Ready {
-    let study = Scene::parse(json, &[]).and_then(|scene| Study::new(scene, &Overrides::default()));
-    Ready(study.unwrap_or_else(|error| panic!("{error}\n{json}")))
+    let scene = Scene::parse(json, &[]).unwrap_or_else(|error| panic!("{error}\n{json}"));
+    Ready(Study::new(scene, &Overrides::default()).unwrap_or_else(|error| panic!("{error}")))
 }
 
 /// dop853 on index 1 with manifold projection at one tolerance, relative and absolute.
