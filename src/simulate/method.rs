@@ -1,0 +1,58 @@
+//! Which method a run uses.
+
+use crate::error::{Error, Result};
+use crate::formulation::{self, Choice};
+use crate::integrator;
+use serde::Serialize;
+
+/// A method: formulation x integrator x projection, with its accuracy.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Method {
+    pub formulation: Choice,
+    pub integrator: Choice,
+    pub projection: Choice,
+    pub rtol: f64,
+    pub atol: f64,
+    /// Fixed step, s; `None` lets the integrator choose.
+    pub step: Option<f64>,
+}
+
+impl Default for Method {
+    fn default() -> Self {
+        Method {
+            formulation: Choice::named("index1"),
+            integrator: Choice::named("dopri5"),
+            projection: Choice::named("manifold"),
+            rtol: 1e-8,
+            atol: 1e-10,
+            step: None,
+        }
+    }
+}
+
+impl Method {
+    /// Refuses combinations that make no sense, naming those that do.
+    pub fn check(&self) -> Result<()> {
+        let entry = integrator::find(&self.integrator)?;
+        if !entry.accepts.contains(&self.formulation.name.as_str()) {
+            let known = formulation::registry().iter().any(|known| known.name == self.formulation.name);
+            if known {
+                return Err(Error::input(format!("{} cannot integrate {}", entry.name, self.formulation.name))
+                    .hint(format!("{} accepts {}", entry.name, entry.accepts.join(", "))));
+            }
+        }
+        for (name, value) in [("rtol", self.rtol), ("atol", self.atol)] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(Error::input(format!("{name} is {value}, but must be above zero")).under(name));
+            }
+        }
+        match self.step {
+            Some(step) if !(step > 0.0 && step.is_finite()) => {
+                Err(Error::input(format!("the step is {step}, but must be above zero")).under("step"))
+            }
+            None if !entry.adaptive => Err(Error::input(format!("{} has no error estimate", entry.name))
+                .hint("give a fixed step: --step H, or \"step\" in the scene")),
+            _ => Ok(()),
+        }
+    }
+}
