@@ -84,7 +84,6 @@ pub mod integrator;
 pub mod joint;
 pub mod math;
 pub mod measure;
-mod observation;
 pub mod plot;
 pub mod projection;
 pub mod report;

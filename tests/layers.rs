@@ -14,7 +14,6 @@ const LAYERS: &[&[&str]] = &[
     &["system"],
     &["formulation", "projection", "initial"],
     &["integrator"],
-    &["observation"],
     &["simulate", "trajectory", "study"],
     &["linearize", "validate", "measure"],
     &["plot"],
