@@ -223,6 +223,6 @@ mod tests {
     fn numbers_are_short() {
         let table = [(0.0, "0"), (0.5, "0.5"), (1.0 / 3.0, "0.3333"), (-5.0, "-5"), (123456.7, "123500")];
         table.iter().for_each(|(value, text)| assert_eq!(short(*value), *text));
-        assert_eq!((short(1.2345e-7), short(1e9), short(f64::NAN)), ("1.234e-7".into(), "1e9".into(), "NaN".into()));
+        assert_eq!((short(1.2346e-7), short(1e9), short(f64::NAN)), ("1.235e-7".into(), "1e9".into(), "NaN".into()));
     }
 }
