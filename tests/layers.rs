@@ -14,7 +14,7 @@ const LAYERS: &[&[&str]] = &[
     &["system"],
     &["formulation", "projection", "initial"],
     &["integrator"],
-    &["method", "simulate", "trajectory", "study"],
+    &["simulate", "trajectory", "study"],
     &["linearize", "validate", "measure"],
     &["plot"],
     &["report"],

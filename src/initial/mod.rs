@@ -108,7 +108,7 @@ impl<'a> Metric<'a> {
     fn infinite_row(&self) -> Option<usize> {
         let Terms { phi, phi_dot, g, .. } = &self.terms;
         // At the edge of a root a slope is huge and not infinite.
-        let position = |values: &[f64]| values.iter().position(|x| !(x.abs() < 1e150));
+        let position = |values: &[f64]| values.iter().position(|x| x.is_nan() || x.abs() >= 1e150);
         position(phi).or_else(|| position(phi_dot)).or_else(|| Some(self.rows.entries[position(g)?].0))
     }
 

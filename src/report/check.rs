@@ -168,7 +168,8 @@ fn left_out<const D: usize>(model: &Model<D>) -> Vec<String> {
         (true, "contact, friction, flexibility: the scene has none"),
     ]
     .into_iter()
-    .filter_map(|(absent, text)| absent.then(|| text.to_string()))
+    .filter(|(absent, _)| *absent)
+    .map(|(_, text)| text.to_string())
     .collect()
 }
 

@@ -44,7 +44,8 @@ fn the_trajectory_has_named_columns_and_one_row_an_output_step() {
 fn assert_keys(json: &Value, promised: &[&str], more: &[&str]) {
     let mut expected: Vec<&str> = promised.iter().chain(more).copied().collect();
     let mut found = keys(json);
-    (expected.sort_unstable(), found.sort_unstable());
+    expected.sort_unstable();
+    found.sort_unstable();
     assert_eq!(found, expected);
 }
 

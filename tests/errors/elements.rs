@@ -544,14 +544,14 @@ cases! {
 fn a_second_body_of_the_same_name() {
     let twin = "{ 'name': 'rod', 'type': 'point_mass', 'mass': 1 }, { 'name': 'rod', 'type': 'rigid'";
     let pieces = ["scene.json:8:67: at bodies[1].name: the name `rod` is taken", "give each body its own"];
-    pendulum().with("{ 'name': 'rod', 'type': 'rigid'", twin).is_refused_with(&pieces);
+    pendulum().with("{ 'name': 'rod', 'type': 'rigid'", twin).refused_with(&pieces);
 }
 
 #[test]
 fn a_scene_without_bodies() {
     let text = r#"{ "name": "nothing", "dimension": 2, "bodies": [] }"#;
     let pieces = ["scene.json:1:48: at bodies: the scene has no body", "give at least one"];
-    crate::scene(text).is_refused_with(&pieces);
+    crate::scene(text).refused_with(&pieces);
 }
 
 #[test]
@@ -560,5 +560,5 @@ fn outputs_that_grow_without_bound() {
     let outputs: Vec<String> = (0..60).map(output).collect();
     let last = "{ 'name': 'o60', 'measure': 'angle', 'of': 'rod' }, { 'name': 'theta'";
     let scene = pendulum().with("{ 'name': 'theta'", &format!("{}, {last}", outputs.join(", ")));
-    scene.is_refused_with(&["at outputs[0].value (`o0`)", "in a circle, or grow beyond all bounds"]);
+    scene.refused_with(&["at outputs[0].value (`o0`)", "in a circle, or grow beyond all bounds"]);
 }

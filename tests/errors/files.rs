@@ -57,7 +57,7 @@ fn a_scene_that_is_no_text() {
     let table = [(utf16, "1:1"), ((128..=255).collect(), "1:1"), (broken, "5:7")];
     for (text, place) in table {
         let message = format!("scene.json:{place}: this is not text in UTF-8");
-        scene(text).is_refused_with(&[&message, "save the scene as UTF-8"]);
+        scene(text).refused_with(&[&message, "save the scene as UTF-8"]);
     }
 }
 

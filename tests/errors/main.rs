@@ -6,7 +6,7 @@ macro_rules! cases {
     ($($name:ident: $scene:expr => [$($piece:expr),* $(,)?];)*) => {
         $(#[test]
         fn $name() {
-            $scene.is_refused_with(&[$($piece),*]);
+            $scene.refused_with(&[$($piece),*]);
         })*
     };
 }
@@ -118,7 +118,7 @@ impl Scene {
     }
 
     /// Simulates the scene and looks for all of `pieces` in the message, in their order.
-    fn is_refused_with(self, pieces: &[&str]) {
+    fn refused_with(self, pieces: &[&str]) {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("scene.json"), &self.text).unwrap();
         let args: Vec<&str> =

@@ -94,15 +94,15 @@ fn pair(element: &str, [a, b]: [&str; 2]) -> crate::Scene {
 fn two_rods_of_different_lengths() {
     let pieces =
         ["at joints: the joints cannot all be closed", "`second`", "`first`", "help: check lengths and markers"];
-    pair(ROD, ["2", "2.5"]).is_refused_with(&pieces);
+    pair(ROD, ["2", "2.5"]).refused_with(&pieces);
 }
 
 #[test]
 fn two_drivers_that_contradict() {
     let rates = ["at joints: the joints ask for different velocities", "0.5", "0.5", "check drivers"];
-    pair(DRIVE, ["t", "2*t"]).is_refused_with(&rates);
+    pair(DRIVE, ["t", "2*t"]).refused_with(&rates);
     let positions = ["at joints: the joints cannot all be closed", "0.5", "0.5"];
-    pair(DRIVE, ["t", "1 + t"]).is_refused_with(&positions);
+    pair(DRIVE, ["t", "1 + t"]).refused_with(&positions);
 }
 
 #[test]
@@ -129,5 +129,5 @@ fn a_four_bar_with_too_short_links() {
     );
     let pieces =
         ["scene.json:2:11: at joints: the joints cannot all be closed; gaps that remain", "`A`", "help: check"];
-    crate::scene(crate::json(&text)).is_refused_with(&pieces);
+    crate::scene(crate::json(&text)).refused_with(&pieces);
 }

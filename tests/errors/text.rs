@@ -108,7 +108,7 @@ cases! {
 #[test]
 fn scenes_without_anything() {
     for text in ["", " \n\t\n", "\u{feff}"] {
-        scene(text).is_refused_with(&["error: scene.json: the file is empty\n", "a scene is a JSON object", "schema"]);
+        scene(text).refused_with(&["error: scene.json: the file is empty\n", "a scene is a JSON object", "schema"]);
     }
 }
 
@@ -116,30 +116,30 @@ fn scenes_without_anything() {
 fn json_that_is_no_scene() {
     for (text, found) in [("[1]", "a list of 1"), ("3", "3"), ("null", "null"), ("\"scene\"", "\"scene\"")] {
         let message = format!("scene.json: a scene is a JSON object, found {found}\n");
-        scene(text).is_refused_with(&[&message, "begin with {\"name\": ..., \"dimension\": 2, ...}"]);
+        scene(text).refused_with(&[&message, "begin with {\"name\": ..., \"dimension\": 2, ...}"]);
     }
     let pieces = ["scene.json: the key `name` is missing", "help: add \"name\": ...", "holonom schema"];
-    scene("{}").is_refused_with(&pieces);
+    scene("{}").refused_with(&pieces);
 }
 
 #[test]
 fn a_truncated_file_is_told_wherever_it_ends() {
     for length in [1, 2, 100, 400, PENDULUM.len() - 3] {
         let pieces = ["scene.json:", "this is not JSON: the file ends too early", "close the bracket or quotes"];
-        scene(&PENDULUM[..length]).is_refused_with(&pieces);
+        scene(&PENDULUM[..length]).refused_with(&pieces);
     }
 }
 
 #[test]
 fn single_quotes_and_deep_brackets() {
     let text = PENDULUM.replace('"', "'");
-    scene(text).is_refused_with(&["scene.json:2:3: this is not JSON: a single quote", "double quotes"]);
+    scene(text).refused_with(&["scene.json:2:3: this is not JSON: a single quote", "double quotes"]);
     let deep = format!("{{ \"name\": {}", "[".repeat(100_000));
-    scene(deep).is_refused_with(&["scene.json:1:", "brackets more than 100 deep"]);
+    scene(deep).refused_with(&["scene.json:1:", "brackets more than 100 deep"]);
 }
 
 #[test]
 fn a_fault_beside_letters_of_several_bytes_has_its_column_in_characters() {
     let pieces = ["scene.json:1:24: this is not JSON: `NaN`", "must be finite"];
-    scene("{ \"name\": \"äöü\", \"x\" : NaN }").is_refused_with(&pieces);
+    scene("{ \"name\": \"äöü\", \"x\" : NaN }").refused_with(&pieces);
 }

@@ -1,10 +1,8 @@
-//! The choice of a method and whether it makes sense.
+//! Which method a run uses.
 
-use crate::choice::Choice;
 use crate::error::{Error, Result};
-use crate::integrator::{self, Setup};
-use crate::system::MechanicalSystem;
-use crate::{formulation, projection};
+use crate::formulation::{self, Choice};
+use crate::integrator;
 use serde::Serialize;
 
 /// A method: formulation x integrator x projection, with its accuracy.
@@ -54,15 +52,5 @@ impl Method {
                 .hint("give a fixed step: --step H, or \"step\" in \"simulation\" of the scene")),
             _ => Ok(()),
         }
-    }
-
-    /// Refuses unknown names and wrong options of all three before anything is computed.
-    pub fn check_for(&self, system: &dyn MechanicalSystem) -> Result<()> {
-        formulation::make(&self.formulation, system).map_err(|error| error.under("formulation"))?;
-        let setup = Setup { integrator: &self.integrator, formulation: &self.formulation, system };
-        let entry = integrator::find(&self.integrator).map_err(|error| error.under("integrator"))?;
-        (entry.make)(&setup).map_err(|error| error.under("integrator"))?;
-        projection::make(&self.projection, system).map_err(|error| error.under("projection"))?;
-        Ok(())
     }
 }
