@@ -50,7 +50,7 @@ fn model<const D: usize>(file: &SceneFile, parameters: &Parameters) -> Result<(M
         let place = format!("bodies[{i}]");
         parts.add(json.clone(), &build).map_err(|error| error.under(place))?;
     }
-    outputs::check_names(&file.outputs, parameters)?;
+    outputs::check_names(&file.outputs)?;
     let formulas = outputs::formulas::<D>(&file.outputs)?;
     let build = Build { parameters, markers: &parts.table, outputs: &formulas, gravity };
     let entries = joint::registry::<D>();

@@ -6,7 +6,6 @@ use crate::body::{Build, MarkerId, Quantity};
 use crate::error::{Error, Result, suggest};
 use crate::force::{self, Force};
 use crate::joint::Joint;
-use crate::math::expression::Parameters;
 
 type Joints<const D: usize> = [Connection<Box<dyn Joint<D>>>];
 type Forces<const D: usize> = [Connection<Box<dyn Force<D>>>];
@@ -45,13 +44,12 @@ pub fn formulas<const D: usize>(specs: &[OutputSpec]) -> Result<Vec<(String, Str
     Ok(all.collect())
 }
 
-/// Names of outputs are columns beside `t`.
-pub fn check_names(specs: &[OutputSpec], parameters: &Parameters) -> Result<()> {
+/// Names of outputs are columns beside `t`. One may be that of a parameter, as long as no expression uses it.
+pub fn check_names(specs: &[OutputSpec]) -> Result<()> {
     for (i, OutputSpec { name, .. }) in specs.iter().enumerate() {
         let taken = |by: &str| Error::input(format!("the name `{name}` is taken{by}")).hint("give each output its own");
         let checked = match name.as_str() {
             "t" => Err(taken(" by time")),
-            _ if parameters.get(name).is_some() => Err(taken(" by a parameter")),
             _ if specs[..i].iter().any(|known| known.name == *name) => Err(taken("")),
             _ => super::builder::check_name(name),
         };
