@@ -4,6 +4,7 @@
 
 mod baumgarte;
 mod dynamics;
+mod force_projection;
 mod index1;
 mod invariant_manifold;
 mod stabilizer;
@@ -39,7 +40,7 @@ pub struct Entry {
 
 /// Every formulation, in the order of the documentation.
 pub fn registry() -> &'static [Entry] {
-    &[index1::ENTRY, baumgarte::ENTRY, invariant_manifold::ENTRY]
+    &[index1::ENTRY, baumgarte::ENTRY, invariant_manifold::ENTRY, force_projection::ENTRY]
 }
 
 /// The formulation that `choice` names, for `system`.
