@@ -289,7 +289,8 @@ impl<'a> Run<'a> {
             self.change.iter_mut().zip(&self.next).for_each(|(change, next)| *change -= next);
             let correction = self.tolerance.norm(&self.next, &self.change);
             if correction > MOST_CORRECTION {
-                self.refusal = "the projection moves the state by far more than the tolerance (is the start consistent?)";
+                self.refusal =
+                    "the projection moves the state by far more than the tolerance (is the start consistent?)";
                 return Ok(Some(correction));
             }
         }
@@ -341,7 +342,7 @@ impl<'a> Run<'a> {
     }
 
     fn observe(&mut self, sink: &mut dyn Sink) {
-        let deficient = self.problem.dynamics.kkt.is_rank_deficient();
+        let deficient = self.problem.dynamics.is_rank_deficient;
         self.problem.dynamics.statistics.rank_deficient += u64::from(deficient);
         sink.accepted(&observation(self.t, &self.y, &self.problem, &mut self.phi_ddot));
     }

@@ -65,6 +65,8 @@ pub struct Dynamics<'a> {
     pub vdot: Vec<f64>,
     /// lambda of the last solution.
     pub lambda: Vec<f64>,
+    /// Whether G was rank deficient at the last solution; false with a formulation that does not ask for the rank.
+    pub is_rank_deficient: bool,
     pub statistics: Statistics,
     pub scratch: Scratch,
 }
@@ -79,6 +81,7 @@ impl<'a> Dynamics<'a> {
             structure,
             vdot: vec![0.0; n.v],
             lambda: vec![0.0; n.lambda],
+            is_rank_deficient: false,
             statistics: Statistics::default(),
             scratch: Scratch::default(),
         }
@@ -103,14 +106,25 @@ impl<'a> Dynamics<'a> {
         v: &[f64],
         acceleration_level: impl Fn(f64, f64) -> f64,
     ) -> Result<(), Halt> {
+        self.right_sides(t, q, v, acceleration_level);
+        self.factor()?;
+        self.is_rank_deficient = self.kkt.is_rank_deficient();
+        self.kkt.solve(&mut self.vdot, &mut self.lambda)?;
+        self.finite()
+    }
+
+    /// Evaluates the terms at a state and leaves f in `vdot`, gamma + `acceleration_level` in `lambda`.
+    pub fn right_sides(&mut self, t: f64, q: &[f64], v: &[f64], acceleration_level: impl Fn(f64, f64) -> f64) {
         self.statistics.rhs_evaluations += 1;
         self.evaluate(t, q, v, Need::DYNAMICS);
-        self.factor()?;
         self.vdot.copy_from_slice(&self.terms.f);
         for (i, lambda) in self.lambda.iter_mut().enumerate() {
             *lambda = self.terms.gamma[i] + acceleration_level(self.terms.phi[i], self.terms.phi_dot[i]);
         }
-        self.kkt.solve(&mut self.vdot, &mut self.lambda)?;
+    }
+
+    /// Halts where v' or lambda is infinite or not a number.
+    pub fn finite(&self) -> Result<(), Halt> {
         match self.vdot.iter().chain(&self.lambda).all(|x| x.is_finite()) {
             true => Ok(()),
             false => Err(Halt::NotFinite),

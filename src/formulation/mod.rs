@@ -2,11 +2,13 @@
 //!
 //! To add one: a file with a [`Formulation`] and an [`Entry`], and a line in [`registry`].
 
+mod augmented_lagrangian;
 mod baumgarte;
 mod dynamics;
 mod force_projection;
 mod index1;
 mod invariant_manifold;
+mod penalty;
 mod stabilizer;
 
 pub use crate::choice::{Choice, OptionDoc};
@@ -40,7 +42,14 @@ pub struct Entry {
 
 /// Every formulation, in the order of the documentation.
 pub fn registry() -> &'static [Entry] {
-    &[index1::ENTRY, baumgarte::ENTRY, invariant_manifold::ENTRY, force_projection::ENTRY]
+    &[
+        index1::ENTRY,
+        baumgarte::ENTRY,
+        invariant_manifold::ENTRY,
+        force_projection::ENTRY,
+        penalty::ENTRY,
+        augmented_lagrangian::ENTRY,
+    ]
 }
 
 /// The formulation that `choice` names, for `system`.
