@@ -4,12 +4,14 @@
 
 mod augmented_lagrangian;
 mod baumgarte;
+mod dense;
 mod dynamics;
 mod force_projection;
 mod index1;
 mod invariant_manifold;
 mod penalty;
 mod stabilizer;
+mod udwadia_kalaba;
 
 pub use crate::choice::{Choice, OptionDoc};
 pub use dynamics::{Dynamics, Halt, Statistics};
@@ -49,6 +51,7 @@ pub fn registry() -> &'static [Entry] {
         force_projection::ENTRY,
         penalty::ENTRY,
         augmented_lagrangian::ENTRY,
+        udwadia_kalaba::ENTRY,
     ]
 }
 
