@@ -9,6 +9,7 @@ mod dynamics;
 mod force_projection;
 mod index1;
 mod invariant_manifold;
+mod null_space;
 mod penalty;
 mod stabilizer;
 mod udwadia_kalaba;
@@ -52,6 +53,7 @@ pub fn registry() -> &'static [Entry] {
         penalty::ENTRY,
         augmented_lagrangian::ENTRY,
         udwadia_kalaba::ENTRY,
+        null_space::ENTRY,
     ]
 }
 

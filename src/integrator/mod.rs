@@ -102,6 +102,7 @@ pub const VECTOR_FIELDS: &[&str] = &[
     "penalty",
     "augmented_lagrangian",
     "udwadia_kalaba",
+    "null_space",
 ];
 
 /// Every integrator, in the order of the documentation.

@@ -12,7 +12,7 @@
 //! 2. When a pivot collapses: the same with dependent rows left out (`skipping`), if it is clear which these are.
 //! 3. Else, and not too large: a dense rank-revealing factorization (`null_space`).
 //!
-//! [`PseudoInverse`] solves the same system densely in another way, for comparison.
+//! [`PseudoInverse`] and [`Reduced`] solve the same system densely in other ways, for comparison.
 //!
 //! Redundant rows get multipliers of least norm, right sides that contradict each other least squares.
 
@@ -26,6 +26,7 @@ mod order;
 mod pattern;
 mod pivot;
 mod pseudo_inverse;
+mod reduced;
 mod reflect;
 mod saddle;
 mod skipping;
@@ -38,6 +39,7 @@ pub use condition::condition_number;
 pub use dependence::{Dependence, DependentRow, dependent_rows};
 pub use pattern::Pattern;
 pub use pseudo_inverse::PseudoInverse;
+pub use reduced::Reduced;
 pub use saddle::SaddlePoint;
 
 /// A way to solve the system: factor once, then solve any number of times.
