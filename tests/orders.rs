@@ -47,9 +47,9 @@ fn gentle(formulation: &str) -> String {
         "baumgarte" => "baumgarte:alpha=1".to_string(),
         "invariant_manifold" => "invariant_manifold:gamma=1".to_string(),
         "force_projection" => "force_projection:position=1".to_string(),
-        // What a penalty solves differs from the equations of motion by O(1/penalty): with 1e14 by less than round-off,
+        // What a penalty solves differs from the equations of motion by O(1/penalty): with 1e18 by less than round-off,
         // so that the common reference serves. Ordinary penalties have a test of their own below.
-        "penalty" => "penalty:penalty=1e14,omega=1".to_string(),
+        "penalty" => "penalty:penalty=1e18,omega=1".to_string(),
         "augmented_lagrangian" => "augmented_lagrangian:omega=1".to_string(),
         other => other.to_string(),
     }
