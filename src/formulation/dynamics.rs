@@ -9,8 +9,14 @@ use std::fmt;
 /// Why a state cannot be evaluated.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Halt {
-    /// A term of the equations is infinite or not a number: the motion diverged, or an expression left its domain.
+    /// The state or a solution is infinite or not a number: the motion diverged.
     NotFinite,
+    /// A term of the equations is, and which: an expression left its domain, or two points coincide.
+    Term(String),
+    /// The coordinate has neither mass nor constraint along some direction of motion.
+    Undetermined(String),
+    /// The coordinate has no mass along some direction, and the formulation needs M^-1.
+    Massless(String),
     /// The equations do not determine the accelerations.
     Singular(Singular),
 }
@@ -18,7 +24,15 @@ pub enum Halt {
 impl fmt::Display for Halt {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Halt::NotFinite => write!(out, "the equations of motion are no longer finite"),
+            Halt::NotFinite => write!(out, "the motion is no longer finite"),
+            Halt::Term(term) => write!(out, "{term} is infinite or not a number"),
+            Halt::Undetermined(coordinate) => write!(
+                out,
+                "the motion is not determined: `{coordinate}` has neither mass nor constraint in a direction"
+            ),
+            Halt::Massless(coordinate) => {
+                write!(out, "`{coordinate}` has no mass in a direction, and the formulation needs the inverse of M")
+            }
             Halt::Singular(singular) => write!(out, "{singular}"),
         }
     }
@@ -95,7 +109,35 @@ impl<'a> Dynamics<'a> {
     /// Factors the saddle-point matrix of the terms.
     pub fn factor(&mut self) -> Result<(), Halt> {
         self.statistics.factorizations += 1;
-        Ok(self.kkt.factor(&self.terms.mass, &self.terms.g)?)
+        let factored = self.kkt.factor(&self.terms.mass, &self.terms.g);
+        factored.map_err(|singular| self.halt(singular))
+    }
+
+    /// Why the terms have no solution, with names.
+    pub(super) fn halt(&self, singular: Singular) -> Halt {
+        match singular {
+            Singular::Undetermined { coordinate } => Halt::Undetermined(self.coordinate(coordinate)),
+            Singular::Massless { coordinate } => Halt::Massless(self.coordinate(coordinate)),
+            Singular::NotFinite => self.infinite_term().map_or(Halt::NotFinite, Halt::Term),
+            other => Halt::Singular(other),
+        }
+    }
+
+    fn coordinate(&self, direction: usize) -> String {
+        let names = self.system.names().v;
+        names.get(direction).map_or(String::new(), |name| name.trim_end_matches('\'').to_string())
+    }
+
+    /// The first term that is not finite.
+    fn infinite_term(&self) -> Option<String> {
+        let Terms { f, g, phi, phi_dot, gamma, .. } = &self.terms;
+        if let Some(i) = f.iter().position(|f| !f.is_finite()) {
+            return Some(format!("the force on `{}`", self.coordinate(i)));
+        }
+        let levels = [phi, phi_dot, gamma].into_iter().find_map(|rows| rows.iter().position(|x| !x.is_finite()));
+        let entry = || g.iter().position(|g| !g.is_finite()).map(|entry| self.structure.g.entries[entry].0);
+        let row = levels.or_else(entry)?;
+        Some(format!("the constraint of `{}`", self.system.names().lambda.get(row)?))
     }
 
     /// v' and lambda at a state: phi'' = `acceleration_level` of phi and phi', which is zero for the plain equations.
@@ -109,7 +151,7 @@ impl<'a> Dynamics<'a> {
         self.right_sides(t, q, v, acceleration_level);
         self.factor()?;
         self.is_rank_deficient = self.kkt.is_rank_deficient();
-        self.kkt.solve(&mut self.vdot, &mut self.lambda)?;
+        self.kkt.solve(&mut self.vdot, &mut self.lambda).map_err(|singular| self.halt(singular))?;
         self.finite()
     }
 

@@ -80,7 +80,7 @@ impl Penalty {
         slack.fill(weight);
         self.g[..terms.g.len()].copy_from_slice(&terms.g);
         dynamics.statistics.factorizations += 1;
-        Ok(self.kkt.factor(&self.mass, &self.g)?)
+        self.kkt.factor(&self.mass, &self.g).map_err(|singular| dynamics.halt(singular))
     }
 }
 
@@ -104,7 +104,7 @@ impl Formulation for Penalty {
             top.copy_from_slice(&dynamics.terms.f);
             slack.copy_from_slice(&dynamics.lambda);
             dynamics.lambda.copy_from_slice(&self.c);
-            self.kkt.solve(&mut self.top, &mut dynamics.lambda)?;
+            self.kkt.solve(&mut self.top, &mut dynamics.lambda).map_err(|singular| dynamics.halt(singular))?;
         }
         dynamics.vdot.copy_from_slice(&self.top[..v.len()]);
         dynamics.finite()?;

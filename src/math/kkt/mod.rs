@@ -61,9 +61,7 @@ pub enum Singular {
     #[error("the motion is not determined: coordinate {coordinate} has neither mass nor constraint along a direction")]
     Undetermined { coordinate: usize },
     /// M is singular where a method needs its inverse; `coordinate` moves most along the direction without mass.
-    #[error(
-        "the mass matrix is singular: coordinate {coordinate} has no mass along a direction, which this method needs"
-    )]
+    #[error("the mass matrix is singular: coordinate {coordinate} has no mass along a direction")]
     Massless { coordinate: usize },
     /// The matrix or a solution is not finite.
     #[error("the saddle-point system or its solution is not finite")]
