@@ -94,7 +94,16 @@ pub struct Entry {
 }
 
 /// Formulations that are vector fields, which any explicit method takes.
-pub const VECTOR_FIELDS: &[&str] = &["index1", "baumgarte", "invariant_manifold"];
+pub const VECTOR_FIELDS: &[&str] = &[
+    "index1",
+    "baumgarte",
+    "invariant_manifold",
+    "force_projection",
+    "penalty",
+    "augmented_lagrangian",
+    "udwadia_kalaba",
+    "null_space",
+];
 
 /// Every integrator, in the order of the documentation.
 pub fn registry() -> &'static [Entry] {
