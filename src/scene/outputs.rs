@@ -12,7 +12,7 @@ type Joints<const D: usize> = [Connection<Box<dyn Joint<D>>>];
 type Forces<const D: usize> = [Connection<Box<dyn Force<D>>>];
 
 /// Kinematic outputs as expressions, by which forces may use them.
-pub fn formulas<const D: usize>(specs: &[OutputSpec]) -> Result<Vec<(String, String)>> {
+pub fn formulas<const D: usize>(specs: &[OutputSpec], parameters: &Parameters) -> Vec<(String, String)> {
     let formula = |spec: &OutputSpec| {
         let of = spec.of.as_deref()?;
         let axis = spec.component.as_deref().unwrap_or("x");
@@ -38,20 +38,21 @@ pub fn formulas<const D: usize>(specs: &[OutputSpec]) -> Result<Vec<(String, Str
         (MeasureKind::Expression, Some(value)) => Some(value.to_string()),
         _ => None,
     };
-    let all = specs.iter().filter_map(|spec| {
+    // A name that is a parameter's too stays the parameter's in expressions.
+    let own = specs.iter().filter(|spec| parameters.get(&spec.name).is_none());
+    let all = own.filter_map(|spec| {
         let text = formula(spec).or_else(|| distance(spec)).or_else(|| given(spec))?;
         Some((spec.name.clone(), text))
     });
-    Ok(all.collect())
+    all.collect()
 }
 
 /// Names of outputs are columns beside `t`.
-pub fn check_names(specs: &[OutputSpec], parameters: &Parameters) -> Result<()> {
+pub fn check_names(specs: &[OutputSpec]) -> Result<()> {
     for (i, OutputSpec { name, .. }) in specs.iter().enumerate() {
         let taken = |by: &str| Error::input(format!("the name `{name}` is taken{by}")).hint("give each output its own");
         let checked = match name.as_str() {
             "t" => Err(taken(" by time")),
-            _ if parameters.get(name).is_some() => Err(taken(" by a parameter")),
             _ if specs[..i].iter().any(|known| known.name == *name) => Err(taken("")),
             _ => super::builder::check_name(name),
         };

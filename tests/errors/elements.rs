@@ -265,11 +265,6 @@ cases! {
             "scene.json:19:26: at outputs[0].name: the name `t` is taken by time",
             "give each output its own",
         ];
-    output_named_as_parameter:
-        pendulum().with("'theta'", "'l'") => [
-            "scene.json:19:26: at outputs[0].name: the name `l` is taken by a parameter",
-            "give each output its own",
-        ];
     scene_name_slash:
         pendulum().with("'pendulum'", "'../pendulum'") => [
             "scene.json:2:11: at name: `../pendulum` cannot name a scene",
