@@ -123,15 +123,23 @@ impl fmt::Display for Input {
             }
             write!(out, ": ")?;
         }
-        match (self.path.as_str(), &self.element) {
+        let path = without_long_words(&self.path);
+        match (path.as_str(), self.element.as_deref().map(without_long_words)) {
             ("", None) => {}
             ("", Some(element)) => write!(out, "`{element}`: ")?,
             (path, None) => write!(out, "at {path}: ")?,
             (path, Some(element)) => write!(out, "at {path} (`{element}`): ")?,
         }
-        write!(out, "{}", self.message)?;
-        self.hint.iter().try_for_each(|hint| write!(out, "\n  help: {hint}"))
+        write!(out, "{}", without_long_words(&self.message))?;
+        self.hint.iter().try_for_each(|hint| write!(out, "\n  help: {}", without_long_words(hint)))
     }
+}
+
+/// A message repeats what a user wrote, but a name of a hundred letters only by its beginning.
+fn without_long_words(text: &str) -> String {
+    const LONGEST: usize = 100;
+    let short = |word: &str| if word.len() > LONGEST { excerpt(word) } else { word.to_string() };
+    text.split(' ').map(short).collect::<Vec<_>>().join(" ")
 }
 
 impl std::error::Error for Error {}

@@ -64,7 +64,11 @@ pub fn run(args: Args) -> Result<ExitCode> {
     if !args.common.json && !args.common.quiet {
         print(&format!("\nwritten to {}\n", folder.listing()))?;
     }
-    Ok(ExitCode::SUCCESS)
+    // One stabilization that fails is a result; all of them are a failed run.
+    match rows.iter().filter_map(|row| row.failure.clone()).nth(rows.len() - 1) {
+        Some(failure) => Err(failure.into()),
+        None => Ok(ExitCode::SUCCESS),
+    }
 }
 
 /// Every stabilization, with gains that go with steps of size `step`: alpha = beta = 1/step is the pair (2/h, 1/h^2).
@@ -138,13 +142,12 @@ fn text(study: &Study, rows: &[Row]) -> String {
         let work = [row.steps.to_string(), row.rhs_evaluations.to_string(), format!("{:.2}", 1e3 * row.wall_seconds)];
         table.row([row.method.clone()].into_iter().chain(drift).chain([energy]).chain(work));
     }
-    let mut text = format!("{}: drift with {integrator}, {accuracy}\n\n{table}", study.name);
-    for row in rows {
-        if let Some(failure) = &row.failure {
-            text += &format!("\n  {} FAILED at t = {:.4e} s: {}\n", row.method, failure.t, failure.reason);
-        }
-    }
-    text
+    let text = format!("{}: drift with {integrator}, {accuracy}\n\n{table}", study.name);
+    let failures = rows.iter().filter_map(|row| Some((&row.method, row.failure.as_ref()?)));
+    let lines =
+        failures.map(|(method, failure)| format!("\n  {method} FAILED at t = {:.4e} s: {}", failure.t, failure.reason));
+    let lines: String = lines.collect();
+    text + &lines + if lines.is_empty() { "" } else { "\n" }
 }
 
 /// `t`, then |phi| and |phi'| of every method; empty where a run had ended.

@@ -17,6 +17,9 @@ pub struct Args {
     output: Output,
 }
 
+/// Joints that are open by this part of the scene's size at the end deserve a warning.
+const MEANINGLESS: f64 = 1e-2;
+
 pub fn run(args: Args) -> Result<ExitCode> {
     let study = args.common.load()?;
     let span = args.common.span(&study)?;
@@ -34,6 +37,13 @@ pub fn run(args: Args) -> Result<ExitCode> {
     args.common.print(&summary, || summary.text(&units(&record)))?;
     if !args.common.json && !args.common.quiet {
         print(&format!("\nwritten to {}\n", folder.listing()))?;
+    }
+    if summary.drift.position.relative_final > MEANINGLESS && !args.common.quiet {
+        eprintln!(
+            "warning: the joints have come apart by {:.1e} of the scene's size: the motion is not that of the scene\n  \
+             help: choose a projection such as `manifold`, or a smaller step",
+            summary.drift.position.relative_final
+        );
     }
     Ok(match &summary.failure {
         None => ExitCode::SUCCESS,

@@ -231,9 +231,9 @@ impl Check {
 
     fn scales_text(&self) -> String {
         format!(
-            "condition of the saddle-point matrix {:.1e}, distance to a singular state {:.1e} (1 is far)\n\
+            "condition of the saddle-point matrix {}, distance to a singular state {:.1e} (1 is far)\n\
              masses and inertias {:.3e} .. {:.3e}, length scale {} m\nleft out: {}\n",
-            self.condition,
+            if self.condition.is_finite() { format!("{:.1e}", self.condition) } else { "infinite".to_string() },
             self.distance_to_singularity,
             self.mass_range[0],
             self.mass_range[1],

@@ -52,7 +52,7 @@ fn model<const D: usize>(file: &SceneFile, parameters: &Parameters) -> Result<(M
         parts.add(json.clone(), &build).map_err(|error| error.under(place))?;
     }
     outputs::check_names(&file.outputs)?;
-    let formulas = outputs::formulas::<D>(&file.outputs, parameters);
+    let formulas = outputs::formulas::<D>(&file.outputs);
     let build = Build { parameters, markers: &parts.table, outputs: &formulas, gravity };
     let entries = joint::registry::<D>();
     let kinds: Vec<&str> = entries.iter().map(|entry| entry.name).collect();

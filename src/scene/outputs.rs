@@ -6,13 +6,12 @@ use crate::body::{Build, MarkerId, Quantity};
 use crate::error::{Error, Result, suggest};
 use crate::force::{self, Force};
 use crate::joint::Joint;
-use crate::math::expression::Parameters;
 
 type Joints<const D: usize> = [Connection<Box<dyn Joint<D>>>];
 type Forces<const D: usize> = [Connection<Box<dyn Force<D>>>];
 
 /// Kinematic outputs as expressions, by which forces may use them.
-pub fn formulas<const D: usize>(specs: &[OutputSpec], parameters: &Parameters) -> Vec<(String, String)> {
+pub fn formulas<const D: usize>(specs: &[OutputSpec]) -> Vec<(String, String)> {
     let formula = |spec: &OutputSpec| {
         let of = spec.of.as_deref()?;
         let axis = spec.component.as_deref().unwrap_or("x");
@@ -38,9 +37,7 @@ pub fn formulas<const D: usize>(specs: &[OutputSpec], parameters: &Parameters) -
         (MeasureKind::Expression, Some(value)) => Some(value.to_string()),
         _ => None,
     };
-    // A name that is a parameter's too stays the parameter's in expressions.
-    let own = specs.iter().filter(|spec| parameters.get(&spec.name).is_none());
-    let all = own.filter_map(|spec| {
+    let all = specs.iter().filter_map(|spec| {
         let text = formula(spec).or_else(|| distance(spec)).or_else(|| given(spec))?;
         Some((spec.name.clone(), text))
     });

@@ -42,6 +42,9 @@ pub fn simulate(
     }
     let mut run = Run::new(system, method, span, q, v)?;
     let failure = run.integrate(sink).err();
+    if failure.is_some() {
+        run.last_good_row(sink);
+    }
     let (q, v) = run.problem.split(&run.y);
     Ok(Outcome { statistics: run.problem.dynamics.statistics, t: run.t, q: q.to_vec(), v: v.to_vec(), failure })
 }
@@ -277,8 +280,19 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// Where a run ends early, its last good state shows how it came to that.
+    fn last_good_row(&mut self, sink: &mut dyn Sink) {
+        if self.rows.next > 0 && self.span.row(self.rows.next - 1) < self.t {
+            // A state that cannot be evaluated is none to show.
+            let _ = self.rows.emit(self.t, &self.y, sink);
+        }
+    }
+
     fn failure(&self, reason: String) -> Failure {
         let hint = match self.fixed {
+            _ if reason.contains("infinite or not a number") => {
+                "an expression left its domain, or two points met: look at the motion just before the end"
+            }
             Some(_) => "try a smaller --step, a projection such as `manifold`, or an adaptive integrator",
             None => "try another tolerance or a projection such as `manifold`; look at the motion just before the end",
         };

@@ -265,6 +265,13 @@ cases! {
             "scene.json:19:26: at outputs[0].name: the name `t` is taken by time",
             "give each output its own",
         ];
+    a_name_of_both_a_parameter_and_an_output_in_an_expression:
+        pendulum()
+            .with("'theta'", "'l'")
+            .force("{ 'name': 'f', 'type': 'applied_torque', 'at': 'rod', 'torque': '2*l' }") => [
+            "scene.json:16:69: at forces[0].torque (`f`): `l` is both a parameter and an output",
+            "rename one of them",
+        ];
     scene_name_slash:
         pendulum().with("'pendulum'", "'../pendulum'") => [
             "scene.json:2:11: at name: `../pendulum` cannot name a scene",

@@ -1,0 +1,64 @@
+use super::*;
+
+#[test]
+fn a_pendulum() {
+    let place = Place::new(PENDULUM);
+    let text = place.done(&["check", "scene.json"]);
+    let first = "pendulum: 3 coordinates, 3 velocities, 2 constraints of rank 2, 1 degree of freedom\n";
+    assert!(text.starts_with(first), "{text}");
+    for word in
+        ["rod   rigid  x y angle", "A      revolute  x y", "push   applied_force", "left out: the third dimension"]
+    {
+        assert!(text.contains(word), "{word} in\n{text}");
+    }
+    assert_eq!(place.files("."), ["scene.json"]);
+}
+
+#[test]
+fn a_redundant_joint_is_named() {
+    let text = Place::new(parallelogram()).done(&["check", "scene.json"]);
+    assert!(text.starts_with("parallelogram: 12 coordinates, 12 velocities, 12 constraints of rank 11, 1 degree"));
+    assert!(
+        text.contains("redundant constraints (consistent; multipliers of least norm are computed):\n  joint `end2`")
+    );
+    assert!(text.contains("condition of the saddle-point matrix infinite"), "{text}");
+}
+
+#[test]
+fn json_has_all_of_it() {
+    let place = Place::new(parallelogram());
+    let check: Value = serde_json::from_str(&place.done(&["check", "scene.json", "--json"])).unwrap();
+    let expected = [
+        "scene",
+        "dimension",
+        "coordinates",
+        "velocities",
+        "constraints",
+        "rank",
+        "degrees_of_freedom",
+        "redundant",
+        "assembly",
+        "condition",
+        "distance_to_singularity",
+        "mass_range",
+        "length_scale",
+        "bodies",
+        "joints",
+        "forces",
+        "left_out",
+    ];
+    assert_eq!(keys(&check), expected);
+    assert_eq!((&check["rank"], &check["degrees_of_freedom"]), (&11.into(), &1.into()));
+    let row = &check["redundant"][0];
+    assert_eq!(keys(row), ["joint", "row", "follows_from"]);
+    assert_eq!((&row["joint"], check["redundant"].as_array().unwrap().len()), (&"end2".into(), 1));
+    assert!(row["follows_from"].as_array().unwrap().len() > 1);
+}
+
+#[test]
+fn what_assembly_moved_is_told() {
+    let place = Place::new(PENDULUM.replace(r#""position": [0.5, 0]"#, r#""position": [0.4, 0.3]"#));
+    let text = place.done(&["check", "scene.json"]);
+    assert!(text.contains("start: |phi| 6.0e-1 -> ") && text.contains("moved rod."), "{text}");
+    assert_eq!(place.done(&["check", "scene.json", "--quiet"]), "");
+}

@@ -1,0 +1,54 @@
+use super::*;
+
+const METHODS: [&str; 10] = [
+    "none",
+    "baumgarte",
+    "baumgarte:alpha",
+    "invariant_manifold",
+    "position",
+    "velocity",
+    "manifold",
+    "manifold:sweeps=2",
+    "full",
+    "exact",
+];
+
+#[test]
+fn every_stabilization_has_a_row() {
+    let place = Place::new(PENDULUM);
+    let text = place.done(&["drift", "scene.json", "-o", "here"]);
+    assert!(text.starts_with("pendulum: drift with dopri5, rtol 1e-8, atol 1e-10\n"), "{text}");
+    let rows: Vec<&str> = text.lines().skip(3).take_while(|line| !line.is_empty()).map(str::trim).collect();
+    assert_eq!(rows.len(), METHODS.len(), "{text}");
+    rows.iter().zip(METHODS).for_each(|(row, method)| assert!(row.starts_with(method), "{row}"));
+    assert_eq!(place.files("here"), ["drift.csv", "drift.json", "drift.svg"]);
+}
+
+#[test]
+fn json_and_table_agree() {
+    let place = Place::new(PENDULUM);
+    let printed = place.done(&["drift", "scene.json", "-o", "here", "--json", "--figures", "png"]);
+    assert_eq!(printed, place.text("here/drift.json"));
+    let rows: Vec<Value> = serde_json::from_str(&printed).unwrap();
+    let header = place.text("here/drift.csv").lines().next().unwrap().to_string();
+    assert!(header.starts_with("t,position none,velocity none,position baumgarte,"), "{header}");
+    assert_eq!(rows.len(), METHODS.len());
+    for row in &rows {
+        assert_eq!((&row["status"], &row["failure"]), (&"completed".into(), &Value::Null));
+        assert!(header.contains(row["method"].as_str().unwrap()));
+    }
+    let drift = |i: usize| rows[i]["drift"]["position"]["max"].as_f64().unwrap();
+    assert!(drift(0) > 1e-10 && drift(9) < 1e-14, "none {} exact {}", drift(0), drift(9));
+    assert!(fs::read(place.path("here/drift.png")).unwrap().starts_with(b"\x89PNG"));
+}
+
+#[test]
+fn runs_that_all_fail_are_a_failure() {
+    let place = Place::new(PENDULUM.replace(r#""force": [0, 0]"#, r#""force": ["sqrt(0.5 - t)", 0]"#));
+    let output = place.run(&["drift", "scene.json", "-o", "here", "--figures", "none"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(out(&output).contains("none FAILED at t = ") && err(&output).starts_with("error: stopped at t = "));
+    assert_eq!(place.files("here"), ["drift.csv", "drift.json"]);
+    let rows: Vec<Value> = serde_json::from_str(&place.text("here/drift.json")).unwrap();
+    assert!(rows.iter().all(|row| row["status"] == "failed"));
+}

@@ -1,0 +1,267 @@
+use super::*;
+
+const FILES: [&str; 7] =
+    ["drift.csv", "drift.svg", "energy.csv", "energy.svg", "outputs.svg", "summary.json", "trajectory.csv"];
+
+fn assert_no_nan(place: &Place, folder: &str) {
+    for name in place.files(folder).iter().filter(|name| !name.ends_with(".png")) {
+        let text = place.text(&format!("{folder}/{name}")).to_lowercase();
+        let words = text.split(|c: char| !c.is_alphanumeric());
+        assert!(words.into_iter().all(|word| !["nan", "inf", "infinity"].contains(&word)), "{name}");
+    }
+}
+
+#[test]
+fn the_files_lie_in_a_folder_of_the_scenes_name() {
+    let place = Place::new(PENDULUM);
+    let text = place.done(&["simulate", "scene.json"]);
+    assert_eq!(place.files("out/pendulum"), FILES);
+    assert!(text.starts_with("pendulum: index1 + dopri5 + manifold, rtol 1e-8, atol 1e-10\n"), "{text}");
+    assert!(text.contains("written to out/pendulum: trajectory.csv") && text.contains("theta"), "{text}");
+    assert_no_nan(&place, "out/pendulum");
+}
+
+#[test]
+fn the_trajectory_has_named_columns_and_one_row_an_output_step() {
+    let place = Place::new(PENDULUM);
+    place.done(&["simulate", "scene.json", "-o", "here", "--quiet"]);
+    let text = place.text("here/trajectory.csv");
+    let lines: Vec<&str> = text.lines().collect();
+    let header = "t,rod.x,rod.y,rod.angle,rod.x',rod.y',rod.angle',joint.A.x,joint.A.y,theta,pin";
+    assert_eq!((lines[0], lines.len()), (header, 12));
+    for (i, line) in lines[1..].iter().enumerate() {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        assert_eq!(cells.len(), 11);
+        assert!((cells[0] - 0.1 * i as f64).abs() < 1e-12 && cells.iter().all(|x| x.is_finite()));
+        assert_eq!(cells[3], cells[9]);
+        assert!((cells[7].hypot(cells[8]) - cells[10]).abs() < 1e-12);
+    }
+    assert_eq!(place.text("here/drift.csv").lines().next(), Some("t,position,velocity,acceleration"));
+    assert_eq!(place.text("here/energy.csv").lines().next(), Some("t,kinetic,potential,work,error"));
+}
+
+/// The keys that DESIGN.md promises come first or among the given ones.
+fn assert_keys(json: &Value, promised: &[&str], more: &[&str]) {
+    let mut expected: Vec<&str> = promised.iter().chain(more).copied().collect();
+    let mut found = keys(json);
+    expected.sort_unstable();
+    found.sort_unstable();
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn the_summary_has_the_promised_keys() {
+    let place = Place::new(PENDULUM);
+    place.done(&["simulate", "scene.json", "-o", "here", "--quiet"]);
+    let summary = place.json("here/summary.json");
+    let top =
+        ["scene", "method", "status", "failure", "t_end", "wall_seconds", "statistics", "drift", "energy", "final"];
+    assert_keys(&summary, &top, &["assembly"]);
+    assert_keys(&summary["method"], &["formulation", "integrator", "projection", "rtol", "atol", "step"], &[]);
+    let counters = ["steps", "rejected", "rhs_evaluations", "jacobian_evaluations", "factorizations"];
+    let rest = ["newton_iterations", "projections"];
+    assert_keys(&summary["statistics"], &[&counters[..], &rest].concat(), &["rank_deficient"]);
+    assert_keys(&summary["drift"], &["position", "velocity", "acceleration"], &[]);
+    for level in ["position", "velocity", "acceleration"] {
+        assert_keys(&summary["drift"][level], &["max", "final"], &["relative_max", "relative_final"]);
+    }
+    assert_keys(&summary["energy"], &["initial", "final", "max_error"], &["work", "relative_max_error"]);
+    assert_keys(&summary["final"], &["t", "q", "v", "lambda", "outputs"], &[]);
+    assert_eq!(keys(&summary["final"]["q"]), ["rod.x", "rod.y", "rod.angle"]);
+    assert_eq!(keys(&summary["final"]["v"]), ["rod.x'", "rod.y'", "rod.angle'"]);
+    assert_eq!(keys(&summary["final"]["lambda"]), ["joint.A.x", "joint.A.y"]);
+    assert_eq!(keys(&summary["final"]["outputs"]), ["theta", "pin"]);
+}
+
+#[test]
+fn the_summary_says_what_was_done() {
+    let place = Place::new(PENDULUM);
+    place.done(&["simulate", "scene.json", "-o", "here", "--quiet"]);
+    let summary = place.json("here/summary.json");
+    assert_eq!(summary["scene"], "pendulum");
+    assert_eq!((&summary["status"], &summary["failure"]), (&Value::from("completed"), &Value::Null));
+    assert_eq!((&summary["t_end"], &summary["final"]["t"]), (&Value::from(1.0), &Value::from(1.0)));
+    assert_eq!(summary["method"]["step"], Value::Null);
+    assert!(summary["statistics"]["steps"].as_u64().unwrap() > 10);
+    assert!(summary["drift"]["position"]["max"].as_f64().unwrap() < 1e-12);
+}
+
+#[test]
+fn json_prints_the_summary_and_nothing_else() {
+    let place = Place::new(PENDULUM);
+    let printed = place.done(&["simulate", "scene.json", "-o", "here", "--json"]);
+    assert_eq!(printed, place.text("here/summary.json"));
+    let both = place.done(&["simulate", "scene.json", "-o", "here", "--json", "--quiet"]);
+    assert_eq!(keys(&serde_json::from_str(&both).unwrap()), keys(&place.json("here/summary.json")));
+}
+
+#[test]
+fn quiet_prints_nothing() {
+    let place = Place::new(PENDULUM);
+    let output = place.run(&["simulate", "scene.json", "--quiet"]);
+    assert_eq!((output.status.code(), out(&output), err(&output)), (Some(0), String::new(), String::new()));
+}
+
+#[test]
+fn a_pipe_gets_no_progress_bar() {
+    let output = Place::new(PENDULUM).run(&["simulate", "scene.json"]);
+    assert_eq!(err(&output), "");
+}
+
+fn method_of(scene: &str, args: &[&str]) -> Value {
+    let place = Place::new(scene);
+    let printed = place.done(&[&["simulate", "scene.json", "--json", "--figures", "none"], args].concat());
+    serde_json::from_str::<Value>(&printed).unwrap()["method"].clone()
+}
+
+#[test]
+fn methods_are_named_with_their_options() {
+    let table: [(&[&str], &str, &str); 5] = [
+        (&["--formulation", "baumgarte:alpha=5,beta=5"], "formulation", "baumgarte:alpha=5,beta=5"),
+        (&["--formulation", "invariant-manifold"], "formulation", "invariant_manifold"),
+        (&["--formulation", " Baumgarte : alpha = 5 "], "formulation", "baumgarte:alpha=5"),
+        (&["--projection", "manifold:sweeps=2"], "projection", "manifold:sweeps=2"),
+        (&["--integrator", "dop853"], "integrator", "dop853"),
+    ];
+    for (args, key, expected) in table {
+        assert_eq!(method_of(PENDULUM, args)[key], expected, "{args:?}");
+    }
+    let given = method_of(PENDULUM, &["--rtol", "1e-5", "--atol", "1e-6", "--step", "0.01", "--integrator", "rk4"]);
+    assert_eq!((&given["rtol"], &given["atol"], &given["step"]), (&1e-5.into(), &1e-6.into(), &0.01.into()));
+}
+
+#[test]
+fn the_command_line_goes_before_the_scene() {
+    let own = r#""simulation": { "formulation": {"baumgarte": {"alpha": 5, "beta": 6.5}}, "integrator": "rk4", "step": 0.01, "#;
+    let scene = PENDULUM.replace(r#""simulation": {"#, own);
+    let method = method_of(&scene, &[]);
+    assert_eq!(method["formulation"], "baumgarte:alpha=5,beta=6.5");
+    assert_eq!((&method["integrator"], &method["step"]), (&"rk4".into(), &0.01.into()));
+    let method = method_of(&scene, &["--integrator", "dopri5", "--formulation", "index1"]);
+    assert_eq!((&method["formulation"], &method["step"]), (&"index1".into(), &Value::Null));
+}
+
+#[test]
+fn parameters_and_the_end_are_set_from_outside() {
+    let scene = PENDULUM.replace(r#""gravity": [0, -9.81]"#, r#""gravity": [0, "-g"], "parameters": { "g": 9.81 }"#);
+    let place = Place::new(scene);
+    place.done(&["simulate", "scene.json", "--set", "g=0", "--until", "0.25", "--output-step", "0.1", "-o", "here"]);
+    let summary = place.json("here/summary.json");
+    assert_eq!((&summary["t_end"], &summary["final"]["q"]["rod.angle"]), (&0.25.into(), &0.0.into()));
+    let times: Vec<String> =
+        place.text("here/trajectory.csv").lines().map(|line| line.split(',').next().unwrap().into()).collect();
+    assert_eq!(times, ["t", "0", "0.1", "0.2", "0.25"]);
+}
+
+#[test]
+fn figures_come_as_asked() {
+    let place = Place::new(PENDULUM);
+    place.done(&["simulate", "scene.json", "-o", "png", "--figures", "png", "--quiet"]);
+    for name in ["drift.png", "energy.png", "outputs.png"] {
+        assert!(fs::read(place.path("png").join(name)).unwrap().starts_with(b"\x89PNG\r\n\x1a\n"), "{name}");
+    }
+    place.done(&["simulate", "scene.json", "-o", "none", "--figures", "none", "--quiet"]);
+    assert_eq!(place.files("none"), ["drift.csv", "energy.csv", "summary.json", "trajectory.csv"]);
+    place.done(&["simulate", "scene.json", "-o", "svg", "--quiet"]);
+    for name in ["drift.svg", "energy.svg", "outputs.svg"] {
+        assert_well_formed(&place.text(&format!("svg/{name}")));
+    }
+}
+
+/// Every element that opens closes, in the right order, and text has no stray signs.
+fn assert_well_formed(svg: &str) {
+    let mut open: Vec<&str> = Vec::new();
+    for piece in svg.split('<').skip(1) {
+        let (tag, text) = piece.split_once('>').expect("a tag closes");
+        assert!(!text.replace("&amp;", "").replace("&lt;", "").replace("&gt;", "").contains('&'), "{text}");
+        match tag {
+            _ if tag.starts_with(['?', '!']) || tag.ends_with('/') => {}
+            _ if tag.starts_with('/') => assert_eq!(open.pop(), Some(&tag[1..])),
+            _ => open.push(tag.split_whitespace().next().unwrap()),
+        }
+    }
+    assert!(open.is_empty() && svg.contains("<svg"), "{open:?}");
+}
+
+#[test]
+fn repeated_runs_are_the_same_bit_by_bit() {
+    let place = Place::new(parallelogram());
+    for folder in ["first", "second"] {
+        place.done(&["simulate", "scene.json", "-o", folder, "--quiet"]);
+    }
+    for name in ["trajectory.csv", "drift.csv", "energy.csv", "drift.svg"] {
+        let [first, second] = ["first", "second"].map(|folder| place.text(&format!("{folder}/{name}")));
+        assert!(first == second, "{name}");
+    }
+}
+
+/// After half a second the force is the root of a negative number.
+fn spoilt() -> Place {
+    Place::new(PENDULUM.replace(r#""force": [0, 0]"#, r#""force": ["sqrt(0.5 - t)", 0]"#))
+}
+
+#[test]
+fn a_run_that_cannot_go_on_keeps_what_came_before() {
+    for method in [&["--integrator", "dopri5"][..], &["--integrator", "rk4", "--step", "0.01"]] {
+        let place = spoilt();
+        let output = place.run(&[&["simulate", "scene.json", "-o", "here"], method].concat());
+        assert_eq!(output.status.code(), Some(1));
+        let message = err(&output);
+        for word in
+            ["error: stopped at t = ", "the force on `rod.x` is infinite or not a number", "help: an expression"]
+        {
+            assert!(message.contains(word), "{message}");
+        }
+        assert_eq!(place.files("here"), FILES);
+        let rows = place.text("here/trajectory.csv");
+        let last: f64 = rows.lines().last().unwrap().split(',').next().unwrap().parse().unwrap();
+        assert!(rows.lines().count() >= 6 && last > 0.48 && last <= 0.5, "{last}");
+        assert_no_nan(&place, "here");
+    }
+}
+
+#[test]
+fn a_failed_run_says_so_in_its_summary() {
+    let place = spoilt();
+    let output = place.run(&["simulate", "scene.json", "-o", "here", "--json"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(out(&output), place.text("here/summary.json"));
+    let summary = place.json("here/summary.json");
+    assert_eq!(summary["status"], "failed");
+    assert_eq!(keys(&summary["failure"]), ["t", "reason", "hint"]);
+    let [t, end, last] =
+        [&summary["failure"]["t"], &summary["t_end"], &summary["final"]["t"]].map(|t| t.as_f64().unwrap());
+    assert!(t > 0.49 && t <= 0.5 && t == end && t == last, "{t} {end} {last}");
+}
+
+#[test]
+fn a_motion_that_flies_apart_fails_or_warns() {
+    let fast = PENDULUM.replace(r#""angle": 0"#, r#""angle": 0, "velocity": [0, 500], "angular_velocity": 1000"#);
+    let place = Place::new(fast);
+    let heun = ["simulate", "scene.json", "--integrator", "heun", "--step", "0.05", "--projection", "none"];
+    let output = place.run(&[&heun[..], &["--until", "50", "-o", "here"]].concat());
+    let message = err(&output);
+    assert!(
+        message.starts_with("warning: the joints have come apart by") || output.status.code() == Some(1),
+        "{message}"
+    );
+    assert!(message.contains("help: ") && message.contains("projection"), "{message}");
+    assert_no_nan(&place, "here");
+}
+
+#[test]
+fn results_of_before_are_replaced_whole() {
+    let place = Place::new(PENDULUM);
+    place.done(&["simulate", "scene.json", "-o", "here", "--quiet"]);
+    fs::write(place.path("here/notes.txt"), "mine").unwrap();
+    place.done(&["simulate", "scene.json", "-o", "here", "--quiet", "--until", "0.2"]);
+    assert_eq!(place.text("here/notes.txt"), "mine");
+    assert_eq!(place.json("here/summary.json")["t_end"], 0.2);
+    assert!(place.files("here").iter().all(|name| !name.starts_with('.')));
+}
+
+#[test]
+fn redundant_constraints_are_told() {
+    let text = Place::new(parallelogram()).done(&["simulate", "scene.json"]);
+    assert!(text.contains("redundant constraints at all states: multipliers are those of least norm"), "{text}");
+}
