@@ -17,7 +17,8 @@ use crate::system::{MechanicalSystem, Structure, Terms};
 /// G may be rank deficient, by redundant rows or at a singular position: the matrix stays regular. There, what the
 /// redundant rows contradict each other by is multiplied by a in lambda (1e-9 of the reactions with the default). Cost:
 /// solved as a saddle-point system with a slack a row, which has no M + G^T a G to be ill-conditioned; about that of
-/// index 1. The rank of G is not reported.
+/// index 1. The rank of G is not reported. An adaptive integrator with a projection takes very small steps where the
+/// tolerance is below the error of the penalty, since each step leaves the manifold by that: raise the penalty.
 pub const ENTRY: Entry = Entry {
     name: "penalty",
     about: "(M + G^T a G) v' = f + G^T a c: error O(1/penalty), redundant rows and singular positions allowed",
