@@ -36,13 +36,7 @@ impl Method {
     /// Refuses combinations that make no sense, naming those that do.
     pub fn check(&self) -> Result<()> {
         let entry = integrator::find(&self.integrator)?;
-        if !entry.accepts.contains(&self.formulation.name.as_str()) {
-            let known = formulation::registry().iter().any(|known| known.name == self.formulation.name);
-            if known {
-                return Err(Error::input(format!("{} cannot integrate {}", entry.name, self.formulation.name))
-                    .hint(format!("{} accepts {}", entry.name, entry.accepts.join(", "))));
-            }
-        }
+        integrator::check_pair(entry, &self.formulation)?;
         for (name, value) in [("rtol", self.rtol), ("atol", self.atol)] {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(Error::input(format!("{name} is {value}, but must be above zero")).under(name));
@@ -289,7 +283,8 @@ impl<'a> Run<'a> {
             self.change.iter_mut().zip(&self.next).for_each(|(change, next)| *change -= next);
             let correction = self.tolerance.norm(&self.next, &self.change);
             if correction > MOST_CORRECTION {
-                self.refusal = "the projection moves the state by far more than the tolerance (is the start consistent?)";
+                self.refusal =
+                    "the projection moves the state by far more than the tolerance (is the start consistent?)";
                 return Ok(Some(correction));
             }
         }

@@ -5,6 +5,8 @@
 mod baumgarte;
 mod dynamics;
 mod index1;
+mod index2;
+mod index3;
 mod invariant_manifold;
 mod stabilizer;
 
@@ -39,7 +41,7 @@ pub struct Entry {
 
 /// Every formulation, in the order of the documentation.
 pub fn registry() -> &'static [Entry] {
-    &[index1::ENTRY, baumgarte::ENTRY, invariant_manifold::ENTRY]
+    &[index1::ENTRY, index2::ENTRY, index3::ENTRY, baumgarte::ENTRY, invariant_manifold::ENTRY]
 }
 
 /// The formulation that `choice` names, for `system`.

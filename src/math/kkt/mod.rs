@@ -30,11 +30,13 @@ mod symbolic;
 mod system;
 #[cfg(test)]
 mod tests;
+mod two_places;
 
 pub use condition::condition_number;
 pub use dependence::{Dependence, DependentRow, dependent_rows};
 pub use pattern::Pattern;
 pub use saddle::SaddlePoint;
+pub use two_places::TwoPlaces;
 
 /// Why a saddle-point system cannot be solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -51,4 +53,7 @@ pub enum Singular {
     /// The last factorization failed, or there was none.
     #[error("the saddle-point system is not factored")]
     NotFactored,
+    /// Iteration between the constraints of two places does not converge.
+    #[error("the constraints at the ends of a stage are too far apart for its equations to be solved")]
+    Apart,
 }
