@@ -13,6 +13,8 @@ pub enum Halt {
     NotFinite,
     /// The equations do not determine the accelerations.
     Singular(Singular),
+    /// The method does not fit these equations, and why.
+    Unsuitable(&'static str),
 }
 
 impl fmt::Display for Halt {
@@ -20,6 +22,7 @@ impl fmt::Display for Halt {
         match self {
             Halt::NotFinite => write!(out, "the equations of motion are no longer finite"),
             Halt::Singular(singular) => write!(out, "{singular}"),
+            Halt::Unsuitable(reason) => write!(out, "{reason}"),
         }
     }
 }
@@ -106,6 +109,17 @@ impl<'a> Dynamics<'a> {
         self.statistics.rhs_evaluations += 1;
         self.evaluate(t, q, v, Need::DYNAMICS);
         self.factor()?;
+        self.solve_factored(acceleration_level)
+    }
+
+    /// The same for the plain equations at another velocity of the state whose matrix is factored.
+    pub fn solve_at_velocity(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), Halt> {
+        self.statistics.rhs_evaluations += 1;
+        self.evaluate(t, q, v, Need::FORCE | Need::CONSTRAINTS);
+        self.solve_factored(|_, _| 0.0)
+    }
+
+    fn solve_factored(&mut self, acceleration_level: impl Fn(f64, f64) -> f64) -> Result<(), Halt> {
         self.vdot.copy_from_slice(&self.terms.f);
         for (i, lambda) in self.lambda.iter_mut().enumerate() {
             *lambda = self.terms.gamma[i] + acceleration_level(self.terms.phi[i], self.terms.phi_dot[i]);

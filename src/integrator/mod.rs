@@ -13,6 +13,7 @@ mod hermite;
 mod heun;
 mod phem56;
 mod problem;
+mod rattle;
 mod rk4;
 
 pub use control::{Control, Tolerance, first_step};
@@ -105,7 +106,17 @@ pub const HALF_EXPLICIT: &[&str] = &["index2"];
 
 /// Every integrator, in the order of the documentation.
 pub fn registry() -> &'static [Entry] {
-    &[heun::ENTRY, rk4::ENTRY, dopri5::ENTRY, dop853::ENTRY, hem::HEM3, hem::HEM4, hem::HEM5, phem56::ENTRY]
+    &[
+        heun::ENTRY,
+        rk4::ENTRY,
+        dopri5::ENTRY,
+        dop853::ENTRY,
+        hem::HEM3,
+        hem::HEM4,
+        hem::HEM5,
+        phem56::ENTRY,
+        rattle::ENTRY,
+    ]
 }
 
 /// The registry's entry that `choice` names.
