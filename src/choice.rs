@@ -1,6 +1,6 @@
 //! A method as a user names it: `baumgarte:alpha=5,beta=5`, or `{"baumgarte": {"alpha": 5, "beta": 5}}` in a scene.
 
-use crate::error::{Error, Result, suggest};
+use crate::error::{Error, Result, excerpt, suggest};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
@@ -49,10 +49,8 @@ impl Choice {
         entries: impl Iterator<Item = (&'a str, &'a [OptionDoc])> + Clone,
     ) -> Result<usize> {
         let Some(index) = entries.clone().position(|(name, _)| name == self.name) else {
-            let known: Vec<&str> = entries.map(|(name, _)| name).collect();
-            let near = suggest(&self.name, known.iter().copied());
-            let hint = if near.starts_with("did") { near } else { format!("choose one of {}", known.join(", ")) };
-            return Err(Error::input(format!("there is no {what} `{}`", self.name)).hint(hint));
+            let hint = suggest(&self.name, entries.map(|(name, _)| name));
+            return Err(Error::input(format!("there is no {what} `{}`", excerpt(&self.name))).hint(hint));
         };
         let known: &[OptionDoc] = entries.clone().nth(index).map_or(&[], |(_, options)| options);
         for (key, _) in &self.options {
@@ -84,7 +82,8 @@ impl Choice {
     pub fn not_negative(&self, key: &str, default: f64) -> Result<f64> {
         let value = self.number(key, default)?;
         match value < 0.0 {
-            true => Err(Error::input(format!("{}: {key} is {value}, but cannot be negative", self.name))),
+            true => Err(Error::input(format!("{}: {key} is {value}, but cannot be negative", self.name))
+                .hint("give zero or more")),
             false => Ok(value),
         }
     }
@@ -130,8 +129,11 @@ impl<'de> Deserialize<'de> for Choice {
 
 fn from_json(value: &Value) -> Result<Choice> {
     let wrong = || {
-        Error::input(format!("expected the name of a method or an object with its options, found {value}"))
-            .hint("write \"baumgarte\" or {\"baumgarte\": {\"alpha\": 5, \"beta\": 5}}")
+        Error::input(format!(
+            "expected the name of a method or an object with its options, found {}",
+            crate::error::excerpt(&value.to_string())
+        ))
+        .hint("write \"baumgarte\" or {\"baumgarte\": {\"alpha\": 5, \"beta\": 5}}")
     };
     match value {
         Value::String(text) => Choice::parse(text),

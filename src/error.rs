@@ -9,7 +9,7 @@ pub type Result<T, E = Error> = std::result::Result<T, E>;
 #[derive(Debug, Clone, PartialEq)]
 pub enum Error {
     /// The input cannot be meant as it stands.
-    Input(Input),
+    Input(Box<Input>),
     /// A file could not be read or written.
     File { path: PathBuf, problem: String },
     /// The computation could not go on; what was computed until then is kept.
@@ -43,7 +43,7 @@ pub struct Failure {
 impl Error {
     /// Bad input at the whole of what is being read; [`under`](Self::under) adds the path from outside.
     pub fn input(message: impl Into<String>) -> Self {
-        Error::Input(Input { message: message.into(), ..Input::default() })
+        Error::Input(Box::new(Input { message: message.into(), ..Input::default() }))
     }
 
     pub fn file(path: impl Into<PathBuf>, problem: impl ToString) -> Self {
@@ -75,6 +75,24 @@ impl Error {
                 Some(_) => format!("{}.{}", segment.as_ref(), input.path),
             };
             input.path = joined;
+        }
+        self
+    }
+
+    /// Adds line and column in the file.
+    pub fn placed(mut self, place: (usize, usize)) -> Self {
+        if let Error::Input(input) = &mut self {
+            input.place.get_or_insert(place);
+        }
+        self
+    }
+
+    /// Adds the file that was read, unless an option of the command line is at fault.
+    pub fn in_file(mut self, path: impl Into<PathBuf>) -> Self {
+        if let Error::Input(input) = &mut self
+            && !input.path.starts_with('-')
+        {
+            input.file.get_or_insert(path.into());
         }
         self
     }
@@ -124,20 +142,87 @@ impl From<Failure> for Error {
     }
 }
 
+/// The name in `known` that `found` was meant to be: one or two slips away, or longer and beginning with it.
+pub fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let found = found.to_lowercase();
+    let length = found.chars().count();
+    let slips = |name: &str| strsim::damerau_levenshtein(&found, &name.to_lowercase());
+    let allowed = (length / 3).clamp(usize::from(length > 1), 4);
+    let begins = |name: &str| length >= 3 && name.to_lowercase().starts_with(&found);
+    let alike = |name: &str| 2 * slips(name) <= length && strsim::jaro_winkler(&found, &name.to_lowercase()) > 0.8;
+    // Of several that are merely alike the first counts, after all that are a slip away.
+    let rank = |name: &&str| if slips(name) <= allowed { slips(name) } else { usize::MAX };
+    known.into_iter().filter(|name| slips(name) <= allowed || begins(name) || alike(name)).min_by_key(rank)
+}
+
 /// "did you mean" for a name that is not in the list, or the list itself when nothing is near.
 pub fn suggest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     let mut known: Vec<&str> = known.into_iter().collect();
-    let near = known.iter().max_by(|a, b| {
-        strsim::jaro_winkler(found, a).total_cmp(&strsim::jaro_winkler(found, b)).then_with(|| b.cmp(a))
-    });
-    match near {
-        None => "there are none to choose from".to_string(),
-        Some(best) if strsim::jaro_winkler(found, best) > 0.75 => format!("did you mean `{best}`?"),
-        Some(_) => {
-            let more = known.len().saturating_sub(12);
-            known.truncate(12);
-            let tail = if more > 0 { format!(", and {more} more") } else { String::new() };
-            format!("known are: {}{tail}", known.join(", "))
-        }
+    if let Some(near) = nearest(found, known.iter().copied()) {
+        return format!("did you mean `{near}`?");
+    }
+    match known.as_slice() {
+        [] => return "there are none to choose from".to_string(),
+        [only] => return format!("there is only `{only}`"),
+        _ => {}
+    }
+    let more = known.len().saturating_sub(MOST_NAMES);
+    known.truncate(MOST_NAMES);
+    let tail = if more > 0 { format!(" and {more} more") } else { String::new() };
+    format!("choose one of {}{tail}", known.join(", "))
+}
+
+/// So many names a message lists.
+const MOST_NAMES: usize = 12;
+
+/// The beginning of a user's text, short enough for a message.
+pub fn excerpt(text: &str) -> String {
+    const MOST: usize = 60;
+    match text.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text.to_string(),
+    }
+}
+
+/// A number with at most four digits that count, as a person writes it: 0.5, 1.25e-7.
+pub fn short(value: f64) -> String {
+    let rounded = format!("{value:.3e}").parse::<f64>().unwrap_or(value);
+    match rounded.abs() {
+        size if size == 0.0 || (1e-3..1e6).contains(&size) => format!("{rounded}"),
+        _ => format!("{rounded:e}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slips_are_mended() {
+        let known = ["stiffness", "damping", "spring_damper", "inertia", "initial", "t_end", "between", "mass", "x"];
+        let table = [
+            ("stifness", Some("stiffness")),
+            ("intial", Some("initial")),
+            ("inertai", Some("inertia")),
+            ("tend", Some("t_end")),
+            ("betwen", Some("between")),
+            ("spring", Some("spring_damper")),
+            ("masss", Some("mass")),
+            ("dmaping", Some("damping")),
+            ("X", Some("x")),
+            ("y", None),
+            ("hinge", None),
+            ("zzz", None),
+            ("", None),
+        ];
+        table.iter().for_each(|(found, meant)| assert_eq!(nearest(found, known), *meant, "{found}"));
+        assert_eq!(suggest("hinge", ["weld", "gear"]), "choose one of weld, gear");
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        let table = [(0.0, "0"), (0.5, "0.5"), (1.0 / 3.0, "0.3333"), (-5.0, "-5"), (123456.7, "123500")];
+        table.iter().for_each(|(value, text)| assert_eq!(short(*value), *text));
+        assert_eq!((short(1.2346e-7), short(1e9), short(f64::NAN)), ("1.235e-7".into(), "1e9".into(), "NaN".into()));
     }
 }

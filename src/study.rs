@@ -1,13 +1,13 @@
 //! A scene made ready: its mechanism, a consistent start, and how to simulate it.
 
+use crate::choice::Choice;
 use crate::error::{Error, Result};
-use crate::formulation::Choice;
 use crate::initial::{self, Assembly};
-use crate::integrator;
 use crate::math::expression::{Number, Parameters};
-use crate::scene::{AnyModel, Scene, Simulation};
+use crate::scene::{self, AnyModel, Scene, Simulation};
 use crate::simulate::{Method, Span};
 use crate::system::{MechanicalSystem, Mechanism};
+use crate::{formulation, integrator, projection};
 use std::path::Path;
 
 /// A mechanism in the plane or in space.
@@ -58,25 +58,21 @@ impl Study {
     /// # Errors
     /// Bad input of any kind: see [`Scene::load`], [`initial::assemble`], [`Method::check`].
     pub fn load(path: &Path, overrides: &Overrides) -> Result<Study> {
-        let scene = Scene::load(path, &overrides.set)?;
-        Study::new(scene, overrides).map_err(|error| match error {
-            Error::Input(mut input) if !input.path.starts_with('-') => {
-                input.file = Some(path.to_path_buf());
-                Error::Input(input)
-            }
-            other => other,
-        })
+        let text = scene::read_text(path)?;
+        let study = Scene::parse(&text, &overrides.set).and_then(|scene| Study::new(scene, overrides));
+        study.map_err(|error| scene::place(error, path, &text))
     }
 
     pub fn new(scene: Scene, overrides: &Overrides) -> Result<Study> {
         let settings = Settings { parameters: &scene.parameters, scene: &scene.simulation, overrides };
-        let method = settings.method()?;
+        let method = settings.method().map_err(|error| settings.place(error))?;
         let start = settings.number("t_start", &scene.simulation.t_start)?.unwrap_or(0.0);
-        let span = settings.span(start)?;
+        let span = settings.span(start).map_err(|error| settings.place(error))?;
         let mechanism = match scene.model {
             AnyModel::Planar(model) => AnyMechanism::Planar(Mechanism::new(model)),
             AnyModel::Spatial(model) => AnyMechanism::Spatial(Mechanism::new(model)),
         };
+        check_options(&method, mechanism.system()).map_err(|error| settings.place(error))?;
         let assembly = initial::assemble(mechanism.system(), start, (&scene.q, &scene.v), &scene.hold)?;
         Ok(Study {
             name: scene.name,
@@ -100,7 +96,8 @@ impl Study {
     /// Where neither the scene nor the command line says until when.
     pub fn span(&self) -> Result<Span> {
         self.span.ok_or_else(|| {
-            Error::input("there is no end time").hint("give --until T, or \"t_end\" in \"simulation\" of the scene")
+            Error::input(format!("the scene `{}` has no end time", self.name))
+                .hint("give --until T, or \"t_end\" in \"simulation\" of the scene")
         })
     }
 
@@ -108,6 +105,16 @@ impl Study {
     pub fn start(&self) -> (&[f64], &[f64]) {
         (&self.assembly.q, &self.assembly.v)
     }
+}
+
+/// Refuses unknown names and options of formulation, integrator and projection before anything is computed.
+fn check_options(method: &Method, system: &dyn MechanicalSystem) -> Result<()> {
+    formulation::make(&method.formulation, system).map_err(|error| error.under("formulation"))?;
+    let entry = integrator::find(&method.integrator)?;
+    let setup = integrator::Setup { integrator: &method.integrator, formulation: &method.formulation, system };
+    (entry.make)(&setup).map_err(|error| error.under("integrator"))?;
+    projection::make(&method.projection, system).map_err(|error| error.under("projection"))?;
+    Ok(())
 }
 
 /// The scene's settings under those of the command line.
@@ -119,8 +126,29 @@ struct Settings<'a> {
 
 /// Rows of a trajectory where nothing is said.
 const ROWS: f64 = 500.0;
+/// More rows than this are a slip of the hand.
+const MOST_ROWS: f64 = 1e7;
 
 impl Settings<'_> {
+    /// The same error at the option or key that gave the setting at which it is.
+    fn place(&self, error: Error) -> Error {
+        let Error::Input(mut input) = error else { return error };
+        let given = self.overrides;
+        let (option, is_given) = match input.path.as_str() {
+            "formulation" => ("--formulation", given.formulation.is_some()),
+            "integrator" => ("--integrator", given.integrator.is_some()),
+            "projection" => ("--projection", given.projection.is_some()),
+            "rtol" => ("--rtol", given.rtol.is_some()),
+            "atol" => ("--atol", given.atol.is_some()),
+            "step" => ("--step", given.step.is_some()),
+            "t_end" => ("--until", given.until.is_some()),
+            "output_step" => ("--output-step", given.output_step.is_some()),
+            _ => return Error::Input(input),
+        };
+        input.path = if is_given { option.to_string() } else { format!("simulation.{}", input.path) };
+        Error::Input(input)
+    }
+
     fn number(&self, field: &str, number: &Option<Number>) -> Result<Option<f64>> {
         let Some(number) = number else { return Ok(None) };
         let value = number.evaluate(self.parameters);
@@ -134,7 +162,7 @@ impl Settings<'_> {
         };
         let integrator = pick(&given.integrator, &scene.integrator, default.integrator);
         // A scene's fixed step goes with the scene's integrator.
-        let adaptive = integrator::find(&integrator)?.adaptive;
+        let adaptive = integrator::find(&integrator).map_err(|error| error.under("integrator"))?.adaptive;
         let own_step = if given.integrator.is_some() && adaptive { None } else { self.number("step", &scene.step)? };
         let method = Method {
             formulation: pick(&given.formulation, &scene.formulation, default.formulation),
@@ -153,15 +181,16 @@ impl Settings<'_> {
         let Some(end) = self.overrides.until.or(self.number("t_end", &scene.t_end)?) else { return Ok(None) };
         if !(end > start && end.is_finite()) {
             return Err(Error::input(format!("the end time {end} s is not after the start, {start} s"))
-                .hint("give --until T, or \"t_end\" in \"simulation\" of the scene"));
+                .under("t_end")
+                .hint("give a later end: --until T, or \"t_end\" in \"simulation\" of the scene"));
         }
         let given = self.overrides.output_step.or(self.number("output_step", &scene.output_step)?);
         let output_step = given.unwrap_or((end - start) / ROWS);
-        match output_step > 0.0 && (end - start) / output_step < 1e7 {
+        match output_step > 0.0 && (end - start) / output_step < MOST_ROWS {
             true => Ok(Some(Span { start, end, output_step })),
             false => Err(Error::input(format!("the output step is {output_step} s"))
-                .under("simulation.output_step")
-                .hint("it must be above zero and give fewer than ten million rows")),
+                .under("output_step")
+                .hint("give one above zero and above a ten-millionth of the time")),
         }
     }
 }

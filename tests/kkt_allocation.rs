@@ -1,23 +1,10 @@
 //! Factor and solve allocate nothing after their first use.
 
+#[path = "common/counting.rs"]
+mod counting;
+
+use counting::{Counting, count};
 use holonom::math::kkt::{Pattern, SaddlePoint};
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-
-thread_local!(static COUNT: Cell<usize> = const { Cell::new(0) });
-
-struct Counting;
-
-// The trait demands it; every call goes on to the system's allocator.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        COUNT.with(|c| c.set(c.get() + 1));
-        unsafe { System.alloc(layout) }
-    }
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
@@ -36,9 +23,9 @@ fn allocations(mass: &Pattern, mass_values: &[f64], g: &Pattern, g_values: &[f64
         solver.solve_refined(mass_values, g_values, &mut top, &mut bottom).unwrap();
     };
     round();
-    let before = COUNT.with(Cell::get);
+    let before = count();
     (0..70).for_each(|_| round());
-    COUNT.with(Cell::get) - before
+    count() - before
 }
 
 /// Rods between neighbours in a row of `points` points in the plane, with the last `copies` rods given twice.

@@ -1,10 +1,8 @@
 //! What elements resolve their parts of a scene with.
 
 use super::{Probe, Signal};
-use crate::error::{Error, Result, suggest};
+use crate::error::{Error, Result, nearest, suggest};
 use crate::math::expression::{Expression, Number, Parameters};
-use serde::de::DeserializeOwned;
-use serde_json::Value;
 
 /// Index of a marker among all markers of a scene, those of the ground included.
 pub type MarkerId = usize;
@@ -24,7 +22,12 @@ pub struct MarkerTable {
 impl MarkerTable {
     pub fn find(&self, name: &str) -> Result<MarkerId> {
         self.names.iter().position(|known| known == name).ok_or_else(|| {
-            let hint = suggest(name, self.names.iter().map(String::as_str).filter(|known| known.contains('.')));
+            let names = || self.names.iter().map(String::as_str);
+            // A body's own frame may be meant; where nothing is near, its markers are listed alone.
+            let hint = match nearest(name, names()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => suggest(name, names().filter(|known| known.contains('.'))),
+            };
             Error::input(format!("there is no marker `{name}`")).hint(hint)
         })
     }
@@ -54,7 +57,7 @@ impl<const D: usize> Build<'_, D> {
         if value < 0.0 {
             return Err(Error::input(format!("{field} is {value}, but cannot be negative"))
                 .under(field)
-                .hint(format!("give a {field} of zero or more")));
+                .hint("give zero or more"));
         }
         Ok(value)
     }
@@ -63,7 +66,9 @@ impl<const D: usize> Build<'_, D> {
     pub fn positive(&self, field: &str, number: &Number) -> Result<f64> {
         let value = self.number(field, number)?;
         if value <= 0.0 {
-            return Err(Error::input(format!("{field} is {value}, but must be above zero")).under(field));
+            return Err(Error::input(format!("{field} is {value}, but must be above zero"))
+                .under(field)
+                .hint("give a number above zero"));
         }
         Ok(value)
     }
@@ -126,29 +131,5 @@ impl<const D: usize> Build<'_, D> {
     /// A marker quantity such as `crank.C.x` or `crank.angle`.
     pub fn probe(&self, name: &str) -> Option<Probe> {
         Probe::parse::<D>(name, self.markers)
-    }
-}
-
-/// Reads a type from JSON; errors carry the path within it and suggest the nearest key.
-pub fn parse<T: DeserializeOwned>(json: Value) -> Result<T> {
-    serde_path_to_error::deserialize(json).map_err(|error| {
-        let path = error.path().to_string();
-        let message = error.inner().to_string();
-        let error = explain(&message);
-        if path == "." || path == "?" { error } else { error.under(path.trim_end_matches(".?")) }
-    })
-}
-
-/// Serde's words for a user: which key is unknown and which was meant.
-fn explain(message: &str) -> Error {
-    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-    match (message.starts_with("unknown field"), quoted.split_first()) {
-        (true, Some((found, known))) => {
-            Error::input(format!("unknown key `{found}`")).hint(suggest(found, known.iter().copied()))
-        }
-        _ if message.starts_with("missing field") => {
-            Error::input(format!("the key `{}` is missing", quoted.first().unwrap_or(&"?")))
-        }
-        _ => Error::input(message.to_string()),
     }
 }

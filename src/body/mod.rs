@@ -8,14 +8,16 @@
 mod build;
 mod frame;
 mod guided;
+mod parse;
 mod point_mass;
 mod probe;
 mod rigid;
 mod rigid_planar;
 mod rigid_spatial;
 
-pub use build::{Build, MarkerId, MarkerTable, parse};
+pub use build::{Build, MarkerId, MarkerTable};
 pub use frame::{Frame, Marker, Wrench, cross, dot, scale, sub, twist_len, unit_axes};
+pub use parse::{parse, parse_among, show};
 pub use probe::{Probe, Quantity, Signal, small_rotation, small_rotation_torque};
 pub use rigid::Initial;
 pub(crate) use rigid::quaternion;
@@ -212,9 +214,12 @@ fn entry<T: BodySpec, const D: usize>() -> Entry<D> {
     Entry {
         name: T::TYPE,
         schema: |generator| generator.subschema_for::<T>(),
-        build: |json, markers, initial, build| parse::<T>(json)?.build(markers, initial, build),
+        build: |json, markers, initial, build| parse_among::<T>(json, &SHARED_KEYS)?.build(markers, initial, build),
     }
 }
+
+/// The keys that all bodies have beside those of their kind.
+pub const SHARED_KEYS: [&str; 5] = ["name", "type", "markers", "initial", "origin"];
 
 /// Every kind of body, in the order of the documentation.
 pub fn registry<const D: usize>() -> Vec<Entry<D>> {

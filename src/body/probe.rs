@@ -81,7 +81,7 @@ impl Signal {
     /// Parses `text`; named outputs are put in as their own expressions.
     pub fn parse<const D: usize>(text: &str, build: &Build<D>, rates: bool) -> Result<Signal> {
         let names = Scope { build, rates, probes: Default::default() };
-        let expression = Expression::parse(&expand(text, build.outputs)?, &names)?;
+        let expression = Expression::parse(&expand(text, build)?, &names)?;
         if expression.is_constant() {
             expression.constant()?;
         }
@@ -96,7 +96,8 @@ impl Signal {
     pub fn function_of_time(self) -> Result<Expression> {
         match self.probes.is_empty() {
             true => Ok(self.expression),
-            false => Err(Error::input("may depend on t and parameters only, but uses a marker")),
+            false => Err(Error::input("this may depend on t and parameters only, but uses a marker")
+                .hint("markers may stand in an `equation` joint, an applied force or torque, and outputs")),
         }
     }
 
@@ -121,20 +122,27 @@ impl Signal {
     }
 }
 
+/// Expressions never need more bytes than this.
+const LONGEST: usize = 1_000_000;
+
 /// Replaces names of outputs by their expressions in brackets, as deep as outputs use outputs.
-fn expand(text: &str, outputs: &[(String, String)]) -> Result<String> {
+fn expand<const D: usize>(text: &str, build: &Build<D>) -> Result<String> {
     let mut text = text.to_string();
-    for _ in 0..=outputs.len() {
-        let next = replace_names(&text, outputs);
+    for _ in 0..=build.outputs.len() {
+        let next = replace_names(&text, build)?;
         if next == text {
             return Ok(text);
         }
+        if next.len() > LONGEST {
+            break;
+        }
         text = next;
     }
-    Err(Error::input("outputs refer to each other in a circle"))
+    Err(Error::input("outputs refer to each other in a circle, or grow beyond all bounds")
+        .hint("write one of them in terms of markers alone"))
 }
 
-fn replace_names(text: &str, outputs: &[(String, String)]) -> String {
+fn replace_names<const D: usize>(text: &str, build: &Build<D>) -> Result<String> {
     let is_name = |c: char| c.is_alphanumeric() || c == '_' || c == '.' || c == '\'';
     let mut result = String::with_capacity(text.len());
     let mut rest = text;
@@ -142,13 +150,17 @@ fn replace_names(text: &str, outputs: &[(String, String)]) -> String {
         let (before, tail) = rest.split_at(start);
         let (word, after) = tail.split_at(tail.find(|c| !is_name(c)).unwrap_or(tail.len()));
         result.push_str(before);
-        match outputs.iter().find(|(name, _)| name == word) {
+        match build.outputs.iter().find(|(name, _)| name == word) {
+            Some(_) if build.parameters.get(word).is_some() => {
+                let error = Error::input(format!("`{word}` is both a parameter and an output"));
+                return Err(error.hint("rename one of them"));
+            }
             Some((_, expression)) => result.push_str(&format!("({expression})")),
             None => result.push_str(word),
         }
         rest = after;
     }
-    result + rest
+    Ok(result + rest)
 }
 
 struct Scope<'a, const D: usize> {

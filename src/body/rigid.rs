@@ -4,7 +4,7 @@ use super::guided::Guided;
 use super::rigid_planar::RigidPlanar;
 use super::rigid_spatial::RigidSpatial;
 use super::{BodySpec, Build, Built, Marker, cross};
-use crate::error::{Error, Result, suggest};
+use crate::error::{Error, Result, short, suggest};
 use crate::math::expression::Number;
 use crate::math::rotation::{Matrix3, matrix_from_quaternion, quaternion_from_vector};
 use nalgebra::{Matrix3 as Tensor, SymmetricEigen};
@@ -28,7 +28,7 @@ pub struct Rigid {
 }
 
 #[derive(Deserialize, JsonSchema)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "expected a number, an expression such as \"m*l^2/12\", or a list of these")]
 pub enum Inertia {
     Moment(Number),
     Tensor(Vec<Number>),
@@ -150,7 +150,9 @@ impl Rigid {
         let spin: [f64; 3] = match &initial.angular_velocity {
             None => [0.0; 3],
             Some(Inertia::Moment(_)) => {
-                return Err(Error::input("expected 3 numbers, found one").under("initial.angular_velocity"));
+                return Err(Error::input("expected 3 numbers, found one")
+                    .under("initial.angular_velocity")
+                    .hint("give [wx, wy, wz] in the body's axes, rad/s"));
             }
             Some(Inertia::Tensor(numbers)) => build.vector("initial.angular_velocity", numbers)?,
         };
@@ -184,6 +186,11 @@ impl Rigid {
                     .hint(suggest(name, names.iter().copied())));
             }
         }
+        if free.is_empty() {
+            return Err(Error::input("no coordinate is free")
+                .under("free")
+                .hint(format!("name some of {}, or put the markers on the ground", names.join(", "))));
+        }
         Ok((0..names.len()).filter(|&i| free.iter().any(|name| name == names[i])).collect())
     }
 
@@ -195,7 +202,8 @@ impl Rigid {
             }
             Inertia::Tensor(numbers) if numbers.len() == 6 => build.vector::<6>("inertia", numbers)?,
             _ => {
-                return Err(Error::input("expected 3 or 6 numbers")
+                let found = if let Inertia::Tensor(numbers) = &self.inertia { numbers.len() } else { 1 };
+                return Err(Error::input(format!("expected 3 or 6 numbers, found {found}"))
                     .under("inertia")
                     .hint("a spatial body has [Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Ixz, Iyz]"));
             }
@@ -216,16 +224,18 @@ fn physical(tensor: &Matrix3) -> Result<()> {
     // Data come rounded to a few digits, so a thin rod may miss the bound by rounding.
     let slack = 1e-6 * moments[2].abs();
     if moments[0] < -slack {
-        return Err(Error::input(format!("a principal moment of inertia is {:.6e}, which is negative", moments[0]))
-            .under("inertia"));
-    }
-    if moments[2] > moments[0] + moments[1] + slack {
         return Err(Error::input(format!(
-            "principal moments {:.6e}, {:.6e}, {:.6e} violate the triangle inequality",
-            moments[0], moments[1], moments[2]
+            "a principal moment of inertia is {}, but cannot be negative",
+            short(moments[0])
         ))
         .under("inertia")
-        .hint("of no body is one principal moment larger than the sum of the other two: check units and signs"));
+        .hint("check the signs, and the order Ixx, Iyy, Izz, Ixy, Ixz, Iyz"));
+    }
+    if moments[2] > moments[0] + moments[1] + slack {
+        let [a, b, c] = [moments[0], moments[1], moments[2]].map(short);
+        return Err(Error::input(format!("principal moments {a}, {b}, {c} violate the triangle inequality"))
+            .under("inertia")
+            .hint("no body has one principal moment above the sum of the other two: check units and signs"));
     }
     Ok(())
 }

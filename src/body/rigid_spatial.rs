@@ -53,9 +53,7 @@ impl<const D: usize> BodyKernel<D> for RigidSpatial<D> {
         let centre: [S; D] = from_fn(|i| q[i]);
         let arm = cross(&sub(&frame.r, &centre), &wrench.force);
         let moment: [S; 3] = from_fn(|i| wrench.torque[i] + arm[i]);
-        for i in 0..3 {
-            f[i] += wrench.force[i];
-        }
+        f.iter_mut().zip(wrench.force).for_each(|(f, force)| *f += force);
         for (f, axis) in f[3..].iter_mut().zip(&axes_from_quaternion(&q[3..7])) {
             *f += dot(axis, &moment);
         }
@@ -74,9 +72,7 @@ impl<const D: usize> BodyKernel<D> for RigidSpatial<D> {
         values.iter_mut().zip(all).for_each(|(value, entry)| *value = S::constant(entry));
     }
     fn own_forces<S: Scalar>(&self, _q: &[S], v: &[S], gravity: &[f64; D], f: &mut [S]) {
-        for i in 0..3 {
-            f[i] += S::constant(self.mass * gravity[i]);
-        }
+        f.iter_mut().zip(gravity).for_each(|(f, g)| *f += S::constant(self.mass * g));
         let w = [v[3], v[4], v[5]];
         let gyroscopic = cross(&w, &self.angular_momentum(&w));
         f[3..].iter_mut().zip(gyroscopic).for_each(|(f, g)| *f -= g);

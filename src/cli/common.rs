@@ -1,9 +1,10 @@
 //! Options and habits that the subcommands share.
 
+use crate::choice::Choice;
 use crate::error::{Error, Result, suggest};
-use crate::formulation::Choice;
 use crate::plot::Figure;
 use crate::report::Folder;
+use crate::simulate::Span;
 use crate::study::{Overrides, Study};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -25,19 +26,19 @@ pub struct Common {
     #[arg(long, value_parser = choice)]
     pub projection: Option<Choice>,
     /// Relative tolerance
-    #[arg(long)]
+    #[arg(long, value_parser = positive, allow_negative_numbers = true)]
     pub rtol: Option<f64>,
     /// Absolute tolerance
-    #[arg(long)]
+    #[arg(long, value_parser = positive, allow_negative_numbers = true)]
     pub atol: Option<f64>,
     /// Fixed step, s
-    #[arg(long, value_name = "H")]
+    #[arg(long, value_name = "H", value_parser = positive, allow_negative_numbers = true)]
     pub step: Option<f64>,
     /// End time, s
-    #[arg(long, value_name = "T")]
+    #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
     pub until: Option<f64>,
     /// Distance of the rows of the trajectory, s
-    #[arg(long, value_name = "DT")]
+    #[arg(long, value_name = "DT", value_parser = positive, allow_negative_numbers = true)]
     pub output_step: Option<f64>,
     /// Replace a parameter of the scene
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
@@ -72,21 +73,26 @@ fn choice(text: &str) -> Result<Choice, String> {
     Choice::parse(text).map_err(|error| error.to_string())
 }
 
+fn number(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err(format!("`{text}` is not a finite number")),
+    }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    number(text).and_then(|value| if value > 0.0 { Ok(value) } else { Err("it must be above zero".to_string()) })
+}
+
 fn assignment(text: &str) -> Result<(String, f64), String> {
-    let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, as in --set k1=200")?;
-    let value: f64 = value.trim().parse().map_err(|_| format!("`{value}` is not a number"))?;
-    Ok((name.trim().to_string(), value))
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() => Ok((name.trim().to_string(), number(value)?)),
+        _ => Err("write NAME=VALUE, as in --set k1=200".to_string()),
+    }
 }
 
 impl Common {
     pub fn load(&self) -> Result<Study> {
-        for (option, value) in [("--rtol", self.rtol), ("--atol", self.atol), ("--step", self.step)] {
-            if value.is_some_and(|value| !(value > 0.0 && value.is_finite())) {
-                return Err(
-                    Error::input(format!("found {}, but it must be above zero", value.unwrap_or(0.0))).under(option)
-                );
-            }
-        }
         Study::load(
             &self.scene,
             &Overrides {
@@ -101,6 +107,11 @@ impl Common {
                 output_step: self.output_step,
             },
         )
+    }
+
+    /// When to simulate.
+    pub fn span(&self, study: &Study) -> Result<Span> {
+        study.span().map_err(|error| error.in_file(&self.scene))
     }
 
     /// Prints the result: JSON where asked, else text unless quiet.

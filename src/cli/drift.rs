@@ -41,6 +41,7 @@ struct Row {
 
 pub fn run(args: Args) -> Result<ExitCode> {
     let study = args.common.load()?;
+    args.common.span(&study)?;
     let mut folder = args.output.folder(&study.name)?;
     let bar = args.common.progress(stabilizations(1.0).len() as u64 + 1, "drift");
     let plain = one(&study, &Choice::named("index1"), &Choice::named("none"))?;

@@ -1,7 +1,7 @@
 //! `holonom generate NAME --n N`
 
 use super::common::{pick, print, to_json};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::report::write_whole;
 use crate::scene::generate;
 use std::path::PathBuf;
@@ -12,7 +12,7 @@ pub struct Args {
     /// Kind of scene: n_four_bar or chain
     name: String,
     /// Number of loops or links
-    #[arg(long, default_value_t = 10)]
+    #[arg(long, default_value_t = 10, value_parser = count, allow_negative_numbers = true)]
     n: usize,
     /// File to write (default: standard output)
     #[arg(short, value_name = "FILE")]
@@ -22,12 +22,13 @@ pub struct Args {
 /// Larger scenes than this are a slip of the hand.
 const MOST: usize = 1_000_000;
 
+fn count(text: &str) -> Result<usize, String> {
+    text.parse().ok().filter(|n| (1..=MOST).contains(n)).ok_or_else(|| format!("give a whole number from 1 to {MOST}"))
+}
+
 pub fn run(args: Args) -> Result<ExitCode> {
     let names: Vec<&str> = generate::registry().iter().map(|(name, _)| *name).collect();
     let name = pick("scene to generate", &args.name, &names)?;
-    if !(1..=MOST).contains(&args.n) {
-        return Err(Error::input(format!("found {}", args.n)).under("--n").hint(format!("give 1 to {MOST}")));
-    }
     let text = generate::registry().iter().find(|(known, _)| *known == name).map(|(_, make)| to_json(&make(args.n)));
     let text = text.unwrap_or_else(|| Ok(String::new()))? + "\n";
     match args.output {

@@ -19,7 +19,7 @@ pub struct Args {
 
 pub fn run(args: Args) -> Result<ExitCode> {
     let study = args.common.load()?;
-    let span = study.span()?;
+    let span = args.common.span(&study)?;
     let mut folder = args.output.folder(&study.name)?;
     let bar = args.common.progress(1000, &study.name);
     let fraction = |t: f64| (1000.0 * (t - span.start) / (span.end - span.start)) as u64;

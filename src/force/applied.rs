@@ -47,7 +47,7 @@ pub enum Axes {
 }
 
 #[derive(Deserialize, JsonSchema)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "expected a number, an expression such as \"k*t\", or a list of these")]
 pub enum OneOrMany {
     One(Number),
     Many(Vec<Number>),
@@ -59,7 +59,9 @@ impl ForceSpec for AppliedForce {
 
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
         if self.force.len() != D {
-            return Err(Error::input(format!("expected {D} numbers, found {}", self.force.len())).under("force"));
+            return Err(Error::input(format!("expected {D} numbers, found {}", self.force.len()))
+                .under("force")
+                .hint(format!("the scene has \"dimension\": {D}")));
         }
         let signals = signals("force", &self.force, build)?;
         let markers = targets(&self.at, &self.reaction_on, build)?;
@@ -75,8 +77,12 @@ impl ForceSpec for AppliedTorque {
         let signals = match &self.torque {
             OneOrMany::One(torque) if D == 2 => vec![build.signal("torque", torque, true)?],
             OneOrMany::Many(torque) if D == 3 && torque.len() == 3 => signals("torque", torque, build)?,
-            _ if D == 2 => return Err(Error::input("expected one number").under("torque")),
-            _ => return Err(Error::input("expected 3 numbers").under("torque")),
+            _ => {
+                let expected = if D == 2 { "one number" } else { "3 numbers" };
+                return Err(Error::input(format!("expected {expected}"))
+                    .under("torque")
+                    .hint(format!("the scene has \"dimension\": {D}")));
+            }
         };
         let markers = targets(&self.at, &self.reaction_on, build)?;
         build.oriented("at", &markers)?;
@@ -92,6 +98,10 @@ fn targets<const D: usize>(at: &str, reaction: &Option<String>, build: &Build<D>
     let mut markers = vec![build.marker("at", at)?];
     if let Some(name) = reaction {
         markers.push(build.marker("reaction_on", name)?);
+    }
+    if markers.iter().all(|&marker| build.markers.bodies[marker].is_none()) {
+        let error = Error::input(format!("`{at}` is on the ground, which no force moves")).under("at");
+        return Err(error.hint("name a marker of a body"));
     }
     Ok(markers)
 }

@@ -38,7 +38,9 @@ impl ForceSpec for Bushing {
 
 fn coefficients<const D: usize>(field: &str, numbers: &[Number], build: &Build<D>) -> Result<[f64; 6]> {
     if numbers.len() != twist_len(D) {
-        return Err(Error::input(format!("expected {} numbers, found {}", twist_len(D), numbers.len())).under(field));
+        return Err(Error::input(format!("expected {} numbers, found {}", twist_len(D), numbers.len()))
+            .under(field)
+            .hint(if D == 2 { "along x and y and about z" } else { "along x, y, z and about x, y, z" }));
     }
     let mut all = [0.0; 6];
     for (i, number) in numbers.iter().enumerate() {

@@ -11,7 +11,7 @@ mod spring_damper;
 mod torsion_spring;
 mod tyre;
 
-use crate::body::{Build, Frame, MarkerId, Slope, Wrench, parse};
+use crate::body::{Build, Frame, MarkerId, Slope, Wrench, parse_among};
 use crate::error::Result;
 use crate::math::{Scalar, Taylor};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -82,7 +82,7 @@ fn entry<T: ForceSpec, const D: usize>() -> Entry<D> {
         name: T::TYPE,
         driven: T::DRIVEN,
         schema: |generator| generator.subschema_for::<T>(),
-        build: |json, build| parse::<T>(json)?.build(build),
+        build: |json, build| parse_among::<T>(json, &["name", "type"])?.build(build),
     }
 }
 

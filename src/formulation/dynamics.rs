@@ -9,8 +9,12 @@ use std::fmt;
 /// Why a state cannot be evaluated.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Halt {
-    /// A term of the equations is infinite or not a number: the motion diverged, or an expression left its domain.
+    /// The state or a solution is infinite or not a number: the motion diverged.
     NotFinite,
+    /// A term of the equations is, and which: an expression left its domain, or two points coincide.
+    Term(String),
+    /// The coordinate has neither mass nor constraint along some direction of motion.
+    Undetermined(String),
     /// The equations do not determine the accelerations.
     Singular(Singular),
     /// The method does not fit these equations, and why.
@@ -20,7 +24,12 @@ pub enum Halt {
 impl fmt::Display for Halt {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Halt::NotFinite => write!(out, "the equations of motion are no longer finite"),
+            Halt::NotFinite => write!(out, "the motion is no longer finite"),
+            Halt::Term(term) => write!(out, "{term} is infinite or not a number"),
+            Halt::Undetermined(coordinate) => write!(
+                out,
+                "the motion is not determined: `{coordinate}` has neither mass nor constraint in a direction"
+            ),
             Halt::Singular(singular) => write!(out, "{singular}"),
             Halt::Unsuitable(reason) => write!(out, "{reason}"),
         }
@@ -95,7 +104,34 @@ impl<'a> Dynamics<'a> {
     /// Factors the saddle-point matrix of the terms.
     pub fn factor(&mut self) -> Result<(), Halt> {
         self.statistics.factorizations += 1;
-        Ok(self.kkt.factor(&self.terms.mass, &self.terms.g)?)
+        let factored = self.kkt.factor(&self.terms.mass, &self.terms.g);
+        factored.map_err(|singular| self.halt(singular))
+    }
+
+    /// Why the terms have no solution, with names.
+    fn halt(&self, singular: Singular) -> Halt {
+        match singular {
+            Singular::Undetermined { coordinate } => Halt::Undetermined(self.coordinate(coordinate)),
+            Singular::NotFinite => self.infinite_term().map_or(Halt::NotFinite, Halt::Term),
+            other => Halt::Singular(other),
+        }
+    }
+
+    fn coordinate(&self, direction: usize) -> String {
+        let names = self.system.names().v;
+        names.get(direction).map_or(String::new(), |name| name.trim_end_matches('\'').to_string())
+    }
+
+    /// The first term that is not finite.
+    fn infinite_term(&self) -> Option<String> {
+        let Terms { f, g, phi, phi_dot, gamma, .. } = &self.terms;
+        if let Some(i) = f.iter().position(|f| !f.is_finite()) {
+            return Some(format!("the force on `{}`", self.coordinate(i)));
+        }
+        let levels = [phi, phi_dot, gamma].into_iter().find_map(|rows| rows.iter().position(|x| !x.is_finite()));
+        let entry = || g.iter().position(|g| !g.is_finite()).map(|entry| self.structure.g.entries[entry].0);
+        let row = levels.or_else(entry)?;
+        Some(format!("the constraint of `{}`", self.system.names().lambda.get(row)?))
     }
 
     /// v' and lambda at a state: phi'' = `acceleration_level` of phi and phi', which is zero for the plain equations.
@@ -124,7 +160,7 @@ impl<'a> Dynamics<'a> {
         for (i, lambda) in self.lambda.iter_mut().enumerate() {
             *lambda = self.terms.gamma[i] + acceleration_level(self.terms.phi[i], self.terms.phi_dot[i]);
         }
-        self.kkt.solve(&mut self.vdot, &mut self.lambda)?;
+        self.kkt.solve(&mut self.vdot, &mut self.lambda).map_err(|singular| self.halt(singular))?;
         match self.vdot.iter().chain(&self.lambda).all(|x| x.is_finite()) {
             true => Ok(()),
             false => Err(Halt::NotFinite),

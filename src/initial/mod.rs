@@ -7,8 +7,8 @@ mod velocity;
 
 pub use report::{Assembly, Level, Move};
 
-use crate::error::{Error, Result};
-use crate::formulation::Dynamics;
+use crate::error::{Error, Result, short};
+use crate::formulation::{Dynamics, Halt};
 use crate::math::kkt::{Pattern, SaddlePoint};
 use crate::system::{MechanicalSystem, Need, Scratch, Terms};
 
@@ -26,13 +26,21 @@ pub fn assemble(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64]),
     velocity::fit(&mut metric, t, &assembled, &mut rates)?;
     let after = metric.level(t, &assembled, &rates);
     let mut dynamics = Dynamics::new(system);
-    dynamics.solve(t, &assembled, &rates, |_, _| 0.0).map_err(|halt| {
-        Error::input(format!("at the start, {halt}")).under("bodies").hint(
-            "give every body mass and inertia, or hold it by joints; `holonom check` shows the degrees of freedom",
-        )
-    })?;
+    dynamics.solve(t, &assembled, &rates, |_, _| 0.0).map_err(|halt| stuck(&halt))?;
     let moves = report::moves(system, (q, v), (&assembled, &rates));
     Ok(Assembly { q: assembled, v: rates, vdot: dynamics.vdot, lambda: dynamics.lambda, before, after, moves })
+}
+
+/// The start is consistent, but has no acceleration.
+fn stuck(halt: &Halt) -> Error {
+    let error = Error::input(format!("at the start, {halt}"));
+    match halt {
+        Halt::Term(term) => error
+            .under(if term.starts_with("the force") { "forces" } else { "joints" })
+            .hint("look for roots and quotients in expressions, and for springs of length zero"),
+        Halt::Undetermined(_) => error.under("bodies").hint("give the body mass and inertia, or hold it by joints"),
+        _ => error.under("bodies").hint("masses, inertias or forces are too large or too small to compute with"),
+    }
 }
 
 /// The mass metric with the constraints and the held directions as rows.
@@ -78,22 +86,30 @@ impl<'a> Metric<'a> {
     fn at(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<()> {
         let need = Need::MASS | Need::CONSTRAINTS | Need::G;
         self.system.evaluate(t, q, v, need, &mut self.terms, &mut self.scratch);
-        if self.terms.phi.iter().chain(&self.terms.phi_dot).any(|x| !x.is_finite()) {
-            return Err(Error::input("a constraint is not a finite number at the start")
+        if let Some(row) = self.infinite_row() {
+            let group = self.system.groups().into_iter().find(|group| group.rows.contains(&row));
+            let name = group.map_or(String::new(), |group| group.name);
+            return Err(Error::input(format!("at the start, joint `{name}` or its rate is infinite or not a number"))
                 .under("joints")
-                .hint("move the initial positions away from where an expression or a distance is undefined"));
+                .hint("begin where its expressions are defined and smooth, and no distance is zero"));
         }
-        self.weights.copy_from_slice(&self.terms.mass);
-        let largest = self.weights.iter().fold(f64::MIN_POSITIVE, |largest, w| largest.max(w.abs()));
-        for (weight, (i, j)) in self.weights.iter_mut().zip(&self.mass.entries) {
-            if i == j {
-                *weight = weight.max(LEAST_WEIGHT * largest);
-            }
+        let largest = self.terms.mass.iter().fold(0.0f64, |largest, mass| largest.max(mass.abs()));
+        let unit = if largest > 0.0 { largest } else { 1.0 };
+        for ((weight, mass), (i, j)) in self.weights.iter_mut().zip(&self.terms.mass).zip(&self.mass.entries) {
+            *weight = if i == j { (mass / unit).max(LEAST_WEIGHT) } else { mass / unit };
         }
         let n = self.terms.g.len();
         self.values[..n].copy_from_slice(&self.terms.g);
         let factored = self.kkt.factor(&self.weights, &self.values);
         factored.map_err(|singular| Error::input(format!("at the start, {singular}")))
+    }
+
+    /// The first constraint that is not finite, or whose rate or gradient is not.
+    fn infinite_row(&self) -> Option<usize> {
+        let Terms { phi, phi_dot, g, .. } = &self.terms;
+        // At the edge of a root a slope is huge and not infinite.
+        let position = |values: &[f64]| values.iter().position(|x| x.is_nan() || x.abs() >= 1e150);
+        position(phi).or_else(|| position(phi_dot)).or_else(|| Some(self.rows.entries[position(g)?].0))
     }
 
     /// Solves [W G^T; G 0] [d; .] = [top; bottom], with the held directions kept, for d in place of `top`.
@@ -132,7 +148,7 @@ impl<'a> Metric<'a> {
         }
         gaps.sort_by(|a, b| b.1.total_cmp(&a.1));
         let more = gaps.len().saturating_sub(5);
-        let shown: Vec<String> = gaps.iter().take(5).map(|(name, gap)| format!("`{name}` by {gap:.3e}")).collect();
+        let shown: Vec<String> = gaps.iter().take(5).map(|(name, gap)| format!("`{name}` {}", short(*gap))).collect();
         let tail = if more > 0 { format!(" and {more} more") } else { String::new() };
         format!("{}{tail}", shown.join(", "))
     }

@@ -1,11 +1,13 @@
 //! Positions: min |q - q_0|_W subject to phi(q, t) = 0 and the held coordinates.
 
 use super::Metric;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, short};
 
 const MOST_ITERATIONS: usize = 200;
 /// A closed loop may keep this residual, in units of the scene's scale: round-off of chains of transformations.
 const CLOSED: f64 = 1e-10;
+/// A held coordinate may move by rounding.
+const HELD: f64 = 1e-9;
 
 /// Sequential quadratic programming: [W G^T; G 0] [d; .] = [-W (q - q_0); -phi]. The first part pulls back towards the
 /// guess within the tangent space, the second is Newton's step; where the pull does not help, Newton's step alone is
@@ -24,7 +26,7 @@ pub fn close(metric: &mut Metric, t: f64, q: &mut [f64]) -> Result<()> {
         stalled = if residual < 0.9 * best { 0 } else { stalled + 1 };
         best = best.min(residual);
         if residual < CLOSED && (settled || stalled > 8) {
-            return Ok(());
+            return kept(metric, &moved);
         }
         if stalled > 40 {
             break;
@@ -37,7 +39,7 @@ pub fn close(metric: &mut Metric, t: f64, q: &mut [f64]) -> Result<()> {
                 let newton = step(metric, None)?;
                 match advance(metric, t, q, &newton, residual)? {
                     Some(factor) => (factor, newton),
-                    None if residual < CLOSED => return Ok(()),
+                    None if residual < CLOSED => return kept(metric, &moved),
                     None => break,
                 }
             }
@@ -46,6 +48,18 @@ pub fn close(metric: &mut Metric, t: f64, q: &mut [f64]) -> Result<()> {
     }
     metric.at(t, q, &still)?;
     Err(open(metric))
+}
+
+/// Held coordinates that contradict the joints meet them half way, step by step; that is no hold.
+fn kept(metric: &Metric, moved: &[f64]) -> Result<()> {
+    let most = moved.iter().fold(1.0f64, |most, d| most.max(d.abs()));
+    let Some(&held) = metric.held.iter().find(|&&held| moved[held].abs() > HELD * most) else { return Ok(()) };
+    let names = metric.system.names().v;
+    let name = names[held].trim_end_matches('\'');
+    let by = short(moved[held]);
+    Err(Error::input(format!("`{name}` is held, but the joints close only where it moves by {by} (m, rad)"))
+        .under("assembly.hold")
+        .hint("begin where the joints are closed, or hold fewer coordinates"))
 }
 
 fn step(metric: &mut Metric, moved: Option<&[f64]>) -> Result<Vec<f64>> {
@@ -78,12 +92,11 @@ fn advance(metric: &mut Metric, t: f64, q: &mut [f64], step: &[f64], residual: f
 
 fn open(metric: &Metric) -> Error {
     let culprits = metric.culprits(&metric.terms.phi);
-    let error = Error::input(format!("the joints cannot all be closed: {culprits} remain open")).under("joints");
-    match metric.held.is_empty() {
-        true => error.hint(
-            "check lengths and markers of these joints, or start nearer to a closed position; inconsistent joints \
-             (one asking for what another forbids) can never be closed",
-        ),
-        false => error.hint("check these joints, or remove coordinates from assembly.hold"),
-    }
+    let error = Error::input(format!("the joints cannot all be closed; gaps that remain (m, rad): {culprits}"));
+    error.under("joints").hint(match metric.held.is_empty() {
+        true => {
+            "check lengths and markers of these joints, and whether one asks for what another forbids; or start nearer"
+        }
+        false => "check lengths and markers of these joints, or hold fewer coordinates in assembly.hold",
+    })
 }

@@ -1,7 +1,7 @@
 //! Velocities: min |v - v_0|_W subject to G v + phi_t = 0 and the held rates.
 
 use super::Metric;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, short};
 
 /// What may remain of G v + phi_t against the size of its terms.
 const FITTED: f64 = 1e-9;
@@ -22,19 +22,32 @@ pub fn fit(metric: &mut Metric, t: f64, q: &[f64], v: &mut [f64]) -> Result<()> 
     let largest = v.iter().chain(&given).chain(&metric.terms.phi_t).fold(0.0f64, |largest, x| largest.max(x.abs()));
     if metric.worst(&metric.terms.phi_dot) > FITTED * largest.max(f64::MIN_POSITIVE) {
         let culprits = metric.culprits(&metric.terms.phi_dot);
-        let error = Error::input(format!("the initial velocities contradict the joints: {culprits} (m/s or rad/s)"));
-        return Err(error.under("bodies").hint(match metric.held.is_empty() {
-            true => "two joints ask for different velocities: check drivers, and joints that hold the same motion",
-            false => "rates of coordinates in assembly.hold are kept as given: mend them or hold fewer coordinates",
-        }));
+        return Err(match metric.held.is_empty() {
+            true => Error::input(format!(
+                "the joints ask for different velocities; rates that remain (m/s, rad/s): {culprits}"
+            ))
+            .under("joints")
+            .hint("check drivers, and joints that hold the same motion"),
+            false => Error::input(format!(
+                "the held rates contradict the joints; rates that remain (m/s, rad/s): {culprits}"
+            ))
+            .under("assembly.hold")
+            .hint("what is held keeps its initial velocity: mend that, or hold fewer coordinates"),
+        });
     }
     let size = |metric: &Metric, v: &[f64]| v.iter().zip(metric.weigh(v)).map(|(a, b)| a * b).sum::<f64>();
     let (before, after) = (size(metric, &given), size(metric, v));
     let driven = metric.terms.phi_t.iter().any(|rate| *rate != 0.0);
     if before > 0.0 && !driven && after < KEPT * KEPT * before {
-        return Err(Error::input("the initial velocities contradict the joints: none of them is possible")
-            .under("bodies")
-            .hint("the joints allow no motion in the given directions: mend \"velocity\" and \"angular_velocity\""));
+        let names = metric.system.names().v;
+        let fastest = (0..given.len()).max_by(|&i, &j| given[i].abs().total_cmp(&given[j].abs())).unwrap_or(0);
+        return Err(Error::input(format!(
+            "the joints allow none of the initial velocities, such as `{}` = {}",
+            names[fastest],
+            short(given[fastest])
+        ))
+        .under("bodies")
+        .hint("mend \"velocity\" and \"angular_velocity\" in \"initial\", or leave them out"));
     }
     Ok(())
 }

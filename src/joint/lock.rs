@@ -55,11 +55,8 @@ impl<const D: usize> Lock<D> {
         match &self.triad {
             None => frame.axes[i],
             Some(triad) => from_fn(|k| {
-                let mut sum = frame.axes[0][k] * triad[i][0];
-                for j in 1..D {
-                    sum += frame.axes[j][k] * triad[i][j];
-                }
-                sum
+                let parts = frame.axes.iter().zip(triad[i]).map(|(axis, part)| axis[k] * part);
+                parts.fold(S::zero(), |sum, part| sum + part)
             }),
         }
     }

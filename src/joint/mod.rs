@@ -20,7 +20,7 @@ mod spherical;
 mod universal;
 mod weld;
 
-use crate::body::{Build, Frame, MOST_MARKERS, MarkerId, Slope, parse, twist_len};
+use crate::body::{Build, Frame, MOST_MARKERS, MarkerId, Slope, parse_among, twist_len};
 use crate::error::Result;
 use crate::math::{Dual, Scalar, Taylor};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -121,7 +121,7 @@ fn entry<T: JointSpec, const D: usize>() -> Entry<D> {
     Entry {
         name: T::TYPE,
         schema: |generator| generator.subschema_for::<T>(),
-        build: |json, build| parse::<T>(json)?.build(build),
+        build: |json, build| parse_among::<T>(json, &["name", "type"])?.build(build),
     }
 }
 

@@ -168,22 +168,26 @@ fn left_out<const D: usize>(model: &Model<D>) -> Vec<String> {
         (true, "contact, friction, flexibility: the scene has none"),
     ]
     .into_iter()
-    .filter_map(|(absent, text)| absent.then(|| text.to_string()))
+    .filter(|(absent, _)| *absent)
+    .map(|(_, text)| text.to_string())
     .collect()
+}
+
+fn count(n: usize, one: &str, many: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { many })
 }
 
 impl Check {
     /// The report as a person reads it.
     pub fn text(&self) -> String {
         let mut text = format!(
-            "{}: {} coordinates, {} velocities, {} constraints of rank {}, {} degree{} of freedom\n\n",
+            "{}: {}, {}, {} of rank {}, {} of freedom\n\n",
             self.scene,
-            self.coordinates,
-            self.velocities,
-            self.constraints,
+            count(self.coordinates, "coordinate", "coordinates"),
+            count(self.velocities, "velocity", "velocities"),
+            count(self.constraints, "constraint", "constraints"),
             self.rank,
-            self.degrees_of_freedom,
-            if self.degrees_of_freedom == 1 { "" } else { "s" }
+            count(self.degrees_of_freedom, "degree", "degrees")
         );
         for (heading, detail, items) in
             [("body", "coordinates", &self.bodies), ("joint", "rows", &self.joints), ("force", "", &self.forces)]

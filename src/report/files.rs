@@ -13,10 +13,14 @@ pub fn write_whole(path: &Path, contents: &[u8]) -> Result<()> {
 }
 
 fn reason(error: &std::io::Error) -> String {
+    use std::io::ErrorKind::*;
     match error.kind() {
-        std::io::ErrorKind::PermissionDenied => "no permission; choose another folder with -o DIR".to_string(),
-        std::io::ErrorKind::NotFound => "the folder does not exist".to_string(),
-        std::io::ErrorKind::StorageFull => "the disk is full".to_string(),
+        PermissionDenied => "no permission; choose another place with -o".to_string(),
+        NotFound => "the folder that it would be in does not exist; choose another place with -o".to_string(),
+        NotADirectory => "a part of this path is a file; choose another place with -o".to_string(),
+        AlreadyExists => "it is a file; choose another place with -o".to_string(),
+        ReadOnlyFilesystem => "the disk is read-only; choose another place with -o".to_string(),
+        StorageFull => "the disk is full".to_string(),
         _ => error.to_string(),
     }
 }

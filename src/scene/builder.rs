@@ -1,32 +1,28 @@
 //! From the typed file to the checked model.
 
-use super::format::SceneFile;
+use super::format::{Dimension, SceneFile};
 use super::model::{Connection, Model, Part};
 use super::outputs;
 use super::{AnyModel, Scene, markers};
-use crate::body::{self, Build, Initial, Marker, MarkerTable, parse};
-use crate::error::{Error, Result, suggest};
+use crate::body::{self, Build, Initial, Marker, MarkerTable, parse, show};
+use crate::error::{Error, Result, excerpt, suggest};
 use crate::math::expression::{Number, Parameters};
 use crate::{force, joint};
 use serde_json::{Map, Value};
 
 /// Resolves everything; what can be wrong with a scene alone is found here.
 pub fn build(file: SceneFile, overrides: &[(String, f64)]) -> Result<Scene> {
+    check_scene_name(&file.name)?;
     let parameters = markers::resolve(&file.parameters, overrides)?;
-    let (model, q, v) = match file.dimension {
-        2 => model::<2>(&file, &parameters).map(|(model, q, v)| (AnyModel::Planar(model), q, v))?,
-        3 => model::<3>(&file, &parameters).map(|(model, q, v)| (AnyModel::Spatial(model), q, v))?,
-        other => {
-            return Err(Error::input(format!("dimension is {other}"))
-                .under("dimension")
-                .hint("2 for a planar scene, 3 for a spatial one"));
-        }
+    let (dimension, (model, q, v)) = match file.dimension {
+        Dimension::Two => (2, model::<2>(&file, &parameters).map(|(model, q, v)| (AnyModel::Planar(model), q, v))?),
+        Dimension::Three => (3, model::<3>(&file, &parameters).map(|(model, q, v)| (AnyModel::Spatial(model), q, v))?),
     };
     Ok(Scene {
         name: file.name,
         about: file.about.unwrap_or_default(),
         references: file.references,
-        dimension: usize::from(file.dimension),
+        dimension,
         parameters,
         model,
         q,
@@ -38,7 +34,9 @@ pub fn build(file: SceneFile, overrides: &[(String, f64)]) -> Result<Scene> {
 
 fn model<const D: usize>(file: &SceneFile, parameters: &Parameters) -> Result<(Model<D>, Vec<f64>, Vec<f64>)> {
     if file.bodies.is_empty() {
-        return Err(Error::input("the scene has no body").under("bodies").hint("nothing can move without one"));
+        return Err(Error::input("the scene has no body")
+            .under("bodies")
+            .hint("give at least one: nothing else can move"));
     }
     let no_markers = MarkerTable::default();
     let mut build = Build { parameters, markers: &no_markers, outputs: &[], gravity: [0.0; D] };
@@ -52,17 +50,20 @@ fn model<const D: usize>(file: &SceneFile, parameters: &Parameters) -> Result<(M
         let place = format!("bodies[{i}]");
         parts.add(json.clone(), &build).map_err(|error| error.under(place))?;
     }
+    outputs::check_names(&file.outputs, parameters)?;
     let formulas = outputs::formulas::<D>(&file.outputs)?;
     let build = Build { parameters, markers: &parts.table, outputs: &formulas, gravity };
-    let joints = elements(&file.joints, "joints", "joint", |kind, json| {
-        let entries = joint::registry::<D>();
+    let entries = joint::registry::<D>();
+    let kinds: Vec<&str> = entries.iter().map(|entry| entry.name).collect();
+    let joints = elements(&file.joints, "joints", "joint", &kinds, |kind, json| {
         let entry = entries.iter().find(|entry| entry.name == kind);
         let entry = entry.ok_or_else(|| unknown(kind, "joint", entries.iter().map(|entry| entry.name)))?;
         let built = (entry.build)(json, &build)?;
         Ok((entry.name, built.joint, built.markers))
     })?;
-    let forces = elements(&file.forces, "forces", "force", |kind, json| {
-        let entries = force::registry::<D>();
+    let entries = force::registry::<D>();
+    let kinds: Vec<&str> = entries.iter().map(|entry| entry.name).collect();
+    let forces = elements(&file.forces, "forces", "force", &kinds, |kind, json| {
         let entry = entries.iter().find(|entry| entry.name == kind);
         let entry = entry.ok_or_else(|| unknown(kind, "force", entries.iter().map(|entry| entry.name)))?;
         let built = (entry.build)(json, &build)?;
@@ -120,8 +121,8 @@ impl<const D: usize> Parts<D> {
     }
 
     fn read(&mut self, name: &str, mut json: Map<String, Value>, build: &Build<D>) -> Result<()> {
-        let kind = take_text(&mut json, "type")?;
         let entries = body::registry::<D>();
+        let kind = take_type(&mut json, "body", entries.iter().map(|entry| entry.name))?;
         let entry = entries.iter().find(|entry| entry.name == kind);
         let entry = entry.ok_or_else(|| unknown(&kind, "body", entries.iter().map(|entry| entry.name)))?;
         let origin = match json.remove("origin") {
@@ -138,7 +139,7 @@ impl<const D: usize> Parts<D> {
         let mut all = vec![Marker::point(origin)];
         let named = markers::markers(&given, &origin, build)?;
         all.extend(named.iter().map(|(_, marker)| *marker));
-        let built = (entry.build)(Value::Object(json), all, &initial, build).map_err(shared_keys)?;
+        let built = (entry.build)(Value::Object(json), all, &initial, build)?;
         let index = self.bodies.len();
         let first_marker = self.table.names.len();
         self.list(name.to_string(), Some(index), built.body.oriented());
@@ -160,24 +161,12 @@ impl<const D: usize> Parts<D> {
     }
 }
 
-/// The list of keys that a message about an unknown key gives leaves out those that all bodies share.
-fn shared_keys(error: Error) -> Error {
-    let Error::Input(mut input) = error else { return error };
-    if let (Some(found), Some(_)) = (input.message.strip_prefix("unknown key `"), &input.hint) {
-        let found = found.trim_end_matches('`');
-        let near = suggest(found, ["markers", "initial", "origin", "name", "type"]);
-        if near.starts_with("did") && !input.hint.as_ref().is_some_and(|hint| hint.starts_with("did")) {
-            input.hint = Some(near);
-        }
-    }
-    Error::Input(input)
-}
-
 /// Joints or forces: name and type are taken off, the rest is the kind's own.
 fn elements<E>(
     given: &[Value],
     list: &str,
     what: &str,
+    kinds: &[&str],
     build: impl Fn(&str, Value) -> Result<(&'static str, E, Vec<usize>)>,
 ) -> Result<Vec<Connection<E>>> {
     let mut all: Vec<Connection<E>> = Vec::new();
@@ -190,7 +179,7 @@ fn elements<E>(
                     .under("name")
                     .hint(format!("give each {what} its own")));
             }
-            let kind = take_text(&mut json, "type").map_err(|error| error.element(&name))?;
+            let kind = take_type(&mut json, what, kinds.iter().copied())?;
             let (kind, element, markers) = build(&kind, Value::Object(json)).map_err(|error| error.element(&name))?;
             all.push(Connection { name, kind, element, markers });
             Ok(())
@@ -207,16 +196,28 @@ fn unknown<'a>(kind: &str, what: &str, known: impl Iterator<Item = &'a str>) -> 
 pub(super) fn object(json: Value) -> Result<Map<String, Value>> {
     match json {
         Value::Object(map) => Ok(map),
-        other => Err(Error::input(format!("expected an object {{...}}, found {other}"))),
+        other => Err(Error::input(format!("expected an object {{...}}, found {}", show(&other)))),
     }
 }
 
 fn take_text(json: &mut Map<String, Value>, key: &str) -> Result<String> {
     match json.remove(key) {
         Some(Value::String(text)) => Ok(text),
-        Some(other) => Err(Error::input(format!("expected text, found {other}")).under(key)),
-        None => Err(Error::input(format!("the key `{key}` is missing"))),
+        Some(other) => Err(Error::input(format!("expected text in quotes, found {}", show(&other))).under(key)),
+        None => Err(Error::input(format!("the key `{key}` is missing")).hint(format!("give a \"{key}\""))),
     }
+}
+
+fn take_type<'a>(
+    json: &mut Map<String, Value>,
+    what: &str,
+    known: impl Iterator<Item = &'a str> + Clone,
+) -> Result<String> {
+    if !json.contains_key("type") {
+        return Err(Error::input("the key `type` is missing")
+            .hint(format!("give the {what} a type: {}", known.collect::<Vec<_>>().join(", "))));
+    }
+    take_text(json, "type")
 }
 
 fn take_name(json: &mut Map<String, Value>) -> Result<String> {
@@ -225,13 +226,24 @@ fn take_name(json: &mut Map<String, Value>) -> Result<String> {
     Ok(name)
 }
 
+/// The name of a scene is that of its folder of results.
+fn check_scene_name(name: &str) -> Result<()> {
+    let fits = |c: char| c.is_alphanumeric() || "_-+ ()".contains(c) || c == '.';
+    match !name.trim().is_empty() && !name.starts_with('.') && name.len() <= 200 && name.chars().all(fits) {
+        true => Ok(()),
+        false => Err(Error::input(format!("`{}` cannot name a scene", excerpt(name)))
+            .under("name")
+            .hint("its results go to a folder of this name: use letters, digits, `_` and `-`")),
+    }
+}
+
 /// Names appear in expressions and columns: a letter, then letters, digits and underscores.
 pub(super) fn check_name(name: &str) -> Result<()> {
     let mut characters = name.chars();
     let starts = characters.next().is_some_and(|c| c.is_alphabetic() || c == '_');
-    match starts && characters.all(|c| c.is_alphanumeric() || c == '_') {
+    match starts && characters.all(|c| c.is_alphabetic() || c.is_ascii_digit() || c == '_') {
         true => Ok(()),
-        false => Err(Error::input(format!("`{name}` cannot be a name"))
+        false => Err(Error::input(format!("`{}` cannot be a name", excerpt(name)))
             .hint("use a letter, then letters, digits and underscores")),
     }
 }

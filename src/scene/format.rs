@@ -2,9 +2,10 @@
 
 use crate::choice::Choice;
 use crate::math::expression::Number;
-use schemars::JsonSchema;
-use serde::Deserialize;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value};
+use std::borrow::Cow;
 
 /// A scene: a mechanism with its start, what to watch and how to simulate it. Every number may be an expression over
 /// `parameters`, as a string. SI units; angles in radians.
@@ -21,8 +22,7 @@ pub struct SceneFile {
     /// Where its data and known results come from.
     #[serde(default)]
     pub references: Vec<String>,
-    /// 2 or 3
-    pub dimension: u8,
+    pub dimension: Dimension,
     /// Named numbers and expressions over other parameters, in any order.
     #[serde(default)]
     #[schemars(with = "std::collections::BTreeMap<String, Number>")]
@@ -48,6 +48,32 @@ pub struct SceneFile {
     pub assembly: Assembly,
     #[serde(default)]
     pub simulation: Simulation,
+}
+
+/// In how many dimensions the scene moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dimension {
+    Two,
+    Three,
+}
+
+impl<'de> Deserialize<'de> for Dimension {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match Value::deserialize(deserializer)?.as_u64() {
+            Some(2) => Ok(Dimension::Two),
+            Some(3) => Ok(Dimension::Three),
+            _ => Err(serde::de::Error::custom("expected 2 for a planar scene or 3 for a spatial one")),
+        }
+    }
+}
+
+impl JsonSchema for Dimension {
+    fn schema_name() -> Cow<'static, str> {
+        "Dimension".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "description": "2 for a planar scene, 3 for a spatial one.", "enum": [2, 3] })
+    }
 }
 
 /// The body that does not move.

@@ -12,10 +12,14 @@ pub fn locate(text: &str, path: &str) -> Option<(usize, usize)> {
             break;
         }
     }
-    let before = text.get(..scanner.at)?;
-    let line = before.matches('\n').count() + 1;
-    let column = before.rsplit('\n').next().map_or(0, |last| last.chars().count()) + 1;
-    Some((line, column))
+    text.is_char_boundary(scanner.at).then(|| line_and_column(text, scanner.at))
+}
+
+/// Line and column, from one and in characters, of byte `offset`.
+pub fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
+    let before = text.get(..offset).unwrap_or(text);
+    let last = before.rsplit('\n').next().unwrap_or("");
+    (before.matches('\n').count() + 1, last.chars().count() + 1)
 }
 
 enum Segment {
@@ -136,8 +140,8 @@ mod tests {
         assert_eq!(locate(TEXT, ""), Some((1, 1)));
         assert_eq!(locate(TEXT, "a"), Some((2, 8)));
         assert_eq!(locate(TEXT, "a[1].b"), Some((2, 18)));
-        assert_eq!(locate(TEXT, "c.d[0][1]"), Some((3, 18)));
-        assert_eq!(locate(TEXT, "c.d[1]"), Some((3, 22)));
+        assert_eq!(locate(TEXT, "c.d[0][1]"), Some((3, 19)));
+        assert_eq!(locate(TEXT, "c.d[1]"), Some((3, 23)));
         assert_eq!(locate(TEXT, "c.missing"), Some((3, 8)));
         assert_eq!(locate("", "a"), Some((1, 1)));
     }

@@ -1,7 +1,7 @@
 //! Markers of bodies and of the ground.
 
 use super::format::OrientedMarker;
-use crate::body::{Build, Marker, cross, parse};
+use crate::body::{Build, Marker, cross, parse, show};
 use crate::error::{Error, Result};
 use crate::math::expression::{Number, Parameters};
 use crate::math::rotation::axes_from_quaternion;
@@ -16,8 +16,7 @@ pub fn markers<const D: usize>(
 ) -> Result<Vec<(String, Marker<D>)>> {
     let one = |(name, value): (&String, &Value)| {
         super::builder::check_name(name).map_err(|error| error.under("markers"))?;
-        let mut marker =
-            marker(value.clone(), build).map_err(|error| error.under(name).under("markers").element(name))?;
+        let mut marker = marker(value.clone(), build).map_err(|error| error.under(name).under("markers"))?;
         marker.offset = from_fn(|i| marker.offset[i] + origin[i]);
         Ok((name.clone(), marker))
     };
@@ -30,7 +29,7 @@ fn marker<const D: usize>(value: Value, build: &Build<D>) -> Result<Marker<D>> {
         return Ok(Marker::point(vector(&position, build)?));
     }
     if !value.is_object() {
-        return Err(Error::input(format!("expected a position, found {value}"))
+        return Err(Error::input(format!("expected a position, found {}", show(&value)))
             .hint("write [x, y], [x, y, z] or {\"position\": [...], ...}"));
     }
     let given: OrientedMarker = parse(value)?;

@@ -3,6 +3,7 @@
 mod builder;
 mod format;
 pub mod generate;
+mod json;
 mod locate;
 mod markers;
 mod model;
@@ -13,7 +14,7 @@ pub use format::{Assembly, Simulation};
 pub use model::{Connection, Driven, EnergyPart, Measure, Model, Part, Watched};
 pub use schema::schema;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, excerpt, nearest};
 use crate::math::expression::Parameters;
 use format::SceneFile;
 use serde_json::Value;
@@ -47,64 +48,94 @@ impl Scene {
     /// # Errors
     /// A file that cannot be read or is not a scene; the error says where in it, and what would be right.
     pub fn load(path: &Path, overrides: &[(String, f64)]) -> Result<Scene> {
-        let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, explain(path, &error)))?;
+        let text = read_text(path)?;
         Scene::parse(&text, overrides).map_err(|error| place(error, path, &text))
     }
 
     /// Reads a scene from text.
+    ///
+    /// # Errors
+    /// Text that is not a scene.
     pub fn parse(text: &str, overrides: &[(String, f64)]) -> Result<Scene> {
+        // Some editors begin a file with this mark.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         if text.trim().is_empty() {
             return Err(Error::input("the file is empty").hint("a scene is a JSON object; see `holonom schema`"));
         }
-        let json: Value = serde_json::from_str(text).map_err(not_json)?;
+        let json = json::read(text)?;
         if !json.is_object() {
-            return Err(
-                Error::input("a scene is a JSON object").hint("begin with {\"name\": ..., \"dimension\": 2, ...}")
-            );
+            return Err(Error::input(format!("a scene is a JSON object, found {}", crate::body::show(&json)))
+                .hint("begin with {\"name\": ..., \"dimension\": 2, ...}"));
         }
-        builder::build(crate::body::parse::<SceneFile>(json)?, overrides)
+        let file = crate::body::parse::<SceneFile>(json.clone());
+        file.and_then(|file| builder::build(file, overrides)).map_err(|error| name_element(error, &json))
     }
 }
 
-fn not_json(error: serde_json::Error) -> Error {
-    let text = error.to_string();
-    let message = text.rsplit_once(" at line").map_or(text.as_str(), |(message, _)| message);
-    let hint = match message {
-        "number out of range" => "JSON numbers go up to about 1.8e308",
-        "expected value" => "JSON has no NaN, no Infinity, no comments and no trailing commas; text goes in quotes",
-        "trailing comma" => "remove the comma after the last entry",
-        _ => "check brackets, commas and quotes here and just before",
-    };
-    let error = Error::input(format!("this is not JSON: {message}")).hint(hint);
-    match error {
-        Error::Input(mut input) => {
-            input.place = text.rsplit_once(" at line ").and_then(|(_, place)| {
-                let (line, column) = place.split_once(" column ")?;
-                Some((line.parse().ok()?, column.parse().ok()?))
-            });
-            Error::Input(input)
-        }
-        other => other,
+/// Adds the name of the element in which the path lies, unless it is known.
+fn name_element(error: Error, json: &Value) -> Error {
+    let Error::Input(input) = &error else { return error };
+    let lists = ["bodies", "joints", "forces", "inputs", "outputs"];
+    let name = input.path.split_once('[').filter(|(list, _)| lists.contains(list)).and_then(|(list, rest)| {
+        let (index, rest) = rest.split_once(']')?;
+        // A name that is itself at fault is in the message.
+        let element = json.get(list)?.get(index.parse::<usize>().ok()?).filter(|_| rest != ".name")?;
+        element.get("name")?.as_str().map(str::to_string)
+    });
+    match name {
+        Some(name) => error.element(excerpt(&name)),
+        None => error,
     }
 }
 
 /// Adds file, line and column.
-fn place(error: Error, path: &Path, text: &str) -> Error {
-    let Error::Input(mut input) = error else { return error };
-    if input.place.is_none() && !input.path.starts_with('-') && !input.path.is_empty() {
-        input.place = locate::locate(text, &input.path);
+pub(crate) fn place(error: Error, path: &Path, text: &str) -> Error {
+    let error = error.in_file(path);
+    let place = match &error {
+        Error::Input(input) if input.file.is_some() && !input.path.is_empty() => locate::locate(text, &input.path),
+        _ => None,
+    };
+    match place {
+        Some(place) => error.placed(place),
+        None => error,
     }
-    input.file = Some(path.to_path_buf());
-    Error::Input(input)
+}
+
+/// The text of a scene file.
+pub(crate) fn read_text(path: &Path) -> Result<String> {
+    let bytes = std::fs::read(path).map_err(|error| Error::file(path, explain(path, &error)))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let good = String::from_utf8_lossy(&error.as_bytes()[..error.utf8_error().valid_up_to()]);
+        let place = locate::line_and_column(&good, good.len());
+        Error::input("this is not text in UTF-8").hint("save the scene as UTF-8").placed(place).in_file(path)
+    })
 }
 
 fn explain(path: &Path, error: &std::io::Error) -> String {
     use std::io::ErrorKind::*;
     match error.kind() {
-        NotFound => "there is no such file".to_string(),
+        NotFound => match similar(path) {
+            Some(name) => format!("there is no such file; did you mean `{name}`?"),
+            None => "there is no such file".to_string(),
+        },
         PermissionDenied => "no permission to read it".to_string(),
-        InvalidData => "it is not text (UTF-8)".to_string(),
         _ if path.is_dir() => "this is a directory; name a scene file".to_string(),
         _ => error.to_string(),
     }
+}
+
+/// A file in the same folder whose name is like that of `path`.
+fn similar(path: &Path) -> Option<String> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut names: Vec<String> = std::fs::read_dir(folder)
+        .ok()?
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .filter(|name| name.ends_with(".json"))
+        .collect();
+    names.sort();
+    let found = path.file_name()?.to_str()?;
+    let near = nearest(found, names.iter().map(String::as_str))?;
+    Some(
+        folder.join(near).strip_prefix(".").map_or_else(|_| folder.join(near), Path::to_path_buf).display().to_string(),
+    )
 }

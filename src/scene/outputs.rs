@@ -6,6 +6,7 @@ use crate::body::{Build, MarkerId, Quantity};
 use crate::error::{Error, Result, suggest};
 use crate::force::{self, Force};
 use crate::joint::Joint;
+use crate::math::expression::Parameters;
 
 type Joints<const D: usize> = [Connection<Box<dyn Joint<D>>>];
 type Forces<const D: usize> = [Connection<Box<dyn Force<D>>>];
@@ -44,6 +45,49 @@ pub fn formulas<const D: usize>(specs: &[OutputSpec]) -> Result<Vec<(String, Str
     Ok(all.collect())
 }
 
+/// Names of outputs are columns beside `t`.
+pub fn check_names(specs: &[OutputSpec], parameters: &Parameters) -> Result<()> {
+    for (i, OutputSpec { name, .. }) in specs.iter().enumerate() {
+        let taken = |by: &str| Error::input(format!("the name `{name}` is taken{by}")).hint("give each output its own");
+        let checked = match name.as_str() {
+            "t" => Err(taken(" by time")),
+            _ if parameters.get(name).is_some() => Err(taken(" by a parameter")),
+            _ if specs[..i].iter().any(|known| known.name == *name) => Err(taken("")),
+            _ => super::builder::check_name(name),
+        };
+        checked.map_err(|error| error.under("name").under(format!("outputs[{i}]")))?;
+    }
+    Ok(())
+}
+
+/// Refuses keys that a measure would silently ignore.
+fn refuse_idle_keys(spec: &OutputSpec) -> Result<()> {
+    use MeasureKind::*;
+    let OutputSpec { of, between, relative_to, component, value, .. } = spec;
+    let given = [
+        ("of", of.is_some()),
+        ("between", between.is_some()),
+        ("relative_to", relative_to.is_some()),
+        ("component", component.is_some()),
+        ("value", value.is_some()),
+    ];
+    let used: &[&str] = match spec.measure {
+        Angle => &["of", "relative_to"],
+        AngularVelocity | Position | Velocity => &["of", "relative_to", "component"],
+        Distance | DistanceRate => &["between"],
+        Reaction => &["of", "component"],
+        Force => &["of"],
+        Energy => &["component"],
+        Expression => &["value"],
+    };
+    match given.iter().find(|(key, given)| *given && !used.contains(key)) {
+        None => Ok(()),
+        Some((key, _)) => Err(Error::input(format!("this measure has no `{key}`"))
+            .under(key)
+            .hint(format!("remove it; here \"measure\" goes with {}", used.join(", ")))),
+    }
+}
+
 /// The outputs with everything they name resolved.
 pub fn outputs<const D: usize>(
     specs: &[OutputSpec],
@@ -54,10 +98,7 @@ pub fn outputs<const D: usize>(
     let mut all: Vec<Watched> = Vec::new();
     for (i, spec) in specs.iter().enumerate() {
         let place = |error: Error| error.element(&spec.name).under(format!("outputs[{i}]"));
-        super::builder::check_name(&spec.name).map_err(|error| place(error.under("name")))?;
-        if all.iter().any(|known| known.name == spec.name) {
-            return Err(place(Error::input(format!("the name `{}` is taken", spec.name)).under("name")));
-        }
+        refuse_idle_keys(spec).map_err(place)?;
         let reader = Reader { spec, build };
         let measure = reader.measure(joints, forces).map_err(place)?;
         all.push(Watched { name: spec.name.clone(), unit: reader.unit(&measure), measure });
@@ -98,14 +139,14 @@ impl<const D: usize> Reader<'_, D> {
             })),
             MeasureKind::Expression => {
                 let value = self.spec.value.as_ref();
-                let value = value.ok_or_else(|| Error::input("the key `value` is missing"))?;
+                let value = value.ok_or_else(|| missing("value", "give an expression over t and marker quantities"))?;
                 Ok(Measure::Signal(self.build.signal("value", value, true)?))
             }
         }
     }
 
     fn of(&self) -> Result<&str> {
-        self.spec.of.as_deref().ok_or_else(|| Error::input("the key `of` is missing").hint("name what is measured"))
+        self.spec.of.as_deref().ok_or_else(|| missing("of", "name what is measured: a body, marker, joint or force"))
     }
 
     fn marker(&self) -> Result<MarkerId> {
@@ -128,7 +169,7 @@ impl<const D: usize> Reader<'_, D> {
 
     fn distance(&self, rate: bool) -> Result<Measure> {
         let names = self.spec.between.as_ref();
-        let names = names.ok_or_else(|| Error::input("the key `between` is missing").hint("name two markers"))?;
+        let names = names.ok_or_else(|| missing("between", "name two markers"))?;
         let from = self.build.marker("between[0]", &names[0])?;
         Ok(Measure::Distance { from, to: self.build.marker("between[1]", &names[1])?, rate })
     }
@@ -158,6 +199,10 @@ impl<const D: usize> Reader<'_, D> {
     }
 }
 
+fn missing(key: &str, hint: &str) -> Error {
+    Error::input(format!("the key `{key}` is missing")).hint(hint)
+}
+
 fn wrong_component(found: &str, known: &[&str]) -> Error {
     Error::input(format!("there is no component `{found}`"))
         .under("component")
@@ -176,7 +221,12 @@ pub fn inputs<const D: usize>(specs: &[InputSpec], forces: &Forces<D>) -> Result
     let mut all: Vec<Driven> = Vec::new();
     for (i, spec) in specs.iter().enumerate() {
         let place = |error: Error| error.element(&spec.name).under(format!("inputs[{i}]"));
-        super::builder::check_name(&spec.name).map_err(|error| place(error.under("name")))?;
+        let named = |error: Error| error.under("name").under(format!("inputs[{i}]"));
+        if all.iter().any(|known| known.name == spec.name) {
+            let taken = Error::input(format!("the name `{}` is taken", spec.name)).hint("give each input its own");
+            return Err(named(taken));
+        }
+        super::builder::check_name(&spec.name).map_err(named)?;
         all.push(input::<D>(spec, forces).map_err(place)?);
     }
     Ok(all)
@@ -198,9 +248,7 @@ fn input<const D: usize>(spec: &InputSpec, forces: &Forces<D>) -> Result<Driven>
     let component = match spec.component.as_deref() {
         None if D == 2 && kind == "applied_torque" => 2,
         None => {
-            return Err(
-                Error::input("the key `component` is missing").hint(format!("choose one of {}", axes.join(", ")))
-            );
+            return Err(missing("component", &format!("choose one of {}", axes.join(", "))));
         }
         Some(name) => axes.iter().position(|axis| *axis == name).ok_or_else(|| wrong_component(name, axes))?,
     };

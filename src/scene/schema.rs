@@ -6,10 +6,12 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Value, json};
 
+type Generate = fn(&mut SchemaGenerator) -> Schema;
+
 /// The schema, for editors and for tests of the shipped scenes.
 pub fn schema() -> Value {
     let mut generator = SchemaSettings::draft2020_12().into_generator();
-    let kinds = |registry: Vec<(&'static str, fn(&mut SchemaGenerator) -> Schema)>, generator: &mut SchemaGenerator| {
+    let kinds = |registry: Vec<(&'static str, Generate)>, generator: &mut SchemaGenerator| {
         registry.into_iter().map(|(name, schema)| (name, resolved(schema(generator), generator))).collect::<Vec<_>>()
     };
     let bodies = body::registry::<3>().into_iter().map(|entry| (entry.name, entry.schema)).collect();

@@ -82,25 +82,27 @@ impl<E: Equations> MechanicalSystem for E {
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
         let (n, m) = self.size();
-        let memory = scratch.get(|| Memory::new(n, m));
-        if need.includes(Need::MASS) {
-            self.mass(t, q, &mut memory.mass);
-            let lower = (0..n).flat_map(|i| (0..=i).map(move |j| i * n + j));
-            terms.mass.iter_mut().zip(lower).for_each(|(entry, place)| *entry = memory.mass[place]);
-        }
-        if need.includes(Need::FORCE) {
-            self.force(t, q, v, &mut terms.f);
-            terms.power = 0.0;
-        }
-        if need.includes(Need::CONSTRAINTS) {
-            levels(self, t, q, v, memory, terms);
-        }
-        if need.includes(Need::G) {
-            gradient(self, t, q, memory, terms);
-        }
-        if need.includes(Need::L) {
-            curvature(self, t, q, v, memory, terms);
-        }
+        let fill = |memory: &mut Memory| {
+            if need.includes(Need::MASS) {
+                self.mass(t, q, &mut memory.mass);
+                let lower = (0..n).flat_map(|i| (0..=i).map(move |j| i * n + j));
+                terms.mass.iter_mut().zip(lower).for_each(|(entry, place)| *entry = memory.mass[place]);
+            }
+            if need.includes(Need::FORCE) {
+                self.force(t, q, v, &mut terms.f);
+                terms.power = 0.0;
+            }
+            if need.includes(Need::CONSTRAINTS) {
+                levels(self, t, q, v, memory, terms);
+            }
+            if need.includes(Need::G) {
+                gradient(self, t, q, memory, terms);
+            }
+            if need.includes(Need::L) {
+                curvature(self, t, q, v, memory, terms);
+            }
+        };
+        scratch.with(|| Memory::new(n, m), fill);
     }
 
     fn tangent(&self, at: Loaded, tangent: &mut Tangent, _scratch: &mut Scratch) -> bool {
@@ -111,10 +113,12 @@ impl<E: Equations> MechanicalSystem for E {
     fn energy(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<Energy> {
         let potential = self.potential(t, q)?;
         let (n, m) = self.size();
-        let mass = &mut scratch.get(|| Memory::new(n, m)).mass;
-        self.mass(t, q, mass);
-        let momentum = |i: usize| mass[i * n..(i + 1) * n].iter().zip(v).map(|(m, v)| m * v).sum::<f64>();
-        Some(Energy { kinetic: 0.5 * (0..n).map(|i| v[i] * momentum(i)).sum::<f64>(), potential })
+        let kinetic = |memory: &mut Memory| {
+            self.mass(t, q, &mut memory.mass);
+            let row = |i: usize| memory.mass[i * n..(i + 1) * n].iter().zip(v).map(|(m, v)| m * v).sum::<f64>();
+            0.5 * (0..n).map(|i| v[i] * row(i)).sum::<f64>()
+        };
+        Some(Energy { kinetic: scratch.with(|| Memory::new(n, m), kinetic), potential })
     }
 
     fn columns(&self) -> Vec<Column> {

@@ -62,15 +62,26 @@ impl<const D: usize> Mechanism<D> {
         self.joints[joint].range()
     }
 
-    pub(super) fn workspace<'a>(&self, scratch: &'a mut Scratch) -> &'a mut Workspace<D> {
-        scratch.get(|| Workspace {
+    /// Lends the memory with all frames moved to (q, v).
+    pub(super) fn at<R>(
+        &self,
+        q: &[f64],
+        v: &[f64],
+        scratch: &mut Scratch,
+        see: impl FnOnce(&mut Workspace<D>) -> R,
+    ) -> R {
+        let make = || Workspace {
             motion: self.model.ground_frames().map(|frame| frame.map(Taylor::fixed)).collect(),
             varied: Varied::default(),
+        };
+        scratch.with(make, |work| {
+            self.place(q, v, work);
+            see(work)
         })
     }
 
     /// Moves all frames to (q, v).
-    pub(super) fn place(&self, q: &[f64], v: &[f64], work: &mut Workspace<D>) {
+    fn place(&self, q: &[f64], v: &[f64], work: &mut Workspace<D>) {
         work.motion.resize(self.model.marker_count(), Frame::world());
         for part in &self.model.bodies {
             let frames = &mut work.motion[part.first_marker..][..part.body.marker_count()];
@@ -210,23 +221,21 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
-        let work = self.workspace(scratch);
-        self.place(q, v, work);
-        self.mass_and_own_forces(q, v, need, terms);
-        if need.includes(Need::FORCE) {
-            self.forces(t, q, work, terms);
-        }
-        self.constraints(t, q, need, work, terms);
-        if need.includes(Need::L) {
-            let Workspace { motion, varied } = work;
-            self.placed_joints().for_each(|joint| joint.curvature(t, (q, v), motion, varied, terms));
-        }
+        self.at(q, v, scratch, |work| {
+            self.mass_and_own_forces(q, v, need, terms);
+            if need.includes(Need::FORCE) {
+                self.forces(t, q, work, terms);
+            }
+            self.constraints(t, q, need, work, terms);
+            if need.includes(Need::L) {
+                let Workspace { motion, varied } = work;
+                self.placed_joints().for_each(|joint| joint.curvature(t, (q, v), motion, varied, terms));
+            }
+        });
     }
 
     fn tangent(&self, at: Loaded, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
-        let work = self.workspace(scratch);
-        self.place(at.q, at.v, work);
-        Evaluation { mechanism: self, at, work, tangent }.run();
+        self.at(at.q, at.v, scratch, |work| Evaluation { mechanism: self, at, work, tangent }.run());
         true
     }
 
@@ -237,20 +246,20 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn energy(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<Energy> {
-        let work = self.workspace(scratch);
-        self.place(q, v, work);
         let mut total = Energy::default();
         for part in &self.model.bodies {
             let energy = part.body.energy(of(q, part, true), of(v, part, false), &self.model.gravity);
             total.kinetic += energy.kinetic;
             total.potential += energy.potential;
         }
-        for force in &self.model.forces {
-            let mut wrenches = [Wrench::zero(); MOST_MARKERS];
-            let wrenches = &mut wrenches[..force.markers.len()];
-            let act = |frames: &[_]| force.element.act(frames, Taylor::time(t), wrenches).potential.x;
-            total.potential += with_frames(&work.motion, &force.markers, act);
-        }
+        self.at(q, v, scratch, |work| {
+            for force in &self.model.forces {
+                let mut wrenches = [Wrench::zero(); MOST_MARKERS];
+                let wrenches = &mut wrenches[..force.markers.len()];
+                let act = |frames: &[_]| force.element.act(frames, Taylor::time(t), wrenches).potential.x;
+                total.potential += with_frames(&work.motion, &force.markers, act);
+            }
+        });
         Some(total)
     }
 

@@ -2,7 +2,7 @@
 
 use super::mechanism::{Mechanism, Workspace, size, with_frames};
 use super::{MechanicalSystem, Scratch};
-use crate::body::{Frame, MOST_MARKERS, MarkerId, Quantity, Wrench, dot, sub};
+use crate::body::{Energy, Frame, MOST_MARKERS, MarkerId, Quantity, Wrench, dot, sub};
 use crate::joint::{MOST_ROWS, markers_per_pass};
 use crate::math::Taylor;
 use crate::scene::{EnergyPart, Measure};
@@ -20,7 +20,10 @@ impl<const D: usize> Output<'_, D> {
     /// All outputs in the order of the scene.
     pub fn write(&self, out: &mut [f64], scratch: &mut Scratch) {
         let energy = self.mechanism.energy(self.t, self.q, self.v, scratch).unwrap_or_default();
-        let work = self.mechanism.workspace(scratch);
+        self.mechanism.at(self.q, self.v, scratch, |work| self.read(&*work, energy, out));
+    }
+
+    fn read(&self, work: &Workspace<D>, energy: Energy, out: &mut [f64]) {
         for (out, output) in out.iter_mut().zip(&self.mechanism.model().outputs) {
             *out = match &output.measure {
                 Measure::Signal(signal) => signal.evaluate(self.t, |probe| probe.read(&work.motion[probe.marker])),
@@ -109,9 +112,7 @@ fn turn<const D: usize>(of: &Frame<Taylor<f64>, D>, to: &Frame<Taylor<f64>, D>) 
 impl<const D: usize> Mechanism<D> {
     /// World position of every marker at q, for drawings.
     pub fn marker_positions(&self, q: &[f64], scratch: &mut Scratch) -> Vec<[f64; D]> {
-        let work = self.workspace(scratch);
         let still = vec![0.0; self.dimensions().v];
-        self.place(q, &still, work);
-        work.motion.iter().map(|frame| frame.r.map(|x| x.x)).collect()
+        self.at(q, &still, scratch, |work| work.motion.iter().map(|frame| frame.r.map(|x| x.x)).collect())
     }
 }

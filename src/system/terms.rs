@@ -92,14 +92,12 @@ impl Terms {
 pub struct Scratch(Option<Box<dyn Any + Send>>);
 
 impl Scratch {
-    /// The memory of type `T`, made the first time.
-    pub fn get<T: Any + Send>(&mut self, make: impl FnOnce() -> T) -> &mut T {
-        if !self.0.as_ref().is_some_and(|memory| memory.is::<T>()) {
-            self.0 = Some(Box::new(make()));
-        }
-        match self.0.as_mut().and_then(|memory| memory.downcast_mut()) {
-            Some(memory) => memory,
-            None => unreachable!("the memory was made with this type above"),
-        }
+    /// Lends the memory of type `T`, made the first time or where it held another type.
+    pub fn with<T: Any + Send, R>(&mut self, make: impl FnOnce() -> T, see: impl FnOnce(&mut T) -> R) -> R {
+        let held = self.0.take().and_then(|memory| memory.downcast().ok());
+        let mut memory: Box<T> = held.unwrap_or_else(|| Box::new(make()));
+        let result = see(&mut memory);
+        self.0 = Some(memory);
+        result
     }
 }

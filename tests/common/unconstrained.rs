@@ -46,8 +46,8 @@ impl Equations for Power {
 pub struct Arenstorf;
 
 impl Arenstorf {
-    pub const PERIOD: f64 = 17.0652165601579625588917206249;
-    pub const START: ([f64; 2], [f64; 2]) = ([0.994, 0.0], [0.0, -2.00158510637908252240537862224]);
+    pub const PERIOD: f64 = 17.065216560157964;
+    pub const START: ([f64; 2], [f64; 2]) = ([0.994, 0.0], [0.0, -2.0015851063790824]);
     const MOON: f64 = 0.012277471;
 }
 

@@ -14,9 +14,15 @@ use std::path::{Path, PathBuf};
 pub fn models() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
     let files = std::fs::read_dir(folder).expect("the folder models is there").map(|entry| entry.unwrap().path());
-    let mut scenes: Vec<_> = files.filter(|path| path.extension().is_some_and(|end| end == "json")).collect();
+    let is_scene = |path: &PathBuf| path.extension().is_some_and(|end| end == "json") && !is_schema(path);
+    let mut scenes: Vec<_> = files.filter(is_scene).collect();
     scenes.sort();
     scenes
+}
+
+/// The JSON Schema lies beside the scenes.
+fn is_schema(path: &Path) -> bool {
+    path.file_stem().is_some_and(|stem| stem.to_string_lossy().contains("schema"))
 }
 
 /// The file of a shipped scene.

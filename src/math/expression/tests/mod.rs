@@ -167,7 +167,7 @@ fn messages() {
         ("", "empty expression; expected a number or a formula such as `2*l`"),
         ("  ", "empty expression; expected a number or a formula such as `2*l`"),
         ("2 * stifness", "unknown name `stifness` at character 5; did you mean `stiffness`?"),
-        ("ω*Stiffness", "unknown name `ω` at character 1; known are: x, y, t, crank.angle', k, n, stiffness, pi"),
+        ("ω*Stiffness", "unknown name `ω` at character 1; choose one of x, y, t, crank.angle', k, n, stiffness, pi"),
         ("2*PI", "unknown name `PI` at character 3; did you mean `pi`?"),
         ("e^2", "unknown name `e` at character 1; Euler's number is `exp(1)`"),
         ("sine(x)", "unknown function `sine` at character 1; did you mean `sin`?"),
@@ -200,7 +200,7 @@ fn messages() {
         ("x!", "expected an operator at character 2, found `!`"),
         ("0 < x < 1", "chained comparison at character 7; write `a < b and b < c`"),
         ("x**2", "unexpected `**` at character 2; a power is written `^`"),
-        ("α+β'γ", "unknown name `α` at character 1; known are: x, y, t, crank.angle', k, n, stiffness, pi"),
+        ("α+β'γ", "unknown name `α` at character 1; choose one of x, y, t, crank.angle', k, n, stiffness, pi"),
     ];
     table.iter().for_each(|(text, expected)| assert_eq!(message(text), *expected, "{text}"));
 }

@@ -1,97 +1,16 @@
 //! The only time loop: steps, step control, projection and output.
 
+mod method;
+mod observation;
+
+pub use method::Method;
+pub use observation::{Observation, Sink, Span};
+
 use crate::error::{Error, Failure, Result};
-use crate::formulation::{self, Choice, Dynamics, Halt, Statistics};
+use crate::formulation::{self, Dynamics, Halt, Statistics};
 use crate::integrator::{self, Control, From, Integrator, Problem, Setup, Tolerance, first_step};
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
-use serde::Serialize;
-
-/// A method: formulation x integrator x projection, with its accuracy.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Method {
-    pub formulation: Choice,
-    pub integrator: Choice,
-    pub projection: Choice,
-    pub rtol: f64,
-    pub atol: f64,
-    /// Fixed step, s; `None` lets the integrator choose.
-    pub step: Option<f64>,
-}
-
-impl Default for Method {
-    fn default() -> Self {
-        Method {
-            formulation: Choice::named("index1"),
-            integrator: Choice::named("dopri5"),
-            projection: Choice::named("manifold"),
-            rtol: 1e-8,
-            atol: 1e-10,
-            step: None,
-        }
-    }
-}
-
-impl Method {
-    /// Refuses combinations that make no sense, naming those that do.
-    pub fn check(&self) -> Result<()> {
-        let entry = integrator::find(&self.integrator)?;
-        integrator::check_pair(entry, &self.formulation)?;
-        for (name, value) in [("rtol", self.rtol), ("atol", self.atol)] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(Error::input(format!("{name} is {value}, but must be above zero")).under(name));
-            }
-        }
-        match self.step {
-            Some(step) if !(step > 0.0 && step.is_finite()) => {
-                Err(Error::input(format!("the step is {step}, but must be above zero")).under("step"))
-            }
-            None if !entry.adaptive => Err(Error::input(format!("{} has no error estimate", entry.name))
-                .hint("give a fixed step: --step H, or \"step\" in the scene")),
-            _ => Ok(()),
-        }
-    }
-}
-
-/// The interval to simulate and where the output rows lie.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Span {
-    pub start: f64,
-    pub end: f64,
-    /// Distance of the output rows, s.
-    pub output_step: f64,
-}
-
-impl Span {
-    /// Time of output row `row`: multiples of the output step, and the end.
-    fn row(&self, row: u64) -> f64 {
-        let t = self.start + row as f64 * self.output_step;
-        // The last multiple and the end are one row when they differ by rounding only.
-        if t > self.end - 1e-9 * self.output_step { self.end } else { t }
-    }
-}
-
-/// All that is known at a state of the motion.
-pub struct Observation<'a> {
-    pub t: f64,
-    pub q: &'a [f64],
-    pub v: &'a [f64],
-    pub vdot: &'a [f64],
-    pub lambda: &'a [f64],
-    pub phi: &'a [f64],
-    pub phi_dot: &'a [f64],
-    pub phi_ddot: &'a [f64],
-    /// Work of forces without potential and of moving constraints since the start, J.
-    pub work: f64,
-}
-
-/// Receives the motion while it is computed.
-pub trait Sink {
-    /// Every accepted step, the start included.
-    fn accepted(&mut self, state: &Observation);
-    /// Every output row, in order.
-    fn row(&mut self, state: &Observation);
-}
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]

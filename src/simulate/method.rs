@@ -1,0 +1,51 @@
+//! Which method a run uses.
+
+use crate::error::{Error, Result};
+use crate::formulation::Choice;
+use crate::integrator;
+use serde::Serialize;
+
+/// A method: formulation x integrator x projection, with its accuracy.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Method {
+    pub formulation: Choice,
+    pub integrator: Choice,
+    pub projection: Choice,
+    pub rtol: f64,
+    pub atol: f64,
+    /// Fixed step, s; `None` lets the integrator choose.
+    pub step: Option<f64>,
+}
+
+impl Default for Method {
+    fn default() -> Self {
+        Method {
+            formulation: Choice::named("index1"),
+            integrator: Choice::named("dopri5"),
+            projection: Choice::named("manifold"),
+            rtol: 1e-8,
+            atol: 1e-10,
+            step: None,
+        }
+    }
+}
+
+impl Method {
+    /// Refuses combinations that make no sense, naming those that do.
+    pub fn check(&self) -> Result<()> {
+        let entry = integrator::find(&self.integrator).map_err(|error| error.under("integrator"))?;
+        integrator::check_pair(entry, &self.formulation).map_err(|error| error.under("formulation"))?;
+        for (name, value) in [("rtol", Some(self.rtol)), ("atol", Some(self.atol)), ("step", self.step)] {
+            if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {
+                let error = Error::input(format!("{name} is {value}, but must be above zero")).under(name);
+                return Err(error.hint("give a positive number"));
+            }
+        }
+        match self.step {
+            None if !entry.adaptive => Err(Error::input(format!("{} has no error estimate", entry.name))
+                .under("integrator")
+                .hint("give a fixed step: --step H, or \"step\" in \"simulation\" of the scene")),
+            _ => Ok(()),
+        }
+    }
+}

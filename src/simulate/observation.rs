@@ -1,0 +1,41 @@
+//! What a run shows of the motion, and to whom.
+
+/// The interval to simulate and where the output rows lie.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    pub start: f64,
+    pub end: f64,
+    /// Distance of the output rows, s.
+    pub output_step: f64,
+}
+
+impl Span {
+    /// Time of output row `row`: multiples of the output step, and the end.
+    pub(crate) fn row(&self, row: u64) -> f64 {
+        let t = self.start + row as f64 * self.output_step;
+        // The last multiple and the end are one row when they differ by rounding only.
+        if t > self.end - 1e-9 * self.output_step { self.end } else { t }
+    }
+}
+
+/// All that is known at a state of the motion.
+pub struct Observation<'a> {
+    pub t: f64,
+    pub q: &'a [f64],
+    pub v: &'a [f64],
+    pub vdot: &'a [f64],
+    pub lambda: &'a [f64],
+    pub phi: &'a [f64],
+    pub phi_dot: &'a [f64],
+    pub phi_ddot: &'a [f64],
+    /// Work of forces without potential and of moving constraints since the start, J.
+    pub work: f64,
+}
+
+/// Receives the motion while it is computed.
+pub trait Sink {
+    /// Every accepted step, the start included.
+    fn accepted(&mut self, state: &Observation);
+    /// Every output row, in order.
+    fn row(&mut self, state: &Observation);
+}

@@ -1,0 +1,122 @@
+//! Accepted steps allocate nothing: a run of 2N steps makes as many allocations as one of N.
+
+mod common;
+#[path = "common/counting.rs"]
+mod counting;
+
+use common::driven_pendulum::{self, DrivenPendulum};
+use common::{adaptive, fixed};
+use counting::{Counting, count};
+use holonom::math::Scalar;
+use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate};
+use holonom::study::{Overrides, Study};
+use holonom::system::{Equations, MechanicalSystem};
+use std::path::Path;
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Methods that between them use every formulation, projection, field and kind of integrator.
+const METHODS: [(&str, &str, &str); 11] = [
+    ("index1", "heun", "none"),
+    ("index1", "rk4", "none"),
+    ("index1", "rk4", "position"),
+    ("index1", "dopri5", "velocity"),
+    ("index1", "dopri5", "exact"),
+    ("index1", "dop853", "manifold"),
+    ("index1", "dop853", "full"),
+    ("baumgarte", "dopri5", "full:metric=mass"),
+    ("invariant_manifold", "rk4", "none"),
+    ("invariant_manifold:field=triangular", "rk4", "none"),
+    ("invariant_manifold:field=full", "dopri5", "none"),
+];
+
+/// Keeps nothing.
+struct Nothing;
+
+impl Sink for Nothing {
+    fn accepted(&mut self, _: &Observation) {}
+    fn row(&mut self, _: &Observation) {}
+}
+
+fn allocations(
+    system: &dyn MechanicalSystem,
+    method: &Method,
+    span: Span,
+    start: (&[f64], &[f64]),
+) -> (usize, Outcome) {
+    let before = count();
+    let outcome = simulate(system, method, span, start, &mut Nothing).unwrap();
+    (count() - before, outcome)
+}
+
+/// Runs of 20 and of 40 steps, with rows at the ends.
+fn check(name: &str, system: &dyn MechanicalSystem, start: (&[f64], &[f64]), step: f64) {
+    for (formulation, integrator, projection) in METHODS {
+        let method = fixed(formulation, integrator, projection, step);
+        let [few, many] = [20_u32, 40].map(|steps| {
+            let end = f64::from(steps) * step;
+            let (made, outcome) = allocations(system, &method, Span { start: 0.0, end, output_step: end }, start);
+            assert_eq!(outcome.failure, None, "{name} {method:?}");
+            assert_eq!(outcome.statistics.steps, u64::from(steps));
+            made
+        });
+        assert_eq!(few, many, "{name} {formulation} {integrator} {projection}");
+    }
+}
+
+#[test]
+fn own_equations() {
+    let (q, v) = driven_pendulum::start();
+    check("driven pendulum", &DrivenPendulum, (&q, &v), 0.01);
+}
+
+/// Unit pendulum whose constraint is given twice.
+struct Twice;
+
+impl Equations for Twice {
+    fn size(&self) -> (usize, usize) {
+        (2, 2)
+    }
+    fn mass<S: Scalar>(&self, _t: S, _q: &[S], mass: &mut [S]) {
+        mass.copy_from_slice(&[S::one(), S::zero(), S::zero(), S::one()]);
+    }
+    fn force<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], f: &mut [S]) {
+        f.copy_from_slice(&[S::zero(), S::constant(-9.81)]);
+    }
+    fn phi<S: Scalar>(&self, _t: S, q: &[S], phi: &mut [S]) {
+        phi.fill((q[0].square() + q[1].square() - 1.0) * 0.5);
+    }
+}
+
+#[test]
+fn redundant_constraints() {
+    check("pendulum twice", &Twice, (&[0.6, -0.8], &[0.0, 0.0]), 0.01);
+}
+
+/// Planar, redundant, and spatial with quaternions and a driver.
+#[test]
+fn scenes() {
+    for name in ["andrews", "parallelogram_redundant", "universal_shaft", "spinning_top"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"));
+        let study = Study::load(&path, &Overrides::default()).unwrap();
+        check(name, study.system(), study.start(), 1e-5);
+    }
+}
+
+#[test]
+fn adaptive_steps_and_rows() {
+    let (q, v) = driven_pendulum::start();
+    for integrator in ["dopri5", "dop853"] {
+        let method = adaptive("index1", integrator, "manifold", 1e-10);
+        let run = |end| {
+            let span = Span { start: 0.0, end, output_step: 0.001 };
+            let (made, outcome) = allocations(&DrivenPendulum, &method, span, (&q, &v));
+            assert_eq!(outcome.failure, None);
+            (made, outcome.statistics.steps)
+        };
+        let ((few, short), (many, long)) = (run(0.5), run(1.0));
+        assert!(long > short);
+        assert_eq!(few, many, "{integrator}");
+    }
+}
