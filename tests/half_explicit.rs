@@ -188,7 +188,7 @@ fn rattle_needs_a_constant_mass() {
     let (theta, omega) = robot_arm::start();
     let failure = run(&RobotArm, &method, until(1.0), (&theta, &omega)).outcome.failure.unwrap();
     assert!(failure.t == 0.0 && failure.reason.contains("constant mass"), "{failure:?}");
-    let top = shipped("spinning_top", &[]);
+    let top = shipped("universal_shaft", &[]);
     let error = simulate(top.system(), &method, until(1.0), top.0.start(), &mut Energy { halves: [0.0; 2], half: 0.0 });
     assert!(error.unwrap_err().to_string().contains("N(q) v"));
 }

@@ -50,6 +50,8 @@ pub struct HalfExplicit {
     k: Vec<Vec<f64>>,
     stage: Vec<f64>,
     lambda: Vec<f64>,
+    /// f of the stage
+    force: Vec<f64>,
     /// phi_t of the stage, and the rate that the acceleration must give the constraint.
     phi_t: Vec<f64>,
     rate: Vec<f64>,
@@ -69,6 +71,7 @@ impl HalfExplicit {
             k: vec![zeros(len); tableau.constraint.len() + 1],
             stage: zeros(len),
             lambda: zeros(n.lambda),
+            force: zeros(n.v),
             phi_t: zeros(n.lambda),
             rate: zeros(n.lambda),
             error: zeros(len),
@@ -96,30 +99,26 @@ impl HalfExplicit {
         dynamics.system.rate(q, v, qdot);
         // Without V'_i yet, the row of the constraint sums the accelerations before it.
         rest.fill(0.0);
-        rest[..n.v].copy_from_slice(&dynamics.terms.f);
+        self.force.copy_from_slice(&dynamics.terms.f);
         self.solve(problem, i, from, h)?;
         let moving: f64 = self.lambda.iter().zip(&self.phi_t).map(|(lambda, phi_t)| lambda * phi_t).sum();
         self.k[i][n.q + n.v] = power + moving;
         Ok(())
     }
 
-    /// V'_i and lambda_i; k_i holds N V and f, `lambda` the guess gamma.
+    /// V'_i and lambda_i; k_i holds N V and zeros, `force` f and `lambda` the guess gamma.
     fn solve(&mut self, problem: &mut Problem, i: usize, from: From, h: f64) -> Result<(), Halt> {
         let row = self.tableau.constraint[i];
         let n = problem.dynamics.system.dimensions();
         combine(&mut self.stage, from.y, h, row, &self.k);
-        // Back from what f, in the place of V'_i, added to the velocity.
-        let (before, rest) = self.k.split_at_mut(i);
-        for l in n.q..n.q + n.v {
-            self.stage[l] = from.y[l] + row.iter().zip(&*before).map(|(a, k)| h * a * k[l]).sum::<f64>();
-        }
         let dynamics = &mut problem.dynamics;
         let (q, v) = self.stage.split_at_mut(n.q);
         dynamics.system.normalize(q);
         dynamics.evaluate(from.t + self.tableau.nodes[i] * h, q, &v[..n.v], Need::CONSTRAINTS | Need::G);
         let factor = -1.0 / (h * row[i]);
         self.rate.iter_mut().zip(&dynamics.terms.phi_dot).for_each(|(rate, phi_dot)| *rate = factor * phi_dot);
-        let vdot = &mut rest[0][n.q..n.q + n.v];
+        let vdot = &mut self.k[i][n.q..n.q + n.v];
+        vdot.copy_from_slice(&self.force);
         let g2 = (&dynamics.structure.g, &dynamics.terms.g[..]);
         self.solver.solve(&mut dynamics.kkt, g2, &self.rate, vdot, &mut self.lambda)?;
         is_finite(vdot)

@@ -154,8 +154,8 @@ impl Rattle {
         }
         self.rows.iter_mut().zip(&dynamics.terms.phi_dot).for_each(|(row, phi_dot)| *row = -phi_dot);
         dynamics.kkt.solve(&mut self.dv, &mut self.rows)?;
-        for i in 0..v.len() {
-            v[i] = self.half[i] + self.dv[i];
+        for (v, (half, dv)) in v.iter_mut().zip(self.half.iter().zip(&self.dv)) {
+            *v = half + dv;
         }
         dynamics.solve_at_velocity(t, q, v)?;
         let (qdot, rest) = self.slope.split_at_mut(q.len());

@@ -93,7 +93,7 @@ impl TwoPlaces {
             if residual <= ROUND_OFF || residual <= SOLVED && residual > 0.1 * last {
                 return Ok(());
             }
-            if !(residual < 0.9 * last) {
+            if residual.is_nan() || residual >= 0.9 * last {
                 break;
             }
             last = residual;
