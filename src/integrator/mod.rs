@@ -99,7 +99,16 @@ pub struct Entry {
 }
 
 /// Formulations that are vector fields, which any explicit method takes.
-pub const VECTOR_FIELDS: &[&str] = &["index1", "baumgarte", "invariant_manifold"];
+pub const VECTOR_FIELDS: &[&str] = &[
+    "index1",
+    "baumgarte",
+    "invariant_manifold",
+    "force_projection",
+    "penalty",
+    "augmented_lagrangian",
+    "udwadia_kalaba",
+    "null_space",
+];
 
 /// What half-explicit methods take.
 pub const HALF_EXPLICIT: &[&str] = &["index2"];

@@ -255,7 +255,7 @@ impl<'a> Run<'a> {
     }
 
     fn observe(&mut self, sink: &mut dyn Sink) {
-        let deficient = self.problem.dynamics.kkt.is_rank_deficient();
+        let deficient = self.problem.dynamics.is_rank_deficient;
         self.problem.dynamics.statistics.rank_deficient += u64::from(deficient);
         sink.accepted(&observation(self.t, &self.y, &self.problem, &mut self.phi_ddot));
     }
