@@ -19,6 +19,8 @@ pub enum Halt {
     Massless(String),
     /// The equations do not determine the accelerations.
     Singular(Singular),
+    /// The method does not fit these equations, and why.
+    Unsuitable(&'static str),
 }
 
 impl fmt::Display for Halt {
@@ -34,6 +36,7 @@ impl fmt::Display for Halt {
                 write!(out, "`{coordinate}` has no mass in a direction, and the formulation needs the inverse of M")
             }
             Halt::Singular(singular) => write!(out, "{singular}"),
+            Halt::Unsuitable(reason) => write!(out, "{reason}"),
         }
     }
 }
@@ -150,6 +153,16 @@ impl<'a> Dynamics<'a> {
     ) -> Result<(), Halt> {
         self.right_sides(t, q, v, acceleration_level);
         self.factor()?;
+        self.solve_factored()
+    }
+
+    /// The same for the plain equations at another velocity of the state whose matrix is factored.
+    pub fn solve_at_velocity(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), Halt> {
+        self.right_sides(t, q, v, |_, _| 0.0);
+        self.solve_factored()
+    }
+
+    fn solve_factored(&mut self) -> Result<(), Halt> {
         self.is_rank_deficient = self.kkt.is_rank_deficient();
         self.kkt.solve(&mut self.vdot, &mut self.lambda).map_err(|singular| self.halt(singular))?;
         self.finite()

@@ -8,6 +8,8 @@ mod dense;
 mod dynamics;
 mod force_projection;
 mod index1;
+mod index2;
+mod index3;
 mod invariant_manifold;
 mod null_space;
 mod penalty;
@@ -47,6 +49,8 @@ pub struct Entry {
 pub fn registry() -> &'static [Entry] {
     &[
         index1::ENTRY,
+        index2::ENTRY,
+        index3::ENTRY,
         baumgarte::ENTRY,
         invariant_manifold::ENTRY,
         force_projection::ENTRY,

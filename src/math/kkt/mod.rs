@@ -34,6 +34,7 @@ mod symbolic;
 mod system;
 #[cfg(test)]
 mod tests;
+mod two_places;
 
 pub use condition::condition_number;
 pub use dependence::{Dependence, DependentRow, dependent_rows};
@@ -41,6 +42,7 @@ pub use pattern::Pattern;
 pub use pseudo_inverse::PseudoInverse;
 pub use reduced::Reduced;
 pub use saddle::SaddlePoint;
+pub use two_places::TwoPlaces;
 
 /// A way to solve the system: factor once, then solve any number of times.
 pub trait Solver {
@@ -72,4 +74,7 @@ pub enum Singular {
     /// The last factorization failed, or there was none.
     #[error("the saddle-point system is not factored")]
     NotFactored,
+    /// Iteration between the constraints of two places does not converge.
+    #[error("the constraints at the ends of a stage are too far apart for its equations to be solved")]
+    Apart,
 }
