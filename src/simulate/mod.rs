@@ -291,7 +291,8 @@ impl<'a> Run<'a> {
     fn failure(&self, reason: String) -> Failure {
         let hint = match self.fixed {
             _ if reason.contains("infinite or not a number") => {
-                "an expression left its domain, or two points met: look at the motion just before the end"
+                "the motion diverged (try a smaller step or a projection such as `manifold`), an expression left its \
+                 domain, or two points met: look at the motion just before the end"
             }
             Some(_) => "try a smaller --step, a projection such as `manifold`, or an adaptive integrator",
             None => "try another tolerance or a projection such as `manifold`; look at the motion just before the end",
