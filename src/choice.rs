@@ -88,6 +88,16 @@ impl Choice {
         }
     }
 
+    /// A number above zero.
+    pub fn positive(&self, key: &str, default: f64) -> Result<f64> {
+        let value = self.number(key, default)?;
+        match value > 0.0 {
+            true => Ok(value),
+            false => Err(Error::input(format!("{}: {key} is {value}, but must be above zero", self.name))
+                .hint(format!("give a number above zero, as in {key}={default}"))),
+        }
+    }
+
     /// A whole number within `range`.
     pub fn whole(&self, key: &str, default: usize, range: std::ops::RangeInclusive<usize>) -> Result<usize> {
         let value = self.number(key, default as f64)?;

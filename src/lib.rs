@@ -36,7 +36,7 @@
 //! | [`joint`], [`force`] | constraints and wrenches over frames | a file and a line in the registry |
 //! | [`scene`] | the JSON format, its checks and its schema | |
 //! | [`system`] | [`system::MechanicalSystem`], which solvers see; own equations by [`system::Equations`] | implement it |
-//! | [`formulation`] | what is integrated: index 1, Baumgarte, invariant manifold | a file and a line |
+//! | [`formulation`] | what is integrated: index 1, Baumgarte, invariant manifold, penalty, null space ... | a file and a line |
 //! | [`projection`] | what is done after a step: post-stabilization, coordinate projection | a file and a line |
 //! | [`initial`] | consistent q, v, then v' and lambda | |
 //! | [`integrator`] | one file a method | a file and a line |

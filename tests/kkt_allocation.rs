@@ -4,7 +4,7 @@
 mod counting;
 
 use counting::{Counting, count};
-use holonom::math::kkt::{Pattern, SaddlePoint};
+use holonom::math::kkt::{Pattern, PseudoInverse, Reduced, SaddlePoint, Solver};
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
@@ -65,4 +65,27 @@ fn nor_by_dense_blocks_or_by_the_dense_way() {
     // Two rows at an angle of 1e-8 need the dense way.
     let g = Pattern::dense(2, 3);
     assert_eq!(allocations(&Pattern::diagonal(3), &[1.0; 3], &g, &[1.0, 2.0, 3.0, 1.0, 2.0, 3.0 + 1e-8]), 0);
+}
+
+#[test]
+fn nor_by_the_dense_solvers() {
+    for (points, copies) in [(8, 0), (8, 3), (40, 0)] {
+        let (g, values) = rods(points, copies);
+        let mass = Pattern::diagonal(2 * points);
+        let mut solvers: [Box<dyn Solver>; 2] =
+            [Box::new(PseudoInverse::new(&mass, &g, 1e-10).unwrap()), Box::new(Reduced::new(&mass, &g).unwrap())];
+        let (mass_values, mut top, mut bottom) = (vec![1.0; g.cols], vec![1.0; g.cols], vec![0.0; g.rows]);
+        for (k, solver) in solvers.iter_mut().enumerate() {
+            let mut round = || {
+                solver.factor(&mass_values, &values).unwrap();
+                top.fill(1.0);
+                bottom.fill(0.0);
+                solver.solve(&mut top, &mut bottom).unwrap();
+            };
+            round();
+            let before = count();
+            (0..10).for_each(|_| round());
+            assert_eq!(count(), before, "{k}: {points} {copies}");
+        }
+    }
 }

@@ -3,6 +3,7 @@
 use super::{Probe, Signal};
 use crate::error::{Error, Result, nearest, suggest};
 use crate::math::expression::{Expression, Number, Parameters};
+use std::collections::HashMap;
 
 /// Index of a marker among all markers of a scene, those of the ground included.
 pub type MarkerId = usize;
@@ -17,11 +18,25 @@ pub struct MarkerTable {
     pub body_names: Vec<String>,
     /// False for point masses, whose markers have no orientation.
     pub oriented: Vec<bool>,
+    places: HashMap<String, MarkerId>,
 }
 
 impl MarkerTable {
+    /// Adds a marker; its body's own comes first.
+    pub fn add(&mut self, name: String, body: Option<usize>, oriented: bool) {
+        self.places.insert(name.clone(), self.names.len());
+        self.names.push(name);
+        self.bodies.push(body);
+        self.oriented.push(oriented);
+    }
+
+    /// Whether a body, or the ground, has this name.
+    pub fn has_body(&self, name: &str) -> bool {
+        self.places.contains_key(name)
+    }
+
     pub fn find(&self, name: &str) -> Result<MarkerId> {
-        self.names.iter().position(|known| known == name).ok_or_else(|| {
+        self.places.get(name).copied().ok_or_else(|| {
             let names = || self.names.iter().map(String::as_str);
             // A body's own frame may be meant; where nothing is near, its markers are listed alone.
             let hint = match nearest(name, names()) {

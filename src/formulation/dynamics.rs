@@ -15,8 +15,12 @@ pub enum Halt {
     Term(String),
     /// The coordinate has neither mass nor constraint along some direction of motion.
     Undetermined(String),
+    /// The coordinate has no mass along some direction, and the formulation needs M^-1.
+    Massless(String),
     /// The equations do not determine the accelerations.
     Singular(Singular),
+    /// The method does not fit these equations, and why.
+    Unsuitable(&'static str),
 }
 
 impl fmt::Display for Halt {
@@ -28,7 +32,11 @@ impl fmt::Display for Halt {
                 out,
                 "the motion is not determined: `{coordinate}` has neither mass nor constraint in a direction"
             ),
+            Halt::Massless(coordinate) => {
+                write!(out, "`{coordinate}` has no mass in a direction, and the formulation needs the inverse of M")
+            }
             Halt::Singular(singular) => write!(out, "{singular}"),
+            Halt::Unsuitable(reason) => write!(out, "{reason}"),
         }
     }
 }
@@ -74,6 +82,8 @@ pub struct Dynamics<'a> {
     pub vdot: Vec<f64>,
     /// lambda of the last solution.
     pub lambda: Vec<f64>,
+    /// Whether G was rank deficient at the last solution; false with a formulation that does not ask for the rank.
+    pub is_rank_deficient: bool,
     pub statistics: Statistics,
     pub scratch: Scratch,
 }
@@ -88,6 +98,7 @@ impl<'a> Dynamics<'a> {
             structure,
             vdot: vec![0.0; n.v],
             lambda: vec![0.0; n.lambda],
+            is_rank_deficient: false,
             statistics: Statistics::default(),
             scratch: Scratch::default(),
         }
@@ -106,9 +117,10 @@ impl<'a> Dynamics<'a> {
     }
 
     /// Why the terms have no solution, with names.
-    fn halt(&self, singular: Singular) -> Halt {
+    pub(super) fn halt(&self, singular: Singular) -> Halt {
         match singular {
             Singular::Undetermined { coordinate } => Halt::Undetermined(self.coordinate(coordinate)),
+            Singular::Massless { coordinate } => Halt::Massless(self.coordinate(coordinate)),
             Singular::NotFinite => self.infinite_term().map_or(Halt::NotFinite, Halt::Term),
             other => Halt::Singular(other),
         }
@@ -139,14 +151,35 @@ impl<'a> Dynamics<'a> {
         v: &[f64],
         acceleration_level: impl Fn(f64, f64) -> f64,
     ) -> Result<(), Halt> {
+        self.right_sides(t, q, v, acceleration_level);
+        self.factor()?;
+        self.solve_factored()
+    }
+
+    /// The same for the plain equations at another velocity of the state whose matrix is factored.
+    pub fn solve_at_velocity(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), Halt> {
+        self.right_sides(t, q, v, |_, _| 0.0);
+        self.solve_factored()
+    }
+
+    fn solve_factored(&mut self) -> Result<(), Halt> {
+        self.is_rank_deficient = self.kkt.is_rank_deficient();
+        self.kkt.solve(&mut self.vdot, &mut self.lambda).map_err(|singular| self.halt(singular))?;
+        self.finite()
+    }
+
+    /// Evaluates the terms at a state and leaves f in `vdot`, gamma + `acceleration_level` in `lambda`.
+    pub fn right_sides(&mut self, t: f64, q: &[f64], v: &[f64], acceleration_level: impl Fn(f64, f64) -> f64) {
         self.statistics.rhs_evaluations += 1;
         self.evaluate(t, q, v, Need::DYNAMICS);
-        self.factor()?;
         self.vdot.copy_from_slice(&self.terms.f);
         for (i, lambda) in self.lambda.iter_mut().enumerate() {
             *lambda = self.terms.gamma[i] + acceleration_level(self.terms.phi[i], self.terms.phi_dot[i]);
         }
-        self.kkt.solve(&mut self.vdot, &mut self.lambda).map_err(|singular| self.halt(singular))?;
+    }
+
+    /// Halts where v' or lambda is infinite or not a number.
+    pub fn finite(&self) -> Result<(), Halt> {
         match self.vdot.iter().chain(&self.lambda).all(|x| x.is_finite()) {
             true => Ok(()),
             false => Err(Halt::NotFinite),

@@ -16,7 +16,7 @@ pub const ENTRY: Entry = Entry {
     make: |_, _| Ok(Box::new(Index1)),
 };
 
-struct Index1;
+pub(super) struct Index1;
 
 impl Formulation for Index1 {
     fn derivative(

@@ -2,7 +2,7 @@
 
 use super::{Dynamics, Entry, Field, Formulation, Halt, OptionDoc, Stabilizer};
 use crate::error::Result;
-use crate::system::Need;
+use crate::system::{MechanicalSystem, Need};
 
 /// ```text
 /// z' = fhat(z, t) - gamma F(z) h(z),   z = (q, v),  h = (phi, G v + phi_t)
@@ -24,14 +24,21 @@ pub const ENTRY: Entry = Entry {
     make: |choice, system| {
         let gamma = choice.not_negative("gamma", 10.0)?;
         let stabilizer = Stabilizer::new(Field::from_choice(choice)?, system);
-        Ok(Box::new(InvariantManifold { gamma, stabilizer, rate: vec![0.0; system.dimensions().q] }))
+        Ok(Box::new(InvariantManifold::new([gamma; 2], stabilizer, system)))
     },
 };
 
-struct InvariantManifold {
-    gamma: f64,
+pub(super) struct InvariantManifold {
+    /// Rates of attraction by which the position and the velocity part of F h count, 1/s.
+    gains: [f64; 2],
     stabilizer: Stabilizer,
     rate: Vec<f64>,
+}
+
+impl InvariantManifold {
+    pub fn new(gains: [f64; 2], stabilizer: Stabilizer, system: &dyn MechanicalSystem) -> Self {
+        InvariantManifold { gains, stabilizer, rate: vec![0.0; system.dimensions().q] }
+    }
 }
 
 impl Formulation for InvariantManifold {
@@ -44,6 +51,7 @@ impl Formulation for InvariantManifold {
         qdot: &mut [f64],
         vdot: &mut [f64],
     ) -> Result<(), Halt> {
+        let [position, velocity] = self.gains;
         dynamics.solve(t, q, v, |_, _| 0.0)?;
         dynamics.system.rate(q, v, qdot);
         if self.stabilizer.field.needs().includes(Need::L) {
@@ -51,9 +59,9 @@ impl Formulation for InvariantManifold {
         }
         self.stabilizer.correction(dynamics)?;
         dynamics.system.rate(q, &self.stabilizer.dq, &mut self.rate);
-        qdot.iter_mut().zip(&self.rate).for_each(|(rate, correction)| *rate -= self.gamma * correction);
+        qdot.iter_mut().zip(&self.rate).for_each(|(rate, correction)| *rate -= position * correction);
         for ((rate, vdot), correction) in vdot.iter_mut().zip(&dynamics.vdot).zip(&self.stabilizer.dv) {
-            *rate = vdot - self.gamma * correction;
+            *rate = vdot - velocity * correction;
         }
         Ok(())
     }

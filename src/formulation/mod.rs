@@ -2,11 +2,19 @@
 //!
 //! To add one: a file with a [`Formulation`] and an [`Entry`], and a line in [`registry`].
 
+mod augmented_lagrangian;
 mod baumgarte;
+mod dense;
 mod dynamics;
+mod force_projection;
 mod index1;
+mod index2;
+mod index3;
 mod invariant_manifold;
+mod null_space;
+mod penalty;
 mod stabilizer;
+mod udwadia_kalaba;
 
 pub use crate::choice::{Choice, OptionDoc};
 pub use dynamics::{Dynamics, Halt, Statistics};
@@ -39,7 +47,18 @@ pub struct Entry {
 
 /// Every formulation, in the order of the documentation.
 pub fn registry() -> &'static [Entry] {
-    &[index1::ENTRY, baumgarte::ENTRY, invariant_manifold::ENTRY]
+    &[
+        index1::ENTRY,
+        index2::ENTRY,
+        index3::ENTRY,
+        baumgarte::ENTRY,
+        invariant_manifold::ENTRY,
+        force_projection::ENTRY,
+        penalty::ENTRY,
+        augmented_lagrangian::ENTRY,
+        udwadia_kalaba::ENTRY,
+        null_space::ENTRY,
+    ]
 }
 
 /// The formulation that `choice` names, for `system`.

@@ -19,8 +19,13 @@ impl Tolerance {
 
     /// Root mean square of `change` over the tolerated errors of `y`. The last component, the work, is not tested.
     pub fn norm(&self, y: &[f64], change: &[f64]) -> f64 {
-        let n = y.len() - 1;
-        let sum: f64 = (0..n).map(|i| (change[i] / self.weight(y[i], y[i])).powi(2)).sum();
+        self.norm_between(y, y, change)
+    }
+
+    /// The same over a step.
+    pub fn norm_between(&self, from: &[f64], to: &[f64], change: &[f64]) -> f64 {
+        let n = from.len() - 1;
+        let sum: f64 = (0..n).map(|i| (change[i] / self.weight(from[i], to[i])).powi(2)).sum();
         (sum / n as f64).sqrt()
     }
 }

@@ -16,7 +16,7 @@ pub const ENTRY: Entry = Entry {
     make: |setup| Ok(Box::new(Explicit::new(&TABLEAU, setup.len()))),
 };
 
-static TABLEAU: Tableau = Tableau {
+pub(super) static TABLEAU: Tableau = Tableau {
     order: 5,
     c: &[0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0],
     a: &[
@@ -47,5 +47,10 @@ static TABLEAU: Tableau = Tableau {
         -1453857185.0 / 822651844.0,
         69997945.0 / 29380423.0,
     ]],
-    control: || Control::new(5.0, 0.04, 0.2, 10.0),
+    control,
 };
+
+/// As in Hairer's DOPRI5.
+pub(super) fn control() -> Control {
+    Control::new(5.0, 0.04, 0.2, 10.0)
+}

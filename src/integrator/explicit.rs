@@ -1,5 +1,6 @@
 //! Explicit Runge-Kutta methods: the step of any tableau.
 
+use super::hermite::Hermite;
 use super::{Control, From, Integrator, Problem, Tolerance};
 use crate::formulation::Halt;
 
@@ -15,6 +16,16 @@ pub struct Tableau {
     /// Weights of all stages in the interpolation polynomial beyond the cubic Hermite part, row by row.
     pub dense: &'static [&'static [f64]],
     pub control: fn() -> Control,
+}
+
+impl Tableau {
+    /// Weights of an embedded error estimate.
+    pub fn embedded(&self) -> Option<&'static [f64]> {
+        match self.error {
+            ErrorEstimate::Embedded(weights) => Some(weights),
+            _ => None,
+        }
+    }
 }
 
 /// How a tableau estimates the error of a step.
@@ -35,7 +46,7 @@ pub struct Explicit {
     /// Slopes of all stages; the first is given, so it stays empty.
     k: Vec<Vec<f64>>,
     stage: Vec<f64>,
-    polynomial: Vec<Vec<f64>>,
+    polynomial: Hermite,
 }
 
 impl Explicit {
@@ -45,7 +56,7 @@ impl Explicit {
             tableau,
             k: zeros(tableau.c.len()),
             stage: vec![0.0; len],
-            polynomial: zeros(3 + tableau.dense.len()),
+            polynomial: Hermite::new(len, tableau.dense.len()),
         }
     }
 
@@ -97,7 +108,7 @@ impl Explicit {
 }
 
 /// out = y + h sum_j weights_j k_j
-fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[Vec<f64>]) {
+pub(super) fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[Vec<f64>]) {
     out.copy_from_slice(y);
     for (&weight, k) in weights.iter().zip(k).filter(|(weight, _)| **weight != 0.0) {
         let factor = h * weight;
@@ -135,21 +146,15 @@ impl Integrator for Explicit {
         self.end_stage().map(|end| &self.k[end][..])
     }
 
-    /// The polynomial of Hairer's codes: y + theta (F0 + (1 - theta) (F1 + theta (F2 + (1 - theta) (F3 + ...)))), in
-    /// which F0 to F2 make a cubic Hermite interpolant and the rest comes from the stages.
+    /// Cubic Hermite interpolation, and beyond it what comes from the stages.
     fn prepare(&mut self, problem: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt> {
         let stages = self.stages();
         if self.k.len() > stages {
             self.k[stages].copy_from_slice(slope);
             self.evaluate(problem, stages + 1..self.k.len(), from, h)?;
         }
-        for i in 0..from.y.len() {
-            let change = to[i] - from.y[i];
-            self.polynomial[0][i] = change;
-            self.polynomial[1][i] = h * from.slope[i] - change;
-            self.polynomial[2][i] = 2.0 * change - h * (slope[i] + from.slope[i]);
-        }
-        for (row, weights) in self.polynomial[3..].iter_mut().zip(self.tableau.dense) {
+        self.polynomial.prepare(from, h, to, slope);
+        for (row, weights) in self.polynomial.beyond().iter_mut().zip(self.tableau.dense) {
             row.fill(0.0);
             for (&weight, k) in weights.iter().zip(&self.k) {
                 row.iter_mut().zip(k).for_each(|(row, k)| *row += h * weight * k);
@@ -159,11 +164,6 @@ impl Integrator for Explicit {
     }
 
     fn interpolate(&self, theta: f64, from: &[f64], out: &mut [f64]) {
-        out.fill(0.0);
-        for (i, row) in self.polynomial.iter().enumerate().rev() {
-            let factor = if i % 2 == 0 { theta } else { 1.0 - theta };
-            out.iter_mut().zip(row).for_each(|(out, f)| *out = (*out + f) * factor);
-        }
-        out.iter_mut().zip(from).for_each(|(out, y)| *out += y);
+        self.polynomial.interpolate(theta, from, out);
     }
 }

@@ -7,15 +7,20 @@ mod dop853;
 mod dop853_tableau;
 mod dopri5;
 mod explicit;
+mod half_explicit;
+mod hem;
+mod hermite;
 mod heun;
+mod phem56;
 mod problem;
+mod rattle;
 mod rk4;
 
 pub use control::{Control, Tolerance, first_step};
 pub use problem::Problem;
 
-use crate::error::Result;
-use crate::formulation::{Choice, Halt, OptionDoc};
+use crate::error::{Error, Result};
+use crate::formulation::{self, Choice, Halt, OptionDoc};
 use crate::system::MechanicalSystem;
 
 /// A one-step method. States are flat: q, v, and the work done by forces without a potential.
@@ -94,15 +99,54 @@ pub struct Entry {
 }
 
 /// Formulations that are vector fields, which any explicit method takes.
-pub const VECTOR_FIELDS: &[&str] = &["index1", "baumgarte", "invariant_manifold"];
+pub const VECTOR_FIELDS: &[&str] = &[
+    "index1",
+    "baumgarte",
+    "invariant_manifold",
+    "force_projection",
+    "penalty",
+    "augmented_lagrangian",
+    "udwadia_kalaba",
+    "null_space",
+];
+
+/// What half-explicit methods take.
+pub const HALF_EXPLICIT: &[&str] = &["index2"];
 
 /// Every integrator, in the order of the documentation.
 pub fn registry() -> &'static [Entry] {
-    &[heun::ENTRY, rk4::ENTRY, dopri5::ENTRY, dop853::ENTRY]
+    &[
+        heun::ENTRY,
+        rk4::ENTRY,
+        dopri5::ENTRY,
+        dop853::ENTRY,
+        hem::HEM3,
+        hem::HEM4,
+        hem::HEM5,
+        phem56::ENTRY,
+        rattle::ENTRY,
+    ]
 }
 
 /// The registry's entry that `choice` names.
 pub fn find(choice: &Choice) -> Result<&'static Entry> {
     let index = choice.find("integrator", registry().iter().map(|entry| (entry.name, entry.options)))?;
     Ok(&registry()[index])
+}
+
+/// Refuses a formulation that the integrator does not take, naming what goes together.
+pub fn check_pair(entry: &Entry, formulation: &Choice) -> Result<()> {
+    let name = formulation.name.as_str();
+    if entry.accepts.contains(&name) || formulation::registry().iter().all(|known| known.name != name) {
+        // An unknown formulation is refused by its own registry, with names to choose from.
+        return Ok(());
+    }
+    let takers: Vec<&str> =
+        registry().iter().filter(|other| other.accepts.contains(&name)).map(|other| other.name).collect();
+    let takers = if takers.is_empty() { "no integrator".to_string() } else { takers.join(", ") };
+    Err(Error::input(format!("{} cannot integrate {name}", entry.name)).hint(format!(
+        "{} accepts {}; {name} goes with {takers}",
+        entry.name,
+        entry.accepts.join(", ")
+    )))
 }

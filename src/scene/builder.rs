@@ -9,6 +9,7 @@ use crate::error::{Error, Result, excerpt, suggest};
 use crate::math::expression::{Number, Parameters};
 use crate::{force, joint};
 use serde_json::{Map, Value};
+use std::collections::HashSet;
 
 /// Resolves everything; what can be wrong with a scene alone is found here.
 pub fn build(file: SceneFile, overrides: &[(String, f64)]) -> Result<Scene> {
@@ -51,7 +52,7 @@ fn model<const D: usize>(file: &SceneFile, parameters: &Parameters) -> Result<(M
         parts.add(json.clone(), &build).map_err(|error| error.under(place))?;
     }
     outputs::check_names(&file.outputs)?;
-    let formulas = outputs::formulas::<D>(&file.outputs)?;
+    let formulas = outputs::formulas::<D>(&file.outputs);
     let build = Build { parameters, markers: &parts.table, outputs: &formulas, gravity };
     let entries = joint::registry::<D>();
     let kinds: Vec<&str> = entries.iter().map(|entry| entry.name).collect();
@@ -93,25 +94,19 @@ impl<const D: usize> Parts<D> {
             q: Vec::new(),
             v: Vec::new(),
         };
-        parts.list("ground".to_string(), None, true);
+        parts.table.add("ground".to_string(), None, true);
         parts.ground.push(Marker::point([0.0; D]));
         for (name, marker) in ground {
-            parts.list(format!("ground.{name}"), None, true);
+            parts.table.add(format!("ground.{name}"), None, true);
             parts.ground.push(marker);
         }
         parts
     }
 
-    fn list(&mut self, name: String, body: Option<usize>, oriented: bool) {
-        self.table.names.push(name);
-        self.table.bodies.push(body);
-        self.table.oriented.push(oriented);
-    }
-
     fn add(&mut self, json: Value, build: &Build<D>) -> Result<()> {
         let mut json = object(json)?;
         let name = take_name(&mut json)?;
-        if name == "ground" || self.table.body_names.contains(&name) {
+        if self.table.has_body(&name) {
             return Err(Error::input(format!("the name `{name}` is taken"))
                 .under("name")
                 .hint("give each body its own"));
@@ -142,9 +137,9 @@ impl<const D: usize> Parts<D> {
         let built = (entry.build)(Value::Object(json), all, &initial, build)?;
         let index = self.bodies.len();
         let first_marker = self.table.names.len();
-        self.list(name.to_string(), Some(index), built.body.oriented());
+        self.table.add(name.to_string(), Some(index), built.body.oriented());
         for (marker, _) in &named {
-            self.list(format!("{name}.{marker}"), Some(index), built.body.oriented());
+            self.table.add(format!("{name}.{marker}"), Some(index), built.body.oriented());
         }
         self.bodies.push(Part {
             name: name.to_string(),
@@ -170,11 +165,12 @@ fn elements<E>(
     build: impl Fn(&str, Value) -> Result<(&'static str, E, Vec<usize>)>,
 ) -> Result<Vec<Connection<E>>> {
     let mut all: Vec<Connection<E>> = Vec::new();
+    let mut names = HashSet::new();
     for (i, json) in given.iter().enumerate() {
         let mut read = || {
             let mut json = object(json.clone())?;
             let name = take_name(&mut json)?;
-            if all.iter().any(|known| known.name == name) {
+            if !names.insert(name.clone()) {
                 return Err(Error::input(format!("the name `{name}` is taken"))
                     .under("name")
                     .hint(format!("give each {what} its own")));

@@ -11,7 +11,7 @@ type Joints<const D: usize> = [Connection<Box<dyn Joint<D>>>];
 type Forces<const D: usize> = [Connection<Box<dyn Force<D>>>];
 
 /// Kinematic outputs as expressions, by which forces may use them.
-pub fn formulas<const D: usize>(specs: &[OutputSpec]) -> Result<Vec<(String, String)>> {
+pub fn formulas<const D: usize>(specs: &[OutputSpec]) -> Vec<(String, String)> {
     let formula = |spec: &OutputSpec| {
         let of = spec.of.as_deref()?;
         let axis = spec.component.as_deref().unwrap_or("x");
@@ -41,10 +41,10 @@ pub fn formulas<const D: usize>(specs: &[OutputSpec]) -> Result<Vec<(String, Str
         let text = formula(spec).or_else(|| distance(spec)).or_else(|| given(spec))?;
         Some((spec.name.clone(), text))
     });
-    Ok(all.collect())
+    all.collect()
 }
 
-/// Names of outputs are columns beside `t`. One may be that of a parameter, as long as no expression uses it.
+/// Names of outputs are columns beside `t`.
 pub fn check_names(specs: &[OutputSpec]) -> Result<()> {
     for (i, OutputSpec { name, .. }) in specs.iter().enumerate() {
         let taken = |by: &str| Error::input(format!("the name `{name}` is taken{by}")).hint("give each output its own");

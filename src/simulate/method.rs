@@ -1,7 +1,7 @@
 //! Which method a run uses.
 
 use crate::error::{Error, Result};
-use crate::formulation::{self, Choice};
+use crate::formulation::Choice;
 use crate::integrator;
 use serde::Serialize;
 
@@ -34,12 +34,7 @@ impl Method {
     /// Refuses combinations that make no sense, naming those that do.
     pub fn check(&self) -> Result<()> {
         let entry = integrator::find(&self.integrator).map_err(|error| error.under("integrator"))?;
-        let known = formulation::registry().iter().any(|known| known.name == self.formulation.name);
-        if known && !entry.accepts.contains(&self.formulation.name.as_str()) {
-            return Err(Error::input(format!("{} cannot integrate {}", entry.name, self.formulation.name))
-                .under("formulation")
-                .hint(format!("{} accepts {}", entry.name, entry.accepts.join(", "))));
-        }
+        integrator::check_pair(entry, &self.formulation).map_err(|error| error.under("formulation"))?;
         for (name, value) in [("rtol", Some(self.rtol)), ("atol", Some(self.atol)), ("step", self.step)] {
             if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {
                 let error = Error::input(format!("{name} is {value}, but must be above zero")).under(name);

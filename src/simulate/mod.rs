@@ -258,7 +258,7 @@ impl<'a> Run<'a> {
     }
 
     fn observe(&mut self, sink: &mut dyn Sink) {
-        let deficient = self.problem.dynamics.kkt.is_rank_deficient();
+        let deficient = self.problem.dynamics.is_rank_deficient;
         self.problem.dynamics.statistics.rank_deficient += u64::from(deficient);
         sink.accepted(&observation(self.t, &self.y, &self.problem, &mut self.phi_ddot));
     }
@@ -291,8 +291,8 @@ impl<'a> Run<'a> {
     fn failure(&self, reason: String) -> Failure {
         let hint = match self.fixed {
             _ if reason.contains("infinite or not a number") => {
-                "an expression left its domain, two points met, or the joints came apart: look at the last rows; \
-                 try a projection such as `manifold`"
+                "the motion diverged (try a smaller step or a projection such as `manifold`), an expression left its \
+                 domain, or two points met: look at the motion just before the end"
             }
             Some(_) => "try a smaller --step, a projection such as `manifold`, or an adaptive integrator",
             None => "try another tolerance or a projection such as `manifold`; look at the motion just before the end",

@@ -172,7 +172,7 @@ cases! {
     formulation_zzz:
         pendulum().args(&["--formulation", "zzz"]) => [
             "at --formulation: there is no formulation `zzz`",
-            "choose one of index1, baumgarte",
+            "choose one of index1, index2",
         ];
     integrator_dopri:
         pendulum().args(&["--integrator", "dopri"]) => [
@@ -237,7 +237,7 @@ cases! {
     formulation:
         pendulum().args(&["--formulation", ""]) => [
             "at --formulation: there is no formulation ``",
-            "choose one of index1, baumgarte",
+            "choose one of index1, index2",
         ];
     integrator_heun:
         pendulum().args(&["--integrator", "heun"]) => [

@@ -12,6 +12,8 @@
 //! 2. When a pivot collapses: the same with dependent rows left out (`skipping`), if it is clear which these are.
 //! 3. Else, and not too large: a dense rank-revealing factorization (`null_space`).
 //!
+//! [`PseudoInverse`] and [`Reduced`] solve the same system densely in other ways, for comparison.
+//!
 //! Redundant rows get multipliers of least norm, right sides that contradict each other least squares.
 
 mod blocked;
@@ -23,6 +25,8 @@ mod null_space;
 mod order;
 mod pattern;
 mod pivot;
+mod pseudo_inverse;
+mod reduced;
 mod reflect;
 mod saddle;
 mod skipping;
@@ -30,11 +34,27 @@ mod symbolic;
 mod system;
 #[cfg(test)]
 mod tests;
+mod two_places;
 
 pub use condition::condition_number;
 pub use dependence::{Dependence, DependentRow, dependent_rows};
 pub use pattern::Pattern;
+pub use pseudo_inverse::PseudoInverse;
+pub use reduced::Reduced;
 pub use saddle::SaddlePoint;
+pub use two_places::TwoPlaces;
+
+/// A way to solve the system: factor once, then solve any number of times.
+pub trait Solver {
+    /// With these values at the places of M and G.
+    fn factor(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular>;
+
+    /// (r1, r2) -> (a, lambda), in place.
+    fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) -> Result<(), Singular>;
+
+    /// Whether rows of G were dependent at the last factorization.
+    fn is_rank_deficient(&self) -> bool;
+}
 
 /// Why a saddle-point system cannot be solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -42,6 +62,9 @@ pub enum Singular {
     /// A direction of motion has neither mass nor constraint; `coordinate` moves most along it.
     #[error("the motion is not determined: coordinate {coordinate} has neither mass nor constraint along a direction")]
     Undetermined { coordinate: usize },
+    /// M is singular where a method needs its inverse; `coordinate` moves most along the direction without mass.
+    #[error("the mass matrix is singular: coordinate {coordinate} has no mass along a direction")]
+    Massless { coordinate: usize },
     /// The matrix or a solution is not finite.
     #[error("the saddle-point system or its solution is not finite")]
     NotFinite,
@@ -51,4 +74,7 @@ pub enum Singular {
     /// The last factorization failed, or there was none.
     #[error("the saddle-point system is not factored")]
     NotFactored,
+    /// Iteration between the constraints of two places does not converge.
+    #[error("the constraints at the ends of a stage are too far apart for its equations to be solved")]
+    Apart,
 }

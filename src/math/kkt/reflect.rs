@@ -207,6 +207,12 @@ impl Squared {
 
     /// b := H^-1 b.
     pub fn solve(&mut self, b: &mut [f64]) {
+        self.forward(b);
+        self.backward(b);
+    }
+
+    /// b := L^-1 P^T b.
+    pub fn forward(&mut self, b: &mut [f64]) {
         let (size, x) = (self.size, &mut self.x);
         for (x, &p) in x.iter_mut().zip(&self.permutation[..size]) {
             *x = b[p];
@@ -217,6 +223,13 @@ impl Squared {
             let value = x[j];
             add_scaled(-value, &column[j + 1..], &mut x[j + 1..size]);
         }
+        b.copy_from_slice(&x[..size]);
+    }
+
+    /// b := P L^-T b.
+    pub fn backward(&mut self, b: &mut [f64]) {
+        let (size, x) = (self.size, &mut self.x);
+        x[..size].copy_from_slice(b);
         for j in (0..size).rev() {
             let column = &self.values[j * size..(j + 1) * size];
             x[j] = (x[j] - dot(&column[j + 1..], &x[j + 1..size])) / column[j];

@@ -1,0 +1,29 @@
+//! Index 1 with another solver of the saddle-point system.
+
+use super::{Dynamics, Formulation, Halt};
+use crate::math::kkt::Solver;
+
+/// The field of index 1, whose accelerations and multipliers come from `S`.
+pub(super) struct Dense<S>(pub S);
+
+impl<S: Solver + Send> Formulation for Dense<S> {
+    fn derivative(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        dynamics: &mut Dynamics,
+        qdot: &mut [f64],
+        vdot: &mut [f64],
+    ) -> Result<(), Halt> {
+        dynamics.right_sides(t, q, v, |_, _| 0.0);
+        dynamics.statistics.factorizations += 1;
+        self.0.factor(&dynamics.terms.mass, &dynamics.terms.g).map_err(|singular| dynamics.halt(singular))?;
+        dynamics.is_rank_deficient = self.0.is_rank_deficient();
+        self.0.solve(&mut dynamics.vdot, &mut dynamics.lambda).map_err(|singular| dynamics.halt(singular))?;
+        dynamics.finite()?;
+        dynamics.system.rate(q, v, qdot);
+        vdot.copy_from_slice(&dynamics.vdot);
+        Ok(())
+    }
+}

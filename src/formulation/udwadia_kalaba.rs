@@ -1,0 +1,32 @@
+//! The equations of Udwadia and Kalaba.
+
+use super::dense::Dense;
+use super::{Entry, OptionDoc};
+use crate::error::Error;
+use crate::math::kkt::PseudoInverse;
+
+/// ```text
+/// v' = a + M^-1/2 (G M^-1/2)^+ (gamma - G a),   a = M^-1 f
+/// ```
+///
+/// The accelerations nearest to the free ones in the mass metric, after Gauss; lambda is the one of least norm. Source:
+/// Udwadia, Kalaba, Proc. R. Soc. Lond. A 439 (1992) 407-410. The same field as index 1, so it drifts as that does: use
+/// it with a projection. G may be rank deficient. M may not be singular: a coordinate without mass ends the run.
+/// Singular values up to `tolerance` times the largest are left out, which decides what happens near a singular
+/// position; rows are not scaled first, so units count. Order in q, v, lambda: that of the integrator. Dense Cholesky
+/// and singular-value decomposition a stage, n^3/3 + 12 n m^2 operations: meant for small systems.
+/// Where G is nearly square the decomposition (faer's) allocates, in accepted steps too.
+pub const ENTRY: Entry = Entry {
+    name: "udwadia_kalaba",
+    about: "v' by the pseudo-inverse of G M^-1/2, dense; drifts as index1 does",
+    options: &[OptionDoc {
+        name: "tolerance",
+        about: "singular values up to this part of the largest count as zero (default 1e-10)",
+    }],
+    make: |choice, system| {
+        let (structure, tolerance) = (system.structure(), choice.not_negative("tolerance", 1e-10)?);
+        let inverse = PseudoInverse::new(&structure.mass, &structure.g, tolerance);
+        let inverse = inverse.ok_or_else(|| Error::input("udwadia_kalaba: the system is too large for dense matrices"));
+        Ok(Box::new(Dense(inverse?)))
+    },
+};

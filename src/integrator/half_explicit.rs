@@ -1,0 +1,189 @@
+//! Half-explicit Runge-Kutta methods: the step of any tableau.
+
+use super::explicit::{Tableau as Explicit, combine};
+use super::hermite::Hermite;
+use super::{Control, From, Integrator, Problem, Setup, Tolerance};
+use crate::formulation::Halt;
+use crate::math::kkt::TwoPlaces;
+use crate::system::Need;
+
+/// The constants of a half-explicit method.
+pub struct Tableau {
+    pub order: usize,
+    /// The explicit tableau of partitioned methods, whose first stage is y' at the start and whose error estimate is
+    /// used; without it stage i + 1 is where the constraint of stage i holds.
+    pub explicit: Option<&'static Explicit>,
+    /// Row i, with i + 1 entries, is where the constraint of stage i holds; the last row is b.
+    pub constraint: &'static [&'static [f64]],
+    /// Nodes of those rows.
+    pub nodes: &'static [f64],
+    pub control: fn() -> Control,
+}
+
+impl Tableau {
+    /// Row and node of the stage itself.
+    fn stage(&self, i: usize) -> (&'static [f64], f64) {
+        match (self.explicit, i) {
+            (Some(explicit), _) => (explicit.a[i], explicit.c[i]),
+            (None, 0) => (&[], 0.0),
+            (None, _) => (self.constraint[i - 1], self.nodes[i - 1]),
+        }
+    }
+
+    fn last(&self) -> &'static [f64] {
+        self.constraint[self.constraint.len() - 1]
+    }
+}
+
+/// Stage i, with P_i = q + h sum_{j <= i} abar_ij N(Q_j) V_j:
+///
+/// ```text
+/// Q_i = q + h sum_{j < i} a_ij N(Q_j) V_j,    V_i = v + h sum_{j < i} a_ij V'_j
+/// [ M(Q_i)  G(Q_i)^T ] [ V'_i     ]   [ f(Q_i, V_i)                                                        ]
+/// [ G(P_i)  0        ] [ lambda_i ] = [ -(G(P_i) (v + h sum_{j < i} abar_ij V'_j) + phi_t(P_i)) / (h abar_ii) ]
+/// ```
+///
+/// The work is a quadrature by the same weights, with the stages' own multipliers.
+pub struct HalfExplicit {
+    tableau: &'static Tableau,
+    /// Slopes of all stages, and y' at the new state.
+    k: Vec<Vec<f64>>,
+    stage: Vec<f64>,
+    lambda: Vec<f64>,
+    /// f of the stage
+    force: Vec<f64>,
+    /// phi_t of the stage, and the rate that the acceleration must give the constraint.
+    phi_t: Vec<f64>,
+    rate: Vec<f64>,
+    /// Error of q, v and w, and of v off the manifold.
+    error: Vec<f64>,
+    off: Vec<f64>,
+    solver: TwoPlaces,
+    polynomial: Hermite,
+}
+
+impl HalfExplicit {
+    pub fn new(tableau: &'static Tableau, setup: &Setup) -> Self {
+        let (n, len) = (setup.system.dimensions(), setup.len());
+        let zeros = |n: usize| vec![0.0; n];
+        HalfExplicit {
+            tableau,
+            k: vec![zeros(len); tableau.constraint.len() + 1],
+            stage: zeros(len),
+            lambda: zeros(n.lambda),
+            force: zeros(n.v),
+            phi_t: zeros(n.lambda),
+            rate: zeros(n.lambda),
+            error: zeros(len),
+            off: zeros(n.v),
+            solver: TwoPlaces::new(n.v, n.lambda),
+            polynomial: Hermite::new(len, 0),
+        }
+    }
+
+    /// k_i = (N V, V', power) of stage `i`.
+    fn evaluate(&mut self, problem: &mut Problem, i: usize, from: From, h: f64) -> Result<(), Halt> {
+        let (row, node) = self.tableau.stage(i);
+        combine(&mut self.stage, from.y, h, row, &self.k);
+        is_finite(&self.stage)?;
+        let (q, v) = problem.split(&self.stage);
+        let n = problem.dynamics.system.dimensions();
+        let dynamics = &mut problem.dynamics;
+        dynamics.statistics.rhs_evaluations += 1;
+        dynamics.evaluate(from.t + node * h, q, v, Need::DYNAMICS);
+        dynamics.factor()?;
+        self.phi_t.copy_from_slice(&dynamics.terms.phi_t);
+        let power = dynamics.terms.power;
+        self.lambda.copy_from_slice(&dynamics.terms.gamma);
+        let (qdot, rest) = self.k[i].split_at_mut(n.q);
+        dynamics.system.rate(q, v, qdot);
+        // Without V'_i yet, the row of the constraint sums the accelerations before it.
+        rest.fill(0.0);
+        self.force.copy_from_slice(&dynamics.terms.f);
+        self.solve(problem, i, from, h)?;
+        let moving: f64 = self.lambda.iter().zip(&self.phi_t).map(|(lambda, phi_t)| lambda * phi_t).sum();
+        self.k[i][n.q + n.v] = power + moving;
+        Ok(())
+    }
+
+    /// V'_i and lambda_i; k_i holds N V and zeros, `force` f and `lambda` the guess gamma.
+    fn solve(&mut self, problem: &mut Problem, i: usize, from: From, h: f64) -> Result<(), Halt> {
+        let row = self.tableau.constraint[i];
+        let n = problem.dynamics.system.dimensions();
+        combine(&mut self.stage, from.y, h, row, &self.k);
+        let dynamics = &mut problem.dynamics;
+        let (q, v) = self.stage.split_at_mut(n.q);
+        dynamics.system.normalize(q);
+        dynamics.evaluate(from.t + self.tableau.nodes[i] * h, q, &v[..n.v], Need::CONSTRAINTS | Need::G);
+        let factor = -1.0 / (h * row[i]);
+        self.rate.iter_mut().zip(&dynamics.terms.phi_dot).for_each(|(rate, phi_dot)| *rate = factor * phi_dot);
+        let vdot = &mut self.k[i][n.q..n.q + n.v];
+        vdot.copy_from_slice(&self.force);
+        let g2 = (&dynamics.structure.g, &dynamics.terms.g[..]);
+        self.solver.solve(&mut dynamics.kkt, g2, &self.rate, vdot, &mut self.lambda)?;
+        is_finite(vdot)
+    }
+
+    /// h sum_i e_i k_i, with its velocities moved to the tangent space at the new state: the multipliers of stages are
+    /// less accurate than their motion. The problem holds the factors of the new state.
+    fn estimate(&mut self, problem: &mut Problem, weights: &[f64], h: f64) -> Result<(), Halt> {
+        let n = problem.dynamics.system.dimensions();
+        self.stage.fill(0.0);
+        combine(&mut self.error, &self.stage, h, weights, &self.k);
+        let dynamics = &mut problem.dynamics;
+        let dv = &mut self.error[n.q..n.q + n.v];
+        self.rate.fill(0.0);
+        dynamics.structure.g.multiply(&dynamics.terms.g, dv, &mut self.rate);
+        dynamics.kkt.solve_projection(&self.rate, &mut self.off)?;
+        dv.iter_mut().zip(&self.off).for_each(|(dv, off)| *dv -= off);
+        Ok(())
+    }
+}
+
+fn is_finite(y: &[f64]) -> Result<(), Halt> {
+    if y.iter().all(|x| x.is_finite()) { Ok(()) } else { Err(Halt::NotFinite) }
+}
+
+impl Integrator for HalfExplicit {
+    fn order(&self) -> usize {
+        self.tableau.order
+    }
+
+    fn control(&self) -> Control {
+        (self.tableau.control)()
+    }
+
+    fn attempt(
+        &mut self,
+        problem: &mut Problem,
+        tolerance: &Tolerance,
+        from: From,
+        h: f64,
+        to: &mut [f64],
+    ) -> Result<Option<f64>, Halt> {
+        self.k[0].copy_from_slice(from.slope);
+        let first = usize::from(self.tableau.explicit.is_some());
+        for i in first..self.tableau.constraint.len() {
+            self.evaluate(problem, i, from, h)?;
+        }
+        combine(to, from.y, h, self.tableau.last(), &self.k);
+        problem.dynamics.system.normalize(problem.split_mut(to).0);
+        let Some(weights) = self.tableau.explicit.and_then(Explicit::embedded) else { return Ok(None) };
+        problem.derivative(from.t + h, to, &mut self.k[self.tableau.constraint.len()])?;
+        self.estimate(problem, weights, h)?;
+        Ok(Some(tolerance.norm_between(from.y, to, &self.error)))
+    }
+
+    fn last_slope(&self) -> Option<&[f64]> {
+        self.tableau.explicit.map(|_| &self.k[self.tableau.constraint.len()][..])
+    }
+
+    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt> {
+        self.polynomial.prepare(from, h, to, slope);
+        Ok(())
+    }
+
+    fn interpolate(&self, theta: f64, from: &[f64], out: &mut [f64]) {
+        self.polynomial.interpolate(theta, from, out);
+    }
+}

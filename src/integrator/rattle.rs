@@ -1,0 +1,211 @@
+//! RATTLE.
+
+use super::hermite::Hermite;
+use super::{Control, Entry, From, Integrator, Problem, Setup, Tolerance};
+use crate::error::{Error, Result};
+use crate::formulation::Halt;
+use crate::math::kkt::Singular;
+use crate::system::Need;
+
+/// ```text
+/// v_h = v + h/2 M^-1 (f(t, q, v_h) - G(q)^T lambda),   q_1 = q + h v_h,   phi(q_1) = 0
+/// v_1 = v_h + h/2 M^-1 (f(t_1, q_1, v_h) - G(q_1)^T mu),   G(q_1) v_1 + phi_t = 0
+/// ```
+///
+/// Source: Andersen, J. Comput. Phys. 52 (1983) 24-34; Jay, SIAM J. Numer. Anal. 33 (1996) 368-387, for forces that
+/// depend on v, which the first half takes implicitly and the second explicitly, so that the step stays symmetric. Order
+/// 2 in q, v and lambda; symmetric, and symplectic without such forces. For constant M and q' = v. One factorization a
+/// step; the first half is iterated to round-off, one evaluation of f and one of phi an iteration. The work is the
+/// trapezoidal rule. Fixed steps; cubic Hermite interpolation.
+pub const ENTRY: Entry = Entry {
+    name: "rattle",
+    about: "symmetric, symplectic, for constant M; holds phi and phi', fixed steps",
+    order: 2,
+    adaptive: false,
+    accepts: &["index3"],
+    options: &[],
+    make,
+};
+
+fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
+    let n = setup.system.dimensions();
+    let zeros = |n: usize| vec![0.0; n];
+    if n.q != n.v {
+        return Err(Error::input(
+            "rattle cannot integrate coordinates whose rates are not the velocities, q' = N(q) v",
+        )
+        .hint("this mechanism turns in space; use phem56 with index2, or dop853"));
+    }
+    Ok(Box::new(Rattle {
+        mass: None,
+        held: vec![f64::NAN; setup.len()],
+        half: zeros(n.v),
+        q: zeros(n.q),
+        f: zeros(n.v),
+        dv: zeros(n.v),
+        rows: zeros(n.lambda),
+        slope: zeros(setup.len()),
+        polynomial: Hermite::new(setup.len(), 0),
+    }))
+}
+
+struct Rattle {
+    /// M at the first state, which all others are compared with.
+    mass: Option<Vec<f64>>,
+    /// The state whose terms and factors the problem holds since the last step.
+    held: Vec<f64>,
+    /// v_h
+    half: Vec<f64>,
+    q: Vec<f64>,
+    /// The forces of the last iteration.
+    f: Vec<f64>,
+    dv: Vec<f64>,
+    rows: Vec<f64>,
+    /// y' at the new state.
+    slope: Vec<f64>,
+    polynomial: Hermite,
+}
+
+/// Iterations of the first half, and the relative change of v_h below which it may stop falling.
+const MOST: usize = 100;
+const SMALL: f64 = 1e-9;
+
+impl Rattle {
+    /// M, G and f at the start, with factors; they may be there from the step before.
+    fn start(&mut self, problem: &mut Problem, from: From) -> Result<(), Halt> {
+        let (q, v) = problem.split(from.y);
+        let dynamics = &mut problem.dynamics;
+        if self.held != from.y {
+            dynamics.evaluate(from.t, q, v, Need::DYNAMICS);
+            dynamics.factor()?;
+        }
+        self.held.fill(f64::NAN);
+        self.compare(&dynamics.terms.mass)?;
+        self.f.copy_from_slice(&dynamics.terms.f);
+        Ok(())
+    }
+
+    /// Refuses a mass matrix that moved by more than round-off.
+    fn compare(&mut self, mass: &[f64]) -> Result<(), Halt> {
+        let known = self.mass.get_or_insert_with(|| mass.to_vec());
+        let largest = known.iter().fold(0.0, |largest: f64, m| largest.max(m.abs()));
+        let same = known.iter().zip(mass).all(|(known, m)| (known - m).abs() <= 1e-12 * largest);
+        if same { Ok(()) } else { Err(Halt::Unsuitable("rattle needs a constant mass matrix, and it changed")) }
+    }
+
+    /// v_h and q_1, from the accelerations of the equations of motion at the start: v_h differs from v + h/2 v' by
+    /// reactions, and by what f changes with v.
+    fn first_half(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<(), Halt> {
+        let (q, v) = problem.split(from.y);
+        let (_, vdot) = problem.split(from.slope);
+        for i in 0..v.len() {
+            self.half[i] = v[i] + 0.5 * h * vdot[i];
+        }
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST {
+            problem.dynamics.statistics.newton_iterations += 1;
+            let change = self.iterate(problem, (from.t, q), h)?;
+            if !change.is_finite() {
+                return Err(Halt::NotFinite);
+            }
+            if change == 0.0 || change < SMALL && change > 0.5 * last {
+                return Ok(());
+            }
+            last = change;
+        }
+        Err(Halt::Singular(Singular::Apart))
+    }
+
+    /// One correction of v_h for the forces and for phi(q_1); its size relative to v_h.
+    fn iterate(&mut self, problem: &mut Problem, (t, q): (f64, &[f64]), h: f64) -> Result<f64, Halt> {
+        let dynamics = &mut problem.dynamics;
+        dynamics.evaluate(t, q, &self.half, Need::FORCE);
+        for (i, f) in dynamics.terms.f.iter().enumerate() {
+            self.dv[i] = 0.5 * h * (f - self.f[i]);
+        }
+        self.f.copy_from_slice(&dynamics.terms.f);
+        self.advance(q, h);
+        dynamics.evaluate(t + h, &self.q, &self.half, Need::CONSTRAINTS);
+        self.rows.iter_mut().zip(&dynamics.terms.phi).for_each(|(row, phi)| *row = -phi / h);
+        dynamics.kkt.solve(&mut self.dv, &mut self.rows)?;
+        self.half.iter_mut().zip(&self.dv).for_each(|(half, dv)| *half += dv);
+        self.advance(q, h);
+        let size = largest(&self.half);
+        Ok(if size == 0.0 { 0.0 } else { largest(&self.dv) / size })
+    }
+
+    /// q_1 = q + h v_h
+    fn advance(&mut self, q: &[f64], h: f64) {
+        for (i, next) in self.q.iter_mut().enumerate() {
+            *next = q[i] + h * self.half[i];
+        }
+    }
+
+    /// v_1, and y' there, by the factors at q_1.
+    fn second_half(&mut self, problem: &mut Problem, t: f64, h: f64, to: &mut [f64]) -> Result<(), Halt> {
+        let (q, v) = problem.split_mut(to);
+        q.copy_from_slice(&self.q);
+        let dynamics = &mut problem.dynamics;
+        dynamics.evaluate(t, q, &self.half, Need::DYNAMICS);
+        dynamics.factor()?;
+        self.compare(&dynamics.terms.mass)?;
+        for (dv, f) in self.dv.iter_mut().zip(&dynamics.terms.f) {
+            *dv = 0.5 * h * f;
+        }
+        self.rows.iter_mut().zip(&dynamics.terms.phi_dot).for_each(|(row, phi_dot)| *row = -phi_dot);
+        dynamics.kkt.solve(&mut self.dv, &mut self.rows)?;
+        for (v, (half, dv)) in v.iter_mut().zip(self.half.iter().zip(&self.dv)) {
+            *v = half + dv;
+        }
+        dynamics.solve_at_velocity(t, q, v)?;
+        let (qdot, rest) = self.slope.split_at_mut(q.len());
+        dynamics.system.rate(q, v, qdot);
+        rest[..v.len()].copy_from_slice(&dynamics.vdot);
+        rest[v.len()] = dynamics.power();
+        Ok(())
+    }
+}
+
+fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()))
+}
+
+impl Integrator for Rattle {
+    fn order(&self) -> usize {
+        ENTRY.order
+    }
+
+    fn control(&self) -> Control {
+        Control::new(2.0, 0.0, 0.2, 5.0)
+    }
+
+    fn attempt(
+        &mut self,
+        problem: &mut Problem,
+        _: &Tolerance,
+        from: From,
+        h: f64,
+        to: &mut [f64],
+    ) -> Result<Option<f64>, Halt> {
+        self.start(problem, from)?;
+        self.first_half(problem, from, h)?;
+        self.second_half(problem, from.t + h, h, to)?;
+        let work = to.len() - 1;
+        to[work] = from.y[work] + 0.5 * h * (from.slope[work] + self.slope[work]);
+        self.held.copy_from_slice(to);
+        Ok(None)
+    }
+
+    fn last_slope(&self) -> Option<&[f64]> {
+        Some(&self.slope)
+    }
+
+    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt> {
+        self.polynomial.prepare(from, h, to, slope);
+        Ok(())
+    }
+
+    fn interpolate(&self, theta: f64, from: &[f64], out: &mut [f64]) {
+        self.polynomial.interpolate(theta, from, out);
+    }
+}

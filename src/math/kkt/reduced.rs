@@ -1,0 +1,59 @@
+//! The dense null-space solution for its own sake.
+
+use super::null_space::NullSpace;
+use super::system::System;
+use super::{Pattern, Singular, Solver};
+
+/// [M G^T; G 0] by a pivoted QR of G^T, always: a = Y y + Z z with G Z = 0, then Z^T M Z z = Z^T (r1 - M Y y), then lambda
+/// from the rest. Dependent rows get multipliers of least norm, contradictions least squares.
+pub struct Reduced {
+    /// Rows of G count as dependent when their pivot in the QR falls below this part of the largest.
+    pub rank_tolerance: f64,
+    system: System,
+    null_space: NullSpace,
+    is_factored: bool,
+}
+
+impl Reduced {
+    /// None where the patterns do not fit each other.
+    pub fn new(mass: &Pattern, g: &Pattern) -> Option<Self> {
+        let fits = mass.cols == mass.rows && g.cols == mass.rows && mass.is_inside() && g.is_inside();
+        fits.then(|| Reduced {
+            rank_tolerance: 1e-10,
+            system: System::new(mass, g),
+            null_space: NullSpace::new(mass, g),
+            is_factored: false,
+        })
+    }
+}
+
+impl Solver for Reduced {
+    fn factor(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
+        self.is_factored = false;
+        if mass.len() != self.system.mass.entries.len() || g.len() != self.system.g.entries.len() {
+            return Err(Singular::Shape);
+        }
+        if !mass.iter().chain(g).all(|v| v.is_finite()) {
+            return Err(Singular::NotFinite);
+        }
+        self.system.store(mass, g);
+        self.null_space.factor(&self.system, self.rank_tolerance)?;
+        self.is_factored = true;
+        Ok(())
+    }
+
+    fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) -> Result<(), Singular> {
+        if top.len() != self.system.mass.rows || bottom.len() != self.system.g.rows {
+            return Err(Singular::Shape);
+        }
+        if !self.is_factored {
+            return Err(Singular::NotFactored);
+        }
+        self.null_space.solve(&self.system, top, bottom);
+        Ok(())
+    }
+
+    fn is_rank_deficient(&self) -> bool {
+        self.null_space.rank() < self.system.g.rows
+    }
+}

@@ -1,0 +1,201 @@
+//! The saddle-point system whose reactions act at one place and whose constraints hold at another.
+
+use super::system::{add_scaled, dot, largest};
+use super::{Pattern, SaddlePoint, Singular};
+
+/// ```text
+/// [M   G1^T] [a     ]   [f]
+/// [G2  0   ] [lambda] = [r]
+/// ```
+///
+/// by the factors of the symmetric matrix with G1 in both blocks. Every b gives a pair (a, lambda) that meets the upper
+/// rows exactly, with G1 a = b; GMRES finds the b with G2 a(b) = r. The map b -> G2 a(b) is the identity up to G2 - G1 =
+/// O(h), so some five back-substitutions gain ten digits, and a far away G2 costs more of them but does not diverge.
+/// Restarts measure the true residual, as iterative refinement does. Against a dense LU, it keeps the sparse factors,
+/// and what they do about dependent rows and massless coordinates.
+pub struct TwoPlaces {
+    /// GMRES basis, by scaled rows.
+    basis: Vec<Vec<f64>>,
+    /// Columns of the triangular factor of the Hessenberg matrix.
+    triangle: Vec<[f64; MOST + 1]>,
+    rotations: Vec<(f64, f64)>,
+    /// Right side of the least-squares problem, and its solution.
+    reduced: [f64; MOST + 1],
+    /// Size of each row, which its residual is measured against.
+    scale: Vec<f64>,
+    force: Vec<f64>,
+    b: Vec<f64>,
+    top: Vec<f64>,
+    bottom: Vec<f64>,
+}
+
+/// Vectors between restarts, and restarts.
+const MOST: usize = 24;
+const CYCLES: usize = 12;
+/// What one cycle gains; more would be lost to rounding.
+const GAIN: f64 = 1e-10;
+/// Residual relative to the rows that is round-off, and the largest that is a solution.
+const ROUND_OFF: f64 = 1e-16;
+const SOLVED: f64 = 1e-9;
+
+/// The factored symmetric matrix with G2.
+struct Pair<'p> {
+    kkt: &'p mut SaddlePoint,
+    pattern: &'p Pattern,
+    g2: &'p [f64],
+}
+
+impl TwoPlaces {
+    /// For `n` coordinates and `m` constraints.
+    pub fn new(n: usize, m: usize) -> Self {
+        let most = MOST.min(m);
+        TwoPlaces {
+            basis: vec![vec![0.0; m]; most + 1],
+            triangle: vec![[0.0; MOST + 1]; most],
+            rotations: vec![(1.0, 0.0); most],
+            reduced: [0.0; MOST + 1],
+            scale: vec![0.0; m],
+            force: vec![0.0; n],
+            b: vec![0.0; m],
+            top: vec![0.0; n],
+            bottom: vec![0.0; m],
+        }
+    }
+
+    /// `kkt` holds the factors with M and G1. `top` is f on entry and a on return; `bottom` is a guess of G1 a on entry
+    /// and lambda on return.
+    ///
+    /// # Errors
+    /// [`Singular::Apart`] when the residual stays above 1e-9 of the rows; what the factors report.
+    pub fn solve(
+        &mut self,
+        kkt: &mut SaddlePoint,
+        (pattern, g2): (&Pattern, &[f64]),
+        r: &[f64],
+        top: &mut [f64],
+        bottom: &mut [f64],
+    ) -> Result<(), Singular> {
+        let mut pair = Pair { kkt, pattern, g2 };
+        self.force.copy_from_slice(top);
+        self.b.copy_from_slice(bottom);
+        let mut last = f64::INFINITY;
+        for cycle in 0..CYCLES {
+            top.copy_from_slice(&self.force);
+            bottom.copy_from_slice(&self.b);
+            pair.kkt.solve(top, bottom)?;
+            if r.is_empty() {
+                return Ok(());
+            }
+            if cycle == 0 {
+                self.measure(&pair, r, top);
+            }
+            let residual = self.residual(&pair, r, top);
+            if residual <= ROUND_OFF || residual <= SOLVED && residual > 0.1 * last {
+                return Ok(());
+            }
+            if residual.is_nan() || residual >= 0.9 * last {
+                break;
+            }
+            last = residual;
+            self.cycle(&mut pair)?;
+        }
+        Err(Singular::Apart)
+    }
+
+    /// Sizes of the rows: |r_i| + sum_j |G2_ij| max |a|.
+    fn measure(&mut self, pair: &Pair, r: &[f64], a: &[f64]) {
+        let most = largest(a);
+        self.scale.iter_mut().zip(r).for_each(|(scale, r)| *scale = r.abs());
+        for (&(i, _), value) in pair.pattern.entries.iter().zip(pair.g2) {
+            self.scale[i] += value.abs() * most;
+        }
+        self.scale.iter_mut().filter(|scale| **scale == 0.0).for_each(|scale| *scale = 1.0);
+    }
+
+    /// r - G2 a by scaled rows, into the first basis vector; its norm.
+    fn residual(&mut self, pair: &Pair, r: &[f64], a: &[f64]) -> f64 {
+        let residual = &mut self.basis[0];
+        residual.copy_from_slice(r);
+        pair.pattern.subtract(pair.g2, a, residual);
+        residual.iter_mut().zip(&self.scale).for_each(|(residual, scale)| *residual /= scale);
+        dot(residual, residual).sqrt()
+    }
+
+    /// One cycle of GMRES from the residual in the first basis vector; moves b.
+    fn cycle(&mut self, pair: &mut Pair) -> Result<(), Singular> {
+        let norm = dot(&self.basis[0], &self.basis[0]).sqrt();
+        self.basis[0].iter_mut().for_each(|x| *x /= norm);
+        self.reduced[0] = norm;
+        let mut count = 0;
+        while count < self.triangle.len() {
+            self.apply(pair, count)?;
+            self.orthogonalize(count);
+            self.rotate(count);
+            // A direction that moves no constraint: rows that depend on others.
+            if self.triangle[count][count].abs() < 1e-12 {
+                break;
+            }
+            count += 1;
+            if self.reduced[count].abs() <= GAIN * norm {
+                break;
+            }
+        }
+        self.add_combination(count);
+        Ok(())
+    }
+
+    /// The image of basis vector `k`: G2 a(b) by scaled rows.
+    fn apply(&mut self, pair: &mut Pair, k: usize) -> Result<(), Singular> {
+        self.top.fill(0.0);
+        let scaled = self.basis[k].iter().zip(&self.scale);
+        self.bottom.iter_mut().zip(scaled).for_each(|(b, (x, scale))| *b = x * scale);
+        pair.kkt.solve(&mut self.top, &mut self.bottom)?;
+        let image = &mut self.basis[k + 1];
+        image.fill(0.0);
+        pair.pattern.multiply(pair.g2, &self.top, image);
+        image.iter_mut().zip(&self.scale).for_each(|(image, scale)| *image /= scale);
+        Ok(())
+    }
+
+    /// Gram-Schmidt of basis vector k + 1 against those before; the coefficients are column k.
+    fn orthogonalize(&mut self, k: usize) {
+        let (before, next) = self.basis.split_at_mut(k + 1);
+        let next = &mut next[0];
+        for (x, coefficient) in before.iter().zip(&mut self.triangle[k]) {
+            *coefficient = dot(x, next);
+            add_scaled(-*coefficient, x, next);
+        }
+        let norm = dot(next, next).sqrt();
+        self.triangle[k][k + 1] = norm;
+        if norm > 0.0 {
+            next.iter_mut().for_each(|x| *x /= norm);
+        }
+    }
+
+    /// Givens rotations that make column k triangular.
+    fn rotate(&mut self, k: usize) {
+        let column = &mut self.triangle[k];
+        for (i, &(cos, sin)) in self.rotations[..k].iter().enumerate() {
+            (column[i], column[i + 1]) = (cos * column[i] + sin * column[i + 1], cos * column[i + 1] - sin * column[i]);
+        }
+        let length = column[k].hypot(column[k + 1]);
+        let (cos, sin) = if length > 0.0 { (column[k] / length, column[k + 1] / length) } else { (1.0, 0.0) };
+        self.rotations[k] = (cos, sin);
+        column[k] = length;
+        self.reduced[k + 1] = -sin * self.reduced[k];
+        self.reduced[k] *= cos;
+    }
+
+    /// b += the combination of the first `count` basis vectors of least residual.
+    fn add_combination(&mut self, count: usize) {
+        for i in (0..count).rev() {
+            let sum: f64 = (i + 1..count).map(|j| self.triangle[j][i] * self.reduced[j]).sum();
+            self.reduced[i] = (self.reduced[i] - sum) / self.triangle[i][i];
+        }
+        for (x, &factor) in self.basis.iter().zip(&self.reduced[..count]) {
+            for ((b, x), scale) in self.b.iter_mut().zip(x).zip(&self.scale) {
+                *b += factor * x * scale;
+            }
+        }
+    }
+}

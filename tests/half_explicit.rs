@@ -1,0 +1,203 @@
+//! Methods that discretize the constraints themselves: what they hold, what they cost, how they fail.
+
+mod common;
+mod scenes;
+
+use common::driven_pendulum::{self, DrivenPendulum};
+use common::robot_arm::{self, RobotArm};
+use common::unconstrained::{Arenstorf, Power};
+use common::{Run, adaptive, distance, fixed, method, run, until};
+use holonom::integrator::registry;
+use holonom::math::Scalar;
+use holonom::simulate::{Method, Observation, Sink, Span, simulate};
+use holonom::system::Equations;
+use scenes::shipped;
+
+/// Methods for index 2, with solutions a fixed step.
+const HALF_EXPLICIT: [(&str, u64); 4] = [("hem3", 4), ("hem4", 6), ("hem5", 9), ("phem56", 6)];
+
+fn pendulum(method: &Method, end: f64) -> Run {
+    let (q, v) = driven_pendulum::start();
+    run(&DrivenPendulum, method, until(end), (&q, &v)).completed()
+}
+
+#[test]
+fn the_velocity_constraint_is_held_to_round_off() {
+    for (integrator, work) in HALF_EXPLICIT {
+        let run = pendulum(&fixed("index2", integrator, "none", 0.02), 10.0);
+        let (position, velocity) = run.drift();
+        // Speeds up to 5 m/s, G up to 1: some units in the last place of sums over the stages. phi drifts as h^p.
+        assert!(velocity < 1e-14, "{integrator}: {velocity:e}");
+        assert!(position > 1e-13 && position < 1e-3, "{integrator}: {position:e}");
+        let counts = run.outcome.statistics;
+        assert_eq!((counts.rhs_evaluations, counts.factorizations), (1 + 500 * work, 1 + 500 * work), "{integrator}");
+    }
+}
+
+/// sum_i b_i c_i^k = 1/(k + 1) for k < p, without constraints.
+#[test]
+fn quadrature_conditions() {
+    for entry in registry().iter().filter(|entry| entry.accepts == ["index2"]) {
+        let error = |k: usize| {
+            let method = fixed("index2", entry.name, "none", 1.0);
+            let run = run(&Power(k as i32), &method, until(1.0), (&[0.0], &[0.0])).completed();
+            (run.last().1[0] - 1.0).abs()
+        };
+        // Rounding of the coefficients, given to 16 digits.
+        (0..entry.order).for_each(|k| assert!(error(k) < 1e-14, "{} {k}: {:e}", entry.name, error(k)));
+    }
+}
+
+/// Without constraints PHEM56 is DOPRI5.
+#[test]
+fn phem56_without_constraints_is_dopri5() {
+    let (q, v) = Arenstorf::START;
+    let orbit = |formulation: &str, integrator: &str| {
+        let method = adaptive(formulation, integrator, "none", 1e-7);
+        run(&Arenstorf, &method, until(Arenstorf::PERIOD), (&q, &v)).completed()
+    };
+    let (half, full) = (orbit("index2", "phem56"), orbit("index1", "dopri5"));
+    assert_eq!(half.outcome.statistics, full.outcome.statistics);
+    assert!(distance(half.last().0, full.last().0) < 1e-8);
+}
+
+/// Angles of Andrews' mechanism at 0.03 s, from the IVP test set.
+const ANDREWS: [(&str, f64); 3] =
+    [("beta", 15.810771195153707), ("Theta", -15.756371058411839), ("gamma", 0.0408222401196458)];
+
+/// Murua's code, in the seven angles, takes 209 steps and 1255 evaluations at rtol = 1e-8. Here the 21 coordinates of the
+/// bodies are tested, most of them lengths of centimetres, so a tolerance asks for less.
+#[test]
+fn phem56_on_andrews() {
+    // Steps measured, and a tenth more.
+    for (tolerance, most) in [(1e-6, 67), (1e-8, 157), (1e-10, 395)] {
+        let run = shipped("andrews", &[])
+            .run(&adaptive("index2", "phem56", "none", tolerance), Span { start: 0.0, end: 0.03, output_step: 0.03 });
+        let counts = run.outcome.statistics;
+        let errors = ANDREWS.map(|(name, angle)| (run.column(name).last().unwrap() - angle).abs());
+        // The motion amplifies local errors about 100 times.
+        assert!(errors.iter().all(|error| *error < 200.0 * tolerance), "{tolerance:e}: {errors:?}");
+        assert!(counts.steps <= most, "{counts:?}");
+        // The start, the probe for the first step, and six a step tried.
+        assert_eq!(counts.rhs_evaluations, 2 + 6 * (counts.steps + counts.rejected));
+        // Speeds of some 10 m/s.
+        assert!(run.record.drift.velocity.max < 1e-14, "{:?}", run.record.drift);
+    }
+}
+
+/// Two rods too many: rows of G that depend on each other at every state.
+#[test]
+fn redundant_constraints() {
+    let method = adaptive("index2", "phem56", "manifold", 1e-8);
+    let span = Span { start: 0.0, end: 1.0, output_step: 0.1 };
+    let ready = shipped("parallelogram_redundant", &[]);
+    let (half, full) = (ready.run(&method, span), ready.run(&scenes::dop853(1e-12), span));
+    let last = |run: &scenes::Run| run.record.trajectory.rows.last().unwrap().clone();
+    let (half_last, full_last) = (last(&half), last(&full));
+    let (half, full) = (half.record.trajectory.row_state(&half_last), full.record.trajectory.row_state(&full_last));
+    assert!(distance(half.0, full.0) < 1e-6);
+}
+
+#[test]
+fn impossible_pairs_name_what_goes_together() {
+    for (formulation, integrator, names) in
+        [("index2", "dopri5", ["index1", "phem56"]), ("index1", "phem56", ["index2", "dop853"])]
+    {
+        let text = method(formulation, integrator, "none").check().unwrap_err().to_string();
+        assert!(names.iter().all(|name| text.contains(name)), "{text}");
+    }
+}
+
+/// A step of seconds on a pendulum of one second: the constraints at the ends of a stage have nothing in common.
+#[test]
+fn steps_far_too_large_end_clearly() {
+    let (q, v) = driven_pendulum::start();
+    for (integrator, _) in HALF_EXPLICIT {
+        let run = run(&DrivenPendulum, &fixed("index2", integrator, "none", 3.0), until(300.0), (&q, &v));
+        // PHEM56 stays bounded here; the others end.
+        if let Some(failure) = run.outcome.failure {
+            let reasons = ["too far apart", "no longer finite"];
+            assert!(reasons.iter().any(|reason| failure.reason.contains(reason)), "{integrator}: {failure:?}");
+            assert_eq!(failure.t, run.outcome.t);
+        }
+        assert!(run.record.trajectory.rows.iter().flatten().all(|x| x.is_finite()));
+    }
+}
+
+/// A pendulum of unit mass and length in Cartesian coordinates; the start is at rest and horizontal.
+struct Pendulum;
+
+impl Equations for Pendulum {
+    fn size(&self) -> (usize, usize) {
+        (2, 1)
+    }
+    fn mass<S: Scalar>(&self, _t: S, _q: &[S], mass: &mut [S]) {
+        mass.copy_from_slice(&[S::one(), S::zero(), S::zero(), S::one()]);
+    }
+    fn force<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], f: &mut [S]) {
+        f.copy_from_slice(&[S::zero(), S::constant(-9.81)]);
+    }
+    fn phi<S: Scalar>(&self, _t: S, q: &[S], phi: &mut [S]) {
+        phi[0] = (q[0].square() + q[1].square() - 1.0) * 0.5;
+    }
+}
+
+/// Largest |E - E(0)| over the accepted steps, J, in the first and in the second half of a run.
+struct Energy {
+    halves: [f64; 2],
+    half: f64,
+}
+
+impl Sink for Energy {
+    fn accepted(&mut self, state: &Observation) {
+        let energy = 0.5 * (state.v[0].powi(2) + state.v[1].powi(2)) + 9.81 * state.q[1];
+        let half = &mut self.halves[usize::from(state.t > self.half)];
+        *half = half.max(energy.abs());
+        assert!(state.phi[0].abs() < 4.0 * f64::EPSILON, "{:e} at {}", state.phi[0], state.t);
+        assert!(state.phi_dot[0].abs() < 8.0 * f64::EPSILON * 4.5, "{:e} at {}", state.phi_dot[0], state.t);
+    }
+    fn row(&mut self, _: &Observation) {}
+}
+
+/// Energy errors of RATTLE in both halves of `steps` steps of 0.01 s.
+fn energy_errors(steps: f64) -> [f64; 2] {
+    let mut energy = Energy { halves: [0.0; 2], half: 0.005 * steps };
+    let method = fixed("index3", "rattle", "none", 0.01);
+    let outcome = simulate(&Pendulum, &method, until(0.01 * steps), (&[1.0, 0.0], &[0.0, 0.0]), &mut energy).unwrap();
+    assert_eq!(outcome.failure, None);
+    energy.halves
+}
+
+#[test]
+fn rattle_keeps_energy_and_constraints() {
+    let [first, second] = energy_errors(1e5);
+    // 3.6e-3 of 9.81 J: O(h^2), and no growth.
+    assert!(first < 4e-3 && second < 1.01 * first, "{first:e} {second:e}");
+}
+
+#[test]
+#[ignore = "a million steps"]
+fn rattle_keeps_energy_and_constraints_for_long() {
+    let [first, second] = energy_errors(1e6);
+    assert!(first < 4e-3 && second < 1.01 * first, "{first:e} {second:e}");
+}
+
+#[test]
+fn rattle_needs_a_constant_mass() {
+    let method = fixed("index3", "rattle", "none", 0.01);
+    let (theta, omega) = robot_arm::start();
+    let failure = run(&RobotArm, &method, until(1.0), (&theta, &omega)).outcome.failure.unwrap();
+    assert!(failure.t == 0.0 && failure.reason.contains("constant mass"), "{failure:?}");
+    let top = shipped("universal_shaft", &[]);
+    let error = simulate(top.system(), &method, until(1.0), top.0.start(), &mut Energy { halves: [0.0; 2], half: 0.0 });
+    assert!(error.unwrap_err().to_string().contains("N(q) v"));
+}
+
+#[test]
+fn rattle_holds_both_constraints() {
+    let run = pendulum(&fixed("index3", "rattle", "none", 0.01), 10.0);
+    let (position, velocity) = run.drift();
+    assert!(position < 1e-15 && velocity < 1e-14);
+    // One factorization a step and the first.
+    assert_eq!(run.outcome.statistics.factorizations, 2 + 1000);
+}
