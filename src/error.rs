@@ -157,7 +157,8 @@ pub fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Opt
     let slips = |name: &str| strsim::damerau_levenshtein(&found, &name.to_lowercase());
     let allowed = (length / 3).clamp(usize::from(length > 1), 4);
     let begins = |name: &str| length >= 3 && name.to_lowercase().starts_with(&found);
-    let alike = |name: &str| 2 * slips(name) <= length && strsim::jaro_winkler(&found, &name.to_lowercase()) > 0.8;
+    let alike =
+        |name: &str| slips(name) <= 2.min(length / 2) && strsim::jaro_winkler(&found, &name.to_lowercase()) > 0.8;
     // Of several that are merely alike the first counts, after all that are a slip away.
     let rank = |name: &&str| if slips(name) <= allowed { slips(name) } else { usize::MAX };
     known.into_iter().filter(|name| slips(name) <= allowed || begins(name) || alike(name)).min_by_key(rank)
@@ -219,11 +220,16 @@ mod tests {
             ("dmaping", Some("damping")),
             ("X", Some("x")),
             ("y", None),
+            ("alfa", None),
             ("hinge", None),
             ("zzz", None),
             ("", None),
         ];
         table.iter().for_each(|(found, meant)| assert_eq!(nearest(found, known), *meant, "{found}"));
+        assert_eq!(
+            (nearest("alfa", ["alpha", "beta"]), nearest("inertia", ["mass", "initial"])),
+            (Some("alpha"), None)
+        );
         assert_eq!(suggest("hinge", ["weld", "gear"]), "choose one of weld, gear");
     }
 
