@@ -121,7 +121,8 @@ fn read(root: &Path, path: &Path) -> Source {
 }
 
 fn without_comment(line: &str) -> String {
-    let comment = line.match_indices("//").map(|(at, _)| at).find(|&at| line[..at].matches('"').count() % 2 == 0);
+    let comment =
+        line.match_indices("//").map(|(at, _)| at).find(|&at| line[..at].matches('"').count().is_multiple_of(2));
     line[..comment.unwrap_or(line.len())].to_string()
 }
 
