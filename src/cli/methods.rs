@@ -13,9 +13,10 @@ pub fn run() -> Result<ExitCode> {
     for entry in formulation::registry() {
         formulations.row([entry.name.to_string(), entry.about.to_string(), options(entry.options)]);
     }
-    let mut integrators = Table::left(&["integrator", "order", "accepts", ""]);
+    let mut integrators = Table::left(&["integrator", "order", "integrates", ""]);
     for entry in integrator::registry() {
-        let accepts = entry.accepts.join(" ");
+        let fields = entry.accepts == integrator::VECTOR_FIELDS;
+        let accepts = if fields { "vector fields".to_string() } else { entry.accepts.join(" ") };
         integrators.row([entry.name.to_string(), entry.order.to_string(), accepts, entry.about.to_string()]);
     }
     let mut projections = Table::left(&["projection", "after each step", "options"]);
@@ -23,7 +24,11 @@ pub fn run() -> Result<ExitCode> {
         projections.row([entry.name.to_string(), entry.about.to_string(), options(entry.options)]);
     }
     text += &format!("{formulations}\n{integrators}\n{projections}\n");
-    text += "Orders hold for q, v and lambda with every projection. Write options as baumgarte:alpha=5,beta=5.\n";
+    text += &format!(
+        "Vector fields are {}.\nOrders hold for q, v and lambda with every projection. Write options as \
+         baumgarte:alpha=5,beta=5.\n",
+        integrator::VECTOR_FIELDS.join(", ")
+    );
     print(&text)?;
     Ok(ExitCode::SUCCESS)
 }
