@@ -12,6 +12,7 @@ pub const ENTRY: Entry = Entry {
     order: 5,
     adaptive: true,
     accepts: VECTOR_FIELDS,
+    refuses: &[],
     options: &[],
     make: |setup| Ok(Box::new(Explicit::new(&TABLEAU, setup.len()))),
 };

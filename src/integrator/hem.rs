@@ -20,7 +20,7 @@ pub const HEM5: Entry =
 type Make = fn(&super::Setup) -> crate::error::Result<Box<dyn super::Integrator>>;
 
 const fn entry(name: &'static str, about: &'static str, order: usize, make: Make) -> Entry {
-    Entry { name, about, order, adaptive: false, accepts: HALF_EXPLICIT, options: &[], make }
+    Entry { name, about, order, adaptive: false, accepts: HALF_EXPLICIT, refuses: &[], options: &[], make }
 }
 
 static THIRD: Tableau = Tableau {

@@ -11,6 +11,7 @@ pub const ENTRY: Entry = Entry {
     order: 2,
     adaptive: false,
     accepts: VECTOR_FIELDS,
+    refuses: &[],
     options: &[],
     make: |setup| Ok(Box::new(Explicit::new(&TABLEAU, setup.len()))),
 };

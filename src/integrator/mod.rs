@@ -7,6 +7,7 @@ mod dop853;
 mod dop853_tableau;
 mod dopri5;
 mod explicit;
+mod generalized_alpha;
 mod half_explicit;
 mod hem;
 mod hermite;
@@ -94,6 +95,8 @@ pub struct Entry {
     pub adaptive: bool,
     /// Formulations it can integrate.
     pub accepts: &'static [&'static str],
+    /// Projections that would cost it an order.
+    pub refuses: &'static [&'static str],
     pub options: &'static [OptionDoc],
     pub make: fn(&Setup) -> Result<Box<dyn Integrator>>,
 }
@@ -125,6 +128,7 @@ pub fn registry() -> &'static [Entry] {
         hem::HEM5,
         phem56::ENTRY,
         rattle::ENTRY,
+        generalized_alpha::ENTRY,
     ]
 }
 

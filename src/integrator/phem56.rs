@@ -14,6 +14,7 @@ pub const ENTRY: Entry = Entry {
     order: 5,
     adaptive: true,
     accepts: HALF_EXPLICIT,
+    refuses: &[],
     options: &[],
     make: |setup| Ok(Box::new(HalfExplicit::new(&TABLEAU, setup))),
 };

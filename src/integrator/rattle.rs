@@ -23,6 +23,7 @@ pub const ENTRY: Entry = Entry {
     order: 2,
     adaptive: false,
     accepts: &["index3"],
+    refuses: &[],
     options: &[],
     make,
 };

@@ -10,6 +10,7 @@ pub const ENTRY: Entry = Entry {
     order: 4,
     adaptive: false,
     accepts: VECTOR_FIELDS,
+    refuses: &[],
     options: &[],
     make: |setup| Ok(Box::new(Explicit::new(&TABLEAU, setup.len()))),
 };

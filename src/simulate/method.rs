@@ -3,6 +3,7 @@
 use crate::error::{Error, Result};
 use crate::formulation::Choice;
 use crate::integrator;
+use crate::projection;
 use serde::Serialize;
 
 /// A method: formulation x integrator x projection, with its accuracy.
@@ -35,6 +36,13 @@ impl Method {
     pub fn check(&self) -> Result<()> {
         let entry = integrator::find(&self.integrator).map_err(|error| error.under("integrator"))?;
         integrator::check_pair(entry, &self.formulation).map_err(|error| error.under("formulation"))?;
+        if entry.refuses.contains(&self.projection.name.as_str()) {
+            let others = projection::registry().iter().map(|other| other.name);
+            let others: Vec<&str> = others.filter(|other| !entry.refuses.contains(other)).collect();
+            return Err(Error::input(format!("{} loses an order with {}", entry.name, self.projection.name))
+                .under("projection")
+                .hint(format!("{} goes with {}", entry.name, others.join(", "))));
+        }
         for (name, value) in [("rtol", Some(self.rtol)), ("atol", Some(self.atol)), ("step", self.step)] {
             if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {
                 let error = Error::input(format!("{name} is {value}, but must be above zero")).under(name);

@@ -244,6 +244,18 @@ cases! {
             "at --integrator: heun has no error estimate",
             r#"give a fixed step: --step H, or "step" in "simulation" of the scene"#,
         ];
+    a_projection_that_costs_an_order:
+        pendulum().args(&[
+            "--integrator", "generalized-alpha", "--formulation", "index3", "--step", "0.01", "--projection", "full",
+        ]) => [
+            "at --projection: generalized_alpha loses an order with full",
+            "generalized_alpha goes with none, position, velocity, manifold, exact",
+        ];
+    generalized_alpha_rho_inf_2:
+        pendulum().args(&["--integrator", "generalized_alpha:rho_inf=2", "--formulation", "index3", "--step", "0.01"]) => [
+            "generalized_alpha: rho_inf is 2",
+            "give a number from 0 to 1",
+        ];
     integrator_dopri5_x_1:
         pendulum().args(&["--integrator", "dopri5:x=1"]) => [
             "at --integrator: integrator dopri5 has no option `x`",

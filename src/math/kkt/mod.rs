@@ -35,6 +35,7 @@ mod system;
 #[cfg(test)]
 mod tests;
 mod two_places;
+mod unsymmetric;
 
 pub use condition::condition_number;
 pub use dependence::{Dependence, DependentRow, dependent_rows};
@@ -43,6 +44,7 @@ pub use pseudo_inverse::PseudoInverse;
 pub use reduced::Reduced;
 pub use saddle::SaddlePoint;
 pub use two_places::TwoPlaces;
+pub use unsymmetric::Unsymmetric;
 
 /// A way to solve the system: factor once, then solve any number of times.
 pub trait Solver {
