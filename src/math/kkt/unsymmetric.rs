@@ -88,9 +88,8 @@ impl Unsymmetric {
         factor::lu_in_place(matrix, &mut self.row_order, &mut self.row_places, Par::Seq, stack, Spec::default());
         let pivot = |i: usize| self.values[i * self.size + i].abs();
         let largest = (0..self.size).map(pivot).fold(0.0, f64::max);
-        let row = (0..self.size).find(|&i| !(pivot(i) > DEPENDENT * largest));
-        self.is_factored = row.is_none();
-        row.map_or(Ok(()), |_| Err(Singular::NotFactored))
+        self.is_factored = (0..self.size).all(|i| pivot(i) > DEPENDENT * largest);
+        if self.is_factored { Ok(()) } else { Err(Singular::NotFactored) }
     }
 
     /// Solves in place.
