@@ -1,11 +1,11 @@
 //! `holonom drift SCENE`
 
 use super::common::{Common, Output, print};
-use crate::error::{Error, Failure, Result};
+use crate::error::{Failure, Result};
 use crate::formulation::Choice;
 use crate::measure::{Drift, EnergyBalance, Record, Recorder};
 use crate::plot::{AxisSpec, Figure, Panel, Series};
-use crate::report::{Table, envelope};
+use crate::report::{Table, cell, envelope, table};
 use crate::simulate::{Method, Outcome, simulate};
 use crate::study::Study;
 use rayon::prelude::*;
@@ -152,20 +152,17 @@ fn text(study: &Study, rows: &[Row]) -> String {
 
 /// `t`, then |phi| and |phi'| of every method; empty where a run had ended.
 fn table_file(rows: &[Row]) -> Result<Vec<u8>> {
-    let failed = |error: csv::Error| Error::input(format!("cannot write the table: {error}"));
-    let mut writer = csv::Writer::from_writer(Vec::new());
     let names = rows.iter().flat_map(|row| [format!("position {}", row.method), format!("velocity {}", row.method)]);
-    writer.write_record(["t".to_string()].into_iter().chain(names)).map_err(failed)?;
     let longest = rows.iter().map(|row| row.record.drift_rows.len()).max().unwrap_or(0);
-    for i in 0..longest {
+    let line = |i: usize| {
         let t = rows.iter().find_map(|row| row.record.trajectory.times().nth(i)).unwrap_or(0.0);
-        let cells = rows.iter().flat_map(|row| match row.record.drift_rows.get(i) {
-            Some([position, velocity, _]) => [position.to_string(), velocity.to_string()],
+        let levels = rows.iter().flat_map(|row| match row.record.drift_rows.get(i) {
+            Some([position, velocity, _]) => [cell(*position), cell(*velocity)],
             None => [String::new(), String::new()],
         });
-        writer.write_record([t.to_string()].into_iter().chain(cells)).map_err(failed)?;
-    }
-    writer.into_inner().map_err(|error| Error::input(format!("cannot write the table: {error}")))
+        [cell(t)].into_iter().chain(levels).collect()
+    };
+    table(["t".to_string()].into_iter().chain(names), (0..longest).map(line))
 }
 
 /// Points of a curve, each the largest drift of its window.

@@ -14,4 +14,4 @@ pub use figures::{drift_figure, energy_figure, outputs_figure};
 pub use files::{Folder, write_whole};
 pub use summary::{Summary, significant, summarize};
 pub use table::Table;
-pub use tables::{drift_table, energy_table, trajectory_table};
+pub use tables::{cell, drift_table, energy_table, table, trajectory_table};

@@ -26,12 +26,25 @@ pub fn energy_table(record: &Record) -> Result<Vec<u8>> {
     write(vec!["t", "kinetic", "potential", "work", "error"], rows.iter().map(<[f64; 5]>::as_slice))
 }
 
+/// A number at full precision, with an exponent where zeros alone would fill the cell.
+pub fn cell(value: f64) -> String {
+    match value == 0.0 || (1e-5..1e15).contains(&value.abs()) {
+        true => value.to_string(),
+        false => format!("{value:e}"),
+    }
+}
+
 fn write<'a>(headings: Vec<&str>, rows: impl Iterator<Item = &'a [f64]>) -> Result<Vec<u8>> {
+    table(headings.into_iter().map(String::from), rows.map(|row| row.iter().copied().map(cell).collect()))
+}
+
+/// Rows of cells under headings.
+pub fn table(headings: impl Iterator<Item = String>, rows: impl Iterator<Item = Vec<String>>) -> Result<Vec<u8>> {
     let failed = |error: csv::Error| Error::input(format!("cannot write the table: {error}"));
     let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(&headings).map_err(failed)?;
+    writer.write_record(headings).map_err(failed)?;
     for row in rows {
-        writer.write_record(row.iter().map(f64::to_string)).map_err(failed)?;
+        writer.write_record(row).map_err(failed)?;
     }
     writer.into_inner().map_err(|error| Error::input(format!("cannot write the table: {error}")))
 }
