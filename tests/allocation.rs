@@ -16,8 +16,8 @@ use std::path::Path;
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// Methods that between them use every formulation, projection, field and kind of integrator; but udwadia_kalaba, whose
-/// singular-value decomposition by faer allocates where G is nearly square.
+/// Methods that between them use every vector field, projection, field and kind of explicit integrator; but
+/// udwadia_kalaba, whose singular-value decomposition by faer allocates where G is nearly square.
 const METHODS: [(&str, &str, &str); 15] = [
     ("index1", "heun", "none"),
     ("index1", "rk4", "none"),
@@ -35,6 +35,10 @@ const METHODS: [(&str, &str, &str); 15] = [
     ("augmented_lagrangian", "dopri5", "manifold"),
     ("null_space", "dopri5", "manifold"),
 ];
+
+/// Methods for the constraints themselves. Left out is generalized_alpha, which makes some small blocks a step.
+const DIRECT: [(&str, &str, &str); 3] =
+    [("index2", "hem5", "none"), ("index2", "phem56", "manifold"), ("index3", "rattle", "none")];
 
 /// Keeps nothing.
 struct Nothing;
@@ -57,7 +61,17 @@ fn allocations(
 
 /// Runs of 20 and of 40 steps, with rows at the ends.
 fn check(name: &str, system: &dyn MechanicalSystem, start: (&[f64], &[f64]), step: f64) {
-    for (formulation, integrator, projection) in METHODS {
+    check_methods(name, &METHODS, system, start, step);
+}
+
+fn check_methods(
+    name: &str,
+    methods: &[(&str, &str, &str)],
+    system: &dyn MechanicalSystem,
+    start: (&[f64], &[f64]),
+    step: f64,
+) {
+    for &(formulation, integrator, projection) in methods {
         let method = fixed(formulation, integrator, projection, step);
         let [few, many] = [20_u32, 40].map(|steps| {
             let end = f64::from(steps) * step;
@@ -97,6 +111,13 @@ impl Equations for Twice {
 #[test]
 fn redundant_constraints() {
     check("pendulum twice", &Twice, (&[0.6, -0.8], &[0.0, 0.0]), 0.01);
+}
+
+#[test]
+fn methods_for_the_constraints_themselves() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/andrews.json");
+    let study = Study::load(&path, &Overrides::default()).unwrap();
+    check_methods("andrews", &DIRECT, study.system(), study.start(), 1e-5);
 }
 
 /// Planar, redundant, and spatial with quaternions and a driver.

@@ -25,7 +25,7 @@ pub fn run() -> Result<ExitCode> {
     }
     text += &format!("{formulations}\n{integrators}\n{projections}\n");
     text += &format!(
-        "Vector fields are {}.\nOrders hold for q, v and lambda with every projection. Write options as \
+        "Vector fields are {}.\nOrders hold for q, v and lambda with every projection that is not refused. Write options as \
          baumgarte:alpha=5,beta=5.\n",
         integrator::VECTOR_FIELDS.join(", ")
     );

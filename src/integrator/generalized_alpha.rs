@@ -21,7 +21,7 @@ use crate::system::{Loaded, Need, Tangent};
 /// G v + phi_t to order 2: project it (`velocity`, `manifold`, `exact`) where that matters. `full` would share that
 /// error out between v and q at every step, which costs q an order, so it is refused. One matrix a step, from exact K and C, dense
 /// (n + m in the hundreds at most); an evaluation and a back-substitution an iteration. Redundant constraints are
-/// refused. The work is the trapezoidal rule. Fixed steps; cubic Hermite interpolation.
+/// refused. A step allocates some small blocks. The work is the trapezoidal rule. Fixed steps; cubic Hermite interpolation.
 pub const ENTRY: Entry = Entry {
     name: "generalized_alpha",
     about: "implicit, damped at high frequencies by rho_inf, for stiff motions; holds phi, fixed steps",

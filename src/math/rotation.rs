@@ -41,26 +41,3 @@ pub fn quaternion_from_vector(a: &[f64; 3]) -> [f64; 4] {
     let factor = if angle < 1e-8 { 0.5 } else { (0.5 * angle).sin() / angle };
     [(0.5 * angle).cos(), factor * a[0], factor * a[1], factor * a[2]]
 }
-
-/// Quaternion of the rotation whose axes (columns) are given; the largest component is taken from the trace formulas,
-/// so that no cancellation occurs (Shepperd 1978).
-pub fn quaternion_from_axes(axes: &[[f64; 3]; 3]) -> [f64; 4] {
-    let m = |i: usize, j: usize| axes[j][i];
-    let squares = [
-        1.0 + m(0, 0) + m(1, 1) + m(2, 2),
-        1.0 + m(0, 0) - m(1, 1) - m(2, 2),
-        1.0 - m(0, 0) + m(1, 1) - m(2, 2),
-        1.0 - m(0, 0) - m(1, 1) + m(2, 2),
-    ];
-    let best = (0..4).max_by(|&i, &j| squares[i].total_cmp(&squares[j])).unwrap_or(0);
-    let big = 0.5 * squares[best].sqrt();
-    let small = 0.25 / big;
-    let (wx, wy, wz) = (m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1));
-    let (xy, xz, yz) = (m(0, 1) + m(1, 0), m(0, 2) + m(2, 0), m(1, 2) + m(2, 1));
-    match best {
-        0 => [big, small * wx, small * wy, small * wz],
-        1 => [small * wx, big, small * xy, small * xz],
-        2 => [small * wy, small * xy, big, small * yz],
-        _ => [small * wz, small * xz, small * yz, big],
-    }
-}

@@ -108,11 +108,3 @@ fn turn<const D: usize>(of: &Frame<Taylor<f64>, D>, to: &Frame<Taylor<f64>, D>) 
     }
     dot(&to.axes[1], &of.axes[0]).x.atan2(dot(&to.axes[0], &of.axes[0]).x)
 }
-
-impl<const D: usize> Mechanism<D> {
-    /// World position of every marker at q, for drawings.
-    pub fn marker_positions(&self, q: &[f64], scratch: &mut Scratch) -> Vec<[f64; D]> {
-        let still = vec![0.0; self.dimensions().v];
-        self.at(q, &still, scratch, |work| work.motion.iter().map(|frame| frame.r.map(|x| x.x)).collect())
-    }
-}

@@ -13,7 +13,7 @@ use faer::{MatMut, MatRef, Par, Spec};
 /// ```
 ///
 /// with A a sum of matrices on patterns of their own, by LU with partial pivoting (faer). Rows of G are scaled to the
-/// size of A, so that the pivots are chosen between like and like. 2/3 (n + m)^3 operations; allocates nothing once made.
+/// size of A, so that the pivots are chosen between like and like. 2/3 (n + m)^3 operations.
 pub struct Unsymmetric {
     n: usize,
     size: usize,
