@@ -3,6 +3,7 @@
 use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::initial::{self, Assembly};
+use crate::integrator::Steps;
 use crate::math::expression::{Number, Parameters};
 use crate::scene::{self, AnyModel, Scene, Simulation};
 use crate::simulate::{Method, Span};
@@ -162,8 +163,9 @@ impl Settings<'_> {
         };
         let integrator = pick(&given.integrator, &scene.integrator, default.integrator);
         // A scene's fixed step goes with the scene's integrator.
-        let adaptive = integrator::find(&integrator).map_err(|error| error.under("integrator"))?.adaptive;
-        let own_step = if given.integrator.is_some() && adaptive { None } else { self.number("step", &scene.step)? };
+        let steps = integrator::find(&integrator).map_err(|error| error.under("integrator"))?.steps;
+        let own_step =
+            if given.integrator.is_some() && steps != Steps::Fixed { None } else { self.number("step", &scene.step)? };
         let method = Method {
             formulation: pick(&given.formulation, &scene.formulation, default.formulation),
             integrator,

@@ -18,6 +18,7 @@ pub const ENTRY: Entry = Entry {
         OptionDoc { name: "alpha", about: "damping of phi, 1/s (default 5)" },
         OptionDoc { name: "beta", about: "frequency of phi, 1/s (default alpha)" },
     ],
+    rows: None,
     make: |choice, _| {
         let alpha = choice.not_negative("alpha", 5.0)?;
         Ok(Box::new(Baumgarte { alpha, beta: choice.not_negative("beta", alpha)? }))

@@ -20,6 +20,7 @@ pub const ENTRY: Entry = Entry {
         OptionDoc { name: "position", about: "rate p at which phi decays, 1/s (default 10)" },
         OptionDoc { name: "velocity", about: "rate r at which phi' decays, 1/s (default position)" },
     ],
+    rows: None,
     make: |choice, system| {
         let position = choice.not_negative("position", 10.0)?;
         let gains = [position, choice.not_negative("velocity", position)?];

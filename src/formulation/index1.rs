@@ -1,6 +1,6 @@
 //! Index 1: the constraints differentiated twice, lambda eliminated.
 
-use super::{Dynamics, Entry, Formulation, Halt};
+use super::{Dynamics, Entry, Formulation, Halt, Rows};
 use crate::error::Result;
 
 /// ```text
@@ -13,6 +13,7 @@ pub const ENTRY: Entry = Entry {
     name: "index1",
     about: "phi'' = 0, lambda eliminated; drifts unless projected",
     options: &[],
+    rows: Some(Rows::Acceleration),
     make: |_, _| Ok(Box::new(Index1)),
 };
 

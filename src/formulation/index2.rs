@@ -1,7 +1,7 @@
 //! Index 2: the velocity constraint itself.
 
-use super::Entry;
 use super::index1::Index1;
+use super::{Entry, Rows};
 
 /// ```text
 /// q' = N v,   M v' + G^T lambda = f,   G v + phi_t = 0
@@ -14,5 +14,6 @@ pub const ENTRY: Entry = Entry {
     name: "index2",
     about: "G v + phi_t = 0 itself, for integrators that solve it; phi drifts as h^p",
     options: &[],
+    rows: Some(Rows::Velocity),
     make: |_, _| Ok(Box::new(Index1)),
 };

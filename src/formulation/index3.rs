@@ -1,7 +1,7 @@
 //! Index 3: the position constraint itself.
 
-use super::Entry;
 use super::index1::Index1;
+use super::{Entry, Rows};
 
 /// ```text
 /// q' = N v,   M v' + G^T lambda = f,   phi = 0
@@ -14,5 +14,6 @@ pub const ENTRY: Entry = Entry {
     name: "index3",
     about: "phi = 0 itself, for integrators that solve it",
     options: &[],
+    rows: Some(Rows::Position),
     make: |_, _| Ok(Box::new(Index1)),
 };

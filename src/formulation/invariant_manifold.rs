@@ -21,6 +21,7 @@ pub const ENTRY: Entry = Entry {
             about: "F: both (default), full, mass_weighted, triangular, position, velocity, gradient",
         },
     ],
+    rows: None,
     make: |choice, system| {
         let gamma = choice.not_negative("gamma", 10.0)?;
         let stabilizer = Stabilizer::new(Field::from_choice(choice)?, system);

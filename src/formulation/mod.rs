@@ -7,6 +7,7 @@ mod baumgarte;
 mod dense;
 mod dynamics;
 mod force_projection;
+mod ggl;
 mod index1;
 mod index2;
 mod index3;
@@ -37,11 +38,26 @@ pub trait Formulation: Send {
     ) -> Result<(), Halt>;
 }
 
+/// The constraint rows of a formulation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rows {
+    /// phi = 0
+    Position,
+    /// phi' = G v + phi_t = 0
+    Velocity,
+    /// Both, with multipliers of their own.
+    PositionAndVelocity,
+    /// phi'' = G v' - gamma = 0
+    Acceleration,
+}
+
 /// One formulation as the command line, the scene format and the table of methods know it.
 pub struct Entry {
     pub name: &'static str,
     pub about: &'static str,
     pub options: &'static [OptionDoc],
+    /// The constraints that integrators solve together with the motion; none for a vector field that has no lambda.
+    pub rows: Option<Rows>,
     pub make: fn(&Choice, &dyn MechanicalSystem) -> Result<Box<dyn Formulation>>,
 }
 
@@ -51,6 +67,7 @@ pub fn registry() -> &'static [Entry] {
         index1::ENTRY,
         index2::ENTRY,
         index3::ENTRY,
+        ggl::ENTRY,
         baumgarte::ENTRY,
         invariant_manifold::ENTRY,
         force_projection::ENTRY,
@@ -59,6 +76,11 @@ pub fn registry() -> &'static [Entry] {
         udwadia_kalaba::ENTRY,
         null_space::ENTRY,
     ]
+}
+
+/// The constraint rows of the formulation that `choice` names.
+pub fn rows(choice: &Choice) -> Option<Rows> {
+    registry().iter().find(|entry| entry.name == choice.name).and_then(|entry| entry.rows)
 }
 
 /// The formulation that `choice` names, for `system`.

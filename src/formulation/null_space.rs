@@ -18,6 +18,7 @@ pub const ENTRY: Entry = Entry {
     name: "null_space",
     about: "Z^T M Z z = Z^T (f - M Y y) with G Z = 0, dense; drifts as index1 does",
     options: &[],
+    rows: None,
     make: |_, system| {
         let structure = system.structure();
         let reduced = Reduced::new(&structure.mass, &structure.g);

@@ -23,6 +23,7 @@ pub const ENTRY: Entry = Entry {
         name: "tolerance",
         about: "singular values up to this part of the largest count as zero (default 1e-10)",
     }],
+    rows: None,
     make: |choice, system| {
         let (structure, tolerance) = (system.structure(), choice.not_negative("tolerance", 1e-10)?);
         let inverse = PseudoInverse::new(&structure.mass, &structure.g, tolerance);

@@ -2,7 +2,7 @@
 
 use super::dop853_tableau::{A, B, C, D, E3, E5};
 use super::explicit::{ErrorEstimate, Explicit, Tableau};
-use super::{Control, Entry, VECTOR_FIELDS};
+use super::{Control, Entry, Steps, VECTOR_FIELDS};
 
 /// Source: Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.5 (code DOP853); interpolation of
 /// order 7. Order 8 in q and v (and lambda); twelve evaluations a step, three more where outputs fall into the step.
@@ -10,7 +10,8 @@ pub const ENTRY: Entry = Entry {
     name: "dop853",
     about: "Dormand-Prince 8(5,3), 12 evaluations a step, adaptive; the choice for high accuracy",
     order: 8,
-    adaptive: true,
+    orders: &[],
+    steps: Steps::Either,
     accepts: VECTOR_FIELDS,
     refuses: &[],
     options: &[],

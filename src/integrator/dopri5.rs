@@ -1,7 +1,7 @@
 //! Dormand and Prince's method of order 5(4).
 
 use super::explicit::{ErrorEstimate, Explicit, Tableau};
-use super::{Control, Entry, VECTOR_FIELDS};
+use super::{Control, Entry, Steps, VECTOR_FIELDS};
 
 /// Source: Dormand, Prince, J. Comput. Appl. Math. 6 (1980) 19-26; interpolation of order 4 and step control as in
 /// Hairer's DOPRI5. Order 5 in q and v (and lambda); six evaluations a step, and one more after a projection, which
@@ -10,7 +10,8 @@ pub const ENTRY: Entry = Entry {
     name: "dopri5",
     about: "Dormand-Prince 5(4), 6 or (projected) 7 evaluations a step, adaptive",
     order: 5,
-    adaptive: true,
+    orders: &[],
+    steps: Steps::Either,
     accepts: VECTOR_FIELDS,
     refuses: &[],
     options: &[],

@@ -46,6 +46,7 @@ pub struct Explicit {
     /// Slopes of all stages; the first is given, so it stays empty.
     k: Vec<Vec<f64>>,
     stage: Vec<f64>,
+    control: Control,
     polynomial: Hermite,
 }
 
@@ -56,6 +57,7 @@ impl Explicit {
             tableau,
             k: zeros(tableau.c.len()),
             stage: vec![0.0; len],
+            control: (tableau.control)(),
             polynomial: Hermite::new(len, tableau.dense.len()),
         }
     }
@@ -121,8 +123,8 @@ impl Integrator for Explicit {
         self.tableau.order
     }
 
-    fn control(&self) -> Control {
-        (self.tableau.control)()
+    fn control(&mut self) -> &mut Control {
+        &mut self.control
     }
 
     fn attempt(

@@ -1,7 +1,7 @@
 //! Generalized-alpha on the index 3 equations.
 
 use super::hermite::Hermite;
-use super::{Control, Entry, From, Integrator, Problem, Setup, Tolerance};
+use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tolerance};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
 use crate::formulation::Halt;
@@ -26,7 +26,8 @@ pub const ENTRY: Entry = Entry {
     name: "generalized_alpha",
     about: "implicit, damped at high frequencies by rho_inf, for stiff motions; holds phi, fixed steps",
     order: 2,
-    adaptive: false,
+    orders: &[],
+    steps: Steps::Fixed,
     accepts: &["index3"],
     refuses: &["full"],
     options: &[OptionDoc {
@@ -59,6 +60,7 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         top: zeros(n.v),
         bottom: zeros(n.lambda),
         stages: [zeros(n.q), zeros(n.q), zeros(n.q)],
+        control: Control::new(2.0, 0.0, 0.2, 5.0),
         polynomial: Hermite::new(setup.len(), 0),
     }))
 }
@@ -85,6 +87,7 @@ struct GeneralizedAlpha {
     top: Vec<f64>,
     bottom: Vec<f64>,
     stages: [Vec<f64>; 3],
+    control: Control,
     polynomial: Hermite,
 }
 
@@ -228,8 +231,8 @@ impl Integrator for GeneralizedAlpha {
         ENTRY.order
     }
 
-    fn control(&self) -> Control {
-        Control::new(2.0, 0.0, 0.2, 5.0)
+    fn control(&mut self) -> &mut Control {
+        &mut self.control
     }
 
     fn attempt(

@@ -59,6 +59,7 @@ pub struct HalfExplicit {
     error: Vec<f64>,
     off: Vec<f64>,
     solver: TwoPlaces,
+    control: Control,
     polynomial: Hermite,
 }
 
@@ -68,6 +69,7 @@ impl HalfExplicit {
         let zeros = |n: usize| vec![0.0; n];
         HalfExplicit {
             tableau,
+            control: (tableau.control)(),
             k: vec![zeros(len); tableau.constraint.len() + 1],
             stage: zeros(len),
             lambda: zeros(n.lambda),
@@ -149,8 +151,8 @@ impl Integrator for HalfExplicit {
         self.tableau.order
     }
 
-    fn control(&self) -> Control {
-        (self.tableau.control)()
+    fn control(&mut self) -> &mut Control {
+        &mut self.control
     }
 
     fn attempt(

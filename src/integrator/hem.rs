@@ -1,7 +1,7 @@
 //! Brasey and Hairer's half-explicit methods.
 
 use super::half_explicit::{HalfExplicit, Tableau};
-use super::{Control, Entry, HALF_EXPLICIT};
+use super::{Control, Entry, HALF_EXPLICIT, Steps};
 
 /// Source: Brasey, Hairer, SIAM J. Numer. Anal. 30 (1993) 538-552. Order 3 in q, v and lambda; three solutions a step
 /// and the one that observes v' and lambda; fixed steps; interpolation of order 3.
@@ -20,7 +20,17 @@ pub const HEM5: Entry =
 type Make = fn(&super::Setup) -> crate::error::Result<Box<dyn super::Integrator>>;
 
 const fn entry(name: &'static str, about: &'static str, order: usize, make: Make) -> Entry {
-    Entry { name, about, order, adaptive: false, accepts: HALF_EXPLICIT, refuses: &[], options: &[], make }
+    Entry {
+        name,
+        about,
+        order,
+        orders: &[],
+        steps: Steps::Fixed,
+        accepts: HALF_EXPLICIT,
+        refuses: &[],
+        options: &[],
+        make,
+    }
 }
 
 static THIRD: Tableau = Tableau {

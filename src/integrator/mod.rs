@@ -46,8 +46,13 @@ pub trait Integrator: Send {
         None
     }
 
-    /// The constants of step control that go with the method.
-    fn control(&self) -> Control;
+    /// The step control that goes with the method, which may change its constants with its order.
+    fn control(&mut self) -> &mut Control;
+
+    /// The size of the step just tried, where the method chose one of its own and not the `h` it was given.
+    fn own_step(&self) -> Option<f64> {
+        None
+    }
 
     /// Prepares interpolation over the step just accepted; `slope` is y' at its end `to`.
     fn prepare(&mut self, problem: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt>;
@@ -85,20 +90,40 @@ impl Setup<'_> {
     }
 }
 
+/// Who chooses the steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Steps {
+    /// There is no error estimate: a step must be given.
+    Fixed,
+    /// An error estimate, where no fixed step is given.
+    Either,
+    /// The method itself, always.
+    Own,
+}
+
 /// One integrator as the command line, the scene format and the table of methods know it.
 pub struct Entry {
     pub name: &'static str,
     pub about: &'static str,
-    /// Proven order in q and v.
+    /// Proven order in q, v and lambda, but for what `orders` says.
     pub order: usize,
-    /// Whether it chooses its steps by an error estimate; otherwise a step must be given.
-    pub adaptive: bool,
+    /// Proven orders in q, v and lambda with formulations where they are not `order`.
+    pub orders: &'static [(&'static str, [usize; 3])],
+    pub steps: Steps,
     /// Formulations it can integrate.
     pub accepts: &'static [&'static str],
     /// Projections that would cost it an order.
     pub refuses: &'static [&'static str],
     pub options: &'static [OptionDoc],
     pub make: fn(&Setup) -> Result<Box<dyn Integrator>>,
+}
+
+impl Entry {
+    /// Proven orders in q, v and lambda with a formulation.
+    pub fn orders_with(&self, formulation: &str) -> [usize; 3] {
+        let own = self.orders.iter().find(|(name, _)| *name == formulation);
+        own.map_or([self.order; 3], |(_, orders)| *orders)
+    }
 }
 
 /// Formulations that are vector fields, which any explicit method takes.

@@ -2,7 +2,7 @@
 
 use super::dopri5;
 use super::half_explicit::{HalfExplicit, Tableau};
-use super::{Entry, HALF_EXPLICIT};
+use super::{Entry, HALF_EXPLICIT, Steps};
 
 /// Source: Murua, BIT 37 (1997) 641-662 (PHEM56): the stages of DOPRI5, each with a constraint of its own. Order 5 in q,
 /// v and lambda; six solutions a step: the first stage, which is also the end of the step before, takes the
@@ -12,7 +12,8 @@ pub const ENTRY: Entry = Entry {
     name: "phem56",
     about: "half-explicit, 6 or (projected) 7 solutions a step, adaptive",
     order: 5,
-    adaptive: true,
+    orders: &[],
+    steps: Steps::Either,
     accepts: HALF_EXPLICIT,
     refuses: &[],
     options: &[],

@@ -1,7 +1,7 @@
 //! RATTLE.
 
 use super::hermite::Hermite;
-use super::{Control, Entry, From, Integrator, Problem, Setup, Tolerance};
+use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tolerance};
 use crate::error::{Error, Result};
 use crate::formulation::Halt;
 use crate::math::kkt::Singular;
@@ -21,7 +21,8 @@ pub const ENTRY: Entry = Entry {
     name: "rattle",
     about: "symmetric, symplectic, for constant M; holds phi and phi', fixed steps",
     order: 2,
-    adaptive: false,
+    orders: &[],
+    steps: Steps::Fixed,
     accepts: &["index3"],
     refuses: &[],
     options: &[],
@@ -46,6 +47,7 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         dv: zeros(n.v),
         rows: zeros(n.lambda),
         slope: zeros(setup.len()),
+        control: Control::new(2.0, 0.0, 0.2, 5.0),
         polynomial: Hermite::new(setup.len(), 0),
     }))
 }
@@ -64,6 +66,7 @@ struct Rattle {
     rows: Vec<f64>,
     /// y' at the new state.
     slope: Vec<f64>,
+    control: Control,
     polynomial: Hermite,
 }
 
@@ -176,8 +179,8 @@ impl Integrator for Rattle {
         ENTRY.order
     }
 
-    fn control(&self) -> Control {
-        Control::new(2.0, 0.0, 0.2, 5.0)
+    fn control(&mut self) -> &mut Control {
+        &mut self.control
     }
 
     fn attempt(

@@ -1,14 +1,15 @@
 //! The classical Runge-Kutta method of order 4.
 
 use super::explicit::{ErrorEstimate, Explicit, Tableau};
-use super::{Control, Entry, VECTOR_FIELDS};
+use super::{Control, Entry, Steps, VECTOR_FIELDS};
 
 /// Kutta (1901). Order 4 in q and v (and lambda, which is computed from them); four evaluations a step; fixed steps.
 pub const ENTRY: Entry = Entry {
     name: "rk4",
     about: "the classical method, 4 evaluations a step, fixed steps",
     order: 4,
-    adaptive: false,
+    orders: &[],
+    steps: Steps::Fixed,
     accepts: VECTOR_FIELDS,
     refuses: &[],
     options: &[],

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::formulation::Choice;
-use crate::integrator;
+use crate::integrator::{self, Steps};
 use crate::projection;
 use serde::Serialize;
 
@@ -50,7 +50,10 @@ impl Method {
             }
         }
         match self.step {
-            None if !entry.adaptive => Err(Error::input(format!("{} has no error estimate", entry.name))
+            Some(_) if entry.steps == Steps::Own => Err(Error::input(format!("{} chooses its own steps", entry.name))
+                .under("step")
+                .hint("leave the step out and give --rtol and --atol")),
+            None if entry.steps == Steps::Fixed => Err(Error::input(format!("{} has no error estimate", entry.name))
                 .under("integrator")
                 .hint("give a fixed step: --step H, or \"step\" in \"simulation\" of the scene")),
             _ => Ok(()),

@@ -8,7 +8,7 @@ pub use observation::{Observation, Sink, Span};
 
 use crate::error::{Error, Failure, Result};
 use crate::formulation::{self, Dynamics, Halt, Statistics};
-use crate::integrator::{self, Control, From, Integrator, Problem, Setup, Tolerance, first_step};
+use crate::integrator::{self, From, Integrator, Problem, Setup, Tolerance, first_step};
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
 
@@ -125,28 +125,27 @@ impl<'a> Run<'a> {
         self.observe(sink);
         self.rows.emit(self.t, &self.y, sink).map_err(|halt| self.failure(halt.to_string()))?;
         self.rows.next = 1;
-        let mut control = self.integrator.control();
         let mut h = self.first_step().map_err(|halt| self.failure(halt.to_string()))?;
         let mut growing = true;
         while self.t < self.span.end {
-            let (size, last) = self.fit(h);
-            let error = match self.step(size, last) {
+            let (mut size, mut last) = self.fit(h);
+            let error = match self.step(&mut size, &mut last) {
                 Ok(error) => error,
                 Err(halt) => {
-                    h = self.retry(size, None, &control, &halt.to_string())?;
+                    h = self.retry(size, None, &halt.to_string())?;
                     growing = false;
                     continue;
                 }
             };
             if error.is_some_and(|error| error > 1.0 || error.is_nan()) {
-                h = self.retry(size, error, &control, self.refusal)?;
+                h = self.retry(size, error, self.refusal)?;
                 growing = false;
                 continue;
             }
             self.output(size, last, sink).map_err(|halt| self.failure(halt.to_string()))?;
             self.accept(size, last, sink);
             if let Some(error) = error {
-                let proposed = control.accept(size, error, growing);
+                let proposed = self.integrator.control().accept(size, error, growing);
                 // A step cut to hit the end says nothing against the size before it.
                 h = if last { h.max(proposed) } else { proposed };
             }
@@ -186,16 +185,19 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Tries one step with its projection, and leaves y' at the new state in `next_slope`.
-    fn step(&mut self, h: f64, last: bool) -> Result<Option<f64>, Halt> {
+    /// Tries one step of size `h` (or one that the method chose) with its projection, and leaves y' at the new state in `next_slope`.
+    fn step(&mut self, h: &mut f64, last: &mut bool) -> Result<Option<f64>, Halt> {
         let from = From { t: self.t, y: &self.y, slope: &self.slope };
-        let error = self.integrator.attempt(&mut self.problem, &self.tolerance, from, h, &mut self.next)?;
+        let error = self.integrator.attempt(&mut self.problem, &self.tolerance, from, *h, &mut self.next)?;
+        if let Some(own) = self.integrator.own_step() {
+            (*h, *last) = (own, *last && own >= *h);
+        }
         let error = if self.fixed.is_some() { None } else { error };
         if error.is_some_and(|error| error > 1.0 || error.is_nan()) {
             self.refusal = "the error of a step stays above the tolerance";
             return Ok(error);
         }
-        let t = self.end_of(h, last);
+        let t = self.end_of(*h, *last);
         self.change.copy_from_slice(&self.next);
         project(t, &mut self.next, &mut self.problem, &mut self.projection)?;
         let is_moved = self.projection.is_some() || self.change != self.next;
@@ -262,13 +264,13 @@ impl<'a> Run<'a> {
     }
 
     /// The step to try after a failed one, or the end of the run where no smaller step makes sense.
-    fn retry(&mut self, h: f64, error: Option<f64>, control: &Control, reason: &str) -> Result<f64, Failure> {
+    fn retry(&mut self, h: f64, error: Option<f64>, reason: &str) -> Result<f64, Failure> {
         self.problem.dynamics.statistics.rejected += 1;
         if self.fixed.is_some() {
             return Err(self.failure(format!("{reason} (with the fixed step {h:e} s)")));
         }
         let smaller = match error {
-            Some(error) if error.is_finite() => control.reject(h, error),
+            Some(error) if error.is_finite() => self.integrator.control().reject(h, error),
             _ => 0.25 * h,
         };
         let smallest = 1e-15 * self.t.abs().max(1e-3 * (self.span.end - self.span.start));
