@@ -4,7 +4,7 @@
 mod counting;
 
 use counting::{Counting, count};
-use holonom::math::kkt::{Pattern, PseudoInverse, Reduced, SaddlePoint, Solver};
+use holonom::math::kkt::{Field, Pattern, PseudoInverse, Reduced, SaddlePoint, Solver, Unsymmetric};
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
@@ -86,6 +86,39 @@ fn nor_by_the_dense_solvers() {
             let before = count();
             (0..10).for_each(|_| round());
             assert_eq!(count(), before, "{k}: {points} {copies}");
+        }
+    }
+}
+
+/// Rounds of factor and solve of an implicit method's matrix, whose pivots change from round to round.
+fn unsymmetric<T: Field>(points: usize, copies: usize) {
+    let (g, values) = rods(points, copies);
+    let (mass, tangent) = (Pattern::diagonal(g.cols), Pattern::diagonal(g.cols));
+    let mut system = Unsymmetric::<T>::new(&mass, &tangent, &g).unwrap();
+    let (mut top, mut bottom) = (vec![T::real(1.0); g.cols], vec![T::real(1.0); g.rows]);
+    let stiffness: Vec<f64> = (0..g.cols).map(|k| (k as f64).sin()).collect();
+    let mut round = |k: u32| {
+        system.clear();
+        system.add(&mass, &vec![1.0; g.cols], T::real(1.0), true);
+        system.add(&tangent, &stiffness, T::real(0.05 * f64::from(k % 8)), false);
+        system.factor(&g, &values).unwrap();
+        let before = count();
+        system.solve(&mut top, &mut bottom).unwrap();
+        assert_eq!(count(), before);
+    };
+    (0..8).for_each(&mut round);
+    let before = count();
+    (0..16).for_each(&mut round);
+    // One for the masses.
+    assert_eq!(count() - before, 16, "{points} {copies}");
+}
+
+#[test]
+fn nor_by_the_matrix_of_implicit_methods() {
+    for points in [4, 100] {
+        for copies in [0, 3] {
+            unsymmetric::<f64>(points, copies);
+            unsymmetric::<faer::c64>(points, copies);
         }
     }
 }

@@ -19,9 +19,8 @@ use crate::system::{Loaded, Need, Tangent};
 /// Bruels, Multibody Syst. Dyn. 18 (2007) 185-202. Rotations advance along the group: q_1 = q exp(h Dq), by four
 /// Runge-Kutta stages of q' = N(q) Dq. Order 2 in q, v and lambda; implicit, for stiff motions. phi holds to round-off,
 /// G v + phi_t to order 2: project it (`velocity`, `manifold`, `exact`) where that matters. `full` would share that
-/// error out between v and q at every step, which costs q an order, so it is refused. One matrix a step, from exact K and C, dense
-/// (n + m in the hundreds at most); an evaluation and a back-substitution an iteration. Redundant constraints are
-/// refused. A step allocates some small blocks. The work is the trapezoidal rule. Fixed steps; cubic Hermite interpolation.
+/// error out between v and q at every step, which costs q an order, so it is refused. One matrix a step, from exact K and C; an
+/// evaluation and a back-substitution an iteration. A step allocates some small blocks. The work is the trapezoidal rule. Fixed steps; cubic Hermite interpolation.
 pub const ENTRY: Entry = Entry {
     name: "generalized_alpha",
     about: "implicit, damped at high frequencies by rho_inf, for stiff motions; holds phi, fixed steps",
@@ -42,14 +41,15 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
     if r > 1.0 {
         return Err(Error::input(format!("generalized_alpha: rho_inf is {r}")).hint("give a number from 0 to 1"));
     }
-    let matrix = Unsymmetric::new(n.v, n.lambda)
-        .ok_or_else(|| Error::input("there is not enough memory for a dense matrix of this size"))?;
+    let structure = setup.system.structure();
+    let matrix = Unsymmetric::new(&structure.mass, &structure.tangent, &structure.g)
+        .ok_or_else(|| Error::input("there is not enough memory for a matrix of this size"))?;
     let (alpha_m, alpha_f) = ((2.0 * r - 1.0) / (r + 1.0), r / (r + 1.0));
     let gamma = 0.5 + alpha_f - alpha_m;
     let zeros = |n: usize| vec![0.0; n];
     Ok(Box::new(GeneralizedAlpha {
         coefficients: Coefficients { alpha_m, alpha_f, gamma, beta: 0.25 * (gamma + 0.5) * (gamma + 0.5) },
-        tangent: Tangent::new(&setup.system.structure().tangent),
+        tangent: Tangent::new(&structure.tangent),
         matrix,
         reached: None,
         a: zeros(n.v),
@@ -75,7 +75,7 @@ struct Coefficients {
 struct GeneralizedAlpha {
     coefficients: Coefficients,
     tangent: Tangent,
-    matrix: Unsymmetric,
+    matrix: Unsymmetric<f64>,
     /// Time at which `a_new` and `vdot_new` were reached.
     reached: Option<f64>,
     /// a and v' at the start of the step.
@@ -169,9 +169,7 @@ impl GeneralizedAlpha {
         self.matrix.add(&structure.tangent, &self.tangent.c, h * gamma * slope, false);
         self.matrix.add(&structure.tangent, &self.tangent.k, h * h * beta * slope, false);
         self.matrix.factor(&structure.g, &dynamics.terms.g).map_err(|singular| match singular {
-            Singular::NotFactored => {
-                Halt::Unsuitable("generalized_alpha cannot solve redundant constraints: `holonom check` names them")
-            }
+            Singular::NotFactored => Halt::Unsuitable("the iteration matrix of generalized_alpha is singular here"),
             other => other.into(),
         })
     }
@@ -216,7 +214,7 @@ impl GeneralizedAlpha {
             if !change.is_finite() {
                 return Err(Halt::NotFinite);
             }
-            if change == 0.0 || change < SMALL && change > 0.5 * last {
+            if change <= f64::EPSILON || change < SMALL && change > 0.5 * last {
                 self.advance(problem, from, h, to);
                 return Ok(());
             }

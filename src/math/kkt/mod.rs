@@ -12,7 +12,8 @@
 //! 2. When a pivot collapses: the same with dependent rows left out (`skipping`), if it is clear which these are.
 //! 3. Else, and not too large: a dense rank-revealing factorization (`null_space`).
 //!
-//! [`PseudoInverse`] and [`Reduced`] solve the same system densely in other ways, for comparison.
+//! [`PseudoInverse`] and [`Reduced`] solve the same system densely in other ways, for comparison. [`Unsymmetric`] solves
+//! that of implicit methods, which has stiffness and damping beside M.
 //!
 //! Redundant rows get multipliers of least norm, right sides that contradict each other least squares.
 
@@ -44,7 +45,7 @@ pub use pseudo_inverse::PseudoInverse;
 pub use reduced::Reduced;
 pub use saddle::SaddlePoint;
 pub use two_places::TwoPlaces;
-pub use unsymmetric::Unsymmetric;
+pub use unsymmetric::{Field, Unsymmetric};
 
 /// A way to solve the system: factor once, then solve any number of times.
 pub trait Solver {

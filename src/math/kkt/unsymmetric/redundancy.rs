@@ -1,0 +1,38 @@
+//! Which rows of G are left out because they repeat what others say.
+
+use super::super::Pattern;
+use super::super::fast::Fast;
+use super::super::pivot::Rule;
+
+/// The rows whose pivots collapse in the L D L^T of G diag(weight)^-1 G^T, which stays sparse where G is. The order of
+/// elimination is frozen, so that the same mechanism leaves out the same rows from state to state.
+pub(super) struct Redundancy {
+    fast: Fast,
+    skipped: Vec<usize>,
+    pub rows: Vec<bool>,
+    /// How many rows there were at first.
+    pub count: usize,
+}
+
+impl Redundancy {
+    pub fn new(g: &Pattern, weight: &[f64], values: &[f64]) -> Self {
+        let mut redundancy = Redundancy {
+            fast: Fast::new(&Pattern::diagonal(g.cols), g, &vec![false; g.cols]),
+            skipped: Vec::with_capacity(g.rows),
+            rows: vec![false; g.rows],
+            count: 0,
+        };
+        redundancy.count = redundancy.find(weight, values);
+        redundancy
+    }
+
+    /// Finds the rows anew and returns how many there are; none where the values are of no use.
+    pub fn find(&mut self, weight: &[f64], values: &[f64]) -> usize {
+        if self.fast.factor(weight, values, Rule::lenient(weight), &mut self.skipped).is_err() {
+            self.skipped.clear();
+        }
+        self.rows.fill(false);
+        self.skipped.iter().for_each(|&row| self.rows[row] = true);
+        self.skipped.len()
+    }
+}
