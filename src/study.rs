@@ -112,7 +112,9 @@ impl Study {
 fn check_options(method: &Method, system: &dyn MechanicalSystem) -> Result<()> {
     formulation::make(&method.formulation, system).map_err(|error| error.under("formulation"))?;
     let entry = integrator::find(&method.integrator)?;
-    let setup = integrator::Setup { integrator: &method.integrator, formulation: &method.formulation, system };
+    let is_fixed = method.step.is_some();
+    let setup =
+        integrator::Setup { integrator: &method.integrator, formulation: &method.formulation, system, is_fixed };
     (entry.make)(&setup).map_err(|error| error.under("integrator"))?;
     projection::make(&method.projection, system).map_err(|error| error.under("projection"))?;
     Ok(())

@@ -31,35 +31,60 @@ impl Tolerance {
 }
 
 /// h_new = h safety err^-expo err_old^beta within [shrink, grow] h. Source: Hairer, Norsett, Wanner, Solving Ordinary
-/// Differential Equations I, II.4 and the codes DOPRI5 and DOP853.
+/// Differential Equations I, II.4 and the codes DOPRI5 and DOP853. Predictive, for implicit methods: not more than
+/// h_new = h safety (h/h_old) (err_old/err^2)^expo. Source: Hairer, Wanner II, IV.8 (8.25), after Gustafsson.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
     pub exponent: f64,
     pub beta: f64,
     pub shrink: f64,
     pub grow: f64,
+    /// Factor on the optimal step.
+    pub safety: f64,
     /// max(err, 1e-4) of the last accepted step.
-    pub last: f64,
+    last: f64,
+    /// Size and error of the last accepted step, of a predictive control.
+    before: Option<(f64, f64)>,
+    is_predictive: bool,
 }
-
-/// Safety factor on the optimal step.
-const SAFETY: f64 = 0.9;
 
 impl Control {
     pub fn new(order: f64, beta: f64, shrink: f64, grow: f64) -> Self {
-        Control { exponent: 1.0 / order - 0.75 * beta, beta, shrink, grow, last: 1e-4 }
+        Control {
+            exponent: 1.0 / order - 0.75 * beta,
+            beta,
+            shrink,
+            grow,
+            safety: 0.9,
+            last: 1e-4,
+            before: None,
+            is_predictive: false,
+        }
+    }
+
+    /// For an error estimate of this order.
+    pub fn predictive(order: f64, shrink: f64, grow: f64) -> Self {
+        Control { is_predictive: true, ..Control::new(order, 0.0, shrink, grow) }
     }
 
     /// The next step after one of size `h` with error `error`; `growing` is false right after a rejection.
     pub fn accept(&mut self, h: f64, error: f64, growing: bool) -> f64 {
-        let factor = SAFETY * error.max(1e-16).powf(-self.exponent) * self.last.powf(self.beta);
+        let mut factor = self.safety * error.max(1e-16).powf(-self.exponent) * self.last.powf(self.beta);
         self.last = error.max(1e-4);
+        if self.is_predictive {
+            // An error below 1e-2 says little about its trend.
+            let error = error.max(1e-2);
+            if let Some((size, old)) = self.before {
+                factor = factor.min(self.safety * h / size * (old / (error * error)).powf(self.exponent));
+            }
+            self.before = Some((h, error));
+        }
         h * factor.clamp(self.shrink, if growing { self.grow } else { 1.0 })
     }
 
     /// The step to try again after the error was too large.
     pub fn reject(&self, h: f64, error: f64) -> f64 {
-        h * (SAFETY * error.powf(-self.exponent)).clamp(self.shrink, 1.0)
+        h * (self.safety * error.powf(-self.exponent)).clamp(self.shrink, 1.0)
     }
 }
 

@@ -14,6 +14,7 @@ mod hermite;
 mod heun;
 mod phem56;
 mod problem;
+mod radau_iia;
 mod rattle;
 mod rk4;
 
@@ -76,6 +77,8 @@ pub struct Setup<'a> {
     pub integrator: &'a Choice,
     pub formulation: &'a Choice,
     pub system: &'a dyn MechanicalSystem,
+    /// Whether the steps are fixed.
+    pub is_fixed: bool,
 }
 
 impl Setup<'_> {
@@ -152,6 +155,7 @@ pub fn registry() -> &'static [Entry] {
         hem::HEM4,
         hem::HEM5,
         phem56::ENTRY,
+        radau_iia::ENTRY,
         rattle::ENTRY,
         generalized_alpha::ENTRY,
     ]

@@ -96,6 +96,7 @@ impl<'a> Run<'a> {
                 integrator: &method.integrator,
                 formulation: &method.formulation,
                 system,
+                is_fixed: method.step.is_some(),
             })?,
             projection: projection::make(&method.projection, system)?,
             rows: Rows {

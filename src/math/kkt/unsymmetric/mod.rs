@@ -19,11 +19,11 @@ use sparse::Sparse;
 /// Factors and solves
 ///
 /// ```text
-/// [ A  G^T ] [ a      ]   [ r1 ]
-/// [ G  0   ] [ lambda ] = [ r2 ]
+/// [ A        G^T ] [ a      ]   [ r1 ]
+/// [ G + b L  0   ] [ lambda ] = [ r2 ]
 /// ```
 ///
-/// with A = M + c C + k K a sum of matrices on patterns of their own, real (`T` = `f64`) or complex (`c64`), and G real.
+/// with A = M + c C + k K a sum of matrices on patterns of their own and L (zero unless given) on that of G, real (`T` = `f64`) or complex (`c64`), and G real.
 /// LU with partial pivoting (faer), dense or sparse by how full the matrix is; nothing allocates once the fill has been
 /// seen. Rows and columns are scaled alike to A of unit size and to rows of G of unit size, so that pivots
 /// are chosen between like and like.
@@ -40,6 +40,8 @@ pub struct Unsymmetric<T> {
     weight: Vec<f64>,
     factors: Factors<T>,
     g: Pattern,
+    /// b L
+    coupling: Vec<T>,
     redundancy: Option<Redundancy>,
     right: Vec<T>,
     state: State,
@@ -88,6 +90,7 @@ impl<T: Field> Unsymmetric<T> {
                 false => Factors::Sparse(Sparse::new(&matrix.places)?),
             },
             g: g.clone(),
+            coupling: vec![T::ZERO; g.entries.len()],
             redundancy: None,
             right: vec![T::ZERO; size],
             state: State::New,
@@ -99,6 +102,7 @@ impl<T: Field> Unsymmetric<T> {
     /// Starts a new matrix.
     pub fn clear(&mut self) {
         self.matrix.values.fill(T::ZERO);
+        self.coupling.fill(T::ZERO);
         self.fits = true;
         if self.state == State::Factored {
             self.state = State::Open;
@@ -113,6 +117,11 @@ impl<T: Field> Unsymmetric<T> {
                 self.add_entry(j, i, factor * value);
             }
         }
+    }
+
+    /// L += factor B, with the values of B at the places of G.
+    pub fn couple(&mut self, values: &[f64], factor: T) {
+        self.coupling.iter_mut().zip(values).for_each(|(entry, &value)| *entry += factor * value);
     }
 
     fn add_entry(&mut self, row: usize, col: usize, value: T) {
@@ -185,10 +194,14 @@ impl<T: Field> Unsymmetric<T> {
         }
         let left_out = self.redundancy.as_ref().map(|redundancy| redundancy.rows.as_slice());
         let is_out = |row: usize| left_out.is_some_and(|rows| rows[row]);
-        for (&(i, j), value) in self.g.entries.iter().zip(g).filter(|((i, _), _)| !is_out(*i)) {
-            let scaled = T::real(value * self.scale[self.n + i] * self.scale[j]);
-            for place in [self.matrix.place(self.n + i, j), self.matrix.place(j, self.n + i)].into_iter().flatten() {
-                self.scaled[place] += scaled;
+        for ((&(i, j), &value), &coupling) in
+            self.g.entries.iter().zip(g).zip(&self.coupling).filter(|((g, _), _)| !is_out(g.0))
+        {
+            let (row, scale) = (self.n + i, self.scale[self.n + i] * self.scale[j]);
+            if let (Some(below), Some(beside)) = (self.matrix.place(row, j), self.matrix.place(j, row)) {
+                self.scaled[below] += T::real(value * scale);
+                self.scaled[below] += coupling * scale;
+                self.scaled[beside] += T::real(value * scale);
             }
         }
         let ones = (0..self.g.rows).filter(|&row| is_out(row)).map(|row| self.n + row);

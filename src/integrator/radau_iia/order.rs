@@ -1,0 +1,131 @@
+//! The number of stages, chosen as the integration goes.
+
+use super::collocation::Collocation;
+use crate::choice::Choice;
+use crate::error::{Error, Result};
+use crate::integrator::{Control, Tolerance};
+
+/// The methods to choose from and the one in use.
+///
+/// The error of s + 2 stages is estimated by that of s times the square of the ratio of the last two Legendre
+/// coefficients; from it follows the step that each method could take, and that with the least work a second is taken.
+/// The order also falls where the Newton iteration does not converge, which depends on h more than on s.
+pub struct Order {
+    methods: Vec<Collocation>,
+    current: usize,
+    pub control: Control,
+    /// Accepted steps since the last change.
+    steady: usize,
+    last_decay: Option<f64>,
+}
+
+/// What an accepted step tells.
+pub struct Seen {
+    /// In units of the internal tolerance.
+    pub error: f64,
+    /// Ratio of the last two Legendre coefficients.
+    pub decay: f64,
+    /// Contraction of the Newton iteration.
+    pub theta: f64,
+    pub iterations: usize,
+}
+
+const STAGES: [usize; 3] = [3, 5, 7];
+/// Steps at one order before it may change, and the gain that is worth a change.
+const STEADY: usize = 4;
+const GAIN: f64 = 1.2;
+/// Contraction that a larger step may come to.
+const SLOW: f64 = 0.5;
+
+impl Order {
+    pub fn new(choice: &Choice, is_fixed: bool) -> Result<Self> {
+        let stages = match choice.text("order") {
+            None if is_fixed => vec![3],
+            None => STAGES.to_vec(),
+            Some(text) => {
+                let found = STAGES.into_iter().find(|s| text.parse() == Ok(2 * s - 1));
+                vec![found.ok_or_else(|| {
+                    Error::input(format!("radau_iia: order is `{text}`")).hint("give order=5, order=9 or order=13")
+                })?]
+            }
+        };
+        let methods = stages.into_iter().map(Collocation::new).collect();
+        let control = Control::predictive(4.0, 0.125, 5.0);
+        let mut order = Order { methods, current: 0, control, steady: 0, last_decay: None };
+        order.set(0);
+        Ok(order)
+    }
+
+    pub fn most_stages(&self) -> usize {
+        self.methods.iter().map(Collocation::stages).max().unwrap_or(0)
+    }
+
+    pub fn method(&self) -> &Collocation {
+        &self.methods[self.current]
+    }
+
+    /// Which of the methods is in use.
+    pub fn current(&self) -> usize {
+        self.current
+    }
+
+    pub fn get(&self, index: usize) -> &Collocation {
+        &self.methods[index]
+    }
+
+    fn set(&mut self, index: usize) {
+        self.current = index;
+        self.steady = 0;
+        self.last_decay = None;
+        self.control.exponent = 1.0 / (self.method().stages() as f64 + 1.0);
+    }
+
+    /// The method of the next step, at the user's tolerance.
+    pub fn accepted(&mut self, tolerance: &Tolerance, seen: &Seen) {
+        self.steady += 1;
+        let decay = seen.decay * self.last_decay.unwrap_or(seen.decay);
+        self.last_decay = Some(seen.decay);
+        if self.steady < STEADY {
+            return;
+        }
+        let (best, gain) = self.neighbours().fold((self.current, 1.0), |best, index| {
+            let gain = self.gain(index, tolerance, seen, decay.sqrt());
+            if gain > best.1 { (index, gain) } else { best }
+        });
+        if best != self.current && gain > GAIN {
+            self.set(best);
+        }
+    }
+
+    fn neighbours(&self) -> impl Iterator<Item = usize> + use<> {
+        let (current, count) = (self.current, self.methods.len());
+        [current.checked_sub(1), Some(current + 1)].into_iter().flatten().filter(move |index| *index < count)
+    }
+
+    /// Time stepped over for a unit of work, relative to the method in use.
+    fn gain(&self, index: usize, tolerance: &Tolerance, seen: &Seen, decay: f64) -> f64 {
+        let (old, new) = (self.method().stages(), self.methods[index].stages());
+        let scale = internal(tolerance, old).rtol / internal(tolerance, new).rtol;
+        let error = (seen.error * scale * decay.powi(new as i32 - old as i32)).max(1e-16);
+        let step = |error: f64, s: usize| error.powf(-1.0 / (s as f64 + 1.0));
+        let ratio = step(error, new) / step(seen.error.max(1e-16), old);
+        // A larger step contracts less.
+        let ratio = if new > old { ratio.min(SLOW / seen.theta) } else { ratio };
+        ratio * old as f64 / new as f64
+    }
+
+    /// After an iteration that did not converge.
+    pub fn failed(&mut self) {
+        if self.current > 0 {
+            self.set(self.current - 1);
+        }
+    }
+}
+
+/// The error estimate is of order s + 1, the solution of order 2 s: with this tolerance the second meets the given one.
+/// Source: the code RADAU5 of Hairer and Wanner.
+pub fn internal(tolerance: &Tolerance, s: usize) -> Tolerance {
+    let s = s as f64;
+    let rtol = 0.1 * tolerance.rtol.powf((s + 1.0) / (2.0 * s));
+    Tolerance { rtol, atol: rtol * tolerance.atol / tolerance.rtol }
+}

@@ -1,0 +1,209 @@
+//! The stages of a step and what their equations leave.
+
+use super::collocation::Collocation;
+use crate::formulation::{Dynamics, Halt, Rows};
+use crate::integrator::{From, Problem, Tolerance};
+use crate::system::{Dimensions, Need};
+
+/// V_i = v + h sum a_ij V'_j,  Q_i = q + h sum a_ij N(Q_j) (V_j + U_j), with V', lambda and, where positions and
+/// velocities are both constrained, the shift U and mu as unknowns.
+pub struct Stages {
+    pub unknowns: Unknowns,
+    /// Q_i, V_i and the work at each stage, flat.
+    pub y: Vec<Vec<f64>>,
+    pub residuals: Vec<Residual>,
+    n: Dimensions,
+    power: Vec<f64>,
+    next: Vec<Vec<f64>>,
+    qdot: Vec<Vec<f64>>,
+    velocity: Vec<f64>,
+}
+
+/// What is solved for, stage by stage.
+pub struct Unknowns {
+    pub vdot: Vec<Vec<f64>>,
+    pub lambda: Vec<Vec<f64>>,
+    pub shift: Vec<Vec<f64>>,
+    pub mu: Vec<Vec<f64>>,
+}
+
+impl Unknowns {
+    pub fn new(most: usize, n: Dimensions) -> Self {
+        let rows = |width: usize| vec![vec![0.0; width]; most];
+        Unknowns { vdot: rows(n.v), lambda: rows(n.lambda), shift: rows(n.v), mu: rows(n.lambda) }
+    }
+
+    /// All stages alike, without shift.
+    pub fn hold(&mut self, vdot: &[f64], lambda: &[f64]) {
+        self.vdot.iter_mut().for_each(|stage| stage.copy_from_slice(vdot));
+        self.lambda.iter_mut().for_each(|stage| stage.copy_from_slice(lambda));
+        self.shift.iter_mut().chain(&mut self.mu).for_each(|stage| stage.fill(0.0));
+    }
+
+    /// From the polynomials over the stages of the step before, by `method`, whose size is 1/`ratio` of the next one at
+    /// `nodes`.
+    pub fn extrapolate(&mut self, before: &Unknowns, method: &Collocation, nodes: &[f64], ratio: f64) {
+        let pairs = [
+            (&mut self.vdot, &before.vdot),
+            (&mut self.lambda, &before.lambda),
+            (&mut self.shift, &before.shift),
+            (&mut self.mu, &before.mu),
+        ];
+        for (stages, before) in pairs {
+            for (stage, node) in stages.iter_mut().zip(nodes) {
+                stage.fill(0.0);
+                for (j, before) in before.iter().enumerate().take(method.stages()) {
+                    let weight = method.stage_lagrange(j, 1.0 + node * ratio);
+                    stage.iter_mut().zip(before).for_each(|(stage, before)| *stage += weight * before);
+                }
+            }
+        }
+    }
+}
+
+/// What is left of the equations of one stage, with its sign turned.
+#[derive(Clone)]
+pub struct Residual {
+    /// f - M V' - G^T lambda
+    pub motion: Vec<f64>,
+    /// -phi, -phi' or gamma - G V'
+    pub rows: Vec<f64>,
+    /// -M U - G^T mu
+    pub shift: Vec<f64>,
+    /// -phi beside velocity rows
+    pub position: Vec<f64>,
+}
+
+impl Stages {
+    pub fn new(most: usize, n: Dimensions) -> Self {
+        let rows = |width: usize| vec![vec![0.0; width]; most];
+        let zeros = |n: usize| vec![0.0; n];
+        let (motion, rows_) = (zeros(n.v), zeros(n.lambda));
+        let residual = Residual { shift: motion.clone(), position: rows_.clone(), motion, rows: rows_ };
+        Stages {
+            unknowns: Unknowns::new(most, n),
+            y: rows(n.q + n.v + 1),
+            residuals: vec![residual; most],
+            n,
+            power: zeros(most),
+            next: rows(n.q + n.v + 1),
+            qdot: rows(n.q),
+            velocity: zeros(n.v),
+        }
+    }
+
+    /// All stages at the start, from where Q_i is found.
+    pub fn rest(&mut self, from: From) {
+        self.y.iter_mut().for_each(|y| y.copy_from_slice(from.y));
+    }
+
+    /// Q_i and V_i that go with V' and U. Where N depends on q, Q_i is found by two sweeps a call from what it was.
+    pub fn advance(&mut self, problem: &Problem, method: &Collocation, from: From, h: f64) {
+        let (nq, nv, s) = (self.n.q, self.n.v, method.stages());
+        for i in 0..s {
+            let (q, v) = self.next[i].split_at_mut(nq);
+            q.copy_from_slice(&self.y[i][..nq]);
+            v[..nv].copy_from_slice(&from.y[nq..nq + nv]);
+            v[nv] = self.y[i][nq + nv];
+            combine(&mut v[..nv], h, &method.a[i], &self.unknowns.vdot);
+        }
+        let sweeps = if nq == nv { 1 } else { 2 };
+        for _ in 0..sweeps {
+            for i in 0..s {
+                let (q, v) = self.next[i].split_at(nq);
+                let sum = v.iter().zip(&self.unknowns.shift[i]).map(|(v, shift)| v + shift);
+                self.velocity.iter_mut().zip(sum).for_each(|(place, sum)| *place = sum);
+                problem.dynamics.system.rate(q, &self.velocity, &mut self.qdot[i]);
+            }
+            for i in 0..s {
+                self.next[i][..nq].copy_from_slice(&from.y[..nq]);
+                combine(&mut self.next[i][..nq], h, &method.a[i], &self.qdot);
+            }
+        }
+        std::mem::swap(&mut self.y, &mut self.next);
+    }
+
+    /// Root mean square of the last change over the tolerated errors at the start, with that of v times `weight`.
+    pub fn change(&mut self, tolerance: &Tolerance, from: From, s: usize, weight: f64) -> f64 {
+        let mut sum = 0.0;
+        for (y, before) in self.y.iter().zip(&mut self.next).take(s) {
+            before.iter_mut().zip(y).for_each(|(before, y)| *before = y - *before);
+            before[self.n.q..].iter_mut().for_each(|change| *change *= weight);
+            sum += tolerance.norm(from.y, before).powi(2);
+        }
+        (sum / s as f64).sqrt()
+    }
+
+    pub fn dbg(&self, s: usize) -> (f64, f64) {
+        let m = |r: std::ops::Range<usize>| {
+            self.next.iter().take(s).flat_map(|x| x[r.clone()].to_vec()).fold(0.0f64, |a, b| a.max(b.abs()))
+        };
+        (m(0..self.n.q), m(self.n.q..self.n.q + self.n.v))
+    }
+    /// Ratio of successive Legendre coefficients of V' over the step, the last two to the two before so that even and odd
+    /// parts count: how fast the polynomials of more stages converge.
+    pub fn decay(&mut self, method: &Collocation, tolerance: &Tolerance, from: From) -> f64 {
+        let [last, before, first] = [0, 1, 2].map(|k| {
+            let sum = &mut self.next[0];
+            sum.fill(0.0);
+            combine(&mut sum[self.n.q..self.n.q + self.n.v], 1.0, &method.tail[k], &self.unknowns.vdot);
+            tolerance.norm(from.y, sum)
+        });
+        if before + first > 0.0 { last.hypot(before) / before.hypot(first) } else { 0.0 }
+    }
+
+    /// All that is left of the equations at stage i, time `t`.
+    pub fn leave(&mut self, i: usize, t: f64, rows: Rows, dynamics: &mut Dynamics) -> Result<(), Halt> {
+        let (q, v) = self.y[i].split_at(self.n.q);
+        let v = &v[..self.n.v];
+        if self.y[i].iter().any(|x| !x.is_finite()) {
+            return Err(Halt::NotFinite);
+        }
+        dynamics.statistics.rhs_evaluations += 1;
+        dynamics.evaluate(t, q, v, Need::DYNAMICS);
+        let (terms, structure, out) = (&dynamics.terms, &dynamics.structure, &mut self.residuals[i]);
+        out.motion.fill(0.0);
+        structure.mass.multiply_symmetric(&terms.mass, &self.unknowns.vdot[i], &mut out.motion);
+        structure.g.multiply_transposed(&terms.g, &self.unknowns.lambda[i], &mut out.motion);
+        out.motion.iter_mut().zip(&terms.f).for_each(|(left, f)| *left = f - *left);
+        out.rows.fill(0.0);
+        match rows {
+            Rows::Position => subtract(&mut out.rows, &terms.phi),
+            Rows::Velocity | Rows::PositionAndVelocity => subtract(&mut out.rows, &terms.phi_dot),
+            Rows::Acceleration => {
+                structure.g.multiply(&terms.g, &self.unknowns.vdot[i], &mut out.rows);
+                out.rows.iter_mut().zip(&terms.gamma).for_each(|(left, gamma)| *left = gamma - *left);
+            }
+        }
+        if rows == Rows::PositionAndVelocity {
+            out.shift.fill(0.0);
+            structure.mass.multiply_symmetric(&terms.mass, &self.unknowns.shift[i], &mut out.shift);
+            structure.g.multiply_transposed(&terms.g, &self.unknowns.mu[i], &mut out.shift);
+            out.shift.iter_mut().for_each(|left| *left = -*left);
+            out.position.fill(0.0);
+            subtract(&mut out.position, &terms.phi);
+        }
+        self.power[i] = terms.power + self.unknowns.lambda[i].iter().zip(&terms.phi_t).map(|(l, p)| l * p).sum::<f64>();
+        Ok(())
+    }
+
+    /// The work at each stage, by the power of the last evaluations.
+    pub fn work(&mut self, method: &Collocation, from: From, h: f64) {
+        let last = from.y.len() - 1;
+        for (y, a) in self.y.iter_mut().zip(&method.a) {
+            y[last] = from.y[last] + h * a.iter().zip(&self.power).map(|(a, power)| a * power).sum::<f64>();
+        }
+    }
+}
+
+/// y += h sum_j weights_j k_j
+pub fn combine(y: &mut [f64], h: f64, weights: &[f64], k: &[Vec<f64>]) {
+    for (weight, k) in weights.iter().zip(k) {
+        let factor = h * weight;
+        y.iter_mut().zip(k).for_each(|(y, k)| *y += factor * k);
+    }
+}
+
+fn subtract(y: &mut [f64], x: &[f64]) {
+    y.iter_mut().zip(x).for_each(|(y, x)| *y -= x);
+}
