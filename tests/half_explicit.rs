@@ -4,13 +4,12 @@ mod common;
 mod scenes;
 
 use common::driven_pendulum::{self, DrivenPendulum};
-use common::robot_arm::{self, RobotArm};
+use common::equations::pendulum::{self, Pendulum};
+use common::equations::robot_arm::{self, RobotArm};
 use common::unconstrained::{Arenstorf, Power};
 use common::{Run, adaptive, distance, fixed, method, run, until};
 use holonom::integrator::registry;
-use holonom::math::Scalar;
 use holonom::simulate::{Method, Observation, Sink, Span, simulate};
-use holonom::system::Equations;
 use scenes::shipped;
 
 /// Methods for index 2, with solutions a fixed step.
@@ -65,8 +64,7 @@ fn phem56_without_constraints_is_dopri5() {
 const ANDREWS: [(&str, f64); 3] =
     [("beta", 15.810771195153707), ("Theta", -15.756371058411839), ("gamma", 0.0408222401196458)];
 
-/// Murua's code, in the seven angles, takes 209 steps and 1255 evaluations at rtol = 1e-8. Here the 21 coordinates of the
-/// bodies are tested, most of them lengths of centimetres, so a tolerance asks for less.
+/// In the 21 coordinates of the bodies; in the seven angles it is as much work (`tests/references`).
 #[test]
 fn phem56_on_andrews() {
     // Steps measured, and a tenth more.
@@ -124,24 +122,6 @@ fn steps_far_too_large_end_clearly() {
     }
 }
 
-/// A pendulum of unit mass and length in Cartesian coordinates; the start is at rest and horizontal.
-struct Pendulum;
-
-impl Equations for Pendulum {
-    fn size(&self) -> (usize, usize) {
-        (2, 1)
-    }
-    fn mass<S: Scalar>(&self, _t: S, _q: &[S], mass: &mut [S]) {
-        mass.copy_from_slice(&[S::one(), S::zero(), S::zero(), S::one()]);
-    }
-    fn force<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], f: &mut [S]) {
-        f.copy_from_slice(&[S::zero(), S::constant(-9.81)]);
-    }
-    fn phi<S: Scalar>(&self, _t: S, q: &[S], phi: &mut [S]) {
-        phi[0] = (q[0].square() + q[1].square() - 1.0) * 0.5;
-    }
-}
-
 /// Largest |E - E(0)| over the accepted steps, J, in the first and in the second half of a run.
 struct Energy {
     halves: [f64; 2],
@@ -163,7 +143,7 @@ impl Sink for Energy {
 fn energy_errors(steps: f64) -> [f64; 2] {
     let mut energy = Energy { halves: [0.0; 2], half: 0.005 * steps };
     let method = fixed("index3", "rattle", "none", 0.01);
-    let outcome = simulate(&Pendulum, &method, until(0.01 * steps), (&[1.0, 0.0], &[0.0, 0.0]), &mut energy).unwrap();
+    let outcome = simulate(&Pendulum, &method, until(0.01 * steps), pendulum::START.motion(), &mut energy).unwrap();
     assert_eq!(outcome.failure, None);
     energy.halves
 }
@@ -185,8 +165,7 @@ fn rattle_keeps_energy_and_constraints_for_long() {
 #[test]
 fn rattle_needs_a_constant_mass() {
     let method = fixed("index3", "rattle", "none", 0.01);
-    let (theta, omega) = robot_arm::start();
-    let failure = run(&RobotArm, &method, until(1.0), (&theta, &omega)).outcome.failure.unwrap();
+    let failure = run(&RobotArm, &method, until(1.0), robot_arm::START.motion()).outcome.failure.unwrap();
     assert!(failure.t == 0.0 && failure.reason.contains("constant mass"), "{failure:?}");
     let top = shipped("universal_shaft", &[]);
     let error = simulate(top.system(), &method, until(1.0), top.0.start(), &mut Energy { halves: [0.0; 2], half: 0.0 });
