@@ -1,15 +1,13 @@
-//! Methods that discretize the constraints themselves: what they hold, what they cost, how they fail.
+//! Half-explicit methods: what they hold, what they cost, how they fail.
 
 mod common;
 mod scenes;
 
 use common::driven_pendulum::{self, DrivenPendulum};
-use common::equations::pendulum::{self, Pendulum};
-use common::equations::robot_arm::{self, RobotArm};
 use common::unconstrained::{Arenstorf, Power};
 use common::{Run, adaptive, distance, fixed, method, run, until};
 use holonom::integrator::registry;
-use holonom::simulate::{Method, Observation, Sink, Span, simulate};
+use holonom::simulate::{Method, Span};
 use scenes::shipped;
 
 /// Methods for index 2, with solutions a fixed step.
@@ -120,63 +118,4 @@ fn steps_far_too_large_end_clearly() {
         }
         assert!(run.record.trajectory.rows.iter().flatten().all(|x| x.is_finite()));
     }
-}
-
-/// Largest |E - E(0)| over the accepted steps, J, in the first and in the second half of a run.
-struct Energy {
-    halves: [f64; 2],
-    half: f64,
-}
-
-impl Sink for Energy {
-    fn accepted(&mut self, state: &Observation) {
-        let energy = 0.5 * (state.v[0].powi(2) + state.v[1].powi(2)) + 9.81 * state.q[1];
-        let half = &mut self.halves[usize::from(state.t > self.half)];
-        *half = half.max(energy.abs());
-        assert!(state.phi[0].abs() < 4.0 * f64::EPSILON, "{:e} at {}", state.phi[0], state.t);
-        assert!(state.phi_dot[0].abs() < 8.0 * f64::EPSILON * 4.5, "{:e} at {}", state.phi_dot[0], state.t);
-    }
-    fn row(&mut self, _: &Observation) {}
-}
-
-/// Energy errors of RATTLE in both halves of `steps` steps of 0.01 s.
-fn energy_errors(steps: f64) -> [f64; 2] {
-    let mut energy = Energy { halves: [0.0; 2], half: 0.005 * steps };
-    let method = fixed("index3", "rattle", "none", 0.01);
-    let outcome = simulate(&Pendulum, &method, until(0.01 * steps), pendulum::START.motion(), &mut energy).unwrap();
-    assert_eq!(outcome.failure, None);
-    energy.halves
-}
-
-#[test]
-fn rattle_keeps_energy_and_constraints() {
-    let [first, second] = energy_errors(1e5);
-    // 3.6e-3 of 9.81 J: O(h^2), and no growth.
-    assert!(first < 4e-3 && second < 1.01 * first, "{first:e} {second:e}");
-}
-
-#[test]
-#[ignore = "a million steps"]
-fn rattle_keeps_energy_and_constraints_for_long() {
-    let [first, second] = energy_errors(1e6);
-    assert!(first < 4e-3 && second < 1.01 * first, "{first:e} {second:e}");
-}
-
-#[test]
-fn rattle_needs_a_constant_mass() {
-    let method = fixed("index3", "rattle", "none", 0.01);
-    let failure = run(&RobotArm, &method, until(1.0), robot_arm::START.motion()).outcome.failure.unwrap();
-    assert!(failure.t == 0.0 && failure.reason.contains("constant mass"), "{failure:?}");
-    let top = shipped("universal_shaft", &[]);
-    let error = simulate(top.system(), &method, until(1.0), top.0.start(), &mut Energy { halves: [0.0; 2], half: 0.0 });
-    assert!(error.unwrap_err().to_string().contains("N(q) v"));
-}
-
-#[test]
-fn rattle_holds_both_constraints() {
-    let run = pendulum(&fixed("index3", "rattle", "none", 0.01), 10.0);
-    let (position, velocity) = run.drift();
-    assert!(position < 1e-15 && velocity < 1e-14);
-    // One factorization a step and the first.
-    assert_eq!(run.outcome.statistics.factorizations, 2 + 1000);
 }

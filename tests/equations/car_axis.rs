@@ -1,29 +1,29 @@
-//! Car axis on a road with a bump under its right wheel:
+//! Car axis on a bumpy road: a rigid bar from (xl, yl) to (xr, yr) on two springs, whose feet are the left wheel at the
+//! origin and the right one at (xb, yb).
 //!
 //! ```text
 //! eps^2 M/2 p'' = springs(t, p) - weight - G^T lambda,   p = (xl, yl, xr, yr)
-//! 0 = xl xb + yl yb                       the axis keeps its direction against the left suspension
-//! 0 = (xl - xr)^2 + (yl - yr)^2 - L^2     and its length
+//! 0 = xl xb + yl yb                       the left spring stays square to the line of the wheels
+//! 0 = (xl - xr)^2 + (yl - yr)^2 - L^2     the bar keeps its length
 //! yb = r sin(w t),   xb = sqrt(L^2 - yb^2)
 //! ```
 //!
-//! The constraints move; the mass is small against the springs (eps = 0.01), so lambda stands on small accelerations.
-//! IVP test set, problem `caraxis` (Schneider; Mazzia, Magherini, University of Bari, 2008), whose lambda has the other
-//! sign.
+//! The constraints move, and the mass is small against the springs (eps = 0.01). Schneider's thesis (Geneva, 1994); IVP
+//! test set, problem `caraxis`, whose lambda has the other sign.
 
 use super::State;
 use holonom::math::Scalar;
 use holonom::system::Equations;
 
-/// Both ends of the axis: xl, yl, xr, yr, m.
+/// Coordinates xl, yl, xr, yr, m.
 pub struct CarAxis;
 
 const EPS: f64 = 1e-2;
 const MASS: f64 = 10.0;
-/// Length of the axis and of the unstretched springs.
+/// Length of the bar, which is also the distance of the wheels, and that of the unstretched springs, m.
 const LENGTH: f64 = 1.0;
 const SPRING: f64 = 0.5;
-/// Height of the bump, and its frequency, rad/s.
+/// Height of the bumps, m, and their frequency, rad/s.
 const BUMP: f64 = 0.1;
 const OMEGA: f64 = 10.0;
 
@@ -40,7 +40,7 @@ pub const END: State = State {
     lambda: &[0.004736886590853326, 0.0011046803312595658],
 };
 
-/// The contact of the right wheel.
+/// Where the right wheel is.
 fn road<S: Scalar>(t: S) -> [S; 2] {
     let y = (t * OMEGA).sin() * BUMP;
     [(-y.square() + LENGTH * LENGTH).sqrt(), y]

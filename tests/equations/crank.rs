@@ -10,8 +10,8 @@
 //! ```
 //!
 //! Stiff by its oscillations: 1277 and 5107 rad/s across, 6841 and 24613 rad/s along the rod. Without gravity and damping.
-//! Simeon, Numer. Math. 78 (1998) 487-506 (index 2); IVP test set, problem `crank`, whose axial mass lacks the factor 1/15 of a
-//! consistent quadratic element, and whose pi is 3.1415927: both belong to the reference.
+//! Simeon, Math. Modelling of Systems 2 (1996) 1-18; IVP test set, problem `crank`, whose axial mass lacks the factor 1/15
+//! of a consistent quadratic element, and whose pi is 3.1415927: both belong to the reference.
 
 use super::State;
 use holonom::math::Scalar;

@@ -6,6 +6,7 @@
 pub mod andrews;
 pub mod car_axis;
 pub mod crank;
+pub mod heavy_top;
 pub mod pendulum;
 pub mod robot_arm;
 

@@ -4,7 +4,7 @@
 //! x'' = -x lambda,   y'' = -g - y lambda,   0 = (x^2 + y^2 - 1)/2
 //! ```
 //!
-//! IFToMM benchmark library, A01 (Gonzalez and others, Multibody Syst. Dyn. 16 (2006) 83-104), with x mirrored.
+//! IFToMM benchmark library, problem A01, with x mirrored.
 
 use super::State;
 use holonom::math::Scalar;
