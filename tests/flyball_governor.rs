@@ -1,5 +1,5 @@
-//! The stiff flyball governor as a spatial scene against a computation in its three minimal coordinates, valid while both
-//! rods move alike.
+//! The stiff flyball governor as a spatial scene against a computation in its three minimal coordinates, valid while
+//! both rods move alike.
 
 mod common;
 mod scenes;

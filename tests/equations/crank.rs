@@ -1,6 +1,6 @@
-//! Slider-crank with a flexible connecting rod, the crank driven at constant speed: three rigid coordinates p and four of
-//! the rod's deformation, two lateral sine modes q1, q2 and a quadratic element along the rod, q3 in its middle and q4 at
-//! its end.
+//! Slider-crank with a flexible connecting rod, the crank driven at constant speed: three rigid coordinates p and four
+//! of the rod's deformation, two lateral sine modes q1, q2 and a quadratic element along the rod, q3 in its middle and
+//! q4 at its end.
 //!
 //! ```text
 //! M(p, q) (p'', q'') = f(p, q, p', q') - (0, K q) - G^T lambda,   p = (phi1, phi2, x3)
@@ -9,9 +9,9 @@
 //! 0 = phi1 - Omega t
 //! ```
 //!
-//! Stiff by its oscillations: 1277 and 5107 rad/s across, 6841 and 24613 rad/s along the rod. Without gravity and damping.
-//! Simeon, Math. Modelling of Systems 2 (1996) 1-18; IVP test set, problem `crank`, whose axial mass lacks the factor 1/15
-//! of a consistent quadratic element, and whose pi is 3.1415927: both belong to the reference.
+//! Stiff by its oscillations: 1277 and 5107 rad/s across, 6841 and 24613 rad/s along the rod. Without gravity and
+//! damping. Simeon, Math. Modelling of Systems 2 (1996) 1-18; IVP test set, problem `crank`, whose axial mass lacks the
+//! factor 1/15 of a consistent quadratic element, and whose pi is 3.1415927: both belong to the reference.
 
 use super::State;
 use holonom::math::Scalar;
@@ -21,7 +21,8 @@ use std::array::from_fn;
 /// Coordinates phi1, phi2, x3, q1, q2, q3, q4, rad and m.
 pub struct Crank;
 
-/// The published start, its dependent values made consistent: x3 = l1 + l2 + q4, phi2' = -l1 Omega/(l2 + q4), x3' = q4'.
+/// The published start, its dependent values made consistent: x3 = l1 + l2 + q4, phi2' = -l1 Omega/(l2 + q4), x3' =
+/// q4'.
 pub const START: State = State {
     t: 0.0,
     q: &[0.0, 0.0, 0.4500169327969, 0.0, 0.0, 1.03339863e-05, 1.69327969e-05],

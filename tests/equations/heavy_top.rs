@@ -1,6 +1,6 @@
-//! Heavy symmetric top about a fixed tip: three point masses at the corners of an equilateral triangle square to the axis,
-//! held by massless rods to the tip and to each other. A rigid body in space with q' = v and a constant mass matrix, which
-//! symplectic methods want.
+//! Heavy symmetric top about a fixed tip: three point masses at the corners of an equilateral triangle square to the
+//! axis, held by massless rods to the tip and to each other. A rigid body in space with q' = v and a constant mass
+//! matrix, which symplectic methods want.
 //!
 //! ```text
 //! m r_i'' = (0, 0, -m g) - (G^T lambda)_i,   i = 1, 2, 3
@@ -8,7 +8,8 @@
 //! 0 = (|r_i - r_j|^2 - 3 radius^2)/2
 //! ```
 //!
-//! Energy, the angular momentum about the vertical and the one about the axis stay: Goldstein, Classical Mechanics, 5.7.
+//! Energy, the angular momentum about the vertical and the one about the axis stay: Goldstein, Classical Mechanics,
+//! 5.7.
 
 use holonom::math::Scalar;
 use holonom::system::Equations;

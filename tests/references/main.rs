@@ -1,7 +1,7 @@
 //! Methods against reference solutions of known problems in own equations: digits reached and work done, as tables.
 //!
-//! A line asserts what was measured: 0.1 to 0.2 digits less, 5 to 10 % of evaluations more, since another libm shifts steps.
-//! A method is added by its lines in the tables.
+//! A line asserts what was measured: 0.1 to 0.2 digits less, 5 to 10 % of evaluations more, since another libm shifts
+//! steps. A method is added by its lines in the tables.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -65,8 +65,8 @@ fn andrews_squeezer() {
     ]);
 }
 
-/// Counters of other implementations at rtol = atol = 1e-8 or 1e-12: steps tried, evaluations, and digits of the angles as
-/// `mescd`. PHEM56 takes fewer steps here, so without projection their digits come at a somewhat smaller tolerance.
+/// Counters of other implementations at rtol = atol = 1e-8 or 1e-12: steps tried, evaluations, and digits of the angles
+/// as `mescd`. PHEM56 takes fewer steps here, so without projection their digits come at a somewhat smaller tolerance.
 #[test]
 fn andrews_takes_no_more_than_other_codes() {
     for (names, tolerance, steps, evaluations, least) in [
@@ -118,8 +118,8 @@ fn constrained_robot_arm() {
     ]);
 }
 
-/// 390 periods of the fastest oscillation along the rod: the stability of explicit methods asks for hundreds to thousands of
-/// steps however loose the tolerance, and the least digit needs some more.
+/// 390 periods of the fastest oscillation along the rod: the stability of explicit methods asks for hundreds to
+/// thousands of steps however loose the tolerance, and the least digit needs some more.
 #[test]
 fn flexible_crank() {
     CRANK.check(&[
