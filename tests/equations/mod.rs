@@ -1,5 +1,5 @@
 //! Own equations to copy from: M, f and phi, written once over any scalar, each mechanism in a file of its own with its
-//! consistent start and the end of a reference solution.
+//! consistent start and, where there is one, the end of a reference solution.
 
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
