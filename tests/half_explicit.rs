@@ -1,16 +1,14 @@
-//! Methods that discretize the constraints themselves: what they hold, what they cost, how they fail.
+//! Half-explicit methods: what they hold, what they cost, how they fail.
 
 mod common;
 mod scenes;
 
 use common::driven_pendulum::{self, DrivenPendulum};
-use common::robot_arm::{self, RobotArm};
+use common::equations::andrews;
 use common::unconstrained::{Arenstorf, Power};
 use common::{Run, adaptive, distance, fixed, method, run, until};
 use holonom::integrator::registry;
-use holonom::math::Scalar;
-use holonom::simulate::{Method, Observation, Sink, Span, simulate};
-use holonom::system::Equations;
+use holonom::simulate::{Method, Span};
 use scenes::shipped;
 
 /// Methods for index 2, with solutions a fixed step.
@@ -61,12 +59,7 @@ fn phem56_without_constraints_is_dopri5() {
     assert!(distance(half.last().0, full.last().0) < 1e-8);
 }
 
-/// Angles of Andrews' mechanism at 0.03 s, from the IVP test set.
-const ANDREWS: [(&str, f64); 3] =
-    [("beta", 15.810771195153707), ("Theta", -15.756371058411839), ("gamma", 0.0408222401196458)];
-
-/// Murua's code, in the seven angles, takes 209 steps and 1255 evaluations at rtol = 1e-8. Here the 21 coordinates of the
-/// bodies are tested, most of them lengths of centimetres, so a tolerance asks for less.
+/// In the 21 coordinates of the bodies; in the seven angles it is as much work (`tests/references`).
 #[test]
 fn phem56_on_andrews() {
     // Steps measured, and a tenth more.
@@ -74,7 +67,8 @@ fn phem56_on_andrews() {
         let run = shipped("andrews", &[])
             .run(&adaptive("index2", "phem56", "none", tolerance), Span { start: 0.0, end: 0.03, output_step: 0.03 });
         let counts = run.outcome.statistics;
-        let errors = ANDREWS.map(|(name, angle)| (run.column(name).last().unwrap() - angle).abs());
+        let angles = ["beta", "Theta", "gamma"].into_iter().zip(andrews::END.q);
+        let errors: Vec<f64> = angles.map(|(name, angle)| (run.column(name).last().unwrap() - angle).abs()).collect();
         // The motion amplifies local errors about 100 times.
         assert!(errors.iter().all(|error| *error < 200.0 * tolerance), "{tolerance:e}: {errors:?}");
         assert!(counts.steps <= most, "{counts:?}");
@@ -122,82 +116,4 @@ fn steps_far_too_large_end_clearly() {
         }
         assert!(run.record.trajectory.rows.iter().flatten().all(|x| x.is_finite()));
     }
-}
-
-/// A pendulum of unit mass and length in Cartesian coordinates; the start is at rest and horizontal.
-struct Pendulum;
-
-impl Equations for Pendulum {
-    fn size(&self) -> (usize, usize) {
-        (2, 1)
-    }
-    fn mass<S: Scalar>(&self, _t: S, _q: &[S], mass: &mut [S]) {
-        mass.copy_from_slice(&[S::one(), S::zero(), S::zero(), S::one()]);
-    }
-    fn force<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], f: &mut [S]) {
-        f.copy_from_slice(&[S::zero(), S::constant(-9.81)]);
-    }
-    fn phi<S: Scalar>(&self, _t: S, q: &[S], phi: &mut [S]) {
-        phi[0] = (q[0].square() + q[1].square() - 1.0) * 0.5;
-    }
-}
-
-/// Largest |E - E(0)| over the accepted steps, J, in the first and in the second half of a run.
-struct Energy {
-    halves: [f64; 2],
-    half: f64,
-}
-
-impl Sink for Energy {
-    fn accepted(&mut self, state: &Observation) {
-        let energy = 0.5 * (state.v[0].powi(2) + state.v[1].powi(2)) + 9.81 * state.q[1];
-        let half = &mut self.halves[usize::from(state.t > self.half)];
-        *half = half.max(energy.abs());
-        assert!(state.phi[0].abs() < 4.0 * f64::EPSILON, "{:e} at {}", state.phi[0], state.t);
-        assert!(state.phi_dot[0].abs() < 8.0 * f64::EPSILON * 4.5, "{:e} at {}", state.phi_dot[0], state.t);
-    }
-    fn row(&mut self, _: &Observation) {}
-}
-
-/// Energy errors of RATTLE in both halves of `steps` steps of 0.01 s.
-fn energy_errors(steps: f64) -> [f64; 2] {
-    let mut energy = Energy { halves: [0.0; 2], half: 0.005 * steps };
-    let method = fixed("index3", "rattle", "none", 0.01);
-    let outcome = simulate(&Pendulum, &method, until(0.01 * steps), (&[1.0, 0.0], &[0.0, 0.0]), &mut energy).unwrap();
-    assert_eq!(outcome.failure, None);
-    energy.halves
-}
-
-#[test]
-fn rattle_keeps_energy_and_constraints() {
-    let [first, second] = energy_errors(1e5);
-    // 3.6e-3 of 9.81 J: O(h^2), and no growth.
-    assert!(first < 4e-3 && second < 1.01 * first, "{first:e} {second:e}");
-}
-
-#[test]
-#[ignore = "a million steps"]
-fn rattle_keeps_energy_and_constraints_for_long() {
-    let [first, second] = energy_errors(1e6);
-    assert!(first < 4e-3 && second < 1.01 * first, "{first:e} {second:e}");
-}
-
-#[test]
-fn rattle_needs_a_constant_mass() {
-    let method = fixed("index3", "rattle", "none", 0.01);
-    let (theta, omega) = robot_arm::start();
-    let failure = run(&RobotArm, &method, until(1.0), (&theta, &omega)).outcome.failure.unwrap();
-    assert!(failure.t == 0.0 && failure.reason.contains("constant mass"), "{failure:?}");
-    let top = shipped("universal_shaft", &[]);
-    let error = simulate(top.system(), &method, until(1.0), top.0.start(), &mut Energy { halves: [0.0; 2], half: 0.0 });
-    assert!(error.unwrap_err().to_string().contains("N(q) v"));
-}
-
-#[test]
-fn rattle_holds_both_constraints() {
-    let run = pendulum(&fixed("index3", "rattle", "none", 0.01), 10.0);
-    let (position, velocity) = run.drift();
-    assert!(position < 1e-15 && velocity < 1e-14);
-    // One factorization a step and the first.
-    assert_eq!(run.outcome.statistics.factorizations, 2 + 1000);
 }

@@ -71,6 +71,7 @@ fn degrees_of_freedom_are_those_of_the_mechanisms() {
         ("bead_in_bowl", 2),
         ("bushing_block", 6),
         ("double_pendulum", 2),
+        ("flyball_governor", 4),
         ("four_bar_spring", 1),
         ("gear_pair", 1),
         ("parallelogram_redundant", 1),

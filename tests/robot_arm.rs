@@ -5,17 +5,12 @@
 
 mod common;
 
-use common::robot_arm::{RobotArm, start};
+use common::equations::robot_arm::{END, RobotArm, START};
 use common::{Run, adaptive, distance, fixed, run, until};
 use holonom::simulate::Span;
 use rayon::prelude::*;
 
 const STEPS: [f64; 3] = [0.01, 0.005, 0.001];
-
-/// End state at t = 10 s and the multiplier, from an independent computation with more digits.
-const THETA: [f64; 2] = [1.1065356342522548, 2.0096713719642834];
-const OMEGA: [f64; 2] = [5.597507174666239, -2.8182508678092315];
-const LAMBDA: f64 = 17.31960534373398;
 
 /// Formulation, projection, and (max |G v + phi_t|, max |phi|) over [0, 10] for each of the steps.
 type Line = (&'static str, &'static str, [(f64, f64); 3]);
@@ -47,8 +42,7 @@ const RK4: [Line; 7] = [
 
 fn arm(formulation: &str, integrator: &str, projection: &str, step: f64) -> Run {
     let formulation = formulation.replace("1/h", &(1.0 / step).to_string());
-    let (theta, omega) = start();
-    run(&RobotArm, &fixed(&formulation, integrator, projection, step), until(10.0), (&theta, &omega))
+    run(&RobotArm, &fixed(&formulation, integrator, projection, step), until(10.0), START.motion())
 }
 
 /// Two digits where the value is well above the round-off of phi and phi' (1e-16 to 1e-15); a bound where it is not.
@@ -78,9 +72,8 @@ fn drift_with_rk4() {
 
 #[test]
 fn unstabilized_heun_overflows_and_keeps_what_it_computed() {
-    let (theta, omega) = start();
     let span = Span { output_step: 0.5, ..until(10.0) };
-    let Run { outcome, record } = run(&RobotArm, &fixed("index1", "heun", "none", 0.01), span, (&theta, &omega));
+    let Run { outcome, record } = run(&RobotArm, &fixed("index1", "heun", "none", 0.01), span, START.motion());
     let failure = outcome.failure.unwrap();
     assert!(
         failure.reason.contains("infinite or not a number") && failure.reason.contains("fixed step"),
@@ -100,21 +93,19 @@ fn unstabilized_heun_overflows_and_keeps_what_it_computed() {
 
 #[test]
 fn end_state() {
-    let (theta, omega) = start();
     let method = adaptive("index1", "dop853", "manifold", 1e-13);
-    let run = run(&RobotArm, &method, until(10.0), (&theta, &omega)).completed();
+    let run = run(&RobotArm, &method, until(10.0), START.motion()).completed();
     let (q, v, lambda) = run.last();
     // The tolerance times the amplification of 1e4.
-    assert!(distance(q, &THETA) < 1e-9 && distance(v, &OMEGA) < 1e-9, "{q:?} {v:?}");
+    assert!(distance(q, END.q) < 1e-9 && distance(v, END.v) < 1e-9, "{q:?} {v:?}");
     // lambda changes by about 1e2 N for 1 rad or 1 rad/s.
-    assert!((lambda[0] - LAMBDA).abs() < 1e-7, "{lambda:?}");
+    assert!(distance(lambda, END.lambda) < 1e-7, "{lambda:?}");
 }
 
 #[test]
 fn stabilization_lowers_the_error_of_the_solution() {
-    let (theta, omega) = start();
     let span = Span { output_step: 0.05, ..until(10.0) };
-    let rows = |method| run(&RobotArm, &method, span, (&theta, &omega)).completed().record.trajectory.rows;
+    let rows = |method| run(&RobotArm, &method, span, START.motion()).completed().record.trajectory.rows;
     let reference = rows(adaptive("index1", "dop853", "manifold", 1e-14));
     // Largest error of angles (rad) and rates (rad/s) over the rows with RK4 and h = 0.001.
     for (formulation, projection, expected) in

@@ -3,7 +3,8 @@
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
 pub mod driven_pendulum;
-pub mod robot_arm;
+#[path = "../equations/mod.rs"]
+pub mod equations;
 pub mod unconstrained;
 
 use holonom::formulation::Choice;
