@@ -185,7 +185,8 @@ impl Integrator for HalfExplicit {
         Ok(())
     }
 
-    fn interpolate(&self, theta: f64, from: &[f64], out: &mut [f64]) {
-        self.polynomial.interpolate(theta, from, out);
+    fn interpolate(&mut self, _: &mut Problem, from: From, _: f64, theta: f64, out: &mut [f64]) -> Result<(), Halt> {
+        self.polynomial.interpolate(theta, from.y, out);
+        Ok(())
     }
 }

@@ -58,8 +58,15 @@ pub trait Integrator: Send {
     /// Prepares interpolation over the step just accepted; `slope` is y' at its end `to`.
     fn prepare(&mut self, problem: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt>;
 
-    /// The state at the fraction `theta` of the prepared step.
-    fn interpolate(&self, theta: f64, from: &[f64], out: &mut [f64]);
+    /// The state at the fraction `theta` of the prepared step of size `h`.
+    fn interpolate(
+        &mut self,
+        problem: &mut Problem,
+        from: From,
+        h: f64,
+        theta: f64,
+        out: &mut [f64],
+    ) -> Result<(), Halt>;
 }
 
 /// Where a step starts.

@@ -7,7 +7,7 @@ pub use method::Method;
 pub use observation::{Observation, Sink, Span};
 
 use crate::error::{Error, Failure, Result};
-use crate::formulation::{self, Dynamics, Halt, Statistics};
+use crate::formulation::{self, Dynamics, Halt, Rows as Constraints, Statistics};
 use crate::integrator::{self, From, Integrator, Problem, Setup, Tolerance, first_step};
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
@@ -64,6 +64,8 @@ struct Run<'a> {
     next_slope: Vec<f64>,
     change: Vec<f64>,
     phi_ddot: Vec<f64>,
+    /// Velocities that follow from phi = 0 alone are of lower order and not tested.
+    tests_velocities: bool,
     /// Why the last step was refused.
     refusal: &'static str,
 }
@@ -116,6 +118,7 @@ impl<'a> Run<'a> {
             next_slope: zeros(),
             change: zeros(),
             phi_ddot: residual(),
+            tests_velocities: formulation::rows(&method.formulation) != Some(Constraints::Position),
             refusal: "",
             y,
         })
@@ -204,6 +207,9 @@ impl<'a> Run<'a> {
         let is_moved = self.projection.is_some() || self.change != self.next;
         if error.is_some() && is_moved {
             self.change.iter_mut().zip(&self.next).for_each(|(change, next)| *change -= next);
+            if !self.tests_velocities {
+                self.problem.split_mut(&mut self.change).1.fill(0.0);
+            }
             let correction = self.tolerance.norm(&self.next, &self.change);
             if correction > MOST_CORRECTION {
                 self.refusal =
@@ -235,8 +241,8 @@ impl<'a> Run<'a> {
                     self.prepare(h)?;
                     prepared = true;
                 }
-                self.integrator.interpolate((t - self.t) / h, &self.y, &mut self.rows.y);
-                let rows = &mut self.rows;
+                let (rows, from) = (&mut self.rows, From { t: self.t, y: &self.y, slope: &self.slope });
+                self.integrator.interpolate(&mut rows.problem, from, h, (t - from.t) / h, &mut rows.y)?;
                 project(t, &mut rows.y, &mut rows.problem, &mut rows.projection)?;
             }
             self.rows.emit_own(t, sink)?;

@@ -5,6 +5,8 @@ pub struct Convergence {
     most: usize,
     /// Tolerated size of the last change, in units of the tolerance.
     kappa: f64,
+    /// Changes of this size are round-off.
+    floor: f64,
     /// theta / (1 - theta), from which the error left follows; kept between steps.
     eta: f64,
     /// Contraction: ratio of successive changes.
@@ -28,11 +30,21 @@ const LEAST: f64 = 0.1;
 
 impl Convergence {
     pub fn new() -> Self {
-        Convergence { most: 0, kappa: 0.0, eta: 1.0, theta: AT_ONCE, iterations: 0, last: 0.0, last_ratio: 0.0 }
+        Convergence {
+            most: 0,
+            kappa: 0.0,
+            floor: 0.0,
+            eta: 1.0,
+            theta: AT_ONCE,
+            iterations: 0,
+            last: 0.0,
+            last_ratio: 0.0,
+        }
     }
 
     /// Starts an iteration of at most `most` corrections at relative tolerance `rtol`.
-    pub fn begin(&mut self, most: usize, rtol: f64) {
+    pub fn begin(&mut self, most: usize, rtol: f64, floor: f64) {
+        self.floor = floor;
         self.most = most;
         self.kappa = (10.0 * f64::EPSILON / rtol).max(rtol.sqrt().min(0.03));
         self.eta = self.eta.powf(0.8);
@@ -47,6 +59,9 @@ impl Convergence {
 
     pub fn judge(&mut self, change: f64) -> Verdict {
         self.iterations += 1;
+        if change <= self.floor {
+            return Verdict::Converged;
+        }
         if self.iterations > 1 {
             let ratio = change / self.last;
             self.theta = if self.iterations == 2 { ratio } else { (ratio * self.last_ratio).sqrt() };

@@ -9,7 +9,8 @@ mod stages;
 use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tolerance};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
-use crate::formulation::{self, Halt, Rows};
+use crate::formulation::{self, Halt};
+use collocation::Collocation;
 use convergence::{Convergence, Verdict};
 use newton::Newton;
 use order::{Order, Seen, internal};
@@ -36,6 +37,8 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
     Ok(Box::new(RadauIIA {
         newton: Newton::new(rows, most / 2, setup)?,
         stages: Stages::new(most, n),
+        row: Stages::new(most, n),
+        tolerance: Tolerance { rtol: 1.0, atol: 1.0 },
         convergence: Convergence::new(),
         before: Unknowns::new(most, n),
         tried: None,
@@ -45,7 +48,7 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         error_x: vec![0.0; n.v],
         error_v: vec![0.0; n.v],
         error: vec![0.0; setup.len()],
-        seen: Seen { error: 1.0, decay: 1.0, theta: 1.0, iterations: 0 },
+        seen: Seen { error: 1.0, decay: 1.0, theta: 1.0 },
         order,
     }))
 }
@@ -54,6 +57,9 @@ struct RadauIIA {
     order: Order,
     newton: Newton,
     stages: Stages,
+    /// The stages of a step to an output row, and the internal tolerance.
+    row: Stages,
+    tolerance: Tolerance,
     convergence: Convergence,
     /// The last attempt.
     tried: Option<Step>,
@@ -95,61 +101,16 @@ impl RadauIIA {
         self.newton.linearize(problem, from, &self.lambda)
     }
 
-    /// Solves the equations of all stages for a step `h`.
-    fn solve(&mut self, problem: &mut Problem, tolerance: &Tolerance, from: From, h: f64) -> Result<(), Halt> {
-        let method = self.order.method();
-        let s = method.stages();
-        let (_, vdot) = problem.split(from.slope);
+    /// A first guess of V' and lambda: constant at the very start, else by the step before.
+    fn predict(&mut self, problem: &Problem, from: From, h: f64) {
+        let unknowns = &mut self.stages.unknowns;
         match self.accepted {
             Some(step) => {
-                let old = self.order.get(step.method);
-                self.stages.unknowns.extrapolate(&self.before, old, &method.nodes, h / step.h);
+                let ahead = self.order.method().nodes.iter().map(|node| 1.0 + node * h / step.h);
+                unknowns.predict(&self.before, self.order.get(step.method), ahead);
             }
-            None => self.stages.unknowns.hold(vdot, &self.lambda),
+            None => unknowns.hold(problem.split(from.slope).1, &self.lambda),
         }
-        self.stages.rest(from);
-        self.stages.advance(problem, method, from, h);
-        // Velocities that a position row determines are index-2 variables.
-        let weight = if self.newton.rows == Rows::Position { 1.0 } else { 1.0 };
-        self.convergence.begin(7 + 5 * (s - 3) / 2, tolerance.rtol);
-        loop {
-            for i in 0..s {
-                let t = from.t + method.nodes[i] * h;
-                self.stages.leave(i, t, self.newton.rows, &mut problem.dynamics)?;
-            }
-            self.newton.correct(method, h, &mut self.stages, &mut problem.dynamics)?;
-            self.stages.advance(problem, method, from, h);
-            let change = self.stages.change(tolerance, from, s, weight);
-            if std::env::var("DBG2").is_ok() {
-                let mx = |x: &Vec<Vec<f64>>| x.iter().take(s).flatten().fold(0.0f64, |a, b| a.max(b.abs()));
-                let r = |f: &dyn Fn(&stages::Residual) -> Vec<f64>| {
-                    self.stages
-                        .residuals
-                        .iter()
-                        .take(s)
-                        .flat_map(|x| f(x))
-                        .fold(0.0f64, |a: f64, b: f64| a.max(b.abs()))
-                };
-                eprintln!(
-                    "   change {change:.3e} dq {:.2e} dv {:.2e} U {:.2e} mu {:.2e} r {:.2e} {:.2e} {:.2e} {:.2e}",
-                    self.stages.dbg(s).0,
-                    self.stages.dbg(s).1,
-                    mx(&self.stages.unknowns.shift),
-                    mx(&self.stages.unknowns.mu),
-                    r(&|x| x.motion.clone()),
-                    r(&|x| x.rows.clone()),
-                    r(&|x| x.shift.clone()),
-                    r(&|x| x.position.clone())
-                );
-            }
-            match self.convergence.judge(change) {
-                Verdict::Converged => break,
-                Verdict::GoOn => {}
-                Verdict::Failed => return Err(Halt::Unsuitable("Newton's method does not converge")),
-            }
-        }
-        self.stages.work(method, from, h);
-        Ok(())
     }
 
     /// The difference to a formula of order s, damped along the stiff directions, over the tolerated errors.
@@ -172,11 +133,45 @@ impl RadauIIA {
         v.iter_mut().zip(vdot0).for_each(|(v, vdot)| *v = h * gamma * vdot);
         combine(v, h, &method.error, &self.stages.unknowns.vdot);
         self.newton.filter(h * gamma, x, v, &problem.dynamics)?;
-        let weight = if self.newton.rows == Rows::Position { 1.0 } else { 1.0 };
         let (dq, dv) = self.error.split_at_mut(nq);
         problem.dynamics.system.rate(q0, x, dq);
-        dv.iter_mut().zip(&*v).for_each(|(place, v)| *place = weight * v);
+        dv.iter_mut().zip(&*v).for_each(|(place, v)| *place = *v);
         Ok(tolerance.norm_between(from.y, to, &self.error))
+    }
+}
+
+/// One step as an implicit system: its stages, matrices and the judgement of their convergence.
+struct Solver<'a> {
+    stages: &'a mut Stages,
+    newton: &'a mut Newton,
+    convergence: &'a mut Convergence,
+    method: &'a Collocation,
+}
+
+impl Solver<'_> {
+    /// Solves the equations of all stages for a step `h` from their first guess.
+    fn solve(&mut self, problem: &mut Problem, tolerance: &Tolerance, from: From, h: f64) -> Result<(), Halt> {
+        let (rows, s) = (self.newton.rows, self.method.stages());
+        self.stages.rest(from);
+        self.stages.advance(problem, self.method, from, h);
+        let floor = self.stages.round_off(problem, tolerance, from, h, rows);
+        self.convergence.begin(7 + 5 * (s - 3) / 2, tolerance.rtol, floor);
+        loop {
+            for i in 0..s {
+                let t = from.t + self.method.nodes[i] * h;
+                self.stages.leave(i, t, rows, &mut problem.dynamics)?;
+            }
+            self.newton.correct(self.method, h, self.stages, &mut problem.dynamics)?;
+            self.stages.advance(problem, self.method, from, h);
+            let change = self.stages.change(tolerance, from, s);
+            match self.convergence.judge(change) {
+                Verdict::Converged => break,
+                Verdict::GoOn => {}
+                Verdict::Failed => return Err(Halt::Unsuitable("Newton's method does not converge")),
+            }
+        }
+        self.stages.work(self.method, from, h);
+        Ok(())
     }
 }
 
@@ -201,61 +196,50 @@ impl Integrator for RadauIIA {
         let method = self.order.current();
         self.tried = Some(Step { start: from.t, h, method });
         let tolerance = internal(tolerance, self.order.method().stages());
+        self.tolerance = tolerance;
         if self.factored != Some((h, method)) {
             self.newton.factor(self.order.method(), h, &mut problem.dynamics)?;
             self.factored = Some((h, method));
         }
-        if let Err(halt) = self.solve(problem, &tolerance, from, h) {
-            if std::env::var("DBG").is_ok() {
-                eprintln!(
-                    "t {:.9} h {h:.3e} s {} it {} theta {:.2e} FAILED",
-                    from.t,
-                    self.order.method().stages(),
-                    self.convergence.iterations,
-                    self.convergence.theta
-                );
-            }
+        self.predict(problem, from, h);
+        let RadauIIA { order, newton, stages, convergence, .. } = self;
+        let solved = Solver { stages, newton, convergence, method: order.method() }.solve(problem, &tolerance, from, h);
+        if let Err(halt) = solved {
             self.order.failed();
             return Err(halt);
         }
         self.order.control.safety = self.convergence.safety();
         to.copy_from_slice(&self.stages.y[self.order.method().stages() - 1]);
-        let e = self.estimate(problem, &tolerance, from, h, to);
-        if std::env::var("DBG").is_ok() {
-            eprintln!(
-                "t {:.9} h {h:.3e} s {} it {} theta {:.2e} err {e:?} decay {:.2e}",
-                from.t,
-                self.order.method().stages(),
-                self.convergence.iterations,
-                self.convergence.theta,
-                self.seen.decay
-            );
-        }
-        let e = e?;
-        let weight = if self.newton.rows == Rows::Position { 1.0 } else { 1.0 };
+        let error = self.estimate(problem, &tolerance, from, h, to)?;
         self.seen = Seen {
-            error: e,
+            error,
             decay: self.stages.decay(self.order.method(), &tolerance, from),
             theta: self.convergence.theta,
-            iterations: self.convergence.iterations,
         };
-        Ok(Some(e))
+        Ok(Some(error))
     }
 
-    fn prepare(&mut self, _: &mut Problem, _: From, _: f64, to: &[f64], _: &[f64]) -> Result<(), Halt> {
-        let s = self.order.method().stages();
-        self.stages.y[s - 1].copy_from_slice(to);
+    fn prepare(&mut self, _: &mut Problem, _: From, _: f64, _: &[f64], _: &[f64]) -> Result<(), Halt> {
         Ok(())
     }
 
-    /// The collocation polynomial: error O(h^{s+1}).
-    fn interpolate(&self, theta: f64, from: &[f64], out: &mut [f64]) {
-        let method = self.order.method();
-        out.fill(0.0);
-        let points = std::iter::once(from).chain(self.stages.y.iter().map(Vec::as_slice));
-        for (i, y) in points.enumerate().take(method.stages() + 1) {
-            let weight = method.lagrange(i, theta);
-            out.iter_mut().zip(y).for_each(|(out, y)| *out += weight * y);
-        }
+    /// By a step of that length: the collocation polynomial would have order s only.
+    fn interpolate(
+        &mut self,
+        problem: &mut Problem,
+        from: From,
+        h: f64,
+        theta: f64,
+        out: &mut [f64],
+    ) -> Result<(), Halt> {
+        let RadauIIA { order, newton, stages, row, tolerance, .. } = self;
+        let (method, h) = (order.method(), theta * h);
+        newton.prepare(problem, from)?;
+        newton.factor(method, h, &mut problem.dynamics)?;
+        row.unknowns.predict(&stages.unknowns, method, method.nodes.iter().map(|node| theta * node));
+        let mut convergence = Convergence::new();
+        Solver { stages: row, newton, convergence: &mut convergence, method }.solve(problem, tolerance, from, h)?;
+        out.copy_from_slice(&row.y[method.stages() - 1]);
+        Ok(())
     }
 }

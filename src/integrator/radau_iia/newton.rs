@@ -57,10 +57,17 @@ impl Newton {
         self.at.mass.copy_from_slice(&dynamics.terms.mass);
         self.at.g.copy_from_slice(&dynamics.terms.g);
         self.at.l.copy_from_slice(&dynamics.terms.l);
-        if self.rows == Rows::PositionAndVelocity {
-            dynamics.factor()?;
+        self.prepare(problem, from)
+    }
+
+    /// Makes `problem` ready to solve for the shift from this state.
+    pub fn prepare(&self, problem: &mut Problem, from: From) -> Result<(), Halt> {
+        if self.rows != Rows::PositionAndVelocity {
+            return Ok(());
         }
-        Ok(())
+        let (q, v) = problem.split(from.y);
+        problem.dynamics.evaluate(from.t, q, v, Need::MASS | Need::G);
+        problem.dynamics.factor()
     }
 
     /// Factors for a step `h` of `method`.

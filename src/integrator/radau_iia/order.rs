@@ -27,7 +27,6 @@ pub struct Seen {
     pub decay: f64,
     /// Contraction of the Newton iteration.
     pub theta: f64,
-    pub iterations: usize,
 }
 
 const STAGES: [usize; 3] = [3, 5, 7];

@@ -19,6 +19,9 @@ pub struct Stages {
     velocity: Vec<f64>,
 }
 
+/// Of a few operations.
+const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
+
 /// What is solved for, stage by stage.
 pub struct Unknowns {
     pub vdot: Vec<Vec<f64>>,
@@ -40,9 +43,9 @@ impl Unknowns {
         self.shift.iter_mut().chain(&mut self.mu).for_each(|stage| stage.fill(0.0));
     }
 
-    /// From the polynomials over the stages of the step before, by `method`, whose size is 1/`ratio` of the next one at
-    /// `nodes`.
-    pub fn extrapolate(&mut self, before: &Unknowns, method: &Collocation, nodes: &[f64], ratio: f64) {
+    /// From the polynomials over the stages of another step by `method`, at the places `at` of that step, none of them its
+    /// start.
+    pub fn predict(&mut self, before: &Unknowns, method: &Collocation, at: impl Iterator<Item = f64> + Clone) {
         let pairs = [
             (&mut self.vdot, &before.vdot),
             (&mut self.lambda, &before.lambda),
@@ -50,10 +53,10 @@ impl Unknowns {
             (&mut self.mu, &before.mu),
         ];
         for (stages, before) in pairs {
-            for (stage, node) in stages.iter_mut().zip(nodes) {
+            for (stage, x) in stages.iter_mut().zip(at.clone()) {
                 stage.fill(0.0);
                 for (j, before) in before.iter().enumerate().take(method.stages()) {
-                    let weight = method.stage_lagrange(j, 1.0 + node * ratio);
+                    let weight = method.stage_lagrange(j, x);
                     stage.iter_mut().zip(before).for_each(|(stage, before)| *stage += weight * before);
                 }
             }
@@ -123,23 +126,27 @@ impl Stages {
         std::mem::swap(&mut self.y, &mut self.next);
     }
 
-    /// Root mean square of the last change over the tolerated errors at the start, with that of v times `weight`.
-    pub fn change(&mut self, tolerance: &Tolerance, from: From, s: usize, weight: f64) -> f64 {
+    /// Root mean square of the last change over the tolerated errors at the start.
+    pub fn change(&mut self, tolerance: &Tolerance, from: From, s: usize) -> f64 {
         let mut sum = 0.0;
         for (y, before) in self.y.iter().zip(&mut self.next).take(s) {
             before.iter_mut().zip(y).for_each(|(before, y)| *before = y - *before);
-            before[self.n.q..].iter_mut().for_each(|change| *change *= weight);
             sum += tolerance.norm(from.y, before).powi(2);
         }
         (sum / s as f64).sqrt()
     }
 
-    pub fn dbg(&self, s: usize) -> (f64, f64) {
-        let m = |r: std::ops::Range<usize>| {
-            self.next.iter().take(s).flat_map(|x| x[r.clone()].to_vec()).fold(0.0f64, |a, b| a.max(b.abs()))
-        };
-        (m(0..self.n.q), m(self.n.q..self.n.q + self.n.v))
+    /// Changes that are but round-off, over the tolerated errors: v is found from phi = 0 by a division by h.
+    pub fn round_off(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64, rows: Rows) -> f64 {
+        let largest = |x: &[f64]| x.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+        let (q, v) = problem.split(from.y);
+        let (of_q, of_v) = (ROUND_OFF * largest(q), ROUND_OFF * largest(v));
+        let change = &mut self.next[0];
+        change[..q.len()].fill(of_q);
+        change[q.len()..].fill(if rows == Rows::Position { of_v.max(of_q / h) } else { of_v });
+        tolerance.norm(from.y, change)
     }
+
     /// Ratio of successive Legendre coefficients of V' over the step, the last two to the two before so that even and odd
     /// parts count: how fast the polynomials of more stages converge.
     pub fn decay(&mut self, method: &Collocation, tolerance: &Tolerance, from: From) -> f64 {
