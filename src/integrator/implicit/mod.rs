@@ -95,7 +95,7 @@ where
         own_step: 0.0,
         counted: Counted::default(),
         // The solver controls its error: what it is offered is all that is left.
-        control: Control { exponent: 1.0, beta: 0.0, shrink: 1.0, grow: f64::INFINITY, last: 1.0 },
+        control: Control { exponent: 1.0, beta: 0.0, shrink: 0.1, grow: f64::INFINITY, last: 1.0 },
     }))
 }
 
