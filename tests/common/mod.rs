@@ -4,6 +4,7 @@
 
 pub mod driven_pendulum;
 pub mod robot_arm;
+pub mod stiff;
 pub mod unconstrained;
 
 use holonom::formulation::Choice;

@@ -127,8 +127,8 @@ fn problem_of<'s>(form: Box<dyn Form + 's>, rates: usize, tolerance: &Tolerance)
         ode_options: OdeSolverOptions {
             max_nonlinear_solver_failures: usize::MAX,
             nonlinear_solver_tolerance: 0.01,
-            update_jacobian_after_steps: 5,
-            update_rhs_jacobian_after_steps: 5,
+            update_jacobian_after_steps: 10,
+            update_rhs_jacobian_after_steps: 10,
             ..OdeSolverOptions::default()
         },
     }
