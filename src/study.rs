@@ -112,9 +112,9 @@ impl Study {
 fn check_options(method: &Method, system: &dyn MechanicalSystem) -> Result<()> {
     formulation::make(&method.formulation, system).map_err(|error| error.under("formulation"))?;
     let entry = integrator::find(&method.integrator)?;
-    let is_fixed = method.step.is_some();
-    let setup =
-        integrator::Setup { integrator: &method.integrator, formulation: &method.formulation, system, is_fixed };
+    let (store, is_fixed) = (integrator::Store::default(), method.step.is_some());
+    let (integrator, formulation) = (&method.integrator, &method.formulation);
+    let setup = integrator::Setup { integrator, formulation, system, store: &store, is_fixed };
     (entry.make)(&setup).map_err(|error| error.under("integrator"))?;
     projection::make(&method.projection, system).map_err(|error| error.under("projection"))?;
     Ok(())

@@ -1,31 +1,14 @@
 //! Generalized-alpha where it is meant for: stiff motions, and rotations.
 
+mod common;
+
+use common::stiff::{STIFF, slow_position};
 use holonom::formulation::Choice;
 use holonom::measure::Recorder;
 use holonom::scene::Scene;
 use holonom::simulate::{Method, Outcome, simulate};
 use holonom::study::Study;
 use std::path::Path;
-
-/// A slow mass on a soft spring carries a light one on a spring a million times as stiff.
-const STIFF: &str = r#"{
-    "name": "stiff", "dimension": 2, "parameters": { "k": 1, "stiff": 1e8 },
-    "ground": { "markers": { "O": [0, 0] } },
-    "bodies": [
-        { "name": "slow", "type": "point_mass", "mass": 1, "initial": { "position": [1.5, 0] } },
-        { "name": "fast", "type": "point_mass", "mass": 1e-3, "initial": { "position": [2.5, 0] } }
-    ],
-    "joints": [
-        { "name": "rail", "type": "equation", "expression": "slow.y" },
-        { "name": "other", "type": "equation", "expression": "fast.y" }
-    ],
-    "forces": [
-        { "name": "soft", "type": "spring_damper", "between": ["ground.O", "slow"], "stiffness": "k", "free_length": 1 },
-        { "name": "hard", "type": "spring_damper", "between": ["slow", "fast"], "stiffness": "stiff", "free_length": 1 }
-    ],
-    "outputs": [{ "name": "x", "measure": "position", "of": "slow" }],
-    "simulation": { "t_end": 10 }
-}"#;
 
 fn run(study: &Study, integrator: &str, step: f64) -> (Outcome, f64) {
     let method = Method {
@@ -49,8 +32,7 @@ fn a_stiff_motion_is_stepped_over() {
     let study = Study::new(Scene::parse(STIFF, &[]).unwrap(), &Default::default()).unwrap();
     let (outcome, x) = run(&study, "generalized_alpha:rho_inf=0.5", 0.01);
     assert!(outcome.failure.is_none(), "{:?}", outcome.failure);
-    let centre = (1.0 / 1.001f64).sqrt();
-    let slow = 1.0 + 0.5 * (centre * 10.0).cos();
+    let slow = slow_position();
     // Errors of order 2 after ten radians: some h^2.
     assert!((x - slow).abs() < 2e-4, "{x} against {slow}");
     assert_eq!(outcome.statistics.steps, 1000);

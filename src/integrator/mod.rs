@@ -2,23 +2,28 @@
 //!
 //! To add one: a file with its tableau (or a step of its own) and an [`Entry`], and a line in [`registry`].
 
+mod bdf;
 mod control;
 mod dop853;
 mod dop853_tableau;
 mod dopri5;
+mod esdirk34;
 mod explicit;
 mod generalized_alpha;
 mod half_explicit;
 mod hem;
 mod hermite;
 mod heun;
+mod implicit;
 mod phem56;
 mod problem;
 mod radau_iia;
 mod rattle;
 mod rk4;
+mod tr_bdf2;
 
 pub use control::{Control, Tolerance, first_step};
+pub use implicit::Store;
 pub use problem::Problem;
 
 use crate::error::{Error, Result};
@@ -26,7 +31,7 @@ use crate::formulation::{self, Choice, Halt, OptionDoc};
 use crate::system::MechanicalSystem;
 
 /// A one-step method. States are flat: q, v, and the work done by forces without a potential.
-pub trait Integrator: Send {
+pub trait Integrator {
     /// Order of the solution, p: the error of a step is O(h^{p+1}).
     fn order(&self) -> usize;
 
@@ -79,16 +84,18 @@ pub struct From<'a> {
 }
 
 /// What an integrator is made for.
-pub struct Setup<'a> {
+pub struct Setup<'h, 's> {
     /// Its own name and options.
-    pub integrator: &'a Choice,
-    pub formulation: &'a Choice,
-    pub system: &'a dyn MechanicalSystem,
+    pub integrator: &'h Choice,
+    pub formulation: &'h Choice,
+    pub system: &'s dyn MechanicalSystem,
+    /// Where an integrator may keep what another part of it borrows.
+    pub store: &'h Store<'s>,
     /// Whether the steps are fixed.
     pub is_fixed: bool,
 }
 
-impl Setup<'_> {
+impl Setup<'_, '_> {
     /// Length of the flat state.
     pub fn len(&self) -> usize {
         let n = self.system.dimensions();
@@ -125,7 +132,7 @@ pub struct Entry {
     /// Projections that would cost it an order.
     pub refuses: &'static [&'static str],
     pub options: &'static [OptionDoc],
-    pub make: fn(&Setup) -> Result<Box<dyn Integrator>>,
+    pub make: for<'h, 's> fn(&Setup<'h, 's>) -> Result<Box<dyn Integrator + 'h>>,
 }
 
 impl Entry {
@@ -165,6 +172,9 @@ pub fn registry() -> &'static [Entry] {
         radau_iia::ENTRY,
         rattle::ENTRY,
         generalized_alpha::ENTRY,
+        bdf::ENTRY,
+        tr_bdf2::ENTRY,
+        esdirk34::ENTRY,
     ]
 }
 

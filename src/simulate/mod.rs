@@ -8,7 +8,7 @@ pub use observation::{Observation, Sink, Span};
 
 use crate::error::{Error, Failure, Result};
 use crate::formulation::{self, Dynamics, Halt, Rows as Constraints, Statistics};
-use crate::integrator::{self, From, Integrator, Problem, Setup, Tolerance, first_step};
+use crate::integrator::{self, From, Integrator, Problem, Setup, Store, Tolerance, first_step};
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
 
@@ -40,7 +40,8 @@ pub fn simulate(
         return Err(Error::input(format!("nothing to simulate from {} s to {} s", span.start, span.end))
             .hint("the end must come after the start and the output step must be above zero"));
     }
-    let mut run = Run::new(system, method, span, q, v)?;
+    let store = Store::default();
+    let mut run = Run::new((system, &store), method, span, q, v)?;
     let failure = run.integrate(sink).err();
     if failure.is_some() {
         run.last_good_row(sink);
@@ -51,7 +52,7 @@ pub fn simulate(
 
 struct Run<'a> {
     problem: Problem<'a>,
-    integrator: Box<dyn Integrator>,
+    integrator: Box<dyn Integrator + 'a>,
     projection: Option<Box<dyn Projection>>,
     rows: Rows<'a>,
     tolerance: Tolerance,
@@ -84,7 +85,13 @@ struct Rows<'a> {
 const MOST_CORRECTION: f64 = 10.0;
 
 impl<'a> Run<'a> {
-    fn new(system: &'a dyn MechanicalSystem, method: &Method, span: Span, q: &[f64], v: &[f64]) -> Result<Self> {
+    fn new<'s: 'a>(
+        (system, store): (&'s dyn MechanicalSystem, &'a Store<'s>),
+        method: &'a Method,
+        span: Span,
+        q: &[f64],
+        v: &[f64],
+    ) -> Result<Self> {
         let problem = || -> Result<Problem<'a>> {
             Ok(Problem::new(Dynamics::new(system), formulation::make(&method.formulation, system)?))
         };
@@ -98,6 +105,7 @@ impl<'a> Run<'a> {
                 integrator: &method.integrator,
                 formulation: &method.formulation,
                 system,
+                store,
                 is_fixed: method.step.is_some(),
             })?,
             projection: projection::make(&method.projection, system)?,

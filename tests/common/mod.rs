@@ -5,6 +5,7 @@
 pub mod driven_pendulum;
 #[path = "../equations/mod.rs"]
 pub mod equations;
+pub mod stiff;
 pub mod unconstrained;
 
 use holonom::formulation::Choice;

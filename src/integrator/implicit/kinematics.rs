@@ -1,0 +1,83 @@
+//! q' = N(q) v and its derivatives.
+
+use super::form::Dense;
+use crate::math::kkt::Pattern;
+use crate::system::MechanicalSystem;
+
+/// N and N^+ column by column of N, places and values. A derivative along the directions of v, which is what K, G and L
+/// are, becomes one by q with N^+ = (N^T N)^-1 N^T from the right; N^T N is diagonal for unit quaternions.
+pub struct Kinematics {
+    columns: Vec<Vec<(usize, f64)>>,
+    inverse: Vec<Vec<(usize, f64)>>,
+    is_identity: bool,
+    rest: [Vec<f64>; 3],
+}
+
+impl Kinematics {
+    pub fn new(system: &dyn MechanicalSystem) -> Self {
+        let n = system.dimensions();
+        let identity: Vec<_> = (0..n.v).map(|j| vec![(j, 1.0)]).collect();
+        let zeros = || vec![0.0; n.q];
+        Kinematics {
+            columns: identity.clone(),
+            inverse: identity,
+            is_identity: n.q == n.v,
+            rest: [zeros(), zeros(), zeros()],
+        }
+    }
+
+    /// N and N^+ at q.
+    pub fn update(&mut self, system: &dyn MechanicalSystem, q: &[f64]) {
+        if self.is_identity {
+            return;
+        }
+        let mut unit = vec![0.0; self.columns.len()];
+        let rate = &mut self.rest[0];
+        for j in 0..unit.len() {
+            unit[j] = 1.0;
+            system.rate(q, &unit, rate);
+            unit[j] = 0.0;
+            let square: f64 = rate.iter().map(|x| x * x).sum();
+            let places = || rate.iter().enumerate().filter(|(_, x)| **x != 0.0);
+            self.columns[j] = places().map(|(i, x)| (i, *x)).collect();
+            self.inverse[j] = places().map(|(i, x)| (i, x / square)).collect();
+        }
+    }
+
+    /// Adds N with its first entry at `at`.
+    pub fn by_v(&self, at: (usize, usize), out: &mut Dense) {
+        for (j, column) in self.columns.iter().enumerate() {
+            column.iter().for_each(|&(i, value)| out.add(at.0 + i, at.1 + j, value));
+        }
+    }
+
+    /// Adds d(N v)/dq: exact where N is affine in q, as with quaternions.
+    pub fn by_q(&mut self, system: &dyn MechanicalSystem, q: &[f64], v: &[f64], out: &mut Dense) {
+        if self.is_identity {
+            return;
+        }
+        let [rate, moved, varied] = &mut self.rest;
+        system.rate(q, v, rate);
+        moved.copy_from_slice(q);
+        for j in 0..q.len() {
+            moved[j] = q[j] + 1.0;
+            system.rate(moved, v, varied);
+            moved[j] = q[j];
+            for (i, (varied, rate)) in varied.iter().zip(rate.iter()).enumerate() {
+                out.add(i, j, varied - rate);
+            }
+        }
+    }
+
+    /// Adds `factor` times a derivative along the directions of v as one by q, its first entry in row `row`.
+    pub fn along(&self, row: usize, pattern: &Pattern, values: &[f64], factor: f64, out: &mut Dense) {
+        for (&(i, j), value) in pattern.entries.iter().zip(values) {
+            self.add_along(row + i, j, factor * value, out);
+        }
+    }
+
+    /// The same for one entry in column `j`.
+    pub fn add_along(&self, row: usize, j: usize, value: f64, out: &mut Dense) {
+        self.inverse[j].iter().for_each(|&(k, weight)| out.add(row, k, value * weight));
+    }
+}

@@ -1,0 +1,276 @@
+//! Implicit integrators of diffsol: their steps behind our trait.
+
+mod equations;
+mod form;
+mod ggl;
+mod index1;
+mod kinematics;
+
+use super::{Control, From, Integrator, Problem, Setup, Tolerance};
+use crate::error::Result;
+use crate::formulation::Halt;
+use diffsol::error::OdeSolverError;
+use diffsol::ode_solver::state::StateCommon;
+use diffsol::{
+    DiffsolError, NalgebraLU, OdeSolverConfig, OdeSolverMethod, OdeSolverOptions, OdeSolverProblem, OdeSolverState,
+    Vector, VectorCommon,
+};
+pub use equations::Equations;
+use equations::Values;
+use form::Form;
+use std::cell::OnceCell;
+
+/// What a solver borrows while it runs: the equations with their tolerances. It outlives the integrator.
+#[derive(Default)]
+pub struct Store<'s>(OnceCell<OdeSolverProblem<Equations<'s>>>);
+
+/// The formulations that there is a [`Form`] of.
+pub const ACCEPTS: &[&str] = &["index1", "ggl"];
+
+/// Solves the linear systems of Newton's method, dense.
+pub type Newton = NalgebraLU<f64>;
+
+/// Makes a solver that goes on from a state.
+pub type Start<'h, 's, S> = fn(
+    &'h OdeSolverProblem<Equations<'s>>,
+    <S as OdeSolverMethod<'h, Equations<'s>>>::State,
+) -> std::result::Result<S, DiffsolError>;
+
+/// What our time loop must know of a method.
+#[derive(Clone, Copy)]
+pub struct Traits {
+    pub order: usize,
+    /// Whether steps go on at no cost from a state that was moved: so with one-step methods.
+    pub follows: bool,
+}
+
+/// Steps of a solver, which keeps its state between attempts.
+pub struct Implicit<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> {
+    store: &'h Store<'s>,
+    form: Option<Box<dyn Form + 's>>,
+    start: Start<'h, 's, S>,
+    traits: Traits,
+    solver: Option<S>,
+    /// Where the last attempt started and ended, and whether the solver is ahead of that.
+    began: f64,
+    reached: f64,
+    y: Vec<f64>,
+    is_ahead: bool,
+    own_step: f64,
+    counted: Counted,
+    control: Control,
+}
+
+/// What a solver counts.
+#[derive(Clone, Copy, Default)]
+struct Counted {
+    iterations: usize,
+    factorizations: usize,
+    rejected: usize,
+}
+
+/// A method of diffsol on the formulation of `setup`.
+pub fn make<'h, 's, S>(
+    setup: &Setup<'h, 's>,
+    traits: Traits,
+    start: Start<'h, 's, S>,
+) -> Result<Box<dyn Integrator + 'h>>
+where
+    S: OdeSolverMethod<'h, Equations<'s>> + 'h,
+{
+    let form: Box<dyn Form + 's> = match setup.formulation.name.as_str() {
+        "ggl" => Box::new(ggl::Ggl::new(setup)),
+        _ => Box::new(index1::Index1::new(setup)?),
+    };
+    Ok(Box::new(Implicit {
+        store: setup.store,
+        form: Some(form),
+        start,
+        traits,
+        solver: None,
+        began: f64::NAN,
+        reached: f64::NAN,
+        y: vec![0.0; setup.len()],
+        is_ahead: false,
+        own_step: 0.0,
+        counted: Counted::default(),
+        // The solver controls its error: what it is offered is all that is left.
+        control: Control::new(1.0, 0.0, 0.1, f64::INFINITY),
+    }))
+}
+
+/// A tolerated error of unknowns that are not tested: those without a rate, and the work.
+const NOT_TESTED: f64 = 1e20;
+
+/// Equations and tolerances for diffsol, with the options that constrained motions need: its limit of Newton failures is
+/// one for the whole run, and at its other defaults Newton's method fails often and stops early.
+fn problem_of<'s>(form: Box<dyn Form + 's>, rates: usize, tolerance: &Tolerance) -> OdeSolverProblem<Equations<'s>> {
+    let eqn = Equations::new(form, rates);
+    // diffsol takes the mean over all unknowns, our norm that over the tested ones.
+    let tested = ((rates - 1) as f64 / eqn.len as f64).sqrt();
+    let mut atol = Values::from_element(eqn.len, NOT_TESTED, eqn.context);
+    atol.inner_mut().as_mut_slice()[..rates - 1].fill(tested * tolerance.atol);
+    OdeSolverProblem {
+        eqn,
+        rtol: tested * tolerance.rtol,
+        atol,
+        t0: 0.0,
+        h0: 0.0,
+        integrate_out: false,
+        sens_rtol: None,
+        sens_atol: None,
+        out_rtol: None,
+        out_atol: None,
+        param_rtol: None,
+        param_atol: None,
+        ic_options: Default::default(),
+        ode_options: OdeSolverOptions {
+            max_nonlinear_solver_failures: usize::MAX,
+            nonlinear_solver_tolerance: 0.01,
+            update_jacobian_after_steps: 10,
+            update_rhs_jacobian_after_steps: 10,
+            ..OdeSolverOptions::default()
+        },
+    }
+}
+
+impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Implicit<'h, 's, S> {
+    /// A solver at `from` whose first step is at most `h`.
+    fn begin(&mut self, tolerance: &Tolerance, from: From, h: f64) -> Result<S, Halt> {
+        let (form, rates) = (&mut self.form, self.y.len());
+        if let Some(form) = form.take() {
+            let _ = self.store.0.set(problem_of(form, rates, tolerance));
+        }
+        let problem = self.store.0.get().ok_or(Halt::Unsuitable("the equations are in use"))?;
+        let (eqn, empty) = (&problem.eqn, || Values::zeros(0, problem.eqn.context));
+        let mut y = Values::zeros(eqn.len, eqn.context);
+        let mut dy = y.clone();
+        let (x, rate) = (y.inner_mut().as_mut_slice(), dy.inner_mut().as_mut_slice());
+        eqn.with(|form| form.start(from, x, rate))?;
+        let (s, ds, g, dg, sg, dsg) = (empty(), empty(), empty(), empty(), empty(), empty());
+        let state = S::State::new_from_common(StateCommon { y, dy, g, dg, s, ds, sg, dsg, t: from.t, h });
+        self.counted = Counted::default();
+        self.is_ahead = false;
+        (self.start)(problem, state).map_err(|error| self.halt(error))
+    }
+
+    /// The solver as it goes on from `from`.
+    fn resume(&mut self, tolerance: &Tolerance, from: From, h: f64) -> Result<S, Halt> {
+        let same_state = !self.traits.follows || self.y == from.y;
+        match self.solver.take() {
+            Some(solver) if self.reached == from.t && same_state => Ok(solver),
+            Some(mut solver) if self.reached == from.t && !self.is_ahead => {
+                let state = solver.state_mut();
+                state.y.inner_mut().as_mut_slice()[..from.y.len()].copy_from_slice(from.y);
+                state.dy.inner_mut().as_mut_slice()[..from.y.len()].copy_from_slice(from.slope);
+                Ok(solver)
+            }
+            _ => self.begin(tolerance, from, h),
+        }
+    }
+
+    /// Takes a step, unless the solver is ahead, and writes the state at its end, or at `end` if that comes first.
+    fn advance(&mut self, solver: &mut S, began: f64, end: f64, to: &mut [f64]) -> Result<(), Halt> {
+        if !self.is_ahead {
+            // Smaller steps are lost in the rounding of t.
+            *solver.config_mut().as_base_mut().minimum_timestep = f64::EPSILON * began.abs().max(1e-3 * (end - began));
+            solver.step().map_err(|error| self.halt(error))?;
+        }
+        let t = solver.state().t;
+        self.is_ahead = t > end;
+        self.own_step = if self.is_ahead { end - began } else { t - began };
+        if self.own_step <= 0.0 {
+            return Err(Halt::Unsuitable("the step is lost in the rounding of t"));
+        }
+        match self.is_ahead {
+            true => at(solver, end, to),
+            false => to.copy_from_slice(&solver.state().y.inner().as_slice()[..to.len()]),
+        }
+        Ok(())
+    }
+
+    /// Why the solver gave up.
+    fn halt(&self, error: DiffsolError) -> Halt {
+        let own = self.store.0.get().and_then(|problem| problem.eqn.take_halt());
+        own.unwrap_or(match error {
+            DiffsolError::OdeSolverError(OdeSolverError::TooManyErrorTestFailures { .. }) => {
+                Halt::Unsuitable("the error of a step stays above the tolerance")
+            }
+            DiffsolError::OdeSolverError(OdeSolverError::StepSizeTooSmall { .. }) => {
+                Halt::Unsuitable("Newton's method does not converge or the tolerance is not met")
+            }
+            _ => Halt::Unsuitable("the linear system of Newton's method cannot be solved"),
+        })
+    }
+
+    /// Adds the work since the last call to that of the run.
+    fn count(&mut self, solver: &S, problem: &mut Problem) {
+        let found = solver.get_statistics();
+        let now = Counted {
+            iterations: found.number_of_nonlinear_solver_iterations,
+            factorizations: found.number_of_linear_solver_setups,
+            rejected: found.number_of_error_test_failures
+                + found.number_of_linear_solver_setups_from_second_convergence_fail,
+        };
+        let own = self.store.0.get().map(|problem| problem.eqn.take_statistics()).unwrap_or_default();
+        let total = &mut problem.dynamics.statistics;
+        total.newton_iterations += (now.iterations - self.counted.iterations) as u64;
+        total.rejected += (now.rejected - self.counted.rejected) as u64;
+        total.factorizations += (now.factorizations - self.counted.factorizations) as u64 + own.factorizations;
+        total.rhs_evaluations += own.rhs_evaluations;
+        total.jacobian_evaluations += own.jacobian_evaluations;
+        self.counted = now;
+    }
+}
+
+/// The state at a time within the last step; NaN where the solver has none.
+fn at<'h, 's: 'h, S: OdeSolverMethod<'h, Equations<'s>>>(solver: &S, t: f64, out: &mut [f64]) {
+    match solver.interpolate(t.min(solver.state().t)) {
+        Ok(y) => out.copy_from_slice(&y.inner().as_slice()[..out.len()]),
+        Err(_) => out.fill(f64::NAN),
+    }
+}
+
+impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Integrator for Implicit<'h, 's, S> {
+    fn order(&self) -> usize {
+        self.traits.order
+    }
+
+    fn control(&mut self) -> &mut Control {
+        &mut self.control
+    }
+
+    fn own_step(&self) -> Option<f64> {
+        Some(self.own_step)
+    }
+
+    fn attempt(
+        &mut self,
+        problem: &mut Problem,
+        tolerance: &Tolerance,
+        from: From,
+        h: f64,
+        to: &mut [f64],
+    ) -> Result<Option<f64>, Halt> {
+        let mut solver = self.resume(tolerance, from, h)?;
+        let result = self.advance(&mut solver, from.t, from.t + h, to);
+        self.count(&solver, problem);
+        result?;
+        (self.began, self.reached) = (from.t, from.t + self.own_step);
+        self.y.copy_from_slice(to);
+        self.solver = Some(solver);
+        Ok(Some(0.0))
+    }
+
+    fn prepare(&mut self, _: &mut Problem, _: From, _: f64, _: &[f64], _: &[f64]) -> Result<(), Halt> {
+        Ok(())
+    }
+
+    fn interpolate(&mut self, _: &mut Problem, _: From, _: f64, theta: f64, out: &mut [f64]) -> Result<(), Halt> {
+        match &self.solver {
+            Some(solver) => at(solver, self.began + theta * self.own_step, out),
+            None => out.fill(f64::NAN),
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,186 @@
+//! The implicit integrators of diffsol: orders, stiff motions, rotations, what they refuse; and a table beside our own.
+
+mod common;
+mod scenes;
+
+use common::driven_pendulum::{DrivenPendulum, start};
+use common::stiff::{STIFF, slow_position};
+use common::{adaptive, distance, fixed, run, until};
+use holonom::integrator::{Entry, Steps, registry};
+use holonom::projection::registry as projections;
+use holonom::simulate::{Method, Span};
+use scenes::{Ready, parse, shipped};
+use std::time::Instant;
+
+const END: f64 = 1.5;
+
+fn implicit() -> impl Iterator<Item = &'static Entry> {
+    registry().iter().filter(|entry| entry.steps == Steps::Own)
+}
+
+/// Every accepted triple.
+fn triples() -> Vec<(&'static Entry, &'static str, &'static str)> {
+    let pairs = implicit().flat_map(|entry| entry.accepts.iter().map(move |formulation| (entry, *formulation)));
+    let with = |(entry, formulation): (&'static Entry, &'static str)| {
+        let accepted = projections().iter().filter(|projection| !entry.refuses.contains(&projection.name));
+        accepted.map(move |projection| (entry, formulation, projection.name))
+    };
+    pairs.flat_map(with).collect()
+}
+
+/// Steps of the driven pendulum, and its rows at eight times.
+fn solve(method: &Method) -> (u64, Vec<Vec<f64>>) {
+    let (q, v) = start();
+    let span = Span { output_step: END / 8.0, ..until(END) };
+    let run = run(&DrivenPendulum, method, span, (&q, &v)).completed();
+    (run.outcome.statistics.steps, run.record.trajectory.rows)
+}
+
+/// Euclidean norms of the errors of q, v and lambda over all rows.
+fn errors(rows: &[Vec<f64>], reference: &[Vec<f64>]) -> [f64; 3] {
+    [1..5, 5..9, 9..11].map(|columns| {
+        let pairs = rows.iter().zip(reference);
+        let squares = pairs.flat_map(|(row, exact)| columns.clone().map(move |i| (row[i] - exact[i]).powi(2)));
+        squares.sum::<f64>().sqrt()
+    })
+}
+
+/// Steps cannot be given: the order is the power of the mean step that the error falls with, from one tolerance to a
+/// much tighter one. BDF has no order of its own: order 5 rules at tight tolerances.
+#[test]
+fn every_triple_has_its_order() {
+    let (_, reference) = solve(&adaptive("index1", "dop853", "exact", 1e-13));
+    let triples = triples();
+    assert_eq!(triples.len(), 26);
+    for (entry, formulation, projection) in triples {
+        let (coarse, fine, off) = if entry.name == "bdf" { (1e-7, 1e-10, 1.0) } else { (1e-5, 1e-9, 0.3) };
+        let found = [coarse, fine].map(|tolerance| {
+            let (steps, rows) = solve(&adaptive(formulation, entry.name, projection, tolerance));
+            (steps as f64, errors(&rows, &reference))
+        });
+        for level in 0..3 {
+            let order = (found[0].1[level] / found[1].1[level]).ln() / (found[1].0 / found[0].0).ln();
+            let what = format!("{formulation} + {} + {projection}: order {order:.2}, {found:?}", entry.name);
+            assert!((order - entry.order as f64).abs() < off, "{what}");
+        }
+    }
+}
+
+#[test]
+fn ggl_holds_both_constraints_and_runs_repeat_bit_by_bit() {
+    let (q, v) = start();
+    for entry in implicit() {
+        let drift = |formulation: &str| {
+            let method = adaptive(formulation, entry.name, "none", 1e-6);
+            let runs = [(); 2].map(|()| run(&DrivenPendulum, &method, until(END), (&q, &v)).completed());
+            assert_eq!(runs[0].last(), runs[1].last());
+            assert_eq!(runs[0].outcome.statistics, runs[1].outcome.statistics);
+            runs[0].drift()
+        };
+        let (ggl, index1) = (drift("ggl"), drift("index1"));
+        // Newton's iteration ends a hundred times below the tolerance; index 1 drifts at it.
+        assert!(ggl.0 < 3e-7 && ggl.1 < 1e-5, "{}: {ggl:?}", entry.name);
+        assert!(index1.0 > 5e-7 && index1.1 > 2e-6, "{}: {index1:?}", entry.name);
+    }
+}
+
+/// Rows within the steps are as good as the steps: those of a run with many rows are on the motion, too.
+#[test]
+fn rows_within_steps_are_on_the_motion() {
+    let (q, v) = start();
+    let span = Span { output_step: END / 300.0, ..until(END) };
+    let rows = |method: &Method| run(&DrivenPendulum, method, span, (&q, &v)).completed().record.trajectory.rows;
+    let reference = rows(&adaptive("index1", "dop853", "exact", 1e-13));
+    for (entry, formulation, _) in triples().into_iter().filter(|triple| triple.2 == "none") {
+        let found = rows(&adaptive(formulation, entry.name, "none", 1e-6));
+        let worst = found.iter().zip(&reference).map(|(row, exact)| distance(&row[1..9], &exact[1..9]));
+        let worst = worst.fold(0.0, f64::max);
+        assert!(worst < 1e-3, "{} {formulation}: {worst:e}", entry.name);
+    }
+}
+
+/// Two hundred steps where an explicit method needs ten million. BDF is here within its limits: at tighter tolerances it
+/// takes orders above 2, which are not stable for a swing that nothing damps, and follows it.
+#[test]
+fn a_stiff_motion_is_stepped_over() {
+    let ready = parse(STIFF);
+    for (integrator, tolerance, most, off) in
+        [("bdf", 1e-6, 200, 1e-4), ("tr_bdf2", 1e-6, 500, 3e-4), ("esdirk34", 1e-8, 600, 2e-5)]
+    {
+        for formulation in ["index1", "ggl"] {
+            let run = ready.run(&adaptive(formulation, integrator, "none", tolerance), ready.span());
+            let x = *run.column("x").last().unwrap();
+            assert!((x - slow_position()).abs() < off, "{integrator} {formulation}: {x}");
+            assert!(run.outcome.statistics.steps < most, "{integrator}: {:?}", run.outcome.statistics);
+        }
+    }
+}
+
+/// Quaternions: N is not the identity, and what returns them to unit length must not start BDF anew.
+#[test]
+fn rotations_in_space() {
+    for (scene, column) in [("spinning_top", "nutation"), ("universal_shaft", "cardan_speed")] {
+        let ready = shipped(scene, &[]);
+        let exact = ready.run(&adaptive("index1", "dop853", "manifold", 1e-11), ready.span()).column(column);
+        for entry in implicit() {
+            for formulation in ["index1", "ggl"] {
+                let run = ready.run(&adaptive(formulation, entry.name, "none", 1e-7), ready.span());
+                let error = distance(&run.column(column), &exact);
+                println!("{scene} {} {formulation}: {error:.1e}, {} steps", entry.name, run.outcome.statistics.steps);
+                assert!(error < 2e-2, "{scene} {} {formulation}: {error:e}", entry.name);
+                let most = if entry.name == "tr_bdf2" { 25_000 } else { 6_000 };
+                assert!(run.outcome.statistics.steps < most, "{:?}", run.outcome.statistics);
+            }
+        }
+    }
+}
+
+#[test]
+fn redundant_constraints_go_with_index_1_only() {
+    let ready = shipped("parallelogram_redundant", &[]);
+    for entry in implicit() {
+        ready.run(&adaptive("index1", entry.name, "none", 1e-6), ready.span());
+        let method = adaptive("ggl", entry.name, "none", 1e-6);
+        let run = common::run(ready.system(), &method, ready.span(), ready.0.start());
+        let reason = run.outcome.failure.unwrap().reason;
+        assert!(reason.contains("ggl cannot solve redundant constraints"), "{reason}");
+    }
+}
+
+/// Prints digits of the worst of `columns` at the end against work; `--nocapture` shows it.
+fn compare(scene: &str, ready: &Ready, span: Span, columns: &[&str], steps: &[f64]) {
+    let last = |run: &scenes::Run| columns.iter().map(|name| *run.column(name).last().unwrap()).collect::<Vec<_>>();
+    let reference = last(&ready.run(&adaptive("index1", "dop853", "manifold", 1e-13), span));
+    let implicit = implicit().flat_map(|entry| {
+        let projection = if entry.refuses.is_empty() { "manifold" } else { "none" };
+        [("index1", entry.name, projection), ("ggl", entry.name, "none")]
+    });
+    let methods = [("index1", "dop853", "manifold"), ("index2", "phem56", "manifold")].into_iter().chain(implicit);
+    let adaptive =
+        methods.flat_map(|(f, i, p)| [1e-4, 1e-6, 1e-8, 1e-10].map(|tolerance| adaptive(f, i, p, tolerance)));
+    let fixed = steps.iter().map(|&step| fixed("index3", "generalized_alpha", "none", step));
+    println!("\n{scene}\n{:34} accuracy digits   steps  evaluations  matrices  newton        ms", "method");
+    for method in adaptive.chain(fixed) {
+        let clock = Instant::now();
+        let run = ready.run(&method, span);
+        let (ms, s) = (1e3 * clock.elapsed().as_secs_f64(), run.outcome.statistics);
+        println!(
+            "{:34} {:>8} {:>6.1} {:>7} {:>12} {:>9} {:>7} {ms:>9.1}",
+            format!("{} + {} + {}", method.formulation, method.integrator, method.projection),
+            method.step.map_or(format!("{:.0e}", method.rtol), |step| format!("h={step:.0e}")),
+            -distance(&last(&run), &reference).log10(),
+            s.steps,
+            s.rhs_evaluations,
+            s.factorizations,
+            s.newton_iterations,
+        );
+    }
+}
+
+/// Andrews' reference by dop853 is within 1e-10 of the test set's (tests/andrews.rs).
+#[test]
+fn a_table_of_work_and_accuracy() {
+    let angles = ["beta", "Theta", "gamma", "Phi", "delta", "Omega", "epsilon"];
+    compare("andrews, worst angle at 0.03 s", &shipped("andrews", &[]), until(0.03), &angles, &[1e-4, 1e-5]);
+    compare("pendulum, x and y at 10 s", &shipped("pendulum", &[]), until(10.0), &["x", "y"], &[1e-2, 1e-3]);
+}
