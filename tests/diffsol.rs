@@ -22,7 +22,7 @@ fn implicit() -> impl Iterator<Item = &'static Entry> {
 fn triples() -> Vec<(&'static Entry, &'static str, &'static str)> {
     let pairs = implicit().flat_map(|entry| entry.accepts.iter().map(move |formulation| (entry, *formulation)));
     let with = |(entry, formulation): (&'static Entry, &'static str)| {
-        let accepted = projections().iter().filter(|projection| !entry.refuses.contains(&projection.name));
+        let accepted = projections().iter().filter(|projection| !entry.refuses("index1", projection.name));
         accepted.map(move |projection| (entry, formulation, projection.name))
     };
     pairs.flat_map(with).collect()

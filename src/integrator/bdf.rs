@@ -1,7 +1,7 @@
 //! Backward differentiation formulas.
 
 use super::implicit::{self, Newton, Traits};
-use super::{Entry, Integrator, Setup, Steps};
+use super::{Entry, Integrator, Setup, Steps, With};
 use crate::error::Result;
 
 pub const ENTRY: Entry = Entry {
@@ -11,7 +11,7 @@ pub const ENTRY: Entry = Entry {
     orders: &[],
     steps: Steps::Own,
     accepts: implicit::ACCEPTS,
-    refuses: &["position", "velocity", "manifold", "full", "exact"],
+    refuses: &[With { formulation: "index1", projections: ALL }, With { formulation: "ggl", projections: ALL }],
     options: &[],
     make,
 };
@@ -21,3 +21,6 @@ fn make<'h, 's>(setup: &Setup<'h, 's>) -> Result<Box<dyn Integrator + 'h>> {
     let traits = Traits { order: 2, follows: false };
     implicit::make(setup, traits, |problem, state| problem.bdf_solver::<Newton>(state))
 }
+
+/// A projection would start the method anew, at order 1.
+const ALL: &[&str] = &["position", "velocity", "manifold", "full", "exact"];

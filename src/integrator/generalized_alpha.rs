@@ -1,7 +1,7 @@
 //! Generalized-alpha on the index 3 equations.
 
 use super::hermite::Hermite;
-use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tolerance};
+use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tolerance, With};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
 use crate::formulation::Halt;
@@ -28,7 +28,7 @@ pub const ENTRY: Entry = Entry {
     orders: &[],
     steps: Steps::Fixed,
     accepts: &["index3"],
-    refuses: &["full"],
+    refuses: &[With { formulation: "index3", projections: &["full"] }],
     options: &[OptionDoc {
         name: "rho_inf",
         about: "what is left of infinitely fast oscillations a step, 0 to 1 (default 0.8)",

@@ -124,22 +124,39 @@ pub struct Entry {
     pub about: &'static str,
     /// Proven order in q, v and lambda, but for what `orders` says.
     pub order: usize,
-    /// Proven orders in q, v and lambda with formulations where they are not `order`.
-    pub orders: &'static [(&'static str, [usize; 3])],
+    /// Proven orders in q, v and lambda where they are not `order`.
+    pub orders: &'static [(With, [usize; 3])],
     pub steps: Steps,
     /// Formulations it can integrate.
     pub accepts: &'static [&'static str],
-    /// Projections that would cost it an order.
-    pub refuses: &'static [&'static str],
+    /// What would cost it an order.
+    pub refuses: &'static [With],
     pub options: &'static [OptionDoc],
     pub make: for<'h, 's> fn(&Setup<'h, 's>) -> Result<Box<dyn Integrator + 'h>>,
 }
 
+/// Projections beside a formulation.
+#[derive(Clone, Copy, Debug)]
+pub struct With {
+    pub formulation: &'static str,
+    pub projections: &'static [&'static str],
+}
+
+impl With {
+    fn includes(&self, formulation: &str, projection: &str) -> bool {
+        self.formulation == formulation && self.projections.contains(&projection)
+    }
+}
+
 impl Entry {
-    /// Proven orders in q, v and lambda with a formulation.
-    pub fn orders_with(&self, formulation: &str) -> [usize; 3] {
-        let own = self.orders.iter().find(|(name, _)| *name == formulation);
+    /// Proven orders in q, v and lambda.
+    pub fn orders_with(&self, formulation: &str, projection: &str) -> [usize; 3] {
+        let own = self.orders.iter().find(|(with, _)| with.includes(formulation, projection));
         own.map_or([self.order; 3], |(_, orders)| *orders)
+    }
+
+    pub fn refuses(&self, formulation: &str, projection: &str) -> bool {
+        self.refuses.iter().any(|with| with.includes(formulation, projection))
     }
 }
 

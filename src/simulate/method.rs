@@ -36,9 +36,9 @@ impl Method {
     pub fn check(&self) -> Result<()> {
         let entry = integrator::find(&self.integrator).map_err(|error| error.under("integrator"))?;
         integrator::check_pair(entry, &self.formulation).map_err(|error| error.under("formulation"))?;
-        if entry.refuses.contains(&self.projection.name.as_str()) {
+        if entry.refuses(&self.formulation.name, &self.projection.name) {
             let others = projection::registry().iter().map(|other| other.name);
-            let others: Vec<&str> = others.filter(|other| !entry.refuses.contains(other)).collect();
+            let others: Vec<&str> = others.filter(|other| !entry.refuses(&self.formulation.name, other)).collect();
             return Err(Error::input(format!("{} loses an order with {}", entry.name, self.projection.name))
                 .under("projection")
                 .hint(format!("{} goes with {}", entry.name, others.join(", "))));

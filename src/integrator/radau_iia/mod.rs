@@ -6,7 +6,7 @@ mod newton;
 mod order;
 mod stages;
 
-use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tolerance};
+use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tolerance, With};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
 use crate::formulation::{self, Halt};
@@ -20,10 +20,10 @@ pub const ENTRY: Entry = Entry {
     name: "radau_iia",
     about: "implicit collocation of variable order 5, 9, 13, L-stable: stiff motions, and high accuracy",
     order: 5,
-    orders: &[("index3", [5, 3, 3])],
+    orders: &[(With { formulation: "index3", projections: &["none", "position"] }, [5, 3, 3])],
     steps: Steps::Either,
     accepts: &["ggl", "index3", "index2", "index1"],
-    refuses: &[],
+    refuses: &[With { formulation: "index3", projections: &["full"] }],
     options: &[OptionDoc { name: "order", about: "5, 9 or 13 (default: chosen as it goes; 5 with a fixed step)" }],
     make,
 };
@@ -50,11 +50,13 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         error: vec![0.0; setup.len()],
         seen: Seen { error: 1.0, decay: 1.0, theta: 1.0 },
         order,
+        is_fixed: setup.is_fixed,
     }))
 }
 
 struct RadauIIA {
     order: Order,
+    is_fixed: bool,
     newton: Newton,
     stages: Stages,
     /// The stages of a step to an output row, and the internal tolerance.
@@ -140,12 +142,16 @@ impl RadauIIA {
     }
 }
 
+/// Of the equations of a fixed step: their solution to round-off.
+const EXACT: Tolerance = Tolerance { rtol: 1e-14, atol: 1e-14 };
+
 /// One step as an implicit system: its stages, matrices and the judgement of their convergence.
 struct Solver<'a> {
     stages: &'a mut Stages,
     newton: &'a mut Newton,
     convergence: &'a mut Convergence,
     method: &'a Collocation,
+    is_fixed: bool,
 }
 
 impl Solver<'_> {
@@ -155,7 +161,9 @@ impl Solver<'_> {
         self.stages.rest(from);
         self.stages.advance(problem, self.method, from, h);
         let floor = self.stages.round_off(problem, tolerance, from, h, rows);
-        self.convergence.begin(7 + 5 * (s - 3) / 2, tolerance.rtol, floor);
+        // A fixed step cannot be tried smaller.
+        let most = if self.is_fixed { 50 } else { 7 + 5 * (s - 3) / 2 };
+        self.convergence.begin(most, tolerance.rtol, floor);
         loop {
             for i in 0..s {
                 let t = from.t + self.method.nodes[i] * h;
@@ -195,15 +203,19 @@ impl Integrator for RadauIIA {
         self.begin(problem, tolerance, from)?;
         let method = self.order.current();
         self.tried = Some(Step { start: from.t, h, method });
-        let tolerance = internal(tolerance, self.order.method().stages());
+        let tolerance = match self.is_fixed {
+            true => EXACT,
+            false => internal(tolerance, self.order.method().stages()),
+        };
         self.tolerance = tolerance;
         if self.factored != Some((h, method)) {
             self.newton.factor(self.order.method(), h, &mut problem.dynamics)?;
             self.factored = Some((h, method));
         }
         self.predict(problem, from, h);
-        let RadauIIA { order, newton, stages, convergence, .. } = self;
-        let solved = Solver { stages, newton, convergence, method: order.method() }.solve(problem, &tolerance, from, h);
+        let RadauIIA { order, newton, stages, convergence, is_fixed, .. } = self;
+        let mut solver = Solver { stages, newton, convergence, method: order.method(), is_fixed: *is_fixed };
+        let solved = solver.solve(problem, &tolerance, from, h);
         if let Err(halt) = solved {
             self.order.failed();
             return Err(halt);
@@ -238,7 +250,9 @@ impl Integrator for RadauIIA {
         newton.factor(method, h, &mut problem.dynamics)?;
         row.unknowns.predict(&stages.unknowns, method, method.nodes.iter().map(|node| theta * node));
         let mut convergence = Convergence::new();
-        Solver { stages: row, newton, convergence: &mut convergence, method }.solve(problem, tolerance, from, h)?;
+        let is_fixed = self.is_fixed;
+        Solver { stages: row, newton, convergence: &mut convergence, method, is_fixed }
+            .solve(problem, tolerance, from, h)?;
         out.copy_from_slice(&row.y[method.stages() - 1]);
         Ok(())
     }
