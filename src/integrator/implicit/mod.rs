@@ -51,6 +51,7 @@ pub struct Implicit<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> {
     /// Where the last attempt started and ended, and whether the solver is ahead of that.
     began: f64,
     reached: f64,
+    /// The state that the last attempt ended with.
     y: Vec<f64>,
     is_ahead: bool,
     own_step: f64,
@@ -117,10 +118,9 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Implicit<'h, 's, S> {
 
     /// The solver as it goes on from `from`.
     fn resume(&mut self, tolerance: &Tolerance, from: From, h: f64) -> Result<S, Halt> {
-        let same_state = !self.traits.follows || self.y == from.y;
         match self.solver.take() {
-            Some(solver) if self.reached == from.t && same_state => Ok(solver),
-            Some(mut solver) if self.reached == from.t && !self.is_ahead => {
+            Some(solver) if self.reached == from.t && self.y == from.y => Ok(solver),
+            Some(mut solver) if self.traits.follows && self.reached == from.t && !self.is_ahead => {
                 let state = solver.state_mut();
                 state.y.inner_mut().as_mut_slice()[..from.y.len()].copy_from_slice(from.y);
                 state.dy.inner_mut().as_mut_slice()[..from.y.len()].copy_from_slice(from.slope);
@@ -225,6 +225,11 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Integrator for Implicit<'h, 
         result?;
         (self.began, self.reached) = (from.t, from.t + self.own_step);
         self.y.copy_from_slice(to);
+        if !self.traits.follows {
+            // The time loop brings quaternions back to unit length, which is no reason to start anew.
+            let (q, _) = problem.split_mut(&mut self.y);
+            problem.dynamics.system.normalize(q);
+        }
         self.solver = Some(solver);
         Ok(Some(0.0))
     }
