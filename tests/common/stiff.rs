@@ -1,8 +1,9 @@
-//! A stiff motion that is not damped.
+//! A stiff motion.
 
-/// A slow mass on a soft spring carries a light one on a spring that is 1e8 times as stiff, which swings at 3e5 rad/s.
+/// A slow mass on a soft spring carries a light one on a spring that is 1e8 times as stiff, which swings at 3e5 rad/s, or
+/// creeps where there is damping.
 pub const STIFF: &str = r#"{
-    "name": "stiff", "dimension": 2, "parameters": { "k": 1, "stiff": 1e8 },
+    "name": "stiff", "dimension": 2, "parameters": { "k": 1, "stiff": 1e8, "damping": 0 },
     "ground": { "markers": { "O": [0, 0] } },
     "bodies": [
         { "name": "slow", "type": "point_mass", "mass": 1, "initial": { "position": [1.5, 0] } },
@@ -14,7 +15,8 @@ pub const STIFF: &str = r#"{
     ],
     "forces": [
         { "name": "soft", "type": "spring_damper", "between": ["ground.O", "slow"], "stiffness": "k", "free_length": 1 },
-        { "name": "hard", "type": "spring_damper", "between": ["slow", "fast"], "stiffness": "stiff", "free_length": 1 }
+        { "name": "hard", "type": "spring_damper", "between": ["slow", "fast"], "stiffness": "stiff", "damping": "damping",
+          "free_length": 1 }
     ],
     "outputs": [{ "name": "x", "measure": "position", "of": "slow" }],
     "simulation": { "t_end": 10 }

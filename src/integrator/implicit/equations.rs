@@ -39,7 +39,7 @@ impl<'s> Equations<'s> {
         see(&mut **self.form.borrow_mut())
     }
 
-    /// What stopped the form since the last call.
+    /// What stopped the form first since the last call.
     pub fn take_halt(&self) -> Option<Halt> {
         self.halt.take()
     }
@@ -52,7 +52,8 @@ impl<'s> Equations<'s> {
     fn fill(&self, values: &mut [f64], see: impl FnOnce(&mut dyn Form, &mut [f64]) -> Result<(), Halt>) {
         if let Err(halt) = self.with(|form| see(form, values)) {
             values.fill(f64::NAN);
-            self.halt.replace(Some(halt));
+            // The first one is the cause: NaN makes others follow.
+            self.halt.borrow_mut().get_or_insert(halt);
         }
     }
 }

@@ -21,6 +21,9 @@ pub trait Form {
     fn statistics(&mut self) -> &mut Statistics;
 }
 
+/// Why there is no Jacobian.
+pub const NO_TANGENT: Halt = Halt::Unsuitable("implicit integrators need K and C, which these equations do not give");
+
 /// A square matrix, column by column.
 pub struct Dense<'m> {
     pub n: usize,
@@ -32,21 +35,17 @@ impl Dense<'_> {
         self.values[column * self.n + row] += value;
     }
 
-    /// Adds `factor` times a matrix with its first entry at `at`.
-    pub fn block(&mut self, at: (usize, usize), pattern: &Pattern, values: &[f64], factor: f64) {
-        for (&(i, j), value) in pattern.entries.iter().zip(values) {
-            self.add(at.0 + i, at.1 + j, factor * value);
-        }
+    /// Adds a matrix with its first entry at `at`.
+    pub fn block(&mut self, at: (usize, usize), pattern: &Pattern, values: &[f64]) {
+        pattern.entries.iter().zip(values).for_each(|(&(i, j), value)| self.add(at.0 + i, at.1 + j, *value));
     }
 
-    /// The same with the transposed matrix.
-    pub fn transposed(&mut self, at: (usize, usize), pattern: &Pattern, values: &[f64], factor: f64) {
-        for (&(i, j), value) in pattern.entries.iter().zip(values) {
-            self.add(at.0 + j, at.1 + i, factor * value);
-        }
+    /// Adds the transposed matrix.
+    pub fn transposed(&mut self, at: (usize, usize), pattern: &Pattern, values: &[f64]) {
+        pattern.entries.iter().zip(values).for_each(|(&(i, j), value)| self.add(at.0 + j, at.1 + i, *value));
     }
 
-    /// The same with a symmetric matrix of which the entries give one triangle.
+    /// Adds `factor` times a symmetric matrix of which the entries give one triangle.
     pub fn symmetric(&mut self, at: (usize, usize), pattern: &Pattern, values: &[f64], factor: f64) {
         for (&(i, j), value) in pattern.entries.iter().zip(values) {
             self.add(at.0 + i, at.1 + j, factor * value);

@@ -1,7 +1,7 @@
 //! Gear-Gupta-Leimkuhler's equations for implicit integrators.
 
 use super::super::{From, Setup};
-use super::form::{Dense, Form};
+use super::form::{Dense, Form, NO_TANGENT};
 use super::kinematics::Kinematics;
 use crate::formulation::{Dynamics, Halt, Statistics};
 use crate::system::{Dimensions, Loaded, Need, Tangent};
@@ -18,6 +18,8 @@ pub struct Ggl<'s> {
     dynamics: Dynamics<'s>,
     tangent: Tangent,
     kinematics: Kinematics,
+    /// u - v
+    slip: Vec<f64>,
     places: Places,
 }
 
@@ -46,8 +48,38 @@ impl<'s> Ggl<'s> {
             dynamics: Dynamics::new(setup.system),
             tangent: Tangent::new(&setup.system.structure().tangent),
             kinematics: Kinematics::new(setup.system),
+            slip: vec![0.0; setup.system.dimensions().v],
             places: Places::new(setup.system.dimensions()),
         }
+    }
+}
+
+impl Ggl<'_> {
+    /// The rows of q' and v' of the Jacobian.
+    fn rates(&mut self, x: &[f64], out: &mut Dense) {
+        let Places { v, a, u, .. } = &self.places;
+        let (system, q) = (self.dynamics.system, &x[..v.start]);
+        self.kinematics.update(system, q);
+        self.kinematics.by_q(system, q, &x[u.clone()], out);
+        self.kinematics.by_v((0, u.start), out);
+        a.clone().zip(v.clone()).for_each(|(a, v)| out.add(v, a, 1.0));
+    }
+
+    /// The rows without a derivative.
+    fn balances(&self, out: &mut Dense) {
+        let Places { v, a, u, lambda, mu, .. } = &self.places;
+        let (terms, structure) = (&self.dynamics.terms, &self.dynamics.structure);
+        let (mass, g, tangent) = (&structure.mass, &structure.g, &structure.tangent);
+        self.kinematics.along(a.start, tangent, &self.tangent.k, out);
+        out.block((a.start, v.start), tangent, &self.tangent.c);
+        out.symmetric((a.start, a.start), mass, &terms.mass, 1.0);
+        out.transposed((a.start, lambda.start), g, &terms.g);
+        out.symmetric((u.start, u.start), mass, &terms.mass, 1.0);
+        out.symmetric((u.start, v.start), mass, &terms.mass, -1.0);
+        out.transposed((u.start, mu.start), g, &terms.g);
+        self.kinematics.along(lambda.start, g, &terms.g, out);
+        self.kinematics.along(mu.start, g, &terms.l, out);
+        out.block((mu.start, v.start), g, &terms.g);
     }
 }
 
@@ -86,11 +118,13 @@ impl Form for Ggl<'_> {
         dynamics.system.rate(q, &x[u.clone()], &mut out[..v.start]);
         out[v.clone()].copy_from_slice(&x[a.clone()]);
         out[*work] = terms.power + x[lambda.clone()].iter().zip(&terms.phi_t).map(|(l, p)| l * p).sum::<f64>();
-        out[a.clone()].iter_mut().zip(&terms.f).for_each(|(out, f)| *out = -f);
+        for (i, slip) in self.slip.iter_mut().enumerate() {
+            *slip = x[u.start + i] - x[v.start + i];
+            out[a.start + i] = -terms.f[i];
+        }
         structure.mass.multiply_symmetric(&terms.mass, &x[a.clone()], &mut out[a.clone()]);
         structure.g.multiply_transposed(&terms.g, &x[lambda.clone()], &mut out[a.clone()]);
-        let slip: Vec<f64> = x[u.clone()].iter().zip(&x[v.clone()]).map(|(u, v)| u - v).collect();
-        structure.mass.multiply_symmetric(&terms.mass, &slip, &mut out[u.clone()]);
+        structure.mass.multiply_symmetric(&terms.mass, &self.slip, &mut out[u.clone()]);
         structure.g.multiply_transposed(&terms.g, &x[mu.clone()], &mut out[u.clone()]);
         out[lambda.clone()].copy_from_slice(&terms.phi);
         out[mu.clone()].copy_from_slice(&terms.phi_dot);
@@ -98,31 +132,16 @@ impl Form for Ggl<'_> {
     }
 
     fn jacobian(&mut self, t: f64, x: &[f64], out: &mut Dense) -> Result<(), Halt> {
-        let Places { v, a, u, lambda, mu, .. } = &self.places;
-        let (dynamics, kinematics) = (&mut self.dynamics, &mut self.kinematics);
-        let q = &x[..v.start];
+        let Places { v, a, lambda, .. } = &self.places;
+        let (dynamics, q, v) = (&mut self.dynamics, &x[..v.start], &x[v.clone()]);
         dynamics.statistics.jacobian_evaluations += 1;
-        dynamics.evaluate(t, q, &x[v.clone()], Need::DYNAMICS | Need::L);
-        let at = Loaded { t, q, v: &x[v.clone()], vdot: &x[a.clone()], lambda: &x[lambda.clone()] };
+        dynamics.evaluate(t, q, v, Need::DYNAMICS | Need::L);
+        let at = Loaded { t, q, v, vdot: &x[a.clone()], lambda: &x[lambda.clone()] };
         if !dynamics.system.tangent(at, &mut self.tangent, &mut dynamics.scratch) {
-            return Err(Halt::Unsuitable("implicit integrators need K and C, which these equations do not give"));
+            return Err(NO_TANGENT);
         }
-        let (terms, structure) = (&dynamics.terms, &dynamics.structure);
-        let (mass, g, tangent) = (&structure.mass, &structure.g, &structure.tangent);
-        kinematics.update(dynamics.system, q);
-        kinematics.by_q(dynamics.system, q, &x[u.clone()], out);
-        kinematics.by_v((0, u.start), out);
-        a.clone().zip(v.clone()).for_each(|(a, v)| out.add(v, a, 1.0));
-        kinematics.along(a.start, tangent, &self.tangent.k, 1.0, out);
-        out.block((a.start, v.start), tangent, &self.tangent.c, 1.0);
-        out.symmetric((a.start, a.start), mass, &terms.mass, 1.0);
-        out.transposed((a.start, lambda.start), g, &terms.g, 1.0);
-        out.symmetric((u.start, u.start), mass, &terms.mass, 1.0);
-        out.symmetric((u.start, v.start), mass, &terms.mass, -1.0);
-        out.transposed((u.start, mu.start), g, &terms.g, 1.0);
-        kinematics.along(lambda.start, g, &terms.g, 1.0, out);
-        kinematics.along(mu.start, g, &terms.l, 1.0, out);
-        out.block((mu.start, v.start), g, &terms.g, 1.0);
+        self.rates(x, out);
+        self.balances(out);
         Ok(())
     }
 

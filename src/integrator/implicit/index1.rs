@@ -1,7 +1,7 @@
 //! Index 1 for implicit integrators: lambda eliminated.
 
 use super::super::{From, Problem, Setup};
-use super::form::{Dense, Form};
+use super::form::{Dense, Form, NO_TANGENT};
 use super::kinematics::Kinematics;
 use crate::error::Result;
 use crate::formulation::{self, Dynamics, Halt, Statistics};
@@ -42,7 +42,7 @@ impl<'s> Index1<'s> {
         let dynamics = &mut self.problem.dynamics;
         let at = Loaded { t, q, v, vdot: &dynamics.vdot, lambda: &dynamics.lambda };
         if !dynamics.system.tangent(at, &mut self.tangent, &mut dynamics.scratch) {
-            return Err(Halt::Unsuitable("implicit integrators need K and C, which these equations do not give"));
+            return Err(NO_TANGENT);
         }
         dynamics.evaluate(t, q, v, Need::L);
         let (n, height, structure) = (v.len(), v.len() + dynamics.lambda.len(), &dynamics.structure);
@@ -83,7 +83,7 @@ impl Form for Index1<'_> {
         self.kinematics.by_q(dynamics.system, q, v, out);
         self.kinematics.by_v((0, q.len()), out);
         let (n, height) = (v.len(), v.len() + dynamics.lambda.len());
-        for (j, column) in self.columns.chunks_exact_mut(height).enumerate() {
+        for (j, column) in self.columns.chunks_exact_mut(height.max(1)).enumerate() {
             let (vdot, lambda) = column.split_at_mut(n);
             dynamics.kkt.solve(vdot, lambda)?;
             for (i, &vdot) in vdot.iter().enumerate() {

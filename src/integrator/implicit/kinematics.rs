@@ -69,11 +69,9 @@ impl Kinematics {
         }
     }
 
-    /// Adds `factor` times a derivative along the directions of v as one by q, its first entry in row `row`.
-    pub fn along(&self, row: usize, pattern: &Pattern, values: &[f64], factor: f64, out: &mut Dense) {
-        for (&(i, j), value) in pattern.entries.iter().zip(values) {
-            self.add_along(row + i, j, factor * value, out);
-        }
+    /// Adds a derivative along the directions of v as one by q, its first entry in row `row`.
+    pub fn along(&self, row: usize, pattern: &Pattern, values: &[f64], out: &mut Dense) {
+        pattern.entries.iter().zip(values).for_each(|(&(i, j), value)| self.add_along(row + i, j, *value, out));
     }
 
     /// The same for one entry in column `j`.

@@ -1,10 +1,13 @@
 //! Implicit integrators of diffsol: their steps behind our trait.
+//!
+//! To add one: a file like `bdf.rs` that names the solver; to add a formulation: a [`Form`].
 
 mod equations;
 mod form;
 mod ggl;
 mod index1;
 mod kinematics;
+mod store;
 
 use super::{Control, From, Integrator, Problem, Setup, Tolerance};
 use crate::error::Result;
@@ -12,17 +15,11 @@ use crate::formulation::Halt;
 use diffsol::error::OdeSolverError;
 use diffsol::ode_solver::state::StateCommon;
 use diffsol::{
-    DiffsolError, NalgebraLU, OdeSolverConfig, OdeSolverMethod, OdeSolverOptions, OdeSolverProblem, OdeSolverState,
-    Vector, VectorCommon,
+    DiffsolError, NalgebraLU, OdeSolverConfig, OdeSolverMethod, OdeSolverProblem, OdeSolverState, Vector, VectorCommon,
 };
-pub use equations::Equations;
-use equations::Values;
+use equations::{Equations, Values};
 use form::Form;
-use std::cell::OnceCell;
-
-/// What a solver borrows while it runs: the equations with their tolerances. It outlives the integrator.
-#[derive(Default)]
-pub struct Store<'s>(OnceCell<OdeSolverProblem<Equations<'s>>>);
+pub use store::Store;
 
 /// The formulations that there is a [`Form`] of.
 pub const ACCEPTS: &[&str] = &["index1", "ggl"];
@@ -54,6 +51,7 @@ pub struct Implicit<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> {
     /// Where the last attempt started and ended, and whether the solver is ahead of that.
     began: f64,
     reached: f64,
+    /// The state that the last attempt ended with.
     y: Vec<f64>,
     is_ahead: bool,
     own_step: f64,
@@ -99,49 +97,13 @@ where
     }))
 }
 
-/// A tolerated error of unknowns that are not tested: those without a rate, and the work.
-const NOT_TESTED: f64 = 1e20;
-
-/// Equations and tolerances for diffsol, with the options that constrained motions need: its limit of Newton failures is
-/// one for the whole run, and at its other defaults Newton's method fails often and stops early.
-fn problem_of<'s>(form: Box<dyn Form + 's>, rates: usize, tolerance: &Tolerance) -> OdeSolverProblem<Equations<'s>> {
-    let eqn = Equations::new(form, rates);
-    // diffsol takes the mean over all unknowns, our norm that over the tested ones.
-    let tested = ((rates - 1) as f64 / eqn.len as f64).sqrt();
-    let mut atol = Values::from_element(eqn.len, NOT_TESTED, eqn.context);
-    atol.inner_mut().as_mut_slice()[..rates - 1].fill(tested * tolerance.atol);
-    OdeSolverProblem {
-        eqn,
-        rtol: tested * tolerance.rtol,
-        atol,
-        t0: 0.0,
-        h0: 0.0,
-        integrate_out: false,
-        sens_rtol: None,
-        sens_atol: None,
-        out_rtol: None,
-        out_atol: None,
-        param_rtol: None,
-        param_atol: None,
-        ic_options: Default::default(),
-        ode_options: OdeSolverOptions {
-            max_nonlinear_solver_failures: usize::MAX,
-            nonlinear_solver_tolerance: 0.01,
-            update_jacobian_after_steps: 10,
-            update_rhs_jacobian_after_steps: 10,
-            ..OdeSolverOptions::default()
-        },
-    }
-}
-
 impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Implicit<'h, 's, S> {
     /// A solver at `from` whose first step is at most `h`.
     fn begin(&mut self, tolerance: &Tolerance, from: From, h: f64) -> Result<S, Halt> {
-        let (form, rates) = (&mut self.form, self.y.len());
-        if let Some(form) = form.take() {
-            let _ = self.store.0.set(problem_of(form, rates, tolerance));
+        if let Some(form) = self.form.take() {
+            self.store.fill(form, self.y.len(), tolerance);
         }
-        let problem = self.store.0.get().ok_or(Halt::Unsuitable("the equations are in use"))?;
+        let problem = self.store.problem().ok_or(Halt::Unsuitable("the store belongs to another integrator"))?;
         let (eqn, empty) = (&problem.eqn, || Values::zeros(0, problem.eqn.context));
         let mut y = Values::zeros(eqn.len, eqn.context);
         let mut dy = y.clone();
@@ -156,10 +118,9 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Implicit<'h, 's, S> {
 
     /// The solver as it goes on from `from`.
     fn resume(&mut self, tolerance: &Tolerance, from: From, h: f64) -> Result<S, Halt> {
-        let same_state = !self.traits.follows || self.y == from.y;
         match self.solver.take() {
-            Some(solver) if self.reached == from.t && same_state => Ok(solver),
-            Some(mut solver) if self.reached == from.t && !self.is_ahead => {
+            Some(solver) if self.reached == from.t && self.y == from.y => Ok(solver),
+            Some(mut solver) if self.traits.follows && self.reached == from.t && !self.is_ahead => {
                 let state = solver.state_mut();
                 state.y.inner_mut().as_mut_slice()[..from.y.len()].copy_from_slice(from.y);
                 state.dy.inner_mut().as_mut_slice()[..from.y.len()].copy_from_slice(from.slope);
@@ -175,6 +136,8 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Implicit<'h, 's, S> {
             // Smaller steps are lost in the rounding of t.
             *solver.config_mut().as_base_mut().minimum_timestep = f64::EPSILON * began.abs().max(1e-3 * (end - began));
             solver.step().map_err(|error| self.halt(error))?;
+            // What stopped an evaluation on the way was overcome.
+            self.own_halt();
         }
         let t = solver.state().t;
         self.is_ahead = t > end;
@@ -189,10 +152,14 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Implicit<'h, 's, S> {
         Ok(())
     }
 
+    /// What stopped an evaluation since the last call.
+    fn own_halt(&self) -> Option<Halt> {
+        self.store.problem().and_then(|problem| problem.eqn.take_halt())
+    }
+
     /// Why the solver gave up.
     fn halt(&self, error: DiffsolError) -> Halt {
-        let own = self.store.0.get().and_then(|problem| problem.eqn.take_halt());
-        own.unwrap_or(match error {
+        self.own_halt().unwrap_or(match error {
             DiffsolError::OdeSolverError(OdeSolverError::TooManyErrorTestFailures { .. }) => {
                 Halt::Unsuitable("the error of a step stays above the tolerance")
             }
@@ -212,7 +179,7 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Implicit<'h, 's, S> {
             rejected: found.number_of_error_test_failures
                 + found.number_of_linear_solver_setups_from_second_convergence_fail,
         };
-        let own = self.store.0.get().map(|problem| problem.eqn.take_statistics()).unwrap_or_default();
+        let own = self.store.problem().map(|problem| problem.eqn.take_statistics()).unwrap_or_default();
         let total = &mut problem.dynamics.statistics;
         total.newton_iterations += (now.iterations - self.counted.iterations) as u64;
         total.rejected += (now.rejected - self.counted.rejected) as u64;
@@ -258,6 +225,11 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Integrator for Implicit<'h, 
         result?;
         (self.began, self.reached) = (from.t, from.t + self.own_step);
         self.y.copy_from_slice(to);
+        if !self.traits.follows {
+            // The time loop brings quaternions back to unit length, which is no reason to start anew.
+            let (q, _) = problem.split_mut(&mut self.y);
+            problem.dynamics.system.normalize(q);
+        }
         self.solver = Some(solver);
         Ok(Some(0.0))
     }
