@@ -36,9 +36,13 @@ const METHODS: [(&str, &str, &str); 15] = [
     ("null_space", "dopri5", "manifold"),
 ];
 
-/// Methods for the constraints themselves. Left out is generalized_alpha, which makes some small blocks a step.
-const DIRECT: [(&str, &str, &str); 3] =
-    [("index2", "hem5", "none"), ("index2", "phem56", "manifold"), ("index3", "rattle", "none")];
+/// Methods for the constraints themselves.
+const DIRECT: [(&str, &str, &str); 4] = [
+    ("index2", "hem5", "none"),
+    ("index2", "phem56", "manifold"),
+    ("index3", "rattle", "none"),
+    ("index3", "generalized_alpha", "velocity"),
+];
 
 /// Keeps nothing.
 struct Nothing;
@@ -115,6 +119,8 @@ fn redundant_constraints() {
 
 #[test]
 fn methods_for_the_constraints_themselves() {
+    let (q, v) = driven_pendulum::start();
+    check_methods("driven pendulum", &DIRECT, &DrivenPendulum, (&q, &v), 0.01);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/andrews.json");
     let study = Study::load(&path, &Overrides::default()).unwrap();
     check_methods("andrews", &DIRECT, study.system(), study.start(), 1e-5);

@@ -20,7 +20,7 @@ use crate::system::{Loaded, Need, Tangent};
 /// Runge-Kutta stages of q' = N(q) Dq. Order 2 in q, v and lambda; implicit, for stiff motions. phi holds to round-off,
 /// G v + phi_t to order 2: project it (`velocity`, `manifold`, `exact`) where that matters. `full` would share that
 /// error out between v and q at every step, which costs q an order, so it is refused. One matrix a step, from exact K and C; an
-/// evaluation and a back-substitution an iteration. A step allocates some small blocks. The work is the trapezoidal rule. Fixed steps; cubic Hermite interpolation.
+/// evaluation and a back-substitution an iteration. The work is the trapezoidal rule. Fixed steps; cubic Hermite interpolation.
 pub const ENTRY: Entry = Entry {
     name: "generalized_alpha",
     about: "implicit, damped at high frequencies by rho_inf, for stiff motions; holds phi, fixed steps",
