@@ -5,7 +5,7 @@ use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tolerance};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
 use crate::formulation::Halt;
-use crate::math::kkt::{Singular, Unsymmetric};
+use crate::math::kkt::Unsymmetric;
 use crate::system::{Loaded, Need, Tangent};
 
 /// ```text
@@ -91,6 +91,11 @@ struct GeneralizedAlpha {
     polynomial: Hermite,
 }
 
+const NO_TANGENT: Halt = Halt::Unsuitable {
+    reason: "generalized_alpha needs K and C, which these equations do not give",
+    hint: "implement MechanicalSystem::tangent, or use a method that needs none, such as phem56 with index2",
+};
+
 /// Newton iterations, and the relative change below which it may stop falling.
 const MOST: usize = 25;
 const SMALL: f64 = 1e-8;
@@ -157,7 +162,7 @@ impl GeneralizedAlpha {
         dynamics.evaluate(t, q, v, Need::DYNAMICS);
         let at = Loaded { t, q, v, vdot: &self.vdot_new, lambda: &self.lambda };
         if !dynamics.system.tangent(at, &mut self.tangent, &mut dynamics.scratch) {
-            return Err(Halt::Unsuitable("generalized_alpha needs K and C, which these equations do not give"));
+            return Err(NO_TANGENT);
         }
         dynamics.statistics.jacobian_evaluations += 1;
         dynamics.statistics.factorizations += 1;
@@ -168,10 +173,7 @@ impl GeneralizedAlpha {
         self.matrix.add(&structure.mass, &dynamics.terms.mass, 1.0, true);
         self.matrix.add(&structure.tangent, &self.tangent.c, h * gamma * slope, false);
         self.matrix.add(&structure.tangent, &self.tangent.k, h * h * beta * slope, false);
-        self.matrix.factor(&structure.g, &dynamics.terms.g).map_err(|singular| match singular {
-            Singular::NotFactored => Halt::Unsuitable("the iteration matrix of generalized_alpha is singular here"),
-            other => other.into(),
-        })
+        self.matrix.factor(&structure.g, &dynamics.terms.g).map_err(Halt::from)
     }
 
     /// da_1/dv'_1
@@ -220,7 +222,7 @@ impl GeneralizedAlpha {
             }
             last = change;
         }
-        Err(Halt::Unsuitable("Newton's method does not converge; a smaller step helps"))
+        Err(Halt::NotConverged)
     }
 }
 

@@ -142,7 +142,7 @@ impl<T: Field> Unsymmetric<T> {
             self.state = State::Factored;
             return Ok(());
         }
-        Err(Singular::NotFactored)
+        Err(Singular::Collapsed)
     }
 
     /// Scales by A for the coordinates, |A_ij| <= 1, and by what that makes of the rows of G.
@@ -169,7 +169,7 @@ impl<T: Field> Unsymmetric<T> {
     fn renew_redundancy(&mut self, g: &[f64]) -> Result<(), Singular> {
         let Some(redundancy) = &mut self.redundancy else { return Ok(()) };
         let count = redundancy.find(&self.weight, g);
-        if count == redundancy.count { Ok(()) } else { Err(Singular::NotFactored) }
+        if count == redundancy.count { Ok(()) } else { Err(Singular::Collapsed) }
     }
 
     /// Whether there are rows to leave out.
