@@ -62,7 +62,8 @@ fn every_triple_has_the_order_of_its_integrator() {
         .iter()
         .flat_map(|entry| entry.accepts.iter().map(move |formulation| (entry, gentle(formulation))))
         .flat_map(|(entry, formulation)| {
-            let accepted = projections().iter().filter(|projection| !entry.refuses.contains(&projection.name));
+            let name = formulation.split(':').next().unwrap().to_string();
+            let accepted = projections().iter().filter(move |projection| !entry.refuses(&name, projection.name));
             accepted.map(move |projection| (entry, formulation.clone(), projection.name))
         })
         .collect();

@@ -112,13 +112,18 @@ pub struct Entry {
     pub steps: Steps,
     /// Formulations it can integrate.
     pub accepts: &'static [&'static str],
-    /// Projections that would cost it an order.
-    pub refuses: &'static [&'static str],
+    /// Formulations with projections that would cost it an order.
+    pub refuses: &'static [(&'static str, &'static str)],
     pub options: &'static [OptionDoc],
     pub make: fn(&Setup) -> Result<Box<dyn Integrator>>,
 }
 
 impl Entry {
+    /// Whether a projection would cost it an order with a formulation.
+    pub fn refuses(&self, formulation: &str, projection: &str) -> bool {
+        self.refuses.contains(&(formulation, projection))
+    }
+
     /// Proven orders in q, v and lambda with a formulation.
     pub fn orders_with(&self, formulation: &str) -> [usize; 3] {
         let own = self.orders.iter().find(|(name, _)| *name == formulation);
