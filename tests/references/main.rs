@@ -62,6 +62,16 @@ fn andrews_squeezer() {
         ("index2 phem56 none", Tolerances(&[(1e-4, 1.5, 250), (1e-7, 5.4, 740), (1e-10, 8.3, 2600)])),
         ("index2 phem56 manifold", Tolerances(&[(1e-4, 1.5, 280), (1e-7, 6.5, 840), (1e-10, 10.0, 3000)])),
         ("index3 generalized_alpha none", Steps(&[(2e-5, 4.1, 1600), (1e-5, 4.7, 3200)])),
+        ("ggl generalized_alpha none", Steps(&[(2e-5, 3.0, 99999), (1e-5, 3.0, 99999)])),
+        ("index3 radau_iia none", Tolerances(&[(1e-4, 0.0, 99999), (1e-8, 0.0, 99999), (1e-12, 0.0, 99999)])),
+        ("index3 radau_iia velocity", Tolerances(&[(1e-4, 0.0, 99999), (1e-8, 0.0, 99999), (1e-12, 0.0, 99999)])),
+        ("ggl radau_iia none", Tolerances(&[(1e-4, 0.0, 99999), (1e-8, 0.0, 99999), (1e-12, 0.0, 99999)])),
+        ("index2 radau_iia none", Tolerances(&[(1e-4, 0.0, 99999), (1e-8, 0.0, 99999), (1e-12, 0.0, 99999)])),
+        ("index1 radau_iia none", Tolerances(&[(1e-4, 0.0, 99999), (1e-8, 0.0, 99999), (1e-12, 0.0, 99999)])),
+        ("index1 bdf none", Tolerances(&[(1e-4, 0.0, 99999), (1e-7, 0.0, 99999), (1e-10, 0.0, 99999)])),
+        ("ggl bdf none", Tolerances(&[(1e-4, 0.0, 99999), (1e-7, 0.0, 99999), (1e-10, 0.0, 99999)])),
+        ("ggl esdirk34 none", Tolerances(&[(1e-4, 0.0, 99999), (1e-7, 0.0, 99999)])),
+        ("ggl tr_bdf2 none", Tolerances(&[(1e-4, 0.0, 99999), (1e-6, 0.0, 99999)])),
     ]);
 }
 
@@ -92,6 +102,11 @@ fn car_on_a_bump() {
         ("index2 phem56 none", Tolerances(&[(1e-4, 2.9, 1200), (1e-7, 5.7, 4200), (1e-10, 8.7, 16000)])),
         ("index2 phem56 manifold", Tolerances(&[(1e-4, 2.9, 1400), (1e-7, 5.7, 4900), (1e-10, 8.7, 19000)])),
         ("index3 generalized_alpha none", Steps(&[(2e-3, 2.4, 1600), (1e-3, 3.0, 3200)])),
+        ("index3 radau_iia none", Tolerances(&[(1e-4, 0.0, 999999), (1e-8, 0.0, 999999), (1e-12, 0.0, 999999)])),
+        ("ggl radau_iia none", Tolerances(&[(1e-4, 0.0, 999999), (1e-8, 0.0, 999999), (1e-12, 0.0, 999999)])),
+        ("index2 radau_iia none", Tolerances(&[(1e-4, 0.0, 999999), (1e-8, 0.0, 999999), (1e-12, 0.0, 999999)])),
+        ("index1 radau_iia none", Tolerances(&[(1e-4, 0.0, 999999), (1e-8, 0.0, 999999), (1e-12, 0.0, 999999)])),
+        ("ggl bdf none", Tolerances(&[(1e-4, 0.0, 999999), (1e-7, 0.0, 999999)])),
     ]);
 }
 
@@ -103,6 +118,8 @@ fn pendulum_for_ten_seconds() {
         ("index2 phem56 none", Tolerances(&[(1e-4, 2.0, 520), (1e-7, 4.3, 1600), (1e-10, 7.4, 6000)])),
         ("index3 rattle none", Steps(&[(2e-3, 3.0, 5300), (1e-3, 3.6, 11000)])),
         ("index3 generalized_alpha none", Steps(&[(2e-3, 2.6, 5300), (1e-3, 3.3, 11000)])),
+        ("index3 radau_iia none", Tolerances(&[(1e-4, 0.0, 999999), (1e-8, 0.0, 999999), (1e-12, 0.0, 999999)])),
+        ("ggl radau_iia none", Tolerances(&[(1e-4, 0.0, 999999), (1e-8, 0.0, 999999), (1e-12, 0.0, 999999)])),
     ]);
 }
 
@@ -115,6 +132,8 @@ fn constrained_robot_arm() {
         ("index2 phem56 none", Tolerances(&[(1e-6, 2.5, 2700), (1e-8, 5.7, 5300), (1e-10, 7.6, 13000)])),
         ("index2 phem56 manifold", Tolerances(&[(1e-6, 2.5, 3100), (1e-8, 5.2, 6200), (1e-10, 7.0, 15000)])),
         ("index3 generalized_alpha none", Steps(&[(1e-3, 1.3, 11000), (5e-4, 1.9, 22000)])),
+        ("index3 radau_iia none", Tolerances(&[(1e-6, 0.0, 999999), (1e-8, 0.0, 999999), (1e-12, 0.0, 999999)])),
+        ("ggl radau_iia none", Tolerances(&[(1e-6, 0.0, 999999), (1e-8, 0.0, 999999), (1e-12, 0.0, 999999)])),
     ]);
 }
 
@@ -127,6 +146,24 @@ fn flexible_crank() {
         ("index1 dopri5 manifold", Tolerances(&[(1e-4, 2.7, 21000), (1e-6, 4.7, 45000)])),
         ("index2 phem56 none", Tolerances(&[(1e-4, 2.7, 18000), (1e-6, 4.7, 39000)])),
         ("index3 generalized_alpha none", Steps(&[(2e-5, 2.0, 5300), (1e-5, 2.4, 11000)])),
+        (
+            "index3 radau_iia none",
+            Tolerances(&[(1e-3, 0.0, 999999), (1e-5, 0.0, 999999), (1e-7, 0.0, 999999), (1e-10, 0.0, 999999)]),
+        ),
+        (
+            "ggl radau_iia none",
+            Tolerances(&[(1e-3, 0.0, 999999), (1e-5, 0.0, 999999), (1e-7, 0.0, 999999), (1e-10, 0.0, 999999)]),
+        ),
+        (
+            "index2 radau_iia none",
+            Tolerances(&[(1e-3, 0.0, 999999), (1e-5, 0.0, 999999), (1e-7, 0.0, 999999), (1e-10, 0.0, 999999)]),
+        ),
+        (
+            "index1 radau_iia none",
+            Tolerances(&[(1e-3, 0.0, 999999), (1e-5, 0.0, 999999), (1e-7, 0.0, 999999), (1e-10, 0.0, 999999)]),
+        ),
+        ("ggl bdf none", Tolerances(&[(1e-4, 0.0, 999999), (1e-6, 0.0, 999999)])),
+        ("index1 esdirk34 none", Tolerances(&[(1e-4, 0.0, 999999), (1e-6, 0.0, 999999)])),
     ]);
 }
 
@@ -136,5 +173,9 @@ fn flexible_crank_from_the_published_start() {
     PUBLISHED_CRANK.check(&[
         ("index1 dop853 velocity", Tolerances(&[(1e-4, 3.3, 13000), (1e-7, 6.8, 40000), (1e-10, 9.3, 74000)])),
         ("index2 phem56 none", Tolerances(&[(1e-4, 2.7, 18000), (1e-6, 4.7, 39000)])),
+        (
+            "index2 radau_iia none",
+            Tolerances(&[(1e-3, 0.0, 999999), (1e-5, 0.0, 999999), (1e-7, 0.0, 999999), (1e-10, 0.0, 999999)]),
+        ),
     ]);
 }
