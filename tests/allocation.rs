@@ -36,9 +36,14 @@ const METHODS: [(&str, &str, &str); 15] = [
     ("null_space", "dopri5", "manifold"),
 ];
 
-/// Methods for the constraints themselves. Left out is generalized_alpha, which makes some small blocks a step.
-const DIRECT: [(&str, &str, &str); 3] =
-    [("index2", "hem5", "none"), ("index2", "phem56", "manifold"), ("index3", "rattle", "none")];
+/// Methods for the constraints themselves.
+const DIRECT: [(&str, &str, &str); 5] = [
+    ("index2", "hem5", "none"),
+    ("index2", "phem56", "manifold"),
+    ("index3", "rattle", "none"),
+    ("index3", "generalized_alpha", "velocity"),
+    ("ggl", "generalized_alpha", "none"),
+];
 
 /// Keeps nothing.
 struct Nothing;
@@ -111,10 +116,13 @@ impl Equations for Twice {
 #[test]
 fn redundant_constraints() {
     check("pendulum twice", &Twice, (&[0.6, -0.8], &[0.0, 0.0]), 0.01);
+    check_methods("pendulum twice", &DIRECT, &Twice, (&[0.6, -0.8], &[0.0, 0.0]), 0.01);
 }
 
 #[test]
 fn methods_for_the_constraints_themselves() {
+    let (q, v) = driven_pendulum::start();
+    check_methods("driven pendulum", &DIRECT, &DrivenPendulum, (&q, &v), 0.01);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/andrews.json");
     let study = Study::load(&path, &Overrides::default()).unwrap();
     check_methods("andrews", &DIRECT, study.system(), study.start(), 1e-5);
@@ -133,8 +141,10 @@ fn scenes() {
 #[test]
 fn adaptive_steps_and_rows() {
     let (q, v) = driven_pendulum::start();
-    for integrator in ["dopri5", "dop853"] {
-        let method = adaptive("index1", integrator, "manifold", 1e-10);
+    for (formulation, integrator, tolerance) in
+        [("index1", "dopri5", 1e-10), ("index1", "dop853", 1e-10), ("ggl", "generalized_alpha", 1e-7)]
+    {
+        let method = adaptive(formulation, integrator, "manifold", tolerance);
         let run = |end| {
             let span = Span { start: 0.0, end, output_step: 0.001 };
             let (made, outcome) = allocations(&DrivenPendulum, &method, span, (&q, &v));

@@ -19,8 +19,31 @@ pub enum Halt {
     Massless(String),
     /// The equations do not determine the accelerations.
     Singular(Singular),
-    /// The method does not fit these equations, and why.
-    Unsuitable(&'static str),
+    /// Newton's method does not find the end of a step.
+    NotConverged,
+    /// The error of a step stays above the tolerance.
+    TooInaccurate,
+    /// The method does not fit these equations, whatever the step: why, and what does.
+    Unsuitable { reason: &'static str, hint: &'static str },
+}
+
+impl Halt {
+    /// What to do about it, where that does not depend on the run.
+    pub fn hint(&self) -> Option<&'static str> {
+        match self {
+            Halt::Term(_) => Some(
+                "the motion diverged (try a smaller step or a projection such as `manifold`), an expression left its \
+                 domain, or two points met: look at the motion just before the end",
+            ),
+            Halt::Unsuitable { hint, .. } => Some(hint),
+            _ => None,
+        }
+    }
+
+    /// Whether no smaller step can help.
+    pub fn is_final(&self) -> bool {
+        matches!(self, Halt::Unsuitable { .. })
+    }
 }
 
 impl fmt::Display for Halt {
@@ -36,7 +59,9 @@ impl fmt::Display for Halt {
                 write!(out, "`{coordinate}` has no mass in a direction, and the formulation needs the inverse of M")
             }
             Halt::Singular(singular) => write!(out, "{singular}"),
-            Halt::Unsuitable(reason) => write!(out, "{reason}"),
+            Halt::NotConverged => write!(out, "Newton's method does not converge"),
+            Halt::TooInaccurate => write!(out, "the error of a step stays above the tolerance"),
+            Halt::Unsuitable { reason, .. } => write!(out, "{reason}"),
         }
     }
 }

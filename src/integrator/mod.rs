@@ -30,6 +30,12 @@ use crate::error::{Error, Result};
 use crate::formulation::{self, Choice, Halt, OptionDoc};
 use crate::system::MechanicalSystem;
 
+/// Why an implicit method has no matrix.
+const NO_TANGENT: Halt = Halt::Unsuitable {
+    reason: "implicit methods need K and C, which these equations do not give",
+    hint: "implement MechanicalSystem::tangent, or use a method that needs none, such as phem56 with index2",
+};
+
 /// A one-step method. States are flat: q, v, and the work done by forces without a potential.
 pub trait Integrator {
     /// Order of the solution, p: the error of a step is O(h^{p+1}).

@@ -94,7 +94,9 @@ impl Rattle {
         let known = self.mass.get_or_insert_with(|| mass.to_vec());
         let largest = known.iter().fold(0.0, |largest: f64, m| largest.max(m.abs()));
         let same = known.iter().zip(mass).all(|(known, m)| (known - m).abs() <= 1e-12 * largest);
-        if same { Ok(()) } else { Err(Halt::Unsuitable("rattle needs a constant mass matrix, and it changed")) }
+        let reason = "rattle needs a constant mass matrix, and it changed";
+        let hint = "use generalized_alpha, or phem56 with index2: they take any mass matrix";
+        if same { Ok(()) } else { Err(Halt::Unsuitable { reason, hint }) }
     }
 
     /// v_h and q_1, from the accelerations of the equations of motion at the start: v_h differs from v + h/2 v' by

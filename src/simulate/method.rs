@@ -36,12 +36,13 @@ impl Method {
     pub fn check(&self) -> Result<()> {
         let entry = integrator::find(&self.integrator).map_err(|error| error.under("integrator"))?;
         integrator::check_pair(entry, &self.formulation).map_err(|error| error.under("formulation"))?;
-        if entry.refuses(&self.formulation.name, &self.projection.name) {
+        let (formulation, projection) = (self.formulation.name.as_str(), self.projection.name.as_str());
+        if entry.refuses(formulation, projection) {
             let others = projection::registry().iter().map(|other| other.name);
-            let others: Vec<&str> = others.filter(|other| !entry.refuses(&self.formulation.name, other)).collect();
-            return Err(Error::input(format!("{} loses an order with {}", entry.name, self.projection.name))
+            let others: Vec<&str> = others.filter(|other| !entry.refuses(formulation, other)).collect();
+            return Err(Error::input(format!("{} with {formulation} loses an order with {projection}", entry.name))
                 .under("projection")
-                .hint(format!("{} goes with {}", entry.name, others.join(", "))));
+                .hint(format!("{} with {formulation} goes with {}", entry.name, others.join(", "))));
         }
         for (name, value) in [("rtol", Some(self.rtol)), ("atol", Some(self.atol)), ("step", self.step)] {
             if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {

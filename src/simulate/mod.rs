@@ -133,28 +133,29 @@ impl<'a> Run<'a> {
     }
 
     fn integrate(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
-        self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.failure(halt.to_string()))?;
+        self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
         self.observe(sink);
-        self.rows.emit(self.t, &self.y, sink).map_err(|halt| self.failure(halt.to_string()))?;
+        self.rows.emit(self.t, &self.y, sink).map_err(|halt| self.halted(&halt))?;
         self.rows.next = 1;
-        let mut h = self.first_step().map_err(|halt| self.failure(halt.to_string()))?;
+        let mut h = self.first_step().map_err(|halt| self.halted(&halt))?;
         let mut growing = true;
         while self.t < self.span.end {
             let (mut size, mut last) = self.fit(h);
             let error = match self.step(&mut size, &mut last) {
                 Ok(error) => error,
+                Err(halt) if halt.is_final() => return Err(self.halted(&halt)),
                 Err(halt) => {
-                    h = self.retry(size, None, &halt.to_string())?;
+                    h = self.retry(size, None, &halt.to_string(), halt.hint())?;
                     growing = false;
                     continue;
                 }
             };
             if error.is_some_and(|error| error > 1.0 || error.is_nan()) {
-                h = self.retry(size, error, self.refusal)?;
+                h = self.retry(size, error, self.refusal, None)?;
                 growing = false;
                 continue;
             }
-            self.output(size, last, sink).map_err(|halt| self.failure(halt.to_string()))?;
+            self.output(size, last, sink).map_err(|halt| self.halted(&halt))?;
             self.accept(size, last, sink);
             if let Some(error) = error {
                 let proposed = self.integrator.control().accept(size, error, growing);
@@ -282,10 +283,10 @@ impl<'a> Run<'a> {
     }
 
     /// The step to try after a failed one, or the end of the run where no smaller step makes sense.
-    fn retry(&mut self, h: f64, error: Option<f64>, reason: &str) -> Result<f64, Failure> {
+    fn retry(&mut self, h: f64, error: Option<f64>, reason: &str, hint: Option<&str>) -> Result<f64, Failure> {
         self.problem.dynamics.statistics.rejected += 1;
         if self.fixed.is_some() {
-            return Err(self.failure(format!("{reason} (with the fixed step {h:e} s)")));
+            return Err(self.failure(format!("{reason} (with the fixed step {h:e} s)"), hint));
         }
         let smaller = match error {
             Some(error) if error.is_finite() => self.integrator.control().reject(h, error),
@@ -294,7 +295,7 @@ impl<'a> Run<'a> {
         let smallest = 1e-15 * self.t.abs().max(1e-3 * (self.span.end - self.span.start));
         match smaller > smallest {
             true => Ok(smaller),
-            false => Err(self.failure(format!("{reason}, down to a step of {h:.1e} s"))),
+            false => Err(self.failure(format!("{reason}, down to a step of {h:.1e} s"), hint)),
         }
     }
 
@@ -306,16 +307,17 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn failure(&self, reason: String) -> Failure {
-        let hint = match self.fixed {
-            _ if reason.contains("infinite or not a number") => {
-                "the motion diverged (try a smaller step or a projection such as `manifold`), an expression left its \
-                 domain, or two points met: look at the motion just before the end"
-            }
+    fn halted(&self, halt: &Halt) -> Failure {
+        self.failure(halt.to_string(), halt.hint())
+    }
+
+    /// With what usually helps where there is no `hint`.
+    fn failure(&self, reason: String, hint: Option<&str>) -> Failure {
+        let usual = match self.fixed {
             Some(_) => "try a smaller --step, a projection such as `manifold`, or an adaptive integrator",
             None => "try another tolerance or a projection such as `manifold`; look at the motion just before the end",
         };
-        Failure { t: self.t, reason, hint: hint.to_string() }
+        Failure { t: self.t, reason, hint: hint.unwrap_or(usual).to_string() }
     }
 }
 

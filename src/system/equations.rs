@@ -48,6 +48,7 @@ pub trait Equations: Send + Sync + 'static {
 }
 
 type Along = Dual<Taylor<f64>, 6>;
+type Twice = Dual<Dual<f64, 6>, 6>;
 
 struct Memory {
     mass: Vec<f64>,
@@ -57,6 +58,35 @@ struct Memory {
     slopes: Vec<Dual<f64, 6>>,
     moving: Vec<Along>,
     curvatures: Vec<Along>,
+    /// For K and C, from their first use.
+    varied: Option<Varied>,
+}
+
+/// The equations as functions of six directions.
+struct Varied {
+    q: Vec<Dual<f64, 6>>,
+    v: Vec<Dual<f64, 6>>,
+    f: Vec<Dual<f64, 6>>,
+    mass: Vec<Dual<f64, 6>>,
+    reaction: Vec<Dual<f64, 6>>,
+    nested: Vec<Twice>,
+    phi: Vec<Twice>,
+}
+
+impl Varied {
+    fn new(n: usize, m: usize) -> Self {
+        let zeros = |n: usize| vec![Dual::fixed(0.0); n];
+        let nested = |n: usize| vec![Dual::fixed(Dual::fixed(0.0)); n];
+        Varied {
+            q: zeros(n),
+            v: zeros(n),
+            f: zeros(n),
+            mass: zeros(n * n),
+            reaction: zeros(n),
+            nested: nested(n),
+            phi: nested(m),
+        }
+    }
 }
 
 impl Memory {
@@ -70,6 +100,7 @@ impl Memory {
             slopes: vec![Dual::fixed(0.0); m],
             moving: vec![Dual::fixed(zero); n],
             curvatures: vec![Dual::fixed(zero); m],
+            varied: None,
         }
     }
 }
@@ -105,8 +136,12 @@ impl<E: Equations> MechanicalSystem for E {
         scratch.with(|| Memory::new(n, m), fill);
     }
 
-    fn tangent(&self, at: Loaded, tangent: &mut Tangent, _scratch: &mut Scratch) -> bool {
-        tangent_of(self, at, tangent);
+    fn tangent(&self, at: Loaded, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
+        let (n, m) = self.size();
+        scratch.with(
+            || Memory::new(n, m),
+            |memory| tangent_of(self, at, memory.varied.get_or_insert_with(|| Varied::new(n, m)), tangent),
+        );
         true
     }
 
@@ -181,45 +216,47 @@ fn curvature<E: Equations>(system: &E, t: f64, q: &[f64], v: &[f64], memory: &mu
 }
 
 /// K by nested dual numbers, C by dual numbers, six columns a pass.
-fn tangent_of<E: Equations>(system: &E, at: Loaded, tangent: &mut Tangent) {
-    let (n, m) = system.size();
+fn tangent_of<E: Equations>(system: &E, at: Loaded, varied: &mut Varied, tangent: &mut Tangent) {
+    let n = at.q.len();
     let t = Dual::fixed(at.t);
-    let lift = |x: &[f64]| -> Vec<Dual<f64, 6>> { x.iter().map(|&x| Dual::fixed(x)).collect() };
-    let mut f = vec![Dual::fixed(0.0); n];
-    let mut mass = vec![Dual::fixed(0.0); n * n];
     for first in (0..n).step_by(6) {
         let columns = first..n.min(first + 6);
-        let (mut q, mut v) = (lift(at.q), lift(at.v));
-        columns.clone().for_each(|j| v[j] = Dual::seeded(at.v[j], j - first));
-        system.force(t, &q, &v, &mut f);
-        for (i, f) in f.iter().enumerate() {
+        lift(at.q, &mut varied.q);
+        lift(at.v, &mut varied.v);
+        columns.clone().for_each(|j| varied.v[j] = Dual::seeded(at.v[j], j - first));
+        system.force(t, &varied.q, &varied.v, &mut varied.f);
+        for (i, f) in varied.f.iter().enumerate() {
             columns.clone().for_each(|j| tangent.c[i * n + j] = -f.eps[j - first]);
         }
-        columns.clone().for_each(|j| q[j] = Dual::seeded(at.q[j], j - first));
-        system.force(t, &q, &lift(at.v), &mut f);
-        system.mass(t, &q, &mut mass);
-        let reaction = reaction(system, at, &q, m);
+        columns.clone().for_each(|j| varied.q[j] = Dual::seeded(at.q[j], j - first));
+        lift(at.v, &mut varied.v);
+        system.force(t, &varied.q, &varied.v, &mut varied.f);
+        system.mass(t, &varied.q, &mut varied.mass);
+        reaction(system, at, varied);
         for i in 0..n {
-            let mut row = reaction[i] - f[i];
-            (0..n).for_each(|j| row += mass[i * n + j] * at.vdot[j]);
+            let mut row = varied.reaction[i] - varied.f[i];
+            (0..n).for_each(|j| row += varied.mass[i * n + j] * at.vdot[j]);
             columns.clone().for_each(|j| tangent.k[i * n + j] = row.eps[j - first]);
         }
     }
 }
 
+fn lift(from: &[f64], to: &mut [Dual<f64, 6>]) {
+    to.iter_mut().zip(from).for_each(|(to, &x)| *to = Dual::fixed(x));
+}
+
 /// G^T lambda over dual numbers: the gradient of lambda . phi.
-fn reaction<E: Equations>(system: &E, at: Loaded, q: &[Dual<f64, 6>], m: usize) -> Vec<Dual<f64, 6>> {
-    let n = q.len();
-    let mut sum = vec![Dual::fixed(0.0); n];
-    let mut phi = vec![Dual::fixed(Dual::fixed(0.0)); m];
+fn reaction<E: Equations>(system: &E, at: Loaded, varied: &mut Varied) {
+    let n = at.q.len();
+    let Varied { q, reaction, nested, phi, .. } = varied;
+    reaction.fill(Dual::fixed(0.0));
     for first in (0..n).step_by(6) {
         let columns = first..n.min(first + 6);
-        let mut nested: Vec<Dual<Dual<f64, 6>, 6>> = q.iter().map(|&q| Dual::fixed(q)).collect();
+        nested.iter_mut().zip(&*q).for_each(|(nested, &q)| *nested = Dual::fixed(q));
         columns.clone().for_each(|i| nested[i] = Dual::seeded(q[i], i - first));
-        system.phi(Dual::fixed(Dual::fixed(at.t)), &nested, &mut phi);
+        system.phi(Dual::fixed(Dual::fixed(at.t)), nested, phi);
         for (phi, &lambda) in phi.iter().zip(at.lambda) {
-            columns.clone().for_each(|i| sum[i] += phi.eps[i - first] * lambda);
+            columns.clone().for_each(|i| reaction[i] += phi.eps[i - first] * lambda);
         }
     }
-    sum
 }

@@ -248,8 +248,8 @@ cases! {
         pendulum().args(&[
             "--integrator", "generalized-alpha", "--formulation", "index3", "--step", "0.01", "--projection", "full",
         ]) => [
-            "at --projection: generalized_alpha loses an order with full",
-            "generalized_alpha goes with none, position, velocity, manifold, exact",
+            "at --projection: generalized_alpha with index3 loses an order with full",
+            "generalized_alpha with index3 goes with none, position, velocity, manifold, exact",
         ];
     a_projection_that_starts_bdf_anew:
         pendulum().args(&["--integrator", "bdf", "--projection", "manifold"]) => [

@@ -21,9 +21,6 @@ pub trait Form {
     fn statistics(&mut self) -> &mut Statistics;
 }
 
-/// Why there is no Jacobian.
-pub const NO_TANGENT: Halt = Halt::Unsuitable("implicit integrators need K and C, which these equations do not give");
-
 /// A square matrix, column by column.
 pub struct Dense<'m> {
     pub n: usize,

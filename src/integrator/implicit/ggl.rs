@@ -1,9 +1,10 @@
 //! Gear-Gupta-Leimkuhler's equations for implicit integrators.
 
 use super::super::{From, Setup};
-use super::form::{Dense, Form, NO_TANGENT};
+use super::form::{Dense, Form};
 use super::kinematics::Kinematics;
 use crate::formulation::{Dynamics, Halt, Statistics};
+use crate::integrator::NO_TANGENT;
 use crate::system::{Dimensions, Loaded, Need, Tangent};
 use std::ops::Range;
 
@@ -93,7 +94,10 @@ impl Form for Ggl<'_> {
         let (q, speed) = (&from.y[..v.start], &from.y[v.clone()]);
         self.dynamics.solve(from.t, q, speed, |_, _| 0.0)?;
         if self.dynamics.is_rank_deficient {
-            return Err(Halt::Unsuitable("ggl cannot solve redundant constraints: `holonom check` names them"));
+            return Err(Halt::Unsuitable {
+                reason: "ggl cannot solve redundant constraints with this integrator",
+                hint: "`holonom check` names them; radau_iia and generalized_alpha solve them with ggl",
+            });
         }
         x.fill(0.0);
         rate.fill(0.0);

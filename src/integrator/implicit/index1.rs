@@ -1,10 +1,11 @@
 //! Index 1 for implicit integrators: lambda eliminated.
 
 use super::super::{From, Problem, Setup};
-use super::form::{Dense, Form, NO_TANGENT};
+use super::form::{Dense, Form};
 use super::kinematics::Kinematics;
 use crate::error::Result;
 use crate::formulation::{self, Dynamics, Halt, Statistics};
+use crate::integrator::NO_TANGENT;
 use crate::system::{Loaded, Need, Tangent};
 
 /// ```text

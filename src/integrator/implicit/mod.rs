@@ -12,6 +12,7 @@ mod store;
 use super::{Control, From, Integrator, Problem, Setup, Tolerance};
 use crate::error::Result;
 use crate::formulation::Halt;
+use crate::math::kkt::Singular;
 use diffsol::error::OdeSolverError;
 use diffsol::ode_solver::state::StateCommon;
 use diffsol::{
@@ -103,7 +104,7 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Implicit<'h, 's, S> {
         if let Some(form) = self.form.take() {
             self.store.fill(form, self.y.len(), tolerance);
         }
-        let problem = self.store.problem().ok_or(Halt::Unsuitable("the store belongs to another integrator"))?;
+        let problem = self.store.problem().ok_or(Halt::NotConverged)?;
         let (eqn, empty) = (&problem.eqn, || Values::zeros(0, problem.eqn.context));
         let mut y = Values::zeros(eqn.len, eqn.context);
         let mut dy = y.clone();
@@ -143,7 +144,7 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Implicit<'h, 's, S> {
         self.is_ahead = t > end;
         self.own_step = if self.is_ahead { end - began } else { t - began };
         if self.own_step <= 0.0 {
-            return Err(Halt::Unsuitable("the step is lost in the rounding of t"));
+            return Err(Halt::TooInaccurate);
         }
         match self.is_ahead {
             true => at(solver, end, to),
@@ -160,13 +161,9 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Implicit<'h, 's, S> {
     /// Why the solver gave up.
     fn halt(&self, error: DiffsolError) -> Halt {
         self.own_halt().unwrap_or(match error {
-            DiffsolError::OdeSolverError(OdeSolverError::TooManyErrorTestFailures { .. }) => {
-                Halt::Unsuitable("the error of a step stays above the tolerance")
-            }
-            DiffsolError::OdeSolverError(OdeSolverError::StepSizeTooSmall { .. }) => {
-                Halt::Unsuitable("Newton's method does not converge or the tolerance is not met")
-            }
-            _ => Halt::Unsuitable("the linear system of Newton's method cannot be solved"),
+            DiffsolError::OdeSolverError(OdeSolverError::TooManyErrorTestFailures { .. }) => Halt::TooInaccurate,
+            DiffsolError::OdeSolverError(OdeSolverError::StepSizeTooSmall { .. }) => Halt::NotConverged,
+            _ => Halt::Singular(Singular::NotFactored),
         })
     }
 

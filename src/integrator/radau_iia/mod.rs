@@ -175,7 +175,7 @@ impl Solver<'_> {
             match self.convergence.judge(change) {
                 Verdict::Converged => break,
                 Verdict::GoOn => {}
-                Verdict::Failed => return Err(Halt::Unsuitable("Newton's method does not converge")),
+                Verdict::Failed => return Err(Halt::NotConverged),
             }
         }
         self.stages.work(self.method, from, h);

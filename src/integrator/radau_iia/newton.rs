@@ -4,7 +4,7 @@ use super::collocation::{Collocation, Mode};
 use super::stages::{Residual, Stages};
 use crate::error::{Error, Result};
 use crate::formulation::{Dynamics, Halt, Rows};
-use crate::integrator::{From, Problem, Setup};
+use crate::integrator::{From, NO_TANGENT, Problem, Setup};
 use crate::math::kkt::{Field, Unsymmetric};
 use crate::system::{Loaded, Need, Tangent};
 use faer::c64;
@@ -51,7 +51,7 @@ impl Newton {
         dynamics.evaluate(from.t, q, v, need);
         let at = Loaded { t: from.t, q, v, vdot, lambda };
         if !dynamics.system.tangent(at, &mut self.at.tangent, &mut dynamics.scratch) {
-            return Err(Halt::Unsuitable("radau_iia needs K and C, which these equations do not give"));
+            return Err(NO_TANGENT);
         }
         dynamics.statistics.jacobian_evaluations += 1;
         self.at.mass.copy_from_slice(&dynamics.terms.mass);

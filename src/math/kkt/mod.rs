@@ -74,6 +74,11 @@ pub enum Singular {
     /// The matrix or a solution is not finite.
     #[error("the saddle-point system or its solution is not finite")]
     NotFinite,
+    /// The matrix of an implicit step has no inverse: its constraints depend on each other otherwise than at the start.
+    #[error(
+        "the matrix of an implicit step is singular: the rank of the constraints changes, or the motion is not determined"
+    )]
+    Collapsed,
     /// Values or right sides do not fit the patterns.
     #[error("the values do not fit the saddle-point system's patterns")]
     Shape,

@@ -37,6 +37,9 @@ const GAIN: f64 = 1e-10;
 /// Residual relative to the rows that is round-off, and the largest that is a solution.
 const ROUND_OFF: f64 = 1e-16;
 const SOLVED: f64 = 1e-9;
+/// The same of dependent rows, which a drift of the positions by round-off, over the step, makes contradict each other: the
+/// best of all a is the solution.
+const CONSISTENT: f64 = 1e-5;
 
 /// The factored symmetric matrix with G2.
 struct Pair<'p> {
@@ -66,7 +69,8 @@ impl TwoPlaces {
     /// and lambda on return.
     ///
     /// # Errors
-    /// [`Singular::Apart`] when the residual stays above 1e-9 of the rows; what the factors report.
+    /// [`Singular::Apart`] when the residual stays above 1e-9 of the rows, or above 1e-5 where rows of G1 are dependent;
+    /// what the factors report.
     pub fn solve(
         &mut self,
         kkt: &mut SaddlePoint,
@@ -90,7 +94,8 @@ impl TwoPlaces {
                 self.measure(&pair, r, top);
             }
             let residual = self.residual(&pair, r, top);
-            if residual <= ROUND_OFF || residual <= SOLVED && residual > 0.1 * last {
+            let solved = if pair.kkt.is_rank_deficient() { CONSISTENT } else { SOLVED };
+            if residual <= ROUND_OFF || residual <= solved && residual > 0.1 * last {
                 return Ok(());
             }
             if residual.is_nan() || residual >= 0.9 * last {
@@ -102,13 +107,16 @@ impl TwoPlaces {
         Err(Singular::Apart)
     }
 
-    /// Sizes of the rows: |r_i| + sum_j |G2_ij| max |a|.
+    /// Sizes of the rows: |r_i| + sum_j |G2_ij| max |a|, where a is that of the guess or what r asks for, if that is more:
+    /// a guess of zero says nothing, and rows without a right side are measured against the others.
     fn measure(&mut self, pair: &Pair, r: &[f64], a: &[f64]) {
-        let most = largest(a);
-        self.scale.iter_mut().zip(r).for_each(|(scale, r)| *scale = r.abs());
+        self.scale.fill(0.0);
         for (&(i, _), value) in pair.pattern.entries.iter().zip(pair.g2) {
-            self.scale[i] += value.abs() * most;
+            self.scale[i] += value.abs();
         }
+        let asked = r.iter().zip(&self.scale).filter(|(_, row)| **row > 0.0).map(|(r, row)| r.abs() / row);
+        let most = asked.fold(largest(a), f64::max);
+        self.scale.iter_mut().zip(r).for_each(|(scale, r)| *scale = *scale * most + r.abs());
         self.scale.iter_mut().filter(|scale| **scale == 0.0).for_each(|scale| *scale = 1.0);
     }
 

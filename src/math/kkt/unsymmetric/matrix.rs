@@ -11,24 +11,29 @@ pub(super) struct Matrix<T> {
     is_full: bool,
 }
 
+/// Entries of A, G, G^T, and the diagonal behind A, where rows of G that are left out get a one. None where there is not
+/// enough memory.
+pub(super) fn places(mass: &Pattern, tangent: &Pattern, g: &Pattern) -> Option<SymbolicSparseColMat<usize>> {
+    let (n, size) = (g.cols, g.cols + g.rows);
+    let both = |(row, col): (usize, usize)| [Pair { row, col }, Pair { row: col, col: row }];
+    let mut pairs: Vec<_> = tangent.entries.iter().map(|&(row, col)| Pair { row, col }).collect();
+    pairs.extend(mass.entries.iter().flat_map(|&entry| both(entry)));
+    pairs.extend(g.entries.iter().flat_map(|&(i, j)| both((n + i, j))));
+    pairs.extend((n..size).map(|k| Pair { row: k, col: k }));
+    Some(SymbolicSparseColMat::try_new_from_indices(size, size, &pairs).ok()?.0)
+}
+
+/// All places.
+fn full(size: usize) -> Option<SymbolicSparseColMat<usize>> {
+    let pairs: Vec<_> = (0..size).flat_map(|col| (0..size).map(move |row| Pair { row, col })).collect();
+    Some(SymbolicSparseColMat::try_new_from_indices(size, size, &pairs).ok()?.0)
+}
+
 impl<T: Field> Matrix<T> {
-    /// Entries of A, G, G^T, and the diagonal behind A, where rows of G that are left out get a one. None where there is
-    /// not enough memory.
-    pub fn new(symmetric: &Pattern, tangent: &Pattern, g: &Pattern, is_full: bool) -> Option<Self> {
-        let (n, size) = (g.cols, g.cols + g.rows);
-        let both = |(row, col): (usize, usize)| [Pair { row, col }, Pair { row: col, col: row }];
-        let mut pairs: Vec<Pair<usize, usize>> = match is_full {
-            true => (0..size).flat_map(|col| (0..size).map(move |row| Pair { row, col })).collect(),
-            false => tangent.entries.iter().map(|&(row, col)| Pair { row, col }).collect(),
-        };
-        if !is_full {
-            pairs.extend(symmetric.entries.iter().flat_map(|&entry| both(entry)));
-            pairs.extend(g.entries.iter().flat_map(|&(i, j)| both((n + i, j))));
-            pairs.extend((n..size).map(|k| Pair { row: k, col: k }));
-        }
-        let (places, _) = SymbolicSparseColMat::try_new_from_indices(size, size, &pairs).ok()?;
-        let values = vec![T::ZERO; places.compute_nnz()];
-        Some(Matrix { places, values, is_full })
+    /// None where there is not enough memory.
+    pub fn new(places: SymbolicSparseColMat<usize>, is_full: bool) -> Option<Self> {
+        let places = if is_full { full(places.nrows())? } else { places };
+        Some(Matrix { values: vec![T::ZERO; places.compute_nnz()], places, is_full })
     }
 
     pub fn size(&self) -> usize {

@@ -12,6 +12,7 @@ pub use field::Field;
 
 use super::{Pattern, Singular};
 use dense::Dense;
+use faer::sparse::SymbolicSparseColMat;
 use matrix::Matrix;
 use redundancy::Redundancy;
 use sparse::Sparse;
@@ -72,13 +73,13 @@ const COLLAPSED: f64 = 1e-14;
 impl<T: Field> Unsymmetric<T> {
     /// For A with entries of M (one triangle) and of C and K, and for G; none where there is not enough memory.
     pub fn new(mass: &Pattern, tangent: &Pattern, g: &Pattern) -> Option<Self> {
-        let size = g.cols + g.rows;
-        let entries = 2 * mass.entries.len() + tangent.entries.len() + 2 * g.entries.len();
-        Self::with(mass, tangent, g, FULL * entries >= size * size)
+        let places = matrix::places(mass, tangent, g)?;
+        let is_dense = FULL * places.compute_nnz() >= places.nrows() * places.ncols();
+        Self::at(places, g, is_dense)
     }
 
-    fn with(mass: &Pattern, tangent: &Pattern, g: &Pattern, is_dense: bool) -> Option<Self> {
-        let matrix = Matrix::new(mass, tangent, g, is_dense)?;
+    fn at(places: SymbolicSparseColMat<usize>, g: &Pattern, is_dense: bool) -> Option<Self> {
+        let matrix = Matrix::new(places, is_dense)?;
         let size = matrix.size();
         Some(Unsymmetric {
             n: g.cols,
@@ -150,7 +151,7 @@ impl<T: Field> Unsymmetric<T> {
             self.state = State::Factored;
             return Ok(());
         }
-        Err(Singular::NotFactored)
+        Err(Singular::Collapsed)
     }
 
     /// Scales by A for the coordinates, |A_ij| <= 1, and by what that makes of the rows of G.
@@ -177,7 +178,7 @@ impl<T: Field> Unsymmetric<T> {
     fn renew_redundancy(&mut self, g: &[f64]) -> Result<(), Singular> {
         let Some(redundancy) = &mut self.redundancy else { return Ok(()) };
         let count = redundancy.find(&self.weight, g);
-        if count == redundancy.count { Ok(()) } else { Err(Singular::NotFactored) }
+        if count == redundancy.count { Ok(()) } else { Err(Singular::Collapsed) }
     }
 
     /// Whether there are rows to leave out.

@@ -1,0 +1,206 @@
+//! Accelerations carried from step to step, and where they lead.
+
+use super::super::{From, Problem};
+use crate::formulation::Halt;
+use crate::system::Dimensions;
+
+/// Coefficients of the method.
+pub(super) struct Scheme {
+    alpha_m: f64,
+    alpha_f: f64,
+    pub gamma: f64,
+    pub beta: f64,
+}
+
+impl Scheme {
+    /// From rho_inf.
+    pub fn new(r: f64) -> Self {
+        let (alpha_m, alpha_f) = ((2.0 * r - 1.0) / (r + 1.0), r / (r + 1.0));
+        let gamma = 0.5 + alpha_f - alpha_m;
+        Scheme { alpha_m, alpha_f, gamma, beta: 0.25 * (gamma + 0.5) * (gamma + 0.5) }
+    }
+
+    /// da_1/dv'_1
+    pub fn slope(&self) -> f64 {
+        (1.0 - self.alpha_f) / (1.0 - self.alpha_m)
+    }
+
+    /// a is v' this part of a step after its own time.
+    fn lead(&self) -> f64 {
+        self.alpha_m - self.alpha_f
+    }
+
+    /// Of the local error of q, per h^3 v''.
+    fn error(&self) -> f64 {
+        1.0 / 6.0 - self.beta - 0.5 * self.lead()
+    }
+}
+
+/// What one step hands to the next.
+pub(super) struct Carried {
+    /// Time that it belongs to; none before it is known.
+    t: Option<f64>,
+    /// Step that `a` goes with.
+    h: f64,
+    pub a: Vec<f64>,
+    pub vdot: Vec<f64>,
+    pub lambda: Vec<f64>,
+}
+
+impl Carried {
+    fn new(n: Dimensions) -> Self {
+        Carried { t: None, h: 1.0, a: vec![0.0; n.v], vdot: vec![0.0; n.v], lambda: vec![0.0; n.lambda] }
+    }
+
+    fn is_at(&self, t: f64, h: f64) -> bool {
+        self.t.is_some_and(|own| (own - t).abs() < 1e-6 * h)
+    }
+}
+
+pub(super) struct Motion {
+    pub scheme: Scheme,
+    start: Carried,
+    pub end: Carried,
+    /// a at the start, for the step that is made.
+    a: Vec<f64>,
+    /// -A^-1 G^T eta
+    pub shift: Vec<f64>,
+    /// Change of q along the directions of v: with a_1 as predicted, and by what it then differs.
+    predicted: Vec<f64>,
+    change: Vec<f64>,
+    a_predicted: Vec<f64>,
+    /// Where the second change starts, if the changes are made one after the other.
+    between: Option<Vec<f64>>,
+    stages: [Vec<f64>; 3],
+}
+
+impl Motion {
+    pub fn new(scheme: Scheme, n: Dimensions, is_split: bool) -> Self {
+        let zeros = |n: usize| vec![0.0; n];
+        Motion {
+            scheme,
+            start: Carried::new(n),
+            end: Carried::new(n),
+            a: zeros(n.v),
+            shift: zeros(n.v),
+            predicted: zeros(n.v),
+            change: zeros(n.v),
+            a_predicted: zeros(n.v),
+            between: is_split.then(|| zeros(n.q)),
+            stages: [zeros(n.q), zeros(n.q), zeros(n.q)],
+        }
+    }
+
+    /// Takes over what the step before reached (or starts), for a step of size `h`; a step tried before from here is
+    /// forgotten. `ahead` is scratch. Leaves v' and lambda of the start as a prediction of those at the end.
+    pub fn begin(&mut self, problem: &mut Problem, from: From, h: f64, ahead: &mut [f64]) -> Result<(), Halt> {
+        if self.end.is_at(from.t, h) {
+            std::mem::swap(&mut self.start, &mut self.end);
+        } else if !self.start.is_at(from.t, h) {
+            self.start(problem, from, h, ahead)?;
+        }
+        self.end.t = None;
+        self.end.h = h;
+        let Carried { a, vdot, lambda, h: own, .. } = &self.start;
+        for (i, next) in self.a.iter_mut().enumerate() {
+            *next = vdot[i] + h / own * (a[i] - vdot[i]);
+        }
+        self.end.vdot.copy_from_slice(vdot);
+        self.end.lambda.copy_from_slice(lambda);
+        self.shift.fill(0.0);
+        self.predict(problem, from, h);
+        Ok(())
+    }
+
+    /// a = v'(t + (alpha_m - alpha_f) h) + O(h^2), against transients of first order in lambda.
+    fn start(&mut self, problem: &mut Problem, from: From, h: f64, ahead: &mut [f64]) -> Result<(), Halt> {
+        let (_, vdot) = problem.split(from.slope);
+        self.start.vdot.copy_from_slice(vdot);
+        for (i, ahead) in ahead.iter_mut().enumerate() {
+            *ahead = from.y[i] + h * from.slope[i];
+        }
+        let (q, v) = problem.split_mut(ahead);
+        let dynamics = &mut problem.dynamics;
+        dynamics.system.normalize(q);
+        dynamics.solve(from.t + h, q, v, |_, _| 0.0)?;
+        for (i, a) in self.start.a.iter_mut().enumerate() {
+            *a = vdot[i] + self.scheme.lead() * (dynamics.vdot[i] - vdot[i]);
+        }
+        self.start.lambda.copy_from_slice(&dynamics.lambda);
+        (self.start.t, self.start.h) = (Some(from.t), h);
+        Ok(())
+    }
+
+    /// The step has found its end at `t`.
+    pub fn reached(&mut self, t: f64) {
+        self.end.t = Some(t);
+    }
+
+    /// The leading term of the error of q along the directions of v.
+    pub fn local_error(&mut self, h: f64) -> &[f64] {
+        let factor = self.scheme.error() * h * h;
+        for (i, error) in self.change.iter_mut().enumerate() {
+            *error = factor * (self.end.a[i] - self.a[i]);
+        }
+        &self.change
+    }
+
+    /// a_1 that goes with v'_1.
+    fn a_end(&self, i: usize) -> f64 {
+        let Scheme { alpha_m, alpha_f, .. } = self.scheme;
+        let mean = (1.0 - alpha_f) * self.end.vdot[i] + alpha_f * self.start.vdot[i];
+        (mean - alpha_m * self.a[i]) / (1.0 - alpha_m)
+    }
+
+    fn predict(&mut self, problem: &Problem, from: From, h: f64) {
+        let (q0, v0) = problem.split(from.y);
+        let beta = self.scheme.beta;
+        for (i, v) in v0.iter().enumerate() {
+            let a = self.a_end(i);
+            self.a_predicted[i] = a;
+            self.predicted[i] = h * v + h * h * ((0.5 - beta) * self.a[i] + beta * a);
+        }
+        if let Some(between) = &mut self.between {
+            turn(problem, &mut self.stages, q0, &self.predicted, between);
+        }
+    }
+
+    /// a_1, v_1 and q_1 that go with v'_1 and the shift.
+    pub fn advance(&mut self, problem: &Problem, from: From, h: f64, to: &mut [f64]) {
+        let (q0, v0) = problem.split(from.y);
+        let (q, v) = problem.split_mut(to);
+        let Scheme { gamma, beta, .. } = self.scheme;
+        for i in 0..v.len() {
+            let a = self.a_end(i);
+            self.end.a[i] = a;
+            v[i] = v0[i] + h * ((1.0 - gamma) * self.a[i] + gamma * a);
+            self.change[i] = h * h * beta * (a - self.a_predicted[i]) + self.shift[i];
+        }
+        let start = self.between.as_deref().unwrap_or_else(|| {
+            self.change.iter_mut().zip(&self.predicted).for_each(|(change, predicted)| *change += predicted);
+            q0
+        });
+        turn(problem, &mut self.stages, start, &self.change, q);
+    }
+}
+
+/// q = q0 exp(change): a constant rate by the classical Runge-Kutta method, with an error of O(|change|^5).
+fn turn(problem: &Problem, stages: &mut [Vec<f64>; 3], q0: &[f64], change: &[f64], q: &mut [f64]) {
+    if q.len() == change.len() {
+        q.iter_mut().zip(q0.iter().zip(change)).for_each(|(q, (q0, dq))| *q = q0 + dq);
+        return;
+    }
+    let system = problem.dynamics.system;
+    let [rate, stage, sum] = stages;
+    stage.copy_from_slice(q0);
+    sum.fill(0.0);
+    for (ahead, weight) in [(0.5, 1.0 / 6.0), (0.5, 1.0 / 3.0), (1.0, 1.0 / 3.0), (0.0, 1.0 / 6.0)] {
+        system.rate(stage, change, rate);
+        for i in 0..rate.len() {
+            sum[i] += weight * rate[i];
+            stage[i] = q0[i] + ahead * rate[i];
+        }
+    }
+    q.iter_mut().zip(q0.iter().zip(sum.iter())).for_each(|(q, (q0, dq))| *q = q0 + dq);
+    system.normalize(q);
+}
