@@ -143,7 +143,7 @@ impl Progress {
         match change <= f64::EPSILON * size || change < SMALL * size && !falls {
             true => Ok(true),
             false if falls => Ok(false),
-            false => Err(Halt::Unsuitable("the constraints bend too far within a step; a smaller one helps")),
+            false => Err(Halt::NotConverged),
         }
     }
 }
