@@ -36,6 +36,17 @@ pub trait Formulation: Send {
         qdot: &mut [f64],
         vdot: &mut [f64],
     ) -> Result<(), Halt>;
+
+    /// A step begins at a state of the motion: what follows are states within that step, until it ends.
+    fn begin_step(&mut self, _t: f64, _q: &[f64], _v: &[f64], _dynamics: &mut Dynamics) -> Result<(), Halt> {
+        Ok(())
+    }
+
+    /// The step ends, or is left for a row of output, at what the integrator made of (q, v): writes the state of the
+    /// motion that this stands for.
+    fn end_step(&mut self, _t: f64, _q: &mut [f64], _v: &mut [f64], _dynamics: &mut Dynamics) -> Result<(), Halt> {
+        Ok(())
+    }
 }
 
 /// The constraint rows of a formulation.

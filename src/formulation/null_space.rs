@@ -1,27 +1,190 @@
-//! The equations on the null space of G.
+//! Minimal coordinates: the equations on the tangent space of the constraints.
 
-use super::Entry;
 use super::dense::Dense;
+use super::{Dynamics, Entry, Formulation, Halt};
 use crate::error::Error;
-use crate::math::kkt::Reduced;
+use crate::math::kkt::{Chart, Reduced};
+use crate::system::{MechanicalSystem, Need};
 
+/// With G_b Z = 0 at the start (q_b, v_b) of a step, and Y normal to Z in the metric of diag(M_b),
+///
 /// ```text
-/// v' = Y y + Z z,   G Z = 0,   G Y y = gamma,   Z^T M Z z = Z^T (f - M Y y),   Y^T G^T lambda = Y^T (f - M v')
+/// q = q_b + Z u + Y c,  phi(q, t) = 0,      v = v_b + Z u' + Y d,  G v + phi_t = 0        n - m coordinates u
+/// v' = Y0 y + Z0 z,  G Z0 = 0,  G Y0 y = gamma,  Z0^T M Z0 z = Z0^T (f - M Y0 y),  Y0^T G^T lambda = Y0^T (f - M v')
 /// ```
 ///
-/// with [Y Z] from a pivoted QR of G^T at every state. Source: Kim, Vanderploeg, J. Mech. Transm. Autom. Des. 108
-/// (1986) 176-182. The same field as index 1 without the saddle-point matrix, so it drifts as that does: use it with a
-/// projection. All n velocities are integrated; minimal coordinates along Z, with a change of basis now and then, would
-/// be another formulation. G may be rank deficient: lambda is then the one of least norm. Order in q, v, lambda: that of
-/// the integrator. Dense, about 3 n m^2 + 4 n^2 (n - m) operations a stage: meant for small systems.
+/// The first line is a chart of the manifold: c by Newton's method, d from one linear system. The second, from a pivoted
+/// QR of G^T at the state itself, gives u'' = the part of v' along Z. So 2 (n - m) states are integrated, and the
+/// constraints hold to round-off on both levels at every stage and every step, with no projection. Source: Potra,
+/// Rheinboldt, Mech. Struct. Mach. 19 (1991) 1-18; Kim, Vanderploeg, J. Mech. Transm. Autom. Des. 108 (1986) 183-188.
+///
+/// An integrator sees (q, v) and (q', v') in all n directions. Since c and d follow from u, u' and t, the lines above
+/// ignore what it makes of the parts along Y; these, of the method's order too, are the guess of Newton's method. Every
+/// accepted step has a base of its own, whose QR is a small part of the work of the stages, so that a chart is never used
+/// far from its base; slopes at the end of a step are those at the start of the next. A step within which Newton's method
+/// does not converge is too long for its chart, and refused. With quaternions, q' = N v, the chart is not affine:
+/// q = (q_b + N u)/|.|, then corrections N Y c; all else holds.
+///
+/// G may be rank deficient: lambda is then the one of least norm. Order in q, v, lambda: that of the integrator. Dense,
+/// about 3 n m^2 + 4 n^2 (n - m) + 3 m^3 operations a stage, with some three evaluations of phi and G: for small systems.
 pub const ENTRY: Entry = Entry {
     name: "null_space",
-    about: "Z^T M Z z = Z^T (f - M Y y) with G Z = 0, dense; drifts as index1 does",
+    about: "minimal coordinates in the tangent space, with a new base each step: no drift; dense",
     options: &[],
     rows: None,
     make: |_, system| {
-        let structure = system.structure();
-        let reduced = Reduced::new(&structure.mass, &structure.g);
-        Ok(Box::new(Dense(reduced.ok_or_else(|| Error::input("null_space: M and G do not fit each other"))?)))
+        let tangent_space = TangentSpace::new(system);
+        Ok(Box::new(tangent_space.ok_or_else(|| Error::input("null_space: M and G do not fit each other"))?))
     },
 };
+
+struct TangentSpace {
+    field: Dense<Reduced>,
+    chart: Chart,
+    /// Whether states are within a step, and so of the chart; others stand for themselves.
+    is_within: bool,
+    /// t and q of the base.
+    base: (f64, Vec<f64>),
+    /// The state on the manifold.
+    q: Vec<f64>,
+    v: Vec<f64>,
+    /// A correction, along v and as a change of q; G v + phi_t.
+    step: Vec<f64>,
+    rate: Vec<f64>,
+    rows: Vec<f64>,
+}
+
+/// The change relative to the state below which it may stop falling.
+const SMALL: f64 = 1e-9;
+
+impl TangentSpace {
+    fn new(system: &dyn MechanicalSystem) -> Option<Self> {
+        let (n, structure) = (system.dimensions(), system.structure());
+        let zeros = |n: usize| vec![0.0; n];
+        Some(TangentSpace {
+            field: Dense(Reduced::new(&structure.mass, &structure.g)?),
+            chart: Chart::new(&structure.mass, &structure.g),
+            is_within: false,
+            base: (f64::NAN, zeros(n.q)),
+            q: zeros(n.q),
+            v: zeros(n.v),
+            step: zeros(n.v),
+            rate: zeros(n.q),
+            rows: zeros(n.lambda),
+        })
+    }
+
+    /// The state on the manifold with the u and u' of (q, v).
+    fn lift(&mut self, t: f64, q: &[f64], v: &[f64], dynamics: &mut Dynamics) -> Result<(), Halt> {
+        self.q.copy_from_slice(q);
+        self.v.copy_from_slice(v);
+        dynamics.system.normalize(&mut self.q);
+        self.lift_position(t, dynamics)?;
+        self.lift_velocity(dynamics)
+    }
+
+    /// Newton's method, by the matrix of the guess while this gains two digits an iteration.
+    fn lift_position(&mut self, t: f64, dynamics: &mut Dynamics) -> Result<(), Halt> {
+        let mut progress = Progress::default();
+        loop {
+            dynamics.evaluate(t, &self.q, &self.v, Need::CONSTRAINTS | Need::G);
+            if progress.is_slow {
+                self.chart.factor(&dynamics.terms.g);
+            }
+            self.chart.solve(&dynamics.terms.phi, &mut self.step);
+            dynamics.system.rate(&self.q, &self.step, &mut self.rate);
+            self.q.iter_mut().zip(&self.rate).for_each(|(q, rate)| *q -= rate);
+            dynamics.system.normalize(&mut self.q);
+            if progress.settles(&self.step, &self.q)? {
+                return Ok(());
+            }
+        }
+    }
+
+    /// The matrix is that of a position close by, which a few iterations make up for.
+    fn lift_velocity(&mut self, dynamics: &Dynamics) -> Result<(), Halt> {
+        let mut progress = Progress::default();
+        loop {
+            self.rows.copy_from_slice(&dynamics.terms.phi_t);
+            dynamics.structure.g.multiply(&dynamics.terms.g, &self.v, &mut self.rows);
+            self.chart.solve(&self.rows, &mut self.step);
+            self.v.iter_mut().zip(&self.step).for_each(|(v, step)| *v -= step);
+            if progress.settles(&self.step, &self.v)? {
+                return Ok(());
+            }
+        }
+    }
+}
+
+/// How an iteration goes on.
+struct Progress {
+    last: f64,
+    /// Whether the last change gained less than two digits.
+    is_slow: bool,
+}
+
+impl Default for Progress {
+    fn default() -> Self {
+        Progress { last: f64::INFINITY, is_slow: true }
+    }
+}
+
+impl Progress {
+    /// Whether `x`, just changed by `step`, is at round-off. Changes halve at least until then, or else the state is not
+    /// in the chart, or on another branch of the constraints.
+    fn settles(&mut self, step: &[f64], x: &[f64]) -> Result<bool, Halt> {
+        if !step.iter().all(|step| step.is_finite()) {
+            return Err(Halt::NotFinite);
+        }
+        let (change, size) = (largest(step), largest(x));
+        let falls = change <= 0.5 * self.last;
+        self.is_slow = change > 0.01 * self.last;
+        self.last = change;
+        match change <= f64::EPSILON * size || change < SMALL * size && !falls {
+            true => Ok(true),
+            false if falls => Ok(false),
+            false => Err(Halt::NotConverged),
+        }
+    }
+}
+
+fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()))
+}
+
+impl Formulation for TangentSpace {
+    fn derivative(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        dynamics: &mut Dynamics,
+        qdot: &mut [f64],
+        vdot: &mut [f64],
+    ) -> Result<(), Halt> {
+        if !self.is_within {
+            return self.field.derivative(t, q, v, dynamics, qdot, vdot);
+        }
+        self.lift(t, q, v, dynamics)?;
+        self.field.derivative(t, &self.q, &self.v, dynamics, qdot, vdot)
+    }
+
+    fn begin_step(&mut self, t: f64, q: &[f64], v: &[f64], dynamics: &mut Dynamics) -> Result<(), Halt> {
+        self.is_within = true;
+        if self.base.0 != t || self.base.1 != q {
+            dynamics.evaluate(t, q, v, Need::MASS | Need::G);
+            self.chart.rebase(&dynamics.terms.mass, &dynamics.terms.g);
+            self.base.0 = t;
+            self.base.1.copy_from_slice(q);
+        }
+        Ok(())
+    }
+
+    fn end_step(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), Halt> {
+        self.lift(t, q, v, dynamics)?;
+        self.is_within = false;
+        q.copy_from_slice(&self.q);
+        v.copy_from_slice(&self.v);
+        Ok(())
+    }
+}

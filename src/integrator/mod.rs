@@ -2,6 +2,7 @@
 //!
 //! To add one: a file with its tableau (or a step of its own) and an [`Entry`], and a line in [`registry`].
 
+mod ali3p;
 mod bdf;
 mod control;
 mod dop853;
@@ -21,6 +22,7 @@ mod radau_iia;
 mod rattle;
 mod rk4;
 mod tr_bdf2;
+mod turn;
 
 pub use control::{Control, Tolerance, first_step};
 pub use implicit::Store;
@@ -195,6 +197,7 @@ pub fn registry() -> &'static [Entry] {
         radau_iia::ENTRY,
         rattle::ENTRY,
         generalized_alpha::ENTRY,
+        ali3p::ENTRY,
         bdf::ENTRY,
         tr_bdf2::ENTRY,
         esdirk34::ENTRY,

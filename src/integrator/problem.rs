@@ -48,4 +48,16 @@ impl<'a> Problem<'a> {
         work[0] = self.dynamics.power();
         Ok(())
     }
+
+    /// A step begins at (t, y).
+    pub fn begin_step(&mut self, t: f64, y: &[f64]) -> Result<(), Halt> {
+        let (q, v) = self.split(y);
+        self.formulation.begin_step(t, q, v, &mut self.dynamics)
+    }
+
+    /// A step ends at (t, y), which becomes a state of the motion.
+    pub fn end_step(&mut self, t: f64, y: &mut [f64]) -> Result<(), Halt> {
+        let (q, rest) = y.split_at_mut(self.dimensions.q);
+        self.formulation.end_step(t, q, &mut rest[..self.dimensions.v], &mut self.dynamics)
+    }
 }

@@ -204,6 +204,7 @@ impl<'a> Run<'a> {
     /// Tries one step of size `h` (or one that the method chose) with its projection, and leaves y' at the new state in `next_slope`.
     fn step(&mut self, h: &mut f64, last: &mut bool) -> Result<Option<f64>, Halt> {
         let from = From { t: self.t, y: &self.y, slope: &self.slope };
+        self.problem.begin_step(self.t, &self.y)?;
         let error = self.integrator.attempt(&mut self.problem, &self.tolerance, from, *h, &mut self.next)?;
         if let Some(own) = self.integrator.own_step() {
             (*h, *last) = (own, *last && own >= *h);
@@ -254,6 +255,7 @@ impl<'a> Run<'a> {
                     prepared = true;
                 }
                 let (rows, from) = (&mut self.rows, From { t: self.t, y: &self.y, slope: &self.slope });
+                rows.problem.begin_step(self.t, &self.y)?;
                 self.integrator.interpolate(&mut rows.problem, from, h, (t - from.t) / h, &mut rows.y)?;
                 project(t, &mut rows.y, &mut rows.problem, &mut rows.projection)?;
             }
@@ -264,7 +266,8 @@ impl<'a> Run<'a> {
 
     fn prepare(&mut self, h: f64) -> Result<(), Halt> {
         let from = From { t: self.t, y: &self.y, slope: &self.slope };
-        // Interpolation stages run on the rows' problem: they are not part of the step.
+        // Interpolation stages run on the rows' problem: they do not count.
+        self.rows.problem.begin_step(self.t, &self.y)?;
         self.integrator.prepare(&mut self.rows.problem, from, h, &self.next, &self.next_slope)
     }
 
@@ -338,6 +341,7 @@ impl Rows<'_> {
     }
 }
 
+/// Ends a step, and projects the state.
 fn project(
     t: f64,
     y: &mut [f64],
@@ -347,8 +351,9 @@ fn project(
     if y.iter().any(|x| !x.is_finite()) {
         return Err(Halt::NotFinite);
     }
+    problem.dynamics.system.normalize(problem.split_mut(y).0);
+    problem.end_step(t, y)?;
     let (q, v) = problem.split_mut(y);
-    problem.dynamics.system.normalize(q);
     match projection {
         Some(projection) => projection.project(t, q, v, &mut problem.dynamics),
         None => Ok(()),

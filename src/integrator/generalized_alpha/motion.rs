@@ -1,5 +1,6 @@
 //! Accelerations carried from step to step, and where they lead.
 
+use super::super::turn::turn;
 use super::super::{From, Problem};
 use crate::formulation::Halt;
 use crate::system::Dimensions;
@@ -182,25 +183,4 @@ impl Motion {
         });
         turn(problem, &mut self.stages, start, &self.change, q);
     }
-}
-
-/// q = q0 exp(change): a constant rate by the classical Runge-Kutta method, with an error of O(|change|^5).
-fn turn(problem: &Problem, stages: &mut [Vec<f64>; 3], q0: &[f64], change: &[f64], q: &mut [f64]) {
-    if q.len() == change.len() {
-        q.iter_mut().zip(q0.iter().zip(change)).for_each(|(q, (q0, dq))| *q = q0 + dq);
-        return;
-    }
-    let system = problem.dynamics.system;
-    let [rate, stage, sum] = stages;
-    stage.copy_from_slice(q0);
-    sum.fill(0.0);
-    for (ahead, weight) in [(0.5, 1.0 / 6.0), (0.5, 1.0 / 3.0), (1.0, 1.0 / 3.0), (0.0, 1.0 / 6.0)] {
-        system.rate(stage, change, rate);
-        for i in 0..rate.len() {
-            sum[i] += weight * rate[i];
-            stage[i] = q0[i] + ahead * rate[i];
-        }
-    }
-    q.iter_mut().zip(q0.iter().zip(sum.iter())).for_each(|(q, (q0, dq))| *q = q0 + dq);
-    system.normalize(q);
 }

@@ -12,12 +12,14 @@
 //! 2. When a pivot collapses: the same with dependent rows left out (`skipping`), if it is clear which these are.
 //! 3. Else, and not too large: a dense rank-revealing factorization (`null_space`).
 //!
-//! [`PseudoInverse`] and [`Reduced`] solve the same system densely in other ways, for comparison. [`Unsymmetric`] solves
-//! that of implicit methods, which has stiffness and damping beside M.
+//! [`PseudoInverse`] and [`Reduced`] solve the same system densely in other ways, for comparison. [`Chart`] moves states
+//! to the constraints along fixed directions. [`Unsymmetric`] solves the system of implicit methods, which has stiffness
+//! and damping beside M.
 //!
 //! Redundant rows get multipliers of least norm, right sides that contradict each other least squares.
 
 mod blocked;
+mod chart;
 mod compiled;
 mod condition;
 mod dependence;
@@ -38,6 +40,7 @@ mod tests;
 mod two_places;
 mod unsymmetric;
 
+pub use chart::Chart;
 pub use condition::condition_number;
 pub use dependence::{Dependence, DependentRow, dependent_rows};
 pub use pattern::Pattern;

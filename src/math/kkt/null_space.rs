@@ -70,30 +70,12 @@ impl NullSpace {
     }
 
     pub fn factor(&mut self, system: &System, tolerance: f64) -> Result<(), Singular> {
-        self.fill_scaled(system);
+        let (mass, g) = ((&system.mass, &system.mass_values[..]), (&system.g, &system.g_values[..]));
+        scaled_rows(mass, g, &mut self.scale, &mut self.norms, &mut self.qr.values);
         self.qr.factor(tolerance);
         self.factor_reduced(system)?;
         self.span_null();
         Ok(())
-    }
-
-    fn fill_scaled(&mut self, system: &System) {
-        self.scale.fill(0.0);
-        system.mass.add_diagonal(&system.mass_values, &mut self.scale);
-        self.scale.iter_mut().for_each(|s| *s = if *s > 0.0 { s.sqrt().recip() } else { 0.0 });
-        let largest = self.scale.iter().fold(0.0, |a: f64, &b| a.max(b));
-        let massless = if largest > 0.0 { largest } else { 1.0 };
-        self.scale.iter_mut().filter(|s| **s == 0.0).for_each(|s| *s = massless);
-        let n = self.scale.len();
-        self.qr.values.fill(0.0);
-        for (&(j, i), value) in system.g.entries.iter().zip(&system.g_values) {
-            self.qr.values[j * n + i] += value * self.scale[i];
-        }
-        for (column, norm) in self.qr.values.chunks_exact_mut(n.max(1)).zip(&mut self.norms) {
-            let length = dot(column, column).sqrt();
-            *norm = if length > 0.0 { length } else { 1.0 };
-            column.iter_mut().for_each(|v| *v /= *norm);
-        }
     }
 
     /// Z^T S M S Z by columns: Q^T S M S Q e_k, of which the lower part counts.
@@ -204,6 +186,32 @@ impl NullSpace {
         system.mass.subtract_symmetric(&system.mass_values, &self.a, &mut self.w);
         scale_by(&self.scale, &mut self.w);
         self.qr.apply_transposed(&mut self.w);
+    }
+}
+
+/// S, the sizes of the rows of G S, and (D^-1 G S)^T by columns.
+pub(super) fn scaled_rows(
+    (mass, mass_values): (&Pattern, &[f64]),
+    (g, g_values): (&Pattern, &[f64]),
+    scale: &mut [f64],
+    norms: &mut [f64],
+    columns: &mut [f64],
+) {
+    scale.fill(0.0);
+    mass.add_diagonal(mass_values, scale);
+    scale.iter_mut().for_each(|s| *s = if *s > 0.0 { s.sqrt().recip() } else { 0.0 });
+    let largest = scale.iter().fold(0.0, |a: f64, &b| a.max(b));
+    let massless = if largest > 0.0 { largest } else { 1.0 };
+    scale.iter_mut().filter(|s| **s == 0.0).for_each(|s| *s = massless);
+    let n = scale.len();
+    columns.fill(0.0);
+    for (&(j, i), value) in g.entries.iter().zip(g_values) {
+        columns[j * n + i] += value * scale[i];
+    }
+    for (column, norm) in columns.chunks_exact_mut(n.max(1)).zip(norms) {
+        let length = dot(column, column).sqrt();
+        *norm = if length > 0.0 { length } else { 1.0 };
+        column.iter_mut().for_each(|v| *v /= *norm);
     }
 }
 

@@ -125,7 +125,8 @@ impl<T: Field> Unsymmetric<T> {
         self.coupling.iter_mut().zip(values).for_each(|(entry, &value)| *entry += factor * value);
     }
 
-    fn add_entry(&mut self, row: usize, col: usize, value: T) {
+    /// A_ij += value
+    pub fn add_entry(&mut self, row: usize, col: usize, value: T) {
         match self.matrix.place(row, col) {
             Some(place) if row < self.n && col < self.n => self.matrix.values[place] += value,
             _ => self.fits = false,

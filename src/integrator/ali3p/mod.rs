@@ -1,0 +1,260 @@
+//! The index-3 augmented Lagrangian method with projections.
+
+mod matrix;
+
+use super::hermite::Hermite;
+use super::turn::turn;
+use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tolerance};
+use crate::choice::OptionDoc;
+use crate::error::{Error, Result};
+use crate::formulation::Halt;
+use crate::system::{Loaded, Need};
+use matrix::Penalized;
+
+/// ```text
+/// q_1 = q + h/2 (v + v_1),   v_1 = v + h/2 (a + a_1),   M a_1 + G^T lambda = f,   phi(q_1) = 0        trapezoidal rule
+/// W da = f - M a_1 - G^T (lambda* + alpha phi),   lambda* += alpha phi,   W = M + h/2 C + h^2/4 (K + G^T alpha G)
+/// W dv = -h^2/4 G^T alpha (G v_1 + phi_t),   W da = -h^2/4 G^T alpha (G a_1 - gamma)                 then projections
+/// ```
+///
+/// Each line is iterated to round-off by the factors of one W, which is of the size of M: phi, G v + phi_t and
+/// G a - gamma hold at every step, whatever the penalty. lambda* is moved by the phi that the iteration predicts, and W
+/// and alpha phi share their G: so iterations converge as Newton's, and a large alpha takes none of that away. Source:
+/// Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130; Cuadrado, Cardenal, Morer, Bayo, Multibody Syst. Dyn. 4 (2000) 55-73.
+/// The rule by itself would leave lambda of order 1, and undamped; what is carried on is a after its projection (least
+/// change in the metric of M + h/2 C + h^2/4 K), and lambda is that of the equations of motion at (q, v).
+///
+/// alpha_j = (4/h^2) penalty / (G diag(M)^-1 G^T)_jj for row j: an iteration leaves some 1/penalty of it, in whatever units.
+/// (The usual alpha of 1e7 to 1e9 is a penalty of 250 to 25,000 at unit masses and h = 0.01 s.) W is regular where rows
+/// of G depend on others, always or at one position: redundant constraints are met, singular positions are passed.
+/// Rotations advance along the group, the change predicted and the rest one after the other.
+///
+/// Order 2 in q, v and lambda. A step costs W from exact K and C, some four evaluations and six back-substitutions, and the
+/// evaluation of lambda. W is as little symmetric as K and C: LU, dense or sparse by its pattern, which is that of K and
+/// of bodies that share a joint. The work is the trapezoidal rule. Fixed steps; cubic Hermite interpolation.
+pub const ENTRY: Entry = Entry {
+    name: "ali3p",
+    about: "index-3 augmented Lagrangian with projections: holds phi, phi', redundant and singular G allowed; fixed steps",
+    order: 2,
+    orders: &[],
+    steps: Steps::Fixed,
+    accepts: &["index3"],
+    refuses: &[],
+    options: &[OptionDoc {
+        name: "penalty",
+        about: "h^2/4 alpha over the mass on a constraint; 1/penalty is left an iteration (default 1e5)",
+    }],
+    make,
+};
+
+fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
+    let n = setup.system.dimensions();
+    let matrix = Penalized::new(setup.integrator.positive("penalty", 1e5)?, setup.system)
+        .ok_or_else(|| Error::input("there is not enough memory for a matrix of this size"))?;
+    let zeros = |n: usize| vec![0.0; n];
+    Ok(Box::new(Ali3p {
+        matrix,
+        reached: None,
+        a: zeros(n.v),
+        a_new: zeros(n.v),
+        predicted: zeros(n.q),
+        lambda: zeros(n.lambda),
+        step: zeros(n.v),
+        rows: zeros(n.lambda),
+        scales: setup.system.scales(),
+        stages: [zeros(n.q), zeros(n.q), zeros(n.q)],
+        slope: zeros(setup.len()),
+        control: Control::new(2.0, 0.0, 0.2, 5.0),
+        polynomial: Hermite::new(setup.len(), 0),
+    }))
+}
+
+struct Ali3p {
+    matrix: Penalized,
+    /// Time at which `a_new` was reached.
+    reached: Option<f64>,
+    a: Vec<f64>,
+    a_new: Vec<f64>,
+    predicted: Vec<f64>,
+    /// lambda*
+    lambda: Vec<f64>,
+    /// A change of q, v or a.
+    step: Vec<f64>,
+    rows: Vec<f64>,
+    /// Units of phi.
+    scales: Vec<f64>,
+    stages: [Vec<f64>; 3],
+    /// y' at the new state.
+    slope: Vec<f64>,
+    control: Control,
+    polynomial: Hermite,
+}
+
+/// Iterations, and the ratio of two changes from which the matrix is renewed.
+const MOST: usize = 40;
+const SLOW: f64 = 0.3;
+/// Relative change of a that is round-off, and below which it may stop falling; and change of q, m or rad, below which it
+/// may.
+const ROUND_OFF: f64 = 1e-15;
+const SMALL: f64 = 1e-8;
+const STILL: f64 = 1e-14;
+/// Largest phi of a step that has converged, in units of its scale.
+const MET: f64 = 1e-8;
+
+impl Ali3p {
+    /// a and lambda* of the step before, or where there is none those of the state.
+    fn begin(&mut self, problem: &Problem, from: From, h: f64) {
+        if self.reached.take().is_some_and(|t| (t - from.t).abs() < 1e-6 * h) {
+            self.a.copy_from_slice(&self.a_new);
+            return;
+        }
+        self.a.copy_from_slice(problem.split(from.slope).1);
+        self.a_new.copy_from_slice(&self.a);
+        self.lambda.copy_from_slice(&problem.dynamics.lambda);
+    }
+
+    /// q where a stays as it is.
+    fn predict(&mut self, problem: &Problem, from: From, h: f64) {
+        let (q0, v0) = problem.split(from.y);
+        for (i, v0) in v0.iter().enumerate() {
+            self.step[i] = h * v0 + 0.5 * h * h * self.a[i];
+        }
+        turn(problem, &mut self.stages, q0, &self.step, &mut self.predicted);
+    }
+
+    /// v_1 and q_1 that go with a_1.
+    fn advance(&mut self, problem: &Problem, from: From, h: f64, to: &mut [f64]) {
+        let (_, v0) = problem.split(from.y);
+        let (q, v) = problem.split_mut(to);
+        for i in 0..v.len() {
+            v[i] = v0[i] + 0.5 * h * (self.a[i] + self.a_new[i]);
+            self.step[i] = 0.25 * h * h * (self.a_new[i] - self.a[i]);
+        }
+        turn(problem, &mut self.stages, &self.predicted, &self.step, q);
+    }
+
+    fn converge(&mut self, problem: &mut Problem, from: From, h: f64, to: &mut [f64]) -> Result<(), Halt> {
+        let t = from.t + h;
+        self.predict(problem, from, h);
+        let (mut last, mut is_slow) = (f64::INFINITY, true);
+        for iteration in 0..MOST {
+            self.advance(problem, from, h, to);
+            let (q, v) = problem.split(to);
+            problem.dynamics.evaluate(t, q, v, Need::DYNAMICS);
+            if is_slow {
+                let at = Loaded { t, q, v, vdot: &self.a_new, lambda: &self.lambda };
+                self.matrix.factor(problem, at, h)?;
+            }
+            let change = self.iterate(problem, h)?;
+            let small = (SMALL * largest(&self.a_new).max(largest(v) / h)).max(4.0 * STILL / (h * h));
+            let ratio = if iteration == 0 { 1.0 } else { change / last };
+            // The next iteration would change that by the ratio.
+            if change * ratio.min(1.0) <= ROUND_OFF / SMALL * small || change < small && ratio > 0.5 {
+                self.advance(problem, from, h, to);
+                return Ok(());
+            }
+            is_slow = iteration > 0 && ratio > SLOW && change > small;
+            last = change;
+        }
+        Err(Halt::NotConverged)
+    }
+
+    /// One iteration from the terms at q_1, v_1; the largest change of a_1.
+    fn iterate(&mut self, problem: &mut Problem, h: f64) -> Result<f64, Halt> {
+        let dynamics = &mut problem.dynamics;
+        dynamics.statistics.newton_iterations += 1;
+        let (terms, structure) = (&dynamics.terms, &dynamics.structure);
+        // What is left of the equations of motion, and phi as that of an acceleration.
+        self.step.fill(0.0);
+        structure.mass.multiply_symmetric(&terms.mass, &self.a_new, &mut self.step);
+        structure.g.multiply_transposed(&terms.g, &self.lambda, &mut self.step);
+        self.step.iter_mut().zip(&terms.f).for_each(|(step, f)| *step = f - *step);
+        self.rows.iter_mut().zip(&terms.phi).for_each(|(row, phi)| *row = 4.0 / (h * h) * phi);
+        self.matrix.solve(&structure.g, &mut self.rows, &mut self.step)?;
+        self.a_new.iter_mut().zip(&self.step).for_each(|(a, step)| *a += step);
+        self.lambda.iter_mut().zip(&self.rows).for_each(|(lambda, change)| *lambda += change);
+        Ok(largest(&self.step))
+    }
+
+    /// v_1 and a_1 that meet the constraints at q_1.
+    fn project(&mut self, problem: &mut Problem, t: f64, to: &mut [f64]) -> Result<(), Halt> {
+        let (q, v) = problem.split_mut(to);
+        let need = Need::CONSTRAINTS | Need::G;
+        problem.dynamics.evaluate(t, q, v, need);
+        let off = problem.dynamics.terms.phi.iter().zip(&self.scales).any(|(phi, scale)| phi.abs() > MET * scale);
+        if off {
+            return Err(Halt::NotConverged);
+        }
+        self.meet(problem, v, |problem, j| problem.dynamics.terms.phi_t[j])?;
+        problem.dynamics.evaluate(t, q, v, need);
+        let mut a = std::mem::take(&mut self.a_new);
+        let met = self.meet(problem, &mut a, |problem, j| -problem.dynamics.terms.gamma[j]);
+        self.a_new = a;
+        met
+    }
+
+    /// G x + b = 0 with least change of x.
+    fn meet(&mut self, problem: &Problem, x: &mut [f64], b: impl Fn(&Problem, usize) -> f64) -> Result<(), Halt> {
+        let (g, values) = (&problem.dynamics.structure.g, &problem.dynamics.terms.g);
+        let mut last = f64::INFINITY;
+        loop {
+            self.rows.iter_mut().enumerate().for_each(|(j, row)| *row = b(problem, j));
+            g.multiply(values, x, &mut self.rows);
+            self.step.fill(0.0);
+            self.matrix.solve(g, &mut self.rows, &mut self.step)?;
+            x.iter_mut().zip(&self.step).for_each(|(x, step)| *x += step);
+            let change = largest(&self.step);
+            if change <= ROUND_OFF * largest(x) || change > 0.5 * last {
+                return Ok(());
+            }
+            last = change;
+        }
+    }
+}
+
+fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()))
+}
+
+impl Integrator for Ali3p {
+    fn order(&self) -> usize {
+        ENTRY.order
+    }
+
+    fn control(&mut self) -> &mut Control {
+        &mut self.control
+    }
+
+    fn attempt(
+        &mut self,
+        problem: &mut Problem,
+        _: &Tolerance,
+        from: From,
+        h: f64,
+        to: &mut [f64],
+    ) -> Result<Option<f64>, Halt> {
+        let (t, work) = (from.t + h, to.len() - 1);
+        self.begin(problem, from, h);
+        self.converge(problem, from, h, to)?;
+        self.project(problem, t, to)?;
+        self.reached = Some(t);
+        to[work] = from.y[work];
+        problem.derivative(t, to, &mut self.slope)?;
+        to[work] += 0.5 * h * (from.slope[work] + self.slope[work]);
+        Ok(None)
+    }
+
+    fn last_slope(&self) -> Option<&[f64]> {
+        Some(&self.slope)
+    }
+
+    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt> {
+        self.polynomial.prepare(from, h, to, slope);
+        Ok(())
+    }
+
+    fn interpolate(&mut self, _: &mut Problem, from: From, _: f64, theta: f64, out: &mut [f64]) -> Result<(), Halt> {
+        self.polynomial.interpolate(theta, from.y, out);
+        Ok(())
+    }
+}

@@ -1,0 +1,89 @@
+//! Corrections along the normal directions of a base: what makes its tangent space a chart of the manifold around it.
+
+use super::Pattern;
+use super::null_space::scaled_rows;
+use super::reflect::Reflected;
+use super::system::{add_scaled, dot};
+
+/// With S = diag(M)^-1/2 and Y = S Q_1 from the pivoted QR of (G S)^T at the base, d = Y c solves G d = r at another
+/// place: G Y c = r, by a pivoted QR of (G Y)^T. Such a d has no part along the base's null space in the metric of
+/// diag(M). Dependent rows have no say. Costs 3 n m^2 for a base, 3 m^3 for a place and 2 (n + m) m for a solution.
+pub struct Chart {
+    mass: Pattern,
+    g: Pattern,
+    scale: Vec<f64>,
+    /// Sizes of the rows of G S at the base.
+    norms: Vec<f64>,
+    base: Reflected,
+    /// Y by rows.
+    normal: Vec<f64>,
+    /// (G Y)^T
+    place: Reflected,
+    x: Vec<f64>,
+    c: Vec<f64>,
+}
+
+/// Rows of G count as dependent when their pivot falls below this part of the largest.
+const DEPENDENT: f64 = 1e-10;
+
+impl Chart {
+    /// The patterns must fit each other.
+    pub fn new(mass: &Pattern, g: &Pattern) -> Self {
+        let (n, m) = (g.cols, g.rows);
+        let most = n.min(m);
+        Chart {
+            mass: mass.clone(),
+            g: g.clone(),
+            scale: vec![1.0; n],
+            norms: vec![1.0; m],
+            base: Reflected::new(n, m),
+            normal: vec![0.0; n * most],
+            place: Reflected::new(most, m),
+            x: vec![0.0; n],
+            c: vec![0.0; m],
+        }
+    }
+
+    /// Takes the place with these values for its base.
+    pub fn rebase(&mut self, mass: &[f64], g: &[f64]) {
+        let values = &mut self.base.values;
+        scaled_rows((&self.mass, mass), (&self.g, g), &mut self.scale, &mut self.norms, values);
+        self.base.factor(DEPENDENT);
+        let rank = self.base.rank;
+        for k in 0..rank {
+            self.x.fill(0.0);
+            self.x[k] = 1.0;
+            self.base.apply(&mut self.x);
+            for (i, (x, scale)) in self.x.iter().zip(&self.scale).enumerate() {
+                self.normal[i * rank + k] = x * scale;
+            }
+        }
+    }
+
+    /// Makes ready to solve with these values of G.
+    pub fn factor(&mut self, g: &[f64]) {
+        let rank = self.base.rank;
+        self.place.rows = rank;
+        self.place.values.fill(0.0);
+        for (&(i, j), value) in self.g.entries.iter().zip(g) {
+            let row = &mut self.place.values[i * rank..(i + 1) * rank];
+            add_scaled(value / self.norms[i], &self.normal[j * rank..(j + 1) * rank], row);
+        }
+        self.place.factor(DEPENDENT);
+    }
+
+    /// d = Y c with G d = r.
+    pub fn solve(&mut self, r: &[f64], d: &mut [f64]) {
+        let rank = self.base.rank;
+        for (c, &p) in self.c.iter_mut().zip(&self.place.permutation) {
+            *c = r[p] / self.norms[p];
+        }
+        self.place.solve_transposed(&mut self.c);
+        self.c[self.place.rank..].fill(0.0);
+        let c = &mut self.c[..rank];
+        self.place.apply(c);
+        for (i, d) in d.iter_mut().enumerate() {
+            *d = dot(&self.normal[i * rank..(i + 1) * rank], c);
+        }
+    }
+}
