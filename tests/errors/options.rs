@@ -164,6 +164,28 @@ cases! {
             "scene.json:21:48: at simulation.output_step: the output step is 0.000000000001 s",
             "give one above zero and above a ten-millionth of the time",
         ];
+    auto_beside_integrator:
+        pendulum().args(&["--method", "auto", "--integrator", "dop853"]) => [
+            "the argument '--method <auto>' cannot be used with '--integrator <INTEGRATOR>'",
+        ];
+    auto_beside_step:
+        pendulum().args(&["--method", "auto", "--step", "0.01"]) => [
+            "the argument '--method <auto>' cannot be used with '--step <H>'",
+        ];
+    method_by_name:
+        pendulum().args(&["--method", "dop853"]) => [
+            "invalid value 'dop853' for '--method <auto>': it can be `auto`",
+        ];
+    auto_beside_projection_in_the_scene:
+        pendulum().with("'t_end': 0.1", "'t_end': 0.1, 'method': 'auto', 'projection': 'none'") => [
+            "scene.json:21:43: at simulation.method: `auto` chooses the projection, which is also given",
+            "leave out projection or method",
+        ];
+    method_by_name_in_the_scene:
+        pendulum().with("'t_end': 0.1", "'t_end': 0.1, 'method': 'dop853'") => [
+            "scene.json:21:43: at simulation.method: `dop853` is none of the possible values",
+            "auto",
+        ];
     formulation_idnex1:
         pendulum().args(&["--formulation", "idnex1"]) => [
             "at --formulation: there is no formulation `idnex1`",
