@@ -44,7 +44,7 @@ impl fmt::Display for Mode {
 pub struct Spectrum {
     /// From the slowest to the fastest.
     pub modes: Vec<Mode>,
-    /// Whether there are too many coordinates for all modes: the only one is then about the fastest.
+    /// Whether there are too many coordinates for all modes: only the fastest are then known, and roughly.
     pub is_estimate: bool,
     /// How fast Z^T C Z and Z^T K Z change as the state moves on, over the masses: 1/s^2 and 1/s^3.
     pub turning: [f64; 2],
@@ -57,7 +57,7 @@ impl Spectrum {
     pub fn at(system: &dyn MechanicalSystem, state: Loaded, duration: f64) -> Option<Self> {
         let mut frozen = Frozen::new(system, state)?;
         if system.dimensions().v > MOST_VELOCITIES {
-            let modes = vec![frozen.fastest()?];
+            let modes = frozen.fastest()?;
             return Some(Spectrum { modes, is_estimate: true, turning: [0.0; 2], excitation: 0.0 });
         }
         let z = frozen.basis()?;
@@ -187,42 +187,55 @@ impl<'a> Frozen<'a> {
         Some((along(self, state.v)? / rate).max(along(self, &vdot)? / rate.powi(2)))
     }
 
-    /// The fastest mode, by powers of (x, v) -> (v, -Z Z^T (K x + C v)).
-    fn fastest(&mut self) -> Option<Mode> {
+    /// The fastest modes, by powers of (x, v) -> (v, -Z Z^T (K x + C v)).
+    fn fastest(&mut self) -> Option<Vec<Mode>> {
         let n = self.dynamics.vdot.len();
         // Any vector will do; this one has all directions in it and no symmetry.
         let mut x = self.accelerate((0..n).map(|i| (1.0 + i as f64).sqrt().fract() - 0.5).collect())?;
         let mut v = vec![0.0; n];
-        let mut last = [v.clone(), v.clone()];
         for _ in 0..ITERATIONS {
-            let resistance = self.resistance(&x, &v).iter().map(|x| -x).collect();
-            let next = self.accelerate(resistance)?;
-            let size = dot(&next, &next).sqrt() + dot(&v, &v).sqrt();
+            let a = self.follow(&x, &v)?;
+            let size = norm(&a) + norm(&v);
             if size == 0.0 {
-                return Some(Mode { decay: 0.0, swing: 0.0 });
+                return Some(vec![Mode { decay: 0.0, swing: 0.0 }]);
             }
-            let scaled = |x: &[f64]| x.iter().map(|x| x / size).collect::<Vec<f64>>();
-            last = [scaled(&x), scaled(&v)];
-            (x, v) = (last[1].clone(), scaled(&next));
+            (x, v) = (v, a);
+            x.iter_mut().chain(&mut v).for_each(|x| *x /= size);
         }
-        Some(fit(&last[0], &last[1], &v))
+        let a = self.follow(&x, &v)?;
+        let jerk = self.follow(&v, &a)?;
+        // Positions in units in which they are as large as velocities.
+        let unit = ((norm(&v) + norm(&a)) / (norm(&x) + norm(&v))).max(f64::MIN_POSITIVE);
+        let state = |x: &[f64], v: &[f64]| x.iter().map(|x| unit * x).chain(v.iter().copied()).collect::<Vec<f64>>();
+        Some(fit(&state(&x, &v), &state(&v, &a), &state(&a, &jerk)))
+    }
+
+    /// x'' = -Z Z^T (K x + C x')
+    fn follow(&mut self, x: &[f64], v: &[f64]) -> Option<Vec<f64>> {
+        let force = self.resistance(x, v).iter().map(|x| -x).collect();
+        self.accelerate(force)
     }
 }
 
-/// The pair of roots of s^2 + p s + r, for which y2 + p y1 + r y0 is least.
-fn fit(y0: &[f64], y1: &[f64], y2: &[f64]) -> Mode {
+/// The roots of s^2 + p s + r for which y2 + p y1 + r y0 is least, the faster one last.
+fn fit(y0: &[f64], y1: &[f64], y2: &[f64]) -> Vec<Mode> {
     let [a, b, d] = [dot(y1, y1), dot(y1, y0), dot(y0, y0)];
     let [f, g] = [-dot(y1, y2), -dot(y0, y2)];
     let determinant = a * d - b * b;
     if determinant <= 1e-8 * a * d {
-        return Mode { decay: if d > 0.0 { -b / d } else { 0.0 }, swing: 0.0 };
+        return vec![Mode { decay: if d > 0.0 { -b / d } else { 0.0 }, swing: 0.0 }];
     }
     let (p, r) = ((f * d - b * g) / determinant, (a * g - b * f) / determinant);
     let square = r - 0.25 * p * p;
+    let root = square.abs().sqrt();
     match square > 0.0 {
-        true => Mode { decay: 0.5 * p, swing: square.sqrt() },
-        false => Mode { decay: 0.5 * p + p.signum() * (-square).sqrt(), swing: 0.0 },
+        true => vec![Mode { decay: 0.5 * p, swing: root }],
+        false => [-1.0, 1.0].map(|sign| Mode { decay: 0.5 * p + sign * root.copysign(p), swing: 0.0 }).to_vec(),
     }
+}
+
+fn norm(x: &[f64]) -> f64 {
+    dot(x, x).sqrt()
 }
 
 fn dot(x: &[f64], y: &[f64]) -> f64 {
@@ -246,4 +259,58 @@ fn modes(k: &Matrix, c: &Matrix) -> Option<Vec<Mode>> {
     let mut modes: Vec<Mode> = upper.map(|value| Mode { decay: -value.re, swing: value.im }).collect();
     modes.sort_by(|a, b| a.rate().total_cmp(&b.rate()));
     Some(modes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Frozen, Mode, Spectrum};
+    use crate::math::Scalar;
+    use crate::system::{Equations, Loaded};
+
+    /// Two masses, 1 and 3 kg, that a joint holds together, on a spring and a damper.
+    struct TwoMass {
+        stiffness: f64,
+        damping: f64,
+    }
+
+    impl Equations for TwoMass {
+        fn size(&self) -> (usize, usize) {
+            (2, 1)
+        }
+        fn mass<S: Scalar>(&self, _: S, _: &[S], mass: &mut [S]) {
+            mass.copy_from_slice(&[S::one(), S::zero(), S::zero(), S::constant(3.0)]);
+        }
+        fn force<S: Scalar>(&self, _: S, q: &[S], v: &[S], f: &mut [S]) {
+            f.copy_from_slice(&[-(q[0] * self.stiffness) - v[0] * self.damping, S::zero()]);
+        }
+        fn phi<S: Scalar>(&self, _: S, q: &[S], phi: &mut [S]) {
+            phi[0] = q[1] - q[0];
+        }
+    }
+
+    const STATE: Loaded = Loaded { t: 0.0, q: &[0.0; 2], v: &[0.0; 2], vdot: &[0.0; 2], lambda: &[0.0] };
+
+    fn modes(stiffness: f64, damping: f64) -> [Option<Vec<Mode>>; 2] {
+        let system = TwoMass { stiffness, damping };
+        let all = Spectrum::at(&system, STATE, 1.0).map(|spectrum| spectrum.modes);
+        [all, Frozen::new(&system, STATE).and_then(|mut frozen| frozen.fastest())]
+    }
+
+    /// 4 x'' + c x' + k x = 0, all modes at once and the fastest by iteration.
+    #[test]
+    fn modes_are_those_of_the_free_coordinates() {
+        for (stiffness, damping, fast) in [
+            (100.0, 0.0, [0.0, 5.0]),
+            (100.0, 2.0, [0.25, (25.0f64 - 1.0 / 16.0).sqrt()]),
+            (100.0, 50.0, [10.0, 0.0]),
+            (-100.0, 0.0, [5.0, 0.0]),
+        ] {
+            for modes in modes(stiffness, damping) {
+                let modes = modes.unwrap_or_default();
+                let last = modes.last().copied().unwrap_or(Mode { decay: f64::NAN, swing: f64::NAN });
+                let off = (last.decay.abs() - fast[0]).abs() + (last.swing - fast[1]).abs();
+                assert!(off < 1e-9, "{stiffness} {damping}: {modes:?}");
+            }
+        }
+    }
 }
