@@ -1,10 +1,14 @@
 //! The only time loop: steps, step control, projection and output.
 
+mod auto;
 mod method;
 mod observation;
+mod spectrum;
 
+pub use auto::{Advice, advise};
 pub use method::Method;
 pub use observation::{Observation, Sink, Span};
+pub use spectrum::{Mode, Spectrum};
 
 use crate::error::{Error, Failure, Result};
 use crate::formulation::{self, Dynamics, Halt, Rows as Constraints, Statistics};
