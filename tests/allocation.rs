@@ -37,7 +37,11 @@ const METHODS: [(&str, &str, &str); 15] = [
 ];
 
 /// Methods for the constraints themselves.
-const DIRECT: [(&str, &str, &str); 5] = [
+const DIRECT: [(&str, &str, &str); 9] = [
+    ("index1", "radau_iia", "none"),
+    ("index2", "radau_iia:order=9", "manifold"),
+    ("index3", "radau_iia:order=13", "velocity"),
+    ("ggl", "radau_iia", "none"),
     ("index2", "hem5", "none"),
     ("index2", "phem56", "manifold"),
     ("index3", "rattle", "none"),

@@ -1,0 +1,128 @@
+//! Step control at its limits: tolerances of 1e-14 and 1, steps far too large and far too small, forces that jump. Every
+//! adaptive method ends, at the end or with a reason, without a number that is none.
+
+mod common;
+
+use common::driven_pendulum::{DrivenPendulum, start};
+use common::{Run, adaptive, distance, fixed, run, until};
+use holonom::integrator::{Entry, Steps, registry};
+use holonom::math::Scalar;
+use holonom::simulate::Span;
+use holonom::system::Equations;
+use rayon::prelude::*;
+
+/// Each integrator with each formulation that solves rows, or with index 1; without projections.
+fn methods(wanted: impl Fn(&Entry) -> bool) -> Vec<(&'static str, &'static str)> {
+    let solved = ["index1", "index2", "index3", "ggl"];
+    let pairs = registry().iter().filter(|entry| wanted(entry)).flat_map(|entry| {
+        let accepted = entry.accepts.iter().filter(|formulation| solved.contains(formulation));
+        accepted.map(|formulation| (*formulation, entry.name))
+    });
+    pairs.collect()
+}
+
+/// All rows are numbers, and a failure says what to do.
+fn sound(run: &Run, what: &str) {
+    assert!(run.record.trajectory.rows.iter().flatten().all(|x| x.is_finite()), "{what}");
+    if let Some(failure) = &run.outcome.failure {
+        assert!(!failure.reason.is_empty() && !failure.hint.is_empty(), "{what}: {failure:?}");
+    }
+}
+
+/// Methods of order 2 to 3 would take a million steps at 1e-14.
+fn is_accurate(entry: &Entry) -> bool {
+    entry.steps != Steps::Fixed && entry.order >= 5
+}
+
+#[test]
+fn the_tightest_tolerance() {
+    let (q, v) = start();
+    let exact = run(&DrivenPendulum, &fixed("index1", "dop853", "exact", 1.5 / 320.0), until(1.5), (&q, &v)).completed();
+    methods(is_accurate).into_par_iter().for_each(|(formulation, integrator)| {
+        let run = run(&DrivenPendulum, &adaptive(formulation, integrator, "none", 1e-14), until(1.5), (&q, &v));
+        let what = format!("{formulation} {integrator}");
+        sound(&run, &what);
+        let error = distance(run.last().0, exact.last().0);
+        println!("{what}: {error:e} {:?} {:?}", run.outcome.statistics, run.outcome.failure);
+        // Round-off of some thousand steps; BDF takes more.
+        let most = if integrator == "bdf" { 1e-9 } else { 1e-12 };
+        assert!(run.outcome.failure.is_none() && error < most, "{what}: {error:e} {:?}", run.outcome.failure);
+    });
+}
+
+#[test]
+fn the_loosest_tolerance() {
+    let (q, v) = start();
+    methods(|entry| entry.steps != Steps::Fixed).into_par_iter().for_each(|(formulation, integrator)| {
+        let run = run(&DrivenPendulum, &adaptive(formulation, integrator, "none", 1.0), until(20.0), (&q, &v));
+        let what = format!("{formulation} {integrator}");
+        println!("{what}: {:?} {:?}", run.outcome.statistics, run.outcome.failure);
+        sound(&run, &what);
+    });
+}
+
+/// A hundred periods a step, and a hundredth of a microsecond.
+#[test]
+fn steps_of_any_size() {
+    let (q, v) = start();
+    for (step, count) in [(100.0, 10.0), (1e-9, 100.0)] {
+        methods(|entry| entry.steps != Steps::Own).into_par_iter().for_each(|(formulation, integrator)| {
+            let method = fixed(formulation, integrator, "none", step);
+            let run = run(&DrivenPendulum, &method, until(count * step), (&q, &v));
+            let what = format!("{formulation} {integrator} {step:e}");
+            sound(&run, &what);
+            if step < 1.0 {
+                // Nothing has moved by more than v t.
+                assert_eq!(run.outcome.failure, None, "{what}");
+                let moved = distance(run.last().0, &q) / (count * step);
+                assert!(moved < 2.0 * distance(&v, &[0.0; 4]) + 1.0, "{what}: {moved}");
+            }
+        });
+    }
+}
+
+/// A mass on a rail pushed to and fro by a force that jumps at 0.3, 0.7 and 1.1 s.
+struct Pushed;
+
+/// Distance after 1.5 s from rest: 0.5 0.3^2 (1 + ...) by hand for the force 1, -2, 3, 0.
+fn pushed_to() -> f64 {
+    let (mut x, mut v) = (0.0, 0.0);
+    for (force, time) in [(1.0, 0.3), (-2.0, 0.4), (3.0, 0.4), (0.0, 0.4)] {
+        x += v * time + 0.5 * force * time * time;
+        v += force * time;
+    }
+    x
+}
+
+impl Equations for Pushed {
+    fn size(&self) -> (usize, usize) {
+        (2, 1)
+    }
+    fn mass<S: Scalar>(&self, _t: S, _q: &[S], mass: &mut [S]) {
+        mass.copy_from_slice(&[S::one(), S::zero(), S::zero(), S::one()]);
+    }
+    fn force<S: Scalar>(&self, t: S, _q: &[S], _v: &[S], f: &mut [S]) {
+        let push = [(0.3, 1.0), (0.7, -2.0), (1.1, 3.0)].into_iter().find(|(end, _)| t.value() < *end);
+        f[0] = S::constant(push.map_or(0.0, |(_, push)| push));
+        f[1] = S::constant(-9.81);
+    }
+    fn phi<S: Scalar>(&self, _t: S, q: &[S], phi: &mut [S]) {
+        phi[0] = q[1];
+    }
+}
+
+#[test]
+fn forces_that_jump() {
+    let span = Span { start: 0.0, end: 1.5, output_step: 0.05 };
+    methods(|entry| entry.steps != Steps::Fixed).into_par_iter().for_each(|(formulation, integrator)| {
+        let method = adaptive(formulation, integrator, "none", 1e-6);
+        let run = run(&Pushed, &method, span, (&[0.0, 0.0], &[0.0, 0.0]));
+        let what = format!("{formulation} {integrator}");
+        sound(&run, &what);
+        let error = (run.last().0[0] - pushed_to()).abs();
+        println!("{what}: {error:e} {:?} {:?}", run.outcome.statistics, run.outcome.failure);
+        // The step over a jump is as small as the tolerance wants, of the error estimate's own order.
+        assert!(run.outcome.failure.is_none() && error < 1e-3, "{what}: {error:e} {:?}", run.outcome.failure);
+        assert!(run.outcome.statistics.steps < 20_000, "{what}: {:?}", run.outcome.statistics);
+    });
+}
