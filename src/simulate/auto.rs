@@ -122,7 +122,7 @@ impl Work {
             false if !saves(smooth) => Verdict::Mild,
             false if !saves(self.turning) => Verdict::Turning,
             false => Verdict::Damped,
-            true if self.stability <= smooth => Verdict::Calm,
+            true if self.stability <= smooth.max(FEWEST) => Verdict::Calm,
             true if !saves(WAGER * smooth.max(FEWEST)) => Verdict::Mild,
             true if is_excited || !saves(self.turning) => Verdict::Awake,
             true => Verdict::Asleep,
