@@ -5,9 +5,9 @@ use crate::error::{Error, Result};
 use crate::initial::{self, Assembly};
 use crate::integrator::Steps;
 use crate::math::expression::{Number, Parameters};
-use crate::scene::{self, AnyModel, Scene, Simulation};
-use crate::simulate::{Method, Span};
-use crate::system::{MechanicalSystem, Mechanism};
+use crate::scene::{self, AnyModel, Automatic, Scene, Simulation};
+use crate::simulate::{Advice, Method, Span, advise};
+use crate::system::{Loaded, MechanicalSystem, Mechanism};
 use crate::{formulation, integrator, projection};
 use std::path::Path;
 
@@ -30,6 +30,8 @@ impl AnyMechanism {
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
     pub set: Vec<(String, f64)>,
+    /// In the place of what the scene says of formulation, integrator, projection and step.
+    pub method: Option<Automatic>,
     pub formulation: Option<Choice>,
     pub integrator: Option<Choice>,
     pub projection: Option<Choice>,
@@ -48,7 +50,10 @@ pub struct Study {
     pub parameters: Parameters,
     pub mechanism: AnyMechanism,
     pub method: Method,
+    /// Why this method, where it was left to the program.
+    pub chosen_because: Option<String>,
     pub assembly: Assembly,
+    start_time: f64,
     /// `None` where neither the scene nor the command line says until when.
     span: Option<Span>,
 }
@@ -66,7 +71,8 @@ impl Study {
 
     pub fn new(scene: Scene, overrides: &Overrides) -> Result<Study> {
         let settings = Settings { parameters: &scene.parameters, scene: &scene.simulation, overrides };
-        let method = settings.method().map_err(|error| settings.place(error))?;
+        let is_automatic = settings.is_automatic().map_err(|error| settings.place(error))?;
+        let method = settings.method(is_automatic).map_err(|error| settings.place(error))?;
         let start = settings.number("t_start", &scene.simulation.t_start)?.unwrap_or(0.0);
         let span = settings.span(start).map_err(|error| settings.place(error))?;
         let mechanism = match scene.model {
@@ -75,6 +81,16 @@ impl Study {
         };
         check_options(&method, mechanism.system()).map_err(|error| settings.place(error))?;
         let assembly = initial::assemble(mechanism.system(), start, (&scene.q, &scene.v), &scene.hold)?;
+        // Where no end is said, a method is chosen for a second of motion.
+        let (method, chosen_because) = match is_automatic {
+            true => choose(
+                mechanism.system(),
+                &assembly,
+                span.unwrap_or(Span { start, end: start + 1.0, output_step: 1.0 }),
+                &method,
+            ),
+            false => (method, None),
+        };
         Ok(Study {
             name: scene.name,
             about: scene.about,
@@ -82,7 +98,9 @@ impl Study {
             parameters: scene.parameters,
             mechanism,
             method,
+            chosen_because,
             assembly,
+            start_time: start,
             span,
         })
     }
@@ -102,10 +120,22 @@ impl Study {
         })
     }
 
+    /// When the motion starts, s.
+    pub fn start_time(&self) -> f64 {
+        self.start_time
+    }
+
     /// The consistent start (q, v).
     pub fn start(&self) -> (&[f64], &[f64]) {
         (&self.assembly.q, &self.assembly.v)
     }
+}
+
+fn choose(system: &dyn MechanicalSystem, start: &Assembly, span: Span, given: &Method) -> (Method, Option<String>) {
+    let Assembly { q, v, vdot, lambda, .. } = start;
+    let state = Loaded { t: span.start, q, v, vdot, lambda };
+    let Advice { method, because } = advise(system, state, span, (given.rtol, given.atol));
+    (method, Some(because))
 }
 
 /// Refuses unknown names and options of formulation, integrator and projection before anything is computed.
@@ -138,6 +168,7 @@ impl Settings<'_> {
         let Error::Input(mut input) = error else { return error };
         let given = self.overrides;
         let (option, is_given) = match input.path.as_str() {
+            "method" => ("--method", given.method.is_some()),
             "formulation" => ("--formulation", given.formulation.is_some()),
             "integrator" => ("--integrator", given.integrator.is_some()),
             "projection" => ("--projection", given.projection.is_some()),
@@ -158,8 +189,31 @@ impl Settings<'_> {
         value.map(Some).map_err(|error| Error::from(error).under(field).under("simulation"))
     }
 
-    fn method(&self) -> Result<Method> {
-        let (scene, given, default) = (self.scene, self.overrides, Method::default());
+    /// Whether the method is left to the program: what is named on the command line goes before that of the scene.
+    fn is_automatic(&self) -> Result<bool> {
+        let (scene, given) = (self.scene, self.overrides);
+        let named = |choices: [&Option<Choice>; 3], has_step: bool| {
+            let names = ["formulation", "integrator", "projection"].into_iter().zip(choices);
+            let found = names.filter(|(_, choice)| choice.is_some()).map(|(name, _)| name).next();
+            found.or(has_step.then_some("step"))
+        };
+        let in_scene = named([&scene.formulation, &scene.integrator, &scene.projection], scene.step.is_some());
+        let on_line = named([&given.formulation, &given.integrator, &given.projection], given.step.is_some());
+        let beside = if given.method.is_some() { on_line } else { in_scene };
+        match (given.method.or(scene.method), beside) {
+            (Some(Automatic::Auto), Some(name)) => {
+                Err(Error::input(format!("`auto` chooses the {name}, which is also given"))
+                    .under("method")
+                    .hint(format!("leave out {name} or method")))
+            }
+            (method, _) => Ok(given.method.is_some() || method.is_some() && on_line.is_none()),
+        }
+    }
+
+    fn method(&self, is_automatic: bool) -> Result<Method> {
+        let (own, given, default) = (self.scene, self.overrides, Method::default());
+        let unnamed = Simulation { formulation: None, integrator: None, projection: None, step: None, ..own.clone() };
+        let scene = if is_automatic { &unnamed } else { own };
         let pick = |given: &Option<Choice>, scene: &Option<Choice>, default: Choice| {
             given.clone().or_else(|| scene.clone()).unwrap_or(default)
         };

@@ -4,6 +4,7 @@ use crate::choice::Choice;
 use crate::error::{Error, Result, suggest};
 use crate::plot::Figure;
 use crate::report::Folder;
+use crate::scene::Automatic;
 use crate::simulate::Span;
 use crate::study::{Overrides, Study};
 use clap::{Args, ValueEnum};
@@ -16,6 +17,10 @@ use std::path::{Path, PathBuf};
 pub struct Common {
     /// Scene file (JSON)
     pub scene: PathBuf,
+    /// auto: formulation, integrator and projection by the stiffness of the start
+    #[arg(long, value_name = "auto", value_parser = automatic,
+          conflicts_with_all = ["formulation", "integrator", "projection", "step"])]
+    pub method: Option<Automatic>,
     /// Formulation, such as index1 or baumgarte:alpha=5,beta=5
     #[arg(long, value_parser = choice)]
     pub formulation: Option<Choice>,
@@ -73,6 +78,11 @@ fn choice(text: &str) -> Result<Choice, String> {
     Choice::parse(text).map_err(|error| error.to_string())
 }
 
+fn automatic(text: &str) -> Result<Automatic, String> {
+    let help = "it can be `auto`; name methods by --formulation, --integrator and --projection";
+    if text == "auto" { Ok(Automatic::Auto) } else { Err(help.to_string()) }
+}
+
 fn number(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
@@ -97,6 +107,7 @@ impl Common {
             &self.scene,
             &Overrides {
                 set: self.set.clone(),
+                method: self.method,
                 formulation: self.formulation.clone(),
                 integrator: self.integrator.clone(),
                 projection: self.projection.clone(),

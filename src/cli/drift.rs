@@ -1,7 +1,7 @@
 //! `holonom drift SCENE`
 
 use super::common::{Common, Output, print};
-use crate::error::{Failure, Result};
+use crate::error::{Error, Failure, Result};
 use crate::formulation::Choice;
 use crate::measure::{Drift, EnergyBalance, Record, Recorder};
 use crate::plot::{AxisSpec, Figure, Panel, Series};
@@ -42,6 +42,7 @@ struct Row {
 pub fn run(args: Args) -> Result<ExitCode> {
     let study = args.common.load()?;
     args.common.span(&study)?;
+    check_choice(&study)?;
     let mut folder = args.output.folder(&study.name)?;
     let bar = args.common.progress(stabilizations(1.0).len() as u64 + 1, "drift");
     let plain = one(&study, &Choice::named("index1"), &Choice::named("none"))?;
@@ -68,6 +69,20 @@ pub fn run(args: Args) -> Result<ExitCode> {
     match rows.iter().filter_map(|row| row.failure.clone()).nth(rows.len() - 1) {
         Some(failure) => Err(failure.into()),
         None => Ok(ExitCode::SUCCESS),
+    }
+}
+
+/// Stabilizations are for vector fields: where `auto` chooses another formulation, there is nothing to compare.
+fn check_choice(study: &Study) -> Result<()> {
+    let Method { formulation, integrator, .. } = &study.method;
+    match &study.chosen_because {
+        Some(because) if formulation.name != "index1" || integrator.name == "radau_iia" => {
+            let message =
+                format!("auto chooses {integrator} on {formulation}, not one to compare stabilizations by: {because}");
+            let error = Error::input(message).under("--method");
+            Err(error.hint("name an explicit method, as in --integrator dop853, which will take its time"))
+        }
+        _ => Ok(()),
     }
 }
 
@@ -142,7 +157,8 @@ fn text(study: &Study, rows: &[Row]) -> String {
         let work = [row.steps.to_string(), row.rhs_evaluations.to_string(), format!("{:.2}", 1e3 * row.wall_seconds)];
         table.row([row.method.clone()].into_iter().chain(drift).chain([energy]).chain(work));
     }
-    let text = format!("{}: drift with {integrator}, {accuracy}\n\n{table}", study.name);
+    let because = study.chosen_because.as_ref().map_or(String::new(), |because| format!("  auto: {because}\n"));
+    let text = format!("{}: drift with {integrator}, {accuracy}\n{because}\n{table}", study.name);
     let failures = rows.iter().filter_map(|row| Some((&row.method, row.failure.as_ref()?)));
     let lines =
         failures.map(|(method, failure)| format!("\n  {method} FAILED at t = {:.4e} s: {}", failure.t, failure.reason));

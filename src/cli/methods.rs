@@ -1,38 +1,170 @@
 //! `holonom methods`
 
-use super::common::print;
+use super::common::{print, to_json};
+use super::purpose::purpose;
+use crate::choice::Choice;
 use crate::error::Result;
 use crate::formulation::OptionDoc;
+use crate::integrator::{self, Entry, VECTOR_FIELDS};
 use crate::report::Table;
-use crate::{formulation, integrator, projection};
+use crate::{formulation, projection};
+use serde::Serialize;
 use std::process::ExitCode;
 
-pub fn run() -> Result<ExitCode> {
-    let mut text = String::from("A method is a formulation, an integrator and a projection, chosen independently.\n\n");
-    let mut formulations = Table::left(&["formulation", "what is integrated", "options"]);
-    for entry in formulation::registry() {
-        formulations.row([entry.name.to_string(), entry.about.to_string(), options(entry.options)]);
+#[derive(clap::Args)]
+pub struct Args {
+    /// Only what goes with this formulation
+    #[arg(long, value_name = "NAME")]
+    formulation: Option<String>,
+    /// Only what goes with this integrator
+    #[arg(long, value_name = "NAME")]
+    integrator: Option<String>,
+    /// Print as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// What goes together.
+#[derive(Serialize)]
+struct Methods {
+    formulations: Vec<Item>,
+    integrators: Vec<Item>,
+    projections: Vec<Item>,
+    triples: Vec<Triple>,
+}
+
+#[derive(Serialize)]
+struct Item {
+    name: &'static str,
+    about: &'static str,
+    r#for: &'static str,
+    options: Vec<Opt>,
+}
+
+#[derive(Serialize)]
+struct Opt {
+    name: &'static str,
+    about: &'static str,
+}
+
+/// An accepted triple with its proven orders.
+#[derive(Serialize)]
+struct Triple {
+    formulation: &'static str,
+    integrator: &'static str,
+    projection: &'static str,
+    q: usize,
+    v: usize,
+    lambda: usize,
+}
+
+pub fn run(args: Args) -> Result<ExitCode> {
+    let pairs = pairs(&args)?;
+    match args.json {
+        true => print(&(to_json(&methods(&pairs))? + "\n"))?,
+        false => print(&text(&pairs))?,
     }
-    let mut integrators = Table::left(&["integrator", "order", "integrates", ""]);
-    for entry in integrator::registry() {
-        let fields = entry.accepts == integrator::VECTOR_FIELDS;
-        let accepts = if fields { "vector fields".to_string() } else { entry.accepts.join(" ") };
-        integrators.row([entry.name.to_string(), entry.order.to_string(), accepts, entry.about.to_string()]);
-    }
-    let mut projections = Table::left(&["projection", "after each step", "options"]);
-    for entry in projection::registry() {
-        projections.row([entry.name.to_string(), entry.about.to_string(), options(entry.options)]);
-    }
-    text += &format!("{formulations}\n{integrators}\n{projections}\n");
-    text += &format!(
-        "Vector fields are {}.\nOrders hold for q, v and lambda with every projection that is not refused. Write options as \
-         baumgarte:alpha=5,beta=5.\n",
-        integrator::VECTOR_FIELDS.join(", ")
-    );
-    print(&text)?;
     Ok(ExitCode::SUCCESS)
 }
 
-fn options(options: &[OptionDoc]) -> String {
-    options.iter().map(|option| option.name).collect::<Vec<_>>().join(" ")
+type Pair = (&'static Entry, &'static str);
+
+/// Integrators with the formulations that they take, of those that are asked for.
+fn pairs(args: &Args) -> Result<Vec<Pair>> {
+    let wanted = |name: &Option<String>| name.as_deref().map(Choice::parse).transpose();
+    let (formulation, integrator) = (wanted(&args.formulation)?, wanted(&args.integrator)?);
+    if let Some(choice) = &formulation {
+        let known = formulation::registry().iter().map(|entry| (entry.name, entry.options));
+        choice.find("formulation", known).map_err(|error| error.under("--formulation"))?;
+    }
+    if let Some(choice) = &integrator {
+        let entry = integrator::find(choice).map_err(|error| error.under("--integrator"))?;
+        formulation.iter().try_for_each(|formulation| integrator::check_pair(entry, formulation))?;
+    }
+    let is_wanted = |choice: &Option<Choice>, name: &str| choice.as_ref().is_none_or(|choice| choice.name == name);
+    let entries = integrator::registry().iter().filter(|entry| is_wanted(&integrator, entry.name));
+    let pairs = entries.flat_map(|entry| entry.accepts.iter().map(move |name| (entry, *name)));
+    Ok(pairs.filter(|(_, name)| is_wanted(&formulation, name)).collect())
+}
+
+fn methods(pairs: &[Pair]) -> Methods {
+    let triples = pairs.iter().flat_map(|&(entry, formulation)| {
+        let accepted = projection::registry().iter().filter(move |other| !entry.refuses(formulation, other.name));
+        accepted.map(move |projection| {
+            let [q, v, lambda] = entry.orders_with(formulation, projection.name);
+            Triple { formulation, integrator: entry.name, projection: projection.name, q, v, lambda }
+        })
+    });
+    let item = |name, about, options: &'static [OptionDoc]| {
+        let options = options.iter().map(|option| Opt { name: option.name, about: option.about }).collect();
+        Item { name, about, r#for: purpose(name), options }
+    };
+    let formulations = formulation::registry().iter().filter(|entry| pairs.iter().any(|pair| pair.1 == entry.name));
+    let integrators = integrator::registry().iter().filter(|entry| pairs.iter().any(|pair| pair.0.name == entry.name));
+    Methods {
+        formulations: formulations.map(|entry| item(entry.name, entry.about, entry.options)).collect(),
+        integrators: integrators.map(|entry| item(entry.name, entry.about, entry.options)).collect(),
+        projections: projection::registry().iter().map(|entry| item(entry.name, entry.about, entry.options)).collect(),
+        triples: triples.collect(),
+    }
+}
+
+fn text(pairs: &[Pair]) -> String {
+    let Methods { formulations, integrators, projections, .. } = methods(pairs);
+    let mut text = "A method is a formulation x an integrator x a projection.\n\n".to_string();
+    text += &orders(pairs);
+    text += "\nOrders in q, v and lambda, each a test; one number where they agree; - where the projection would cost an \
+             order\nand is refused. With penalty they are those of the approach to the motion that the penalty leaves.\n";
+    if pairs.iter().any(|(entry, _)| entry.accepts == VECTOR_FIELDS) {
+        let (first, rest) = VECTOR_FIELDS.split_at(5);
+        text += &format!("Vector fields are {},\n{}.\n", first.join(", "), rest.join(", "));
+    }
+    for (heading, items) in [("formulations", formulations), ("integrators", integrators), ("projections", projections)]
+    {
+        text += &format!("\n{}", list(heading, &items));
+    }
+    text + "\nWrite options as baumgarte:alpha=5,beta=5. `--method auto` chooses by the stiffness of a scene and says why.\n"
+}
+
+/// One row for the formulations of an integrator that have the same orders with every projection.
+fn orders(pairs: &[Pair]) -> String {
+    let names = projection::registry().iter().map(|entry| entry.name);
+    let headings: Vec<&str> = ["integrator", "formulation"].into_iter().chain(names).collect();
+    let mut table = Table::left(&headings);
+    for of_one in pairs.chunk_by(|a, b| a.0.name == b.0.name) {
+        let mut rows: Vec<(Vec<String>, Vec<&str>)> = Vec::new();
+        for &(entry, formulation) in of_one {
+            let cells = cells(entry, formulation);
+            match rows.iter_mut().find(|row| row.0 == cells) {
+                Some(row) => row.1.push(formulation),
+                None => rows.push((cells, vec![formulation])),
+            }
+        }
+        for (i, (cells, formulations)) in rows.into_iter().enumerate() {
+            let name = if i == 0 { of_one[0].0.name } else { "" };
+            let with = if formulations == VECTOR_FIELDS { "vector fields".to_string() } else { formulations.join(" ") };
+            table.row([name.to_string(), with].into_iter().chain(cells));
+        }
+    }
+    table.to_string()
+}
+
+fn cells(entry: &Entry, formulation: &str) -> Vec<String> {
+    let cell = |projection: &str| match entry.orders_with(formulation, projection) {
+        _ if entry.refuses(formulation, projection) => "-".to_string(),
+        [q, v, lambda] if q == v && v == lambda => q.to_string(),
+        orders => orders.map(|order| order.to_string()).join(" "),
+    };
+    projection::registry().iter().map(|entry| cell(entry.name)).collect()
+}
+
+/// What each is and what it is for, with its options as they are written.
+fn list(heading: &str, items: &[Item]) -> String {
+    let mut text = format!("{heading}\n");
+    for Item { name, about, r#for, options } in items {
+        let options: Vec<String> = options.iter().map(|option| format!("{}=..", option.name)).collect();
+        let colon = if options.is_empty() { "" } else { ":" };
+        text += &format!("  {name}{colon}{}\n      {about}\n      for {for}\n", options.join(","));
+    }
+    text
 }

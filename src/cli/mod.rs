@@ -5,6 +5,7 @@ mod common;
 mod drift;
 mod generate;
 mod methods;
+mod purpose;
 mod schema;
 mod simulate;
 
@@ -30,8 +31,8 @@ enum Command {
     Drift(drift::Args),
     /// Print a scalable scene
     Generate(generate::Args),
-    /// Formulations, integrators and projections, and what goes with what
-    Methods,
+    /// Formulations, integrators and projections: what goes with what, proven orders, what each is for
+    Methods(methods::Args),
     /// Print the JSON Schema of a scene
     Schema,
 }
@@ -43,7 +44,7 @@ pub fn run() -> ExitCode {
         Command::Simulate(args) => simulate::run(args),
         Command::Drift(args) => drift::run(args),
         Command::Generate(args) => generate::run(args),
-        Command::Methods => methods::run(),
+        Command::Methods(args) => methods::run(args),
         Command::Schema => schema::run(),
     };
     match result {

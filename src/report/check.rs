@@ -3,10 +3,12 @@
 use super::Table;
 use super::summary::{AssemblySummary, significant};
 use crate::formulation::Dynamics;
+use crate::initial::Assembly;
 use crate::math::kkt::{Dependence, condition_number, dependent_rows};
 use crate::scene::Model;
+use crate::simulate::{Mode, Spectrum};
 use crate::study::{AnyMechanism, Study};
-use crate::system::{Group, MechanicalSystem, Need, Terms};
+use crate::system::{Group, Loaded, MechanicalSystem, Need, Terms};
 use serde::Serialize;
 
 /// What is modelled, and how well posed it is at the start.
@@ -28,6 +30,8 @@ pub struct Check {
     pub distance_to_singularity: f64,
     /// Largest and smallest entry on the diagonal of M, kg or kg m^2.
     pub mass_range: [f64; 2],
+    /// The fastest mode at the start, 1/s; none where nothing is free to move.
+    pub fastest_mode: Option<Mode>,
     /// Length that drift is measured against, m.
     pub length_scale: f64,
     pub bodies: Vec<Item>,
@@ -70,7 +74,7 @@ fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
     let system = study.system();
     let (q, v) = study.start();
     let mut dynamics = Dynamics::new(system);
-    dynamics.evaluate(0.0, q, v, Need::DYNAMICS);
+    dynamics.evaluate(study.start_time(), q, v, Need::DYNAMICS);
     // Assembly has solved at this state, so it can be factored; the ratio is one where it could not.
     let distance = dynamics.factor().map_or(0.0, |()| dynamics.kkt.smallest_pivot_ratio());
     let (terms, structure) = (&dynamics.terms, &dynamics.structure);
@@ -98,6 +102,7 @@ fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
         condition: condition_number(&structure.mass, &terms.mass, &structure.g, &terms.g),
         distance_to_singularity: if dependence.rank < n.lambda { 0.0 } else { distance },
         mass_range: mass_range(structure, terms),
+        fastest_mode: fastest_mode(study),
         length_scale: length_scale(system),
         bodies: model.bodies.iter().map(body_item).collect(),
         joints: groups.iter().map(|group| joint_item(group, &system.names().lambda)).collect(),
@@ -134,6 +139,12 @@ fn mass_range(structure: &crate::system::Structure, terms: &Terms) -> [f64; 2] {
     let diagonal = entries.filter(|((i, j), _)| i == j).map(|(_, mass)| *mass);
     let range = diagonal.fold([f64::INFINITY, 0.0], |[low, high], mass| [mass.min(low), mass.max(high)]);
     if range[0].is_finite() { range } else { [0.0, 0.0] }
+}
+
+fn fastest_mode(study: &Study) -> Option<Mode> {
+    let Assembly { q, v, vdot, lambda, .. } = &study.assembly;
+    let state = Loaded { t: study.start_time(), q, v, vdot, lambda };
+    Spectrum::at(study.system(), state, 1.0)?.modes.last().copied()
 }
 
 fn length_scale(system: &dyn MechanicalSystem) -> f64 {
@@ -230,7 +241,8 @@ impl Check {
     }
 
     fn scales_text(&self) -> String {
-        format!(
+        let mode = self.fastest_mode.map_or(String::new(), |mode| format!("the fastest mode {mode}\n"));
+        mode + &format!(
             "condition of the saddle-point matrix {}, distance to a singular state {:.1e} (1 is far)\n\
              masses and inertias {:.3e} .. {:.3e}, length scale {} m\nleft out: {}\n",
             if self.condition.is_finite() { format!("{:.1e}", self.condition) } else { "infinite".to_string() },

@@ -14,7 +14,7 @@ use serde_json::{Map, Value};
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
     pub scene: String,
-    pub method: Method,
+    pub method: Chosen,
     pub status: &'static str,
     pub failure: Option<Failure>,
     pub t_end: f64,
@@ -24,6 +24,15 @@ pub struct Summary {
     pub energy: Option<EnergyBalance>,
     pub assembly: AssemblySummary,
     pub r#final: FinalState,
+}
+
+/// The method, and why where it was left to the program.
+#[derive(Clone, Debug, Serialize)]
+pub struct Chosen {
+    #[serde(flatten)]
+    pub method: Method,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub chosen_because: Option<String>,
 }
 
 /// What assembly did.
@@ -54,7 +63,7 @@ pub struct FinalState {
 pub fn summarize(study: &Study, method: &Method, outcome: &Outcome, record: &Record, wall_seconds: f64) -> Summary {
     Summary {
         scene: study.name.clone(),
-        method: method.clone(),
+        method: Chosen { method: method.clone(), chosen_because: study.chosen_because.clone() },
         status: if outcome.failure.is_some() { "failed" } else { "completed" },
         failure: outcome.failure.clone(),
         t_end: outcome.t,
@@ -89,13 +98,16 @@ fn final_state(record: &Record) -> FinalState {
 impl Summary {
     /// The summary as a person reads it.
     pub fn text(&self, units: &[(String, String)]) -> String {
-        let Method { formulation, integrator, projection, rtol, atol, step } = &self.method;
+        let Method { formulation, integrator, projection, rtol, atol, step } = &self.method.method;
         let accuracy = match step {
             Some(step) => format!("step {step} s"),
             None => format!("rtol {rtol:e}, atol {atol:e}"),
         };
         let s = &self.statistics;
         let mut text = format!("{}: {formulation} + {integrator} + {projection}, {accuracy}\n", self.scene);
+        if let Some(because) = &self.method.chosen_because {
+            text += &format!("  auto: {because}\n");
+        }
         if let Some(failure) = &self.failure {
             text += &format!("  FAILED at t = {:.6e} s: {}\n  help: {}\n", failure.t, failure.reason, failure.hint);
         }

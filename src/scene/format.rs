@@ -185,6 +185,8 @@ pub struct Simulation {
     pub t_end: Option<Number>,
     /// Distance of the rows of the trajectory, s. Default: a five-hundredth of the time.
     pub output_step: Option<Number>,
+    /// Formulation, integrator and projection by the stiffness of the start, in the place of the three.
+    pub method: Option<Automatic>,
     pub formulation: Option<Choice>,
     pub integrator: Option<Choice>,
     pub projection: Option<Choice>,
@@ -192,6 +194,13 @@ pub struct Simulation {
     pub atol: Option<Number>,
     /// Fixed step, s. Default: chosen by the integrator.
     pub step: Option<Number>,
+}
+
+/// Lets the program choose.
+#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Automatic {
+    Auto,
 }
 
 /// The keys that all bodies share.

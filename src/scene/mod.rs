@@ -10,7 +10,7 @@ mod model;
 mod outputs;
 mod schema;
 
-pub use format::{Assembly, Simulation};
+pub use format::{Assembly, Automatic, Simulation};
 pub use model::{Connection, Driven, EnergyPart, Measure, Model, Part, Watched};
 pub use schema::schema;
 

@@ -1,10 +1,14 @@
 //! The only time loop: steps, step control, projection and output.
 
+mod auto;
 mod method;
 mod observation;
+mod spectrum;
 
+pub use auto::{Advice, advise};
 pub use method::Method;
 pub use observation::{Observation, Sink, Span};
+pub use spectrum::{Mode, Spectrum};
 
 use crate::error::{Error, Failure, Result};
 use crate::formulation::{self, Dynamics, Halt, Rows as Constraints, Statistics};
@@ -161,6 +165,9 @@ impl<'a> Run<'a> {
                 let proposed = self.integrator.control().accept(size, error, growing);
                 // A step cut to hit the end says nothing against the size before it.
                 h = if last { h.max(proposed) } else { proposed };
+                if self.t < self.span.end && h < self.smallest() {
+                    return Err(self.failure(format!("steps have fallen to {h:.1e} s"), None));
+                }
             }
             growing = true;
         }
@@ -292,11 +299,15 @@ impl<'a> Run<'a> {
             Some(error) if error.is_finite() => self.integrator.control().reject(h, error),
             _ => 0.25 * h,
         };
-        let smallest = 1e-15 * self.t.abs().max(1e-3 * (self.span.end - self.span.start));
-        match smaller > smallest {
+        match smaller > self.smallest() {
             true => Ok(smaller),
             false => Err(self.failure(format!("{reason}, down to a step of {h:.1e} s"), hint)),
         }
+    }
+
+    /// Steps below make no sense.
+    fn smallest(&self) -> f64 {
+        1e-15 * self.t.abs().max(1e-3 * (self.span.end - self.span.start))
     }
 
     /// Where a run ends early, its last good state shows how it came to that.

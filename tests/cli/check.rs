@@ -41,6 +41,7 @@ fn json_has_all_of_it() {
         "condition",
         "distance_to_singularity",
         "mass_range",
+        "fastest_mode",
         "length_scale",
         "bodies",
         "joints",

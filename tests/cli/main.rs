@@ -1,8 +1,10 @@
 //! The command line at work: what every command prints and writes, as DESIGN.md, sections 5 and 6, says.
 
+mod auto;
 mod check;
 mod drift;
 mod generate;
+mod methods;
 mod schema;
 mod simulate;
 
@@ -123,14 +125,6 @@ fn err(output: &Output) -> String {
 
 fn keys(json: &Value) -> Vec<&str> {
     json.as_object().unwrap_or_else(|| panic!("no object: {json}")).keys().map(String::as_str).collect()
-}
-
-#[test]
-fn methods_lists_all_three_registries() {
-    let text = Place::new("").done(&["methods"]);
-    for word in ["index1", "baumgarte", "invariant_manifold", "heun", "rk4", "dopri5", "dop853", "manifold", "exact"] {
-        assert!(text.contains(word), "{word}");
-    }
 }
 
 #[test]

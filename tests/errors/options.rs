@@ -164,6 +164,28 @@ cases! {
             "scene.json:21:48: at simulation.output_step: the output step is 0.000000000001 s",
             "give one above zero and above a ten-millionth of the time",
         ];
+    auto_beside_integrator:
+        pendulum().args(&["--method", "auto", "--integrator", "dop853"]) => [
+            "the argument '--method <auto>' cannot be used with '--integrator <INTEGRATOR>'",
+        ];
+    auto_beside_step:
+        pendulum().args(&["--method", "auto", "--step", "0.01"]) => [
+            "the argument '--method <auto>' cannot be used with '--step <H>'",
+        ];
+    method_by_name:
+        pendulum().args(&["--method", "dop853"]) => [
+            "invalid value 'dop853' for '--method <auto>': it can be `auto`",
+        ];
+    auto_beside_projection_in_the_scene:
+        pendulum().with("'t_end': 0.1", "'t_end': 0.1, 'method': 'auto', 'projection': 'none'") => [
+            "scene.json:21:43: at simulation.method: `auto` chooses the projection, which is also given",
+            "leave out projection or method",
+        ];
+    method_by_name_in_the_scene:
+        pendulum().with("'t_end': 0.1", "'t_end': 0.1, 'method': 'dop853'") => [
+            "scene.json:21:43: at simulation.method: `dop853` is none of the possible values",
+            "auto",
+        ];
     formulation_idnex1:
         pendulum().args(&["--formulation", "idnex1"]) => [
             "at --formulation: there is no formulation `idnex1`",
@@ -253,8 +275,8 @@ cases! {
         ];
     a_projection_that_starts_bdf_anew:
         pendulum().args(&["--integrator", "bdf", "--projection", "manifold"]) => [
-            "at --projection: bdf loses an order with manifold",
-            "bdf goes with none",
+            "at --projection: bdf with index1 loses an order with manifold",
+            "bdf with index1 goes with none",
         ];
     a_step_for_a_method_that_chooses_its_own:
         pendulum().args(&["--integrator", "tr-bdf2", "--step", "0.01"]) => [
@@ -264,7 +286,7 @@ cases! {
     a_formulation_that_is_not_solved_with_derivatives:
         pendulum().args(&["--integrator", "esdirk34", "--formulation", "index3"]) => [
             "at --formulation: esdirk34 cannot integrate index3",
-            "esdirk34 accepts index1, ggl; index3 goes with rattle, generalized_alpha",
+            "esdirk34 accepts index1, ggl; index3 goes with radau_iia, rattle, generalized_alpha",
         ];
     generalized_alpha_rho_inf_2:
         pendulum().args(&["--integrator", "generalized_alpha:rho_inf=2", "--formulation", "index3", "--step", "0.01"]) => [

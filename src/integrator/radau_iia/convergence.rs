@@ -27,6 +27,8 @@ pub enum Verdict {
 const AT_ONCE: f64 = 1e-3;
 /// Two changes tell little of the contraction: one far smaller than this is not relied upon.
 const LEAST: f64 = 0.1;
+/// Round-off of many operations over that of a few.
+const NEAR: f64 = 100.0;
 
 impl Convergence {
     pub fn new() -> Self {
@@ -57,9 +59,21 @@ impl Convergence {
         0.9 * (2.0 * most + 1.0) / (2.0 * most + self.iterations as f64)
     }
 
+    /// Where changes do not fall any more but are near round-off, nothing better is to be had.
     pub fn judge(&mut self, change: f64) -> Verdict {
+        match self.watch(change) {
+            Verdict::Failed if change <= NEAR * self.floor => {
+                self.theta = AT_ONCE;
+                Verdict::Converged
+            }
+            verdict => verdict,
+        }
+    }
+
+    fn watch(&mut self, change: f64) -> Verdict {
         self.iterations += 1;
         if change <= self.floor {
+            self.theta = self.theta.min(AT_ONCE);
             return Verdict::Converged;
         }
         if self.iterations > 1 {

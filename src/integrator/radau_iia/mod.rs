@@ -16,6 +16,25 @@ use newton::Newton;
 use order::{Order, Seen, internal};
 use stages::{Stages, Unknowns, combine};
 
+/// ```text
+/// V_i = v + h sum a_ij V'_j,   Q_i = q + h sum a_ij N V_j,   M V'_i + G^T L_i = f,   with at every stage
+/// index3: phi = 0;   index2: G V + phi_t = 0;   index1: G V' = gamma
+/// ggl: phi = 0, G V + phi_t = 0 and Q_i = q + h sum a_ij N (V_j + U_j),   M U_i + G^T mu_i = 0
+/// ```
+///
+/// with lambda as an unknown in all of them; s = 3, 5 or 7 stages. Source: Hairer, Wanner, Solving Ordinary Differential
+/// Equations II, IV.5, IV.8, VII.6 and the codes RADAU5 and RADAU; constants are computed from their definition. L-stable.
+/// Order 2 s - 1 in q, v and lambda with index2, ggl and index1; with index3 v and lambda have order s unless v is
+/// projected after each step (`velocity`, `manifold`, `exact`). Hairer, Lubich, Roche, Lecture Notes in Mathematics 1409
+/// (1989). (`full` would share the error of v out to q.)
+///
+/// One matrix of n_v + n_c unknowns for the real eigenvalue of A and (s - 1)/2 complex ones a step, dense or sparse, from
+/// exact K, C, G and L: q and v are eliminated. s evaluations and (s + 1)/2 back-substitutions an iteration; ggl has s more,
+/// of the saddle-point matrix. Constantly redundant constraints are left out of the matrices. Error: the difference to a
+/// formula of order s, damped along stiff directions; velocities that phi = 0 determines are left out of it with index3,
+/// and lambda always. Steps and stages follow from it, from the decay of the Legendre coefficients over the step and from
+/// the contraction of Newton's method, which large rotations in a step slow down. An output row inside a step is a step
+/// of its own, since the collocation polynomial has order s only: rows cost work that is not counted.
 pub const ENTRY: Entry = Entry {
     name: "radau_iia",
     about: "implicit collocation of variable order 5, 9, 13, L-stable: stiff motions, and high accuracy",
@@ -134,7 +153,7 @@ impl RadauIIA {
         }
         v.iter_mut().zip(vdot0).for_each(|(v, vdot)| *v = h * gamma * vdot);
         combine(v, h, &method.error, &self.stages.unknowns.vdot);
-        self.newton.filter(h * gamma, x, v, &problem.dynamics)?;
+        self.newton.filter((h * gamma, h), x, v, &problem.dynamics)?;
         let (dq, dv) = self.error.split_at_mut(nq);
         problem.dynamics.system.rate(q0, x, dq);
         dv.iter_mut().zip(&*v).for_each(|(place, v)| *place = *v);
@@ -215,12 +234,8 @@ impl Integrator for RadauIIA {
         self.predict(problem, from, h);
         let RadauIIA { order, newton, stages, convergence, is_fixed, .. } = self;
         let mut solver = Solver { stages, newton, convergence, method: order.method(), is_fixed: *is_fixed };
-        let solved = solver.solve(problem, &tolerance, from, h);
-        if let Err(halt) = solved {
-            self.order.failed();
-            return Err(halt);
-        }
-        self.order.control.safety = self.convergence.safety();
+        solver.solve(problem, &tolerance, from, h)?;
+        self.order.limit(&self.convergence);
         to.copy_from_slice(&self.stages.y[self.order.method().stages() - 1]);
         let error = self.estimate(problem, &tolerance, from, h, to)?;
         self.seen = Seen {
@@ -235,7 +250,7 @@ impl Integrator for RadauIIA {
         Ok(())
     }
 
-    /// By a step of that length: the collocation polynomial would have order s only.
+    /// By a step of that length, or by the collocation polynomial, which has order s only, where that finds no end.
     fn interpolate(
         &mut self,
         problem: &mut Problem,
@@ -251,9 +266,11 @@ impl Integrator for RadauIIA {
         row.unknowns.predict(&stages.unknowns, method, method.nodes.iter().map(|node| theta * node));
         let mut convergence = Convergence::new();
         let is_fixed = self.is_fixed;
-        Solver { stages: row, newton, convergence: &mut convergence, method, is_fixed }
-            .solve(problem, tolerance, from, h)?;
-        out.copy_from_slice(&row.y[method.stages() - 1]);
+        let mut solver = Solver { stages: row, newton, convergence: &mut convergence, method, is_fixed };
+        match solver.solve(problem, tolerance, from, h) {
+            Ok(()) => out.copy_from_slice(&row.y[method.stages() - 1]),
+            Err(_) => stages.interpolate(method, from, theta, out),
+        }
         Ok(())
     }
 }

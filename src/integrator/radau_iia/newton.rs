@@ -100,41 +100,42 @@ impl Newton {
     /// ```
     ///
     /// with tau = h gamma_0 and G e_x = 0, L e_x + G e_v = 0 or 2 L e_v + G (e_v - raw_v) / tau = 0 for rows of positions,
-    /// velocities, accelerations. Source: Hairer, Wanner II, (8.20).
-    pub fn filter(&mut self, tau: f64, x: &mut [f64], v: &mut [f64], dynamics: &Dynamics) -> Result<(), Halt> {
+    /// velocities, accelerations. Source: Hairer, Wanner II, (8.20). Where phi = 0 determines v, that part of e_v is of
+    /// index 2 and weighted by `h`; the rest is of index 1.
+    pub fn filter(
+        &mut self,
+        (tau, h): (f64, f64),
+        x: &mut [f64],
+        v: &mut [f64],
+        dynamics: &Dynamics,
+    ) -> Result<(), Halt> {
         let structure = &dynamics.structure;
-        let Block { matrix, top, bottom, .. } = &mut self.real;
-        top.fill(0.0);
+        let Block { matrix, top, bottom, part_top: free, part_bottom, .. } = &mut self.real;
+        free.fill(0.0);
+        structure.tangent.multiply(&self.at.tangent.k, x, free);
+        free.iter_mut().for_each(|free| *free *= -tau);
+        structure.mass.multiply_symmetric(&self.at.mass, v, free);
+        top.copy_from_slice(free);
         bottom.fill(0.0);
-        structure.tangent.multiply(&self.at.tangent.k, x, top);
-        top.iter_mut().for_each(|top| *top *= -tau);
-        structure.mass.multiply_symmetric(&self.at.mass, v, top);
         match self.rows {
-            Rows::Position => {
-                structure.g.multiply(&self.at.g, x, bottom);
-                bottom.iter_mut().for_each(|row| *row /= -tau);
-            }
-            Rows::Velocity | Rows::PositionAndVelocity => {
-                structure.g.multiply(&self.at.l, x, bottom);
-                bottom.iter_mut().for_each(|row| *row = -*row);
-            }
+            Rows::Position => structure.g.multiply(&self.at.g, x, bottom),
+            Rows::Velocity | Rows::PositionAndVelocity => structure.g.multiply(&self.at.l, x, bottom),
             Rows::Acceleration => structure.g.multiply(&self.at.g, v, bottom),
         }
+        let factor = match self.rows {
+            Rows::Position => -1.0 / tau,
+            Rows::Velocity | Rows::PositionAndVelocity => -1.0,
+            Rows::Acceleration => 1.0,
+        };
+        bottom.iter_mut().for_each(|row| *row *= factor);
         matrix.solve(top, bottom)?;
-        if self.rows == Rows::Position {
-            let ex: Vec<f64> = x.iter().zip(top.iter()).map(|(x, v)| *x + tau * *v).collect();
-            top.fill(0.0);
-            bottom.fill(0.0);
-            structure.tangent.multiply(&self.at.tangent.k, x, top);
-            top.iter_mut().for_each(|top| *top *= -tau);
-            structure.mass.multiply_symmetric(&self.at.mass, v, top);
-            matrix.solve(top, bottom)?;
-            v.copy_from_slice(top);
-            x.copy_from_slice(&ex);
-            return Ok(());
-        }
+        x.iter_mut().zip(&*top).for_each(|(x, v)| *x += tau * v);
         v.copy_from_slice(top);
-        x.iter_mut().zip(top).for_each(|(x, v)| *x += tau * *v);
+        if self.rows == Rows::Position {
+            part_bottom.fill(0.0);
+            matrix.solve(free, part_bottom)?;
+            v.iter_mut().zip(free).for_each(|(v, free)| *v = *free + h * (*v - *free));
+        }
         Ok(())
     }
 }

@@ -1,6 +1,7 @@
 //! The number of stages, chosen as the integration goes.
 
 use super::collocation::Collocation;
+use super::convergence::Convergence;
 use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::integrator::{Control, Tolerance};
@@ -9,7 +10,6 @@ use crate::integrator::{Control, Tolerance};
 ///
 /// The error of s + 2 stages is estimated by that of s times the square of the ratio of the last two Legendre
 /// coefficients; from it follows the step that each method could take, and that with the least work a second is taken.
-/// The order also falls where the Newton iteration does not converge, which depends on h more than on s.
 pub struct Order {
     methods: Vec<Collocation>,
     current: usize,
@@ -34,7 +34,7 @@ const STAGES: [usize; 3] = [3, 5, 7];
 const STEADY: usize = 4;
 const GAIN: f64 = 1.2;
 /// Contraction that a larger step may come to.
-const SLOW: f64 = 0.5;
+const SLOW: f64 = 0.4;
 
 impl Order {
     pub fn new(choice: &Choice, is_fixed: bool) -> Result<Self> {
@@ -113,11 +113,10 @@ impl Order {
         ratio * old as f64 / new as f64
     }
 
-    /// After an iteration that did not converge.
-    pub fn failed(&mut self) {
-        if self.current > 0 {
-            self.set(self.current - 1);
-        }
+    /// Keeps the next step from where the Newton iteration would contract too slowly: theta grows like h.
+    pub fn limit(&mut self, convergence: &Convergence) {
+        self.control.safety = convergence.safety();
+        self.control.grow = (SLOW / convergence.theta).clamp(1.0, 5.0);
     }
 }
 

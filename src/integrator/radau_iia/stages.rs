@@ -19,6 +19,7 @@ pub struct Stages {
     velocity: Vec<f64>,
 }
 
+const SWEEPS: usize = 6;
 /// Of a few operations.
 const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
 
@@ -100,7 +101,8 @@ impl Stages {
         self.y.iter_mut().for_each(|y| y.copy_from_slice(from.y));
     }
 
-    /// Q_i and V_i that go with V' and U. Where N depends on q, Q_i is found by two sweeps a call from what it was.
+    /// Q_i and V_i that go with V' and U. Where N depends on q, Q_i is found by sweeps from what it was, each of which
+    /// leaves about h |omega|/8 of its error.
     pub fn advance(&mut self, problem: &Problem, method: &Collocation, from: From, h: f64) {
         let (nq, nv, s) = (self.n.q, self.n.v, method.stages());
         for i in 0..s {
@@ -110,7 +112,7 @@ impl Stages {
             v[nv] = self.y[i][nq + nv];
             combine(&mut v[..nv], h, &method.a[i], &self.unknowns.vdot);
         }
-        let sweeps = if nq == nv { 1 } else { 2 };
+        let sweeps = if nq == nv { 1 } else { SWEEPS };
         for _ in 0..sweeps {
             for i in 0..s {
                 let (q, v) = self.next[i].split_at(nq);
@@ -134,6 +136,16 @@ impl Stages {
             sum += tolerance.norm(from.y, before).powi(2);
         }
         (sum / s as f64).sqrt()
+    }
+
+    /// The collocation polynomial at the fraction `theta` of the step.
+    pub fn interpolate(&self, method: &Collocation, from: From, theta: f64, out: &mut [f64]) {
+        out.fill(0.0);
+        let points = std::iter::once(from.y).chain(self.y.iter().map(Vec::as_slice));
+        for (i, y) in points.enumerate().take(method.stages() + 1) {
+            let weight = method.lagrange(i, theta);
+            out.iter_mut().zip(y).for_each(|(out, y)| *out += weight * y);
+        }
     }
 
     /// Changes that are but round-off, over the tolerated errors: v is found from phi = 0 by a division by h.

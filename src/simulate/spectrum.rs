@@ -1,0 +1,316 @@
+//! The modes of a mechanism at one state of its motion.
+
+use crate::error::short;
+use crate::formulation::Dynamics;
+use crate::system::{Loaded, MechanicalSystem, Tangent};
+use serde::Serialize;
+use std::fmt;
+
+/// exp(-decay t) cos(swing t): an eigenvalue -decay + i swing and its conjugate, 1/s.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Mode {
+    pub decay: f64,
+    pub swing: f64,
+}
+
+impl Mode {
+    /// |lambda|, 1/s.
+    pub fn rate(&self) -> f64 {
+        self.decay.hypot(self.swing)
+    }
+}
+
+impl fmt::Display for Mode {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let two = |value: f64| short(format!("{value:.1e}").parse().unwrap_or(value));
+        match (self.decay, self.swing) {
+            _ if self.rate() < SLOWEST => write!(out, "neither swings nor decays"),
+            (decay, swing) if swing > decay.abs() => write!(out, "swings at {} rad/s", two(swing)),
+            (decay, _) if decay < 0.0 => write!(out, "grows at {} 1/s", two(-decay)),
+            (decay, _) => write!(out, "decays at {} 1/s", two(decay)),
+        }
+    }
+}
+
+/// Small perturbations of the motion, its state frozen:
+///
+/// ```text
+/// Z^T M Z z'' + Z^T C Z z' + Z^T K Z z = 0,   G Z = 0
+/// ```
+///
+/// With K and C at the v' and lambda of the state. At an equilibrium these are the modes; elsewhere one chart's answer,
+/// good for how fast things are and not for whether they are stable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spectrum {
+    /// From the slowest to the fastest.
+    pub modes: Vec<Mode>,
+    /// Whether there are too many coordinates for all modes: only the fastest are then known, and roughly.
+    pub is_estimate: bool,
+    /// How fast Z^T C Z and Z^T K Z change as the state moves on, over the masses: 1/s^2 and 1/s^3.
+    pub turning: [f64; 2],
+    /// How far the fastest mode is out of its rest at the state, m or rad.
+    pub excitation: f64,
+}
+
+impl Spectrum {
+    /// At a state that will move on for about `duration`. None where the equations give no K and C or are not finite.
+    pub fn at(system: &dyn MechanicalSystem, state: Loaded, duration: f64) -> Option<Self> {
+        let mut frozen = Frozen::new(system, state)?;
+        if system.dimensions().v > MOST_VELOCITIES {
+            let modes = frozen.fastest()?;
+            return Some(Spectrum { modes, is_estimate: true, turning: [0.0; 2], excitation: 0.0 });
+        }
+        let z = frozen.basis()?;
+        let [k, c] = frozen.reduced(&z);
+        let modes = modes(&k, &c)?;
+        let excitation = modes.last().map_or(Some(0.0), |fastest| frozen.excitation(state, fastest.rate()))?;
+        let ahead = AHEAD * duration;
+        frozen.move_on(state, ahead)?;
+        let [k_ahead, c_ahead] = frozen.reduced(&z);
+        let turning = [(&c_ahead - &c).norm() / ahead, (&k_ahead - &k).norm() / ahead];
+        Some(Spectrum { modes, is_estimate: false, turning, excitation })
+    }
+}
+
+/// Slower than this, 1/s, a mode is one of rounding or as good as none.
+const SLOWEST: f64 = 1e-6;
+/// More velocities than this are too many for dense matrices.
+const MOST_VELOCITIES: usize = 300;
+/// Differences over time are taken over this part of it.
+const AHEAD: f64 = 1e-6;
+/// What is left of a column of Z Z^T, over the column without constraints, where Z is complete.
+const NOTHING: f64 = 1e-10;
+/// Iterations for the fastest mode alone: a few percent where others are as fast.
+const ITERATIONS: usize = 60;
+
+type Matrix = nalgebra::DMatrix<f64>;
+
+/// The equations of motion at a state, factored, with K and C.
+struct Frozen<'a> {
+    dynamics: Dynamics<'a>,
+    tangent: Tangent,
+}
+
+impl<'a> Frozen<'a> {
+    fn new(system: &'a dyn MechanicalSystem, state: Loaded) -> Option<Self> {
+        let mut dynamics = Dynamics::new(system);
+        dynamics.solve(state.t, state.q, state.v, |_, _| 0.0).ok()?;
+        let tangent = Tangent::new(&dynamics.structure.tangent);
+        let mut frozen = Frozen { dynamics, tangent };
+        frozen.fill(state)?;
+        Some(frozen)
+    }
+
+    fn fill(&mut self, state: Loaded) -> Option<()> {
+        let Frozen { dynamics, tangent } = self;
+        let known = dynamics.system.tangent(state, tangent, &mut dynamics.scratch);
+        (known && tangent.k.iter().chain(&tangent.c).all(|x| x.is_finite())).then_some(())
+    }
+
+    /// K and C where the state will be after `time`, at the same v, v' and lambda.
+    fn move_on(&mut self, state: Loaded, time: f64) -> Option<()> {
+        let mut q = vec![0.0; state.q.len()];
+        self.dynamics.system.rate(state.q, state.v, &mut q);
+        q.iter_mut().zip(state.q).for_each(|(rate, q)| *rate = q + time * *rate);
+        self.dynamics.system.normalize(&mut q);
+        self.fill(Loaded { q: &q, t: state.t + time, ..state })
+    }
+
+    /// Z Z^T `force`: the accelerations that a force alone gives.
+    fn accelerate(&mut self, mut force: Vec<f64>) -> Option<Vec<f64>> {
+        let mut rows = vec![0.0; self.dynamics.lambda.len()];
+        self.dynamics.kkt.solve(&mut force, &mut rows).ok()?;
+        force.iter().all(|x| x.is_finite()).then_some(force)
+    }
+
+    /// Z with Z^T M Z = I, the pivoted Cholesky factor of Z Z^T: its rank shows by itself, also with redundant rows.
+    fn basis(&mut self) -> Option<Matrix> {
+        let n = self.dynamics.vdot.len();
+        let mut rest = Matrix::zeros(n, n);
+        for j in 0..n {
+            let unit = (0..n).map(|i| if i == j { 1.0 } else { 0.0 });
+            rest.column_mut(j).copy_from_slice(&self.accelerate(unit.collect())?);
+        }
+        let mut free = vec![0.0; n];
+        let Dynamics { structure, terms, .. } = &self.dynamics;
+        for (&(i, j), mass) in structure.mass.entries.iter().zip(&terms.mass) {
+            free[i] += if i == j { *mass } else { 0.0 };
+        }
+        // Over 1 / m, so that units do not count; a direction without mass has itself for a measure.
+        free.iter_mut().enumerate().for_each(|(i, m)| *m = if *m > 0.0 { 1.0 / *m } else { rest[(i, i)] });
+        let mut columns = Vec::new();
+        while columns.len() < n {
+            let left = |i: usize| if free[i] > 0.0 { rest[(i, i)] / free[i] } else { 0.0 };
+            let pivot = (0..n).max_by(|&i, &j| left(i).total_cmp(&left(j))).unwrap_or(0);
+            if left(pivot) < NOTHING {
+                break;
+            }
+            let column = rest.column(pivot) / rest[(pivot, pivot)].sqrt();
+            rest -= &column * column.transpose();
+            columns.push(column);
+        }
+        Some(Matrix::from_fn(n, columns.len(), |i, j| columns[j][i]))
+    }
+
+    /// Z^T K Z and Z^T C Z.
+    fn reduced(&self, z: &Matrix) -> [Matrix; 2] {
+        let pattern = &self.dynamics.structure.tangent;
+        [&self.tangent.k, &self.tangent.c].map(|values| {
+            let mut product = Matrix::zeros(z.nrows(), z.ncols());
+            for (from, mut to) in z.column_iter().zip(product.column_iter_mut()) {
+                pattern.multiply(values, from.clone_owned().as_slice(), to.as_mut_slice());
+            }
+            z.transpose() * product
+        })
+    }
+
+    /// K x + C v
+    fn resistance(&self, x: &[f64], v: &[f64]) -> Vec<f64> {
+        let (pattern, mut sum) = (&self.dynamics.structure.tangent, vec![0.0; v.len()]);
+        pattern.multiply(&self.tangent.k, x, &mut sum);
+        pattern.multiply(&self.tangent.c, v, &mut sum);
+        sum
+    }
+
+    /// What of v and v' belongs to a mode of rate w far above all others: Z Z^T K / w^2 keeps it and next to nothing of
+    /// slower ones. Its amplitude is v / w or v' / w^2.
+    fn excitation(&mut self, state: Loaded, rate: f64) -> Option<f64> {
+        let still = vec![0.0; state.v.len()];
+        let along = |frozen: &mut Self, x: &[f64]| {
+            let fast = frozen.resistance(x, &still);
+            Some(frozen.accelerate(fast)?.iter().fold(0.0f64, |largest, x| largest.max(x.abs())) / rate.powi(2))
+        };
+        let mut force = still.clone();
+        let Dynamics { structure, terms, .. } = &self.dynamics;
+        structure.mass.multiply_symmetric(&terms.mass, state.vdot, &mut force);
+        let vdot = self.accelerate(force)?;
+        Some((along(self, state.v)? / rate).max(along(self, &vdot)? / rate.powi(2)))
+    }
+
+    /// The fastest modes, by powers of (x, v) -> (v, -Z Z^T (K x + C v)).
+    fn fastest(&mut self) -> Option<Vec<Mode>> {
+        let n = self.dynamics.vdot.len();
+        // Any vector will do; this one has all directions in it and no symmetry.
+        let mut x = self.accelerate((0..n).map(|i| (1.0 + i as f64).sqrt().fract() - 0.5).collect())?;
+        let mut v = vec![0.0; n];
+        for _ in 0..ITERATIONS {
+            let a = self.follow(&x, &v)?;
+            let size = norm(&a) + norm(&v);
+            if size == 0.0 {
+                return Some(vec![Mode { decay: 0.0, swing: 0.0 }]);
+            }
+            (x, v) = (v, a);
+            x.iter_mut().chain(&mut v).for_each(|x| *x /= size);
+        }
+        let a = self.follow(&x, &v)?;
+        let jerk = self.follow(&v, &a)?;
+        // Positions in units in which they are as large as velocities.
+        let unit = ((norm(&v) + norm(&a)) / (norm(&x) + norm(&v))).max(f64::MIN_POSITIVE);
+        let state = |x: &[f64], v: &[f64]| x.iter().map(|x| unit * x).chain(v.iter().copied()).collect::<Vec<f64>>();
+        Some(fit(&state(&x, &v), &state(&v, &a), &state(&a, &jerk)))
+    }
+
+    /// x'' = -Z Z^T (K x + C x')
+    fn follow(&mut self, x: &[f64], v: &[f64]) -> Option<Vec<f64>> {
+        let force = self.resistance(x, v).iter().map(|x| -x).collect();
+        self.accelerate(force)
+    }
+}
+
+/// The roots of s^2 + p s + r for which y2 + p y1 + r y0 is least, the faster one last.
+fn fit(y0: &[f64], y1: &[f64], y2: &[f64]) -> Vec<Mode> {
+    let [a, b, d] = [dot(y1, y1), dot(y1, y0), dot(y0, y0)];
+    let [f, g] = [-dot(y1, y2), -dot(y0, y2)];
+    let determinant = a * d - b * b;
+    if determinant <= 1e-8 * a * d {
+        return vec![Mode { decay: if d > 0.0 { -b / d } else { 0.0 }, swing: 0.0 }];
+    }
+    let (p, r) = ((f * d - b * g) / determinant, (a * g - b * f) / determinant);
+    let square = r - 0.25 * p * p;
+    let root = square.abs().sqrt();
+    match square > 0.0 {
+        true => vec![Mode { decay: 0.5 * p, swing: root }],
+        false => [-1.0, 1.0].map(|sign| Mode { decay: 0.5 * p + sign * root.copysign(p), swing: 0.0 }).to_vec(),
+    }
+}
+
+fn norm(x: &[f64]) -> f64 {
+    dot(x, x).sqrt()
+}
+
+fn dot(x: &[f64], y: &[f64]) -> f64 {
+    x.iter().zip(y).map(|(x, y)| x * y).sum()
+}
+
+/// Eigenvalues of [0 s; -K/s -C], s the size of the frequencies, so that all entries are of one kind.
+fn modes(k: &Matrix, c: &Matrix) -> Option<Vec<Mode>> {
+    let n = k.nrows();
+    let s = k.amax().sqrt();
+    let s = if s > 0.0 { s } else { 1.0 };
+    let companion = faer::Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+        (true, true) => 0.0,
+        (true, false) => s * f64::from(u8::from(i == j - n)),
+        (false, true) => -k[(i - n, j)] / s,
+        (false, false) => -c[(i - n, j - n)],
+    });
+    faer::set_global_parallelism(faer::Par::Seq);
+    let values = if n == 0 { Vec::new() } else { companion.eigenvalues().ok()? };
+    let upper = values.iter().filter(|value| value.im >= 0.0);
+    let mut modes: Vec<Mode> = upper.map(|value| Mode { decay: -value.re, swing: value.im }).collect();
+    modes.sort_by(|a, b| a.rate().total_cmp(&b.rate()));
+    Some(modes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Frozen, Mode, Spectrum};
+    use crate::math::Scalar;
+    use crate::system::{Equations, Loaded};
+
+    /// Two masses, 1 and 3 kg, that a joint holds together, on a spring and a damper.
+    struct TwoMass {
+        stiffness: f64,
+        damping: f64,
+    }
+
+    impl Equations for TwoMass {
+        fn size(&self) -> (usize, usize) {
+            (2, 1)
+        }
+        fn mass<S: Scalar>(&self, _: S, _: &[S], mass: &mut [S]) {
+            mass.copy_from_slice(&[S::one(), S::zero(), S::zero(), S::constant(3.0)]);
+        }
+        fn force<S: Scalar>(&self, _: S, q: &[S], v: &[S], f: &mut [S]) {
+            f.copy_from_slice(&[-(q[0] * self.stiffness) - v[0] * self.damping, S::zero()]);
+        }
+        fn phi<S: Scalar>(&self, _: S, q: &[S], phi: &mut [S]) {
+            phi[0] = q[1] - q[0];
+        }
+    }
+
+    const STATE: Loaded = Loaded { t: 0.0, q: &[0.0; 2], v: &[0.0; 2], vdot: &[0.0; 2], lambda: &[0.0] };
+
+    fn modes(stiffness: f64, damping: f64) -> [Option<Vec<Mode>>; 2] {
+        let system = TwoMass { stiffness, damping };
+        let all = Spectrum::at(&system, STATE, 1.0).map(|spectrum| spectrum.modes);
+        [all, Frozen::new(&system, STATE).and_then(|mut frozen| frozen.fastest())]
+    }
+
+    /// 4 x'' + c x' + k x = 0, all modes at once and the fastest by iteration.
+    #[test]
+    fn modes_are_those_of_the_free_coordinates() {
+        for (stiffness, damping, fast) in [
+            (100.0, 0.0, [0.0, 5.0]),
+            (100.0, 2.0, [0.25, (25.0f64 - 1.0 / 16.0).sqrt()]),
+            (100.0, 50.0, [10.0, 0.0]),
+            (-100.0, 0.0, [5.0, 0.0]),
+        ] {
+            for modes in modes(stiffness, damping) {
+                let modes = modes.unwrap_or_default();
+                let last = modes.last().copied().unwrap_or(Mode { decay: f64::NAN, swing: f64::NAN });
+                let off = (last.decay.abs() - fast[0]).abs() + (last.swing - fast[1]).abs();
+                assert!(off < 1e-9, "{stiffness} {damping}: {modes:?}");
+            }
+        }
+    }
+}

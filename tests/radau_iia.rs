@@ -1,0 +1,170 @@
+//! Radau IIA: its higher orders, counters of other codes, output rows, rotations, redundant rows, stiffness.
+
+mod common;
+mod scenes;
+
+use common::driven_pendulum::{DrivenPendulum, start};
+use common::equations::State;
+use common::equations::andrews::{self, Andrews};
+use common::equations::crank::{self, Crank};
+use common::stiff::{STIFF, slow_position};
+use common::unconstrained::Power;
+use common::{Run, adaptive, distance, fixed, run, until};
+use holonom::simulate::{Method, Span};
+use holonom::system::MechanicalSystem;
+use scenes::{dop853, parse, shipped};
+
+const FORMULATIONS: [&str; 4] = ["ggl", "index3", "index2", "index1"];
+
+/// Norms of the errors of q, v and lambda at 1.5 s with fixed steps.
+fn errors(formulation: &str, order: usize, projection: &str, steps: usize) -> [f64; 3] {
+    let (q, v) = start();
+    let last = |method: &Method| {
+        let run = run(&DrivenPendulum, method, until(1.5), (&q, &v)).completed();
+        run.record.trajectory.rows.last().unwrap().clone()
+    };
+    let exact = last(&fixed("index1", "dop853", "exact", 1.5 / 160.0));
+    let found = last(&fixed(formulation, &format!("radau_iia:order={order}"), projection, 1.5 / steps as f64));
+    [1..5, 5..9, 9..11].map(|columns| distance(&found[columns.clone()], &exact[columns]))
+}
+
+/// 2 s - 1 in all, but s in v and lambda where only phi = 0 is solved and v is not projected: Hairer, Lubich, Roche, LNM
+/// 1409 (1989). Steps between where Newton's method converges and round-off; order 5 is in `orders.rs`.
+#[test]
+fn order_nine() {
+    for (order, formulation, projection, [coarse, fine], expected) in [
+        (9, "ggl", "none", [16, 24], [9.0; 3]),
+        (9, "index2", "manifold", [16, 24], [9.0; 3]),
+        (9, "index1", "manifold", [16, 24], [9.0; 3]),
+        (9, "index3", "velocity", [16, 24], [9.0; 3]),
+        (9, "index3", "none", [16, 24], [9.0, 5.0, 5.0]),
+    ] {
+        let (coarse_error, fine_error) =
+            (errors(formulation, order, projection, coarse), errors(formulation, order, projection, fine));
+        for level in 0..3 {
+            let found = (coarse_error[level] / fine_error[level]).ln() / (fine as f64 / coarse as f64).ln();
+            // Higher derivatives still count at these steps.
+            assert!((found - expected[level]).abs() < 0.1 * expected[level] + 0.5, "{order} {formulation}: {found}");
+        }
+    }
+}
+
+/// A collocation method has the order of its quadrature: v' = (k + 1) t^k is exact up to k = order - 1. (On the pendulum no
+/// step is small enough for Newton's method and large enough for order 13 to be seen over round-off.)
+#[test]
+fn orders_of_the_quadrature() {
+    for order in [5, 9, 13] {
+        let error = |k: i32| {
+            let method = fixed("index1", &format!("radau_iia:order={order}"), "none", 1.0);
+            (run(&Power(k), &method, until(1.0), (&[0.0], &[0.0])).completed().last().1[0] - 1.0).abs()
+        };
+        (0..order).for_each(|k| assert!(error(k) < 1e-14, "{order} {k}: {:e}", error(k)));
+        // (2 s - 1)/(2 s) (s! (s - 1)! / (2 s - 1)!)^2 or so of the first power that is not met: 1e-2, 1e-5, 1e-8.
+        assert!(error(order) > 1e-9, "{order}: {:e}", error(order));
+    }
+}
+
+fn digits(found: &[f64], exact: &[f64], small: f64) -> f64 {
+    let errors = found.iter().zip(exact).map(|(found, exact)| (found - exact).abs() / (exact.abs() + small));
+    -errors.fold(1e-17, f64::max).log10()
+}
+
+fn solve(system: &dyn MechanicalSystem, start: &State, end: &State, method: &Method) -> Run {
+    run(system, method, until(end.t), start.motion()).completed()
+}
+
+/// RADAU5 and RADAU on the same equations: steps tried, evaluations, matrices and digits.
+#[test]
+fn no_more_work_than_other_codes() {
+    let andrews = |formulation: &str, tolerance: f64| {
+        let method = adaptive(formulation, "radau_iia", "none", tolerance);
+        let run = solve(&Andrews, &andrews::START, &andrews::END, &method);
+        let found = digits(run.last().0, andrews::END.q, 1.0);
+        println!("{formulation} {tolerance:e}: {found:.2} digits, {:?}", run.outcome.statistics);
+        (found, run.outcome.statistics)
+    };
+    let (found, work) = andrews("index3", 1e-8);
+    assert!(work.steps + work.rejected <= 147 && work.jacobian_evaluations <= 122, "{work:?}");
+    assert!(found > 5.8, "{found}");
+    let (found, work) = andrews("index3", 1e-6);
+    assert!(work.steps + work.rejected <= 147, "{work:?}");
+    assert!(found > 5.8, "{found}");
+    let (found, work) = andrews("index2", 1e-14);
+    assert!(work.steps + work.rejected <= 228 && work.rhs_evaluations <= 5887, "{work:?}");
+    assert!(found > 12.0, "{found}");
+    let method = adaptive("index2", "radau_iia", "none", 1e-10);
+    let run = solve(&Crank, &crank::START, &crank::END, &method);
+    let work = run.outcome.statistics;
+    println!("crank: {:.2} digits, {work:?}", digits(run.last().0, crank::END.q, 0.0));
+    assert!(work.steps <= 607, "{work:?}");
+    assert!(digits(run.last().0, crank::END.q, 0.0) > 6.0);
+}
+
+/// The stages of a step are of order s + 1 only: rows inside it are as right as its end.
+#[test]
+fn rows_are_as_accurate_as_steps() {
+    let span = Span { start: 0.0, end: 0.03, output_step: 1e-4 };
+    let rows =
+        |method: &Method| run(&Andrews, method, span, andrews::START.motion()).completed().record.trajectory.rows;
+    let exact = rows(&adaptive("index1", "dop853", "exact", 1e-13));
+    for formulation in FORMULATIONS {
+        let found = rows(&adaptive(formulation, "radau_iia", "none", 1e-8));
+        let error = |(row, exact): (&Vec<f64>, &Vec<f64>)| distance(&row[1..8], &exact[1..8]);
+        let errors: Vec<f64> = found.iter().zip(&exact).map(error).collect();
+        let (worst, last) = (errors.iter().fold(0.0, |a: f64, b| a.max(*b)), errors.last().unwrap());
+        println!("{formulation} {worst:e} {last:e}");
+        // The error grows along the motion.
+        assert!(worst < 3.0 * last.max(1e-8), "{formulation}: {worst:e} {last:e}");
+    }
+}
+
+#[test]
+fn rotations_in_space() {
+    for (scene, column, amplified) in [("spinning_top", "precession", 1e2), ("universal_shaft", "output_angle", 1e2)] {
+        let ready = shipped(scene, &[]);
+        let exact = *ready.run(&dop853(1e-12), ready.span()).column(column).last().unwrap();
+        for formulation in FORMULATIONS {
+            for tolerance in [1e-4, 1e-7, 1e-10] {
+                let run = ready.run(&adaptive(formulation, "radau_iia", "none", tolerance), ready.span());
+                let error = (run.column(column).last().unwrap() - exact).abs();
+                println!("{scene} {column} {formulation} {tolerance:e}: {error:e} {:?}", run.outcome.statistics);
+                assert!(error < amplified * tolerance, "{scene} {formulation} {tolerance:e}: {error:e}");
+            }
+        }
+    }
+}
+
+/// Rows of G that depend on each other at every state are left out of the matrices.
+#[test]
+fn redundant_constraints() {
+    let ready = shipped("parallelogram_redundant", &[]);
+    let span = Span { start: 0.0, end: 1.0, output_step: 0.1 };
+    let exact = ready.run(&dop853(1e-12), span).record.trajectory.rows.last().unwrap().clone();
+    for formulation in FORMULATIONS {
+        let run = ready.run(&adaptive(formulation, "radau_iia", "none", 1e-8), span);
+        let found = run.record.trajectory.rows.last().unwrap();
+        println!("{formulation} {:?} {:?}", run.outcome.statistics, run.record.drift.position);
+        assert!(distance(&found[1..13], &exact[1..13]) < 1e-6, "{formulation}");
+    }
+}
+
+/// The fast spring would keep an explicit method at steps of 1e-5 s. Where it is damped it is stepped over; where it is
+/// not, the collocation damps it.
+#[test]
+fn stiff_motions_are_stepped_over() {
+    for damping in [0.0, 1e3] {
+        let ready = shipped_stiff(damping);
+        for formulation in FORMULATIONS {
+            let span = Span { start: 0.0, end: 10.0, output_step: 10.0 };
+            let run = ready.run(&adaptive(formulation, "radau_iia", "none", 1e-8), span);
+            let (x, work) = (*run.column("x").last().unwrap(), run.outcome.statistics);
+            println!("{damping} {formulation}: {:e} {work:?}", x - slow_position());
+            assert!((x - slow_position()).abs() < 1e-6, "{damping} {formulation}: {x}");
+            assert!(work.steps < 400, "{damping} {formulation}: {work:?}");
+        }
+    }
+}
+
+fn shipped_stiff(damping: f64) -> scenes::Ready {
+    parse(&STIFF.replace("\"damping\": 0 }", &format!("\"damping\": {damping} }}")))
+}
