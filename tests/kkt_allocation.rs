@@ -90,6 +90,25 @@ fn nor_by_the_dense_solvers() {
     }
 }
 
+/// A decomposition of squarer matrices than those of the rods.
+#[test]
+fn pseudo_inverse_of_many_rows() {
+    for (n, m) in [(7, 6), (21, 20), (40, 40), (75, 70), (150, 140)] {
+        let (mass, g) = (Pattern::diagonal(n), Pattern::dense(m, n));
+        let values: Vec<f64> = (0..n * m).map(|k| (1.7 * k as f64).sin()).collect();
+        let mut solver = PseudoInverse::new(&mass, &g, 1e-10).unwrap();
+        let (mass, mut top, mut bottom) = (vec![1.0; n], vec![1.0; n], vec![0.0; m]);
+        let mut round = || {
+            solver.factor(&mass, &values).unwrap();
+            solver.solve(&mut top, &mut bottom).unwrap();
+        };
+        round();
+        let before = count();
+        (0..10).for_each(|_| round());
+        assert_eq!(count(), before, "{n} {m}");
+    }
+}
+
 /// Rounds of factor and solve of an implicit method's matrix, whose pivots change from round to round.
 fn unsymmetric<T: Field>(points: usize, copies: usize) {
     let (g, values) = rods(points, copies);

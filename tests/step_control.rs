@@ -37,7 +37,8 @@ fn is_accurate(entry: &Entry) -> bool {
 #[test]
 fn the_tightest_tolerance() {
     let (q, v) = start();
-    let exact = run(&DrivenPendulum, &fixed("index1", "dop853", "exact", 1.5 / 320.0), until(1.5), (&q, &v)).completed();
+    let exact =
+        run(&DrivenPendulum, &fixed("index1", "dop853", "exact", 1.5 / 320.0), until(1.5), (&q, &v)).completed();
     methods(is_accurate).into_par_iter().for_each(|(formulation, integrator)| {
         let run = run(&DrivenPendulum, &adaptive(formulation, integrator, "none", 1e-14), until(1.5), (&q, &v));
         let what = format!("{formulation} {integrator}");

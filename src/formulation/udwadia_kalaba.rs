@@ -15,7 +15,6 @@ use crate::math::kkt::PseudoInverse;
 /// Singular values up to `tolerance` times the largest are left out, which decides what happens near a singular
 /// position; rows are not scaled first, so units count. Order in q, v, lambda: that of the integrator. Dense Cholesky
 /// and singular-value decomposition a stage, n^3/3 + 12 n m^2 operations: meant for small systems.
-/// Where G is nearly square the decomposition (faer's) allocates, in accepted steps too.
 pub const ENTRY: Entry = Entry {
     name: "udwadia_kalaba",
     about: "v' by the pseudo-inverse of G M^-1/2, dense; drifts as index1 does",

@@ -42,14 +42,14 @@ pub const ENTRY: Entry = Entry {
     refuses: &[],
     options: &[OptionDoc {
         name: "penalty",
-        about: "h^2/4 alpha over the mass on a constraint; 1/penalty is left an iteration (default 1e5)",
+        about: "h^2/4 alpha over the mass on a constraint, of which an iteration leaves 1/penalty (default 1e7)",
     }],
     make,
 };
 
 fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
     let n = setup.system.dimensions();
-    let matrix = Penalized::new(setup.integrator.positive("penalty", 1e5)?, setup.system)
+    let matrix = Penalized::new(setup.integrator.positive("penalty", 1e7)?, setup.system)
         .ok_or_else(|| Error::input("there is not enough memory for a matrix of this size"))?;
     let zeros = |n: usize| vec![0.0; n];
     Ok(Box::new(Ali3p {

@@ -18,8 +18,8 @@ const MASSLESS: f64 = 1e-11;
 /// ```
 ///
 /// Any R gives the same a as M^-1/2 does, since they differ by a rotation. Contradicting rows are met in least squares,
-/// lambda has the least norm. Costs about n^3/3 + 12 n m^2. Where n is about m faer's decomposition allocates some small
-/// blocks each time; where n is about 2 m or more nothing allocates after the first use.
+/// lambda has the least norm. Costs about n^3/3 + 12 n m^2. Nothing allocates after the first use, in which faer asks for
+/// the sizes of the caches.
 pub struct PseudoInverse {
     /// Singular values up to this part of the largest count as zero.
     pub tolerance: f64,
