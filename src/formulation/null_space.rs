@@ -9,24 +9,25 @@ use crate::system::{MechanicalSystem, Need};
 /// With G_b Z = 0 at the start (q_b, v_b) of a step, and Y normal to Z in the metric of diag(M_b),
 ///
 /// ```text
-/// q = q_b + Z u + Y c,  phi(q, t) = 0,      v = v_b + Z u' + Y d,  G v + phi_t = 0        n - m coordinates u
+/// q = q_b + Z u + Y c,  phi(q, t) = 0,   v = v_b + Z u' + Y d,  G v + phi_t = 0                  n - m coordinates u
 /// v' = Y0 y + Z0 z,  G Z0 = 0,  G Y0 y = gamma,  Z0^T M Z0 z = Z0^T (f - M Y0 y),  Y0^T G^T lambda = Y0^T (f - M v')
 /// ```
 ///
-/// The first line is a chart of the manifold: c by Newton's method, d from one linear system. The second, from a pivoted
-/// QR of G^T at the state itself, gives u'' = the part of v' along Z. So 2 (n - m) states are integrated, and the
-/// constraints hold to round-off on both levels at every stage and every step, with no projection. Source: Potra,
+/// The first line is a chart of the manifold: c by Newton's method, d from one linear system. The second, from a
+/// pivoted QR of G^T at the state itself, gives u'' = the part of v' along Z. So 2 (n - m) states are integrated, and
+/// the constraints hold to round-off on both levels at every stage and every step, with no projection. Source: Potra,
 /// Rheinboldt, Mech. Struct. Mach. 19 (1991) 1-18; Kim, Vanderploeg, J. Mech. Transm. Autom. Des. 108 (1986) 183-188.
 ///
-/// An integrator sees (q, v) and (q', v') in all n directions. Since c and d follow from u, u' and t, the lines above
-/// ignore what it makes of the parts along Y; these, of the method's order too, are the guess of Newton's method. Every
-/// accepted step has a base of its own, whose QR is a small part of the work of the stages, so that a chart is never used
-/// far from its base; slopes at the end of a step are those at the start of the next. A step within which Newton's method
-/// does not converge is too long for its chart, and refused. With quaternions, q' = N v, the chart is not affine:
-/// q = (q_b + N u)/|.|, then corrections N Y c; all else holds.
+/// An integrator sees (q, v) and (q', v') in all n directions. Since c and d follow from u, u' and t, the chart ignores
+/// what it makes of the parts along Y; these, of the method's order too, are the guess of Newton's method. Every
+/// accepted step has a base of its own, whose QR is a small part of the work of the stages, so that a chart is never
+/// used far from its base; slopes at the end of a step are those at the start of the next. A step within which Newton's
+/// method does not converge is too long for its chart, and refused. With quaternions, q' = N v, the chart is not
+/// affine: q = (q_b + N Z u)/|.|, then corrections N Y c; all else holds.
 ///
 /// G may be rank deficient: lambda is then the one of least norm. Order in q, v, lambda: that of the integrator. Dense,
-/// about 3 n m^2 + 4 n^2 (n - m) + 3 m^3 operations a stage, with some three evaluations of phi and G: for small systems.
+/// about 3 n m^2 + 4 n^2 (n - m) + 3 m^3 operations a stage, and some three evaluations of phi and G: for small
+/// systems.
 pub const ENTRY: Entry = Entry {
     name: "null_space",
     about: "minimal coordinates in the tangent space, with a new base each step: no drift; dense",
@@ -130,8 +131,8 @@ impl Default for Progress {
 }
 
 impl Progress {
-    /// Whether `x`, just changed by `step`, is at round-off. Changes halve at least until then, or else the state is not
-    /// in the chart, or on another branch of the constraints.
+    /// Whether `x`, just changed by `step`, is at round-off. Changes halve at least until then, or else the state is
+    /// not in the chart, or on another branch of the constraints.
     fn settles(&mut self, step: &[f64], x: &[f64]) -> Result<bool, Halt> {
         if !step.iter().all(|step| step.is_finite()) {
             return Err(Halt::NotFinite);

@@ -89,8 +89,8 @@ impl Penalized {
         self.weight.iter_mut().for_each(|size| *size = if *size > 0.0 { penalty / *size } else { penalty });
     }
 
-    /// W x = right - h^2/4 G^T alpha rows, in place; leaves h^2/4 alpha (rows + G x) in `rows`. With the G of W: another
-    /// one would leave a part along the motion, which alpha makes large.
+    /// W x = right - h^2/4 G^T alpha rows, in place; leaves h^2/4 alpha (rows + G x) in `rows`. By the G of W: another
+    /// would leave a part along the motion, which alpha makes large.
     pub fn solve(&mut self, g: &Pattern, rows: &mut [f64], right: &mut [f64]) -> Result<(), Halt> {
         self.rest.copy_from_slice(rows);
         rows.iter_mut().zip(&self.weight).for_each(|(row, weight)| *row *= -weight);

@@ -12,29 +12,30 @@ use crate::system::{Loaded, Need};
 use matrix::Penalized;
 
 /// ```text
-/// q_1 = q + h/2 (v + v_1),   v_1 = v + h/2 (a + a_1),   M a_1 + G^T lambda = f,   phi(q_1) = 0        trapezoidal rule
-/// W da = f - M a_1 - G^T (lambda* + alpha phi),   lambda* += alpha phi,   W = M + h/2 C + h^2/4 (K + G^T alpha G)
-/// W dv = -h^2/4 G^T alpha (G v_1 + phi_t),   W da = -h^2/4 G^T alpha (G a_1 - gamma)                 then projections
+/// q_1 = q + h/2 (v + v_1),  v_1 = v + h/2 (a + a_1),  M a_1 + G^T lambda = f,  phi(q_1) = 0           trapezoidal rule
+/// W da = f - M a_1 - G^T (lambda* + alpha phi),  lambda* += alpha phi,  W = M + h/2 C + h^2/4 (K + G^T alpha G)
+/// W dv = -h^2/4 G^T alpha (G v_1 + phi_t),  W da = -h^2/4 G^T alpha (G a_1 - gamma)                then projections
 /// ```
 ///
 /// Each line is iterated to round-off by the factors of one W, which is of the size of M: phi, G v + phi_t and
 /// G a - gamma hold at every step, whatever the penalty. lambda* is moved by the phi that the iteration predicts, and W
-/// and alpha phi share their G: so iterations converge as Newton's, and a large alpha takes none of that away. Source:
-/// Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130; Cuadrado, Cardenal, Morer, Bayo, Multibody Syst. Dyn. 4 (2000) 55-73.
-/// The rule by itself would leave lambda of order 1, and undamped; what is carried on is a after its projection (least
-/// change in the metric of M + h/2 C + h^2/4 K), and lambda is that of the equations of motion at (q, v).
+/// and alpha phi share their G: so iterations converge as Newton's do, however large alpha is. Source: Bayo, Ledesma,
+/// Nonlinear Dyn. 9 (1996) 113-130; Cuadrado, Cardenal, Morer, Bayo, Multibody Syst. Dyn. 4 (2000) 55-73. The rule by
+/// itself would leave lambda of order 1, and undamped; what is carried on is a after its projection (least change in
+/// the metric of M + h/2 C + h^2/4 K), and lambda is that of the equations of motion at (q, v).
 ///
-/// alpha_j = (4/h^2) penalty / (G diag(M)^-1 G^T)_jj for row j: an iteration leaves some 1/penalty of it, in whatever units.
-/// (The usual alpha of 1e7 to 1e9 is a penalty of 250 to 25,000 at unit masses and h = 0.01 s.) W is regular where rows
-/// of G depend on others, always or at one position: redundant constraints are met, singular positions are passed.
+/// alpha_j = (4/h^2) penalty / (G diag(M)^-1 G^T)_jj for row j: an iteration leaves some 1/penalty of it, in whatever
+/// units. (The usual alpha of 1e7 to 1e9 is a penalty of 250 to 25,000 at unit masses and h = 0.01 s.) W is regular
+/// where rows of G depend on others, always or at one position: redundant constraints are met, singular positions passed.
 /// Rotations advance along the group, the change predicted and the rest one after the other.
 ///
-/// Order 2 in q, v and lambda. A step costs W from exact K and C, some four evaluations and six back-substitutions, and the
-/// evaluation of lambda. W is as little symmetric as K and C: LU, dense or sparse by its pattern, which is that of K and
-/// of bodies that share a joint. The work is the trapezoidal rule. Fixed steps; cubic Hermite interpolation.
+/// Order 2 in q, v and lambda. A step costs W from exact K and C, two or three iterations with an evaluation each, some
+/// more back-substitutions, and the evaluation of lambda. W is symmetric only where K and C are: an LU, dense or sparse
+/// by its pattern, in which bodies meet that share an element. The work is the trapezoidal rule. Fixed steps; cubic
+/// Hermite interpolation.
 pub const ENTRY: Entry = Entry {
     name: "ali3p",
-    about: "index-3 augmented Lagrangian with projections: holds phi, phi', redundant and singular G allowed; fixed steps",
+    about: "index-3 augmented Lagrangian, projected: holds phi, phi'; redundant and singular G allowed; fixed steps",
     order: 2,
     orders: &[],
     steps: Steps::Fixed,
@@ -93,8 +94,8 @@ struct Ali3p {
 /// Iterations, and the ratio of two changes from which the matrix is renewed.
 const MOST: usize = 40;
 const SLOW: f64 = 0.3;
-/// Relative change of a that is round-off, and below which it may stop falling; and change of q, m or rad, below which it
-/// may.
+/// Relative change of a that is round-off, and below which it may stop falling; and change of q, m or rad, below which
+/// it may.
 const ROUND_OFF: f64 = 1e-15;
 const SMALL: f64 = 1e-8;
 const STILL: f64 = 1e-14;
