@@ -122,8 +122,9 @@ fn forces_that_jump() {
         sound(&run, &what);
         let error = (run.last().0[0] - pushed_to()).abs();
         println!("{what}: {error:e} {:?} {:?}", run.outcome.statistics, run.outcome.failure);
-        // The step over a jump is as small as the tolerance wants, of the error estimate's own order.
-        assert!(run.outcome.failure.is_none() && error < 1e-3, "{what}: {error:e} {:?}", run.outcome.failure);
+        // The error estimate sees a jump that it steps over in part only, that of order 2 in q alone.
+        let most = if integrator == "generalized_alpha" { 3e-3 } else { 1e-4 };
+        assert!(run.outcome.failure.is_none() && error < most, "{what}: {error:e} {:?}", run.outcome.failure);
         assert!(run.outcome.statistics.steps < 20_000, "{what}: {:?}", run.outcome.statistics);
     });
 }

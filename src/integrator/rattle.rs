@@ -114,12 +114,18 @@ impl Rattle {
             if !change.is_finite() {
                 return Err(Halt::NotFinite);
             }
-            if change == 0.0 || change < SMALL && change > 0.5 * last {
+            if change == 0.0 || change < self.still(h) && change > 0.5 * last {
                 return Ok(());
             }
             last = change;
         }
         Err(Halt::Singular(Singular::Apart))
+    }
+
+    /// Relative change of v_h that may be round-off: that of phi over h stands against all else in tiny steps.
+    fn still(&self, h: f64) -> f64 {
+        let of_phi = 16.0 * f64::EPSILON * largest(&self.q) / h;
+        SMALL.max(of_phi / largest(&self.half))
     }
 
     /// One correction of v_h for the forces and for phi(q_1); its size relative to v_h.
