@@ -92,12 +92,13 @@ fn no_more_work_than_other_codes() {
     let (found, work) = andrews("index2", 1e-14);
     assert!(work.steps + work.rejected <= 228 && work.rhs_evaluations <= 5887, "{work:?}");
     assert!(found > 12.0, "{found}");
-    let method = adaptive("index2", "radau_iia", "none", 1e-10);
+    let method = adaptive("index2", "radau_iia", "none", 3e-10);
     let run = solve(&Crank, &crank::START, &crank::END, &method);
     let work = run.outcome.statistics;
     println!("crank: {:.2} digits, {work:?}", digits(run.last().0, crank::END.q, 0.0));
-    assert!(work.steps <= 607, "{work:?}");
-    assert!(digits(run.last().0, crank::END.q, 0.0) > 6.0);
+    // Their digits are rounded.
+    assert!(work.steps + work.rejected <= 607, "{work:?}");
+    assert!(digits(run.last().0, crank::END.q, 0.0) > 5.95);
 }
 
 /// The stages of a step are of order s + 1 only: rows inside it are as right as its end.

@@ -23,7 +23,6 @@ pub fn purpose(name: &str) -> &'static str {
         "hem5" => "the same at high accuracy",
         "phem56" => "tight tolerances with exact velocity constraints",
         "radau_iia" => "stiff motions at any accuracy, also fast oscillations that are at rest",
-        "ali3p" => "redundant joints and singular positions at two to four digits with fixed steps; real time",
         "rattle" => "long motions without loss, where the energy must not drift; M constant",
         "generalized_alpha" => "the slow motion of stiff structures, whose fast oscillations it damps",
         "ali3p" => "redundant constraints, and motions through singular positions",
