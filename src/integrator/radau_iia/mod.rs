@@ -31,8 +31,8 @@ use stages::{Stages, Unknowns, combine};
 /// One matrix of n_v + n_c unknowns for the real eigenvalue of A and (s - 1)/2 complex ones a step, dense or sparse, from
 /// exact K, C, G and L: q and v are eliminated. s evaluations and (s + 1)/2 back-substitutions an iteration; ggl has s more,
 /// of the saddle-point matrix. Constantly redundant constraints are left out of the matrices. Error: the difference to a
-/// formula of order s, damped along stiff directions; velocities that phi = 0 determines are left out of it with index3,
-/// and lambda always. Steps and stages follow from it, from the decay of the Legendre coefficients over the step and from
+/// formula of order s, damped along stiff directions; velocities that phi = 0 determines, of index 2, are weighted by h,
+/// lambda is left out. Steps and stages follow from it, from the decay of the Legendre coefficients over the step and from
 /// the contraction of Newton's method, which large rotations in a step slow down. An output row inside a step is a step
 /// of its own, since the collocation polynomial has order s only: rows cost work that is not counted.
 pub const ENTRY: Entry = Entry {
@@ -112,7 +112,7 @@ impl RadauIIA {
         if self.tried.is_some_and(|step| step.start == from.t) {
             return Ok(());
         }
-        if let Some(step) = self.tried {
+        if let Some(step) = self.tried.take() {
             std::mem::swap(&mut self.before, &mut self.stages.unknowns);
             self.accepted = Some(step);
             self.order.accepted(tolerance, &self.seen);
@@ -132,6 +132,7 @@ impl RadauIIA {
             }
             None => unknowns.hold(problem.split(from.slope).1, &self.lambda),
         }
+        self.newton.leave_out(unknowns);
     }
 
     /// The difference to a formula of order s, damped along the stiff directions, over the tolerated errors.
@@ -156,7 +157,7 @@ impl RadauIIA {
         self.newton.filter((h * gamma, h), x, v, &problem.dynamics)?;
         let (dq, dv) = self.error.split_at_mut(nq);
         problem.dynamics.system.rate(q0, x, dq);
-        dv.iter_mut().zip(&*v).for_each(|(place, v)| *place = *v);
+        dv[..v.len()].copy_from_slice(v);
         Ok(tolerance.norm_between(from.y, to, &self.error))
     }
 }
@@ -264,6 +265,7 @@ impl Integrator for RadauIIA {
         newton.prepare(problem, from)?;
         newton.factor(method, h, &mut problem.dynamics)?;
         row.unknowns.predict(&stages.unknowns, method, method.nodes.iter().map(|node| theta * node));
+        newton.leave_out(&mut row.unknowns);
         let mut convergence = Convergence::new();
         let is_fixed = self.is_fixed;
         let mut solver = Solver { stages: row, newton, convergence: &mut convergence, method, is_fixed };

@@ -1,7 +1,7 @@
 //! The simplified Newton iteration: one saddle-point system for each eigenvalue of A.
 
 use super::collocation::{Collocation, Mode};
-use super::stages::{Residual, Stages};
+use super::stages::{Residual, Stages, Unknowns};
 use crate::error::{Error, Result};
 use crate::formulation::{Dynamics, Halt, Rows};
 use crate::integrator::{From, NO_TANGENT, Problem, Setup};
@@ -76,6 +76,12 @@ impl Newton {
         real.factor(h * method.real.value, *rows, at, dynamics)?;
         let mut modes = pairs.iter_mut().zip(&method.pairs);
         modes.try_for_each(|(block, mode)| block.factor(mode.value * h, *rows, at, dynamics))
+    }
+
+    /// Sets the multipliers that no correction reaches to zero.
+    pub fn leave_out(&self, unknowns: &mut Unknowns) {
+        unknowns.leave_out(self.real.matrix.left_out());
+        self.pairs.iter().for_each(|block| unknowns.leave_out(block.matrix.left_out()));
     }
 
     /// One correction of all stages by their residuals.

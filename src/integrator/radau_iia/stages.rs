@@ -44,15 +44,11 @@ impl Unknowns {
         self.shift.iter_mut().chain(&mut self.mu).for_each(|stage| stage.fill(0.0));
     }
 
-    /// From the polynomials over the stages of another step by `method`, at the places `at` of that step, none of them its
-    /// start.
+    /// All but mu from the polynomials over the stages of another step by `method`, at the places `at` of that step, none
+    /// of them its start.
     pub fn predict(&mut self, before: &Unknowns, method: &Collocation, at: impl Iterator<Item = f64> + Clone) {
-        let pairs = [
-            (&mut self.vdot, &before.vdot),
-            (&mut self.lambda, &before.lambda),
-            (&mut self.shift, &before.shift),
-            (&mut self.mu, &before.mu),
-        ];
+        let pairs =
+            [(&mut self.vdot, &before.vdot), (&mut self.lambda, &before.lambda), (&mut self.shift, &before.shift)];
         for (stages, before) in pairs {
             for (stage, x) in stages.iter_mut().zip(at.clone()) {
                 stage.fill(0.0);
@@ -61,6 +57,15 @@ impl Unknowns {
                     stage.iter_mut().zip(before).for_each(|(stage, before)| *stage += weight * before);
                 }
             }
+        }
+        // mu is linear in its equations, and what rows that depend on others have of it would grow by extrapolation.
+        self.mu.iter_mut().for_each(|stage| stage.fill(0.0));
+    }
+
+    /// Multipliers of rows that are left out of the matrices: no correction reaches them.
+    pub fn leave_out(&mut self, rows: &[bool]) {
+        for lambda in &mut self.lambda {
+            lambda.iter_mut().zip(rows).filter(|(_, out)| **out).for_each(|(lambda, _)| *lambda = 0.0);
         }
     }
 }
