@@ -1,6 +1,6 @@
 //! Backward differentiation formulas.
 
-use super::implicit::{self, Newton, Traits};
+use super::diffsol_backend::{self, Newton, Traits};
 use super::{Entry, Integrator, Setup, Steps, With};
 use crate::error::Result;
 
@@ -24,7 +24,7 @@ pub const ENTRY: Entry = Entry {
     order: 5,
     orders: &[],
     steps: Steps::Own,
-    accepts: implicit::ACCEPTS,
+    accepts: diffsol_backend::ACCEPTS,
     refuses: &[With { formulation: "index1", projections: ALL }, With { formulation: "ggl", projections: ALL }],
     options: &[],
     make,
@@ -33,7 +33,7 @@ pub const ENTRY: Entry = Entry {
 fn make<'h, 's>(setup: &Setup<'h, 's>) -> Result<Box<dyn Integrator + 'h>> {
     // A run starts with order 1, whose error is O(h^2): the power of h that the first step is chosen by.
     let traits = Traits { order: 2, follows: false };
-    implicit::make(setup, traits, |problem, state| problem.bdf_solver::<Newton>(state))
+    diffsol_backend::make(setup, traits, |problem, state| problem.bdf_solver::<Newton>(state))
 }
 
 /// A projection would start the method anew, at order 1.

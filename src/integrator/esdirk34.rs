@@ -1,6 +1,6 @@
 //! A singly diagonally implicit Runge-Kutta method of four stages, the first explicit.
 
-use super::implicit::{self, Newton, Traits};
+use super::diffsol_backend::{self, Newton, Traits};
 use super::{Entry, Integrator, Setup, Steps};
 use crate::error::Result;
 
@@ -19,7 +19,7 @@ pub const ENTRY: Entry = Entry {
     order: 3,
     orders: &[],
     steps: Steps::Own,
-    accepts: implicit::ACCEPTS,
+    accepts: diffsol_backend::ACCEPTS,
     refuses: &[],
     options: &[],
     make,
@@ -27,5 +27,5 @@ pub const ENTRY: Entry = Entry {
 
 fn make<'h, 's>(setup: &Setup<'h, 's>) -> Result<Box<dyn Integrator + 'h>> {
     let traits = Traits { order: ENTRY.order, follows: true };
-    implicit::make(setup, traits, |problem, state| problem.esdirk34_solver::<Newton>(state))
+    diffsol_backend::make(setup, traits, |problem, state| problem.esdirk34_solver::<Newton>(state))
 }

@@ -5,6 +5,7 @@
 mod ali3p;
 mod bdf;
 mod control;
+mod diffsol_backend;
 mod dop853;
 mod dop853_tableau;
 mod dopri5;
@@ -15,7 +16,6 @@ mod half_explicit;
 mod hem;
 mod hermite;
 mod heun;
-mod implicit;
 mod phem56;
 mod problem;
 mod radau_iia;
@@ -25,7 +25,7 @@ mod tr_bdf2;
 mod turn;
 
 pub use control::{Control, Tolerance, first_step};
-pub use implicit::Store;
+pub use diffsol_backend::Store;
 pub use problem::Problem;
 
 use crate::error::{Error, Result};
