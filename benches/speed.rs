@@ -5,7 +5,7 @@ use holonom::formulation::{Choice, Dynamics};
 use holonom::measure::Recorder;
 use holonom::scene::{Scene, generate};
 use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate};
-use holonom::study::Study;
+use holonom::study::{Overrides, Study};
 use holonom::system::Need;
 use std::path::Path;
 use std::time::Duration;
@@ -126,5 +126,42 @@ fn growth(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, evaluation, end_to_end, growth);
+/// Stiff by its dampers, or oscillating fast at rest: what implicit methods are for, against dop853 at one tolerance.
+fn stiff(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("stiff");
+    group.measurement_time(Duration::from_secs(3)).sample_size(10);
+    let strut = Overrides { set: vec![("c_strut".to_string(), 2e5)], ..Overrides::default() };
+    for (name, end, overrides) in [("flyball_governor", 1.0, Overrides::default()), ("quarter_car", 2.0, strut)] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(format!("{name}.json"));
+        let study = Study::load(&path, &overrides).unwrap_or_else(|error| panic!("{error}"));
+        for names in [["index1", "dop853", "manifold"], ["ggl", "radau_iia", "none"], ["ggl", "bdf", "none"]] {
+            let [formulation, integrator, projection] = names.map(Choice::named);
+            let method = Method { formulation, integrator, projection, rtol: 1e-6, atol: 1e-6, step: None };
+            println!("{name}, {}: {:?}", names[1], run(&study, &method, end).statistics);
+            group
+                .bench_function(BenchmarkId::new(name, names[1]), |bencher| bencher.iter(|| run(&study, &method, end)));
+        }
+    }
+}
+
+/// Five steps of implicit methods on chains: O(N).
+fn implicit_growth(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("chain, five implicit steps");
+    group.measurement_time(Duration::from_secs(3)).sample_size(10);
+    for n in [20, 200, 2000] {
+        let scene = Scene::parse(&generate::chain(n).to_string(), &[]).unwrap_or_else(|error| panic!("{error}"));
+        let study = Study::new(scene, &Default::default()).unwrap_or_else(|error| panic!("{error}"));
+        group.throughput(Throughput::Elements(n as u64));
+        for integrator in ["radau_iia", "generalized_alpha"] {
+            let (formulation, projection) = (Choice::named("ggl"), Choice::named("none"));
+            let integrator_ = Choice::named(integrator);
+            let method =
+                Method { formulation, integrator: integrator_, projection, step: Some(1e-4), ..Method::default() };
+            group
+                .bench_function(BenchmarkId::new(integrator, n), |bencher| bencher.iter(|| run(&study, &method, 5e-4)));
+        }
+    }
+}
+
+criterion_group!(benches, evaluation, end_to_end, growth, stiff, implicit_growth);
 criterion_main!(benches);
