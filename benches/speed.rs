@@ -31,7 +31,10 @@ fn n_four_bar(n: usize) -> Study {
 
 fn run(study: &Study, method: &Method, end: f64) -> Outcome {
     let span = Span { start: 0.0, end, output_step: end };
-    simulate(study.system(), method, span, study.start(), &mut Nothing).unwrap_or_else(|error| panic!("{error}"))
+    let outcome = simulate(study.system(), method, span, study.start(), &mut Nothing);
+    let outcome = outcome.unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(outcome.failure, None, "a run that fails early costs little");
+    outcome
 }
 
 /// M, f, phi, phi', gamma and G, and the saddle-point solution, at the start.

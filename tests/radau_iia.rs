@@ -10,6 +10,7 @@ use common::equations::crank::{self, Crank};
 use common::stiff::{STIFF, slow_position};
 use common::unconstrained::Power;
 use common::{Run, adaptive, distance, fixed, run, until};
+use holonom::scene::generate;
 use holonom::simulate::{Method, Span};
 use holonom::system::MechanicalSystem;
 use scenes::{dop853, parse, shipped};
@@ -168,4 +169,14 @@ fn stiff_motions_are_stepped_over() {
 
 fn shipped_stiff(damping: f64) -> scenes::Ready {
     parse(&STIFF.replace("\"damping\": 0 }", &format!("\"damping\": {damping} }}")))
+}
+
+/// Newton's second correction of a chain released from rest is thirty times the first: no reason to give up a fixed step.
+#[test]
+fn long_chains_take_fixed_steps() {
+    let ready = parse(&generate::chain(2000).to_string());
+    for formulation in ["ggl", "index3"] {
+        let run = ready.run(&fixed(formulation, "radau_iia", "none", 1e-4), until(2e-4));
+        assert!(run.record.drift.position.max < 1e-12, "{formulation} {:?}", run.record.drift.position);
+    }
 }

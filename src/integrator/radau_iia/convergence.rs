@@ -3,6 +3,8 @@
 /// Judges the norms of successive changes. Source: Hairer, Wanner, Solving Ordinary Differential Equations II, IV.8.
 pub struct Convergence {
     most: usize,
+    /// Corrections that may be large before the iteration is given up.
+    patience: usize,
     /// Tolerated size of the last change, in units of the tolerance.
     kappa: f64,
     /// Changes of this size are round-off.
@@ -34,6 +36,7 @@ impl Convergence {
     pub fn new() -> Self {
         Convergence {
             most: 0,
+            patience: 0,
             kappa: 0.0,
             floor: 0.0,
             eta: 1.0,
@@ -45,7 +48,8 @@ impl Convergence {
     }
 
     /// Starts an iteration of at most `most` corrections at relative tolerance `rtol`.
-    pub fn begin(&mut self, most: usize, rtol: f64, floor: f64) {
+    pub fn begin(&mut self, (most, patience): (usize, usize), rtol: f64, floor: f64) {
+        self.patience = patience;
         self.floor = floor;
         self.most = most;
         self.kappa = (10.0 * f64::EPSILON / rtol).max(rtol.sqrt().min(0.03));
@@ -82,13 +86,13 @@ impl Convergence {
             self.last_ratio = ratio;
             // The first change may have corrected what the start left of its constraints, and tell little.
             let limit = if self.iterations == 2 { 2.0 } else { 0.99 };
-            if self.theta.is_nan() || self.theta > limit {
+            if self.theta.is_nan() || self.theta > limit && self.iterations > self.patience {
                 return Verdict::Failed;
             }
             self.theta = self.theta.min(0.99);
             self.eta = (self.theta / (1.0 - self.theta)).max(LEAST);
             let left = self.most.saturating_sub(self.iterations) as i32;
-            if self.iterations > 2 && self.eta * change * self.theta.powi(left) > self.kappa {
+            if self.iterations > self.patience.max(2) && self.eta * change * self.theta.powi(left) > self.kappa {
                 return Verdict::Failed;
             }
         }

@@ -182,8 +182,8 @@ impl Solver<'_> {
         self.stages.advance(problem, self.method, from, h);
         let floor = self.stages.round_off(problem, tolerance, from, h, rows);
         // A fixed step cannot be tried smaller.
-        let most = if self.is_fixed { 50 } else { 7 + 5 * (s - 3) / 2 };
-        self.convergence.begin(most, tolerance.rtol, floor);
+        let limits = if self.is_fixed { (50, 10) } else { (7 + 5 * (s - 3) / 2, 0) };
+        self.convergence.begin(limits, tolerance.rtol, floor);
         loop {
             for i in 0..s {
                 let t = from.t + self.method.nodes[i] * h;
