@@ -4,6 +4,7 @@ use super::dense::Dense;
 use super::{Dynamics, Entry, Formulation, Halt};
 use crate::error::Error;
 use crate::math::kkt::{Chart, Reduced};
+use crate::math::largest;
 use crate::system::{MechanicalSystem, Need};
 
 /// With G_b Z = 0 at the start (q_b, v_b) of a step, and Y normal to Z in the metric of diag(M_b),
@@ -147,10 +148,6 @@ impl Progress {
             false => Err(Halt::NotConverged),
         }
     }
-}
-
-fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()))
 }
 
 impl Formulation for TangentSpace {

@@ -5,6 +5,7 @@ use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tolerance};
 use crate::error::{Error, Result};
 use crate::formulation::Halt;
 use crate::math::kkt::Singular;
+use crate::math::largest;
 use crate::system::Need;
 
 /// ```text
@@ -176,10 +177,6 @@ impl Rattle {
         rest[v.len()] = dynamics.power();
         Ok(())
     }
-}
-
-fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()))
 }
 
 impl Integrator for Rattle {

@@ -10,3 +10,8 @@ mod taylor;
 pub use dual::Dual;
 pub use scalar::{Scalar, Unary};
 pub use taylor::Taylor;
+
+/// max |x_i|, zero for none; what is not a number does not count.
+pub fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |largest, x| f64::max(largest, x.abs()))
+}

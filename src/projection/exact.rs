@@ -3,6 +3,7 @@
 use super::{Entry, Projection, move_back};
 use crate::error::Result;
 use crate::formulation::{Dynamics, Halt, OptionDoc};
+use crate::math::largest;
 use crate::system::Need;
 
 /// ```text
@@ -53,8 +54,4 @@ impl Projection for Exact {
         v.iter_mut().zip(&self.step).for_each(|(v, dv)| *v -= dv);
         Ok(())
     }
-}
-
-fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |largest, x| largest.max(x.abs()))
 }

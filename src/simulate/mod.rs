@@ -205,7 +205,8 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Tries one step of size `h` (or one that the method chose) with its projection, and leaves y' at the new state in `next_slope`.
+    /// Tries one step of size `h` (or one that the method chose) with its projection, and leaves y' at the new state in
+    /// `next_slope`.
     fn step(&mut self, h: &mut f64, last: &mut bool) -> Result<Option<f64>, Halt> {
         let from = From { t: self.t, y: &self.y, slope: &self.slope };
         self.problem.begin_step(self.t, &self.y)?;

@@ -8,6 +8,7 @@ use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tolerance};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
 use crate::formulation::Halt;
+use crate::math::largest;
 use crate::system::{Loaded, Need};
 use matrix::Penalized;
 
@@ -211,10 +212,6 @@ impl Ali3p {
             last = change;
         }
     }
-}
-
-fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()))
 }
 
 impl Integrator for Ali3p {

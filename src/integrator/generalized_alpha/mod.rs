@@ -18,24 +18,26 @@ use newton::Newton;
 /// alpha_m = (2 r - 1)/(r + 1),  alpha_f = r/(r + 1),  gamma = 1/2 + alpha_f - alpha_m,  beta = (gamma + 1/2)^2/4
 /// ```
 ///
-/// with r = rho_inf, the damping at infinite frequency, and A = M + gamma' h C + beta' h^2 K. Source: Chung, Hulbert, J.
-/// Appl. Mech. 60 (1993) 371-375; Arnold, Bruels, Multibody Syst. Dyn. 18 (2007) 185-202; stabilized index 2: Arnold,
-/// Bruels, Cardona, Numer. Math. 129 (2015) 149-179, who take G^T eta: with A^-1 before it unlike units do not meet and
-/// stiff springs are not excited. Rotations advance along the group, q exp(Dq) by four Runge-Kutta stages of q' = N(q) Dq; with ggl in
-/// two factors, one for the change that was predicted and one for the rest, so that Newton's method sees small rotations
-/// only and steps of a radian converge. (That moves q by O(h^4), which the phi of index3 would amplify by h^-2.) Order 2 in q, v and lambda; implicit, for stiff motions.
+/// with r = rho_inf, the damping at infinite frequency, and A = M + gamma' h C + beta' h^2 K. Source: Chung, Hulbert,
+/// J. Appl. Mech. 60 (1993) 371-375; Arnold, Bruels, Multibody Syst. Dyn. 18 (2007) 185-202; stabilized index 2:
+/// Arnold, Bruels, Cardona, Numer. Math. 129 (2015) 149-179, who take G^T eta: with A^-1 before it unlike units do not
+/// meet and stiff springs are not excited. Rotations advance along the group, q exp(Dq) by four Runge-Kutta stages of
+/// q' = N(q) Dq; with ggl in two factors, one for the change that was predicted and one for the rest, so that Newton's
+/// method sees small rotations only and steps of a radian converge. (That moves q by O(h^4), which the phi of index3
+/// would amplify by h^-2.) Order 2 in q, v and lambda; implicit, for stiff motions.
 ///
-/// With rho_inf = 1 nothing is damped, which ggl allows. With index3 the multipliers have the eigenvalue -rho_inf three
-/// times, which a turning G drives apart, the more the larger the step: with too little damping errors grow (Cardona,
-/// Geradin, Comput. Struct. 33 (1989) 801-820), so rho_inf above 0.9 is refused there. phi holds to round-off. With index3 G v + phi_t holds to order 2 (project it where that matters: `velocity`, `manifold`,
-/// `exact`; `full` would share that error out between v and q at every step, which costs q an order, so it is refused);
-/// with ggl to round-off too.
+/// With rho_inf = 1 nothing is damped, which ggl allows. With index3 the multipliers have the eigenvalue -rho_inf
+/// three times, which a turning G drives apart, the more the larger the step: with too little damping errors grow
+/// (Cardona, Geradin, Comput. Struct. 33 (1989) 801-820), so rho_inf above 0.9 is refused there. phi holds to
+/// round-off. With index3 G v + phi_t holds to order 2 (project it where that matters: `velocity`, `manifold`,
+/// `exact`; `full` would share that error out between v and q at every step, which costs q an order, so it is
+/// refused); with ggl to round-off too.
 ///
-/// Error of a step: (1/6 - beta - (alpha_m - alpha_f)/2) h^2 (a_1 - a) in q, the leading term; v and lambda, index 2 and
-/// 3, are left out. Source: Geradin, Cardona, Flexible Multibody Dynamics (2001), chapter 7. When the step changes,
-/// a = v'(t + (alpha_m - alpha_f) h) is moved with it: Jay, Negrut, ECCOMAS Multibody Dynamics (2009) 143-158. One matrix a
-/// step, from exact K and C; an evaluation and a back-substitution (with ggl two) an iteration. The work is the trapezoidal
-/// rule. Cubic Hermite interpolation.
+/// Error of a step: (1/6 - beta - (alpha_m - alpha_f)/2) h^2 (a_1 - a) in q, the leading term; v and lambda, index 2
+/// and 3, are left out. Source: Geradin, Cardona, Flexible Multibody Dynamics (2001), chapter 7. When the step
+/// changes, a = v'(t + (alpha_m - alpha_f) h) is moved with it: Jay, Negrut, ECCOMAS Multibody Dynamics (2009)
+/// 143-158. One matrix a step, from exact K and C; an evaluation and a back-substitution (with ggl two) an iteration.
+/// The work is the trapezoidal rule. Cubic Hermite interpolation.
 pub const ENTRY: Entry = Entry {
     name: "generalized_alpha",
     about: "implicit, damped at high frequencies by rho_inf, for stiff motions; holds phi, with ggl phi' too",

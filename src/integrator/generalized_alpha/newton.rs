@@ -5,6 +5,7 @@ use super::super::{From, Problem};
 use super::motion::Motion;
 use crate::formulation::Halt;
 use crate::math::kkt::Unsymmetric;
+use crate::math::largest;
 use crate::system::{Loaded, MechanicalSystem, Need, Tangent};
 
 /// Iterations, and the ratio of two changes from which the matrix is renewed, as far predictions and kinks of forces want.
@@ -174,8 +175,4 @@ impl Newton {
 fn size(problem: &Problem, motion: &Motion, h: f64, to: &[f64]) -> f64 {
     let (_, v) = problem.split(to);
     largest(&motion.end.a).max(largest(v) / h)
-}
-
-fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()))
 }

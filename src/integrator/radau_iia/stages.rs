@@ -3,6 +3,7 @@
 use super::collocation::Collocation;
 use crate::formulation::{Dynamics, Halt, Rows};
 use crate::integrator::{From, Problem, Tolerance};
+use crate::math::largest;
 use crate::system::{Dimensions, Need};
 
 /// V_i = v + h sum a_ij V'_j,  Q_i = q + h sum a_ij N(Q_j) (V_j + U_j), with V', lambda and, where positions and
@@ -155,7 +156,6 @@ impl Stages {
 
     /// Changes that are but round-off, over the tolerated errors: v is found from phi = 0 by a division by h.
     pub fn round_off(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64, rows: Rows) -> f64 {
-        let largest = |x: &[f64]| x.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
         let (q, v) = problem.split(from.y);
         let (of_q, of_v) = (ROUND_OFF * largest(q), ROUND_OFF * largest(v));
         let change = &mut self.next[0];

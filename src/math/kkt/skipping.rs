@@ -11,7 +11,8 @@ use super::Pattern;
 use super::Singular;
 use super::fast::Fast;
 use super::pivot::{Quality, Rule};
-use super::system::{System, add, add_scaled, dot, index_of_largest, largest};
+use super::system::{System, add, add_scaled, dot, index_of_largest};
+use crate::math::largest;
 
 /// Refinements where the coordinate pivots are true ones, and where some were replaced.
 const SWEEPS: [usize; 2] = [3, 40];

@@ -92,10 +92,6 @@ pub(super) fn add_scaled(factor: f64, x: &[f64], y: &mut [f64]) {
     }
 }
 
-pub(super) fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |largest: f64, v| largest.max(v.abs()))
-}
-
 /// The index of the entry of largest magnitude.
 pub(super) fn index_of_largest(x: &[f64]) -> usize {
     (0..x.len()).fold(0, |best, i| if x[i].abs() > x[best].abs() { i } else { best })

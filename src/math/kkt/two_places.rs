@@ -1,7 +1,8 @@
 //! The saddle-point system whose reactions act at one place and whose constraints hold at another.
 
-use super::system::{add_scaled, dot, largest};
+use super::system::{add_scaled, dot};
 use super::{Pattern, SaddlePoint, Singular};
+use crate::math::largest;
 
 /// ```text
 /// [M   G1^T] [a     ]   [f]
