@@ -5,6 +5,7 @@ mod common;
 use common::driven_pendulum::{self, DrivenPendulum};
 use common::unconstrained::{Arenstorf, Exponential, Power};
 use common::{Run, adaptive, distance, fixed, run, until};
+use holonom::error::Failure;
 use holonom::integrator::{Entry, Steps, registry};
 use holonom::simulate::Span;
 
@@ -107,15 +108,17 @@ fn extreme_tolerances() {
     let (q, v) = driven_pendulum::start();
     let solve = |tolerance, integrator| {
         let method = adaptive("index1", integrator, "manifold", tolerance);
-        run(&DrivenPendulum, &method, until(2.0), (&q, &v)).completed()
+        run(&DrivenPendulum, &method, until(2.0), (&q, &v))
     };
     let reference = run(&DrivenPendulum, &fixed("index1", "dop853", "exact", 0.01), until(2.0), (&q, &v)).completed();
     for integrator in ["dopri5", "dop853"] {
-        let tight = solve(1e-14, integrator);
+        let tight = solve(1e-14, integrator).completed();
         let error = distance(tight.last().0, reference.last().0);
         assert!(error < 1e-12, "{integrator}: {error:e}");
-        // With a tolerance of 1 m all that can be asked for is an end, and few steps to it.
+        // With a tolerance of 1 m all that can be asked for is an end, of the time or of the joints, and few steps to it.
         let loose = solve(1.0, integrator);
+        let is_apart = |failure: &Failure| failure.reason.contains("come apart");
+        assert!(loose.outcome.failure.as_ref().is_none_or(is_apart), "{:?}", loose.outcome.failure);
         assert!(loose.outcome.statistics.steps < 20, "{:?}", loose.outcome.statistics);
         assert!(loose.record.trajectory.rows.iter().flatten().all(|x| x.is_finite()));
     }

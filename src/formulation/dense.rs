@@ -18,6 +18,7 @@ impl<S: Solver + Send> Formulation for Dense<S> {
     ) -> Result<(), Halt> {
         dynamics.right_sides(t, q, v, |_, _| 0.0);
         dynamics.statistics.factorizations += 1;
+        self.0.hold(&dynamics.held);
         self.0.factor(&dynamics.terms.mass, &dynamics.terms.g).map_err(|singular| dynamics.halt(singular))?;
         dynamics.is_rank_deficient = self.0.is_rank_deficient();
         self.0.solve(&mut dynamics.vdot, &mut dynamics.lambda).map_err(|singular| dynamics.halt(singular))?;

@@ -103,6 +103,8 @@ pub struct Dynamics<'a> {
     pub structure: Structure,
     pub terms: Terms,
     pub kkt: SaddlePoint,
+    /// Constraints that depend on the others wherever phi = 0, and are left out.
+    pub held: Vec<usize>,
     /// v' of the last solution.
     pub vdot: Vec<f64>,
     /// lambda of the last solution.
@@ -120,6 +122,7 @@ impl<'a> Dynamics<'a> {
             system,
             terms: Terms::new(system),
             kkt: SaddlePoint::new(&structure.mass, &structure.g),
+            held: Vec::new(),
             structure,
             vdot: vec![0.0; n.v],
             lambda: vec![0.0; n.lambda],
@@ -139,6 +142,24 @@ impl<'a> Dynamics<'a> {
         self.statistics.factorizations += 1;
         let factored = self.kkt.factor(&self.terms.mass, &self.terms.g);
         factored.map_err(|singular| self.halt(singular))
+    }
+
+    /// Rows of constraints that depend on the others at a state, which should be on the constraints; none where that
+    /// state has no solution.
+    pub fn dependent_rows(&mut self, t: f64, q: &[f64], v: &[f64]) -> Vec<usize> {
+        self.evaluate(t, q, v, Need::MASS | Need::CONSTRAINTS | Need::G);
+        match self.kkt.factor(&self.terms.mass, &self.terms.g) {
+            Ok(()) => self.kkt.left_out().to_vec(),
+            Err(_) => Vec::new(),
+        }
+    }
+
+    /// Leaves out these rows from now on: see [`SaddlePoint::hold`].
+    pub fn hold(&mut self, rows: &[usize]) {
+        if self.held != rows {
+            self.kkt.hold(rows);
+            self.held = rows.to_vec();
+        }
     }
 
     /// Why the terms have no solution, with names.
@@ -177,7 +198,9 @@ impl<'a> Dynamics<'a> {
         acceleration_level: impl Fn(f64, f64) -> f64,
     ) -> Result<(), Halt> {
         self.right_sides(t, q, v, acceleration_level);
-        self.factor()?;
+        self.statistics.factorizations += 1;
+        let factored = self.kkt.factor_truncated(&self.terms.mass, &self.terms.g);
+        factored.map_err(|singular| self.halt(singular))?;
         self.solve_factored()
     }
 

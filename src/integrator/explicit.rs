@@ -118,6 +118,13 @@ pub(super) fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[
     }
 }
 
+/// The middle of the widest interval of [0, 1] without a node.
+pub(super) fn middle_of_widest_gap(nodes: &[f64]) -> f64 {
+    let next = |node: f64| nodes.iter().copied().filter(|other| *other > node).fold(1.0, f64::min);
+    let gaps = nodes.iter().map(|&node| (next(node) - node, 0.5 * (next(node) + node)));
+    gaps.fold((0.0, 0.5), |widest: (f64, f64), gap| if gap.0 > widest.0 { gap } else { widest }).1
+}
+
 impl Integrator for Explicit {
     fn order(&self) -> usize {
         self.tableau.order
@@ -146,6 +153,22 @@ impl Integrator for Explicit {
 
     fn last_slope(&self) -> Option<&[f64]> {
         self.end_stage().map(|end| &self.k[end][..])
+    }
+
+    fn lower_order(&self, from: From, h: f64, out: &mut [f64]) -> bool {
+        let (ErrorEstimate::Embedded(error) | ErrorEstimate::Pair { fifth: error, .. }) = self.tableau.error else {
+            return false;
+        };
+        let solution = self.tableau.b.iter().copied().chain(std::iter::repeat(0.0));
+        out.copy_from_slice(from.y);
+        for ((b, e), k) in solution.zip(error).zip(&self.k) {
+            out.iter_mut().zip(k).for_each(|(out, k)| *out += h * (b - e) * k);
+        }
+        true
+    }
+
+    fn widest_gap(&self) -> f64 {
+        middle_of_widest_gap(&self.tableau.c[..self.stages()])
     }
 
     /// Cubic Hermite interpolation, and beyond it what comes from the stages.

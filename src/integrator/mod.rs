@@ -68,6 +68,16 @@ pub trait Integrator {
         None
     }
 
+    /// Writes the solution of lower order that the last attempt was compared with; false where there is none.
+    fn lower_order(&self, _from: From, _h: f64, _out: &mut [f64]) -> bool {
+        false
+    }
+
+    /// The fraction of a step that is farthest from the places at which the equations are evaluated.
+    fn widest_gap(&self) -> f64 {
+        0.5
+    }
+
     /// Prepares interpolation over the step just accepted; `slope` is y' at its end `to`.
     fn prepare(&mut self, problem: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt>;
 

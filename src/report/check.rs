@@ -76,7 +76,7 @@ fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
     let mut dynamics = Dynamics::new(system);
     dynamics.evaluate(study.start_time(), q, v, Need::DYNAMICS);
     // Assembly has solved at this state, so it can be factored; the ratio is one where it could not.
-    let distance = dynamics.factor().map_or(0.0, |()| dynamics.kkt.smallest_pivot_ratio());
+    let distance = dynamics.factor().map_or(0.0, |()| dynamics.kkt.smallest_sine());
     let (terms, structure) = (&dynamics.terms, &dynamics.structure);
     let n = system.dimensions();
     // The search for what depends on what is dense: it runs only where something does.

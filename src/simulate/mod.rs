@@ -1,14 +1,21 @@
 //! The only time loop: steps, step control, projection and output.
 
+mod approach;
 mod auto;
 mod method;
 mod observation;
+mod rows;
 mod spectrum;
+mod step;
 
 pub use auto::{Advice, advise};
 pub use method::Method;
 pub use observation::{Observation, Sink, Span};
 pub use spectrum::{Mode, Spectrum};
+
+use approach::Approach;
+use rows::{Rows, observation, project};
+use step::is_too_large;
 
 use crate::error::{Error, Failure, Result};
 use crate::formulation::{self, Dynamics, Halt, Rows as Constraints, Statistics};
@@ -59,6 +66,10 @@ struct Run<'a> {
     integrator: Box<dyn Integrator + 'a>,
     projection: Option<Box<dyn Projection>>,
     rows: Rows<'a>,
+    approach: Approach,
+    /// Factorizations up to the last accepted state.
+    factored: u64,
+    scales: Vec<f64>,
     tolerance: Tolerance,
     fixed: Option<f64>,
     span: Span,
@@ -68,6 +79,8 @@ struct Run<'a> {
     next: Vec<f64>,
     next_slope: Vec<f64>,
     change: Vec<f64>,
+    /// Whether the projection, or another end of a step, moved the last state.
+    is_moved: bool,
     phi_ddot: Vec<f64>,
     /// Velocities that follow from phi = 0 alone are of lower order and not tested.
     tests_velocities: bool,
@@ -75,18 +88,11 @@ struct Run<'a> {
     refusal: &'static str,
 }
 
-/// Output rows have a problem of their own, so that they do not count in the statistics.
-struct Rows<'a> {
-    problem: Problem<'a>,
-    projection: Option<Box<dyn Projection>>,
-    next: u64,
-    y: Vec<f64>,
-    slope: Vec<f64>,
-    phi_ddot: Vec<f64>,
-}
+const SINGULAR: &str = "the motion comes to a singular state, where this tolerance is too near to round-off: try a looser \
+     one, or a fixed --step with `rk4`, which goes over it";
 
-/// A correction that moves the state by more than this many tolerated errors refuses the step.
-const MOST_CORRECTION: f64 = 10.0;
+/// Joints that are open by so many times the scene's size will not close again.
+const MOST_OPEN: f64 = 10.0;
 
 impl<'a> Run<'a> {
     fn new<'s: 'a>(
@@ -101,7 +107,6 @@ impl<'a> Run<'a> {
         };
         let y = [q, v, &[0.0]].concat();
         let zeros = || vec![0.0; y.len()];
-        let residual = || vec![0.0; system.dimensions().lambda];
         let entry = integrator::find(&method.integrator)?;
         Ok(Run {
             problem: problem()?,
@@ -113,14 +118,10 @@ impl<'a> Run<'a> {
                 is_fixed: method.step.is_some(),
             })?,
             projection: projection::make(&method.projection, system)?,
-            rows: Rows {
-                problem: problem()?,
-                projection: projection::make(&method.projection, system)?,
-                next: 0,
-                y: zeros(),
-                slope: zeros(),
-                phi_ddot: residual(),
-            },
+            rows: Rows::new(problem()?, projection::make(&method.projection, system)?),
+            approach: Approach::default(),
+            factored: 0,
+            scales: system.scales(),
             tolerance: Tolerance { rtol: method.rtol, atol: method.atol },
             fixed: method.step,
             span,
@@ -129,7 +130,8 @@ impl<'a> Run<'a> {
             next: zeros(),
             next_slope: zeros(),
             change: zeros(),
-            phi_ddot: residual(),
+            is_moved: false,
+            phi_ddot: vec![0.0; system.dimensions().lambda],
             tests_velocities: formulation::rows(&method.formulation) != Some(Constraints::Position),
             refusal: "",
             y,
@@ -137,14 +139,19 @@ impl<'a> Run<'a> {
     }
 
     fn integrate(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
+        let (q, v) = self.problem.split(&self.y);
+        let dependent = self.rows.problem.dynamics.dependent_rows(self.t, q, v);
+        self.hold(&dependent);
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
         self.observe(sink);
-        self.rows.emit(self.t, &self.y, sink).map_err(|halt| self.halted(&halt))?;
+        self.rows.y.copy_from_slice(&self.y);
+        self.rows.emit(self.t, sink).map_err(|halt| self.halted(&halt))?;
         self.rows.next = 1;
         let mut h = self.first_step().map_err(|halt| self.halted(&halt))?;
         let mut growing = true;
         while self.t < self.span.end {
-            let (mut size, mut last) = self.fit(h);
+            let placed = self.place(h);
+            let (mut size, mut last) = self.fit(placed);
             let error = match self.step(&mut size, &mut last) {
                 Ok(error) => error,
                 Err(halt) if halt.is_final() => return Err(self.halted(&halt)),
@@ -154,13 +161,14 @@ impl<'a> Run<'a> {
                     continue;
                 }
             };
-            if error.is_some_and(|error| error > 1.0 || error.is_nan()) {
+            if error.is_some_and(is_too_large) {
                 h = self.retry(size, error, self.refusal, None)?;
                 growing = false;
                 continue;
             }
             self.output(size, last, sink).map_err(|halt| self.halted(&halt))?;
             self.accept(size, last, sink);
+            self.check_joints()?;
             if let Some(error) = error {
                 let proposed = self.integrator.control().accept(size, error, growing);
                 // A step cut to hit the end says nothing against the size before it.
@@ -185,6 +193,11 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// The step of size `h`, if a singular state does not suggest another.
+    fn place(&mut self, h: f64) -> f64 {
+        if self.fixed.is_some() { h } else { self.approach.place(h, self.integrator.widest_gap()) }
+    }
+
     /// The step cut or stretched a little so that the end is met; and whether it is the last.
     fn fit(&self, h: f64) -> (f64, bool) {
         let left = self.span.end - self.t;
@@ -203,43 +216,6 @@ impl<'a> Run<'a> {
             Some(h) => self.span.start + (self.problem.dynamics.statistics.steps + 1) as f64 * h,
             None => self.t + h,
         }
-    }
-
-    /// Tries one step of size `h` (or one that the method chose) with its projection, and leaves y' at the new state in
-    /// `next_slope`.
-    fn step(&mut self, h: &mut f64, last: &mut bool) -> Result<Option<f64>, Halt> {
-        let from = From { t: self.t, y: &self.y, slope: &self.slope };
-        self.problem.begin_step(self.t, &self.y)?;
-        let error = self.integrator.attempt(&mut self.problem, &self.tolerance, from, *h, &mut self.next)?;
-        if let Some(own) = self.integrator.own_step() {
-            (*h, *last) = (own, *last && own >= *h);
-        }
-        let error = if self.fixed.is_some() { None } else { error };
-        if error.is_some_and(|error| error > 1.0 || error.is_nan()) {
-            self.refusal = "the error of a step stays above the tolerance";
-            return Ok(error);
-        }
-        let t = self.end_of(*h, *last);
-        self.change.copy_from_slice(&self.next);
-        project(t, &mut self.next, &mut self.problem, &mut self.projection)?;
-        let is_moved = self.projection.is_some() || self.change != self.next;
-        if error.is_some() && is_moved {
-            self.change.iter_mut().zip(&self.next).for_each(|(change, next)| *change -= next);
-            if !self.tests_velocities {
-                self.problem.split_mut(&mut self.change).1.fill(0.0);
-            }
-            let correction = self.tolerance.norm(&self.next, &self.change);
-            if correction > MOST_CORRECTION {
-                self.refusal =
-                    "the projection moves the state by far more than the tolerance (is the start consistent?)";
-                return Ok(Some(correction));
-            }
-        }
-        match self.integrator.last_slope() {
-            Some(slope) if !is_moved => self.next_slope.copy_from_slice(slope),
-            _ => self.problem.derivative(t, &self.next, &mut self.next_slope)?,
-        }
-        Ok(error)
     }
 
     /// Emits the rows within the step from `t` to `t + h`.
@@ -264,7 +240,7 @@ impl<'a> Run<'a> {
                 self.integrator.interpolate(&mut rows.problem, from, h, (t - from.t) / h, &mut rows.y)?;
                 project(t, &mut rows.y, &mut rows.problem, &mut rows.projection)?;
             }
-            self.rows.emit_own(t, sink)?;
+            self.rows.emit(t, sink)?;
             self.rows.next += 1;
         }
     }
@@ -287,7 +263,23 @@ impl<'a> Run<'a> {
     fn observe(&mut self, sink: &mut dyn Sink) {
         let deficient = self.problem.dynamics.is_rank_deficient;
         self.problem.dynamics.statistics.rank_deficient += u64::from(deficient);
-        sink.accepted(&observation(self.t, &self.y, &self.problem, &mut self.phi_ddot));
+        let dynamics = &self.problem.dynamics;
+        // Without a new factorization, as in `penalty`, what the last one says is of another state.
+        let is_factored = dynamics.statistics.factorizations > self.factored;
+        self.factored = dynamics.statistics.factorizations;
+        let sine = is_factored.then(|| dynamics.kkt.smallest_sine());
+        self.approach.add(self.t, sine.unwrap_or(1.0));
+        sink.accepted(&observation(self.t, &self.y, &self.problem, sine, &mut self.phi_ddot));
+    }
+
+    /// Ends a motion that is no longer one of this mechanism.
+    fn check_joints(&self) -> Result<(), Failure> {
+        let rows = self.problem.dynamics.terms.phi.iter().zip(&self.scales);
+        let open = rows.fold(0.0, |open: f64, (phi, scale)| open.max(phi.abs() / scale));
+        match open > MOST_OPEN {
+            true => Err(self.failure(format!("the joints have come apart by {open:.1e} times the scene's size"), None)),
+            false => Ok(()),
+        }
     }
 
     /// The step to try after a failed one, or the end of the run where no smaller step makes sense.
@@ -300,9 +292,13 @@ impl<'a> Run<'a> {
             Some(error) if error.is_finite() => self.integrator.control().reject(h, error),
             _ => 0.25 * h,
         };
-        match smaller > self.smallest() {
+        let is_stuck = self.projection.is_some() && self.approach.is_stuck(h);
+        match smaller > self.smallest() && !is_stuck {
             true => Ok(smaller),
-            false => Err(self.failure(format!("{reason}, down to a step of {h:.1e} s"), hint)),
+            false => {
+                let hint = if is_stuck { Some(SINGULAR) } else { hint };
+                Err(self.failure(format!("{reason}, down to a step of {h:.1e} s"), hint))
+            }
         }
     }
 
@@ -315,7 +311,8 @@ impl<'a> Run<'a> {
     fn last_good_row(&mut self, sink: &mut dyn Sink) {
         if self.rows.next > 0 && self.span.row(self.rows.next - 1) < self.t {
             // A state that cannot be evaluated is none to show.
-            let _ = self.rows.emit(self.t, &self.y, sink);
+            self.rows.y.copy_from_slice(&self.y);
+            let _ = self.rows.emit(self.t, sink);
         }
     }
 
@@ -330,54 +327,5 @@ impl<'a> Run<'a> {
             None => "try another tolerance or a projection such as `manifold`; look at the motion just before the end",
         };
         Failure { t: self.t, reason, hint: hint.unwrap_or(usual).to_string() }
-    }
-}
-
-impl Rows<'_> {
-    fn emit(&mut self, t: f64, y: &[f64], sink: &mut dyn Sink) -> Result<(), Halt> {
-        self.y.copy_from_slice(y);
-        self.emit_own(t, sink)
-    }
-
-    fn emit_own(&mut self, t: f64, sink: &mut dyn Sink) -> Result<(), Halt> {
-        self.problem.derivative(t, &self.y, &mut self.slope)?;
-        sink.row(&observation(t, &self.y, &self.problem, &mut self.phi_ddot));
-        Ok(())
-    }
-}
-
-/// Ends a step, and projects the state.
-fn project(
-    t: f64,
-    y: &mut [f64],
-    problem: &mut Problem,
-    projection: &mut Option<Box<dyn Projection>>,
-) -> Result<(), Halt> {
-    if y.iter().any(|x| !x.is_finite()) {
-        return Err(Halt::NotFinite);
-    }
-    problem.dynamics.system.normalize(problem.split_mut(y).0);
-    problem.end_step(t, y)?;
-    let (q, v) = problem.split_mut(y);
-    match projection {
-        Some(projection) => projection.project(t, q, v, &mut problem.dynamics),
-        None => Ok(()),
-    }
-}
-
-fn observation<'o>(t: f64, y: &'o [f64], problem: &'o Problem, phi_ddot: &'o mut [f64]) -> Observation<'o> {
-    let dynamics = &problem.dynamics;
-    let (q, v) = problem.split(y);
-    dynamics.acceleration_residual(phi_ddot);
-    Observation {
-        t,
-        q,
-        v,
-        vdot: &dynamics.vdot,
-        lambda: &dynamics.lambda,
-        phi: &dynamics.terms.phi,
-        phi_dot: &dynamics.terms.phi_dot,
-        phi_ddot,
-        work: y[y.len() - 1],
     }
 }

@@ -30,6 +30,9 @@ pub struct Observation<'a> {
     pub phi_ddot: &'a [f64],
     /// Work of forces without potential and of moving constraints since the start, J.
     pub work: f64,
+    /// The smallest sine between a row of G and those before it (metric M^-1), zero at a singular state; `None` where the
+    /// method does not factor the saddle-point matrix there.
+    pub sine: Option<f64>,
 }
 
 /// Receives the motion while it is computed.

@@ -17,6 +17,9 @@ pub trait Form {
     /// Adds dF/dx, or what is close enough to it for Newton's method, to a matrix of zeros.
     fn jacobian(&mut self, t: f64, x: &[f64], out: &mut Dense) -> Result<(), Halt>;
 
+    /// Leaves out these rows of constraints: see [`crate::formulation::Dynamics::hold`].
+    fn hold(&mut self, rows: &[usize]);
+
     /// The work done here.
     fn statistics(&mut self) -> &mut Statistics;
 }

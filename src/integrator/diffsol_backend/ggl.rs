@@ -149,6 +149,10 @@ impl Form for Ggl<'_> {
         Ok(())
     }
 
+    fn hold(&mut self, rows: &[usize]) {
+        self.dynamics.hold(rows);
+    }
+
     fn statistics(&mut self) -> &mut Statistics {
         &mut self.dynamics.statistics
     }

@@ -97,6 +97,10 @@ impl Form for Index1<'_> {
         Ok(())
     }
 
+    fn hold(&mut self, rows: &[usize]) {
+        self.problem.dynamics.hold(rows);
+    }
+
     fn statistics(&mut self) -> &mut Statistics {
         &mut self.problem.dynamics.statistics
     }

@@ -216,6 +216,12 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Integrator for Implicit<'h, 
         h: f64,
         to: &mut [f64],
     ) -> Result<Option<f64>, Halt> {
+        let rows = &problem.dynamics.held;
+        match (&mut self.form, self.store.problem()) {
+            (Some(form), _) => form.hold(rows),
+            (None, Some(solved)) => solved.eqn.with(|form| form.hold(rows)),
+            _ => {}
+        }
         let mut solver = self.resume(tolerance, from, h)?;
         let result = self.advance(&mut solver, from.t, from.t + h, to);
         self.count(&solver, problem);

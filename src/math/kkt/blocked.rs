@@ -154,10 +154,10 @@ impl Blocked {
         }
     }
 
-    /// The smallest pivot of the scaled matrix.
-    pub fn smallest_ratio(&self) -> f64 {
+    /// The smallest pivot of the scaled matrix, of those above `collapsed`.
+    pub fn smallest_ratio(&self, collapsed: f64) -> f64 {
         let pivots = self.diagonal.iter().zip(&self.signs).map(|(d, &sign)| d * f64::from(sign));
-        pivots.fold(1.0, f64::min)
+        pivots.filter(|pivot| *pivot > collapsed).fold(1.0, f64::min)
     }
 }
 

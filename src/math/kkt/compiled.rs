@@ -138,14 +138,14 @@ impl Compiled {
         }
     }
 
-    /// The smallest pivot over its size before elimination.
-    pub fn smallest_ratio(&self) -> f64 {
+    /// The smallest pivot over its size before elimination, of those above `collapsed`.
+    pub fn smallest_ratio(&self, collapsed: f64) -> f64 {
         let ratios = (0..self.sizes.len()).map(|p| {
             let pivot = self.signs[p] * self.work[p];
             let is_late = self.signs[p] > 0.0 && p >= self.symbolic.order.early;
             pivot / if is_late { self.sizes[p] + pivot } else { self.sizes[p] }
         });
-        ratios.fold(1.0, f64::min)
+        ratios.filter(|ratio| *ratio > collapsed).fold(1.0, f64::min)
     }
 }
 

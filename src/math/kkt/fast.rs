@@ -51,10 +51,11 @@ impl Fast {
         }
     }
 
-    pub fn smallest_ratio(&self) -> f64 {
+    /// The smallest ratio of a pivot to its size, of those above `collapsed`.
+    pub fn smallest_ratio(&self, collapsed: f64) -> f64 {
         match self {
-            Fast::Compiled(f) => f.smallest_ratio(),
-            Fast::Blocked(f) => f.smallest_ratio(),
+            Fast::Compiled(f) => f.smallest_ratio(collapsed),
+            Fast::Blocked(f) => f.smallest_ratio(collapsed),
         }
     }
 }

@@ -58,6 +58,10 @@ pub trait Solver {
     /// (r1, r2) -> (a, lambda), in place.
     fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) -> Result<(), Singular>;
 
+    /// Leaves out these rows from the next factorization on, where the solver can be misled by them: see
+    /// [`SaddlePoint::hold`].
+    fn hold(&mut self, _rows: &[usize]) {}
+
     /// Whether rows of G were dependent at the last factorization.
     fn is_rank_deficient(&self) -> bool;
 }

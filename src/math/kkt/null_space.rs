@@ -55,18 +55,20 @@ impl NullSpace {
         self.qr.rank
     }
 
+    /// The rows that depend on the others.
+    pub fn left_out(&self) -> &[usize] {
+        &self.qr.permutation[self.qr.rank..]
+    }
+
     /// The norm of the part of the last right side that no motion can meet.
     pub fn inconsistency(&self) -> f64 {
         self.inconsistency
     }
 
-    /// |R_rr| / |R_00|, squared so that it compares with ratios of pivots; 0 when rows are dependent.
+    /// |R_rr| / |R_00|, squared so that it compares with ratios of pivots.
     pub fn smallest_ratio(&self) -> f64 {
-        let (r, m) = (self.qr.rank, self.norms.len());
-        if r < m {
-            return 0.0;
-        }
-        r.checked_sub(1).map_or(1.0, |last| (self.qr.r(last)[last] / self.qr.r(0)[0]).powi(2))
+        let last = self.qr.rank.checked_sub(1);
+        last.map_or(1.0, |last| (self.qr.r(last)[last] / self.qr.r(0)[0]).powi(2))
     }
 
     pub fn factor(&mut self, system: &System, tolerance: f64) -> Result<(), Singular> {

@@ -14,6 +14,11 @@ pub(super) struct Rule {
 
 /// Below this a collapsed multiplier pivot is round-off, so that its row is surely dependent.
 const ROUND_OFF: f64 = 1e-13;
+/// Where the fast path has failed, a multiplier with a pivot below is left out.
+pub(super) const COLLAPSED: f64 = 1e-12;
+/// The same of a truncated solution: a sine of 1e-4. With a sine s, round-off moves positions along the nearly dependent
+/// row by eps/s, so velocities by eps/s^2 and accelerations by eps/s^3.
+pub(super) const TRUNCATED: f64 = 1e-8;
 /// A collapsed coordinate pivot becomes this part of its size.
 const REPLACED: f64 = 1e-7;
 
@@ -22,10 +27,10 @@ impl Rule {
     pub const STRICT: Rule = Rule { collapsed: 1e-11, weak: 1e-7, floor: None };
 
     /// Goes on at a collapse: a multiplier is left out, a coordinate gets a small mass.
-    pub fn lenient(mass_diagonal: &[f64]) -> Rule {
+    pub fn lenient(collapsed: f64, mass_diagonal: &[f64]) -> Rule {
         let largest = mass_diagonal.iter().fold(0.0, |largest: f64, v| largest.max(v.abs()));
         let floor = REPLACED * if largest > 0.0 { largest } else { 1.0 };
-        Rule { collapsed: 1e-12, weak: 1e-8, floor: Some(floor) }
+        Rule { collapsed, weak: 1e-8, floor: Some(floor) }
     }
 }
 

@@ -33,6 +33,7 @@ pub struct PseudoInverse {
     w: Vec<f64>,
     s: Vec<f64>,
     rank: usize,
+    held: Vec<usize>,
     is_factored: bool,
     x: Vec<f64>,
     y: Vec<f64>,
@@ -58,6 +59,7 @@ impl PseudoInverse {
             w: vec![0.0; m * size],
             s: vec![0.0; size],
             rank: 0,
+            held: Vec::with_capacity(m),
             is_factored: false,
             x: vec![0.0; n],
             y: vec![0.0; m],
@@ -115,6 +117,9 @@ impl Solver for PseudoInverse {
         let n = self.scale.len();
         self.a.fill(0.0);
         self.g.entries.iter().zip(g).for_each(|(&(j, i), value)| self.a[j * n + i] += value * self.scale[i]);
+        for &row in &self.held {
+            self.a[row * n..(row + 1) * n].fill(0.0);
+        }
         for row in self.a.chunks_exact_mut(n.max(1)) {
             self.root.forward(row);
         }
@@ -147,6 +152,11 @@ impl Solver for PseudoInverse {
         self.root.backward(top);
         top.iter_mut().zip(&self.scale).for_each(|(x, s)| *x *= s);
         Ok(())
+    }
+
+    fn hold(&mut self, rows: &[usize]) {
+        self.held.clear();
+        self.held.extend(rows.iter().filter(|row| **row < self.g.rows));
     }
 
     fn is_rank_deficient(&self) -> bool {

@@ -2,7 +2,7 @@
 
 use super::fast::Fast;
 use super::null_space::NullSpace;
-use super::pivot::Rule;
+use super::pivot::{COLLAPSED, Rule, TRUNCATED};
 use super::skipping::Skipping;
 use super::system::{System, add};
 use super::{Pattern, Singular};
@@ -39,6 +39,9 @@ pub struct SaddlePoint {
     skipping: Option<Box<Skipping>>,
     dense: Option<Box<NullSpace>>,
     way: Way,
+    /// Rows that stay left out, and whether there are any.
+    held: Vec<bool>,
+    is_holding: bool,
     /// The node whose pivot collapsed last, how often in a row, and the calls since the fast way was given up.
     failed: usize,
     failures: u32,
@@ -72,6 +75,8 @@ impl SaddlePoint {
             skipping: None,
             dense: None,
             way: Way::None,
+            held: vec![false; m],
+            is_holding: false,
             failed: usize::MAX,
             failures: 0,
             waited: 0,
@@ -90,7 +95,7 @@ impl SaddlePoint {
         if !self.is_shaped || mass.len() != m.entries.len() || g.len() != j.entries.len() {
             return Err(Singular::Shape);
         }
-        if self.tries_fast() && self.factor_fast(mass, g) {
+        if !self.is_holding && self.tries_fast() && self.factor_fast(mass, g) {
             return Ok(());
         }
         if !mass.iter().chain(g).all(|v| v.is_finite()) {
@@ -99,6 +104,43 @@ impl SaddlePoint {
         self.system.store(mass, g);
         self.way = self.factor_rank_revealing()?;
         Ok(())
+    }
+
+    /// The same, but rows count as dependent below a sine of 1e-4. Between such states and singular ones accelerations are
+    /// more wrong by round-off than they are without these rows, along which a projection moves the state anyway.
+    pub fn factor_truncated(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
+        self.factor(mass, g)?;
+        let is_weak =
+            matches!(self.way, Way::Fast { refine: true } | Way::Skipping) && self.smallest_sine() < TRUNCATED.sqrt();
+        if is_weak {
+            let System { mass, g, .. } = &self.system;
+            let skipping = self.skipping.get_or_insert_with(|| Box::new(Skipping::new(mass, g)));
+            skipping.factor(&self.system, &self.held, TRUNCATED)?;
+            self.way = Way::Skipping;
+        }
+        Ok(())
+    }
+
+    /// Rows that the last factorization left out as dependent.
+    pub fn left_out(&self) -> &[usize] {
+        match (self.way, &self.skipping, &self.dense) {
+            (Way::Skipping, Some(skipping), _) => skipping.left_out(),
+            (Way::Dense, _, Some(dense)) => dense.left_out(),
+            _ => &[],
+        }
+    }
+
+    /// Leaves out these rows, and no others, from now on, whatever their pivots. Rows that depend on the others wherever
+    /// phi = 0 do not where it is not: there their small pivots, taken seriously, would stop the motion.
+    pub fn hold(&mut self, rows: &[usize]) {
+        self.held.fill(false);
+        rows.iter().filter(|row| **row < self.m).for_each(|row| self.held[*row] = true);
+        self.is_holding = !rows.is_empty();
+    }
+
+    /// Whether a row is left out by [`Self::hold`].
+    pub fn is_held(&self, row: usize) -> bool {
+        self.held[row]
     }
 
     fn tries_fast(&mut self) -> bool {
@@ -156,8 +198,11 @@ impl SaddlePoint {
         let System { mass, g, .. } = &self.system;
         let total = self.n + self.m;
         let skipping = self.skipping.get_or_insert_with(|| Box::new(Skipping::new(mass, g)));
-        let quality = skipping.factor(&self.system)?;
+        let quality = skipping.factor(&self.system, &self.held, COLLAPSED)?;
         let is_doubtful = quality.replaced || quality.doubtful;
+        if self.is_holding && !is_doubtful {
+            return Ok(Way::Skipping);
+        }
         // Of a large system it is not asked which nearly dependent rows are so, only whether leaving some out, or giving
         // coordinates a little mass, still gives a solution.
         let is_accepted = if total <= DENSE {
@@ -260,15 +305,17 @@ impl SaddlePoint {
         }
     }
 
-    /// How near the matrix is to a singular one: the smallest pivot over its size before elimination, in [0, 1]; about
-    /// the square of the smallest sine between a row of G and the others (metric M^-1). Zero when rows are dependent.
-    pub fn smallest_pivot_ratio(&self) -> f64 {
-        match (self.way, &self.skipping, &self.dense) {
-            (Way::Fast { .. }, ..) => self.fast.smallest_ratio(),
+    /// How near G is to losing rank: about the smallest sine between one of its rows and those before it (metric M^-1),
+    /// dependent rows left out; by the smallest pivot over its size before elimination, which is its square. In [0, 1],
+    /// zero without a factorization.
+    pub fn smallest_sine(&self) -> f64 {
+        let ratio: f64 = match (self.way, &self.skipping, &self.dense) {
+            (Way::Fast { .. }, ..) => self.fast.smallest_ratio(0.0),
             (Way::Skipping, Some(skipping), _) => skipping.smallest_ratio(),
             (Way::Dense, _, Some(dense)) => dense.smallest_ratio(),
             _ => 0.0,
-        }
+        };
+        ratio.max(0.0).sqrt()
     }
 }
 

@@ -10,7 +10,7 @@
 use super::Pattern;
 use super::Singular;
 use super::fast::Fast;
-use super::pivot::{Quality, Rule};
+use super::pivot::{COLLAPSED, Quality, Rule};
 use super::system::{System, add, add_scaled, dot, index_of_largest};
 use crate::math::largest;
 
@@ -23,7 +23,10 @@ pub(super) struct Skipping {
     skipped: Vec<usize>,
     is_skipped: Vec<bool>,
     replaced: bool,
+    is_holding: bool,
     inconsistency: f64,
+    /// G without the rows that are held out.
+    values: Vec<f64>,
     /// Scratch of n and of m numbers.
     a: Vec<f64>,
     top: Vec<f64>,
@@ -45,7 +48,9 @@ impl Skipping {
             skipped: Vec::with_capacity(m),
             is_skipped: vec![false; m],
             replaced: false,
+            is_holding: false,
             inconsistency: 0.0,
+            values: Vec::with_capacity(g.entries.len()),
             a: vec![0.0; n],
             top: vec![0.0; n],
             lambda: zeros(),
@@ -58,12 +63,18 @@ impl Skipping {
         }
     }
 
-    /// `doubtful` in what is returned: it is not sure which rows are dependent.
-    pub fn factor(&mut self, system: &System) -> Result<Quality, Singular> {
+    /// Leaves out the rows that `held` names, and those with pivots that are `collapsed`. `doubtful` in what is returned: it is not sure
+    /// which rows are dependent.
+    pub fn factor(&mut self, system: &System, held: &[bool], collapsed: f64) -> Result<Quality, Singular> {
         self.a.fill(0.0);
         system.mass.add_diagonal(&system.mass_values, &mut self.a);
-        let rule = Rule::lenient(&self.a);
-        let result = self.factor.factor(&system.mass_values, &system.g_values, rule, &mut self.skipped);
+        let rule = Rule::lenient(collapsed, &self.a);
+        self.is_holding = held.contains(&true);
+        // A row of zeros collapses.
+        self.values.clear();
+        let rows = system.g.entries.iter().map(|(row, _)| held[*row]);
+        self.values.extend(system.g_values.iter().zip(rows).map(|(value, held)| if held { 0.0 } else { *value }));
+        let result = self.factor.factor(&system.mass_values, &self.values, rule, &mut self.skipped);
         let quality = result.map_err(|_| Singular::NotFinite)?;
         self.is_skipped.fill(false);
         self.skipped.iter().for_each(|&j| self.is_skipped[j] = true);
@@ -115,9 +126,14 @@ impl Skipping {
         self.bottom.len() - self.skipped.len()
     }
 
-    /// The smallest pivot over its size; 0 when rows are left out.
+    /// The rows that the last factorization left out.
+    pub fn left_out(&self) -> &[usize] {
+        &self.skipped
+    }
+
+    /// The smallest pivot over its size, of the rows that are not left out.
     pub fn smallest_ratio(&self) -> f64 {
-        if self.skipped.is_empty() { self.factor.smallest_ratio() } else { 0.0 }
+        self.factor.smallest_ratio(COLLAPSED)
     }
 
     /// The norm of the part of the last right side that no motion can meet.
@@ -125,9 +141,10 @@ impl Skipping {
         self.inconsistency
     }
 
-    /// Solves in place, refined to round-off.
+    /// Solves in place, refined to round-off. Right sides of rows that are held out say nothing; those of others that
+    /// were left out count, in least squares.
     pub fn solve(&mut self, system: &System, top: &mut [f64], bottom: &mut [f64]) {
-        self.inconsistency = self.project(system, bottom);
+        self.inconsistency = if self.is_holding { 0.0 } else { self.project(system, bottom) };
         self.a.fill(0.0);
         self.lambda.fill(0.0);
         let mut last = [f64::INFINITY; 2];

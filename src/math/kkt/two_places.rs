@@ -127,6 +127,7 @@ impl TwoPlaces {
         residual.copy_from_slice(r);
         pair.pattern.subtract(pair.g2, a, residual);
         residual.iter_mut().zip(&self.scale).for_each(|(residual, scale)| *residual /= scale);
+        leave_out(pair.kkt, residual);
         dot(residual, residual).sqrt()
     }
 
@@ -163,6 +164,7 @@ impl TwoPlaces {
         image.fill(0.0);
         pair.pattern.multiply(pair.g2, &self.top, image);
         image.iter_mut().zip(&self.scale).for_each(|(image, scale)| *image /= scale);
+        leave_out(pair.kkt, image);
         Ok(())
     }
 
@@ -207,4 +209,9 @@ impl TwoPlaces {
             }
         }
     }
+}
+
+/// Rows that stay left out ask for nothing.
+fn leave_out(kkt: &SaddlePoint, rows: &mut [f64]) {
+    rows.iter_mut().enumerate().filter(|(row, _)| kkt.is_held(*row)).for_each(|(_, value)| *value = 0.0);
 }

@@ -1,0 +1,112 @@
+//! Steps over singular states.
+
+/// Below this part of the largest sine a state is near a singular one.
+const NEAR: f64 = 0.1;
+/// Below this part steps are placed about the singular state.
+const PLACED: f64 = 0.3;
+
+/// Steps that are this part of those far from singular states will not come over one.
+const STUCK: f64 = 1e-8;
+
+/// How the motion comes near a singular state, where G loses rank: by the smallest sine of a constraint row at the last
+/// accepted states, which falls to zero there linearly in time.
+///
+/// On a branch of the motion v' is smooth through a singular state, but the stages of a step lie off the constraints by
+/// some delta, and there v' is wrong by delta over the sine. A step that is refused for this and made smaller, again and
+/// again, ends ever nearer to the singular state until round-off over the sine is the error. A step well over it is good.
+#[derive(Clone, Copy, Debug)]
+pub struct Approach {
+    t: f64,
+    pub sine: f64,
+    rate: f64,
+    /// The largest sine so far: unlike masses and lengths make it small where nothing is singular.
+    largest: f64,
+    /// The last step that did not come near a singular state.
+    regular: f64,
+    /// Whether a step over the singular state was tried from here.
+    is_tried: bool,
+}
+
+impl Default for Approach {
+    fn default() -> Self {
+        Approach { t: f64::NEG_INFINITY, sine: 1.0, rate: 0.0, largest: 0.0, regular: 0.0, is_tried: false }
+    }
+}
+
+impl Approach {
+    /// Takes the sine at an accepted state.
+    pub fn add(&mut self, t: f64, sine: f64) {
+        let step = t - self.t;
+        let largest = self.largest.max(sine);
+        let is_regular = sine > PLACED * largest && step.is_finite();
+        let regular = if is_regular { step } else { self.regular };
+        *self = Approach { t, sine, rate: (sine - self.sine) / step, largest, regular, is_tried: false };
+    }
+
+    /// Whether a step of size `h` comes near a singular state.
+    pub fn reaches(&self, h: f64) -> bool {
+        self.sine < NEAR * self.largest || self.rate < 0.0 && h > 0.5 * self.ahead()
+    }
+
+    /// Whether steps that small will not come over a singular state.
+    pub fn is_stuck(&self, h: f64) -> bool {
+        self.sine < PLACED * self.largest && h < STUCK * self.regular
+    }
+
+    /// The time to the singular state, at the last rate.
+    fn ahead(&self) -> f64 {
+        -self.sine / self.rate
+    }
+
+    /// The step to try where control proposes `h`: once from each state one that goes well over the singular state, which
+    /// lies in its `gap`, the fraction of a step that is farthest from all stages; then one that stops well before it.
+    pub fn place(&mut self, h: f64, gap: f64) -> f64 {
+        let (ahead, across) = (self.ahead(), self.ahead() / gap);
+        if !(self.sine < PLACED * self.largest && self.rate < 0.0) {
+            h
+        } else if !self.is_tried && across <= h.max(self.regular) {
+            self.is_tried = true;
+            across
+        } else {
+            h.min(0.5 * ahead)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Approach;
+
+    fn near(sine: f64) -> Approach {
+        let mut approach = Approach::default();
+        [(0.9, 1.0), (1.0, sine + 0.1), (1.1, sine)].into_iter().for_each(|(t, sine)| approach.add(t, sine));
+        approach
+    }
+
+    #[test]
+    fn a_step_over_the_singular_state_is_tried_once_from_each_state() {
+        let mut approach = near(0.2);
+        assert!((approach.place(1.0, 0.5) - 0.4).abs() < 1e-12);
+        assert!((approach.place(0.3, 0.5) - 0.1).abs() < 1e-12);
+        assert_eq!(approach.place(0.09, 0.5), 0.09);
+        approach.add(1.2, 0.1);
+        assert!((approach.place(0.3, 0.5) - 0.2).abs() < 1e-12);
+    }
+
+    #[test]
+    fn short_steps_stop_before_the_singular_state_until_one_as_long_as_before_goes_over_it() {
+        let mut approach = Approach::default();
+        [(0.8, 1.0), (0.9, 0.5), (1.0, 0.4), (1.1, 0.2)].into_iter().for_each(|(t, sine)| approach.add(t, sine));
+        assert!((approach.place(0.09, 0.5) - 0.05).abs() < 1e-12, "0.2 is longer than the regular 0.1");
+        approach.add(1.15, 0.1);
+        assert!((approach.place(0.05, 0.5) - 0.1).abs() < 1e-12);
+    }
+
+    #[test]
+    fn far_from_singular_states_nothing_changes() {
+        assert_eq!(Approach::default().place(1.0, 0.5), 1.0);
+        let mut leaving = near(0.2);
+        leaving.add(1.2, 0.25);
+        assert_eq!(leaving.place(1.0, 0.5), 1.0);
+    }
+}

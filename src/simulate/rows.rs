@@ -1,0 +1,76 @@
+//! Output rows, and what is shown of a state.
+
+use super::Observation;
+use crate::formulation::Halt;
+use crate::integrator::Problem;
+use crate::projection::Projection;
+
+/// Output rows have a problem of their own, so that they do not count in the statistics.
+pub struct Rows<'a> {
+    pub problem: Problem<'a>,
+    pub projection: Option<Box<dyn Projection>>,
+    /// The number of the next row.
+    pub next: u64,
+    pub y: Vec<f64>,
+    slope: Vec<f64>,
+    phi_ddot: Vec<f64>,
+}
+
+impl<'a> Rows<'a> {
+    pub fn new(problem: Problem<'a>, projection: Option<Box<dyn Projection>>) -> Self {
+        let zeros = || vec![0.0; problem.len()];
+        let (y, slope) = (zeros(), zeros());
+        let phi_ddot = vec![0.0; problem.dynamics.lambda.len()];
+        Rows { problem, projection, next: 0, y, slope, phi_ddot }
+    }
+
+    /// Evaluates the state in `y` and shows it.
+    pub fn emit(&mut self, t: f64, sink: &mut dyn super::Sink) -> Result<(), Halt> {
+        self.problem.derivative(t, &self.y, &mut self.slope)?;
+        sink.row(&observation(t, &self.y, &self.problem, None, &mut self.phi_ddot));
+        Ok(())
+    }
+}
+
+/// Ends a step, and projects the state.
+pub fn project(
+    t: f64,
+    y: &mut [f64],
+    problem: &mut Problem,
+    projection: &mut Option<Box<dyn Projection>>,
+) -> Result<(), Halt> {
+    if y.iter().any(|x| !x.is_finite()) {
+        return Err(Halt::NotFinite);
+    }
+    problem.dynamics.system.normalize(problem.split_mut(y).0);
+    problem.end_step(t, y)?;
+    let (q, v) = problem.split_mut(y);
+    match projection {
+        Some(projection) => projection.project(t, q, v, &mut problem.dynamics),
+        None => Ok(()),
+    }
+}
+
+pub fn observation<'o>(
+    t: f64,
+    y: &'o [f64],
+    problem: &'o Problem,
+    sine: Option<f64>,
+    phi_ddot: &'o mut [f64],
+) -> Observation<'o> {
+    let dynamics = &problem.dynamics;
+    let (q, v) = problem.split(y);
+    dynamics.acceleration_residual(phi_ddot);
+    Observation {
+        t,
+        q,
+        v,
+        vdot: &dynamics.vdot,
+        lambda: &dynamics.lambda,
+        phi: &dynamics.terms.phi,
+        phi_dot: &dynamics.terms.phi_dot,
+        phi_ddot,
+        work: y[y.len() - 1],
+        sine,
+    }
+}

@@ -1,0 +1,126 @@
+//! One step: attempt, projection, and whether it is good enough.
+
+use super::Run;
+use super::rows::project;
+use crate::formulation::Halt;
+use crate::integrator::From;
+
+/// A correction that moves the state by more than this many tolerated errors refuses the step.
+const MOST_CORRECTION: f64 = 10.0;
+
+/// Near a singular state one sweep leaves errors of the positions, over the sine, in the velocities.
+const SINGULAR_SWEEPS: usize = 2;
+
+/// Round-off of a projection where the rows of G are well apart.
+const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
+/// Where it is more than so many tolerated errors, the state is too near to a singular one.
+const MOST_ROUND_OFF: f64 = 1e3;
+
+/// A row that depends on others is no more open than this, and than so many times the others, which drift may open.
+const HELD: f64 = 1e-11;
+const MOST_HELD: f64 = 1e3;
+
+/// Whether an error in units of the tolerance refuses a step.
+pub fn is_too_large(error: f64) -> bool {
+    error > 1.0 || error.is_nan()
+}
+
+impl Run<'_> {
+    /// Tries one step of size `h` (or one that the method chose) with its projection, and leaves y' at the new state in
+    /// `next_slope`. Returns the error in units of the tolerance, where there is an estimate.
+    pub fn step(&mut self, h: &mut f64, last: &mut bool) -> Result<Option<f64>, Halt> {
+        let error = self.attempt(h, last)?;
+        let is_singular = self.projection.is_some() && self.approach.reaches(*h);
+        if error.is_some_and(is_too_large) && !is_singular {
+            self.refusal = "the error of a step stays above the tolerance";
+            return Ok(error);
+        }
+        let t = self.end_of(*h, *last);
+        let error = self.project_step(t, *h, error, is_singular)?;
+        if error.is_some_and(is_too_large) {
+            return Ok(error);
+        }
+        match self.integrator.last_slope() {
+            Some(slope) if !self.is_moved => self.next_slope.copy_from_slice(slope),
+            _ => self.problem.derivative(t, &self.next, &mut self.next_slope)?,
+        }
+        if self.held_rows_open() {
+            self.hold(&[]);
+            return self.step(h, last);
+        }
+        Ok(error)
+    }
+
+    fn attempt(&mut self, h: &mut f64, last: &mut bool) -> Result<Option<f64>, Halt> {
+        let from = From { t: self.t, y: &self.y, slope: &self.slope };
+        self.problem.begin_step(self.t, &self.y)?;
+        let error = self.integrator.attempt(&mut self.problem, &self.tolerance, from, *h, &mut self.next)?;
+        if let Some(own) = self.integrator.own_step() {
+            (*h, *last) = (own, *last && own >= *h);
+        }
+        Ok(if self.fixed.is_some() { None } else { error })
+    }
+
+    /// Projects the new state, and refuses it where that moves it too far.
+    fn project_step(&mut self, t: f64, h: f64, error: Option<f64>, is_singular: bool) -> Result<Option<f64>, Halt> {
+        self.change.copy_from_slice(&self.next);
+        for _ in 0..if is_singular { SINGULAR_SWEEPS } else { 1 } {
+            project(t, &mut self.next, &mut self.problem, &mut self.projection)?;
+        }
+        self.is_moved = self.projection.is_some() || self.change != self.next;
+        if error.is_none() || !self.is_moved {
+            return Ok(error);
+        }
+        let correction = self.correction();
+        let is_far = correction > MOST_CORRECTION;
+        if is_singular && (is_far || error.is_some_and(is_too_large)) {
+            self.refusal = "the error of a step over a singular state stays above the tolerance";
+            return self.error_within_constraints(t, h);
+        }
+        self.refusal = "the projection moves the state by far more than the tolerance (is the start consistent?)";
+        Ok(if is_far { Some(correction) } else { error })
+    }
+
+    pub fn hold(&mut self, rows: &[usize]) {
+        self.problem.dynamics.hold(rows);
+        self.rows.problem.dynamics.hold(rows);
+    }
+
+    /// Whether constraints that depended on the others at the start, and were left out, do not hold any more: then the
+    /// start was a singular state, and they count elsewhere.
+    fn held_rows_open(&self) -> bool {
+        let dynamics = &self.problem.dynamics;
+        let relative = |row: usize| dynamics.terms.phi[row].abs() / self.scales[row];
+        let kept = (0..self.scales.len()).filter(|row| !dynamics.held.contains(row)).map(relative);
+        let most = HELD + MOST_HELD * kept.fold(0.0, f64::max);
+        dynamics.held.iter().any(|row| relative(*row) > most)
+    }
+
+    /// How far the projection moved the state, in units of the tolerance; `change` holds the state before.
+    fn correction(&mut self) -> f64 {
+        self.change.iter_mut().zip(&self.next).for_each(|(change, next)| *change -= next);
+        if !self.tests_velocities {
+            self.problem.split_mut(&mut self.change).1.fill(0.0);
+        }
+        self.tolerance.norm(&self.next, &self.change)
+    }
+
+    /// The error of the projected step, in units of the tolerance: how far the projected solution of lower order is from
+    /// it. Near a singular state the stages are far off along the nearly dependent rows, which the projection takes away
+    /// from both, so that the error before it says nothing. Round-off moves positions along those rows by eps over the
+    /// sine, and velocities by eps over its square: no step can be better.
+    fn error_within_constraints(&mut self, t: f64, h: f64) -> Result<Option<f64>, Halt> {
+        let from = From { t: self.t, y: &self.y, slope: &self.slope };
+        if !self.integrator.lower_order(from, h, &mut self.change) {
+            return Ok(Some(f64::NAN));
+        }
+        for _ in 0..SINGULAR_SWEEPS {
+            project(t, &mut self.change, &mut self.problem, &mut self.projection)?;
+        }
+        self.change.iter_mut().zip(&self.next).for_each(|(change, next)| *change -= next);
+        let sine = self.approach.sine.min(self.problem.dynamics.kkt.smallest_sine());
+        let round_off = ROUND_OFF / (sine * sine) * self.tolerance.norm(&self.next, &self.next);
+        let allowed = 1.0 + round_off.min(MOST_ROUND_OFF);
+        Ok(Some(self.tolerance.norm_between(&self.y, &self.next, &self.change) / allowed))
+    }
+}
