@@ -54,6 +54,33 @@ fn rows_agree(run: &Run, names: &[&str], expected: &[Vec<f64>], tolerance: f64) 
     }
 }
 
+/// A uniform rod of 1 kg and 1 m swings down from the horizontal: along itself its pin gives m (g sin - l w^2/2) with
+/// w^2 = -3 g/l sin, across m g cos/4.
+#[test]
+fn a_pin_reacts_along_and_across_the_rod() {
+    let output = |axis: &str| {
+        format!(
+            r#"{{ "name": "{axis}", "measure": "reaction", "of": "O", "relative_to": "rod", "component": "{axis}" }}"#
+        )
+    };
+    let run = parse(&format!(
+        r#"{{ "name": "rod", "dimension": 2, "gravity": [0, -9.81], "simulation": {{ "t_end": 2 }},
+             "ground": {{ "markers": {{ "O": [0, 0] }} }},
+             "bodies": [{{ "name": "rod", "type": "rigid", "mass": 1, "inertia": "1/12", "markers": {{ "A": [-0.5, 0] }},
+                          "initial": {{ "position": [0.5, 0] }} }}],
+             "joints": [{{ "name": "O", "type": "revolute", "between": ["ground.O", "rod.A"] }}],
+             "outputs": [{{ "name": "angle", "measure": "angle", "of": "rod" }}, {}, {}] }}"#,
+        output("x"),
+        output("y")
+    ))
+    .tight(1e-13, 2.0, 0.05);
+    for (row, angle) in run.column("angle").into_iter().enumerate() {
+        let (along, across) = (2.5 * 9.81 * angle.sin(), 9.81 / 4.0 * angle.cos());
+        let off = (run.column("x")[row] - along).abs().max((run.column("y")[row] - across).abs());
+        assert!(off < 100.0 * CLOSE, "row {row} is off by {off:e} N");
+    }
+}
+
 #[test]
 fn top_precesses_steadily_at_both_roots() {
     let (g, m, l, i1, i3, theta, spin): (f64, f64, f64, f64, f64, f64, f64) = (9.81, 0.5, 0.08, 6e-4, 8e-4, 0.5, 200.0);

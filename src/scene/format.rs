@@ -131,9 +131,10 @@ pub struct OutputSpec {
     pub of: Option<String>,
     /// Two markers, for distances.
     pub between: Option<[String; 2]>,
-    /// Marker or body in whose axes, and against which, it is measured. Default: the ground.
+    /// Marker or body in whose axes, and against which, it is measured; for reactions the axes alone. Default: the ground.
     pub relative_to: Option<String>,
-    /// x, y, z; for reactions also mx, my, mz (default: the size of the force); kinetic, potential or total for energy.
+    /// x, y, z; for reactions also mx, my, mz and, where the joint holds a length, axial: the force in the rod, tension
+    /// positive (default: the size of the force); kinetic, potential or total for energy.
     pub component: Option<String>,
     /// The expression.
     pub value: Option<Number>,
@@ -156,7 +157,7 @@ pub enum MeasureKind {
     Distance,
     /// m/s, `between` two markers
     DistanceRate,
-    /// N or N m on the second body of joint `of`, in world axes
+    /// N or N m on the second body of joint `of`, in world axes or those of `relative_to`
     Reaction,
     /// Tension of a spring (N), size of another force or torque `of`
     Force,

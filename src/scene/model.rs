@@ -67,10 +67,16 @@ pub enum Measure {
         to: MarkerId,
         rate: bool,
     },
-    /// Force (components 0 to 2), torque (3 to 5) or size of the force (6) on the second body of a joint, world axes.
+    /// Force (components 0 to 2), torque (3 to 5) or size of the force (6) on the second body of a joint, in the axes of
+    /// a marker.
     Reaction {
         joint: usize,
         component: usize,
+        axes: MarkerId,
+    },
+    /// Force in a joint that holds a length, tension positive.
+    Tension {
+        joint: usize,
     },
     /// The magnitude of a force.
     Force(usize),

@@ -73,7 +73,9 @@ fn refuse_idle_keys(spec: &OutputSpec) -> Result<()> {
         Angle => &["of", "relative_to"],
         AngularVelocity | Position | Velocity => &["of", "relative_to", "component"],
         Distance | DistanceRate => &["between"],
-        Reaction => &["of", "component"],
+        // A size and the force along a rod are the same in all axes.
+        Reaction if matches!(component.as_deref(), None | Some("axial")) => &["of", "component"],
+        Reaction => &["of", "relative_to", "component"],
         Force => &["of"],
         Energy => &["component"],
         Expression => &["value"],
@@ -122,10 +124,7 @@ impl<const D: usize> Reader<'_, D> {
             MeasureKind::Velocity => self.relative(Quantity::Velocity(self.axis("x")?)),
             MeasureKind::Distance => self.distance(false),
             MeasureKind::DistanceRate => self.distance(true),
-            MeasureKind::Reaction => {
-                let joint = find("joint", self.of()?, joints.iter().map(|joint| joint.name.as_str()))?;
-                Ok(Measure::Reaction { joint, component: self.reaction()? })
-            }
+            MeasureKind::Reaction => self.reaction(joints),
             MeasureKind::Force => {
                 Ok(Measure::Force(find("force", self.of()?, forces.iter().map(|force| force.name.as_str()))?))
             }
@@ -172,14 +171,26 @@ impl<const D: usize> Reader<'_, D> {
         Ok(Measure::Distance { from, to: self.build.marker("between[1]", &names[1])?, rate })
     }
 
-    fn reaction(&self) -> Result<usize> {
-        let Some(name) = self.spec.component.as_deref() else { return Ok(6) };
+    fn reaction(&self, joints: &Joints<D>) -> Result<Measure> {
+        let joint = find("joint", self.of()?, joints.iter().map(|joint| joint.name.as_str()))?;
+        let axes = self.reference()?;
+        self.build.oriented("relative_to", &[axes])?;
+        let Some(name) = self.spec.component.as_deref() else {
+            return Ok(Measure::Reaction { joint, component: 6, axes });
+        };
+        let holds_length = joints[joint].element.row_names() == ["length"];
+        if name == "axial" && holds_length {
+            return Ok(Measure::Tension { joint });
+        }
         let known: &[(&str, usize)] = match D {
             2 => &[("x", 0), ("y", 1), ("mz", 5)],
             _ => &[("x", 0), ("y", 1), ("z", 2), ("mx", 3), ("my", 4), ("mz", 5)],
         };
-        let found = known.iter().find(|(known, _)| *known == name).map(|(_, component)| *component);
-        found.ok_or_else(|| wrong_component(name, &known.iter().map(|(name, _)| *name).collect::<Vec<_>>()))
+        if let Some((_, component)) = known.iter().find(|(known, _)| *known == name) {
+            return Ok(Measure::Reaction { joint, component: *component, axes });
+        }
+        let axial = holds_length.then_some("axial");
+        Err(wrong_component(name, &known.iter().map(|(name, _)| *name).chain(axial).collect::<Vec<_>>()))
     }
 
     fn unit(&self, measure: &Measure) -> String {

@@ -33,7 +33,9 @@ impl<const D: usize> Output<'_, D> {
                     let gap = sub(&work.motion[*to].r, &work.motion[*from].r);
                     if *rate { separation_rate(&gap) } else { size(&gap.map(|x| x.x)) }
                 }
-                Measure::Reaction { joint, component } => self.reaction(work, *joint, *component),
+                Measure::Reaction { joint, component, axes } => self.reaction(work, *joint, (*component, *axes)),
+                // phi is l - length: -G^T lambda pulls the second body towards the first.
+                Measure::Tension { joint } => self.lambda[self.mechanism.rows_of_joint(*joint).start],
                 Measure::Force(force) => self.magnitude(work, *force),
                 Measure::Energy(EnergyPart::Kinetic) => energy.kinetic,
                 Measure::Energy(EnergyPart::Potential) => energy.potential,
@@ -50,8 +52,8 @@ impl<const D: usize> Output<'_, D> {
         with_frames(&work.motion, &force.markers, act)
     }
 
-    /// -G^T lambda on the joint's second marker, as a wrench in world axes.
-    fn reaction(&self, work: &Workspace<D>, joint: usize, component: usize) -> f64 {
+    /// A component of -G^T lambda on the joint's second marker, as a wrench in the axes of a marker.
+    fn reaction(&self, work: &Workspace<D>, joint: usize, (component, axes): (usize, MarkerId)) -> f64 {
         let rows = self.mechanism.rows_of_joint(joint);
         let joint = &self.mechanism.model().joints[joint];
         let slot = 1.min(joint.markers.len() - 1);
@@ -69,7 +71,10 @@ impl<const D: usize> Output<'_, D> {
         match component {
             6 => size::<D>(&std::array::from_fn(|i| wrench[i])),
             5 if D == 2 => wrench[2],
-            component => wrench[component],
+            component => {
+                let part = &wrench[component / 3 * 3..];
+                work.motion[axes].axes[component % 3].iter().zip(part).map(|(axis, part)| axis.x * part).sum()
+            }
         }
     }
 }

@@ -391,6 +391,18 @@ cases! {
             "scene.json:19:84: at outputs[0].component (`theta`): there is no component `z`",
             "choose one of x, y",
         ];
+    output_axial_without_a_length:
+        pendulum()
+            .with("'measure': 'angle', 'of': 'rod'", "'measure': 'reaction', 'of': 'pin', 'component': 'axial'") => [
+            "scene.json:19:84: at outputs[0].component (`theta`): there is no component `axial`",
+            "choose one of x, y, mz",
+        ];
+    output_size_in_axes:
+        pendulum()
+            .with("'measure': 'angle', 'of': 'rod'", "'measure': 'reaction', 'of': 'pin', 'relative_to': 'rod'") => [
+            "scene.json:19:86: at outputs[0].relative_to (`theta`): this measure has no `relative_to`",
+            "remove it; here \"measure\" goes with of, component",
+        ];
     output_energy_component:
         pendulum().with("'measure': 'angle', 'of': 'rod'", "'measure': 'energy', 'component': 'kin'") => [
             "scene.json:19:69: at outputs[0].component (`theta`): there is no component `kin`",
