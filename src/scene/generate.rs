@@ -12,7 +12,7 @@ pub fn registry() -> &'static [(&'static str, Make)] {
 /// N four-bar linkages side by side: 2N + 1 uniform links of 1 m and 1 kg, vertical ones up, v_x(B0) = 1 m/s.
 /// IFToMM benchmark A02; one degree of freedom, N + 1 when flat. 6N + 3 coordinates, 6N + 2 constraints.
 pub fn n_four_bar(n: usize) -> Value {
-    let link = |name: String, position: [f64; 2], angle: Value, markers: Value, motion: Value| {
+    let link = |name: String, position: [String; 2], angle: Value, markers: Value, motion: Value| {
         json!({ "name": name, "type": "rigid", "mass": "m", "inertia": "m*l^2/12", "markers": markers,
             "initial": { "position": position, "angle": angle, "velocity": motion[0], "angular_velocity": motion[1] } })
     };
@@ -22,19 +22,21 @@ pub fn n_four_bar(n: usize) -> Value {
         joints.push(json!({ "name": name, "type": "revolute", "between": [a, b] }));
     };
     for i in 0..=n {
-        let x = i as f64;
         let turning = json!([["v0/2", 0], "-v0/l"]);
-        bodies.push(link(format!("bar{i}"), [x, 0.5], json!("pi/2"), ends.clone(), turning));
+        let centre = [format!("{i}*l"), "l/2".to_string()];
+        bodies.push(link(format!("bar{i}"), centre, json!("pi/2"), ends.clone(), turning));
         hinge(format!("A{i}"), format!("ground.A{i}"), format!("bar{i}.A"));
         if i > 0 {
             let k = i - 1;
             let sliding = json!([["v0", 0], 0]);
-            bodies.push(link(format!("coupler{k}"), [x - 0.5, 1.0], json!(0), ends.clone(), sliding));
+            let centre = [format!("{k}.5*l"), "l".to_string()];
+            bodies.push(link(format!("coupler{k}"), centre, json!(0), ends.clone(), sliding));
             hinge(format!("B{k}"), format!("bar{k}.B"), format!("coupler{k}.A"));
             hinge(format!("C{i}"), format!("coupler{k}.B"), format!("bar{i}.B"));
         }
     }
-    let supports: serde_json::Map<String, Value> = (0..=n).map(|i| (format!("A{i}"), json!([i, 0]))).collect();
+    let supports: serde_json::Map<String, Value> =
+        (0..=n).map(|i| (format!("A{i}"), json!([format!("{i}*l"), 0]))).collect();
     json!({
         "name": format!("n_four_bar_{n}"),
         "about": format!("{n} four-bar linkages in a row. One degree of freedom; singular when flat."),

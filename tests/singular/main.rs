@@ -1,0 +1,34 @@
+//! Motions through positions where the constraints lose rank and branches of motion cross.
+
+mod n_four_bar;
+mod parallelogram;
+mod reference;
+#[path = "../scenes/mod.rs"]
+mod scenes;
+mod slider_crank;
+
+use holonom::formulation::Choice;
+use holonom::simulate::Method;
+use scenes::Run;
+
+/// A method with fixed steps by its names as on the command line.
+fn fixed(formulation: &str, integrator: &str, projection: &str, step: f64) -> Method {
+    let choice = |text: &str| Choice::parse(text).unwrap();
+    Method {
+        formulation: choice(formulation),
+        integrator: choice(integrator),
+        projection: choice(projection),
+        step: Some(step),
+        ..Method::default()
+    }
+}
+
+/// Largest error of a column over the rows after the start.
+fn errors(run: &Run, name: &str, expected: impl Fn(usize) -> f64) -> f64 {
+    let rows = run.column(name).into_iter().enumerate().skip(1);
+    rows.map(|(row, found)| (found - expected(row)).abs()).fold(0.0, f64::max)
+}
+
+fn last(run: &Run, name: &str) -> f64 {
+    *run.column(name).last().unwrap()
+}

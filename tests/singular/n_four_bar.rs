@@ -1,0 +1,52 @@
+//! N four-bar linkages in a row, which pass flat: there N + 1 motions are possible.
+
+use super::reference::{ONE_LOOP, TWO_LOOPS};
+use super::scenes::{load, model, parse};
+use super::{errors, fixed, last};
+use holonom::scene::generate::n_four_bar;
+use holonom::simulate::Span;
+
+const SECONDS: Span = Span { start: 0.0, end: 10.0, output_step: 1.0 };
+
+#[test]
+fn one_and_two_loops_follow_the_reference() {
+    for (n, reference) in [(1, &ONE_LOOP), (2, &TWO_LOOPS)] {
+        let run = parse(&n_four_bar(n).to_string()).run(&fixed("index1", "rk4", "manifold", 0.001), SECONDS);
+        for (k, name) in ["bar0.angle", "bar0.angle'", "B0_x", "B0_y"].into_iter().enumerate() {
+            // The reference counts the angle from the first upright position, as the scene does.
+            let error = errors(&run, name, |row| reference[row - 1][k]);
+            // RK4's own error, of order four.
+            assert!(error < 1e-9, "N = {n}: {name} is off by {error:e}");
+        }
+    }
+}
+
+#[test]
+fn forty_loops_pass_flat_ten_times() {
+    let scene = load(&model("n_four_bar"), &[]);
+    let run = scene.run(&scene.0.method, Span { output_step: 0.05, ..SECONDS });
+    let (x, y) = (last(&run, "B0_x"), last(&run, "B0_y"));
+    let error = (x - 0.180512226686728).hypot(y - 0.983572740582312);
+    // RK4's error with the scene's step of 5 ms, of order four.
+    assert!(error < 2e-7, "{error:e}");
+    let energy = run.record.energy.unwrap();
+    assert!(energy.relative_max_error < 2e-8, "{energy:?}");
+    let heights = run.column("B0_y");
+    assert_eq!(heights.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).count(), 10);
+    // All uprights alike: the last top stands 40 m from the first.
+    for (first, last) in run.column("B0_x").into_iter().zip(run.column("last_x")) {
+        assert!((last - first - 40.0).abs() < 1e-10, "{first} {last}");
+    }
+}
+
+#[test]
+fn forty_loops_with_smaller_steps_come_closer() {
+    let scene = load(&model("n_four_bar"), &[]);
+    let found = [0.01, 0.005, 0.0025].map(|step| {
+        let run = scene.run(&fixed("index1", "rk4", "manifold", step), SECONDS);
+        (last(&run, "B0_x") - 0.180512226686728).hypot(last(&run, "B0_y") - 0.983572740582312)
+    });
+    for pair in found.windows(2) {
+        assert!((pair[0] / pair[1]).log2() > 3.5, "order four: {found:?}");
+    }
+}
