@@ -1,6 +1,7 @@
 //! One panel: axes, and what is drawn between them.
 
 use super::heat::HeatMap;
+use super::item::{Item, Tint};
 use super::series::{ColorSeries, Series};
 
 /// How values map to a length.
@@ -89,6 +90,12 @@ pub struct Panel {
     pub reference_lines: Vec<ReferenceLine>,
     /// Texts at points.
     pub annotations: Vec<Annotation>,
+    /// Things drawn upon the series, in this order.
+    pub items: Vec<Item>,
+    /// A small drawing around the place (0, 0) that goes to the corner where it hides least.
+    pub inset: Vec<Item>,
+    /// Colours that the legend explains beside the series.
+    pub keys: Vec<(String, Tint)>,
     /// One unit of x is as long as one unit of y (both linear).
     pub equal_aspect: bool,
     /// Height between the axes in nominal pixels; chosen when absent.
@@ -134,6 +141,12 @@ impl Panel {
     /// Adds a text at a point.
     pub fn annotate(mut self, x: f64, y: f64, text: impl Into<String>) -> Self {
         self.annotations.push(Annotation { x, y, text: text.into() });
+        self
+    }
+
+    /// Adds things to draw.
+    pub fn items(mut self, items: impl IntoIterator<Item = Item>) -> Self {
+        self.items.extend(items);
         self
     }
 
