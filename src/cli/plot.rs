@@ -28,7 +28,7 @@ pub struct Args {
           conflicts_with = "frames")]
     at: Vec<f64>,
     /// Number of times of the stroboscope, evenly over the run
-    #[arg(long, value_name = "N", default_value_t = 8, requires = "stroboscope",
+    #[arg(long, value_name = "N", default_value_t = 6, requires = "stroboscope",
           value_parser = clap::value_parser!(u16).range(2..=100))]
     frames: u16,
     /// The mechanism in motion

@@ -75,8 +75,9 @@ impl<const D: usize> JointKernel<D> for Lock<D> {
 
     fn shape(&self, first: &Frame<f64, D>) -> Shape {
         match (D, self.translation.len()) {
-            // A hinge in the plane has its axis out of it.
+            // A hinge in the plane has its axis out of it; balls and crosses have none.
             (2, 2) => Shape::Plain,
+            (3, 3) if self.rotation.len() < 2 => Shape::Plain,
             (2, _) => Shape::Axis(in_space(&self.axis(first, 0))),
             _ => Shape::Axis(in_space(&self.axis(first, 2))),
         }

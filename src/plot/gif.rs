@@ -10,6 +10,8 @@ const SAMPLES: usize = 6;
 /// Colours, and the index of a pixel that stays as it was.
 const COLORS: usize = 255;
 const SAME: u8 = 255;
+/// So many of the most frequent colours have a place in any case, such as those of areas.
+const FREQUENT: usize = 64;
 /// Colours nearer than this to a more frequent one wait until all others have a place.
 const NEAR: i32 = 14;
 /// Frames that are drawn at once.
@@ -113,18 +115,19 @@ impl Palette {
             sum[0] += 1;
             (0..3).for_each(|k| sum[k + 1] += u64::from(color[k]));
         }
-        let mut found: Vec<[u64; 4]> = sums.into_iter().filter(|sum| sum[0] > 0).collect();
+        let mut found: Vec<[u64; 4]> = sums.iter().copied().filter(|sum| sum[0] > 0).collect();
         found.sort_by_key(|sum| std::cmp::Reverse(sum[0]));
         let mean = |sum: &[u64; 4]| [1, 2, 3].map(|k| ((sum[k] + sum[0] / 2) / sum[0]) as u8);
         let (mut colors, mut near): (Vec<Rgb>, Vec<Rgb>) = (vec![[255; 3]], Vec::new());
-        for color in found.iter().map(mean) {
+        for (k, color) in found.iter().map(mean).enumerate() {
             let is_near = colors.iter().any(|known| distance(*known, color) < NEAR * NEAR);
-            if is_near { near.push(color) } else { colors.push(color) }
+            if is_near && k >= FREQUENT { near.push(color) } else { colors.push(color) }
         }
         colors.extend(near);
         colors.truncate(COLORS);
         let center = |bin: usize| [bin >> 10, bin >> 5 & 31, bin & 31].map(|part| (8 * part + 4) as u8);
-        let nearest = (0..BINS).into_par_iter().map(|bin| closest(&colors, center(bin))).collect();
+        let own = |bin: usize| if sums[bin][0] > 0 { mean(&sums[bin]) } else { center(bin) };
+        let nearest = (0..BINS).into_par_iter().map(|bin| closest(&colors, own(bin))).collect();
         Self { colors, nearest }
     }
 

@@ -26,6 +26,7 @@ pub(super) const GRID_LINE: Stroke = Stroke { color: GRID, width: 1.0, dash: &[]
 pub(super) const REFERENCE: Stroke = Stroke { color: Color(95, 95, 95), width: 1.5, dash: &[7.0, 4.0] };
 pub(super) const DASHED: &[f64] = &[5.0, 4.0];
 const LINE_WIDTH: f64 = 2.3;
+const THIN_WIDTH: f64 = 1.2;
 
 /// Okabe and Ito's colours, those with the most contrast on white first, black last. Their yellow is left
 /// out: a thin yellow line on white cannot be seen.
@@ -56,7 +57,8 @@ pub(super) fn look(series: &Series, index: usize, count: usize) -> Look {
     let color = COLORS[place % COLORS.len()];
     let pattern = if count > COLORS.len() { index % DASHES.len() } else { 0 };
     let dash = if series.style == Style::Dashed { DASHES[pattern.max(1)] } else { DASHES[pattern] };
-    let line = series.style.has_line().then_some(Stroke { color, width: LINE_WIDTH, dash });
+    let width = if series.style == Style::Thin { THIN_WIDTH } else { LINE_WIDTH };
+    let line = series.style.has_line().then_some(Stroke { color, width, dash });
     let marker = series.style.has_markers().then_some(MARKERS[place % MARKERS.len()]);
     Look { line, marker, color }
 }

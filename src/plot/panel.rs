@@ -71,6 +71,8 @@ pub struct Annotation {
     pub y: f64,
     /// The text.
     pub text: String,
+    /// Its colour.
+    pub tint: Tint,
 }
 
 /// Axes and what is drawn between them.
@@ -139,14 +141,19 @@ impl Panel {
     }
 
     /// Adds a text at a point.
-    pub fn annotate(mut self, x: f64, y: f64, text: impl Into<String>) -> Self {
-        self.annotations.push(Annotation { x, y, text: text.into() });
-        self
+    pub fn annotate(self, x: f64, y: f64, text: impl Into<String>) -> Self {
+        self.annotate_in(Tint::Ink(0.0), x, y, text)
     }
 
     /// Adds things to draw.
     pub fn items(mut self, items: impl IntoIterator<Item = Item>) -> Self {
         self.items.extend(items);
+        self
+    }
+
+    /// Adds a text in a colour at a point.
+    pub fn annotate_in(mut self, tint: Tint, x: f64, y: f64, text: impl Into<String>) -> Self {
+        self.annotations.push(Annotation { x, y, text: text.into(), tint });
         self
     }
 

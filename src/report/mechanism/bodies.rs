@@ -12,7 +12,10 @@ const RADIUS: f64 = 6.5;
 const MASS: f64 = 7.5;
 const BLOCK: f64 = 11.0;
 const SPIN: f64 = 13.0;
-const OPACITY: f64 = 0.22;
+const OPACITY: f64 = 0.25;
+/// Of earlier pictures, which shall not add up to a blot.
+const FAINT: f64 = 0.05;
+const PAPER: f64 = 0.55;
 /// Radius of the sign of a centre of mass, pixels.
 const CENTRE: f64 = 4.6;
 
@@ -22,7 +25,7 @@ pub fn depth(pen: &Pen, limb: &Limb) -> f64 {
     sum / limb.points.len().max(1) as f64
 }
 
-pub fn draw(pen: &mut Pen, limb: &Limb, color: usize, is_planar: bool) {
+pub fn draw(pen: &mut Pen, limb: &Limb, color: usize) {
     pen.layer = Layer::Body;
     match limb.points.as_slice() {
         [point] if !limb.oriented => point_mass(pen, *point, color),
@@ -31,7 +34,7 @@ pub fn draw(pen: &mut Pen, limb: &Limb, color: usize, is_planar: bool) {
             outline(pen, points, color);
             if !limb.oriented {
                 point_mass(pen, limb.centre.r, color);
-            } else if !is_planar {
+            } else if limb.may_spin {
                 spin(pen, limb, color);
             }
         }
@@ -46,10 +49,14 @@ fn outline(pen: &mut Pen, points: &[[f64; 3]], color: usize) {
 }
 
 fn fill(pen: &mut Pen, spots: Vec<Spot>, color: usize) {
-    // What shines through earlier pictures shall not add up to a blot.
-    let opacity = OPACITY * (1.0 - 0.8 * pen.paleness);
     let (edge, inner) = (pen.color(color, 0.0), Tint::Body(color, 0.0));
-    pen.shape(spots, edge, if pen.paleness > 0.0 { THIN } else { BOLD }, (inner, opacity));
+    if pen.paleness > 0.0 {
+        pen.shape(spots, edge, THIN, (inner, FAINT));
+        return;
+    }
+    // A little paper below, so that this picture stands out from earlier ones.
+    pen.area(spots.clone(), Tint::Paper, PAPER);
+    pen.shape(spots, edge, BOLD, (inner, OPACITY));
 }
 
 fn point_mass(pen: &mut Pen, r: [f64; 3], color: usize) {
@@ -92,7 +99,7 @@ fn spin(pen: &mut Pen, limb: &Limb, color: usize) {
 }
 
 /// The direction of points on a line.
-fn straight(points: &[[f64; 3]]) -> Option<[f64; 3]> {
+pub fn straight(points: &[[f64; 3]]) -> Option<[f64; 3]> {
     let from = *points.first()?;
     let far = points.iter().copied().max_by(|a, b| length(less(*a, from)).total_cmp(&length(less(*b, from))))?;
     let axis = direction(less(far, from))?;

@@ -1,10 +1,11 @@
 //! Figures of the mechanism, from what is where.
 
+use super::glyphs::Course;
 use super::motion::{Motion, State};
 use super::pen::Pen;
 use super::snapshot::{Link, Snapshot, snapshot};
 use super::traces::{Trace, curves};
-use super::view::{View, direction, dot, less, unit};
+use super::view::{View, direction, dot, length, less, unit};
 use super::{bodies, glyphs, ground};
 use crate::joint::Shape;
 use crate::plot::{Align, Animation, Figure, Item, Panel, Place, Series, Spot, Tint};
@@ -20,14 +21,11 @@ pub struct Look {
     pub traces: Vec<Trace>,
 }
 
-/// From where to where each joint slides.
-type Travel = Vec<Option<(f64, f64)>>;
-
 /// The mechanism at one time.
 pub fn mechanism_figure(study: &Study, look: &Look, state: &State) -> Figure {
     let scene = snapshot(&study.mechanism, state);
     let mut items = supports(look, std::slice::from_ref(&scene));
-    items.extend(picture(look, &scene, &Vec::new(), 0.0));
+    items.extend(picture(look, &scene, &Course { travels: Vec::new(), lengths: lengths(&scene) }, 0.0));
     let panel = panel(look, &scene, [items.as_slice()].into_iter(), &[]).items(items);
     let title = format!("{}, t = {} s", study.name, significant(state.t, 4));
     Figure::new().title(title).panel(labelled(look, &scene, panel))
@@ -40,7 +38,7 @@ const PALE: (f64, f64) = (0.8, 0.45);
 pub fn stroboscope_figure(motion: &Motion, look: &Look, times: &[f64]) -> Figure {
     let study = motion.study;
     let scenes: Vec<Snapshot> = times.iter().map(|t| snapshot(&study.mechanism, &motion.state(*t))).collect();
-    let travel = travel(motion);
+    let course = course(motion);
     let mut items = supports(look, &scenes);
     let last = scenes.len().saturating_sub(1);
     let paleness = |k: usize| match k {
@@ -48,8 +46,8 @@ pub fn stroboscope_figure(motion: &Motion, look: &Look, times: &[f64]) -> Figure
         _ => PALE.0 + (PALE.1 - PALE.0) * k as f64 / (last - 1).max(1) as f64,
     };
     for (k, scene) in scenes.iter().enumerate() {
-        items.extend(picture(look, scene, &travel, paleness(k)));
         items.extend(look.traces.iter().map(|trace| dot_on_path(look, scene, trace, paleness(k))));
+        items.extend(picture(look, scene, &course, paleness(k)));
     }
     let series = curves(motion, &look.view, &look.traces);
     let Some(full) = scenes.last() else { return Figure::new() };
@@ -84,11 +82,11 @@ pub fn animation(
     per_second: f64,
     speed: String,
 ) -> Animation<impl Fn(usize) -> Figure + Sync> {
-    let (study, travel) = (motion.study, travel(motion));
+    let (study, course) = (motion.study, course(motion));
     let few: Vec<Snapshot> = every(&times, 40).map(|t| snapshot(&study.mechanism, &motion.state(t))).collect();
     let fixed = supports(look, &few);
     let moving: Vec<Vec<Item>> = every(&times, 400)
-        .map(|t| picture(look, &snapshot(&study.mechanism, &motion.state(t)), &travel, 0.0).collect())
+        .map(|t| picture(look, &snapshot(&study.mechanism, &motion.state(t)), &course, 0.0).collect())
         .collect();
     let series: Vec<Series> = curves(motion, &look.view, &look.traces)
         .into_iter()
@@ -103,8 +101,8 @@ pub fn animation(
     let frame = move |k: usize| {
         let scene = snapshot(mechanism, &states[k]);
         let mut items = fixed.clone();
-        items.extend(picture(&look, &scene, &travel, 0.0));
         items.extend(look.traces.iter().map(|trace| dot_on_path(&look, &scene, trace, 0.0)));
+        items.extend(picture(&look, &scene, &course, 0.0));
         if look.labels {
             items.extend(scene.limbs.iter().map(|limb| {
                 let (x, y) = look.view.flat(limb.centre.r);
@@ -136,16 +134,16 @@ fn supports(look: &Look, scenes: &[Snapshot]) -> Vec<Item> {
 }
 
 /// Bodies, joints and forces.
-fn picture(look: &Look, scene: &Snapshot, travel: &Travel, paleness: f64) -> impl Iterator<Item = Item> + use<> {
+fn picture(look: &Look, scene: &Snapshot, course: &Course, paleness: f64) -> impl Iterator<Item = Item> + use<> {
     let mut pen = Pen::new(&look.view, paleness);
     for (color, limb) in scene.limbs.iter().enumerate() {
         pen.depth = bodies::depth(&pen, limb);
-        bodies::draw(&mut pen, limb, color, scene.is_planar);
+        bodies::draw(&mut pen, limb, color);
         if paleness == 0.0 {
             bodies::centre(&mut pen, limb, color);
         }
     }
-    glyphs::draw(&mut pen, scene, travel);
+    glyphs::draw(&mut pen, scene, course);
     pen.finish().collect::<Vec<_>>().into_iter()
 }
 
@@ -191,11 +189,11 @@ fn triad(view: &View) -> Vec<Item> {
 /// Names beside the bodies, where the figure has room for them.
 fn labelled(look: &Look, scene: &Snapshot, mut panel: Panel) -> Panel {
     if look.labels {
-        for limb in &scene.limbs {
+        for (color, limb) in scene.limbs.iter().enumerate() {
             let count = limb.points.len().max(1) as f64;
             let flat = limb.points.iter().map(|point| look.view.flat(*point));
             let (x, y) = flat.fold((0.0, 0.0), |sum, point| (sum.0 + point.0, sum.1 + point.1));
-            panel = panel.annotate(x / count, y / count, limb.name.clone());
+            panel = panel.annotate_in(Tint::Body(color, 0.0), x / count, y / count, limb.name.clone());
         }
     }
     panel
@@ -204,26 +202,31 @@ fn labelled(look: &Look, scene: &Snapshot, mut panel: Panel) -> Panel {
 /// States from which the ways of slides are taken.
 const SAMPLES: usize = 300;
 
-fn travel(motion: &Motion) -> Travel {
+fn course(motion: &Motion) -> Course {
     let mechanism = &motion.study.mechanism;
     let slides = |link: &Link| ["prismatic", "cylindrical", "point_on_line"].contains(&link.kind);
     let place = |link: &Link| match link.shape {
         Shape::Axis(axis) if slides(link) => Some(dot(direction(axis)?, less(link.ends[1].r, link.ends[0].r))),
         _ => None,
     };
-    let mut ways: Travel = Vec::new();
     let first = snapshot(mechanism, &motion.state(motion.reach().0));
-    if !first.joints.iter().any(slides) {
-        return ways;
-    }
-    for t in motion.times(SAMPLES) {
-        let places = snapshot(mechanism, &motion.state(t)).joints.iter().map(place).collect::<Vec<_>>();
-        ways.resize(places.len(), None);
-        for (way, place) in ways.iter_mut().zip(places) {
+    let mut course = Course { travels: vec![None; first.joints.len()], lengths: lengths(&first) };
+    let times = if first.joints.iter().any(slides) { motion.times(SAMPLES) } else { Vec::new() };
+    for t in times {
+        let scene = snapshot(mechanism, &motion.state(t));
+        for (way, place) in course.travels.iter_mut().zip(scene.joints.iter().map(place)) {
             let Some(place) = place else { continue };
             let (low, high) = way.unwrap_or((place, place));
             *way = Some((low.min(place), high.max(place)));
         }
     }
-    ways
+    course
+}
+
+fn lengths(scene: &Snapshot) -> Vec<f64> {
+    let distance = |link: &Link| match link.ends.as_slice() {
+        [a, b, ..] => length(less(b.r, a.r)),
+        _ => 0.0,
+    };
+    scene.forces.iter().map(distance).collect()
 }

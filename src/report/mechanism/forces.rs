@@ -13,24 +13,26 @@ const ARROW: f64 = 44.0;
 
 /// A zigzag between its ends.
 pub fn spring_damper(pen: &mut Pen, link: &Link, sight: &Sight) {
-    zigzag(pen, [link.ends[0].r, link.ends[1].r], sight);
+    zigzag(pen, [link.ends[0].r, link.ends[1].r], sight.length);
 }
 
-const COILS: usize = 12;
-const WIDTH: f64 = 6.0;
+const COILS: usize = 16;
+/// Half the width of a spring: so many pixels, and this part of its length at the start.
+const WIDTH: (f64, f64) = (3.0, 0.018);
 
-fn zigzag(pen: &mut Pen, [a, b]: [[f64; 3]; 2], _: &Sight) {
+fn zigzag(pen: &mut Pen, [a, b]: [[f64; 3]; 2], start: f64) {
     let (x, y) = pen.view.flat(less(b, a));
     let size = x.hypot(y);
     let (nx, ny) = if size > 1e-12 { (-y / size, x / size) } else { (0.0, 1.0) };
     // A fifth of the length at both ends is straight.
     let at = |part: f64, out: f64| {
-        let r = along(a, less(b, a), part);
-        pen.spot(r).moved(out * nx, out * ny)
+        let (x, y) = pen.view.flat(along(a, less(b, a), part));
+        let wide = out * WIDTH.1 * start;
+        Spot::data(x + wide * nx, y + wide * ny).moved(out * WIDTH.0 * nx, out * WIDTH.0 * ny)
     };
     let mut spots: Vec<Spot> = vec![at(0.0, 0.0), at(0.2, 0.0)];
     spots.extend((0..COILS).map(|k| {
-        let side = if k % 2 == 0 { WIDTH } else { -WIDTH };
+        let side = if k % 2 == 0 { 1.0 } else { -1.0 };
         at(0.2 + 0.6 * (k as f64 + 0.5) / COILS as f64, side)
     }));
     spots.extend([at(0.8, 0.0), at(1.0, 0.0)]);
@@ -93,7 +95,9 @@ pub fn tyre(pen: &mut Pen, link: &Link, sight: &Sight) {
     let circle = pen.arc(hub.r, [axle, up], (0.0, TAU), (wheel.radius, 0.0));
     let ink = pen.ink(0.35);
     pen.layer = Layer::Rod;
-    pen.area(circle.clone(), Tint::Ink(0.0), 0.05 * (1.0 - pen.paleness));
+    if pen.paleness == 0.0 {
+        pen.area(circle.clone(), Tint::Ink(0.0), 0.08);
+    }
     pen.line(circle, ink, 3.0);
     let below = along(hub.r, up, wheel.road - dot(up, hub.r));
     let forward = cross(axle, up);

@@ -9,6 +9,17 @@ pub struct Sight {
     pub is_planar: bool,
     /// From where to where a slide goes along its axis during the motion, m.
     pub travel: Option<(f64, f64)>,
+    /// Between the first two markers at the start, m.
+    pub length: f64,
+}
+
+/// What the whole motion says of the joints and forces, in their order.
+#[derive(Clone, Debug, Default)]
+pub struct Course {
+    /// From where to where each joint slides along its axis.
+    pub travels: Vec<Option<(f64, f64)>>,
+    /// Distance of the ends of each force at the start.
+    pub lengths: Vec<f64>,
 }
 
 struct Glyph {
@@ -46,19 +57,22 @@ const FORCES: &[Glyph] = &[
     glyph("tyre", forces::tyre, true),
 ];
 
-/// Draws all joints and forces of a scene; `travel` says how far each joint slides.
-pub fn draw(pen: &mut Pen, scene: &Snapshot, travel: &[Option<(f64, f64)>]) {
+/// Draws all joints and forces of a scene.
+pub fn draw(pen: &mut Pen, scene: &Snapshot, course: &Course) {
     let depths: Vec<f64> = scene.limbs.iter().map(|limb| bodies::depth(pen, limb)).collect();
-    let joints = scene.joints.iter().enumerate().map(|(i, link)| (link, JOINTS, travel.get(i).copied().flatten()));
-    let forces = scene.forces.iter().map(|link| (link, FORCES, None));
-    for (link, table, travel) in joints.chain(forces) {
+    let sight = |travel, length| Sight { is_planar: scene.is_planar, travel, length };
+    let travel = |i: usize| course.travels.get(i).copied().flatten();
+    let joints = scene.joints.iter().enumerate().map(|(i, link)| (link, JOINTS, sight(travel(i), 0.0)));
+    let length = |i: usize| course.lengths.get(i).copied().unwrap_or(0.0);
+    let forces = scene.forces.iter().enumerate().map(|(i, link)| (link, FORCES, sight(None, length(i))));
+    for (link, table, sight) in joints.chain(forces) {
         let Some(glyph) = table.iter().find(|glyph| glyph.kind == link.kind) else { continue };
         if !glyph.in_all && pen.paleness > 0.0 {
             continue;
         }
         pen.layer = Layer::Joint;
         pen.depth = depth(pen, link, &depths, glyph.in_all);
-        (glyph.draw)(pen, link, &Sight { is_planar: scene.is_planar, travel });
+        (glyph.draw)(pen, link, &sight);
     }
 }
 

@@ -2,11 +2,13 @@
 
 use super::pen::{Layer, Pen, THIN};
 use super::snapshot::{Link, Snapshot};
-use super::view::{along, length, less};
+use super::view::{along, direction, length, less};
 use crate::plot::Spot;
 
-/// Kinds that pull at the ground along a line: their wall is square to it.
-const PULLING: [&str; 2] = ["spring_damper", "distance"];
+/// Kinds that pull at the ground along a line: their wall is square to it, unless the line swings.
+const PULLING: [&str; 1] = ["spring_damper"];
+/// A line swings if its mean direction is shorter than this.
+const STEADY: f64 = 0.95;
 /// Kinds whose own sign shows how the ground holds them.
 const BARE: [&str; 5] = ["prismatic", "cylindrical", "point_on_line", "equation", "driver"];
 
@@ -23,13 +25,16 @@ pub fn draw(pen: &mut Pen, pictures: &[Snapshot]) {
                 continue;
             }
             done.push(at);
-            let way = pen.view.flat(mean(pictures, at).unwrap_or([0.0; 3]));
-            support(pen, at, way, PULLING.contains(&link.kind));
+            let way = mean(pictures, at).unwrap_or([0.0; 3]);
+            let is_wall = PULLING.contains(&link.kind) && length(way) > STEADY;
+            let way = pen.view.flat(way);
+            support(pen, at, way, is_wall);
         }
     }
 }
 
-/// From a place of the ground to the bodies that are held there, on average.
+/// The direction from a place of the ground to the bodies that are held there, on average; shorter than one where
+/// it changes.
 fn mean(pictures: &[Snapshot], at: [f64; 3]) -> Option<[f64; 3]> {
     let (mut sum, mut count) = ([0.0; 3], 0.0);
     for scene in pictures {
@@ -40,7 +45,8 @@ fn mean(pictures: &[Snapshot], at: [f64; 3]) -> Option<[f64; 3]> {
                 .zip(&link.carriers)
                 .any(|(end, body)| body.is_none() && length(less(end.r, at)) < 1e-9);
             for body in link.carriers.iter().flatten().filter(|_| here) {
-                sum = along(sum, less(scene.limbs[*body].centre.r, at), 1.0);
+                let way = less(scene.limbs[*body].centre.r, at);
+                sum = along(sum, direction(way).unwrap_or([0.0; 3]), 1.0);
                 count += 1.0;
             }
         }

@@ -124,7 +124,8 @@ impl<'a> Pen<'a> {
         (metres, pixels): (f64, f64),
     ) -> Vec<Spot> {
         let [first, second] = square_to(axis, hint);
-        let count = ((to - from).abs() / 0.2).ceil().max(2.0) as usize;
+        let step = if metres > 0.0 { 0.1 } else { 0.25 };
+        let count = ((to - from).abs() / step).ceil().max(2.0) as usize;
         let way = |i: usize| {
             let angle = from + (to - from) * i as f64 / count as f64;
             along(first.map(|x| x * angle.cos()), second, angle.sin())

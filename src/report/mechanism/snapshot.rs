@@ -1,7 +1,8 @@
 //! What is where at one time: bodies, joints and forces of a planar or spatial scene alike, all in space.
 
+use super::bodies::straight;
 use super::motion::State;
-use super::view::{along, direction, dot, length, less};
+use super::view::{along, cross, direction, dot, length, less};
 use crate::body::{Frame, Wrench, in_space};
 use crate::force::Wheel;
 use crate::joint::Shape;
@@ -29,6 +30,8 @@ pub struct Limb {
     pub centre: Pose,
     /// False for point masses.
     pub oriented: bool,
+    /// Whether it may turn about itself in a way that its outline does not show.
+    pub may_spin: bool,
 }
 
 /// A joint or force.
@@ -113,13 +116,10 @@ fn of<const D: usize>(mechanism: &Mechanism<D>, state: &State) -> Snapshot {
         let wheel = force.element.wheel(state.t);
         Link { wheel, force: in_space(&push), torque, ..link(model, force, &poses) }
     });
-    Snapshot {
-        is_planar: D == 2,
-        limbs: model.bodies.iter().map(|part| limb(part, &poses, &used)).collect(),
-        joints: joints.collect(),
-        forces: forces.collect(),
-        markers: poses,
-    }
+    let joints: Vec<Link> = joints.collect();
+    let mut limbs: Vec<Limb> = model.bodies.iter().map(|part| limb(part, &poses, &used)).collect();
+    limbs.iter_mut().enumerate().for_each(|(i, limb)| limb.may_spin = D == 3 && may_spin(limb, i, &joints));
+    Snapshot { is_planar: D == 2, limbs, joints, forces: forces.collect(), markers: poses }
 }
 
 /// Which markers a joint or force holds.
@@ -143,6 +143,16 @@ fn link<E, const D: usize>(model: &Model<D>, connection: &Connection<E>, poses: 
     }
 }
 
+/// Whether no joint holds a straight body against turns about its own line: a hinge aside of it would.
+fn may_spin(limb: &Limb, body: usize, joints: &[Link]) -> bool {
+    let Some(line) = straight(&limb.points) else { return false };
+    let mut own = joints.iter().filter(|joint| joint.carriers.contains(&Some(body)));
+    own.all(|joint| match joint.shape {
+        Shape::Axis(axis) => length(cross(line, axis)) < 1e-3 * length(axis),
+        _ => true,
+    })
+}
+
 /// A centre of mass so far from the markers, as a part of their distance, belongs to the outline of a body.
 const FAR: f64 = 0.25;
 
@@ -163,7 +173,7 @@ fn limb<const D: usize>(part: &Part<D>, poses: &[Pose], used: &[bool]) -> Limb {
     if points.len() < 2 || distance(&points, r) > FAR * size {
         add(&mut points, r);
     }
-    Limb { name: part.name.clone(), points, centre, oriented: part.body.oriented() }
+    Limb { name: part.name.clone(), points, centre, oriented: part.body.oriented(), may_spin: false }
 }
 
 fn add(points: &mut Vec<[f64; 3]>, point: [f64; 3]) {

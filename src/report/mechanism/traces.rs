@@ -61,7 +61,7 @@ const MOST: usize = 4000;
 
 /// The paths as curves in the colours of their bodies.
 pub fn curves(motion: &Motion, view: &View, traces: &[Trace]) -> Vec<Series> {
-    let mut curves: Vec<Series> = traces.iter().map(|trace| curve(trace)).collect();
+    let mut curves: Vec<Series> = traces.iter().map(curve).collect();
     if traces.is_empty() {
         return curves;
     }
@@ -75,7 +75,7 @@ pub fn curves(motion: &Motion, view: &View, traces: &[Trace]) -> Vec<Series> {
 }
 
 fn curve(trace: &Trace) -> Series {
-    let mut series = Series::line(format!("path of {}", trace.name), Vec::new()).style(Style::Dashed);
+    let mut series = Series::line(format!("path of {}", trace.name), Vec::new()).style(Style::Thin);
     series.color = trace.body;
     series
 }
