@@ -177,6 +177,11 @@ pub fn scale<S: Scalar, const D: usize>(a: &[S; D], factor: S) -> [S; D] {
     a.map(|x| x * factor)
 }
 
+/// A vector of a planar scene among those of space.
+pub fn in_space<const D: usize>(vector: &[f64; D]) -> [f64; 3] {
+    from_fn(|i| if i < D { vector[i] } else { 0.0 })
+}
+
 /// a x b in space; in the plane the vectors lie in it and only the third component is not zero.
 #[inline]
 pub fn cross<S: Scalar, const D: usize>(a: &[S; D], b: &[S; D]) -> [S; 3] {

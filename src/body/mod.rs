@@ -16,7 +16,7 @@ mod rigid_planar;
 mod rigid_spatial;
 
 pub use build::{Build, MarkerId, MarkerTable};
-pub use frame::{Frame, Marker, Wrench, cross, dot, scale, sub, twist_len, unit_axes};
+pub use frame::{Frame, Marker, Wrench, cross, dot, in_space, scale, sub, twist_len, unit_axes};
 pub use parse::{parse, parse_among, show};
 pub use probe::{Probe, Quantity, Signal, small_rotation, small_rotation_torque};
 pub use rigid::Initial;
@@ -92,6 +92,8 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Slope, D> + Send + S
     fn coordinate_names(&self) -> Vec<&'static str>;
     fn velocity_names(&self) -> Vec<&'static str>;
     fn marker_count(&self) -> usize;
+    /// Where a marker is on the body.
+    fn marker(&self, index: usize) -> &Marker<D>;
     fn mass_pattern(&self) -> Vec<(usize, usize)>;
     fn energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy;
     fn normalize(&self, q: &mut [f64]);
@@ -170,6 +172,9 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
     }
     fn marker_count(&self) -> usize {
         self.markers().len()
+    }
+    fn marker(&self, index: usize) -> &Marker<D> {
+        &self.markers()[index]
     }
     fn mass_pattern(&self) -> Vec<(usize, usize)> {
         BodyKernel::mass_pattern(self)

@@ -5,6 +5,7 @@ mod common;
 mod drift;
 mod generate;
 mod methods;
+mod plot;
 mod purpose;
 mod schema;
 mod simulate;
@@ -29,6 +30,8 @@ enum Command {
     Simulate(simulate::Args),
     /// The same scene under every stabilization: drift against time, one table, one figure
     Drift(drift::Args),
+    /// The mechanism itself: at one time, at several in one figure, or in motion
+    Plot(plot::Args),
     /// Print a scalable scene
     Generate(generate::Args),
     /// Formulations, integrators and projections: what goes with what, proven orders, what each is for
@@ -43,6 +46,7 @@ pub fn run() -> ExitCode {
         Command::Check(args) => check::run(args),
         Command::Simulate(args) => simulate::run(args),
         Command::Drift(args) => drift::run(args),
+        Command::Plot(args) => plot::run(args),
         Command::Generate(args) => generate::run(args),
         Command::Methods(args) => methods::run(args),
         Command::Schema => schema::run(),

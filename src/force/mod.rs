@@ -33,10 +33,23 @@ impl<S: Scalar> Action<S> {
     }
 }
 
+/// A wheel as a drawing shows it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wheel {
+    /// m
+    pub radius: f64,
+    /// Height of the road under it, m.
+    pub road: f64,
+}
+
 /// A force's equations, written once over any scalar.
 pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
     /// One wrench a marker; `out` holds zeros on entry.
     fn act<S: Scalar>(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S>;
+    /// The wheel that a drawing shows, if it is one.
+    fn wheel(&self, _t: f64) -> Option<Wheel> {
+        None
+    }
 }
 
 /// A force over one scalar: what the model calls.
@@ -51,9 +64,15 @@ impl<K: ForceKernel<D>, S: Scalar, const D: usize> ForceOver<S, D> for K {
 }
 
 /// The object-safe form of a force; implemented for every [`ForceKernel`].
-pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Slope, D> + Send + Sync {}
+pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Slope, D> + Send + Sync {
+    fn wheel(&self, t: f64) -> Option<Wheel>;
+}
 
-impl<K: ForceKernel<D>, const D: usize> Force<D> for K {}
+impl<K: ForceKernel<D>, const D: usize> Force<D> for K {
+    fn wheel(&self, t: f64) -> Option<Wheel> {
+        ForceKernel::wheel(self, t)
+    }
+}
 
 /// A force ready for the model, with the markers it sees.
 pub struct Built<const D: usize> {

@@ -1,6 +1,6 @@
 //! Vertical tyre on a road profile.
 
-use super::{Action, Built, ForceKernel, ForceSpec};
+use super::{Action, Built, ForceKernel, ForceSpec, Wheel};
 use crate::body::{Build, Frame, Wrench};
 use crate::error::Result;
 use crate::math::expression::{Expression, Number};
@@ -52,6 +52,10 @@ struct Spring {
 }
 
 impl<const D: usize> ForceKernel<D> for Spring {
+    fn wheel(&self, t: f64) -> Option<Wheel> {
+        Some(Wheel { radius: self.radius, road: self.road.eval(&[t]) })
+    }
+
     fn act<S: Scalar>(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
         let squeeze = self.road.eval(&[t]) - frames[0].r[D - 1] + self.radius;
         if self.lift_off && squeeze.value() < 0.0 {

@@ -1,8 +1,8 @@
 //! Driver: a relative coordinate prescribed as a function of time.
 
 use super::lock::{Lock, NONE, direction};
-use super::{Built, JointKernel, JointSpec};
-use crate::body::{Build, Frame, dot, sub};
+use super::{Built, JointKernel, JointSpec, Shape};
+use crate::body::{Build, Frame, dot, in_space, sub};
 use crate::error::{Error, Result};
 use crate::math::Scalar;
 use crate::math::expression::{Expression, Number};
@@ -73,6 +73,18 @@ impl<const D: usize> JointKernel<D> for Drive<D> {
 
     fn depends_on_time(&self) -> bool {
         true
+    }
+
+    fn shape(&self, first: &Frame<f64, D>) -> Shape {
+        let axis = |i: usize| Shape::Axis(in_space(&first.axes[i]));
+        match self.coordinate {
+            Coordinate::X => axis(0),
+            Coordinate::Y => axis(1),
+            Coordinate::Z => axis(D - 1),
+            Coordinate::Distance => Shape::Plain,
+            Coordinate::Angle if D == 2 => Shape::Turn([0.0, 0.0, 1.0]),
+            Coordinate::Angle => Shape::Turn(in_space(&self.axes.axis(first, 2))),
+        }
     }
 
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], t: S, out: &mut [S]) {

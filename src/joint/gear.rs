@@ -2,7 +2,7 @@
 
 use super::driver::relative_turn;
 use super::lock::{Lock, NONE};
-use super::{Built, JointKernel, JointSpec};
+use super::{Built, JointKernel, JointSpec, Shape};
 use crate::body::{Build, Frame};
 use crate::error::{Error, Result};
 use crate::math::Scalar;
@@ -58,6 +58,10 @@ struct Pair {
 impl<const D: usize> JointKernel<D> for Pair {
     fn row_names(&self) -> Vec<&'static str> {
         vec!["angle"]
+    }
+
+    fn shape(&self, _first: &Frame<f64, D>) -> Shape {
+        Shape::Teeth(self.teeth)
     }
 
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], _t: S, out: &mut [S]) {

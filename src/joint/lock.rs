@@ -1,7 +1,7 @@
 //! The kernel behind most joints: some relative translations and rotations of two frames are locked.
 
-use super::{Built, JointKernel};
-use crate::body::{Build, Frame, dot, sub, unit_axes};
+use super::{Built, JointKernel, Shape};
+use crate::body::{Build, Frame, dot, in_space, sub, unit_axes};
 use crate::error::{Error, Result};
 use crate::math::Scalar;
 use crate::math::expression::Number;
@@ -71,6 +71,16 @@ impl<const D: usize> JointKernel<D> for Lock<D> {
             _ => "rz",
         });
         self.translation.iter().map(|&i| TRANSLATIONS[i]).chain(rotations).collect()
+    }
+
+    fn shape(&self, first: &Frame<f64, D>) -> Shape {
+        match (D, self.translation.len()) {
+            // A hinge in the plane has its axis out of it; balls and crosses have none.
+            (2, 2) => Shape::Plain,
+            (3, 3) if self.rotation.len() < 2 => Shape::Plain,
+            (2, _) => Shape::Axis(in_space(&self.axis(first, 0))),
+            _ => Shape::Axis(in_space(&self.axis(first, 2))),
+        }
     }
 
     #[inline]

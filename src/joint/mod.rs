@@ -30,6 +30,18 @@ use std::array::from_fn;
 /// So many rows a joint may have.
 pub const MOST_ROWS: usize = 6;
 
+/// What a drawing shows of a joint beside its kind and markers; directions are in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    Plain,
+    /// Something slides along this direction through the first marker, or turns about it.
+    Axis([f64; 3]),
+    /// Something is turned about this direction.
+    Turn([f64; 3]),
+    /// Numbers of teeth of two wheels.
+    Teeth([f64; 2]),
+}
+
 /// A joint's equations, written once over any scalar.
 pub trait JointKernel<const D: usize>: Send + Sync + 'static {
     /// A name for each row: the direction it holds. `x, y, z` rows are in metres, others in radians.
@@ -37,6 +49,10 @@ pub trait JointKernel<const D: usize>: Send + Sync + 'static {
     /// Whether phi depends on t beside the frames.
     fn depends_on_time(&self) -> bool {
         false
+    }
+    /// What a drawing shows of it, with its first marker at `first`.
+    fn shape(&self, _first: &Frame<f64, D>) -> Shape {
+        Shape::Plain
     }
     /// One value a row at the frames of the joint's markers.
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], t: S, out: &mut [S]);
@@ -55,6 +71,7 @@ pub trait JointOver<S: Scalar, const D: usize> {
 pub trait Joint<const D: usize>: JointOver<f64, D> + JointOver<Slope, D> + Send + Sync {
     fn row_names(&self) -> Vec<&'static str>;
     fn depends_on_time(&self) -> bool;
+    fn shape(&self, first: &Frame<f64, D>) -> Shape;
 }
 
 /// Markers that one pass of [`JointOver::gradient`] covers.
@@ -95,6 +112,9 @@ impl<K: JointKernel<D>, const D: usize> Joint<D> for K {
     }
     fn depends_on_time(&self) -> bool {
         JointKernel::depends_on_time(self)
+    }
+    fn shape(&self, first: &Frame<f64, D>) -> Shape {
+        JointKernel::shape(self, first)
     }
 }
 

@@ -2,7 +2,7 @@
 //! jagged edges.
 
 use plotters::backend::{BitMapBackend, DrawingBackend};
-use plotters::style::RGBColor;
+use plotters::style::{Color as _, RGBColor};
 
 use super::font;
 use super::shape::{Anchor, Color, Drawing, Marker, Pt, Rect, Shape, Stroke, Text};
@@ -19,12 +19,47 @@ const COLUMN_METRES: f64 = 0.085;
 /// The whole file, or why there is none.
 pub(super) fn render(drawing: &Drawing) -> Result<Vec<u8>, String> {
     let (density, fineness) = resolution(drawing)?;
-    let size = ((drawing.width.ceil() as usize) * density, (drawing.height.ceil() as usize) * density);
-    let large = (size.0 * fineness, size.1 * fineness);
-    let mut pixels = vec![255u8; 3 * large.0 * large.1];
-    let scale = (density * fineness) as f64;
-    Canvas { pixels: &mut pixels, size: large, scale }.draw(drawing)?;
-    encode(&average(&pixels, size, fineness), size, density).map_err(|error| error.to_string())
+    let sheet = Sheet { density, fineness, size: pixels(drawing, density) };
+    let pixels = sheet.draw(sheet.blank(), &drawing.shapes)?;
+    encode(&average(&pixels, sheet.size, fineness), sheet.size, density).map_err(|error| error.to_string())
+}
+
+/// Output pixels of a drawing.
+fn pixels(drawing: &Drawing, density: usize) -> (usize, usize) {
+    ((drawing.width.ceil() as usize) * density, (drawing.height.ceil() as usize) * density)
+}
+
+/// What many pictures of the same size are drawn on: one output pixel per nominal one.
+pub(super) struct Sheet {
+    density: usize,
+    fineness: usize,
+    /// Width and height in output pixels.
+    pub size: (usize, usize),
+}
+
+impl Sheet {
+    /// For the frames of an animation.
+    pub fn of_frames(drawing: &Drawing) -> Self {
+        Self { density: 1, fineness: 3, size: pixels(drawing, 1) }
+    }
+
+    /// The large picture, empty.
+    pub fn blank(&self) -> Vec<u8> {
+        vec![255; 3 * self.size.0 * self.size.1 * self.fineness * self.fineness]
+    }
+
+    /// Draws upon a large picture.
+    pub fn draw(&self, mut pixels: Vec<u8>, shapes: &[Shape]) -> Result<Vec<u8>, String> {
+        let size = (self.size.0 * self.fineness, self.size.1 * self.fineness);
+        let scale = (self.density * self.fineness) as f64;
+        Canvas { pixels: &mut pixels, size, scale }.draw(shapes)?;
+        Ok(pixels)
+    }
+
+    /// The output pixels of a large picture: red, green, blue.
+    pub fn output(&self, pixels: &[u8]) -> Vec<u8> {
+        average(pixels, self.size, self.fineness)
+    }
 }
 
 /// Density and fineness, reduced for pictures of unusual size.
@@ -79,8 +114,8 @@ struct Canvas<'a> {
 }
 
 impl Canvas<'_> {
-    fn draw(&mut self, drawing: &Drawing) -> Result<(), String> {
-        for shape in &drawing.shapes {
+    fn draw(&mut self, shapes: &[Shape]) -> Result<(), String> {
+        for shape in shapes {
             match shape {
                 Shape::Text(text) => self.text(text),
                 other => self.shape(other)?,
@@ -98,6 +133,7 @@ impl Canvas<'_> {
             Shape::Marks { at, marker, radius, color } => {
                 at.iter().try_for_each(|center| pen.marker(*center, *marker, *radius, *color))
             }
+            Shape::Area { points, fill, opacity } => pen.area(points, *fill, *opacity),
             Shape::Text(_) => Ok(()),
         }
     }
@@ -162,6 +198,11 @@ impl Pen<'_> {
     fn polygon(&mut self, corners: &[Pt], fill: Color) -> Result<(), String> {
         let corners: Vec<(i32, i32)> = corners.iter().map(|corner| self.device(*corner)).collect();
         self.backend.fill_polygon(corners, &style(fill)).map_err(|error| error.to_string())
+    }
+
+    fn area(&mut self, corners: &[Pt], fill: Color, opacity: f64) -> Result<(), String> {
+        let corners: Vec<(i32, i32)> = corners.iter().map(|corner| self.device(*corner)).collect();
+        self.backend.fill_polygon(corners, &style(fill).mix(opacity)).map_err(|error| error.to_string())
     }
 
     fn disc(&mut self, center: Pt, radius: f64, fill: Color) -> Result<(), String> {

@@ -2,6 +2,7 @@
 
 use super::axes;
 use super::figure::Figure;
+use super::item;
 use super::layout::{self, Placed};
 use super::legend::{self, Block, Entry, Taken};
 use super::marks::{self, Budget};
@@ -65,10 +66,16 @@ fn panel(drawing: &mut Drawing, placed: &mut Placed, top: f64, entries: &[Entry]
     marks::cells(drawing, placed);
     let references = notes::references(drawing, placed);
     taken.add(&references);
-    let empty = data.is_empty() && placed.panel.heat_map.is_none();
+    let items = item::shapes(placed);
+    taken.add(&items);
+    let empty = data.is_empty() && items.is_empty() && placed.panel.heat_map.is_none();
     drawing.shapes.extend(data);
+    let first = drawing.shapes.len();
+    drawing.shapes.extend(items);
+    drawing.items = first..drawing.shapes.len();
     drawing.shapes.push(Shape::Path { points: placed.frame.outline(), stroke: FRAME });
     axes::axes(drawing, placed);
+    item::inset(drawing, placed, &mut taken);
     notes::texts(drawing, placed, &mut taken);
     if empty {
         drawing

@@ -4,6 +4,7 @@ use super::axes::{STRIP, floor_note};
 use super::axis::{Axis, Extent, Slack};
 use super::color_bar::ColorBar;
 use super::figure::Figure;
+use super::item::Item;
 use super::marks;
 use super::palette::{EDGE, LABEL_SIZE, Look, NOTE_SIZE, TICK_LENGTH, TICK_SIZE, look};
 use super::panel::{Panel, Scale};
@@ -173,8 +174,10 @@ fn extents(panel: &Panel) -> (Extent, Extent) {
     let (mut x, mut y) = (Extent::default(), Extent::default());
     let points = panel.series.iter().flat_map(|series| series.points.iter().copied());
     let colored = panel.color_series.iter().flat_map(|series| series.points.iter().map(|point| (point.0, point.1)));
+    let items = panel.items.iter().flat_map(Item::data);
     let texts = panel.annotations.iter().map(|note| (note.x, note.y));
-    let whole = points.chain(colored).chain(texts).filter(|point| point.0.is_finite() && point.1.is_finite());
+    let whole =
+        points.chain(colored).chain(texts).chain(items).filter(|point| point.0.is_finite() && point.1.is_finite());
     for (at_x, at_y) in whole {
         x.add(at_x);
         y.add(at_y);
@@ -195,6 +198,9 @@ fn extents(panel: &Panel) -> (Extent, Extent) {
 fn slack(panel: &Panel) -> (Slack, Slack) {
     if panel.heat_map.is_some() {
         return (Slack::Exact, Slack::Exact);
+    }
+    if !panel.items.is_empty() {
+        return (Slack::Part(0.08), Slack::Part(0.08));
     }
     let only_functions = panel.color_series.is_empty()
         && panel

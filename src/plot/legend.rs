@@ -2,8 +2,8 @@
 
 use super::layout::Placed;
 use super::marks;
-use super::palette::{INK, Look, MARKER_RADIUS, PAPER};
-use super::shape::{Anchor, Color, Drawing, Rect, Shape, Stroke, Text};
+use super::palette::{INK, Look, MARKER_RADIUS, PAPER, tint};
+use super::shape::{Anchor, Color, Drawing, Marker, Rect, Shape, Stroke, Text};
 use super::text::{self, Rich};
 
 /// Width of the samples when some have a line, and when all are markers.
@@ -47,7 +47,11 @@ pub(super) fn entries(placed: &Placed) -> Vec<Entry> {
         label: word.clone(),
         look: Look { line: None, marker: Some(marks::symbol(place)), color: INK },
     });
-    lines.chain(symbols).collect()
+    let keys = placed.panel.keys.iter().map(|(label, color)| Entry {
+        label: label.clone(),
+        look: Look { line: None, marker: Some(Marker::Square), color: tint(*color) },
+    });
+    lines.chain(symbols).chain(keys).collect()
 }
 
 impl Block {
@@ -156,7 +160,9 @@ impl Taken {
     pub fn add(&mut self, shapes: &[Shape]) {
         for shape in shapes {
             match shape {
-                Shape::Path { points, .. } => points.windows(2).for_each(|pair| self.segment(pair[0], pair[1])),
+                Shape::Path { points, .. } | Shape::Area { points, .. } => {
+                    points.windows(2).for_each(|pair| self.segment(pair[0], pair[1]))
+                }
                 Shape::Marks { at, .. } => self.points.extend(at),
                 Shape::Rects { rects, .. } => self.rects.extend(rects),
                 Shape::Text(text) => self.rects.push(text.bounds()),

@@ -7,6 +7,7 @@
 //! Sizes are in nominal pixels. A figure is 640 of them wide by default and meant to be printed 85 mm wide
 //! (one journal column), where its text is 6 to 7 pt high.
 
+mod animation;
 mod axes;
 mod axis;
 mod bitmap;
@@ -16,7 +17,9 @@ mod draw;
 mod error;
 mod figure;
 mod font;
+mod gif;
 mod heat;
+mod item;
 mod layout;
 mod legend;
 mod marks;
@@ -31,9 +34,11 @@ mod text;
 mod thin;
 mod ticks;
 
+pub use animation::Animation;
 pub use error::PlotError;
 pub use figure::Figure;
 pub use heat::HeatMap;
+pub use item::{Align, Item, Place, Spot, Tint};
 pub use panel::{Annotation, AxisSpec, Panel, ReferenceLine, Scale};
 pub use series::{ColorSeries, Series, Style};
 

@@ -3,7 +3,7 @@
 use super::axes;
 use super::layout::Placed;
 use super::legend::Taken;
-use super::palette::{INK, NOTE_INK, NOTE_SIZE, PAPER, REFERENCE};
+use super::palette::{NOTE_INK, NOTE_SIZE, PAPER, REFERENCE, tint};
 use super::shape::{Anchor, Color, Drawing, Pt, Rect, Shape, Text};
 use super::text::{self, HALF_DIGIT};
 
@@ -38,7 +38,7 @@ pub(super) fn texts(drawing: &mut Drawing, placed: &Placed, taken: &mut Taken) {
     }
     for note in &placed.panel.annotations {
         if let Some(at) = placed.at(note.x, note.y).filter(|at| placed.frame.contains(*at)) {
-            settle(drawing, placed, around(at, &note.text), taken, INK);
+            settle(drawing, placed, around(at, &note.text), taken, tint(note.tint));
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use plotters::style::colors::colormaps::ViridisRGB;
 
+use super::item::Tint;
 use super::series::{Series, Style};
 use super::shape::{Color, Marker, Stroke};
 
@@ -23,7 +24,9 @@ pub(super) const NO_VALUE: Color = Color(214, 214, 214);
 pub(super) const FRAME: Stroke = Stroke { color: Color(51, 51, 51), width: 1.4, dash: &[] };
 pub(super) const GRID_LINE: Stroke = Stroke { color: GRID, width: 1.0, dash: &[] };
 pub(super) const REFERENCE: Stroke = Stroke { color: Color(95, 95, 95), width: 1.5, dash: &[7.0, 4.0] };
+pub(super) const DASHED: &[f64] = &[5.0, 4.0];
 const LINE_WIDTH: f64 = 2.3;
+const THIN_WIDTH: f64 = 1.2;
 
 /// Okabe and Ito's colours, those with the most contrast on white first, black last. Their yellow is left
 /// out: a thin yellow line on white cannot be seen.
@@ -54,9 +57,22 @@ pub(super) fn look(series: &Series, index: usize, count: usize) -> Look {
     let color = COLORS[place % COLORS.len()];
     let pattern = if count > COLORS.len() { index % DASHES.len() } else { 0 };
     let dash = if series.style == Style::Dashed { DASHES[pattern.max(1)] } else { DASHES[pattern] };
-    let line = series.style.has_line().then_some(Stroke { color, width: LINE_WIDTH, dash });
+    let width = if series.style == Style::Thin { THIN_WIDTH } else { LINE_WIDTH };
+    let line = series.style.has_line().then_some(Stroke { color, width, dash });
     let marker = series.style.has_markers().then_some(MARKERS[place % MARKERS.len()]);
     Look { line, marker, color }
+}
+
+/// The colour of a thing, mixed with paper as far as it is pale.
+pub(super) fn tint(tint: Tint) -> Color {
+    let (full, paleness) = match tint {
+        Tint::Ink(paleness) => (INK, paleness),
+        Tint::Body(place, paleness) => (COLORS[place % COLORS.len()], paleness),
+        Tint::Paper => (PAPER, 0.0),
+    };
+    let share = paleness.clamp(0.0, 1.0);
+    let mix = |ink: u8, paper: u8| (f64::from(ink) * (1.0 - share) + f64::from(paper) * share).round() as u8;
+    Color(mix(full.0, PAPER.0), mix(full.1, PAPER.1), mix(full.2, PAPER.2))
 }
 
 /// Number of colours that a colour scale is drawn with: enough to look continuous, few enough to group by.

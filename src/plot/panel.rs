@@ -1,6 +1,7 @@
 //! One panel: axes, and what is drawn between them.
 
 use super::heat::HeatMap;
+use super::item::{Item, Tint};
 use super::series::{ColorSeries, Series};
 
 /// How values map to a length.
@@ -70,6 +71,8 @@ pub struct Annotation {
     pub y: f64,
     /// The text.
     pub text: String,
+    /// Its colour.
+    pub tint: Tint,
 }
 
 /// Axes and what is drawn between them.
@@ -89,6 +92,12 @@ pub struct Panel {
     pub reference_lines: Vec<ReferenceLine>,
     /// Texts at points.
     pub annotations: Vec<Annotation>,
+    /// Things drawn upon the series, in this order.
+    pub items: Vec<Item>,
+    /// A small drawing around the place (0, 0) that goes to the corner where it hides least.
+    pub inset: Vec<Item>,
+    /// Colours that the legend explains beside the series.
+    pub keys: Vec<(String, Tint)>,
     /// One unit of x is as long as one unit of y (both linear).
     pub equal_aspect: bool,
     /// Height between the axes in nominal pixels; chosen when absent.
@@ -132,8 +141,19 @@ impl Panel {
     }
 
     /// Adds a text at a point.
-    pub fn annotate(mut self, x: f64, y: f64, text: impl Into<String>) -> Self {
-        self.annotations.push(Annotation { x, y, text: text.into() });
+    pub fn annotate(self, x: f64, y: f64, text: impl Into<String>) -> Self {
+        self.annotate_in(Tint::Ink(0.0), x, y, text)
+    }
+
+    /// Adds things to draw.
+    pub fn items(mut self, items: impl IntoIterator<Item = Item>) -> Self {
+        self.items.extend(items);
+        self
+    }
+
+    /// Adds a text in a colour at a point.
+    pub fn annotate_in(mut self, tint: Tint, x: f64, y: f64, text: impl Into<String>) -> Self {
+        self.annotations.push(Annotation { x, y, text: text.into(), tint });
         self
     }
 

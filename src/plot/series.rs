@@ -10,6 +10,8 @@ pub enum Style {
     Line,
     /// A dashed line.
     Dashed,
+    /// A thin line.
+    Thin,
     /// A marker at every point.
     Dots,
     /// A line with markers, not at every point when they would touch.

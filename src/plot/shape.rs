@@ -1,6 +1,7 @@
 //! The flat list of shapes between layout and file formats. Coordinates are nominal pixels, y down.
 
 use super::text::Rich;
+use std::ops::Range;
 
 /// A point of the picture.
 pub(super) type Pt = (f64, f64);
@@ -127,9 +128,26 @@ impl Text {
 /// One thing to draw.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Shape {
-    Path { points: Vec<Pt>, stroke: Stroke },
-    Rects { rects: Vec<Rect>, fill: Color },
-    Marks { at: Vec<Pt>, marker: Marker, radius: f64, color: Color },
+    Path {
+        points: Vec<Pt>,
+        stroke: Stroke,
+    },
+    /// A convex polygon through which things below shine.
+    Area {
+        points: Vec<Pt>,
+        fill: Color,
+        opacity: f64,
+    },
+    Rects {
+        rects: Vec<Rect>,
+        fill: Color,
+    },
+    Marks {
+        at: Vec<Pt>,
+        marker: Marker,
+        radius: f64,
+        color: Color,
+    },
     Text(Text),
 }
 
@@ -141,6 +159,8 @@ pub(super) struct Drawing {
     /// For screen readers and file browsers.
     pub title: String,
     pub shapes: Vec<Shape>,
+    /// Which of them are the panels' items: what moves in an animation.
+    pub items: Range<usize>,
 }
 
 impl Drawing {

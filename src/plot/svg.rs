@@ -13,6 +13,14 @@ const FONTS: &str = "DejaVu Sans, Bitstream Vera Sans, Verdana, Geneva, sans-ser
 
 /// The whole file.
 pub(super) fn render(drawing: &Drawing) -> String {
+    let mut out = opening(drawing);
+    drawing.shapes.iter().for_each(|one| shape(&mut out, one));
+    out.push_str("</svg>\n");
+    out
+}
+
+/// The root element with title and paper.
+fn opening(drawing: &Drawing) -> String {
     let (width, height) = (number(drawing.width), number(drawing.height));
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
@@ -22,13 +30,47 @@ pub(super) fn render(drawing: &Drawing) -> String {
         push(&mut out, format_args!("<title>{}</title>\n", escape(&drawing.title)));
     }
     push(&mut out, format_args!("<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n"));
-    for shape in &drawing.shapes {
-        match shape {
-            Shape::Path { points, stroke } => path(&mut out, points, stroke),
-            Shape::Rects { rects, fill } => rectangles(&mut out, rects, *fill),
-            Shape::Marks { at, marker, radius, color } => marks(&mut out, at, *marker, *radius, *color),
-            Shape::Text(line) => text(&mut out, line),
+    out
+}
+
+fn shape(out: &mut String, shape: &Shape) {
+    match shape {
+        Shape::Path { points, stroke } => path(out, points, stroke),
+        Shape::Area { points, fill, opacity } => {
+            let (color, opacity, data) = (hex(*fill), number(*opacity), outline(points));
+            push(out, format_args!("<path fill=\"{color}\" fill-opacity=\"{opacity}\" d=\"{data}\"/>\n"));
         }
+        Shape::Rects { rects, fill } => rectangles(out, rects, *fill),
+        Shape::Marks { at, marker, radius, color } => marks(out, at, *marker, *radius, *color),
+        Shape::Text(line) => text(out, line),
+    }
+}
+
+/// A picture of which `frames` are shown one after another, again and again, each for `delay` seconds.
+pub(super) fn animate(still: &Drawing, frames: &[Vec<Shape>], delay: f64) -> String {
+    let mut out = opening(still);
+    still.shapes.iter().for_each(|one| shape(&mut out, one));
+    let (count, whole) = (frames.len(), delay * frames.len() as f64);
+    for (k, frame) in frames.iter().enumerate() {
+        let (from, to) = (k as f64 / count as f64, (k + 1) as f64 / count as f64);
+        // Viewers without animation show the first frame.
+        let (first, values, times) = match k {
+            0 => ("inline", "inline;none".to_string(), format!("0;{to:.6}")),
+            _ if k + 1 == count => ("none", "none;inline".to_string(), format!("0;{from:.6}")),
+            _ => ("none", "none;inline;none".to_string(), format!("0;{from:.6};{to:.6}")),
+        };
+        push(&mut out, format_args!("<g display=\"{first}\">\n"));
+        if count > 1 {
+            push(
+                &mut out,
+                format_args!(
+                    "<animate attributeName=\"display\" calcMode=\"discrete\" values=\"{values}\" \
+                     keyTimes=\"{times}\" dur=\"{whole:.4}s\" repeatCount=\"indefinite\"/>\n"
+                ),
+            );
+        }
+        frame.iter().for_each(|one| shape(&mut out, one));
+        out.push_str("</g>\n");
     }
     out.push_str("</svg>\n");
     out

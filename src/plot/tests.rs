@@ -138,7 +138,7 @@ fn assert_sound(drawing: &Drawing) {
     let finite = |(x, y): &(f64, f64)| x.abs() < 1e5 && y.abs() < 1e5;
     for shape in &drawing.shapes {
         let sound = match shape {
-            Shape::Path { points, .. } => points.iter().all(finite),
+            Shape::Path { points, .. } | Shape::Area { points, .. } => points.iter().all(finite),
             Shape::Marks { at, .. } => at.iter().all(finite),
             Shape::Rects { rects, .. } => {
                 rects.iter().all(|r| finite(&(r.left, r.top)) && finite(&(r.right, r.bottom)))

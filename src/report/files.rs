@@ -60,6 +60,11 @@ impl Folder {
         self.write(name, format!("{text}\n").as_bytes())
     }
 
+    /// The paths of all files that were written.
+    pub fn paths(&self) -> Vec<String> {
+        self.written.iter().map(|path| path.display().to_string()).collect()
+    }
+
     /// What was written, for a person.
     pub fn listing(&self) -> String {
         let names: Vec<String> =

@@ -4,6 +4,7 @@ mod check;
 mod envelope;
 mod figures;
 mod files;
+pub mod mechanism;
 mod summary;
 mod table;
 mod tables;

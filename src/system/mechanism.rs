@@ -62,6 +62,11 @@ impl<const D: usize> Mechanism<D> {
         self.joints[joint].range()
     }
 
+    /// Frames of all markers at (q, v), with their velocities.
+    pub fn frames(&self, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Vec<Frame<Taylor<f64>, D>> {
+        self.at(q, v, scratch, |work| work.motion.clone())
+    }
+
     /// Lends the memory with all frames moved to (q, v).
     pub(super) fn at<R>(
         &self,

@@ -5,6 +5,7 @@ mod check;
 mod drift;
 mod generate;
 mod methods;
+mod plot;
 mod schema;
 mod simulate;
 

@@ -1,0 +1,299 @@
+//! `holonom plot SCENE`
+
+use super::common::{Common, Format, Output, number, positive};
+use crate::error::{Error, Failure, Result};
+use crate::measure::Recorder;
+use crate::report::Folder;
+use crate::report::mechanism::{
+    Look, Motion, State, Trace, View, animation, find_trace, mechanism_figure, output_traces, stroboscope_figure, up,
+};
+use crate::report::significant;
+use crate::simulate::{Span, simulate};
+use crate::study::{AnyMechanism, Study};
+use crate::trajectory::Trajectory;
+use serde::Serialize;
+use std::process::ExitCode;
+
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    common: Common,
+    #[command(flatten)]
+    output: Output,
+    /// The mechanism at several times in one figure, earlier ones paler
+    #[arg(long)]
+    stroboscope: bool,
+    /// When, s: times of the stroboscope, or the time of a plain figure (default: the start)
+    #[arg(long, value_name = "T[,T...]", value_parser = number, value_delimiter = ',', allow_negative_numbers = true,
+          conflicts_with = "frames")]
+    at: Vec<f64>,
+    /// Number of times of the stroboscope, evenly over the run
+    #[arg(long, value_name = "N", default_value_t = 6, requires = "stroboscope",
+          value_parser = clap::value_parser!(u16).range(2..=100))]
+    frames: u16,
+    /// The mechanism in motion
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    animate: Option<Moving>,
+    /// Frames a second
+    #[arg(long, default_value_t = 25.0, requires = "animate", value_parser = rate)]
+    fps: f64,
+    /// Seconds of the scene in a second of the animation (default: 1 where that takes 2 to 20 s)
+    #[arg(long, value_name = "FACTOR", requires = "animate", value_parser = positive, allow_negative_numbers = true)]
+    speed: Option<f64>,
+    /// Markers whose paths are drawn, or none (default: those whose positions are outputs)
+    #[arg(long, value_name = "BODY.MARKER[,...]", value_delimiter = ',')]
+    trace: Vec<String>,
+    /// From where a spatial scene is seen: iso, xy, xz, yz, front, side, top or azimuth=DEG,elevation=DEG
+    #[arg(long)]
+    view: Option<String>,
+    /// Write the names of the bodies beside them
+    #[arg(long)]
+    labels: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Moving {
+    Gif,
+    Svg,
+}
+
+/// Viewers show a GIF no faster than this.
+fn rate(text: &str) -> Result<f64, String> {
+    positive(text)
+        .and_then(|fps| if fps <= 50.0 { Ok(fps) } else { Err("at most 50 frames a second can be shown".to_string()) })
+}
+
+/// Rows of the trajectory that pictures are taken from: at least and at most.
+const ROWS: (f64, f64) = (600.0, 20_000.0);
+/// A longer animation is a slip of the hand.
+const MOST_FRAMES: f64 = 1000.0;
+
+/// What was drawn.
+#[derive(Serialize)]
+struct Drawn {
+    scene: String,
+    status: &'static str,
+    failure: Option<Failure>,
+    /// Times of the figure, s.
+    times: Vec<f64>,
+    animation: Option<Film>,
+    files: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct Film {
+    frames: usize,
+    fps: f64,
+    /// Seconds of the scene in a second of the animation.
+    speed: f64,
+    start: f64,
+    end: f64,
+}
+
+pub fn run(args: Args) -> Result<ExitCode> {
+    let study = args.common.load()?;
+    let look = args.look(&study)?;
+    let is_moving = args.stroboscope || args.animate.is_some() || !args.at.is_empty();
+    // The start alone needs no run, and no end of it.
+    let span = if is_moving { Some(args.common.span(&study)?) } else { None };
+    args.check(&study, span)?;
+    let mut folder = args.output.folder(&study.name)?;
+    let (trajectory, failure) = match span {
+        Some(span) => args.simulate(&study, span)?,
+        None => (Trajectory::new(study.system()), None),
+    };
+    let mut drawn = Drawn {
+        scene: study.name.clone(),
+        status: if failure.is_some() { "failed" } else { "completed" },
+        failure,
+        times: Vec::new(),
+        animation: None,
+        files: Vec::new(),
+    };
+    args.draw(&Motion::new(&study, &trajectory), &look, &mut folder, &mut drawn)?;
+    drawn.files = folder.paths();
+    args.common.print(&drawn, || drawn.text(&folder))?;
+    Ok(match drawn.failure {
+        None => ExitCode::SUCCESS,
+        Some(failure) => {
+            eprintln!("error: {}", Error::from(failure));
+            ExitCode::from(1)
+        }
+    })
+}
+
+impl Args {
+    /// How to show the scene.
+    fn look(&self, study: &Study) -> Result<Look> {
+        let is_planar = matches!(study.mechanism, AnyMechanism::Planar(_));
+        let up = up(&study.mechanism);
+        let view = match &self.view {
+            None if is_planar => View::planar(),
+            None => View::isometric(up),
+            Some(name) => {
+                let view = View::parse(name, up).map_err(|error| error.under("--view"))?;
+                if is_planar && view != View::planar() {
+                    let error = Error::input(format!("the scene is planar and cannot be seen from `{name}`"));
+                    return Err(error.under("--view").hint("leave it out, or give xy"));
+                }
+                view
+            }
+        };
+        let traces = match self.trace.as_slice() {
+            [] => output_traces(&study.mechanism),
+            [none] if none == "none" => Vec::new(),
+            names => {
+                let find = |name: &String| find_trace(&study.mechanism, name.trim());
+                names.iter().map(find).collect::<Result<Vec<Trace>>>().map_err(|error| error.under("--trace"))?
+            }
+        };
+        Ok(Look { view, labels: self.labels, traces })
+    }
+
+    /// Refuses what cannot be drawn, before anything is computed.
+    fn check(&self, study: &Study, span: Option<Span>) -> Result<()> {
+        if self.output.figures == Format::None && (self.stroboscope || self.animate.is_none()) {
+            return Err(Error::input("there is nothing to draw").under("--figures").hint("choose svg or png"));
+        }
+        if self.at.len() > 1 && !self.stroboscope {
+            let error = Error::input(format!("{} times for one figure", self.at.len())).under("--at");
+            return Err(error.hint("give one, or --stroboscope for several in one figure"));
+        }
+        let Some(span) = span else { return Ok(()) };
+        if let Some(t) = self.at.iter().find(|t| !(span.start..=span.end).contains(*t)) {
+            let range = format!("the run goes from {} s to {} s", span.start, span.end);
+            return Err(Error::input(format!("{t} s is outside the run")).under("--at").hint(range));
+        }
+        if self.animate.is_some() {
+            self.film(span.start, span.end).map_err(|error| error.element(&study.name))?;
+        }
+        Ok(())
+    }
+
+    /// Runs the scene, with rows so near to each other that the states between them are known.
+    fn simulate(&self, study: &Study, span: Span) -> Result<(Trajectory, Option<Failure>)> {
+        let length = span.end - span.start;
+        let wanted = (length / span.output_step).clamp(ROWS.0, ROWS.1);
+        // Evenly chosen times are times of rows.
+        let gaps = f64::from(self.frames) - 1.0;
+        let output_step = length / ((wanted / gaps).ceil() * gaps);
+        let bar = self.common.progress(1000, &study.name);
+        let fraction = |t: f64| (1000.0 * (t - span.start) / length) as u64;
+        let mut recorder = Recorder::new(study.system()).with_progress(|t| bar.set_position(fraction(t)));
+        let outcome =
+            simulate(study.system(), &study.method, Span { output_step, ..span }, study.start(), &mut recorder)?;
+        let record = recorder.finish();
+        bar.finish_and_clear();
+        Ok((record.trajectory, outcome.failure))
+    }
+
+    fn draw(&self, motion: &Motion, look: &Look, folder: &mut Folder, drawn: &mut Drawn) -> Result<()> {
+        let study = motion.study;
+        if self.stroboscope {
+            drawn.times = self.times(motion);
+            let figure = stroboscope_figure(motion, look, &drawn.times);
+            self.output.figure(folder, "stroboscope", Some(figure))?;
+        } else if self.animate.is_none() || !self.at.is_empty() {
+            let t = self.at.first().map_or(study.start_time(), |t| t.min(motion.reach().1));
+            let (q, v) = study.start();
+            let state = if self.at.is_empty() { State { t, q: q.to_vec(), v: v.to_vec() } } else { motion.state(t) };
+            drawn.times = vec![t];
+            self.output.figure(folder, "mechanism", Some(mechanism_figure(study, look, &state)))?;
+        }
+        match self.animate {
+            Some(format) => self.animation(format, motion, look, folder, drawn),
+            None => Ok(()),
+        }
+    }
+
+    /// The chosen times as far as the run came; else even ones.
+    fn times(&self, motion: &Motion) -> Vec<f64> {
+        let (start, end) = motion.reach();
+        if !self.at.is_empty() {
+            let mut times: Vec<f64> = self.at.iter().copied().filter(|t| *t <= end).collect();
+            times.sort_by(f64::total_cmp);
+            times.dedup();
+            return if times.is_empty() { vec![end] } else { times };
+        }
+        let last = f64::from(self.frames) - 1.0;
+        let part = |k: u16| f64::from(k) / last;
+        (0..self.frames).map(|k| if f64::from(k) == last { end } else { start + part(k) * (end - start) }).collect()
+    }
+
+    /// How the time from `start` to `end` is shown.
+    fn film(&self, start: f64, end: f64) -> Result<Film> {
+        let speed = self.speed.unwrap_or_else(|| suitable_speed(end - start));
+        let frames = ((end - start) / speed * self.fps).round().max(1.0) + 1.0;
+        if frames > MOST_FRAMES {
+            let least = (end - start) * self.fps / (MOST_FRAMES - 1.0);
+            let error = Error::input(format!("the animation would have {frames} frames, more than {MOST_FRAMES}"));
+            return Err(error.under("--animate").hint(format!(
+                "give --speed {} or more, fewer frames a second with --fps, or an earlier end with --until",
+                significant(1.05 * least, 2)
+            )));
+        }
+        Ok(Film { frames: frames as usize, fps: self.fps, speed, start, end })
+    }
+
+    fn animation(
+        &self,
+        format: Moving,
+        motion: &Motion,
+        look: &Look,
+        folder: &mut Folder,
+        drawn: &mut Drawn,
+    ) -> Result<()> {
+        let (start, end) = motion.reach();
+        let film = self.film(start, end)?;
+        let last = (film.frames - 1) as f64;
+        let times = (0..film.frames).map(|k| start + (end - start) * k as f64 / last).collect();
+        let animation = animation(motion, look, times, film.fps, speed_text(film.speed));
+        match format {
+            Moving::Svg => folder.write("animation.svg", animation.to_svg().as_bytes())?,
+            Moving::Gif => {
+                let bar = self.common.progress(film.frames as u64, "frames");
+                let bytes = animation.to_gif(|done| bar.set_position(done as u64)).map_err(Error::input)?;
+                bar.finish_and_clear();
+                folder.write("animation.gif", &bytes)?;
+            }
+        }
+        drawn.animation = Some(film);
+        Ok(())
+    }
+}
+
+/// Real time where an animation of it takes 2 to 20 s; else 1, 2 or 5 times a power of ten that makes it 4 to 10 s.
+fn suitable_speed(length: f64) -> f64 {
+    if (2.0..=20.0).contains(&length) {
+        return 1.0;
+    }
+    let exact = length / 10.0;
+    let power = 10f64.powf(exact.log10().floor());
+    [1.0, 2.0, 5.0, 10.0].map(|digit| digit * power).into_iter().find(|speed| *speed >= 0.999 * exact).unwrap_or(exact)
+}
+
+/// What a viewer is told of the speed.
+fn speed_text(speed: f64) -> String {
+    match speed {
+        1.0 => String::new(),
+        slow if slow < 1.0 => format!("{} times slower", significant(1.0 / slow, 3)),
+        fast => format!("{} times faster", significant(fast, 3)),
+    }
+}
+
+impl Drawn {
+    fn text(&self, folder: &Folder) -> String {
+        let times: Vec<String> = self.times.iter().map(|t| significant(*t, 4)).collect();
+        let mut lines = Vec::new();
+        if !times.is_empty() {
+            lines.push(format!("{} at t = {} s", self.scene, times.join(", ")));
+        }
+        if let Some(film) = &self.animation {
+            let speed = speed_text(film.speed);
+            let pace = if speed.is_empty() { "in real time".to_string() } else { speed };
+            let span = format!("from {} to {} s", significant(film.start, 4), significant(film.end, 4));
+            lines.push(format!("{} {span}: {} frames, {} a second, {pace}", self.scene, film.frames, film.fps));
+        }
+        format!("{}\n\nwritten to {}\n", lines.join("\n"), folder.listing())
+    }
+}

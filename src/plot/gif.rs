@@ -1,0 +1,184 @@
+//! Pictures as a GIF file: one palette for all, and of each frame only what differs from the one before.
+
+use super::shape::Rect;
+use gif::{DisposalMethod, Encoder, Frame, Repeat};
+use rayon::prelude::*;
+use std::borrow::Cow;
+
+/// Frames that the palette is taken from.
+const SAMPLES: usize = 6;
+/// Colours, and the index of a pixel that stays as it was.
+const COLORS: usize = 255;
+const SAME: u8 = 255;
+/// So many of the most frequent colours have a place in any case, such as those of areas.
+const FREQUENT: usize = 64;
+/// Colours nearer than this to a more frequent one wait until all others have a place.
+const NEAR: i32 = 14;
+/// Frames that are drawn at once.
+const BATCH: usize = 8;
+
+/// The whole file of `count` frames; `draw` gives the pixels of one (red, green, blue), `done` hears how many are drawn.
+pub(super) fn encode(
+    (width, height): (usize, usize),
+    count: usize,
+    per_second: f64,
+    draw: &(impl Fn(usize) -> Result<Vec<u8>, String> + Sync),
+    mut done: impl FnMut(usize),
+) -> Result<Vec<u8>, String> {
+    let side = |pixels: usize| u16::try_from(pixels).map_err(|_| format!("{pixels} pixels are too many for a GIF"));
+    let samples: Vec<usize> = (0..SAMPLES.min(count)).map(|k| k * (count - 1) / (SAMPLES - 1).max(1)).collect();
+    let palette = Palette::new(&samples.into_par_iter().map(draw).collect::<Result<Vec<_>, _>>()?);
+    let mut file = Vec::new();
+    let mut encoder = Encoder::new(&mut file, side(width)?, side(height)?, &palette.bytes()).map_err(text)?;
+    encoder.set_repeat(Repeat::Infinite).map_err(text)?;
+    let mut before: Vec<u8> = Vec::new();
+    for first in (0..count).step_by(BATCH) {
+        let batch: Vec<usize> = (first..count.min(first + BATCH)).collect();
+        let drawn = batch.into_par_iter().map(|k| draw(k).map(|pixels| palette.indices(&pixels)));
+        for (k, indices) in drawn.collect::<Result<Vec<_>, _>>()?.into_iter().enumerate() {
+            let mut frame = difference(&before, &indices, width);
+            frame.delay = delay(first + k, per_second);
+            encoder.write_frame(&frame).map_err(text)?;
+            before = indices;
+        }
+        done(count.min(first + BATCH));
+    }
+    drop(encoder);
+    Ok(file)
+}
+
+fn text(error: impl ToString) -> String {
+    error.to_string()
+}
+
+/// Hundredths of a second that frame `k` is shown; rounded so that the sum stays right.
+fn delay(k: usize, per_second: f64) -> u16 {
+    let end = |k: usize| (100.0 * k as f64 / per_second).round();
+    (end(k + 1) - end(k)).clamp(1.0, f64::from(u16::MAX)) as u16
+}
+
+/// The least rectangle that holds all changes, unchanged pixels in it left as they are.
+fn difference(before: &[u8], now: &[u8], width: usize) -> Frame<'static> {
+    let height = now.len() / width.max(1);
+    if before.len() != now.len() {
+        return frame(Rect::new(0.0, 0.0, width as f64, height as f64), now.to_vec());
+    }
+    let changed = |i: &usize| before[*i] != now[*i];
+    let (mut left, mut right, mut top, mut bottom) = (width, 0, height, 0);
+    for i in (0..now.len()).filter(changed) {
+        let (x, y) = (i % width, i / width);
+        (left, right, top, bottom) = (left.min(x), right.max(x + 1), top.min(y), bottom.max(y + 1));
+    }
+    if left >= right {
+        // Nothing moved: a frame needs a pixel all the same.
+        (left, right, top, bottom) = (0, 1, 0, 1);
+    }
+    let pixel = |i: usize| if before[i] == now[i] { SAME } else { now[i] };
+    let rows = (top..bottom).flat_map(|y| (left..right).map(move |x| y * width + x));
+    let pixels = rows.map(pixel).collect();
+    frame(Rect { left: left as f64, right: right as f64, top: top as f64, bottom: bottom as f64 }, pixels)
+}
+
+fn frame(rect: Rect, pixels: Vec<u8>) -> Frame<'static> {
+    Frame {
+        left: rect.left as u16,
+        top: rect.top as u16,
+        width: rect.width() as u16,
+        height: rect.height() as u16,
+        dispose: DisposalMethod::Keep,
+        transparent: Some(SAME),
+        buffer: Cow::Owned(pixels),
+        ..Frame::default()
+    }
+}
+
+type Rgb = [u8; 3];
+
+/// At most [`COLORS`] colours, and which of them stands for each colour of five bits a channel.
+struct Palette {
+    colors: Vec<Rgb>,
+    nearest: Vec<u8>,
+}
+
+const BINS: usize = 1 << 15;
+
+fn bin(color: &[u8]) -> usize {
+    usize::from(color[0] >> 3) << 10 | usize::from(color[1] >> 3) << 5 | usize::from(color[2] >> 3)
+}
+
+impl Palette {
+    /// The most frequent colours, those far from each other first.
+    fn new(pictures: &[Vec<u8>]) -> Self {
+        let mut sums = vec![[0u64; 4]; BINS];
+        for color in pictures.iter().flat_map(|pixels| pixels.chunks_exact(3)) {
+            let sum = &mut sums[bin(color)];
+            sum[0] += 1;
+            (0..3).for_each(|k| sum[k + 1] += u64::from(color[k]));
+        }
+        let mut found: Vec<[u64; 4]> = sums.iter().copied().filter(|sum| sum[0] > 0).collect();
+        found.sort_by_key(|sum| std::cmp::Reverse(sum[0]));
+        let mean = |sum: &[u64; 4]| [1, 2, 3].map(|k| ((sum[k] + sum[0] / 2) / sum[0]) as u8);
+        let (mut colors, mut near): (Vec<Rgb>, Vec<Rgb>) = (vec![[255; 3]], Vec::new());
+        for (k, color) in found.iter().map(mean).enumerate() {
+            let is_near = colors.iter().any(|known| distance(*known, color) < NEAR * NEAR);
+            if is_near && k >= FREQUENT { near.push(color) } else { colors.push(color) }
+        }
+        colors.extend(near);
+        colors.truncate(COLORS);
+        let center = |bin: usize| [bin >> 10, bin >> 5 & 31, bin & 31].map(|part| (8 * part + 4) as u8);
+        let own = |bin: usize| if sums[bin][0] > 0 { mean(&sums[bin]) } else { center(bin) };
+        let nearest = (0..BINS).into_par_iter().map(|bin| closest(&colors, own(bin))).collect();
+        Self { colors, nearest }
+    }
+
+    fn indices(&self, pixels: &[u8]) -> Vec<u8> {
+        pixels.chunks_exact(3).map(|color| self.nearest[bin(color)]).collect()
+    }
+
+    /// With black for what has no colour, [`SAME`] among it.
+    fn bytes(&self) -> Vec<u8> {
+        let mut bytes = self.colors.concat();
+        bytes.resize(3 * (COLORS + 1), 0);
+        bytes
+    }
+}
+
+fn closest(colors: &[Rgb], color: Rgb) -> u8 {
+    let place = (0..colors.len()).min_by_key(|k| distance(colors[*k], color));
+    place.unwrap_or(0) as u8
+}
+
+fn distance(a: Rgb, b: Rgb) -> i32 {
+    (0..3).map(|k| (i32::from(a[k]) - i32::from(b[k])).pow(2)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_shown_as_long_as_asked_for() {
+        let total: u32 = (0..30).map(|k| u32::from(delay(k, 30.0))).sum();
+        assert_eq!((total, delay(0, 25.0)), (100, 4));
+    }
+
+    #[test]
+    fn only_changes_are_stored() {
+        let mut now = vec![0; 12];
+        (now[5], now[6]) = (1, 2);
+        let change = difference(&[0; 12], &now, 4);
+        assert_eq!((change.left, change.top, change.width, change.height), (1, 1, 2, 1));
+        assert_eq!(change.buffer[..], [1, 2]);
+        assert_eq!(difference(&now, &now, 4).buffer[..], [SAME]);
+    }
+
+    #[test]
+    fn rare_colors_have_a_place() {
+        let mut picture = [255; 3].repeat(10_000);
+        (0..200u8).for_each(|k| picture.extend([200, k, k].repeat(20)));
+        picture.extend([0, 114, 178]);
+        let palette = Palette::new(&[picture]);
+        assert_eq!(palette.colors[usize::from(palette.indices(&[0, 114, 178])[0])], [0, 114, 178]);
+        assert_eq!(palette.colors[usize::from(palette.indices(&[255, 255, 255])[0])], [255; 3]);
+    }
+}

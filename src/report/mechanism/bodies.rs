@@ -1,0 +1,141 @@
+//! Bodies: rounded hulls of the places where others hold them.
+
+use super::hull::{hull, rounded};
+use super::pen::{BOLD, Layer, Pen, THIN};
+use super::snapshot::{Limb, Pose};
+use super::view::{along, cross, direction, dot, length, less};
+use crate::plot::{Spot, Tint};
+
+/// From the markers to the outline of a body, pixels.
+const RADIUS: f64 = 6.5;
+/// Radius of a point mass, half the side of a body without extent, radius of the ring that shows a spin, pixels.
+const MASS: f64 = 7.5;
+const BLOCK: f64 = 11.0;
+const SPIN: f64 = 13.0;
+const OPACITY: f64 = 0.25;
+/// Of earlier pictures, which shall not add up to a blot.
+const FAINT: f64 = 0.05;
+const PAPER: f64 = 0.55;
+/// Radius of the sign of a centre of mass, pixels.
+const CENTRE: f64 = 4.6;
+
+/// How near a body is to the viewer.
+pub fn depth(pen: &Pen, limb: &Limb) -> f64 {
+    let sum: f64 = limb.points.iter().map(|point| pen.view.depth(*point)).sum();
+    sum / limb.points.len().max(1) as f64
+}
+
+pub fn draw(pen: &mut Pen, limb: &Limb, color: usize) {
+    pen.layer = Layer::Body;
+    match limb.points.as_slice() {
+        [point] if !limb.oriented => point_mass(pen, *point, color),
+        [point] => block(pen, &Pose { r: *point, axes: limb.centre.axes }, color),
+        points => {
+            outline(pen, points, color);
+            if !limb.oriented {
+                point_mass(pen, limb.centre.r, color);
+            } else if limb.may_spin {
+                spin(pen, limb, color);
+            }
+        }
+    }
+}
+
+fn outline(pen: &mut Pen, points: &[[f64; 3]], color: usize) {
+    let flat: Vec<(f64, f64)> = points.iter().map(|point| pen.view.flat(*point)).collect();
+    let around = rounded(&hull(&flat)).into_iter();
+    let spots = around.map(|(at, way)| Spot::data(at.0, at.1).moved(RADIUS * way.0, RADIUS * way.1)).collect();
+    fill(pen, spots, color);
+}
+
+fn fill(pen: &mut Pen, spots: Vec<Spot>, color: usize) {
+    let (edge, inner) = (pen.color(color, 0.0), Tint::Body(color, 0.0));
+    if pen.paleness > 0.0 {
+        pen.shape(spots, edge, THIN, (inner, FAINT));
+        return;
+    }
+    // A little paper below, so that this picture stands out from earlier ones.
+    pen.area(spots.clone(), Tint::Paper, PAPER);
+    pen.shape(spots, edge, BOLD, (inner, OPACITY));
+}
+
+fn point_mass(pen: &mut Pen, r: [f64; 3], color: usize) {
+    let (edge, inner) = (pen.color(color, 0.0), pen.color(color, 0.35));
+    pen.disc(pen.spot(r), MASS, edge);
+    pen.disc(pen.spot(r), MASS - BOLD, inner);
+}
+
+/// A square in the plane, a cube in space: a body of which nothing is known but where it is and how it is turned.
+fn block(pen: &mut Pen, pose: &Pose, color: usize) {
+    let sides = pose.axes.map(|axis| axis.map(|x| BLOCK * x));
+    let corner = |signs: [f64; 3]| (0..3).fold([0.0; 3], |sum, i| along(sum, sides[i], signs[i]));
+    let signs = |k: usize| [0, 1, 2].map(|bit| if k >> bit & 1 == 1 { 1.0 } else { -1.0 });
+    let flat: Vec<(f64, f64)> = (0..8).map(|k| pen.view.flat(corner(signs(k)))).collect();
+    let spots = hull(&flat).iter().map(|(right, up)| pen.spot(pose.r).moved(*right, *up)).collect();
+    fill(pen, spots, color);
+    // The edges at the corner nearest to the viewer make it look solid.
+    let nearest = sides.map(|side| if pen.view.depth(side) < 0.0 { -1.0 } else { 1.0 });
+    for i in (0..3)
+        .filter(|i| pen.view.depth(sides[*i]).abs() > 1e-6 * BLOCK && pen.view.depth(sides[*i]).abs() < 0.999 * BLOCK)
+    {
+        let mut other = nearest;
+        other[i] = -nearest[i];
+        let edge = [nearest, other].map(|signs| pen.beside((pose.r, corner(signs)))).to_vec();
+        let tint = pen.color(color, 0.0);
+        pen.line(edge, tint, THIN);
+    }
+}
+
+/// A ring with a spoke around a straight body in space, which would not show how it turns about itself.
+fn spin(pen: &mut Pen, limb: &Limb, color: usize) {
+    let Some(axis) = straight(&limb.points) else { return };
+    let hint = limb.centre.axes.iter().copied().min_by(|a, b| dot(*a, axis).abs().total_cmp(&dot(*b, axis).abs()));
+    let plane = [axis, hint.unwrap_or(axis)];
+    let ring = pen.arc(limb.centre.r, plane, (0.0, std::f64::consts::TAU), (0.0, SPIN));
+    let tint = pen.color(color, 0.0);
+    let spoke = vec![pen.spot(limb.centre.r), ring[0]];
+    pen.line(ring, tint, THIN);
+    pen.line(spoke, tint, THIN);
+}
+
+/// The direction of points on a line.
+pub fn straight(points: &[[f64; 3]]) -> Option<[f64; 3]> {
+    let from = *points.first()?;
+    let far = points.iter().copied().max_by(|a, b| length(less(*a, from)).total_cmp(&length(less(*b, from))))?;
+    let axis = direction(less(far, from))?;
+    let off = points.iter().map(|point| length(cross(axis, less(*point, from)))).fold(0.0, f64::max);
+    (off < 1e-6 * length(less(far, from))).then_some(axis)
+}
+
+/// A circle with two dark quarters at the centre of mass, and a stalk to the body's middle where it lies outside.
+pub fn centre(pen: &mut Pen, limb: &Limb, color: usize) {
+    if !limb.oriented || limb.points.len() < 2 {
+        return;
+    }
+    pen.layer = Layer::Mark;
+    let at = pen.spot(limb.centre.r);
+    if let Some(foot) = foot(&limb.points, limb.centre.r) {
+        let tint = pen.color(color, 0.3);
+        pen.dashes(vec![at, pen.spot(foot)], tint, THIN);
+    }
+    let ink = pen.color(color, 0.0);
+    pen.disc(at, CENTRE, ink);
+    pen.disc(at, CENTRE - 1.2, Tint::Paper);
+    for from in [0.0, std::f64::consts::PI] {
+        let step = |i: usize| {
+            let angle = from + std::f64::consts::FRAC_PI_2 * i as f64 / 4.0;
+            at.moved((CENTRE - 0.6) * angle.cos(), (CENTRE - 0.6) * angle.sin())
+        };
+        pen.area([at].into_iter().chain((0..=4).map(step)).collect(), ink, 1.0);
+    }
+}
+
+/// The nearest point of a bar to a point beside it.
+fn foot(points: &[[f64; 3]], r: [f64; 3]) -> Option<[f64; 3]> {
+    let axis = straight(points)?;
+    let place = |point: [f64; 3]| dot(axis, less(point, points[0]));
+    let places = points.iter().map(|point| place(*point));
+    let (low, high) = places.fold((0.0f64, 0.0f64), |(low, high), at| (low.min(at), high.max(at)));
+    let foot = along(points[0], axis, place(r).clamp(low, high));
+    (length(less(foot, r)) > 1e-6 * (high - low)).then_some(foot)
+}

@@ -1,0 +1,232 @@
+//! Figures of the mechanism, from what is where.
+
+use super::glyphs::Course;
+use super::motion::{Motion, State};
+use super::pen::Pen;
+use super::snapshot::{Link, Snapshot, snapshot};
+use super::traces::{Trace, curves};
+use super::view::{View, direction, dot, length, less, unit};
+use super::{bodies, glyphs, ground};
+use crate::joint::Shape;
+use crate::plot::{Align, Animation, Figure, Item, Panel, Place, Series, Spot, Tint};
+use crate::report::significant;
+use crate::study::Study;
+
+/// How to show a scene.
+#[derive(Clone, Debug)]
+pub struct Look {
+    pub view: View,
+    /// Whether the bodies have their names beside them.
+    pub labels: bool,
+    pub traces: Vec<Trace>,
+}
+
+/// The mechanism at one time.
+pub fn mechanism_figure(study: &Study, look: &Look, state: &State) -> Figure {
+    let scene = snapshot(&study.mechanism, state);
+    let mut items = supports(look, std::slice::from_ref(&scene));
+    items.extend(picture(look, &scene, &Course { travels: Vec::new(), lengths: lengths(&scene) }, 0.0));
+    let panel = panel(look, &scene, [items.as_slice()].into_iter(), &[]).items(items);
+    let title = format!("{}, t = {} s", study.name, significant(state.t, 4));
+    Figure::new().title(title).panel(labelled(look, &scene, panel))
+}
+
+/// Paleness of the earliest picture and of the last but one.
+const PALE: (f64, f64) = (0.8, 0.45);
+
+/// The mechanism at several times in one figure, earlier ones paler.
+pub fn stroboscope_figure(motion: &Motion, look: &Look, times: &[f64]) -> Figure {
+    let study = motion.study;
+    let scenes: Vec<Snapshot> = times.iter().map(|t| snapshot(&study.mechanism, &motion.state(*t))).collect();
+    let course = course(motion);
+    let mut items = supports(look, &scenes);
+    let last = scenes.len().saturating_sub(1);
+    let paleness = |k: usize| match k {
+        _ if k == last => 0.0,
+        _ => PALE.0 + (PALE.1 - PALE.0) * k as f64 / (last - 1).max(1) as f64,
+    };
+    for (k, scene) in scenes.iter().enumerate() {
+        items.extend(look.traces.iter().map(|trace| dot_on_path(look, scene, trace, paleness(k))));
+        items.extend(picture(look, scene, &course, paleness(k)));
+    }
+    let series = curves(motion, &look.view, &look.traces);
+    let Some(full) = scenes.last() else { return Figure::new() };
+    let mut panel = panel(look, full, [items.as_slice()].into_iter(), &series).items(items);
+    panel.series = series;
+    panel.keys = keys(times, paleness);
+    Figure::new().title(study.name.clone()).panel(labelled(look, full, panel))
+}
+
+/// More times than this are told by the first and the last ones.
+const MOST_KEYS: usize = 12;
+
+/// The times in the shades of their pictures.
+fn keys(times: &[f64], paleness: impl Fn(usize) -> f64) -> Vec<(String, Tint)> {
+    let stride = times.len().div_ceil(MOST_KEYS).max(1);
+    let last = times.len().saturating_sub(1);
+    let shown = (0..times.len()).filter(|k| (last - k).is_multiple_of(stride));
+    shown.map(|k| (format!("t = {} s", significant(times[k], 3)), Tint::Ink(paleness(k)))).collect()
+}
+
+fn dot_on_path(look: &Look, scene: &Snapshot, trace: &Trace, paleness: f64) -> Item {
+    let (x, y) = look.view.flat(scene.markers[trace.marker].r);
+    let tint = trace.body.map_or(Tint::Ink(paleness), |body| Tint::Body(body, 0.6 * paleness));
+    Item::Disc { spot: Spot::data(x, y), radius: 3.4, tint }
+}
+
+/// The mechanism in motion, shown at `times`, `per_second` of them in a second.
+pub fn animation(
+    motion: &Motion,
+    look: &Look,
+    times: Vec<f64>,
+    per_second: f64,
+    speed: String,
+) -> Animation<impl Fn(usize) -> Figure + Sync> {
+    let (study, course) = (motion.study, course(motion));
+    let few: Vec<Snapshot> = every(&times, 40).map(|t| snapshot(&study.mechanism, &motion.state(t))).collect();
+    let fixed = supports(look, &few);
+    let moving: Vec<Vec<Item>> = every(&times, 400)
+        .map(|t| picture(look, &snapshot(&study.mechanism, &motion.state(t)), &course, 0.0).collect())
+        .collect();
+    let series: Vec<Series> = curves(motion, &look.view, &look.traces)
+        .into_iter()
+        .map(|curve| Series { label: String::new(), ..curve })
+        .collect();
+    let all = moving.iter().map(Vec::as_slice).chain([fixed.as_slice()]);
+    let empty = few.first().map(|scene| panel(look, scene, all, &series)).unwrap_or_default();
+    let (count, look, mechanism, name) = (times.len(), look.clone(), &study.mechanism, study.name.clone());
+    let states: Vec<State> = times.iter().map(|t| motion.state(*t)).collect();
+    let step = times.windows(2).map(|pair| pair[1] - pair[0]).next().unwrap_or(1.0);
+    let decimals = (-step.log10()).ceil().clamp(0.0, 9.0) as usize;
+    let frame = move |k: usize| {
+        let scene = snapshot(mechanism, &states[k]);
+        let mut items = fixed.clone();
+        items.extend(look.traces.iter().map(|trace| dot_on_path(&look, &scene, trace, 0.0)));
+        items.extend(picture(&look, &scene, &course, 0.0));
+        if look.labels {
+            items.extend(scene.limbs.iter().map(|limb| {
+                let (x, y) = look.view.flat(limb.centre.r);
+                Item::Text { spot: Spot::data(x, y).moved(9.0, 9.0), text: limb.name.clone(), align: Align::Start }
+            }));
+        }
+        let above = |x: f64, text: String, align| Item::Text { spot: corner(x, 1.0).moved(0.0, 8.0), text, align };
+        items.push(above(1.0, format!("t = {:.decimals$} s", states[k].t), Align::End));
+        items.push(above(0.0, speed.clone(), Align::Start));
+        let panel = Panel { series: series.clone(), ..empty.clone() };
+        Figure::new().title(name.clone()).panel(panel.items(items))
+    };
+    Animation { frame, count, per_second }
+}
+
+fn corner(x: f64, y: f64) -> Spot {
+    Spot { at: Place::Frame(x, y), step: (0.0, 0.0) }
+}
+
+/// About `most` of the times, evenly chosen.
+fn every(times: &[f64], most: usize) -> impl Iterator<Item = f64> + '_ {
+    times.iter().copied().step_by(times.len().div_ceil(most).max(1))
+}
+
+fn supports(look: &Look, scenes: &[Snapshot]) -> Vec<Item> {
+    let mut pen = Pen::new(&look.view, 0.0);
+    ground::draw(&mut pen, scenes);
+    pen.finish().collect()
+}
+
+/// Bodies, joints and forces.
+fn picture(look: &Look, scene: &Snapshot, course: &Course, paleness: f64) -> impl Iterator<Item = Item> + use<> {
+    let mut pen = Pen::new(&look.view, paleness);
+    for (color, limb) in scene.limbs.iter().enumerate() {
+        pen.depth = bodies::depth(&pen, limb);
+        bodies::draw(&mut pen, limb, color);
+        if paleness == 0.0 {
+            bodies::centre(&mut pen, limb, color);
+        }
+    }
+    glyphs::draw(&mut pen, scene, course);
+    pen.finish().collect::<Vec<_>>().into_iter()
+}
+
+/// An empty panel whose axes show all items and curves, with room for signs of fixed size at the border.
+fn panel<'a>(look: &Look, scene: &Snapshot, items: impl Iterator<Item = &'a [Item]>, series: &[Series]) -> Panel {
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    let places = items.flatten().flat_map(Item::data);
+    for (x, y) in places.chain(series.iter().flat_map(|series| series.points.iter().copied())) {
+        low = [low[0].min(x), low[1].min(y)];
+        high = [high[0].max(x), high[1].max(y)];
+    }
+    let span = (high[0] - low[0]).max(high[1] - low[1]);
+    let room = if span > 0.0 { ROOM * span } else { 0.5 };
+    let [x, y] = look.view.labels();
+    let axis = |i: usize, label: String| crate::plot::AxisSpec::from(label).range(low[i] - room, high[i] + room);
+    let panel = Panel::new(axis(0, x), axis(1, y)).equal_aspect();
+    if scene.is_planar { panel } else { Panel { inset: triad(&look.view), ..panel } }
+}
+
+/// Free part of the longer side at both ends.
+const ROOM: f64 = 0.085;
+
+/// Length of the arrows that show the axes of space, pixels.
+const TRIAD: f64 = 27.0;
+
+fn triad(view: &View) -> Vec<Item> {
+    let mut pen = Pen::new(view, 0.0);
+    for (i, name) in ["x", "y", "z"].into_iter().enumerate() {
+        let (right, up) = view.flat(unit(i));
+        let foot = corner(0.0, 0.0);
+        pen.depth = view.depth(unit(i));
+        if right.hypot(up) > 1e-6 {
+            let ink = pen.ink(0.3);
+            pen.arrow(vec![foot, foot.moved(TRIAD * right, TRIAD * up)], ink, super::pen::THIN);
+            // The letter stands beyond the head, its middle on the arrow's line.
+            let far = TRIAD + 12.0 / right.hypot(up).max(0.5);
+            pen.text(foot.moved(far * right, far * up - 5.0), name);
+        }
+    }
+    pen.finish().collect()
+}
+
+/// Names beside the bodies, where the figure has room for them.
+fn labelled(look: &Look, scene: &Snapshot, mut panel: Panel) -> Panel {
+    if look.labels {
+        for (color, limb) in scene.limbs.iter().enumerate() {
+            let count = limb.points.len().max(1) as f64;
+            let flat = limb.points.iter().map(|point| look.view.flat(*point));
+            let (x, y) = flat.fold((0.0, 0.0), |sum, point| (sum.0 + point.0, sum.1 + point.1));
+            panel = panel.annotate_in(Tint::Body(color, 0.0), x / count, y / count, limb.name.clone());
+        }
+    }
+    panel
+}
+
+/// States from which the ways of slides are taken.
+const SAMPLES: usize = 300;
+
+fn course(motion: &Motion) -> Course {
+    let mechanism = &motion.study.mechanism;
+    let slides = |link: &Link| ["prismatic", "cylindrical", "point_on_line"].contains(&link.kind);
+    let place = |link: &Link| match link.shape {
+        Shape::Axis(axis) if slides(link) => Some(dot(direction(axis)?, less(link.ends[1].r, link.ends[0].r))),
+        _ => None,
+    };
+    let first = snapshot(mechanism, &motion.state(motion.reach().0));
+    let mut course = Course { travels: vec![None; first.joints.len()], lengths: lengths(&first) };
+    let times = if first.joints.iter().any(slides) { motion.times(SAMPLES) } else { Vec::new() };
+    for t in times {
+        let scene = snapshot(mechanism, &motion.state(t));
+        for (way, place) in course.travels.iter_mut().zip(scene.joints.iter().map(place)) {
+            let Some(place) = place else { continue };
+            let (low, high) = way.unwrap_or((place, place));
+            *way = Some((low.min(place), high.max(place)));
+        }
+    }
+    course
+}
+
+fn lengths(scene: &Snapshot) -> Vec<f64> {
+    let distance = |link: &Link| match link.ends.as_slice() {
+        [a, b, ..] => length(less(b.r, a.r)),
+        _ => 0.0,
+    };
+    scene.forces.iter().map(distance).collect()
+}

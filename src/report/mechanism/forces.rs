@@ -1,0 +1,112 @@
+//! Glyphs of forces.
+
+use super::glyphs::Sight;
+use super::joints::turn;
+use super::pen::{BOLD, Layer, Pen, THIN};
+use super::snapshot::Link;
+use super::view::{along, cross, direction, dot, less, unit};
+use crate::plot::{Spot, Tint};
+use std::f64::consts::TAU;
+
+/// Length of the arrow of a force, pixels.
+const ARROW: f64 = 44.0;
+
+/// A zigzag between its ends.
+pub fn spring_damper(pen: &mut Pen, link: &Link, sight: &Sight) {
+    zigzag(pen, [link.ends[0].r, link.ends[1].r], sight.length);
+}
+
+const COILS: usize = 16;
+/// Half the width of a spring: so many pixels, and this part of its length at the start.
+const WIDTH: (f64, f64) = (3.0, 0.018);
+
+fn zigzag(pen: &mut Pen, [a, b]: [[f64; 3]; 2], start: f64) {
+    let (x, y) = pen.view.flat(less(b, a));
+    let size = x.hypot(y);
+    let (nx, ny) = if size > 1e-12 { (-y / size, x / size) } else { (0.0, 1.0) };
+    // A fifth of the length at both ends is straight.
+    let at = |part: f64, out: f64| {
+        let (x, y) = pen.view.flat(along(a, less(b, a), part));
+        let wide = out * WIDTH.1 * start;
+        Spot::data(x + wide * nx, y + wide * ny).moved(out * WIDTH.0 * nx, out * WIDTH.0 * ny)
+    };
+    let mut spots: Vec<Spot> = vec![at(0.0, 0.0), at(0.2, 0.0)];
+    spots.extend((0..COILS).map(|k| {
+        let side = if k % 2 == 0 { 1.0 } else { -1.0 };
+        at(0.2 + 0.6 * (k as f64 + 0.5) / COILS as f64, side)
+    }));
+    spots.extend([at(0.8, 0.0), at(1.0, 0.0)]);
+    let (ends, ink) = ([spots[0], spots[spots.len() - 1]], pen.ink(0.25));
+    pen.layer = Layer::Rod;
+    pen.line(spots, ink, THIN);
+    ends.into_iter().for_each(|end| pen.disc(end, 2.8, ink));
+}
+
+/// A spiral about the axis of the first marker.
+pub fn torsion_spring(pen: &mut Pen, link: &Link, _: &Sight) {
+    let first = &link.ends[0];
+    let steps = 60;
+    let spot = |i: usize| {
+        let part = f64::from(i as u32) / f64::from(steps);
+        let angle = 2.5 * TAU * part;
+        let way = along(first.axes[0].map(|x| x * angle.cos()), first.axes[1], angle.sin());
+        pen.beside((first.r, way.map(|x| x * (4.0 + 13.0 * part))))
+    };
+    let spots = (0..=steps as usize).map(spot).collect();
+    let ink = pen.ink(0.25);
+    pen.line(spots, ink, THIN);
+}
+
+/// A cushion between its ends.
+pub fn bushing(pen: &mut Pen, link: &Link, _: &Sight) {
+    let [a, b] = [pen.spot(link.ends[0].r), pen.spot(link.ends[1].r)];
+    pen.layer = Layer::Rod;
+    let (rubber, ink) = (pen.ink(0.7), pen.ink(0.3));
+    pen.disc(a, 17.5, ink);
+    pen.disc(a, 16.0, rubber);
+    pen.line(vec![a, b], ink, BOLD);
+    pen.disc(a, 2.8, ink);
+}
+
+/// An arrow from the point at which it acts.
+pub fn applied_force(pen: &mut Pen, link: &Link, _: &Sight) {
+    let Some(way) = direction(link.force) else { return };
+    let at = link.ends[0].r;
+    pen.layer = Layer::Arrow;
+    let spots = vec![pen.spot(at), pen.beside((at, way.map(|x| x * ARROW)))];
+    let ink = pen.ink(0.0);
+    pen.arrow(spots, ink, BOLD);
+}
+
+/// An arrow around the point at which it acts.
+pub fn applied_torque(pen: &mut Pen, link: &Link, _: &Sight) {
+    pen.layer = Layer::Arrow;
+    let ink = pen.ink(0.0);
+    turn(pen, link.ends[0].r, link.torque, 15.0, ink);
+}
+
+/// The tyre as a circle, upon the road.
+pub fn tyre(pen: &mut Pen, link: &Link, sight: &Sight) {
+    let Some(wheel) = link.wheel else { return };
+    let (hub, up) = (&link.ends[0], unit(if sight.is_planar { 1 } else { 2 }));
+    // In space its axle is the marker's y axis, as far as that is level.
+    let level = |axis: [f64; 3]| direction(along(axis, up, -dot(axis, up)));
+    let axle = if sight.is_planar { unit(2) } else { level(hub.axes[1]).unwrap_or(unit(1)) };
+    let circle = pen.arc(hub.r, [axle, up], (0.0, TAU), (wheel.radius, 0.0));
+    let ink = pen.ink(0.35);
+    pen.layer = Layer::Rod;
+    if pen.paleness == 0.0 {
+        pen.area(circle.clone(), Tint::Ink(0.0), 0.08);
+    }
+    pen.line(circle, ink, 3.0);
+    let below = along(hub.r, up, wheel.road - dot(up, hub.r));
+    let forward = cross(axle, up);
+    let end = |part: f64| along(below, forward, part * wheel.radius);
+    let road = vec![pen.spot(end(-1.3)), pen.spot(end(1.3))];
+    pen.layer = Layer::Ground;
+    pen.line(road, ink, THIN);
+    for k in -6..=6 {
+        let foot = pen.spot(end(0.2 * f64::from(k)));
+        pen.line(vec![foot, foot.moved(-5.0, -6.0)], ink, 1.0);
+    }
+}

@@ -1,0 +1,103 @@
+//! Which sign stands for which kind of joint or force: the only place that knows.
+
+use super::pen::{Layer, Pen};
+use super::snapshot::{Link, Snapshot};
+use super::{bodies, forces, joints};
+
+/// What a sign has to know of the whole.
+pub struct Sight {
+    pub is_planar: bool,
+    /// From where to where a slide goes along its axis during the motion, m.
+    pub travel: Option<(f64, f64)>,
+    /// Between the first two markers at the start, m.
+    pub length: f64,
+}
+
+/// What the whole motion says of the joints and forces, in their order.
+#[derive(Clone, Debug, Default)]
+pub struct Course {
+    /// From where to where each joint slides along its axis.
+    pub travels: Vec<Option<(f64, f64)>>,
+    /// Distance of the ends of each force at the start.
+    pub lengths: Vec<f64>,
+}
+
+struct Glyph {
+    kind: &'static str,
+    draw: fn(&mut Pen, &Link, &Sight),
+    /// Whether earlier pictures of a stroboscope have it too.
+    in_all: bool,
+}
+
+const fn glyph(kind: &'static str, draw: fn(&mut Pen, &Link, &Sight), in_all: bool) -> Glyph {
+    Glyph { kind, draw, in_all }
+}
+
+const JOINTS: &[Glyph] = &[
+    glyph("revolute", joints::revolute, false),
+    glyph("prismatic", joints::prismatic, false),
+    glyph("cylindrical", joints::cylindrical, false),
+    glyph("universal", joints::universal, false),
+    glyph("spherical", joints::spherical, false),
+    glyph("planar", joints::planar, false),
+    glyph("weld", joints::weld, false),
+    glyph("distance", joints::distance, true),
+    glyph("point_on_line", joints::point_on_line, false),
+    glyph("gear", joints::gear, true),
+    glyph("driver", joints::driver, false),
+    glyph("equation", joints::equation, false),
+];
+
+const FORCES: &[Glyph] = &[
+    glyph("spring_damper", forces::spring_damper, true),
+    glyph("torsion_spring", forces::torsion_spring, false),
+    glyph("bushing", forces::bushing, false),
+    glyph("applied_force", forces::applied_force, false),
+    glyph("applied_torque", forces::applied_torque, false),
+    glyph("tyre", forces::tyre, true),
+];
+
+/// Draws all joints and forces of a scene.
+pub fn draw(pen: &mut Pen, scene: &Snapshot, course: &Course) {
+    let depths: Vec<f64> = scene.limbs.iter().map(|limb| bodies::depth(pen, limb)).collect();
+    let sight = |travel, length| Sight { is_planar: scene.is_planar, travel, length };
+    let travel = |i: usize| course.travels.get(i).copied().flatten();
+    let joints = scene.joints.iter().enumerate().map(|(i, link)| (link, JOINTS, sight(travel(i), 0.0)));
+    let length = |i: usize| course.lengths.get(i).copied().unwrap_or(0.0);
+    let forces = scene.forces.iter().enumerate().map(|(i, link)| (link, FORCES, sight(None, length(i))));
+    for (link, table, sight) in joints.chain(forces) {
+        let Some(glyph) = table.iter().find(|glyph| glyph.kind == link.kind) else { continue };
+        if !glyph.in_all && pen.paleness > 0.0 {
+            continue;
+        }
+        pen.layer = Layer::Joint;
+        pen.depth = depth(pen, link, &depths, glyph.in_all);
+        (glyph.draw)(pen, link, &sight);
+    }
+}
+
+/// Signs at a point lie upon the bodies that they join; long ones between two points are as far as their middle.
+fn depth(pen: &Pen, link: &Link, bodies: &[f64], is_long: bool) -> f64 {
+    let own = link.ends.iter().map(|end| pen.view.depth(end.r));
+    if is_long {
+        return own.sum::<f64>() / link.ends.len().max(1) as f64;
+    }
+    let joined = link.carriers.iter().flatten().map(|body| bodies[*body]);
+    own.chain(joined).fold(f64::NEG_INFINITY, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn has_all(known: &[&str], table: &[Glyph]) {
+        let missing: Vec<&&str> = known.iter().filter(|kind| table.iter().all(|glyph| glyph.kind != **kind)).collect();
+        assert!(missing.is_empty(), "no sign for {missing:?}");
+    }
+
+    #[test]
+    fn every_kind_of_joint_and_force_has_a_sign() {
+        has_all(&crate::joint::registry::<3>().iter().map(|entry| entry.name).collect::<Vec<_>>(), JOINTS);
+        has_all(&crate::force::registry::<3>().iter().map(|entry| entry.name).collect::<Vec<_>>(), FORCES);
+    }
+}

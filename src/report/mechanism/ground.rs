@@ -1,0 +1,79 @@
+//! The sign of what does not move.
+
+use super::pen::{Layer, Pen, THIN};
+use super::snapshot::{Link, Snapshot};
+use super::view::{along, direction, length, less};
+use crate::plot::Spot;
+
+/// Kinds that pull at the ground along a line: their wall is square to it, unless the line swings.
+const PULLING: [&str; 1] = ["spring_damper"];
+/// A line swings if its mean direction is shorter than this.
+const STEADY: f64 = 0.95;
+/// Kinds whose own sign shows how the ground holds them.
+const BARE: [&str; 5] = ["prismatic", "cylindrical", "point_on_line", "equation", "driver"];
+
+/// A hatched support at every marker of the ground that holds something. It stands on the side away from the bodies,
+/// as they are in all of the pictures, so that it hides none of them.
+pub fn draw(pen: &mut Pen, pictures: &[Snapshot]) {
+    let Some(first) = pictures.first() else { return };
+    let all = |scene: &Snapshot| scene.joints.iter().chain(&scene.forces).cloned().collect::<Vec<Link>>();
+    let mut done: Vec<[f64; 3]> = Vec::new();
+    for link in all(first) {
+        for (end, _) in link.ends.iter().zip(&link.carriers).filter(|(_, body)| body.is_none()) {
+            let at = end.r;
+            if BARE.contains(&link.kind) || done.iter().any(|known| length(less(*known, at)) < 1e-9) {
+                continue;
+            }
+            done.push(at);
+            let way = mean(pictures, at).unwrap_or([0.0; 3]);
+            let is_wall = PULLING.contains(&link.kind) && length(way) > STEADY;
+            let way = pen.view.flat(way);
+            support(pen, at, way, is_wall);
+        }
+    }
+}
+
+/// The direction from a place of the ground to the bodies that are held there, on average; shorter than one where
+/// it changes.
+fn mean(pictures: &[Snapshot], at: [f64; 3]) -> Option<[f64; 3]> {
+    let (mut sum, mut count) = ([0.0; 3], 0.0);
+    for scene in pictures {
+        for link in scene.joints.iter().chain(&scene.forces) {
+            let here = link
+                .ends
+                .iter()
+                .zip(&link.carriers)
+                .any(|(end, body)| body.is_none() && length(less(end.r, at)) < 1e-9);
+            for body in link.carriers.iter().flatten().filter(|_| here) {
+                let way = less(scene.limbs[*body].centre.r, at);
+                sum = along(sum, direction(way).unwrap_or([0.0; 3]), 1.0);
+                count += 1.0;
+            }
+        }
+    }
+    (count > 0.0).then(|| sum.map(|x| x / count))
+}
+
+fn support(pen: &mut Pen, at: [f64; 3], (x, y): (f64, f64), is_wall: bool) {
+    let size = x.hypot(y);
+    // Away from the bodies: exactly for a wall, upwards or downwards for a bearing.
+    let out = match is_wall && size > 1e-9 {
+        true => (-x / size, -y / size),
+        false if y < -0.35 * size && size > 1e-9 => (0.0, 1.0),
+        false => (0.0, -1.0),
+    };
+    pen.layer = Layer::Ground;
+    pen.depth = pen.view.depth(at);
+    let (spot, ink) = (pen.spot(at), pen.ink(0.25));
+    let corner = |side: f64, far: f64| spot.moved(far * out.0 - side * out.1, far * out.1 + side * out.0);
+    let base = if is_wall { 0.0 } else { 14.0 };
+    if !is_wall {
+        let triangle: Vec<Spot> = vec![corner(0.0, 0.0), corner(8.5, base), corner(-8.5, base)];
+        pen.shape(triangle, ink, THIN, (crate::plot::Tint::Paper, 1.0));
+    }
+    pen.line(vec![corner(-14.0, base), corner(14.0, base)], ink, THIN);
+    for k in 0..6 {
+        let side = -11.0 + 5.0 * f64::from(k);
+        pen.line(vec![corner(side, base), corner(side - 4.0, base + 6.0)], ink, 1.0);
+    }
+}

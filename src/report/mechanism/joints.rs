@@ -1,0 +1,198 @@
+//! Glyphs of joints.
+
+use super::glyphs::Sight;
+use super::pen::{BOLD, Layer, Pen, THIN};
+use super::snapshot::{Link, Pose};
+use super::view::{along, cross, direction, dot, length, less};
+use crate::joint::Shape;
+use crate::plot::Tint;
+use std::f64::consts::{PI, TAU};
+
+/// Radius of a hinge, pixels.
+const HINGE: f64 = 4.2;
+/// From the line of a slide to its rails, and how far they reach beyond the slide, pixels.
+const RAIL: f64 = 9.0;
+const REACH: f64 = 16.0;
+
+fn axis(link: &Link) -> Option<[f64; 3]> {
+    match link.shape {
+        Shape::Axis(axis) | Shape::Turn(axis) => direction(axis),
+        _ => None,
+    }
+}
+
+/// A circle, in space with its axis.
+pub fn revolute(pen: &mut Pen, link: &Link, _: &Sight) {
+    let at = link.ends[1].r;
+    let ink = pen.ink(0.0);
+    if let Some(axis) = axis(link) {
+        let end = |size: f64| pen.beside((at, axis.map(|x| x * size)));
+        let spots = vec![end(-13.0), end(13.0)];
+        pen.line(spots, ink, THIN);
+    }
+    let spot = pen.spot(at);
+    pen.ring(spot, HINGE, ink);
+}
+
+/// Two rails along the way that the slide takes, hatched where the ground holds them.
+fn slot(pen: &mut Pen, link: &Link, sight: &Sight) {
+    let Some(axis) = axis(link) else { return };
+    let (foot, point) = (link.ends[0].r, link.ends[1].r);
+    let place = dot(axis, less(point, foot));
+    let (low, high) = sight.travel.unwrap_or((place, place));
+    // The rails lie where the point is, also where the joint has drifted open.
+    let at = |s: f64| along(point, axis, s - place);
+    let ink = pen.ink(0.25);
+    pen.layer = Layer::Rod;
+    let Some((x, y)) = pen.rails([at(low), at(high)], axis, RAIL, REACH, ink) else { return };
+    if link.carriers[0].is_none() {
+        let ends = [pen.spot(at(low)).moved(-REACH * x, -REACH * y), pen.spot(at(high)).moved(REACH * x, REACH * y)];
+        for (end, sign) in ends.into_iter().zip([1.0, -1.0]) {
+            for k in 0..3 {
+                let along = sign * (3.0 + 5.0 * f64::from(k));
+                let corner = |out: f64, back: f64| {
+                    let (right, up) = (along - back, -RAIL - out);
+                    end.moved(right * x - up * y, right * y + up * x)
+                };
+                let stroke = vec![corner(0.0, 0.0), corner(5.0, 4.0)];
+                pen.line(stroke, ink, 1.0);
+            }
+        }
+    }
+    pen.layer = Layer::Joint;
+}
+
+pub fn prismatic(pen: &mut Pen, link: &Link, sight: &Sight) {
+    slot(pen, link, sight);
+}
+
+/// Rails and a hinge's circle.
+pub fn cylindrical(pen: &mut Pen, link: &Link, sight: &Sight) {
+    slot(pen, link, sight);
+    let (spot, ink) = (pen.spot(link.ends[1].r), pen.ink(0.0));
+    pen.ring(spot, HINGE, ink);
+}
+
+/// Rails and a dot.
+pub fn point_on_line(pen: &mut Pen, link: &Link, sight: &Sight) {
+    slot(pen, link, sight);
+    let (spot, ink) = (pen.spot(link.ends[1].r), pen.ink(0.0));
+    pen.disc(spot, 3.6, ink);
+}
+
+/// A ball in its socket.
+pub fn spherical(pen: &mut Pen, link: &Link, _: &Sight) {
+    let (spot, ink) = (pen.spot(link.ends[1].r), pen.ink(0.0));
+    pen.ring(spot, 6.0, ink);
+    pen.disc(spot, 3.8, ink);
+}
+
+/// A circle with the two pins of the cross.
+pub fn universal(pen: &mut Pen, link: &Link, _: &Sight) {
+    let (at, ink) = (link.ends[1].r, pen.ink(0.0));
+    let spot = pen.spot(at);
+    pen.ring(spot, 9.5, ink);
+    for pin in [link.ends[0].axes[0], link.ends[1].axes[1]] {
+        let end = |size: f64| pen.beside((at, pin.map(|x| x * size)));
+        let spots = vec![end(-9.5), end(9.5)];
+        pen.line(spots, ink, BOLD);
+    }
+}
+
+/// A patch of the plane.
+pub fn planar(pen: &mut Pen, link: &Link, _: &Sight) {
+    let (at, ink) = (link.ends[1].r, pen.ink(0.3));
+    let Some(normal) = axis(link) else { return };
+    let [first, second] = super::view::square_to(normal, link.ends[0].axes[0]);
+    let corner = |a: f64, b: f64| pen.beside((at, along(first.map(|x| x * a), second, b)));
+    let spots = vec![corner(-20.0, -20.0), corner(20.0, -20.0), corner(20.0, 20.0), corner(-20.0, 20.0)];
+    pen.shape(spots, ink, THIN, (ink, 0.12));
+    let spot = pen.spot(at);
+    pen.disc(spot, 2.6, ink);
+}
+
+/// A square.
+pub fn weld(pen: &mut Pen, link: &Link, _: &Sight) {
+    let (spot, ink) = (pen.spot(link.ends[1].r), pen.ink(0.0));
+    let side = 4.4;
+    let corners = [(-side, -side), (side, -side), (side, side), (-side, side)];
+    pen.area(corners.iter().map(|(right, up)| spot.moved(*right, *up)).collect(), ink, 1.0);
+}
+
+/// A thin rod between two balls.
+pub fn distance(pen: &mut Pen, link: &Link, _: &Sight) {
+    let ink = pen.ink(0.2);
+    let ends = [pen.spot(link.ends[0].r), pen.spot(link.ends[1].r)];
+    pen.layer = Layer::Rod;
+    pen.line(ends.to_vec(), ink, 3.0);
+    ends.into_iter().for_each(|end| pen.disc(end, 3.4, ink));
+}
+
+/// An arrow along or about what is driven.
+pub fn driver(pen: &mut Pen, link: &Link, _: &Sight) {
+    let (at, ink) = (link.ends[1].r, pen.ink(0.1));
+    pen.layer = Layer::Arrow;
+    match link.shape {
+        Shape::Turn(axis) => turn(pen, at, axis, 17.0, ink),
+        Shape::Axis(axis) => {
+            let step = |size: f64| pen.beside((at, axis.map(|x| x * size)));
+            let both = [step(-26.0), step(26.0)];
+            pen.arrow(vec![both[0], both[1]], ink, BOLD);
+            pen.arrow(vec![both[1], both[0]], ink, BOLD);
+        }
+        _ => {
+            let spots = vec![pen.spot(link.ends[0].r), pen.spot(at)];
+            pen.dashes(spots, ink, BOLD);
+            let way = direction(less(at, link.ends[0].r)).unwrap_or([0.0; 3]);
+            let step = |size: f64| pen.beside((at, way.map(|x| x * size)));
+            pen.arrow(vec![step(-10.0), step(-4.0)], ink, BOLD);
+        }
+    }
+}
+
+/// Three quarters of a turn about an axis, with a head.
+pub fn turn(pen: &mut Pen, at: [f64; 3], axis: [f64; 3], radius: f64, ink: Tint) {
+    let Some(axis) = direction(axis) else { return };
+    let hint = cross(axis, [0.3, -0.4, 0.8]);
+    let spots = pen.arc(at, [axis, hint], (0.15 * PI, 1.6 * PI), (0.0, radius));
+    pen.arrow(spots, ink, BOLD);
+}
+
+/// The pitch circles of two wheels, each with a spoke that turns with it.
+pub fn gear(pen: &mut Pen, link: &Link, _: &Sight) {
+    let Shape::Teeth(teeth) = link.shape else { return };
+    let [a, b] = [&link.ends[0], &link.ends[1]];
+    let [za, zb] = teeth.map(f64::abs);
+    let gap = less(b.r, a.r);
+    // Both circles meet: the gap is made of the two radii, which are as the numbers of teeth.
+    let out = |axis: [f64; 3], way: [f64; 3]| direction(along(way, axis, -dot(axis, way))).unwrap_or([0.0; 3]);
+    let inner = if teeth[0] * teeth[1] < 0.0 { -1.0 } else { 1.0 };
+    let towards = less(out(a.axes[2], gap).map(|x| za * x), out(b.axes[2], gap.map(|x| -x)).map(|x| inner * zb * x));
+    let module = dot(gap, towards) / dot(towards, towards);
+    if !module.is_finite() || length(gap) == 0.0 {
+        return;
+    }
+    pen.layer = Layer::Rod;
+    for (k, (wheel, count)) in [(a, za), (b, zb)].into_iter().enumerate() {
+        pitch_circle(pen, wheel, (module * count).abs(), link.carriers[k]);
+    }
+}
+
+fn pitch_circle(pen: &mut Pen, wheel: &Pose, radius: f64, body: Option<usize>) {
+    let tint = body.map_or(pen.ink(0.2), |body| pen.color(body, 0.0));
+    let circle = pen.arc(wheel.r, [wheel.axes[2], wheel.axes[0]], (0.0, TAU), (radius, 0.0));
+    let spoke = vec![pen.spot(wheel.r), circle[0]];
+    pen.area(circle.clone(), tint, 0.07);
+    pen.line(circle, tint, THIN);
+    pen.line(spoke, tint, THIN);
+}
+
+/// A small rhomb at the bodies whose coordinates an equation binds.
+pub fn equation(pen: &mut Pen, link: &Link, _: &Sight) {
+    let ink = pen.ink(0.0);
+    for (end, _) in link.ends.iter().zip(&link.carriers).filter(|(_, body)| body.is_some()) {
+        let spot = pen.spot(end.r);
+        let corners = [(4.0, 0.0), (0.0, 4.0), (-4.0, 0.0), (0.0, -4.0)];
+        pen.area(corners.iter().map(|(right, up)| spot.moved(*right, *up)).collect(), ink, 1.0);
+    }
+}

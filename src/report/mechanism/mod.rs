@@ -1,0 +1,26 @@
+//! The mechanism itself as a figure or an animation.
+//!
+//! ```text
+//! trajectory -> Motion -> State -> Snapshot -> Pen: bodies, glyphs of joints and forces, ground -> plot items
+//! ```
+//!
+//! To give a new kind of joint or force its sign: a function in `joints` or `forces` and a line in `glyphs`.
+
+mod bodies;
+mod figures;
+mod forces;
+mod glyphs;
+mod ground;
+mod hull;
+mod joints;
+mod motion;
+mod pen;
+mod snapshot;
+mod traces;
+mod view;
+
+pub use figures::{Look, animation, mechanism_figure, stroboscope_figure};
+pub use motion::{Motion, State};
+pub use snapshot::up;
+pub use traces::{Trace, find_trace, output_traces};
+pub use view::View;

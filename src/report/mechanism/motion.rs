@@ -1,0 +1,79 @@
+//! States between the rows of a trajectory.
+
+use crate::study::Study;
+use crate::system::MechanicalSystem;
+use crate::trajectory::Trajectory;
+
+/// Coordinates and velocities at a time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    pub t: f64,
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+}
+
+/// A computed motion.
+pub struct Motion<'a> {
+    pub study: &'a Study,
+    trajectory: &'a Trajectory,
+}
+
+impl<'a> Motion<'a> {
+    /// The motion of a trajectory, which has at least a row.
+    pub fn new(study: &'a Study, trajectory: &'a Trajectory) -> Self {
+        Motion { study, trajectory }
+    }
+
+    /// When it begins and how far it was computed.
+    pub fn reach(&self) -> (f64, f64) {
+        let start = self.study.start_time();
+        let rows = &self.trajectory.rows;
+        (rows.first().map_or(start, |row| row[0]), rows.last().map_or(start, |row| row[0]))
+    }
+
+    /// At most `most` times of rows, evenly chosen, first and last among them.
+    pub fn times(&self, most: usize) -> Vec<f64> {
+        let count = self.trajectory.rows.len();
+        let stride = count.div_ceil(most.max(1)).max(1);
+        let mut times: Vec<f64> = self.trajectory.times().step_by(stride).collect();
+        if count > 0 && !(count - 1).is_multiple_of(stride) {
+            times.push(self.reach().1);
+        }
+        times
+    }
+
+    /// The state at a time: that of a row, or one between two rows on the cubic through their coordinates and rates.
+    pub fn state(&self, t: f64) -> State {
+        let rows = &self.trajectory.rows;
+        let after = rows.partition_point(|row| row[0] < t);
+        let (Some(b), a) = (rows.get(after).or(rows.last()), rows.get(after.wrapping_sub(1))) else {
+            let (q, v) = self.study.start();
+            return State { t, q: q.to_vec(), v: v.to_vec() };
+        };
+        let (q, v, _) = self.trajectory.row_state(b);
+        match a {
+            Some(a) if b[0] > t && b[0] > a[0] => self.between(a, b, t),
+            _ => State { t: b[0], q: q.to_vec(), v: v.to_vec() },
+        }
+    }
+
+    fn between(&self, a: &[f64], b: &[f64], t: f64) -> State {
+        let system = self.study.system();
+        let (h, s) = (b[0] - a[0], (t - a[0]) / (b[0] - a[0]));
+        let ((qa, va, _), (qb, vb, _)) = (self.trajectory.row_state(a), self.trajectory.row_state(b));
+        let (ra, rb) = (rate(system, qa, va), rate(system, qb, vb));
+        let cubic = |i: usize| {
+            let (near, far) = (s * s * (3.0 - 2.0 * s), s * (1.0 - s));
+            qa[i] + near * (qb[i] - qa[i]) + h * far * ((1.0 - s) * ra[i] - s * rb[i])
+        };
+        let mut q: Vec<f64> = (0..qa.len()).map(cubic).collect();
+        system.normalize(&mut q);
+        State { t, q, v: va.iter().zip(vb).map(|(a, b)| a + s * (b - a)).collect() }
+    }
+}
+
+fn rate(system: &dyn MechanicalSystem, q: &[f64], v: &[f64]) -> Vec<f64> {
+    let mut rate = vec![0.0; q.len()];
+    system.rate(q, v, &mut rate);
+    rate
+}

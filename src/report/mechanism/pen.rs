@@ -1,0 +1,159 @@
+//! Draws in space, seen from a view: collects items with how near they are to the viewer.
+
+use super::view::{View, along, square_to};
+use crate::plot::{Align, Item, Spot, Tint};
+
+/// What lies upon what where nothing is nearer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Layer {
+    Ground,
+    Rod,
+    Body,
+    Mark,
+    Joint,
+    Arrow,
+}
+
+/// A point of an outline: a place in space, m, and a step from it in pixels as directions in space.
+pub type Step = ([f64; 3], [f64; 3]);
+
+pub struct Pen<'a> {
+    pub view: &'a View,
+    /// 0 draws in full colours, 1 in those of paper.
+    pub paleness: f64,
+    /// How near to the viewer the next items are.
+    pub depth: f64,
+    pub layer: Layer,
+    items: Vec<(f64, Layer, Item)>,
+}
+
+pub const THIN: f64 = 1.4;
+pub const BOLD: f64 = 2.2;
+
+impl<'a> Pen<'a> {
+    pub fn new(view: &'a View, paleness: f64) -> Self {
+        Pen { view, paleness, depth: 0.0, layer: Layer::Ground, items: Vec::new() }
+    }
+
+    /// All items, far ones first.
+    pub fn finish(mut self) -> impl Iterator<Item = Item> {
+        self.items.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        self.items.into_iter().map(|(_, _, item)| item)
+    }
+
+    /// The colour of lines that belong to no body; `paleness` is that of full pictures.
+    pub fn ink(&self, paleness: f64) -> Tint {
+        Tint::Ink(paleness + (1.0 - paleness) * self.paleness)
+    }
+
+    /// The colour of a body.
+    pub fn color(&self, body: usize, paleness: f64) -> Tint {
+        Tint::Body(body, paleness + (1.0 - paleness) * self.paleness)
+    }
+
+    pub fn spot(&self, r: [f64; 3]) -> Spot {
+        let (x, y) = self.view.flat(r);
+        Spot::data(x, y)
+    }
+
+    /// A place, and a step of some pixels along a direction in space.
+    pub fn beside(&self, (r, step): Step) -> Spot {
+        let (right, up) = self.view.flat(step);
+        self.spot(r).moved(right, up)
+    }
+
+    fn push(&mut self, item: Item) {
+        self.items.push((self.depth, self.layer, item));
+    }
+
+    pub fn line(&mut self, spots: Vec<Spot>, tint: Tint, width: f64) {
+        self.push(Item::Line { spots, tint, width, dashed: false });
+    }
+
+    pub fn dashes(&mut self, spots: Vec<Spot>, tint: Tint, width: f64) {
+        self.push(Item::Line { spots, tint, width, dashed: true });
+    }
+
+    pub fn area(&mut self, spots: Vec<Spot>, tint: Tint, opacity: f64) {
+        self.push(Item::Area { spots, tint, opacity });
+    }
+
+    pub fn disc(&mut self, spot: Spot, radius: f64, tint: Tint) {
+        self.push(Item::Disc { spot, radius, tint });
+    }
+
+    /// A small text, its middle at a point.
+    pub fn text(&mut self, spot: Spot, text: &str) {
+        self.push(Item::Text { spot, text: text.to_string(), align: Align::Middle });
+    }
+
+    pub fn ring(&mut self, spot: Spot, radius: f64, tint: Tint) {
+        self.disc(spot, radius + 0.5 * THIN, tint);
+        self.disc(spot, radius - 0.5 * THIN, Tint::Paper);
+    }
+
+    /// A filled outline.
+    pub fn shape(&mut self, spots: Vec<Spot>, edge: Tint, width: f64, fill: (Tint, f64)) {
+        let closed = spots.iter().chain(spots.first()).copied().collect();
+        self.area(spots, fill.0, fill.1);
+        self.line(closed, edge, width);
+    }
+
+    /// A line with a head at its end; the head turns with the last piece, which steps from one place.
+    pub fn arrow(&mut self, spots: Vec<Spot>, tint: Tint, width: f64) {
+        if let [.., before, tip] = spots.as_slice() {
+            let (dx, dy) = (tip.step.0 - before.step.0, tip.step.1 - before.step.1);
+            let size = dx.hypot(dy);
+            if size > 1e-6 {
+                let (x, y) = (dx / size, dy / size);
+                let corner = |back: f64, side: f64| tip.moved(-back * x - side * y, -back * y + side * x);
+                let head = vec![corner(-3.0, 0.0), corner(6.5, 4.2), corner(6.5, -4.2)];
+                self.area(head, tint, 1.0);
+            }
+        }
+        self.line(spots, tint, width);
+    }
+
+    /// Points around `r` in the plane square to `axis`, from the angle `from` to `to`, rad, against `hint`; at a distance
+    /// of `metres` and so many pixels more.
+    pub fn arc(
+        &self,
+        r: [f64; 3],
+        [axis, hint]: [[f64; 3]; 2],
+        (from, to): (f64, f64),
+        (metres, pixels): (f64, f64),
+    ) -> Vec<Spot> {
+        let [first, second] = square_to(axis, hint);
+        let step = if metres > 0.0 { 0.1 } else { 0.25 };
+        let count = ((to - from).abs() / step).ceil().max(2.0) as usize;
+        let way = |i: usize| {
+            let angle = from + (to - from) * i as f64 / count as f64;
+            along(first.map(|x| x * angle.cos()), second, angle.sin())
+        };
+        let spot = |way: [f64; 3]| self.beside((along(r, way, metres), way.map(|x| x * pixels)));
+        (0..=count).map(|i| spot(way(i))).collect()
+    }
+
+    /// A pair of lines on both sides of a line in space, so many pixels from it, with ends that reach further.
+    pub fn rails(
+        &mut self,
+        [a, b]: [[f64; 3]; 2],
+        way: [f64; 3],
+        gap: f64,
+        reach: f64,
+        tint: Tint,
+    ) -> Option<(f64, f64)> {
+        let (x, y) = self.view.flat(way);
+        let size = x.hypot(y);
+        if size < 1e-6 {
+            return None;
+        }
+        let (x, y) = (x / size, y / size);
+        for side in [gap, -gap] {
+            let end = |r: [f64; 3], out: f64| self.spot(r).moved(out * x - side * y, out * y + side * x);
+            let spots = vec![end(a, -reach), end(b, reach)];
+            self.line(spots, tint, THIN);
+        }
+        Some((x, y))
+    }
+}

@@ -1,0 +1,194 @@
+//! What is where at one time: bodies, joints and forces of a planar or spatial scene alike, all in space.
+
+use super::bodies::straight;
+use super::motion::State;
+use super::view::{along, cross, direction, dot, length, less};
+use crate::body::{Frame, Wrench, in_space};
+use crate::force::Wheel;
+use crate::joint::Shape;
+use crate::math::Taylor;
+use crate::scene::{Connection, Model, Part};
+use crate::study::AnyMechanism;
+use crate::system::{Mechanism, Scratch};
+
+/// A marker in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// m
+    pub r: [f64; 3],
+    /// Its unit axes.
+    pub axes: [[f64; 3]; 3],
+}
+
+/// A body.
+#[derive(Clone, Debug)]
+pub struct Limb {
+    pub name: String,
+    /// Where others hold it, each place once.
+    pub points: Vec<[f64; 3]>,
+    /// Centre of mass, with the body's axes.
+    pub centre: Pose,
+    /// False for point masses.
+    pub oriented: bool,
+    /// Whether it may turn about itself in a way that its outline does not show.
+    pub may_spin: bool,
+}
+
+/// A joint or force.
+#[derive(Clone, Debug)]
+pub struct Link {
+    pub kind: &'static str,
+    /// Its markers, and the bodies that carry them; `None` is the ground.
+    pub ends: Vec<Pose>,
+    pub carriers: Vec<Option<usize>>,
+    /// Of a joint.
+    pub shape: Shape,
+    /// Of a tyre.
+    pub wheel: Option<Wheel>,
+    /// What a force does at its first marker, N and N m.
+    pub force: [f64; 3],
+    pub torque: [f64; 3],
+}
+
+/// A scene at one time.
+#[derive(Clone, Debug)]
+pub struct Snapshot {
+    pub is_planar: bool,
+    pub limbs: Vec<Limb>,
+    pub joints: Vec<Link>,
+    pub forces: Vec<Link>,
+    /// All markers.
+    pub markers: Vec<Pose>,
+}
+
+/// The axis against gravity, number 0 to 2: the third one in space without gravity.
+pub fn up(mechanism: &AnyMechanism) -> usize {
+    match mechanism {
+        AnyMechanism::Planar(_) => 1,
+        AnyMechanism::Spatial(mechanism) => {
+            let gravity = mechanism.model().gravity;
+            let strongest = (0..3).max_by(|i, j| gravity[*i].abs().total_cmp(&gravity[*j].abs())).unwrap_or(2);
+            if gravity[strongest] < 0.0 { strongest } else { 2 }
+        }
+    }
+}
+
+/// The scene at a state.
+pub fn snapshot(mechanism: &AnyMechanism, state: &State) -> Snapshot {
+    match mechanism {
+        AnyMechanism::Planar(mechanism) => of(mechanism, state),
+        AnyMechanism::Spatial(mechanism) => of(mechanism, state),
+    }
+}
+
+/// Where all markers are.
+pub fn markers(mechanism: &AnyMechanism, state: &State) -> Vec<Pose> {
+    match mechanism {
+        AnyMechanism::Planar(mechanism) => frames(mechanism, state).iter().map(pose).collect(),
+        AnyMechanism::Spatial(mechanism) => frames(mechanism, state).iter().map(pose).collect(),
+    }
+}
+
+fn frames<const D: usize>(mechanism: &Mechanism<D>, state: &State) -> Vec<Frame<Taylor<f64>, D>> {
+    mechanism.frames(&state.q, &state.v, &mut Scratch::default())
+}
+
+fn pose<const D: usize>(frame: &Frame<Taylor<f64>, D>) -> Pose {
+    let value = frame.map(|x| x.x);
+    let axis = |i: usize| if i < D { in_space(&value.axes[i]) } else { [0.0, 0.0, 1.0] };
+    Pose { r: in_space(&value.r), axes: [axis(0), axis(1), axis(2)] }
+}
+
+fn of<const D: usize>(mechanism: &Mechanism<D>, state: &State) -> Snapshot {
+    let (model, frames) = (mechanism.model(), frames(mechanism, state));
+    let poses: Vec<Pose> = frames.iter().map(pose).collect();
+    let used = used(model);
+    let joints = model.joints.iter().map(|joint| {
+        let shape =
+            joint.markers.first().map_or(Shape::Plain, |first| joint.element.shape(&frames[*first].map(|x| x.x)));
+        Link { shape, ..link(model, joint, &poses) }
+    });
+    let forces = model.forces.iter().map(|force| {
+        let own: Vec<_> = force.markers.iter().map(|marker| frames[*marker]).collect();
+        let mut wrenches = vec![Wrench::<f64, D>::zero(); own.len()];
+        force.element.act(&own, Taylor::time(state.t), &mut wrenches);
+        let Wrench { force: push, torque } = wrenches.first().copied().unwrap_or(Wrench::zero());
+        let wheel = force.element.wheel(state.t);
+        Link { wheel, force: in_space(&push), torque, ..link(model, force, &poses) }
+    });
+    let joints: Vec<Link> = joints.collect();
+    let mut limbs: Vec<Limb> = model.bodies.iter().map(|part| limb(part, &poses, &used)).collect();
+    limbs.iter_mut().enumerate().for_each(|(i, limb)| limb.may_spin = D == 3 && may_spin(limb, i, &joints));
+    Snapshot { is_planar: D == 2, limbs, joints, forces: forces.collect(), markers: poses }
+}
+
+/// Which markers a joint or force holds.
+fn used<const D: usize>(model: &Model<D>) -> Vec<bool> {
+    let mut used = vec![false; model.marker_count()];
+    let joints = model.joints.iter().flat_map(|joint| &joint.markers);
+    let forces = model.forces.iter().flat_map(|force| &force.markers);
+    joints.chain(forces).for_each(|marker| used[*marker] = true);
+    used
+}
+
+fn link<E, const D: usize>(model: &Model<D>, connection: &Connection<E>, poses: &[Pose]) -> Link {
+    Link {
+        kind: connection.kind,
+        ends: connection.markers.iter().map(|marker| poses[*marker]).collect(),
+        carriers: connection.markers.iter().map(|marker| model.markers.bodies[*marker]).collect(),
+        shape: Shape::Plain,
+        wheel: None,
+        force: [0.0; 3],
+        torque: [0.0; 3],
+    }
+}
+
+/// Whether no joint holds a straight body against turns about its own line: a hinge aside of it would.
+fn may_spin(limb: &Limb, body: usize, joints: &[Link]) -> bool {
+    let Some(line) = straight(&limb.points) else { return false };
+    let mut own = joints.iter().filter(|joint| joint.carriers.contains(&Some(body)));
+    own.all(|joint| match joint.shape {
+        Shape::Axis(axis) => length(cross(line, axis)) < 1e-3 * length(axis),
+        _ => true,
+    })
+}
+
+/// A centre of mass so far from the markers, as a part of their distance, belongs to the outline of a body.
+const FAR: f64 = 0.25;
+
+fn limb<const D: usize>(part: &Part<D>, poses: &[Pose], used: &[bool]) -> Limb {
+    let own = poses[part.first_marker];
+    let offset = in_space(&part.body.marker(0).offset);
+    let r = (0..3).fold(own.r, |r, i| along(r, own.axes[i], -offset[i]));
+    let centre = Pose { r, axes: own.axes };
+    let mut points: Vec<[f64; 3]> = Vec::new();
+    for k in 0..part.body.marker_count() {
+        let id = part.first_marker + k;
+        // The body's own frame is a place of its own only where something holds it.
+        if k > 0 || used[id] {
+            add(&mut points, poses[id].r);
+        }
+    }
+    let size = points.iter().map(|point| length(less(*point, points[0]))).fold(0.0, f64::max);
+    if points.len() < 2 || distance(&points, r) > FAR * size {
+        add(&mut points, r);
+    }
+    Limb { name: part.name.clone(), points, centre, oriented: part.body.oriented(), may_spin: false }
+}
+
+fn add(points: &mut Vec<[f64; 3]>, point: [f64; 3]) {
+    if points.iter().all(|known| length(less(*known, point)) > 1e-9 * (1.0 + length(point))) {
+        points.push(point);
+    }
+}
+
+/// From a point to the nearest line between two of the others.
+fn distance(points: &[[f64; 3]], r: [f64; 3]) -> f64 {
+    let to_segment = |a: [f64; 3], b: [f64; 3]| {
+        let way = direction(less(b, a)).unwrap_or([0.0; 3]);
+        let place = dot(way, less(r, a)).clamp(0.0, length(less(b, a)));
+        length(less(r, along(a, way, place)))
+    };
+    let pairs = points.iter().flat_map(|a| points.iter().map(move |b| to_segment(*a, *b)));
+    pairs.fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,81 @@
+//! Paths of markers.
+
+use super::motion::Motion;
+use super::snapshot::markers;
+use super::view::View;
+use crate::body::{MarkerId, MarkerTable, Quantity};
+use crate::error::Result;
+use crate::plot::{Series, Style};
+use crate::scene::{Measure, Watched};
+use crate::study::AnyMechanism;
+
+/// A marker whose path is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trace {
+    pub name: String,
+    pub marker: MarkerId,
+    /// The body that carries it; `None` is the ground.
+    pub body: Option<usize>,
+}
+
+impl Trace {
+    fn new(table: &MarkerTable, marker: MarkerId) -> Self {
+        Trace { name: table.names[marker].clone(), marker, body: table.bodies[marker] }
+    }
+}
+
+fn parts(mechanism: &AnyMechanism) -> (&MarkerTable, &[Watched]) {
+    match mechanism {
+        AnyMechanism::Planar(mechanism) => (&mechanism.model().markers, &mechanism.model().outputs),
+        AnyMechanism::Spatial(mechanism) => (&mechanism.model().markers, &mechanism.model().outputs),
+    }
+}
+
+/// The marker of a name.
+///
+/// # Errors
+/// When there is none, with the nearest ones.
+pub fn find_trace(mechanism: &AnyMechanism, name: &str) -> Result<Trace> {
+    let (table, _) = parts(mechanism);
+    Ok(Trace::new(table, table.find(name)?))
+}
+
+/// The markers whose positions against the ground the scene watches.
+pub fn output_traces(mechanism: &AnyMechanism) -> Vec<Trace> {
+    let (table, outputs) = parts(mechanism);
+    let mut traces: Vec<Trace> = Vec::new();
+    for output in outputs {
+        if let Measure::Relative { of, to, quantity: Quantity::Position(_) } = output.measure
+            && table.bodies[to].is_none()
+            && table.bodies[of].is_some()
+            && traces.iter().all(|known| known.marker != of)
+        {
+            traces.push(Trace::new(table, of));
+        }
+    }
+    traces
+}
+
+/// Places of a path: a motion longer than this is drawn coarser.
+const MOST: usize = 4000;
+
+/// The paths as curves in the colours of their bodies.
+pub fn curves(motion: &Motion, view: &View, traces: &[Trace]) -> Vec<Series> {
+    let mut curves: Vec<Series> = traces.iter().map(curve).collect();
+    if traces.is_empty() {
+        return curves;
+    }
+    for t in motion.times(MOST) {
+        let poses = markers(&motion.study.mechanism, &motion.state(t));
+        for (curve, trace) in curves.iter_mut().zip(traces) {
+            curve.points.push(view.flat(poses[trace.marker].r));
+        }
+    }
+    curves
+}
+
+fn curve(trace: &Trace) -> Series {
+    let mut series = Series::line(format!("path of {}", trace.name), Vec::new()).style(Style::Thin);
+    series.color = trace.body;
+    series
+}
