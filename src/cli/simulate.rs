@@ -2,7 +2,7 @@
 
 use super::common::{Common, Output, print};
 use crate::error::Result;
-use crate::measure::{Record, Recorder};
+use crate::measure::{Passing, Record, Recorder};
 use crate::report::{self, Folder, Summary, summarize};
 use crate::simulate::simulate;
 use crate::study::Study;
@@ -38,12 +38,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
     if !args.common.json && !args.common.quiet {
         print(&format!("\nwritten to {}\n", folder.listing()))?;
     }
-    if summary.drift.position.relative_final > MEANINGLESS && !args.common.quiet {
-        eprintln!(
-            "warning: the joints have come apart by {:.1e} of the scene's size: the motion is not that of the scene\n  \
-             help: choose a projection such as `manifold`, or a smaller step",
-            summary.drift.position.relative_final
-        );
+    if !args.common.quiet {
+        warn(&summary);
     }
     Ok(match &summary.failure {
         None => ExitCode::SUCCESS,
@@ -52,6 +48,23 @@ pub fn run(args: Args) -> Result<ExitCode> {
             ExitCode::from(1)
         }
     })
+}
+
+/// What makes a motion doubtful although it was computed to the end.
+fn warn(summary: &Summary) {
+    if let Some(Passing { t, .. }) = summary.singularity.left() {
+        eprintln!(
+            "warning: at the singular state of t = {t:.9} s the velocity jumped: errors turned the motion from its branch, and what \
+             comes after is not the motion of the scene\n  help: choose a projection such as `manifold`, or a smaller step"
+        );
+    }
+    let open = summary.drift.position.relative_final;
+    if open > MEANINGLESS {
+        eprintln!(
+            "warning: the joints have come apart by {open:.1e} of the scene's size: the motion is not that of the scene\n  \
+             help: choose a projection such as `manifold`, or a smaller step"
+        );
+    }
 }
 
 fn write(study: &Study, record: &Record, summary: &Summary, folder: &mut Folder, output: &Output) -> Result<()> {

@@ -1,5 +1,6 @@
 //! Baumgarte stabilization.
 
+use super::index1::{RANK, rank_tolerance};
 use super::{Dynamics, Entry, Formulation, Halt, OptionDoc};
 use crate::error::Result;
 
@@ -17,17 +18,20 @@ pub const ENTRY: Entry = Entry {
     options: &[
         OptionDoc { name: "alpha", about: "damping of phi, 1/s (default 5)" },
         OptionDoc { name: "beta", about: "frequency of phi, 1/s (default alpha)" },
+        RANK,
     ],
     rows: None,
     make: |choice, _| {
         let alpha = choice.not_negative("alpha", 5.0)?;
-        Ok(Box::new(Baumgarte { alpha, beta: choice.not_negative("beta", alpha)? }))
+        let (beta, rank_tolerance) = (choice.not_negative("beta", alpha)?, rank_tolerance(choice)?);
+        Ok(Box::new(Baumgarte { alpha, beta, rank_tolerance }))
     },
 };
 
 struct Baumgarte {
     alpha: f64,
     beta: f64,
+    rank_tolerance: f64,
 }
 
 impl Formulation for Baumgarte {
@@ -41,6 +45,7 @@ impl Formulation for Baumgarte {
         vdot: &mut [f64],
     ) -> Result<(), Halt> {
         let (alpha, beta) = (self.alpha, self.beta);
+        dynamics.rank_tolerance = self.rank_tolerance;
         dynamics.solve(t, q, v, |phi, phi_dot| -2.0 * alpha * phi_dot - beta * beta * phi)?;
         dynamics.system.rate(q, v, qdot);
         vdot.copy_from_slice(&dynamics.vdot);

@@ -92,6 +92,10 @@ pub struct Statistics {
     pub rank_deficient: u64,
 }
 
+/// Near a singular state, with a sine s, round-off moves positions along the nearly dependent row by eps/s, so velocities by
+/// eps/s^2 and accelerations by eps/s^3: all of it at 6e-6, the more with drift.
+pub const RANK_TOLERANCE: f64 = 1e-4;
+
 /// A system, the terms of its equations at the last state, and the factors of
 ///
 /// ```text
@@ -105,6 +109,8 @@ pub struct Dynamics<'a> {
     pub kkt: SaddlePoint,
     /// Constraints that depend on the others wherever phi = 0, and are left out.
     pub held: Vec<usize>,
+    /// Rows count as dependent for accelerations below this sine: see [`SaddlePoint::factor_truncated`].
+    pub rank_tolerance: f64,
     /// v' of the last solution.
     pub vdot: Vec<f64>,
     /// lambda of the last solution.
@@ -123,6 +129,7 @@ impl<'a> Dynamics<'a> {
             terms: Terms::new(system),
             kkt: SaddlePoint::new(&structure.mass, &structure.g),
             held: Vec::new(),
+            rank_tolerance: RANK_TOLERANCE,
             structure,
             vdot: vec![0.0; n.v],
             lambda: vec![0.0; n.lambda],
@@ -199,7 +206,7 @@ impl<'a> Dynamics<'a> {
     ) -> Result<(), Halt> {
         self.right_sides(t, q, v, acceleration_level);
         self.statistics.factorizations += 1;
-        let factored = self.kkt.factor_truncated(&self.terms.mass, &self.terms.g);
+        let factored = self.kkt.factor_truncated(&self.terms.mass, &self.terms.g, self.rank_tolerance);
         factored.map_err(|singular| self.halt(singular))?;
         self.solve_factored()
     }

@@ -17,5 +17,5 @@ pub const ENTRY: Entry = Entry {
     about: "phi = 0 and G v + phi_t = 0 together, stabilized index 2, for integrators that solve both",
     options: &[],
     rows: Some(Rows::PositionAndVelocity),
-    make: |_, _| Ok(Box::new(Index1)),
+    make: |_, _| Ok(Box::new(Index1::default())),
 };

@@ -1,6 +1,7 @@
 //! Index 1: the constraints differentiated twice, lambda eliminated.
 
-use super::{Dynamics, Entry, Formulation, Halt, Rows};
+use super::dynamics::RANK_TOLERANCE;
+use super::{Choice, Dynamics, Entry, Formulation, Halt, OptionDoc, Rows};
 use crate::error::Result;
 
 /// ```text
@@ -12,12 +13,30 @@ use crate::error::Result;
 pub const ENTRY: Entry = Entry {
     name: "index1",
     about: "phi'' = 0, lambda eliminated; drifts unless projected",
-    options: &[],
+    options: &[RANK],
     rows: Some(Rows::Acceleration),
-    make: |_, _| Ok(Box::new(Index1)),
+    make: |choice, _| Ok(Box::new(Index1 { rank_tolerance: rank_tolerance(choice)? })),
 };
 
-pub(super) struct Index1;
+/// Constraints nearer than this to depending on others have no say in v' and lambda.
+pub(super) const RANK: OptionDoc = OptionDoc {
+    name: "rank_tolerance",
+    about: "constraints count as dependent below this sine to the others (default 1e-4; 1e-10 for the plain equations)",
+};
+
+pub(super) fn rank_tolerance(choice: &Choice) -> Result<f64> {
+    choice.not_negative(RANK.name, RANK_TOLERANCE)
+}
+
+pub(super) struct Index1 {
+    rank_tolerance: f64,
+}
+
+impl Default for Index1 {
+    fn default() -> Self {
+        Index1 { rank_tolerance: RANK_TOLERANCE }
+    }
+}
 
 impl Formulation for Index1 {
     fn derivative(
@@ -29,6 +48,7 @@ impl Formulation for Index1 {
         qdot: &mut [f64],
         vdot: &mut [f64],
     ) -> Result<(), Halt> {
+        dynamics.rank_tolerance = self.rank_tolerance;
         dynamics.solve(t, q, v, |_, _| 0.0)?;
         dynamics.system.rate(q, v, qdot);
         vdot.copy_from_slice(&dynamics.vdot);

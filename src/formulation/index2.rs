@@ -15,5 +15,5 @@ pub const ENTRY: Entry = Entry {
     about: "G v + phi_t = 0 itself, for integrators that solve it; phi drifts as h^p",
     options: &[],
     rows: Some(Rows::Velocity),
-    make: |_, _| Ok(Box::new(Index1)),
+    make: |_, _| Ok(Box::new(Index1::default())),
 };

@@ -15,5 +15,5 @@ pub const ENTRY: Entry = Entry {
     about: "phi = 0 itself, for integrators that solve it",
     options: &[],
     rows: Some(Rows::Position),
-    make: |_, _| Ok(Box::new(Index1)),
+    make: |_, _| Ok(Box::new(Index1::default())),
 };

@@ -3,7 +3,9 @@
 mod drift;
 mod energy;
 mod recorder;
+mod singularity;
 
 pub use drift::{Drift, DriftLevel};
 pub use energy::{EnergyBalance, EnergyMeter, Ledger};
 pub use recorder::{Record, Recorder};
+pub use singularity::{Branch, Nearest, Passing, Singularity};

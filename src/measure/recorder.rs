@@ -2,6 +2,7 @@
 
 use super::drift::{Drift, largest};
 use super::energy::{EnergyBalance, EnergyMeter, Ledger};
+use super::singularity::{Singularity, Watch};
 use crate::simulate::{Observation, Sink};
 use crate::system::{MechanicalSystem, Scratch};
 use crate::trajectory::Trajectory;
@@ -12,6 +13,7 @@ pub struct Record {
     pub drift: Drift,
     /// `None` where the system states no potential.
     pub energy: Option<EnergyBalance>,
+    pub singularity: Singularity,
     /// Largest |phi|, |phi'|, |phi''| at each output row.
     pub drift_rows: Vec<[f64; 3]>,
     pub ledger_rows: Vec<Ledger>,
@@ -23,6 +25,7 @@ pub struct Recorder<'a> {
     scratch: Scratch,
     scales: Vec<f64>,
     meter: EnergyMeter,
+    watch: Watch<'a>,
     record: Record,
     progress: Box<dyn FnMut(f64) + 'a>,
 }
@@ -34,10 +37,12 @@ impl<'a> Recorder<'a> {
             scratch: Scratch::default(),
             scales: system.scales(),
             meter: EnergyMeter::default(),
+            watch: Watch::new(system),
             record: Record {
                 trajectory: Trajectory::new(system),
                 drift: Drift::default(),
                 energy: None,
+                singularity: Singularity::default(),
                 drift_rows: Vec::new(),
                 ledger_rows: Vec::new(),
             },
@@ -53,6 +58,7 @@ impl<'a> Recorder<'a> {
 
     pub fn finish(mut self) -> Record {
         self.record.energy = self.meter.balance();
+        self.record.singularity = self.watch.finish();
         self.record
     }
 }
@@ -61,6 +67,7 @@ impl Sink for Recorder<'_> {
     fn accepted(&mut self, state: &Observation) {
         self.record.drift.add(state, &self.scales);
         self.meter.add(self.system, state, &mut self.scratch);
+        self.watch.add(state);
         (self.progress)(state.t);
     }
 

@@ -4,7 +4,7 @@ use super::Table;
 use crate::error::Failure;
 use crate::formulation::Statistics;
 use crate::initial::{Assembly, Level, Move};
-use crate::measure::{Drift, EnergyBalance, Record};
+use crate::measure::{Drift, EnergyBalance, Record, Singularity};
 use crate::simulate::{Method, Outcome};
 use crate::study::Study;
 use serde::Serialize;
@@ -22,6 +22,7 @@ pub struct Summary {
     pub statistics: Statistics,
     pub drift: Drift,
     pub energy: Option<EnergyBalance>,
+    pub singularity: Singularity,
     pub assembly: AssemblySummary,
     pub r#final: FinalState,
 }
@@ -71,6 +72,7 @@ pub fn summarize(study: &Study, method: &Method, outcome: &Outcome, record: &Rec
         statistics: outcome.statistics,
         drift: record.drift.clone(),
         energy: record.energy,
+        singularity: record.singularity.clone(),
         assembly: (&study.assembly).into(),
         r#final: final_state(record),
     }
@@ -121,10 +123,10 @@ impl Summary {
             s.rhs_evaluations,
             s.factorizations
         );
-        if s.rank_deficient > 0 {
-            let all = if s.rank_deficient > s.steps { "all" } else { "some" };
-            text += &format!("  redundant constraints at {all} states: multipliers are those of least norm\n\n");
+        if s.rank_deficient > s.steps {
+            text += "  redundant constraints: multipliers are those of least norm\n\n";
         }
+        text += &singular_text(&self.singularity);
         let mut drift = Table::new(&["drift", "max", "final", "relative max"]);
         for (name, level) in [
             ("position |phi|", &self.drift.position),
@@ -187,4 +189,36 @@ pub fn significant(value: f64, digits: usize) -> String {
         true => text.trim_end_matches('0').trim_end_matches('.').to_string(),
         false => text,
     }
+}
+
+/// Times of singular states that are named.
+const NAMED: usize = 5;
+
+/// What a person reads of singular states.
+fn singular_text(found: &Singularity) -> String {
+    if found.passed.is_empty() {
+        return String::new();
+    }
+    let times = |kind: bool| -> Vec<String> {
+        let of_kind = found.passed.iter().filter(|passing| passing.is_singular == kind);
+        of_kind.map(|passing| format!("{:.9}", passing.t).trim_end_matches('0').to_string()).collect()
+    };
+    let mut text = String::new();
+    for (what, times) in [("passed singular states", times(true)), ("came near to singular states", times(false))] {
+        if times.is_empty() {
+            continue;
+        }
+        let more = if times.len() > NAMED { format!(" ... ({} in all)", times.len()) } else { String::new() };
+        text += &format!("  {what} at t = {}{more} s\n", times[..times.len().min(NAMED)].join(", "));
+    }
+    let lost =
+        found.passed.iter().find_map(|passing| Some((passing, passing.rank.filter(|r| *r < passing.regular_rank)?)));
+    if let Some((first, rank)) = lost {
+        let joints = match &first.joints[..] {
+            few if few.len() <= NAMED => few.join(", "),
+            many => format!("{} and {} more", many[..NAMED].join(", "), many.len() - NAMED),
+        };
+        text += &format!("  rank {rank} there, {} beside: dependent rows of {joints}\n", first.regular_rank);
+    }
+    text + "\n"
 }

@@ -267,7 +267,7 @@ impl<'a> Run<'a> {
         // Without a new factorization, as in `penalty`, what the last one says is of another state.
         let is_factored = dynamics.statistics.factorizations > self.factored;
         self.factored = dynamics.statistics.factorizations;
-        let sine = is_factored.then(|| dynamics.kkt.smallest_sine());
+        let sine = (is_factored && dynamics.kkt.is_factored()).then(|| dynamics.kkt.smallest_sine());
         self.approach.add(self.t, sine.unwrap_or(1.0));
         sink.accepted(&observation(self.t, &self.y, &self.problem, sine, &mut self.phi_ddot));
     }

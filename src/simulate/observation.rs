@@ -33,6 +33,8 @@ pub struct Observation<'a> {
     /// The smallest sine between a row of G and those before it (metric M^-1), zero at a singular state; `None` where the
     /// method does not factor the saddle-point matrix there.
     pub sine: Option<f64>,
+    /// Rows of G that depend on the others everywhere, and are left out of the motion.
+    pub held: &'a [usize],
 }
 
 /// Receives the motion while it is computed.

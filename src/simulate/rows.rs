@@ -72,5 +72,6 @@ pub fn observation<'o>(
         phi_ddot,
         work: y[y.len() - 1],
         sine,
+        held: &dynamics.held,
     }
 }

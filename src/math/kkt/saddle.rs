@@ -2,7 +2,7 @@
 
 use super::fast::Fast;
 use super::null_space::NullSpace;
-use super::pivot::{COLLAPSED, Rule, TRUNCATED};
+use super::pivot::{COLLAPSED, Rule};
 use super::skipping::Skipping;
 use super::system::{System, add};
 use super::{Pattern, Singular};
@@ -42,6 +42,8 @@ pub struct SaddlePoint {
     /// Rows that stay left out, and whether there are any.
     held: Vec<bool>,
     is_holding: bool,
+    /// The smallest sine before rows were truncated, if any were.
+    truncated_sine: Option<f64>,
     /// The node whose pivot collapsed last, how often in a row, and the calls since the fast way was given up.
     failed: usize,
     failures: u32,
@@ -77,6 +79,7 @@ impl SaddlePoint {
             way: Way::None,
             held: vec![false; m],
             is_holding: false,
+            truncated_sine: None,
             failed: usize::MAX,
             failures: 0,
             waited: 0,
@@ -91,6 +94,7 @@ impl SaddlePoint {
     /// of its size; below 1e-7 solutions are refined once.
     pub fn factor(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
         self.way = Way::None;
+        self.truncated_sine = None;
         let System { mass: m, g: j, .. } = &self.system;
         if !self.is_shaped || mass.len() != m.entries.len() || g.len() != j.entries.len() {
             return Err(Singular::Shape);
@@ -106,19 +110,27 @@ impl SaddlePoint {
         Ok(())
     }
 
-    /// The same, but rows count as dependent below a sine of 1e-4. Between such states and singular ones accelerations are
-    /// more wrong by round-off than they are without these rows, along which a projection moves the state anyway.
-    pub fn factor_truncated(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
+    /// The same, but rows count as dependent below this sine. Near enough to singular states accelerations are more wrong
+    /// by round-off than they are without these rows, along which a projection moves the state anyway.
+    pub fn factor_truncated(&mut self, mass: &[f64], g: &[f64], sine: f64) -> Result<(), Singular> {
         self.factor(mass, g)?;
-        let is_weak =
-            matches!(self.way, Way::Fast { refine: true } | Way::Skipping) && self.smallest_sine() < TRUNCATED.sqrt();
-        if is_weak {
+        if !matches!(self.way, Way::Fast { refine: true } | Way::Skipping) {
+            return Ok(());
+        }
+        let found = self.smallest_sine();
+        if found < sine {
             let System { mass, g, .. } = &self.system;
             let skipping = self.skipping.get_or_insert_with(|| Box::new(Skipping::new(mass, g)));
-            skipping.factor(&self.system, &self.held, TRUNCATED)?;
+            skipping.factor(&self.system, &self.held, sine * sine)?;
             self.way = Way::Skipping;
+            self.truncated_sine = Some(found);
         }
         Ok(())
+    }
+
+    /// Whether the last factorization succeeded.
+    pub fn is_factored(&self) -> bool {
+        self.way != Way::None
     }
 
     /// Rows that the last factorization left out as dependent.
@@ -306,10 +318,15 @@ impl SaddlePoint {
     }
 
     /// How near G is to losing rank: about the smallest sine between one of its rows and those before it (metric M^-1),
-    /// dependent rows left out; by the smallest pivot over its size before elimination, which is its square. In [0, 1],
-    /// zero without a factorization.
+    /// rows that are held out left aside; by the smallest pivot over its size before elimination, which is its square. In
+    /// [0, 1], zero where other rows are dependent, and without a factorization.
     pub fn smallest_sine(&self) -> f64 {
+        if let Some(sine) = self.truncated_sine {
+            return sine;
+        }
+        let held = self.held.iter().filter(|held| **held).count();
         let ratio: f64 = match (self.way, &self.skipping, &self.dense) {
+            _ if self.left_out().len() > held => 0.0,
             (Way::Fast { .. }, ..) => self.fast.smallest_ratio(0.0),
             (Way::Skipping, Some(skipping), _) => skipping.smallest_ratio(),
             (Way::Dense, _, Some(dense)) => dense.smallest_ratio(),

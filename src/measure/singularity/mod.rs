@@ -1,0 +1,170 @@
+//! Singular states on the way: where G loses rank, so that the motion could go on along several branches.
+
+mod branch;
+mod path;
+mod survey;
+
+use crate::formulation::Dynamics;
+use crate::simulate::Observation;
+use crate::system::MechanicalSystem;
+use branch::Turning;
+use path::{Path, Sample};
+use serde::Serialize;
+use survey::Survey;
+
+/// How near a motion came to singular states. Nearness is the smallest sine of the angle between a row of G and those
+/// before it, in the metric of M^-1; rows that depend on others everywhere are left out.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Singularity {
+    /// The state of the motion that was nearest to a singular one; `None` without constraints.
+    pub nearest: Option<Nearest>,
+    /// How many singular states were passed or come near to.
+    pub count: usize,
+    /// The first thousand of them, in order.
+    pub passed: Vec<Passing>,
+}
+
+/// The state nearest to a singular one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Nearest {
+    pub t: f64,
+    pub sine: f64,
+    /// Condition number of the equilibrated saddle-point matrix there; `None` where it is infinite, or the system large.
+    pub condition: Option<f64>,
+}
+
+/// A singular state, or one near to it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Passing {
+    pub t: f64,
+    /// The smallest sine there: round-off and the error of interpolation at a singular state.
+    pub sine: f64,
+    /// Whether it counts as singular, or as near to it.
+    pub is_singular: bool,
+    /// Rank of G there (`None` for large systems), and beside it.
+    pub rank: Option<usize>,
+    pub regular_rank: usize,
+    /// Joints with rows that depend on each other there; empty for large systems.
+    pub joints: Vec<String>,
+    pub branch: Branch,
+}
+
+/// What a motion did at a singular state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Branch {
+    /// It went on as smoothly as it came.
+    Kept,
+    /// Its velocity jumped: errors turned it to another branch.
+    Left,
+    /// It rested there, or the run ended before it could be seen.
+    Open,
+}
+
+impl Singularity {
+    /// The first state at which the motion left its branch.
+    pub fn left(&self) -> Option<&Passing> {
+        self.passed.iter().find(|passing| passing.branch == Branch::Left)
+    }
+}
+
+/// Dips of the sine below this part of the largest one are looked at, at three states and at two more between them.
+const DIP: f64 = 0.8;
+const SHALLOW: f64 = 0.4;
+/// Below this part the state is near to a singular one, below the second it is singular.
+const NEAR: f64 = 1e-2;
+const SINGULAR: f64 = 1e-3;
+const MOST_PASSED: usize = 1000;
+
+/// Follows a motion.
+pub struct Watch<'a> {
+    survey: Survey<'a>,
+    /// The last three accepted states, the latest last.
+    last: [Sample; 3],
+    seen: usize,
+    largest: f64,
+    turning: Turning,
+    found: Singularity,
+}
+
+impl<'a> Watch<'a> {
+    pub fn new(system: &'a dyn MechanicalSystem) -> Self {
+        Watch {
+            survey: Survey::new(Dynamics::new(system)),
+            last: Default::default(),
+            seen: 0,
+            largest: 0.0,
+            turning: Turning::default(),
+            found: Singularity::default(),
+        }
+    }
+
+    /// Takes an accepted state.
+    pub fn add(&mut self, state: &Observation) {
+        if state.phi.is_empty() {
+            return;
+        }
+        self.survey.hold(state.held);
+        let sine = state.sine.unwrap_or_else(|| self.survey.sine(state.t, state.q));
+        self.last.rotate_left(1);
+        self.last[2].copy(state, sine);
+        self.seen += 1;
+        self.largest = self.largest.max(sine);
+        self.note(state.t, sine, state.q);
+        if self.seen >= 3 && self.dips() {
+            self.look_at_dip();
+        }
+        if let Some((passing, branch)) = self.turning.add(&self.last[2], self.largest, &mut self.survey)
+            && let Some(passed) = self.found.passed.get_mut(passing)
+        {
+            passed.branch = branch;
+        }
+    }
+
+    /// The result.
+    pub fn finish(mut self) -> Singularity {
+        if let Some(nearest) = &mut self.found.nearest {
+            nearest.condition = self.survey.condition_at_nearest();
+        }
+        self.found
+    }
+
+    fn note(&mut self, t: f64, sine: f64, q: &[f64]) {
+        if self.found.nearest.is_none_or(|nearest| sine < nearest.sine) {
+            self.found.nearest = Some(Nearest { t, sine, condition: None });
+            self.survey.keep_nearest(t, q);
+        }
+    }
+
+    /// Whether the sine has a minimum about the middle state.
+    fn dips(&self) -> bool {
+        let [a, b, c] = &self.last;
+        b.sine <= a.sine && b.sine < c.sine && b.sine < DIP * self.largest
+    }
+
+    fn look_at_dip(&mut self) {
+        let path = Path::new(&self.last, &mut self.survey);
+        let near = NEAR * self.largest;
+        let [a, b, c] = [0, 1, 2].map(|i: usize| self.last[i].sine);
+        // Half-way states tell a steep dip from a round one without much work.
+        let [ab, bc] = self.survey.between(&path);
+        if ab.min(b).min(bc) > SHALLOW * self.largest && ab.min(bc) > 0.5 * b.min(a).min(c) {
+            return;
+        }
+        let Some((t, sine)) = self.survey.least_sine(&path, near) else { return };
+        let q = self.survey.position(&path, t);
+        self.note(t, sine, &q);
+        if sine > near {
+            return;
+        }
+        let is_singular = sine < SINGULAR * self.largest;
+        let (rank, joints) = self.survey.dependence(t, &q, 10.0 * sine);
+        let drift = self.survey.drift(t, &q, &self.last[1]);
+        self.turning.begin(self.found.passed.len(), t, sine, is_singular, drift);
+        self.found.count += 1;
+        if self.found.passed.len() < MOST_PASSED {
+            let regular_rank = self.survey.regular_rank();
+            self.found.passed.push(Passing { t, sine, is_singular, rank, regular_rank, joints, branch: Branch::Open });
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! The motion between accepted states.
+
+use super::survey::Survey;
+use crate::simulate::Observation;
+
+/// An accepted state.
+#[derive(Clone, Debug, Default)]
+pub struct Sample {
+    pub t: f64,
+    pub sine: f64,
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    pub vdot: Vec<f64>,
+    pub phi: Vec<f64>,
+    pub phi_dot: Vec<f64>,
+}
+
+impl Sample {
+    pub fn copy(&mut self, state: &Observation, sine: f64) {
+        (self.t, self.sine) = (state.t, sine);
+        let Sample { q, v, vdot, phi, phi_dot, .. } = self;
+        let all = [(q, state.q), (v, state.v), (vdot, state.vdot), (phi, state.phi), (phi_dot, state.phi_dot)];
+        for (own, other) in all {
+            own.clear();
+            own.extend_from_slice(other);
+        }
+    }
+}
+
+/// The polynomial of fifth degree through the positions and rates of three states, by divided differences over their
+/// doubled times.
+pub struct Path {
+    pub times: [f64; 3],
+    /// Six coefficients a coordinate.
+    coefficients: Vec<[f64; 6]>,
+    /// phi of the middle state.
+    pub phi: Vec<f64>,
+}
+
+impl Path {
+    pub fn new(samples: &[Sample; 3], survey: &mut Survey) -> Self {
+        let times = [0, 1, 2].map(|i: usize| samples[i].t);
+        let rates = [0, 1, 2].map(|i: usize| survey.rate(&samples[i].q, &samples[i].v));
+        let doubled = [0, 1, 2, 3, 4, 5].map(|i: usize| times[i / 2]);
+        let coordinate = |k: usize| {
+            let mut table = [0, 1, 2, 3, 4, 5].map(|i: usize| samples[i / 2].q[k]);
+            for order in 1..6 {
+                for i in (order..6).rev() {
+                    let width = doubled[i] - doubled[i - order];
+                    table[i] = if width == 0.0 { rates[i / 2][k] } else { (table[i] - table[i - 1]) / width };
+                }
+            }
+            table
+        };
+        let coefficients = (0..samples[0].q.len()).map(coordinate).collect();
+        Path { times, coefficients, phi: samples[1].phi.clone() }
+    }
+
+    pub fn at(&self, t: f64) -> Vec<f64> {
+        let [a, b, c] = self.times.map(|time| t - time);
+        let horner = |k: &[f64; 6]| k[0] + a * (k[1] + a * (k[2] + b * (k[3] + b * (k[4] + c * k[5]))));
+        self.coefficients.iter().map(horner).collect()
+    }
+}

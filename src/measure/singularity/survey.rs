@@ -1,0 +1,190 @@
+//! What the constraints are like at a position.
+
+use super::path::{Path, Sample};
+use crate::formulation::Dynamics;
+use crate::math::kkt::{condition_number, dependent_rows};
+use crate::math::largest;
+use crate::system::Need;
+
+/// Up to this many unknowns the joints that depend on each other are named.
+const NAMED: usize = 1000;
+/// Rows count as dependent at least below this part of their length.
+const DEPENDENT: f64 = 1e-4;
+/// The condition number is computed up to this many unknowns.
+const SMALL: usize = 300;
+/// Golden sections end at this part of a path, and where the sine is this part of what counts as near.
+const SHORTEST: f64 = 1e-6;
+const TINY: f64 = 5e-4;
+/// The points of the two lines are where the sine is about this part of what counts as near: the lines are straight, and
+/// round-off is small.
+const ASIDE: f64 = 2e-2;
+/// Newton's steps that bring a path back to the drift of the motion.
+const SWEEPS: usize = 2;
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// A system with the memory to look at its constraints anywhere.
+pub struct Survey<'a> {
+    dynamics: Dynamics<'a>,
+    rest: Vec<f64>,
+    nearest: (f64, Vec<f64>),
+}
+
+impl<'a> Survey<'a> {
+    pub fn new(dynamics: Dynamics<'a>) -> Self {
+        let rest = vec![0.0; dynamics.system.dimensions().v];
+        Survey { dynamics, rest, nearest: (0.0, Vec::new()) }
+    }
+
+    /// Leaves out rows that depend on others everywhere.
+    pub fn hold(&mut self, rows: &[usize]) {
+        self.dynamics.hold(rows);
+    }
+
+    pub fn regular_rank(&self) -> usize {
+        self.rows() - self.dynamics.held.len()
+    }
+
+    fn rows(&self) -> usize {
+        self.dynamics.lambda.len()
+    }
+
+    fn unknowns(&self) -> usize {
+        self.rest.len() + self.rows()
+    }
+
+    fn evaluate(&mut self, t: f64, q: &[f64]) {
+        self.dynamics.evaluate(t, q, &self.rest, Need::MASS | Need::CONSTRAINTS | Need::G);
+    }
+
+    /// q' at a state.
+    pub fn rate(&self, q: &[f64], v: &[f64]) -> Vec<f64> {
+        let mut rate = vec![0.0; q.len()];
+        self.dynamics.system.rate(q, v, &mut rate);
+        rate
+    }
+
+    /// The smallest sine at a position; zero where the matrix is singular.
+    pub fn sine(&mut self, t: f64, q: &[f64]) -> f64 {
+        self.evaluate(t, q);
+        self.dynamics.factor().map_or(0.0, |()| self.dynamics.kkt.smallest_sine())
+    }
+
+    fn sine_on(&mut self, path: &Path, t: f64) -> f64 {
+        let q = self.position(path, t);
+        self.sine(t, &q)
+    }
+
+    /// The position near a place on a path that has the drift of its middle state, which interpolation does not keep.
+    pub fn position(&mut self, path: &Path, t: f64) -> Vec<f64> {
+        let mut q = path.at(t);
+        let (mut step, mut rate) = (vec![0.0; self.rest.len()], vec![0.0; q.len()]);
+        for _ in 0..SWEEPS {
+            self.evaluate(t, &q);
+            let dynamics = &mut self.dynamics;
+            dynamics.terms.phi.iter_mut().zip(&path.phi).for_each(|(phi, drift)| *phi -= drift);
+            if dynamics.factor().is_err() || dynamics.kkt.solve_projection(&dynamics.terms.phi, &mut step).is_err() {
+                break;
+            }
+            dynamics.system.rate(&q, &step, &mut rate);
+            q.iter_mut().zip(&rate).for_each(|(q, rate)| *q -= rate);
+            dynamics.system.normalize(&mut q);
+        }
+        q
+    }
+
+    /// The sine half-way between the three states of a path.
+    pub fn between(&mut self, path: &Path) -> [f64; 2] {
+        let [a, b, c] = path.times;
+        [0.5 * (a + b), 0.5 * (b + c)].map(|t| self.sine_on(path, t))
+    }
+
+    /// Where the sine is least on a path, and how small, if it comes near to `bound`: by golden sections, as long as the
+    /// minimum can be below; and then, since the sine falls to a singular state and rises from it linearly, by where two
+    /// lines meet.
+    pub fn least_sine(&mut self, path: &Path, bound: f64) -> Option<(f64, f64)> {
+        let [mut from, _, mut to] = path.times;
+        let width = to - from;
+        let mut inner = [to - GOLDEN * (to - from), from + GOLDEN * (to - from)];
+        let mut values = inner.map(|t| self.sine_on(path, t));
+        let mut steepest: f64 = 0.0;
+        while to - from > SHORTEST * width && values[0].min(values[1]) > TINY * bound {
+            steepest = steepest.max(2.0 * (values[1] - values[0]).abs() / (inner[1] - inner[0]));
+            if values[0].min(values[1]) - steepest * (to - from) > bound {
+                return None;
+            }
+            if values[0] < values[1] {
+                to = inner[1];
+                inner = [to - GOLDEN * (to - from), inner[0]];
+                values = [self.sine_on(path, inner[0]), values[0]];
+            } else {
+                from = inner[0];
+                inner = [inner[1], from + GOLDEN * (to - from)];
+                values = [values[1], self.sine_on(path, inner[1])];
+            }
+        }
+        let least = values[0].min(values[1]);
+        let t = if values[0] < values[1] { inner[0] } else { inner[1] };
+        let mut aside = 1e-3 * width;
+        let mut sides = |aside: f64| [t - aside, t + aside].map(|t| self.sine_on(path, t));
+        let [before, after] = sides(aside);
+        aside = (ASIDE * bound * aside / before.max(after)).min(0.1 * width);
+        let [before, after] = sides(aside);
+        // The lines of a minimum that is round do not meet near zero.
+        match least < 0.5 * before.min(after) {
+            true => Some((t + aside * (before - after) / (before + after), least)),
+            false => Some((t, least)),
+        }
+    }
+
+    /// The rank at a position, and the joints whose rows depend on each other there.
+    pub fn dependence(&mut self, t: f64, q: &[f64], tolerance: f64) -> (Option<usize>, Vec<String>) {
+        if self.unknowns() > NAMED {
+            return (None, Vec::new());
+        }
+        self.evaluate(t, q);
+        let found = dependent_rows(&self.dynamics.structure.g, &self.dynamics.terms.g, tolerance.max(DEPENDENT));
+        let new = found.rows.iter().filter(|row| !self.dynamics.held.contains(&row.row));
+        let rows: Vec<usize> =
+            new.flat_map(|row| row.combination.iter().map(|(other, _)| *other).chain([row.row])).collect();
+        let groups = self.dynamics.system.groups();
+        let named = groups.iter().filter(|group| rows.iter().any(|row| group.rows.contains(row)));
+        (Some(found.rank), named.map(|group| group.name.clone()).collect())
+    }
+
+    /// Drift of a state relative to the scene's scale, and to the size of the velocity.
+    pub fn drift(&mut self, t: f64, q: &[f64], state: &Sample) -> [f64; 2] {
+        self.evaluate(t, q);
+        let scale = self.dynamics.system.scales().into_iter().fold(f64::INFINITY, f64::min);
+        let speed = largest(&state.v).max(f64::MIN_POSITIVE);
+        [largest(&state.phi) / scale, largest(&state.phi_dot) / (scale * speed)]
+    }
+
+    /// The square root of v^T M v with the masses of the last position.
+    pub fn size(&self, v: &[f64]) -> f64 {
+        let mut momentum = vec![0.0; v.len()];
+        let mass = &self.dynamics.structure.mass;
+        mass.multiply_symmetric(&self.dynamics.terms.mass, v, &mut momentum);
+        v.iter().zip(&momentum).map(|(v, p)| v * p).sum::<f64>().max(0.0).sqrt()
+    }
+
+    /// Takes the masses of a position.
+    pub fn weigh(&mut self, t: f64, q: &[f64]) {
+        self.dynamics.evaluate(t, q, &self.rest, Need::MASS);
+    }
+
+    pub fn keep_nearest(&mut self, t: f64, q: &[f64]) {
+        self.nearest.0 = t;
+        self.nearest.1.clear();
+        self.nearest.1.extend_from_slice(q);
+    }
+
+    pub fn condition_at_nearest(&mut self) -> Option<f64> {
+        if self.unknowns() > SMALL {
+            return None;
+        }
+        let (t, q) = std::mem::take(&mut self.nearest);
+        self.evaluate(t, &q);
+        let (structure, terms) = (&self.dynamics.structure, &self.dynamics.terms);
+        Some(condition_number(&structure.mass, &terms.mass, &structure.g, &terms.g)).filter(|c| c.is_finite())
+    }
+}
