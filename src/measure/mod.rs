@@ -8,4 +8,4 @@ mod singularity;
 pub use drift::{Drift, DriftLevel};
 pub use energy::{EnergyBalance, EnergyMeter, Ledger};
 pub use recorder::{Record, Recorder};
-pub use singularity::{Branch, Nearest, Passing, Singularity};
+pub use singularity::{Branch, Nearest, Passing, Singularity, dependent_beside};

@@ -4,11 +4,12 @@ use super::Table;
 use super::summary::{AssemblySummary, significant};
 use crate::formulation::Dynamics;
 use crate::initial::Assembly;
-use crate::math::kkt::{Dependence, condition_number, dependent_rows};
+use crate::math::kkt::{Dependence, Pattern, condition_number, dependent_rows};
+use crate::measure::dependent_beside;
 use crate::scene::Model;
 use crate::simulate::{Mode, Spectrum};
 use crate::study::{AnyMechanism, Study};
-use crate::system::{Group, Loaded, MechanicalSystem, Need, Terms};
+use crate::system::{Group, Loaded, MechanicalSystem, Need, Structure, Terms};
 use serde::Serialize;
 
 /// What is modelled, and how well posed it is at the start.
@@ -20,13 +21,16 @@ pub struct Check {
     pub velocities: usize,
     pub constraints: usize,
     pub rank: usize,
+    /// Rank of G at a state beside the start: higher where the start is a singular state.
+    pub rank_beside: usize,
     pub degrees_of_freedom: usize,
     /// Rows that follow from others, by joint.
     pub redundant: Vec<Redundant>,
     pub assembly: AssemblySummary,
-    /// Condition number of the equilibrated saddle-point matrix.
+    /// Condition number of the equilibrated saddle-point matrix without the redundant rows.
     pub condition: f64,
-    /// How near G is to losing rank: smallest pivot against its size before elimination, 1 is far.
+    /// How near G is to losing rank: the smallest sine between one of its rows and those before it, in the metric of M^-1,
+    /// redundant rows left aside; 1 is far, 0 a singular state.
     pub distance_to_singularity: f64,
     /// Largest and smallest entry on the diagonal of M, kg or kg m^2.
     pub mass_range: [f64; 2],
@@ -75,12 +79,18 @@ fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
     let (q, v) = study.start();
     let mut dynamics = Dynamics::new(system);
     dynamics.evaluate(study.start_time(), q, v, Need::DYNAMICS);
-    // Assembly has solved at this state, so it can be factored; the ratio is one where it could not.
+    let rows = dynamics.dependent_rows(study.start_time(), q, v);
+    dynamics.hold(&rows);
+    // Assembly has solved at this state, so it can be factored; the distance is zero where it could not.
     let distance = dynamics.factor().map_or(0.0, |()| dynamics.kkt.smallest_sine());
     let (terms, structure) = (&dynamics.terms, &dynamics.structure);
     let n = system.dimensions();
+    let beside = match rows.is_empty() {
+        true => n.lambda,
+        false => n.lambda - dependent_beside(system, study.start_time(), q).len(),
+    };
     // The search for what depends on what is dense: it runs only where something does.
-    let dependence = match dynamics.kkt.is_rank_deficient() {
+    let dependence = match !rows.is_empty() {
         true => dependent_rows(&structure.g, &terms.g, DEPENDENT),
         false => Dependence { rank: n.lambda, rows: Vec::new() },
     };
@@ -96,11 +106,12 @@ fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
         velocities: n.v,
         constraints: n.lambda,
         rank: dependence.rank,
+        rank_beside: beside,
         degrees_of_freedom: n.v - dependence.rank,
         redundant: redundant.collect(),
         assembly: (&study.assembly).into(),
-        condition: condition_number(&structure.mass, &terms.mass, &structure.g, &terms.g),
-        distance_to_singularity: if dependence.rank < n.lambda { 0.0 } else { distance },
+        condition: condition_without(&rows, structure, terms),
+        distance_to_singularity: distance,
         mass_range: mass_range(structure, terms),
         fastest_mode: fastest_mode(study),
         length_scale: length_scale(system),
@@ -113,6 +124,21 @@ fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
             .collect(),
         left_out: left_out(model),
     }
+}
+
+fn condition_without(rows: &[usize], structure: &Structure, terms: &Terms) -> f64 {
+    let place: Vec<Option<usize>> = (0..structure.g.rows)
+        .scan(0, |next, row| {
+            let place = (!rows.contains(&row)).then_some(*next);
+            *next += usize::from(place.is_some());
+            Some(place)
+        })
+        .collect();
+    let kept = structure.g.entries.iter().zip(&terms.g);
+    let kept = kept.filter_map(|(&(row, column), value)| Some(((place[row]?, column), *value)));
+    let (entries, values): (Vec<_>, Vec<_>) = kept.unzip();
+    let g = Pattern { rows: structure.g.rows - rows.len(), cols: structure.g.cols, entries };
+    condition_number(&structure.mass, &terms.mass, &g, &values)
 }
 
 fn owner(groups: &[Group], row: usize) -> String {
@@ -134,7 +160,7 @@ fn redundant(
     Redundant { joint, row, follows_from }
 }
 
-fn mass_range(structure: &crate::system::Structure, terms: &Terms) -> [f64; 2] {
+fn mass_range(structure: &Structure, terms: &Terms) -> [f64; 2] {
     let entries = structure.mass.entries.iter().zip(&terms.mass);
     let diagonal = entries.filter(|((i, j), _)| i == j).map(|(_, mass)| *mass);
     let range = diagonal.fold([f64::INFINITY, 0.0], |[low, high], mass| [mass.min(low), mass.max(high)]);
@@ -216,7 +242,14 @@ impl Check {
         if self.redundant.is_empty() {
             return String::new();
         }
-        let mut text = String::from("redundant constraints (consistent; multipliers of least norm are computed):\n");
+        let mut text = match self.rank_beside > self.rank {
+            true => format!(
+                "the start is a singular state: rank {} here, {} beside it; the branch of the motion is that of its velocity\n\
+                 constraints that depend on others here:\n",
+                self.rank, self.rank_beside
+            ),
+            false => String::from("redundant constraints (consistent; multipliers of least norm are computed):\n"),
+        };
         for row in &self.redundant {
             text +=
                 &format!("  joint `{}`, row {}: follows from {}\n", row.joint, row.row, row.follows_from.join(", "));

@@ -23,6 +23,11 @@ const BEND: f64 = 0.5;
 /// a motion.
 const TURNED: f64 = 0.01;
 
+/// The sine below which drift of the positions and velocities, relative to their scales, can turn a motion.
+pub fn reach([position, velocity]: [f64; 2]) -> f64 {
+    (position / TURNED).sqrt().max(velocity / TURNED)
+}
+
 /// The way to a singular state, and from it.
 #[derive(Default)]
 pub struct Turning {
@@ -41,9 +46,8 @@ struct Open {
 
 impl Turning {
     /// A singular or nearly singular state was passed at `t`. It is no wonder that a motion turns sharply where geometry
-    /// makes it: only at a singular state, or where drift can be the reason, it has left its branch.
-    pub fn begin(&mut self, passing: usize, t: f64, sine: f64, is_singular: bool, drift: [f64; 2]) {
-        let may_turn = is_singular || drift[0] > TURNED * sine * sine || drift[1] > TURNED * sine;
+    /// makes it: only at a singular state, or where drift reaches, it `may_turn` from its branch.
+    pub fn begin(&mut self, passing: usize, t: f64, sine: f64, may_turn: bool) {
         let aside = self.way.iter().rev().find(|sample| sample.t < t && sample.sine >= ASIDE * sine);
         let from = aside.or(self.way.first()).unwrap_or(&self.before).clone();
         self.open = Some(Open { passing, from, sine, may_turn });

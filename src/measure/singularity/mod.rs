@@ -1,5 +1,6 @@
 //! Singular states on the way: where G loses rank, so that the motion could go on along several branches.
 
+mod beside;
 mod branch;
 mod path;
 mod survey;
@@ -7,6 +8,7 @@ mod survey;
 use crate::formulation::Dynamics;
 use crate::simulate::Observation;
 use crate::system::MechanicalSystem;
+pub use beside::dependent_beside;
 use branch::Turning;
 use path::{Path, Sample};
 use serde::Serialize;
@@ -74,6 +76,8 @@ const SHALLOW: f64 = 0.4;
 /// Below this part the state is near to a singular one, below the second it is singular.
 const NEAR: f64 = 1e-2;
 const SINGULAR: f64 = 1e-3;
+/// Below this part drift may turn the motion.
+const FAR: f64 = 0.2;
 const MOST_PASSED: usize = 1000;
 
 /// Follows a motion.
@@ -118,15 +122,26 @@ impl<'a> Watch<'a> {
             && let Some(passed) = self.found.passed.get_mut(passing)
         {
             passed.branch = branch;
+            self.drop_if_far(passing);
         }
     }
 
     /// The result.
     pub fn finish(mut self) -> Singularity {
+        self.drop_if_far(self.found.passed.len().wrapping_sub(1));
         if let Some(nearest) = &mut self.found.nearest {
             nearest.condition = self.survey.condition_at_nearest();
         }
         self.found
+    }
+
+    /// Forgets a state that was looked at only because drift might have turned the motion there.
+    fn drop_if_far(&mut self, passing: usize) {
+        let passed = &mut self.found.passed;
+        if passed.get(passing).is_some_and(|p| p.branch != Branch::Left && p.sine > NEAR * self.largest) {
+            passed.remove(passing);
+            self.found.count -= 1;
+        }
     }
 
     fn note(&mut self, t: f64, sine: f64, q: &[f64]) {
@@ -144,27 +159,29 @@ impl<'a> Watch<'a> {
 
     fn look_at_dip(&mut self) {
         let path = Path::new(&self.last, &mut self.survey);
-        let near = NEAR * self.largest;
         let [a, b, c] = [0, 1, 2].map(|i: usize| self.last[i].sine);
         // Half-way states tell a steep dip from a round one without much work.
         let [ab, bc] = self.survey.between(&path);
         if ab.min(b).min(bc) > SHALLOW * self.largest && ab.min(bc) > 0.5 * b.min(a).min(c) {
             return;
         }
-        let Some((t, sine)) = self.survey.least_sine(&path, near) else { return };
+        let drift = self.survey.drift(&self.last[1]);
+        let near = NEAR * self.largest;
+        let turned = branch::reach(drift).min(FAR * self.largest);
+        let Some((t, sine)) = self.survey.least_sine(&path, near.max(turned)) else { return };
         let q = self.survey.position(&path, t);
         self.note(t, sine, &q);
-        if sine > near {
+        if sine > near.max(turned) {
             return;
         }
         let is_singular = sine < SINGULAR * self.largest;
         let (rank, joints) = self.survey.dependence(t, &q, 10.0 * sine);
-        let drift = self.survey.drift(t, &q, &self.last[1]);
-        self.turning.begin(self.found.passed.len(), t, sine, is_singular, drift);
+        self.turning.begin(self.found.passed.len(), t, sine, is_singular || sine < turned);
+        let regular_rank = self.survey.regular_rank();
+        let passing = Passing { t, sine, is_singular, rank, regular_rank, joints, branch: Branch::Open };
         self.found.count += 1;
         if self.found.passed.len() < MOST_PASSED {
-            let regular_rank = self.survey.regular_rank();
-            self.found.passed.push(Passing { t, sine, is_singular, rank, regular_rank, joints, branch: Branch::Open });
+            self.found.passed.push(passing);
         }
     }
 }

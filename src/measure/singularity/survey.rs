@@ -152,8 +152,7 @@ impl<'a> Survey<'a> {
     }
 
     /// Drift of a state relative to the scene's scale, and to the size of the velocity.
-    pub fn drift(&mut self, t: f64, q: &[f64], state: &Sample) -> [f64; 2] {
-        self.evaluate(t, q);
+    pub fn drift(&self, state: &Sample) -> [f64; 2] {
         let scale = self.dynamics.system.scales().into_iter().fold(f64::INFINITY, f64::min);
         let speed = largest(&state.v).max(f64::MIN_POSITIVE);
         [largest(&state.phi) / scale, largest(&state.phi_dot) / (scale * speed)]
