@@ -46,7 +46,7 @@ pub struct Passing {
     /// Rank of G there (`None` for large systems), and beside it.
     pub rank: Option<usize>,
     pub regular_rank: usize,
-    /// Joints with rows that depend on each other there; empty for large systems.
+    /// Joints with rows that depend, or nearly depend, on each other there; empty for large systems.
     pub joints: Vec<String>,
     pub branch: Branch,
 }
@@ -175,9 +175,10 @@ impl<'a> Watch<'a> {
             return;
         }
         let is_singular = sine < SINGULAR * self.largest;
-        let (rank, joints) = self.survey.dependence(t, &q, 10.0 * sine);
+        let (lost, joints) = self.survey.dependence(t, &q, 10.0 * sine);
         self.turning.begin(self.found.passed.len(), t, sine, is_singular || sine < turned);
         let regular_rank = self.survey.regular_rank();
+        let rank = if is_singular { lost } else { Some(regular_rank) };
         let passing = Passing { t, sine, is_singular, rank, regular_rank, joints, branch: Branch::Open };
         self.found.count += 1;
         if self.found.passed.len() < MOST_PASSED {

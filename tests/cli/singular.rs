@@ -1,0 +1,58 @@
+//! Singular states, as a user meets them.
+
+use super::{Place, err, out};
+use serde_json::Value;
+
+const CASES: [(&str, &str); 2] = [
+    ("slider_crank_singular", include_str!("../../models/slider_crank_singular.json")),
+    ("slider_crank_singular_2", include_str!("../../models/slider_crank_singular_2.json")),
+];
+
+#[test]
+fn passages_are_named_with_their_times() {
+    let place = Place::new(CASES[0].1);
+    let text = place.done(&["simulate", "scene.json", "--figures", "none", "-o", "out"]);
+    assert!(text.contains("passed singular states at t = 0.759534549, 2.278603647, "), "{text}");
+    assert!(text.contains("(7 in all)") && text.contains("rank 4 there, 5 beside"), "{text}");
+    let found = &place.json("out/summary.json")["singularity"];
+    assert_eq!(found["count"], 7);
+    assert_eq!(found["passed"][0]["branch"], "kept");
+    assert!((found["passed"][0]["t"].as_f64().unwrap() - 0.75953454904947025).abs() < 1e-8);
+    assert_eq!(found["passed"][0]["joints"], serde_json::json!(["bearing", "crank_pin", "slider"]));
+}
+
+/// The failures of the plain equations are seen, said and kept, and no number in a file is none.
+#[test]
+fn a_motion_that_leaves_its_branch_is_told() {
+    let baumgarte = "baumgarte:alpha=6,beta=8.366600265340756,rank_tolerance=1e-10";
+    let plain = ["--projection", "none", "--step", "0.001"];
+    for (case, formulation, code) in [(0, "index1", 0), (1, "index1", 1), (1, baumgarte, 1)] {
+        let place = Place::new(CASES[case].1);
+        let shared = ["simulate", "scene.json", "--figures", "none", "-o", "out", "--formulation", formulation];
+        let output = place.run(&[&shared[..], &plain].concat());
+        assert_eq!(output.status.code(), Some(code), "{formulation}: {}", err(&output));
+        assert!(err(&output).contains("the velocity jumped"), "{}", err(&output));
+        assert!(err(&output).contains("come apart"), "{}", err(&output));
+        let summary = place.json("out/summary.json");
+        assert_eq!(summary["status"], if code == 0 { "completed" } else { "failed" });
+        for file in ["trajectory.csv", "drift.csv", "energy.csv"] {
+            let text = place.text(&format!("out/{file}"));
+            let numbers = text.lines().skip(1).flat_map(|line| line.split(','));
+            numbers.for_each(|cell| assert!(cell.parse::<f64>().is_ok_and(f64::is_finite), "{file}: {cell}"));
+        }
+    }
+}
+
+#[test]
+fn check_tells_a_singular_start() {
+    let place = Place::new(CASES[0].1);
+    let folded = ["check", "scene.json", "--set", "phi0=1.5707963267948966", "--set", "w0=1"];
+    let text = place.done(&folded);
+    assert!(text.contains("the start is a singular state: rank 4 here, 5 beside it"), "{text}");
+    assert!(text.contains("joint `slider`, row y: follows from bearing, crank_pin"), "{text}");
+    let json: Value = serde_json::from_str(&out(&place.run(&[&folded[..], &["--json"]].concat()))).unwrap();
+    assert_eq!((&json["rank"], &json["rank_beside"]), (&4.into(), &5.into()));
+    let redundant = Place::new(super::parallelogram());
+    let text = redundant.done(&["check", "scene.json"]);
+    assert!(text.contains("redundant constraints") && !text.contains("singular state:"), "{text}");
+}
