@@ -4,7 +4,7 @@ use super::Table;
 use crate::error::Failure;
 use crate::formulation::Statistics;
 use crate::initial::{Assembly, Level, Move};
-use crate::measure::{Drift, EnergyBalance, Record, Singularity};
+use crate::measure::{Drift, EnergyBalance, Passing, Record, Singularity};
 use crate::simulate::{Method, Outcome};
 use crate::study::Study;
 use serde::Serialize;
@@ -214,14 +214,16 @@ fn singular_text(found: &Singularity) -> String {
         let more = if times.len() > NAMED { format!(" ... ({} in all)", times.len()) } else { String::new() };
         text += &format!("  {what} at t = {}{more} s\n", times[..times.len().min(NAMED)].join(", "));
     }
-    let lost =
-        found.passed.iter().find_map(|passing| Some((passing, passing.rank.filter(|r| *r < passing.regular_rank)?)));
-    if let Some((first, rank)) = lost {
-        let joints = match &first.joints[..] {
+    let named = found.passed.iter().find(|passing| !passing.joints.is_empty());
+    if let Some(Passing { rank: Some(rank), regular_rank, joints, .. }) = named {
+        let joints = match &joints[..] {
             few if few.len() <= NAMED => few.join(", "),
             many => format!("{} and {} more", many[..NAMED].join(", "), many.len() - NAMED),
         };
-        text += &format!("  rank {rank} there, {} beside: dependent rows of {joints}\n", first.regular_rank);
+        text += &match rank < regular_rank {
+            true => format!("  rank {rank} there, {regular_rank} beside: dependent rows of {joints}\n"),
+            false => format!("  nearly dependent rows of {joints}\n"),
+        };
     }
     text + "\n"
 }
