@@ -32,6 +32,10 @@ enum Command {
     /// The same scene under every stabilization: drift against time, one table, one figure
     Drift(drift::Args),
     /// Position curves: the scene assembled at many values of a parameter, such as camber over wheel travel
+    ///
+    /// From the scene's own value of the parameter outwards, each state from its neighbour, at the scene's start time.
+    /// Where the mechanism cannot be moved on, the end of its travel is found. Multipliers and reactions are those of the
+    /// equations of motion at that state, with the accelerations there.
     Sweep(sweep::Args),
     /// The mechanism itself: at one time, at several in one figure, or in motion
     Plot(plot::Args),

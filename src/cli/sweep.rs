@@ -7,9 +7,6 @@ use crate::sweep::{Family, Range, Sweep};
 use crate::system::Column;
 use std::process::ExitCode;
 
-/// The scene assembled at its start time for each of N values of a parameter, from the scene's own value outwards.
-///
-/// Multipliers and reactions are those of the equations of motion at that state, accelerations included.
 #[derive(clap::Args)]
 pub struct Args {
     #[command(flatten)]

@@ -46,7 +46,8 @@ pub fn follow(
         let size = d.iter().zip(metric.weigh(&d)).map(|(a, b)| a * b).sum::<f64>().max(0.0).sqrt();
         let largest = q.iter().fold(1.0f64, |largest, q| largest.max(q.abs()));
         let is_still = d.iter().all(|d| d.abs() <= ROUND_OFF * largest);
-        if !is_still && !(size <= CONTRACTION * last) {
+        let contracts = size <= CONTRACTION * last;
+        if !is_still && !contracts {
             return Ok(None);
         }
         system.rate(&q, &d, &mut rate);

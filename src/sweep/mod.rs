@@ -40,6 +40,8 @@
 mod branch;
 mod family;
 mod range;
+#[cfg(test)]
+mod tests;
 
 pub use family::Family;
 pub use range::Range;

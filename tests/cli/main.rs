@@ -8,6 +8,7 @@ mod methods;
 mod plot;
 mod schema;
 mod simulate;
+mod sweep;
 
 use serde_json::Value;
 use std::fs;
