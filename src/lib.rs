@@ -41,6 +41,7 @@
 //! | [`initial`] | consistent q, v, then v' and lambda | |
 //! | [`integrator`] | one file a method | a file and a line |
 //! | [`simulate`], [`trajectory`], [`study`] | the only time loop; its rows; a scene made ready | |
+//! | [`sweep`] | a scene assembled at many values of a parameter | |
 //! | [`measure`] | drift, energy balance | |
 //! | [`plot`], [`report`], [`cli`] | figures, files and text, the command line | one file a subcommand |
 //!
@@ -90,6 +91,7 @@ pub mod report;
 pub mod scene;
 pub mod simulate;
 pub mod study;
+pub mod sweep;
 pub mod system;
 pub mod trajectory;
 

@@ -18,6 +18,13 @@ pub enum AnyMechanism {
 }
 
 impl AnyMechanism {
+    pub fn new(model: AnyModel) -> Self {
+        match model {
+            AnyModel::Planar(model) => AnyMechanism::Planar(Mechanism::new(model)),
+            AnyModel::Spatial(model) => AnyMechanism::Spatial(Mechanism::new(model)),
+        }
+    }
+
     pub fn system(&self) -> &dyn MechanicalSystem {
         match self {
             AnyMechanism::Planar(mechanism) => mechanism,
@@ -73,12 +80,9 @@ impl Study {
         let settings = Settings { parameters: &scene.parameters, scene: &scene.simulation, overrides };
         let is_automatic = settings.is_automatic().map_err(|error| settings.place(error))?;
         let method = settings.method(is_automatic).map_err(|error| settings.place(error))?;
-        let start = settings.number("t_start", &scene.simulation.t_start)?.unwrap_or(0.0);
+        let start = scene.start_time()?;
         let span = settings.span(start).map_err(|error| settings.place(error))?;
-        let mechanism = match scene.model {
-            AnyModel::Planar(model) => AnyMechanism::Planar(Mechanism::new(model)),
-            AnyModel::Spatial(model) => AnyMechanism::Spatial(Mechanism::new(model)),
-        };
+        let mechanism = AnyMechanism::new(scene.model);
         check_options(&method, mechanism.system()).map_err(|error| settings.place(error))?;
         let assembly = initial::assemble(mechanism.system(), start, (&scene.q, &scene.v), &scene.hold)?;
         // Where no end is said, a method is chosen for a second of motion.

@@ -14,7 +14,7 @@ const LAYERS: &[&[&str]] = &[
     &["system"],
     &["formulation", "projection", "initial"],
     &["integrator"],
-    &["simulate", "trajectory", "study"],
+    &["simulate", "trajectory", "study", "sweep"],
     &["linearize", "validate", "measure"],
     &["plot"],
     &["report"],

@@ -14,6 +14,6 @@ pub struct Args {
 pub fn run(args: Args) -> Result<ExitCode> {
     let study = args.common.load()?;
     let check = report::check(&study);
-    args.common.print(&check, || check.text())?;
+    args.common.talk.print(&check, || check.text())?;
     Ok(ExitCode::SUCCESS)
 }

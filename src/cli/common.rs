@@ -15,8 +15,28 @@ use std::path::{Path, PathBuf};
 /// The scene and how to solve it.
 #[derive(Args)]
 pub struct Common {
+    #[command(flatten)]
+    pub scene: SceneOptions,
+    #[command(flatten)]
+    pub method: MethodOptions,
+    #[command(flatten)]
+    pub talk: Talk,
+}
+
+/// Which scene.
+#[derive(Args)]
+pub struct SceneOptions {
     /// Scene file (JSON)
-    pub scene: PathBuf,
+    #[arg(value_name = "SCENE")]
+    pub path: PathBuf,
+    /// Replace a parameter of the scene
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub set: Vec<(String, f64)>,
+}
+
+/// How to solve it.
+#[derive(Args)]
+pub struct MethodOptions {
     /// auto: formulation, integrator and projection by the stiffness of the start
     #[arg(long, value_name = "auto", value_parser = automatic,
           conflicts_with_all = ["formulation", "integrator", "projection", "step"])]
@@ -45,9 +65,11 @@ pub struct Common {
     /// Distance of the rows of the trajectory, s
     #[arg(long, value_name = "DT", value_parser = positive, allow_negative_numbers = true)]
     pub output_step: Option<f64>,
-    /// Replace a parameter of the scene
-    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
-    pub set: Vec<(String, f64)>,
+}
+
+/// What is printed.
+#[derive(Args)]
+pub struct Talk {
     /// Print the result as JSON on standard output, and nothing else there
     #[arg(long)]
     pub json: bool,
@@ -103,28 +125,22 @@ fn assignment(text: &str) -> Result<(String, f64), String> {
 
 impl Common {
     pub fn load(&self) -> Result<Study> {
-        Study::load(
-            &self.scene,
-            &Overrides {
-                set: self.set.clone(),
-                method: self.method,
-                formulation: self.formulation.clone(),
-                integrator: self.integrator.clone(),
-                projection: self.projection.clone(),
-                rtol: self.rtol,
-                atol: self.atol,
-                step: self.step,
-                until: self.until,
-                output_step: self.output_step,
-            },
-        )
+        let MethodOptions { method, rtol, atol, step, until, output_step, .. } = self.method;
+        let MethodOptions { formulation, integrator, projection, .. } = &self.method;
+        let [formulation, integrator, projection] = [formulation, integrator, projection].map(Clone::clone);
+        let set = self.scene.set.clone();
+        let overrides =
+            Overrides { set, method, formulation, integrator, projection, rtol, atol, step, until, output_step };
+        Study::load(&self.scene.path, &overrides)
     }
 
     /// When to simulate.
     pub fn span(&self, study: &Study) -> Result<Span> {
-        study.span().map_err(|error| error.in_file(&self.scene))
+        study.span().map_err(|error| error.in_file(&self.scene.path))
     }
+}
 
+impl Talk {
     /// Prints the result: JSON where asked, else text unless quiet.
     pub fn print(&self, json: &impl serde::Serialize, text: impl FnOnce() -> String) -> Result<()> {
         match (self.json, self.quiet) {

@@ -44,7 +44,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     args.common.span(&study)?;
     check_choice(&study)?;
     let mut folder = args.output.folder(&study.name)?;
-    let bar = args.common.progress(stabilizations(1.0).len() as u64 + 1, "drift");
+    let bar = args.common.talk.progress(stabilizations(1.0).len() as u64 + 1, "drift");
     let plain = one(&study, &Choice::named("index1"), &Choice::named("none"))?;
     bar.inc(1);
     let step = study.method.step.unwrap_or(mean_step(&study, &plain)?);
@@ -61,8 +61,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
     folder.write_json("drift.json", &rows)?;
     folder.write("drift.csv", &table_file(&rows)?)?;
     args.output.figure(&mut folder, "drift", figure(&study.name, &rows))?;
-    args.common.print(&rows, || text(&study, &rows))?;
-    if !args.common.json && !args.common.quiet {
+    args.common.talk.print(&rows, || text(&study, &rows))?;
+    if !args.common.talk.json && !args.common.talk.quiet {
         print(&format!("\nwritten to {}\n", folder.listing()))?;
     }
     // One stabilization that fails is a result; all of them are a failed run.

@@ -9,6 +9,7 @@ mod plot;
 mod purpose;
 mod schema;
 mod simulate;
+mod sweep;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -30,6 +31,12 @@ enum Command {
     Simulate(simulate::Args),
     /// The same scene under every stabilization: drift against time, one table, one figure
     Drift(drift::Args),
+    /// Position curves: the scene assembled at many values of a parameter, such as camber over wheel travel
+    ///
+    /// From the scene's own value of the parameter outwards, each state from its neighbour, at the scene's start time.
+    /// Where the mechanism cannot be moved on, the end of its travel is found. Multipliers and reactions are those of the
+    /// equations of motion at that state, with the accelerations there.
+    Sweep(sweep::Args),
     /// The mechanism itself: at one time, at several in one figure, or in motion
     Plot(plot::Args),
     /// Print a scalable scene
@@ -46,6 +53,7 @@ pub fn run() -> ExitCode {
         Command::Check(args) => check::run(args),
         Command::Simulate(args) => simulate::run(args),
         Command::Drift(args) => drift::run(args),
+        Command::Sweep(args) => sweep::run(args),
         Command::Plot(args) => plot::run(args),
         Command::Generate(args) => generate::run(args),
         Command::Methods(args) => methods::run(args),

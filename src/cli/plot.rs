@@ -112,7 +112,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     };
     args.draw(&Motion::new(&study, &trajectory), &look, &mut folder, &mut drawn)?;
     drawn.files = folder.paths();
-    args.common.print(&drawn, || drawn.text(&folder))?;
+    args.common.talk.print(&drawn, || drawn.text(&folder))?;
     Ok(match drawn.failure {
         None => ExitCode::SUCCESS,
         Some(failure) => {
@@ -177,7 +177,7 @@ impl Args {
         // Evenly chosen times are times of rows.
         let gaps = f64::from(self.frames) - 1.0;
         let output_step = length / ((wanted / gaps).ceil() * gaps);
-        let bar = self.common.progress(1000, &study.name);
+        let bar = self.common.talk.progress(1000, &study.name);
         let fraction = |t: f64| (1000.0 * (t - span.start) / length) as u64;
         let mut recorder = Recorder::new(study.system()).with_progress(|t| bar.set_position(fraction(t)));
         let outcome =
@@ -251,7 +251,7 @@ impl Args {
         match format {
             Moving::Svg => folder.write("animation.svg", animation.to_svg().as_bytes())?,
             Moving::Gif => {
-                let bar = self.common.progress(film.frames as u64, "frames");
+                let bar = self.common.talk.progress(film.frames as u64, "frames");
                 let bytes = animation.to_gif(|done| bar.set_position(done as u64)).map_err(Error::input)?;
                 bar.finish_and_clear();
                 folder.write("animation.gif", &bytes)?;

@@ -24,7 +24,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let study = args.common.load()?;
     let span = args.common.span(&study)?;
     let mut folder = args.output.folder(&study.name)?;
-    let bar = args.common.progress(1000, &study.name);
+    let bar = args.common.talk.progress(1000, &study.name);
     let fraction = |t: f64| (1000.0 * (t - span.start) / (span.end - span.start)) as u64;
     let mut recorder = Recorder::new(study.system()).with_progress(|t| bar.set_position(fraction(t)));
     let clock = Instant::now();
@@ -34,11 +34,11 @@ pub fn run(args: Args) -> Result<ExitCode> {
     bar.finish_and_clear();
     let summary = summarize(&study, &study.method, &outcome, &record, seconds);
     write(&study, &record, &summary, &mut folder, &args.output)?;
-    args.common.print(&summary, || summary.text(&units(&record)))?;
-    if !args.common.json && !args.common.quiet {
+    args.common.talk.print(&summary, || summary.text(&units(&record)))?;
+    if !args.common.talk.json && !args.common.talk.quiet {
         print(&format!("\nwritten to {}\n", folder.listing()))?;
     }
-    if !args.common.quiet {
+    if !args.common.talk.quiet {
         warn(&summary);
     }
     Ok(match &summary.failure {

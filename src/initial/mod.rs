@@ -1,10 +1,12 @@
 //! Consistent initial values: q, then v, then v' and lambda.
 
+mod follow;
 mod holds;
 mod position;
 mod report;
 mod velocity;
 
+pub use follow::{Followed, follow};
 pub use report::{Assembly, Level, Move};
 
 use crate::error::{Error, Result, short};

@@ -5,7 +5,7 @@ use crate::error::{Error, Result, short};
 
 const MOST_ITERATIONS: usize = 200;
 /// A closed loop may keep this residual, in units of the scene's scale: round-off of chains of transformations.
-const CLOSED: f64 = 1e-10;
+pub(super) const CLOSED: f64 = 1e-10;
 /// A held coordinate may move by rounding.
 const HELD: f64 = 1e-9;
 
@@ -62,7 +62,7 @@ fn kept(metric: &Metric, moved: &[f64]) -> Result<()> {
         .hint("begin where the joints are closed, or hold fewer coordinates"))
 }
 
-fn step(metric: &mut Metric, moved: Option<&[f64]>) -> Result<Vec<f64>> {
+pub(super) fn step(metric: &mut Metric, moved: Option<&[f64]>) -> Result<Vec<f64>> {
     let n = metric.system.dimensions().v;
     let mut top = moved.map_or(vec![0.0; n], |moved| metric.weigh(moved).iter().map(|x| -x).collect());
     let bottom: Vec<f64> = metric.terms.phi.iter().map(|phi| -phi).collect();

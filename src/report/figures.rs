@@ -40,11 +40,11 @@ pub fn outputs_figure(title: &str, record: &Record) -> Option<Figure> {
 }
 
 /// More curves than this tell nothing.
-const MOST_COORDINATES: usize = 12;
+pub(super) const MOST_COORDINATES: usize = 12;
 
-fn quantity(unit: &str) -> &'static str {
+pub(super) fn quantity(unit: &str) -> &'static str {
     match unit {
-        "rad" => "angle",
+        "rad" | "deg" => "angle",
         "rad/s" => "angular velocity",
         "m" => "position",
         "m/s" => "velocity",

@@ -6,6 +6,8 @@ mod figures;
 mod files;
 pub mod mechanism;
 mod summary;
+mod sweep;
+mod sweep_figure;
 mod table;
 mod tables;
 
@@ -14,5 +16,7 @@ pub use envelope::envelope;
 pub use figures::{drift_figure, energy_figure, outputs_figure};
 pub use files::{Folder, write_whole};
 pub use summary::{Summary, significant, summarize};
+pub use sweep::SweepSummary;
+pub use sweep_figure::{SweepLook, sweep_figure};
 pub use table::Table;
-pub use tables::{cell, drift_table, energy_table, table, trajectory_table};
+pub use tables::{cell, drift_table, energy_table, sweep_table, table, trajectory_table};

@@ -2,11 +2,26 @@
 
 use crate::error::{Error, Result};
 use crate::measure::Record;
+use crate::sweep::Sweep;
+use crate::system::Names;
 use crate::trajectory::Trajectory;
 
 /// `t`, coordinates, velocities, multipliers, outputs: one row an output time, at full precision.
 pub fn trajectory_table(trajectory: &Trajectory) -> Result<Vec<u8>> {
     write(trajectory.headings(), trajectory.rows.iter().map(Vec::as_slice))
+}
+
+/// The parameter by its name, coordinates, multipliers, outputs: one row a value that was reached.
+pub fn sweep_table(sweep: &Sweep) -> Result<Vec<u8>> {
+    let Names { q, lambda, .. } = &sweep.names;
+    let outputs = sweep.outputs.iter().map(|output| output.name.as_str());
+    let own = [sweep.range.parameter.as_str()].into_iter().chain(q.iter().chain(lambda).map(String::as_str));
+    let rows: Vec<Vec<f64>> = sweep
+        .points
+        .iter()
+        .map(|point| [&[point.value], &point.q[..], &point.lambda, &point.outputs].concat())
+        .collect();
+    write(own.chain(outputs).collect(), rows.iter().map(Vec::as_slice))
 }
 
 /// `t` and the largest |phi|, |phi'| and |phi''| at the output times.

@@ -70,6 +70,16 @@ impl Scene {
         let file = crate::body::parse::<SceneFile>(json.clone());
         file.and_then(|file| builder::build(file, overrides)).map_err(|error| name_element(error, &json))
     }
+
+    /// When the motion starts, s.
+    ///
+    /// # Errors
+    /// Where "t_start" is no number.
+    pub fn start_time(&self) -> Result<f64> {
+        let Some(number) = &self.simulation.t_start else { return Ok(0.0) };
+        let start = number.evaluate(&self.parameters);
+        start.map_err(|error| Error::from(error).under("t_start").under("simulation"))
+    }
 }
 
 /// Adds the name of the element in which the path lies, unless it is known.

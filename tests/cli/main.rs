@@ -9,6 +9,7 @@ mod plot;
 mod schema;
 mod simulate;
 mod singular;
+mod sweep;
 
 use serde_json::Value;
 use std::fs;

@@ -3,7 +3,7 @@
 /// `digits * 10^power` as people write it, with a true minus sign and `places` digits after the point.
 pub(super) fn plain(digits: i64, power: i32, places: usize) -> String {
     let mut text = digits.unsigned_abs().to_string();
-    if power >= 0 {
+    if power >= 0 && digits != 0 {
         text.push_str(&"0".repeat(power as usize));
     }
     let mut fraction = if power < 0 { power.unsigned_abs() as usize } else { 0 };
@@ -60,6 +60,7 @@ mod tests {
         assert_eq!(plain(1000, -2, 0), "10");
         assert_eq!(plain(0, -3, 1), "0.0");
         assert_eq!(plain(7, 2, 0), "700");
+        assert_eq!(plain(0, 3, 0), "0");
         assert_eq!(places(1500, -3), 1);
         assert_eq!(power_of_ten(-12), "10⁻¹²");
         assert_eq!(value(3, -1), 0.3);

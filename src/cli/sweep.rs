@@ -1,0 +1,68 @@
+//! `holonom sweep SCENE NAME=A..B:N`
+
+use super::common::{Output, SceneOptions, Talk, print};
+use crate::error::{Error, Result, suggest};
+use crate::report::{SweepLook, SweepSummary, sweep_figure, sweep_table};
+use crate::sweep::{Family, Range, Sweep};
+use crate::system::Column;
+use std::process::ExitCode;
+
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    scene: SceneOptions,
+    /// The parameter and its values, such as travel=-0.08..0.08:81 (without :N, 81 values)
+    #[arg(value_name = "NAME=A..B[:N]", value_parser = range)]
+    range: Range,
+    /// Outputs in the figure (default: all)
+    #[arg(long, value_name = "NAME[,NAME...]", value_delimiter = ',')]
+    outputs: Vec<String>,
+    /// Output along the horizontal axis of the figure, in the place of the parameter
+    #[arg(long, value_name = "NAME")]
+    against: Option<String>,
+    /// One panel an output (default: a unit)
+    #[arg(long)]
+    separate: bool,
+    #[command(flatten)]
+    output: Output,
+    #[command(flatten)]
+    talk: Talk,
+}
+
+fn range(text: &str) -> Result<Range, String> {
+    text.parse().map_err(|error: Error| error.to_string())
+}
+
+pub fn run(args: Args) -> Result<ExitCode> {
+    let family = Family::load(&args.scene.path, &args.scene.set)?;
+    let known = family.outputs()?;
+    known_output(&known, &args.outputs).map_err(|error| error.under("--outputs"))?;
+    known_output(&known, args.against.as_slice()).map_err(|error| error.under("--against"))?;
+    let bar = args.talk.progress(args.range.count as u64, &args.range.parameter);
+    let sweep = family.sweep(&args.range, |done| bar.set_position(done as u64))?;
+    bar.finish_and_clear();
+    let summary = SweepSummary::new(&sweep);
+    write(&args, &sweep, &summary)?;
+    let Some(failure) = &summary.failure else { return Ok(ExitCode::SUCCESS) };
+    let ends = summary.ends().join("\n       ");
+    eprintln!("error: the branch ends {ends}\n  help: {}", failure.hint);
+    Ok(ExitCode::from(1))
+}
+
+fn known_output(known: &[Column], names: &[String]) -> Result<()> {
+    let names_of = || known.iter().map(|column| column.name.as_str());
+    match names.iter().find(|name| names_of().all(|known| known != *name)) {
+        Some(name) => Err(Error::input(format!("there is no output `{name}`")).hint(suggest(name, names_of()))),
+        None => Ok(()),
+    }
+}
+
+fn write(args: &Args, sweep: &Sweep, summary: &SweepSummary) -> Result<()> {
+    let mut folder = args.output.folder(&sweep.scene)?;
+    folder.write("sweep.csv", &sweep_table(sweep)?)?;
+    folder.write_json("sweep.json", summary)?;
+    let look = SweepLook { outputs: &args.outputs, against: args.against.as_deref(), separate: args.separate };
+    args.output.figure(&mut folder, "sweep", sweep_figure(sweep, look))?;
+    args.talk.print(summary, || summary.text())?;
+    if args.talk.json || args.talk.quiet { Ok(()) } else { print(&format!("\nwritten to {}\n", folder.listing())) }
+}

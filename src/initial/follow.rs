@@ -1,0 +1,72 @@
+//! From a state to one beside it, on the same branch.
+
+use super::position::{CLOSED, step};
+use super::{Metric, holds};
+use crate::error::Result;
+use crate::system::MechanicalSystem;
+
+/// Positions on the constraints.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Followed {
+    pub q: Vec<f64>,
+    /// How near the constraints and what is held are to losing rank: 0 at a singular state.
+    pub smallest_sine: f64,
+    /// Constraints that depend on the others.
+    pub dependent: Vec<usize>,
+}
+
+const MOST_ITERATIONS: usize = 20;
+/// Steps of Newton's method at least so much shorter than those before. Where that holds from the start, there is one
+/// solution around the guess, and it is the continuation of the state from which the guess was taken; other solutions
+/// are attracted to less steeply (P. Deuflhard, Newton Methods for Nonlinear Problems, 2011, section 5.1).
+const CONTRACTION: f64 = 0.25;
+/// Steps of this part of the coordinates are round-off, also near a singular state.
+const ROUND_OFF: f64 = 1e-11;
+
+/// Closes the joints from a guess near by; `None` where Newton's method does not contract from its first step on, so that
+/// it may lead to another branch or nowhere. Rows named in `dependent` are left out and checked at the end.
+///
+/// # Errors
+/// Constraints that are infinite at the guess or on the way, names in `hold` that do not exist.
+pub fn follow(
+    system: &dyn MechanicalSystem,
+    t: f64,
+    guess: &[f64],
+    hold: &[String],
+    dependent: &[usize],
+) -> Result<Option<Followed>> {
+    let mut metric = Metric::new(system, holds::directions(system, hold)?);
+    metric.kkt.hold(dependent);
+    let (mut q, still) = (guess.to_vec(), vec![0.0; system.dimensions().v]);
+    system.normalize(&mut q);
+    let (mut rate, mut last) = (vec![0.0; q.len()], f64::INFINITY);
+    for _ in 0..MOST_ITERATIONS {
+        metric.at(t, &q, &still)?;
+        let d = step(&mut metric, None)?;
+        let size = d.iter().zip(metric.weigh(&d)).map(|(a, b)| a * b).sum::<f64>().max(0.0).sqrt();
+        let largest = q.iter().fold(1.0f64, |largest, q| largest.max(q.abs()));
+        let is_still = d.iter().all(|d| d.abs() <= ROUND_OFF * largest);
+        let contracts = size <= CONTRACTION * last;
+        if !is_still && !contracts {
+            return Ok(None);
+        }
+        system.rate(&q, &d, &mut rate);
+        q.iter_mut().zip(&rate).for_each(|(q, rate)| *q += rate);
+        system.normalize(&mut q);
+        if is_still {
+            return end(metric, t, q, &still);
+        }
+        last = size;
+    }
+    Ok(None)
+}
+
+/// What is known of a state, if all its joints are closed.
+fn end(mut metric: Metric, t: f64, q: Vec<f64>, still: &[f64]) -> Result<Option<Followed>> {
+    metric.at(t, &q, still)?;
+    if metric.worst(&metric.terms.phi) > CLOSED {
+        return Ok(None);
+    }
+    let dependent = metric.kkt.left_out().iter().copied().filter(|row| *row < metric.terms.phi.len()).collect();
+    Ok(Some(Followed { q, smallest_sine: metric.kkt.smallest_sine(), dependent }))
+}

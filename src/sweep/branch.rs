@@ -1,0 +1,240 @@
+//! A branch of assembled states, followed step by step.
+
+use super::{Family, Limit, Nearest, Point, Range};
+use crate::error::{Error, Result};
+use crate::initial::{self, Followed};
+use crate::scene::Scene;
+use crate::study::AnyMechanism;
+use crate::system::{Column, Names, Scratch};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// An assembled state with the scene that it is one of.
+#[derive(Clone)]
+pub struct State {
+    mechanism: Arc<AnyMechanism>,
+    /// The scene's own guess.
+    guess: Vec<f64>,
+    dependent: Vec<usize>,
+    pub point: Point,
+}
+
+/// A scene at a value of its parameter.
+struct Ready {
+    mechanism: AnyMechanism,
+    t: f64,
+    scene: (Vec<f64>, Vec<f64>, Vec<String>),
+}
+
+impl Ready {
+    fn at(family: &Family, parameter: &str, value: f64) -> Result<Ready> {
+        let scene = family.scene_at(parameter, value)?;
+        let t = scene.start_time()?;
+        let Scene { model, q, v, hold, .. } = scene;
+        Ok(Ready { mechanism: AnyMechanism::new(model), t, scene: (q, v, hold) })
+    }
+
+    /// Newton's method from a guess that is near to the state.
+    fn follow(&self, guess: &[f64], dependent: &[usize]) -> Result<Option<Followed>> {
+        initial::follow(self.mechanism.system(), self.t, guess, &self.scene.2, dependent)
+    }
+
+    /// Velocities, accelerations, multipliers and outputs beside the positions.
+    fn complete(self, value: f64, followed: Followed) -> Result<State> {
+        let (guess, v, hold) = self.scene;
+        let system = self.mechanism.system();
+        let assembly = initial::assemble(system, self.t, (&followed.q, &v), &hold)?;
+        let mut outputs = vec![0.0; system.columns().len()];
+        let mut scratch = Scratch::default();
+        system.outputs(self.t, &assembly.q, &assembly.v, &assembly.lambda, &mut outputs, &mut scratch);
+        let Followed { dependent, smallest_sine, .. } = followed;
+        let (q, v, lambda) = (assembly.q, assembly.v, assembly.lambda);
+        let point = Point { value, q, v, lambda, outputs, smallest_sine };
+        Ok(State { mechanism: Arc::new(self.mechanism), guess, dependent, point })
+    }
+}
+
+impl State {
+    /// From the scene's own guess.
+    pub fn assembled(family: &Family, parameter: &str, value: f64) -> Result<State> {
+        let ready = Ready::at(family, parameter, value)?;
+        let (q, v, hold) = &ready.scene;
+        let q = initial::assemble(ready.mechanism.system(), ready.t, (q, v), hold)?.q;
+        // A state on the constraints is followed to itself; a singular one need not be.
+        let followed = ready.follow(&q, &[])?.unwrap_or(Followed { q, smallest_sine: 0.0, dependent: Vec::new() });
+        ready.complete(value, followed)
+    }
+
+    pub fn columns(&self) -> (Names, Vec<Column>) {
+        (self.mechanism.system().names(), self.mechanism.system().columns())
+    }
+
+    pub fn nearest(&self) -> Nearest {
+        Nearest { value: self.point.value, smallest_sine: self.point.smallest_sine }
+    }
+
+    /// Joins angles that are known up to full turns to those of the state before.
+    fn join(&mut self, before: &State) {
+        let columns = self.mechanism.system().columns();
+        let pairs = self.point.outputs.iter_mut().zip(&before.point.outputs).zip(columns);
+        for ((output, before), _) in pairs.filter(|(_, column)| column.periodic) {
+            *output += ((before - *output) / TAU).round() * TAU;
+        }
+    }
+}
+
+/// Ends are found to this part of the range.
+const RESOLUTION: f64 = 1e-8;
+/// Steps towards one value. Halving to the resolution takes 27.
+const MOST_STEPS: usize = 1000;
+
+/// The way from a state outwards.
+pub struct Branch<'a> {
+    family: &'a Family,
+    parameter: &'a str,
+    resolution: f64,
+    last: State,
+    before: Option<State>,
+    nearest: Nearest,
+    /// Constraints that depend on the others at the start, and so everywhere.
+    redundant: usize,
+}
+
+impl<'a> Branch<'a> {
+    pub fn new(family: &'a Family, range: &'a Range, start: State) -> Self {
+        let (parameter, resolution) = (range.parameter.as_str(), RESOLUTION * range.length());
+        let (nearest, redundant) = (start.nearest(), start.dependent.len());
+        Branch { family, parameter, resolution, last: start, before: None, nearest, redundant }
+    }
+
+    pub fn last(&self) -> &Point {
+        &self.last.point
+    }
+
+    pub fn into_last(self) -> State {
+        self.last
+    }
+
+    pub fn nearest(&self) -> Nearest {
+        self.nearest
+    }
+
+    /// Goes on to a value in steps that are halved until the branch is kept; says where it ends, if it does before.
+    pub fn go(&mut self, target: f64) -> Option<Limit> {
+        let mut step = target - self.last.point.value;
+        let mut problem = None;
+        for _ in 0..MOST_STEPS {
+            let rest = target - self.last.point.value;
+            if rest == 0.0 {
+                return None;
+            }
+            let value = if step.abs() < rest.abs() { self.last.point.value + step } else { target };
+            step = value - self.last.point.value;
+            match self.reach(value) {
+                Ok(Some(state)) => {
+                    self.accept(state);
+                    step *= 2.0;
+                }
+                failed => {
+                    problem = failed.err();
+                    step *= 0.5;
+                }
+            }
+            if step.abs() < self.resolution {
+                break;
+            }
+        }
+        let is_near = (target - self.last.point.value).abs() < 4.0 * self.resolution;
+        match is_near.then(|| self.at_the_end(target)).flatten() {
+            Some(state) => {
+                self.accept(state);
+                None
+            }
+            None => Some(self.limit(target, problem, step.abs())),
+        }
+    }
+
+    fn accept(&mut self, mut state: State) {
+        state.join(&self.last);
+        // The sine is that of the others; where more of them depend, it is zero.
+        if state.dependent.len() > self.redundant {
+            state.point.smallest_sine = 0.0;
+        }
+        if state.point.smallest_sine < self.nearest.smallest_sine {
+            self.nearest = state.nearest();
+        }
+        self.before = Some(std::mem::replace(&mut self.last, state));
+    }
+
+    /// The state at a value, from the first of several guesses from which Newton's method contracts.
+    fn reach(&self, value: f64) -> Result<Option<State>> {
+        let ready = Ready::at(self.family, self.parameter, value)?;
+        let none: &[usize] = &[];
+        let dependent = &self.last.dependent[..];
+        let choices = if dependent.is_empty() { &[none][..] } else { &[none, dependent][..] };
+        for guess in self.guesses(value, &ready) {
+            for dependent in choices {
+                if let Some(followed) = ready.follow(&guess, dependent)? {
+                    return ready.complete(value, followed).map(Some);
+                }
+            }
+        }
+        Ok(None)
+    }
+
+    /// The state before moved as the scene's guess moves, which keeps to what is held; then, where nothing is held, that
+    /// state alone, for a guess may jump; then the line through the last two, which leads over singular states.
+    fn guesses(&self, value: f64, ready: &Ready) -> Vec<Vec<f64>> {
+        let (last, (guess, _, hold)) = (&self.last.point, &ready.scene);
+        let moved = last.q.iter().zip(guess).zip(&self.last.guess).map(|((q, to), from)| q + to - from);
+        let mut guesses: Vec<Vec<f64>> = vec![moved.collect()];
+        if hold.is_empty() {
+            guesses.push(last.q.clone());
+            guesses.extend(self.before.as_ref().map(|before| {
+                let factor = (value - last.value) / (last.value - before.point.value);
+                last.q.iter().zip(&before.point.q).map(|(last, before)| last + factor * (last - before)).collect()
+            }));
+        }
+        guesses
+    }
+
+    /// The state at the end itself, where that is the target: Newton's method does not contract there, but assembly finds
+    /// it all the same.
+    fn at_the_end(&self, target: f64) -> Option<State> {
+        /// At a distance d to the end the state is as far away as the root of d.
+        const BESIDE: f64 = 1e-2;
+        let ready = Ready::at(self.family, self.parameter, target).ok()?;
+        let (last, (_, v, hold)) = (&self.last.point.q, &ready.scene);
+        let q = initial::assemble(ready.mechanism.system(), ready.t, (last, v), hold).ok()?.q;
+        let size = last.iter().fold(1.0f64, |size, q| size.max(q.abs()));
+        let is_beside = q.iter().zip(last).all(|(q, last)| (q - last).abs() < BESIDE * size);
+        let followed = Followed { q, smallest_sine: 0.0, dependent: Vec::new() };
+        if is_beside { ready.complete(target, followed).ok() } else { None }
+    }
+
+    fn limit(&self, target: f64, problem: Option<Error>, within: f64) -> Limit {
+        let reason = problem.or_else(|| self.obstacle(target).err()).map(message);
+        let elsewhere = "the joints close only in another configuration, to which no motion leads from here";
+        Limit {
+            point: self.last.point.clone(),
+            within,
+            unreached: target,
+            reason: reason.unwrap_or_else(|| elsewhere.to_string()),
+        }
+    }
+
+    /// What assembly says beyond the end.
+    fn obstacle(&self, target: f64) -> Result<()> {
+        let ready = Ready::at(self.family, self.parameter, target)?;
+        let (_, v, hold) = &ready.scene;
+        initial::assemble(ready.mechanism.system(), ready.t, (&self.last.point.q, v), hold).map(|_| ())
+    }
+}
+
+/// What is the matter, without where in the file and what to do.
+fn message(error: Error) -> String {
+    match error {
+        Error::Input(input) => input.message,
+        other => other.to_string(),
+    }
+}

@@ -1,0 +1,118 @@
+//! Position sweeps: a scene assembled at its start time for many values of one parameter, along one branch.
+//!
+//! ```
+//! use holonom::sweep::{Family, Range};
+//!
+//! // A crank of length 1 on a rod of length 2, held at an angle; the piston slides along x.
+//! let family = Family::parse(r#"{
+//!     "name": "slider_crank", "dimension": 2, "parameters": { "angle": 0.5 },
+//!     "ground": { "markers": { "O": [0, 0] } },
+//!     "bodies": [
+//!         { "name": "pin", "type": "point_mass", "mass": 1, "initial": { "position": ["cos(angle)", "sin(angle)"] } },
+//!         { "name": "piston", "type": "point_mass", "mass": 1, "initial": { "position": [3, 0] } } ],
+//!     "joints": [
+//!         { "name": "crank", "type": "equation", "expression": "pin.x - cos(angle)" },
+//!         { "name": "crank2", "type": "equation", "expression": "pin.y - sin(angle)" },
+//!         { "name": "rod", "type": "distance", "between": ["pin", "piston"], "length": 2 },
+//!         { "name": "guide", "type": "equation", "expression": "piston.y" } ],
+//!     "outputs": [{ "name": "x", "measure": "position", "of": "piston", "component": "x" }]
+//! }"#, &[])?;
+//! let range: Range = "angle=0..3:31".parse()?;
+//! let sweep = family.sweep(&range, |_| ())?;
+//! assert!(sweep.limits.is_empty());
+//! for point in &sweep.points {
+//!     let (sin, cos) = point.value.sin_cos();
+//!     assert!((point.outputs[0] - (cos + (4.0 - sin * sin).sqrt())).abs() < 1e-9);
+//! }
+//! # Ok::<(), holonom::Error>(())
+//! ```
+//!
+//! The sweep begins at the scene's own value of the parameter, which is the design position, and goes outwards on both
+//! sides. Each assembly begins at the state before it, moved as far as the scene's own guess moves, and is accepted where
+//! Newton's method contracts from its first step on; else the step of the parameter is halved. So the branch is followed,
+//! and where it ends, the end is found to about a ten-millionth of the range.
+//!
+//! Positions hang on the parameter alone. Velocities are those that the scene gives, made consistent. Multipliers, and
+//! outputs that read them, are those of the equations of motion at that state, `M v' + G^T lambda = f`, with the
+//! accelerations that the forces there ask for. They are those of statics only where nothing is free to move and nothing
+//! moves.
+
+mod branch;
+mod family;
+mod range;
+#[cfg(test)]
+mod tests;
+
+pub use family::Family;
+pub use range::Range;
+
+use crate::system::{Column, Names};
+
+/// The states of a sweep.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    pub scene: String,
+    pub range: Range,
+    pub names: Names,
+    pub outputs: Vec<Column>,
+    /// The scene's own value of the parameter, and the state there where it is in the range.
+    pub own_value: f64,
+    pub own: Option<Point>,
+    /// One a value that was reached, in the order of the range.
+    pub points: Vec<Point>,
+    /// The ends of the branch that lie in the range.
+    pub limits: Vec<Limit>,
+    /// Of all states that were assembled, also between the values: the one nearest to a singular one.
+    pub nearest_singular: Nearest,
+}
+
+impl Sweep {
+    /// All states in the order of the range: the points, the scene's own and the ends of the branch.
+    pub fn curve(&self) -> Vec<&Point> {
+        let ends = self.limits.iter().map(|limit| &limit.point);
+        let mut curve: Vec<&Point> = self.points.iter().chain(&self.own).chain(ends).collect();
+        let place = |point: &Point| (point.value - self.range.from) / (self.range.to - self.range.from);
+        curve.sort_by(|a, b| place(a).total_cmp(&place(b)));
+        curve.dedup_by(|a, b| a.value == b.value);
+        curve
+    }
+
+    /// An output along [`curve`](Self::curve).
+    pub fn output(&self, name: &str) -> Option<Vec<f64>> {
+        let index = self.outputs.iter().position(|output| output.name == name)?;
+        Some(self.curve().iter().map(|point| point.outputs[index]).collect())
+    }
+}
+
+/// An assembled state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Of the parameter.
+    pub value: f64,
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    pub lambda: Vec<f64>,
+    pub outputs: Vec<f64>,
+    /// How near the constraints and what is held are to losing rank: 1 is far, 0 singular.
+    pub smallest_sine: f64,
+}
+
+/// An end of the branch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limit {
+    /// The last state.
+    pub point: Point,
+    /// No state was found so much further on.
+    pub within: f64,
+    /// The next value of the range, which is out of reach.
+    pub unreached: f64,
+    /// Why.
+    pub reason: String,
+}
+
+/// A state by its distance to a singular one.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Nearest {
+    pub value: f64,
+    pub smallest_sine: f64,
+}
