@@ -105,6 +105,9 @@ pub struct Dynamics<'a> {
     pub kkt: SaddlePoint,
     /// Constraints that depend on the others wherever phi = 0, and are left out.
     pub held: Vec<usize>,
+    /// How near G is to losing rank at the last solution, where that came from another solver than `kkt`: see
+    /// [`SaddlePoint::smallest_sine`].
+    pub sine: Option<f64>,
     /// v' of the last solution.
     pub vdot: Vec<f64>,
     /// lambda of the last solution.
@@ -123,6 +126,7 @@ impl<'a> Dynamics<'a> {
             terms: Terms::new(system),
             kkt: SaddlePoint::new(&structure.mass, &structure.g),
             held: Vec::new(),
+            sine: None,
             structure,
             vdot: vec![0.0; n.v],
             lambda: vec![0.0; n.lambda],
@@ -144,14 +148,28 @@ impl<'a> Dynamics<'a> {
         factored.map_err(|singular| self.halt(singular))
     }
 
+    /// The same, truncated near singular states: see [`SaddlePoint::factor_truncated`].
+    pub fn factor_truncated(&mut self) -> Result<(), Halt> {
+        self.statistics.factorizations += 1;
+        let factored = self.kkt.factor_truncated(&self.terms.mass, &self.terms.g);
+        factored.map_err(|singular| self.halt(singular))
+    }
+
     /// Rows of constraints that depend on the others at a state, which should be on the constraints; none where that
-    /// state has no solution.
-    pub fn dependent_rows(&mut self, t: f64, q: &[f64], v: &[f64]) -> Vec<usize> {
-        self.evaluate(t, q, v, Need::MASS | Need::CONSTRAINTS | Need::G);
-        match self.kkt.factor(&self.terms.mass, &self.terms.g) {
-            Ok(()) => self.kkt.left_out().to_vec(),
-            Err(_) => Vec::new(),
+    /// state has no solution. Then the norms of the part of gamma that no acceleration can meet, and of what makes it up.
+    pub fn dependent_rows(&mut self, t: f64, q: &[f64], v: &[f64]) -> (Vec<usize>, (f64, f64)) {
+        self.right_sides(t, q, v, |_, _| 0.0);
+        let solved = match self.kkt.factor(&self.terms.mass, &self.terms.g) {
+            Ok(()) => self.kkt.solve(&mut self.vdot, &mut self.lambda),
+            Err(singular) => Err(singular),
+        };
+        let rows = self.kkt.left_out().to_vec();
+        if solved.is_err() || rows.is_empty() {
+            return (rows, (0.0, 0.0));
         }
+        let products = self.structure.g.entries.iter().zip(&self.terms.g).map(|((_, i), g)| (g * self.vdot[*i]).abs());
+        let usual = products.chain(self.terms.gamma.iter().map(|gamma| gamma.abs())).fold(0.0, f64::max);
+        (rows, (self.kkt.inconsistency(), usual))
     }
 
     /// Leaves out these rows from now on: see [`SaddlePoint::hold`].
@@ -198,9 +216,7 @@ impl<'a> Dynamics<'a> {
         acceleration_level: impl Fn(f64, f64) -> f64,
     ) -> Result<(), Halt> {
         self.right_sides(t, q, v, acceleration_level);
-        self.statistics.factorizations += 1;
-        let factored = self.kkt.factor_truncated(&self.terms.mass, &self.terms.g);
-        factored.map_err(|singular| self.halt(singular))?;
+        self.factor_truncated()?;
         self.solve_factored()
     }
 

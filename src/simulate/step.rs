@@ -51,6 +51,11 @@ impl Run<'_> {
         Ok(error)
     }
 
+    /// Whether states at the ends of steps are on the constraints, by a projection or by what is integrated.
+    pub fn keeps_constraints(&self) -> bool {
+        self.projection.is_some() || self.problem.formulation.keeps_constraints()
+    }
+
     fn attempt(&mut self, h: &mut f64, last: &mut bool) -> Result<Option<f64>, Halt> {
         let from = From { t: self.t, y: &self.y, slope: &self.slope };
         self.problem.begin_step(self.t, &self.y)?;

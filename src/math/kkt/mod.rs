@@ -64,6 +64,11 @@ pub trait Solver {
 
     /// Whether rows of G were dependent at the last factorization.
     fn is_rank_deficient(&self) -> bool;
+
+    /// See [`SaddlePoint::smallest_sine`]; none where the solver does not say.
+    fn smallest_sine(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// Why a saddle-point system cannot be solved.

@@ -39,9 +39,14 @@ pub struct SaddlePoint {
     skipping: Option<Box<Skipping>>,
     dense: Option<Box<NullSpace>>,
     way: Way,
+    /// The smallest sine where nothing is singular, against which a truncated factorization judges; none before it is
+    /// known.
+    pub usual_sine: f64,
     /// Rows that stay left out, and whether there are any.
     held: Vec<bool>,
     is_holding: bool,
+    /// Whether rows are left out that are not surely dependent.
+    is_truncated: bool,
     /// The node whose pivot collapsed last, how often in a row, and the calls since the fast way was given up.
     failed: usize,
     failures: u32,
@@ -75,8 +80,10 @@ impl SaddlePoint {
             skipping: None,
             dense: None,
             way: Way::None,
+            usual_sine: 0.0,
             held: vec![false; m],
             is_holding: false,
+            is_truncated: false,
             failed: usize::MAX,
             failures: 0,
             waited: 0,
@@ -90,34 +97,49 @@ impl SaddlePoint {
     /// Factors the matrix with these values. A pivot collapses on the fast way when elimination leaves it less than 1e-11
     /// of its size; below 1e-7 solutions are refined once.
     pub fn factor(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
-        self.way = Way::None;
+        if self.goes_fast(mass, g)? { Ok(()) } else { self.finish_rank_revealing() }
+    }
+
+    /// Whether the fast way could be taken; the values are stored if not, or if solutions need a refinement.
+    fn goes_fast(&mut self, mass: &[f64], g: &[f64]) -> Result<bool, Singular> {
+        (self.way, self.is_truncated) = (Way::None, false);
         let System { mass: m, g: j, .. } = &self.system;
         if !self.is_shaped || mass.len() != m.entries.len() || g.len() != j.entries.len() {
             return Err(Singular::Shape);
         }
         if !self.is_holding && self.tries_fast() && self.factor_fast(mass, g) {
-            return Ok(());
+            return Ok(true);
         }
         if !mass.iter().chain(g).all(|v| v.is_finite()) {
             return Err(Singular::NotFinite);
         }
         self.system.store(mass, g);
-        self.way = self.factor_rank_revealing()?;
+        Ok(false)
+    }
+
+    /// The same, but rows count as dependent below 1e-4 of the usual sine. Between such states and singular ones
+    /// accelerations are more wrong by round-off than they are without these rows, and so are velocities after a
+    /// projection; the next projection farther away takes back what the state moved along them.
+    pub fn factor_truncated(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
+        let is_fast = self.goes_fast(mass, g)?;
+        let least = TRUNCATED * self.usual_sine;
+        let is_regular = is_fast && (self.way == Way::Fast { refine: false } || self.smallest_sine() >= least);
+        if is_regular || least * least <= COLLAPSED {
+            return if is_fast { Ok(()) } else { self.finish_rank_revealing() };
+        }
+        let System { mass, g, .. } = &self.system;
+        let skipping = self.skipping.get_or_insert_with(|| Box::new(Skipping::new(mass, g)));
+        let quality = skipping.factor(&self.system, &self.held, least * least)?;
+        // Coordinates with little mass of their own would look as rows that are nearly dependent do.
+        if quality.replaced {
+            return if is_fast { Ok(()) } else { self.finish_rank_revealing() };
+        }
+        (self.way, self.is_truncated) = (Way::Skipping, quality.doubtful);
         Ok(())
     }
 
-    /// The same, but rows count as dependent below a sine of 1e-4. Between such states and singular ones accelerations are
-    /// more wrong by round-off than they are without these rows, along which a projection moves the state anyway.
-    pub fn factor_truncated(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
-        self.factor(mass, g)?;
-        let is_weak =
-            matches!(self.way, Way::Fast { refine: true } | Way::Skipping) && self.smallest_sine() < TRUNCATED.sqrt();
-        if is_weak {
-            let System { mass, g, .. } = &self.system;
-            let skipping = self.skipping.get_or_insert_with(|| Box::new(Skipping::new(mass, g)));
-            skipping.factor(&self.system, &self.held, TRUNCATED)?;
-            self.way = Way::Skipping;
-        }
+    fn finish_rank_revealing(&mut self) -> Result<(), Singular> {
+        self.way = self.factor_rank_revealing()?;
         Ok(())
     }
 
@@ -292,8 +314,9 @@ impl SaddlePoint {
         matches!(self.way, Way::Fast { .. })
     }
 
+    /// Whether rows are dependent, to round-off.
     pub fn is_rank_deficient(&self) -> bool {
-        self.rank() < self.m
+        self.is_holding || !self.is_truncated && self.rank() < self.m
     }
 
     /// The norm of the part of the last right side r2 that no a can meet; zero unless rows are dependent.
