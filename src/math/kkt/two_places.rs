@@ -114,13 +114,7 @@ impl TwoPlaces {
     /// Sizes of the rows: |r_i| + sum_j |G2_ij| (max |a| + p_j), where a is that of the guess or what r asks for, if that
     /// is more: a guess of zero says nothing, and rows without a right side are measured against the others. p_j =
     /// (|f_j| + sum_k |G2_kj lambda_k|)/M_jj is what forces that balance would do one by one: their round-off is in a.
-    fn measure(
-        &mut self,
-        pair: &Pair,
-        (mass, values): (&Pattern, &[f64]),
-        r: &[f64],
-        (a, lambda): (&[f64], &[f64]),
-    ) {
+    fn measure(&mut self, pair: &Pair, (mass, values): (&Pattern, &[f64]), r: &[f64], (a, lambda): (&[f64], &[f64])) {
         let entries = || pair.pattern.entries.iter().zip(pair.g2);
         self.top.iter_mut().zip(&self.force).for_each(|(p, f)| *p = f.abs());
         entries().for_each(|(&(k, j), value)| self.top[j] += (value * lambda[k]).abs());
