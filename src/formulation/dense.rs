@@ -21,6 +21,7 @@ impl<S: Solver + Send> Formulation for Dense<S> {
         self.0.hold(&dynamics.held);
         self.0.factor(&dynamics.terms.mass, &dynamics.terms.g).map_err(|singular| dynamics.halt(singular))?;
         dynamics.is_rank_deficient = self.0.is_rank_deficient();
+        dynamics.sine = self.0.smallest_sine();
         self.0.solve(&mut dynamics.vdot, &mut dynamics.lambda).map_err(|singular| dynamics.halt(singular))?;
         dynamics.finite()?;
         dynamics.system.rate(q, v, qdot);

@@ -1,7 +1,7 @@
 //! The equations of motion of one system with the memory to solve them.
 
 use crate::error::Result;
-use crate::math::kkt::{SaddlePoint, Singular};
+use crate::math::kkt::{SaddlePoint, Singular, TRUNCATED};
 use crate::system::{MechanicalSystem, Need, Scratch, Structure, Terms};
 use serde::Serialize;
 use std::fmt;
@@ -92,10 +92,6 @@ pub struct Statistics {
     pub rank_deficient: u64,
 }
 
-/// Near a singular state, with a sine s, round-off moves positions along the nearly dependent row by eps/s, so velocities by
-/// eps/s^2 and accelerations by eps/s^3: all of it at 6e-6, the more with drift.
-pub const RANK_TOLERANCE: f64 = 1e-4;
-
 /// A system, the terms of its equations at the last state, and the factors of
 ///
 /// ```text
@@ -109,8 +105,11 @@ pub struct Dynamics<'a> {
     pub kkt: SaddlePoint,
     /// Constraints that depend on the others wherever phi = 0, and are left out.
     pub held: Vec<usize>,
-    /// Rows count as dependent for accelerations below this sine: see [`SaddlePoint::factor_truncated`].
+    /// Rows count as dependent below this part of the usual sine: see [`SaddlePoint::factor_truncated`].
     pub rank_tolerance: f64,
+    /// How near G is to losing rank at the last solution, where that came from another solver than `kkt`: see
+    /// [`SaddlePoint::smallest_sine`].
+    pub sine: Option<f64>,
     /// v' of the last solution.
     pub vdot: Vec<f64>,
     /// lambda of the last solution.
@@ -129,7 +128,8 @@ impl<'a> Dynamics<'a> {
             terms: Terms::new(system),
             kkt: SaddlePoint::new(&structure.mass, &structure.g),
             held: Vec::new(),
-            rank_tolerance: RANK_TOLERANCE,
+            rank_tolerance: TRUNCATED,
+            sine: None,
             structure,
             vdot: vec![0.0; n.v],
             lambda: vec![0.0; n.lambda],
@@ -151,14 +151,28 @@ impl<'a> Dynamics<'a> {
         factored.map_err(|singular| self.halt(singular))
     }
 
+    /// The same, truncated near singular states: see [`SaddlePoint::factor_truncated`].
+    pub fn factor_truncated(&mut self) -> Result<(), Halt> {
+        self.statistics.factorizations += 1;
+        let factored = self.kkt.factor_truncated(&self.terms.mass, &self.terms.g, self.rank_tolerance);
+        factored.map_err(|singular| self.halt(singular))
+    }
+
     /// Rows of constraints that depend on the others at a state, which should be on the constraints; none where that
-    /// state has no solution.
-    pub fn dependent_rows(&mut self, t: f64, q: &[f64], v: &[f64]) -> Vec<usize> {
-        self.evaluate(t, q, v, Need::MASS | Need::CONSTRAINTS | Need::G);
-        match self.kkt.factor(&self.terms.mass, &self.terms.g) {
-            Ok(()) => self.kkt.left_out().to_vec(),
-            Err(_) => Vec::new(),
+    /// state has no solution. Then the norms of the part of gamma that no acceleration can meet, and of what makes it up.
+    pub fn dependent_rows(&mut self, t: f64, q: &[f64], v: &[f64]) -> (Vec<usize>, (f64, f64)) {
+        self.right_sides(t, q, v, |_, _| 0.0);
+        let solved = match self.kkt.factor(&self.terms.mass, &self.terms.g) {
+            Ok(()) => self.kkt.solve(&mut self.vdot, &mut self.lambda),
+            Err(singular) => Err(singular),
+        };
+        let rows = self.kkt.left_out().to_vec();
+        if solved.is_err() || rows.is_empty() {
+            return (rows, (0.0, 0.0));
         }
+        let products = self.structure.g.entries.iter().zip(&self.terms.g).map(|((_, i), g)| (g * self.vdot[*i]).abs());
+        let usual = products.chain(self.terms.gamma.iter().map(|gamma| gamma.abs())).fold(0.0, f64::max);
+        (rows, (self.kkt.inconsistency(), usual))
     }
 
     /// Leaves out these rows from now on: see [`SaddlePoint::hold`].
@@ -205,9 +219,7 @@ impl<'a> Dynamics<'a> {
         acceleration_level: impl Fn(f64, f64) -> f64,
     ) -> Result<(), Halt> {
         self.right_sides(t, q, v, acceleration_level);
-        self.statistics.factorizations += 1;
-        let factored = self.kkt.factor_truncated(&self.terms.mass, &self.terms.g, self.rank_tolerance);
-        factored.map_err(|singular| self.halt(singular))?;
+        self.factor_truncated()?;
         self.solve_factored()
     }
 

@@ -1,8 +1,8 @@
 //! Index 1: the constraints differentiated twice, lambda eliminated.
 
-use super::dynamics::RANK_TOLERANCE;
 use super::{Choice, Dynamics, Entry, Formulation, Halt, OptionDoc, Rows};
 use crate::error::Result;
+use crate::math::kkt::TRUNCATED;
 
 /// ```text
 /// q' = N v,   [M G^T; G 0] [v'; lambda] = [f; gamma]
@@ -21,11 +21,11 @@ pub const ENTRY: Entry = Entry {
 /// Constraints nearer than this to depending on others have no say in v' and lambda.
 pub(super) const RANK: OptionDoc = OptionDoc {
     name: "rank_tolerance",
-    about: "constraints count as dependent below this sine to the others (default 1e-4; 1e-10 for the plain equations)",
+    about: "part of the usual sine below which constraints count as dependent (default 1e-4; 0 for the plain equations)",
 };
 
 pub(super) fn rank_tolerance(choice: &Choice) -> Result<f64> {
-    choice.not_negative(RANK.name, RANK_TOLERANCE)
+    choice.not_negative(RANK.name, TRUNCATED)
 }
 
 pub(super) struct Index1 {
@@ -34,7 +34,7 @@ pub(super) struct Index1 {
 
 impl Default for Index1 {
     fn default() -> Self {
-        Index1 { rank_tolerance: RANK_TOLERANCE }
+        Index1 { rank_tolerance: TRUNCATED }
     }
 }
 

@@ -42,6 +42,11 @@ pub trait Formulation: Send {
         Ok(())
     }
 
+    /// Whether the end of a step is on the constraints without a projection.
+    fn keeps_constraints(&self) -> bool {
+        false
+    }
+
     /// The step ends, or is left for a row of output, at what the integrator made of (q, v): writes the state of the
     /// motion that this stands for.
     fn end_step(&mut self, _t: f64, _q: &mut [f64], _v: &mut [f64], _dynamics: &mut Dynamics) -> Result<(), Halt> {

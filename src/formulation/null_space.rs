@@ -178,6 +178,10 @@ impl Formulation for TangentSpace {
         Ok(())
     }
 
+    fn keeps_constraints(&self) -> bool {
+        true
+    }
+
     fn end_step(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), Halt> {
         self.lift(t, q, v, dynamics)?;
         self.is_within = false;

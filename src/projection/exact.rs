@@ -40,7 +40,7 @@ impl Projection for Exact {
         loop {
             dynamics.statistics.projections += 1;
             dynamics.evaluate(t, q, v, need);
-            dynamics.factor()?;
+            dynamics.factor_truncated()?;
             let residual = largest(&dynamics.terms.phi);
             // Near round-off the residual stops falling; another step would only stir it.
             if iterations == self.most || residual == 0.0 || residual > 0.5 * last {

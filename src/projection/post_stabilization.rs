@@ -68,7 +68,7 @@ impl Projection for PostStabilization {
         for _ in 0..self.sweeps {
             dynamics.statistics.projections += 1;
             dynamics.evaluate(t, q, v, self.stabilizer.field.needs());
-            dynamics.factor()?;
+            dynamics.factor_truncated()?;
             self.stabilizer.correction(dynamics)?;
             move_back(q, &self.stabilizer.dq, &mut self.rate, dynamics.system);
             v.iter_mut().zip(&self.stabilizer.dv).for_each(|(v, dv)| *v -= dv);

@@ -79,7 +79,7 @@ fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
     let (q, v) = study.start();
     let mut dynamics = Dynamics::new(system);
     dynamics.evaluate(study.start_time(), q, v, Need::DYNAMICS);
-    let rows = dynamics.dependent_rows(study.start_time(), q, v);
+    let (rows, _) = dynamics.dependent_rows(study.start_time(), q, v);
     dynamics.hold(&rows);
     // Assembly has solved at this state, so it can be factored; the distance is zero where it could not.
     let distance = dynamics.factor().map_or(0.0, |()| dynamics.kkt.smallest_sine());

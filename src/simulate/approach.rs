@@ -20,7 +20,7 @@ pub struct Approach {
     pub sine: f64,
     rate: f64,
     /// The largest sine so far: unlike masses and lengths make it small where nothing is singular.
-    largest: f64,
+    pub largest: f64,
     /// The last step that did not come near a singular state.
     regular: f64,
     /// Whether a step over the singular state was tried from here.

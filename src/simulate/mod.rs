@@ -91,6 +91,13 @@ struct Run<'a> {
 const SINGULAR: &str = "the motion comes to a singular state, where this tolerance is too near to round-off: try a looser \
      one, or a fixed --step with `rk4`, which goes over it";
 
+const NO_BRANCH: &str = "the start is a singular state, with velocities that no motion through it has: constraints \
+     that depend on each other there ask for different accelerations";
+const BRANCHES: &str = "give velocities along one of the motions that meet there, or start beside it";
+
+/// What round-off may leave of accelerations of constraints, and of their lengths.
+const ROUND_OFF: f64 = 1e-6;
+
 /// Joints that are open by so many times the scene's size will not close again.
 const MOST_OPEN: f64 = 10.0;
 
@@ -140,7 +147,8 @@ impl<'a> Run<'a> {
 
     fn integrate(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
         let (q, v) = self.problem.split(&self.y);
-        let dependent = self.rows.problem.dynamics.dependent_rows(self.t, q, v);
+        let (dependent, contradiction) = self.rows.problem.dynamics.dependent_rows(self.t, q, v);
+        self.check_start(contradiction)?;
         self.hold(&dependent);
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
         self.observe(sink);
@@ -267,9 +275,23 @@ impl<'a> Run<'a> {
         // Without a new factorization, as in `penalty`, what the last one says is of another state.
         let is_factored = dynamics.statistics.factorizations > self.factored;
         self.factored = dynamics.statistics.factorizations;
-        let sine = (is_factored && dynamics.kkt.is_factored()).then(|| dynamics.kkt.smallest_sine());
+        let own = || (is_factored && dynamics.kkt.is_factored()).then(|| dynamics.kkt.smallest_sine());
+        let sine = dynamics.sine.or_else(own);
         self.approach.add(self.t, sine.unwrap_or(1.0));
+        let usual = self.approach.largest;
+        [&mut self.problem, &mut self.rows.problem].into_iter().for_each(|p| p.dynamics.kkt.usual_sine = usual);
         sink.accepted(&observation(self.t, &self.y, &self.problem, sine, &mut self.phi_ddot));
+    }
+
+    /// Refuses velocities that no motion has: where rows depend on each other, their accelerations must not contradict.
+    /// `contradiction` is theirs, and what is usual for accelerations of constraints there.
+    fn check_start(&self, (contradiction, usual): (f64, f64)) -> Result<(), Failure> {
+        let scale = self.scales.iter().fold(0.0, |largest: f64, scale| largest.max(*scale));
+        let opened = contradiction * (self.span.end - self.span.start).powi(2);
+        match contradiction > ROUND_OFF * usual && opened > ROUND_OFF * scale {
+            true => Err(self.failure(NO_BRANCH.to_string(), Some(BRANCHES))),
+            false => Ok(()),
+        }
     }
 
     /// Ends a motion that is no longer one of this mechanism.
@@ -292,7 +314,7 @@ impl<'a> Run<'a> {
             Some(error) if error.is_finite() => self.integrator.control().reject(h, error),
             _ => 0.25 * h,
         };
-        let is_stuck = self.projection.is_some() && self.approach.is_stuck(h);
+        let is_stuck = self.keeps_constraints() && self.approach.is_stuck(h);
         match smaller > self.smallest() && !is_stuck {
             true => Ok(smaller),
             false => {

@@ -51,6 +51,11 @@ impl Run<'_> {
         Ok(error)
     }
 
+    /// Whether states at the ends of steps are on the constraints, by a projection or by what is integrated.
+    pub fn keeps_constraints(&self) -> bool {
+        self.projection.is_some() || self.problem.formulation.keeps_constraints()
+    }
+
     fn attempt(&mut self, h: &mut f64, last: &mut bool) -> Result<Option<f64>, Halt> {
         let from = From { t: self.t, y: &self.y, slope: &self.slope };
         self.problem.begin_step(self.t, &self.y)?;
@@ -72,7 +77,7 @@ impl Run<'_> {
             return Ok(error);
         }
         let correction = self.correction();
-        let is_far = correction > MOST_CORRECTION;
+        let is_far = correction > MOST_CORRECTION * self.allowed();
         if is_singular && (is_far || error.is_some_and(is_too_large)) {
             self.refusal = "the error of a step over a singular state stays above the tolerance";
             return self.error_within_constraints(t, h);
@@ -107,8 +112,7 @@ impl Run<'_> {
 
     /// The error of the projected step, in units of the tolerance: how far the projected solution of lower order is from
     /// it. Near a singular state the stages are far off along the nearly dependent rows, which the projection takes away
-    /// from both, so that the error before it says nothing. Round-off moves positions along those rows by eps over the
-    /// sine, and velocities by eps over its square: no step can be better.
+    /// from both, so that the error before it says nothing.
     fn error_within_constraints(&mut self, t: f64, h: f64) -> Result<Option<f64>, Halt> {
         let from = From { t: self.t, y: &self.y, slope: &self.slope };
         if !self.integrator.lower_order(from, h, &mut self.change) {
@@ -118,9 +122,15 @@ impl Run<'_> {
             project(t, &mut self.change, &mut self.problem, &mut self.projection)?;
         }
         self.change.iter_mut().zip(&self.next).for_each(|(change, next)| *change -= next);
-        let sine = self.approach.sine.min(self.problem.dynamics.kkt.smallest_sine());
+        Ok(Some(self.tolerance.norm_between(&self.y, &self.next, &self.change) / self.allowed()))
+    }
+
+    /// The error to be put up with, in units of the tolerance. Round-off moves positions along nearly dependent rows by eps
+    /// over the sine, and velocities by eps over its square: no step can be better.
+    fn allowed(&self) -> f64 {
+        let dynamics = &self.problem.dynamics;
+        let sine = self.approach.sine.min(dynamics.sine.unwrap_or_else(|| dynamics.kkt.smallest_sine()));
         let round_off = ROUND_OFF / (sine * sine) * self.tolerance.norm(&self.next, &self.next);
-        let allowed = 1.0 + round_off.min(MOST_ROUND_OFF);
-        Ok(Some(self.tolerance.norm_between(&self.y, &self.next, &self.change) / allowed))
+        1.0 + round_off.min(MOST_ROUND_OFF)
     }
 }

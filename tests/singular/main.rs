@@ -1,5 +1,6 @@
 //! Motions through positions where the constraints lose rank and branches of motion cross.
 
+mod adaptive;
 mod n_four_bar;
 mod parallelogram;
 mod reference;
@@ -21,6 +22,11 @@ fn fixed(formulation: &str, integrator: &str, projection: &str, step: f64) -> Me
         step: Some(step),
         ..Method::default()
     }
+}
+
+/// A method that adapts its steps to a tolerance, relative and absolute.
+fn adaptive(formulation: &str, integrator: &str, projection: &str, tolerance: f64) -> Method {
+    Method { rtol: tolerance, atol: tolerance, step: None, ..fixed(formulation, integrator, projection, 1.0) }
 }
 
 /// Largest error of a column over the rows after the start.

@@ -2,7 +2,7 @@
 
 use super::reference::{ONE_LOOP, TWO_LOOPS};
 use super::scenes::{load, model, parse};
-use super::{errors, fixed, last};
+use super::{adaptive, errors, fixed, last};
 use holonom::scene::generate::n_four_bar;
 use holonom::simulate::Span;
 
@@ -36,6 +36,19 @@ fn forty_loops_pass_flat_ten_times() {
     // All uprights alike: the last top stands 40 m from the first.
     for (first, last) in run.column("B0_x").into_iter().zip(run.column("last_x")) {
         assert!((last - first - 40.0).abs() < 1e-10, "{first} {last}");
+    }
+}
+
+/// Steps that adapt go over the flat states too, at every accuracy.
+#[test]
+fn forty_loops_at_a_tolerance() {
+    let scene = load(&model("n_four_bar"), &[]);
+    for tolerance in [1e-6, 1e-9, 1e-11] {
+        let run = scene.run(&adaptive("index1", "dop853", "manifold", tolerance), SECONDS);
+        let error = (last(&run, "B0_x") - 0.180512226686728).hypot(last(&run, "B0_y") - 0.983572740582312);
+        // The motion amplifies local errors some twenty times.
+        assert!(error < 50.0 * tolerance, "{tolerance:e}: {error:e}");
+        assert!(run.outcome.statistics.steps < 300, "{tolerance:e}: {:?}", run.outcome.statistics);
     }
 }
 

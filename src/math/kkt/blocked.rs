@@ -154,10 +154,17 @@ impl Blocked {
         }
     }
 
-    /// The smallest pivot of the scaled matrix, of those above `collapsed`.
-    pub fn smallest_ratio(&self, collapsed: f64) -> f64 {
-        let pivots = self.diagonal.iter().zip(&self.signs).map(|(d, &sign)| d * f64::from(sign));
-        pivots.filter(|pivot| *pivot > collapsed).fold(1.0, f64::min)
+    /// The smallest pivot of the scaled matrix, of those above `collapsed`, and how many multipliers' are not.
+    pub fn smallest_ratio(&self, collapsed: f64) -> (f64, usize) {
+        let mut found = (1.0, 0);
+        for (d, &sign) in self.diagonal.iter().zip(&self.signs) {
+            let pivot: f64 = d * f64::from(sign);
+            match pivot > collapsed && pivot < 1e-3 * LEFT_OUT {
+                true => found.0 = pivot.min(found.0),
+                false => found.1 += usize::from(sign < 0),
+            }
+        }
+        found
     }
 }
 

@@ -7,7 +7,7 @@ use super::system::{add_scaled, dot};
 
 /// With S = diag(M)^-1/2 and Y = S Q_1 from the pivoted QR of (G S)^T at the base, d = Y c solves G d = r at another
 /// place: G Y c = r, by a pivoted QR of (G Y)^T. Such a d has no part along the base's null space in the metric of
-/// diag(M). Dependent rows have no say. Costs 3 n m^2 for a base, 3 m^3 for a place and 2 (n + m) m for a solution.
+/// diag(M). Rows that are dependent at the base have no say. Costs 3 n m^2 for a base, 3 m^3 for a place and 2 (n + m) m for a solution.
 pub struct Chart {
     mass: Pattern,
     g: Pattern,
@@ -15,6 +15,9 @@ pub struct Chart {
     /// Sizes of the rows of G S at the base.
     norms: Vec<f64>,
     base: Reflected,
+    /// Rows that were independent at the base. Others have no say elsewhere either: a choice that changed from place to
+    /// place would take what contradicts now from one row, now from another.
+    has_say: Vec<bool>,
     /// Y by rows.
     normal: Vec<f64>,
     /// (G Y)^T
@@ -37,6 +40,7 @@ impl Chart {
             scale: vec![1.0; n],
             norms: vec![1.0; m],
             base: Reflected::new(n, m),
+            has_say: vec![false; m],
             normal: vec![0.0; n * most],
             place: Reflected::new(most, m),
             x: vec![0.0; n],
@@ -50,6 +54,8 @@ impl Chart {
         scaled_rows((&self.mass, mass), (&self.g, g), &mut self.scale, &mut self.norms, values);
         self.base.factor(DEPENDENT);
         let rank = self.base.rank;
+        self.has_say.fill(false);
+        self.base.permutation[..rank].iter().for_each(|row| self.has_say[*row] = true);
         for k in 0..rank {
             self.x.fill(0.0);
             self.x[k] = 1.0;
@@ -65,11 +71,12 @@ impl Chart {
         let rank = self.base.rank;
         self.place.rows = rank;
         self.place.values.fill(0.0);
-        for (&(i, j), value) in self.g.entries.iter().zip(g) {
+        for (&(i, j), value) in self.g.entries.iter().zip(g).filter(|((i, _), _)| self.has_say[*i]) {
             let row = &mut self.place.values[i * rank..(i + 1) * rank];
             add_scaled(value / self.norms[i], &self.normal[j * rank..(j + 1) * rank], row);
         }
-        self.place.factor(DEPENDENT);
+        // Where a step ends beside a singular state, what round-off would move is left to the next step.
+        self.place.factor_truncated(DEPENDENT);
     }
 
     /// d = Y c with G d = r.

@@ -138,14 +138,20 @@ impl Compiled {
         }
     }
 
-    /// The smallest pivot over its size before elimination, of those above `collapsed`.
-    pub fn smallest_ratio(&self, collapsed: f64) -> f64 {
-        let ratios = (0..self.sizes.len()).map(|p| {
-            let pivot = self.signs[p] * self.work[p];
-            let is_late = self.signs[p] > 0.0 && p >= self.symbolic.order.early;
-            pivot / if is_late { self.sizes[p] + pivot } else { self.sizes[p] }
-        });
-        ratios.filter(|ratio| *ratio > collapsed).fold(1.0, f64::min)
+    /// The smallest pivot over its size before elimination, of those above `collapsed`, and how many multipliers' are not.
+    pub fn smallest_ratio(&self, collapsed: f64) -> (f64, usize) {
+        let mut found = (1.0, 0);
+        for (p, &sign) in self.signs.iter().enumerate() {
+            let pivot = sign * self.work[p];
+            let is_late = sign > 0.0 && p >= self.symbolic.order.early;
+            let ratio: f64 = pivot / if is_late { self.sizes[p] + pivot } else { self.sizes[p] };
+            // Written so that the NaN of a row of zeros has collapsed.
+            match ratio > collapsed {
+                true => found.0 = ratio.min(found.0),
+                false => found.1 += usize::from(sign < 0.0),
+            }
+        }
+        found
     }
 }
 

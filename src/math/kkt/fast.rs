@@ -51,8 +51,8 @@ impl Fast {
         }
     }
 
-    /// The smallest ratio of a pivot to its size, of those above `collapsed`.
-    pub fn smallest_ratio(&self, collapsed: f64) -> f64 {
+    /// The smallest ratio of a pivot to its size, of those above `collapsed`, and how many multipliers' are not.
+    pub fn smallest_ratio(&self, collapsed: f64) -> (f64, usize) {
         match self {
             Fast::Compiled(f) => f.smallest_ratio(collapsed),
             Fast::Blocked(f) => f.smallest_ratio(collapsed),

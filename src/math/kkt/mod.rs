@@ -44,6 +44,7 @@ pub use chart::Chart;
 pub use condition::condition_number;
 pub use dependence::{Dependence, DependentRow, dependent_rows};
 pub use pattern::Pattern;
+pub use pivot::TRUNCATED;
 pub use pseudo_inverse::PseudoInverse;
 pub use reduced::Reduced;
 pub use saddle::SaddlePoint;
@@ -64,6 +65,11 @@ pub trait Solver {
 
     /// Whether rows of G were dependent at the last factorization.
     fn is_rank_deficient(&self) -> bool;
+
+    /// See [`SaddlePoint::smallest_sine`]; none where the solver does not say.
+    fn smallest_sine(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// Why a saddle-point system cannot be solved.

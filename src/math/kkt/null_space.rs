@@ -55,6 +55,10 @@ impl NullSpace {
         self.qr.rank
     }
 
+    pub fn is_deficient(&self, tolerance: f64) -> bool {
+        self.qr.is_deficient(tolerance)
+    }
+
     /// The rows that depend on the others.
     pub fn left_out(&self) -> &[usize] {
         &self.qr.permutation[self.qr.rank..]
@@ -67,14 +71,28 @@ impl NullSpace {
 
     /// |R_rr| / |R_00|, squared so that it compares with ratios of pivots.
     pub fn smallest_ratio(&self) -> f64 {
-        let last = self.qr.rank.checked_sub(1);
-        last.map_or(1.0, |last| (self.qr.r(last)[last] / self.qr.r(0)[0]).powi(2))
+        self.qr.smallest_ratio().powi(2)
     }
 
     pub fn factor(&mut self, system: &System, tolerance: f64) -> Result<(), Singular> {
+        self.scale_rows(system);
+        self.qr.factor(tolerance);
+        self.finish(system)
+    }
+
+    /// See [`Reflected::factor_truncated`].
+    pub fn factor_truncated(&mut self, system: &System, tolerance: f64) -> Result<(), Singular> {
+        self.scale_rows(system);
+        self.qr.factor_truncated(tolerance);
+        self.finish(system)
+    }
+
+    fn scale_rows(&mut self, system: &System) {
         let (mass, g) = ((&system.mass, &system.mass_values[..]), (&system.g, &system.g_values[..]));
         scaled_rows(mass, g, &mut self.scale, &mut self.norms, &mut self.qr.values);
-        self.qr.factor(tolerance);
+    }
+
+    fn finish(&mut self, system: &System) -> Result<(), Singular> {
         self.factor_reduced(system)?;
         self.span_null();
         Ok(())

@@ -1,5 +1,6 @@
 //! The saddle-point system by a pseudo-inverse, dense.
 
+use super::pivot::TRUNCATED;
 use super::reflect::Squared;
 use super::system::{add_scaled, dot, index_of_largest};
 use super::{Pattern, Singular, Solver};
@@ -21,7 +22,7 @@ const MASSLESS: f64 = 1e-11;
 /// lambda has the least norm. Costs about n^3/3 + 12 n m^2. Nothing allocates after the first use, in which faer asks for
 /// the sizes of the caches.
 pub struct PseudoInverse {
-    /// Singular values up to this part of the largest count as zero.
+    /// Singular values up to this part of the largest count as zero, and up to 1e-4 of what is usual for the smallest.
     pub tolerance: f64,
     mass: Pattern,
     g: Pattern,
@@ -33,6 +34,8 @@ pub struct PseudoInverse {
     w: Vec<f64>,
     s: Vec<f64>,
     rank: usize,
+    /// The largest ratio so far of the smallest singular value to the largest.
+    usual: f64,
     held: Vec<usize>,
     is_factored: bool,
     x: Vec<f64>,
@@ -59,6 +62,7 @@ impl PseudoInverse {
             w: vec![0.0; m * size],
             s: vec![0.0; size],
             rank: 0,
+            usual: 0.0,
             held: Vec::with_capacity(m),
             is_factored: false,
             x: vec![0.0; n],
@@ -98,8 +102,11 @@ impl PseudoInverse {
             MemStack::new(&mut self.memory),
             Spec::default(),
         );
-        let limit = self.tolerance * self.s.first().copied().unwrap_or(0.0);
+        let largest = self.s.first().copied().unwrap_or(0.0);
+        let limit = largest * self.tolerance.max(TRUNCATED * self.usual);
         self.rank = self.s.iter().take_while(|s| **s > limit).count();
+        let smallest = self.s[..self.rank].last().map_or(0.0, |s| s / largest);
+        self.usual = self.usual.max(smallest);
         result.map_err(|_| Singular::NotFinite)
     }
 }
@@ -160,6 +167,7 @@ impl Solver for PseudoInverse {
     }
 
     fn is_rank_deficient(&self) -> bool {
-        self.rank < self.g.rows
+        let limit = self.tolerance * self.s.first().copied().unwrap_or(0.0);
+        self.s.iter().take_while(|s| **s > limit).count() < self.g.rows
     }
 }

@@ -7,7 +7,8 @@ use super::{Pattern, Singular, Solver};
 /// [M G^T; G 0] by a pivoted QR of G^T, always: a = Y y + Z z with G Z = 0, then Z^T M Z z = Z^T (r1 - M Y y), then lambda
 /// from the rest. Dependent rows get multipliers of least norm, contradictions least squares.
 pub struct Reduced {
-    /// Rows of G count as dependent when their pivot in the QR falls below this part of the largest.
+    /// Rows of G count as dependent when their pivot in the QR falls below this part of the largest,
+    /// or below 1e-4 of what is usual for the smallest.
     pub rank_tolerance: f64,
     system: System,
     null_space: NullSpace,
@@ -37,7 +38,7 @@ impl Solver for Reduced {
             return Err(Singular::NotFinite);
         }
         self.system.store(mass, g);
-        self.null_space.factor(&self.system, self.rank_tolerance)?;
+        self.null_space.factor_truncated(&self.system, self.rank_tolerance)?;
         self.is_factored = true;
         Ok(())
     }
@@ -54,6 +55,10 @@ impl Solver for Reduced {
     }
 
     fn is_rank_deficient(&self) -> bool {
-        self.null_space.rank() < self.system.g.rows
+        self.null_space.is_deficient(self.rank_tolerance)
+    }
+
+    fn smallest_sine(&self) -> Option<f64> {
+        Some(self.null_space.smallest_ratio().sqrt())
     }
 }

@@ -1,5 +1,6 @@
 //! Column-pivoted Householder QR and diagonally pivoted Cholesky on flat column-major slices, without allocation.
 
+use super::pivot::TRUNCATED;
 use super::system::{add_scaled, dot};
 
 /// A Pi = Q R of a tall or wide `rows` x `cols` matrix, in place: R above, the reflectors (leading 1 not stored) below.
@@ -8,6 +9,10 @@ pub(super) struct Reflected {
     pub values: Vec<f64>,
     pub permutation: Vec<usize>,
     pub rank: usize,
+    /// The largest ratio so far of the last pivot to the first.
+    usual: f64,
+    /// What the first column left out had to offer, of the first pivot.
+    rest: f64,
     factors: Vec<f64>,
     squares: Vec<f64>,
 }
@@ -19,6 +24,8 @@ impl Reflected {
             values: vec![0.0; rows * cols],
             permutation: (0..cols).collect(),
             rank: 0,
+            usual: 0.0,
+            rest: 0.0,
             factors: vec![0.0; rows.min(cols)],
             squares: vec![0.0; cols],
         }
@@ -29,27 +36,45 @@ impl Reflected {
     pub fn factor(&mut self, tolerance: f64) {
         let (rows, cols) = (self.rows, self.permutation.len());
         self.permutation.iter_mut().enumerate().for_each(|(j, p)| *p = j);
-        self.rank = 0;
+        (self.rank, self.rest) = (0, 0.0);
         if rows == 0 {
             return;
         }
         for (square, column) in self.squares.iter_mut().zip(self.values.chunks_exact(rows)) {
             *square = dot(column, column);
         }
-        let mut limit = 0.0;
+        let mut first = 0.0;
         for k in 0..rows.min(cols) {
             let best = (k..cols).fold(k, |best, j| if self.squares[j] > self.squares[best] { j } else { best });
             let norm = self.squares[best].sqrt();
             if k == 0 {
-                limit = tolerance * norm;
+                first = norm;
             }
-            if !(norm > limit && norm.is_finite()) {
+            if !(norm > tolerance * first && norm.is_finite()) {
+                self.rest = norm / first;
                 return;
             }
             self.swap(k, best);
             self.step(k, norm);
             self.rank = k + 1;
         }
+    }
+
+    /// The same, but columns also count as dependent below 1e-4 of what is usual for the smallest: see `TRUNCATED`.
+    pub fn factor_truncated(&mut self, tolerance: f64) {
+        self.factor(tolerance.max(TRUNCATED * self.usual));
+        self.usual = self.usual.max(self.smallest_ratio());
+    }
+
+    /// Whether columns are dependent to `tolerance`.
+    pub fn is_deficient(&self, tolerance: f64) -> bool {
+        self.rank < self.permutation.len() && !(self.rest > tolerance)
+    }
+
+    /// |R_rr| / |R_00|
+    pub fn smallest_ratio(&self) -> f64 {
+        let last = self.rank.checked_sub(1);
+        last.map_or(1.0, |last| (self.r(last)[last] / self.r(0)[0]).abs())
     }
 
     fn swap(&mut self, k: usize, best: usize) {

@@ -39,11 +39,14 @@ pub struct SaddlePoint {
     skipping: Option<Box<Skipping>>,
     dense: Option<Box<NullSpace>>,
     way: Way,
+    /// The smallest sine where nothing is singular, against which a truncated factorization judges; none before it is
+    /// known.
+    pub usual_sine: f64,
     /// Rows that stay left out, and whether there are any.
     held: Vec<bool>,
     is_holding: bool,
-    /// The smallest sine before rows were truncated, if any were.
-    truncated_sine: Option<f64>,
+    /// Whether rows are left out that are not surely dependent.
+    is_truncated: bool,
     /// The node whose pivot collapsed last, how often in a row, and the calls since the fast way was given up.
     failed: usize,
     failures: u32,
@@ -77,9 +80,10 @@ impl SaddlePoint {
             skipping: None,
             dense: None,
             way: Way::None,
+            usual_sine: 0.0,
             held: vec![false; m],
             is_holding: false,
-            truncated_sine: None,
+            is_truncated: false,
             failed: usize::MAX,
             failures: 0,
             waited: 0,
@@ -93,38 +97,49 @@ impl SaddlePoint {
     /// Factors the matrix with these values. A pivot collapses on the fast way when elimination leaves it less than 1e-11
     /// of its size; below 1e-7 solutions are refined once.
     pub fn factor(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
-        self.way = Way::None;
-        self.truncated_sine = None;
+        if self.goes_fast(mass, g)? { Ok(()) } else { self.finish_rank_revealing() }
+    }
+
+    /// Whether the fast way could be taken; the values are stored if not, or if solutions need a refinement.
+    fn goes_fast(&mut self, mass: &[f64], g: &[f64]) -> Result<bool, Singular> {
+        (self.way, self.is_truncated) = (Way::None, false);
         let System { mass: m, g: j, .. } = &self.system;
         if !self.is_shaped || mass.len() != m.entries.len() || g.len() != j.entries.len() {
             return Err(Singular::Shape);
         }
         if !self.is_holding && self.tries_fast() && self.factor_fast(mass, g) {
-            return Ok(());
+            return Ok(true);
         }
         if !mass.iter().chain(g).all(|v| v.is_finite()) {
             return Err(Singular::NotFinite);
         }
         self.system.store(mass, g);
-        self.way = self.factor_rank_revealing()?;
+        Ok(false)
+    }
+
+    /// The same, but rows count as dependent below this part of the usual sine, 1e-4 say. Between such states and singular ones
+    /// accelerations are more wrong by round-off than they are without these rows, and so are velocities after a
+    /// projection; the next projection farther away takes back what the state moved along them.
+    pub fn factor_truncated(&mut self, mass: &[f64], g: &[f64], part: f64) -> Result<(), Singular> {
+        let is_fast = self.goes_fast(mass, g)?;
+        let least = part * self.usual_sine;
+        let is_regular = is_fast && (self.way == Way::Fast { refine: false } || self.smallest_sine() >= least);
+        if is_regular || least * least <= COLLAPSED {
+            return if is_fast { Ok(()) } else { self.finish_rank_revealing() };
+        }
+        let System { mass, g, .. } = &self.system;
+        let skipping = self.skipping.get_or_insert_with(|| Box::new(Skipping::new(mass, g)));
+        let quality = skipping.factor(&self.system, &self.held, least * least)?;
+        // Coordinates with little mass of their own would look as rows that are nearly dependent do.
+        if quality.replaced {
+            return if is_fast { Ok(()) } else { self.finish_rank_revealing() };
+        }
+        (self.way, self.is_truncated) = (Way::Skipping, quality.doubtful);
         Ok(())
     }
 
-    /// The same, but rows count as dependent below this sine. Near enough to singular states accelerations are more wrong
-    /// by round-off than they are without these rows, along which a projection moves the state anyway.
-    pub fn factor_truncated(&mut self, mass: &[f64], g: &[f64], sine: f64) -> Result<(), Singular> {
-        self.factor(mass, g)?;
-        if !matches!(self.way, Way::Fast { refine: true } | Way::Skipping) {
-            return Ok(());
-        }
-        let found = self.smallest_sine();
-        if found < sine {
-            let System { mass, g, .. } = &self.system;
-            let skipping = self.skipping.get_or_insert_with(|| Box::new(Skipping::new(mass, g)));
-            skipping.factor(&self.system, &self.held, sine * sine)?;
-            self.way = Way::Skipping;
-            self.truncated_sine = Some(found);
-        }
+    fn finish_rank_revealing(&mut self) -> Result<(), Singular> {
+        self.way = self.factor_rank_revealing()?;
         Ok(())
     }
 
@@ -304,8 +319,9 @@ impl SaddlePoint {
         matches!(self.way, Way::Fast { .. })
     }
 
+    /// Whether rows are dependent, to round-off.
     pub fn is_rank_deficient(&self) -> bool {
-        self.rank() < self.m
+        self.is_holding || !self.is_truncated && self.rank() < self.m
     }
 
     /// The norm of the part of the last right side r2 that no a can meet; zero unless rows are dependent.
@@ -321,15 +337,11 @@ impl SaddlePoint {
     /// rows that are held out left aside; by the smallest pivot over its size before elimination, which is its square. In
     /// [0, 1], zero where other rows are dependent, and without a factorization.
     pub fn smallest_sine(&self) -> f64 {
-        if let Some(sine) = self.truncated_sine {
-            return sine;
-        }
         let held = self.held.iter().filter(|held| **held).count();
         let ratio: f64 = match (self.way, &self.skipping, &self.dense) {
-            _ if self.left_out().len() > held => 0.0,
-            (Way::Fast { .. }, ..) => self.fast.smallest_ratio(0.0),
-            (Way::Skipping, Some(skipping), _) => skipping.smallest_ratio(),
-            (Way::Dense, _, Some(dense)) => dense.smallest_ratio(),
+            (Way::Fast { .. }, ..) => self.fast.smallest_ratio(0.0).0,
+            (Way::Skipping, Some(skipping), _) => skipping.smallest_ratio(held),
+            (Way::Dense, _, Some(dense)) if dense.left_out().len() <= held => dense.smallest_ratio(),
             _ => 0.0,
         };
         ratio.max(0.0).sqrt()

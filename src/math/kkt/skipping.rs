@@ -10,7 +10,7 @@
 use super::Pattern;
 use super::Singular;
 use super::fast::Fast;
-use super::pivot::{COLLAPSED, Quality, Rule};
+use super::pivot::{Quality, ROUND_OFF, Rule};
 use super::system::{System, add, add_scaled, dot, index_of_largest};
 use crate::math::largest;
 
@@ -131,9 +131,10 @@ impl Skipping {
         &self.skipped
     }
 
-    /// The smallest pivot over its size, of the rows that are not left out.
-    pub fn smallest_ratio(&self) -> f64 {
-        self.factor.smallest_ratio(COLLAPSED)
+    /// The smallest pivot over its size, but of `held` rows; zero where more are surely dependent.
+    pub fn smallest_ratio(&self, held: usize) -> f64 {
+        let (ratio, dependent) = self.factor.smallest_ratio(ROUND_OFF);
+        if dependent > held { 0.0 } else { ratio }
     }
 
     /// The norm of the part of the last right side that no motion can meet.

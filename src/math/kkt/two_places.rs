@@ -25,6 +25,7 @@ pub struct TwoPlaces {
     /// Size of each row, which its residual is measured against.
     scale: Vec<f64>,
     force: Vec<f64>,
+    diagonal: Vec<f64>,
     b: Vec<f64>,
     top: Vec<f64>,
     bottom: Vec<f64>,
@@ -60,6 +61,7 @@ impl TwoPlaces {
             reduced: [0.0; MOST + 1],
             scale: vec![0.0; m],
             force: vec![0.0; n],
+            diagonal: vec![0.0; n],
             b: vec![0.0; m],
             top: vec![0.0; n],
             bottom: vec![0.0; m],
@@ -75,6 +77,7 @@ impl TwoPlaces {
     pub fn solve(
         &mut self,
         kkt: &mut SaddlePoint,
+        mass: (&Pattern, &[f64]),
         (pattern, g2): (&Pattern, &[f64]),
         r: &[f64],
         top: &mut [f64],
@@ -92,7 +95,7 @@ impl TwoPlaces {
                 return Ok(());
             }
             if cycle == 0 {
-                self.measure(&pair, r, top);
+                self.measure(&pair, mass, r, (top, bottom));
             }
             let residual = self.residual(&pair, r, top);
             let solved = if pair.kkt.is_rank_deficient() { CONSISTENT } else { SOLVED };
@@ -108,16 +111,26 @@ impl TwoPlaces {
         Err(Singular::Apart)
     }
 
-    /// Sizes of the rows: |r_i| + sum_j |G2_ij| max |a|, where a is that of the guess or what r asks for, if that is more:
-    /// a guess of zero says nothing, and rows without a right side are measured against the others.
-    fn measure(&mut self, pair: &Pair, r: &[f64], a: &[f64]) {
+    /// Sizes of the rows: |r_i| + sum_j |G2_ij| (max |a| + p_j), where a is that of the guess or what r asks for, if that
+    /// is more: a guess of zero says nothing, and rows without a right side are measured against the others. p_j =
+    /// (|f_j| + sum_k |G2_kj lambda_k|)/M_jj is what forces that balance would do one by one: their round-off is in a.
+    fn measure(&mut self, pair: &Pair, (mass, values): (&Pattern, &[f64]), r: &[f64], (a, lambda): (&[f64], &[f64])) {
+        let entries = || pair.pattern.entries.iter().zip(pair.g2);
+        self.top.iter_mut().zip(&self.force).for_each(|(p, f)| *p = f.abs());
+        entries().for_each(|(&(k, j), value)| self.top[j] += (value * lambda[k]).abs());
+        self.diagonal.fill(0.0);
+        mass.add_diagonal(values, &mut self.diagonal);
+        self.top.iter_mut().zip(&self.diagonal).for_each(|(p, m)| *p = if *m > 0.0 { *p / m } else { 0.0 });
+        self.bottom.fill(0.0);
+        entries().for_each(|(&(i, j), value)| self.bottom[i] += value.abs() * self.top[j]);
         self.scale.fill(0.0);
         for (&(i, _), value) in pair.pattern.entries.iter().zip(pair.g2) {
             self.scale[i] += value.abs();
         }
         let asked = r.iter().zip(&self.scale).filter(|(_, row)| **row > 0.0).map(|(r, row)| r.abs() / row);
         let most = asked.fold(largest(a), f64::max);
-        self.scale.iter_mut().zip(r).for_each(|(scale, r)| *scale = *scale * most + r.abs());
+        let sizes = r.iter().zip(&self.bottom);
+        self.scale.iter_mut().zip(sizes).for_each(|(scale, (r, p))| *scale = *scale * most + p + r.abs());
         self.scale.iter_mut().filter(|scale| **scale == 0.0).for_each(|scale| *scale = 1.0);
     }
 

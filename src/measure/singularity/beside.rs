@@ -33,5 +33,5 @@ pub fn dependent_beside(system: &dyn MechanicalSystem, t: f64, q: &[f64]) -> Vec
             return Vec::new();
         }
     }
-    dynamics.dependent_rows(t, &aside, &rest)
+    dynamics.dependent_rows(t, &aside, &rest).0
 }

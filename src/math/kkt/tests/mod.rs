@@ -1,5 +1,6 @@
 //! Solutions against dense oracles.
 
+mod held;
 mod redundant;
 mod regular;
 mod reports;
