@@ -68,7 +68,7 @@ impl Reflected {
 
     /// Whether columns are dependent to `tolerance`.
     pub fn is_deficient(&self, tolerance: f64) -> bool {
-        self.rank < self.permutation.len() && !(self.rest > tolerance)
+        self.rank < self.permutation.len() && (self.rest <= tolerance || self.rest.is_nan())
     }
 
     /// |R_rr| / |R_00|

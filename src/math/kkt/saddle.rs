@@ -252,6 +252,11 @@ impl SaddlePoint {
 
     /// (r1, r2) -> (a, lambda), in place.
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) -> Result<(), Singular> {
+        self.solve_for(top, bottom, true)
+    }
+
+    /// Where `is_least` is false, multipliers of dependent rows may be any.
+    fn solve_for(&mut self, top: &mut [f64], bottom: &mut [f64], is_least: bool) -> Result<(), Singular> {
         if top.len() != self.n || bottom.len() != self.m {
             return Err(Singular::Shape);
         }
@@ -262,7 +267,7 @@ impl SaddlePoint {
                     self.system.residual(a, lambda, top, bottom)
                 })
             }
-            (Way::Skipping, Some(skipping), _) => skipping.solve(&self.system, top, bottom),
+            (Way::Skipping, Some(skipping), _) => skipping.solve(&self.system, top, bottom, is_least),
             (Way::Dense, _, Some(dense)) => dense.solve(&self.system, top, bottom),
             _ => return Err(Singular::NotFactored),
         }
@@ -299,7 +304,7 @@ impl SaddlePoint {
         let mut lambda = std::mem::take(&mut self.multipliers);
         lambda.copy_from_slice(bottom);
         correction.fill(0.0);
-        let result = self.solve(correction, &mut lambda);
+        let result = self.solve_for(correction, &mut lambda, false);
         self.multipliers = lambda;
         result
     }

@@ -4,8 +4,9 @@
 //! there has a vanishing row, so its multiplier can be left out (zero) and nothing else changes: the others solve the
 //! system exactly if the right side lies in the range of G. Every left-out row j gives a null vector of G^T:
 //! n_j = e_j - c, where G^T c = G_j^T is solved with the factor itself. N = [n_j], whose part on the left-out rows is
-//! the identity, so that N^T N >= I is well conditioned. Then P = I - N (N^T N)^-1 N^T, applied by conjugate gradients
-//! without forming N, makes the right side consistent (least squares) and the multipliers least in norm.
+//! the identity, so that N^T N >= I is well conditioned. Then P = I - N (N^T N)^-1 N^T makes the right side consistent
+//! (least squares) and the multipliers least in norm. A few null vectors are made orthonormal once for a factorization;
+//! of many, N is not formed, and P is applied by conjugate gradients.
 
 use super::Pattern;
 use super::Singular;
@@ -17,6 +18,8 @@ use crate::math::largest;
 /// Refinements where the coordinate pivots are true ones, and where some were replaced.
 const SWEEPS: [usize; 2] = [3, 40];
 const MOST_GRADIENTS: usize = 300;
+/// Null vectors that are formed: each costs a solution, a projection by conjugate gradients two for each step.
+const FEW: usize = 16;
 
 pub(super) struct Skipping {
     factor: Fast,
@@ -25,6 +28,9 @@ pub(super) struct Skipping {
     replaced: bool,
     is_holding: bool,
     inconsistency: f64,
+    /// Orthonormal null vectors, one after the other, where they are few; and whether they belong to the last factors.
+    basis: Vec<f64>,
+    is_spanned: bool,
     /// G without the rows that are held out.
     values: Vec<f64>,
     /// Scratch of n and of m numbers.
@@ -50,6 +56,8 @@ impl Skipping {
             replaced: false,
             is_holding: false,
             inconsistency: 0.0,
+            basis: Vec::with_capacity(FEW.min(m) * m),
+            is_spanned: false,
             values: Vec::with_capacity(g.entries.len()),
             a: vec![0.0; n],
             top: vec![0.0; n],
@@ -79,6 +87,7 @@ impl Skipping {
         self.is_skipped.fill(false);
         self.skipped.iter().for_each(|&j| self.is_skipped[j] = true);
         self.replaced = quality.replaced;
+        self.is_spanned = false;
         Ok(quality)
     }
 
@@ -88,7 +97,7 @@ impl Skipping {
         let (mut top, mut bottom) = std::mem::take(&mut self.probe);
         bottom.fill(0.0);
         top.iter_mut().enumerate().for_each(|(i, v)| *v = arbitrary(i));
-        self.solve(system, &mut top, &mut bottom);
+        self.solve(system, &mut top, &mut bottom, false);
         let coordinate = index_of_largest(&top);
         self.top.iter_mut().enumerate().for_each(|(i, v)| *v = arbitrary(i));
         self.bottom.fill(0.0);
@@ -143,8 +152,8 @@ impl Skipping {
     }
 
     /// Solves in place, refined to round-off. Right sides of rows that are held out say nothing; those of others that
-    /// were left out count, in least squares.
-    pub fn solve(&mut self, system: &System, top: &mut [f64], bottom: &mut [f64]) {
+    /// were left out count, in least squares. Multipliers are those of least norm where it `is_least`.
+    pub fn solve(&mut self, system: &System, top: &mut [f64], bottom: &mut [f64], is_least: bool) {
         self.inconsistency = if self.is_holding { 0.0 } else { self.project(system, bottom) };
         self.a.fill(0.0);
         self.lambda.fill(0.0);
@@ -169,14 +178,54 @@ impl Skipping {
         }
         top.copy_from_slice(&self.a);
         bottom.copy_from_slice(&self.lambda);
-        self.project(system, bottom);
+        if is_least {
+            self.project(system, bottom);
+        }
     }
 
     /// v := P v; returns the norm of what was taken away.
     fn project(&mut self, system: &System, v: &mut [f64]) -> f64 {
-        if self.skipped.is_empty() {
-            return 0.0;
+        match self.skipped.len() {
+            0 => 0.0,
+            1..=FEW => self.project_directly(system, v),
+            _ => self.project_by_gradients(system, v),
         }
+    }
+
+    fn project_directly(&mut self, system: &System, v: &mut [f64]) -> f64 {
+        if !self.is_spanned {
+            self.span(system);
+        }
+        let mut square = 0.0;
+        for null in self.basis.chunks_exact(v.len()) {
+            let part = dot(null, v);
+            add_scaled(-part, null, v);
+            square += part * part;
+        }
+        square.sqrt()
+    }
+
+    /// The basis, by Gram-Schmidt done twice.
+    fn span(&mut self, system: &System) {
+        let m = self.bottom.len();
+        self.basis.clear();
+        for k in 0..self.skipped.len() {
+            self.direction.fill(0.0);
+            self.direction[self.skipped[k]] = 1.0;
+            self.null(system);
+            for _ in 0..2 {
+                for done in self.basis.chunks_exact(m) {
+                    add_scaled(-dot(done, &self.image), done, &mut self.image);
+                }
+                let length = dot(&self.image, &self.image).sqrt();
+                self.image.iter_mut().for_each(|x| *x /= length);
+            }
+            self.basis.extend_from_slice(&self.image);
+        }
+        self.is_spanned = true;
+    }
+
+    fn project_by_gradients(&mut self, system: &System, v: &mut [f64]) -> f64 {
         let tolerance = 1e-15 * dot(v, v).sqrt();
         self.weights.fill(0.0);
         self.residual.copy_from_slice(v);
