@@ -124,7 +124,7 @@ impl Summary {
             s.factorizations
         );
         if s.rank_deficient > s.steps {
-            text += "  redundant constraints: multipliers are those of least norm\n\n";
+            text += "  redundant constraints at all states: multipliers are those of least norm\n\n";
         }
         text += &singular_text(&self.singularity);
         let mut drift = Table::new(&["drift", "max", "final", "relative max"]);

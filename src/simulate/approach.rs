@@ -5,6 +5,8 @@ const NEAR: f64 = 0.1;
 /// Below this part steps are placed about the singular state.
 const PLACED: f64 = 0.3;
 
+/// Below this part the state is singular to round-off.
+const AT: f64 = 1e-6;
 /// Steps that are this part of those far from singular states will not come over one.
 const STUCK: f64 = 1e-8;
 
@@ -62,7 +64,8 @@ impl Approach {
     /// lies in its `gap`, the fraction of a step that is farthest from all stages; then one that stops well before it.
     pub fn place(&mut self, h: f64, gap: f64) -> f64 {
         let (ahead, across) = (self.ahead(), self.ahead() / gap);
-        if !(self.sine < PLACED * self.largest && self.rate < 0.0) {
+        // At a singular state there is nothing ahead.
+        if !(self.sine < PLACED * self.largest && self.sine > AT * self.largest && self.rate < 0.0) {
             h
         } else if !self.is_tried && across <= h.max(self.regular) {
             self.is_tried = true;

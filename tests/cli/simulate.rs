@@ -56,7 +56,7 @@ fn the_summary_has_the_promised_keys() {
     let summary = place.json("here/summary.json");
     let top =
         ["scene", "method", "status", "failure", "t_end", "wall_seconds", "statistics", "drift", "energy", "final"];
-    assert_keys(&summary, &top, &["assembly"]);
+    assert_keys(&summary, &top, &["assembly", "singularity"]);
     assert_keys(&summary["method"], &["formulation", "integrator", "projection", "rtol", "atol", "step"], &[]);
     let counters = ["steps", "rejected", "rhs_evaluations", "jacobian_evaluations", "factorizations"];
     let rest = ["newton_iterations", "projections"];
