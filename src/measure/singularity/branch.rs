@@ -88,8 +88,7 @@ impl Open {
         let smooth = JUMP * size + (BEND * survey.size(&bend)).min(JUMP * size);
         match survey.size(&jump) {
             _ if size <= 0.0 => Branch::Open,
-            // Written so that a NaN is a jump.
-            jump if !(jump <= smooth) && self.may_turn => Branch::Left,
+            jump if (jump > smooth || jump.is_nan()) && self.may_turn => Branch::Left,
             _ => Branch::Kept,
         }
     }
