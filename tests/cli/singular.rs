@@ -17,7 +17,7 @@ fn passages_are_named_with_their_times() {
     let found = &place.json("out/summary.json")["singularity"];
     assert_eq!(found["count"], 7);
     assert_eq!(found["passed"][0]["branch"], "kept");
-    assert!((found["passed"][0]["t"].as_f64().unwrap() - 0.75953454904947025).abs() < 1e-8);
+    assert!((found["passed"][0]["t"].as_f64().unwrap() - 0.759534549049470).abs() < 1e-8);
     assert_eq!(found["passed"][0]["joints"], serde_json::json!(["bearing", "crank_pin", "slider"]));
 }
 
