@@ -1,6 +1,7 @@
 //! What `check` finds.
 
 use super::Table;
+use super::start::Start;
 use super::summary::{AssemblySummary, significant};
 use crate::formulation::Dynamics;
 use crate::initial::Assembly;
@@ -27,6 +28,7 @@ pub struct Check {
     /// Rows that follow from others, by joint.
     pub redundant: Vec<Redundant>,
     pub assembly: AssemblySummary,
+    pub start: Start,
     /// Condition number of the equilibrated saddle-point matrix without the redundant rows.
     pub condition: f64,
     /// How near G is to losing rank: the smallest sine between one of its rows and those before it, in the metric of M^-1,
@@ -110,6 +112,7 @@ fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
         degrees_of_freedom: n.v - dependence.rank,
         redundant: redundant.collect(),
         assembly: (&study.assembly).into(),
+        start: Start::of(study),
         condition: condition_without(&rows, structure, terms),
         distance_to_singularity: distance,
         mass_range: mass_range(structure, terms),
@@ -270,7 +273,7 @@ impl Check {
         if assembly.moves.len() > 10 {
             text += &format!("  and {} smaller moves\n", assembly.moves.len() - 10);
         }
-        text
+        text + &self.start.text()
     }
 
     fn scales_text(&self) -> String {

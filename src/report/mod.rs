@@ -5,6 +5,7 @@ mod envelope;
 mod figures;
 mod files;
 pub mod mechanism;
+mod start;
 mod summary;
 mod sweep;
 mod sweep_figure;

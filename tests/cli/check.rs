@@ -40,6 +40,7 @@ fn json_has_all_of_it() {
         "degrees_of_freedom",
         "redundant",
         "assembly",
+        "start",
         "condition",
         "distance_to_singularity",
         "mass_range",
@@ -64,4 +65,20 @@ fn what_assembly_moved_is_told() {
     let text = place.done(&["check", "scene.json"]);
     assert!(text.contains("start: |phi| 6.0e-1 -> ") && text.contains("moved rod."), "{text}");
     assert_eq!(place.done(&["check", "scene.json", "--quiet"]), "");
+}
+
+#[test]
+fn a_static_equilibrium_shows_its_forces() {
+    let place = Place::new(include_str!("../../models/five_link_suspension.json"));
+    let text = place.done(&["check", "scene.json"]);
+    assert!(text.contains("static equilibrium: at rest, accelerations below"), "{text}");
+    let check: Value = serde_json::from_str(&place.done(&["check", "scene.json", "--json"])).unwrap();
+    assert_eq!(check["start"]["is_equilibrium"], true);
+    // Published to a tenth of a newton.
+    for (rod, force) in [-860.2, -3177.2, -197.0, 2553.5, 2034.8].into_iter().enumerate() {
+        let found = check["start"]["outputs"][format!("rod{}_force", rod + 1)].as_f64().unwrap();
+        assert!((found - force).abs() < 0.06, "{rod}: {found}");
+    }
+    let falling = Place::new(PENDULUM).done(&["check", "scene.json"]);
+    assert!(falling.contains("at rest, accelerations up to") && !falling.contains("equilibrium"), "{falling}");
 }
