@@ -67,6 +67,10 @@ fn end(mut metric: Metric, t: f64, q: Vec<f64>, still: &[f64]) -> Result<Option<
     if metric.worst(&metric.terms.phi) > CLOSED {
         return Ok(None);
     }
-    let dependent = metric.kkt.left_out().iter().copied().filter(|row| *row < metric.terms.phi.len()).collect();
+    let rows = metric.kkt.left_out().iter().copied();
+    let dependent: Vec<usize> = rows.filter(|row| *row < metric.terms.phi.len()).collect();
+    // How near the others are.
+    metric.kkt.hold(&dependent);
+    metric.at(t, &q, still)?;
     Ok(Some(Followed { q, smallest_sine: metric.kkt.smallest_sine(), dependent }))
 }

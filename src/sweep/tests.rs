@@ -136,3 +136,10 @@ fn values_beyond_what_expressions_are_defined_for_are_ends() {
     assert_eq!(sweep.points.len(), 3);
     assert!((limit.point.value - 2.0).abs() < 1e-6 && limit.reason.contains("sqrt(2 - a)"), "{limit:?}");
 }
+
+#[test]
+fn redundant_constraints_are_not_singular() {
+    let family = Family::parse(include_str!("../../models/parallelogram_redundant.json"), &[]).unwrap();
+    let sweep = sweep(&family, "angle0=0.5..1.2:5");
+    assert!(sweep.limits.is_empty() && sweep.nearest_singular.smallest_sine > 0.1, "{:?}", sweep.nearest_singular);
+}
