@@ -3,7 +3,7 @@
 use super::common::{Common, Output, print};
 use crate::error::{Error, Failure, Result};
 use crate::formulation::Choice;
-use crate::measure::{Drift, EnergyBalance, Record, Recorder};
+use crate::measure::{Drift, EnergyBalance, Record, Recorder, Singularity};
 use crate::plot::{AxisSpec, Figure, Panel, Series};
 use crate::report::{Table, cell, envelope, table};
 use crate::simulate::{Method, Outcome, simulate};
@@ -31,6 +31,7 @@ struct Row {
     failure: Option<Failure>,
     drift: Drift,
     energy: Option<EnergyBalance>,
+    singularity: Singularity,
     steps: u64,
     rhs_evaluations: u64,
     factorizations: u64,
@@ -129,6 +130,7 @@ fn one(study: &Study, formulation: &Choice, projection: &Choice) -> Result<Row> 
         failure,
         drift: record.drift.clone(),
         energy: record.energy,
+        singularity: record.singularity.clone(),
         steps: statistics.steps,
         rhs_evaluations: statistics.rhs_evaluations,
         factorizations: statistics.factorizations,
@@ -162,7 +164,12 @@ fn text(study: &Study, rows: &[Row]) -> String {
     let failures = rows.iter().filter_map(|row| Some((&row.method, row.failure.as_ref()?)));
     let lines =
         failures.map(|(method, failure)| format!("\n  {method} FAILED at t = {:.4e} s: {}", failure.t, failure.reason));
-    let lines: String = lines.collect();
+    let left = rows.iter().filter_map(|row| Some((&row.method, row.record.singularity.left()?)));
+    let jumps = left.map(|(method, at)| {
+        let t = at.t;
+        format!("\n  {method} left its branch: its velocity jumped at the singular state of t = {t:.6} s")
+    });
+    let lines: String = lines.chain(jumps).collect();
     text + &lines + if lines.is_empty() { "" } else { "\n" }
 }
 

@@ -56,3 +56,12 @@ fn check_tells_a_singular_start() {
     let text = redundant.done(&["check", "scene.json"]);
     assert!(text.contains("redundant constraints") && !text.contains("singular state:"), "{text}");
 }
+
+#[test]
+fn drift_tells_which_methods_leave_the_branch() {
+    let place = Place::new(CASES[0].1);
+    let text = place.done(&["drift", "scene.json", "--figures", "none"]);
+    let told =
+        |method: &str| text.lines().any(|line| line.trim_start().starts_with(&format!("{method} left its branch")));
+    assert!(told("none") && !told("manifold") && !told("exact"), "{text}");
+}
