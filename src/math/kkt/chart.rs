@@ -7,7 +7,8 @@ use super::system::{add_scaled, dot};
 
 /// With S = diag(M)^-1/2 and Y = S Q_1 from the pivoted QR of (G S)^T at the base, d = Y c solves G d = r at another
 /// place: G Y c = r, by a pivoted QR of (G Y)^T. Such a d has no part along the base's null space in the metric of
-/// diag(M). Rows that are dependent at the base have no say. Costs 3 n m^2 for a base, 3 m^3 for a place and 2 (n + m) m for a solution.
+/// diag(M). Rows that are dependent at the base have no say. Costs 3 n m^2 for a base, 3 m^3 for a place and
+/// 2 (n + m) m for a solution.
 pub struct Chart {
     mass: Pattern,
     g: Pattern,
