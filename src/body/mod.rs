@@ -6,6 +6,7 @@
 //! To add one: a file with a [`BodySpec`] and a [`BodyKernel`], and a line in [`registry`].
 
 mod build;
+pub mod flexible;
 mod frame;
 mod guided;
 mod parse;

@@ -1,0 +1,191 @@
+//! A beam's section in numbers.
+
+use super::spec::{FlexibleBeam, Material, OneOrMany, SectionInertia, SectionShape, Stiffness, Theory};
+use crate::body::Build;
+use crate::error::{Error, Result};
+use crate::math::expression::Number;
+use std::f64::consts::PI;
+
+/// Stiffness and inertia of a section with principal axes y and z; in the plane those about z and along y count.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Section {
+    /// N
+    pub ea: f64,
+    /// Shear along y and z with the shear factor, N; infinite where sections stay square to the line.
+    pub ga: [f64; 2],
+    /// Torsion, N m^2; zero in the plane.
+    pub gj: f64,
+    /// Bending about y and about z, N m^2.
+    pub ei: [f64; 2],
+    /// kg/m
+    pub rho_a: f64,
+    /// Moments of inertia per length about y and about z, kg m.
+    pub rho_i: [f64; 2],
+}
+
+impl Section {
+    /// Resolves what the scene says.
+    ///
+    /// # Errors
+    /// Bad input: a stiffness or mass that is zero or negative, or both forms given, or neither.
+    pub fn of<const D: usize>(beam: &FlexibleBeam, build: &Build<D>) -> Result<Section> {
+        let section = match (&beam.material, &beam.section, &beam.stiffness, &beam.inertia) {
+            (Some(material), Some(shape), None, None) => from_shape(material, shape, beam.theory, build)?,
+            (None, None, Some(stiffness), Some(inertia)) => from_numbers(stiffness, inertia, beam.theory, build)?,
+            (None, None, None, None) => {
+                return Err(Error::input("nothing says how stiff and heavy the beam is").hint(FORMS));
+            }
+            (Some(_), None, None, None) => return Err(Error::input("the key `section` is missing").hint(FORMS)),
+            (None, Some(_), None, None) => return Err(Error::input("the key `material` is missing").hint(FORMS)),
+            (None, None, Some(_), None) => return Err(Error::input("the key `inertia` is missing").hint(FORMS)),
+            (None, None, None, Some(_)) => return Err(Error::input("the key `stiffness` is missing").hint(FORMS)),
+            _ => return Err(Error::input("the section is given twice").hint(FORMS)),
+        };
+        Ok(match beam.theory {
+            Theory::EulerBernoulli => Section { ga: [f64::INFINITY; 2], ..section },
+            Theory::Timoshenko => section,
+        })
+    }
+}
+
+const FORMS: &str = "give \"material\" and \"section\", or \"stiffness\" and \"inertia\"";
+
+fn from_shape<const D: usize>(
+    material: &Material,
+    shape: &SectionShape,
+    theory: Theory,
+    build: &Build<D>,
+) -> Result<Section> {
+    let under = |error: Error| error.under("material");
+    let e = build.positive("E", &material.e).map_err(under)?;
+    let rho = build.positive("rho", &material.rho).map_err(under)?;
+    let g = match (&material.g, &material.nu) {
+        (Some(_), Some(_)) => {
+            return Err(Error::input("both `G` and `nu` are given").under("material").hint("keep one of them"));
+        }
+        (Some(g), None) => Some(build.positive("G", g).map_err(under)?),
+        (None, Some(nu)) => Some(e / (2.0 * (1.0 + poisson(nu, build).map_err(under)?))),
+        (None, None) => None,
+    };
+    let Some(g) = g.or((D == 2 && theory == Theory::EulerBernoulli).then_some(0.0)) else {
+        let what = if D == 3 { "torsion" } else { "shear" };
+        return Err(Error::input(format!("{what} needs a shear modulus"))
+            .under("material")
+            .hint("give \"nu\" or \"G\""));
+    };
+    let shape = Shape::of(shape, build)?;
+    Ok(Section {
+        ea: e * shape.area,
+        ga: [g * shape.area * shape.shear; 2],
+        gj: if D == 3 { g * shape.torsion } else { 0.0 },
+        ei: shape.second.map(|i| e * i),
+        rho_a: rho * shape.area,
+        rho_i: shape.second.map(|i| rho * i),
+    })
+}
+
+fn poisson<const D: usize>(nu: &Number, build: &Build<D>) -> Result<f64> {
+    let value = build.number("nu", nu)?;
+    match value > -1.0 && value <= 0.5 {
+        true => Ok(value),
+        false => Err(Error::input(format!("nu is {value}, but lies between -1 and 0.5")).under("nu")),
+    }
+}
+
+/// Geometry of a section.
+struct Shape {
+    area: f64,
+    /// About y and z.
+    second: [f64; 2],
+    torsion: f64,
+    /// Shear factor.
+    shear: f64,
+}
+
+impl Shape {
+    fn of<const D: usize>(shape: &SectionShape, build: &Build<D>) -> Result<Shape> {
+        let under = |error: Error| error.under("section");
+        match shape {
+            SectionShape::Rectangle { height, width } => {
+                let h = build.positive("rectangle.height", height).map_err(under)?;
+                let b = build.positive("rectangle.width", width).map_err(under)?;
+                let second = [h * b.powi(3) / 12.0, b * h.powi(3) / 12.0];
+                Ok(Shape { area: h * b, second, torsion: torsion_of_rectangle(h, b), shear: 5.0 / 6.0 })
+            }
+            SectionShape::Circle { radius, inner_radius } => {
+                let outer = build.positive("circle.radius", radius).map_err(under)?;
+                let inner = inner_radius.as_ref().map_or(Ok(0.0), |r| build.not_negative("circle.inner_radius", r));
+                let inner = inner.map_err(under)?;
+                if inner >= outer {
+                    return Err(Error::input("the inner radius is not smaller than the outer one")
+                        .under("section.circle.inner_radius"));
+                }
+                let second = PI / 4.0 * (outer.powi(4) - inner.powi(4));
+                let area = PI * (outer.powi(2) - inner.powi(2));
+                // Timoshenko's factors for nu = 0: 6/7 for a full circle, 1/2 for a thin tube; between them by Cowper's form.
+                let ratio = (inner / outer).powi(2);
+                let shear = 6.0 * (1.0 + ratio).powi(2) / (7.0 * (1.0 + ratio).powi(2) + 20.0 * ratio);
+                Ok(Shape { area, second: [second; 2], torsion: 2.0 * second, shear })
+            }
+        }
+    }
+}
+
+/// Saint-Venant's torsion constant of a rectangle: a b^3 (1/3 - 64/pi^5 (b/a) sum_odd tanh(n pi a/(2b))/n^5), a >= b
+/// (Timoshenko and Goodier, Theory of Elasticity, section 109).
+fn torsion_of_rectangle(h: f64, b: f64) -> f64 {
+    let (long, short) = (h.max(b), h.min(b));
+    let term = |n: f64| (n * PI * long / (2.0 * short)).tanh() / n.powi(5);
+    let sum: f64 = (0..200).map(|k| term(f64::from(2 * k + 1))).sum();
+    long * short.powi(3) * (1.0 / 3.0 - 64.0 / PI.powi(5) * (short / long) * sum)
+}
+
+fn from_numbers<const D: usize>(
+    stiffness: &Stiffness,
+    inertia: &SectionInertia,
+    theory: Theory,
+    build: &Build<D>,
+) -> Result<Section> {
+    let under = |error: Error| error.under("stiffness");
+    let missing = |key: &str, what: &str| {
+        Error::input(format!("{what} needs `{key}`")).under("stiffness").hint(format!("give \"{key}\""))
+    };
+    let ea = build.positive("EA", &stiffness.ea).map_err(under)?;
+    let ei = pair("EI", &stiffness.ei, build).map_err(under)?;
+    let ga = match &stiffness.ga {
+        Some(ga) => pair("GA", ga, build).map_err(under)?,
+        None if theory == Theory::Timoshenko => return Err(missing("GA", "a Timoshenko beam")),
+        None => [f64::INFINITY; 2],
+    };
+    let gj = match &stiffness.gj {
+        Some(gj) => build.positive("GJ", gj).map_err(under)?,
+        None if D == 3 => return Err(missing("GJ", "a beam in space")),
+        None => 0.0,
+    };
+    let rho_a = build.positive("rhoA", &inertia.rho_a).map_err(|error| error.under("inertia"))?;
+    let rho_i = match &inertia.rho_i {
+        Some(rho_i) => pair("rhoI", rho_i, build).map_err(|error| error.under("inertia"))?,
+        None if D == 3 => {
+            return Err(Error::input("a beam in space turns about its own line, which needs `rhoI`")
+                .under("inertia")
+                .hint("give \"rhoI\", kg m"));
+        }
+        None => [0.0; 2],
+    };
+    Ok(Section { ea, ga, gj, ei, rho_a, rho_i })
+}
+
+/// [about y, about z], or along them.
+fn pair<const D: usize>(field: &str, numbers: &OneOrMany, build: &Build<D>) -> Result<[f64; 2]> {
+    match numbers {
+        OneOrMany::One(number) => Ok([build.positive(field, number)?; 2]),
+        OneOrMany::Many(numbers) if D == 3 && numbers.len() == 2 => {
+            let one = |i: usize| build.positive(&format!("{field}[{i}]"), &numbers[i]);
+            Ok([one(0)?, one(1)?])
+        }
+        OneOrMany::Many(numbers) => {
+            let expected = if D == 3 { "one number or two" } else { "one number" };
+            Err(Error::input(format!("expected {expected}, found {}", numbers.len())).under(field))
+        }
+    }
+}

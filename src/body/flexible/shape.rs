@@ -1,0 +1,84 @@
+//! A flexible body in a floating frame, by its shape functions.
+//!
+//! A point of the body is at u = psi_0 + sum_i psi_i q_i in the floating frame: psi_0 where it is at rest, psi_i the
+//! displacement that elastic coordinate i gives it. All that the equations of motion need of the mass is in
+//!
+//! ```text
+//! m_a = int rho psi_a dV,   P_ab = int rho psi_a psi_b^T dV      (a, b = 0, 1, ...),
+//! ```
+//!
+//! computed once (Shabana, Dynamics of Multibody Systems, chapter 5: the shape integrals).
+
+/// A part of a body, a finite element or all of it, whose displacements depend on a few elastic coordinates.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Piece<const D: usize> {
+    /// Its elastic coordinates among those of the body, n of them, each once.
+    pub dofs: Vec<usize>,
+    /// kg
+    pub mass: f64,
+    /// m_a, 1 + n of them.
+    pub moments: Vec<[f64; D]>,
+    /// P_ab with `products[a * (1 + n) + b]`, (1 + n)^2 of them; P_ba = P_ab^T.
+    pub products: Vec<[[f64; D]; D]>,
+}
+
+/// How a point of the body and the axes there move with the elastic coordinates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointShape<const D: usize> {
+    /// At rest, from the floating frame's origin and in its axes, m.
+    pub rest: [f64; D],
+    /// The elastic coordinates that move it.
+    pub dofs: Vec<usize>,
+    /// Displacement a coordinate.
+    pub translation: Vec<[f64; D]>,
+    /// Small rotation a coordinate; in the plane only the third component is used.
+    pub rotation: Vec<[f64; 3]>,
+}
+
+/// How a section deforms with the elastic coordinates: extension, shear along y and z, twist, curvature about y and z.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SectionShape {
+    pub dofs: Vec<usize>,
+    /// Strains a coordinate.
+    pub strains: Vec<[f64; 6]>,
+    /// N and N m^2: strains times these are axial force, shear forces, torque and bending moments about y and z. Zero for
+    /// shear where sections stay square to the line; there is no shear force to be had then.
+    pub stiffness: [f64; 6],
+}
+
+/// A point of integration at which the axial force stiffens bending: V += weight u' (w_y'^2 + w_z'^2) / 2.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stretch {
+    pub dofs: Vec<usize>,
+    /// EA times the weight of integration, N m.
+    pub weight: f64,
+    /// u' a coordinate.
+    pub axial: Vec<f64>,
+    /// w_y' and w_z' a coordinate.
+    pub slopes: Vec<[f64; 2]>,
+}
+
+/// A symmetric sparse matrix: entries (i, j, value) with i >= j, each place once.
+pub type Symmetric = Vec<(usize, usize, f64)>;
+
+/// The line of a beam: shapes at any place on it.
+pub trait Line<const D: usize>: Send + Sync {
+    /// m
+    fn length(&self) -> f64;
+    /// The point at `rest` = [s, y(, z)], 0 <= s <= length, which turns with its section.
+    fn point(&self, rest: [f64; D]) -> PointShape<D>;
+    fn section(&self, s: f64) -> SectionShape;
+}
+
+/// Everything that the equations of motion of a flexible body in a floating frame need.
+pub struct Elastic<const D: usize> {
+    /// Of the elastic coordinates, such as `n3_y` or `mode2`.
+    pub names: Vec<String>,
+    pub pieces: Vec<Piece<D>>,
+    pub stiffness: Symmetric,
+    pub damping: Symmetric,
+    /// Empty without geometric stiffening.
+    pub stretches: Vec<Stretch>,
+    /// Of a beam.
+    pub line: Option<Box<dyn Line<D>>>,
+}

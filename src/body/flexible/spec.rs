@@ -1,0 +1,184 @@
+//! What a scene says of a flexible beam.
+
+use crate::math::expression::Number;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// A slender beam of constant section. Its origin is its left end; the x axis runs along it, markers lie at
+/// [s, y] or [s, y, z] with 0 <= s <= length.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FlexibleBeam {
+    /// `floating`: rigid coordinates of a frame that moves with the beam, and small elastic displacements in it.
+    /// `absolute`: positions and rotations of the nodes themselves, geometrically exact, for large deformation.
+    pub frame: FrameKind,
+    /// m
+    pub length: Number,
+    /// Number of finite elements. A node is put at every marker, which may add some. Left out with `ritz`.
+    pub elements: Option<u32>,
+    /// Default: `euler_bernoulli`.
+    #[serde(default)]
+    pub theory: Theory,
+    /// With `section`; or give `stiffness` and `inertia`.
+    pub material: Option<Material>,
+    pub section: Option<SectionShape>,
+    /// Instead of `material` and `section`.
+    pub stiffness: Option<Stiffness>,
+    /// Instead of `material` and `section`.
+    pub inertia: Option<SectionInertia>,
+    /// Default: none.
+    pub damping: Option<Damping>,
+    /// Absolute only: curvature of the relaxed beam, 1/m: one number in the plane; in space [twist, about y, about z].
+    pub curvature: Option<OneOrMany>,
+    /// Floating only: how the frame moves with the beam. Default: `tangent`.
+    pub frame_conditions: Option<FrameConditions>,
+    /// Floating only: axial displacement within an element. Default: `linear`.
+    pub axial: Option<Axial>,
+    /// Floating only: rotary inertia of sections that bending turns (Rayleigh). Default: true for `timoshenko`, else false.
+    pub rotary_inertia: Option<bool>,
+    /// Floating only: axial force stiffens or softens bending (energy EA u' w'^2 / 2). Default: false.
+    #[serde(default)]
+    pub geometric_stiffening: bool,
+    /// Floating only: Craig-Bampton reduction to the static modes of the markers and so many fixed-interface modes.
+    pub modes: Option<u32>,
+    /// Floating only: displacement functions of choice instead of finite elements.
+    pub ritz: Option<Ritz>,
+}
+
+#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum FrameKind {
+    Floating,
+    Absolute,
+}
+
+#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[serde(rename_all = "snake_case")]
+pub enum Theory {
+    /// Sections stay square to the line.
+    #[default]
+    EulerBernoulli,
+    /// Shear deforms the sections.
+    Timoshenko,
+}
+
+#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[serde(rename_all = "snake_case")]
+pub enum FrameConditions {
+    /// The frame is fixed to the section at the left end.
+    #[default]
+    Tangent,
+    /// The frame's origin is the left end, its x axis passes through the right end; in space it turns with the left end
+    /// about x.
+    Chord,
+    /// Elastic displacements have no linear or angular momentum to first order (mean axes of Buckens).
+    Mean,
+}
+
+#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[serde(rename_all = "snake_case")]
+pub enum Axial {
+    #[default]
+    Linear,
+    /// A middle node in each element.
+    Quadratic,
+}
+
+/// A number or a list of them.
+#[derive(Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "expected a number, an expression such as \"E*b*h\", or a list of these")]
+pub enum OneOrMany {
+    One(Number),
+    Many(Vec<Number>),
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Young's modulus, Pa.
+    #[serde(rename = "E")]
+    pub e: Number,
+    /// Poisson's ratio; gives G = E/(2 (1 + nu)).
+    pub nu: Option<Number>,
+    /// Shear modulus, Pa, instead of `nu`.
+    #[serde(rename = "G")]
+    pub g: Option<Number>,
+    /// Density, kg/m^3.
+    pub rho: Number,
+}
+
+/// A section in the y-z plane of the beam.
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum SectionShape {
+    /// `height` along y, `width` along z, m.
+    Rectangle { height: Number, width: Number },
+    /// A full circle, or a tube with `inner_radius`, m.
+    Circle { radius: Number, inner_radius: Option<Number> },
+}
+
+/// Stiffness of a section. Two numbers where a scene in space has two directions.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Stiffness {
+    /// N
+    #[serde(rename = "EA")]
+    pub ea: Number,
+    /// About z in the plane; [about y, about z] or one number for both in space, N m^2.
+    #[serde(rename = "EI")]
+    pub ei: OneOrMany,
+    /// With the shear factor: along y in the plane; [along y, along z] or one number for both in space, N.
+    #[serde(rename = "GA")]
+    pub ga: Option<OneOrMany>,
+    /// In space, N m^2.
+    #[serde(rename = "GJ")]
+    pub gj: Option<Number>,
+}
+
+/// Inertia of a section.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SectionInertia {
+    /// Mass per length, kg/m.
+    #[serde(rename = "rhoA")]
+    pub rho_a: Number,
+    /// About z in the plane; [about y, about z] or one number for both in space, kg m. Default: zero in the plane.
+    #[serde(rename = "rhoI")]
+    pub rho_i: Option<OneOrMany>,
+}
+
+/// Damping of the elastic motion.
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Damping {
+    /// D = mass M + stiffness K. An absolute beam takes `stiffness` only.
+    Rayleigh {
+        /// 1/s. Default: zero.
+        mass: Option<Number>,
+        /// s. Default: zero.
+        stiffness: Option<Number>,
+    },
+    /// Damping ratio of every mode, or of each in turn; floating with `modes` or `ritz` only.
+    Modal(OneOrMany),
+}
+
+/// Displacement functions of x from 0 to `length`, as expressions over x and the scene's parameters.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Ritz {
+    /// Displacements along y, one coordinate each; with slopes as rotations.
+    #[serde(default)]
+    pub bending: Vec<Number>,
+    /// In space: displacements along z.
+    #[serde(default)]
+    pub bending_z: Vec<Number>,
+    /// Displacements along x.
+    #[serde(default)]
+    pub axial: Vec<Number>,
+    /// In space: turns about x, rad.
+    #[serde(default)]
+    pub torsion: Vec<Number>,
+    /// Factor of the mass block of the axial functions. Default: 1, the consistent one; 15 is that of the IVP test set's
+    /// problem `crank`.
+    pub axial_mass_factor: Option<Number>,
+}
