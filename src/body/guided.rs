@@ -110,10 +110,10 @@ impl<const D: usize> BodyKernel<D> for Guided<D> {
     fn mass_pattern(&self) -> Vec<(usize, usize)> {
         (0..self.free().len()).map(|i| (i, i)).collect()
     }
-    fn mass<S: Scalar>(&self, _q: &[S], values: &mut [S]) {
-        values.fill(S::constant(self.mass));
+    fn mass(&self, values: &mut [f64]) {
+        values.fill(self.mass);
         if let Some(turn) = self.turn {
-            values[turn.slot] = S::constant(self.moment);
+            values[turn.slot] = self.moment;
         }
     }
     fn own_forces<S: Scalar>(&self, _q: &[S], _v: &[S], gravity: &[f64; D], f: &mut [S]) {

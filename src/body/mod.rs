@@ -9,6 +9,7 @@ mod build;
 pub mod flexible;
 mod frame;
 mod guided;
+mod kernel;
 mod parse;
 mod point_mass;
 mod probe;
@@ -41,7 +42,7 @@ pub struct Energy {
     pub potential: f64,
 }
 
-/// A body's equations, written once over any scalar.
+/// The equations of a body of a few coordinates that all move all of its markers, written once over any scalar.
 pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
     /// Coordinate names without the body's, such as `x` or `qw`.
     fn coordinate_names(&self) -> Vec<&'static str>;
@@ -57,12 +58,13 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
     /// The frames of all markers, in their order.
     fn frames<S: Scalar>(&self, q: &[S], out: &mut [Frame<S, D>]);
 
-    /// f += J^T w for a wrench at the frame of one of the markers.
+    /// f += J^T w for a wrench at the frame of one of the markers, all of which every coordinate moves.
     fn pull_back<S: Scalar>(&self, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]);
 
     /// Places of the mass matrix's lower triangle, in the order of the values of [`mass`](Self::mass).
     fn mass_pattern(&self) -> Vec<(usize, usize)>;
-    fn mass<S: Scalar>(&self, q: &[S], values: &mut [S]);
+    /// M, which is constant in the coordinates of such a body.
+    fn mass(&self, values: &mut [f64]);
 
     /// Whether its markers have an orientation.
     fn oriented(&self) -> bool {
@@ -78,120 +80,48 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
     fn normalize(&self, _q: &mut [f64]) {}
 }
 
-/// A body over one scalar: what the model calls.
+/// A body's kinematics over one scalar: what joints and forces need.
 pub trait BodyOver<S: Scalar, const D: usize> {
     fn rate(&self, q: &[S], v: &[S], qdot: &mut [S]);
     /// Frames with their velocities, and their accelerations at v' = `vdot` (zero where it is not given).
     fn motion(&self, q: &[S], v: &[S], vdot: Option<&[S]>, out: &mut [Frame<Taylor<S>, D>]);
-    fn pull_back(&self, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]);
-    fn mass(&self, q: &[S], values: &mut [S]);
-    fn own_forces(&self, q: &[S], v: &[S], gravity: &[f64; D], f: &mut [S]);
+    /// f += J^T w for a wrench at the frame of marker `marker`; f has the velocities of its [`support`](Body::support).
+    fn pull_back(&self, marker: usize, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]);
+}
+
+/// A body's state with its accelerations, and the scene's gravity.
+#[derive(Clone, Copy, Debug)]
+pub struct BodyState<'a, const D: usize> {
+    pub q: &'a [f64],
+    pub v: &'a [f64],
+    pub vdot: &'a [f64],
+    pub gravity: &'a [f64; D],
 }
 
 /// The object-safe form of a body; implemented for every [`BodyKernel`].
 pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Slope, D> + Send + Sync {
-    fn coordinate_names(&self) -> Vec<&'static str>;
-    fn velocity_names(&self) -> Vec<&'static str>;
+    fn coordinate_names(&self) -> Vec<String>;
+    fn velocity_names(&self) -> Vec<String>;
     fn marker_count(&self) -> usize;
     /// Where a marker is on the body.
     fn marker(&self, index: usize) -> &Marker<D>;
+    /// The velocities that move a marker, in increasing order.
+    fn support(&self, marker: usize) -> Vec<usize>;
+    /// Places of the mass matrix's lower triangle, each once.
     fn mass_pattern(&self) -> Vec<(usize, usize)>;
+    fn mass(&self, q: &[f64], values: &mut [f64]);
+    /// f += weight, velocity-dependent inertia forces, and what deforming the body itself takes.
+    fn own_forces(&self, q: &[f64], v: &[f64], gravity: &[f64; D], f: &mut [f64]);
+    /// Places of K and C of the body itself.
+    fn tangent_pattern(&self) -> Vec<(usize, usize)>;
+    /// k += d(M v' - f)/dq along the directions of v, c += d(M v' - f)/dv, with f the own forces.
+    fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]);
     fn energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy;
     fn normalize(&self, q: &mut [f64]);
     /// Whether its markers have an orientation.
     fn oriented(&self) -> bool;
     /// Largest distance of a marker from the origin of the coordinates, m.
     fn reach(&self) -> f64;
-}
-
-/// More coordinates than this a rigid body never has; the motion of a longer one is computed on the heap.
-const ON_STACK: usize = 8;
-
-impl<K: BodyKernel<D>, S: Scalar, const D: usize> BodyOver<S, D> for K {
-    fn rate(&self, q: &[S], v: &[S], qdot: &mut [S]) {
-        BodyKernel::rate(self, q, v, qdot);
-    }
-
-    fn motion(&self, q: &[S], v: &[S], vdot: Option<&[S]>, out: &mut [Frame<Taylor<S>, D>]) {
-        let mut stack = [Taylor::fixed(S::zero()); ON_STACK];
-        let mut heap = Vec::new();
-        let path = if q.len() <= ON_STACK {
-            &mut stack[..q.len()]
-        } else {
-            heap.resize(q.len(), Taylor::fixed(S::zero()));
-            &mut heap[..]
-        };
-        coordinate_path(self, q, v, vdot, path);
-        self.frames(path, out);
-    }
-
-    fn pull_back(&self, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]) {
-        BodyKernel::pull_back(self, q, frame, wrench, f);
-    }
-    fn mass(&self, q: &[S], values: &mut [S]) {
-        BodyKernel::mass(self, q, values);
-    }
-    fn own_forces(&self, q: &[S], v: &[S], gravity: &[f64; D], f: &mut [S]) {
-        BodyKernel::own_forces(self, q, v, gravity, f);
-    }
-}
-
-/// q with q' = N(q) v and q'' = (N(q') - N(0)) v + N(q) v', from N's being affine in q.
-fn coordinate_path<K: BodyKernel<D>, S: Scalar, const D: usize>(
-    body: &K,
-    q: &[S],
-    v: &[S],
-    vdot: Option<&[S]>,
-    path: &mut [Taylor<S>],
-) {
-    if q.len() == v.len() {
-        for (i, place) in path.iter_mut().enumerate() {
-            *place = Taylor::new(q[i], v[i], vdot.map_or(S::zero(), |a| a[i]));
-        }
-        return;
-    }
-    let mut rates = [[S::zero(); ON_STACK]; 4];
-    let [first, second, constant, applied] = &mut rates;
-    let n = q.len();
-    BodyKernel::rate(body, q, v, &mut first[..n]);
-    BodyKernel::rate(body, &first[..n], v, &mut second[..n]);
-    BodyKernel::rate(body, &[S::zero(); ON_STACK][..n], v, &mut constant[..n]);
-    if let Some(vdot) = vdot {
-        BodyKernel::rate(body, q, vdot, &mut applied[..n]);
-    }
-    for (i, place) in path.iter_mut().enumerate() {
-        *place = Taylor::new(q[i], first[i], second[i] - constant[i] + applied[i]);
-    }
-}
-
-impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
-    fn coordinate_names(&self) -> Vec<&'static str> {
-        BodyKernel::coordinate_names(self)
-    }
-    fn velocity_names(&self) -> Vec<&'static str> {
-        BodyKernel::velocity_names(self)
-    }
-    fn marker_count(&self) -> usize {
-        self.markers().len()
-    }
-    fn marker(&self, index: usize) -> &Marker<D> {
-        &self.markers()[index]
-    }
-    fn mass_pattern(&self) -> Vec<(usize, usize)> {
-        BodyKernel::mass_pattern(self)
-    }
-    fn energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy {
-        BodyKernel::energy(self, q, v, gravity)
-    }
-    fn normalize(&self, q: &mut [f64]) {
-        BodyKernel::normalize(self, q);
-    }
-    fn oriented(&self) -> bool {
-        BodyKernel::oriented(self)
-    }
-    fn reach(&self) -> f64 {
-        self.markers().iter().map(|marker| dot(&marker.offset, &marker.offset).sqrt()).fold(0.0, f64::max)
-    }
 }
 
 /// A body ready for the model, with the start its scene gives.

@@ -65,8 +65,8 @@ impl<const D: usize> BodyKernel<D> for Particle<D> {
     fn mass_pattern(&self) -> Vec<(usize, usize)> {
         (0..D).map(|i| (i, i)).collect()
     }
-    fn mass<S: Scalar>(&self, _q: &[S], values: &mut [S]) {
-        values.fill(S::constant(self.mass));
+    fn mass(&self, values: &mut [f64]) {
+        values.fill(self.mass);
     }
     fn own_forces<S: Scalar>(&self, _q: &[S], _v: &[S], gravity: &[f64; D], f: &mut [S]) {
         f.iter_mut().zip(gravity).for_each(|(f, g)| *f += S::constant(self.mass * g));

@@ -70,8 +70,8 @@ impl<const D: usize> BodyKernel<D> for RigidPlanar<D> {
     fn mass_pattern(&self) -> Vec<(usize, usize)> {
         (0..self.free().count()).map(|i| (i, i)).collect()
     }
-    fn mass<S: Scalar>(&self, _q: &[S], values: &mut [S]) {
-        self.free().zip(values).for_each(|(i, value)| *value = S::constant(self.inertia[i]));
+    fn mass(&self, values: &mut [f64]) {
+        self.free().zip(values).for_each(|(i, value)| *value = self.inertia[i]);
     }
     fn own_forces<S: Scalar>(&self, _q: &[S], _v: &[S], gravity: &[f64; D], f: &mut [S]) {
         for (slot, g) in self.slots.iter().zip(&gravity[..2]) {

@@ -66,10 +66,10 @@ impl<const D: usize> BodyKernel<D> for RigidSpatial<D> {
             true => diagonal.chain([(4, 3), (5, 3), (5, 4)]).collect(),
         }
     }
-    fn mass<S: Scalar>(&self, _q: &[S], values: &mut [S]) {
+    fn mass(&self, values: &mut [f64]) {
         let j = &self.inertia;
         let all = [self.mass, self.mass, self.mass, j[0][0], j[1][1], j[2][2], j[1][0], j[2][0], j[2][1]];
-        values.iter_mut().zip(all).for_each(|(value, entry)| *value = S::constant(entry));
+        values.iter_mut().zip(all).for_each(|(value, entry)| *value = entry);
     }
     fn own_forces<S: Scalar>(&self, _q: &[S], v: &[S], gravity: &[f64; D], f: &mut [S]) {
         f.iter_mut().zip(gravity).for_each(|(f, g)| *f += S::constant(self.mass * g));

@@ -1,8 +1,10 @@
 //! The equations of a scene's model.
 
+use super::coupling::Couplings;
 use super::output::Output;
 use super::rows::{PlacedJoint, Rows};
-use super::tangent::{Couplings, Evaluation, Loaded, Tangent};
+use super::support::Support;
+use super::tangent::{Evaluation, Loaded, Tangent};
 use super::variation::Varied;
 use super::{Column, Dimensions, Energy, Group, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
 use crate::body::{Frame, MOST_MARKERS, Wrench};
@@ -21,6 +23,8 @@ pub struct Mechanism<const D: usize> {
     pub(super) couplings: Couplings,
     /// Places of each body's values of M.
     masses: Vec<Range<usize>>,
+    /// For every marker the velocities that move it; none on the ground.
+    pub(super) supports: Vec<Support>,
     pub(super) length: f64,
 }
 
@@ -29,6 +33,8 @@ pub(super) struct Workspace<const D: usize> {
     /// Frames of all markers with their velocities, and accelerations at v' = 0.
     pub motion: Vec<Frame<Taylor<f64>, D>>,
     pub varied: Varied<D>,
+    /// Generalized forces on the support of one marker.
+    pulled: Vec<f64>,
 }
 
 impl<const D: usize> Mechanism<D> {
@@ -44,13 +50,14 @@ impl<const D: usize> Mechanism<D> {
             masses.push(first..mass.entries.len());
         }
         let mut g = Pattern { rows: 0, cols: v, entries: Vec::new() };
-        let joints = model.joints.iter().map(|joint| Rows::new(&model, joint, &mut g)).collect();
+        let supports: Vec<Support> = (0..model.marker_count()).map(|marker| Support::of(&model, marker)).collect();
+        let joints = model.joints.iter().map(|joint| Rows::new(&supports, joint, &mut g)).collect();
         let dimensions = Dimensions { q, v, lambda: g.rows };
         let length = length_scale(&model);
         let mut tangent = Pattern { rows: v, cols: v, entries: Vec::new() };
-        let couplings = Couplings::new(&model, &mut tangent);
+        let couplings = Couplings::new(&model, &supports, &mut tangent);
         let structure = Structure { mass, g, tangent };
-        Mechanism { model, dimensions, structure, joints, couplings, masses, length }
+        Mechanism { model, dimensions, structure, joints, couplings, masses, supports, length }
     }
 
     pub fn model(&self) -> &Model<D> {
@@ -78,6 +85,7 @@ impl<const D: usize> Mechanism<D> {
         let make = || Workspace {
             motion: self.model.ground_frames().map(|frame| frame.map(Taylor::fixed)).collect(),
             varied: Varied::default(),
+            pulled: Vec::new(),
         };
         scratch.with(make, |work| {
             self.place(q, v, work);
@@ -108,7 +116,7 @@ impl<const D: usize> Mechanism<D> {
         }
     }
 
-    fn forces(&self, t: f64, q: &[f64], work: &Workspace<D>, terms: &mut Terms) {
+    fn forces(&self, t: f64, q: &[f64], work: &mut Workspace<D>, terms: &mut Terms) {
         terms.power = 0.0;
         for force in &self.model.forces {
             let mut wrenches = [Wrench::zero(); MOST_MARKERS];
@@ -121,8 +129,11 @@ impl<const D: usize> Mechanism<D> {
                 let frame = &work.motion[marker];
                 terms.power += power(frame, wrench);
                 if let Some(part) = self.model.carrier(marker) {
-                    let f = &mut terms.f[part.first_v..part.first_v + part.nv];
-                    part.body.pull_back(of(q, part, true), &frame.map(|x| x.x), wrench, f);
+                    let (index, support) = (marker - part.first_marker, &self.supports[marker]);
+                    let frame = frame.map(|x| x.x);
+                    support.add_to(&mut terms.f, &mut work.pulled, |f| {
+                        part.body.pull_back(index, of(q, part, true), &frame, wrench, f);
+                    });
                 }
             }
         }
@@ -143,7 +154,7 @@ impl<const D: usize> Mechanism<D> {
 
     fn placed_joints(&self) -> impl Iterator<Item = PlacedJoint<'_, D>> {
         let all = self.model.joints.iter().zip(&self.joints);
-        all.map(|(joint, rows)| PlacedJoint { model: &self.model, joint, rows })
+        all.map(|(joint, rows)| PlacedJoint { mechanism: self, joint, rows })
     }
 }
 
@@ -202,7 +213,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn names(&self) -> Names {
-        let all = |names: fn(&Part<D>) -> Vec<&'static str>| {
+        let all = |names: fn(&Part<D>) -> Vec<String>| {
             let bodies = self.model.bodies.iter();
             bodies.flat_map(|part| names(part).into_iter().map(|name| format!("{}.{name}", part.name))).collect()
         };
@@ -233,7 +244,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
             }
             self.constraints(t, q, need, work, terms);
             if need.includes(Need::L) {
-                let Workspace { motion, varied } = work;
+                let Workspace { motion, varied, .. } = work;
                 self.placed_joints().for_each(|joint| joint.curvature(t, (q, v), motion, varied, terms));
             }
         });

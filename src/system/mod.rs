@@ -4,10 +4,12 @@
 //! [`Mechanism`]; a researcher implements it directly, or writes M, f and phi once over any scalar as [`Equations`]
 //! and gets the derivatives.
 
+mod coupling;
 mod equations;
 mod mechanism;
 mod output;
 mod rows;
+mod support;
 mod tangent;
 mod terms;
 mod variation;

@@ -1,13 +1,14 @@
 //! The rows of phi and G that one joint has.
 
 use super::Terms;
-use super::mechanism::of;
+use super::mechanism::{Mechanism, of};
+use super::support::Support;
 use super::variation::{Along, Varied, fixed};
 use crate::body::{Frame, MOST_MARKERS, Slope, Wrench, twist_len};
 use crate::joint::{Joint, MOST_ROWS, markers_per_pass};
 use crate::math::kkt::Pattern;
 use crate::math::{Scalar, Taylor};
-use crate::scene::{Connection, Model};
+use crate::scene::Connection;
 use std::array::from_fn;
 use std::ops::Range;
 
@@ -20,19 +21,17 @@ pub(super) struct Rows {
     blocks: Vec<Block>,
 }
 
-/// Entries of G for one joint and one of its markers: rows x the velocities of the marker's body, row by row.
+/// Entries of G for one joint and one of its markers: rows x the velocities that move the marker, row by row.
 struct Block {
     /// Which of the joint's markers.
     slot: usize,
     body: usize,
     first_entry: usize,
-    /// False where an earlier block of the joint has the same body.
-    first_of_body: bool,
 }
 
 /// A joint in its place.
 pub(super) struct PlacedJoint<'a, const D: usize> {
-    pub model: &'a Model<D>,
+    pub mechanism: &'a Mechanism<D>,
     pub joint: &'a Connection<Box<dyn Joint<D>>>,
     pub rows: &'a Rows,
 }
@@ -41,17 +40,15 @@ type Motion<S, const D: usize> = [Frame<Taylor<S>, D>];
 
 impl Rows {
     /// Adds the joint's entries to the pattern of G, and its rows.
-    pub fn new<const D: usize>(model: &Model<D>, joint: &Connection<Box<dyn Joint<D>>>, g: &mut Pattern) -> Self {
+    pub fn new<const D: usize>(supports: &[Support], joint: &Connection<Box<dyn Joint<D>>>, g: &mut Pattern) -> Self {
         let count = joint.element.row_names().len();
         let mut blocks: Vec<Block> = Vec::new();
         for (slot, &marker) in joint.markers.iter().enumerate() {
-            let Some(body) = model.markers.bodies[marker] else { continue };
-            let part = &model.bodies[body];
-            if part.nv > 0 {
-                let first_of_body = blocks.iter().all(|block| block.body != body);
-                blocks.push(Block { slot, body, first_entry: g.entries.len(), first_of_body });
-                let places = (0..count).flat_map(|i| (0..part.nv).map(move |j| (i, j)));
-                g.entries.extend(places.map(|(i, j)| (g.rows + i, part.first_v + j)));
+            let Support { body: Some(body), velocities, .. } = &supports[marker] else { continue };
+            if !velocities.is_empty() {
+                blocks.push(Block { slot, body: *body, first_entry: g.entries.len() });
+                let places = (0..count).flat_map(|i| velocities.iter().map(move |&j| (i, j)));
+                g.entries.extend(places.map(|(i, j)| (g.rows + i, j)));
             }
         }
         let first = g.rows;
@@ -104,18 +101,24 @@ impl<const D: usize> PlacedJoint<'_, D> {
         slopes: &[[f64; 6]],
         terms: &mut Terms,
     ) {
-        let part = &self.model.bodies[block.body];
-        let frame = frame.map(|x| x.x);
+        let part = &self.mechanism.model().bodies[block.body];
+        let (marker, width) = (self.joint.markers[block.slot], self.width(block));
+        let (index, frame) = (marker - part.first_marker, frame.map(|x| x.x));
         let first = block.slot % markers_per_pass(D) * twist_len(D);
-        let entries = &mut terms.g[block.first_entry..][..self.rows.count * part.nv];
+        let entries = &mut terms.g[block.first_entry..][..self.rows.count * width];
         entries.fill(0.0);
-        for (entries, slope) in entries.chunks_exact_mut(part.nv).zip(slopes) {
+        for (entries, slope) in entries.chunks_exact_mut(width).zip(slopes) {
             let wrench = Wrench::from_twist_order(&slope[first..first + twist_len(D)]);
-            part.body.pull_back(of(q, part, true), &frame, &wrench, entries);
+            part.body.pull_back(index, of(q, part, true), &frame, &wrench, entries);
         }
     }
 
-    /// Rows of L = d(phi')/dq: the joint is evaluated with its bodies varied, one after the other.
+    /// Velocities that move the marker of a block.
+    fn width(&self, block: &Block) -> usize {
+        self.mechanism.supports[self.joint.markers[block.slot]].velocities.len()
+    }
+
+    /// Rows of L = d(phi')/dq: the joint is evaluated with each of its markers varied, one after the other.
     pub fn curvature(
         &self,
         t: f64,
@@ -125,27 +128,23 @@ impl<const D: usize> PlacedJoint<'_, D> {
         terms: &mut Terms,
     ) {
         for block in &self.rows.blocks {
-            let part = &self.model.bodies[block.body];
-            let entries = &mut terms.l[block.first_entry..][..self.rows.count * part.nv];
-            entries.fill(0.0);
-            if !block.first_of_body {
-                continue;
-            }
-            for first in (0..part.nv).step_by(6) {
-                varied.vary(Along::Coordinates, part, of(q, part, true), of(v, part, false), first);
-                let frames: [Frame<Taylor<Slope>, D>; MOST_MARKERS] = from_fn(|i| {
-                    let marker = self.joint.markers[i.min(self.joint.markers.len() - 1)];
-                    match self.model.markers.bodies[marker] == Some(block.body) {
-                        true => varied.frames[marker - part.first_marker],
-                        false => fixed(&motion[marker]),
-                    }
+            let part = &self.mechanism.model().bodies[block.body];
+            let marker = self.joint.markers[block.slot];
+            let velocities = &self.mechanism.supports[marker].velocities;
+            let width = velocities.len();
+            for first in (0..width).step_by(6) {
+                let directions = &velocities[first..width.min(first + 6)];
+                varied.vary(Along::Coordinates, part, (q, v), directions);
+                let frames: [Frame<Taylor<Slope>, D>; MOST_MARKERS] = from_fn(|i| match i == block.slot {
+                    true => varied.frames[marker - part.first_marker],
+                    false => fixed(&motion[self.joint.markers[i.min(self.joint.markers.len() - 1)]]),
                 });
                 let mut levels = [Taylor::fixed(Slope::constant(0.0)); MOST_ROWS];
                 let levels = &mut levels[..self.rows.count];
                 self.joint.element.levels(&frames[..self.joint.markers.len()], Taylor::time(t), levels);
                 for (row, level) in levels.iter().enumerate() {
-                    let columns = first..part.nv.min(first + 6);
-                    columns.for_each(|j| entries[row * part.nv + j] = level.d.eps[j - first]);
+                    let entries = &mut terms.l[block.first_entry + row * width + first..][..directions.len()];
+                    entries.iter_mut().zip(level.d.eps).for_each(|(entry, slope)| *entry = slope);
                 }
             }
         }

@@ -1,12 +1,12 @@
 //! K and C: how the residual of the equations of motion changes with q and v.
 
+use super::coupling::{Block, Carrier, Coupling};
 use super::mechanism::{Mechanism, Workspace, of};
 use super::variation::{Along, fixed};
-use crate::body::{Frame, MOST_MARKERS, Slope, Wrench, twist_len};
+use crate::body::{BodyState, Frame, MOST_MARKERS, Slope, Wrench, twist_len};
 use crate::joint::{MOST_ROWS, markers_per_pass};
 use crate::math::kkt::Pattern;
 use crate::math::{Scalar, Taylor};
-use crate::scene::Model;
 use std::array::from_fn;
 
 /// A state with its accelerations and multipliers.
@@ -34,55 +34,6 @@ impl Tangent {
     }
 }
 
-/// Where the blocks of K and C stand: one a pair of bodies that an element joins, and one a body.
-pub(super) struct Couplings {
-    bodies: Vec<Own>,
-    joints: Vec<Vec<Block>>,
-    forces: Vec<Vec<Block>>,
-}
-
-struct Own {
-    first_entry: usize,
-    mass_pattern: Vec<(usize, usize)>,
-}
-
-/// d(generalized forces of body `row`)/d(coordinates of body `column`), row by row.
-struct Block {
-    row: usize,
-    column: usize,
-    first_entry: usize,
-}
-
-impl Couplings {
-    pub fn new<const D: usize>(model: &Model<D>, pattern: &mut Pattern) -> Self {
-        let own = |(body, part): (usize, &crate::scene::Part<D>)| Own {
-            first_entry: block(model, body, body, pattern),
-            mass_pattern: part.body.mass_pattern(),
-        };
-        let bodies = model.bodies.iter().enumerate().map(own).collect();
-        let mut blocks = |markers: &[usize]| {
-            let mut carriers: Vec<usize> = markers.iter().filter_map(|&marker| model.markers.bodies[marker]).collect();
-            carriers.sort_unstable();
-            carriers.dedup();
-            let pairs = carriers.iter().flat_map(|&column| carriers.iter().map(move |&row| (row, column)));
-            pairs
-                .map(|(row, column)| Block { row, column, first_entry: block(model, row, column, pattern) })
-                .collect::<Vec<_>>()
-        };
-        let joints = model.joints.iter().map(|joint| blocks(&joint.markers)).collect();
-        let forces = model.forces.iter().map(|force| blocks(&force.markers)).collect();
-        Couplings { bodies, joints, forces }
-    }
-}
-
-fn block<const D: usize>(model: &Model<D>, row: usize, column: usize, pattern: &mut Pattern) -> usize {
-    let first_entry = pattern.entries.len();
-    let (row, column) = (&model.bodies[row], &model.bodies[column]);
-    let places = (0..row.nv).flat_map(|i| (0..column.nv).map(move |j| (i, j)));
-    pattern.entries.extend(places.map(|(i, j)| (row.first_v + i, column.first_v + j)));
-    first_entry
-}
-
 /// One evaluation of K and C.
 pub(super) struct Evaluation<'a, const D: usize> {
     pub mechanism: &'a Mechanism<D>,
@@ -101,10 +52,16 @@ impl<const D: usize> Evaluation<'_, D> {
         self.tangent.c.fill(0.0);
         let (mechanism, t) = (self.mechanism, Slope::fixed(self.at.t));
         let couplings = &mechanism.couplings;
-        for (body, own) in couplings.bodies.iter().enumerate() {
-            self.own(body, own);
+        for (part, places) in mechanism.model().bodies.iter().zip(&couplings.bodies) {
+            let own = BodyState {
+                q: of(self.at.q, part, true),
+                v: of(self.at.v, part, false),
+                vdot: of(self.at.vdot, part, false),
+                gravity: &mechanism.model().gravity,
+            };
+            part.body.tangent(own, &mut self.tangent.k[places.clone()], &mut self.tangent.c[places.clone()]);
         }
-        for ((joint, blocks), rows) in mechanism.model().joints.iter().zip(&couplings.joints).zip(&mechanism.joints) {
+        for ((joint, coupling), rows) in mechanism.model().joints.iter().zip(&couplings.joints).zip(&mechanism.joints) {
             let lambda = &self.at.lambda[rows.range()];
             let reaction = |frames: &Frames<D>, out: &mut Wrenches<D>| {
                 for pass in 0..frames.len().div_ceil(markers_per_pass(D)) {
@@ -114,65 +71,35 @@ impl<const D: usize> Evaluation<'_, D> {
                     slots.for_each(|slot| out[slot] = reaction_wrench(lambda, &slopes, slot));
                 }
             };
-            self.element(blocks, &joint.markers, Along::Coordinates, 1.0, reaction);
+            self.element(coupling, &joint.markers, Along::Coordinates, 1.0, reaction);
         }
-        for (force, blocks) in mechanism.model().forces.iter().zip(&couplings.forces) {
+        for (force, coupling) in mechanism.model().forces.iter().zip(&couplings.forces) {
             let act = |frames: &Frames<D>, out: &mut Wrenches<D>| {
                 let time = Taylor::new(t, Slope::constant(1.0), Slope::constant(0.0));
                 force.element.act(frames, time, &mut out[..frames.len()]);
             };
-            self.element(blocks, &force.markers, Along::Coordinates, -1.0, act);
-            self.element(blocks, &force.markers, Along::Velocities, -1.0, act);
-        }
-    }
-
-    /// -d(own forces) and d(M v') of one body.
-    fn own(&mut self, body: usize, own: &Own) {
-        let part = &self.mechanism.model().bodies[body];
-        let (q, v, vdot) = (of(self.at.q, part, true), of(self.at.v, part, false), of(self.at.vdot, part, false));
-        for along in [Along::Coordinates, Along::Velocities] {
-            for first in (0..part.nv).step_by(6) {
-                self.work.varied.vary(along, part, q, v, first);
-                let varied = &mut self.work.varied;
-                varied.f.clear();
-                varied.f.resize(part.nv, Slope::fixed(0.0));
-                part.body.own_forces(&varied.moved, &varied.moved_v, &self.mechanism.model().gravity, &mut varied.f);
-                varied.f.iter_mut().for_each(|f| *f = -*f);
-                if along == Along::Coordinates {
-                    varied.mass.clear();
-                    varied.mass.resize(own.mass_pattern.len(), Slope::fixed(0.0));
-                    part.body.mass(&varied.moved, &mut varied.mass);
-                    for (&(i, j), &entry) in own.mass_pattern.iter().zip(&varied.mass) {
-                        varied.f[i] += entry * vdot[j];
-                        if i != j {
-                            varied.f[j] += entry * vdot[i];
-                        }
-                    }
-                }
-                self.add(along, own.first_entry, part.nv, first, 1.0);
-            }
+            self.element(coupling, &force.markers, Along::Coordinates, -1.0, act);
+            self.element(coupling, &force.markers, Along::Velocities, -1.0, act);
         }
     }
 
     /// The wrenches of one element with each of its bodies varied in turn.
     fn element(
         &mut self,
-        blocks: &[Block],
+        coupling: &Coupling,
         markers: &[usize],
         along: Along,
         sign: f64,
         wrenches: impl Fn(&Frames<D>, &mut Wrenches<D>),
     ) {
         let model = self.mechanism.model();
-        for group in blocks.chunk_by(|a, b| a.column == b.column) {
-            let column = group[0].column;
-            let part = &model.bodies[column];
-            for first in (0..part.nv).step_by(6) {
-                let (q, v) = (of(self.at.q, part, true), of(self.at.v, part, false));
-                self.work.varied.vary(along, part, q, v, first);
+        for (column, carrier) in coupling.carriers.iter().enumerate() {
+            let part = &model.bodies[carrier.body];
+            for (pass, directions) in carrier.velocities.chunks(6).enumerate() {
+                self.work.varied.vary(along, part, (self.at.q, self.at.v), directions);
                 let frames: [_; MOST_MARKERS] = from_fn(|i| {
                     let marker = markers[i.min(markers.len() - 1)];
-                    match model.markers.bodies[marker] == Some(column) {
+                    match model.markers.bodies[marker] == Some(carrier.body) {
                         true => self.work.varied.frames[marker - part.first_marker],
                         false => fixed(&self.work.motion[marker]),
                     }
@@ -180,39 +107,51 @@ impl<const D: usize> Evaluation<'_, D> {
                 let frames = &frames[..markers.len()];
                 let mut acting = [Wrench::zero(); MOST_MARKERS];
                 wrenches(frames, &mut acting);
-                for block in group {
-                    self.pull_back(block, markers, frames, &acting);
-                    self.add(along, block.first_entry, part.nv, first, sign);
+                for (row, block) in coupling.carriers.iter().zip(coupling.column(column)) {
+                    self.pull_back(row, row.body == carrier.body, markers, frames, &acting);
+                    self.add(along, block, 6 * pass, sign);
                 }
             }
         }
     }
 
-    /// Generalized forces on the body of a row block, into `varied.f`.
-    fn pull_back(&mut self, block: &Block, markers: &[usize], frames: &Frames<D>, wrenches: &Wrenches<D>) {
-        let model = self.mechanism.model();
-        let part = &model.bodies[block.row];
+    /// Generalized forces on the velocities of a carrier, into `varied.f`.
+    fn pull_back(
+        &mut self,
+        row: &Carrier,
+        is_varied: bool,
+        markers: &[usize],
+        frames: &Frames<D>,
+        wrenches: &Wrenches<D>,
+    ) {
+        let part = &self.mechanism.model().bodies[row.body];
         let varied = &mut self.work.varied;
         varied.f.clear();
-        varied.f.resize(part.nv, Slope::fixed(0.0));
-        if block.row != block.column {
+        varied.f.resize(row.velocities.len(), Slope::fixed(0.0));
+        if !is_varied {
             varied.rest.clear();
             varied.rest.extend(of(self.at.q, part, true).iter().map(|&q| Slope::fixed(q)));
         }
-        let q = if block.row == block.column { &varied.moved } else { &varied.rest };
-        for ((frame, wrench), &marker) in frames.iter().zip(wrenches).zip(markers) {
-            if model.markers.bodies[marker] == Some(block.row) {
-                part.body.pull_back(q, &frame.map(|x| x.x), wrench, &mut varied.f);
+        let q = if is_varied { &varied.moved } else { &varied.rest };
+        for held in &row.markers {
+            let (index, frame) = (markers[held.slot] - part.first_marker, frames[held.slot].map(|x| x.x));
+            if held.places.len() == row.velocities.len() {
+                part.body.pull_back(index, q, &frame, &wrenches[held.slot], &mut varied.f);
+                continue;
             }
+            varied.pulled.clear();
+            varied.pulled.resize(held.places.len(), Slope::fixed(0.0));
+            part.body.pull_back(index, q, &frame, &wrenches[held.slot], &mut varied.pulled);
+            held.places.iter().zip(&varied.pulled).for_each(|(&place, &f)| varied.f[place] += f);
         }
     }
 
-    /// Adds the slopes of `varied.f` to columns `first..` of a block with `width` columns.
-    fn add(&mut self, along: Along, first_entry: usize, width: usize, first: usize, sign: f64) {
+    /// Adds the slopes of `varied.f` to columns `first..` of a block.
+    fn add(&mut self, along: Along, block: &Block, first: usize, sign: f64) {
         let values = if along == Along::Coordinates { &mut self.tangent.k } else { &mut self.tangent.c };
-        for (i, f) in self.work.varied.f.iter().enumerate() {
-            let row = &mut values[first_entry + i * width..][first..width.min(first + 6)];
-            row.iter_mut().zip(&f.eps).for_each(|(value, slope)| *value += sign * slope);
+        let rows = values[block.first_entry..].chunks_exact_mut(block.width);
+        for (row, f) in rows.zip(&self.work.varied.f) {
+            row[first..].iter_mut().zip(&f.eps).for_each(|(value, slope)| *value += sign * slope);
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Bodies as functions of their velocity directions.
 
+use super::mechanism::of;
 use crate::body::{Frame, Slope};
 use crate::math::Taylor;
 use crate::scene::Part;
@@ -21,22 +22,23 @@ pub(super) struct Varied<const D: usize> {
     pub moved: Vec<Slope>,
     /// The body's v.
     pub moved_v: Vec<Slope>,
-    /// Generalized forces.
+    /// Generalized forces of a body, and those at one of its markers.
     pub f: Vec<Slope>,
-    /// Values of the mass matrix.
-    pub mass: Vec<Slope>,
+    pub pulled: Vec<Slope>,
     /// q of a body that is not varied.
     pub rest: Vec<Slope>,
     directions: Vec<Slope>,
 }
 
 impl<const D: usize> Varied<D> {
-    /// Frames of a body's markers as functions of the directions `first` to `first + 5`.
-    pub fn vary(&mut self, along: Along, part: &Part<D>, q: &[f64], v: &[f64], first: usize) {
+    /// Frames of a body's markers as functions of up to six of the system's velocity directions, which are the body's.
+    pub fn vary(&mut self, along: Along, part: &Part<D>, (q, v): (&[f64], &[f64]), directions: &[usize]) {
+        let (q, v) = (of(q, part, true), of(v, part, false));
         self.directions.clear();
         self.directions.resize(part.nv, Slope::fixed(0.0));
-        let seeded = self.directions[first..].iter_mut().take(6).enumerate();
-        seeded.for_each(|(j, direction)| *direction = Slope::seeded(0.0, j));
+        for (j, &direction) in directions.iter().enumerate() {
+            self.directions[direction - part.first_v] = Slope::seeded(0.0, j);
+        }
         lift(v, &mut self.moved_v);
         lift(q, &mut self.rest);
         match along {

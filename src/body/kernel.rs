@@ -1,0 +1,127 @@
+//! Bodies of a few coordinates, all of which move all of their markers: the model's view of every [`BodyKernel`].
+
+use super::{Body, BodyKernel, BodyOver, BodyState, Energy, Frame, Marker, Slope, Wrench, dot};
+use crate::math::{Scalar, Taylor};
+
+/// More coordinates than this no [`BodyKernel`] has.
+const ON_STACK: usize = 8;
+
+impl<K: BodyKernel<D>, S: Scalar, const D: usize> BodyOver<S, D> for K {
+    fn rate(&self, q: &[S], v: &[S], qdot: &mut [S]) {
+        BodyKernel::rate(self, q, v, qdot);
+    }
+
+    fn motion(&self, q: &[S], v: &[S], vdot: Option<&[S]>, out: &mut [Frame<Taylor<S>, D>]) {
+        let mut path = [Taylor::fixed(S::zero()); ON_STACK];
+        let path = &mut path[..q.len()];
+        coordinate_path(|q, v, rate| BodyKernel::rate(self, q, v, rate), (q, v, vdot), path);
+        self.frames(path, out);
+    }
+
+    fn pull_back(&self, _marker: usize, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]) {
+        BodyKernel::pull_back(self, q, frame, wrench, f);
+    }
+}
+
+/// q with q' = N(q) v and q'' = (N(q') - N(0)) v + N(q) v', from N's being affine in q.
+pub(super) fn coordinate_path<S: Scalar>(
+    rate: impl Fn(&[S], &[S], &mut [S]),
+    (q, v, vdot): (&[S], &[S], Option<&[S]>),
+    path: &mut [Taylor<S>],
+) {
+    if q.len() == v.len() {
+        for (i, place) in path.iter_mut().enumerate() {
+            *place = Taylor::new(q[i], v[i], vdot.map_or(S::zero(), |a| a[i]));
+        }
+        return;
+    }
+    let mut rates = [[S::zero(); ON_STACK]; 4];
+    let [first, second, constant, applied] = &mut rates;
+    let n = q.len();
+    rate(q, v, &mut first[..n]);
+    rate(&first[..n], v, &mut second[..n]);
+    rate(&[S::zero(); ON_STACK][..n], v, &mut constant[..n]);
+    if let Some(vdot) = vdot {
+        rate(q, vdot, &mut applied[..n]);
+    }
+    for (i, place) in path.iter_mut().enumerate() {
+        *place = Taylor::new(q[i], first[i], second[i] - constant[i] + applied[i]);
+    }
+}
+
+impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
+    fn coordinate_names(&self) -> Vec<String> {
+        BodyKernel::coordinate_names(self).into_iter().map(String::from).collect()
+    }
+    fn velocity_names(&self) -> Vec<String> {
+        BodyKernel::velocity_names(self).into_iter().map(String::from).collect()
+    }
+    fn marker_count(&self) -> usize {
+        self.markers().len()
+    }
+    fn marker(&self, index: usize) -> &Marker<D> {
+        &self.markers()[index]
+    }
+    fn support(&self, _marker: usize) -> Vec<usize> {
+        (0..BodyKernel::velocity_names(self).len()).collect()
+    }
+    fn mass_pattern(&self) -> Vec<(usize, usize)> {
+        BodyKernel::mass_pattern(self)
+    }
+    fn mass(&self, _q: &[f64], values: &mut [f64]) {
+        BodyKernel::mass(self, values);
+    }
+    fn own_forces(&self, q: &[f64], v: &[f64], gravity: &[f64; D], f: &mut [f64]) {
+        BodyKernel::own_forces(self, q, v, gravity, f);
+    }
+    fn tangent_pattern(&self) -> Vec<(usize, usize)> {
+        let n = BodyKernel::velocity_names(self).len();
+        (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).collect()
+    }
+
+    /// -d(own forces) over dual numbers, six directions at a time: M is constant.
+    fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]) {
+        let (q, v, n) = (lift(at.q), lift(at.v), at.v.len());
+        for first in (0..n).step_by(6) {
+            let mut directions = [Slope::fixed(0.0); ON_STACK];
+            let seeded = directions[first..n].iter_mut().take(6).enumerate();
+            seeded.for_each(|(j, direction)| *direction = Slope::seeded(0.0, j));
+            let mut moved = [Slope::fixed(0.0); ON_STACK];
+            BodyKernel::rate(self, &q[..at.q.len()], &directions[..n], &mut moved[..at.q.len()]);
+            moved.iter_mut().zip(&q).for_each(|(moved, &q)| *moved += q);
+            self.subtract_slopes((&moved[..at.q.len()], &v[..n]), at.gravity, first, k);
+            directions.iter_mut().zip(&v).for_each(|(direction, &v)| *direction += v);
+            self.subtract_slopes((&q[..at.q.len()], &directions[..n]), at.gravity, first, c);
+        }
+    }
+    fn energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy {
+        BodyKernel::energy(self, q, v, gravity)
+    }
+    fn normalize(&self, q: &mut [f64]) {
+        BodyKernel::normalize(self, q);
+    }
+    fn oriented(&self) -> bool {
+        BodyKernel::oriented(self)
+    }
+    fn reach(&self) -> f64 {
+        self.markers().iter().map(|marker| dot(&marker.offset, &marker.offset).sqrt()).fold(0.0, f64::max)
+    }
+}
+
+fn lift(values: &[f64]) -> [Slope; ON_STACK] {
+    std::array::from_fn(|i| Slope::fixed(values.get(i).copied().unwrap_or(0.0)))
+}
+
+/// What the tangent of a kernel repeats.
+trait Slopes<const D: usize>: BodyKernel<D> {
+    /// Takes the slopes of the own forces from columns `first..` of a square matrix.
+    fn subtract_slopes(&self, (q, v): (&[Slope], &[Slope]), gravity: &[f64; D], first: usize, matrix: &mut [f64]) {
+        let mut forces = [Slope::fixed(0.0); ON_STACK];
+        self.own_forces(q, v, gravity, &mut forces[..v.len()]);
+        for (row, force) in matrix.chunks_exact_mut(v.len()).zip(&forces) {
+            row[first..].iter_mut().zip(&force.eps).for_each(|(entry, slope)| *entry -= slope);
+        }
+    }
+}
+
+impl<K: BodyKernel<D>, const D: usize> Slopes<D> for K {}

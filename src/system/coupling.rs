@@ -1,0 +1,96 @@
+//! Where the entries of K and C stand: those of each body, and a block a pair of bodies that an element joins.
+
+use super::support::Support;
+use crate::math::kkt::Pattern;
+use crate::scene::Model;
+use std::ops::Range;
+
+/// The places of all.
+pub(super) struct Couplings {
+    pub bodies: Vec<Range<usize>>,
+    pub joints: Vec<Coupling>,
+    pub forces: Vec<Coupling>,
+}
+
+/// One joint or force: the bodies that carry its markers, and the blocks of their pairs, column by column.
+pub(super) struct Coupling {
+    pub carriers: Vec<Carrier>,
+    blocks: Vec<Block>,
+}
+
+/// A body as one element sees it.
+pub(super) struct Carrier {
+    pub body: usize,
+    /// The velocities of the system that move any of the element's markers on this body.
+    pub velocities: Vec<usize>,
+    pub markers: Vec<Held>,
+}
+
+/// A marker of an element.
+pub(super) struct Held {
+    /// Which of the element's markers.
+    pub slot: usize,
+    /// The places of its own velocities among those of the carrier.
+    pub places: Vec<usize>,
+}
+
+/// d(forces on the velocities of a row's carrier)/d(those of a column's), row by row.
+pub(super) struct Block {
+    pub first_entry: usize,
+    pub width: usize,
+}
+
+impl Couplings {
+    pub fn new<const D: usize>(model: &Model<D>, supports: &[Support], pattern: &mut Pattern) -> Self {
+        let own = |part: &crate::scene::Part<D>| {
+            let first = pattern.entries.len();
+            let places = part.body.tangent_pattern().into_iter();
+            pattern.entries.extend(places.map(|(i, j)| (part.first_v + i, part.first_v + j)));
+            first..pattern.entries.len()
+        };
+        let bodies = model.bodies.iter().map(own).collect();
+        let mut coupling = |markers: &[usize]| Coupling::new(markers, supports, pattern);
+        let joints = model.joints.iter().map(|joint| coupling(&joint.markers)).collect();
+        let forces = model.forces.iter().map(|force| coupling(&force.markers)).collect();
+        Couplings { bodies, joints, forces }
+    }
+}
+
+impl Coupling {
+    fn new(markers: &[usize], supports: &[Support], pattern: &mut Pattern) -> Self {
+        let mut bodies: Vec<usize> = markers.iter().filter_map(|&marker| supports[marker].body).collect();
+        bodies.sort_unstable();
+        bodies.dedup();
+        let carriers: Vec<Carrier> = bodies.into_iter().map(|body| Carrier::new(body, markers, supports)).collect();
+        let mut blocks = Vec::new();
+        for column in &carriers {
+            for row in &carriers {
+                blocks.push(Block { first_entry: pattern.entries.len(), width: column.velocities.len() });
+                let places = row.velocities.iter().flat_map(|&i| column.velocities.iter().map(move |&j| (i, j)));
+                pattern.entries.extend(places);
+            }
+        }
+        Coupling { carriers, blocks }
+    }
+
+    /// The blocks of one column, a row each.
+    pub fn column(&self, column: usize) -> &[Block] {
+        let n = self.carriers.len();
+        &self.blocks[column * n..(column + 1) * n]
+    }
+}
+
+impl Carrier {
+    fn new(body: usize, markers: &[usize], supports: &[Support]) -> Self {
+        let own = || markers.iter().enumerate().filter(|(_, marker)| supports[**marker].body == Some(body));
+        let mut velocities: Vec<usize> = own().flat_map(|(_, &marker)| supports[marker].velocities.clone()).collect();
+        velocities.sort_unstable();
+        velocities.dedup();
+        let held = |(slot, &marker): (usize, &usize)| {
+            let places = supports[marker].velocities.iter();
+            Held { slot, places: places.filter_map(|velocity| velocities.binary_search(velocity).ok()).collect() }
+        };
+        let markers = own().map(held).collect();
+        Carrier { body, velocities, markers }
+    }
+}
