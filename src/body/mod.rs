@@ -7,6 +7,7 @@
 
 mod build;
 pub mod flexible;
+pub mod floating;
 mod frame;
 mod guided;
 mod kernel;

@@ -1,0 +1,174 @@
+//! A flexible body in a floating frame.
+//!
+//! Coordinates: those of a rigid body for the frame (x, y, angle; or position and unit quaternion with the angular
+//! velocity w in the frame's axes), then the elastic ones q_i. With u = psi_0 + sum_i psi_i q_i in the frame's axes A,
+//!
+//! ```text
+//! x  = r + A u
+//! x' = r' + A (w x u + u')
+//! x''= r'' + A (w' x u + w x (w x u) + 2 w x u' + u'')
+//! int rho dx . x'' dV = 0  for dx = dr + A (dtheta x u + sum_i psi_i dq_i),
+//! ```
+//!
+//! less the work of gravity and of the elastic forces K q + D q' and those of geometric stiffening. The whole coupling of
+//! rigid and elastic motion is kept; integrals are taken once, piece by piece ([`Piece`]), so that work and memory grow
+//! with the number of elements. Shabana, Dynamics of Multibody Systems, chapter 5.
+
+mod algebra;
+mod elastic;
+mod inertia;
+mod layout;
+mod point;
+mod tangent;
+
+use super::flexible::{Elastic, PointShape};
+use super::kernel::coordinate_path;
+use super::{Body, BodyOver, BodyState, Energy, Frame, Marker, Wrench, dot};
+use crate::math::rotation::{axes_from_quaternion, quaternion_rate};
+use crate::math::{Scalar, Taylor};
+use layout::Layout;
+
+/// The body: what its shapes say, and where each value of its matrices stands.
+pub struct Floating<const D: usize> {
+    elastic: Elastic<D>,
+    /// The frame itself first.
+    markers: Vec<Marker<D>>,
+    shapes: Vec<PointShape<D>>,
+    layout: Layout,
+}
+
+/// Coordinates of the frame.
+pub const fn frame_coordinates(dimension: usize) -> usize {
+    if dimension == 2 { 3 } else { 7 }
+}
+
+/// Velocities of the frame.
+pub const fn frame_velocities(dimension: usize) -> usize {
+    if dimension == 2 { 3 } else { 6 }
+}
+
+/// The axes that the frame may turn about.
+const fn turns(dimension: usize) -> std::ops::Range<usize> {
+    if dimension == 2 { 2..3 } else { 0..3 }
+}
+
+/// The velocity of the frame that turns it about axis `k`.
+const fn turn_velocity(dimension: usize, k: usize) -> usize {
+    if dimension == 2 { k } else { 3 + k }
+}
+
+impl<const D: usize> Floating<D> {
+    /// `markers` and where they are on the body, one shape each; the first is the frame itself.
+    pub fn new(elastic: Elastic<D>, markers: Vec<Marker<D>>, shapes: Vec<PointShape<D>>) -> Self {
+        let layout = Layout::new(&elastic, frame_velocities(D));
+        Floating { elastic, markers, shapes, layout }
+    }
+}
+
+/// The frame at coordinates q.
+#[inline]
+fn frame<S: Scalar, const D: usize>(q: &[S]) -> Frame<S, D> {
+    let mut frame = Frame::world();
+    frame.r.copy_from_slice(&q[..D]);
+    if D == 2 {
+        let (s, c) = (q[2].sin(), q[2].cos());
+        frame.turn = q[2];
+        frame.axes[0].copy_from_slice(&[c, s]);
+        frame.axes[1].copy_from_slice(&[-s, c]);
+    } else {
+        let axes = axes_from_quaternion(&q[3..7]);
+        frame.axes.iter_mut().zip(&axes).for_each(|(axis, column)| axis.copy_from_slice(column));
+    }
+    frame
+}
+
+/// q' = N(q) v of the frame alone.
+#[inline]
+fn frame_rate<S: Scalar, const D: usize>(q: &[S], v: &[S], qdot: &mut [S]) {
+    qdot[..D].copy_from_slice(&v[..D]);
+    match D {
+        2 => qdot[2] = v[2],
+        _ => quaternion_rate(&q[3..7], &v[3..6], &mut qdot[3..7]),
+    }
+}
+
+impl<S: Scalar, const D: usize> BodyOver<S, D> for Floating<D> {
+    fn rate(&self, q: &[S], v: &[S], qdot: &mut [S]) {
+        frame_rate::<S, D>(q, v, qdot);
+        qdot[frame_coordinates(D)..].copy_from_slice(&v[frame_velocities(D)..]);
+    }
+
+    fn motion(&self, q: &[S], v: &[S], vdot: Option<&[S]>, out: &mut [Frame<Taylor<S>, D>]) {
+        let (nq, nv) = (frame_coordinates(D), frame_velocities(D));
+        let mut path = [Taylor::fixed(S::zero()); 8];
+        let rigid = (&q[..nq], &v[..nv], vdot.map(|vdot| &vdot[..nv]));
+        coordinate_path(frame_rate::<S, D>, rigid, &mut path[..nq]);
+        let own = frame(&path[..nq]);
+        let coordinate = |i: usize| Taylor::new(q[nq + i], v[nv + i], vdot.map_or(S::zero(), |vdot| vdot[nv + i]));
+        for ((out, marker), shape) in out.iter_mut().zip(&self.markers).zip(&self.shapes) {
+            *out = point::place(&own, shape, marker, coordinate);
+        }
+    }
+
+    fn pull_back(&self, marker: usize, q: &[S], at: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]) {
+        let own = frame::<S, D>(&q[..frame_coordinates(D)]);
+        let (rigid, elastic) = f.split_at_mut(frame_velocities(D));
+        point::pull_back_rigid(&own, at, wrench, rigid);
+        point::pull_back_elastic(&own, &self.shapes[marker], &q[frame_coordinates(D)..], wrench, elastic);
+    }
+}
+
+impl<const D: usize> Body<D> for Floating<D> {
+    fn coordinate_names(&self) -> Vec<String> {
+        let rigid: &[&str] = if D == 2 { &["x", "y", "angle"] } else { &["x", "y", "z", "qw", "qx", "qy", "qz"] };
+        rigid.iter().map(|name| name.to_string()).chain(self.elastic.names.iter().cloned()).collect()
+    }
+    fn velocity_names(&self) -> Vec<String> {
+        let rigid: &[&str] = if D == 2 { &["x'", "y'", "angle'"] } else { &["x'", "y'", "z'", "wx", "wy", "wz"] };
+        let elastic = self.elastic.names.iter().map(|name| format!("{name}'"));
+        rigid.iter().map(|name| name.to_string()).chain(elastic).collect()
+    }
+    fn marker_count(&self) -> usize {
+        self.markers.len()
+    }
+    fn marker(&self, index: usize) -> &Marker<D> {
+        &self.markers[index]
+    }
+    fn support(&self, marker: usize) -> Vec<usize> {
+        let elastic = self.shapes[marker].dofs.iter().map(|dof| frame_velocities(D) + dof);
+        (0..frame_velocities(D)).chain(elastic).collect()
+    }
+    fn mass_pattern(&self) -> Vec<(usize, usize)> {
+        self.layout.mass.clone()
+    }
+    fn mass(&self, q: &[f64], values: &mut [f64]) {
+        self.write_mass(q, values);
+    }
+    fn own_forces(&self, q: &[f64], v: &[f64], gravity: &[f64; D], f: &mut [f64]) {
+        self.add_inertia_forces(q, v, gravity, f);
+        self.add_elastic_forces(q, v, f);
+    }
+    fn tangent_pattern(&self) -> Vec<(usize, usize)> {
+        self.layout.tangent.clone()
+    }
+    fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]) {
+        self.add_inertia_tangent(at, k, c);
+        self.add_elastic_tangent(at.q, k, c);
+    }
+    fn energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy {
+        let inertia = self.inertia_energy(q, v, gravity);
+        Energy { potential: inertia.potential + self.elastic_energy(q), ..inertia }
+    }
+    fn normalize(&self, q: &mut [f64]) {
+        if D == 3 {
+            let norm = q[3..7].iter().map(|x| x * x).sum::<f64>().sqrt();
+            q[3..7].iter_mut().for_each(|x| *x /= norm);
+        }
+    }
+    fn oriented(&self) -> bool {
+        true
+    }
+    fn reach(&self) -> f64 {
+        self.markers.iter().map(|marker| dot(&marker.offset, &marker.offset).sqrt()).fold(0.0, f64::max)
+    }
+}

@@ -1,0 +1,107 @@
+//! Points of the body: where they are, and what a wrench there does to each coordinate.
+
+use super::turns;
+use crate::body::flexible::PointShape;
+use crate::body::{Frame, Marker, Wrench, cross, dot, sub};
+use crate::math::Scalar;
+use std::array::from_fn;
+
+/// The frame of a marker: at rest + sum_i t_i q_i, with axes turned by sum_i r_i q_i.
+#[inline]
+pub(super) fn place<S: Scalar, const D: usize>(
+    own: &Frame<S, D>,
+    shape: &PointShape<D>,
+    marker: &Marker<D>,
+    coordinate: impl Fn(usize) -> S,
+) -> Frame<S, D> {
+    let mut u: [S; D] = shape.rest.map(S::constant);
+    for (&dof, translation) in shape.dofs.iter().zip(&shape.translation) {
+        let q = coordinate(dof);
+        u.iter_mut().zip(translation).filter(|(_, t)| **t != 0.0).for_each(|(u, &t)| *u += q * t);
+    }
+    let mut r = own.r;
+    for (axis, &u) in own.axes.iter().zip(&u) {
+        r.iter_mut().zip(axis).for_each(|(r, &a)| *r += a * u);
+    }
+    let turned = turn(Frame { r, ..*own }, &angles(shape, coordinate));
+    turned.at(&Marker { offset: [0.0; D], ..*marker })
+}
+
+/// The small rotation at a point.
+#[inline]
+fn angles<S: Scalar, const D: usize>(shape: &PointShape<D>, coordinate: impl Fn(usize) -> S) -> [S; 3] {
+    let mut sum = [S::zero(); 3];
+    for (&dof, rotation) in shape.dofs.iter().zip(&shape.rotation) {
+        let q = coordinate(dof);
+        turns(D).filter(|&k| rotation[k] != 0.0).for_each(|k| sum[k] += q * rotation[k]);
+    }
+    sum
+}
+
+/// A frame turned by an angle in the plane; in space by Cayley's rotation of the vector a, which is that of the small
+/// rotation a to second order and orthogonal for any: R = 1 + (a~ + a~ a~ / 2)/(1 + a.a/4).
+#[inline]
+fn turn<S: Scalar, const D: usize>(frame: Frame<S, D>, a: &[S; 3]) -> Frame<S, D> {
+    if D == 2 {
+        let (s, c) = (a[2].sin(), a[2].cos());
+        let [x, y] = [frame.axes[0], frame.axes[1]];
+        let axes = from_fn(|i| from_fn(|k| if i == 0 { x[k] * c + y[k] * s } else { y[k] * c - x[k] * s }));
+        return Frame { axes, turn: frame.turn + a[2], ..frame };
+    }
+    let factor = (dot(a, a) * 0.25 + 1.0).recip();
+    let columns: [[S; 3]; 3] = from_fn(|j| {
+        let unit: [S; 3] = from_fn(|k| if k == j { S::one() } else { S::zero() });
+        let once = cross(a, &unit);
+        let twice = cross(a, &once);
+        from_fn(|k| unit[k] + (once[k] + twice[k] * 0.5) * factor)
+    });
+    let axes = from_fn(|j| from_fn(|k| (0..D).fold(S::zero(), |sum, i| sum + frame.axes[i][k] * columns[j][i])));
+    Frame { axes, ..frame }
+}
+
+/// f += J^T w on the frame's velocities for a wrench at the frame `at`.
+#[inline]
+pub(super) fn pull_back_rigid<S: Scalar, const D: usize>(
+    own: &Frame<S, D>,
+    at: &Frame<S, D>,
+    wrench: &Wrench<S, D>,
+    f: &mut [S],
+) {
+    f.iter_mut().zip(wrench.force).for_each(|(f, force)| *f += force);
+    let arm = cross(&sub(&at.r, &own.r), &wrench.force);
+    let moment: [S; 3] = from_fn(|k| wrench.torque[k] + arm[k]);
+    if D == 2 {
+        f[2] += moment[2];
+        return;
+    }
+    f[3..].iter_mut().zip(&own.axes).for_each(|(f, axis)| *f += dot(axis, &from_fn(|k| moment[k])));
+}
+
+/// The same on the elastic velocities that move the point.
+#[inline]
+pub(super) fn pull_back_elastic<S: Scalar, const D: usize>(
+    own: &Frame<S, D>,
+    shape: &PointShape<D>,
+    q: &[S],
+    wrench: &Wrench<S, D>,
+    f: &mut [S],
+) {
+    let force: [S; D] = from_fn(|k| dot(&own.axes[k], &wrench.force));
+    let torque = match D {
+        2 => wrench.torque,
+        _ => local_torque(own, &angles(shape, |i| q[i]), &wrench.torque),
+    };
+    for (f, (translation, rotation)) in f.iter_mut().zip(shape.translation.iter().zip(&shape.rotation)) {
+        (0..D).filter(|&k| translation[k] != 0.0).for_each(|k| *f += force[k] * translation[k]);
+        (0..3).filter(|&k| rotation[k] != 0.0).for_each(|k| *f += torque[k] * rotation[k]);
+    }
+}
+
+/// What the rates of the small rotation a feel of a torque: with the angular velocity (a' + a x a' / 2)/(1 + a.a/4) in the
+/// frame's axes, T^T m = (m - a x m / 2)/(1 + a.a/4).
+fn local_torque<S: Scalar, const D: usize>(own: &Frame<S, D>, a: &[S; 3], torque: &[S; 3]) -> [S; 3] {
+    let moment: [S; 3] = from_fn(|k| (0..D).fold(S::zero(), |sum, i| sum + own.axes[k % D][i] * torque[i]));
+    let across = cross(a, &moment);
+    let factor = (dot(a, a) * 0.25 + 1.0).recip();
+    from_fn(|k| (moment[k] - across[k] * 0.5) * factor)
+}

@@ -1,0 +1,137 @@
+//! K and C of the inertia forces.
+//!
+//! With r = (r_r, r_t, r_i) the rows of M v' - f, a = A^T (r'' - g), alpha = w', U_j = int rho u'' psi_j^T, and the bracket
+//! B = alpha x s + w x (w x s) + 2 w x s' + s'':
+//!
+//! ```text
+//! r_r = m (r'' - g) + A B
+//! r_t = s x a + J alpha + w x J w + 2 (tr(Q) w - Q^T w) + ax(int rho u u''^T)
+//! r_i = m_i.a + alpha.ax(W_i) + w.W_i w - w.w tr(W_i) + 2 w.ax(V_i) + sum_j tr(P_ij) q_j''
+//! ```
+//!
+//! A turn dtheta of the frame, in its axes, changes a by a x dtheta and A B by A (dtheta x B); a change of q_j changes u by
+//! psi_j.
+
+use super::algebra::*;
+use super::inertia::{Moving, angular_velocity, local, world};
+use super::{Floating, frame, frame_velocities, turn_velocity, turns};
+use crate::body::{BodyState, Frame, cross, dot};
+use std::array::from_fn;
+
+/// What the frame does at a state.
+struct Motion<'a, const D: usize> {
+    own: Frame<f64, D>,
+    w: [f64; 3],
+    alpha: [f64; 3],
+    /// A^T (r'' - g)
+    a: [f64; D],
+    /// Elastic accelerations.
+    vdot: &'a [f64],
+}
+
+impl<const D: usize> Motion<'_, D> {
+    /// alpha x u + w x (w x u)
+    fn swept(&self, u: &[f64; D]) -> [f64; D] {
+        let (whirl, swing) = (spin(&self.w, &spin(&self.w, u)), spin(&self.alpha, u));
+        from_fn(|k| whirl[k] + swing[k])
+    }
+}
+
+impl<const D: usize> Floating<D> {
+    pub(super) fn add_inertia_tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]) {
+        let own = frame::<f64, D>(at.q);
+        let motion = Motion {
+            a: local(&own, &from_fn(|k| at.vdot[k] - at.gravity[k])),
+            own,
+            w: angular_velocity::<D>(at.v),
+            alpha: angular_velocity::<D>(at.vdot),
+            vdot: &at.vdot[frame_velocities(D)..],
+        };
+        for (piece, moving) in self.moving(at.q, at.v).enumerate() {
+            self.add_frame_stiffness(&motion, &moving, k);
+            self.add_frame_damping(&motion, &moving, c);
+            for j in 0..moving.piece.dofs.len() {
+                self.add_mixed(&motion, &moving, j, k, c);
+                self.add_elastic(&motion, &moving, piece, j, k, c);
+            }
+        }
+    }
+
+    /// d(r_r, r_t)/dtheta.
+    fn add_frame_stiffness(&self, motion: &Motion<D>, moving: &Moving<D>, k: &mut [f64]) {
+        let s = moving.s();
+        let (swept, rate, push) = (motion.swept(&s), moving.moment(moving.v), moving.moment(motion.vdot));
+        let coriolis = spin(&motion.w, &rate);
+        let bracket: [f64; D] = from_fn(|i| swept[i] + 2.0 * coriolis[i] + push[i]);
+        for l in turns(D) {
+            let column = turn_velocity(D, l);
+            let force = world(&motion.own, &spin(&unit(l), &bracket));
+            (0..D).for_each(|i| k[self.layout.frame(i, column)] += force[i]);
+            let turned = spin(&unit(l), &motion.a);
+            let moment = cross(&s, &turned);
+            turns(D).for_each(|i| k[self.layout.frame(turn_velocity(D, i), column)] -= moment[i]);
+        }
+    }
+
+    /// d(r_r, r_t)/dw.
+    fn add_frame_damping(&self, motion: &Motion<D>, moving: &Moving<D>, c: &mut [f64]) {
+        let (s, rate, w) = (moving.s(), moving.moment(moving.v), &motion.w);
+        let (p, q) = (moving.second(1.0, moving.q), transposed(&moving.second(0.0, moving.v)));
+        for l in turns(D) {
+            let (e, column) = (unit(l), turn_velocity(D, l));
+            let (first, second, third) = (spin(&e, &spin(w, &s)), spin(w, &spin(&e, &s)), spin(&e, &rate));
+            let force = world(&motion.own, &from_fn(|i| first[i] + second[i] + 2.0 * third[i]));
+            (0..D).for_each(|i| c[self.layout.frame(i, column)] += force[i]);
+            let (first, second, third) = (cross3(&e, &swung(&p, w)), cross3(w, &swung(&p, &e)), swung(&q, &e));
+            turns(D).for_each(|i| {
+                c[self.layout.frame(turn_velocity(D, i), column)] += first[i] + second[i] + 2.0 * third[i];
+            });
+        }
+    }
+
+    /// d(r_r, r_t)/dq_j and its rate's, d(r_j)/dtheta and d(r_j)/dw.
+    fn add_mixed(&self, motion: &Motion<D>, moving: &Moving<D>, j: usize, k: &mut [f64], c: &mut [f64]) {
+        let (dof, m, w) = (moving.piece.dofs[j], &moving.piece.moments[j + 1], &motion.w);
+        let (weighed, rated, pushed) =
+            (moving.w(j + 1), moving.rated(moving.v, j + 1), moving.rated(motion.vdot, j + 1));
+        let (force, coriolis) = (world(&motion.own, &motion.swept(m)), world(&motion.own, &spin(w, m)));
+        for i in 0..D {
+            k[self.layout.column(i, dof)] += force[i];
+            c[self.layout.column(i, dof)] += 2.0 * coriolis[i];
+        }
+        let grown: Matrix<D> = from_fn(|a| from_fn(|b| weighed[a][b] + weighed[b][a]));
+        let (lever, swing, gyroscopic) =
+            (cross(m, &motion.a), swung(&grown, &motion.alpha), cross3(w, &swung(&grown, w)));
+        let (stretching, push) = (swung(&rated, w), axial(&pushed));
+        let moving_out = swung(&transposed(&weighed), w);
+        let (outward, rotating) = (swung(&grown, w), axial(&rated));
+        for i in turns(D) {
+            let turn = turn_velocity(D, i);
+            k[self.layout.column(turn, dof)] += lever[i] + swing[i] + gyroscopic[i] + 2.0 * stretching[i] - push[i];
+            c[self.layout.column(turn, dof)] += 2.0 * moving_out[i];
+            k[self.layout.row(dof, turn)] -= dot(m, &spin(&unit(i), &motion.a));
+            c[self.layout.row(dof, turn)] += 2.0 * rotating[i] - outward[i];
+        }
+    }
+
+    /// d(r_i)/dq_j and its rate's, for all i of the piece.
+    fn add_elastic(
+        &self,
+        motion: &Motion<D>,
+        moving: &Moving<D>,
+        piece: usize,
+        j: usize,
+        k: &mut [f64],
+        c: &mut [f64],
+    ) {
+        let n = moving.piece.dofs.len();
+        let places = &self.layout.pieces[piece].tangent;
+        for i in 0..n {
+            // int rho psi_j psi_i^T
+            let product = &moving.piece.products[(j + 1) * (n + 1) + i + 1];
+            let turned = axial(product);
+            k[places[i * n + j]] += dot3(&motion.alpha, &turned) - whirled(product, &motion.w);
+            c[places[i * n + j]] += 2.0 * dot3(&motion.w, &turned);
+        }
+    }
+}
