@@ -1,6 +1,6 @@
 //! Bodies of a few coordinates, all of which move all of their markers: the model's view of every [`BodyKernel`].
 
-use super::{Body, BodyKernel, BodyOver, BodyState, Energy, Frame, Marker, Slope, Wrench, dot};
+use super::{Bent, Body, BodyKernel, BodyOver, BodyState, Energy, Frame, Marker, Slope, Wrench, dot};
 use crate::math::{Scalar, Taylor};
 
 /// More coordinates than this no [`BodyKernel`] has.
@@ -105,6 +105,12 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
     }
     fn reach(&self) -> f64 {
         self.markers().iter().map(|marker| dot(&marker.offset, &marker.offset).sqrt()).fold(0.0, f64::max)
+    }
+    fn elastic_count(&self) -> usize {
+        0
+    }
+    fn bent(&self) -> Option<Bent<'_, D>> {
+        None
     }
 }
 

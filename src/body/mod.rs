@@ -99,6 +99,14 @@ pub struct BodyState<'a, const D: usize> {
     pub gravity: &'a [f64; D],
 }
 
+/// A line that bends with the elastic coordinates q of its body.
+#[derive(Clone, Copy)]
+pub struct Bent<'a, const D: usize> {
+    pub line: &'a dyn flexible::Line<D>,
+    /// Place of the first elastic coordinate among those of the body.
+    pub first: usize,
+}
+
 /// The object-safe form of a body; implemented for every [`BodyKernel`].
 pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Slope, D> + Send + Sync {
     fn coordinate_names(&self) -> Vec<String>;
@@ -123,6 +131,10 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Slope, D> + Send + S
     fn oriented(&self) -> bool;
     /// Largest distance of a marker from the origin of the coordinates, m.
     fn reach(&self) -> f64;
+    /// How many of the coordinates are elastic: the last ones.
+    fn elastic_count(&self) -> usize;
+    /// Of a beam in a floating frame.
+    fn bent(&self) -> Option<Bent<'_, D>>;
 }
 
 /// A body ready for the model, with the start its scene gives.

@@ -27,6 +27,7 @@ impl BodySpec for PointMass {
                 .hint("use position zero, or a body of type \"rigid\""));
         }
         initial.refuse_rotation()?;
+        initial.refuse_elastic()?;
         let mass = build.not_negative("mass", &self.mass)?;
         let q = start_vector::<D>("initial.position", &initial.position, build)?.to_vec();
         let v = start_vector::<D>("initial.velocity", &initial.velocity, build)?.to_vec();

@@ -11,6 +11,7 @@ use nalgebra::{Matrix3 as Tensor, SymmetricEigen};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::array::from_fn;
+use std::collections::BTreeMap;
 
 /// A rigid body: x, y and angle in the plane; position and unit quaternion in space. Its coordinates are those of its
 /// centre of mass.
@@ -48,6 +49,10 @@ pub struct Initial {
     pub velocity: Option<Vec<Number>>,
     /// rad/s: one number in the plane, 3 numbers in the body's axes in space.
     pub angular_velocity: Option<Inertia>,
+    /// Of a flexible body in a floating frame: elastic coordinates by name, as `check` lists them. Default: zero.
+    pub elastic: Option<BTreeMap<String, Number>>,
+    /// Their rates. Default: zero.
+    pub elastic_velocity: Option<BTreeMap<String, Number>>,
     /// Position of the body's origin from its centre of mass, which the body itself states.
     #[serde(skip)]
     pub origin: Vec<f64>,
@@ -56,6 +61,16 @@ pub struct Initial {
 impl Initial {
     fn origin_component(&self, i: usize) -> f64 {
         self.origin.get(i).copied().unwrap_or(0.0)
+    }
+
+    pub fn refuse_elastic(&self) -> Result<()> {
+        let given = [("elastic", &self.elastic), ("elastic_velocity", &self.elastic_velocity)];
+        match given.iter().find(|(_, given)| given.is_some()) {
+            None => Ok(()),
+            Some((key, _)) => Err(Error::input("this body has no elastic coordinates")
+                .under(format!("initial.{key}"))
+                .hint("remove it, or use a flexible_beam with \"frame\": \"floating\"")),
+        }
     }
 
     pub fn refuse_rotation(&self) -> Result<()> {
@@ -80,6 +95,7 @@ impl BodySpec for Rigid {
     const TYPE: &'static str = "rigid";
 
     fn build<const D: usize>(&self, markers: Vec<Marker<D>>, initial: &Initial, build: &Build<D>) -> Result<Built<D>> {
+        initial.refuse_elastic()?;
         let mass = build.not_negative("mass", &self.mass)?;
         let position = start_vector::<D>("initial.position", &initial.position, build)?;
         let velocity = start_vector::<D>("initial.velocity", &initial.velocity, build)?;

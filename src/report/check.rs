@@ -180,13 +180,25 @@ fn length_scale(system: &dyn MechanicalSystem) -> f64 {
     system.scales().into_iter().find(|scale| *scale != 1.0).unwrap_or(1.0)
 }
 
+/// So many names of coordinates a person reads.
+const SHOWN_NAMES: usize = 14;
+
 fn body_item<const D: usize>(part: &crate::scene::Part<D>) -> Item {
     let kind = match (part.nq, part.nv) {
         (7, 6) => "rigid, quaternion",
+        _ if part.body.elastic_count() > 0 => "flexible, floating frame",
         _ if part.body.oriented() => "rigid",
         _ => "point mass",
     };
-    Item { name: part.name.clone(), kind: kind.to_string(), detail: part.body.coordinate_names().join(" ") }
+    let names = part.body.coordinate_names();
+    let detail = match names.as_slice() {
+        [first @ .., last] if names.len() > SHOWN_NAMES => {
+            let left_out = first.len() - (SHOWN_NAMES - 2);
+            format!("{} ... ({left_out} more) {last}", first[..SHOWN_NAMES - 2].join(" "))
+        }
+        all => all.join(" "),
+    };
+    Item { name: part.name.clone(), kind: kind.to_string(), detail }
 }
 
 fn joint_item(group: &Group, names: &[String]) -> Item {

@@ -70,7 +70,8 @@ fn model<const D: usize>(file: &SceneFile, parameters: &Parameters) -> Result<(M
         let built = (entry.build)(json, &build)?;
         Ok((entry.name, built.force, built.markers))
     })?;
-    let outputs = outputs::outputs(&file.outputs, &joints, &forces, &build)?;
+    let elements = outputs::Elements { bodies: &parts.bodies, joints: &joints, forces: &forces };
+    let outputs = outputs::outputs(&file.outputs, elements, &build)?;
     let inputs = outputs::inputs::<D>(&file.inputs, &forces)?;
     let Parts { table, ground, bodies, q, v } = parts;
     Ok((Model { gravity, markers: table, ground, bodies, joints, forces, outputs, inputs }, q, v))

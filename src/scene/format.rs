@@ -136,6 +136,10 @@ pub struct OutputSpec {
     /// x, y, z; for reactions also mx, my, mz and, where the joint holds a length, axial: the force in the rod, tension
     /// positive (default: the size of the force); kinetic, potential or total for energy.
     pub component: Option<String>,
+    /// On a beam: from its left end, m.
+    pub at: Option<Number>,
+    /// On a beam, for the strain of a fibre: y, or [y, z] in space, from the centre line, m. Default: zero.
+    pub offset: Option<Vec<Number>>,
     /// The expression.
     pub value: Option<Number>,
     /// Unit of an expression, for axes.
@@ -163,6 +167,18 @@ pub enum MeasureKind {
     Force,
     /// J, of the whole scene
     Energy,
+    /// m, of the centre line of beam `of` `at` a place from where it is at rest, in the beam's own axes
+    Deflection,
+    /// Axial strain of beam `of` `at` a place, at a fibre with this `offset`
+    Strain,
+    /// N, tension positive, in beam `of` `at` a place
+    AxialForce,
+    /// N, along y or z of the section; Timoshenko or absolute beams only
+    ShearForce,
+    /// N m, about the line of a beam in space
+    Torque,
+    /// N m, about z or y of the section; positive where the curvature is
+    BendingMoment,
     /// `value`, over t and marker quantities
     Expression,
 }

@@ -1,5 +1,6 @@
 //! Scenes: JSON in, a checked model out.
 
+mod beam_outputs;
 mod builder;
 mod format;
 pub mod generate;

@@ -78,6 +78,8 @@ pub enum Measure {
     Tension {
         joint: usize,
     },
+    /// A sum of coordinates with factors: deflections and section forces of a beam in a floating frame.
+    Combination(Vec<(usize, f64)>),
     /// The magnitude of a force.
     Force(usize),
     Energy(EnergyPart),

@@ -1,7 +1,8 @@
 //! Outputs and inputs of a scene.
 
+use super::beam_outputs;
 use super::format::{InputSpec, MeasureKind, OutputSpec};
-use super::model::{Connection, Driven, EnergyPart, Measure, Watched};
+use super::model::{Connection, Driven, EnergyPart, Measure, Part, Watched};
 use crate::body::{Build, MarkerId, Quantity};
 use crate::error::{Error, Result, suggest};
 use crate::force::{self, Force};
@@ -61,12 +62,14 @@ pub fn check_names(specs: &[OutputSpec]) -> Result<()> {
 /// Refuses keys that a measure would silently ignore.
 fn refuse_idle_keys(spec: &OutputSpec) -> Result<()> {
     use MeasureKind::*;
-    let OutputSpec { of, between, relative_to, component, value, .. } = spec;
+    let OutputSpec { of, between, relative_to, component, at, offset, value, .. } = spec;
     let given = [
         ("of", of.is_some()),
         ("between", between.is_some()),
         ("relative_to", relative_to.is_some()),
         ("component", component.is_some()),
+        ("at", at.is_some()),
+        ("offset", offset.is_some()),
         ("value", value.is_some()),
     ];
     let used: &[&str] = match spec.measure {
@@ -78,6 +81,9 @@ fn refuse_idle_keys(spec: &OutputSpec) -> Result<()> {
         Reaction => &["of", "relative_to", "component"],
         Force => &["of"],
         Energy => &["component"],
+        Deflection | ShearForce | BendingMoment => &["of", "at", "component"],
+        Strain => &["of", "at", "offset"],
+        AxialForce | Torque => &["of", "at"],
         Expression => &["value"],
     };
     match given.iter().find(|(key, given)| *given && !used.contains(key)) {
@@ -89,21 +95,24 @@ fn refuse_idle_keys(spec: &OutputSpec) -> Result<()> {
 }
 
 /// The outputs with everything they name resolved.
-pub fn outputs<const D: usize>(
-    specs: &[OutputSpec],
-    joints: &Joints<D>,
-    forces: &Forces<D>,
-    build: &Build<D>,
-) -> Result<Vec<Watched>> {
+pub fn outputs<const D: usize>(specs: &[OutputSpec], elements: Elements<D>, build: &Build<D>) -> Result<Vec<Watched>> {
     let mut all: Vec<Watched> = Vec::new();
     for (i, spec) in specs.iter().enumerate() {
         let place = |error: Error| error.element(&spec.name).under(format!("outputs[{i}]"));
         refuse_idle_keys(spec).map_err(place)?;
         let reader = Reader { spec, build };
-        let measure = reader.measure(joints, forces).map_err(place)?;
+        let measure = reader.measure(elements).map_err(place)?;
         all.push(Watched { name: spec.name.clone(), unit: reader.unit(&measure), measure });
     }
     Ok(all)
+}
+
+/// What outputs may be of.
+#[derive(Clone, Copy)]
+pub struct Elements<'a, const D: usize> {
+    pub bodies: &'a [Part<D>],
+    pub joints: &'a Joints<D>,
+    pub forces: &'a Forces<D>,
 }
 
 struct Reader<'a, const D: usize> {
@@ -112,7 +121,7 @@ struct Reader<'a, const D: usize> {
 }
 
 impl<const D: usize> Reader<'_, D> {
-    fn measure(&self, joints: &Joints<D>, forces: &Forces<D>) -> Result<Measure> {
+    fn measure(&self, Elements { bodies, joints, forces }: Elements<D>) -> Result<Measure> {
         match self.spec.measure {
             MeasureKind::Angle => {
                 let (of, to) = (self.marker()?, self.reference()?);
@@ -134,6 +143,12 @@ impl<const D: usize> Reader<'_, D> {
                 None | Some("total") => EnergyPart::Total,
                 Some(other) => return Err(wrong_component(other, &["kinetic", "potential", "total"])),
             })),
+            MeasureKind::Deflection
+            | MeasureKind::Strain
+            | MeasureKind::AxialForce
+            | MeasureKind::ShearForce
+            | MeasureKind::Torque
+            | MeasureKind::BendingMoment => beam_outputs::measure(self.spec, self.of()?, bodies, self.build),
             MeasureKind::Expression => {
                 let value = self.spec.value.as_ref();
                 let value = value.ok_or_else(|| missing("value", "give an expression over t and marker quantities"))?;
@@ -198,27 +213,28 @@ impl<const D: usize> Reader<'_, D> {
             (Measure::Reaction { component: 3..=5, .. }, _) => "N m",
             (_, MeasureKind::Angle) => "rad",
             (_, MeasureKind::AngularVelocity) => "rad/s",
-            (_, MeasureKind::Position | MeasureKind::Distance) => "m",
+            (_, MeasureKind::Position | MeasureKind::Distance | MeasureKind::Deflection) => "m",
             (_, MeasureKind::Velocity | MeasureKind::DistanceRate) => "m/s",
-            (_, MeasureKind::Reaction | MeasureKind::Force) => "N",
+            (_, MeasureKind::Reaction | MeasureKind::Force | MeasureKind::AxialForce | MeasureKind::ShearForce) => "N",
+            (_, MeasureKind::Torque | MeasureKind::BendingMoment) => "N m",
             (_, MeasureKind::Energy) => "J",
-            (_, MeasureKind::Expression) => "",
+            (_, MeasureKind::Expression | MeasureKind::Strain) => "",
         };
         self.spec.unit.clone().unwrap_or_else(|| unit.to_string())
     }
 }
 
-fn missing(key: &str, hint: &str) -> Error {
+pub(super) fn missing(key: &str, hint: &str) -> Error {
     Error::input(format!("the key `{key}` is missing")).hint(hint)
 }
 
-fn wrong_component(found: &str, known: &[&str]) -> Error {
+pub(super) fn wrong_component(found: &str, known: &[&str]) -> Error {
     Error::input(format!("there is no component `{found}`"))
         .under("component")
         .hint(format!("choose one of {}", known.join(", ")))
 }
 
-fn find<'a>(what: &str, name: &str, mut known: impl Iterator<Item = &'a str> + Clone) -> Result<usize> {
+pub(super) fn find<'a>(what: &str, name: &str, mut known: impl Iterator<Item = &'a str> + Clone) -> Result<usize> {
     let names = known.clone();
     known
         .position(|known| known == name)

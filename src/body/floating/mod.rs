@@ -19,11 +19,12 @@ mod elastic;
 mod inertia;
 mod layout;
 mod point;
+mod spec;
 mod tangent;
 
 use super::flexible::{Elastic, PointShape};
 use super::kernel::coordinate_path;
-use super::{Body, BodyOver, BodyState, Energy, Frame, Marker, Wrench, dot};
+use super::{Bent, Body, BodyOver, BodyState, Energy, Frame, Marker, Wrench, dot};
 use crate::math::rotation::{axes_from_quaternion, quaternion_rate};
 use crate::math::{Scalar, Taylor};
 use layout::Layout;
@@ -170,5 +171,12 @@ impl<const D: usize> Body<D> for Floating<D> {
     }
     fn reach(&self) -> f64 {
         self.markers.iter().map(|marker| dot(&marker.offset, &marker.offset).sqrt()).fold(0.0, f64::max)
+    }
+    fn elastic_count(&self) -> usize {
+        self.elastic.names.len()
+    }
+    fn bent(&self) -> Option<Bent<'_, D>> {
+        let line = self.elastic.line.as_deref()?;
+        Some(Bent { line, first: frame_coordinates(D) })
     }
 }

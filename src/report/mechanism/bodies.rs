@@ -28,6 +28,7 @@ pub fn depth(pen: &Pen, limb: &Limb) -> f64 {
 pub fn draw(pen: &mut Pen, limb: &Limb, color: usize) {
     pen.layer = Layer::Body;
     match limb.points.as_slice() {
+        _ if limb.line.len() > 1 => ribbon(pen, &limb.line, color),
         [point] if !limb.oriented => point_mass(pen, *point, color),
         [point] => block(pen, &Pose { r: *point, axes: limb.centre.axes }, color),
         points => {
@@ -46,6 +47,27 @@ fn outline(pen: &mut Pen, points: &[[f64; 3]], color: usize) {
     let around = rounded(&hull(&flat)).into_iter();
     let spots = around.map(|(at, way)| Spot::data(at.0, at.1).moved(RADIUS * way.0, RADIUS * way.1)).collect();
     fill(pen, spots, color);
+}
+
+/// Half the width of a beam, pixels.
+const BEAM: f64 = 3.4;
+
+/// A band along a line.
+fn ribbon(pen: &mut Pen, line: &[[f64; 3]], color: usize) {
+    let flat: Vec<(f64, f64)> = line.iter().map(|point| pen.view.flat(*point)).collect();
+    let normal = |i: usize| {
+        let (a, b) = (flat[i.saturating_sub(1)], flat[(i + 1).min(flat.len() - 1)]);
+        let (x, y) = (b.0 - a.0, b.1 - a.1);
+        let size = x.hypot(y);
+        if size > 0.0 { (-y / size, x / size) } else { (0.0, 0.0) }
+    };
+    let side = |i: usize, out: f64| {
+        let (x, y) = normal(i);
+        Spot::data(flat[i].0, flat[i].1).moved(out * x, out * y)
+    };
+    let left = (0..flat.len()).map(|i| side(i, BEAM));
+    let right = (0..flat.len()).rev().map(|i| side(i, -BEAM));
+    fill(pen, left.chain(right).collect(), color);
 }
 
 fn fill(pen: &mut Pen, spots: Vec<Spot>, color: usize) {
@@ -109,7 +131,7 @@ pub fn straight(points: &[[f64; 3]]) -> Option<[f64; 3]> {
 
 /// A circle with two dark quarters at the centre of mass, and a stalk to the body's middle where it lies outside.
 pub fn centre(pen: &mut Pen, limb: &Limb, color: usize) {
-    if !limb.oriented || limb.points.len() < 2 {
+    if !limb.oriented || limb.points.len() < 2 || !limb.line.is_empty() {
         return;
     }
     pen.layer = Layer::Mark;

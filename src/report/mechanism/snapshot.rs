@@ -3,7 +3,7 @@
 use super::bodies::straight;
 use super::motion::State;
 use super::view::{along, cross, direction, dot, length, less};
-use crate::body::{Frame, Wrench, in_space};
+use crate::body::{Bent, Frame, Marker, Wrench, in_space};
 use crate::force::Wheel;
 use crate::joint::Shape;
 use crate::math::Taylor;
@@ -26,6 +26,8 @@ pub struct Limb {
     pub name: String,
     /// Where others hold it, each place once.
     pub points: Vec<[f64; 3]>,
+    /// The deformed line of a beam; empty for other bodies.
+    pub line: Vec<[f64; 3]>,
     /// Centre of mass, with the body's axes.
     pub centre: Pose,
     /// False for point masses.
@@ -117,7 +119,8 @@ fn of<const D: usize>(mechanism: &Mechanism<D>, state: &State) -> Snapshot {
         Link { wheel, force: in_space(&push), torque, ..link(model, force, &poses) }
     });
     let joints: Vec<Link> = joints.collect();
-    let mut limbs: Vec<Limb> = model.bodies.iter().map(|part| limb(part, &poses, &used)).collect();
+    let limb = |part: &Part<D>| Limb { line: line(part, &frames[part.first_marker], &state.q), ..limb(part, &poses, &used) };
+    let mut limbs: Vec<Limb> = model.bodies.iter().map(limb).collect();
     limbs.iter_mut().enumerate().for_each(|(i, limb)| limb.may_spin = D == 3 && may_spin(limb, i, &joints));
     Snapshot { is_planar: D == 2, limbs, joints, forces: forces.collect(), markers: poses }
 }
@@ -173,7 +176,27 @@ fn limb<const D: usize>(part: &Part<D>, poses: &[Pose], used: &[bool]) -> Limb {
     if points.len() < 2 || distance(&points, r) > FAR * size {
         add(&mut points, r);
     }
-    Limb { name: part.name.clone(), points, centre, oriented: part.body.oriented(), may_spin: false }
+    Limb { name: part.name.clone(), points, line: Vec::new(), centre, oriented: part.body.oriented(), may_spin: false }
+}
+
+/// Pieces that the line of a beam is drawn in.
+const LINE_PIECES: usize = 64;
+
+/// The deformed line of a beam in a floating frame, which is its own marker.
+fn line<const D: usize>(part: &Part<D>, own: &Frame<Taylor<f64>, D>, q: &[f64]) -> Vec<[f64; 3]> {
+    let Some(Bent { line, first }) = part.body.bent() else { return Vec::new() };
+    let own = own.map(|x| x.x);
+    let point = |i: usize| {
+        let mut rest = [0.0; D];
+        rest[0] = line.length() * i as f64 / LINE_PIECES as f64;
+        let shape = line.point(rest);
+        let mut u = shape.rest;
+        for (dof, translation) in shape.dofs.iter().zip(&shape.translation) {
+            u.iter_mut().zip(translation).for_each(|(u, t)| *u += t * q[part.first_q + first + dof]);
+        }
+        in_space(&own.at(&Marker::point(u)).r)
+    };
+    (0..=LINE_PIECES).map(point).collect()
 }
 
 fn add(points: &mut Vec<[f64; 3]>, point: [f64; 3]) {

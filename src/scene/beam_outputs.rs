@@ -1,0 +1,84 @@
+//! Outputs of a beam at a place on its line.
+
+use super::format::{MeasureKind, OutputSpec};
+use super::model::{Measure, Part};
+use super::outputs::{find, missing, wrong_component};
+use crate::body::{Bent, Build};
+use crate::error::{Error, Result, short};
+
+/// What is read of the beam `of`, a sum of its elastic coordinates with factors.
+pub fn measure<const D: usize>(spec: &OutputSpec, of: &str, bodies: &[Part<D>], build: &Build<D>) -> Result<Measure> {
+    let beams = || bodies.iter().filter_map(|part| Some((part, part.body.bent()?)));
+    let index = find("flexible beam", of, beams().map(|(part, _)| part.name.as_str()))?;
+    let (part, Bent { line, first }) = match beams().nth(index) {
+        Some(beam) => beam,
+        None => return Err(Error::input(format!("`{of}` is no flexible beam")).under("of")),
+    };
+    let at = place(spec, line.length(), build)?;
+    let coordinate = |dof: usize| part.first_q + first + dof;
+    if spec.measure == MeasureKind::Deflection {
+        let axis = component(spec, "y", &["x", "y", "z"][..D])?;
+        let mut rest = [0.0; D];
+        rest[0] = at;
+        let point = line.point(rest);
+        let terms = point.dofs.iter().zip(&point.translation).map(|(&dof, t)| (coordinate(dof), t[axis]));
+        return Ok(Measure::Combination(terms.filter(|(_, factor)| *factor != 0.0).collect()));
+    }
+    let section = line.section(at);
+    let weights = weights::<D>(spec, &section.stiffness, build)?;
+    let factor = |strains: &[f64; 6]| -> f64 { strains.iter().zip(weights).map(|(strain, w)| strain * w).sum() };
+    let terms = section.dofs.iter().zip(&section.strains).map(|(&dof, strains)| (coordinate(dof), factor(strains)));
+    Ok(Measure::Combination(terms.filter(|(_, factor)| *factor != 0.0).collect()))
+}
+
+/// Where on the beam, m from its left end.
+fn place<const D: usize>(spec: &OutputSpec, length: f64, build: &Build<D>) -> Result<f64> {
+    let at = spec.at.as_ref().ok_or_else(|| missing("at", "say where on the beam: m from its left end"))?;
+    let at = build.number("at", at)?;
+    match (0.0..=length * (1.0 + 1e-12)).contains(&at) {
+        true => Ok(at.min(length)),
+        false => Err(Error::input(format!("{} m is off the beam", short(at)))
+            .under("at")
+            .hint(format!("the beam reaches from 0 to {} m", short(length)))),
+    }
+}
+
+fn component(spec: &OutputSpec, default: &str, known: &[&str]) -> Result<usize> {
+    let name = spec.component.as_deref().unwrap_or(default);
+    known.iter().position(|known| *known == name).ok_or_else(|| wrong_component(name, known))
+}
+
+/// Factors of the strains: extension, shear along y and z, twist, curvature about y and z.
+fn weights<const D: usize>(spec: &OutputSpec, stiffness: &[f64; 6], build: &Build<D>) -> Result<[f64; 6]> {
+    let only = |i: usize| std::array::from_fn(|k| if k == i { stiffness[i] } else { 0.0 });
+    match spec.measure {
+        MeasureKind::Strain => {
+            let (mut y, mut z) = (0.0, 0.0);
+            match (&spec.offset, D) {
+                (None, _) => {}
+                (Some(offset), 2) => [y] = build.vector::<1>("offset", offset)?,
+                (Some(offset), _) => [y, z] = build.vector::<2>("offset", offset)?,
+            }
+            Ok([1.0, 0.0, 0.0, 0.0, z, -y])
+        }
+        MeasureKind::AxialForce => Ok(only(0)),
+        MeasureKind::ShearForce => {
+            let axis = component(spec, "y", &["y", "z"][..D - 1])?;
+            if stiffness[1 + axis] == 0.0 {
+                return Err(Error::input("an Euler-Bernoulli beam in a floating frame has no shear force of its own")
+                    .under("measure")
+                    .hint("use \"theory\": \"timoshenko\", or watch the reaction of a joint"));
+            }
+            Ok(only(1 + axis))
+        }
+        MeasureKind::Torque if D == 2 => {
+            Err(Error::input("a planar beam carries no torque").under("measure").hint("watch its bending_moment"))
+        }
+        MeasureKind::Torque => Ok(only(3)),
+        _ => {
+            let known: &[&str] = if D == 2 { &["z"] } else { &["y", "z"] };
+            let axis = component(spec, "z", known)?;
+            Ok(only(if known[axis] == "y" { 4 } else { 5 }))
+        }
+    }
+}
