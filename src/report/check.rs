@@ -217,7 +217,8 @@ fn left_out<const D: usize>(model: &Model<D>) -> Vec<String> {
         (model.joints.is_empty(), "constraints: there is no joint"),
         (driven && !model.joints.is_empty(), "moving constraints: no joint depends on t"),
         (model.forces.is_empty(), "forces: none is given"),
-        (true, "contact, friction, flexibility: the scene has none"),
+        (model.bodies.iter().all(|part| part.body.elastic_count() == 0), "flexibility: every body is rigid"),
+        (true, "contact and friction: the scene has none"),
     ]
     .into_iter()
     .filter(|(absent, _)| *absent)
