@@ -1,9 +1,24 @@
 //! Flexible bodies.
 
+mod beam;
+mod damping;
+mod eigen;
+mod element;
+mod gauss;
+mod integrals;
+mod line;
+mod mesh;
+mod reduce;
+mod ritz;
 mod section;
 mod shape;
 mod spec;
+#[cfg(test)]
+mod tests;
 
+pub use beam::elastic_beam;
+pub use gauss::{gauss_legendre, on_interval};
+pub use integrals::mass_matrix;
 pub use section::Section;
 pub use shape::{Elastic, Line, Piece, PointShape, SectionShape, Stretch, Symmetric};
 pub use spec::{Axial, Damping, FlexibleBeam, FrameConditions, FrameKind, OneOrMany, Ritz, Theory};

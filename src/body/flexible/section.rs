@@ -24,6 +24,12 @@ pub struct Section {
 }
 
 impl Section {
+    /// Of extension, shear along y and z, twist and bending about y and z; zero for shear that there is none of.
+    pub fn stiffness(&self) -> [f64; 6] {
+        let [gy, gz] = self.ga.map(|ga| if ga.is_finite() { ga } else { 0.0 });
+        [self.ea, gy, gz, self.gj, self.ei[0], self.ei[1]]
+    }
+
     /// Resolves what the scene says.
     ///
     /// # Errors

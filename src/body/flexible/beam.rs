@@ -1,0 +1,142 @@
+//! From what a scene says of a beam in a floating frame to the numbers that its equations of motion need.
+
+use super::damping::{Basis, damping};
+use super::integrals::{Inertia, Sum, add_stiffness, stretch};
+use super::line::{BeamLine, Station};
+use super::mesh::Mesh;
+use super::reduce;
+use super::ritz::Functions;
+use super::section::Section;
+use super::shape::Elastic;
+use super::spec::{FlexibleBeam, FrameConditions, Ritz, Theory};
+use crate::body::Build;
+use crate::error::{Error, Result, short};
+
+/// Gauss points on an element that integrate squares of cubics exactly.
+const POINTS: usize = 4;
+/// Gauss points that integrate u' w'^2 exactly.
+const STRETCH_POINTS: usize = 3;
+/// Most finite elements of a beam.
+const MOST_ELEMENTS: u32 = 100_000;
+
+/// The shapes of a beam whose markers are at the abscissae `markers`, and its length in m.
+///
+/// # Errors
+/// Bad input, with the path from the body on.
+pub fn elastic_beam<const D: usize>(
+    beam: &FlexibleBeam,
+    markers: &[f64],
+    build: &Build<D>,
+) -> Result<(Elastic<D>, f64)> {
+    let length = build.positive("length", &beam.length)?;
+    let section = Section::of(beam, build)?;
+    check_markers(markers, length)?;
+    if beam.curvature.is_some() {
+        return Err(Error::input("a beam in a floating frame is straight")
+            .under("curvature")
+            .hint("remove it, or give \"frame\": \"absolute\""));
+    }
+    let rotary = beam.rotary_inertia.unwrap_or(beam.theory == Theory::Timoshenko);
+    let inertia = Inertia::of(&section, rotary);
+    let (mut elastic, basis) = match &beam.ritz {
+        Some(ritz) => (functions(beam, ritz, length, &section, &inertia, build)?, Basis::Functions),
+        None => elements(beam, length, markers, &section, &inertia)?,
+    };
+    elastic.damping = damping(&beam.damping, &elastic, basis, build)?;
+    Ok((elastic, length))
+}
+
+fn check_markers(markers: &[f64], length: f64) -> Result<()> {
+    match markers.iter().find(|s| !(**s >= -1e-9 * length && **s <= (1.0 + 1e-9) * length)) {
+        None => Ok(()),
+        Some(s) => Err(Error::input(format!("a marker is at s = {}, beside the beam", short(*s)))
+            .under("markers")
+            .hint(format!("the beam is from s = 0 to {}", short(length)))),
+    }
+}
+
+fn functions<const D: usize>(
+    beam: &FlexibleBeam,
+    ritz: &Ritz,
+    length: f64,
+    section: &Section,
+    inertia: &Inertia,
+    build: &Build<D>,
+) -> Result<Elastic<D>> {
+    let others = [
+        ("elements", beam.elements.is_some()),
+        ("modes", beam.modes.is_some()),
+        ("frame_conditions", beam.frame_conditions.is_some()),
+        ("axial", beam.axial.is_some()),
+    ];
+    if let Some((key, _)) = others.iter().find(|(_, given)| *given) {
+        return Err(Error::input(format!("`{key}` is for finite elements, whose place `ritz` takes"))
+            .under(key)
+            .hint(format!("remove `{key}`, or `ritz`")));
+    }
+    if beam.theory == Theory::Timoshenko {
+        return Err(Error::input("displacement functions have no shear")
+            .under("theory")
+            .hint("leave `theory` out, or give \"elements\" instead of `ritz`"));
+    }
+    let factor = match &ritz.axial_mass_factor {
+        None => 1.0,
+        Some(factor) => build.positive("axial_mass_factor", factor).map_err(|error| error.under("ritz"))?,
+    };
+    Functions::of(ritz, length, build)?.elastic(section, inertia, factor, beam.geometric_stiffening)
+}
+
+fn elements<const D: usize>(
+    beam: &FlexibleBeam,
+    length: f64,
+    markers: &[f64],
+    section: &Section,
+    inertia: &Inertia,
+) -> Result<(Elastic<D>, Basis)> {
+    let count = match beam.elements {
+        None => {
+            return Err(Error::input("the key `elements` is missing").hint(
+                "give the number of finite elements, such as \"elements\": 8, or displacement functions as \"ritz\"",
+            ));
+        }
+        Some(0) => {
+            return Err(Error::input("elements is 0, but must be above zero")
+                .under("elements")
+                .hint("4 to 16 are enough for most beams"));
+        }
+        Some(count) if count > MOST_ELEMENTS => {
+            return Err(Error::input(format!("elements is {count}, but at most {MOST_ELEMENTS} are possible"))
+                .under("elements")
+                .hint("4 to 16 are enough for most beams"));
+        }
+        Some(count) => count as usize,
+    };
+    let conditions = beam.frame_conditions.unwrap_or_default();
+    let mesh = Mesh::<D>::new(length, count, markers, section, beam.axial.unwrap_or_default()).fix(conditions);
+    let nodal = nodal(&mesh, section, inertia, beam.geometric_stiffening);
+    if beam.modes.is_none() && conditions != FrameConditions::Mean {
+        let line = Box::new(BeamLine { shapes: mesh, section: *section });
+        return Ok((Elastic { line: Some(line), ..nodal }, Basis::Nodal));
+    }
+    let modes = beam.modes.map(|modes| modes as usize);
+    let reduced = reduce::beam(mesh, nodal, section, conditions, markers, modes)?;
+    Ok((reduced, Basis::Modal))
+}
+
+/// In the coordinates of the nodes; without damping, and without the line, which is the mesh itself.
+fn nodal<const D: usize>(mesh: &Mesh<D>, section: &Section, inertia: &Inertia, stiffening: bool) -> Elastic<D> {
+    let mut stiffness = Sum::default();
+    let (mut pieces, mut stretches) = (Vec::new(), Vec::new());
+    for element in 0..mesh.count() {
+        let (dofs, samples) = mesh.samples(element, POINTS);
+        add_stiffness(&mut stiffness, section, &dofs, &samples);
+        pieces.push(inertia.piece(dofs, &samples));
+        if stiffening {
+            let (dofs, samples) = mesh.samples(element, STRETCH_POINTS);
+            let station = |shapes| Station { dofs: dofs.clone(), shapes };
+            stretches
+                .extend(samples.into_iter().map(|sample| stretch(section, sample.weight, &station(sample.shapes))));
+        }
+    }
+    Elastic { names: mesh.names(), pieces, stiffness: stiffness.finish(), damping: Vec::new(), stretches, line: None }
+}

@@ -1,0 +1,135 @@
+//! The integrals over a beam that the equations of motion need, from its shapes at points of integration.
+
+use super::line::{Cross, Station};
+use super::section::Section;
+use super::shape::{Piece, Stretch, Symmetric};
+use std::array::from_fn;
+use std::collections::BTreeMap;
+
+/// A point of integration on the line.
+pub struct Sample {
+    pub s: f64,
+    /// m
+    pub weight: f64,
+    /// What the coordinates do here, in the order of the piece's.
+    pub shapes: Vec<Cross>,
+}
+
+/// How the mass of a section counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inertia {
+    pub rho_a: f64,
+    /// About y and z.
+    pub rho_i: [f64; 2],
+    /// Whether sections that bending turns have inertia (Rayleigh); those that twist always have.
+    pub rotary: bool,
+}
+
+impl Inertia {
+    pub fn of(section: &Section, rotary: bool) -> Self {
+        Inertia { rho_a: section.rho_a, rho_i: section.rho_i, rotary }
+    }
+
+    /// psi at the point (y, z) of a section is [0] + y [1] + z [2], as the rotation r moves it by r x (0, y, z).
+    fn shape<const D: usize>(&self, shape: &Cross) -> [[f64; D]; 3] {
+        let [rx, ry, rz] = shape.rotation;
+        let [ry, rz] = if self.rotary { [ry, rz] } else { [0.0; 2] };
+        [shape.displacement, [-rz, 0.0, rx], [ry, -rx, 0.0]].map(|v| from_fn(|k| v[k]))
+    }
+
+    /// psi_0 = (s, y, z)
+    fn rest<const D: usize>(s: f64) -> [[f64; D]; 3] {
+        [[s, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|v| from_fn(|k| v[k]))
+    }
+
+    /// The mass integrals over all samples. Axes of the section are principal ones, so that int rho y = int rho z =
+    /// int rho y z = 0, int rho y^2 is the moment of inertia about z and int rho z^2 that about y.
+    pub fn piece<const D: usize>(&self, dofs: Vec<usize>, samples: &[Sample]) -> Piece<D> {
+        let n = 1 + dofs.len();
+        let mut piece = Piece { dofs, mass: 0.0, moments: vec![[0.0; D]; n], products: vec![[[0.0; D]; D]; n * n] };
+        for sample in samples {
+            let shapes = sample.shapes.iter().map(|shape| self.shape::<D>(shape));
+            let psi: Vec<_> = std::iter::once(Self::rest(sample.s)).chain(shapes).collect();
+            self.add(&mut piece, &psi, sample.weight);
+        }
+        piece
+    }
+
+    fn add<const D: usize>(&self, piece: &mut Piece<D>, psi: &[[[f64; D]; 3]], weight: f64) {
+        let densities = [self.rho_a, self.rho_i[1], self.rho_i[0]].map(|density| density * weight);
+        piece.mass += densities[0];
+        for (a, left) in psi.iter().enumerate() {
+            (0..D).for_each(|k| piece.moments[a][k] += densities[0] * left[0][k]);
+            for (b, right) in psi.iter().enumerate() {
+                let product = &mut piece.products[a * psi.len() + b];
+                for ((density, l), r) in densities.iter().zip(left).zip(right) {
+                    (0..D).for_each(|k| (0..D).for_each(|m| product[k][m] += density * l[k] * r[m]));
+                }
+            }
+        }
+    }
+}
+
+/// Entries of a symmetric matrix, added up in their places; in the order of the places.
+#[derive(Default)]
+pub struct Sum(BTreeMap<(usize, usize), f64>);
+
+impl Sum {
+    /// Adds to (i, j) and (j, i), which are one place.
+    pub fn add(&mut self, i: usize, j: usize, value: f64) {
+        *self.0.entry((i.max(j), i.min(j))).or_insert(0.0) += value;
+    }
+
+    pub fn add_all(&mut self, factor: f64, matrix: &Symmetric) {
+        matrix.iter().for_each(|&(i, j, value)| self.add(i, j, factor * value));
+    }
+
+    pub fn finish(self) -> Symmetric {
+        self.0.into_iter().filter(|(_, value)| *value != 0.0).map(|((i, j), value)| (i, j, value)).collect()
+    }
+}
+
+/// int strains^T stiffness strains over the samples, added to `sum`.
+pub fn add_stiffness(sum: &mut Sum, section: &Section, dofs: &[usize], samples: &[Sample]) {
+    let stiffness = section.stiffness();
+    for sample in samples {
+        for (a, left) in sample.shapes.iter().enumerate() {
+            for (b, right) in sample.shapes.iter().enumerate().take(a + 1) {
+                let energy: f64 = (0..6).map(|k| stiffness[k] * left.strain[k] * right.strain[k]).sum();
+                if energy != 0.0 {
+                    sum.add(dofs[a], dofs[b], sample.weight * energy);
+                }
+            }
+        }
+    }
+}
+
+/// A point of geometric stiffening; only the coordinates that stretch or turn the line there.
+pub fn stretch(section: &Section, weight: f64, station: &Station) -> Stretch {
+    let counts = |shape: &Cross| shape.strain[0] != 0.0 || shape.slope != [0.0; 2];
+    let used: Vec<usize> = (0..station.dofs.len()).filter(|&i| counts(&station.shapes[i])).collect();
+    Stretch {
+        dofs: used.iter().map(|&i| station.dofs[i]).collect(),
+        weight: section.ea * weight,
+        axial: used.iter().map(|&i| station.shapes[i].strain[0]).collect(),
+        slopes: used.iter().map(|&i| station.shapes[i].slope).collect(),
+    }
+}
+
+/// The elastic mass matrix, M_ij = tr P_ij.
+pub fn mass_matrix<const D: usize>(pieces: &[Piece<D>]) -> Symmetric {
+    let mut sum = Sum::default();
+    for piece in pieces {
+        let n = 1 + piece.dofs.len();
+        for (a, &i) in piece.dofs.iter().enumerate() {
+            for (b, &j) in piece.dofs.iter().enumerate().take(a + 1) {
+                let product = &piece.products[(a + 1) * n + b + 1];
+                let trace: f64 = (0..D).map(|k| product[k][k]).sum();
+                if trace != 0.0 {
+                    sum.add(i, j, trace);
+                }
+            }
+        }
+    }
+    sum.finish()
+}

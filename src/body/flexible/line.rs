@@ -1,0 +1,133 @@
+//! The line of a beam: what every way to describe its displacements (elements, functions, modes) has in common.
+//!
+//! Displacements (u, w_y, w_z) of the line and rotations (r_x, r_y, r_z) of its sections are small. With ' = d/ds:
+//!
+//! ```text
+//! extension u',  shear w_y' - r_z and w_z' + r_y,  twist r_x',  curvatures r_y' and r_z'
+//! strain of the fibre at (y, z):  u' - y r_z' + z r_y'
+//! ```
+//!
+//! so that where sections stay square to the line r_z = w_y' and r_y = -w_z'.
+
+use super::section::Section;
+use super::shape::{Line, PointShape, SectionShape};
+use crate::body::{cross, in_space};
+use std::array::from_fn;
+
+/// What one coordinate does to one section.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cross {
+    /// Of the line: u, w_y, w_z.
+    pub displacement: [f64; 3],
+    /// r_x, r_y, r_z
+    pub rotation: [f64; 3],
+    /// In the order of [`SectionShape::strains`].
+    pub strain: [f64; 6],
+    /// w_y', w_z'
+    pub slope: [f64; 2],
+}
+
+impl Cross {
+    /// Extension by u with slope u'.
+    pub fn axial(u: f64, slope: f64) -> Self {
+        Cross { displacement: [u, 0.0, 0.0], strain: [slope, 0.0, 0.0, 0.0, 0.0, 0.0], ..Self::default() }
+    }
+
+    /// Twist by an angle with slope.
+    pub fn torsion(angle: f64, slope: f64) -> Self {
+        Cross { rotation: [angle, 0.0, 0.0], strain: [0.0, 0.0, 0.0, slope, 0.0, 0.0], ..Self::default() }
+    }
+
+    /// Bending along y: deflection w, its slope, the section's turn from w towards the line's slope, and its rate.
+    pub fn bending_y(Bending { w, slope, turn, turn_rate }: Bending) -> Self {
+        Cross {
+            displacement: [0.0, w, 0.0],
+            rotation: [0.0, 0.0, turn],
+            strain: [0.0, slope - turn, 0.0, 0.0, 0.0, turn_rate],
+            slope: [slope, 0.0],
+        }
+    }
+
+    /// Bending along z: the section's turn about y is against the slope.
+    pub fn bending_z(Bending { w, slope, turn, turn_rate }: Bending) -> Self {
+        Cross {
+            displacement: [0.0, 0.0, w],
+            rotation: [0.0, -turn, 0.0],
+            strain: [0.0, 0.0, slope - turn, 0.0, -turn_rate, 0.0],
+            slope: [0.0, slope],
+        }
+    }
+
+    /// self += factor other
+    pub fn add(&mut self, factor: f64, other: &Cross) {
+        let into = |a: &mut [f64], b: &[f64]| a.iter_mut().zip(b).for_each(|(a, b)| *a += factor * b);
+        into(&mut self.displacement, &other.displacement);
+        into(&mut self.rotation, &other.rotation);
+        into(&mut self.strain, &other.strain);
+        into(&mut self.slope, &other.slope);
+    }
+
+    pub fn scaled(&self, factor: f64) -> Self {
+        let mut scaled = Cross::default();
+        scaled.add(factor, self);
+        scaled
+    }
+}
+
+/// Bending in one plane: the deflection, its slope, the turn of the section (the slope without shear) and its rate.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bending {
+    pub w: f64,
+    pub slope: f64,
+    pub turn: f64,
+    pub turn_rate: f64,
+}
+
+/// What the coordinates that reach a place do there.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Station {
+    pub dofs: Vec<usize>,
+    pub shapes: Vec<Cross>,
+}
+
+/// Displacements of the line of a beam as functions of the place.
+pub trait Shapes: Send + Sync {
+    /// m
+    fn length(&self) -> f64;
+    /// At 0 <= s <= length.
+    fn at(&self, s: f64) -> Station;
+}
+
+/// Shapes with the stiffness of the section.
+pub struct BeamLine<F> {
+    pub shapes: F,
+    pub section: Section,
+}
+
+impl<F: Shapes, const D: usize> Line<D> for BeamLine<F> {
+    fn length(&self) -> f64 {
+        self.shapes.length()
+    }
+
+    fn point(&self, rest: [f64; D]) -> PointShape<D> {
+        let Station { dofs, shapes } = self.shapes.at(rest[0]);
+        let mut offset = in_space(&rest);
+        offset[0] = 0.0;
+        let translation = |shape: &Cross| {
+            let turned = cross(&shape.rotation, &offset);
+            from_fn(|k| shape.displacement[k] + turned[k])
+        };
+        PointShape {
+            rest,
+            dofs,
+            translation: shapes.iter().map(translation).collect(),
+            rotation: shapes.iter().map(|shape| shape.rotation).collect(),
+        }
+    }
+
+    fn section(&self, s: f64) -> SectionShape {
+        let Station { dofs, shapes } = self.shapes.at(s);
+        let strains = shapes.iter().map(|shape| shape.strain).collect();
+        SectionShape { dofs, strains, stiffness: self.section.stiffness() }
+    }
+}

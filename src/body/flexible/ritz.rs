@@ -1,0 +1,253 @@
+//! Displacements of a beam as functions of choice (Ritz).
+
+use super::eigen::{dense, first_dependent};
+use super::gauss::{gauss_legendre, on_interval};
+use super::integrals::{Inertia, Sample, Sum, add_stiffness, mass_matrix, stretch};
+use super::line::{BeamLine, Bending, Cross, Shapes, Station};
+use super::section::Section;
+use super::shape::{Elastic, Piece, Symmetric};
+use super::spec::Ritz;
+use crate::body::Build;
+use crate::error::{Error, Result};
+use crate::math::Taylor;
+use crate::math::expression::{Expression, Number, Scope};
+
+/// Gauss points on a panel.
+const POINTS: usize = 12;
+/// Most panels; only functions that are not smooth, or not exact to rounding, need so many.
+const PANELS: usize = 64;
+/// Integrals are taken as exact when halving the panels changes none by more than this.
+const CONVERGED: f64 = 1e-12;
+/// Pivots smaller than this, relative to their diagonal, are round-off.
+const DEPENDENT: f64 = 1e-13;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Bending,
+    BendingZ,
+    Axial,
+    Torsion,
+}
+
+impl Kind {
+    /// Key in the scene, beginning of the coordinates' names.
+    fn words(self) -> [&'static str; 2] {
+        match self {
+            Kind::Bending => ["bending", "bend"],
+            Kind::BendingZ => ["bending_z", "bend_z"],
+            Kind::Axial => ["axial", "stretch"],
+            Kind::Torsion => ["torsion", "twist"],
+        }
+    }
+}
+
+#[derive(Clone, Debug)]
+struct Function {
+    kind: Kind,
+    /// JSON path under `ritz`.
+    path: String,
+    value: Expression,
+}
+
+impl Function {
+    fn at(&self, s: f64) -> Cross {
+        let Taylor { x: f, d: slope, dd: curvature } = self.value.eval(&[Taylor::<f64>::time(s)]);
+        let bending = Bending { w: f, slope, turn: slope, turn_rate: curvature };
+        match self.kind {
+            Kind::Bending => Cross::bending_y(bending),
+            Kind::BendingZ => Cross::bending_z(bending),
+            Kind::Axial => Cross::axial(f, slope),
+            Kind::Torsion => Cross::torsion(f, slope),
+        }
+    }
+
+    fn fault(&self, message: String) -> Error {
+        Error::input(message).under(&self.path).under("ritz")
+    }
+}
+
+/// The functions of a beam, one elastic coordinate each.
+#[derive(Clone, Debug)]
+pub struct Functions {
+    length: f64,
+    functions: Vec<Function>,
+}
+
+impl Shapes for Functions {
+    fn length(&self) -> f64 {
+        self.length
+    }
+    fn at(&self, s: f64) -> Station {
+        Station { dofs: (0..self.functions.len()).collect(), shapes: self.functions.iter().map(|f| f.at(s)).collect() }
+    }
+}
+
+impl Functions {
+    /// # Errors
+    /// Bad input: none at all, one that is no expression of x, or one that is not finite on the beam.
+    pub fn of<const D: usize>(ritz: &Ritz, length: f64, build: &Build<D>) -> Result<Self> {
+        let given = [
+            (Kind::Bending, &ritz.bending),
+            (Kind::BendingZ, &ritz.bending_z),
+            (Kind::Axial, &ritz.axial),
+            (Kind::Torsion, &ritz.torsion),
+        ];
+        let mut functions = Vec::new();
+        for (kind, numbers) in given {
+            if D == 2 && matches!(kind, Kind::BendingZ | Kind::Torsion) && !numbers.is_empty() {
+                return Err(Error::input("a beam in the plane bends along y only")
+                    .under(kind.words()[0])
+                    .under("ritz")
+                    .hint("give \"bending\" and \"axial\""));
+            }
+            for (i, number) in numbers.iter().enumerate() {
+                functions.push(function(kind, i, number, build).map_err(|error| error.under("ritz"))?);
+            }
+        }
+        if functions.is_empty() {
+            return Err(Error::input("there is no displacement function")
+                .under("ritz")
+                .hint("give some as \"bending\" or \"axial\", such as \"sin(pi*x/l)\""));
+        }
+        let functions = Functions { length, functions };
+        functions.check_finite()?;
+        Ok(functions)
+    }
+
+    /// Functions with their slopes must exist on the whole beam, ends included, where joints may be.
+    fn check_finite(&self) -> Result<()> {
+        let places = self.places(PANELS).map(|(s, _)| s).chain([0.0, self.length]);
+        for s in places {
+            for function in &self.functions {
+                let Cross { displacement, rotation, strain, .. } = function.at(s);
+                if displacement.iter().chain(&rotation).chain(&strain).any(|value| !value.is_finite()) {
+                    return Err(function
+                        .fault(format!("`{}` has no finite value and derivatives at x = {s}", function.value))
+                        .hint("the function, its slope, and for bending its curvature must be finite along the beam"));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn places(&self, panels: usize) -> impl Iterator<Item = (f64, f64)> {
+        let (rule, width) = (gauss_legendre(POINTS), self.length / panels as f64);
+        (0..panels)
+            .flat_map(move |k| on_interval(&rule, [k as f64 * width, (k + 1) as f64 * width]).collect::<Vec<_>>())
+    }
+
+    fn samples(&self, panels: usize) -> Vec<Sample> {
+        self.places(panels).map(|(s, weight)| Sample { s, weight, shapes: self.at(s).shapes }).collect()
+    }
+
+    /// Everything but the damping, with so few points of integration as are exact to rounding.
+    ///
+    /// # Errors
+    /// Bad input: functions that depend on one another, or move the beam as its frame does.
+    pub fn elastic<const D: usize>(
+        self,
+        section: &Section,
+        inertia: &Inertia,
+        axial_mass_factor: f64,
+        stiffening: bool,
+    ) -> Result<Elastic<D>> {
+        let dofs: Vec<usize> = (0..self.functions.len()).collect();
+        let integrals = |samples: &[Sample]| {
+            let mut stiffness = Sum::default();
+            add_stiffness(&mut stiffness, section, &dofs, samples);
+            (inertia.piece::<D>(dofs.clone(), samples), stiffness.finish())
+        };
+        let mut panels = 1;
+        let mut samples = self.samples(panels);
+        let mut last = integrals(&samples);
+        while panels < PANELS {
+            panels *= 2;
+            samples = self.samples(panels);
+            let finer = integrals(&samples);
+            let exact = agree(&diagonals(&last), &diagonals(&finer));
+            last = finer;
+            if exact {
+                break;
+            }
+        }
+        let (mut piece, stiffness) = last;
+        self.check_independent(&piece, &stiffness)?;
+        self.scale_axial(&mut piece, axial_mass_factor);
+        let points = samples.into_iter().filter(|_| stiffening);
+        let station = |shapes| Station { dofs: dofs.clone(), shapes };
+        let stretches = points.map(|sample| stretch(section, sample.weight, &station(sample.shapes))).collect();
+        Ok(Elastic {
+            names: self.names(),
+            pieces: vec![piece],
+            stiffness,
+            damping: Vec::new(),
+            stretches,
+            line: Some(Box::new(BeamLine { shapes: self, section: *section })),
+        })
+    }
+
+    fn names(&self) -> Vec<String> {
+        let mut counts = [0; 4];
+        let name = |function: &Function| {
+            counts[function.kind as usize] += 1;
+            format!("{}{}", function.kind.words()[1], counts[function.kind as usize])
+        };
+        self.functions.iter().map(name).collect()
+    }
+
+    /// Multiplies the mass of axial functions among one another.
+    fn scale_axial<const D: usize>(&self, piece: &mut Piece<D>, factor: f64) {
+        let n = 1 + self.functions.len();
+        let axial = |a: usize| a > 0 && self.functions[a - 1].kind == Kind::Axial;
+        for a in (0..n).filter(|&a| axial(a)) {
+            for b in (0..n).filter(|&b| axial(b)) {
+                piece.products[a * n + b].iter_mut().flatten().for_each(|product| *product *= factor);
+            }
+        }
+    }
+
+    fn check_independent<const D: usize>(&self, piece: &Piece<D>, stiffness: &Symmetric) -> Result<()> {
+        let n = self.functions.len();
+        let mass = dense(n, &mass_matrix(std::slice::from_ref(piece)));
+        if let Some(i) = first_dependent(mass.as_ref(), DEPENDENT) {
+            let function = &self.functions[i];
+            let what = match mass[(i, i)] == 0.0 {
+                true => "is zero everywhere",
+                false => "is a sum of the functions before it",
+            };
+            return Err(function.fault(format!("`{}` {what}", function.value)).hint("remove it"));
+        }
+        if let Some(i) = first_dependent(dense(n, stiffness).as_ref(), DEPENDENT) {
+            let function = &self.functions[i];
+            let with = if i == 0 { "" } else { ", with those before it," };
+            return Err(function
+                .fault(format!("`{}`{with} can move the beam without deforming it", function.value))
+                .hint("the floating frame does that already: remove it"));
+        }
+        Ok(())
+    }
+}
+
+fn function<const D: usize>(kind: Kind, i: usize, number: &Number, build: &Build<D>) -> Result<Function> {
+    let path = format!("{}[{i}]", kind.words()[0]);
+    let names = Scope { parameters: build.parameters, variables: &["x"] };
+    let value = number.expression(&names).map_err(|error| Error::from(error).under(&path))?;
+    if build.parameters.get("x").is_some() && value.depends_on(0) {
+        return Err(Error::input("`x` is the place along the beam here, but a parameter has this name too")
+            .under(path)
+            .hint("rename the parameter"));
+    }
+    Ok(Function { kind, path, value })
+}
+
+/// Of mass and stiffness.
+fn diagonals<const D: usize>((piece, stiffness): &(Piece<D>, Symmetric)) -> Vec<f64> {
+    let n = piece.dofs.len();
+    let mass = dense(n, &mass_matrix(std::slice::from_ref(piece)));
+    let stiffness = dense(n, stiffness);
+    (0..n).flat_map(|i| [mass[(i, i)], stiffness[(i, i)]]).collect()
+}
+
+fn agree(a: &[f64], b: &[f64]) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= CONVERGED * b.abs())
+}

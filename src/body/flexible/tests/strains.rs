@@ -1,0 +1,127 @@
+//! Strains of sections: none for rigid motions, constant ones reproduced.
+
+use super::*;
+use crate::body::flexible::line::{Cross, Shapes};
+use crate::body::flexible::mesh::Mesh;
+use crate::body::flexible::{Axial, Section};
+
+const SECTION: Section =
+    Section { ea: 2e4, ga: [900.0, 700.0], gj: 2.0, ei: [5.0, 3.0], rho_a: 0.8, rho_i: [2e-3, 1e-3] };
+
+/// The section at `s` for displacements of all nodes.
+fn at<const D: usize>(mesh: &Mesh<D>, s: f64, q: &[f64]) -> Cross {
+    let station = mesh.at(s);
+    let mut sum = Cross::default();
+    station.dofs.iter().zip(&station.shapes).for_each(|(&dof, shape)| sum.add(q[dof], shape));
+    sum
+}
+
+/// Free meshes with and without shear and middle nodes.
+fn meshes<const D: usize>() -> Vec<Mesh<D>> {
+    let slender = Section { ga: [f64::INFINITY; 2], ..SECTION };
+    [(SECTION, Axial::Linear), (SECTION, Axial::Quadratic), (slender, Axial::Linear), (slender, Axial::Quadratic)]
+        .map(|(section, axial)| Mesh::new(1.5, 5, &[0.4], &section, axial))
+        .into()
+}
+
+#[test]
+fn rigid_motions_do_not_strain() {
+    fn check<const D: usize>() {
+        for mesh in meshes::<D>() {
+            for motion in mesh.rigid_motions(0.6) {
+                for s in [0.0, 0.1, 0.4, 0.77, 1.5] {
+                    at(&mesh, s, &motion).strain.iter().for_each(|strain| assert_close(*strain, 0.0, 1e-12));
+                }
+            }
+        }
+    }
+    check::<2>();
+    check::<3>();
+}
+
+/// Nodes on a line that is stretched, sheared, twisted and bent by constant strains.
+fn patch(mesh: &Mesh<3>, strain: [f64; 6]) -> Vec<f64> {
+    let [eps, gy, gz, twist, ky, kz] = strain;
+    let nodal = |s: f64| [eps * s, gy * s + kz * s * s / 2.0, gz * s - ky * s * s / 2.0, twist * s, ky * s, kz * s];
+    let middle = |name: &str| name.starts_with('m');
+    let mut q = Vec::new();
+    for (i, name) in mesh.names().iter().enumerate() {
+        let node: usize = name[1..].split('_').next().unwrap().parse().unwrap();
+        if middle(name) {
+            q.push(eps * (mesh.nodes[node] + mesh.nodes[node - 1]) / 2.0);
+        } else {
+            let first = mesh.names().iter().position(|other| other.starts_with(&format!("n{node}_"))).unwrap();
+            q.push(nodal(mesh.nodes[node])[i - first]);
+        }
+    }
+    q
+}
+
+#[test]
+fn constant_strains_are_reproduced() {
+    for (i, mesh) in meshes::<3>().iter().enumerate() {
+        // Linear shear alone leaves a constant moment's line square to the sections.
+        let strains = [[0.1, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.2, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0, 0.3, 0.4]];
+        let sheared = [0.0, 0.05, -0.02, 0.0, 0.0, 0.0];
+        for strain in strains.into_iter().chain((i < 2).then_some(sheared)) {
+            let q = patch(mesh, strain);
+            for s in [0.01, 0.4, 0.77, 1.5] {
+                let found = at(mesh, s, &q).strain;
+                (0..6).for_each(|k| {
+                    // A constant shear force comes with a moment, which an element without load must have.
+                    if strain != sheared || k != 4 && k != 5 {
+                        assert_close(found[k], strain[k], 1e-12)
+                    }
+                });
+            }
+        }
+    }
+}
+
+#[test]
+fn a_fibre_strains_as_the_signs_say() {
+    let scene = beam_in_space(json!({ "theory": "timoshenko", "axial": "quadratic" }));
+    let rod: Elastic<3> = build(&scene, &[]).unwrap();
+    let line = rod.line.unwrap();
+    let (s, h) = (0.7, 1e-5);
+    for (y, z) in [(0.0, 0.0), (0.2, 0.0), (0.0, 0.3), (0.2, -0.1)] {
+        let [left, right] = [s - h, s + h].map(|s| line.point([s, y, z]));
+        let section = line.section(s);
+        assert_eq!(section.dofs, left.dofs);
+        for i in 0..section.dofs.len() {
+            let [eps, .., ky, kz] = section.strains[i];
+            let stretched = (right.translation[i][0] - left.translation[i][0]) / (2.0 * h);
+            assert_close(stretched, eps - y * kz + z * ky, 1e-7);
+        }
+        assert_eq!(section.stiffness, [2e4, 900.0, 700.0, 2.0, 5.0, 3.0]);
+    }
+    let slender: Elastic<3> = build(&beam_in_space(json!({})), &[]).unwrap();
+    assert_eq!(slender.line.unwrap().section(s).stiffness, [2e4, 0.0, 0.0, 2.0, 5.0, 3.0]);
+}
+
+/// Modes show the same displacements and strains through their line as their nodes do.
+#[test]
+fn modes_have_a_line() {
+    let scene = beam_in_space(json!({ "modes": 4, "elements": 6, "geometric_stiffening": true }));
+    let rod: Elastic<3> = build(&scene, &[0.9]).unwrap();
+    assert_eq!(rod.stretches.len(), 3 * 6);
+    let n = rod.names.len();
+    let line = rod.line.unwrap();
+    assert_eq!(line.point([0.9, 0.1, 0.0]).translation.len(), n);
+    // K = int strain^T C strain.
+    let rule = crate::body::flexible::gauss_legendre(6);
+    let mut energy = vec![0.0; n];
+    for panel in 0..30 {
+        let ends = [f64::from(panel) * 0.05, f64::from(panel + 1) * 0.05];
+        for (s, weight) in crate::body::flexible::on_interval(&rule, ends) {
+            let section = line.section(s);
+            for (i, strain) in section.strains.iter().enumerate() {
+                energy[i] += (0..6).map(|k| weight * section.stiffness[k] * strain[k] * strain[k]).sum::<f64>();
+            }
+        }
+    }
+    for (i, j, stiffness) in rod.stiffness {
+        assert_eq!(i, j);
+        assert_close(energy[i] / stiffness, 1.0, 1e-10);
+    }
+}
