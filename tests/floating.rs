@@ -55,21 +55,22 @@ fn cloud<const D: usize>(has_rotations: bool) -> Cloud<D> {
         }
         pieces.push(piece);
     }
-    let symmetric = |stir: &mut Stir| {
+    let matrix = |stir: &mut Stir| {
         let places = (0..ELASTIC).flat_map(|i| (0..=i).map(move |j| (i, j)));
         places.map(|(i, j)| (i, j, stir.next() + if i == j { 6.0 } else { 0.0 })).collect::<Vec<_>>()
     };
     let stretch = |stir: &mut Stir, dofs: &[usize]| Stretch {
+        ends: [0.0, 1.0],
         dofs: dofs.to_vec(),
         weight: 3.0,
         axial: stir.list(dofs.len()),
-        slopes: dofs.iter().map(|_| stir.vector()).collect(),
+        slopes: symmetric(dofs.len(), stir),
     };
     let elastic = Elastic {
         names: (1..=ELASTIC).map(|i| format!("e{i}")).collect(),
         pieces,
-        stiffness: symmetric(&mut stir),
-        damping: symmetric(&mut stir),
+        stiffness: matrix(&mut stir),
+        damping: matrix(&mut stir),
         stretches: vec![stretch(&mut stir, &[0, 3]), stretch(&mut stir, &[1, 2, 5])],
         line: None,
     };
@@ -79,6 +80,12 @@ fn cloud<const D: usize>(has_rotations: bool) -> Cloud<D> {
 
 fn still<const D: usize>() -> PointShape<D> {
     PointShape { rest: [0.0; D], dofs: vec![], translation: vec![], rotation: vec![] }
+}
+
+/// A full symmetric matrix, row by row.
+fn symmetric(n: usize, stir: &mut Stir) -> Vec<f64> {
+    let half = stir.list(n * n);
+    (0..n * n).map(|k| half[k] + half[k % n * n + k / n]).collect()
 }
 
 struct State<const D: usize> {

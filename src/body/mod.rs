@@ -103,6 +103,8 @@ pub struct BodyState<'a, const D: usize> {
 #[derive(Clone, Copy)]
 pub struct Bent<'a, const D: usize> {
     pub line: &'a dyn flexible::Line<D>,
+    /// Of geometric stiffening, along the line.
+    pub stretches: &'a [flexible::Stretch],
     /// Place of the first elastic coordinate among those of the body.
     pub first: usize,
 }
@@ -172,9 +174,5 @@ pub const SHARED_KEYS: [&str; 5] = ["name", "type", "markers", "initial", "origi
 
 /// Every kind of body, in the order of the documentation.
 pub fn registry<const D: usize>() -> Vec<Entry<D>> {
-    vec![
-        entry::<rigid::Rigid, D>(),
-        entry::<point_mass::PointMass, D>(),
-        entry::<flexible::FlexibleBeam, D>(),
-    ]
+    vec![entry::<rigid::Rigid, D>(), entry::<point_mass::PointMass, D>(), entry::<flexible::FlexibleBeam, D>()]
 }

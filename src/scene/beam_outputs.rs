@@ -1,34 +1,61 @@
 //! Outputs of a beam at a place on its line.
 
 use super::format::{MeasureKind, OutputSpec};
-use super::model::{Measure, Part};
+use super::model::{Combination, Measure, Part};
 use super::outputs::{find, missing, wrong_component};
+use crate::body::flexible::Stretch;
 use crate::body::{Bent, Build};
 use crate::error::{Error, Result, short};
 
-/// What is read of the beam `of`, a sum of its elastic coordinates with factors.
+/// What is read of the beam `of`, in terms of its elastic coordinates.
 pub fn measure<const D: usize>(spec: &OutputSpec, of: &str, bodies: &[Part<D>], build: &Build<D>) -> Result<Measure> {
     let beams = || bodies.iter().filter_map(|part| Some((part, part.body.bent()?)));
     let index = find("flexible beam", of, beams().map(|(part, _)| part.name.as_str()))?;
-    let (part, Bent { line, first }) = match beams().nth(index) {
+    let (part, Bent { line, stretches, first }) = match beams().nth(index) {
         Some(beam) => beam,
         None => return Err(Error::input(format!("`{of}` is no flexible beam")).under("of")),
     };
     let at = place(spec, line.length(), build)?;
-    let coordinate = |dof: usize| part.first_q + first + dof;
+    let mut sum = Sum { first: part.first_q + first, combination: Combination::default() };
     if spec.measure == MeasureKind::Deflection {
         let axis = component(spec, "y", &["x", "y", "z"][..D])?;
         let mut rest = [0.0; D];
         rest[0] = at;
         let point = line.point(rest);
-        let terms = point.dofs.iter().zip(&point.translation).map(|(&dof, t)| (coordinate(dof), t[axis]));
-        return Ok(Measure::Combination(terms.filter(|(_, factor)| *factor != 0.0).collect()));
+        sum.add(&point.dofs, point.translation.iter().map(|t| t[axis]));
+        return Ok(Measure::Elastic(sum.combination));
     }
     let section = line.section(at);
-    let weights = weights::<D>(spec, &section.stiffness, build)?;
+    let mut weights = weights::<D>(spec, &section.stiffness, build)?;
+    if let Some(stretch) = stretches.iter().find(|stretch| at <= stretch.ends[1]).or(stretches.last()) {
+        sum.add_extension(stretch, weights[0]);
+        weights[0] = 0.0;
+    }
     let factor = |strains: &[f64; 6]| -> f64 { strains.iter().zip(weights).map(|(strain, w)| strain * w).sum() };
-    let terms = section.dofs.iter().zip(&section.strains).map(|(&dof, strains)| (coordinate(dof), factor(strains)));
-    Ok(Measure::Combination(terms.filter(|(_, factor)| *factor != 0.0).collect()))
+    sum.add(&section.dofs, section.strains.iter().map(factor));
+    Ok(Measure::Elastic(sum.combination))
+}
+
+/// A combination of the coordinates from `first` on.
+struct Sum {
+    first: usize,
+    combination: Combination,
+}
+
+impl Sum {
+    fn add(&mut self, dofs: &[usize], factors: impl Iterator<Item = f64>) {
+        let terms = dofs.iter().zip(factors).filter(|(_, factor)| *factor != 0.0);
+        self.combination.linear.extend(terms.map(|(dof, factor)| (self.first + dof, factor)));
+    }
+
+    /// The extension where it stiffens: a.q + q.S q/2.
+    fn add_extension(&mut self, stretch: &Stretch, factor: f64) {
+        self.add(&stretch.dofs, stretch.axial.iter().map(|a| factor * a));
+        let places: Vec<usize> = stretch.dofs.iter().map(|dof| self.first + dof).collect();
+        let pairs = places.iter().flat_map(|&i| places.iter().map(move |&j| [i, j]));
+        let terms = pairs.zip(stretch.slopes.iter().map(|s| 0.5 * factor * s)).filter(|(_, factor)| *factor != 0.0);
+        self.combination.squares.extend(terms);
+    }
 }
 
 /// Where on the beam, m from its left end.

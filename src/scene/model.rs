@@ -78,11 +78,25 @@ pub enum Measure {
     Tension {
         joint: usize,
     },
-    /// A sum of coordinates with factors: deflections and section forces of a beam in a floating frame.
-    Combination(Vec<(usize, f64)>),
+    /// Of a beam in a floating frame.
+    Elastic(Combination),
     /// The magnitude of a force.
     Force(usize),
     Energy(EnergyPart),
+}
+
+/// Coordinates, and products of two of them, with factors.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Combination {
+    pub linear: Vec<(usize, f64)>,
+    pub squares: Vec<([usize; 2], f64)>,
+}
+
+impl Combination {
+    pub fn at(&self, q: &[f64]) -> f64 {
+        let linear = self.linear.iter().map(|&(i, factor)| factor * q[i]).sum::<f64>();
+        linear + self.squares.iter().map(|&([i, j], factor)| factor * q[i] * q[j]).sum::<f64>()
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -36,7 +36,7 @@ impl<const D: usize> Output<'_, D> {
                 Measure::Reaction { joint, component, axes } => self.reaction(work, *joint, (*component, *axes)),
                 // phi is l - length: -G^T lambda pulls the second body towards the first.
                 Measure::Tension { joint } => self.lambda[self.mechanism.rows_of_joint(*joint).start],
-                Measure::Combination(terms) => terms.iter().map(|&(i, factor)| factor * self.q[i]).sum(),
+                Measure::Elastic(combination) => combination.at(self.q),
                 Measure::Force(force) => self.magnitude(work, *force),
                 Measure::Energy(EnergyPart::Kinetic) => energy.kinetic,
                 Measure::Energy(EnergyPart::Potential) => energy.potential,

@@ -2,19 +2,19 @@
 
 use super::damping::{Basis, damping};
 use super::integrals::{Inertia, Sum, add_stiffness, stretch};
-use super::line::{BeamLine, Station};
+use super::line::BeamLine;
 use super::mesh::Mesh;
 use super::reduce;
 use super::ritz::Functions;
 use super::section::Section;
-use super::shape::Elastic;
-use super::spec::{FlexibleBeam, FrameConditions, Ritz, Theory};
+use super::shape::{Elastic, Stretch};
+use super::spec::{Axial, FlexibleBeam, FrameConditions, Ritz, Theory};
 use crate::body::Build;
 use crate::error::{Error, Result, short};
 
 /// Gauss points on an element that integrate squares of cubics exactly.
 const POINTS: usize = 4;
-/// Gauss points that integrate u' w'^2 exactly.
+/// Gauss points that integrate w'^2 exactly.
 const STRETCH_POINTS: usize = 3;
 /// Most finite elements of a beam.
 const MOST_ELEMENTS: u32 = 100_000;
@@ -119,8 +119,31 @@ fn elements<const D: usize>(
         return Ok((Elastic { line: Some(line), ..nodal }, Basis::Nodal));
     }
     let modes = beam.modes.map(|modes| modes as usize);
+    if modes.is_some() && beam.geometric_stiffening {
+        return Err(Error::input("few modes cannot follow the shortening of a bent line, and would be far too stiff")
+            .under("geometric_stiffening")
+            .hint("leave `modes` out"));
+    }
     let reduced = reduce::beam(mesh, nodal, section, conditions, markers, modes)?;
     Ok((reduced, Basis::Modal))
+}
+
+/// The stretches of an element. Its u' cannot follow w'^2, which would lock it: both count by their means over the
+/// element, or at the two points at which a quadratic displacement has its best slopes.
+fn stiffened<const D: usize>(mesh: &Mesh<D>, element: usize, section: &Section) -> Vec<Stretch> {
+    let start = mesh.start(element);
+    match mesh.axial() {
+        Axial::Linear => {
+            let (dofs, samples) = mesh.samples(element, STRETCH_POINTS);
+            vec![stretch(section, start, &dofs, &samples)]
+        }
+        Axial::Quadratic => {
+            let (dofs, samples) = mesh.samples(element, 2);
+            let middle = start + samples[0].weight;
+            let halves = samples.chunks(1).zip([start, middle]);
+            halves.map(|(point, start)| stretch(section, start, &dofs, point)).collect()
+        }
+    }
 }
 
 /// In the coordinates of the nodes; without damping, and without the line, which is the mesh itself.
@@ -132,10 +155,7 @@ fn nodal<const D: usize>(mesh: &Mesh<D>, section: &Section, inertia: &Inertia, s
         add_stiffness(&mut stiffness, section, &dofs, &samples);
         pieces.push(inertia.piece(dofs, &samples));
         if stiffening {
-            let (dofs, samples) = mesh.samples(element, STRETCH_POINTS);
-            let station = |shapes| Station { dofs: dofs.clone(), shapes };
-            stretches
-                .extend(samples.into_iter().map(|sample| stretch(section, sample.weight, &station(sample.shapes))));
+            stretches.extend(stiffened(mesh, element, section));
         }
     }
     Elastic { names: mesh.names(), pieces, stiffness: stiffness.finish(), damping: Vec::new(), stretches, line: None }

@@ -1,6 +1,6 @@
 //! The integrals over a beam that the equations of motion need, from its shapes at points of integration.
 
-use super::line::{Cross, Station};
+use super::line::Cross;
 use super::section::Section;
 use super::shape::{Piece, Stretch, Symmetric};
 use std::array::from_fn;
@@ -104,15 +104,23 @@ pub fn add_stiffness(sum: &mut Sum, section: &Section, dofs: &[usize], samples: 
     }
 }
 
-/// A point of geometric stiffening; only the coordinates that stretch or turn the line there.
-pub fn stretch(section: &Section, weight: f64, station: &Station) -> Stretch {
-    let counts = |shape: &Cross| shape.strain[0] != 0.0 || shape.slope != [0.0; 2];
-    let used: Vec<usize> = (0..station.dofs.len()).filter(|&i| counts(&station.shapes[i])).collect();
+/// Geometric stiffening from the abscissa `start` on, by the means over samples; only the coordinates that stretch or turn the line there.
+pub fn stretch(section: &Section, start: f64, dofs: &[usize], samples: &[Sample]) -> Stretch {
+    let counts = |i: &usize| {
+        samples.iter().map(|sample| &sample.shapes[*i]).any(|shape| shape.strain[0] != 0.0 || shape.slope != [0.0; 2])
+    };
+    let used: Vec<usize> = (0..dofs.len()).filter(counts).collect();
+    let length: f64 = samples.iter().map(|sample| sample.weight).sum();
+    let mean = |of: &dyn Fn(&[Cross]) -> f64| {
+        samples.iter().map(|sample| sample.weight * of(&sample.shapes)).sum::<f64>() / length
+    };
+    let product = |i: usize, j: usize| mean(&|shapes| (0..2).map(|k| shapes[i].slope[k] * shapes[j].slope[k]).sum());
     Stretch {
-        dofs: used.iter().map(|&i| station.dofs[i]).collect(),
-        weight: section.ea * weight,
-        axial: used.iter().map(|&i| station.shapes[i].strain[0]).collect(),
-        slopes: used.iter().map(|&i| station.shapes[i].slope).collect(),
+        ends: [start, start + length],
+        dofs: used.iter().map(|&i| dofs[i]).collect(),
+        weight: section.ea * length,
+        axial: used.iter().map(|&i| mean(&|shapes| shapes[i].strain[0])).collect(),
+        slopes: used.iter().flat_map(|&i| used.iter().map(move |&j| (i, j))).map(|(i, j)| product(i, j)).collect(),
     }
 }
 

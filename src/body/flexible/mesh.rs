@@ -25,6 +25,16 @@ pub struct Mesh<const D: usize> {
 impl<const D: usize> Mesh<D> {
     const PER_NODE: usize = if D == 2 { 3 } else { 6 };
 
+    /// Axial displacement within an element.
+    pub fn axial(&self) -> Axial {
+        self.axial
+    }
+
+    /// Where an element begins, m.
+    pub fn start(&self, element: usize) -> f64 {
+        self.nodes[element]
+    }
+
     /// At least `elements` elements with nodes at both ends and all `markers`.
     pub fn new(length: f64, elements: usize, markers: &[f64], section: &Section, axial: Axial) -> Self {
         let nodes = subdivide(&breaks(length, markers), elements);

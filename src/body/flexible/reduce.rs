@@ -224,15 +224,19 @@ fn add_product<const D: usize>(sum: &mut [[f64; D]; D], factor: f64, product: &[
 }
 
 fn project_stretch(stretch: &Stretch, basis: &Mat<f64>) -> Stretch {
-    let modes = 0..basis.ncols();
-    let sum = |mode: usize, values: &dyn Fn(usize) -> f64| -> f64 {
-        stretch.dofs.iter().enumerate().map(|(i, &dof)| basis[(dof, mode)] * values(i)).sum()
+    let n = stretch.dofs.len();
+    let part = |mode: usize, values: &[f64]| -> f64 {
+        stretch.dofs.iter().zip(values).map(|(&dof, value)| basis[(dof, mode)] * value).sum()
     };
+    let modes = 0..basis.ncols();
+    let half = |mode: usize| stretch.slopes.chunks_exact(n).map(|row| part(mode, row)).collect::<Vec<_>>();
+    let slopes = modes.clone().map(half).flat_map(|half| modes.clone().map(move |mode| part(mode, &half)));
     Stretch {
+        ends: stretch.ends,
         dofs: modes.clone().collect(),
         weight: stretch.weight,
-        axial: modes.clone().map(|mode| sum(mode, &|i| stretch.axial[i])).collect(),
-        slopes: modes.map(|mode| [0, 1].map(|k| sum(mode, &|i| stretch.slopes[i][k]))).collect(),
+        axial: modes.clone().map(|mode| part(mode, &stretch.axial)).collect(),
+        slopes: slopes.collect(),
     }
 }
 

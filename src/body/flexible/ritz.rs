@@ -173,9 +173,13 @@ impl Functions {
         let (mut piece, stiffness) = last;
         self.check_independent(&piece, &stiffness)?;
         self.scale_axial(&mut piece, axial_mass_factor);
-        let points = samples.into_iter().filter(|_| stiffening);
-        let station = |shapes| Station { dofs: dofs.clone(), shapes };
-        let stretches = points.map(|sample| stretch(section, sample.weight, &station(sample.shapes))).collect();
+        let points = samples.chunks(1).filter(|_| stiffening);
+        let stretches = points.scan(0.0, |start, point| {
+            let next = stretch(section, *start, &dofs, point);
+            *start = next.ends[1];
+            Some(next)
+        });
+        let stretches = stretches.collect();
         Ok(Elastic {
             names: self.names(),
             pieces: vec![piece],

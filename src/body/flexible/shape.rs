@@ -46,16 +46,19 @@ pub struct SectionShape {
     pub stiffness: [f64; 6],
 }
 
-/// A point of integration at which the axial force stiffens bending: V += weight u' (w_y'^2 + w_z'^2) / 2.
+/// A length of a beam whose axial force stiffens its bending (von Karman): with the mean extension a.q of the line and
+/// its mean squared slope q.S q, its energy is weight (a.q + q.S q/2)^2/2, of which (a.q)^2 is in the stiffness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stretch {
+    /// Where it begins and ends on the line, m.
+    pub ends: [f64; 2],
     pub dofs: Vec<usize>,
-    /// EA times the weight of integration, N m.
+    /// EA times the length, N m.
     pub weight: f64,
-    /// u' a coordinate.
+    /// a: mean of u' a coordinate.
     pub axial: Vec<f64>,
-    /// w_y' and w_z' a coordinate.
-    pub slopes: Vec<[f64; 2]>,
+    /// S: mean of w_y' w_y' + w_z' w_z' a pair of coordinates, row by row.
+    pub slopes: Vec<f64>,
 }
 
 /// A symmetric sparse matrix: entries (i, j, value) with i >= j, each place once.

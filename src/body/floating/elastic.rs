@@ -3,25 +3,28 @@
 use super::{Floating, frame_coordinates, frame_velocities};
 use crate::body::flexible::Stretch;
 
-/// u', w_y' and w_z' at a point of stretch.
-struct Slopes {
+/// The mean extension a.q and squared slope q.S q of a stretch.
+struct Means {
     axial: f64,
-    bending: [f64; 2],
+    squared: f64,
 }
 
-impl Slopes {
-    fn at(stretch: &Stretch, q: &[f64]) -> Slopes {
-        let mut slopes = Slopes { axial: 0.0, bending: [0.0; 2] };
-        for (&dof, (axial, bending)) in stretch.dofs.iter().zip(stretch.axial.iter().zip(&stretch.slopes)) {
-            slopes.axial += axial * q[dof];
-            slopes.bending.iter_mut().zip(bending).for_each(|(sum, slope)| *sum += slope * q[dof]);
-        }
-        slopes
+impl Means {
+    fn at(stretch: &Stretch, q: &[f64]) -> Means {
+        let axial = stretch.dofs.iter().zip(&stretch.axial).map(|(&dof, a)| a * q[dof]).sum();
+        let squared = (0..stretch.dofs.len()).map(|i| q[stretch.dofs[i]] * steepness(stretch, i, q)).sum();
+        Means { axial, squared }
     }
 }
 
+/// (S q)_i
+fn steepness(stretch: &Stretch, i: usize, q: &[f64]) -> f64 {
+    let n = stretch.dofs.len();
+    stretch.slopes[i * n..(i + 1) * n].iter().zip(&stretch.dofs).map(|(s, &dof)| s * q[dof]).sum()
+}
+
 impl<const D: usize> Floating<D> {
-    /// f -= K q + D q' + dV/dq with V = sum weight u' (w_y'^2 + w_z'^2)/2 of stiffening.
+    /// f -= K q + D q' + dV/dq with V = sum weight (a.q q.S q + (q.S q)^2/4)/2 of stiffening.
     pub(super) fn add_elastic_forces(&self, q: &[f64], v: &[f64], f: &mut [f64]) {
         let (q, v) = (&q[frame_coordinates(D)..], &v[frame_velocities(D)..]);
         let f = &mut f[frame_velocities(D)..];
@@ -34,9 +37,10 @@ impl<const D: usize> Floating<D> {
             }
         }
         for stretch in &self.elastic.stretches {
-            let Slopes { axial, bending: [y, z] } = Slopes::at(stretch, q);
-            for (&dof, (a, [by, bz])) in stretch.dofs.iter().zip(stretch.axial.iter().zip(&stretch.slopes)) {
-                f[dof] -= stretch.weight * (0.5 * a * (y * y + z * z) + axial * (by * y + bz * z));
+            let Means { axial, squared } = Means::at(stretch, q);
+            for (i, (&dof, a)) in stretch.dofs.iter().zip(&stretch.axial).enumerate() {
+                let bending = (axial + 0.5 * squared) * steepness(stretch, i, q);
+                f[dof] -= stretch.weight * (0.5 * a * squared + bending);
             }
         }
     }
@@ -46,8 +50,8 @@ impl<const D: usize> Floating<D> {
         let term =
             |&(i, j, value): &(usize, usize, f64)| if i == j { 0.5 * value * q[i] * q[i] } else { value * q[i] * q[j] };
         let stretch = |stretch: &Stretch| {
-            let Slopes { axial, bending: [y, z] } = Slopes::at(stretch, q);
-            0.5 * stretch.weight * axial * (y * y + z * z)
+            let Means { axial, squared } = Means::at(stretch, q);
+            0.5 * stretch.weight * (axial + 0.25 * squared) * squared
         };
         self.elastic.stiffness.iter().map(term).sum::<f64>() + self.elastic.stretches.iter().map(stretch).sum::<f64>()
     }
@@ -59,14 +63,15 @@ impl<const D: usize> Floating<D> {
         stiffness.for_each(|(entry, places)| add(entry, places, k));
         damping.for_each(|(entry, places)| add(entry, places, c));
         for (stretch, places) in self.elastic.stretches.iter().zip(&self.layout.stretches) {
-            let Slopes { axial, bending: [y, z] } = Slopes::at(stretch, q);
+            let Means { axial, squared } = Means::at(stretch, q);
             let n = stretch.dofs.len();
             for i in 0..n {
-                let (a, [by, bz]) = (stretch.axial[i], stretch.slopes[i]);
+                let (a, steep) = (stretch.axial[i], steepness(stretch, i, q));
                 for j in 0..n {
-                    let (a_j, [by_j, bz_j]) = (stretch.axial[j], stretch.slopes[j]);
-                    let mixed = a * (by_j * y + bz_j * z) + a_j * (by * y + bz * z);
-                    k[places[i * n + j]] += stretch.weight * (mixed + axial * (by * by_j + bz * bz_j));
+                    let other = steepness(stretch, j, q);
+                    let mixed = a * other + stretch.axial[j] * steep + steep * other;
+                    let force = (axial + 0.5 * squared) * stretch.slopes[i * n + j];
+                    k[places[i * n + j]] += stretch.weight * (mixed + force);
                 }
             }
         }

@@ -177,6 +177,6 @@ impl<const D: usize> Body<D> for Floating<D> {
     }
     fn bent(&self) -> Option<Bent<'_, D>> {
         let line = self.elastic.line.as_deref()?;
-        Some(Bent { line, first: frame_coordinates(D) })
+        Some(Bent { line, stretches: &self.elastic.stretches, first: frame_coordinates(D) })
     }
 }

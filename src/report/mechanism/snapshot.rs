@@ -119,7 +119,8 @@ fn of<const D: usize>(mechanism: &Mechanism<D>, state: &State) -> Snapshot {
         Link { wheel, force: in_space(&push), torque, ..link(model, force, &poses) }
     });
     let joints: Vec<Link> = joints.collect();
-    let limb = |part: &Part<D>| Limb { line: line(part, &frames[part.first_marker], &state.q), ..limb(part, &poses, &used) };
+    let limb =
+        |part: &Part<D>| Limb { line: line(part, &frames[part.first_marker], &state.q), ..limb(part, &poses, &used) };
     let mut limbs: Vec<Limb> = model.bodies.iter().map(limb).collect();
     limbs.iter_mut().enumerate().for_each(|(i, limb)| limb.may_spin = D == 3 && may_spin(limb, i, &joints));
     Snapshot { is_planar: D == 2, limbs, joints, forces: forces.collect(), markers: poses }
@@ -184,7 +185,7 @@ const LINE_PIECES: usize = 64;
 
 /// The deformed line of a beam in a floating frame, which is its own marker.
 fn line<const D: usize>(part: &Part<D>, own: &Frame<Taylor<f64>, D>, q: &[f64]) -> Vec<[f64; 3]> {
-    let Some(Bent { line, first }) = part.body.bent() else { return Vec::new() };
+    let Some(Bent { line, first, .. }) = part.body.bent() else { return Vec::new() };
     let own = own.map(|x| x.x);
     let point = |i: usize| {
         let mut rest = [0.0; D];
