@@ -8,6 +8,7 @@ mod gauss;
 mod integrals;
 mod line;
 mod mesh;
+pub mod modal;
 mod reduce;
 mod ritz;
 mod section;

@@ -98,7 +98,7 @@ fn modes<const D: usize>(full: &System, mesh: &Mesh<D>, markers: &[f64], count: 
         }),
     };
     let Modes { squares, vectors } = reduced.elastic_modes().ok_or_else(failed)?;
-    Ok(Modes { squares, vectors: &basis * &vectors })
+    Ok(Modes { squares, vectors: full.without_rigid_part(&basis * &vectors) })
 }
 
 /// The free coordinates of the nodes that carry markers, ascending.
@@ -152,11 +152,16 @@ impl System {
         let modes = Modes::of(stiffness, mass.as_ref())?;
         let mut vectors = Mat::zeros(n, n - held);
         vectors.subrows_mut(held, n - held).copy_from(&modes.vectors);
-        // Twice: the second time for the round-off of the first.
+        Some(Modes { vectors: self.without_rigid_part(vectors), ..modes })
+    }
+
+    /// (I - R R^T M) applied to `vectors`, twice: the second time for the round-off of the first.
+    fn without_rigid_part(&self, mut vectors: Mat<f64>) -> Mat<f64> {
+        let rigid = orthonormal(&self.rigid, &self.mass);
         for _ in 0..2 {
-            vectors = &vectors - &rigid * (rigid.transpose() * &self.mass * &vectors);
+            vectors = &vectors - &rigid * (rigid.transpose() * (&self.mass * &vectors));
         }
-        Some(Modes { vectors, ..modes })
+        vectors
     }
 }
 

@@ -20,6 +20,8 @@ const PANELS: usize = 64;
 const CONVERGED: f64 = 1e-12;
 /// Pivots smaller than this, relative to their diagonal, are round-off.
 const DEPENDENT: f64 = 1e-13;
+/// As good as infinite: expressions have such slopes where the exact ones are.
+const HUGE: f64 = 1e150;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
@@ -120,7 +122,8 @@ impl Functions {
         for s in places {
             for function in &self.functions {
                 let Cross { displacement, rotation, strain, .. } = function.at(s);
-                if displacement.iter().chain(&rotation).chain(&strain).any(|value| !value.is_finite()) {
+                if displacement.iter().chain(&rotation).chain(&strain).any(|value| value.is_nan() || value.abs() > HUGE)
+                {
                     return Err(function
                         .fault(format!("`{}` has no finite value and derivatives at x = {s}", function.value))
                         .hint("the function, its slope, and for bending its curvature must be finite along the beam"));

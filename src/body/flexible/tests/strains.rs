@@ -4,6 +4,7 @@ use super::*;
 use crate::body::flexible::line::{Cross, Shapes};
 use crate::body::flexible::mesh::Mesh;
 use crate::body::flexible::{Axial, Section};
+use faer::linalg::solvers::Solve;
 
 const SECTION: Section =
     Section { ea: 2e4, ga: [900.0, 700.0], gj: 2.0, ei: [5.0, 3.0], rho_a: 0.8, rho_i: [2e-3, 1e-3] };
@@ -59,21 +60,38 @@ fn patch(mesh: &Mesh<3>, strain: [f64; 6]) -> Vec<f64> {
 
 #[test]
 fn constant_strains_are_reproduced() {
-    for (i, mesh) in meshes::<3>().iter().enumerate() {
-        // Linear shear alone leaves a constant moment's line square to the sections.
+    for mesh in meshes::<3>() {
         let strains = [[0.1, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.2, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0, 0.3, 0.4]];
-        let sheared = [0.0, 0.05, -0.02, 0.0, 0.0, 0.0];
-        for strain in strains.into_iter().chain((i < 2).then_some(sheared)) {
-            let q = patch(mesh, strain);
+        for strain in strains {
+            let q = patch(&mesh, strain);
             for s in [0.01, 0.4, 0.77, 1.5] {
-                let found = at(mesh, s, &q).strain;
-                (0..6).for_each(|k| {
-                    // A constant shear force comes with a moment, which an element without load must have.
-                    if strain != sheared || k != 4 && k != 5 {
-                        assert_close(found[k], strain[k], 1e-12)
-                    }
-                });
+                let found = at(&mesh, s, &q).strain;
+                (0..6).for_each(|k| assert_close(found[k], strain[k], 1e-12));
             }
+        }
+    }
+}
+
+/// Shear F/GA, curvature F (L - s)/EI, deflection F L^3/(3 EI) + F L/GA.
+#[test]
+fn a_force_at_the_tip_bends_and_shears_exactly() {
+    let scene = beam_in_space(json!({ "theory": "timoshenko", "elements": 3 }));
+    let rod: Elastic<3> = build(&scene, &[0.4]).unwrap();
+    let (n, force) = (rod.names.len(), 2.0);
+    let line = rod.line.unwrap();
+    for (tip, [shear, curvature, sign], [ga, ei]) in [("_y", [1, 5, 1], [900.0, 3.0]), ("_z", [2, 4, -1], [700.0, 5.0])]
+    {
+        let last = (0..n).rev().find(|&i| rod.names[i].ends_with(tip)).unwrap();
+        let load = Mat::from_fn(n, 1, |i, _| if i == last { force } else { 0.0 });
+        let q = dense(n, &rod.stiffness).partial_piv_lu().solve(&load);
+        assert_close(q[(last, 0)], force * (1.5_f64.powi(3) / (3.0 * ei) + 1.5 / ga), 1e-12);
+        for s in [0.0, 0.2, 0.4, 1.1, 1.5] {
+            let section = line.section(s);
+            let strain = |k: i32| -> f64 {
+                section.dofs.iter().zip(&section.strains).map(|(&i, strain)| strain[k as usize] * q[(i, 0)]).sum()
+            };
+            assert_close(strain(shear), force / ga, 1e-11);
+            assert_close(strain(curvature), f64::from(sign) * force * (1.5 - s) / ei, 1e-11);
         }
     }
 }
@@ -111,8 +129,8 @@ fn modes_have_a_line() {
     // K = int strain^T C strain.
     let rule = crate::body::flexible::gauss_legendre(6);
     let mut energy = vec![0.0; n];
-    for panel in 0..30 {
-        let ends = [f64::from(panel) * 0.05, f64::from(panel + 1) * 0.05];
+    for panel in 0..60 {
+        let ends = [f64::from(panel) * 0.025, f64::from(panel + 1) * 0.025];
         for (s, weight) in crate::body::flexible::on_interval(&rule, ends) {
             let section = line.section(s);
             for (i, strain) in section.strains.iter().enumerate() {

@@ -1,0 +1,159 @@
+//! Modal data in NumPy's `.npz` files: a zip archive with one `.npy` file an array.
+
+use super::array::Array;
+use super::spec::{Lumped, ModalData, Node, Nodes};
+use crate::error::{Error, Result, suggest};
+use npyz::{NpyFile, Order};
+use std::fs::File;
+use std::io::{BufReader, Read};
+use std::path::Path;
+use zip::ZipArchive;
+
+/// Keys of arrays that are as in JSON.
+const PLAIN: [&str; 8] = [
+    "mass",
+    "center",
+    "inertia",
+    "modal_mass",
+    "modal_stiffness",
+    "modal_damping",
+    "linear_coupling",
+    "angular_coupling",
+];
+const NODES: [&str; 4] = ["node_names", "node_positions", "node_translations", "node_rotations"];
+const LUMPED: [&str; 3] = ["lumped_masses", "lumped_positions", "lumped_translations"];
+
+/// # Errors
+/// Bad input: a file that is no archive of arrays, unknown or missing keys, arrays that do not fit.
+pub fn read(path: &Path) -> Result<ModalData<Array>> {
+    let file = File::open(path).map_err(|problem| Error::input(problem.to_string()))?;
+    let mut archive = ZipArchive::new(BufReader::new(file))
+        .map_err(|problem| Error::input(problem.to_string()).hint("write it by numpy.savez"))?;
+    let names = archive.file_names().filter_map(|name| name.ok().map(|name| name.into_owned()));
+    let keys: Vec<String> = names.map(|name| name.trim_end_matches(".npy").to_string()).collect();
+    let known = || PLAIN.into_iter().chain(NODES).chain(LUMPED);
+    if let Some(key) = keys.iter().find(|key| !known().any(|name| name == **key)) {
+        return Err(Error::input(format!("unknown key `{key}`")).hint(suggest(key, known())));
+    }
+    let mut plain = Vec::new();
+    for key in PLAIN {
+        plain.push(array(&mut archive, key)?);
+    }
+    let mut plain = plain.into_iter();
+    let mut take = || plain.next().flatten();
+    Ok(ModalData {
+        mass: take(),
+        center: take(),
+        inertia: take(),
+        modal_mass: take(),
+        modal_stiffness: take(),
+        modal_damping: take(),
+        linear_coupling: take(),
+        angular_coupling: take(),
+        lumped: lumped(&mut archive)?,
+        nodes: nodes(&mut archive)?,
+    })
+}
+
+type Archive = ZipArchive<BufReader<File>>;
+
+fn npy<'a>(archive: &'a mut Archive, key: &str) -> Result<Option<NpyFile<impl Read + 'a>>> {
+    let under = |problem: &dyn ToString| Error::input(problem.to_string()).under(key);
+    match archive.by_name(&format!("{key}.npy")) {
+        Ok(file) => NpyFile::new(file).map(Some).map_err(|problem| under(&problem)),
+        Err(zip::result::ZipError::FileNotFound) => Ok(None),
+        Err(problem) => Err(under(&problem)),
+    }
+}
+
+/// Numbers of any of NumPy's usual kinds.
+fn array(archive: &mut Archive, key: &str) -> Result<Option<Array>> {
+    let Some(file) = npy(archive, key)? else { return Ok(None) };
+    let shape: Vec<usize> = file.shape().iter().map(|&length| length as usize).collect();
+    let order = file.order();
+    let values = numbers(file).map_err(|error| error.under(key))?;
+    if let Some(bad) = values.iter().find(|value| !value.is_finite()) {
+        return Err(Error::input(format!("holds {bad}")).under(key).hint("all numbers must be finite"));
+    }
+    let values = if order == Order::Fortran { last_index_fastest(&shape, &values) } else { values };
+    Ok(Some(Array { shape, values }))
+}
+
+fn numbers<R: Read>(file: NpyFile<R>) -> Result<Vec<f64>> {
+    let kind = file.dtype().descr();
+    let problem = |problem: std::io::Error| Error::input(problem.to_string());
+    Ok(match kind.trim_matches(['\'', '<', '>', '|', '=']) {
+        "f8" => file.into_vec::<f64>().map_err(problem)?,
+        "f4" => file.into_vec::<f32>().map_err(problem)?.into_iter().map(f64::from).collect(),
+        "i8" => file.into_vec::<i64>().map_err(problem)?.into_iter().map(|value| value as f64).collect(),
+        "i4" => file.into_vec::<i32>().map_err(problem)?.into_iter().map(f64::from).collect(),
+        _ => {
+            return Err(Error::input(format!("expected numbers, found an array of type {kind}"))
+                .hint("convert it by .astype(float)"));
+        }
+    })
+}
+
+/// From Fortran's order, in which the first index runs fastest.
+fn last_index_fastest(shape: &[usize], values: &[f64]) -> Vec<f64> {
+    let place = |mut index: usize| {
+        let mut place = 0;
+        // Digits of the index from the last one on, weighed by what comes before each.
+        for (k, length) in shape.iter().enumerate().rev() {
+            place += index % length * shape[..k].iter().product::<usize>();
+            index /= length;
+        }
+        place
+    };
+    (0..values.len()).map(|index| values[place(index)]).collect()
+}
+
+fn missing(key: &str) -> Error {
+    Error::input(format!("the key `{key}` is missing"))
+}
+
+/// Part `i` of an array whose first index counts `count` things.
+fn part(array: &Array, key: &str, i: usize, count: usize) -> Result<Array> {
+    match array.shape.split_first() {
+        Some((&length, rest)) if length == count => {
+            let size: usize = rest.iter().product();
+            Ok(Array { shape: rest.to_vec(), values: array.values[i * size..(i + 1) * size].to_vec() })
+        }
+        _ => Err(Error::input(format!("expected {count} rows, found shape {:?}", array.shape)).under(key)),
+    }
+}
+
+fn nodes(archive: &mut Archive) -> Result<Option<Nodes<Array>>> {
+    let Some(positions) = array(archive, NODES[1])? else { return Ok(None) };
+    let translations = array(archive, NODES[2])?.ok_or_else(|| missing(NODES[2]))?;
+    let rotations = array(archive, NODES[3])?;
+    let count = positions.shape.first().copied().unwrap_or(0);
+    let names = match npy(archive, NODES[0])? {
+        None => (1..=count).map(|i| format!("node{i}")).collect(),
+        Some(file) => file
+            .into_vec::<String>()
+            .map_err(|problem| Error::input(problem.to_string()).under(NODES[0]).hint("names are text, as '<U8'"))?,
+    };
+    if names.len() != count {
+        return Err(Error::input(format!("expected {count} names, found {}", names.len())).under(NODES[0]));
+    }
+    let node = |(i, name): (usize, String)| {
+        let position = part(&positions, NODES[1], i, count)?;
+        let translation = part(&translations, NODES[2], i, count)?;
+        let rotation = rotations.as_ref().map(|array| part(array, NODES[3], i, count)).transpose()?;
+        Ok((name, Node { position, translation, rotation }))
+    };
+    names.into_iter().enumerate().map(node).collect::<Result<_>>().map(|nodes| Some(Nodes(nodes)))
+}
+
+fn lumped(archive: &mut Archive) -> Result<Option<Vec<Lumped<Array>>>> {
+    let Some(masses) = array(archive, LUMPED[0])? else { return Ok(None) };
+    let positions = array(archive, LUMPED[1])?.ok_or_else(|| missing(LUMPED[1]))?;
+    let translations = array(archive, LUMPED[2])?.ok_or_else(|| missing(LUMPED[2]))?;
+    let count = masses.values.len();
+    let one = |(i, mass): (usize, &f64)| {
+        let position = part(&positions, LUMPED[1], i, count)?;
+        Ok(Lumped { mass: Array::number(*mass), position, translation: part(&translations, LUMPED[2], i, count)? })
+    };
+    masses.values.iter().enumerate().map(one).collect::<Result<Vec<_>>>().map(Some)
+}
