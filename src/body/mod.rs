@@ -22,6 +22,8 @@ pub use parse::{parse, parse_among, show};
 pub use probe::{Probe, Quantity, Signal, small_rotation, small_rotation_torque};
 pub use rigid::Initial;
 pub(crate) use rigid::quaternion;
+pub(crate) use rigid_planar::RigidPlanar;
+pub(crate) use rigid_spatial::RigidSpatial;
 
 use crate::error::Result;
 use crate::math::{Dual, Scalar, Taylor};
@@ -229,5 +231,5 @@ pub const SHARED_KEYS: [&str; 5] = ["name", "type", "markers", "initial", "origi
 
 /// Every kind of body, in the order of the documentation.
 pub fn registry<const D: usize>() -> Vec<Entry<D>> {
-    vec![entry::<rigid::Rigid, D>(), entry::<point_mass::PointMass, D>()]
+    vec![entry::<rigid::Rigid, D>(), entry::<point_mass::PointMass, D>(), entry::<flexible::FlexibleBeam, D>()]
 }
