@@ -24,6 +24,8 @@ pub use parse::{parse, parse_among, show};
 pub use probe::{Probe, Quantity, Signal, small_rotation, small_rotation_torque};
 pub use rigid::Initial;
 pub(crate) use rigid::quaternion;
+pub(crate) use rigid_planar::RigidPlanar;
+pub(crate) use rigid_spatial::RigidSpatial;
 
 use crate::error::Result;
 use crate::math::{Dual, Scalar, Taylor};

@@ -73,6 +73,48 @@ impl Initial {
         }
     }
 
+    /// Angle and its rate in the plane, rad and rad/s.
+    pub fn planar<const D: usize>(&self, build: &Build<D>) -> Result<(f64, f64)> {
+        if self.rotation.is_some() {
+            return Err(Error::input("a planar body turns by an angle")
+                .under("initial.rotation")
+                .hint("give \"angle\" in radians"));
+        }
+        let angle = build.number_or("initial.angle", &self.angle, 0.0)?;
+        let spin = match &self.angular_velocity {
+            None => 0.0,
+            Some(Inertia::Moment(number)) => build.number("initial.angular_velocity", number)?,
+            Some(Inertia::Tensor(numbers)) => build.vector::<1>("initial.angular_velocity", numbers)?[0],
+        };
+        Ok((angle, spin))
+    }
+
+    /// Unit quaternion and angular velocity in the body's axes, rad/s.
+    pub fn spatial<const D: usize>(&self, build: &Build<D>) -> Result<([f64; 4], [f64; 3])> {
+        if self.angle.is_some() {
+            return Err(Error::input("a spatial body needs more than one angle")
+                .under("initial.angle")
+                .hint("give \"rotation\" as a quaternion [w, x, y, z] or a rotation vector"));
+        }
+        let quaternion = quaternion("initial.rotation", self.rotation.as_deref(), build)?;
+        let spin = match &self.angular_velocity {
+            None => [0.0; 3],
+            Some(Inertia::Moment(_)) => {
+                return Err(Error::input("expected 3 numbers, found one")
+                    .under("initial.angular_velocity")
+                    .hint("give [wx, wy, wz] in the body's axes, rad/s"));
+            }
+            Some(Inertia::Tensor(numbers)) => build.vector("initial.angular_velocity", numbers)?,
+        };
+        Ok((quaternion, spin))
+    }
+
+    /// Position and velocity of the body's origin.
+    pub fn translation<const D: usize>(&self, build: &Build<D>) -> Result<([f64; D], [f64; D])> {
+        let position = start_vector::<D>("initial.position", &self.position, build)?;
+        Ok((position, start_vector::<D>("initial.velocity", &self.velocity, build)?))
+    }
+
     pub fn refuse_rotation(&self) -> Result<()> {
         match self.angle.is_some() || self.rotation.is_some() || self.angular_velocity.is_some() {
             true => Err(Error::input("a point mass has no rotation")
@@ -97,8 +139,7 @@ impl BodySpec for Rigid {
     fn build<const D: usize>(&self, markers: Vec<Marker<D>>, initial: &Initial, build: &Build<D>) -> Result<Built<D>> {
         initial.refuse_elastic()?;
         let mass = build.not_negative("mass", &self.mass)?;
-        let position = start_vector::<D>("initial.position", &initial.position, build)?;
-        let velocity = start_vector::<D>("initial.velocity", &initial.velocity, build)?;
+        let (position, velocity) = initial.translation(build)?;
         match D {
             2 => self.planar(mass, position, velocity, markers, initial, build),
             _ => self.spatial(mass, position, velocity, markers, initial, build),
@@ -116,11 +157,6 @@ impl Rigid {
         initial: &Initial,
         build: &Build<D>,
     ) -> Result<Built<D>> {
-        if initial.rotation.is_some() {
-            return Err(Error::input("a planar body turns by an angle")
-                .under("initial.rotation")
-                .hint("give \"angle\" in radians"));
-        }
         let inertia = match &self.inertia {
             Inertia::Moment(moment) => build.not_negative("inertia", moment)?,
             Inertia::Tensor(numbers) => {
@@ -129,12 +165,7 @@ impl Rigid {
                     .hint("a planar body has one moment of inertia, about its centre of mass"));
             }
         };
-        let angle = build.number_or("initial.angle", &initial.angle, 0.0)?;
-        let spin = match &initial.angular_velocity {
-            None => 0.0,
-            Some(Inertia::Moment(number)) => build.number("initial.angular_velocity", number)?,
-            Some(Inertia::Tensor(numbers)) => build.vector::<1>("initial.angular_velocity", numbers)?[0],
-        };
+        let (angle, spin) = initial.planar(build)?;
         // From the body's origin to its centre of mass.
         let (s, c) = angle.sin_cos();
         let [x, y] = [initial.origin_component(0), initial.origin_component(1)];
@@ -156,22 +187,8 @@ impl Rigid {
         initial: &Initial,
         build: &Build<D>,
     ) -> Result<Built<D>> {
-        if initial.angle.is_some() {
-            return Err(Error::input("a spatial body needs more than one angle")
-                .under("initial.angle")
-                .hint("give \"rotation\" as a quaternion [w, x, y, z] or a rotation vector"));
-        }
         let inertia = self.tensor(build)?;
-        let quaternion = quaternion("initial.rotation", initial.rotation.as_deref(), build)?;
-        let spin: [f64; 3] = match &initial.angular_velocity {
-            None => [0.0; 3],
-            Some(Inertia::Moment(_)) => {
-                return Err(Error::input("expected 3 numbers, found one")
-                    .under("initial.angular_velocity")
-                    .hint("give [wx, wy, wz] in the body's axes, rad/s"));
-            }
-            Some(Inertia::Tensor(numbers)) => build.vector("initial.angular_velocity", numbers)?,
-        };
+        let (quaternion, spin) = initial.spatial(build)?;
         let free = self.free_slots(&["x", "y", "z", "rx", "ry", "rz"])?;
         // From the body's origin to its centre of mass.
         let rotation = matrix_from_quaternion(&quaternion);

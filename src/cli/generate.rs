@@ -9,7 +9,7 @@ use std::process::ExitCode;
 
 #[derive(clap::Args)]
 pub struct Args {
-    /// Kind of scene: n_four_bar or chain
+    /// Kind of scene: n_four_bar, chain or flexible_chain
     name: String,
     /// Number of loops or links
     #[arg(long, default_value_t = 10, value_parser = count, allow_negative_numbers = true)]

@@ -6,10 +6,13 @@
 //! To add one: a file with a [`ForceSpec`] and a [`ForceKernel`], and a line in [`registry`].
 
 mod applied;
+mod beam;
 mod bushing;
 mod spring_damper;
 mod torsion_spring;
 mod tyre;
+
+pub use beam::{Beam, Station};
 
 use crate::body::{Build, Frame, MarkerId, Slope, Wrench, parse_among};
 use crate::error::Result;
@@ -111,6 +114,7 @@ pub fn registry<const D: usize>() -> Vec<Entry<D>> {
         entry::<spring_damper::SpringDamper, D>(),
         entry::<torsion_spring::TorsionSpring, D>(),
         entry::<bushing::Bushing, D>(),
+        entry::<beam::BeamForce, D>(),
         entry::<applied::AppliedForce, D>(),
         entry::<applied::AppliedTorque, D>(),
         entry::<tyre::Tyre, D>(),

@@ -5,6 +5,7 @@ pub mod expression;
 pub mod kkt;
 pub mod rotation;
 mod scalar;
+pub mod screw;
 mod taylor;
 
 pub use dual::Dual;

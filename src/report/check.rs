@@ -7,7 +7,7 @@ use crate::formulation::Dynamics;
 use crate::initial::Assembly;
 use crate::math::kkt::{Dependence, Pattern, condition_number, dependent_rows};
 use crate::measure::dependent_beside;
-use crate::scene::Model;
+use crate::scene::{BeamLine, Connection, Model};
 use crate::simulate::{Mode, Spectrum};
 use crate::study::{AnyMechanism, Study};
 use crate::system::{Group, Loaded, MechanicalSystem, Need, Structure, Terms};
@@ -118,13 +118,9 @@ fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
         mass_range: mass_range(structure, terms),
         fastest_mode: fastest_mode(study),
         length_scale: length_scale(system),
-        bodies: model.bodies.iter().map(body_item).collect(),
+        bodies: bodies(model),
         joints: groups.iter().map(|group| joint_item(group, &system.names().lambda)).collect(),
-        forces: model
-            .forces
-            .iter()
-            .map(|force| Item { name: force.name.clone(), kind: force.kind.to_string(), detail: String::new() })
-            .collect(),
+        forces: forces(model),
         left_out: left_out(model),
     }
 }
@@ -183,6 +179,29 @@ fn length_scale(system: &dyn MechanicalSystem) -> f64 {
 /// So many names of coordinates a person reads.
 const SHOWN_NAMES: usize = 14;
 
+/// The bodies of the scene; nodes of a flexible beam are listed as the one body that they are there.
+fn bodies<const D: usize>(model: &Model<D>) -> Vec<Item> {
+    let item = |(i, part): (usize, &crate::scene::Part<D>)| match model.beams.iter().find(|b| b.bodies().contains(&i)) {
+        None => Some(body_item(part)),
+        Some(beam) => (beam.first_body == i).then(|| beam_item(beam, part)),
+    };
+    model.bodies.iter().enumerate().filter_map(item).collect()
+}
+
+fn beam_item<const D: usize>(beam: &BeamLine, node: &crate::scene::Part<D>) -> Item {
+    let (elements, nodes) = (beam.elements.len(), beam.abscissae.len());
+    let detail = format!("{elements} elements, {nodes} nodes of {}", node.body.coordinate_names().join(" "));
+    Item { name: beam.name.clone(), kind: "flexible beam, absolute".to_string(), detail }
+}
+
+/// The forces of the scene, without the elements of flexible beams.
+fn forces<const D: usize>(model: &Model<D>) -> Vec<Item> {
+    let of_beam = |i: usize| model.beams.iter().any(|beam| beam.forces().contains(&i));
+    let item =
+        |force: &Connection<_>| Item { name: force.name.clone(), kind: force.kind.to_string(), detail: String::new() };
+    model.forces.iter().enumerate().filter(|(i, _)| !of_beam(*i)).map(|(_, force)| item(force)).collect()
+}
+
 fn body_item<const D: usize>(part: &crate::scene::Part<D>) -> Item {
     let kind = match (part.nq, part.nv) {
         (7, 6) => "rigid, quaternion",
@@ -210,14 +229,15 @@ fn left_out<const D: usize>(model: &Model<D>) -> Vec<String> {
     let gravity = model.gravity.iter().all(|&g| g == 0.0);
     let quaternions = model.bodies.iter().all(|part| part.nq == part.nv);
     let driven = model.joints.iter().all(|joint| !joint.element.depends_on_time());
+    let is_rigid = model.beams.is_empty() && model.bodies.iter().all(|part| part.body.elastic_count() == 0);
     [
         (gravity, "gravity: none is given"),
         (D == 2, "the third dimension: no z, no quaternion"),
         (D == 3 && quaternions, "quaternions: no body turns freely"),
         (model.joints.is_empty(), "constraints: there is no joint"),
         (driven && !model.joints.is_empty(), "moving constraints: no joint depends on t"),
-        (model.forces.is_empty(), "forces: none is given"),
-        (model.bodies.iter().all(|part| part.body.elastic_count() == 0), "flexibility: every body is rigid"),
+        (forces(model).is_empty(), "forces: none is given"),
+        (is_rigid, "flexibility: every body is rigid"),
         (true, "contact and friction: the scene has none"),
     ]
     .into_iter()

@@ -1,10 +1,11 @@
 //! From the typed file to the checked model.
 
+use super::absolute_beam::{AbsoluteBeam, is_absolute_beam};
 use super::format::{Dimension, SceneFile};
-use super::model::{Connection, Model, Part};
+use super::model::{BeamLine, Connection, Model, Part};
 use super::outputs;
 use super::{AnyModel, Scene, markers};
-use crate::body::{self, Build, Initial, Marker, MarkerTable, parse, show};
+use crate::body::{self, Build, Built, Initial, Marker, MarkerTable, parse, show};
 use crate::error::{Error, Result, excerpt, suggest};
 use crate::math::expression::{Number, Parameters};
 use crate::{force, joint};
@@ -64,17 +65,27 @@ fn model<const D: usize>(file: &SceneFile, parameters: &Parameters) -> Result<(M
     })?;
     let entries = force::registry::<D>();
     let kinds: Vec<&str> = entries.iter().map(|entry| entry.name).collect();
-    let forces = elements(&file.forces, "forces", "force", &kinds, |kind, json| {
+    let mut forces = elements(&file.forces, "forces", "force", &kinds, |kind, json| {
         let entry = entries.iter().find(|entry| entry.name == kind);
         let entry = entry.ok_or_else(|| unknown(kind, "force", entries.iter().map(|entry| entry.name)))?;
         let built = (entry.build)(json, &build)?;
         Ok((entry.name, built.force, built.markers))
     })?;
+    for beam in &mut parts.beams {
+        beam.first_force = forces.len();
+        let ends = |i: usize| [0, 1].map(|k| parts.bodies[beam.first_body + i + k].first_marker).to_vec();
+        forces.extend(beam.elements.iter().enumerate().map(|(i, element)| Connection {
+            name: format!("{}.e{i}", beam.name),
+            kind: "beam",
+            element: Box::new(element.clone()) as _,
+            markers: ends(i),
+        }));
+    }
     let elements = outputs::Elements { bodies: &parts.bodies, joints: &joints, forces: &forces };
     let outputs = outputs::outputs(&file.outputs, elements, &build)?;
     let inputs = outputs::inputs::<D>(&file.inputs, &forces)?;
-    let Parts { table, ground, bodies, q, v } = parts;
-    Ok((Model { gravity, markers: table, ground, bodies, joints, forces, outputs, inputs }, q, v))
+    let Parts { table, ground, bodies, beams, q, v } = parts;
+    Ok((Model { gravity, markers: table, ground, bodies, joints, forces, beams, outputs, inputs }, q, v))
 }
 
 /// Bodies as they are collected, with their start.
@@ -82,6 +93,7 @@ struct Parts<const D: usize> {
     table: MarkerTable,
     ground: Vec<Marker<D>>,
     bodies: Vec<Part<D>>,
+    beams: Vec<BeamLine>,
     q: Vec<f64>,
     v: Vec<f64>,
 }
@@ -92,6 +104,7 @@ impl<const D: usize> Parts<D> {
             table: MarkerTable::default(),
             ground: Vec::new(),
             bodies: Vec::new(),
+            beams: Vec::new(),
             q: Vec::new(),
             v: Vec::new(),
         };
@@ -112,7 +125,6 @@ impl<const D: usize> Parts<D> {
                 .under("name")
                 .hint("give each body its own"));
         }
-        self.table.body_names.push(name.clone());
         self.read(&name, json, build).map_err(|error| error.element(&name))
     }
 
@@ -121,40 +133,56 @@ impl<const D: usize> Parts<D> {
         let kind = take_type(&mut json, "body", entries.iter().map(|entry| entry.name))?;
         let entry = entries.iter().find(|entry| entry.name == kind);
         let entry = entry.ok_or_else(|| unknown(&kind, "body", entries.iter().map(|entry| entry.name)))?;
+        if is_absolute_beam(&kind, &json) {
+            let beam = AbsoluteBeam::read(name, json, build)?;
+            let first_body = self.bodies.len();
+            for (node, (markers, built)) in beam.nodes().into_iter().enumerate() {
+                // The beam's own name is a marker at its left end.
+                let own = (node == 0).then(|| name.to_string());
+                let named = own.into_iter().chain(markers.into_iter().map(|marker| format!("{name}.{marker}")));
+                self.place(format!("{name}.n{node}"), named, built);
+            }
+            self.beams.push(beam.line(first_body));
+            return Ok(());
+        }
         let origin = match json.remove("origin") {
             Some(origin) => build.vector::<D>("origin", &parse::<Vec<Number>>(origin)?)?,
             None => [0.0; D],
         };
-        let mut initial: Initial = json
-            .remove("initial")
-            .map_or_else(|| Ok(Initial::default()), |initial| parse(initial).map_err(|error| error.under("initial")))?;
+        let (mut initial, given) = start_and_markers(&mut json)?;
         initial.origin = origin.to_vec();
-        let given = json
-            .remove("markers")
-            .map_or_else(|| Ok(Map::new()), |given| object(given).map_err(|e| e.under("markers")))?;
         let mut all = vec![Marker::point(origin)];
         let named = markers::markers(&given, &origin, build)?;
         all.extend(named.iter().map(|(_, marker)| *marker));
         let built = (entry.build)(Value::Object(json), all, &initial, build)?;
-        let index = self.bodies.len();
-        let first_marker = self.table.names.len();
-        self.table.add(name.to_string(), Some(index), built.body.oriented());
-        for (marker, _) in &named {
-            self.table.add(format!("{name}.{marker}"), Some(index), built.body.oriented());
-        }
-        self.bodies.push(Part {
-            name: name.to_string(),
-            first_marker,
-            first_q: self.q.len(),
-            first_v: self.v.len(),
-            nq: built.q.len(),
-            nv: built.v.len(),
-            body: built.body,
-        });
-        self.q.extend(built.q);
-        self.v.extend(built.v);
+        self.place(name.to_string(), named.iter().map(|(marker, _)| format!("{name}.{marker}")), built);
         Ok(())
     }
+
+    /// Adds a body with the full names of its markers beside its own frame.
+    fn place(&mut self, name: String, markers: impl Iterator<Item = String>, built: Built<D>) {
+        let (index, first_marker) = (self.bodies.len(), self.table.names.len());
+        let oriented = built.body.oriented();
+        let all = [name.clone()].into_iter().chain(markers);
+        all.for_each(|marker| self.table.add(marker, Some(index), oriented));
+        self.table.body_names.push(name.clone());
+        let (first_q, first_v) = (self.q.len(), self.v.len());
+        let (nq, nv) = (built.q.len(), built.v.len());
+        self.bodies.push(Part { name, first_marker, first_q, first_v, nq, nv, body: built.body });
+        self.q.extend(built.q);
+        self.v.extend(built.v);
+    }
+}
+
+/// Takes off what all bodies have.
+pub(super) fn start_and_markers(json: &mut Map<String, Value>) -> Result<(Initial, Map<String, Value>)> {
+    let initial = json
+        .remove("initial")
+        .map_or_else(|| Ok(Initial::default()), |initial| parse(initial).map_err(|error| error.under("initial")))?;
+    let markers = json
+        .remove("markers")
+        .map_or_else(|| Ok(Map::new()), |given| object(given).map_err(|error| error.under("markers")))?;
+    Ok((initial, markers))
 }
 
 /// Joints or forces: name and type are taken off, the rest is the kind's own.

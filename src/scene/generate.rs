@@ -6,7 +6,7 @@ type Make = fn(usize) -> Value;
 
 /// Every scalable scene: its name, and the scene for n loops or links.
 pub fn registry() -> &'static [(&'static str, Make)] {
-    &[("n_four_bar", n_four_bar), ("chain", chain)]
+    &[("n_four_bar", n_four_bar), ("chain", chain), ("flexible_chain", flexible_chain)]
 }
 
 /// N four-bar linkages side by side: 2N + 1 uniform links of 1 m and 1 kg, vertical ones up, v_x(B0) = 1 m/s.
@@ -85,5 +85,42 @@ pub fn chain(n: usize) -> Value {
             { "name": "end_y", "measure": "position", "of": end, "component": "y" }
         ],
         "simulation": { "t_end": 1.0, "output_step": 0.01, "integrator": "dopri5", "rtol": 1e-8, "atol": 1e-8 }
+    })
+}
+
+/// Beam elements in one link of a [`flexible_chain`].
+const ELEMENTS: usize = 4;
+
+/// A chain of n elastic beams on hinges of total length 1 m and mass 1 kg, hanging from one end and released level: each
+/// four geometrically exact elements. 15n coordinates, 2n constraints.
+pub fn flexible_chain(n: usize) -> Value {
+    let (mut bodies, mut joints) = (Vec::new(), Vec::new());
+    for i in 0..n {
+        bodies.push(json!({
+            "name": format!("link{i}"), "type": "flexible_beam", "frame": "absolute", "length": "l/n", "elements": ELEMENTS,
+            "stiffness": { "EA": "EA", "EI": "EI" }, "inertia": { "rhoA": "m/l", "rhoI": "m/l*EI/EA" },
+            "markers": { "A": [0, 0], "B": ["l/n", 0] },
+            "initial": { "position": [format!("{i}*l/n"), 0] }
+        }));
+        let before = if i == 0 { "ground.A".to_string() } else { format!("link{}.B", i - 1) };
+        let between = [before, format!("link{i}.A")];
+        joints.push(json!({ "name": format!("J{i}"), "type": "revolute", "between": between }));
+    }
+    let end = format!("link{}.B", n - 1);
+    json!({
+        "name": format!("flexible_chain_{n}"),
+        "about": format!("A chain of {n} elastic beams of {ELEMENTS} elements each, released level."),
+        "dimension": 2,
+        "parameters": { "l": 1.0, "m": 1.0, "n": n, "EA": 1e4, "EI": 1e-2 },
+        "gravity": [0, -9.81],
+        "ground": { "markers": { "A": [0, 0] } },
+        "bodies": bodies,
+        "joints": joints,
+        "outputs": [
+            { "name": "end_x", "measure": "position", "of": end, "component": "x" },
+            { "name": "end_y", "measure": "position", "of": end, "component": "y" }
+        ],
+        "simulation": { "t_end": 1.0, "output_step": 0.01, "formulation": "index3",
+            "integrator": { "generalized_alpha": { "rho_inf": 0.7 } }, "step": 0.001 }
     })
 }

@@ -1,5 +1,6 @@
 //! Scenes: JSON in, a checked model out.
 
+mod absolute_beam;
 mod beam_outputs;
 mod builder;
 mod format;
@@ -12,7 +13,7 @@ mod outputs;
 mod schema;
 
 pub use format::{Assembly, Automatic, Simulation};
-pub use model::{Connection, Driven, EnergyPart, Measure, Model, Part, Watched};
+pub use model::{BeamLine, Connection, Driven, EnergyPart, Measure, Model, Part, Watched};
 pub use schema::schema;
 
 use crate::error::{Error, Result, excerpt, nearest};

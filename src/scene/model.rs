@@ -1,8 +1,10 @@
 //! The checked, named model that a scene describes.
 
 use crate::body::{Body, Frame, Marker, MarkerId, MarkerTable, Quantity, Signal};
-use crate::force::Force;
+use crate::force::{Beam, Force, Station};
 use crate::joint::Joint;
+use crate::math::Taylor;
+use std::ops::Range;
 
 /// Bodies, joints and forces with everything resolved; nothing in it can be wrong any more but the start.
 pub struct Model<const D: usize> {
@@ -12,7 +14,9 @@ pub struct Model<const D: usize> {
     pub ground: Vec<Marker<D>>,
     pub bodies: Vec<Part<D>>,
     pub joints: Vec<Connection<Box<dyn Joint<D>>>>,
+    /// Those of the scene, then the elements of absolute beams.
     pub forces: Vec<Connection<Box<dyn Force<D>>>>,
+    pub beams: Vec<BeamLine>,
     pub outputs: Vec<Watched>,
     pub inputs: Vec<Driven>,
 }
@@ -28,6 +32,44 @@ pub struct Part<const D: usize> {
     pub first_v: usize,
     pub nq: usize,
     pub nv: usize,
+}
+
+/// A flexible beam in absolute coordinates: bodies as nodes, and elements as forces between them.
+pub struct BeamLine {
+    pub name: String,
+    /// Index of its first node among the bodies; the others follow.
+    pub first_body: usize,
+    /// Index of its first element among the forces.
+    pub first_force: usize,
+    /// Abscissae of the nodes from the left end, m; one more than there are elements.
+    pub abscissae: Vec<f64>,
+    pub elements: Vec<Beam>,
+}
+
+impl BeamLine {
+    /// Indices of its nodes among the bodies.
+    pub fn bodies(&self) -> Range<usize> {
+        self.first_body..self.first_body + self.abscissae.len()
+    }
+
+    /// Indices of its elements among the forces.
+    pub fn forces(&self) -> Range<usize> {
+        self.first_force..self.first_force + self.elements.len()
+    }
+
+    /// m, relaxed.
+    pub fn length(&self) -> f64 {
+        self.abscissae.last().copied().unwrap_or(0.0)
+    }
+
+    /// The section at `s` from the left end, 0 <= s <= length; `node` gives the frame of a body of the model. At a node it is
+    /// that of the element to the left of it.
+    pub fn station<const D: usize>(&self, s: f64, node: impl Fn(usize) -> Frame<Taylor<f64>, D>) -> Station<D> {
+        let right = self.abscissae.partition_point(|&abscissa| abscissa < s).clamp(1, self.elements.len());
+        let first = self.first_body + right - 1;
+        let ends = [&node(first), &node(first + 1)];
+        self.elements[right - 1].station(ends, s - self.abscissae[right - 1])
+    }
 }
 
 /// A joint or force with its name, its kind in the scene and the markers it sees.

@@ -20,6 +20,9 @@ mod tests;
 pub use beam::elastic_beam;
 pub use gauss::{gauss_legendre, on_interval};
 pub use integrals::mass_matrix;
-pub use section::Section;
+pub use section::{Section, curvature};
 pub use shape::{Elastic, Line, Piece, PointShape, SectionShape, Stretch, Symmetric};
-pub use spec::{Axial, Damping, FlexibleBeam, FrameConditions, FrameKind, OneOrMany, Ritz, Theory};
+pub use spec::{
+    Axial, Damping, Elasticity, FlexibleBeam, FrameConditions, FrameKind, OneOrMany, Ritz,
+    SectionShape as SectionGeometry, Stiffness, Theory,
+};

@@ -1,6 +1,6 @@
 //! A beam's section in numbers.
 
-use super::spec::{FlexibleBeam, Material, OneOrMany, SectionInertia, SectionShape, Stiffness, Theory};
+use super::spec::{Elasticity, FlexibleBeam, Material, OneOrMany, SectionInertia, SectionShape, Stiffness, Theory};
 use crate::body::Build;
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
@@ -36,8 +36,13 @@ impl Section {
     /// Bad input: a stiffness or mass that is zero or negative, or both forms given, or neither.
     pub fn of<const D: usize>(beam: &FlexibleBeam, build: &Build<D>) -> Result<Section> {
         let section = match (&beam.material, &beam.section, &beam.stiffness, &beam.inertia) {
-            (Some(material), Some(shape), None, None) => from_shape(material, shape, beam.theory, build)?,
-            (None, None, Some(stiffness), Some(inertia)) => from_numbers(stiffness, inertia, beam.theory, build)?,
+            (Some(material), Some(shape), None, None) => {
+                let Material { e, nu, g, rho } = material;
+                from_shape((e, nu.as_ref(), g.as_ref()), Some(rho), shape, beam.theory, build)?
+            }
+            (None, None, Some(stiffness), Some(inertia)) => {
+                with_inertia(from_numbers(stiffness, beam.theory, build)?, inertia, build)?
+            }
             (None, None, None, None) => {
                 return Err(Error::input("nothing says how stiff and heavy the beam is").hint(FORMS));
             }
@@ -47,25 +52,72 @@ impl Section {
             (None, None, None, Some(_)) => return Err(Error::input("the key `stiffness` is missing").hint(FORMS)),
             _ => return Err(Error::input("the section is given twice").hint(FORMS)),
         };
-        Ok(match beam.theory {
-            Theory::EulerBernoulli => Section { ga: [f64::INFINITY; 2], ..section },
-            Theory::Timoshenko => section,
-        })
+        Ok(section.of_theory(beam.theory))
+    }
+
+    /// The stiffness alone; the inertia is zero.
+    ///
+    /// # Errors
+    /// Bad input: a stiffness that is zero or negative, or both forms given, or neither.
+    pub fn massless<const D: usize>(
+        material: Option<&Elasticity>,
+        shape: Option<&SectionShape>,
+        stiffness: Option<&Stiffness>,
+        theory: Theory,
+        build: &Build<D>,
+    ) -> Result<Section> {
+        let hint = "give \"material\" and \"section\", or \"stiffness\"";
+        let section = match (material, shape, stiffness) {
+            (Some(Elasticity { e, nu, g }), Some(shape), None) => {
+                from_shape((e, nu.as_ref(), g.as_ref()), None, shape, theory, build)?
+            }
+            (None, None, Some(stiffness)) => from_numbers(stiffness, theory, build)?,
+            (None, None, None) => return Err(Error::input("nothing says how stiff the beam is").hint(hint)),
+            (Some(_), None, None) => return Err(Error::input("the key `section` is missing").hint(hint)),
+            (None, Some(_), None) => return Err(Error::input("the key `material` is missing").hint(hint)),
+            _ => return Err(Error::input("the section is given twice").hint(hint)),
+        };
+        Ok(section.of_theory(theory))
+    }
+
+    fn of_theory(self, theory: Theory) -> Section {
+        match theory {
+            Theory::EulerBernoulli => Section { ga: [f64::INFINITY; 2], ..self },
+            Theory::Timoshenko => self,
+        }
+    }
+}
+
+/// Curvature of a relaxed beam, 1/m: twist, about y and about z.
+///
+/// # Errors
+/// Bad input: not one number in the plane, three in space.
+pub fn curvature<const D: usize>(given: Option<&OneOrMany>, build: &Build<D>) -> Result<[f64; 3]> {
+    match given {
+        None => Ok([0.0; 3]),
+        Some(OneOrMany::One(number)) if D == 2 => Ok([0.0, 0.0, build.number("curvature", number)?]),
+        Some(OneOrMany::Many(numbers)) if D == 3 => build.vector("curvature", numbers),
+        Some(_) => {
+            let expected = if D == 2 { "one number" } else { "three numbers: twist, about y and about z" };
+            Err(Error::input(format!("expected {expected}")).under("curvature").hint("1/m, of the relaxed beam"))
+        }
     }
 }
 
 const FORMS: &str = "give \"material\" and \"section\", or \"stiffness\" and \"inertia\"";
 
+/// From (E, nu, G) and the density; without one the inertia is zero.
 fn from_shape<const D: usize>(
-    material: &Material,
+    (e, nu, g): (&Number, Option<&Number>, Option<&Number>),
+    rho: Option<&Number>,
     shape: &SectionShape,
     theory: Theory,
     build: &Build<D>,
 ) -> Result<Section> {
     let under = |error: Error| error.under("material");
-    let e = build.positive("E", &material.e).map_err(under)?;
-    let rho = build.positive("rho", &material.rho).map_err(under)?;
-    let g = match (&material.g, &material.nu) {
+    let e = build.positive("E", e).map_err(under)?;
+    let rho = rho.map_or(Ok(0.0), |rho| build.positive("rho", rho)).map_err(under)?;
+    let g = match (g, nu) {
         (Some(_), Some(_)) => {
             return Err(Error::input("both `G` and `nu` are given").under("material").hint("keep one of them"));
         }
@@ -146,12 +198,7 @@ fn torsion_of_rectangle(h: f64, b: f64) -> f64 {
     long * short.powi(3) * (1.0 / 3.0 - 64.0 / PI.powi(5) * (short / long) * sum)
 }
 
-fn from_numbers<const D: usize>(
-    stiffness: &Stiffness,
-    inertia: &SectionInertia,
-    theory: Theory,
-    build: &Build<D>,
-) -> Result<Section> {
+fn from_numbers<const D: usize>(stiffness: &Stiffness, theory: Theory, build: &Build<D>) -> Result<Section> {
     let under = |error: Error| error.under("stiffness");
     let missing = |key: &str, what: &str| {
         Error::input(format!("{what} needs `{key}`")).under("stiffness").hint(format!("give \"{key}\""))
@@ -168,6 +215,10 @@ fn from_numbers<const D: usize>(
         None if D == 3 => return Err(missing("GJ", "a beam in space")),
         None => 0.0,
     };
+    Ok(Section { ea, ga, gj, ei, rho_a: 0.0, rho_i: [0.0; 2] })
+}
+
+fn with_inertia<const D: usize>(section: Section, inertia: &SectionInertia, build: &Build<D>) -> Result<Section> {
     let rho_a = build.positive("rhoA", &inertia.rho_a).map_err(|error| error.under("inertia"))?;
     let rho_i = match &inertia.rho_i {
         Some(rho_i) => pair("rhoI", rho_i, build).map_err(|error| error.under("inertia"))?,
@@ -178,7 +229,7 @@ fn from_numbers<const D: usize>(
         }
         None => [0.0; 2],
     };
-    Ok(Section { ea, ga, gj, ei, rho_a, rho_i })
+    Ok(Section { rho_a, rho_i, ..section })
 }
 
 /// [about y, about z], or along them.

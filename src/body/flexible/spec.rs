@@ -107,6 +107,20 @@ pub struct Material {
     pub rho: Number,
 }
 
+/// Elasticity of a massless beam.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Elasticity {
+    /// Young's modulus, Pa.
+    #[serde(rename = "E")]
+    pub e: Number,
+    /// Poisson's ratio; gives G = E/(2 (1 + nu)).
+    pub nu: Option<Number>,
+    /// Shear modulus, Pa, instead of `nu`.
+    #[serde(rename = "G")]
+    pub g: Option<Number>,
+}
+
 /// A section in the y-z plane of the beam.
 #[derive(Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]

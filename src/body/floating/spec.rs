@@ -2,9 +2,8 @@
 
 use super::Floating;
 use crate::body::flexible::{FlexibleBeam, PointShape, elastic_beam};
-use crate::body::rigid::{Inertia as Spin, start_vector};
-use crate::body::{BodySpec, Build, Built, Initial, Marker, quaternion};
-use crate::error::{Error, Result, short, suggest};
+use crate::body::{BodySpec, Build, Built, Initial, Marker};
+use crate::error::{Error, Result, suggest};
 use crate::math::expression::Number;
 use std::collections::BTreeMap;
 
@@ -50,23 +49,17 @@ pub(super) fn start<const D: usize>(
     names: &[String],
     build: &Build<D>,
 ) -> Result<(Vec<f64>, Vec<f64>)> {
-    let mut q = start_vector::<D>("initial.position", &initial.position, build)?.to_vec();
-    let mut v = start_vector::<D>("initial.velocity", &initial.velocity, build)?.to_vec();
-    match D {
-        2 if initial.rotation.is_some() => {
-            return Err(Error::input("a planar body turns by an angle")
-                .under("initial.rotation")
-                .hint("give \"angle\" in radians"));
-        }
-        2 => q.push(build.number_or("initial.angle", &initial.angle, 0.0)?),
-        _ if initial.angle.is_some() => {
-            return Err(Error::input("a spatial body needs more than one angle")
-                .under("initial.angle")
-                .hint("give \"rotation\" as a quaternion [w, x, y, z] or a rotation vector"));
-        }
-        _ => q.extend(quaternion("initial.rotation", initial.rotation.as_deref(), build)?),
+    let (position, velocity) = initial.translation::<D>(build)?;
+    let (mut q, mut v) = (position.to_vec(), velocity.to_vec());
+    if D == 2 {
+        let (angle, spin) = initial.planar(build)?;
+        q.push(angle);
+        v.push(spin);
+    } else {
+        let (quaternion, spin) = initial.spatial(build)?;
+        q.extend(quaternion);
+        v.extend(spin);
     }
-    v.extend(spin(initial, build)?);
     q.extend(elastic("initial.elastic", &initial.elastic, names, build)?);
     v.extend(elastic("initial.elastic_velocity", &initial.elastic_velocity, names, build)?);
     Ok((q, v))
@@ -89,22 +82,4 @@ fn elastic<const D: usize>(
         values[place] = build.number(&format!("{field}.{name}"), number)?;
     }
     Ok(values)
-}
-
-/// Angular velocity at the start: a number in the plane, three in the body's axes in space.
-fn spin<const D: usize>(initial: &Initial, build: &Build<D>) -> Result<Vec<f64>> {
-    const FIELD: &str = "initial.angular_velocity";
-    match (&initial.angular_velocity, D) {
-        (None, 2) => Ok(vec![0.0]),
-        (None, _) => Ok(vec![0.0; 3]),
-        (Some(Spin::Moment(number)), 2) => Ok(vec![build.number(FIELD, number)?]),
-        (Some(Spin::Tensor(numbers)), 2) => Ok(build.vector::<1>(FIELD, numbers)?.to_vec()),
-        (Some(Spin::Tensor(numbers)), _) => Ok(build.vector::<3>(FIELD, numbers)?.to_vec()),
-        (Some(Spin::Moment(number)), _) => Err(Error::input(format!(
-            "expected 3 numbers, found {}",
-            build.number(FIELD, number).map_or("one".to_string(), short)
-        ))
-        .under(FIELD)
-        .hint("give [wx, wy, wz] in the body's axes, rad/s")),
-    }
 }

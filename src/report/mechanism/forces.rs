@@ -57,6 +57,14 @@ pub fn torsion_spring(pen: &mut Pen, link: &Link, _: &Sight) {
     pen.line(spots, ink, THIN);
 }
 
+/// A bold line between its ends.
+pub fn beam(pen: &mut Pen, link: &Link, _: &Sight) {
+    let spots = [0, 1].map(|end| pen.view.flat(link.ends[end].r)).map(|(x, y)| Spot::data(x, y)).to_vec();
+    let ink = pen.ink(0.25);
+    pen.layer = Layer::Rod;
+    pen.line(spots, ink, BOLD);
+}
+
 /// A cushion between its ends.
 pub fn bushing(pen: &mut Pen, link: &Link, _: &Sight) {
     let [a, b] = [pen.spot(link.ends[0].r), pen.spot(link.ends[1].r)];

@@ -52,6 +52,7 @@ const FORCES: &[Glyph] = &[
     glyph("spring_damper", forces::spring_damper, true),
     glyph("torsion_spring", forces::torsion_spring, false),
     glyph("bushing", forces::bushing, false),
+    glyph("beam", forces::beam, true),
     glyph("applied_force", forces::applied_force, false),
     glyph("applied_torque", forces::applied_torque, false),
     glyph("tyre", forces::tyre, true),

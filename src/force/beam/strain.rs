@@ -1,0 +1,109 @@
+//! Strains of a beam element, and the stresses that belong to them.
+
+use super::Moving;
+use crate::body::flexible::Section;
+use crate::body::{Frame, dot, sub};
+use crate::math::Scalar;
+use crate::math::screw::{Vector, rotation_vector, shift};
+use std::array::from_fn;
+
+/// A beam element: relaxed, its second frame lies `length` along the x axis of the first, bent by a curvature.
+///
+/// Strains and stresses are in the order extension, shear along y and z, twist, curvature about y and z.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beam {
+    /// m
+    pub length: f64,
+    /// EA, GA along y and z, GJ, EI about y and z; N and N m^2. Those of shear make up for the bending that a helix
+    /// does not have.
+    pub(super) stiffness: [f64; 6],
+    /// Strains of the relaxed element.
+    pub(super) rest: [f64; 6],
+    /// The part of the shear strain, along y and z, that is bending in truth.
+    pub(super) bent: [f64; 2],
+    /// Stress is stiffness times (strain + damping times its rate), s.
+    pub(super) damping: f64,
+}
+
+/// What the frames at the ends say: the screw from one to the other, and the gap between them, in the first one's axes.
+pub(super) struct Strains<S> {
+    pub gap: Vector<Moving<S>>,
+    pub turn: Vector<Moving<S>>,
+    pub shift: Vector<Moving<S>>,
+}
+
+impl<S: Scalar> Strains<S> {
+    #[inline]
+    pub fn between<const D: usize>(a: &Frame<Moving<S>, D>, b: &Frame<Moving<S>, D>) -> Self {
+        let zero = Moving::fixed(S::zero());
+        let way = sub(&b.r, &a.r);
+        let gap = from_fn(|i| if i < D { dot(&a.axes[i], &way) } else { zero });
+        let turn = match D {
+            // The angle in the plane is counted through full turns.
+            2 => [zero, zero, b.turn - a.turn],
+            _ => rotation_vector(&from_fn(|i| from_fn(|j| dot(&a.axes[i], &b.axes[j])))),
+        };
+        Strains { gap, turn, shift: shift(&turn, &gap) }
+    }
+}
+
+impl Beam {
+    /// An element of a beam with this section; in the plane only axial force, shear along y and bending about z act.
+    ///
+    /// The shear force of an element changes the bending moment along it, which a helix cannot show. MacNeal's residual
+    /// bending flexibility puts that into the shear: 1/GA* = 1/GA + L^2/(12 EI) (Comput. Structures 8 (1978) 175-183).
+    /// The statics of a straight element are then exact, with sections that shear or do not (GA infinite).
+    ///
+    /// `curvature` is that of the relaxed element, 1/m: twist, about y and about z; `damping` is in s.
+    pub fn new<const D: usize>(section: &Section, length: f64, curvature: [f64; 3], damping: f64) -> Self {
+        let [about_y, about_z] = section.ei;
+        let bending = [about_z, about_y].map(|ei| length * length / (12.0 * ei));
+        let [along_y, along_z]: [f64; 2] = from_fn(|i| 1.0 / (1.0 / section.ga[i] + bending[i]));
+        let [twist, about] = match D {
+            2 => [0.0, 0.0],
+            _ => [section.gj, about_y],
+        };
+        let stiffness = [section.ea, along_y, if D == 2 { 0.0 } else { along_z }, twist, about, about_z];
+        let rest = [1.0, 0.0, 0.0, curvature[0], curvature[1], curvature[2]];
+        Beam { length, stiffness, rest, bent: [along_y * bending[0], along_z * bending[1]], damping }
+    }
+
+    /// What shear of bent sections adds to the extension, a part of its square: a line that leans by phi(x) is longer
+    /// than its chord by the mean of phi^2/2, which for the cubic of a shear force is 0.6 of its squared mean; sections
+    /// that shear by g beside it add phi g.
+    fn lengthening(&self) -> [f64; 2] {
+        self.bent.map(|bent| bent * (1.0 - 0.4 * bent))
+    }
+
+    /// The strains at the middle of the element, that of extension counted from zero length. A curvature that grows along the
+    /// element by k' L from end to end lets the logarithm of the motion differ from the strain in the middle by
+    /// L^2 [strain, strain']/12 (Magnus): in the shift this is the shear g of [`Beam::new`], with k' L^2/12 = g x e_x;
+    /// in the turn it is taken off here.
+    #[inline]
+    pub(super) fn strain<S: Scalar>(&self, strains: &Strains<S>) -> [Moving<S>; 6] {
+        let per_length = 1.0 / self.length;
+        let [x, y, z] = strains.shift.map(|u| u * per_length);
+        let k = strains.turn.map(|a| a * per_length);
+        let [long_y, long_z] = self.lengthening();
+        let (gy, gz) = (y * self.bent[0], z * self.bent[1]);
+        [x + y * y * long_y + z * z * long_z, y, z, k[0] + gy * k[1] + gz * k[2], k[1] - gy * k[0], k[2] - gz * k[0]]
+    }
+
+    /// Force and moment that do on the logarithm of the motion what the stresses do on [`strain`](Beam::strain): its
+    /// transposed derivative.
+    #[inline]
+    pub(super) fn conjugate<S: Scalar>(&self, strains: &Strains<S>, stress: &[S; 6]) -> [Vector<S>; 2] {
+        let per_length = 1.0 / self.length;
+        let [_, y, z] = strains.shift.map(|u| u.re * per_length);
+        let k = strains.turn.map(|a| a.re * per_length);
+        let [long_y, long_z] = self.lengthening();
+        let [n, qy, qz, torque, my, mz] = *stress;
+        let (gy, gz) = (y * self.bent[0], z * self.bent[1]);
+        let force = [
+            n,
+            qy + y * n * (2.0 * long_y) + (k[1] * torque - k[0] * my) * self.bent[0],
+            qz + z * n * (2.0 * long_z) + (k[2] * torque - k[0] * mz) * self.bent[1],
+        ];
+        [force, [torque - gy * my - gz * mz, my + gy * torque, mz + gz * torque]]
+    }
+}

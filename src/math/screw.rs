@@ -1,0 +1,203 @@
+//! Logarithms of rotations and of rigid motions.
+//!
+//! A motion that turns by the matrix R and shifts by p is that of a screw of constant pitch and axis. Its logarithm is
+//! (u, a): a the rotation vector of R and u = p - a x p/2 + c a x (a x p), with c = (1 - (|a|/2) cot(|a|/2))/|a|^2
+//! (Sonneville, Cardona and Bruls, Comput. Methods Appl. Mech. Engrg. 268 (2014) 451-474, appendix A).
+
+use super::Scalar;
+use std::array::from_fn;
+
+/// A vector of space over any scalar.
+pub type Vector<S> = [S; 3];
+
+#[inline]
+pub fn dot3<S: Scalar>(a: &Vector<S>, b: &Vector<S>) -> S {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline]
+pub fn cross3<S: Scalar>(a: &Vector<S>, b: &Vector<S>) -> Vector<S> {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// Rotation vector, rad, of length pi at most, of the rotation with `r[i][j]`: component i of axis j. Smooth below pi;
+/// there its sign turns.
+pub fn rotation_vector<S: Scalar>(r: &[[S; 3]; 3]) -> Vector<S> {
+    let (w, v) = quaternion(r);
+    let square = dot3(&v, &v);
+    // 2 atan(|v|/w)/|v|, by its series near zero, where |v| is not smooth.
+    let factor = match square.value() < 0.01 * w.value() * w.value() {
+        true => series(square / (w * w), |k| f64::from(1 - 2 * (k as i32 % 2)) / (2 * k + 1) as f64) * 2.0 / w,
+        false => {
+            let size = square.sqrt();
+            S::atan2(size, w) * 2.0 / size
+        }
+    };
+    v.map(|v| v * factor)
+}
+
+/// Scalar and vector part of the unit quaternion, the scalar part not negative. Shepperd's choice of the divisor: with
+/// the largest of the four there is no cancellation.
+fn quaternion<S: Scalar>(r: &[[S; 3]; 3]) -> (S, Vector<S>) {
+    let trace = r[0][0] + r[1][1] + r[2][2];
+    let skew = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]];
+    if trace.value() > 0.0 {
+        let twice = (trace + 1.0).sqrt();
+        return (twice * 0.5, skew.map(|s| s / (twice * 2.0)));
+    }
+    let largest = (1..3).fold(0, |best, i| if r[i][i].value() > r[best][best].value() { i } else { best });
+    let twice = (r[largest][largest] * 2.0 - trace + 1.0).sqrt();
+    let sign = if skew[largest].value() < 0.0 { -1.0 } else { 1.0 };
+    let part = |numerator: S| numerator / (twice * 2.0) * sign;
+    let v = from_fn(|i| match i == largest {
+        true => twice * 0.5 * sign,
+        false => part(r[i][largest] + r[largest][i]),
+    });
+    (part(skew[largest]), v)
+}
+
+/// Terms of the series: those left out are below 1e-17 of the first in the ranges used.
+const TERMS: usize = 9;
+
+fn series<S: Scalar>(x: S, coefficient: impl Fn(usize) -> f64) -> S {
+    (0..TERMS - 1).rev().fold(S::constant(coefficient(TERMS - 1)), |sum, k| sum * x + coefficient(k))
+}
+
+/// c = sum_k 2 zeta(2k + 2)/(2 pi)^(2k + 2) x^k with x = |a|^2; here up to k = 8.
+const COTANGENT: [f64; TERMS] = [
+    1.0 / 12.0,
+    1.0 / 720.0,
+    1.0 / 30_240.0,
+    1.0 / 1_209_600.0,
+    1.0 / 47_900_160.0,
+    691.0 / 1_307_674_368_000.0,
+    1.0 / 74_724_249_600.0,
+    3617.0 / 10_670_622_842_880_000.0,
+    43_867.0 / 5_109_094_217_170_944_000.0,
+];
+
+/// The series serve up to this square of an angle.
+const NEAR: f64 = 0.3;
+
+/// c(x) with x = |a|^2; it has a pole where |a| is a full turn.
+#[inline]
+pub fn cotangent<S: Scalar>(x: S) -> S {
+    if x.value() < NEAR {
+        return series(x, |k| COTANGENT[k]);
+    }
+    let half = x.sqrt() * 0.5;
+    (S::one() - half / half.tan()) / x
+}
+
+/// dc/dx.
+#[inline]
+pub fn cotangent_slope<S: Scalar>(x: S) -> S {
+    if x.value() < NEAR {
+        // One term less than c itself has; it is below 1e-17 of the first all the same.
+        return series(x, |k| COTANGENT.get(k + 1).map_or(0.0, |c| c * (k + 1) as f64));
+    }
+    // With h = |a|/2 and b = h cot h: db/dx = (cot h - h/sin^2 h)/(8 h).
+    let half = x.sqrt() * 0.5;
+    let (sine, cosine) = (half.sin(), half.cos());
+    let cot = cosine / sine;
+    let slope = (cot - half / (sine * sine)) / (half * 8.0);
+    (-slope - (S::one() - half * cot) / x) / x
+}
+
+/// The shift part u of the logarithm of the motion that turns by `a` and shifts by `p`.
+#[inline]
+pub fn shift<S: Scalar>(a: &Vector<S>, p: &Vector<S>) -> Vector<S> {
+    let turned = cross3(a, p);
+    let twice = cross3(a, &turned);
+    let c = cotangent(dot3(a, a));
+    from_fn(|i| p[i] - turned[i] * 0.5 + c * twice[i])
+}
+
+/// Force and torque at the moved frame, in the axes of the first, that do the work n . du + m . da when the motion
+/// changes: the transposed derivative of the logarithm. With W = 1 + [a]/2 + c [a]^2, du = W dr + (du/da) da and
+/// da = W dw, dr and dw being the twist of the moved frame in its own axes.
+pub fn pull_back<S: Scalar>(a: &Vector<S>, p: &Vector<S>, n: &Vector<S>, m: &Vector<S>) -> [Vector<S>; 2] {
+    let x = dot3(a, a);
+    let (c, slope) = (cotangent(x), cotangent_slope(x));
+    let w = |v: &Vector<S>| -> Vector<S> {
+        let turned = cross3(a, v);
+        let twice = cross3(a, &turned);
+        from_fn(|i| v[i] + turned[i] * 0.5 + c * twice[i])
+    };
+    // The gradient of n . u(a) = n . p - n . (a x p)/2 + c ((a . p)(a . n) - a^2 (n . p)).
+    let (ap, an, np) = (dot3(a, p), dot3(a, n), dot3(n, p));
+    let along = slope * 2.0 * (ap * an - x * np) - c * 2.0 * np;
+    let lever = cross3(n, p);
+    let (cp, cn) = (c * an, c * ap);
+    let gradient: Vector<S> = from_fn(|i| lever[i] * 0.5 + cp * p[i] + cn * n[i] + along * a[i]);
+    [w(n), w(&from_fn(|i| m[i] + gradient[i]))]
+}
+
+/// The motion at part `part` of the screw with logarithm (u, a), as its axes (`axes[j]` is axis j) and its
+/// shift.
+pub fn exponential(u: &Vector<f64>, a: &Vector<f64>, part: f64) -> ([Vector<f64>; 3], Vector<f64>) {
+    let a = a.map(|x| x * part);
+    let angle = dot3(&a, &a).sqrt();
+    // sin(x)/x, (1 - cos x)/x^2 and (x - sin x)/x^3.
+    let (s1, s2, s3) = match angle < 1e-2 {
+        true => {
+            let x = angle * angle;
+            (
+                1.0 - x / 6.0 * (1.0 - x / 20.0),
+                0.5 - x / 24.0 * (1.0 - x / 30.0),
+                1.0 / 6.0 - x / 120.0 * (1.0 - x / 42.0),
+            )
+        }
+        false => {
+            let (sin, cos) = angle.sin_cos();
+            (sin / angle, (1.0 - cos) / angle.powi(2), (angle - sin) / angle.powi(3))
+        }
+    };
+    let turn = |v: &Vector<f64>, first: f64, second: f64| -> Vector<f64> {
+        let turned = cross3(&a, v);
+        let twice = cross3(&a, &turned);
+        from_fn(|i| v[i] + first * turned[i] + second * twice[i])
+    };
+    let axes = from_fn(|j| turn(&from_fn(|i| if i == j { 1.0 } else { 0.0 }), s1, s2));
+    (axes, turn(&u.map(|x| x * part), s2, s3))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Dual;
+    use std::f64::consts::PI;
+
+    /// Logarithm and exponential undo each other for angles from nothing to nearly half a turn, at the bounds of the
+    /// series too.
+    #[test]
+    fn the_logarithm_undoes_the_exponential() {
+        for angle in [0.0, 1e-9, 1e-3, 0.19, 0.2, 0.21, 0.5, 0.547, 0.548, 1.0, 2.0, 2.1, 3.0, PI - 1e-6] {
+            for axis in [[1.0, 0.0, 0.0], [0.0, 0.6, -0.8], [-0.48, 0.6, 0.64], [0.36, -0.48, -0.8]] {
+                let (u, a) = ([0.3, -1.0, 0.7], axis.map(|x| x * angle));
+                let (axes, p) = exponential(&u, &a, 1.0);
+                let r = from_fn(|i| from_fn(|j| axes[j][i]));
+                let back = rotation_vector::<f64>(&r);
+                let shifted = shift(&back, &p);
+                for i in 0..3 {
+                    // Half a turn leaves the square root of the round-off of the trace, divided by nothing: 1e-15.
+                    assert!((back[i] - a[i]).abs() < 4e-15, "{angle} {axis:?}: {back:?}");
+                    assert!((shifted[i] - u[i]).abs() < 1e-14, "{angle} {axis:?}: {shifted:?}");
+                }
+            }
+        }
+    }
+
+    /// c and dc/dx agree across the bound of the series, and dc/dx is the derivative of c.
+    #[test]
+    fn both_forms_of_the_cotangent_agree() {
+        for x in [0.0, 0.1, NEAR - 1e-12, NEAR, 1.0, 5.0, 9.0] {
+            let seeded = cotangent(Dual::<f64, 1>::seeded(x, 0));
+            // 1 - b loses a digit and a half at the bound, its derivative the same again.
+            assert!((seeded.eps[0] - cotangent_slope(x)).abs() < 1e-14, "{x}: {seeded:?}");
+        }
+        let (below, above) = (cotangent(NEAR * (1.0 - 1e-15)), cotangent(NEAR * (1.0 + 1e-15)));
+        assert!((below - above).abs() < 1e-15);
+        assert!((cotangent_slope(NEAR * (1.0 - 1e-15)) - cotangent_slope(NEAR)).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,240 @@
+//! A flexible beam in absolute coordinates: rigid nodes with the mass, and beam elements as forces between them.
+//!
+//! Each node carries the mass of the half elements beside it and the rotary inertia of their sections. The statics of a
+//! straight element are exact, so frequencies converge with the fourth power of its length, and with the second where a
+//! free end, extension or torsion counts.
+
+use super::builder::start_and_markers;
+use super::markers;
+use super::model::BeamLine;
+use crate::body::flexible::{Damping, FlexibleBeam, Section, curvature};
+use crate::body::{Body, Build, Built, Initial, Marker, RigidPlanar, RigidSpatial, SHARED_KEYS, cross, parse_among};
+use crate::error::{Error, Result, short};
+use crate::force::Beam;
+use crate::math::rotation::{matrix_from_quaternion, quaternion_from_vector, quaternion_product};
+use crate::math::screw::{dot3, exponential};
+use serde_json::{Map, Value};
+use std::array::from_fn;
+
+/// Whether a body is such a beam.
+pub fn is_absolute_beam(kind: &str, json: &Map<String, Value>) -> bool {
+    kind == "flexible_beam" && json.get("frame").and_then(Value::as_str) == Some("absolute")
+}
+
+/// A beam, checked and divided into elements.
+pub struct AbsoluteBeam<const D: usize> {
+    name: String,
+    section: Section,
+    /// Twist and curvatures of the relaxed beam, 1/m.
+    curvature: [f64; 3],
+    /// s
+    damping: f64,
+    abscissae: Vec<f64>,
+    /// Node, name and place in the node's axes.
+    markers: Vec<(usize, String, Marker<D>)>,
+    start: Start<D>,
+}
+
+/// Keys that mean something to a beam in a floating frame alone.
+const FLOATING: [&str; 6] = ["frame_conditions", "axial", "rotary_inertia", "geometric_stiffening", "modes", "ritz"];
+
+/// More elements than this are a slip of the hand.
+const MOST_ELEMENTS: u32 = 1_000_000;
+
+/// Two places on a beam nearer than this part of its length are one.
+const SAME: f64 = 1e-9;
+
+impl<const D: usize> AbsoluteBeam<D> {
+    /// Takes the rest of the body's JSON.
+    pub fn read(name: &str, mut json: Map<String, Value>, build: &Build<D>) -> Result<Self> {
+        refuse_floating(&json)?;
+        let (initial, given) = start_and_markers(&mut json)?;
+        let spec: FlexibleBeam = parse_among(Value::Object(json), &SHARED_KEYS)?;
+        let length = build.positive("length", &spec.length)?;
+        let named = markers::markers(&given, &[0.0; D], build)?;
+        let wanted = elements(spec.elements)?;
+        let abscissae = mesh(length, wanted, named.iter().map(|(_, marker)| marker.offset[0]));
+        let at_node = |(name, mut marker): (String, Marker<D>)| {
+            let s = std::mem::replace(&mut marker.offset[0], 0.0);
+            let node = check_marker(&name, s, &abscissae).map_err(|error| error.under(&name).under("markers"))?;
+            Ok((node, name, marker))
+        };
+        Ok(AbsoluteBeam {
+            name: name.to_string(),
+            section: Section::of(&spec, build)?,
+            curvature: curvature(spec.curvature.as_ref(), build)?,
+            damping: damping(spec.damping.as_ref(), build).map_err(|error| error.under("damping"))?,
+            markers: named.into_iter().map(at_node).collect::<Result<_>>()?,
+            abscissae,
+            start: Start::read(&initial, build)?,
+        })
+    }
+
+    /// The nodes from left to right: names of their markers, and bodies that start at rest in the relaxed beam, which
+    /// moves like a rigid body.
+    pub fn nodes(&self) -> Vec<(Vec<String>, Built<D>)> {
+        let node = |node: usize| {
+            let here = || self.markers.iter().filter(move |(at, ..)| *at == node);
+            let own = Marker::point([0.0; D]);
+            // The left end has the frame of the beam as a whole beside its own.
+            let frames = [own].into_iter().chain((node == 0).then_some(own));
+            let markers = frames.chain(here().map(|(_, _, marker)| *marker)).collect();
+            let names = here().map(|(_, name, _)| name.clone()).collect();
+            let (q, v) = self.start.at(self.abscissae[node], &self.curvature);
+            (names, Built { body: self.body(node, &q, markers), q, v })
+        };
+        (0..self.abscissae.len()).map(node).collect()
+    }
+
+    /// The record for the model; the place of its elements among the forces is not known yet.
+    pub fn line(self, first_body: usize) -> BeamLine {
+        let beam = |ends: &[f64]| Beam::new::<D>(&self.section, ends[1] - ends[0], self.curvature, self.damping);
+        let elements = self.abscissae.windows(2).map(beam).collect();
+        BeamLine { name: self.name, first_body, first_force: 0, elements, abscissae: self.abscissae }
+    }
+
+    fn body(&self, node: usize, q: &[f64], markers: Vec<Marker<D>>) -> Box<dyn Body<D>> {
+        let before = if node > 0 { self.abscissae[node] - self.abscissae[node - 1] } else { 0.0 };
+        let after = self.abscissae.get(node + 1).map_or(0.0, |next| next - self.abscissae[node]);
+        let own = 0.5 * (before + after);
+        let mass = self.section.rho_a * own;
+        let [y, z] = self.section.rho_i.map(|inertia| match inertia > 0.0 {
+            true => inertia * own,
+            false => SMALL_INERTIA * mass * f64::max(before, after).powi(2),
+        });
+        match D {
+            2 => Box::new(RigidPlanar::new(mass, z, from_fn(|i| q[i]), &[0, 1, 2], markers)),
+            _ => {
+                let inertia = [[y + z, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]];
+                Box::new(RigidSpatial { mass, inertia, markers })
+            }
+        }
+    }
+}
+
+/// Without rotary inertia of the section a planar node gets this times its mass and the square of the element's length,
+/// for M must have an inverse. It lowers the square of a frequency by this part of (k h)^2, k being the wave number and h
+/// the length, and lumping the mass by (k h)^4/720: this is the smaller part unless k h < 0.27, where both are below
+/// 1e-5. A smaller one makes the nodes' own rotation faster: here it is forty times as fast as the shortest wave.
+const SMALL_INERTIA: f64 = 1e-4;
+
+fn refuse_floating(json: &Map<String, Value>) -> Result<()> {
+    if let Some(key) = FLOATING.iter().find(|key| json.contains_key(**key)) {
+        return Err(Error::input(format!("an absolute beam has no `{key}`"))
+            .under(key)
+            .hint("remove it, or use \"frame\": \"floating\""));
+    }
+    match json.contains_key("origin") {
+        true => Err(Error::input("the origin of a beam is its left end").under("origin").hint("remove it")),
+        false => Ok(()),
+    }
+}
+
+fn elements(given: Option<u32>) -> Result<u32> {
+    match given {
+        None => {
+            Err(Error::input("the key `elements` is missing").hint("say into how many elements the beam is divided"))
+        }
+        Some(n @ 1..=MOST_ELEMENTS) => Ok(n),
+        Some(n) => Err(Error::input(format!("elements is {n}"))
+            .under("elements")
+            .hint(format!("give a whole number from 1 to {MOST_ELEMENTS}"))),
+    }
+}
+
+fn damping<const D: usize>(given: Option<&Damping>, build: &Build<D>) -> Result<f64> {
+    match given {
+        None => Ok(0.0),
+        Some(Damping::Modal(_)) => Err(Error::input("an absolute beam has no modes to damp")
+            .under("modal")
+            .hint("give \"rayleigh\": {\"stiffness\": ...}")),
+        Some(Damping::Rayleigh { mass, stiffness }) => {
+            let mass = mass.as_ref().map_or(Ok(0.0), |mass| build.number("rayleigh.mass", mass))?;
+            if mass != 0.0 {
+                return Err(Error::input("damping by mass would brake an absolute beam that moves as a whole")
+                    .under("rayleigh.mass")
+                    .hint("give \"stiffness\" alone, or use \"frame\": \"floating\""));
+            }
+            stiffness.as_ref().map_or(Ok(0.0), |stiffness| build.not_negative("rayleigh.stiffness", stiffness))
+        }
+    }
+}
+
+/// Abscissae of the nodes: both ends, every marker, and equal elements between these, none longer than the length
+/// divided by `wanted`.
+fn mesh(length: f64, wanted: u32, markers: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut stops: Vec<f64> = markers.filter(|s| *s > SAME * length && *s < (1.0 - SAME) * length).collect();
+    stops.push(length);
+    stops.sort_by(f64::total_cmp);
+    stops.dedup_by(|b, a| *b - *a < SAME * length);
+    let mut abscissae = vec![0.0];
+    let mut from = 0.0;
+    for to in stops {
+        // Round-off must not add an element.
+        let parts = ((to - from) / length * f64::from(wanted) - SAME).ceil().max(1.0) as u32;
+        abscissae.extend((1..parts).map(|i| from + (to - from) * f64::from(i) / f64::from(parts)));
+        abscissae.push(to);
+        from = to;
+    }
+    abscissae
+}
+
+/// The node at `s`.
+fn check_marker(name: &str, s: f64, abscissae: &[f64]) -> Result<usize> {
+    if name.strip_prefix('n').is_some_and(|digits| !digits.is_empty() && digits.bytes().all(|c| c.is_ascii_digit())) {
+        return Err(Error::input(format!("`{name}` is the name of a node")).hint("choose another one"));
+    }
+    let length = abscissae[abscissae.len() - 1];
+    let slack = SAME * length;
+    if !(-slack..=length + slack).contains(&s) {
+        return Err(Error::input(format!("the marker is off the beam, at s = {}", short(s)))
+            .hint(format!("give [s, ...] with 0 <= s <= {}, the length", short(length))));
+    }
+    Ok(abscissae.partition_point(|abscissa| *abscissa < s - slack).min(abscissae.len() - 1))
+}
+
+/// How the beam starts, as a rigid body with its origin at the left end.
+struct Start<const D: usize> {
+    position: [f64; D],
+    velocity: [f64; D],
+    /// In the plane.
+    angle: f64,
+    /// In space.
+    quaternion: [f64; 4],
+    /// In the axes of the left end.
+    spin: [f64; 3],
+}
+
+impl<const D: usize> Start<D> {
+    fn read(initial: &Initial, build: &Build<D>) -> Result<Self> {
+        let (position, velocity) = initial.translation(build)?;
+        let (angle, quaternion, spin) = match D {
+            2 => initial.planar(build).map(|(angle, rate)| (angle, [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, rate]))?,
+            _ => initial.spatial(build).map(|(quaternion, spin)| (0.0, quaternion, spin))?,
+        };
+        Ok(Start { position, velocity, angle, quaternion, spin })
+    }
+
+    /// Coordinates and velocities of the node at `s`.
+    fn at(&self, s: f64, curvature: &[f64; 3]) -> (Vec<f64>, Vec<f64>) {
+        let (axes, shift) = exponential(&[1.0, 0.0, 0.0], curvature, s);
+        let turn = match D {
+            2 => quaternion_from_vector(&[0.0, 0.0, self.angle]),
+            _ => self.quaternion,
+        };
+        let matrix = matrix_from_quaternion(&turn);
+        let in_world = |v: &[f64; 3]| -> [f64; 3] { from_fn(|i| dot3(&matrix[i], v)) };
+        let arm = in_world(&shift);
+        let lever = cross(&in_world(&self.spin), &arm);
+        let mut q: Vec<f64> = (0..D).map(|i| self.position[i] + arm[i]).collect();
+        let mut v: Vec<f64> = (0..D).map(|i| self.velocity[i] + lever[i]).collect();
+        if D == 2 {
+            q.push(self.angle + curvature[2] * s);
+            v.push(self.spin[2]);
+        } else {
+            q.extend(quaternion_product(&turn, &quaternion_from_vector(&curvature.map(|k| k * s))));
+            v.extend(axes.map(|axis| dot3(&axis, &self.spin)));
+        }
+        (q, v)
+    }
+}

@@ -1,0 +1,1 @@
+//! The element itself: objective, exact derivatives, exact statics.
