@@ -194,12 +194,11 @@ fn beam_item<const D: usize>(beam: &BeamLine, node: &crate::scene::Part<D>) -> I
     Item { name: beam.name.clone(), kind: "flexible beam, absolute".to_string(), detail }
 }
 
-/// The forces of the scene, without the elements of flexible beams.
+/// The forces of the scene.
 fn forces<const D: usize>(model: &Model<D>) -> Vec<Item> {
-    let of_beam = |i: usize| model.beams.iter().any(|beam| beam.forces().contains(&i));
     let item =
         |force: &Connection<_>| Item { name: force.name.clone(), kind: force.kind.to_string(), detail: String::new() };
-    model.forces.iter().enumerate().filter(|(i, _)| !of_beam(*i)).map(|(_, force)| item(force)).collect()
+    model.given_forces().iter().map(item).collect()
 }
 
 fn body_item<const D: usize>(part: &crate::scene::Part<D>) -> Item {
@@ -236,7 +235,7 @@ fn left_out<const D: usize>(model: &Model<D>) -> Vec<String> {
         (D == 3 && quaternions, "quaternions: no body turns freely"),
         (model.joints.is_empty(), "constraints: there is no joint"),
         (driven && !model.joints.is_empty(), "moving constraints: no joint depends on t"),
-        (forces(model).is_empty(), "forces: none is given"),
+        (model.given_forces().is_empty(), "forces: none is given"),
         (is_rigid, "flexibility: every body is rigid"),
         (true, "contact and friction: the scene has none"),
     ]

@@ -49,6 +49,7 @@ impl<const D: usize> AbsoluteBeam<D> {
     pub fn read(name: &str, mut json: Map<String, Value>, build: &Build<D>) -> Result<Self> {
         refuse_floating(&json)?;
         let (initial, given) = start_and_markers(&mut json)?;
+        initial.refuse_elastic()?;
         let spec: FlexibleBeam = parse_among(Value::Object(json), &SHARED_KEYS)?;
         let length = build.positive("length", &spec.length)?;
         let named = markers::markers(&given, &[0.0; D], build)?;

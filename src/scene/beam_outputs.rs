@@ -1,29 +1,61 @@
 //! Outputs of a beam at a place on its line.
 
 use super::format::{MeasureKind, OutputSpec};
-use super::model::{Combination, Measure, Part};
-use super::outputs::{find, missing, wrong_component};
+use super::model::{BeamLine, Combination, Measure, Reading};
+use super::outputs::{Elements, find, missing, wrong_component};
 use crate::body::flexible::Stretch;
 use crate::body::{Bent, Build};
 use crate::error::{Error, Result, short};
 
-/// What is read of the beam `of`, in terms of its elastic coordinates.
-pub fn measure<const D: usize>(spec: &OutputSpec, of: &str, bodies: &[Part<D>], build: &Build<D>) -> Result<Measure> {
-    let beams = || bodies.iter().filter_map(|part| Some((part, part.body.bent()?)));
-    let index = find("flexible beam", of, beams().map(|(part, _)| part.name.as_str()))?;
-    let (part, Bent { line, stretches, first }) = match beams().nth(index) {
-        Some(beam) => beam,
-        None => return Err(Error::input(format!("`{of}` is no flexible beam")).under("of")),
-    };
+/// What is read of the beam `of`.
+pub fn measure<const D: usize>(
+    spec: &OutputSpec,
+    of: &str,
+    Elements { bodies, beams, .. }: Elements<D>,
+    build: &Build<D>,
+) -> Result<Measure> {
+    if let Some(beam) = beams.iter().position(|beam| beam.name == of) {
+        let at = place(spec, beams[beam].length(), build)?;
+        return Ok(Measure::Station { beam, at, reading: reading(spec, &beams[beam], at, build)? });
+    }
+    let floating = || bodies.iter().filter_map(|part| Some((part, part.body.bent()?)));
+    let names = floating().map(|(part, _)| part.name.as_str()).chain(beams.iter().map(|beam| beam.name.as_str()));
+    let index = find("flexible beam", of, names.collect::<Vec<_>>().into_iter())?;
+    match floating().nth(index) {
+        Some((part, bent)) => Ok(Measure::Elastic(combination(spec, bent, part.first_q + bent.first, build)?)),
+        None => Err(Error::input(format!("`{of}` is no flexible beam")).under("of")),
+    }
+}
+
+/// Of an absolute beam.
+fn reading<const D: usize>(spec: &OutputSpec, beam: &BeamLine, at: f64, build: &Build<D>) -> Result<Reading> {
+    if spec.measure == MeasureKind::Deflection {
+        let axis = component(spec, "y", &["x", "y", "z"][..D])?;
+        return Ok(Reading::Deflection { axis, rest: beam.relaxed(at)[axis] });
+    }
+    let factors = weights::<D>(spec, &[1.0; 6], build)?;
+    Ok(match (spec.measure, factors.iter().position(|factor| *factor != 0.0)) {
+        (MeasureKind::Strain, _) | (_, None) => Reading::Strain(factors),
+        (_, Some(component)) => Reading::Force(component),
+    })
+}
+
+/// Of a beam in a floating frame whose elastic coordinates are those from `first` on.
+fn combination<const D: usize>(
+    spec: &OutputSpec,
+    Bent { line, stretches, .. }: Bent<D>,
+    first: usize,
+    build: &Build<D>,
+) -> Result<Combination> {
     let at = place(spec, line.length(), build)?;
-    let mut sum = Sum { first: part.first_q + first, combination: Combination::default() };
+    let mut sum = Sum { first, combination: Combination::default() };
     if spec.measure == MeasureKind::Deflection {
         let axis = component(spec, "y", &["x", "y", "z"][..D])?;
         let mut rest = [0.0; D];
         rest[0] = at;
         let point = line.point(rest);
         sum.add(&point.dofs, point.translation.iter().map(|t| t[axis]));
-        return Ok(Measure::Elastic(sum.combination));
+        return Ok(sum.combination);
     }
     let section = line.section(at);
     let mut weights = weights::<D>(spec, &section.stiffness, build)?;
@@ -33,7 +65,7 @@ pub fn measure<const D: usize>(spec: &OutputSpec, of: &str, bodies: &[Part<D>], 
     }
     let factor = |strains: &[f64; 6]| -> f64 { strains.iter().zip(weights).map(|(strain, w)| strain * w).sum() };
     sum.add(&section.dofs, section.strains.iter().map(factor));
-    Ok(Measure::Elastic(sum.combination))
+    Ok(sum.combination)
 }
 
 /// A combination of the coordinates from `first` on.

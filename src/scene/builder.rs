@@ -81,7 +81,7 @@ fn model<const D: usize>(file: &SceneFile, parameters: &Parameters) -> Result<(M
             markers: ends(i),
         }));
     }
-    let elements = outputs::Elements { bodies: &parts.bodies, joints: &joints, forces: &forces };
+    let elements = outputs::Elements { bodies: &parts.bodies, beams: &parts.beams, joints: &joints, forces: &forces };
     let outputs = outputs::outputs(&file.outputs, elements, &build)?;
     let inputs = outputs::inputs::<D>(&file.inputs, &forces)?;
     let Parts { table, ground, bodies, beams, q, v } = parts;

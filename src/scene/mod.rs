@@ -13,7 +13,7 @@ mod outputs;
 mod schema;
 
 pub use format::{Assembly, Automatic, Simulation};
-pub use model::{BeamLine, Connection, Driven, EnergyPart, Measure, Model, Part, Watched};
+pub use model::{BeamLine, Combination, Connection, Driven, EnergyPart, Measure, Model, Part, Reading, Watched};
 pub use schema::schema;
 
 use crate::error::{Error, Result, excerpt, nearest};

@@ -1,9 +1,10 @@
 //! The checked, named model that a scene describes.
 
-use crate::body::{Body, Frame, Marker, MarkerId, MarkerTable, Quantity, Signal};
+use crate::body::{Body, Frame, Marker, MarkerId, MarkerTable, Quantity, Signal, dot, sub};
 use crate::force::{Beam, Force, Station};
 use crate::joint::Joint;
 use crate::math::Taylor;
+use crate::math::screw::exponential;
 use std::ops::Range;
 
 /// Bodies, joints and forces with everything resolved; nothing in it can be wrong any more but the start.
@@ -60,6 +61,25 @@ impl BeamLine {
     /// m, relaxed.
     pub fn length(&self) -> f64 {
         self.abscissae.last().copied().unwrap_or(0.0)
+    }
+
+    /// Reads the section at `s`; `node` gives the frame of a body of the model.
+    pub fn read<const D: usize>(&self, s: f64, reading: Reading, node: impl Fn(usize) -> Frame<Taylor<f64>, D>) -> f64 {
+        let own = node(self.first_body).map(|x| x.x);
+        let station = self.station(s, node);
+        match reading {
+            Reading::Deflection { axis, rest } => dot(&own.axes[axis], &sub(&station.r, &own.r)) - rest,
+            Reading::Strain(factors) => {
+                station.strain.iter().zip(factors).map(|(strain, factor)| strain * factor).sum()
+            }
+            Reading::Force(component) => station.force[component],
+        }
+    }
+
+    /// Where the relaxed beam is at `s`, in the axes of its left end, m.
+    pub fn relaxed(&self, s: f64) -> [f64; 3] {
+        let curvature = self.elements.first().map_or([0.0; 3], Beam::curvature);
+        exponential(&[1.0, 0.0, 0.0], &curvature, s).1
     }
 
     /// The section at `s` from the left end, 0 <= s <= length; `node` gives the frame of a body of the model. At a node it is
@@ -122,9 +142,26 @@ pub enum Measure {
     },
     /// Of a beam in a floating frame.
     Elastic(Combination),
+    /// Of an absolute beam, at an abscissa.
+    Station {
+        beam: usize,
+        at: f64,
+        reading: Reading,
+    },
     /// The magnitude of a force.
     Force(usize),
     Energy(EnergyPart),
+}
+
+/// What is read of a section of an absolute beam.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reading {
+    /// Along an axis of the left end, from the relaxed beam there.
+    Deflection { axis: usize, rest: f64 },
+    /// Strains times these.
+    Strain([f64; 6]),
+    /// A component of force or moment.
+    Force(usize),
 }
 
 /// Coordinates, and products of two of them, with factors.
@@ -158,6 +195,12 @@ pub struct Driven {
 impl<const D: usize> Model<D> {
     pub fn marker_count(&self) -> usize {
         self.markers.names.len()
+    }
+
+    /// The forces of the scene, without the elements of absolute beams.
+    pub fn given_forces(&self) -> &[Connection<Box<dyn Force<D>>>] {
+        let count = self.beams.first().map_or(self.forces.len(), |beam| beam.first_force);
+        &self.forces[..count]
     }
 
     /// Frames of the ground's markers.

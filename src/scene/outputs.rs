@@ -2,7 +2,7 @@
 
 use super::beam_outputs;
 use super::format::{InputSpec, MeasureKind, OutputSpec};
-use super::model::{Connection, Driven, EnergyPart, Measure, Part, Watched};
+use super::model::{BeamLine, Connection, Driven, EnergyPart, Measure, Part, Watched};
 use crate::body::{Build, MarkerId, Quantity};
 use crate::error::{Error, Result, suggest};
 use crate::force::{self, Force};
@@ -111,6 +111,7 @@ pub fn outputs<const D: usize>(specs: &[OutputSpec], elements: Elements<D>, buil
 #[derive(Clone, Copy)]
 pub struct Elements<'a, const D: usize> {
     pub bodies: &'a [Part<D>],
+    pub beams: &'a [BeamLine],
     pub joints: &'a Joints<D>,
     pub forces: &'a Forces<D>,
 }
@@ -121,7 +122,8 @@ struct Reader<'a, const D: usize> {
 }
 
 impl<const D: usize> Reader<'_, D> {
-    fn measure(&self, Elements { bodies, joints, forces }: Elements<D>) -> Result<Measure> {
+    fn measure(&self, elements: Elements<D>) -> Result<Measure> {
+        let Elements { joints, forces, .. } = elements;
         match self.spec.measure {
             MeasureKind::Angle => {
                 let (of, to) = (self.marker()?, self.reference()?);
@@ -148,7 +150,7 @@ impl<const D: usize> Reader<'_, D> {
             | MeasureKind::AxialForce
             | MeasureKind::ShearForce
             | MeasureKind::Torque
-            | MeasureKind::BendingMoment => beam_outputs::measure(self.spec, self.of()?, bodies, self.build),
+            | MeasureKind::BendingMoment => beam_outputs::measure(self.spec, self.of()?, elements, self.build),
             MeasureKind::Expression => {
                 let value = self.spec.value.as_ref();
                 let value = value.ok_or_else(|| missing("value", "give an expression over t and marker quantities"))?;

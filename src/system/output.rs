@@ -37,6 +37,10 @@ impl<const D: usize> Output<'_, D> {
                 // phi is l - length: -G^T lambda pulls the second body towards the first.
                 Measure::Tension { joint } => self.lambda[self.mechanism.rows_of_joint(*joint).start],
                 Measure::Elastic(combination) => combination.at(self.q),
+                Measure::Station { beam, at, reading } => {
+                    let model = self.mechanism.model();
+                    model.beams[*beam].read(*at, *reading, |body| work.motion[model.bodies[body].first_marker])
+                }
                 Measure::Force(force) => self.magnitude(work, *force),
                 Measure::Energy(EnergyPart::Kinetic) => energy.kinetic,
                 Measure::Energy(EnergyPart::Potential) => energy.potential,

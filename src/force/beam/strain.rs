@@ -68,6 +68,11 @@ impl Beam {
         Beam { length, stiffness, rest, bent: [along_y * bending[0], along_z * bending[1]], damping }
     }
 
+    /// Twist and curvature about y and z of the relaxed beam, 1/m.
+    pub fn curvature(&self) -> [f64; 3] {
+        [self.rest[3], self.rest[4], self.rest[5]]
+    }
+
     /// What shear of bent sections adds to the extension, a part of its square: a line that leans by phi(x) is longer
     /// than its chord by the mean of phi^2/2, which for the cubic of a shear force is 0.6 of its squared mean; sections
     /// that shear by g beside it add phi g.

@@ -28,6 +28,7 @@ pub fn depth(pen: &Pen, limb: &Limb) -> f64 {
 pub fn draw(pen: &mut Pen, limb: &Limb, color: usize) {
     pen.layer = Layer::Body;
     match limb.points.as_slice() {
+        [] => {}
         _ if limb.line.len() > 1 => ribbon(pen, &limb.line, color),
         [point] if !limb.oriented => point_mass(pen, *point, color),
         [point] => block(pen, &Pose { r: *point, axes: limb.centre.axes }, color),

@@ -7,7 +7,7 @@ use crate::body::{Bent, Frame, Marker, Wrench, in_space};
 use crate::force::Wheel;
 use crate::joint::Shape;
 use crate::math::Taylor;
-use crate::scene::{Connection, Model, Part};
+use crate::scene::{BeamLine, Connection, Model, Part};
 use crate::study::AnyMechanism;
 use crate::system::{Mechanism, Scratch};
 
@@ -110,7 +110,7 @@ fn of<const D: usize>(mechanism: &Mechanism<D>, state: &State) -> Snapshot {
             joint.markers.first().map_or(Shape::Plain, |first| joint.element.shape(&frames[*first].map(|x| x.x)));
         Link { shape, ..link(model, joint, &poses) }
     });
-    let forces = model.forces.iter().map(|force| {
+    let forces = model.given_forces().iter().map(|force| {
         let own: Vec<_> = force.markers.iter().map(|marker| frames[*marker]).collect();
         let mut wrenches = vec![Wrench::<f64, D>::zero(); own.len()];
         force.element.act(&own, Taylor::time(state.t), &mut wrenches);
@@ -122,6 +122,7 @@ fn of<const D: usize>(mechanism: &Mechanism<D>, state: &State) -> Snapshot {
     let limb =
         |part: &Part<D>| Limb { line: line(part, &frames[part.first_marker], &state.q), ..limb(part, &poses, &used) };
     let mut limbs: Vec<Limb> = model.bodies.iter().map(limb).collect();
+    model.beams.iter().for_each(|beam| join(beam, &mut limbs, |body| frames[model.bodies[body].first_marker]));
     limbs.iter_mut().enumerate().for_each(|(i, limb)| limb.may_spin = D == 3 && may_spin(limb, i, &joints));
     Snapshot { is_planar: D == 2, limbs, joints, forces: forces.collect(), markers: poses }
 }
@@ -178,6 +179,20 @@ fn limb<const D: usize>(part: &Part<D>, poses: &[Pose], used: &[bool]) -> Limb {
         add(&mut points, r);
     }
     Limb { name: part.name.clone(), points, line: Vec::new(), centre, oriented: part.body.oriented(), may_spin: false }
+}
+
+/// The first node of an absolute beam is drawn as the whole of it, the others not at all.
+fn join<const D: usize>(beam: &BeamLine, limbs: &mut [Limb], node: impl Fn(usize) -> Frame<Taylor<f64>, D> + Copy) {
+    let ends = beam
+        .abscissae
+        .windows(2)
+        .flat_map(|ends| (0..8).map(move |k| ends[0] + (ends[1] - ends[0]) * 0.125 * f64::from(k)));
+    let places = ends.chain([beam.length()]);
+    let line = places.map(|s| in_space(&beam.station(s, node).r)).collect();
+    let points: Vec<[f64; 3]> =
+        limbs[beam.bodies()].iter_mut().flat_map(|limb| std::mem::take(&mut limb.points)).collect();
+    let whole = &mut limbs[beam.first_body];
+    (whole.name, whole.line, whole.points) = (beam.name.clone(), line, points);
 }
 
 /// Pieces that the line of a beam is drawn in.
