@@ -90,7 +90,9 @@ fn rigid<const D: usize>(piece: &mut Piece<D>, data: &ModalData<Array>) -> Resul
     };
     let inertia = data.inertia.as_ref().ok_or_else(|| missing("inertia"))?;
     let inertia = match (D, inertia.values.len()) {
-        (2, _) => [[inertia.scalar("inertia")? / 2.0, 0.0, 0.0], [0.0, inertia.scalar("inertia")? / 2.0, 0.0], [0.0; 3]],
+        (2, _) => {
+            [[inertia.scalar("inertia")? / 2.0, 0.0, 0.0], [0.0, inertia.scalar("inertia")? / 2.0, 0.0], [0.0; 3]]
+        }
         (_, 6) => spread(inertia.fit("inertia", &[6])?),
         _ => spread(&[inertia.fit("inertia", &[3])?, &[0.0; 3]].concat()),
     };
@@ -116,8 +118,10 @@ pub fn check<const D: usize>(piece: &Piece<D>) -> Result<()> {
     match first_dependent(mass.as_ref(), 1e-12) {
         None => Ok(()),
         Some(i) if i < D => Err(Error::input("the body has no mass")),
-        Some(i) if i < D + turns => Err(Error::input("the body has no moment of inertia, or a negative one, about some axis")
-            .hint("check the signs; masses on one line have none about it")),
+        Some(i) if i < D + turns => {
+            Err(Error::input("the body has no moment of inertia, or a negative one, about some axis")
+                .hint("check the signs; masses on one line have none about it"))
+        }
         Some(i) => Err(Error::input(format!(
             "mode {} has no mass of its own beside the rigid motion and the modes before it",
             i - D - turns + 1
@@ -143,7 +147,13 @@ fn at_rest<const D: usize>(piece: &Piece<D>) -> Mat<f64> {
         p[(r + 1) % 3][(r + 2) % 3] - p[(r + 2) % 3][(r + 1) % 3]
     };
     let entry = |row: usize, col: usize| match (row, col) {
-        (i, j) if i < D => if i == j { piece.mass } else { 0.0 },
+        (i, j) if i < D => {
+            if i == j {
+                piece.mass
+            } else {
+                0.0
+            }
+        }
         (i, j) if i < first && j < D => cross(&unit(turns[i - D]), &in_space(&piece.moments[0]))[j],
         (i, j) if i < first => inertia(turns[i - D], turns[j - D]),
         (i, j) if j < D => piece.moments[1 + i - first][j],

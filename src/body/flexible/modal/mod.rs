@@ -31,9 +31,12 @@ impl ModalBody {
         match (&self.file, &self.data) {
             (Some(_), Some(_)) => Err(Error::input("both `file` and `data` are given").hint("keep one of them")),
             (None, None) => {
-                Err(Error::input("the key `file` is missing").hint("name a file with the modes, or give them as \"data\""))
+                Err(Error::input("the key `file` is missing")
+                    .hint("name a file with the modes, or give them as \"data\""))
             }
-            (None, Some(data)) => resolve(data, build).and_then(|data| shapes(&data)).map_err(|error| error.under("data")),
+            (None, Some(data)) => {
+                resolve(data, build).and_then(|data| shapes(&data)).map_err(|error| error.under("data"))
+            }
             (Some(name), None) => {
                 read(&folder.join(name), build).and_then(|data| shapes(&data)).map_err(|error| in_file(name, error))
             }
@@ -63,7 +66,8 @@ fn in_file(name: &str, error: Error) -> Error {
 
 /// Expressions to numbers.
 fn resolve<const D: usize>(data: &ModalData<Table>, build: &Build<D>) -> Result<ModalData<Array>> {
-    let maybe = |field: &str, table: &Option<Table>| table.as_ref().map(|table| table.resolve(field, build)).transpose();
+    let maybe =
+        |field: &str, table: &Option<Table>| table.as_ref().map(|table| table.resolve(field, build)).transpose();
     let lumped = |(i, lumped): (usize, &Lumped<Table>)| -> Result<Lumped<Array>> {
         let field = |name: &str| format!("lumped[{i}].{name}");
         Ok(Lumped {
@@ -97,12 +101,20 @@ fn shapes<const D: usize>(data: &ModalData<Array>) -> Result<ModalShapes<D>> {
         return Err(Error::input("the key `modal_stiffness` is missing").hint("give one number a mode, or a matrix"));
     };
     let n = stiffness.shape.first().copied().unwrap_or(1);
+    if n == 0 {
+        return Err(Error::input("there is no mode")
+            .under("modal_stiffness")
+            .hint("a body without any is of type \"rigid\""));
+    }
     let stiffness = matrix("modal_stiffness", stiffness, n)?;
     let floor = smallest("modal_stiffness", &stiffness)?;
     if floor <= 0.0 {
-        return Err(Error::input(format!("the stiffness matrix has the eigenvalue {}, but must be positive", short(floor)))
-            .under("modal_stiffness")
-            .hint("leave out rigid-body modes: the body's frame has these motions already"));
+        return Err(Error::input(format!(
+            "the stiffness matrix has the eigenvalue {}, but must be positive",
+            short(floor)
+        ))
+        .under("modal_stiffness")
+        .hint("leave out rigid-body modes: the body's frame has these motions already"));
     }
     let damping = match &data.modal_damping {
         None => Mat::zeros(n, n),
@@ -138,8 +150,11 @@ fn shapes<const D: usize>(data: &ModalData<Array>) -> Result<ModalShapes<D>> {
         stretches: Vec::new(),
         line: None,
     };
-    let nodes = data.nodes.iter().flat_map(|nodes| &nodes.0);
-    Ok(ModalShapes { elastic, nodes: nodes.map(point).collect::<Result<_>>()? })
+    let nodes = data.nodes.as_ref().map_or(&[][..], |nodes| &nodes.0);
+    if let Some(i) = (0..nodes.len()).find(|&i| nodes[..i].iter().any(|(name, _)| *name == nodes[i].0)) {
+        return Err(Error::input(format!("two nodes are named `{}`", nodes[i].0)).under("nodes"));
+    }
+    Ok(ModalShapes { elastic, nodes: nodes.iter().map(point).collect::<Result<_>>()? })
 }
 
 /// What follows from lumped masses cannot be given beside them.
@@ -154,9 +169,9 @@ fn refuse_inertia(data: &ModalData<Array>) -> Result<()> {
     ];
     match given.iter().find(|(_, array)| array.is_some()) {
         None => Ok(()),
-        Some((key, _)) => Err(Error::input(format!("`{key}` follows from `lumped`"))
-            .under(key)
-            .hint("keep one of them")),
+        Some((key, _)) => {
+            Err(Error::input(format!("`{key}` follows from `lumped`")).under(key).hint("keep one of them"))
+        }
     }
 }
 
