@@ -101,6 +101,11 @@ fn shapes<const D: usize>(data: &ModalData<Array>) -> Result<ModalShapes<D>> {
         return Err(Error::input("the key `modal_stiffness` is missing").hint("give one number a mode, or a matrix"));
     };
     let n = stiffness.shape.first().copied().unwrap_or(1);
+    if n == 0 {
+        return Err(Error::input("there is no mode")
+            .under("modal_stiffness")
+            .hint("a body without any is of type \"rigid\""));
+    }
     let stiffness = matrix("modal_stiffness", stiffness, n)?;
     let floor = smallest("modal_stiffness", &stiffness)?;
     if floor <= 0.0 {
@@ -145,8 +150,11 @@ fn shapes<const D: usize>(data: &ModalData<Array>) -> Result<ModalShapes<D>> {
         stretches: Vec::new(),
         line: None,
     };
-    let nodes = data.nodes.iter().flat_map(|nodes| &nodes.0);
-    Ok(ModalShapes { elastic, nodes: nodes.map(point).collect::<Result<_>>()? })
+    let nodes = data.nodes.as_ref().map_or(&[][..], |nodes| &nodes.0);
+    if let Some(i) = (0..nodes.len()).find(|&i| nodes[..i].iter().any(|(name, _)| *name == nodes[i].0)) {
+        return Err(Error::input(format!("two nodes are named `{}`", nodes[i].0)).under("nodes"));
+    }
+    Ok(ModalShapes { elastic, nodes: nodes.iter().map(point).collect::<Result<_>>()? })
 }
 
 /// What follows from lumped masses cannot be given beside them.

@@ -4,6 +4,7 @@ mod crank;
 mod errors;
 mod frequencies;
 mod integrals;
+mod modal;
 mod strains;
 
 use super::eigen::{Modes, dense};
