@@ -72,7 +72,8 @@ impl Study {
     /// Bad input of any kind: see [`Scene::load`], [`initial::assemble`], [`Method::check`].
     pub fn load(path: &Path, overrides: &Overrides) -> Result<Study> {
         let text = scene::read_text(path)?;
-        let study = Scene::parse(&text, &overrides.set).and_then(|scene| Study::new(scene, overrides));
+        let study = Scene::parse_in(scene::folder(Some(path)), &text, &overrides.set)
+            .and_then(|scene| Study::new(scene, overrides));
         study.map_err(|error| scene::place(error, path, &text))
     }
 

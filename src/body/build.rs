@@ -1,9 +1,10 @@
 //! What elements resolve their parts of a scene with.
 
 use super::{Probe, Signal};
-use crate::error::{Error, Result, nearest, suggest};
+use crate::error::{Error, Result, nearest, short, suggest};
 use crate::math::expression::{Expression, Number, Parameters};
 use std::collections::HashMap;
+use std::path::Path;
 
 /// Index of a marker among all markers of a scene, those of the ground included.
 pub type MarkerId = usize;
@@ -55,6 +56,8 @@ pub struct Build<'a, const D: usize> {
     /// Named kinematic outputs that forces may use: name and expression.
     pub outputs: &'a [(String, String)],
     pub gravity: [f64; D],
+    /// Where files that the scene names are.
+    pub folder: &'a Path,
 }
 
 impl<const D: usize> Build<'_, D> {
@@ -64,6 +67,16 @@ impl<const D: usize> Build<'_, D> {
 
     pub fn number_or(&self, field: &str, number: &Option<Number>, default: f64) -> Result<f64> {
         number.as_ref().map_or(Ok(default), |number| self.number(field, number))
+    }
+
+    /// A whole number from zero on.
+    pub fn count(&self, field: &str, number: &Number) -> Result<u32> {
+        let value = self.number(field, number)?;
+        match value.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&value) {
+            true => Ok(value as u32),
+            false => Err(Error::input(format!("{field} is {}, but must be a whole number from zero on", short(value)))
+                .under(field)),
+        }
     }
 
     /// A number that must not be negative.

@@ -176,5 +176,10 @@ pub const SHARED_KEYS: [&str; 5] = ["name", "type", "markers", "initial", "origi
 
 /// Every kind of body, in the order of the documentation.
 pub fn registry<const D: usize>() -> Vec<Entry<D>> {
-    vec![entry::<rigid::Rigid, D>(), entry::<point_mass::PointMass, D>(), entry::<flexible::FlexibleBeam, D>()]
+    vec![
+        entry::<rigid::Rigid, D>(),
+        entry::<point_mass::PointMass, D>(),
+        entry::<flexible::FlexibleBeam, D>(),
+        entry::<flexible::modal::ModalBody, D>(),
+    ]
 }

@@ -11,6 +11,7 @@ use crate::body::flexible::{Damping, FlexibleBeam, Section, curvature};
 use crate::body::{Body, Build, Built, Initial, Marker, RigidPlanar, RigidSpatial, SHARED_KEYS, cross, parse_among};
 use crate::error::{Error, Result, short};
 use crate::force::Beam;
+use crate::math::expression::Number;
 use crate::math::rotation::{matrix_from_quaternion, quaternion_from_vector, quaternion_product};
 use crate::math::screw::{dot3, exponential};
 use serde_json::{Map, Value};
@@ -53,7 +54,7 @@ impl<const D: usize> AbsoluteBeam<D> {
         let spec: FlexibleBeam = parse_among(Value::Object(json), &SHARED_KEYS)?;
         let length = build.positive("length", &spec.length)?;
         let named = markers::markers(&given, &[0.0; D], build)?;
-        let wanted = elements(spec.elements)?;
+        let wanted = elements(spec.elements.as_ref(), build)?;
         let abscissae = mesh(length, wanted, named.iter().map(|(_, marker)| marker.offset[0]));
         let at_node = |(name, mut marker): (String, Marker<D>)| {
             let s = std::mem::replace(&mut marker.offset[0], 0.0);
@@ -131,8 +132,8 @@ fn refuse_floating(json: &Map<String, Value>) -> Result<()> {
     }
 }
 
-fn elements(given: Option<u32>) -> Result<u32> {
-    match given {
+fn elements<const D: usize>(given: Option<&Number>, build: &Build<D>) -> Result<u32> {
+    match given.map(|given| build.count("elements", given)).transpose()? {
         None => {
             Err(Error::input("the key `elements` is missing").hint("say into how many elements the beam is divided"))
         }

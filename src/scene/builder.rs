@@ -11,14 +11,19 @@ use crate::math::expression::{Number, Parameters};
 use crate::{force, joint};
 use serde_json::{Map, Value};
 use std::collections::HashSet;
+use std::path::Path;
 
 /// Resolves everything; what can be wrong with a scene alone is found here.
-pub fn build(file: SceneFile, overrides: &[(String, f64)]) -> Result<Scene> {
+pub fn build(file: SceneFile, overrides: &[(String, f64)], folder: &Path) -> Result<Scene> {
     check_scene_name(&file.name)?;
     let parameters = markers::resolve(&file.parameters, overrides)?;
     let (dimension, (model, q, v)) = match file.dimension {
-        Dimension::Two => (2, model::<2>(&file, &parameters).map(|(model, q, v)| (AnyModel::Planar(model), q, v))?),
-        Dimension::Three => (3, model::<3>(&file, &parameters).map(|(model, q, v)| (AnyModel::Spatial(model), q, v))?),
+        Dimension::Two => {
+            (2, model::<2>(&file, &parameters, folder).map(|(model, q, v)| (AnyModel::Planar(model), q, v))?)
+        }
+        Dimension::Three => {
+            (3, model::<3>(&file, &parameters, folder).map(|(model, q, v)| (AnyModel::Spatial(model), q, v))?)
+        }
     };
     Ok(Scene {
         name: file.name,
@@ -34,14 +39,18 @@ pub fn build(file: SceneFile, overrides: &[(String, f64)]) -> Result<Scene> {
     })
 }
 
-fn model<const D: usize>(file: &SceneFile, parameters: &Parameters) -> Result<(Model<D>, Vec<f64>, Vec<f64>)> {
+fn model<const D: usize>(
+    file: &SceneFile,
+    parameters: &Parameters,
+    folder: &Path,
+) -> Result<(Model<D>, Vec<f64>, Vec<f64>)> {
     if file.bodies.is_empty() {
         return Err(Error::input("the scene has no body")
             .under("bodies")
             .hint("give at least one: nothing else can move"));
     }
     let no_markers = MarkerTable::default();
-    let mut build = Build { parameters, markers: &no_markers, outputs: &[], gravity: [0.0; D] };
+    let mut build = Build { parameters, markers: &no_markers, outputs: &[], gravity: [0.0; D], folder };
     if let Some(gravity) = &file.gravity {
         build.gravity = build.vector("gravity", gravity)?;
     }
@@ -54,7 +63,7 @@ fn model<const D: usize>(file: &SceneFile, parameters: &Parameters) -> Result<(M
     }
     outputs::check_names(&file.outputs)?;
     let formulas = outputs::formulas::<D>(&file.outputs);
-    let build = Build { parameters, markers: &parts.table, outputs: &formulas, gravity };
+    let build = Build { parameters, markers: &parts.table, outputs: &formulas, gravity, folder };
     let entries = joint::registry::<D>();
     let kinds: Vec<&str> = entries.iter().map(|entry| entry.name).collect();
     let joints = elements(&file.joints, "joints", "joint", &kinds, |kind, json| {

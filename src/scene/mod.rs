@@ -51,14 +51,22 @@ impl Scene {
     /// A file that cannot be read or is not a scene; the error says where in it, and what would be right.
     pub fn load(path: &Path, overrides: &[(String, f64)]) -> Result<Scene> {
         let text = read_text(path)?;
-        Scene::parse(&text, overrides).map_err(|error| place(error, path, &text))
+        Scene::parse_in(folder(Some(path)), &text, overrides).map_err(|error| place(error, path, &text))
     }
 
-    /// Reads a scene from text.
+    /// Reads a scene from text; files that it names are in the current folder.
     ///
     /// # Errors
     /// Text that is not a scene.
     pub fn parse(text: &str, overrides: &[(String, f64)]) -> Result<Scene> {
+        Scene::parse_in(folder(None), text, overrides)
+    }
+
+    /// Reads a scene from text; files that it names are in `folder`.
+    ///
+    /// # Errors
+    /// As [`Scene::parse`].
+    pub fn parse_in(folder: &Path, text: &str, overrides: &[(String, f64)]) -> Result<Scene> {
         // Some editors begin a file with this mark.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         if text.trim().is_empty() {
@@ -70,7 +78,7 @@ impl Scene {
                 .hint("begin with {\"name\": ..., \"dimension\": 2, ...}"));
         }
         let file = crate::body::parse::<SceneFile>(json.clone());
-        file.and_then(|file| builder::build(file, overrides)).map_err(|error| name_element(error, &json))
+        file.and_then(|file| builder::build(file, overrides, folder)).map_err(|error| name_element(error, &json))
     }
 
     /// When the motion starts, s.
@@ -82,6 +90,11 @@ impl Scene {
         let start = number.evaluate(&self.parameters);
         start.map_err(|error| Error::from(error).under("t_start").under("simulation"))
     }
+}
+
+/// Where files that a scene names are: beside it.
+pub(crate) fn folder(scene: Option<&Path>) -> &Path {
+    scene.and_then(Path::parent).unwrap_or(Path::new(""))
 }
 
 /// Adds the name of the element in which the path lies, unless it is known.

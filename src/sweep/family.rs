@@ -41,7 +41,7 @@ impl Family {
     /// # Errors
     /// As [`Scene::parse`].
     pub fn scene(&self) -> Result<Scene> {
-        Scene::parse(&self.text, &self.set).map_err(|error| self.place(error))
+        self.with(&self.set).map_err(|error| self.place(error))
     }
 
     /// The scene with another one.
@@ -50,7 +50,11 @@ impl Family {
     /// As [`Scene::parse`]: the value may be outside of what the scene's expressions are defined for.
     pub fn scene_at(&self, parameter: &str, value: f64) -> Result<Scene> {
         let set: Vec<(String, f64)> = self.set.iter().cloned().chain([(parameter.to_string(), value)]).collect();
-        Scene::parse(&self.text, &set)
+        self.with(&set)
+    }
+
+    fn with(&self, set: &[(String, f64)]) -> Result<Scene> {
+        Scene::parse_in(scene::folder(self.path.as_deref()), &self.text, set)
     }
 
     /// The outputs of the scene.

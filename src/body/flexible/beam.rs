@@ -40,7 +40,7 @@ pub fn elastic_beam<const D: usize>(
     let inertia = Inertia::of(&section, rotary);
     let (mut elastic, basis) = match &beam.ritz {
         Some(ritz) => (functions(beam, ritz, length, &section, &inertia, build)?, Basis::Functions),
-        None => elements(beam, length, markers, &section, &inertia)?,
+        None => elements(beam, length, markers, &section, &inertia, build)?,
     };
     elastic.damping = damping(&beam.damping, &elastic, basis, build)?;
     Ok((elastic, length))
@@ -92,8 +92,9 @@ fn elements<const D: usize>(
     markers: &[f64],
     section: &Section,
     inertia: &Inertia,
+    build: &Build<D>,
 ) -> Result<(Elastic<D>, Basis)> {
-    let count = match beam.elements {
+    let count = match beam.elements.as_ref().map(|given| build.count("elements", given)).transpose()? {
         None => {
             return Err(Error::input("the key `elements` is missing").hint(
                 "give the number of finite elements, such as \"elements\": 8, or displacement functions as \"ritz\"",
@@ -118,7 +119,7 @@ fn elements<const D: usize>(
         let line = Box::new(BeamLine { shapes: mesh, section: *section });
         return Ok((Elastic { line: Some(line), ..nodal }, Basis::Nodal));
     }
-    let modes = beam.modes.map(|modes| modes as usize);
+    let modes = beam.modes.as_ref().map(|modes| build.count("modes", modes)).transpose()?.map(|modes| modes as usize);
     if modes.is_some() && beam.geometric_stiffening {
         return Err(Error::input("few modes cannot follow the shortening of a bent line, and would be far too stiff")
             .under("geometric_stiffening")

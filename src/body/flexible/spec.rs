@@ -15,7 +15,7 @@ pub struct FlexibleBeam {
     /// m
     pub length: Number,
     /// Number of finite elements. A node is put at every marker, which may add some. Left out with `ritz`.
-    pub elements: Option<u32>,
+    pub elements: Option<Number>,
     /// Default: `euler_bernoulli`.
     #[serde(default)]
     pub theory: Theory,
@@ -40,7 +40,7 @@ pub struct FlexibleBeam {
     #[serde(default)]
     pub geometric_stiffening: bool,
     /// Floating only: Craig-Bampton reduction to the static modes of the markers and so many fixed-interface modes.
-    pub modes: Option<u32>,
+    pub modes: Option<Number>,
     /// Floating only: displacement functions of choice instead of finite elements.
     pub ritz: Option<Ritz>,
 }

@@ -1,9 +1,10 @@
-//! A flexible beam in a floating frame, from what a scene says of it.
+//! Flexible bodies in floating frames, from what a scene says of them.
 
 use super::Floating;
+use crate::body::flexible::modal::{ModalBody, ModalShapes};
 use crate::body::flexible::{FlexibleBeam, PointShape, elastic_beam};
 use crate::body::{BodySpec, Build, Built, Initial, Marker};
-use crate::error::{Error, Result, suggest};
+use crate::error::{Error, Result, short, suggest};
 use crate::math::expression::Number;
 use std::collections::BTreeMap;
 
@@ -11,7 +12,7 @@ impl BodySpec for FlexibleBeam {
     const TYPE: &'static str = "flexible_beam";
 
     fn build<const D: usize>(&self, markers: Vec<Marker<D>>, initial: &Initial, build: &Build<D>) -> Result<Built<D>> {
-        refuse_origin(&markers)?;
+        refuse_origin(&markers, "a beam is its left end")?;
         // The first marker is the frame itself.
         let places: Vec<f64> = markers.iter().skip(1).map(|marker| marker.offset[0]).collect();
         let (elastic, length) = elastic_beam::<D>(self, &places, build)?;
@@ -29,12 +30,45 @@ impl BodySpec for FlexibleBeam {
     }
 }
 
-fn refuse_origin<const D: usize>(markers: &[Marker<D>]) -> Result<()> {
+impl BodySpec for ModalBody {
+    const TYPE: &'static str = "modal_body";
+
+    fn build<const D: usize>(&self, markers: Vec<Marker<D>>, initial: &Initial, build: &Build<D>) -> Result<Built<D>> {
+        refuse_origin(&markers, "a modal_body is that of its data")?;
+        let ModalShapes { elastic, nodes } = self.shapes(build)?;
+        let size = nodes.iter().flat_map(|(_, node)| node.rest).fold(0.0f64, |size, x| size.max(x.abs()));
+        let shape = |(i, marker): (usize, &Marker<D>)| match i {
+            // The first marker is the frame itself.
+            0 => Ok(frame_itself()),
+            _ => node_at(&nodes, &marker.offset, size),
+        };
+        let shapes = markers.iter().enumerate().map(shape).collect::<Result<_>>()?;
+        let (q, v) = start(initial, &elastic.names, build)?;
+        Ok(Built { body: Box::new(Floating::new(elastic, markers, shapes)), q, v })
+    }
+}
+
+/// Positions in files are rounded to this part of the largest.
+const ROUNDED: f64 = 1e-5;
+
+/// The interface node at a position.
+fn node_at<const D: usize>(nodes: &[(String, PointShape<D>)], at: &[f64; D], size: f64) -> Result<PointShape<D>> {
+    let is_there = |node: &PointShape<D>| node.rest.iter().zip(at).all(|(a, b)| (a - b).abs() <= ROUNDED * size);
+    let written = |at: &[f64; D]| format!("[{}]", at.map(short).join(", "));
+    nodes.iter().find(|(_, node)| is_there(node)).map(|(_, node)| node.clone()).ok_or_else(|| {
+        let known: Vec<String> =
+            nodes.iter().take(8).map(|(name, node)| format!("{name} {}", written(&node.rest))).collect();
+        let more = if nodes.len() > known.len() { " ..." } else { "" };
+        Error::input(format!("there is no node at {}, where a marker is", written(at)))
+            .under("markers")
+            .hint(format!("markers of a modal_body lie at its nodes: {}{more}", known.join(", ")))
+    })
+}
+
+fn refuse_origin<const D: usize>(markers: &[Marker<D>], truth: &str) -> Result<()> {
     match markers.first().is_some_and(|own| own.offset.iter().any(|x| *x != 0.0)) {
         false => Ok(()),
-        true => Err(Error::input("the origin of a beam is its left end")
-            .under("origin")
-            .hint("remove it: markers lie at [s, y] or [s, y, z] from the left end")),
+        true => Err(Error::input(format!("the origin of {truth}")).under("origin").hint("remove it")),
     }
 }
 

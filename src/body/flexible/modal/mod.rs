@@ -23,11 +23,9 @@ pub struct ModalShapes<const D: usize> {
 }
 
 impl ModalBody {
-    /// `folder` is that of the scene.
-    ///
     /// # Errors
     /// Bad input: a file that cannot be read, missing keys, matrices of the wrong shape, not symmetric or not positive.
-    pub fn shapes<const D: usize>(&self, folder: &Path, build: &Build<D>) -> Result<ModalShapes<D>> {
+    pub fn shapes<const D: usize>(&self, build: &Build<D>) -> Result<ModalShapes<D>> {
         match (&self.file, &self.data) {
             (Some(_), Some(_)) => Err(Error::input("both `file` and `data` are given").hint("keep one of them")),
             (None, None) => {
@@ -37,9 +35,9 @@ impl ModalBody {
             (None, Some(data)) => {
                 resolve(data, build).and_then(|data| shapes(&data)).map_err(|error| error.under("data"))
             }
-            (Some(name), None) => {
-                read(&folder.join(name), build).and_then(|data| shapes(&data)).map_err(|error| in_file(name, error))
-            }
+            (Some(name), None) => read(&build.folder.join(name), build)
+                .and_then(|data| shapes(&data))
+                .map_err(|error| in_file(name, error)),
         }
     }
 }

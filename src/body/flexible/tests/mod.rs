@@ -21,7 +21,13 @@ fn build<const D: usize>(scene: &Value, markers: &[f64]) -> Result<Elastic<D>> {
     let given = [("l", 1.5), ("n", 2.0)].map(|(name, value)| (name.to_string(), Number::Value(value)));
     let parameters = Parameters::resolve(&given, &[]).unwrap();
     let table = MarkerTable::default();
-    let build = Build { parameters: &parameters, markers: &table, outputs: &[], gravity: [0.0; D] };
+    let build = Build {
+        parameters: &parameters,
+        markers: &table,
+        outputs: &[],
+        gravity: [0.0; D],
+        folder: std::path::Path::new(""),
+    };
     elastic_beam(&beam, markers, &build).map(|(elastic, _)| elastic)
 }
 
