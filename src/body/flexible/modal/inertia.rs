@@ -60,21 +60,20 @@ pub fn of_couplings<const D: usize>(data: &ModalData<Array>, mass: &Mat<f64>) ->
     for i in 0..n {
         piece.moments[1 + i] = from_fn(|k| linear[i * D + k]);
         let h = if D == 2 { [0.0, 0.0, angular[i]] } else { from_fn(|k| angular[i * 3 + k]) };
-        for k in 0..3 {
-            let (l, m) = ((k + 1) % 3, (k + 2) % 3);
-            if l < D && m < D {
-                for (row, col, half) in [(l, m, h[k] / 2.0), (m, l, -h[k] / 2.0)] {
-                    piece.products[1 + i][row][col] = half;
-                    piece.products[(1 + i) * (1 + n)][col][row] = half;
-                }
-            }
-        }
+        piece.products[1 + i] = antisymmetric(h);
+        piece.products[(1 + i) * (1 + n)] = antisymmetric(h.map(|h| -h));
         for j in 0..n {
             let product = &mut piece.products[(1 + i) * (1 + n) + 1 + j];
             (0..D).for_each(|k| product[k][k] = mass[(i, j)] / D as f64);
         }
     }
     Ok(piece)
+}
+
+/// The matrix P without a symmetric part whose P_lm - P_ml is h_k for (k, l, m) in cyclic order.
+fn antisymmetric<const D: usize>([x, y, z]: [f64; 3]) -> [[f64; D]; D] {
+    let twice = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]];
+    from_fn(|l| from_fn(|m| twice[l][m] / 2.0))
 }
 
 /// mass, m_0 and P_00, whose trace less itself is the inertia.

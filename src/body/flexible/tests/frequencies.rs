@@ -77,6 +77,77 @@ fn bending_with_shear_meets_the_closed_form() {
     }
 }
 
+type Square = [[f64; 4]; 4];
+
+fn product(a: &Square, b: &Square) -> Square {
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..4).map(|k| a[i][k] * b[k][j]).sum()))
+}
+
+/// How (w, turn, moment, shear force) at the right end follow from those at the left: the exponential of length times
+/// w' = turn + V/GA, turn' = M/EI, M' = -V - rhoI omega^2 turn, V' = -rhoA omega^2 w.
+fn transfer(omega: f64, ga: f64, rho_i: f64) -> Square {
+    let (step, square) = (L / 1024.0, omega * omega);
+    let a = [
+        [0.0, 1.0, 0.0, 1.0 / ga],
+        [0.0, 0.0, 1.0 / EI, 0.0],
+        [0.0, -rho_i * square, 0.0, -1.0],
+        [-RHO_A * square, 0.0, 0.0, 0.0],
+    ];
+    let identity: Square = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { 1.0 } else { 0.0 }));
+    // Horner's scheme for the series, then ten squarings.
+    let mut sum = identity;
+    for k in (1..=8).rev() {
+        let scaled = a.map(|row| row.map(|x| x * step / f64::from(k)));
+        let next = product(&scaled, &sum);
+        sum = std::array::from_fn(|i| std::array::from_fn(|j| identity[i][j] + next[i][j]));
+    }
+    (0..10).fold(sum, |power, _| product(&power, &power))
+}
+
+/// The frequency near `guess` at which states that are free at the left end meet `zero` at the right one.
+fn exact(guess: f64, free: [usize; 2], zero: [usize; 2], ga: f64, rho_i: f64) -> f64 {
+    let value = |omega: f64| {
+        let t = transfer(omega, ga, rho_i);
+        t[zero[0]][free[0]] * t[zero[1]][free[1]] - t[zero[0]][free[1]] * t[zero[1]][free[0]]
+    };
+    let (mut low, mut high) = (0.995 * guess, 1.001 * guess);
+    assert!(value(low) * value(high) < 0.0);
+    for _ in 0..60 {
+        let middle = (low + high) / 2.0;
+        if value(low) * value(middle) <= 0.0 { high = middle } else { low = middle }
+    }
+    low
+}
+
+#[test]
+fn all_supports_with_and_without_shear() {
+    let supports = [
+        ("clamped-free", "tangent", false, [2, 3], [2, 3]),
+        ("pinned-pinned", "chord", false, [1, 3], [0, 2]),
+        ("clamped-clamped", "tangent", true, [2, 3], [0, 1]),
+        ("free-free", "mean", false, [0, 1], [2, 3]),
+    ];
+    for (theory, ga, rho_i, order) in [("euler_bernoulli", 1e300, 0.0, 4.0), ("timoshenko", 100.0, 1e-3, 2.0)] {
+        for (what, conditions, clamped, free, zero) in supports {
+            for mode in 0..2 {
+                let frequency = |n: u32| {
+                    let stiffness = json!({ "EA": 1e7, "EI": EI, "GA": 100.0 });
+                    let scene = beam(json!({
+                        "elements": n, "frame_conditions": conditions, "theory": theory, "stiffness": stiffness,
+                    }));
+                    let end = format!("n{n}_");
+                    let keep = |name: &str| {
+                        name.starts_with("mode") || is_bending(name) && !(clamped && name.starts_with(&end))
+                    };
+                    frequencies(&build::<2>(&scene, &[]).unwrap(), keep)[mode]
+                };
+                let exact = exact(frequency(64), free, zero, ga, rho_i);
+                converges(&format!("{theory}, {what}, {}", mode + 1), order, 3e-3, exact, &[4, 8, 16, 32], frequency);
+            }
+        }
+    }
+}
+
 #[test]
 fn shear_vanishes_with_its_compliance() {
     let mut scene = beam(json!({ "elements": 8, "rotary_inertia": false }));
