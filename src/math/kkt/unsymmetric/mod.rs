@@ -1,5 +1,6 @@
 //! The saddle-point system of implicit methods, whose upper block is not symmetric.
 
+mod border;
 mod dense;
 mod field;
 mod matrix;
@@ -11,6 +12,7 @@ mod tests;
 pub use field::Field;
 
 use super::{Pattern, Singular};
+use border::Border;
 use dense::Dense;
 use faer::sparse::SymbolicSparseColMat;
 use matrix::Matrix;
@@ -37,6 +39,8 @@ pub struct Unsymmetric<T> {
     /// With rows and columns scaled, and G in it.
     scaled: Vec<T>,
     scale: Vec<f64>,
+    /// What each row is multiplied by beside that.
+    rank: Vec<f64>,
     /// Sizes of the rows and columns of A.
     weight: Vec<f64>,
     factors: Factors<T>,
@@ -81,6 +85,7 @@ impl<T: Field> Unsymmetric<T> {
     fn at(places: SymbolicSparseColMat<usize>, g: &Pattern, is_dense: bool) -> Option<Self> {
         let matrix = Matrix::new(places, is_dense)?;
         let size = matrix.size();
+        let border = if is_dense { None } else { Border::of(&matrix, g.cols) };
         Some(Unsymmetric {
             n: g.cols,
             scaled: vec![T::ZERO; matrix.values.len()],
@@ -88,8 +93,9 @@ impl<T: Field> Unsymmetric<T> {
             weight: vec![1.0; g.cols],
             factors: match is_dense {
                 true => Factors::Dense(Dense::new(size)?),
-                false => Factors::Sparse(Sparse::new(&matrix.places)?),
+                false => Factors::Sparse(Sparse::new(&matrix.places, border.as_ref().map(|b| b.columns.as_slice()))?),
             },
+            rank: border.map_or_else(|| vec![1.0; size], |border| border.rank),
             g: g.clone(),
             coupling: vec![T::ZERO; g.entries.len()],
             redundancy: None,
@@ -192,7 +198,7 @@ impl<T: Field> Unsymmetric<T> {
     /// Whether the scaled matrix has all its pivots.
     fn factor_scaled(&mut self, g: &[f64]) -> bool {
         for (row, col, place) in self.matrix.entries() {
-            self.scaled[place] = self.matrix.values[place] * (self.scale[row] * self.scale[col]);
+            self.scaled[place] = self.matrix.values[place] * (self.rank[row] * self.scale[row] * self.scale[col]);
         }
         let left_out = self.redundancy.as_ref().map(|redundancy| redundancy.rows.as_slice());
         let is_out = |row: usize| left_out.is_some_and(|rows| rows[row]);
@@ -203,7 +209,7 @@ impl<T: Field> Unsymmetric<T> {
             if let (Some(below), Some(beside)) = (self.matrix.place(row, j), self.matrix.place(j, row)) {
                 self.scaled[below] += T::real(value * scale);
                 self.scaled[below] += coupling * scale;
-                self.scaled[beside] += T::real(value * scale);
+                self.scaled[beside] += T::real(value * scale * self.rank[j]);
             }
         }
         let ones = (0..self.g.rows).filter(|&row| is_out(row)).map(|row| self.n + row);
@@ -228,7 +234,8 @@ impl<T: Field> Unsymmetric<T> {
             return Err(Singular::NotFactored);
         }
         let given = top.iter().chain(bottom.iter());
-        self.right.iter_mut().zip(given.zip(&self.scale)).for_each(|(right, (x, scale))| *right = *x * *scale);
+        let scale = self.scale.iter().zip(&self.rank).map(|(scale, rank)| scale * rank);
+        self.right.iter_mut().zip(given.zip(scale)).for_each(|(right, (x, scale))| *right = *x * scale);
         if let Some(redundancy) = &self.redundancy {
             let rows = self.right[self.n..].iter_mut().zip(&redundancy.rows);
             rows.filter(|(_, out)| **out).for_each(|(right, _)| *right = T::ZERO);

@@ -21,8 +21,8 @@ pub(super) struct Sparse<T> {
 }
 
 impl<T: Field> Sparse<T> {
-    /// None where there is not enough memory.
-    pub fn new(pattern: &SymbolicSparseColMat<usize>) -> Option<Self> {
+    /// None where there is not enough memory. Columns of `last` come after all others.
+    pub fn new(pattern: &SymbolicSparseColMat<usize>, last: Option<&[bool]>) -> Option<Self> {
         let size = pattern.nrows();
         let zeros = || [vec![0; size], vec![0; size]];
         let mut columns = zeros();
@@ -30,6 +30,10 @@ impl<T: Field> Sparse<T> {
         let mut memory = MemBuffer::try_new(colamd::order_scratch::<usize>(size, size, pattern.compute_nnz())).ok()?;
         let control = colamd::Control::default();
         colamd::order(order, places, pattern.as_ref(), control, MemStack::new(&mut memory)).ok()?;
+        if let Some(last) = last {
+            order.sort_by_key(|&column| last[column]);
+            order.iter().enumerate().for_each(|(place, &column)| places[column] = place);
+        }
         let request = StackReq::or(
             factorize_simplicial_numeric_lu_scratch::<usize, T>(size, size),
             solve_in_place_scratch::<usize, T>(size, 1, Par::Seq),

@@ -1,0 +1,36 @@
+//! Rows and columns that reach most of the others, such as those of a frame with many elastic coordinates.
+
+use super::Field;
+use super::matrix::Matrix;
+
+/// What is eliminated last. A pivot in a long row, taken early, fills all columns that follow; so does the column of a
+/// multiplier that has nothing but a long row to take its pivot from.
+pub(super) struct Border {
+    /// What each row is multiplied by, and so what its claim to be a pivot is worth.
+    pub rank: Vec<f64>,
+    pub columns: Vec<bool>,
+}
+
+/// Rows of fewer entries are not long, nor are those of so many times the mean or fewer.
+const MANY: usize = 50;
+const TIMES_MEAN: usize = 12;
+/// Entries of long rows grow by about the root of the number of elements before their turn comes: to 14 with 10,000.
+const LAST_CHOICE: f64 = 1e-4;
+
+impl Border {
+    /// None where there is no long row, or so many that they would fill more than they save. Columns from `n` on are
+    /// those of multipliers.
+    pub fn of<T: Field>(matrix: &Matrix<T>, n: usize) -> Option<Border> {
+        let size = matrix.size();
+        let mut counts = vec![0_usize; size];
+        matrix.entries().for_each(|(row, ..)| counts[row] += 1);
+        let many = (TIMES_MEAN * matrix.values.len() / size.max(1)).max(MANY);
+        let is_long = |row: usize| row < n && counts[row] > many;
+        let mut columns: Vec<bool> = (0..size).map(is_long).collect();
+        matrix.entries().filter(|&(row, col, _)| col >= n && is_long(row)).for_each(|(_, col, _)| columns[col] = true);
+        let width = columns.iter().filter(|column| **column).count();
+        let rank = |row: usize| if is_long(row) { LAST_CHOICE } else { 1.0 };
+        let is_worth_it = width > 0 && width * width <= matrix.values.len();
+        is_worth_it.then(|| Border { rank: (0..size).map(rank).collect(), columns })
+    }
+}
