@@ -68,6 +68,7 @@ fn changed_parameters_keep_the_start_consistent() {
 fn degrees_of_freedom_are_those_of_the_mechanisms() {
     let expected = [
         ("andrews", 1),
+        ("bathe_bend", 48),
         ("bead_in_bowl", 2),
         ("bricard", 1),
         ("bushing_block", 6),
@@ -75,7 +76,9 @@ fn degrees_of_freedom_are_those_of_the_mechanisms() {
         ("five_link_kinematics", 0),
         ("five_link_suspension", 2),
         ("five_link_suspension_rods", 2),
+        ("flexible_pendulum", 37),
         ("flyball_governor", 4),
+        ("flying_spaghetti", 33),
         ("four_bar_spring", 1),
         ("full_axle", 4),
         ("gear_pair", 1),
@@ -83,7 +86,9 @@ fn degrees_of_freedom_are_those_of_the_mechanisms() {
         ("parallelogram", 1),
         ("parallelogram_redundant", 1),
         ("pendulum", 1),
+        ("princeton_beam", 48),
         ("quarter_car", 2),
+        ("right_angle_cantilever", 96),
         ("robot_arm", 1),
         ("slider_crank", 1),
         ("slider_crank_offset", 0),

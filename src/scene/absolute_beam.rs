@@ -1,8 +1,11 @@
 //! A flexible beam in absolute coordinates: rigid nodes with the mass, and beam elements as forces between them.
 //!
-//! Each node carries the mass of the half elements beside it and the rotary inertia of their sections. The statics of a
-//! straight element are exact, so frequencies converge with the fourth power of its length, and with the second where a
-//! free end, extension or torsion counts.
+//! Each node carries the mass of the half elements beside it and the rotary inertia of their sections. The mass of half an
+//! element of length h is put h/6 from its node: at the end of a beam its weight and its inertia in bending then act with the
+//! moment rho A h^2/12 of a distributed load, and the inertia of the beam as a rigid body is that of its line. Between equal
+//! elements the two shifts cancel. The statics of a straight element under loads at its nodes or its own weight are exact;
+//! frequencies of bending converge with the fourth power of its length (the third where an end turns freely), those of
+//! extension and torsion with the second.
 
 use super::builder::start_and_markers;
 use super::markers;
@@ -77,13 +80,18 @@ impl<const D: usize> AbsoluteBeam<D> {
     pub fn nodes(&self) -> Vec<(Vec<String>, Built<D>)> {
         let node = |node: usize| {
             let here = || self.markers.iter().filter(move |(at, ..)| *at == node);
+            let beside = self.beside(node);
+            let from_centre = |mut marker: Marker<D>| {
+                marker.offset[0] -= beside.shift();
+                marker
+            };
             let own = Marker::point([0.0; D]);
             // The left end has the frame of the beam as a whole beside its own.
             let frames = [own].into_iter().chain((node == 0).then_some(own));
-            let markers = frames.chain(here().map(|(_, _, marker)| *marker)).collect();
+            let markers = frames.chain(here().map(|(_, _, marker)| *marker)).map(from_centre).collect();
             let names = here().map(|(_, name, _)| name.clone()).collect();
-            let (q, v) = self.start.at(self.abscissae[node], &self.curvature);
-            (names, Built { body: self.body(node, &q, markers), q, v })
+            let (q, v) = self.start.at(self.abscissae[node], beside.shift(), &self.curvature);
+            (names, Built { body: self.body(&beside, &q, markers), q, v })
         };
         (0..self.abscissae.len()).map(node).collect()
     }
@@ -95,14 +103,19 @@ impl<const D: usize> AbsoluteBeam<D> {
         BeamLine { name: self.name, first_body, first_force: 0, elements, abscissae: self.abscissae }
     }
 
-    fn body(&self, node: usize, q: &[f64], markers: Vec<Marker<D>>) -> Box<dyn Body<D>> {
-        let before = if node > 0 { self.abscissae[node] - self.abscissae[node - 1] } else { 0.0 };
-        let after = self.abscissae.get(node + 1).map_or(0.0, |next| next - self.abscissae[node]);
-        let own = 0.5 * (before + after);
+    fn beside(&self, node: usize) -> Beside {
+        let at = |node: usize| self.abscissae[node];
+        let before = if node > 0 { at(node) - at(node - 1) } else { 0.0 };
+        let after = if node + 1 < self.abscissae.len() { at(node + 1) - at(node) } else { 0.0 };
+        Beside { before, after }
+    }
+
+    fn body(&self, beside: &Beside, q: &[f64], markers: Vec<Marker<D>>) -> Box<dyn Body<D>> {
+        let own = 0.5 * (beside.before + beside.after);
         let mass = self.section.rho_a * own;
         let [y, z] = self.section.rho_i.map(|inertia| match inertia > 0.0 {
             true => inertia * own,
-            false => SMALL_INERTIA * mass * f64::max(before, after).powi(2),
+            false => SMALL_INERTIA * mass * f64::max(beside.before, beside.after).powi(2),
         });
         match D {
             2 => Box::new(RigidPlanar::new(mass, z, from_fn(|i| q[i]), &[0, 1, 2], markers)),
@@ -111,6 +124,19 @@ impl<const D: usize> AbsoluteBeam<D> {
                 Box::new(RigidSpatial { mass, inertia, markers })
             }
         }
+    }
+}
+
+/// Lengths of the elements beside a node, m; zero beyond an end.
+struct Beside {
+    before: f64,
+    after: f64,
+}
+
+impl Beside {
+    /// How far the centre of mass of the node is from it along the beam: rho A (after^2 - before^2)/12 divided by the mass.
+    fn shift(&self) -> f64 {
+        (self.after - self.before) / 6.0
     }
 }
 
@@ -217,16 +243,17 @@ impl<const D: usize> Start<D> {
         Ok(Start { position, velocity, angle, quaternion, spin })
     }
 
-    /// Coordinates and velocities of the node at `s`.
-    fn at(&self, s: f64, curvature: &[f64; 3]) -> (Vec<f64>, Vec<f64>) {
-        let (axes, shift) = exponential(&[1.0, 0.0, 0.0], curvature, s);
+    /// Coordinates and velocities of the node at `s`, with its centre of mass `ahead` of it.
+    fn at(&self, s: f64, ahead: f64, curvature: &[f64; 3]) -> (Vec<f64>, Vec<f64>) {
+        let (axes, node) = exponential(&[1.0, 0.0, 0.0], curvature, s);
+        let centre: [f64; 3] = from_fn(|i| node[i] + ahead * axes[0][i]);
         let turn = match D {
             2 => quaternion_from_vector(&[0.0, 0.0, self.angle]),
             _ => self.quaternion,
         };
         let matrix = matrix_from_quaternion(&turn);
         let in_world = |v: &[f64; 3]| -> [f64; 3] { from_fn(|i| dot3(&matrix[i], v)) };
-        let arm = in_world(&shift);
+        let arm = in_world(&centre);
         let lever = cross(&in_world(&self.spin), &arm);
         let mut q: Vec<f64> = (0..D).map(|i| self.position[i] + arm[i]).collect();
         let mut v: Vec<f64> = (0..D).map(|i| self.velocity[i] + lever[i]).collect();

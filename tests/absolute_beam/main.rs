@@ -4,6 +4,9 @@
 #[path = "../scenes/mod.rs"]
 mod scenes;
 
+mod dynamics;
 mod element;
+mod errors;
+mod frequencies;
 mod large;
 mod statics;

@@ -2,7 +2,9 @@ use super::*;
 
 #[test]
 fn generated_scenes_check_and_run() {
-    for (name, n, freedom) in [("chain", 1, 1), ("chain", 5, 5), ("n_four_bar", 1, 1), ("n-four-bar", 4, 1)] {
+    for (name, n, freedom) in
+        [("chain", 1, 1), ("chain", 5, 5), ("n_four_bar", 1, 1), ("n-four-bar", 4, 1), ("flexible-chain", 2, 26)]
+    {
         let place = Place::new("");
         let n = n.to_string();
         place.done(&["generate", name, "--n", &n, "-o", "made.json"]);

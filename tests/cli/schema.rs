@@ -31,7 +31,7 @@ fn every_shipped_scene_is_valid() {
 #[test]
 fn generated_scenes_are_valid() {
     let validator = jsonschema::validator_for(&schema()).unwrap();
-    for name in ["chain", "n_four_bar"] {
+    for name in ["chain", "flexible_chain", "n_four_bar"] {
         let scene: Value = serde_json::from_str(&Place::new("").done(&["generate", name])).unwrap();
         assert!(validator.is_valid(&scene), "{name}");
     }

@@ -73,11 +73,19 @@ impl Beam {
         [self.rest[3], self.rest[4], self.rest[5]]
     }
 
-    /// What shear of bent sections adds to the extension, a part of its square: a line that leans by phi(x) is longer
-    /// than its chord by the mean of phi^2/2, which for the cubic of a shear force is 0.6 of its squared mean; sections
-    /// that shear by g beside it add phi g.
+    /// Length of the bent line by that of the relaxed one, from the logarithm's shift by the length. A line that leans by
+    /// phi(x) is longer than its chord by the mean of phi^2/2, which for the cubic of a shear force is 0.6 of its squared
+    /// mean; sections that shear by g beside it add phi g. Under the root this holds for small shear, and for any shear the
+    /// line is at least as long as its chord: without that, tension above 12 EI/L^2 would turn the sections aside.
+    fn stretch<S: Scalar>(&self, [x, y, z]: Vector<S>) -> S {
+        let [long_y, long_z] = self.lengthening();
+        let square = x * x + y * y * long_y + z * z * long_z;
+        // Ends that coincide have no direction.
+        if square.value() > 0.0 { square.sqrt() } else { x }
+    }
+
     fn lengthening(&self) -> [f64; 2] {
-        self.bent.map(|bent| bent * (1.0 - 0.4 * bent))
+        self.bent.map(|bent| 2.0 * bent * (1.0 - 0.4 * bent))
     }
 
     /// The strains at the middle of the element, that of extension counted from zero length. A curvature that grows along the
@@ -89,9 +97,8 @@ impl Beam {
         let per_length = 1.0 / self.length;
         let [x, y, z] = strains.shift.map(|u| u * per_length);
         let k = strains.turn.map(|a| a * per_length);
-        let [long_y, long_z] = self.lengthening();
         let (gy, gz) = (y * self.bent[0], z * self.bent[1]);
-        [x + y * y * long_y + z * z * long_z, y, z, k[0] + gy * k[1] + gz * k[2], k[1] - gy * k[0], k[2] - gz * k[0]]
+        [self.stretch([x, y, z]), y, z, k[0] + gy * k[1] + gz * k[2], k[1] - gy * k[0], k[2] - gz * k[0]]
     }
 
     /// Force and moment that do on the logarithm of the motion what the stresses do on [`strain`](Beam::strain): its
@@ -99,15 +106,17 @@ impl Beam {
     #[inline]
     pub(super) fn conjugate<S: Scalar>(&self, strains: &Strains<S>, stress: &[S; 6]) -> [Vector<S>; 2] {
         let per_length = 1.0 / self.length;
-        let [_, y, z] = strains.shift.map(|u| u.re * per_length);
+        let [x, y, z] = strains.shift.map(|u| u.re * per_length);
         let k = strains.turn.map(|a| a.re * per_length);
         let [long_y, long_z] = self.lengthening();
         let [n, qy, qz, torque, my, mz] = *stress;
         let (gy, gz) = (y * self.bent[0], z * self.bent[1]);
+        let long = self.stretch([x, y, z]);
+        let tension = if long.value() > 0.0 { n / long } else { n };
         let force = [
-            n,
-            qy + y * n * (2.0 * long_y) + (k[1] * torque - k[0] * my) * self.bent[0],
-            qz + z * n * (2.0 * long_z) + (k[2] * torque - k[0] * mz) * self.bent[1],
+            x * tension,
+            qy + y * tension * long_y + (k[1] * torque - k[0] * my) * self.bent[0],
+            qz + z * tension * long_z + (k[2] * torque - k[0] * mz) * self.bent[1],
         ];
         [force, [torque - gy * my - gz * mz, my + gy * torque, mz + gz * torque]]
     }
