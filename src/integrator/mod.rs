@@ -22,7 +22,6 @@ mod radau_iia;
 mod rattle;
 mod rk4;
 mod tr_bdf2;
-mod turn;
 
 pub use control::{Control, Tolerance, first_step};
 pub use diffsol_backend::Store;
