@@ -72,6 +72,11 @@ impl Spectrum {
     }
 }
 
+/// The fastest mode alone, roughly and cheaply whatever the size; none as for [`Spectrum::at`].
+pub fn fastest(system: &dyn MechanicalSystem, state: Loaded) -> Option<Mode> {
+    Frozen::new(system, state)?.fastest()?.last().copied()
+}
+
 /// Slower than this, 1/s, a mode is one of rounding or as good as none.
 const SLOWEST: f64 = 1e-6;
 /// More velocities than this are too many for dense matrices.
