@@ -214,7 +214,7 @@ fn what_nothing_holds_is_named() {
     assert_eq!((top.stability, top.free.as_slice()), (Stability::Neutral, &["top.wz".to_string()][..]));
 }
 
-/// Two coordinates that push each other on and on: a force without a potential or a zero.
+/// A force that nothing holds anywhere.
 #[test]
 fn a_force_without_a_rest_is_no_equilibrium() {
     let scene = r#"{ "name": "runaway", "dimension": 2, "ground": { "markers": { "O": [0, 0] } },
@@ -223,4 +223,11 @@ fn a_force_without_a_rest_is_no_equilibrium() {
         "forces": [ { "name": "push", "type": "applied_force", "at": "cart", "force": [3, 0] } ] }"#;
     let message = seek(&parse(scene)).unwrap_err().to_string();
     assert!(message.contains("nothing holds `cart.x`"), "{message}");
+    // A wavy slope that falls everywhere: K is not zero, and there is no rest.
+    let slope = scene
+        .replace(r#""ground""#, r#""gravity": [0, -9.81], "ground""#)
+        .replace("cart.y", "cart.y + 0.5*cart.x + 0.3*sin(cart.x) - 0.5 - 0.3*sin(1)")
+        .replace("[3, 0]", "[0, 0]");
+    let message = seek(&parse(&slope)).unwrap_err().to_string();
+    assert!(message.contains("the forces move `cart.") && message.contains("on and on"), "{message}");
 }

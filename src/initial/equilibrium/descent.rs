@@ -16,16 +16,18 @@ const LEAST: f64 = 0.1;
 const POOR: f64 = 0.4;
 const GOOD: f64 = 0.75;
 /// From a start to where nothing holds a body any more, over 1 and the largest q.
-const AWAY: f64 = 1e3;
+const AWAY: f64 = 100.0;
+/// The shift over the first at which steps no longer move anything.
+const STIFFEST: f64 = 1e12;
 /// Steps of the way back to phi = 0.
 const CLOSING: usize = 12;
 
-/// Why the descent ended without an equilibrium.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Lost {
-    /// Something moves on and on.
-    Away,
-    /// It takes too long, or ends where no step goes down.
+/// Where a descent leads.
+pub(super) enum End {
+    Rest(Place),
+    /// The coordinate moves on and on.
+    Away(usize),
+    /// It takes too long, or no step goes down.
     Stuck,
 }
 
@@ -38,48 +40,49 @@ pub(super) enum Lost {
 ///
 /// and back to phi = 0. A step is judged as in trust-region methods, by the work of the forces over it against what K
 /// predicts; so no potential is needed. Source: Kelley, Keyes, SIAM J. Numer. Anal. 35 (1998) 508-523; Conn, Gould,
-/// Toint, Trust-Region Methods, 2000, chapter 6. The place or why there is none, and the steps taken.
-pub(super) fn descend(rest: &mut Rest, q: &[f64]) -> (Result<Place, Lost>, usize) {
-    let Some(mut at) = rest.balance(q) else { return (Err(Lost::Stuck), 0) };
+/// Toint, Trust-Region Methods, 2000, chapter 6. Where it leads, and the steps taken.
+pub(super) fn descend(rest: &mut Rest, q: &[f64]) -> (End, usize) {
+    let Some(mut at) = rest.balance(q) else { return (End::Stuck, 0) };
     let mut shift = largest(&at.force) / FIRST;
-    let (most, mut tried) = (1e12 * shift, length(&at.force));
-    let reach = 1.0 + largest(q);
+    let (most, mut tried) = (STIFFEST * shift, length(&at.force));
     for step in 0..MOST {
-        let strength = length(&at.force);
-        rest.evaluate(&at.place.q);
-        if strength <= FALL * tried {
-            tried = strength;
+        if length(&at.force) <= FALL * tried {
+            tried = length(&at.force);
             if let Some((place, true)) = newton(rest, at.place.clone(), None, Policy::NEAR) {
-                return (Ok(place), step);
+                return (End::Rest(place), step);
             }
-            rest.evaluate(&at.place.q);
         }
+        rest.evaluate(&at.place.q);
         let factored = rest.factor(&at.place, shift);
         if rest.is_round_off(&at.place, &at.force) {
-            return (Ok(at.place), step);
+            return (End::Rest(at.place), step);
         }
         match if factored { advance(rest, &at, shift) } else { None } {
             Some((next, gain)) => {
-                shift *= if gain > GOOD {
-                    0.25
-                } else if gain < POOR {
-                    2.0
-                } else {
-                    1.0
+                shift *= match gain {
+                    gain if gain > GOOD => 0.25,
+                    gain if gain < POOR => 2.0,
+                    _ => 1.0,
                 };
                 at = next;
             }
             None => shift *= 4.0,
         }
-        let gone = at.place.q.iter().zip(q).fold(0.0, |gone: f64, (now, then)| gone.max((now - then).abs()));
-        if gone > AWAY * reach {
-            return (Err(Lost::Away), step);
+        if let Some(coordinate) = gone(&at.place.q, q) {
+            return (End::Away(coordinate), step);
         }
         if shift > most {
             break;
         }
     }
-    (Err(Lost::Stuck), MOST)
+    (End::Stuck, MOST)
+}
+
+/// The coordinate that is farthest from the start, if that is too far.
+fn gone(now: &[f64], start: &[f64]) -> Option<usize> {
+    let way = |i: usize| (now[i] - start[i]).abs();
+    let farthest = (0..now.len()).max_by(|&i, &j| way(i).total_cmp(&way(j)))?;
+    (way(farthest) > AWAY * (1.0 + largest(start))).then_some(farthest)
 }
 
 /// One step by the factors; none where it goes up or does not come back to phi = 0.

@@ -27,8 +27,10 @@ pub(super) fn contradiction(t: f64) -> Error {
 /// A direction counts as loaded where the force along it is this part of all.
 const LOADED: f64 = 1e-6;
 
-/// What keeps the mechanism moving, seen from the start.
-pub(super) fn none_found(rest: &mut Rest, start: &Place) -> Error {
+const HOLD: &str = "hold it by a joint or a spring, or take the force away";
+
+/// What keeps the mechanism moving, seen from the start; `away` is what a descent would move on and on.
+pub(super) fn none_found(rest: &mut Rest, start: &Place, away: Option<usize>) -> Error {
     let t = rest.t;
     let failure = |reason: String, hint: &str| Failure { t, reason, hint: hint.to_string() }.into();
     let Some(balance) = rest.balance(&start.q) else { return not_finite() };
@@ -40,9 +42,12 @@ pub(super) fn none_found(rest: &mut Rest, start: &Place) -> Error {
             let names = named(rest, &loaded).join("`, `");
             return failure(
                 format!("there is no static equilibrium: nothing holds `{names}` against the forces that move it"),
-                "hold it by a joint or a spring, or take the force away",
+                HOLD,
             );
         }
+    }
+    if let Some(name) = away.and_then(|coordinate| rest.dynamics.system.names().q.get(coordinate).cloned()) {
+        return failure(format!("there is no static equilibrium: the forces move `{name}` on and on"), HOLD);
     }
     let worst = (0..balance.force.len()).max_by(|&i, &j| balance.force[i].abs().total_cmp(&balance.force[j].abs()));
     let name = worst.and_then(|i| rest.dynamics.system.names().v.get(i).cloned()).unwrap_or_default();

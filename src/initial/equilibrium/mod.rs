@@ -17,6 +17,7 @@ use super::{Metric, position};
 use crate::error::Result;
 use crate::math::largest;
 use crate::system::MechanicalSystem;
+use descent::End;
 use newton::{Policy, newton};
 use rest::{Place, Rest};
 use serde::Serialize;
@@ -77,32 +78,21 @@ pub fn equilibrium(system: &dyn MechanicalSystem, t: f64, guess: &[f64]) -> Resu
     position::close(&mut Metric::new(system, Vec::new()), t, &mut q)?;
     let mut rest = Rest::new(system, t, &q)?;
     let start = rest.balance(&q).ok_or_else(failure::not_finite)?.place;
-    let mut search = Search { best: None, steps: 0 };
-    if !search.contracts(&mut rest, &start) {
-        let damped = newton(&mut rest, start.clone(), None, Policy::DAMPED);
-        let damped = damped.map(|(place, _)| place);
-        let loaded = |search: &mut Search, rest: &mut Rest| {
-            search.offer(rest, damped, Way::DampedNewton) || {
-                let (found, steps) = homotopy::homotopy(rest, &start);
-                search.steps += steps;
-                search.offer(rest, found, Way::Homotopy)
-            }
-        };
-        if !loaded(&mut search, &mut rest) {
-            let (found, steps) = descent::descend(&mut rest, &start.q);
-            search.steps += steps;
-            search.offer(&mut rest, found.ok(), Way::Descent);
-        }
+    let mut search = Search { best: None, steps: 0, away: None };
+    if !search.contracts(&mut rest, &start) && !search.grows(&mut rest, &start) {
+        search.descends(&mut rest, &start);
     }
     match search.best {
         Some(found) => finish(rest, found, search.steps),
-        None => Err(failure::none_found(&mut rest, &start)),
+        None => Err(failure::none_found(&mut rest, &start, search.away)),
     }
 }
 
 struct Search {
     best: Option<Found>,
     steps: usize,
+    /// The coordinate that a descent would move on and on.
+    away: Option<usize>,
 }
 
 impl Search {
@@ -111,6 +101,27 @@ impl Search {
         match newton(rest, start.clone(), None, Policy::FULL) {
             Some((place, contracts)) => self.offer(rest, Some(place), Way::Newton) || contracts,
             None => false,
+        }
+    }
+
+    /// Damped steps, then the load in steps; whether one of their results is good enough.
+    fn grows(&mut self, rest: &mut Rest, start: &Place) -> bool {
+        let damped = newton(rest, start.clone(), None, Policy::DAMPED).map(|(place, _)| place);
+        if self.offer(rest, damped, Way::DampedNewton) {
+            return true;
+        }
+        let (found, steps) = homotopy::homotopy(rest, start);
+        self.steps += steps;
+        self.offer(rest, found, Way::Homotopy)
+    }
+
+    fn descends(&mut self, rest: &mut Rest, start: &Place) {
+        let (end, steps) = descent::descend(rest, &start.q);
+        self.steps += steps;
+        match end {
+            End::Rest(place) => _ = self.offer(rest, Some(place), Way::Descent),
+            End::Away(coordinate) => self.away = Some(coordinate),
+            End::Stuck => {}
         }
     }
 
