@@ -38,7 +38,7 @@
 //! | [`system`] | [`system::MechanicalSystem`], which solvers see; own equations by [`system::Equations`] | implement it |
 //! | [`formulation`] | what is integrated: index 1, Baumgarte, invariant manifold, penalty, null space ... | a file and a line |
 //! | [`projection`] | what is done after a step: post-stabilization, coordinate projection | a file and a line |
-//! | [`initial`] | consistent q, v, then v' and lambda | |
+//! | [`initial`] | consistent q, v, then v' and lambda; static equilibrium | |
 //! | [`integrator`] | one file a method | a file and a line |
 //! | [`simulate`], [`trajectory`], [`study`] | the only time loop; its rows; a scene made ready | |
 //! | [`sweep`] | a scene assembled at many values of a parameter | |

@@ -6,7 +6,7 @@ use crate::initial::{self, Assembly};
 use crate::integrator::Steps;
 use crate::math::expression::{Number, Parameters};
 use crate::scene::{self, AnyModel, Automatic, Scene, Simulation};
-use crate::simulate::{Advice, Method, Span, advise};
+use crate::simulate::{Advice, Method, Span, Stiffness, advise, stiffness};
 use crate::system::{Loaded, MechanicalSystem, Mechanism};
 use crate::{formulation, integrator, projection};
 use std::path::Path;
@@ -123,6 +123,13 @@ impl Study {
             Error::input(format!("the scene `{}` has no end time", self.name))
                 .hint("give --until T, or \"t_end\" in \"simulation\" of the scene")
         })
+    }
+
+    /// What is wrong with the method for this motion, if it is explicit and was not left to the program.
+    pub fn stiffness(&self, span: Span) -> Option<Stiffness> {
+        let Assembly { q, v, vdot, lambda, .. } = &self.assembly;
+        let state = Loaded { t: span.start, q, v, vdot, lambda };
+        self.chosen_because.is_none().then(|| stiffness(self.system(), &self.method, state, span))?
     }
 
     /// When the motion starts, s.

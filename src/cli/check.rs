@@ -1,7 +1,8 @@
 //! `holonom check SCENE`
 
-use super::common::Common;
+use super::common::{Common, number};
 use crate::error::Result;
+use crate::initial::equilibrium;
 use crate::report;
 use std::process::ExitCode;
 
@@ -9,11 +10,31 @@ use std::process::ExitCode;
 pub struct Args {
     #[command(flatten)]
     common: Common,
+    /// Find the static equilibrium that belongs to the start
+    #[arg(long = "static")]
+    is_static: bool,
+    /// Time that expressions of t are held at for the equilibrium, s (default: that of the start)
+    #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true, requires = "is_static")]
+    at: Option<f64>,
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
     let study = args.common.load()?;
-    let check = report::check(&study);
+    let mut check = report::check(&study);
+    let t = args.at.unwrap_or(study.start_time());
+    let sought = args.is_static.then(|| equilibrium(study.system(), t, study.start().0));
+    // Bad input is an error; a search in vain is a result.
+    let failure = match sought.transpose() {
+        Ok(found) => {
+            check.equilibrium = found.map(|found| report::Rest::of(&study, found));
+            None
+        }
+        Err(error) if error.exit_code() == 1 => Some(error),
+        Err(error) => return Err(error.in_file(&args.common.scene.path)),
+    };
+    if failure.is_some() {
+        check.equilibrium = Some(report::Rest::none(t));
+    }
     args.common.talk.print(&check, || check.text())?;
-    Ok(ExitCode::SUCCESS)
+    failure.map_or(Ok(ExitCode::SUCCESS), Err)
 }

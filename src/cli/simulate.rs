@@ -24,6 +24,10 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let study = args.common.load()?;
     let span = args.common.span(&study)?;
     let mut folder = args.output.folder(&study.name)?;
+    let stiffness = study.stiffness(span);
+    if let Some(stiffness) = stiffness.as_ref().filter(|_| !args.common.talk.quiet) {
+        eprintln!("warning: {stiffness}\n  help: {}", stiffness.advice);
+    }
     let bar = args.common.talk.progress(1000, &study.name);
     let fraction = |t: f64| (1000.0 * (t - span.start) / (span.end - span.start)) as u64;
     let mut recorder = Recorder::new(study.system()).with_progress(|t| bar.set_position(fraction(t)));
@@ -32,7 +36,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let seconds = clock.elapsed().as_secs_f64();
     let record = recorder.finish();
     bar.finish_and_clear();
-    let summary = summarize(&study, &study.method, &outcome, &record, seconds);
+    let summary = Summary { stiffness, ..summarize(&study, &study.method, &outcome, &record, seconds) };
     write(&study, &record, &summary, &mut folder, &args.output)?;
     args.common.talk.print(&summary, || summary.text(&units(&record)))?;
     if !args.common.talk.json && !args.common.talk.quiet {

@@ -5,6 +5,7 @@
 mod augmented_lagrangian;
 mod baumgarte;
 mod dense;
+mod directions;
 mod dynamics;
 mod force_projection;
 mod ggl;
@@ -15,11 +16,14 @@ mod invariant_manifold;
 mod null_space;
 mod penalty;
 mod stabilizer;
+mod turn;
 mod udwadia_kalaba;
 
 pub use crate::choice::{Choice, OptionDoc};
+pub use directions::{free_directions, reduce};
 pub use dynamics::{Dynamics, Halt, Statistics};
 pub use stabilizer::{Field, Stabilizer};
+pub use turn::turn;
 
 use crate::error::Result;
 use crate::system::MechanicalSystem;

@@ -1,11 +1,13 @@
-//! Consistent initial values: q, then v, then v' and lambda.
+//! Consistent initial values: q, then v, then v' and lambda; static equilibrium.
 
+mod equilibrium;
 mod follow;
 mod holds;
 mod position;
 mod report;
 mod velocity;
 
+pub use equilibrium::{Equilibrium, Stability, Way, equilibrium};
 pub use follow::{Followed, follow};
 pub use report::{Assembly, Level, Move};
 

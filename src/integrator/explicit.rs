@@ -1,7 +1,7 @@
 //! Explicit Runge-Kutta methods: the step of any tableau.
 
 use super::hermite::Hermite;
-use super::{Control, From, Integrator, Problem, Tolerance};
+use super::{Control, From, Integrator, Problem, Stability, Tolerance};
 use crate::formulation::Halt;
 
 /// The constants of an explicit method.
@@ -132,6 +132,10 @@ impl Integrator for Explicit {
 
     fn control(&mut self) -> &mut Control {
         &mut self.control
+    }
+
+    fn stability(&self) -> Option<Stability> {
+        Some(Stability::of(|i| self.tableau.a[i], self.tableau.b))
     }
 
     fn attempt(

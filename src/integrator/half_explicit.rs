@@ -2,7 +2,7 @@
 
 use super::explicit::{Tableau as Explicit, combine};
 use super::hermite::Hermite;
-use super::{Control, From, Integrator, Problem, Setup, Tolerance};
+use super::{Control, From, Integrator, Problem, Setup, Stability, Tolerance};
 use crate::formulation::Halt;
 use crate::math::kkt::TwoPlaces;
 use crate::system::Need;
@@ -154,6 +154,11 @@ impl Integrator for HalfExplicit {
 
     fn control(&mut self) -> &mut Control {
         &mut self.control
+    }
+
+    /// Along the directions that the constraints allow the stages are those of an explicit method.
+    fn stability(&self) -> Option<Stability> {
+        Some(Stability::of(|i| self.tableau.stage(i).0, self.tableau.last()))
     }
 
     fn attempt(

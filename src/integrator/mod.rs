@@ -21,12 +21,13 @@ mod problem;
 mod radau_iia;
 mod rattle;
 mod rk4;
+mod stability;
 mod tr_bdf2;
-mod turn;
 
 pub use control::{Control, Tolerance, first_step};
 pub use diffsol_backend::Store;
 pub use problem::Problem;
+pub use stability::Stability;
 
 use crate::error::{Error, Result};
 use crate::formulation::{self, Choice, Halt, OptionDoc};
@@ -42,6 +43,11 @@ const NO_TANGENT: Halt = Halt::Unsuitable {
 pub trait Integrator {
     /// Order of the solution, p: the error of a step is O(h^{p+1}).
     fn order(&self) -> usize;
+
+    /// How long its steps may be for a fast mode; none where they may be as long as they like.
+    fn stability(&self) -> Option<Stability> {
+        None
+    }
 
     /// Tries a step from (t, y), where y' is `slope`, and writes the new state. Returns the error estimate in units of
     /// the tolerance (accept at or below one), or `None` for a method that has none.

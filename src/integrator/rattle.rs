@@ -1,7 +1,7 @@
 //! RATTLE.
 
 use super::hermite::Hermite;
-use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tolerance};
+use super::{Control, Entry, From, Integrator, Problem, Setup, Stability, Steps, Tolerance};
 use crate::error::{Error, Result};
 use crate::formulation::Halt;
 use crate::math::kkt::Singular;
@@ -186,6 +186,10 @@ impl Integrator for Rattle {
 
     fn control(&mut self) -> &mut Control {
         &mut self.control
+    }
+
+    fn stability(&self) -> Option<Stability> {
+        Some(Stability::Leapfrog)
     }
 
     fn attempt(

@@ -1,6 +1,7 @@
 //! What `check` finds.
 
 use super::Table;
+use super::rest::Rest;
 use super::start::Start;
 use super::summary::{AssemblySummary, significant};
 use crate::formulation::Dynamics;
@@ -45,6 +46,9 @@ pub struct Check {
     pub forces: Vec<Item>,
     /// What the scene does not ask for, so that nothing of it is computed.
     pub left_out: Vec<String>,
+    /// The static equilibrium where it is asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub equilibrium: Option<Rest>,
 }
 
 /// A redundant row.
@@ -122,6 +126,7 @@ fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
         joints: groups.iter().map(|group| joint_item(group, &system.names().lambda)).collect(),
         forces: forces(model),
         left_out: left_out(model),
+        equilibrium: None,
     }
 }
 
@@ -270,7 +275,8 @@ impl Check {
                 text += &format!("{table}\n");
             }
         }
-        text + &self.redundancy_text() + &self.start_text() + &self.scales_text()
+        let rest = self.equilibrium.as_ref().map_or(String::new(), Rest::text);
+        text + &self.redundancy_text() + &self.start_text() + &self.scales_text() + &rest
     }
 
     fn redundancy_text(&self) -> String {

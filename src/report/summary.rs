@@ -5,7 +5,7 @@ use crate::error::Failure;
 use crate::formulation::Statistics;
 use crate::initial::{Assembly, Level, Move};
 use crate::measure::{Drift, EnergyBalance, Passing, Record, Singularity};
-use crate::simulate::{Method, Outcome};
+use crate::simulate::{Method, Outcome, Stiffness};
 use crate::study::Study;
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -23,6 +23,8 @@ pub struct Summary {
     pub drift: Drift,
     pub energy: Option<EnergyBalance>,
     pub singularity: Singularity,
+    /// Modes that the method cannot step over; none where it can, or is implicit.
+    pub stiffness: Option<Stiffness>,
     pub assembly: AssemblySummary,
     pub r#final: FinalState,
 }
@@ -73,6 +75,7 @@ pub fn summarize(study: &Study, method: &Method, outcome: &Outcome, record: &Rec
         drift: record.drift.clone(),
         energy: record.energy,
         singularity: record.singularity.clone(),
+        stiffness: None,
         assembly: (&study.assembly).into(),
         r#final: final_state(record),
     }

@@ -13,8 +13,8 @@ pub struct Advice {
     pub because: String,
 }
 
-/// Where |lambda| h stops the growth of steps of dop853: from E. Hairer's code, which calls that stiff.
-const STABILITY: f64 = 6.1;
+/// dop853, and where |lambda| h stops the growth of its steps: from E. Hairer's code, which calls that stiff.
+const DOP853: Explicit = Explicit { order: 8, stability: 6.1 };
 /// Steps of dop853 that cost as much as one of radau_iia: 4 to 20 on the shipped scenes, the fewer the larger.
 const PRICE: f64 = 5.0;
 /// Steps that radau_iia takes however smooth the motion is.
@@ -29,9 +29,17 @@ const TIGHT: f64 = 1e-5;
 /// Steps for stability below which rates are those of rounding, or as good as zero.
 const SLOW: f64 = 1e-3;
 
+/// What counts of an explicit method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Explicit {
+    pub order: usize,
+    /// The largest |lambda| h.
+    pub stability: f64,
+}
+
 /// What the spectrum says of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Verdict {
+pub(super) enum Verdict {
     /// Accuracy limits the steps.
     Calm,
     /// Stability does, but explicit steps are cheap.
@@ -59,9 +67,8 @@ pub fn advise(system: &dyn MechanicalSystem, state: Loaded, span: Span, (rtol, a
     let Some(&fastest) = spectrum.modes.last() else {
         return advice(explicit, "the joints prescribe the whole motion, so that nothing can be stiff".to_string());
     };
-    let work = Work::new(&spectrum, span.end - span.start, rtol);
-    let size = state.q.iter().fold(0.0f64, |size, q| size.max(q.abs()));
-    let verdict = work.verdict(spectrum.excitation > atol + rtol * size);
+    let work = Work::new(&spectrum, span.end - span.start, rtol, DOP853);
+    let verdict = work.verdict(is_awake(&spectrum, state, (rtol, atol)));
     let names = match verdict {
         Verdict::Damped | Verdict::Asleep => ["ggl", "radau_iia", "none"],
         _ => explicit,
@@ -69,13 +76,19 @@ pub fn advise(system: &dyn MechanicalSystem, state: Loaded, span: Span, (rtol, a
     advice(names, work.words(verdict, fastest, &spectrum))
 }
 
+/// Whether the fastest mode swings by more than the tolerance.
+pub(super) fn is_awake(spectrum: &Spectrum, state: Loaded, (rtol, atol): (f64, f64)) -> bool {
+    let size = state.q.iter().fold(0.0f64, |size, q| size.max(q.abs()));
+    spectrum.excitation > atol + rtol * size
+}
+
 /// Numbers of steps.
-struct Work {
-    /// Of dop853 for the accuracy of all modes while they last, and of those below a gap.
-    accuracy: f64,
+pub(super) struct Work {
+    /// Of an explicit method for the accuracy of all modes while they last, and of those below a gap.
+    pub accuracy: f64,
     slow: f64,
-    /// Of dop853 for stability.
-    stability: f64,
+    /// Of the same for stability.
+    pub stability: f64,
     /// Of an implicit method whose matrix changes too much within a longer step.
     turning: f64,
     /// Whether the fastest mode is there to the end.
@@ -83,9 +96,10 @@ struct Work {
 }
 
 impl Work {
-    fn new(spectrum: &Spectrum, duration: f64, tolerance: f64) -> Self {
-        // The error of a step is about (|lambda| h)^9 / 9!.
-        let radians = (362_880.0 * tolerance).powf(1.0 / 9.0);
+    pub fn new(spectrum: &Spectrum, duration: f64, tolerance: f64, method: Explicit) -> Self {
+        // The error of a step is about (|lambda| h)^(p+1) / (p+1)!.
+        let factorial: f64 = (1..=method.order + 1).map(|k| k as f64).product();
+        let radians = (factorial * tolerance).powf(1.0 / (method.order + 1) as f64);
         let digits = -tolerance.min(0.5).ln();
         let life = |mode: &Mode| if mode.decay > 0.0 { (digits / mode.decay).min(duration) } else { duration };
         let steps = |modes: &[Mode]| modes.iter().map(|mode| mode.rate() * life(mode) / radians).fold(0.0, f64::max);
@@ -95,19 +109,24 @@ impl Work {
         Work {
             accuracy: steps(modes),
             slow: steps(&modes[..gap.unwrap_or(modes.len())]),
-            stability: modes.last().map_or(0.0, |fastest| fastest.rate() * duration / STABILITY),
+            stability: modes.last().map_or(0.0, |fastest| fastest.rate() * duration / method.stability),
             // Newton's iteration over a step contracts by h^2 dC/dt + h^3 dK/dt.
             turning: duration * damping.sqrt().max(stiffness.cbrt()),
             lasts: modes.last().is_some_and(|fastest| life(fastest) >= duration),
         }
     }
 
+    /// Steps that accuracy asks for where the fastest modes are stepped over.
+    pub fn smooth(&self) -> f64 {
+        if self.lasts { self.slow } else { self.accuracy }
+    }
+
     fn explicit(&self) -> f64 {
         self.accuracy.max(self.stability)
     }
 
-    fn verdict(&self, is_excited: bool) -> Verdict {
-        let smooth = if self.lasts { self.slow } else { self.accuracy };
+    pub fn verdict(&self, is_excited: bool) -> Verdict {
+        let smooth = self.smooth();
         let saves = |implicit: f64| self.explicit() > PRICE * implicit.max(FEWEST);
         match self.lasts {
             _ if self.stability <= self.accuracy && !self.lasts => Verdict::Calm,
@@ -154,7 +173,7 @@ impl Work {
 }
 
 /// A number of steps with two digits.
-fn count(steps: f64) -> String {
+pub(super) fn count(steps: f64) -> String {
     let steps = steps.ceil().max(1.0);
     short(format!("{steps:.1e}").parse().unwrap_or(steps))
 }

@@ -7,11 +7,13 @@ mod observation;
 mod rows;
 mod spectrum;
 mod step;
+mod stiffness;
 
 pub use auto::{Advice, advise};
 pub use method::Method;
 pub use observation::{Observation, Sink, Span};
 pub use spectrum::{Mode, Spectrum};
+pub use stiffness::{Stiffness, stiffness};
 
 use approach::Approach;
 use rows::{Rows, observation, project};

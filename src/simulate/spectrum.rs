@@ -1,7 +1,7 @@
 //! The modes of a mechanism at one state of its motion.
 
 use crate::error::short;
-use crate::formulation::Dynamics;
+use crate::formulation::{Dynamics, free_directions, reduce};
 use crate::system::{Loaded, MechanicalSystem, Tangent};
 use serde::Serialize;
 use std::fmt;
@@ -60,7 +60,7 @@ impl Spectrum {
             let modes = frozen.fastest()?;
             return Some(Spectrum { modes, is_estimate: true, turning: [0.0; 2], excitation: 0.0 });
         }
-        let z = frozen.basis()?;
+        let z = free_directions(&mut frozen.dynamics)?;
         let [k, c] = frozen.reduced(&z);
         let modes = modes(&k, &c)?;
         let excitation = modes.last().map_or(Some(0.0), |fastest| frozen.excitation(state, fastest.rate()))?;
@@ -72,14 +72,17 @@ impl Spectrum {
     }
 }
 
+/// The fastest mode alone, roughly and cheaply whatever the size; none as for [`Spectrum::at`].
+pub fn fastest(system: &dyn MechanicalSystem, state: Loaded) -> Option<Mode> {
+    Frozen::new(system, state)?.fastest()?.last().copied()
+}
+
 /// Slower than this, 1/s, a mode is one of rounding or as good as none.
 const SLOWEST: f64 = 1e-6;
 /// More velocities than this are too many for dense matrices.
 const MOST_VELOCITIES: usize = 300;
 /// Differences over time are taken over this part of it.
 const AHEAD: f64 = 1e-6;
-/// What is left of a column of Z Z^T, over the column without constraints, where Z is complete.
-const NOTHING: f64 = 1e-10;
 /// Iterations for the fastest mode alone: a few percent where others are as fast.
 const ITERATIONS: usize = 60;
 
@@ -123,45 +126,9 @@ impl<'a> Frozen<'a> {
         force.iter().all(|x| x.is_finite()).then_some(force)
     }
 
-    /// Z with Z^T M Z = I, the pivoted Cholesky factor of Z Z^T: its rank shows by itself, also with redundant rows.
-    fn basis(&mut self) -> Option<Matrix> {
-        let n = self.dynamics.vdot.len();
-        let mut rest = Matrix::zeros(n, n);
-        for j in 0..n {
-            let unit = (0..n).map(|i| if i == j { 1.0 } else { 0.0 });
-            rest.column_mut(j).copy_from_slice(&self.accelerate(unit.collect())?);
-        }
-        let mut free = vec![0.0; n];
-        let Dynamics { structure, terms, .. } = &self.dynamics;
-        for (&(i, j), mass) in structure.mass.entries.iter().zip(&terms.mass) {
-            free[i] += if i == j { *mass } else { 0.0 };
-        }
-        // Over 1 / m, so that units do not count; a direction without mass has itself for a measure.
-        free.iter_mut().enumerate().for_each(|(i, m)| *m = if *m > 0.0 { 1.0 / *m } else { rest[(i, i)] });
-        let mut columns = Vec::new();
-        while columns.len() < n {
-            let left = |i: usize| if free[i] > 0.0 { rest[(i, i)] / free[i] } else { 0.0 };
-            let pivot = (0..n).max_by(|&i, &j| left(i).total_cmp(&left(j))).unwrap_or(0);
-            if left(pivot) < NOTHING {
-                break;
-            }
-            let column = rest.column(pivot) / rest[(pivot, pivot)].sqrt();
-            rest -= &column * column.transpose();
-            columns.push(column);
-        }
-        Some(Matrix::from_fn(n, columns.len(), |i, j| columns[j][i]))
-    }
-
     /// Z^T K Z and Z^T C Z.
     fn reduced(&self, z: &Matrix) -> [Matrix; 2] {
-        let pattern = &self.dynamics.structure.tangent;
-        [&self.tangent.k, &self.tangent.c].map(|values| {
-            let mut product = Matrix::zeros(z.nrows(), z.ncols());
-            for (from, mut to) in z.column_iter().zip(product.column_iter_mut()) {
-                pattern.multiply(values, from.clone_owned().as_slice(), to.as_mut_slice());
-            }
-            z.transpose() * product
-        })
+        [&self.tangent.k, &self.tangent.c].map(|values| reduce(&self.dynamics.structure.tangent, values, z))
     }
 
     /// K x + C v

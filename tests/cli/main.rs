@@ -3,6 +3,7 @@
 mod auto;
 mod check;
 mod drift;
+mod equilibrium;
 mod generate;
 mod methods;
 mod plot;

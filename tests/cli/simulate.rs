@@ -56,7 +56,7 @@ fn the_summary_has_the_promised_keys() {
     let summary = place.json("here/summary.json");
     let top =
         ["scene", "method", "status", "failure", "t_end", "wall_seconds", "statistics", "drift", "energy", "final"];
-    assert_keys(&summary, &top, &["assembly", "singularity"]);
+    assert_keys(&summary, &top, &["assembly", "singularity", "stiffness"]);
     assert_keys(&summary["method"], &["formulation", "integrator", "projection", "rtol", "atol", "step"], &[]);
     let counters = ["steps", "rejected", "rhs_evaluations", "jacobian_evaluations", "factorizations"];
     let rest = ["newton_iterations", "projections"];
@@ -266,4 +266,25 @@ fn results_of_before_are_replaced_whole() {
 fn redundant_constraints_are_told() {
     let text = Place::new(parallelogram()).done(&["simulate", "scene.json"]);
     assert!(text.contains("redundant constraints at all states: multipliers are those of least norm"), "{text}");
+}
+
+/// Before the run, with a method that can; and in the summary.
+#[test]
+fn a_stiff_scene_is_warned_of() {
+    let place = Place::new(include_str!("../../models/quarter_car.json"));
+    let args = ["simulate", "scene.json", "--figures", "none", "-o", "here"];
+    let output = place.run(&[&args[..], &["--set", "c_strut=2e5"]].concat());
+    let message = err(&output);
+    assert!(message.starts_with("warning: the fastest mode of the start decays at "), "{message}");
+    assert!(message.contains("help: take an implicit method: --formulation ggl --integrator radau_iia"), "{message}");
+    let told = &place.json("here/summary.json")["stiffness"];
+    assert_eq!(told["integrator"], "dopri5");
+    assert!(told["steps_for_stability"].as_f64().unwrap() > 4e3, "{told}");
+    // What is advised is quiet, and so are the scene itself and --quiet.
+    let advised = ["--formulation", "ggl", "--integrator", "radau_iia", "--projection", "none", "--set", "c_strut=2e5"];
+    for more in [&advised[..], &[], &["--quiet", "--set", "c_strut=2e5"]] {
+        assert_eq!(err(&place.run(&[&args[..], more].concat())), "", "{more:?}");
+    }
+    assert_eq!(place.run(&args).status.code(), Some(0));
+    assert_eq!(place.json("here/summary.json")["stiffness"], Value::Null);
 }

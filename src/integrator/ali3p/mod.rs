@@ -3,11 +3,10 @@
 mod matrix;
 
 use super::hermite::Hermite;
-use super::turn::turn;
 use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tolerance};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
-use crate::formulation::Halt;
+use crate::formulation::{Halt, turn};
 use crate::math::largest;
 use crate::system::{Loaded, Need};
 use matrix::Penalized;
@@ -121,7 +120,7 @@ impl Ali3p {
         for (i, v0) in v0.iter().enumerate() {
             self.step[i] = h * v0 + 0.5 * h * h * self.a[i];
         }
-        turn(problem, &mut self.stages, q0, &self.step, &mut self.predicted);
+        turn(problem.dynamics.system, &mut self.stages, q0, &self.step, &mut self.predicted);
     }
 
     /// v_1 and q_1 that go with a_1.
@@ -132,7 +131,7 @@ impl Ali3p {
             v[i] = v0[i] + 0.5 * h * (self.a[i] + self.a_new[i]);
             self.step[i] = 0.25 * h * h * (self.a_new[i] - self.a[i]);
         }
-        turn(problem, &mut self.stages, &self.predicted, &self.step, q);
+        turn(problem.dynamics.system, &mut self.stages, &self.predicted, &self.step, q);
     }
 
     fn converge(&mut self, problem: &mut Problem, from: From, h: f64, to: &mut [f64]) -> Result<(), Halt> {

@@ -1,8 +1,7 @@
 //! Accelerations carried from step to step, and where they lead.
 
-use super::super::turn::turn;
 use super::super::{From, Problem};
-use crate::formulation::Halt;
+use crate::formulation::{Halt, turn};
 use crate::system::Dimensions;
 
 /// Coefficients of the method.
@@ -162,7 +161,7 @@ impl Motion {
             self.predicted[i] = h * v + h * h * ((0.5 - beta) * self.a[i] + beta * a);
         }
         if let Some(between) = &mut self.between {
-            turn(problem, &mut self.stages, q0, &self.predicted, between);
+            turn(problem.dynamics.system, &mut self.stages, q0, &self.predicted, between);
         }
     }
 
@@ -181,6 +180,6 @@ impl Motion {
             self.change.iter_mut().zip(&self.predicted).for_each(|(change, predicted)| *change += predicted);
             q0
         });
-        turn(problem, &mut self.stages, start, &self.change, q);
+        turn(problem.dynamics.system, &mut self.stages, start, &self.change, q);
     }
 }

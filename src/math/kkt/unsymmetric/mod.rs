@@ -48,6 +48,7 @@ pub struct Unsymmetric<T> {
     /// b L
     coupling: Vec<T>,
     redundancy: Option<Redundancy>,
+    keeps_rows: bool,
     right: Vec<T>,
     state: State,
     fits: bool,
@@ -99,11 +100,18 @@ impl<T: Field> Unsymmetric<T> {
             g: g.clone(),
             coupling: vec![T::ZERO; g.entries.len()],
             redundancy: None,
+            keeps_rows: false,
             right: vec![T::ZERO; size],
             state: State::New,
             fits: true,
             matrix,
         })
+    }
+
+    /// Takes all rows of G for independent: a singular matrix is one whose A is singular along the null space of G.
+    pub fn keeping_rows(mut self) -> Self {
+        self.keeps_rows = true;
+        self
     }
 
     /// Starts a new matrix.
@@ -154,7 +162,9 @@ impl<T: Field> Unsymmetric<T> {
         }
         self.balance(values);
         self.renew_redundancy(values)?;
-        if self.factor_scaled(values) || is_new && self.leave_out(values) && self.factor_scaled(values) {
+        if self.factor_scaled(values)
+            || is_new && !self.keeps_rows && self.leave_out(values) && self.factor_scaled(values)
+        {
             self.state = State::Factored;
             return Ok(());
         }

@@ -1,14 +1,13 @@
 //! Changes of q along the group.
 
-use super::Problem;
+use crate::system::MechanicalSystem;
 
 /// q = q0 exp(change): a constant rate by the classical Runge-Kutta method, with an error of O(|change|^5).
-pub(super) fn turn(problem: &Problem, stages: &mut [Vec<f64>; 3], q0: &[f64], change: &[f64], q: &mut [f64]) {
+pub fn turn(system: &dyn MechanicalSystem, stages: &mut [Vec<f64>; 3], q0: &[f64], change: &[f64], q: &mut [f64]) {
     if q.len() == change.len() {
         q.iter_mut().zip(q0.iter().zip(change)).for_each(|(q, (q0, dq))| *q = q0 + dq);
         return;
     }
-    let system = problem.dynamics.system;
     let [rate, stage, sum] = stages;
     stage.copy_from_slice(q0);
     sum.fill(0.0);

@@ -1,0 +1,134 @@
+//! A way down along the forces.
+
+use super::newton::{Policy, newton};
+use super::rest::{Balance, Place, Rest};
+use crate::math::largest;
+
+/// Pseudo-time steps.
+const MOST: usize = 500;
+/// Length of the first, m or rad: rotations must stay small.
+const FIRST: f64 = 0.1;
+/// Newton's method is tried when the force has fallen by this since it was tried last.
+const FALL: f64 = 0.03;
+/// Work over what K predicts: below the first a step is taken back, below the second the next is shorter, above the third
+/// longer.
+const LEAST: f64 = 0.1;
+const POOR: f64 = 0.4;
+const GOOD: f64 = 0.75;
+/// From a start to where nothing holds a body any more, over 1 and the largest q.
+const AWAY: f64 = 100.0;
+/// The shift over the first at which steps no longer move anything.
+const STIFFEST: f64 = 1e12;
+/// Steps of the way back to phi = 0.
+const CLOSING: usize = 12;
+
+/// Where a descent leads.
+pub(super) enum End {
+    Rest(Place),
+    /// The coordinate moves on and on.
+    Away(usize),
+    /// It takes too long, or no step goes down.
+    Stuck,
+}
+
+/// Pseudo-transient continuation: dq/dtau = f - G^T lambda on phi = 0, by implicit Euler steps of one iteration each,
+///
+/// ```text
+/// [ K + I/dtau  G^T ] [ dq      ]   [ f - G^T lambda ]
+/// [ G           0   ] [ dlambda ] = [ -phi           ]
+/// ```
+///
+/// and back to phi = 0. A step is judged as in trust-region methods, by the work of the forces over it against what K
+/// predicts; so no potential is needed. Source: Kelley, Keyes, SIAM J. Numer. Anal. 35 (1998) 508-523; Conn, Gould,
+/// Toint, Trust-Region Methods, 2000, chapter 6. Where it leads, and the steps taken.
+pub(super) fn descend(rest: &mut Rest, q: &[f64]) -> (End, usize) {
+    let Some(mut at) = rest.balance(q) else { return (End::Stuck, 0) };
+    let mut shift = largest(&at.force) / FIRST;
+    let (most, mut tried) = (STIFFEST * shift, length(&at.force));
+    for step in 0..MOST {
+        if length(&at.force) <= FALL * tried {
+            tried = length(&at.force);
+            if let Some((place, true)) = newton(rest, at.place.clone(), None, Policy::NEAR) {
+                return (End::Rest(place), step);
+            }
+        }
+        rest.evaluate(&at.place.q);
+        let factored = rest.factor(&at.place, shift);
+        if rest.is_round_off(&at.place, &at.force) {
+            return (End::Rest(at.place), step);
+        }
+        match if factored { advance(rest, &at, shift) } else { None } {
+            Some((next, gain)) => {
+                shift *= match gain {
+                    gain if gain > GOOD => 0.25,
+                    gain if gain < POOR => 2.0,
+                    _ => 1.0,
+                };
+                at = next;
+            }
+            None => shift *= 4.0,
+        }
+        if let Some(coordinate) = gone(&at.place.q, q) {
+            return (End::Away(coordinate), step);
+        }
+        if shift > most {
+            break;
+        }
+    }
+    (End::Stuck, MOST)
+}
+
+/// The coordinate that is farthest from the start, if that is too far.
+fn gone(now: &[f64], start: &[f64]) -> Option<usize> {
+    let way = |i: usize| (now[i] - start[i]).abs();
+    let farthest = (0..now.len()).max_by(|&i, &j| way(i).total_cmp(&way(j)))?;
+    (way(farthest) > AWAY * (1.0 + largest(start))).then_some(farthest)
+}
+
+/// One step by the factors; none where it goes up or does not come back to phi = 0.
+fn advance(rest: &mut Rest, at: &Balance, shift: f64) -> Option<(Balance, f64)> {
+    let change = rest.solve(&at.force)?;
+    let size = length(&change.q);
+    let before = dot(&at.force, &change.q);
+    // The work that a force along dq does while K takes it away: force . dq - dq K dq / 2.
+    let predicted = 0.5 * (before + shift * size * size);
+    if !(before > 0.0 && predicted.is_finite()) {
+        return None;
+    }
+    let there = rest.moved(&at.place, &change, 1.0);
+    let q = close(rest, there, size)?;
+    let next = rest.balance(&q)?;
+    let gain = 0.5 * (before + dot(&next.force, &change.q)) / predicted;
+    (gain > LEAST).then_some((next, gain))
+}
+
+/// Back to phi = 0 by least changes, which together are shorter than the step.
+fn close(rest: &mut Rest, place: Place, size: f64) -> Option<Vec<f64>> {
+    let (mut at, mut last, mut way) = (place, f64::INFINITY, 0.0);
+    for _ in 0..CLOSING {
+        rest.evaluate(&at.q);
+        let gap = rest.gap();
+        if gap <= 1e-14 || gap <= 1e-11 && gap > 0.5 * last {
+            return Some(at.q);
+        }
+        if gap.is_nan() || gap >= last {
+            return None;
+        }
+        last = gap;
+        let change = rest.closing()?;
+        way += length(&change.q);
+        if way > 0.5 * size {
+            return None;
+        }
+        at = rest.moved(&at, &change, 1.0);
+    }
+    None
+}
+
+fn length(x: &[f64]) -> f64 {
+    dot(x, x).sqrt()
+}
+
+fn dot(x: &[f64], y: &[f64]) -> f64 {
+    x.iter().zip(y).map(|(x, y)| x * y).sum()
+}

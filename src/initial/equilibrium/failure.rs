@@ -1,0 +1,63 @@
+//! Why there is no equilibrium, in words.
+
+use super::rest::{Place, Rest};
+use super::stability::{named, soft};
+use crate::error::{Error, Failure, short};
+use crate::math::largest;
+
+pub(super) fn no_tangent() -> Error {
+    Error::input("static equilibrium needs K, which these equations do not give")
+        .hint("implement MechanicalSystem::tangent")
+}
+
+pub(super) fn no_memory() -> Error {
+    Error::input("there is not enough memory for the matrix of the equilibrium")
+}
+
+pub(super) fn not_finite() -> Error {
+    Error::input("at the start, the forces or their balance are not finite").under("forces")
+}
+
+pub(super) fn contradiction(t: f64) -> Error {
+    let reason = "the state where all forces balance breaks constraints that depend on others at the start".to_string();
+    let hint = "begin beside the singular state, or take away the redundant joints that `holonom check` names";
+    Failure { t, reason, hint: hint.to_string() }.into()
+}
+
+/// A direction counts as loaded where the force along it is this part of all.
+const LOADED: f64 = 1e-6;
+
+const HOLD: &str = "hold it by a joint or a spring, or take the force away";
+
+/// What keeps the mechanism moving, seen from the start; `away` is what a descent would move on and on.
+pub(super) fn none_found(rest: &mut Rest, start: &Place, away: Option<usize>) -> Error {
+    let t = rest.t;
+    let failure = |reason: String, hint: &str| Failure { t, reason, hint: hint.to_string() }.into();
+    let Some(balance) = rest.balance(&start.q) else { return not_finite() };
+    let all = largest(&balance.force);
+    if let Some(soft) = soft(rest, start) {
+        let along = |d: &nalgebra::DVector<f64>| d.iter().zip(&balance.force).map(|(d, f)| d * f).sum::<f64>().abs();
+        let loaded: Vec<_> = soft.directions.into_iter().filter(|d| along(d) > LOADED * all * d.amax()).collect();
+        if !loaded.is_empty() {
+            let names = named(rest, &loaded).join("`, `");
+            return failure(
+                format!("there is no static equilibrium: nothing holds `{names}` against the forces that move it"),
+                HOLD,
+            );
+        }
+    }
+    if let Some(name) = away.and_then(|coordinate| rest.dynamics.system.names().q.get(coordinate).cloned()) {
+        return failure(format!("there is no static equilibrium: the forces move `{name}` on and on"), HOLD);
+    }
+    let worst = (0..balance.force.len()).max_by(|&i, &j| balance.force[i].abs().total_cmp(&balance.force[j].abs()));
+    let name = worst.and_then(|i| rest.dynamics.system.names().v.get(i).cloned()).unwrap_or_default();
+    failure(
+        format!(
+            "no static equilibrium was found; at the start a force of {} (N, N m) is left on `{}`",
+            short(worst.map_or(0.0, |i| balance.force[i].abs())),
+            name.trim_end_matches('\'')
+        ),
+        "begin nearer to it, or look at the motion with `holonom simulate`: with some damping it comes to rest where \
+         there is an equilibrium",
+    )
+}

@@ -1,0 +1,155 @@
+//! Static equilibrium: where a mechanism stays at rest.
+//!
+//! ```text
+//! f(t, q, 0) - G^T lambda = 0,   phi(q, t) = 0,   t fixed
+//! ```
+
+mod descent;
+mod failure;
+mod homotopy;
+mod newton;
+mod rest;
+mod stability;
+
+pub use stability::Stability;
+
+use super::{Metric, position};
+use crate::error::Result;
+use crate::math::largest;
+use crate::system::MechanicalSystem;
+use descent::End;
+use newton::{Policy, newton};
+use rest::{Place, Rest};
+use serde::Serialize;
+
+/// A state at rest that stays at rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Equilibrium {
+    /// Time that expressions of t are held at, s.
+    pub t: f64,
+    pub q: Vec<f64>,
+    /// Of least norm where constraints are redundant.
+    pub lambda: Vec<f64>,
+    pub way: Way,
+    /// Linear systems solved, over all ways that were tried.
+    pub iterations: usize,
+    /// Steps of the load or of the descent, over all ways.
+    pub steps: usize,
+    /// max |f - G^T lambda|, N or N m.
+    pub residual: f64,
+    /// max |phi|, in units of the scene's scale.
+    pub gap: f64,
+    pub stability: Stability,
+    /// Coordinates that can move without any force against them.
+    pub free: Vec<String>,
+}
+
+/// How it was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Way {
+    Newton,
+    DampedNewton,
+    Homotopy,
+    Descent,
+}
+
+/// A place found on one of the ways.
+struct Found {
+    place: Place,
+    way: Way,
+    stability: Stability,
+    free: Vec<String>,
+}
+
+/// The equilibrium at time `t` that belongs to a guess:
+///
+/// 1. that of Newton's method, if its steps contract from the first: then it is the one around the guess, stable or not;
+/// 2. else the first that is not unstable of Newton's method, plain and damped; of the load grown in steps; of a descent
+///    along the forces, which leads to stable ones;
+/// 3. else an unstable one that was met on these ways.
+///
+/// # Errors
+/// Joints that cannot be closed at `t`, a state that cannot be evaluated, equations without K: bad input. No equilibrium
+/// found: a failure that says what moves or where the largest force is left.
+pub fn equilibrium(system: &dyn MechanicalSystem, t: f64, guess: &[f64]) -> Result<Equilibrium> {
+    let mut q = guess.to_vec();
+    system.normalize(&mut q);
+    position::close(&mut Metric::new(system, Vec::new()), t, &mut q)?;
+    let mut rest = Rest::new(system, t, &q)?;
+    let start = rest.balance(&q).ok_or_else(failure::not_finite)?.place;
+    let mut search = Search { best: None, steps: 0, away: None };
+    if !search.contracts(&mut rest, &start) && !search.grows(&mut rest, &start) {
+        search.descends(&mut rest, &start);
+    }
+    match search.best {
+        Some(found) => finish(rest, found, search.steps),
+        None => Err(failure::none_found(&mut rest, &start, search.away)),
+    }
+}
+
+struct Search {
+    best: Option<Found>,
+    steps: usize,
+    /// The coordinate that a descent would move on and on.
+    away: Option<usize>,
+}
+
+impl Search {
+    /// Newton's method from the start; whether its result is the one to take.
+    fn contracts(&mut self, rest: &mut Rest, start: &Place) -> bool {
+        match newton(rest, start.clone(), None, Policy::FULL) {
+            Some((place, contracts)) => self.offer(rest, Some(place), Way::Newton) || contracts,
+            None => false,
+        }
+    }
+
+    /// Damped steps, then the load in steps; whether one of their results is good enough.
+    fn grows(&mut self, rest: &mut Rest, start: &Place) -> bool {
+        let damped = newton(rest, start.clone(), None, Policy::DAMPED).map(|(place, _)| place);
+        if self.offer(rest, damped, Way::DampedNewton) {
+            return true;
+        }
+        let (found, steps) = homotopy::homotopy(rest, start);
+        self.steps += steps;
+        self.offer(rest, found, Way::Homotopy)
+    }
+
+    fn descends(&mut self, rest: &mut Rest, start: &Place) {
+        let (end, steps) = descent::descend(rest, &start.q);
+        self.steps += steps;
+        match end {
+            End::Rest(place) => _ = self.offer(rest, Some(place), Way::Descent),
+            End::Away(coordinate) => self.away = Some(coordinate),
+            End::Stuck => {}
+        }
+    }
+
+    /// Keeps what is better than before; whether it is good enough to stop.
+    fn offer(&mut self, rest: &mut Rest, place: Option<Place>, way: Way) -> bool {
+        let Some(place) = place else { return false };
+        let (stability, free) = stability::judge(rest, &place);
+        if self.best.as_ref().is_none_or(|best| stability > best.stability) {
+            self.best = Some(Found { place, way, stability, free });
+        }
+        stability >= Stability::Neutral
+    }
+}
+
+/// Multipliers of least norm, and what is left of the equations.
+fn finish(mut rest: Rest, found: Found, steps: usize) -> Result<Equilibrium> {
+    let Found { mut place, way, stability, free } = found;
+    rest.release();
+    if let Some(balance) = rest.balance(&place.q) {
+        place.lambda = balance.place.lambda;
+    }
+    let (residual, gap) = (largest(&rest.force(&place.lambda)), rest.gap());
+    if gap > CLOSED {
+        return Err(failure::contradiction(rest.t));
+    }
+    let (t, iterations) = (rest.t, rest.iterations);
+    Ok(Equilibrium { t, q: place.q, lambda: place.lambda, way, iterations, steps, residual, gap, stability, free })
+}
+
+/// Largest phi, in units of its scale, of rows that are left out because they depend on others.
+const CLOSED: f64 = 1e-8;

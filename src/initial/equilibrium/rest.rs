@@ -1,0 +1,200 @@
+//! The equations of rest at one place, and their Newton matrix.
+
+use super::failure;
+use crate::error::Result;
+use crate::formulation::{Dynamics, turn};
+use crate::math::kkt::{Pattern, SaddlePoint, Unsymmetric};
+use crate::math::largest;
+use crate::system::{Loaded, MechanicalSystem, Need, Tangent};
+
+/// Coordinates with multipliers.
+#[derive(Clone, Debug)]
+pub(super) struct Place {
+    pub q: Vec<f64>,
+    pub lambda: Vec<f64>,
+}
+
+/// A place with the multipliers that balance it best, and what force they leave.
+pub(super) struct Balance {
+    pub place: Place,
+    pub force: Vec<f64>,
+}
+
+/// A change of q along the directions of v, and of lambda.
+pub(super) struct Change {
+    pub q: Vec<f64>,
+    pub lambda: Vec<f64>,
+}
+
+/// ```text
+/// [ K + shift I  G^T ] [ dq      ]   [ force ]
+/// [ G            0   ] [ dlambda ] = [ -phi  ]
+/// ```
+///
+/// without the rows of phi that depend on others.
+pub(super) struct Rest<'a> {
+    pub dynamics: Dynamics<'a>,
+    pub t: f64,
+    pub tangent: Tangent,
+    pub scales: Vec<f64>,
+    /// Linear systems solved.
+    pub iterations: usize,
+    matrix: Unsymmetric<f64>,
+    /// [I G^T; G 0]: with a metric that takes 1 rad for 1 m. In that of M, which turns a short link more easily than it
+    /// moves it, chains would kink.
+    level: SaddlePoint,
+    ones: Vec<f64>,
+    /// Rows of phi that are kept, and their part of G: where its values stand among all of them.
+    rows: Vec<usize>,
+    g: Pattern,
+    entries: Vec<usize>,
+    values: Vec<f64>,
+    still: Vec<f64>,
+    stages: [Vec<f64>; 3],
+}
+
+impl<'a> Rest<'a> {
+    /// At a place where phi = 0, which shows the rows that depend on others.
+    pub fn new(system: &'a dyn MechanicalSystem, t: f64, q: &[f64]) -> Result<Self> {
+        let (n, mut dynamics) = (system.dimensions(), Dynamics::new(system));
+        let still = vec![0.0; n.v];
+        let mut tangent = Tangent::new(&dynamics.structure.tangent);
+        let at = Loaded { t, q, v: &still, vdot: &still, lambda: &vec![0.0; n.lambda] };
+        if !system.tangent(at, &mut tangent, &mut dynamics.scratch) {
+            return Err(failure::no_tangent());
+        }
+        let (held, _) = dynamics.dependent_rows(t, q, &still);
+        dynamics.hold(&held);
+        let rows: Vec<usize> = (0..n.lambda).filter(|row| !held.contains(row)).collect();
+        let place = |row: usize| rows.binary_search(&row).ok();
+        let all = dynamics.structure.g.entries.iter().enumerate();
+        let (entries, places) = all.filter_map(|(k, &(i, j))| Some((k, (place(i)?, j)))).unzip();
+        let g = Pattern { rows: rows.len(), cols: n.v, entries: places };
+        let structure = &dynamics.structure;
+        let matrix = Unsymmetric::new(&structure.mass, &structure.tangent, &g);
+        let mut level = SaddlePoint::new(&Pattern::diagonal(n.v), &structure.g);
+        level.hold(&held);
+        Ok(Rest {
+            level,
+            ones: vec![1.0; n.v],
+            tangent,
+            matrix: matrix.ok_or_else(failure::no_memory)?.keeping_rows(),
+            scales: system.scales(),
+            iterations: 0,
+            values: vec![0.0; g.entries.len()],
+            stages: [vec![0.0; n.q], vec![0.0; n.q], vec![0.0; n.q]],
+            dynamics,
+            t,
+            rows,
+            g,
+            entries,
+            still,
+        })
+    }
+
+    /// Evaluates the terms at q.
+    pub fn evaluate(&mut self, q: &[f64]) {
+        self.dynamics.evaluate(self.t, q, &self.still, Need::DYNAMICS);
+    }
+
+    /// f - G^T lambda of the terms.
+    pub fn force(&self, lambda: &[f64]) -> Vec<f64> {
+        let (terms, g) = (&self.dynamics.terms, &self.dynamics.structure.g);
+        let mut reaction = vec![0.0; terms.f.len()];
+        g.multiply_transposed(&terms.g, lambda, &mut reaction);
+        terms.f.iter().zip(reaction).map(|(f, reaction)| f - reaction).collect()
+    }
+
+    /// max |phi| of the terms, in units of the scene's scale.
+    pub fn gap(&self) -> f64 {
+        let rows = self.dynamics.terms.phi.iter().zip(&self.scales);
+        rows.fold(0.0, |gap, (phi, scale)| gap.max((phi / scale).abs()))
+    }
+
+    /// Multipliers that leave the least force. The terms are then those at q.
+    pub fn balance(&mut self, q: &[f64]) -> Option<Balance> {
+        self.evaluate(q);
+        let terms = &self.dynamics.terms;
+        self.level.factor(&self.ones, &terms.g).ok()?;
+        let (mut top, mut lambda) = (terms.f.clone(), vec![0.0; self.scales.len()]);
+        self.level.solve(&mut top, &mut lambda).ok()?;
+        let force = self.force(&lambda);
+        force.iter().all(|x| x.is_finite()).then_some(Balance { place: Place { q: q.to_vec(), lambda }, force })
+    }
+
+    /// The least change of q that closes the joints, to first order, by the terms.
+    pub fn closing(&mut self) -> Option<Change> {
+        let terms = &self.dynamics.terms;
+        self.level.factor(&self.ones, &terms.g).ok()?;
+        let phi: Vec<f64> = terms.phi.iter().map(|phi| -phi).collect();
+        let mut q = vec![0.0; self.still.len()];
+        self.level.solve_projection(&phi, &mut q).ok()?;
+        Some(Change { q, lambda: Vec::new() })
+    }
+
+    /// Multipliers are those of least norm from now on.
+    pub fn release(&mut self) {
+        self.dynamics.hold(&[]);
+        self.level.hold(&[]);
+    }
+
+    /// Factors at a place whose terms are there; false where the matrix is singular.
+    pub fn factor(&mut self, place: &Place, shift: f64) -> bool {
+        let at = Loaded { t: self.t, q: &place.q, v: &self.still, vdot: &self.still, lambda: &place.lambda };
+        let Dynamics { system, structure, terms, scratch, .. } = &mut self.dynamics;
+        system.tangent(at, &mut self.tangent, scratch);
+        self.matrix.clear();
+        self.matrix.add(&structure.tangent, &self.tangent.k, 1.0, false);
+        (0..self.still.len()).for_each(|i| self.matrix.add_entry(i, i, shift));
+        self.values.iter_mut().zip(&self.entries).for_each(|(value, &entry)| *value = terms.g[entry]);
+        self.matrix.factor(&self.g, &self.values).is_ok()
+    }
+
+    /// With the phi of the terms.
+    pub fn solve(&mut self, force: &[f64]) -> Option<Change> {
+        self.iterations += 1;
+        let mut q = force.to_vec();
+        let mut rows: Vec<f64> = self.rows.iter().map(|&row| -self.dynamics.terms.phi[row]).collect();
+        self.matrix.solve(&mut q, &mut rows).ok()?;
+        let mut lambda = vec![0.0; self.scales.len()];
+        self.rows.iter().zip(rows).for_each(|(&row, value)| lambda[row] = value);
+        Some(Change { q, lambda })
+    }
+
+    /// The place that lies `part` of a change ahead.
+    pub fn moved(&mut self, from: &Place, change: &Change, part: f64) -> Place {
+        let dq: Vec<f64> = change.q.iter().map(|dq| part * dq).collect();
+        let mut q = from.q.clone();
+        turn(self.dynamics.system, &mut self.stages, &from.q, &dq, &mut q);
+        let lambda = from.lambda.iter().zip(&change.lambda).map(|(lambda, d)| lambda + part * d).collect();
+        Place { q, lambda }
+    }
+
+    /// |dq| in the metric of the terms' M: of one unit, whatever the coordinates.
+    pub fn size(&self, dq: &[f64]) -> f64 {
+        let mut product = vec![0.0; dq.len()];
+        self.dynamics.structure.mass.multiply_symmetric(&self.dynamics.terms.mass, dq, &mut product);
+        dq.iter().zip(product).map(|(dq, p)| dq * p).sum::<f64>().max(0.0).sqrt()
+    }
+
+    /// Whether a force is as small as round-off leaves it: of the forces and reactions that make it up, and of
+    /// coordinates rounded by an ulp where K is that of the last factorization.
+    pub fn is_round_off(&self, place: &Place, force: &[f64]) -> bool {
+        let (terms, structure) = (&self.dynamics.terms, &self.dynamics.structure);
+        let mut size: Vec<f64> = terms.f.iter().map(|f| f.abs()).collect();
+        for (&(i, j), g) in structure.g.entries.iter().zip(&terms.g) {
+            size[j] += (g * place.lambda[i]).abs();
+        }
+        let reach = 1.0f64.max(largest(&place.q));
+        for (&(i, _), k) in structure.tangent.entries.iter().zip(&self.tangent.k) {
+            size[i] += k.abs() * reach;
+        }
+        let least = LEAST * largest(&size);
+        force.iter().zip(&size).all(|(force, size)| force.abs() <= ROUND_OFF * size.max(least))
+            && self.gap() <= super::CLOSED
+    }
+}
+
+/// Sums of a few terms are right to some ulps; terms below the second part of the largest are as good as none.
+const ROUND_OFF: f64 = 1e-14;
+const LEAST: f64 = 1e-8;

@@ -1,0 +1,89 @@
+//! Whether an equilibrium comes back when it is disturbed.
+
+use super::rest::{Place, Rest};
+use crate::formulation::{free_directions, reduce};
+use nalgebra::{DVector, SymmetricEigen};
+use serde::Serialize;
+
+/// From the least to the most welcome.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Stability {
+    /// K is negative along a direction that the constraints allow.
+    Unstable,
+    /// Too many coordinates for all directions, or forces without a potential.
+    Unknown,
+    /// K is zero along a direction, and nowhere negative.
+    Neutral,
+    /// K is positive along all directions.
+    Stable,
+}
+
+/// More velocities than this are too many for dense matrices.
+const MOST_VELOCITIES: usize = 300;
+/// Part of the largest eigenvalue that is round-off.
+const ROUND_OFF: f64 = 1e-12;
+/// Part of K that may be skew before its eigenvalues mean something else.
+const SKEW: f64 = 1e-6;
+/// A coordinate takes part in a direction by this part of the largest, and so many are named.
+const PART: f64 = 0.3;
+const MOST_NAMED: usize = 6;
+
+/// Directions without stiffness among those that the constraints allow.
+pub(super) struct Soft {
+    pub smallest: f64,
+    /// Along q, each with unit mass.
+    pub directions: Vec<DVector<f64>>,
+    is_symmetric: bool,
+}
+
+/// Z^T K Z at a place, as far as it can be looked at.
+pub(super) fn soft(rest: &mut Rest, place: &Place) -> Option<Soft> {
+    if rest.dynamics.vdot.len() > MOST_VELOCITIES {
+        return None;
+    }
+    let balance = rest.balance(&place.q)?;
+    rest.factor(&balance.place, 0.0);
+    rest.dynamics.factor().ok()?;
+    let z = free_directions(&mut rest.dynamics)?;
+    let k = reduce(&rest.dynamics.structure.tangent, &rest.tangent.k, &z);
+    let symmetric = 0.5 * (&k + k.transpose());
+    let is_symmetric = (&k - &symmetric).amax() <= SKEW * k.amax();
+    if k.is_empty() {
+        return Some(Soft { smallest: f64::INFINITY, directions: Vec::new(), is_symmetric });
+    }
+    let least = ROUND_OFF * k.amax() * k.nrows() as f64;
+    let eigen = SymmetricEigen::new(symmetric);
+    let soft = eigen.eigenvalues.iter().enumerate().filter(|(_, value)| value.abs() <= least);
+    Some(Soft {
+        smallest: eigen.eigenvalues.iter().copied().fold(f64::INFINITY, f64::min),
+        directions: soft.map(|(i, _)| &z * eigen.eigenvectors.column(i)).collect(),
+        is_symmetric,
+    })
+}
+
+/// Stability at an equilibrium, and the coordinates that nothing holds there.
+pub(super) fn judge(rest: &mut Rest, place: &Place) -> (Stability, Vec<String>) {
+    let Some(soft) = soft(rest, place) else { return (Stability::Unknown, Vec::new()) };
+    let free = named(rest, &soft.directions);
+    let stability = match soft.directions.is_empty() {
+        _ if !soft.is_symmetric => Stability::Unknown,
+        true if soft.smallest > 0.0 => Stability::Stable,
+        _ if soft.directions.is_empty() => Stability::Unstable,
+        _ => Stability::Neutral,
+    };
+    (stability, free)
+}
+
+/// The coordinates that take most part in the directions.
+pub(super) fn named(rest: &Rest, directions: &[DVector<f64>]) -> Vec<String> {
+    let names = rest.dynamics.system.names().v;
+    let mut found = Vec::new();
+    for direction in directions {
+        let taking = |i: &usize| direction[*i].abs() >= PART * direction.amax();
+        found.extend((0..direction.len()).filter(taking));
+    }
+    found.sort_unstable();
+    found.dedup();
+    found.into_iter().take(MOST_NAMED).map(|i| names[i].trim_end_matches('\'').to_string()).collect()
+}

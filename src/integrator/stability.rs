@@ -1,0 +1,88 @@
+//! How long the steps of an explicit method may be.
+
+/// Where steps keep a mode x' = lambda x from growing.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Stability {
+    /// A step multiplies x by R(h lambda), these the coefficients of 1, z, z^2 ...
+    Polynomial(Vec<f64>),
+    /// |h lambda| < 2, and damping h c/2 < 0.8 of a first half that is iterated.
+    Leapfrog,
+}
+
+/// What may grow a radian, in ln |x|: all but a few methods grow a little on the imaginary axis, however short the steps.
+const GROWTH: f64 = 1e-3;
+/// Contraction of an iteration that a hundred rounds bring to round-off.
+const ITERABLE: f64 = 0.8;
+/// Limits are sought up to this |z| in such steps, and refined.
+const FARTHEST: f64 = 50.0;
+const STRIDE: f64 = 0.01;
+
+impl Stability {
+    /// Of an explicit Runge-Kutta method, row i with i entries at most: R(z) = 1 + sum_k z^k b^T A^(k-1) 1.
+    pub fn of<'a>(row: impl Fn(usize) -> &'a [f64], b: &[f64]) -> Self {
+        let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
+        let mut powers = vec![1.0; b.len()];
+        let mut coefficients = vec![1.0];
+        for _ in 0..b.len() {
+            coefficients.push(dot(b, &powers));
+            powers = (0..b.len()).map(|i| dot(row(i), &powers)).collect();
+        }
+        Stability::Polynomial(coefficients)
+    }
+
+    /// The largest |h lambda| for lambda along -decay + i swing up to which nothing grows that should not.
+    pub fn limit(&self, decay: f64, swing: f64) -> f64 {
+        let rate = decay.hypot(swing);
+        let direction = if rate > 0.0 { [-decay / rate, swing / rate] } else { [-1.0, 0.0] };
+        let Stability::Polynomial(coefficients) = self else {
+            // c is twice the decay of a swing, and that of the fast one of two decays.
+            let damping = if swing > 0.0 { 2.0 } else { 1.0 } * direction[0].abs();
+            return f64::min(2.0, 2.0 * ITERABLE / damping);
+        };
+        let holds = |size: f64| excess(coefficients, direction.map(|x| x * size)) <= GROWTH * size;
+        let mut size = STRIDE;
+        while size < FARTHEST && holds(size) {
+            size += STRIDE;
+        }
+        let (mut low, mut high) = (size - STRIDE, size);
+        for _ in 0..20 {
+            let middle = 0.5 * (low + high);
+            *(if holds(middle) { &mut low } else { &mut high }) = middle;
+        }
+        low
+    }
+
+    /// By what power of e a step of size `h` makes the mode grow beyond its own growth; below zero where it does not.
+    pub fn growth(&self, decay: f64, swing: f64, h: f64) -> f64 {
+        match self {
+            Stability::Polynomial(coefficients) => excess(coefficients, [-decay * h, swing * h]),
+            Stability::Leapfrog if decay.hypot(swing) * h < self.limit(decay, swing) => 0.0,
+            Stability::Leapfrog => f64::INFINITY,
+        }
+    }
+}
+
+/// ln |R(z)| beyond that of exp(z) where that grows, by Horner's rule.
+fn excess(coefficients: &[f64], z: [f64; 2]) -> f64 {
+    let [re, im] = coefficients
+        .iter()
+        .rev()
+        .fold([0.0, 0.0], |[re, im], coefficient| [re * z[0] - im * z[1] + coefficient, re * z[1] + im * z[0]]);
+    re.hypot(im).ln() - z[0].max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Stability;
+
+    /// The classical method: 2.785 on the real axis, 2 sqrt 2 on the imaginary one (Hairer, Wanner II, IV.2).
+    #[test]
+    fn limits_are_those_of_the_books() {
+        let rows: [&[f64]; 4] = [&[], &[0.5], &[0.0, 0.5], &[0.0, 0.0, 1.0]];
+        let stability = Stability::of(|i| rows[i], &[1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0]);
+        let off = |limit: f64, expected: f64| (limit - expected).abs();
+        assert!(off(stability.limit(1.0, 0.0), 2.7853) < 2e-3 && off(stability.limit(0.0, 1.0), 8f64.sqrt()) < 2e-2);
+        let euler = Stability::of(|_| &[], &[1.0]);
+        assert!(off(euler.limit(3.0, 0.0), 2.0) < 2e-3 && off(euler.limit(0.0, 5.0), 2e-3) < 1e-2);
+    }
+}

@@ -1,0 +1,157 @@
+//! What `check --static` says of the equilibrium.
+
+use super::Table;
+use super::summary::significant;
+use crate::initial::{Equilibrium, Stability, Way};
+use crate::study::Study;
+use crate::system::Scratch;
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+/// The static equilibrium, or that there is none.
+#[derive(Clone, Debug, Serialize)]
+pub struct Rest {
+    pub converged: bool,
+    /// Time that expressions of t are held at, s.
+    pub t: f64,
+    pub method: Option<Way>,
+    /// Linear systems solved, and steps of the load or of the descent, over all ways tried.
+    pub iterations: usize,
+    pub steps: usize,
+    /// max |f - G^T lambda|, N or N m; max |phi| in units of the scene's scale.
+    pub residual: Option<f64>,
+    pub gap: Option<f64>,
+    pub q: Map<String, Value>,
+    pub lambda: Map<String, Value>,
+    pub outputs: Map<String, Value>,
+    /// None where that is not known, or where nothing holds the coordinates in `free`.
+    pub stable: Option<bool>,
+    pub stability: Option<Stability>,
+    /// Coordinates that can move without any force against them.
+    pub free: Vec<String>,
+    /// Coordinates that are elsewhere than at the start: name, from, to.
+    #[serde(skip)]
+    moves: Vec<(String, f64, f64)>,
+    #[serde(skip)]
+    units: Vec<String>,
+}
+
+/// Moves below this part of 1 and the coordinate are rounding.
+const STILL: f64 = 1e-9;
+const MOST_MOVES: usize = 10;
+
+impl Rest {
+    /// That there is none.
+    pub fn none(t: f64) -> Rest {
+        Rest {
+            converged: false,
+            t,
+            method: None,
+            iterations: 0,
+            steps: 0,
+            residual: None,
+            gap: None,
+            q: Map::new(),
+            lambda: Map::new(),
+            outputs: Map::new(),
+            stable: None,
+            stability: None,
+            free: Vec::new(),
+            moves: Vec::new(),
+            units: Vec::new(),
+        }
+    }
+
+    pub fn of(study: &Study, found: Equilibrium) -> Rest {
+        let (system, names) = (study.system(), study.system().names());
+        let columns = system.columns();
+        let (mut outputs, still) = (vec![0.0; columns.len()], vec![0.0; names.v.len()]);
+        system.outputs(found.t, &found.q, &still, &found.lambda, &mut outputs, &mut Scratch::default());
+        let pairs = names.q.iter().zip(study.start().0.iter().zip(&found.q));
+        let moved = pairs.filter(|(_, (from, to))| (*to - *from).abs() > STILL * (1.0 + from.abs()));
+        let mut moves: Vec<_> = moved.map(|(name, (&from, &to))| (name.clone(), from, to)).collect();
+        moves.sort_by(|a, b| (b.2 - b.1).abs().total_cmp(&(a.2 - a.1).abs()));
+        Rest {
+            converged: true,
+            t: found.t,
+            method: Some(found.way),
+            iterations: found.iterations,
+            steps: found.steps,
+            residual: Some(found.residual),
+            gap: Some(found.gap),
+            q: named(names.q, &found.q),
+            lambda: named(names.lambda, &found.lambda),
+            outputs: named(columns.iter().map(|column| column.name.clone()), &outputs),
+            stable: match found.stability {
+                Stability::Stable => Some(true),
+                Stability::Unstable => Some(false),
+                _ => None,
+            },
+            stability: Some(found.stability),
+            free: found.free,
+            moves,
+            units: columns.into_iter().map(|column| column.unit).collect(),
+        }
+    }
+
+    pub fn text(&self) -> String {
+        let (Some(way), Some(stability)) = (self.method, self.stability) else {
+            return format!("\nno static equilibrium at t = {} s\n", self.t);
+        };
+        let mut text = format!(
+            "\nstatic equilibrium at t = {} s, {}\n  by {}: {} linear systems{}, force left {:.1e} (N, N m), |phi| {:.1e}\n",
+            self.t,
+            self.stability_text(stability),
+            match way {
+                Way::Newton => "Newton's method",
+                Way::DampedNewton => "Newton's method, damped",
+                Way::Homotopy => "taking the missing force away in steps",
+                Way::Descent => "descent along the forces",
+            },
+            self.iterations,
+            if self.steps > 0 { format!(" in {} steps", self.steps) } else { String::new() },
+            self.residual.unwrap_or_default(),
+            self.gap.unwrap_or_default()
+        );
+        for (name, from, to) in self.moves.iter().take(MOST_MOVES) {
+            let [from, to] = [from, to].map(|value| significant(*value, 8));
+            text += &format!("  moved {name}: {from} -> {to}\n");
+        }
+        if self.moves.len() > MOST_MOVES {
+            text += &format!("  and {} smaller moves\n", self.moves.len() - MOST_MOVES);
+        }
+        text + &self.table("multiplier there", &self.lambda, &[])
+            + &self.table("output there", &self.outputs, &self.units)
+    }
+
+    fn stability_text(&self, stability: Stability) -> String {
+        match stability {
+            Stability::Stable => "stable".to_string(),
+            Stability::Unstable => "UNSTABLE: a start nearer to another one finds that".to_string(),
+            Stability::Neutral => format!("neutral: nothing holds {}", self.free.join(", ")),
+            Stability::Unknown => {
+                "of unknown stability: too many coordinates, or forces without a potential".to_string()
+            }
+        }
+    }
+
+    /// At most so many rows as a person reads.
+    fn table(&self, heading: &str, values: &Map<String, Value>, units: &[String]) -> String {
+        const MOST: usize = 40;
+        if values.is_empty() {
+            return String::new();
+        }
+        let mut table = Table::new(&[heading, "", ""]);
+        for (i, (name, value)) in values.iter().take(MOST).enumerate() {
+            let value = value.as_f64().map_or("?".to_string(), |value| significant(value, 8));
+            table.row([name.clone(), value, units.get(i).cloned().unwrap_or_default()]);
+        }
+        let more = values.len().saturating_sub(MOST);
+        let tail = if more > 0 { format!("  and {more} more, which --json lists\n") } else { String::new() };
+        format!("\n{table}{tail}")
+    }
+}
+
+fn named(names: impl IntoIterator<Item = String>, values: &[f64]) -> Map<String, Value> {
+    names.into_iter().zip(values.iter().map(|value| Value::from(*value))).collect()
+}
