@@ -315,11 +315,18 @@ fn quarter_car_stands_still_without_a_bump() {
     assert!(run.worst("strut_force", |_| -400.0 * 9.81) < 1e-10);
 }
 
-/// Kinetic + potential = initial + work, for all shipped scenes, also those that pass singular positions, at a tolerance
+/// Beams whose fast waves, or the damping of these, would cost an explicit method millions of steps.
+const STIFF: [&str; 3] = ["bathe_bend", "princeton_beam", "right_angle_cantilever"];
+
+fn stem(path: &std::path::Path) -> &str {
+    path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default()
+}
+
+/// Kinetic + potential = initial + work, for all shipped scenes that are not stiff, also those that pass singular positions, at a tolerance
 /// of 1e-11.
 #[test]
 fn energy_is_accounted_for() {
-    let conservative = models().into_iter().map(|path| (path, None));
+    let conservative = models().into_iter().filter(|path| !STIFF.contains(&stem(path))).map(|path| (path, None));
     let dissipative = [
         ("two_mass", "c1", 2.0),
         ("four_bar_spring", "c1", 0.5),

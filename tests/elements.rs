@@ -132,6 +132,21 @@ const FORCES: &[Force] = &[
         spatial: r#""between": ["A.p", "B.p"], "stiffness": [9, 7, 8, 4, 3, 5], "damping": [1, 2, 3, 4, 5, 6]"#,
     },
     Force {
+        kind: "beam",
+        nature: Nature::Conservative,
+        planar: r#""between": ["A.p", "B.p"], "length": 1.2, "stiffness": { "EA": 30, "EI": 4 }, "curvature": 0.3"#,
+        spatial: r#""between": ["A.p", "B.p"], "length": 1.2, "stiffness": { "EA": 30, "EI": [4, 5], "GJ": 3, "GA": 9 },
+            "theory": "timoshenko", "curvature": [0.2, 0.3, -0.1]"#,
+    },
+    Force {
+        kind: "beam",
+        nature: Nature::Damper,
+        planar: r#""between": ["A.p", "B.p"], "length": 1.2, "stiffness": { "EA": 30, "EI": 4 },
+            "damping": { "stiffness": 0.1 }"#,
+        spatial: r#""between": ["A.p", "B.p"], "length": 1.2, "stiffness": { "EA": 30, "EI": 4, "GJ": 3 },
+            "damping": { "stiffness": 0.1 }"#,
+    },
+    Force {
         kind: "applied_force",
         nature: Nature::Other,
         planar: r#""at": "B.p", "force": ["sin(3*t)", "-2*B.p.x' + A.r.y"]"#,
