@@ -97,6 +97,9 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
     fn energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy {
         BodyKernel::energy(self, q, v, gravity)
     }
+    fn dissipation(&self, _v: &[f64]) -> f64 {
+        0.0
+    }
     fn normalize(&self, q: &mut [f64]) {
         BodyKernel::normalize(self, q);
     }

@@ -130,6 +130,8 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Slope, D> + Send + S
     /// k += d(M v' - f)/dq along the directions of v, c += d(M v' - f)/dv, with f the own forces.
     fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]);
     fn energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy;
+    /// Power that its damping takes, W.
+    fn dissipation(&self, v: &[f64]) -> f64;
     fn normalize(&self, q: &mut [f64]);
     /// Whether its markers have an orientation.
     fn oriented(&self) -> bool;

@@ -160,6 +160,9 @@ impl<const D: usize> Body<D> for Floating<D> {
         let inertia = self.inertia_energy(q, v, gravity);
         Energy { potential: inertia.potential + self.elastic_energy(q), ..inertia }
     }
+    fn dissipation(&self, v: &[f64]) -> f64 {
+        2.0 * elastic::half_square(&self.elastic.damping, &v[frame_velocities(D)..])
+    }
     fn normalize(&self, q: &mut [f64]) {
         if D == 3 {
             let norm = q[3..7].iter().map(|x| x * x).sum::<f64>().sqrt();
