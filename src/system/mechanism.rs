@@ -116,8 +116,8 @@ impl<const D: usize> Mechanism<D> {
         }
     }
 
-    fn forces(&self, t: f64, q: &[f64], work: &mut Workspace<D>, terms: &mut Terms) {
-        terms.power = 0.0;
+    fn forces(&self, t: f64, (q, v): (&[f64], &[f64]), work: &mut Workspace<D>, terms: &mut Terms) {
+        terms.power = -self.model.bodies.iter().map(|part| part.body.dissipation(of(v, part, false))).sum::<f64>();
         for force in &self.model.forces {
             let mut wrenches = [Wrench::zero(); MOST_MARKERS];
             let wrenches = &mut wrenches[..force.markers.len()];
@@ -240,7 +240,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         self.at(q, v, scratch, |work| {
             self.mass_and_own_forces(q, v, need, terms);
             if need.includes(Need::FORCE) {
-                self.forces(t, q, work, terms);
+                self.forces(t, (q, v), work, terms);
             }
             self.constraints(t, q, need, work, terms);
             if need.includes(Need::L) {

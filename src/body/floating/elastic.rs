@@ -1,7 +1,7 @@
 //! Elastic forces: K q + D q', and geometric stiffening.
 
 use super::{Floating, frame_coordinates, frame_velocities};
-use crate::body::flexible::Stretch;
+use crate::body::flexible::{Stretch, Symmetric};
 
 /// The mean extension a.q and squared slope q.S q of a stretch.
 struct Means {
@@ -47,13 +47,11 @@ impl<const D: usize> Floating<D> {
 
     pub(super) fn elastic_energy(&self, q: &[f64]) -> f64 {
         let q = &q[frame_coordinates(D)..];
-        let term =
-            |&(i, j, value): &(usize, usize, f64)| if i == j { 0.5 * value * q[i] * q[i] } else { value * q[i] * q[j] };
         let stretch = |stretch: &Stretch| {
             let Means { axial, squared } = Means::at(stretch, q);
             0.5 * stretch.weight * (axial + 0.25 * squared) * squared
         };
-        self.elastic.stiffness.iter().map(term).sum::<f64>() + self.elastic.stretches.iter().map(stretch).sum::<f64>()
+        half_square(&self.elastic.stiffness, q) + self.elastic.stretches.iter().map(stretch).sum::<f64>()
     }
 
     pub(super) fn add_elastic_tangent(&self, q: &[f64], k: &mut [f64], c: &mut [f64]) {
@@ -76,6 +74,13 @@ impl<const D: usize> Floating<D> {
             }
         }
     }
+}
+
+/// x.A x/2
+pub(super) fn half_square(matrix: &Symmetric, x: &[f64]) -> f64 {
+    let term =
+        |&(i, j, value): &(usize, usize, f64)| if i == j { 0.5 * value * x[i] * x[i] } else { value * x[i] * x[j] };
+    matrix.iter().map(term).sum()
 }
 
 /// Both triangles of a symmetric matrix.
