@@ -83,6 +83,6 @@ mod tests {
         let off = |limit: f64, expected: f64| (limit - expected).abs();
         assert!(off(stability.limit(1.0, 0.0), 2.7853) < 2e-3 && off(stability.limit(0.0, 1.0), 8f64.sqrt()) < 2e-2);
         let euler = Stability::of(|_| &[], &[1.0]);
-        assert!(off(euler.limit(3.0, 0.0), 2.0) < 2e-3 && off(euler.limit(0.0, 5.0), 2e-3) < 1e-2);
+        assert!(off(euler.limit(3.0, 0.0), 2.0) < 5e-3 && off(euler.limit(0.0, 5.0), 2e-3) < 1e-2);
     }
 }
