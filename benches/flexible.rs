@@ -89,10 +89,7 @@ fn method(formulation: &str, integrator: &str, step: f64) -> Method {
 
 fn main() {
     println!("{:<22} {:>7} {:>22} {:>34}", "", "", "rk4 on index1", "generalized_alpha on ggl");
-    println!(
-        "{:<22} {:>7} {:>11} {:>10} {:>14} {:>10} {:>12}",
-        "", "N", "us/step", "us/N", "us/step", "us/N", "kB/N"
-    );
+    println!("{:<22} {:>7} {:>11} {:>10} {:>14} {:>10} {:>12}", "", "N", "us/step", "us/N", "us/step", "us/N", "kB/N");
     for (dimension, frame) in [(2, "floating"), (2, "absolute"), (3, "floating"), (3, "absolute")] {
         for elements in [10, 100, 1000, 10_000] {
             let study = cantilever(dimension, frame, elements);

@@ -23,6 +23,8 @@ const FEWEST: f64 = 30.0;
 const GAP: f64 = 100.0;
 /// and where that saves this much, since what comes later may wake it.
 const WAGER: f64 = 10.0;
+/// So many steps for the sake of modes at rest deserve a word.
+const CRAWL: f64 = 2e4;
 /// From here on eight orders cost less than five at equal accuracy, on the shipped scenes.
 const TIGHT: f64 = 1e-5;
 
@@ -87,6 +89,9 @@ pub(super) struct Work {
     /// Of an explicit method for the accuracy of all modes while they last, and of those below a gap.
     pub accuracy: f64,
     slow: f64,
+    /// Of those that are as much slower than the fastest, with no gap asked for: the modes of a finite element mesh have
+    /// none.
+    band: f64,
     /// Of the same for stability.
     pub stability: f64,
     /// Of an implicit method whose matrix changes too much within a longer step.
@@ -105,8 +110,10 @@ impl Work {
         let steps = |modes: &[Mode]| modes.iter().map(|mode| mode.rate() * life(mode) / radians).fold(0.0, f64::max);
         let modes = &spectrum.modes;
         let gap = (1..modes.len()).rev().find(|&i| modes[i].rate() > GAP * modes[i - 1].rate());
+        let band = modes.last().map_or(0, |last| modes.partition_point(|mode| GAP * mode.rate() < last.rate()));
         let [damping, stiffness] = spectrum.turning;
         Work {
+            band: steps(&modes[..band]),
             accuracy: steps(modes),
             slow: steps(&modes[..gap.unwrap_or(modes.len())]),
             stability: modes.last().map_or(0.0, |fastest| fastest.rate() * duration / method.stability),
@@ -119,6 +126,16 @@ impl Work {
     /// Steps that accuracy asks for where the fastest modes are stepped over.
     pub fn smooth(&self) -> f64 {
         if self.lasts { self.slow } else { self.accuracy }
+    }
+
+    /// Steps that accuracy asks for where what is at rest stays so.
+    pub fn asked(&self, is_excited: bool) -> f64 {
+        if !is_excited && self.crawls() { self.band.min(self.smooth()) } else { self.smooth() }
+    }
+
+    /// Whether stability asks for a great many steps on behalf of modes that are at rest and far above others.
+    pub fn crawls(&self) -> bool {
+        self.lasts && self.stability > CRAWL && self.stability > PRICE * WAGER * self.band.max(FEWEST)
     }
 
     fn explicit(&self) -> f64 {

@@ -55,13 +55,14 @@ pub fn stiffness(system: &dyn MechanicalSystem, method: &Method, state: Loaded, 
     let stable_step = |mode: &Mode| limit(mode) / mode.rate().max(f64::MIN_POSITIVE);
     let &mode = spectrum.modes.iter().min_by(|a, b| stable_step(a).total_cmp(&stable_step(b)))?;
     let work = Work::new(&spectrum, duration, method.rtol, Explicit { order, stability: limit(&mode) });
-    let verdict = work.verdict(is_awake(&spectrum, state, (method.rtol, method.atol)));
+    let awake = is_awake(&spectrum, state, (method.rtol, method.atol));
+    let verdict = work.verdict(awake);
     let is_wrong = match method.step {
         // What grows little over the whole run is an error of accuracy.
         Some(step) => {
             step > stable_step(&mode) && duration / step * stability.growth(mode.decay, mode.swing, step) > GROWN
         }
-        None => matches!(verdict, Verdict::Damped | Verdict::Asleep),
+        None => matches!(verdict, Verdict::Damped | Verdict::Asleep) || !awake && work.crawls(),
     };
     is_wrong.then(|| Stiffness {
         integrator: method.integrator.name.clone(),
@@ -70,7 +71,7 @@ pub fn stiffness(system: &dyn MechanicalSystem, method: &Method, state: Loaded, 
         step: method.step,
         stable_step: stable_step(&mode),
         steps_for_stability: duration / stable_step(&mode),
-        steps_for_accuracy: method.step.is_none().then(|| work.smooth()),
+        steps_for_accuracy: method.step.is_none().then(|| work.asked(awake)),
         advice: advice(method, verdict, SAFETY * stable_step(&mode)),
     })
 }

@@ -21,7 +21,11 @@ fn bad_beams_are_refused() {
     let cases = [
         (BEAM.replace("\"elements\": 4,", ""), "`rod`", "the key `elements` is missing"),
         (BEAM.replace("\"elements\": 4", "\"elements\": 0"), "bodies[0].elements", "elements is 0"),
-        (BEAM.replace("\"elements\": 4", "\"elements\": -4"), "bodies[0].elements", "-4 is out of range"),
+        (
+            BEAM.replace("\"elements\": 4", "\"elements\": -4"),
+            "bodies[0].elements",
+            "elements is -4, but must be a whole number",
+        ),
         (BEAM.replace("\"elements\": 4", "\"elements\": 1000001"), "bodies[0].elements", "from 1 to 1000000"),
         (BEAM.replace("\"length\": 2", "\"length\": -2"), "bodies[0].length", "length is -2, but must be above zero"),
         (BEAM.replace("\"EI\": 1", "\"EI\": 0"), "bodies[0].stiffness.EI", "must be above zero"),

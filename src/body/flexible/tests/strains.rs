@@ -120,9 +120,8 @@ fn a_fibre_strains_as_the_signs_say() {
 /// Modes show the same displacements and strains through their line as their nodes do.
 #[test]
 fn modes_have_a_line() {
-    let scene = beam_in_space(json!({ "modes": 4, "elements": 6, "geometric_stiffening": true }));
+    let scene = beam_in_space(json!({ "modes": 4, "elements": 6 }));
     let rod: Elastic<3> = build(&scene, &[0.9]).unwrap();
-    assert_eq!(rod.stretches.len(), 3 * 6);
     let n = rod.names.len();
     let line = rod.line.unwrap();
     assert_eq!(line.point([0.9, 0.1, 0.0]).translation.len(), n);
