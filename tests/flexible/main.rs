@@ -1,0 +1,17 @@
+//! Flexible beams in whole scenes: published motions, closed forms, both kinds against each other, energy, outputs, and
+//! what is refused.
+
+#[path = "../scenes/differences.rs"]
+mod differences;
+#[path = "../scenes/examples.rs"]
+mod examples;
+#[path = "../scenes/mod.rs"]
+mod scenes;
+
+mod slider_crank;
+mod spin_up;
+
+/// Numbers with three digits.
+fn brief(numbers: &[f64]) -> String {
+    numbers.iter().map(|x| format!("{x:.2e}")).collect::<Vec<_>>().join(", ")
+}
