@@ -2,6 +2,7 @@
 
 mod array;
 mod inertia;
+pub(super) mod npy;
 mod npz;
 mod spec;
 

@@ -1,9 +1,9 @@
 //! Modal data in NumPy's `.npz` files: a zip archive with one `.npy` file an array.
 
 use super::array::Array;
+use super::npy::Npy;
 use super::spec::{Lumped, ModalData, Node, Nodes};
 use crate::error::{Error, Result, suggest};
-use npyz::{NpyFile, Order};
 use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
@@ -57,55 +57,37 @@ pub fn read(path: &Path) -> Result<ModalData<Array>> {
 
 type Archive = ZipArchive<BufReader<File>>;
 
-fn npy<'a>(archive: &'a mut Archive, key: &str) -> Result<Option<NpyFile<impl Read + 'a>>> {
-    let under = |problem: &dyn ToString| Error::input(problem.to_string()).under(key);
-    match archive.by_name(&format!("{key}.npy")) {
-        Ok(file) => NpyFile::new(file).map(Some).map_err(|problem| under(&problem)),
-        Err(zip::result::ZipError::FileNotFound) => Ok(None),
-        Err(problem) => Err(under(&problem)),
-    }
+/// The file of one array.
+fn bytes(archive: &mut Archive, key: &str) -> Result<Option<Vec<u8>>> {
+    let mut bytes = Vec::new();
+    let problem = match archive.by_name(&format!("{key}.npy")) {
+        Ok(mut file) => match file.read_to_end(&mut bytes) {
+            Ok(_) => return Ok(Some(bytes)),
+            Err(problem) => problem.to_string(),
+        },
+        Err(zip::result::ZipError::FileNotFound) => return Ok(None),
+        Err(problem) => problem.to_string(),
+    };
+    Err(Error::input(problem).under(key))
 }
 
-/// Numbers of any of NumPy's usual kinds.
 fn array(archive: &mut Archive, key: &str) -> Result<Option<Array>> {
-    let Some(file) = npy(archive, key)? else { return Ok(None) };
-    let shape: Vec<usize> = file.shape().iter().map(|&length| length as usize).collect();
-    let order = file.order();
-    let values = numbers(file).map_err(|error| error.under(key))?;
+    let Some(bytes) = bytes(archive, key)? else { return Ok(None) };
+    let npy = Npy::parse(&bytes).map_err(|error| error.under(key))?;
+    let values = npy.numbers().map_err(|error| error.under(key))?;
+    if values.is_empty() {
+        return Err(Error::input("the array is empty").under(key));
+    }
     if let Some(bad) = values.iter().find(|value| !value.is_finite()) {
         return Err(Error::input(format!("holds {bad}")).under(key).hint("all numbers must be finite"));
     }
-    let values = if order == Order::Fortran { last_index_fastest(&shape, &values) } else { values };
-    Ok(Some(Array { shape, values }))
+    Ok(Some(Array { shape: npy.shape, values }))
 }
 
-fn numbers<R: Read>(file: NpyFile<R>) -> Result<Vec<f64>> {
-    let kind = file.dtype().descr();
-    let problem = |problem: std::io::Error| Error::input(problem.to_string());
-    Ok(match kind.trim_matches(['\'', '<', '>', '|', '=']) {
-        "f8" => file.into_vec::<f64>().map_err(problem)?,
-        "f4" => file.into_vec::<f32>().map_err(problem)?.into_iter().map(f64::from).collect(),
-        "i8" => file.into_vec::<i64>().map_err(problem)?.into_iter().map(|value| value as f64).collect(),
-        "i4" => file.into_vec::<i32>().map_err(problem)?.into_iter().map(f64::from).collect(),
-        _ => {
-            return Err(Error::input(format!("expected numbers, found an array of type {kind}"))
-                .hint("convert it by .astype(float)"));
-        }
-    })
-}
-
-/// From Fortran's order, in which the first index runs fastest.
-fn last_index_fastest(shape: &[usize], values: &[f64]) -> Vec<f64> {
-    let place = |mut index: usize| {
-        let mut place = 0;
-        // Digits of the index from the last one on, weighed by what comes before each.
-        for (k, length) in shape.iter().enumerate().rev() {
-            place += index % length * shape[..k].iter().product::<usize>();
-            index /= length;
-        }
-        place
-    };
-    (0..values.len()).map(|index| values[place(index)]).collect()
+fn texts(archive: &mut Archive, key: &str) -> Result<Option<Vec<String>>> {
+    let Some(bytes) = bytes(archive, key)? else { return Ok(None) };
+    let texts = Npy::parse(&bytes).and_then(|npy| npy.texts());
+    texts.map(Some).map_err(|error| error.under(key).hint("names are text, as '<U8'"))
 }
 
 fn missing(key: &str) -> Error {
@@ -128,12 +110,8 @@ fn nodes(archive: &mut Archive) -> Result<Option<Nodes<Array>>> {
     let translations = array(archive, NODES[2])?.ok_or_else(|| missing(NODES[2]))?;
     let rotations = array(archive, NODES[3])?;
     let count = positions.shape.first().copied().unwrap_or(0);
-    let names = match npy(archive, NODES[0])? {
-        None => (1..=count).map(|i| format!("node{i}")).collect(),
-        Some(file) => file
-            .into_vec::<String>()
-            .map_err(|problem| Error::input(problem.to_string()).under(NODES[0]).hint("names are text, as '<U8'"))?,
-    };
+    let numbered = || (1..=count).map(|i| format!("node{i}")).collect();
+    let names = texts(archive, NODES[0])?.unwrap_or_else(numbered);
     if names.len() != count {
         return Err(Error::input(format!("expected {count} names, found {}", names.len())).under(NODES[0]));
     }

@@ -5,6 +5,7 @@ mod errors;
 mod frequencies;
 mod integrals;
 mod modal;
+mod npy;
 mod strains;
 
 use super::eigen::{Modes, dense};

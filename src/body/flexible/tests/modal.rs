@@ -1,9 +1,9 @@
 //! Bodies in modal coordinates: a reduced beam written out and read back is the same body; data that cannot be meant.
 
+use super::npy::{bytes, npy};
 use super::*;
 use crate::body::flexible::modal::{Array, Lumped, ModalBody, ModalData, ModalShapes, Node, Nodes};
 use crate::body::flexible::{PointShape, gauss_legendre, on_interval};
-use npyz::WriterBuilder;
 use std::io::Write;
 use std::path::Path;
 
@@ -123,33 +123,20 @@ fn a_beam_written_as_json_is_read_as_it_was() {
 fn write_npz(path: &Path, arrays: &[(&str, Array)], names: &[&str]) {
     let mut archive = zip::ZipWriter::new(std::fs::File::create(path).unwrap());
     let options = zip::write::SimpleFileOptions::default().compression_method(zip::CompressionMethod::Deflated);
-    for (name, array) in arrays {
-        let shape: Vec<u64> = array.shape.iter().map(|&length| length as u64).collect();
-        let fortran = array.shape.len() == 2;
-        let mut bytes = Vec::new();
-        let order = if fortran { npyz::Order::Fortran } else { npyz::Order::C };
-        let writer = npyz::WriteOptions::new().default_dtype().shape(&shape).order(order).writer(&mut bytes);
-        let mut writer = writer.begin_nd().unwrap();
-        for i in 0..array.values.len() {
-            let place = match fortran {
-                true => (i % array.shape[0]) * array.shape[1] + i / array.shape[0],
-                false => i,
-            };
-            writer.push(&array.values[place]).unwrap();
-        }
-        writer.finish().unwrap();
+    let mut write = |name: &str, file: &[u8]| {
         archive.start_file(format!("{name}.npy"), options).unwrap();
-        archive.write_all(&bytes).unwrap();
+        archive.write_all(file).unwrap();
+    };
+    for (name, Array { shape, values }) in arrays {
+        let fortran = shape.len() == 2;
+        let place = |i: usize| if fortran { i % shape[0] * shape[1] + i / shape[0] } else { i };
+        let values: Vec<f64> = (0..values.len()).map(|i| values[place(i)]).collect();
+        write(name, &npy(1, "<f8", fortran, shape, &bytes(&values, f64::to_le_bytes)));
     }
     if !names.is_empty() {
-        let mut bytes = Vec::new();
-        let text = npyz::DType::parse("'<U8'").unwrap();
-        let writer = npyz::WriteOptions::<String>::new().dtype(text).shape(&[names.len() as u64]).writer(&mut bytes);
-        let mut writer = writer.begin_nd().unwrap();
-        names.iter().for_each(|name| writer.push(&name.to_string()).unwrap());
-        writer.finish().unwrap();
-        archive.start_file("node_names.npy", options).unwrap();
-        archive.write_all(&bytes).unwrap();
+        let letters = names.iter().flat_map(|name| name.chars().chain(std::iter::repeat('\0')).take(8));
+        let letters: Vec<u32> = letters.map(u32::from).collect();
+        write("node_names", &npy(1, "<U8", false, &[names.len()], &bytes(&letters, u32::to_le_bytes)));
     }
     archive.finish().unwrap();
 }
@@ -344,4 +331,21 @@ fn files_that_cannot_be_used() {
     arrays.retain(|(name, _)| *name != "node_translations");
     write_npz(&path, &arrays, &[]);
     assert_eq!(message("d.npz"), "at file: d.npz: the key `node_translations` is missing");
+}
+
+/// tests/data/numpy.npz, written by NumPy itself; what is in it is in tests/data/README.md.
+#[test]
+fn a_file_of_numpy() {
+    let node = |x: i32| json!({ "position": [x, 0], "translation": [[0, x], [1, -1]], "rotation": [0.5, x] });
+    let data = json!({
+        "mass": 2, "center": [0.5, 0], "inertia": 0.25, "modal_stiffness": [[100, 1], [1, 400]], "modal_damping": [1, 0],
+        "angular_coupling": [0.125, -0.25], "nodes": { "left": node(0), "Räder": node(1), "tip": node(2) },
+    });
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
+    let found = read::<2>(json!({ "file": "numpy.npz" }), &folder).unwrap();
+    let expected = read::<2>(json!({ "data": data }), Path::new("")).unwrap();
+    assert_eq!(found.elastic.pieces, expected.elastic.pieces);
+    assert_eq!(found.elastic.stiffness, expected.elastic.stiffness);
+    assert_eq!(found.elastic.damping, expected.elastic.damping);
+    assert_eq!(found.nodes, expected.nodes);
 }
