@@ -102,13 +102,15 @@ impl<const D: usize> Mesh<D> {
         (0..self.total()).filter(|&i| self.free[i].is_some()).map(name).collect()
     }
 
-    /// Free coordinates of an element, and what they do at `xi` of it.
+    /// Free coordinates of an element in increasing order, and what they do at `xi` of it.
     fn in_element(&self, element: usize, xi: f64) -> Station {
         let ends = self.node(element).chain(self.node(element + 1));
         let middle = (self.axial == Axial::Quadratic).then(|| self.first(element) + Self::PER_NODE);
         let shapes = self.elements[element].shapes::<D>(xi, self.axial);
         let free = ends.chain(middle).zip(shapes).filter_map(|(i, shape)| Some((self.free[i]?, shape)));
-        let (dofs, shapes) = free.unzip();
+        let mut free: Vec<_> = free.collect();
+        free.sort_unstable_by_key(|(dof, _)| *dof);
+        let (dofs, shapes) = free.into_iter().unzip();
         Station { dofs, shapes }
     }
 
