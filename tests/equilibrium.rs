@@ -18,7 +18,8 @@ fn seek(scene: &Ready) -> Result<Equilibrium, Error> {
 fn found(scene: &Ready) -> Equilibrium {
     let found = seek(scene).unwrap_or_else(|error| panic!("{}: {error}", scene.0.name));
     let (force, phi) = left(scene.system(), &found);
-    assert!(force < 1e-9 && phi < 1e-9, "{}: {force:e} {phi:e}", scene.0.name);
+    // Beams without load: EA/h of some 1e6 N/m times the rounding of coordinates of 100 m, against 1 N.
+    assert!(force < 3e-8 && phi < 1e-9, "{}: {force:e} {phi:e}", scene.0.name);
     found
 }
 
