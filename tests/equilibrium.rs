@@ -61,6 +61,11 @@ fn a_pendulum_hangs() {
 fn shipped_scenes_come_to_rest() {
     for path in scenes::models() {
         let scene = scenes::load(&path, &[]);
+        if scene.0.name == "flying_spaghetti" {
+            let error = seek(&scene).unwrap_err().to_string();
+            assert!(error.contains("nothing holds `beam.n0.x`"), "{error}");
+            continue;
+        }
         let found = found(&scene);
         let expected = match scene.0.name.as_str() {
             // Nothing holds the spin of the top, nor the governor's turn about its shaft.
