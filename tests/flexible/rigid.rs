@@ -15,7 +15,7 @@ fn thrown(dimension: usize, frame: &str, theory: &str, stiffening: bool) -> Read
     let stiffens = if stiffening { r#""geometric_stiffening": true,"# } else { "" };
     let more = format!("{start}{stiffens}");
     let rod = Rod { dimension, frame, theory, elements: 4, stiffness: 1.0, more: &more }.json();
-    let mut outputs = vec![
+    let mut outputs = [
         r#"{ "name": "strain", "measure": "strain", "of": "rod", "at": 0.8, "offset": [OFFSET] }"#.to_string(),
         r#"{ "name": "axial", "measure": "axial_force", "of": "rod", "at": 0.8 }"#.to_string(),
         r#"{ "name": "moment", "measure": "bending_moment", "of": "rod", "at": 0.8 }"#.to_string(),
