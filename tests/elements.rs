@@ -3,10 +3,13 @@
 //! The tables in `scenes/examples.rs` hold an example for each kind; the tests walk the registries, so that a kind
 //! without one fails.
 
+#[path = "scenes/differences.rs"]
+mod differences;
 #[path = "scenes/examples.rs"]
 mod examples;
 mod scenes;
 
+use differences::{moved, slope};
 use examples::{BETWEEN, FORCES, JOINTS, Nature};
 use holonom::scene::Scene;
 use holonom::study::AnyMechanism;
@@ -82,31 +85,6 @@ fn terms(system: &dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64]) -> Terms {
 
 fn potential(system: &dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64]) -> f64 {
     system.energy(t, q, v, &mut Scratch::default()).expect("a mechanism has an energy").potential
-}
-
-/// q moved by `s` along the velocity direction v: one step of RK4 for q' = N(q) v, exact to s^5.
-fn moved(system: &dyn MechanicalSystem, q: &[f64], v: &[f64], s: f64) -> Vec<f64> {
-    let rate = |q: &[f64]| {
-        let mut rate = vec![0.0; q.len()];
-        system.rate(q, v, &mut rate);
-        rate
-    };
-    let ahead = |k: &[f64], h: f64| -> Vec<f64> { q.iter().zip(k).map(|(q, k)| q + h * k).collect() };
-    let k1 = rate(q);
-    let k2 = rate(&ahead(&k1, 0.5 * s));
-    let k3 = rate(&ahead(&k2, 0.5 * s));
-    let k4 = rate(&ahead(&k3, s));
-    let mean: Vec<f64> = (0..q.len()).map(|i| (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]) / 6.0).collect();
-    let mut q = ahead(&mean, s);
-    system.normalize(&mut q);
-    q
-}
-
-/// d f/ds at zero by central differences of order four.
-fn slope(f: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
-    const H: f64 = 5e-4;
-    let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|i| f(i * H));
-    (0..a.len()).map(|i| (a[i] - 8.0 * b[i] + 8.0 * c[i] - d[i]) / (12.0 * H)).collect()
 }
 
 /// Truncation H^4 f'''''/30 = 2e-15 f''''', where fifth derivatives reach 1e5 next to the axis of an angle, and

@@ -8,6 +8,13 @@ mod examples;
 #[path = "../scenes/mod.rs"]
 mod scenes;
 
+mod agreement;
+mod beams;
+mod couplings;
+mod energy;
+mod outputs;
+mod refusals;
+mod rigid;
 mod slider_crank;
 mod spin_up;
 

@@ -95,6 +95,12 @@ fn errors(run: &Run) -> [f64; 6] {
     worst
 }
 
+/// Every method is off by 1.8e-10, 1e-13, 1.1e-7 and 4e-8, 2e-9, 9.5e-7: with their pi, off by 4.6e-8, the sines do not end
+/// at zero, which the test set's integrals take them to do.
+fn are_close(errors: &[f64; 6]) -> bool {
+    errors.iter().zip([1e-9, 1e-12, 1e-6, 1e-7, 1e-8, 2e-6]).all(|(error, bound)| *error < bound)
+}
+
 fn quarter(end: f64) -> Span {
     Span { start: 0.0, end, output_step: 0.025 }
 }
@@ -115,8 +121,7 @@ fn as_shipped_it_is_the_published_motion() {
     let crank = shipped("flexible_slider_crank", &[]);
     let found = errors(&crank.run(&crank.0.method, quarter(0.1)));
     println!("dop853: {}", brief(&found));
-    let bounds = [1e-9, 1e-11, 1e-6, 1e-6, 1e-6, 1e-6];
-    assert!(found.iter().zip(bounds).all(|(error, bound)| *error < bound), "{found:?}");
+    assert!(are_close(&found), "{found:?}");
 }
 
 #[test]
@@ -125,8 +130,7 @@ fn radau_iia_finds_the_published_motion() {
     for formulation in ["index2", "ggl"] {
         let found = errors(&crank.run(&named(formulation, "radau_iia", 1e-9, 1e-12), quarter(0.1)));
         println!("radau_iia, {formulation}: {}", brief(&found));
-        let bounds = [1e-9, 1e-11, 1e-6, 1e-6, 1e-6, 1e-6];
-        assert!(found.iter().zip(bounds).all(|(error, bound)| *error < bound), "{formulation}: {found:?}");
+        assert!(are_close(&found), "{formulation}: {found:?}");
     }
 }
 

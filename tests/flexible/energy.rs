@@ -1,0 +1,115 @@
+//! Energy and momentum of beams that nothing damps.
+
+use crate::beams::{FLOATING, FRAMES, Rod, largest, scene};
+use crate::brief;
+use crate::scenes::{Ready, parse};
+use holonom::formulation::Choice;
+use holonom::simulate::{Method, Span};
+use holonom::system::{Need, Scratch, Terms};
+
+/// Speeds of a free beam that set it vibrating: a tip force that acts at the start only would be no different.
+fn free(dimension: usize, frame: &str, stiffening: bool, size: f64) -> Ready {
+    let elastic = match (frame, dimension) {
+        ("mean", _) => r#""elastic": { "mode1": 0.02, "mode2": 0.01, "mode3": -0.01 },"#,
+        ("tangent", 2) => r#""elastic": { "n4_y": 0.1, "n4_r": 0.06, "n2_y": 0.03, "n3_x": 0.01 },"#,
+        (_, 2) => r#""elastic": { "n2_y": 0.05, "n4_r": -0.05, "n3_x": 0.01 },"#,
+        ("tangent", _) => r#""elastic": { "n4_y": 0.1, "n4_rz": 0.06, "n2_z": 0.03, "n4_rx": 0.1, "n3_x": 0.01 },"#,
+        _ => r#""elastic": { "n2_y": 0.05, "n2_z": -0.03, "n4_rx": 0.1, "n3_x": 0.01 },"#,
+    };
+    let start = match dimension {
+        2 => r#""position": [0.7, -1.3], "angle": 2.1, "velocity": [3, 5], "angular_velocity": 4"#,
+        _ => {
+            r#""position": [0.7, -1.3, 0.4], "rotation": [0.5, -1.1, 2.0], "velocity": [3, 5, -2], "angular_velocity": [2, -3, 4]"#
+        }
+    };
+    let elastic = if frame == "absolute" { String::new() } else { scaled(elastic, size) };
+    let stiffens = if stiffening { r#""geometric_stiffening": true,"# } else { "" };
+    let more = format!(r#""initial": {{ {elastic} {start} }}, {stiffens}"#);
+    let rod = Rod { dimension, frame, theory: "timoshenko", elements: 4, stiffness: 1.0, more: &more }.json();
+    parse(&scene(dimension, &rod, r#""simulation": { "t_end": 1 }"#))
+}
+
+/// The numbers of a list of keys times `size`.
+fn scaled(elastic: &str, size: f64) -> String {
+    let (head, tail) = elastic.split_once('{').unwrap();
+    let pairs = tail.trim_end_matches("},").split(',').map(|pair| {
+        let (name, value) = pair.split_once(':').unwrap();
+        format!("{name}: {}", value.trim().parse::<f64>().unwrap() * size)
+    });
+    format!("{head}{{ {} }},", pairs.collect::<Vec<_>>().join(", "))
+}
+
+/// Linear momentum, and angular momentum about the world's origin (its third component in the plane), of one floating
+/// beam.
+fn momentum(ready: &Ready, q: &[f64], v: &[f64]) -> Vec<f64> {
+    let (system, dimension) = (ready.system(), if v.len() < ready.system().dimensions().q { 3 } else { 2 });
+    let mut terms = Terms::new(system);
+    system.evaluate(0.0, q, v, Need::DYNAMICS, &mut terms, &mut Scratch::default());
+    let mut p = vec![0.0; v.len()];
+    system.structure().mass.multiply_symmetric(&terms.mass, v, &mut p);
+    if dimension == 2 {
+        return vec![p[0], p[1], p[2] + q[0] * p[1] - q[1] * p[0]];
+    }
+    let axes = holonom::math::rotation::axes_from_quaternion(&q[3..7]);
+    let own = |i: usize| -> f64 { (0..3).map(|j| axes[j][i] * p[3 + j]).sum() };
+    let turning = [q[1] * p[2] - q[2] * p[1], q[2] * p[0] - q[0] * p[2], q[0] * p[1] - q[1] * p[0]];
+    p[..3].iter().copied().chain((0..3).map(|i| own(i) + turning[i])).collect()
+}
+
+/// dop853 at 1e-10 a step: the balance is off by what its steps add up to.
+#[test]
+fn free_beams_keep_energy_and_momentum() {
+    for (dimension, frame) in [2, 3].into_iter().flat_map(|d| FRAMES.map(|frame| (d, frame))) {
+        for stiffening in [false, true] {
+            if stiffening && frame == "absolute" {
+                continue;
+            }
+            let beam = free(dimension, frame, stiffening, 1.0);
+            let run = beam.tight(1e-10, 1.0, 0.1);
+            let energy = run.record.energy.as_ref().expect("a mechanism has energy");
+            let what = format!("{dimension} {frame} {stiffening}: energy {:.1e}", energy.relative_max_error);
+            println!("{what}");
+            assert!(energy.relative_max_error < 1e-8, "{what}");
+            if frame == "absolute" {
+                continue;
+            }
+            let (q, v) = beam.0.start();
+            let before = momentum(&beam, q, v);
+            let after = momentum(&beam, &run.outcome.q, &run.outcome.v);
+            let size = largest(before.iter().copied());
+            let gap = largest(before.iter().zip(&after).map(|(a, b)| a - b)) / size;
+            println!("    momentum {} kept to {gap:.1e}", brief(&before));
+            assert!(gap < 1e-8, "{what}: {before:?} {after:?}");
+        }
+    }
+}
+
+/// generalized_alpha without numerical damping: energy swings about its value and does not drift.
+#[test]
+fn generalized_alpha_keeps_the_energy_in_bounds() {
+    for (dimension, frame) in [2, 3].into_iter().flat_map(|d| FLOATING.map(|frame| (d, frame))) {
+        for stiffening in [false, true] {
+            let beam = free(dimension, frame, stiffening, 0.1);
+            let bounds = [1e-3, 5e-4].map(|step| {
+                let method = Method {
+                    formulation: Choice::named("ggl"),
+                    integrator: Choice::parse("generalized_alpha:rho_inf=1").unwrap(),
+                    projection: Choice::named("none"),
+                    step: Some(step),
+                    ..Method::default()
+                };
+                [1.0, 2.0].map(|end| {
+                    let run = beam.run(&method, Span { start: 0.0, end, output_step: 0.1 });
+                    run.record.energy.as_ref().unwrap().relative_max_error
+                })
+            });
+            let what = format!("{dimension} {frame} {stiffening}: {}; {}", brief(&bounds[0]), brief(&bounds[1]));
+            println!("generalized_alpha {what}");
+            // Of second order where the largest is met (4 to 5.6 times less by half the step), and no more than twice as large
+            // over twice the time.
+            let [coarse, fine] = bounds;
+            assert!(coarse[1] < 1e-3 && (3.0..7.0).contains(&(coarse[1] / fine[1])), "{what}");
+            assert!(coarse[1] < 2.2 * coarse[0], "{what}");
+        }
+    }
+}
