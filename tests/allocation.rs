@@ -144,6 +144,22 @@ fn scenes() {
     }
 }
 
+/// Both kinds of frames, in the plane and in space; steps short enough for explicit methods.
+#[test]
+fn flexible_beams() {
+    let methods = [
+        ("index1", "rk4", "none"),
+        ("index1", "dop853", "manifold"),
+        ("ggl", "generalized_alpha", "none"),
+        ("ggl", "radau_iia", "none"),
+    ];
+    for name in ["flexible_slider_crank_fe", "flexible_four_bar", "flexible_pendulum", "right_angle_cantilever"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"));
+        let study = Study::load(&path, &Overrides::default()).unwrap();
+        check_methods(name, &methods, study.system(), study.start(), 1e-8);
+    }
+}
+
 #[test]
 fn adaptive_steps_and_rows() {
     let (q, v) = driven_pendulum::start();
