@@ -2,10 +2,10 @@
 //!
 //! Each node carries the mass of the half elements beside it and the rotary inertia of their sections. The mass of half an
 //! element of length h is put h/6 from its node: at the end of a beam its weight and its inertia in bending then act with the
-//! moment rho A h^2/12 of a distributed load, and the inertia of the beam as a rigid body is that of its line. Between equal
-//! elements the two shifts cancel. The statics of a straight element under loads at its nodes or its own weight are exact;
-//! frequencies of bending converge with the fourth power of its length (the third where an end turns freely), those of
-//! extension and torsion with the second.
+//! moment rho A h^2/12 of a distributed load, and the inertia of the beam as a rigid body is that of its line but for
+//! rho A h^3/36. Between equal elements the two shifts cancel. The statics of a straight element under loads at its nodes
+//! or its own weight are exact; frequencies of bending converge with the fourth power of its length (the third where an
+//! end turns freely), those of extension and torsion with the second.
 
 use super::builder::start_and_markers;
 use super::markers;
