@@ -71,6 +71,7 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
     fn mass(&self, _q: &[f64], values: &mut [f64]) {
         BodyKernel::mass(self, values);
     }
+    fn add_stiffness(&self, _values: &mut [f64]) {}
     fn own_forces(&self, q: &[f64], v: &[f64], gravity: &[f64; D], f: &mut [f64]) {
         BodyKernel::own_forces(self, q, v, gravity, f);
     }

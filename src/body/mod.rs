@@ -123,6 +123,8 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Slope, D> + Send + S
     /// Places of the mass matrix's lower triangle, each once.
     fn mass_pattern(&self) -> Vec<(usize, usize)>;
     fn mass(&self, q: &[f64], values: &mut [f64]);
+    /// values += stiffness of the body against its own deformation, at the places of M: what assembly spares.
+    fn add_stiffness(&self, values: &mut [f64]);
     /// f += weight, velocity-dependent inertia forces, and what deforming the body itself takes.
     fn own_forces(&self, q: &[f64], v: &[f64], gravity: &[f64; D], f: &mut [f64]);
     /// Places of K and C of the body itself.

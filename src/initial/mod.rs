@@ -16,7 +16,8 @@ use crate::formulation::{Dynamics, Halt};
 use crate::math::kkt::{Pattern, SaddlePoint};
 use crate::system::{MechanicalSystem, Need, Scratch, Terms};
 
-/// Makes a guess consistent at time `t`, moving least in the mass metric and keeping what `hold` names.
+/// Makes a guess consistent at time `t`, moving least in the mass metric and keeping what `hold` names. Flexible bodies
+/// in floating frames resist deformation with their stiffness besides.
 ///
 /// # Errors
 /// Bad input: a name in `hold` that does not exist, joints that cannot all be closed, velocities that contradict the
@@ -99,8 +100,10 @@ impl<'a> Metric<'a> {
         }
         let largest = self.terms.mass.iter().fold(0.0f64, |largest, mass| largest.max(mass.abs()));
         let unit = if largest > 0.0 { largest } else { 1.0 };
-        for ((weight, mass), (i, j)) in self.weights.iter_mut().zip(&self.terms.mass).zip(&self.mass.entries) {
-            *weight = if i == j { (mass / unit).max(LEAST_WEIGHT) } else { mass / unit };
+        self.weights.copy_from_slice(&self.terms.mass);
+        self.system.add_stiffness(&mut self.weights);
+        for (weight, (i, j)) in self.weights.iter_mut().zip(&self.mass.entries) {
+            *weight = if i == j { (*weight / unit).max(LEAST_WEIGHT) } else { *weight / unit };
         }
         let n = self.terms.g.len();
         self.values[..n].copy_from_slice(&self.terms.g);

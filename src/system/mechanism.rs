@@ -255,6 +255,12 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         true
     }
 
+    fn add_stiffness(&self, mass: &mut [f64]) {
+        for (part, places) in self.model.bodies.iter().zip(&self.masses) {
+            part.body.add_stiffness(&mut mass[places.clone()]);
+        }
+    }
+
     fn normalize(&self, q: &mut [f64]) {
         for part in &self.model.bodies {
             part.body.normalize(&mut q[part.first_q..part.first_q + part.nq]);

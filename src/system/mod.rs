@@ -95,6 +95,10 @@ pub trait MechanicalSystem: Send + Sync {
         qdot.copy_from_slice(v);
     }
 
+    /// mass += s^2 times the stiffness of bodies against their own deformation, at the places of M: assembly then closes
+    /// loops by moving bodies before it bends them. Default: nothing.
+    fn add_stiffness(&self, _mass: &mut [f64]) {}
+
     /// Brings redundant coordinates (quaternions) back to their normal form.
     fn normalize(&self, _q: &mut [f64]) {}
 

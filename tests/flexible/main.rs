@@ -9,6 +9,7 @@ mod examples;
 mod scenes;
 
 mod agreement;
+mod assembly;
 mod beams;
 mod couplings;
 mod energy;

@@ -15,6 +15,8 @@ pub(super) struct Layout {
     /// Entries of K (both triangles) at which each entry of the stiffness and damping stands.
     pub stiffness: Vec<[usize; 2]>,
     pub damping: Vec<[usize; 2]>,
+    /// Entry of M at the place of each entry of the stiffness, where M has one.
+    pub sparing: Vec<Option<usize>>,
     /// Entries of K at which those of each point of stretch stand, row by row.
     pub stretches: Vec<Vec<usize>>,
 }
@@ -63,6 +65,7 @@ impl Layout {
         Layout {
             pieces: elastic.pieces.iter().map(|p| piece(&p.dofs)).collect(),
             stiffness: elastic.stiffness.iter().map(both).collect(),
+            sparing: elastic.stiffness.iter().map(|&(i, j, _)| mass.get(nv + i, nv + j)).collect(),
             damping: elastic.damping.iter().map(both).collect(),
             stretches: elastic.stretches.iter().map(|stretch| block(&stretch.dofs, nv, &tangent)).collect(),
             mass: mass.list,
@@ -116,6 +119,10 @@ impl Places {
             place.insert(self.list.len());
             self.list.push((i, j));
         }
+    }
+
+    fn get(&self, i: usize, j: usize) -> Option<usize> {
+        self.index.get(&(i, j)).copied()
     }
 
     fn find(&self, i: usize, j: usize) -> usize {

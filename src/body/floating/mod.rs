@@ -145,6 +145,11 @@ impl<const D: usize> Body<D> for Floating<D> {
     fn mass(&self, q: &[f64], values: &mut [f64]) {
         self.write_mass(q, values);
     }
+    fn add_stiffness(&self, values: &mut [f64]) {
+        for ((.., stiffness), place) in self.elastic.stiffness.iter().zip(&self.layout.sparing) {
+            place.iter().for_each(|&place| values[place] += stiffness);
+        }
+    }
     fn own_forces(&self, q: &[f64], v: &[f64], gravity: &[f64; D], f: &mut [f64]) {
         self.add_inertia_forces(q, v, gravity, f);
         self.add_elastic_forces(q, v, f);
