@@ -180,7 +180,7 @@ impl Shape {
                 }
                 let second = PI / 4.0 * (outer.powi(4) - inner.powi(4));
                 let area = PI * (outer.powi(2) - inner.powi(2));
-                // Timoshenko's factors for nu = 0: 6/7 for a full circle, 1/2 for a thin tube; between them by Cowper's form.
+                // Cowper's factor for nu = 0 (J. Appl. Mech. 33 (1966) 335-340): 6/7 for a full circle, 1/2 for a thin tube.
                 let ratio = (inner / outer).powi(2);
                 let shear = 6.0 * (1.0 + ratio).powi(2) / (7.0 * (1.0 + ratio).powi(2) + 20.0 * ratio);
                 Ok(Shape { area, second: [second; 2], torsion: 2.0 * second, shear })

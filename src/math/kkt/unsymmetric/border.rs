@@ -14,7 +14,8 @@ pub(super) struct Border {
 /// Rows of fewer entries are not long, nor are those of so many times the mean or fewer.
 const MANY: usize = 50;
 const TIMES_MEAN: usize = 12;
-/// Entries of long rows grow by about the root of the number of elements before their turn comes: to 14 with 10,000.
+/// Entries of long rows grow before their turn comes, by an estimate to some tens for beams of 10,000 elements: less than
+/// this makes up for.
 const LAST_CHOICE: f64 = 1e-4;
 
 impl Border {
