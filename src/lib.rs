@@ -83,6 +83,7 @@ pub mod formulation;
 pub mod initial;
 pub mod integrator;
 pub mod joint;
+pub mod linearize;
 pub mod math;
 pub mod measure;
 pub mod plot;

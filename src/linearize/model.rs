@@ -1,0 +1,101 @@
+//! What every method of linearization returns.
+
+use nalgebra::DMatrix;
+pub use nalgebra::Complex;
+use std::f64::consts::TAU;
+
+pub type Matrix = DMatrix<f64>;
+
+/// A linear model of a mechanism at a state of its motion,
+///
+/// ```text
+/// E x' = A x + B u,   y = C x + D u        (E = I where there is none)
+/// ```
+///
+/// with x, u and y small changes from the operating point.
+#[derive(Clone, Debug)]
+pub struct LinearModel {
+    /// As on the command line: `mcs`, `rcs:form=index2`, `baumgarte:alpha=5,beta=5`.
+    pub method: String,
+    /// The coordinates of the perturbation, on which the spectrum depends off equilibrium: `intrinsic`,
+    /// `mass_orthogonal`, `crank.angle`, `frozen`.
+    pub chart: String,
+    pub states: Vec<String>,
+    pub inputs: Vec<String>,
+    pub outputs: Vec<String>,
+    pub a: Matrix,
+    pub b: Matrix,
+    pub c: Matrix,
+    pub d: Matrix,
+    /// Of descriptor forms.
+    pub e: Option<Matrix>,
+    /// All eigenvalues: physical ones first, then spurious, then infinite ones; each kind from the slowest.
+    pub modes: Vec<Mode>,
+    pub point: OperatingPoint,
+    pub cost: Cost,
+}
+
+/// What an eigenvalue belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// A motion that the constraints allow.
+    Physical,
+    /// A motion off the constraints, which a formulation lets decay or swing.
+    Spurious,
+    /// An algebraic equation of a descriptor form.
+    Infinite,
+}
+
+/// An eigenvalue with its motion exp(value t) shape.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// 1/s; infinite (with imaginary part 0) for [`Kind::Infinite`].
+    pub value: Complex<f64>,
+    pub kind: Kind,
+    /// Change of q along the velocity directions of the whole mechanism, largest component 1; empty for infinite ones.
+    pub shape: Vec<Complex<f64>>,
+    /// Part of each state in the mode, |y_i x_i| of the left and right eigenvectors, sum 1; empty where it is not known.
+    pub participation: Vec<f64>,
+}
+
+impl Mode {
+    /// |lambda| / 2 pi, Hz.
+    pub fn frequency(&self) -> f64 {
+        self.value.norm() / TAU
+    }
+
+    /// -Re(lambda) / |lambda|; 0 for lambda = 0.
+    pub fn damping(&self) -> f64 {
+        let size = self.value.norm();
+        if size > 0.0 && size.is_finite() { -self.value.re / size } else { 0.0 }
+    }
+}
+
+/// The state that is perturbed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct OperatingPoint {
+    pub t: f64,
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    pub vdot: Vec<f64>,
+    pub lambda: Vec<f64>,
+    /// Largest |phi| and |phi'|, each over its scale.
+    pub phi: f64,
+    pub phi_dot: f64,
+    /// v = 0 and v' = 0 to rounding.
+    pub is_equilibrium: bool,
+}
+
+/// What a model took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub struct Cost {
+    /// Of making the matrices, s.
+    pub assembly_seconds: f64,
+    /// Of its eigenvalues, s.
+    pub eigen_seconds: f64,
+    /// Condition number of the eigenvector matrix (columns of length 1) in the states as they are.
+    pub conditioning: f64,
+    /// Rows and columns of A.
+    pub size: usize,
+}
