@@ -107,6 +107,12 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
     fn oriented(&self) -> bool {
         BodyKernel::oriented(self)
     }
+    fn turning(&self) -> Option<usize> {
+        BodyKernel::turning(self)
+    }
+    fn has_constant_mass(&self) -> bool {
+        true
+    }
     fn reach(&self) -> f64 {
         self.markers().iter().map(|marker| dot(&marker.offset, &marker.offset).sqrt()).fold(0.0, f64::max)
     }

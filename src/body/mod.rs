@@ -74,6 +74,11 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
         true
     }
 
+    /// See [`Body::turning`]. Default: none, for N = I.
+    fn turning(&self) -> Option<usize> {
+        None
+    }
+
     /// f += weight and velocity-dependent inertia forces.
     fn own_forces<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D], f: &mut [S]);
 
@@ -137,6 +142,10 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Slope, D> + Send + S
     fn normalize(&self, q: &mut [f64]);
     /// Whether its markers have an orientation.
     fn oriented(&self) -> bool;
+    /// The first of three velocities that are an angular velocity in the body's own axes; none where N = I.
+    fn turning(&self) -> Option<usize>;
+    /// Whether M does not depend on q.
+    fn has_constant_mass(&self) -> bool;
     /// Largest distance of a marker from the origin of the coordinates, m.
     fn reach(&self) -> f64;
     /// How many of the coordinates are elastic: the last ones.

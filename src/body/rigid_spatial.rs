@@ -32,6 +32,9 @@ impl<const D: usize> BodyKernel<D> for RigidSpatial<D> {
     fn markers(&self) -> &[Marker<D>] {
         &self.markers
     }
+    fn turning(&self) -> Option<usize> {
+        Some(3)
+    }
 
     /// x' = v, and for the quaternion p' = p (0, w) / 2.
     fn rate<S: Scalar>(&self, q: &[S], v: &[S], qdot: &mut [S]) {

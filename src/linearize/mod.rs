@@ -1,5 +1,14 @@
 //! Linear models at any state of a trajectory.
 
+mod chart;
+mod independent;
+mod minimal;
 mod model;
+mod point;
+mod variation;
 
-pub use model::{Complex, Cost, Kind, LinearModel, Matrix, Mode, OperatingPoint};
+pub use chart::{Chart, Coordinates};
+pub use minimal::{Minimal, minimal};
+pub use model::{Complex, Cost, Kind, LinearModel, Matrix, Mode};
+pub use point::OperatingPoint;
+pub use variation::Variation;

@@ -1,5 +1,6 @@
 //! What every method of linearization returns.
 
+use super::OperatingPoint;
 use nalgebra::DMatrix;
 pub use nalgebra::Complex;
 use std::f64::consts::TAU;
@@ -70,21 +71,6 @@ impl Mode {
         let size = self.value.norm();
         if size > 0.0 && size.is_finite() { -self.value.re / size } else { 0.0 }
     }
-}
-
-/// The state that is perturbed.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct OperatingPoint {
-    pub t: f64,
-    pub q: Vec<f64>,
-    pub v: Vec<f64>,
-    pub vdot: Vec<f64>,
-    pub lambda: Vec<f64>,
-    /// Largest |phi| and |phi'|, each over its scale.
-    pub phi: f64,
-    pub phi_dot: f64,
-    /// v = 0 and v' = 0 to rounding.
-    pub is_equilibrium: bool,
 }
 
 /// What a model took.

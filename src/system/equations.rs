@@ -1,6 +1,6 @@
 //! Own equations, written once over any scalar.
 
-use super::{Column, Dimensions, Energy, Loaded, MechanicalSystem, Need, Scratch, Tangent, Terms};
+use super::{Column, Dimensions, Energy, LeviCivita, Loaded, MechanicalSystem, Need, Scratch, Tangent, Terms};
 use crate::math::{Dual, Scalar, Taylor};
 
 /// A mechanism by its M, f and phi. G, phi', gamma and L follow by dual and Taylor numbers, so nothing is derived by
@@ -130,7 +130,8 @@ impl<E: Equations> MechanicalSystem for E {
                 gradient(self, t, q, memory, terms);
             }
             if need.includes(Need::L) {
-                curvature(self, t, q, v, memory, terms);
+                let at = Loaded { t, q, v, vdot: &[], lambda: &[] };
+                curvature(self, at, memory, |place, slope| terms.l[place] = slope.d);
             }
         };
         scratch.with(|| Memory::new(n, m), fill);
@@ -142,6 +143,20 @@ impl<E: Equations> MechanicalSystem for E {
             || Memory::new(n, m),
             |memory| tangent_of(self, at, memory.varied.get_or_insert_with(|| Varied::new(n, m)), tangent),
         );
+        true
+    }
+
+    fn acceleration_gradient(&self, at: Loaded, values: &mut [f64], scratch: &mut Scratch) -> bool {
+        let (n, m) = self.size();
+        scratch.with(
+            || Memory::new(n, m),
+            |memory| curvature(self, at, memory, |place, slope| values[place] = slope.dd),
+        );
+        true
+    }
+
+    fn levi_civita(&self, at: Loaded, connection: &mut LeviCivita, _scratch: &mut Scratch) -> bool {
+        christoffel(self, at, connection);
         true
     }
 
@@ -199,18 +214,18 @@ fn gradient<E: Equations>(system: &E, t: f64, q: &[f64], memory: &mut Memory, te
     }
 }
 
-/// L = d(phi')/dq, six columns a pass.
-fn curvature<E: Equations>(system: &E, t: f64, q: &[f64], v: &[f64], memory: &mut Memory, terms: &mut Terms) {
-    let n = q.len();
+/// d(phi, phi', phi'')/dq, six columns a pass; with v' = 0 where it is empty.
+fn curvature<E: Equations>(system: &E, at: Loaded, memory: &mut Memory, mut write: impl FnMut(usize, Taylor<f64>)) {
+    let n = at.q.len();
     for first in (0..n).step_by(6) {
         let columns = first..n.min(first + 6);
         for (i, place) in memory.moving.iter_mut().enumerate() {
-            *place = Dual::fixed(Taylor::new(q[i], v[i], 0.0));
+            *place = Dual::fixed(Taylor::new(at.q[i], at.v[i], at.vdot.get(i).copied().unwrap_or(0.0)));
         }
         columns.clone().for_each(|i| memory.moving[i].eps[i - first] = Taylor::fixed(1.0));
-        system.phi(Dual::fixed(Taylor::time(t)), &memory.moving, &mut memory.curvatures);
+        system.phi(Dual::fixed(Taylor::time(at.t)), &memory.moving, &mut memory.curvatures);
         for (row, slope) in memory.curvatures.iter().enumerate() {
-            columns.clone().for_each(|i| terms.l[row * n + i] = slope.eps[i - first].d);
+            columns.clone().for_each(|i| write(row * n + i, slope.eps[i - first]));
         }
     }
 }
@@ -257,6 +272,43 @@ fn reaction<E: Equations>(system: &E, at: Loaded, varied: &mut Varied) {
         system.phi(Dual::fixed(Dual::fixed(at.t)), nested, phi);
         for (phi, &lambda) in phi.iter().zip(at.lambda) {
             columns.clone().for_each(|i| reaction[i] += phi.eps[i - first] * lambda);
+        }
+    }
+}
+
+/// A number with its rate along the motion, as a function of six coordinates.
+type Rated = Dual<Dual<f64, 1>, 6>;
+
+/// W by its definition out of dM/dq with rates along the motion, six columns a pass.
+fn christoffel<E: Equations>(system: &E, at: Loaded, connection: &mut LeviCivita) {
+    let n = at.q.len();
+    let rated = |value: f64, rate: f64| Dual { re: value, eps: [rate] };
+    let mut q: Vec<Rated> = at.q.iter().zip(at.v).map(|(&q, &v)| Dual::fixed(rated(q, v))).collect();
+    let v: Vec<Dual<f64, 1>> = at.v.iter().zip(at.vdot).map(|(&v, &vdot)| rated(v, vdot)).collect();
+    let mut mass = vec![Dual::fixed(rated(0.0, 0.0)); n * n];
+    let mut w = vec![rated(0.0, 0.0); n * n];
+    for first in (0..n).step_by(6) {
+        let columns = first..n.min(first + 6);
+        columns.clone().for_each(|j| q[j].eps[j - first] = rated(1.0, 0.0));
+        system.mass(Dual::fixed(rated(at.t, 1.0)), &q, &mut mass);
+        columns.clone().for_each(|j| q[j].eps[j - first] = rated(0.0, 0.0));
+        for j in columns {
+            for i in 0..n {
+                // d_j M_ik v^k goes to W_ij and, as the last term, with the other sign to W_ji.
+                for k in 0..n {
+                    let slope = mass[i * n + k].eps[j - first];
+                    let push = slope * v[k] * 0.5;
+                    w[i * n + j] += push;
+                    w[j * n + i] -= push;
+                    w[i * n + k] += slope * v[j] * 0.5;
+                }
+            }
+        }
+    }
+    connection.mass_dot.iter_mut().enumerate().for_each(|(at, rate)| *rate = mass[at % n * n + at / n].re.eps[0]);
+    for i in 0..n {
+        for j in 0..n {
+            (connection.w[(i, j)], connection.w_dot[(i, j)]) = (w[i * n + j].re, w[i * n + j].eps[0]);
         }
     }
 }

@@ -4,10 +4,11 @@ use super::coupling::Couplings;
 use super::output::Output;
 use super::rows::{PlacedJoint, Rows};
 use super::support::Support;
+use super::levi_civita::LeviCivita;
 use super::tangent::{Evaluation, Loaded, Tangent};
 use super::variation::Varied;
 use super::{Column, Dimensions, Energy, Group, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
-use crate::body::{Frame, MOST_MARKERS, Wrench};
+use crate::body::{Frame, MOST_MARKERS, Wrench, cross};
 use crate::math::Taylor;
 use crate::math::kkt::Pattern;
 use crate::scene::{Connection, Measure, Model, Part, Watched};
@@ -88,17 +89,18 @@ impl<const D: usize> Mechanism<D> {
             pulled: Vec::new(),
         };
         scratch.with(make, |work| {
-            self.place(q, v, work);
+            self.place(q, v, &[], work);
             see(work)
         })
     }
 
-    /// Moves all frames to (q, v).
-    fn place(&self, q: &[f64], v: &[f64], work: &mut Workspace<D>) {
+    /// Moves all frames to (q, v), with the accelerations `vdot` or, where it is empty, those at v' = 0.
+    fn place(&self, q: &[f64], v: &[f64], vdot: &[f64], work: &mut Workspace<D>) {
         work.motion.resize(self.model.marker_count(), Frame::world());
         for part in &self.model.bodies {
             let frames = &mut work.motion[part.first_marker..][..part.body.marker_count()];
-            part.body.motion(of(q, part, true), of(v, part, false), None, frames);
+            let vdot = (!vdot.is_empty()).then(|| of(vdot, part, false));
+            part.body.motion(of(q, part, true), of(v, part, false), vdot, frames);
         }
     }
 
@@ -244,8 +246,9 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
             }
             self.constraints(t, q, need, work, terms);
             if need.includes(Need::L) {
-                let Workspace { motion, varied, .. } = work;
-                self.placed_joints().for_each(|joint| joint.curvature(t, (q, v), motion, varied, terms));
+                let (Workspace { motion, varied, .. }, at) = (work, Loaded { t, q, v, vdot: &[], lambda: &[] });
+                let mut write = |place: usize, slope: Taylor<f64>| terms.l[place] = slope.d;
+                self.placed_joints().for_each(|joint| joint.curvature(&at, motion, varied, &mut write));
             }
         });
     }
@@ -253,6 +256,37 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     fn tangent(&self, at: Loaded, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
         self.at(at.q, at.v, scratch, |work| Evaluation { mechanism: self, at, work, tangent }.run());
         true
+    }
+
+    fn acceleration_gradient(&self, at: Loaded, values: &mut [f64], scratch: &mut Scratch) -> bool {
+        self.at(at.q, at.v, scratch, |work| {
+            self.place(at.q, at.v, at.vdot, work);
+            let Workspace { motion, varied, .. } = work;
+            let mut write = |place: usize, slope: Taylor<f64>| values[place] = slope.dd;
+            self.placed_joints().for_each(|joint| joint.curvature(&at, motion, varied, &mut write));
+        });
+        true
+    }
+
+    fn bracket(&self, v: &[f64], x: &[f64], out: &mut [f64]) {
+        out.fill(0.0);
+        for part in &self.model.bodies {
+            if let Some(first) = part.body.turning() {
+                let three = |all: &[f64]| -> [f64; 3] { from_fn(|i| all[part.first_v + first + i]) };
+                out[part.first_v + first..][..3].copy_from_slice(&cross(&three(v), &three(x)));
+            }
+        }
+    }
+
+    fn levi_civita(&self, at: Loaded, connection: &mut LeviCivita, _scratch: &mut Scratch) -> bool {
+        let is_constant = self.model.bodies.iter().all(|part| part.body.has_constant_mass());
+        if is_constant {
+            connection.clear();
+            for part in &self.model.bodies {
+                connection.add_constant_mass(part, &at);
+            }
+        }
+        is_constant
     }
 
     fn add_stiffness(&self, mass: &mut [f64]) {

@@ -4,8 +4,10 @@
 //! [`Mechanism`]; a researcher implements it directly, or writes M, f and phi once over any scalar as [`Equations`]
 //! and gets the derivatives.
 
+
 mod coupling;
 mod equations;
+mod levi_civita;
 mod mechanism;
 mod output;
 mod rows;
@@ -14,6 +16,7 @@ mod tangent;
 mod terms;
 mod variation;
 
+pub use levi_civita::LeviCivita;
 pub use equations::Equations;
 pub use mechanism::Mechanism;
 pub use output::Output;
@@ -80,6 +83,24 @@ pub trait MechanicalSystem: Send + Sync {
     /// K and C of r = M v' + G^T lambda - f at a state with its v' and lambda, for implicit methods and linear models.
     /// Returns false where the author of the equations gave none, which is the default.
     fn tangent(&self, _at: Loaded, _tangent: &mut Tangent, _scratch: &mut Scratch) -> bool {
+        false
+    }
+
+    /// d(phi'')/dq along the directions of v at fixed v and v', values at the places of G, for linear models. Returns
+    /// false where the author of the equations gave none, which is the default.
+    fn acceleration_gradient(&self, _at: Loaded, _values: &mut [f64], _scratch: &mut Scratch) -> bool {
+        false
+    }
+
+    /// out = \[v, x\], by which a change of q along the directions x, at a change dv of v, moves: x' = dv - \[v, x\]. For
+    /// angular velocities in the body's axes w x (dtheta). Default: zero, for N = I.
+    fn bracket(&self, _v: &[f64], _x: &[f64], out: &mut [f64]) {
+        out.fill(0.0);
+    }
+
+    /// How the mass metric carries directions along the motion. Returns false where the equations do not say, which is
+    /// the default.
+    fn levi_civita(&self, _at: Loaded, _connection: &mut LeviCivita, _scratch: &mut Scratch) -> bool {
         false
     }
 

@@ -1,6 +1,6 @@
 //! The rows of phi and G that one joint has.
 
-use super::Terms;
+use super::{Loaded, Terms};
 use super::mechanism::{Mechanism, of};
 use super::support::Support;
 use super::variation::{Along, Varied, fixed};
@@ -118,14 +118,14 @@ impl<const D: usize> PlacedJoint<'_, D> {
         self.mechanism.supports[self.joint.markers[block.slot]].velocities.len()
     }
 
-    /// Rows of L = d(phi')/dq: the joint is evaluated with each of its markers varied, one after the other.
+    /// d(phi, phi', phi'')/dq at the places of G, with the accelerations that `motion` and `at` have: the joint is evaluated
+    /// with each of its markers varied, one after the other.
     pub fn curvature(
         &self,
-        t: f64,
-        (q, v): (&[f64], &[f64]),
+        at: &Loaded,
         motion: &Motion<f64, D>,
         varied: &mut Varied<D>,
-        terms: &mut Terms,
+        mut write: impl FnMut(usize, Taylor<f64>),
     ) {
         for block in &self.rows.blocks {
             let part = &self.mechanism.model().bodies[block.body];
@@ -134,17 +134,19 @@ impl<const D: usize> PlacedJoint<'_, D> {
             let width = velocities.len();
             for first in (0..width).step_by(6) {
                 let directions = &velocities[first..width.min(first + 6)];
-                varied.vary(Along::Coordinates, part, (q, v), directions);
+                varied.vary(Along::Coordinates, part, at, directions);
                 let frames: [Frame<Taylor<Slope>, D>; MOST_MARKERS] = from_fn(|i| match i == block.slot {
                     true => varied.frames[marker - part.first_marker],
                     false => fixed(&motion[self.joint.markers[i.min(self.joint.markers.len() - 1)]]),
                 });
                 let mut levels = [Taylor::fixed(Slope::constant(0.0)); MOST_ROWS];
                 let levels = &mut levels[..self.rows.count];
-                self.joint.element.levels(&frames[..self.joint.markers.len()], Taylor::time(t), levels);
+                self.joint.element.levels(&frames[..self.joint.markers.len()], Taylor::time(at.t), levels);
                 for (row, level) in levels.iter().enumerate() {
-                    let entries = &mut terms.l[block.first_entry + row * width + first..][..directions.len()];
-                    entries.iter_mut().zip(level.d.eps).for_each(|(entry, slope)| *entry = slope);
+                    let place = block.first_entry + row * width + first;
+                    for i in 0..directions.len() {
+                        write(place + i, Taylor::new(level.x.eps[i], level.d.eps[i], level.dd.eps[i]));
+                    }
                 }
             }
         }

@@ -96,7 +96,8 @@ impl<const D: usize> Evaluation<'_, D> {
         for (column, carrier) in coupling.carriers.iter().enumerate() {
             let part = &model.bodies[carrier.body];
             for (pass, directions) in carrier.velocities.chunks(6).enumerate() {
-                self.work.varied.vary(along, part, (self.at.q, self.at.v), directions);
+                let at = Loaded { vdot: &[], ..self.at };
+                self.work.varied.vary(along, part, &at, directions);
                 let frames: [_; MOST_MARKERS] = from_fn(|i| {
                     let marker = markers[i.min(markers.len() - 1)];
                     match model.markers.bodies[marker] == Some(carrier.body) {

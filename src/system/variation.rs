@@ -1,6 +1,7 @@
 //! Bodies as functions of their velocity directions.
 
 use super::mechanism::of;
+use super::tangent::Loaded;
 use crate::body::{Frame, Slope};
 use crate::math::Taylor;
 use crate::scene::Part;
@@ -27,13 +28,15 @@ pub(super) struct Varied<const D: usize> {
     pub pulled: Vec<Slope>,
     /// q of a body that is not varied.
     pub rest: Vec<Slope>,
+    moved_vdot: Vec<Slope>,
     directions: Vec<Slope>,
 }
 
 impl<const D: usize> Varied<D> {
     /// Frames of a body's markers as functions of up to six of the system's velocity directions, which are the body's.
-    pub fn vary(&mut self, along: Along, part: &Part<D>, (q, v): (&[f64], &[f64]), directions: &[usize]) {
-        let (q, v) = (of(q, part, true), of(v, part, false));
+    /// Their accelerations are those at v' = 0 where `at.vdot` is empty.
+    pub fn vary(&mut self, along: Along, part: &Part<D>, at: &Loaded, directions: &[usize]) {
+        let (q, v) = (of(at.q, part, true), of(at.v, part, false));
         self.directions.clear();
         self.directions.resize(part.nv, Slope::fixed(0.0));
         for (j, &direction) in directions.iter().enumerate() {
@@ -54,7 +57,12 @@ impl<const D: usize> Varied<D> {
             }
         }
         self.frames.resize(part.body.marker_count(), Frame::world());
-        part.body.motion(&self.moved, &self.moved_v, None, &mut self.frames);
+        let is_accelerated = !at.vdot.is_empty();
+        if is_accelerated {
+            lift(of(at.vdot, part, false), &mut self.moved_vdot);
+        }
+        let vdot = is_accelerated.then_some(self.moved_vdot.as_slice());
+        part.body.motion(&self.moved, &self.moved_v, vdot, &mut self.frames);
     }
 }
 

@@ -177,6 +177,12 @@ impl<const D: usize> Body<D> for Floating<D> {
     fn oriented(&self) -> bool {
         true
     }
+    fn turning(&self) -> Option<usize> {
+        (D == 3).then_some(turn_velocity(D, 0))
+    }
+    fn has_constant_mass(&self) -> bool {
+        false
+    }
     fn reach(&self) -> f64 {
         self.markers.iter().map(|marker| dot(&marker.offset, &marker.offset).sqrt()).fold(0.0, f64::max)
     }

@@ -1,0 +1,91 @@
+//! Independent coordinates by name.
+
+use super::chart::constant;
+use super::{Coordinates, Matrix, Variation};
+use crate::error::{Error, Result, suggest};
+
+/// Coordinates that leave a direction of motion this small a part of what they could are not independent.
+const DEPENDENT: f64 = 1e-7;
+
+/// A coordinate that can be chosen: its name, that of its rate, and the direction of v that it is.
+struct Candidate {
+    name: String,
+    rate: String,
+    direction: usize,
+}
+
+/// z = the named coordinates: R = Z (B Z)^-1.
+pub(super) fn coordinates(variation: &mut Variation, z: &Matrix, names: &[String]) -> Result<Coordinates> {
+    let candidates = candidates(variation);
+    let chosen = names.iter().map(|name| find(&candidates, name)).collect::<Result<Vec<&Candidate>>>()?;
+    let degrees = z.ncols();
+    let best = || best(&candidates, &weighed(variation, z)).join(", ");
+    if chosen.len() != degrees {
+        let message = format!("{} coordinates are named, the mechanism has {degrees} degrees of freedom here", chosen.len());
+        return Err(Error::input(message).under("--independent").hint(format!("independent here are: {}", best())));
+    }
+    let weighed = weighed(variation, z);
+    let rows = Matrix::from_fn(degrees, degrees, |i, j| weighed[(chosen[i].direction, j)]);
+    let smallest = rows.singular_values().iter().fold(f64::INFINITY, |least, x| least.min(*x));
+    if smallest < DEPENDENT {
+        let message = format!("{} are not independent at t = {} s", names.join(", "), variation.point.t);
+        return Err(Error::input(message).under("--independent").hint(format!("independent here are: {}", best())));
+    }
+    let b = Matrix::from_fn(degrees, z.nrows(), |i, j| f64::from(u8::from(chosen[i].direction == j)));
+    let solved = (&b * z).lu().solve(&Matrix::identity(degrees, degrees));
+    let inverse = solved.ok_or_else(|| Error::input("the coordinates are not independent").under("--independent"))?;
+    let states = chosen.iter().map(|c| c.name.clone()).chain(chosen.iter().map(|c| c.rate.clone())).collect();
+    constant(variation, &names.join(","), states, (z * inverse, b))
+}
+
+/// Coordinates of which q' is a velocity, and rotations in space by their angular velocities.
+fn candidates(variation: &Variation) -> Vec<Candidate> {
+    let (system, names) = (variation.system(), variation.system().names());
+    let (mut unit, mut rate) = (vec![0.0; names.v.len()], vec![0.0; names.q.len()]);
+    let mut all = Vec::new();
+    for (direction, name) in names.v.iter().enumerate() {
+        unit[direction] = 1.0;
+        system.rate(&variation.point.q, &unit, &mut rate);
+        unit[direction] = 0.0;
+        let moved: Vec<usize> = (0..rate.len()).filter(|&i| rate[i] != 0.0).collect();
+        let own = match moved.as_slice() {
+            [i] if rate[*i] == 1.0 => names.q[*i].clone(),
+            _ => name.clone(),
+        };
+        let rate = if own == *name { format!("{name} rate") } else { name.clone() };
+        all.push(Candidate { name: own, rate, direction });
+    }
+    all
+}
+
+fn find<'c>(candidates: &'c [Candidate], name: &str) -> Result<&'c Candidate> {
+    candidates.iter().find(|candidate| candidate.name == name).ok_or_else(|| {
+        Error::input(format!("there is no coordinate `{name}`"))
+            .under("--independent")
+            .hint(suggest(name, candidates.iter().map(|candidate| candidate.name.as_str())))
+    })
+}
+
+/// Z with each row times the root of its mass, so that rows of any unit compare: no row is longer than 1.
+fn weighed(variation: &Variation, z: &Matrix) -> Matrix {
+    let mass = variation.mass();
+    Matrix::from_fn(z.nrows(), z.ncols(), |i, j| z[(i, j)] * mass[(i, i)].max(0.0).sqrt())
+}
+
+/// The coordinates that move most, each with what those before it move taken away.
+fn best<'c>(candidates: &'c [Candidate], weighed: &Matrix) -> Vec<&'c str> {
+    let mut rest = weighed.clone();
+    let mut names = Vec::new();
+    for _ in 0..weighed.ncols() {
+        let pivot = candidates.iter().max_by(|a, b| {
+            let size = |candidate: &Candidate| rest.row(candidate.direction).norm();
+            size(a).total_cmp(&size(b))
+        });
+        let Some(pivot) = pivot else { break };
+        let row = rest.row(pivot.direction).clone_owned();
+        let along = &rest * row.transpose() / row.norm_squared().max(f64::MIN_POSITIVE);
+        rest -= along * row;
+        names.push(pivot.name.as_str());
+    }
+    names
+}

@@ -1,0 +1,54 @@
+//! The state that is perturbed.
+
+use crate::formulation::Dynamics;
+
+/// A state with its accelerations and multipliers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct OperatingPoint {
+    pub t: f64,
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    pub vdot: Vec<f64>,
+    pub lambda: Vec<f64>,
+    /// Largest |phi| and |phi'|, each over its scale.
+    pub phi: f64,
+    pub phi_dot: f64,
+    /// v = 0 and v' = 0, to rounding.
+    pub is_equilibrium: bool,
+}
+
+/// Accelerations below this part of those that single forces would give are none.
+const AT_REST: f64 = 1e-9;
+
+impl OperatingPoint {
+    /// The state whose terms and solution `dynamics` holds.
+    pub(super) fn new(dynamics: &Dynamics, t: f64, q: &[f64], v: &[f64]) -> Self {
+        let (terms, scales) = (&dynamics.terms, dynamics.system.scales());
+        let worst = |rows: &[f64]| rows.iter().zip(&scales).fold(0.0f64, |worst, (row, s)| worst.max((row / s).abs()));
+        OperatingPoint {
+            t,
+            q: q.to_vec(),
+            v: v.to_vec(),
+            vdot: dynamics.vdot.clone(),
+            lambda: dynamics.lambda.clone(),
+            phi: worst(&terms.phi),
+            phi_dot: worst(&terms.phi_dot),
+            is_equilibrium: is_at_rest(dynamics, v),
+        }
+    }
+}
+
+/// Whether nothing moves and M v' is nothing beside the forces and reactions that make it up.
+fn is_at_rest(dynamics: &Dynamics, v: &[f64]) -> bool {
+    let (structure, terms) = (&dynamics.structure, &dynamics.terms);
+    let mut inertia = vec![0.0; v.len()];
+    structure.mass.multiply_symmetric(&terms.mass, &dynamics.vdot, &mut inertia);
+    let mut usual: Vec<f64> = terms.f.iter().map(|f| f.abs()).collect();
+    for (&(i, j), g) in structure.g.entries.iter().zip(&terms.g) {
+        usual[j] += (g * dynamics.lambda[i]).abs();
+    }
+    // Velocities against those that the accelerations of gravity or springs give within a second.
+    let largest = |x: &[f64]| x.iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
+    let force = largest(&usual).max(f64::MIN_POSITIVE);
+    largest(v) <= 1e-9 && largest(&inertia) <= AT_REST * force.max(1e-9)
+}

@@ -1,0 +1,191 @@
+//! The variational equations at a state: every matrix of a linear model.
+
+use super::{Matrix, OperatingPoint};
+use crate::error::{Error, Result};
+use crate::formulation::{Dynamics, Halt};
+use crate::system::{Loaded, MechanicalSystem, Need, Tangent};
+
+/// Small changes (dq, dv) of a state, dq along the velocity directions, with those of v' and lambda:
+///
+/// ```text
+/// dq' = dv - [v, dq]
+/// M dv' + G^T dlambda = -K dq - C dv + f_u du
+/// G dv' = -Gdd dq - G1 dv
+/// ```
+///
+/// where K and C belong to r = M v' + G^T lambda - f at the v' and lambda of the state, Gd = d(G v + phi_t)/dq and
+/// Gdd = d(phi'')/dq; G1 = d(phi'')/dv = 2 Gd + G [v, .]. Changes that stay on the constraints have G dq = 0 and
+/// G dv + Gd dq = 0. The saddle-point matrix is factored once: a direction costs a back-substitution.
+pub struct Variation<'a> {
+    pub dynamics: Dynamics<'a>,
+    pub point: OperatingPoint,
+    pub tangent: Tangent,
+    /// Values of Gdd at the places of G.
+    gdd: Vec<f64>,
+    bracket: Vec<f64>,
+}
+
+const NO_TANGENT: &str = "these equations give no K, C and gradient of phi''";
+const GIVE_THEM: &str = "implement MechanicalSystem::tangent and acceleration_gradient, or write them as Equations";
+
+impl<'a> Variation<'a> {
+    /// At a state, which should be on the constraints.
+    ///
+    /// # Errors
+    /// A state without determined accelerations; equations without derivatives.
+    pub fn new(system: &'a dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64]) -> Result<Self> {
+        let dynamics = Dynamics::new(system);
+        let tangent = Tangent::new(&dynamics.structure.tangent);
+        let (gdd, bracket) = (vec![0.0; dynamics.structure.g.entries.len()], vec![0.0; v.len()]);
+        let mut variation = Variation { dynamics, point: OperatingPoint::default(), tangent, gdd, bracket };
+        let known = variation.move_to(t, q, v).map_err(|halt| at_state(t, &halt))?;
+        if !known {
+            return Err(Error::input(NO_TANGENT).hint(GIVE_THEM));
+        }
+        variation.point = OperatingPoint::new(&variation.dynamics, t, q, v);
+        Ok(variation)
+    }
+
+    /// Evaluates and factors at another state; the operating point stays. Returns whether the equations give derivatives.
+    pub fn move_to(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<bool, Halt> {
+        let Dynamics { system, .. } = self.dynamics;
+        self.dynamics.solve(t, q, v, |_, _| 0.0)?;
+        self.dynamics.evaluate(t, q, v, Need::L);
+        let Dynamics { vdot, lambda, scratch, .. } = &mut self.dynamics;
+        let at = Loaded { t, q, v, vdot, lambda };
+        let known = system.tangent(at, &mut self.tangent, scratch);
+        let known = known && system.acceleration_gradient(at, &mut self.gdd, scratch);
+        let values = self.tangent.k.iter().chain(&self.tangent.c).chain(&self.gdd);
+        if known && !values.into_iter().all(|x| x.is_finite()) {
+            return Err(Halt::Term("a derivative of the equations".to_string()));
+        }
+        Ok(known)
+    }
+
+    pub fn system(&self) -> &'a dyn MechanicalSystem {
+        self.dynamics.system
+    }
+
+    /// n_v
+    pub fn len(&self) -> usize {
+        self.dynamics.vdot.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// dv' and dlambda that follow from a change of the state at velocity `v`, into the last two.
+    pub fn accelerate(
+        &mut self,
+        v: &[f64],
+        (dq, dv): (&[f64], &[f64]),
+        (vdot, lambda): (&mut [f64], &mut [f64]),
+    ) -> Result<(), Halt> {
+        let Dynamics { structure, terms, .. } = &self.dynamics;
+        vdot.fill(0.0);
+        structure.tangent.multiply(&self.tangent.k, dq, vdot);
+        structure.tangent.multiply(&self.tangent.c, dv, vdot);
+        lambda.fill(0.0);
+        structure.g.multiply(&self.gdd, dq, lambda);
+        structure.g.multiply(&terms.l, dv, lambda);
+        structure.g.multiply(&terms.l, dv, lambda);
+        self.dynamics.system.bracket(v, dv, &mut self.bracket);
+        structure.g.multiply(&terms.g, &self.bracket, lambda);
+        vdot.iter_mut().chain(lambda.iter_mut()).for_each(|x| *x = -*x);
+        self.push(vdot, lambda)
+    }
+
+    /// (f, rows) -> (dv', dlambda) of M dv' + G^T dlambda = f, G dv' = rows; in place.
+    pub fn push(&mut self, force: &mut [f64], rows: &mut [f64]) -> Result<(), Halt> {
+        Ok(self.dynamics.kkt.solve(force, rows)?)
+    }
+
+    /// The smallest change in the mass metric with G d = `rows`, for each column.
+    pub fn correct(&mut self, rows: &Matrix) -> Result<Matrix> {
+        let mut corrections = Matrix::zeros(self.len(), rows.ncols());
+        for (from, mut to) in rows.column_iter().zip(corrections.column_iter_mut()) {
+            let solved = self.dynamics.kkt.solve_projection(from.clone_owned().as_slice(), to.as_mut_slice());
+            solved.map_err(|singular| at_state(self.point.t, &singular.into()))?;
+        }
+        Ok(corrections)
+    }
+
+    /// df/du, n_v x n_u
+    pub fn inputs(&mut self) -> Matrix {
+        Matrix::zeros(self.len(), 0)
+    }
+
+    /// Derivatives of the outputs.
+    pub fn outputs(&mut self) -> OutputTangent {
+        let (n, m) = (self.len(), self.point.lambda.len());
+        OutputTangent { q: Matrix::zeros(0, n), v: Matrix::zeros(0, n), lambda: Matrix::zeros(0, m), u: Matrix::zeros(0, 0) }
+    }
+
+    /// M
+    pub fn mass(&self) -> Matrix {
+        let Dynamics { structure, terms, .. } = &self.dynamics;
+        let mut mass = Matrix::zeros(self.len(), self.len());
+        for (&(i, j), value) in structure.mass.entries.iter().zip(&terms.mass) {
+            mass[(i, j)] += value;
+            if i != j {
+                mass[(j, i)] += value;
+            }
+        }
+        mass
+    }
+
+    pub fn k(&self) -> Matrix {
+        dense(&self.dynamics.structure.tangent, &self.tangent.k)
+    }
+
+    pub fn c(&self) -> Matrix {
+        dense(&self.dynamics.structure.tangent, &self.tangent.c)
+    }
+
+    pub fn g(&self) -> Matrix {
+        dense(&self.dynamics.structure.g, &self.dynamics.terms.g)
+    }
+
+    /// Gd = d(G v + phi_t)/dq
+    pub fn gd(&self) -> Matrix {
+        dense(&self.dynamics.structure.g, &self.dynamics.terms.l)
+    }
+
+    /// Gdd = d(phi'')/dq
+    pub fn gdd(&self) -> Matrix {
+        dense(&self.dynamics.structure.g, &self.gdd)
+    }
+
+    /// The matrix of [v, .] at a velocity.
+    pub fn bracket(&self, v: &[f64]) -> Matrix {
+        let n = self.len();
+        let (mut matrix, mut unit) = (Matrix::zeros(n, n), vec![0.0; n]);
+        for (j, mut column) in matrix.column_iter_mut().enumerate() {
+            unit[j] = 1.0;
+            self.dynamics.system.bracket(v, &unit, column.as_mut_slice());
+            unit[j] = 0.0;
+        }
+        matrix
+    }
+}
+
+/// A dense matrix out of its entries.
+fn dense(pattern: &crate::math::kkt::Pattern, values: &[f64]) -> Matrix {
+    let mut matrix = Matrix::zeros(pattern.rows, pattern.cols);
+    pattern.entries.iter().zip(values).for_each(|(&place, value)| matrix[place] += value);
+    matrix
+}
+
+pub struct OutputTangent {
+    pub q: Matrix,
+    pub v: Matrix,
+    pub lambda: Matrix,
+    pub u: Matrix,
+}
+
+/// Why there is no linear model at a state.
+pub(super) fn at_state(t: f64, halt: &Halt) -> Error {
+    let hint = halt.hint().unwrap_or("choose another time, a little before or after");
+    Error::input(format!("at t = {t} s there is no linear model: {halt}")).hint(hint)
+}
