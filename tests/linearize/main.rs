@@ -1,0 +1,7 @@
+//! Linear models against references, closed forms and each other.
+
+#[path = "../equations/mod.rs"]
+#[allow(dead_code)]
+mod equations;
+mod reference;
+mod systems;
