@@ -98,6 +98,15 @@ impl Choice {
         }
     }
 
+    /// One of `known`, the first where it is not given.
+    pub fn one_of<'k>(&self, key: &str, known: &[&'k str]) -> Result<&'k str> {
+        let Some(text) = self.text(key) else { return Ok(known.first().copied().unwrap_or_default()) };
+        let text = canonical(text);
+        known.iter().find(|name| **name == text).copied().ok_or_else(|| {
+            Error::input(format!("{}: {key} is `{text}`", self.name)).hint(format!("it can be {}", known.join(", ")))
+        })
+    }
+
     /// A whole number within `range`.
     pub fn whole(&self, key: &str, default: usize, range: std::ops::RangeInclusive<usize>) -> Result<usize> {
         let value = self.number(key, default as f64)?;

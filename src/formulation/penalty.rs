@@ -27,11 +27,11 @@ pub const ENTRY: Entry = Entry {
     make: |choice, system| Ok(Box::new(Penalty::new(1, choice, system)?)),
 };
 
-pub(super) const PENALTY: OptionDoc =
+pub const PENALTY: OptionDoc =
     OptionDoc { name: "penalty", about: "mass on the constraints over that of the mechanism (default 1e7)" };
-pub(super) const OMEGA: OptionDoc =
+pub const OMEGA: OptionDoc =
     OptionDoc { name: "omega", about: "frequency at which phi is pulled back, 1/s (default 10)" };
-pub(super) const XI: OptionDoc = OptionDoc { name: "xi", about: "damping ratio of phi (default 1)" };
+pub const XI: OptionDoc = OptionDoc { name: "xi", about: "damping ratio of phi (default 1)" };
 
 /// With a slack s = (lambda_i - lambda)/a, `iterations` times from lambda_0 = 0,
 ///
@@ -117,7 +117,7 @@ impl Formulation for Penalty {
 }
 
 /// The mean diagonal entry of G diag(M)^-1 G^T, over coordinates with mass; 1 where G is zero.
-fn mean_compliance(structure: &Structure, terms: &Terms) -> f64 {
+pub fn mean_compliance(structure: &Structure, terms: &Terms) -> f64 {
     let Pattern { rows, cols, entries } = &structure.g;
     let mut diagonal = vec![0.0; *cols];
     for (&(i, _), mass) in structure.mass.entries.iter().zip(&terms.mass).filter(|((i, j), _)| i == j) {

@@ -1,8 +1,9 @@
 //! The variational equations at a state: every matrix of a linear model.
 
-use super::{Matrix, OperatingPoint};
+use super::{Changes, Matrix, OperatingPoint};
 use crate::error::{Error, Result};
 use crate::formulation::{Dynamics, Halt};
+use crate::math::kkt::Pattern;
 use crate::system::{Loaded, MechanicalSystem, Need, Tangent};
 
 /// Small changes (dq, dv) of a state, dq along the velocity directions, with those of v' and lambda:
@@ -22,7 +23,8 @@ pub struct Variation<'a> {
     pub tangent: Tangent,
     /// Values of Gdd at the places of G.
     gdd: Vec<f64>,
-    bracket: Vec<f64>,
+    /// Velocity of the state that is evaluated.
+    v: Vec<f64>,
 }
 
 const NO_TANGENT: &str = "these equations give no K, C and gradient of phi''";
@@ -36,8 +38,8 @@ impl<'a> Variation<'a> {
     pub fn new(system: &'a dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64]) -> Result<Self> {
         let dynamics = Dynamics::new(system);
         let tangent = Tangent::new(&dynamics.structure.tangent);
-        let (gdd, bracket) = (vec![0.0; dynamics.structure.g.entries.len()], vec![0.0; v.len()]);
-        let mut variation = Variation { dynamics, point: OperatingPoint::default(), tangent, gdd, bracket };
+        let (gdd, own) = (vec![0.0; dynamics.structure.g.entries.len()], v.to_vec());
+        let mut variation = Variation { dynamics, point: OperatingPoint::default(), tangent, gdd, v: own };
         let known = variation.move_to(t, q, v).map_err(|halt| at_state(t, &halt))?;
         if !known {
             return Err(Error::input(NO_TANGENT).hint(GIVE_THEM));
@@ -48,11 +50,16 @@ impl<'a> Variation<'a> {
 
     /// Evaluates and factors at another state; the operating point stays. Returns whether the equations give derivatives.
     pub fn move_to(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<bool, Halt> {
-        let Dynamics { system, .. } = self.dynamics;
+        self.v.copy_from_slice(v);
         self.dynamics.solve(t, q, v, |_, _| 0.0)?;
         self.dynamics.evaluate(t, q, v, Need::L);
-        let Dynamics { vdot, lambda, scratch, .. } = &mut self.dynamics;
-        let at = Loaded { t, q, v, vdot, lambda };
+        let (vdot, lambda) = (self.dynamics.vdot.clone(), self.dynamics.lambda.clone());
+        self.load(Loaded { t, q, v, vdot: &vdot, lambda: &lambda })
+    }
+
+    /// K, C and Gdd at other v' and lambda of the state that is factored.
+    pub fn load(&mut self, at: Loaded) -> Result<bool, Halt> {
+        let Dynamics { system, scratch, .. } = &mut self.dynamics;
         let known = system.tangent(at, &mut self.tangent, scratch);
         let known = known && system.acceleration_gradient(at, &mut self.gdd, scratch);
         let values = self.tangent.k.iter().chain(&self.tangent.c).chain(&self.gdd);
@@ -60,6 +67,13 @@ impl<'a> Variation<'a> {
             return Err(Halt::Term("a derivative of the equations".to_string()));
         }
         Ok(known)
+    }
+
+    /// K, C and Gdd at the operating point again.
+    pub(super) fn load_point(&mut self) -> Result<()> {
+        let point = self.point.clone();
+        let at = Loaded { t: point.t, q: &point.q, v: &point.v, vdot: &point.vdot, lambda: &point.lambda };
+        self.load(at).map(|_| ()).map_err(|halt| at_state(point.t, &halt))
     }
 
     pub fn system(&self) -> &'a dyn MechanicalSystem {
@@ -75,25 +89,49 @@ impl<'a> Variation<'a> {
         self.len() == 0
     }
 
-    /// dv' and dlambda that follow from a change of the state at velocity `v`, into the last two.
-    pub fn accelerate(
-        &mut self,
-        v: &[f64],
-        (dq, dv): (&[f64], &[f64]),
-        (vdot, lambda): (&mut [f64], &mut [f64]),
-    ) -> Result<(), Halt> {
+    /// -K dq - C dv, a column each.
+    pub fn force(&self, changes: &Changes) -> Matrix {
+        let (pattern, mut force) = (&self.dynamics.structure.tangent, Matrix::zeros(self.len(), changes.q.ncols()));
+        add_product(pattern, &self.tangent.k, &changes.q, -1.0, &mut force);
+        add_product(pattern, &self.tangent.c, &changes.v, -1.0, &mut force);
+        force
+    }
+
+    /// What G dv' must be for phi'' + c1 phi' + c0 phi = 0, a column each:
+    /// -(Gdd + c1 Gd + c0 G) dq - (G1 + c1 G) dv.
+    pub fn rows(&self, changes: &Changes, [c1, c0]: [f64; 2]) -> Matrix {
         let Dynamics { structure, terms, .. } = &self.dynamics;
-        vdot.fill(0.0);
-        structure.tangent.multiply(&self.tangent.k, dq, vdot);
-        structure.tangent.multiply(&self.tangent.c, dv, vdot);
-        lambda.fill(0.0);
-        structure.g.multiply(&self.gdd, dq, lambda);
-        structure.g.multiply(&terms.l, dv, lambda);
-        structure.g.multiply(&terms.l, dv, lambda);
-        self.dynamics.system.bracket(v, dv, &mut self.bracket);
-        structure.g.multiply(&terms.g, &self.bracket, lambda);
-        vdot.iter_mut().chain(lambda.iter_mut()).for_each(|x| *x = -*x);
-        self.push(vdot, lambda)
+        let mut rows = Matrix::zeros(structure.g.rows, changes.q.ncols());
+        let mut add = |values: &[f64], x: &Matrix, factor: f64| add_product(&structure.g, values, x, factor, &mut rows);
+        add(&self.gdd, &changes.q, -1.0);
+        add(&terms.l, &changes.v, -2.0);
+        add(&terms.g, &self.bracket_with(&changes.v), -1.0);
+        if c1 != 0.0 {
+            add(&terms.l, &changes.q, -c1);
+            add(&terms.g, &changes.v, -c1);
+        }
+        if c0 != 0.0 {
+            add(&terms.g, &changes.q, -c0);
+        }
+        rows
+    }
+
+    /// [v, x] at the velocity of the state, a column each.
+    pub fn bracket_with(&self, x: &Matrix) -> Matrix {
+        let mut turned = x.clone();
+        for (from, mut to) in x.column_iter().zip(turned.column_iter_mut()) {
+            self.dynamics.system.bracket(&self.v, from.clone_owned().as_slice(), to.as_mut_slice());
+        }
+        turned
+    }
+
+    /// [`push`](Self::push) for each column.
+    pub fn push_all(&mut self, force: &mut Matrix, rows: &mut Matrix) -> Result<(), Halt> {
+        let columns = force.column_iter_mut().zip(rows.column_iter_mut());
+        for (mut force, mut rows) in columns {
+            self.push(force.as_mut_slice(), rows.as_mut_slice())?;
+        }
+        Ok(())
     }
 
     /// (f, rows) -> (dv', dlambda) of M dv' + G^T dlambda = f, G dv' = rows; in place.
@@ -170,8 +208,17 @@ impl<'a> Variation<'a> {
     }
 }
 
+/// sum += factor A x
+fn add_product(pattern: &Pattern, values: &[f64], x: &Matrix, factor: f64, sum: &mut Matrix) {
+    for (&(i, j), value) in pattern.entries.iter().zip(values) {
+        for column in 0..x.ncols() {
+            sum[(i, column)] += factor * value * x[(j, column)];
+        }
+    }
+}
+
 /// A dense matrix out of its entries.
-fn dense(pattern: &crate::math::kkt::Pattern, values: &[f64]) -> Matrix {
+fn dense(pattern: &Pattern, values: &[f64]) -> Matrix {
     let mut matrix = Matrix::zeros(pattern.rows, pattern.cols);
     pattern.entries.iter().zip(values).for_each(|(&place, value)| matrix[place] += value);
     matrix
@@ -182,6 +229,14 @@ pub struct OutputTangent {
     pub v: Matrix,
     pub lambda: Matrix,
     pub u: Matrix,
+}
+
+impl OutputTangent {
+    /// C and D.
+    pub(super) fn observe(&self, changes: &Changes, response: &super::Response) -> [Matrix; 2] {
+        let c = &self.q * &changes.q + &self.v * &changes.v + &self.lambda * &response.lambda;
+        [c, &self.u + &self.lambda * &response.driven_lambda]
+    }
 }
 
 /// Why there is no linear model at a state.

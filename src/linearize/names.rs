@@ -1,0 +1,42 @@
+//! Names of the directions of a state.
+
+use crate::system::MechanicalSystem;
+
+/// Names of changes of q along each velocity direction, and of changes of v.
+pub(super) struct Directions {
+    pub q: Vec<String>,
+    pub v: Vec<String>,
+}
+
+/// A direction is a coordinate where q' is that velocity; a turn about an axis of the body, such as `rotor.rx`, where the
+/// velocity is an angular one, `rotor.wx`.
+pub(super) fn directions(system: &dyn MechanicalSystem, q: &[f64]) -> Directions {
+    let names = system.names();
+    let (mut unit, mut rate) = (vec![0.0; names.v.len()], vec![0.0; names.q.len()]);
+    let own = names.v.iter().enumerate().map(|(direction, name)| {
+        unit[direction] = 1.0;
+        system.rate(q, &unit, &mut rate);
+        unit[direction] = 0.0;
+        let mut moved = (0..rate.len()).filter(|&i| rate[i] != 0.0);
+        match (moved.next(), moved.next()) {
+            (Some(i), None) if rate[i] == 1.0 => names.q[i].clone(),
+            _ => turn(name),
+        }
+    });
+    Directions { q: own.collect(), v: names.v }
+}
+
+/// `rotor.wx` -> `rotor.rx`
+fn turn(velocity: &str) -> String {
+    match velocity.rsplit_once(".w") {
+        Some((body, axis)) => format!("{body}.r{axis}"),
+        None => format!("{velocity} dt"),
+    }
+}
+
+impl Directions {
+    /// Those of q, then those of v.
+    pub fn states(self) -> Vec<String> {
+        self.q.into_iter().chain(self.v).collect()
+    }
+}

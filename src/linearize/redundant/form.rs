@@ -1,0 +1,106 @@
+//! The pencils.
+
+use super::Built;
+use crate::linearize::{Changes, Matrix, Variation, names};
+
+/// Which constraints stand beside the equations of motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    Index3,
+    Index2,
+    Index1,
+    Ggl,
+}
+
+impl Form {
+    pub fn named(name: &str) -> Self {
+        match name {
+            "index2" => Form::Index2,
+            "index1" => Form::Index1,
+            "ggl" => Form::Ggl,
+            _ => Form::Index3,
+        }
+    }
+
+    /// Infinite eigenvalues with `m` independent constraints.
+    fn infinite(self, m: usize) -> usize {
+        match self {
+            Form::Index3 => 3 * m,
+            Form::Index2 => 2 * m,
+            Form::Index1 => m,
+            Form::Ggl => 4 * m,
+        }
+    }
+
+    /// (E, A), B, C and D in x = (dq, dv, dlambda), with dmu behind for GGL.
+    pub fn build(self, variation: &mut Variation) -> Built {
+        let kept = independent_rows(variation);
+        let (n, m) = (variation.len(), kept.len());
+        let [g, gd] = [variation.g(), variation.gd()].map(|rows| rows.select_rows(&kept));
+        let size = 2 * n + if self == Form::Ggl { 2 * m } else { m };
+        let (mut e, mut a) = (Matrix::zeros(size, size), Matrix::zeros(size, size));
+        put(&mut e, (0, 0), &Matrix::identity(n, n));
+        put(&mut e, (n, n), &variation.mass());
+        put(&mut a, (0, 0), &-variation.bracket(&variation.point.v));
+        put(&mut a, (0, n), &Matrix::identity(n, n));
+        put(&mut a, (n, 0), &-variation.k());
+        put(&mut a, (n, n), &-variation.c());
+        put(&mut a, (n, 2 * n), &-g.transpose());
+        match self {
+            Form::Index3 => put(&mut a, (2 * n, 0), &g),
+            Form::Index2 => put(&mut a, (2 * n, 0), &beside(&gd, &g)),
+            Form::Index1 => {
+                let rows = variation.rows(&Changes::all(n), [0.0; 2]).select_rows(&kept);
+                put(&mut e, (2 * n, n), &g);
+                put(&mut a, (2 * n, 0), &rows);
+            }
+            Form::Ggl => {
+                put(&mut a, (0, 2 * n + m), &-g.transpose());
+                put(&mut a, (2 * n, 0), &beside(&gd, &g));
+                put(&mut a, (2 * n + m, 0), &g);
+            }
+        }
+        self.observe(variation, &kept, (e, a))
+    }
+
+    /// With the inputs and outputs.
+    fn observe(self, variation: &mut Variation, kept: &[usize], (e, a): (Matrix, Matrix)) -> Built {
+        let (n, size) = (variation.len(), a.nrows());
+        let (inputs, outputs) = (variation.inputs(), variation.outputs());
+        let (mut b, mut c) = (Matrix::zeros(size, inputs.ncols()), Matrix::zeros(outputs.q.nrows(), size));
+        put(&mut b, (n, 0), &inputs);
+        put(&mut c, (0, 0), &outputs.q);
+        put(&mut c, (0, n), &outputs.v);
+        put(&mut c, (0, 2 * n), &outputs.lambda.select_columns(kept));
+        let unit = Matrix::identity(size, size);
+        let changes = Changes { q: unit.rows(0, n).clone_owned(), v: unit.rows(n, n).clone_owned() };
+        let states = self.states(variation, kept);
+        let (chart, infinite) = ("redundant".to_string(), self.infinite(kept.len()));
+        Built { chart, states, a, b, c, d: outputs.u, e: Some(e), changes, infinite }
+    }
+
+    fn states(self, variation: &Variation, kept: &[usize]) -> Vec<String> {
+        let system = variation.system();
+        let mut states = names::directions(system, &variation.point.q).states();
+        let multipliers = system.names().lambda;
+        states.extend(kept.iter().map(|&row| multipliers[row].clone()));
+        if self == Form::Ggl {
+            states.extend(kept.iter().map(|&row| format!("{} mu", multipliers[row])));
+        }
+        states
+    }
+}
+
+/// Rows of G that do not depend on others at the state.
+fn independent_rows(variation: &Variation) -> Vec<usize> {
+    let left_out = variation.dynamics.kkt.left_out();
+    (0..variation.point.lambda.len()).filter(|row| !left_out.contains(row)).collect()
+}
+
+fn put(target: &mut Matrix, at: (usize, usize), block: &Matrix) {
+    target.view_mut(at, block.shape()).copy_from(block);
+}
+
+fn beside(left: &Matrix, right: &Matrix) -> Matrix {
+    crate::linearize::response::beside([left, right])
+}

@@ -1,0 +1,40 @@
+//! Redundant coordinates (RCS): descriptor forms E x' = A x of the constrained equations.
+
+mod form;
+
+use super::method::{Built, Entry};
+use crate::choice::OptionDoc;
+use form::Form;
+
+/// The pencil (E, A) of the equations with multipliers, in all coordinates, its state frozen:
+///
+/// ```text
+/// dq' = dv - [v, dq]                    GGL: - G^T dmu
+/// M dv' = -K dq - C dv - G^T dlambda
+/// index 3: G dq = 0                     2 (n - m) finite eigenvalues, 3 m infinite
+/// index 2: Gd dq + G dv = 0             2 (n - m), m zeros, 2 m infinite
+/// index 1: G dv' = -Gdd dq - G1 dv      2 (n - m), 2 m zeros, m infinite
+/// GGL:     rows of index 3 and 2        2 (n - m), 4 m infinite
+/// ```
+///
+/// (counts at an equilibrium). Exact there. At a moving state the frozen pencil of index 3 has the spectrum of the plain
+/// projection (`frozen`), those of index 2 and 1 others: no chart stands behind them. Rows of G that depend on others are
+/// left out first, since they make the pencil singular: their multipliers stay as they are. Source: Masarati, "Direct
+/// eigenanalysis of constrained system dynamics", Proc. Inst. Mech. Eng. K 223 (2009) 335-342.
+pub const RCS: Entry = Entry {
+    name: "rcs",
+    about: "descriptor form (E, A) in all coordinates and multipliers: exact at an equilibrium",
+    options: &[
+        OptionDoc { name: "form", about: "index3, index2, index1 or ggl (default index3)" },
+        OptionDoc {
+            name: "solver",
+            about: "null_space: deflation by null spaces; gsvd: deflation by generalized singular values; qz: generalized \
+                    Schur form of the whole pencil (default null_space)",
+        },
+    ],
+    build: |variation, request| {
+        let form = Form::named(request.method.one_of("form", &["index3", "index2", "index1", "ggl"])?);
+        request.method.one_of("solver", &["null_space", "gsvd", "qz"])?;
+        Ok(form.build(variation))
+    },
+};

@@ -1,0 +1,47 @@
+//! Unconstrained coordinates (UCS): formulations without constraints, v' = a(q, v), linearized in all 2 n states.
+//!
+//! Beside the 2 (n - m) physical eigenvalues each has 2 m spurious ones, of motions off the constraints.
+
+mod baumgarte;
+mod force_projection;
+mod penalty;
+
+pub(super) use baumgarte::BAUMGARTE;
+pub(super) use force_projection::FORCE_PROJECTION;
+pub(super) use penalty::{AUGMENTED_LAGRANGIAN, PENALTY};
+
+use super::method::{Built, Request};
+use super::minimal::restrict;
+use super::{Changes, Matrix, Response, Variation, names};
+use crate::choice::OptionDoc;
+use crate::error::Result;
+
+/// What all of them take.
+const PROJECTED: OptionDoc = OptionDoc {
+    name: "projected",
+    about: "yes: only the changes that the constraints allow, in the chart, without spurious eigenvalues (default no)",
+};
+
+/// x' = A_u x with x = (dq, dv): dq' = dv - [v, dq], dv' by the formulation; or the same on the chart's tangent space,
+/// where A = diag(B, B) A_u X0 is exact at any state for an exact formulation.
+fn build(
+    variation: &mut Variation,
+    request: &Request,
+    response: impl FnOnce(&mut Variation, &Changes) -> Result<Response>,
+) -> Result<Built> {
+    if request.method.one_of("projected", &["no", "yes"])? == "yes" {
+        let coordinates = request.chart(variation).at(variation)?;
+        return Ok(Built::minimal(restrict(variation, coordinates, response)?));
+    }
+    let n = variation.len();
+    let changes = Changes::all(n);
+    let response = response(variation, &changes)?;
+    let mut a = Matrix::zeros(2 * n, 2 * n);
+    a.view_mut((0, 0), (n, 2 * n)).copy_from(&(&changes.v - variation.bracket_with(&changes.q)));
+    a.view_mut((n, 0), (n, 2 * n)).copy_from(&response.vdot);
+    let b = response.driven_vdot.clone().insert_rows(0, n, 0.0);
+    let [c, d] = variation.outputs().observe(&changes, &response);
+    let states = names::directions(variation.system(), &variation.point.q).states();
+    let chart = "redundant".to_string();
+    Ok(Built { chart, states, a, b, c, d, e: None, changes, infinite: 0 })
+}
