@@ -167,6 +167,13 @@ pub fn dot<S: Scalar, const D: usize>(a: &[S; D], b: &[S; D]) -> S {
     sum
 }
 
+/// Length of a vector. Where it is zero it has no slope; there the derivatives are zero.
+#[inline]
+pub fn norm<S: Scalar, const D: usize>(a: &[S; D]) -> S {
+    let square = dot(a, a);
+    if square.value() == 0.0 { S::zero() } else { square.sqrt() }
+}
+
 #[inline]
 pub fn sub<S: Scalar, const D: usize>(a: &[S; D], b: &[S; D]) -> [S; D] {
     from_fn(|i| a[i] - b[i])

@@ -123,10 +123,10 @@ impl<const D: usize> BodyKernel<D> for Guided<D> {
             }
         }
     }
-    fn energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy {
-        let moving: f64 = self.slots.iter().flatten().map(|&slot| self.mass * v[slot] * v[slot]).sum();
-        let turning = self.turn.map_or(0.0, |turn| self.moment * v[turn.slot] * v[turn.slot]);
-        let height: f64 = self.position(q).iter().zip(gravity).map(|(q, g)| -q * g).sum();
-        Energy { kinetic: 0.5 * (moving + turning), potential: self.mass * height }
+    fn energy<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S> {
+        let moving = self.slots.iter().flatten().fold(S::zero(), |sum, &slot| sum + v[slot] * v[slot] * self.mass);
+        let turning = self.turn.map_or(S::zero(), |turn| v[turn.slot] * v[turn.slot] * self.moment);
+        let height = self.position(q).iter().zip(gravity).fold(S::zero(), |sum, (&q, g)| sum - q * *g);
+        Energy { kinetic: (moving + turning) * 0.5, potential: height * self.mass }
     }
 }

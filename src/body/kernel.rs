@@ -21,6 +21,10 @@ impl<K: BodyKernel<D>, S: Scalar, const D: usize> BodyOver<S, D> for K {
     fn pull_back(&self, _marker: usize, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]) {
         BodyKernel::pull_back(self, q, frame, wrench, f);
     }
+
+    fn energy(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S> {
+        BodyKernel::energy(self, q, v, gravity)
+    }
 }
 
 /// q with q' = N(q) v and q'' = (N(q') - N(0)) v + N(q) v', from N's being affine in q.
@@ -94,9 +98,6 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
             directions.iter_mut().zip(&v).for_each(|(direction, &v)| *direction += v);
             self.subtract_slopes((&q[..at.q.len()], &directions[..n]), at.gravity, first, c);
         }
-    }
-    fn energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy {
-        BodyKernel::energy(self, q, v, gravity)
     }
     fn dissipation(&self, _v: &[f64]) -> f64 {
         0.0

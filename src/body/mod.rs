@@ -19,7 +19,7 @@ mod rigid_planar;
 mod rigid_spatial;
 
 pub use build::{Build, MarkerId, MarkerTable};
-pub use frame::{Frame, Marker, Wrench, cross, dot, in_space, scale, sub, twist_len, unit_axes};
+pub use frame::{Frame, Marker, Wrench, cross, dot, in_space, norm, scale, sub, twist_len, unit_axes};
 pub use parse::{parse, parse_among, show};
 pub use probe::{Probe, Quantity, Signal, small_rotation, small_rotation_torque};
 pub use rigid::Initial;
@@ -38,11 +38,11 @@ pub type Slope = Dual<f64, 6>;
 /// So many markers a joint or force may have: their frames are kept on the stack.
 pub const MOST_MARKERS: usize = 8;
 
-/// Energy of a body or force, J.
+/// Energy of a body or of a whole mechanism, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Energy {
-    pub kinetic: f64,
-    pub potential: f64,
+pub struct Energy<S = f64> {
+    pub kinetic: S,
+    pub potential: S,
 }
 
 /// The equations of a body of a few coordinates that all move all of its markers, written once over any scalar.
@@ -82,19 +82,20 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
     /// f += weight and velocity-dependent inertia forces.
     fn own_forces<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D], f: &mut [S]);
 
-    fn energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy;
+    fn energy<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S>;
 
     /// Brings redundant coordinates (a quaternion) back to their normal form.
     fn normalize(&self, _q: &mut [f64]) {}
 }
 
-/// A body's kinematics over one scalar: what joints and forces need.
+/// A body over one scalar: the kinematics that joints and forces need, and its energy.
 pub trait BodyOver<S: Scalar, const D: usize> {
     fn rate(&self, q: &[S], v: &[S], qdot: &mut [S]);
     /// Frames with their velocities, and their accelerations at v' = `vdot` (zero where it is not given).
     fn motion(&self, q: &[S], v: &[S], vdot: Option<&[S]>, out: &mut [Frame<Taylor<S>, D>]);
     /// f += J^T w for a wrench at the frame of marker `marker`; f has the velocities of its [`support`](Body::support).
     fn pull_back(&self, marker: usize, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]);
+    fn energy(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S>;
 }
 
 /// A body's state with its accelerations, and the scene's gravity.
@@ -136,7 +137,6 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Slope, D> + Send + S
     fn tangent_pattern(&self) -> Vec<(usize, usize)>;
     /// k += d(M v' - f)/dq along the directions of v, c += d(M v' - f)/dv, with f the own forces.
     fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]);
-    fn energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy;
     /// Power that its damping takes, W.
     fn dissipation(&self, v: &[f64]) -> f64;
     fn normalize(&self, q: &mut [f64]);

@@ -72,9 +72,9 @@ impl<const D: usize> BodyKernel<D> for Particle<D> {
     fn own_forces<S: Scalar>(&self, _q: &[S], _v: &[S], gravity: &[f64; D], f: &mut [S]) {
         f.iter_mut().zip(gravity).for_each(|(f, g)| *f += S::constant(self.mass * g));
     }
-    fn energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy {
-        let speed: f64 = v.iter().map(|v| v * v).sum();
-        let height: f64 = q.iter().zip(gravity).map(|(q, g)| -q * g).sum();
-        Energy { kinetic: 0.5 * self.mass * speed, potential: self.mass * height }
+    fn energy<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S> {
+        let square = v.iter().fold(S::zero(), |sum, &v| sum + v * v);
+        let height = q.iter().zip(gravity).fold(S::zero(), |sum, (&q, g)| sum - q * *g);
+        Energy { kinetic: square * (0.5 * self.mass), potential: height * self.mass }
     }
 }

@@ -80,9 +80,9 @@ impl<const D: usize> BodyKernel<D> for RigidPlanar<D> {
             }
         }
     }
-    fn energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy {
-        let kinetic = self.free().zip(v).map(|(i, v)| 0.5 * self.inertia[i] * v * v).sum();
+    fn energy<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S> {
+        let kinetic = self.free().zip(v).fold(S::zero(), |sum, (i, &v)| sum + v * v * (0.5 * self.inertia[i]));
         let [x, y, _] = self.coordinates(q);
-        Energy { kinetic, potential: -self.inertia[0] * (gravity[0] * x + gravity[1] * y) }
+        Energy { kinetic, potential: (x * gravity[0] + y * gravity[1]) * -self.inertia[0] }
     }
 }

@@ -80,13 +80,13 @@ impl<const D: usize> BodyKernel<D> for RigidSpatial<D> {
         let gyroscopic = cross(&w, &self.angular_momentum(&w));
         f[3..].iter_mut().zip(gyroscopic).for_each(|(f, g)| *f -= g);
     }
-    fn energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy {
+    fn energy<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S> {
         let w = [v[3], v[4], v[5]];
-        let translation: f64 = v[..3].iter().map(|v| v * v).sum();
-        let height: f64 = q.iter().zip(gravity).map(|(q, g)| -q * g).sum();
+        let translation = dot(&[v[0], v[1], v[2]], &[v[0], v[1], v[2]]);
+        let height = q.iter().zip(gravity).fold(S::zero(), |sum, (&q, g)| sum - q * *g);
         Energy {
-            kinetic: 0.5 * (self.mass * translation + dot(&w, &self.angular_momentum(&w))),
-            potential: self.mass * height,
+            kinetic: (translation * self.mass + dot(&w, &self.angular_momentum(&w))) * 0.5,
+            potential: height * self.mass,
         }
     }
     fn normalize(&self, q: &mut [f64]) {

@@ -1,7 +1,7 @@
 //! Applied force and torque: expressions of time, of marker quantities and of named outputs.
 
 use super::{Action, Built, ForceKernel, ForceSpec};
-use crate::body::{Build, Frame, MOST_MARKERS, MarkerId, Signal, Wrench};
+use crate::body::{Build, Frame, MOST_MARKERS, MarkerId, Signal, Wrench, cross, norm};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use crate::math::{Scalar, Taylor};
@@ -149,7 +149,18 @@ impl Applied {
 
 impl<const D: usize> ForceKernel<D> for Applied {
     fn act<S: Scalar>(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
-        let local = self.components(frames, t.x);
+        self.driven(&[S::zero(); 3], frames, t, out)
+    }
+
+    fn driven<S: Scalar>(
+        &self,
+        input: &[S; 3],
+        frames: &[Frame<Taylor<S>, D>],
+        t: Taylor<S>,
+        out: &mut [Wrench<S, D>],
+    ) -> Action<S> {
+        let own = self.components(frames, t.x);
+        let local: [S; 3] = std::array::from_fn(|i| own[i] + input[i]);
         let mut vector = local;
         if self.axes == Axes::Marker && !(D == 2 && matches!(self.kind, Kind::Torque)) {
             vector = [S::zero(); 3];
@@ -164,12 +175,11 @@ impl<const D: usize> ForceKernel<D> for Applied {
         if self.reacts {
             // The reaction acts along the same line: at the other marker it has the moment of the gap.
             let gap: [S; D] = std::array::from_fn(|i| frames[0].r[i].x - frames[1].r[i].x);
-            let lever = crate::body::cross(&gap, &out[0].force);
+            let lever = cross(&gap, &out[0].force);
             out[1].force = out[0].force.map(|x| -x);
             out[1].torque = std::array::from_fn(|i| -(out[0].torque[i] + lever[i]));
         }
-        let square = vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2];
-        let magnitude = if self.signals.len() == 1 || square.value() == 0.0 { vector[2] } else { square.sqrt() };
-        Action::without_potential(magnitude)
+        // A planar torque keeps its sign.
+        Action::without_potential(if self.signals.len() == 1 { vector[2] } else { norm(&vector) })
     }
 }

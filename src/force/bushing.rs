@@ -1,7 +1,7 @@
 //! Bushing: springs and dampers along and about all axes.
 
 use super::{Action, Built, ForceKernel, ForceSpec};
-use crate::body::{Build, Frame, Wrench, cross, dot, scale, small_rotation, small_rotation_torque, sub, twist_len};
+use crate::body::{Build, Frame, Wrench, cross, dot, norm, scale, small_rotation, small_rotation_torque, sub, twist_len};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use crate::math::{Scalar, Taylor};
@@ -93,6 +93,6 @@ impl<const D: usize> ForceKernel<D> for Cushion {
         let lever = cross(&gap.map(|x| x.x), &force);
         out[1] = Wrench { force, torque };
         out[0] = Wrench { force: force.map(|x| -x), torque: from_fn(|k| -(torque[k] + lever[k])) };
-        Action { potential, magnitude: dot(&force, &force).sqrt() }
+        Action { potential, magnitude: norm(&force) }
     }
 }

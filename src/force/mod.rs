@@ -49,6 +49,16 @@ pub struct Wheel {
 pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
     /// One wrench a marker; `out` holds zeros on entry.
     fn act<S: Scalar>(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S>;
+    /// The same where inputs drive it: `input` adds to its components, N or N m, in its own axes. Default: none can.
+    fn driven<S: Scalar>(
+        &self,
+        _input: &[S; 3],
+        frames: &[Frame<Taylor<S>, D>],
+        t: Taylor<S>,
+        out: &mut [Wrench<S, D>],
+    ) -> Action<S> {
+        ForceKernel::act(self, frames, t, out)
+    }
     /// The wheel that a drawing shows, if it is one.
     fn wheel(&self, _t: f64) -> Option<Wheel> {
         None
@@ -57,12 +67,31 @@ pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
 
 /// A force over one scalar: what the model calls.
 pub trait ForceOver<S: Scalar, const D: usize> {
+    /// All inputs zero; `out` holds zeros on entry.
     fn act(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S>;
+    /// With inputs that add to its components.
+    fn driven(
+        &self,
+        input: &[S; 3],
+        frames: &[Frame<Taylor<S>, D>],
+        t: Taylor<S>,
+        out: &mut [Wrench<S, D>],
+    ) -> Action<S>;
 }
 
 impl<K: ForceKernel<D>, S: Scalar, const D: usize> ForceOver<S, D> for K {
     fn act(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
         ForceKernel::act(self, frames, t, out)
+    }
+
+    fn driven(
+        &self,
+        input: &[S; 3],
+        frames: &[Frame<Taylor<S>, D>],
+        t: Taylor<S>,
+        out: &mut [Wrench<S, D>],
+    ) -> Action<S> {
+        ForceKernel::driven(self, input, frames, t, out)
     }
 }
 

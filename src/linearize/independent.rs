@@ -1,6 +1,7 @@
 //! Independent coordinates by name.
 
 use super::chart::constant;
+use super::names::{Directions, directions};
 use super::{Coordinates, Matrix, Variation};
 use crate::error::{Error, Result, suggest};
 
@@ -38,28 +39,14 @@ pub(super) fn coordinates(variation: &mut Variation, z: &Matrix, names: &[String
     constant(variation, &names.join(","), states, (z * inverse, b))
 }
 
-/// Coordinates of which q' is a velocity, and rotations in space by their angular velocities.
+/// Every direction of v by the name of its coordinate, or of its turn.
 fn candidates(variation: &Variation) -> Vec<Candidate> {
-    let (system, names) = (variation.system(), variation.system().names());
-    let (mut unit, mut rate) = (vec![0.0; names.v.len()], vec![0.0; names.q.len()]);
-    let mut all = Vec::new();
-    for (direction, name) in names.v.iter().enumerate() {
-        unit[direction] = 1.0;
-        system.rate(&variation.point.q, &unit, &mut rate);
-        unit[direction] = 0.0;
-        let moved: Vec<usize> = (0..rate.len()).filter(|&i| rate[i] != 0.0).collect();
-        let own = match moved.as_slice() {
-            [i] if rate[*i] == 1.0 => names.q[*i].clone(),
-            _ => name.clone(),
-        };
-        let rate = if own == *name { format!("{name} rate") } else { name.clone() };
-        all.push(Candidate { name: own, rate, direction });
-    }
-    all
+    let Directions { q, v } = directions(variation.system(), &variation.point.q);
+    q.into_iter().zip(v).enumerate().map(|(direction, (name, rate))| Candidate { name, rate, direction }).collect()
 }
 
 fn find<'c>(candidates: &'c [Candidate], name: &str) -> Result<&'c Candidate> {
-    candidates.iter().find(|candidate| candidate.name == name).ok_or_else(|| {
+    candidates.iter().find(|candidate| candidate.name == name || candidate.rate == name).ok_or_else(|| {
         Error::input(format!("there is no coordinate `{name}`"))
             .under("--independent")
             .hint(suggest(name, candidates.iter().map(|candidate| candidate.name.as_str())))

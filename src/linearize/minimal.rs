@@ -1,6 +1,7 @@
 //! Minimal coordinates (MCS): the model in a chart of the directions that the constraints allow.
 
 use super::response::beside;
+use super::variation::observe;
 use super::{Changes, Chart, Coordinates, Matrix, Response, Variation};
 use crate::error::Result;
 
@@ -47,6 +48,6 @@ pub(super) fn restrict(
     let lower = &coordinates.b * &response.vdot - beside([&coordinates.drift[0], &coordinates.drift[1]]);
     a.view_mut((k, 0), (k, 2 * k)).copy_from(&lower);
     let b = (&coordinates.b * &response.driven_vdot).insert_rows(0, k, 0.0);
-    let [c, d] = variation.outputs().observe(&changes, &response);
+    let [c, d] = observe(&variation.outputs()?, &changes, &response);
     Ok(Minimal { coordinates, changes, a, b, c, d })
 }

@@ -2,13 +2,19 @@
 
 mod chart;
 mod independent;
+mod method;
 mod minimal;
 mod model;
+mod names;
 mod point;
+mod redundant;
 mod response;
+mod spectrum;
+mod unconstrained;
 mod variation;
 
 pub use chart::{Chart, Coordinates};
+pub use method::{Built, Entry, Request, linearize, registry};
 pub use minimal::{Minimal, minimal};
 pub use model::{Complex, Cost, Kind, LinearModel, Matrix, Mode};
 pub use point::OperatingPoint;

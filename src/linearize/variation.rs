@@ -1,10 +1,10 @@
 //! The variational equations at a state: every matrix of a linear model.
 
-use super::{Changes, Matrix, OperatingPoint};
+use super::{Changes, Matrix, OperatingPoint, Response};
 use crate::error::{Error, Result};
 use crate::formulation::{Dynamics, Halt};
 use crate::math::kkt::Pattern;
-use crate::system::{Loaded, MechanicalSystem, Need, Tangent};
+use crate::system::{Column, Loaded, MechanicalSystem, Need, OutputTangent, Tangent};
 
 /// Small changes (dq, dv) of a state, dq along the velocity directions, with those of v' and lambda:
 ///
@@ -149,15 +149,35 @@ impl<'a> Variation<'a> {
         Ok(corrections)
     }
 
-    /// df/du, n_v x n_u
-    pub fn inputs(&mut self) -> Matrix {
-        Matrix::zeros(self.len(), 0)
+    /// Names of the inputs and of the outputs.
+    pub fn names(&self) -> (Vec<String>, Vec<String>) {
+        let names = |columns: Vec<Column>| columns.into_iter().map(|column| column.name).collect();
+        (names(self.system().inputs()), names(self.system().columns()))
     }
 
-    /// Derivatives of the outputs.
-    pub fn outputs(&mut self) -> OutputTangent {
-        let (n, m) = (self.len(), self.point.lambda.len());
-        OutputTangent { q: Matrix::zeros(0, n), v: Matrix::zeros(0, n), lambda: Matrix::zeros(0, m), u: Matrix::zeros(0, 0) }
+    /// df/du, n_v x n_u
+    pub fn inputs(&mut self) -> Matrix {
+        let Dynamics { system, scratch, .. } = &mut self.dynamics;
+        let mut forces = Matrix::zeros(self.point.vdot.len(), system.inputs().len());
+        system.input_forces(self.point.t, &self.point.q, &self.point.v, &mut forces, scratch);
+        forces
+    }
+
+    /// Derivatives of the outputs at the operating point.
+    ///
+    /// # Errors
+    /// Equations with outputs of which they give no derivatives.
+    pub fn outputs(&mut self) -> Result<OutputTangent> {
+        let system = self.system();
+        let (n, inputs, outputs) = (system.dimensions(), system.inputs().len(), system.columns().len());
+        let mut tangent = OutputTangent::new(outputs, n.v, n.lambda, inputs);
+        let OperatingPoint { t, q, v, vdot, lambda, .. } = &self.point;
+        let at = Loaded { t: *t, q, v, vdot, lambda };
+        match system.output_tangent(at, &mut tangent, &mut self.dynamics.scratch) {
+            true => Ok(tangent),
+            false => Err(Error::input("these equations give no derivatives of their outputs")
+                .hint("implement MechanicalSystem::output_tangent, or leave the outputs out")),
+        }
     }
 
     /// M
@@ -224,19 +244,10 @@ fn dense(pattern: &Pattern, values: &[f64]) -> Matrix {
     matrix
 }
 
-pub struct OutputTangent {
-    pub q: Matrix,
-    pub v: Matrix,
-    pub lambda: Matrix,
-    pub u: Matrix,
-}
-
-impl OutputTangent {
-    /// C and D.
-    pub(super) fn observe(&self, changes: &Changes, response: &super::Response) -> [Matrix; 2] {
-        let c = &self.q * &changes.q + &self.v * &changes.v + &self.lambda * &response.lambda;
-        [c, &self.u + &self.lambda * &response.driven_lambda]
-    }
+/// C and D of what answers to changes of the state.
+pub(super) fn observe(outputs: &OutputTangent, changes: &Changes, response: &Response) -> [Matrix; 2] {
+    let c = &outputs.q * &changes.q + &outputs.v * &changes.v + &outputs.lambda * &response.lambda;
+    [c, &outputs.u + &outputs.lambda * &response.driven_lambda]
 }
 
 /// Why there is no linear model at a state.

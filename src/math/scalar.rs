@@ -11,6 +11,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 pub trait Scalar:
     Copy
     + Debug
+    + PartialEq
     + Send
     + Sync
     + 'static

@@ -1,10 +1,10 @@
 //! The checked, named model that a scene describes.
 
-use crate::body::{Body, Frame, Marker, MarkerId, MarkerTable, Quantity, Signal, dot, sub};
+use crate::body::{Body, Energy, Frame, Marker, MarkerId, MarkerTable, Quantity, Signal, dot, sub};
 use crate::force::{Beam, Force, Station};
 use crate::joint::Joint;
-use crate::math::Taylor;
 use crate::math::screw::exponential;
+use crate::math::{Scalar, Taylor};
 use std::ops::Range;
 
 /// Bodies, joints and forces with everything resolved; nothing in it can be wrong any more but the start.
@@ -64,13 +64,18 @@ impl BeamLine {
     }
 
     /// Reads the section at `s`; `node` gives the frame of a body of the model.
-    pub fn read<const D: usize>(&self, s: f64, reading: Reading, node: impl Fn(usize) -> Frame<Taylor<f64>, D>) -> f64 {
+    pub fn read<S: Scalar, const D: usize>(
+        &self,
+        s: f64,
+        reading: Reading,
+        node: impl Fn(usize) -> Frame<Taylor<S>, D>,
+    ) -> S {
         let own = node(self.first_body).map(|x| x.x);
         let station = self.station(s, node);
         match reading {
             Reading::Deflection { axis, rest } => dot(&own.axes[axis], &sub(&station.r, &own.r)) - rest,
             Reading::Strain(factors) => {
-                station.strain.iter().zip(factors).map(|(strain, factor)| strain * factor).sum()
+                station.strain.iter().zip(factors).fold(S::zero(), |sum, (&strain, factor)| sum + strain * factor)
             }
             Reading::Force(component) => station.force[component],
         }
@@ -84,11 +89,19 @@ impl BeamLine {
 
     /// The section at `s` from the left end, 0 <= s <= length; `node` gives the frame of a body of the model. At a node it is
     /// that of the element to the left of it.
-    pub fn station<const D: usize>(&self, s: f64, node: impl Fn(usize) -> Frame<Taylor<f64>, D>) -> Station<D> {
-        let right = self.abscissae.partition_point(|&abscissa| abscissa < s).clamp(1, self.elements.len());
-        let first = self.first_body + right - 1;
-        let ends = [&node(first), &node(first + 1)];
-        self.elements[right - 1].station(ends, s - self.abscissae[right - 1])
+    pub fn station<S: Scalar, const D: usize>(
+        &self,
+        s: f64,
+        node: impl Fn(usize) -> Frame<Taylor<S>, D>,
+    ) -> Station<S, D> {
+        let element = self.element_at(s);
+        let first = self.first_body + element;
+        self.elements[element].station([&node(first), &node(first + 1)], s - self.abscissae[element])
+    }
+
+    /// The element at `s`; its nodes are bodies `first_body` + this and the next.
+    pub fn element_at(&self, s: f64) -> usize {
+        self.abscissae.partition_point(|&abscissa| abscissa < s).clamp(1, self.elements.len()) - 1
     }
 }
 
@@ -172,9 +185,19 @@ pub struct Combination {
 }
 
 impl Combination {
-    pub fn at(&self, q: &[f64]) -> f64 {
-        let linear = self.linear.iter().map(|&(i, factor)| factor * q[i]).sum::<f64>();
-        linear + self.squares.iter().map(|&([i, j], factor)| factor * q[i] * q[j]).sum::<f64>()
+    /// Its value; `q` gives a coordinate of the system.
+    pub fn at<S: Scalar>(&self, q: impl Fn(usize) -> S) -> S {
+        let linear = self.linear.iter().fold(S::zero(), |sum, &(i, factor)| sum + q(i) * factor);
+        self.squares.iter().fold(linear, |sum, &([i, j], factor)| sum + q(i) * q(j) * factor)
+    }
+
+    /// The coordinates that it reads, in increasing order.
+    pub fn coordinates(&self) -> Vec<usize> {
+        let linear = self.linear.iter().map(|&(i, _)| i);
+        let mut all: Vec<usize> = linear.chain(self.squares.iter().flat_map(|&(pair, _)| pair)).collect();
+        all.sort_unstable();
+        all.dedup();
+        all
     }
 }
 
@@ -185,11 +208,24 @@ pub enum EnergyPart {
     Total,
 }
 
-/// A named input: a component of an applied force or torque.
+impl EnergyPart {
+    pub fn of<S: Scalar>(self, energy: Energy<S>) -> S {
+        match self {
+            EnergyPart::Kinetic => energy.kinetic,
+            EnergyPart::Potential => energy.potential,
+            EnergyPart::Total => energy.kinetic + energy.potential,
+        }
+    }
+}
+
+/// A named input: it adds to a component of an applied force or torque.
 pub struct Driven {
     pub name: String,
     pub force: usize,
+    /// In the axes of the force.
     pub component: usize,
+    /// `N` or `N m`.
+    pub unit: &'static str,
 }
 
 impl<const D: usize> Model<D> {

@@ -279,5 +279,6 @@ fn input<const D: usize>(spec: &InputSpec, forces: &Forces<D>) -> Result<Driven>
         }
         Some(name) => axes.iter().position(|axis| *axis == name).ok_or_else(|| wrong_component(name, axes))?,
     };
-    Ok(Driven { name: spec.name.clone(), force, component })
+    let unit = if kind == "applied_torque" { "N m" } else { "N" };
+    Ok(Driven { name: spec.name.clone(), force, component, unit })
 }

@@ -58,10 +58,7 @@ impl Couplings {
 
 impl Coupling {
     fn new(markers: &[usize], supports: &[Support], pattern: &mut Pattern) -> Self {
-        let mut bodies: Vec<usize> = markers.iter().filter_map(|&marker| supports[marker].body).collect();
-        bodies.sort_unstable();
-        bodies.dedup();
-        let carriers: Vec<Carrier> = bodies.into_iter().map(|body| Carrier::new(body, markers, supports)).collect();
+        let carriers = Carrier::all(markers, supports);
         let mut blocks = Vec::new();
         for column in &carriers {
             for row in &carriers {
@@ -81,6 +78,14 @@ impl Coupling {
 }
 
 impl Carrier {
+    /// The bodies that carry these markers, in the order of the model.
+    pub fn all(markers: &[usize], supports: &[Support]) -> Vec<Carrier> {
+        let mut bodies: Vec<usize> = markers.iter().filter_map(|&marker| supports[marker].body).collect();
+        bodies.sort_unstable();
+        bodies.dedup();
+        bodies.into_iter().map(|body| Carrier::new(body, markers, supports)).collect()
+    }
+
     fn new(body: usize, markers: &[usize], supports: &[Support]) -> Self {
         let own = || markers.iter().enumerate().filter(|(_, marker)| supports[**marker].body == Some(body));
         let mut velocities: Vec<usize> = own().flat_map(|(_, &marker)| supports[marker].velocities.clone()).collect();

@@ -1,7 +1,10 @@
 //! Own equations, written once over any scalar.
 
-use super::{Column, Dimensions, Energy, LeviCivita, Loaded, MechanicalSystem, Need, Scratch, Tangent, Terms};
+use super::{
+    Column, Dimensions, Energy, LeviCivita, Loaded, MechanicalSystem, Need, OutputTangent, Scratch, Tangent, Terms,
+};
 use crate::math::{Dual, Scalar, Taylor};
+use nalgebra::DMatrix;
 
 /// A mechanism by its M, f and phi. G, phi', gamma and L follow by dual and Taylor numbers, so nothing is derived by
 /// hand; the cost is about (6 + n)/6 evaluations of phi for G.
@@ -41,21 +44,30 @@ pub trait Equations: Send + Sync + 'static {
     fn potential(&self, _t: f64, _q: &[f64]) -> Option<f64> {
         None
     }
-    /// Outputs by name and value. Default: none.
-    fn outputs(&self, _t: f64, _q: &[f64], _v: &[f64]) -> Vec<(String, f64)> {
+    /// Names of the outputs. Default: none.
+    fn output_names(&self) -> Vec<String> {
         Vec::new()
     }
+    /// The outputs, one a name.
+    fn outputs<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], _out: &mut [S]) {}
+    /// Names of the inputs, which change the forces. Default: none.
+    fn input_names(&self) -> Vec<String> {
+        Vec::new()
+    }
+    /// df/du, n x n_u, row by row; zero on entry.
+    fn input_forces<S: Scalar>(&self, _t: S, _q: &[S], _forces: &mut [S]) {}
 }
 
+type Slope = Dual<f64, 6>;
 type Along = Dual<Taylor<f64>, 6>;
-type Twice = Dual<Dual<f64, 6>, 6>;
+type Twice = Dual<Slope, 6>;
 
 struct Memory {
     mass: Vec<f64>,
     path: Vec<Taylor<f64>>,
     levels: Vec<Taylor<f64>>,
-    seeded: Vec<Dual<f64, 6>>,
-    slopes: Vec<Dual<f64, 6>>,
+    seeded: Vec<Slope>,
+    slopes: Vec<Slope>,
     moving: Vec<Along>,
     curvatures: Vec<Along>,
     /// For K and C, from their first use.
@@ -64,11 +76,11 @@ struct Memory {
 
 /// The equations as functions of six directions.
 struct Varied {
-    q: Vec<Dual<f64, 6>>,
-    v: Vec<Dual<f64, 6>>,
-    f: Vec<Dual<f64, 6>>,
-    mass: Vec<Dual<f64, 6>>,
-    reaction: Vec<Dual<f64, 6>>,
+    q: Vec<Slope>,
+    v: Vec<Slope>,
+    f: Vec<Slope>,
+    mass: Vec<Slope>,
+    reaction: Vec<Slope>,
     nested: Vec<Twice>,
     phi: Vec<Twice>,
 }
@@ -172,15 +184,51 @@ impl<E: Equations> MechanicalSystem for E {
     }
 
     fn columns(&self) -> Vec<Column> {
-        let (n, _) = self.size();
-        let zeros = vec![0.0; n];
-        let outputs = Equations::outputs(self, 0.0, &zeros, &zeros).into_iter();
-        outputs.map(|(name, _)| Column { name, unit: String::new(), periodic: false }).collect()
+        named(self.output_names())
     }
 
     fn outputs(&self, t: f64, q: &[f64], v: &[f64], _lambda: &[f64], out: &mut [f64], _scratch: &mut Scratch) {
-        let values = Equations::outputs(self, t, q, v);
-        out.iter_mut().zip(values).for_each(|(out, (_, value))| *out = value);
+        Equations::outputs(self, t, q, v, out);
+    }
+
+    fn output_tangent(&self, at: Loaded, tangent: &mut OutputTangent, _scratch: &mut Scratch) -> bool {
+        tangent.clear();
+        let (t, q, v) = (Dual::fixed(at.t), fixed(at.q), fixed(at.v));
+        output_slopes(at.q, |q, out| Equations::outputs(self, t, q, &v, out), &mut tangent.q);
+        output_slopes(at.v, |v, out| Equations::outputs(self, t, &q, v, out), &mut tangent.v);
+        true
+    }
+
+    fn inputs(&self) -> Vec<Column> {
+        named(self.input_names())
+    }
+
+    fn input_forces(&self, t: f64, q: &[f64], _v: &[f64], f: &mut DMatrix<f64>, _scratch: &mut Scratch) {
+        let mut forces = vec![0.0; f.len()];
+        Equations::input_forces(self, t, q, &mut forces);
+        f.copy_from(&DMatrix::from_row_slice(f.nrows(), f.ncols(), &forces));
+    }
+}
+
+fn named(names: Vec<String>) -> Vec<Column> {
+    names.into_iter().map(|name| Column { name, unit: String::new(), periodic: false }).collect()
+}
+
+fn fixed(values: &[f64]) -> Vec<Slope> {
+    values.iter().map(|&x| Dual::fixed(x)).collect()
+}
+
+/// d(outputs)/dx, six columns a pass.
+fn output_slopes(x: &[f64], outputs: impl Fn(&[Slope], &mut [Slope]), matrix: &mut DMatrix<f64>) {
+    let mut values = vec![Dual::fixed(0.0); matrix.nrows()];
+    for first in (0..x.len()).step_by(6) {
+        let columns = first..x.len().min(first + 6);
+        let mut seeded = fixed(x);
+        columns.clone().for_each(|j| seeded[j] = Dual::seeded(x[j], j - first));
+        outputs(&seeded, &mut values);
+        for (row, value) in values.iter().enumerate() {
+            columns.clone().for_each(|j| matrix[(row, j)] = value.eps[j - first]);
+        }
     }
 }
 
@@ -256,7 +304,7 @@ fn tangent_of<E: Equations>(system: &E, at: Loaded, varied: &mut Varied, tangent
     }
 }
 
-fn lift(from: &[f64], to: &mut [Dual<f64, 6>]) {
+fn lift(from: &[f64], to: &mut [Slope]) {
     to.iter_mut().zip(from).for_each(|(to, &x)| *to = Dual::fixed(x));
 }
 

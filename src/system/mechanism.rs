@@ -1,17 +1,19 @@
 //! The equations of a scene's model.
 
 use super::coupling::Couplings;
-use super::output::Output;
 use super::rows::{PlacedJoint, Rows};
 use super::support::Support;
 use super::levi_civita::LeviCivita;
+use super::output_tangent::{OutputTangent, Slopes};
 use super::tangent::{Evaluation, Loaded, Tangent};
+use super::view::{Plain, gathered};
 use super::variation::Varied;
 use super::{Column, Dimensions, Energy, Group, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
-use crate::body::{Frame, MOST_MARKERS, Wrench, cross};
+use crate::body::{Frame, MOST_MARKERS, Wrench, cross, norm};
 use crate::math::Taylor;
 use crate::math::kkt::Pattern;
-use crate::scene::{Connection, Measure, Model, Part, Watched};
+use crate::scene::{Connection, Driven, Measure, Model, Part, Watched};
+use nalgebra::DMatrix;
 use std::array::from_fn;
 use std::ops::Range;
 
@@ -35,7 +37,7 @@ pub(super) struct Workspace<const D: usize> {
     pub motion: Vec<Frame<Taylor<f64>, D>>,
     pub varied: Varied<D>,
     /// Generalized forces on the support of one marker.
-    pulled: Vec<f64>,
+    pub pulled: Vec<f64>,
 }
 
 impl<const D: usize> Mechanism<D> {
@@ -168,20 +170,13 @@ pub(super) fn of<'a, const D: usize>(all: &'a [f64], part: &Part<D>, coordinates
     }
 }
 
-/// Puts the frames of an element's markers side by side for `see`; most elements have one or two.
+/// Puts the frames of an element's markers side by side for `see`.
 pub(super) fn with_frames<R, const D: usize>(
     all: &[Frame<Taylor<f64>, D>],
     markers: &[usize],
     see: impl FnOnce(&[Frame<Taylor<f64>, D>]) -> R,
 ) -> R {
-    match *markers {
-        [a] => see(&[all[a]]),
-        [a, b] => see(&[all[a], all[b]]),
-        _ => {
-            let many: [_; MOST_MARKERS] = from_fn(|i| all[markers[i.min(markers.len() - 1)]]);
-            see(&many[..markers.len()])
-        }
-    }
+    gathered(markers, |marker| all[marker], see)
 }
 
 /// Power of a wrench at a moving frame, W.
@@ -197,12 +192,8 @@ fn power<const D: usize>(frame: &Frame<Taylor<f64>, D>, wrench: &Wrench<f64, D>)
 /// the ground's markers; else 1.
 fn length_scale<const D: usize>(model: &Model<D>) -> f64 {
     let bodies = model.bodies.iter().map(|part| part.body.reach()).fold(0.0, f64::max);
-    let ground = model.ground.iter().map(|marker| size(&marker.offset)).fold(0.0, f64::max);
+    let ground = model.ground.iter().map(|marker| norm(&marker.offset)).fold(0.0, f64::max);
     [bodies, ground].into_iter().find(|length| *length > 0.0).unwrap_or(1.0)
-}
-
-pub(super) fn size<const D: usize>(vector: &[f64; D]) -> f64 {
-    vector.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 impl<const D: usize> MechanicalSystem for Mechanism<D> {
@@ -302,21 +293,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn energy(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<Energy> {
-        let mut total = Energy::default();
-        for part in &self.model.bodies {
-            let energy = part.body.energy(of(q, part, true), of(v, part, false), &self.model.gravity);
-            total.kinetic += energy.kinetic;
-            total.potential += energy.potential;
-        }
-        self.at(q, v, scratch, |work| {
-            for force in &self.model.forces {
-                let mut wrenches = [Wrench::zero(); MOST_MARKERS];
-                let wrenches = &mut wrenches[..force.markers.len()];
-                let act = |frames: &[_]| force.element.act(frames, Taylor::time(t), wrenches).potential.x;
-                total.potential += with_frames(&work.motion, &force.markers, act);
-            }
-        });
-        Some(total)
+        Some(self.at(q, v, scratch, |work| self.energies(&Plain { t, q, v, lambda: &[], motion: &work.motion })))
     }
 
     fn columns(&self) -> Vec<Column> {
@@ -339,7 +316,23 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn outputs(&self, t: f64, q: &[f64], v: &[f64], lambda: &[f64], out: &mut [f64], scratch: &mut Scratch) {
-        Output { mechanism: self, t, q, v, lambda }.write(out, scratch);
+        self.at(q, v, scratch, |work| self.write_outputs(&Plain { t, q, v, lambda, motion: &work.motion }, out));
+    }
+
+    fn output_tangent(&self, at: Loaded, tangent: &mut OutputTangent, scratch: &mut Scratch) -> bool {
+        self.at(at.q, at.v, scratch, |work| Slopes { mechanism: self, at, work, tangent }.run());
+        true
+    }
+
+    fn inputs(&self) -> Vec<Column> {
+        let column = |input: &Driven| {
+            Column { name: input.name.clone(), unit: input.unit.to_string(), periodic: false }
+        };
+        self.model.inputs.iter().map(column).collect()
+    }
+
+    fn input_forces(&self, t: f64, q: &[f64], v: &[f64], f: &mut DMatrix<f64>, scratch: &mut Scratch) {
+        self.at(q, v, scratch, |work| self.write_input_forces(t, q, work, f));
     }
 
     fn scales(&self) -> Vec<f64> {

@@ -4,27 +4,30 @@
 //! [`Mechanism`]; a researcher implements it directly, or writes M, f and phi once over any scalar as [`Equations`]
 //! and gets the derivatives.
 
-
 mod coupling;
 mod equations;
+mod input;
 mod levi_civita;
 mod mechanism;
 mod output;
+mod output_tangent;
 mod rows;
 mod support;
 mod tangent;
 mod terms;
 mod variation;
+mod view;
 
 pub use levi_civita::LeviCivita;
 pub use equations::Equations;
 pub use mechanism::Mechanism;
-pub use output::Output;
+pub use output_tangent::OutputTangent;
 pub use tangent::{Loaded, Tangent};
 pub use terms::{Need, Scratch, Structure, Terms};
 
 pub use crate::body::Energy;
 use crate::math::kkt::Pattern;
+use nalgebra::DMatrix;
 
 /// Numbers of coordinates, velocities and constraints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,7 +57,7 @@ pub struct Group {
     pub rows: std::ops::Range<usize>,
 }
 
-/// An output's name and how to show it.
+/// The name of an output or input and how to show it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
     pub name: String,
@@ -135,6 +138,20 @@ pub trait MechanicalSystem: Send + Sync {
 
     /// The outputs at a state with its multipliers.
     fn outputs(&self, _t: f64, _q: &[f64], _v: &[f64], _lambda: &[f64], _out: &mut [f64], _scratch: &mut Scratch) {}
+
+    /// Derivatives of all outputs at a state with its v' and lambda. Returns false where there are outputs and the author of
+    /// the equations gave no derivatives.
+    fn output_tangent(&self, _at: Loaded, _tangent: &mut OutputTangent, _scratch: &mut Scratch) -> bool {
+        self.columns().is_empty()
+    }
+
+    /// The inputs u, which the motion of the system itself leaves at zero. Default: none.
+    fn inputs(&self) -> Vec<Column> {
+        Vec::new()
+    }
+
+    /// df/du, n_v x n_u: the generalized forces of a unit of each input.
+    fn input_forces(&self, _t: f64, _q: &[f64], _v: &[f64], _f: &mut DMatrix<f64>, _scratch: &mut Scratch) {}
 
     /// Units of phi by row that drift is measured against: a length for rows in metres, 1 rad for angles. Default: 1.
     fn scales(&self) -> Vec<f64> {

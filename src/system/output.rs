@@ -1,120 +1,158 @@
-//! What a user watches: the outputs of a scene at a state.
+//! What a user watches: the outputs of a scene, written once over any scalar, so that values and derivatives agree.
 
-use super::mechanism::{Mechanism, Workspace, size, with_frames};
-use super::{MechanicalSystem, Scratch};
-use crate::body::{Energy, Frame, MOST_MARKERS, MarkerId, Quantity, Wrench, dot, sub};
-use crate::joint::{MOST_ROWS, markers_per_pass};
-use crate::math::Taylor;
-use crate::scene::{EnergyPart, Measure};
+use super::mechanism::Mechanism;
+use super::view::{Plain, View, gathered};
+use crate::body::{Energy, Frame, MOST_MARKERS, MarkerId, Quantity, Wrench, dot, norm, sub, twist_len};
+use crate::force::{Action, Force, ForceOver};
+use crate::joint::{Joint, JointOver, MOST_ROWS, markers_per_pass};
+use crate::math::{Scalar, Taylor};
+use crate::scene::Measure;
 
-/// A state with its multipliers, as the outputs see it.
-pub struct Output<'a, const D: usize> {
-    pub mechanism: &'a Mechanism<D>,
-    pub t: f64,
-    pub q: &'a [f64],
-    pub v: &'a [f64],
-    pub lambda: &'a [f64],
-}
-
-impl<const D: usize> Output<'_, D> {
+impl<const D: usize> Mechanism<D> {
     /// All outputs in the order of the scene.
-    pub fn write(&self, out: &mut [f64], scratch: &mut Scratch) {
-        let energy = self.mechanism.energy(self.t, self.q, self.v, scratch).unwrap_or_default();
-        self.mechanism.at(self.q, self.v, scratch, |work| self.read(&*work, energy, out));
-    }
-
-    fn read(&self, work: &Workspace<D>, energy: Energy, out: &mut [f64]) {
-        for (out, output) in out.iter_mut().zip(&self.mechanism.model().outputs) {
-            *out = match &output.measure {
-                Measure::Signal(signal) => signal.evaluate(self.t, |probe| probe.read(&work.motion[probe.marker])),
-                Measure::Relative { of, to, quantity } => relative(work, *of, *to, *quantity),
-                Measure::Turn { of, to } => turn(&work.motion[*of], &work.motion[*to]),
-                Measure::Distance { from, to, rate } => {
-                    let gap = sub(&work.motion[*to].r, &work.motion[*from].r);
-                    if *rate { separation_rate(&gap) } else { size(&gap.map(|x| x.x)) }
-                }
-                Measure::Reaction { joint, component, axes } => self.reaction(work, *joint, (*component, *axes)),
-                // phi is l - length: -G^T lambda pulls the second body towards the first.
-                Measure::Tension { joint } => self.lambda[self.mechanism.rows_of_joint(*joint).start],
-                Measure::Elastic(combination) => combination.at(self.q),
-                Measure::Station { beam, at, reading } => {
-                    let model = self.mechanism.model();
-                    model.beams[*beam].read(*at, *reading, |body| work.motion[model.bodies[body].first_marker])
-                }
-                Measure::Force(force) => self.magnitude(work, *force),
-                Measure::Energy(EnergyPart::Kinetic) => energy.kinetic,
-                Measure::Energy(EnergyPart::Potential) => energy.potential,
-                Measure::Energy(EnergyPart::Total) => energy.kinetic + energy.potential,
+    pub(super) fn write_outputs(&self, view: &Plain<D>, out: &mut [f64]) {
+        let mut energies = None;
+        for (out, output) in out.iter_mut().zip(&self.model().outputs) {
+            *out = match output.measure {
+                Measure::Energy(part) => part.of(*energies.get_or_insert_with(|| self.energies(view))),
+                ref measure => self.read(measure, view),
             };
         }
     }
 
-    fn magnitude(&self, work: &Workspace<D>, force: usize) -> f64 {
-        let force = &self.mechanism.model().forces[force];
+    /// An output.
+    pub(super) fn read<S: Scalar>(&self, measure: &Measure, view: &impl View<S, D>) -> S
+    where
+        dyn Force<D>: ForceOver<S, D>,
+        dyn Joint<D>: JointOver<S, D>,
+    {
+        let model = self.model();
+        match measure {
+            Measure::Signal(signal) => {
+                signal.evaluate(S::constant(view.t()), |probe| probe.read(&view.frame(probe.marker)))
+            }
+            Measure::Relative { of, to, quantity } => relative(&view.frame(*of), &view.frame(*to), *quantity),
+            Measure::Turn { of, to } => turn(&view.frame(*of), &view.frame(*to)),
+            Measure::Distance { from, to, rate } => {
+                let gap = sub(&view.frame(*to).r, &view.frame(*from).r);
+                if *rate { separation_rate(&gap) } else { norm(&gap.map(|x| x.x)) }
+            }
+            Measure::Reaction { joint, component, axes } => self.reaction(view, *joint, (*component, *axes)),
+            // phi is l - length: -G^T lambda pulls the second body towards the first.
+            Measure::Tension { joint } => view.lambda(self.rows_of_joint(*joint).start),
+            Measure::Elastic(combination) => combination.at(|coordinate| view.q(coordinate)),
+            Measure::Station { beam, at, reading } => {
+                model.beams[*beam].read(*at, *reading, |body| view.frame(model.bodies[body].first_marker))
+            }
+            Measure::Force(force) => self.action(*force, view).magnitude,
+            Measure::Energy(part) => part.of(self.energies(view)),
+        }
+    }
+
+    /// Of the whole mechanism.
+    pub(super) fn energies<S: Scalar>(&self, view: &impl View<S, D>) -> Energy<S>
+    where
+        dyn Force<D>: ForceOver<S, D>,
+    {
+        let model = self.model();
+        let mut total = Energy { kinetic: S::zero(), potential: S::zero() };
+        for part in &model.bodies {
+            let own = view.energy(part, &model.gravity);
+            total.kinetic += own.kinetic;
+            total.potential += own.potential;
+        }
+        (0..model.forces.len()).for_each(|force| total.potential += self.action(force, view).potential.x);
+        total
+    }
+
+    /// What a force says beside its wrenches.
+    pub(super) fn action<S: Scalar>(&self, force: usize, view: &impl View<S, D>) -> Action<S>
+    where
+        dyn Force<D>: ForceOver<S, D>,
+    {
+        let force = &self.model().forces[force];
         let mut wrenches = [Wrench::zero(); MOST_MARKERS];
         let wrenches = &mut wrenches[..force.markers.len()];
-        let act = |frames: &[_]| force.element.act(frames, Taylor::time(self.t), wrenches).magnitude;
-        with_frames(&work.motion, &force.markers, act)
+        let (element, t) = (force.element.as_ref(), Taylor::time(view.t()));
+        let act = |frames: &[_]| ForceOver::<S, D>::driven(element, &view.input(), frames, t, wrenches);
+        gathered(&force.markers, |marker| view.frame(marker), act)
     }
 
     /// A component of -G^T lambda on the joint's second marker, as a wrench in the axes of a marker.
-    fn reaction(&self, work: &Workspace<D>, joint: usize, (component, axes): (usize, MarkerId)) -> f64 {
-        let rows = self.mechanism.rows_of_joint(joint);
-        let joint = &self.mechanism.model().joints[joint];
+    fn reaction<S: Scalar>(
+        &self,
+        view: &impl View<S, D>,
+        joint: usize,
+        (component, axes): (usize, MarkerId),
+    ) -> S
+    where
+        dyn Joint<D>: JointOver<S, D>,
+    {
+        let rows = self.rows_of_joint(joint);
+        let joint = &self.model().joints[joint];
         let slot = 1.min(joint.markers.len() - 1);
-        let mut slopes = [[0.0; 6]; MOST_ROWS];
+        let mut slopes = [[S::zero(); 6]; MOST_ROWS];
         let own = &mut slopes[..rows.len()];
-        let gradient = |frames: &[_]| joint.element.gradient(frames, self.t, slot / markers_per_pass(D), own);
-        with_frames(&work.motion, &joint.markers, gradient);
-        let first = slot % markers_per_pass(D) * crate::body::twist_len(D);
-        let mut wrench = [0.0; 6];
+        let (element, t, pass) = (joint.element.as_ref(), S::constant(view.t()), slot / markers_per_pass(D));
+        let gradient = |frames: &[_]| JointOver::<S, D>::gradient(element, frames, t, pass, own);
+        gathered(&joint.markers, |marker| view.frame(marker), gradient);
+        let first = slot % markers_per_pass(D) * twist_len(D);
+        let mut wrench = [S::zero(); 6];
         for (slope, row) in slopes.iter().zip(rows) {
-            for (sum, entry) in wrench.iter_mut().zip(&slope[first..]) {
-                *sum -= self.lambda[row] * entry;
-            }
+            let lambda = view.lambda(row);
+            wrench.iter_mut().zip(&slope[first..]).for_each(|(sum, &entry)| *sum -= lambda * entry);
         }
         match component {
-            6 => size::<D>(&std::array::from_fn(|i| wrench[i])),
+            6 => norm::<S, D>(&std::array::from_fn(|i| wrench[i])),
             5 if D == 2 => wrench[2],
             component => {
+                let axis = view.frame(axes).axes[component % 3];
                 let part = &wrench[component / 3 * 3..];
-                work.motion[axes].axes[component % 3].iter().zip(part).map(|(axis, part)| axis.x * part).sum()
+                axis.iter().zip(part).fold(S::zero(), |sum, (axis, &part)| sum + axis.x * part)
             }
         }
     }
 }
 
-fn separation_rate<const D: usize>(gap: &[Taylor<f64>; D]) -> f64 {
-    let length = size(&gap.map(|x| x.x));
+fn separation_rate<S: Scalar, const D: usize>(gap: &[Taylor<S>; D]) -> S {
+    let length = norm(&gap.map(|x| x.x));
     // At zero distance the rate is the speed of separation.
-    if length == 0.0 {
-        return size(&gap.map(|x| x.d));
+    if length.value() == 0.0 {
+        return norm(&gap.map(|x| x.d));
     }
     dot(&gap.map(|x| x.x), &gap.map(|x| x.d)) / length
 }
 
 /// Position or velocity of a marker seen from another one and in its axes.
-fn relative<const D: usize>(work: &Workspace<D>, of: MarkerId, to: MarkerId, quantity: Quantity) -> f64 {
-    let (of, to) = (&work.motion[of], &work.motion[to]);
+fn relative<S: Scalar, const D: usize>(
+    of: &Frame<Taylor<S>, D>,
+    to: &Frame<Taylor<S>, D>,
+    quantity: Quantity,
+) -> S {
     let gap = sub(&of.r, &to.r);
     match quantity {
         Quantity::Position(axis) => dot(&to.axes[axis], &gap).x,
         Quantity::Velocity(axis) => dot(&to.axes[axis], &gap).d,
         Quantity::Angle => turn(of, to),
         Quantity::Spin(axis) => {
-            let (of, to_spin) = (of.angular_velocity(), to.angular_velocity());
+            let spin = sub(&of.angular_velocity(), &to.angular_velocity());
             if D == 2 {
-                return of[2] - to_spin[2];
+                return spin[2];
             }
-            (0..D).map(|i| to.axes[axis][i].x * (of[i] - to_spin[i])).sum()
+            to.axes[axis].iter().zip(spin).fold(S::zero(), |sum, (axis, spin)| sum + axis.x * spin)
         }
     }
 }
 
 /// Angle of one marker against another; in space about the other's third axis, in (-pi, pi].
-fn turn<const D: usize>(of: &Frame<Taylor<f64>, D>, to: &Frame<Taylor<f64>, D>) -> f64 {
+fn turn<S: Scalar, const D: usize>(of: &Frame<Taylor<S>, D>, to: &Frame<Taylor<S>, D>) -> S {
     if D == 2 {
         return of.turn.x - to.turn.x;
     }
-    dot(&to.axes[1], &of.axes[0]).x.atan2(dot(&to.axes[0], &of.axes[0]).x)
+    let (s, c) = (dot(&to.axes[1], &of.axes[0]).x, dot(&to.axes[0], &of.axes[0]).x);
+    // Where the first axis of one is along the third of the other there is no angle, nor a slope of it.
+    if s.value() == 0.0 && c.value() == 0.0 {
+        return S::zero();
+    }
+    S::atan2(s, c)
 }

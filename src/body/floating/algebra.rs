@@ -1,12 +1,14 @@
 //! Vectors and matrices of the plane or of space alike; angular quantities have three components in both.
 
+use crate::math::Scalar;
 use std::array::from_fn;
+use std::ops::Mul;
 
-pub(super) type Matrix<const D: usize> = [[f64; D]; D];
+pub(super) type Matrix<S, const D: usize> = [[S; D]; D];
 
 /// w x u
 #[inline]
-pub(super) fn spin<const D: usize>(w: &[f64; 3], u: &[f64; D]) -> [f64; D] {
+pub(super) fn spin<S: Scalar, const D: usize>(w: &[S; 3], u: &[S; D]) -> [S; D] {
     from_fn(|k| match D {
         2 if k == 0 => -w[2] * u[1],
         2 => w[2] * u[0],
@@ -16,59 +18,67 @@ pub(super) fn spin<const D: usize>(w: &[f64; 3], u: &[f64; D]) -> [f64; D] {
 
 /// int u x v out of int u v^T.
 #[inline]
-pub(super) fn axial<const D: usize>(m: &Matrix<D>) -> [f64; 3] {
+pub(super) fn axial<S: Scalar, const D: usize>(m: &Matrix<S, D>) -> [S; 3] {
     match D {
-        2 => [0.0, 0.0, m[0][1] - m[1][0]],
+        2 => [S::zero(), S::zero(), m[0][1] - m[1][0]],
         _ => [m[1][2] - m[2][1], m[2][0] - m[0][2], m[0][1] - m[1][0]],
     }
 }
 
 #[inline]
-pub(super) fn trace<const D: usize>(m: &Matrix<D>) -> f64 {
-    (0..D).map(|k| m[k][k]).sum()
+pub(super) fn trace<S: Scalar, const D: usize>(m: &Matrix<S, D>) -> S {
+    (1..D).fold(m[0][0], |sum, k| sum + m[k][k])
 }
 
 /// m w
 #[inline]
-pub(super) fn times<const D: usize>(m: &Matrix<D>, w: &[f64; 3]) -> [f64; 3] {
-    from_fn(|i| if i < D { (0..D).map(|j| m[i][j] * w[j]).sum() } else { 0.0 })
+pub(super) fn times<S: Scalar, const D: usize>(m: &Matrix<S, D>, w: &[S; 3]) -> [S; 3] {
+    from_fn(|i| if i < D { (1..D).fold(m[i][0] * w[0], |sum, j| sum + m[i][j] * w[j]) } else { S::zero() })
 }
 
 #[inline]
-pub(super) fn transposed<const D: usize>(m: &Matrix<D>) -> Matrix<D> {
+pub(super) fn transposed<S: Scalar, const D: usize>(m: &Matrix<S, D>) -> Matrix<S, D> {
     from_fn(|i| from_fn(|j| m[j][i]))
 }
 
 /// tr(m) w - m w: with m = int v u^T this is int u x (w x v), and with the symmetric int u u^T the moment of momentum J w.
 #[inline]
-pub(super) fn swung<const D: usize>(m: &Matrix<D>, w: &[f64; 3]) -> [f64; 3] {
+pub(super) fn swung<S: Scalar, const D: usize>(m: &Matrix<S, D>, w: &[S; 3]) -> [S; 3] {
     let (trace, along) = (trace(m), times(m, w));
     from_fn(|k| trace * w[k] - along[k])
 }
 
 /// (w x u) . (w x v) summed, out of int u v^T: w.w tr(m) - w.m w.
 #[inline]
-pub(super) fn whirled<const D: usize>(m: &Matrix<D>, w: &[f64; 3]) -> f64 {
+pub(super) fn whirled<S: Scalar, const D: usize>(m: &Matrix<S, D>, w: &[S; 3]) -> S {
     dot3(w, &swung(m, w))
 }
 
 #[inline]
-pub(super) fn dot3(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+pub(super) fn dot3<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> S {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[inline]
-pub(super) fn cross3(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
+pub(super) fn cross3<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> [S; 3] {
     spin(a, b)
 }
 
 #[inline]
-pub(super) fn add_scaled<const N: usize>(sum: &mut [f64; N], factor: f64, vector: &[f64; N]) {
-    sum.iter_mut().zip(vector).for_each(|(sum, x)| *sum += factor * x);
+pub(super) fn add_scaled<S, T, const N: usize>(sum: &mut [S; N], factor: S, vector: &[T; N])
+where
+    S: Scalar + Mul<T, Output = S>,
+    T: Copy,
+{
+    sum.iter_mut().zip(vector).for_each(|(sum, &x)| *sum += factor * x);
 }
 
 #[inline]
-pub(super) fn add_matrix<const D: usize>(sum: &mut Matrix<D>, factor: f64, matrix: &Matrix<D>) {
+pub(super) fn add_matrix<S, T, const D: usize>(sum: &mut Matrix<S, D>, factor: S, matrix: &Matrix<T, D>)
+where
+    S: Scalar + Mul<T, Output = S>,
+    T: Copy,
+{
     sum.iter_mut().zip(matrix).for_each(|(sum, row)| add_scaled(sum, factor, row));
 }
 

@@ -2,25 +2,29 @@
 
 use super::{Floating, frame_coordinates, frame_velocities};
 use crate::body::flexible::{Stretch, Symmetric};
+use crate::math::Scalar;
 
 /// The mean extension a.q and squared slope q.S q of a stretch.
-struct Means {
-    axial: f64,
-    squared: f64,
+struct Means<S> {
+    axial: S,
+    squared: S,
 }
 
-impl Means {
-    fn at(stretch: &Stretch, q: &[f64]) -> Means {
-        let axial = stretch.dofs.iter().zip(&stretch.axial).map(|(&dof, a)| a * q[dof]).sum();
-        let squared = (0..stretch.dofs.len()).map(|i| q[stretch.dofs[i]] * steepness(stretch, i, q)).sum();
+impl<S: Scalar> Means<S> {
+    fn at(stretch: &Stretch, q: &[S]) -> Self {
+        let axial = stretch.dofs.iter().zip(&stretch.axial);
+        let axial = axial.fold(S::zero(), |sum, (&dof, a)| sum + q[dof] * *a);
+        let squared = stretch.dofs.iter().enumerate();
+        let squared = squared.fold(S::zero(), |sum, (i, &dof)| sum + q[dof] * steepness(stretch, i, q));
         Means { axial, squared }
     }
 }
 
 /// (S q)_i
-fn steepness(stretch: &Stretch, i: usize, q: &[f64]) -> f64 {
+fn steepness<S: Scalar>(stretch: &Stretch, i: usize, q: &[S]) -> S {
     let n = stretch.dofs.len();
-    stretch.slopes[i * n..(i + 1) * n].iter().zip(&stretch.dofs).map(|(s, &dof)| s * q[dof]).sum()
+    let row = stretch.slopes[i * n..(i + 1) * n].iter().zip(&stretch.dofs);
+    row.fold(S::zero(), |sum, (s, &dof)| sum + q[dof] * *s)
 }
 
 impl<const D: usize> Floating<D> {
@@ -45,13 +49,13 @@ impl<const D: usize> Floating<D> {
         }
     }
 
-    pub(super) fn elastic_energy(&self, q: &[f64]) -> f64 {
+    pub(super) fn elastic_energy<S: Scalar>(&self, q: &[S]) -> S {
         let q = &q[frame_coordinates(D)..];
         let stretch = |stretch: &Stretch| {
             let Means { axial, squared } = Means::at(stretch, q);
-            0.5 * stretch.weight * (axial + 0.25 * squared) * squared
+            (axial + squared * 0.25) * squared * (0.5 * stretch.weight)
         };
-        half_square(&self.elastic.stiffness, q) + self.elastic.stretches.iter().map(stretch).sum::<f64>()
+        self.elastic.stretches.iter().fold(half_square(&self.elastic.stiffness, q), |sum, s| sum + stretch(s))
     }
 
     pub(super) fn add_elastic_tangent(&self, q: &[f64], k: &mut [f64], c: &mut [f64]) {
@@ -77,10 +81,9 @@ impl<const D: usize> Floating<D> {
 }
 
 /// x.A x/2
-pub(super) fn half_square(matrix: &Symmetric, x: &[f64]) -> f64 {
-    let term =
-        |&(i, j, value): &(usize, usize, f64)| if i == j { 0.5 * value * x[i] * x[i] } else { value * x[i] * x[j] };
-    matrix.iter().map(term).sum()
+pub(super) fn half_square<S: Scalar>(matrix: &Symmetric, x: &[S]) -> S {
+    let factor = |i: usize, j: usize| if i == j { 0.5 } else { 1.0 };
+    matrix.iter().fold(S::zero(), |sum, &(i, j, value)| sum + x[i] * x[j] * (factor(i, j) * value))
 }
 
 /// Both triangles of a symmetric matrix.

@@ -13,30 +13,31 @@ use super::algebra::*;
 use super::{Floating, frame, frame_coordinates, frame_velocities, turn_velocity, turns};
 use crate::body::flexible::Piece;
 use crate::body::{Energy, Frame, dot};
+use crate::math::Scalar;
 use std::array::from_fn;
 
 /// One piece at a state.
-pub(super) struct Moving<'a, const D: usize> {
+pub(super) struct Moving<'a, S, const D: usize> {
     pub piece: &'a Piece<D>,
     /// All elastic coordinates and velocities of the body.
-    pub q: &'a [f64],
-    pub v: &'a [f64],
+    pub q: &'a [S],
+    pub v: &'a [S],
 }
 
-impl<const D: usize> Moving<'_, D> {
+impl<S: Scalar, const D: usize> Moving<'_, S, D> {
     /// int rho u psi_b^T, b = 0 for psi_0.
     #[inline]
-    pub fn w(&self, b: usize) -> Matrix<D> {
+    pub fn w(&self, b: usize) -> Matrix<S, D> {
         let mut sum = self.rated(self.q, b);
-        add_matrix(&mut sum, 1.0, &self.piece.products[b]);
+        add_matrix(&mut sum, S::one(), &self.piece.products[b]);
         sum
     }
 
     /// sum_j x_j int rho psi_j psi_b^T: with velocities int rho u' psi_b^T.
     #[inline]
-    pub fn rated(&self, x: &[f64], b: usize) -> Matrix<D> {
+    pub fn rated(&self, x: &[S], b: usize) -> Matrix<S, D> {
         let width = self.piece.dofs.len() + 1;
-        let mut sum = [[0.0; D]; D];
+        let mut sum = [[S::zero(); D]; D];
         for (j, &dof) in self.piece.dofs.iter().enumerate() {
             add_matrix(&mut sum, x[dof], &self.piece.products[(j + 1) * width + b]);
         }
@@ -45,8 +46,8 @@ impl<const D: usize> Moving<'_, D> {
 
     /// sum_j x_j m_j.
     #[inline]
-    pub fn moment(&self, x: &[f64]) -> [f64; D] {
-        let mut sum = [0.0; D];
+    pub fn moment(&self, x: &[S]) -> [S; D] {
+        let mut sum = [S::zero(); D];
         for (&dof, m) in self.piece.dofs.iter().zip(&self.piece.moments[1..]) {
             add_scaled(&mut sum, x[dof], m);
         }
@@ -54,20 +55,20 @@ impl<const D: usize> Moving<'_, D> {
     }
 
     /// s
-    pub fn s(&self) -> [f64; D] {
+    pub fn s(&self) -> [S; D] {
         let mut s = self.moment(self.q);
-        add_scaled(&mut s, 1.0, &self.piece.moments[0]);
+        add_scaled(&mut s, S::one(), &self.piece.moments[0]);
         s
     }
 
     /// int rho u x^T for x = u (`rest` 1, coordinates q) or one of its rates (`rest` 0).
-    pub fn second(&self, rest: f64, x: &[f64]) -> Matrix<D> {
-        let mut sum = [[0.0; D]; D];
+    pub fn second(&self, rest: f64, x: &[S]) -> Matrix<S, D> {
+        let mut sum = [[S::zero(); D]; D];
         if rest != 0.0 {
-            add_matrix(&mut sum, rest, &self.w(0));
+            add_matrix(&mut sum, S::constant(rest), &self.w(0));
         }
         for (i, &dof) in self.piece.dofs.iter().enumerate() {
-            if x[dof] != 0.0 {
+            if x[dof] != S::zero() {
                 add_matrix(&mut sum, x[dof], &self.w(i + 1));
             }
         }
@@ -77,7 +78,7 @@ impl<const D: usize> Moving<'_, D> {
 
 /// A world vector in the frame's axes.
 #[inline]
-pub(super) fn local<const D: usize>(own: &Frame<f64, D>, vector: &[f64; D]) -> [f64; D] {
+pub(super) fn local<S: Scalar, const D: usize>(own: &Frame<S, D>, vector: &[S; D]) -> [S; D] {
     from_fn(|k| dot(&own.axes[k], vector))
 }
 
@@ -89,14 +90,18 @@ pub(super) fn world<const D: usize>(own: &Frame<f64, D>, vector: &[f64; D]) -> [
 
 /// Angular velocity of the frame in its axes.
 #[inline]
-pub(super) fn angular_velocity<const D: usize>(v: &[f64]) -> [f64; 3] {
-    let mut w = [0.0; 3];
+pub(super) fn angular_velocity<S: Scalar, const D: usize>(v: &[S]) -> [S; 3] {
+    let mut w = [S::zero(); 3];
     turns(D).for_each(|k| w[k] = v[turn_velocity(D, k)]);
     w
 }
 
 impl<const D: usize> Floating<D> {
-    pub(super) fn moving<'a>(&'a self, q: &'a [f64], v: &'a [f64]) -> impl Iterator<Item = Moving<'a, D>> {
+    pub(super) fn moving<'a, S: Scalar>(
+        &'a self,
+        q: &'a [S],
+        v: &'a [S],
+    ) -> impl Iterator<Item = Moving<'a, S, D>> {
         let (q, v) = (&q[frame_coordinates(D)..], v.get(frame_velocities(D)..).unwrap_or(&[]));
         self.elastic.pieces.iter().map(move |piece| Moving { piece, q, v })
     }
@@ -126,7 +131,7 @@ impl<const D: usize> Floating<D> {
         self.write_frame_mass(&own, mass, &s, &p, values);
     }
 
-    fn write_frame_mass(&self, own: &Frame<f64, D>, mass: f64, s: &[f64; D], p: &Matrix<D>, values: &mut [f64]) {
+    fn write_frame_mass(&self, own: &Frame<f64, D>, mass: f64, s: &[f64; D], p: &Matrix<f64, D>, values: &mut [f64]) {
         (0..D).for_each(|i| values[self.layout.frame_mass(i, i)] = mass);
         for k in turns(D) {
             let row = turn_velocity(D, k);
@@ -141,7 +146,7 @@ impl<const D: usize> Floating<D> {
 
     /// f += weight and velocity-dependent inertia forces.
     pub(super) fn add_inertia_forces(&self, q: &[f64], v: &[f64], gravity: &[f64; D], f: &mut [f64]) {
-        let (own, w) = (frame::<f64, D>(q), angular_velocity::<D>(v));
+        let (own, w) = (frame::<f64, D>(q), angular_velocity::<_, D>(v));
         // The weight is the inertia force of the acceleration -g.
         let lift = local(&own, &gravity.map(|g| -g));
         for moving in self.moving(q, v) {
@@ -164,24 +169,25 @@ impl<const D: usize> Floating<D> {
     }
 
     /// Kinetic energy, and the potential of the weight.
-    pub(super) fn inertia_energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy {
-        let (own, w) = (frame::<f64, D>(q), angular_velocity::<D>(v));
-        let speed: [f64; D] = local(&own, &from_fn(|k| v[k]));
-        let down = local(&own, gravity);
-        let mut energy = Energy::default();
+    pub(super) fn inertia_energy<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S> {
+        let (own, w) = (frame::<S, D>(q), angular_velocity::<S, D>(v));
+        let speed: [S; D] = local(&own, &from_fn(|k| v[k]));
+        let down = local(&own, &gravity.map(S::constant));
+        let height = (0..D).fold(S::zero(), |sum, k| sum + q[k] * gravity[k]);
+        let mut energy = Energy { kinetic: S::zero(), potential: S::zero() };
         for moving in self.moving(q, v) {
             let (s, rate) = (moving.s(), moving.moment(moving.v));
             let turning = spin(&w, &s);
-            let drift: [f64; D] = from_fn(|k| turning[k] + rate[k]);
-            let twice = moving.piece.mass * dot(&speed, &speed)
-                + 2.0 * dot(&speed, &drift)
+            let drift: [S; D] = from_fn(|k| turning[k] + rate[k]);
+            let mut twice = dot(&speed, &speed) * moving.piece.mass
+                + dot(&speed, &drift) * 2.0
                 + whirled(&moving.second(1.0, moving.q), &w)
-                + 2.0 * dot3(&w, &axial(&moving.second(0.0, moving.v)));
-            let own_motion = moving.piece.dofs.iter().enumerate();
-            let own_motion = own_motion.map(|(i, &dof)| moving.v[dof] * trace(&moving.rated(moving.v, i + 1)));
-            energy.kinetic += 0.5 * (twice + own_motion.sum::<f64>());
-            let height: f64 = (0..D).map(|k| gravity[k] * q[k]).sum();
-            energy.potential -= moving.piece.mass * height + dot(&down, &s);
+                + dot3(&w, &axial(&moving.second(0.0, moving.v))) * 2.0;
+            for (i, &dof) in moving.piece.dofs.iter().enumerate() {
+                twice += moving.v[dof] * trace(&moving.rated(moving.v, i + 1));
+            }
+            energy.kinetic += twice * 0.5;
+            energy.potential -= height * moving.piece.mass + dot(&down, &s);
         }
         energy
     }

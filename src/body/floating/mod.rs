@@ -117,6 +117,11 @@ impl<S: Scalar, const D: usize> BodyOver<S, D> for Floating<D> {
         point::pull_back_rigid(&own, at, wrench, rigid);
         point::pull_back_elastic(&own, &self.shapes[marker], &q[frame_coordinates(D)..], wrench, elastic);
     }
+
+    fn energy(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S> {
+        let inertia = self.inertia_energy(q, v, gravity);
+        Energy { potential: inertia.potential + self.elastic_energy(q), ..inertia }
+    }
 }
 
 impl<const D: usize> Body<D> for Floating<D> {
@@ -160,10 +165,6 @@ impl<const D: usize> Body<D> for Floating<D> {
     fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]) {
         self.add_inertia_tangent(at, k, c);
         self.add_elastic_tangent(at.q, k, c);
-    }
-    fn energy(&self, q: &[f64], v: &[f64], gravity: &[f64; D]) -> Energy {
-        let inertia = self.inertia_energy(q, v, gravity);
-        Energy { potential: inertia.potential + self.elastic_energy(q), ..inertia }
     }
     fn dissipation(&self, v: &[f64]) -> f64 {
         2.0 * elastic::half_square(&self.elastic.damping, &v[frame_velocities(D)..])

@@ -43,8 +43,8 @@ impl<const D: usize> Floating<D> {
         let motion = Motion {
             a: local(&own, &from_fn(|k| at.vdot[k] - at.gravity[k])),
             own,
-            w: angular_velocity::<D>(at.v),
-            alpha: angular_velocity::<D>(at.vdot),
+            w: angular_velocity::<_, D>(at.v),
+            alpha: angular_velocity::<_, D>(at.vdot),
             vdot: &at.vdot[frame_velocities(D)..],
         };
         for (piece, moving) in self.moving(at.q, at.v).enumerate() {
@@ -58,7 +58,7 @@ impl<const D: usize> Floating<D> {
     }
 
     /// d(r_r, r_t)/dtheta.
-    fn add_frame_stiffness(&self, motion: &Motion<D>, moving: &Moving<D>, k: &mut [f64]) {
+    fn add_frame_stiffness(&self, motion: &Motion<D>, moving: &Moving<f64, D>, k: &mut [f64]) {
         let s = moving.s();
         let (swept, rate, push) = (motion.swept(&s), moving.moment(moving.v), moving.moment(motion.vdot));
         let coriolis = spin(&motion.w, &rate);
@@ -74,7 +74,7 @@ impl<const D: usize> Floating<D> {
     }
 
     /// d(r_r, r_t)/dw.
-    fn add_frame_damping(&self, motion: &Motion<D>, moving: &Moving<D>, c: &mut [f64]) {
+    fn add_frame_damping(&self, motion: &Motion<D>, moving: &Moving<f64, D>, c: &mut [f64]) {
         let (s, rate, w) = (moving.s(), moving.moment(moving.v), &motion.w);
         let (p, q) = (moving.second(1.0, moving.q), transposed(&moving.second(0.0, moving.v)));
         for l in turns(D) {
@@ -90,7 +90,7 @@ impl<const D: usize> Floating<D> {
     }
 
     /// d(r_r, r_t)/dq_j and its rate's, d(r_j)/dtheta and d(r_j)/dw.
-    fn add_mixed(&self, motion: &Motion<D>, moving: &Moving<D>, j: usize, k: &mut [f64], c: &mut [f64]) {
+    fn add_mixed(&self, motion: &Motion<D>, moving: &Moving<f64, D>, j: usize, k: &mut [f64], c: &mut [f64]) {
         let (dof, m, w) = (moving.piece.dofs[j], &moving.piece.moments[j + 1], &motion.w);
         let (weighed, rated, pushed) =
             (moving.w(j + 1), moving.rated(moving.v, j + 1), moving.rated(motion.vdot, j + 1));
@@ -99,7 +99,7 @@ impl<const D: usize> Floating<D> {
             k[self.layout.column(i, dof)] += force[i];
             c[self.layout.column(i, dof)] += 2.0 * coriolis[i];
         }
-        let grown: Matrix<D> = from_fn(|a| from_fn(|b| weighed[a][b] + weighed[b][a]));
+        let grown: Matrix<f64, D> = from_fn(|a| from_fn(|b| weighed[a][b] + weighed[b][a]));
         let (lever, swing, gyroscopic) =
             (cross(m, &motion.a), swung(&grown, &motion.alpha), cross3(w, &swung(&grown, w)));
         let (stretching, push) = (swung(&rated, w), axial(&pushed));
@@ -118,7 +118,7 @@ impl<const D: usize> Floating<D> {
     fn add_elastic(
         &self,
         motion: &Motion<D>,
-        moving: &Moving<D>,
+        moving: &Moving<f64, D>,
         piece: usize,
         j: usize,
         k: &mut [f64],

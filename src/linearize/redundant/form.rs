@@ -1,6 +1,7 @@
 //! The pencils.
 
 use super::Built;
+use crate::error::Result;
 use crate::linearize::{Changes, Matrix, Variation, names};
 
 /// Which constraints stand beside the equations of motion.
@@ -33,7 +34,7 @@ impl Form {
     }
 
     /// (E, A), B, C and D in x = (dq, dv, dlambda), with dmu behind for GGL.
-    pub fn build(self, variation: &mut Variation) -> Built {
+    pub fn build(self, variation: &mut Variation) -> Result<Built> {
         let kept = independent_rows(variation);
         let (n, m) = (variation.len(), kept.len());
         let [g, gd] = [variation.g(), variation.gd()].map(|rows| rows.select_rows(&kept));
@@ -64,9 +65,9 @@ impl Form {
     }
 
     /// With the inputs and outputs.
-    fn observe(self, variation: &mut Variation, kept: &[usize], (e, a): (Matrix, Matrix)) -> Built {
+    fn observe(self, variation: &mut Variation, kept: &[usize], (e, a): (Matrix, Matrix)) -> Result<Built> {
         let (n, size) = (variation.len(), a.nrows());
-        let (inputs, outputs) = (variation.inputs(), variation.outputs());
+        let (inputs, outputs) = (variation.inputs(), variation.outputs()?);
         let (mut b, mut c) = (Matrix::zeros(size, inputs.ncols()), Matrix::zeros(outputs.q.nrows(), size));
         put(&mut b, (n, 0), &inputs);
         put(&mut c, (0, 0), &outputs.q);
@@ -76,7 +77,7 @@ impl Form {
         let changes = Changes { q: unit.rows(0, n).clone_owned(), v: unit.rows(n, n).clone_owned() };
         let states = self.states(variation, kept);
         let (chart, infinite) = ("redundant".to_string(), self.infinite(kept.len()));
-        Built { chart, states, a, b, c, d: outputs.u, e: Some(e), changes, infinite }
+        Ok(Built { chart, states, a, b, c, d: outputs.u, e: Some(e), changes, infinite })
     }
 
     fn states(self, variation: &Variation, kept: &[usize]) -> Vec<String> {

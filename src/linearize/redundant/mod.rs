@@ -35,6 +35,6 @@ pub const RCS: Entry = Entry {
     build: |variation, request| {
         let form = Form::named(request.method.one_of("form", &["index3", "index2", "index1", "ggl"])?);
         request.method.one_of("solver", &["null_space", "gsvd", "qz"])?;
-        Ok(form.build(variation))
+        form.build(variation)
     },
 };

@@ -12,6 +12,7 @@ pub(super) use penalty::{AUGMENTED_LAGRANGIAN, PENALTY};
 
 use super::method::{Built, Request};
 use super::minimal::restrict;
+use super::variation::observe;
 use super::{Changes, Matrix, Response, Variation, names};
 use crate::choice::OptionDoc;
 use crate::error::Result;
@@ -40,7 +41,7 @@ fn build(
     a.view_mut((0, 0), (n, 2 * n)).copy_from(&(&changes.v - variation.bracket_with(&changes.q)));
     a.view_mut((n, 0), (n, 2 * n)).copy_from(&response.vdot);
     let b = response.driven_vdot.clone().insert_rows(0, n, 0.0);
-    let [c, d] = variation.outputs().observe(&changes, &response);
+    let [c, d] = observe(&variation.outputs()?, &changes, &response);
     let states = names::directions(variation.system(), &variation.point.q).states();
     let chart = "redundant".to_string();
     Ok(Built { chart, states, a, b, c, d, e: None, changes, infinite: 0 })

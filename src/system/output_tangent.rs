@@ -1,0 +1,161 @@
+//! How the outputs change with q, v, lambda and u.
+
+use super::coupling::Carrier;
+use super::mechanism::{Mechanism, Workspace};
+use super::tangent::Loaded;
+use super::variation::Along;
+use super::view::{Moved, Seed, View};
+use crate::body::Slope;
+use crate::scene::{EnergyPart, Measure, Part};
+use nalgebra::DMatrix;
+
+/// Derivatives of the outputs y(t, q, v, lambda, u), a row each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutputTangent {
+    /// n_y x n_v: along the directions of v, q + N(q) e_j, with v, lambda and u held.
+    pub q: DMatrix<f64>,
+    /// n_y x n_v
+    pub v: DMatrix<f64>,
+    /// n_y x n_c
+    pub lambda: DMatrix<f64>,
+    /// n_y x n_u: direct, such as that of the size of a driven force.
+    pub u: DMatrix<f64>,
+}
+
+impl OutputTangent {
+    /// All zero.
+    pub fn new(n_y: usize, n_v: usize, n_c: usize, n_u: usize) -> Self {
+        let zeros = |columns| DMatrix::zeros(n_y, columns);
+        OutputTangent { q: zeros(n_v), v: zeros(n_v), lambda: zeros(n_c), u: zeros(n_u) }
+    }
+
+    /// Sets all to zero.
+    pub fn clear(&mut self) {
+        let all = [&mut self.q, &mut self.v, &mut self.lambda, &mut self.u];
+        all.into_iter().for_each(|matrix| matrix.fill(0.0));
+    }
+}
+
+/// One evaluation.
+pub(super) struct Slopes<'a, const D: usize> {
+    pub mechanism: &'a Mechanism<D>,
+    pub at: Loaded<'a>,
+    pub work: &'a mut Workspace<D>,
+    pub tangent: &'a mut OutputTangent,
+}
+
+impl<const D: usize> Slopes<'_, D> {
+    /// Each output with everything that it reads varied in turn.
+    pub fn run(&mut self) {
+        self.tangent.clear();
+        let mechanism = self.mechanism;
+        for (row, output) in mechanism.model().outputs.iter().enumerate() {
+            match &output.measure {
+                Measure::Energy(part) => self.energy(row, *part),
+                measure => {
+                    let carriers = mechanism.carriers(measure);
+                    self.along_bodies(row, &carriers, |view| mechanism.read(measure, view));
+                    self.along_multipliers(row, measure);
+                    self.along_inputs(row, measure);
+                }
+            }
+        }
+    }
+
+    /// The energy is a sum over bodies and forces, each of which few bodies change.
+    fn energy(&mut self, row: usize, part: EnergyPart) {
+        let (mechanism, model) = (self.mechanism, self.mechanism.model());
+        for (index, body) in model.bodies.iter().enumerate() {
+            let own = [whole(index, body)];
+            self.along_bodies(row, &own, |view| part.of(view.energy(body, &model.gravity)));
+        }
+        if part != EnergyPart::Kinetic {
+            for (force, coupling) in mechanism.couplings.forces.iter().enumerate() {
+                self.along_bodies(row, &coupling.carriers, |view| mechanism.action(force, view).potential.x);
+            }
+        }
+    }
+
+    fn along_bodies(&mut self, row: usize, carriers: &[Carrier], read: impl Fn(&Moved<D>) -> Slope) {
+        let bodies = &self.mechanism.model().bodies;
+        for carrier in carriers {
+            let part = &bodies[carrier.body];
+            for directions in carrier.velocities.chunks(6) {
+                for along in [Along::Coordinates, Along::Velocities] {
+                    let at = Loaded { vdot: &[], ..self.at };
+                    self.work.varied.vary(along, part, &at, directions);
+                    let value = self.seen(Seed::Body(part), &read);
+                    let target = if along == Along::Coordinates { &mut self.tangent.q } else { &mut self.tangent.v };
+                    let slopes = directions.iter().zip(value.eps);
+                    slopes.for_each(|(&direction, slope)| target[(row, direction)] += known(slope));
+                }
+            }
+        }
+    }
+
+    fn along_multipliers(&mut self, row: usize, measure: &Measure) {
+        let (Measure::Reaction { joint, .. } | Measure::Tension { joint }) = *measure else { return };
+        let rows = self.mechanism.rows_of_joint(joint);
+        let value = self.seen(Seed::Multipliers(rows.start), |view| self.mechanism.read(measure, view));
+        rows.zip(value.eps).for_each(|(multiplier, slope)| self.tangent.lambda[(row, multiplier)] = known(slope));
+    }
+
+    fn along_inputs(&mut self, row: usize, measure: &Measure) {
+        let Measure::Force(force) = *measure else { return };
+        let inputs = self.mechanism.model().inputs.iter().enumerate();
+        for (column, input) in inputs.filter(|(_, input)| input.force == force) {
+            let value = self.seen(Seed::Inputs, |view| self.mechanism.read(measure, view));
+            self.tangent.u[(row, column)] = known(value.eps[input.component]);
+        }
+    }
+
+    fn seen(&self, seed: Seed<D>, read: impl Fn(&Moved<D>) -> Slope) -> Slope {
+        read(&Moved { at: self.at, motion: &self.work.motion, varied: &self.work.varied, seed })
+    }
+}
+
+/// A size that an expression takes, such as sqrt(x^2 + y^2), has no slope at zero; it counts as zero there.
+fn known(slope: f64) -> f64 {
+    if slope.is_nan() { 0.0 } else { slope }
+}
+
+/// A body that moves in all its directions.
+fn whole<const D: usize>(body: usize, part: &Part<D>) -> Carrier {
+    Carrier { body, velocities: (part.first_v..part.first_v + part.nv).collect(), markers: Vec::new() }
+}
+
+impl<const D: usize> Mechanism<D> {
+    /// The bodies that an output other than an energy reads.
+    fn carriers(&self, measure: &Measure) -> Vec<Carrier> {
+        let on = |markers: &[usize]| Carrier::all(markers, &self.supports);
+        let model = self.model();
+        match measure {
+            Measure::Signal(signal) => on(&signal.markers()),
+            Measure::Relative { of, to, .. } | Measure::Turn { of, to } => on(&[*of, *to]),
+            Measure::Distance { from, to, .. } => on(&[*from, *to]),
+            Measure::Reaction { joint, axes, .. } => {
+                let markers = model.joints[*joint].markers.iter().chain([axes]);
+                on(&markers.copied().collect::<Vec<_>>())
+            }
+            Measure::Elastic(combination) => self.bodies_with(&combination.coordinates()),
+            Measure::Station { beam, at, .. } => {
+                let beam = &model.beams[*beam];
+                let left = beam.first_body + beam.element_at(*at);
+                on(&[beam.first_body, left, left + 1].map(|body| model.bodies[body].first_marker))
+            }
+            Measure::Force(force) => on(&model.forces[*force].markers),
+            Measure::Tension { .. } | Measure::Energy(_) => Vec::new(),
+        }
+    }
+
+    /// The bodies that own elastic coordinates, which are the last ones of each and have a velocity each.
+    fn bodies_with(&self, coordinates: &[usize]) -> Vec<Carrier> {
+        let of = |(body, part): (usize, &Part<D>)| {
+            let range = part.first_q..part.first_q + part.nq;
+            let own = coordinates.iter().filter(|coordinate| range.contains(coordinate));
+            let velocities = own.map(|coordinate| part.first_v + part.nv - (range.end - coordinate)).collect();
+            Carrier { body, velocities, markers: Vec::new() }
+        };
+        self.model().bodies.iter().enumerate().map(of).filter(|carrier| !carrier.velocities.is_empty()).collect()
+    }
+}

@@ -1,0 +1,138 @@
+//! A state as outputs and energies read it, over one scalar: the number decides what comes out, values or derivatives.
+
+use super::tangent::Loaded;
+use super::variation::{Varied, fixed};
+use crate::body::{Energy, Frame, MOST_MARKERS, MarkerId, Slope};
+use crate::math::{Scalar, Taylor};
+use crate::scene::Part;
+use std::array::from_fn;
+
+/// What there is to read of a state.
+pub(super) trait View<S: Scalar, const D: usize> {
+    /// s
+    fn t(&self) -> f64;
+    /// A coordinate of the system.
+    fn q(&self, coordinate: usize) -> S;
+    fn frame(&self, marker: MarkerId) -> Frame<Taylor<S>, D>;
+    /// Of a body itself, without forces.
+    fn energy(&self, part: &Part<D>, gravity: &[f64; D]) -> Energy<S>;
+    fn lambda(&self, row: usize) -> S;
+    /// What inputs add to the components of a driven force.
+    fn input(&self) -> [S; 3];
+}
+
+/// The state as it is.
+pub(super) struct Plain<'a, const D: usize> {
+    pub t: f64,
+    pub q: &'a [f64],
+    pub v: &'a [f64],
+    pub lambda: &'a [f64],
+    pub motion: &'a [Frame<Taylor<f64>, D>],
+}
+
+impl<const D: usize> View<f64, D> for Plain<'_, D> {
+    fn t(&self) -> f64 {
+        self.t
+    }
+    fn q(&self, coordinate: usize) -> f64 {
+        self.q[coordinate]
+    }
+    fn frame(&self, marker: MarkerId) -> Frame<Taylor<f64>, D> {
+        self.motion[marker]
+    }
+    fn energy(&self, part: &Part<D>, gravity: &[f64; D]) -> Energy {
+        let (q, v) = (&self.q[part.first_q..][..part.nq], &self.v[part.first_v..][..part.nv]);
+        part.body.energy(q, v, gravity)
+    }
+    fn lambda(&self, row: usize) -> f64 {
+        self.lambda[row]
+    }
+    fn input(&self) -> [f64; 3] {
+        [0.0; 3]
+    }
+}
+
+/// What varies, along six directions.
+#[derive(Clone, Copy)]
+pub(super) enum Seed<'a, const D: usize> {
+    /// A body, as [`Varied`] holds it.
+    Body(&'a Part<D>),
+    /// The multipliers from this row on.
+    Multipliers(usize),
+    /// The inputs' parts of the three components of any force.
+    Inputs,
+}
+
+/// The state as a function of six directions.
+pub(super) struct Moved<'a, const D: usize> {
+    pub at: Loaded<'a>,
+    pub motion: &'a [Frame<Taylor<f64>, D>],
+    pub varied: &'a Varied<D>,
+    pub seed: Seed<'a, D>,
+}
+
+impl<const D: usize> View<Slope, D> for Moved<'_, D> {
+    fn t(&self) -> f64 {
+        self.at.t
+    }
+    fn q(&self, coordinate: usize) -> Slope {
+        match self.seed {
+            Seed::Body(part) if (part.first_q..part.first_q + part.nq).contains(&coordinate) => {
+                self.varied.moved[coordinate - part.first_q]
+            }
+            _ => Slope::fixed(self.at.q[coordinate]),
+        }
+    }
+    fn frame(&self, marker: MarkerId) -> Frame<Taylor<Slope>, D> {
+        match self.seed {
+            Seed::Body(part) if (part.first_marker..part.first_marker + part.body.marker_count()).contains(&marker) => {
+                self.varied.frames[marker - part.first_marker]
+            }
+            _ => fixed(&self.motion[marker]),
+        }
+    }
+    fn energy(&self, part: &Part<D>, gravity: &[f64; D]) -> Energy<Slope> {
+        match self.seed {
+            Seed::Body(moved) if moved.first_v == part.first_v => {
+                part.body.energy(&self.varied.moved, &self.varied.moved_v, gravity)
+            }
+            _ => {
+                let Loaded { t, q, v, lambda, .. } = self.at;
+                let Energy { kinetic, potential } =
+                    Plain { t, q, v, lambda, motion: self.motion }.energy(part, gravity);
+                Energy { kinetic: Slope::fixed(kinetic), potential: Slope::fixed(potential) }
+            }
+        }
+    }
+    fn lambda(&self, row: usize) -> Slope {
+        match self.seed {
+            Seed::Multipliers(first) if (first..first + 6).contains(&row) => {
+                Slope::seeded(self.at.lambda[row], row - first)
+            }
+            _ => Slope::fixed(self.at.lambda[row]),
+        }
+    }
+    fn input(&self) -> [Slope; 3] {
+        match self.seed {
+            Seed::Inputs => from_fn(|component| Slope::seeded(0.0, component)),
+            _ => [Slope::fixed(0.0); 3],
+        }
+    }
+}
+
+/// Puts what `item` gives for each marker of an element side by side for `see`; most elements have one or two.
+#[inline]
+pub(super) fn gathered<T: Copy, R>(
+    markers: &[MarkerId],
+    item: impl Fn(MarkerId) -> T,
+    see: impl FnOnce(&[T]) -> R,
+) -> R {
+    match *markers {
+        [a] => see(&[item(a)]),
+        [a, b] => see(&[item(a), item(b)]),
+        _ => {
+            let many: [T; MOST_MARKERS] = from_fn(|i| item(markers[i.min(markers.len() - 1)]));
+            see(&many[..markers.len()])
+        }
+    }
+}
