@@ -18,6 +18,8 @@ pub struct Common {
     #[command(flatten)]
     pub scene: SceneOptions,
     #[command(flatten)]
+    pub choice: AutoOption,
+    #[command(flatten)]
     pub method: MethodOptions,
     #[command(flatten)]
     pub talk: Talk,
@@ -34,13 +36,18 @@ pub struct SceneOptions {
     pub set: Vec<(String, f64)>,
 }
 
-/// How to solve it.
+/// Leaves the method to the program.
 #[derive(Args)]
-pub struct MethodOptions {
+pub struct AutoOption {
     /// auto: formulation, integrator and projection by the stiffness of the start
     #[arg(long, value_name = "auto", value_parser = automatic,
           conflicts_with_all = ["formulation", "integrator", "projection", "step"])]
     pub method: Option<Automatic>,
+}
+
+/// How to solve it.
+#[derive(Args)]
+pub struct MethodOptions {
     /// Formulation, such as index1 or baumgarte:alpha=5,beta=5
     #[arg(long, value_parser = choice)]
     pub formulation: Option<Choice>,
@@ -125,18 +132,25 @@ fn assignment(text: &str) -> Result<(String, f64), String> {
 
 impl Common {
     pub fn load(&self) -> Result<Study> {
-        let MethodOptions { method, rtol, atol, step, until, output_step, .. } = self.method;
-        let MethodOptions { formulation, integrator, projection, .. } = &self.method;
-        let [formulation, integrator, projection] = [formulation, integrator, projection].map(Clone::clone);
-        let set = self.scene.set.clone();
-        let overrides =
-            Overrides { set, method, formulation, integrator, projection, rtol, atol, step, until, output_step };
-        Study::load(&self.scene.path, &overrides)
+        self.method.load(&self.scene, self.choice.method)
     }
 
     /// When to simulate.
     pub fn span(&self, study: &Study) -> Result<Span> {
         study.span().map_err(|error| error.in_file(&self.scene.path))
+    }
+}
+
+impl MethodOptions {
+    /// The scene with these settings; `method` where it is left to the program.
+    pub fn load(&self, scene: &SceneOptions, method: Option<Automatic>) -> Result<Study> {
+        let MethodOptions { rtol, atol, step, until, output_step, .. } = *self;
+        let [formulation, integrator, projection] =
+            [&self.formulation, &self.integrator, &self.projection].map(Clone::clone);
+        let set = scene.set.clone();
+        let overrides =
+            Overrides { set, method, formulation, integrator, projection, rtol, atol, step, until, output_step };
+        Study::load(&scene.path, &overrides)
     }
 }
 

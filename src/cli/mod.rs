@@ -4,6 +4,7 @@ mod check;
 mod common;
 mod drift;
 mod generate;
+mod linearize;
 mod methods;
 mod plot;
 mod purpose;
@@ -39,6 +40,8 @@ enum Command {
     Sweep(sweep::Args),
     /// The mechanism itself: at one time, at several in one figure, or in motion
     Plot(plot::Args),
+    /// Linear models (A, B, C, D) at states of the motion, by every approach, with their eigenvalues
+    Linearize(linearize::Args),
     /// Print a scalable scene
     Generate(generate::Args),
     /// Formulations, integrators and projections: what goes with what, proven orders, what each is for
@@ -55,6 +58,7 @@ pub fn run() -> ExitCode {
         Command::Drift(args) => drift::run(args),
         Command::Sweep(args) => sweep::run(args),
         Command::Plot(args) => plot::run(args),
+        Command::Linearize(args) => linearize::run(args),
         Command::Generate(args) => generate::run(args),
         Command::Methods(args) => methods::run(args),
         Command::Schema => schema::run(),

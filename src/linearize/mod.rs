@@ -1,5 +1,6 @@
 //! Linear models at any state of a trajectory.
 
+mod along;
 mod chart;
 mod independent;
 mod method;
@@ -13,6 +14,7 @@ mod spectrum;
 mod unconstrained;
 mod variation;
 
+pub use along::{State, at_rest, states};
 pub use chart::{Chart, Coordinates};
 pub use method::{Built, Entry, Request, linearize, registry};
 pub use minimal::{Minimal, minimal};

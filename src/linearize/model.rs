@@ -1,8 +1,8 @@
 //! What every method of linearization returns.
 
 use super::OperatingPoint;
-use nalgebra::DMatrix;
 pub use nalgebra::Complex;
+use nalgebra::DMatrix;
 use std::f64::consts::TAU;
 
 pub type Matrix = DMatrix<f64>;

@@ -4,6 +4,7 @@ mod check;
 mod envelope;
 mod figures;
 mod files;
+pub mod linear;
 pub mod mechanism;
 mod rest;
 mod start;

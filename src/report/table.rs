@@ -2,20 +2,31 @@
 
 use std::fmt;
 
-/// Columns under headings; the first is aligned left, the others right unless all are aligned left.
+/// Columns under headings; the first and those of words are aligned left, the others right unless all are aligned left.
 pub struct Table {
     rows: Vec<Vec<String>>,
     left: bool,
+    words: Vec<usize>,
 }
 
 impl Table {
     pub fn new(headings: &[&str]) -> Self {
-        Table { rows: vec![headings.iter().map(|heading| heading.to_string()).collect()], left: false }
+        Table {
+            rows: vec![headings.iter().map(|heading| heading.to_string()).collect()],
+            left: false,
+            words: Vec::new(),
+        }
     }
 
     /// A table of words.
     pub fn left(headings: &[&str]) -> Self {
         Table { left: true, ..Table::new(headings) }
+    }
+
+    /// The same table with words in a column.
+    pub fn words(mut self, column: usize) -> Self {
+        self.words.push(column);
+        self
     }
 
     pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
@@ -35,7 +46,7 @@ impl fmt::Display for Table {
             for (i, (cell, &width)) in row.iter().zip(&widths).enumerate() {
                 let padding = " ".repeat(width - cell.chars().count());
                 let gap = if i == 0 { "" } else { "  " };
-                line += &match i == 0 || self.left {
+                line += &match i == 0 || self.left || self.words.contains(&i) {
                     true => format!("{gap}{cell}{padding}"),
                     false => format!("{gap}{padding}{cell}"),
                 };

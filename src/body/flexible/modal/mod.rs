@@ -2,7 +2,6 @@
 
 mod array;
 mod inertia;
-pub(super) mod npy;
 mod npz;
 mod spec;
 

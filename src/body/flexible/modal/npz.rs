@@ -1,9 +1,9 @@
 //! Modal data in NumPy's `.npz` files: a zip archive with one `.npy` file an array.
 
 use super::array::Array;
-use super::npy::Npy;
 use super::spec::{Lumped, ModalData, Node, Nodes};
 use crate::error::{Error, Result, suggest};
+use crate::files::npy::Npy;
 use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! NumPy's files of one array: all versions, types and orders; what is none.
 
-use crate::body::flexible::modal::npy::Npy;
+use crate::files::npy::Npy;
 
 /// A file as NumPy writes it.
 pub fn npy(version: u8, descr: &str, fortran: bool, shape: &[usize], data: &[u8]) -> Vec<u8> {

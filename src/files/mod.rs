@@ -1,4 +1,11 @@
-//! Files appear whole or not at all.
+//! Files appear whole or not at all; the formats of Python and MATLAB.
+
+mod array;
+pub mod mat;
+pub mod npy;
+pub mod npz;
+
+pub use array::Array;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};

@@ -1,0 +1,85 @@
+//! States of a motion at chosen times.
+
+use super::Variation;
+use crate::error::{Error, Result, short};
+use crate::initial::{assemble, equilibrium};
+use crate::simulate::{Method, Observation, Sink, Span, simulate};
+use crate::study::Study;
+
+/// A state on the constraints.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    pub t: f64,
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+}
+
+impl State {
+    /// The variational equations there.
+    ///
+    /// # Errors
+    /// See [`Variation::new`].
+    pub fn variation<'a>(&self, study: &'a Study) -> Result<Variation<'a>> {
+        Variation::new(study.system(), self.t, &self.q, &self.v)
+    }
+}
+
+/// The states of the study's motion at `times`, in their order, each brought back to the constraints.
+///
+/// # Errors
+/// A time before the start or after the end of the run; a run that stops before.
+pub fn states(study: &Study, times: &[f64], progress: impl FnMut(f64)) -> Result<Vec<State>> {
+    check(study, times)?;
+    let mut order: Vec<usize> = (0..times.len()).collect();
+    order.sort_by(|&i, &j| times[i].total_cmp(&times[j]));
+    let (q, v) = study.start();
+    let mut last = State { t: study.start_time(), q: q.to_vec(), v: v.to_vec() };
+    let (mut found, mut progress) = (vec![last.clone(); times.len()], progress);
+    for place in order {
+        if times[place] > last.t {
+            last = follow(study, &study.method, last, times[place])?;
+        }
+        found[place] = last.clone();
+        progress(last.t);
+    }
+    Ok(found)
+}
+
+fn check(study: &Study, times: &[f64]) -> Result<()> {
+    let (start, end) = (study.start_time(), study.span().map(|span| span.end).unwrap_or(f64::INFINITY));
+    match times.iter().find(|t| !(**t >= start && **t <= end)) {
+        None => Ok(()),
+        Some(t) => {
+            let message = format!("t = {} s is outside the run, which goes from {} s to {} s", short(*t), short(start), short(end));
+            Err(Error::input(message).under("--at").hint("choose a time within it, or run longer with --until T"))
+        }
+    }
+}
+
+/// Keeps nothing.
+struct Nothing;
+
+impl Sink for Nothing {
+    fn accepted(&mut self, _: &Observation) {}
+    fn row(&mut self, _: &Observation) {}
+}
+
+/// Integrates to `end` and closes what drift has opened.
+fn follow(study: &Study, method: &Method, from: State, end: f64) -> Result<State> {
+    let span = Span { start: from.t, end, output_step: end - from.t };
+    let outcome = simulate(study.system(), method, span, (&from.q, &from.v), &mut Nothing)?;
+    if let Some(failure) = outcome.failure {
+        return Err(failure.into());
+    }
+    let closed = assemble(study.system(), end, (&outcome.q, &outcome.v), &[])?;
+    Ok(State { t: end, q: closed.q, v: closed.v })
+}
+
+/// The equilibrium that belongs to a state.
+///
+/// # Errors
+/// None found: what moves, or where force is left.
+pub fn at_rest(study: &Study, state: &State) -> Result<State> {
+    let found = equilibrium(study.system(), state.t, &state.q)?;
+    Ok(State { t: state.t, v: vec![0.0; state.v.len()], q: found.q })
+}

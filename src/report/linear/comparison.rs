@@ -1,0 +1,102 @@
+//! Several methods at one state.
+
+use crate::linearize::{Complex, Kind, LinearModel};
+use crate::report::{Table, significant};
+use serde::Serialize;
+
+/// How a method did.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Comparison {
+    pub method: String,
+    pub chart: String,
+    /// Largest relative error of the physical eigenvalues; none without a reference, or where their number is another.
+    pub error: Option<f64>,
+    pub physical: usize,
+    pub spurious: usize,
+    pub infinite: usize,
+    /// Condition number of the eigenvectors; none where they are dependent.
+    pub conditioning: Option<f64>,
+    /// Rows and columns of A.
+    pub size: usize,
+    pub assembly_microseconds: f64,
+    pub eigen_microseconds: f64,
+}
+
+/// Models of one state, their physical eigenvalues against known ones.
+pub fn compare<'a>(models: impl IntoIterator<Item = &'a LinearModel>, reference: &[Complex<f64>]) -> Vec<Comparison> {
+    models.into_iter().map(|model| one(model, reference)).collect()
+}
+
+fn one(model: &LinearModel, reference: &[Complex<f64>]) -> Comparison {
+    let count = |kind: Kind| model.modes.iter().filter(|mode| mode.kind == kind).count();
+    let physical: Vec<Complex<f64>> =
+        model.modes.iter().filter(|mode| mode.kind == Kind::Physical).map(|mode| mode.value).collect();
+    let cost = &model.cost;
+    Comparison {
+        method: model.method.clone(),
+        chart: model.chart.clone(),
+        error: largest_error(&physical, reference),
+        physical: physical.len(),
+        spurious: count(Kind::Spurious),
+        infinite: count(Kind::Infinite),
+        conditioning: Some(cost.conditioning).filter(|condition| condition.is_finite()),
+        size: cost.size,
+        assembly_microseconds: 1e6 * cost.assembly_seconds,
+        eigen_microseconds: 1e6 * cost.eigen_seconds,
+    }
+}
+
+/// An eigenvalue this much smaller than the largest counts as zero: its error is measured against the largest.
+const ZERO: f64 = 1e-9;
+
+/// Each reference value is compared with the nearest of those that are left.
+fn largest_error(found: &[Complex<f64>], reference: &[Complex<f64>]) -> Option<f64> {
+    if reference.is_empty() || found.len() != reference.len() {
+        return None;
+    }
+    let largest = reference.iter().map(|value| value.norm()).fold(0.0, f64::max);
+    let mut left = found.to_vec();
+    let mut worst: f64 = 0.0;
+    for known in reference {
+        let distance = |value: &Complex<f64>| (value - known).norm();
+        let (at, _) = left.iter().enumerate().min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))?;
+        let size = if known.norm() > ZERO * largest { known.norm() } else { largest };
+        let error = distance(&left.swap_remove(at));
+        worst = worst.max(if size > 0.0 { error / size } else { error });
+    }
+    worst.is_finite().then_some(worst)
+}
+
+/// One line a method.
+pub fn comparison_text(rows: &[Comparison]) -> String {
+    let headings = [
+        "method",
+        "chart",
+        "error",
+        "physical",
+        "spurious",
+        "infinite",
+        "conditioning",
+        "size",
+        "matrices (us)",
+        "eigenvalues (us)",
+    ];
+    let mut table = Table::new(&headings).words(1);
+    for row in rows {
+        let counts = [row.physical, row.spurious, row.infinite].map(|count| count.to_string());
+        let [physical, spurious, infinite] = counts;
+        table.row([
+            row.method.clone(),
+            row.chart.clone(),
+            row.error.map_or("-".to_string(), |error| format!("{error:.1e}")),
+            physical,
+            spurious,
+            infinite,
+            row.conditioning.map_or("-".to_string(), |condition| significant(condition, 2)),
+            row.size.to_string(),
+            significant(row.assembly_microseconds, 3),
+            significant(row.eigen_microseconds, 3),
+        ]);
+    }
+    table.to_string()
+}

@@ -1,0 +1,135 @@
+//! A linear model as a person reads it in a terminal.
+
+use super::pairs::{Pair, pairs};
+use super::{Linear, arrays};
+use crate::error::short;
+use crate::linearize::{Kind, LinearModel};
+use crate::report::{Table, significant};
+
+/// Lines of a kind of eigenvalues; the files have all.
+const MOST_LINES: usize = 30;
+const MOST_SPURIOUS: usize = 10;
+/// Coordinates with at least this part of a mode are named, and so many at most.
+const PART: f64 = 0.05;
+const MOST_NAMED: usize = 3;
+
+impl Linear<'_> {
+    /// Method, chart and state, then the modes.
+    pub fn text(&self) -> String {
+        let model = self.model;
+        let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+        let sizes = [(model.states.len(), "state"), (model.inputs.len(), "input"), (model.outputs.len(), "output")];
+        let sizes = sizes.map(|(n, what)| count(n, what)).join(", ");
+        let form = if model.e.is_some() { "E x' = A x + B u" } else { "x' = A x + B u" };
+        format!(
+            "{} at t = {} s: linear model by {}, {form}, {sizes}\n  {}\n{}\n{}",
+            self.scene,
+            significant(model.point.t, 9),
+            model.method,
+            chart(&model.chart, model.point.is_equilibrium),
+            self.state_text(),
+            modes_text(model)
+        )
+    }
+
+    fn state_text(&self) -> String {
+        let norms = self.norms();
+        let [phi, phi_dot] = [norms.phi, norms.phi_dot].map(|norm| format!("{norm:.1e}"));
+        let residual = format!("|phi| {phi}, |phi'| {phi_dot}");
+        match self.model.point.is_equilibrium {
+            true => format!("  an equilibrium: v = 0, v' = 0; {residual}\n"),
+            false => {
+                format!("  not an equilibrium: |v| {}, |v'| {}; {residual}\n", short(norms.v), short(norms.vdot))
+            }
+        }
+    }
+}
+
+/// What the chart means for the eigenvalues.
+fn chart(name: &str, is_equilibrium: bool) -> String {
+    if is_equilibrium {
+        return format!("chart {name}; at an equilibrium all charts have the same eigenvalues");
+    }
+    match name {
+        "intrinsic" => {
+            "chart intrinsic: axes carried along with the motion without turning, so the frozen eigenvalues \
+                        depend on no choice of coordinates"
+                .to_string()
+        }
+        "mass_orthogonal" => "chart mass_orthogonal: fixed axes, in the mass metric square to what the constraints \
+                              hold; off equilibrium the frozen eigenvalues belong to this choice"
+            .to_string(),
+        "frozen" => {
+            "chart frozen: all matrices held as they are at this instant; off equilibrium these eigenvalues are \
+                     one answer among many, not a property of the motion"
+                .to_string()
+        }
+        "redundant" => "all coordinates, matrices held as they are at this instant; off equilibrium the eigenvalues \
+                        belong to these coordinates and equations: compare --method mcs"
+            .to_string(),
+        names => format!(
+            "chart {names}: perturbations counted in {}; off equilibrium other coordinates give other eigenvalues",
+            if names.contains(',') { "these independent coordinates" } else { "this independent coordinate" }
+        ),
+    }
+}
+
+fn modes_text(model: &LinearModel) -> String {
+    let headings =
+        ["mode", "re (1/s)", "im (1/s)", "frequency (Hz)", "damping ratio", "kind", "takes part (% of the mode)"];
+    let mut table = Table::new(&headings).words(5).words(6);
+    let mut number = 0;
+    let mut left_out = Vec::new();
+    for (kind, most) in [(Kind::Physical, MOST_LINES), (Kind::Spurious, MOST_SPURIOUS)] {
+        let found = pairs(model, kind);
+        for pair in &found[..found.len().min(most)] {
+            number += 1;
+            table.row(cells(model, number, pair));
+        }
+        number += found.len().saturating_sub(most);
+        if found.len() > most {
+            left_out.push(format!("  {} more {} in the files\n", found.len() - most, arrays::kind(kind)));
+        }
+    }
+    let infinite = model.modes.iter().filter(|mode| mode.kind == Kind::Infinite).count();
+    if infinite > 0 {
+        left_out.push(format!("  {infinite} infinite: algebraic equations of the descriptor form\n"));
+    }
+    match number {
+        0 => format!("  no finite eigenvalues\n{}", left_out.concat()),
+        _ => format!("{table}{}", left_out.concat()),
+    }
+}
+
+fn cells(model: &LinearModel, number: usize, pair: &Pair) -> [String; 7] {
+    let (mode, value) = (pair.mode, pair.mode.value);
+    let imaginary =
+        if pair.is_pair { format!("+-{}", significant(value.im.abs(), 6)) } else { significant(value.im, 6) };
+    [
+        number.to_string(),
+        significant(value.re, 6),
+        imaginary,
+        significant(mode.frequency(), 5),
+        significant(mode.damping(), 4),
+        arrays::kind(mode.kind).to_string(),
+        participants(&model.states, &mode.participation),
+    ]
+}
+
+/// The coordinates with the largest parts, each with its rate: `crank.angle 62, rocker.angle 38`.
+fn participants(states: &[String], parts: &[f64]) -> String {
+    let mut sums: Vec<(&str, f64)> = Vec::new();
+    for (state, part) in states.iter().zip(parts) {
+        let name = state.trim_end_matches('\'');
+        match sums.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, sum)) => *sum += part,
+            None => sums.push((name, *part)),
+        }
+    }
+    sums.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let large = sums.iter().filter(|(_, sum)| *sum >= PART);
+    let words: Vec<String> =
+        large.clone().take(MOST_NAMED).map(|(name, sum)| format!("{name} {:.0}", 100.0 * sum)).collect();
+    let more = if large.count() > MOST_NAMED { ", ..." } else { "" };
+    words.join(", ") + more
+}
