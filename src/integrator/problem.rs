@@ -7,12 +7,12 @@ use crate::system::Dimensions;
 /// that the energy balance has the accuracy of the method.
 pub struct Problem<'a> {
     pub dynamics: Dynamics<'a>,
-    pub formulation: Box<dyn Formulation>,
+    pub formulation: Box<dyn Formulation + 'a>,
     dimensions: Dimensions,
 }
 
 impl<'a> Problem<'a> {
-    pub fn new(dynamics: Dynamics<'a>, formulation: Box<dyn Formulation>) -> Self {
+    pub fn new(dynamics: Dynamics<'a>, formulation: Box<dyn Formulation + 'a>) -> Self {
         Problem { dimensions: dynamics.system.dimensions(), dynamics, formulation }
     }
 

@@ -1,7 +1,8 @@
 //! Minimal coordinates of the perturbation: where a moving state's spectrum gets its meaning.
 
 use super::variation::at_state;
-use super::{Matrix, Variation, independent};
+use super::response::beside;
+use super::{Changes, Matrix, Variation, independent};
 use crate::error::{Error, Result};
 use crate::formulation::{Halt, free_directions};
 use crate::system::{LeviCivita, Loaded};
@@ -40,6 +41,14 @@ pub struct Coordinates {
     pub b: Matrix,
     pub turn: Matrix,
     pub drift: [Matrix; 2],
+}
+
+impl Coordinates {
+    /// (dq, dv) of a unit of each state.
+    pub fn changes(&self) -> Changes {
+        let none = Matrix::zeros(self.r.nrows(), self.r.ncols());
+        Changes { q: beside([&self.r, &none]), v: beside([&self.tilt, &self.r]) }
+    }
 }
 
 impl Chart {

@@ -37,10 +37,7 @@ pub(super) fn restrict(
     response: impl FnOnce(&mut Variation, &Changes) -> Result<Response>,
 ) -> Result<Minimal> {
     let k = coordinates.r.ncols();
-    let changes = Changes {
-        q: beside([&coordinates.r, &Matrix::zeros(variation.len(), k)]),
-        v: beside([&coordinates.tilt, &coordinates.r]),
-    };
+    let changes = coordinates.changes();
     let response = response(variation, &changes)?;
     let mut a = Matrix::zeros(2 * k, 2 * k);
     a.view_mut((0, 0), (k, k)).copy_from(&coordinates.turn);

@@ -2,6 +2,7 @@
 
 mod along;
 mod chart;
+pub mod flow;
 mod independent;
 mod method;
 mod minimal;
@@ -11,6 +12,7 @@ mod point;
 mod redundant;
 mod response;
 mod spectrum;
+mod transition;
 mod unconstrained;
 mod variation;
 
@@ -21,4 +23,5 @@ pub use minimal::{Minimal, minimal};
 pub use model::{Complex, Cost, Kind, LinearModel, Matrix, Mode};
 pub use point::OperatingPoint;
 pub use response::{Changes, Response};
+pub use transition::{Transition, transition};
 pub use variation::Variation;

@@ -23,6 +23,11 @@ pub struct Changes {
 }
 
 impl Changes {
+    /// Of no column.
+    pub fn none(n: usize) -> Self {
+        Changes { q: Matrix::zeros(n, 0), v: Matrix::zeros(n, 0) }
+    }
+
     /// Each direction of q, then each of v.
     pub fn all(n: usize) -> Self {
         let (unit, none) = (Matrix::identity(n, n), Matrix::zeros(n, n));

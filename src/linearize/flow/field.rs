@@ -1,0 +1,181 @@
+//! The slope of a bundle.
+
+use super::shape::Shape;
+use super::{Bundle, Pulse};
+use crate::error::Result;
+use crate::formulation::{Choice, Dynamics, Formulation, Halt};
+use crate::linearize::{Changes, Matrix, Variation};
+use crate::projection::{self, Projection};
+use crate::system::MechanicalSystem;
+
+/// The equations of index 1 for the motion and its members, the variational equations for the columns.
+pub struct Field<'a> {
+    shape: Shape,
+    variation: Variation<'a>,
+    /// Of the members.
+    plain: Dynamics<'a>,
+    projection: Option<Box<dyn Projection>>,
+    pulse: Option<Pulse>,
+    driven: Vec<f64>,
+    pushes: Vec<f64>,
+    changes: Changes,
+    force: Matrix,
+}
+
+impl<'a> Field<'a> {
+    pub fn new(system: &'a dyn MechanicalSystem, shape: &Shape, bundle: &Bundle) -> Result<Self> {
+        let start = &bundle.start;
+        let zeros = Matrix::zeros(shape.v, shape.columns);
+        Ok(Field {
+            shape: *shape,
+            variation: Variation::new(system, start.t, &start.q, &start.v)?,
+            plain: Dynamics::new(system),
+            projection: projection::make(&Choice::named("manifold"), system)?,
+            pulse: bundle.pulse,
+            driven: bundle.driven.clone(),
+            pushes: bundle.pushes.clone(),
+            changes: Changes { q: zeros.clone(), v: zeros },
+            force: Matrix::zeros(shape.v, system.inputs().len()),
+        })
+    }
+
+    /// The force of a unit of the pulse at a state, if it acts.
+    fn push(&mut self, t: f64, q: &[f64], v: &[f64]) -> Option<Vec<f64>> {
+        let pulse = self.pulse?;
+        let u = pulse.at(t);
+        if u == 0.0 {
+            return None;
+        }
+        self.force.fill(0.0);
+        self.plain.system.input_forces(t, q, v, &mut self.force, &mut self.plain.scratch);
+        Some(self.force.column(pulse.input).iter().map(|f| u * f).collect())
+    }
+
+    fn motion(&mut self, t: f64, (q, v): (&[f64], &[f64]), qdot: &mut [f64], vdot: &mut [f64]) -> Result<(), Halt> {
+        if self.shape.columns > 0 {
+            self.variation.move_to(t, q, v)?;
+        } else {
+            self.variation.dynamics.solve(t, q, v, |_, _| 0.0)?;
+        }
+        self.plain.system.rate(q, v, qdot);
+        vdot.copy_from_slice(&self.variation.dynamics.vdot);
+        Ok(())
+    }
+
+    /// The columns, at the state of the last `motion`.
+    fn columns(
+        &mut self,
+        push: Option<Vec<f64>>,
+        (dq, dv): (&[f64], &[f64]),
+        dq_dot: &mut [f64],
+        dv_dot: &mut [f64],
+    ) -> Result<(), Halt> {
+        self.changes.q.copy_from_slice(dq);
+        self.changes.v.copy_from_slice(dv);
+        let turned = self.variation.bracket_with(&self.changes.q);
+        dq_dot.iter_mut().zip(dv.iter().zip(&turned)).for_each(|(rate, (dv, turned))| *rate = dv - turned);
+        let mut force = self.variation.force(&self.changes);
+        if let Some(push) = push {
+            for (mut column, amplitude) in force.column_iter_mut().zip(&self.driven) {
+                column.iter_mut().zip(&push).for_each(|(f, push)| *f += amplitude * push);
+            }
+        }
+        let mut rows = self.variation.rows(&self.changes, [0.0; 2]);
+        self.variation.push_all(&mut force, &mut rows)?;
+        dv_dot.copy_from_slice(force.as_slice());
+        Ok(())
+    }
+
+    fn member(
+        &mut self,
+        t: f64,
+        (q, v, amplitude): (&[f64], &[f64], f64),
+        qdot: &mut [f64],
+        vdot: &mut [f64],
+    ) -> Result<(), Halt> {
+        let push = if amplitude == 0.0 { None } else { self.push(t, q, v) };
+        let plain = &mut self.plain;
+        plain.system.rate(q, v, qdot);
+        plain.right_sides(t, q, v, |_, _| 0.0);
+        if let Some(push) = push {
+            plain.vdot.iter_mut().zip(&push).for_each(|(f, push)| *f += amplitude * push);
+        }
+        plain.factor_truncated()?;
+        plain.kkt.solve(&mut plain.vdot, &mut plain.lambda)?;
+        vdot.copy_from_slice(&plain.vdot);
+        plain.finite()
+    }
+
+    /// Takes from each column what leaves the constraints: G dq = 0, G dv + Gd dq = 0.
+    fn straighten(&mut self, q: &mut [f64], v: &mut [f64]) -> Result<(), Halt> {
+        let (n, kkt) = (self.shape.v, &mut self.variation.dynamics);
+        let mut correction = vec![0.0; n];
+        for (dq, dv) in q.chunks_exact_mut(n).zip(v.chunks_exact_mut(n)) {
+            let Dynamics { structure, terms, .. } = &*kkt;
+            let mut rows = vec![0.0; structure.g.rows];
+            structure.g.multiply(&terms.g, dq, &mut rows);
+            kkt.kkt.solve_projection(&rows, &mut correction)?;
+            dq.iter_mut().zip(&correction).for_each(|(dq, c)| *dq -= c);
+            let Dynamics { structure, terms, .. } = &*kkt;
+            rows.fill(0.0);
+            structure.g.multiply(&terms.g, dv, &mut rows);
+            structure.g.multiply(&terms.l, dq, &mut rows);
+            kkt.kkt.solve_projection(&rows, &mut correction)?;
+            dv.iter_mut().zip(&correction).for_each(|(dv, c)| *dv -= c);
+        }
+        Ok(())
+    }
+
+    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Halt> {
+        self.plain.system.normalize(q);
+        match &mut self.projection {
+            Some(projection) => projection.project(t, q, v, &mut self.plain),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Formulation for Field<'_> {
+    fn derivative(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        _: &mut Dynamics,
+        qdot: &mut [f64],
+        vdot: &mut [f64],
+    ) -> Result<(), Halt> {
+        let Shape { q: nq, v: nv, columns, members } = self.shape;
+        let ([q0, dq, qs], [v0, dv, vs]) = (self.shape.parts(q), self.shape.rates(v));
+        let (qdot0, qdot) = qdot.split_at_mut(nq);
+        let (vdot0, vdot) = vdot.split_at_mut(nv);
+        self.motion(t, (q0, v0), qdot0, vdot0)?;
+        let (dq_dot, qdot) = qdot.split_at_mut(nv * columns);
+        let (dv_dot, vdot) = vdot.split_at_mut(nv * columns);
+        if columns > 0 {
+            let push = if self.driven.is_empty() { None } else { self.push(t, q0, v0) };
+            self.columns(push, (dq, dv), dq_dot, dv_dot)?;
+        }
+        for i in 0..members {
+            let amplitude = self.pushes.get(i).copied().unwrap_or(0.0);
+            let (own_q, own_v) = (i * nq..(i + 1) * nq, i * nv..(i + 1) * nv);
+            let state = (&qs[own_q.clone()], &vs[own_v.clone()], amplitude);
+            self.member(t, state, &mut qdot[own_q], &mut vdot[own_v])?;
+        }
+        Ok(())
+    }
+
+    fn end_step(&mut self, t: f64, q: &mut [f64], v: &mut [f64], _: &mut Dynamics) -> Result<(), Halt> {
+        let Shape { q: nq, v: nv, columns, members } = self.shape;
+        let (q0, q) = q.split_at_mut(nq);
+        let (v0, v) = v.split_at_mut(nv);
+        self.project(t, q0, v0)?;
+        let (dq, qs) = q.split_at_mut(nv * columns);
+        let (dv, vs) = v.split_at_mut(nv * columns);
+        if columns > 0 {
+            self.variation.move_to(t, q0, v0)?;
+            self.straighten(dq, dv)?;
+        }
+        (0..members).try_for_each(|i| self.project(t, &mut qs[i * nq..(i + 1) * nq], &mut vs[i * nv..(i + 1) * nv]))
+    }
+}

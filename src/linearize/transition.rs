@@ -1,0 +1,58 @@
+//! The state-transition matrix of the variational equations along a motion.
+
+use super::flow::{Bundle, flow};
+use super::{Changes, Chart, Coordinates, Matrix, State, Variation};
+use crate::error::Result;
+use crate::system::MechanicalSystem;
+
+/// Where a basis of small changes at the start has come at a time.
+#[derive(Clone, Debug)]
+pub struct Transition {
+    /// The motion at the end.
+    pub state: State,
+    /// The chart at the start, whose states (z, y) number the columns.
+    pub start: Coordinates,
+    /// (dq, dv) at the end of a unit of each state at the start.
+    pub changes: Changes,
+}
+
+impl Transition {
+    /// The same in the states of a chart at the end, 2 k x 2 k: z = B dq, y = B (dv - T z).
+    ///
+    /// # Errors
+    /// A chart that does not exist there.
+    pub fn matrix(&self, system: &dyn MechanicalSystem, chart: &Chart) -> Result<Matrix> {
+        let mut variation = Variation::new(system, self.state.t, &self.state.q, &self.state.v)?;
+        Ok(chart.at(&mut variation)?.states_of(&self.changes))
+    }
+}
+
+impl Coordinates {
+    /// (z, y) of changes that the constraints allow.
+    pub fn states_of(&self, changes: &Changes) -> Matrix {
+        let z = &self.b * &changes.q;
+        let y = &self.b * (&changes.v - &self.tilt * &z);
+        let (k, columns) = z.shape();
+        let mut both = Matrix::zeros(2 * k, columns);
+        both.rows_mut(0, k).copy_from(&z);
+        both.rows_mut(k, k).copy_from(&y);
+        both
+    }
+}
+
+/// X' = A_u X along the motion from `start`, X(0) the states of `chart` there, at each of `times` (increasing).
+///
+/// # Errors
+/// A chart that does not exist at the start; a motion that cannot go on.
+pub fn transition(system: &dyn MechanicalSystem, start: &State, chart: &Chart, times: &[f64]) -> Result<Vec<Transition>> {
+    let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
+    let coordinates = chart.at(&mut variation)?;
+    let bundle = Bundle { columns: coordinates.changes(), ..Bundle::of(start) };
+    let mut found = Vec::new();
+    flow(system, &bundle, times, |snapshot| {
+        let (state, changes) = (snapshot.motion.clone(), snapshot.columns.clone());
+        found.push(Transition { state, start: coordinates.clone(), changes });
+        true
+    })?;
+    Ok(found)
+}
