@@ -20,7 +20,9 @@ fn outputs_of_shipped_scenes() {
             continue;
         }
         let still = vec![0.0; start.v.len()];
-        let at = Loaded { t: 0.0, q: &start.q, v: &start.v, vdot: &still, lambda: &start.lambda };
+        // A reaction that symmetry makes zero would put its size on the tip of a cone, where there is no slope.
+        let lambda = stirred(&start.lambda, 0.5);
+        let at = Loaded { t: 0.0, q: &start.q, v: &start.v, vdot: &still, lambda: &lambda };
         check(system, at, NEAR, &format!("{what} at its start"));
         check_moved(system, &start.q, &start.v, &what);
         found.push(what);
