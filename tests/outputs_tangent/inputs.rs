@@ -70,7 +70,9 @@ impl Case {
 
     fn name(&self) -> String {
         let Case { dimension, is_torque, axes, reacts, component, is_flexible } = self;
-        format!("{dimension} dimensions, torque {is_torque}, {axes}, reaction {reacts}, {component}, beam {is_flexible}")
+        format!(
+            "{dimension} dimensions, torque {is_torque}, {axes}, reaction {reacts}, {component}, beam {is_flexible}"
+        )
     }
 }
 
