@@ -17,6 +17,7 @@
 //! |---|---|---|---|
 //! | `q, v, vdot` | coordinates, velocities, accelerations | `mass`, `f` | mass matrix; all forces but the reactions |
 //! | `lambda` | multipliers | `phi, g, gamma` | as above |
+//! | `u`, `y` | inputs, which add to f and are zero in a simulation; outputs | | |
 //! | `l` | d(G v + phi_t)/dq along the directions of v | `h, rtol, atol` | step, tolerances |
 //!
 //! # The way of the data
@@ -95,6 +96,7 @@ pub mod study;
 pub mod sweep;
 pub mod system;
 pub mod trajectory;
+pub mod validate;
 
 pub use error::{Error, Result};
 

@@ -10,7 +10,7 @@ use counting::{Counting, count};
 use holonom::math::Scalar;
 use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate};
 use holonom::study::{Overrides, Study};
-use holonom::system::{Equations, MechanicalSystem};
+use holonom::system::{Equations, MechanicalSystem, Scratch};
 use std::path::Path;
 
 #[global_allocator]
@@ -157,6 +157,24 @@ fn flexible_beams() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"));
         let study = Study::load(&path, &Overrides::default()).unwrap();
         check_methods(name, &methods, study.system(), study.start(), 1e-8);
+    }
+}
+
+/// Rows of a trajectory: outputs and energies, after the first ones.
+#[test]
+fn outputs() {
+    for name in ["andrews", "spinning_top", "flexible_slider_crank", "flexible_pendulum", "five_link_suspension"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"));
+        let study = Study::load(&path, &Overrides::default()).unwrap();
+        let (system, (q, v), mut scratch) = (study.system(), study.start(), Scratch::default());
+        let mut out = vec![0.0; system.columns().len()];
+        let mut row = || {
+            let before = count();
+            system.outputs(0.0, q, v, &study.assembly.lambda, &mut out, &mut scratch);
+            system.energy(0.0, q, v, &mut scratch);
+            count() - before
+        };
+        assert_eq!((row() > 0, row()), (true, 0), "{name}");
     }
 }
 

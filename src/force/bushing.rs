@@ -1,7 +1,9 @@
 //! Bushing: springs and dampers along and about all axes.
 
 use super::{Action, Built, ForceKernel, ForceSpec};
-use crate::body::{Build, Frame, Wrench, cross, dot, norm, scale, small_rotation, small_rotation_torque, sub, twist_len};
+use crate::body::{
+    Build, Frame, Wrench, cross, dot, norm, scale, small_rotation, small_rotation_torque, sub, twist_len,
+};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use crate::math::{Scalar, Taylor};

@@ -34,9 +34,6 @@ impl<const D: usize> Mechanism<D> {
         let out = &mut wrenches[..force.markers.len()];
         let drive = |frames: &[_]| force.element.driven(&unit, frames, Taylor::<Slope>::time(t), out);
         gathered(&force.markers, |marker| fixed(&work.motion[marker]), drive);
-        from_fn(|i| Wrench {
-            force: wrenches[i].force.map(|x| x.eps[0]),
-            torque: wrenches[i].torque.map(|x| x.eps[0]),
-        })
+        from_fn(|i| Wrench { force: wrenches[i].force.map(|x| x.eps[0]), torque: wrenches[i].torque.map(|x| x.eps[0]) })
     }
 }

@@ -1,13 +1,13 @@
 //! The equations of a scene's model.
 
 use super::coupling::Couplings;
+use super::output_tangent::{OutputTangent, Slopes};
 use super::rows::{PlacedJoint, Rows};
 use super::support::Support;
 use super::levi_civita::LeviCivita;
-use super::output_tangent::{OutputTangent, Slopes};
 use super::tangent::{Evaluation, Loaded, Tangent};
-use super::view::{Plain, gathered};
 use super::variation::Varied;
+use super::view::{Plain, gathered};
 use super::{Column, Dimensions, Energy, Group, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
 use crate::body::{Frame, MOST_MARKERS, Wrench, cross, norm};
 use crate::math::Taylor;
@@ -325,9 +325,8 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn inputs(&self) -> Vec<Column> {
-        let column = |input: &Driven| {
-            Column { name: input.name.clone(), unit: input.unit.to_string(), periodic: false }
-        };
+        let column =
+            |input: &Driven| Column { name: input.name.clone(), unit: input.unit.to_string(), periodic: false };
         self.model.inputs.iter().map(column).collect()
     }
 

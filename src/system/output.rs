@@ -79,12 +79,7 @@ impl<const D: usize> Mechanism<D> {
     }
 
     /// A component of -G^T lambda on the joint's second marker, as a wrench in the axes of a marker.
-    fn reaction<S: Scalar>(
-        &self,
-        view: &impl View<S, D>,
-        joint: usize,
-        (component, axes): (usize, MarkerId),
-    ) -> S
+    fn reaction<S: Scalar>(&self, view: &impl View<S, D>, joint: usize, (component, axes): (usize, MarkerId)) -> S
     where
         dyn Joint<D>: JointOver<S, D>,
     {
@@ -124,11 +119,7 @@ fn separation_rate<S: Scalar, const D: usize>(gap: &[Taylor<S>; D]) -> S {
 }
 
 /// Position or velocity of a marker seen from another one and in its axes.
-fn relative<S: Scalar, const D: usize>(
-    of: &Frame<Taylor<S>, D>,
-    to: &Frame<Taylor<S>, D>,
-    quantity: Quantity,
-) -> S {
+fn relative<S: Scalar, const D: usize>(of: &Frame<Taylor<S>, D>, to: &Frame<Taylor<S>, D>, quantity: Quantity) -> S {
     let gap = sub(&of.r, &to.r);
     match quantity {
         Quantity::Position(axis) => dot(&to.axes[axis], &gap).x,

@@ -19,6 +19,10 @@ pub fn tangent(system: &dyn MechanicalSystem, at: Loaded) -> OutputTangent {
     tangent
 }
 
+/// Of the sizes that errors are measured against: where an output and all its derivatives are zero, differences show the
+/// round-off of what it is made of.
+const FLOOR: f64 = 1.0;
+
 /// Steps of the differences: the scales of length, of velocity and of stiffness of the scenes lie apart by many decades.
 const STEPS: [f64; 5] = [1e-2, 2e-3, 4e-4, 8e-5, 1.6e-5];
 
@@ -52,7 +56,7 @@ pub fn check(system: &dyn MechanicalSystem, at: Loaded, near: f64, what: &str) {
     let compare = |kind: &str, matrix: &DMatrix<f64>, column: usize, slopes: Vec<f64>| {
         for (row, difference) in slopes.into_iter().enumerate() {
             let found = matrix[(row, column)];
-            let scale = matrix.row(row).amax().max(values[row].abs()).max(1.0);
+            let scale = matrix.row(row).amax().max(values[row].abs()).max(FLOOR);
             let error = (found - difference).abs() / scale;
             assert!(error < near, "{what}: d {}/d{kind}{column} is {found}, {difference} by differences", names[row]);
         }
@@ -64,8 +68,13 @@ pub fn check(system: &dyn MechanicalSystem, at: Loaded, near: f64, what: &str) {
     }
     for j in 0..n.lambda {
         let e = unit(n.lambda, j);
-        compare("lambda", &exact.lambda, j, slope(|s| outputs(system, Loaded { lambda: &ahead(at.lambda, &e, s), ..at })));
+        compare(
+            "lambda",
+            &exact.lambda,
+            j,
+            slope(|s| outputs(system, Loaded { lambda: &ahead(at.lambda, &e, s), ..at })),
+        );
     }
-    // A trajectory shows an output that does not change; derivatives must see none that is lost.
+    // What is no number would agree with nothing, and nothing would fail.
     assert!(values.iter().all(|value| value.is_finite()), "{what}: {values:?}");
 }

@@ -3,8 +3,8 @@
 use super::strain::Strains;
 use super::{Beam, Moving};
 use crate::body::Frame;
-use crate::math::{Scalar, Taylor};
 use crate::math::screw::{cross3, exponential};
+use crate::math::{Scalar, Taylor};
 use std::array::from_fn;
 
 /// A section of a beam: where it is, how it is strained, and what it carries.

@@ -1,0 +1,159 @@
+//! Own equations, written once over any scalar.
+
+mod christoffel;
+mod passes;
+
+use super::{
+    Column, Dimensions, Energy, LeviCivita, Loaded, MechanicalSystem, Need, OutputTangent, Scratch, Tangent, Terms,
+};
+use crate::math::{Dual, Scalar};
+use nalgebra::DMatrix;
+use christoffel::christoffel;
+use passes::{Memory, Varied, curvature, fixed, gradient, levels, output_slopes, tangent_of};
+
+/// A mechanism by its M, f and phi. G, phi', gamma and L follow by dual and Taylor numbers, so nothing is derived by
+/// hand; the cost is about (6 + n)/6 evaluations of phi for G.
+///
+/// ```
+/// use holonom::math::Scalar;
+/// use holonom::system::Equations;
+///
+/// /// Pendulum of unit mass and length in Cartesian coordinates.
+/// struct Pendulum;
+///
+/// impl Equations for Pendulum {
+///     fn size(&self) -> (usize, usize) {
+///         (2, 1)
+///     }
+///     fn mass<S: Scalar>(&self, _t: S, _q: &[S], mass: &mut [S]) {
+///         mass.copy_from_slice(&[S::one(), S::zero(), S::zero(), S::one()]);
+///     }
+///     fn force<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], f: &mut [S]) {
+///         f.copy_from_slice(&[S::zero(), S::constant(-9.81)]);
+///     }
+///     fn phi<S: Scalar>(&self, _t: S, q: &[S], phi: &mut [S]) {
+///         phi[0] = (q[0].square() + q[1].square() - 1.0) * 0.5;
+///     }
+/// }
+/// ```
+pub trait Equations: Send + Sync + 'static {
+    /// (n, n_c): coordinates, which are also the velocities, and constraints.
+    fn size(&self) -> (usize, usize);
+    /// M, n x n, row by row.
+    fn mass<S: Scalar>(&self, t: S, q: &[S], mass: &mut [S]);
+    /// f, n: all forces but the reactions, velocity-dependent inertia forces included.
+    fn force<S: Scalar>(&self, t: S, q: &[S], v: &[S], f: &mut [S]);
+    /// phi, n_c.
+    fn phi<S: Scalar>(&self, t: S, q: &[S], phi: &mut [S]);
+    /// Potential energy, J, of forces that have one; with it the energy is watched.
+    fn potential(&self, _t: f64, _q: &[f64]) -> Option<f64> {
+        None
+    }
+    /// Names of the outputs. Default: none.
+    fn output_names(&self) -> Vec<String> {
+        Vec::new()
+    }
+    /// The outputs, one a name.
+    fn outputs<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], _out: &mut [S]) {}
+    /// Names of the inputs, which change the forces. Default: none.
+    fn input_names(&self) -> Vec<String> {
+        Vec::new()
+    }
+    /// df/du, n x n_u, row by row; zero on entry.
+    fn input_forces<S: Scalar>(&self, _t: S, _q: &[S], _forces: &mut [S]) {}
+}
+
+impl<E: Equations> MechanicalSystem for E {
+    fn dimensions(&self) -> Dimensions {
+        let (n, m) = self.size();
+        Dimensions { q: n, v: n, lambda: m }
+    }
+
+    fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
+        let (n, m) = self.size();
+        let fill = |memory: &mut Memory| {
+            if need.includes(Need::MASS) {
+                self.mass(t, q, &mut memory.mass);
+                let lower = (0..n).flat_map(|i| (0..=i).map(move |j| i * n + j));
+                terms.mass.iter_mut().zip(lower).for_each(|(entry, place)| *entry = memory.mass[place]);
+            }
+            if need.includes(Need::FORCE) {
+                self.force(t, q, v, &mut terms.f);
+                terms.power = 0.0;
+            }
+            if need.includes(Need::CONSTRAINTS) {
+                levels(self, t, q, v, memory, terms);
+            }
+            if need.includes(Need::G) {
+                gradient(self, t, q, memory, terms);
+            }
+            if need.includes(Need::L) {
+                let at = Loaded { t, q, v, vdot: &[], lambda: &[] };
+                curvature(self, at, memory, |place, slope| terms.l[place] = slope.d);
+            }
+        };
+        scratch.with(|| Memory::new(n, m), fill);
+    }
+
+    fn tangent(&self, at: Loaded, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
+        let (n, m) = self.size();
+        scratch.with(
+            || Memory::new(n, m),
+            |memory| tangent_of(self, at, memory.varied.get_or_insert_with(|| Varied::new(n, m)), tangent),
+        );
+        true
+    }
+
+    fn acceleration_gradient(&self, at: Loaded, values: &mut [f64], scratch: &mut Scratch) -> bool {
+        let (n, m) = self.size();
+        let write = |memory: &mut Memory| curvature(self, at, memory, |place, slope| values[place] = slope.dd);
+        scratch.with(|| Memory::new(n, m), write);
+        true
+    }
+
+    fn levi_civita(&self, at: Loaded, connection: &mut LeviCivita, _scratch: &mut Scratch) -> bool {
+        christoffel(self, at, connection);
+        true
+    }
+
+    fn energy(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<Energy> {
+        let potential = self.potential(t, q)?;
+        let (n, m) = self.size();
+        let kinetic = |memory: &mut Memory| {
+            self.mass(t, q, &mut memory.mass);
+            let row = |i: usize| memory.mass[i * n..(i + 1) * n].iter().zip(v).map(|(m, v)| m * v).sum::<f64>();
+            0.5 * (0..n).map(|i| v[i] * row(i)).sum::<f64>()
+        };
+        Some(Energy { kinetic: scratch.with(|| Memory::new(n, m), kinetic), potential })
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        named(self.output_names())
+    }
+
+    fn outputs(&self, t: f64, q: &[f64], v: &[f64], _lambda: &[f64], out: &mut [f64], _scratch: &mut Scratch) {
+        Equations::outputs(self, t, q, v, out);
+    }
+
+    fn output_tangent(&self, at: Loaded, tangent: &mut OutputTangent, _scratch: &mut Scratch) -> bool {
+        tangent.clear();
+        let (t, q, v) = (Dual::fixed(at.t), fixed(at.q), fixed(at.v));
+        output_slopes(at.q, |q, out| Equations::outputs(self, t, q, &v, out), &mut tangent.q);
+        output_slopes(at.v, |v, out| Equations::outputs(self, t, &q, v, out), &mut tangent.v);
+        true
+    }
+
+    fn inputs(&self) -> Vec<Column> {
+        named(self.input_names())
+    }
+
+    fn input_forces(&self, t: f64, q: &[f64], _v: &[f64], f: &mut DMatrix<f64>, _scratch: &mut Scratch) {
+        let mut forces = vec![0.0; f.len()];
+        Equations::input_forces(self, t, q, &mut forces);
+        f.copy_from(&DMatrix::from_row_slice(f.nrows(), f.ncols(), &forces));
+    }
+}
+
+fn named(names: Vec<String>) -> Vec<Column> {
+    names.into_iter().map(|name| Column { name, unit: String::new(), periodic: false }).collect()
+}

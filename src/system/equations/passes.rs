@@ -1,0 +1,180 @@
+//! Derivatives of own equations: they are evaluated over dual and Taylor numbers, six directions a pass.
+
+use super::Equations;
+use crate::math::{Dual, Taylor};
+use crate::system::{Loaded, Tangent, Terms};
+use nalgebra::DMatrix;
+
+type Slope = Dual<f64, 6>;
+type Along = Dual<Taylor<f64>, 6>;
+type Twice = Dual<Slope, 6>;
+
+pub(super) struct Memory {
+    pub mass: Vec<f64>,
+    path: Vec<Taylor<f64>>,
+    levels: Vec<Taylor<f64>>,
+    seeded: Vec<Slope>,
+    slopes: Vec<Slope>,
+    moving: Vec<Along>,
+    curvatures: Vec<Along>,
+    /// For K and C, from their first use.
+    pub varied: Option<Varied>,
+}
+
+/// The equations as functions of six directions.
+pub(super) struct Varied {
+    q: Vec<Slope>,
+    v: Vec<Slope>,
+    f: Vec<Slope>,
+    mass: Vec<Slope>,
+    reaction: Vec<Slope>,
+    nested: Vec<Twice>,
+    phi: Vec<Twice>,
+}
+
+impl Varied {
+    pub fn new(n: usize, m: usize) -> Self {
+        let zeros = |n: usize| vec![Dual::fixed(0.0); n];
+        let nested = |n: usize| vec![Dual::fixed(Dual::fixed(0.0)); n];
+        Varied {
+            q: zeros(n),
+            v: zeros(n),
+            f: zeros(n),
+            mass: zeros(n * n),
+            reaction: zeros(n),
+            nested: nested(n),
+            phi: nested(m),
+        }
+    }
+}
+
+impl Memory {
+    pub fn new(n: usize, m: usize) -> Self {
+        let zero = Taylor::fixed(0.0);
+        Memory {
+            mass: vec![0.0; n * n],
+            path: vec![zero; n],
+            levels: vec![zero; m],
+            seeded: vec![Dual::fixed(0.0); n],
+            slopes: vec![Dual::fixed(0.0); m],
+            moving: vec![Dual::fixed(zero); n],
+            curvatures: vec![Dual::fixed(zero); m],
+            varied: None,
+        }
+    }
+}
+
+pub(super) fn fixed(values: &[f64]) -> Vec<Slope> {
+    values.iter().map(|&x| Dual::fixed(x)).collect()
+}
+
+/// d(outputs)/dx, six columns a pass.
+pub(super) fn output_slopes(x: &[f64], outputs: impl Fn(&[Slope], &mut [Slope]), matrix: &mut DMatrix<f64>) {
+    let mut values = vec![Dual::fixed(0.0); matrix.nrows()];
+    for first in (0..x.len()).step_by(6) {
+        let columns = first..x.len().min(first + 6);
+        let mut seeded = fixed(x);
+        columns.clone().for_each(|j| seeded[j] = Dual::seeded(x[j], j - first));
+        outputs(&seeded, &mut values);
+        for (row, value) in values.iter().enumerate() {
+            columns.clone().for_each(|j| matrix[(row, j)] = value.eps[j - first]);
+        }
+    }
+}
+
+/// phi, phi' and -gamma along q + v s; phi_t with q held.
+pub(super) fn levels<E: Equations>(system: &E, t: f64, q: &[f64], v: &[f64], memory: &mut Memory, terms: &mut Terms) {
+    for (i, place) in memory.path.iter_mut().enumerate() {
+        *place = Taylor::new(q[i], 0.0, 0.0);
+    }
+    system.phi(Taylor::time(t), &memory.path, &mut memory.levels);
+    terms.phi_t.iter_mut().zip(&memory.levels).for_each(|(phi_t, level)| *phi_t = level.d);
+    for (i, place) in memory.path.iter_mut().enumerate() {
+        *place = Taylor::new(q[i], v[i], 0.0);
+    }
+    system.phi(Taylor::time(t), &memory.path, &mut memory.levels);
+    for (i, level) in memory.levels.iter().enumerate() {
+        (terms.phi[i], terms.phi_dot[i], terms.gamma[i]) = (level.x, level.d, -level.dd);
+    }
+}
+
+/// G, six columns a pass.
+pub(super) fn gradient<E: Equations>(system: &E, t: f64, q: &[f64], memory: &mut Memory, terms: &mut Terms) {
+    let n = q.len();
+    for first in (0..n).step_by(6) {
+        let columns = first..n.min(first + 6);
+        memory.seeded.iter_mut().zip(q).for_each(|(place, &q)| *place = Dual::fixed(q));
+        columns.clone().for_each(|i| memory.seeded[i] = Dual::seeded(q[i], i - first));
+        system.phi(Dual::fixed(t), &memory.seeded, &mut memory.slopes);
+        for (row, slope) in memory.slopes.iter().enumerate() {
+            columns.clone().for_each(|i| terms.g[row * n + i] = slope.eps[i - first]);
+        }
+    }
+}
+
+/// d(phi, phi', phi'')/dq, six columns a pass; with v' = 0 where it is empty.
+pub(super) fn curvature<E: Equations>(
+    system: &E,
+    at: Loaded,
+    memory: &mut Memory,
+    mut write: impl FnMut(usize, Taylor<f64>),
+) {
+    let n = at.q.len();
+    for first in (0..n).step_by(6) {
+        let columns = first..n.min(first + 6);
+        for (i, place) in memory.moving.iter_mut().enumerate() {
+            *place = Dual::fixed(Taylor::new(at.q[i], at.v[i], at.vdot.get(i).copied().unwrap_or(0.0)));
+        }
+        columns.clone().for_each(|i| memory.moving[i].eps[i - first] = Taylor::fixed(1.0));
+        system.phi(Dual::fixed(Taylor::time(at.t)), &memory.moving, &mut memory.curvatures);
+        for (row, slope) in memory.curvatures.iter().enumerate() {
+            columns.clone().for_each(|i| write(row * n + i, slope.eps[i - first]));
+        }
+    }
+}
+
+/// K by nested dual numbers, C by dual numbers, six columns a pass.
+pub(super) fn tangent_of<E: Equations>(system: &E, at: Loaded, varied: &mut Varied, tangent: &mut Tangent) {
+    let n = at.q.len();
+    let t = Dual::fixed(at.t);
+    for first in (0..n).step_by(6) {
+        let columns = first..n.min(first + 6);
+        lift(at.q, &mut varied.q);
+        lift(at.v, &mut varied.v);
+        columns.clone().for_each(|j| varied.v[j] = Dual::seeded(at.v[j], j - first));
+        system.force(t, &varied.q, &varied.v, &mut varied.f);
+        for (i, f) in varied.f.iter().enumerate() {
+            columns.clone().for_each(|j| tangent.c[i * n + j] = -f.eps[j - first]);
+        }
+        columns.clone().for_each(|j| varied.q[j] = Dual::seeded(at.q[j], j - first));
+        lift(at.v, &mut varied.v);
+        system.force(t, &varied.q, &varied.v, &mut varied.f);
+        system.mass(t, &varied.q, &mut varied.mass);
+        reaction(system, at, varied);
+        for i in 0..n {
+            let mut row = varied.reaction[i] - varied.f[i];
+            (0..n).for_each(|j| row += varied.mass[i * n + j] * at.vdot[j]);
+            columns.clone().for_each(|j| tangent.k[i * n + j] = row.eps[j - first]);
+        }
+    }
+}
+
+fn lift(from: &[f64], to: &mut [Slope]) {
+    to.iter_mut().zip(from).for_each(|(to, &x)| *to = Dual::fixed(x));
+}
+
+/// G^T lambda over dual numbers: the gradient of lambda . phi.
+fn reaction<E: Equations>(system: &E, at: Loaded, varied: &mut Varied) {
+    let n = at.q.len();
+    let Varied { q, reaction, nested, phi, .. } = varied;
+    reaction.fill(Dual::fixed(0.0));
+    for first in (0..n).step_by(6) {
+        let columns = first..n.min(first + 6);
+        nested.iter_mut().zip(&*q).for_each(|(nested, &q)| *nested = Dual::fixed(q));
+        columns.clone().for_each(|i| nested[i] = Dual::seeded(q[i], i - first));
+        system.phi(Dual::fixed(Dual::fixed(at.t)), nested, phi);
+        for (phi, &lambda) in phi.iter().zip(at.lambda) {
+            columns.clone().for_each(|i| reaction[i] += phi.eps[i - first] * lambda);
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! Which way a state is perturbed.
+
+use crate::error::{Error, Result, suggest};
+use crate::linearize::{Coordinates, Matrix};
+
+/// A direction among the states (z, y) of a chart.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// All states at once, by a seed.
+    Random(u64),
+    /// One state by its name.
+    Named(String),
+}
+
+impl Direction {
+    /// `random`, `random:SEED` or the name of a state.
+    pub fn parse(text: &str) -> Self {
+        let seed = text.strip_prefix("random").map(|rest| rest.strip_prefix(':').unwrap_or(rest));
+        match seed.map(|seed| if seed.is_empty() { Ok(1) } else { seed.parse() }) {
+            Some(Ok(seed)) => Direction::Random(seed),
+            _ => Direction::Named(text.to_string()),
+        }
+    }
+
+    pub fn name(&self) -> String {
+        match self {
+            Direction::Random(seed) => format!("random:{seed}"),
+            Direction::Named(name) => name.clone(),
+        }
+    }
+
+    /// The direction x0 with velocities in proportion to `rate`, 1/s; the largest component of its (dq, dv/rate) is 1.
+    ///
+    /// # Errors
+    /// A name that no state has.
+    pub(super) fn state(&self, coordinates: &Coordinates, rate: f64) -> Result<Matrix> {
+        let k = coordinates.r.ncols();
+        let mut x = match self {
+            Direction::Random(seed) => random(*seed, 2 * k),
+            Direction::Named(name) => unit(name, &coordinates.states)?,
+        };
+        if matches!(self, Direction::Random(_)) {
+            x.rows_mut(k, k).scale_mut(rate);
+        }
+        let dq = &coordinates.r * x.rows(0, k);
+        let dv = &coordinates.tilt * x.rows(0, k) + &coordinates.r * x.rows(k, k);
+        let size = dq.amax().max(dv.amax() / rate);
+        Ok(if size > 0.0 { x / size } else { x })
+    }
+}
+
+fn unit(name: &str, states: &[String]) -> Result<Matrix> {
+    let place = states.iter().position(|state| state == name).ok_or_else(|| {
+        Error::input(format!("the model has no state `{name}`"))
+            .under("--along")
+            .hint(suggest(name, states.iter().map(String::as_str)))
+    })?;
+    Ok(Matrix::from_fn(states.len(), 1, |i, _| f64::from(u8::from(i == place))))
+}
+
+/// Components in [-1, 1], none of them small (splitmix64, Steele, Lea, Flood 2014).
+fn random(seed: u64, n: usize) -> Matrix {
+    let mut state = seed;
+    Matrix::from_fn(n, 1, |_, _| {
+        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^= z >> 31;
+        let size = 0.5 + 0.5 * (z >> 12) as f64 / (1u64 << 52) as f64;
+        if z & 1 == 0 { size } else { -size }
+    })
+}

@@ -1,0 +1,65 @@
+//! The frozen model exp(A t) against the variational equations.
+
+use super::{Decay, decay};
+use crate::error::{Error, Result};
+use crate::linearize::{Chart, Coordinates, Matrix, State, transition};
+use crate::math::eigen::expm;
+use crate::system::MechanicalSystem;
+use serde::Serialize;
+
+/// How the frozen model leaves the motion.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Frozen {
+    /// s
+    pub steps: Vec<f64>,
+    /// |X(h) - exp(A h)| / |X(h)|, in units in which positions and velocities are alike.
+    pub errors: Vec<f64>,
+    pub decay: Decay,
+}
+
+/// Rounding of the integration of columns of size 1.
+const FLOOR: f64 = 3e-13;
+/// Errors up to here are in the range where the lowest power of h rules.
+const SMALL: f64 = 3e-3;
+
+/// exp(A h) against the state-transition matrix X(h) over halved steps from `longest`. Its error is -A' h^2/2 and falls as
+/// h^2, or faster where A does not change; a term missing in A shows as order 1.
+///
+/// # Errors
+/// A chart that is not constant; a motion that cannot go on.
+pub fn frozen(
+    system: &dyn MechanicalSystem,
+    start: &State,
+    chart: &Chart,
+    (a, coordinates, rate): (&Matrix, &Coordinates, f64),
+    longest: f64,
+) -> Result<Frozen> {
+    let steps: Vec<f64> = (0..14).rev().map(|i| longest / f64::from(1 << i)).collect();
+    let times: Vec<f64> = steps.iter().map(|h| start.t + h).collect();
+    let mut errors = Vec::new();
+    for (found, h) in transition(system, start, chart, &times)?.iter().zip(&steps) {
+        let exact = alike(coordinates.states_of(&found.changes), rate);
+        let predicted = alike(expm(&(a * *h)).map_err(|unsolved| Error::input(unsolved.to_string()))?, rate);
+        errors.push((&exact - predicted).norm() / exact.norm());
+    }
+    let decay = decay(&steps, &errors, |_| SMALL, FLOOR);
+    Ok(Frozen { steps, errors, decay })
+}
+
+/// Blocks of a state-transition matrix in units of the same kind.
+fn alike(mut x: Matrix, rate: f64) -> Matrix {
+    let k = x.nrows() / 2;
+    x.rows_mut(k, k).unscale_mut(rate);
+    x.columns_mut(k, k).scale_mut(rate);
+    x
+}
+
+/// The first time at which an error leaves `share`; none where it stays below.
+pub fn horizon(times: &[f64], errors: &[f64], share: f64) -> Option<f64> {
+    let first = errors.iter().position(|error| *error > share)?;
+    if first == 0 {
+        return Some(times[0]);
+    }
+    let (low, high) = (errors[first - 1], errors[first]);
+    Some(times[first - 1] + (times[first] - times[first - 1]) * (share - low) / (high - low))
+}

@@ -1,0 +1,92 @@
+//! The response to a small pulse of an input.
+
+use super::ladder::{EPSILONS, difference};
+use super::run::{Norm, TOO_LARGE, floor};
+use super::{Decay, decay};
+use crate::error::Result;
+use crate::linearize::flow::{Bundle, Pulse, flow};
+use crate::linearize::{Changes, Matrix, Minimal, State};
+use crate::system::MechanicalSystem;
+use serde::Serialize;
+
+/// How one input was checked.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct InputCheck {
+    pub input: String,
+    /// Width of the pulse, s.
+    pub width: f64,
+    /// Sizes of the pulse, N or N m.
+    pub amplitudes: Vec<f64>,
+    /// Of the variational equations with the input, at the end of the pulse.
+    pub errors_ltv: Vec<f64>,
+    pub order_ltv: Decay,
+    /// Relative error of x' = A x + B u at the end of the pulse.
+    pub error_lti: f64,
+}
+
+/// Steps of the frozen model over a pulse; the error of its fourth-order method is below 1e-9.
+const STEPS: usize = 400;
+
+/// A smooth pulse of each size, and the model with its B beside.
+pub(super) fn check(
+    system: &dyn MechanicalSystem,
+    start: &State,
+    (model, norm): (&Minimal, &Norm),
+    (input, name): (usize, String),
+    width: f64,
+) -> Result<Option<InputCheck>> {
+    let pulse = Pulse { input, start: start.t, width };
+    let lti = response(model, &pulse);
+    // A unit pulse may move the mechanism by very much or little: sizes are by what they do.
+    let k = model.coordinates.r.ncols();
+    let dq = &model.coordinates.r * lti.rows(0, k);
+    let dv = &model.coordinates.tilt * lti.rows(0, k) + &model.coordinates.r * lti.rows(k, k);
+    let size = dq.amax().max(dv.amax() / norm.rate);
+    if size == 0.0 {
+        return Ok(None);
+    }
+    let n = start.v.len();
+    let none = Matrix::zeros(n, 1);
+    let amplitudes: Vec<f64> = EPSILONS.iter().map(|eps| eps / size).collect();
+    let bundle = Bundle {
+        columns: Changes { q: none.clone(), v: none },
+        driven: vec![1.0 / size],
+        members: vec![start.clone(); EPSILONS.len()],
+        pushes: amplitudes.clone(),
+        pulse: Some(pulse),
+        start: start.clone(),
+    };
+    let mut end = None;
+    flow(system, &bundle, &[start.t + width], |snapshot| {
+        end = Some(snapshot.clone());
+        true
+    })?;
+    let Some(end) = end else { return Ok(None) };
+    let errors = end.members.iter().zip(&EPSILONS).map(|(member, eps)| {
+        let [dq, dv] = difference(system, &end.motion, member);
+        norm.off((&dq, &dv), (end.columns.q.as_slice(), end.columns.v.as_slice()), *eps)
+    });
+    let errors_ltv: Vec<f64> = errors.collect();
+    let reached = model.coordinates.states_of(&end.columns);
+    let error_lti = norm.states(&(&lti / size - &reached)) / norm.states(&reached);
+    let columns = norm.size((end.columns.q.as_slice(), end.columns.v.as_slice()));
+    let scaled = decay(&EPSILONS, &errors_ltv, |eps| TOO_LARGE * eps * columns, floor(&errors_ltv));
+    Ok(Some(InputCheck { input: name, width, amplitudes, errors_ltv, order_ltv: scaled, error_lti }))
+}
+
+/// The state of x' = A x + B u at the end of a unit pulse from rest (classical Runge-Kutta method).
+fn response(model: &Minimal, pulse: &Pulse) -> Matrix {
+    let b = model.b.columns(pulse.input, 1).clone_owned();
+    let mut x = Matrix::zeros(model.a.nrows(), 1);
+    let h = pulse.width / STEPS as f64;
+    let slope = |x: &Matrix, s: f64| -> Matrix { &model.a * x + &b * pulse.at(pulse.start + s) };
+    for i in 0..STEPS {
+        let s = i as f64 * h;
+        let k1 = slope(&x, s);
+        let k2 = slope(&(&x + &k1 * (0.5 * h)), s + 0.5 * h);
+        let k3 = slope(&(&x + &k2 * (0.5 * h)), s + 0.5 * h);
+        let k4 = slope(&(&x + &k3 * h), s + h);
+        x += (k1 + (k2 + k3) * 2.0 + k4) * (h / 6.0);
+    }
+    x
+}

@@ -1,0 +1,41 @@
+//! Linear models against simulations of small perturbations.
+//!
+//! ```text
+//! q(eps) = q + eps dq, v(eps) = v + eps dv, back on the constraints     both motions by the full equations
+//! difference - eps X(t) x0          X the state-transition matrix: falls as eps^2 if K, C and Gdd are right (LTV)
+//! X(h) - exp(A h)                   A frozen: falls as h^2 if A belongs to its chart (LTI)
+//! ```
+
+mod direction;
+mod frozen;
+mod input;
+mod ladder;
+mod order;
+mod run;
+
+pub use direction::Direction;
+pub use frozen::{Frozen, horizon};
+pub use input::InputCheck;
+pub use order::{Decay, decay};
+pub use run::{Curve, Ladder, Validation, validate};
+
+use crate::linearize::Chart;
+
+/// What to check.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// A constant chart; none: `mass_orthogonal`.
+    pub chart: Option<Chart>,
+    /// Directions of the perturbation.
+    pub directions: Vec<Direction>,
+    /// How long the perturbed motion is followed, s; none: about a period of the model.
+    pub horizon: Option<f64>,
+    /// Whether inputs are checked too.
+    pub inputs: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings { chart: None, directions: vec![Direction::Random(1), Direction::Random(2)], horizon: None, inputs: true }
+    }
+}

@@ -1,0 +1,64 @@
+//! Observed orders.
+
+use serde::Serialize;
+
+/// How errors fall with what they depend on.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Decay {
+    /// Slope of log error over log size; none where fewer than four points are above rounding.
+    pub order: Option<f64>,
+    /// Decades of the size that the slope was taken over.
+    pub decades: f64,
+    /// The sizes it was taken over, largest and smallest.
+    pub range: [f64; 2],
+    /// Whether all errors are rounding: the model is exact along this direction.
+    pub is_exact: bool,
+}
+
+/// Points that a slope needs.
+const LEAST_POINTS: usize = 4;
+/// Above rounding by this factor an error is not disturbed by it.
+const CLEAR: f64 = 30.0;
+
+/// The slope by least squares over the points whose error is at most `largest` and above rounding, `floor` (both for the
+/// errors as they are).
+pub fn decay(sizes: &[f64], errors: &[f64], largest: impl Fn(f64) -> f64, floor: f64) -> Decay {
+    let points = sizes.iter().zip(errors).filter(|(size, error)| {
+        error.is_finite() && **error > CLEAR * floor && **error <= largest(**size)
+    });
+    let logs: Vec<(f64, f64)> = points.map(|(size, error)| (size.log10(), error.log10())).collect();
+    let is_exact = errors.iter().filter(|error| error.is_finite()).all(|error| *error <= CLEAR * floor);
+    let (low, high) = logs.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), (x, _)| (a.min(*x), b.max(*x)));
+    let enough = logs.len() >= LEAST_POINTS;
+    Decay {
+        order: enough.then(|| slope(&logs)),
+        decades: if enough { high - low } else { 0.0 },
+        range: if enough { [10f64.powf(high), 10f64.powf(low)] } else { [0.0; 2] },
+        is_exact,
+    }
+}
+
+fn slope(points: &[(f64, f64)]) -> f64 {
+    let n = points.len() as f64;
+    let mean = |pick: fn(&(f64, f64)) -> f64| points.iter().map(pick).sum::<f64>() / n;
+    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    let product: f64 = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
+    product / points.iter().map(|p| (p.0 - x).powi(2)).sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::decay;
+
+    #[test]
+    fn slope_of_a_power_above_rounding() {
+        let sizes: Vec<f64> = (0..12).map(|i| 10f64.powf(-0.5 * i as f64)).collect();
+        let errors: Vec<f64> = sizes.iter().map(|x| 3.0 * x * x + 1e-9).collect();
+        let found = decay(&sizes, &errors, |_| 1.0, 1e-9);
+        // Rounding of a thirtieth at the smallest point shifts the slope by less than a hundredth.
+        assert!((found.order.unwrap() - 2.0).abs() < 0.01, "{found:?}");
+        assert!(found.decades > 2.9 && !found.is_exact);
+        assert!(decay(&sizes, &[1e-10; 12], |_| 1.0, 1e-9).is_exact);
+        assert!(decay(&sizes[..3], &errors[..3], |_| 1.0, 1e-9).order.is_none());
+    }
+}
