@@ -1,6 +1,7 @@
 //! Numbers and linear algebra below the mechanics.
 
 mod dual;
+pub mod eigen;
 pub mod expression;
 pub mod kkt;
 pub mod rotation;

@@ -1,0 +1,95 @@
+//! Between the matrices of nalgebra and the decompositions of faer.
+
+use super::{Complex, ComplexMatrix, Matrix, Unsolved};
+use faer::{Mat, MatRef, Par};
+use nalgebra::DMatrix;
+
+pub fn view<T>(matrix: &DMatrix<T>) -> MatRef<'_, T> {
+    MatRef::from_column_major_slice(matrix.as_slice(), matrix.nrows(), matrix.ncols())
+}
+
+pub fn copy<T: nalgebra::Scalar + Copy>(matrix: MatRef<T>) -> DMatrix<T> {
+    DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)])
+}
+
+/// The size of square matrices that are finite and alike.
+pub fn square(matrices: &[&Matrix]) -> Result<usize, Unsolved> {
+    let n = matrices.first().map_or(0, |first| first.nrows());
+    if matrices.iter().any(|matrix| matrix.shape() != (n, n)) {
+        return Err(Unsolved::Shape);
+    }
+    match matrices.iter().all(|matrix| is_finite(matrix)) {
+        true => Ok(n),
+        false => Err(Unsolved::NotFinite),
+    }
+}
+
+pub fn is_finite(matrix: &Matrix) -> bool {
+    matrix.iter().all(|x| x.is_finite())
+}
+
+/// U diag(s) V^T with square U and V and descending s.
+pub struct Svd {
+    pub u: Matrix,
+    pub s: Vec<f64>,
+    pub v: Matrix,
+}
+
+pub fn svd(matrix: &Matrix) -> Result<Svd, Unsolved> {
+    let least = matrix.nrows().min(matrix.ncols());
+    if least == 0 {
+        let eye = |n| Matrix::identity(n, n);
+        return Ok(Svd { u: eye(matrix.nrows()), s: Vec::new(), v: eye(matrix.ncols()) });
+    }
+    faer::set_global_parallelism(Par::Seq);
+    let svd = view(matrix).svd().map_err(|_| Unsolved::NotConverged { converged: 0, wanted: least })?;
+    let s = svd.S().column_vector().iter().copied().collect();
+    Ok(Svd { u: copy(svd.U()), s, v: copy(svd.V()) })
+}
+
+/// Largest over smallest singular value; infinite where the smallest is round-off, 1 without columns.
+pub fn condition(matrix: &ComplexMatrix) -> Result<f64, Unsolved> {
+    if matrix.is_empty() {
+        return Ok(1.0);
+    }
+    faer::set_global_parallelism(Par::Seq);
+    let values = view(matrix).singular_values();
+    let values = values.map_err(|_| Unsolved::NotConverged { converged: 0, wanted: matrix.ncols() })?;
+    let (largest, smallest) = (values[0], values[values.len() - 1]);
+    let is_zero = smallest <= largest * f64::EPSILON * matrix.nrows() as f64;
+    Ok(if is_zero { f64::INFINITY } else { largest / smallest })
+}
+
+pub fn complex(matrix: &Matrix) -> ComplexMatrix {
+    matrix.map(|x| Complex::new(x, 0.0))
+}
+
+/// Columns of Euclidean norm 1, without overflow on the way; zero ones stay.
+pub fn normalize(matrix: &mut ComplexMatrix) {
+    for mut column in matrix.column_iter_mut() {
+        let largest = column.iter().fold(0.0, |largest: f64, x| largest.max(x.re.abs()).max(x.im.abs()));
+        if largest > 0.0 {
+            // Twice, since the reciprocal of a denormal number overflows.
+            column.iter_mut().for_each(|x| *x = Complex::new(x.re / largest, x.im / largest));
+            let norm = column.norm();
+            column.iter_mut().for_each(|x| *x /= norm);
+        }
+    }
+}
+
+/// The power of two nearest to x > 0.
+pub fn power_of_two(x: f64) -> f64 {
+    x.log2().round().exp2()
+}
+
+/// Right and left null vectors of a matrix that is singular to rounding, in columns of norm 1.
+pub fn null_vectors(matrix: &ComplexMatrix) -> Result<(ComplexMatrix, ComplexMatrix), Unsolved> {
+    let n = matrix.ncols();
+    let svd = view(matrix).svd().map_err(|_| Unsolved::NotConverged { converged: 0, wanted: n })?;
+    let last = |of: MatRef<Complex<f64>>| copy(of.subcols(n - 1, 1));
+    Ok((last(svd.V()), last(svd.U())))
+}
+
+pub fn zeros(n: usize) -> Mat<f64> {
+    Mat::zeros(n, n)
+}

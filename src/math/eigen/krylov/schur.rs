@@ -1,0 +1,49 @@
+//! The Schur form of a small complex matrix, largest eigenvalues first.
+
+use super::super::{Complex, ComplexMatrix, Unsolved};
+use nalgebra::Vector2;
+use nalgebra::linalg::{Schur, givens::GivensRotation};
+
+/// H = Q T Q^H with upper triangular T.
+pub struct Ordered {
+    pub q: ComplexMatrix,
+    pub t: ComplexMatrix,
+}
+
+/// QR steps for each eigenvalue; two or three are usual.
+const STEPS: usize = 60;
+
+impl Ordered {
+    pub fn of(h: &ComplexMatrix) -> Result<Ordered, Unsolved> {
+        let m = h.nrows();
+        let schur = Schur::try_new(h.clone(), f64::EPSILON, STEPS * m.max(1));
+        let (q, t) = schur.ok_or(Unsolved::NotConverged { converged: 0, wanted: m })?.unpack();
+        let mut ordered = Ordered { q, t };
+        ordered.sort();
+        Ok(ordered)
+    }
+
+    /// By insertion.
+    fn sort(&mut self) {
+        for end in 1..self.t.nrows() {
+            let mut k = end;
+            while k > 0 && self.t[(k, k)].norm() > self.t[(k - 1, k - 1)].norm() {
+                self.swap(k - 1);
+                k -= 1;
+            }
+        }
+    }
+
+    /// Exchanges the eigenvalues k and k + 1 by a rotation that takes the second's vector to the first place.
+    fn swap(&mut self, k: usize) {
+        let (first, second) = (self.t[(k, k)], self.t[(k + 1, k + 1)]);
+        let vector = Vector2::new(self.t[(k, k + 1)], second - first);
+        let Some((rotation, _)) = GivensRotation::cancel_y(&vector) else { return };
+        rotation.rotate(&mut self.t.rows_mut(k, 2));
+        let back = rotation.inverse();
+        back.rotate_rows(&mut self.t.view_mut((0, k), (k + 2, 2)));
+        back.rotate_rows(&mut self.q.columns_mut(k, 2));
+        self.t[(k + 1, k)] = Complex::ZERO;
+        (self.t[(k, k)], self.t[(k + 1, k + 1)]) = (second, first);
+    }
+}

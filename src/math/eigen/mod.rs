@@ -1,0 +1,33 @@
+//! Eigenvalues and what else linear models need: dense matrices of a few hundred rows, and operators of any size.
+//!
+//! - [`eigen`]: A x = lambda x with left and right vectors; [`generalized`]: A x = lambda E x with a singular E, by QZ.
+//! - [`deflate`], [`finite`]: the finite part of such a pencil, freed of its infinite eigenvalues first.
+//! - [`nearest`]: a few eigenvalues of an operator that is only applied.
+//! - [`expm`], [`expm_with_input`]: exp(A h) and its integral. [`assign`]: which mode is which.
+
+mod assignment;
+mod balance;
+mod conjugates;
+mod deflate;
+mod dense;
+mod exponential;
+mod krylov;
+mod pencil;
+mod standard;
+#[cfg(test)]
+mod tests;
+mod unsolved;
+
+pub use assignment::assign;
+pub use deflate::{Deflated, Deflation, Finite, TOLERANCE, deflate, finite};
+pub use exponential::{expm, expm_with_input};
+pub use krylov::{Options, Partial, nearest};
+pub use pencil::{Generalized, Split, generalized};
+pub use standard::{Eigen, eigen};
+pub use unsolved::Unsolved;
+
+pub use nalgebra::Complex;
+use nalgebra::DMatrix;
+
+pub type Matrix = DMatrix<f64>;
+pub type ComplexMatrix = DMatrix<Complex<f64>>;

@@ -1,0 +1,146 @@
+//! A x = lambda x.
+
+use super::conjugates::{self, Unit};
+use super::{Complex, ComplexMatrix, Matrix, Unsolved, dense};
+use faer::diag::Diag;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::evd::{ComputeEigenvectors, evd_real, evd_scratch};
+use faer::{Mat, Par};
+use nalgebra::linalg::balancing::balance_parlett_reinsch;
+
+/// Eigenvalues and eigenvectors of a real matrix, see [`eigen`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Eigen {
+    /// By magnitude, then real, then imaginary part; exact conjugates are neighbours.
+    pub values: Vec<Complex<f64>>,
+    /// A x = lambda x, in columns of norm 1.
+    pub right: ComplexMatrix,
+    /// y^H A = lambda y^H, in columns with y^H x = 1; zero where there is none, x being orthogonal to y to rounding
+    /// (a defective eigenvalue).
+    pub left: ComplexMatrix,
+    /// Condition number of `right`; infinite if it is singular to rounding.
+    pub conditioning: f64,
+}
+
+/// |A x - lambda x| / |A| of a vector that can be had better.
+const INACCURATE: f64 = 1e-13;
+/// And of an eigenvalue that has not converged.
+const FAILED: f64 = 1e-8;
+/// Up to here the inverse of the right vectors gives the left ones, which is biorthogonal also within equal eigenvalues.
+const WELL_CONDITIONED: f64 = 1e8;
+/// |y^H x| at norms 1, of which only a defective eigenvalue has less: the square root of rounding.
+const ORTHOGONAL: f64 = 1e-7;
+
+/// All eigenvalues with left and right vectors: balancing (Parlett and Reinsch, by powers of two), then the QR
+/// algorithm. About 30 n^3 operations.
+///
+/// # Errors
+/// A matrix that is not square or not finite; no convergence.
+pub fn eigen(a: &Matrix) -> Result<Eigen, Unsolved> {
+    let n = dense::square(&[a])?;
+    let (balanced, scale, size) = balance(a);
+    let (mut units, right, left) = decompose(&balanced)?;
+    units.sort_by(|a, b| conjugates::compare(&a.value, &b.value));
+    let vectors = vectors(&balanced, &units, &right, &left)?;
+    let (mut x, mut y): (Vec<_>, Vec<_>) = vectors.into_iter().unzip();
+    x.iter_mut().flatten().zip(scale.iter().cycle()).for_each(|(x, d)| *x *= *d);
+    y.iter_mut().flatten().zip(scale.iter().cycle()).for_each(|(y, d)| *y /= *d);
+    let (mut right, mut left) = (conjugates::matrix(&units, &x, n), conjugates::matrix(&units, &y, n));
+    dense::normalize(&mut right);
+    dense::normalize(&mut left);
+    let conditioning = dense::condition(&right)?;
+    let left = biorthogonal(&right, left, conditioning);
+    units.iter_mut().for_each(|unit| unit.value *= size);
+    let values = conjugates::values(&units);
+    match values.iter().all(|value| value.is_finite()) {
+        true => Ok(Eigen { values, right, left, conditioning }),
+        false => Err(Unsolved::Overflow),
+    }
+}
+
+/// D^-1 A D / size with the diagonal of D and a power of two `size` that makes the result about 1, as thresholds of the
+/// QR algorithm suppose.
+fn balance(a: &Matrix) -> (Matrix, Vec<f64>, f64) {
+    let before = magnitude(a);
+    let mut balanced = a / before;
+    let scale = balance_parlett_reinsch(&mut balanced);
+    let after = magnitude(&balanced);
+    (balanced / after, scale.iter().copied().collect(), before * after)
+}
+
+/// A power of two near the largest entry.
+fn magnitude(a: &Matrix) -> f64 {
+    let largest = a.amax();
+    if largest > 0.0 { dense::power_of_two(largest.clamp(f64::MIN_POSITIVE, 1e300)) } else { 1.0 }
+}
+
+type Decomposed = (Vec<Unit>, Mat<f64>, Mat<f64>);
+
+/// Eigenvalues, and right and left vectors in the columns of real matrices.
+fn decompose(a: &Matrix) -> Result<Decomposed, Unsolved> {
+    let n = a.nrows();
+    let (mut re, mut im) = (Diag::<f64>::zeros(n), Diag::<f64>::zeros(n));
+    let (mut right, mut left) = (dense::zeros(n), dense::zeros(n));
+    let options = Default::default();
+    let yes = ComputeEigenvectors::Yes;
+    let mut memory = MemBuffer::new(evd_scratch::<f64>(n, yes, yes, Par::Seq, options));
+    evd_real(
+        dense::view(a),
+        re.as_mut(),
+        im.as_mut(),
+        Some(left.as_mut()),
+        Some(right.as_mut()),
+        Par::Seq,
+        MemStack::new(&mut memory),
+        options,
+    )
+    .map_err(|_| Unsolved::NotConverged { converged: 0, wanted: n })?;
+    Ok((conjugates::units(|j| re[j], |j| im[j], n), right, left))
+}
+
+type Vector = Vec<Complex<f64>>;
+
+/// Right and left vectors of each unit. The library does not say when it gives up, and its back substitution loses the
+/// vectors of defective eigenvalues: then by singular values.
+fn vectors(a: &Matrix, units: &[Unit], right: &Mat<f64>, left: &Mat<f64>) -> Result<Vec<(Vector, Vector)>, Unsolved> {
+    let complex = dense::complex(a);
+    let mut converged = 0;
+    let mut found = Vec::new();
+    for unit in units {
+        let (mut x, mut y) = (unit.vector(right.as_ref()), unit.vector(left.as_ref()));
+        if !(residual(&complex, unit.value, &x) <= INACCURATE && y.iter().all(|y| y.is_finite())) {
+            (x, y) = null_vectors(&complex, unit.value)?;
+        }
+        converged += if residual(&complex, unit.value, &x) <= FAILED { 1 + usize::from(unit.is_pair()) } else { 0 };
+        found.push((x, y));
+    }
+    let wanted = a.nrows();
+    if converged == wanted { Ok(found) } else { Err(Unsolved::NotConverged { converged, wanted }) }
+}
+
+/// |A x - lambda x| / |A| |x|; not a number where x is not.
+fn residual(a: &ComplexMatrix, value: Complex<f64>, x: &[Complex<f64>]) -> f64 {
+    let x = ComplexMatrix::from_column_slice(x.len(), 1, x);
+    let residual = (a * &x - &x * value).norm();
+    if residual == 0.0 { 0.0 } else { residual / (a.norm() * x.norm()) }
+}
+
+fn null_vectors(a: &ComplexMatrix, value: Complex<f64>) -> Result<(Vector, Vector), Unsolved> {
+    let n = a.nrows();
+    let (x, y) = dense::null_vectors(&(a - ComplexMatrix::from_diagonal_element(n, n, value)))?;
+    Ok((x.as_slice().to_vec(), y.as_slice().to_vec()))
+}
+
+fn biorthogonal(right: &ComplexMatrix, mut left: ComplexMatrix, conditioning: f64) -> ComplexMatrix {
+    if conditioning < WELL_CONDITIONED
+        && let Some(inverse) = right.clone().try_inverse()
+    {
+        return inverse.adjoint();
+    }
+    for (mut y, x) in left.column_iter_mut().zip(right.column_iter()) {
+        let product = y.dotc(&x);
+        let factor = if product.norm() > ORTHOGONAL { product.conj().inv() } else { Complex::ZERO };
+        y.iter_mut().for_each(|y| *y *= factor);
+    }
+    left
+}
