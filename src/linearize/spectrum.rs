@@ -4,7 +4,7 @@ use super::chart::directions;
 use super::method::{Built, Request};
 use super::{Complex, Kind, Matrix, Mode, Variation};
 use crate::error::{Error, Result};
-use crate::math::eigen::{ComplexMatrix, Deflation, Unsolved, eigen, finite, generalized};
+use crate::math::eigen::{ComplexMatrix, Deflation, Unsolved, eigen, finite_by, generalized};
 
 /// Eigenvalues with vectors.
 struct Solved {
@@ -51,7 +51,7 @@ fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {
         Some("gsvd") => Deflation::Gsvd,
         _ => Deflation::NullSpace,
     };
-    let found = finite(&built.a, e, by)?;
+    let found = finite_by(&built.a, e, by)?;
     let participation = Some(parts(&(complex(&e.transpose()) * &found.left), &found.right));
     Ok(Solved { values: found.values, right: found.right, participation, conditioning: found.conditioning })
 }

@@ -14,63 +14,102 @@ pub struct Balanced {
     pub time: f64,
 }
 
-/// Of rows and columns, and of these and the time.
-const SWEEPS: usize = 4;
-const ROUNDS: usize = 6;
+/// Of rows and columns; a few are usual, some tens where units are far apart.
+const SWEEPS: usize = 100;
 
-/// Makes rows and columns of |A| / time + |E| sum to about 1 and both parts equally large (as Lemonnier and Van Dooren,
-/// "Balancing regular matrix pencils", SIAM J. Matrix Anal. Appl. 28, 2006, with sums for squares). Entries are at most
-/// about 1 then, and what is round-off can be told by its size.
+/// Chooses the unit of time by the sizes of all entries, then makes rows and columns of |A| / time + |E| sum to about 1 (as
+/// Lemonnier and Van Dooren, "Balancing regular matrix pencils", SIAM J. Matrix Anal. Appl. 28, 2006, with sums for
+/// squares). Entries are at most about 1 then, and what is round-off can be told by its size. A few n^2 operations a sweep.
 pub fn balance(a: &Matrix, e: &Matrix) -> Balanced {
     let n = a.nrows();
-    let mut balanced =
-        Balanced { a: a.clone(), e: e.clone(), rows: vec![1.0; n], cols: vec![1.0; n], time: 1.0 };
-    balanced.equate(largest_inverse(&balanced.e));
-    for _ in 0..ROUNDS {
-        balanced.set_time();
-        for _ in 0..SWEEPS {
-            balanced.sweep();
+    let time = time(a, e);
+    // Both over the largest entry first, against overflow of sums.
+    let size = dense::power_of_two((a.amax() / time).max(e.amax()).clamp(f64::MIN_POSITIVE, 1e300));
+    let rows = vec![1.0 / size; n];
+    let mut balanced = Balanced { a: a / time / size, e: e / size, rows, cols: vec![1.0; n], time };
+    for _ in 0..SWEEPS {
+        if !balanced.sweep() {
+            break;
         }
     }
     balanced
 }
 
-/// A power of two that takes the largest entry to about 1.
-fn largest_inverse(matrix: &Matrix) -> f64 {
-    let largest = matrix.amax();
-    if largest > 0.0 { dense::power_of_two(largest.clamp(1e-300, 1e300)).recip() } else { 1.0 }
+/// The t with which logarithms of all |D1 A D2| / t and |D1 E D2| are nearest to zero by least squares over D1, D2 and t
+/// (Curtis and Reid, "On the automatic scaling of matrices for Gaussian elimination", IMA J. Appl. Math. 10, 1972), so that
+/// it does not hang on the scaling that is given: for M s^2 + K the mean of omega. By alternation.
+fn time(a: &Matrix, e: &Matrix) -> f64 {
+    let n = a.nrows();
+    let entries = logarithms(a, e);
+    let (mut cols, mut time) = (vec![0.0; n], 0.0);
+    for _ in 0..SWEEPS {
+        let rows = means(n, entries.iter().map(|x| (x.row, x.time(time) - x.size - cols[x.col])));
+        cols = means(n, entries.iter().map(|x| (x.col, x.time(time) - x.size - rows[x.row])));
+        let of_a = entries.iter().filter(|x| x.is_of_a);
+        let next = means(1, of_a.map(|x| (0, x.size + rows[x.row] + cols[x.col])))[0];
+        let change: f64 = next - time;
+        time = next;
+        if change.abs() < 1e-3 {
+            break;
+        }
+    }
+    time.round().clamp(-1000.0, 1000.0).exp2()
+}
+
+struct Logarithm {
+    row: usize,
+    col: usize,
+    size: f64,
+    is_of_a: bool,
+}
+
+impl Logarithm {
+    fn time(&self, time: f64) -> f64 {
+        if self.is_of_a { time } else { 0.0 }
+    }
+}
+
+fn logarithms(a: &Matrix, e: &Matrix) -> Vec<Logarithm> {
+    let n = a.nrows();
+    let places = (0..n * n).flat_map(|k| [(k % n, k / n, true), (k % n, k / n, false)]);
+    places
+        .map(|(row, col, is_of_a)| {
+            let entry = if is_of_a { a[(row, col)] } else { e[(row, col)] };
+            Logarithm { row, col, size: entry.abs().log2(), is_of_a }
+        })
+        .filter(|entry| entry.size.is_finite())
+        .collect()
+}
+
+/// Of the values that belong to each place; zero where there are none.
+fn means(n: usize, values: impl Iterator<Item = (usize, f64)>) -> Vec<f64> {
+    let (mut sums, mut counts) = (vec![0.0; n], vec![0.0; n]);
+    for (place, value) in values {
+        sums[place] += value;
+        counts[place] += 1.0;
+    }
+    sums.iter().zip(counts).map(|(sum, count)| sum / f64::max(count, 1.0)).collect()
 }
 
 impl Balanced {
-    /// Multiplies both by a number, against overflow of sums.
-    fn equate(&mut self, factor: f64) {
-        self.a *= factor;
-        self.e *= factor;
-        self.rows.iter_mut().for_each(|row| *row *= factor);
-    }
-
-    fn set_time(&mut self) {
-        let (a, e) = (sum(self.a.iter()), sum(self.e.iter()));
-        if a > 0.0 && e > 0.0 {
-            let factor = dense::power_of_two((a / e).clamp(1e-300, 1e300));
-            self.a /= factor;
-            self.time *= factor;
-        }
-    }
-
-    fn sweep(&mut self) {
+    /// Whether anything changed.
+    fn sweep(&mut self) -> bool {
+        let mut moved = false;
         for i in 0..self.rows.len() {
             let Some(factor) = factor(sum(self.a.row(i).iter()) + sum(self.e.row(i).iter())) else { continue };
             self.a.row_mut(i).scale_mut(factor);
             self.e.row_mut(i).scale_mut(factor);
             self.rows[i] *= factor;
+            moved = true;
         }
         for j in 0..self.cols.len() {
             let Some(factor) = factor(sum(self.a.column(j).iter()) + sum(self.e.column(j).iter())) else { continue };
             self.a.column_mut(j).scale_mut(factor);
             self.e.column_mut(j).scale_mut(factor);
             self.cols[j] *= factor;
+            moved = true;
         }
+        moved
     }
 }
 

@@ -19,7 +19,7 @@ mod tests;
 mod unsolved;
 
 pub use assignment::assign;
-pub use deflate::{Deflated, Deflation, Finite, TOLERANCE, deflate, finite};
+pub use deflate::{Deflated, Deflation, Finite, TOLERANCE, deflate, finite, finite_by};
 pub use exponential::{expm, expm_with_input};
 pub use krylov::{Options, Partial, nearest};
 pub use pencil::{Generalized, Split, generalized};

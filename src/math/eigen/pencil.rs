@@ -6,6 +6,7 @@ use super::{Complex, ComplexMatrix, Matrix, Unsolved, dense};
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::gevd::{ComputeEigenvectors, GevdParams, gevd_real, gevd_scratch};
+use faer::linalg::temp_mat_scratch;
 use faer::{Mat, Par, Spec};
 
 /// Eigenvalues alpha / beta of a pencil, see [`generalized`].
@@ -15,7 +16,7 @@ pub struct Generalized {
     pub alpha: Vec<Complex<f64>>,
     /// Not negative; zero for an infinite eigenvalue, but for rounding.
     pub beta: Vec<f64>,
-    /// beta A x = alpha E x, in columns of norm 1.
+    /// beta A x = alpha E x, in columns of norm 1; zero where it was not found, mostly of infinite eigenvalues.
     pub right: ComplexMatrix,
     /// beta / |(alpha, beta)| in the units of the balanced pencil: 0 for infinite, 1 for zero eigenvalues.
     pub finiteness: Vec<f64>,
@@ -26,14 +27,14 @@ pub struct Generalized {
 pub struct Split {
     /// By magnitude, then real, then imaginary part.
     pub values: Vec<Complex<f64>>,
-    /// Their vectors, in columns.
+    /// Their vectors, in columns of norm 1; zero where there is none (defective eigenvalues).
     pub right: ComplexMatrix,
     /// Least finiteness of the finite eigenvalues over the largest of the infinite ones.
     pub gap: f64,
 }
 
-/// |beta A x - alpha E x| of an eigenvalue that has not converged.
-const RESIDUAL: f64 = 1e-8;
+/// |beta A x - alpha E x| / |x| of a vector that is none.
+const INACCURATE: f64 = 1e-12;
 /// Both alpha and beta below this, in the balanced pencil, are 0/0.
 const NOTHING: f64 = 1e-13;
 /// Least gap between finite and infinite eigenvalues.
@@ -50,21 +51,23 @@ pub fn generalized(a: &Matrix, e: &Matrix) -> Result<Generalized, Unsolved> {
     let n = dense::square(&[a, e])?;
     let balanced = balance(a, e);
     let (mut found, right) = decompose(&balanced)?;
-    check(&balanced, &found, &right)?;
+    check(&balanced, &found)?;
     let finiteness = |unit: &(Unit, f64)| unit.1 / unit.0.value.norm().hypot(unit.1);
     found.sort_by(|a, b| finiteness(b).total_cmp(&finiteness(a)).then(conjugates::compare(&a.0.value, &b.0.value)));
     let mut units: Vec<Unit> = found.iter().map(|unit| unit.0).collect();
-    let lifted = |unit: &Unit| -> Vec<Complex<f64>> {
-        unit.vector(right.as_ref()).iter().zip(&balanced.cols).map(|(x, d)| *x * *d).collect()
-    };
-    let vectors: Vec<_> = units.iter().map(lifted).collect();
+    let vectors: Vec<_> = found.iter().map(|unit| vector(&balanced, unit, &right)).collect();
     let mut right = conjugates::matrix(&units, &vectors, n);
     dense::normalize(&mut right);
     units.iter_mut().for_each(|unit| unit.value *= balanced.time);
     let each = |of: &dyn Fn(&(Unit, f64)) -> f64| {
         found.iter().flat_map(|unit| std::iter::repeat_n(of(unit), 1 + usize::from(unit.0.is_pair()))).collect()
     };
-    Ok(Generalized { alpha: conjugates::values(&units), beta: each(&|unit| unit.1), right, finiteness: each(&finiteness) })
+    Ok(Generalized {
+        alpha: conjugates::values(&units),
+        beta: each(&|unit| unit.1),
+        right,
+        finiteness: each(&finiteness),
+    })
 }
 
 type Decomposed = (Vec<(Unit, f64)>, Mat<f64>);
@@ -72,13 +75,17 @@ type Decomposed = (Vec<(Unit, f64)>, Mat<f64>);
 /// Alpha in the units, each with its beta, and the right vectors in the columns of a real matrix.
 fn decompose(pencil: &Balanced) -> Result<Decomposed, Unsolved> {
     let n = pencil.a.nrows();
-    let (mut re, mut im, mut beta) = (Diag::<f64>::zeros(n), Diag::<f64>::zeros(n), Diag::<f64>::zeros(n));
+    let mut re = Diag::<f64>::zeros(n);
+    re.as_mut().column_vector_mut().fill(f64::NAN);
+    let (mut im, mut beta) = (Diag::<f64>::zeros(n), re.clone());
     let mut right = dense::zeros(n);
     let mut options = Spec::<GevdParams, f64>::default();
     // The blocked algorithm does not get along with many infinite eigenvalues: seconds for a hundred rows.
     options.config.schur.blocking_threshold = 10 * n.max(8);
     let (no, yes) = (ComputeEigenvectors::No, ComputeEigenvectors::Yes);
-    let mut memory = MemBuffer::new(gevd_scratch::<f64>(n, no, yes, Par::Seq, options));
+    // The library forgets what vectors take: a few columns.
+    let memory = gevd_scratch::<f64>(n, no, yes, Par::Seq, options).and(temp_mat_scratch::<f64>(n + 8, 16));
+    let mut memory = MemBuffer::new(memory);
     gevd_real(
         dense::view(&pencil.a).to_owned().as_mut(),
         dense::view(&pencil.e).to_owned().as_mut(),
@@ -97,25 +104,35 @@ fn decompose(pencil: &Balanced) -> Result<Decomposed, Unsolved> {
     Ok((units.into_iter().map(|unit| (unit, beta[unit.column])).collect(), right))
 }
 
-/// The library does not say when it gives up.
-fn check(pencil: &Balanced, found: &[(Unit, f64)], right: &Mat<f64>) -> Result<(), Unsolved> {
-    let (a, e) = (dense::complex(&pencil.a), dense::complex(&pencil.e));
-    let (size_a, size_e) = (a.norm(), e.norm());
-    let (mut converged, mut dependent) = (0, 0);
-    for (unit, beta) in found {
-        let count = 1 + usize::from(unit.is_pair());
-        let x = ComplexMatrix::from_vec(a.nrows(), 1, unit.vector(right.as_ref()));
-        let residual = (&a * &x * Complex::from(*beta) - &e * &x * unit.value).norm();
-        let limit = RESIDUAL * (size_a * beta.abs() + size_e * unit.value.norm());
-        let is_nothing = beta.abs() <= NOTHING * size_e && unit.value.norm() <= NOTHING * size_a;
-        dependent += if is_nothing { count } else { 0 };
-        converged += if residual <= limit * x.norm() { count } else { 0 };
-    }
-    let wanted = a.nrows();
-    match (dependent, converged) {
-        (1.., _) => Err(Unsolved::SingularPencil { dependent }),
-        (0, converged) if converged < wanted => Err(Unsolved::NotConverged { converged, wanted }),
+/// An error for values that the library left alone because it gave up, which it does not say otherwise, and for 0/0.
+fn check(pencil: &Balanced, found: &[(Unit, f64)]) -> Result<(), Unsolved> {
+    let (size_a, size_e) = (pencil.a.norm(), pencil.e.norm());
+    let count = |of: &dyn Fn(&(Unit, f64)) -> bool| {
+        found.iter().filter(|unit| of(unit)).map(|unit| 1 + usize::from(unit.0.is_pair())).sum()
+    };
+    let wanted = pencil.a.nrows();
+    let converged = count(&|(unit, beta)| unit.value.is_finite() && beta.is_finite());
+    let dependent = count(&|(unit, beta)| beta.abs() <= NOTHING * size_e && unit.value.norm() <= NOTHING * size_a);
+    match (converged < wanted, dependent) {
+        (true, _) => Err(Unsolved::NotConverged { converged, wanted }),
+        (_, 1..) => Err(Unsolved::SingularPencil { dependent }),
         _ => Ok(()),
+    }
+}
+
+/// The vector of a unit; zero where back substitution failed.
+fn vector(pencil: &Balanced, (unit, beta): &(Unit, f64), right: &Mat<f64>) -> Vec<Complex<f64>> {
+    let n = pencil.a.nrows();
+    let x = ComplexMatrix::from_vec(n, 1, unit.vector(right.as_ref()));
+    let product = |matrix: &Matrix| {
+        let (re, im) = (x.map(|x| x.re), x.map(|x| x.im));
+        (matrix * re).zip_map(&(matrix * im), Complex::new)
+    };
+    let residual = (product(&pencil.a) * Complex::from(*beta) - product(&pencil.e) * unit.value).norm();
+    let size = pencil.a.norm() * beta.abs() + pencil.e.norm() * unit.value.norm();
+    match residual <= INACCURATE * size * x.norm() {
+        true => x.iter().zip(&pencil.cols).map(|(x, d)| *x * *d).collect(),
+        false => vec![Complex::ZERO; n],
     }
 }
 

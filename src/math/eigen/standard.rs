@@ -22,8 +22,10 @@ pub struct Eigen {
     pub conditioning: f64,
 }
 
-/// |A x - lambda x| / |A| of an eigenvalue that has not converged.
-const RESIDUAL: f64 = 1e-8;
+/// |A x - lambda x| / |A| of a vector that can be had better.
+const INACCURATE: f64 = 1e-13;
+/// And of an eigenvalue that has not converged.
+const FAILED: f64 = 1e-8;
 /// Up to here the inverse of the right vectors gives the left ones, which is biorthogonal also within equal eigenvalues.
 const WELL_CONDITIONED: f64 = 1e8;
 /// |y^H x| at norms 1, of which only a defective eigenvalue has less: the square root of rounding.
@@ -56,13 +58,20 @@ pub fn eigen(a: &Matrix) -> Result<Eigen, Unsolved> {
     }
 }
 
-/// D^-1 A D / size with the diagonal of D and a power of two `size`.
+/// D^-1 A D / size with the diagonal of D and a power of two `size` that makes the result about 1, as thresholds of the
+/// QR algorithm suppose.
 fn balance(a: &Matrix) -> (Matrix, Vec<f64>, f64) {
-    let largest = a.amax();
-    let size = if largest > 0.0 { dense::power_of_two(largest).clamp(f64::MIN_POSITIVE, 1e300) } else { 1.0 };
-    let mut balanced = a / size;
+    let before = magnitude(a);
+    let mut balanced = a / before;
     let scale = balance_parlett_reinsch(&mut balanced);
-    (balanced, scale.iter().copied().collect(), size)
+    let after = magnitude(&balanced);
+    (balanced / after, scale.iter().copied().collect(), before * after)
+}
+
+/// A power of two near the largest entry.
+fn magnitude(a: &Matrix) -> f64 {
+    let largest = a.amax();
+    if largest > 0.0 { dense::power_of_two(largest.clamp(f64::MIN_POSITIVE, 1e300)) } else { 1.0 }
 }
 
 type Decomposed = (Vec<Unit>, Mat<f64>, Mat<f64>);
@@ -91,28 +100,32 @@ fn decompose(a: &Matrix) -> Result<Decomposed, Unsolved> {
 
 type Vector = Vec<Complex<f64>>;
 
-/// Right and left vectors of each unit, checked: the library does not say when it gives up.
+/// Right and left vectors of each unit. The library does not say when it gives up, and its back substitution loses the
+/// vectors of defective eigenvalues: then by singular values.
 fn vectors(a: &Matrix, units: &[Unit], right: &Mat<f64>, left: &Mat<f64>) -> Result<Vec<(Vector, Vector)>, Unsolved> {
     let complex = dense::complex(a);
-    let limit = RESIDUAL * a.norm();
     let mut converged = 0;
     let mut found = Vec::new();
     for unit in units {
         let (mut x, mut y) = (unit.vector(right.as_ref()), unit.vector(left.as_ref()));
-        if !x.iter().chain(&y).all(|entry| entry.is_finite()) {
-            (x, y) = without_overflow(&complex, unit.value)?;
+        if !(residual(&complex, unit.value, &x) <= INACCURATE && y.iter().all(|y| y.is_finite())) {
+            (x, y) = null_vectors(&complex, unit.value)?;
         }
-        let x = ComplexMatrix::from_vec(x.len(), 1, x);
-        let residual = (&complex * &x - &x * unit.value).norm();
-        converged += if residual <= limit * x.norm() { 1 + usize::from(unit.is_pair()) } else { 0 };
-        found.push((x.as_slice().to_vec(), y));
+        converged += if residual(&complex, unit.value, &x) <= FAILED { 1 + usize::from(unit.is_pair()) } else { 0 };
+        found.push((x, y));
     }
     let wanted = a.nrows();
     if converged == wanted { Ok(found) } else { Err(Unsolved::NotConverged { converged, wanted }) }
 }
 
-/// Back substitution overflows along the chains of defective eigenvalues; the singular value decomposition does not.
-fn without_overflow(a: &ComplexMatrix, value: Complex<f64>) -> Result<(Vector, Vector), Unsolved> {
+/// |A x - lambda x| / |A| |x|; not a number where x is not.
+fn residual(a: &ComplexMatrix, value: Complex<f64>, x: &[Complex<f64>]) -> f64 {
+    let x = ComplexMatrix::from_column_slice(x.len(), 1, x);
+    let residual = (a * &x - &x * value).norm();
+    if residual == 0.0 { 0.0 } else { residual / (a.norm() * x.norm()) }
+}
+
+fn null_vectors(a: &ComplexMatrix, value: Complex<f64>) -> Result<(Vector, Vector), Unsolved> {
     let n = a.nrows();
     let (x, y) = dense::null_vectors(&(a - ComplexMatrix::from_diagonal_element(n, n, value)))?;
     Ok((x.as_slice().to_vec(), y.as_slice().to_vec()))

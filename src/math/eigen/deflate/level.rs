@@ -89,3 +89,17 @@ impl Ranks {
         if gap < CLEAR { Err(Unsolved::Doubtful { gap }) } else { Ok(gap) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rank_near_the_tolerance_is_doubtful() {
+        let mut ranks = Ranks::new(1e-10);
+        assert_eq!((ranks.rank(&[1.0, 1e-3]), ranks.rank(&[]), ranks.rank(&[1.0, 1e-15])), (2, 0, 1));
+        assert_eq!(ranks.gap(), Ok(1e12));
+        assert_eq!(ranks.rank(&[1.0, 3e-10, 0.5e-10]), 2);
+        assert!(matches!(ranks.gap(), Err(Unsolved::Doubtful { .. })));
+    }
+}

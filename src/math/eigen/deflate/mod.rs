@@ -124,11 +124,16 @@ pub struct Finite {
     pub deflated: Deflated,
 }
 
-/// The finite eigenvalues of A x = lambda E x by [`deflate`] and [`eigen`].
+/// The finite eigenvalues of A x = lambda E x by [`deflate`] (null space) and [`eigen`].
 ///
 /// # Errors
 /// As these.
-pub fn finite(a: &Matrix, e: &Matrix, by: Deflation) -> Result<Finite, Unsolved> {
+pub fn finite(a: &Matrix, e: &Matrix) -> Result<Finite, Unsolved> {
+    finite_by(a, e, Deflation::NullSpace)
+}
+
+/// The same with either deflation.
+pub fn finite_by(a: &Matrix, e: &Matrix, by: Deflation) -> Result<Finite, Unsolved> {
     let deflated = deflate(a, e, by, TOLERANCE)?;
     let inner = eigen(&deflated.rate)?;
     let mut right = dense::complex(&deflated.basis) * inner.right;

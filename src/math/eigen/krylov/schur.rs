@@ -1,8 +1,8 @@
 //! The Schur form of a small complex matrix, largest eigenvalues first.
 
 use super::super::{Complex, ComplexMatrix, Unsolved};
+use nalgebra::Vector2;
 use nalgebra::linalg::{Schur, givens::GivensRotation};
-use nalgebra::{Vector2, ComplexField};
 
 /// H = Q T Q^H with upper triangular T.
 pub struct Ordered {
@@ -36,7 +36,6 @@ impl Ordered {
 
     /// Exchanges the eigenvalues k and k + 1 by a rotation that takes the second's vector to the first place.
     fn swap(&mut self, k: usize) {
-        let m = self.t.nrows();
         let (first, second) = (self.t[(k, k)], self.t[(k + 1, k + 1)]);
         let vector = Vector2::new(self.t[(k, k + 1)], second - first);
         let Some((rotation, _)) = GivensRotation::cancel_y(&vector) else { return };

@@ -1,0 +1,7 @@
+mod assignment;
+mod deflate;
+mod exponential;
+mod krylov;
+mod pencil;
+mod samples;
+mod standard;

@@ -1,0 +1,78 @@
+use super::super::{Matrix, Unsolved, expm, expm_with_input};
+use super::samples::Random;
+use proptest::prelude::*;
+
+fn close(found: &Matrix, expected: &Matrix, tolerance: f64) -> bool {
+    (found - expected).amax() <= tolerance * expected.amax().max(f64::MIN_POSITIVE)
+}
+
+/// exp(A) = exp(A / 2^k)^(2^k), the series for |A / 2^k| < 1/8.
+fn series(a: &Matrix) -> Matrix {
+    let halvings = (a.norm() * 8.0).max(1.0).log2().ceil() as i32;
+    let small = a / 2f64.powi(halvings);
+    let (mut sum, mut term) = (Matrix::identity(a.nrows(), a.nrows()), Matrix::identity(a.nrows(), a.nrows()));
+    for k in 1..30 {
+        term = &term * &small / f64::from(k);
+        sum += &term;
+    }
+    (0..halvings).fold(sum, |power, _| &power * &power)
+}
+
+#[test]
+fn closed_forms() {
+    let (w, h) = (5.0, 0.3);
+    let oscillator = Matrix::from_row_slice(2, 2, &[0.0, 1.0, -w * w, 0.0]) * h;
+    let (s, c) = f64::sin_cos(w * h);
+    assert!(close(&expm(&oscillator).unwrap(), &Matrix::from_row_slice(2, 2, &[c, s / w, -w * s, c]), 1e-15));
+    let nilpotent = Matrix::from_row_slice(3, 3, &[0.0, 2.0, 3.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0]);
+    let expected = Matrix::from_row_slice(3, 3, &[1.0, 2.0, 7.0, 0.0, 1.0, 4.0, 0.0, 0.0, 1.0]);
+    assert!(close(&expm(&nilpotent).unwrap(), &expected, 1e-15));
+    let stiff = Matrix::from_row_slice(2, 2, &[-1e6, 0.0, 1.0, -1.0]);
+    let decays = expm(&stiff).unwrap();
+    assert!((decays[(1, 1)] - (-1f64).exp()).abs() < 1e-9 && decays[(0, 0)].abs() < 1e-300);
+}
+
+#[test]
+fn a_hump_does_not_spoil_it() {
+    // Moler and Van Loan's example: exact [-0.7357588823, 0.5518190996; -1.4715175991, 1.1036382408].
+    let found = expm(&Matrix::from_row_slice(2, 2, &[-49.0, 24.0, -64.0, 31.0])).unwrap();
+    let (slow, fast) = ((-1f64).exp(), (-17f64).exp());
+    let exact = [-2.0 * slow + 3.0 * fast, 1.5 * slow - 1.5 * fast, -4.0 * slow + 4.0 * fast, 3.0 * slow - 2.0 * fast];
+    assert!(close(&found, &Matrix::from_row_slice(2, 2, &exact), 1e-13));
+}
+
+#[test]
+fn the_integral_is_right_for_singular_matrices() {
+    // x'' = u: position h^2 / 2, speed h.
+    let a = Matrix::from_row_slice(2, 2, &[0.0, 1.0, 0.0, 0.0]);
+    let (phi, gamma) = expm_with_input(&a, &Matrix::from_row_slice(2, 1, &[0.0, 1.0]), 0.1).unwrap();
+    assert!(close(&phi, &Matrix::from_row_slice(2, 2, &[1.0, 0.1, 0.0, 1.0]), 1e-16));
+    assert!(close(&gamma, &Matrix::from_row_slice(2, 1, &[0.005, 0.1]), 1e-15));
+    // A^-1 (Phi - I) B otherwise.
+    let mut random = Random(5);
+    let (a, b) = (random.matrix(6, 6), random.matrix(6, 2));
+    let (phi, gamma) = expm_with_input(&a, &b, 0.7).unwrap();
+    let expected = a.lu().solve(&((phi - Matrix::identity(6, 6)) * b)).unwrap();
+    assert!(close(&gamma, &expected, 1e-13));
+}
+
+#[test]
+fn limits() {
+    assert_eq!(expm(&Matrix::zeros(0, 0)).unwrap().nrows(), 0);
+    assert_eq!(expm(&Matrix::zeros(3, 3)).unwrap(), Matrix::identity(3, 3));
+    assert_eq!(expm(&Matrix::from_element(2, 2, f64::NAN)), Err(Unsolved::NotFinite));
+    assert_eq!(expm(&(Matrix::identity(2, 2) * 1000.0)), Err(Unsolved::Overflow));
+    assert_eq!(expm(&(Matrix::identity(1, 1) * 1000.0)), Err(Unsolved::Overflow));
+    assert_eq!(expm(&(Matrix::identity(2, 2) * -1e300)).unwrap(), Matrix::zeros(2, 2));
+    assert_eq!(expm_with_input(&Matrix::zeros(2, 2), &Matrix::zeros(3, 1), 1.0), Err(Unsolved::Shape));
+}
+
+proptest! {
+    #[test]
+    fn agrees_with_the_series(n in 1usize..8, seed in any::<u64>(), size in -3.0..1.2) {
+        let a = Random(seed).matrix(n, n) * 10f64.powf(size);
+        let found = expm(&a).unwrap();
+        let error = (&found - series(&a)).amax() / found.amax();
+        prop_assert!(error < 1e-14 * (1.0 + a.norm()) * n as f64, "{error}");
+    }
+}

@@ -1,0 +1,122 @@
+use super::super::{Complex, Matrix, Options, Unsolved, eigen, nearest};
+use super::samples::Random;
+use crate::math::kkt::Singular;
+
+type C = Complex<f64>;
+
+fn diagonal(values: Vec<C>) -> impl FnMut(&[C], &mut [C]) -> Result<(), Unsolved> {
+    move |x, y| {
+        y.iter_mut().zip(x.iter().zip(&values)).for_each(|(y, (x, d))| *y = x * d);
+        Ok(())
+    }
+}
+
+#[test]
+fn largest_of_a_diagonal() {
+    let values: Vec<C> = (0..2000).map(|i| C::new(0.999f64.powi(i), 0.3 * f64::from(i % 7)) / 2.0).collect();
+    let found = nearest(2000, 6, diagonal(values.clone()), Options::default()).unwrap();
+    let mut expected = values;
+    expected.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
+    for (value, expected) in found.values.iter().zip(&expected) {
+        assert!((value - expected).norm() < 1e-11, "{value} {expected}");
+    }
+    eprintln!("diagonal: {} applications, {:?}", found.applications, found.residuals);
+    assert!(found.residuals.iter().all(|residual| *residual < 1e-10));
+}
+
+/// (A - sigma)^-1 of the second difference matrix by Thomas' algorithm.
+fn shifted_tridiagonal(n: usize, sigma: C) -> impl FnMut(&[C], &mut [C]) -> Result<(), Unsolved> {
+    move |x, y| {
+        let d = C::new(2.0, 0.0) - sigma;
+        let mut c = vec![C::ZERO; n];
+        for i in 0..n {
+            let pivot = if i == 0 { d } else { d + c[i - 1] };
+            c[i] = -pivot.inv();
+            y[i] = (x[i] + if i == 0 { C::ZERO } else { y[i - 1] }) / pivot;
+        }
+        for i in (0..n - 1).rev() {
+            let next = y[i + 1];
+            y[i] -= c[i] * next;
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn shift_and_invert_finds_the_nearest() {
+    let n = 2000;
+    let exact = |k: usize| 2.0 - 2.0 * (k as f64 * std::f64::consts::PI / (n as f64 + 1.0)).cos();
+    let sigma = C::new(0.1, 1e-3);
+    let found = nearest(n, 10, shifted_tridiagonal(n, sigma), Options::default()).unwrap();
+    eprintln!("tridiagonal: {} applications", found.applications);
+    let mut all: Vec<f64> = (1..=n).map(exact).collect();
+    all.sort_by(|a, b| (C::from(*a) - sigma).norm().total_cmp(&(C::from(*b) - sigma).norm()));
+    for (theta, expected) in found.values.iter().zip(all) {
+        let value = sigma + theta.inv();
+        assert!((value - expected).norm() < 1e-11, "{value} {expected}");
+    }
+}
+
+#[test]
+fn a_subspace_of_all_rows_gives_all_eigenvalues() {
+    let a = Random(4).matrix(12, 12);
+    let apply = |x: &[C], y: &mut [C]| {
+        (0..12).for_each(|i| y[i] = (0..12).map(|j| x[j] * a[(i, j)]).sum());
+        Ok(())
+    };
+    let found = nearest(12, 12, apply, Options::default()).unwrap();
+    let mut expected = eigen(&a).unwrap().values;
+    expected.reverse();
+    for (value, expected) in found.values.iter().zip(&expected) {
+        assert!((value.norm() - expected.norm()).abs() < 1e-12);
+    }
+    assert!(found.residuals.iter().all(|residual| *residual < 1e-12));
+}
+
+#[test]
+fn invariant_subspaces_and_equal_eigenvalues() {
+    // Rank two: the space is exhausted after two steps, again and again.
+    let mut values = vec![C::ZERO; 300];
+    (values[17], values[200]) = (C::new(3.0, 0.0), C::new(0.0, 2.0));
+    let found = nearest(300, 3, diagonal(values), Options::default()).unwrap();
+    assert!((found.values[0] - 3.0).norm() < 1e-13 && (found.values[1] - C::new(0.0, 2.0)).norm() < 1e-13);
+    assert!(found.values[2].norm() < 1e-13);
+    let equal = nearest(50, 4, diagonal(vec![C::new(2.0, 0.0); 50]), Options::default()).unwrap();
+    assert!(equal.values.iter().all(|value| (value - 2.0).norm() < 1e-13));
+    let zero = nearest(50, 4, diagonal(vec![C::ZERO; 50]), Options::default()).unwrap();
+    assert_eq!(zero.values, [C::ZERO; 4]);
+}
+
+#[test]
+fn a_defective_eigenvalue_converges_to_half_precision() {
+    let jordan = |x: &[C], y: &mut [C]| {
+        (0..400).for_each(|i| y[i] = x[i] / (1.0 + (i / 2) as f64));
+        y[0] += x[1];
+        Ok(())
+    };
+    let found = nearest(400, 3, jordan, Options::default()).unwrap();
+    assert!(found.values[..2].iter().all(|value| (value - 1.0).norm() < 1e-6));
+}
+
+#[test]
+fn failures_are_reported() {
+    let few = Options { restarts: 1, tolerance: 1e-15, ..Options::default() };
+    let close: Vec<C> = (0..2000).map(|i| C::new(1.0 + 1e-6 * f64::from(i), 0.0)).collect();
+    let Err(Unsolved::NotConverged { converged, wanted: 5 }) = nearest(2000, 5, diagonal(close), few) else { panic!() };
+    assert!(converged < 5);
+    let fails = |_: &[C], _: &mut [C]| Err(Singular::NotFactored.into());
+    assert_eq!(nearest(5, 1, fails, Options::default()), Err(Unsolved::Operator(Singular::NotFactored)));
+    let broken = |_: &[C], y: &mut [C]| {
+        y.fill(C::new(f64::NAN, 0.0));
+        Ok(())
+    };
+    assert_eq!(nearest(5, 1, broken, Options::default()), Err(Unsolved::NotFinite));
+    assert!(nearest(0, 3, diagonal(Vec::new()), Options::default()).unwrap().values.is_empty());
+}
+
+#[test]
+fn the_same_every_time() {
+    let values: Vec<C> = Matrix::from_fn(200, 1, |i, _| 1.0 / (1.0 + i as f64)).iter().map(|x| C::from(*x)).collect();
+    let once = nearest(200, 4, diagonal(values.clone()), Options::default());
+    assert_eq!(once, nearest(200, 4, diagonal(values), Options::default()));
+}
