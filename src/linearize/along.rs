@@ -50,7 +50,12 @@ fn check(study: &Study, times: &[f64]) -> Result<()> {
     match times.iter().find(|t| !(**t >= start && **t <= end)) {
         None => Ok(()),
         Some(t) => {
-            let message = format!("t = {} s is outside the run, which goes from {} s to {} s", short(*t), short(start), short(end));
+            let message = format!(
+                "t = {} s is outside the run, which goes from {} s to {} s",
+                short(*t),
+                short(start),
+                short(end)
+            );
             Err(Error::input(message).under("--at").hint("choose a time within it, or run longer with --until T"))
         }
     }

@@ -1,7 +1,8 @@
 //! The methods of linearization, and what each makes.
 
+use super::spectrum::{Spectrum, spectrum};
 use super::unconstrained::{AUGMENTED_LAGRANGIAN, BAUMGARTE, FORCE_PROJECTION, PENALTY};
-use super::{Changes, Chart, Cost, LinearModel, Matrix, Minimal, Variation, minimal, redundant, spectrum};
+use super::{Changes, Chart, Cost, LinearModel, Matrix, Minimal, Variation, minimal, redundant};
 use crate::choice::{Choice, OptionDoc};
 use crate::error::Result;
 use std::time::Instant;
@@ -76,9 +77,9 @@ pub fn linearize(variation: &mut Variation, request: &Request) -> Result<LinearM
     let built = (registry()[index].build)(variation, request)?;
     let assembly_seconds = clock.elapsed().as_secs_f64();
     let clock = Instant::now();
-    let (modes, conditioning) = spectrum::modes(variation, &built, request)?;
-    let cost =
-        Cost { assembly_seconds, eigen_seconds: clock.elapsed().as_secs_f64(), conditioning, size: built.a.nrows() };
+    let Spectrum { modes, conditioning, off_constraints } = spectrum(variation, &built, request)?;
+    let eigen_seconds = clock.elapsed().as_secs_f64();
+    let cost = Cost { assembly_seconds, eigen_seconds, conditioning, size: built.a.nrows(), off_constraints };
     let Built { chart, states, a, b, c, d, e, .. } = built;
     let (inputs, outputs) = variation.names();
     let (method, point) = (request.method.to_string(), variation.point.clone());

@@ -4,6 +4,7 @@ mod along;
 mod chart;
 pub mod flow;
 mod independent;
+mod loci;
 mod method;
 mod minimal;
 mod model;
@@ -18,6 +19,7 @@ mod variation;
 
 pub use along::{State, at_rest, states};
 pub use chart::{Chart, Coordinates};
+pub use loci::Branch;
 pub use method::{Built, Entry, Request, linearize, registry};
 pub use minimal::{Minimal, minimal};
 pub use model::{Complex, Cost, Kind, LinearModel, Matrix, Mode};

@@ -58,6 +58,8 @@ pub struct Mode {
     pub shape: Vec<Complex<f64>>,
     /// Part of each state in the mode, |y_i x_i| of the left and right eigenvectors, sum 1; empty where it is not known.
     pub participation: Vec<f64>,
+    /// Part of each velocity direction in the kinetic energy of the mode, sum 1; empty for infinite ones.
+    pub energy: Vec<f64>,
 }
 
 impl Mode {
@@ -84,4 +86,7 @@ pub struct Cost {
     pub conditioning: f64,
     /// Rows and columns of A.
     pub size: usize,
+    /// How far off the directions that the constraints allow the worst physical and the best spurious mode are, in
+    /// \[0, 1\] in the metric of the kinetic energy: what tells them apart. None without spurious ones.
+    pub off_constraints: Option<[f64; 2]>,
 }

@@ -15,32 +15,57 @@ struct Solved {
     conditioning: f64,
 }
 
-/// All modes of a model, and the condition number of its eigenvectors.
-pub(super) fn modes(variation: &mut Variation, built: &Built, request: &Request) -> Result<(Vec<Mode>, f64)> {
+/// The modes of a model, and what telling their kinds rests on.
+pub(super) struct Spectrum {
+    pub modes: Vec<Mode>,
+    /// Of the eigenvectors.
+    pub conditioning: f64,
+    pub off_constraints: Option<[f64; 2]>,
+}
+
+/// All modes of a model.
+pub(super) fn spectrum(variation: &mut Variation, built: &Built, request: &Request) -> Result<Spectrum> {
     let t = variation.point.t;
     let solved = solve(built, request).map_err(|unsolved| refused(t, &unsolved))?;
     let shapes = complex(&built.changes.q) * &solved.right;
-    let kinds = kinds(variation, &shapes)?;
+    let weighed = complex(&variation.mass()) * &shapes;
+    let (kinds, off_constraints) = kinds(variation, &shapes, &weighed)?;
+    let parts =
+        |i: usize| solved.participation.as_ref().map_or(Vec::new(), |all| all.column(i).iter().copied().collect());
     let mut modes: Vec<Mode> = (0..solved.values.len())
         .map(|i| Mode {
             value: solved.values[i],
             kind: kinds[i],
             shape: normalized(shapes.column(i).iter().copied().collect()),
-            participation: solved.participation.as_ref().map_or(Vec::new(), |all| all.column(i).iter().copied().collect()),
+            participation: parts(i),
+            energy: shares(shapes.column(i).iter().zip(weighed.column(i).iter()).map(|(x, mx)| (x.conj() * mx).re)),
         })
         .collect();
     modes.sort_by_key(|mode| mode.kind);
     let value = Complex::new(f64::INFINITY, 0.0);
-    let infinite = Mode { value, kind: Kind::Infinite, shape: Vec::new(), participation: Vec::new() };
+    let [participation, energy] = [Vec::new(), Vec::new()];
+    let infinite = Mode { value, kind: Kind::Infinite, shape: Vec::new(), participation, energy };
     modes.extend(std::iter::repeat_n(infinite, built.infinite));
-    Ok((modes, solved.conditioning))
+    Ok(Spectrum { modes, conditioning: solved.conditioning, off_constraints })
+}
+
+/// Values over their sum.
+fn shares(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let values: Vec<f64> = values.collect();
+    let sum: f64 = values.iter().sum();
+    if sum > 0.0 { values.into_iter().map(|value| value / sum).collect() } else { values }
 }
 
 fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {
     let Some(e) = &built.e else {
         let found = eigen(&built.a)?;
         let participation = Some(parts(&found.left, &found.right));
-        return Ok(Solved { values: found.values, right: found.right, participation, conditioning: found.conditioning });
+        return Ok(Solved {
+            values: found.values,
+            right: found.right,
+            participation,
+            conditioning: found.conditioning,
+        });
     };
     let by = match request.method.text("solver") {
         Some("qz") => {
@@ -52,6 +77,9 @@ fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {
         _ => Deflation::NullSpace,
     };
     let found = finite_by(&built.a, e, by)?;
+    if found.deflated.infinite() != built.infinite {
+        return Err(Unsolved::Doubtful { gap: found.deflated.gap });
+    }
     let participation = Some(parts(&(complex(&e.transpose()) * &found.left), &found.right));
     Ok(Solved { values: found.values, right: found.right, participation, conditioning: found.conditioning })
 }
@@ -70,23 +98,28 @@ fn parts(left: &ComplexMatrix, right: &ComplexMatrix) -> Matrix {
 
 /// As many physical modes as there are states of minimal coordinates: those of which the least part is off the directions
 /// that the constraints allow, in the metric of the kinetic energy.
-fn kinds(variation: &mut Variation, shapes: &ComplexMatrix) -> Result<Vec<Kind>> {
+fn kinds(
+    variation: &mut Variation,
+    shapes: &ComplexMatrix,
+    weighed: &ComplexMatrix,
+) -> Result<(Vec<Kind>, Option<[f64; 2]>)> {
     let z = directions(variation)?;
     let physical = 2 * z.ncols();
     if shapes.ncols() <= physical {
-        return Ok(vec![Kind::Physical; shapes.ncols()]);
+        return Ok((vec![Kind::Physical; shapes.ncols()], None));
     }
-    let mass = complex(&variation.mass());
-    let z = complex(&z);
-    let off = shapes - &z * (z.transpose() * (&mass * shapes));
-    let size = |x: &ComplexMatrix, j: usize| x.column(j).dotc(&(&mass * x.column(j))).re.max(0.0).sqrt();
-    let part = |j: usize| size(&off, j) / size(shapes, j).max(f64::MIN_POSITIVE);
+    let (mass, z) = (complex(&variation.mass()), complex(&z));
+    let off = shapes - &z * (z.transpose() * weighed);
+    let weighed_off = mass * &off;
+    let size = |x: &ComplexMatrix, mx: &ComplexMatrix, j: usize| x.column(j).dotc(&mx.column(j)).re.max(0.0).sqrt();
+    let part = |j: usize| size(&off, &weighed_off, j) / size(shapes, weighed, j).max(f64::MIN_POSITIVE);
     let parts: Vec<f64> = (0..shapes.ncols()).map(part).collect();
     let mut order: Vec<usize> = (0..shapes.ncols()).collect();
     order.sort_by(|&i, &j| parts[i].total_cmp(&parts[j]));
     let mut kinds = vec![Kind::Spurious; shapes.ncols()];
     order.iter().take(physical).for_each(|&j| kinds[j] = Kind::Physical);
-    Ok(kinds)
+    let worst = physical.checked_sub(1).map_or(0.0, |last| parts[order[last]]);
+    Ok((kinds, Some([worst, parts[order[physical]]])))
 }
 
 /// Largest component 1.

@@ -45,6 +45,11 @@ impl<'a> Variation<'a> {
             return Err(Error::input(NO_TANGENT).hint(GIVE_THEM));
         }
         variation.point = OperatingPoint::new(&variation.dynamics, t, q, v);
+        if variation.point.is_equilibrium {
+            // Rounding would leave traces of Gdd that no scale tells from small terms.
+            variation.point.vdot.fill(0.0);
+            variation.load_point()?;
+        }
         Ok(variation)
     }
 
