@@ -1,7 +1,7 @@
 //! What every method of linearization returns.
 
-pub use nalgebra::Complex;
 use nalgebra::DMatrix;
+pub use nalgebra::Complex;
 use std::f64::consts::TAU;
 
 pub type Matrix = DMatrix<f64>;
