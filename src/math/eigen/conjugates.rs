@@ -49,8 +49,8 @@ pub fn values(units: &[Unit]) -> Vec<Complex<f64>> {
 pub fn matrix(units: &[Unit], vectors: &[Vec<Complex<f64>>], n: usize) -> ComplexMatrix {
     let conjugate = |vector: &[Complex<f64>]| vector.iter().map(Complex::conj).collect();
     let columns = units.iter().zip(vectors).flat_map(|(unit, vector)| both(unit, conjugate(vector), vector.clone()));
-    let all: Vec<Complex<f64>> = columns.flatten().collect();
-    ComplexMatrix::from_vec(n, if n == 0 { 0 } else { all.len() / n }, all)
+    let columns: Vec<Vec<Complex<f64>>> = columns.collect();
+    ComplexMatrix::from_fn(n, columns.len(), |i, j| columns[j][i])
 }
 
 fn both<T>(unit: &Unit, conjugate: T, itself: T) -> impl Iterator<Item = T> {

@@ -82,12 +82,14 @@ pub fn power_of_two(x: f64) -> f64 {
     x.log2().round().exp2()
 }
 
-/// Right and left null vectors of a matrix that is singular to rounding, in columns of norm 1.
-pub fn null_vectors(matrix: &ComplexMatrix) -> Result<(ComplexMatrix, ComplexMatrix), Unsolved> {
-    let n = matrix.ncols();
-    let svd = view(matrix).svd().map_err(|_| Unsolved::NotConverged { converged: 0, wanted: n })?;
-    let last = |of: MatRef<Complex<f64>>| copy(of.subcols(n - 1, 1));
-    Ok((last(svd.V()), last(svd.U())))
+/// Numbers in (-1, 1) that are always the same for the same seed: a direction orthogonal to nothing in particular.
+pub fn direction(n: usize, seed: u64) -> impl Iterator<Item = Complex<f64>> {
+    let mut state = seed;
+    (0..n).map(move |_| {
+        // A linear congruential generator (Knuth's).
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        Complex::new((state >> 33) as f64 / (1u64 << 30) as f64 - 1.0, 0.0)
+    })
 }
 
 pub fn zeros(n: usize) -> Mat<f64> {

@@ -11,6 +11,7 @@ mod conjugates;
 mod deflate;
 mod dense;
 mod exponential;
+mod inverse;
 mod krylov;
 mod pencil;
 mod standard;

@@ -1,6 +1,7 @@
 //! A x = lambda x.
 
 use super::conjugates::{self, Unit};
+use super::inverse::{self, residual};
 use super::{Complex, ComplexMatrix, Matrix, Unsolved, dense};
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -101,7 +102,7 @@ fn decompose(a: &Matrix) -> Result<Decomposed, Unsolved> {
 type Vector = Vec<Complex<f64>>;
 
 /// Right and left vectors of each unit. The library does not say when it gives up, and its back substitution loses the
-/// vectors of defective eigenvalues: then by singular values.
+/// vectors of defective eigenvalues.
 fn vectors(a: &Matrix, units: &[Unit], right: &Mat<f64>, left: &Mat<f64>) -> Result<Vec<(Vector, Vector)>, Unsolved> {
     let complex = dense::complex(a);
     let mut converged = 0;
@@ -109,26 +110,13 @@ fn vectors(a: &Matrix, units: &[Unit], right: &Mat<f64>, left: &Mat<f64>) -> Res
     for unit in units {
         let (mut x, mut y) = (unit.vector(right.as_ref()), unit.vector(left.as_ref()));
         if !(residual(&complex, unit.value, &x) <= INACCURATE && y.iter().all(|y| y.is_finite())) {
-            (x, y) = null_vectors(&complex, unit.value)?;
+            (x, y) = inverse::vectors(&complex, unit.value, unit.column as u64, INACCURATE)?;
         }
         converged += if residual(&complex, unit.value, &x) <= FAILED { 1 + usize::from(unit.is_pair()) } else { 0 };
         found.push((x, y));
     }
     let wanted = a.nrows();
     if converged == wanted { Ok(found) } else { Err(Unsolved::NotConverged { converged, wanted }) }
-}
-
-/// |A x - lambda x| / |A| |x|; not a number where x is not.
-fn residual(a: &ComplexMatrix, value: Complex<f64>, x: &[Complex<f64>]) -> f64 {
-    let x = ComplexMatrix::from_column_slice(x.len(), 1, x);
-    let residual = (a * &x - &x * value).norm();
-    if residual == 0.0 { 0.0 } else { residual / (a.norm() * x.norm()) }
-}
-
-fn null_vectors(a: &ComplexMatrix, value: Complex<f64>) -> Result<(Vector, Vector), Unsolved> {
-    let n = a.nrows();
-    let (x, y) = dense::null_vectors(&(a - ComplexMatrix::from_diagonal_element(n, n, value)))?;
-    Ok((x.as_slice().to_vec(), y.as_slice().to_vec()))
 }
 
 fn biorthogonal(right: &ComplexMatrix, mut left: ComplexMatrix, conditioning: f64) -> ComplexMatrix {

@@ -135,6 +135,9 @@ fn chains_finish_fast() {
                 assert_eq!(deflated.infinite(), infinite);
                 assert!(error < 1e-9 && seconds < 5.0);
             }
+            let start = Instant::now();
+            finite(&a, &e).unwrap();
+            eprintln!("finite n = {}: {:.1} ms", a.nrows(), start.elapsed().as_secs_f64() * 1e3);
         }
     }
 }

@@ -1,6 +1,7 @@
-use super::super::{Complex, Matrix, Options, Unsolved, eigen, nearest};
-use super::samples::Random;
+use super::super::{Complex, Matrix, Options, Unsolved, dense, eigen, nearest};
+use super::samples::{Form, Random, chain, residual};
 use crate::math::kkt::Singular;
+use nalgebra::DVector;
 
 type C = Complex<f64>;
 
@@ -119,4 +120,28 @@ fn the_same_every_time() {
     let values: Vec<C> = Matrix::from_fn(200, 1, |i, _| 1.0 / (1.0 + i as f64)).iter().map(|x| C::from(*x)).collect();
     let once = nearest(200, 4, diagonal(values.clone()), Options::default());
     assert_eq!(once, nearest(200, 4, diagonal(values), Options::default()));
+}
+
+/// (A - sigma E)^-1 E of a chain at index 3: infinite eigenvalues in blocks of three are eigenvalues zero of it.
+#[test]
+fn infinite_eigenvalues_do_not_disturb() {
+    let mechanism = chain(20);
+    let (a, e, ..) = mechanism.pencil(&Form::Index3);
+    let sigma = C::new(0.0, 3.0);
+    let lu = (dense::complex(&a) - dense::complex(&e) * sigma).lu();
+    let (n, e) = (a.nrows(), dense::complex(&e));
+    let apply = |x: &[C], y: &mut [C]| {
+        let image = lu.solve(&(&e * DVector::from_column_slice(x))).ok_or(Singular::NotFactored)?;
+        y.copy_from_slice(image.as_slice());
+        Ok(())
+    };
+    let found = nearest(n, 6, apply, Options::default()).unwrap();
+    let mut exact = mechanism.values();
+    exact.sort_by(|x, y| (x - sigma).norm().total_cmp(&(y - sigma).norm()));
+    for (theta, exact) in found.values.iter().zip(exact) {
+        let value = sigma + theta.inv();
+        assert!((value - exact).norm() < 1e-11 * exact.norm(), "{value} {exact}");
+    }
+    let values: Vec<C> = found.values.iter().map(|theta| sigma + theta.inv()).collect();
+    assert!(residual(&a, &e.map(|x| x.re), &values, &found.right) < 1e-13);
 }

@@ -1,0 +1,84 @@
+//! A few eigenvalues of a large operator.
+
+mod ritz;
+mod schur;
+mod space;
+
+use super::{Complex, ComplexMatrix, Unsolved};
+use ritz::Ritz;
+use schur::Ordered;
+use space::Krylov;
+
+type C = Complex<f64>;
+
+/// How [`nearest`] iterates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// Size of the subspace; at least `count` + 2 are taken, at most n.
+    pub subspace: Option<usize>,
+    /// |apply(x) - theta x| of a converged pair, over the largest |theta|.
+    pub tolerance: f64,
+    pub restarts: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options { subspace: None, tolerance: 1e-12, restarts: 300 }
+    }
+}
+
+/// Some eigenvalues of an operator, see [`nearest`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Partial {
+    /// Of largest magnitude, largest first.
+    pub values: Vec<C>,
+    /// In columns of norm 1.
+    pub right: ComplexMatrix,
+    /// |apply(x) - theta x| / |theta|
+    pub residuals: Vec<f64>,
+    /// How often the operator was applied.
+    pub applications: usize,
+}
+
+/// The `count` eigenvalues theta of largest magnitude of the operator y = `apply`(x) of dimension n.
+///
+/// With `apply` = (A - sigma E)^-1 E these belong to the eigenvalues lambda = sigma + 1/theta of A x = lambda E x nearest
+/// to sigma, with the same vectors. Infinite eigenvalues have theta = 0 and do not disturb.
+///
+/// Krylov-Schur method (Stewart, "A Krylov-Schur algorithm for large eigenproblems", SIAM J. Matrix Anal. Appl. 23, 2001),
+/// from a fixed start vector. Each step costs an application and 8 n m operations, m the size of the subspace; memory is
+/// n m numbers.
+///
+/// # Errors
+/// What `apply` returns; no convergence within the restarts, with how many did; results that are not finite.
+pub fn nearest(
+    n: usize,
+    count: usize,
+    apply: impl FnMut(&[C], &mut [C]) -> Result<(), Unsolved>,
+    options: Options,
+) -> Result<Partial, Unsolved> {
+    let count = count.min(n);
+    let m = options.subspace.unwrap_or(2 * count + 20).max(count + 2).min(n);
+    let mut space = Krylov::new(n, m, apply);
+    if count == 0 {
+        return Ok(Partial {
+            values: Vec::new(),
+            right: ComplexMatrix::zeros(n, 0),
+            residuals: Vec::new(),
+            applications: 0,
+        });
+    }
+    let mut converged = 0;
+    for _ in 0..=options.restarts {
+        space.extend()?;
+        let ritz = Ritz::of(&space.h, space.rest, count)?;
+        converged = ritz.converged(options.tolerance);
+        if converged == count {
+            return space.finish(ritz);
+        }
+        // More than the wanted ones are kept, which speeds up convergence; those that have converged count as kept.
+        let kept = (count + (m - count) / 3 + converged / 2).min(m - 1);
+        space.contract(&Ordered::of(&space.h)?, kept);
+    }
+    Err(Unsolved::NotConverged { converged, wanted: count })
+}

@@ -1,0 +1,131 @@
+//! Orthonormal bases of Krylov spaces.
+
+use super::super::{ComplexMatrix, Unsolved, dense};
+use super::{C, Ordered, Partial, Ritz};
+use nalgebra::{DVector, DVectorView};
+
+type Vector = DVector<C>;
+
+/// apply(V) = V H + rest e_m^T with orthonormal V, n x m.
+pub struct Krylov<F> {
+    apply: F,
+    /// m + 1 columns, the last one the direction of the rest.
+    v: ComplexMatrix,
+    pub h: ComplexMatrix,
+    pub rest: f64,
+    /// Columns of V and H that are known.
+    size: usize,
+    /// What the rest of a contracted space is coupled to: its row below H.
+    below: Vec<C>,
+    starts: u64,
+    applications: usize,
+}
+
+/// A vector of which less than this is left after orthogonalization lies in the space.
+const INSIDE: f64 = 1e-14;
+
+impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
+    pub fn new(n: usize, m: usize, apply: F) -> Self {
+        let mut space = Krylov {
+            apply,
+            v: ComplexMatrix::zeros(n, m + 1),
+            h: ComplexMatrix::zeros(m, m),
+            rest: 0.0,
+            size: 0,
+            below: Vec::new(),
+            starts: 0,
+            applications: 0,
+        };
+        space.start(0);
+        space
+    }
+
+    /// Puts a new direction in column k, orthogonal to those before it; zero where these are all.
+    fn start(&mut self, k: usize) {
+        self.starts += 1;
+        let mut fresh = Vector::from_iterator(self.v.nrows(), dense::direction(self.v.nrows(), self.starts));
+        fresh /= C::from(fresh.norm());
+        self.orthogonalize(&mut fresh, k);
+        let norm = fresh.norm();
+        if norm > INSIDE {
+            self.v.set_column(k, &(fresh / C::from(norm)));
+        } else {
+            self.v.column_mut(k).fill(C::ZERO);
+        }
+    }
+
+    /// Subtracts what lies in the first k columns, twice; returns how much of each that was.
+    fn orthogonalize(&self, vector: &mut Vector, k: usize) -> Vector {
+        let known = self.v.columns(0, k);
+        let mut total = Vector::zeros(k);
+        for _ in 0..2 {
+            let part = known.ad_mul(vector);
+            *vector -= known * &part;
+            total += part;
+        }
+        total
+    }
+
+    /// Up to m columns.
+    pub fn extend(&mut self) -> Result<(), Unsolved> {
+        let m = self.h.ncols();
+        while self.size < m {
+            let k = self.size;
+            let mut next = Vector::zeros(self.v.nrows());
+            (self.apply)(self.v.column(k).clone_owned().as_slice(), next.as_mut_slice())?;
+            self.applications += 1;
+            if !next.iter().all(|x| x.is_finite()) {
+                return Err(Unsolved::NotFinite);
+            }
+            let before = next.norm();
+            let part = self.orthogonalize(&mut next, k + 1);
+            self.h.view_mut((0, k), (k + 1, 1)).copy_from(&part);
+            for (j, coupling) in std::mem::take(&mut self.below).into_iter().enumerate() {
+                self.h[(k, j)] = coupling;
+            }
+            let after = next.norm();
+            self.size += 1;
+            let is_inside = after <= INSIDE * before;
+            self.rest = if is_inside { 0.0 } else { after };
+            match is_inside {
+                true => self.start(k + 1),
+                false => self.v.set_column(k + 1, &(next / C::from(after))),
+            }
+            if self.size < m {
+                self.h[(k + 1, k)] = C::from(self.rest);
+            }
+        }
+        Ok(())
+    }
+
+    /// Keeps the leading `kept` Schur vectors.
+    pub fn contract(&mut self, schur: &Ordered, kept: usize) {
+        let m = self.h.ncols();
+        let v = self.v.columns(0, m) * schur.q.columns(0, kept);
+        let last = self.v.column(m).clone_owned();
+        self.v.columns_mut(0, kept).copy_from(&v);
+        self.v.set_column(kept, &last);
+        self.h.fill(C::ZERO);
+        self.h.view_mut((0, 0), (kept, kept)).copy_from(&schur.t.view((0, 0), (kept, kept)));
+        self.below = (0..kept).map(|j| schur.q[(m - 1, j)] * self.rest).collect();
+        self.size = kept;
+    }
+
+    pub fn finish(mut self, ritz: Ritz) -> Result<Partial, Unsolved> {
+        let mut right = self.v.columns(0, self.h.ncols()) * &ritz.vectors;
+        dense::normalize(&mut right);
+        let mut residuals = Vec::new();
+        for (x, theta) in right.column_iter().zip(&ritz.values) {
+            residuals.push(self.residual(x, *theta)?);
+        }
+        Ok(Partial { values: ritz.values, right, residuals, applications: self.applications })
+    }
+
+    fn residual(&mut self, x: DVectorView<C>, theta: C) -> Result<f64, Unsolved> {
+        let mut image = Vector::zeros(x.len());
+        (self.apply)(x.clone_owned().as_slice(), image.as_mut_slice())?;
+        self.applications += 1;
+        let size = if theta == C::ZERO { 1.0 } else { theta.norm() };
+        Ok((image - x * theta).norm() / size)
+    }
+}
