@@ -2,9 +2,11 @@
 
 mod along;
 mod chart;
+mod floquet;
 pub mod flow;
 mod independent;
 mod loci;
+mod lyapunov;
 mod method;
 mod minimal;
 mod model;
@@ -20,6 +22,8 @@ mod variation;
 pub use along::{State, at_rest, states};
 pub use chart::{Chart, Coordinates};
 pub use loci::Branch;
+pub use floquet::{Floquet, floquet};
+pub use lyapunov::{Lyapunov, lyapunov};
 pub use method::{Built, Entry, Request, linearize, registry};
 pub use minimal::{Minimal, minimal};
 pub use model::{Complex, Cost, Kind, LinearModel, Matrix, Mode};

@@ -38,7 +38,7 @@ impl Default for Settings {
     fn default() -> Self {
         Settings {
             chart: None,
-            directions: vec![Direction::Random(1), Direction::Random(2)],
+            directions: vec![Direction::Random(1)],
             horizon: None,
             inputs: true,
         }

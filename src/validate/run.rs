@@ -70,11 +70,11 @@ pub struct Verdict {
 }
 
 /// Relative errors above this are not in the range where eps^2 rules.
-pub(super) const TOO_LARGE: f64 = 0.05;
+pub(super) const TOO_LARGE: f64 = 0.1;
 /// An order may be this much below 2.
 const SLACK: f64 = 0.1;
 /// Rows over time.
-const ROWS: usize = 200;
+const ROWS: usize = 60;
 /// A period of the fastest mode counts, times this: longer runs would cost more than they tell.
 const MOST_SWINGS: f64 = 400.0;
 const CURVES: usize = 3;

@@ -26,10 +26,15 @@ impl<'a> Field<'a> {
     pub fn new(system: &'a dyn MechanicalSystem, shape: &Shape, bundle: &Bundle) -> Result<Self> {
         let start = &bundle.start;
         let zeros = Matrix::zeros(shape.v, shape.columns);
+        let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
+        let mut plain = Dynamics::new(system);
+        // Rows that depend on others everywhere need not be found again at each state.
+        let (dependent, _) = plain.dependent_rows(start.t, &start.q, &start.v);
+        [&mut plain, &mut variation.dynamics].into_iter().for_each(|dynamics| dynamics.hold(&dependent));
         Ok(Field {
             shape: *shape,
-            variation: Variation::new(system, start.t, &start.q, &start.v)?,
-            plain: Dynamics::new(system),
+            variation,
+            plain,
             projection: projection::make(&Choice::named("manifold"), system)?,
             pulse: bundle.pulse,
             driven: bundle.driven.clone(),

@@ -15,12 +15,12 @@ use field::Field;
 use shape::Shape;
 
 /// Of the motion and of columns of size 1.
-const TOLERANCE: Tolerance = Tolerance { rtol: 1e-13, atol: 1e-13 };
+const TOLERANCE: Tolerance = Tolerance { rtol: 1e-12, atol: 1e-13 };
 /// A run takes no more steps than this.
 const MOST_STEPS: usize = 2_000_000;
 
 /// Carries a bundle along its motion and shows it at `times` (increasing, after the start) by dop853 on the equations of
-/// index 1 at a tolerance of 1e-13. After each step every state returns to the constraints and every column to their
+/// index 1 at a tolerance of 1e-12. After each step every state returns to the constraints and every column to their
 /// tangent space. Since all take the same steps, differences between members are more accurate than the members.
 ///
 /// `see` returns whether to go on, and may change what is carried (as a chart that is renewed does).

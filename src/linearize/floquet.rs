@@ -1,0 +1,62 @@
+//! Stability of periodic motions.
+
+use super::{Chart, Complex, Matrix, State, Variation, transition};
+use crate::error::{Error, Result};
+use crate::math::eigen::eigen;
+use crate::system::MechanicalSystem;
+
+/// How small changes grow over a period of a motion.
+#[derive(Clone, Debug)]
+pub struct Floquet {
+    /// s
+    pub period: f64,
+    /// The state-transition matrix over the period in the states of the chart at the start, 2 k x 2 k.
+    pub monodromy: Matrix,
+    /// Its eigenvalues, largest first. Free changes along the motion and, without damping, of its energy have 1.
+    pub multipliers: Vec<Complex<f64>>,
+    /// Largest difference of (q, v) at the end from the start.
+    pub gap: f64,
+}
+
+/// A motion that misses its start by more than this part of (1 + |q|, |v|) is not periodic.
+const RETURNS: f64 = 1e-5;
+
+impl Floquet {
+    /// log(multiplier) / period: growth rate and, up to multiples of the motion's own, frequency, 1/s.
+    pub fn exponents(&self) -> Vec<Complex<f64>> {
+        self.multipliers.iter().map(|multiplier| multiplier.ln() / self.period).collect()
+    }
+
+    /// Whether no multiplier is outside the unit circle by more than `slack`. A double multiplier 1 comes out with an error
+    /// of the square root of rounding.
+    pub fn is_stable(&self, slack: f64) -> bool {
+        self.multipliers.iter().all(|multiplier| multiplier.norm() <= 1.0 + slack)
+    }
+}
+
+/// The monodromy matrix of the motion from `start`, which returns after `period`: the same in every chart but for a change
+/// of basis, so that its multipliers are a property of the motion.
+///
+/// # Errors
+/// A motion that is not back after the period, or that cannot go on.
+pub fn floquet(system: &dyn MechanicalSystem, start: &State, period: f64) -> Result<Floquet> {
+    let end = start.t + period;
+    let found = transition(system, start, &Chart::MassOrthogonal, &[end])?;
+    let Some(found) = found.into_iter().next() else {
+        return Err(Error::input("a period must be above zero").under("--period"));
+    };
+    let gap = gap(&found.state.q, &start.q).max(gap(&found.state.v, &start.v));
+    let size = |x: &[f64]| x.iter().fold(1.0f64, |most, x| most.max(x.abs()));
+    if gap > RETURNS * size(&start.q).max(size(&start.v)) {
+        let message = format!("after {period} s the motion is {gap:.1e} away from its start, so this is not its period");
+        return Err(Error::input(message).under("--period").hint("give the period to more digits, or start on the cycle"));
+    }
+    let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
+    let monodromy = Chart::MassOrthogonal.at(&mut variation)?.states_of(&found.changes);
+    let values = eigen(&monodromy).map_err(|unsolved| Error::input(unsolved.to_string()))?.values;
+    Ok(Floquet { period, monodromy, multipliers: values.into_iter().rev().collect(), gap })
+}
+
+fn gap(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
+}
