@@ -48,8 +48,11 @@ pub fn floquet(system: &dyn MechanicalSystem, start: &State, period: f64) -> Res
     let gap = gap(&found.state.q, &start.q).max(gap(&found.state.v, &start.v));
     let size = |x: &[f64]| x.iter().fold(1.0f64, |most, x| most.max(x.abs()));
     if gap > RETURNS * size(&start.q).max(size(&start.v)) {
-        let message = format!("after {period} s the motion is {gap:.1e} away from its start, so this is not its period");
-        return Err(Error::input(message).under("--period").hint("give the period to more digits, or start on the cycle"));
+        let message =
+            format!("after {period} s the motion is {gap:.1e} away from its start, so this is not its period");
+        return Err(Error::input(message)
+            .under("--period")
+            .hint("give the period to more digits, or start on the cycle"));
     }
     let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
     let monodromy = Chart::MassOrthogonal.at(&mut variation)?.states_of(&found.changes);

@@ -21,8 +21,8 @@ mod variation;
 
 pub use along::{State, at_rest, states};
 pub use chart::{Chart, Coordinates};
-pub use loci::Branch;
 pub use floquet::{Floquet, floquet};
+pub use loci::Branch;
 pub use lyapunov::{Lyapunov, lyapunov};
 pub use method::{Built, Entry, Request, linearize, registry};
 pub use minimal::{Minimal, minimal};

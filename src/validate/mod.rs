@@ -36,11 +36,6 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings {
-            chart: None,
-            directions: vec![Direction::Random(1)],
-            horizon: None,
-            inputs: true,
-        }
+        Settings { chart: None, directions: vec![Direction::Random(1)], horizon: None, inputs: true }
     }
 }

@@ -91,7 +91,11 @@ pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Setting
             .hint("take mass_orthogonal, or name independent coordinates"));
     }
     let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
-    let model = minimal(&mut variation, &chart)?;
+    let mut model = minimal(&mut variation, &chart)?;
+    let name = model.coordinates.name.clone();
+    // The plain projection means the states of a chart that it does not follow.
+    let chart = if chart == Chart::Frozen { Chart::MassOrthogonal } else { chart };
+    model.coordinates = chart.at(&mut variation)?;
     let speed = Speed::of(&model)?;
     let norm = Norm { rate: speed.usual };
     let followed = settings.horizon.unwrap_or(speed.period());
@@ -109,8 +113,7 @@ pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Setting
         inputs.extend(input::check(system, start, (&model, &norm), (index, column.name), 0.1 * followed)?);
     }
     let verdict = judge(&ladders, &frozen, &inputs);
-    let chart = model.coordinates.name;
-    Ok(Validation { t: start.t, chart, followed, rate: norm.rate, ladders, frozen, inputs, verdict })
+    Ok(Validation { t: start.t, chart: name, followed, rate: norm.rate, ladders, frozen, inputs, verdict })
 }
 
 /// Rates of a model, 1/s.

@@ -17,15 +17,18 @@ fn order(label: &str, chart: &Chart) -> f64 {
     let (system, start) = (system(label), state(label));
     let mut variation = Variation::new(system.as_ref(), 0.0, &start.q, &start.v).unwrap();
     let model = minimal(&mut variation, chart).unwrap();
+    let measured = Chart::MassOrthogonal.at(&mut variation).unwrap();
     let rate = model.a.amax().sqrt();
     let steps: Vec<f64> = [1e-3, 2e-3, 4e-3].iter().map(|x| x / rate).collect();
-    let found = transition(system.as_ref(), &start, chart, &steps).unwrap();
-    let scale = |x: Matrix| Matrix::from_fn(x.nrows(), x.ncols(), |i, j| {
-        let k = x.nrows() / 2;
-        x[(i, j)] * if i >= k { 1.0 / rate } else { 1.0 } * if j >= k { rate } else { 1.0 }
-    });
+    let found = transition(system.as_ref(), &start, &Chart::MassOrthogonal, &steps).unwrap();
+    let scale = |x: Matrix| {
+        Matrix::from_fn(x.nrows(), x.ncols(), |i, j| {
+            let k = x.nrows() / 2;
+            x[(i, j)] * if i >= k { 1.0 / rate } else { 1.0 } * if j >= k { rate } else { 1.0 }
+        })
+    };
     let error = |i: usize| {
-        let x = model.coordinates.states_of(&found[i].changes);
+        let x = measured.states_of(&found[i].changes);
         scale(x - expm(&(&model.a * steps[i])).unwrap()).norm()
     };
     (error(2) / error(1)).log2().min((error(1) / error(0)).log2())
