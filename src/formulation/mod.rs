@@ -21,8 +21,8 @@ mod udwadia_kalaba;
 
 pub use crate::choice::{Choice, OptionDoc};
 pub use directions::{free_directions, reduce};
-pub use penalty::{OMEGA, PENALTY, XI, mean_compliance};
 pub use dynamics::{Dynamics, Halt, Statistics};
+pub use penalty::{OMEGA, PENALTY, XI, mean_compliance};
 pub use stabilizer::{Field, Stabilizer};
 pub use turn::turn;
 

@@ -1,7 +1,7 @@
 //! Minimal coordinates of the perturbation: where a moving state's spectrum gets its meaning.
 
-use super::variation::at_state;
 use super::response::beside;
+use super::variation::at_state;
 use super::{Changes, Matrix, Variation, independent};
 use crate::error::{Error, Result};
 use crate::formulation::{Halt, free_directions};
@@ -134,7 +134,9 @@ fn parallel(variation: &mut Variation, n: Matrix) -> Result<Coordinates> {
     if !levi_civita(variation, &mut connection) {
         return Err(Error::input("the intrinsic chart needs a mass matrix whose change along the motion is known")
             .under("--chart")
-            .hint("bodies in floating frames have none: take --chart mass_orthogonal, or name independent coordinates"));
+            .hint(
+                "bodies in floating frames have none: take --chart mass_orthogonal, or name independent coordinates",
+            ));
     }
     let LeviCivita { w, w_dot, mass_dot } = connection;
     let (mass, g) = (variation.mass(), variation.g());
@@ -142,8 +144,8 @@ fn parallel(variation: &mut Variation, n: Matrix) -> Result<Coordinates> {
     let q_dot = -variation.bracket(&variation.point.vdot);
     let wn = &w * &n;
     let n_dot = -variation.correct(&((variation.gd() - g * &q) * &n))? - &n * (n.transpose() * &wn);
-    let bent = n_dot.transpose() * (&mass * &n_dot + &wn)
-        + n.transpose() * (mass_dot * &n_dot + w_dot * &n + &w * &n_dot);
+    let bent =
+        n_dot.transpose() * (&mass * &n_dot + &wn) + n.transpose() * (mass_dot * &n_dot + w_dot * &n + &w * &n_dot);
     let b = n.transpose() * mass;
     let turned = &q * &n;
     let drift = [-bent - &b * (q_dot * &n + &q * &n_dot), &b * (&n_dot * 2.0 - &turned)];

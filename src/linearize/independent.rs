@@ -22,7 +22,8 @@ pub(super) fn coordinates(variation: &mut Variation, z: &Matrix, names: &[String
     let degrees = z.ncols();
     let best = || best(&candidates, &weighed(variation, z)).join(", ");
     if chosen.len() != degrees {
-        let message = format!("{} coordinates are named, the mechanism has {degrees} degrees of freedom here", chosen.len());
+        let message =
+            format!("{} coordinates are named, the mechanism has {degrees} degrees of freedom here", chosen.len());
         return Err(Error::input(message).under("--independent").hint(format!("independent here are: {}", best())));
     }
     let weighed = weighed(variation, z);

@@ -26,7 +26,10 @@ pub(super) fn modes(variation: &mut Variation, built: &Built, request: &Request)
             value: solved.values[i],
             kind: kinds[i],
             shape: normalized(shapes.column(i).iter().copied().collect()),
-            participation: solved.participation.as_ref().map_or(Vec::new(), |all| all.column(i).iter().copied().collect()),
+            participation: solved
+                .participation
+                .as_ref()
+                .map_or(Vec::new(), |all| all.column(i).iter().copied().collect()),
         })
         .collect();
     modes.sort_by_key(|mode| mode.kind);
@@ -40,7 +43,12 @@ fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {
     let Some(e) = &built.e else {
         let found = eigen(&built.a)?;
         let participation = Some(parts(&found.left, &found.right));
-        return Ok(Solved { values: found.values, right: found.right, participation, conditioning: found.conditioning });
+        return Ok(Solved {
+            values: found.values,
+            right: found.right,
+            participation,
+            conditioning: found.conditioning,
+        });
     };
     let by = match request.method.text("solver") {
         Some("qz") => {

@@ -44,7 +44,12 @@ impl Coordinates {
 ///
 /// # Errors
 /// A chart that does not exist at the start; a motion that cannot go on.
-pub fn transition(system: &dyn MechanicalSystem, start: &State, chart: &Chart, times: &[f64]) -> Result<Vec<Transition>> {
+pub fn transition(
+    system: &dyn MechanicalSystem,
+    start: &State,
+    chart: &Chart,
+    times: &[f64],
+) -> Result<Vec<Transition>> {
     let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
     let coordinates = chart.at(&mut variation)?;
     let bundle = Bundle { columns: coordinates.changes(), ..Bundle::of(start) };

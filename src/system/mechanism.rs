@@ -1,10 +1,10 @@
 //! The equations of a scene's model.
 
 use super::coupling::Couplings;
+use super::levi_civita::LeviCivita;
 use super::output_tangent::{OutputTangent, Slopes};
 use super::rows::{PlacedJoint, Rows};
 use super::support::Support;
-use super::levi_civita::LeviCivita;
 use super::tangent::{Evaluation, Loaded, Tangent};
 use super::variation::Varied;
 use super::view::{Plain, gathered};

@@ -18,8 +18,8 @@ mod terms;
 mod variation;
 mod view;
 
-pub use levi_civita::LeviCivita;
 pub use equations::Equations;
+pub use levi_civita::LeviCivita;
 pub use mechanism::Mechanism;
 pub use output_tangent::OutputTangent;
 pub use tangent::{Loaded, Tangent};

@@ -1,9 +1,9 @@
 //! The rows of phi and G that one joint has.
 
-use super::{Loaded, Terms};
 use super::mechanism::{Mechanism, of};
 use super::support::Support;
 use super::variation::{Along, Varied, fixed};
+use super::{Loaded, Terms};
 use crate::body::{Frame, MOST_MARKERS, Slope, Wrench, twist_len};
 use crate::joint::{Joint, MOST_ROWS, markers_per_pass};
 use crate::math::kkt::Pattern;

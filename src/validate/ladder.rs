@@ -5,12 +5,29 @@ use crate::linearize::{Coordinates, Matrix, State};
 use crate::system::MechanicalSystem;
 
 /// Sizes of the perturbation, of (dq, dv/rate) in m or rad: two a decade, then one at which all is rounding.
-pub const EPSILONS: [f64; 12] =
-    [1e-1, 3.162_277_660_168_379_5e-2, 1e-2, 3.162_277_660_168_379_5e-3, 1e-3, 3.162_277_660_168_379_5e-4, 1e-4,
-     3.162_277_660_168_379_5e-5, 1e-5, 3.162_277_660_168_379_5e-6, 1e-6, 1e-9];
+pub const EPSILONS: [f64; 12] = [
+    1e-1,
+    3.162_277_660_168_379_5e-2,
+    1e-2,
+    3.162_277_660_168_379_5e-3,
+    1e-3,
+    3.162_277_660_168_379_5e-4,
+    1e-4,
+    3.162_277_660_168_379_5e-5,
+    1e-5,
+    3.162_277_660_168_379_5e-6,
+    1e-6,
+    1e-9,
+];
 
 /// `start` moved by eps x0 and back to the constraints of position and velocity; none where they cannot be closed.
-pub fn moved(system: &dyn MechanicalSystem, start: &State, coordinates: &Coordinates, x0: &Matrix, eps: f64) -> Option<State> {
+pub fn moved(
+    system: &dyn MechanicalSystem,
+    start: &State,
+    coordinates: &Coordinates,
+    x0: &Matrix,
+    eps: f64,
+) -> Option<State> {
     let k = coordinates.r.ncols();
     let dq = &coordinates.r * x0.rows(0, k) * eps;
     let dv = (&coordinates.tilt * x0.rows(0, k) + &coordinates.r * x0.rows(k, k)) * eps;

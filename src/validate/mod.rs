@@ -36,6 +36,11 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { chart: None, directions: vec![Direction::Random(1), Direction::Random(2)], horizon: None, inputs: true }
+        Settings {
+            chart: None,
+            directions: vec![Direction::Random(1), Direction::Random(2)],
+            horizon: None,
+            inputs: true,
+        }
     }
 }

@@ -125,7 +125,10 @@ impl Speed {
         let rates: Vec<f64> = values.iter().map(|value| value.norm()).filter(|rate| *rate > 1e-6).collect();
         let fastest = rates.iter().copied().fold(1.0, f64::max);
         let mean = rates.iter().map(|rate| rate.ln()).sum::<f64>() / rates.len().max(1) as f64;
-        Ok(Speed { usual: if rates.is_empty() { 1.0 } else { mean.exp() }, fastest: if rates.is_empty() { 1.0 } else { fastest } })
+        Ok(Speed {
+            usual: if rates.is_empty() { 1.0 } else { mean.exp() },
+            fastest: if rates.is_empty() { 1.0 } else { fastest },
+        })
     }
 
     /// Of a usual mode, with not too many of the fastest in it.
@@ -173,10 +176,8 @@ fn ladder(
     let coordinates = &model.coordinates;
     let column = coordinates.changes();
     let columns = Changes { q: column.q * x0, v: column.v * x0 };
-    let (epsilons, members): (Vec<f64>, Vec<State>) = EPSILONS
-        .iter()
-        .filter_map(|&eps| moved(system, start, coordinates, x0, eps).map(|state| (eps, state)))
-        .unzip();
+    let (epsilons, members): (Vec<f64>, Vec<State>) =
+        EPSILONS.iter().filter_map(|&eps| moved(system, start, coordinates, x0, eps).map(|state| (eps, state))).unzip();
     let bundle = Bundle { columns, members, ..Bundle::of(start) };
     let times: Vec<f64> = (1..=ROWS).map(|i| followed * i as f64 / ROWS as f64).collect();
     let mut snapshots: Vec<Snapshot> = Vec::new();
@@ -196,7 +197,10 @@ fn ladder(
         })
         .collect();
     let Some(end) = snapshots.last() else { return Err(Error::input("nothing to follow")) };
-    let lti = { let all = coordinates.changes(); Changes { q: all.q * &predicted[ROWS - 1], v: all.v * &predicted[ROWS - 1] } };
+    let lti = {
+        let all = coordinates.changes();
+        Changes { q: all.q * &predicted[ROWS - 1], v: all.v * &predicted[ROWS - 1] }
+    };
     let errors = |changes: &Changes| -> Vec<f64> {
         let pairs = end.members.iter().zip(&epsilons);
         pairs
@@ -211,7 +215,18 @@ fn ladder(
     let order_ltv = decay(&epsilons, &errors_ltv, |eps| TOO_LARGE * eps * size, floor(&errors_ltv));
     let horizons = [0.01, 0.1].map(|share| horizon(&times, &drift_lti, share));
     let (curves, curve_epsilon) = curves(system, coordinates, (&snapshots, &predicted), &epsilons);
-    Ok(Ladder { direction, epsilons, errors_ltv, order_ltv, errors_lti, times, drift_lti, horizons, curves, curve_epsilon })
+    Ok(Ladder {
+        direction,
+        epsilons,
+        errors_ltv,
+        order_ltv,
+        errors_lti,
+        times,
+        drift_lti,
+        horizons,
+        curves,
+        curve_epsilon,
+    })
 }
 
 /// What moves most, at a perturbation of about 1e-2.
@@ -250,7 +265,9 @@ fn judge(ladders: &[Ladder], frozen: &Frozen, inputs: &[InputCheck]) -> Verdict 
     let order = if lowest.is_finite() { format!("order {lowest:.2}") } else { "exact to rounding".to_string() };
     let text = match (ltv, lti) {
         (true, true) => format!("right: perturbed simulations follow the linear model ({order} in eps)"),
-        (true, false) => format!("the variational equations are right ({order} in eps), but A misses terms of its chart"),
+        (true, false) => {
+            format!("the variational equations are right ({order} in eps), but A misses terms of its chart")
+        }
         (false, _) => format!("wrong, or too near to rounding to tell: {order} in eps, where 2 is expected"),
     };
     Verdict { ltv, lti, text }

@@ -64,9 +64,11 @@ fn charts_have_the_spectra_of_the_references() {
         check("frozen", Chart::Frozen, &reference.0["rcs_frozen_pencil"]["eigenvalues"]);
         let coordinates = reference.0["coords"].as_array().unwrap();
         for chart in reference.0["charts"].as_array().unwrap() {
-            let names = chart["independent_coordinates"].as_array().unwrap().iter().map(|name| {
-                format!("q{}", 1 + coordinates.iter().position(|known| known == name).unwrap())
-            });
+            let names = chart["independent_coordinates"]
+                .as_array()
+                .unwrap()
+                .iter()
+                .map(|name| format!("q{}", 1 + coordinates.iter().position(|known| known == name).unwrap()));
             let names: Vec<String> = names.collect();
             check(&names.join(","), Chart::Independent(names), &chart["eigenvalues"]);
         }

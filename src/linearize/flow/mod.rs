@@ -85,7 +85,8 @@ impl Run<'_> {
 
     fn size(&mut self, slope: &[f64], end: f64) -> Result<f64, Halt> {
         let order = self.method.order();
-        let first = |problem: &mut Problem| first_step(problem, &TOLERANCE, (self.t, end - self.t), &self.y, slope, order);
+        let first =
+            |problem: &mut Problem| first_step(problem, &TOLERANCE, (self.t, end - self.t), &self.y, slope, order);
         self.h.map_or_else(|| first(&mut self.problem), Ok)
     }
 
@@ -121,6 +122,13 @@ impl Bundle {
     /// The motion from a state alone.
     pub fn of(start: &State) -> Self {
         let columns = super::Changes::none(start.v.len());
-        Bundle { start: start.clone(), columns, driven: Vec::new(), members: Vec::new(), pushes: Vec::new(), pulse: None }
+        Bundle {
+            start: start.clone(),
+            columns,
+            driven: Vec::new(),
+            members: Vec::new(),
+            pushes: Vec::new(),
+            pulse: None,
+        }
     }
 }

@@ -46,7 +46,8 @@ fn response(variation: &mut Variation, changes: &Changes, held: [f64; 2]) -> Res
     let mu = mass.trace() / (g.ncols().max(1) as f64);
     let lu = (&project * &mass + along * mu).lu();
     let solve = |right: Matrix| {
-        let error = || Error::input("the motion is not determined: a free direction has no mass").hint("give the body mass");
+        let error =
+            || Error::input("the motion is not determined: a free direction has no mass").hint("give the body mass");
         lu.solve(&right).ok_or_else(error)
     };
     let (force, inputs) = (variation.force(changes), variation.inputs());

@@ -23,8 +23,7 @@ const ROUNDS: usize = 6;
 /// about 1 then, and what is round-off can be told by its size.
 pub fn balance(a: &Matrix, e: &Matrix) -> Balanced {
     let n = a.nrows();
-    let mut balanced =
-        Balanced { a: a.clone(), e: e.clone(), rows: vec![1.0; n], cols: vec![1.0; n], time: 1.0 };
+    let mut balanced = Balanced { a: a.clone(), e: e.clone(), rows: vec![1.0; n], cols: vec![1.0; n], time: 1.0 };
     balanced.equate(largest_inverse(&balanced.e));
     for _ in 0..ROUNDS {
         balanced.set_time();

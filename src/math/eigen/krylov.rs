@@ -60,7 +60,12 @@ pub fn nearest(
     let m = options.subspace.unwrap_or(2 * count + 20).max(count + 2).min(n);
     let mut space = Krylov::new(n, m, apply);
     if count == 0 {
-        return Ok(Partial { values: Vec::new(), right: ComplexMatrix::zeros(n, 0), residuals: Vec::new(), applications: 0 });
+        return Ok(Partial {
+            values: Vec::new(),
+            right: ComplexMatrix::zeros(n, 0),
+            residuals: Vec::new(),
+            applications: 0,
+        });
     }
     let mut converged = 0;
     for _ in 0..=options.restarts {

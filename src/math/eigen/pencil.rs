@@ -64,7 +64,12 @@ pub fn generalized(a: &Matrix, e: &Matrix) -> Result<Generalized, Unsolved> {
     let each = |of: &dyn Fn(&(Unit, f64)) -> f64| {
         found.iter().flat_map(|unit| std::iter::repeat_n(of(unit), 1 + usize::from(unit.0.is_pair()))).collect()
     };
-    Ok(Generalized { alpha: conjugates::values(&units), beta: each(&|unit| unit.1), right, finiteness: each(&finiteness) })
+    Ok(Generalized {
+        alpha: conjugates::values(&units),
+        beta: each(&|unit| unit.1),
+        right,
+        finiteness: each(&finiteness),
+    })
 }
 
 type Decomposed = (Vec<(Unit, f64)>, Mat<f64>);

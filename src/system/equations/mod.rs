@@ -7,8 +7,8 @@ use super::{
     Column, Dimensions, Energy, LeviCivita, Loaded, MechanicalSystem, Need, OutputTangent, Scratch, Tangent, Terms,
 };
 use crate::math::{Dual, Scalar};
-use nalgebra::DMatrix;
 use christoffel::christoffel;
+use nalgebra::DMatrix;
 use passes::{Memory, Varied, curvature, fixed, gradient, levels, output_slopes, tangent_of};
 
 /// A mechanism by its M, f and phi. G, phi', gamma and L follow by dual and Taylor numbers, so nothing is derived by

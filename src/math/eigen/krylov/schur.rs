@@ -2,7 +2,7 @@
 
 use super::super::{Complex, ComplexMatrix, Unsolved};
 use nalgebra::linalg::{Schur, givens::GivensRotation};
-use nalgebra::{Vector2, ComplexField};
+use nalgebra::{ComplexField, Vector2};
 
 /// H = Q T Q^H with upper triangular T.
 pub struct Ordered {
