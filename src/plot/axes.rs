@@ -4,7 +4,7 @@ use super::axis::Axis;
 use super::layout::Placed;
 use super::palette::{FRAME, GRID_LINE, INK, LABEL_SIZE, NOTE_INK, NOTE_SIZE, TICK_LENGTH, TICK_SIZE};
 use super::shape::{Anchor, Drawing, Pt, Text};
-use super::text::{HALF_DIGIT, LINE_HEIGHT, Rich};
+use super::text::{self, HALF_DIGIT, LINE_HEIGHT, Rich};
 use super::ticks::decimal::power_of_ten;
 
 /// Height of the strip above a frame that holds factors and notes, and how far its text is from the frame.
@@ -38,6 +38,8 @@ pub(super) fn axes(drawing: &mut Drawing, placed: &Placed) {
     drawing.text(text((frame.left, strip), &placed.y_ticks.factor, NOTE_SIZE, Anchor::Start));
     let note = text((frame.right, strip), &placed.note(), NOTE_SIZE, Anchor::End);
     drawing.text(Text { color: NOTE_INK, ..note });
+    let title = text::shorten(&placed.panel.title, TICK_SIZE, frame.width());
+    drawing.text(text((frame.center().0, strip - placed.strip()), &title, TICK_SIZE, Anchor::Middle));
 }
 
 fn y_axis(drawing: &mut Drawing, placed: &Placed) {

@@ -80,6 +80,8 @@ pub(super) struct Axis {
     pub low: f64,
     pub high: f64,
     pub floor: Option<Floor>,
+    /// Of angles in degrees.
+    pub is_angle: bool,
 }
 
 /// Where a logarithmic axis draws what has no logarithm.
@@ -94,7 +96,7 @@ impl Axis {
     /// An axis that shows all values.
     pub fn new(spec: &AxisSpec, extent: &Extent, slack: Slack) -> Self {
         match spec.scale {
-            Scale::Linear => Self::linear(spec.range, extent, slack),
+            Scale::Linear => Self { is_angle: spec.is_angle, ..Self::linear(spec.range, extent, slack) },
             Scale::Log => Self::log(spec.range, extent, slack),
         }
     }
@@ -105,18 +107,18 @@ impl Axis {
         };
         let fixed = range.filter(usable);
         let (low, high) = fixed.unwrap_or_else(|| linear_limits(extent, slack));
-        Self { scale: Scale::Linear, low, high, floor: None }
+        Self { scale: Scale::Linear, low, high, floor: None, is_angle: false }
     }
 
     fn log(range: Option<(f64, f64)>, extent: &Extent, slack: Slack) -> Self {
         let usable = |(low, high): &(f64, f64)| *low > 0.0 && *high <= LARGEST && high.log10() - low.log10() > 1e-3;
         if let Some((low, high)) = range.filter(usable) {
-            return Self { scale: Scale::Log, low: low.log10(), high: high.log10(), floor: None };
+            return Self { scale: Scale::Log, low: low.log10(), high: high.log10(), floor: None, is_angle: false };
         }
         let floor = floor_below(extent);
         let (low, high) = log_limits(extent, floor);
         let margin = slack.part() * (high - low);
-        Self { scale: Scale::Log, low: low - margin, high: high + margin, floor }
+        Self { scale: Scale::Log, low: low - margin, high: high + margin, floor, is_angle: false }
     }
 
     /// Where a value lies: 0 at the lower limit, 1 at the upper one; none for NaN and infinities.

@@ -22,11 +22,14 @@ pub(super) fn figure(figure: &Figure) -> Drawing {
     let mut top = EDGE + 2.0 + heading(&mut drawing, &title);
     let shared = shared_legend(&panels);
     let series = figure.panels.iter().map(|panel| panel.series.len() + panel.color_series.len()).sum();
-    let last = panels.len().saturating_sub(1);
-    for (index, placed) in panels.iter_mut().enumerate() {
-        let entries = if shared.is_some() { Vec::new() } else { legend::entries(placed) };
-        top = panel(&mut drawing, placed, top, &entries, Budget::new(series));
-        top += if index < last { PANEL_GAP } else { 0.0 };
+    for (row, side_by_side) in panels.chunks_mut(layout::columns(figure)).enumerate() {
+        top += if row > 0 { PANEL_GAP } else { 0.0 };
+        let mut bottom = top;
+        for placed in side_by_side {
+            let entries = if shared.is_some() { Vec::new() } else { legend::entries(placed) };
+            bottom = bottom.max(panel(&mut drawing, placed, top, &entries, Budget::new(series)));
+        }
+        top = bottom;
     }
     if let (Some(entries), Some(placed)) = (shared, panels.last()) {
         top = below(&mut drawing, &entries, &placed.frame, top);

@@ -19,15 +19,17 @@ const COLUMN_WIDTH: f64 = 640.0;
 pub struct Figure {
     /// Drawn above the panels.
     pub title: Option<String>,
-    /// From top to bottom.
+    /// From top to bottom, or row by row.
     pub panels: Vec<Panel>,
+    /// So many panels stand side by side.
+    pub columns: usize,
     /// Nominal pixels; 640 is one journal column (85 mm). The height follows from the panels.
     pub width: f64,
 }
 
 impl Default for Figure {
     fn default() -> Self {
-        Self { title: None, panels: Vec::new(), width: COLUMN_WIDTH }
+        Self { title: None, panels: Vec::new(), columns: 1, width: COLUMN_WIDTH }
     }
 }
 
@@ -46,6 +48,12 @@ impl Figure {
     /// Adds a panel below the others.
     pub fn panel(mut self, panel: Panel) -> Self {
         self.panels.push(panel);
+        self
+    }
+
+    /// Sets how many panels stand side by side.
+    pub fn columns(mut self, columns: usize) -> Self {
+        self.columns = columns;
         self
     }
 

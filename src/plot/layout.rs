@@ -8,7 +8,6 @@ use super::item::Item;
 use super::marks;
 use super::palette::{EDGE, LABEL_SIZE, Look, NOTE_SIZE, TICK_LENGTH, TICK_SIZE, look};
 use super::panel::{Panel, Scale};
-use super::series::Style;
 use super::shape::{Pt, Rect};
 use super::text::{self, LINE_HEIGHT, Label};
 use super::ticks::{Room, Ticks};
@@ -66,11 +65,17 @@ impl Placed<'_> {
     }
 
     /// Height of the strip above the frame for factors and notes.
-    pub fn above(&self) -> f64 {
+    pub fn strip(&self) -> f64 {
         let needed = !self.y_ticks.factor.is_empty()
             || !self.note().is_empty()
             || self.bar.as_ref().is_some_and(ColorBar::has_factor);
         if needed { STRIP } else { 0.0 }
+    }
+
+    /// Height of the strip and the panel's title above it.
+    pub fn above(&self) -> f64 {
+        let title = if self.panel.title.trim().is_empty() { 0.0 } else { LINE_HEIGHT * TICK_SIZE + 2.0 };
+        self.strip() + title
     }
 
     /// Height of the marks and labels below the frame.
@@ -102,8 +107,10 @@ impl Placed<'_> {
 
 /// All panels with frames of the same left and right border; tops and bottoms are set one by one when drawing.
 pub(super) fn place(figure: &Figure) -> (f64, Vec<Placed<'_>>) {
-    let total = if figure.width.is_finite() { figure.width.clamp(WIDTHS.0, WIDTHS.1) } else { WIDTHS.0 };
-    let shared = shares_x(&figure.panels);
+    let whole = if figure.width.is_finite() { figure.width.clamp(WIDTHS.0, WIDTHS.1) } else { WIDTHS.0 };
+    let columns = columns(figure);
+    let total = whole / columns as f64;
+    let shared = columns == 1 && shares_x(&figure.panels);
     let mut all = prepare(figure, shared);
     let (mut left, mut right, mut distance) = (80.0, 20.0, 0.0);
     // Marks depend on the room for them and the room on their labels; three rounds settle it.
@@ -117,13 +124,19 @@ pub(super) fn place(figure: &Figure) -> (f64, Vec<Placed<'_>>) {
         left = all.iter().map(|placed| placed.left_margin(distance)).fold(40.0, f64::max).min(0.45 * total).ceil();
         right = all.iter().map(|placed| placed.right_margin(width)).fold(0.0, f64::max).min(0.4 * total).ceil();
     }
-    for placed in &mut all {
-        placed.frame.left = left + 0.5;
-        placed.y_label_at = left - distance - 0.22 * LABEL_SIZE;
-        placed.frame.right = (total - right).round() - 0.5;
+    for (index, placed) in all.iter_mut().enumerate() {
+        let begin = (total * (index % columns) as f64).round();
+        placed.frame.left = begin + left + 0.5;
+        placed.y_label_at = begin + left - distance - 0.22 * LABEL_SIZE;
+        placed.frame.right = begin + (total - right).round() - 0.5;
         (placed.word_size, placed.symbols) = marks::words(placed);
     }
-    (total, all)
+    (whole, all)
+}
+
+/// Panels side by side.
+pub(super) fn columns(figure: &Figure) -> usize {
+    figure.columns.clamp(1, figure.panels.len().max(1))
 }
 
 /// Whether the panels have the same x axis.
@@ -150,7 +163,7 @@ fn prepare(figure: &Figure, shared: bool) -> Vec<Placed<'_>> {
 }
 
 fn one<'a>(panel: &'a Panel, (x, y): &(Extent, Extent), x_slack: Slack, shows_x: bool) -> Placed<'a> {
-    let count = panel.series.len();
+    let count = panel.series.iter().filter(|series| series.is_counted()).count();
     Placed {
         panel,
         x: Axis::new(&panel.x, x, x_slack),
@@ -203,10 +216,7 @@ fn slack(panel: &Panel) -> (Slack, Slack) {
         return (Slack::Part(0.08), Slack::Part(0.08));
     }
     let only_functions = panel.color_series.is_empty()
-        && panel
-            .series
-            .iter()
-            .all(|series| !matches!(series.style, Style::Dots | Style::LineDots) && series.is_function());
+        && panel.series.iter().all(|series| !series.style.has_markers() && series.is_function());
     if only_functions && !panel.equal_aspect {
         (Slack::Round, Slack::Part(0.06))
     } else {

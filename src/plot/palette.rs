@@ -19,6 +19,7 @@ pub(super) const INK: Color = Color(26, 26, 26);
 pub(super) const NOTE_INK: Color = Color(85, 85, 85);
 pub(super) const PAPER: Color = Color(255, 255, 255);
 pub(super) const GRID: Color = Color(228, 228, 228);
+const GREY: Color = Color(130, 130, 130);
 pub(super) const NO_VALUE: Color = Color(214, 214, 214);
 
 pub(super) const FRAME: Stroke = Stroke { color: Color(51, 51, 51), width: 1.4, dash: &[] };
@@ -54,12 +55,20 @@ pub(super) struct Look {
 /// colours give 28 different lines, neighbours differing in both.
 pub(super) fn look(series: &Series, index: usize, count: usize) -> Look {
     let place = series.color.unwrap_or(index);
-    let color = COLORS[place % COLORS.len()];
+    let color = if matches!(series.style, Style::Guide | Style::Crosses) { GREY } else { COLORS[place % COLORS.len()] };
     let pattern = if count > COLORS.len() { index % DASHES.len() } else { 0 };
-    let dash = if series.style == Style::Dashed { DASHES[pattern.max(1)] } else { DASHES[pattern] };
-    let width = if series.style == Style::Thin { THIN_WIDTH } else { LINE_WIDTH };
+    let dash = match series.style {
+        Style::Dashed => DASHES[pattern.max(1)],
+        Style::Dotted => DASHES[2],
+        Style::Guide => DASHED,
+        _ => DASHES[pattern],
+    };
+    let width = if matches!(series.style, Style::Thin | Style::Guide) { THIN_WIDTH } else { LINE_WIDTH };
     let line = series.style.has_line().then_some(Stroke { color, width, dash });
-    let marker = series.style.has_markers().then_some(MARKERS[place % MARKERS.len()]);
+    let marker = match series.style {
+        Style::Crosses => Some(Marker::Cross),
+        style => style.has_markers().then_some(MARKERS[place % MARKERS.len()]),
+    };
     Look { line, marker, color }
 }
 

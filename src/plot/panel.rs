@@ -23,6 +23,8 @@ pub struct AxisSpec {
     pub scale: Scale,
     /// Fixed limits; taken from the data when absent or unusable.
     pub range: Option<(f64, f64)>,
+    /// Whether values are angles in degrees, which are marked at multiples of 15, 45, 90 ...
+    pub is_angle: bool,
 }
 
 impl From<&str> for AxisSpec {
@@ -41,6 +43,12 @@ impl AxisSpec {
     /// The same axis, logarithmic.
     pub fn log(mut self) -> Self {
         self.scale = Scale::Log;
+        self
+    }
+
+    /// The same axis for angles in degrees.
+    pub fn degrees(mut self) -> Self {
+        self.is_angle = true;
         self
     }
 
@@ -78,6 +86,8 @@ pub struct Annotation {
 /// Axes and what is drawn between them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Panel {
+    /// Drawn above the axes; may be empty.
+    pub title: String,
     /// The horizontal axis.
     pub x: AxisSpec,
     /// The vertical axis.
@@ -108,6 +118,12 @@ impl Panel {
     /// An empty panel between two axes.
     pub fn new(x: impl Into<AxisSpec>, y: impl Into<AxisSpec>) -> Self {
         Self { x: x.into(), y: y.into(), ..Self::default() }
+    }
+
+    /// Sets the title.
+    pub fn title(mut self, title: impl Into<String>) -> Self {
+        self.title = title.into();
+        self
     }
 
     /// Adds a series.

@@ -10,23 +10,29 @@ pub enum Style {
     Line,
     /// A dashed line.
     Dashed,
+    /// A dotted line.
+    Dotted,
     /// A thin line.
     Thin,
+    /// A thin grey dashed line that helps to read the others.
+    Guide,
     /// A marker at every point.
     Dots,
     /// A line with markers, not at every point when they would touch.
     LineDots,
+    /// A small grey cross at every point: what stands back behind the others.
+    Crosses,
 }
 
 impl Style {
     /// Whether the points are joined.
     pub(super) fn has_line(self) -> bool {
-        self != Self::Dots
+        !matches!(self, Self::Dots | Self::Crosses)
     }
 
     /// Whether the points carry markers.
     pub(super) fn has_markers(self) -> bool {
-        matches!(self, Self::Dots | Self::LineDots)
+        matches!(self, Self::Dots | Self::LineDots | Self::Crosses)
     }
 }
 
@@ -64,6 +70,11 @@ impl Series {
     pub fn color(mut self, color: usize) -> Self {
         self.color = Some(color);
         self
+    }
+
+    /// Whether it is one of the lines that are told apart by colours and, where they are many, by dashes.
+    pub(super) fn is_counted(&self) -> bool {
+        !matches!(self.style, Style::Dashed | Style::Dotted | Style::Guide | Style::Crosses)
     }
 
     /// Whether x never goes back, as in a function of time.

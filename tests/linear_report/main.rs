@@ -1,6 +1,7 @@
 //! Linear models as files, text and figures.
 
 mod comparison;
+mod figures;
 mod files;
 mod sample;
 mod text;

@@ -74,7 +74,7 @@ pub fn plain(study: &Study) -> LinearModel {
 
 fn null_space(g: &Matrix) -> Matrix {
     let values = (g.transpose() * g).symmetric_eigen();
-    let free = (0..g.ncols()).filter(|i| values.eigenvalues[*i].abs() < 1e-9 * values.eigenvalues.amax());
+    let free = (0..g.ncols()).filter(|i| values.eigenvalues[*i].abs() < 1e-9 * values.eigenvalues.amax().max(1.0));
     Matrix::from_columns(&free.map(|i| values.eigenvectors.column(i).into_owned()).collect::<Vec<_>>())
 }
 

@@ -18,10 +18,11 @@ struct Grid {
 }
 
 /// The finest marks whose labels have room.
-pub(super) fn ticks(low: f64, high: f64, room: Room) -> Ticks {
+pub(super) fn ticks(low: f64, high: f64, room: Room, is_angle: bool) -> Ticks {
     let most = if room.along { 8.0 } else { 7.0 };
     let mut best = None;
-    for grid in grids(low, high, most) {
+    let angles = angle_grids(low, high, most).filter(|_| is_angle);
+    for grid in angles.chain(grids(low, high, most)) {
         let ticks = grid.ticks(low, high);
         let spacing = room.length * grid.step() / (high - low);
         let needed = room.spacing(ticks.major.iter().map(|tick| tick.label.as_str()));
@@ -35,22 +36,34 @@ pub(super) fn ticks(low: f64, high: f64, room: Room) -> Ticks {
     best.unwrap_or_default()
 }
 
+/// Steps of angles, degrees.
+const ANGLES: [i64; 8] = [5, 15, 30, 45, 90, 180, 360, 720];
+
+/// Grids for angles from fine to coarse, where one has at most `most` steps and more than one.
+fn angle_grids(low: f64, high: f64, most: f64) -> impl Iterator<Item = Grid> {
+    let (finest, coarsest) = ((high - low) / most, 0.5 * (high - low));
+    let steps = ANGLES.into_iter().filter(move |step| (finest..=coarsest).contains(&(*step as f64)));
+    steps.map(move |step| Grid::new(step, 0, low, high))
+}
+
 /// Grids from fine to coarse, beginning with at most `most` steps.
 fn grids(low: f64, high: f64, most: f64) -> impl Iterator<Item = Grid> {
     let finest = (high - low) / most;
     let power = finest.log10().floor() as i32;
     let steps = (power..power + 3).flat_map(|power| STEPS.map(|tenths| (tenths, power)));
-    steps.filter(move |(tenths, power)| value(*tenths, power - 1) >= finest * (1.0 - 1e-9)).map(
-        move |(tenths, power)| {
-            let step = value(tenths, power - 1);
-            // A mark on the very limit must not be lost to rounding.
-            let (first, last) = ((low / step - 1e-6).ceil() as i64, (high / step + 1e-6).floor() as i64);
-            Grid { tenths, power: power - 1, first, last }
-        },
-    )
+    let fine = move |(tenths, power): &(i64, i32)| value(*tenths, power - 1) >= finest * (1.0 - 1e-9);
+    steps.filter(fine).map(move |(tenths, power)| Grid::new(tenths, power - 1, low, high))
 }
 
 impl Grid {
+    /// Marks at multiples of tenths * 10^power.
+    fn new(tenths: i64, power: i32, low: f64, high: f64) -> Self {
+        let step = value(tenths, power);
+        // A mark on the very limit must not be lost to rounding.
+        let (first, last) = ((low / step - 1e-6).ceil() as i64, (high / step + 1e-6).floor() as i64);
+        Grid { tenths, power, first, last }
+    }
+
     fn step(&self) -> f64 {
         value(self.tenths, self.power)
     }
@@ -129,7 +142,7 @@ mod tests {
     const ROOM: Room = Room { length: 500.0, size: 16.0, along: true };
 
     fn labels(low: f64, high: f64) -> (Vec<String>, String) {
-        let ticks = ticks(low, high, ROOM);
+        let ticks = ticks(low, high, ROOM, false);
         (ticks.major.into_iter().map(|tick| tick.label).collect(), ticks.factor)
     }
 
@@ -138,6 +151,17 @@ mod tests {
         assert_eq!(labels(0.0, 0.6).0, ["0.0", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6"]);
         assert_eq!(labels(0.0, 0.03).0, ["0.000", "0.005", "0.010", "0.015", "0.020", "0.025", "0.030"]);
         assert_eq!(labels(-1.0, 1.0).0, ["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
+    }
+
+    #[test]
+    fn angles_are_marked_at_parts_of_turns() {
+        let labels = |low: f64, high: f64| -> Vec<String> {
+            let room = Room { length: 240.0, size: 16.0, along: false };
+            ticks(low, high, room, true).major.into_iter().map(|tick| tick.label).collect()
+        };
+        assert_eq!(labels(-370.0, 10.0), ["−360", "−270", "−180", "−90", "0"]);
+        assert_eq!(labels(-95.0, 3.0), ["−90", "−75", "−60", "−45", "−30", "−15", "0"]);
+        assert_eq!(labels(0.0, 1.0), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
     }
 
     #[test]
@@ -159,7 +183,7 @@ mod tests {
 
     #[test]
     fn marks_lie_on_their_values() {
-        let ticks = ticks(0.05, 0.95, ROOM);
+        let ticks = ticks(0.05, 0.95, ROOM, false);
         for tick in ticks.major {
             let value: f64 = tick.label.parse().expect("a number");
             assert!((0.05 + 0.9 * tick.at - value).abs() < 1e-12);

@@ -49,7 +49,7 @@ impl Ticks {
     /// The marks that suit an axis.
     pub fn new(axis: &Axis, room: Room) -> Self {
         match axis.scale {
-            Scale::Linear => linear::ticks(axis.low, axis.high, room),
+            Scale::Linear => linear::ticks(axis.low, axis.high, room, axis.is_angle),
             Scale::Log => log::ticks(axis.low, axis.high, room),
         }
     }

@@ -1,13 +1,23 @@
 //! Linear models as files, text and figures.
 
 mod arrays;
+mod bode;
 mod comparison;
+mod curves;
+mod damping;
 mod file;
-mod pairs;
+mod loci;
+pub(super) mod pairs;
+mod range;
 mod text;
+mod validation;
 
+pub use bode::{Response, bode_figure};
 pub use comparison::{Comparison, compare, comparison_text};
+pub use curves::frequency_figure;
 pub use file::{LinearFile, OperatingPointFile, linear_stem};
+pub use loci::loci_figure;
+pub use validation::{Deviation, ErrorOrder, validation_figure};
 
 use crate::error::Result;
 use crate::files::{mat, npz};

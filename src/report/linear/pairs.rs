@@ -9,6 +9,14 @@ pub struct Pair<'a> {
     pub is_pair: bool,
 }
 
+/// Damping below this is round-off, whose sign would mislead.
+const NO_DAMPING: f64 = 1e-9;
+
+/// The damping ratio as a person reads it.
+pub fn damping(mode: &Mode) -> f64 {
+    Some(mode.damping()).filter(|ratio| ratio.abs() > NO_DAMPING).unwrap_or(0.0)
+}
+
 /// Two values are conjugate to this part of their size.
 const ROUNDING: f64 = 1e-6;
 

@@ -1,6 +1,6 @@
 //! A linear model as a person reads it in a terminal.
 
-use super::pairs::{Pair, pairs};
+use super::pairs::{Pair, damping, pairs};
 use super::{Linear, arrays};
 use crate::error::short;
 use crate::linearize::{Kind, LinearModel};
@@ -110,7 +110,7 @@ fn cells(model: &LinearModel, number: usize, pair: &Pair) -> [String; 7] {
         significant(value.re, 6),
         imaginary,
         significant(mode.frequency(), 5),
-        significant(mode.damping(), 4),
+        significant(damping(mode), 4),
         arrays::kind(mode.kind).to_string(),
         participants(&model.states, &mode.participation),
     ]

@@ -127,14 +127,19 @@ fn every(times: &[f64], most: usize) -> impl Iterator<Item = f64> + '_ {
     times.iter().copied().step_by(times.len().div_ceil(most).max(1))
 }
 
-fn supports(look: &Look, scenes: &[Snapshot]) -> Vec<Item> {
+pub(super) fn supports(look: &Look, scenes: &[Snapshot]) -> Vec<Item> {
     let mut pen = Pen::new(&look.view, 0.0);
     ground::draw(&mut pen, scenes);
     pen.finish().collect()
 }
 
 /// Bodies, joints and forces.
-fn picture(look: &Look, scene: &Snapshot, course: &Course, paleness: f64) -> impl Iterator<Item = Item> + use<> {
+pub(super) fn picture(
+    look: &Look,
+    scene: &Snapshot,
+    course: &Course,
+    paleness: f64,
+) -> impl Iterator<Item = Item> + use<> {
     let mut pen = Pen::new(&look.view, paleness);
     for (color, limb) in scene.limbs.iter().enumerate() {
         pen.depth = bodies::depth(&pen, limb);
@@ -148,7 +153,12 @@ fn picture(look: &Look, scene: &Snapshot, course: &Course, paleness: f64) -> imp
 }
 
 /// An empty panel whose axes show all items and curves, with room for signs of fixed size at the border.
-fn panel<'a>(look: &Look, scene: &Snapshot, items: impl Iterator<Item = &'a [Item]>, series: &[Series]) -> Panel {
+pub(super) fn panel<'a>(
+    look: &Look,
+    scene: &Snapshot,
+    items: impl Iterator<Item = &'a [Item]>,
+    series: &[Series],
+) -> Panel {
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     let places = items.flatten().flat_map(Item::data);
     for (x, y) in places.chain(series.iter().flat_map(|series| series.points.iter().copied())) {
@@ -187,7 +197,7 @@ fn triad(view: &View) -> Vec<Item> {
 }
 
 /// Names beside the bodies, where the figure has room for them.
-fn labelled(look: &Look, scene: &Snapshot, mut panel: Panel) -> Panel {
+pub(super) fn labelled(look: &Look, scene: &Snapshot, mut panel: Panel) -> Panel {
     if look.labels {
         for (color, limb) in scene.limbs.iter().enumerate() {
             let count = limb.points.len().max(1) as f64;
@@ -223,7 +233,7 @@ fn course(motion: &Motion) -> Course {
     course
 }
 
-fn lengths(scene: &Snapshot) -> Vec<f64> {
+pub(super) fn lengths(scene: &Snapshot) -> Vec<f64> {
     let distance = |link: &Link| match link.ends.as_slice() {
         [a, b, ..] => length(less(b.r, a.r)),
         _ => 0.0,

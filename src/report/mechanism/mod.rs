@@ -13,6 +13,7 @@ mod glyphs;
 mod ground;
 mod hull;
 mod joints;
+mod modes;
 mod motion;
 mod pen;
 mod snapshot;
@@ -20,6 +21,7 @@ mod traces;
 mod view;
 
 pub use figures::{Look, animation, mechanism_figure, stroboscope_figure};
+pub use modes::{mode_animation, mode_figure};
 pub use motion::{Motion, State};
 pub use snapshot::up;
 pub use traces::{Trace, find_trace, output_traces};

@@ -1,0 +1,213 @@
+//! The mechanism in its modes of motion.
+
+use super::figures::{Look, labelled, lengths, panel, picture, supports};
+use super::glyphs::Course;
+use super::motion::State;
+use super::snapshot::{Snapshot, snapshot};
+use super::view::{along, length, less};
+use crate::error::short;
+use crate::formulation::turn;
+use crate::linearize::{Complex, Kind, LinearModel, Mode};
+use crate::plot::{Align, Animation, Figure, Item, Place, Spot, Tint};
+use crate::report::linear::pairs::{Pair, damping, pairs};
+use crate::report::significant;
+use crate::study::Study;
+use std::f64::consts::TAU;
+
+/// Modes in one figure.
+const MOST: usize = 6;
+/// Width with two columns, nominal pixels.
+const WIDE: f64 = 1000.0;
+/// The place that moves most moves by this part of the mechanism's size.
+const TRAVEL: f64 = 0.08;
+/// A mode that moves no place by more than this part of the size per unit, as a wheel that spins, moves by so much.
+const STILL: f64 = 1e-3;
+const SPIN: f64 = 0.35;
+/// A swing is halved until its ends lie on a line through the operating point to this part of its length: turns by large
+/// angles would tear the joints open, which hold to first order only.
+const BEND: f64 = 0.3;
+const HALVINGS: usize = 12;
+/// Paleness of the operating point and of the far end of a motion.
+const REST: f64 = 0.6;
+const FAR: f64 = 0.5;
+
+/// A motion about the operating point that can be seen.
+struct Swing<'a> {
+    study: &'a Study,
+    model: &'a LinearModel,
+    mode: &'a Mode,
+    /// At its widest: so many units of the shape, turned by this angle.
+    amplitude: f64,
+    phase: f64,
+}
+
+/// The slowest physical modes, one panel each: the operating point in grey, the mechanism at both ends of its motion.
+/// `None` where no mode has a shape.
+pub fn mode_figure(study: &Study, look: &Look, model: &LinearModel) -> Option<Figure> {
+    let found = shaped(model);
+    let drawn = &found[..found.len().min(MOST)];
+    let rest = at_rest(study, model);
+    let ground = supports(look, std::slice::from_ref(&rest));
+    let pictures: Vec<Vec<Item>> =
+        drawn.iter().map(|(_, pair)| picture_of(study, look, model, pair.mode, &rest)).collect();
+    // The same axes for all, so that they can be compared.
+    let empty = panel(look, &rest, pictures.iter().map(Vec::as_slice).chain([ground.as_slice()]), &[]);
+    let panels = drawn.iter().zip(pictures).map(|((number, pair), items)| {
+        let panel = empty.clone().title(format!("mode {number}: {}", title(pair)));
+        labelled(look, &rest, panel.items(ground.iter().cloned().chain(items)))
+    });
+    let name = format!("{}, modes at t = {} s", study.name, significant(model.point.t, 4));
+    let figure = panels.fold(Figure::new().title(name), Figure::panel);
+    match figure.panels.len() {
+        0 => None,
+        1 => Some(figure),
+        _ => Some(figure.columns(2).width(WIDE)),
+    }
+}
+
+/// One mode in motion: `number` counts the physical modes from one, each conjugate pair once, as in the text. `None` where
+/// there is no such mode with a shape.
+pub fn mode_animation<'a>(
+    study: &'a Study,
+    look: &Look,
+    model: &'a LinearModel,
+    number: usize,
+) -> Option<Animation<impl Fn(usize) -> Figure + Sync + use<'a>>> {
+    const FRAMES: usize = 50;
+    let (_, pair) = shaped(model).into_iter().find(|(known, _)| *known == number)?;
+    let rest = at_rest(study, model);
+    let swing = Swing::new(study, model, pair.mode, &rest);
+    let course = course(&rest);
+    let ground = supports(look, std::slice::from_ref(&rest));
+    let ends: Vec<Item> = [0.0, 0.25, 0.5, 0.75]
+        .iter()
+        .flat_map(|part| picture(look, &swing.snapshot(TAU * part), &course, 0.0))
+        .collect();
+    let empty = panel(look, &rest, [ends.as_slice(), ground.as_slice()].into_iter(), &[]);
+    let (look, name) = (look.clone(), format!("{}, mode {number}: {}", study.name, title(&pair)));
+    let pale: Vec<Item> = picture(&look, &rest, &course, REST).map(grey).collect();
+    let frame = move |k: usize| {
+        let scene = swing.snapshot(TAU * k as f64 / FRAMES as f64);
+        let moving = picture(&look, &scene, &course, 0.0);
+        let items = ground.iter().cloned().chain(pale.iter().cloned()).chain(moving);
+        let items = items.chain([note("one period, slower or faster than it is".to_string())]);
+        Figure::new().title(name.clone()).panel(empty.clone().items(items))
+    };
+    Some(Animation { frame, count: FRAMES, per_second: 25.0 })
+}
+
+fn note(text: String) -> Item {
+    Item::Text { spot: Spot { at: Place::Frame(1.0, 1.0), step: (0.0, 8.0) }, text, align: Align::End }
+}
+
+/// Physical modes with a shape, with their numbers.
+fn shaped(model: &LinearModel) -> Vec<(usize, Pair<'_>)> {
+    let numbered = pairs(model, Kind::Physical).into_iter().enumerate().map(|(i, pair)| (i + 1, pair));
+    numbered.filter(|(_, pair)| pair.mode.shape.iter().any(|part| part.norm() > 0.0)).collect()
+}
+
+/// Frequency and damping of what swings, the rate of what does not.
+fn title(pair: &Pair) -> String {
+    let mode = pair.mode;
+    let text = match mode.value.im != 0.0 {
+        true => format!("{} Hz, ζ = {}", short(mode.frequency()), short(damping(mode))),
+        false => format!("{} 1/s, no swing", short(mode.value.re)),
+    };
+    text.replace('-', "−")
+}
+
+fn at_rest(study: &Study, model: &LinearModel) -> Snapshot {
+    let point = &model.point;
+    snapshot(&study.mechanism, &State { t: point.t, q: point.q.clone(), v: point.v.clone() })
+}
+
+fn course(rest: &Snapshot) -> Course {
+    Course { travels: Vec::new(), lengths: lengths(rest) }
+}
+
+fn picture_of(study: &Study, look: &Look, model: &LinearModel, mode: &Mode, rest: &Snapshot) -> Vec<Item> {
+    let swing = Swing::new(study, model, mode, rest);
+    let course = course(rest);
+    let still = picture(look, rest, &course, REST).map(grey);
+    let ends = [(0.5 * TAU, FAR), (0.0, 0.0)];
+    let ends = ends.iter().flat_map(|(angle, paleness)| picture(look, &swing.snapshot(*angle), &course, *paleness));
+    still.chain(ends).collect()
+}
+
+/// The same without the colours of bodies.
+fn grey(item: Item) -> Item {
+    let grey = |tint: Tint| if let Tint::Body(_, paleness) = tint { Tint::Ink(paleness) } else { tint };
+    match item {
+        Item::Line { spots, tint, width, dashed } => Item::Line { spots, tint: grey(tint), width, dashed },
+        Item::Area { spots, tint, opacity } => Item::Area { spots, tint: grey(tint), opacity },
+        Item::Disc { spot, radius, tint } => Item::Disc { spot, radius, tint: grey(tint) },
+        text => text,
+    }
+}
+
+impl<'a> Swing<'a> {
+    fn new(study: &'a Study, model: &'a LinearModel, mode: &'a Mode, rest: &Snapshot) -> Self {
+        // Where the squares add up to a real number, the real part of the shape is largest.
+        let squares: Complex<f64> = mode.shape.iter().map(|part| part * part).sum();
+        let swing = Swing { study, model, mode, amplitude: 1.0, phase: -0.5 * squares.arg() };
+        let largest = swing.change(0.0).iter().fold(0.0, |most: f64, part| most.max(part.abs()));
+        let size = size(rest);
+        let step = 1e-4 / largest.max(f64::MIN_POSITIVE);
+        let moved = Swing { amplitude: step, ..swing }.snapshot(0.0);
+        let travel = travel(rest, &moved) / step;
+        let amplitude = if travel > STILL * size * largest { TRAVEL * size / travel } else { SPIN / largest };
+        let mut swing = Swing { amplitude, ..swing };
+        for _ in 0..HALVINGS {
+            if travel <= STILL * size * largest || swing.bend(rest) <= BEND {
+                break;
+            }
+            swing.amplitude *= 0.5;
+        }
+        swing
+    }
+
+    /// How far the middle of both ends is from the operating point, as a part of their distance.
+    fn bend(&self, rest: &Snapshot) -> f64 {
+        let (one, other) = (self.snapshot(0.0), self.snapshot(0.5 * TAU));
+        let ends = || places(&one).zip(places(&other));
+        let middle = ends().zip(places(rest)).map(|((a, b), r)| length(less(along(a.map(|x| 0.5 * x), b, 0.5), r)));
+        let apart = ends().map(|(a, b)| length(less(b, a))).fold(f64::MIN_POSITIVE, f64::max);
+        2.0 * middle.fold(0.0, f64::max) / apart
+    }
+
+    /// The change of q along the velocity directions at an angle of the motion.
+    fn change(&self, angle: f64) -> Vec<f64> {
+        let turn = Complex::from_polar(self.amplitude, self.phase + angle);
+        self.mode.shape.iter().map(|part| (part * turn).re).collect()
+    }
+
+    fn snapshot(&self, angle: f64) -> Snapshot {
+        let (point, system) = (&self.model.point, self.study.system());
+        let mut q = point.q.clone();
+        let mut stages = [q.clone(), q.clone(), q.clone()];
+        turn(system, &mut stages, &point.q, &self.change(angle), &mut q);
+        snapshot(&self.study.mechanism, &State { t: point.t, q, v: point.v.clone() })
+    }
+}
+
+/// Places that can be followed from picture to picture.
+fn places(scene: &Snapshot) -> impl Iterator<Item = [f64; 3]> + '_ {
+    let lines = scene.limbs.iter().flat_map(|limb| limb.line.iter().copied().chain([limb.centre.r]));
+    scene.markers.iter().map(|marker| marker.r).chain(lines)
+}
+
+fn travel(from: &Snapshot, to: &Snapshot) -> f64 {
+    places(from).zip(places(to)).map(|(a, b)| length(less(b, a))).fold(0.0, f64::max)
+}
+
+/// The longest side of a box around all places; 1 m where they coincide.
+fn size(scene: &Snapshot) -> f64 {
+    let side = |i: usize| {
+        let (low, high) = places(scene)
+            .map(|place| place[i])
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        high - low
+    };
+    let longest = (0..3).map(side).fold(0.0, f64::max);
+    if longest > 0.0 && longest.is_finite() { longest } else { 1.0 }
+}
