@@ -27,7 +27,7 @@ pub use frequency::{Resonances, frequency_response};
 pub use loci::Branch;
 pub use method::{Built, Entry, Request, linearize, registry};
 pub use minimal::{Minimal, minimal};
-pub use model::{Complex, Cost, Kind, LinearModel, Matrix, Mode};
+pub use model::{Complex, Cost, Kind, LinearModel, Matrix, Mode, damping, frequency};
 pub use point::OperatingPoint;
 pub use response::{Changes, Response};
 pub use survey::{Along, At, Gap, Loci, Reached, Variants, loci_along, loci_over};

@@ -14,6 +14,8 @@ pub struct Loci {
     /// As in [`LinearModel`](super::LinearModel), of the first state that has one; empty where none has.
     pub method: String,
     pub chart: String,
+    /// All places in their order.
+    pub places: Vec<f64>,
     pub reached: Vec<Reached>,
     pub gaps: Vec<Gap>,
     /// Physical ones first.
@@ -179,6 +181,7 @@ fn collect(along: Along, outcomes: Vec<Outcome>) -> Loci {
         along,
         method: String::new(),
         chart: String::new(),
+        places: outcomes.iter().map(|(at, _)| *at).collect(),
         reached: Vec::new(),
         gaps: Vec::new(),
         branches: Vec::new(),

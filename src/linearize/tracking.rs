@@ -30,7 +30,7 @@ struct Thread {
 }
 
 /// The finite eigenvalues of `samples` as branches, in the order of their start: physical ones first, and of a conjugate
-/// pair first the one with im > 0.
+/// pair first the one with im > 0. Infinite eigenvalues are left out.
 ///
 /// From one sample to the next the modes of a kind are matched by the least sum of
 ///
@@ -97,7 +97,8 @@ fn go_on(threads: Vec<Thread>, sample: &Sample, kind: Kind, branches: &mut Vec<B
     going
 }
 
-/// Places in their order, but of neighbours that are conjugate first the one with im > 0.
+/// Places in their order, but of neighbours that are conjugate first the one with im > 0, and real ones from the largest, as
+/// [`matching`] orders those that become a pair.
 fn upper_first(nodes: &[Node]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..nodes.len()).collect();
     let mut i = 0;
@@ -108,6 +109,10 @@ fn upper_first(nodes: &[Node]) -> Vec<usize> {
         }
         i += if is_pair { 2 } else { 1 };
     }
+    let places: Vec<usize> = (0..order.len()).filter(|&i| nodes[order[i]].value.im == 0.0).collect();
+    let mut real: Vec<usize> = places.iter().map(|&place| order[place]).collect();
+    real.sort_by(|&a, &b| nodes[b].value.re.total_cmp(&nodes[a].value.re));
+    places.into_iter().zip(real).for_each(|(place, node)| order[place] = node);
     order
 }
 
