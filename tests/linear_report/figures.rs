@@ -150,6 +150,6 @@ fn a_mode_moves() {
     let animation = mode_animation(&study, &look(), &model, 1).unwrap();
     let frame = |k: usize| (animation.frame)(k).to_svg();
     assert_ne!(frame(0), frame(10));
-    says(&frame(0), &["double_pendulum, mode 1: "]);
+    says(&frame(0), &["double_pendulum, mode 1: ", "not in real time"]);
     assert!(animation.to_gif(|_| ()).unwrap().starts_with(b"GIF89a"));
 }

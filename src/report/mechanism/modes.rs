@@ -8,7 +8,7 @@ use super::view::{along, length, less};
 use crate::error::short;
 use crate::formulation::turn;
 use crate::linearize::{Complex, Kind, LinearModel, Mode};
-use crate::plot::{Align, Animation, Figure, Item, Place, Spot, Tint};
+use crate::plot::{Animation, Figure, Item, Tint};
 use crate::report::linear::pairs::{Pair, damping, pairs};
 use crate::report::significant;
 use crate::study::Study;
@@ -83,21 +83,16 @@ pub fn mode_animation<'a>(
         .iter()
         .flat_map(|part| picture(look, &swing.snapshot(TAU * part), &course, 0.0))
         .collect();
-    let empty = panel(look, &rest, [ends.as_slice(), ground.as_slice()].into_iter(), &[]);
+    let empty = panel(look, &rest, [ends.as_slice(), ground.as_slice()].into_iter(), &[]).title("not in real time");
     let (look, name) = (look.clone(), format!("{}, mode {number}: {}", study.name, title(&pair)));
     let pale: Vec<Item> = picture(&look, &rest, &course, REST).map(grey).collect();
     let frame = move |k: usize| {
         let scene = swing.snapshot(TAU * k as f64 / FRAMES as f64);
         let moving = picture(&look, &scene, &course, 0.0);
         let items = ground.iter().cloned().chain(pale.iter().cloned()).chain(moving);
-        let items = items.chain([note("one period, slower or faster than it is".to_string())]);
         Figure::new().title(name.clone()).panel(empty.clone().items(items))
     };
     Some(Animation { frame, count: FRAMES, per_second: 25.0 })
-}
-
-fn note(text: String) -> Item {
-    Item::Text { spot: Spot { at: Place::Frame(1.0, 1.0), step: (0.0, 8.0) }, text, align: Align::End }
 }
 
 /// Physical modes with a shape, with their numbers.
