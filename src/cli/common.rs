@@ -144,13 +144,16 @@ impl Common {
 impl MethodOptions {
     /// The scene with these settings; `method` where it is left to the program.
     pub fn load(&self, scene: &SceneOptions, method: Option<Automatic>) -> Result<Study> {
+        Study::load(&scene.path, &self.overrides(scene, method))
+    }
+
+    /// What these settings change of a scene's own.
+    pub fn overrides(&self, scene: &SceneOptions, method: Option<Automatic>) -> Overrides {
         let MethodOptions { rtol, atol, step, until, output_step, .. } = *self;
         let [formulation, integrator, projection] =
             [&self.formulation, &self.integrator, &self.projection].map(Clone::clone);
         let set = scene.set.clone();
-        let overrides =
-            Overrides { set, method, formulation, integrator, projection, rtol, atol, step, until, output_step };
-        Study::load(&scene.path, &overrides)
+        Overrides { set, method, formulation, integrator, projection, rtol, atol, step, until, output_step }
     }
 }
 

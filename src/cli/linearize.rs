@@ -1,9 +1,10 @@
 //! `holonom linearize SCENE`
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, number, print};
+use super::common::{MethodOptions, Output, SceneOptions, Talk, print};
+use super::linear::{ChartOptions, StateOptions};
 use crate::choice::Choice;
 use crate::error::{Error, Result};
-use crate::linearize::{self, Chart, Kind, LinearModel, Request, State, at_rest, states};
+use crate::linearize::{self, Kind, LinearModel, Request};
 use crate::report::linear::{Linear, compare, comparison_text, linear_stem};
 use crate::report::{self, Folder};
 use crate::study::Study;
@@ -14,23 +15,14 @@ use std::process::ExitCode;
 pub struct Args {
     #[command(flatten)]
     scene: SceneOptions,
-    /// Times of the states, s (default: the start)
-    #[arg(long, value_name = "T[,T...]", value_parser = number, value_delimiter = ',', allow_negative_numbers = true)]
-    at: Vec<f64>,
+    #[command(flatten)]
+    states: StateOptions,
     /// mcs, rcs, baumgarte, penalty, augmented_lagrangian or force_projection, with options as in baumgarte:alpha=5; or
     /// all, to compare them
     #[arg(long, default_value = "mcs")]
     method: String,
-    /// Coordinates of the perturbation: intrinsic, mass_orthogonal, frozen, or independent coordinates NAME[,NAME]
-    /// (default: intrinsic, or mass_orthogonal with bodies in floating frames)
-    #[arg(long, value_name = "CHART", conflicts_with = "independent")]
-    chart: Option<String>,
-    /// Independent coordinates, the same as --chart NAME[,NAME]
-    #[arg(long, value_name = "NAME[,NAME...]")]
-    independent: Option<String>,
-    /// Find the static equilibrium that belongs to the state first
-    #[arg(long)]
-    equilibrium: bool,
+    #[command(flatten)]
+    chart: ChartOptions,
     #[command(flatten)]
     run: MethodOptions,
     #[command(flatten)]
@@ -39,16 +31,11 @@ pub struct Args {
     output: Output,
 }
 
-/// States of a run are integrated at least so well, unless --rtol or --atol says otherwise.
-const TOLERANCE: f64 = 1e-10;
-
 pub fn run(args: Args) -> Result<ExitCode> {
     let in_file = |error: Error| error.in_file(&args.scene.path);
-    let mut study = args.run.load(&args.scene, None)?;
-    study.method.rtol = args.run.rtol.unwrap_or(study.method.rtol.min(TOLERANCE));
-    study.method.atol = args.run.atol.unwrap_or(study.method.atol.min(TOLERANCE));
+    let study = args.run.load_tight(&args.scene)?;
     let requests = requests(&args).map_err(|error| error.under("--method"))?;
-    let places = places(&args, &study).map_err(in_file)?;
+    let places = args.states.states(&study, &args.talk).map_err(in_file)?;
     let mut folder = args.output.folder(&study.name)?;
     let mut results = Vec::new();
     for state in &places {
@@ -67,7 +54,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
 }
 
 fn requests(args: &Args) -> Result<Vec<Request>> {
-    let chart = args.chart.as_ref().or(args.independent.as_ref()).map(|text| Chart::parse(text));
+    let chart = args.chart.chart();
     let request = |method: Choice| Request { method, chart: chart.clone() };
     if args.method != "all" {
         return Ok(vec![request(Choice::parse(&args.method)?)]);
@@ -77,18 +64,6 @@ fn requests(args: &Args) -> Result<Vec<Request>> {
     let projected = ["baumgarte:projected=yes", "penalty:projected=yes", "augmented_lagrangian:projected=yes"];
     let names = all.into_iter().chain(rest).chain(["penalty:kind=elastic"]).chain(projected);
     names.map(|name| Choice::parse(name).map(request)).collect()
-}
-
-fn places(args: &Args, study: &Study) -> Result<Vec<State>> {
-    let times = if args.at.is_empty() { vec![study.start_time()] } else { args.at.clone() };
-    if !args.equilibrium {
-        let bar = args.talk.progress(times.len() as u64, &study.name);
-        let found = states(study, &times, |_| bar.inc(1));
-        bar.finish_and_clear();
-        return found;
-    }
-    let (q, v) = study.start();
-    times.into_iter().map(|t| at_rest(study, &State { t, q: q.to_vec(), v: v.to_vec() })).collect()
 }
 
 /// What `--json` prints for one state.

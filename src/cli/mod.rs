@@ -1,10 +1,13 @@
 //! The command line: one file a subcommand.
 
+mod bode;
 mod check;
 mod common;
 mod drift;
 mod generate;
+mod linear;
 mod linearize;
+mod loci;
 mod methods;
 mod plot;
 mod purpose;
@@ -42,6 +45,13 @@ enum Command {
     Plot(plot::Args),
     /// Linear models (A, B, C, D) at states of the motion, by every approach, with their eigenvalues
     Linearize(linearize::Args),
+    /// Eigenvalues along the motion, or over a parameter: each mode followed, with figures
+    ///
+    /// Modes are followed by their shapes and values, so that those which cross keep their names. Off equilibrium the
+    /// eigenvalues are those of the linear model frozen at each state, and belong to its chart.
+    Loci(loci::Args),
+    /// Frequency response between named inputs and outputs at a state of the motion
+    Bode(bode::Args),
     /// Print a scalable scene
     Generate(generate::Args),
     /// Formulations, integrators and projections: what goes with what, proven orders, what each is for
@@ -59,6 +69,8 @@ pub fn run() -> ExitCode {
         Command::Sweep(args) => sweep::run(args),
         Command::Plot(args) => plot::run(args),
         Command::Linearize(args) => linearize::run(args),
+        Command::Loci(args) => loci::run(args),
+        Command::Bode(args) => bode::run(args),
         Command::Generate(args) => generate::run(args),
         Command::Methods(args) => methods::run(args),
         Command::Schema => schema::run(),

@@ -4,7 +4,7 @@ use super::Variation;
 use crate::error::{Error, Result, short};
 use crate::initial::{assemble, equilibrium};
 use crate::simulate::{Method, Observation, Sink, Span, simulate};
-use crate::study::Study;
+use crate::study::{Overrides, Study};
 
 /// A state on the constraints.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +15,12 @@ pub struct State {
 }
 
 impl State {
+    /// The consistent start of a study.
+    pub fn start(study: &Study) -> Self {
+        let (q, v) = study.start();
+        State { t: study.start_time(), q: q.to_vec(), v: v.to_vec() }
+    }
+
     /// The variational equations there.
     ///
     /// # Errors
@@ -22,6 +28,16 @@ impl State {
     pub fn variation<'a>(&self, study: &'a Study) -> Result<Variation<'a>> {
         Variation::new(study.system(), self.t, &self.q, &self.v)
     }
+}
+
+/// States of a run are integrated at least so well.
+const TOLERANCE: f64 = 1e-10;
+
+/// Tightens the tolerances that the command line leaves open, so that states are known better than what is read off them.
+pub fn tighten(study: &mut Study, given: &Overrides) {
+    let Method { rtol, atol, .. } = &mut study.method;
+    *rtol = given.rtol.unwrap_or(rtol.min(TOLERANCE));
+    *atol = given.atol.unwrap_or(atol.min(TOLERANCE));
 }
 
 /// The states of the study's motion at `times`, in their order, each brought back to the constraints.
@@ -32,17 +48,33 @@ pub fn states(study: &Study, times: &[f64], progress: impl FnMut(f64)) -> Result
     check(study, times)?;
     let mut order: Vec<usize> = (0..times.len()).collect();
     order.sort_by(|&i, &j| times[i].total_cmp(&times[j]));
-    let (q, v) = study.start();
-    let mut last = State { t: study.start_time(), q: q.to_vec(), v: v.to_vec() };
-    let (mut found, mut progress) = (vec![last.clone(); times.len()], progress);
+    let mut walk = Walk::new(study);
+    let (mut found, mut progress) = (vec![walk.last.clone(); times.len()], progress);
     for place in order {
-        if times[place] > last.t {
-            last = follow(study, &study.method, last, times[place])?;
-        }
-        found[place] = last.clone();
-        progress(last.t);
+        found[place] = walk.to(times[place])?;
+        progress(times[place]);
     }
     Ok(found)
+}
+
+/// The study's motion, followed from time to time.
+pub(super) struct Walk<'a> {
+    study: &'a Study,
+    last: State,
+}
+
+impl<'a> Walk<'a> {
+    pub fn new(study: &'a Study) -> Self {
+        Walk { study, last: State::start(study) }
+    }
+
+    /// The state at a time that is not before the last one.
+    pub fn to(&mut self, t: f64) -> Result<State> {
+        if t > self.last.t {
+            self.last = follow(self.study, &self.study.method, &self.last, t)?;
+        }
+        Ok(self.last.clone())
+    }
 }
 
 fn check(study: &Study, times: &[f64]) -> Result<()> {
@@ -70,7 +102,7 @@ impl Sink for Nothing {
 }
 
 /// Integrates to `end` and closes what drift has opened.
-fn follow(study: &Study, method: &Method, from: State, end: f64) -> Result<State> {
+fn follow(study: &Study, method: &Method, from: &State, end: f64) -> Result<State> {
     let span = Span { start: from.t, end, output_step: end - from.t };
     let outcome = simulate(study.system(), method, span, (&from.q, &from.v), &mut Nothing)?;
     if let Some(failure) = outcome.failure {

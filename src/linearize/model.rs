@@ -65,14 +65,24 @@ pub struct Mode {
 impl Mode {
     /// |lambda| / 2 pi, Hz.
     pub fn frequency(&self) -> f64 {
-        self.value.norm() / TAU
+        frequency(self.value)
     }
 
     /// -Re(lambda) / |lambda|; 0 for lambda = 0.
     pub fn damping(&self) -> f64 {
-        let size = self.value.norm();
-        if size > 0.0 && size.is_finite() { -self.value.re / size } else { 0.0 }
+        damping(self.value)
     }
+}
+
+/// |lambda| / 2 pi, Hz.
+pub fn frequency(value: Complex<f64>) -> f64 {
+    value.norm() / TAU
+}
+
+/// -Re(lambda) / |lambda|; 0 for lambda = 0.
+pub fn damping(value: Complex<f64>) -> f64 {
+    let size = value.norm();
+    if size > 0.0 && size.is_finite() { -value.re / size } else { 0.0 }
 }
 
 /// What a model took.

@@ -1,23 +1,25 @@
-//! `NAME=A..B:N`
+//! `NAME=A..B:N`, `NAME=A..B:N:log`
 
 use crate::error::{Error, Result};
 use std::fmt;
 use std::str::FromStr;
 
-/// Evenly spaced values of a parameter.
+/// Values of a parameter, evenly spaced, or their logarithms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Range {
     pub parameter: String,
     pub from: f64,
     pub to: f64,
     pub count: usize,
+    /// Each value is the same factor of the one before.
+    pub is_log: bool,
 }
 
 /// Values where no number is given.
 const COUNT: usize = 81;
 /// More values are a slip of the hand.
 const MOST: usize = 100_000;
-const FORM: &str = "write NAME=A..B:N, as in travel=-0.08..0.08:81";
+const FORM: &str = "write NAME=A..B:N, as in travel=-0.08..0.08:81, or NAME=A..B:N:log for a constant factor";
 
 impl Range {
     /// # Errors
@@ -33,7 +35,19 @@ impl Range {
         if !(2..=MOST).contains(&count) {
             return Err(Error::input(format!("the number of values is {count}; give 2 to {MOST}")));
         }
-        Ok(Range { parameter: parameter.into(), from, to, count })
+        Ok(Range { parameter: parameter.into(), from, to, count, is_log: false })
+    }
+
+    /// The same range with a constant factor from value to value.
+    ///
+    /// # Errors
+    /// Ends that are not both above zero.
+    pub fn log(self) -> Result<Range> {
+        match self.from > 0.0 && self.to > 0.0 {
+            true => Ok(Range { is_log: true, ..self }),
+            false => Err(Error::input(format!("from {} to {} there is no constant factor", self.from, self.to))
+                .hint("give two ends above zero, or leave out `:log`")),
+        }
     }
 
     /// From A to B, rounded to the decimals that count, so that 0.3 is not 0.30000000000000004.
@@ -45,7 +59,10 @@ impl Range {
             _ => value,
         };
         let part = |k: usize| k as f64 / last as f64;
-        let between = |k: usize| round(self.from * part(last - k) + self.to * part(k));
+        let between = |k: usize| match self.is_log {
+            true => self.from * (self.to / self.from).powf(part(k)),
+            false => round(self.from * part(last - k) + self.to * part(k)),
+        };
         (0..self.count)
             .map(|k| {
                 if k == 0 {
@@ -74,16 +91,22 @@ impl FromStr for Range {
     fn from_str(text: &str) -> Result<Range> {
         let form = || Error::input(FORM);
         let (name, values) = text.split_once('=').ok_or_else(form)?;
-        let (ends, count) = match values.split_once(':') {
-            Some((ends, count)) => (ends, number::<usize>(count, "a whole number")?),
-            None => (values, COUNT),
+        let mut parts = values.split(':').map(str::trim);
+        let ends = parts.next().unwrap_or_default();
+        let (count, is_log) = match (parts.next(), parts.next(), parts.next()) {
+            (None, ..) => (COUNT, false),
+            (Some("log"), None, _) => (COUNT, true),
+            (Some(count), None, _) => (number::<usize>(count, "a whole number")?, false),
+            (Some(count), Some("log"), None) => (number::<usize>(count, "a whole number")?, true),
+            _ => return Err(form()),
         };
         let (from, to) = ends.split_once("..").ok_or_else(form)?;
         if name.trim().is_empty() {
             return Err(form());
         }
         let ends = (number::<f64>(from, "a number")?, number::<f64>(to, "a number")?);
-        Range::new(name.trim(), ends, count)
+        let range = Range::new(name.trim(), ends, count)?;
+        if is_log { range.log() } else { Ok(range) }
     }
 }
 
@@ -93,7 +116,8 @@ fn number<T: FromStr>(text: &str, what: &str) -> Result<T> {
 
 impl fmt::Display for Range {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "{}={}..{}:{}", self.parameter, self.from, self.to, self.count)
+        let spacing = if self.is_log { ":log" } else { "" };
+        write!(out, "{}={}..{}:{}{spacing}", self.parameter, self.from, self.to, self.count)
     }
 }
 
@@ -112,6 +136,8 @@ mod tests {
         assert_eq!(range("a=0..1").count, 81);
         assert_eq!(range("a=.5...6:3"), Range::new("a", (0.5, 0.6), 3).unwrap());
         assert_eq!(range("a=-1..1:3").to_string(), "a=-1..1:3");
+        assert_eq!(range("a=1..2:log").count, 81);
+        assert_eq!(range("a=1..100:3:log").to_string(), "a=1..100:3:log");
     }
 
     #[test]
@@ -128,6 +154,9 @@ mod tests {
             ("a=1..2:1000000", "the number of values is 1000000; give 2 to"),
             ("a=1..1:3", "the range is empty"),
             ("a=0..inf:3", "the range from 0 to inf is not finite"),
+            ("a=1..2:3:lin", FORM),
+            ("a=1..2:3:log:4", FORM),
+            ("a=0..1:3:log", "from 0 to 1 there is no constant factor"),
             ("a=nan..1:3", "the range from NaN to 1 is not finite"),
         ];
         for (text, message) in table {
@@ -140,6 +169,8 @@ mod tests {
     fn values_are_even_and_short() {
         assert_eq!(range("a=-0.3..0.3:7").values(), [-0.3, -0.2, -0.1, 0.0, 0.1, 0.2, 0.3]);
         assert_eq!(range("a=1000..10:4").values(), [1000.0, 670.0, 340.0, 10.0]);
+        let decades = range("a=10..1000:3:log").values();
+        assert!(decades[0] == 10.0 && (decades[1] - 100.0).abs() < 1e-12 && decades[2] == 1000.0, "{decades:?}");
         assert_eq!(range("a=0..1e-320:2").values(), [0.0, 1e-320]);
         assert_eq!(range("a=1e300..3e300:3").values()[1], 2e300);
         let values = range("a=-0.08..0.08").values();

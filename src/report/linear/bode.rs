@@ -15,7 +15,7 @@ pub struct Response {
 }
 
 impl Response {
-    fn unit(&self) -> String {
+    pub(super) fn unit(&self) -> String {
         let words = [&self.output_unit, &self.input_unit];
         match words.map(|unit| unit.trim()) {
             ["", ""] => String::new(),

@@ -16,7 +16,8 @@ const ROUND_OFF: f64 = 1e-6;
 
 /// |lambda| / 2 pi and -Re(lambda) / |lambda| of the physical eigenvalues, each conjugate pair once; `along` names time or
 /// parameter with its unit. `None` without physical eigenvalues.
-pub fn frequency_figure(title: &str, along: &str, branches: &[Branch]) -> Option<Figure> {
+pub fn frequency_figure(title: &str, along: impl Into<AxisSpec>, branches: &[Branch]) -> Option<Figure> {
+    let along = along.into();
     let physical = branches.iter().filter(|branch| branch.kind == Kind::Physical);
     let upper: Vec<&Branch> = physical.filter(|branch| branch.points.iter().any(|point| is_shown(point.1))).collect();
     let frequencies = lines(&upper, |value| value.norm() / TAU);
@@ -24,7 +25,7 @@ pub fn frequency_figure(title: &str, along: &str, branches: &[Branch]) -> Option
     let (frequency_axis, note) = frequency_axis(values(&frequencies))?;
     let damping_axis = damping_axis(values(&dampings));
     let all = |panel: Panel, lines: Vec<Series>| lines.into_iter().fold(panel, Panel::series);
-    let frequencies = all(Panel::new(along, frequency_axis).title(note), frequencies);
+    let frequencies = all(Panel::new(along.clone(), frequency_axis).title(note), frequencies);
     let dampings = all(Panel::new(along, damping_axis), dampings);
     Some(Figure::new().title(title).panel(frequencies).panel(dampings))
 }

@@ -26,7 +26,8 @@ struct Window {
 
 /// The eigenvalues with time or a parameter as colour, which `along` names with its unit. Only the upper half is drawn
 /// where the lower one is its mirror image; the axes follow the physical eigenvalues. `None` without finite eigenvalues.
-pub fn loci_figure(title: &str, along: &str, branches: &[Branch]) -> Option<Figure> {
+pub fn loci_figure(title: &str, along: impl Into<AxisSpec>, branches: &[Branch]) -> Option<Figure> {
+    let along = along.into();
     let is_upper = are_mirrored(branches);
     let shown: Vec<Branch> = branches.iter().map(|branch| finite(branch, is_upper)).collect();
     let of = |kind: Kind| shown.iter().filter(move |branch| branch.kind == kind);
@@ -44,7 +45,7 @@ pub fn loci_figure(title: &str, along: &str, branches: &[Branch]) -> Option<Figu
     let colored: Vec<(f64, f64, f64)> =
         points(of(Kind::Physical)).map(|(at, value)| (value.re, value.im, at)).collect();
     if !colored.is_empty() {
-        panel = panel.color_series(ColorSeries::new(along, colored));
+        panel = panel.color_series(ColorSeries { scale: along.scale, ..ColorSeries::new(along.label, colored) });
     }
     Some(Figure::new().title(title).panel(panel))
 }
@@ -63,10 +64,20 @@ fn points<'a>(branches: impl Iterator<Item = &'a Branch>) -> impl Iterator<Item 
     branches.flat_map(|branch| &branch.points).copied().filter(|(_, value)| value.re.is_finite())
 }
 
-/// The branches as one line with gaps.
+/// The branches as one line with gaps. Between two states a pair becomes real at the axis, not on the way to it.
 fn joined<'a>(branches: impl Iterator<Item = &'a Branch>) -> Vec<(f64, f64)> {
-    let line = |branch: &'a Branch| branch.points.iter().map(|(_, value)| (value.re, value.im));
-    branches.flat_map(|branch| line(branch).chain([(f64::NAN, f64::NAN)])).collect()
+    let mut line = Vec::new();
+    for branch in branches {
+        for (i, (_, value)) in branch.points.iter().enumerate() {
+            let before = i.checked_sub(1).map_or(*value, |before| branch.points[before].1);
+            if (before.im == 0.0) != (value.im == 0.0) {
+                line.push((if value.im == 0.0 { before.re } else { value.re }, 0.0));
+            }
+            line.push((value.re, value.im));
+        }
+        line.push((f64::NAN, f64::NAN));
+    }
+    line
 }
 
 /// Whether every eigenvalue below the real axis has its conjugate at the same place of time or parameter.

@@ -7,8 +7,11 @@ mod curves;
 mod damping;
 mod file;
 mod loci;
+mod loci_file;
+mod loci_text;
 pub(super) mod pairs;
 mod range;
+mod response;
 mod text;
 mod validation;
 
@@ -17,6 +20,8 @@ pub use comparison::{Comparison, compare, comparison_text};
 pub use curves::frequency_figure;
 pub use file::{LinearFile, OperatingPointFile, linear_stem};
 pub use loci::loci_figure;
+pub use loci_file::{LociFile, LociSummary, loci_table};
+pub use response::{FrequencyResponse, ResponseFile};
 pub use validation::{Deviation, ErrorOrder, validation_figure};
 
 use crate::error::Result;

@@ -1,0 +1,150 @@
+//! `holonom bode SCENE`
+
+use super::common::{MethodOptions, Output, SceneOptions, Talk, positive, print};
+use super::linear::{ModelOptions, StateOptions};
+use crate::error::{Error, Result, short, suggest};
+use crate::linearize::{self, Complex, LinearModel, Resonances, frequency_response};
+use crate::report::linear::{FrequencyResponse, Response, ResponseFile, bode_figure};
+use crate::report::{Folder, cell};
+use crate::study::Study;
+use crate::system::Column;
+use std::process::ExitCode;
+
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    scene: SceneOptions,
+    #[command(flatten)]
+    states: StateOptions,
+    /// Lowest frequency, Hz (default: a tenth of that of the slowest mode)
+    #[arg(long, value_name = "F", value_parser = positive, allow_negative_numbers = true)]
+    from: Option<f64>,
+    /// Highest frequency, Hz (default: ten times that of the fastest mode)
+    #[arg(long, value_name = "F", value_parser = positive, allow_negative_numbers = true)]
+    to: Option<f64>,
+    /// Number of frequencies with a constant factor between them (default: 400, and more at lightly damped modes)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    points: Option<u32>,
+    /// Inputs (default: all)
+    #[arg(long = "input", value_name = "NAME[,NAME...]", value_delimiter = ',')]
+    inputs: Vec<String>,
+    /// Outputs (default: all)
+    #[arg(long = "output", value_name = "NAME[,NAME...]", value_delimiter = ',')]
+    outputs: Vec<String>,
+    #[command(flatten)]
+    model: ModelOptions,
+    #[command(flatten)]
+    run: MethodOptions,
+    #[command(flatten)]
+    talk: Talk,
+    #[command(flatten)]
+    files: Output,
+}
+
+/// Frequencies where no number is given.
+const POINTS: usize = 400;
+
+/// Indices of what is looked at.
+struct Chosen {
+    inputs: Vec<usize>,
+    outputs: Vec<usize>,
+}
+
+pub fn run(args: Args) -> Result<ExitCode> {
+    let in_file = |error: Error| error.in_file(&args.scene.path);
+    let request = args.model.request()?;
+    let study = args.run.load_tight(&args.scene)?;
+    let (inputs, outputs) = (study.system().inputs(), study.system().columns());
+    let chosen = Chosen {
+        inputs: choose("input", &args.inputs, &inputs).map_err(in_file)?,
+        outputs: choose("output", &args.outputs, &outputs).map_err(in_file)?,
+    };
+    let places = args.states.states(&study, &args.talk).map_err(in_file)?;
+    let mut folder = args.files.folder(&study.name)?;
+    let mut files: Vec<ResponseFile> = Vec::new();
+    for state in &places {
+        let model = linearize::linearize(&mut state.variation(&study).map_err(in_file)?, &request).map_err(in_file)?;
+        let frequencies = frequencies(&args, &model)?;
+        let response = respond(&study, &model, &chosen, frequencies);
+        write(&args, &response, &mut folder)?;
+        if !args.talk.json && !args.talk.quiet {
+            print(&response.text())?;
+        }
+        files.push(response.file());
+    }
+    match (args.talk.json, files.as_slice()) {
+        (true, [one]) => args.talk.print(one, String::new)?,
+        (true, all) => args.talk.print(&all, String::new)?,
+        (false, _) if !args.talk.quiet => print(&format!("\nwritten to {}\n", folder.listing()))?,
+        _ => {}
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The columns that are named, or all of them.
+fn choose(what: &str, named: &[String], known: &[Column]) -> Result<Vec<usize>> {
+    if known.is_empty() {
+        let example = match what {
+            "input" => {
+                r#""inputs": [{ "name": "push", "force": NAME, "component": "x" }], with the NAME of one of its forces"#
+            }
+            _ => {
+                r#""outputs": [{ "name": "x", "measure": "position", "of": NAME, "component": "x" }], with the NAME of a body"#
+            }
+        };
+        return Err(Error::input(format!("the scene has no {what}s, so there is no frequency response"))
+            .hint(format!("add to the scene {example}")));
+    }
+    let names = || known.iter().map(|column| column.name.as_str());
+    let find = |name: &String| {
+        names().position(|known| known == name).ok_or_else(|| {
+            Error::input(format!("there is no {what} `{name}`")).under(format!("--{what}")).hint(suggest(name, names()))
+        })
+    };
+    if named.is_empty() { Ok((0..known.len()).collect()) } else { named.iter().map(find).collect() }
+}
+
+fn frequencies(args: &Args, model: &LinearModel) -> Result<Vec<f64>> {
+    let around = Resonances::around(model);
+    let range = Resonances { from: args.from.unwrap_or(around.from), to: args.to.unwrap_or(around.to) };
+    if range.from >= range.to {
+        let message = format!("the frequencies go from {} Hz to {} Hz", short(range.from), short(range.to));
+        let option = if args.to.is_some() { "--to" } else { "--from" };
+        return Err(Error::input(message).under(option).hint("give --from F1 and --to F2 with F1 below F2"));
+    }
+    Ok(match args.points {
+        Some(count) => range.frequencies(count as usize),
+        None => range.with_peaks(POINTS, model),
+    })
+}
+
+fn respond(study: &Study, model: &LinearModel, chosen: &Chosen, frequencies: Vec<f64>) -> FrequencyResponse {
+    let (inputs, outputs) = (study.system().inputs(), study.system().columns());
+    let found = frequency_response(model, &frequencies);
+    let pole = Complex::new(f64::NAN, f64::NAN);
+    let pair = |i: usize, j: usize| Response {
+        input: inputs[j].name.clone(),
+        output: outputs[i].name.clone(),
+        input_unit: inputs[j].unit.clone(),
+        output_unit: outputs[i].unit.clone(),
+        values: found.iter().map(|matrix| matrix.as_ref().map_or(pole, |matrix| matrix[(i, j)])).collect(),
+    };
+    let pairs = chosen.inputs.iter().flat_map(|&j| chosen.outputs.iter().map(move |&i| (i, j)));
+    FrequencyResponse {
+        scene: study.name.clone(),
+        t: model.point.t,
+        equilibrium: model.point.is_equilibrium,
+        method: model.method.clone(),
+        chart: model.chart.clone(),
+        responses: pairs.map(|(i, j)| pair(i, j)).collect(),
+        frequencies,
+    }
+}
+
+fn write(args: &Args, response: &FrequencyResponse, folder: &mut Folder) -> Result<()> {
+    let stem = format!("bode-{}", cell(response.t));
+    folder.write(&format!("{stem}.csv"), &response.table()?)?;
+    folder.write_json(&format!("{stem}.json"), &response.file())?;
+    let title = format!("{} at t = {} s", response.scene, short(response.t));
+    args.files.figure(folder, &stem, bode_figure(&title, &response.frequencies, &response.responses))
+}

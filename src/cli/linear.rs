@@ -1,0 +1,82 @@
+//! Options and habits of the commands that make linear models.
+
+use super::common::{MethodOptions, SceneOptions, Talk, number};
+use crate::choice::Choice;
+use crate::error::Result;
+use crate::linearize::{Chart, Request, State, at_rest, registry, states, tighten};
+use crate::study::Study;
+
+/// Which linear model.
+#[derive(clap::Args)]
+pub struct ModelOptions {
+    /// mcs, rcs, baumgarte, penalty, augmented_lagrangian or force_projection, with options as in baumgarte:alpha=5
+    #[arg(long, default_value = "mcs")]
+    pub method: String,
+    #[command(flatten)]
+    pub chart: ChartOptions,
+}
+
+/// Coordinates of the perturbation.
+#[derive(clap::Args)]
+pub struct ChartOptions {
+    /// Coordinates of the perturbation: intrinsic, mass_orthogonal, frozen, or independent coordinates NAME[,NAME]
+    /// (default: intrinsic, or mass_orthogonal with bodies in floating frames)
+    #[arg(long, value_name = "CHART", conflicts_with = "independent")]
+    chart: Option<String>,
+    /// Independent coordinates, the same as --chart NAME[,NAME]
+    #[arg(long, value_name = "NAME[,NAME...]")]
+    independent: Option<String>,
+}
+
+/// At which states of the motion.
+#[derive(clap::Args)]
+pub struct StateOptions {
+    /// Times of the states, s (default: the start)
+    #[arg(long, value_name = "T[,T...]", value_parser = number, value_delimiter = ',', allow_negative_numbers = true)]
+    at: Vec<f64>,
+    /// Find the static equilibrium that belongs to the state first
+    #[arg(long)]
+    equilibrium: bool,
+}
+
+impl ChartOptions {
+    pub fn chart(&self) -> Option<Chart> {
+        self.chart.as_ref().or(self.independent.as_ref()).map(|text| Chart::parse(text))
+    }
+}
+
+impl ModelOptions {
+    /// What is asked for.
+    ///
+    /// # Errors
+    /// An unknown method or option.
+    pub fn request(&self) -> Result<Request> {
+        let method = Choice::parse(&self.method).and_then(|method| {
+            method.find("method", registry().iter().map(|entry| (entry.name, entry.options)))?;
+            Ok(method)
+        });
+        Ok(Request { method: method.map_err(|error| error.under("--method"))?, chart: self.chart.chart() })
+    }
+}
+
+impl MethodOptions {
+    /// The scene with these settings, its states computed to what a linear model needs.
+    pub fn load_tight(&self, scene: &SceneOptions) -> Result<Study> {
+        let mut study = self.load(scene, None)?;
+        tighten(&mut study, &self.overrides(scene, None));
+        Ok(study)
+    }
+}
+
+impl StateOptions {
+    pub fn states(&self, study: &Study, talk: &Talk) -> Result<Vec<State>> {
+        let times = if self.at.is_empty() { vec![study.start_time()] } else { self.at.clone() };
+        if !self.equilibrium {
+            let bar = talk.progress(times.len() as u64, &study.name);
+            let found = states(study, &times, |_| bar.inc(1));
+            bar.finish_and_clear();
+            return found;
+        }
+        times.into_iter().map(|t| at_rest(study, &State { t, ..State::start(study) })).collect()
+    }
+}

@@ -1,0 +1,160 @@
+//! `holonom loci SCENE`
+
+use super::common::{MethodOptions, Output, SceneOptions, Talk, number, positive, print};
+use super::linear::ModelOptions;
+use crate::error::{Error, Result, short};
+use crate::linearize::{At, Loci, Request, Variants, loci_along, loci_over};
+use crate::report::linear::{LociFile, LociSummary, frequency_figure, loci_figure, loci_table};
+use crate::study::Study;
+use crate::sweep::{Family, Range};
+use std::process::ExitCode;
+
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    scene: SceneOptions,
+    /// Time between two states of the motion, s (default: a sixtieth of the run)
+    #[arg(long, value_name = "DT", value_parser = positive, allow_negative_numbers = true, conflicts_with = "sweep")]
+    every: Option<f64>,
+    /// Time of the first state, s (default: the start)
+    #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true, conflicts_with = "sweep")]
+    from: Option<f64>,
+    /// Vary a parameter instead of time, such as k1=10..1000:50, or k1=10..1000:50:log with a constant factor; at the start
+    /// of each scene unless --at or --equilibrium says otherwise
+    #[arg(long, value_name = "NAME=A..B[:N][:log]", value_parser = range)]
+    sweep: Option<Range>,
+    /// With --sweep: at this time of each motion, s
+    #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true, requires = "sweep")]
+    at: Option<f64>,
+    /// With --sweep: at the static equilibrium of each scene, followed from value to value
+    #[arg(long, requires = "sweep", conflicts_with = "at")]
+    equilibrium: bool,
+    #[command(flatten)]
+    model: ModelOptions,
+    #[command(flatten)]
+    run: MethodOptions,
+    #[command(flatten)]
+    talk: Talk,
+    #[command(flatten)]
+    output: Output,
+}
+
+/// States of a run where their distance is not given.
+const STATES: f64 = 60.0;
+/// More states are a slip of the hand.
+const MOST: f64 = 1e5;
+
+fn range(text: &str) -> Result<Range, String> {
+    text.parse().map_err(|error: Error| error.to_string())
+}
+
+pub fn run(args: Args) -> Result<ExitCode> {
+    let in_file = |error: Error| error.in_file(&args.scene.path);
+    let request = args.model.request()?;
+    let study = args.run.load_tight(&args.scene)?;
+    let mut folder = args.output.folder(&study.name)?;
+    let loci = match &args.sweep {
+        Some(range) => over(&args, &study, range, &request).map_err(in_file)?,
+        None => along(&args, &study, &request).map_err(in_file)?,
+    };
+    if loci.reached.is_empty() {
+        return none(&args, &loci);
+    }
+    let summary = LociSummary::new(&study.name, &loci);
+    folder.write("loci.csv", &loci_table(&loci)?)?;
+    folder.write_json("loci.json", &LociFile::new(summary.clone(), &loci))?;
+    let title = match &args.sweep {
+        Some(range) => format!("{}: eigenvalues over {}", study.name, range.parameter),
+        None => format!("{}: eigenvalues along the motion", study.name),
+    };
+    args.output.figure(&mut folder, "loci", loci_figure(&title, summary.axis(), &loci.branches))?;
+    args.output.figure(&mut folder, "loci_modes", frequency_figure(&title, summary.axis(), &loci.branches))?;
+    args.talk.print(&summary, || summary.text())?;
+    if !args.talk.json && !args.talk.quiet {
+        print(&format!("\nwritten to {}\n", folder.listing()))?;
+    }
+    match loci.gaps.last().filter(|_| args.sweep.is_none()).map(|gap| &gap.error) {
+        Some(error @ Error::Run(_)) => {
+            eprintln!("error: {error}");
+            Ok(ExitCode::from(1))
+        }
+        _ => Ok(ExitCode::SUCCESS),
+    }
+}
+
+fn along(args: &Args, study: &Study, request: &Request) -> Result<Loci> {
+    let times = times(args, study)?;
+    let bar = args.talk.progress(times.len() as u64, &study.name);
+    let loci = loci_along(study, request, &times, || bar.inc(1));
+    bar.finish_and_clear();
+    Ok(loci)
+}
+
+fn times(args: &Args, study: &Study) -> Result<Vec<f64>> {
+    let (start, end) = (study.start_time(), study.span()?.end);
+    let from = args.from.unwrap_or(start);
+    if !(start..end).contains(&from) {
+        let message =
+            format!("t = {} s is not within the run, from {} s to {} s", short(from), short(start), short(end));
+        return Err(Error::input(message).under("--from").hint("begin earlier, or run longer with --until T"));
+    }
+    let every = args.every.unwrap_or((end - from) / STATES);
+    let count = (end - from) / every;
+    match count {
+        // Rounding must not lose the end.
+        _ if (1.0 - 1e-9..MOST).contains(&count) => {
+            let last = (count + 1e-9).floor() as usize;
+            Ok((0..=last).map(|k| (from + k as f64 * every).min(end)).collect())
+        }
+        _ => {
+            let message = format!("states every {} s over {} s", short(every), short(end - from));
+            Err(Error::input(message)
+                .under("--every")
+                .hint("give a time shorter than the run, and above a 100 000th of it"))
+        }
+    }
+}
+
+fn over(args: &Args, study: &Study, range: &Range, request: &Request) -> Result<Loci> {
+    let at = match args.at {
+        Some(t) => within(study, t)?,
+        None if args.equilibrium => At::Equilibrium,
+        None => At::Start,
+    };
+    let family = Family::load(&args.scene.path, &args.scene.set)?;
+    let overrides = args.run.overrides(&args.scene, None);
+    let variants = Variants { family: &family, overrides: &overrides, range };
+    let bar = args.talk.progress(range.count as u64, &range.parameter);
+    let loci = loci_over(&variants, at, request, || bar.inc(1)).map_err(|error| error.under("--sweep"))?;
+    bar.finish_and_clear();
+    Ok(loci)
+}
+
+fn within(study: &Study, t: f64) -> Result<At> {
+    let (start, end) = (study.start_time(), study.span().map_or(f64::INFINITY, |span| span.end));
+    match (start..=end).contains(&t) {
+        true => Ok(At::Time(t)),
+        false => {
+            let message = format!(
+                "t = {} s is outside the run, which goes from {} s to {} s",
+                short(t),
+                short(start),
+                short(end)
+            );
+            Err(Error::input(message).under("--at").hint("choose a time within it, or run longer with --until T"))
+        }
+    }
+}
+
+/// No state has eigenvalues: what was asked for is wrong, or cannot be computed anywhere.
+fn none(args: &Args, loci: &Loci) -> Result<ExitCode> {
+    let Some(gap) = loci.gaps.first() else { return Ok(ExitCode::from(1)) };
+    match &gap.error {
+        Error::Input(input) if input.path.starts_with('-') => Err(gap.error.clone().in_file(&args.scene.path)),
+        error => {
+            let name = args.sweep.as_ref().map_or("t", |range| range.parameter.as_str());
+            eprintln!("error: no state has eigenvalues; at {name} = {}: {error}", short(gap.at));
+            Ok(ExitCode::from(1))
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! Frequency response of a linear model.
+
+use super::{Complex, Kind, LinearModel, Matrix};
+use crate::math::eigen::ComplexMatrix;
+use nalgebra::linalg::Hessenberg;
+use rayon::prelude::*;
+use std::f64::consts::TAU;
+
+/// H(i w) = C (i w E - A)^-1 B + D at frequencies in Hz, each n_y x n_u; none exactly at a pole, where there is no
+/// response.
+///
+/// Without E, A is brought to Hessenberg form once, and a frequency takes n^2 operations for each input (Laub, IEEE Trans.
+/// Autom. Control 26, 1981); descriptor forms take an LU decomposition each.
+pub fn frequency_response(model: &LinearModel, frequencies: &[f64]) -> Vec<Option<ComplexMatrix>> {
+    let reduced = Reduced::new(model);
+    frequencies.par_iter().map(|f| reduced.at(Complex::new(0.0, TAU * f))).collect()
+}
+
+/// (E, A), B and C in coordinates in which i w E - A is solved easily.
+struct Reduced {
+    a: Matrix,
+    /// None: I.
+    e: Option<Matrix>,
+    b: Matrix,
+    c: ComplexMatrix,
+    d: ComplexMatrix,
+}
+
+impl Reduced {
+    fn new(model: &LinearModel) -> Self {
+        let complex = |matrix: &Matrix| matrix.map(Complex::from);
+        let d = complex(&model.d);
+        if let Some(e) = &model.e {
+            // Rows of equations in different units are brought to one size, which decides on pivots.
+            let scale: Vec<f64> = (0..e.nrows()).map(|i| e.row(i).amax().max(model.a.row(i).amax())).collect();
+            let scaled = |matrix: &Matrix| {
+                Matrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] / scale[i].max(f64::MIN_POSITIVE))
+            };
+            return Reduced { a: scaled(&model.a), e: Some(scaled(e)), b: scaled(&model.b), c: complex(&model.c), d };
+        }
+        if model.a.nrows() < 3 {
+            return Reduced { a: model.a.clone(), e: None, b: model.b.clone(), c: complex(&model.c), d };
+        }
+        let (q, h) = Hessenberg::new(model.a.clone()).unpack();
+        Reduced { a: h, e: None, b: q.transpose() * &model.b, c: complex(&(&model.c * q)), d }
+    }
+
+    fn at(&self, s: Complex<f64>) -> Option<ComplexMatrix> {
+        let states = match &self.e {
+            Some(e) => e.zip_map(&self.a, |e, a| s * e - a).lu().solve(&self.b.map(Complex::from)),
+            None => self.hessenberg(s),
+        };
+        let response = &self.c * states? + &self.d;
+        response.iter().all(|x| x.re.is_finite() && x.im.is_finite()).then_some(response)
+    }
+
+    /// (s I - H)^-1 B by elimination with a choice between two neighbouring rows.
+    fn hessenberg(&self, s: Complex<f64>) -> Option<ComplexMatrix> {
+        let n = self.a.nrows();
+        let mut matrix =
+            ComplexMatrix::from_fn(
+                n,
+                n,
+                |i, j| if i == j { s - self.a[(i, j)] } else { -Complex::from(self.a[(i, j)]) },
+            );
+        let mut x = self.b.map(Complex::from);
+        for k in 0..n.saturating_sub(1) {
+            if matrix[(k + 1, k)].norm() > matrix[(k, k)].norm() {
+                (k..n).for_each(|j| matrix.swap((k, j), (k + 1, j)));
+                x.swap_rows(k, k + 1);
+            }
+            if matrix[(k + 1, k)] == Complex::ZERO {
+                continue;
+            }
+            let factor = matrix[(k + 1, k)] / matrix[(k, k)];
+            (k + 1..n).for_each(|j| {
+                let above = matrix[(k, j)];
+                matrix[(k + 1, j)] -= factor * above
+            });
+            (0..x.ncols()).for_each(|j| {
+                let above = x[(k, j)];
+                x[(k + 1, j)] -= factor * above
+            });
+        }
+        matrix.solve_upper_triangular_mut(&mut x).then_some(x)
+    }
+}
+
+/// Frequencies at which a response is looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resonances {
+    /// Hz
+    pub from: f64,
+    pub to: f64,
+}
+
+/// Modes slower than this part of the fastest do not count: they are rigid motions with round-off.
+const STILL: f64 = 1e-6;
+/// Least damping ratio of a peak that can be drawn, and the largest of one that points might miss.
+const PEAK: (f64, f64) = (1e-6, 0.2);
+/// Points of a peak, in half widths from its top.
+const ACROSS: [f64; 11] = [-10.0, -5.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 5.0, 10.0];
+
+impl Resonances {
+    /// A decade below the slowest physical mode to one above the fastest; 0.01 to 100 Hz where nothing swings.
+    pub fn around(model: &LinearModel) -> Self {
+        let sizes = || model.modes.iter().filter(|mode| mode.kind == Kind::Physical).map(|mode| mode.frequency());
+        let fastest = sizes().fold(0.0, f64::max);
+        let slowest = sizes().filter(|f| *f > STILL * fastest).fold(fastest, f64::min);
+        match slowest > 0.0 && fastest.is_finite() {
+            true => Resonances { from: slowest / 10.0, to: fastest * 10.0 },
+            false => Resonances { from: 0.01, to: 100.0 },
+        }
+    }
+
+    /// `count` frequencies with a constant factor between them, Hz.
+    pub fn frequencies(&self, count: usize) -> Vec<f64> {
+        let last = count.saturating_sub(1).max(1) as f64;
+        let between = |k: usize| self.from * (self.to / self.from).powf(k as f64 / last);
+        (0..count).map(|k| if k + 1 == count { self.to } else { between(k) }).collect()
+    }
+
+    /// The same with more points at each lightly damped mode, so that no peak falls between two.
+    pub fn with_peaks(&self, count: usize, model: &LinearModel) -> Vec<f64> {
+        let mut all = self.frequencies(count);
+        for mode in model.modes.iter().filter(|mode| mode.kind == Kind::Physical && mode.value.im > 0.0) {
+            let ratio = mode.damping().abs();
+            if (PEAK.0..PEAK.1).contains(&ratio) {
+                all.extend(ACROSS.iter().map(|width| (mode.value.im + width * mode.value.re.abs()) / TAU));
+            }
+        }
+        all.retain(|f| (self.from..=self.to).contains(f));
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+        all
+    }
+}

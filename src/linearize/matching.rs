@@ -1,0 +1,170 @@
+//! Which eigenvalue of a state belongs to which of another.
+
+use super::{Complex, Matrix, Mode};
+use crate::math::eigen::{ComplexMatrix, assign};
+
+/// An eigenvalue with its shape.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    pub value: Complex<f64>,
+    shape: Vec<Complex<f64>>,
+}
+
+impl Node {
+    pub fn new(mode: &Mode) -> Self {
+        Node { value: mode.value, shape: mode.shape.clone() }
+    }
+
+    fn side(&self) -> Side {
+        match self.value.im {
+            im if im > 0.0 => Side::Upper,
+            im if im < 0.0 => Side::Lower,
+            _ => Side::Real,
+        }
+    }
+}
+
+/// Where an eigenvalue is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Side {
+    Upper,
+    Real,
+    Lower,
+}
+
+/// The eigenvalues on one side of a step.
+struct Set {
+    sides: Vec<Side>,
+    /// The other one of a conjugate pair.
+    partner: Vec<Option<usize>>,
+    values: Vec<Complex<f64>>,
+}
+
+/// A part of the largest eigenvalue below which differences are round-off.
+const ROUND_OFF: f64 = 1e-9;
+
+/// The place in `ends` of each of `starts`, whose values are `predicted`; none where a branch ends.
+pub(super) fn matching(
+    starts: &[&Node],
+    predicted: &[Complex<f64>],
+    ends: &[Node],
+    mass: &Matrix,
+) -> Vec<Option<usize>> {
+    let (from, to) = (Set::new(starts.iter().copied()), Set::new(ends.iter()));
+    let cost = cost(starts, predicted, ends, mass);
+    let free = Matrix::from_fn(starts.len(), ends.len(), |i, j| match (from.sides[i], to.sides[j]) {
+        (Side::Upper, Side::Lower) | (Side::Lower, Side::Upper) => f64::INFINITY,
+        _ => cost[(i, j)],
+    });
+    let mut found = places(&free, assign(&free));
+    if !is_symmetric(&found, &from, &to) {
+        found = pairs_first(&cost, &from, &to);
+    }
+    order(&mut found, &from, &to);
+    found
+}
+
+/// What [`assign`] says, without places that are none or forbidden.
+fn places(cost: &Matrix, assigned: Vec<usize>) -> Vec<Option<usize>> {
+    let allowed = |(i, j): (usize, usize)| cost.get((i, j)).filter(|cost| cost.is_finite()).map(|_| j);
+    assigned.into_iter().enumerate().map(allowed).collect()
+}
+
+/// (1 - MAC) + |lambda - p| / (|lambda| + |p|)
+fn cost(starts: &[&Node], predicted: &[Complex<f64>], ends: &[Node], mass: &Matrix) -> Matrix {
+    let n = mass.nrows();
+    let x = shapes(n, starts.iter().copied());
+    let y = shapes(n, ends.iter());
+    let metric = mass.map(Complex::from);
+    let (mx, my) = (&metric * &x, &metric * &y);
+    let size = |shape: &ComplexMatrix, weighed: &ComplexMatrix, j: usize| shape.column(j).dotc(&weighed.column(j)).re;
+    let sizes = |shape: &ComplexMatrix, weighed: &ComplexMatrix| -> Vec<f64> {
+        (0..shape.ncols()).map(|j| size(shape, weighed, j)).collect()
+    };
+    let (of_x, of_y, product) = (sizes(&x, &mx), sizes(&y, &my), x.adjoint() * &my);
+    let largest = predicted.iter().chain(ends.iter().map(|end| &end.value)).fold(0.0f64, |most, z| most.max(z.norm()));
+    let floor = (ROUND_OFF * largest).max(f64::MIN_POSITIVE);
+    Matrix::from_fn(starts.len(), ends.len(), |i, j| {
+        let (a, b) = (predicted[i], ends[j].value);
+        let sizes = of_x[i] * of_y[j];
+        let mac = if sizes > 0.0 { product[(i, j)].norm_sqr() / sizes } else { 0.0 };
+        1.0 - mac + (a - b).norm() / (a.norm() + b.norm() + floor)
+    })
+}
+
+fn shapes<'a>(n: usize, nodes: impl Iterator<Item = &'a Node>) -> ComplexMatrix {
+    let all: Vec<&Node> = nodes.collect();
+    ComplexMatrix::from_fn(n, all.len(), |i, j| all[j].shape.get(i).copied().unwrap_or_default())
+}
+
+impl Set {
+    fn new<'a>(nodes: impl Iterator<Item = &'a Node>) -> Self {
+        let (sides, values): (Vec<Side>, Vec<Complex<f64>>) = nodes.map(|node| (node.side(), node.value)).unzip();
+        let mut partner = vec![None; sides.len()];
+        for i in (0..sides.len()).filter(|&i| sides[i] == Side::Upper) {
+            let off = |j: &usize| (values[*j].conj() - values[i]).norm();
+            let free = (0..sides.len()).filter(|&j| sides[j] == Side::Lower && partner[j].is_none());
+            if let Some(j) = free.min_by(|a, b| off(a).total_cmp(&off(b))) {
+                (partner[i], partner[j]) = (Some(j), Some(i));
+            }
+        }
+        Set { sides, partner, values }
+    }
+
+    /// Upper ones of pairs with their lower ones.
+    fn pairs(&self) -> Vec<(usize, usize)> {
+        let upper = (0..self.sides.len()).filter(|&i| self.sides[i] == Side::Upper);
+        upper.filter_map(|i| Some((i, self.partner[i]?))).collect()
+    }
+}
+
+/// Whether every pair goes to a pair or leaves the plane as a whole, and every pair is reached as a whole.
+fn is_symmetric(found: &[Option<usize>], from: &Set, to: &Set) -> bool {
+    from.pairs().into_iter().all(|(upper, lower)| match (found[upper], found[lower]) {
+        (Some(a), Some(b)) if to.sides[a] == Side::Real => to.sides[b] == Side::Real,
+        (Some(a), Some(b)) => to.partner[a] == Some(b),
+        (Some(a), None) | (None, Some(a)) => to.sides[a] == Side::Real,
+        (None, None) => true,
+    })
+}
+
+/// Pairs to pairs; what is left over of them becomes real or comes from real ones.
+fn pairs_first(cost: &Matrix, from: &Set, to: &Set) -> Vec<Option<usize>> {
+    let (starts, ends) = (from.pairs(), to.pairs());
+    let pairs = Matrix::from_fn(starts.len(), ends.len(), |i, j| cost[(starts[i].0, ends[j].0)]);
+    let mut found = vec![None; from.sides.len()];
+    let mut is_reached = vec![false; to.sides.len()];
+    for (i, end) in places(&pairs, assign(&pairs)).into_iter().enumerate() {
+        let Some(end) = end else { continue };
+        (found[starts[i].0], found[starts[i].1]) = (Some(ends[end].0), Some(ends[end].1));
+        (is_reached[ends[end].0], is_reached[ends[end].1]) = (true, true);
+    }
+    let rows: Vec<usize> = (0..found.len()).filter(|&i| found[i].is_none()).collect();
+    let columns: Vec<usize> = (0..is_reached.len()).filter(|&j| !is_reached[j]).collect();
+    let rest = Matrix::from_fn(rows.len(), columns.len(), |i, j| cost[(rows[i], columns[j])]);
+    for (i, end) in places(&rest, assign(&rest)).into_iter().enumerate() {
+        found[rows[i]] = end.map(|end| columns[end]);
+    }
+    found
+}
+
+/// Of two real eigenvalues that a pair becomes, or that become a pair, the larger belongs to the one with im > 0.
+fn order(found: &mut [Option<usize>], from: &Set, to: &Set) {
+    for (upper, lower) in from.pairs() {
+        if let (Some(a), Some(b)) = (found[upper], found[lower])
+            && to.sides[a] == Side::Real
+            && to.values[a].re < to.values[b].re
+        {
+            found.swap(upper, lower);
+        }
+    }
+    for (upper, lower) in to.pairs() {
+        let [above, below] = [upper, lower].map(|end| found.iter().position(|place| *place == Some(end)));
+        if let (Some(a), Some(b)) = (above, below)
+            && from.sides[a] == Side::Real
+            && from.values[a].re < from.values[b].re
+        {
+            found.swap(a, b);
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! Linear models at many states: along a motion, or over a parameter.
+
+use super::along::Walk;
+use super::{Branch, Matrix, Request, Sample, State, at_rest, linearize, tighten, track};
+use crate::error::{Error, Result};
+use crate::study::{Overrides, Study};
+use crate::sweep::{Family, Range};
+use rayon::prelude::*;
+
+/// Eigenvalues at many states, as branches.
+#[derive(Clone, Debug)]
+pub struct Loci {
+    pub along: Along,
+    /// As in [`LinearModel`](super::LinearModel), of the first state that has one; empty where none has.
+    pub method: String,
+    pub chart: String,
+    /// All places in their order.
+    pub places: Vec<f64>,
+    pub reached: Vec<Reached>,
+    pub gaps: Vec<Gap>,
+    /// Physical ones first.
+    pub branches: Vec<Branch>,
+}
+
+/// What the eigenvalues are functions of.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Along {
+    /// s
+    Time,
+    Parameter(Range),
+}
+
+/// A place with a linear model.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Reached {
+    pub at: f64,
+    pub equilibrium: bool,
+}
+
+/// A place without one, and why.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gap {
+    pub at: f64,
+    pub error: Error,
+}
+
+/// One scene a value of a parameter.
+pub struct Variants<'a> {
+    pub family: &'a Family,
+    /// How each is simulated.
+    pub overrides: &'a Overrides,
+    pub range: &'a Range,
+}
+
+/// Which state of each scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum At {
+    Start,
+    /// Of its motion.
+    Time(f64),
+    /// At rest at the scene's start time. Each search begins at the equilibrium of the neighbour, outwards from the value
+    /// that is nearest to the scene's own, so that a branch of equilibria is followed.
+    Equilibrium,
+}
+
+/// What one state gives.
+struct Found {
+    sample: Sample,
+    method: String,
+    chart: String,
+    is_equilibrium: bool,
+}
+
+type Outcome = (f64, Result<Found>);
+
+/// Eigenvalues at `times` (increasing) of the study's motion; `progress` hears of each. Where the motion cannot go on, the
+/// later times are gaps.
+pub fn loci_along(study: &Study, request: &Request, times: &[f64], progress: impl Fn() + Sync) -> Loci {
+    let (mut walk, mut stopped) = (Walk::new(study), None);
+    let mut go_to = |t: f64| match &stopped {
+        Some(error) => Err(Error::clone(error)),
+        None => walk.to(t).inspect_err(|error| stopped = Some(error.clone())),
+    };
+    let states: Vec<(f64, Result<State>)> = times.iter().map(|&t| (t, go_to(t))).inspect(|_| progress()).collect();
+    let outcome = |(t, state): (f64, Result<State>)| (t, state.and_then(|state| found(study, &state, t, request)));
+    collect(Along::Time, states.into_par_iter().map(outcome).collect())
+}
+
+/// Eigenvalues of a scene for each value of a parameter; `progress` hears of each. Values without a state or a model are
+/// gaps.
+///
+/// # Errors
+/// A parameter that the scene does not have.
+pub fn loci_over(variants: &Variants, at: At, request: &Request, progress: impl Fn() + Sync) -> Result<Loci> {
+    let own = variants.family.own_value(&variants.range.parameter)?;
+    let values = variants.range.values();
+    let outcomes: Vec<Outcome> = match at {
+        At::Equilibrium => {
+            let distance = |i: &usize| (values[*i] - own).abs();
+            let middle = (0..values.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
+            let (before, after) = values.split_at(middle);
+            let down = || at_rest_along(variants, before.iter().rev(), values.get(middle), request, &progress);
+            let up = || at_rest_along(variants, after.iter(), None, request, &progress);
+            let (down, up) = rayon::join(down, up);
+            down.into_iter().rev().chain(up).collect()
+        }
+        _ => {
+            let outcome = |&value: &f64| (value, variants.found(value, at, request));
+            values.par_iter().map(outcome).inspect(|_| progress()).collect()
+        }
+    };
+    Ok(collect(Along::Parameter(variants.range.clone()), outcomes))
+}
+
+/// Equilibria from value to value, the first from that of the scene at the value `behind`.
+fn at_rest_along<'v>(
+    variants: &Variants,
+    values: impl Iterator<Item = &'v f64>,
+    behind: Option<&f64>,
+    request: &Request,
+    progress: &(impl Fn() + Sync),
+) -> Vec<Outcome> {
+    let at = |value: f64, guess: Option<&[f64]>| {
+        let study = variants.study(value)?;
+        let state = rest(&study, guess)?;
+        Ok::<_, Error>((study, state))
+    };
+    let mut guess = behind.and_then(|&value| at(value, None).ok()).map(|(_, state)| state.q);
+    let mut outcomes = Vec::new();
+    for &value in values {
+        let outcome = at(value, guess.as_deref()).and_then(|(study, state)| {
+            let found = found(&study, &state, value, request);
+            guess = Some(state.q);
+            found
+        });
+        outcomes.push((value, outcome));
+        progress();
+    }
+    outcomes
+}
+
+/// The equilibrium that belongs to a guess; where there is none, that of the scene's own start.
+fn rest(study: &Study, guess: Option<&[f64]>) -> Result<State> {
+    let start = State::start(study);
+    let near = guess.filter(|q| q.len() == start.q.len()).map(|q| State { q: q.to_vec(), ..start.clone() });
+    match near.map(|near| at_rest(study, &near)) {
+        Some(Ok(state)) => Ok(state),
+        _ => at_rest(study, &start),
+    }
+}
+
+impl Variants<'_> {
+    fn study(&self, value: f64) -> Result<Study> {
+        let scene = self.family.scene_at(&self.range.parameter, value)?;
+        let mut study = Study::new(scene, self.overrides)?;
+        tighten(&mut study, self.overrides);
+        Ok(study)
+    }
+
+    fn found(&self, value: f64, at: At, request: &Request) -> Result<Found> {
+        let study = self.study(value)?;
+        let state = match at {
+            At::Time(t) => super::states(&study, &[t], |_| ())?.into_iter().next(),
+            _ => None,
+        };
+        found(&study, &state.unwrap_or_else(|| State::start(&study)), value, request)
+    }
+}
+
+fn found(study: &Study, state: &State, at: f64, request: &Request) -> Result<Found> {
+    let mut variation = state.variation(study)?;
+    let mass: Matrix = variation.mass();
+    let model = linearize(&mut variation, request)?;
+    let is_equilibrium = model.point.is_equilibrium;
+    let sample = Sample { at, modes: model.modes, mass };
+    Ok(Found { sample, method: model.method, chart: model.chart, is_equilibrium })
+}
+
+fn collect(along: Along, outcomes: Vec<Outcome>) -> Loci {
+    let mut loci = Loci {
+        along,
+        method: String::new(),
+        chart: String::new(),
+        places: outcomes.iter().map(|(at, _)| *at).collect(),
+        reached: Vec::new(),
+        gaps: Vec::new(),
+        branches: Vec::new(),
+    };
+    let mut samples = Vec::new();
+    for (at, outcome) in outcomes {
+        match outcome {
+            Ok(found) => {
+                if loci.reached.is_empty() {
+                    (loci.method, loci.chart) = (found.method, found.chart);
+                }
+                loci.reached.push(Reached { at, equilibrium: found.is_equilibrium });
+                samples.push(found.sample);
+            }
+            Err(error) => {
+                loci.gaps.push(Gap { at, error });
+                samples.push(Sample::gap(at));
+            }
+        }
+    }
+    loci.branches = track(&samples);
+    loci
+}

@@ -1,0 +1,138 @@
+//! Eigenvalues of one state after another, joined to branches.
+
+use super::matching::{Node, matching};
+use super::{Branch, Complex, Kind, Matrix, Mode};
+
+/// The eigenvalues at a time or at a value of a parameter.
+#[derive(Clone, Debug)]
+pub struct Sample {
+    pub at: f64,
+    /// None where there is no linear model: branches go on behind this gap.
+    pub modes: Vec<Mode>,
+    /// M there, in which shapes are compared.
+    pub mass: Matrix,
+}
+
+impl Sample {
+    /// A place without a linear model.
+    pub fn gap(at: f64) -> Self {
+        Sample { at, modes: Vec::new(), mass: Matrix::zeros(0, 0) }
+    }
+}
+
+/// Where a branch has come.
+struct Thread {
+    place: usize,
+    at: f64,
+    last: Node,
+    /// The point before, if it was as real or as complex as the last.
+    before: Option<(f64, Complex<f64>)>,
+}
+
+/// The finite eigenvalues of `samples` as branches, in the order of their start: physical ones first, and of a conjugate
+/// pair first the one with im > 0. Infinite eigenvalues are left out.
+///
+/// From one sample to the next the modes of a kind are matched by the least sum of
+///
+/// ```text
+/// (1 - MAC) + |lambda - p| / (|lambda| + |p|),   MAC = |x^H M y|^2 / ((x^H M x)(y^H M y))
+/// ```
+///
+/// with p the last two values of the branch continued in a straight line. The shapes x and y are changes along the
+/// velocity directions of the whole mechanism, so those of neighbouring states compare: modes that cross keep their
+/// shapes, modes that veer exchange them slowly. Modal assurance criterion: Allemang and Brown, Proc. 1st Int. Modal
+/// Analysis Conf. (1982) 110-116. A conjugate pair is followed by a pair, or by two real eigenvalues, of which the larger
+/// belongs to the branch with im > 0. Where modes become more or fewer, branches start or end. In a gap every branch has
+/// a point that is not a number.
+pub fn track(samples: &[Sample]) -> Vec<Branch> {
+    let (mut branches, mut threads) = (Vec::new(), Vec::new());
+    for sample in samples {
+        if sample.modes.is_empty() {
+            let gap = (sample.at, Complex::new(f64::NAN, f64::NAN));
+            threads.iter().for_each(|thread: &Thread| push(&mut branches, thread.place, gap));
+            continue;
+        }
+        let before = std::mem::take(&mut threads);
+        let [mut physical, mut spurious] = [Vec::new(), Vec::new()];
+        for thread in before {
+            if kind(&branches, &thread) == Kind::Physical { physical.push(thread) } else { spurious.push(thread) }
+        }
+        threads.extend(go_on(physical, sample, Kind::Physical, &mut branches));
+        threads.extend(go_on(spurious, sample, Kind::Spurious, &mut branches));
+    }
+    // A branch that starts late comes behind the others of its kind.
+    branches.sort_by_key(|branch| branch.kind);
+    branches
+}
+
+fn kind(branches: &[Branch], thread: &Thread) -> Kind {
+    branches.get(thread.place).map_or(Kind::Physical, |branch| branch.kind)
+}
+
+fn push(branches: &mut [Branch], place: usize, point: (f64, Complex<f64>)) {
+    if let Some(branch) = branches.get_mut(place) {
+        branch.points.push(point);
+    }
+}
+
+/// The branches of a kind at one more sample; those that it has first, then new ones.
+fn go_on(threads: Vec<Thread>, sample: &Sample, kind: Kind, branches: &mut Vec<Branch>) -> Vec<Thread> {
+    let modes: Vec<&Mode> = sample.modes.iter().filter(|mode| mode.kind == kind).collect();
+    let ends: Vec<Node> = modes.iter().map(|mode| Node::new(mode)).collect();
+    let predicted: Vec<Complex<f64>> = threads.iter().map(|thread| thread.predicted(sample.at)).collect();
+    let rows: Vec<&Node> = threads.iter().map(|thread| &thread.last).collect();
+    let next = matching(&rows, &predicted, &ends, &sample.mass);
+    let mut is_new = vec![true; ends.len()];
+    let mut going = Vec::new();
+    for (thread, end) in threads.iter().zip(next) {
+        let Some(end) = end else { continue };
+        is_new[end] = false;
+        push(branches, thread.place, (sample.at, ends[end].value));
+        going.push(thread.moved(sample.at, ends[end].clone()));
+    }
+    for end in upper_first(&ends).into_iter().filter(|&end| is_new[end]) {
+        going.push(Thread { place: branches.len(), at: sample.at, last: ends[end].clone(), before: None });
+        branches.push(Branch { kind, points: vec![(sample.at, ends[end].value)] });
+    }
+    going
+}
+
+/// Places in their order, but of neighbours that are conjugate first the one with im > 0, and real ones from the largest, as
+/// [`matching`] orders those that become a pair.
+fn upper_first(nodes: &[Node]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..nodes.len()).collect();
+    let mut i = 0;
+    while i + 1 < nodes.len() {
+        let is_pair = nodes[i].value.im != 0.0 && nodes[i].value == nodes[i + 1].value.conj();
+        if is_pair && nodes[i].value.im < 0.0 {
+            order.swap(i, i + 1);
+        }
+        i += if is_pair { 2 } else { 1 };
+    }
+    let places: Vec<usize> = (0..order.len()).filter(|&i| nodes[order[i]].value.im == 0.0).collect();
+    let mut real: Vec<usize> = places.iter().map(|&place| order[place]).collect();
+    real.sort_by(|&a, &b| nodes[b].value.re.total_cmp(&nodes[a].value.re));
+    places.into_iter().zip(real).for_each(|(place, node)| order[place] = node);
+    order
+}
+
+impl Thread {
+    /// The eigenvalue at a place, by the straight line through the last two; one beside the real axis stays on its side.
+    fn predicted(&self, at: f64) -> Complex<f64> {
+        let value = self.last.value;
+        let Some((place, before)) = self.before else { return value };
+        let factor = (at - self.at) / (self.at - place);
+        let next = value + (value - before) * factor;
+        match factor.is_finite() {
+            true if next.im * value.im < 0.0 => Complex::new(next.re, 0.0),
+            true => next,
+            false => value,
+        }
+    }
+
+    fn moved(&self, at: f64, end: Node) -> Thread {
+        let value = self.last.value;
+        let is_alike = (value.im == 0.0) == (end.value.im == 0.0);
+        Thread { place: self.place, at, last: end, before: is_alike.then_some((self.at, value)) }
+    }
+}

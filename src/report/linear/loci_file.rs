@@ -1,0 +1,218 @@
+//! `loci.csv` and `loci.json`.
+
+use crate::error::{Error, Failure, Result};
+use crate::linearize::{Along, Branch, Complex, Kind, Loci, Reached, damping, frequency};
+use crate::plot::AxisSpec;
+use crate::report::{cell, table};
+use serde::Serialize;
+
+/// Eigenvalues at many states in numbers.
+#[derive(Clone, Debug, Serialize)]
+pub struct LociSummary {
+    pub scene: String,
+    pub method: String,
+    pub chart: String,
+    pub along: AlongFile,
+    /// States with eigenvalues, and how many of them are equilibria.
+    pub reached: usize,
+    pub equilibria: usize,
+    /// States without.
+    pub failures: Vec<FailureFile>,
+    pub modes: Vec<ModeSummary>,
+}
+
+/// What the eigenvalues are functions of: time in s, or a parameter of the scene.
+#[derive(Clone, Debug, Serialize)]
+pub struct AlongFile {
+    pub name: String,
+    pub unit: &'static str,
+    pub from: f64,
+    pub to: f64,
+    pub count: usize,
+    pub log: bool,
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub struct FailureFile {
+    pub at: f64,
+    pub reason: String,
+    pub hint: Option<String>,
+}
+
+/// Where a mode goes.
+#[derive(Clone, Debug, Serialize)]
+pub struct ModeSummary {
+    pub mode: String,
+    pub kind: Kind,
+    pub frequency_hz: Extent,
+    pub damping_ratio: Extent,
+    /// First and last state of each stretch with a real part above zero.
+    pub growing: Vec<Stretch>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Extent {
+    pub min: f64,
+    pub max: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Stretch {
+    pub from: f64,
+    pub to: f64,
+}
+
+/// `loci.json`: the summary, which states are equilibria, and the branches.
+#[derive(Clone, Debug, Serialize)]
+pub struct LociFile {
+    #[serde(flatten)]
+    pub summary: LociSummary,
+    pub states: Vec<Reached>,
+    pub branches: Vec<BranchFile>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub struct BranchFile {
+    pub mode: String,
+    pub kind: Kind,
+    /// Whether the conjugates are eigenvalues too, a branch that is left out.
+    pub pair: bool,
+    pub points: Vec<PointFile>,
+}
+
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct PointFile {
+    pub at: f64,
+    pub re: f64,
+    pub im: f64,
+    pub frequency_hz: f64,
+    pub damping_ratio: f64,
+}
+
+/// A real part below this part of the eigenvalue is round-off, and so is one below so many 1/s.
+const ROUND_OFF: f64 = 1e-6;
+/// Growth by this part over the whole of the motion is not worth telling.
+const LITTLE: f64 = 0.01;
+
+impl LociSummary {
+    pub fn new(scene: &str, loci: &Loci) -> Self {
+        let ends = [loci.places.first(), loci.places.last()].map(|place| place.copied().unwrap_or(0.0));
+        let (name, unit, log, least) = match &loci.along {
+            Along::Time => ("t".to_string(), "s", false, LITTLE / (ends[1] - ends[0])),
+            Along::Parameter(range) => (range.parameter.clone(), "", range.is_log, ROUND_OFF),
+        };
+        LociSummary {
+            scene: scene.to_string(),
+            method: loci.method.clone(),
+            chart: loci.chart.clone(),
+            along: AlongFile { name, unit, from: ends[0], to: ends[1], count: loci.places.len(), log },
+            reached: loci.reached.len(),
+            equilibria: loci.reached.iter().filter(|state| state.equilibrium).count(),
+            failures: loci.gaps.iter().map(|gap| failure(gap.at, &gap.error)).collect(),
+            modes: upper(loci).map(|(mode, branch)| mode_summary(mode, branch, least)).collect(),
+        }
+    }
+
+    /// The axis of time or parameter.
+    pub fn axis(&self) -> AxisSpec {
+        let axis = AxisSpec::from(if self.along.unit.is_empty() { self.along.name.as_str() } else { "time (s)" });
+        if self.along.log { axis.log() } else { axis }
+    }
+}
+
+impl LociFile {
+    pub fn new(summary: LociSummary, loci: &Loci) -> Self {
+        let branches = upper(loci).map(|(mode, branch)| branch_file(mode, branch)).collect();
+        LociFile { summary, states: loci.reached.clone(), branches }
+    }
+}
+
+/// Time or parameter, then real and imaginary part, frequency and damping ratio of each mode; empty cells where there are
+/// none.
+///
+/// # Errors
+/// A table that cannot be written.
+pub fn loci_table(loci: &Loci) -> Result<Vec<u8>> {
+    let along = match &loci.along {
+        Along::Time => "t".to_string(),
+        Along::Parameter(range) => range.parameter.clone(),
+    };
+    let modes: Vec<(String, &Branch)> = upper(loci).collect();
+    let names = modes
+        .iter()
+        .flat_map(|(mode, _)| ["re", "im", "frequency_hz", "damping_ratio"].map(|column| format!("{mode}.{column}")));
+    let starts: Vec<usize> = modes.iter().map(|(_, branch)| start(loci, branch)).collect();
+    let rows = loci.places.iter().enumerate().map(|(row, place)| {
+        let cells = modes.iter().zip(&starts).flat_map(|((_, branch), start)| {
+            let point = row.checked_sub(*start).and_then(|i| branch.points.get(i));
+            cells(point.map(|point| point.1).filter(|value| value.re.is_finite()))
+        });
+        [cell(*place)].into_iter().chain(cells).collect()
+    });
+    table([along].into_iter().chain(names), rows)
+}
+
+/// The row in which a branch begins.
+fn start(loci: &Loci, branch: &Branch) -> usize {
+    let first = branch.points.first().map_or(f64::NAN, |point| point.0);
+    loci.places.iter().position(|place| *place == first).unwrap_or(usize::MAX)
+}
+
+fn cells(value: Option<Complex<f64>>) -> [String; 4] {
+    match value {
+        Some(value) => [value.re, value.im, frequency(value), damping(value)].map(cell),
+        None => Default::default(),
+    }
+}
+
+/// The branches by the names of their modes, without those that are conjugate to others everywhere.
+fn upper(loci: &Loci) -> impl Iterator<Item = (String, &Branch)> {
+    let is_upper = |branch: &&Branch| branch.points.iter().any(|(_, value)| value.im >= 0.0);
+    let named = |(i, branch)| (format!("mode{}", i + 1), branch);
+    loci.branches.iter().filter(is_upper).enumerate().map(named)
+}
+
+/// The points that are numbers.
+fn finite(branch: &Branch) -> impl Iterator<Item = (f64, Complex<f64>)> + Clone {
+    branch.points.iter().copied().filter(|(_, value)| value.re.is_finite() && value.im.is_finite())
+}
+
+fn failure(at: f64, error: &Error) -> FailureFile {
+    let (reason, hint) = match error {
+        Error::Input(input) => (input.message.clone(), input.hint.clone()),
+        Error::Run(Failure { reason, hint, .. }) => (reason.clone(), Some(hint.clone())),
+        Error::File { problem, .. } => (problem.clone(), None),
+    };
+    FailureFile { at, reason, hint }
+}
+
+fn mode_summary(mode: String, branch: &Branch, least: f64) -> ModeSummary {
+    let extent = |of: fn(Complex<f64>) -> f64| {
+        let values = finite(branch).map(|(_, value)| of(value));
+        Extent { min: values.clone().fold(f64::INFINITY, f64::min), max: values.fold(f64::NEG_INFINITY, f64::max) }
+    };
+    let mut growing: Vec<Stretch> = Vec::new();
+    let mut goes_on = false;
+    for (at, value) in &branch.points {
+        let grows = value.re > least && value.re > ROUND_OFF * value.norm();
+        match growing.last_mut().filter(|_| grows && goes_on) {
+            Some(last) => last.to = *at,
+            None if grows => growing.push(Stretch { from: *at, to: *at }),
+            None => {}
+        }
+        goes_on = grows;
+    }
+    ModeSummary { mode, kind: branch.kind, frequency_hz: extent(frequency), damping_ratio: extent(damping), growing }
+}
+
+fn branch_file(mode: String, branch: &Branch) -> BranchFile {
+    let point = |(at, value): (f64, Complex<f64>)| PointFile {
+        at,
+        re: value.re,
+        im: value.im,
+        frequency_hz: frequency(value),
+        damping_ratio: damping(value),
+    };
+    let pair = finite(branch).all(|(_, value)| value.im > 0.0);
+    BranchFile { mode, kind: branch.kind, pair, points: finite(branch).map(point).collect() }
+}

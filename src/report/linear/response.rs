@@ -1,0 +1,147 @@
+//! `bode-T.csv`, `bode-T.json`, and a frequency response as a person reads it.
+
+use super::Response;
+use crate::error::Result;
+use crate::linearize::Complex;
+use crate::report::{Table, cell, significant, table};
+use serde::Serialize;
+
+/// Responses of a model at frequencies.
+#[derive(Clone, Debug)]
+pub struct FrequencyResponse {
+    pub scene: String,
+    /// Of the state, s.
+    pub t: f64,
+    pub equilibrium: bool,
+    pub method: String,
+    pub chart: String,
+    /// Hz
+    pub frequencies: Vec<f64>,
+    /// Not a number at a pole.
+    pub responses: Vec<Response>,
+}
+
+/// `bode-T.json`.
+#[derive(Clone, Debug, Serialize)]
+pub struct ResponseFile {
+    pub scene: String,
+    pub t: f64,
+    pub equilibrium: bool,
+    pub method: String,
+    pub chart: String,
+    pub frequency_hz: Vec<f64>,
+    /// Frequencies at which the model has a pole and no response.
+    pub poles_hz: Vec<f64>,
+    pub responses: Vec<PairFile>,
+}
+
+/// From an input to an output, at each frequency; nothing at a pole.
+#[derive(Clone, Debug, Serialize)]
+pub struct PairFile {
+    pub input: String,
+    pub output: String,
+    pub input_unit: String,
+    pub output_unit: String,
+    pub re: Vec<Option<f64>>,
+    pub im: Vec<Option<f64>>,
+    pub magnitude: Vec<Option<f64>>,
+    pub phase_deg: Vec<Option<f64>>,
+}
+
+type Part = fn(Complex<f64>) -> f64;
+
+/// Columns of a response.
+const PARTS: [(&str, Part); 4] = [
+    ("re", |value| value.re),
+    ("im", |value| value.im),
+    ("magnitude", |value| value.norm()),
+    ("phase_deg", |value| value.arg().to_degrees()),
+];
+
+impl FrequencyResponse {
+    /// `frequency_hz`, then real and imaginary part, magnitude and phase from each input to each output.
+    ///
+    /// # Errors
+    /// A table that cannot be written.
+    pub fn table(&self) -> Result<Vec<u8>> {
+        let names = self
+            .responses
+            .iter()
+            .flat_map(|response| PARTS.map(|(part, _)| format!("{}/{}.{part}", response.output, response.input)));
+        let rows = self.frequencies.iter().enumerate().map(|(i, frequency)| {
+            let values = self.responses.iter().map(|response| response.values.get(i).copied().filter(is_finite));
+            let cells = values.flat_map(|value| PARTS.map(|(_, part)| value.map_or(String::new(), |x| cell(part(x)))));
+            [cell(*frequency)].into_iter().chain(cells).collect()
+        });
+        table(["frequency_hz".to_string()].into_iter().chain(names), rows)
+    }
+
+    pub fn file(&self) -> ResponseFile {
+        let is_pole = |i: &usize| self.responses.iter().any(|x| x.values.get(*i).is_some_and(|x| !is_finite(x)));
+        let poles = (0..self.frequencies.len()).filter(is_pole).map(|i| self.frequencies[i]);
+        ResponseFile {
+            scene: self.scene.clone(),
+            t: self.t,
+            equilibrium: self.equilibrium,
+            method: self.method.clone(),
+            chart: self.chart.clone(),
+            poles_hz: poles.collect(),
+            frequency_hz: self.frequencies.clone(),
+            responses: self.responses.iter().map(pair).collect(),
+        }
+    }
+
+    /// Each pair with its response at the lowest frequency and at its largest.
+    pub fn text(&self) -> String {
+        let ends = [self.frequencies.first(), self.frequencies.last()];
+        let [from, to] = ends.map(|end| significant(end.copied().unwrap_or(0.0), 4));
+        let state = if self.equilibrium { "an equilibrium" } else { "not an equilibrium" };
+        let mut text = format!(
+            "{} at t = {} s ({state}): frequency response from {from} to {to} Hz, by {}, chart {}\n",
+            self.scene,
+            significant(self.t, 9),
+            self.method,
+            self.chart
+        );
+        for pole in self.file().poles_hz {
+            text += &format!("  NO RESPONSE at {} Hz: the model has a pole there\n", significant(pole, 6));
+        }
+        let at = format!("at {from} Hz");
+        let mut lines = Table::new(&["output / input", "unit", &at, "largest", "at (Hz)"]).words(1);
+        self.responses.iter().for_each(|response| lines.row(self.cells(response)));
+        format!("{text}\n{lines}")
+    }
+
+    fn cells(&self, response: &Response) -> [String; 5] {
+        let sizes = self.frequencies.iter().zip(&response.values).filter(|(_, value)| is_finite(value));
+        let sizes: Vec<(f64, f64)> = sizes.map(|(f, value)| (*f, value.norm())).collect();
+        let first = sizes.first().copied().unwrap_or_default();
+        let (at, largest) = sizes.iter().copied().fold(first, |most, next| if next.1 > most.1 { next } else { most });
+        [
+            format!("{} / {}", response.output, response.input),
+            response.unit(),
+            significant(first.1, 5),
+            significant(largest, 5),
+            significant(at, 5),
+        ]
+    }
+}
+
+fn is_finite(value: &Complex<f64>) -> bool {
+    value.re.is_finite() && value.im.is_finite()
+}
+
+fn pair(response: &Response) -> PairFile {
+    let each = |part: Part| response.values.iter().map(|x| Some(*x).filter(is_finite).map(part)).collect();
+    let [re, im, magnitude, phase_deg] = PARTS.map(|(_, part)| each(part));
+    PairFile {
+        input: response.input.clone(),
+        output: response.output.clone(),
+        input_unit: response.input_unit.clone(),
+        output_unit: response.output_unit.clone(),
+        re,
+        im,
+        magnitude,
+        phase_deg,
+    }
+}
