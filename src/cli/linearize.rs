@@ -4,8 +4,9 @@ use super::common::{MethodOptions, Output, SceneOptions, Talk, print};
 use super::linear::{ChartOptions, StateOptions};
 use crate::choice::Choice;
 use crate::error::{Error, Result};
-use crate::linearize::{self, Kind, LinearModel, Request};
+use crate::linearize::{self, Chart, Kind, LinearModel, Request};
 use crate::report::linear::{Linear, compare, comparison_text, linear_stem};
+use crate::report::mechanism::{Look, mode_figure};
 use crate::report::{self, Folder};
 use crate::study::Study;
 use serde::Serialize;
@@ -59,11 +60,14 @@ fn requests(args: &Args) -> Result<Vec<Request>> {
     if args.method != "all" {
         return Ok(vec![request(Choice::parse(&args.method)?)]);
     }
-    let all = ["mcs", "rcs", "rcs:form=index2", "rcs:form=index1", "rcs:form=ggl", "rcs:solver=gsvd", "rcs:solver=qz"];
+    let charts = if args.chart.chart().is_none() { vec![Chart::MassOrthogonal, Chart::Frozen] } else { Vec::new() };
+    let charts = charts.into_iter().map(|chart| Ok(Request { method: Choice::named("mcs"), chart: Some(chart) }));
+    let all = ["rcs", "rcs:form=index2", "rcs:form=index1", "rcs:form=ggl", "rcs:solver=gsvd", "rcs:solver=qz"];
     let rest = linearize::registry().iter().map(|entry| entry.name).filter(|name| !["mcs", "rcs"].contains(name));
     let projected = ["baumgarte:projected=yes", "penalty:projected=yes", "augmented_lagrangian:projected=yes"];
     let names = all.into_iter().chain(rest).chain(["penalty:kind=elastic"]).chain(projected);
-    names.map(|name| Choice::parse(name).map(request)).collect()
+    let first = std::iter::once(Ok(request(Choice::named("mcs"))));
+    first.chain(charts).chain(names.map(|name| Choice::parse(name).map(request))).collect()
 }
 
 /// What `--json` prints for one state.
@@ -78,11 +82,11 @@ fn report(args: &Args, study: &Study, models: &[LinearModel], folder: &mut Folde
     let names = study.system().names();
     let linear = |model| Linear { scene: &study.name, names: &names, model };
     let is_alone = models.len() == 1;
-    for model in models {
-        let stem = linear_stem(model.point.t, (!is_alone).then_some(model.method.as_str()));
-        linear(model).write(folder, &stem)?;
-    }
     let first = &models[0];
+    let stem = linear_stem(first.point.t, None);
+    linear(first).write(folder, &stem)?;
+    let figure = mode_figure(study, &Look::plain(&study.mechanism), first);
+    args.output.figure(folder, &stem.replace("linear", "modes"), figure)?;
     let is_silent = args.talk.json || args.talk.quiet;
     if !is_silent {
         print(&linear(first).text())?;
@@ -93,7 +97,9 @@ fn report(args: &Args, study: &Study, models: &[LinearModel], folder: &mut Folde
     let exact = first.modes.iter().filter(|mode| mode.kind == Kind::Physical).map(|mode| mode.value);
     let rows = compare(models, &exact.collect::<Vec<_>>());
     if !is_silent {
-        print(&format!("\n{}", comparison_text(&rows)))?;
+        print(&format!("\n{}", comparison_text(&rows, first.point.is_equilibrium)))?;
     }
-    Ok(Result_::All { t: first.point.t, methods: rows })
+    let all = Result_::All { t: first.point.t, methods: rows };
+    folder.write_json(&format!("{}.json", stem.replace("linear", "methods")), &all)?;
+    Ok(all)
 }

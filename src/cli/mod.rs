@@ -14,6 +14,8 @@ mod purpose;
 mod schema;
 mod simulate;
 mod sweep;
+mod transition;
+mod validate;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -52,6 +54,12 @@ enum Command {
     Loci(loci::Args),
     /// Frequency response between named inputs and outputs at a state of the motion
     Bode(bode::Args),
+    /// Linear models against simulations of small perturbations: observed order, horizon and a verdict
+    ///
+    /// The exit code is 1 where the verdict is that a model is wrong.
+    Validate(validate::Args),
+    /// How small changes grow along the motion: Floquet multipliers of a period, Lyapunov exponents
+    Transition(transition::Args),
     /// Print a scalable scene
     Generate(generate::Args),
     /// Formulations, integrators and projections: what goes with what, proven orders, what each is for
@@ -71,6 +79,8 @@ pub fn run() -> ExitCode {
         Command::Linearize(args) => linearize::run(args),
         Command::Loci(args) => loci::run(args),
         Command::Bode(args) => bode::run(args),
+        Command::Validate(args) => validate::run(args),
+        Command::Transition(args) => transition::run(args),
         Command::Generate(args) => generate::run(args),
         Command::Methods(args) => methods::run(args),
         Command::Schema => schema::run(),

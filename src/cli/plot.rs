@@ -126,12 +126,11 @@ impl Args {
     /// How to show the scene.
     fn look(&self, study: &Study) -> Result<Look> {
         let is_planar = matches!(study.mechanism, AnyMechanism::Planar(_));
-        let up = up(&study.mechanism);
+        let plain = Look::plain(&study.mechanism);
         let view = match &self.view {
-            None if is_planar => View::planar(),
-            None => View::isometric(up),
+            None => plain.view,
             Some(name) => {
-                let view = View::parse(name, up).map_err(|error| error.under("--view"))?;
+                let view = View::parse(name, up(&study.mechanism)).map_err(|error| error.under("--view"))?;
                 if is_planar && view != View::planar() {
                     let error = Error::input(format!("the scene is planar and cannot be seen from `{name}`"));
                     return Err(error.under("--view").hint("leave it out, or give xy"));

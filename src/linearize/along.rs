@@ -35,7 +35,10 @@ const TOLERANCE: f64 = 1e-10;
 
 /// Tightens the tolerances that the command line leaves open, so that states are known better than what is read off them.
 pub fn tighten(study: &mut Study, given: &Overrides) {
-    let Method { rtol, atol, .. } = &mut study.method;
+    let Method { rtol, atol, step, .. } = &mut study.method;
+    if step.is_some() {
+        return;
+    }
     *rtol = given.rtol.unwrap_or(rtol.min(TOLERANCE));
     *atol = given.atol.unwrap_or(atol.min(TOLERANCE));
 }
@@ -112,11 +115,17 @@ fn follow(study: &Study, method: &Method, from: &State, end: f64) -> Result<Stat
     Ok(State { t: end, q: closed.q, v: closed.v })
 }
 
-/// The equilibrium that belongs to a state.
+/// The equilibrium that belongs to a state, with all that depends on time held.
 ///
 /// # Errors
-/// None found: what moves, or where force is left.
+/// None found: what moves, or where force is left. Drives that accelerate.
 pub fn at_rest(study: &Study, state: &State) -> Result<State> {
     let found = equilibrium(study.system(), state.t, &state.q)?;
-    Ok(State { t: state.t, v: vec![0.0; state.v.len()], q: found.q })
+    let rest = State { t: state.t, v: vec![0.0; state.v.len()], q: found.q };
+    match rest.variation(study)?.point.is_equilibrium {
+        true => Ok(rest),
+        false => Err(Error::input(format!("at t = {} s moving constraints accelerate the mechanism", short(state.t)))
+            .under("--equilibrium")
+            .hint("choose a time at which drives stand still or move steadily, or linearize the motion itself")),
+    }
 }

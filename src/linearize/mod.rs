@@ -23,12 +23,12 @@ mod transition;
 mod unconstrained;
 mod variation;
 
-pub use floquet::{Floquet, floquet};
-pub use lyapunov::{Lyapunov, lyapunov};
 pub use along::{State, at_rest, states, tighten};
 pub use chart::{Chart, Coordinates};
+pub use floquet::{Floquet, floquet};
 pub use frequency::{Resonances, frequency_response};
 pub use loci::Branch;
+pub use lyapunov::{Lyapunov, lyapunov};
 pub use method::{Built, Entry, Request, linearize, registry};
 pub use minimal::{Minimal, minimal};
 pub use model::{Complex, Cost, Kind, LinearModel, Matrix, Mode, damping, frequency};

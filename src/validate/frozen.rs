@@ -1,5 +1,6 @@
 //! The frozen model exp(A t) against the variational equations.
 
+use super::run::Speed;
 use super::{Decay, decay};
 use crate::error::{Error, Result};
 use crate::linearize::{Chart, Coordinates, Matrix, State, transition};
@@ -31,9 +32,10 @@ pub fn frozen(
     system: &dyn MechanicalSystem,
     start: &State,
     chart: &Chart,
-    (a, coordinates, rate): (&Matrix, &Coordinates, f64),
+    (a, coordinates, speed): (&Matrix, &Coordinates, &Speed),
     longest: f64,
 ) -> Result<Frozen> {
+    let rate = speed.usual;
     let steps: Vec<f64> = (0..14).rev().map(|i| longest / f64::from(1 << i)).collect();
     let times: Vec<f64> = steps.iter().map(|h| start.t + h).collect();
     let mut errors = Vec::new();
@@ -42,7 +44,8 @@ pub fn frozen(
         let predicted = alike(expm(&(a * *h)).map_err(|unsolved| Error::input(unsolved.to_string()))?, rate);
         errors.push((&exact - predicted).norm() / exact.norm());
     }
-    let decay = decay(&steps, &errors, |_| SMALL, FLOOR);
+    // Fast modes are as exact as they are, in units of slow ones.
+    let decay = decay(&steps, &errors, |_| SMALL, FLOOR * (speed.fastest / rate).max(1.0));
     Ok(Frozen { steps, errors, decay })
 }
 

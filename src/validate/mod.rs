@@ -17,7 +17,7 @@ pub use direction::Direction;
 pub use frozen::{Frozen, horizon};
 pub use input::InputCheck;
 pub use order::{Decay, decay};
-pub use run::{Curve, Ladder, Validation, validate};
+pub use run::{Curve, Ladder, Validation, Verdict, validate};
 
 use crate::linearize::Chart;
 

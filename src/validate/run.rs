@@ -76,7 +76,7 @@ const SLACK: f64 = 0.1;
 /// Rows over time.
 const ROWS: usize = 60;
 /// A period of the fastest mode counts, times this: longer runs would cost more than they tell.
-const MOST_SWINGS: f64 = 400.0;
+const MOST_SWINGS: f64 = 30.0;
 const CURVES: usize = 3;
 
 /// Compares the model at a state with perturbed simulations.
@@ -107,7 +107,7 @@ pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Setting
         }
     }
     let longest = followed.min(1.0 / speed.fastest.max(f64::MIN_POSITIVE));
-    let frozen = frozen(system, start, &chart, (&model.a, &model.coordinates, norm.rate), longest)?;
+    let frozen = frozen(system, start, &chart, (&model.a, &model.coordinates, &speed), longest)?;
     let mut inputs = Vec::new();
     for (index, column) in system.inputs().into_iter().enumerate().filter(|_| settings.inputs) {
         inputs.extend(input::check(system, start, (&model, &norm), (index, column.name), 0.1 * followed)?);
@@ -117,9 +117,9 @@ pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Setting
 }
 
 /// Rates of a model, 1/s.
-struct Speed {
-    usual: f64,
-    fastest: f64,
+pub(super) struct Speed {
+    pub usual: f64,
+    pub fastest: f64,
 }
 
 impl Speed {

@@ -9,11 +9,14 @@ use serde::Serialize;
 pub struct Comparison {
     pub method: String,
     pub chart: String,
-    /// Largest relative error of the physical eigenvalues; none without a reference, or where their number is another.
+    /// Largest relative distance of the physical eigenvalues from those of the reference; none without a reference, or
+    /// where their number is another.
     pub error: Option<f64>,
     pub physical: usize,
     pub spurious: usize,
     pub infinite: usize,
+    /// How far off the allowed directions the worst physical and the best spurious mode are, in [0, 1].
+    pub off_constraints: Option<[f64; 2]>,
     /// Condition number of the eigenvectors; none where they are dependent.
     pub conditioning: Option<f64>,
     /// Rows and columns of A.
@@ -39,6 +42,7 @@ fn one(model: &LinearModel, reference: &[Complex<f64>]) -> Comparison {
         physical: physical.len(),
         spurious: count(Kind::Spurious),
         infinite: count(Kind::Infinite),
+        off_constraints: cost.off_constraints,
         conditioning: Some(cost.conditioning).filter(|condition| condition.is_finite()),
         size: cost.size,
         assembly_microseconds: 1e6 * cost.assembly_seconds,
@@ -67,15 +71,16 @@ fn largest_error(found: &[Complex<f64>], reference: &[Complex<f64>]) -> Option<f
     worst.is_finite().then_some(worst)
 }
 
-/// One line a method.
-pub fn comparison_text(rows: &[Comparison]) -> String {
+/// One line a method, the reference first.
+pub fn comparison_text(rows: &[Comparison], is_equilibrium: bool) -> String {
     let headings = [
         "method",
         "chart",
-        "error",
+        "against first",
         "physical",
         "spurious",
         "infinite",
+        "off constraints",
         "conditioning",
         "size",
         "matrices (us)",
@@ -92,11 +97,23 @@ pub fn comparison_text(rows: &[Comparison]) -> String {
             physical,
             spurious,
             infinite,
+            row.off_constraints
+                .map_or("-".to_string(), |[physical, spurious]| format!("{physical:.0e} / {spurious:.0e}")),
             row.conditioning.map_or("-".to_string(), |condition| significant(condition, 2)),
             row.size.to_string(),
             significant(row.assembly_microseconds, 3),
             significant(row.eigen_microseconds, 3),
         ]);
     }
-    table.to_string()
+    let note = match is_equilibrium {
+        true => "",
+        false => {
+            "  off equilibrium only models in the same chart have the same eigenvalues: those of redundant coordinates and the \
+             plain projection (frozen) belong to no chart\n"
+        }
+    };
+    format!(
+        "{table}  off constraints: largest part of a physical mode / smallest part of a spurious one that the constraints \
+         do not allow\n{note}"
+    )
 }

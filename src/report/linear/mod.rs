@@ -14,6 +14,7 @@ mod range;
 mod response;
 mod text;
 mod validation;
+mod validation_file;
 
 pub use bode::{Response, bode_figure};
 pub use comparison::{Comparison, compare, comparison_text};
@@ -23,6 +24,7 @@ pub use loci::loci_figure;
 pub use loci_file::{LociFile, LociSummary, loci_table};
 pub use response::{FrequencyResponse, ResponseFile};
 pub use validation::{Deviation, ErrorOrder, validation_figure};
+pub use validation_file::{ValidationFile, ladder_figure};
 
 use crate::error::Result;
 use crate::files::{mat, npz};

@@ -9,7 +9,7 @@ use crate::report::{Table, significant};
 /// Lines of a kind of eigenvalues; the files have all.
 const MOST_LINES: usize = 30;
 const MOST_SPURIOUS: usize = 10;
-/// Coordinates with at least this part of a mode are named, and so many at most.
+/// Bodies with at least this part of a mode are named, and so many at most.
 const PART: f64 = 0.05;
 const MOST_NAMED: usize = 3;
 
@@ -28,8 +28,13 @@ impl Linear<'_> {
             model.method,
             chart(&model.chart, model.point.is_equilibrium),
             self.state_text(),
-            modes_text(model)
+            modes_text(model, &self.bodies())
         )
+    }
+
+    /// The body that each velocity direction belongs to.
+    fn bodies(&self) -> Vec<&str> {
+        self.names.v.iter().map(|name| name.rsplit_once('.').map_or(name.as_str(), |(body, _)| body)).collect()
     }
 
     fn state_text(&self) -> String {
@@ -74,9 +79,9 @@ fn chart(name: &str, is_equilibrium: bool) -> String {
     }
 }
 
-fn modes_text(model: &LinearModel) -> String {
+fn modes_text(model: &LinearModel, bodies: &[&str]) -> String {
     let headings =
-        ["mode", "re (1/s)", "im (1/s)", "frequency (Hz)", "damping ratio", "kind", "takes part (% of the mode)"];
+        ["mode", "re (1/s)", "im (1/s)", "frequency (Hz)", "damping ratio", "kind", "moves (% of kinetic energy)"];
     let mut table = Table::new(&headings).words(5).words(6);
     let mut number = 0;
     let mut left_out = Vec::new();
@@ -84,7 +89,7 @@ fn modes_text(model: &LinearModel) -> String {
         let found = pairs(model, kind);
         for pair in &found[..found.len().min(most)] {
             number += 1;
-            table.row(cells(model, number, pair));
+            table.row(cells(bodies, number, pair));
         }
         number += found.len().saturating_sub(most);
         if found.len() > most {
@@ -101,7 +106,7 @@ fn modes_text(model: &LinearModel) -> String {
     }
 }
 
-fn cells(model: &LinearModel, number: usize, pair: &Pair) -> [String; 7] {
+fn cells(bodies: &[&str], number: usize, pair: &Pair) -> [String; 7] {
     let (mode, value) = (pair.mode, pair.mode.value);
     let imaginary =
         if pair.is_pair { format!("+-{}", significant(value.im.abs(), 6)) } else { significant(value.im, 6) };
@@ -112,18 +117,17 @@ fn cells(model: &LinearModel, number: usize, pair: &Pair) -> [String; 7] {
         significant(mode.frequency(), 5),
         significant(damping(mode), 4),
         arrays::kind(mode.kind).to_string(),
-        participants(&model.states, &mode.participation),
+        movers(bodies, &mode.energy),
     ]
 }
 
-/// The coordinates with the largest parts, each with its rate: `crank.angle 62, rocker.angle 38`.
-fn participants(states: &[String], parts: &[f64]) -> String {
+/// The bodies with the largest parts of the energy: `crank 62, rocker 38`.
+fn movers(bodies: &[&str], energy: &[f64]) -> String {
     let mut sums: Vec<(&str, f64)> = Vec::new();
-    for (state, part) in states.iter().zip(parts) {
-        let name = state.trim_end_matches('\'');
-        match sums.iter_mut().find(|(known, _)| *known == name) {
+    for (&body, part) in bodies.iter().zip(energy) {
+        match sums.iter_mut().find(|(known, _)| *known == body) {
             Some((_, sum)) => *sum += part,
-            None => sums.push((name, *part)),
+            None => sums.push((body, *part)),
         }
     }
     sums.sort_by(|a, b| b.1.total_cmp(&a.1));

@@ -3,14 +3,14 @@
 use super::glyphs::Course;
 use super::motion::{Motion, State};
 use super::pen::Pen;
-use super::snapshot::{Link, Snapshot, snapshot};
+use super::snapshot::{Link, Snapshot, snapshot, up};
 use super::traces::{Trace, curves};
 use super::view::{View, direction, dot, length, less, unit};
 use super::{bodies, glyphs, ground};
 use crate::joint::Shape;
 use crate::plot::{Align, Animation, Figure, Item, Panel, Place, Series, Spot, Tint};
 use crate::report::significant;
-use crate::study::Study;
+use crate::study::{AnyMechanism, Study};
 
 /// How to show a scene.
 #[derive(Clone, Debug)]
@@ -19,6 +19,17 @@ pub struct Look {
     /// Whether the bodies have their names beside them.
     pub labels: bool,
     pub traces: Vec<Trace>,
+}
+
+impl Look {
+    /// From the front, or from above and aside in space; nothing beside.
+    pub fn plain(mechanism: &AnyMechanism) -> Self {
+        let view = match mechanism {
+            AnyMechanism::Planar(_) => View::planar(),
+            AnyMechanism::Spatial(_) => View::isometric(up(mechanism)),
+        };
+        Look { view, labels: false, traces: Vec::new() }
+    }
 }
 
 /// The mechanism at one time.

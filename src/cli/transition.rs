@@ -1,0 +1,137 @@
+//! `holonom transition SCENE`
+
+use super::common::{MethodOptions, Output, SceneOptions, Talk, positive, print};
+use super::linear::StateOptions;
+use crate::error::{Error, Result};
+use crate::linearize::{Floquet, Lyapunov, State, floquet, lyapunov};
+use crate::plot::{Figure, Panel, Series};
+use crate::report::{Folder, Table, cell, significant};
+use crate::study::Study;
+use serde_json::{Value, json};
+use std::process::ExitCode;
+
+#[derive(clap::Args)]
+#[command(group = clap::ArgGroup::new("what").required(true).multiple(true))]
+pub struct Args {
+    #[command(flatten)]
+    scene: SceneOptions,
+    #[command(flatten)]
+    states: StateOptions,
+    /// Period of the motion from the state, s: its Floquet multipliers and stability
+    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true, group = "what")]
+    period: Option<f64>,
+    /// Average growth of small changes over a time, s: the Lyapunov exponents
+    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true, group = "what")]
+    lyapunov: Option<f64>,
+    #[command(flatten)]
+    run: MethodOptions,
+    #[command(flatten)]
+    talk: Talk,
+    #[command(flatten)]
+    output: Output,
+}
+
+/// Columns are made orthonormal so often.
+const RENEWALS: f64 = 500.0;
+/// A multiplier may be outside the unit circle by so much: the root of what integration leaves of a double one.
+const SLACK: f64 = 1e-5;
+
+pub fn run(args: Args) -> Result<ExitCode> {
+    let in_file = |error: Error| error.in_file(&args.scene.path);
+    let study = args.run.load_tight(&args.scene)?;
+    let places = args.states.states(&study, &args.talk).map_err(in_file)?;
+    let mut folder = args.output.folder(&study.name)?;
+    let mut results = Vec::new();
+    for state in &places {
+        let mut result = json!({ "scene": study.name, "t": state.t });
+        if let Some(period) = args.period {
+            let found = floquet(study.system(), state, period).map_err(in_file)?;
+            show(&args, &floquet_text(&study, state, &found))?;
+            result["floquet"] = floquet_json(&found);
+        }
+        if let Some(duration) = args.lyapunov {
+            let found = exponents(&args, &study, state, duration).map_err(in_file)?;
+            show(&args, &lyapunov_text(&study, state, &found))?;
+            args.output.figure(&mut folder, &format!("lyapunov-{}", cell(state.t)), figure(&study, &found))?;
+            result["lyapunov"] = json!({ "times": found.times, "exponents": found.exponents });
+        }
+        folder.write_json(&format!("transition-{}.json", cell(state.t)), &result)?;
+        results.push(result);
+    }
+    finish(&args, &results, &folder)
+}
+
+fn exponents(args: &Args, study: &Study, state: &State, duration: f64) -> Result<Lyapunov> {
+    let bar = args.talk.progress(1000, &study.name);
+    let progress = |t: f64| bar.set_position((1000.0 * t / duration) as u64);
+    let found = lyapunov(study.system(), state, (duration, duration / RENEWALS), progress);
+    bar.finish_and_clear();
+    found
+}
+
+fn finish(args: &Args, results: &[Value], folder: &Folder) -> Result<ExitCode> {
+    match (args.talk.json, results) {
+        (true, [one]) => args.talk.print(one, String::new)?,
+        (true, all) => args.talk.print(&all, String::new)?,
+        (false, _) => show(args, &format!("\nwritten to {}\n", folder.listing()))?,
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn show(args: &Args, text: &str) -> Result<()> {
+    if args.talk.json || args.talk.quiet { Ok(()) } else { print(text) }
+}
+
+fn floquet_json(found: &Floquet) -> Value {
+    let pairs = |values: &[crate::linearize::Complex<f64>]| -> Vec<[f64; 2]> {
+        values.iter().map(|value| [value.re, value.im]).collect()
+    };
+    json!({
+        "period": found.period,
+        "gap": found.gap,
+        "monodromy": found.monodromy.row_iter().map(|row| row.iter().copied().collect()).collect::<Vec<Vec<f64>>>(),
+        "multipliers": pairs(&found.multipliers),
+        "exponents": pairs(&found.exponents()),
+        "stable": found.is_stable(SLACK),
+    })
+}
+
+fn floquet_text(study: &Study, state: &State, found: &Floquet) -> String {
+    let mut table = Table::new(&["multiplier re", "im", "size", "grows by (1/s)"]);
+    for (value, exponent) in found.multipliers.iter().zip(found.exponents()) {
+        let cells = [value.re, value.im, value.norm(), exponent.re];
+        table.row(cells.map(|x| significant(x, 7)));
+    }
+    let verdict = if found.is_stable(SLACK) { "no small change grows" } else { "small changes grow" };
+    format!(
+        "{} from t = {} s over the period {} s (returns to {:.1e}): {verdict}\n\n{table}",
+        study.name,
+        significant(state.t, 6),
+        significant(found.period, 9),
+        found.gap
+    )
+}
+
+fn lyapunov_text(study: &Study, state: &State, found: &Lyapunov) -> String {
+    let list = |values: &[f64]| values.iter().map(|x| significant(*x, 4)).collect::<Vec<String>>().join(", ");
+    let half = found.exponents.get(found.exponents.len() / 2).map_or(&[][..], Vec::as_slice);
+    let duration = found.times.last().copied().unwrap_or(0.0);
+    format!(
+        "{} from t = {} s: Lyapunov exponents over {} s, 1/s\n  {}\n  over half of it: {}\n",
+        study.name,
+        significant(state.t, 6),
+        significant(duration, 6),
+        list(found.last()),
+        list(half)
+    )
+}
+
+fn figure(study: &Study, found: &Lyapunov) -> Option<Figure> {
+    let count = found.last().len();
+    let line = |i: usize| {
+        let points = found.times.iter().zip(&found.exponents).map(|(t, now)| (*t, now[i])).collect();
+        Series::line(format!("exponent {}", i + 1), points)
+    };
+    let panel = (0..count).map(line).fold(Panel::new("time (s)", "average growth (1/s)"), Panel::series);
+    (count > 0).then(|| Figure::new().title(format!("{}: Lyapunov exponents", study.name)).panel(panel))
+}

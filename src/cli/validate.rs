@@ -1,0 +1,76 @@
+//! `holonom validate SCENE`
+
+use super::common::{MethodOptions, Output, SceneOptions, Talk, positive, print};
+use super::linear::{ChartOptions, StateOptions};
+use crate::error::{Error, Result};
+use crate::report::linear::{ValidationFile, ladder_figure};
+use crate::report::{self, cell};
+use crate::validate::{Direction, Settings, validate};
+use std::process::ExitCode;
+
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    scene: SceneOptions,
+    #[command(flatten)]
+    states: StateOptions,
+    /// Directions of the perturbation: random[:SEED] or names of states of the chart (default: random:1)
+    #[arg(long, value_name = "DIRECTION[,DIRECTION...]", value_delimiter = ',')]
+    along: Vec<String>,
+    /// How long perturbed motions are followed, s (default: about a period of a usual mode)
+    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
+    horizon: Option<f64>,
+    /// Leave the inputs out
+    #[arg(long)]
+    no_inputs: bool,
+    #[command(flatten)]
+    chart: ChartOptions,
+    #[command(flatten)]
+    run: MethodOptions,
+    #[command(flatten)]
+    talk: Talk,
+    #[command(flatten)]
+    output: Output,
+}
+
+pub fn run(args: Args) -> Result<ExitCode> {
+    let in_file = |error: Error| error.in_file(&args.scene.path);
+    let study = args.run.load_tight(&args.scene)?;
+    let default = Settings::default();
+    let directions = match args.along.as_slice() {
+        [] => default.directions,
+        names => names.iter().map(|name| Direction::parse(name)).collect(),
+    };
+    let settings = Settings { chart: args.chart.chart(), directions, horizon: args.horizon, inputs: !args.no_inputs };
+    let places = args.states.states(&study, &args.talk).map_err(in_file)?;
+    let mut folder = args.output.folder(&study.name)?;
+    let (names, mut files, mut is_right) = (study.system().names(), Vec::new(), true);
+    for state in &places {
+        let found = validate(study.system(), state, &settings).map_err(in_file)?;
+        let file = ValidationFile::new(&study.name, &names, &found);
+        let stem = format!("validation-{}", cell(state.t));
+        folder.write_json(&format!("{stem}.json"), &file)?;
+        for (i, ladder) in found.ladders.iter().enumerate() {
+            let title = format!(
+                "{}, perturbed at t = {} s ({})",
+                study.name,
+                report::significant(state.t, 6),
+                ladder.direction
+            );
+            let name = if i == 0 { stem.clone() } else { format!("{stem}-{}", i + 1) };
+            args.output.figure(&mut folder, &name, ladder_figure(&title, &names, ladder))?;
+        }
+        if !args.talk.json && !args.talk.quiet {
+            print(&file.text(&found))?;
+        }
+        is_right &= found.verdict.ltv && found.verdict.lti;
+        files.push(file);
+    }
+    match (args.talk.json, files.as_slice()) {
+        (true, [one]) => args.talk.print(one, String::new)?,
+        (true, all) => args.talk.print(&all, String::new)?,
+        (false, _) if !args.talk.quiet => print(&format!("\nwritten to {}\n", folder.listing()))?,
+        _ => {}
+    }
+    Ok(if is_right { ExitCode::SUCCESS } else { ExitCode::from(1) })
+}
