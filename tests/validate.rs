@@ -1,7 +1,7 @@
 //! Linear models of the shipped scenes against perturbed simulations, and wrong models that must be refused.
 
 use holonom::linearize::{Chart, State, states};
-use holonom::study::Study;
+use holonom::study::{Overrides, Study};
 use holonom::system::{
     Column, Dimensions, LeviCivita, Loaded, MechanicalSystem, Names, Need, OutputTangent, Scratch, Structure, Tangent,
     Terms,
@@ -40,8 +40,9 @@ fn check(study: &Study, state: &State) -> Validation {
     let orders = found.ladders.iter().map(|ladder| &ladder.order_ltv);
     for decay in orders.chain(found.inputs.iter().map(|input| &input.order_ltv)) {
         // Along directions of symmetry the error falls faster, and not at all where the equations are linear.
-        let is_second = decay.order.is_some_and(|order| order > 1.9);
-        assert!(decay.is_exact || is_second && decay.decades > 2.9, "{name}: {decay:?} {:?}", found.ladders);
+        // Errors of third order are rounding after two decades.
+        let is_right = decay.order.is_some_and(|order| order > 1.9 && decay.decades * order > 5.7);
+        assert!(decay.is_exact || is_right, "{name}: {decay:?} {:?}", found.ladders);
     }
     assert!(found.verdict.ltv && found.verdict.lti, "{name}: {:?} {:?}", found.verdict, found.frozen);
     found
@@ -156,7 +157,7 @@ impl MechanicalSystem for Wrong<'_> {
 /// Without the geometric stiffness of lambda, or without the curvature Gdd, errors fall as eps only.
 #[test]
 fn wrong_derivatives_are_refused() {
-    for name in ["four_bar_spring", "double_pendulum", "slider_crank_offset"] {
+    for name in ["four_bar_spring", "double_pendulum", "flyball_governor"] {
         let study = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json")));
         let state = &three(&study)[1];
         for without_geometric in [true, false] {
@@ -170,10 +171,12 @@ fn wrong_derivatives_are_refused() {
     }
 }
 
-/// The plain projection off equilibrium is refused although its K and C are right.
+/// The plain projection off equilibrium is refused although its K and C are right: with damping it is the model of no
+/// chart.
 #[test]
 fn the_plain_projection_is_refused_off_equilibrium() {
-    let study = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/four_bar_spring.json"));
+    let set = Overrides { set: vec![("c1".to_string(), 5.0)], ..Overrides::default() };
+    let study = Study::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/four_bar_spring.json"), &set).unwrap();
     let state = &three(&study)[1];
     let settings = Settings { chart: Some(Chart::Frozen), ..Settings::default() };
     let found = validate(study.system(), state, &settings).unwrap();
