@@ -16,6 +16,7 @@ mod names;
 mod point;
 mod redundant;
 mod response;
+mod singular;
 mod spectrum;
 mod survey;
 mod tracking;

@@ -1,6 +1,6 @@
 //! The variational equations at a state: every matrix of a linear model.
 
-use super::{Changes, Matrix, OperatingPoint, Response};
+use super::{Changes, Matrix, OperatingPoint, Response, singular};
 use crate::error::{Error, Result};
 use crate::formulation::{Dynamics, Halt};
 use crate::math::kkt::Pattern;
@@ -34,7 +34,7 @@ impl<'a> Variation<'a> {
     /// At a state, which should be on the constraints.
     ///
     /// # Errors
-    /// A state without determined accelerations; equations without derivatives.
+    /// A state without determined accelerations; a singular one; equations without derivatives.
     pub fn new(system: &'a dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64]) -> Result<Self> {
         let dynamics = Dynamics::new(system);
         let tangent = Tangent::new(&dynamics.structure.tangent);
@@ -50,6 +50,7 @@ impl<'a> Variation<'a> {
             variation.point.vdot.fill(0.0);
             variation.load_point()?;
         }
+        singular::refuse(&mut variation)?;
         Ok(variation)
     }
 

@@ -31,16 +31,21 @@ pub const FORCE_PROJECTION: Entry = Entry {
     },
 };
 
-/// Singular values of G below this part of the largest are none.
-const RANK: f64 = 1e-10;
+/// G^+ of the given rank. At a state that meets the constraints to 1e-9 only, redundant rows have singular values of that
+/// size, which are none.
+fn pseudo_inverse(g: &Matrix, rank: usize) -> Result<Matrix> {
+    if rank == 0 {
+        return Ok(Matrix::zeros(g.ncols(), g.nrows()));
+    }
+    let mut values: Vec<f64> = g.singular_values().iter().copied().collect();
+    values.sort_by(|a, b| b.total_cmp(a));
+    let largest_left_out = values.get(rank).copied().unwrap_or(0.0);
+    g.clone().pseudo_inverse(0.5 * (values[rank - 1] + largest_left_out)).map_err(Error::input)
+}
 
 fn response(variation: &mut Variation, changes: &Changes, held: [f64; 2]) -> Result<Response> {
     let (mass, g) = (variation.mass(), variation.g());
-    let largest = if g.is_empty() { 0.0 } else { g.clone().singular_values().max() };
-    let inverse = match g.is_empty() {
-        true => Matrix::zeros(g.ncols(), g.nrows()),
-        false => g.clone().pseudo_inverse(RANK * largest.max(f64::MIN_POSITIVE)).map_err(Error::input)?,
-    };
+    let inverse = pseudo_inverse(&g, variation.dynamics.kkt.rank())?;
     let along = &inverse * &g;
     let project = Matrix::identity(g.ncols(), g.ncols()) - &along;
     let mu = mass.trace() / (g.ncols().max(1) as f64);

@@ -16,6 +16,9 @@ pub struct Balanced {
 
 /// Of rows and columns; a few are usual, some tens where units are far apart.
 const SWEEPS: usize = 100;
+/// An entry below this part of the largest of its row, and of its column, is what rounding left of a zero: its size says
+/// nothing about units.
+const ROUNDING: f64 = 1e-15;
 
 /// Chooses the unit of time by the sizes of all entries, then makes rows and columns of |A| / time + |E| sum to about 1 (as
 /// Lemonnier and Van Dooren, "Balancing regular matrix pencils", SIAM J. Matrix Anal. Appl. 28, 2006, with sums for
@@ -70,13 +73,17 @@ impl Logarithm {
 }
 
 fn logarithms(a: &Matrix, e: &Matrix) -> Vec<Logarithm> {
-    let n = a.nrows();
-    let places = (0..n * n).flat_map(|k| [(k % n, k / n, true), (k % n, k / n, false)]);
+    [(a, true), (e, false)].into_iter().flat_map(|(matrix, is_of_a)| of_one(matrix, is_of_a)).collect()
+}
+
+fn of_one(matrix: &Matrix, is_of_a: bool) -> Vec<Logarithm> {
+    let n = matrix.nrows();
+    let rows: Vec<f64> = matrix.row_iter().map(|row| row.amax()).collect();
+    let cols: Vec<f64> = matrix.column_iter().map(|col| col.amax()).collect();
+    let places = (0..n * n).map(|k| (k % n, k / n));
     places
-        .map(|(row, col, is_of_a)| {
-            let entry = if is_of_a { a[(row, col)] } else { e[(row, col)] };
-            Logarithm { row, col, size: entry.abs().log2(), is_of_a }
-        })
+        .filter(|&(row, col)| matrix[(row, col)].abs() > ROUNDING * rows[row].min(cols[col]))
+        .map(|(row, col)| Logarithm { row, col, size: matrix[(row, col)].abs().log2(), is_of_a })
         .filter(|entry| entry.size.is_finite())
         .collect()
 }
