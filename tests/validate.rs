@@ -29,8 +29,9 @@ fn load(path: &Path) -> Study {
 /// The start and two states of the run.
 fn three(study: &Study) -> Vec<State> {
     let start = study.start_time();
-    let length = study.span().map_or(0.0, |span| span.end - start);
-    let times = [0.0, 0.17, 0.43].map(|part| start + part * length);
+    let (length, row) = study.span().map_or((0.0, 1.0), |span| (span.end - start, span.output_step));
+    // At rows of output, which fixed steps meet.
+    let times = [0.0, 0.17, 0.43].map(|part| start + (part * length / row).round() * row);
     states(study, if length > 0.0 { &times } else { &times[..1] }, |_| {}).unwrap()
 }
 
