@@ -105,7 +105,7 @@ impl Sink for Nothing {
 }
 
 /// Integrates to `end` and closes what drift has opened.
-fn follow(study: &Study, method: &Method, from: &State, end: f64) -> Result<State> {
+pub(super) fn follow(study: &Study, method: &Method, from: &State, end: f64) -> Result<State> {
     let span = Span { start: from.t, end, output_step: end - from.t };
     let outcome = simulate(study.system(), method, span, (&from.q, &from.v), &mut Nothing)?;
     if let Some(failure) = outcome.failure {

@@ -41,7 +41,7 @@ struct Set {
 }
 
 /// A part of the largest eigenvalue below which differences are round-off.
-const ROUND_OFF: f64 = 1e-9;
+const ROUND_OFF: f64 = 1e-6;
 
 /// The place in `ends` of each of `starts`, whose values are `predicted`; none where a branch ends.
 pub(super) fn matching(
@@ -52,9 +52,9 @@ pub(super) fn matching(
 ) -> Vec<Option<usize>> {
     let (from, to) = (Set::new(starts.iter().copied()), Set::new(ends.iter()));
     let cost = cost(starts, predicted, ends, mass);
-    let free = Matrix::from_fn(starts.len(), ends.len(), |i, j| match (from.sides[i], to.sides[j]) {
-        (Side::Upper, Side::Lower) | (Side::Lower, Side::Upper) => f64::INFINITY,
-        _ => cost[(i, j)],
+    let free = Matrix::from_fn(starts.len(), ends.len(), |i, j| match is_allowed(from.sides[i], to.sides[j]) {
+        true => cost[(i, j)],
+        false => f64::INFINITY,
     });
     let mut found = places(&free, assign(&free));
     if !is_symmetric(&found, &from, &to) {
@@ -62,6 +62,42 @@ pub(super) fn matching(
     }
     order(&mut found, &from, &to);
     found
+}
+
+/// Nothing passes through the real axis.
+fn is_allowed(from: Side, to: Side) -> bool {
+    !matches!((from, to), (Side::Upper, Side::Lower) | (Side::Lower, Side::Upper))
+}
+
+/// A step in which two modes could be exchanged for less than this is not clear.
+const CLEAR: f64 = 1.0;
+/// A mode that changes by more than this in a step may be another.
+const CHANGED: f64 = 0.5;
+
+/// Modes whose values agree to this part before and after are one for the eye: it does not matter which is which.
+const EQUAL: f64 = 1e-3;
+
+fn are_equal(a: Complex<f64>, b: Complex<f64>) -> bool {
+    (a - b).norm() <= EQUAL * a.norm().max(b.norm())
+}
+
+/// Whether the modes change little, and the best way to go on is much better than any in which two of them are exchanged.
+pub(super) fn is_clear(starts: &[&Node], ends: &[Node], mass: &Matrix) -> bool {
+    let values: Vec<Complex<f64>> = starts.iter().map(|start| start.value).collect();
+    let (from, to) = (Set::new(starts.iter().copied()), Set::new(ends.iter()));
+    let cost = cost(starts, &values, ends, mass);
+    let found = matching(starts, &values, ends, mass);
+    let matched: Vec<(usize, usize)> = found.iter().enumerate().filter_map(|(i, j)| Some((i, (*j)?))).collect();
+    let exchange = |&(i, j): &(usize, usize), &(k, l): &(usize, usize)| {
+        let is_pair = from.partner[i] == Some(k) || to.partner[j] == Some(l);
+        let is_possible = !is_pair && is_allowed(from.sides[i], to.sides[l]) && is_allowed(from.sides[k], to.sides[j]);
+        let is_one = are_equal(values[i], values[k]) && are_equal(to.values[j], to.values[l]);
+        !is_possible || is_one || cost[(i, l)] + cost[(k, j)] - cost[(i, j)] - cost[(k, l)] >= CLEAR
+    };
+    let is_whole = matched.len() == starts.len() && matched.len() == ends.len();
+    is_whole
+        && matched.iter().all(|place| cost[*place] <= CHANGED)
+        && matched.iter().enumerate().all(|(n, a)| matched[..n].iter().all(|b| exchange(a, b)))
 }
 
 /// What [`assign`] says, without places that are none or forbidden.

@@ -82,7 +82,7 @@ pub fn frequency(value: Complex<f64>) -> f64 {
 /// -Re(lambda) / |lambda|; 0 for lambda = 0.
 pub fn damping(value: Complex<f64>) -> f64 {
     let size = value.norm();
-    if size > 0.0 && size.is_finite() { -value.re / size } else { 0.0 }
+    if size > 0.0 && size.is_finite() { 0.0 - value.re / size } else { 0.0 }
 }
 
 /// What a model took.

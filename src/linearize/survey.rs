@@ -1,11 +1,12 @@
 //! Linear models at many states: along a motion, or over a parameter.
 
-use super::along::Walk;
+use super::along::{Walk, follow};
 use super::{Branch, Matrix, Request, Sample, State, at_rest, linearize, tighten, track};
 use crate::error::{Error, Result};
 use crate::study::{Overrides, Study};
 use crate::sweep::{Family, Range};
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 
 /// Eigenvalues at many states, as branches.
 #[derive(Clone, Debug)]
@@ -65,6 +66,7 @@ pub enum At {
 
 /// What one state gives.
 struct Found {
+    state: State,
     sample: Sample,
     method: String,
     chart: String,
@@ -74,7 +76,7 @@ struct Found {
 type Outcome = (f64, Result<Found>);
 
 /// Eigenvalues at `times` (increasing) of the study's motion; `progress` hears of each. Where the motion cannot go on, the
-/// later times are gaps.
+/// later times are gaps. Where it is not clear which mode is which, states between the times are looked at as well.
 pub fn loci_along(study: &Study, request: &Request, times: &[f64], progress: impl Fn() + Sync) -> Loci {
     let (mut walk, mut stopped) = (Walk::new(study), None);
     let mut go_to = |t: f64| match &stopped {
@@ -83,7 +85,12 @@ pub fn loci_along(study: &Study, request: &Request, times: &[f64], progress: imp
     };
     let states: Vec<(f64, Result<State>)> = times.iter().map(|&t| (t, go_to(t))).inspect(|_| progress()).collect();
     let outcome = |(t, state): (f64, Result<State>)| (t, state.and_then(|state| found(study, &state, t, request)));
-    collect(Along::Time, states.into_par_iter().map(outcome).collect())
+    let outcomes: Vec<Outcome> = states.into_par_iter().map(outcome).collect();
+    let between = |before: &Found, t: f64| {
+        let state = follow(study, &study.method, &before.state, t)?;
+        found(study, &state, t, request)
+    };
+    collect(Along::Time, outcomes, between)
 }
 
 /// Eigenvalues of a scene for each value of a parameter; `progress` hears of each. Values without a state or a model are
@@ -109,7 +116,14 @@ pub fn loci_over(variants: &Variants, at: At, request: &Request, progress: impl 
             values.par_iter().map(outcome).inspect(|_| progress()).collect()
         }
     };
-    Ok(collect(Along::Parameter(variants.range.clone()), outcomes))
+    let between = |before: &Found, value: f64| match at {
+        At::Equilibrium => {
+            let study = variants.study(value)?;
+            found(&study, &rest(&study, Some(&before.state.q))?, value, request)
+        }
+        _ => variants.found(value, at, request),
+    };
+    Ok(collect(Along::Parameter(variants.range.clone()), outcomes, between))
 }
 
 /// Equilibria from value to value, the first from that of the scene at the value `behind`.
@@ -173,35 +187,69 @@ fn found(study: &Study, state: &State, at: f64, request: &Request) -> Result<Fou
     let model = linearize(&mut variation, request)?;
     let is_equilibrium = model.point.is_equilibrium;
     let sample = Sample { at, modes: model.modes, mass };
-    Ok(Found { sample, method: model.method, chart: model.chart, is_equilibrium })
+    Ok(Found { state: state.clone(), sample, method: model.method, chart: model.chart, is_equilibrium })
 }
 
-fn collect(along: Along, outcomes: Vec<Outcome>) -> Loci {
-    let mut loci = Loci {
-        along,
-        method: String::new(),
-        chart: String::new(),
-        places: outcomes.iter().map(|(at, _)| *at).collect(),
-        reached: Vec::new(),
-        gaps: Vec::new(),
-        branches: Vec::new(),
+/// Halvings of a step in which it is not clear which mode is which; fewer with many modes, since each costs a model.
+const HALVINGS: usize = 6;
+const FEW_HALVINGS: usize = 3;
+const MANY: usize = 40;
+
+/// What lies between two states, as far as it takes to tell the modes apart.
+fn refined(
+    before: &Found,
+    after: &Found,
+    halvings: usize,
+    between: &impl Fn(&Found, f64) -> Result<Found>,
+) -> Vec<Sample> {
+    if halvings == 0 || before.sample.leads_clearly_to(&after.sample) {
+        return Vec::new();
+    }
+    // Where there is no model between, modes are told apart as well as may be.
+    let Ok(middle) = between(before, 0.5 * (before.sample.at + after.sample.at)) else { return Vec::new() };
+    let mut samples = refined(before, &middle, halvings - 1, between);
+    let rest = refined(&middle, after, halvings - 1, between);
+    samples.push(middle.sample);
+    samples.extend(rest);
+    samples
+}
+
+fn collect(along: Along, outcomes: Vec<Outcome>, between: impl Fn(&Found, f64) -> Result<Found> + Sync) -> Loci {
+    let places: Vec<f64> = outcomes.iter().map(|(at, _)| *at).collect();
+    let behind = |pair: &[Outcome]| match (&pair[0].1, &pair[1].1) {
+        (Ok(before), Ok(after)) => {
+            let halvings = if before.sample.modes.len() > MANY { FEW_HALVINGS } else { HALVINGS };
+            refined(before, after, halvings, &between)
+        }
+        _ => Vec::new(),
     };
-    let mut samples = Vec::new();
-    for (at, outcome) in outcomes {
+    let more: Vec<Vec<Sample>> = outcomes.par_windows(2).map(behind).collect();
+    let first = outcomes.iter().find_map(|(_, outcome)| outcome.as_ref().ok());
+    let (method, chart) = first.map(|found| (found.method.clone(), found.chart.clone())).unwrap_or_default();
+    let (mut reached, mut gaps, mut samples) = (Vec::new(), Vec::new(), Vec::new());
+    for ((at, outcome), more) in outcomes.into_iter().zip(more.into_iter().chain([Vec::new()])) {
         match outcome {
             Ok(found) => {
-                if loci.reached.is_empty() {
-                    (loci.method, loci.chart) = (found.method, found.chart);
-                }
-                loci.reached.push(Reached { at, equilibrium: found.is_equilibrium });
+                reached.push(Reached { at, equilibrium: found.is_equilibrium });
                 samples.push(found.sample);
             }
             Err(error) => {
-                loci.gaps.push(Gap { at, error });
+                gaps.push(Gap { at, error });
                 samples.push(Sample::gap(at));
             }
         }
+        samples.extend(more);
     }
-    loci.branches = track(&samples);
-    loci
+    let branches = asked(track(&samples), &places);
+    Loci { along, method, chart, places, reached, gaps, branches }
+}
+
+/// The branches at these places only.
+fn asked(branches: Vec<Branch>, places: &[f64]) -> Vec<Branch> {
+    let places: BTreeSet<u64> = places.iter().map(|place| place.to_bits()).collect();
+    let at_places = |mut branch: Branch| {
+        branch.points.retain(|(at, _)| places.contains(&at.to_bits()));
+        branch
+    };
+    branches.into_iter().map(at_places).filter(|branch| !branch.points.is_empty()).collect()
 }

@@ -1,6 +1,6 @@
 //! Eigenvalues of one state after another, joined to branches.
 
-use super::matching::{Node, matching};
+use super::matching::{Node, is_clear, matching};
 use super::{Branch, Complex, Kind, Matrix, Mode};
 
 /// The eigenvalues at a time or at a value of a parameter.
@@ -17,6 +17,18 @@ impl Sample {
     /// A place without a linear model.
     pub fn gap(at: f64) -> Self {
         Sample { at, modes: Vec::new(), mass: Matrix::zeros(0, 0) }
+    }
+}
+
+impl Sample {
+    fn nodes(&self, kind: Kind) -> Vec<Node> {
+        self.modes.iter().filter(|mode| mode.kind == kind).map(Node::new).collect()
+    }
+
+    /// Whether it is clear which physical mode of `next` belongs to which of these.
+    pub fn leads_clearly_to(&self, next: &Sample) -> bool {
+        let (starts, ends) = (self.nodes(Kind::Physical), next.nodes(Kind::Physical));
+        is_clear(&starts.iter().collect::<Vec<_>>(), &ends, &next.mass)
     }
 }
 
@@ -38,7 +50,7 @@ struct Thread {
 /// (1 - MAC) + |lambda - p| / (|lambda| + |p|),   MAC = |x^H M y|^2 / ((x^H M x)(y^H M y))
 /// ```
 ///
-/// with p the last two values of the branch continued in a straight line. The shapes x and y are changes along the
+/// with p the last two values of the branch continued, of a pair its real part and the square of its imaginary part. The shapes x and y are changes along the
 /// velocity directions of the whole mechanism, so those of neighbouring states compare: modes that cross keep their
 /// shapes, modes that veer exchange them slowly. Modal assurance criterion: Allemang and Brown, Proc. 1st Int. Modal
 /// Analysis Conf. (1982) 110-116. A conjugate pair is followed by a pair, or by two real eigenvalues, of which the larger
@@ -77,8 +89,7 @@ fn push(branches: &mut [Branch], place: usize, point: (f64, Complex<f64>)) {
 
 /// The branches of a kind at one more sample; those that it has first, then new ones.
 fn go_on(threads: Vec<Thread>, sample: &Sample, kind: Kind, branches: &mut Vec<Branch>) -> Vec<Thread> {
-    let modes: Vec<&Mode> = sample.modes.iter().filter(|mode| mode.kind == kind).collect();
-    let ends: Vec<Node> = modes.iter().map(|mode| Node::new(mode)).collect();
+    let ends = sample.nodes(kind);
     let predicted: Vec<Complex<f64>> = threads.iter().map(|thread| thread.predicted(sample.at)).collect();
     let rows: Vec<&Node> = threads.iter().map(|thread| &thread.last).collect();
     let next = matching(&rows, &predicted, &ends, &sample.mass);
@@ -117,17 +128,16 @@ fn upper_first(nodes: &[Node]) -> Vec<usize> {
 }
 
 impl Thread {
-    /// The eigenvalue at a place, by the straight line through the last two; one beside the real axis stays on its side.
+    /// The eigenvalue at a place, by a straight line through the last two: of the value where it is real; else of its real
+    /// part and of the square of its imaginary part, which is smooth also where a pair comes from the real axis.
     fn predicted(&self, at: f64) -> Complex<f64> {
         let value = self.last.value;
         let Some((place, before)) = self.before else { return value };
         let factor = (at - self.at) / (self.at - place);
-        let next = value + (value - before) * factor;
-        match factor.is_finite() {
-            true if next.im * value.im < 0.0 => Complex::new(next.re, 0.0),
-            true => next,
-            false => value,
-        }
+        let on = |last: f64, before: f64| last + (last - before) * factor;
+        let square = on(value.im * value.im, before.im * before.im);
+        let next = Complex::new(on(value.re, before.re), square.max(0.0).sqrt().copysign(value.im));
+        if next.re.is_finite() && next.im.is_finite() { next } else { value }
     }
 
     fn moved(&self, at: f64, end: Node) -> Thread {

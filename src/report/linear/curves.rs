@@ -2,7 +2,7 @@
 
 use super::range::{padded, robust};
 use crate::linearize::{Branch, Complex, Kind};
-use crate::plot::{AxisSpec, Figure, Panel, Series};
+use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 use std::f64::consts::TAU;
 
 /// More lines than this have no names.
@@ -40,7 +40,10 @@ fn lines(branches: &[&Branch], value: impl Fn(Complex<f64>) -> f64) -> Vec<Serie
     let point = |(at, there): &(f64, Complex<f64>)| (*at, if is_shown(*there) { value(*there) } else { f64::NAN });
     let line = |(i, branch): (usize, &&Branch)| {
         let name = if is_named { format!("mode {}", i + 1) } else { String::new() };
-        Series::line(name, branch.points.iter().map(point).collect())
+        // Real now, elsewhere the lower one of a pair: it must not hide the other one, which may be as large.
+        let is_partner = branch.points.iter().any(|(_, value)| value.im < 0.0);
+        let style = if is_partner { Style::Thin } else { Style::Line };
+        Series::line(name, branch.points.iter().map(point).collect()).style(style)
     };
     branches.iter().enumerate().map(line).collect()
 }

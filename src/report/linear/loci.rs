@@ -94,9 +94,15 @@ fn are_mirrored(branches: &[Branch]) -> bool {
 }
 
 fn window<'a>(branches: impl Iterator<Item = &'a Branch>, is_upper: bool) -> Option<Window> {
-    let values: Vec<Complex<f64>> = points(branches).map(|(_, value)| value).collect();
-    let re = robust(values.iter().map(|value| value.re))?;
-    let im = robust(values.iter().map(|value| value.im))?;
+    let mut values: Vec<Complex<f64>> = points(branches).map(|(_, value)| value).collect();
+    // Far off is what is large: a real part that is rare may still be small beside the others' imaginary parts.
+    let (_, largest) = robust(values.iter().map(|value| value.norm()))?;
+    values.retain(|value| value.norm() <= largest);
+    let extent = |part: fn(&Complex<f64>) -> f64| {
+        let parts = values.iter().map(part);
+        (parts.clone().fold(f64::INFINITY, f64::min), parts.fold(f64::NEG_INFINITY, f64::max))
+    };
+    let (re, im) = (extent(|value| value.re), extent(|value| value.im));
     let size = [re.0, re.1, im.0, im.1].into_iter().fold(0.0, |most: f64, value| most.max(value.abs()));
     let least = if size > 0.0 { LEAST * size } else { 1.0 };
     let re = with_zero(re, 2.0 * least);
