@@ -74,7 +74,9 @@ impl<'a> Walk<'a> {
     /// The state at a time that is not before the last one.
     pub fn to(&mut self, t: f64) -> Result<State> {
         if t > self.last.t {
-            self.last = follow(self.study, &self.study.method, &self.last, t)?;
+            // Fixed steps carry a history of their own, such as accelerations: a new start would be another motion.
+            let from = if self.study.method.step.is_some() { &State::start(self.study) } else { &self.last };
+            self.last = follow(self.study, &self.study.method, from, t)?;
         }
         Ok(self.last.clone())
     }
