@@ -3,7 +3,7 @@
 use super::common::{MethodOptions, Output, SceneOptions, Talk, number, print};
 use crate::choice::Choice;
 use crate::error::{Error, Result};
-use crate::linearize::{self, Chart, Kind, LinearModel, Request, State, at_rest, states};
+use crate::linearize::{self, Chart, Complex, Kind, LinearModel, Request, State, Variation, at_rest, states};
 use crate::report::linear::{Linear, compare, comparison_text, linear_stem};
 use crate::report::{self, Folder};
 use crate::study::Study;
@@ -28,6 +28,13 @@ pub struct Args {
     /// Independent coordinates, the same as --chart NAME[,NAME]
     #[arg(long, value_name = "NAME[,NAME...]")]
     independent: Option<String>,
+    /// Only the N modes that are slowest, or nearest to --shift, in modal coordinates of the frozen equations: by sparse
+    /// methods, for large models
+    #[arg(long, value_name = "N", conflicts_with_all = ["chart", "independent"])]
+    modes: Option<usize>,
+    /// Modes nearest to this circular frequency
+    #[arg(long, value_name = "RAD_PER_S", value_parser = number, requires = "modes")]
+    shift: Option<f64>,
     /// Find the static equilibrium that belongs to the state first
     #[arg(long)]
     equilibrium: bool,
@@ -53,8 +60,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let mut results = Vec::new();
     for state in &places {
         let mut variation = state.variation(&study).map_err(in_file)?;
-        let models = requests.iter().map(|request| linearize::linearize(&mut variation, request));
-        let models = models.collect::<Result<Vec<LinearModel>>>().map_err(in_file)?;
+        let models = models(&args, &requests, &mut variation).map_err(in_file)?;
         results.push(report(&args, &study, &models, &mut folder)?);
     }
     match (args.talk.json, results.as_slice()) {
@@ -66,8 +72,22 @@ pub fn run(args: Args) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// By each method, or the modes that are asked for.
+fn models(args: &Args, requests: &[Request], variation: &mut Variation) -> Result<Vec<LinearModel>> {
+    match args.modes {
+        Some(count) => {
+            let shift = Complex::new(0.0, args.shift.unwrap_or(0.0));
+            Ok(vec![linearize::modal(variation, count, shift)?])
+        }
+        None => requests.iter().map(|request| linearize::linearize(variation, request)).collect(),
+    }
+}
+
 fn requests(args: &Args) -> Result<Vec<Request>> {
     let chart = args.chart.as_ref().or(args.independent.as_ref()).map(|text| Chart::parse(text));
+    if args.modes.is_some() && args.method != "mcs" {
+        return Err(Error::input("--modes has a method of its own").hint("leave out --method, or --modes"));
+    }
     let request = |method: Choice| Request { method, chart: chart.clone() };
     if args.method != "all" {
         return Ok(vec![request(Choice::parse(&args.method)?)]);

@@ -3,5 +3,6 @@
 #[path = "../equations/mod.rs"]
 #[allow(dead_code)]
 mod equations;
+mod modal;
 mod reference;
 mod systems;
