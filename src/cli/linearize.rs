@@ -1,10 +1,10 @@
 //! `holonom linearize SCENE`
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, print};
+use super::common::{MethodOptions, Output, SceneOptions, Talk, number, print};
 use super::linear::{ChartOptions, StateOptions};
 use crate::choice::Choice;
 use crate::error::{Error, Result};
-use crate::linearize::{self, Chart, Kind, LinearModel, Request};
+use crate::linearize::{self, Chart, Complex, Kind, LinearModel, Request, Variation};
 use crate::report::linear::{Linear, compare, comparison_text, linear_stem};
 use crate::report::mechanism::{Look, mode_figure};
 use crate::report::{self, Folder};
@@ -24,6 +24,13 @@ pub struct Args {
     method: String,
     #[command(flatten)]
     chart: ChartOptions,
+    /// Only the N modes that are slowest, or nearest to --shift, in modal coordinates of the frozen equations: by sparse
+    /// methods, for large models
+    #[arg(long, value_name = "N", conflicts_with_all = ["chart", "independent"])]
+    modes: Option<usize>,
+    /// Modes nearest to this circular frequency
+    #[arg(long, value_name = "RAD_PER_S", value_parser = number, requires = "modes")]
+    shift: Option<f64>,
     #[command(flatten)]
     run: MethodOptions,
     #[command(flatten)]
@@ -41,8 +48,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let mut results = Vec::new();
     for state in &places {
         let mut variation = state.variation(&study).map_err(in_file)?;
-        let models = requests.iter().map(|request| linearize::linearize(&mut variation, request));
-        let models = models.collect::<Result<Vec<LinearModel>>>().map_err(in_file)?;
+        let models = models(&args, &requests, &mut variation).map_err(in_file)?;
         results.push(report(&args, &study, &models, &mut folder)?);
     }
     match (args.talk.json, results.as_slice()) {
@@ -54,8 +60,22 @@ pub fn run(args: Args) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// By each method, or the modes that are asked for.
+fn models(args: &Args, requests: &[Request], variation: &mut Variation) -> Result<Vec<LinearModel>> {
+    match args.modes {
+        Some(count) => {
+            let shift = Complex::new(0.0, args.shift.unwrap_or(0.0));
+            Ok(vec![linearize::modal(variation, count, shift)?])
+        }
+        None => requests.iter().map(|request| linearize::linearize(variation, request)).collect(),
+    }
+}
+
 fn requests(args: &Args) -> Result<Vec<Request>> {
     let chart = args.chart.chart();
+    if args.modes.is_some() && args.method != "mcs" {
+        return Err(Error::input("--modes has a method of its own").hint("leave out --method, or --modes"));
+    }
     let request = |method: Choice| Request { method, chart: chart.clone() };
     if args.method != "all" {
         return Ok(vec![request(Choice::parse(&args.method)?)]);

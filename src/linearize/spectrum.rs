@@ -49,6 +49,30 @@ pub(super) fn spectrum(variation: &mut Variation, built: &Built, request: &Reque
     Ok(Spectrum { modes, conditioning: solved.conditioning, off_constraints })
 }
 
+/// The modes of a model without E of which all are physical, their vectors in its states, and the condition of these. The
+/// mass is used as it is stored.
+pub(super) fn modes_of(variation: &Variation, built: &Built) -> Result<(Vec<Mode>, ComplexMatrix, f64), Unsolved> {
+    let found = eigen(&built.a)?;
+    let parts = parts(&found.left, &found.right);
+    let shapes = complex(&built.changes.q) * &found.right;
+    let (mass, values) = (&variation.dynamics.structure.mass, &variation.dynamics.terms.mass);
+    let mode = |(i, value): (usize, &Complex<f64>)| {
+        let shape: Vec<Complex<f64>> = shapes.column(i).iter().copied().collect();
+        let mut energy = vec![0.0; shape.len()];
+        for part in [|x: &Complex<f64>| x.re, |x: &Complex<f64>| x.im] {
+            let x: Vec<f64> = shape.iter().map(part).collect();
+            let mut weighed = vec![0.0; x.len()];
+            mass.multiply_symmetric(values, &x, &mut weighed);
+            energy.iter_mut().zip(x.iter().zip(weighed)).for_each(|(energy, (x, mx))| *energy += x * mx);
+        }
+        let participation = parts.column(i).iter().copied().collect();
+        let (kind, energy) = (Kind::Physical, shares(energy.into_iter()));
+        Mode { value: *value, kind, shape: normalized(shape), participation, energy }
+    };
+    let modes = found.values.iter().enumerate().map(mode).collect();
+    Ok((modes, found.right, found.conditioning))
+}
+
 /// Values over their sum.
 fn shares(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let values: Vec<f64> = values.collect();
@@ -145,7 +169,7 @@ fn complex(matrix: &Matrix) -> ComplexMatrix {
     matrix.map(Complex::from)
 }
 
-fn refused(t: f64, unsolved: &Unsolved) -> Error {
+pub(super) fn refused(t: f64, unsolved: &Unsolved) -> Error {
     Error::input(format!("the linear model at t = {t} s has no reliable eigenvalues: {unsolved}"))
         .hint("take --method mcs, or another time")
 }

@@ -10,6 +10,7 @@ mod motion;
 mod moving;
 mod penalties;
 mod random;
+mod modal;
 mod reference;
 mod refused;
 #[path = "../scenes/mod.rs"]

@@ -69,6 +69,9 @@ fn chart(name: &str, is_equilibrium: bool) -> String {
                      one answer among many, not a property of the motion"
                 .to_string()
         }
+        "modal" => "chart modal: some modes of all matrices held as they are at this instant (the frozen pencil); off \
+                    equilibrium they belong to these coordinates and equations: compare --method mcs"
+            .to_string(),
         "redundant" => "all coordinates, matrices held as they are at this instant; off equilibrium the eigenvalues \
                         belong to these coordinates and equations: compare --method mcs"
             .to_string(),

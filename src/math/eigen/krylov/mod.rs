@@ -19,13 +19,24 @@ pub struct Options {
     /// |apply(x) - theta x| of a converged pair, over the largest |theta|.
     pub tolerance: f64,
     pub restarts: usize,
+    /// Applications to a start vector before it is used. As many as the largest Jordan block of theta = 0 has rows less one
+    /// take out what belongs to infinite eigenvalues of a pencil.
+    pub filter: usize,
+    /// Whether to look again from another start vector, until nothing new is found: one alone sees one vector of each
+    /// eigenvalue. Costs the applications of a restart or more.
+    pub repeats: bool,
+    /// Whether [`Partial::schur`] is wanted.
+    pub schur: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { subspace: None, tolerance: 1e-12, restarts: 300 }
+        Options { subspace: None, tolerance: 1e-12, restarts: 300, filter: 0, repeats: false, schur: false }
     }
 }
+
+/// The sum of the largest magnitudes grows by more than this part where values were missing.
+const NEW: f64 = 1e-8;
 
 /// Some eigenvalues of an operator, see [`nearest`].
 #[derive(Clone, Debug, PartialEq)]
@@ -36,6 +47,9 @@ pub struct Partial {
     pub right: ComplexMatrix,
     /// |apply(x) - theta x| / |theta|
     pub residuals: Vec<f64>,
+    /// Q and T with apply(Q) = Q T, orthonormal Q and triangular T, the values on its diagonal: a basis of what the vectors
+    /// span that stays good where eigenvalues are defective. None unless asked for.
+    pub schur: Option<[ComplexMatrix; 2]>,
     /// How often the operator was applied.
     pub applications: usize,
 }
@@ -59,22 +73,29 @@ pub fn nearest(
 ) -> Result<Partial, Unsolved> {
     let count = count.min(n);
     let m = options.subspace.unwrap_or(2 * count + 20).max(count + 2).min(n);
-    let mut space = Krylov::new(n, m, apply);
     if count == 0 {
         return Ok(Partial {
             values: Vec::new(),
             right: ComplexMatrix::zeros(n, 0),
             residuals: Vec::new(),
+            schur: options.schur.then(|| [ComplexMatrix::zeros(n, 0), ComplexMatrix::zeros(0, 0)]),
             applications: 0,
         });
     }
-    let mut converged = 0;
+    let mut space = Krylov::new(n, m, options.filter, apply)?;
+    let (mut converged, mut known) = (0, None);
     for _ in 0..=options.restarts {
         space.extend()?;
         let ritz = Ritz::of(&space.h, space.rest, count)?;
         converged = ritz.converged(options.tolerance);
         if converged == count {
-            return space.finish(ritz);
+            let size: f64 = ritz.values.iter().map(|theta| theta.norm()).sum();
+            if !options.repeats || count == n || known.is_some_and(|before: f64| size - before <= NEW * size) {
+                return space.finish(ritz, options.schur);
+            }
+            known = Some(size);
+            space.renew(&Ordered::of(&space.h)?, count)?;
+            continue;
         }
         // More than the wanted ones are kept, which speeds up convergence; those that have converged count as kept.
         let kept = (count + (m - count) / 3 + converged / 2).min(m - 1);

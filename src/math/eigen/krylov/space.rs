@@ -2,6 +2,8 @@
 
 use super::super::{ComplexMatrix, Unsolved, dense};
 use super::{C, Ordered, Partial, Ritz};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::{DVector, DVectorView};
 
 type Vector = DVector<C>;
@@ -18,6 +20,7 @@ pub struct Krylov<F> {
     /// What the rest of a contracted space is coupled to: its row below H.
     below: Vec<C>,
     starts: u64,
+    filter: usize,
     applications: usize,
 }
 
@@ -25,7 +28,7 @@ pub struct Krylov<F> {
 const INSIDE: f64 = 1e-14;
 
 impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
-    pub fn new(n: usize, m: usize, apply: F) -> Self {
+    pub fn new(n: usize, m: usize, filter: usize, apply: F) -> Result<Self, Unsolved> {
         let mut space = Krylov {
             apply,
             v: ComplexMatrix::zeros(n, m + 1),
@@ -34,17 +37,22 @@ impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
             size: 0,
             below: Vec::new(),
             starts: 0,
+            filter,
             applications: 0,
         };
-        space.start(0);
-        space
+        space.start(0)?;
+        Ok(space)
     }
 
     /// Puts a new direction in column k, orthogonal to those before it; zero where these are all.
-    fn start(&mut self, k: usize) {
+    fn start(&mut self, k: usize) -> Result<(), Unsolved> {
         self.starts += 1;
         let mut fresh = Vector::from_iterator(self.v.nrows(), dense::direction(self.v.nrows(), self.starts));
         fresh /= C::from(fresh.norm());
+        for _ in 0..self.filter {
+            fresh = self.image(&fresh)?;
+            fresh /= C::from(fresh.norm().max(f64::MIN_POSITIVE));
+        }
         self.orthogonalize(&mut fresh, k);
         let norm = fresh.norm();
         if norm > INSIDE {
@@ -52,16 +60,30 @@ impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
         } else {
             self.v.column_mut(k).fill(C::ZERO);
         }
+        Ok(())
+    }
+
+    fn image(&mut self, x: &Vector) -> Result<Vector, Unsolved> {
+        let mut image = Vector::zeros(x.len());
+        (self.apply)(x.as_slice(), image.as_mut_slice())?;
+        self.applications += 1;
+        if image.iter().all(|x| x.is_finite()) { Ok(image) } else { Err(Unsolved::NotFinite) }
     }
 
     /// Subtracts what lies in the first k columns, twice; returns how much of each that was.
     fn orthogonalize(&self, vector: &mut Vector, k: usize) -> Vector {
-        let known = self.v.columns(0, k);
-        let mut total = Vector::zeros(k);
+        let n = self.v.nrows();
+        let known = dense::view(&self.v).subcols(0, k);
+        let (mut total, mut part) = (Vector::zeros(k), Vector::zeros(k));
+        let one = C::from(1.0);
         for _ in 0..2 {
-            let part = known.ad_mul(vector);
-            *vector -= known * &part;
-            total += part;
+            let x = MatRef::from_column_major_slice(vector.as_slice(), n, 1);
+            let to = MatMut::from_column_major_slice_mut(part.as_mut_slice(), k, 1);
+            matmul(to, Accum::Replace, known.adjoint(), x, one, Par::Seq);
+            let from = MatRef::from_column_major_slice(part.as_slice(), k, 1);
+            let rest = MatMut::from_column_major_slice_mut(vector.as_mut_slice(), n, 1);
+            matmul(rest, Accum::Add, known, from, -one, Par::Seq);
+            total += &part;
         }
         total
     }
@@ -71,12 +93,7 @@ impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
         let m = self.h.ncols();
         while self.size < m {
             let k = self.size;
-            let mut next = Vector::zeros(self.v.nrows());
-            (self.apply)(self.v.column(k).clone_owned().as_slice(), next.as_mut_slice())?;
-            self.applications += 1;
-            if !next.iter().all(|x| x.is_finite()) {
-                return Err(Unsolved::NotFinite);
-            }
+            let mut next = self.image(&self.v.column(k).clone_owned())?;
             let before = next.norm();
             let part = self.orthogonalize(&mut next, k + 1);
             self.h.view_mut((0, k), (k + 1, 1)).copy_from(&part);
@@ -88,7 +105,7 @@ impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
             let is_inside = after <= INSIDE * before;
             self.rest = if is_inside { 0.0 } else { after };
             match is_inside {
-                true => self.start(k + 1),
+                true => self.start(k + 1)?,
                 false => self.v.set_column(k + 1, &(next / C::from(after))),
             }
             if self.size < m {
@@ -111,20 +128,33 @@ impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
         self.size = kept;
     }
 
-    pub fn finish(mut self, ritz: Ritz) -> Result<Partial, Unsolved> {
+    /// Keeps the leading `kept` Schur vectors, which have converged, and goes on from a direction that is new.
+    pub fn renew(&mut self, schur: &Ordered, kept: usize) -> Result<(), Unsolved> {
+        self.contract(schur, kept);
+        self.below.clear();
+        self.start(kept)
+    }
+
+    pub fn finish(mut self, ritz: Ritz, with_schur: bool) -> Result<Partial, Unsolved> {
         let mut right = self.v.columns(0, self.h.ncols()) * &ritz.vectors;
         dense::normalize(&mut right);
         let mut residuals = Vec::new();
         for (x, theta) in right.column_iter().zip(&ritz.values) {
             residuals.push(self.residual(x, *theta)?);
         }
-        Ok(Partial { values: ritz.values, right, residuals, applications: self.applications })
+        let schur = if with_schur { Some(self.schur(ritz.values.len())?) } else { None };
+        Ok(Partial { values: ritz.values, right, residuals, schur, applications: self.applications })
+    }
+
+    /// The leading `count` Schur vectors with their part of T.
+    fn schur(&self, count: usize) -> Result<[ComplexMatrix; 2], Unsolved> {
+        let Ordered { q, t } = Ordered::of(&self.h)?;
+        let vectors = self.v.columns(0, self.h.ncols()) * q.columns(0, count);
+        Ok([vectors, t.view((0, 0), (count, count)).clone_owned()])
     }
 
     fn residual(&mut self, x: DVectorView<C>, theta: C) -> Result<f64, Unsolved> {
-        let mut image = Vector::zeros(x.len());
-        (self.apply)(x.clone_owned().as_slice(), image.as_mut_slice())?;
-        self.applications += 1;
+        let image = self.image(&x.clone_owned())?;
         let size = if theta == C::ZERO { 1.0 } else { theta.norm() };
         Ok((image - x * theta).norm() / size)
     }

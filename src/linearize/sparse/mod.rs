@@ -1,0 +1,206 @@
+//! A few modes of a large mechanism, without a dense matrix of its size.
+
+mod quadratic;
+mod reduce;
+mod search;
+mod shifted;
+
+use super::method::Built;
+use super::spectrum::{modes_of, refused};
+use super::variation::observe;
+use super::{Changes, Complex, Cost, LinearModel, Matrix, Response, Variation};
+use crate::error::{Error, Result};
+use crate::math::eigen::Unsolved;
+use quadratic::Quadratic;
+use reduce::Modal;
+use search::{Found, Space};
+use shifted::Shifted;
+use std::time::Instant;
+
+type C = Complex<f64>;
+
+/// |op x - theta x| / |theta x| of a mode that is returned, with the operator of the search.
+const RESIDUAL: f64 = 1e-6;
+/// A stiffness that is this part of the largest one, per mass, is rounding.
+const NOTHING: f64 = 1e-14;
+
+/// The `count` modes nearest to `shift`, in 1/s (0: the slowest ones), as a model in modal coordinates. A conjugate pair
+/// is one mode. All modes come where there are not so many, and more where one has no vector of its own.
+///
+/// The frozen index-3 pencil, exact at an equilibrium:
+///
+/// ```text
+/// dq' = dv - [v, dq],   M dv' = -K dq - C dv - G^T dlambda + f_u du,   G dq = 0
+/// ```
+///
+/// A is block diagonal: [re im; -im re] for a pair, re for a real eigenvalue, states `mode1.re`, `mode1.im`, the largest
+/// change of a coordinate of a unit of which is 1. Eigenvalues without independent vectors, such as the double zeros of a
+/// free body, have a common block of states `shared1` ... B follows from left vectors. D has the gain at s = 0 of the modes
+/// left out, so that the model's static gain is right (mode acceleration); where rigid bodies make that infinite, their gain
+/// at the real shift of the search, a fiftieth of the fastest rate found, and nothing for a complex shift.
+///
+/// Krylov-Schur on (A - sigma E)^-1 E and on its adjoint, with dv eliminated: a sparse complex factorization of
+/// [sigma^2 M + sigma C + K, G^T; G, 0] each and a solution an application, so cost is linear in the number of links of a
+/// chain. sigma lies a little beside `shift`. Source of the elimination: Tisseur, Meerbergen, "The quadratic eigenvalue
+/// problem", SIAM Review 43 (2001) 235-286.
+///
+/// # Errors
+/// No mode asked for or none there; eigenvalues that do not converge; outputs without derivatives.
+pub fn modal(variation: &mut Variation, count: usize, shift: Complex<f64>) -> Result<LinearModel> {
+    let clock = Instant::now();
+    let equations = Quadratic::new(variation);
+    check(&equations, count, shift)?;
+    let shift = C::new(shift.re, shift.im.abs());
+    let adjoint = equations.transposed();
+    let assembly = clock.elapsed().as_secs_f64();
+    let clock = Instant::now();
+    let t = variation.point.t;
+    let count = count.min(equations.finite);
+    let unsolved = |unsolved: Unsolved| refused(t, &unsolved);
+    let mut found = search::find([&equations, &adjoint], count, shift).map_err(unsolved)?;
+    for space in [&mut found.right, &mut found.left] {
+        hold(variation, &equations, space)?;
+    }
+    let modal = reduce::reduce(&equations, &found, count, shift).map_err(unsolved)?;
+    let eigen = clock.elapsed().as_secs_f64();
+    let clock = Instant::now();
+    let mut built = build(variation, &equations, modal)?;
+    add_residual(variation, &equations, &mut found, &mut built)?;
+    let assembly = assembly + clock.elapsed().as_secs_f64();
+    finish(variation, &mut found, built, [assembly, eigen])
+}
+
+fn check(equations: &Quadratic, count: usize, shift: C) -> Result<()> {
+    if count == 0 {
+        return Err(Error::input("no mode is asked for").under("--modes").hint("ask for 1 or more"));
+    }
+    if equations.finite == 0 {
+        return Err(Error::input("the mechanism has no degree of freedom here, so no modes"));
+    }
+    match shift.re.is_finite() && shift.im.is_finite() {
+        true => Ok(()),
+        false => Err(Error::input("the shift is not finite").under("--shift")),
+    }
+}
+
+/// Takes out what rounding, and infinite eigenvalues with it, leave off the constraints.
+fn hold(variation: &mut Variation, equations: &Quadratic, space: &mut Space) -> Result<()> {
+    for part in [&mut space.p, &mut space.u] {
+        *part -= variation.correct(&equations.g.product(part))?;
+    }
+    Ok(())
+}
+
+/// dq = p, dv = s p + [v, p]
+fn changes(equations: &Quadratic, space: &Space) -> Changes {
+    Changes { q: space.p.clone(), v: &space.u + equations.turn.product(&space.p) }
+}
+
+/// With inputs and outputs.
+fn build(variation: &mut Variation, equations: &Quadratic, modal: Modal) -> Result<Built> {
+    let changes = changes(equations, &modal.space);
+    let response = Response::exact(variation, &changes)?;
+    let [c, d] = observe(&variation.outputs()?, &changes, &response);
+    let b = modal.inputs * variation.inputs();
+    let (chart, states) = ("modal".to_string(), modal.states);
+    Ok(Built { chart, states, a: modal.a, b, c, d, e: None, changes, infinite: 0 })
+}
+
+/// D += H(s) - C (s - A)^-1 B at s = 0, H the transfer function of all modes.
+fn add_residual<'a>(
+    variation: &mut Variation,
+    equations: &'a Quadratic,
+    found: &mut Found<'a>,
+    built: &mut Built,
+) -> Result<()> {
+    let inputs = variation.inputs();
+    if inputs.ncols() == 0 || built.c.nrows() == 0 {
+        return Ok(());
+    }
+    let t = variation.point.t;
+    let mut held = held(equations);
+    let at = match (&mut held, found.operator.sigma.im == 0.0) {
+        (Some(held), _) => held,
+        (None, true) => &mut found.operator,
+        (None, false) => return Ok(()),
+    };
+    let s = at.sigma.re;
+    let mut p = Matrix::zeros(equations.len(), inputs.ncols());
+    for (force, mut to) in inputs.column_iter().zip(p.column_iter_mut()) {
+        let mut answer: Vec<C> = force.iter().map(|f| C::from(*f)).collect();
+        at.solve(&mut answer).map_err(|unsolved| refused(t, &unsolved))?;
+        to.iter_mut().zip(answer).for_each(|(to, x)| *to = x.re);
+    }
+    let changes = changes(equations, &Space { u: &p * s, p });
+    let response = Response::exact(variation, &changes)?;
+    let [gain, d] = observe(&variation.outputs()?, &changes, &response);
+    let size = built.a.nrows();
+    let own = (Matrix::identity(size, size) * s - &built.a).lu().solve(&built.b);
+    if let Some(own) = own {
+        built.d = gain + d - &built.c * own;
+    }
+    Ok(())
+}
+
+/// The equations at s = 0, if they hold every direction: K not rounding along the softest.
+fn held(equations: &Quadratic) -> Option<Shifted<'_>> {
+    let mut operator = Shifted::new(equations, C::ZERO, 1.0).ok()?;
+    let mut p: Vec<C> = (0..equations.len()).map(|i| C::from(1.0 + (i as f64).sin())).collect();
+    for _ in 0..2 {
+        let mut weighed = vec![C::ZERO; p.len()];
+        equations.mass.add_product(&p, C::from(1.0), &mut weighed);
+        let size = weighed.iter().map(|x| x.norm()).fold(f64::MIN_POSITIVE, f64::max);
+        weighed.iter_mut().for_each(|x| *x /= size);
+        operator.solve(&mut weighed).ok()?;
+        p = weighed;
+    }
+    let energy = |part: &quadratic::Sparse| {
+        let mut product = vec![C::ZERO; p.len()];
+        part.add_product(&p, C::from(1.0), &mut product);
+        p.iter().zip(product).map(|(p, x)| (p.conj() * x).re).sum::<f64>()
+    };
+    let softest = energy(&equations.stiffness).abs() / energy(&equations.mass).abs();
+    (softest > NOTHING * equations.fastest().powi(2)).then_some(operator)
+}
+
+/// With modes, each checked.
+fn finish(
+    variation: &mut Variation,
+    found: &mut Found,
+    built: Built,
+    [assembly_seconds, eigen_seconds]: [f64; 2],
+) -> Result<LinearModel> {
+    let t = variation.point.t;
+    let (modes, vectors, conditioning) = modes_of(variation, &built).map_err(|unsolved| refused(t, &unsolved))?;
+    let space = [built.changes.q.map(C::from), variation_free(variation, &built).map(C::from)];
+    for (mode, vector) in modes.iter().zip(vectors.column_iter()) {
+        let [p, u] = [&space[0] * vector, &space[1] * vector];
+        let residual = residual(found, mode.value, p.iter().chain(u.iter()).copied());
+        if !(residual.map_err(|unsolved| refused(t, &unsolved))? <= RESIDUAL) {
+            return Err(refused(t, &Unsolved::NotConverged { converged: 0, wanted: modes.len() }));
+        }
+    }
+    let size = built.a.nrows();
+    let cost = Cost { assembly_seconds, eigen_seconds, conditioning, size, off_constraints: None };
+    let Built { chart, states, a, b, c, d, e, .. } = built;
+    let (inputs, outputs) = variation.names();
+    let (method, point) = ("modal".to_string(), variation.point.clone());
+    Ok(LinearModel { method, chart, states, inputs, outputs, a, b, c, d, e, modes, point, cost })
+}
+
+/// s dq = dv - [v, dq] of each state.
+fn variation_free(variation: &Variation, built: &Built) -> Matrix {
+    &built.changes.v - variation.bracket_with(&built.changes.q)
+}
+
+/// |op x - theta x| / |theta x|
+fn residual(found: &mut Found, value: C, x: impl Iterator<Item = C>) -> Result<f64, Unsolved> {
+    let operator = &mut found.operator;
+    let x: Vec<C> = x.zip(&operator.scale).map(|(x, scale)| x * *scale).collect();
+    let mut image = vec![C::ZERO; x.len()];
+    operator.apply(&x, &mut image)?;
+    let theta = (value - operator.sigma).inv();
+    let norm = |all: &mut dyn Iterator<Item = C>| all.map(|x| x.norm_sqr()).sum::<f64>().sqrt();
+    let off = norm(&mut image.iter().zip(&x).map(|(image, x)| image - theta * x));
+    Ok(off / (theta.norm() * norm(&mut x.iter().copied())).max(f64::MIN_POSITIVE))
+}

@@ -1,0 +1,155 @@
+//! The spaces of the eigenvalues nearest to a shift.
+
+use super::quadratic::Quadratic;
+use super::shifted::Shifted;
+use crate::linearize::{Complex, Matrix};
+use crate::math::eigen::{Options, Partial, Unsolved, nearest};
+use crate::math::kkt::Singular;
+
+type C = Complex<f64>;
+
+/// A real basis of an invariant space of the pencil in (p, s p).
+pub struct Space {
+    pub p: Matrix,
+    pub u: Matrix,
+}
+
+/// Both spaces of the same eigenvalues, and the operator that they were found with.
+pub struct Found<'a> {
+    pub right: Space,
+    pub left: Space,
+    pub operator: Shifted<'a>,
+}
+
+/// Imaginary parts below this part of an eigenvalue's distance to the shift are rounding.
+const REAL: f64 = 1e-5;
+/// Neighbours whose distances differ less than that are not parted.
+const APART: f64 = 1e-6;
+/// Eigenvectors that a real basis has of a conjugate are no new ones below this.
+const CONJUGATE: f64 = 1e-6;
+/// The shift for the slowest modes lies at this part of the last of them, off the eigenvalues 0 of rigid bodies.
+const OFF: f64 = 0.02;
+/// And another one at this part of itself.
+const BESIDE: f64 = 1e-3;
+/// The slowest rate that rounding in K leaves, as a part of the fastest.
+const ROUNDING: f64 = 1e-7;
+
+/// All eigenvalues of which `count` modes nearest to `shift` (im >= 0) are some.
+pub fn find<'a>([equations, adjoint]: [&'a Quadratic; 2], count: usize, shift: C) -> Result<Found<'a>, Unsolved> {
+    let total = equations.finite;
+    let each = if shift.im > 0.0 { 1 } else { 2 };
+    let mut wanted = (each * count + count / 8 + 6).min(total);
+    let (sigma, rate) = match shift.norm() > 0.0 {
+        true => (shift + BESIDE * shift.norm(), shift.norm()),
+        false => slowest(equations, &mut wanted)?,
+    };
+    let mut operator = beside(equations, sigma, rate)?;
+    let sigma = operator.sigma;
+    let (right, cut) = loop {
+        let partial = run(&mut operator, wanted, false)?;
+        let cut = cut(&partial, wanted == total);
+        match cut.filter(|cut| *cut == total || modes(&partial, *cut, sigma, shift) >= count) {
+            Some(cut) => break (partial, cut),
+            None => wanted = (2 * wanted).min(total),
+        }
+    };
+    let mut other = Shifted::new(adjoint, sigma, rate)?;
+    let left = run(&mut other, wanted, false)?;
+    let [right, left] = [right, left].map(|partial| real(&partial, cut, sigma.im == 0.0, &operator.scale));
+    Ok(Found { right, left, operator })
+}
+
+/// To rounding, with spaces and each eigenvalue as often as it is there; or roughly (`is_first`).
+fn run(operator: &mut Shifted, count: usize, is_first: bool) -> Result<Partial, Unsolved> {
+    let (tolerance, restarts) = if is_first { (1e-4, 10) } else { (1e-12, 300) };
+    let subspace = Some(count + count / 3 + 16);
+    let options = Options { subspace, tolerance, restarts, filter: 2, repeats: !is_first, schur: !is_first };
+    let n = operator.scale.len();
+    nearest(n, count, |x, y| operator.apply(x, y), options)
+}
+
+/// The operator at sigma, or a little further off where that is an eigenvalue.
+fn beside(equations: &Quadratic, sigma: C, rate: f64) -> Result<Shifted<'_>, Unsolved> {
+    let mut sigma = sigma;
+    for _ in 0..8 {
+        match Shifted::new(equations, sigma, rate) {
+            Err(Unsolved::Operator(Singular::Collapsed)) => sigma += 2.0 * sigma.re,
+            other => return other,
+        }
+    }
+    Err(Unsolved::Operator(Singular::Collapsed))
+}
+
+/// A shift a little above zero and the rate of the last of the `count` slowest eigenvalues, from a search that starts far
+/// below the fastest. `count` grows until they are not all zero.
+fn slowest(equations: &Quadratic, count: &mut usize) -> Result<(C, f64), Unsolved> {
+    let fastest = equations.fastest();
+    let mut sigma = 1e-5 * fastest;
+    for _ in 0..10 {
+        let mut operator = beside(equations, C::from(sigma), 100.0 * sigma)?;
+        let used = operator.sigma.re;
+        let partial = match run(&mut operator, *count, true) {
+            Err(Unsolved::NotConverged { .. }) => {
+                sigma = 0.03 * used;
+                continue;
+            }
+            other => other?,
+        };
+        let rates = partial.values.iter().map(|theta| (operator.sigma + theta.inv()).norm());
+        let last = rates.fold(0.0, f64::max);
+        if OFF * last < ROUNDING * fastest && *count < equations.finite {
+            *count = (2 * *count).min(equations.finite);
+            continue;
+        }
+        let next = (OFF * last).max(ROUNDING * fastest);
+        if used <= last && used >= 1e-4 * last || next >= used && sigma < used {
+            return Ok((C::from(next), last.max(next)));
+        }
+        sigma = next;
+    }
+    Ok((C::from(sigma), sigma / OFF))
+}
+
+/// How many values to keep: up to the widest gap among the last ones, so that no pair is parted and both sides keep the
+/// same. None without a gap.
+fn cut(partial: &Partial, is_all: bool) -> Option<usize> {
+    let count = partial.values.len();
+    if is_all {
+        return Some(count);
+    }
+    let size = |k: usize| partial.values[k].norm();
+    let gap = |k: usize| size(k - 1) / size(k);
+    let last = (count.saturating_sub(5).max(1)..count).max_by(|&a, &b| gap(a).total_cmp(&gap(b)))?;
+    (gap(last) > 1.0 + APART).then_some(last)
+}
+
+/// Modes that are nearest to `shift` for certain when all within the radius of the first `cut` values about sigma are known.
+/// A pair is one; so are two real eigenvalues, which may be a double zero.
+fn modes(partial: &Partial, cut: usize, sigma: C, shift: C) -> usize {
+    let radius = (1.0 + APART) / partial.values[cut - 1].norm() - (sigma - shift).norm();
+    let values = partial.values.iter().take(cut).map(|theta| (sigma + theta.inv(), theta.norm().recip()));
+    let inside = values.filter(|(value, _)| (value - shift).norm() <= radius);
+    let halves = inside.map(|(value, far)| match value.im {
+        im if im.abs() <= REAL * far => 1,
+        im if im > 0.0 => 2,
+        _ => 0,
+    });
+    halves.sum::<usize>() / 2
+}
+
+/// A real basis of the space of the first `cut` Schur vectors and of their conjugates, which a real shift (`is_closed`)
+/// finds among them.
+fn real(partial: &Partial, cut: usize, is_closed: bool, scale: &[f64]) -> Space {
+    let q = partial.schur.as_ref().map_or(&partial.right, |[vectors, _]| vectors).columns(0, cut);
+    let parts = Matrix::from_fn(q.nrows(), 2 * cut, |i, j| if j < cut { q[(i, j)].re } else { q[(i, j - cut)].im });
+    let gram = (parts.transpose() * &parts).symmetric_eigen();
+    let mut kept: Vec<usize> = (0..2 * cut).filter(|&j| gram.eigenvalues[j] > CONJUGATE).collect();
+    kept.sort_by(|&i, &j| gram.eigenvalues[j].total_cmp(&gram.eigenvalues[i]));
+    kept.truncate(if is_closed { cut } else { 2 * cut });
+    let weights =
+        Matrix::from_fn(2 * cut, kept.len(), |i, j| gram.eigenvectors[(i, kept[j])] / gram.eigenvalues[kept[j]].sqrt());
+    let mut basis = parts * weights;
+    basis.row_iter_mut().zip(scale).for_each(|(mut row, scale)| row /= *scale);
+    let n = scale.len() / 2;
+    Space { p: basis.rows(0, n).clone_owned(), u: basis.rows(n, n).clone_owned() }
+}

@@ -1,0 +1,156 @@
+//! A few modes by sparse methods against all modes of dense ones.
+
+use crate::reference::distance;
+use holonom::choice::Choice;
+use holonom::linearize::{Chart, Complex, LinearModel, Matrix, Request, State, Variation, at_rest, linearize, modal};
+use holonom::scene::{Scene, generate};
+use holonom::study::{Overrides, Study};
+use nalgebra::DMatrix;
+use std::path::Path;
+
+type C = Complex<f64>;
+
+fn study(name: &str, set: &[(&str, f64)]) -> Study {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(format!("{name}.json"));
+    let set = set.iter().map(|(name, value)| (name.to_string(), *value)).collect();
+    Study::load(&path, &Overrides { set, ..Overrides::default() }).unwrap()
+}
+
+/// Along gravity.
+fn hanging_chain(links: usize) -> Study {
+    let mut scene = generate::flexible_chain(links);
+    scene["gravity"] = serde_json::json!([9.81, 0]);
+    Study::new(Scene::parse(&scene.to_string(), &[]).unwrap(), &Overrides::default()).unwrap()
+}
+
+fn start(study: &Study) -> State {
+    let (q, v) = study.start();
+    State { t: study.start_time(), q: q.to_vec(), v: v.to_vec() }
+}
+
+fn rest(study: &Study) -> State {
+    at_rest(study, &start(study)).unwrap()
+}
+
+fn dense(variation: &mut Variation) -> LinearModel {
+    linearize(variation, &Request { method: Choice::named("mcs"), chart: Some(Chart::Frozen) }).unwrap()
+}
+
+/// Those with im >= 0, the double zeros of rigid bodies left out.
+fn upper(model: &LinearModel) -> Vec<C> {
+    let largest = model.modes.iter().map(|mode| mode.value.norm()).fold(0.0, f64::max);
+    let values = model.modes.iter().map(|mode| mode.value);
+    values.filter(|value| value.im >= 0.0 && value.norm() > 1e-7 * largest).collect()
+}
+
+fn nearest(mut all: Vec<C>, shift: C, count: usize) -> Vec<C> {
+    all.sort_by(|a, b| (a - shift).norm().total_cmp(&(b - shift).norm()));
+    all.truncate(count);
+    all
+}
+
+fn response(model: &LinearModel, s: C) -> DMatrix<C> {
+    let complex = |matrix: &Matrix| matrix.map(C::from);
+    let size = model.a.nrows();
+    let states = DMatrix::<C>::identity(size, size) * s - complex(&model.a);
+    complex(&model.c) * states.lu().solve(&complex(&model.b)).unwrap() + complex(&model.d)
+}
+
+/// Of all outputs to all inputs.
+fn gap(a: &LinearModel, b: &LinearModel, s: C) -> f64 {
+    let (a, b) = (response(a, s), response(b, s));
+    (&a - &b).norm() / b.norm().max(f64::MIN_POSITIVE)
+}
+
+/// The `count` modes at `shift` are the nearest of all.
+fn check(study: &Study, state: &State, count: usize, shift: f64) {
+    let mut variation = state.variation(study).unwrap();
+    let shift = C::new(0.0, shift);
+    let model = modal(&mut variation, count, shift).unwrap_or_else(|error| panic!("{} {count}: {error}", study.name));
+    let found = upper(&model);
+    let full = dense(&mut variation);
+    let off = distance(&found, &nearest(upper(&full), shift, found.len()));
+    println!("{} {count} modes at {shift}: {off:e}", study.name);
+    assert!(off < 1e-8, "{} {count} modes at {shift}: {off:e} {found:?} {:?}", study.name, upper(&full));
+    let (a, pairs) = (&model.a, model.modes.iter().filter(|mode| mode.value.im != 0.0).count());
+    assert!(model.modes.len() == a.nrows() && model.states.len() == a.nrows() && pairs % 2 == 0);
+    assert!(model.modes.iter().all(|mode| (mode.energy.iter().sum::<f64>() - 1.0).abs() < 1e-9));
+}
+
+#[test]
+fn the_modes_are_the_nearest_of_all() {
+    let at_rest = ["five_link_suspension_rods", "quarter_car", "parallelogram_redundant", "bricard", "andrews"];
+    for name in at_rest.into_iter().chain(["right_angle_cantilever", "flexible_four_bar", "full_axle", "robot_arm"]) {
+        let study = study(name, &[]);
+        let at = rest(&study);
+        for (count, shift) in [(1, 0.0), (3, 0.0), (3, 50.0), (12, 0.0)] {
+            check(&study, &at, count, shift);
+        }
+    }
+    for count in [1, 5, 20] {
+        let study = hanging_chain(10);
+        let at = rest(&study);
+        check(&study, &at, count, 0.0);
+        check(&study, &at, count, 300.0);
+    }
+}
+
+/// Also where the frozen pencil has a term of its own for moving rotations.
+#[test]
+fn the_frozen_modes_of_moving_states() {
+    for name in
+        ["spinning_top", "flexible_slider_crank_fe", "flexible_four_bar", "double_pendulum", "andrews", "bricard"]
+    {
+        let study = study(name, &[]);
+        let at = holonom::linearize::states(&study, &[study.start_time() + 0.003], |_| ()).unwrap().remove(0);
+        check(&study, &at, 3, 40.0);
+        check(&study, &at, 200, 0.0);
+    }
+}
+
+/// Three double zeros without vectors of their own.
+#[test]
+fn a_free_beam_has_rigid_modes() {
+    let study = study("flying_spaghetti", &[("force", 0.0), ("torque", 0.0)]);
+    for count in [2, 3, 5, 30] {
+        check(&study, &start(&study), count, 0.0);
+    }
+    let mut variation = start(&study).variation(&study).unwrap();
+    let model = modal(&mut variation, 3, C::ZERO).unwrap();
+    assert_eq!(model.states, ["shared1", "shared2", "shared3", "shared4", "shared5", "shared6"]);
+    assert!((&model.a * &model.a).amax() < 1e-10, "{}", model.a);
+}
+
+/// With all modes at every frequency; with a few at low ones, since D makes up for the rest.
+#[test]
+fn the_response_is_that_of_all_modes() {
+    for (name, moving) in [("quarter_car", false), ("andrews", true), ("five_link_suspension_rods", false)] {
+        let study = study(name, &[]);
+        let at = if moving { start(&study) } else { rest(&study) };
+        let mut variation = at.variation(&study).unwrap();
+        let full = dense(&mut variation);
+        let (all, one) = (modal(&mut variation, 1000, C::ZERO).unwrap(), modal(&mut variation, 1, C::ZERO).unwrap());
+        let slow = one.modes[0].value.norm();
+        for s in [1e-3, 0.3, 1.0, 7.0, 100.0].map(|part| C::new(0.0, part * slow)) {
+            let off = gap(&all, &full, s);
+            assert!(off < 1e-9, "{name} {s}: {off:e}");
+        }
+        let off = [0.0, 1e-2].map(|part| gap(&one, &full, C::new(0.0, part * slow)));
+        println!("{name}: {off:?}");
+        assert!(off[0] < 1e-9 && off[1] < 1e-4, "{name}: {off:?}");
+    }
+}
+
+#[test]
+fn what_cannot_be_had_is_told() {
+    let study = study("quarter_car", &[]);
+    let mut variation = start(&study).variation(&study).unwrap();
+    let error =
+        |count: usize, shift: C, variation: &mut Variation| modal(variation, count, shift).unwrap_err().to_string();
+    assert!(error(0, C::ZERO, &mut variation).contains("--modes"));
+    assert!(error(1, C::new(f64::NAN, 0.0), &mut variation).contains("--shift"));
+    assert_eq!(modal(&mut variation, usize::MAX / 4, C::ZERO).unwrap().modes.len(), 4);
+    let shaft = self::study("universal_shaft", &[]);
+    let mut variation = start(&shaft).variation(&shaft).unwrap();
+    assert!(error(1, C::ZERO, &mut variation).contains("no degree of freedom"));
+}
