@@ -1,4 +1,4 @@
-//! Mechanisms as differential-algebraic equations: simulated, their constraint drift measured.
+//! Mechanisms as differential-algebraic equations: simulated, their constraint drift measured, linearized at any state.
 //!
 //! # Equations
 //!
@@ -24,6 +24,7 @@
 //!
 //! ```text
 //! scene.json -> Scene -> Model -> MechanicalSystem -> Formulation -> Integrator (+ Projection) -> Trajectory, drift
+//!                                                                               -> Linear model -> Validation
 //! ```
 //!
 //! # Map
@@ -43,6 +44,8 @@
 //! | [`integrator`] | one file a method | a file and a line |
 //! | [`simulate`], [`trajectory`], [`study`] | the only time loop; its rows; a scene made ready | |
 //! | [`sweep`] | a scene assembled at many values of a parameter | |
+//! | [`linearize`] | linear models at a state, by every method; state-transition matrix, loci | a file and a line in [`linearize::registry`] |
+//! | [`validate`] | linear models against perturbed simulations | |
 //! | [`measure`] | drift, energy balance | |
 //! | [`plot`], [`report`], [`cli`] | figures, files and text, the command line | one file a subcommand |
 //!

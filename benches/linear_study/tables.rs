@@ -35,8 +35,16 @@ pub fn methods(case: &Case, sheet: &mut Sheet) {
             None => std::iter::once(method.to_string()).chain((0..7).map(|_| "-".to_string())).collect(),
         })
         .collect();
-    let headings =
-        ["method", "error", "physical", "spurious", "infinite", "spurious values, 1/s", "off: physical", "off: spurious"];
+    let headings = [
+        "method",
+        "error",
+        "physical",
+        "spurious",
+        "infinite",
+        "spurious values, 1/s",
+        "off: physical",
+        "off: spurious",
+    ];
     sheet.table(&format!("{}: {}", case.name, case.title), &headings, &rows);
 }
 

@@ -76,7 +76,7 @@ const SLACK: f64 = 0.1;
 /// Rows over time.
 const ROWS: usize = 60;
 /// A period of the fastest mode counts, times this: longer runs would cost more than they tell.
-const MOST_SWINGS: f64 = 30.0;
+const MOST_SWINGS: f64 = 8.0;
 const CURVES: usize = 3;
 
 /// Compares the model at a state with perturbed simulations.

@@ -5,12 +5,12 @@ mod closed_forms;
 #[path = "../common/mod.rs"]
 mod common;
 mod equilibria;
+mod modal;
 mod models;
 mod motion;
 mod moving;
 mod penalties;
 mod random;
-mod modal;
 mod reference;
 mod refused;
 #[path = "../scenes/mod.rs"]

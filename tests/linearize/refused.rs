@@ -42,7 +42,10 @@ fn unusable_numbers() {
 #[test]
 fn coordinates_that_cannot_be_chosen() {
     says(&message("four_bar_S1", "mcs", Some("q2")), &["q2", "not independent", "independent here are: q"]);
-    says(&message("four_bar_S1", "mcs", Some("q1,q3")), &["2 coordinates", "1 degrees of freedom", "independent here are: q"]);
+    says(
+        &message("four_bar_S1", "mcs", Some("q1,q3")),
+        &["2 coordinates", "1 degrees of freedom", "independent here are: q"],
+    );
     says(&message("double_pendulum_N1", "mcs", Some("q2")), &["1 coordinates", "2 degrees of freedom"]);
     says(&message("double_pendulum_N1", "mcs", Some("q1,q1")), &["not independent"]);
     says(&message("four_bar_S1", "baumgarte:projected=yes", Some("q4")), &["not independent"]);
