@@ -125,7 +125,8 @@ fn kinds(
 
 /// A defective eigenvalue has fewer vectors than it counts: the rest go with those it has.
 fn completed(values: &[Complex<f64>], parts: Vec<Option<f64>>) -> Vec<f64> {
-    let known: Vec<(Complex<f64>, f64)> = values.iter().zip(&parts).filter_map(|(s, part)| Some((*s, (*part)?))).collect();
+    let known: Vec<(Complex<f64>, f64)> =
+        values.iter().zip(&parts).filter_map(|(s, part)| Some((*s, (*part)?))).collect();
     let nearest = |value: &Complex<f64>| {
         known.iter().min_by(|a, b| (a.0 - value).norm().total_cmp(&(b.0 - value).norm())).map_or(1.0, |(_, part)| *part)
     };

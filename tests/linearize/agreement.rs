@@ -10,10 +10,12 @@ use proptest::prelude::*;
 /// Planar loops need a rod more than spatial ones to move.
 fn recipes() -> impl Strategy<Value = Recipe> {
     let rods = prop_oneof![3 => 1usize..=3, 1 => 4usize..=5];
-    (2usize..=3, rods, any::<[bool; 3]>(), any::<u64>()).prop_map(|(dimension, rods, [is_loop, is_chain, is_redundant], seed)| {
-        let is_loop = is_loop && rods + dimension > 4;
-        Recipe { dimension, rods, is_loop, is_chain: is_chain || is_loop, is_redundant, seed }
-    })
+    (2usize..=3, rods, any::<[bool; 3]>(), any::<u64>()).prop_map(
+        |(dimension, rods, [is_loop, is_chain, is_redundant], seed)| {
+            let is_loop = is_loop && rods + dimension > 4;
+            Recipe { dimension, rods, is_loop, is_chain: is_chain || is_loop, is_redundant, seed }
+        },
+    )
 }
 
 /// A state beside the start, with velocities of about 1; none where assembly does not close it.
@@ -39,7 +41,11 @@ const PROJECTED: [&str; 4] = [
 
 /// No root of theirs is real or near the values of the springs.
 const RAW: [&str; 6] = [
-    "rcs", "rcs:form=index2", "rcs:form=index1,solver=gsvd", "rcs:form=ggl", "baumgarte:alpha=7,beta=100",
+    "rcs",
+    "rcs:form=index2",
+    "rcs:form=index1,solver=gsvd",
+    "rcs:form=ggl",
+    "baumgarte:alpha=7,beta=100",
     "force_projection:alpha=7,beta=100",
 ];
 

@@ -80,7 +80,12 @@ fn projected_methods_have_the_physical_pair_only() {
     for (label, _) in EQUILIBRIA {
         at(label, |variation, reference| {
             let known = spectrum(&reference.0["covariant"]["eigenvalues"]);
-            for method in ["mcs", "baumgarte:projected=yes", "baumgarte:alpha=1e4,projected=yes", "force_projection:projected=yes"] {
+            for method in [
+                "mcs",
+                "baumgarte:projected=yes",
+                "baumgarte:alpha=1e4,projected=yes",
+                "force_projection:projected=yes",
+            ] {
                 let found = model(variation, method, None);
                 let off = distance(&values(&found, Kind::Physical), &known);
                 println!("{label} {method}: {off:.1e}");
@@ -95,7 +100,12 @@ fn projected_methods_have_the_physical_pair_only() {
 /// error of the penalty; spurious ones are far off them.
 #[test]
 fn spurious_modes_are_far_off_the_constraints() {
-    let methods = [("baumgarte:alpha=5,beta=50", 1e-9), ("force_projection:alpha=5,beta=50", 1e-9), ("penalty", 1e-3), ("augmented_lagrangian", 1e-6)];
+    let methods = [
+        ("baumgarte:alpha=5,beta=50", 1e-9),
+        ("force_projection:alpha=5,beta=50", 1e-9),
+        ("penalty", 1e-3),
+        ("augmented_lagrangian", 1e-6),
+    ];
     for (label, _) in EQUILIBRIA {
         at(label, |variation, _| {
             for (method, most) in methods {

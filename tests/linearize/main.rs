@@ -18,4 +18,3 @@ mod steps;
 mod systems;
 
 use common::equations;
-mod debug;

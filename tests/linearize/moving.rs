@@ -24,7 +24,8 @@ fn difference(a: &Matrix, b: &Matrix) -> f64 {
 /// 10^4/s^2 cancel against each other to 1e-12 of A.
 #[test]
 fn projected_methods_are_those_of_minimal_coordinates() {
-    let methods = ["baumgarte", "baumgarte:alpha=0", "baumgarte:alpha=100", "force_projection", "force_projection:alpha=100"];
+    let methods =
+        ["baumgarte", "baumgarte:alpha=0", "baumgarte:alpha=100", "force_projection", "force_projection:alpha=100"];
     for (label, names) in MOVING {
         at(label, |variation, _| {
             for chart in charts(names) {
@@ -36,7 +37,11 @@ fn projected_methods_are_those_of_minimal_coordinates() {
                     let known = values(&exact, Kind::Physical);
                     let eigenvalues = distance(&values(&found, Kind::Physical), &known);
                     println!("{label} {} {projected}: {off:.1e} {eigenvalues:.1e}", exact.chart);
-                    assert!(off < 1e-9 && eigenvalues < 1e-9, "{label} {} {projected}: {off:e} {eigenvalues:e}", exact.chart);
+                    assert!(
+                        off < 1e-9 && eigenvalues < 1e-9,
+                        "{label} {} {projected}: {off:e} {eigenvalues:e}",
+                        exact.chart
+                    );
                     assert_eq!((found.chart, found.states), (exact.chart.clone(), exact.states.clone()));
                 }
             }

@@ -63,7 +63,10 @@ fn masses_on_the_constraints_follow_the_same_law() {
         assert!((compliance - 4.0 / 3.0).abs() < 1e-15);
         for (omega, xi) in [(10.0, 1.0), (3.0, 0.5)] {
             let penalty = 1e5;
-            let found = values(&model(variation, &format!("penalty:penalty={penalty},omega={omega},xi={xi}"), None), Kind::Physical);
+            let found = values(
+                &model(variation, &format!("penalty:penalty={penalty},omega={omega},xi={xi}"), None),
+                Kind::Physical,
+            );
             let moved = found.iter().copied().find(|x| x.im > 0.0).unwrap() - s;
             let spring = (s * s + s * 2.0 * xi * omega + omega * omega) * (penalty / compliance);
             assert!((moved - slope / spring).norm() < 1e-3 * moved.norm(), "{moved} for {}", slope / spring);
@@ -117,10 +120,16 @@ fn errors_are_those_of_the_table() {
                 let found = error(variation, &method, &known);
                 println!("{} {method}: {found:.0e} for {expected:.0e}", row.label);
                 let (least, most) = if is_rounding { (0.0, 100.0) } else { (1.0 / 3.0, 3.0) };
-                assert!((least * expected..=most * expected).contains(&found), "{} {method}: {found:e} {expected:e}", row.label);
+                assert!(
+                    (least * expected..=most * expected).contains(&found),
+                    "{} {method}: {found:e} {expected:e}",
+                    row.label
+                );
             };
             let inertial = format!("penalty:omega={omega}");
-            for (kind, (errors, sure)) in [(inertial.as_str(), row.inertial), ("penalty:kind=elastic,omega=1,xi=0", row.elastic)] {
+            for (kind, (errors, sure)) in
+                [(inertial.as_str(), row.inertial), ("penalty:kind=elastic,omega=1,xi=0", row.elastic)]
+            {
                 for (k, expected) in errors.into_iter().enumerate() {
                     check(kind, 10f64.powi(2 * k as i32 + 2), expected, k >= sure);
                 }

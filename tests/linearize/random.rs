@@ -56,7 +56,11 @@ impl Recipe {
         let (mut bodies, mut joints, mut forces) = (Vec::new(), Vec::new(), Vec::new());
         ground.insert("O".to_string(), json!(vec![0.0; self.dimension]));
         for i in 0..self.rods {
-            let before = if self.is_chain { i.checked_sub(1) } else { i.checked_sub(1).map(|last| self.seed as usize % (last + 1)) };
+            let before = if self.is_chain {
+                i.checked_sub(1)
+            } else {
+                i.checked_sub(1).map(|last| self.seed as usize % (last + 1))
+            };
             let (begin, socket) = match before {
                 None => (vec![0.0; self.dimension], "ground.O".to_string()),
                 Some(k) => (ends[k].clone(), format!("rod{k}.end")),
@@ -66,7 +70,8 @@ impl Recipe {
             ends.push(add(&begin, &along));
             bodies.push(self.rod(i, &begin, &along, &mut numbers));
             let pin = if self.dimension == 2 { "revolute" } else { "spherical" };
-            joints.push(json!({ "name": format!("pin{i}"), "type": pin, "between": [socket, format!("rod{i}.begin")] }));
+            joints
+                .push(json!({ "name": format!("pin{i}"), "type": pin, "between": [socket, format!("rod{i}.begin")] }));
             ground.insert(format!("S{i}"), json!(add(&add(&begin, &along), &numbers.point(self.dimension))));
             forces.push(json!({
                 "name": format!("spring{i}"), "type": "spring_damper", "between": [format!("ground.S{i}"), format!("rod{i}.side")],
@@ -74,7 +79,8 @@ impl Recipe {
             }));
         }
         self.close(&ends, &mut ground, &mut joints);
-        let gravity: Vec<f64> = (0..self.dimension).map(|i| if i + 1 == self.dimension { -9.81 } else { 0.0 }).collect();
+        let gravity: Vec<f64> =
+            (0..self.dimension).map(|i| if i + 1 == self.dimension { -9.81 } else { 0.0 }).collect();
         json!({
             "name": "random", "dimension": self.dimension, "gravity": gravity, "ground": { "markers": ground },
             "bodies": bodies, "joints": joints, "forces": forces

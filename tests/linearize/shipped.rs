@@ -9,8 +9,14 @@ use holonom::linearize::{Chart, Complex, Kind, State, Variation, at_rest};
 
 /// Methods that are exact at an equilibrium, without a root of their own near the values here.
 const EXACT: [&str; 8] = [
-    "mcs", "rcs", "rcs:form=index2", "rcs:form=index1", "rcs:form=ggl,solver=gsvd", "rcs:solver=qz",
-    "baumgarte:alpha=7,beta=30", "force_projection:alpha=7,beta=30",
+    "mcs",
+    "rcs",
+    "rcs:form=index2",
+    "rcs:form=index1",
+    "rcs:form=ggl,solver=gsvd",
+    "rcs:solver=qz",
+    "baumgarte:alpha=7,beta=30",
+    "force_projection:alpha=7,beta=30",
 ];
 
 fn start(scene: &Ready) -> State {
@@ -58,7 +64,8 @@ const ANGLES: [&str; 7] = ["beta0", "Theta0", "gamma0", "Phi0", "delta0", "Omega
 
 #[test]
 fn equilibria_of_the_squeezer() {
-    let near: Vec<f64> = Reference::read("andrews_E1").vector("q").iter().map(|q| (q * 100.0).round() / 100.0).collect();
+    let near: Vec<f64> =
+        Reference::read("andrews_E1").vector("q").iter().map(|q| (q * 100.0).round() / 100.0).collect();
     let set: Vec<_> = ANGLES.into_iter().zip(near).collect();
     at_equilibrium("andrews", &set, &pair(424.561770726283));
     // Near the start of the scene, a little below a full turn.
@@ -128,8 +135,7 @@ fn moving_squeezer() {
     let mut variation = Variation::new(system, 0.0, &moving.q, &moving.v).unwrap();
     let beta = &reference.0["charts"].as_array().unwrap()[0];
     assert_eq!(beta["independent_coordinates"][0], "beta");
-    for (chart, known) in
-        [("intrinsic", &reference.0["covariant"]["eigenvalues"]), ("K1.angle", &beta["eigenvalues"])]
+    for (chart, known) in [("intrinsic", &reference.0["covariant"]["eigenvalues"]), ("K1.angle", &beta["eigenvalues"])]
     {
         let found = values(&model(&mut variation, "mcs", Some(Chart::parse(chart))), Kind::Physical);
         let off = distance(&found, &spectrum(known));
