@@ -21,11 +21,22 @@ use holonom::plot::Figure;
 use sheet::Sheet;
 use std::path::{Path, PathBuf};
 
-const ABOUT: &str = "# Methods of linearization\n\nMade by `cargo bench --bench linear_study`. Errors near rounding (1e-15 \
-    times the condition of a problem) differ a little between machines.\n\nError: largest distance of the physical \
-    eigenvalues from the known ones, over the largest; `-` where there are none. At equilibria these are known in 30 digits, or by formula. At \
-    moving states they are those of the intrinsic frozen operator; a raw frozen spectrum there is not \
-    wrong by rounding but another thing. Penalties are dimensionless: over the mean of diag(G M^-1 G^T).\n";
+const ABOUT: &str = "\
+# Methods of linearization
+
+Made by `cargo bench --bench linear_study`, which prints times as well. Errors near rounding differ a little between
+machines.
+
+Error: largest distance of the physical eigenvalues from the known ones, over the largest of these; `-` where a method
+breaks down. At equilibria the known ones have 30 digits. At moving states they are those of the intrinsic frozen operator,
+in whose chart methods with `projected=yes` and `mcs` are taken; a raw frozen spectrum there is not inaccurate but another
+thing, and depends on the gains.
+
+Off: which part of the worst physical and of the best spurious mode lies off the directions that the constraints allow, in
+the metric of the kinetic energy, between 0 and 1. Spurious values: how often in brackets, of a pair both.
+
+Penalties are over the mean of diag(G M^-1 G^T).
+";
 
 fn main() {
     let cases = cases();

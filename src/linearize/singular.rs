@@ -12,31 +12,55 @@ use crate::system::Need;
 /// beyond the part of the usual sine (1e-4) below which rows count as dependent, and near enough to be the same assembly.
 const APART: f64 = 0.02;
 
-/// Refuses a singular state: one with fewer independent constraints than a state beside it. There the motions that the
-/// constraints allow cross, and the spectrum along all directions of both belongs to no motion. Redundant constraints
-/// are dependent beside the state as well, and pass.
+/// About the smallest sine between a row of G and those before it at which a state is looked at. Below, the square of its
+/// inverse times rounding, of the state as well, is a part of the accelerations: 1e-4 beside a fold, whatever the chart.
+const NEAR: f64 = 1e-5;
+/// By how much the sine grows beside a singular state, at least; beside others it is about the same.
+const GROWTH: f64 = 1e2;
+
+/// Refuses a singular state, and states so near to one that their accelerations are uncertain: with fewer independent
+/// constraints than a state beside, or rows that are much closer to being dependent. There the motions that the
+/// constraints allow cross, and the spectrum along all directions of both belongs to no motion. Redundant constraints are
+/// dependent beside the state as well, and pass.
 ///
 /// # Errors
 /// The state is singular.
 pub(super) fn refuse(variation: &mut Variation) -> Result<()> {
-    let (rank, m) = (variation.dynamics.kkt.rank(), variation.point.lambda.len());
-    if rank == m {
+    let here = Rank::of(&variation.dynamics);
+    if here.rank == variation.point.lambda.len() && here.sine >= NEAR {
         return Ok(());
     }
     let directions = directions(variation)?;
-    match rank_beside(variation, &directions) {
-        Some(beside) if beside > rank => Err(Error::input(format!(
-            "singular state: at t = {} s only {rank} constraints are independent, {beside} beside it, so motions cross \
-             here and have no common linear model",
-            short(variation.point.t)
-        ))
-        .hint("choose another time, a little before or after, or change the state")),
-        _ => Ok(()),
+    let Some(beside) = rank_beside(variation, &directions) else { return Ok(()) };
+    let t = short(variation.point.t);
+    let problem = match (beside.rank > here.rank, beside.sine > GROWTH * here.sine) {
+        (true, _) => format!("only {} constraints are independent, {} beside it", here.rank, beside.rank),
+        (false, true) if beside.rank == here.rank => {
+            "constraints are nearly dependent, and less so beside it".to_string()
+        }
+        _ => return Ok(()),
+    };
+    Err(Error::input(format!(
+        "singular state: at t = {t} s {problem}, so motions cross here and have no common linear model"
+    ))
+    .hint("choose another time, a little before or after, or change the state"))
+}
+
+/// Of G.
+struct Rank {
+    rank: usize,
+    /// See [`SaddlePoint::smallest_sine`](crate::math::kkt::SaddlePoint::smallest_sine).
+    sine: f64,
+}
+
+impl Rank {
+    fn of(dynamics: &Dynamics) -> Self {
+        Rank { rank: dynamics.kkt.rank(), sine: dynamics.kkt.smallest_sine() }
     }
 }
 
 /// The rank of G at a state beside, along all free directions at a time; none where there is no such state.
-fn rank_beside(variation: &Variation, directions: &Matrix) -> Option<usize> {
+fn rank_beside(variation: &Variation, directions: &Matrix) -> Option<Rank> {
     let (system, point) = (variation.system(), &variation.point);
     let mut direction = vec![0.0; directions.nrows()];
     for (k, column) in directions.column_iter().enumerate() {
@@ -59,5 +83,5 @@ fn rank_beside(variation: &Variation, directions: &Matrix) -> Option<usize> {
     system.normalize(&mut moved);
     let beside = assemble(system, point.t, (&moved, &point.v), &[]).ok()?;
     dynamics.solve(point.t, &beside.q, &beside.v, |_, _| 0.0).ok()?;
-    Some(dynamics.kkt.rank())
+    Some(Rank::of(&dynamics))
 }

@@ -35,7 +35,7 @@ impl Form {
 
     /// (E, A), B, C and D in x = (dq, dv, dlambda), with dmu behind for GGL.
     pub fn build(self, variation: &mut Variation) -> Result<Built> {
-        let kept = independent_rows(variation);
+        let kept = variation.independent_rows();
         let (n, m) = (variation.len(), kept.len());
         let [g, gd] = [variation.g(), variation.gd()].map(|rows| rows.select_rows(&kept));
         let size = 2 * n + if self == Form::Ggl { 2 * m } else { m };
@@ -90,12 +90,6 @@ impl Form {
         }
         states
     }
-}
-
-/// Rows of G that do not depend on others at the state.
-fn independent_rows(variation: &Variation) -> Vec<usize> {
-    let left_out = variation.dynamics.kkt.left_out();
-    (0..variation.point.lambda.len()).filter(|row| !left_out.contains(row)).collect()
 }
 
 fn put(target: &mut Matrix, at: (usize, usize), block: &Matrix) {
