@@ -1,6 +1,7 @@
 //! The state that is perturbed.
 
 use crate::formulation::Dynamics;
+use crate::math::largest;
 
 /// A state with its accelerations and multipliers.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,8 +48,8 @@ fn is_at_rest(dynamics: &Dynamics, v: &[f64]) -> bool {
     for (&(i, j), g) in structure.g.entries.iter().zip(&terms.g) {
         usual[j] += (g * dynamics.lambda[i]).abs();
     }
-    // Velocities against those that the accelerations of gravity or springs give within a second.
-    let largest = |x: &[f64]| x.iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
-    let force = largest(&usual).max(f64::MIN_POSITIVE);
-    largest(v) <= 1e-9 && largest(&inertia) <= AT_REST * force.max(1e-9)
+    // Without loads rounding is all there is: an acceleration of 1 m/s^2 or rad/s^2 is the measure then.
+    let heaviest = structure.mass.entries.iter().zip(&terms.mass).filter(|((i, j), _)| i == j);
+    let heaviest = heaviest.fold(0.0f64, |most, (_, mass)| most.max(*mass));
+    largest(v) <= AT_REST && largest(&inertia) <= AT_REST * largest(&usual).max(heaviest)
 }
