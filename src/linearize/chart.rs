@@ -90,7 +90,9 @@ impl Chart {
 /// Z with G Z = 0 and Z^T M Z = I.
 pub(super) fn directions(variation: &mut Variation) -> Result<Matrix> {
     let t = variation.point.t;
-    free_directions(&mut variation.dynamics).ok_or_else(|| at_state(t, &Halt::NotFinite))
+    let z = free_directions(&mut variation.dynamics).ok_or_else(|| at_state(t, &Halt::NotFinite))?;
+    let correction = variation.correct(&(variation.g() * &z))?;
+    Ok(z - correction)
 }
 
 /// z = B dq with a constant B, R given:

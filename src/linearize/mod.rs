@@ -12,6 +12,7 @@ mod names;
 mod point;
 mod redundant;
 mod response;
+mod singular;
 mod spectrum;
 mod transition;
 mod unconstrained;

@@ -1,6 +1,6 @@
 //! The variational equations at a state: every matrix of a linear model.
 
-use super::{Changes, Matrix, OperatingPoint, Response};
+use super::{Changes, Matrix, OperatingPoint, Response, singular};
 use crate::error::{Error, Result};
 use crate::formulation::{Dynamics, Halt};
 use crate::math::kkt::Pattern;
@@ -34,7 +34,7 @@ impl<'a> Variation<'a> {
     /// At a state, which should be on the constraints.
     ///
     /// # Errors
-    /// A state without determined accelerations; equations without derivatives.
+    /// A state without determined accelerations; a singular one; equations without derivatives.
     pub fn new(system: &'a dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64]) -> Result<Self> {
         let dynamics = Dynamics::new(system);
         let tangent = Tangent::new(&dynamics.structure.tangent);
@@ -44,12 +44,14 @@ impl<'a> Variation<'a> {
         if !known {
             return Err(Error::input(NO_TANGENT).hint(GIVE_THEM));
         }
+        variation.refine_solution().map_err(|halt| at_state(t, &halt))?;
         variation.point = OperatingPoint::new(&variation.dynamics, t, q, v);
         if variation.point.is_equilibrium {
             // Rounding would leave traces of Gdd that no scale tells from small terms.
             variation.point.vdot.fill(0.0);
-            variation.load_point()?;
         }
+        variation.load_point()?;
+        singular::refuse(&mut variation)?;
         Ok(variation)
     }
 
@@ -60,6 +62,15 @@ impl<'a> Variation<'a> {
         self.dynamics.evaluate(t, q, v, Need::L);
         let (vdot, lambda) = (self.dynamics.vdot.clone(), self.dynamics.lambda.clone());
         self.load(Loaded { t, q, v, vdot: &vdot, lambda: &lambda })
+    }
+
+    /// v' and lambda to rounding. Near singular states the error of a plain solution would come back in K and Gdd, over the
+    /// fourth power of the sine between constraints.
+    fn refine_solution(&mut self) -> Result<(), Halt> {
+        let Dynamics { kkt, terms, vdot, lambda, .. } = &mut self.dynamics;
+        vdot.copy_from_slice(&terms.f);
+        lambda.copy_from_slice(&terms.gamma);
+        Ok(kkt.solve_refined(&terms.mass, &terms.g, vdot, lambda)?)
     }
 
     /// K, C and Gdd at other v' and lambda of the state that is factored.
@@ -141,16 +152,14 @@ impl<'a> Variation<'a> {
 
     /// (f, rows) -> (dv', dlambda) of M dv' + G^T dlambda = f, G dv' = rows; in place.
     pub fn push(&mut self, force: &mut [f64], rows: &mut [f64]) -> Result<(), Halt> {
-        Ok(self.dynamics.kkt.solve(force, rows)?)
+        let Dynamics { kkt, terms, .. } = &mut self.dynamics;
+        Ok(kkt.solve_refined(&terms.mass, &terms.g, force, rows)?)
     }
 
     /// The smallest change in the mass metric with G d = `rows`, for each column.
     pub fn correct(&mut self, rows: &Matrix) -> Result<Matrix> {
-        let mut corrections = Matrix::zeros(self.len(), rows.ncols());
-        for (from, mut to) in rows.column_iter().zip(corrections.column_iter_mut()) {
-            let solved = self.dynamics.kkt.solve_projection(from.clone_owned().as_slice(), to.as_mut_slice());
-            solved.map_err(|singular| at_state(self.point.t, &singular.into()))?;
-        }
+        let (mut corrections, mut rows) = (Matrix::zeros(self.len(), rows.ncols()), rows.clone());
+        self.push_all(&mut corrections, &mut rows).map_err(|halt| at_state(self.point.t, &halt))?;
         Ok(corrections)
     }
 
@@ -218,6 +227,12 @@ impl<'a> Variation<'a> {
     /// Gdd = d(phi'')/dq
     pub fn gdd(&self) -> Matrix {
         dense(&self.dynamics.structure.g, &self.gdd)
+    }
+
+    /// Rows of G that do not depend on others at the state.
+    pub fn independent_rows(&self) -> Vec<usize> {
+        let left_out = self.dynamics.kkt.left_out();
+        (0..self.point.lambda.len()).filter(|row| !left_out.contains(row)).collect()
     }
 
     /// The matrix of [v, .] at a velocity.

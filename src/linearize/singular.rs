@@ -1,0 +1,87 @@
+//! States at which constraints that are independent beside them depend on each other.
+
+use super::chart::directions;
+use super::{Matrix, Variation};
+use crate::error::{Error, Result, short};
+use crate::formulation::Dynamics;
+use crate::initial::assemble;
+use crate::math::largest;
+use crate::system::Need;
+
+/// By how much G changes, over its largest entry, between a state and the one beside it that it is compared with: far
+/// beyond the part of the usual sine (1e-4) below which rows count as dependent, and near enough to be the same assembly.
+const APART: f64 = 0.02;
+
+/// About the smallest sine between a row of G and those before it at which a state is looked at. Below, the square of its
+/// inverse times rounding, of the state as well, is a part of the accelerations: 1e-4 beside a fold, whatever the chart.
+const NEAR: f64 = 1e-5;
+/// By how much the sine grows beside a singular state, at least; beside others it is about the same.
+const GROWTH: f64 = 1e2;
+
+/// Refuses a singular state, and states so near to one that their accelerations are uncertain: with fewer independent
+/// constraints than a state beside, or rows that are much closer to being dependent. There the motions that the
+/// constraints allow cross, and the spectrum along all directions of both belongs to no motion. Redundant constraints are
+/// dependent beside the state as well, and pass.
+///
+/// # Errors
+/// The state is singular.
+pub(super) fn refuse(variation: &mut Variation) -> Result<()> {
+    let here = Rank::of(&variation.dynamics);
+    if here.rank == variation.point.lambda.len() && here.sine >= NEAR {
+        return Ok(());
+    }
+    let directions = directions(variation)?;
+    let Some(beside) = rank_beside(variation, &directions) else { return Ok(()) };
+    let t = short(variation.point.t);
+    let problem = match (beside.rank > here.rank, beside.sine > GROWTH * here.sine) {
+        (true, _) => format!("only {} constraints are independent, {} beside it", here.rank, beside.rank),
+        (false, true) if beside.rank == here.rank => {
+            "constraints are nearly dependent, and less so beside it".to_string()
+        }
+        _ => return Ok(()),
+    };
+    Err(Error::input(format!(
+        "singular state: at t = {t} s {problem}, so motions cross here and have no common linear model"
+    ))
+    .hint("choose another time, a little before or after, or change the state"))
+}
+
+/// Of G.
+struct Rank {
+    rank: usize,
+    /// See [`SaddlePoint::smallest_sine`](crate::math::kkt::SaddlePoint::smallest_sine).
+    sine: f64,
+}
+
+impl Rank {
+    fn of(dynamics: &Dynamics) -> Self {
+        Rank { rank: dynamics.kkt.rank(), sine: dynamics.kkt.smallest_sine() }
+    }
+}
+
+/// The rank of G at a state beside, along all free directions at a time; none where there is no such state.
+fn rank_beside(variation: &Variation, directions: &Matrix) -> Option<Rank> {
+    let (system, point) = (variation.system(), &variation.point);
+    let mut direction = vec![0.0; directions.nrows()];
+    for (k, column) in directions.column_iter().enumerate() {
+        // No two alike, so that no symmetry of a mechanism keeps it singular.
+        let part = 1.0 + (1.0 + k as f64).sin() / 2.0;
+        direction.iter_mut().zip(column.iter()).for_each(|(sum, x)| *sum += part * x);
+    }
+    let mut dynamics = Dynamics::new(system);
+    dynamics.solve(point.t, &point.q, &direction, |_, _| 0.0).ok()?;
+    dynamics.evaluate(point.t, &point.q, &direction, Need::L);
+    // Gd = d(G v + phi_t)/dq is how fast G changes along v.
+    let [slope, size] = [&dynamics.terms.l, &dynamics.terms.g].map(|values| largest(values));
+    if slope <= 0.0 {
+        return None;
+    }
+    let mut rate = vec![0.0; point.q.len()];
+    system.rate(&point.q, &direction, &mut rate);
+    let step = APART * size / slope;
+    let mut moved: Vec<f64> = point.q.iter().zip(&rate).map(|(q, rate)| q + step * rate).collect();
+    system.normalize(&mut moved);
+    let beside = assemble(system, point.t, (&moved, &point.v), &[]).ok()?;
+    dynamics.solve(point.t, &beside.q, &beside.v, |_, _| 0.0).ok()?;
+    Some(Rank::of(&dynamics))
+}
