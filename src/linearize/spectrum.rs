@@ -29,7 +29,7 @@ pub(super) fn spectrum(variation: &mut Variation, built: &Built, request: &Reque
     let solved = solve(built, request).map_err(|unsolved| refused(t, &unsolved))?;
     let shapes = complex(&built.changes.q) * &solved.right;
     let weighed = complex(&variation.mass()) * &shapes;
-    let (kinds, off_constraints) = kinds(variation, &shapes, &weighed)?;
+    let (kinds, off_constraints) = kinds(variation, &solved.values, &shapes, &weighed)?;
     let parts =
         |i: usize| solved.participation.as_ref().map_or(Vec::new(), |all| all.column(i).iter().copied().collect());
     let mut modes: Vec<Mode> = (0..solved.values.len())
@@ -100,6 +100,7 @@ fn parts(left: &ComplexMatrix, right: &ComplexMatrix) -> Matrix {
 /// that the constraints allow, in the metric of the kinetic energy.
 fn kinds(
     variation: &mut Variation,
+    values: &[Complex<f64>],
     shapes: &ComplexMatrix,
     weighed: &ComplexMatrix,
 ) -> Result<(Vec<Kind>, Option<[f64; 2]>)> {
@@ -112,14 +113,24 @@ fn kinds(
     let off = shapes - &z * (z.transpose() * weighed);
     let weighed_off = mass * &off;
     let size = |x: &ComplexMatrix, mx: &ComplexMatrix, j: usize| x.column(j).dotc(&mx.column(j)).re.max(0.0).sqrt();
-    let part = |j: usize| size(&off, &weighed_off, j) / size(shapes, weighed, j).max(f64::MIN_POSITIVE);
-    let parts: Vec<f64> = (0..shapes.ncols()).map(part).collect();
+    let part = |j: usize| Some(size(shapes, weighed, j)).filter(|x| *x > 0.0).map(|x| size(&off, &weighed_off, j) / x);
+    let parts = completed(values, (0..shapes.ncols()).map(part).collect());
     let mut order: Vec<usize> = (0..shapes.ncols()).collect();
     order.sort_by(|&i, &j| parts[i].total_cmp(&parts[j]));
     let mut kinds = vec![Kind::Spurious; shapes.ncols()];
     order.iter().take(physical).for_each(|&j| kinds[j] = Kind::Physical);
     let worst = physical.checked_sub(1).map_or(0.0, |last| parts[order[last]]);
     Ok((kinds, Some([worst, parts[order[physical]]])))
+}
+
+/// A defective eigenvalue has fewer vectors than it counts: the rest go with those it has.
+fn completed(values: &[Complex<f64>], parts: Vec<Option<f64>>) -> Vec<f64> {
+    let known: Vec<(Complex<f64>, f64)> =
+        values.iter().zip(&parts).filter_map(|(s, part)| Some((*s, (*part)?))).collect();
+    let nearest = |value: &Complex<f64>| {
+        known.iter().min_by(|a, b| (a.0 - value).norm().total_cmp(&(b.0 - value).norm())).map_or(1.0, |(_, part)| *part)
+    };
+    values.iter().zip(parts).map(|(value, part)| part.unwrap_or_else(|| nearest(value))).collect()
 }
 
 /// Largest component 1.
