@@ -31,16 +31,13 @@ pub const FORCE_PROJECTION: Entry = Entry {
     },
 };
 
-/// Singular values of G below this part of the largest are none.
-const RANK: f64 = 1e-10;
-
 fn response(variation: &mut Variation, changes: &Changes, held: [f64; 2]) -> Result<Response> {
-    let (mass, g) = (variation.mass(), variation.g());
-    let largest = if g.is_empty() { 0.0 } else { g.clone().singular_values().max() };
-    let inverse = match g.is_empty() {
-        true => Matrix::zeros(g.ncols(), g.nrows()),
-        false => g.clone().pseudo_inverse(RANK * largest.max(f64::MIN_POSITIVE)).map_err(Error::input)?,
-    };
+    let (mass, all) = (variation.mass(), variation.g());
+    // Beside the constraints, by 1e-9 say, rows that depend on others there do not quite: they would count as more.
+    let kept = variation.independent_rows();
+    let g = all.select_rows(&kept);
+    let rows = variation.rows(changes, held).select_rows(&kept);
+    let inverse = pseudo_inverse(&g, kept.len())?;
     let along = &inverse * &g;
     let project = Matrix::identity(g.ncols(), g.ncols()) - &along;
     let mu = mass.trace() / (g.ncols().max(1) as f64);
@@ -51,13 +48,26 @@ fn response(variation: &mut Variation, changes: &Changes, held: [f64; 2]) -> Res
         lu.solve(&right).ok_or_else(error)
     };
     let (force, inputs) = (variation.force(changes), variation.inputs());
-    let vdot = solve(&project * &force + &inverse * variation.rows(changes, held) * mu)?;
+    let vdot = solve(&project * &force + &inverse * rows * mu)?;
     let driven_vdot = solve(&project * &inputs)?;
-    let reaction = inverse.transpose();
+    // Multipliers of least norm, over all rows.
+    let reaction = pseudo_inverse(&all, kept.len())?.transpose();
     Ok(Response {
         lambda: &reaction * (force - &mass * &vdot),
         driven_lambda: reaction * (inputs - mass * &driven_vdot),
         vdot,
         driven_vdot,
     })
+}
+
+/// G^+ of a rank that is known.
+fn pseudo_inverse(g: &Matrix, rank: usize) -> Result<Matrix> {
+    if rank == 0 {
+        return Ok(Matrix::zeros(g.ncols(), g.nrows()));
+    }
+    let mut values: Vec<f64> = g.singular_values().iter().copied().collect();
+    values.sort_by(|a, b| b.total_cmp(a));
+    let least = values.get(rank - 1).copied().unwrap_or(0.0);
+    let left_out = values.get(rank).copied().unwrap_or(0.0);
+    g.clone().pseudo_inverse((0.5 * (least + left_out)).max(f64::MIN_POSITIVE)).map_err(Error::input)
 }

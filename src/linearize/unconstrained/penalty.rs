@@ -32,6 +32,10 @@ pub const PENALTY: Entry = Entry {
     build: |variation, request| {
         let penalty = Penalty::new(&request.method, 1, variation)?;
         match request.method.one_of("kind", &["inertial", "elastic"])? {
+            "elastic" if request.method.text("projected").is_some_and(|text| text != "no") => Err(Error::input(
+                "penalty: springs push only where a change leaves the constraints, so kind=elastic cannot be projected",
+            )
+            .hint("take mcs, or kind=inertial")),
             "elastic" => build(variation, request, |variation, changes| penalty.elastic(variation, changes)),
             _ => build(variation, request, |variation, changes| penalty.inertial(variation, changes)),
         }
