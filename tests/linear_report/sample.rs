@@ -68,7 +68,13 @@ pub fn plain(study: &Study) -> LinearModel {
             phi_dot: 2e-15,
             is_equilibrium: false,
         },
-        cost: Cost { assembly_seconds: 12.3e-6, eigen_seconds: 4.56e-6, conditioning: 3.2, size: 2 * f, off_constraints: None },
+        cost: Cost {
+            assembly_seconds: 12.3e-6,
+            eigen_seconds: 4.56e-6,
+            conditioning: 3.2,
+            size: 2 * f,
+            off_constraints: None,
+        },
     }
 }
 
@@ -91,13 +97,25 @@ fn mode(a: &Matrix, z: &Matrix, value: Complex<f64>) -> Mode {
     let largest = shape.iter().copied().max_by(|a, b| a.norm().total_cmp(&b.norm())).unwrap();
     let weight: f64 = x.iter().map(|x| x.norm_sqr()).sum();
     let participation = x.iter().map(|x| x.norm_sqr() / weight).collect();
-    Mode { value, kind: Kind::Physical, shape: shape.iter().map(|x| x / largest).collect(), participation, energy: Vec::new() }
+    Mode {
+        value,
+        kind: Kind::Physical,
+        shape: shape.iter().map(|x| x / largest).collect(),
+        participation,
+        energy: Vec::new(),
+    }
 }
 
 /// A model of the four bar with an eigenvalue of each kind and E.
 pub fn descriptor(study: &Study) -> LinearModel {
     let mut model = plain(study);
-    let mode = |value, kind, participation: Vec<f64>| Mode { value, kind, shape: Vec::new(), participation, energy: Vec::new() };
+    let mode = |value, kind, participation: Vec<f64>| Mode {
+        value,
+        kind,
+        shape: Vec::new(),
+        participation,
+        energy: Vec::new(),
+    };
     let spurious = [complex(-5.0, 1.0), complex(-5.0, -1.0), complex(-7.0, 0.0)];
     model.modes.extend(spurious.map(|value| mode(value, Kind::Spurious, vec![0.25, 0.75])));
     model.modes.extend((0..4).map(|_| mode(complex(f64::INFINITY, 0.0), Kind::Infinite, Vec::new())));

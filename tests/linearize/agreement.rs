@@ -1,0 +1,93 @@
+//! Exact methods agree with each other, on random mechanisms.
+
+use crate::models::{model, values};
+use crate::random::{Numbers, Recipe};
+use crate::reference::distance;
+use holonom::initial::{assemble, equilibrium};
+use holonom::linearize::{Chart, Kind, Matrix, Variation};
+use proptest::prelude::*;
+
+/// Planar loops need a rod more than spatial ones to move.
+fn recipes() -> impl Strategy<Value = Recipe> {
+    let rods = prop_oneof![3 => 1usize..=3, 1 => 4usize..=5];
+    (2usize..=3, rods, any::<[bool; 3]>(), any::<u64>()).prop_map(
+        |(dimension, rods, [is_loop, is_chain, is_redundant], seed)| {
+            let is_loop = is_loop && rods + dimension > 4;
+            Recipe { dimension, rods, is_loop, is_chain: is_chain || is_loop, is_redundant, seed }
+        },
+    )
+}
+
+/// A state beside the start, with velocities of about 1; none where assembly does not close it.
+fn moving(system: &dyn holonom::system::MechanicalSystem, q: &[f64], seed: u64) -> Option<(Vec<f64>, Vec<f64>)> {
+    let (n, mut numbers) = (system.dimensions(), Numbers(seed ^ 1));
+    let q: Vec<f64> = q.iter().map(|q| q + 0.1 * numbers.next()).collect();
+    let v: Vec<f64> = (0..n.v).map(|_| 2.0 * numbers.next()).collect();
+    assemble(system, 0.0, (&q, &v), &[]).ok().map(|found| (found.q, found.v))
+}
+
+fn difference(a: &Matrix, b: &Matrix) -> f64 {
+    (a - b).amax() / b.amax().max(f64::MIN_POSITIVE)
+}
+
+/// With the largest difference of A. Redundant rows agree with the others as well as assembly closes them, to 1e-10:
+/// penalties weigh both, by the mean of what mechanisms have, so that theirs is what is left of 1e5 of it.
+const PROJECTED: [(&str, f64); 4] = [
+    ("baumgarte:projected=yes", 1e-8),
+    ("force_projection:projected=yes", 1e-8),
+    ("force_projection:alpha=20,projected=yes", 1e-8),
+    ("augmented_lagrangian:penalty=1e5,iterations=4,projected=yes", 1e-5),
+];
+
+/// No root of theirs is real or near the values of the springs.
+const RAW: [&str; 6] = [
+    "rcs",
+    "rcs:form=index2",
+    "rcs:form=index1,solver=gsvd",
+    "rcs:form=ggl",
+    "baumgarte:alpha=7,beta=100",
+    "force_projection:alpha=7,beta=100",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn at_moving_states(recipe in recipes()) {
+        let scene = recipe.scene();
+        let system = scene.system();
+        let Some((q, v)) = moving(system, scene.0.start().0, recipe.seed) else { return Ok(()) };
+        let mut variation = Variation::new(system, 0.0, &q, &v).unwrap();
+        for chart in [Chart::Intrinsic, Chart::MassOrthogonal, Chart::Frozen] {
+            let exact = model(&mut variation, "mcs", Some(chart.clone()));
+            for (method, most) in PROJECTED {
+                let found = model(&mut variation, method, Some(chart.clone()));
+                let off = difference(&found.a, &exact.a);
+                prop_assert!(off < most, "{:?} {:?} {}: {:e}", recipe, chart, method, off);
+            }
+        }
+    }
+
+    #[test]
+    fn at_equilibria(recipe in recipes()) {
+        let scene = recipe.scene();
+        let system = scene.system();
+        let Ok(found) = equilibrium(system, 0.0, scene.0.start().0) else { return Ok(()) };
+        let mut variation = Variation::new(system, 0.0, &found.q, &vec![0.0; system.dimensions().v]).unwrap();
+        let exact = model(&mut variation, "mcs", Some(Chart::MassOrthogonal));
+        let known = values(&exact, Kind::Physical);
+        // An eigenvalue moves by the error of the matrix times its condition, which is at most that of the vectors.
+        let most = (1e-13 * exact.cost.conditioning).max(1e-9);
+        for chart in [Chart::Intrinsic, Chart::Frozen] {
+            let off = distance(&values(&model(&mut variation, "mcs", Some(chart.clone())), Kind::Physical), &known);
+            prop_assert!(off < most, "{:?} {:?}: {:e} of {:e}", recipe, chart, off, most);
+        }
+        for method in RAW {
+            let found = model(&mut variation, method, None);
+            let conditioning = found.cost.conditioning;
+            let most = most.max(if conditioning.is_finite() { 1e-13 * conditioning } else { 0.0 });
+            let off = distance(&values(&found, Kind::Physical), &known);
+            prop_assert!(off < most, "{:?} {}: {:e} of {:e}", recipe, method, off, most);
+        }
+    }
+}
