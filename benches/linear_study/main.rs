@@ -10,7 +10,6 @@ mod sheet;
 mod tables;
 
 #[path = "../../tests/equations/mod.rs"]
-#[allow(dead_code)]
 mod equations;
 #[path = "../../tests/linearize/systems.rs"]
 #[allow(dead_code)]

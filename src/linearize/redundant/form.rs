@@ -1,6 +1,7 @@
 //! The pencils.
 
 use super::Built;
+use super::rounding::Parts;
 use crate::error::Result;
 use crate::linearize::{Changes, Matrix, Variation, names};
 
@@ -37,21 +38,29 @@ impl Form {
     pub fn build(self, variation: &mut Variation) -> Result<Built> {
         let kept = variation.independent_rows();
         let (n, m) = (variation.len(), kept.len());
-        let [g, gd] = [variation.g(), variation.gd()].map(|rows| rows.select_rows(&kept));
+        let kept_rows = |rows: Matrix| rows.select_rows(&kept);
+        let mut parts = Parts {
+            k: variation.k(),
+            c: variation.c(),
+            g: kept_rows(variation.g()),
+            gd: kept_rows(variation.gd()),
+            rows: kept_rows(variation.rows(&Changes::all(n), [0.0; 2])),
+        };
+        parts.clean(variation);
+        let Parts { k, c, g, gd, rows } = parts;
         let size = 2 * n + if self == Form::Ggl { 2 * m } else { m };
         let (mut e, mut a) = (Matrix::zeros(size, size), Matrix::zeros(size, size));
         put(&mut e, (0, 0), &Matrix::identity(n, n));
         put(&mut e, (n, n), &variation.mass());
         put(&mut a, (0, 0), &-variation.bracket(&variation.point.v));
         put(&mut a, (0, n), &Matrix::identity(n, n));
-        put(&mut a, (n, 0), &-variation.k());
-        put(&mut a, (n, n), &-variation.c());
+        put(&mut a, (n, 0), &-k);
+        put(&mut a, (n, n), &-c);
         put(&mut a, (n, 2 * n), &-g.transpose());
         match self {
             Form::Index3 => put(&mut a, (2 * n, 0), &g),
             Form::Index2 => put(&mut a, (2 * n, 0), &beside(&gd, &g)),
             Form::Index1 => {
-                let rows = variation.rows(&Changes::all(n), [0.0; 2]).select_rows(&kept);
                 put(&mut e, (2 * n, n), &g);
                 put(&mut a, (2 * n, 0), &rows);
             }

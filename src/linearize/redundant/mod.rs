@@ -1,6 +1,7 @@
 //! Redundant coordinates (RCS): descriptor forms E x' = A x of the constrained equations.
 
 mod form;
+mod rounding;
 
 use super::method::{Built, Entry};
 use crate::choice::OptionDoc;

@@ -1,0 +1,65 @@
+//! Matrices of a pencil without what rounding leaves in place of zeros.
+
+use crate::linearize::{Matrix, Variation};
+
+/// Part of the largest entry, in the metric of the mass, that is only rounding. Ten times less than what rounds the largest
+/// itself, so that frequencies that are a million times lower keep five digits.
+const ROUNDING: f64 = 1e-17;
+
+/// K, C, G, Gd and -(Gdd, G1) of a pencil.
+pub struct Parts {
+    pub k: Matrix,
+    pub c: Matrix,
+    pub g: Matrix,
+    pub gd: Matrix,
+    pub rows: Matrix,
+}
+
+impl Parts {
+    /// Drops what is smaller than rounding of the largest entries. Scaling a pencil by the size of its entries would take
+    /// 1e-30 in the place of a zero as seriously as the rest, and ranks would be found wrong.
+    pub fn clean(&mut self, variation: &Variation) {
+        let mass = variation.mass();
+        // Directions without mass of their own compare with nothing.
+        let root = |j: usize| mass[(j, j)].max(0.0).sqrt();
+        let scaled = |matrix: &Matrix| {
+            Matrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| over(matrix[(i, j)], root(i) * root(j)))
+        };
+        let [k, c] = [&self.k, &self.c].map(scaled);
+        // 1/s: the highest frequency that springs or dampers give.
+        let rate = largest(k.iter()).sqrt().max(largest(c.iter()));
+        drop_small(&mut self.k, &k, |_| rate * rate);
+        drop_small(&mut self.c, &c, |_| rate);
+        let n = mass.nrows();
+        let of_rows = |matrix: &Matrix| {
+            Matrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| over(matrix[(i, j)], root(j % n.max(1))))
+        };
+        let [g, gd, both] = [&self.g, &self.gd, &self.rows].map(of_rows);
+        let size: Vec<f64> = g.row_iter().map(|row| largest(row.iter())).collect();
+        drop_small(&mut self.g, &g, |i| size[i]);
+        drop_small(&mut self.gd, &gd, |i| size[i] * rate);
+        let [mut of_q, mut of_v] = [self.rows.columns(0, n).clone_owned(), self.rows.columns(n, n).clone_owned()];
+        drop_small(&mut of_q, &both.columns(0, n).clone_owned(), |i| size[i] * rate * rate);
+        drop_small(&mut of_v, &both.columns(n, n).clone_owned(), |i| size[i] * rate);
+        self.rows.columns_mut(0, n).copy_from(&of_q);
+        self.rows.columns_mut(n, n).copy_from(&of_v);
+    }
+}
+
+/// Of those that compare.
+fn largest<'m>(sizes: impl Iterator<Item = &'m f64>) -> f64 {
+    sizes.filter(|size| size.is_finite()).fold(0.0, |largest, size| largest.max(*size))
+}
+
+fn over(entry: f64, scale: f64) -> f64 {
+    if scale > 0.0 { entry.abs() / scale } else { f64::INFINITY }
+}
+
+/// Entries whose size is below rounding of what is usual in their row become zero.
+fn drop_small(matrix: &mut Matrix, sizes: &Matrix, usual: impl Fn(usize) -> f64) {
+    for ((i, j), size) in (0..sizes.ncols()).flat_map(|j| (0..sizes.nrows()).map(move |i| (i, j))).zip(sizes.iter()) {
+        if *size < ROUNDING * usual(i) {
+            matrix[(i, j)] = 0.0;
+        }
+    }
+}
