@@ -7,8 +7,16 @@ use nalgebra::DMatrix;
 /// What is left of a column of Z Z^T, over the column without constraints, where Z is complete.
 const NOTHING: f64 = 1e-10;
 
+/// Velocities less independent rows of G, at the state whose factors `dynamics` holds.
+pub fn degrees_of_freedom(dynamics: &Dynamics) -> usize {
+    let left_out = dynamics.kkt.left_out();
+    let is_out = |row: &usize| left_out.contains(row) || dynamics.held.contains(row);
+    let rank = (0..dynamics.lambda.len()).filter(|row| !is_out(row)).count();
+    dynamics.vdot.len().saturating_sub(rank)
+}
+
 /// Z with G Z = 0 and Z^T M Z = I at the state whose terms and factors `dynamics` holds: the pivoted Cholesky factor of
-/// Z Z^T. Its rank shows by itself, also with redundant rows. None where a solution is not finite.
+/// Z Z^T. Its rank shows by itself, at most that of the factors. None where a solution is not finite.
 pub fn free_directions(dynamics: &mut Dynamics) -> Option<DMatrix<f64>> {
     let n = dynamics.vdot.len();
     let mut rest = DMatrix::zeros(n, n);
@@ -25,7 +33,9 @@ pub fn free_directions(dynamics: &mut Dynamics) -> Option<DMatrix<f64>> {
     // Over 1 / m, so that units do not count; a direction without mass has itself for a measure.
     free.iter_mut().enumerate().for_each(|(i, m)| *m = if *m > 0.0 { 1.0 / *m } else { rest[(i, i)] });
     let mut columns = Vec::new();
-    while columns.len() < n {
+    // Where masses differ much, rounding alone can look like one direction more.
+    let most = degrees_of_freedom(dynamics);
+    while columns.len() < most {
         let left = |i: usize| if free[i] > 0.0 { rest[(i, i)] / free[i] } else { 0.0 };
         let pivot = (0..n).max_by(|&i, &j| left(i).total_cmp(&left(j))).unwrap_or(0);
         if left(pivot) < NOTHING {

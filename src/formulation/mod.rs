@@ -20,7 +20,7 @@ mod turn;
 mod udwadia_kalaba;
 
 pub use crate::choice::{Choice, OptionDoc};
-pub use directions::{free_directions, reduce};
+pub use directions::{degrees_of_freedom, free_directions, reduce};
 pub use dynamics::{Dynamics, Halt, Statistics};
 pub use penalty::{OMEGA, PENALTY, XI, mean_compliance};
 pub use stabilizer::{Field, Stabilizer};

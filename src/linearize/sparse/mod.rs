@@ -1,5 +1,6 @@
 //! A few modes of a large mechanism, without a dense matrix of its size.
 
+mod gain;
 mod quadratic;
 mod reduce;
 mod search;
@@ -14,15 +15,13 @@ use crate::math::eigen::Unsolved;
 use quadratic::Quadratic;
 use reduce::Modal;
 use search::{Found, Space};
-use shifted::Shifted;
 use std::time::Instant;
 
 type C = Complex<f64>;
 
-/// |op x - theta x| / |theta x| of a mode that is returned, with the operator of the search.
-const RESIDUAL: f64 = 1e-6;
-/// A stiffness that is this part of the largest one, per mass, is rounding.
-const NOTHING: f64 = 1e-14;
+/// |op x - theta x| / |theta x| of a mode that is returned, with the operator of the search. Rounding in K is some 1e-16 of
+/// the square of the fastest rate over the square of that of the mode, and nothing makes up for it.
+const RESIDUAL: f64 = 1e-4;
 
 /// The `count` modes nearest to `shift`, in 1/s (0: the slowest ones), as a model in modal coordinates. A conjugate pair
 /// is one mode. All modes come where there are not so many, and more where one has no vector of its own.
@@ -65,7 +64,7 @@ pub fn modal(variation: &mut Variation, count: usize, shift: Complex<f64>) -> Re
     let eigen = clock.elapsed().as_secs_f64();
     let clock = Instant::now();
     let mut built = build(variation, &equations, modal)?;
-    add_residual(variation, &equations, &mut found, &mut built)?;
+    gain::add_residual(variation, &equations, &mut found, &mut built)?;
     let assembly = assembly + clock.elapsed().as_secs_f64();
     finish(variation, &mut found, built, [assembly, eigen])
 }
@@ -106,63 +105,6 @@ fn build(variation: &mut Variation, equations: &Quadratic, modal: Modal) -> Resu
     Ok(Built { chart, states, a: modal.a, b, c, d, e: None, changes, infinite: 0 })
 }
 
-/// D += H(s) - C (s - A)^-1 B at s = 0, H the transfer function of all modes.
-fn add_residual<'a>(
-    variation: &mut Variation,
-    equations: &'a Quadratic,
-    found: &mut Found<'a>,
-    built: &mut Built,
-) -> Result<()> {
-    let inputs = variation.inputs();
-    if inputs.ncols() == 0 || built.c.nrows() == 0 {
-        return Ok(());
-    }
-    let t = variation.point.t;
-    let mut held = held(equations);
-    let at = match (&mut held, found.operator.sigma.im == 0.0) {
-        (Some(held), _) => held,
-        (None, true) => &mut found.operator,
-        (None, false) => return Ok(()),
-    };
-    let s = at.sigma.re;
-    let mut p = Matrix::zeros(equations.len(), inputs.ncols());
-    for (force, mut to) in inputs.column_iter().zip(p.column_iter_mut()) {
-        let mut answer: Vec<C> = force.iter().map(|f| C::from(*f)).collect();
-        at.solve(&mut answer).map_err(|unsolved| refused(t, &unsolved))?;
-        to.iter_mut().zip(answer).for_each(|(to, x)| *to = x.re);
-    }
-    let changes = changes(equations, &Space { u: &p * s, p });
-    let response = Response::exact(variation, &changes)?;
-    let [gain, d] = observe(&variation.outputs()?, &changes, &response);
-    let size = built.a.nrows();
-    let own = (Matrix::identity(size, size) * s - &built.a).lu().solve(&built.b);
-    if let Some(own) = own {
-        built.d = gain + d - &built.c * own;
-    }
-    Ok(())
-}
-
-/// The equations at s = 0, if they hold every direction: K not rounding along the softest.
-fn held(equations: &Quadratic) -> Option<Shifted<'_>> {
-    let mut operator = Shifted::new(equations, C::ZERO, 1.0).ok()?;
-    let mut p: Vec<C> = (0..equations.len()).map(|i| C::from(1.0 + (i as f64).sin())).collect();
-    for _ in 0..2 {
-        let mut weighed = vec![C::ZERO; p.len()];
-        equations.mass.add_product(&p, C::from(1.0), &mut weighed);
-        let size = weighed.iter().map(|x| x.norm()).fold(f64::MIN_POSITIVE, f64::max);
-        weighed.iter_mut().for_each(|x| *x /= size);
-        operator.solve(&mut weighed).ok()?;
-        p = weighed;
-    }
-    let energy = |part: &quadratic::Sparse| {
-        let mut product = vec![C::ZERO; p.len()];
-        part.add_product(&p, C::from(1.0), &mut product);
-        p.iter().zip(product).map(|(p, x)| (p.conj() * x).re).sum::<f64>()
-    };
-    let softest = energy(&equations.stiffness).abs() / energy(&equations.mass).abs();
-    (softest > NOTHING * equations.fastest().powi(2)).then_some(operator)
-}
-
 /// With modes, each checked.
 fn finish(
     variation: &mut Variation,
@@ -172,7 +114,7 @@ fn finish(
 ) -> Result<LinearModel> {
     let t = variation.point.t;
     let (modes, vectors, conditioning) = modes_of(variation, &built).map_err(|unsolved| refused(t, &unsolved))?;
-    let space = [built.changes.q.map(C::from), variation_free(variation, &built).map(C::from)];
+    let space = [built.changes.q.map(C::from), free_rates(variation, &built).map(C::from)];
     for (mode, vector) in modes.iter().zip(vectors.column_iter()) {
         let [p, u] = [&space[0] * vector, &space[1] * vector];
         let residual = residual(found, mode.value, p.iter().chain(u.iter()).copied());
@@ -189,7 +131,7 @@ fn finish(
 }
 
 /// s dq = dv - [v, dq] of each state.
-fn variation_free(variation: &Variation, built: &Built) -> Matrix {
+fn free_rates(variation: &Variation, built: &Built) -> Matrix {
     &built.changes.v - variation.bracket_with(&built.changes.q)
 }
 

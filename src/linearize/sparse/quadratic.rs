@@ -1,5 +1,6 @@
 //! The frozen equations as one of second order, in sparse matrices.
 
+use crate::formulation::degrees_of_freedom;
 use crate::linearize::{Complex, Matrix, Variation};
 use crate::math::kkt::Pattern;
 
@@ -39,12 +40,11 @@ impl Quadratic {
         let part = |values: &[f64]| Sparse { pattern: structure.tangent.clone(), values: values.to_vec() };
         let mass = Sparse::symmetric(&structure.mass, &terms.mass);
         let (k, c, turn) = (part(&variation.tangent.k), part(&variation.tangent.c), turn(variation));
-        let dependent = variation.dynamics.kkt.left_out().len();
         Quadratic {
             stiffness: k.plus(c.times(&turn)),
             damping: c.plus(mass.times(&turn)),
             g: Sparse { pattern: structure.g.clone(), values: terms.g.clone() },
-            finite: 2 * (variation.len() + dependent).saturating_sub(structure.g.rows),
+            finite: 2 * degrees_of_freedom(&variation.dynamics),
             mass,
             turn,
         }

@@ -61,7 +61,7 @@ pub fn find<'a>([equations, adjoint]: [&'a Quadratic; 2], count: usize, shift: C
 
 /// To rounding, with spaces and each eigenvalue as often as it is there; or roughly (`is_first`).
 fn run(operator: &mut Shifted, count: usize, is_first: bool) -> Result<Partial, Unsolved> {
-    let (tolerance, restarts) = if is_first { (1e-4, 10) } else { (1e-12, 300) };
+    let (tolerance, restarts) = if is_first { (1e-2, 5) } else { (1e-12, 300) };
     let subspace = Some(count + count / 3 + 16);
     let options = Options { subspace, tolerance, restarts, filter: 2, repeats: !is_first, schur: !is_first };
     let n = operator.scale.len();

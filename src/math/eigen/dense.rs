@@ -1,7 +1,8 @@
 //! Between the matrices of nalgebra and the decompositions of faer.
 
 use super::{Complex, ComplexMatrix, Matrix, Unsolved};
-use faer::{Mat, MatRef, Par};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatMut, MatRef, Par};
 use nalgebra::DMatrix;
 
 pub fn view<T>(matrix: &DMatrix<T>) -> MatRef<'_, T> {
@@ -10,6 +11,14 @@ pub fn view<T>(matrix: &DMatrix<T>) -> MatRef<'_, T> {
 
 pub fn copy<T: nalgebra::Scalar + Copy>(matrix: MatRef<T>) -> DMatrix<T> {
     DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)])
+}
+
+/// A B
+pub fn product(a: MatRef<Complex<f64>>, b: MatRef<Complex<f64>>) -> ComplexMatrix {
+    let mut product = ComplexMatrix::zeros(a.nrows(), b.ncols());
+    let to = MatMut::from_column_major_slice_mut(product.as_mut_slice(), a.nrows(), b.ncols());
+    matmul(to, Accum::Replace, a, b, Complex::new(1.0, 0.0), Par::Seq);
+    product
 }
 
 /// The size of square matrices that are finite and alike.

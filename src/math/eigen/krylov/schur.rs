@@ -39,8 +39,11 @@ impl Ordered {
         let (first, second) = (self.t[(k, k)], self.t[(k + 1, k + 1)]);
         let vector = Vector2::new(self.t[(k, k + 1)], second - first);
         let Some((rotation, _)) = GivensRotation::cancel_y(&vector) else { return };
-        rotation.rotate(&mut self.t.rows_mut(k, 2));
+        let behind = self.t.ncols() - k - 2;
+        rotation.rotate(&mut self.t.view_mut((k, k + 2), (2, behind)));
         let back = rotation.inverse();
+        // The two themselves are set below, with what stands between them as it is by both rotations.
+        rotation.rotate(&mut self.t.view_mut((k, k), (2, 2)));
         back.rotate_rows(&mut self.t.view_mut((0, k), (k + 2, 2)));
         back.rotate_rows(&mut self.q.columns_mut(k, 2));
         self.t[(k + 1, k)] = Complex::ZERO;

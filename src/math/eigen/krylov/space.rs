@@ -115,10 +115,15 @@ impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
         Ok(())
     }
 
+    /// Of the first m columns of V the combinations in the first `count` columns of `by`.
+    fn spanned(&self, m: usize, by: &ComplexMatrix, count: usize) -> ComplexMatrix {
+        dense::product(dense::view(&self.v).subcols(0, m), dense::view(by).subcols(0, count))
+    }
+
     /// Keeps the leading `kept` Schur vectors.
     pub fn contract(&mut self, schur: &Ordered, kept: usize) {
         let m = self.h.ncols();
-        let v = self.v.columns(0, m) * schur.q.columns(0, kept);
+        let v = self.spanned(m, &schur.q, kept);
         let last = self.v.column(m).clone_owned();
         self.v.columns_mut(0, kept).copy_from(&v);
         self.v.set_column(kept, &last);
@@ -136,7 +141,7 @@ impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
     }
 
     pub fn finish(mut self, ritz: Ritz, with_schur: bool) -> Result<Partial, Unsolved> {
-        let mut right = self.v.columns(0, self.h.ncols()) * &ritz.vectors;
+        let mut right = self.spanned(self.h.ncols(), &ritz.vectors, ritz.vectors.ncols());
         dense::normalize(&mut right);
         let mut residuals = Vec::new();
         for (x, theta) in right.column_iter().zip(&ritz.values) {
@@ -149,7 +154,7 @@ impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
     /// The leading `count` Schur vectors with their part of T.
     fn schur(&self, count: usize) -> Result<[ComplexMatrix; 2], Unsolved> {
         let Ordered { q, t } = Ordered::of(&self.h)?;
-        let vectors = self.v.columns(0, self.h.ncols()) * q.columns(0, count);
+        let vectors = self.spanned(self.h.ncols(), &q, count);
         Ok([vectors, t.view((0, 0), (count, count)).clone_owned()])
     }
 

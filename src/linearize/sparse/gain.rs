@@ -1,0 +1,71 @@
+//! The gain of the modes that are left out.
+
+use super::quadratic::{Quadratic, Sparse};
+use super::search::{Found, Space};
+use super::shifted::Shifted;
+use super::{C, changes};
+use crate::error::Result;
+use crate::linearize::method::Built;
+use crate::linearize::spectrum::refused;
+use crate::linearize::variation::observe;
+use crate::linearize::{Matrix, Response, Variation};
+
+/// A stiffness that is this part of the largest one, per mass, is rounding.
+const NOTHING: f64 = 1e-14;
+
+/// D += H(s) - C (s - A)^-1 B at s = 0, H the transfer function of all modes.
+pub fn add_residual<'a>(
+    variation: &mut Variation,
+    equations: &'a Quadratic,
+    found: &mut Found<'a>,
+    built: &mut Built,
+) -> Result<()> {
+    let inputs = variation.inputs();
+    if inputs.ncols() == 0 || built.c.nrows() == 0 {
+        return Ok(());
+    }
+    let t = variation.point.t;
+    let mut held = held(equations);
+    let at = match (&mut held, found.operator.sigma.im == 0.0) {
+        (Some(held), _) => held,
+        (None, true) => &mut found.operator,
+        (None, false) => return Ok(()),
+    };
+    let s = at.sigma.re;
+    let mut p = Matrix::zeros(equations.len(), inputs.ncols());
+    for (force, mut to) in inputs.column_iter().zip(p.column_iter_mut()) {
+        let mut answer: Vec<C> = force.iter().map(|f| C::from(*f)).collect();
+        at.solve(&mut answer).map_err(|unsolved| refused(t, &unsolved))?;
+        to.iter_mut().zip(answer).for_each(|(to, x)| *to = x.re);
+    }
+    let changes = changes(equations, &Space { u: &p * s, p });
+    let response = Response::exact(variation, &changes)?;
+    let [gain, d] = observe(&variation.outputs()?, &changes, &response);
+    let size = built.a.nrows();
+    let own = (Matrix::identity(size, size) * s - &built.a).lu().solve(&built.b);
+    if let Some(own) = own {
+        built.d = gain + d - &built.c * own;
+    }
+    Ok(())
+}
+
+/// The equations at s = 0, if they hold every direction: K not rounding along the softest.
+fn held(equations: &Quadratic) -> Option<Shifted<'_>> {
+    let mut operator = Shifted::new(equations, C::ZERO, 1.0).ok()?;
+    let mut p: Vec<C> = (0..equations.len()).map(|i| C::from(1.0 + (i as f64).sin())).collect();
+    for _ in 0..2 {
+        let mut weighed = vec![C::ZERO; p.len()];
+        equations.mass.add_product(&p, C::from(1.0), &mut weighed);
+        let size = weighed.iter().map(|x| x.norm()).fold(f64::MIN_POSITIVE, f64::max);
+        weighed.iter_mut().for_each(|x| *x /= size);
+        operator.solve(&mut weighed).ok()?;
+        p = weighed;
+    }
+    let energy = |part: &Sparse| {
+        let mut product = vec![C::ZERO; p.len()];
+        part.add_product(&p, C::from(1.0), &mut product);
+        p.iter().zip(product).map(|(p, x)| (p.conj() * x).re).sum::<f64>()
+    };
+    let softest = energy(&equations.stiffness).abs() / energy(&equations.mass).abs();
+    (softest > NOTHING * equations.fastest().powi(2)).then_some(operator)
+}
