@@ -216,7 +216,9 @@ fn two_masses_answer_as_the_formula_says() {
             // Of push to x1, x2, and to the force in the link, which accelerates the first mass.
             let response = response.unwrap();
             let off = [response[(0, 0)], response[(1, 0)]].map(|x| (x - known).norm() / known.norm());
-            assert!(off[0] < 1e-12 && off[1] < 1e-12, "{method} at {f} Hz: {off:?}");
+            // Where phi is held by its derivatives only, slow answers lose digits as 1/s^2.
+            let limit = if ["mcs", "rcs", "rcs:form=ggl"].contains(&method) { 1e-12 } else { 1e-9 };
+            assert!(off[0] < limit && off[1] < limit, "{method} at {f} Hz: {off:?}");
         }
     }
 }

@@ -81,7 +81,7 @@ fn are_equal(a: Complex<f64>, b: Complex<f64>) -> bool {
     (a - b).norm() <= EQUAL * a.norm().max(b.norm())
 }
 
-/// Whether the modes change little, and the best way to go on is much better than any in which two of them are exchanged.
+/// Whether it is clear which mode is which: they change little, and the best way to go on is much better than any in which two of them are exchanged.
 pub(super) fn is_clear(starts: &[&Node], ends: &[Node], mass: &Matrix) -> bool {
     let values: Vec<Complex<f64>> = starts.iter().map(|start| start.value).collect();
     let (from, to) = (Set::new(starts.iter().copied()), Set::new(ends.iter()));
@@ -94,10 +94,10 @@ pub(super) fn is_clear(starts: &[&Node], ends: &[Node], mass: &Matrix) -> bool {
         let is_one = are_equal(values[i], values[k]) && are_equal(to.values[j], to.values[l]);
         !is_possible || is_one || cost[(i, l)] + cost[(k, j)] - cost[(i, j)] - cost[(k, l)] >= CLEAR
     };
-    let is_whole = matched.len() == starts.len() && matched.len() == ends.len();
-    is_whole
-        && matched.iter().all(|place| cost[*place] <= CHANGED)
-        && matched.iter().enumerate().all(|(n, a)| matched[..n].iter().all(|b| exchange(a, b)))
+    // Where modes become more or fewer, states between do not help.
+    starts.len() != ends.len()
+        || matched.iter().all(|place| cost[*place] <= CHANGED)
+            && matched.iter().enumerate().all(|(n, a)| matched[..n].iter().all(|b| exchange(a, b)))
 }
 
 /// What [`assign`] says, without places that are none or forbidden.
