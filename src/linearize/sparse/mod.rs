@@ -118,7 +118,8 @@ fn finish(
     for (mode, vector) in modes.iter().zip(vectors.column_iter()) {
         let [p, u] = [&space[0] * vector, &space[1] * vector];
         let residual = residual(found, mode.value, p.iter().chain(u.iter()).copied());
-        if !(residual.map_err(|unsolved| refused(t, &unsolved))? <= RESIDUAL) {
+        let residual = residual.map_err(|unsolved| refused(t, &unsolved))?;
+        if residual.is_nan() || residual > RESIDUAL {
             return Err(refused(t, &Unsolved::NotConverged { converged: 0, wanted: modes.len() }));
         }
     }
