@@ -1,7 +1,6 @@
 //! What linear models cost: `cargo bench --bench linearize`. Single thread.
 
 #[path = "../tests/equations/mod.rs"]
-#[allow(dead_code)]
 mod equations;
 
 use equations::andrews::Andrews;
