@@ -1,6 +1,6 @@
 use super::*;
 
-fn model(name: &str) -> Place {
+pub fn model(name: &str) -> Place {
     Place::new(fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"))).unwrap())
 }
 
@@ -15,7 +15,7 @@ fn numbers(csv: &str, name: &str) -> Vec<f64> {
     column(csv, name).iter().map(|cell| cell.parse().unwrap()).collect()
 }
 
-fn refused(place: &Place, args: &[&str], parts: &[&str]) {
+pub fn refused(place: &Place, args: &[&str], parts: &[&str]) {
     let output = place.run(args);
     assert_eq!(output.status.code(), Some(2), "{args:?}: {}", err(&output));
     parts.iter().for_each(|part| assert!(err(&output).contains(part), "{args:?}: no `{part}` in {}", err(&output)));

@@ -5,6 +5,7 @@ mod check;
 mod drift;
 mod equilibrium;
 mod generate;
+mod linear;
 mod loci;
 mod methods;
 mod plot;

@@ -1,0 +1,110 @@
+use super::loci::{model, refused};
+use super::*;
+
+#[test]
+fn linearize_writes_what_it_says() {
+    let place = model("five_link_suspension");
+    let text = place.done(&["linearize", "scene.json", "--equilibrium", "-o", "here"]);
+    assert_eq!(place.files("here"), ["linear-0.json", "linear-0.mat", "linear-0.npz", "modes-0.svg"]);
+    assert!(text.contains("1.3885") && text.contains("0.2331") && text.contains("12.156"), "{text}");
+    let json = place.json("here/linear-0.json");
+    let keys: Vec<&str> = json.as_object().unwrap().keys().map(String::as_str).collect();
+    for key in ["t", "method", "chart", "states", "inputs", "outputs", "A", "B", "C", "D", "eigenvalues", "equilibrium"] {
+        assert!(keys.contains(&key), "{key}: {keys:?}");
+    }
+    assert_eq!((&json["method"], &json["equilibrium"]), (&"mcs".into(), &true.into()));
+    assert_eq!(json["A"].as_array().unwrap().len(), 4);
+    assert_eq!(json["C"].as_array().unwrap().len(), json["outputs"].as_array().unwrap().len());
+    // The theory page's numbers have four digits.
+    let modes = json["eigenvalues"].as_array().unwrap();
+    let near = |mode: usize, key: &str, value: f64| (modes[mode][key].as_f64().unwrap() / value - 1.0).abs() < 3e-3;
+    assert!(near(0, "frequency_hz", 1.389) && near(0, "damping_ratio", 0.233), "{modes:?}");
+    assert!(near(2, "frequency_hz", 12.16) && near(2, "damping_ratio", 0.40), "{modes:?}");
+}
+
+#[test]
+fn all_methods_stand_beside_each_other() {
+    let place = model("four_bar_spring");
+    let args = ["linearize", "scene.json", "--set", "p0=1.5", "--set", "w0=0", "--equilibrium", "--method", "all"];
+    let json: Value = serde_json::from_str(&place.done(&[&args[..], &["--json", "-o", "here"]].concat())).unwrap();
+    let methods = json["methods"].as_array().unwrap();
+    assert!(methods.len() >= 15);
+    for row in methods {
+        let name = row["method"].as_str().unwrap();
+        let is_penalty = name.starts_with("penalty") || name.starts_with("augmented");
+        // Penalties with their default factors are off by what the factor allows.
+        let most = if is_penalty { 1e-5 } else { 1e-9 };
+        assert!(row["error"].as_f64().unwrap() < most && row["physical"] == 2, "{row}");
+    }
+    assert_eq!(
+        place.files("here"),
+        ["linear-0.json", "linear-0.mat", "linear-0.npz", "methods-0.json", "modes-0.svg"]
+    );
+}
+
+#[test]
+fn models_at_states_of_the_motion() {
+    let place = model("four_bar_spring");
+    let args = ["linearize", "scene.json", "--at", "0.1,0.3", "--independent", "crank.angle", "--json", "-o", "here"];
+    let json: Value = serde_json::from_str(&place.done(&args)).unwrap();
+    assert_eq!(json[1]["t"], 0.3);
+    assert_eq!(json[1]["chart"], "crank.angle");
+    assert_eq!(json[1]["states"], serde_json::json!(["crank.angle", "crank.angle'"]));
+    // A state does not depend on which others are asked for, but for the steps of its integration, at 1e-10.
+    let alone = place.done(&["linearize", "scene.json", "--at", "0.3", "--independent", "crank.angle", "--json", "-o", "x"]);
+    let alone: Value = serde_json::from_str(&alone).unwrap();
+    let entry = |json: &Value| json["A"][1][0].as_f64().unwrap();
+    assert!((entry(&alone) / entry(&json[1]) - 1.0).abs() < 1e-7);
+}
+
+#[test]
+fn what_cannot_be_linearized_is_told() {
+    let place = model("four_bar_spring");
+    refused(&place, &["linearize", "scene.json", "--at", "1e9"], &["outside the run", "--until"]);
+    refused(&place, &["linearize", "scene.json", "--method", "mccs"], &["no method `mccs`", "mcs"]);
+    refused(&place, &["linearize", "scene.json", "--method", "rcs:form=index4"], &["index4", "ggl"]);
+    refused(&place, &["linearize", "scene.json", "--independent", "crank.angel"], &["no coordinate", "crank.angle"]);
+    refused(
+        &place,
+        &["linearize", "scene.json", "--independent", "crank.angle,rocker.angle"],
+        &["1 degrees of freedom", "independent here are"],
+    );
+    // The coupler of the rhombus does not turn.
+    refused(
+        &place,
+        &["linearize", "scene.json", "--independent", "coupler.angle"],
+        &["not independent at t = 0 s", "independent here are: coupler."],
+    );
+    refused(&place, &["linearize", "scene.json", "--modes", "0"], &["--modes"]);
+}
+
+#[test]
+fn validate_has_a_verdict() {
+    let place = model("four_bar_spring");
+    let text = place.done(&["validate", "scene.json", "--at", "0.3", "-o", "here"]);
+    assert!(text.contains("verdict: right"), "{text}");
+    let json = place.json("here/validation-0.3.json");
+    for key in ["epsilons", "errors_ltv", "order_ltv", "errors_lti", "horizons", "verdict"] {
+        assert!(!json[key].is_null(), "{key}");
+    }
+    assert!((json["order_ltv"].as_f64().unwrap() - 2.0).abs() < 0.1);
+    assert!(json["horizons"]["1%"].as_f64().unwrap() < json["horizons"]["10%"].as_f64().unwrap());
+    // The plain projection with a damper: right derivatives, wrong model.
+    let frozen = ["validate", "scene.json", "--at", "0.3", "--set", "c1=5", "--chart", "frozen", "-o", "x"];
+    let output = place.run(&frozen);
+    assert_eq!(output.status.code(), Some(1), "{}", err(&output));
+    refused(&place, &["validate", "scene.json", "--along", "u9"], &["no state `u9`"]);
+    refused(&place, &["validate", "scene.json", "--chart", "intrinsic"], &["mass_orthogonal"]);
+}
+
+#[test]
+fn transition_tells_growth() {
+    let place = model("pendulum");
+    let wrong = ["transition", "scene.json", "--period", "0.123"];
+    refused(&place, &wrong, &["not its period"]);
+    let args = ["transition", "scene.json", "--lyapunov", "2", "--json", "-o", "here"];
+    let json: Value = serde_json::from_str(&place.done(&args)).unwrap();
+    let last = json["lyapunov"]["exponents"].as_array().unwrap().last().unwrap().as_array().unwrap().len();
+    assert!(last >= 2, "{json}");
+    assert_eq!(place.run(&["transition", "scene.json"]).status.code(), Some(2));
+}
