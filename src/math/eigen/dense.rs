@@ -2,6 +2,7 @@
 
 use super::{Complex, ComplexMatrix, Matrix, Unsolved};
 use faer::linalg::matmul::matmul;
+use faer::traits::Conjugate;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 use nalgebra::DMatrix;
 
@@ -14,7 +15,7 @@ pub fn copy<T: nalgebra::Scalar + Copy>(matrix: MatRef<T>) -> DMatrix<T> {
 }
 
 /// A B
-pub fn product(a: MatRef<Complex<f64>>, b: MatRef<Complex<f64>>) -> ComplexMatrix {
+pub fn product<A: Conjugate<Canonical = Complex<f64>>>(a: MatRef<A>, b: MatRef<Complex<f64>>) -> ComplexMatrix {
     let mut product = ComplexMatrix::zeros(a.nrows(), b.ncols());
     let to = MatMut::from_column_major_slice_mut(product.as_mut_slice(), a.nrows(), b.ncols());
     matmul(to, Accum::Replace, a, b, Complex::new(1.0, 0.0), Par::Seq);

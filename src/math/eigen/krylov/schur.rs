@@ -1,6 +1,7 @@
 //! The Schur form of a small complex matrix, largest eigenvalues first.
 
-use super::super::{Complex, ComplexMatrix, Unsolved};
+use super::super::{Complex, ComplexMatrix, Unsolved, dense};
+use super::Ritz;
 use nalgebra::Vector2;
 use nalgebra::linalg::{Schur, givens::GivensRotation};
 
@@ -10,17 +11,35 @@ pub struct Ordered {
     pub t: ComplexMatrix,
 }
 
+/// What may be left below the diagonal of T, over T.
+const TRIANGULAR: f64 = 1e-13;
 /// QR steps for each eigenvalue; two or three are usual.
 const STEPS: usize = 60;
 
 impl Ordered {
     pub fn of(h: &ComplexMatrix) -> Result<Ordered, Unsolved> {
+        if let Some(ordered) = Self::by_vectors(h)? {
+            return Ok(ordered);
+        }
         let m = h.nrows();
         let schur = Schur::try_new(h.clone(), f64::EPSILON, STEPS * m.max(1));
         let (q, t) = schur.ok_or(Unsolved::NotConverged { converged: 0, wanted: m })?.unpack();
         let mut ordered = Ordered { q, t };
         ordered.sort();
         Ok(ordered)
+    }
+
+    /// From the eigenvectors, made orthonormal in the order of their values, which takes a sixth of the time; none where
+    /// they are too dependent for that.
+    fn by_vectors(h: &ComplexMatrix) -> Result<Option<Ordered>, Unsolved> {
+        let m = h.nrows();
+        let vectors = Ritz::of(h, 0.0, m)?.vectors;
+        let q = dense::copy(dense::view(&vectors).qr().compute_thin_Q().as_ref());
+        let t =
+            dense::product(dense::view(&q).adjoint(), dense::view(&dense::product(dense::view(h), dense::view(&q))));
+        let below = t.column_iter().enumerate().map(|(j, column)| column.rows(j + 1, m - j - 1).norm());
+        let is_triangular = below.fold(0.0, f64::max) <= TRIANGULAR * t.norm();
+        Ok(is_triangular.then(|| Ordered { q, t: t.upper_triangle() }))
     }
 
     /// By insertion.
