@@ -9,7 +9,8 @@ fn linearize_writes_what_it_says() {
     assert!(text.contains("1.3885") && text.contains("0.2331") && text.contains("12.156"), "{text}");
     let json = place.json("here/linear-0.json");
     let keys: Vec<&str> = json.as_object().unwrap().keys().map(String::as_str).collect();
-    for key in ["t", "method", "chart", "states", "inputs", "outputs", "A", "B", "C", "D", "eigenvalues", "equilibrium"] {
+    for key in ["t", "method", "chart", "states", "inputs", "outputs", "A", "B", "C", "D", "eigenvalues", "equilibrium"]
+    {
         assert!(keys.contains(&key), "{key}: {keys:?}");
     }
     assert_eq!((&json["method"], &json["equilibrium"]), (&"mcs".into(), &true.into()));
@@ -36,10 +37,7 @@ fn all_methods_stand_beside_each_other() {
         let most = if is_penalty { 1e-5 } else { 1e-9 };
         assert!(row["error"].as_f64().unwrap() < most && row["physical"] == 2, "{row}");
     }
-    assert_eq!(
-        place.files("here"),
-        ["linear-0.json", "linear-0.mat", "linear-0.npz", "methods-0.json", "modes-0.svg"]
-    );
+    assert_eq!(place.files("here"), ["linear-0.json", "linear-0.mat", "linear-0.npz", "methods-0.json", "modes-0.svg"]);
 }
 
 #[test]
@@ -51,7 +49,8 @@ fn models_at_states_of_the_motion() {
     assert_eq!(json[1]["chart"], "crank.angle");
     assert_eq!(json[1]["states"], serde_json::json!(["crank.angle", "crank.angle'"]));
     // A state does not depend on which others are asked for, but for the steps of its integration, at 1e-10.
-    let alone = place.done(&["linearize", "scene.json", "--at", "0.3", "--independent", "crank.angle", "--json", "-o", "x"]);
+    let alone =
+        place.done(&["linearize", "scene.json", "--at", "0.3", "--independent", "crank.angle", "--json", "-o", "x"]);
     let alone: Value = serde_json::from_str(&alone).unwrap();
     let entry = |json: &Value| json["A"][1][0].as_f64().unwrap();
     assert!((entry(&alone) / entry(&json[1]) - 1.0).abs() < 1e-7);
