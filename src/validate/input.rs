@@ -1,6 +1,6 @@
 //! The response to a small pulse of an input.
 
-use super::ladder::{EPSILONS, difference};
+use super::perturb::{EPSILONS, difference};
 use super::run::{Norm, TOO_LARGE, floor};
 use super::{Decay, decay};
 use crate::error::Result;

@@ -1,47 +1,162 @@
-//! The sizes of perturbations, and the states they lead to.
+//! One direction: perturbations of many sizes, followed and predicted.
 
-use crate::initial::assemble;
-use crate::linearize::{Coordinates, Matrix, State};
+use super::perturb::{EPSILONS, difference, moved};
+use super::run::{Norm, TOO_LARGE, floor};
+use super::{Decay, decay, horizon};
+use crate::error::{Error, Result};
+use crate::linearize::flow::{Bundle, Snapshot, flow};
+use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State};
+use crate::math::eigen::expm;
 use crate::system::MechanicalSystem;
+use serde::Serialize;
 
-/// Sizes of the perturbation, of (dq, dv/rate) in m or rad; the last one is so small that its error is rounding.
-pub const EPSILONS: [f64; 8] = [1e-1, 3e-2, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-9];
-
-/// `start` moved by eps x0 and back to the constraints of position and velocity; none where they cannot be closed.
-pub fn moved(
-    system: &dyn MechanicalSystem,
-    start: &State,
-    coordinates: &Coordinates,
-    x0: &Matrix,
-    eps: f64,
-) -> Option<State> {
-    let k = coordinates.r.ncols();
-    let dq = &coordinates.r * x0.rows(0, k) * eps;
-    let dv = (&coordinates.tilt * x0.rows(0, k) + &coordinates.r * x0.rows(k, k)) * eps;
-    let mut q = start.q.clone();
-    let mut stages = [0; 3].map(|_| vec![0.0; q.len()]);
-    crate::formulation::turn(system, &mut stages, &start.q, dq.as_slice(), &mut q);
-    let v: Vec<f64> = start.v.iter().zip(&dv).map(|(v, dv)| v + dv).collect();
-    let closed = assemble(system, start.t, (&q, &v), &[]).ok()?;
-    Some(State { t: start.t, q: closed.q, v: closed.v })
+/// Perturbations along one direction.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Ladder {
+    pub direction: String,
+    /// Sizes of (dq, dv/rate), m or rad.
+    pub epsilons: Vec<f64>,
+    /// Size of the difference of both motions at the end less its prediction; none (NaN is not written) where the
+    /// perturbed state does not exist.
+    pub errors_ltv: Vec<f64>,
+    pub order_ltv: Decay,
+    pub errors_lti: Vec<f64>,
+    /// Times after the state, s.
+    pub times: Vec<f64>,
+    /// Relative error of exp(A t) against the variational equations.
+    pub drift_lti: Vec<f64>,
+    /// Times at which the frozen model is off by 1 % and 10 %, s; none: beyond what was followed.
+    pub horizons: [Option<f64>; 2],
+    /// What moves most, at `curve_epsilon`.
+    pub curves: Vec<Curve>,
+    pub curve_epsilon: f64,
 }
 
-/// (dq, dv) from one state to another: dq along the velocity directions by least squares, N dq = q - q0. For quaternions
-/// this is right to first order, which changes errors of second order by such.
-pub fn difference(system: &dyn MechanicalSystem, from: &State, to: &State) -> [Vec<f64>; 2] {
-    let change: Vec<f64> = to.q.iter().zip(&from.q).map(|(to, from)| to - from).collect();
-    let dv = to.v.iter().zip(&from.v).map(|(to, from)| to - from).collect();
-    if from.q.len() == from.v.len() {
-        return [change, dv];
+/// A velocity direction's change over time, simulated and predicted.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Curve {
+    /// Index of the direction of v.
+    pub direction: usize,
+    pub simulated: Vec<f64>,
+    pub ltv: Vec<f64>,
+    pub lti: Vec<f64>,
+}
+
+/// Rows over time.
+const ROWS: usize = 60;
+/// Curves that are kept.
+const CURVES: usize = 3;
+/// About the perturbation whose curves are kept.
+const SHOWN: f64 = 1.1e-2;
+
+/// The perturbed motions and their predictions.
+struct Followed<'a> {
+    system: &'a dyn MechanicalSystem,
+    coordinates: &'a Coordinates,
+    norm: &'a Norm,
+    epsilons: Vec<f64>,
+    times: Vec<f64>,
+    snapshots: Vec<Snapshot>,
+    /// exp(A t) x0
+    predicted: Vec<Matrix>,
+}
+
+/// Perturbs `start` along x0 and follows all sizes for a time.
+pub(super) fn ladder(
+    system: &dyn MechanicalSystem,
+    start: &State,
+    (model, norm): (&Minimal, &Norm),
+    x0: &Matrix,
+    (direction, duration): (String, f64),
+) -> Result<Ladder> {
+    let followed = follow(system, start, (model, norm), x0, duration)?;
+    let Some(end) = followed.snapshots.last() else { return Err(Error::input("nothing to follow")) };
+    let all = model.coordinates.changes();
+    let last = &followed.predicted[ROWS - 1];
+    let errors_ltv = followed.errors(end, &end.columns);
+    let errors_lti = followed.errors(end, &Changes { q: all.q * last, v: all.v * last });
+    let size = norm.size((end.columns.q.as_slice(), end.columns.v.as_slice()));
+    let order_ltv = decay(&followed.epsilons, &errors_ltv, |eps| TOO_LARGE * eps * size, floor(&errors_ltv));
+    let drift_lti = followed.drift();
+    let horizons = [0.01, 0.1].map(|share| horizon(&followed.times, &drift_lti, share));
+    let (curves, curve_epsilon) = followed.curves();
+    let Followed { epsilons, times, .. } = followed;
+    Ok(Ladder {
+        direction,
+        epsilons,
+        errors_ltv,
+        order_ltv,
+        errors_lti,
+        times,
+        drift_lti,
+        horizons,
+        curves,
+        curve_epsilon,
+    })
+}
+
+fn follow<'a>(
+    system: &'a dyn MechanicalSystem,
+    start: &State,
+    (model, norm): (&'a Minimal, &'a Norm),
+    x0: &Matrix,
+    duration: f64,
+) -> Result<Followed<'a>> {
+    let coordinates = &model.coordinates;
+    let perturbed = |&eps: &f64| moved(system, start, coordinates, x0, eps).map(|state| (eps, state));
+    let (epsilons, members): (Vec<f64>, Vec<State>) = EPSILONS.iter().filter_map(perturbed).unzip();
+    let unit = coordinates.changes();
+    let columns = Changes { q: unit.q * x0, v: unit.v * x0 };
+    let bundle = Bundle { columns, members, ..Bundle::of(start) };
+    let times: Vec<f64> = (1..=ROWS).map(|i| duration * i as f64 / ROWS as f64).collect();
+    let mut snapshots: Vec<Snapshot> = Vec::new();
+    flow(system, &bundle, &times.iter().map(|t| start.t + t).collect::<Vec<f64>>(), |snapshot| {
+        snapshots.push(snapshot.clone());
+        true
+    })?;
+    let step = expm(&(&model.a * (duration / ROWS as f64))).map_err(|unsolved| Error::input(unsolved.to_string()))?;
+    let mut predicted = vec![&step * x0];
+    (1..ROWS).for_each(|i| predicted.push(&step * &predicted[i - 1]));
+    Ok(Followed { system, coordinates, norm, epsilons, times, snapshots, predicted })
+}
+
+impl Followed<'_> {
+    /// |difference of the motions - eps changes| for each size.
+    fn errors(&self, end: &Snapshot, changes: &Changes) -> Vec<f64> {
+        let error = |(member, eps): (&State, &f64)| {
+            let [dq, dv] = difference(self.system, &end.motion, member);
+            self.norm.off((&dq, &dv), (changes.q.as_slice(), changes.v.as_slice()), *eps)
+        };
+        end.members.iter().zip(&self.epsilons).map(error).collect()
     }
-    let (mut unit, mut rate) = (vec![0.0; from.v.len()], vec![0.0; from.q.len()]);
-    let dq = (0..from.v.len()).map(|j| {
-        unit[j] = 1.0;
-        system.rate(&from.q, &unit, &mut rate);
-        unit[j] = 0.0;
-        // Columns of N are square to each other.
-        let size: f64 = rate.iter().map(|x| x * x).sum();
-        rate.iter().zip(&change).map(|(x, change)| x * change).sum::<f64>() / size
-    });
-    [dq.collect(), dv]
+
+    /// Relative error of the frozen model at each time.
+    fn drift(&self) -> Vec<f64> {
+        let error = |(snapshot, lti): (&Snapshot, &Matrix)| {
+            let ltv = self.coordinates.states_of(&snapshot.columns);
+            self.norm.states(&(&ltv - lti)) / self.norm.states(&ltv)
+        };
+        self.snapshots.iter().zip(&self.predicted).map(error).collect()
+    }
+
+    /// What moves most, and the perturbation that it belongs to.
+    fn curves(&self) -> (Vec<Curve>, f64) {
+        let member = self.epsilons.iter().position(|eps| *eps <= SHOWN).unwrap_or(0);
+        let Some(&eps) = self.epsilons.get(member) else { return (Vec::new(), 0.0) };
+        let column = |i: usize| self.snapshots.iter().map(move |snapshot| snapshot.columns.q[(i, 0)]);
+        let largest = |i: usize| column(i).fold(0.0f64, |most, x| most.max(x.abs()));
+        let mut order: Vec<usize> = (0..self.coordinates.r.nrows()).collect();
+        order.sort_by(|&i, &j| largest(j).total_cmp(&largest(i)));
+        let pairs = self.snapshots.iter().map(|snapshot| (&snapshot.motion, &snapshot.members[member]));
+        let simulated: Vec<Vec<f64>> =
+            pairs.map(|(motion, member)| difference(self.system, motion, member)).map(|[dq, _]| dq).collect();
+        let r = &self.coordinates.r;
+        let curve = |direction: usize| Curve {
+            direction,
+            simulated: simulated.iter().map(|dq| dq[direction]).collect(),
+            ltv: column(direction).map(|x| eps * x).collect(),
+            lti: self.predicted.iter().map(|x| eps * (r.row(direction) * x.rows(0, r.ncols()))[(0, 0)]).collect(),
+        };
+        (order.into_iter().take(CURVES).map(curve).collect(), eps)
+    }
 }

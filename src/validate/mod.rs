@@ -11,13 +11,15 @@ mod frozen;
 mod input;
 mod ladder;
 mod order;
+mod perturb;
 mod run;
 
 pub use direction::Direction;
 pub use frozen::{Frozen, horizon};
 pub use input::InputCheck;
+pub use ladder::{Curve, Ladder};
 pub use order::{Decay, decay};
-pub use run::{Curve, Ladder, Validation, Verdict, validate};
+pub use run::{Validation, Verdict, validate};
 
 use crate::linearize::Chart;
 

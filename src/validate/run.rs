@@ -1,12 +1,11 @@
 //! The whole check at one state.
 
 use super::frozen::frozen;
-use super::ladder::{EPSILONS, difference, moved};
-use super::{Decay, Frozen, InputCheck, Settings, decay, horizon, input};
+use super::ladder::ladder;
+use super::{Decay, Frozen, InputCheck, Ladder, Settings, input};
 use crate::error::{Error, Result};
-use crate::linearize::flow::{Bundle, Snapshot, flow};
-use crate::linearize::{Changes, Chart, Matrix, Minimal, State, Variation, minimal};
-use crate::math::eigen::{eigen, expm};
+use crate::linearize::{Chart, Matrix, Minimal, State, Variation, minimal};
+use crate::math::eigen::eigen;
 use crate::system::MechanicalSystem;
 use serde::Serialize;
 
@@ -27,38 +26,6 @@ pub struct Validation {
     pub verdict: Verdict,
 }
 
-/// Perturbations along one direction.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Ladder {
-    pub direction: String,
-    /// Sizes of (dq, dv/rate), m or rad.
-    pub epsilons: Vec<f64>,
-    /// Size of the difference of both motions at the end less its prediction; none (NaN is not written) where the
-    /// perturbed state does not exist.
-    pub errors_ltv: Vec<f64>,
-    pub order_ltv: Decay,
-    pub errors_lti: Vec<f64>,
-    /// Times after the state, s.
-    pub times: Vec<f64>,
-    /// Relative error of exp(A t) against the variational equations.
-    pub drift_lti: Vec<f64>,
-    /// Times at which the frozen model is off by 1 % and 10 %, s; none: beyond what was followed.
-    pub horizons: [Option<f64>; 2],
-    /// What moves most, at `curve_epsilon`.
-    pub curves: Vec<Curve>,
-    pub curve_epsilon: f64,
-}
-
-/// A velocity direction's change over time, simulated and predicted.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Curve {
-    /// Index of the direction of v.
-    pub direction: usize,
-    pub simulated: Vec<f64>,
-    pub ltv: Vec<f64>,
-    pub lti: Vec<f64>,
-}
-
 /// Whether the model may be trusted.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Verdict {
@@ -73,11 +40,8 @@ pub struct Verdict {
 pub(super) const TOO_LARGE: f64 = 0.1;
 /// An order may be this much below 2.
 const SLACK: f64 = 0.1;
-/// Rows over time.
-const ROWS: usize = 60;
 /// A period of the fastest mode counts, times this: longer runs would cost more than they tell.
 const MOST_SWINGS: f64 = 8.0;
-const CURVES: usize = 3;
 
 /// Compares the model at a state with perturbed simulations.
 ///
@@ -167,97 +131,6 @@ impl Norm {
 /// The error of the smallest perturbation is rounding.
 pub(super) fn floor(errors: &[f64]) -> f64 {
     errors.last().copied().filter(|error| error.is_finite()).unwrap_or(0.0).max(1e-15)
-}
-
-fn ladder(
-    system: &dyn MechanicalSystem,
-    start: &State,
-    (model, norm): (&Minimal, &Norm),
-    x0: &Matrix,
-    (direction, followed): (String, f64),
-) -> Result<Ladder> {
-    let coordinates = &model.coordinates;
-    let column = coordinates.changes();
-    let columns = Changes { q: column.q * x0, v: column.v * x0 };
-    let (epsilons, members): (Vec<f64>, Vec<State>) =
-        EPSILONS.iter().filter_map(|&eps| moved(system, start, coordinates, x0, eps).map(|state| (eps, state))).unzip();
-    let bundle = Bundle { columns, members, ..Bundle::of(start) };
-    let times: Vec<f64> = (1..=ROWS).map(|i| followed * i as f64 / ROWS as f64).collect();
-    let mut snapshots: Vec<Snapshot> = Vec::new();
-    flow(system, &bundle, &times.iter().map(|t| start.t + t).collect::<Vec<f64>>(), |snapshot| {
-        snapshots.push(snapshot.clone());
-        true
-    })?;
-    let step = expm(&(&model.a * (followed / ROWS as f64))).map_err(|unsolved| Error::input(unsolved.to_string()))?;
-    let mut predicted = vec![&step * x0];
-    (1..ROWS).for_each(|i| predicted.push(&step * &predicted[i - 1]));
-    let drift_lti: Vec<f64> = snapshots
-        .iter()
-        .zip(&predicted)
-        .map(|(snapshot, lti)| {
-            let ltv = coordinates.states_of(&snapshot.columns);
-            norm.states(&(&ltv - lti)) / norm.states(&ltv)
-        })
-        .collect();
-    let Some(end) = snapshots.last() else { return Err(Error::input("nothing to follow")) };
-    let lti = {
-        let all = coordinates.changes();
-        Changes { q: all.q * &predicted[ROWS - 1], v: all.v * &predicted[ROWS - 1] }
-    };
-    let errors = |changes: &Changes| -> Vec<f64> {
-        let pairs = end.members.iter().zip(&epsilons);
-        pairs
-            .map(|(member, eps)| {
-                let [dq, dv] = difference(system, &end.motion, member);
-                norm.off((&dq, &dv), (changes.q.as_slice(), changes.v.as_slice()), *eps)
-            })
-            .collect()
-    };
-    let (errors_ltv, errors_lti) = (errors(&end.columns), errors(&lti));
-    let size = norm.size((end.columns.q.as_slice(), end.columns.v.as_slice()));
-    let order_ltv = decay(&epsilons, &errors_ltv, |eps| TOO_LARGE * eps * size, floor(&errors_ltv));
-    let horizons = [0.01, 0.1].map(|share| horizon(&times, &drift_lti, share));
-    let (curves, curve_epsilon) = curves(system, coordinates, (&snapshots, &predicted), &epsilons);
-    Ok(Ladder {
-        direction,
-        epsilons,
-        errors_ltv,
-        order_ltv,
-        errors_lti,
-        times,
-        drift_lti,
-        horizons,
-        curves,
-        curve_epsilon,
-    })
-}
-
-/// What moves most, at a perturbation of about 1e-2.
-fn curves(
-    system: &dyn MechanicalSystem,
-    coordinates: &crate::linearize::Coordinates,
-    (snapshots, predicted): (&[Snapshot], &[Matrix]),
-    epsilons: &[f64],
-) -> (Vec<Curve>, f64) {
-    let member = epsilons.iter().position(|eps| *eps <= 1.1e-2).unwrap_or(0);
-    let Some(&eps) = epsilons.get(member) else { return (Vec::new(), 0.0) };
-    let n = coordinates.r.nrows();
-    let k = coordinates.r.ncols();
-    let largest = |i: usize| snapshots.iter().map(|snapshot| snapshot.columns.q[(i, 0)].abs()).fold(0.0, f64::max);
-    let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&i, &j| largest(j).total_cmp(&largest(i)));
-    let simulated: Vec<Vec<f64>> = snapshots
-        .iter()
-        .map(|snapshot| difference(system, &snapshot.motion, &snapshot.members[member]))
-        .map(|[dq, _]| dq)
-        .collect();
-    let curve = |direction: usize| Curve {
-        direction,
-        simulated: simulated.iter().map(|dq| dq[direction]).collect(),
-        ltv: snapshots.iter().map(|snapshot| eps * snapshot.columns.q[(direction, 0)]).collect(),
-        lti: predicted.iter().map(|x| eps * (coordinates.r.row(direction) * x.rows(0, k))[(0, 0)]).collect(),
-    };
-    (order.into_iter().take(CURVES).map(curve).collect(), eps)
 }
 
 fn judge(ladders: &[Ladder], frozen: &Frozen, inputs: &[InputCheck]) -> Verdict {

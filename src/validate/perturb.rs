@@ -1,0 +1,47 @@
+//! The sizes of perturbations, and the states they lead to.
+
+use crate::initial::assemble;
+use crate::linearize::{Coordinates, Matrix, State};
+use crate::system::MechanicalSystem;
+
+/// Sizes of the perturbation, of (dq, dv/rate) in m or rad; the last one is so small that its error is rounding.
+pub const EPSILONS: [f64; 8] = [1e-1, 3e-2, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-9];
+
+/// `start` moved by eps x0 and back to the constraints of position and velocity; none where they cannot be closed.
+pub fn moved(
+    system: &dyn MechanicalSystem,
+    start: &State,
+    coordinates: &Coordinates,
+    x0: &Matrix,
+    eps: f64,
+) -> Option<State> {
+    let k = coordinates.r.ncols();
+    let dq = &coordinates.r * x0.rows(0, k) * eps;
+    let dv = (&coordinates.tilt * x0.rows(0, k) + &coordinates.r * x0.rows(k, k)) * eps;
+    let mut q = start.q.clone();
+    let mut stages = [0; 3].map(|_| vec![0.0; q.len()]);
+    crate::formulation::turn(system, &mut stages, &start.q, dq.as_slice(), &mut q);
+    let v: Vec<f64> = start.v.iter().zip(&dv).map(|(v, dv)| v + dv).collect();
+    let closed = assemble(system, start.t, (&q, &v), &[]).ok()?;
+    Some(State { t: start.t, q: closed.q, v: closed.v })
+}
+
+/// (dq, dv) from one state to another: dq along the velocity directions by least squares, N dq = q - q0. For quaternions
+/// this is right to first order, which changes errors of second order by such.
+pub fn difference(system: &dyn MechanicalSystem, from: &State, to: &State) -> [Vec<f64>; 2] {
+    let change: Vec<f64> = to.q.iter().zip(&from.q).map(|(to, from)| to - from).collect();
+    let dv = to.v.iter().zip(&from.v).map(|(to, from)| to - from).collect();
+    if from.q.len() == from.v.len() {
+        return [change, dv];
+    }
+    let (mut unit, mut rate) = (vec![0.0; from.v.len()], vec![0.0; from.q.len()]);
+    let dq = (0..from.v.len()).map(|j| {
+        unit[j] = 1.0;
+        system.rate(&from.q, &unit, &mut rate);
+        unit[j] = 0.0;
+        // Columns of N are square to each other.
+        let size: f64 = rate.iter().map(|x| x * x).sum();
+        rate.iter().zip(&change).map(|(x, change)| x * change).sum::<f64>() / size
+    });
+    [dq.collect(), dv]
+}
