@@ -44,8 +44,9 @@ pub fn frozen(
         let predicted = alike(expm(&(a * *h)).map_err(|unsolved| Error::input(unsolved.to_string()))?, rate);
         errors.push((&exact - predicted).norm() / exact.norm());
     }
-    // Fast modes are as exact as they are, in units of slow ones.
-    let decay = decay(&steps, &errors, |_| SMALL, FLOOR * (speed.fastest / rate).max(1.0));
+    // Fast modes are as exact as they are, in units of slow ones; and what the shortest step leaves is rounding at most.
+    let floor = (FLOOR * (speed.fastest / rate).max(1.0)).max(errors.first().copied().unwrap_or(0.0));
+    let decay = decay(&steps, &errors, |_| SMALL, floor);
     Ok(Frozen { steps, errors, decay })
 }
 
