@@ -40,6 +40,8 @@ pub struct Verdict {
 pub(super) const TOO_LARGE: f64 = 0.1;
 /// An order may be this much below 2.
 const SLACK: f64 = 0.1;
+/// Of exp(A h) a missing term makes order 1; steps near the time of the fastest modes have a little less than 2.
+const STEEP: f64 = 1.6;
 /// A period of the fastest mode counts, times this: longer runs would cost more than they tell.
 const MOST_SWINGS: f64 = 8.0;
 
@@ -136,7 +138,8 @@ pub(super) fn floor(errors: &[f64]) -> f64 {
 fn judge(ladders: &[Ladder], frozen: &Frozen, inputs: &[InputCheck]) -> Verdict {
     let orders = ladders.iter().map(|ladder| &ladder.order_ltv).chain(inputs.iter().map(|input| &input.order_ltv));
     let passes = |decay: &Decay| decay.is_exact || decay.order.is_some_and(|order| order > 2.0 - SLACK);
-    let (ltv, lti) = (orders.clone().all(passes), passes(&frozen.decay));
+    let steep = |decay: &Decay| decay.is_exact || decay.order.is_some_and(|order| order > STEEP);
+    let (ltv, lti) = (orders.clone().all(passes), steep(&frozen.decay));
     let lowest = orders.filter_map(|decay| decay.order).fold(f64::INFINITY, f64::min);
     let order = if lowest.is_finite() { format!("order {lowest:.2}") } else { "exact to rounding".to_string() };
     let text = match (ltv, lti) {
