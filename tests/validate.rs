@@ -183,7 +183,8 @@ fn the_plain_projection_is_refused_off_equilibrium() {
     let found = validate(study.system(), state, &settings).unwrap();
     assert!(found.verdict.ltv && !found.verdict.lti, "{:?} {:?}", found.verdict, found.frozen);
     let order = found.frozen.decay.order.unwrap();
-    assert!((order - 1.0).abs() < 0.1, "{order}");
+    // The next power of h is seen at the longest steps.
+    assert!((order - 1.0).abs() < 0.2, "{order}");
 }
 
 #[test]
