@@ -36,7 +36,10 @@ fn three(study: &Study) -> Vec<State> {
 }
 
 fn check(study: &Study, state: &State) -> Validation {
-    let found = validate(study.system(), state, &Settings::default()).unwrap();
+    // These motions come to a singular state, where the variational equations have no solution.
+    let folds = ["parallelogram", "slider_crank_singular", "slider_crank_singular_2", "n_four_bar"];
+    let horizon = folds.iter().any(|name| study.name.starts_with(name)).then_some(0.05);
+    let found = validate(study.system(), state, &Settings { horizon, ..Settings::default() }).unwrap();
     let name = format!("{} at {} s", study.name, state.t);
     let orders = found.ladders.iter().map(|ladder| &ladder.order_ltv);
     for decay in orders.chain(found.inputs.iter().map(|input| &input.order_ltv)) {
