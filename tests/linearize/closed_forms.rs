@@ -58,7 +58,7 @@ pub fn crank_angle(p: f64, rate: f64, c1: f64) -> [f64; 2] {
 }
 
 /// A unit mass on a unit rod about a point, in space.
-struct Spherical;
+pub struct Spherical;
 
 impl Equations for Spherical {
     fn size(&self) -> (usize, usize) {

@@ -1,6 +1,7 @@
 //! The state-transition matrix along motions: orders, invariants, Floquet multipliers, Lyapunov exponents.
 
-use crate::reference::{LABELS, Reference, distance};
+use crate::closed_forms::Spherical;
+use crate::reference::{Reference, distance};
 use crate::systems::{DoublePendulum, system};
 use holonom::linearize::{Chart, Complex, Matrix, State, Variation, floquet, lyapunov, minimal, transition};
 use holonom::math::Scalar;
@@ -87,25 +88,6 @@ fn a_double_pendulum_is_chaotic() {
     assert!((e[0] + e[3]).abs() < 0.1 && e[1].abs() < 0.2 && e[2].abs() < 0.2, "{e:?}");
 }
 
-/// A point mass on a unit rod in space, in Cartesian coordinates.
-struct Spherical;
-
-impl Equations for Spherical {
-    fn size(&self) -> (usize, usize) {
-        (3, 1)
-    }
-    fn mass<S: Scalar>(&self, _: S, _: &[S], mass: &mut [S]) {
-        mass.fill(S::zero());
-        (0..3).for_each(|i| mass[4 * i] = S::one());
-    }
-    fn force<S: Scalar>(&self, _: S, _: &[S], _: &[S], f: &mut [S]) {
-        f.copy_from_slice(&[S::zero(), S::zero(), S::constant(-9.81)]);
-    }
-    fn phi<S: Scalar>(&self, _: S, q: &[S], phi: &mut [S]) {
-        phi[0] = (q[0].square() + q[1].square() + q[2].square() - 1.0) * 0.5;
-    }
-}
-
 /// The conical pendulum at 60 degrees turns at sqrt(g / (l cos 60)); beside its own motion it swings at 5.859607495387 rad/s
 /// (theory page), so its multipliers over a turn are 1, 1 and exp(+-i 5.8596 T).
 #[test]
@@ -137,9 +119,4 @@ fn an_upright_pendulum_is_unstable() {
     let grows = (9.81f64.sqrt() * 0.5).exp();
     assert!((found.multipliers[0].re / grows - 1.0).abs() < 1e-10, "{:?}", found.multipliers);
     assert!(!found.is_stable(1e-3));
-}
-
-#[test]
-fn every_label_has_a_state() {
-    assert!(LABELS.iter().all(|label| state(label).q.len() == state(label).v.len()));
 }
