@@ -7,7 +7,8 @@ use common::unconstrained::Exponential;
 use common::{Run, adaptive, fixed, method, run, until};
 use holonom::formulation::Dynamics;
 use holonom::math::Scalar;
-use holonom::simulate::{Method, Observation, Sink, Span, simulate};
+use holonom::measure::Recorder;
+use holonom::simulate::{Method, Observation, Sink, Span, Stop, simulate};
 use holonom::system::Equations;
 use rayon::prelude::*;
 
@@ -189,4 +190,24 @@ fn forces_that_are_no_numbers_end_the_run_where_they_begin() {
     let span = Span { start: 0.6, ..span };
     let Run { outcome, record } = run(&Spoilt, &method("index1", "dopri5", "none"), span, (&[1.0], &[0.0]));
     assert_eq!((outcome.failure.unwrap().t, record.trajectory.rows.len()), (0.6, 0));
+}
+
+/// What ends a run from outside is told as any failure is, and the last state stays.
+#[test]
+fn a_run_is_stopped_between_steps() {
+    use std::cell::Cell;
+    let (system, asked) = (Exponential, Cell::new(0));
+    let stop = || {
+        asked.set(asked.get() + 1);
+        (asked.get() > 5).then(|| Stop { reason: "enough".to_string(), hint: "ask again".to_string() })
+    };
+    let mut recorder = Recorder::new(&system).with_stop(stop);
+    let start = Exponential::exact(0.0);
+    let span = Span { start: 0.0, end: 1.0, output_step: 1.0 };
+    let method = fixed("index1", "rk4", "none", 0.01);
+    let outcome = simulate(&system, &method, span, (&start[..1], &start[1..]), &mut recorder).unwrap();
+    let failure = outcome.failure.unwrap();
+    assert_eq!((failure.reason.as_str(), failure.hint.as_str()), ("enough", "ask again"));
+    assert_eq!((outcome.statistics.steps, failure.t), (5, 0.05));
+    assert_eq!(recorder.finish().trajectory.times().last(), Some(0.05));
 }

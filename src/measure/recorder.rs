@@ -3,7 +3,7 @@
 use super::drift::{Drift, largest};
 use super::energy::{EnergyBalance, EnergyMeter, Ledger};
 use super::singularity::{Singularity, Watch};
-use crate::simulate::{Observation, Sink};
+use crate::simulate::{Observation, Sink, Stop};
 use crate::system::{MechanicalSystem, Scratch};
 use crate::trajectory::Trajectory;
 
@@ -28,6 +28,7 @@ pub struct Recorder<'a> {
     watch: Watch<'a>,
     record: Record,
     progress: Box<dyn FnMut(f64) + 'a>,
+    stop: Box<dyn Fn() -> Option<Stop> + 'a>,
 }
 
 impl<'a> Recorder<'a> {
@@ -47,12 +48,19 @@ impl<'a> Recorder<'a> {
                 ledger_rows: Vec::new(),
             },
             progress: Box::new(|_| {}),
+            stop: Box::new(|| None),
         }
     }
 
     /// Calls `progress` with the time of every accepted step.
     pub fn with_progress(mut self, progress: impl FnMut(f64) + 'a) -> Self {
         self.progress = Box::new(progress);
+        self
+    }
+
+    /// Asks `stop` before every step whether the run should end.
+    pub fn with_stop(mut self, stop: impl Fn() -> Option<Stop> + 'a) -> Self {
+        self.stop = Box::new(stop);
         self
     }
 
@@ -76,5 +84,9 @@ impl Sink for Recorder<'_> {
         self.record.drift_rows.push(levels);
         self.record.ledger_rows.extend(self.meter.ledger(self.system, state, &mut self.scratch));
         self.record.trajectory.push(self.system, state, &mut self.scratch);
+    }
+
+    fn stops(&self) -> Option<Stop> {
+        (self.stop)()
     }
 }

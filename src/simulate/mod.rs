@@ -11,7 +11,7 @@ mod stiffness;
 
 pub use auto::{Advice, advise};
 pub use method::Method;
-pub use observation::{Observation, Sink, Span};
+pub use observation::{Observation, Sink, Span, Stop};
 pub use spectrum::{Mode, Spectrum};
 pub use stiffness::{Stiffness, stiffness};
 
@@ -160,6 +160,9 @@ impl<'a> Run<'a> {
         let mut h = self.first_step().map_err(|halt| self.halted(&halt))?;
         let mut growing = true;
         while self.t < self.span.end {
+            if let Some(Stop { reason, hint }) = sink.stops() {
+                return Err(Failure { t: self.t, reason, hint });
+            }
             let placed = self.place(h);
             let (mut size, mut last) = self.fit(placed);
             let error = match self.step(&mut size, &mut last) {

@@ -1,5 +1,8 @@
 //! What a run shows of the motion, and to whom.
 
+use crate::error::short;
+use std::time::Duration;
+
 /// The interval to simulate and where the output rows lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
@@ -43,4 +46,26 @@ pub trait Sink {
     fn accepted(&mut self, state: &Observation);
     /// Every output row, in order.
     fn row(&mut self, state: &Observation);
+    /// Asked before every step: why the run should end here, if it should.
+    fn stops(&self) -> Option<Stop> {
+        None
+    }
+}
+
+/// Why a run is ended from outside, and what to do about it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stop {
+    pub reason: String,
+    pub hint: String,
+}
+
+impl Stop {
+    /// A run that may take no longer.
+    pub fn deadline(allowed: Duration) -> Stop {
+        let seconds = short((1e3 * allowed.as_secs_f64()).round() / 1e3);
+        Stop {
+            reason: format!("it takes longer than the {seconds} s that it may"),
+            hint: "allow more time, or choose a looser tolerance, a longer step or another method".to_string(),
+        }
+    }
 }
