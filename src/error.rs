@@ -32,7 +32,7 @@ pub struct Input {
 }
 
 /// Why and where a run ended early.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Failure {
     /// Time of the last good state, s.
     pub t: f64,

@@ -103,7 +103,7 @@ pub enum Format {
     None,
 }
 
-fn choice(text: &str) -> Result<Choice, String> {
+pub fn choice(text: &str) -> Result<Choice, String> {
     Choice::parse(text).map_err(|error| error.to_string())
 }
 
@@ -183,8 +183,12 @@ impl Talk {
 
 impl Output {
     pub fn folder(&self, name: &str) -> Result<Folder> {
-        let default = || Path::new("out").join(name);
-        Folder::create(&self.output.clone().unwrap_or_else(default))
+        Folder::create(&self.path(name))
+    }
+
+    /// Where the results of the scene `name` go.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.output.clone().unwrap_or_else(|| Path::new("out").join(name))
     }
 
     /// Saves a figure where figures are wanted.

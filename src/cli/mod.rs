@@ -14,6 +14,7 @@ mod purpose;
 mod schema;
 mod simulate;
 mod sweep;
+mod tradeoff;
 mod transition;
 mod validate;
 
@@ -37,6 +38,11 @@ enum Command {
     Simulate(simulate::Args),
     /// The same scene under every stabilization: drift against time, one table, one figure
     Drift(drift::Args),
+    /// Speed for accuracy: what every method costs for the digits it gives, and which to choose
+    ///
+    /// A grid of methods and tolerances against a tight reference whose own error is told by a second method; medians of
+    /// CPU time over interleaved repeats. With --variants: what a richer model of the same mechanism costs and gives.
+    Tradeoff(tradeoff::Args),
     /// Position curves: the scene assembled at many values of a parameter, such as camber over wheel travel
     ///
     /// From the scene's own value of the parameter outwards, each state from its neighbour, at the scene's start time.
@@ -74,6 +80,7 @@ pub fn run() -> ExitCode {
         Command::Check(args) => check::run(args),
         Command::Simulate(args) => simulate::run(args),
         Command::Drift(args) => drift::run(args),
+        Command::Tradeoff(args) => tradeoff::run(args),
         Command::Sweep(args) => sweep::run(args),
         Command::Plot(args) => plot::run(args),
         Command::Linearize(args) => linearize::run(args),

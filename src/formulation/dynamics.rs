@@ -3,7 +3,7 @@
 use crate::error::Result;
 use crate::math::kkt::{SaddlePoint, Singular, TRUNCATED};
 use crate::system::{MechanicalSystem, Need, Scratch, Structure, Terms};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Why a state cannot be evaluated.
@@ -76,7 +76,7 @@ impl From<Singular> for Halt {
 }
 
 /// Work done in a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Statistics {
     pub steps: u64,
     pub rejected: u64,

@@ -13,6 +13,7 @@ mod sweep;
 mod sweep_figure;
 mod table;
 mod tables;
+pub mod tradeoff;
 
 pub use check::{Check, check};
 pub use envelope::envelope;

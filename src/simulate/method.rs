@@ -4,10 +4,10 @@ use crate::error::{Error, Result};
 use crate::formulation::Choice;
 use crate::integrator::{self, Steps};
 use crate::projection;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A method: formulation x integrator x projection, with its accuracy.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Method {
     pub formulation: Choice,
     pub integrator: Choice,
@@ -32,6 +32,15 @@ impl Default for Method {
 }
 
 impl Method {
+    /// Formulation + integrator + projection, the last where there is one.
+    pub fn triple(&self) -> String {
+        let Method { formulation, integrator, projection, .. } = self;
+        match projection.name.as_str() {
+            "none" => format!("{formulation} + {integrator}"),
+            _ => format!("{formulation} + {integrator} + {projection}"),
+        }
+    }
+
     /// Refuses combinations that make no sense, naming those that do.
     pub fn check(&self) -> Result<()> {
         let entry = integrator::find(&self.integrator).map_err(|error| error.under("integrator"))?;

@@ -13,7 +13,7 @@ pub use auto::{Advice, advise};
 pub use method::Method;
 pub use observation::{Observation, Sink, Span, Stop};
 pub use spectrum::{Mode, Spectrum};
-pub use stiffness::{Stiffness, stiffness};
+pub use stiffness::{Stiffness, explicit, stiffness};
 
 use approach::Approach;
 use rows::{Rows, observation, project};

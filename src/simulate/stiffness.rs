@@ -77,7 +77,7 @@ pub fn stiffness(system: &dyn MechanicalSystem, method: &Method, state: Loaded, 
 }
 
 /// Order and stability of the method; none where its steps may be as long as they like.
-fn explicit(system: &dyn MechanicalSystem, method: &Method) -> Option<(usize, Stability)> {
+pub fn explicit(system: &dyn MechanicalSystem, method: &Method) -> Option<(usize, Stability)> {
     let entry = integrator::find(&method.integrator).ok()?;
     let (store, is_fixed) = (Store::default(), method.step.is_some());
     let (integrator, formulation) = (&method.integrator, &method.formulation);

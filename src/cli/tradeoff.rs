@@ -1,0 +1,253 @@
+//! `holonom tradeoff SCENE`
+
+use super::common::{Output, SceneOptions, Talk, choice, number, positive, print};
+use crate::choice::Choice;
+use crate::error::{Error, Result};
+use crate::measure::work_precision::models::{Variant, compare};
+use crate::measure::work_precision::{Filter, Given, Motion, Plan, Runner, Watched, WorkPrecision, grid};
+use crate::report::tradeoff::{ModelsSummary, Summary, models_figure, models_table, tradeoff_figure, tradeoff_table};
+use crate::report::write_whole;
+use crate::scene;
+use crate::system::MechanicalSystem;
+use crate::{formulation, projection};
+use crate::study::{Overrides, Study};
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    scene: SceneOptions,
+    /// Formulations to compare, such as index1; repeat for several (default: all)
+    #[arg(long, value_parser = choice)]
+    formulation: Vec<Choice>,
+    /// Integrators to compare; repeat for several (default: all)
+    #[arg(long, value_parser = choice)]
+    integrator: Vec<Choice>,
+    /// Projections to compare; repeat for several (default: those that are usual with each formulation)
+    #[arg(long, value_parser = choice)]
+    projection: Vec<Choice>,
+    /// End time, s
+    #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
+    until: Option<f64>,
+    /// Outputs whose accuracy counts (default: all)
+    #[arg(long, value_name = "NAME[,NAME...]", value_delimiter = ',')]
+    outputs: Vec<String>,
+    /// Digits to show the methods for
+    #[arg(long, value_name = "N", default_value_t = 6)]
+    digits: u32,
+    /// Time for all of it, such as 60s or 5min
+    #[arg(long, value_name = "TIME", default_value = "60s", value_parser = duration)]
+    budget: Duration,
+    /// Runs of each method that is near the best
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..))]
+    repeats: u16,
+    /// Times at which motions are compared
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u16).range(1..))]
+    rows: u16,
+    /// Try methods on that have fallen far behind
+    #[arg(long)]
+    exhaustive: bool,
+    /// Go on with the measurement in the folder of the results
+    #[arg(long)]
+    resume: bool,
+    /// Table (CSV) of values to compare with: t and outputs by name, in the place of a computed reference
+    #[arg(long, value_name = "FILE")]
+    reference: Option<PathBuf>,
+    /// Compare models in the place of methods: scenes of the same mechanism, with their own parameters as in
+    /// rod.json:modes=2,n=8
+    #[arg(long, value_name = "SCENE[:NAME=VALUE,...]", num_args = 1..)]
+    variants: Vec<String>,
+    #[command(flatten)]
+    output: Output,
+    #[command(flatten)]
+    talk: Talk,
+}
+
+/// Results so far are written so often.
+const SAVED: Duration = Duration::from_secs(5);
+
+fn duration(text: &str) -> Result<Duration, String> {
+    let split = text.find(|c: char| c.is_alphabetic()).unwrap_or(text.len());
+    let (value, unit) = text.split_at(split);
+    let unit = match unit.trim() {
+        "" | "s" => 1.0,
+        "ms" => 1e-3,
+        "min" | "m" => 60.0,
+        "h" => 3600.0,
+        other => return Err(format!("`{other}` is no unit of time; write 60s, 5min or 1h")),
+    };
+    let seconds = unit * positive(value)?;
+    Duration::try_from_secs_f64(seconds).map_err(|_| "that is too long".to_string())
+}
+
+pub fn run(args: Args) -> Result<ExitCode> {
+    let study = Study::load(&args.scene.path, &args.overrides())?;
+    study.span().map_err(|error| error.in_file(&args.scene.path))?;
+    if args.variants.is_empty() { methods(&args, &study) } else { models(&args, study) }
+}
+
+impl Args {
+    fn overrides(&self) -> Overrides {
+        Overrides { set: self.scene.set.clone(), until: self.until, ..Overrides::default() }
+    }
+
+    /// Refuses unknown options of what is named, before anything is run.
+    fn check_choices(&self, system: &dyn MechanicalSystem) -> Result<()> {
+        for choice in &self.formulation {
+            formulation::make(choice, system).map_err(|error| error.under("--formulation"))?;
+        }
+        for choice in &self.projection {
+            projection::make(choice, system).map_err(|error| error.under("--projection"))?;
+        }
+        Ok(())
+    }
+
+    /// The scene as the command line names it, with what it changes.
+    fn named(&self) -> String {
+        let set = self.scene.set.iter().map(|(name, value)| format!(" --set {name}={value}"));
+        let until = self.until.iter().map(|until| format!(" --until {until}"));
+        [self.scene.path.display().to_string()].into_iter().chain(set).chain(until).collect()
+    }
+}
+
+fn methods(args: &Args, study: &Study) -> Result<ExitCode> {
+    let span = study.span()?;
+    let watched = Watched::new(study.system(), &args.outputs).map_err(|error| error.under("--outputs"))?;
+    let given = args.reference.as_deref().map(Given::read).transpose()?;
+    let rows = usize::from(args.rows);
+    let rows = given.as_ref().map_or(Ok(rows), |given| given.parts((span.start, span.end), rows))?;
+    let filter = Filter {
+        formulations: args.formulation.clone(),
+        integrators: args.integrator.clone(),
+        projections: args.projection.clone(),
+    };
+    args.check_choices(study.system())?;
+    let plan = Plan {
+        triples: grid(&filter)?,
+        budget: args.budget,
+        repeats: usize::from(args.repeats),
+        rows,
+        digits: args.digits,
+        is_exhaustive: args.exhaustive,
+        given,
+    };
+    let fresh = WorkPrecision {
+        scene: study.name.clone(),
+        fingerprint: fingerprint(args, rows)?,
+        t_start: span.start,
+        t_end: span.end,
+        rows,
+        reference: None,
+        cells: Vec::new(),
+        seconds: 0.0,
+        left_out: None,
+    };
+    let mut folder = args.output.folder(&study.name)?;
+    let place = args.output.path(&study.name).join("tradeoff.json");
+    let mut measured = if args.resume { resumed(&place, fresh)? } else { fresh };
+    let bar = args.talk.progress(1000, &study.name);
+    let (clock, mut saved) = (Instant::now(), Instant::now());
+    let watch = |measured: &WorkPrecision, next: &str| {
+        bar.set_position((1e3 * clock.elapsed().as_secs_f64() / args.budget.as_secs_f64()) as u64);
+        bar.set_message(next.to_string());
+        if saved.elapsed() > SAVED {
+            saved = Instant::now();
+            // What cannot be saved now will be told at the end.
+            let _ = save(&place, measured);
+        }
+        true
+    };
+    let motion = Motion {
+        system: study.system(),
+        start: study.start(),
+        between: (span.start, span.end),
+        ratio: study.method.atol / study.method.rtol,
+    };
+    let result = Runner::new(motion, &plan, watched, watch).run(&mut measured);
+    bar.finish_and_clear();
+    result?;
+    let summary = Summary::new(&measured, &args.named());
+    folder.write_json("tradeoff.json", &summary)?;
+    folder.write("tradeoff.csv", &tradeoff_table(&measured)?)?;
+    args.output.figure(&mut folder, "tradeoff", tradeoff_figure(&measured, args.digits))?;
+    args.talk.print(&summary, || summary.text(args.digits))?;
+    if !args.talk.json && !args.talk.quiet {
+        print(&format!("\nwritten to {}\n", folder.listing()))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn save(place: &Path, measured: &WorkPrecision) -> Result<()> {
+    let text = serde_json::to_string_pretty(measured).map_err(|error| Error::file(place, error))?;
+    write_whole(place, text.as_bytes())
+}
+
+/// Of all that makes measurements comparable: the scene, what is changed of it, what is compared and when.
+fn fingerprint(args: &Args, rows: usize) -> Result<String> {
+    let mut hasher = DefaultHasher::new();
+    scene::read_text(&args.scene.path)?.hash(&mut hasher);
+    let set: Vec<(&str, u64)> = args.scene.set.iter().map(|(name, value)| (name.as_str(), value.to_bits())).collect();
+    (set, args.until.map(f64::to_bits), &args.outputs, rows, &args.reference).hash(&mut hasher);
+    Ok(format!("{:016x}", hasher.finish()))
+}
+
+/// What was measured before.
+fn resumed(place: &Path, fresh: WorkPrecision) -> Result<WorkPrecision> {
+    let wrong = |problem: &str| Error::file(place, format!("{problem}; leave out --resume to begin anew"));
+    let text = std::fs::read_to_string(place).map_err(|_| wrong("there is no measurement to go on with"))?;
+    let measured: WorkPrecision =
+        serde_json::from_str(&text).map_err(|error| wrong(&format!("this is no measurement ({error})")))?;
+    match measured.fingerprint == fresh.fingerprint {
+        true => Ok(measured),
+        false => Err(wrong("this is a measurement of another scene, or with other options")),
+    }
+}
+
+/// A scene with parameters of its own.
+fn variant(text: &str, args: &Args, like: &Study) -> Result<Variant> {
+    let (path, set) = match text.rsplit_once(':') {
+        Some((path, rest)) if rest.contains('=') => (path, rest),
+        _ => (text, ""),
+    };
+    let pairs = set.split(',').filter(|pair| !pair.is_empty());
+    let own = pairs.map(|pair| {
+        let parts = pair.split_once('=').and_then(|(name, value)| Some((name.to_string(), value.parse().ok()?)));
+        parts.ok_or_else(|| Error::input(format!("`{pair}` is no parameter")).hint("write SCENE:NAME=VALUE,NAME=VALUE"))
+    });
+    let own: Vec<(String, f64)> = own.collect::<Result<_>>().map_err(|error| error.under("--variants"))?;
+    let span = like.span()?;
+    let overrides = Overrides { set: own, until: Some(span.end), ..args.overrides() };
+    Ok(Variant { name: text.to_string(), study: Study::load(Path::new(path), &overrides)? })
+}
+
+fn models(args: &Args, study: Study) -> Result<ExitCode> {
+    let mut others = Vec::new();
+    for text in &args.variants {
+        others.push(variant(text, args, &study)?);
+    }
+    let (name, title) = (study.name.clone(), format!("{}: what models cost", study.name));
+    let own = Variant { name: args.named(), study };
+    let variants: Vec<Variant> = [own].into_iter().chain(others).collect();
+    let mut folder = args.output.folder(&name)?;
+    let repeats = usize::from(args.repeats);
+    let bar = args.talk.progress((variants.len() * (repeats + 1)) as u64, &name);
+    let watch = |name: &str, done: usize| {
+        bar.set_message(name.to_string());
+        bar.set_position(done as u64);
+    };
+    let costs = compare(&variants, &args.outputs, (repeats, args.budget), watch);
+    bar.finish_and_clear();
+    let costs = costs?;
+    let summary = ModelsSummary::new(&costs);
+    folder.write_json("models.json", &summary)?;
+    folder.write("models.csv", &models_table(&costs)?)?;
+    args.output.figure(&mut folder, "models", models_figure(&title, &costs))?;
+    args.talk.print(&summary, || summary.text())?;
+    if !args.talk.json && !args.talk.quiet {
+        print(&format!("\nwritten to {}\n", folder.listing()))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}

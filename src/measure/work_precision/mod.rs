@@ -1,0 +1,51 @@
+//! Speed for accuracy: what every method costs for the digits it gives, on one motion.
+//!
+//! 1. A reference ([`Reference`]): the motion at the tightest tolerance, its error told by a second method of another family.
+//! 2. A grid ([`grid`]): formulation x integrator x projection, each at a ladder of tolerances or steps. Methods that have
+//!    fallen far behind are not tried at tighter ones, and the result says so.
+//! 3. Times: medians of CPU seconds over repeats, one round over all methods after the other, so that what else the
+//!    machine does favours none.
+//! 4. What to choose ([`WorkPrecision::recommend`]): the cheapest run for so many digits, and the next best.
+//!
+//! What a richer model of the same mechanism costs and gives is measured by [`models::compare`].
+//!
+//! Source of the diagrams: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.10.
+
+mod advice;
+mod cell;
+mod grid;
+pub mod models;
+mod reference;
+mod runner;
+mod sample;
+mod yardstick;
+
+pub use advice::{Recommendation, cheapest_by_method};
+pub use cell::{Cell, Held, Outcome};
+pub use grid::{Filter, Triple, grid};
+pub use reference::{Given, Pace, Reference};
+pub use runner::{Motion, Plan, Runner};
+pub use sample::{Sample, cpu_seconds, sample};
+pub use yardstick::{Watched, Yardstick};
+
+use serde::{Deserialize, Serialize};
+
+/// What was measured so far; it can be written, read again and continued.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct WorkPrecision {
+    pub scene: String,
+    /// Tells the same motion from another one when a measurement is continued.
+    pub fingerprint: String,
+    /// s
+    pub t_start: f64,
+    pub t_end: f64,
+    /// Times at which motions are compared, between start and end and there.
+    pub rows: usize,
+    pub reference: Option<Reference>,
+    /// By method, from loose to tight.
+    pub cells: Vec<Cell>,
+    /// Time spent so far, s.
+    pub seconds: f64,
+    /// What the budget left out, if anything.
+    pub left_out: Option<String>,
+}

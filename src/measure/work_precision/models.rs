@@ -1,0 +1,195 @@
+//! What a model costs: models of one mechanism, from poor to rich, on the same motion.
+
+use super::sample::{Sample, sample};
+use super::yardstick::{Watched, Yardstick};
+use crate::error::{Error, Failure, Result};
+use crate::formulation::Statistics;
+use crate::simulate::{Method, Span};
+use crate::study::Study;
+use crate::system::{Column, Dimensions};
+use serde::Serialize;
+use std::time::Duration;
+
+/// A model with its name, such as `rod.json:modes=2`.
+pub struct Variant {
+    pub name: String,
+    pub study: Study,
+}
+
+/// Models against the richest of them.
+#[derive(Clone, Debug, Serialize)]
+pub struct ModelCosts {
+    /// Its outputs, which the others are compared in.
+    #[serde(skip)]
+    pub columns: Vec<Column>,
+    /// Place of the model with the most velocities.
+    pub richest: usize,
+    pub rows: usize,
+    pub models: Vec<ModelCost>,
+}
+
+/// What a model costs, and gives.
+#[derive(Clone, Debug, Serialize)]
+pub struct ModelCost {
+    pub name: String,
+    pub coordinates: usize,
+    pub velocities: usize,
+    pub constraints: usize,
+    pub method: Method,
+    /// CPU time of each repeat, s.
+    pub cpu_seconds: Vec<f64>,
+    #[serde(flatten)]
+    pub statistics: Statistics,
+    /// How much a tolerance a hundredth as large changes the model's own outputs: the largest relative change.
+    pub numerical_error: Option<f64>,
+    /// Of each output that the model has: how far it is from the richest model's.
+    pub outputs: Vec<OutputError>,
+    pub failure: Option<Failure>,
+}
+
+/// Relative to the largest value of the richest model.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct OutputError {
+    pub name: String,
+    pub max: f64,
+    pub rms: f64,
+}
+
+impl ModelCost {
+    /// Median CPU time, s.
+    pub fn seconds(&self) -> Option<f64> {
+        super::cell::median(&self.cpu_seconds)
+    }
+
+    /// The largest difference of all outputs it has; none where it has none or failed.
+    pub fn error(&self) -> Option<f64> {
+        self.outputs.iter().map(|output| output.max).reduce(f64::max)
+    }
+}
+
+/// Times at which models are compared.
+const ROWS: usize = 200;
+/// How much tighter the run is that tells a model's own error.
+const TIGHTER: f64 = 1e-2;
+
+/// Runs all models over the span of the first, each with its own method, `repeats` times in turn; `watch` hears which comes
+/// next and how many runs are done. `outputs` names what to compare, all of the richest model where it is empty.
+///
+/// # Errors
+/// Fewer than two models; unknown outputs; a model whose start is not that of the first.
+pub fn compare(
+    variants: &[Variant],
+    outputs: &[String],
+    (repeats, allowed): (usize, Duration),
+    mut watch: impl FnMut(&str, usize),
+) -> Result<ModelCosts> {
+    let velocities = |variant: &Variant| variant.study.system().dimensions().v;
+    let richest = (0..variants.len()).max_by_key(|place| (velocities(&variants[*place]), variants.len() - place));
+    let (Some(richest), [first, _, ..]) = (richest, variants) else {
+        return Err(Error::input("there is only one model").under("--variants").hint("name others to compare it with"));
+    };
+    let columns = Watched::new(variants[richest].study.system(), outputs)?.columns;
+    let span = first.study.span()?;
+    let span = Span { output_step: (span.end - span.start) / ROWS as f64, ..span };
+    let mut runs: Vec<Run> = variants.iter().map(|variant| Run::new(variant, &columns)).collect::<Result<_>>()?;
+    for round in 0..=repeats {
+        for (place, run) in runs.iter_mut().enumerate() {
+            watch(&run.variant.name, round * variants.len() + place);
+            run.repeat(span, round, allowed)?;
+        }
+    }
+    let rich = runs[richest].tight.as_ref().filter(|sample| sample.failure.is_none());
+    let rich = rich.map(|sample| Yardstick::new(&columns, sample.rows.clone()));
+    let rich = rich.ok_or_else(|| runs[richest].failure(span.start))?;
+    Ok(ModelCosts { richest, rows: ROWS, models: runs.iter().map(|run| run.cost(&rich)).collect(), columns })
+}
+
+/// A model on its way.
+struct Run<'a> {
+    variant: &'a Variant,
+    watched: Watched,
+    seconds: Vec<f64>,
+    usual: Option<Sample>,
+    /// The same at a tighter tolerance.
+    tight: Option<Sample>,
+}
+
+impl<'a> Run<'a> {
+    fn new(variant: &'a Variant, columns: &[Column]) -> Result<Self> {
+        let system = variant.study.system();
+        let own = system.columns();
+        let shared = columns.iter().filter(|column| own.iter().any(|own| own.name == column.name));
+        let shared: Vec<String> = shared.map(|column| column.name.clone()).collect();
+        if shared.is_empty() {
+            return Err(Error::input(format!("`{}` has none of the outputs to compare", variant.name))
+                .under("--variants")
+                .hint("give the models outputs of the same names"));
+        }
+        Ok(Run { variant, watched: Watched::new(system, &shared)?, seconds: Vec::new(), usual: None, tight: None })
+    }
+
+    /// Once with a tighter tolerance, then for the time.
+    fn repeat(&mut self, span: Span, round: usize, allowed: Duration) -> Result<()> {
+        let study = &self.variant.study;
+        let method = match (round, study.method.step) {
+            (0, None) => tighter(&study.method),
+            (0, Some(step)) => Method { step: Some(0.1 * step), ..study.method.clone() },
+            _ => study.method.clone(),
+        };
+        let failed = [&self.usual, &self.tight].into_iter().flatten().any(|sample| sample.failure.is_some());
+        if failed {
+            return Ok(());
+        }
+        let run = sample(study.system(), &self.watched, &method, (span, study.start()), allowed)?;
+        if round == 0 {
+            self.tight = Some(run);
+        } else {
+            self.seconds.push(run.seconds);
+            self.usual = Some(run);
+        }
+        Ok(())
+    }
+
+    fn failure(&self, t: f64) -> Error {
+        let own = self.tight.as_ref().and_then(|sample| sample.failure.clone());
+        let hint = || "choose another method or tolerance".to_string();
+        let none = || Failure { t, reason: "the richest model was not run".to_string(), hint: hint() };
+        let failure = own.unwrap_or_else(none);
+        Failure { reason: format!("the richest model, `{}`: {}", self.variant.name, failure.reason), ..failure }.into()
+    }
+
+    fn cost(&self, rich: &Yardstick) -> ModelCost {
+        let Dimensions { q, v, lambda } = self.variant.study.system().dimensions();
+        let failure = [&self.tight, &self.usual].into_iter().flatten().find_map(|sample| sample.failure.clone());
+        let tight = self.tight.as_ref().filter(|_| failure.is_none());
+        let own = tight.map(|tight| Yardstick::new(&self.watched.columns, tight.rows.clone()));
+        let usual = self.usual.as_ref().filter(|_| failure.is_none());
+        let of = |column: &Column, place: usize, rows: &[Vec<f64>]| {
+            let values: Vec<f64> = rows.iter().map(|row| row[place]).collect();
+            let (max, rms) = rich.spread(&column.name, &values)?;
+            Some(OutputError { name: column.name.clone(), max, rms })
+        };
+        let outputs = tight.map_or(Vec::new(), |tight| {
+            let columns = self.watched.columns.iter().enumerate();
+            columns.filter_map(|(place, column)| of(column, place, &tight.rows)).collect()
+        });
+        ModelCost {
+            name: self.variant.name.clone(),
+            coordinates: q,
+            velocities: v,
+            constraints: lambda,
+            method: self.variant.study.method.clone(),
+            cpu_seconds: self.seconds.clone(),
+            statistics: usual.map_or_else(Statistics::default, |sample| sample.statistics),
+            numerical_error: own.zip(usual).map(|(own, usual)| own.error(&usual.rows).0),
+            outputs,
+            failure,
+        }
+    }
+}
+
+fn tighter(method: &Method) -> Method {
+    // Below, round-off is all that is left.
+    let rtol = (TIGHTER * method.rtol).max(1e-13).min(method.rtol);
+    Method { rtol, atol: method.atol * rtol / method.rtol, ..method.clone() }
+}

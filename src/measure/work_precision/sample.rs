@@ -1,0 +1,88 @@
+//! One run, with as little beside it as can be.
+
+use super::yardstick::Watched;
+use crate::error::{Failure, Result};
+use crate::formulation::Statistics;
+use crate::measure::Drift;
+use crate::simulate::{Method, Observation, Sink, Span, Stop, simulate};
+use crate::system::{MechanicalSystem, Scratch};
+use cpu_time::ProcessTime;
+use std::time::{Duration, Instant};
+
+/// What one run gave.
+#[derive(Clone, Debug)]
+pub struct Sample {
+    /// Of the quantities watched, one row an output time after the start, where all motions are alike.
+    pub rows: Vec<Vec<f64>>,
+    pub drift: Drift,
+    pub statistics: Statistics,
+    pub failure: Option<Failure>,
+    /// Whether it was stopped because it took too long.
+    pub is_too_slow: bool,
+    /// CPU time, s.
+    pub seconds: f64,
+}
+
+/// Runs `method` until it ends or `allowed` is over.
+///
+/// # Errors
+/// Bad input only, as [`simulate`].
+pub fn sample(
+    system: &dyn MechanicalSystem,
+    watched: &Watched,
+    method: &Method,
+    (span, start): (Span, (&[f64], &[f64])),
+    allowed: Duration,
+) -> Result<Sample> {
+    let mut sink = Sampler {
+        system,
+        watched,
+        scratch: Scratch::default(),
+        scales: system.scales(),
+        start: span.start,
+        rows: Vec::new(),
+        drift: Drift::default(),
+        deadline: Instant::now() + allowed,
+        allowed,
+    };
+    let (outcome, seconds) = cpu_seconds(|| simulate(system, method, span, start, &mut sink));
+    let outcome = outcome?;
+    let is_too_slow = outcome.failure.as_ref().is_some_and(|failure| failure.reason == Stop::deadline(allowed).reason);
+    let Sampler { rows, drift, .. } = sink;
+    Ok(Sample { rows, drift, statistics: outcome.statistics, failure: outcome.failure, is_too_slow, seconds })
+}
+
+/// CPU time that `work` takes, of all threads of this process, s.
+pub fn cpu_seconds<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    let clock = ProcessTime::now();
+    let result = work();
+    (result, clock.elapsed().as_secs_f64())
+}
+
+struct Sampler<'a> {
+    system: &'a dyn MechanicalSystem,
+    watched: &'a Watched,
+    scratch: Scratch,
+    scales: Vec<f64>,
+    start: f64,
+    rows: Vec<Vec<f64>>,
+    drift: Drift,
+    deadline: Instant,
+    allowed: Duration,
+}
+
+impl Sink for Sampler<'_> {
+    fn accepted(&mut self, state: &Observation) {
+        self.drift.add(state, &self.scales);
+    }
+
+    fn row(&mut self, state: &Observation) {
+        if state.t > self.start {
+            self.rows.push(self.watched.read(self.system, state, &mut self.scratch));
+        }
+    }
+
+    fn stops(&self) -> Option<Stop> {
+        (Instant::now() > self.deadline).then(|| Stop::deadline(self.allowed))
+    }
+}

@@ -1,0 +1,120 @@
+//! What of a motion is compared, and how.
+
+use crate::error::{Error, Result, suggest};
+use crate::simulate::Observation;
+use crate::system::{Column, MechanicalSystem, Scratch};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+
+/// The quantities that are compared: outputs, or all coordinates of a system without any.
+#[derive(Clone, Debug)]
+pub struct Watched {
+    pub columns: Vec<Column>,
+    /// How many outputs there are, and the places of these; coordinates where there is none.
+    outputs: Option<(usize, Vec<usize>)>,
+}
+
+impl Watched {
+    /// The outputs with these names, all where none is named.
+    ///
+    /// # Errors
+    /// A name that is none of the system's outputs.
+    pub fn new(system: &dyn MechanicalSystem, names: &[String]) -> Result<Watched> {
+        let known = system.columns();
+        if known.is_empty() && names.is_empty() {
+            let coordinate = |name| Column { name, unit: String::new(), periodic: false };
+            return Ok(Watched { columns: system.names().q.into_iter().map(coordinate).collect(), outputs: None });
+        }
+        let place = |name: &String| {
+            known.iter().position(|column| column.name == *name).ok_or_else(|| {
+                let names = known.iter().map(|column| column.name.as_str());
+                Error::input(format!("there is no output `{name}`")).hint(suggest(name, names))
+            })
+        };
+        let places: Vec<usize> = match names {
+            [] => (0..known.len()).collect(),
+            names => names.iter().map(place).collect::<Result<_>>()?,
+        };
+        let columns = places.iter().map(|place| known[*place].clone()).collect();
+        Ok(Watched { columns, outputs: Some((known.len(), places)) })
+    }
+
+    /// Their values at a state.
+    pub fn read(&self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) -> Vec<f64> {
+        let Some((count, places)) = &self.outputs else { return state.q.to_vec() };
+        let mut all = vec![0.0; *count];
+        system.outputs(state.t, state.q, state.v, state.lambda, &mut all, scratch);
+        places.iter().map(|place| all[*place]).collect()
+    }
+}
+
+/// Values that others are compared with, each relative to its own largest over the motion.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Yardstick {
+    pub names: Vec<String>,
+    /// Whether a quantity is an angle known up to full turns.
+    periodic: Vec<bool>,
+    /// One row a time.
+    pub rows: Vec<Vec<f64>>,
+    scales: Vec<f64>,
+}
+
+/// What is smaller than this part of the largest quantity in its unit is no quantity of this motion: it is compared at that.
+const SMALLEST: f64 = 1e-9;
+
+impl Yardstick {
+    pub fn new(columns: &[Column], rows: Vec<Vec<f64>>) -> Yardstick {
+        let largest = |i: usize| rows.iter().fold(0.0f64, |most, row| most.max(row[i].abs()));
+        let of_unit = |unit: &str| {
+            let same = (0..columns.len()).filter(|i| columns[*i].unit == unit);
+            same.fold(0.0f64, |most, i| most.max(largest(i)))
+        };
+        let scale = |i: usize| match largest(i).max(SMALLEST * of_unit(&columns[i].unit)) {
+            0.0 => 1.0,
+            scale => scale,
+        };
+        Yardstick {
+            names: columns.iter().map(|column| column.name.clone()).collect(),
+            periodic: columns.iter().map(|column| column.periodic).collect(),
+            scales: (0..columns.len()).map(scale).collect(),
+            rows,
+        }
+    }
+
+    /// The largest relative difference, and the quantity that has it. Rows that are missing make it infinite.
+    pub fn error(&self, rows: &[Vec<f64>]) -> (f64, &str) {
+        if rows.len() != self.rows.len() {
+            return (f64::INFINITY, "");
+        }
+        self.errors(rows).into_iter().zip(&self.names).fold((0.0, ""), |worst, (error, name)| {
+            if error > worst.0 || error.is_nan() || worst.1.is_empty() { (error, name.as_str()) } else { worst }
+        })
+    }
+
+    /// The largest relative difference of each quantity.
+    pub fn errors(&self, rows: &[Vec<f64>]) -> Vec<f64> {
+        let of = |i: usize| {
+            let pairs = self.rows.iter().zip(rows);
+            pairs.fold(0.0, |most: f64, (own, other)| {
+                let difference = self.difference(i, own[i], other[i]);
+                if difference > most || difference.is_nan() { difference } else { most }
+            })
+        };
+        (0..self.names.len()).map(of).collect()
+    }
+
+    /// The largest and the root mean square relative difference of a quantity by its name.
+    pub fn spread(&self, name: &str, values: &[f64]) -> Option<(f64, f64)> {
+        let i = self.names.iter().position(|known| known == name)?;
+        let own = self.rows.iter().map(|row| row[i]);
+        let all: Vec<f64> = own.zip(values).map(|(own, other)| self.difference(i, own, *other)).collect();
+        let squares: f64 = all.iter().map(|difference| difference * difference).sum();
+        Some((all.iter().copied().fold(0.0, f64::max), (squares / all.len().max(1) as f64).sqrt()))
+    }
+
+    fn difference(&self, i: usize, own: f64, other: f64) -> f64 {
+        let difference = other - own;
+        let turns = if self.periodic[i] { (difference / TAU).round() * TAU } else { 0.0 };
+        (difference - turns).abs() / self.scales[i]
+    }
+}

@@ -1,0 +1,86 @@
+//! Speed for accuracy, as text, tables and figures.
+
+mod figure;
+mod models;
+mod models_figure;
+mod table;
+mod text;
+
+pub use figure::tradeoff_figure;
+pub use models::{ModelsSummary, models_table};
+pub use models_figure::models_figure;
+pub use table::tradeoff_table;
+
+use crate::measure::work_precision::{Cell, Held, Recommendation, WorkPrecision};
+use crate::simulate::Method;
+use serde::Serialize;
+
+/// What `tradeoff.json` holds.
+#[derive(Serialize)]
+pub struct Summary<'a> {
+    #[serde(flatten)]
+    measured: &'a WorkPrecision,
+    /// Places in `cells` of runs than which none is both cheaper and more accurate.
+    front: Vec<usize>,
+    recommendations: Vec<Advice>,
+}
+
+/// A recommendation in words, and how to follow it.
+#[derive(Serialize)]
+pub struct Advice {
+    #[serde(flatten)]
+    places: Recommendation,
+    /// Of a range of digits, `for 3 to 5 digits: ` before it.
+    pub sentence: String,
+    pub command: String,
+}
+
+impl<'a> Summary<'a> {
+    /// `scene` is how the command line names the scene and what it sets.
+    pub fn new(measured: &'a WorkPrecision, scene: &str) -> Summary<'a> {
+        let all = measured.recommendations().into_iter();
+        let recommendations = all.map(|places| advice(measured, places, scene)).collect();
+        Summary { measured, front: measured.front(), recommendations }
+    }
+}
+
+fn advice(measured: &WorkPrecision, places: Recommendation, scene: &str) -> Advice {
+    let cell = |place: usize| &measured.cells[place];
+    let run = |place: usize| {
+        let Cell { method, .. } = cell(place);
+        let time = cell(place).seconds().map_or(String::new(), milliseconds);
+        format!("{} at {}, {time}", method.triple(), accuracy(method))
+    };
+    let best = cell(places.best);
+    let next = places.next.map_or(String::new(), |next| format!("; next best {}", run(next)));
+    let drift = best.drift().map_or(0.0, Held::largest);
+    let sentence = format!("{}{next}; drift {drift:.0e}", run(places.best));
+    Advice { places, sentence, command: command(&best.method, scene) }
+}
+
+fn accuracy(method: &Method) -> String {
+    match method.step {
+        Some(step) => format!("step {} s", crate::error::short(step)),
+        None => format!("rtol {:e}", method.rtol),
+    }
+}
+
+/// What runs a method on the scene.
+fn command(method: &Method, scene: &str) -> String {
+    let Method { formulation, integrator, projection, rtol, atol, step } = method;
+    let accuracy = match step {
+        Some(step) => format!("--step {step:e}"),
+        None => format!("--rtol {rtol:e} --atol {atol:e}"),
+    };
+    format!(
+        "holonom simulate {scene} --formulation {formulation} --integrator {integrator} --projection {projection} {accuracy}"
+    )
+}
+
+pub(super) fn milliseconds(seconds: f64) -> String {
+    let ms = 1e3 * seconds;
+    match ms {
+        ms if ms < 1e3 => format!("{} ms", crate::report::significant(format!("{ms:.2e}").parse().unwrap_or(ms), 3)),
+        ms => format!("{:.1} s", 1e-3 * ms),
+    }
+}

@@ -1,0 +1,118 @@
+//! What models cost and give, for a person and as a table.
+
+use super::milliseconds;
+use crate::error::Result;
+use crate::measure::work_precision::models::{ModelCost, ModelCosts};
+use crate::report::{Table, cell, table};
+use serde::Serialize;
+
+/// What `models.json` holds.
+#[derive(Serialize)]
+pub struct ModelsSummary<'a> {
+    #[serde(flatten)]
+    costs: &'a ModelCosts,
+    recommendations: Vec<ModelAdvice>,
+}
+
+/// The cheapest model within a part of the richest.
+#[derive(Serialize)]
+struct ModelAdvice {
+    within: f64,
+    model: String,
+    sentence: String,
+}
+
+/// Parts of the largest value of an output.
+const WITHIN: [f64; 4] = [0.1, 0.01, 1e-3, 1e-4];
+
+impl<'a> ModelsSummary<'a> {
+    pub fn new(costs: &'a ModelCosts) -> ModelsSummary<'a> {
+        ModelsSummary { costs, recommendations: WITHIN.iter().filter_map(|within| advice(costs, *within)).collect() }
+    }
+
+    pub fn text(&self) -> String {
+        let ModelCosts { models, richest, rows, .. } = self.costs;
+        let rich = &models[*richest];
+        let mut text = format!("models against the richest, {}, at {rows} times of the motion\n\n", rich.name);
+        for advice in &self.recommendations {
+            text += &format!("  {}\n", advice.sentence);
+        }
+        let mut costs = Table::new(&["model", "q", "v", "constraints", "CPU", "numerics", "method"]).words(6);
+        models.iter().for_each(|model| costs.row(cost(model)));
+        let outputs = self.costs.columns.iter().map(|column| column.name.as_str());
+        let mut errors = Table::new(&["largest difference"].into_iter().chain(outputs).collect::<Vec<_>>());
+        models.iter().for_each(|model| errors.row(self.errors(model)));
+        let failures = models.iter().filter_map(|model| Some((model, model.failure.as_ref()?)));
+        let lines =
+            failures.map(|(model, failure)| format!("\n  {} FAILED at t = {:.4e} s: {}", model.name, failure.t, failure.reason));
+        format!("{text}\n{costs}\n{errors}{}", lines.collect::<String>())
+    }
+
+    fn errors(&self, model: &ModelCost) -> Vec<String> {
+        let of = |name: &str| {
+            let output = model.outputs.iter().find(|output| output.name == name);
+            output.map_or("-".to_string(), |output| percent(output.max))
+        };
+        let outputs = self.costs.columns.iter().map(|column| of(&column.name));
+        [model.name.clone()].into_iter().chain(outputs).collect()
+    }
+}
+
+fn percent(part: f64) -> String {
+    match 100.0 * part {
+        zero if zero == 0.0 => "0".to_string(),
+        much if much >= 0.1 => format!("{} %", crate::report::significant(format!("{much:.1e}").parse().unwrap_or(much), 2)),
+        little => format!("{little:.0e} %"),
+    }
+}
+
+fn cost(model: &ModelCost) -> Vec<String> {
+    let counts = [model.coordinates, model.velocities, model.constraints].map(|count| count.to_string());
+    let time = model.seconds().map_or("-".to_string(), milliseconds);
+    let numerics = model.numerical_error.map_or("-".to_string(), |error| format!("{error:.0e}"));
+    let method = format!("{}, rtol {:e}", model.method.triple(), model.method.rtol);
+    [model.name.clone()].into_iter().chain(counts).chain([time, numerics, method]).collect()
+}
+
+/// The cheapest model that has all outputs within so much of the richest's; none where that is the richest alone.
+fn advice(costs: &ModelCosts, within: f64) -> Option<ModelAdvice> {
+    let rich = &costs.models[costs.richest];
+    let is_good = |model: &&ModelCost| {
+        model.outputs.len() == costs.columns.len() && model.error().is_some_and(|error| error <= within)
+    };
+    let time = |model: &ModelCost| model.seconds().unwrap_or(f64::INFINITY);
+    let best = costs.models.iter().filter(is_good).min_by(|a, b| time(a).total_cmp(&time(b)))?;
+    let against = match best.name == rich.name {
+        true => "no poorer model has that".to_string(),
+        false => format!("the richest takes {}", milliseconds(rich.seconds()?)),
+    };
+    let sentence = format!(
+        "within {} in all outputs: {}, {}; {against}",
+        percent(within),
+        best.name,
+        milliseconds(best.seconds()?)
+    );
+    Some(ModelAdvice { within, model: best.name.clone(), sentence })
+}
+
+/// One row a model: size, time and the differences of each output.
+///
+/// # Errors
+/// None but those of the table's writer.
+pub fn models_table(costs: &ModelCosts) -> Result<Vec<u8>> {
+    let own = ["model", "coordinates", "velocities", "constraints", "method", "cpu_seconds", "numerical_error"];
+    let outputs = costs.columns.iter().flat_map(|column| [format!("{} max", column.name), format!("{} rms", column.name)]);
+    let headings: Vec<String> = own.map(String::from).into_iter().chain(outputs).collect();
+    let row = |model: &ModelCost| {
+        let counts = [model.coordinates, model.velocities, model.constraints].map(|count| count.to_string());
+        let number = |value: Option<f64>| value.map_or(String::new(), cell);
+        let errors = costs.columns.iter().flat_map(|column| {
+            let output = model.outputs.iter().find(|output| output.name == column.name);
+            [number(output.map(|output| output.max)), number(output.map(|output| output.rms))]
+        });
+        let times = [number(model.seconds()), number(model.numerical_error)];
+        let own = [model.name.clone()].into_iter().chain(counts).chain([model.method.triple()]).chain(times);
+        own.chain(errors).collect()
+    };
+    table(headings.into_iter(), costs.models.iter().map(row))
+}

@@ -1,0 +1,124 @@
+//! What a person reads.
+
+use super::{Summary, accuracy, milliseconds};
+use crate::measure::work_precision::{Cell, Outcome, Reference, WorkPrecision, cheapest_by_method};
+use crate::report::Table;
+use std::fmt::Write;
+
+impl Summary<'_> {
+    /// The sentences, the cheapest run of each method for so many digits, and what did not come so far.
+    pub fn text(&self, digits: u32) -> String {
+        let measured = self.measured;
+        let mut text = head(measured);
+        for same in self.recommendations.chunk_by(|a, b| a.sentence == b.sentence) {
+            let [first, .., last] = same else {
+                let digits = if same[0].places.digits == 1 { "1 digit".to_string() } else { format!("{} digits", same[0].places.digits) };
+                text += &format!("  for {digits}: {}\n", same[0].sentence);
+                continue;
+            };
+            text += &format!("  for {} to {} digits: {}\n", first.places.digits, last.places.digits, first.sentence);
+        }
+        let asked = self.recommendations.iter().find(|advice| advice.places.digits == digits);
+        let most = asked.or(self.recommendations.last());
+        text += &match most {
+            None => "  no run has a digit that the reference vouches for\n".to_string(),
+            Some(advice) => format!("\n  {}\n{}", advice.command, families(measured, advice)),
+        };
+        let digits = most.map_or(digits, |advice| advice.places.digits);
+        let left_out = measured.left_out.iter().map(|what| format!("\n  left out: {what}\n"));
+        text + &tables(measured, digits) + &left_out.collect::<String>()
+    }
+}
+
+fn head(measured: &WorkPrecision) -> String {
+    let mut text = format!("{}: speed for accuracy, {} s to {} s\n", measured.scene, measured.t_start, measured.t_end);
+    let Some(reference) = &measured.reference else { return text };
+    let Reference { from, checked_by, is_independent, error, worst, values, .. } = reference;
+    let names = match &values.names[..] {
+        few if few.len() <= 6 => few.join(", "),
+        many => format!("{} and {} more", many[..5].join(", "), many.len() - 5),
+    };
+    let _ = writeln!(text, "  compared at {} times, each relative to its largest value: {names}", measured.rows);
+    let _ = writeln!(text, "  reference: {from}; differs from {checked_by} by {error:.0e} ({worst})");
+    if !is_independent {
+        text += "  no second method came through: the reference's error is only its change with the tolerance\n";
+    }
+    text + "\n"
+}
+
+/// How much the implicit methods save, or cost.
+fn families(measured: &WorkPrecision, advice: &super::Advice) -> String {
+    let pair = |place: Option<usize>| {
+        let cell = &measured.cells[place?];
+        Some((cell.method.triple(), cell.seconds()?))
+    };
+    let (Some(explicit), Some(implicit)) = (pair(advice.places.explicit), pair(advice.places.implicit)) else {
+        return String::new();
+    };
+    let (winner, other, words) = match explicit.1 < implicit.1 {
+        true => (&explicit, &implicit, ["explicit", "implicit"]),
+        false => (&implicit, &explicit, ["implicit", "explicit"]),
+    };
+    let ratio = crate::error::short(format!("{:.1e}", other.1 / winner.1).parse().unwrap_or(0.0));
+    format!(
+        "  the best {} method, {}, is {ratio} times as fast as the best {} one, {} ({})\n",
+        words[0],
+        winner.0,
+        words[1],
+        other.0,
+        milliseconds(other.1)
+    )
+}
+
+/// The cheapest run of each method that has the digits; the others by what they have.
+fn tables(measured: &WorkPrecision, digits: u32) -> String {
+    let (reached, others) = cheapest_by_method(&measured.cells, digits);
+    let limit = measured.reference.as_ref().map_or(16.0, Reference::digits);
+    let first = format!("{digits} digits or more");
+    let headings = [&first, "accuracy", "digits", "CPU", "repeats", "rhs", "factored", "max |φ|", "max |φ′|"];
+    let mut table = Table::new(&headings).words(1);
+    for cell in reached.iter().map(|place| &measured.cells[*place]) {
+        table.row(line(cell, limit));
+    }
+    let mut text = format!("\n{table}");
+    if !others.is_empty() {
+        let mut table = Table::new(&["fewer digits", "accuracy", "digits", "CPU", "what then"]).words(1).words(4);
+        for cell in others.iter().map(|place| &measured.cells[*place]) {
+            let ends = measured.cells.iter().filter(|other| other.is_of(&cell.method));
+            let then = ends.filter(|other| other.decades > cell.decades || cell.reason().is_some()).find_map(reason);
+            let cells = line(cell, limit);
+            table.row(cells.into_iter().take(4).chain([then.unwrap_or_default()]));
+        }
+        text += &format!("\n{table}");
+    }
+    text
+}
+
+fn reason(cell: &Cell) -> Option<String> {
+    match &cell.outcome {
+        Outcome::Completed { .. } => None,
+        Outcome::Skipped { reason } | Outcome::TooSlow { reason, .. } => Some(format!("1e-{}: {reason}", cell.decades)),
+        Outcome::Failed { failure, .. } => {
+            Some(format!("1e-{}: failed at t = {:.3e} s: {}", cell.decades, failure.t, failure.reason))
+        }
+    }
+}
+
+fn line(cell: &Cell, limit: f64) -> Vec<String> {
+    let (digits, mark) = cell.digits().map_or((0.0, ""), |own| if own > limit { (limit, ">") } else { (own, "") });
+    let mut cells = vec![cell.method.triple(), accuracy(&cell.method)];
+    let Outcome::Completed { cpu_seconds, statistics, drift, .. } = &cell.outcome else {
+        cells.extend(["-", "-"].map(String::from));
+        return cells;
+    };
+    cells.extend([
+        format!("{mark}{digits:.1}"),
+        cell.seconds().map_or(String::new(), milliseconds),
+        cpu_seconds.len().to_string(),
+        statistics.rhs_evaluations.to_string(),
+        statistics.factorizations.to_string(),
+        format!("{:.0e}", drift.position),
+        format!("{:.0e}", drift.velocity),
+    ]);
+    cells
+}
