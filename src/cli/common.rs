@@ -191,16 +191,15 @@ impl Output {
         self.output.clone().unwrap_or_else(|| Path::new("out").join(name))
     }
 
-    /// Saves a figure where figures are wanted.
+    /// Writes a figure where figures are wanted.
     pub fn figure(&self, folder: &mut Folder, name: &str, figure: Option<Figure>) -> Result<()> {
-        let extension = match self.figures {
-            Format::Svg => "svg",
-            Format::Png => "png",
-            Format::None => return Ok(()),
-        };
         let Some(figure) = figure else { return Ok(()) };
-        let path = folder.file(&format!("{name}.{extension}"));
-        figure.save(&path).map_err(|error| Error::file(path, error))
+        let refused = |reason| Error::input(format!("cannot draw {name}.png: {reason}")).hint("choose --figures svg");
+        match self.figures {
+            Format::Svg => folder.write(&format!("{name}.svg"), figure.to_svg().as_bytes()),
+            Format::Png => folder.write(&format!("{name}.png"), &figure.to_png().map_err(refused)?),
+            Format::None => Ok(()),
+        }
     }
 }
 

@@ -1,11 +1,12 @@
 //! `holonom drift SCENE`
 
 use super::common::{Common, Output, print};
+use super::interrupt;
 use crate::error::{Error, Failure, Result};
 use crate::formulation::Choice;
 use crate::measure::{Drift, EnergyBalance, Record, Recorder, Singularity};
 use crate::plot::{AxisSpec, Figure, Panel, Series};
-use crate::report::{Table, cell, envelope, table};
+use crate::report::{Folder, Table, cell, envelope, table};
 use crate::simulate::{Method, Outcome, simulate};
 use crate::study::Study;
 use rayon::prelude::*;
@@ -46,31 +47,38 @@ pub fn run(args: Args) -> Result<ExitCode> {
     check_choice(&study)?;
     let mut folder = args.output.folder(&study.name)?;
     let bar = args.common.talk.progress(stabilizations(1.0).len() as u64 + 1, "drift");
-    let plain = one(&study, &Choice::named("index1"), &Choice::named("none"))?;
+    let plain = one(&study, &Choice::named("index1"), &Choice::named("none"), &folder)?;
     bar.inc(1);
     let step = study.method.step.unwrap_or(mean_step(&study, &plain)?);
     let others: Vec<Row> = stabilizations(step)
         .into_par_iter()
         .map(|(formulation, projection)| {
-            let row = one(&study, &formulation, &projection);
+            let row = one(&study, &formulation, &projection, &folder);
             bar.inc(1);
             row
         })
         .collect::<Result<_>>()?;
     bar.finish_and_clear();
     let rows: Vec<Row> = [plain].into_iter().chain(others).collect();
-    folder.write_json("drift.json", &rows)?;
     folder.write("drift.csv", &table_file(&rows)?)?;
     args.output.figure(&mut folder, "drift", figure(&study.name, &rows))?;
+    folder.write_json("drift.json", &rows)?;
+    let written = folder.finish()?;
     args.common.talk.print(&rows, || text(&study, &rows))?;
     if !args.common.talk.json && !args.common.talk.quiet {
-        print(&format!("\nwritten to {}\n", folder.listing()))?;
+        print(&format!("\nwritten to {}\n", written.listing()))?;
     }
-    // One stabilization that fails is a result; all of them are a failed run.
-    match rows.iter().filter_map(|row| row.failure.clone()).nth(rows.len() - 1) {
-        Some(failure) => Err(failure.into()),
+    match fatal(&rows) {
+        Some(failure) => Err(failure.clone().into()),
         None => Ok(ExitCode::SUCCESS),
     }
+}
+
+/// One stabilization that fails is a result; all of them, or one that was interrupted, are a failed run.
+fn fatal(rows: &[Row]) -> Option<&Failure> {
+    let failures: Vec<&Failure> = rows.iter().filter_map(|row| row.failure.as_ref()).collect();
+    let interrupted = failures.iter().find(|failure| failure.reason == interrupt::REASON);
+    interrupted.or(failures.last().filter(|_| failures.len() == rows.len())).copied()
 }
 
 /// Stabilizations are for vector fields: where `auto` chooses another formulation, there is nothing to compare.
@@ -110,9 +118,9 @@ fn stabilizations(step: f64) -> Vec<(Choice, Choice)> {
     ]
 }
 
-fn one(study: &Study, formulation: &Choice, projection: &Choice) -> Result<Row> {
+fn one(study: &Study, formulation: &Choice, projection: &Choice, folder: &Folder) -> Result<Row> {
     let method = Method { formulation: formulation.clone(), projection: projection.clone(), ..study.method.clone() };
-    let mut recorder = Recorder::new(study.system());
+    let mut recorder = Recorder::new(study.system()).with_stop(|| interrupt::stop(folder));
     let clock = Instant::now();
     let Outcome { statistics, failure, .. } =
         simulate(study.system(), &method, study.span()?, study.start(), &mut recorder)?;

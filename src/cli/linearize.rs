@@ -51,10 +51,11 @@ pub fn run(args: Args) -> Result<ExitCode> {
         let models = models(&args, &requests, &mut variation).map_err(in_file)?;
         results.push(report(&args, &study, &models, &mut folder)?);
     }
+    let written = folder.finish()?;
     match (args.talk.json, results.as_slice()) {
         (true, [one]) => args.talk.print(one, String::new)?,
         (true, all) => args.talk.print(&all, String::new)?,
-        (false, _) if !args.talk.quiet => print(&format!("\nwritten to {}\n", folder.listing()))?,
+        (false, _) if !args.talk.quiet => print(&format!("\nwritten to {}\n", written.listing()))?,
         _ => {}
     }
     Ok(ExitCode::SUCCESS)

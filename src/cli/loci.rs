@@ -62,16 +62,17 @@ pub fn run(args: Args) -> Result<ExitCode> {
     }
     let summary = LociSummary::new(&study.name, &loci);
     folder.write("loci.csv", &loci_table(&loci)?)?;
-    folder.write_json("loci.json", &LociFile::new(summary.clone(), &loci))?;
     let title = match &args.sweep {
         Some(range) => format!("{}: eigenvalues over {}", study.name, range.parameter),
         None => format!("{}: eigenvalues along the motion", study.name),
     };
     args.output.figure(&mut folder, "loci", loci_figure(&title, summary.axis(), &loci.branches))?;
     args.output.figure(&mut folder, "loci_modes", frequency_figure(&title, summary.axis(), &loci.branches))?;
+    folder.write_json("loci.json", &LociFile::new(summary.clone(), &loci))?;
+    let written = folder.finish()?;
     args.talk.print(&summary, || summary.text())?;
     if !args.talk.json && !args.talk.quiet {
-        print(&format!("\nwritten to {}\n", folder.listing()))?;
+        print(&format!("\nwritten to {}\n", written.listing()))?;
     }
     match loci.gaps.last().filter(|_| args.sweep.is_none()).map(|gap| &gap.error) {
         Some(error @ Error::Run(_)) => {

@@ -5,6 +5,7 @@ mod check;
 mod common;
 mod drift;
 mod generate;
+mod interrupt;
 mod linear;
 mod linearize;
 mod loci;
@@ -76,7 +77,9 @@ enum Command {
 
 /// Runs the command line and says how to exit: 0 done, 1 the run failed, 2 bad input.
 pub fn run() -> ExitCode {
-    let result = match Cli::parse().command {
+    let command = Cli::parse().command;
+    interrupt::listen();
+    let result = match command {
         Command::Check(args) => check::run(args),
         Command::Simulate(args) => simulate::run(args),
         Command::Drift(args) => drift::run(args),

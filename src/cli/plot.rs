@@ -1,13 +1,14 @@
 //! `holonom plot SCENE`
 
 use super::common::{Common, Format, Output, number, positive};
+use super::interrupt;
 use crate::error::{Error, Failure, Result};
 use crate::measure::Recorder;
-use crate::report::Folder;
 use crate::report::mechanism::{
     Look, Motion, State, Trace, View, animation, find_trace, mechanism_figure, output_traces, stroboscope_figure, up,
 };
 use crate::report::significant;
+use crate::report::{Folder, Written};
 use crate::simulate::{Span, simulate};
 use crate::study::{AnyMechanism, Study};
 use crate::trajectory::Trajectory;
@@ -99,7 +100,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     args.check(&study, span)?;
     let mut folder = args.output.folder(&study.name)?;
     let (trajectory, failure) = match span {
-        Some(span) => args.simulate(&study, span)?,
+        Some(span) => args.simulate(&study, span, &folder)?,
         None => (Trajectory::new(study.system()), None),
     };
     let mut drawn = Drawn {
@@ -111,8 +112,9 @@ pub fn run(args: Args) -> Result<ExitCode> {
         files: Vec::new(),
     };
     args.draw(&Motion::new(&study, &trajectory), &look, &mut folder, &mut drawn)?;
-    drawn.files = folder.paths();
-    args.common.talk.print(&drawn, || drawn.text(&folder))?;
+    let written = folder.finish()?;
+    drawn.files = written.paths();
+    args.common.talk.print(&drawn, || drawn.text(&written))?;
     Ok(match drawn.failure {
         None => ExitCode::SUCCESS,
         Some(failure) => {
@@ -170,7 +172,7 @@ impl Args {
     }
 
     /// Runs the scene, with rows so near to each other that the states between them are known.
-    fn simulate(&self, study: &Study, span: Span) -> Result<(Trajectory, Option<Failure>)> {
+    fn simulate(&self, study: &Study, span: Span, folder: &Folder) -> Result<(Trajectory, Option<Failure>)> {
         let length = span.end - span.start;
         let wanted = (length / span.output_step).clamp(ROWS.0, ROWS.1);
         // Evenly chosen times are times of rows.
@@ -178,7 +180,9 @@ impl Args {
         let output_step = length / ((wanted / gaps).ceil() * gaps);
         let bar = self.common.talk.progress(1000, &study.name);
         let fraction = |t: f64| (1000.0 * (t - span.start) / length) as u64;
-        let mut recorder = Recorder::new(study.system()).with_progress(|t| bar.set_position(fraction(t)));
+        let mut recorder = Recorder::new(study.system())
+            .with_progress(|t| bar.set_position(fraction(t)))
+            .with_stop(|| interrupt::stop(folder));
         let outcome =
             simulate(study.system(), &study.method, Span { output_step, ..span }, study.start(), &mut recorder)?;
         let record = recorder.finish();
@@ -281,7 +285,7 @@ fn speed_text(speed: f64) -> String {
 }
 
 impl Drawn {
-    fn text(&self, folder: &Folder) -> String {
+    fn text(&self, written: &Written) -> String {
         let times: Vec<String> = self.times.iter().map(|t| significant(*t, 4)).collect();
         let mut lines = Vec::new();
         if !times.is_empty() {
@@ -293,6 +297,6 @@ impl Drawn {
             let span = format!("from {} to {} s", significant(film.start, 4), significant(film.end, 4));
             lines.push(format!("{} {span}: {} frames, {} a second, {pace}", self.scene, film.frames, film.fps));
         }
-        format!("{}\n\nwritten to {}\n", lines.join("\n"), folder.listing())
+        format!("{}\n\nwritten to {}\n", lines.join("\n"), written.listing())
     }
 }

@@ -1,6 +1,7 @@
 //! `holonom simulate SCENE`
 
 use super::common::{Common, Output, print};
+use super::interrupt;
 use crate::error::Result;
 use crate::measure::{Passing, Record, Recorder};
 use crate::report::{self, Folder, Summary, summarize};
@@ -30,7 +31,9 @@ pub fn run(args: Args) -> Result<ExitCode> {
     }
     let bar = args.common.talk.progress(1000, &study.name);
     let fraction = |t: f64| (1000.0 * (t - span.start) / (span.end - span.start)) as u64;
-    let mut recorder = Recorder::new(study.system()).with_progress(|t| bar.set_position(fraction(t)));
+    let mut recorder = Recorder::new(study.system())
+        .with_progress(|t| bar.set_position(fraction(t)))
+        .with_stop(|| interrupt::stop(&folder));
     let clock = Instant::now();
     let outcome = simulate(study.system(), &study.method, span, study.start(), &mut recorder)?;
     let seconds = clock.elapsed().as_secs_f64();
@@ -38,9 +41,10 @@ pub fn run(args: Args) -> Result<ExitCode> {
     bar.finish_and_clear();
     let summary = Summary { stiffness, ..summarize(&study, &study.method, &outcome, &record, seconds) };
     write(&study, &record, &summary, &mut folder, &args.output)?;
+    let written = folder.finish()?;
     args.common.talk.print(&summary, || summary.text(&units(&record)))?;
     if !args.common.talk.json && !args.common.talk.quiet {
-        print(&format!("\nwritten to {}\n", folder.listing()))?;
+        print(&format!("\nwritten to {}\n", written.listing()))?;
     }
     if !args.common.talk.quiet {
         warn(&summary);
@@ -77,10 +81,10 @@ fn write(study: &Study, record: &Record, summary: &Summary, folder: &mut Folder,
     if record.energy.is_some() {
         folder.write("energy.csv", &report::energy_table(record)?)?;
     }
-    folder.write_json("summary.json", summary)?;
     output.figure(folder, "outputs", report::outputs_figure(&study.name, record))?;
     output.figure(folder, "drift", report::drift_figure(&format!("{}: drift", study.name), record))?;
-    output.figure(folder, "energy", report::energy_figure(&format!("{}: energy", study.name), record))
+    output.figure(folder, "energy", report::energy_figure(&format!("{}: energy", study.name), record))?;
+    folder.write_json("summary.json", summary)
 }
 
 fn units(record: &Record) -> Vec<(String, String)> {

@@ -60,9 +60,10 @@ fn known_output(known: &[Column], names: &[String]) -> Result<()> {
 fn write(args: &Args, sweep: &Sweep, summary: &SweepSummary) -> Result<()> {
     let mut folder = args.output.folder(&sweep.scene)?;
     folder.write("sweep.csv", &sweep_table(sweep)?)?;
-    folder.write_json("sweep.json", summary)?;
     let look = SweepLook { outputs: &args.outputs, against: args.against.as_deref(), separate: args.separate };
     args.output.figure(&mut folder, "sweep", sweep_figure(sweep, look))?;
+    folder.write_json("sweep.json", summary)?;
+    let written = folder.finish()?;
     args.talk.print(summary, || summary.text())?;
-    if args.talk.json || args.talk.quiet { Ok(()) } else { print(&format!("\nwritten to {}\n", folder.listing())) }
+    if args.talk.json || args.talk.quiet { Ok(()) } else { print(&format!("\nwritten to {}\n", written.listing())) }
 }

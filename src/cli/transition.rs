@@ -5,7 +5,7 @@ use super::linear::StateOptions;
 use crate::error::{Error, Result};
 use crate::linearize::{Floquet, Lyapunov, State, floquet, lyapunov};
 use crate::plot::{Figure, Panel, Series};
-use crate::report::{Folder, Table, cell, significant};
+use crate::report::{Table, Written, cell, significant};
 use crate::study::Study;
 use serde_json::{Value, json};
 use std::process::ExitCode;
@@ -58,7 +58,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         folder.write_json(&format!("transition-{}.json", cell(state.t)), &result)?;
         results.push(result);
     }
-    finish(&args, &results, &folder)
+    finish(&args, &results, &folder.finish()?)
 }
 
 fn exponents(args: &Args, study: &Study, state: &State, duration: f64) -> Result<Lyapunov> {
@@ -69,11 +69,11 @@ fn exponents(args: &Args, study: &Study, state: &State, duration: f64) -> Result
     found
 }
 
-fn finish(args: &Args, results: &[Value], folder: &Folder) -> Result<ExitCode> {
+fn finish(args: &Args, results: &[Value], written: &Written) -> Result<ExitCode> {
     match (args.talk.json, results) {
         (true, [one]) => args.talk.print(one, String::new)?,
         (true, all) => args.talk.print(&all, String::new)?,
-        (false, _) => show(args, &format!("\nwritten to {}\n", folder.listing()))?,
+        (false, _) => show(args, &format!("\nwritten to {}\n", written.listing()))?,
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -66,10 +66,11 @@ pub fn run(args: Args) -> Result<ExitCode> {
         is_right &= found.verdict.ltv && found.verdict.lti;
         files.push(file);
     }
+    let written = folder.finish()?;
     match (args.talk.json, files.as_slice()) {
         (true, [one]) => args.talk.print(one, String::new)?,
         (true, all) => args.talk.print(&all, String::new)?,
-        (false, _) if !args.talk.quiet => print(&format!("\nwritten to {}\n", folder.listing()))?,
+        (false, _) if !args.talk.quiet => print(&format!("\nwritten to {}\n", written.listing()))?,
         _ => {}
     }
     Ok(if is_right { ExitCode::SUCCESS } else { ExitCode::from(1) })

@@ -4,32 +4,30 @@ mod array;
 pub mod mat;
 pub mod npy;
 pub mod npz;
+mod staging;
 
 pub use array::Array;
+pub use staging::Staging;
 
+use std::fs::OpenOptions;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::path::Path;
 
-/// Writes a new file beside the target and renames it, so that nobody ever reads half a result, and an interrupted run
-/// leaves none.
+/// Writes one file so that nobody ever reads half of it: it is renamed to its place when it is whole. A device, such as
+/// a terminal, is written to.
+///
+/// # Errors
+/// What the system says.
 pub fn write_whole(path: &Path, contents: &[u8]) -> io::Result<()> {
-    let beside = beside(path);
-    write_new(&beside, contents).and_then(|()| std::fs::rename(&beside, path)).inspect_err(|_| {
-        // The first error is the one to report, also if this fails too.
-        let _ = std::fs::remove_file(&beside);
-    })
-}
-
-fn write_new(path: &Path, contents: &[u8]) -> io::Result<()> {
-    let mut file = std::fs::File::create_new(path)?;
-    file.write_all(contents)?;
-    file.sync_all()
-}
-
-/// A name in the same folder that no other file of this or another process uses.
-fn beside(path: &Path) -> PathBuf {
-    static COUNT: AtomicU32 = AtomicU32::new(0);
-    let count = COUNT.fetch_add(1, Ordering::Relaxed);
-    path.with_file_name(format!(".holonom-{}-{count}.tmp", std::process::id()))
+    if path.exists() && !path.is_file() && !path.is_dir() {
+        return OpenOptions::new().write(true).open(path)?.write_all(contents);
+    }
+    if path.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let name = path.file_name().and_then(|name| name.to_str()).ok_or(io::ErrorKind::InvalidFilename)?;
+    let mut staging = Staging::create(folder)?;
+    staging.write(name, contents)?;
+    staging.publish().map_err(|(_, error)| error)
 }

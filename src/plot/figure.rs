@@ -72,8 +72,7 @@ impl Figure {
         let path = path.as_ref();
         let bytes = match Format::of(path)? {
             Format::Svg => self.to_svg().into_bytes(),
-            Format::Png => bitmap::render(&self.drawing())
-                .map_err(|reason| PlotError::Draw { path: path.to_path_buf(), reason })?,
+            Format::Png => self.to_png().map_err(|reason| PlotError::Draw { path: path.to_path_buf(), reason })?,
         };
         write_whole(path, &bytes).map_err(|source| PlotError::Write { path: path.to_path_buf(), source })
     }
@@ -81,6 +80,14 @@ impl Figure {
     /// The figure as SVG text.
     pub fn to_svg(&self) -> String {
         svg::render(&self.drawing())
+    }
+
+    /// The figure as the bytes of a PNG file.
+    ///
+    /// # Errors
+    /// When it has more pixels than a PNG may have here.
+    pub fn to_png(&self) -> Result<Vec<u8>, String> {
+        bitmap::render(&self.drawing())
     }
 
     pub(super) fn drawing(&self) -> Drawing {

@@ -1,34 +1,36 @@
 //! The folder that results go to.
 
 use crate::error::{Error, Result};
-use crate::files;
+use crate::files::{self, Staging};
 use std::path::{Path, PathBuf};
 
 /// Writes a file whole, or says why it cannot be.
 pub fn write_whole(path: &Path, contents: &[u8]) -> Result<()> {
-    if path.is_dir() {
-        return Err(Error::file(path, "cannot write: this is a directory"));
-    }
     files::write_whole(path, contents).map_err(|error| Error::file(path, format!("cannot write: {}", reason(&error))))
 }
 
 fn reason(error: &std::io::Error) -> String {
     use std::io::ErrorKind::*;
+    let elsewhere = "choose another place with -o";
     match error.kind() {
-        PermissionDenied => "no permission; choose another place with -o".to_string(),
-        NotFound => "the folder that it would be in does not exist; choose another place with -o".to_string(),
-        NotADirectory => "a part of this path is a file; choose another place with -o".to_string(),
-        AlreadyExists => "it is a file; choose another place with -o".to_string(),
-        ReadOnlyFilesystem => "the disk is read-only; choose another place with -o".to_string(),
-        StorageFull => "the disk is full".to_string(),
+        PermissionDenied => format!("no permission; {elsewhere}"),
+        NotFound => format!("the folder that it would be in does not exist; {elsewhere}"),
+        NotADirectory => format!("a part of this path is a file; {elsewhere}"),
+        IsADirectory => format!("this is a directory; {elsewhere}"),
+        AlreadyExists => format!("it is a file; {elsewhere}"),
+        ReadOnlyFilesystem => format!("the disk is read-only; {elsewhere}"),
+        StorageFull | QuotaExceeded => format!("the disk is full; make room, or {elsewhere}"),
+        FileTooLarge => format!("files must not become so large here; raise the limit, or {elsewhere}"),
         _ => error.to_string(),
     }
 }
 
-/// A folder that results go to.
+/// A folder that the results of one command go to, all together: [`finish`](Self::finish) gives them their places, and
+/// without it none appears. What was there before is whole until then. [`Staging`] says how.
 pub struct Folder {
     path: PathBuf,
-    written: Vec<PathBuf>,
+    written: Vec<String>,
+    staging: Option<Staging>,
 }
 
 impl Folder {
@@ -36,22 +38,28 @@ impl Folder {
     pub fn create(path: &Path) -> Result<Folder> {
         std::fs::create_dir_all(path)
             .map_err(|error| Error::file(path, format!("cannot make this folder: {}", reason(&error))))?;
-        let probe = path.join(format!(".probe.{}", std::process::id()));
-        std::fs::File::create(&probe)
-            .and_then(|_| std::fs::remove_file(&probe))
-            .map_err(|error| Error::file(path, format!("cannot write here: {}", reason(&error))))?;
-        Ok(Folder { path: path.to_path_buf(), written: Vec::new() })
+        Staging::create(path).map_err(|error| Error::file(path, format!("cannot write here: {}", reason(&error))))?;
+        Ok(Folder { path: path.to_path_buf(), written: Vec::new(), staging: None })
     }
 
-    /// The path of a file that is about to be written here.
-    pub fn file(&mut self, name: &str) -> PathBuf {
-        let path = self.path.join(name);
-        self.written.push(path.clone());
-        path
+    pub fn path(&self) -> &Path {
+        &self.path
     }
 
+    /// Writes a file that is seen after [`finish`](Self::finish). The last one vouches for the others.
     pub fn write(&mut self, name: &str, contents: &[u8]) -> Result<()> {
-        write_whole(&self.file(name), contents)
+        let unwritten = |error: std::io::Error| {
+            Error::file(self.path.join(name), format!("nothing was written: {}", reason(&error)))
+        };
+        let staging = match &mut self.staging {
+            Some(staging) => staging,
+            none => none.insert(Staging::create(&self.path).map_err(unwritten)?),
+        };
+        staging.write(name, contents).map_err(unwritten)?;
+        if !self.written.iter().any(|known| known == name) {
+            self.written.push(name.to_string());
+        }
+        Ok(())
     }
 
     /// Writes a value as indented JSON.
@@ -60,15 +68,33 @@ impl Folder {
         self.write(name, format!("{text}\n").as_bytes())
     }
 
-    /// The paths of all files that were written.
+    /// Gives all files their places.
+    ///
+    /// # Errors
+    /// When the system does not let them be there. Then the last file is missing, so that nobody takes what is there for
+    /// whole.
+    pub fn finish(self) -> Result<Written> {
+        let Folder { path, written, staging } = self;
+        staging.map_or(Ok(()), Staging::publish).map_err(|(name, error)| {
+            Error::file(path.join(name), format!("not all results are in place: {}", reason(&error)))
+        })?;
+        Ok(Written { folder: path, names: written })
+    }
+}
+
+/// The files that are in place.
+pub struct Written {
+    folder: PathBuf,
+    names: Vec<String>,
+}
+
+impl Written {
     pub fn paths(&self) -> Vec<String> {
-        self.written.iter().map(|path| path.display().to_string()).collect()
+        self.names.iter().map(|name| self.folder.join(name).display().to_string()).collect()
     }
 
-    /// What was written, for a person.
+    /// For a person.
     pub fn listing(&self) -> String {
-        let names: Vec<String> =
-            self.written.iter().filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned())).collect();
-        format!("{}: {}", self.path.display(), names.join(", "))
+        format!("{}: {}", self.folder.display(), self.names.join(", "))
     }
 }

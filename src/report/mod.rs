@@ -18,7 +18,7 @@ pub mod tradeoff;
 pub use check::{Check, check};
 pub use envelope::envelope;
 pub use figures::{drift_figure, energy_figure, outputs_figure};
-pub use files::{Folder, write_whole};
+pub use files::{Folder, Written, write_whole};
 pub use rest::Rest;
 pub use summary::{Summary, significant, summarize};
 pub use sweep::SweepSummary;

@@ -5,6 +5,8 @@ mod check;
 mod drift;
 mod equilibrium;
 mod generate;
+#[cfg(unix)]
+mod interrupted;
 mod linear;
 mod loci;
 mod methods;

@@ -130,6 +130,7 @@ fn three_files_a_model_also_where_nothing_moves() {
         let place = tempfile::tempdir().unwrap();
         let mut folder = Folder::create(place.path()).unwrap();
         linear(&study, &model, &names).write(&mut folder, &linear_stem(0.01, None)).unwrap();
+        folder.finish().unwrap();
         let mut found: Vec<String> =
             std::fs::read_dir(place.path()).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
         found.sort();

@@ -1,0 +1,187 @@
+//! Files that belong together appear together.
+
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// How the hidden folders are called; the number of the process and a count follow.
+const PREFIX: &str = ".holonom-";
+/// Locked for as long as the process lives that writes beside it.
+const LOCK: &str = ".lock";
+
+/// Results that are not to be seen before all of them are there.
+///
+/// They are written to a hidden folder in the one where they will be, and [`publish`](Self::publish) renames them one after
+/// another. What ends before that, by a full disk or a killed process, leaves the results of before as they were. Only
+/// within the renames, some microseconds a file, can old and new ones be mixed. There the last file vouches for the
+/// others: its old version goes before the first is renamed, and its new one comes last.
+///
+/// Hidden folders of processes that were killed are removed by the next one that writes to the same place. The lock in
+/// them shows whether their process lives.
+pub struct Staging {
+    target: PathBuf,
+    hidden: PathBuf,
+    names: Vec<String>,
+    lock: Option<File>,
+}
+
+impl Staging {
+    /// In the folder `target`, which is there.
+    ///
+    /// # Errors
+    /// When nothing can be written to it.
+    pub fn create(target: &Path) -> io::Result<Staging> {
+        remove_abandoned(target);
+        loop {
+            static COUNT: AtomicU32 = AtomicU32::new(0);
+            let count = COUNT.fetch_add(1, Ordering::Relaxed);
+            let hidden = target.join(format!("{PREFIX}{}-{count}", std::process::id()));
+            match own(&hidden) {
+                Ok(lock) => return Ok(Staging { target: target.to_path_buf(), hidden, names: Vec::new(), lock }),
+                // Of a killed process with the same number.
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                Err(error) => return Err(error),
+            }
+        }
+    }
+
+    /// Writes a file that will be called `name`.
+    ///
+    /// # Errors
+    /// What the system says: a full disk, a place where it must not be.
+    pub fn write(&mut self, name: &str, contents: &[u8]) -> io::Result<()> {
+        if self.target.join(name).is_dir() {
+            return Err(io::ErrorKind::IsADirectory.into());
+        }
+        let mut file = File::create(self.hidden.join(name))?;
+        file.write_all(contents)?;
+        file.sync_all()?;
+        if !self.names.iter().any(|known| known == name) {
+            self.names.push(name.to_string());
+        }
+        Ok(())
+    }
+
+    /// Gives the files their places, in the order in which they were written first.
+    ///
+    /// # Errors
+    /// What the system says, with the name of the file that it says it of.
+    pub fn publish(self) -> Result<(), (String, io::Error)> {
+        if let [_, .., last] = self.names.as_slice() {
+            removed(&self.target.join(last)).map_err(|error| (last.clone(), error))?;
+        }
+        self.names.iter().try_for_each(|name| {
+            std::fs::rename(self.hidden.join(name), self.target.join(name)).map_err(|error| (name.clone(), error))
+        })
+    }
+}
+
+impl Drop for Staging {
+    fn drop(&mut self) {
+        // An open file could not be removed everywhere.
+        drop(self.lock.take());
+        // What stays behind is hidden, and the next process to come here tries again.
+        let _ = std::fs::remove_dir_all(&self.hidden);
+    }
+}
+
+/// A new folder with its lock, held where the file system knows locks.
+fn own(hidden: &Path) -> io::Result<Option<File>> {
+    std::fs::create_dir(hidden)?;
+    let lock = File::create_new(hidden.join(LOCK))?;
+    match lock.try_lock() {
+        // Between making and locking it another process may have taken it for abandoned.
+        Ok(()) if hidden.join(LOCK).exists() => Ok(Some(lock)),
+        Ok(()) | Err(std::fs::TryLockError::WouldBlock) => Err(io::ErrorKind::AlreadyExists.into()),
+        Err(std::fs::TryLockError::Error(_)) => Ok(None),
+    }
+}
+
+fn removed(path: &Path) -> io::Result<()> {
+    match std::fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
+}
+
+/// Removes what killed processes have left in a folder. That it cannot be removed is no fault of the new results.
+fn remove_abandoned(target: &Path) {
+    let Ok(entries) = std::fs::read_dir(target) else { return };
+    let hidden = entries.flatten().filter(|entry| entry.file_name().to_string_lossy().starts_with(PREFIX));
+    for folder in hidden.map(|entry| entry.path()) {
+        // Only whose lock can be had is abandoned; one without a lock is just being made.
+        if let Ok(lock) = File::open(folder.join(LOCK))
+            && lock.try_lock().is_ok()
+        {
+            let _ = std::fs::remove_dir_all(&folder);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A folder with `a` and `b` of before.
+    fn place() -> tempfile::TempDir {
+        let place = tempfile::tempdir().unwrap();
+        ["a", "b"].iter().for_each(|name| std::fs::write(place.path().join(name), "old").unwrap());
+        place
+    }
+
+    fn contents(place: &Path) -> Vec<(String, String)> {
+        let entries = std::fs::read_dir(place).unwrap().map(|entry| entry.unwrap().path());
+        let name = |path: &PathBuf| path.file_name().unwrap().to_string_lossy().into_owned();
+        let mut found: Vec<_> =
+            entries.map(|path| (name(&path), std::fs::read_to_string(path).unwrap_or_default())).collect();
+        found.sort();
+        found
+    }
+
+    fn pairs<const N: usize>(expected: [(&str, &str); N]) -> Vec<(String, String)> {
+        expected.map(|(name, text)| (name.to_string(), text.to_string())).to_vec()
+    }
+
+    #[test]
+    fn all_appear_at_the_end() {
+        let place = place();
+        let mut staging = Staging::create(place.path()).unwrap();
+        ["a", "b", "a"].iter().for_each(|name| staging.write(name, b"new").unwrap());
+        assert_eq!(contents(place.path())[1..], pairs([("a", "old"), ("b", "old")]));
+        staging.publish().unwrap();
+        assert_eq!(contents(place.path()), pairs([("a", "new"), ("b", "new")]));
+    }
+
+    #[test]
+    fn what_is_not_published_leaves_nothing() {
+        let place = place();
+        Staging::create(place.path()).unwrap().write("a", b"new").unwrap();
+        assert_eq!(contents(place.path()), pairs([("a", "old"), ("b", "old")]));
+    }
+
+    #[test]
+    fn only_what_is_abandoned_is_removed() {
+        let place = place();
+        let abandoned = place.path().join(".holonom-1-0");
+        std::fs::create_dir(&abandoned).unwrap();
+        [LOCK, "a"].iter().for_each(|name| std::fs::write(abandoned.join(name), "").unwrap());
+        let mut living = Staging::create(place.path()).unwrap();
+        assert!(!abandoned.exists());
+        living.write("a", b"living").unwrap();
+        drop(Staging::create(place.path()).unwrap());
+        living.publish().unwrap();
+        assert_eq!(contents(place.path()), pairs([("a", "living"), ("b", "old")]));
+    }
+
+    /// Without the last file nobody takes the others for a set.
+    #[test]
+    fn the_last_file_vouches_for_the_others() {
+        let place = place();
+        let mut staging = Staging::create(place.path()).unwrap();
+        ["a", "b"].iter().for_each(|name| staging.write(name, b"new").unwrap());
+        std::fs::remove_file(staging.hidden.join("a")).unwrap();
+        assert_eq!(staging.publish().unwrap_err().0, "a");
+        assert_eq!(contents(place.path()), pairs([("a", "old")]));
+    }
+}
