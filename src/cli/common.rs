@@ -103,6 +103,17 @@ pub enum Format {
     None,
 }
 
+impl Format {
+    /// Of the files' names; none without figures.
+    pub fn extension(self) -> Option<&'static str> {
+        match self {
+            Format::Svg => Some("svg"),
+            Format::Png => Some("png"),
+            Format::None => None,
+        }
+    }
+}
+
 fn choice(text: &str) -> Result<Choice, String> {
     Choice::parse(text).map_err(|error| error.to_string())
 }
@@ -123,7 +134,7 @@ pub fn positive(text: &str) -> Result<f64, String> {
     number(text).and_then(|value| if value > 0.0 { Ok(value) } else { Err("it must be above zero".to_string()) })
 }
 
-fn assignment(text: &str) -> Result<(String, f64), String> {
+pub fn assignment(text: &str) -> Result<(String, f64), String> {
     match text.split_once('=') {
         Some((name, value)) if !name.trim().is_empty() => Ok((name.trim().to_string(), number(value)?)),
         _ => Err("write NAME=VALUE, as in --set k1=200".to_string()),
@@ -189,12 +200,7 @@ impl Output {
 
     /// Saves a figure where figures are wanted.
     pub fn figure(&self, folder: &mut Folder, name: &str, figure: Option<Figure>) -> Result<()> {
-        let extension = match self.figures {
-            Format::Svg => "svg",
-            Format::Png => "png",
-            Format::None => return Ok(()),
-        };
-        let Some(figure) = figure else { return Ok(()) };
+        let (Some(extension), Some(figure)) = (self.figures.extension(), figure) else { return Ok(()) };
         let path = folder.file(&format!("{name}.{extension}"));
         figure.save(&path).map_err(|error| Error::file(path, error))
     }

@@ -4,6 +4,7 @@ mod drift;
 mod energy;
 mod recorder;
 mod singularity;
+pub mod stress;
 
 pub use drift::{Drift, DriftLevel};
 pub use energy::{EnergyBalance, EnergyMeter, Ledger};
