@@ -103,6 +103,17 @@ pub enum Format {
     None,
 }
 
+impl Format {
+    /// Of the files' names; none without figures.
+    pub fn extension(self) -> Option<&'static str> {
+        match self {
+            Format::Svg => Some("svg"),
+            Format::Png => Some("png"),
+            Format::None => None,
+        }
+    }
+}
+
 pub fn choice(text: &str) -> Result<Choice, String> {
     Choice::parse(text).map_err(|error| error.to_string())
 }
@@ -123,7 +134,7 @@ pub fn positive(text: &str) -> Result<f64, String> {
     number(text).and_then(|value| if value > 0.0 { Ok(value) } else { Err("it must be above zero".to_string()) })
 }
 
-fn assignment(text: &str) -> Result<(String, f64), String> {
+pub fn assignment(text: &str) -> Result<(String, f64), String> {
     match text.split_once('=') {
         Some((name, value)) if !name.trim().is_empty() => Ok((name.trim().to_string(), number(value)?)),
         _ => Err("write NAME=VALUE, as in --set k1=200".to_string()),

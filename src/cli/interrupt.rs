@@ -36,9 +36,14 @@ pub fn listen() {
 /// Why a run should end, whose results go to `folder`: for [`Recorder::with_stop`](crate::measure::Recorder::with_stop).
 /// A command that asks also writes what it has.
 pub fn stop(folder: &Folder) -> Option<Stop> {
-    IS_HEARD.store(true, Ordering::Relaxed);
-    IS_ASKED_FOR.load(Ordering::Relaxed).then(|| Stop {
+    is_asked().then(|| Stop {
         reason: REASON.to_string(),
         hint: format!("what was computed until then is in {}", folder.path().display()),
     })
+}
+
+/// Whether the command should end, which then also writes what it has.
+pub fn is_asked() -> bool {
+    IS_HEARD.store(true, Ordering::Relaxed);
+    IS_ASKED_FOR.load(Ordering::Relaxed)
 }

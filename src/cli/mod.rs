@@ -14,6 +14,7 @@ mod plot;
 mod purpose;
 mod schema;
 mod simulate;
+mod stress;
 mod sweep;
 mod tradeoff;
 mod transition;
@@ -67,6 +68,8 @@ enum Command {
     Validate(validate::Args),
     /// How small changes grow along the motion: Floquet multipliers of a period, Lyapunov exponents
     Transition(transition::Args),
+    /// Maps over extremes: steps, gains, masses, stiffness, tolerances, speeds, sizes, times, start errors
+    Stress(stress::Args),
     /// Print a scalable scene
     Generate(generate::Args),
     /// Formulations, integrators and projections: what goes with what, proven orders, what each is for
@@ -91,6 +94,7 @@ pub fn run() -> ExitCode {
         Command::Bode(args) => bode::run(args),
         Command::Validate(args) => validate::run(args),
         Command::Transition(args) => transition::run(args),
+        Command::Stress(args) => stress::run(args),
         Command::Generate(args) => generate::run(args),
         Command::Methods(args) => methods::run(args),
         Command::Schema => schema::run(),

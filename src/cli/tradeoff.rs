@@ -1,5 +1,6 @@
 //! `holonom tradeoff SCENE`
 
+use super::interrupt;
 use super::common::{Output, SceneOptions, Talk, choice, number, positive, print};
 use crate::choice::Choice;
 use crate::error::{Error, Result};
@@ -158,13 +159,14 @@ fn methods(args: &Args, study: &Study) -> Result<ExitCode> {
             // What cannot be saved now will be told at the end.
             let _ = save(&place, measured);
         }
-        true
     };
+    let is_asked = interrupt::is_asked;
     let motion = Motion {
         system: study.system(),
         start: study.start(),
         between: (span.start, span.end),
         ratio: study.method.atol / study.method.rtol,
+        is_stopped: &is_asked,
     };
     let result = Runner::new(motion, &plan, watched, watch).run(&mut measured);
     bar.finish_and_clear();
@@ -173,11 +175,16 @@ fn methods(args: &Args, study: &Study) -> Result<ExitCode> {
     folder.write_json("tradeoff.json", &summary)?;
     folder.write("tradeoff.csv", &tradeoff_table(&measured)?)?;
     args.output.figure(&mut folder, "tradeoff", tradeoff_figure(&measured, args.digits))?;
+    let written = folder.finish()?;
     args.talk.print(&summary, || summary.text(args.digits))?;
     if !args.talk.json && !args.talk.quiet {
-        print(&format!("\nwritten to {}\n", folder.listing()))?;
+        print(&format!("\nwritten to {}\n", written.listing()))?;
     }
-    Ok(ExitCode::SUCCESS)
+    if !is_asked() {
+        return Ok(ExitCode::SUCCESS);
+    }
+    eprintln!("error: interrupted\n  help: go on with --resume");
+    Ok(ExitCode::from(1))
 }
 
 fn save(place: &Path, measured: &WorkPrecision) -> Result<()> {
@@ -245,9 +252,10 @@ fn models(args: &Args, study: Study) -> Result<ExitCode> {
     folder.write_json("models.json", &summary)?;
     folder.write("models.csv", &models_table(&costs)?)?;
     args.output.figure(&mut folder, "models", models_figure(&title, &costs))?;
+    let written = folder.finish()?;
     args.talk.print(&summary, || summary.text())?;
     if !args.talk.json && !args.talk.quiet {
-        print(&format!("\nwritten to {}\n", folder.listing()))?;
+        print(&format!("\nwritten to {}\n", written.listing()))?;
     }
     Ok(ExitCode::SUCCESS)
 }

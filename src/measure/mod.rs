@@ -4,6 +4,7 @@ mod drift;
 mod energy;
 mod recorder;
 mod singularity;
+pub mod stress;
 pub mod work_precision;
 
 pub use drift::{Drift, DriftLevel};

@@ -34,7 +34,8 @@ impl ColorBar {
         let cells = panel.heat_map.iter().flat_map(|map| map.values.iter().flatten().flatten());
         let points = panel.color_series.iter().flat_map(|series| series.points.iter().map(|point| &point.2));
         cells.chain(points).for_each(|value| extent.add(*value));
-        let spec = AxisSpec { label: label.clone(), scale, ..AxisSpec::default() };
+        let range = panel.heat_map.as_ref().and_then(|map| map.range);
+        let spec = AxisSpec { label: label.clone(), scale, range, ..AxisSpec::default() };
         let axis = Axis::new(&spec, &extent, Slack::Round);
         Some(Self { axis, ticks: Ticks::default(), title: label.clone(), label: Label::default() })
     }

@@ -20,6 +20,8 @@ pub struct HeatMap {
     pub words: Vec<(usize, usize, String)>,
     /// Scale of the colour.
     pub scale: Scale,
+    /// Fixed limits of the colours, so that several maps share them; values beyond have the colour of the limit.
+    pub range: Option<(f64, f64)>,
 }
 
 const MOST_COLUMNS: usize = 160;
@@ -35,6 +37,12 @@ impl HeatMap {
     /// The same map on a logarithmic colour scale.
     pub fn log(mut self) -> Self {
         self.scale = Scale::Log;
+        self
+    }
+
+    /// The same map with fixed limits of the colours.
+    pub fn range(mut self, low: f64, high: f64) -> Self {
+        self.range = Some((low, high));
         self
     }
 

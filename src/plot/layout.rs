@@ -7,7 +7,7 @@ use super::figure::Figure;
 use super::item::Item;
 use super::marks;
 use super::palette::{EDGE, LABEL_SIZE, Look, NOTE_SIZE, TICK_LENGTH, TICK_SIZE, look};
-use super::panel::{Panel, Scale};
+use super::panel::{AxisSpec, Panel, Scale};
 use super::shape::{Pt, Rect};
 use super::text::{self, LINE_HEIGHT, Label};
 use super::ticks::{Room, Ticks};
@@ -242,13 +242,17 @@ fn fit(placed: &mut Placed, frame: Rect) {
         equalize(placed);
     }
     let (width, height) = (placed.frame.width(), placed.frame.height());
-    placed.x_ticks = Ticks::new(&placed.x, Room { length: width, size: TICK_SIZE, along: true });
-    placed.y_ticks = Ticks::new(&placed.y, Room { length: height, size: TICK_SIZE, along: false });
+    placed.x_ticks = ticks(&placed.x, &placed.panel.x, Room { length: width, size: TICK_SIZE, along: true });
+    placed.y_ticks = ticks(&placed.y, &placed.panel.y, Room { length: height, size: TICK_SIZE, along: false });
     placed.x_label = Label::new(&placed.panel.x.label, LABEL_SIZE, width, 2);
     placed.y_label = Label::new(&placed.panel.y.label, LABEL_SIZE, 1.08 * height, 3);
     if let Some(bar) = &mut placed.bar {
         bar.fit(height);
     }
+}
+
+fn ticks(axis: &Axis, spec: &AxisSpec, room: Room) -> Ticks {
+    if spec.names.is_empty() { Ticks::new(axis, room) } else { Ticks::named(axis, &spec.names, room) }
 }
 
 /// Makes units equally long: by the height of the frame if that is asked for nowhere and stays moderate, and by wider

@@ -25,6 +25,8 @@ pub struct AxisSpec {
     pub range: Option<(f64, f64)>,
     /// Whether values are angles in degrees, which are marked at multiples of 15, 45, 90 ...
     pub is_angle: bool,
+    /// What is at 0, 1, 2 ...: words in the place of numbers.
+    pub names: Vec<String>,
 }
 
 impl From<&str> for AxisSpec {
@@ -49,6 +51,12 @@ impl AxisSpec {
     /// The same axis for angles in degrees.
     pub fn degrees(mut self) -> Self {
         self.is_angle = true;
+        self
+    }
+
+    /// The same axis with words at 0, 1, 2 ... in the place of numbers.
+    pub fn names(mut self, names: impl IntoIterator<Item = String>) -> Self {
+        self.names = names.into_iter().collect();
         self
     }
 

@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::PathBuf;
 
-use super::shape::{Drawing, Rect, Shape};
+use super::shape::{Color, Drawing, Rect, Shape};
+use super::text::Rich;
 use super::*;
 
 fn wave(count: usize, scale: f64) -> Vec<(f64, f64)> {
@@ -39,6 +40,26 @@ fn map() -> HeatMap {
     map
 }
 
+/// Words along y, and colours from 1e-12 to 1.
+fn named_map() -> Panel {
+    let mut map = HeatMap::new("drift (m)", vec![1.0, 2.0, 3.0], vec![0.0, 1.0]).log().range(1e-12, 1.0);
+    map.set(0, 0, 1e-20);
+    map.set(1, 1, 1e3);
+    let names = ["none", "manifold"].map(String::from);
+    Panel::new("h (s)", AxisSpec::from("projection").names(names)).heat_map(map)
+}
+
+#[test]
+fn maps_share_colours_and_have_words_along_an_axis() {
+    let drawing = Figure::new().panel(named_map()).drawing();
+    let words = drawing.shapes.iter().filter(|shape| matches!(shape, Shape::Text(text) if text.rich == Rich::new("manifold")));
+    assert_eq!(words.count(), 1);
+    let fill = |shape: &Shape| if let Shape::Rects { fill, .. } = shape { Some(*fill) } else { None };
+    let fills: Vec<Color> = drawing.shapes.iter().filter_map(fill).collect();
+    let ends = [0, super::palette::COLOR_STEPS - 1].map(super::palette::scale_color);
+    assert!(ends.iter().all(|end| fills.contains(end)), "{fills:?}");
+}
+
 fn samples() -> Vec<(&'static str, Figure)> {
     let factor = |scale: f64| Panel::new("time (s)", "energy (J)").series(Series::line("E", wave(500, scale)));
     let log = Panel::new("time (s)", AxisSpec::from("drift (m)").log()).series(Series::line("a", wave(500, 1e-9)));
@@ -56,6 +77,7 @@ fn samples() -> Vec<(&'static str, Figure)> {
         ("many", Figure::new().panel(many)),
         ("color", Figure::new().panel(Panel::new("re (1/s)", "im (1/s)").color_series(colors).equal_aspect())),
         ("map", Figure::new().panel(Panel::new("h (s)", "gain").heat_map(map()))),
+        ("shared map", Figure::new().panel(named_map()).panel(named_map())),
         (
             "lines",
             Figure::new()

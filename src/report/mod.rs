@@ -8,6 +8,7 @@ pub mod linear;
 pub mod mechanism;
 mod rest;
 mod start;
+pub mod stress;
 mod summary;
 mod sweep;
 mod sweep_figure;

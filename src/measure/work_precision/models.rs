@@ -1,5 +1,6 @@
 //! What a model costs: models of one mechanism, from poor to rich, on the same motion.
 
+use super::runner::Motion;
 use super::sample::{Sample, sample};
 use super::yardstick::{Watched, Yardstick};
 use crate::error::{Error, Failure, Result};
@@ -140,7 +141,10 @@ impl<'a> Run<'a> {
         if failed {
             return Ok(());
         }
-        let run = sample(study.system(), &self.watched, &method, (span, study.start()), allowed)?;
+        let between = (span.start, span.end);
+        let ratio = method.atol / method.rtol;
+        let motion = Motion { system: study.system(), start: study.start(), between, ratio, is_stopped: &|| false };
+        let run = sample(&motion, &self.watched, &method, span, allowed)?;
         if round == 0 {
             self.tight = Some(run);
         } else {

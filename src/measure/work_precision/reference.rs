@@ -148,7 +148,7 @@ fn climb(
     for rtol in LADDER {
         let left = allowed.saturating_sub(clock.elapsed());
         let method = triple.at((rtol, rtol * motion.ratio), None);
-        let run = sample(motion.system, watched, &method, (span, motion.start), left)?;
+        let run = sample(motion, watched, &method, span, left)?;
         if run.failure.is_some() {
             break;
         }

@@ -22,6 +22,8 @@ pub struct Motion<'a> {
     pub between: (f64, f64),
     /// atol over rtol.
     pub ratio: f64,
+    /// Whether the user wants it to end.
+    pub is_stopped: &'a (dyn Fn() -> bool + Sync),
 }
 
 /// What to measure.
@@ -53,7 +55,7 @@ const RUN: [f64; 4] = [0.001, 0.005, 0.02, 0.08];
 /// Part of the budget after which no more of the grid is tried, so that repeats find their time.
 const GRID: f64 = 0.75;
 /// Times as slow as the best for its digits: a method is tried on, and repeated, below these.
-const WORTH_TRYING: f64 = 30.0;
+const WORTH_TRYING: f64 = 10.0;
 const WORTH_REPEATING: f64 = 3.0;
 /// A time below is taken over several runs, s.
 const SHORTEST: f64 = 1e-3;
@@ -66,8 +68,8 @@ pub struct Runner<'a> {
     plan: &'a Plan,
     watched: Watched,
     clock: Instant,
-    /// Called before every run with what it will be; the measurement ends where it returns false.
-    watch: Box<dyn FnMut(&WorkPrecision, &str) -> bool + 'a>,
+    /// Called before every run with what it will be.
+    watch: Box<dyn FnMut(&WorkPrecision, &str) + 'a>,
 }
 
 /// Why no more runs are made.
@@ -81,12 +83,12 @@ impl<'a> Runner<'a> {
         motion: Motion<'a>,
         plan: &'a Plan,
         watched: Watched,
-        watch: impl FnMut(&WorkPrecision, &str) -> bool + 'a,
+        watch: impl FnMut(&WorkPrecision, &str) + 'a,
     ) -> Self {
         Runner { motion, plan, watched, clock: Instant::now(), watch: Box::new(watch) }
     }
 
-    /// Goes on from what `result` holds until all is measured, the budget is spent, or `watch` says so.
+    /// Goes on from what `result` holds until all is measured, the budget is spent, or the user wants it to end.
     ///
     /// # Errors
     /// A motion that no method brings to its end; bad input.
@@ -126,10 +128,9 @@ impl<'a> Runner<'a> {
 
     /// Whether to go on, with what comes next.
     fn pauses(&mut self, result: &WorkPrecision, next: &str) -> Option<Pause> {
-        if !(self.watch)(result, next) {
-            return Some(Pause::Asked);
-        }
-        (self.left() == Duration::ZERO).then_some(Pause::Budget)
+        (self.watch)(result, next);
+        let is_over = self.left() == Duration::ZERO;
+        if (self.motion.is_stopped)() { Some(Pause::Asked) } else { is_over.then_some(Pause::Budget) }
     }
 
     fn measure(&mut self, result: &mut WorkPrecision) -> Result<Option<(Pause, String)>> {
@@ -178,7 +179,10 @@ impl<'a> Runner<'a> {
                 Some(reason) => Outcome::Skipped { reason },
                 None => self.first(result, &method, allowed.min(self.left()))?,
             };
-            self.put(result, triple, decades, outcome);
+            // What was cut short is no result.
+            if !(self.motion.is_stopped)() {
+                self.put(result, triple, decades, outcome);
+            }
         }
         Ok(None)
     }
@@ -222,7 +226,8 @@ impl<'a> Runner<'a> {
             let forecast = |cell: &Cell| {
                 let triple = self.plan.triples.iter().find(|triple| cell.is_of(&triple.at((1.0, 1.0), None)))?;
                 let forecast = self.forecast(result, triple, cell.decades)?;
-                Some((forecast.seconds, triple, cell.decades)).filter(|_| cell.decades >= self.plan.digits)
+                // What is slow for its stability is no slower for more digits.
+                Some((forecast.seconds, triple, cell.decades.max(self.plan.digits)))
             };
             if result.cells.iter().any(has) {
                 continue;
@@ -306,8 +311,11 @@ impl<'a> Runner<'a> {
             Err(Error::Input(input)) => return Ok(Outcome::Skipped { reason: input.message }),
             run => run?,
         };
-        if let Some(Failure { t, reason, .. }) = run.failure.as_ref().filter(|_| run.is_too_slow) {
-            return Ok(Outcome::TooSlow { t: *t, cpu_seconds: run.seconds, reason: reason.clone() });
+        if let Some(Failure { t, .. }) = run.failure.as_ref().filter(|_| run.is_too_slow) {
+            let (start, end) = self.motion.between;
+            let all = two(run.seconds * (end - start) / (t - start));
+            let reason = format!("would take about {all} s: it came to t = {t:.3e} s in {} s", two(run.seconds));
+            return Ok(Outcome::TooSlow { t: *t, cpu_seconds: run.seconds, reason });
         }
         if let Some(failure) = run.failure {
             return Ok(Outcome::Failed { failure, cpu_seconds: run.seconds });
@@ -329,7 +337,7 @@ impl<'a> Runner<'a> {
     }
 
     fn sample(&self, result: &WorkPrecision, method: &Method, allowed: Duration) -> Result<Sample> {
-        sample(self.motion.system, &self.watched, method, (self.span(result), self.motion.start), allowed)
+        sample(&self.motion, &self.watched, method, self.span(result), allowed)
     }
 
     /// Rounds over all runs that are near the best for their digits.

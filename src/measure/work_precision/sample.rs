@@ -1,11 +1,12 @@
 //! One run, with as little beside it as can be.
 
+use super::runner::Motion;
 use super::yardstick::Watched;
 use crate::error::{Failure, Result};
 use crate::formulation::Statistics;
 use crate::measure::Drift;
 use crate::simulate::{Method, Observation, Sink, Span, Stop, simulate};
-use crate::system::{MechanicalSystem, Scratch};
+use crate::system::Scratch;
 use cpu_time::ProcessTime;
 use std::time::{Duration, Instant};
 
@@ -27,15 +28,10 @@ pub struct Sample {
 ///
 /// # Errors
 /// Bad input only, as [`simulate`].
-pub fn sample(
-    system: &dyn MechanicalSystem,
-    watched: &Watched,
-    method: &Method,
-    (span, start): (Span, (&[f64], &[f64])),
-    allowed: Duration,
-) -> Result<Sample> {
+pub fn sample(motion: &Motion, watched: &Watched, method: &Method, span: Span, allowed: Duration) -> Result<Sample> {
+    let system = motion.system;
     let mut sink = Sampler {
-        system,
+        motion,
         watched,
         scratch: Scratch::default(),
         scales: system.scales(),
@@ -45,7 +41,7 @@ pub fn sample(
         deadline: Instant::now() + allowed,
         allowed,
     };
-    let (outcome, seconds) = cpu_seconds(|| simulate(system, method, span, start, &mut sink));
+    let (outcome, seconds) = cpu_seconds(|| simulate(system, method, span, motion.start, &mut sink));
     let outcome = outcome?;
     let is_too_slow = outcome.failure.as_ref().is_some_and(|failure| failure.reason == Stop::deadline(allowed).reason);
     let Sampler { rows, drift, .. } = sink;
@@ -60,7 +56,7 @@ pub fn cpu_seconds<T>(work: impl FnOnce() -> T) -> (T, f64) {
 }
 
 struct Sampler<'a> {
-    system: &'a dyn MechanicalSystem,
+    motion: &'a Motion<'a>,
     watched: &'a Watched,
     scratch: Scratch,
     scales: Vec<f64>,
@@ -78,11 +74,14 @@ impl Sink for Sampler<'_> {
 
     fn row(&mut self, state: &Observation) {
         if state.t > self.start {
-            self.rows.push(self.watched.read(self.system, state, &mut self.scratch));
+            self.rows.push(self.watched.read(self.motion.system, state, &mut self.scratch));
         }
     }
 
     fn stops(&self) -> Option<Stop> {
+        if (self.motion.is_stopped)() {
+            return Some(Stop { reason: "interrupted".to_string(), hint: "begin again".to_string() });
+        }
         (Instant::now() > self.deadline).then(|| Stop::deadline(self.allowed))
     }
 }

@@ -54,6 +54,16 @@ impl Ticks {
         }
     }
 
+    /// Words at 0, 1, 2 ..., thinned where they have no room.
+    pub fn named(axis: &Axis, names: &[String], room: Room) -> Self {
+        let unit = axis.place(1.0).unwrap_or(1.0) - axis.place(0.0).unwrap_or(0.0);
+        let least = if room.along { room.spacing(names.iter().map(String::as_str)) } else { 1.05 * room.size };
+        let stride = (least / (unit * room.length).max(1e-9)).ceil().clamp(1.0, 1e6) as usize;
+        let tick = |(k, name): (usize, &String)| Some(Tick { at: axis.place(k as f64)?, label: name.clone() });
+        let major = names.iter().enumerate().step_by(stride).filter_map(tick);
+        Ticks { major: major.filter(|tick| (0.0..=1.0).contains(&tick.at)).collect(), ..Ticks::default() }
+    }
+
     /// Width of the widest label.
     pub fn widest(&self, size: f64) -> f64 {
         self.major.iter().map(|tick| text::width(&tick.label, size)).fold(0.0, f64::max)

@@ -1,0 +1,195 @@
+//! `holonom stress SCENE`
+
+use super::common::{MethodOptions, Output, SceneOptions, Talk, assignment, pick, positive, print};
+use crate::error::{Error, Result};
+use crate::measure::stress::{Axis, Limits, Map, Quantity, Stressed, Subject, known, maps, pair, registry, stress};
+use crate::report::stress::{MapFile, StressFile, gain_table, sentences, stress_figure, stress_page, stress_table};
+use crate::report::{Folder, Table};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+#[derive(clap::Args)]
+pub struct Args {
+    /// Scene file (JSON); with --all a folder of them (default: models)
+    #[arg(value_name = "SCENE", required_unless_present_any = ["all", "list"])]
+    path: Option<PathBuf>,
+    /// Replace a parameter of the scene
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
+    set: Vec<(String, f64)>,
+    /// The maps to make (default: all that make sense for the scene); --list names them
+    #[arg(long, value_name = "NAME[,NAME...]", value_delimiter = ',')]
+    map: Vec<String>,
+    /// One's own map: what varies along x, an extreme or a parameter, such as step or mass_ratio=1e-8..1e8:9:log
+    #[arg(long, value_name = "EXTREME[=A..B[:N][:log]]", requires = "y", conflicts_with = "map")]
+    x: Option<String>,
+    /// What varies along y
+    #[arg(long, value_name = "EXTREME[=A..B[:N][:log]]", requires = "x")]
+    y: Option<String>,
+    /// What the figures show: position, velocity, final_position, energy, error or seconds
+    #[arg(long, value_name = "QUANTITY")]
+    show: Option<String>,
+    /// Time of each simulation, s
+    #[arg(long, value_name = "SECONDS", default_value_t = 2.0, value_parser = positive)]
+    limit: f64,
+    /// Time of all simulations of a scene, s; what has no time left is left out, and said so (default: 60, with --all 20)
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    budget: Option<f64>,
+    /// Every scene of a folder, and one report
+    #[arg(long)]
+    all: bool,
+    /// Print the maps and the extremes, and simulate nothing
+    #[arg(long)]
+    list: bool,
+    #[command(flatten)]
+    method: MethodOptions,
+    #[command(flatten)]
+    talk: Talk,
+    #[command(flatten)]
+    output: Output,
+}
+
+pub fn run(args: Args) -> Result<ExitCode> {
+    if args.list {
+        print(&list())?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let path = args.path.clone().unwrap_or(PathBuf::from("models"));
+    if args.all { run_all(&args, &path) } else { run_one(&args, &path) }
+}
+
+fn run_one(args: &Args, path: &Path) -> Result<ExitCode> {
+    let (subject, maps) = prepare(args, path)?;
+    let mut folder = args.output.folder(&subject.name)?;
+    let (file, stressed) = simulate(args, &subject, maps);
+    write(args, &mut folder, std::slice::from_ref(&file), &[], |_, map| format!("stress-{map}"), &stressed)?;
+    args.talk.print(&file, || text(&file, &stressed))?;
+    tell_folder(args, folder)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn run_all(args: &Args, path: &Path) -> Result<ExitCode> {
+    let scenes = scenes(path)?;
+    let mut folder = args.output.folder("stress")?;
+    let (mut files, mut unread, mut all) = (Vec::new(), Vec::new(), Vec::new());
+    for scene in scenes {
+        match prepare(args, &scene) {
+            Err(error) => unread.push((scene.display().to_string(), error.to_string())),
+            Ok((subject, maps)) => {
+                let (file, stressed) = simulate(args, &subject, maps);
+                if !args.talk.json && !args.talk.quiet {
+                    print(&text(&file, &stressed))?;
+                }
+                files.push(file);
+                all.extend(stressed);
+            }
+        }
+    }
+    write(args, &mut folder, &files, &unread, |scene, map| format!("{scene}-{map}"), &all)?;
+    args.talk.print(&files, String::new)?;
+    tell_folder(args, folder)?;
+    Ok(ExitCode::from(u8::from(files.is_empty())))
+}
+
+/// The scenes of a folder, by name.
+fn scenes(path: &Path) -> Result<Vec<PathBuf>> {
+    let entries = std::fs::read_dir(path).map_err(|error| Error::file(path, format!("no folder of scenes: {error}")))?;
+    let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    let is_scene = |path: &PathBuf| {
+        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        name.ends_with(".json") && !name.ends_with(".schema.json")
+    };
+    paths.retain(is_scene);
+    paths.sort();
+    match paths.is_empty() {
+        true => Err(Error::file(path, "there is no scene in this folder")),
+        false => Ok(paths),
+    }
+}
+
+fn prepare(args: &Args, path: &Path) -> Result<(Subject<'static>, Vec<Map>)> {
+    let scene = SceneOptions { path: path.to_path_buf(), set: args.set.clone() };
+    let subject = Subject::load(path, &args.method.overrides(&scene, None))?;
+    let quantity = args.show.as_ref().map(|name| quantity(name)).transpose()?;
+    let axis = |text: &str, option: &str| Axis::parse(text, &subject).map_err(|error| error.under(option));
+    let mut maps = match (&args.x, &args.y) {
+        (Some(x), Some(y)) => vec![pair(&subject, axis(x, "--x")?, axis(y, "--y")?, Quantity::Velocity)],
+        _ => maps(&subject, &args.map).map_err(|error| error.under("--map"))?,
+    };
+    maps.iter_mut().for_each(|map| map.quantity = quantity.unwrap_or(map.quantity));
+    Ok((subject, maps))
+}
+
+fn quantity(name: &str) -> Result<Quantity> {
+    let name = pick("quantity", name, &Quantity::ALL.map(Quantity::name)).map_err(|error| error.under("--show"))?;
+    Ok(Quantity::ALL.into_iter().find(|quantity| quantity.name() == name).unwrap_or(Quantity::Velocity))
+}
+
+/// Simulates the maps, each with its share of the time that is left.
+fn simulate(args: &Args, subject: &Subject, maps: Vec<Map>) -> (StressFile, Vec<Stressed>) {
+    let usual = if args.all { 20.0 } else { 60.0 };
+    let budget = Duration::from_secs_f64(args.budget.unwrap_or(usual).min(1e9));
+    let cell = Duration::from_secs_f64(args.limit.min(1e9));
+    let (begin, count) = (Instant::now(), maps.len());
+    let bar = args.talk.progress(maps.iter().map(|map| map.len() as u64).sum(), &subject.name);
+    let one = |(k, map): (usize, Map)| {
+        let left = budget.saturating_sub(begin.elapsed());
+        let end = Instant::now() + left / (count - k) as u32;
+        stress(subject, map, Limits { cell, end }, &|| bar.inc(1))
+    };
+    let stressed: Vec<Stressed> = maps.into_iter().enumerate().map(one).collect();
+    bar.finish_and_clear();
+    let file = StressFile {
+        scene: subject.name.clone(),
+        method: subject.base.method.clone(),
+        typical_step: subject.base.typical.step,
+        typical_period: subject.base.typical.period,
+        wall_seconds: begin.elapsed().as_secs_f64(),
+        maps: stressed.iter().map(MapFile::from).collect(),
+    };
+    (file, stressed)
+}
+
+fn write(
+    args: &Args,
+    folder: &mut Folder,
+    files: &[StressFile],
+    unread: &[(String, String)],
+    stem: impl Fn(&str, &str) -> String,
+    stressed: &[Stressed],
+) -> Result<()> {
+    let names = files.iter().flat_map(|file| file.maps.iter().map(move |map| (&file.scene, &map.name)));
+    for ((scene, map), stressed) in names.zip(stressed) {
+        args.output.figure(folder, &stem(scene, map), Some(stress_figure(scene, stressed)))?;
+    }
+    let figure = |scene: &str, map: &str| Some(format!("{}.{}", stem(scene, map), args.output.figures.extension()?));
+    folder.write("stress.md", stress_page(files, unread, figure).as_bytes())?;
+    folder.write("stress.csv", &stress_table(files)?)?;
+    match (args.all, files) {
+        (false, [one]) => folder.write_json("stress.json", one),
+        _ => folder.write_json("stress.json", &files),
+    }
+}
+
+fn tell_folder(args: &Args, folder: Folder) -> Result<()> {
+    let folder = folder.finish()?;
+    if args.talk.json || args.talk.quiet { Ok(()) } else { print(&format!("\nwritten to {}\n", folder.listing())) }
+}
+
+/// The verdicts, and the table of the gains.
+fn text(file: &StressFile, stressed: &[Stressed]) -> String {
+    let mut text = format!("{}: extremes, {:.0} s\n", file.scene, file.wall_seconds);
+    for stressed in stressed {
+        text += &format!("\n{}: {}\n", stressed.map.name, stressed.map.about);
+        text.extend(sentences(stressed).iter().map(|sentence| format!("  {sentence}\n")));
+        text.extend(stressed.gains().iter().map(|gains| format!("\n  {}\n{}", gains.method, gain_table(gains))));
+    }
+    text
+}
+
+fn list() -> String {
+    let (mut maps, mut extremes) = (Table::left(&["map", ""]), Table::left(&["extreme", ""]));
+    known().iter().for_each(|map| maps.row([map.name, map.about].map(String::from)));
+    registry().iter().for_each(|extreme| extremes.row([extreme.name, extreme.about].map(String::from)));
+    format!("{maps}\n{extremes}")
+}

@@ -1,0 +1,22 @@
+//! One simulation before it is run.
+
+use super::subject::Typical;
+use crate::simulate::Method;
+use serde_json::Value;
+
+/// What a cell simulates: the scene as text, and how.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// The scene; null for own equations.
+    pub scene: Value,
+    /// Replaced parameters.
+    pub set: Vec<(String, f64)>,
+    pub method: Method,
+    /// How long, s.
+    pub duration: f64,
+    /// What is usual for the motion, whose values do not follow changes.
+    pub typical: Typical,
+    /// Errors of the start along a fixed random direction: of the positions, as a part of the scene's size, and of the
+    /// velocities, as a part of that over the period.
+    pub start_error: [f64; 2],
+}

@@ -1,0 +1,127 @@
+//! What became of one simulation.
+
+use crate::measure::Drift;
+use crate::simulate::Method;
+use serde::Serialize;
+
+/// How a cell ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    Completed,
+    /// The joints came apart by more than a tenth of the scene's size, or numbers became infinite.
+    Diverged,
+    /// The run stopped with an error.
+    Failed,
+    /// The scene or the method is refused: nothing was simulated.
+    Refused,
+    /// The deadline of a cell passed.
+    TooSlow,
+    /// The time for all cells was over.
+    LeftOut,
+}
+
+impl Status {
+    /// As it stands in a table.
+    pub fn word(self) -> &'static str {
+        match self {
+            Status::Completed => "completed",
+            Status::Diverged => "diverged",
+            Status::Failed => "failed",
+            Status::Refused => "refused",
+            Status::TooSlow => "too slow",
+            Status::LeftOut => "left out",
+        }
+    }
+}
+
+/// One simulation and what was measured of it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Cell {
+    /// Places on the axes, and which of the compared methods.
+    pub panel: usize,
+    pub column: usize,
+    pub row: usize,
+    pub method: Method,
+    pub status: Status,
+    /// Why it did not complete.
+    pub reason: Option<String>,
+    /// Until when it was simulated, s.
+    pub t: f64,
+    /// None where nothing was simulated.
+    pub drift: Option<Drift>,
+    /// max |kinetic + potential - initial - work|, J.
+    pub energy_error: Option<f64>,
+    /// The same against the largest kinetic energy.
+    pub relative_energy_error: Option<f64>,
+    /// Largest error of an output against the reference, as a part of the output's largest value; of coordinates where the
+    /// scene names no outputs. None where no reference was computed, or the cell did not complete.
+    pub error: Option<f64>,
+    pub steps: u64,
+    pub rhs_evaluations: u64,
+    pub seconds: f64,
+}
+
+/// What a map shows of its cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// max |phi|
+    Position,
+    /// max |G v + phi_t|
+    Velocity,
+    /// |phi| at the end.
+    FinalPosition,
+    Energy,
+    Error,
+    Seconds,
+}
+
+impl Quantity {
+    pub const ALL: [Quantity; 6] = [
+        Quantity::Position,
+        Quantity::Velocity,
+        Quantity::FinalPosition,
+        Quantity::Energy,
+        Quantity::Error,
+        Quantity::Seconds,
+    ];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Quantity::Position => "position",
+            Quantity::Velocity => "velocity",
+            Quantity::FinalPosition => "final_position",
+            Quantity::Energy => "energy",
+            Quantity::Error => "error",
+            Quantity::Seconds => "seconds",
+        }
+    }
+
+    /// With its unit.
+    pub fn label(self) -> &'static str {
+        match self {
+            Quantity::Position => "position drift (m, rad)",
+            Quantity::Velocity => "velocity drift (m/s, rad/s)",
+            Quantity::FinalPosition => "final position drift (m, rad)",
+            Quantity::Energy => "energy error / kinetic energy",
+            Quantity::Error => "relative error of outputs",
+            Quantity::Seconds => "computing time (s)",
+        }
+    }
+
+    /// Its value in a completed cell.
+    pub fn of(self, cell: &Cell) -> Option<f64> {
+        let drift = || cell.drift.as_ref().filter(|_| cell.status == Status::Completed);
+        let done = cell.status == Status::Completed;
+        let value = match self {
+            Quantity::Position => drift()?.position.max,
+            Quantity::Velocity => drift()?.velocity.max,
+            Quantity::FinalPosition => drift()?.position.last,
+            Quantity::Energy => cell.relative_energy_error.filter(|_| done)?,
+            Quantity::Error => cell.error?,
+            Quantity::Seconds => Some(cell.seconds).filter(|_| done)?,
+        };
+        value.is_finite().then_some(value)
+    }
+}

@@ -1,0 +1,64 @@
+//! What sets a cell apart from the scene as it is.
+
+use super::case::Case;
+use super::extreme::Extreme;
+use crate::choice::Choice;
+use crate::error::Result;
+use crate::integrator::{Steps, find};
+
+/// One thing that a place in a map changes.
+#[derive(Clone)]
+pub enum Change {
+    Extreme(&'static Extreme, f64),
+    /// A parameter of the scene.
+    Parameter(String, f64),
+    Integrator(Choice),
+    /// Formulation and projection.
+    Stabilization(Choice, Choice),
+    /// Baumgarte's pair (2/h, 1/h^2), which follows the step.
+    OwnGains,
+}
+
+impl Change {
+    /// Makes the change.
+    ///
+    /// # Errors
+    /// A scene that has nothing of the kind to change.
+    pub fn apply(&self, case: &mut Case) -> Result<()> {
+        let typical_step = case.typical.step;
+        let method = &mut case.method;
+        match self {
+            Change::Extreme(extreme, value) => return (extreme.apply)(case, *value),
+            Change::Parameter(name, value) => case.set.push((name.clone(), *value)),
+            Change::Integrator(integrator) => {
+                let is_fixed = find(integrator)?.steps == Steps::Fixed;
+                method.step = if is_fixed { method.step.or(Some(typical_step)) } else { None };
+                method.integrator = integrator.clone();
+            }
+            Change::Stabilization(formulation, projection) => {
+                (method.formulation, method.projection) = (formulation.clone(), projection.clone());
+            }
+            Change::OwnGains => {
+                (method.formulation, method.projection) =
+                    (baumgarte(1.0 / method.step.unwrap_or(typical_step)), Choice::named("none"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the motion that is to be computed stays the same.
+    pub fn keeps_motion(&self) -> bool {
+        match self {
+            Change::Extreme(extreme, _) => extreme.keeps_motion,
+            Change::Parameter(..) => false,
+            _ => true,
+        }
+    }
+}
+
+/// Baumgarte's stabilization with alpha = beta = `gain`: phi'' + 2 gain phi' + gain^2 phi = 0.
+pub(super) fn baumgarte(gain: f64) -> Choice {
+    let gain = gain.to_string();
+    let options = ["alpha", "beta"].map(|key| (key.to_string(), gain.clone()));
+    Choice { name: "baumgarte".to_string(), options: options.to_vec() }
+}

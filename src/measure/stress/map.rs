@@ -1,0 +1,153 @@
+//! Two extremes at a time, and the methods that are compared on them.
+
+use super::cell::Quantity;
+use super::change::Change;
+use super::extreme::{Extreme, find};
+use super::subject::Subject;
+use crate::error::{Error, Result, short, suggest};
+use crate::sweep::Range;
+
+/// A place on an axis, or one of the methods.
+#[derive(Clone)]
+pub struct Entry {
+    pub label: String,
+    /// None for a place between, above or below the numbers of its axis, such as another method.
+    pub value: Option<f64>,
+    pub changes: Vec<Change>,
+}
+
+/// What is varied along one side of a map.
+#[derive(Clone)]
+pub struct Axis {
+    pub name: String,
+    /// Empty for a ratio, and where it is not known.
+    pub unit: String,
+    pub entries: Vec<Entry>,
+}
+
+/// Every entry of x with every entry of y by every method.
+#[derive(Clone)]
+pub struct Map {
+    pub name: String,
+    pub about: String,
+    pub x: Axis,
+    pub y: Axis,
+    pub methods: Vec<Entry>,
+    /// What is shown of the cells; all else is in the files.
+    pub quantity: Quantity,
+}
+
+impl Entry {
+    /// A value of an extreme.
+    pub fn of(extreme: &'static Extreme, value: f64) -> Self {
+        Entry { label: short(value), value: Some(value), changes: vec![Change::Extreme(extreme, value)] }
+    }
+
+    pub fn named(label: &str, changes: Vec<Change>) -> Self {
+        Entry { label: label.to_string(), value: None, changes }
+    }
+}
+
+/// Values of an axis for which none are given.
+const COUNT: usize = 9;
+
+impl Axis {
+    pub fn of(extreme: &'static Extreme, values: Vec<f64>) -> Self {
+        Axis {
+            name: extreme.name.to_string(),
+            unit: extreme.unit.to_string(),
+            entries: values.into_iter().map(|value| Entry::of(extreme, value)).collect(),
+        }
+    }
+
+    /// The extreme with the values that suit the subject.
+    pub fn usual(extreme: &'static Extreme, subject: &Subject) -> Self {
+        Axis::of(extreme, (extreme.values)(subject))
+    }
+
+    /// `EXTREME`, `EXTREME=A..B[:N][:log]` or `PARAMETER=A..B[:N][:log]`; without N nine values, of extremes with a constant
+    /// factor.
+    ///
+    /// # Errors
+    /// A name that is neither an extreme nor a parameter of the scene, a bad range, an extreme that the scene does not have.
+    pub fn parse(text: &str, subject: &Subject) -> Result<Self> {
+        let name = text.split('=').next().unwrap_or_default().trim();
+        let extreme = find(name).ok();
+        let is_parameter = subject.parameters().any(|known| known == name);
+        if extreme.is_none() && !is_parameter {
+            let extremes = super::registry().iter().map(|extreme| extreme.name);
+            return Err(Error::input(format!("`{name}` is neither an extreme nor a parameter of the scene"))
+                .hint(suggest(name, extremes.chain(subject.parameters()))));
+        }
+        if let Some(extreme) = extreme.filter(|extreme| !(extreme.suits)(subject)) {
+            let error = Error::input(format!("the scene has no {name}: {}", extreme.about));
+            return Err(error.hint("`holonom stress --list` says which extremes there are"));
+        }
+        match (extreme, text.contains('=')) {
+            (Some(extreme), false) => Ok(Axis::usual(extreme, subject)),
+            (Some(extreme), true) => Ok(Axis::of(extreme, range(text, true)?.values())),
+            (None, _) => Ok(Axis::parameter(&range(text, false)?)),
+        }
+    }
+
+    fn parameter(range: &Range) -> Self {
+        let name = &range.parameter;
+        let entry = |value: f64| Entry {
+            label: short(value),
+            value: Some(value),
+            changes: vec![Change::Parameter(name.clone(), value)],
+        };
+        Axis { name: name.clone(), unit: String::new(), entries: range.values().into_iter().map(entry).collect() }
+    }
+
+    /// Name and unit.
+    pub fn label(&self) -> String {
+        let name = self.name.replace('_', " ");
+        if self.unit.is_empty() { name } else { format!("{name} ({})", self.unit) }
+    }
+
+    /// The values in order, where all entries have one.
+    pub fn values(&self) -> Option<Vec<f64>> {
+        self.entries.iter().map(|entry| entry.value).collect()
+    }
+
+    /// Whether each value is about the same factor of the one before.
+    pub fn is_log(&self) -> bool {
+        let values = self.values().unwrap_or_default();
+        let is_positive = values.iter().all(|value| *value > 0.0);
+        is_positive && values.first().zip(values.last()).is_some_and(|(first, last)| last / first >= 30.0 || first / last >= 30.0)
+    }
+
+    fn keeps_motion(&self) -> bool {
+        self.entries.iter().flat_map(|entry| &entry.changes).all(Change::keeps_motion)
+    }
+}
+
+/// A range as `sweep` reads it, with fewer values where none are said.
+fn range(text: &str, is_log: bool) -> Result<Range> {
+    let mut parts = text.split(':');
+    let has_count = parts.nth(1).is_some_and(|part| part.trim() != "log");
+    if has_count {
+        return text.parse();
+    }
+    let ends = text.split(':').next().unwrap_or_default();
+    let asks_log = text.ends_with(":log");
+    let range: Range = format!("{ends}:{COUNT}").parse()?;
+    if asks_log || is_log && range.from > 0.0 && range.to > 0.0 { range.log() } else { Ok(range) }
+}
+
+impl Map {
+    /// Whether one reference serves all cells.
+    pub fn keeps_motion(&self) -> bool {
+        let methods = self.methods.iter().flat_map(|entry| &entry.changes);
+        self.x.keeps_motion() && self.y.keeps_motion() && methods.into_iter().all(Change::keeps_motion)
+    }
+
+    pub fn len(&self) -> usize {
+        self.x.entries.len() * self.y.entries.len() * self.methods.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}

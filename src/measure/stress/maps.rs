@@ -1,0 +1,236 @@
+//! The maps that make sense for a scene.
+
+use super::cell::Quantity;
+use super::change::Change;
+use super::extreme::{Extreme, find};
+use super::map::{Axis, Entry, Map};
+use super::subject::Subject;
+use crate::choice::Choice;
+use crate::error::{Error, Result, suggest};
+
+/// A map as the command line knows it.
+pub struct MapEntry {
+    pub name: &'static str,
+    pub about: &'static str,
+    x: &'static str,
+    y: &'static str,
+    quantity: Quantity,
+    methods: fn() -> Vec<Entry>,
+    /// Changes the axes from the usual values of their extremes.
+    adapt: fn(&mut Map),
+    /// Whether it makes sense where both extremes are there.
+    suits: fn(&Subject) -> bool,
+}
+
+/// Every map, the most important first.
+pub fn known() -> &'static [MapEntry] {
+    &[
+        MapEntry {
+            name: "gain",
+            about: "step x Baumgarte's gain, beside no stabilization and post-stabilization on the same steps",
+            x: "step",
+            y: "gain",
+            quantity: Quantity::Velocity,
+            methods: fixed,
+            adapt: beside_gains,
+            suits: |_| true,
+        },
+        MapEntry {
+            name: "start",
+            about: "tolerance x error of the start: which methods pull an inconsistent start back",
+            x: "tolerance",
+            y: "start_error",
+            quantity: Quantity::FinalPosition,
+            methods: || vec![method("index1", "dopri5", "none"), method("baumgarte", "dopri5", "none"), explicit()],
+            adapt: |_| {},
+            suits: |_| true,
+        },
+        MapEntry {
+            name: "mass",
+            about: "tolerance x mass of the last body",
+            x: "tolerance",
+            y: "mass_ratio",
+            quantity: Quantity::Energy,
+            methods: adaptive,
+            adapt: |_| {},
+            suits: |subject| !has("stiffness", subject),
+        },
+        MapEntry {
+            name: "stiffness",
+            about: "stiffness of the springs x mass of the last body",
+            x: "stiffness",
+            y: "mass_ratio",
+            quantity: Quantity::Energy,
+            methods: adaptive,
+            adapt: |_| {},
+            suits: |_| true,
+        },
+        MapEntry {
+            name: "damping",
+            about: "stiffness of the springs x their damping",
+            x: "stiffness",
+            y: "damping",
+            quantity: Quantity::Energy,
+            methods: adaptive,
+            adapt: |_| {},
+            suits: |_| true,
+        },
+        MapEntry {
+            name: "speed",
+            about: "step x speed of the motion",
+            x: "step",
+            y: "speed",
+            quantity: Quantity::Velocity,
+            methods: || vec![method("index1", "rk4", "none"), method("index1", "rk4", "manifold")],
+            adapt: |_| {},
+            suits: |_| true,
+        },
+        MapEntry {
+            name: "geometry",
+            about: "tolerance x link lengths towards a singular geometry",
+            x: "tolerance",
+            y: "link_ratio",
+            quantity: Quantity::Energy,
+            methods: adaptive,
+            adapt: |_| {},
+            suits: |_| true,
+        },
+        MapEntry {
+            name: "links",
+            about: "step x number of links",
+            x: "step",
+            y: "links",
+            quantity: Quantity::Velocity,
+            methods: || vec![method("index1", "rk4", "manifold"), method("index3", "generalized_alpha", "none")],
+            adapt: |_| {},
+            suits: |_| true,
+        },
+        MapEntry {
+            name: "time",
+            about: "simulated time x method",
+            x: "time",
+            y: "time",
+            quantity: Quantity::Energy,
+            methods: || vec![Entry::named("", Vec::new())],
+            adapt: by_method,
+            suits: |_| true,
+        },
+    ]
+}
+
+/// The maps of these names, or all that make sense for the subject.
+///
+/// # Errors
+/// An unknown name, or a map of extremes that the scene does not have.
+pub fn maps(subject: &Subject, names: &[String]) -> Result<Vec<Map>> {
+    if names.is_empty() {
+        return known().iter().filter(|entry| entry.suits(subject)).map(|entry| entry.map(subject)).collect();
+    }
+    let named = |name: &String| {
+        let found = known().iter().find(|entry| entry.name == name.replace('-', "_"));
+        let entry = found.ok_or_else(|| {
+            let hint = suggest(name, known().iter().map(|entry| entry.name));
+            Error::input(format!("there is no map `{name}`")).hint(hint)
+        })?;
+        match has(entry.x, subject) && has(entry.y, subject) {
+            true => entry.map(subject),
+            false => Err(Error::input(format!("the scene has nothing for the map `{name}`: {}", entry.about))
+                .hint("leave --map out for the maps that make sense for the scene")),
+        }
+    };
+    names.iter().map(named).collect()
+}
+
+/// A map of two axes of one's own, by the subject's own method and by it without stabilization.
+pub fn pair(subject: &Subject, x: Axis, y: Axis, quantity: Quantity) -> Map {
+    let label = {
+        let method = &subject.base.method;
+        format!("{} {} {}", method.formulation, method.integrator, method.projection)
+    };
+    Map {
+        name: format!("{}_{}", x.name, y.name),
+        about: format!("{} x {}", x.name, y.name),
+        x,
+        y,
+        methods: vec![Entry::named(&label, Vec::new())],
+        quantity,
+    }
+}
+
+fn has(extreme: &str, subject: &Subject) -> bool {
+    find(extreme).is_ok_and(|extreme| (extreme.suits)(subject))
+}
+
+impl MapEntry {
+    fn suits(&self, subject: &Subject) -> bool {
+        has(self.x, subject) && has(self.y, subject) && (self.suits)(subject)
+    }
+
+    fn map(&self, subject: &Subject) -> Result<Map> {
+        let axis = |name: &str| -> Result<Axis> {
+            let extreme: &'static Extreme = find(name)?;
+            Ok(Axis::usual(extreme, subject))
+        };
+        let mut map = Map {
+            name: self.name.to_string(),
+            about: self.about.to_string(),
+            x: axis(self.x)?,
+            y: axis(self.y)?,
+            methods: (self.methods)(),
+            quantity: self.quantity,
+        };
+        (self.adapt)(&mut map);
+        Ok(map)
+    }
+}
+
+/// Rows below and above the gains: the methods that have none.
+fn beside_gains(map: &mut Map) {
+    let row = |label: &str, projection: &str| {
+        let projection = Choice::parse(projection).unwrap_or_default();
+        Entry::named(label, vec![Change::Stabilization(Choice::named("index1"), projection)])
+    };
+    let above = [
+        Entry::named("(2/h, 1/h²)", vec![Change::OwnGains]),
+        row("manifold", "manifold"),
+        row("manifold × 2", "manifold:sweeps=2"),
+    ];
+    map.y.entries.insert(0, row("none", "none"));
+    map.y.entries.extend(above);
+}
+
+/// Methods in the place of the second axis, and times that are over within seconds.
+fn by_method(map: &mut Map) {
+    let first = map.x.entries.iter().take(5).cloned().collect();
+    map.x.entries = first;
+    let methods = [
+        method("index1", "dop853", "none"),
+        explicit(),
+        method("ggl", "radau_iia", "none"),
+        method("index1", "rk4", "none"),
+        method("index1", "rk4", "manifold"),
+    ];
+    map.y = Axis { name: "method".to_string(), unit: String::new(), entries: methods.to_vec() };
+}
+
+fn fixed() -> Vec<Entry> {
+    ["rk4", "heun"].map(|name| Entry::named(name, vec![Change::Integrator(Choice::named(name))])).to_vec()
+}
+
+fn adaptive() -> Vec<Entry> {
+    vec![explicit(), method("ggl", "radau_iia", "none")]
+}
+
+fn explicit() -> Entry {
+    method("index1", "dop853", "manifold")
+}
+
+fn method(formulation: &str, integrator: &str, projection: &str) -> Entry {
+    let label = match (formulation, projection) {
+        ("index1", projection) => format!("{integrator} {projection}"),
+        (formulation, "none") => format!("{integrator} {formulation}"),
+        _ => format!("{integrator} {formulation} {projection}"),
+    };
+    let [formulation, integrator, projection] = [formulation, integrator, projection].map(Choice::named);
+    Entry::named(&label, vec![Change::Integrator(integrator), Change::Stabilization(formulation, projection)])
+}

@@ -1,0 +1,33 @@
+//! Maps over extremes: what becomes of a simulation where steps, gains, masses, stiffness, tolerances, speeds, sizes or
+//! times are far from what is usual.
+//!
+//! A [`Map`] is two axes and the methods that are compared on them. Each of its cells is one simulation of a [`Case`],
+//! the scene with the [`Change`]s of its place, run under a deadline. What fails is a result: see [`Status`].
+//!
+//! To add an extreme: a file in `extremes` and a line in [`registry`].
+
+mod case;
+mod cell;
+mod change;
+mod extreme;
+mod extremes;
+mod gains;
+mod json;
+mod map;
+mod maps;
+mod reference;
+mod run;
+mod subject;
+mod verdict;
+
+pub use case::Case;
+pub use cell::{Cell, Quantity, Status};
+pub use change::Change;
+pub use extreme::{Extreme, find, ladder};
+pub use extremes::registry;
+pub use gains::{Best, GainVerdict, Steady, StepVerdict};
+pub use map::{Axis, Entry, Map};
+pub use maps::{MapEntry, known, maps, pair};
+pub use run::{Limits, Stressed, stress};
+pub use subject::{Subject, Typical};
+pub use verdict::{Bound, Reason, Side, Verdict};

@@ -1,0 +1,168 @@
+//! All cells of a map, in parallel, each under its deadline.
+
+use super::case::Case;
+use super::cell::{Cell, Status};
+use super::map::Map;
+use super::reference::Reference;
+use super::subject::Subject;
+use crate::error::{Error, Result};
+use crate::formulation::Halt;
+use crate::measure::{Record, Recorder};
+use crate::simulate::{Outcome, Stop, simulate};
+use rayon::prelude::*;
+use std::cell::Cell as Flag;
+use std::time::{Duration, Instant};
+
+/// How long cells may take.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// Each of them.
+    pub cell: Duration,
+    /// All of them: what has not begun then is left out, and what runs ends.
+    pub end: Instant,
+}
+
+/// A map with its cells, by method, then row, then column.
+pub struct Stressed {
+    pub map: Map,
+    pub cells: Vec<Cell>,
+}
+
+impl Stressed {
+    pub fn cell(&self, method: usize, row: usize, column: usize) -> Option<&Cell> {
+        let (columns, rows) = (self.map.x.entries.len(), self.map.y.entries.len());
+        self.cells.get((method * rows + row) * columns + column).filter(|_| column < columns && row < rows)
+    }
+}
+
+/// Simulates every cell; `progress` hears of each that is done. The cells do not depend on the order in which they are run,
+/// but for deadlines.
+pub fn stress(subject: &Subject, map: Map, limits: Limits, progress: &(impl Fn() + Sync)) -> Stressed {
+    let reference = map.keeps_motion().then(|| Reference::of(subject, 3 * limits.cell)).flatten();
+    let (columns, rows) = (map.x.entries.len(), map.y.entries.len());
+    let one = |index: usize| {
+        let place = [index / (rows * columns), index / columns % rows, index % columns];
+        let cell = cell(subject, &map, place, limits, reference.as_ref());
+        progress();
+        cell
+    };
+    let cells = (0..map.len()).into_par_iter().with_max_len(1).map(one).collect();
+    Stressed { map, cells }
+}
+
+fn cell(
+    subject: &Subject,
+    map: &Map,
+    place: [usize; 3],
+    limits: Limits,
+    reference: Option<&Reference>,
+) -> Cell {
+    let [panel, row, column] = place;
+    let mut case = subject.base.clone();
+    let clock = Instant::now();
+    let entries = [&map.methods[panel], &map.x.entries[column], &map.y.entries[row]];
+    let changed = entries.into_iter().flat_map(|entry| &entry.changes).try_for_each(|change| change.apply(&mut case));
+    let blank = Cell {
+        panel,
+        column,
+        row,
+        method: case.method.clone(),
+        status: Status::LeftOut,
+        reason: None,
+        t: 0.0,
+        drift: None,
+        energy_error: None,
+        relative_energy_error: None,
+        error: None,
+        steps: 0,
+        rhs_evaluations: 0,
+        seconds: 0.0,
+    };
+    if clock >= limits.end {
+        return blank;
+    }
+    let run = changed.and_then(|()| run(subject, &case, limits));
+    let seconds = clock.elapsed().as_secs_f64();
+    match run {
+        Err(error) => Cell { status: Status::Refused, reason: Some(message(&error)), seconds, ..blank },
+        Ok(run) => Cell { seconds, ..run.cell(blank, reference) },
+    }
+}
+
+/// The first line of an error, which says what is wrong.
+fn message(error: &Error) -> String {
+    error.to_string().lines().next().unwrap_or_default().to_string()
+}
+
+struct Run {
+    outcome: Outcome,
+    record: Record,
+    /// How a run that was stopped from outside is called.
+    stopped: Option<Status>,
+}
+
+fn run(subject: &Subject, case: &Case, limits: Limits) -> Result<Run> {
+    subject.with(case, |system, span, start| {
+        let (begin, stopped) = (Instant::now(), Flag::new(None));
+        let stop = || {
+            let now = Instant::now();
+            let status = match () {
+                () if now.duration_since(begin) > limits.cell => Status::TooSlow,
+                () if now > limits.end => Status::LeftOut,
+                () => return None,
+            };
+            stopped.set(Some(status));
+            Some(Stop::deadline(limits.cell))
+        };
+        let mut recorder = Recorder::new(system).with_stop(stop);
+        let outcome = simulate(system, &case.method, span, start, &mut recorder)?;
+        let record = recorder.finish();
+        Ok(Run { outcome, record, stopped: stopped.get() })
+    })
+}
+
+/// Joints that are open by this part of the scene's size make a motion meaningless.
+const OPEN: f64 = 0.1;
+/// A run that stopped had diverged before if its energy error is this part of the largest kinetic energy.
+const BLOWN: f64 = 0.5;
+
+impl Run {
+    fn cell(self, blank: Cell, reference: Option<&Reference>) -> Cell {
+        let status = self.status();
+        let Run { outcome, record, .. } = self;
+        let reason = match (&outcome.failure, status) {
+            (_, Status::LeftOut) => None,
+            (Some(failure), _) => Some(failure.reason.clone()),
+            (None, Status::Diverged) => {
+                Some(format!("the joints are open by {:.1e} of the scene's size", record.drift.position.relative_max))
+            }
+            (None, _) => None,
+        };
+        Cell {
+            status,
+            reason,
+            t: outcome.t,
+            energy_error: record.energy.map(|energy| energy.max_error),
+            relative_energy_error: record.energy.map(|energy| energy.relative_max_error),
+            error: reference.filter(|_| status == Status::Completed).and_then(|reference| reference.error(&record)),
+            drift: Some(record.drift),
+            steps: outcome.statistics.steps,
+            rhs_evaluations: outcome.statistics.rhs_evaluations,
+            ..blank
+        }
+    }
+
+    fn status(&self) -> Status {
+        let open = self.record.drift.position.relative_max;
+        let is_open = open.is_nan() || open > OPEN;
+        let Some(failure) = &self.outcome.failure else {
+            return if is_open { Status::Diverged } else { Status::Completed };
+        };
+        let is_blown = self.record.energy.is_some_and(|energy| energy.relative_max_error.is_nan() || energy.relative_max_error > BLOWN);
+        match self.stopped {
+            Some(status) => status,
+            None if is_open || is_blown || failure.reason.contains(&Halt::NotFinite.to_string()) => Status::Diverged,
+            None => Status::Failed,
+        }
+    }
+}

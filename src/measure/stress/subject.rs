@@ -1,0 +1,225 @@
+//! What is driven to extremes: a scene, or own equations.
+
+use super::case::Case;
+use crate::error::Result;
+use crate::measure::Recorder;
+use crate::scene::{self, Scene};
+use crate::simulate::{Method, Span, Stop, simulate};
+use crate::study::{Overrides, Study};
+use crate::system::{Dimensions, MechanicalSystem};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// A scene or own equations, with what is usual for them.
+pub struct Subject<'a> {
+    pub name: String,
+    pub base: Case,
+    pub dimensions: Dimensions,
+    folder: PathBuf,
+    own: Option<Own<'a>>,
+}
+
+struct Own<'a> {
+    system: &'a dyn MechanicalSystem,
+    start: f64,
+    q: Vec<f64>,
+    v: Vec<f64>,
+}
+
+/// Scales that values are chosen by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Typical {
+    /// Mean step of the scene's own method, s.
+    pub step: f64,
+    /// Mean time from one upward crossing of its mean to the next, of the first output or coordinate that has two; the
+    /// duration where none has, s.
+    pub period: f64,
+}
+
+/// Output rows of a cell, and of the run that tells what is typical.
+const ROWS: f64 = 100.0;
+const TYPICAL_ROWS: f64 = 2000.0;
+/// The run that tells what is typical ends here.
+const PATIENCE: Duration = Duration::from_secs(3);
+
+impl Subject<'static> {
+    /// Reads a scene.
+    ///
+    /// # Errors
+    /// As [`Study::load`]; a scene without an end time.
+    pub fn load(path: &Path, overrides: &Overrides) -> Result<Self> {
+        let study = Study::load(path, overrides)?;
+        let span = study.span().map_err(|error| error.in_file(path))?;
+        let text = scene::read_text(path)?;
+        let json = serde_json::from_str(text.trim_start_matches('\u{feff}')).unwrap_or(Value::Null);
+        let base = Case {
+            scene: json,
+            set: overrides.set.clone(),
+            method: study.method.clone(),
+            duration: span.end - span.start,
+            typical: Typical::of(study.system(), &study.method, span, study.start())?,
+            start_error: [0.0; 2],
+        };
+        Ok(Subject {
+            name: study.name.clone(),
+            base,
+            dimensions: study.system().dimensions(),
+            folder: scene::folder(Some(path)).to_path_buf(),
+            own: None,
+        })
+    }
+}
+
+impl<'a> Subject<'a> {
+    /// Own equations from a consistent (q, v). Extremes of scenes do not suit them.
+    ///
+    /// # Errors
+    /// As [`simulate`].
+    pub fn of_equations(
+        name: &str,
+        system: &'a dyn MechanicalSystem,
+        method: Method,
+        span: Span,
+        (q, v): (&[f64], &[f64]),
+    ) -> Result<Self> {
+        Ok(Subject {
+            name: name.to_string(),
+            dimensions: system.dimensions(),
+            base: Case {
+                scene: Value::Null,
+                set: Vec::new(),
+                duration: span.end - span.start,
+                typical: Typical::of(system, &method, span, (q, v))?,
+                method,
+                start_error: [0.0; 2],
+            },
+            folder: PathBuf::new(),
+            own: Some(Own { system, start: span.start, q: q.to_vec(), v: v.to_vec() }),
+        })
+    }
+
+    /// Names of the scene's parameters.
+    pub fn parameters(&self) -> impl Iterator<Item = &str> {
+        let parameters = self.base.scene.get("parameters").and_then(Value::as_object);
+        parameters.into_iter().flat_map(|map| map.keys().map(String::as_str))
+    }
+
+    /// Makes a case ready and hands it over: the system, when, and the start.
+    ///
+    /// # Errors
+    /// A scene that is no longer one with these values.
+    pub fn with<T>(
+        &self,
+        case: &Case,
+        run: impl FnOnce(&dyn MechanicalSystem, Span, (&[f64], &[f64])) -> Result<T>,
+    ) -> Result<T> {
+        let span = |start: f64| Span { start, end: start + case.duration, output_step: case.duration / ROWS };
+        let moved = |system: &dyn MechanicalSystem, start, q: &[f64], v: &[f64]| {
+            let (q, v) = perturbed(system, (q, v), case.start_error, case.typical.period);
+            run(system, span(start), (&q, &v))
+        };
+        if let Some(own) = &self.own {
+            return moved(own.system, own.start, &own.q, &own.v);
+        }
+        let scene = Scene::parse_in(&self.folder, &case.scene.to_string(), &case.set)?;
+        let span = span(scene.start_time()?);
+        let method = &case.method;
+        let overrides = Overrides {
+            formulation: Some(method.formulation.clone()),
+            integrator: Some(method.integrator.clone()),
+            projection: Some(method.projection.clone()),
+            step: method.step,
+            until: Some(span.end),
+            output_step: Some(span.output_step),
+            ..Overrides::default()
+        };
+        let study = Study::new(scene, &overrides)?;
+        moved(study.system(), span.start, study.start().0, study.start().1)
+    }
+}
+
+/// The start moved along a random direction that is always the same, each component by the error times a number between
+/// -1 and 1.
+fn perturbed(
+    system: &dyn MechanicalSystem,
+    (q, v): (&[f64], &[f64]),
+    [position, velocity]: [f64; 2],
+    period: f64,
+) -> (Vec<f64>, Vec<f64>) {
+    let (mut q, mut v) = (q.to_vec(), v.to_vec());
+    if position == 0.0 && velocity == 0.0 {
+        return (q, v);
+    }
+    let size = system.scales().into_iter().fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let mut random = Random(1);
+    let dq: Vec<f64> = v.iter().map(|_| position * size * random.next()).collect();
+    let mut stages = [0; 3].map(|_| vec![0.0; q.len()]);
+    let from = q.clone();
+    crate::formulation::turn(system, &mut stages, &from, &dq, &mut q);
+    v.iter_mut().for_each(|v| *v += velocity * size / period * random.next());
+    (q, v)
+}
+
+/// Knuth's linear congruential generator: the same numbers everywhere.
+struct Random(u64);
+
+impl Random {
+    /// Between -1 and 1.
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
+
+impl Typical {
+    fn of(system: &dyn MechanicalSystem, method: &Method, span: Span, start: (&[f64], &[f64])) -> Result<Self> {
+        let clock = Instant::now();
+        let stop = || (clock.elapsed() > PATIENCE).then(|| Stop::deadline(PATIENCE));
+        let mut recorder = Recorder::new(system).with_stop(stop);
+        let duration = span.end - span.start;
+        let span = Span { output_step: duration / TYPICAL_ROWS, ..span };
+        let outcome = simulate(system, method, span, start, &mut recorder)?;
+        let trajectory = recorder.finish().trajectory;
+        let steps = outcome.statistics.steps.max(1) as f64;
+        let step = if outcome.t > span.start { (outcome.t - span.start) / steps } else { duration / TYPICAL_ROWS };
+        let columns = trajectory.rows.first().map_or(0, Vec::len);
+        let (n, outputs) = (trajectory.names.q.len(), trajectory.outputs.len());
+        let mut candidates = (columns - outputs..columns).chain(1..=n.min(columns));
+        let times: Vec<f64> = trajectory.times().collect();
+        let period = candidates.find_map(|i| {
+            let values: Vec<f64> = trajectory.rows.iter().map(|row| row[i]).collect();
+            period(&times, &values)
+        });
+        Ok(Typical { step, period: period.unwrap_or(duration) })
+    }
+}
+
+/// Mean time between upward crossings of the mean; none with fewer than two.
+fn period(times: &[f64], values: &[f64]) -> Option<f64> {
+    let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+    let range = values.iter().fold(0.0, |range: f64, value| range.max((value - mean).abs()));
+    let crossings: Vec<f64> = times
+        .windows(2)
+        .zip(values.windows(2))
+        .filter(|(_, pair)| pair[0] < mean && pair[1] >= mean && range > 1e-9 * mean.abs())
+        .map(|(times, _)| times[1])
+        .collect();
+    match crossings.as_slice() {
+        [first, .., last] => Some((last - first) / (crossings.len() - 1) as f64),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn periods_are_counted() {
+        let times: Vec<f64> = (0..1000).map(|k| 0.01 * f64::from(k)).collect();
+        let wave: Vec<f64> = times.iter().map(|t| (std::f64::consts::PI * t).sin()).collect();
+        assert!(period(&times, &wave).is_some_and(|found| (found - 2.0).abs() < 0.02));
+        assert_eq!(period(&times, &times), None);
+    }
+}

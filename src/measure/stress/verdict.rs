@@ -1,0 +1,117 @@
+//! What the cells of a map come to, in numbers.
+
+use super::cell::{Cell, Status};
+use super::map::Axis;
+use super::run::Stressed;
+use serde::Serialize;
+
+/// One method on a map.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Verdict {
+    pub method: String,
+    pub cells: usize,
+    pub completed: usize,
+    /// How many did not complete, by how they ended.
+    pub others: Vec<(Status, usize)>,
+    /// Least and largest of the map's quantity in completed cells.
+    pub range: Option<[f64; 2]>,
+    /// Where all that did not complete lies.
+    pub bounds: Vec<Bound>,
+    /// Why cells did not complete, how many for the same reason, and where the first of them lies.
+    pub reasons: Vec<Reason>,
+}
+
+/// All cells that did not complete lie on this side of an axis.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Bound {
+    pub axis: String,
+    pub side: Side,
+    pub value: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Side {
+    From,
+    UpTo,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Reason {
+    pub status: Status,
+    pub reason: String,
+    pub count: usize,
+    pub x: String,
+    pub y: String,
+}
+
+impl Stressed {
+    /// The verdict on each method.
+    pub fn verdicts(&self) -> Vec<Verdict> {
+        (0..self.map.methods.len()).map(|method| self.verdict(method)).collect()
+    }
+
+    fn verdict(&self, method: usize) -> Verdict {
+        let cells: Vec<&Cell> = self.cells.iter().filter(|cell| cell.panel == method).collect();
+        let count = |status: Status| cells.iter().filter(|cell| cell.status == status).count();
+        let statuses =
+            [Status::Diverged, Status::Failed, Status::Refused, Status::TooSlow, Status::LeftOut];
+        let values = cells.iter().filter_map(|cell| self.map.quantity.of(cell));
+        let range = values.fold(None, |range: Option<[f64; 2]>, value| {
+            Some(range.map_or([value; 2], |[low, high]| [low.min(value), high.max(value)]))
+        });
+        let bounds = [
+            bound(&self.map.x, &cells, |cell| cell.column),
+            bound(&self.map.y, &cells, |cell| cell.row),
+        ];
+        Verdict {
+            method: self.map.methods[method].label.clone(),
+            cells: cells.len(),
+            completed: count(Status::Completed),
+            others: statuses.into_iter().map(|status| (status, count(status))).filter(|(_, n)| *n > 0).collect(),
+            range,
+            bounds: bounds.into_iter().flatten().collect(),
+            reasons: self.reasons(&cells),
+        }
+    }
+
+    /// Reasons that differ by numbers only are one.
+    fn reasons(&self, cells: &[&Cell]) -> Vec<Reason> {
+        let kind = |reason: &str| reason.chars().filter(|c| !c.is_ascii_digit() && !"+-.e".contains(*c)).collect::<String>();
+        let mut found: Vec<Reason> = Vec::new();
+        for cell in cells {
+            let Some(reason) = &cell.reason else { continue };
+            match found.iter_mut().find(|known| known.status == cell.status && kind(&known.reason) == kind(reason)) {
+                Some(known) => known.count += 1,
+                None => found.push(Reason {
+                    status: cell.status,
+                    reason: reason.clone(),
+                    count: 1,
+                    x: self.map.x.entries[cell.column].label.clone(),
+                    y: self.map.y.entries[cell.row].label.clone(),
+                }),
+            }
+        }
+        found.sort_by_key(|reason| std::cmp::Reverse(reason.count));
+        found
+    }
+}
+
+/// The side of an axis on which all cells lie that ended badly, if there is one and it is not all of the axis.
+fn bound(axis: &Axis, cells: &[&Cell], place: impl Fn(&Cell) -> usize) -> Option<Bound> {
+    let values = axis.values()?;
+    let is_bad = |at: usize| {
+        let ended = |cell: &&&Cell| matches!(cell.status, Status::Diverged | Status::Failed | Status::Refused);
+        cells.iter().filter(|cell| place(cell) == at).any(|cell| ended(&cell))
+    };
+    let bad: Vec<usize> = (0..values.len()).filter(|at| is_bad(*at)).collect();
+    let (first, last) = (*bad.first()?, *bad.last()?);
+    let is_one_piece = last - first + 1 == bad.len();
+    let (side, at) = match (first, last + 1 == values.len()) {
+        (0, true) => return None,
+        (_, true) => (Side::From, first),
+        (0, false) => (Side::UpTo, last),
+        _ => return None,
+    };
+    is_one_piece.then(|| Bound { axis: axis.name.clone(), side, value: values[at] })
+}

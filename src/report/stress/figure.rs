@@ -1,0 +1,62 @@
+//! A map as a figure.
+
+use crate::measure::stress::{Axis, Status, Stressed};
+use crate::plot::{AxisSpec, Figure, HeatMap, Panel};
+
+/// Height of a row of cells, in nominal pixels.
+const ROW: f64 = 21.0;
+/// Smaller values have the colour of this one: they are round-off.
+const ROUND_OFF: f64 = 1e-16;
+
+/// One panel a method, one above another, on the same colours; words upon cells that did not complete.
+pub fn stress_figure(scene: &str, stressed: &Stressed) -> Figure {
+    let map = &stressed.map;
+    let values: Vec<f64> = stressed.cells.iter().filter_map(|cell| map.quantity.of(cell)).collect();
+    let low = values.iter().copied().fold(1.0, f64::min).max(ROUND_OFF);
+    let high = values.iter().copied().fold(10.0 * low, f64::max);
+    let title = format!("{scene}: {} by {} and {}", map.quantity.label(), map.x.name, map.y.name).replace('_', " ");
+    let panels = (0..map.methods.len()).map(|method| panel(stressed, method, (low, high)));
+    panels.fold(Figure::new().title(title), Figure::panel)
+}
+
+fn panel(stressed: &Stressed, method: usize, (low, high): (f64, f64)) -> Panel {
+    let map = &stressed.map;
+    let (columns, x) = places(&map.x);
+    let (rows, y) = places(&map.y);
+    let at = |places: &[(usize, f64)]| places.iter().map(|place| place.1).collect();
+    let mut cells = HeatMap::new(map.quantity.label(), at(&columns), at(&rows)).log().range(low, high);
+    for (row, (from_row, _)) in rows.iter().enumerate() {
+        for (column, (from_column, _)) in columns.iter().enumerate() {
+            let Some(cell) = stressed.cell(method, *from_row, *from_column) else { continue };
+            match map.quantity.of(cell) {
+                Some(value) => cells.set(column, row, value),
+                None => cells.mark(column, row, symbol(cell.status)),
+            }
+        }
+    }
+    Panel::new(x, y).title(map.methods[method].label.clone()).heat_map(cells).height(ROW * rows.len().max(4) as f64)
+}
+
+/// What stands upon a cell without a value.
+fn symbol(status: Status) -> &'static str {
+    match status {
+        Status::Completed => "",
+        Status::Diverged => "∞",
+        Status::Failed => "fail",
+        Status::Refused => "no",
+        Status::TooSlow => "slow",
+        Status::LeftOut => "–",
+    }
+}
+
+/// The entries of an axis in ascending order with where they stand, and the axis.
+fn places(axis: &Axis) -> (Vec<(usize, f64)>, AxisSpec) {
+    let label = AxisSpec::from(axis.label());
+    let Some(values) = axis.values() else {
+        let names = axis.entries.iter().map(|entry| entry.label.clone());
+        return ((0..axis.entries.len()).map(|k| (k, k as f64)).collect(), label.names(names));
+    };
+    let mut places: Vec<(usize, f64)> = values.into_iter().enumerate().collect();
+    places.sort_by(|a, b| a.1.total_cmp(&b.1));
+    (places, if axis.is_log() { label.log() } else { label })
+}

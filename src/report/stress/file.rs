@@ -1,0 +1,118 @@
+//! `stress.json` and `stress.csv`.
+
+use super::words::sentences;
+use crate::error::Result;
+use crate::measure::stress::{Axis, Cell, GainVerdict, Quantity, Stressed, Verdict};
+use crate::report::{cell as full, table};
+use crate::simulate::Method;
+use serde::Serialize;
+
+/// All maps of a scene.
+#[derive(Serialize)]
+pub struct StressFile {
+    pub scene: String,
+    pub method: Method,
+    /// What steps and times are chosen by, s.
+    pub typical_step: f64,
+    pub typical_period: f64,
+    pub wall_seconds: f64,
+    pub maps: Vec<MapFile>,
+}
+
+/// A map with its verdicts and cells.
+#[derive(Serialize)]
+pub struct MapFile {
+    pub name: String,
+    pub about: String,
+    pub quantity: Quantity,
+    pub x: AxisFile,
+    pub y: AxisFile,
+    pub methods: Vec<String>,
+    pub words: Vec<String>,
+    pub verdicts: Vec<Verdict>,
+    pub gains: Vec<GainVerdict>,
+    /// By method, then row, then column.
+    pub cells: Vec<Cell>,
+}
+
+#[derive(Serialize)]
+pub struct AxisFile {
+    pub name: String,
+    pub unit: String,
+    pub labels: Vec<String>,
+    /// Null where the place is no number, such as another method.
+    pub values: Vec<Option<f64>>,
+}
+
+impl From<&Axis> for AxisFile {
+    fn from(axis: &Axis) -> Self {
+        AxisFile {
+            name: axis.name.clone(),
+            unit: axis.unit.clone(),
+            labels: axis.entries.iter().map(|entry| entry.label.clone()).collect(),
+            values: axis.entries.iter().map(|entry| entry.value).collect(),
+        }
+    }
+}
+
+impl From<&Stressed> for MapFile {
+    fn from(stressed: &Stressed) -> Self {
+        let map = &stressed.map;
+        MapFile {
+            name: map.name.clone(),
+            about: map.about.clone(),
+            quantity: map.quantity,
+            x: AxisFile::from(&map.x),
+            y: AxisFile::from(&map.y),
+            methods: map.methods.iter().map(|method| method.label.clone()).collect(),
+            words: sentences(stressed),
+            verdicts: stressed.verdicts(),
+            gains: stressed.gains(),
+            cells: stressed.cells.clone(),
+        }
+    }
+}
+
+const HEADINGS: [&str; 23] = [
+    "scene", "map", "x_name", "x", "y_name", "y", "y_label", "formulation", "integrator", "projection", "rtol", "atol",
+    "step", "status", "reason", "t", "position_drift", "velocity_drift", "final_position_drift", "energy_error", "error",
+    "steps", "seconds",
+];
+
+/// One row a cell, over all scenes; empty where a value is not known.
+pub fn stress_table(files: &[StressFile]) -> Result<Vec<u8>> {
+    let maps = files.iter().flat_map(|file| file.maps.iter().map(move |map| (file, map)));
+    let rows = maps.flat_map(|(file, map)| map.cells.iter().map(move |cell| row(&file.scene, map, cell)));
+    table(HEADINGS.into_iter().map(String::from), rows)
+}
+
+fn row(scene: &str, map: &MapFile, cell: &Cell) -> Vec<String> {
+    let number = |value: Option<f64>| value.filter(|value| value.is_finite()).map_or(String::new(), full);
+    let Method { formulation, integrator, projection, rtol, atol, step } = &cell.method;
+    let drift = cell.drift.as_ref();
+    vec![
+        scene.to_string(),
+        map.name.clone(),
+        map.x.name.clone(),
+        number(map.x.values[cell.column]),
+        map.y.name.clone(),
+        number(map.y.values[cell.row]),
+        map.y.labels[cell.row].clone(),
+        formulation.to_string(),
+        integrator.to_string(),
+        projection.to_string(),
+        full(*rtol),
+        full(*atol),
+        number(*step),
+        cell.status.word().replace(' ', "_"),
+        cell.reason.clone().unwrap_or_default(),
+        number(Some(cell.t)),
+        number(drift.map(|drift| drift.position.max)),
+        number(drift.map(|drift| drift.velocity.max)),
+        number(drift.map(|drift| drift.position.last)),
+        number(cell.energy_error),
+        number(cell.error),
+        cell.steps.to_string(),
+        full(cell.seconds),
+    ]
+}
