@@ -60,6 +60,8 @@ pub struct Study {
     /// Why this method, where it was left to the program.
     pub chosen_because: Option<String>,
     pub assembly: Assembly,
+    /// The table that the scene brings to measure accuracy against, by its path from the scene.
+    pub reference: Option<String>,
     start_time: f64,
     /// `None` where neither the scene nor the command line says until when.
     span: Option<Span>,
@@ -105,6 +107,7 @@ impl Study {
             method,
             chosen_because,
             assembly,
+            reference: scene.simulation.reference,
             start_time: start,
             span,
         })

@@ -95,6 +95,22 @@ impl Args {
         Overrides { set: self.scene.set.clone(), until: self.until, ..Overrides::default() }
     }
 
+    /// The table to measure against: that of the command line, or that which the scene brings.
+    fn reference(&self, study: &Study) -> Option<PathBuf> {
+        let own = || Some(scene::folder(Some(&self.scene.path)).join(study.reference.as_ref()?));
+        self.reference.clone().or_else(own)
+    }
+
+    /// What to compare; by default all that a table has.
+    fn outputs(&self, study: &Study, given: Option<&Given>) -> Vec<String> {
+        let known = study.system().columns();
+        let has = |name: &&str| known.iter().any(|column| column.name == **name);
+        match given {
+            Some(given) if self.outputs.is_empty() => given.names().filter(has).map(str::to_string).collect(),
+            _ => self.outputs.clone(),
+        }
+    }
+
     /// Refuses unknown options of what is named, before anything is run.
     fn check_choices(&self, system: &dyn MechanicalSystem) -> Result<()> {
         for choice in &self.formulation {
@@ -116,8 +132,9 @@ impl Args {
 
 fn methods(args: &Args, study: &Study) -> Result<ExitCode> {
     let span = study.span()?;
-    let watched = Watched::new(study.system(), &args.outputs).map_err(|error| error.under("--outputs"))?;
-    let given = args.reference.as_deref().map(Given::read).transpose()?;
+    let given = args.reference(study).as_deref().map(Given::read).transpose()?;
+    let outputs = args.outputs(study, given.as_ref());
+    let watched = Watched::new(study.system(), &outputs).map_err(|error| error.under("--outputs"))?;
     let rows = usize::from(args.rows);
     let rows = given.as_ref().map_or(Ok(rows), |given| given.parts((span.start, span.end), rows))?;
     let filter = Filter {
@@ -227,7 +244,13 @@ fn variant(text: &str, args: &Args, like: &Study) -> Result<Variant> {
     let own: Vec<(String, f64)> = own.collect::<Result<_>>().map_err(|error| error.under("--variants"))?;
     let span = like.span()?;
     let overrides = Overrides { set: own, until: Some(span.end), ..args.overrides() };
-    Ok(Variant { name: text.to_string(), study: Study::load(Path::new(path), &overrides)? })
+    Ok(Variant { name: named(Path::new(path), set), study: Study::load(Path::new(path), &overrides)? })
+}
+
+/// The file's name and the parameters.
+fn named(path: &Path, set: &str) -> String {
+    let stem = path.file_stem().map_or(String::new(), |stem| stem.to_string_lossy().into_owned());
+    if set.is_empty() { stem } else { format!("{stem}:{set}") }
 }
 
 fn models(args: &Args, study: Study) -> Result<ExitCode> {
@@ -236,7 +259,8 @@ fn models(args: &Args, study: Study) -> Result<ExitCode> {
         others.push(variant(text, args, &study)?);
     }
     let (name, title) = (study.name.clone(), format!("{}: what models cost", study.name));
-    let own = Variant { name: args.named(), study };
+    let set = args.scene.set.iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>().join(",");
+    let own = Variant { name: named(&args.scene.path, &set), study };
     let variants: Vec<Variant> = [own].into_iter().chain(others).collect();
     let mut folder = args.output.folder(&name)?;
     let repeats = usize::from(args.repeats);

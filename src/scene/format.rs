@@ -211,6 +211,8 @@ pub struct Simulation {
     pub atol: Option<Number>,
     /// Fixed step, s. Default: chosen by the integrator.
     pub step: Option<Number>,
+    /// A table (CSV) beside the scene that accuracy is measured against: `t` and outputs by name.
+    pub reference: Option<String>,
 }
 
 /// Lets the program choose.

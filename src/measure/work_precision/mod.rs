@@ -14,6 +14,7 @@
 mod advice;
 mod cell;
 mod grid;
+mod ladder;
 pub mod models;
 mod reference;
 mod runner;

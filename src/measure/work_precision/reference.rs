@@ -202,6 +202,11 @@ impl Given {
         Ok(Given { name: name.to_string(), headings, rows })
     }
 
+    /// The quantities it has.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.headings.iter().map(String::as_str).filter(|heading| *heading != "t")
+    }
+
     /// So many equal parts of the time, at most `most`, that the file has a row at the end of each of them.
     ///
     /// # Errors

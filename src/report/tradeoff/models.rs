@@ -27,7 +27,10 @@ const WITHIN: [f64; 4] = [0.1, 0.01, 1e-3, 1e-4];
 
 impl<'a> ModelsSummary<'a> {
     pub fn new(costs: &'a ModelCosts) -> ModelsSummary<'a> {
-        ModelsSummary { costs, recommendations: WITHIN.iter().filter_map(|within| advice(costs, *within)).collect() }
+        let mut recommendations: Vec<ModelAdvice> = WITHIN.iter().filter_map(|within| advice(costs, *within)).collect();
+        // Once it is the richest, it stays so.
+        recommendations.dedup_by(|a, b| a.model == b.model && b.model == costs.models[costs.richest].name);
+        ModelsSummary { costs, recommendations }
     }
 
     pub fn text(&self) -> String {
@@ -61,7 +64,7 @@ impl<'a> ModelsSummary<'a> {
 fn percent(part: f64) -> String {
     match 100.0 * part {
         zero if zero == 0.0 => "0".to_string(),
-        much if much >= 0.1 => format!("{} %", crate::report::significant(format!("{much:.1e}").parse().unwrap_or(much), 2)),
+        much if much >= 0.01 => format!("{} %", crate::report::significant(format!("{much:.1e}").parse().unwrap_or(much), 2)),
         little => format!("{little:.0e} %"),
     }
 }
@@ -83,7 +86,7 @@ fn advice(costs: &ModelCosts, within: f64) -> Option<ModelAdvice> {
     let time = |model: &ModelCost| model.seconds().unwrap_or(f64::INFINITY);
     let best = costs.models.iter().filter(is_good).min_by(|a, b| time(a).total_cmp(&time(b)))?;
     let against = match best.name == rich.name {
-        true => "no poorer model has that".to_string(),
+        true => "no poorer model is as near".to_string(),
         false => format!("the richest takes {}", milliseconds(rich.seconds()?)),
     };
     let sentence = format!(

@@ -1,9 +1,12 @@
 //! Differences of models from the richest against their CPU time.
 
 use crate::measure::work_precision::models::{ModelCost, ModelCosts};
-use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
+use crate::plot::{AxisSpec, Figure, Panel, Series};
 
-/// One line an output, through the models by their time, each of which is named once. `None` where nothing differs.
+/// Of the axis of time, on both sides.
+const MARGIN: f64 = 1.5;
+
+/// A dot an output of each model, whose name stands at the largest. `None` where nothing differs.
 pub fn models_figure(title: &str, costs: &ModelCosts) -> Option<Figure> {
     let mut poorer: Vec<&ModelCost> = costs.models.iter().filter(|model| model.seconds().is_some()).collect();
     poorer.sort_by(|a, b| a.seconds().unwrap_or(0.0).total_cmp(&b.seconds().unwrap_or(0.0)));
@@ -14,17 +17,21 @@ pub fn models_figure(title: &str, costs: &ModelCosts) -> Option<Figure> {
         };
         poorer.iter().filter_map(of).collect()
     };
-    let label = "largest difference (part of the largest value)";
-    let mut panel = Panel::new(AxisSpec::from("CPU time (s)").log(), AxisSpec::from(label).log());
+    let times: Vec<f64> = poorer.iter().filter_map(|model| model.seconds()).collect();
+    let (least, most) = times.iter().fold((f64::INFINITY, 0.0f64), |(a, b), time| (a.min(*time), b.max(*time)));
+    let x = AxisSpec::from("CPU time (s)").log().range(MARGIN.recip() * least, MARGIN * most);
+    let mut panel = Panel::new(x, AxisSpec::from("largest difference (relative)").log());
     for column in &costs.columns {
         let points = points(&column.name);
         if !points.is_empty() {
-            panel = panel.series(Series::line(&column.name, points).style(Style::LineDots));
+            panel = panel.series(Series::dots(&column.name, points));
         }
     }
     for model in &poorer {
         if let (Some(seconds), Some(error)) = (model.seconds(), model.error().filter(|error| *error > 0.0)) {
-            panel = panel.annotate(seconds, error, &model.name);
+            // What differs is enough.
+            let name = model.name.rsplit_once(':').map_or(model.name.as_str(), |(_, set)| set);
+            panel = panel.annotate(seconds, error, name);
         }
     }
     (!panel.series.is_empty()).then(|| Figure::new().title(title).panel(panel.height(360.0)))

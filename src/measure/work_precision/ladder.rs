@@ -1,0 +1,244 @@
+//! Which run comes next, and which are not worth making.
+
+use super::cell::{Cell, Outcome};
+use super::grid::Triple;
+use super::runner::{Pause, Runner, WORTH_REPEATING};
+use super::{WorkPrecision, advice};
+use crate::error::{Error, Failure, Result, short};
+use crate::integrator::{self, Steps};
+use crate::simulate::{Method, explicit};
+use std::time::Duration;
+
+/// rtol = 10^-decades: first these, of all methods,
+const COARSE: [u32; 4] = [3, 6, 9, 12];
+/// then these, of methods that are near the best somewhere.
+const FINE: [u32; 6] = [4, 5, 7, 8, 10, 11];
+/// Parts of the budget that one run may take: quick runs of all methods come before slow ones of any.
+const RUN: [f64; 4] = [0.001, 0.005, 0.02, 0.08];
+/// Part of the budget after which no more of the grid is tried, so that repeats find their time.
+const GRID: f64 = 0.75;
+/// Times as slow as the best for its digits: a method is tried on below.
+const WORTH_TRYING: f64 = 10.0;
+/// A fixed step errs by 10^-decades where it is this part of the pace times 10^-(decades/p).
+const FIXED: f64 = 0.3;
+
+impl<'a> Runner<'a> {
+    /// The grid: quick runs of all methods, then longer ones.
+    pub(super) fn climb(&mut self, result: &mut WorkPrecision) -> Result<Option<(Pause, String)>> {
+        for part in RUN {
+            let allowed = self.plan.budget.mul_f64(part);
+            let ladder = COARSE.map(|decades| (decades, false)).into_iter().chain(FINE.map(|decades| (decades, true)));
+            for (decades, is_fine) in ladder {
+                if let Some(paused) = self.rung(result, decades, is_fine, allowed)? {
+                    return Ok(Some(paused));
+                }
+            }
+        }
+        Ok(None)
+    }
+
+    /// All methods at one accuracy that are worth it and not done.
+    fn rung(
+        &mut self,
+        result: &mut WorkPrecision,
+        decades: u32,
+        is_fine: bool,
+        allowed: Duration,
+    ) -> Result<Option<(Pause, String)>> {
+        let pending = self.pending(result, decades, is_fine, allowed);
+        for (done, triple) in pending.iter().enumerate() {
+            let method = self.method(result, triple, decades);
+            let pause = match self.clock.elapsed() > self.plan.budget.mul_f64(GRID) {
+                true => Some(Pause::Budget),
+                false => self.pauses(result, &method.triple()),
+            };
+            if let Some(pause) = pause {
+                let what = format!("{} runs at 1e-{decades} and what comes after them", pending.len() - done);
+                return Ok(Some((pause, what)));
+            }
+            let outcome = match self.skips(result, triple, decades, allowed) {
+                Some(reason) => Outcome::Skipped { reason },
+                None => self.first(result, &method, allowed.min(self.left()))?,
+            };
+            // What was cut short is no result.
+            if !(self.motion.is_stopped)() {
+                self.put(result, triple, decades, outcome);
+            }
+        }
+        Ok(None)
+    }
+
+    /// In the place of what was there.
+    fn put(&self, result: &mut WorkPrecision, triple: &Triple, decades: u32, outcome: Outcome) {
+        let method = self.method(result, triple, decades);
+        result.cells.retain(|cell| !(cell.decades == decades && cell.is_of(&method)));
+        let is_explicit = self.is_explicit(triple);
+        result.cells.push(Cell { method, decades, is_explicit, outcome });
+    }
+
+    /// Those that will be quick come first: what they take is what the others are judged by.
+    fn pending(&self, result: &WorkPrecision, decades: u32, is_fine: bool, allowed: Duration) -> Vec<&'a Triple> {
+        let mut pending: Vec<(f64, &Triple)> = Vec::new();
+        let is_last = allowed == self.longest();
+        for triple in &self.plan.triples {
+            let own = cells_of(result, triple).find(|cell| cell.decades == decades);
+            let is_due = own.is_none_or(|cell| matches!(cell.outcome, Outcome::TooSlow { .. }));
+            let seconds = self.forecast(result, triple, decades).map_or(0.0, |forecast| forecast.seconds);
+            let fits = is_last || seconds <= allowed.as_secs_f64();
+            if is_due && fits && (!is_fine || self.plan.is_exhaustive || is_near_best(result, triple)) {
+                pending.push((seconds, triple));
+            }
+        }
+        pending.sort_by(|a, b| a.0.total_cmp(&b.0));
+        pending.into_iter().map(|(_, triple)| triple).collect()
+    }
+
+    /// The most that one run may take.
+    fn longest(&self) -> Duration {
+        self.plan.budget.mul_f64(RUN[RUN.len() - 1])
+    }
+
+    /// Where no explicit method came to the digits asked for, or no implicit one, the run is made that will be the quickest
+    /// of its kind, so that it is known by how much the other kind wins.
+    pub(super) fn settle(&mut self, result: &mut WorkPrecision) -> Result<()> {
+        for kind in [true, false] {
+            let is_kind = |cell: &&Cell| cell.is_explicit == kind && cell.reason().is_some();
+            let has = |cell: &Cell| cell.is_explicit == kind && cell.digits() >= Some(f64::from(self.plan.digits));
+            let forecast = |cell: &Cell| {
+                let triple = self.plan.triples.iter().find(|triple| cell.is_of(&triple.at((1.0, 1.0), None)))?;
+                let forecast = self.forecast(result, triple, cell.decades)?;
+                // What is slow for its stability is no slower for more digits.
+                Some((forecast.seconds, triple, cell.decades.max(self.plan.digits)))
+            };
+            if result.cells.iter().any(has) {
+                continue;
+            }
+            let candidates = result.cells.iter().filter(is_kind).filter_map(forecast);
+            if let Some((_, triple, decades)) = candidates.min_by(|a, b| a.0.total_cmp(&b.0)) {
+                let method = self.method(result, triple, decades);
+                let outcome = self.first(result, &method, self.left().mul_f64(0.5))?;
+                self.put(result, triple, decades, outcome);
+            }
+        }
+        Ok(())
+    }
+
+    fn is_explicit(&self, triple: &Triple) -> bool {
+        explicit(self.motion.system, &triple.at((1e-6, 1e-6), None)).is_some()
+    }
+
+    fn method(&self, result: &WorkPrecision, triple: &Triple, decades: u32) -> Method {
+        let rtol = 0.1f64.powi(decades as i32);
+        let rtol = format!("{rtol:.0e}").parse().unwrap_or(rtol);
+        let entry = integrator::find(&triple.integrator).ok();
+        let step = entry.filter(|entry| entry.steps == Steps::Fixed).map(|entry| {
+            let pace = result.reference.as_ref().map_or(1.0, |reference| match self.is_explicit(triple) {
+                true => reference.pace.explicit,
+                false => reference.pace.implicit,
+            });
+            let step = FIXED * pace * 10f64.powf(-f64::from(decades) / entry.order as f64);
+            let (start, end) = self.motion.between;
+            (end - start) / ((end - start) / step).ceil().max(1.0)
+        });
+        let atol = rtol * self.motion.ratio;
+        triple.at((rtol, format!("{atol:.3e}").parse().unwrap_or(atol)), step)
+    }
+
+    /// Why a run is not worth making.
+    fn skips(&self, result: &WorkPrecision, triple: &Triple, decades: u32, allowed: Duration) -> Option<String> {
+        if self.plan.is_exhaustive {
+            return None;
+        }
+        let own = result.reference.as_ref()?.error;
+        let last = last(result, triple, decades);
+        if last.and_then(Cell::error).is_some_and(|error| error <= own) {
+            return Some("as accurate as the reference at a looser tolerance already".to_string());
+        }
+        let forecast = self.forecast(result, triple, decades)?;
+        let seconds = two(forecast.seconds);
+        let best = advice::cheapest(&result.cells, forecast.error).and_then(|best| Some((best, best.seconds()?)));
+        match best {
+            Some((best, cheapest)) if forecast.seconds > WORTH_TRYING * cheapest => {
+                Some(format!("would take about {seconds} s, where {} takes {} s", best.method.triple(), two(cheapest)))
+            }
+            _ if forecast.seconds > 2.0 * allowed.as_secs_f64() => {
+                Some(format!("would take about {seconds} s, more than the {} s that a run may", allowed.as_secs_f64()))
+            }
+            _ => None,
+        }
+    }
+
+    /// By the run itself where it was stopped, else by the tightest run of the method so far: each decade costs the p-th
+    /// root of ten.
+    fn forecast(&self, result: &WorkPrecision, triple: &Triple, decades: u32) -> Option<Forecast> {
+        let (start, end) = self.motion.between;
+        let own = cells_of(result, triple).find(|cell| cell.decades == decades);
+        let last = own.or_else(|| last(result, triple, decades))?;
+        let more = f64::from(decades - last.decades);
+        let order = integrator::find(&triple.integrator).ok()?.order;
+        let (seconds, error) = match &last.outcome {
+            // One that was stopped at once says nothing.
+            Outcome::TooSlow { t, cpu_seconds, .. } if *t > start => {
+                (cpu_seconds * (end - start) / (t - start), 0.1f64.powf(f64::from(last.decades)))
+            }
+            _ => (last.seconds()?, last.error()?),
+        };
+        Some(Forecast { seconds: seconds * 10f64.powf(more / order as f64), error: error * 0.1f64.powf(more) })
+    }
+
+    fn first(&self, result: &WorkPrecision, method: &Method, allowed: Duration) -> Result<Outcome> {
+        let run = match self.sample(result, method, allowed) {
+            // What a method cannot do for this mechanism is a result, since all were asked for.
+            Err(Error::Input(input)) => return Ok(Outcome::Skipped { reason: input.message }),
+            run => run?,
+        };
+        if let Some(Failure { t, .. }) = run.failure.as_ref().filter(|_| run.is_too_slow) {
+            let (start, end) = self.motion.between;
+            let all = two(run.seconds * (end - start) / (t - start));
+            let reason = format!("would take about {all} s: it came to t = {t:.3e} s in {} s", two(run.seconds));
+            return Ok(Outcome::TooSlow { t: *t, cpu_seconds: run.seconds, reason });
+        }
+        if let Some(failure) = run.failure {
+            return Ok(Outcome::Failed { failure, cpu_seconds: run.seconds });
+        }
+        let Some(reference) = &result.reference else { return Ok(Outcome::Skipped { reason: String::new() }) };
+        let (error, worst) = reference.values.error(&run.rows);
+        if !error.is_finite() {
+            let (reason, hint) = ("the result is not finite".to_string(), "try a tighter tolerance".to_string());
+            let failure = Failure { t: self.motion.between.1, reason, hint };
+            return Ok(Outcome::Failed { failure, cpu_seconds: run.seconds });
+        }
+        Ok(Outcome::Completed {
+            error,
+            worst: worst.to_string(),
+            drift: (&run.drift).into(),
+            cpu_seconds: vec![run.seconds],
+            statistics: run.statistics,
+        })
+    }
+}
+
+/// What a run will take and give.
+struct Forecast {
+    seconds: f64,
+    error: f64,
+}
+
+fn cells_of<'r>(result: &'r WorkPrecision, triple: &Triple) -> impl Iterator<Item = &'r Cell> {
+    let key = triple.at((1.0, 1.0), None);
+    result.cells.iter().filter(move |cell| cell.is_of(&key))
+}
+
+/// The tightest run below.
+fn last<'r>(result: &'r WorkPrecision, triple: &Triple, decades: u32) -> Option<&'r Cell> {
+    cells_of(result, triple).filter(|cell| cell.decades < decades).max_by_key(|cell| cell.decades)
+}
+
+fn is_near_best(result: &WorkPrecision, triple: &Triple) -> bool {
+    let key = triple.at((1.0, 1.0), None);
+    advice::near_best(&result.cells, WORTH_REPEATING).iter().any(|index| result.cells[*index].is_of(&key))
+}
+
+fn two(value: f64) -> String {
+    short(format!("{value:.1e}").parse().unwrap_or(value))
+}
