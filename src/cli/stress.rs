@@ -30,7 +30,7 @@ pub struct Args {
     #[arg(long, value_name = "QUANTITY")]
     show: Option<String>,
     /// Time of each simulation, s
-    #[arg(long, value_name = "SECONDS", default_value_t = 2.0, value_parser = positive)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 1.0, value_parser = positive)]
     limit: f64,
     /// Time of all simulations of a scene, s; what has no time left is left out, and said so (default: 60, with --all 20)
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
@@ -93,7 +93,8 @@ fn run_all(args: &Args, path: &Path) -> Result<ExitCode> {
 
 /// The scenes of a folder, by name.
 fn scenes(path: &Path) -> Result<Vec<PathBuf>> {
-    let entries = std::fs::read_dir(path).map_err(|error| Error::file(path, format!("no folder of scenes: {error}")))?;
+    let entries =
+        std::fs::read_dir(path).map_err(|error| Error::file(path, format!("no folder of scenes: {error}")))?;
     let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
     let is_scene = |path: &PathBuf| {
         let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
@@ -134,7 +135,8 @@ fn simulate(args: &Args, subject: &Subject, maps: Vec<Map>) -> (StressFile, Vec<
     let bar = args.talk.progress(maps.iter().map(|map| map.len() as u64).sum(), &subject.name);
     let one = |(k, map): (usize, Map)| {
         let left = budget.saturating_sub(begin.elapsed());
-        let end = Instant::now() + left / (count - k) as u32;
+        // The first maps tell most.
+        let end = Instant::now() + 2 * left / (count - k + 1) as u32;
         stress(subject, map, Limits { cell, end }, &|| bar.inc(1))
     };
     let stressed: Vec<Stressed> = maps.into_iter().enumerate().map(one).collect();
@@ -182,7 +184,12 @@ fn text(file: &StressFile, stressed: &[Stressed]) -> String {
     for stressed in stressed {
         text += &format!("\n{}: {}\n", stressed.map.name, stressed.map.about);
         text.extend(sentences(stressed).iter().map(|sentence| format!("  {sentence}\n")));
-        text.extend(stressed.gains().iter().map(|gains| format!("\n  {}\n{}", gains.method, gain_table(gains))));
+        text.extend(
+            stressed
+                .gains()
+                .iter()
+                .map(|gains| format!("\n  {}, {} drift\n{}", gains.method, gains.quantity.name(), gain_table(gains))),
+        );
     }
     text
 }

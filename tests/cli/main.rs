@@ -14,6 +14,7 @@ mod plot;
 mod schema;
 mod simulate;
 mod singular;
+mod stress;
 mod sweep;
 
 use serde_json::Value;

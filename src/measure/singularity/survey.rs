@@ -104,10 +104,12 @@ impl<'a> Survey<'a> {
     pub fn least_sine(&mut self, path: &Path, bound: f64) -> Option<(f64, f64)> {
         let [mut from, _, mut to] = path.times;
         let width = to - from;
+        // Times of steps near round-off do not come any closer.
+        let shortest = (SHORTEST * width).max(8.0 * f64::EPSILON * from.abs().max(to.abs()));
         let mut inner = [to - GOLDEN * (to - from), from + GOLDEN * (to - from)];
         let mut values = inner.map(|t| self.sine_on(path, t));
         let mut steepest: f64 = 0.0;
-        while to - from > SHORTEST * width && values[0].min(values[1]) > TINY * bound {
+        while to - from > shortest && values[0].min(values[1]) > TINY * bound {
             steepest = steepest.max(2.0 * (values[1] - values[0]).abs() / (inner[1] - inner[0]));
             if values[0].min(values[1]) - steepest * (to - from) > bound {
                 return None;

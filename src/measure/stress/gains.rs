@@ -1,19 +1,21 @@
 //! Why Baumgarte's gains are no easy choice, in numbers.
 
-use super::cell::{Cell, Status};
+use super::cell::Quantity;
 use super::run::Stressed;
 use serde::Serialize;
 
-/// One integrator on the map of gains.
+/// One integrator on the map of gains, judged by the drift of velocities or positions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GainVerdict {
     pub method: String,
+    pub quantity: Quantity,
     pub steps: Vec<StepVerdict>,
-    /// The one gain that is nearest to the best of each step, of those that complete at all steps at which some gain does.
+    /// The one gain that is nearest to the best of each step, of those that complete at all steps up to the first at which
+    /// none does.
     pub steady: Option<Steady>,
 }
 
-/// The map's quantity at one step; None where the run did not complete.
+/// The drift at one step; None where the run did not complete.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StepVerdict {
     pub step: f64,
@@ -41,30 +43,45 @@ pub struct Steady {
 }
 
 impl Stressed {
-    /// The verdicts by integrator; empty for other maps.
+    /// The verdicts by integrator, each by velocities and by positions; empty for other maps.
     pub fn gains(&self) -> Vec<GainVerdict> {
-        match self.map.name == "gain" {
-            true => (0..self.map.methods.len()).map(|method| self.gain_verdict(method)).collect(),
-            false => Vec::new(),
-        }
+        let methods = if self.map.name == "gain" { self.map.methods.len() } else { 0 };
+        let levels = [Quantity::Velocity, Quantity::Position];
+        (0..methods).flat_map(|method| levels.map(|quantity| self.gain_verdict(method, quantity))).collect()
     }
 
-    fn gain_verdict(&self, method: usize) -> GainVerdict {
+    fn gain_verdict(&self, method: usize, quantity: Quantity) -> GainVerdict {
         let values = self.map.x.values().unwrap_or_default();
-        let steps: Vec<StepVerdict> = values.iter().enumerate().map(|(column, step)| self.step_verdict(method, column, *step)).collect();
-        let steady = self.steady(method, &steps);
-        GainVerdict { method: self.map.methods[method].label.clone(), steps, steady }
+        let levels = Levels { stressed: self, method, quantity };
+        let steps: Vec<StepVerdict> =
+            values.iter().enumerate().map(|(column, step)| levels.at_step(column, *step)).collect();
+        let steady = levels.steady(&steps);
+        GainVerdict { method: self.map.methods[method].label.clone(), quantity, steps, steady }
+    }
+}
+
+/// The drift of one integrator at one level.
+struct Levels<'a> {
+    stressed: &'a Stressed,
+    method: usize,
+    quantity: Quantity,
+}
+
+impl Levels<'_> {
+    fn at(&self, row: usize, column: usize) -> Option<f64> {
+        self.quantity.of(self.stressed.cell(self.method, row, column)?)
     }
 
-    fn step_verdict(&self, method: usize, column: usize, step: f64) -> StepVerdict {
-        let value = |cell: &Cell| self.map.quantity.of(cell).filter(|_| cell.status == Status::Completed);
-        let named = |label: &str| {
-            let row = self.map.y.entries.iter().position(|entry| entry.label == label)?;
-            value(self.cell(method, row, column)?)
-        };
-        let gains = self.map.y.entries.iter().enumerate().filter_map(|(row, entry)| {
-            Some(Best { gain: entry.value?, value: value(self.cell(method, row, column)?)? })
-        });
+    /// The rows of gains.
+    fn gains(&self) -> impl Iterator<Item = (usize, f64)> {
+        let rows = self.stressed.map.y.entries.iter().enumerate();
+        rows.filter_map(|(row, entry)| Some((row, entry.value?)))
+    }
+
+    fn at_step(&self, column: usize, step: f64) -> StepVerdict {
+        let rows = &self.stressed.map.y.entries;
+        let named = |label: &str| self.at(rows.iter().position(|entry| entry.label == label)?, column);
+        let gains = self.gains().filter_map(|(row, gain)| Some(Best { gain, value: self.at(row, column)? }));
         StepVerdict {
             step,
             none: named("none"),
@@ -75,16 +92,14 @@ impl Stressed {
         }
     }
 
-    fn steady(&self, method: usize, steps: &[StepVerdict]) -> Option<Steady> {
-        let rows = self.map.y.entries.iter().enumerate().filter_map(|(row, entry)| Some((row, entry.value?)));
+    fn steady(&self, steps: &[StepVerdict]) -> Option<Steady> {
+        let best: Vec<Best> = steps.iter().map_while(|step| step.best).collect();
         let ratio = |row: usize| {
-            let columns = steps.iter().enumerate().filter_map(|(column, step)| Some((column, step.best?)));
-            columns.into_iter().try_fold(0.0, |worst: f64, (column, best)| {
-                let value = self.map.quantity.of(self.cell(method, row, column)?)?;
-                Some(worst.max(value / best.value))
-            })
+            best.iter()
+                .enumerate()
+                .try_fold(0.0, |worst: f64, (column, best)| Some(worst.max(self.at(row, column)? / best.value)))
         };
-        let all = rows.filter_map(|(row, gain)| Some(Steady { gain, ratio: ratio(row)? }));
+        let all = self.gains().filter_map(|(row, gain)| Some(Steady { gain, ratio: ratio(row)? }));
         all.filter(|steady| steady.ratio > 0.0).min_by(|a, b| a.ratio.total_cmp(&b.ratio))
     }
 }

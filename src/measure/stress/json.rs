@@ -15,7 +15,9 @@ pub fn multiply(value: &mut Value, factor: f64) {
 /// Replaces a number or an expression, or each of a list of them that is not zero.
 pub fn replace(value: &mut Value, by: f64) {
     match value {
-        Value::Array(entries) => entries.iter_mut().filter(|entry| entry.as_f64() != Some(0.0)).for_each(|entry| replace(entry, by)),
+        Value::Array(entries) => {
+            entries.iter_mut().filter(|entry| entry.as_f64() != Some(0.0)).for_each(|entry| replace(entry, by))
+        }
         _ => *value = Value::from(by),
     }
 }
@@ -34,7 +36,11 @@ fn with_time(text: &str, factor: f64) -> String {
     let mut out = String::new();
     let mut word = String::new();
     let flush = |word: &mut String, out: &mut String| {
-        if word == "t" { *out += &format!("(t*{factor:e})") } else { *out += word };
+        if word == "t" {
+            *out += &format!("(t*{factor:e})")
+        } else {
+            *out += word
+        };
         word.clear();
     };
     for c in text.chars() {

@@ -115,7 +115,11 @@ impl Axis {
     pub fn is_log(&self) -> bool {
         let values = self.values().unwrap_or_default();
         let is_positive = values.iter().all(|value| *value > 0.0);
-        is_positive && values.first().zip(values.last()).is_some_and(|(first, last)| last / first >= 30.0 || first / last >= 30.0)
+        is_positive
+            && values
+                .first()
+                .zip(values.last())
+                .is_some_and(|(first, last)| last / first >= 30.0 || first / last >= 30.0)
     }
 
     fn keeps_motion(&self) -> bool {

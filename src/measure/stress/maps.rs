@@ -41,7 +41,10 @@ pub fn known() -> &'static [MapEntry] {
             x: "tolerance",
             y: "start_error",
             quantity: Quantity::FinalPosition,
-            methods: || vec![method("index1", "dopri5", "none"), method("baumgarte", "dopri5", "none"), explicit()],
+            methods: || {
+                let projected = method("index1", "dopri5", "manifold");
+                vec![method("index1", "dopri5", "none"), method("baumgarte", "dopri5", "none"), projected]
+            },
             adapt: |_| {},
             suits: |_| true,
         },

@@ -36,56 +36,76 @@ impl Stressed {
 }
 
 /// Simulates every cell; `progress` hears of each that is done. The cells do not depend on the order in which they are run,
-/// but for deadlines.
+/// but for deadlines: cheap ones come first, so that dear ones are left out.
 pub fn stress(subject: &Subject, map: Map, limits: Limits, progress: &(impl Fn() + Sync)) -> Stressed {
     let reference = map.keeps_motion().then(|| Reference::of(subject, 3 * limits.cell)).flatten();
     let (columns, rows) = (map.x.entries.len(), map.y.entries.len());
-    let one = |index: usize| {
-        let place = [index / (rows * columns), index / columns % rows, index % columns];
-        let cell = cell(subject, &map, place, limits, reference.as_ref());
+    let place = |index: usize| [index / (rows * columns), index / columns % rows, index % columns];
+    let mut order: Vec<(usize, Place)> =
+        (0..map.len()).map(|index| (index, Place::of(subject, &map, place(index)))).collect();
+    order.sort_by(|a, b| a.1.cost().total_cmp(&b.1.cost()));
+    let one = |(index, place): (usize, Place)| {
+        let cell = place.cell(subject, limits, reference.as_ref());
         progress();
-        cell
+        (index, cell)
     };
-    let cells = (0..map.len()).into_par_iter().with_max_len(1).map(one).collect();
-    Stressed { map, cells }
+    let mut cells: Vec<(usize, Cell)> = order.into_iter().par_bridge().map(one).collect();
+    cells.sort_by_key(|(index, _)| *index);
+    Stressed { map, cells: cells.into_iter().map(|(_, cell)| cell).collect() }
 }
 
-fn cell(
-    subject: &Subject,
-    map: &Map,
-    place: [usize; 3],
-    limits: Limits,
-    reference: Option<&Reference>,
-) -> Cell {
-    let [panel, row, column] = place;
-    let mut case = subject.base.clone();
-    let clock = Instant::now();
-    let entries = [&map.methods[panel], &map.x.entries[column], &map.y.entries[row]];
-    let changed = entries.into_iter().flat_map(|entry| &entry.changes).try_for_each(|change| change.apply(&mut case));
-    let blank = Cell {
-        panel,
-        column,
-        row,
-        method: case.method.clone(),
-        status: Status::LeftOut,
-        reason: None,
-        t: 0.0,
-        drift: None,
-        energy_error: None,
-        relative_energy_error: None,
-        error: None,
-        steps: 0,
-        rhs_evaluations: 0,
-        seconds: 0.0,
-    };
-    if clock >= limits.end {
-        return blank;
+/// A cell before it is run.
+struct Place {
+    at: [usize; 3],
+    case: Case,
+    /// What was wrong with its changes.
+    refused: Option<Error>,
+}
+
+impl Place {
+    fn of(subject: &Subject, map: &Map, at: [usize; 3]) -> Self {
+        let [panel, row, column] = at;
+        let mut case = subject.base.clone();
+        let entries = [&map.methods[panel], &map.x.entries[column], &map.y.entries[row]];
+        let mut changes = entries.into_iter().flat_map(|entry| &entry.changes);
+        let refused = changes.try_for_each(|change| change.apply(&mut case)).err();
+        Place { at, case, refused }
     }
-    let run = changed.and_then(|()| run(subject, &case, limits));
-    let seconds = clock.elapsed().as_secs_f64();
-    match run {
-        Err(error) => Cell { status: Status::Refused, reason: Some(message(&error)), seconds, ..blank },
-        Ok(run) => Cell { seconds, ..run.cell(blank, reference) },
+
+    /// About how many steps it will take.
+    fn cost(&self) -> f64 {
+        let Case { method, duration, typical, .. } = &self.case;
+        duration / method.step.unwrap_or(typical.step * (method.rtol / 1e-8).powf(1.0 / 8.0))
+    }
+
+    fn cell(self, subject: &Subject, limits: Limits, reference: Option<&Reference>) -> Cell {
+        let Place { at: [panel, row, column], case, refused } = self;
+        let clock = Instant::now();
+        let blank = Cell {
+            panel,
+            column,
+            row,
+            method: case.method.clone(),
+            status: Status::LeftOut,
+            reason: None,
+            t: 0.0,
+            drift: None,
+            energy_error: None,
+            relative_energy_error: None,
+            error: None,
+            steps: 0,
+            rhs_evaluations: 0,
+            seconds: 0.0,
+        };
+        if clock >= limits.end {
+            return blank;
+        }
+        let run = refused.map_or_else(|| run(subject, &case, limits), Err);
+        let seconds = clock.elapsed().as_secs_f64();
+        match run {
+            Err(error) => Cell { status: Status::Refused, reason: Some(message(&error)), seconds, ..blank },
+            Ok(run) => Cell { seconds, ..run.cell(blank, reference) },
+        }
     }
 }
 
@@ -158,7 +178,10 @@ impl Run {
         let Some(failure) = &self.outcome.failure else {
             return if is_open { Status::Diverged } else { Status::Completed };
         };
-        let is_blown = self.record.energy.is_some_and(|energy| energy.relative_max_error.is_nan() || energy.relative_max_error > BLOWN);
+        let is_blown = self
+            .record
+            .energy
+            .is_some_and(|energy| energy.relative_max_error.is_nan() || energy.relative_max_error > BLOWN);
         match self.stopped {
             Some(status) => status,
             None if is_open || is_blown || failure.reason.contains(&Halt::NotFinite.to_string()) => Status::Diverged,

@@ -54,16 +54,12 @@ impl Stressed {
     fn verdict(&self, method: usize) -> Verdict {
         let cells: Vec<&Cell> = self.cells.iter().filter(|cell| cell.panel == method).collect();
         let count = |status: Status| cells.iter().filter(|cell| cell.status == status).count();
-        let statuses =
-            [Status::Diverged, Status::Failed, Status::Refused, Status::TooSlow, Status::LeftOut];
+        let statuses = [Status::Diverged, Status::Failed, Status::Refused, Status::TooSlow, Status::LeftOut];
         let values = cells.iter().filter_map(|cell| self.map.quantity.of(cell));
         let range = values.fold(None, |range: Option<[f64; 2]>, value| {
             Some(range.map_or([value; 2], |[low, high]| [low.min(value), high.max(value)]))
         });
-        let bounds = [
-            bound(&self.map.x, &cells, |cell| cell.column),
-            bound(&self.map.y, &cells, |cell| cell.row),
-        ];
+        let bounds = [bound(&self.map.x, &cells, |cell| cell.column), bound(&self.map.y, &cells, |cell| cell.row)];
         Verdict {
             method: self.map.methods[method].label.clone(),
             cells: cells.len(),
@@ -77,7 +73,8 @@ impl Stressed {
 
     /// Reasons that differ by numbers only are one.
     fn reasons(&self, cells: &[&Cell]) -> Vec<Reason> {
-        let kind = |reason: &str| reason.chars().filter(|c| !c.is_ascii_digit() && !"+-.e".contains(*c)).collect::<String>();
+        let kind =
+            |reason: &str| reason.chars().filter(|c| !c.is_ascii_digit() && !"+-.e".contains(*c)).collect::<String>();
         let mut found: Vec<Reason> = Vec::new();
         for cell in cells {
             let Some(reason) = &cell.reason else { continue };

@@ -14,7 +14,8 @@ pub fn stress_figure(scene: &str, stressed: &Stressed) -> Figure {
     let values: Vec<f64> = stressed.cells.iter().filter_map(|cell| map.quantity.of(cell)).collect();
     let low = values.iter().copied().fold(1.0, f64::min).max(ROUND_OFF);
     let high = values.iter().copied().fold(10.0 * low, f64::max);
-    let title = format!("{scene}: {} by {} and {}", map.quantity.label(), map.x.name, map.y.name).replace('_', " ");
+    let title = format!("{scene}: {} by {} and {}{}", map.quantity.label(), map.x.name, map.y.name, legend(stressed));
+    let title = title.replace('_', " ");
     let panels = (0..map.methods.len()).map(|method| panel(stressed, method, (low, high)));
     panels.fold(Figure::new().title(title), Figure::panel)
 }
@@ -30,22 +31,36 @@ fn panel(stressed: &Stressed, method: usize, (low, high): (f64, f64)) -> Panel {
             let Some(cell) = stressed.cell(method, *from_row, *from_column) else { continue };
             match map.quantity.of(cell) {
                 Some(value) => cells.set(column, row, value),
-                None => cells.mark(column, row, symbol(cell.status)),
+                None => symbol(cell.status).into_iter().for_each(|symbol| cells.mark(column, row, symbol)),
             }
         }
     }
     Panel::new(x, y).title(map.methods[method].label.clone()).heat_map(cells).height(ROW * rows.len().max(4) as f64)
 }
 
+/// What the symbols mean that stand upon cells; `slow` speaks for itself.
+fn legend(stressed: &Stressed) -> String {
+    let mut found: Vec<Status> = stressed.cells.iter().map(|cell| cell.status).collect();
+    found.sort();
+    found.dedup();
+    let all: Vec<String> = found
+        .into_iter()
+        .filter(|status| *status != Status::TooSlow)
+        .filter_map(|status| Some((symbol(status)?, status.word())))
+        .map(|(symbol, word)| format!("{symbol} {word}"))
+        .collect();
+    if all.is_empty() { String::new() } else { format!(" ({})", all.join(", ")) }
+}
+
 /// What stands upon a cell without a value.
-fn symbol(status: Status) -> &'static str {
+fn symbol(status: Status) -> Option<&'static str> {
     match status {
-        Status::Completed => "",
-        Status::Diverged => "∞",
-        Status::Failed => "fail",
-        Status::Refused => "no",
-        Status::TooSlow => "slow",
-        Status::LeftOut => "–",
+        Status::Completed => None,
+        Status::Diverged => Some("∞"),
+        Status::Failed => Some("×"),
+        Status::Refused => Some("no"),
+        Status::TooSlow => Some("slow"),
+        Status::LeftOut => Some("–"),
     }
 }
 
@@ -53,6 +68,8 @@ fn symbol(status: Status) -> &'static str {
 fn places(axis: &Axis) -> (Vec<(usize, f64)>, AxisSpec) {
     let label = AxisSpec::from(axis.label());
     let Some(values) = axis.values() else {
+        let label =
+            AxisSpec::from(if axis.unit.is_empty() { axis.label() } else { format!("{}, or method", axis.label()) });
         let names = axis.entries.iter().map(|entry| entry.label.clone());
         return ((0..axis.entries.len()).map(|k| (k, k as f64)).collect(), label.names(names));
     };

@@ -74,9 +74,29 @@ impl From<&Stressed> for MapFile {
 }
 
 const HEADINGS: [&str; 23] = [
-    "scene", "map", "x_name", "x", "y_name", "y", "y_label", "formulation", "integrator", "projection", "rtol", "atol",
-    "step", "status", "reason", "t", "position_drift", "velocity_drift", "final_position_drift", "energy_error", "error",
-    "steps", "seconds",
+    "scene",
+    "map",
+    "x_name",
+    "x",
+    "y_name",
+    "y",
+    "y_label",
+    "formulation",
+    "integrator",
+    "projection",
+    "rtol",
+    "atol",
+    "step",
+    "status",
+    "reason",
+    "t",
+    "position_drift",
+    "velocity_drift",
+    "final_position_drift",
+    "energy_error",
+    "error",
+    "steps",
+    "seconds",
 ];
 
 /// One row a cell, over all scenes; empty where a value is not known.

@@ -3,15 +3,20 @@
 use super::file::StressFile;
 
 const LEGEND: &str = "Cells of the figures: ∞ diverged (joints open by a tenth of the scene's size, or infinite numbers), \
-     fail stopped with an error, no refused, slow beyond the time of a cell, – left out for want of time.";
+     × stopped with an error, no: refused, slow: beyond the time of a cell, –: left out for want of time.";
 
 /// The verdicts of all maps in words, with the names of their figures; and what could not be run.
-pub fn stress_page(files: &[StressFile], unread: &[(String, String)], figure: impl Fn(&str, &str) -> Option<String>) -> String {
+pub fn stress_page(
+    files: &[StressFile],
+    unread: &[(String, String)],
+    figure: impl Fn(&str, &str) -> Option<String>,
+) -> String {
     let mut page = format!("# Extremes\n\n{LEGEND}\n");
     page += "\n| scene | map | method | cells | completed | others |\n|---|---|---|---|---|---|\n";
     for file in files {
         for (map, verdict) in file.maps.iter().flat_map(|map| map.verdicts.iter().map(move |verdict| (map, verdict))) {
-            let others: Vec<String> = verdict.others.iter().map(|(status, n)| format!("{n} {}", status.word())).collect();
+            let others: Vec<String> =
+                verdict.others.iter().map(|(status, n)| format!("{n} {}", status.word())).collect();
             let (scene, method) = (&file.scene, &verdict.method);
             let (name, cells, completed) = (&map.name, verdict.cells, verdict.completed);
             page += &format!("| {scene} | {name} | {method} | {cells} | {completed} | {} |\n", others.join(", "));

@@ -1,7 +1,7 @@
 //! Verdicts in words that a person can act on.
 
 use crate::error::short;
-use crate::measure::stress::{Axis, Bound, GainVerdict, Reason, Side, Status, StepVerdict, Stressed, Verdict};
+use crate::measure::stress::{Axis, Best, Bound, GainVerdict, Reason, Side, Status, StepVerdict, Stressed, Verdict};
 use crate::report::Table;
 
 /// The verdict on a map: a sentence or two for each method.
@@ -29,47 +29,59 @@ fn span(values: impl Iterator<Item = f64> + Clone) -> Option<String> {
 
 /// Which gain is best where, and what post-stabilization leaves on the same steps.
 fn gain(verdict: &GainVerdict) -> String {
-    let steps = &verdict.steps;
-    let method = &verdict.method;
-    let best: Vec<&StepVerdict> = steps.iter().filter(|step| step.best.is_some()).collect();
-    let ends = best.last().zip(best.first()).and_then(|(last, first)| Some((last.step, last.best?, first.step, first.best?)));
-    let mut text = match ends {
-        None => format!("{method}: Baumgarte completes with no gain at any of these steps"),
-        Some((h, coarse, fine_h, fine)) => {
-            let left = span(best.iter().filter_map(|step| Some(step.best?.value))).unwrap_or_default();
-            format!(
-                "{method}: Baumgarte's best gain goes from {} 1/s at h = {} to {} at h = {} and leaves {left} of velocity drift",
-                short(coarse.gain), short(h), short(fine.gain), short(fine_h)
-            )
-        }
+    let GainVerdict { method, quantity, steps, steady } = verdict;
+    let what = format!("{method}, {} drift", quantity.name());
+    let best: Vec<(f64, Best)> = steps.iter().map_while(|step| Some((step.step, step.best?))).collect();
+    let (Some((fine, at_fine)), Some((coarse, at_coarse))) = (best.first(), best.last()) else {
+        return format!("{what}: Baumgarte completes with no gain. {}", holds(steps));
     };
-    text += &match &verdict.steady {
-        Some(steady) if steady.ratio < 10.0 => {
-            format!("; {} 1/s is within a factor of {} of the best at all of them", short(steady.gain), two(steady.ratio))
+    let left = span(best.iter().map(|(_, best)| best.value)).unwrap_or_default();
+    let [at_coarse, coarse, at_fine, fine] = [at_coarse.gain, *coarse, at_fine.gain, *fine].map(short);
+    let even = match steady {
+        Some(steady) if steady.ratio < EVEN => {
+            format!("{} 1/s is within a factor of {} of the best at all of them", short(steady.gain), two(steady.ratio))
         }
         Some(steady) => format!(
-            "; no gain is good at all of them: the most even, {} 1/s, leaves {} times the best at the worst of them",
-            short(steady.gain), two(steady.ratio)
+            "no gain is good at all of them: the most even, {} 1/s, leaves {} times the best at one of them",
+            short(steady.gain),
+            two(steady.ratio)
         ),
-        None => "; no gain completes at all of them".to_string(),
+        None => "no gain completes at all of them".to_string(),
     };
-    for (name, value) in [
-        ("(2/h, 1/h²) leaves", (|step: &StepVerdict| step.own_gains) as fn(&StepVerdict) -> Option<f64>),
+    format!(
+        "{what}: Baumgarte's best gain goes from {at_coarse} 1/s at h = {coarse} to {at_fine} at h = {fine} and leaves {left}; \
+         {even}; {}. {}",
+        beside(steps),
+        holds(steps)
+    )
+}
+
+/// A gain that leaves so many times the best is not good.
+const EVEN: f64 = 10.0;
+
+type Level = fn(&StepVerdict) -> Option<f64>;
+
+/// What the methods without gains leave.
+fn beside(steps: &[StepVerdict]) -> String {
+    let methods: [(&str, Level); 3] = [
+        ("(2/h, 1/h²)", |step| step.own_gains),
         ("manifold", |step| step.manifold),
         ("manifold twice", |step| step.manifold_twice),
-    ] {
-        let left = span(steps.iter().filter_map(value)).unwrap_or("nothing completed".to_string());
-        text += &format!("; {name} {left}");
-    }
-    let until = |value: fn(&StepVerdict) -> Option<f64>| {
+    ];
+    let left = methods.map(|(name, value)| {
+        let left = span(steps.iter().filter_map(value));
+        left.map_or(format!("{name} completes nowhere"), |left| format!("{name} leaves {left}"))
+    });
+    left.join(", ")
+}
+
+/// Up to which step runs complete.
+fn holds(steps: &[StepVerdict]) -> String {
+    let until = |value: Level| {
         let held = steps.iter().take_while(|step| value(step).is_some()).last();
         held.map_or("at none of the steps".to_string(), |step| format!("until h = {}", short(step.step)))
     };
-    text + &format!(
-        ". manifold holds {}, the integrator alone {}.",
-        until(|step| step.manifold),
-        until(|step| step.none)
-    )
+    format!("manifold holds {}, the integrator alone {}.", until(|step| step.manifold), until(|step| step.none))
 }
 
 /// How many cells completed, what they left, and where and why the others did not.
@@ -88,7 +100,8 @@ fn general(stressed: &Stressed, verdict: &Verdict) -> String {
         let all: Vec<String> = bounds.iter().map(|bound| place(stressed, bound)).collect();
         text += &format!("; what ends badly does so {}", all.join(" and "));
     }
-    let worst = reasons.iter().find(|reason| matches!(reason.status, Status::Failed | Status::Refused | Status::Diverged));
+    let worst =
+        reasons.iter().find(|reason| matches!(reason.status, Status::Failed | Status::Refused | Status::Diverged));
     match worst {
         Some(reason) => text + &because(stressed, reason),
         None => text + ".",
@@ -117,7 +130,8 @@ fn because(stressed: &Stressed, reason: &Reason) -> String {
 
 /// What each step leaves, by gain and by projection.
 pub fn gain_table(verdict: &GainVerdict) -> Table {
-    let mut table = Table::new(&["h (s)", "none", "best gain (1/s)", "leaves", "(2/h, 1/h²)", "manifold", "manifold × 2"]);
+    let mut table =
+        Table::new(&["h (s)", "none", "best gain (1/s)", "leaves", "(2/h, 1/h²)", "manifold", "manifold × 2"]);
     let cell = |value: Option<f64>| value.map_or("-".to_string(), |value| format!("{value:.2e}"));
     for step in &verdict.steps {
         let best = step.best.map_or("-".to_string(), |best| short(best.gain));

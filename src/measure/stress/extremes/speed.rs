@@ -12,7 +12,7 @@ pub const EXTREME: Extreme = Extreme {
     about: "factor on the velocities of the start and the time of drivers; the simulated time divided by it",
     keeps_motion: false,
     suits: |subject| moves(&subject.base.scene),
-    values: |_| decades(-4, 4, 1),
+    values: |_| decades(-1, 4, 1),
     apply: |case, factor| {
         quicken(&mut case.scene, factor);
         case.duration /= factor;
@@ -43,7 +43,8 @@ fn quicken(scene: &mut Value, factor: f64) {
             }
         }
     }
-    let is_driven = |joint: &&mut Value| joint.get("type").and_then(Value::as_str).is_some_and(|kind| DRIVEN.contains(&kind));
+    let is_driven =
+        |joint: &&mut Value| joint.get("type").and_then(Value::as_str).is_some_and(|kind| DRIVEN.contains(&kind));
     for joint in elements(scene, "joints").filter(is_driven) {
         for key in ["value", "expression"] {
             joint.get_mut(key).into_iter().for_each(|value| faster(value, factor));
