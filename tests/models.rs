@@ -80,6 +80,8 @@ fn degrees_of_freedom_are_those_of_the_mechanisms() {
         ("flexible_pendulum", 37),
         ("flexible_slider_crank", 4),
         ("flexible_slider_crank_fe", 16),
+        ("flexible_slider_crank_modes", 5),
+        ("flexible_slider_crank_rigid", 0),
         ("flyball_governor", 4),
         ("flying_spaghetti", 33),
         ("four_bar_spring", 1),

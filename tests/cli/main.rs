@@ -16,6 +16,7 @@ mod simulate;
 mod singular;
 mod stress;
 mod sweep;
+mod tradeoff;
 
 use serde_json::Value;
 use std::fs;

@@ -7,7 +7,8 @@ use crate::formulation::Statistics;
 use crate::measure::Drift;
 use crate::simulate::{Method, Observation, Sink, Span, Stop, simulate};
 use crate::system::Scratch;
-use cpu_time::ProcessTime;
+use cpu_time::ThreadTime;
+use std::cell::Cell;
 use std::time::{Duration, Instant};
 
 /// What one run gave.
@@ -24,11 +25,13 @@ pub struct Sample {
     pub seconds: f64,
 }
 
-/// Runs `method` until it ends or `allowed` is over.
+/// Runs `method` until it ends or the CPU time `allowed` is over.
 ///
 /// # Errors
 /// Bad input only, as [`simulate`].
 pub fn sample(motion: &Motion, watched: &Watched, method: &Method, span: Span, allowed: Duration) -> Result<Sample> {
+    // On one thread, so that its time is the method's.
+    faer::set_global_parallelism(faer::Par::Seq);
     let system = motion.system;
     let mut sink = Sampler {
         motion,
@@ -38,8 +41,9 @@ pub fn sample(motion: &Motion, watched: &Watched, method: &Method, span: Span, a
         start: span.start,
         rows: Vec::new(),
         drift: Drift::default(),
-        deadline: Instant::now() + allowed,
         allowed,
+        clocks: (ThreadTime::now(), Instant::now()),
+        asked: Cell::new(0),
     };
     let (outcome, seconds) = cpu_seconds(|| simulate(system, method, span, motion.start, &mut sink));
     let outcome = outcome?;
@@ -48,9 +52,9 @@ pub fn sample(motion: &Motion, watched: &Watched, method: &Method, span: Span, a
     Ok(Sample { rows, drift, statistics: outcome.statistics, failure: outcome.failure, is_too_slow, seconds })
 }
 
-/// CPU time that `work` takes, of all threads of this process, s.
+/// CPU time that `work` takes on this thread, s.
 pub fn cpu_seconds<T>(work: impl FnOnce() -> T) -> (T, f64) {
-    let clock = ProcessTime::now();
+    let clock = ThreadTime::now();
     let result = work();
     (result, clock.elapsed().as_secs_f64())
 }
@@ -63,9 +67,15 @@ struct Sampler<'a> {
     start: f64,
     rows: Vec<Vec<f64>>,
     drift: Drift,
-    deadline: Instant,
     allowed: Duration,
+    clocks: (ThreadTime, Instant),
+    asked: Cell<u32>,
 }
+
+/// The clock of CPU time is slow to read: once in so many steps.
+const ASKED: u32 = 16;
+/// On a busy machine a run may take so many times its CPU time.
+const BUSY: u32 = 4;
 
 impl Sink for Sampler<'_> {
     fn accepted(&mut self, state: &Observation) {
@@ -82,6 +92,12 @@ impl Sink for Sampler<'_> {
         if (self.motion.is_stopped)() {
             return Some(Stop { reason: "interrupted".to_string(), hint: "begin again".to_string() });
         }
-        (Instant::now() > self.deadline).then(|| Stop::deadline(self.allowed))
+        self.asked.set(self.asked.get().wrapping_add(1));
+        if self.asked.get() % ASKED != 0 {
+            return None;
+        }
+        let (cpu, wall) = self.clocks;
+        let is_over = cpu.elapsed() > self.allowed || wall.elapsed() > BUSY * self.allowed;
+        is_over.then(|| Stop::deadline(self.allowed))
     }
 }

@@ -6,16 +6,34 @@ use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 /// Methods that have a colour; the others stand back as crosses.
 const NAMED: usize = 6;
 
-/// The work-precision diagram with the Pareto front, and drift against CPU time. `None` where no run was completed.
+/// Work-precision diagrams with the Pareto front of CPU time: errors against CPU time, evaluations and factorizations, and
+/// drift against CPU time. `None` where no run was completed.
 pub fn tradeoff_figure(measured: &WorkPrecision, digits: u32) -> Option<Figure> {
     let named = named(measured, digits);
     if named.is_empty() {
         return None;
     }
-    let errors = panel(measured, &named, "error (relative)", Cell::error);
-    let drifts = panel(measured, &named, "drift of φ, φ′ (relative)", |cell| cell.drift().map(Held::largest));
-    Some(Figure::new().title(format!("{}: speed for accuracy", measured.scene)).panel(errors).panel(drifts))
+    let evaluations = |cell: &Cell| cell.statistics().map(|work| work.rhs_evaluations as f64);
+    let factorizations = |cell: &Cell| cell.statistics().map(|work| work.factorizations as f64);
+    let drift = |cell: &Cell| cell.drift().map(Held::largest);
+    let panel = |x: Quantity, y: Quantity| panel(measured, &named, x, y);
+    let error = || Quantity("error (relative)", &Cell::error);
+    let figure = Figure::new().title(format!("{}: speed for accuracy", measured.scene)).columns(2).width(WIDTH);
+    Some(
+        figure
+            .panel(panel(Quantity("CPU time (s)", &Cell::seconds), error()))
+            .panel(panel(Quantity("CPU time (s)", &Cell::seconds), Quantity("drift of φ, φ′ (relative)", &drift)))
+            .panel(panel(Quantity("evaluations of the equations of motion", &evaluations), error()))
+            .panel(panel(Quantity("factorizations", &factorizations), error())),
+    )
 }
+
+/// Across a page.
+const WIDTH: f64 = 1280.0;
+
+/// The label of an axis, and its value for a run.
+#[derive(Clone, Copy)]
+struct Quantity<'q>(&'q str, &'q dyn Fn(&Cell) -> Option<f64>);
 
 /// The best method of each integrator for so many digits, those first that are quickest.
 fn named(measured: &WorkPrecision, digits: u32) -> Vec<usize> {
@@ -31,21 +49,18 @@ fn named(measured: &WorkPrecision, digits: u32) -> Vec<usize> {
     named
 }
 
-fn panel(measured: &WorkPrecision, named: &[usize], label: &str, value: impl Fn(&Cell) -> Option<f64>) -> Panel {
-    let panel = Panel::new(AxisSpec::from("CPU time (s)").log(), AxisSpec::from(label).log());
+fn panel(measured: &WorkPrecision, named: &[usize], x: Quantity, y: Quantity) -> Panel {
+    let axis = |quantity: Quantity| AxisSpec::from(quantity.0).log();
+    let point = |cell: &Cell| Some((x.1(cell)?, y.1(cell)?));
     let is_named = |cell: &Cell| named.iter().any(|place| cell.is_of(&measured.cells[*place].method));
-    let others = measured.cells.iter().filter(|cell| !is_named(cell)).filter_map(|cell| point(cell, &value)).collect();
-    let panel = panel.series(Series::line("other methods", others).style(Style::Crosses));
-    let front = measured.front().into_iter().filter_map(|place| point(&measured.cells[place], &value)).collect();
-    let panel = panel.series(Series::line("best for the error", front).style(Style::Guide));
+    let others = measured.cells.iter().filter(|cell| !is_named(cell)).filter_map(point).collect();
+    let front = measured.front().into_iter().filter_map(|place| point(&measured.cells[place])).collect();
+    let panel = Panel::new(axis(x), axis(y))
+        .series(Series::line("other methods", others).style(Style::Crosses))
+        .series(Series::line("Pareto front of CPU time", front).style(Style::Guide));
     named.iter().enumerate().fold(panel, |panel, (color, place)| {
         let method = &measured.cells[*place].method;
-        let own = measured.cells.iter().filter(|cell| cell.is_of(method));
-        let points = own.filter_map(|cell| point(cell, &value)).collect();
+        let points = measured.cells.iter().filter(|cell| cell.is_of(method)).filter_map(point).collect();
         panel.series(Series::line(method.triple(), points).style(Style::LineDots).color(color))
     })
-}
-
-fn point(cell: &Cell, value: impl Fn(&Cell) -> Option<f64>) -> Option<(f64, f64)> {
-    Some((cell.seconds()?, value(cell)?))
 }

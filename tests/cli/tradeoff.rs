@@ -1,0 +1,140 @@
+use super::*;
+use std::time::Instant;
+
+const QUICK: [&str; 8] = ["--budget", "4s", "--repeats", "2", "--figures", "none", "-o", "here"];
+
+fn tradeoff(place: &Place, more: &[&str]) -> String {
+    place.done(&[&["tradeoff", "scene.json"], &QUICK[..], more].concat())
+}
+
+fn json(place: &Place, file: &str) -> Value {
+    serde_json::from_str(&place.text(file)).unwrap()
+}
+
+fn models() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("models")
+}
+
+#[test]
+fn a_sentence_a_table_and_a_figure() {
+    let place = Place::new(PENDULUM);
+    let clock = Instant::now();
+    let args = ["tradeoff", "scene.json", "--budget", "5s", "-o", "here", "--formulation", "index1", "--digits", "5"];
+    let text = place.done(&args);
+    assert!(clock.elapsed().as_secs_f64() < 15.0, "the budget binds");
+    assert!(text.starts_with("pendulum: speed for accuracy, 0 s to 1 s\n  compared at 10 times"), "{text}");
+    assert!(text.contains("  reference: index1 + dop853 + exact, rtol 1e-13; differs from "), "{text}");
+    assert!(text.contains(" ms; next best index1 + "), "{text}");
+    assert!(text.contains("\n  holonom simulate scene.json --formulation index1 --integrator "), "{text}");
+    assert!(text.contains("  5 digits or more "), "{text}");
+    assert_eq!(place.files("here"), ["tradeoff.csv", "tradeoff.json", "tradeoff.svg"]);
+    let table = place.text("here/tradeoff.csv");
+    let cells = json(&place, "here/tradeoff.json")["cells"].as_array().unwrap().len();
+    assert_eq!(table.lines().count(), cells + 1);
+    assert!(table.starts_with("formulation,integrator,projection,rtol,atol,step,status,digits,"));
+    assert!(!table.contains("NaN") && !table.contains("inf"));
+}
+
+/// The recommendation is confirmed by running its command, against the reference in the file.
+#[test]
+fn recommendations_of_andrews_mechanism_hold() {
+    let place = Place::new(fs::read_to_string(models().join("andrews.json")).unwrap());
+    let more = ["--integrator", "dop853", "--integrator", "dopri5", "--integrator", "phem56", "--budget", "10s"];
+    place.done(&[&["tradeoff", "scene.json", "--figures", "none", "-o", "here", "--quiet"], &more[..]].concat());
+    let result = json(&place, "here/tradeoff.json");
+    let values = &result["reference"]["values"];
+    let names: Vec<&str> = values["names"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
+    let number = |value: &Value| value.as_f64().unwrap();
+    for advice in result["recommendations"].as_array().unwrap() {
+        let digits = number(&advice["digits"]);
+        if digits % 3.0 != 0.0 {
+            continue;
+        }
+        let command = advice["command"].as_str().unwrap();
+        let args: Vec<&str> = command.split(' ').skip(1).collect();
+        place.done(&[&args[..], &["--output-step", "0.003", "--figures", "none", "-o", "run", "--quiet"]].concat());
+        let table = place.text("run/trajectory.csv");
+        let headings: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+        let rows: Vec<Vec<f64>> =
+            table.lines().skip(2).map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
+        for (i, name) in names.iter().enumerate() {
+            let column = headings.iter().position(|heading| heading == name).unwrap();
+            let pairs = values["rows"].as_array().unwrap().iter().zip(&rows);
+            let (error, largest) = pairs.fold((0.0f64, 0.0f64), |(error, largest), (own, row)| {
+                let own = number(&own[i]);
+                (error.max((own - row[column]).abs()), largest.max(own.abs()))
+            });
+            // Rows every 3 ms where they were compared: the run is the same one to the last bit.
+            assert!(error <= 1.0001 * 10f64.powf(-digits) * largest, "{name}: {error:e} for {digits} digits");
+        }
+    }
+    assert!(result["recommendations"].as_array().unwrap().len() >= 8);
+}
+
+#[test]
+fn a_measurement_goes_on_where_it_was() {
+    let place = Place::new(PENDULUM);
+    let names = ["--formulation", "index1", "--integrator", "dopri5", "--json"];
+    let first: Value = serde_json::from_str(&tradeoff(&place, &names)).unwrap();
+    let again: Value = serde_json::from_str(&tradeoff(&place, &[&names[..], &["--resume"]].concat())).unwrap();
+    let (first, again) = (first["cells"].as_array().unwrap(), again["cells"].as_array().unwrap());
+    assert_eq!(first.len(), again.len());
+    for (a, b) in first.iter().zip(again) {
+        assert_eq!((&a["method"], &a["error"], &a["cpu_seconds"][0]), (&b["method"], &b["error"], &b["cpu_seconds"][0]));
+    }
+    let other = place.run(&["tradeoff", "scene.json", "-o", "here", "--resume", "--until", "0.5"]);
+    assert_eq!(other.status.code(), Some(2));
+    assert!(err(&other).contains("leave out --resume to begin anew"), "{}", err(&other));
+    let none = place.run(&["tradeoff", "scene.json", "-o", "nowhere", "--resume"]);
+    assert_eq!(none.status.code(), Some(2));
+    assert!(err(&none).contains("there is no measurement to go on with"), "{}", err(&none));
+}
+
+#[test]
+fn bad_input_is_refused_before_anything_is_run() {
+    let place = Place::new(PENDULUM);
+    for (args, words) in [
+        (["--integrator", "dop854"], "dop853"),
+        (["--formulation", "baumgarte:gain=3"], "has no option `gain`"),
+        (["--projection", "manifild"], "manifold"),
+        (["--outputs", "thета"], "there is no output"),
+        (["--budget", "3 days"], "no unit of time"),
+        (["--budget", "-3s"], "above zero"),
+        (["--rows", "0"], "0"),
+        (["--reference", "missing.csv"], "missing.csv"),
+        (["--variants", "missing.json"], "missing.json"),
+        (["--variants", "scene.json:l=one"], "no parameter"),
+    ] {
+        let output = place.run(&[&["tradeoff", "scene.json", "-o", "here"], &args[..]].concat());
+        assert_eq!(output.status.code(), Some(2), "{args:?}");
+        assert!(err(&output).contains(words), "{args:?}: {}", err(&output));
+    }
+}
+
+/// A scene may bring the values it is measured against.
+#[test]
+fn a_scene_brings_its_reference() {
+    let scene = PENDULUM.replace(r#""t_end": 1,"#, r#""t_end": 1, "reference": "values.csv","#);
+    let place = Place::new(&scene);
+    let args = ["simulate", "scene.json", "--integrator", "dop853", "--rtol", "1e-13", "--atol", "1e-15", "--figures", "none"];
+    place.done(&[&args[..], &["-o", "tight"]].concat());
+    fs::copy(place.path("tight/trajectory.csv"), place.path("values.csv")).unwrap();
+    let names = ["--formulation", "index1", "--integrator", "dop853", "--outputs", "theta", "--json"];
+    let result: Value = serde_json::from_str(&tradeoff(&place, &names)).unwrap();
+    assert!(result["reference"]["from"].as_str().unwrap().ends_with("values.csv"));
+    assert!(result["reference"]["error"].as_f64().unwrap() < 1e-11);
+}
+
+#[test]
+fn models_are_compared() {
+    let place = Place::new(fs::read_to_string(models().join("five_link_suspension.json")).unwrap());
+    let rods = models().join("five_link_suspension_rods.json").display().to_string();
+    let args = ["tradeoff", "scene.json", "--until", "0.2", "--repeats", "1", "-o", "here", "--variants", &rods];
+    let text = place.done(&args);
+    assert!(text.starts_with("models against the richest, five_link_suspension_rods, at 200 times"), "{text}");
+    assert!(text.contains("  within 10 % in all outputs: "), "{text}");
+    assert_eq!(place.files("here"), ["models.csv", "models.json", "models.svg"]);
+    let result = json(&place, "here/models.json");
+    assert_eq!(result["richest"], 1);
+    assert_eq!(result["models"][0]["velocities"], 7);
+}

@@ -1,0 +1,201 @@
+//! Speed for accuracy: what is measured is what runs give, and what is recommended is the best of it.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod models;
+mod reference;
+#[path = "../scenes/mod.rs"]
+mod scenes;
+
+use common::method;
+use holonom::measure::work_precision::{
+    Cell, Filter, Motion, Outcome, Plan, Runner, Sample, Watched, WorkPrecision, cheapest_by_method, grid, sample,
+};
+use holonom::simulate::{Method, Span};
+use scenes::{Ready, shipped};
+use std::time::Duration;
+
+pub const ROWS: usize = 10;
+
+pub fn motion(scene: &Ready, end: f64) -> Motion<'_> {
+    let ratio = scene.0.method.atol / scene.0.method.rtol;
+    let start = scene.0.start_time();
+    Motion { system: scene.system(), start: scene.0.start(), between: (start, end), ratio, is_stopped: &|| false }
+}
+
+pub fn filter(formulations: &[&str], integrators: &[&str], projections: &[&str]) -> Filter {
+    let choices = |names: &[&str]| names.iter().map(|name| holonom::choice::Choice::parse(name).unwrap()).collect();
+    let (formulations, integrators) = (choices(formulations), choices(integrators));
+    Filter { formulations, integrators, projections: choices(projections) }
+}
+
+pub fn plan(filter: &Filter, seconds: f64) -> Plan {
+    Plan {
+        triples: grid(filter).unwrap(),
+        budget: Duration::from_secs_f64(seconds),
+        repeats: 3,
+        rows: ROWS,
+        digits: 6,
+        is_exhaustive: false,
+        given: None,
+    }
+}
+
+pub fn fresh(motion: &Motion) -> WorkPrecision {
+    let (t_start, t_end) = motion.between;
+    WorkPrecision {
+        scene: "test".to_string(),
+        fingerprint: String::new(),
+        t_start,
+        t_end,
+        rows: ROWS,
+        reference: None,
+        cells: Vec::new(),
+        seconds: 0.0,
+        left_out: None,
+    }
+}
+
+pub fn measured(motion: Motion, plan: &Plan, outputs: &[&str]) -> WorkPrecision {
+    let outputs: Vec<String> = outputs.iter().map(|name| name.to_string()).collect();
+    let watched = Watched::new(motion.system, &outputs).unwrap();
+    let mut result = fresh(&motion);
+    Runner::new(motion, plan, watched, |_, _| ()).run(&mut result).unwrap();
+    result
+}
+
+pub fn run(motion: &Motion, outputs: &[&str], method: &Method) -> Sample {
+    let outputs: Vec<String> = outputs.iter().map(|name| name.to_string()).collect();
+    let watched = Watched::new(motion.system, &outputs).unwrap();
+    let (start, end) = motion.between;
+    let span = Span { start, end, output_step: (end - start) / ROWS as f64 };
+    sample(motion, &watched, method, span, Duration::from_secs(60)).unwrap()
+}
+
+/// x1 = 0.1 cos 5t: the errors that are told are those against the closed form.
+#[test]
+fn errors_are_those_against_the_closed_form() {
+    let scene = shipped("two_mass", &[]);
+    let motion = motion(&scene, 5.0);
+    let result = measured(motion, &plan(&filter(&["index1", "ggl"], &["rk4", "dopri5", "radau_iia"], &[]), 6.0), &["x1"]);
+    let reference = result.reference.as_ref().unwrap();
+    let exact = |row: usize| 0.1 * (5.0 * 5.0 * row as f64 / ROWS as f64).cos();
+    let largest = (1..=ROWS).fold(0.0f64, |most, row| most.max(exact(row).abs()));
+    let error = |rows: &[Vec<f64>]| {
+        rows.iter().zip(1..).fold(0.0f64, |most, (row, k)| most.max((row[0] - exact(k)).abs() / largest))
+    };
+    // 25 radians at rtol 1e-13, and twice that since two runs of it differ.
+    assert!(reference.is_independent && reference.error < 1e-11, "{} {}", reference.checked_by, reference.error);
+    assert!(error(&reference.values.rows) < 1e-11);
+    let completed: Vec<&Cell> = result.cells.iter().filter(|cell| cell.reason().is_none()).collect();
+    assert!(completed.len() > 15, "{}", completed.len());
+    for cell in completed {
+        let (told, own) = (cell.error().unwrap(), error(&run(&motion, &["x1"], &cell.method).rows));
+        assert!((told - own).abs() <= 2e-11 + 1e-6 * own, "{:?}: told {told:e}, is {own:e}", cell.method);
+    }
+}
+
+/// The best has the digits, no other run that has them is cheaper by more than a tenth, and the next is of another kind.
+#[test]
+fn recommendations_are_the_best_of_what_was_measured() {
+    let scene = shipped("four_bar_spring", &[]);
+    let result = measured(motion(&scene, 1.0), &plan(&filter(&["index1", "index2", "index3"], &[], &[]), 8.0), &[]);
+    let all = result.recommendations();
+    assert!(all.len() >= 6 && all.iter().zip(1..).all(|(advice, digits)| advice.digits == digits), "{all:?}");
+    for advice in all {
+        let digits = f64::from(advice.digits);
+        let (best, next) = (&result.cells[advice.best], &result.cells[advice.next.unwrap()]);
+        assert!(best.digits().unwrap() >= digits && next.digits().unwrap() >= digits);
+        assert_ne!(best.method.integrator, next.method.integrator);
+        let good = result.cells.iter().filter(|cell| cell.digits() >= Some(digits));
+        let least = good.filter_map(Cell::seconds).fold(f64::INFINITY, f64::min);
+        assert!(best.seconds().unwrap() <= 1.1 * least && next.seconds().unwrap() >= least);
+    }
+    assert!(result.recommend(15).is_none(), "two more digits than a reference has");
+    let front = result.front();
+    let value = |place: &usize| (result.cells[*place].seconds().unwrap(), result.cells[*place].error().unwrap());
+    assert!(front.len() > 3 && front.windows(2).all(|pair| value(&pair[0]).0 <= value(&pair[1]).0));
+    assert!(front.windows(2).all(|pair| value(&pair[0]).1 > value(&pair[1]).1));
+    // Every method has one place in the tables.
+    let (reached, others) = cheapest_by_method(&result.cells, 6);
+    let methods = result.cells.chunk_by(|a, b| a.is_of(&b.method)).count();
+    assert_eq!(reached.len() + others.len(), methods);
+    assert!(reached.iter().all(|place| result.cells[*place].digits() >= Some(6.0)));
+}
+
+/// Stiff: implicit methods win by far, and the explicit one is run to the end to tell by how much.
+#[test]
+fn implicit_methods_win_where_the_rod_is_flexible() {
+    let scene = shipped("flexible_slider_crank_fe", &[]);
+    let filter = filter(&["index1", "ggl"], &["rk4", "dopri5", "dop853", "radau_iia"], &["none"]);
+    let result = measured(motion(&scene, 0.01), &plan(&filter, 12.0), &["x3", "deflection", "moment"]);
+    let advice = result.recommend(4).unwrap();
+    assert_eq!(result.cells[advice.best].method.integrator.name, "radau_iia");
+    let seconds = |place: Option<usize>| result.cells[place.unwrap()].seconds().unwrap();
+    let ratio = seconds(advice.explicit) / seconds(advice.implicit);
+    // Measured: about 50. Machines differ, but not by so much between two loops over the same scene.
+    assert!(ratio > 8.0, "{ratio}");
+}
+
+/// What a method cannot do, and what takes too long, stays with its reason.
+#[test]
+fn failures_stay_with_their_reason() {
+    let scene = shipped("spinning_top", &[]);
+    let mut hasty = plan(&filter(&["index3", "index1"], &["rattle", "heun", "dop853"], &["none"]), 2.0);
+    hasty.is_exhaustive = true;
+    let result = measured(motion(&scene, 1.0), &hasty, &[]);
+    let of = |name: &'static str| result.cells.iter().filter(move |cell| cell.method.integrator.name == name);
+    assert!(of("rattle").count() > 0);
+    for cell in of("rattle") {
+        assert!(cell.reason().unwrap().contains("rattle cannot integrate coordinates"), "{:?}", cell.outcome);
+    }
+    let slow: Vec<&Cell> = of("heun").filter(|cell| matches!(cell.outcome, Outcome::TooSlow { .. })).collect();
+    let left_out = result.left_out.clone().unwrap_or_default();
+    assert!(!slow.is_empty() || left_out.contains("budget"), "{left_out}");
+    assert!(slow.iter().all(|cell| cell.reason().unwrap().starts_with("would take about ")));
+    assert!(of("dop853").any(|cell| cell.reason().is_none()));
+}
+
+/// What is there stays as it is, and what is missing is measured.
+#[test]
+fn a_measurement_is_continued() {
+    let scene = shipped("two_mass", &[]);
+    let motion = motion(&scene, 5.0);
+    let plan = plan(&filter(&["index1"], &["dopri5", "dop853"], &[]), 4.0);
+    let whole = measured(motion, &plan, &[]);
+    let text = serde_json::to_string(&whole).unwrap();
+    let mut half: WorkPrecision = serde_json::from_str(&text).unwrap();
+    assert_eq!(serde_json::to_string(&half).unwrap(), text);
+    half.cells.retain(|cell| cell.decades <= 6);
+    let kept = half.cells.len();
+    Runner::new(motion, &plan, Watched::new(motion.system, &[]).unwrap(), |_, _| ()).run(&mut half).unwrap();
+    assert!(kept < half.cells.len() && half.seconds > whole.seconds);
+    for (cell, again) in whole.cells.iter().zip(&half.cells) {
+        // Runs are repeatable, so that errors are the same to the last bit; times that were known are kept.
+        assert_eq!((&cell.method, cell.error()), (&again.method, again.error()));
+        if let (Outcome::Completed { cpu_seconds: a, .. }, Outcome::Completed { cpu_seconds: b, .. }) =
+            (&cell.outcome, &again.outcome)
+            && cell.decades <= 6
+        {
+            assert!(b.starts_with(a), "{a:?} {b:?}");
+        }
+    }
+}
+
+#[test]
+fn grids_are_of_what_goes_together() {
+    let all = grid(&Filter::default()).unwrap();
+    assert!(all.len() > 50);
+    for triple in &all {
+        let step = (triple.at((1e-6, 1e-6), None).check().is_err()).then_some(1e-3);
+        assert_eq!(triple.at((1e-6, 1e-6), step).check(), Ok(()), "{triple:?}");
+    }
+    let own = grid(&filter(&["baumgarte:alpha=3,beta=3"], &["rk4"], &["manifold", "full"])).unwrap();
+    let names: Vec<String> = own.iter().map(|triple| triple.at((1.0, 1.0), None).triple()).collect();
+    assert_eq!(names, ["baumgarte:alpha=3,beta=3 + rk4 + manifold", "baumgarte:alpha=3,beta=3 + rk4 + full"]);
+    let error = grid(&filter(&["index3"], &["dop853"], &[])).unwrap_err().to_string();
+    assert!(error.contains("dop853 cannot integrate index3"), "{error}");
+    let error = grid(&filter(&[], &["dop854"], &[])).unwrap_err().to_string();
+    assert!(error.contains("dop853"), "{error}");
+    assert_eq!(method("index1", "dop853", "none").triple(), "index1 + dop853");
+}
