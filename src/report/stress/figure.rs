@@ -47,7 +47,7 @@ fn legend(stressed: &Stressed) -> String {
         .into_iter()
         .filter(|status| *status != Status::TooSlow)
         .filter_map(|status| Some((symbol(status)?, status.word())))
-        .map(|(symbol, word)| format!("{symbol} {word}"))
+        .map(|(symbol, word)| format!("{symbol}={word}"))
         .collect();
     if all.is_empty() { String::new() } else { format!(" ({})", all.join(", ")) }
 }
