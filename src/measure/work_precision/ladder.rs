@@ -102,25 +102,30 @@ impl<'a> Runner<'a> {
     /// of its kind, so that it is known by how much the other kind wins.
     pub(super) fn settle(&mut self, result: &mut WorkPrecision) -> Result<()> {
         for kind in [true, false] {
-            let is_kind = |cell: &&Cell| cell.is_explicit == kind && cell.reason().is_some();
             let has = |cell: &Cell| cell.is_explicit == kind && cell.digits() >= Some(f64::from(self.plan.digits));
-            let forecast = |cell: &Cell| {
-                let triple = self.plan.triples.iter().find(|triple| cell.is_of(&triple.at((1.0, 1.0), None)))?;
-                let forecast = self.forecast(result, triple, cell.decades)?;
-                // What is slow for its stability is no slower for more digits.
-                Some((forecast.seconds, triple, cell.decades.max(self.plan.digits)))
-            };
             if result.cells.iter().any(has) {
                 continue;
             }
-            let candidates = result.cells.iter().filter(is_kind).filter_map(forecast);
-            if let Some((_, triple, decades)) = candidates.min_by(|a, b| a.0.total_cmp(&b.0)) {
+            let forecast = |triple: &'a Triple| {
+                let decades = self.needed(result, triple)?;
+                Some((self.forecast(result, triple, decades)?.seconds, triple, decades))
+            };
+            let of_kind = self.plan.triples.iter().filter(|triple| self.is_explicit(triple) == kind);
+            let quickest = of_kind.filter_map(forecast).min_by(|a, b| a.0.total_cmp(&b.0));
+            if let Some((_, triple, decades)) = quickest {
                 let method = self.method(result, triple, decades);
                 let outcome = self.first(result, &method, self.left().mul_f64(0.5))?;
                 self.put(result, triple, decades, outcome);
             }
         }
         Ok(())
+    }
+
+    /// The rung at which a method will have the digits asked for, by its tightest run.
+    fn needed(&self, result: &WorkPrecision, triple: &Triple) -> Option<u32> {
+        let tightest = cells_of(result, triple).max_by_key(|cell| cell.decades)?;
+        let more = tightest.digits().map_or(0.0, |digits| (f64::from(self.plan.digits) - digits).ceil());
+        Some((tightest.decades + more.max(0.0) as u32).max(self.plan.digits))
     }
 
     fn is_explicit(&self, triple: &Triple) -> bool {
@@ -169,13 +174,13 @@ impl<'a> Runner<'a> {
     }
 
     /// By the run itself where it was stopped, else by the tightest run of the method so far: each decade costs the p-th
-    /// root of ten.
+    /// root of ten, or as much as it did between the tightest two where that is less.
     fn forecast(&self, result: &WorkPrecision, triple: &Triple, decades: u32) -> Option<Forecast> {
         let (start, end) = self.motion.between;
         let own = cells_of(result, triple).find(|cell| cell.decades == decades);
         let last = own.or_else(|| last(result, triple, decades))?;
         let more = f64::from(decades - last.decades);
-        let order = integrator::find(&triple.integrator).ok()?.order;
+        let decade = 10f64.powf(1.0 / integrator::find(&triple.integrator).ok()?.order as f64);
         let (seconds, error) = match &last.outcome {
             // One that was stopped at once says nothing.
             Outcome::TooSlow { t, cpu_seconds, .. } if *t > start => {
@@ -183,7 +188,10 @@ impl<'a> Runner<'a> {
             }
             _ => (last.seconds()?, last.error()?),
         };
-        Some(Forecast { seconds: seconds * 10f64.powf(more / order as f64), error: error * 0.1f64.powf(more) })
+        let before = self::last(result, triple, last.decades).and_then(|cell| Some((cell.seconds()?, cell.decades)));
+        let own_decade = before.map(|(before, at)| (seconds / before).powf(1.0 / f64::from(last.decades - at)));
+        let decade = own_decade.map_or(decade, |own| decade.min(own.max(1.0)));
+        Some(Forecast { seconds: seconds * decade.powf(more), error: error * 0.1f64.powf(more) })
     }
 
     fn first(&self, result: &WorkPrecision, method: &Method, allowed: Duration) -> Result<Outcome> {
