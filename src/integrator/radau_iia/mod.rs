@@ -10,6 +10,7 @@ use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tolerance, 
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
 use crate::formulation::{self, Halt};
+use crate::math::largest;
 use collocation::Collocation;
 use convergence::{Convergence, Verdict};
 use newton::Newton;
@@ -162,8 +163,13 @@ impl RadauIIA {
     }
 }
 
-/// Of the equations of a fixed step: their solution to round-off.
-const EXACT: Tolerance = Tolerance { rtol: 1e-14, atol: 1e-14 };
+/// Of the equations of a fixed step: their solution to round-off, beside 1 m or rad or a smaller largest q.
+const EXACT: f64 = 1e-14;
+
+fn exact(q: &[f64]) -> Tolerance {
+    let size = Some(largest(q)).filter(|size| *size > 0.0).map_or(1.0, |size| size.min(1.0));
+    Tolerance { rtol: EXACT, atol: EXACT * size }
+}
 
 /// One step as an implicit system: its stages, matrices and the judgement of their convergence.
 struct Solver<'a> {
@@ -224,7 +230,7 @@ impl Integrator for RadauIIA {
         let method = self.order.current();
         self.tried = Some(Step { start: from.t, h, method });
         let tolerance = match self.is_fixed {
-            true => EXACT,
+            true => exact(problem.split(from.y).0),
             false => internal(tolerance, self.order.method().stages()),
         };
         self.tolerance = tolerance;
