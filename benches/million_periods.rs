@@ -1,5 +1,6 @@
 //! A pendulum over a million periods, against its closed form: `cargo bench --bench million_periods`. Writes
 //! `plots/million_periods.md` and its figure; as many methods at once as there are cores. Half an hour on two.
+//! Numbers as they come go to standard error.
 
 #[path = "../tests/long_runs/pendulum.rs"]
 mod pendulum;
@@ -81,7 +82,8 @@ fn place(name: &str) -> PathBuf {
 
 fn main() {
     let measure = |line: Line| {
-        let marks = run(&line.method, &PERIODS).unwrap_or_else(|error| panic!("{}: {error}", line.name));
+        let told = |mark: &Mark| eprintln!("{}: {mark:?}", line.name);
+        let marks = run(&line.method, &PERIODS, told).unwrap_or_else(|error| panic!("{}: {error}", line.name));
         (line, marks)
     };
     let all: Vec<(Line, Vec<Mark>)> = lines().into_par_iter().with_max_len(1).map(measure).collect();

@@ -3,7 +3,8 @@
 use super::Problem;
 use crate::formulation::Halt;
 
-/// Tolerated local error of component y: atol + rtol |y|.
+/// Tolerated local error of component y: atol + rtol |y|, with one atol for metres, radians and their rates, and y counted
+/// from the origin: a mechanism of micrometres needs an atol as much smaller, one far from the origin stands better there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     pub rtol: f64,

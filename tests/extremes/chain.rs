@@ -62,9 +62,8 @@ impl Chain {
             let before = if i == 0 { "ground.O".to_string() } else { format!("m{}", i - 1) };
             let (between, length) = (format!(r#""between": ["{before}", "m{i}"]"#), self.length);
             match self.links[i] {
-                Link::Rod => joints.push(format!(
-                    r#"{{ "name": "rod{i}", "type": "distance", {between}, "length": {length:e} }}"#
-                )),
+                Link::Rod => joints
+                    .push(format!(r#"{{ "name": "rod{i}", "type": "distance", {between}, "length": {length:e} }}"#)),
                 Link::Spring(k) => forces.push(format!(
                     r#"{{ "name": "spring{i}", "type": "spring_damper", {between},
                           "stiffness": {k:e}, "damping": 0, "free_length": {length:e} }}"#

@@ -11,9 +11,7 @@ use holonom::simulate::Method;
 use pendulum::{AMPLITUDE, GRAVITY, Mark, period, phase, run};
 
 fn marks(method: &Method, periods: &[f64]) -> Vec<Mark> {
-    let marks = run(method, periods).unwrap();
-    marks.iter().for_each(|mark| println!("{} {mark:?}", method.integrator.name));
-    marks
+    run(method, periods, |mark| println!("{} {mark:?}", method.integrator.name)).unwrap()
 }
 
 #[test]

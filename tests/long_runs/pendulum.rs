@@ -93,8 +93,8 @@ impl Sink for Watch {
     fn row(&mut self, _: &Observation) {}
 }
 
-/// Runs to each of the given numbers of periods, in order.
-pub fn run(method: &Method, periods: &[f64]) -> Result<Vec<Mark>> {
+/// Runs to each of the given numbers of periods, in order, and tells what it has come to.
+pub fn run(method: &Method, periods: &[f64], told: impl Fn(&Mark)) -> Result<Vec<Mark>> {
     let study = pendulum()?;
     let (q, v) = study.start();
     let (mut q, mut v) = (q.to_vec(), v.to_vec());
@@ -117,6 +117,7 @@ pub fn run(method: &Method, periods: &[f64]) -> Result<Vec<Mark>> {
             steps,
             seconds: clock.elapsed().as_secs_f64(),
         });
+        marks.last().into_iter().for_each(&told);
     }
     Ok(marks)
 }
