@@ -3,7 +3,8 @@
 use super::Problem;
 use crate::formulation::Halt;
 
-/// Tolerated local error of component y: atol + rtol |y|.
+/// Tolerated local error of component y: atol + rtol |y|, with one atol for metres, radians and their rates, and y counted
+/// from the origin: a mechanism of micrometres needs an atol as much smaller, one far from the origin stands better there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     pub rtol: f64,
@@ -88,6 +89,9 @@ impl Control {
     }
 }
 
+/// How often a guess is divided by ten where y' has no value ahead.
+const SHORTER: usize = 20;
+
 /// A first step from the sizes of y, y' and y''. Source: Hairer, Norsett, Wanner, II.4, with one extra evaluation.
 pub fn first_step(
     problem: &mut Problem,
@@ -99,10 +103,16 @@ pub fn first_step(
 ) -> Result<f64, Halt> {
     let (d0, d1) = (tolerance.norm(y, y), tolerance.norm(y, slope));
     let guess = if d0 < 1e-10 || d1 < 1e-10 { 1e-6 } else { 0.01 * d0 / d1 };
-    let guess = guess.min(span);
-    let ahead: Vec<f64> = y.iter().zip(slope).map(|(y, slope)| y + guess * slope).collect();
+    let mut guess = guess.min(span);
     let mut next = vec![0.0; y.len()];
-    problem.derivative(t + guess, &ahead, &mut next)?;
+    for shorter in 0..=SHORTER {
+        let ahead: Vec<f64> = y.iter().zip(slope).map(|(y, slope)| y + guess * slope).collect();
+        match problem.derivative(t + guess, &ahead, &mut next) {
+            Ok(()) => break,
+            Err(halt) if halt.is_final() || shorter == SHORTER => return Err(halt),
+            Err(_) => guess *= 0.1,
+        }
+    }
     let change: Vec<f64> = next.iter().zip(slope).map(|(next, slope)| next - slope).collect();
     let d2 = tolerance.norm(y, &change) / guess;
     let largest = d1.max(d2);

@@ -94,8 +94,8 @@ struct Ali3p {
 /// Iterations, and the ratio of two changes from which the matrix is renewed.
 const MOST: usize = 40;
 const SLOW: f64 = 0.3;
-/// Relative change of a that is round-off, and below which it may stop falling; and change of q, m or rad, below which
-/// it may.
+/// Relative change of a that is round-off, and below which it may stop falling; and change of q, beside 1 m or rad or the
+/// largest q, below which it may.
 const ROUND_OFF: f64 = 1e-15;
 const SMALL: f64 = 1e-8;
 const STILL: f64 = 1e-14;
@@ -147,7 +147,8 @@ impl Ali3p {
                 self.matrix.factor(problem, at, h)?;
             }
             let change = self.iterate(problem, h)?;
-            let small = (SMALL * largest(&self.a_new).max(largest(v) / h)).max(4.0 * STILL / (h * h));
+            let still = 4.0 * STILL * largest(q).max(1.0) / (h * h);
+            let small = (SMALL * largest(&self.a_new).max(largest(v) / h)).max(still);
             let ratio = if iteration == 0 { 1.0 } else { change / last };
             // The next iteration would change that by the ratio.
             if change * ratio.min(1.0) <= ROUND_OFF / SMALL * small || change < small && ratio > 0.5 {

@@ -11,8 +11,8 @@ use crate::system::{Loaded, MechanicalSystem, Need, Tangent};
 /// Iterations, and the ratio of two changes from which the matrix is renewed, as far predictions and kinks of forces want.
 const MOST: usize = 25;
 const SLOW: f64 = 0.3;
-/// Relative change of v' that is round-off, and below which it may stop falling; and change of q, m or rad, below which it
-/// may: near rest v' is round-off itself.
+/// Relative change of v' that is round-off, and below which it may stop falling; and change of q, beside 1 m or rad or the
+/// largest q, below which it may: near rest, and far from the origin, v' is round-off itself.
 const ROUND_OFF: f64 = 1e-15;
 const SMALL: f64 = 1e-8;
 const STILL: f64 = 1e-14;
@@ -83,7 +83,8 @@ impl Newton {
             if !change.is_finite() {
                 return Err(Halt::NotFinite);
             }
-            let small = (SMALL * size(problem, motion, h, to)).max(STILL / slopes.q);
+            let still = STILL * largest(problem.split(to).0).max(1.0);
+            let small = (SMALL * size(problem, motion, h, to)).max(still / slopes.q);
             let ratio = if iteration == 0 { 1.0 } else { change / last };
             // The next iteration would change that by the ratio.
             if change * ratio.min(1.0) <= ROUND_OFF / SMALL * small || change < small && ratio > 0.5 {

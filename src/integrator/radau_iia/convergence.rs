@@ -16,6 +16,8 @@ pub struct Convergence {
     pub iterations: usize,
     last: f64,
     last_ratio: f64,
+    /// Size of the change with which the last iteration failed; infinite once one converged.
+    stalled: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,6 +33,9 @@ const AT_ONCE: f64 = 1e-3;
 const LEAST: f64 = 0.1;
 /// Round-off of many operations over that of a few.
 const NEAR: f64 = 100.0;
+/// Part of the tolerance that round-off may take, and how far two sizes of it lie apart.
+const TOLERABLE: f64 = 0.1;
+const ALIKE: f64 = 10.0;
 
 impl Convergence {
     pub fn new() -> Self {
@@ -44,6 +49,7 @@ impl Convergence {
             iterations: 0,
             last: 0.0,
             last_ratio: 0.0,
+            stalled: f64::INFINITY,
         }
     }
 
@@ -65,13 +71,25 @@ impl Convergence {
 
     /// Where changes do not fall any more but are near round-off, nothing better is to be had.
     pub fn judge(&mut self, change: f64) -> Verdict {
-        match self.watch(change) {
-            Verdict::Failed if change <= NEAR * self.floor => {
-                self.theta = AT_ONCE;
-                Verdict::Converged
-            }
-            verdict => verdict,
+        let verdict = self.watch(change);
+        if verdict == Verdict::Converged {
+            self.stalled = f64::INFINITY;
         }
+        if verdict != Verdict::Failed {
+            return verdict;
+        }
+        if change <= NEAR * self.floor || self.is_noise(change) {
+            self.theta = AT_ONCE;
+            return Verdict::Converged;
+        }
+        self.stalled = change;
+        Verdict::Failed
+    }
+
+    /// A shorter step contracts more: changes that stop falling at the same size again are round-off, which unlike masses
+    /// and nearly dependent constraints make larger than `floor` knows.
+    fn is_noise(&self, change: f64) -> bool {
+        change <= TOLERABLE && change <= ALIKE * self.stalled && self.stalled <= ALIKE * change
     }
 
     fn watch(&mut self, change: f64) -> Verdict {
