@@ -213,8 +213,7 @@ impl<'a> Run<'a> {
         if self.fixed.is_some() { h } else { self.approach.place(h, self.integrator.widest_gap()) }
     }
 
-    /// The step cut or stretched a little so that the end is met; and whether it is the last. A step is the distance of two
-    /// numbers t, so that over millions of steps t does not part from the sum of them.
+    /// The step cut or stretched a little so that the end is met; and whether it is the last.
     fn fit(&self, h: f64) -> (f64, bool) {
         let left = self.span.end - self.t;
         // A fixed step is met up to rounding, of the step and of the time.
@@ -222,11 +221,7 @@ impl<'a> Run<'a> {
             Some(_) => h * (1.0 + 1e-9) + 4.0 * f64::EPSILON * self.span.end.abs(),
             None => 1.01 * h,
         };
-        match self.fixed {
-            _ if stretched >= left => (left, true),
-            Some(_) => (h, false),
-            None => ((self.t + h) - self.t, false),
-        }
+        if stretched >= left { (left, true) } else { (h, false) }
     }
 
     /// Where a step of size `h` ends. Fixed steps are counted, not added up, so that rounding does not gather.
