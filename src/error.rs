@@ -135,11 +135,12 @@ impl fmt::Display for Input {
     }
 }
 
-/// A message repeats what a user wrote, but a name of a hundred letters only by its beginning.
+/// A message repeats what a user wrote, but a name of a hundred letters, or a quotation of three hundred, only by its
+/// beginning.
 fn without_long_words(text: &str) -> String {
-    const LONGEST: usize = 100;
-    let short = |word: &str| if word.len() > LONGEST { excerpt(word) } else { word.to_string() };
-    text.split(' ').map(short).collect::<Vec<_>>().join(" ")
+    let short = |part: &str, most: usize| if part.len() > most { excerpt(part) } else { part.to_string() };
+    let words = text.split(' ').map(|word| short(word, 100)).collect::<Vec<_>>().join(" ");
+    words.split('`').map(|quotation| short(quotation, 300)).collect::<Vec<_>>().join("`")
 }
 
 impl std::error::Error for Error {}
@@ -150,8 +151,15 @@ impl From<Failure> for Error {
     }
 }
 
+/// Longer names are not compared: it would take time, and no slip makes them.
+const LONGEST_NAME: usize = 200;
+
 /// The name in `known` that `found` was meant to be: one or two slips away, or longer and beginning with it.
 pub fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if found.len() > LONGEST_NAME {
+        return None;
+    }
+    let known = known.into_iter().filter(|name| name.len() <= LONGEST_NAME);
     let found = found.to_lowercase();
     let length = found.chars().count();
     let slips = |name: &str| strsim::damerau_levenshtein(&found, &name.to_lowercase());
@@ -161,7 +169,7 @@ pub fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Opt
         |name: &str| slips(name) <= 2.min(length / 2) && strsim::jaro_winkler(&found, &name.to_lowercase()) > 0.8;
     // Of several that are merely alike the first counts, after all that are a slip away.
     let rank = |name: &&str| if slips(name) <= allowed { slips(name) } else { usize::MAX };
-    known.into_iter().filter(|name| slips(name) <= allowed || begins(name) || alike(name)).min_by_key(rank)
+    known.filter(|name| slips(name) <= allowed || begins(name) || alike(name)).min_by_key(rank)
 }
 
 /// "did you mean" for a name that is not in the list, or the list itself when nothing is near.

@@ -12,6 +12,16 @@ pub struct Trajectory {
     pub rows: Vec<Vec<f64>>,
 }
 
+/// An output outside what it is defined for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gap {
+    pub name: String,
+    /// Time of the first row without a value, s.
+    pub first: f64,
+    /// So many rows have none.
+    pub count: usize,
+}
+
 impl Trajectory {
     pub fn new(system: &dyn MechanicalSystem) -> Self {
         Trajectory { names: system.names(), outputs: system.columns(), rows: Vec::new() }
@@ -48,6 +58,17 @@ impl Trajectory {
     pub fn column(&self, heading: &str) -> Option<Vec<f64>> {
         let index = self.headings().iter().position(|known| *known == heading)?;
         Some(self.rows.iter().map(|row| row[index]).collect())
+    }
+
+    /// The outputs that have no finite value at some rows.
+    pub fn gaps(&self) -> Vec<Gap> {
+        let gap = |index: usize| {
+            let without = |row: &&Vec<f64>| !self.row_outputs(row)[index].is_finite();
+            let first = self.rows.iter().find(without)?[0];
+            let name = self.outputs[index].name.clone();
+            Some(Gap { name, first, count: self.rows.iter().filter(without).count() })
+        };
+        (0..self.outputs.len()).filter_map(gap).collect()
     }
 
     /// The outputs of a row.

@@ -7,6 +7,7 @@ use crate::measure::{Passing, Record, Recorder};
 use crate::report::{self, Folder, Summary, summarize};
 use crate::simulate::simulate;
 use crate::study::Study;
+use crate::trajectory::{Gap, Trajectory};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -47,7 +48,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         print(&format!("\nwritten to {}\n", written.listing()))?;
     }
     if !args.common.talk.quiet {
-        warn(&summary);
+        warn(&summary, &record.trajectory);
     }
     Ok(match &summary.failure {
         None => ExitCode::SUCCESS,
@@ -59,7 +60,14 @@ pub fn run(args: Args) -> Result<ExitCode> {
 }
 
 /// What makes a motion doubtful although it was computed to the end.
-fn warn(summary: &Summary) {
+fn warn(summary: &Summary, trajectory: &Trajectory) {
+    for Gap { name, first, count } in trajectory.gaps() {
+        eprintln!(
+            "warning: the output `{name}` has no finite value at {count} of {} times, first at t = {first:.6} s: its cells are \
+             empty\n  help: look for what it is not defined for",
+            trajectory.rows.len()
+        );
+    }
     if let Some(Passing { t, .. }) = summary.singularity.left() {
         eprintln!(
             "warning: at the singular state of t = {t:.9} s the velocity jumped: errors turned the motion from its branch, and what \

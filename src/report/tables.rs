@@ -41,8 +41,12 @@ pub fn energy_table(record: &Record) -> Result<Vec<u8>> {
     write(vec!["t", "kinetic", "potential", "work", "error"], rows.iter().map(<[f64; 5]>::as_slice))
 }
 
-/// A number at full precision, with an exponent where zeros alone would fill the cell.
+/// A number at full precision, with an exponent where zeros alone would fill the cell; empty where there is no value, as
+/// of an output outside what it is defined for.
 pub fn cell(value: f64) -> String {
+    if !value.is_finite() {
+        return String::new();
+    }
     match value == 0.0 || (1e-5..1e15).contains(&value.abs()) {
         true => value.to_string(),
         false => format!("{value:e}"),

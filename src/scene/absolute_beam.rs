@@ -43,7 +43,7 @@ pub struct AbsoluteBeam<const D: usize> {
 const FLOATING: [&str; 6] = ["frame_conditions", "axial", "rotary_inertia", "geometric_stiffening", "modes", "ritz"];
 
 /// More elements than this are a slip of the hand.
-const MOST_ELEMENTS: u32 = 1_000_000;
+const MOST_ELEMENTS: u32 = 10_000;
 
 /// Two places on a beam nearer than this part of its length are one.
 const SAME: f64 = 1e-9;

@@ -1,6 +1,6 @@
 //! Which method a run uses.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, short};
 use crate::formulation::Choice;
 use crate::integrator::{self, Steps};
 use crate::projection;
@@ -49,6 +49,10 @@ impl Method {
                 let error = Error::input(format!("{name} is {value}, but must be above zero")).under(name);
                 return Err(error.hint("give a positive number"));
             }
+        }
+        if self.rtol > 1.0 {
+            let error = Error::input(format!("rtol is {}, but must not be above 1", short(self.rtol))).under("rtol");
+            return Err(error.hint("1 allows errors as large as the solution; choose 1e-3 or less"));
         }
         match self.step {
             Some(_) if entry.steps == Steps::Own => Err(Error::input(format!("{} chooses its own steps", entry.name))

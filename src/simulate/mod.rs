@@ -160,9 +160,7 @@ impl<'a> Run<'a> {
         let mut h = self.first_step().map_err(|halt| self.halted(&halt))?;
         let mut growing = true;
         while self.t < self.span.end {
-            if let Some(Stop { reason, hint }) = sink.stops() {
-                return Err(Failure { t: self.t, reason, hint });
-            }
+            self.ask(sink)?;
             let placed = self.place(h);
             let (mut size, mut last) = self.fit(placed);
             let error = match self.step(&mut size, &mut last) {
@@ -182,6 +180,9 @@ impl<'a> Run<'a> {
             self.output(size, last, sink).map_err(|halt| self.halted(&halt))?;
             self.accept(size, last, sink);
             self.check_joints()?;
+            if last && self.span.row(self.rows.next - 1) < self.span.end {
+                self.ask(sink)?;
+            }
             if let Some(error) = error {
                 let proposed = self.integrator.control().accept(size, error, growing);
                 // A step cut to hit the end says nothing against the size before it.
@@ -193,6 +194,11 @@ impl<'a> Run<'a> {
             growing = true;
         }
         Ok(())
+    }
+
+    /// Ends the run where the sink wants that.
+    fn ask(&self, sink: &dyn Sink) -> Result<(), Failure> {
+        sink.stops().map_or(Ok(()), |Stop { reason, hint }| Err(Failure { t: self.t, reason, hint }))
     }
 
     fn first_step(&mut self) -> Result<f64, Halt> {
@@ -255,6 +261,10 @@ impl<'a> Run<'a> {
             }
             self.rows.emit(t, sink)?;
             self.rows.next += 1;
+            // A step may have millions of rows; the run ends before the next one.
+            if sink.stops().is_some() {
+                return Ok(());
+            }
         }
     }
 

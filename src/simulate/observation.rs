@@ -46,7 +46,7 @@ pub trait Sink {
     fn accepted(&mut self, state: &Observation);
     /// Every output row, in order.
     fn row(&mut self, state: &Observation);
-    /// Asked before every step: why the run should end here, if it should.
+    /// Asked before every step, and after every row: why the run should end here, if it should.
     fn stops(&self) -> Option<Stop> {
         None
     }

@@ -288,3 +288,23 @@ fn a_stiff_scene_is_warned_of() {
     assert_eq!(place.run(&args).status.code(), Some(0));
     assert_eq!(place.json("here/summary.json")["stiffness"], Value::Null);
 }
+
+/// The motion is fine where an output is not defined: the cells are empty, and it is said.
+#[test]
+fn an_output_without_a_value_leaves_empty_cells() {
+    let bad = r#""outputs": [ { "name": "bad", "measure": "expression", "value": "sqrt(theta)" },"#;
+    let place = Place::new(PENDULUM.replace(r#""outputs": ["#, bad));
+    let output = place.run(&["simulate", "scene.json", "-o", "here"]);
+    let message = err(&output);
+    assert!(
+        message.starts_with("warning: the output `bad` has no finite value at 10 of 11 times, first at t = 0.1"),
+        "{message}"
+    );
+    assert_no_nan(&place, "here");
+    let last = place.text("here/trajectory.csv").lines().last().unwrap().to_string();
+    assert!(last.split(',').nth(9) == Some(""), "{last}");
+    assert_eq!(
+        (output.status.code(), &place.json("here/summary.json")["final"]["outputs"]["bad"]),
+        (Some(0), &Value::Null)
+    );
+}

@@ -17,7 +17,7 @@ const POINTS: usize = 4;
 /// Gauss points that integrate w'^2 exactly.
 const STRETCH_POINTS: usize = 3;
 /// Most finite elements of a beam.
-const MOST_ELEMENTS: u32 = 100_000;
+const MOST_ELEMENTS: u32 = 10_000;
 
 /// The shapes of a beam whose markers are at the abscissae `markers`, and its length in m.
 ///

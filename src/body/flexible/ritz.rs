@@ -12,6 +12,8 @@ use crate::error::{Error, Result};
 use crate::math::Taylor;
 use crate::math::expression::{Expression, Number, Scope};
 
+/// Most functions: their integrals are computed for all pairs.
+const MOST: usize = 200;
 /// Gauss points on a panel.
 const POINTS: usize = 12;
 /// Most panels; only functions that are not smooth, or not exact to rounding, need so many.
@@ -105,6 +107,14 @@ impl Functions {
             for (i, number) in numbers.iter().enumerate() {
                 functions.push(function(kind, i, number, build).map_err(|error| error.under("ritz"))?);
             }
+        }
+        if functions.len() > MOST {
+            return Err(Error::input(format!(
+                "{} displacement functions, but at most {MOST} are possible",
+                functions.len()
+            ))
+            .under("ritz")
+            .hint("a few are enough for most beams; many are alike to round-off"));
         }
         if functions.is_empty() {
             return Err(Error::input("there is no displacement function")

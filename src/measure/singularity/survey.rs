@@ -12,8 +12,9 @@ const NAMED: usize = 1000;
 const DEPENDENT: f64 = 1e-4;
 /// The condition number is computed up to this many unknowns.
 const SMALL: usize = 300;
-/// Golden sections end at this part of a path, and where the sine is this part of what counts as near.
-const SHORTEST: f64 = 1e-6;
+/// Golden sections end at a millionth of a path, and where the sine is this part of what counts as near. They are counted:
+/// a path of steps at round-off has no millionth.
+const SECTIONS: usize = 29;
 const TINY: f64 = 5e-4;
 /// The points of the two lines are where the sine is about this part of what counts as near: the lines are straight, and
 /// round-off is small.
@@ -107,7 +108,10 @@ impl<'a> Survey<'a> {
         let mut inner = [to - GOLDEN * (to - from), from + GOLDEN * (to - from)];
         let mut values = inner.map(|t| self.sine_on(path, t));
         let mut steepest: f64 = 0.0;
-        while to - from > SHORTEST * width && values[0].min(values[1]) > TINY * bound {
+        for _ in 0..SECTIONS {
+            if values[0].min(values[1]) <= TINY * bound {
+                break;
+            }
             steepest = steepest.max(2.0 * (values[1] - values[0]).abs() / (inner[1] - inner[0]));
             if values[0].min(values[1]) - steepest * (to - from) > bound {
                 return None;
