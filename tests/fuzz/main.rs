@@ -1,7 +1,8 @@
 //! Mutated scenes: whatever stands in a file, the answer is a result or a message, soon.
 //!
-//! `cargo test --release --test fuzz -- --ignored --nocapture ten_thousand` tries 10 000 of them. One is looked at again by
-//! its number, as in `SCENE=1234 cargo test --release --test fuzz -- --ignored --nocapture one`.
+//! `cargo test --release --test fuzz ten_thousand -- --ignored --nocapture` tries 10 000 of them, in the library and through
+//! the program. One is looked at again by its number, as in `SCENE=1234 cargo test --release --test fuzz one -- --ignored
+//! --nocapture`.
 
 mod binary;
 mod grow;
