@@ -46,7 +46,7 @@
 //! | [`sweep`] | a scene assembled at many values of a parameter | |
 //! | [`linearize`] | linear models at a state, by every method; state-transition matrix, loci | a file and a line in [`linearize::registry`] |
 //! | [`validate`] | linear models against perturbed simulations | |
-//! | [`measure`] | drift, energy balance | |
+//! | [`measure`] | drift, energy balance; speed for accuracy ([`measure::work_precision`]); maps over extremes ([`measure::stress`]) | an extreme: a file and a line in [`measure::stress::registry`] |
 //! | [`plot`], [`report`], [`cli`] | figures, files and text, the command line | one file a subcommand |
 //!
 //! # Example
