@@ -67,7 +67,7 @@ fn elements_that_cannot_be_counted() {
         );
     }
     says(
-        &with("\"elements\": 4", "\"elements\": 100001"),
+        &with("\"elements\": 4", "\"elements\": 10001"),
         "at bodies[0].elements (`rod`): elements is 10001, but at most 10000 are possible\n  help: 4 to 16 are enough \
          for most beams",
     );

@@ -51,7 +51,7 @@ impl Recipe {
     }
 
     /// Rods begin at earlier ends and end about a metre away; all bodies have the axes of the ground at the start.
-    fn json(&self) -> Value {
+    pub fn json(&self) -> Value {
         let (mut numbers, mut ends, mut ground) = (Numbers(self.seed), Vec::<Vec<f64>>::new(), serde_json::Map::new());
         let (mut bodies, mut joints, mut forces) = (Vec::new(), Vec::new(), Vec::new());
         ground.insert("O".to_string(), json!(vec![0.0; self.dimension]));
