@@ -1,7 +1,7 @@
 //! `holonom tradeoff SCENE`
 
-use super::interrupt;
 use super::common::{Output, SceneOptions, Talk, choice, number, positive, print};
+use super::interrupt;
 use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::measure::work_precision::models::{Variant, compare};
@@ -9,9 +9,9 @@ use crate::measure::work_precision::{Filter, Given, Motion, Plan, Runner, Watche
 use crate::report::tradeoff::{ModelsSummary, Summary, models_figure, models_table, tradeoff_figure, tradeoff_table};
 use crate::report::write_whole;
 use crate::scene;
+use crate::study::{Overrides, Study};
 use crate::system::MechanicalSystem;
 use crate::{formulation, projection};
-use crate::study::{Overrides, Study};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

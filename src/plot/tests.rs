@@ -52,7 +52,8 @@ fn named_map() -> Panel {
 #[test]
 fn maps_share_colours_and_have_words_along_an_axis() {
     let drawing = Figure::new().panel(named_map()).drawing();
-    let words = drawing.shapes.iter().filter(|shape| matches!(shape, Shape::Text(text) if text.rich == Rich::new("manifold")));
+    let words =
+        drawing.shapes.iter().filter(|shape| matches!(shape, Shape::Text(text) if text.rich == Rich::new("manifold")));
     assert_eq!(words.count(), 1);
     let fill = |shape: &Shape| if let Shape::Rects { fill, .. } = shape { Some(*fill) } else { None };
     let fills: Vec<Color> = drawing.shapes.iter().filter_map(fill).collect();

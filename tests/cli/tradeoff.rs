@@ -80,7 +80,10 @@ fn a_measurement_goes_on_where_it_was() {
     let (first, again) = (first["cells"].as_array().unwrap(), again["cells"].as_array().unwrap());
     assert_eq!(first.len(), again.len());
     for (a, b) in first.iter().zip(again) {
-        assert_eq!((&a["method"], &a["error"], &a["cpu_seconds"][0]), (&b["method"], &b["error"], &b["cpu_seconds"][0]));
+        assert_eq!(
+            (&a["method"], &a["error"], &a["cpu_seconds"][0]),
+            (&b["method"], &b["error"], &b["cpu_seconds"][0])
+        );
     }
     let other = place.run(&["tradeoff", "scene.json", "-o", "here", "--resume", "--until", "0.5"]);
     assert_eq!(other.status.code(), Some(2));
@@ -116,7 +119,8 @@ fn bad_input_is_refused_before_anything_is_run() {
 fn a_scene_brings_its_reference() {
     let scene = PENDULUM.replace(r#""t_end": 1,"#, r#""t_end": 1, "reference": "values.csv","#);
     let place = Place::new(&scene);
-    let args = ["simulate", "scene.json", "--integrator", "dop853", "--rtol", "1e-13", "--atol", "1e-15", "--figures", "none"];
+    let args =
+        ["simulate", "scene.json", "--integrator", "dop853", "--rtol", "1e-13", "--atol", "1e-15", "--figures", "none"];
     place.done(&[&args[..], &["-o", "tight"]].concat());
     fs::copy(place.path("tight/trajectory.csv"), place.path("values.csv")).unwrap();
     let names = ["--formulation", "index1", "--integrator", "dop853", "--outputs", "theta", "--json"];

@@ -77,7 +77,8 @@ pub fn run(motion: &Motion, outputs: &[&str], method: &Method) -> Sample {
 fn errors_are_those_against_the_closed_form() {
     let scene = shipped("two_mass", &[]);
     let motion = motion(&scene, 5.0);
-    let result = measured(motion, &plan(&filter(&["index1", "ggl"], &["rk4", "dopri5", "radau_iia"], &[]), 6.0), &["x1"]);
+    let result =
+        measured(motion, &plan(&filter(&["index1", "ggl"], &["rk4", "dopri5", "radau_iia"], &[]), 6.0), &["x1"]);
     let reference = result.reference.as_ref().unwrap();
     let exact = |row: usize| 0.1 * (5.0 * 5.0 * row as f64 / ROWS as f64).cos();
     let largest = (1..=ROWS).fold(0.0f64, |most, row| most.max(exact(row).abs()));

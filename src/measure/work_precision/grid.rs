@@ -44,11 +44,8 @@ pub fn grid(filter: &Filter) -> Result<Vec<Triple>> {
     for integrator in &integrators {
         let entry = integrator::find(integrator).map_err(|error| error.under("--integrator"))?;
         for formulation in formulations.iter().filter(|choice| entry.accepts.contains(&choice.name.as_str())) {
-            let with = |projection| Triple {
-                formulation: formulation.clone(),
-                integrator: integrator.clone(),
-                projection,
-            };
+            let with =
+                |projection| Triple { formulation: formulation.clone(), integrator: integrator.clone(), projection };
             triples.extend(projections(entry, formulation, filter).into_iter().map(with));
         }
     }

@@ -134,13 +134,7 @@ fn tightest(line: &[Rung]) -> f64 {
     line.last().map_or(f64::INFINITY, |rung| rung.method.rtol)
 }
 
-fn climb(
-    motion: &Motion,
-    watched: &Watched,
-    span: Span,
-    names: [&str; 3],
-    allowed: Duration,
-) -> Result<Line> {
+fn climb(motion: &Motion, watched: &Watched, span: Span, names: [&str; 3], allowed: Duration) -> Result<Line> {
     let clock = Instant::now();
     let [formulation, integrator, projection] = names.map(Choice::named);
     let triple = Triple { formulation, integrator, projection };

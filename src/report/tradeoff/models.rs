@@ -46,8 +46,9 @@ impl<'a> ModelsSummary<'a> {
         let mut errors = Table::new(&["largest difference"].into_iter().chain(outputs).collect::<Vec<_>>());
         models.iter().for_each(|model| errors.row(self.errors(model)));
         let failures = models.iter().filter_map(|model| Some((model, model.failure.as_ref()?)));
-        let lines =
-            failures.map(|(model, failure)| format!("\n  {} FAILED at t = {:.4e} s: {}", model.name, failure.t, failure.reason));
+        let lines = failures.map(|(model, failure)| {
+            format!("\n  {} FAILED at t = {:.4e} s: {}", model.name, failure.t, failure.reason)
+        });
         format!("{text}\n{costs}\n{errors}{}", lines.collect::<String>())
     }
 
@@ -64,7 +65,9 @@ impl<'a> ModelsSummary<'a> {
 fn percent(part: f64) -> String {
     match 100.0 * part {
         zero if zero == 0.0 => "0".to_string(),
-        much if much >= 0.01 => format!("{} %", crate::report::significant(format!("{much:.1e}").parse().unwrap_or(much), 2)),
+        much if much >= 0.01 => {
+            format!("{} %", crate::report::significant(format!("{much:.1e}").parse().unwrap_or(much), 2))
+        }
         little => format!("{little:.0e} %"),
     }
 }
@@ -104,7 +107,8 @@ fn advice(costs: &ModelCosts, within: f64) -> Option<ModelAdvice> {
 /// None but those of the table's writer.
 pub fn models_table(costs: &ModelCosts) -> Result<Vec<u8>> {
     let own = ["model", "coordinates", "velocities", "constraints", "method", "cpu_seconds", "numerical_error"];
-    let outputs = costs.columns.iter().flat_map(|column| [format!("{} max", column.name), format!("{} rms", column.name)]);
+    let outputs =
+        costs.columns.iter().flat_map(|column| [format!("{} max", column.name), format!("{} rms", column.name)]);
     let headings: Vec<String> = own.map(String::from).into_iter().chain(outputs).collect();
     let row = |model: &ModelCost| {
         let counts = [model.coordinates, model.velocities, model.constraints].map(|count| count.to_string());

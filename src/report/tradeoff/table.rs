@@ -46,7 +46,8 @@ fn row(cell: &Cell) -> Vec<String> {
     let mut row: Vec<String> = names.into_iter().chain([number(method.rtol), number(method.atol), step]).collect();
     match &cell.outcome {
         Outcome::Completed { error, worst, drift, cpu_seconds, statistics: s } => {
-            let extreme = |pick: fn(f64, f64) -> f64| cpu_seconds.iter().copied().reduce(pick).map_or(String::new(), number);
+            let extreme =
+                |pick: fn(f64, f64) -> f64| cpu_seconds.iter().copied().reduce(pick).map_or(String::new(), number);
             let numbers = [cell.digits().unwrap_or(0.0), *error].map(number);
             row.extend(["completed".to_string()].into_iter().chain(numbers).chain([worst.clone()]));
             row.extend([cell.seconds().map_or(String::new(), number), extreme(f64::min), extreme(f64::max)]);

@@ -12,7 +12,11 @@ impl Summary<'_> {
         let mut text = head(measured);
         for same in self.recommendations.chunk_by(|a, b| a.sentence == b.sentence) {
             let [first, .., last] = same else {
-                let digits = if same[0].places.digits == 1 { "1 digit".to_string() } else { format!("{} digits", same[0].places.digits) };
+                let digits = if same[0].places.digits == 1 {
+                    "1 digit".to_string()
+                } else {
+                    format!("{} digits", same[0].places.digits)
+                };
                 text += &format!("  for {digits}: {}\n", same[0].sentence);
                 continue;
             };
