@@ -58,8 +58,7 @@ fn fault(tried: &Tried, ready: &Ready, reference: &Record) -> Option<String> {
         ("velocity drift", record.drift.velocity.relative_max, velocity),
         ("quaternion norm", norms(&record), 1e-13),
     ];
-    // Written so that a NaN is a fault.
-    let broken = found.iter().filter(|(_, value, most)| !(value <= most));
+    let broken = found.iter().filter(|(_, value, most)| value > most || value.is_nan());
     let told: Vec<String> = broken.map(|(name, value, most)| format!("{name} {value:.1e} above {most:.0e}")).collect();
     (!told.is_empty()).then(|| told.join(", "))
 }

@@ -13,7 +13,7 @@ pub fn recipe(number: u64) -> Recipe {
         dimension,
         rods,
         is_loop,
-        is_chain: is_loop || number % 3 == 0,
+        is_chain: is_loop || number.is_multiple_of(3),
         is_redundant: number % 5 == 4,
         seed: number,
     }

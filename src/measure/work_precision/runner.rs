@@ -57,8 +57,11 @@ pub struct Runner<'a> {
     watched: Watched,
     pub(super) clock: Instant,
     /// Called before every run with what it will be.
-    watch: Box<dyn FnMut(&WorkPrecision, &str) + 'a>,
+    watch: Box<Watch<'a>>,
 }
+
+/// Hears what is measured so far, and what comes next.
+type Watch<'a> = dyn FnMut(&WorkPrecision, &str) + 'a;
 
 /// Why no more runs are made.
 pub(super) enum Pause {

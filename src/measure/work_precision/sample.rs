@@ -93,7 +93,7 @@ impl Sink for Sampler<'_> {
             return Some(Stop { reason: "interrupted".to_string(), hint: "begin again".to_string() });
         }
         self.asked.set(self.asked.get().wrapping_add(1));
-        if self.asked.get() % ASKED != 0 {
+        if !self.asked.get().is_multiple_of(ASKED) {
             return None;
         }
         let (cpu, wall) = self.clocks;

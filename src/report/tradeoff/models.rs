@@ -64,7 +64,7 @@ impl<'a> ModelsSummary<'a> {
 
 fn percent(part: f64) -> String {
     match 100.0 * part {
-        zero if zero == 0.0 => "0".to_string(),
+        0.0 => "0".to_string(),
         much if much >= 0.01 => {
             format!("{} %", crate::report::significant(format!("{much:.1e}").parse().unwrap_or(much), 2))
         }
