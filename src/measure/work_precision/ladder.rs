@@ -57,7 +57,7 @@ impl<'a> Runner<'a> {
                 return Ok(Some((pause, what)));
             }
             let outcome = match self.skips(result, triple, decades, allowed) {
-                Some(reason) => Outcome::Skipped { reason },
+                Some(reason) => skipped(result, triple, decades, reason),
                 None => self.first(result, &method, allowed.min(self.left()))?,
             };
             // What was cut short is no result.
@@ -223,6 +223,15 @@ impl<'a> Runner<'a> {
             cpu_seconds: vec![run.seconds],
             statistics: run.statistics,
         })
+    }
+}
+
+/// Not worth making; how far a run came that was stopped stays known.
+fn skipped(result: &WorkPrecision, triple: &Triple, decades: u32, reason: String) -> Outcome {
+    let own = cells_of(result, triple).find(|cell| cell.decades == decades);
+    match own.map(|cell| &cell.outcome) {
+        Some(&Outcome::TooSlow { t, cpu_seconds, .. }) => Outcome::TooSlow { t, cpu_seconds, reason },
+        _ => Outcome::Skipped { reason },
     }
 }
 
