@@ -132,12 +132,12 @@ fn read(path: &Path) -> Value {
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
-/// Parameters that are plain numbers and not zero; `n` counts elements.
+/// Parameters that are plain numbers and not zero; `n` and `modes` count.
 fn numbers(path: &Path) -> Vec<(String, f64)> {
     let json = read(path);
     let parameters = json["parameters"].as_object().expect("parameters").iter();
     parameters
         .filter_map(|(name, value)| Some((name.clone(), value.as_f64()?)))
-        .filter(|(name, x)| *x != 0.0 && name != "n")
+        .filter(|(name, x)| *x != 0.0 && !["n", "modes"].contains(&name.as_str()))
         .collect()
 }

@@ -106,9 +106,11 @@ impl<'a> Runner<'a> {
             if result.cells.iter().any(has) {
                 continue;
             }
+            // By the runs so far: what is slow for its stability is no slower for more digits.
             let forecast = |triple: &'a Triple| {
-                let decades = self.needed(result, triple)?;
-                Some((self.forecast(result, triple, decades)?.seconds, triple, decades))
+                let tightest = cells_of(result, triple).max_by_key(|cell| cell.decades)?;
+                let seconds = self.forecast(result, triple, tightest.decades)?.seconds;
+                Some((seconds, triple, self.needed(tightest)))
             };
             let of_kind = self.plan.triples.iter().filter(|triple| self.is_explicit(triple) == kind);
             let quickest = of_kind.filter_map(forecast).min_by(|a, b| a.0.total_cmp(&b.0));
@@ -121,11 +123,10 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    /// The rung at which a method will have the digits asked for, by its tightest run.
-    fn needed(&self, result: &WorkPrecision, triple: &Triple) -> Option<u32> {
-        let tightest = cells_of(result, triple).max_by_key(|cell| cell.decades)?;
-        let more = tightest.digits().map_or(0.0, |digits| (f64::from(self.plan.digits) - digits).ceil());
-        Some((tightest.decades + more.max(0.0) as u32).max(self.plan.digits))
+    /// The rung at which the method of a run will have the digits asked for.
+    fn needed(&self, run: &Cell) -> u32 {
+        let more = run.digits().map_or(0.0, |digits| (f64::from(self.plan.digits) - digits).ceil());
+        (run.decades + more.max(0.0) as u32).max(self.plan.digits)
     }
 
     fn is_explicit(&self, triple: &Triple) -> bool {

@@ -90,7 +90,13 @@ impl<'a> Runner<'a> {
             (self.watch)(result, "reference");
             let allowed = self.plan.budget.mul_f64(REFERENCE);
             let given = self.plan.given.as_ref();
-            result.reference = Some(Reference::find(&self.motion, &self.watched, (self.span(result), given), allowed)?);
+            let reference = Reference::find(&self.motion, &self.watched, (self.span(result), given), allowed);
+            // One that was cut short is none.
+            if (self.motion.is_stopped)() {
+                result.left_out = Some("all: the measurement was interrupted".to_string());
+                return Ok(());
+            }
+            result.reference = Some(reference?);
         }
         let paused = self.measure(result)?;
         result.seconds = before + self.clock.elapsed().as_secs_f64();
@@ -103,7 +109,7 @@ impl<'a> Runner<'a> {
         result.cells.sort_by_key(|cell| (name(cell), cell.decades));
         result.left_out = paused.map(|(pause, what)| match pause {
             Pause::Budget => format!("{what} did not fit into the budget of {} s", self.plan.budget.as_secs_f64()),
-            Pause::Asked => format!("{what} were left out: the measurement was interrupted"),
+            Pause::Asked => format!("{what}: the measurement was interrupted"),
         });
         Ok(())
     }
