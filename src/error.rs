@@ -210,6 +210,17 @@ pub fn short(value: f64) -> String {
     }
 }
 
+/// Names in a list of more are counted.
+const NAMED: usize = 5;
+
+/// Names as a person reads them, the first few.
+pub fn short_list(names: &[String]) -> String {
+    match names {
+        few if few.len() <= NAMED => few.join(", "),
+        many => format!("{} and {} more", many[..NAMED].join(", "), many.len() - NAMED),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

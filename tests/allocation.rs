@@ -88,7 +88,7 @@ fn check_methods(
             let end = f64::from(steps) * step;
             let (made, outcome) = allocations(system, &method, Span { start: 0.0, end, output_step: end }, start);
             assert_eq!(outcome.failure, None, "{name} {method:?}");
-            assert_eq!(outcome.statistics.steps, u64::from(steps));
+            assert_eq!(outcome.statistics.steps, u64::from(steps), "{name} {method:?}");
             made
         });
         assert_eq!(few, many, "{name} {formulation} {integrator} {projection}");

@@ -2,7 +2,8 @@
 
 use super::{Probe, Signal};
 use crate::error::{Error, Result, nearest, short, suggest};
-use crate::math::expression::{Expression, Number, Parameters};
+use crate::math::expression::{Expression, Number, Parameters, Switch, TimeFunction};
+use std::cell::RefCell;
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -58,6 +59,32 @@ pub struct Build<'a, const D: usize> {
     pub gravity: [f64; D],
     /// Where files that the scene names are.
     pub folder: &'a Path,
+    /// What its elements have of it so far.
+    pub switches: &'a RefCell<Switches>,
+}
+
+/// Where the elements of a scene change their form, and what depends on t alone.
+#[derive(Clone, Debug, Default)]
+pub struct Switches {
+    /// By number.
+    pub all: Vec<Switch>,
+    /// The element of each, such as "the force `push`".
+    pub owners: Vec<String>,
+    pub time_functions: Vec<TimeFunction>,
+}
+
+impl Switches {
+    /// Takes those of an expression, and numbers them.
+    fn add(&mut self, expression: &mut Expression) {
+        let switches = expression.number_switches(self.all.len());
+        self.all.extend(switches);
+        self.time_functions.extend(expression.time_functions());
+    }
+
+    /// Says to whom all belong that came since the last call.
+    pub fn own(&mut self, owner: &str) {
+        self.owners.resize(self.all.len(), owner.to_string());
+    }
 }
 
 impl<const D: usize> Build<'_, D> {
@@ -144,11 +171,24 @@ impl<const D: usize> Build<'_, D> {
         }
     }
 
-    /// An expression over t alone.
+    /// An expression over t alone, in the equations of motion.
     pub fn function_of_time(&self, field: &str, number: &Number) -> Result<Expression> {
-        Signal::parse(&number.to_string(), self, false)
-            .map_err(|error| error.under(field))
-            .and_then(|signal| signal.function_of_time().map_err(|error| error.under(field)))
+        let signal = self.acting(field, number, false)?;
+        signal.function_of_time().map_err(|error| error.under(field))
+    }
+
+    /// The same as [`signal`](Self::signal) in the equations of motion: its switching functions are those of the scene.
+    pub fn acting(&self, field: &str, number: &Number, rates: bool) -> Result<Signal> {
+        let mut signal = self.signal(field, number, rates)?;
+        self.switches.borrow_mut().add(&mut signal.expression);
+        Ok(signal)
+    }
+
+    /// The number of a switching function that an element has beside its expressions; zero is its threshold.
+    pub fn switch(&self) -> usize {
+        let all = &mut self.switches.borrow_mut().all;
+        all.push(Switch { thresholds: vec![0.0], of_time: None });
+        all.len() - 1
     }
 
     /// An expression over t and marker quantities; with their rates where `rates` says so.

@@ -18,7 +18,7 @@ mod rigid;
 mod rigid_planar;
 mod rigid_spatial;
 
-pub use build::{Build, MarkerId, MarkerTable};
+pub use build::{Build, MarkerId, MarkerTable, Switches};
 pub use frame::{Frame, Marker, Wrench, cross, dot, in_space, norm, scale, sub, twist_len, unit_axes};
 pub use parse::{parse, parse_among, show};
 pub use probe::{Probe, Quantity, Signal, small_rotation, small_rotation_torque};

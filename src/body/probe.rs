@@ -4,7 +4,7 @@ use super::frame::{cross, dot};
 use super::{Build, Frame, MarkerId, MarkerTable};
 use crate::error::{Error, Result};
 use crate::math::expression::{Expression, Name, Names};
-use crate::math::{Scalar, Taylor};
+use crate::math::{Scalar, Taylor, Time};
 
 /// One scalar of one marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -113,12 +113,21 @@ impl Signal {
     }
 
     /// Value with `read` for the probes.
-    pub fn evaluate<S: Scalar>(&self, t: S, read: impl Fn(&Probe) -> S) -> S {
-        let mut variables = [t; MOST_PROBES + 1];
+    pub fn evaluate<S: Scalar>(&self, time: Time<S>, read: impl Fn(&Probe) -> S) -> S {
+        self.with(time, read, |variables| self.expression.eval_held(variables, time.regime))
+    }
+
+    /// Writes the arguments of its switching functions at their numbers.
+    pub fn switching<S: Scalar>(&self, time: Time<S>, read: impl Fn(&Probe) -> S, out: &mut [S]) {
+        self.with(time, read, |variables| self.expression.arguments(variables, time.regime, out));
+    }
+
+    fn with<S: Scalar, R>(&self, time: Time<S>, read: impl Fn(&Probe) -> S, see: impl FnOnce(&[S]) -> R) -> R {
+        let mut variables = [time.t; MOST_PROBES + 1];
         for (place, probe) in variables[1..].iter_mut().zip(&self.probes) {
             *place = read(probe);
         }
-        self.expression.eval(&variables[..=self.probes.len()])
+        see(&variables[..=self.probes.len()])
     }
 }
 

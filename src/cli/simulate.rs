@@ -3,7 +3,7 @@
 use super::common::{Common, Output, print};
 use super::interrupt;
 use crate::error::Result;
-use crate::measure::{Passing, Record, Recorder};
+use crate::measure::{Record, Recorder};
 use crate::report::{self, Folder, Summary, summarize};
 use crate::simulate::simulate;
 use crate::study::Study;
@@ -66,12 +66,6 @@ fn warn(summary: &Summary, trajectory: &Trajectory) {
             "warning: the output `{name}` has no finite value at {count} of {} times, first at t = {first:.6} s: its cells are \
              empty\n  help: look for what it is not defined for",
             trajectory.rows.len()
-        );
-    }
-    if let Some(Passing { t, .. }) = summary.singularity.left() {
-        eprintln!(
-            "warning: at the singular state of t = {t:.9} s the velocity jumped: errors turned the motion from its branch, and what \
-             comes after is not the motion of the scene\n  help: choose a projection such as `manifold`, or a smaller step"
         );
     }
     let open = summary.drift.position.relative_final;

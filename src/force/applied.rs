@@ -1,10 +1,10 @@
 //! Applied force and torque: expressions of time, of marker quantities and of named outputs.
 
 use super::{Action, Built, ForceKernel, ForceSpec};
-use crate::body::{Build, Frame, MOST_MARKERS, MarkerId, Signal, Wrench, cross, norm};
+use crate::body::{Build, Frame, MOST_MARKERS, MarkerId, Probe, Signal, Wrench, cross, norm};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
-use crate::math::{Scalar, Taylor};
+use crate::math::{Rate, Scalar, Taylor, Time};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -75,7 +75,7 @@ impl ForceSpec for AppliedTorque {
 
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
         let signals = match &self.torque {
-            OneOrMany::One(torque) if D == 2 => vec![build.signal("torque", torque, true)?],
+            OneOrMany::One(torque) if D == 2 => vec![build.acting("torque", torque, true)?],
             OneOrMany::Many(torque) if D == 3 && torque.len() == 3 => signals("torque", torque, build)?,
             _ => {
                 let expected = if D == 2 { "one number" } else { "3 numbers" };
@@ -91,7 +91,7 @@ impl ForceSpec for AppliedTorque {
 }
 
 fn signals<const D: usize>(field: &str, numbers: &[Number], build: &Build<D>) -> Result<Vec<Signal>> {
-    numbers.iter().enumerate().map(|(i, number)| build.signal(&format!("{field}[{i}]"), number, true)).collect()
+    numbers.iter().enumerate().map(|(i, number)| build.acting(&format!("{field}[{i}]"), number, true)).collect()
 }
 
 fn targets<const D: usize>(at: &str, reaction: &Option<String>, build: &Build<D>) -> Result<Vec<MarkerId>> {
@@ -137,9 +137,13 @@ struct Applied {
 }
 
 impl Applied {
-    fn components<S: Scalar, const D: usize>(&self, frames: &[Frame<Taylor<S>, D>], t: S) -> [S; 3] {
-        let place = |marker: MarkerId| self.markers.iter().position(|&known| known == marker).unwrap_or(0);
-        let value = |signal: &Signal| signal.evaluate(t, |probe| probe.read(&frames[place(probe.marker)]));
+    fn read<S: Scalar, const D: usize>(&self, probe: &Probe, frames: &[Frame<Taylor<S>, D>]) -> S {
+        let place = self.markers.iter().position(|&known| known == probe.marker);
+        probe.read(&frames[place.unwrap_or(0)])
+    }
+
+    fn components<S: Scalar, const D: usize>(&self, frames: &[Frame<Taylor<S>, D>], time: Time<S>) -> [S; 3] {
+        let value = |signal: &Signal| signal.evaluate(time, |probe| self.read(probe, frames));
         match self.signals.as_slice() {
             [torque] => [S::zero(), S::zero(), value(torque)],
             all => std::array::from_fn(|i| all.get(i).map_or(S::zero(), value)),
@@ -148,18 +152,29 @@ impl Applied {
 }
 
 impl<const D: usize> ForceKernel<D> for Applied {
-    fn act<S: Scalar>(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
-        self.driven(&[S::zero(); 3], frames, t, out)
+    fn act<S: Scalar>(
+        &self,
+        frames: &[Frame<Taylor<S>, D>],
+        time: Time<Taylor<S>>,
+        out: &mut [Wrench<S, D>],
+    ) -> Action<S> {
+        self.driven(&[S::zero(); 3], frames, time, out)
+    }
+
+    fn switching(&self, frames: &[Frame<Taylor<Rate>, D>], time: Time<Taylor<Rate>>, out: &mut [Rate]) {
+        for signal in &self.signals {
+            signal.switching(time.map(|t| t.x), |probe| self.read(probe, frames), out);
+        }
     }
 
     fn driven<S: Scalar>(
         &self,
         input: &[S; 3],
         frames: &[Frame<Taylor<S>, D>],
-        t: Taylor<S>,
+        time: Time<Taylor<S>>,
         out: &mut [Wrench<S, D>],
     ) -> Action<S> {
-        let own = self.components(frames, t.x);
+        let own = self.components(frames, time.map(|t| t.x));
         let local: [S; 3] = std::array::from_fn(|i| own[i] + input[i]);
         let mut vector = local;
         if self.axes == Axes::Marker && !(D == 2 && matches!(self.kind, Kind::Torque)) {

@@ -6,7 +6,7 @@ use crate::body::{
 };
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
-use crate::math::{Scalar, Taylor};
+use crate::math::{Scalar, Taylor, Time};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::array::from_fn;
@@ -65,7 +65,12 @@ impl Cushion {
 }
 
 impl<const D: usize> ForceKernel<D> for Cushion {
-    fn act<S: Scalar>(&self, frames: &[Frame<Taylor<S>, D>], _t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
+    fn act<S: Scalar>(
+        &self,
+        frames: &[Frame<Taylor<S>, D>],
+        _: Time<Taylor<S>>,
+        out: &mut [Wrench<S, D>],
+    ) -> Action<S> {
         let [a, b] = [&frames[0], &frames[1]];
         let gap = sub(&b.r, &a.r);
         let mut potential = Taylor::fixed(S::zero());

@@ -16,7 +16,7 @@ pub use beam::{Beam, Station};
 
 use crate::body::{Build, Frame, MarkerId, Slope, Wrench, parse_among};
 use crate::error::Result;
-use crate::math::{Scalar, Taylor};
+use crate::math::{Rate, Scalar, Taylor, Time};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 
@@ -48,17 +48,24 @@ pub struct Wheel {
 /// A force's equations, written once over any scalar.
 pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
     /// One wrench a marker; `out` holds zeros on entry.
-    fn act<S: Scalar>(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S>;
+    fn act<S: Scalar>(
+        &self,
+        frames: &[Frame<Taylor<S>, D>],
+        time: Time<Taylor<S>>,
+        out: &mut [Wrench<S, D>],
+    ) -> Action<S>;
     /// The same where inputs drive it: `input` adds to its components, N or N m, in its own axes. Default: none can.
     fn driven<S: Scalar>(
         &self,
         _input: &[S; 3],
         frames: &[Frame<Taylor<S>, D>],
-        t: Taylor<S>,
+        time: Time<Taylor<S>>,
         out: &mut [Wrench<S, D>],
     ) -> Action<S> {
-        ForceKernel::act(self, frames, t, out)
+        ForceKernel::act(self, frames, time, out)
     }
+    /// Writes the arguments of its switching functions at their numbers. Default: none.
+    fn switching(&self, _frames: &[Frame<Taylor<Rate>, D>], _time: Time<Taylor<Rate>>, _out: &mut [Rate]) {}
     /// The wheel that a drawing shows, if it is one.
     fn wheel(&self, _t: f64) -> Option<Wheel> {
         None
@@ -68,41 +75,45 @@ pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
 /// A force over one scalar: what the model calls.
 pub trait ForceOver<S: Scalar, const D: usize> {
     /// All inputs zero; `out` holds zeros on entry.
-    fn act(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S>;
+    fn act(&self, frames: &[Frame<Taylor<S>, D>], time: Time<Taylor<S>>, out: &mut [Wrench<S, D>]) -> Action<S>;
     /// With inputs that add to its components.
     fn driven(
         &self,
         input: &[S; 3],
         frames: &[Frame<Taylor<S>, D>],
-        t: Taylor<S>,
+        time: Time<Taylor<S>>,
         out: &mut [Wrench<S, D>],
     ) -> Action<S>;
 }
 
 impl<K: ForceKernel<D>, S: Scalar, const D: usize> ForceOver<S, D> for K {
-    fn act(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
-        ForceKernel::act(self, frames, t, out)
+    fn act(&self, frames: &[Frame<Taylor<S>, D>], time: Time<Taylor<S>>, out: &mut [Wrench<S, D>]) -> Action<S> {
+        ForceKernel::act(self, frames, time, out)
     }
 
     fn driven(
         &self,
         input: &[S; 3],
         frames: &[Frame<Taylor<S>, D>],
-        t: Taylor<S>,
+        time: Time<Taylor<S>>,
         out: &mut [Wrench<S, D>],
     ) -> Action<S> {
-        ForceKernel::driven(self, input, frames, t, out)
+        ForceKernel::driven(self, input, frames, time, out)
     }
 }
 
 /// The object-safe form of a force; implemented for every [`ForceKernel`].
 pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Slope, D> + Send + Sync {
     fn wheel(&self, t: f64) -> Option<Wheel>;
+    fn switching(&self, frames: &[Frame<Taylor<Rate>, D>], time: Time<Taylor<Rate>>, out: &mut [Rate]);
 }
 
 impl<K: ForceKernel<D>, const D: usize> Force<D> for K {
     fn wheel(&self, t: f64) -> Option<Wheel> {
         ForceKernel::wheel(self, t)
+    }
+    fn switching(&self, frames: &[Frame<Taylor<Rate>, D>], time: Time<Taylor<Rate>>, out: &mut [Rate]) {
+        ForceKernel::switching(self, frames, time, out);
     }
 }
 

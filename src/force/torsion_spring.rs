@@ -5,7 +5,7 @@ use super::{Action, Built, ForceKernel, ForceSpec};
 use crate::body::{Build, Frame, Wrench, cross, dot};
 use crate::error::Result;
 use crate::math::expression::Number;
-use crate::math::{Scalar, Taylor};
+use crate::math::{Scalar, Taylor, Time};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::array::from_fn;
@@ -49,7 +49,12 @@ struct Torsion {
 }
 
 impl<const D: usize> ForceKernel<D> for Torsion {
-    fn act<S: Scalar>(&self, frames: &[Frame<Taylor<S>, D>], _t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
+    fn act<S: Scalar>(
+        &self,
+        frames: &[Frame<Taylor<S>, D>],
+        _: Time<Taylor<S>>,
+        out: &mut [Wrench<S, D>],
+    ) -> Action<S> {
         let [a, b] = [&frames[0], &frames[1]];
         let (twist, axis) = if D == 2 {
             (b.turn - a.turn - self.free, [S::zero(), S::zero(), S::one()])

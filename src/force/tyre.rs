@@ -4,7 +4,7 @@ use super::{Action, Built, ForceKernel, ForceSpec, Wheel};
 use crate::body::{Build, Frame, Wrench};
 use crate::error::Result;
 use crate::math::expression::{Expression, Number};
-use crate::math::{Scalar, Taylor};
+use crate::math::{Rate, Scalar, Taylor, Time};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -37,7 +37,7 @@ impl ForceSpec for Tyre {
             c: super::spring_damper::optional_not_negative("damping", &self.damping, build)?,
             radius: build.positive("radius", &self.radius)?,
             road: build.function_of_time("road", &road)?,
-            lift_off: self.lift_off,
+            lift_off: self.lift_off.then(|| [build.switch(), build.switch()]),
         };
         Ok(Built { force: Box::new(force), markers: vec![build.marker("at", &self.at)?] })
     }
@@ -48,22 +48,47 @@ struct Spring {
     c: f64,
     radius: f64,
     road: Expression,
-    lift_off: bool,
+    /// Where the wheel may leave the road: the numbers of the switching functions, which are the squeeze and the load.
+    lift_off: Option<[usize; 2]>,
+}
+
+impl Spring {
+    fn squeeze<S: Scalar, const D: usize>(&self, frames: &[Frame<Taylor<S>, D>], time: Time<Taylor<S>>) -> Taylor<S> {
+        self.road.eval_held(&[time.t], time.regime) - frames[0].r[D - 1] + self.radius
+    }
+
+    fn load<S: Scalar>(&self, squeeze: Taylor<S>) -> S {
+        squeeze.x * self.k + squeeze.d * self.c
+    }
 }
 
 impl<const D: usize> ForceKernel<D> for Spring {
+    fn switching(&self, frames: &[Frame<Taylor<Rate>, D>], time: Time<Taylor<Rate>>, out: &mut [Rate]) {
+        self.road.arguments(&[time.t.x], time.regime, out);
+        if let Some([gap, pull]) = self.lift_off {
+            let squeeze = self.squeeze(frames, time);
+            (out[gap], out[pull]) = (squeeze.x, self.load(squeeze));
+        }
+    }
+
     fn wheel(&self, t: f64) -> Option<Wheel> {
         Some(Wheel { radius: self.radius, road: self.road.eval(&[t]) })
     }
 
-    fn act<S: Scalar>(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
-        let squeeze = self.road.eval(&[t]) - frames[0].r[D - 1] + self.radius;
-        if self.lift_off && squeeze.value() < 0.0 {
+    fn act<S: Scalar>(
+        &self,
+        frames: &[Frame<Taylor<S>, D>],
+        time: Time<Taylor<S>>,
+        out: &mut [Wrench<S, D>],
+    ) -> Action<S> {
+        let squeeze = self.squeeze(frames, time);
+        let is_below = |number: usize, x: f64| time.regime.piece(number).map_or(x < 0.0, |piece| piece == 0);
+        if self.lift_off.is_some_and(|[gap, _]| is_below(gap, squeeze.value())) {
             return Action::without_potential(S::zero());
         }
-        let mut load = squeeze.x * self.k + squeeze.d * self.c;
+        let mut load = self.load(squeeze);
         // A damper that would pull lets the squeezed tyre go without force; what it stores is then lost as it relaxes.
-        if self.lift_off && load.value() < 0.0 {
+        if self.lift_off.is_some_and(|[_, pull]| is_below(pull, load.value())) {
             load = S::zero();
         }
         out[0].force[D - 1] = load;

@@ -175,12 +175,29 @@ impl<'a> Dynamics<'a> {
         (rows, (self.kkt.inconsistency(), usual))
     }
 
+    /// The part of phi, over its scale, that no change of q takes away; none where no rows of G depend on others.
+    pub fn dependent_rows_open(&mut self, t: f64, q: &[f64], v: &[f64]) -> Option<f64> {
+        self.evaluate(t, q, v, Need::DYNAMICS);
+        self.vdot.fill(0.0);
+        self.lambda.copy_from_slice(&self.terms.phi);
+        self.kkt.factor(&self.terms.mass, &self.terms.g).ok()?;
+        self.kkt.solve(&mut self.vdot, &mut self.lambda).ok()?;
+        let scale = self.system.scales().into_iter().fold(0.0, f64::max);
+        (!self.kkt.left_out().is_empty()).then(|| self.kkt.inconsistency() / scale)
+    }
+
     /// Leaves out these rows from now on: see [`SaddlePoint::hold`].
     pub fn hold(&mut self, rows: &[usize]) {
         if self.held != rows {
             self.kkt.hold(rows);
             self.held = rows.to_vec();
         }
+    }
+
+    /// Leaves out the rows, and takes the pieces of functions, that another one does.
+    pub fn follow(&mut self, other: &Dynamics) {
+        self.hold(&other.held);
+        self.scratch.pieces.clone_from(&other.scratch.pieces);
     }
 
     /// Why the terms have no solution, with names.

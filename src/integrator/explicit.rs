@@ -171,8 +171,8 @@ impl Integrator for Explicit {
         true
     }
 
-    fn widest_gap(&self) -> f64 {
-        middle_of_widest_gap(&self.tableau.c[..self.stages()])
+    fn widest_gap(&self) -> Option<f64> {
+        Some(middle_of_widest_gap(&self.tableau.c[..self.stages()]))
     }
 
     /// Cubic Hermite interpolation, and beyond it what comes from the stages.

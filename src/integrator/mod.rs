@@ -31,12 +31,36 @@ pub use stability::Stability;
 
 use crate::error::{Error, Result};
 use crate::formulation::{self, Choice, Halt, OptionDoc};
+use crate::math::kkt::Singular;
 use crate::system::MechanicalSystem;
 
 /// Why an implicit method has no matrix.
 const NO_TANGENT: Halt = Halt::Unsuitable {
     reason: "implicit methods need K and C, which these equations do not give",
     hint: "implement MechanicalSystem::tangent, or use a method that needs none, such as phem56 with index2",
+};
+
+/// Why the matrix of a step is singular: with all rows in it, of which some depend on others at its start and ahead, and
+/// yet ask for another position there, these contradict each other.
+fn collapsed(singular: Singular, problem: &mut Problem, from: From, h: f64) -> Halt {
+    if singular != Singular::Collapsed || !problem.dynamics.held.is_empty() {
+        return singular.into();
+    }
+    let ahead: Vec<f64> = from.y.iter().zip(from.slope).map(|(y, slope)| y + h * slope).collect();
+    let mut open = |t: f64, y: &[f64]| {
+        let (q, v) = problem.split(y);
+        problem.dynamics.dependent_rows_open(t, q, v)
+    };
+    let is_torn = open(from.t, from.y).is_some() && open(from.t + h, &ahead).is_some_and(|open| open > OPEN);
+    if is_torn { CONTRADICTION } else { singular.into() }
+}
+
+/// What round-off leaves of phi where rows say the same, over its scale.
+const OPEN: f64 = 1e-11;
+
+const CONTRADICTION: Halt = Halt::Unsuitable {
+    reason: "redundant constraints contradict each other during the motion",
+    hint: "`holonom check` names the redundant joints; take one away, or make them say the same at all times",
 };
 
 /// A one-step method. States are flat: q, v, and the work done by forces without a potential.
@@ -74,14 +98,23 @@ pub trait Integrator {
         None
     }
 
+    /// How far from the start of the step just tried a method that chose its own has evaluated the equations.
+    fn seen(&self) -> Option<f64> {
+        None
+    }
+
+    /// Forgets the steps so far: the equations change their form here.
+    fn restart(&mut self) {}
+
     /// Writes the solution of lower order that the last attempt was compared with; false where there is none.
     fn lower_order(&self, _from: From, _h: f64, _out: &mut [f64]) -> bool {
         false
     }
 
-    /// The fraction of a step that is farthest from the places at which the equations are evaluated.
-    fn widest_gap(&self) -> f64 {
-        0.5
+    /// The fraction of a step that is farthest from the places at which the equations are evaluated off the constraints;
+    /// `None` for a method without such places, or that wants steps of one size.
+    fn widest_gap(&self) -> Option<f64> {
+        None
     }
 
     /// Prepares interpolation over the step just accepted; `slope` is y' at its end `to`.

@@ -3,8 +3,8 @@
 use super::{Built, JointKernel, JointSpec};
 use crate::body::{Build, Frame, dot, sub};
 use crate::error::Result;
-use crate::math::Scalar;
 use crate::math::expression::Number;
+use crate::math::{Scalar, Time};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -38,7 +38,7 @@ impl<const D: usize> JointKernel<D> for Rod {
     }
 
     #[inline]
-    fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], _t: S, out: &mut [S]) {
+    fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], _: Time<S>, out: &mut [S]) {
         let gap = sub(&frames[1].r, &frames[0].r);
         out[0] = dot(&gap, &gap).sqrt() - self.length;
     }

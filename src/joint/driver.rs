@@ -4,8 +4,8 @@ use super::lock::{Lock, NONE, direction};
 use super::{Built, JointKernel, JointSpec, Shape};
 use crate::body::{Build, Frame, dot, in_space, sub};
 use crate::error::{Error, Result};
-use crate::math::Scalar;
 use crate::math::expression::{Expression, Number};
+use crate::math::{Rate, Scalar, Time};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -87,9 +87,13 @@ impl<const D: usize> JointKernel<D> for Drive<D> {
         }
     }
 
-    fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], t: S, out: &mut [S]) {
+    fn switching(&self, _frames: &[Frame<Rate, D>], time: Time<Rate>, out: &mut [Rate]) {
+        self.value.arguments(&[time.t], time.regime, out);
+    }
+
+    fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]) {
         let [a, b] = [&frames[0], &frames[1]];
-        let value = self.value.eval(&[t]);
+        let value = self.value.eval_held(&[time.t], time.regime);
         let gap = sub(&b.r, &a.r);
         out[0] = match self.coordinate {
             Coordinate::X => dot(&a.axes[0], &gap) - value,

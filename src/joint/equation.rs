@@ -3,8 +3,8 @@
 use super::{Built, JointKernel, JointSpec};
 use crate::body::{Build, Frame, MOST_MARKERS, Probe, Signal};
 use crate::error::{Error, Result};
-use crate::math::Scalar;
 use crate::math::expression::Number;
+use crate::math::{Rate, Scalar, Time};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -20,7 +20,7 @@ impl JointSpec for Equation {
     const TYPE: &'static str = "equation";
 
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
-        let signal = build.signal("expression", &self.expression, false)?;
+        let signal = build.acting("expression", &self.expression, false)?;
         let markers = signal.markers();
         if markers.iter().all(|&marker| build.markers.bodies[marker].is_none()) {
             return Err(Error::input("the expression names no coordinate of a body")
@@ -56,7 +56,11 @@ impl<const D: usize> JointKernel<D> for Given {
         self.signal.expression.depends_on(0)
     }
 
-    fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], t: S, out: &mut [S]) {
-        out[0] = self.signal.evaluate(t, |probe| probe.position(&frames[self.place(probe)]));
+    fn switching(&self, frames: &[Frame<Rate, D>], time: Time<Rate>, out: &mut [Rate]) {
+        self.signal.switching(time, |probe| probe.position(&frames[self.place(probe)]), out);
+    }
+
+    fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]) {
+        out[0] = self.signal.evaluate(time, |probe| probe.position(&frames[self.place(probe)]));
     }
 }

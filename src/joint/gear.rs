@@ -5,8 +5,8 @@ use super::lock::{Lock, NONE};
 use super::{Built, JointKernel, JointSpec, Shape};
 use crate::body::{Build, Frame};
 use crate::error::{Error, Result};
-use crate::math::Scalar;
 use crate::math::expression::Number;
+use crate::math::{Scalar, Time};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -64,7 +64,7 @@ impl<const D: usize> JointKernel<D> for Pair {
         Shape::Teeth(self.teeth)
     }
 
-    fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], _t: S, out: &mut [S]) {
+    fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], _: Time<S>, out: &mut [S]) {
         let [z1, z2] = self.teeth;
         if D == 2 {
             let turn = |i: usize| frames.get(i + 2).map_or(frames[i].turn, |carrier| frames[i].turn - carrier.turn);

@@ -3,8 +3,8 @@
 use super::{Built, JointKernel, Shape};
 use crate::body::{Build, Frame, dot, in_space, sub, unit_axes};
 use crate::error::{Error, Result};
-use crate::math::Scalar;
 use crate::math::expression::Number;
+use crate::math::{Scalar, Time};
 use std::array::from_fn;
 
 /// What stays of the relative motion of marker B against marker A.
@@ -84,7 +84,7 @@ impl<const D: usize> JointKernel<D> for Lock<D> {
     }
 
     #[inline]
-    fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], _t: S, out: &mut [S]) {
+    fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], _: Time<S>, out: &mut [S]) {
         let [a, b] = [&frames[0], &frames[1]];
         let gap = sub(&b.r, &a.r);
         let (translations, rotations) = out.split_at_mut(self.translation.len());

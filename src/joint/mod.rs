@@ -22,7 +22,7 @@ mod weld;
 
 use crate::body::{Build, Frame, MOST_MARKERS, MarkerId, Slope, parse_among, twist_len};
 use crate::error::Result;
-use crate::math::{Dual, Scalar, Taylor};
+use crate::math::{Dual, Rate, Scalar, Taylor, Time};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 use std::array::from_fn;
@@ -55,16 +55,18 @@ pub trait JointKernel<const D: usize>: Send + Sync + 'static {
         Shape::Plain
     }
     /// One value a row at the frames of the joint's markers.
-    fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], t: S, out: &mut [S]);
+    fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]);
+    /// Writes the arguments of its switching functions at their numbers. Default: none.
+    fn switching(&self, _frames: &[Frame<Rate, D>], _time: Time<Rate>, _out: &mut [Rate]) {}
 }
 
 /// A joint over one scalar: what the model calls.
 pub trait JointOver<S: Scalar, const D: usize> {
     /// phi, phi' and phi'' along the motion of the frames.
-    fn levels(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Taylor<S>]);
+    fn levels(&self, frames: &[Frame<Taylor<S>, D>], time: Time<Taylor<S>>, out: &mut [Taylor<S>]);
     /// d(phi)/d(twist) for the markers of pass `pass`: markers 2 pass and 2 pass + 1 in the plane (three components
     /// each), marker `pass` in space (six components). One array a row.
-    fn gradient(&self, frames: &[Frame<Taylor<S>, D>], t: S, pass: usize, out: &mut [[S; 6]]);
+    fn gradient(&self, frames: &[Frame<Taylor<S>, D>], time: Time<S>, pass: usize, out: &mut [[S; 6]]);
 }
 
 /// The object-safe form of a joint; implemented for every [`JointKernel`].
@@ -72,6 +74,7 @@ pub trait Joint<const D: usize>: JointOver<f64, D> + JointOver<Slope, D> + Send 
     fn row_names(&self) -> Vec<&'static str>;
     fn depends_on_time(&self) -> bool;
     fn shape(&self, first: &Frame<f64, D>) -> Shape;
+    fn switching(&self, frames: &[Frame<Rate, D>], time: Time<Rate>, out: &mut [Rate]);
 }
 
 /// Markers that one pass of [`JointOver::gradient`] covers.
@@ -80,11 +83,11 @@ pub const fn markers_per_pass(dimension: usize) -> usize {
 }
 
 impl<K: JointKernel<D>, S: Scalar, const D: usize> JointOver<S, D> for K {
-    fn levels(&self, frames: &[Frame<Taylor<S>, D>], t: Taylor<S>, out: &mut [Taylor<S>]) {
-        self.phi(frames, t, out);
+    fn levels(&self, frames: &[Frame<Taylor<S>, D>], time: Time<Taylor<S>>, out: &mut [Taylor<S>]) {
+        self.phi(frames, time, out);
     }
 
-    fn gradient(&self, frames: &[Frame<Taylor<S>, D>], t: S, pass: usize, out: &mut [[S; 6]]) {
+    fn gradient(&self, frames: &[Frame<Taylor<S>, D>], time: Time<S>, pass: usize, out: &mut [[S; 6]]) {
         let seeded = |i: usize| -> Frame<Dual<S, 6>, D> {
             let frame = frames[i].map(|x| x.x);
             match i / markers_per_pass(D) == pass {
@@ -95,11 +98,11 @@ impl<K: JointKernel<D>, S: Scalar, const D: usize> JointOver<S, D> for K {
         let mut rows = [Dual::fixed(S::zero()); MOST_ROWS];
         let rows = &mut rows[..out.len()];
         match frames.len() {
-            1 => self.phi(&[seeded(0)], Dual::fixed(t), rows),
-            2 => self.phi(&[seeded(0), seeded(1)], Dual::fixed(t), rows),
+            1 => self.phi(&[seeded(0)], time.map(Dual::fixed), rows),
+            2 => self.phi(&[seeded(0), seeded(1)], time.map(Dual::fixed), rows),
             n => {
                 let all: [_; MOST_MARKERS] = from_fn(|i| seeded(i.min(n - 1)));
-                self.phi(&all[..n], Dual::fixed(t), rows);
+                self.phi(&all[..n], time.map(Dual::fixed), rows);
             }
         }
         out.iter_mut().zip(rows).for_each(|(out, row)| *out = row.eps);
@@ -115,6 +118,9 @@ impl<K: JointKernel<D>, const D: usize> Joint<D> for K {
     }
     fn shape(&self, first: &Frame<f64, D>) -> Shape {
         JointKernel::shape(self, first)
+    }
+    fn switching(&self, frames: &[Frame<Rate, D>], time: Time<Rate>, out: &mut [Rate]) {
+        JointKernel::switching(self, frames, time, out);
     }
 }
 

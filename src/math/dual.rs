@@ -11,6 +11,9 @@ pub struct Dual<S, const N: usize> {
     pub eps: [S; N],
 }
 
+/// A value with its rate along a motion.
+pub type Rate = Dual<f64, 1>;
+
 impl<S: Scalar, const N: usize> Dual<S, N> {
     /// The constant `re`.
     #[inline]
@@ -35,6 +38,9 @@ impl<S: Scalar, const N: usize> Scalar for Dual<S, N> {
     #[inline]
     fn value(&self) -> f64 {
         self.re.value()
+    }
+    fn bounds(&self) -> [f64; 2] {
+        self.re.bounds()
     }
     #[inline]
     fn unary(self, function: Unary) -> Self {

@@ -3,13 +3,17 @@
 mod dual;
 pub mod eigen;
 pub mod expression;
+mod interval;
 pub mod kkt;
+mod regime;
 pub mod rotation;
 mod scalar;
 pub mod screw;
 mod taylor;
 
-pub use dual::Dual;
+pub use dual::{Dual, Rate};
+pub use interval::Interval;
+pub use regime::{Piece, Regime, Time, piece_of};
 pub use scalar::{Scalar, Unary};
 pub use taylor::Taylor;
 

@@ -33,6 +33,11 @@ pub trait Scalar:
     /// The plain value; branches of an expression are decided on it.
     fn value(&self) -> f64;
 
+    /// The least and the largest plain value that it stands for: the same, but for an [`Interval`](super::Interval).
+    fn bounds(&self) -> [f64; 2] {
+        [self.value(); 2]
+    }
+
     /// f(self) by the chain rule over the number that stands inside this one.
     fn unary(self, function: Unary) -> Self;
 

@@ -23,7 +23,12 @@ impl<S: Scalar> Taylor<S> {
     /// Time itself: t' = 1, t'' = 0.
     #[inline]
     pub fn time(t: f64) -> Self {
-        Taylor { x: S::constant(t), d: S::one(), dd: S::zero() }
+        Self::running(S::constant(t))
+    }
+    /// Time about the instants that a number stands for.
+    #[inline]
+    pub fn running(t: S) -> Self {
+        Taylor { x: t, d: S::one(), dd: S::zero() }
     }
 }
 
@@ -35,6 +40,9 @@ impl<S: Scalar> Scalar for Taylor<S> {
     #[inline]
     fn value(&self) -> f64 {
         self.x.value()
+    }
+    fn bounds(&self) -> [f64; 2] {
+        self.x.bounds()
     }
     #[inline]
     fn unary(self, function: Unary) -> Self {

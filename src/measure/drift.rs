@@ -11,7 +11,7 @@ pub struct Drift {
     pub acceleration: DriftLevel,
 }
 
-/// Largest component over the accepted steps, and at the end. Relative values are against the scene's scale (a length
+/// Largest component over the accepted steps and the rows, and at the end. Relative values are against the scene's scale (a length
 /// for rows in metres, 1 rad for angles) over powers of the time unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct DriftLevel {

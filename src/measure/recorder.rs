@@ -80,6 +80,7 @@ impl Sink for Recorder<'_> {
     }
 
     fn row(&mut self, state: &Observation) {
+        self.record.drift.add(state, &self.scales);
         let levels = [state.phi, state.phi_dot, state.phi_ddot].map(|rows| largest(rows.iter().copied()));
         self.record.drift_rows.push(levels);
         self.record.ledger_rows.extend(self.meter.ledger(self.system, state, &mut self.scratch));

@@ -1,7 +1,7 @@
 //! `summary.json`.
 
 use super::Table;
-use crate::error::Failure;
+use crate::error::{Failure, short_list};
 use crate::formulation::Statistics;
 use crate::initial::{Assembly, Level, Move};
 use crate::measure::{Drift, EnergyBalance, Passing, Record, Singularity};
@@ -64,11 +64,13 @@ pub struct FinalState {
 
 /// Collects the summary of a run.
 pub fn summarize(study: &Study, method: &Method, outcome: &Outcome, record: &Record, wall_seconds: f64) -> Summary {
+    // What ended a run may be no more than what came of leaving the branch.
+    let failure = record.singularity.failure().or(outcome.failure.clone());
     Summary {
         scene: study.name.clone(),
         method: Chosen { method: method.clone(), chosen_because: study.chosen_because.clone() },
-        status: if outcome.failure.is_some() { "failed" } else { "completed" },
-        failure: outcome.failure.clone(),
+        status: if failure.is_some() { "failed" } else { "completed" },
+        failure,
         t_end: outcome.t,
         wall_seconds,
         statistics: outcome.statistics,
@@ -219,10 +221,7 @@ fn singular_text(found: &Singularity) -> String {
     }
     let named = found.passed.iter().find(|passing| !passing.joints.is_empty());
     if let Some(Passing { rank: Some(rank), regular_rank, joints, .. }) = named {
-        let joints = match &joints[..] {
-            few if few.len() <= NAMED => few.join(", "),
-            many => format!("{} and {} more", many[..NAMED].join(", "), many.len() - NAMED),
-        };
+        let joints = short_list(joints);
         text += &match rank < regular_rank {
             true => format!("  rank {rank} there, {regular_rank} beside: dependent rows of {joints}\n"),
             false => format!("  nearly dependent rows of {joints}\n"),

@@ -10,6 +10,7 @@ use crate::error::{Error, Result, excerpt, suggest};
 use crate::math::expression::{Number, Parameters};
 use crate::{force, joint};
 use serde_json::{Map, Value};
+use std::cell::RefCell;
 use std::collections::HashSet;
 use std::path::Path;
 
@@ -50,7 +51,9 @@ fn model<const D: usize>(
             .hint("give at least one: nothing else can move"));
     }
     let no_markers = MarkerTable::default();
-    let mut build = Build { parameters, markers: &no_markers, outputs: &[], gravity: [0.0; D], folder };
+    let switches = RefCell::default();
+    let mut build =
+        Build { parameters, markers: &no_markers, outputs: &[], gravity: [0.0; D], folder, switches: &switches };
     if let Some(gravity) = &file.gravity {
         build.gravity = build.vector("gravity", gravity)?;
     }
@@ -63,10 +66,11 @@ fn model<const D: usize>(
     }
     outputs::check_names(&file.outputs)?;
     let formulas = outputs::formulas::<D>(&file.outputs);
-    let build = Build { parameters, markers: &parts.table, outputs: &formulas, gravity, folder };
+    let build = Build { parameters, markers: &parts.table, outputs: &formulas, gravity, folder, switches: &switches };
     let entries = joint::registry::<D>();
     let kinds: Vec<&str> = entries.iter().map(|entry| entry.name).collect();
-    let joints = elements(&file.joints, "joints", "joint", &kinds, |kind, json| {
+    let own = |owner: &str| switches.borrow_mut().own(owner);
+    let joints = elements(&file.joints, "joints", "joint", &kinds, own, |kind, json| {
         let entry = entries.iter().find(|entry| entry.name == kind);
         let entry = entry.ok_or_else(|| unknown(kind, "joint", entries.iter().map(|entry| entry.name)))?;
         let built = (entry.build)(json, &build)?;
@@ -74,7 +78,7 @@ fn model<const D: usize>(
     })?;
     let entries = force::registry::<D>();
     let kinds: Vec<&str> = entries.iter().map(|entry| entry.name).collect();
-    let mut forces = elements(&file.forces, "forces", "force", &kinds, |kind, json| {
+    let mut forces = elements(&file.forces, "forces", "force", &kinds, own, |kind, json| {
         let entry = entries.iter().find(|entry| entry.name == kind);
         let entry = entry.ok_or_else(|| unknown(kind, "force", entries.iter().map(|entry| entry.name)))?;
         let built = (entry.build)(json, &build)?;
@@ -94,7 +98,8 @@ fn model<const D: usize>(
     let outputs = outputs::outputs(&file.outputs, elements, &build)?;
     let inputs = outputs::inputs::<D>(&file.inputs, &forces)?;
     let Parts { table, ground, bodies, beams, q, v } = parts;
-    Ok((Model { gravity, markers: table, ground, bodies, joints, forces, beams, outputs, inputs }, q, v))
+    let switches = switches.into_inner();
+    Ok((Model { gravity, markers: table, ground, bodies, joints, forces, beams, outputs, inputs, switches }, q, v))
 }
 
 /// Bodies as they are collected, with their start.
@@ -200,6 +205,7 @@ fn elements<E>(
     list: &str,
     what: &str,
     kinds: &[&str],
+    own: impl Fn(&str),
     build: impl Fn(&str, Value) -> Result<(&'static str, E, Vec<usize>)>,
 ) -> Result<Vec<Connection<E>>> {
     let mut all: Vec<Connection<E>> = Vec::new();
@@ -215,6 +221,7 @@ fn elements<E>(
             }
             let kind = take_type(&mut json, what, kinds.iter().copied())?;
             let (kind, element, markers) = build(&kind, Value::Object(json)).map_err(|error| error.element(&name))?;
+            own(&format!("the {what} `{name}`"));
             all.push(Connection { name, kind, element, markers });
             Ok(())
         };

@@ -1,6 +1,6 @@
 //! The checked, named model that a scene describes.
 
-use crate::body::{Body, Energy, Frame, Marker, MarkerId, MarkerTable, Quantity, Signal, dot, sub};
+use crate::body::{Body, Energy, Frame, Marker, MarkerId, MarkerTable, Quantity, Signal, Switches, dot, sub};
 use crate::force::{Beam, Force, Station};
 use crate::joint::Joint;
 use crate::math::screw::exponential;
@@ -20,6 +20,7 @@ pub struct Model<const D: usize> {
     pub beams: Vec<BeamLine>,
     pub outputs: Vec<Watched>,
     pub inputs: Vec<Driven>,
+    pub switches: Switches,
 }
 
 /// A body in its place.

@@ -9,6 +9,10 @@ const PLACED: f64 = 0.3;
 const AT: f64 = 1e-6;
 /// Steps that are this part of those far from singular states will not come over one.
 const STUCK: f64 = 1e-8;
+/// A fixed step over a singular state may start late by this part of itself rather than after a step so short.
+const SLACK: f64 = 0.05;
+/// The local error of such a step as part of the error of the run.
+const SHARE: f64 = 0.1;
 
 /// How the motion comes near a singular state, where G loses rank: by the smallest sine of a constraint row at the last
 /// accepted states, which falls to zero there linearly in time.
@@ -21,6 +25,9 @@ pub struct Approach {
     t: f64,
     pub sine: f64,
     rate: f64,
+    /// The last step, and how fast `rate` changes; infinite as long as it is not known.
+    step: f64,
+    bend: f64,
     /// The largest sine so far: unlike masses and lengths make it small where nothing is singular.
     pub largest: f64,
     /// The last step that did not come near a singular state.
@@ -31,7 +38,16 @@ pub struct Approach {
 
 impl Default for Approach {
     fn default() -> Self {
-        Approach { t: f64::NEG_INFINITY, sine: 1.0, rate: 0.0, largest: 0.0, regular: 0.0, is_tried: false }
+        Approach {
+            t: f64::NEG_INFINITY,
+            sine: 1.0,
+            rate: 0.0,
+            step: f64::INFINITY,
+            bend: f64::INFINITY,
+            largest: 0.0,
+            regular: 0.0,
+            is_tried: false,
+        }
     }
 }
 
@@ -42,7 +58,9 @@ impl Approach {
         let largest = self.largest.max(sine);
         let is_regular = sine > PLACED * largest && step.is_finite();
         let regular = if is_regular { step } else { self.regular };
-        *self = Approach { t, sine, rate: (sine - self.sine) / step, largest, regular, is_tried: false };
+        let rate = (sine - self.sine) / step;
+        let bend = if self.step.is_finite() { 2.0 * (rate - self.rate) / (step + self.step) } else { f64::INFINITY };
+        *self = Approach { t, sine, rate, step, bend, largest, regular, is_tried: false };
     }
 
     /// Whether a step of size `h` comes near a singular state.
@@ -72,6 +90,32 @@ impl Approach {
             across
         } else {
             h.min(0.5 * ahead)
+        }
+    }
+
+    /// The step to take in a run with fixed steps of size `h`, where `left` is the time to the next state of the grid and
+    /// `end` that to the end of the run. A singular state is met in the `gap` of one step, from an extra state before it.
+    ///
+    /// Round-off of positions leaves eps/s^2 in the velocities and eps/s^3 in the accelerations of a stage where the sine
+    /// is s, about a tenth of the step over `scale`, the time in which the motion changes: this bounds what a short step
+    /// over a singular state can reach. So that step is as long as a method of this `order` may take it: its local error,
+    /// (step/scale)^(order + 1), is still round-off.
+    pub fn place_fixed(&self, h: f64, (left, end): (f64, f64), (gap, order): (f64, usize)) -> f64 {
+        let ahead = self.ahead();
+        if !(self.rate < 0.0 && ahead < end) {
+            return left;
+        }
+        let scale = (-self.largest / self.rate).min((self.largest / self.bend.abs()).sqrt());
+        let local_error = f64::EPSILON.max(SHARE * (h / scale).powi(order as i32));
+        let longest = scale * local_error.powf(1.0 / (order as f64 + 1.0));
+        let across = h.max(longest).min((end - ahead) / (1.0 - gap));
+        let before = ahead - gap * across;
+        if before >= left || ahead < 0.5 * gap * across {
+            left
+        } else if before > SLACK * across {
+            before
+        } else {
+            ahead / gap
         }
     }
 }

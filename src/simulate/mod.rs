@@ -2,26 +2,36 @@
 
 mod approach;
 mod auto;
+mod changes;
+mod ending;
+mod events;
 mod method;
 mod observation;
+mod plan;
 mod rows;
+mod segments;
 mod spectrum;
+mod start;
 mod step;
 mod stiffness;
 
 pub use auto::{Advice, advise};
 pub use method::Method;
 pub use observation::{Observation, Sink, Span, Stop};
+pub(crate) use segments::Segments;
 pub use spectrum::{Mode, Spectrum};
 pub use stiffness::{Stiffness, explicit, stiffness};
 
 use approach::Approach;
+use changes::Passages;
+use events::{Events, Passage};
+use plan::NextStop;
 use rows::{Rows, observation, project};
 use step::is_too_large;
 
 use crate::error::{Error, Failure, Result};
 use crate::formulation::{self, Dynamics, Halt, Rows as Constraints, Statistics};
-use crate::integrator::{self, From, Integrator, Problem, Setup, Store, Tolerance, first_step};
+use crate::integrator::{self, From, Integrator, Problem, Setup, Store, Tolerance};
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
 
@@ -66,9 +76,13 @@ pub fn simulate(
 struct Run<'a> {
     problem: Problem<'a>,
     integrator: Box<dyn Integrator + 'a>,
-    projection: Option<Box<dyn Projection>>,
+    projection: Option<Box<dyn Projection + 'a>>,
     rows: Rows<'a>,
     approach: Approach,
+    events: Events<'a>,
+    passages: Passages,
+    /// Until when a fixed step is divided.
+    divided: f64,
     /// Factorizations up to the last accepted state.
     factored: u64,
     scales: Vec<f64>,
@@ -86,22 +100,29 @@ struct Run<'a> {
     phi_ddot: Vec<f64>,
     /// Velocities that follow from phi = 0 alone are of lower order and not tested.
     tests_velocities: bool,
+    limits_projection: bool,
     /// Why the last step was refused.
     refusal: &'static str,
+    /// The step to try next, and whether it may grow after that.
+    h: f64,
+    growing: bool,
+    /// The step that ends at a passage of the last one, which went over it.
+    cut: Option<f64>,
+    /// Since when the steps tried are counted, and how many they are.
+    progress: (f64, usize),
 }
 
-const SINGULAR: &str = "the motion comes to a singular state, where this tolerance is too near to round-off: try a looser \
-     one, or a fixed --step with `rk4`, which goes over it";
-
-const NO_BRANCH: &str = "the start is a singular state, with velocities that no motion through it has: constraints \
-     that depend on each other there ask for different accelerations";
-const BRANCHES: &str = "give velocities along one of the motions that meet there, or start beside it";
-
-/// What round-off may leave of accelerations of constraints, and of their lengths.
-const ROUND_OFF: f64 = 1e-6;
-
-/// Joints that are open by so many times the scene's size will not close again.
-const MOST_OPEN: f64 = 10.0;
+/// What a run is made of.
+pub(crate) struct Parts<'a> {
+    pub problem: Problem<'a>,
+    pub integrator: Box<dyn Integrator + 'a>,
+    pub projection: Option<Box<dyn Projection + 'a>>,
+    /// The same again for rows, whose work does not count.
+    pub rows: (Problem<'a>, Option<Box<dyn Projection + 'a>>),
+    pub tests_velocities: bool,
+    /// Whether a projection that moves the state by far more than the tolerance refuses a step.
+    pub limits_projection: bool,
+}
 
 impl<'a> Run<'a> {
     fn new<'s: 'a>(
@@ -114,10 +135,8 @@ impl<'a> Run<'a> {
         let problem = || -> Result<Problem<'a>> {
             Ok(Problem::new(Dynamics::new(system), formulation::make(&method.formulation, system)?))
         };
-        let y = [q, v, &[0.0]].concat();
-        let zeros = || vec![0.0; y.len()];
         let entry = integrator::find(&method.integrator)?;
-        Ok(Run {
+        let parts = Parts {
             problem: problem()?,
             integrator: (entry.make)(&Setup {
                 integrator: &method.integrator,
@@ -127,12 +146,30 @@ impl<'a> Run<'a> {
                 is_fixed: method.step.is_some(),
             })?,
             projection: projection::make(&method.projection, system)?,
-            rows: Rows::new(problem()?, projection::make(&method.projection, system)?),
+            rows: (problem()?, projection::make(&method.projection, system)?),
+            tests_velocities: formulation::rows(&method.formulation) != Some(Constraints::Position),
+            limits_projection: true,
+        };
+        let tolerance = Tolerance { rtol: method.rtol, atol: method.atol };
+        Ok(Run::of(parts, (tolerance, method.step), span, [q, v, &[0.0]].concat()))
+    }
+
+    fn of(parts: Parts<'a>, (tolerance, fixed): (Tolerance, Option<f64>), span: Span, y: Vec<f64>) -> Self {
+        let zeros = || vec![0.0; y.len()];
+        let system = parts.problem.dynamics.system;
+        Run {
+            problem: parts.problem,
+            integrator: parts.integrator,
+            projection: parts.projection,
+            rows: Rows::new(parts.rows.0, parts.rows.1),
             approach: Approach::default(),
+            events: Events::new(system, (span.start, span.end)),
+            passages: Passages::default(),
+            divided: span.start,
             factored: 0,
             scales: system.scales(),
-            tolerance: Tolerance { rtol: method.rtol, atol: method.atol },
-            fixed: method.step,
+            tolerance,
+            fixed,
             span,
             t: span.start,
             slope: zeros(),
@@ -141,59 +178,104 @@ impl<'a> Run<'a> {
             change: zeros(),
             is_moved: false,
             phi_ddot: vec![0.0; system.dimensions().lambda],
-            tests_velocities: formulation::rows(&method.formulation) != Some(Constraints::Position),
+            tests_velocities: parts.tests_velocities,
+            limits_projection: parts.limits_projection,
             refusal: "",
+            h: 0.0,
+            growing: true,
+            cut: None,
+            progress: (span.start, 0),
             y,
-        })
+        }
     }
 
     fn integrate(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
-        let (q, v) = self.problem.split(&self.y);
-        let (dependent, contradiction) = self.rows.problem.dynamics.dependent_rows(self.t, q, v);
-        self.check_start(contradiction)?;
-        self.hold(&dependent);
+        self.begin(sink)?;
+        self.advance(sink)
+    }
+
+    fn begin(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
+        self.begin_form()?;
+        self.check_start()?;
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
         self.observe(sink);
         self.rows.y.copy_from_slice(&self.y);
         self.rows.emit(self.t, sink).map_err(|halt| self.halted(&halt))?;
         self.rows.next = 1;
-        let mut h = self.first_step().map_err(|halt| self.halted(&halt))?;
-        let mut growing = true;
+        self.h = self.first_step().map_err(|halt| self.halted(&halt))?;
+        Ok(())
+    }
+
+    /// Steps to the end of the span.
+    fn advance(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
         while self.t < self.span.end {
             self.ask(sink)?;
-            let placed = self.place(h);
-            let (mut size, mut last) = self.fit(placed);
-            let error = match self.step(&mut size, &mut last) {
-                Ok(error) => error,
-                Err(halt) if halt.is_final() => return Err(self.halted(&halt)),
-                Err(halt) => {
-                    h = self.retry(size, None, &halt.to_string(), halt.hint())?;
-                    growing = false;
-                    continue;
-                }
-            };
-            if error.is_some_and(is_too_large) {
-                h = self.retry(size, error, self.refusal, None)?;
-                growing = false;
+            self.check_progress()?;
+            let stop = self.next_stop();
+            let (mut size, mut end) = self.fit(stop);
+            let Some(error) = self.try_step(&mut size, &mut end)? else { continue };
+            if !self.meets_all(&mut size, &mut end, stop)? {
                 continue;
             }
-            self.output(size, last, sink).map_err(|halt| self.halted(&halt))?;
-            self.accept(size, last, sink);
+            self.output(size, end, sink).map_err(|halt| self.halted(&halt))?;
+            self.accept(size, end, sink);
             self.check_joints()?;
-            if last && self.span.row(self.rows.next - 1) < self.span.end {
+            if self.t >= self.span.end && self.span.row(self.rows.next - 1) < self.span.end {
                 self.ask(sink)?;
             }
-            if let Some(error) = error {
-                let proposed = self.integrator.control().accept(size, error, growing);
-                // A step cut to hit the end says nothing against the size before it.
-                h = if last { h.max(proposed) } else { proposed };
-                if self.t < self.span.end && h < self.smallest() {
-                    return Err(self.failure(format!("steps have fallen to {h:.1e} s"), None));
-                }
+            self.propose(size, error, end.is_some() || self.cut.is_some())?;
+            (self.growing, self.cut) = (true, None);
+            if self.t < self.span.end && (self.events.is_at_threshold() || stop.changes_form && self.t >= stop.t) {
+                self.change_form(None)?;
+            } else {
+                self.events.go_on();
             }
-            growing = true;
         }
         Ok(())
+    }
+
+    /// Tries a step. Its error in units of the tolerance, if it has an estimate; nothing where the step was refused.
+    fn try_step(&mut self, size: &mut f64, end: &mut Option<f64>) -> Result<Option<Option<f64>>, Failure> {
+        self.h = match self.step(size, end) {
+            Ok(error) if !error.is_some_and(is_too_large) => return Ok(Some(error)),
+            Ok(error) => self.retry(*size, error, self.refusal, None)?,
+            Err(halt) if halt.is_final() => return Err(self.halted(&halt)),
+            Err(halt) => self.retry(*size, None, &halt.to_string(), halt.hint())?,
+        };
+        (self.growing, self.cut) = (false, None);
+        Ok(None)
+    }
+
+    /// Whether the step just tried missed nothing that acts by the clock, and passed no threshold; else what is to be done
+    /// in its place.
+    fn meets_all(&mut self, size: &mut f64, end: &mut Option<f64>, stop: NextStop) -> Result<bool, Failure> {
+        if let Some(resolved) = self.unresolved(stop.t) {
+            self.integrator.restart();
+            self.h = resolved;
+            return Ok(false);
+        }
+        let passage = self.end_at_passage(size, end).map_err(|halt| self.halted(&halt))?;
+        self.check_crowd()?;
+        match passage {
+            None => return Ok(true),
+            Some(Passage::AtStart(number)) => self.change_form(Some(number))?,
+            Some(Passage::Within(_, theta)) => {
+                self.problem.dynamics.statistics.rejected += 1;
+                self.cut = Some(theta * *size);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Proposes the next step. One that was cut to hit a time says nothing against the size before it.
+    fn propose(&mut self, size: f64, error: Option<f64>, is_cut: bool) -> Result<(), Failure> {
+        let Some(error) = error else { return Ok(()) };
+        let proposed = self.integrator.control().accept(size, error, self.growing);
+        self.h = if is_cut { self.h.max(proposed) } else { proposed };
+        match self.t < self.span.end && self.h < self.smallest() {
+            true => Err(self.failure(format!("steps have fallen to {:.1e} s", self.h), None)),
+            false => Ok(()),
+        }
     }
 
     /// Ends the run where the sink wants that.
@@ -201,49 +283,12 @@ impl<'a> Run<'a> {
         sink.stops().map_or(Ok(()), |Stop { reason, hint }| Err(Failure { t: self.t, reason, hint }))
     }
 
-    fn first_step(&mut self) -> Result<f64, Halt> {
-        match self.fixed {
-            Some(step) => Ok(step),
-            None => {
-                let span = (self.t, self.span.end - self.t);
-                let order = self.integrator.order();
-                let step = first_step(&mut self.problem, &self.tolerance, span, &self.y, &self.slope, order)?;
-                // The control lets it grow, or says why it cannot.
-                Ok(step.max(2.0 * self.smallest()))
-            }
-        }
-    }
-
-    /// The step of size `h`, if a singular state does not suggest another.
-    fn place(&mut self, h: f64) -> f64 {
-        if self.fixed.is_some() { h } else { self.approach.place(h, self.integrator.widest_gap()) }
-    }
-
-    /// The step cut or stretched a little so that the end is met; and whether it is the last.
-    fn fit(&self, h: f64) -> (f64, bool) {
-        let left = self.span.end - self.t;
-        // A fixed step is met up to rounding, of the step and of the time.
-        let stretched = match self.fixed {
-            Some(_) => h * (1.0 + 1e-9) + 4.0 * f64::EPSILON * self.span.end.abs(),
-            None => 1.01 * h,
-        };
-        if stretched >= left { (left, true) } else { (h, false) }
-    }
-
-    /// Where a step of size `h` ends. Fixed steps are counted, not added up, so that rounding does not gather.
-    fn end_of(&self, h: f64, last: bool) -> f64 {
-        match self.fixed {
-            _ if last => self.span.end,
-            Some(h) => self.span.start + (self.problem.dynamics.statistics.steps + 1) as f64 * h,
-            None => self.t + h,
-        }
-    }
-
     /// Emits the rows within the step from `t` to `t + h`.
-    fn output(&mut self, h: f64, last: bool, sink: &mut dyn Sink) -> Result<(), Halt> {
-        let end = self.end_of(h, last);
+    fn output(&mut self, h: f64, end: Option<f64>, sink: &mut dyn Sink) -> Result<(), Halt> {
+        let end = self.end_of(h, end);
         let slack = 1e-9 * h;
         let mut prepared = false;
+        let sweeps = self.sweeps(h);
         loop {
             let t = self.span.row(self.rows.next);
             if t > end + slack || self.rows.next > 0 && self.span.row(self.rows.next - 1) >= self.span.end {
@@ -259,7 +304,7 @@ impl<'a> Run<'a> {
                 let (rows, from) = (&mut self.rows, From { t: self.t, y: &self.y, slope: &self.slope });
                 rows.problem.begin_step(self.t, &self.y)?;
                 self.integrator.interpolate(&mut rows.problem, from, h, (t - from.t) / h, &mut rows.y)?;
-                project(t, &mut rows.y, &mut rows.problem, &mut rows.projection)?;
+                project(t, &mut rows.y, &mut rows.problem, &mut rows.projection, sweeps)?;
             }
             self.rows.emit(t, sink)?;
             self.rows.next += 1;
@@ -277,8 +322,8 @@ impl<'a> Run<'a> {
         self.integrator.prepare(&mut self.rows.problem, from, h, &self.next, &self.next_slope)
     }
 
-    fn accept(&mut self, h: f64, last: bool, sink: &mut dyn Sink) {
-        self.t = self.end_of(h, last);
+    fn accept(&mut self, h: f64, end: Option<f64>, sink: &mut dyn Sink) {
+        self.t = self.end_of(h, end);
         std::mem::swap(&mut self.y, &mut self.next);
         std::mem::swap(&mut self.slope, &mut self.next_slope);
         self.problem.dynamics.statistics.steps += 1;
@@ -294,77 +339,11 @@ impl<'a> Run<'a> {
         self.factored = dynamics.statistics.factorizations;
         let own = || (is_factored && dynamics.kkt.is_factored()).then(|| dynamics.kkt.smallest_sine());
         let sine = dynamics.sine.or_else(own);
-        self.approach.add(self.t, sine.unwrap_or(1.0));
+        if let Some(sine) = sine {
+            self.approach.add(self.t, sine);
+        }
         let usual = self.approach.largest;
         [&mut self.problem, &mut self.rows.problem].into_iter().for_each(|p| p.dynamics.kkt.usual_sine = usual);
         sink.accepted(&observation(self.t, &self.y, &self.problem, sine, &mut self.phi_ddot));
-    }
-
-    /// Refuses velocities that no motion has: where rows depend on each other, their accelerations must not contradict.
-    /// `contradiction` is theirs, and what is usual for accelerations of constraints there.
-    fn check_start(&self, (contradiction, usual): (f64, f64)) -> Result<(), Failure> {
-        let scale = self.scales.iter().fold(0.0, |largest: f64, scale| largest.max(*scale));
-        let opened = contradiction * (self.span.end - self.span.start).powi(2);
-        match contradiction > ROUND_OFF * usual && opened > ROUND_OFF * scale {
-            true => Err(self.failure(NO_BRANCH.to_string(), Some(BRANCHES))),
-            false => Ok(()),
-        }
-    }
-
-    /// Ends a motion that is no longer one of this mechanism.
-    fn check_joints(&self) -> Result<(), Failure> {
-        let rows = self.problem.dynamics.terms.phi.iter().zip(&self.scales);
-        let open = rows.fold(0.0, |open: f64, (phi, scale)| open.max(phi.abs() / scale));
-        match open > MOST_OPEN {
-            true => Err(self.failure(format!("the joints have come apart by {open:.1e} times the scene's size"), None)),
-            false => Ok(()),
-        }
-    }
-
-    /// The step to try after a failed one, or the end of the run where no smaller step makes sense.
-    fn retry(&mut self, h: f64, error: Option<f64>, reason: &str, hint: Option<&str>) -> Result<f64, Failure> {
-        self.problem.dynamics.statistics.rejected += 1;
-        if self.fixed.is_some() {
-            return Err(self.failure(format!("{reason} (with the fixed step {h:e} s)"), hint));
-        }
-        let smaller = match error {
-            Some(error) if error.is_finite() => self.integrator.control().reject(h, error),
-            _ => 0.25 * h,
-        };
-        let is_stuck = self.keeps_constraints() && self.approach.is_stuck(h);
-        match smaller > self.smallest() && !is_stuck {
-            true => Ok(smaller),
-            false => {
-                let hint = if is_stuck { Some(SINGULAR) } else { hint };
-                Err(self.failure(format!("{reason}, down to a step of {h:.1e} s"), hint))
-            }
-        }
-    }
-
-    /// Steps below make no sense.
-    fn smallest(&self) -> f64 {
-        1e-15 * self.t.abs().max(1e-3 * (self.span.end - self.span.start))
-    }
-
-    /// Where a run ends early, its last good state shows how it came to that.
-    fn last_good_row(&mut self, sink: &mut dyn Sink) {
-        if self.rows.next > 0 && self.span.row(self.rows.next - 1) < self.t {
-            // A state that cannot be evaluated is none to show.
-            self.rows.y.copy_from_slice(&self.y);
-            let _ = self.rows.emit(self.t, sink);
-        }
-    }
-
-    fn halted(&self, halt: &Halt) -> Failure {
-        self.failure(halt.to_string(), halt.hint())
-    }
-
-    /// With what usually helps where there is no `hint`.
-    fn failure(&self, reason: String, hint: Option<&str>) -> Failure {
-        let usual = match self.fixed {
-            Some(_) => "try a smaller --step, a projection such as `manifold`, or an adaptive integrator",
-            None => "try another tolerance or a projection such as `manifold`; look at the motion just before the end",
-        };
-        Failure { t: self.t, reason, hint: hint.unwrap_or(usual).to_string() }
     }
 }

@@ -8,7 +8,7 @@ use crate::projection::Projection;
 /// Output rows have a problem of their own, so that they do not count in the statistics.
 pub struct Rows<'a> {
     pub problem: Problem<'a>,
-    pub projection: Option<Box<dyn Projection>>,
+    pub projection: Option<Box<dyn Projection + 'a>>,
     /// The number of the next row.
     pub next: u64,
     pub y: Vec<f64>,
@@ -17,7 +17,7 @@ pub struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    pub fn new(problem: Problem<'a>, projection: Option<Box<dyn Projection>>) -> Self {
+    pub fn new(problem: Problem<'a>, projection: Option<Box<dyn Projection + 'a>>) -> Self {
         let zeros = || vec![0.0; problem.len()];
         let (y, slope) = (zeros(), zeros());
         let phi_ddot = vec![0.0; problem.dynamics.lambda.len()];
@@ -32,23 +32,26 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// Ends a step, and projects the state.
+/// Ends a step or makes a row of it, and projects the state, so many `sweeps`.
 pub fn project(
     t: f64,
     y: &mut [f64],
     problem: &mut Problem,
-    projection: &mut Option<Box<dyn Projection>>,
+    projection: &mut Option<Box<dyn Projection + '_>>,
+    sweeps: usize,
 ) -> Result<(), Halt> {
-    if y.iter().any(|x| !x.is_finite()) {
-        return Err(Halt::NotFinite);
+    for _ in 0..sweeps {
+        if y.iter().any(|x| !x.is_finite()) {
+            return Err(Halt::NotFinite);
+        }
+        problem.dynamics.system.normalize(problem.split_mut(y).0);
+        problem.end_step(t, y)?;
+        let (q, v) = problem.split_mut(y);
+        if let Some(projection) = projection {
+            projection.project(t, q, v, &mut problem.dynamics)?;
+        }
     }
-    problem.dynamics.system.normalize(problem.split_mut(y).0);
-    problem.end_step(t, y)?;
-    let (q, v) = problem.split_mut(y);
-    match projection {
-        Some(projection) => projection.project(t, q, v, &mut problem.dynamics),
-        None => Ok(()),
-    }
+    Ok(())
 }
 
 pub fn observation<'o>(

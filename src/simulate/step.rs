@@ -28,14 +28,14 @@ pub fn is_too_large(error: f64) -> bool {
 impl Run<'_> {
     /// Tries one step of size `h` (or one that the method chose) with its projection, and leaves y' at the new state in
     /// `next_slope`. Returns the error in units of the tolerance, where there is an estimate.
-    pub fn step(&mut self, h: &mut f64, last: &mut bool) -> Result<Option<f64>, Halt> {
-        let error = self.attempt(h, last)?;
-        let is_singular = self.projection.is_some() && self.approach.reaches(*h);
+    pub fn step(&mut self, h: &mut f64, end: &mut Option<f64>) -> Result<Option<f64>, Halt> {
+        let error = self.attempt(h, end)?;
+        let is_singular = self.is_singular(*h);
         if error.is_some_and(is_too_large) && !is_singular {
             self.refusal = "the error of a step stays above the tolerance";
             return Ok(error);
         }
-        let t = self.end_of(*h, *last);
+        let t = self.end_of(*h, *end);
         let error = self.project_step(t, *h, error, is_singular)?;
         if error.is_some_and(is_too_large) {
             return Ok(error);
@@ -45,10 +45,27 @@ impl Run<'_> {
             _ => self.problem.derivative(t, &self.next, &mut self.next_slope)?,
         }
         if self.held_rows_open() {
-            self.hold(&[]);
-            return self.step(h, last);
+            self.release_rows()?;
+            return self.step(h, end);
         }
         Ok(error)
+    }
+
+    /// Counts all constraints from the last state on, which is brought back to those that were left out up to there.
+    fn release_rows(&mut self) -> Result<(), Halt> {
+        self.hold(&[]);
+        project(self.t, &mut self.y, &mut self.problem, &mut self.projection, SINGULAR_SWEEPS)?;
+        self.problem.derivative(self.t, &self.y, &mut self.slope)
+    }
+
+    /// Whether a step of size `h` comes near a singular state, about which it is projected.
+    fn is_singular(&self, h: f64) -> bool {
+        self.projection.is_some() && self.approach.reaches(h)
+    }
+
+    /// Sweeps of the projection in a step of size `h`.
+    pub fn sweeps(&self, h: f64) -> usize {
+        if self.is_singular(h) { SINGULAR_SWEEPS } else { 1 }
     }
 
     /// Whether states at the ends of steps are on the constraints, by a projection or by what is integrated.
@@ -56,12 +73,12 @@ impl Run<'_> {
         self.projection.is_some() || self.problem.formulation.keeps_constraints()
     }
 
-    fn attempt(&mut self, h: &mut f64, last: &mut bool) -> Result<Option<f64>, Halt> {
+    fn attempt(&mut self, h: &mut f64, end: &mut Option<f64>) -> Result<Option<f64>, Halt> {
         let from = From { t: self.t, y: &self.y, slope: &self.slope };
         self.problem.begin_step(self.t, &self.y)?;
         let error = self.integrator.attempt(&mut self.problem, &self.tolerance, from, *h, &mut self.next)?;
         if let Some(own) = self.integrator.own_step() {
-            (*h, *last) = (own, *last && own >= *h);
+            (*h, *end) = (own, end.filter(|_| own >= *h));
         }
         Ok(if self.fixed.is_some() { None } else { error })
     }
@@ -69,15 +86,14 @@ impl Run<'_> {
     /// Projects the new state, and refuses it where that moves it too far.
     fn project_step(&mut self, t: f64, h: f64, error: Option<f64>, is_singular: bool) -> Result<Option<f64>, Halt> {
         self.change.copy_from_slice(&self.next);
-        for _ in 0..if is_singular { SINGULAR_SWEEPS } else { 1 } {
-            project(t, &mut self.next, &mut self.problem, &mut self.projection)?;
-        }
+        let sweeps = self.sweeps(h);
+        project(t, &mut self.next, &mut self.problem, &mut self.projection, sweeps)?;
         self.is_moved = self.projection.is_some() || self.change != self.next;
         if error.is_none() || !self.is_moved {
             return Ok(error);
         }
         let correction = self.correction();
-        let is_far = correction > MOST_CORRECTION * self.allowed();
+        let is_far = self.limits_projection && correction > MOST_CORRECTION * self.allowed();
         if is_singular && (is_far || error.is_some_and(is_too_large)) {
             self.refusal = "the error of a step over a singular state stays above the tolerance";
             return self.error_within_constraints(t, h);
@@ -118,9 +134,7 @@ impl Run<'_> {
         if !self.integrator.lower_order(from, h, &mut self.change) {
             return Ok(Some(f64::NAN));
         }
-        for _ in 0..SINGULAR_SWEEPS {
-            project(t, &mut self.change, &mut self.problem, &mut self.projection)?;
-        }
+        project(t, &mut self.change, &mut self.problem, &mut self.projection, SINGULAR_SWEEPS)?;
         self.change.iter_mut().zip(&self.next).for_each(|(change, next)| *change -= next);
         Ok(Some(self.tolerance.norm_between(&self.y, &self.next, &self.change) / self.allowed()))
     }

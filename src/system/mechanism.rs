@@ -10,8 +10,9 @@ use super::variation::Varied;
 use super::view::{Plain, gathered};
 use super::{Column, Dimensions, Energy, Group, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
 use crate::body::{Frame, MOST_MARKERS, Wrench, cross, norm};
-use crate::math::Taylor;
+use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
+use crate::math::{Rate, Regime, Taylor, Time};
 use crate::scene::{Connection, Driven, Measure, Model, Part, Watched};
 use nalgebra::DMatrix;
 use std::array::from_fn;
@@ -74,7 +75,7 @@ impl<const D: usize> Mechanism<D> {
 
     /// Frames of all markers at (q, v), with their velocities.
     pub fn frames(&self, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Vec<Frame<Taylor<f64>, D>> {
-        self.at(q, v, scratch, |work| work.motion.clone())
+        self.at(q, v, scratch, |work, _| work.motion.clone())
     }
 
     /// Lends the memory with all frames moved to (q, v).
@@ -83,16 +84,16 @@ impl<const D: usize> Mechanism<D> {
         q: &[f64],
         v: &[f64],
         scratch: &mut Scratch,
-        see: impl FnOnce(&mut Workspace<D>) -> R,
+        see: impl FnOnce(&mut Workspace<D>, Regime) -> R,
     ) -> R {
         let make = || Workspace {
             motion: self.model.ground_frames().map(|frame| frame.map(Taylor::fixed)).collect(),
             varied: Varied::default(),
             pulled: Vec::new(),
         };
-        scratch.with(make, |work| {
+        scratch.with(make, |work, regime| {
             self.place(q, v, &[], work);
-            see(work)
+            see(work, regime)
         })
     }
 
@@ -120,13 +121,13 @@ impl<const D: usize> Mechanism<D> {
         }
     }
 
-    fn forces(&self, t: f64, (q, v): (&[f64], &[f64]), work: &mut Workspace<D>, terms: &mut Terms) {
+    fn forces(&self, time: Time<f64>, (q, v): (&[f64], &[f64]), work: &mut Workspace<D>, terms: &mut Terms) {
         terms.power = -self.model.bodies.iter().map(|part| part.body.dissipation(of(v, part, false))).sum::<f64>();
         for force in &self.model.forces {
             let mut wrenches = [Wrench::zero(); MOST_MARKERS];
             let wrenches = &mut wrenches[..force.markers.len()];
             let action = with_frames(&work.motion, &force.markers, |frames| {
-                force.element.act(frames, Taylor::time(t), wrenches)
+                force.element.act(frames, time.map(Taylor::time), wrenches)
             });
             terms.power += action.potential.d;
             for (wrench, &marker) in wrenches.iter().zip(&force.markers) {
@@ -143,14 +144,14 @@ impl<const D: usize> Mechanism<D> {
         }
     }
 
-    fn constraints(&self, t: f64, q: &[f64], need: Need, work: &Workspace<D>, terms: &mut Terms) {
+    fn constraints(&self, time: Time<f64>, q: &[f64], need: Need, work: &Workspace<D>, terms: &mut Terms) {
         for joint in self.placed_joints() {
             with_frames(&work.motion, &joint.joint.markers, |frames| {
                 if need.includes(Need::CONSTRAINTS) {
-                    joint.levels(t, frames, terms);
+                    joint.levels(time, frames, terms);
                 }
                 if need.includes(Need::G) {
-                    joint.gradient(t, q, frames, terms);
+                    joint.gradient(time, q, frames, terms);
                 }
             });
         }
@@ -160,6 +161,11 @@ impl<const D: usize> Mechanism<D> {
         let all = self.model.joints.iter().zip(&self.joints);
         all.map(|(joint, rows)| PlacedJoint { mechanism: self, joint, rows })
     }
+}
+
+/// A value and its rate, each with its own rate along the motion.
+fn along_motion(x: Taylor<f64>) -> Taylor<Rate> {
+    Taylor::new(Rate { re: x.x, eps: [x.d] }, Rate { re: x.d, eps: [x.dd] }, Rate::fixed(x.dd))
 }
 
 /// The part of q or v that belongs to a body.
@@ -230,31 +236,32 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
-        self.at(q, v, scratch, |work| {
+        self.at(q, v, scratch, |work, regime| {
+            let time = Time { t, regime };
             self.mass_and_own_forces(q, v, need, terms);
             if need.includes(Need::FORCE) {
-                self.forces(t, (q, v), work, terms);
+                self.forces(time, (q, v), work, terms);
             }
-            self.constraints(t, q, need, work, terms);
+            self.constraints(time, q, need, work, terms);
             if need.includes(Need::L) {
                 let (Workspace { motion, varied, .. }, at) = (work, Loaded { t, q, v, vdot: &[], lambda: &[] });
                 let mut write = |place: usize, slope: Taylor<f64>| terms.l[place] = slope.d;
-                self.placed_joints().for_each(|joint| joint.curvature(&at, motion, varied, &mut write));
+                self.placed_joints().for_each(|joint| joint.curvature((&at, regime), motion, varied, &mut write));
             }
         });
     }
 
     fn tangent(&self, at: Loaded, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
-        self.at(at.q, at.v, scratch, |work| Evaluation { mechanism: self, at, work, tangent }.run());
+        self.at(at.q, at.v, scratch, |work, regime| Evaluation { mechanism: self, at, regime, work, tangent }.run());
         true
     }
 
     fn acceleration_gradient(&self, at: Loaded, values: &mut [f64], scratch: &mut Scratch) -> bool {
-        self.at(at.q, at.v, scratch, |work| {
+        self.at(at.q, at.v, scratch, |work, regime| {
             self.place(at.q, at.v, at.vdot, work);
             let Workspace { motion, varied, .. } = work;
             let mut write = |place: usize, slope: Taylor<f64>| values[place] = slope.dd;
-            self.placed_joints().for_each(|joint| joint.curvature(&at, motion, varied, &mut write));
+            self.placed_joints().for_each(|joint| joint.curvature((&at, regime), motion, varied, &mut write));
         });
         true
     }
@@ -293,7 +300,9 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn energy(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<Energy> {
-        Some(self.at(q, v, scratch, |work| self.energies(&Plain { t, q, v, lambda: &[], motion: &work.motion })))
+        Some(self.at(q, v, scratch, |work, regime| {
+            self.energies(&Plain { time: Time { t, regime }, q, v, lambda: &[], motion: &work.motion })
+        }))
     }
 
     fn columns(&self) -> Vec<Column> {
@@ -316,11 +325,13 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn outputs(&self, t: f64, q: &[f64], v: &[f64], lambda: &[f64], out: &mut [f64], scratch: &mut Scratch) {
-        self.at(q, v, scratch, |work| self.write_outputs(&Plain { t, q, v, lambda, motion: &work.motion }, out));
+        self.at(q, v, scratch, |work, regime| {
+            self.write_outputs(&Plain { time: Time { t, regime }, q, v, lambda, motion: &work.motion }, out);
+        });
     }
 
     fn output_tangent(&self, at: Loaded, tangent: &mut OutputTangent, scratch: &mut Scratch) -> bool {
-        self.at(at.q, at.v, scratch, |work| Slopes { mechanism: self, at, work, tangent }.run());
+        self.at(at.q, at.v, scratch, |work, regime| Slopes { mechanism: self, at, regime, work, tangent }.run());
         true
     }
 
@@ -331,7 +342,36 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn input_forces(&self, t: f64, q: &[f64], v: &[f64], f: &mut DMatrix<f64>, scratch: &mut Scratch) {
-        self.at(q, v, scratch, |work| self.write_input_forces(t, q, work, f));
+        self.at(q, v, scratch, |work, regime| self.write_input_forces(Time { t, regime }, q, work, f));
+    }
+
+    fn switches(&self) -> &[Switch] {
+        &self.model.switches.all
+    }
+
+    fn owner_of_switch(&self, switch: usize) -> &str {
+        self.model.switches.owners.get(switch).map_or("", String::as_str)
+    }
+
+    fn time_functions(&self) -> &[TimeFunction] {
+        &self.model.switches.time_functions
+    }
+
+    fn switching(&self, at: Loaded, out: &mut [Rate], scratch: &mut Scratch) {
+        self.at(at.q, at.v, scratch, |work, regime| {
+            self.place(at.q, at.v, at.vdot, work);
+            let time = Time { t: Rate::seeded(at.t, 0), regime };
+            for joint in self.placed_joints() {
+                with_frames(&work.motion, &joint.joint.markers, |frames| joint.switching(time, frames, out));
+            }
+            for force in self.model.given_forces() {
+                gathered(
+                    &force.markers,
+                    |marker| work.motion[marker].map(along_motion),
+                    |frames| force.element.switching(frames, time.map(Taylor::running), out),
+                );
+            }
+        });
     }
 
     fn scales(&self) -> Vec<f64> {

@@ -26,6 +26,8 @@ pub use tangent::{Loaded, Tangent};
 pub use terms::{Need, Scratch, Structure, Terms};
 
 pub use crate::body::Energy;
+use crate::math::Rate;
+use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
 use nalgebra::DMatrix;
 
@@ -152,6 +154,24 @@ pub trait MechanicalSystem: Send + Sync {
 
     /// df/du, n_v x n_u: the generalized forces of a unit of each input.
     fn input_forces(&self, _t: f64, _q: &[f64], _v: &[f64], _f: &mut DMatrix<f64>, _scratch: &mut Scratch) {}
+
+    /// Where the equations change their form: see [`Regime`](crate::math::Regime). Default: nowhere.
+    fn switches(&self) -> &[Switch] {
+        &[]
+    }
+
+    /// Whose a switching function is, such as "the force `push`".
+    fn owner_of_switch(&self, _switch: usize) -> &str {
+        "the equations"
+    }
+
+    /// Writes the arguments of all switching functions with their rates along the motion, at a state with its v'.
+    fn switching(&self, _at: Loaded, _out: &mut [Rate], _scratch: &mut Scratch) {}
+
+    /// What in the equations depends on t alone: the time loop looks that no step misses any of it. Default: nothing.
+    fn time_functions(&self) -> &[TimeFunction] {
+        &[]
+    }
 
     /// Units of phi by row that drift is measured against: a length for rows in metres, 1 rad for angles. Default: 1.
     fn scales(&self) -> Vec<f64> {

@@ -29,7 +29,7 @@ impl<const D: usize> Mechanism<D> {
         let model = self.model();
         match measure {
             Measure::Signal(signal) => {
-                signal.evaluate(S::constant(view.t()), |probe| probe.read(&view.frame(probe.marker)))
+                signal.evaluate(view.time().map(S::constant), |probe| probe.read(&view.frame(probe.marker)))
             }
             Measure::Relative { of, to, quantity } => relative(&view.frame(*of), &view.frame(*to), *quantity),
             Measure::Turn { of, to } => turn(&view.frame(*of), &view.frame(*to)),
@@ -73,8 +73,8 @@ impl<const D: usize> Mechanism<D> {
         let force = &self.model().forces[force];
         let mut wrenches = [Wrench::zero(); MOST_MARKERS];
         let wrenches = &mut wrenches[..force.markers.len()];
-        let (element, t) = (force.element.as_ref(), Taylor::time(view.t()));
-        let act = |frames: &[_]| ForceOver::<S, D>::driven(element, &view.input(), frames, t, wrenches);
+        let (element, time) = (force.element.as_ref(), view.time().map(Taylor::time));
+        let act = |frames: &[_]| ForceOver::<S, D>::driven(element, &view.input(), frames, time, wrenches);
         gathered(&force.markers, |marker| view.frame(marker), act)
     }
 
@@ -88,8 +88,8 @@ impl<const D: usize> Mechanism<D> {
         let slot = 1.min(joint.markers.len() - 1);
         let mut slopes = [[S::zero(); 6]; MOST_ROWS];
         let own = &mut slopes[..rows.len()];
-        let (element, t, pass) = (joint.element.as_ref(), S::constant(view.t()), slot / markers_per_pass(D));
-        let gradient = |frames: &[_]| JointOver::<S, D>::gradient(element, frames, t, pass, own);
+        let (element, time, pass) = (joint.element.as_ref(), view.time().map(S::constant), slot / markers_per_pass(D));
+        let gradient = |frames: &[_]| JointOver::<S, D>::gradient(element, frames, time, pass, own);
         gathered(&joint.markers, |marker| view.frame(marker), gradient);
         let first = slot % markers_per_pass(D) * twist_len(D);
         let mut wrench = [S::zero(); 6];

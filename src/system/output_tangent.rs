@@ -6,6 +6,7 @@ use super::tangent::Loaded;
 use super::variation::Along;
 use super::view::{Moved, Seed, View};
 use crate::body::Slope;
+use crate::math::Regime;
 use crate::scene::{EnergyPart, Measure, Part};
 use nalgebra::DMatrix;
 
@@ -40,6 +41,7 @@ impl OutputTangent {
 pub(super) struct Slopes<'a, const D: usize> {
     pub mechanism: &'a Mechanism<D>,
     pub at: Loaded<'a>,
+    pub regime: Regime<'a>,
     pub work: &'a mut Workspace<D>,
     pub tangent: &'a mut OutputTangent,
 }
@@ -110,7 +112,7 @@ impl<const D: usize> Slopes<'_, D> {
     }
 
     fn seen(&self, seed: Seed<D>, read: impl Fn(&Moved<D>) -> Slope) -> Slope {
-        read(&Moved { at: self.at, motion: &self.work.motion, varied: &self.work.varied, seed })
+        read(&Moved { at: self.at, regime: self.regime, motion: &self.work.motion, varied: &self.work.varied, seed })
     }
 }
 

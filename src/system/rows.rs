@@ -7,7 +7,7 @@ use super::{Loaded, Terms};
 use crate::body::{Frame, MOST_MARKERS, Slope, Wrench, twist_len};
 use crate::joint::{Joint, MOST_ROWS, markers_per_pass};
 use crate::math::kkt::Pattern;
-use crate::math::{Scalar, Taylor};
+use crate::math::{Rate, Regime, Scalar, Taylor, Time};
 use crate::scene::Connection;
 use std::array::from_fn;
 use std::ops::Range;
@@ -63,10 +63,10 @@ impl Rows {
 
 impl<const D: usize> PlacedJoint<'_, D> {
     /// phi, phi' and gamma, and phi_t: the rate with all frames held.
-    pub fn levels(&self, t: f64, frames: &Motion<f64, D>, terms: &mut Terms) {
+    pub fn levels(&self, time: Time<f64>, frames: &Motion<f64, D>, terms: &mut Terms) {
         let mut levels = [Taylor::fixed(0.0); MOST_ROWS];
         let levels = &mut levels[..self.rows.count];
-        self.joint.element.levels(frames, Taylor::time(t), levels);
+        self.joint.element.levels(frames, time.map(Taylor::running), levels);
         for (row, level) in self.rows.range().zip(levels.iter()) {
             (terms.phi[row], terms.phi_dot[row], terms.gamma[row]) = (level.x, level.d, -level.dd);
         }
@@ -74,23 +74,30 @@ impl<const D: usize> PlacedJoint<'_, D> {
         phi_t.fill(0.0);
         if self.rows.rheonomic {
             let held: [_; MOST_MARKERS] = from_fn(|i| frames[i.min(frames.len() - 1)].map(|x| Taylor::fixed(x.x)));
-            self.joint.element.levels(&held[..frames.len()], Taylor::time(t), levels);
+            self.joint.element.levels(&held[..frames.len()], time.map(Taylor::running), levels);
             phi_t.iter_mut().zip(levels).for_each(|(rate, level)| *rate = level.d);
         }
     }
 
     /// Rows of G: the gradient with respect to each marker's twist, pulled back like a wrench.
-    pub fn gradient(&self, t: f64, q: &[f64], frames: &Motion<f64, D>, terms: &mut Terms) {
+    pub fn gradient(&self, time: Time<f64>, q: &[f64], frames: &Motion<f64, D>, terms: &mut Terms) {
         let mut slopes = [[0.0; 6]; MOST_ROWS];
         let slopes = &mut slopes[..self.rows.count];
         for pass in 0..frames.len().div_ceil(markers_per_pass(D)) {
             let in_pass = |block: &&Block| block.slot / markers_per_pass(D) == pass;
             if self.rows.blocks.iter().any(|block| in_pass(&block)) {
-                self.joint.element.gradient(frames, t, pass, slopes);
+                self.joint.element.gradient(frames, time, pass, slopes);
                 let blocks = self.rows.blocks.iter().filter(in_pass);
                 blocks.for_each(|block| self.pull_back(block, q, &frames[block.slot], slopes, terms));
             }
         }
+    }
+
+    /// Writes the arguments of its switching functions at their numbers.
+    pub fn switching(&self, time: Time<Rate>, frames: &Motion<f64, D>, out: &mut [Rate]) {
+        let rates: [_; MOST_MARKERS] =
+            from_fn(|i| frames[i.min(frames.len() - 1)].map(|x| Rate { re: x.x, eps: [x.d] }));
+        self.joint.element.switching(&rates[..frames.len()], time, out);
     }
 
     fn pull_back(
@@ -122,7 +129,7 @@ impl<const D: usize> PlacedJoint<'_, D> {
     /// with each of its markers varied, one after the other.
     pub fn curvature(
         &self,
-        at: &Loaded,
+        (at, regime): (&Loaded, Regime),
         motion: &Motion<f64, D>,
         varied: &mut Varied<D>,
         mut write: impl FnMut(usize, Taylor<f64>),
@@ -141,7 +148,8 @@ impl<const D: usize> PlacedJoint<'_, D> {
                 });
                 let mut levels = [Taylor::fixed(Slope::constant(0.0)); MOST_ROWS];
                 let levels = &mut levels[..self.rows.count];
-                self.joint.element.levels(&frames[..self.joint.markers.len()], Taylor::time(at.t), levels);
+                let time = Time { t: Taylor::time(at.t), regime };
+                self.joint.element.levels(&frames[..self.joint.markers.len()], time, levels);
                 for (row, level) in levels.iter().enumerate() {
                     let place = block.first_entry + row * width + first;
                     for i in 0..directions.len() {

@@ -6,7 +6,7 @@ use super::variation::{Along, fixed};
 use crate::body::{BodyState, Frame, MOST_MARKERS, Slope, Wrench, twist_len};
 use crate::joint::{MOST_ROWS, markers_per_pass};
 use crate::math::kkt::Pattern;
-use crate::math::{Scalar, Taylor};
+use crate::math::{Regime, Scalar, Taylor, Time};
 use std::array::from_fn;
 
 /// A state with its accelerations and multipliers.
@@ -38,6 +38,7 @@ impl Tangent {
 pub(super) struct Evaluation<'a, const D: usize> {
     pub mechanism: &'a Mechanism<D>,
     pub at: Loaded<'a>,
+    pub regime: Regime<'a>,
     pub work: &'a mut Workspace<D>,
     pub tangent: &'a mut Tangent,
 }
@@ -50,7 +51,7 @@ impl<const D: usize> Evaluation<'_, D> {
     pub fn run(&mut self) {
         self.tangent.k.fill(0.0);
         self.tangent.c.fill(0.0);
-        let (mechanism, t) = (self.mechanism, Slope::fixed(self.at.t));
+        let (mechanism, time) = (self.mechanism, Time { t: Slope::fixed(self.at.t), regime: self.regime });
         let couplings = &mechanism.couplings;
         for (part, places) in mechanism.model().bodies.iter().zip(&couplings.bodies) {
             let own = BodyState {
@@ -66,7 +67,7 @@ impl<const D: usize> Evaluation<'_, D> {
             let reaction = |frames: &Frames<D>, out: &mut Wrenches<D>| {
                 for pass in 0..frames.len().div_ceil(markers_per_pass(D)) {
                     let mut slopes = [[Slope::constant(0.0); 6]; MOST_ROWS];
-                    joint.element.gradient(frames, t, pass, &mut slopes[..lambda.len()]);
+                    joint.element.gradient(frames, time, pass, &mut slopes[..lambda.len()]);
                     let slots = pass * markers_per_pass(D)..frames.len().min((pass + 1) * markers_per_pass(D));
                     slots.for_each(|slot| out[slot] = reaction_wrench(lambda, &slopes, slot));
                 }
@@ -75,8 +76,7 @@ impl<const D: usize> Evaluation<'_, D> {
         }
         for (force, coupling) in mechanism.model().forces.iter().zip(&couplings.forces) {
             let act = |frames: &Frames<D>, out: &mut Wrenches<D>| {
-                let time = Taylor::new(t, Slope::constant(1.0), Slope::constant(0.0));
-                force.element.act(frames, time, &mut out[..frames.len()]);
+                force.element.act(frames, time.map(Taylor::running), &mut out[..frames.len()]);
             };
             self.element(coupling, &force.markers, Along::Coordinates, -1.0, act);
             self.element(coupling, &force.markers, Along::Velocities, -1.0, act);

@@ -2,6 +2,7 @@
 
 use super::MechanicalSystem;
 use crate::math::kkt::Pattern;
+use crate::math::{Piece, Regime};
 use std::any::Any;
 use std::ops::BitOr;
 
@@ -87,17 +88,22 @@ impl Terms {
     }
 }
 
-/// Memory that a system keeps between evaluations, of whatever type it likes.
+/// Memory that a system keeps between evaluations, of whatever type it likes; and the pieces that its functions are held on
+/// in an evaluation, by the number of their switching function: empty where each takes the piece of its argument.
 #[derive(Default)]
-pub struct Scratch(Option<Box<dyn Any + Send>>);
+pub struct Scratch {
+    memory: Option<Box<dyn Any + Send>>,
+    pub pieces: Vec<Piece>,
+}
 
 impl Scratch {
     /// Lends the memory of type `T`, made the first time or where it held another type.
-    pub fn with<T: Any + Send, R>(&mut self, make: impl FnOnce() -> T, see: impl FnOnce(&mut T) -> R) -> R {
-        let held = self.0.take().and_then(|memory| memory.downcast().ok());
-        let mut memory: Box<T> = held.unwrap_or_else(|| Box::new(make()));
-        let result = see(&mut memory);
-        self.0 = Some(memory);
+    pub fn with<T: Any + Send, R>(&mut self, make: impl FnOnce() -> T, see: impl FnOnce(&mut T, Regime) -> R) -> R {
+        let kept = self.memory.take().and_then(|memory| memory.downcast().ok());
+        let mut memory: Box<T> = kept.unwrap_or_else(|| Box::new(make()));
+        let regime = if self.pieces.is_empty() { Regime::FREE } else { Regime::held(&self.pieces) };
+        let result = see(&mut memory, regime);
+        self.memory = Some(memory);
         result
     }
 }

@@ -3,14 +3,13 @@
 use super::tangent::Loaded;
 use super::variation::{Varied, fixed};
 use crate::body::{Energy, Frame, MOST_MARKERS, MarkerId, Slope};
-use crate::math::{Scalar, Taylor};
+use crate::math::{Regime, Scalar, Taylor, Time};
 use crate::scene::Part;
 use std::array::from_fn;
 
 /// What there is to read of a state.
 pub(super) trait View<S: Scalar, const D: usize> {
-    /// s
-    fn t(&self) -> f64;
+    fn time(&self) -> Time<'_, f64>;
     /// A coordinate of the system.
     fn q(&self, coordinate: usize) -> S;
     fn frame(&self, marker: MarkerId) -> Frame<Taylor<S>, D>;
@@ -23,7 +22,7 @@ pub(super) trait View<S: Scalar, const D: usize> {
 
 /// The state as it is.
 pub(super) struct Plain<'a, const D: usize> {
-    pub t: f64,
+    pub time: Time<'a, f64>,
     pub q: &'a [f64],
     pub v: &'a [f64],
     pub lambda: &'a [f64],
@@ -31,8 +30,8 @@ pub(super) struct Plain<'a, const D: usize> {
 }
 
 impl<const D: usize> View<f64, D> for Plain<'_, D> {
-    fn t(&self) -> f64 {
-        self.t
+    fn time(&self) -> Time<'_, f64> {
+        self.time
     }
     fn q(&self, coordinate: usize) -> f64 {
         self.q[coordinate]
@@ -66,14 +65,15 @@ pub(super) enum Seed<'a, const D: usize> {
 /// The state as a function of six directions.
 pub(super) struct Moved<'a, const D: usize> {
     pub at: Loaded<'a>,
+    pub regime: Regime<'a>,
     pub motion: &'a [Frame<Taylor<f64>, D>],
     pub varied: &'a Varied<D>,
     pub seed: Seed<'a, D>,
 }
 
 impl<const D: usize> View<Slope, D> for Moved<'_, D> {
-    fn t(&self) -> f64 {
-        self.at.t
+    fn time(&self) -> Time<'_, f64> {
+        Time { t: self.at.t, regime: self.regime }
     }
     fn q(&self, coordinate: usize) -> Slope {
         match self.seed {
@@ -97,9 +97,9 @@ impl<const D: usize> View<Slope, D> for Moved<'_, D> {
                 part.body.energy(&self.varied.moved, &self.varied.moved_v, gravity)
             }
             _ => {
-                let Loaded { t, q, v, lambda, .. } = self.at;
+                let Loaded { q, v, lambda, .. } = self.at;
                 let Energy { kinetic, potential } =
-                    Plain { t, q, v, lambda, motion: self.motion }.energy(part, gravity);
+                    Plain { time: self.time(), q, v, lambda, motion: self.motion }.energy(part, gravity);
                 Energy { kinetic: Slope::fixed(kinetic), potential: Slope::fixed(potential) }
             }
         }

@@ -4,7 +4,7 @@ use holonom::body::flexible::Section;
 use holonom::body::{Frame, Wrench};
 use holonom::force::{Action, Beam, ForceKernel};
 use holonom::math::rotation::{axes_from_quaternion, quaternion_from_vector};
-use holonom::math::{Scalar, Taylor};
+use holonom::math::{Regime, Scalar, Taylor, Time};
 
 const SECTION: Section = Section { ea: 1e4, ga: [4e3, 3e3], gj: 60.0, ei: [100.0, 300.0], rho_a: 1.0, rho_i: [0.1; 2] };
 const CURVATURE: [f64; 3] = [0.3, -0.2, 0.5];
@@ -35,7 +35,7 @@ fn turned(x: [f64; 3], w: [f64; 3]) -> [f64; 3] {
 
 fn act<const D: usize>(beam: &Beam, frames: [Frame<Taylor<f64>, D>; 2]) -> ([Wrench<f64, D>; 2], Action<f64>) {
     let mut out = [Wrench::zero(); 2];
-    let action = beam.act(&frames, Taylor::time(0.0), &mut out);
+    let action = beam.act(&frames, Time { t: Taylor::time(0.0), regime: Regime::FREE }, &mut out);
     (out, action)
 }
 

@@ -9,6 +9,7 @@ mod scenes;
 mod chain;
 mod double_double;
 mod masses;
+mod massless;
 mod saddle;
 mod scales;
 mod stiffness;

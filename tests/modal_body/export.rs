@@ -33,7 +33,9 @@ impl<const D: usize> Beam<D> {
         let (rho_a, elements) = (number(&inertia["rhoA"]), number(&beam["elements"]) as usize);
         let (parameters, markers) = (Parameters::default(), MarkerTable::default());
         let folder = Path::new("");
-        let build = Build { parameters: &parameters, markers: &markers, outputs: &[], gravity: [0.0; D], folder };
+        let switches = &Default::default();
+        let build =
+            Build { parameters: &parameters, markers: &markers, outputs: &[], gravity: [0.0; D], folder, switches };
         let spec: FlexibleBeam = serde_json::from_value(beam).unwrap();
         let (elastic, _) = elastic_beam(&spec, &[0.0, length], &build).unwrap();
         Beam { elastic, length, elements, rho_a, rho_i }

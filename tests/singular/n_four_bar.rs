@@ -63,3 +63,43 @@ fn forty_loops_with_smaller_steps_come_closer() {
         assert!((pair[0] / pair[1]).log2() > 3.5, "order four: {found:?}");
     }
 }
+
+/// B0 at 10 s with five and ten loops: RK4 on the single equation theta'' = -k cos(theta), extrapolated to 1e-12.
+const TOPS: [(usize, [f64; 2]); 3] = [
+    (2, [TWO_LOOPS[9][2], TWO_LOOPS[9][3]]),
+    (5, [0.2357891358436727, 0.9718042413048494]),
+    (10, [0.2043535609910408, 0.978897145828039]),
+];
+
+/// The error of B0 at the end, of a run that should have passed flat ten times.
+fn error_at_the_end(top: usize, integrator: &str, projection: &str, step: f64) -> f64 {
+    let (n, [x, y]) = TOPS[top];
+    let method = fixed("index1", integrator, projection, step);
+    let run = parse(&n_four_bar(n).to_string()).run(&method, Span { output_step: 10.0, ..SECONDS });
+    let found = &run.record.singularity;
+    assert!(found.count == 10 && found.left().is_none(), "N = {n}, {integrator} {projection} {step}: {found:?}");
+    (last(&run, "B0_x") - x).hypot(last(&run, "B0_y") - y)
+}
+
+/// Stages of a fixed step beside a flat state do not decide the branch, and smaller steps do not come nearer to it than
+/// round-off allows: what is left at small steps is eps over the square of the sine, some 1e-10.
+#[test]
+fn fixed_steps_go_over_flat_states_whatever_their_size() {
+    for (top, integrator, projection, step) in [
+        (0, "dop853", "manifold", 2e-3),
+        (0, "dop853", "exact", 2e-3),
+        (1, "dop853", "manifold", 5e-4),
+        (2, "dop853", "manifold", 1e-3),
+        (2, "dop853", "exact", 7e-4),
+        (0, "dop853", "manifold", 2e-4),
+        (0, "dopri5", "manifold", 5e-4),
+        (0, "rk4", "manifold", 7e-4),
+        (0, "rk4", "manifold", 2e-4),
+        (2, "rk4", "manifold", 5e-4),
+    ] {
+        let error = error_at_the_end(top, integrator, projection, step);
+        assert!(error < 1e-9, "{:?} {integrator} {projection}, {step} s: {error:e}", TOPS[top]);
+    }
+    let [coarse, fine] = [1e-3, 5e-4].map(|step| error_at_the_end(2, "rk4", "manifold", step));
+    assert!(coarse < 5e-11 && fine < coarse / 8.0, "order four: {coarse:e} {fine:e}");
+}

@@ -1,7 +1,7 @@
 //! A parallelogram linkage that turns through its change points, as a pendulum does that turns over.
 
 use super::scenes::{Ready, Run, model, parse, shipped};
-use super::{fixed, last};
+use super::{adaptive, fixed, last};
 use holonom::measure::Recorder;
 use holonom::simulate::{Span, simulate};
 
@@ -94,6 +94,87 @@ fn from_a_change_point_it_follows_its_velocities() {
         simulate(ready.system(), &method, span, ready.0.start(), &mut recorder).unwrap().failure.unwrap()
     };
     assert!(failure.t == 0.0 && failure.reason.contains("no motion"), "{failure:?}");
+}
+
+/// Released level, it falls as a pendulum: gravity pushes it along the motion of links alike. With unlike masses gravity
+/// pushes it along neither motion.
+#[test]
+fn from_rest_at_a_change_point_it_goes_where_it_is_pushed_or_says_why_not() {
+    let span = Span { start: 0.0, end: 5.0, output_step: 0.05 };
+    let start = [("angle0", std::f64::consts::FRAC_PI_2), ("rate0", 0.0)];
+    for (integrator, tolerance) in
+        [("dopri5", 1e-6), ("dopri5", 1e-8), ("dopri5", 1e-9), ("dopri5", 1e-10), ("dopri5", 1e-12), ("dop853", 1e-9)]
+    {
+        let run = shipped("parallelogram", &start).run(&adaptive("index1", integrator, "manifold", tolerance), span);
+        // Until the row that depends on others there counts again, errors of steps tilt the beam.
+        assert!(run.worst("beam_tilt", |_| 0.0) < 1e-8_f64.max(10.0 * tolerance), "{integrator} {tolerance:e}");
+        for (angle, rate) in run.column("angle").iter().zip(run.column("rate")) {
+            let energy = 0.5 * rate * rate - stiffness() * angle.cos();
+            assert!(energy.abs() < 1e-7_f64.max(1e3 * tolerance), "{integrator} {tolerance:e} at {angle}: {energy:e}");
+        }
+    }
+    let text = std::fs::read_to_string(model("parallelogram")).unwrap();
+    let (first, second) = text.split_once("\"link2\"").unwrap();
+    let second = second.replacen("\"mass\": \"m_link\"", "\"mass\": \"3*m_link\"", 1);
+    let text = format!("{first}\"link2\"{second}").replace("\"angle0\": 0", "\"angle0\": \"pi/2\"");
+    let ready = parse(&text.replace("\"rate0\": 12", "\"rate0\": 0"));
+    for method in [fixed("index1", "rk4", "manifold", 5e-4), adaptive("index1", "dopri5", "manifold", 1e-8)] {
+        let mut recorder = Recorder::new(ready.system());
+        let failure = simulate(ready.system(), &method, span, ready.0.start(), &mut recorder).unwrap().failure.unwrap();
+        assert!(failure.t == 0.0 && failure.reason.contains("not determined"), "{failure:?}");
+    }
+}
+
+/// At rest at a change point it begins to fall as a pendulum, if its links are alike: that goes on. If not, what moves is no
+/// motion of the linkage, which has two to choose from there.
+#[test]
+fn it_falls_from_rest_at_a_change_point() {
+    let level = std::f64::consts::FRAC_PI_2;
+    let alike = shipped("parallelogram", &[("angle0", level), ("rate0", 0.0)]);
+    let end = Span { start: 0.0, end: 0.6, output_step: 0.6 };
+    let exact = last(&alike.run(&fixed("index1", "rk4", "manifold", 1e-3), end), "angle");
+    for (formulation, tolerance) in [("index1", 1e-6), ("index2", 1e-6), ("index1", 1e-9), ("index2", 1e-9)] {
+        let run = alike.run(&adaptive(formulation, "radau_iia", "none", tolerance), end);
+        let error = (last(&run, "angle") - exact).abs();
+        // Beside a change point errors of the positions grow by the inverse of its sine.
+        assert!(error < 1e4 * tolerance, "{formulation} {tolerance:e}: {error:e}");
+    }
+    let text = std::fs::read_to_string(model("parallelogram")).unwrap();
+    let text = text.replace("\"angle0\": 0, \"rate0\": 12", "\"angle0\": \"pi/2\", \"rate0\": 0");
+    let (first, second) = text.split_once("\"link2\"").unwrap();
+    let unlike = parse(&format!("{first}\"link2\"{}", second.replacen("\"m_link\"", "\"2*m_link\"", 1)));
+    for method in [
+        fixed("index1", "rk4", "manifold", 1e-3),
+        adaptive("ggl", "radau_iia", "none", 1e-6),
+        adaptive("index3", "generalized_alpha", "none", 1e-6),
+    ] {
+        let mut recorder = Recorder::new(unlike.system());
+        let outcome = simulate(unlike.system(), &method, end, unlike.0.start(), &mut recorder).unwrap();
+        let failure = outcome.failure.unwrap();
+        assert!(failure.t == 0.0 && failure.reason.contains("singular state"), "{failure:?}");
+    }
+}
+
+/// No implicit method stalls there, and none says that its joints contradict each other.
+#[test]
+fn implicit_steps_from_a_change_point_end() {
+    let ready = shipped("parallelogram", &[("angle0", std::f64::consts::FRAC_PI_2), ("rate0", 0.0)]);
+    let span = Span { start: 0.0, end: 5.0, output_step: 5.0 };
+    for (integrator, formulations) in
+        [("radau_iia", &["index1", "index2", "index3", "ggl"][..]), ("generalized_alpha", &["index3", "ggl"])]
+    {
+        for (formulation, projection) in formulations.iter().flat_map(|f| [(f, "none"), (f, "manifold")]) {
+            for tolerance in [1e-4, 1e-6, 1e-9] {
+                let method = adaptive(formulation, integrator, projection, tolerance);
+                let mut recorder = Recorder::new(ready.system());
+                let outcome = simulate(ready.system(), &method, span, ready.0.start(), &mut recorder).unwrap();
+                let work = outcome.statistics.steps + outcome.statistics.rejected;
+                println!("{} {tolerance:e}: {work} {:?}", method.triple(), outcome.failure);
+                assert!(work < 100_000, "{} {tolerance:e}: {work}", method.triple());
+                assert!(outcome.failure.is_none_or(|failure| !failure.reason.contains("contradict")));
+            }
+        }
+    }
 }
 
 /// The parallelogram at a change point, its second link so many times as fast as the first.

@@ -76,15 +76,29 @@ fn massless_rods_follow_the_reference() {
     }
 }
 
-/// Collocation on both constraints shares nothing with the explicit method but the equations. Its errors are those of
-/// its tolerance; velocities and forces have a digit or two less, as the tyre's spring is stiff.
+/// Collocation on both constraints shares nothing with the explicit method but the equations. Its errors are some tens of
+/// tolerances where the bump begins within a step; velocities and forces have a digit or two less, as the tyre's spring is
+/// stiff.
 #[test]
 fn an_implicit_method_agrees() {
     let suspension = shipped("five_link_suspension", &[]);
-    for (tolerance, bounds) in [(1e-8, [1e-8, 2e-7, 1e-6, 2e-3]), (1e-13, [5e-12, 1e-10, 1e-9, 1e-6])] {
+    for (tolerance, bounds) in [(1e-8, [2e-7, 4e-6, 2e-5, 4e-2]), (1e-13, [5e-12, 1e-10, 1e-9, 1e-6])] {
         let [formulation, integrator, projection] = ["ggl", "radau_iia", "none"].map(Choice::named);
         let method = Method { formulation, integrator, projection, rtol: tolerance, atol: tolerance, step: None };
         check(&suspension.run(&method, until(2.5, 0.25)), bounds);
+    }
+}
+
+/// At rest before the bump, at a loose tolerance too: the first step does not go over it.
+#[test]
+fn a_loose_tolerance_sees_the_bump() {
+    let suspension = shipped("five_link_suspension", &[]);
+    let exact = suspension.tight(1e-10, 2.5, 0.25).column("chassis_height");
+    for formulation in ["ggl", "index3", "index2"] {
+        let [formulation, integrator, projection] = [formulation, "radau_iia", "none"].map(Choice::named);
+        let method = Method { formulation, integrator, projection, rtol: 1e-6, atol: 1e-6, step: None };
+        let found = suspension.run(&method, until(2.5, 0.25)).column("chassis_height");
+        assert!(apart(&found, &exact) < 1e-4, "{}: {:e}", method.triple(), apart(&found, &exact));
     }
 }
 

@@ -246,6 +246,10 @@ impl Integrator for Ali3p {
         Some(&self.slope)
     }
 
+    fn restart(&mut self) {
+        self.reached = None;
+    }
+
     fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt> {
         self.polynomial.prepare(from, h, to, slope);
         Ok(())

@@ -1,7 +1,7 @@
 //! Equations as implicit integrators take them.
 
 use super::super::From;
-use crate::formulation::{Halt, Statistics};
+use crate::formulation::{Dynamics, Halt, Statistics};
 use crate::math::kkt::Pattern;
 
 /// x' = F(t, x) in the first unknowns, which are q, v and the work, and 0 = F(t, x) in the rest, the algebraic ones.
@@ -17,8 +17,8 @@ pub trait Form {
     /// Adds dF/dx, or what is close enough to it for Newton's method, to a matrix of zeros.
     fn jacobian(&mut self, t: f64, x: &[f64], out: &mut Dense) -> Result<(), Halt>;
 
-    /// Leaves out these rows of constraints: see [`crate::formulation::Dynamics::hold`].
-    fn hold(&mut self, rows: &[usize]);
+    /// Leaves out the rows of constraints, and takes the pieces of functions, that the run does.
+    fn follow(&mut self, run: &Dynamics);
 
     /// The work done here.
     fn statistics(&mut self) -> &mut Statistics;

@@ -149,8 +149,8 @@ impl Form for Ggl<'_> {
         Ok(())
     }
 
-    fn hold(&mut self, rows: &[usize]) {
-        self.dynamics.hold(rows);
+    fn follow(&mut self, run: &Dynamics) {
+        self.dynamics.follow(run);
     }
 
     fn statistics(&mut self) -> &mut Statistics {

@@ -97,8 +97,8 @@ impl Form for Index1<'_> {
         Ok(())
     }
 
-    fn hold(&mut self, rows: &[usize]) {
-        self.problem.dynamics.hold(rows);
+    fn follow(&mut self, run: &Dynamics) {
+        self.problem.dynamics.follow(run);
     }
 
     fn statistics(&mut self) -> &mut Statistics {

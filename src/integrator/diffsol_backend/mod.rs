@@ -208,6 +208,14 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Integrator for Implicit<'h, 
         Some(self.own_step)
     }
 
+    fn seen(&self) -> Option<f64> {
+        self.solver.as_ref().map(|solver| solver.state().t - self.began)
+    }
+
+    fn restart(&mut self) {
+        self.solver = None;
+    }
+
     fn attempt(
         &mut self,
         problem: &mut Problem,
@@ -216,10 +224,10 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Integrator for Implicit<'h, 
         h: f64,
         to: &mut [f64],
     ) -> Result<Option<f64>, Halt> {
-        let rows = &problem.dynamics.held;
+        let dynamics = &problem.dynamics;
         match (&mut self.form, self.store.problem()) {
-            (Some(form), _) => form.hold(rows),
-            (None, Some(solved)) => solved.eqn.with(|form| form.hold(rows)),
+            (Some(form), _) => form.follow(dynamics),
+            (None, Some(solved)) => solved.eqn.with(|form| form.follow(dynamics)),
             _ => {}
         }
         let mut solver = self.resume(tolerance, from, h)?;
@@ -241,9 +249,9 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Integrator for Implicit<'h, 
         Ok(())
     }
 
-    fn interpolate(&mut self, _: &mut Problem, _: From, _: f64, theta: f64, out: &mut [f64]) -> Result<(), Halt> {
+    fn interpolate(&mut self, _: &mut Problem, from: From, h: f64, theta: f64, out: &mut [f64]) -> Result<(), Halt> {
         match &self.solver {
-            Some(solver) => at(solver, self.began + theta * self.own_step, out),
+            Some(solver) => at(solver, from.t + theta * h, out),
             None => out.fill(f64::NAN),
         }
         Ok(())

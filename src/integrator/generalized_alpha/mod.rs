@@ -126,6 +126,10 @@ impl Integrator for GeneralizedAlpha {
         Ok(Some(self.error(problem, tolerance, from, h, to)))
     }
 
+    fn restart(&mut self) {
+        self.motion.restart();
+    }
+
     fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt> {
         self.polynomial.prepare(from, h, to, slope);
         Ok(())

@@ -131,6 +131,11 @@ impl Motion {
         Ok(())
     }
 
+    /// Forgets the last step.
+    pub fn restart(&mut self) {
+        (self.start.t, self.end.t) = (None, None);
+    }
+
     /// The step has found its end at `t`.
     pub fn reached(&mut self, t: f64) {
         self.end.t = Some(t);

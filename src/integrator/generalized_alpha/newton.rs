@@ -1,7 +1,6 @@
 //! Newton's method for the end of a step.
 
-use super::super::NO_TANGENT;
-use super::super::{From, Problem};
+use super::super::{From, NO_TANGENT, Problem, collapsed};
 use super::motion::Motion;
 use crate::formulation::Halt;
 use crate::math::kkt::Unsymmetric;
@@ -16,20 +15,11 @@ const SLOW: f64 = 0.3;
 const ROUND_OFF: f64 = 1e-15;
 const SMALL: f64 = 1e-8;
 const STILL: f64 = 1e-14;
-/// Largest phi, in units of its scale, of rows that are left out because they depend on others.
-const CONSISTENT: f64 = 1e-6;
-
-const CONTRADICTION: Halt = Halt::Unsuitable {
-    reason: "redundant constraints contradict each other during the motion",
-    hint: "`holonom check` names the redundant joints; take one away, or make them say the same at all times",
-};
-
 /// Solves M v'_1 + G^T lambda_1 = f with phi = 0 for v'_1 and lambda_1; with G v + phi_t = 0 too also for the shift of q.
 pub(super) struct Newton {
     holds_velocity: bool,
     tangent: Tangent,
     matrix: Unsymmetric<f64>,
-    scales: Vec<f64>,
     top: Vec<f64>,
     bottom: Vec<f64>,
     shift: Vec<f64>,
@@ -52,7 +42,6 @@ impl Newton {
             holds_velocity,
             tangent: Tangent::new(&structure.tangent),
             matrix: Unsymmetric::new(&structure.mass, &structure.tangent, &structure.g)?,
-            scales: system.scales(),
             top: vec![0.0; n.v],
             bottom: vec![0.0; n.lambda],
             shift: vec![0.0; n.v],
@@ -77,7 +66,7 @@ impl Newton {
             let (q, v) = problem.split(to);
             problem.dynamics.evaluate(t, q, v, Need::DYNAMICS);
             if is_slow {
-                self.factor(problem, motion, t, slopes, to)?;
+                self.factor(problem, motion, (from, h), slopes, to)?;
             }
             let change = self.iterate(problem, motion, slopes)?;
             if !change.is_finite() {
@@ -89,7 +78,7 @@ impl Newton {
             // The next iteration would change that by the ratio.
             if change * ratio.min(1.0) <= ROUND_OFF / SMALL * small || change < small && ratio > 0.5 {
                 motion.advance(problem, from, h, to);
-                return self.check_redundant(problem);
+                return Ok(());
             }
             is_slow = iteration > 0 && ratio > SLOW && change > small;
             last = change;
@@ -102,24 +91,25 @@ impl Newton {
         &mut self,
         problem: &mut Problem,
         motion: &Motion,
-        t: f64,
+        (from, h): (From, f64),
         slopes: Slopes,
         to: &[f64],
     ) -> Result<(), Halt> {
         let (q, v) = problem.split(to);
         let dynamics = &mut problem.dynamics;
-        let at = Loaded { t, q, v, vdot: &motion.end.vdot, lambda: &motion.end.lambda };
+        let at = Loaded { t: from.t + h, q, v, vdot: &motion.end.vdot, lambda: &motion.end.lambda };
         if !dynamics.system.tangent(at, &mut self.tangent, &mut dynamics.scratch) {
             return Err(NO_TANGENT);
         }
         dynamics.statistics.jacobian_evaluations += 1;
         dynamics.statistics.factorizations += 1;
         let (structure, terms) = (&dynamics.structure, &dynamics.terms);
+        self.matrix.hold(&dynamics.held);
         self.matrix.clear();
-        self.matrix.add(&structure.mass, &terms.mass, 1.0, true);
+        self.matrix.add_mass(&structure.mass, &terms.mass);
         self.matrix.add(&structure.tangent, &self.tangent.c, slopes.v, false);
         self.matrix.add(&structure.tangent, &self.tangent.k, slopes.q, false);
-        self.matrix.factor(&structure.g, &terms.g).map_err(Halt::from)
+        self.matrix.factor(&structure.g, &terms.g).map_err(|singular| collapsed(singular, problem, from, h))
     }
 
     /// One iteration from the terms at q_1, v_1; the largest change of v'_1, or of the shift as such.
@@ -162,13 +152,6 @@ impl Newton {
             *row = slopes.q / slopes.v * phi_dot - phi;
         }
         Ok(self.matrix.solve(&mut self.shift, &mut self.bottom)?)
-    }
-
-    /// Rows that are left out hold because the others do, or the run ends.
-    fn check_redundant(&self, problem: &Problem) -> Result<(), Halt> {
-        let rows = self.matrix.left_out().iter().zip(problem.dynamics.terms.phi.iter().zip(&self.scales));
-        let holds = rows.filter(|(out, _)| **out).all(|(_, (phi, scale))| phi.abs() <= CONSISTENT * scale);
-        if holds { Ok(()) } else { Err(CONTRADICTION) }
     }
 }
 

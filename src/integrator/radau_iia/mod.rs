@@ -5,11 +5,12 @@ mod convergence;
 mod newton;
 mod order;
 mod stages;
+mod velocity;
 
-use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tolerance, With};
+use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tolerance, With, collapsed};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
-use crate::formulation::{self, Halt};
+use crate::formulation::{self, Halt, Rows};
 use crate::math::largest;
 use collocation::Collocation;
 use convergence::{Convergence, Verdict};
@@ -25,9 +26,9 @@ use stages::{Stages, Unknowns, combine};
 ///
 /// with lambda as an unknown in all of them; s = 3, 5 or 7 stages. Source: Hairer, Wanner, Solving Ordinary Differential
 /// Equations II, IV.5, IV.8, VII.6 and the codes RADAU5 and RADAU; constants are computed from their definition. L-stable.
-/// Order 2 s - 1 in q, v and lambda with index2, ggl and index1; with index3 v and lambda have order s unless v is
-/// projected after each step (`velocity`, `manifold`, `exact`). Hairer, Lubich, Roche, Lecture Notes in Mathematics 1409
-/// (1989). (`full` would share the error of v out to q.)
+/// Order 2 s - 1 in q, v and lambda. With index3 the v of the last stage, and so lambda, would have order s: Hairer,
+/// Lubich, Roche, Lecture Notes in Mathematics 1409 (1989). So a step of index3, and a row, ends with v moved to
+/// G v + phi_t = 0, by the matrix that the new state's v' and lambda need in any case.
 ///
 /// One matrix of n_v + n_c unknowns for the real eigenvalue of A and (s - 1)/2 complex ones a step, dense or sparse, from
 /// exact K, C, G and L: q and v are eliminated. s evaluations and (s + 1)/2 back-substitutions an iteration; ggl has s more,
@@ -44,7 +45,7 @@ pub const ENTRY: Entry = Entry {
     name: "radau_iia",
     about: "implicit collocation of variable order 5, 9, 13, L-stable: stiff motions, and high accuracy",
     order: 5,
-    orders: &[(With { formulation: "index3", projections: &["none", "position"] }, [5, 3, 3])],
+    orders: &[],
     steps: Steps::Either,
     accepts: &["ggl", "index3", "index2", "index1"],
     refuses: &[With { formulation: "index3", projections: &["full"] }],
@@ -69,9 +70,11 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         accepted: None,
         lambda: vec![0.0; n.lambda],
         factored: None,
+        dropped: Vec::new(),
         error_x: vec![0.0; n.v],
         error_v: vec![0.0; n.v],
         error: vec![0.0; setup.len()],
+        slope: vec![0.0; setup.len()],
         seen: Seen { error: 1.0, decay: 1.0, theta: 1.0 },
         order,
         is_fixed: setup.is_fixed,
@@ -94,11 +97,14 @@ struct RadauIIA {
     before: Unknowns,
     /// lambda at the start of the step.
     lambda: Vec<f64>,
-    /// Step and method that the matrices are factored for.
+    /// Step, method and dropped rows that the matrices are factored for.
     factored: Option<(f64, usize)>,
+    dropped: Vec<usize>,
     error_x: Vec<f64>,
     error_v: Vec<f64>,
     error: Vec<f64>,
+    /// y' at the end of the last attempt, with index3.
+    slope: Vec<f64>,
     /// Of the last attempt.
     seen: Seen,
 }
@@ -125,6 +131,21 @@ impl RadauIIA {
         self.lambda.copy_from_slice(&problem.dynamics.lambda);
         self.factored = None;
         self.newton.linearize(problem, from, &self.lambda)
+    }
+
+    /// The matrices for a step `h`, unless they are there.
+    fn factor(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<(), Halt> {
+        let wanted = Some((h, self.order.current()));
+        if self.factored == wanted && self.dropped == problem.dynamics.held {
+            return Ok(());
+        }
+        self.factored = None;
+        if let Err(singular) = self.newton.factor(self.order.method(), h, &mut problem.dynamics) {
+            return Err(collapsed(singular, problem, from, h));
+        }
+        self.factored = wanted;
+        self.dropped.clone_from(&problem.dynamics.held);
+        Ok(())
     }
 
     /// A first guess of V' and lambda: constant at the very start, else by the step before.
@@ -167,11 +188,13 @@ impl RadauIIA {
     }
 }
 
-/// Of the equations of a fixed step: their solution to round-off, beside 1 m or rad or a smaller largest q.
+/// Of the equations of a fixed step: their solution to round-off, beside 1 m or rad or a smaller largest q, which is none
+/// below the second.
 const EXACT: f64 = 1e-14;
+const SMALLEST: f64 = 1e-10;
 
 fn exact(q: &[f64]) -> Tolerance {
-    let size = Some(largest(q)).filter(|size| *size > 0.0).map_or(1.0, |size| size.min(1.0));
+    let size = Some(largest(q)).filter(|size| *size > 0.0).map_or(1.0, |size| size.clamp(SMALLEST, 1.0));
     Tolerance { rtol: EXACT, atol: EXACT * size }
 }
 
@@ -238,10 +261,7 @@ impl Integrator for RadauIIA {
             false => internal(tolerance, self.order.method().stages()),
         };
         self.tolerance = tolerance;
-        if self.factored != Some((h, method)) {
-            self.newton.factor(self.order.method(), h, &mut problem.dynamics)?;
-            self.factored = Some((h, method));
-        }
+        self.factor(problem, from, h)?;
         self.predict(problem, from, h);
         let RadauIIA { order, newton, stages, convergence, is_fixed, .. } = self;
         let mut solver = Solver { stages, newton, convergence, method: order.method(), is_fixed: *is_fixed };
@@ -254,7 +274,19 @@ impl Integrator for RadauIIA {
             decay: self.stages.decay(self.order.method(), &tolerance, from),
             theta: self.convergence.theta,
         };
+        if self.newton.rows == Rows::Position && (self.is_fixed || error <= 1.0) {
+            velocity::project(problem, from.t + h, to)?;
+            velocity::slope(problem, from.t + h, to, &mut self.slope)?;
+        }
         Ok(Some(error))
+    }
+
+    fn restart(&mut self) {
+        (self.tried, self.accepted) = (None, None);
+    }
+
+    fn last_slope(&self) -> Option<&[f64]> {
+        (self.newton.rows == Rows::Position).then_some(&self.slope)
     }
 
     fn prepare(&mut self, _: &mut Problem, _: From, _: f64, _: &[f64], _: &[f64]) -> Result<(), Halt> {
@@ -283,6 +315,9 @@ impl Integrator for RadauIIA {
             Ok(()) => out.copy_from_slice(&row.y[method.stages() - 1]),
             Err(_) => stages.interpolate(method, from, theta, out),
         }
-        Ok(())
+        match newton.rows {
+            Rows::Position => velocity::project(problem, from.t + h, out),
+            _ => Ok(()),
+        }
     }
 }

@@ -5,7 +5,7 @@ use super::stages::{Residual, Stages, Unknowns};
 use crate::error::{Error, Result};
 use crate::formulation::{Dynamics, Halt, Rows};
 use crate::integrator::{From, NO_TANGENT, Problem, Setup};
-use crate::math::kkt::{Field, Unsymmetric};
+use crate::math::kkt::{Field, Singular, Unsymmetric};
 use crate::system::{Loaded, Need, Tangent};
 use faer::c64;
 use std::ops::{Div, Mul};
@@ -71,7 +71,7 @@ impl Newton {
     }
 
     /// Factors for a step `h` of `method`.
-    pub fn factor(&mut self, method: &Collocation, h: f64, dynamics: &mut Dynamics) -> Result<(), Halt> {
+    pub fn factor(&mut self, method: &Collocation, h: f64, dynamics: &mut Dynamics) -> Result<(), Singular> {
         let Newton { rows, at, real, pairs } = self;
         real.factor(h * method.real.value, *rows, at, dynamics)?;
         let mut modes = pairs.iter_mut().zip(&method.pairs);
@@ -220,11 +220,12 @@ impl<T: Number> Block<T> {
         })
     }
 
-    fn factor(&mut self, ha: T, rows: Rows, at: &Linearized, dynamics: &mut Dynamics) -> Result<(), Halt> {
+    fn factor(&mut self, ha: T, rows: Rows, at: &Linearized, dynamics: &mut Dynamics) -> Result<(), Singular> {
         dynamics.statistics.factorizations += 1;
         let structure = &dynamics.structure;
+        self.matrix.hold(&dynamics.held);
         self.matrix.clear();
-        self.matrix.add(&structure.mass, &at.mass, T::real(1.0), true);
+        self.matrix.add_mass(&structure.mass, &at.mass);
         self.matrix.add(&structure.tangent, &at.tangent.c, ha, false);
         self.matrix.add(&structure.tangent, &at.tangent.k, ha * ha, false);
         match rows {
@@ -232,7 +233,7 @@ impl<T: Number> Block<T> {
             Rows::Velocity | Rows::PositionAndVelocity => self.matrix.couple(&at.l, ha),
             Rows::Acceleration => self.matrix.couple(&at.l, ha * 2.0),
         }
-        Ok(self.matrix.factor(&structure.g, &at.g)?)
+        self.matrix.factor(&structure.g, &at.g)
     }
 
     /// The part of all stages along the mode.

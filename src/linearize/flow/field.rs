@@ -3,9 +3,8 @@
 use super::shape::Shape;
 use super::{Bundle, Pulse};
 use crate::error::Result;
-use crate::formulation::{Choice, Dynamics, Formulation, Halt};
+use crate::formulation::{Dynamics, Formulation, Halt};
 use crate::linearize::{Changes, Matrix, Variation};
-use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
 
 /// The equations of index 1 for the motion and its members, the variational equations for the columns.
@@ -14,7 +13,6 @@ pub struct Field<'a> {
     variation: Variation<'a>,
     /// Of the members.
     plain: Dynamics<'a>,
-    projection: Option<Box<dyn Projection>>,
     pulse: Option<Pulse>,
     driven: Vec<f64>,
     pushes: Vec<f64>,
@@ -23,19 +21,17 @@ pub struct Field<'a> {
 }
 
 impl<'a> Field<'a> {
-    pub fn new(system: &'a dyn MechanicalSystem, shape: &Shape, bundle: &Bundle) -> Result<Self> {
+    /// Leaves out the rows `dependent`, which depend on others everywhere.
+    pub fn new(system: &'a dyn MechanicalSystem, shape: &Shape, bundle: &Bundle, dependent: &[usize]) -> Result<Self> {
         let start = &bundle.start;
         let zeros = Matrix::zeros(shape.v, shape.columns);
         let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
         let mut plain = Dynamics::new(system);
-        // Rows that depend on others everywhere need not be found again at each state.
-        let (dependent, _) = plain.dependent_rows(start.t, &start.q, &start.v);
-        [&mut plain, &mut variation.dynamics].into_iter().for_each(|dynamics| dynamics.hold(&dependent));
+        [&mut plain, &mut variation.dynamics].into_iter().for_each(|dynamics| dynamics.hold(dependent));
         Ok(Field {
             shape: *shape,
             variation,
             plain,
-            projection: projection::make(&Choice::named("manifold"), system)?,
             pulse: bundle.pulse,
             driven: bundle.driven.clone(),
             pushes: bundle.pushes.clone(),
@@ -110,43 +106,21 @@ impl<'a> Field<'a> {
         vdot.copy_from_slice(&plain.vdot);
         plain.finite()
     }
-
-    /// Takes from each column what leaves the constraints: G dq = 0, G dv + Gd dq = 0.
-    fn straighten(&mut self, q: &mut [f64], v: &mut [f64]) -> Result<(), Halt> {
-        let (n, kkt) = (self.shape.v, &mut self.variation.dynamics);
-        let mut correction = vec![0.0; n];
-        for (dq, dv) in q.chunks_exact_mut(n).zip(v.chunks_exact_mut(n)) {
-            let Dynamics { structure, terms, .. } = &*kkt;
-            let mut rows = vec![0.0; structure.g.rows];
-            structure.g.multiply(&terms.g, dq, &mut rows);
-            kkt.kkt.solve_projection(&rows, &mut correction)?;
-            dq.iter_mut().zip(&correction).for_each(|(dq, c)| *dq -= c);
-            let Dynamics { structure, terms, .. } = &*kkt;
-            rows.fill(0.0);
-            structure.g.multiply(&terms.g, dv, &mut rows);
-            structure.g.multiply(&terms.l, dq, &mut rows);
-            kkt.kkt.solve_projection(&rows, &mut correction)?;
-            dv.iter_mut().zip(&correction).for_each(|(dv, c)| *dv -= c);
-        }
-        Ok(())
-    }
-
-    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Halt> {
-        self.plain.system.normalize(q);
-        match &mut self.projection {
-            Some(projection) => projection.project(t, q, v, &mut self.plain),
-            None => Ok(()),
-        }
-    }
 }
 
 impl Formulation for Field<'_> {
+    fn begin_step(&mut self, _: f64, _: &[f64], _: &[f64], carrier: &mut Dynamics) -> Result<(), Halt> {
+        self.plain.kkt.usual_sine = carrier.kkt.usual_sine;
+        self.variation.dynamics.kkt.usual_sine = carrier.kkt.usual_sine;
+        Ok(())
+    }
+
     fn derivative(
         &mut self,
         t: f64,
         q: &[f64],
         v: &[f64],
-        _: &mut Dynamics,
+        carrier: &mut Dynamics,
         qdot: &mut [f64],
         vdot: &mut [f64],
     ) -> Result<(), Halt> {
@@ -155,6 +129,7 @@ impl Formulation for Field<'_> {
         let (qdot0, qdot) = qdot.split_at_mut(nq);
         let (vdot0, vdot) = vdot.split_at_mut(nv);
         self.motion(t, (q0, v0), qdot0, vdot0)?;
+        let mut sine = self.variation.dynamics.kkt.smallest_sine();
         let (dq_dot, qdot) = qdot.split_at_mut(nv * columns);
         let (dv_dot, vdot) = vdot.split_at_mut(nv * columns);
         if columns > 0 {
@@ -166,21 +141,9 @@ impl Formulation for Field<'_> {
             let (own_q, own_v) = (i * nq..(i + 1) * nq, i * nv..(i + 1) * nv);
             let state = (&qs[own_q.clone()], &vs[own_v.clone()], amplitude);
             self.member(t, state, &mut qdot[own_q], &mut vdot[own_v])?;
+            sine = sine.min(self.plain.kkt.smallest_sine());
         }
+        carrier.sine = (!self.variation.dynamics.lambda.is_empty()).then_some(sine);
         Ok(())
-    }
-
-    fn end_step(&mut self, t: f64, q: &mut [f64], v: &mut [f64], _: &mut Dynamics) -> Result<(), Halt> {
-        let Shape { q: nq, v: nv, columns, members } = self.shape;
-        let (q0, q) = q.split_at_mut(nq);
-        let (v0, v) = v.split_at_mut(nv);
-        self.project(t, q0, v0)?;
-        let (dq, qs) = q.split_at_mut(nv * columns);
-        let (dv, vs) = v.split_at_mut(nv * columns);
-        if columns > 0 {
-            self.variation.move_to(t, q0, v0)?;
-            self.straighten(dq, dv)?;
-        }
-        (0..members).try_for_each(|i| self.project(t, &mut qs[i * nq..(i + 1) * nq], &mut vs[i * nv..(i + 1) * nv]))
     }
 }

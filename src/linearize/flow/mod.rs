@@ -2,22 +2,27 @@
 
 mod bundle;
 mod field;
+mod projection;
 mod shape;
 
 pub use bundle::{Bundle, Pulse, Snapshot};
 
 use super::State;
 use crate::error::{Error, Failure, Result};
-use crate::formulation::{Choice, Dynamics, Halt};
-use crate::integrator::{self, From, Integrator, Problem, Setup, Store, Tolerance, first_step};
+use crate::formulation::{Choice, Dynamics};
+use crate::integrator::{self, Problem, Setup, Store, Tolerance};
+use crate::projection::Projection;
+use crate::simulate::{Observation, Parts, Segments, Sink, Stop};
 use crate::system::MechanicalSystem;
 use field::Field;
+use projection::Straightening;
 use shape::Shape;
 
 /// Of the motion and of columns of size 1.
 const TOLERANCE: Tolerance = Tolerance { rtol: 1e-12, atol: 1e-13 };
 /// A run takes no more steps than this.
 const MOST_STEPS: usize = 2_000_000;
+const SHORTER: &str = "choose a shorter time";
 
 /// Carries a bundle along its motion and shows it at `times` (increasing, after the start) by dop853 on the equations of
 /// index 1 at a tolerance of 1e-12. After each step every state returns to the constraints and every column to their
@@ -26,7 +31,7 @@ const MOST_STEPS: usize = 2_000_000;
 /// `see` returns whether to go on, and may change what is carried (as a chart that is renewed does).
 ///
 /// # Errors
-/// A motion that cannot go on, with its last time.
+/// A motion that cannot go on, with its last time: so it is where members pass a singular state at different times.
 pub fn flow(
     system: &dyn MechanicalSystem,
     bundle: &Bundle,
@@ -34,88 +39,65 @@ pub fn flow(
     mut see: impl FnMut(&mut Snapshot) -> bool,
 ) -> Result<()> {
     let shape = Shape::of(system, bundle);
-    let carrier = shape.carrier();
-    let field = Field::new(system, &shape, bundle)?;
-    let problem = Problem::new(Dynamics::new(&carrier), Box::new(field));
-    let choice = |name: &str| Choice::named(name);
-    let (store, integrator, formulation) = (Store::default(), choice("dop853"), choice("index1"));
+    let carrier = shape.carrier(system);
+    let start = &bundle.start;
+    // Rows that depend on others everywhere need not be found again at each state.
+    let (dependent, _) = Dynamics::new(system).dependent_rows(start.t, &start.q, &start.v);
+    let problem = || -> Result<Problem> {
+        let field = Field::new(system, &shape, bundle, &dependent)?;
+        Ok(Problem::new(Dynamics::new(&carrier), Box::new(field)))
+    };
+    let projection = || -> Result<Option<Box<dyn Projection>>> {
+        Ok(Some(Box::new(Straightening::new(system, &shape, &dependent)?)))
+    };
+    let (store, integrator, formulation) = (Store::default(), Choice::named("dop853"), Choice::named("index1"));
     let setup =
         Setup { integrator: &integrator, formulation: &formulation, system: &carrier, store: &store, is_fixed: false };
-    let method = (integrator::find(&integrator)?.make)(&setup)?;
-    let mut run = Run { problem, method, t: bundle.start.t, y: shape.pack(bundle), h: None, steps: 0 };
+    let parts = Parts {
+        problem: problem()?,
+        integrator: (integrator::find(&integrator)?.make)(&setup)?,
+        projection: projection()?,
+        rows: (problem()?, projection()?),
+        tests_velocities: true,
+        // Perturbed starts are on the constraints up to less than that.
+        limits_projection: false,
+    };
+    let horizon = times.last().map_or(start.t, |last| last.max(start.t));
+    let mut run = Segments::new(parts, TOLERANCE, (start.t, horizon), shape.pack(bundle));
+    let mut counter = Counter(0);
     for &end in times {
-        run.advance(end).map_err(|halt| stopped(run.t, &halt))?;
-        let mut snapshot = shape.unpack(run.t, &run.y);
+        run.advance(end, &mut counter).map_err(stopped)?;
+        let mut snapshot = shape.unpack(end, run.state());
         let goes_on = see(&mut snapshot);
-        shape.repack(&snapshot, &mut run.y);
         if !goes_on {
             break;
         }
+        run.change(|y| shape.repack(&snapshot, y)).map_err(stopped)?;
     }
     Ok(())
 }
 
-struct Run<'a> {
-    problem: Problem<'a>,
-    method: Box<dyn Integrator + 'a>,
-    t: f64,
-    y: Vec<f64>,
-    h: Option<f64>,
-    steps: usize,
-}
+/// Counts steps, and ends a run that needs too many.
+struct Counter(usize);
 
-impl Run<'_> {
-    fn advance(&mut self, end: f64) -> Result<(), Halt> {
-        let (mut slope, mut next) = (vec![0.0; self.y.len()], vec![0.0; self.y.len()]);
-        let mut growing = true;
-        while self.t < end {
-            self.problem.derivative(self.t, &self.y, &mut slope)?;
-            let size = self.size(&slope, end)?;
-            let h = if 1.01 * size >= end - self.t { end - self.t } else { size };
-            let from = From { t: self.t, y: &self.y, slope: &slope };
-            let error = self.method.attempt(&mut self.problem, &TOLERANCE, from, h, &mut next);
-            let error = error.unwrap_or(None).unwrap_or(f64::INFINITY);
-            growing = match error <= 1.0 {
-                true => self.accept((h, error, growing), end, &mut next)?,
-                false => self.reject(h, error)?,
-            };
-        }
-        Ok(())
+impl Sink for Counter {
+    fn accepted(&mut self, _: &Observation) {
+        self.0 += 1;
     }
 
-    fn size(&mut self, slope: &[f64], end: f64) -> Result<f64, Halt> {
-        let order = self.method.order();
-        let first =
-            |problem: &mut Problem| first_step(problem, &TOLERANCE, (self.t, end - self.t), &self.y, slope, order);
-        self.h.map_or_else(|| first(&mut self.problem), Ok)
-    }
+    fn row(&mut self, _: &Observation) {}
 
-    fn accept(&mut self, (h, error, growing): (f64, f64, bool), end: f64, next: &mut Vec<f64>) -> Result<bool, Halt> {
-        self.steps += 1;
-        let is_last = self.t + h >= end || h == end - self.t;
-        let proposed = self.method.control().accept(h, error, growing);
-        self.h = Some(if is_last { self.h.unwrap_or(proposed).max(proposed) } else { proposed });
-        self.t = if is_last { end } else { self.t + h };
-        self.problem.end_step(self.t, next)?;
-        std::mem::swap(&mut self.y, next);
-        if self.steps > MOST_STEPS { Err(TOO_STIFF) } else { Ok(true) }
-    }
-
-    fn reject(&mut self, h: f64, error: f64) -> Result<bool, Halt> {
-        let smaller = if error.is_finite() { self.method.control().reject(h, error) } else { 0.25 * h };
-        self.h = Some(smaller);
-        if smaller < 1e-14 * self.t.abs().max(1e-3) { Err(Halt::TooInaccurate) } else { Ok(false) }
+    fn stops(&self) -> Option<Stop> {
+        (self.0 > MOST_STEPS).then(|| Stop {
+            reason: "the explicit method that carries perturbations needs more than two million steps".to_string(),
+            hint: "choose a shorter time, or a model without its fastest modes".to_string(),
+        })
     }
 }
 
-const TOO_STIFF: Halt = Halt::Unsuitable {
-    reason: "the explicit method that carries perturbations needs more than two million steps",
-    hint: "choose a shorter time, or a model without its fastest modes",
-};
-
-fn stopped(t: f64, halt: &Halt) -> Error {
-    let hint = halt.hint().unwrap_or("choose a shorter time").to_string();
-    Failure { t, reason: halt.to_string(), hint }.into()
+/// The tolerance is not the user's, so that what else a failure advises does not help.
+fn stopped(failure: Failure) -> Error {
+    Failure { hint: SHORTER.to_string(), ..failure }.into()
 }
 
 impl Bundle {

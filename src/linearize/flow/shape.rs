@@ -2,6 +2,7 @@
 
 use super::{Bundle, Snapshot};
 use crate::linearize::{Changes, Matrix, State};
+use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
 use crate::system::{Dimensions, MechanicalSystem, Need, Scratch, Structure, Terms};
 
@@ -14,8 +15,11 @@ pub struct Shape {
     pub members: usize,
 }
 
-/// A system of that size and nothing else: what the integrator sees.
-pub struct Carrier(Dimensions);
+/// A system of that size, and what acts on it by the clock: what the integrator sees.
+pub struct Carrier<'a> {
+    system: &'a dyn MechanicalSystem,
+    dimensions: Dimensions,
+}
 
 impl Shape {
     pub fn of(system: &dyn MechanicalSystem, bundle: &Bundle) -> Self {
@@ -23,8 +27,9 @@ impl Shape {
         Shape { q, v, columns: bundle.columns.q.ncols(), members: bundle.members.len() }
     }
 
-    pub fn carrier(&self) -> Carrier {
-        Carrier(Dimensions { q: self.coordinates(), v: self.velocities(), lambda: 0 })
+    pub fn carrier<'a>(&self, system: &'a dyn MechanicalSystem) -> Carrier<'a> {
+        let dimensions = Dimensions { q: self.coordinates(), v: self.velocities(), lambda: 0 };
+        Carrier { system, dimensions }
     }
 
     fn coordinates(&self) -> usize {
@@ -80,15 +85,23 @@ impl Shape {
     }
 }
 
-impl MechanicalSystem for Carrier {
+impl MechanicalSystem for Carrier<'_> {
     fn dimensions(&self) -> Dimensions {
-        self.0
+        self.dimensions
+    }
+
+    fn switches(&self) -> &[Switch] {
+        self.system.switches()
+    }
+
+    fn time_functions(&self) -> &[TimeFunction] {
+        self.system.time_functions()
     }
 
     fn evaluate(&self, _: f64, _: &[f64], _: &[f64], _: Need, _: &mut Terms, _: &mut Scratch) {}
 
     fn structure(&self) -> Structure {
-        let n = self.0.v;
+        let n = self.dimensions.v;
         let empty = |rows| Pattern { rows, cols: n, entries: Vec::new() };
         Structure { mass: empty(n), g: empty(0), tangent: empty(n) }
     }

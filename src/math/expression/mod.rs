@@ -43,6 +43,9 @@
 //!
 //! The points of a table are constants with increasing `x`. At a point the slope is that of the line to its right.
 //!
+//! `abs`, `min`, `max`, `sign`, `step`, `smoothstep`, comparisons and tables change their form where an argument passes a
+//! threshold: see [`Switch`].
+//!
 //! `x^n` with a constant whole n takes any x, and `0^0` is 1. Every other power wants x >= 0 and is not a number for
 //! x < 0. Only the chosen one of `if`'s two values counts: the other may be infinite or not a number.
 
@@ -56,6 +59,7 @@ mod parameters;
 mod parser;
 mod program;
 mod scope;
+mod switch;
 #[cfg(test)]
 mod tests;
 
@@ -63,8 +67,9 @@ pub use error::ExpressionError;
 pub use number::Number;
 pub use parameters::{ParameterError, ParameterSource, Parameters};
 pub use scope::Scope;
+pub use switch::{Switch, TimeFunction};
 
-use super::Scalar;
+use super::{Regime, Scalar};
 use error::excerpt;
 use program::{Op, Program};
 use std::fmt;
@@ -93,6 +98,8 @@ pub struct Expression {
     text: String,
     program: Program,
     variables: Vec<(usize, String)>,
+    /// The number of its first switching function.
+    first: usize,
 }
 
 impl Expression {
@@ -105,7 +112,7 @@ impl Expression {
     /// A division by zero is none of these: see [`constant`](Self::constant).
     pub fn parse(text: &str, names: &dyn Names) -> Result<Self, ExpressionError> {
         let (program, variables) = parser::parse(text, names)?;
-        Ok(Expression { text: text.to_string(), program, variables })
+        Ok(Expression { text: text.to_string(), program, variables, first: 0 })
     }
 
     /// The value at `variables`, which are indexed as [`Names::resolve`] said.
@@ -116,6 +123,21 @@ impl Expression {
     #[inline]
     pub fn eval<S: Scalar>(&self, variables: &[S]) -> S {
         self.program.eval(variables)
+    }
+
+    /// The same with the pieces of `regime`, see [`number_switches`](Self::number_switches).
+    #[inline]
+    pub fn eval_held<S: Scalar>(&self, variables: &[S], regime: Regime) -> S {
+        if regime == Regime::FREE {
+            self.eval(variables)
+        } else {
+            self.program.eval_held(variables, self.first, regime)
+        }
+    }
+
+    /// Writes the arguments of its switching functions, one after the other from the number of its first on.
+    pub fn arguments<S: Scalar>(&self, variables: &[S], regime: Regime, out: &mut [S]) {
+        self.program.arguments(variables, self.first, regime, &mut out[self.first..]);
     }
 
     /// What was parsed.
@@ -161,7 +183,7 @@ impl Expression {
 impl From<f64> for Expression {
     fn from(value: f64) -> Self {
         let program = Program::constant(value);
-        Expression { text: value.to_string(), program, variables: Vec::new() }
+        Expression { text: value.to_string(), program, variables: Vec::new(), first: 0 }
     }
 }
 

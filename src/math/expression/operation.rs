@@ -1,11 +1,14 @@
 //! The operations of a program, over any scalar.
 //!
+//! An operation that changes its form is on one piece of it: that of its argument, or one that it is held on, see
+//! [`Regime`](crate::math::Regime).
+//!
 //! Derivatives are those of the branch that the value is on, taken from the right at steps and breakpoints. Where a
 //! factor of the chain rule would be 0 times infinity although the derivative is plain, the operation says so itself:
 //! a function that has underflowed is constant, and a root of a constant zero is constant. Not a number goes through
 //! every operation, comparisons included (but `x^0` is 1 for any x), so that it is noticed where the result is used.
 
-use crate::math::Scalar;
+use crate::math::{Piece, Scalar, piece_of};
 
 /// An operation on one number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,9 +62,37 @@ pub(super) enum Two {
 }
 
 impl One {
+    /// Arguments at which the form changes; most operations have none.
+    #[inline]
+    pub fn thresholds(self) -> &'static [f64] {
+        match self {
+            One::Abs | One::Sign | One::Step => &[0.0],
+            One::Smoothstep => &[0.0, 1.0],
+            _ => &[],
+        }
+    }
+
+    /// The operation on a piece of its form.
+    #[inline]
+    pub fn on<S: Scalar>(self, piece: Piece, x: S) -> S {
+        match (self, piece) {
+            (One::Abs, 0) => -x,
+            (One::Abs, _) => x,
+            (One::Sign, _) => S::constant(f64::from(piece) - 1.0),
+            (One::Step, 0) | (One::Smoothstep, 0 | 1) => S::zero(),
+            (One::Smoothstep, 2) => smoothstep(x),
+            (One::Step | One::Smoothstep, _) => S::one(),
+            (smooth, _) => smooth.apply(x),
+        }
+    }
+
     #[inline]
     pub fn apply<S: Scalar>(self, x: S) -> S {
         match self {
+            One::Abs | One::Sign | One::Step | One::Smoothstep => {
+                let thresholds = self.thresholds();
+                piece_of(x.value(), thresholds.len(), |k| thresholds[k]).map_or(x, |piece| self.on(piece, x))
+            }
             One::Neg => -x,
             One::Not => truth(x.value() == 0.0, x, x),
             One::Plus(c) => x + c,
@@ -81,40 +112,73 @@ impl One {
             One::Ln => x.ln(),
             One::Log10 => log10(x),
             One::Sqrt => root(x),
-            One::Abs => x.abs(),
-            One::Sign => steps(x, -1.0, 0.0, 1.0),
-            One::Step => steps(x, 0.0, 1.0, 1.0),
-            One::Smoothstep => smoothstep(x),
         }
     }
 }
 
 impl Two {
+    /// Whether the form changes where both operands are equal; a - b is then the argument, and zero the threshold.
+    #[inline]
+    pub fn compares(self) -> bool {
+        use Two::{AtLeast, AtMost, Equal, Greater, Less, Max, Min, Unequal};
+        matches!(self, Less | AtMost | Greater | AtLeast | Equal | Unequal | Min | Max)
+    }
+
+    /// The piece of an operation that compares; `None` where one operand is not a number.
+    #[inline]
+    pub fn piece<S: Scalar>(a: S, b: S) -> Option<Piece> {
+        // Not the difference: infinities compare too.
+        a.value().partial_cmp(&b.value()).map(|order| (order as i8 + 1) as Piece)
+    }
+
+    /// An operation that compares, on a piece of its form: 0 for a < b, 1 for a = b, 2 for a > b.
+    #[inline]
+    pub fn on<S: Scalar>(self, piece: Piece, a: S, b: S) -> S {
+        let truth = |holds: bool| S::constant(f64::from(u8::from(holds)));
+        match self {
+            Two::Less => truth(piece == 0),
+            Two::AtMost => truth(piece <= 1),
+            Two::Greater => truth(piece == 2),
+            Two::AtLeast => truth(piece >= 1),
+            Two::Equal => truth(piece == 1),
+            Two::Unequal => truth(piece != 1),
+            Two::Min => {
+                if piece == 2 {
+                    b
+                } else {
+                    a
+                }
+            }
+            Two::Max => {
+                if piece == 0 {
+                    b
+                } else {
+                    a
+                }
+            }
+            smooth => smooth.apply(a, b),
+        }
+    }
+
     #[inline]
     pub fn apply<S: Scalar>(self, a: S, b: S) -> S {
         let (u, v) = (a.value(), b.value());
+        if self.compares() {
+            return Self::piece(a, b).map_or(S::constant(f64::NAN), |piece| self.on(piece, a, b));
+        }
         match self {
             Two::Add => a + b,
             Two::Sub => a - b,
             Two::Mul => a * b,
             Two::Div => quotient(a, b),
             Two::Pow => power(a, b),
-            Two::Less => truth(u < v, a, b),
-            Two::AtMost => truth(u <= v, a, b),
-            Two::Greater => truth(u > v, a, b),
-            Two::AtLeast => truth(u >= v, a, b),
-            Two::Equal => truth(u == v, a, b),
-            Two::Unequal => truth(u != v, a, b),
             Two::And => truth(u != 0.0 && v != 0.0, a, b),
             Two::Or => truth(u != 0.0 || v != 0.0, a, b),
-            Two::Atan2 if u == 0.0 && v == 0.0 => a * f64::MAX,
+            Two::Atan2 if [a.bounds(), b.bounds()] == [[0.0; 2]; 2] => a * f64::MAX,
             // Adding zero makes -0 into 0: the angle of the negative x axis is pi, never -pi.
             Two::Atan2 => S::atan2(a + 0.0, b),
-            Two::Min if v.is_nan() => b,
-            Two::Min => a.min(b),
-            Two::Max if v.is_nan() => b,
-            Two::Max => a.max(b),
             Two::Hypot => hypot(a, b),
+            compares => compares.on(1, a, b),
         }
     }
 }
@@ -127,13 +191,13 @@ fn truth<S: Scalar>(holds: bool, a: S, b: S) -> S {
 
 /// A function whose value has underflowed decays faster than any derivative in its chain can grow.
 fn settled<S: Scalar>(y: S) -> S {
-    if y.value() == 0.0 { S::zero() } else { y }
+    if y.bounds() == [0.0; 2] { S::zero() } else { y }
 }
 
 /// a/b. Where b is about to overflow, as in 1/(1 + exp(-100*t)), its derivatives may have done so already.
 fn quotient<S: Scalar>(a: S, b: S) -> S {
-    let plain = a.value() / b.value();
-    if b.value().abs() > 1e280 && plain.abs() < 1e-200 { S::constant(plain) } else { a / b }
+    let ([low, high], plain) = (b.bounds(), a.value() / b.value());
+    if (low > 1e280 || high < -1e280) && plain.abs() < 1e-200 { S::constant(plain) } else { a / b }
 }
 
 fn whole_power<S: Scalar>(x: S, n: i32) -> S {
@@ -143,14 +207,14 @@ fn whole_power<S: Scalar>(x: S, n: i32) -> S {
 /// The square root. Its slope at zero is infinite; the largest number stands for it, so that a constant zero has a
 /// constant root and anything else shows.
 fn root<S: Scalar>(x: S) -> S {
-    if x.value() == 0.0 { x * f64::MAX } else { x.sqrt() }
+    if x.bounds() == [0.0; 2] { x * f64::MAX } else { x.sqrt() }
 }
 
 /// x^y for x > 0, and for x = 0; not a number for x < 0, where it has no derivative by y.
 fn power<S: Scalar>(x: S, y: S) -> S {
-    match x.value() {
-        0.0 => power_of_zero(x, y.value()),
-        v if v < 0.0 || v.is_nan() || y.value().is_nan() => S::constant(f64::NAN),
+    match x.bounds() {
+        [0.0, 0.0] => power_of_zero(x, y.value()),
+        [_, high] if high < 0.0 || high.is_nan() || y.value().is_nan() => S::constant(f64::NAN),
         _ => settled(x.pow(y)),
     }
 }
@@ -171,9 +235,9 @@ fn complement<S: Scalar>(x: S) -> S {
 
 /// The quotient keeps all digits near zero, the scalar's own form cannot overflow; from 400 on it is constant.
 fn tanh<S: Scalar>(x: S) -> S {
-    match x.value().abs() {
-        0.0..1.0 => x.sinh() / x.cosh(),
-        400.0..=f64::INFINITY => S::constant(x.value().signum()),
+    match x.bounds() {
+        [low, high] if -1.0 < low && high < 1.0 => x.sinh() / x.cosh(),
+        [low, high] if low >= 400.0 || high <= -400.0 => S::constant(x.value().signum()),
         _ => x.tanh(),
     }
 }
@@ -182,34 +246,23 @@ fn tanh<S: Scalar>(x: S) -> S {
 fn log10<S: Scalar>(x: S) -> S {
     let scaled = x.ln() * std::f64::consts::LOG10_E;
     let correction = x.value().log10() - scaled.value();
-    if correction.is_finite() { scaled + correction } else { scaled }
+    let [low, high] = x.bounds();
+    if correction.is_finite() && low == high { scaled + correction } else { scaled }
 }
 
-fn steps<S: Scalar>(x: S, below: f64, at: f64, above: f64) -> S {
-    S::constant(match x.value() {
-        v if v < 0.0 => below,
-        v if v > 0.0 => above,
-        0.0 => at,
-        _ => f64::NAN,
-    })
-}
-
-/// 6 x^5 - 15 x^4 + 10 x^3 on (0, 1): slope and curvature vanish at both ends, so a prescribed motion built on it has
+/// 6 x^5 - 15 x^4 + 10 x^3: on (0, 1) slope and curvature vanish at both ends, so a prescribed motion built on it has
 /// a continuous acceleration.
 fn smoothstep<S: Scalar>(x: S) -> S {
-    match x.value() {
-        v if v <= 0.0 => S::zero(),
-        v if v >= 1.0 => S::one(),
-        _ => x.powi(3) * ((x * 6.0 - 15.0) * x + 10.0),
-    }
+    x.powi(3) * ((x * 6.0 - 15.0) * x + 10.0)
 }
 
 /// sqrt(a^2 + b^2) without overflow on the way. At the origin, its tip, the derivatives are taken as zero.
 fn hypot<S: Scalar>(a: S, b: S) -> S {
-    if a.value() == 0.0 && b.value() == 0.0 {
+    let sizes = [a.bounds(), b.bounds()];
+    if sizes == [[0.0; 2]; 2] {
         return S::zero();
     }
-    let scale = a.value().abs().max(b.value().abs());
+    let scale = sizes.into_iter().flatten().fold(0.0, |scale: f64, x| scale.max(x.abs()));
     let (a, b) = (a / scale, b / scale);
     (a * a + b * b).sqrt() * scale
 }

@@ -1,7 +1,7 @@
 //! The flat form of an expression: operations on a stack whose depth is known before the program runs.
 
 use super::operation::{One, Two};
-use crate::math::Scalar;
+use crate::math::{Piece, Regime, Scalar, piece_of};
 
 /// Numbers that a program may have to hold at once.
 pub(super) const MAX_STACK: usize = 64;
@@ -37,13 +37,14 @@ pub(super) struct Program {
 }
 
 impl Op {
-    /// How many numbers more the stack holds afterwards.
-    fn growth(self) -> isize {
+    /// How many numbers it takes off the stack, for one that it leaves there.
+    #[inline]
+    pub fn operands(self) -> usize {
         match self {
-            Op::Constant(_) | Op::Variable(_) => 1,
-            Op::One(_) | Op::Table(_) => 0,
-            Op::Two(_) => -1,
-            Op::Select => -2,
+            Op::Constant(_) | Op::Variable(_) => 0,
+            Op::One(_) | Op::Table(_) => 1,
+            Op::Two(_) => 2,
+            Op::Select => 3,
         }
     }
 }
@@ -58,27 +59,39 @@ impl Table {
         (rows.len() >= 2 && sound).then_some(Table { rows })
     }
 
-    /// At a point itself the slope is that of the piece which begins there.
+    /// The arguments of its points, where its form changes.
+    pub fn thresholds(&self) -> Vec<f64> {
+        self.rows.iter().map(|row| row[0]).collect()
+    }
+
+    fn piece(&self, x: f64) -> Option<Piece> {
+        piece_of(x, self.rows.len(), |k| self.rows[k][0])
+    }
+
+    /// The line of a piece. At a point itself the slope is that of the piece which begins there.
     #[inline]
-    pub fn apply<S: Scalar>(&self, x: S) -> S {
-        let after = self.rows.partition_point(|row| row[0] <= x.value());
+    fn on<S: Scalar>(&self, piece: Piece, x: S) -> S {
+        let after = piece.div_ceil(2) as usize;
         match (after, &self.rows[after.saturating_sub(1)]) {
-            _ if x.value().is_nan() => x,
             (0, [_, y, _]) => S::constant(*y),
             (n, [_, y, _]) if n == self.rows.len() => S::constant(*y),
             (_, [x0, y0, slope]) => (x - *x0) * *slope + *y0,
         }
+    }
+
+    pub fn apply<S: Scalar>(&self, x: S) -> S {
+        self.piece(x.value()).map_or(x, |piece| self.on(piece, x))
     }
 }
 
 impl Program {
     /// `None` if the operations would need more than [`MAX_STACK`] numbers.
     pub fn new(ops: Vec<Op>, tables: Vec<Table>) -> Option<Self> {
-        let heights = ops.iter().scan(0, |height: &mut isize, op| {
-            *height += op.growth();
+        let heights = ops.iter().scan(0, |height: &mut usize, op| {
+            *height = *height + 1 - op.operands();
             Some(*height)
         });
-        let depth = heights.max().unwrap_or(0).unsigned_abs();
+        let depth = heights.max().unwrap_or(0);
         (depth <= MAX_STACK).then_some(Program { ops, tables, depth })
     }
 
@@ -86,26 +99,77 @@ impl Program {
         Program { ops: vec![Op::Constant(value)], tables: Vec::new(), depth: 1 }
     }
 
+    /// The value with every operation on the piece of its argument.
     #[inline]
     pub fn eval<S: Scalar>(&self, variables: &[S]) -> S {
-        if self.depth <= SHALLOW { self.run::<S, SHALLOW>(variables) } else { self.run::<S, MAX_STACK>(variables) }
+        self.run(variables, &mut |_, own, _| own)
     }
 
-    fn run<S: Scalar, const N: usize>(&self, variables: &[S]) -> S {
+    /// The value with every operation that changes its form held on its piece of `regime`; its switching functions there are
+    /// numbered from `first` on. Where a piece has no value so far from where it belongs, as the root of a negative number,
+    /// the pieces are those of the arguments.
+    pub fn eval_held<S: Scalar>(&self, variables: &[S], first: usize, regime: Regime) -> S {
+        let held = self.run(variables, &mut |number, own, _| regime.piece(first + number).unwrap_or(own));
+        if held.value().is_finite() { held } else { self.eval(variables) }
+    }
+
+    /// Writes the arguments of its switching functions, with the pieces of `regime`.
+    pub fn arguments<S: Scalar>(&self, variables: &[S], first: usize, regime: Regime, out: &mut [S]) {
+        self.run(variables, &mut |number, own, argument| {
+            out[number] = argument;
+            regime.piece(first + number).unwrap_or(own)
+        });
+    }
+
+    /// `choose` gives the piece of each operation that changes its form, from its number, the piece of its argument, and the
+    /// argument.
+    #[inline]
+    fn run<S: Scalar>(&self, variables: &[S], choose: &mut impl FnMut(usize, Piece, S) -> Piece) -> S {
+        match self.depth <= SHALLOW {
+            true => self.run_on::<S, SHALLOW>(variables, choose),
+            false => self.run_on::<S, MAX_STACK>(variables, choose),
+        }
+    }
+
+    #[inline]
+    fn run_on<S: Scalar, const N: usize>(
+        &self,
+        variables: &[S],
+        choose: &mut impl FnMut(usize, Piece, S) -> Piece,
+    ) -> S {
         let mut stack = [S::zero(); N];
-        // Index of the top of the stack plus one.
-        let mut height = 0_usize;
+        // Index of the top of the stack plus one, and the number of the next switching function.
+        let (mut height, mut number) = (0_usize, 0_usize);
+        let mut chosen = |own: Option<Piece>, argument: S| {
+            number += 1;
+            own.map(|own| choose(number - 1, own, argument))
+        };
         for op in &self.ops {
-            height = height.wrapping_add_signed(op.growth());
+            height = height + 1 - op.operands();
             let top = height - 1;
-            match *op {
-                Op::Constant(value) => stack[top] = S::constant(value),
-                Op::Variable(index) => stack[top] = variables[index],
-                Op::One(function) => stack[top] = function.apply(stack[top]),
-                Op::Two(function) => stack[top] = function.apply(stack[top], stack[height]),
-                Op::Table(index) => stack[top] = self.tables[index].apply(stack[top]),
-                Op::Select => stack[top] = select(stack[top], stack[height], stack[height + 1]),
-            }
+            let x = stack[top];
+            stack[top] = match *op {
+                Op::Constant(value) => S::constant(value),
+                Op::Variable(index) => variables[index],
+                Op::One(function) => match function.thresholds() {
+                    [] => function.apply(x),
+                    thresholds => {
+                        let own = piece_of(x.value(), thresholds.len(), |k| thresholds[k]);
+                        chosen(own, x).map_or(x, |piece| function.on(piece, x))
+                    }
+                },
+                Op::Two(function) if function.compares() => {
+                    let y = stack[height];
+                    let piece = chosen(Two::piece(x, y), x - y);
+                    piece.map_or(S::constant(f64::NAN), |piece| function.on(piece, x, y))
+                }
+                Op::Two(function) => function.apply(x, stack[height]),
+                Op::Table(index) => {
+                    let table = &self.tables[index];
+                    chosen(table.piece(x.value()), x).map_or(x, |piece| table.on(piece, x))
+                }
+                Op::Select => select(x, stack[height], stack[height + 1]),
+            };
         }
         stack[0]
     }

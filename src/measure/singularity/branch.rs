@@ -15,10 +15,13 @@ const HALVED: f64 = 0.5;
 const ZONE: f64 = 0.3;
 /// Velocities are compared at so many times the least sine.
 const ASIDE: f64 = 6.0;
-/// A change of the velocity, relative to its size, that no smooth motion makes; beside this part of the change of v' over
-/// the time between, since the rule errs over long steps, but not by more than as much again.
+/// The state after the one that is compared is at least this part of the time between those compared farther on.
+const APART: f64 = 0.25;
+/// A change of the velocity, relative to its size, that no smooth motion makes; beside so many times what the lower rule
+/// makes of the same accelerations otherwise, since over long steps both rules err, but not beyond a part of its size.
 const JUMP: f64 = 0.1;
-const BEND: f64 = 0.5;
+const DOUBT: f64 = 3.0;
+const MOST_DOUBT: f64 = 0.5;
 /// Drift of the positions, relative to the square of the sine, and of the velocities, relative to the sine, that can turn
 /// a motion.
 const TURNED: f64 = 0.01;
@@ -31,7 +34,8 @@ pub fn reach([position, velocity]: [f64; 2]) -> f64 {
 /// The way to a singular state, and from it.
 #[derive(Default)]
 pub struct Turning {
-    before: Sample,
+    /// The last two accepted states.
+    last: [Sample; 2],
     way: Vec<Sample>,
     open: Option<Open>,
 }
@@ -39,7 +43,9 @@ pub struct Turning {
 /// A singular state whose other side is not yet seen.
 struct Open {
     passing: usize,
-    from: Sample,
+    /// One or two states before it, and up to two after it.
+    before: Vec<Sample>,
+    after: Vec<Sample>,
     sine: f64,
     may_turn: bool,
 }
@@ -48,48 +54,89 @@ impl Turning {
     /// A singular or nearly singular state was passed at `t`. It is no wonder that a motion turns sharply where geometry
     /// makes it: only at a singular state, or where drift reaches, it `may_turn` from its branch.
     pub fn begin(&mut self, passing: usize, t: f64, sine: f64, may_turn: bool) {
-        let aside = self.way.iter().rev().find(|sample| sample.t < t && sample.sine >= ASIDE * sine);
-        let from = aside.or(self.way.first()).unwrap_or(&self.before).clone();
-        self.open = Some(Open { passing, from, sine, may_turn });
+        let aside = self.way.iter().rposition(|sample| sample.t < t && sample.sine >= ASIDE * sine).unwrap_or(0);
+        let before = match self.way.get(..=aside) {
+            Some(way) => way[aside.saturating_sub(1)..].to_vec(),
+            None => vec![self.last[1].clone()],
+        };
+        self.open = Some(Open { passing, before, after: Vec::new(), sine, may_turn });
         self.way.clear();
     }
 
     /// Takes an accepted state, and judges the singular state before it once it is far enough behind.
     pub fn add(&mut self, now: &Sample, largest: f64, survey: &mut Survey) -> Option<(usize, Branch)> {
-        let falls = now.sine < self.before.sine;
+        let falls = now.sine < self.last[1].sine;
         if now.sine > ZONE * largest {
             self.way.clear();
         } else if falls {
             if self.way.is_empty() {
-                self.way.push(self.before.clone());
+                self.way.extend(self.last.iter().filter(|sample| !sample.q.is_empty()).cloned());
             }
             if self.way.last().is_none_or(|last| now.sine < HALVED * last.sine) {
                 self.way.push(now.clone());
             }
         }
-        self.before.clone_from(now);
-        let is_aside = |open: &Open| now.t > open.from.t && now.sine >= (ASIDE * open.sine).min(0.5 * open.from.sine);
-        let open = self.open.take_if(|open| is_aside(open))?;
-        Some((open.passing, open.judge(now, survey)))
+        self.last.rotate_left(1);
+        self.last[1].clone_from(now);
+        match self.open.as_mut().is_some_and(|open| open.is_seen(now)) {
+            true => self.judge(survey),
+            false => None,
+        }
+    }
+
+    /// Judges the last singular state by what was seen after it, if anything was.
+    pub fn judge(&mut self, survey: &mut Survey) -> Option<(usize, Branch)> {
+        let open = self.open.take_if(|open| !open.after.is_empty())?;
+        Some((open.passing, open.judge(survey)))
     }
 }
 
 impl Open {
-    /// v - v_0 against the integral of v' by the trapezoidal rule, in the metric of M.
-    fn judge(&self, now: &Sample, survey: &mut Survey) -> Branch {
-        let from = &self.from;
-        let half = 0.5 * (now.t - from.t);
-        let rest = |i: usize| now.v[i] - from.v[i] - half * (now.vdot[i] + from.vdot[i]);
-        let bend = |i: usize| 2.0 * half * (now.vdot[i] - from.vdot[i]);
-        let all = 0..now.v.len();
-        let (jump, bend): (Vec<f64>, Vec<f64>) = (all.clone().map(rest).collect(), all.map(bend).collect());
-        survey.weigh(now.t, &now.q);
-        let size = survey.size(&now.v).max(survey.size(&from.v));
-        let smooth = JUMP * size + (BEND * survey.size(&bend)).min(JUMP * size);
+    /// Takes a state after the singular one; returns whether there are enough.
+    fn is_seen(&mut self, now: &Sample) -> bool {
+        let Some(from) = self.before.last() else { return false };
+        let is_next = match self.after.first() {
+            None => now.t > from.t && now.sine >= (ASIDE * self.sine).min(0.5 * from.sine),
+            Some(first) => now.t - first.t >= APART * (first.t - from.t),
+        };
+        if is_next {
+            self.after.push(now.clone());
+        }
+        self.after.len() == 2
+    }
+
+    /// v_1 - v_0 against the integral of v', in the metric of M, by the polynomial through v' at up to four states.
+    fn judge(&self, survey: &mut Survey) -> Branch {
+        let (Some(from), Some(to)) = (self.before.last(), self.after.first()) else { return Branch::Open };
+        let nodes: Vec<&Sample> = self.before.iter().chain(&self.after).collect();
+        let change = integral(&nodes, (from.t, to.t));
+        let lower = integral(&[from, to], (from.t, to.t));
+        let jump: Vec<f64> = (0..to.v.len()).map(|i| to.v[i] - from.v[i] - change[i]).collect();
+        let doubt: Vec<f64> = change.iter().zip(&lower).map(|(change, lower)| change - lower).collect();
+        survey.weigh(to.t, &to.q);
+        let size = survey.size(&to.v).max(survey.size(&from.v));
+        let smooth = JUMP * size + (DOUBT * survey.size(&doubt)).min(MOST_DOUBT * size);
         match survey.size(&jump) {
             _ if size <= 0.0 => Branch::Open,
             jump if (jump > smooth || jump.is_nan()) && self.may_turn => Branch::Left,
             _ => Branch::Kept,
         }
     }
+}
+
+/// The integral from a to b of the polynomial through v' at up to four `nodes`, by Gauss's rule of two points, which is
+/// exact for it.
+fn integral(nodes: &[&Sample], (a, b): (f64, f64)) -> Vec<f64> {
+    let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
+    let points = [-1.0, 1.0].map(|sign| middle + sign * half / 3f64.sqrt());
+    let lagrange = |k: usize, t: f64| -> f64 {
+        let others = nodes.iter().enumerate().filter(|(i, _)| *i != k);
+        others.map(|(_, other)| (t - other.t) / (nodes[k].t - other.t)).product()
+    };
+    let mut sum = vec![0.0; nodes.first().map_or(0, |node| node.vdot.len())];
+    for (k, node) in nodes.iter().enumerate() {
+        let weight = half * points.iter().map(|t| lagrange(k, *t)).sum::<f64>();
+        sum.iter_mut().zip(&node.vdot).for_each(|(sum, vdot)| *sum += weight * vdot);
+    }
+    sum
 }

@@ -5,6 +5,7 @@ mod branch;
 mod path;
 mod survey;
 
+use crate::error::{Failure, short_list};
 use crate::formulation::Dynamics;
 use crate::simulate::Observation;
 use crate::system::MechanicalSystem;
@@ -68,11 +69,21 @@ impl Singularity {
     pub fn left(&self) -> Option<&Passing> {
         self.passed.iter().find(|passing| passing.branch == Branch::Left)
     }
+
+    /// Why what was computed is not the motion of the scene, where that left its branch.
+    pub fn failure(&self) -> Option<Failure> {
+        let Passing { t, joints, .. } = self.left()?;
+        let named = if joints.is_empty() { String::new() } else { format!(" of {}", short_list(joints)) };
+        let reason = format!(
+            "at this singular state, where constraints{named} depend on each other, the velocity jumped: errors turned the \
+             motion from its branch, and what comes after is not the motion of the scene"
+        );
+        Some(Failure { t: *t, reason, hint: "choose a projection such as `manifold`, or a smaller step".to_string() })
+    }
 }
 
-/// Dips of the sine below this part of the largest one are looked at, at three states and at two more between them.
+/// Dips of the sine below this part of the largest one are looked at.
 const DIP: f64 = 0.8;
-const SHALLOW: f64 = 0.4;
 /// Below this part the state is near to a singular one, below the second it is singular.
 const NEAR: f64 = 1e-2;
 const SINGULAR: f64 = 1e-3;
@@ -118,7 +129,13 @@ impl<'a> Watch<'a> {
         if self.seen >= 3 && self.dips() {
             self.look_at_dip();
         }
-        if let Some((passing, branch)) = self.turning.add(&self.last[2], self.largest, &mut self.survey)
+        let judged = self.turning.add(&self.last[2], self.largest, &mut self.survey);
+        self.settle(judged);
+    }
+
+    /// Writes down what the motion did at a singular state.
+    fn settle(&mut self, judged: Option<(usize, Branch)>) {
+        if let Some((passing, branch)) = judged
             && let Some(passed) = self.found.passed.get_mut(passing)
         {
             passed.branch = branch;
@@ -128,6 +145,12 @@ impl<'a> Watch<'a> {
 
     /// The result.
     pub fn finish(mut self) -> Singularity {
+        // A run that ends just behind a singular state sees no rise after it.
+        if self.seen >= 3 && self.last[2].sine <= self.last[1].sine {
+            self.look_at_dip();
+        }
+        let judged = self.turning.judge(&mut self.survey);
+        self.settle(judged);
         self.drop_if_far(self.found.passed.len().wrapping_sub(1));
         if let Some(nearest) = &mut self.found.nearest {
             nearest.condition = self.survey.condition_at_nearest();
@@ -159,21 +182,18 @@ impl<'a> Watch<'a> {
 
     fn look_at_dip(&mut self) {
         let path = Path::new(&self.last, &mut self.survey);
-        let [a, b, c] = [0, 1, 2].map(|i: usize| self.last[i].sine);
-        // Half-way states tell a steep dip from a round one without much work.
-        let [ab, bc] = self.survey.between(&path);
-        if ab.min(b).min(bc) > SHALLOW * self.largest && ab.min(bc) > 0.5 * b.min(a).min(c) {
-            return;
-        }
+        let sines = [self.last[0].sine, self.last[2].sine];
         let drift = self.survey.drift(&self.last[1]);
         let near = NEAR * self.largest;
         let turned = branch::reach(drift).min(FAR * self.largest);
-        let Some((t, sine)) = self.survey.least_sine(&path, near.max(turned)) else { return };
+        let Some((t, sine)) = self.survey.least_sine(&path, sines, near.max(turned)) else { return };
         let q = self.survey.position(&path, t);
         self.note(t, sine, &q);
         if sine > near.max(turned) {
             return;
         }
+        let judged = self.turning.judge(&mut self.survey);
+        self.settle(judged);
         let is_singular = sine < SINGULAR * self.largest;
         let (lost, joints) = self.survey.dependence(t, &q, 10.0 * sine);
         self.turning.begin(self.found.passed.len(), t, sine, is_singular || sine < turned);

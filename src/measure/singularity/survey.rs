@@ -92,23 +92,19 @@ impl<'a> Survey<'a> {
         q
     }
 
-    /// The sine half-way between the three states of a path.
-    pub fn between(&mut self, path: &Path) -> [f64; 2] {
-        let [a, b, c] = path.times;
-        [0.5 * (a + b), 0.5 * (b + c)].map(|t| self.sine_on(path, t))
-    }
-
-    /// Where the sine is least on a path, and how small, if it comes near to `bound`: by golden sections, as long as the
-    /// minimum can be below; and then, since the sine falls to a singular state and rises from it linearly, by where two
+    /// Where the sine is least on a path from and to states with `sines`, and how small, if it comes near to `bound`: by
+    /// golden sections, as long as the minimum can be below with twice the steepest slope seen; and then, since the sine falls to a singular state and rises from it linearly, by where two
     /// lines meet.
-    pub fn least_sine(&mut self, path: &Path, bound: f64) -> Option<(f64, f64)> {
+    pub fn least_sine(&mut self, path: &Path, sines: [f64; 2], bound: f64) -> Option<(f64, f64)> {
         let [mut from, _, mut to] = path.times;
         let width = to - from;
         // Times of steps near round-off do not come any closer.
         let shortest = (SHORTEST * width).max(8.0 * f64::EPSILON * from.abs().max(to.abs()));
         let mut inner = [to - GOLDEN * (to - from), from + GOLDEN * (to - from)];
         let mut values = inner.map(|t| self.sine_on(path, t));
-        let mut steepest: f64 = 0.0;
+        // Of a dip that is alike on both sides the inner values tell no slope.
+        let outer = [(sines[0] - values[0]) / (inner[0] - from), (sines[1] - values[1]) / (to - inner[1])];
+        let mut steepest = 2.0 * outer[0].abs().max(outer[1].abs());
         while to - from > shortest && values[0].min(values[1]) > TINY * bound {
             steepest = steepest.max(2.0 * (values[1] - values[0]).abs() / (inner[1] - inner[0]));
             if values[0].min(values[1]) - steepest * (to - from) > bound {

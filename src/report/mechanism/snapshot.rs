@@ -6,7 +6,7 @@ use super::view::{along, cross, direction, dot, length, less};
 use crate::body::{Bent, Frame, Marker, Wrench, in_space};
 use crate::force::Wheel;
 use crate::joint::Shape;
-use crate::math::Taylor;
+use crate::math::{Regime, Taylor, Time};
 use crate::scene::{BeamLine, Connection, Model, Part};
 use crate::study::AnyMechanism;
 use crate::system::{Mechanism, Scratch};
@@ -113,7 +113,8 @@ fn of<const D: usize>(mechanism: &Mechanism<D>, state: &State) -> Snapshot {
     let forces = model.given_forces().iter().map(|force| {
         let own: Vec<_> = force.markers.iter().map(|marker| frames[*marker]).collect();
         let mut wrenches = vec![Wrench::<f64, D>::zero(); own.len()];
-        force.element.act(&own, Taylor::time(state.t), &mut wrenches);
+        let time = Time { t: Taylor::time(state.t), regime: Regime::FREE };
+        force.element.act(&own, time, &mut wrenches);
         let Wrench { force: push, torque } = wrenches.first().copied().unwrap_or(Wrench::zero());
         let wheel = force.element.wheel(state.t);
         Link { wheel, force: in_space(&push), torque, ..link(model, force, &poses) }

@@ -6,7 +6,7 @@ mod passes;
 use super::{
     Column, Dimensions, Energy, LeviCivita, Loaded, MechanicalSystem, Need, OutputTangent, Scratch, Tangent, Terms,
 };
-use crate::math::{Dual, Scalar};
+use crate::math::{Dual, Regime, Scalar};
 use christoffel::christoffel;
 use nalgebra::DMatrix;
 use passes::{Memory, Varied, curvature, fixed, gradient, levels, output_slopes, tangent_of};
@@ -71,7 +71,7 @@ impl<E: Equations> MechanicalSystem for E {
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
         let (n, m) = self.size();
-        let fill = |memory: &mut Memory| {
+        let fill = |memory: &mut Memory, _: Regime| {
             if need.includes(Need::MASS) {
                 self.mass(t, q, &mut memory.mass);
                 let lower = (0..n).flat_map(|i| (0..=i).map(move |j| i * n + j));
@@ -99,14 +99,15 @@ impl<E: Equations> MechanicalSystem for E {
         let (n, m) = self.size();
         scratch.with(
             || Memory::new(n, m),
-            |memory| tangent_of(self, at, memory.varied.get_or_insert_with(|| Varied::new(n, m)), tangent),
+            |memory, _| tangent_of(self, at, memory.varied.get_or_insert_with(|| Varied::new(n, m)), tangent),
         );
         true
     }
 
     fn acceleration_gradient(&self, at: Loaded, values: &mut [f64], scratch: &mut Scratch) -> bool {
         let (n, m) = self.size();
-        let write = |memory: &mut Memory| curvature(self, at, memory, |place, slope| values[place] = slope.dd);
+        let write =
+            |memory: &mut Memory, _: Regime| curvature(self, at, memory, |place, slope| values[place] = slope.dd);
         scratch.with(|| Memory::new(n, m), write);
         true
     }
@@ -119,7 +120,7 @@ impl<E: Equations> MechanicalSystem for E {
     fn energy(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<Energy> {
         let potential = self.potential(t, q)?;
         let (n, m) = self.size();
-        let kinetic = |memory: &mut Memory| {
+        let kinetic = |memory: &mut Memory, _: Regime| {
             self.mass(t, q, &mut memory.mass);
             let row = |i: usize| memory.mass[i * n..(i + 1) * n].iter().zip(v).map(|(m, v)| m * v).sum::<f64>();
             0.5 * (0..n).map(|i| v[i] * row(i)).sum::<f64>()

@@ -1,7 +1,9 @@
 //! The language as a whole: precedence, values, constants and messages.
 
 mod derivatives;
+mod enclosures;
 mod hostile;
+mod switches;
 
 use super::*;
 

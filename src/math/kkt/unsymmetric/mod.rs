@@ -31,8 +31,9 @@ use sparse::Sparse;
 /// seen. Rows and columns are scaled alike to A of unit size and to rows of G of unit size, so that pivots
 /// are chosen between like and like.
 ///
-/// Where rows of G are dependent at the first factorization they are left out: their lambda is zero, and r2 there has no
-/// say. That solves consistent and constantly redundant constraints. When the rank differs later, factoring fails.
+/// Rows of G that are dropped have lambda zero, and r2 there has no say: those that [`Unsymmetric::hold`] names, else those
+/// that are dependent at the first factorization. That solves consistent and constantly redundant constraints. When the
+/// rank differs later, factoring fails.
 pub struct Unsymmetric<T> {
     n: usize,
     matrix: Matrix<T>,
@@ -41,13 +42,16 @@ pub struct Unsymmetric<T> {
     scale: Vec<f64>,
     /// What each row is multiplied by beside that.
     rank: Vec<f64>,
-    /// Sizes of the rows and columns of A.
+    /// Sizes of the rows and columns of A, and the coordinates without mass.
     weight: Vec<f64>,
+    is_massless: Vec<bool>,
     factors: Factors<T>,
     g: Pattern,
     /// b L
     coupling: Vec<T>,
     redundancy: Option<Redundancy>,
+    /// Rows of G that are dropped.
+    left_out: Vec<bool>,
     keeps_rows: bool,
     right: Vec<T>,
     state: State,
@@ -92,6 +96,7 @@ impl<T: Field> Unsymmetric<T> {
             scaled: vec![T::ZERO; matrix.values.len()],
             scale: vec![1.0; size],
             weight: vec![1.0; g.cols],
+            is_massless: vec![false; g.cols],
             factors: match is_dense {
                 true => Factors::Dense(Dense::new(size)?),
                 false => Factors::Sparse(Sparse::new(&matrix.places, border.as_ref().map(|b| b.columns.as_slice()))?),
@@ -100,6 +105,7 @@ impl<T: Field> Unsymmetric<T> {
             g: g.clone(),
             coupling: vec![T::ZERO; g.entries.len()],
             redundancy: None,
+            left_out: vec![false; g.rows],
             keeps_rows: false,
             right: vec![T::ZERO; size],
             state: State::New,
@@ -114,6 +120,13 @@ impl<T: Field> Unsymmetric<T> {
         self
     }
 
+    /// Drops these rows of G, and no others, from the next factorization on.
+    pub fn hold(&mut self, rows: &[usize]) {
+        self.keeps_rows = true;
+        self.left_out.fill(false);
+        rows.iter().filter(|row| **row < self.g.rows).for_each(|row| self.left_out[*row] = true);
+    }
+
     /// Starts a new matrix.
     pub fn clear(&mut self) {
         self.matrix.values.fill(T::ZERO);
@@ -122,6 +135,14 @@ impl<T: Field> Unsymmetric<T> {
         if self.state == State::Factored {
             self.state = State::Open;
         }
+    }
+
+    /// A += M, given by one triangle.
+    pub fn add_mass(&mut self, mass: &Pattern, values: &[f64]) {
+        self.is_massless.fill(true);
+        let diagonal = mass.entries.iter().zip(values).filter(|((i, j), value)| i == j && **value != 0.0);
+        diagonal.for_each(|((i, _), _)| self.is_massless[*i] = false);
+        self.add(mass, values, T::real(1.0), true);
     }
 
     /// A += factor B, with both triangles of a symmetric B given by one.
@@ -182,6 +203,9 @@ impl<T: Field> Unsymmetric<T> {
         let largest = self.weight.iter().fold(0.0, |largest: f64, x| largest.max(*x));
         let missing = if largest > 0.0 { largest } else { 1.0 };
         self.weight.iter_mut().filter(|size| **size == 0.0).for_each(|size| *size = missing);
+        if self.is_massless.contains(&true) {
+            self.weigh_massless(g, missing);
+        }
         let (coordinates, rows) = self.scale.split_at_mut(self.n);
         coordinates.iter_mut().zip(&self.weight).for_each(|(scale, size)| *scale = size.sqrt().recip());
         rows.fill(0.0);
@@ -191,16 +215,36 @@ impl<T: Field> Unsymmetric<T> {
         rows.iter_mut().for_each(|size| *size = if *size > 0.0 { size.recip() } else { 1.0 });
     }
 
+    /// A coordinate without mass moves with others, by its constraints, and weighs what the heaviest would there:
+    ///
+    /// ```text
+    /// w_j = largest max_i (G_ij / max_k |G_ik|)^2
+    /// ```
+    ///
+    /// Its own entries of A are but h^2 K, of reactions, or round-off of that: scaled to 1 they would make rows of G that
+    /// share it look dependent, by their sine of h.
+    fn weigh_massless(&mut self, g: &[f64], largest: f64) {
+        let rows = &mut self.scale[self.n..];
+        rows.fill(0.0);
+        for (&(i, _), value) in self.g.entries.iter().zip(g) {
+            rows[i] = rows[i].max(value.abs());
+        }
+        for (&(i, j), value) in self.g.entries.iter().zip(g).filter(|((_, j), _)| self.is_massless[*j]) {
+            let reach = if rows[i] > 0.0 { value / rows[i] } else { 0.0 };
+            self.weight[j] = self.weight[j].max(largest * reach * reach);
+        }
+    }
+
     /// The rows to leave out where some are; it is an error when there are more or less of them than at first.
     fn renew_redundancy(&mut self, g: &[f64]) -> Result<(), Singular> {
         let Some(redundancy) = &mut self.redundancy else { return Ok(()) };
-        let count = redundancy.find(&self.weight, g);
+        let count = redundancy.find(&self.weight, g, &mut self.left_out);
         if count == redundancy.count { Ok(()) } else { Err(Singular::Collapsed) }
     }
 
     /// Whether there are rows to leave out.
     fn leave_out(&mut self, g: &[f64]) -> bool {
-        let redundancy = Redundancy::new(&self.g, &self.weight, g);
+        let redundancy = Redundancy::new(&self.g, &self.weight, g, &mut self.left_out);
         self.redundancy = (redundancy.count > 0).then_some(redundancy);
         self.redundancy.is_some()
     }
@@ -210,8 +254,7 @@ impl<T: Field> Unsymmetric<T> {
         for (row, col, place) in self.matrix.entries() {
             self.scaled[place] = self.matrix.values[place] * (self.rank[row] * self.scale[row] * self.scale[col]);
         }
-        let left_out = self.redundancy.as_ref().map(|redundancy| redundancy.rows.as_slice());
-        let is_out = |row: usize| left_out.is_some_and(|rows| rows[row]);
+        let is_out = |row: usize| self.left_out[row];
         for ((&(i, j), &value), &coupling) in
             self.g.entries.iter().zip(g).zip(&self.coupling).filter(|((g, _), _)| !is_out(g.0))
         {
@@ -233,9 +276,9 @@ impl<T: Field> Unsymmetric<T> {
         smallest > COLLAPSED
     }
 
-    /// Rows of G that are left out; empty where none is.
+    /// Whether a row of G is dropped, for all of them.
     pub fn left_out(&self) -> &[bool] {
-        self.redundancy.as_ref().map_or(&[], |redundancy| &redundancy.rows)
+        &self.left_out
     }
 
     /// Solves in place.
@@ -246,10 +289,8 @@ impl<T: Field> Unsymmetric<T> {
         let given = top.iter().chain(bottom.iter());
         let scale = self.scale.iter().zip(&self.rank).map(|(scale, rank)| scale * rank);
         self.right.iter_mut().zip(given.zip(scale)).for_each(|(right, (x, scale))| *right = *x * scale);
-        if let Some(redundancy) = &self.redundancy {
-            let rows = self.right[self.n..].iter_mut().zip(&redundancy.rows);
-            rows.filter(|(_, out)| **out).for_each(|(right, _)| *right = T::ZERO);
-        }
+        let rows = self.right[self.n..].iter_mut().zip(&self.left_out);
+        rows.filter(|(_, out)| **out).for_each(|(right, _)| *right = T::ZERO);
         match &mut self.factors {
             Factors::Dense(factors) => factors.solve(&mut self.right),
             Factors::Sparse(factors) => factors.solve(&mut self.right),

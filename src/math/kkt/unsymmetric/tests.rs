@@ -151,6 +151,40 @@ fn a_coordinate_without_mass_is_held_by_its_rows() {
     }
 }
 
+/// Two rows share a coordinate without mass, whose own entry of A is h^2 K or round-off of that: they are not dependent.
+#[test]
+fn a_coordinate_without_mass_does_not_make_its_rows_dependent() {
+    let mass = Pattern::diagonal(3);
+    let tangent = Pattern { rows: 3, cols: 3, entries: vec![(2, 2)] };
+    let (g, rows) = (Pattern::dense(2, 3), [1.0, 0.0, 1.0, 0.0, 1.0, 2.0]);
+    for is_dense in [true, false] {
+        for stiffness in [0.0, 1e-30, 1e-18, 1e-9, 1.0, 1e3] {
+            let mut system =
+                Unsymmetric::<f64>::at(matrix::places(&mass, &tangent, &g).unwrap(), &g, is_dense).unwrap();
+            system.add_mass(&mass, &[1.0, 1.0, 0.0]);
+            system.add(&tangent, &[1.0], stiffness, false);
+            system.factor(&g, &rows).unwrap();
+            assert!(!system.left_out().contains(&true));
+            // a = (1, 2, 3), lambda = (4, 5)
+            let (mut top, mut bottom) = ([5.0, 7.0, 14.0 + 3.0 * stiffness], [4.0, 8.0]);
+            system.solve(&mut top, &mut bottom).unwrap();
+            let found = top.iter().chain(&bottom).zip([1.0, 2.0, 3.0, 4.0, 5.0]);
+            found.for_each(|(found, exact)| assert!((found - exact).abs() < 1e-13, "{stiffness:e}: {found} {exact}"));
+        }
+    }
+}
+
+#[test]
+fn rows_that_are_held_are_dropped_and_no_others() {
+    let one = chain(6, 1);
+    let mut system = one.system::<f64>(false);
+    for (rows, is_regular) in [(vec![12], true), (vec![], false), (vec![11], true)] {
+        one.put(&mut system);
+        system.hold(&rows);
+        assert_eq!(system.factor(&one.g, &one.rows).is_ok(), is_regular, "{rows:?}");
+    }
+}
+
 #[test]
 fn what_does_not_fit_is_refused() {
     let chain = chain(3, 0);

@@ -1,0 +1,39 @@
+//! The velocity of a state that was found from phi = 0 alone.
+
+use crate::formulation::Halt;
+use crate::integrator::Problem;
+use crate::system::Need;
+
+/// Moves v to G v + phi_t = 0, nearest in the mass metric, and leaves the matrix of the state factored:
+///
+/// ```text
+/// [M  G^T] [dv]   [ 0    ]
+/// [G  0  ] [. ] = [-phi' ]
+/// ```
+///
+/// A step of index 3 finds v from phi = 0 by a division by h: that part of v has order s only, and the state would go on
+/// from it. Source: Hairer, Wanner, Solving Ordinary Differential Equations II, VII.2, projection of the velocities.
+pub fn project(problem: &mut Problem, t: f64, y: &mut [f64]) -> Result<(), Halt> {
+    let (q, v) = problem.split_mut(y);
+    let dynamics = &mut problem.dynamics;
+    dynamics.system.normalize(q);
+    dynamics.evaluate(t, q, v, Need::DYNAMICS);
+    dynamics.factor_truncated()?;
+    dynamics.vdot.fill(0.0);
+    dynamics.lambda.iter_mut().zip(&dynamics.terms.phi_dot).for_each(|(row, phi_dot)| *row = -phi_dot);
+    dynamics.kkt.solve(&mut dynamics.vdot, &mut dynamics.lambda)?;
+    v.iter_mut().zip(&dynamics.vdot).for_each(|(v, dv)| *v += dv);
+    Ok(())
+}
+
+/// y' of a state whose matrix is factored.
+pub fn slope(problem: &mut Problem, t: f64, y: &[f64], slope: &mut [f64]) -> Result<(), Halt> {
+    let (q, v) = problem.split(y);
+    let dynamics = &mut problem.dynamics;
+    dynamics.solve_at_velocity(t, q, v)?;
+    let (qdot, rest) = slope.split_at_mut(q.len());
+    dynamics.system.rate(q, v, qdot);
+    rest[..v.len()].copy_from_slice(&dynamics.vdot);
+    rest[v.len()] = dynamics.power();
+    Ok(())
+}

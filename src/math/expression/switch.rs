@@ -1,0 +1,148 @@
+//! Where an expression changes its form, and what in it depends on time alone.
+
+use super::Expression;
+use super::operation::{One, Two};
+use super::program::{Op, Program};
+use crate::math::{Regime, Scalar};
+use std::ops::Range;
+
+/// A part of an expression that depends on t alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimeFunction {
+    program: Program,
+    /// The number of its first switching function.
+    first: usize,
+}
+
+impl TimeFunction {
+    /// Its value, with the pieces of `regime`.
+    pub fn at<S: Scalar>(&self, t: S, regime: Regime) -> S {
+        self.program.eval_held(&[t], self.first, regime)
+    }
+}
+
+/// A place in an expression, or an element, where the form changes: where a switching function, the argument, passes one of
+/// the thresholds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Switch {
+    /// Increasing.
+    pub thresholds: Vec<f64>,
+    /// The argument, where that depends on t alone.
+    pub of_time: Option<TimeFunction>,
+}
+
+/// The operations that make one intermediate result, and what it depends on.
+#[derive(Clone)]
+struct Operand {
+    range: Range<usize>,
+    reads_time: bool,
+    reads_state: bool,
+}
+
+impl Operand {
+    fn is_of_time(&self) -> bool {
+        self.reads_time && !self.reads_state
+    }
+}
+
+impl Expression {
+    /// Numbers its switching functions from `first` on, and returns them in the order of [`arguments`](Self::arguments).
+    /// Variable 0 is t.
+    pub fn number_switches(&mut self, first: usize) -> Vec<Switch> {
+        self.first = first;
+        let mut switches = Vec::new();
+        self.walk(|program, op, operands, number| {
+            if program.is_switch(op) {
+                let of_time = operands.iter().any(|operand| operand.reads_time)
+                    && operands.iter().all(|operand| !operand.reads_state);
+                let of_time = of_time.then(|| program.argument(op, operands, first + number)).flatten();
+                switches.push(Switch { thresholds: program.thresholds(op), of_time });
+            }
+        });
+        switches
+    }
+
+    /// The largest parts of it that depend on t alone, but for t itself.
+    pub fn time_functions(&self) -> Vec<TimeFunction> {
+        let mut found = Vec::new();
+        let mut keep = |program: &Program, operand: &Operand, is_divisor: bool| {
+            let first = self.first + program.count_switches(operand.range.start);
+            // What is divided by is large where it does nothing: its inverse is the function.
+            let inverse = is_divisor.then_some(Op::One(One::Power(-1)));
+            let part = Program::new(
+                program.ops[operand.range.clone()].iter().copied().chain(inverse).collect(),
+                program.tables.clone(),
+            );
+            found.extend(part.map(|program| TimeFunction { program, first }));
+        };
+        let whole = self.walk(|program, op, operands, _| {
+            if operands.iter().any(|operand| operand.reads_state) {
+                for (place, operand) in operands.iter().enumerate().filter(|(_, operand)| operand.is_of_time()) {
+                    keep(program, operand, op == Op::Two(Two::Div) && place == 1);
+                }
+            }
+        });
+        if let Some(whole) = whole.filter(Operand::is_of_time) {
+            keep(&self.program, &whole, false);
+        }
+        found.retain(|function| function.program.ops.len() > 1);
+        found
+    }
+
+    /// Shows every operation with its operands, and how many switching functions come before it; returns the result's.
+    fn walk(&self, mut see: impl FnMut(&Program, Op, &[Operand], usize)) -> Option<Operand> {
+        let (mut stack, mut number) = (Vec::<Operand>::new(), 0);
+        for (place, &op) in self.program.ops.iter().enumerate() {
+            let operands = stack.split_off(stack.len() - op.operands());
+            see(&self.program, op, &operands, number);
+            number += usize::from(self.program.is_switch(op));
+            let start = operands.first().map_or(place, |operand| operand.range.start);
+            let reads = |of: fn(&Operand) -> bool| operands.iter().any(of);
+            stack.push(Operand {
+                range: start..place + 1,
+                reads_time: op == Op::Variable(0) || reads(|operand| operand.reads_time),
+                reads_state: matches!(op, Op::Variable(1..)) || reads(|operand| operand.reads_state),
+            });
+        }
+        stack.pop()
+    }
+}
+
+impl Program {
+    fn is_switch(&self, op: Op) -> bool {
+        match op {
+            Op::One(function) => !function.thresholds().is_empty(),
+            Op::Two(function) => function.compares(),
+            Op::Table(_) => true,
+            _ => false,
+        }
+    }
+
+    fn thresholds(&self, op: Op) -> Vec<f64> {
+        match op {
+            Op::One(function) => function.thresholds().to_vec(),
+            Op::Table(index) => self.tables[index].thresholds(),
+            _ => vec![0.0],
+        }
+    }
+
+    fn count_switches(&self, end: usize) -> usize {
+        self.ops[..end].iter().filter(|op| self.is_switch(**op)).count()
+    }
+
+    /// The argument of an operation that changes its form: its operand, or the difference of both.
+    fn argument(&self, op: Op, operands: &[Operand], number: usize) -> Option<TimeFunction> {
+        let range = operands.first()?.range.start..operands.last()?.range.end;
+        let first = number - self.count_switches(range.end) + self.count_switches(range.start);
+        let mut program = self.part(range)?;
+        if let Op::Two(_) = op {
+            program = Program::new([program.ops, vec![Op::Two(Two::Sub)]].concat(), program.tables)?;
+        }
+        Some(TimeFunction { program, first })
+    }
+
+    /// Some of the operations as a program of their own; several results are left on its stack.
+    fn part(&self, range: Range<usize>) -> Option<Program> {
+        Program::new(self.ops[range].to_vec(), self.tables.clone())
+    }
+}

@@ -1,0 +1,190 @@
+//! Enclosures: all values that a function takes while its argument runs through an interval.
+
+use super::scalar::{Scalar, Unary};
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// The numbers from `low` to `high`. Every operation gives an interval that contains all its results, up to rounding; one
+/// that has no bounds gives all numbers. Source: Moore, Kearfott, Cloud, Introduction to Interval Analysis, 2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    pub low: f64,
+    pub high: f64,
+}
+
+impl Interval {
+    /// All numbers.
+    pub const WHOLE: Interval = Interval { low: f64::NEG_INFINITY, high: f64::INFINITY };
+
+    /// From the smaller of two numbers to the larger; all numbers where one is none.
+    pub fn new(a: f64, b: f64) -> Self {
+        if a.is_nan() || b.is_nan() { Self::WHOLE } else { Interval { low: a.min(b), high: a.max(b) } }
+    }
+
+    pub fn width(&self) -> f64 {
+        self.high - self.low
+    }
+
+    pub fn contains(&self, x: f64) -> bool {
+        self.low <= x && x <= self.high
+    }
+
+    fn is_bounded(&self) -> bool {
+        self.low.is_finite() && self.high.is_finite()
+    }
+
+    fn is_point(&self) -> bool {
+        self.low == self.high
+    }
+
+    /// The values of a function that rises everywhere.
+    fn rising(self, f: impl Fn(f64) -> f64) -> Self {
+        Interval::new(f(self.low), f(self.high))
+    }
+
+    /// sin(x): whether a crest and a trough lie in the interval decides.
+    fn sine(self) -> Self {
+        if !self.is_bounded() || self.width() >= 2.0 * PI {
+            return Interval { low: -1.0, high: 1.0 };
+        }
+        // Counts of the crests at pi/2 + 2 pi k, and of the troughs, up to each end.
+        let passes = |phase: f64| {
+            let count = |x: f64| ((x - phase) / (2.0 * PI)).floor();
+            count(self.high) > count(self.low) || (self.low - phase).rem_euclid(2.0 * PI) == 0.0
+        };
+        let Interval { low, high } = self.rising(f64::sin);
+        Interval { low: if passes(-FRAC_PI_2) { -1.0 } else { low }, high: if passes(FRAC_PI_2) { 1.0 } else { high } }
+    }
+}
+
+impl Scalar for Interval {
+    fn constant(x: f64) -> Self {
+        Interval::new(x, x)
+    }
+
+    /// The middle.
+    fn value(&self) -> f64 {
+        if self.is_point() { self.low } else { 0.5 * self.low + 0.5 * self.high }
+    }
+
+    fn bounds(&self) -> [f64; 2] {
+        [self.low, self.high]
+    }
+
+    fn unary(self, function: Unary) -> Self {
+        match function {
+            Unary::Sqrt if self.low < 0.0 => Self::WHOLE,
+            Unary::Sqrt => self.rising(f64::sqrt),
+            Unary::Sin => self.sine(),
+            Unary::Cos => (self + FRAC_PI_2).sine(),
+            Unary::Exp => self.rising(f64::exp),
+            Unary::Ln if self.low <= 0.0 => Self::WHOLE,
+            Unary::Ln => self.rising(f64::ln),
+            // Without bounds it is that of a quotient whose denominator passes zero.
+            Unary::Atan if !self.is_bounded() => Self::WHOLE,
+            Unary::Atan => self.rising(f64::atan),
+            Unary::Sinh => self.rising(f64::sinh),
+            Unary::Cosh => self.abs().rising(f64::cosh),
+        }
+    }
+
+    fn square(self) -> Self {
+        self.abs().rising(|x| x * x)
+    }
+
+    fn recip(self) -> Self {
+        if self.contains(0.0) { Self::WHOLE } else { Interval::new(1.0 / self.low, 1.0 / self.high) }
+    }
+
+    fn abs(self) -> Self {
+        match self {
+            _ if self.low >= 0.0 => self,
+            _ if self.high <= 0.0 => -self,
+            _ => Interval { low: 0.0, high: self.high.max(-self.low) },
+        }
+    }
+
+    fn max(self, other: Self) -> Self {
+        Interval { low: self.low.max(other.low), high: self.high.max(other.high) }
+    }
+
+    fn min(self, other: Self) -> Self {
+        Interval { low: self.low.min(other.low), high: self.high.min(other.high) }
+    }
+
+    fn powi(self, n: i32) -> Self {
+        match n {
+            ..0 => self.powi(n.saturating_neg()).recip(),
+            _ if n % 2 == 0 => self.abs().rising(|x| x.powi(n)),
+            _ => self.rising(|x| x.powi(n)),
+        }
+    }
+}
+
+impl Neg for Interval {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Interval { low: -self.high, high: -self.low }
+    }
+}
+impl Add for Interval {
+    type Output = Self;
+    fn add(self, o: Self) -> Self {
+        Interval::new(self.low + o.low, self.high + o.high)
+    }
+}
+impl Sub for Interval {
+    type Output = Self;
+    fn sub(self, o: Self) -> Self {
+        self + -o
+    }
+}
+impl Mul for Interval {
+    type Output = Self;
+    fn mul(self, o: Self) -> Self {
+        // Zero times something without bounds is zero.
+        let product = |a: f64, b: f64| if a == 0.0 || b == 0.0 { 0.0 } else { a * b };
+        let [a, b] = [self.low, self.high].map(|x| Interval::new(product(x, o.low), product(x, o.high)));
+        Interval { low: a.low.min(b.low), high: a.high.max(b.high) }
+    }
+}
+impl Div for Interval {
+    type Output = Self;
+    fn div(self, o: Self) -> Self {
+        self * o.recip()
+    }
+}
+impl Add<f64> for Interval {
+    type Output = Self;
+    fn add(self, x: f64) -> Self {
+        Interval::new(self.low + x, self.high + x)
+    }
+}
+impl Sub<f64> for Interval {
+    type Output = Self;
+    fn sub(self, x: f64) -> Self {
+        self + -x
+    }
+}
+impl Mul<f64> for Interval {
+    type Output = Self;
+    fn mul(self, x: f64) -> Self {
+        self * Self::constant(x)
+    }
+}
+impl Div<f64> for Interval {
+    type Output = Self;
+    fn div(self, x: f64) -> Self {
+        self / Self::constant(x)
+    }
+}
+impl AddAssign for Interval {
+    fn add_assign(&mut self, o: Self) {
+        *self = *self + o;
+    }
+}
+impl SubAssign for Interval {
+    fn sub_assign(&mut self, o: Self) {
+        *self = *self - o;
+    }
+}

@@ -1,0 +1,74 @@
+//! Piecewise smooth functions: on which of its pieces each is evaluated.
+//!
+//! A function that changes its form does so where an argument, the switching function, passes a threshold. A step of an
+//! integrator keeps every function on the piece of the step's start, beyond its threshold too: what is integrated is then
+//! smooth, and the orders hold. The time loop finds the passage and ends the step there. Source: Hairer, Norsett, Wanner,
+//! Solving Ordinary Differential Equations I, II.6 (discontinuous equations).
+
+use super::scalar::Scalar;
+
+/// A piece of a function with thresholds c_0 < c_1 < ...: 2k between c_{k-1} and c_k, 2k + 1 at c_k itself.
+pub type Piece = u32;
+
+/// The piece of an argument among `count` thresholds; `None` for what is not a number.
+pub fn piece_of(argument: f64, count: usize, threshold: impl Fn(usize) -> f64) -> Option<Piece> {
+    if argument.is_nan() {
+        return None;
+    }
+    let (mut low, mut high) = (0, count);
+    while low < high {
+        let middle = (low + high) / 2;
+        if threshold(middle) < argument { low = middle + 1 } else { high = middle }
+    }
+    let is_at = low < count && threshold(low) == argument;
+    Some(2 * low as Piece + Piece::from(is_at))
+}
+
+/// The pieces that the functions of a scene are held on, by the number of their switching function; or none, and each takes
+/// the piece of its argument.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Regime<'a>(Option<&'a [Piece]>);
+
+impl<'a> Regime<'a> {
+    /// Every function on the piece of its argument.
+    pub const FREE: Regime<'static> = Regime(None);
+
+    pub fn held(pieces: &'a [Piece]) -> Self {
+        Regime(Some(pieces))
+    }
+
+    /// The piece that switching function `number` is held on.
+    #[inline]
+    pub fn piece(self, number: usize) -> Option<Piece> {
+        self.0.and_then(|pieces| pieces.get(number).copied())
+    }
+}
+
+/// The time of an evaluation, over any scalar, with the pieces that functions are held on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Time<'a, S> {
+    /// s
+    pub t: S,
+    pub regime: Regime<'a>,
+}
+
+impl<'a, S: Scalar> Time<'a, S> {
+    /// The same instant as another number.
+    #[inline]
+    pub fn map<T>(self, change: impl FnOnce(S) -> T) -> Time<'a, T> {
+        Time { t: change(self.t), regime: self.regime }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::piece_of;
+
+    #[test]
+    fn pieces_are_counted_through_thresholds() {
+        let piece = |x| piece_of(x, 2, |k| [0.0, 1.0][k]);
+        let found = [-1.0, 0.0, -0.0, 0.5, 1.0, 2.0].map(piece);
+        assert_eq!(found, [0, 1, 1, 2, 3, 4].map(Some));
+        assert_eq!(piece(f64::NAN), None);
+    }
+}

@@ -1,0 +1,223 @@
+//! Goes over to the form that the equations have from a state on.
+
+use super::Run;
+use super::events::{Passage, Turn};
+use super::rows::project;
+use crate::error::{Failure, short};
+use crate::formulation::Halt;
+use crate::integrator::{From, first_step};
+use crate::math::largest;
+use crate::system::{Loaded, Need, Scratch};
+
+/// What round-off may leave of constraints and their rates, as part of the scene's scales.
+const ROUND_OFF: f64 = 1e-9;
+/// A jump of v' of more tolerated errors over a step makes the next one start small.
+const SMALL_JUMP: f64 = 1.0;
+/// A step is cut to passages on its dense output at most so often.
+const MOST_CUTS: usize = 10;
+/// So many passages within this part of the span do not come to an end.
+const MOST_PASSAGES: usize = 500;
+const CROWDED: f64 = 1e-5;
+
+const CONTINUOUS: &str = "write a law that passes through zero steadily, such as `tanh(x/width)` in the place of \
+     `sign(x)`, or `smoothstep` in the place of `step` and `if`";
+
+/// How often steps have met thresholds of late, and which was the last.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Passages {
+    since: f64,
+    count: usize,
+    by: usize,
+}
+
+impl Run<'_> {
+    /// The first threshold that the step just tried goes over. A method that chooses its own steps ends there on its dense
+    /// output, since it would not find back to that place.
+    pub fn end_at_passage(&mut self, h: &mut f64, end: &mut Option<f64>) -> Result<Option<Passage>, Halt> {
+        let mut passage = self.passage(*h, self.end_of(*h, *end))?;
+        for _ in 0..MOST_CUTS {
+            let own = passage.filter(|_| self.integrator.own_step().is_some());
+            let Some(Passage::Within(_, theta)) = own else { break };
+            let from = From { t: self.t, y: &self.y, slope: &self.slope };
+            self.integrator.interpolate(&mut self.rows.problem, from, *h, theta, &mut self.next)?;
+            (*h, *end) = (theta * *h, None);
+            let t = self.t + *h;
+            let sweeps = self.sweeps(*h);
+            project(t, &mut self.next, &mut self.problem, &mut self.projection, sweeps)?;
+            self.problem.derivative(t, &self.next, &mut self.next_slope)?;
+            passage = self.passage(*h, t)?;
+        }
+        Ok(passage)
+    }
+
+    /// The first threshold in the step of size `h` to `end`.
+    fn passage(&mut self, h: f64, end: f64) -> Result<Option<Passage>, Halt> {
+        if !self.events.watches_state() {
+            return Ok(None);
+        }
+        let mut prepared = false;
+        let Run { events, rows, integrator, problem, .. } = self;
+        let from = From { t: self.t, y: &self.y, slope: &self.slope };
+        let (next, next_slope) = (&self.next, &self.next_slope);
+        let (q, v) = problem.split(next);
+        let (_, vdot) = problem.split(next_slope);
+        let found = events.passage(h, Loaded { t: end, q, v, vdot, lambda: &[] }, |theta, see| {
+            if !std::mem::replace(&mut prepared, true) {
+                rows.problem.begin_step(from.t, from.y)?;
+                integrator.prepare(&mut rows.problem, from, h, next, next_slope)?;
+            }
+            integrator.interpolate(&mut rows.problem, from, h, theta, &mut rows.y)?;
+            let (q, v) = rows.problem.split(&rows.y);
+            see(Loaded { t: from.t + theta * h, q, v, vdot: &[], lambda: &[] });
+            Ok::<(), Halt>(())
+        })?;
+        if let Some(passage) = found {
+            self.count_passage(passage);
+        }
+        Ok(found)
+    }
+
+    /// Starts the run on the pieces of its start.
+    pub fn begin_form(&mut self) -> Result<(), Failure> {
+        if self.events.pieces.is_empty() {
+            return Ok(());
+        }
+        let (q, v) = self.problem.split(&self.y);
+        self.events.begin(Loaded { t: self.t, q, v, vdot: &vec![0.0; v.len()], lambda: &[] });
+        self.enter_form()
+    }
+
+    /// Changes the form at the state that the run has come to: by the clock, and where a step ended at a threshold or cannot
+    /// begin. The next step is small where the motion jumps.
+    pub fn change_form(&mut self, at_start: Option<usize>) -> Result<(), Failure> {
+        let before = self.slope.clone();
+        let turns = self.events.turn(at_start);
+        self.events.timetable.place(self.t, &mut self.events.pieces);
+        self.enter_form()?;
+        if let Some(turn) = self.events.driven_back(&turns) {
+            let is_settled = self.events.try_other_side(turn) && {
+                self.enter_form()?;
+                self.events.driven_back(&turns).is_none()
+            };
+            if !is_settled {
+                return Err(self.sliding(turn));
+            }
+        }
+        self.integrator.restart();
+        self.cut = None;
+        let jump: Vec<f64> = self.slope.iter().zip(&before).map(|(after, before)| self.h * (after - before)).collect();
+        // A method that chooses its own steps knows nothing of the steps before.
+        let is_own = self.integrator.own_step().is_some();
+        if self.fixed.is_none() && (is_own || self.tolerance.norm(&self.y, &jump) > SMALL_JUMP) {
+            self.start_small()?;
+        }
+        Ok(())
+    }
+
+    /// Changes the form where a run goes on from the time at which functions of time do so.
+    pub fn meet_change(&mut self) -> Result<(), Failure> {
+        match self.events.timetable.next_change() {
+            Some(t) if t <= self.t => self.change_form(None),
+            _ => Ok(()),
+        }
+    }
+
+    /// Makes the next step not longer than one whose error is estimated to be about the tolerance.
+    fn start_small(&mut self) -> Result<(), Failure> {
+        let span = (self.t, self.span.end - self.t);
+        let order = self.integrator.order();
+        let first = first_step(&mut self.problem, &self.tolerance, span, &self.y, &self.slope, order);
+        // The first step of a run is to make a hundredth of that.
+        let step = 100f64.powf(1.0 / order as f64) * first.map_err(|halt| self.halted(&halt))?;
+        self.h = self.h.min(step.max(2.0 * self.smallest()));
+        Ok(())
+    }
+
+    /// Evaluates the state on the pieces of the events.
+    fn enter_form(&mut self) -> Result<(), Failure> {
+        let old = self.constraints();
+        for dynamics in [&mut self.problem.dynamics, &mut self.rows.problem.dynamics] {
+            dynamics.scratch.pieces.clone_from(&self.events.pieces);
+        }
+        self.meet_constraints(old)?;
+        self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
+        let ((q, v), (_, vdot)) = (self.problem.split(&self.y), self.problem.split(&self.slope));
+        self.events.start_at(Loaded { t: self.t, q, v, vdot, lambda: &[] });
+        Ok(())
+    }
+
+    /// phi and phi' here.
+    fn constraints(&mut self) -> [Vec<f64>; 2] {
+        let (q, v) = self.problem.split(&self.y);
+        let dynamics = &mut self.problem.dynamics;
+        dynamics.evaluate(self.t, q, v, Need::DYNAMICS);
+        [dynamics.terms.phi.clone(), dynamics.terms.phi_dot.clone()]
+    }
+
+    /// Where what is prescribed has a kink, the velocities jump with it: M (v_1 - v_0) + G^T p = 0 with G v_1 + phi_t as before,
+    /// p the impulses of the joints, whose work is that of the drive. What is prescribed cannot jump itself.
+    fn meet_constraints(&mut self, [phi, phi_dot]: [Vec<f64>; 2]) -> Result<(), Failure> {
+        let [now, rate] = self.constraints();
+        let jumps = |new: &[f64], old: &[f64]| new.iter().zip(old).map(|(new, old)| new - old).collect::<Vec<f64>>();
+        let (jump, kink) = (jumps(&now, &phi), jumps(&rate, &phi_dot));
+        if let Some(row) = (0..jump.len()).find(|&row| jump[row].abs() > ROUND_OFF * self.scales[row]) {
+            let (names, by) = (
+                self.problem.dynamics.system.names().lambda,
+                short(format!("{:.1e}", jump[row].abs()).parse().unwrap_or(0.0)),
+            );
+            let reason = format!("what `{}` prescribes jumps by {by} m or rad", names[row]);
+            return Err(
+                self.failure(reason, Some("prescribe a motion without jumps: no mechanism follows one in no time"))
+            );
+        }
+        if largest(&kink) > ROUND_OFF * (largest(&rate) + largest(self.problem.split(&self.y).1)) {
+            self.kick(&kink).map_err(|halt| self.halted(&halt))?;
+        }
+        Ok(())
+    }
+
+    /// Changes v by G dv = - `kink`, and counts the work.
+    fn kick(&mut self, kink: &[f64]) -> Result<(), Halt> {
+        let mut scratch = Scratch::default();
+        let (system, t) = (self.problem.dynamics.system, self.t);
+        let mut kinetic = |y: &[f64], run: &Self| {
+            let (q, v) = run.problem.split(y);
+            system.energy(t, q, v, &mut scratch).map_or(0.0, |energy| energy.kinetic)
+        };
+        let before = kinetic(&self.y, self);
+        let dynamics = &mut self.problem.dynamics;
+        dynamics.factor_truncated()?;
+        let mut change = vec![0.0; dynamics.vdot.len()];
+        dynamics.kkt.solve_projection(kink, &mut change)?;
+        self.problem.split_mut(&mut self.y).1.iter_mut().zip(&change).for_each(|(v, change)| *v -= change);
+        let work = kinetic(&self.y, self) - before;
+        let last = self.y.len() - 1;
+        self.y[last] += work;
+        Ok(())
+    }
+
+    /// A law that drives the motion to where it jumps, from both sides.
+    fn sliding(&self, turn: Turn) -> Failure {
+        let owner = self.events.owner(turn.number);
+        let reason = format!("{owner} jumps where it holds the motion: on each side it drives back to the other");
+        self.failure(reason, Some(CONTINUOUS))
+    }
+
+    fn count_passage(&mut self, passage: Passage) {
+        let Passages { since, count, .. } = self.passages;
+        let is_crowded = count > 0 && self.t - since < CROWDED * (self.span.end - self.span.start);
+        let (since, count) = if is_crowded { (since, count + 1) } else { (self.t, 1) };
+        self.passages = Passages { since, count, by: passage.number() };
+    }
+
+    /// Ends a run whose form changes without end.
+    pub fn check_crowd(&self) -> Result<(), Failure> {
+        let Passages { since, count, by } = self.passages;
+        if count <= MOST_PASSAGES {
+            return Ok(());
+        }
+        let (owner, within) = (self.events.owner(by), self.t - since);
+        let reason = format!("{owner} changes its form without end, {count} times in {within:.1e} s");
+        Err(self.failure(reason, Some(CONTINUOUS)))
+    }
+}

@@ -1,0 +1,90 @@
+//! How a run ends before its end.
+
+use super::{Run, Sink};
+use crate::error::Failure;
+use crate::formulation::Halt;
+
+const SINGULAR: &str = "this tolerance is too near to round-off there: try a looser one, or a fixed --step with `rk4`, which \
+     goes over it";
+
+/// So many steps that come no farther than this part of the span will not come to its end.
+const MOST_TRIES: usize = 50_000;
+const CRAWL: f64 = 1e-8;
+
+/// Joints that are open by so many times the scene's size will not close again.
+const MOST_OPEN: f64 = 10.0;
+
+impl Run<'_> {
+    /// Ends a run that would never come to its end.
+    pub fn check_progress(&mut self) -> Result<(), Failure> {
+        let (since, tries) = self.progress;
+        let advanced = self.t - since;
+        if advanced > CRAWL * (self.span.end - self.span.start) {
+            self.progress = (self.t, 0);
+            return Ok(());
+        }
+        self.progress.1 += 1;
+        match tries > MOST_TRIES {
+            true => Err(self.failure(format!("{MOST_TRIES} steps have come no farther than {advanced:.1e} s"), None)),
+            false => Ok(()),
+        }
+    }
+
+    /// Ends a motion that is no longer one of this mechanism.
+    pub fn check_joints(&self) -> Result<(), Failure> {
+        let rows = self.problem.dynamics.terms.phi.iter().zip(&self.scales);
+        let open = rows.fold(0.0, |open: f64, (phi, scale)| open.max(phi.abs() / scale));
+        match open > MOST_OPEN {
+            true => Err(self.failure(format!("the joints have come apart by {open:.1e} times the scene's size"), None)),
+            false => Ok(()),
+        }
+    }
+
+    /// The step to try after a failed one, or the end of the run where no smaller step makes sense.
+    pub fn retry(&mut self, h: f64, error: Option<f64>, reason: &str, hint: Option<&str>) -> Result<f64, Failure> {
+        self.problem.dynamics.statistics.rejected += 1;
+        if self.fixed.is_some() {
+            return Err(self.failure(format!("{reason} (with the fixed step {h:e} s)"), hint));
+        }
+        let smaller = match error {
+            Some(error) if error.is_finite() => self.integrator.control().reject(h, error),
+            _ => 0.25 * h,
+        };
+        let is_stuck = self.keeps_constraints() && self.approach.is_stuck(h);
+        match smaller > self.smallest() && !is_stuck {
+            true => Ok(smaller),
+            false if is_stuck => {
+                let reason = format!("the motion comes to a singular state, and {reason}, down to a step of {h:.1e} s");
+                Err(self.failure(reason, Some(SINGULAR)))
+            }
+            false => Err(self.failure(format!("{reason}, down to a step of {h:.1e} s"), hint)),
+        }
+    }
+
+    /// Steps below make no sense.
+    pub fn smallest(&self) -> f64 {
+        1e-15 * self.t.abs().max(1e-3 * (self.span.end - self.span.start))
+    }
+
+    /// Where a run ends early, its last good state shows how it came to that.
+    pub fn last_good_row(&mut self, sink: &mut dyn Sink) {
+        if self.rows.next > 0 && self.span.row(self.rows.next - 1) < self.t {
+            // A state that cannot be evaluated is none to show.
+            self.rows.y.copy_from_slice(&self.y);
+            let _ = self.rows.emit(self.t, sink);
+        }
+    }
+
+    pub fn halted(&self, halt: &Halt) -> Failure {
+        self.failure(halt.to_string(), halt.hint())
+    }
+
+    /// With what usually helps where there is no `hint`.
+    pub fn failure(&self, reason: String, hint: Option<&str>) -> Failure {
+        let usual = match self.fixed {
+            Some(_) => "try a smaller --step, a projection such as `manifold`, or an adaptive integrator",
+            None => "try another tolerance or a projection such as `manifold`; look at the motion just before the end",
+        };
+        Failure { t: self.t, reason, hint: hint.unwrap_or(usual).to_string() }
+    }
+}

@@ -1,0 +1,303 @@
+//! Where the equations change their form: by the clock, or where a switching function of the state passes a threshold.
+//!
+//! Within a step every function is held on one piece, so that what is integrated is smooth. A passage by the clock is
+//! known before: a step ends there. One of the state is found on the dense output of a step that went over it; the step
+//! is taken again so that it ends there, and the next one starts on the other piece.
+
+mod range;
+mod timetable;
+mod watch;
+
+pub use timetable::Timetable;
+
+use crate::math::expression::Switch;
+use crate::math::{Piece, Rate, piece_of};
+use crate::system::{Loaded, MechanicalSystem, Scratch};
+use range::{Range, first_out};
+
+/// A passage nearer to the start of a step than this part of it is at the start.
+const AT_START: f64 = 1e-12;
+/// Passages are found to this part of the span: what is left of a coordinate there may be round-off.
+const SHORTEST: f64 = 1e-13;
+/// Switching functions of switching functions of ... at the start.
+const DEEPEST: usize = 10;
+/// An argument is at a threshold within this part of its change over the step.
+const AT: f64 = 1e-10;
+/// Where the cubic between both ends of a step comes nearer to a threshold than this part of its range, the dense output is
+/// looked at, at so many places.
+const NEAR: f64 = 0.2;
+const LOOKS: usize = 8;
+
+/// Where a step goes over a threshold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Passage {
+    /// At the very start: the piece is not the right one from there on.
+    AtStart(usize),
+    /// At this fraction of the step, by this function.
+    Within(usize, f64),
+}
+
+impl Passage {
+    /// The number of the function.
+    pub fn number(&self) -> usize {
+        let (Passage::AtStart(number) | Passage::Within(number, _)) = *self;
+        number
+    }
+}
+
+/// A function that came to a threshold.
+#[derive(Clone, Copy, Debug)]
+pub struct Turn {
+    pub number: usize,
+    /// The piece that it comes from.
+    from: Piece,
+    /// How fast its argument went out of it.
+    rate: f64,
+}
+
+/// The switching functions of a run.
+pub struct Events<'a> {
+    system: &'a dyn MechanicalSystem,
+    switches: &'a [Switch],
+    /// Numbers of the switching functions that depend on the state.
+    of_state: Vec<usize>,
+    pub timetable: Timetable<'a>,
+    /// The pieces on which all functions are held.
+    pub pieces: Vec<Piece>,
+    scratch: Scratch,
+    /// Arguments at both ends of a step, and within.
+    start: Vec<Rate>,
+    end: Vec<Rate>,
+    within: Vec<Rate>,
+    /// Numbers of those that are at a threshold at the end of the step.
+    at: Vec<usize>,
+    /// How often each has turned at the start of the step.
+    turned: Vec<u8>,
+    /// Times that are shorter are none, s.
+    shortest: f64,
+}
+
+impl<'a> Events<'a> {
+    pub fn new(system: &'a dyn MechanicalSystem, (start, end): (f64, f64)) -> Self {
+        let (switches, functions) = (system.switches(), system.time_functions());
+        let zeros = || vec![Rate::fixed(0.0); switches.len()];
+        Events {
+            system,
+            switches,
+            of_state: (0..switches.len()).filter(|&number| switches[number].of_time.is_none()).collect(),
+            timetable: Timetable::new(switches, functions, start, end),
+            pieces: vec![0; switches.len()],
+            scratch: Scratch::default(),
+            start: zeros(),
+            end: zeros(),
+            within: zeros(),
+            at: Vec::new(),
+            turned: vec![0; switches.len()],
+            shortest: SHORTEST * (end - start),
+        }
+    }
+
+    /// Whether any function of the state changes its form.
+    pub fn watches_state(&self) -> bool {
+        !self.of_state.is_empty()
+    }
+
+    /// Whether the last step ended at a threshold.
+    pub fn is_at_threshold(&self) -> bool {
+        !self.at.is_empty()
+    }
+
+    /// Puts every function on the piece of its argument, at the start of a run.
+    pub fn begin(&mut self, at: Loaded) {
+        self.timetable.place(at.t, &mut self.pieces);
+        // An argument may depend on other pieces.
+        for _ in 0..DEEPEST {
+            let before = self.pieces.clone();
+            self.start_at(at);
+            for &number in &self.of_state {
+                let thresholds = &self.switches[number].thresholds;
+                let piece = piece_of(self.start[number].re, thresholds.len(), |k| thresholds[k]);
+                self.pieces[number] = piece.unwrap_or(0);
+            }
+            if self.pieces == before {
+                return;
+            }
+        }
+    }
+
+    /// Takes the state at which the next step starts.
+    pub fn start_at(&mut self, at: Loaded) {
+        read(self.system, &mut self.scratch, &self.pieces, at, &mut self.start);
+    }
+
+    /// The same where that is the end of the last one.
+    pub fn go_on(&mut self) {
+        self.turned.fill(0);
+        std::mem::swap(&mut self.start, &mut self.end);
+    }
+
+    /// The first passage of a threshold in a step of size `h` to the state `end`; `between` shows the state at a fraction of
+    /// the step.
+    pub fn passage<E>(
+        &mut self,
+        h: f64,
+        end: Loaded,
+        mut between: impl FnMut(f64, &mut dyn FnMut(Loaded)) -> Result<(), E>,
+    ) -> Result<Option<Passage>, E> {
+        let Events { system, switches, of_state, pieces, scratch, start, within, at, turned, shortest, .. } = self;
+        read(*system, scratch, pieces, end, &mut self.end);
+        at.clear();
+        let (mut first, mut by) = (1.0, 0);
+        // One that is found on neither side of a threshold is at it, up to round-off.
+        for &number in of_state.iter().filter(|&&number| turned[number] < 2) {
+            let (a, b) = (start[number], self.end[number]);
+            let Some(range) = Range::of(pieces[number], &switches[number].thresholds) else {
+                if a.re != b.re {
+                    return Ok(Some(Passage::AtStart(number)));
+                }
+                continue;
+            };
+            let swing = (b.re - a.re).abs().max(h * b.eps[0].abs()).max(h * a.eps[0].abs());
+            let argument = Argument { range, a, b, h };
+            // What takes no time has come.
+            let is_at = |x: Rate, part: f64| {
+                let soon = shortest.max(4.0 * f64::EPSILON * end.t.abs()) * x.eps[0].abs();
+                range.beyond(x.re).abs() <= soon.max(part * swing) && range.outward(x) > 0.0
+            };
+            match () {
+                _ if is_at(a, AT_START) || range.beyond(a.re) > 0.0 && range.outward(a) > 0.0 => {
+                    return Ok(Some(Passage::AtStart(number)));
+                }
+                _ if is_at(b, AT) => at.push(number),
+                _ if range.beyond(b.re) < 0.0 && !argument.may_come_near() => {}
+                _ => {
+                    let mut beyond = |theta: f64| {
+                        between(theta, &mut |state| read(*system, scratch, pieces, state, within))?;
+                        Ok(range.beyond(within[number].re))
+                    };
+                    let passage = argument.first_passage(first, &mut beyond)?;
+                    if passage < AT_START {
+                        return Ok(Some(Passage::AtStart(number)));
+                    }
+                    if passage < first {
+                        (first, by) = (passage, number);
+                    }
+                }
+            }
+        }
+        Ok((first < 1.0).then_some(Passage::Within(by, first)))
+    }
+
+    /// Moves the functions that are at a threshold, or the one that is at the start of a refused step, to their next pieces.
+    pub fn turn(&mut self, at_start: Option<usize>) -> Vec<Turn> {
+        let numbers = at_start.map_or_else(|| std::mem::take(&mut self.at), |number| vec![number]);
+        match at_start {
+            Some(number) => self.turned[number] += 1,
+            None => self.turned.fill(0),
+        }
+        let turn = |number: usize| {
+            let (from, thresholds) = (self.pieces[number], &self.switches[number].thresholds);
+            let x = if at_start.is_some() { self.start[number] } else { self.end[number] };
+            let (to, rate) = match Range::of(from, thresholds) {
+                Some(range) if range.nearest(x.re) == range.low => (from.saturating_sub(2), range.outward(x)),
+                Some(range) => (from + 2, range.outward(x)),
+                // From a threshold to the side on which the step found it.
+                None if self.end[number].re < x.re => (from - 1, 0.0),
+                None => (from + 1, 0.0),
+            };
+            self.pieces[number] = to;
+            Turn { number, from, rate }
+        };
+        numbers.into_iter().map(turn).collect()
+    }
+
+    /// A function that its new piece drives back over the threshold from where the old one drove it.
+    pub fn driven_back(&self, turns: &[Turn]) -> Option<Turn> {
+        let is_driven_back = |turn: &&Turn| {
+            let x = self.start[turn.number];
+            let sign = if self.pieces[turn.number] > turn.from { -1.0 } else { 1.0 };
+            let was_driven_out = turn.rate > 0.0 || turn.from % 2 == 1;
+            was_driven_out && sign * x.eps[0] > AT * turn.rate
+        };
+        turns.iter().find(is_driven_back).copied()
+    }
+
+    /// Puts a function that was at a threshold on the other side of it than [`turn`](Self::turn) did; false where it came
+    /// from there.
+    pub fn try_other_side(&mut self, turn: Turn) -> bool {
+        let is_from_threshold = turn.from % 2 == 1;
+        if is_from_threshold {
+            self.pieces[turn.number] = 2 * turn.from - self.pieces[turn.number];
+        }
+        is_from_threshold
+    }
+
+    /// The element of a switching function.
+    pub fn owner(&self, number: usize) -> &str {
+        self.system.owner_of_switch(number)
+    }
+}
+
+/// Writes the arguments of all switching functions at a state.
+fn read(system: &dyn MechanicalSystem, scratch: &mut Scratch, pieces: &[Piece], at: Loaded, out: &mut [Rate]) {
+    scratch.pieces.clear();
+    scratch.pieces.extend_from_slice(pieces);
+    system.switching(at, out, scratch);
+}
+
+/// An argument over a step of size `h`, from its values and rates at both ends.
+struct Argument {
+    range: Range,
+    a: Rate,
+    b: Rate,
+    h: f64,
+}
+
+impl Argument {
+    /// The cubic through both ends.
+    fn cubic(&self, theta: f64) -> f64 {
+        let (x, y) = (self.a.re, self.b.re);
+        let [u, v] = [self.a, self.b].map(|end| self.h * end.eps[0]);
+        let rest = 1.0 - theta;
+        x + theta * (y - x) + theta * rest * (rest * (u - (y - x)) - theta * (v - (y - x)))
+    }
+
+    fn looks() -> impl Iterator<Item = f64> {
+        (1..LOOKS).map(|k| k as f64 / LOOKS as f64)
+    }
+
+    /// Whether the cubic comes near to a threshold.
+    fn may_come_near(&self) -> bool {
+        let ends = [self.a.re, self.b.re];
+        let all = || Self::looks().map(|theta| self.cubic(theta)).chain(ends);
+        let (low, high) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let margin = NEAR * (high - low);
+        self.range.beyond(low - margin) >= 0.0 || self.range.beyond(high + margin) >= 0.0
+    }
+
+    /// The first fraction of the step, before `limit`, at which the argument goes out of its range; `limit` where it does not.
+    fn first_passage<E>(&self, limit: f64, beyond: &mut impl FnMut(f64) -> Result<f64, E>) -> Result<f64, E> {
+        let mut inside = 0.0;
+        for theta in Self::looks().chain([1.0]).map(|part| part * limit) {
+            let is_end = theta == 1.0;
+            if (if is_end { self.range.beyond(self.b.re) } else { beyond(theta)? }) >= 0.0 {
+                let mut failed = None;
+                let passage = first_out(
+                    |theta| match theta {
+                        0.0 => self.range.beyond(self.a.re),
+                        1.0 => self.range.beyond(self.b.re),
+                        _ => beyond(theta).unwrap_or_else(|error| {
+                            failed = Some(error);
+                            0.0
+                        }),
+                    },
+                    inside,
+                    theta,
+                );
+                return failed.map_or(Ok(passage), Err);
+            }
+            inside = theta;
+        }
+        Ok(limit)
+    }
+}

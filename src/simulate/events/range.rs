@@ -1,0 +1,78 @@
+//! The range of an argument on one piece of a function, and where it leaves it.
+
+use crate::math::{Piece, Rate};
+
+/// An open interval between two neighbouring thresholds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    pub low: f64,
+    pub high: f64,
+}
+
+impl Range {
+    /// Of a piece; none for that of a threshold itself.
+    pub fn of(piece: Piece, thresholds: &[f64]) -> Option<Self> {
+        let next = (piece / 2) as usize;
+        let low = next.checked_sub(1).and_then(|k| thresholds.get(k)).copied();
+        let high = thresholds.get(next).copied();
+        let range = Range { low: low.unwrap_or(f64::NEG_INFINITY), high: high.unwrap_or(f64::INFINITY) };
+        piece.is_multiple_of(2).then_some(range)
+    }
+
+    pub fn contains(&self, x: f64) -> bool {
+        self.low < x && x < self.high
+    }
+
+    /// How far an argument is out; negative inside.
+    pub fn beyond(&self, x: f64) -> f64 {
+        (self.low - x).max(x - self.high)
+    }
+
+    /// How fast an argument goes towards its nearest threshold, and beyond.
+    pub fn outward(&self, x: Rate) -> f64 {
+        if self.nearest(x.re) == self.low { -x.eps[0] } else { x.eps[0] }
+    }
+
+    /// The threshold that is nearest to an argument.
+    pub fn nearest(&self, x: f64) -> f64 {
+        if self.low - x > x - self.high { self.low } else { self.high }
+    }
+}
+
+/// The first number, up to rounding, at which `beyond` is not below zero, where it passes zero once between `from`, where it
+/// is not above, and `to`, where it is not below. Regula falsi, and a half each third time.
+pub fn first_out(mut beyond: impl FnMut(f64) -> f64, mut from: f64, mut to: f64) -> f64 {
+    let (mut inside, mut outside) = (beyond(from).min(0.0), beyond(to));
+    for round in 1.. {
+        let slanted = to - outside * (to - from) / (outside - inside);
+        let middle = if round % 3 == 0 || !(from < slanted && slanted < to) { 0.5 * (from + to) } else { slanted };
+        if middle <= from || middle >= to {
+            break;
+        }
+        let there = beyond(middle);
+        if there < 0.0 { (from, inside) = (middle, there) } else { (to, outside) = (middle, there) }
+    }
+    to
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Range, first_out};
+
+    #[test]
+    fn a_piece_lies_between_its_thresholds() {
+        let infinite = f64::INFINITY;
+        assert_eq!(Range::of(0, &[1.0, 2.0]), Some(Range { low: -infinite, high: 1.0 }));
+        assert_eq!(Range::of(2, &[1.0, 2.0]), Some(Range { low: 1.0, high: 2.0 }));
+        assert_eq!(Range::of(4, &[1.0, 2.0]), Some(Range { low: 2.0, high: infinite }));
+        assert_eq!(Range::of(3, &[1.0, 2.0]), None);
+    }
+
+    #[test]
+    fn a_passage_is_found_to_the_last_digit() {
+        assert_eq!(first_out(|t| t - 5.0, 0.0, 10.0), 5.0);
+        assert_eq!(first_out(|t| t.powi(9) - 1e-9, 0.0, 10.0), 0.1);
+        let root = first_out(|t| t.exp() - 2.0, 0.0, 10.0);
+        assert!((root - 2f64.ln()).abs() <= f64::EPSILON, "{root}");
+    }
+}

@@ -1,0 +1,118 @@
+//! Which step to try: what is proposed, placed about singular states, and cut where it must end or would miss something.
+
+use super::Run;
+use super::events::Events;
+use crate::formulation::Halt;
+use crate::integrator::first_step;
+
+/// The parts of a fixed step that misses what acts by the clock, beside steps that just do not.
+const FINER: f64 = 0.125;
+
+/// A time at which a step must end.
+#[derive(Clone, Copy)]
+pub struct NextStop {
+    pub t: f64,
+    /// Whether a function of time changes its form there.
+    pub changes_form: bool,
+}
+
+/// A time of the grid nearer than this part of a step is passed over.
+const TINY: f64 = 1e-3;
+/// What rounding may leave of a step, as part of it, and of the time.
+const ROUND_OFF: f64 = 1e-9;
+
+impl Run<'_> {
+    pub fn first_step(&mut self) -> Result<f64, Halt> {
+        match self.fixed {
+            Some(step) => Ok(step),
+            None => {
+                let span = (self.t, self.span.end - self.t);
+                let order = self.integrator.order();
+                let step = first_step(&mut self.problem, &self.tolerance, span, &self.y, &self.slope, order)?;
+                // The control lets it grow, or says why it cannot.
+                Ok(step.max(2.0 * self.smallest()))
+            }
+        }
+    }
+
+    /// The step of size `h`, if a singular state does not suggest another.
+    fn place(&mut self, h: f64) -> f64 {
+        match (self.fixed, self.integrator.widest_gap()) {
+            (None, gap) => self.approach.place(h, gap.unwrap_or(0.5)),
+            (Some(_), None) => self.to_grid(h),
+            (Some(_), Some(gap)) => {
+                let times = (self.to_grid(h), self.span.end - self.t);
+                self.approach.place_fixed(h, times, (gap, self.integrator.order()))
+            }
+        }
+    }
+
+    /// The next time at which a step must end: a change of form by the clock, or the end.
+    pub fn next_stop(&self) -> NextStop {
+        match self.events.timetable.next_change() {
+            Some(t) if t < self.span.end => NextStop { t, changes_form: true },
+            _ => NextStop { t: self.span.end, changes_form: false },
+        }
+    }
+
+    /// The step to try, placed and stretched or cut so that the stop, or a time of the grid of fixed steps, is met and nothing
+    /// that acts by the clock is missed; and that time, where it ends there.
+    pub fn fit(&mut self, stop: NextStop) -> (f64, Option<f64>) {
+        if let Some(size) = self.cut {
+            return (size, None);
+        }
+        let (placed, left) = (self.place(self.h), stop.t - self.t);
+        // A fixed step is met up to rounding, of the step and of the time.
+        let stretched = match self.fixed {
+            Some(_) => placed * (1.0 + 1e-9) + 4.0 * f64::EPSILON * stop.t.abs(),
+            None => 1.01 * placed,
+        };
+        let (size, end) = match self.fixed {
+            _ if stretched >= left => (left, Some(stop.t)),
+            Some(step) => (placed, self.end_of_fixed(step, placed)),
+            None => (placed, None),
+        };
+        let resolved = self.resolved(size, stop.t);
+        (resolved, end.filter(|_| resolved == size))
+    }
+
+    /// The step that misses nothing of what acts by the clock: `size` or less. Of a fixed step, whose error nobody estimates,
+    /// all parts are then so small that nothing is near to being missed.
+    fn resolved(&mut self, size: f64, stop: f64) -> f64 {
+        let (t, Events { timetable, pieces, .. }) = (self.t, &mut self.events);
+        let resolved = timetable.resolved(t, size, stop, pieces);
+        let Some(step) = self.fixed.filter(|_| resolved < size || t < self.divided) else { return resolved };
+        let parts = FINER * timetable.resolved(t, size / FINER, f64::INFINITY, pieces);
+        self.divided = self.next_of_grid(step);
+        parts.min(size)
+    }
+
+    /// A smaller step than that of a method which chose its own and missed what acts by the clock.
+    pub fn unresolved(&mut self, stop: f64) -> Option<f64> {
+        let seen = self.integrator.seen()?.min(stop - self.t);
+        let resolved = self.events.timetable.resolved(self.t, seen, stop, &self.events.pieces);
+        (resolved < seen).then_some(resolved)
+    }
+
+    /// Where a step of size `h` ends, if not at the time `end`.
+    pub fn end_of(&self, h: f64, end: Option<f64>) -> f64 {
+        end.unwrap_or(self.t + h)
+    }
+
+    /// The next time start + k h. Times are counted, not added up, so that rounding does not gather.
+    fn next_of_grid(&self, h: f64) -> f64 {
+        let passed = ((self.t - self.span.start) / h + TINY).floor();
+        self.span.start + (passed + 1.0) * h
+    }
+
+    /// From here to the next time of the grid of steps `h`: `h` itself from a time of the grid.
+    fn to_grid(&self, h: f64) -> f64 {
+        let left = self.next_of_grid(h) - self.t;
+        if (left - h).abs() < ROUND_OFF * h + 4.0 * f64::EPSILON * self.t.abs() { h } else { left }
+    }
+
+    /// The time of the grid at which a step of size `size` ends, if it does, in a run with fixed steps `h`.
+    fn end_of_fixed(&self, h: f64, size: f64) -> Option<f64> {
+        (size == self.to_grid(h)).then(|| self.next_of_grid(h))
+    }
+}

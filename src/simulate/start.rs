@@ -1,0 +1,49 @@
+//! Whether a singular state is one that a motion can start from.
+
+use super::Run;
+use crate::error::Failure;
+use crate::math::largest;
+
+const NO_BRANCH: &str = "the start is a singular state, with velocities that no motion through it has: constraints \
+     that depend on each other there ask for different accelerations";
+const UNDETERMINED: &str = "the start is a singular state at rest, and the motion is not determined: several motions \
+     meet there, and the forces push it along none of them";
+const BRANCHES: &str = "give velocities along one of the motions that meet there, or start beside it";
+
+/// What round-off may leave of accelerations of constraints, and of their lengths.
+const ROUND_OFF: f64 = 1e-6;
+/// Velocities that are this part of what the accelerations would make over the run are none.
+const AT_REST: f64 = 1e-12;
+
+impl Run<'_> {
+    /// Finds the rows that depend on others at the start, and leaves them out until they do not hold any more. Refuses
+    /// velocities that no motion has, and a state of rest that the accelerations leave along no motion: bounded
+    /// multipliers push along none of the dependent rows, so that a motion from rest begins along v', as along a velocity.
+    pub fn check_start(&mut self) -> Result<(), Failure> {
+        let (q, v) = self.problem.split(&self.y);
+        let dynamics = &mut self.rows.problem.dynamics;
+        let (dependent, contradiction) = dynamics.dependent_rows(self.t, q, v);
+        let duration = self.span.end - self.span.start;
+        let mut is_undetermined = false;
+        if !dependent.is_empty() && largest(v) <= AT_REST * largest(&dynamics.vdot) * duration {
+            let vdot = dynamics.vdot.clone();
+            let (_, contradiction) = dynamics.dependent_rows(self.t, q, &vdot);
+            is_undetermined = self.is_contradiction(contradiction);
+        }
+        if self.is_contradiction(contradiction) {
+            return Err(self.failure(NO_BRANCH.to_string(), Some(BRANCHES)));
+        }
+        if is_undetermined {
+            return Err(self.failure(UNDETERMINED.to_string(), Some(BRANCHES)));
+        }
+        self.hold(&dependent);
+        Ok(())
+    }
+
+    /// Whether dependent rows ask for accelerations that differ by more than round-off of what is `usual` there, and that
+    /// open joints during the run.
+    fn is_contradiction(&self, (contradiction, usual): (f64, f64)) -> bool {
+        let opened = contradiction * (self.span.end - self.span.start).powi(2);
+        contradiction > ROUND_OFF * usual && opened > ROUND_OFF * largest(&self.scales)
+    }
+}
