@@ -5,6 +5,7 @@ use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
 use crate::linearize::method::Entry;
 use crate::linearize::{Changes, Matrix, Response, Variation};
+use crate::math::eigen::pseudo_inverse;
 
 /// With P = I - G^+ G, which projects forces on the directions that are free,
 ///
@@ -37,7 +38,7 @@ fn response(variation: &mut Variation, changes: &Changes, held: [f64; 2]) -> Res
     let kept = variation.independent_rows();
     let g = all.select_rows(&kept);
     let rows = variation.rows(changes, held).select_rows(&kept);
-    let inverse = pseudo_inverse(&g, kept.len())?;
+    let inverse = inverted(&g, kept.len())?;
     let along = &inverse * &g;
     let project = Matrix::identity(g.ncols(), g.ncols()) - &along;
     let mu = mass.trace() / (g.ncols().max(1) as f64);
@@ -51,7 +52,7 @@ fn response(variation: &mut Variation, changes: &Changes, held: [f64; 2]) -> Res
     let vdot = solve(&project * &force + &inverse * rows * mu)?;
     let driven_vdot = solve(&project * &inputs)?;
     // Multipliers of least norm, over all rows.
-    let reaction = pseudo_inverse(&all, kept.len())?.transpose();
+    let reaction = inverted(&all, kept.len())?.transpose();
     Ok(Response {
         lambda: &reaction * (force - &mass * &vdot),
         driven_lambda: reaction * (inputs - mass * &driven_vdot),
@@ -60,14 +61,6 @@ fn response(variation: &mut Variation, changes: &Changes, held: [f64; 2]) -> Res
     })
 }
 
-/// G^+ of a rank that is known.
-fn pseudo_inverse(g: &Matrix, rank: usize) -> Result<Matrix> {
-    if rank == 0 {
-        return Ok(Matrix::zeros(g.ncols(), g.nrows()));
-    }
-    let mut values: Vec<f64> = g.singular_values().iter().copied().collect();
-    values.sort_by(|a, b| b.total_cmp(a));
-    let least = values.get(rank - 1).copied().unwrap_or(0.0);
-    let left_out = values.get(rank).copied().unwrap_or(0.0);
-    g.clone().pseudo_inverse((0.5 * (least + left_out)).max(f64::MIN_POSITIVE)).map_err(Error::input)
+fn inverted(g: &Matrix, rank: usize) -> Result<Matrix> {
+    pseudo_inverse(g, rank).map_err(|unsolved| Error::input(unsolved.to_string()))
 }

@@ -57,6 +57,16 @@ pub fn svd(matrix: &Matrix) -> Result<Svd, Unsolved> {
     Ok(Svd { u: copy(svd.U()), s, v: copy(svd.V()) })
 }
 
+/// A^+ of a matrix of known rank, by its largest singular values.
+pub fn pseudo_inverse(matrix: &Matrix, rank: usize) -> Result<Matrix, Unsolved> {
+    let Svd { u, s, v } = svd(matrix)?;
+    let mut scaled = v.columns(0, rank).into_owned();
+    for (mut column, s) in scaled.column_iter_mut().zip(&s) {
+        column /= *s;
+    }
+    Ok(scaled * u.columns(0, rank).transpose())
+}
+
 /// Largest over smallest singular value; infinite where the smallest is round-off, 1 without columns.
 pub fn condition(matrix: &ComplexMatrix) -> Result<f64, Unsolved> {
     if matrix.is_empty() {
