@@ -15,20 +15,9 @@ const ROUND_OFF: f64 = 1e-9;
 const SMALL_JUMP: f64 = 1.0;
 /// A step is cut to passages on its dense output at most so often.
 const MOST_CUTS: usize = 10;
-/// So many passages within this part of the span do not come to an end.
-const MOST_PASSAGES: usize = 500;
-const CROWDED: f64 = 1e-5;
 
 const CONTINUOUS: &str = "write a law that passes through zero steadily, such as `tanh(x/width)` in the place of \
      `sign(x)`, or `smoothstep` in the place of `step` and `if`";
-
-/// How often steps have met thresholds of late, and which was the last.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Passages {
-    since: f64,
-    count: usize,
-    by: usize,
-}
 
 impl Run<'_> {
     /// The first threshold that the step just tried goes over. A method that chooses its own steps ends there on its dense
@@ -37,7 +26,7 @@ impl Run<'_> {
         let mut passage = self.passage(*h, self.end_of(*h, *end))?;
         for _ in 0..MOST_CUTS {
             let own = passage.filter(|_| self.integrator.own_step().is_some());
-            let Some(Passage::Within(_, theta)) = own else { break };
+            let Some(Passage::Within(theta)) = own else { break };
             let from = From { t: self.t, y: &self.y, slope: &self.slope };
             self.integrator.interpolate(&mut self.rows.problem, from, *h, theta, &mut self.next)?;
             (*h, *end) = (theta * *h, None);
@@ -61,7 +50,7 @@ impl Run<'_> {
         let (next, next_slope) = (&self.next, &self.next_slope);
         let (q, v) = problem.split(next);
         let (_, vdot) = problem.split(next_slope);
-        let found = events.passage(h, Loaded { t: end, q, v, vdot, lambda: &[] }, |theta, see| {
+        events.passage(h, Loaded { t: end, q, v, vdot, lambda: &[] }, |theta, see| {
             if !std::mem::replace(&mut prepared, true) {
                 rows.problem.begin_step(from.t, from.y)?;
                 integrator.prepare(&mut rows.problem, from, h, next, next_slope)?;
@@ -70,11 +59,7 @@ impl Run<'_> {
             let (q, v) = rows.problem.split(&rows.y);
             see(Loaded { t: from.t + theta * h, q, v, vdot: &[], lambda: &[] });
             Ok::<(), Halt>(())
-        })?;
-        if let Some(passage) = found {
-            self.count_passage(passage);
-        }
-        Ok(found)
+        })
     }
 
     /// Starts the run on the pieces of its start.
@@ -92,6 +77,9 @@ impl Run<'_> {
     pub fn change_form(&mut self, at_start: Option<usize>) -> Result<(), Failure> {
         let before = self.slope.clone();
         let turns = self.events.turn(at_start);
+        if let Some(&turn) = turns.first() {
+            self.check_crowd(turn)?;
+        }
         self.events.timetable.place(self.t, &mut self.events.pieces);
         self.enter_form()?;
         if let Some(turn) = self.events.driven_back(&turns) {
@@ -203,20 +191,13 @@ impl Run<'_> {
         self.failure(reason, Some(CONTINUOUS))
     }
 
-    fn count_passage(&mut self, passage: Passage) {
-        let Passages { since, count, .. } = self.passages;
-        let is_crowded = count > 0 && self.t - since < CROWDED * (self.span.end - self.span.start);
-        let (since, count) = if is_crowded { (since, count + 1) } else { (self.t, 1) };
-        self.passages = Passages { since, count, by: passage.number() };
-    }
-
     /// Ends a run whose form changes without end.
-    pub fn check_crowd(&self) -> Result<(), Failure> {
-        let Passages { since, count, by } = self.passages;
-        if count <= MOST_PASSAGES {
-            return Ok(());
-        }
-        let (owner, within) = (self.events.owner(by), self.t - since);
+    fn check_crowd(&mut self, turn: Turn) -> Result<(), Failure> {
+        let moved: Vec<f64> = self.y.iter().zip(&self.turned_at).map(|(y, before)| y - before).collect();
+        self.crowd.add(self.t, turn.rate, self.tolerance.norm(&self.y, &moved) > 1.0);
+        self.turned_at.clone_from(&self.y);
+        let Some((count, within)) = self.crowd.endless(self.span.end - self.t) else { return Ok(()) };
+        let owner = self.events.owner(turn.number);
         let reason = format!("{owner} changes its form without end, {count} times in {within:.1e} s");
         Err(self.failure(reason, Some(CONTINUOUS)))
     }

@@ -3,6 +3,7 @@
 mod approach;
 mod auto;
 mod changes;
+mod crowd;
 mod ending;
 mod events;
 mod method;
@@ -23,7 +24,7 @@ pub use spectrum::{Mode, Spectrum};
 pub use stiffness::{Stiffness, explicit, stiffness};
 
 use approach::Approach;
-use changes::Passages;
+use crowd::Crowd;
 use events::{Events, Passage};
 use plan::NextStop;
 use rows::{Rows, observation, project};
@@ -34,6 +35,9 @@ use crate::formulation::{self, Dynamics, Halt, Rows as Constraints, Statistics};
 use crate::integrator::{self, From, Integrator, Problem, Setup, Store, Tolerance};
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
+
+/// A step that is undecided about a threshold is not made shorter than so many of those that make no sense.
+const SHORTEST: f64 = 1e3;
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,7 +84,9 @@ struct Run<'a> {
     rows: Rows<'a>,
     approach: Approach,
     events: Events<'a>,
-    passages: Passages,
+    crowd: Crowd,
+    /// The state at the last turn.
+    turned_at: Vec<f64>,
     /// Until when a fixed step is divided.
     divided: f64,
     /// Factorizations up to the last accepted state.
@@ -164,7 +170,8 @@ impl<'a> Run<'a> {
             rows: Rows::new(parts.rows.0, parts.rows.1),
             approach: Approach::default(),
             events: Events::new(system, (span.start, span.end)),
-            passages: Passages::default(),
+            crowd: Crowd::default(),
+            turned_at: zeros(),
             divided: span.start,
             factored: 0,
             scales: system.scales(),
@@ -255,11 +262,17 @@ impl<'a> Run<'a> {
             return Ok(false);
         }
         let passage = self.end_at_passage(size, end).map_err(|halt| self.halted(&halt))?;
-        self.check_crowd()?;
         match passage {
             None => return Ok(true),
-            Some(Passage::AtStart(number)) => self.change_form(Some(number))?,
-            Some(Passage::Within(_, theta)) => {
+            Some(Passage::AtStart(number)) => {
+                self.change_form(Some(number))?;
+                // A step that leaves on neither side is longer than the way to the threshold.
+                if self.fixed.is_none() && 0.1 * self.h > SHORTEST * self.smallest() && self.events.is_undecided(number)
+                {
+                    self.h *= 0.1;
+                }
+            }
+            Some(Passage::Within(theta)) => {
                 self.problem.dynamics.statistics.rejected += 1;
                 self.cut = Some(theta * *size);
             }

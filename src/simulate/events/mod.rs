@@ -33,16 +33,8 @@ const LOOKS: usize = 8;
 pub enum Passage {
     /// At the very start: the piece is not the right one from there on.
     AtStart(usize),
-    /// At this fraction of the step, by this function.
-    Within(usize, f64),
-}
-
-impl Passage {
-    /// The number of the function.
-    pub fn number(&self) -> usize {
-        let (Passage::AtStart(number) | Passage::Within(number, _)) = *self;
-        number
-    }
+    /// At this fraction of the step.
+    Within(f64),
 }
 
 /// A function that came to a threshold.
@@ -52,7 +44,7 @@ pub struct Turn {
     /// The piece that it comes from.
     from: Piece,
     /// How fast its argument went out of it.
-    rate: f64,
+    pub rate: f64,
 }
 
 /// The switching functions of a run.
@@ -147,7 +139,7 @@ impl<'a> Events<'a> {
         let Events { system, switches, of_state, pieces, scratch, start, within, at, turned, shortest, .. } = self;
         read(*system, scratch, pieces, end, &mut self.end);
         at.clear();
-        let (mut first, mut by) = (1.0, 0);
+        let mut first = 1.0;
         // One that is found on neither side of a threshold is at it, up to round-off.
         for &number in of_state.iter().filter(|&&number| turned[number] < 2) {
             let (a, b) = (start[number], self.end[number]);
@@ -179,13 +171,11 @@ impl<'a> Events<'a> {
                     if passage < AT_START {
                         return Ok(Some(Passage::AtStart(number)));
                     }
-                    if passage < first {
-                        (first, by) = (passage, number);
-                    }
+                    first = passage.min(first);
                 }
             }
         }
-        Ok((first < 1.0).then_some(Passage::Within(by, first)))
+        Ok((first < 1.0).then_some(Passage::Within(first)))
     }
 
     /// Moves the functions that are at a threshold, or the one that is at the start of a refused step, to their next pieces.
@@ -209,6 +199,15 @@ impl<'a> Events<'a> {
             Turn { number, from, rate }
         };
         numbers.into_iter().map(turn).collect()
+    }
+
+    /// Whether a function has turned to and fro at the start of this step; it may do so again.
+    pub fn is_undecided(&mut self, number: usize) -> bool {
+        let is_undecided = self.turned[number] > 1;
+        if is_undecided {
+            self.turned[number] = 0;
+        }
+        is_undecided
     }
 
     /// A function that its new piece drives back over the threshold from where the old one drove it.
