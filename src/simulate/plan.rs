@@ -5,8 +5,10 @@ use super::events::Events;
 use crate::formulation::Halt;
 use crate::integrator::first_step;
 
-/// The parts of a fixed step that misses what acts by the clock, beside steps that just do not.
+/// The parts of a fixed step that misses what acts by the clock, beside steps on which that is almost cubic.
 const FINER: f64 = 0.125;
+/// The part of what is resolved that one cubic shows.
+const SHOWN: f64 = 0.25;
 
 /// A time at which a step must end.
 #[derive(Clone, Copy)]
@@ -77,12 +79,14 @@ impl Run<'_> {
     }
 
     /// The step that misses nothing of what acts by the clock: `size` or less. Of a fixed step, whose error nobody estimates,
-    /// all parts are then so small that nothing is near to being missed.
+    /// all parts are then so small that little of it is left to see.
     fn resolved(&mut self, size: f64, stop: f64) -> f64 {
         let (t, Events { timetable, pieces, .. }) = (self.t, &mut self.events);
-        let resolved = timetable.resolved(t, size, stop, pieces);
-        let Some(step) = self.fixed.filter(|_| resolved < size || t < self.divided) else { return resolved };
-        let parts = FINER * timetable.resolved(t, size / FINER, f64::INFINITY, pieces);
+        let Some(step) = self.fixed else { return timetable.resolved(t, size, stop, pieces) };
+        if t >= self.divided && timetable.resolved(t, size / SHOWN, stop, pieces) >= size / SHOWN {
+            return size;
+        }
+        let parts = FINER * timetable.finely_resolved(t, size / FINER, pieces);
         self.divided = self.next_of_grid(step);
         parts.min(size)
     }

@@ -66,7 +66,7 @@ fn turns_that_will_have_no_end_are_foreseen() {
         let (outcome, _) = attempt(&scene, &method(names, 1e-6), 10.0);
         assert!(outcome.statistics.steps < 150_000, "{names:?}: {:?}", outcome.statistics);
         // Where the error of a method is more than what is left of the motion, its turns stay as long.
-        if names[1] != "tr_bdf2" {
+        if !["tr_bdf2", "generalized_alpha"].contains(&names[1]) {
             let failure = outcome.failure.unwrap_or_else(|| panic!("{names:?}"));
             assert!(failure.reason.contains("the force `push`"), "{names:?}: {failure:?}");
         }

@@ -1,7 +1,7 @@
 //! When functions of t change their form.
 
 use super::range::{Range, first_out};
-use super::watch::Watch;
+use super::watch::{FINELY, ROUGHLY, Watch};
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::{Interval, Piece, Regime, Taylor, piece_of};
 
@@ -44,7 +44,13 @@ impl<'a> Timetable<'a> {
     /// The step from `t` that misses nothing of the functions of time: `h` or less. They are held on these pieces up to
     /// `stop`.
     pub fn resolved(&mut self, t: f64, h: f64, stop: f64, pieces: &[Piece]) -> f64 {
-        self.watch.resolved((t, h, stop), Regime::held(pieces))
+        self.watch.resolved((t, h, stop), ROUGHLY, Regime::held(pieces))
+    }
+
+    /// A step that not only misses nothing, but on which the functions are almost cubics.
+    pub fn finely_resolved(&mut self, t: f64, h: f64, pieces: &[Piece]) -> f64 {
+        self.watch.forget();
+        self.watch.resolved((t, h, f64::INFINITY), FINELY, Regime::held(pieces))
     }
 
     /// The piece on which an argument is right after `t`: at a threshold its slope decides.

@@ -12,8 +12,10 @@ use crate::math::{Interval, Regime, Scalar, Taylor};
 const SHORTEST: f64 = 1e-4;
 /// A window is looked at whole for so many steps of the size at hand.
 const WINDOW: f64 = 8.0;
-/// What a function may do beside its cubic, as part of how it and its rates change it over a quarter.
-const BESIDE: f64 = 0.1;
+/// What a function may do beside its cubic, as part of how it and its rates change it over a quarter: where an estimate of
+/// the error sees to the rest, and where none does.
+pub const ROUGHLY: f64 = 0.1;
+pub const FINELY: f64 = 1e-4;
 /// What is nothing beside the size of a function, and in its own unit.
 const SMALL: f64 = 1e-9;
 const NOTHING: f64 = 1e-14;
@@ -53,8 +55,8 @@ impl<'a> Watch<'a> {
         self.seen = f64::NEG_INFINITY;
     }
 
-    /// The step from `t` that misses nothing, `h` or less; the functions are those of the regime up to `stop`.
-    pub fn resolved(&mut self, (t, h, stop): (f64, f64, f64), regime: Regime) -> f64 {
+    /// The step from `t` that misses nothing, `h` or less, with cubics that show the functions but for this part; the functions are those of the regime up to `stop`.
+    pub fn resolved(&mut self, (t, h, stop): (f64, f64, f64), beside: f64, regime: Regime) -> f64 {
         if self.functions.is_empty() || t + h <= self.seen {
             return h;
         }
@@ -62,7 +64,8 @@ impl<'a> Watch<'a> {
         let mut window = whole;
         while window > self.shortest {
             let shortest = self.shortest;
-            let unseen = self.functions.iter_mut().filter_map(|watched| watched.unseen(regime, t, window, shortest));
+            let unseen =
+                self.functions.iter_mut().filter_map(|watched| watched.unseen(regime, (t, window), (shortest, beside)));
             match unseen.reduce(f64::min) {
                 None => break,
                 // Up to where something begins that the nodes do not show there may be nothing else.
@@ -76,16 +79,19 @@ impl<'a> Watch<'a> {
 }
 
 impl Watched<'_> {
+    /// The function and its rates; without rates where an overflow makes nothing of them, as in 1/cosh(t).
     fn at(&self, t: f64, regime: Regime) -> Taylor<f64> {
-        self.function.at(Taylor::time(t), regime)
+        let found = self.function.at(Taylor::time(t), regime);
+        let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
+        Taylor { x: found.x, d: finite(found.d), dd: finite(found.dd) }
     }
 
     /// From where on the window that starts at `t` does not show all of the function; none where it does, or where that is
     /// not finite.
-    fn unseen(&mut self, regime: Regime, t: f64, window: f64, shortest: f64) -> Option<f64> {
+    fn unseen(&mut self, regime: Regime, (t, window): (f64, f64), (shortest, beside): (f64, f64)) -> Option<f64> {
         let times = [0.0, 0.25, 0.5, 0.75, 1.0].map(|part| t + part * window);
         let nodes = times.map(|t| self.at(t, regime));
-        if nodes.iter().any(|node| !(node.x.is_finite() && node.d.is_finite())) {
+        if nodes.iter().any(|node| !node.x.is_finite()) {
             return None;
         }
         let mut looks = MOST_LOOKS;
@@ -95,7 +101,7 @@ impl Watched<'_> {
             let cubic = 0.5 * (a.x + b.x) + width / 8.0 * (a.d - b.d);
             let change = (b.x - a.x).abs() + 0.25 * width * (a.d.abs() + b.d.abs());
             let small = SMALL * a.x.abs().max(b.x.abs()) + NOTHING;
-            if (middle.x - cubic).abs() > BESIDE * change + small {
+            if (middle.x - cubic).abs() > beside * change + small {
                 return Some(quarter.from);
             }
             if let Some(from) = self.first_beyond(&quarter, regime, shortest, &mut looks) {
