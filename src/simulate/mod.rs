@@ -8,6 +8,7 @@ mod ending;
 mod events;
 mod method;
 mod observation;
+mod output;
 mod plan;
 mod rows;
 mod segments;
@@ -27,12 +28,12 @@ use approach::Approach;
 use crowd::Crowd;
 use events::{Events, Passage};
 use plan::NextStop;
-use rows::{Rows, observation, project};
+use rows::{Rows, observation};
 use step::is_too_large;
 
 use crate::error::{Error, Failure, Result};
-use crate::formulation::{self, Dynamics, Halt, Rows as Constraints, Statistics};
-use crate::integrator::{self, From, Integrator, Problem, Setup, Store, Tolerance};
+use crate::formulation::{self, Dynamics, Rows as Constraints, Statistics};
+use crate::integrator::{self, Integrator, Problem, Setup, Store, Tolerance};
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
 
@@ -224,7 +225,11 @@ impl<'a> Run<'a> {
             if !self.meets_all(&mut size, &mut end, stop)? {
                 continue;
             }
-            self.output(size, end, sink).map_err(|halt| self.halted(&halt))?;
+            if let Some(theta) = self.output(size, end, sink).map_err(|halt| self.halted(&halt))? {
+                self.problem.dynamics.statistics.rejected += 1;
+                self.cut = Some(theta * size);
+                continue;
+            }
             self.accept(size, end, sink);
             self.check_joints()?;
             if self.t >= self.span.end && self.span.row(self.rows.next - 1) < self.span.end {
@@ -294,45 +299,6 @@ impl<'a> Run<'a> {
     /// Ends the run where the sink wants that.
     fn ask(&self, sink: &dyn Sink) -> Result<(), Failure> {
         sink.stops().map_or(Ok(()), |Stop { reason, hint }| Err(Failure { t: self.t, reason, hint }))
-    }
-
-    /// Emits the rows within the step from `t` to `t + h`.
-    fn output(&mut self, h: f64, end: Option<f64>, sink: &mut dyn Sink) -> Result<(), Halt> {
-        let end = self.end_of(h, end);
-        let slack = 1e-9 * h;
-        let mut prepared = false;
-        let sweeps = self.sweeps(h);
-        loop {
-            let t = self.span.row(self.rows.next);
-            if t > end + slack || self.rows.next > 0 && self.span.row(self.rows.next - 1) >= self.span.end {
-                return Ok(());
-            }
-            if t > end - slack {
-                self.rows.y.copy_from_slice(&self.next);
-            } else {
-                if !prepared {
-                    self.prepare(h)?;
-                    prepared = true;
-                }
-                let (rows, from) = (&mut self.rows, From { t: self.t, y: &self.y, slope: &self.slope });
-                rows.problem.begin_step(self.t, &self.y)?;
-                self.integrator.interpolate(&mut rows.problem, from, h, (t - from.t) / h, &mut rows.y)?;
-                project(t, &mut rows.y, &mut rows.problem, &mut rows.projection, sweeps)?;
-            }
-            self.rows.emit(t, sink)?;
-            self.rows.next += 1;
-            // A step may have millions of rows; the run ends before the next one.
-            if sink.stops().is_some() {
-                return Ok(());
-            }
-        }
-    }
-
-    fn prepare(&mut self, h: f64) -> Result<(), Halt> {
-        let from = From { t: self.t, y: &self.y, slope: &self.slope };
-        // Interpolation stages run on the rows' problem: they do not count.
-        self.rows.problem.begin_step(self.t, &self.y)?;
-        self.integrator.prepare(&mut self.rows.problem, from, h, &self.next, &self.next_slope)
     }
 
     fn accept(&mut self, h: f64, end: Option<f64>, sink: &mut dyn Sink) {

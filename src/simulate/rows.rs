@@ -12,23 +12,43 @@ pub struct Rows<'a> {
     /// The number of the next row.
     pub next: u64,
     pub y: Vec<f64>,
-    slope: Vec<f64>,
+    /// y' of it.
+    pub slope: Vec<f64>,
+    /// What the dense output says of v' there.
+    pub vdot: Vec<f64>,
+    pub ahead: Vec<f64>,
     phi_ddot: Vec<f64>,
 }
 
 impl<'a> Rows<'a> {
     pub fn new(problem: Problem<'a>, projection: Option<Box<dyn Projection + 'a>>) -> Self {
         let zeros = || vec![0.0; problem.len()];
-        let (y, slope) = (zeros(), zeros());
+        let (y, slope, ahead) = (zeros(), zeros(), zeros());
+        let vdot = vec![0.0; problem.dynamics.vdot.len()];
         let phi_ddot = vec![0.0; problem.dynamics.lambda.len()];
-        Rows { problem, projection, next: 0, y, slope, phi_ddot }
+        Rows { problem, projection, next: 0, y, slope, vdot, ahead, phi_ddot }
     }
 
     /// Evaluates the state in `y` and shows it.
     pub fn emit(&mut self, t: f64, sink: &mut dyn super::Sink) -> Result<(), Halt> {
-        self.problem.derivative(t, &self.y, &mut self.slope)?;
-        sink.row(&observation(t, &self.y, &self.problem, None, &mut self.phi_ddot));
+        self.evaluate(t)?;
+        self.show(t, sink);
         Ok(())
+    }
+
+    pub fn evaluate(&mut self, t: f64) -> Result<(), Halt> {
+        self.problem.derivative(t, &self.y, &mut self.slope)
+    }
+
+    /// Sets `vdot` from `y` and the state `dt` ahead.
+    pub fn differentiate(&mut self, dt: f64) {
+        let (before, after) = (self.problem.split(&self.y).1, self.problem.split(&self.ahead).1);
+        let rates = before.iter().zip(after).map(|(before, after)| (after - before) / dt);
+        self.vdot.iter_mut().zip(rates).for_each(|(vdot, rate)| *vdot = rate);
+    }
+
+    pub fn show(&mut self, t: f64, sink: &mut dyn super::Sink) {
+        sink.row(&observation(t, &self.y, &self.problem, None, &mut self.phi_ddot));
     }
 }
 

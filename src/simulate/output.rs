@@ -1,0 +1,87 @@
+//! Rows within a step.
+
+use super::rows::project;
+use super::{Run, Sink};
+use crate::formulation::Halt;
+use crate::integrator::From;
+
+/// A time nearer to the end of a step than this part of it is the end.
+const SLACK: f64 = 1e-9;
+/// v' of the dense output is a difference over this part of the step.
+const APART: f64 = 1e-3;
+/// The v' of a row contradicts the dense output where the difference over the step is so many tolerated errors of v, and more
+/// than this part of all accelerations at hand.
+const MANY: f64 = 100.0;
+const PART: f64 = 0.2;
+
+impl Run<'_> {
+    /// Emits the rows within the step from `t` to `t + h`; the fraction of the step at which a row contradicts it, if one
+    /// does: at that row something acts that the step has not seen.
+    pub fn output(&mut self, h: f64, end: Option<f64>, sink: &mut dyn Sink) -> Result<Option<f64>, Halt> {
+        let end = self.end_of(h, end);
+        let slack = SLACK * h;
+        let mut prepared = false;
+        loop {
+            let t = self.span.row(self.rows.next);
+            if t > end + slack || self.rows.next > 0 && self.span.row(self.rows.next - 1) >= self.span.end {
+                return Ok(None);
+            }
+            if t > end - slack {
+                self.rows.y.copy_from_slice(&self.next);
+                self.rows.emit(t, sink)?;
+            } else {
+                if !std::mem::replace(&mut prepared, true) {
+                    self.prepare(h)?;
+                }
+                if let Some(theta) = self.row_within(t, h)? {
+                    return Ok(Some(theta));
+                }
+                self.rows.show(t, sink);
+            }
+            self.rows.next += 1;
+            // A step may have millions of rows; the run ends before the next one.
+            if sink.stops().is_some() {
+                return Ok(None);
+            }
+        }
+    }
+
+    fn prepare(&mut self, h: f64) -> Result<(), Halt> {
+        let from = From { t: self.t, y: &self.y, slope: &self.slope };
+        // Interpolation stages run on the rows' problem: they do not count.
+        self.rows.problem.begin_step(self.t, &self.y)?;
+        self.integrator.prepare(&mut self.rows.problem, from, h, &self.next, &self.next_slope)
+    }
+
+    /// Evaluates the row at `t`; its fraction of the step where it contradicts that.
+    fn row_within(&mut self, t: f64, h: f64) -> Result<Option<f64>, Halt> {
+        let sweeps = self.sweeps(h);
+        let theta = (t - self.t) / h;
+        let (rows, from) = (&mut self.rows, From { t: self.t, y: &self.y, slope: &self.slope });
+        rows.problem.begin_step(self.t, &self.y)?;
+        let is_checked = self.fixed.is_none() && self.integrator.stability().is_some() && !self.approach.reaches(h);
+        if is_checked {
+            let around = [(theta - APART).max(0.0), (theta + APART).min(1.0)];
+            self.integrator.interpolate(&mut rows.problem, from, h, around[0], &mut rows.y)?;
+            self.integrator.interpolate(&mut rows.problem, from, h, around[1], &mut rows.ahead)?;
+            rows.differentiate(h * (around[1] - around[0]));
+        }
+        self.integrator.interpolate(&mut rows.problem, from, h, theta, &mut rows.y)?;
+        project(t, &mut rows.y, &mut rows.problem, &mut rows.projection, sweeps)?;
+        rows.evaluate(t)?;
+        Ok((is_checked && self.row_contradicts(h)).then_some(theta))
+    }
+
+    /// Whether v' of the row is not that of the dense output. This is not asked of implicit methods, in whose long steps a
+    /// small error of q is much for v' of a stiff mechanism, nor beside singular states, where v' is less exact.
+    fn row_contradicts(&self, h: f64) -> bool {
+        let v = |y| self.problem.split(y).1.iter();
+        let (row, ends) = (v(&self.rows.slope), v(&self.slope).zip(v(&self.next_slope)));
+        let size = v(&self.y).zip(v(&self.next));
+        row.zip(&self.rows.vdot).zip(ends).zip(size).any(|(((row, dense), (a, b)), (v0, v1))| {
+            let off = (row - dense).abs();
+            let all = row.abs() + dense.abs() + a.abs() + b.abs();
+            off > PART * all && h * off > MANY * self.tolerance.weight(*v0, *v1)
+        })
+    }
+}
