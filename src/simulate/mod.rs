@@ -105,6 +105,8 @@ struct Run<'a> {
     /// Whether the projection, or another end of a step, moved the last state.
     is_moved: bool,
     phi_ddot: Vec<f64>,
+    /// M v
+    momentum: Vec<f64>,
     /// Velocities that follow from phi = 0 alone are of lower order and not tested.
     tests_velocities: bool,
     limits_projection: bool,
@@ -186,6 +188,7 @@ impl<'a> Run<'a> {
             change: zeros(),
             is_moved: false,
             phi_ddot: vec![0.0; system.dimensions().lambda],
+            momentum: vec![0.0; system.dimensions().v],
             tests_velocities: parts.tests_velocities,
             limits_projection: parts.limits_projection,
             refusal: "",
@@ -323,6 +326,8 @@ impl<'a> Run<'a> {
         }
         let usual = self.approach.largest;
         [&mut self.problem, &mut self.rows.problem].into_iter().for_each(|p| p.dynamics.kkt.usual_sine = usual);
-        sink.accepted(&observation(self.t, &self.y, &self.problem, sine, &mut self.phi_ddot));
+        let tolerated = self.fixed.is_none().then(|| self.tolerated_energy());
+        let state = observation(self.t, &self.y, &self.problem, sine, &mut self.phi_ddot);
+        sink.accepted(&Observation { tolerated, ..state });
     }
 }
