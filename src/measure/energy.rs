@@ -46,7 +46,7 @@ const ROUND_OFF: f64 = 1e-12;
 /// A balance that is open by this part of the energy turned over is that of another motion.
 const OPEN: f64 = 0.01;
 /// The balance of a good run is open by less than so many times what the tolerance lets it.
-const BEYOND: f64 = 1e3;
+const BEYOND: f64 = 10.0;
 
 /// One row of the ledger.
 #[derive(Clone, Copy, Debug, PartialEq)]

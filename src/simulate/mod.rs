@@ -110,6 +110,7 @@ struct Run<'a> {
     /// Velocities that follow from phi = 0 alone are of lower order and not tested.
     tests_velocities: bool,
     limits_projection: bool,
+    is_explicit: bool,
     /// Why the last step was refused.
     refusal: &'static str,
     /// The step to try next, and whether it may grow after that.
@@ -167,6 +168,7 @@ impl<'a> Run<'a> {
         let zeros = || vec![0.0; y.len()];
         let system = parts.problem.dynamics.system;
         Run {
+            is_explicit: parts.integrator.stability().is_some(),
             problem: parts.problem,
             integrator: parts.integrator,
             projection: parts.projection,
