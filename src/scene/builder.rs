@@ -99,7 +99,20 @@ fn model<const D: usize>(
     let inputs = outputs::inputs::<D>(&file.inputs, &forces)?;
     let Parts { table, ground, bodies, beams, q, v } = parts;
     let switches = switches.into_inner();
-    Ok((Model { gravity, markers: table, ground, bodies, joints, forces, beams, outputs, inputs, switches }, q, v))
+    let extent = extent(&bodies, &q);
+    Ok((
+        Model { gravity, markers: table, ground, bodies, joints, forces, beams, outputs, inputs, switches, extent },
+        q,
+        v,
+    ))
+}
+
+fn extent<const D: usize>(bodies: &[Part<D>], q: &[f64]) -> f64 {
+    let positions = bodies.iter().flat_map(|part| {
+        let names = part.body.coordinate_names().into_iter().zip(&q[part.first_q..]);
+        names.filter(|(name, _)| ["x", "y", "z"].contains(&name.as_str())).map(|(_, x)| x.abs()).collect::<Vec<_>>()
+    });
+    positions.fold(0.0, f64::max)
 }
 
 /// Bodies as they are collected, with their start.

@@ -21,6 +21,8 @@ pub struct Model<const D: usize> {
     pub outputs: Vec<Watched>,
     pub inputs: Vec<Driven>,
     pub switches: Switches,
+    /// The largest coordinate of position at the start, m.
+    pub extent: f64,
 }
 
 /// A body in its place.

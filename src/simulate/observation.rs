@@ -80,10 +80,7 @@ impl super::Run<'_> {
         let dynamics = &self.problem.dynamics;
         let (q, v) = self.problem.split(&self.y);
         self.momentum.fill(0.0);
-        for (&(i, j), mass) in dynamics.structure.mass.entries.iter().zip(&dynamics.terms.mass) {
-            self.momentum[i] += mass * v[j];
-            self.momentum[j] += if i == j { 0.0 } else { mass * v[i] };
-        }
+        dynamics.structure.mass.multiply_symmetric(&dynamics.terms.mass, v, &mut self.momentum);
         let of_q = self.tolerance.weight(0.0, largest(q));
         let of_v = self.momentum.iter().zip(v).map(|(p, v)| p.abs() * self.tolerance.weight(0.0, *v));
         of_v.sum::<f64>() + of_q * dynamics.terms.f.iter().map(|f| f.abs()).sum::<f64>()

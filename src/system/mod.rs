@@ -173,6 +173,11 @@ pub trait MechanicalSystem: Send + Sync {
         &[]
     }
 
+    /// A length typical of the mechanism, m. Default: 1.
+    fn length(&self) -> f64 {
+        1.0
+    }
+
     /// Units of phi by row that drift is measured against: a length for rows in metres, 1 rad for angles. Default: 1.
     fn scales(&self) -> Vec<f64> {
         vec![1.0; self.dimensions().lambda]
