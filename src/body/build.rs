@@ -1,10 +1,11 @@
 //! What elements resolve their parts of a scene with.
 
 use super::{Probe, Signal};
-use crate::error::{Error, Result, nearest, short, suggest};
+use crate::error::{Error, Result, Warning, nearest, short, suggest};
 use crate::math::expression::{Expression, Number, Parameters, Switch, TimeFunction};
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::f64::consts::TAU;
 use std::path::Path;
 
 /// Index of a marker among all markers of a scene, those of the ground included.
@@ -71,6 +72,10 @@ pub struct Switches {
     /// The element of each, such as "the force `push`".
     pub owners: Vec<String>,
     pub time_functions: Vec<TimeFunction>,
+    /// What of the scene is doubtful.
+    pub doubts: Vec<Warning>,
+    /// How many of the doubts have the name of their element.
+    named: usize,
 }
 
 impl Switches {
@@ -84,12 +89,33 @@ impl Switches {
     /// Says to whom all belong that came since the last call.
     pub fn own(&mut self, owner: &str) {
         self.owners.resize(self.all.len(), owner.to_string());
+        for doubt in &mut self.doubts[self.named..] {
+            doubt.text = format!("{owner}: {}", doubt.text);
+        }
+        self.named = self.doubts.len();
     }
 }
 
 impl<const D: usize> Build<'_, D> {
     pub fn number(&self, field: &str, number: &Number) -> Result<f64> {
         number.evaluate(self.parameters).map_err(|error| Error::from(error).under(field))
+    }
+
+    /// An angle, rad; more than a turn of it is doubtful.
+    pub fn angle(&self, field: &str, number: &Number) -> Result<f64> {
+        let angle = self.number(field, number)?;
+        self.doubt_turns(field, angle);
+        Ok(angle)
+    }
+
+    /// Angles are in radians, and few mean more than a turn at a start.
+    pub fn doubt_turns(&self, field: &str, angle: f64) {
+        if angle.abs() > TAU {
+            let text =
+                format!("`{field}` is {} rad, {} turns", short(angle), short((10.0 * angle / TAU).round() / 10.0));
+            let hint = format!("for {} degrees write {0}*pi/180", short(angle));
+            self.switches.borrow_mut().doubts.push(Warning::new(text, hint));
+        }
     }
 
     pub fn number_or(&self, field: &str, number: &Option<Number>, default: f64) -> Result<f64> {

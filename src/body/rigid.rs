@@ -3,7 +3,7 @@
 use super::guided::Guided;
 use super::rigid_planar::RigidPlanar;
 use super::rigid_spatial::RigidSpatial;
-use super::{BodySpec, Build, Built, Marker, cross};
+use super::{BodySpec, Build, Built, Marker, cross, norm};
 use crate::error::{Error, Result, short, suggest};
 use crate::math::expression::Number;
 use crate::math::rotation::{Matrix3, matrix_from_quaternion, quaternion_from_vector};
@@ -80,7 +80,7 @@ impl Initial {
                 .under("initial.rotation")
                 .hint("give \"angle\" in radians"));
         }
-        let angle = build.number_or("initial.angle", &self.angle, 0.0)?;
+        let angle = self.angle.as_ref().map_or(Ok(0.0), |angle| build.angle("initial.angle", angle))?;
         let spin = match &self.angular_velocity {
             None => 0.0,
             Some(Inertia::Moment(number)) => build.number("initial.angular_velocity", number)?,
@@ -281,7 +281,11 @@ pub(crate) fn quaternion<const D: usize>(
 ) -> Result<[f64; 4]> {
     match numbers {
         None => Ok([1.0, 0.0, 0.0, 0.0]),
-        Some(numbers) if numbers.len() == 3 => Ok(quaternion_from_vector(&build.vector::<3>(field, numbers)?)),
+        Some(numbers) if numbers.len() == 3 => {
+            let turn = build.vector::<3>(field, numbers)?;
+            build.doubt_turns(field, norm(&turn));
+            Ok(quaternion_from_vector(&turn))
+        }
         Some(numbers) if numbers.len() == 4 => {
             let q = build.vector::<4>(field, numbers)?;
             let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();

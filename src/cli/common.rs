@@ -142,8 +142,11 @@ pub fn assignment(text: &str) -> Result<(String, f64), String> {
 }
 
 impl Common {
+    /// The scene with its method; what is doubtful about its start is said.
     pub fn load(&self) -> Result<Study> {
-        self.method.load(&self.scene, self.choice.method)
+        let study = self.method.load(&self.scene, self.choice.method)?;
+        self.talk.warn(&study.doubts);
+        Ok(study)
     }
 
     /// When to simulate.

@@ -24,8 +24,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let mut folder = args.output.folder(&study.name)?;
     let stiffness = study.stiffness(span);
     // Said before a run that may take long, and not again.
-    let early: Option<Warning> = stiffness.as_ref().map(Warning::from);
-    args.common.talk.warn(&early);
+    let early: Vec<Warning> = study.doubts.iter().cloned().chain(stiffness.as_ref().map(Warning::from)).collect();
+    args.common.talk.warn(&early[study.doubts.len()..]);
     let bar = args.common.talk.progress(1000, &study.name);
     let fraction = |t: f64| (1000.0 * (t - span.start) / (span.end - span.start)) as u64;
     let mut recorder = Recorder::new(study.system())
@@ -36,14 +36,17 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let seconds = clock.elapsed().as_secs_f64();
     let record = recorder.finish();
     bar.finish_and_clear();
-    let summary = summarize((&study, stiffness), &outcome, &record, seconds);
+    let summary = Summary {
+        command: std::env::args().collect(),
+        ..summarize((&study, stiffness, &early), &outcome, &record, seconds)
+    };
     write(&study, &record, &summary, &mut folder, &args.output)?;
     let written = folder.finish()?;
     args.common.talk.print(&summary, || summary.text(&units(&record)))?;
     if !args.common.talk.json && !args.common.talk.quiet {
         print(&format!("\nwritten to {}\n", written.listing()))?;
     }
-    args.common.talk.warn(&summary.warnings[early.iter().len()..]);
+    args.common.talk.warn(&summary.warnings[early.len()..]);
     Ok(match &summary.failure {
         None => ExitCode::SUCCESS,
         Some(failure) => {

@@ -18,7 +18,7 @@ pub struct EnergyBalance {
     /// max |kinetic + potential - initial - work|, J.
     pub max_error: f64,
     /// The same as part of the energy turned over: the largest of kinetic energy, change of potential and work. None where
-    /// that is nothing beside the round-off of the energies.
+    /// that is nothing beside the round-off of the energies, or beside what is tolerated.
     pub relative_max_error: Option<f64>,
     /// What the tolerated errors of all steps add up to at most, J; none for fixed steps.
     pub tolerated: Option<f64>,
@@ -43,6 +43,8 @@ pub struct EnergyMeter {
 
 /// Energies in which rounding leaves this part of themselves show nothing below it.
 const ROUND_OFF: f64 = 1e-12;
+/// A motion that turns over this part of what is tolerated is none.
+const UNSEEN: f64 = 1e-3;
 /// A balance that is open by this part of the energy turned over is that of another motion.
 const OPEN: f64 = 0.01;
 /// The balance of a good run is open by less than so many times what the tolerance lets it.
@@ -99,10 +101,10 @@ impl EnergyMeter {
     pub fn balance(&self) -> Option<EnergyBalance> {
         let Sizes { kinetic, potential, change } = self.sizes;
         let turned_over = kinetic.max(change);
-        let is_something = turned_over > ROUND_OFF * potential && turned_over > 0.0;
-        self.balance.map(|balance| EnergyBalance {
-            relative_max_error: is_something.then(|| balance.max_error / turned_over),
-            ..balance
+        self.balance.map(|balance| {
+            let nothing = (ROUND_OFF * potential).max(UNSEEN * balance.tolerated.unwrap_or(0.0));
+            let relative_max_error = (turned_over > nothing).then(|| balance.max_error / turned_over);
+            EnergyBalance { relative_max_error, ..balance }
         })
     }
 }

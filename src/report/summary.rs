@@ -14,6 +14,10 @@ use serde_json::{Map, Value};
 /// A run in numbers.
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
+    /// Version of the program, and how it was called; nothing from the library.
+    pub holonom: &'static str,
+    pub command: Vec<String>,
+    pub parameters: Map<String, Value>,
     /// What makes the result doubtful; nothing known does where it is empty.
     pub warnings: Vec<Warning>,
     pub scene: String,
@@ -65,17 +69,21 @@ pub struct FinalState {
     pub outputs: Map<String, Value>,
 }
 
-/// Collects the summary of a run.
+/// Collects the summary of a run, with warnings from before it.
 pub fn summarize(
-    (study, stiffness): (&Study, Option<Stiffness>),
+    (study, stiffness, early): (&Study, Option<Stiffness>, &[Warning]),
     outcome: &Outcome,
     record: &Record,
     wall_seconds: f64,
 ) -> Summary {
     // What ended a run may be no more than what came of leaving the branch.
     let failure = record.singularity.failure().or(outcome.failure.clone());
+    let parameters = study.parameters.iter().map(|(name, value)| (name.to_string(), Value::from(value))).collect();
     Summary {
-        warnings: stiffness.iter().map(Warning::from).chain(warnings(record)).collect(),
+        holonom: env!("CARGO_PKG_VERSION"),
+        command: Vec::new(),
+        parameters,
+        warnings: early.iter().cloned().chain(warnings(record)).collect(),
         scene: study.name.clone(),
         method: Chosen { method: study.method.clone(), chosen_because: study.chosen_because.clone() },
         status: if failure.is_some() { "failed" } else { "completed" },

@@ -59,6 +59,7 @@ fn model<const D: usize>(
     }
     let gravity = build.gravity;
     let ground = markers::markers(&file.ground.markers, &[0.0; D], &build).map_err(|error| error.under("ground"))?;
+    switches.borrow_mut().own("the ground");
     let mut parts = Parts::new(ground);
     for (i, json) in file.bodies.iter().enumerate() {
         let place = format!("bodies[{i}]");
@@ -152,7 +153,9 @@ impl<const D: usize> Parts<D> {
                 .under("name")
                 .hint("give each body its own"));
         }
-        self.read(&name, json, build).map_err(|error| error.element(&name))
+        self.read(&name, json, build).map_err(|error| error.element(&name))?;
+        build.switches.borrow_mut().own(&format!("the body `{name}`"));
+        Ok(())
     }
 
     fn read(&mut self, name: &str, mut json: Map<String, Value>, build: &Build<D>) -> Result<()> {

@@ -44,7 +44,7 @@ fn marker<const D: usize>(value: Value, build: &Build<D>) -> Result<Marker<D>> {
             .hint("give \"rotation\", or \"z_axis\" and \"x_axis\""));
     }
     if let Some(angle) = &given.angle {
-        turn(&mut marker, build.number("angle", angle)?);
+        turn(&mut marker, build.angle("angle", angle)?);
     }
     if let Some(rotation) = &given.rotation {
         let axes = axes_from_quaternion(&crate::body::quaternion("rotation", Some(rotation), build)?);

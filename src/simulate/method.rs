@@ -31,14 +31,16 @@ impl Default for Method {
     }
 }
 
+/// Scenes of this length, m, and more have one absolute tolerance.
+const SMALL: f64 = 1e-2;
 /// No absolute tolerance that nobody asked for is below this: round-off leaves it of angles.
 const LEAST_ATOL: f64 = 1e-16;
 
 impl Method {
-    /// The default with an absolute tolerance for a small scene of this length, m: 1e-10 of it.
+    /// The default, with an absolute tolerance of 1e-8 of the length, m, of a scene that is smaller than a centimetre.
     pub fn of_length(length: f64) -> Self {
         let default = Method::default();
-        Method { atol: (default.atol * length.min(1.0)).max(LEAST_ATOL), ..default }
+        Method { atol: (default.atol * (length / SMALL).min(1.0)).max(LEAST_ATOL), ..default }
     }
 
     /// Formulation + integrator + projection, the last where there is one.

@@ -17,6 +17,7 @@ mod singular;
 mod stress;
 mod sweep;
 mod tradeoff;
+mod warnings;
 
 use serde_json::Value;
 use std::fs;

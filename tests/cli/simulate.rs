@@ -54,9 +54,24 @@ fn the_summary_has_the_promised_keys() {
     let place = Place::new(PENDULUM);
     place.done(&["simulate", "scene.json", "-o", "here", "--quiet"]);
     let summary = place.json("here/summary.json");
-    let top =
-        ["scene", "method", "status", "failure", "t_end", "wall_seconds", "statistics", "drift", "energy", "final"];
+    let top = [
+        "holonom",
+        "command",
+        "parameters",
+        "warnings",
+        "scene",
+        "method",
+        "status",
+        "failure",
+        "t_end",
+        "wall_seconds",
+        "statistics",
+        "drift",
+        "energy",
+        "final",
+    ];
     assert_keys(&summary, &top, &["assembly", "singularity", "stiffness"]);
+    assert_eq!(summary["warnings"], serde_json::json!([]));
     assert_keys(&summary["method"], &["formulation", "integrator", "projection", "rtol", "atol", "step"], &[]);
     let counters = ["steps", "rejected", "rhs_evaluations", "jacobian_evaluations", "factorizations"];
     let rest = ["newton_iterations", "projections"];
@@ -65,7 +80,7 @@ fn the_summary_has_the_promised_keys() {
     for level in ["position", "velocity", "acceleration"] {
         assert_keys(&summary["drift"][level], &["max", "final"], &["relative_max", "relative_final"]);
     }
-    assert_keys(&summary["energy"], &["initial", "final", "max_error"], &["work", "relative_max_error"]);
+    assert_keys(&summary["energy"], &["initial", "final", "max_error"], &["work", "relative_max_error", "tolerated"]);
     assert_keys(&summary["final"], &["t", "q", "v", "lambda", "outputs"], &[]);
     assert_eq!(keys(&summary["final"]["q"]), ["rod.x", "rod.y", "rod.angle"]);
     assert_eq!(keys(&summary["final"]["v"]), ["rod.x'", "rod.y'", "rod.angle'"]);

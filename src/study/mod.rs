@@ -1,7 +1,11 @@
 //! A scene made ready: its mechanism, a consistent start, and how to simulate it.
 
+mod doubts;
+
+use doubts::{doubts, explained, of_scene};
+
 use crate::choice::Choice;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Warning};
 use crate::initial::{self, Assembly};
 use crate::integrator::Steps;
 use crate::math::expression::{Number, Parameters};
@@ -60,6 +64,8 @@ pub struct Study {
     /// Why this method, where it was left to the program.
     pub chosen_because: Option<String>,
     pub assembly: Assembly,
+    /// What is doubtful about the start.
+    pub doubts: Vec<Warning>,
     /// The table that the scene brings to measure accuracy against, by its path from the scene.
     pub reference: Option<String>,
     start_time: f64,
@@ -88,7 +94,8 @@ impl Study {
         let length = mechanism.system().length();
         let method = settings.method(is_automatic, length).map_err(|error| settings.place(error))?;
         check_options(&method, mechanism.system()).map_err(|error| settings.place(error))?;
-        let assembly = initial::assemble(mechanism.system(), start, (&scene.q, &scene.v), &scene.hold)?;
+        let assembly = initial::assemble(mechanism.system(), start, (&scene.q, &scene.v), &scene.hold);
+        let assembly = assembly.map_err(|error| explained(error, of_scene(&mechanism)))?;
         // Where no end is said, a method is chosen for a second of motion.
         let (method, chosen_because) = match is_automatic {
             true => choose(
@@ -99,7 +106,9 @@ impl Study {
             ),
             false => (method, None),
         };
+        let doubts = doubts(&mechanism, &scene.q, &assembly);
         Ok(Study {
+            doubts,
             name: scene.name,
             about: scene.about,
             references: scene.references,

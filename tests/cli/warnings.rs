@@ -1,0 +1,101 @@
+use super::*;
+
+/// The warnings of a run, which standard error says once, too.
+fn warnings(scene: &str, more: &[&str]) -> Vec<String> {
+    let place = Place::new(scene);
+    let output = place.run(&[&["simulate", "scene.json", "-o", "here", "--figures", "none"], more].concat());
+    let error = String::from_utf8(output.stderr).unwrap();
+    let found = place.json("here/summary.json")["warnings"].clone();
+    let found: Vec<String> = serde_json::from_value(found).unwrap();
+    for warning in &found {
+        let said = error.replace("\n  help: ", "; ");
+        assert_eq!(said.matches(&format!("warning: {warning}")).count(), 1, "{error}");
+    }
+    found
+}
+
+/// A mass of 1e-8 kg on a spring of 1e10 N/m that is swung round: steps as long as the swing damp what the spring holds.
+const SWUNG: &str = r#"{
+  "name": "swung", "dimension": 2, "ground": { "markers": { "O": [0, 0] } },
+  "bodies": [
+    { "name": "a", "type": "point_mass", "mass": 1, "initial": { "position": [1, 0] } },
+    { "name": "b", "type": "point_mass", "mass": 1e-8, "initial": { "position": [2, 0], "velocity": [0, 1] } } ],
+  "joints": [ { "name": "d", "type": "distance", "between": ["ground.O", "a"], "length": 1 } ],
+  "forces": [ { "name": "f", "type": "spring_damper", "between": ["a", "b"], "stiffness": 1e10, "free_length": 1 } ],
+  "simulation": { "t_end": 1, "formulation": "ggl", "integrator": "generalized_alpha", "projection": "none",
+                  "rtol": 1e-6, "atol": 1e-8 }
+}"#;
+
+#[test]
+fn an_energy_balance_that_does_not_close_is_a_warning() {
+    let found = warnings(SWUNG, &[]);
+    assert!(found[0].contains("the energy balance does not close") && found[0].contains('%'), "{found:?}");
+    let found = warnings(PENDULUM, &["--integrator", "heun", "--step", "0.1"]);
+    assert!(found[0].contains("the energy balance does not close"), "{found:?}");
+    for more in [&[][..], &["--rtol", "1e-4", "--atol", "1e-4"], &["--integrator", "rk4", "--step", "0.01"]] {
+        assert_eq!(warnings(PENDULUM, more), [""; 0], "{more:?}");
+    }
+}
+
+/// What is left of an energy that is nothing has no relative size.
+#[test]
+fn a_body_at_rest_has_no_relative_error() {
+    let place = Place::new(
+        PENDULUM.replace(r#""position": [0.5, 0], "angle": 0"#, r#""position": [0, -0.5], "angle": "-pi/2""#),
+    );
+    let text = place.done(&["simulate", "scene.json", "-o", "here"]);
+    assert!(place.json("here/summary.json")["energy"]["relative_max_error"].is_null());
+    assert!(!text.contains("turned over"), "{text}");
+}
+
+/// A pendulum of a nanometre, with a tolerance of its own size.
+#[test]
+fn tolerances_follow_the_length_of_the_scene() {
+    let scene = r#"{
+      "name": "small", "dimension": 2, "gravity": [0, -1e-8], "ground": { "markers": { "O": [0, 0] } },
+      "bodies": [ { "name": "m", "type": "point_mass", "mass": 1, "initial": { "position": [1e-8, 0] } } ],
+      "joints": [ { "name": "r", "type": "distance", "between": ["ground.O", "m"], "length": 1e-8 } ],
+      "simulation": { "t_end": 20 }
+    }"#;
+    let place = Place::new(scene);
+    place.done(&["simulate", "scene.json", "-o", "here", "--quiet"]);
+    let summary = place.json("here/summary.json");
+    assert_eq!(summary["method"]["atol"], 1e-16);
+    // rtol 1e-8 over three swings.
+    assert!(summary["energy"]["relative_max_error"].as_f64().unwrap() < 1e-6, "{}", summary["energy"]);
+    assert_eq!(warnings(scene, &[]), [""; 0]);
+    let found = warnings(scene, &["--atol", "1e-10"]);
+    assert!(found[0].contains("the energy balance does not close"), "{found:?}");
+}
+
+/// A hinged body in space that starts turned and shifted.
+fn hinged(rotation: &str, position: &str) -> String {
+    format!(
+        r#"{{ "name": "hinged", "dimension": 3,
+            "bodies": [ {{ "name": "m", "type": "rigid", "mass": 1, "inertia": [1, 1, 1], "markers": {{ "A": [0.5, 0, 0] }},
+                           "initial": {{ "rotation": {rotation}, "position": {position} }} }} ],
+            "joints": [ {{ "name": "h", "type": "revolute", "between": ["ground", "m"] }} ],
+            "simulation": {{ "t_end": 0.1 }} }}"#
+    )
+}
+
+#[test]
+fn a_doubtful_start_is_said() {
+    assert_eq!(warnings(&hinged("[0.1, 0, 0]", "[0.1, 0, 0]"), &[]), [""; 0]);
+    let found = warnings(&hinged("[0, 0, 90]", "[0, 0, 0]"), &[]);
+    assert!(found[0].contains("`m`") && found[0].contains("90*pi/180"), "{found:?}");
+    let found = warnings(&hinged("[0, 0, 0]", "[5, 0, 0]"), &[]);
+    assert!(found[0].contains("`m.x`") && found[0].contains("from 5 to 0"), "{found:?}");
+    // The way to the other side is shorter from here.
+    let found = warnings(&hinged("[2, 0, 0]", "[0, 0, 0]"), &[]);
+    assert!(found[0].contains("`h`") && found[0].contains("against each other"), "{found:?}");
+    // Meant so.
+    assert_eq!(warnings(&hinged("[\"pi\", 0, 0]", "[0, 0, 0]"), &[]), [""; 0]);
+    let found = warnings(&PENDULUM.replace(r#""angle": 0"#, r#""angle": 6.5"#), &[]);
+    assert!(found[0].contains("6.5*pi/180"), "{found:?}");
+    // So far off that the joints do not close.
+    let place = Place::new(PENDULUM.replace(r#""angle": 0"#, r#""angle": 60"#));
+    let output = place.run(&["simulate", "scene.json"]);
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert!(error.contains("cannot all be closed") && error.contains("60*pi/180"), "{error}");
+}
