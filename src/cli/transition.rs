@@ -3,7 +3,7 @@
 use super::common::{MethodOptions, Output, SceneOptions, Talk, positive, print};
 use super::linear::StateOptions;
 use crate::error::{Error, Result};
-use crate::linearize::{Floquet, Lyapunov, State, floquet, lyapunov};
+use crate::linearize::{Defect, Floquet, Lyapunov, State, floquet, lyapunov};
 use crate::plot::{Figure, Panel, Series};
 use crate::report::{Table, Written, cell, significant};
 use crate::study::Study;
@@ -46,8 +46,9 @@ pub fn run(args: Args) -> Result<ExitCode> {
         let mut result = json!({ "scene": study.name, "t": state.t });
         if let Some(period) = args.period {
             let found = floquet(study.system(), state, period).map_err(in_file)?;
-            show(&args, &floquet_text(&study, state, &found))?;
-            result["floquet"] = floquet_json(&found);
+            let defects = found.defects(SLACK)?;
+            show(&args, &floquet_text(&study, state, &found, &defects))?;
+            result["floquet"] = floquet_json(&found, &defects);
         }
         if let Some(duration) = args.lyapunov {
             let found = exponents(&args, &study, state, duration).map_err(in_file)?;
@@ -82,7 +83,7 @@ fn show(args: &Args, text: &str) -> Result<()> {
     if args.talk.json || args.talk.quiet { Ok(()) } else { print(text) }
 }
 
-fn floquet_json(found: &Floquet) -> Value {
+fn floquet_json(found: &Floquet, defects: &[Defect]) -> Value {
     let pairs = |values: &[crate::linearize::Complex<f64>]| -> Vec<[f64; 2]> {
         values.iter().map(|value| [value.re, value.im]).collect()
     };
@@ -93,16 +94,24 @@ fn floquet_json(found: &Floquet) -> Value {
         "multipliers": pairs(&found.multipliers),
         "exponents": pairs(&found.exponents()),
         "stable": found.is_stable(SLACK),
+        "grows_like_t": !defects.is_empty(),
     })
 }
 
-fn floquet_text(study: &Study, state: &State, found: &Floquet) -> String {
+fn floquet_text(study: &Study, state: &State, found: &Floquet, defects: &[Defect]) -> String {
     let mut table = Table::new(&["multiplier re", "im", "size", "grows by (1/s)"]);
     for (value, exponent) in found.multipliers.iter().zip(found.exponents()) {
         let cells = [value.re, value.im, value.norm(), exponent.re];
         table.row(cells.map(|x| significant(x, 7)));
     }
-    let verdict = if found.is_stable(SLACK) { "no small change grows" } else { "small changes grow" };
+    let verdict = match (found.is_stable(SLACK), defects.first()) {
+        (false, _) => "small changes grow".to_string(),
+        (true, None) => "no small change grows".to_string(),
+        (true, Some(Defect { count, vectors, .. })) => format!(
+            "small changes grow like t, no faster: a multiplier of size 1 counts {count} and has {vectors} vector{}",
+            if *vectors == 1 { "" } else { "s" }
+        ),
+    };
     format!(
         "{} from t = {} s over the period {} s (returns to {:.1e}): {verdict}\n\n{table}",
         study.name,

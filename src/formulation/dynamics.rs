@@ -21,6 +21,8 @@ pub enum Halt {
     Singular(Singular),
     /// Newton's method does not find the end of a step.
     NotConverged,
+    /// A projection does not close the joints.
+    Open,
     /// The error of a step stays above the tolerance.
     TooInaccurate,
     /// The method does not fit these equations, whatever the step: why, and what does.
@@ -60,6 +62,7 @@ impl fmt::Display for Halt {
             }
             Halt::Singular(singular) => write!(out, "{singular}"),
             Halt::NotConverged => write!(out, "Newton's method does not converge"),
+            Halt::Open => write!(out, "the projection does not close the joints: its residual no longer falls"),
             Halt::TooInaccurate => write!(out, "the error of a step stays above the tolerance"),
             Halt::Unsuitable { reason, .. } => write!(out, "{reason}"),
         }

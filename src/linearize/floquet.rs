@@ -2,7 +2,7 @@
 
 use super::{Chart, Complex, Matrix, State, Variation, transition};
 use crate::error::{Error, Result};
-use crate::math::eigen::eigen;
+use crate::math::eigen::{eigen, singular_values};
 use crate::system::MechanicalSystem;
 
 /// How small changes grow over a period of a motion.
@@ -31,6 +31,50 @@ impl Floquet {
     /// of the square root of rounding.
     pub fn is_stable(&self, slack: f64) -> bool {
         self.multipliers.iter().all(|multiplier| multiplier.norm() <= 1.0 + slack)
+    }
+}
+
+/// A multiplier on the unit circle with fewer vectors than it counts: small changes grow like t.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Defect {
+    pub multiplier: Complex<f64>,
+    /// How often it counts, and how many vectors it has.
+    pub count: usize,
+    pub vectors: usize,
+}
+
+/// Singular values of M - m below this part of the largest are none.
+const NONE: f64 = 1e-6;
+
+impl Floquet {
+    /// The multipliers on the unit circle, up to `slack`, that are defective: of each kind one. Multipliers that rounding has
+    /// parted by the root of `slack` or less count as one.
+    ///
+    /// # Errors
+    /// Singular values that do not converge.
+    pub fn defects(&self, slack: f64) -> Result<Vec<Defect>> {
+        let mut left: Vec<Complex<f64>> = self.multipliers.clone();
+        left.retain(|multiplier| (multiplier.norm() - 1.0).abs() <= slack);
+        let mut found = Vec::new();
+        while let Some(first) = left.first().copied() {
+            let (near, far): (Vec<_>, Vec<_>) =
+                left.into_iter().partition(|other| (other - first).norm() <= slack.sqrt());
+            left = far;
+            let (count, sum) = (near.len(), near.iter().sum::<Complex<f64>>());
+            let multiplier = sum / count as f64;
+            let vectors = if count > 1 { self.vectors_of(multiplier)? } else { 1 };
+            if vectors < count {
+                found.push(Defect { multiplier, count, vectors });
+            }
+        }
+        Ok(found)
+    }
+
+    fn vectors_of(&self, multiplier: Complex<f64>) -> Result<usize> {
+        let mut shifted = self.monodromy.map(Complex::from);
+        (0..shifted.nrows()).for_each(|i| shifted[(i, i)] -= multiplier);
+        let sizes = singular_values(&shifted).map_err(|unsolved| Error::input(unsolved.to_string()))?;
+        Ok(sizes.iter().filter(|size| **size <= NONE * sizes[0]).count())
     }
 }
 

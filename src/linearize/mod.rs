@@ -27,7 +27,7 @@ mod variation;
 
 pub use along::{State, at_rest, states, tighten};
 pub use chart::{Chart, Coordinates};
-pub use floquet::{Floquet, floquet};
+pub use floquet::{Defect, Floquet, floquet};
 pub use frequency::{Resonances, frequency_response};
 pub use loci::Branch;
 pub use lyapunov::{Lyapunov, lyapunov};

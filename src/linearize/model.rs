@@ -42,6 +42,8 @@ pub struct LinearModel {
 pub enum Kind {
     /// A motion that the constraints allow.
     Physical,
+    /// One of the two, but the parts of the motions off the constraints do not tell which.
+    Uncertain,
     /// A motion off the constraints, which a formulation lets decay or swing.
     Spurious,
     /// An algebraic equation of a descriptor form.

@@ -120,8 +120,12 @@ fn parts(left: &ComplexMatrix, right: &ComplexMatrix) -> Matrix {
     parts
 }
 
+/// Kinds are clear where the part of a spurious mode off the constraints is so many times that of any physical one.
+const CLEAR: f64 = 2.0;
+
 /// As many physical modes as there are states of minimal coordinates: those of which the least part is off the directions
-/// that the constraints allow, in the metric of the kinetic energy.
+/// that the constraints allow, in the metric of the kinetic energy. Where no gap lies between them and the others, those
+/// that are not well apart are uncertain.
 fn kinds(
     variation: &mut Variation,
     values: &[Complex<f64>],
@@ -144,7 +148,13 @@ fn kinds(
     let mut kinds = vec![Kind::Spurious; shapes.ncols()];
     order.iter().take(physical).for_each(|&j| kinds[j] = Kind::Physical);
     let worst = physical.checked_sub(1).map_or(0.0, |last| parts[order[last]]);
-    Ok((kinds, Some([worst, parts[order[physical]]])))
+    let least = parts[order[physical]];
+    if least < CLEAR * worst {
+        (0..kinds.len())
+            .filter(|&j| CLEAR * parts[j] > least && parts[j] < CLEAR * worst)
+            .for_each(|j| kinds[j] = Kind::Uncertain);
+    }
+    Ok((kinds, Some([worst, least])))
 }
 
 /// A defective eigenvalue has fewer vectors than it counts: the rest go with those it has.

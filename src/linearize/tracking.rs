@@ -41,7 +41,7 @@ struct Thread {
     before: Option<(f64, Complex<f64>)>,
 }
 
-/// The finite eigenvalues of `samples` as branches, in the order of their start: physical ones first, and of a conjugate
+/// The finite eigenvalues of `samples` as branches, in the order of their start: physical ones first, then uncertain ones, and of a conjugate
 /// pair first the one with im > 0. Infinite eigenvalues are left out.
 ///
 /// From one sample to the next the modes of a kind are matched by the least sum of
@@ -65,12 +65,12 @@ pub fn track(samples: &[Sample]) -> Vec<Branch> {
             continue;
         }
         let before = std::mem::take(&mut threads);
-        let [mut physical, mut spurious] = [Vec::new(), Vec::new()];
-        for thread in before {
-            if kind(&branches, &thread) == Kind::Physical { physical.push(thread) } else { spurious.push(thread) }
+        let mut rest = before;
+        for known in [Kind::Physical, Kind::Uncertain, Kind::Spurious] {
+            let (going, others) = rest.into_iter().partition(|thread| kind(&branches, thread) == known);
+            threads.extend(go_on(going, sample, known, &mut branches));
+            rest = others;
         }
-        threads.extend(go_on(physical, sample, Kind::Physical, &mut branches));
-        threads.extend(go_on(spurious, sample, Kind::Spurious, &mut branches));
     }
     // A branch that starts late comes behind the others of its kind.
     branches.sort_by_key(|branch| branch.kind);

@@ -11,7 +11,8 @@ use crate::system::Need;
 /// ```
 ///
 /// Source: Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482. Newton's method with the mass matrix as metric, until the
-/// residual no longer falls; order of the integrator kept. One evaluation and factorization an iteration, and one more,
+/// residual no longer falls; order of the integrator kept; a residual that stops
+/// falling before is refused. One evaluation and factorization an iteration, and one more,
 /// which the velocities share with the test of the residual.
 pub const ENTRY: Entry = Entry {
     name: "exact",
@@ -20,6 +21,7 @@ pub const ENTRY: Entry = Entry {
     make: |choice, system| {
         let n = system.dimensions();
         Ok(Some(Box::new(Exact {
+            scales: system.scales(),
             most: choice.whole("iterations", 10, 1..=1000)?,
             rate: vec![0.0; n.q],
             step: vec![0.0; n.v],
@@ -27,10 +29,20 @@ pub const ENTRY: Entry = Entry {
     },
 };
 
+/// A residual of this part of the scene's size is no round-off, nor what redundant rows may contradict each other by.
+const OPEN: f64 = 1e-9;
+
 struct Exact {
     most: usize,
+    scales: Vec<f64>,
     rate: Vec<f64>,
     step: Vec<f64>,
+}
+
+impl Exact {
+    fn is_open(&self, phi: &[f64]) -> bool {
+        phi.iter().zip(&self.scales).any(|(phi, scale)| phi.abs() > OPEN * scale)
+    }
 }
 
 impl Projection for Exact {
@@ -44,6 +56,9 @@ impl Projection for Exact {
             let residual = largest(&dynamics.terms.phi);
             // Near round-off the residual stops falling; another step would only stir it.
             if iterations == self.most || residual == 0.0 || residual > 0.5 * last {
+                if self.is_open(&dynamics.terms.phi) {
+                    return Err(Halt::Open);
+                }
                 break;
             }
             (last, iterations) = (residual, iterations + 1);

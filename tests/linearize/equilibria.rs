@@ -116,3 +116,23 @@ fn spurious_modes_are_far_off_the_constraints() {
         });
     }
 }
+
+/// A penalty that is too weak to hold anything leaves no gap between motions on and off the constraints.
+#[test]
+fn modes_without_a_gap_are_uncertain() {
+    let mut doubtful = 0;
+    for (label, _) in EQUILIBRIA {
+        at(label, |variation, _| {
+            for penalty in ["1e-3", "1e-2", "0.1", "1", "1e6"] {
+                let found = model(variation, &format!("penalty:penalty={penalty}"), None);
+                let [physical, spurious] = found.cost.off_constraints.unwrap();
+                let uncertain = values(&found, Kind::Uncertain).len();
+                println!("{label} {penalty}: {physical:.1e} {spurious:.2} {uncertain}");
+                assert_eq!(uncertain > 0, spurious < 2.0 * physical, "{label} {penalty}: {physical} {spurious}");
+                assert!(penalty != "1e6" || uncertain == 0, "{label}");
+                doubtful += usize::from(uncertain > 0);
+            }
+        });
+    }
+    assert!(doubtful > 0);
+}

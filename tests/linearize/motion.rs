@@ -106,6 +106,10 @@ fn a_conical_pendulum_has_its_multipliers() {
     let nearest = found.multipliers.iter().map(|m| (m - swing).norm()).fold(f64::INFINITY, f64::min);
     assert!(nearest < 1e-9, "{nearest:e}");
     assert!(found.is_stable(1e-5));
+    // An orbit beside it takes another time, so that the way between both grows like t.
+    let defects = found.defects(1e-5).unwrap();
+    assert_eq!(defects.iter().map(|defect| (defect.count, defect.vectors)).collect::<Vec<_>>(), [(2, 1)]);
+    assert!((defects[0].multiplier - Complex::from(1.0)).norm() < 1e-9, "{defects:?}");
     let wrong = floquet(&Spherical, &start, 0.9 * period).unwrap_err().to_string();
     assert!(wrong.contains("not its period"), "{wrong}");
 }

@@ -67,14 +67,18 @@ pub fn pseudo_inverse(matrix: &Matrix, rank: usize) -> Result<Matrix, Unsolved> 
     Ok(scaled * u.columns(0, rank).transpose())
 }
 
+/// From the largest on.
+pub fn singular_values(matrix: &ComplexMatrix) -> Result<Vec<f64>, Unsolved> {
+    faer::set_global_parallelism(Par::Seq);
+    view(matrix).singular_values().map_err(|_| Unsolved::NotConverged { converged: 0, wanted: matrix.ncols() })
+}
+
 /// Largest over smallest singular value; infinite where the smallest is round-off, 1 without columns.
 pub fn condition(matrix: &ComplexMatrix) -> Result<f64, Unsolved> {
     if matrix.is_empty() {
         return Ok(1.0);
     }
-    faer::set_global_parallelism(Par::Seq);
-    let values = view(matrix).singular_values();
-    let values = values.map_err(|_| Unsolved::NotConverged { converged: 0, wanted: matrix.ncols() })?;
+    let values = singular_values(matrix)?;
     let (largest, smallest) = (values[0], values[values.len() - 1]);
     let is_zero = smallest <= largest * f64::EPSILON * matrix.nrows() as f64;
     Ok(if is_zero { f64::INFINITY } else { largest / smallest })

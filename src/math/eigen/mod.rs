@@ -21,7 +21,7 @@ mod unsolved;
 
 pub use assignment::assign;
 pub use deflate::{Deflated, Deflation, Finite, TOLERANCE, deflate, finite, finite_by};
-pub use dense::pseudo_inverse;
+pub use dense::{pseudo_inverse, singular_values};
 pub use exponential::{expm, expm_with_input};
 pub use krylov::{Options, Partial, nearest};
 pub use pencil::{Generalized, Split, generalized};

@@ -72,6 +72,7 @@ fn value(mode: &Mode) -> Complex<f64> {
 pub(super) fn kind(kind: Kind) -> &'static str {
     match kind {
         Kind::Physical => "physical",
+        Kind::Uncertain => "uncertain",
         Kind::Spurious => "spurious",
         Kind::Infinite => "infinite",
     }

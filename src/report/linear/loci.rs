@@ -31,15 +31,19 @@ pub fn loci_figure(title: &str, along: impl Into<AxisSpec>, branches: &[Branch])
     let is_upper = are_mirrored(branches);
     let shown: Vec<Branch> = branches.iter().map(|branch| finite(branch, is_upper)).collect();
     let of = |kind: Kind| shown.iter().filter(move |branch| branch.kind == kind);
-    let window = window(of(Kind::Physical), is_upper).or_else(|| window(of(Kind::Spurious), is_upper))?;
+    let window = window(of(Kind::Physical), is_upper)
+        .or_else(|| window(of(Kind::Uncertain), is_upper))
+        .or_else(|| window(of(Kind::Spurious), is_upper))?;
     let axis = |label: &str, (low, high): (f64, f64)| AxisSpec::from(label).range(low, high);
     let mut panel = Panel::new(axis("real part (1/s)", window.re), axis("imaginary part (rad/s)", window.im))
         .height(PIXELS.1)
         .title(outside_note(&shown, &window));
     panel = frame_lines(panel, &window, is_upper);
-    let spurious = points(of(Kind::Spurious)).map(|(_, value)| (value.re, value.im)).collect::<Vec<_>>();
-    if !spurious.is_empty() {
-        panel = panel.series(Series::dots("spurious", spurious).style(Style::Crosses));
+    for (kind, name) in [(Kind::Spurious, "spurious"), (Kind::Uncertain, "uncertain")] {
+        let others = points(of(kind)).map(|(_, value)| (value.re, value.im)).collect::<Vec<_>>();
+        if !others.is_empty() {
+            panel = panel.series(Series::dots(name, others).style(Style::Crosses));
+        }
     }
     panel = panel.series(Series::line("", joined(of(Kind::Physical))).style(Style::Thin).color(BLACK));
     let colored: Vec<(f64, f64, f64)> =
@@ -148,10 +152,14 @@ fn outside_note(shown: &[Branch], window: &Window) -> String {
     let count = |kind: Kind| {
         points(shown.iter().filter(|branch| branch.kind == kind)).filter(|(_, value)| !inside(*value)).count()
     };
-    let kinds = [(count(Kind::Physical), "physical"), (count(Kind::Spurious), "spurious")];
+    let kinds = [
+        (count(Kind::Physical), "physical"),
+        (count(Kind::Uncertain), "uncertain"),
+        (count(Kind::Spurious), "spurious"),
+    ];
     let words: Vec<String> =
         kinds.iter().filter(|(count, _)| *count > 0).map(|(count, kind)| format!("{count} {kind}")).collect();
-    match (words.is_empty(), kinds[0].0 + kinds[1].0) {
+    match (words.is_empty(), kinds.iter().map(|(count, _)| count).sum::<usize>()) {
         (true, _) => String::new(),
         (_, 1) => format!("{} point lies outside", words.join(" and ")),
         _ => format!("{} points lie outside", words.join(" and ")),

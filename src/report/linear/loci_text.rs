@@ -65,10 +65,14 @@ impl LociSummary {
         let mut table = Table::new(&["mode", "frequency (Hz)", "damping ratio", &growing]).words(1).words(2).words(3);
         let of = |kind: Kind| self.modes.iter().filter(move |mode| mode.kind == kind);
         of(Kind::Physical).take(MOST_LINES).for_each(|mode| table.row(cells(mode)));
-        let [physical, spurious] = [Kind::Physical, Kind::Spurious].map(|kind| of(kind).count());
+        let [physical, uncertain, spurious] =
+            [Kind::Physical, Kind::Uncertain, Kind::Spurious].map(|kind| of(kind).count());
         let mut text = if physical > 0 { table.to_string() } else { "  no physical eigenvalues\n".to_string() };
         if physical > MOST_LINES {
             text += &format!("  {} more in the files\n", physical - MOST_LINES);
+        }
+        if uncertain > 0 {
+            text += &format!("  {uncertain} uncertain in the files: neither clearly physical nor spurious\n");
         }
         if spurious > 0 {
             text += &format!("  {spurious} spurious in the files\n");

@@ -88,7 +88,7 @@ fn modes_text(model: &LinearModel, bodies: &[&str]) -> String {
     let mut table = Table::new(&headings).words(5).words(6);
     let mut number = 0;
     let mut left_out = Vec::new();
-    for (kind, most) in [(Kind::Physical, MOST_LINES), (Kind::Spurious, MOST_SPURIOUS)] {
+    for (kind, most) in [(Kind::Physical, MOST_LINES), (Kind::Uncertain, MOST_LINES), (Kind::Spurious, MOST_SPURIOUS)] {
         let found = pairs(model, kind);
         for pair in &found[..found.len().min(most)] {
             number += 1;
