@@ -42,17 +42,9 @@ pub fn outputs_figure(title: &str, record: &Record) -> Option<Figure> {
 /// More curves than this tell nothing.
 pub(super) const MOST_COORDINATES: usize = 12;
 
+/// What is measured in a unit, for an axis.
 pub(super) fn quantity(unit: &str) -> &'static str {
-    match unit {
-        "rad" | "deg" => "angle",
-        "rad/s" => "angular velocity",
-        "m" => "position",
-        "m/s" => "velocity",
-        "N" => "force",
-        "N m" => "torque",
-        "J" => "energy",
-        _ => "value",
-    }
+    crate::scene::units::dimension_of(unit).map_or("value", |dimension| dimension.word())
 }
 
 /// Points of a drift curve, each the largest value of its window.

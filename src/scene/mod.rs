@@ -11,9 +11,11 @@ mod markers;
 mod model;
 mod outputs;
 mod schema;
+pub mod units;
 
 pub use format::{Assembly, Automatic, Simulation};
 pub use model::{BeamLine, Combination, Connection, Driven, EnergyPart, Measure, Model, Part, Reading, Watched};
+pub use model::{FORCE_SIZE, TORQUE_SIZE};
 pub use schema::schema;
 
 use crate::error::{Error, Result, excerpt, nearest};
