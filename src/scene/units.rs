@@ -108,7 +108,7 @@ impl Dimension {
             return Ok(Unit { name: name.to_string(), per_si: 1.0 / size });
         }
         let message = match dimension_of(name) {
-            Some(other) => format!("`{name}` is a unit of {}; this output is of {word}", other.word()),
+            Some(other) => format!("`{name}` is a unit of {}, not of {word}", other.word()),
             None => format!("there is no unit `{name}` of {word}"),
         };
         let names = sizes.iter().map(|(name, _)| *name).filter(|name| !name.is_empty());
@@ -172,7 +172,7 @@ mod tests {
         let message = |dimension: Dimension, name: &str| dimension.unit(name).unwrap_err().to_string();
         assert_eq!(
             message(Dimension::Angle, "kN"),
-            "at unit: `kN` is a unit of force; this output is of angle\n  help: choose one of rad, mrad, deg, arcmin, rev"
+            "at unit: `kN` is a unit of force, not of angle\n  help: choose one of rad, mrad, deg, arcmin, rev"
         );
         assert!(
             message(Dimension::Angle, "degs")

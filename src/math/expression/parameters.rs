@@ -33,25 +33,25 @@ pub struct ParameterError {
 type Result<T> = std::result::Result<T, ParameterError>;
 
 impl Parameters {
-    /// Evaluates `given` after the values of `overrides` have taken the place of what it says; the last of several
-    /// overrides of one parameter counts.
+    /// Evaluates `given` after `overrides`, numbers or expressions over the other parameters, have taken the place of what
+    /// it says; the last of several overrides of one parameter counts.
     ///
     /// # Errors
     ///
     /// For names that are no plain names (a letter, then letters, digits and `_`), that have a meaning of their own
     /// (functions, `pi`, `t`, `and`, `or`, `not`) or come twice; for overrides of unknown parameters; for parameters
     /// that depend on themselves, with the cycle; for expressions that cannot be parsed and values that are not finite.
-    pub fn resolve(given: &[(String, Number)], overrides: &[(String, f64)]) -> Result<Self> {
+    pub fn resolve(given: &[(String, Number)], overrides: &[(String, Number)]) -> Result<Self> {
         let mut parameters = Parameters::named(given)?;
         let mut numbers: Vec<Number> = given.iter().map(|(_, number)| number.clone()).collect();
-        for (name, value) in overrides {
+        let mut sources = vec![ParameterSource::Scene; given.len()];
+        for (name, number) in overrides {
             let i = *parameters.index.get(name).ok_or_else(|| parameters.unknown(name))?;
-            numbers[i] = Number::Value(*value);
-            numbers[i].evaluate(&parameters).map_err(|problem| fault(name, ParameterSource::Override, problem))?;
+            (numbers[i], sources[i]) = (number.clone(), ParameterSource::Override);
         }
-        for i in parameters.order(&numbers)? {
+        for i in parameters.order(&numbers, &sources)? {
             let value = numbers[i].evaluate(&parameters);
-            parameters.values[i].1 = value.map_err(|problem| fault(&given[i].0, ParameterSource::Scene, problem))?;
+            parameters.values[i].1 = value.map_err(|problem| fault(&given[i].0, sources[i], problem))?;
         }
         Ok(parameters)
     }
@@ -84,8 +84,8 @@ impl Parameters {
     }
 
     /// The parameters such that each comes after those it depends on; otherwise in the order of the scene.
-    fn order(&self, numbers: &[Number]) -> Result<Vec<usize>> {
-        let needs = (0..numbers.len()).map(|i| self.needs(i, &numbers[i])).collect::<Result<Vec<_>>>()?;
+    fn order(&self, numbers: &[Number], sources: &[ParameterSource]) -> Result<Vec<usize>> {
+        let needs = (0..numbers.len()).map(|i| self.needs(i, &numbers[i], sources[i])).collect::<Result<Vec<_>>>()?;
         let mut users = vec![Vec::new(); numbers.len()];
         needs.iter().enumerate().for_each(|(i, needed)| needed.iter().for_each(|n| users[*n].push(i)));
         let mut open: Vec<usize> = needs.iter().map(Vec::len).collect();
@@ -104,9 +104,9 @@ impl Parameters {
     }
 
     /// The parameters that number `i` mentions.
-    fn needs(&self, i: usize, number: &Number) -> Result<Vec<usize>> {
+    fn needs(&self, i: usize, number: &Number, source: ParameterSource) -> Result<Vec<usize>> {
         let Number::Text(text) = number else { return Ok(Vec::new()) };
-        let names = lexer::names(text).map_err(|problem| fault(&self.values[i].0, ParameterSource::Scene, problem))?;
+        let names = lexer::names(text).map_err(|problem| fault(&self.values[i].0, source, problem))?;
         let mut needs: Vec<usize> = names.iter().filter_map(|name| self.index.get(*name).copied()).collect();
         needs.sort_unstable();
         needs.dedup();
