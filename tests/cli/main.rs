@@ -17,6 +17,8 @@ mod singular;
 mod stress;
 mod sweep;
 mod tradeoff;
+mod units;
+mod words;
 
 use serde_json::Value;
 use std::fs;

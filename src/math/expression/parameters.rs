@@ -100,7 +100,7 @@ impl Parameters {
                 }
             }
         }
-        if order.len() == numbers.len() { Ok(order) } else { Err(self.cycle(numbers, &needs, &open)) }
+        if order.len() == numbers.len() { Ok(order) } else { Err(self.cycle(numbers, sources, &needs, &open)) }
     }
 
     /// The parameters that number `i` mentions.
@@ -114,7 +114,13 @@ impl Parameters {
     }
 
     /// The error that shows a cycle among the parameters that are still open: each of them needs another one.
-    fn cycle(&self, numbers: &[Number], needs: &[Vec<usize>], open: &[usize]) -> ParameterError {
+    fn cycle(
+        &self,
+        numbers: &[Number],
+        sources: &[ParameterSource],
+        needs: &[Vec<usize>],
+        open: &[usize],
+    ) -> ParameterError {
         let follow = |i: &usize| needs[*i].iter().copied().find(|n| open[*n] > 0);
         let start = open.iter().position(|count| *count > 0);
         // After as many steps as there are parameters the walk is on the cycle and no longer on the way to it.
@@ -128,7 +134,9 @@ impl Parameters {
         let shown: Vec<&str> = path.iter().map(|i| self.values[*i].0.as_str()).collect();
         let message = format!("parameters depend on each other in a circle: {}", chain(&shown));
         let problem = ExpressionError::whole(&numbers[path[0]].to_string(), message);
-        fault(shown[0], ParameterSource::Scene, problem.hint("give one of them as a number"))
+        let is_set = |i: &&usize| sources[**i] == ParameterSource::Override;
+        let guilty = *path.iter().find(is_set).unwrap_or(&path[0]);
+        fault(&self.values[guilty].0, sources[guilty], problem.hint("give one of them as a number"))
     }
 
     fn unknown(&self, name: &str) -> ParameterError {
@@ -204,8 +212,21 @@ mod tests {
     fn resolve(given: Given, overrides: Set) -> Result<Parameters> {
         let number = |text: &str| text.parse::<f64>().map_or_else(|_| Number::from(text), Number::Value);
         let given: Vec<_> = given.iter().map(|(name, text)| (name.to_string(), number(text))).collect();
-        let overrides: Vec<_> = overrides.iter().map(|(name, value)| (name.to_string(), *value)).collect();
+        let overrides: Vec<_> =
+            overrides.iter().map(|(name, value)| (name.to_string(), Number::Value(*value))).collect();
         Parameters::resolve(&given, &overrides)
+    }
+
+    #[test]
+    fn overrides_are_expressions_like_any_other() {
+        let given: Vec<(String, Number)> =
+            [("l", 2.0), ("m", 3.0)].map(|(name, x)| (name.to_string(), x.into())).to_vec();
+        let with = |text: &str| Parameters::resolve(&given, &[("l".to_string(), Number::from(text))]);
+        assert_eq!(with("2*m").unwrap().get("l"), Some(6.0));
+        assert_eq!(with("pi/2").unwrap().get("l"), Some(std::f64::consts::FRAC_PI_2));
+        for wrong in ["l/2", "q", "2*"] {
+            assert_eq!(with(wrong).unwrap_err().source, ParameterSource::Override, "{wrong}");
+        }
     }
 
     fn message(given: Given, overrides: Set) -> String {
