@@ -246,7 +246,17 @@ fn variant(text: &str, args: &Args, like: &Study) -> Result<Variant> {
     let own: Vec<(String, Number)> = own.collect::<Result<_>>().map_err(|error| error.under("--variants"))?;
     let span = like.span()?;
     let overrides = Overrides { set: own, until: Some(span.end), ..args.overrides() };
-    Ok(Variant { name: named(Path::new(path), set), study: Study::load(Path::new(path), &overrides)? })
+    let study = Study::load(Path::new(path), &overrides).map_err(of_variants)?;
+    Ok(Variant { name: named(Path::new(path), set), study })
+}
+
+/// A parameter at fault was given by `--variants`, not by `--set`.
+fn of_variants(error: Error) -> Error {
+    let Error::Input(mut input) = error else { return error };
+    if input.path == "--set" {
+        input.path = "--variants".to_string();
+    }
+    Error::Input(input)
 }
 
 /// The file's name and the parameters.

@@ -29,10 +29,14 @@ fn a_rate_that_cannot_stand_somewhere_is_told() {
 
 #[test]
 fn parameters_are_set_by_expressions() {
-    let place = Place::new(PENDULUM.replace(r#""gravity""#, r#""parameters": { "m": 2, "k": 1 }, "gravity""#));
+    let place = Place::new(
+        PENDULUM
+            .replace(r#""gravity""#, r#""parameters": { "m": 2, "k": 1 }, "gravity""#)
+            .replace(r#""outputs": ["#, r#""outputs": [ { "name": "shown", "measure": "expression", "value": "k" },"#),
+    );
     place.done(&["simulate", "scene.json", "--set", "k=pi/2*m", "--until", "1/4", "-o", "here"]);
     let json = place.json("here/summary.json");
-    assert_eq!(json["parameters"]["k"].as_f64(), Some(std::f64::consts::PI));
+    assert_eq!(json["final"]["outputs"]["shown"].as_f64(), Some(std::f64::consts::PI));
     assert_eq!(json["t_end"].as_f64(), Some(0.25));
     let output = place.run(&["check", "scene.json", "--set", "k=k/2"]);
     assert!(output.status.code() == Some(2) && err(&output).starts_with("error: at --set (`k`): "), "{}", err(&output));
