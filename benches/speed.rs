@@ -133,7 +133,7 @@ fn growth(criterion: &mut Criterion) {
 fn stiff(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("stiff");
     group.measurement_time(Duration::from_secs(3)).sample_size(10);
-    let strut = Overrides { set: vec![("c_strut".to_string(), 2e5)], ..Overrides::default() };
+    let strut = Overrides { set: vec![("c_strut".to_string(), 2e5.into())], ..Overrides::default() };
     for (name, end, overrides) in [("flyball_governor", 1.0, Overrides::default()), ("quarter_car", 2.0, strut)] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(format!("{name}.json"));
         let study = Study::load(&path, &overrides).unwrap_or_else(|error| panic!("{error}"));

@@ -64,7 +64,7 @@ impl Sink for Clock {
 
 fn shipped(name: &str, set: &[(&str, f64)]) -> Study {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(name);
-    let set = set.iter().map(|(name, value)| (name.to_string(), *value)).collect();
+    let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
     Study::load(&path, &Overrides { set, ..Overrides::default() }).unwrap_or_else(|error| panic!("{error}"))
 }
 

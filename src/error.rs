@@ -229,7 +229,15 @@ pub fn excerpt(text: &str) -> String {
 
 /// A number with at most four digits that count, as a person writes it: 0.5, 1.25e-7.
 pub fn short(value: f64) -> String {
-    let rounded = format!("{value:.3e}").parse::<f64>().unwrap_or(value);
+    shown(format!("{value:.3e}").parse().unwrap_or(value))
+}
+
+/// A time with at most nine digits that count: 0.6 where rounding has made it 0.6000000000000001.
+pub fn clock(t: f64) -> String {
+    shown(format!("{t:.8e}").parse().unwrap_or(t))
+}
+
+fn shown(rounded: f64) -> String {
     match rounded.abs() {
         size if size == 0.0 || (1e-3..1e6).contains(&size) => format!("{rounded}"),
         _ => format!("{rounded:e}"),
@@ -282,6 +290,7 @@ mod tests {
     fn numbers_are_short() {
         let table = [(0.0, "0"), (0.5, "0.5"), (1.0 / 3.0, "0.3333"), (-5.0, "-5"), (123456.7, "123500")];
         table.iter().for_each(|(value, text)| assert_eq!(short(*value), *text));
+        assert_eq!((clock(0.1 + 0.2), clock(12.345_678_912_3)), ("0.3".into(), "12.3456789".into()));
         assert_eq!((short(1.2346e-7), short(1e9), short(f64::NAN)), ("1.235e-7".into(), "1e9".into(), "NaN".into()));
     }
 }

@@ -41,9 +41,7 @@ impl Trajectory {
         if let Some(last) = self.rows.last() {
             let before = &last[last.len() - outputs.len()..];
             for ((output, before), column) in outputs.iter_mut().zip(before).zip(&self.outputs) {
-                if column.periodic {
-                    *output += ((before - *output) / std::f64::consts::TAU).round() * std::f64::consts::TAU;
-                }
+                *output = column.join(*before, *output);
             }
         }
         self.rows.push([&[state.t], state.q, state.v, state.lambda, &outputs].concat());

@@ -122,7 +122,7 @@ fn a_stiff_motion_is_stepped_over() {
 /// With damping the fast motion is one that BDF of any order is stable for.
 #[test]
 fn a_damped_stiff_motion_is_stepped_over_at_any_tolerance() {
-    let scene = Scene::parse(STIFF, &[("damping".to_string(), 1e3)]).unwrap();
+    let scene = Scene::parse(STIFF, &[("damping".to_string(), 1e3.into())]).unwrap();
     let ready = Ready(Study::new(scene, &Default::default()).unwrap());
     for (tolerance, most) in [(1e-4, 100), (1e-6, 200), (1e-8, 500), (1e-10, 1500)] {
         for formulation in ["index1", "ggl"] {

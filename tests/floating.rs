@@ -62,6 +62,7 @@ fn cloud<const D: usize>(has_rotations: bool) -> Cloud<D> {
     let stretch = |stir: &mut Stir, dofs: &[usize]| Stretch {
         ends: [0.0, 1.0],
         dofs: dofs.to_vec(),
+        quartic: 1.0,
         weight: 3.0,
         axial: stir.list(dofs.len()),
         slopes: symmetric(dofs.len(), stir),

@@ -142,7 +142,7 @@ fn path(scene: &str) -> PathBuf {
 }
 
 fn study(scene: &str, set: &[(&str, f64)]) -> Study {
-    let set = set.iter().map(|(name, value)| (name.to_string(), *value)).collect();
+    let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
     Study::load(&path(scene), &Overrides { set, ..Overrides::default() }).unwrap()
 }
 

@@ -166,7 +166,8 @@ fn wrong_derivatives_are_refused() {
         let state = &three(&study)[1];
         for without_geometric in [true, false] {
             let wrong = Wrong { inner: study.system(), without_geometric };
-            let found = validate(&wrong, state, &Settings { inputs: false, ..Settings::default() }).unwrap();
+            let constant = Settings { chart: Some(Chart::MassOrthogonal), inputs: false, ..Settings::default() };
+            let found = validate(&wrong, state, &constant).unwrap();
             let order = found.ladders[0].order_ltv.order;
             assert!(!found.verdict.ltv, "{name} {without_geometric}: {:?}", found.verdict);
             // The error that is missing in K grows as eps, and rules at once.
@@ -179,7 +180,7 @@ fn wrong_derivatives_are_refused() {
 /// chart.
 #[test]
 fn the_plain_projection_is_refused_off_equilibrium() {
-    let set = Overrides { set: vec![("c1".to_string(), 5.0)], ..Overrides::default() };
+    let set = Overrides { set: vec![("c1".to_string(), 5.0.into())], ..Overrides::default() };
     let study = Study::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/four_bar_spring.json"), &set).unwrap();
     let state = &three(&study)[1];
     let settings = Settings { chart: Some(Chart::Frozen), ..Settings::default() };
@@ -206,4 +207,19 @@ fn independent_coordinates_and_named_directions() {
         Settings { directions: vec![holonom::validate::Direction::Named("u7".into())], ..Settings::default() };
     let error = validate(study.system(), state, &unknown).unwrap_err().to_string();
     assert!(error.contains("no state `u7`"), "{error}");
+}
+
+/// The intrinsic chart moves along with the motion: its frozen model is exact to h^2 in the basis carried with it, and to h
+/// only in a basis that stays.
+#[test]
+fn the_intrinsic_chart_is_followed() {
+    for name in ["four_bar_spring", "double_pendulum", "spatial_slider_crank", "spinning_top", "universal_shaft"] {
+        let study = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json")));
+        let state = &three(&study)[1];
+        let settings = Settings { chart: Some(Chart::Intrinsic), inputs: false, ..Settings::default() };
+        let found = validate(study.system(), state, &settings).unwrap();
+        assert!(found.verdict.ltv && found.verdict.lti, "{name}: {:?} {:?}", found.verdict, found.frozen);
+        let default = validate(study.system(), state, &Settings { inputs: false, ..Settings::default() }).unwrap();
+        assert_eq!(default.chart, "intrinsic", "{name}");
+    }
 }

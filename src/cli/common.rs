@@ -2,6 +2,7 @@
 
 use crate::choice::Choice;
 use crate::error::{Error, Result, Warning, suggest};
+use crate::math::expression::{Number, constant};
 use crate::plot::Figure;
 use crate::report::Folder;
 use crate::scene::Automatic;
@@ -31,9 +32,9 @@ pub struct SceneOptions {
     /// Scene file (JSON)
     #[arg(value_name = "SCENE")]
     pub path: PathBuf,
-    /// Replace a parameter of the scene
+    /// Replace a parameter of the scene: a number, or an expression such as pi/2 or 2*l
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
-    pub set: Vec<(String, f64)>,
+    pub set: Vec<(String, Number)>,
 }
 
 /// Leaves the method to the program.
@@ -124,8 +125,8 @@ fn automatic(text: &str) -> Result<Automatic, String> {
 }
 
 pub fn number(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
+    match constant(text) {
+        Some(value) if value.is_finite() => Ok(value),
         _ => Err(format!("`{text}` is not a finite number")),
     }
 }
@@ -134,9 +135,12 @@ pub fn positive(text: &str) -> Result<f64, String> {
     number(text).and_then(|value| if value > 0.0 { Ok(value) } else { Err("it must be above zero".to_string()) })
 }
 
-pub fn assignment(text: &str) -> Result<(String, f64), String> {
+pub fn assignment(text: &str) -> Result<(String, Number), String> {
+    let number = |text: &str| text.trim().parse().map_or_else(|_| Number::from(text), Number::Value);
     match text.split_once('=') {
-        Some((name, value)) if !name.trim().is_empty() => Ok((name.trim().to_string(), number(value)?)),
+        Some((name, value)) if !name.trim().is_empty() && !value.trim().is_empty() => {
+            Ok((name.trim().to_string(), number(value)))
+        }
         _ => Err("write NAME=VALUE, as in --set k1=200".to_string()),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::common::{Common, Output, print};
 use super::interrupt;
-use crate::error::{Error, Failure, Result};
+use crate::error::{Error, Failure, Result, clock};
 use crate::formulation::Choice;
 use crate::measure::{Drift, EnergyBalance, Record, Recorder, Singularity};
 use crate::plot::{AxisSpec, Figure, Panel, Series};
@@ -44,14 +44,16 @@ struct Row {
 pub fn run(args: Args) -> Result<ExitCode> {
     let study = args.common.load()?;
     args.common.span(&study)?;
-    check_choice(&study)?;
+    let first = compared(&study, 1.0)?;
     let mut folder = args.output.folder(&study.name)?;
-    let bar = args.common.talk.progress(stabilizations(1.0).len() as u64 + 1, "drift");
-    let plain = one(&study, &Choice::named("index1"), &Choice::named("none"), &folder)?;
+    let bar = args.common.talk.progress(first.len() as u64, "drift");
+    let (formulation, projection) = &first[0];
+    let plain = one(&study, formulation, projection, &folder)?;
     bar.inc(1);
     let step = study.method.step.unwrap_or(mean_step(&study, &plain)?);
-    let others: Vec<Row> = stabilizations(step)
+    let others: Vec<Row> = compared(&study, step)?
         .into_par_iter()
+        .skip(1)
         .map(|(formulation, projection)| {
             let row = one(&study, &formulation, &projection, &folder);
             bar.inc(1);
@@ -81,21 +83,26 @@ fn fatal(rows: &[Row]) -> Option<&Failure> {
     interrupted.or(failures.last().filter(|_| failures.len() == rows.len())).copied()
 }
 
-/// Stabilizations are for vector fields: where `auto` chooses another formulation, there is nothing to compare.
-fn check_choice(study: &Study) -> Result<()> {
-    let Method { formulation, integrator, .. } = &study.method;
-    match &study.chosen_because {
-        Some(because) if formulation.name != "index1" || integrator.name == "radau_iia" => {
-            let message =
-                format!("auto chooses {integrator} on {formulation}, not one to compare stabilizations by: {because}");
-            let error = Error::input(message).under("--method");
-            Err(error.hint("name an explicit method, as in --integrator dop853, which will take its time"))
-        }
-        _ => Ok(()),
+/// The stabilizations that the integrator of the scene, or of the command line, goes with.
+fn compared(study: &Study, step: f64) -> Result<Vec<(Choice, Choice)>> {
+    let accepted = |(formulation, projection): &(Choice, Choice)| of(study, formulation, projection).check().is_ok();
+    let all: Vec<_> = stabilizations(step).into_iter().filter(accepted).collect();
+    if all.len() > 1 {
+        return Ok(all);
     }
+    let Method { integrator, formulation, .. } = &study.method;
+    let because = study.chosen_because.as_ref().map_or(String::new(), |because| format!("; auto: {because}"));
+    let message = format!("{integrator} goes with {formulation} alone: there is nothing to compare{because}");
+    let path = if study.chosen_because.is_some() { "--method" } else { "simulation.integrator" };
+    Err(Error::input(message).under(path).hint("name another, as in --integrator dop853 or --integrator radau_iia"))
 }
 
-/// Every stabilization, with gains that go with steps of size `step`: alpha = beta = 1/step is the pair (2/h, 1/h^2).
+fn of(study: &Study, formulation: &Choice, projection: &Choice) -> Method {
+    Method { formulation: formulation.clone(), projection: projection.clone(), ..study.method.clone() }
+}
+
+/// Every stabilization, the least first, with gains that go with steps of size `step`: alpha = beta = 1/step is the pair
+/// (2/h, 1/h^2).
 fn stabilizations(step: f64) -> Vec<(Choice, Choice)> {
     let gain = crate::report::significant(1.0 / step, 3);
     let gained = |name: &str, keys: &[&str]| Choice {
@@ -105,7 +112,9 @@ fn stabilizations(step: f64) -> Vec<(Choice, Choice)> {
     let sweeps = Choice { name: "manifold".to_string(), options: vec![("sweeps".to_string(), "2".to_string())] };
     let index1 = || Choice::named("index1");
     let none = || Choice::named("none");
+    let other = |formulation: &str, projection: &str| (Choice::named(formulation), Choice::named(projection));
     vec![
+        (index1(), none()),
         (Choice::named("baumgarte"), none()),
         (gained("baumgarte", &["alpha", "beta"]), none()),
         (gained("invariant_manifold", &["gamma"]), none()),
@@ -115,11 +124,16 @@ fn stabilizations(step: f64) -> Vec<(Choice, Choice)> {
         (index1(), sweeps),
         (index1(), Choice::named("full")),
         (index1(), Choice::named("exact")),
+        other("index2", "none"),
+        other("index2", "position"),
+        other("index3", "none"),
+        other("index3", "velocity"),
+        other("ggl", "none"),
     ]
 }
 
 fn one(study: &Study, formulation: &Choice, projection: &Choice, folder: &Folder) -> Result<Row> {
-    let method = Method { formulation: formulation.clone(), projection: projection.clone(), ..study.method.clone() };
+    let method = of(study, formulation, projection);
     let mut recorder = Recorder::new(study.system()).with_stop(|| interrupt::stop(folder));
     let clock = Instant::now();
     let Outcome { statistics, failure, .. } =
@@ -155,7 +169,7 @@ fn mean_step(study: &Study, plain: &Row) -> Result<f64> {
 fn text(study: &Study, rows: &[Row]) -> String {
     let Method { integrator, rtol, atol, step, .. } = &study.method;
     let accuracy = match step {
-        Some(step) => format!("step {step} s"),
+        Some(step) => format!("step {} s", clock(*step)),
         None => format!("rtol {rtol:e}, atol {atol:e}"),
     };
     let mut table =

@@ -104,8 +104,8 @@ fn times(args: &Args, study: &Study) -> Result<Vec<f64>> {
     match count {
         // Rounding must not lose the end.
         _ if (1.0 - 1e-9..MOST).contains(&count) => {
-            let last = (count + 1e-9).floor() as usize;
-            Ok((0..=last).map(|k| (from + k as f64 * every).min(end)).collect())
+            let last = (count + 1e-9).floor();
+            Ok(Range::new("t", (from, (from + last * every).min(end)), last as usize + 1)?.values())
         }
         _ => {
             let message = format!("states every {} s over {} s", short(every), short(end - from));

@@ -39,6 +39,9 @@ enum Command {
     /// Integrate: trajectory, drift and energy, with figures
     Simulate(simulate::Args),
     /// The same scene under every stabilization: drift against time, one table, one figure
+    ///
+    /// By the integrator of the scene or of the command line: every stabilization of index 1 for explicit ones; for implicit
+    /// ones all formulations and projections that they go with.
     Drift(drift::Args),
     /// Speed for accuracy: what every method costs for the digits it gives, and which to choose
     ///
@@ -64,7 +67,8 @@ enum Command {
     Bode(bode::Args),
     /// Linear models against simulations of small perturbations: observed order, horizon and a verdict
     ///
-    /// The exit code is 1 where the verdict is that a model is wrong.
+    /// The exit code is 1 where the verdict is that a model is wrong, and standard error says of which state. The chart is
+    /// by default that of `linearize`; a moving one is carried along the motion.
     Validate(validate::Args),
     /// How small changes grow along the motion: Floquet multipliers of a period, Lyapunov exponents
     Transition(transition::Args),

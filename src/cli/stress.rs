@@ -2,6 +2,7 @@
 
 use super::common::{MethodOptions, Output, SceneOptions, Talk, assignment, pick, positive, print};
 use crate::error::{Error, Result};
+use crate::math::expression::Number;
 use crate::measure::stress::{Axis, Limits, Map, Quantity, Stressed, Subject, known, maps, pair, registry, stress};
 use crate::report::stress::{MapFile, StressFile, gain_table, sentences, stress_figure, stress_page, stress_table};
 use crate::report::{Folder, Table};
@@ -16,7 +17,7 @@ pub struct Args {
     path: Option<PathBuf>,
     /// Replace a parameter of the scene
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
-    set: Vec<(String, f64)>,
+    set: Vec<(String, Number)>,
     /// The maps to make (default: all that make sense for the scene); --list names them
     #[arg(long, value_name = "NAME[,NAME...]", value_delimiter = ',')]
     map: Vec<String>,

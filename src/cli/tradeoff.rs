@@ -1,9 +1,10 @@
 //! `holonom tradeoff SCENE`
 
-use super::common::{Output, SceneOptions, Talk, choice, number, positive, print};
+use super::common::{Output, SceneOptions, Talk, assignment, choice, number, positive, print};
 use super::interrupt;
 use crate::choice::Choice;
 use crate::error::{Error, Result};
+use crate::math::expression::Number;
 use crate::measure::work_precision::models::{Variant, compare};
 use crate::measure::work_precision::{Filter, Given, Motion, Plan, Runner, Watched, WorkPrecision, grid};
 use crate::report::tradeoff::{ModelsSummary, Summary, models_figure, models_table, tradeoff_figure, tradeoff_table};
@@ -213,7 +214,8 @@ fn save(place: &Path, measured: &WorkPrecision) -> Result<()> {
 fn fingerprint(args: &Args, rows: usize) -> Result<String> {
     let mut hasher = DefaultHasher::new();
     scene::read_text(&args.scene.path)?.hash(&mut hasher);
-    let set: Vec<(&str, u64)> = args.scene.set.iter().map(|(name, value)| (name.as_str(), value.to_bits())).collect();
+    let set: Vec<(&str, String)> =
+        args.scene.set.iter().map(|(name, value)| (name.as_str(), value.to_string())).collect();
     (set, args.until.map(f64::to_bits), &args.outputs, rows, &args.reference).hash(&mut hasher);
     Ok(format!("{:016x}", hasher.finish()))
 }
@@ -238,13 +240,23 @@ fn variant(text: &str, args: &Args, like: &Study) -> Result<Variant> {
     };
     let pairs = set.split(',').filter(|pair| !pair.is_empty());
     let own = pairs.map(|pair| {
-        let parts = pair.split_once('=').and_then(|(name, value)| Some((name.to_string(), value.parse().ok()?)));
-        parts.ok_or_else(|| Error::input(format!("`{pair}` is no parameter")).hint("write SCENE:NAME=VALUE,NAME=VALUE"))
+        let wrong = |_| Error::input(format!("`{pair}` is no parameter")).hint("write SCENE:NAME=VALUE,NAME=VALUE");
+        assignment(pair).map_err(wrong)
     });
-    let own: Vec<(String, f64)> = own.collect::<Result<_>>().map_err(|error| error.under("--variants"))?;
+    let own: Vec<(String, Number)> = own.collect::<Result<_>>().map_err(|error| error.under("--variants"))?;
     let span = like.span()?;
     let overrides = Overrides { set: own, until: Some(span.end), ..args.overrides() };
-    Ok(Variant { name: named(Path::new(path), set), study: Study::load(Path::new(path), &overrides)? })
+    let study = Study::load(Path::new(path), &overrides).map_err(of_variants)?;
+    Ok(Variant { name: named(Path::new(path), set), study })
+}
+
+/// A parameter at fault was given by `--variants`, not by `--set`.
+fn of_variants(error: Error) -> Error {
+    let Error::Input(mut input) = error else { return error };
+    if input.path == "--set" {
+        input.path = "--variants".to_string();
+    }
+    Error::Input(input)
 }
 
 /// The file's name and the parameters.

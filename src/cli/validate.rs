@@ -44,7 +44,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let settings = Settings { chart: args.chart.chart(), directions, horizon: args.horizon, inputs: !args.no_inputs };
     let places = args.states.states(&study, &args.talk).map_err(in_file)?;
     let mut folder = args.output.folder(&study.name)?;
-    let (names, mut files, mut is_right) = (study.system().names(), Vec::new(), true);
+    let (names, mut files) = (study.system().names(), Vec::new());
     for state in &places {
         let found = validate(study.system(), state, &settings).map_err(in_file)?;
         let file = ValidationFile::new(&study.name, &names, &found);
@@ -63,7 +63,6 @@ pub fn run(args: Args) -> Result<ExitCode> {
         if !args.talk.json && !args.talk.quiet {
             print(&file.text(&found))?;
         }
-        is_right &= found.verdict.ltv && found.verdict.lti;
         files.push(file);
     }
     let written = folder.finish()?;
@@ -73,5 +72,9 @@ pub fn run(args: Args) -> Result<ExitCode> {
         (false, _) if !args.talk.quiet => print(&format!("\nwritten to {}\n", written.listing()))?,
         _ => {}
     }
-    Ok(if is_right { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    let wrong: Vec<&ValidationFile> = files.iter().filter(|file| !file.is_right()).collect();
+    for file in &wrong {
+        eprintln!("error: {}", file.complaint());
+    }
+    Ok(if wrong.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }

@@ -72,6 +72,7 @@ impl ForceSpec for AppliedForce {
 impl ForceSpec for AppliedTorque {
     const TYPE: &'static str = "applied_torque";
     const DRIVEN: bool = true;
+    const TORQUE: bool = true;
 
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
         let signals = match &self.torque {

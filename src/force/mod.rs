@@ -128,6 +128,8 @@ pub trait ForceSpec: DeserializeOwned + JsonSchema {
     const TYPE: &'static str;
     /// Whether an input of the scene can drive it.
     const DRIVEN: bool = false;
+    /// Whether what a user watches of it is a torque, N m, and no force.
+    const TORQUE: bool = false;
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>>;
 }
 
@@ -135,6 +137,7 @@ pub trait ForceSpec: DeserializeOwned + JsonSchema {
 pub struct Entry<const D: usize> {
     pub name: &'static str,
     pub driven: bool,
+    pub torque: bool,
     pub schema: fn(&mut SchemaGenerator) -> Schema,
     pub build: fn(serde_json::Value, &Build<D>) -> Result<Built<D>>,
 }
@@ -143,6 +146,7 @@ fn entry<T: ForceSpec, const D: usize>() -> Entry<D> {
     Entry {
         name: T::TYPE,
         driven: T::DRIVEN,
+        torque: T::TORQUE,
         schema: |generator| generator.subschema_for::<T>(),
         build: |json, build| parse_among::<T>(json, &["name", "type"])?.build(build),
     }
@@ -159,4 +163,9 @@ pub fn registry<const D: usize>() -> Vec<Entry<D>> {
         entry::<applied::AppliedTorque, D>(),
         entry::<tyre::Tyre, D>(),
     ]
+}
+
+/// Whether what a user watches of a kind of force is a torque.
+pub fn is_torque<const D: usize>(kind: &str) -> bool {
+    registry::<D>().iter().any(|entry| entry.name == kind && entry.torque)
 }

@@ -29,6 +29,7 @@ pub struct TorsionSpring {
 
 impl ForceSpec for TorsionSpring {
     const TYPE: &'static str = "torsion_spring";
+    const TORQUE: bool = true;
 
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
         let markers = build.between(&self.between)?;

@@ -131,7 +131,10 @@ fn frozen(variation: &Variation, z: Matrix) -> Coordinates {
 /// N^T M N'' = -N'^T (M N' + W N) - N^T (M' N' + W' N + W N')
 /// dv  = N u' + (N' - Q N) u           dv' = N u'' + (2 N' - Q N) u' + (N'' - Q' N - Q N') u
 /// ```
-fn parallel(variation: &mut Variation, n: Matrix) -> Result<Coordinates> {
+///
+/// # Errors
+/// Equations that do not say how M changes; a singular state.
+pub fn parallel(variation: &mut Variation, n: Matrix) -> Result<Coordinates> {
     let mut connection = LeviCivita::new(variation.len());
     if !levi_civita(variation, &mut connection) {
         return Err(Error::input("the intrinsic chart needs a mass matrix whose change along the motion is known")

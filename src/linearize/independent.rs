@@ -3,7 +3,7 @@
 use super::chart::constant;
 use super::names::{Directions, directions};
 use super::{Coordinates, Matrix, Variation};
-use crate::error::{Error, Result, suggest};
+use crate::error::{Error, Result, clock, suggest};
 
 /// Coordinates that leave a direction of motion this small a part of what they could are not independent.
 const DEPENDENT: f64 = 1e-7;
@@ -30,7 +30,7 @@ pub(super) fn coordinates(variation: &mut Variation, z: &Matrix, names: &[String
     let rows = Matrix::from_fn(degrees, degrees, |i, j| weighed[(chosen[i].direction, j)]);
     let smallest = rows.singular_values().iter().fold(f64::INFINITY, |least, x| least.min(*x));
     if smallest < DEPENDENT {
-        let message = format!("{} are not independent at t = {} s", names.join(", "), variation.point.t);
+        let message = format!("{} are not independent at t = {} s", names.join(", "), clock(variation.point.t));
         return Err(Error::input(message).under("--independent").hint(format!("independent here are: {}", best())));
     }
     let b = Matrix::from_fn(degrees, z.nrows(), |i, j| f64::from(u8::from(chosen[i].direction == j)));

@@ -26,7 +26,7 @@ mod unconstrained;
 mod variation;
 
 pub use along::{State, at_rest, states, tighten};
-pub use chart::{Chart, Coordinates};
+pub use chart::{Chart, Coordinates, parallel};
 pub use floquet::{Defect, Floquet, floquet};
 pub use frequency::{Resonances, frequency_response};
 pub use loci::Branch;

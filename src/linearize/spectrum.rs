@@ -3,7 +3,7 @@
 use super::chart::directions;
 use super::method::{Built, Request};
 use super::{Complex, Kind, Matrix, Mode, Variation};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, clock};
 use crate::math::eigen::{ComplexMatrix, Deflation, Unsolved, eigen, finite_by, generalized};
 
 /// Eigenvalues with vectors.
@@ -181,6 +181,6 @@ fn complex(matrix: &Matrix) -> ComplexMatrix {
 }
 
 pub(super) fn refused(t: f64, unsolved: &Unsolved) -> Error {
-    Error::input(format!("the linear model at t = {t} s has no reliable eigenvalues: {unsolved}"))
+    Error::input(format!("the linear model at t = {} s has no reliable eigenvalues: {unsolved}", clock(t)))
         .hint("take --method mcs, or another time")
 }

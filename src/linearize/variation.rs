@@ -1,7 +1,7 @@
 //! The variational equations at a state: every matrix of a linear model.
 
 use super::{Changes, Matrix, OperatingPoint, Response, singular};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, clock};
 use crate::formulation::{Dynamics, Halt};
 use crate::math::kkt::Pattern;
 use crate::system::{Column, Loaded, MechanicalSystem, Need, OutputTangent, Tangent};
@@ -273,5 +273,5 @@ pub(super) fn observe(outputs: &OutputTangent, changes: &Changes, response: &Res
 /// Why there is no linear model at a state.
 pub(super) fn at_state(t: f64, halt: &Halt) -> Error {
     let hint = halt.hint().unwrap_or("choose another time, a little before or after");
-    Error::input(format!("at t = {t} s there is no linear model: {halt}")).hint(hint)
+    Error::input(format!("at t = {} s there is no linear model: {halt}", clock(t))).hint(hint)
 }

@@ -3,6 +3,7 @@
 use super::envelope;
 use crate::measure::Record;
 use crate::plot::{Figure, Panel, Series};
+use crate::scene::units::{Dimension, dimension_of};
 
 /// Outputs over time, one panel a unit; coordinates where the scene names no outputs. `None` without rows.
 pub fn outputs_figure(title: &str, record: &Record) -> Option<Figure> {
@@ -42,17 +43,10 @@ pub fn outputs_figure(title: &str, record: &Record) -> Option<Figure> {
 /// More curves than this tell nothing.
 pub(super) const MOST_COORDINATES: usize = 12;
 
+/// What is measured in a unit, for an axis; a percentage may be one of anything.
 pub(super) fn quantity(unit: &str) -> &'static str {
-    match unit {
-        "rad" | "deg" => "angle",
-        "rad/s" => "angular velocity",
-        "m" => "position",
-        "m/s" => "velocity",
-        "N" => "force",
-        "N m" => "torque",
-        "J" => "energy",
-        _ => "value",
-    }
+    let dimension = dimension_of(unit).filter(|dimension| *dimension != Dimension::Strain);
+    dimension.map_or("value", Dimension::word)
 }
 
 /// Points of a drift curve, each the largest value of its window.

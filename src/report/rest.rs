@@ -2,6 +2,7 @@
 
 use super::Table;
 use super::summary::significant;
+use crate::error::clock;
 use crate::initial::{Equilibrium, Stability, Way};
 use crate::study::Study;
 use crate::system::Scratch;
@@ -96,7 +97,7 @@ impl Rest {
 
     pub fn text(&self) -> String {
         let (Some(way), Some(stability)) = (self.method, self.stability) else {
-            return format!("\nno static equilibrium at t = {} s\n", self.t);
+            return format!("\nno static equilibrium at t = {} s\n", clock(self.t));
         };
         let mut text = format!(
             "\nstatic equilibrium at t = {} s, {}\n  by {}: {} linear systems{}, force left {:.1e} (N, N m), |phi| {:.1e}\n",

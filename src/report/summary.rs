@@ -2,7 +2,7 @@
 
 use super::Table;
 use super::warnings::warnings;
-use crate::error::{Failure, Warning, short_list};
+use crate::error::{Failure, Warning, clock, short_list};
 use crate::formulation::Statistics;
 use crate::initial::{Assembly, Level, Move};
 use crate::measure::{Drift, EnergyBalance, Passing, Record, Singularity};
@@ -124,7 +124,7 @@ impl Summary {
     pub fn text(&self, units: &[(String, String)]) -> String {
         let Method { formulation, integrator, projection, rtol, atol, step } = &self.method.method;
         let accuracy = match step {
-            Some(step) => format!("step {step} s"),
+            Some(step) => format!("step {} s", clock(*step)),
             None => format!("rtol {rtol:e}, atol {atol:e}"),
         };
         let s = &self.statistics;
@@ -137,9 +137,9 @@ impl Summary {
         }
         text += &self.assembly_text();
         text += &format!(
-            "  t = {} s reached in {} ms: {} steps, {} rejected, {} evaluations, {} factorizations\n\n",
-            self.t_end,
-            significant(1e3 * self.wall_seconds, 3),
+            "  t = {} s reached in {}: {} steps, {} rejected, {} evaluations, {} factorizations\n\n",
+            clock(self.t_end),
+            elapsed(self.wall_seconds),
             s.steps,
             s.rejected,
             s.rhs_evaluations,
@@ -190,7 +190,7 @@ impl Summary {
         if self.r#final.outputs.is_empty() {
             return String::new();
         }
-        let mut table = Table::new(&[&format!("at t = {} s", self.r#final.t), "", ""]);
+        let mut table = Table::new(&[&format!("at t = {} s", clock(self.r#final.t)), "", ""]);
         for ((name, value), (_, unit)) in self.r#final.outputs.iter().zip(units) {
             let value = value.as_f64().map_or("?".to_string(), |value| significant(value, 12));
             table.row([name.clone(), value, unit.clone()]);
@@ -212,6 +212,15 @@ pub fn significant(value: f64, digits: usize) -> String {
     match text.contains('.') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_string(),
         false => text,
+    }
+}
+
+/// A wall time as a person reads it.
+fn elapsed(seconds: f64) -> String {
+    match seconds {
+        short if short < 1.0 => format!("{} ms", significant(1e3 * seconds, 3)),
+        long if long < 1000.0 => format!("{} s", significant(seconds, 3)),
+        _ => format!("{seconds:.0} s"),
     }
 }
 

@@ -15,13 +15,19 @@ pub fn trajectory_table(trajectory: &Trajectory) -> Result<Vec<u8>> {
 pub fn sweep_table(sweep: &Sweep) -> Result<Vec<u8>> {
     let Names { q, lambda, .. } = &sweep.names;
     let outputs = sweep.outputs.iter().map(|output| output.name.as_str());
-    let own = [sweep.range.parameter.as_str()].into_iter().chain(q.iter().chain(lambda).map(String::as_str));
+    let parameter = heading(&sweep.range.parameter, sweep.outputs.iter().map(|output| output.name.as_str()));
+    let own = [parameter.as_str()].into_iter().chain(q.iter().chain(lambda).map(String::as_str));
     let rows: Vec<Vec<f64>> = sweep
         .points
         .iter()
         .map(|point| [&[point.value], &point.q[..], &point.lambda, &point.outputs].concat())
         .collect();
     write(own.chain(outputs).collect(), rows.iter().map(Vec::as_slice))
+}
+
+/// A parameter above a column beside others: where an output has its name, `parameters.NAME`.
+pub fn heading<'a>(parameter: &str, mut others: impl Iterator<Item = &'a str>) -> String {
+    if others.any(|other| other == parameter) { format!("parameters.{parameter}") } else { parameter.to_string() }
 }
 
 /// `t` and the largest |phi|, |phi'| and |phi''| at the output times.

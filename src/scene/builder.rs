@@ -15,7 +15,7 @@ use std::collections::HashSet;
 use std::path::Path;
 
 /// Resolves everything; what can be wrong with a scene alone is found here.
-pub fn build(file: SceneFile, overrides: &[(String, f64)], folder: &Path) -> Result<Scene> {
+pub fn build(file: SceneFile, overrides: &[(String, Number)], folder: &Path) -> Result<Scene> {
     check_scene_name(&file.name)?;
     let parameters = markers::resolve(&file.parameters, overrides)?;
     let (dimension, (model, q, v)) = match file.dimension {

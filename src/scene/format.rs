@@ -134,7 +134,8 @@ pub struct OutputSpec {
     /// Marker or body in whose axes, and against which, it is measured; for reactions the axes alone. Default: the ground.
     pub relative_to: Option<String>,
     /// x, y, z; for reactions also mx, my, mz and, where the joint holds a length, axial: the force in the rod, tension
-    /// positive (default: the size of the force); kinetic, potential or total for energy.
+    /// positive (default: the size of the force; of a gear, of the torque; of a driver, its force or torque along its own
+    /// coordinate, positive where that grows); kinetic, potential or total for energy.
     pub component: Option<String>,
     /// On a beam: from its left end, m.
     pub at: Option<Number>,
@@ -142,7 +143,9 @@ pub struct OutputSpec {
     pub offset: Option<Vec<Number>>,
     /// The expression.
     pub value: Option<Number>,
-    /// Unit of an expression, for axes.
+    /// Unit of its values wherever they are shown, such as deg, rpm, mm, kN or N m; those of linear models and of a
+    /// reference table too. In expressions an output by its name is in SI units. Of an expression: any word, for axes
+    /// alone. Default: that of the SI.
     pub unit: Option<String>,
 }
 

@@ -77,12 +77,29 @@ fn explain(text: &str, error: &serde_json::Error) -> Error {
     let offset = offset(text, error.line(), error.column());
     let error = match message.strip_prefix(TWICE) {
         Some(key) => Error::input(format!("the key {key} is given twice")).hint("keep one of the two"),
+        None if other_format(text).is_some() => {
+            let format = other_format(text).unwrap_or_default();
+            Error::input(format!("this is {format}, not JSON")).hint("a scene is a JSON object; see `holonom schema`")
+        }
         None => {
             let (found, hint) = fault(message, &text[..offset], &text[offset..]);
             Error::input(format!("this is not JSON: {found}")).hint(hint)
         }
     };
     error.placed(line_and_column(text, offset))
+}
+
+/// Another format that the text is in, by how it begins.
+fn other_format(text: &str) -> Option<&'static str> {
+    let first = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'))?;
+    let is_word = |word: &str| !word.is_empty() && word.chars().all(|c| c.is_alphanumeric() || "_-. ".contains(c));
+    let is_key = |line: &str, sign: char| line.split_once(sign).is_some_and(|(key, _)| is_word(key));
+    match first {
+        _ if first.starts_with('<') => Some("XML"),
+        _ if first.starts_with("---") || first.starts_with("%YAML") || is_key(first, ':') => Some("YAML"),
+        _ if is_key(first, '=') || first.strip_prefix('[')?.strip_suffix(']').is_some_and(is_word) => Some("TOML"),
+        _ => None,
+    }
 }
 
 /// The byte at serde_json's line and column, which counts bytes and may point behind the end of a line.
@@ -143,6 +160,9 @@ fn fault(message: &str, before: &str, after: &str) -> (String, &'static str) {
             told("text without quotes", "an expression goes in double quotes, as in \"2*l\"")
         }
         "expected value" => (format!("a value is missing before `{next}`"), "give a value, or remove the comma or key"),
+        "expected ident" => {
+            told("text without quotes", "text goes in double quotes; the words without are true, false and null")
+        }
         "invalid escape" => told("a backslash that means nothing", "write \\\\ for a backslash"),
         _ if message.starts_with("expected `,` or") => {
             told("no comma between two entries", "put a comma after the entry before, or check its quotes and brackets")

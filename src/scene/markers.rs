@@ -121,6 +121,6 @@ pub fn parameters(given: &Map<String, Value>) -> Result<Vec<(String, Number)>> {
 }
 
 /// Parameters with overrides.
-pub fn resolve(given: &Map<String, Value>, overrides: &[(String, f64)]) -> Result<Parameters> {
+pub fn resolve(given: &Map<String, Value>, overrides: &[(String, Number)]) -> Result<Parameters> {
     Ok(Parameters::resolve(&parameters(given)?, overrides)?)
 }

@@ -11,13 +11,15 @@ mod markers;
 mod model;
 mod outputs;
 mod schema;
+pub mod units;
 
 pub use format::{Assembly, Automatic, Simulation};
 pub use model::{BeamLine, Combination, Connection, Driven, EnergyPart, Measure, Model, Part, Reading, Watched};
+pub use model::{FORCE_SIZE, TORQUE_SIZE};
 pub use schema::schema;
 
 use crate::error::{Error, Result, excerpt, nearest};
-use crate::math::expression::Parameters;
+use crate::math::expression::{Number, Parameters};
 use format::SceneFile;
 use serde_json::Value;
 use std::path::Path;
@@ -49,7 +51,7 @@ impl Scene {
     ///
     /// # Errors
     /// A file that cannot be read or is not a scene; the error says where in it, and what would be right.
-    pub fn load(path: &Path, overrides: &[(String, f64)]) -> Result<Scene> {
+    pub fn load(path: &Path, overrides: &[(String, Number)]) -> Result<Scene> {
         let text = read_text(path)?;
         Scene::parse_in(folder(Some(path)), &text, overrides).map_err(|error| place(error, path, &text))
     }
@@ -58,7 +60,7 @@ impl Scene {
     ///
     /// # Errors
     /// Text that is not a scene.
-    pub fn parse(text: &str, overrides: &[(String, f64)]) -> Result<Scene> {
+    pub fn parse(text: &str, overrides: &[(String, Number)]) -> Result<Scene> {
         Scene::parse_in(folder(None), text, overrides)
     }
 
@@ -66,7 +68,7 @@ impl Scene {
     ///
     /// # Errors
     /// As [`Scene::parse`].
-    pub fn parse_in(folder: &Path, text: &str, overrides: &[(String, f64)]) -> Result<Scene> {
+    pub fn parse_in(folder: &Path, text: &str, overrides: &[(String, Number)]) -> Result<Scene> {
         // Some editors begin a file with this mark.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         if text.trim().is_empty() {

@@ -1,5 +1,6 @@
 //! The checked, named model that a scene describes.
 
+use super::units::Unit;
 use crate::body::{Body, Energy, Frame, Marker, MarkerId, MarkerTable, Quantity, Signal, Switches, dot, sub};
 use crate::force::{Beam, Force, Station};
 use crate::joint::Joint;
@@ -119,8 +120,8 @@ pub struct Connection<E> {
 /// A named output.
 pub struct Watched {
     pub name: String,
-    /// Unit for axes and headings, such as `m` or `rad`.
-    pub unit: String,
+    /// The unit that its values are in.
+    pub unit: Unit,
     pub measure: Measure,
 }
 
@@ -145,12 +146,16 @@ pub enum Measure {
         to: MarkerId,
         rate: bool,
     },
-    /// Force (components 0 to 2), torque (3 to 5) or size of the force (6) on the second body of a joint, in the axes of
-    /// a marker.
+    /// Force (components 0 to 2), torque (3 to 5), [`FORCE_SIZE`] or [`TORQUE_SIZE`] on the second body of a joint, in the
+    /// axes of a marker.
     Reaction {
         joint: usize,
         component: usize,
         axes: MarkerId,
+    },
+    /// Force or torque of a driver on the second body along its coordinate.
+    Push {
+        joint: usize,
     },
     /// Force in a joint that holds a length, tension positive.
     Tension {
@@ -168,6 +173,11 @@ pub enum Measure {
     Force(usize),
     Energy(EnergyPart),
 }
+
+/// Component of a reaction: the size of its force.
+pub const FORCE_SIZE: usize = 6;
+/// Component of a reaction: the size of its torque.
+pub const TORQUE_SIZE: usize = 7;
 
 /// What is read of a section of an absolute beam.
 #[derive(Clone, Copy, Debug, PartialEq)]

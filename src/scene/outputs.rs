@@ -2,7 +2,8 @@
 
 use super::beam_outputs;
 use super::format::{InputSpec, MeasureKind, OutputSpec};
-use super::model::{BeamLine, Connection, Driven, EnergyPart, Measure, Part, Watched};
+use super::model::{BeamLine, Connection, Driven, EnergyPart, FORCE_SIZE, Measure, Part, TORQUE_SIZE, Watched};
+use super::units::{Dimension, Unit};
 use crate::body::{Build, MarkerId, Quantity};
 use crate::error::{Error, Result, suggest};
 use crate::force::{self, Force};
@@ -102,7 +103,8 @@ pub fn outputs<const D: usize>(specs: &[OutputSpec], elements: Elements<D>, buil
         refuse_idle_keys(spec).map_err(place)?;
         let reader = Reader { spec, build };
         let measure = reader.measure(elements).map_err(place)?;
-        all.push(Watched { name: spec.name.clone(), unit: reader.unit(&measure), measure });
+        let unit = unit(spec, dimension(spec.measure, &measure, elements)).map_err(place)?;
+        all.push(Watched { name: spec.name.clone(), unit, measure });
     }
     Ok(all)
 }
@@ -193,7 +195,11 @@ impl<const D: usize> Reader<'_, D> {
         let axes = self.reference()?;
         self.build.oriented("relative_to", &[axes])?;
         let Some(name) = self.spec.component.as_deref() else {
-            return Ok(Measure::Reaction { joint, component: 6, axes });
+            return Ok(match joints[joint].kind {
+                "driver" => Measure::Push { joint },
+                "gear" => Measure::Reaction { joint, component: TORQUE_SIZE, axes },
+                _ => Measure::Reaction { joint, component: FORCE_SIZE, axes },
+            });
         };
         let holds_length = joints[joint].element.row_names() == ["length"];
         if name == "axial" && holds_length {
@@ -209,20 +215,39 @@ impl<const D: usize> Reader<'_, D> {
         let axial = holds_length.then_some("axial");
         Err(wrong_component(name, &known.iter().map(|(name, _)| *name).chain(axial).collect::<Vec<_>>()))
     }
+}
 
-    fn unit(&self, measure: &Measure) -> String {
-        let unit = match (measure, self.spec.measure) {
-            (Measure::Reaction { component: 3..=5, .. }, _) => "N m",
-            (_, MeasureKind::Angle) => "rad",
-            (_, MeasureKind::AngularVelocity) => "rad/s",
-            (_, MeasureKind::Position | MeasureKind::Distance | MeasureKind::Deflection) => "m",
-            (_, MeasureKind::Velocity | MeasureKind::DistanceRate) => "m/s",
-            (_, MeasureKind::Reaction | MeasureKind::Force | MeasureKind::AxialForce | MeasureKind::ShearForce) => "N",
-            (_, MeasureKind::Torque | MeasureKind::BendingMoment) => "N m",
-            (_, MeasureKind::Energy) => "J",
-            (_, MeasureKind::Expression | MeasureKind::Strain) => "",
-        };
-        self.spec.unit.clone().unwrap_or_else(|| unit.to_string())
+/// What the values of a measure are; an expression has what its author says.
+fn dimension<const D: usize>(kind: MeasureKind, measure: &Measure, elements: Elements<D>) -> Option<Dimension> {
+    Some(match kind {
+        MeasureKind::Angle => Dimension::Angle,
+        MeasureKind::AngularVelocity => Dimension::AngularVelocity,
+        MeasureKind::Position | MeasureKind::Distance | MeasureKind::Deflection => Dimension::Length,
+        MeasureKind::Velocity | MeasureKind::DistanceRate => Dimension::Velocity,
+        MeasureKind::Torque | MeasureKind::BendingMoment => Dimension::Torque,
+        MeasureKind::Energy => Dimension::Energy,
+        MeasureKind::Strain => Dimension::Strain,
+        MeasureKind::Expression => return None,
+        MeasureKind::Reaction | MeasureKind::Force | MeasureKind::AxialForce | MeasureKind::ShearForce => {
+            if is_torque(measure, elements) { Dimension::Torque } else { Dimension::Force }
+        }
+    })
+}
+
+fn is_torque<const D: usize>(measure: &Measure, Elements { joints, forces, .. }: Elements<D>) -> bool {
+    match *measure {
+        Measure::Reaction { component, .. } => matches!(component, 3..=5 | TORQUE_SIZE),
+        Measure::Push { joint } => joints[joint].element.row_names() == ["angle"],
+        Measure::Force(force) => force::is_torque::<D>(forces[force].kind),
+        _ => false,
+    }
+}
+
+fn unit(spec: &OutputSpec, dimension: Option<Dimension>) -> Result<Unit> {
+    match (dimension, &spec.unit) {
+        (Some(dimension), Some(name)) => dimension.unit(name),
+        (Some(dimension), None) => Ok(dimension.si()),
+        (None, name) => Ok(Unit { name: name.clone().unwrap_or_default(), per_si: 1.0 }),
     }
 }
 
@@ -279,6 +304,6 @@ fn input<const D: usize>(spec: &InputSpec, forces: &Forces<D>) -> Result<Driven>
         }
         Some(name) => axes.iter().position(|axis| *axis == name).ok_or_else(|| wrong_component(name, axes))?,
     };
-    let unit = if kind == "applied_torque" { "N m" } else { "N" };
+    let unit = if force::is_torque::<D>(kind) { "N m" } else { "N" };
     Ok(Driven { name: spec.name.clone(), force, component, unit })
 }

@@ -5,7 +5,7 @@ mod doubts;
 use doubts::{doubts, explained, of_scene};
 
 use crate::choice::Choice;
-use crate::error::{Error, Result, Warning};
+use crate::error::{Error, Result, Warning, clock};
 use crate::initial::{self, Assembly};
 use crate::integrator::Steps;
 use crate::math::expression::{Number, Parameters};
@@ -40,7 +40,7 @@ impl AnyMechanism {
 /// What the command line changes of a scene's own settings.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
-    pub set: Vec<(String, f64)>,
+    pub set: Vec<(String, Number)>,
     /// In the place of what the scene says of formulation, integrator, projection and step.
     pub method: Option<Automatic>,
     pub formulation: Option<Choice>,
@@ -264,9 +264,13 @@ impl Settings<'_> {
         let scene = self.scene;
         let Some(end) = self.overrides.until.or(self.number("t_end", &scene.t_end)?) else { return Ok(None) };
         if !(end > start && end.is_finite()) {
-            return Err(Error::input(format!("the end time {end} s is not after the start, {start} s"))
-                .under("t_end")
-                .hint("give a later end: --until T, or \"t_end\" in \"simulation\" of the scene"));
+            return Err(Error::input(format!(
+                "the end time {} s is not after the start, {} s",
+                clock(end),
+                clock(start)
+            ))
+            .under("t_end")
+            .hint("give a later end: --until T, or \"t_end\" in \"simulation\" of the scene"));
         }
         let given = self.overrides.output_step.or(self.number("output_step", &scene.output_step)?);
         let output_step = given.unwrap_or((end - start) / ROWS);

@@ -6,7 +6,6 @@ use crate::initial::{self, Followed};
 use crate::scene::Scene;
 use crate::study::AnyMechanism;
 use crate::system::{Column, Names, Scratch};
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// An assembled state with the scene that it is one of.
@@ -77,9 +76,7 @@ impl State {
     fn join(&mut self, before: &State) {
         let columns = self.mechanism.system().columns();
         let pairs = self.point.outputs.iter_mut().zip(&before.point.outputs).zip(columns);
-        for ((output, before), _) in pairs.filter(|(_, column)| column.periodic) {
-            *output += ((before - *output) / TAU).round() * TAU;
-        }
+        pairs.for_each(|((output, before), column)| *output = column.join(*before, *output));
     }
 }
 

@@ -3,6 +3,7 @@
 use super::branch::{Branch, State};
 use super::{Limit, Nearest, Point, Range, Sweep};
 use crate::error::{Error, Result, suggest};
+use crate::math::expression::Number;
 use crate::scene::{self, Scene};
 use crate::study::AnyMechanism;
 use crate::system::Column;
@@ -12,7 +13,7 @@ use std::path::{Path, PathBuf};
 pub struct Family {
     text: String,
     path: Option<PathBuf>,
-    set: Vec<(String, f64)>,
+    set: Vec<(String, Number)>,
 }
 
 impl Family {
@@ -20,7 +21,7 @@ impl Family {
     ///
     /// # Errors
     /// As [`Scene::load`].
-    pub fn load(path: &Path, set: &[(String, f64)]) -> Result<Family> {
+    pub fn load(path: &Path, set: &[(String, Number)]) -> Result<Family> {
         let family = Family { text: scene::read_text(path)?, path: Some(path.to_path_buf()), set: set.to_vec() };
         family.scene()?;
         Ok(family)
@@ -30,7 +31,7 @@ impl Family {
     ///
     /// # Errors
     /// As [`Scene::parse`].
-    pub fn parse(text: &str, set: &[(String, f64)]) -> Result<Family> {
+    pub fn parse(text: &str, set: &[(String, Number)]) -> Result<Family> {
         let family = Family { text: text.to_string(), path: None, set: set.to_vec() };
         family.scene()?;
         Ok(family)
@@ -49,11 +50,12 @@ impl Family {
     /// # Errors
     /// As [`Scene::parse`]: the value may be outside of what the scene's expressions are defined for.
     pub fn scene_at(&self, parameter: &str, value: f64) -> Result<Scene> {
-        let set: Vec<(String, f64)> = self.set.iter().cloned().chain([(parameter.to_string(), value)]).collect();
+        let own = (parameter.to_string(), Number::Value(value));
+        let set: Vec<(String, Number)> = self.set.iter().cloned().chain([own]).collect();
         self.with(&set)
     }
 
-    fn with(&self, set: &[(String, f64)]) -> Result<Scene> {
+    fn with(&self, set: &[(String, Number)]) -> Result<Scene> {
         Scene::parse_in(scene::folder(self.path.as_deref()), &self.text, set)
     }
 

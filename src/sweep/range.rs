@@ -1,6 +1,7 @@
 //! `NAME=A..B:N`, `NAME=A..B:N:log`
 
 use crate::error::{Error, Result};
+use crate::math::expression::constant;
 use std::fmt;
 use std::str::FromStr;
 
@@ -104,7 +105,10 @@ impl FromStr for Range {
         if name.trim().is_empty() {
             return Err(form());
         }
-        let ends = (number::<f64>(from, "a number")?, number::<f64>(to, "a number")?);
+        let end = |text: &str| {
+            constant(text).ok_or_else(|| Error::input(format!("`{}` is not a number; {FORM}", text.trim())))
+        };
+        let ends = (end(from)?, end(to)?);
         let range = Range::new(name.trim(), ends, count)?;
         if is_log { range.log() } else { Ok(range) }
     }

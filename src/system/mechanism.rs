@@ -16,6 +16,7 @@ use crate::math::{Rate, Regime, Taylor, Time};
 use crate::scene::{Connection, Driven, Measure, Model, Part, Watched};
 use nalgebra::DMatrix;
 use std::array::from_fn;
+use std::f64::consts::TAU;
 use std::ops::Range;
 
 /// A model with the places of its coordinates, rows and matrix entries fixed.
@@ -308,8 +309,8 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     fn columns(&self) -> Vec<Column> {
         let column = |output: &Watched| Column {
             name: output.name.clone(),
-            unit: output.unit.clone(),
-            periodic: D == 3 && matches!(output.measure, Measure::Turn { .. }),
+            unit: output.unit.name.clone(),
+            turn: (D == 3 && matches!(output.measure, Measure::Turn { .. })).then_some(TAU * output.unit.per_si),
         };
         self.model.outputs.iter().map(column).collect()
     }
@@ -336,8 +337,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn inputs(&self) -> Vec<Column> {
-        let column =
-            |input: &Driven| Column { name: input.name.clone(), unit: input.unit.to_string(), periodic: false };
+        let column = |input: &Driven| Column { name: input.name.clone(), unit: input.unit.to_string(), turn: None };
         self.model.inputs.iter().map(column).collect()
     }
 

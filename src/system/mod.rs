@@ -60,13 +60,20 @@ pub struct Group {
 }
 
 /// The name of an output or input and how to show it.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     pub name: String,
     /// Such as `rad`; empty where it is not known.
     pub unit: String,
-    /// Whether it is an angle known up to full turns, which a trajectory joins to a continuous curve.
-    pub periodic: bool,
+    /// A full turn in this unit, if it is an angle known up to full turns, which a trajectory joins to a continuous curve.
+    pub turn: Option<f64>,
+}
+
+impl Column {
+    /// `value` by as many full turns further as bring it next to `before`.
+    pub fn join(&self, before: f64, value: f64) -> f64 {
+        self.turn.map_or(value, |turn| value + ((before - value) / turn).round() * turn)
+    }
 }
 
 /// M(q) v' + G(q,t)^T lambda = f(t,q,v), phi(q,t) = 0, q' = N(q) v.

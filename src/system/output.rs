@@ -6,21 +6,22 @@ use crate::body::{Energy, Frame, MOST_MARKERS, MarkerId, Quantity, Wrench, dot, 
 use crate::force::{Action, Force, ForceOver};
 use crate::joint::{Joint, JointOver, MOST_ROWS, markers_per_pass};
 use crate::math::{Scalar, Taylor};
-use crate::scene::Measure;
+use crate::scene::{FORCE_SIZE, Measure, TORQUE_SIZE};
 
 impl<const D: usize> Mechanism<D> {
     /// All outputs in the order of the scene.
     pub(super) fn write_outputs(&self, view: &Plain<D>, out: &mut [f64]) {
         let mut energies = None;
         for (out, output) in out.iter_mut().zip(&self.model().outputs) {
-            *out = match output.measure {
+            let value = match output.measure {
                 Measure::Energy(part) => part.of(*energies.get_or_insert_with(|| self.energies(view))),
                 ref measure => self.read(measure, view),
             };
+            *out = value * output.unit.per_si;
         }
     }
 
-    /// An output.
+    /// What an output reads, in SI units.
     pub(super) fn read<S: Scalar>(&self, measure: &Measure, view: &impl View<S, D>) -> S
     where
         dyn Force<D>: ForceOver<S, D>,
@@ -38,6 +39,8 @@ impl<const D: usize> Mechanism<D> {
                 if *rate { separation_rate(&gap) } else { norm(&gap.map(|x| x.x)) }
             }
             Measure::Reaction { joint, component, axes } => self.reaction(view, *joint, (*component, *axes)),
+            // phi is coordinate - value: -G^T lambda acts on the second body along the growing coordinate.
+            Measure::Push { joint } => -view.lambda(self.rows_of_joint(*joint).start),
             // phi is l - length: -G^T lambda pulls the second body towards the first.
             Measure::Tension { joint } => view.lambda(self.rows_of_joint(*joint).start),
             Measure::Elastic(combination) => combination.at(|coordinate| view.q(coordinate)),
@@ -98,7 +101,9 @@ impl<const D: usize> Mechanism<D> {
             wrench.iter_mut().zip(&slope[first..]).for_each(|(sum, &entry)| *sum -= lambda * entry);
         }
         match component {
-            6 => norm::<S, D>(&std::array::from_fn(|i| wrench[i])),
+            FORCE_SIZE => norm::<S, D>(&std::array::from_fn(|i| wrench[i])),
+            TORQUE_SIZE if D == 2 => wrench[2].abs(),
+            TORQUE_SIZE => norm::<S, 3>(&std::array::from_fn(|i| wrench[3 + i])),
             5 if D == 2 => wrench[2],
             component => {
                 let axis = view.frame(axes).axes[component % 3];

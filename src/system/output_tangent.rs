@@ -52,28 +52,29 @@ impl<const D: usize> Slopes<'_, D> {
         self.tangent.clear();
         let mechanism = self.mechanism;
         for (row, output) in mechanism.model().outputs.iter().enumerate() {
+            let scale = output.unit.per_si;
             match &output.measure {
-                Measure::Energy(part) => self.energy(row, *part),
+                Measure::Energy(part) => self.energy(row, *part, scale),
                 measure => {
                     let carriers = mechanism.carriers(measure);
-                    self.along_bodies(row, &carriers, |view| mechanism.read(measure, view));
-                    self.along_multipliers(row, measure);
-                    self.along_inputs(row, measure);
+                    self.along_bodies(row, &carriers, |view| mechanism.read(measure, view) * scale);
+                    self.along_multipliers(row, measure, scale);
+                    self.along_inputs(row, measure, scale);
                 }
             }
         }
     }
 
     /// The energy is a sum over bodies and forces, each of which few bodies change.
-    fn energy(&mut self, row: usize, part: EnergyPart) {
+    fn energy(&mut self, row: usize, part: EnergyPart, scale: f64) {
         let (mechanism, model) = (self.mechanism, self.mechanism.model());
         for (index, body) in model.bodies.iter().enumerate() {
             let own = [whole(index, body)];
-            self.along_bodies(row, &own, |view| part.of(view.energy(body, &model.gravity)));
+            self.along_bodies(row, &own, |view| part.of(view.energy(body, &model.gravity)) * scale);
         }
         if part != EnergyPart::Kinetic {
             for (force, coupling) in mechanism.couplings.forces.iter().enumerate() {
-                self.along_bodies(row, &coupling.carriers, |view| mechanism.action(force, view).potential.x);
+                self.along_bodies(row, &coupling.carriers, |view| mechanism.action(force, view).potential.x * scale);
             }
         }
     }
@@ -95,18 +96,20 @@ impl<const D: usize> Slopes<'_, D> {
         }
     }
 
-    fn along_multipliers(&mut self, row: usize, measure: &Measure) {
-        let (Measure::Reaction { joint, .. } | Measure::Tension { joint }) = *measure else { return };
+    fn along_multipliers(&mut self, row: usize, measure: &Measure, scale: f64) {
+        let (Measure::Reaction { joint, .. } | Measure::Tension { joint } | Measure::Push { joint }) = *measure else {
+            return;
+        };
         let rows = self.mechanism.rows_of_joint(joint);
-        let value = self.seen(Seed::Multipliers(rows.start), |view| self.mechanism.read(measure, view));
+        let value = self.seen(Seed::Multipliers(rows.start), |view| self.mechanism.read(measure, view) * scale);
         rows.zip(value.eps).for_each(|(multiplier, slope)| self.tangent.lambda[(row, multiplier)] = known(slope));
     }
 
-    fn along_inputs(&mut self, row: usize, measure: &Measure) {
+    fn along_inputs(&mut self, row: usize, measure: &Measure, scale: f64) {
         let Measure::Force(force) = *measure else { return };
         let inputs = self.mechanism.model().inputs.iter().enumerate();
         for (column, input) in inputs.filter(|(_, input)| input.force == force) {
-            let value = self.seen(Seed::Inputs, |view| self.mechanism.read(measure, view));
+            let value = self.seen(Seed::Inputs, |view| self.mechanism.read(measure, view) * scale);
             self.tangent.u[(row, column)] = known(value.eps[input.component]);
         }
     }
@@ -146,7 +149,7 @@ impl<const D: usize> Mechanism<D> {
                 on(&[beam.first_body, left, left + 1].map(|body| model.bodies[body].first_marker))
             }
             Measure::Force(force) => on(&model.forces[*force].markers),
-            Measure::Tension { .. } | Measure::Energy(_) => Vec::new(),
+            Measure::Tension { .. } | Measure::Push { .. } | Measure::Energy(_) => Vec::new(),
         }
     }
 

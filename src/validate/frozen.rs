@@ -1,9 +1,11 @@
 //! The frozen model exp(A t) against the variational equations.
 
+use super::carried::Carried;
 use super::run::Speed;
 use super::{Decay, decay};
 use crate::error::{Error, Result};
-use crate::linearize::{Chart, Coordinates, Matrix, State, transition};
+use crate::linearize::flow::{Bundle, flow};
+use crate::linearize::{Matrix, State};
 use crate::math::eigen::expm;
 use crate::system::MechanicalSystem;
 use serde::Serialize;
@@ -27,20 +29,30 @@ const SMALL: f64 = 3e-3;
 /// h^2, or faster where A does not change; a term missing in A shows as order 1.
 ///
 /// # Errors
-/// A chart that is not constant; a motion that cannot go on.
+/// A motion that cannot go on.
 pub fn frozen(
     system: &dyn MechanicalSystem,
     start: &State,
-    chart: &Chart,
-    (a, coordinates, speed): (&Matrix, &Coordinates, &Speed),
+    carried: &Carried,
+    (a, speed): (&Matrix, &Speed),
     longest: f64,
 ) -> Result<Frozen> {
     let rate = speed.usual;
     let steps: Vec<f64> = (0..14).rev().map(|i| longest / f64::from(1 << i)).collect();
     let times: Vec<f64> = steps.iter().map(|h| start.t + h).collect();
     let mut errors = Vec::new();
-    for (found, h) in transition(system, start, chart, &times)?.iter().zip(&steps) {
-        let exact = alike(coordinates.states_of(&found.changes), rate);
+    let times = carried.times(&times)?;
+    let columns = carried.start.changes();
+    let mut found = Vec::new();
+    let all: Vec<f64> = times.iter().map(|(t, _)| *t).collect();
+    flow(system, &Bundle { columns, ..Bundle::of(start) }, &all, |snapshot| {
+        found.push((snapshot.motion.clone(), snapshot.columns.clone()));
+        true
+    })?;
+    let states: Vec<_> = found.iter().zip(&times).map(|((state, _), (_, asked))| (state, *asked)).collect();
+    let asked = found.iter().zip(&times).filter(|(_, (_, asked))| *asked).map(|((_, changes), _)| changes);
+    for ((changes, chart), h) in asked.zip(carried.along(&states)?).zip(&steps) {
+        let exact = alike(chart.states_of(changes), rate);
         let predicted = alike(expm(&(a * *h)).map_err(|unsolved| Error::input(unsolved.to_string()))?, rate);
         errors.push((&exact - predicted).norm() / exact.norm());
     }

@@ -1,5 +1,6 @@
 //! The response to a small pulse of an input.
 
+use super::carried::Carried;
 use super::perturb::{EPSILONS, difference};
 use super::run::{Norm, TOO_LARGE, floor};
 use super::{Decay, decay};
@@ -31,7 +32,7 @@ const STEPS: usize = 400;
 pub(super) fn check(
     system: &dyn MechanicalSystem,
     start: &State,
-    (model, norm): (&Minimal, &Norm),
+    (model, carried, norm): (&Minimal, &Carried, &Norm),
     (input, name): (usize, String),
     width: f64,
 ) -> Result<Option<InputCheck>> {
@@ -56,18 +57,22 @@ pub(super) fn check(
         pulse: Some(pulse),
         start: start.clone(),
     };
-    let mut end = None;
-    flow(system, &bundle, &[start.t + width], |snapshot| {
+    let all = carried.times(&[start.t + width])?;
+    let (mut end, mut states) = (None, Vec::new());
+    flow(system, &bundle, &all.iter().map(|(t, _)| *t).collect::<Vec<f64>>(), |snapshot| {
+        states.push(snapshot.motion.clone());
         end = Some(snapshot.clone());
         true
     })?;
-    let Some(end) = end else { return Ok(None) };
+    let states: Vec<_> = states.iter().zip(&all).map(|(state, (_, asked))| (state, *asked)).collect();
+    let charts = carried.along(&states)?;
+    let Some((end, chart)) = end.zip(charts.last()) else { return Ok(None) };
     let errors = end.members.iter().zip(&EPSILONS).map(|(member, eps)| {
         let [dq, dv] = difference(system, &end.motion, member);
         norm.off((&dq, &dv), (end.columns.q.as_slice(), end.columns.v.as_slice()), *eps)
     });
     let errors_ltv: Vec<f64> = errors.collect();
-    let reached = model.coordinates.states_of(&end.columns);
+    let reached = chart.states_of(&end.columns);
     let error_lti = norm.states(&(&lti / size - &reached)) / norm.states(&reached);
     let columns = norm.size((end.columns.q.as_slice(), end.columns.v.as_slice()));
     let scaled = decay(&EPSILONS, &errors_ltv, |eps| TOO_LARGE * eps * columns, floor(&errors_ltv));

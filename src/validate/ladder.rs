@@ -1,5 +1,6 @@
 //! One direction: perturbations of many sizes, followed and predicted.
 
+use super::carried::Carried;
 use super::perturb::{EPSILONS, difference, moved};
 use super::run::{Norm, TOO_LARGE, floor};
 use super::{Decay, decay, horizon};
@@ -52,11 +53,12 @@ const SHOWN: f64 = 1.1e-2;
 /// The perturbed motions and their predictions.
 struct Followed<'a> {
     system: &'a dyn MechanicalSystem,
-    coordinates: &'a Coordinates,
     norm: &'a Norm,
     epsilons: Vec<f64>,
     times: Vec<f64>,
     snapshots: Vec<Snapshot>,
+    /// The chart at each of them.
+    charts: Vec<Coordinates>,
     /// exp(A t) x0
     predicted: Vec<Matrix>,
 }
@@ -65,13 +67,14 @@ struct Followed<'a> {
 pub(super) fn ladder(
     system: &dyn MechanicalSystem,
     start: &State,
-    (model, norm): (&Minimal, &Norm),
+    (model, carried, norm): (&Minimal, &Carried, &Norm),
     x0: &Matrix,
     (direction, duration): (String, f64),
 ) -> Result<Ladder> {
-    let followed = follow(system, start, (model, norm), x0, duration)?;
-    let Some(end) = followed.snapshots.last() else { return Err(Error::input("nothing to follow")) };
-    let all = model.coordinates.changes();
+    let followed = follow(system, start, (model, carried, norm), x0, duration)?;
+    let ends = followed.snapshots.last().zip(followed.charts.last());
+    let Some((end, chart)) = ends else { return Err(Error::input("nothing to follow")) };
+    let all = chart.changes();
     let last = &followed.predicted[ROWS - 1];
     let errors_ltv = followed.errors(end, &end.columns);
     let errors_lti = followed.errors(end, &Changes { q: all.q * last, v: all.v * last });
@@ -98,7 +101,7 @@ pub(super) fn ladder(
 fn follow<'a>(
     system: &'a dyn MechanicalSystem,
     start: &State,
-    (model, norm): (&'a Minimal, &'a Norm),
+    (model, carried, norm): (&Minimal, &Carried, &'a Norm),
     x0: &Matrix,
     duration: f64,
 ) -> Result<Followed<'a>> {
@@ -110,14 +113,19 @@ fn follow<'a>(
     let bundle = Bundle { columns, members, ..Bundle::of(start) };
     let times: Vec<f64> = (1..=ROWS).map(|i| duration * i as f64 / ROWS as f64).collect();
     let mut snapshots: Vec<Snapshot> = Vec::new();
-    flow(system, &bundle, &times.iter().map(|t| start.t + t).collect::<Vec<f64>>(), |snapshot| {
-        snapshots.push(snapshot.clone());
+    let all = carried.times(&times.iter().map(|t| start.t + t).collect::<Vec<f64>>())?;
+    let (mut states, mut asked) = (Vec::new(), all.iter().map(|(_, asked)| *asked));
+    flow(system, &bundle, &all.iter().map(|(t, _)| *t).collect::<Vec<f64>>(), |snapshot| {
+        let is_asked = asked.next().unwrap_or(true);
+        states.push((snapshot.motion.clone(), is_asked));
+        snapshots.extend(is_asked.then(|| snapshot.clone()));
         true
     })?;
+    let charts = carried.along(&states.iter().map(|(state, asked)| (state, *asked)).collect::<Vec<_>>())?;
     let step = expm(&(&model.a * (duration / ROWS as f64))).map_err(|unsolved| Error::input(unsolved.to_string()))?;
     let mut predicted = vec![&step * x0];
     (1..ROWS).for_each(|i| predicted.push(&step * &predicted[i - 1]));
-    Ok(Followed { system, coordinates, norm, epsilons, times, snapshots, predicted })
+    Ok(Followed { system, norm, epsilons, times, snapshots, charts, predicted })
 }
 
 impl Followed<'_> {
@@ -132,11 +140,11 @@ impl Followed<'_> {
 
     /// Relative error of the frozen model at each time.
     fn drift(&self) -> Vec<f64> {
-        let error = |(snapshot, lti): (&Snapshot, &Matrix)| {
-            let ltv = self.coordinates.states_of(&snapshot.columns);
+        let error = |((snapshot, chart), lti): ((&Snapshot, &Coordinates), &Matrix)| {
+            let ltv = chart.states_of(&snapshot.columns);
             self.norm.states(&(&ltv - lti)) / self.norm.states(&ltv)
         };
-        self.snapshots.iter().zip(&self.predicted).map(error).collect()
+        self.snapshots.iter().zip(&self.charts).zip(&self.predicted).map(error).collect()
     }
 
     /// What moves most, and the perturbation that it belongs to.
@@ -145,17 +153,20 @@ impl Followed<'_> {
         let Some(&eps) = self.epsilons.get(member) else { return (Vec::new(), 0.0) };
         let column = |i: usize| self.snapshots.iter().map(move |snapshot| snapshot.columns.q[(i, 0)]);
         let largest = |i: usize| column(i).fold(0.0f64, |most, x| most.max(x.abs()));
-        let mut order: Vec<usize> = (0..self.coordinates.r.nrows()).collect();
+        let mut order: Vec<usize> = (0..self.charts.first().map_or(0, |chart| chart.r.nrows())).collect();
         order.sort_by(|&i, &j| largest(j).total_cmp(&largest(i)));
         let pairs = self.snapshots.iter().map(|snapshot| (&snapshot.motion, &snapshot.members[member]));
         let simulated: Vec<Vec<f64>> =
             pairs.map(|(motion, member)| difference(self.system, motion, member)).map(|[dq, _]| dq).collect();
-        let r = &self.coordinates.r;
+        let frozen = |direction: usize, chart: &Coordinates, x: &Matrix| {
+            eps * (chart.r.row(direction) * x.rows(0, chart.r.ncols()))[(0, 0)]
+        };
+        let predicted = || self.charts.iter().zip(&self.predicted);
         let curve = |direction: usize| Curve {
             direction,
             simulated: simulated.iter().map(|dq| dq[direction]).collect(),
             ltv: column(direction).map(|x| eps * x).collect(),
-            lti: self.predicted.iter().map(|x| eps * (r.row(direction) * x.rows(0, r.ncols()))[(0, 0)]).collect(),
+            lti: predicted().map(|(chart, x)| frozen(direction, chart, x)).collect(),
         };
         (order.into_iter().take(CURVES).map(curve).collect(), eps)
     }

@@ -6,6 +6,7 @@
 //! X(h) - exp(A h)                   A frozen: falls as h^2 if A belongs to its chart (LTI)
 //! ```
 
+mod carried;
 mod direction;
 mod frozen;
 mod input;
@@ -26,7 +27,7 @@ use crate::linearize::Chart;
 /// What to check.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// A constant chart; none: `mass_orthogonal`.
+    /// None: the one that a linear model has by default.
     pub chart: Option<Chart>,
     /// Directions of the perturbation.
     pub directions: Vec<Direction>,

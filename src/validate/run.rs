@@ -1,5 +1,6 @@
 //! The whole check at one state.
 
+use super::carried::Carried;
 use super::frozen::frozen;
 use super::ladder::ladder;
 use super::{Decay, Frozen, InputCheck, Ladder, Settings, input};
@@ -48,20 +49,16 @@ const MOST_SWINGS: f64 = 8.0;
 /// Compares the model at a state with perturbed simulations.
 ///
 /// # Errors
-/// A chart that does not exist there or is not constant; a motion that cannot go on.
+/// A chart that does not exist there; a motion that cannot go on.
 pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Settings) -> Result<Validation> {
-    let chart = settings.chart.clone().unwrap_or(Chart::MassOrthogonal);
-    if chart == Chart::Intrinsic {
-        return Err(Error::input("the intrinsic chart moves along, and simulations are compared in a constant one")
-            .under("--chart")
-            .hint("take mass_orthogonal, or name independent coordinates"));
-    }
     let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
+    let chart = settings.chart.clone().unwrap_or_else(|| Chart::preferred(&mut variation));
     let mut model = minimal(&mut variation, &chart)?;
     let name = model.coordinates.name.clone();
     // The plain projection means the states of a chart that it does not follow.
     let chart = if chart == Chart::Frozen { Chart::MassOrthogonal } else { chart };
-    model.coordinates = chart.at(&mut variation)?;
+    let carried = Carried::new(&mut variation, &chart, start)?;
+    model.coordinates = carried.start.clone();
     let speed = Speed::of(&model)?;
     let norm = Norm { rate: speed.usual };
     let followed = settings.horizon.unwrap_or(speed.period());
@@ -69,14 +66,14 @@ pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Setting
     for direction in &settings.directions {
         let x0 = direction.state(&model.coordinates, norm.rate)?;
         if model.a.nrows() > 0 {
-            ladders.push(ladder(system, start, (&model, &norm), &x0, (direction.name(), followed))?);
+            ladders.push(ladder(system, start, (&model, &carried, &norm), &x0, (direction.name(), followed))?);
         }
     }
     let longest = followed.min(1.0 / speed.fastest.max(f64::MIN_POSITIVE));
-    let frozen = frozen(system, start, &chart, (&model.a, &model.coordinates, &speed), longest)?;
+    let frozen = frozen(system, start, &carried, (&model.a, &speed), longest)?;
     let mut inputs = Vec::new();
     for (index, column) in system.inputs().into_iter().enumerate().filter(|_| settings.inputs) {
-        inputs.extend(input::check(system, start, (&model, &norm), (index, column.name), 0.1 * followed)?);
+        inputs.extend(input::check(system, start, (&model, &carried, &norm), (index, column.name), 0.1 * followed)?);
     }
     let verdict = judge(&ladders, &frozen, &inputs);
     Ok(Validation { t: start.t, chart: name, followed, rate: norm.rate, ladders, frozen, inputs, verdict })

@@ -52,3 +52,21 @@ fn runs_that_all_fail_are_a_failure() {
     let rows: Vec<Value> = serde_json::from_str(&place.text("here/drift.json")).unwrap();
     assert!(rows.iter().all(|row| row["status"] == "failed"));
 }
+
+/// Implicit methods go with other equations: these are compared.
+#[test]
+fn every_integrator_is_compared_on_what_it_goes_with() {
+    let place = Place::new(PENDULUM);
+    let rows = |more: &[&str]| -> Vec<String> {
+        let args =
+            [&["drift", "scene.json", "--until", "0.1", "--json", "--figures", "none", "-o", "here"], more].concat();
+        let rows: Vec<Value> = serde_json::from_str(&place.done(&args)).unwrap();
+        rows.iter().map(|row| row["method"].as_str().unwrap().to_string()).collect()
+    };
+    let implicit = rows(&["--formulation", "ggl", "--integrator", "radau_iia", "--projection", "none"]);
+    assert!(["none", "manifold", "index2", "index3", "ggl"].iter().all(|name| implicit.iter().any(|row| row == name)));
+    assert!(implicit.iter().all(|row| !row.starts_with("baumgarte")), "{implicit:?}");
+    let alpha =
+        ["--formulation", "index3", "--integrator", "generalized_alpha", "--projection", "none", "--step", "0.01"];
+    assert_eq!(rows(&alpha)[0], "index3");
+}

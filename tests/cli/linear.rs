@@ -81,7 +81,7 @@ fn what_cannot_be_linearized_is_told() {
 fn validate_has_a_verdict() {
     let place = model("four_bar_spring");
     let text = place.done(&["validate", "scene.json", "--at", "0.3", "-o", "here"]);
-    assert!(text.contains("verdict: right"), "{text}");
+    assert!(text.contains("verdict: right") && text.contains("(chart intrinsic)"), "{text}");
     let json = place.json("here/validation-0.3.json");
     for key in ["epsilons", "errors_ltv", "order_ltv", "errors_lti", "horizons", "verdict"] {
         assert!(!json[key].is_null(), "{key}");
@@ -93,7 +93,9 @@ fn validate_has_a_verdict() {
     let output = place.run(&frozen);
     assert_eq!(output.status.code(), Some(1), "{}", err(&output));
     refused(&place, &["validate", "scene.json", "--along", "u9"], &["no state `u9`"]);
-    refused(&place, &["validate", "scene.json", "--chart", "intrinsic"], &["mass_orthogonal"]);
+    assert!(
+        err(&output).contains("error: four_bar_spring at t = 0.3 s, chart frozen: ") && err(&output).contains("help:")
+    );
 }
 
 #[test]

@@ -17,7 +17,9 @@ mod singular;
 mod stress;
 mod sweep;
 mod tradeoff;
+mod units;
 mod warnings;
+mod words;
 
 use serde_json::Value;
 use std::fs;

@@ -106,7 +106,8 @@ fn bad_input_is_refused_before_anything_is_run() {
         (["--rows", "0"], "0"),
         (["--reference", "missing.csv"], "missing.csv"),
         (["--variants", "missing.json"], "missing.json"),
-        (["--variants", "scene.json:l=one"], "no parameter"),
+        (["--variants", "scene.json:l"], "scene.json:l"),
+        (["--variants", "scene.json:l=one"], "at --variants (`l`): unknown parameter `l`"),
     ] {
         let output = place.run(&[&["tradeoff", "scene.json", "-o", "here"], &args[..]].concat());
         assert_eq!(output.status.code(), Some(2), "{args:?}");

@@ -12,7 +12,7 @@ use holonom::system::{Loaded, MechanicalSystem, Mechanism, Need, Scratch, Terms}
 /// Beams of every make, in the plane and in space.
 const MAKES: [&str; 6] = [
     r#""elements": 2, "geometric_stiffening": true, "theory": "timoshenko""#,
-    r#""elements": 2, "frame_conditions": "chord", "axial": "quadratic", "geometric_stiffening": true"#,
+    r#""elements": 2, "frame_conditions": "chord", "axial": "quadratic", "geometric_stiffening": "cubic""#,
     r#""elements": 2, "frame_conditions": "mean", "rotary_inertia": true"#,
     r#""elements": 4, "frame_conditions": "mean", "modes": 2, "theory": "timoshenko""#,
     r#""elements": 4, "frame_conditions": "chord", "modes": 1, "damping": { "rayleigh": { "mass": 1, "stiffness": 0.01 } }"#,

@@ -12,7 +12,7 @@ type C = Complex<f64>;
 
 fn study(name: &str, set: &[(&str, f64)]) -> Study {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(format!("{name}.json"));
-    let set = set.iter().map(|(name, value)| (name.to_string(), *value)).collect();
+    let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
     Study::load(&path, &Overrides { set, ..Overrides::default() }).unwrap()
 }
 

@@ -13,3 +13,4 @@ mod inputs;
 mod measures;
 mod shipped;
 mod special;
+mod units;

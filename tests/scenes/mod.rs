@@ -45,7 +45,7 @@ pub fn shipped(name: &str, parameters: &[(&str, f64)]) -> Ready {
 }
 
 pub fn load(path: &Path, parameters: &[(&str, f64)]) -> Ready {
-    let set = parameters.iter().map(|(name, value)| (name.to_string(), *value)).collect();
+    let set = parameters.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
     let study = Study::load(path, &Overrides { set, ..Overrides::default() });
     Ready(study.unwrap_or_else(|error| panic!("{error}")))
 }

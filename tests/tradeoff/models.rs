@@ -6,7 +6,7 @@ use holonom::study::{Overrides, Study};
 use std::time::Duration;
 
 fn variant(name: &str, set: &[(&str, f64)], until: f64) -> Variant {
-    let set: Vec<(String, f64)> = set.iter().map(|(name, value)| (name.to_string(), *value)).collect();
+    let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
     let overrides = Overrides { set, until: Some(until), ..Overrides::default() };
     Variant { name: name.to_string(), study: Study::load(&model(name), &overrides).unwrap() }
 }

@@ -83,7 +83,7 @@ fn functions<const D: usize>(
         None => 1.0,
         Some(factor) => build.positive("axial_mass_factor", factor).map_err(|error| error.under("ritz"))?,
     };
-    Functions::of(ritz, length, build)?.elastic(section, inertia, factor, beam.geometric_stiffening)
+    Functions::of(ritz, length, build)?.elastic(section, inertia, factor, beam.geometric_stiffening.quartic())
 }
 
 fn elements<const D: usize>(
@@ -114,13 +114,13 @@ fn elements<const D: usize>(
     };
     let conditions = beam.frame_conditions.unwrap_or_default();
     let mesh = Mesh::<D>::new(length, count, markers, section, beam.axial.unwrap_or_default()).fix(conditions);
-    let nodal = nodal(&mesh, section, inertia, beam.geometric_stiffening);
+    let nodal = nodal(&mesh, section, inertia, beam.geometric_stiffening.quartic());
     if beam.modes.is_none() && conditions != FrameConditions::Mean {
         let line = Box::new(BeamLine { shapes: mesh, section: *section });
         return Ok((Elastic { line: Some(line), ..nodal }, Basis::Nodal));
     }
     let modes = beam.modes.as_ref().map(|modes| build.count("modes", modes)).transpose()?.map(|modes| modes as usize);
-    if modes.is_some() && beam.geometric_stiffening {
+    if modes.is_some() && beam.geometric_stiffening.quartic().is_some() {
         return Err(Error::input("few modes cannot follow the shortening of a bent line, and would be far too stiff")
             .under("geometric_stiffening")
             .hint("leave `modes` out"));
@@ -131,32 +131,32 @@ fn elements<const D: usize>(
 
 /// The stretches of an element. Its u' cannot follow w'^2, which would lock it: both count by their means over the
 /// element, or at the two points at which a quadratic displacement has its best slopes.
-fn stiffened<const D: usize>(mesh: &Mesh<D>, element: usize, section: &Section) -> Vec<Stretch> {
+fn stiffened<const D: usize>(mesh: &Mesh<D>, element: usize, section: &Section, quartic: f64) -> Vec<Stretch> {
     let start = mesh.start(element);
     match mesh.axial() {
         Axial::Linear => {
             let (dofs, samples) = mesh.samples(element, STRETCH_POINTS);
-            vec![stretch(section, start, &dofs, &samples)]
+            vec![stretch(section, quartic, start, &dofs, &samples)]
         }
         Axial::Quadratic => {
             let (dofs, samples) = mesh.samples(element, 2);
             let middle = start + samples[0].weight;
             let halves = samples.chunks(1).zip([start, middle]);
-            halves.map(|(point, start)| stretch(section, start, &dofs, point)).collect()
+            halves.map(|(point, start)| stretch(section, quartic, start, &dofs, point)).collect()
         }
     }
 }
 
 /// In the coordinates of the nodes; without damping, and without the line, which is the mesh itself.
-fn nodal<const D: usize>(mesh: &Mesh<D>, section: &Section, inertia: &Inertia, stiffening: bool) -> Elastic<D> {
+fn nodal<const D: usize>(mesh: &Mesh<D>, section: &Section, inertia: &Inertia, quartic: Option<f64>) -> Elastic<D> {
     let mut stiffness = Sum::default();
     let (mut pieces, mut stretches) = (Vec::new(), Vec::new());
     for element in 0..mesh.count() {
         let (dofs, samples) = mesh.samples(element, POINTS);
         add_stiffness(&mut stiffness, section, &dofs, &samples);
         pieces.push(inertia.piece(dofs, &samples));
-        if stiffening {
-            stretches.extend(stiffened(mesh, element, section));
+        if let Some(quartic) = quartic {
+            stretches.extend(stiffened(mesh, element, section, quartic));
         }
     }
     Elastic { names: mesh.names(), pieces, stiffness: stiffness.finish(), damping: Vec::new(), stretches, line: None }

@@ -105,7 +105,7 @@ pub fn add_stiffness(sum: &mut Sum, section: &Section, dofs: &[usize], samples: 
 }
 
 /// Geometric stiffening from the abscissa `start` on, by the means over samples; only the coordinates that stretch or turn the line there.
-pub fn stretch(section: &Section, start: f64, dofs: &[usize], samples: &[Sample]) -> Stretch {
+pub fn stretch(section: &Section, quartic: f64, start: f64, dofs: &[usize], samples: &[Sample]) -> Stretch {
     let counts = |i: &usize| {
         samples.iter().map(|sample| &sample.shapes[*i]).any(|shape| shape.strain[0] != 0.0 || shape.slope != [0.0; 2])
     };
@@ -119,6 +119,7 @@ pub fn stretch(section: &Section, start: f64, dofs: &[usize], samples: &[Sample]
         ends: [start, start + length],
         dofs: used.iter().map(|&i| dofs[i]).collect(),
         weight: section.ea * length,
+        quartic,
         axial: used.iter().map(|&i| mean(&|shapes| shapes[i].strain[0])).collect(),
         slopes: used.iter().flat_map(|&i| used.iter().map(move |&j| (i, j))).map(|(i, j)| product(i, j)).collect(),
     }

@@ -240,6 +240,7 @@ fn project_stretch(stretch: &Stretch, basis: &Mat<f64>) -> Stretch {
         ends: stretch.ends,
         dofs: modes.clone().collect(),
         weight: stretch.weight,
+        quartic: stretch.quartic,
         axial: modes.clone().map(|mode| part(mode, &stretch.axial)).collect(),
         slopes: slopes.collect(),
     }

@@ -162,7 +162,7 @@ impl Functions {
         section: &Section,
         inertia: &Inertia,
         axial_mass_factor: f64,
-        stiffening: bool,
+        quartic: Option<f64>,
     ) -> Result<Elastic<D>> {
         let dofs: Vec<usize> = (0..self.functions.len()).collect();
         let integrals = |samples: &[Sample]| {
@@ -186,9 +186,9 @@ impl Functions {
         let (mut piece, stiffness) = last;
         self.check_independent(&piece, &stiffness)?;
         self.scale_axial(&mut piece, axial_mass_factor);
-        let points = samples.chunks(1).filter(|_| stiffening);
-        let stretches = points.scan(0.0, |start, point| {
-            let next = stretch(section, *start, &dofs, point);
+        let points = samples.chunks(1).filter_map(|point| Some((point, quartic?)));
+        let stretches = points.scan(0.0, |start, (point, quartic)| {
+            let next = stretch(section, quartic, *start, &dofs, point);
             *start = next.ends[1];
             Some(next)
         });

@@ -47,7 +47,8 @@ pub struct SectionShape {
 }
 
 /// A length of a beam whose axial force stiffens its bending (von Karman): with the mean extension a.q of the line and
-/// its mean squared slope q.S q, its energy is weight (a.q + q.S q/2)^2/2, of which (a.q)^2 is in the stiffness.
+/// its mean squared slope q.S q, its energy is weight ((a.q)^2 + a.q q.S q + quartic (q.S q)^2/4)/2, of which (a.q)^2 is in
+/// the stiffness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stretch {
     /// Where it begins and ends on the line, m.
@@ -55,6 +56,8 @@ pub struct Stretch {
     pub dofs: Vec<usize>,
     /// EA times the length, N m.
     pub weight: f64,
+    /// 1: weight (a.q + q.S q/2)^2/2 in all; 0: without the last term.
+    pub quartic: f64,
     /// a: mean of u' a coordinate.
     pub axial: Vec<f64>,
     /// S: mean of w_y' w_y' + w_z' w_z' a pair of coordinates, row by row.

@@ -36,9 +36,11 @@ pub struct FlexibleBeam {
     pub axial: Option<Axial>,
     /// Floating only: rotary inertia of sections that bending turns (Rayleigh). Default: true for `timoshenko`, else false.
     pub rotary_inertia: Option<bool>,
-    /// Floating only: axial force stiffens or softens bending (energy EA u' w'^2 / 2). Default: false.
+    /// Floating only: axial force stiffens or softens bending. `true`: by the shortening of a bent line, with the axial
+    /// energy EA (u' + w'^2/2)^2/2 a length. `"cubic"`: without its last term, EA (u'^2 + u' w'^2)/2, which is the law of the
+    /// IVP test set's problem `crank`; it has no minimum where the slopes are large. Default: false.
     #[serde(default)]
-    pub geometric_stiffening: bool,
+    pub geometric_stiffening: Stiffening,
     /// Floating only: Craig-Bampton reduction to the static modes of the markers and so many fixed-interface modes.
     pub modes: Option<Number>,
     /// Floating only: displacement functions of choice instead of finite elements.
@@ -82,6 +84,36 @@ pub enum Axial {
     Linear,
     /// A middle node in each element.
     Quadratic,
+}
+
+#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq)]
+#[serde(untagged, expecting = "expected true, false or \"cubic\"")]
+pub enum Stiffening {
+    Switch(bool),
+    Law(StiffeningLaw),
+}
+
+#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum StiffeningLaw {
+    Cubic,
+}
+
+impl Default for Stiffening {
+    fn default() -> Self {
+        Stiffening::Switch(false)
+    }
+}
+
+impl Stiffening {
+    /// Factor of the term EA w'^4/8 of the energy; none without stiffening.
+    pub fn quartic(self) -> Option<f64> {
+        match self {
+            Stiffening::Switch(false) => None,
+            Stiffening::Switch(true) => Some(1.0),
+            Stiffening::Law(StiffeningLaw::Cubic) => Some(0.0),
+        }
+    }
 }
 
 /// A number or a list of them.

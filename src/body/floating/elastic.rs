@@ -28,7 +28,7 @@ fn steepness<S: Scalar>(stretch: &Stretch, i: usize, q: &[S]) -> S {
 }
 
 impl<const D: usize> Floating<D> {
-    /// f -= K q + D q' + dV/dq with V = sum weight (a.q q.S q + (q.S q)^2/4)/2 of stiffening.
+    /// f -= K q + D q' + dV/dq with V = sum weight (a.q q.S q + quartic (q.S q)^2/4)/2 of stiffening.
     pub(super) fn add_elastic_forces(&self, q: &[f64], v: &[f64], f: &mut [f64]) {
         let (q, v) = (&q[frame_coordinates(D)..], &v[frame_velocities(D)..]);
         let f = &mut f[frame_velocities(D)..];
@@ -43,7 +43,7 @@ impl<const D: usize> Floating<D> {
         for stretch in &self.elastic.stretches {
             let Means { axial, squared } = Means::at(stretch, q);
             for (i, (&dof, a)) in stretch.dofs.iter().zip(&stretch.axial).enumerate() {
-                let bending = (axial + 0.5 * squared) * steepness(stretch, i, q);
+                let bending = (axial + 0.5 * stretch.quartic * squared) * steepness(stretch, i, q);
                 f[dof] -= stretch.weight * (0.5 * a * squared + bending);
             }
         }
@@ -53,7 +53,7 @@ impl<const D: usize> Floating<D> {
         let q = &q[frame_coordinates(D)..];
         let stretch = |stretch: &Stretch| {
             let Means { axial, squared } = Means::at(stretch, q);
-            (axial + squared * 0.25) * squared * (0.5 * stretch.weight)
+            (axial + squared * (0.25 * stretch.quartic)) * squared * (0.5 * stretch.weight)
         };
         self.elastic.stretches.iter().fold(half_square(&self.elastic.stiffness, q), |sum, s| sum + stretch(s))
     }
@@ -71,8 +71,8 @@ impl<const D: usize> Floating<D> {
                 let (a, steep) = (stretch.axial[i], steepness(stretch, i, q));
                 for j in 0..n {
                     let other = steepness(stretch, j, q);
-                    let mixed = a * other + stretch.axial[j] * steep + steep * other;
-                    let force = (axial + 0.5 * squared) * stretch.slopes[i * n + j];
+                    let mixed = a * other + stretch.axial[j] * steep + stretch.quartic * steep * other;
+                    let force = (axial + 0.5 * stretch.quartic * squared) * stretch.slopes[i * n + j];
                     k[places[i * n + j]] += stretch.weight * (mixed + force);
                 }
             }

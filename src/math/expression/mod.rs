@@ -64,7 +64,7 @@ mod switch;
 mod tests;
 
 pub use error::ExpressionError;
-pub use number::Number;
+pub use number::{Number, constant};
 pub use parameters::{ParameterError, ParameterSource, Parameters};
 pub use scope::Scope;
 pub use switch::{Switch, TimeFunction};

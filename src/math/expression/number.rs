@@ -46,6 +46,12 @@ impl Number {
     }
 }
 
+/// The value of a text that depends on nothing, such as `2.5` or `pi/2`.
+pub fn constant(text: &str) -> Option<f64> {
+    let evaluated = || Number::from(text).evaluate(&Parameters::default()).ok();
+    text.trim().parse().ok().or_else(evaluated)
+}
+
 impl Default for Number {
     fn default() -> Self {
         Number::Value(0.0)

@@ -33,25 +33,25 @@ pub struct ParameterError {
 type Result<T> = std::result::Result<T, ParameterError>;
 
 impl Parameters {
-    /// Evaluates `given` after the values of `overrides` have taken the place of what it says; the last of several
-    /// overrides of one parameter counts.
+    /// Evaluates `given` after `overrides`, numbers or expressions over the other parameters, have taken the place of what
+    /// it says; the last of several overrides of one parameter counts.
     ///
     /// # Errors
     ///
     /// For names that are no plain names (a letter, then letters, digits and `_`), that have a meaning of their own
     /// (functions, `pi`, `t`, `and`, `or`, `not`) or come twice; for overrides of unknown parameters; for parameters
     /// that depend on themselves, with the cycle; for expressions that cannot be parsed and values that are not finite.
-    pub fn resolve(given: &[(String, Number)], overrides: &[(String, f64)]) -> Result<Self> {
+    pub fn resolve(given: &[(String, Number)], overrides: &[(String, Number)]) -> Result<Self> {
         let mut parameters = Parameters::named(given)?;
         let mut numbers: Vec<Number> = given.iter().map(|(_, number)| number.clone()).collect();
-        for (name, value) in overrides {
+        let mut sources = vec![ParameterSource::Scene; given.len()];
+        for (name, number) in overrides {
             let i = *parameters.index.get(name).ok_or_else(|| parameters.unknown(name))?;
-            numbers[i] = Number::Value(*value);
-            numbers[i].evaluate(&parameters).map_err(|problem| fault(name, ParameterSource::Override, problem))?;
+            (numbers[i], sources[i]) = (number.clone(), ParameterSource::Override);
         }
-        for i in parameters.order(&numbers)? {
+        for i in parameters.order(&numbers, &sources)? {
             let value = numbers[i].evaluate(&parameters);
-            parameters.values[i].1 = value.map_err(|problem| fault(&given[i].0, ParameterSource::Scene, problem))?;
+            parameters.values[i].1 = value.map_err(|problem| fault(&given[i].0, sources[i], problem))?;
         }
         Ok(parameters)
     }
@@ -84,8 +84,8 @@ impl Parameters {
     }
 
     /// The parameters such that each comes after those it depends on; otherwise in the order of the scene.
-    fn order(&self, numbers: &[Number]) -> Result<Vec<usize>> {
-        let needs = (0..numbers.len()).map(|i| self.needs(i, &numbers[i])).collect::<Result<Vec<_>>>()?;
+    fn order(&self, numbers: &[Number], sources: &[ParameterSource]) -> Result<Vec<usize>> {
+        let needs = (0..numbers.len()).map(|i| self.needs(i, &numbers[i], sources[i])).collect::<Result<Vec<_>>>()?;
         let mut users = vec![Vec::new(); numbers.len()];
         needs.iter().enumerate().for_each(|(i, needed)| needed.iter().for_each(|n| users[*n].push(i)));
         let mut open: Vec<usize> = needs.iter().map(Vec::len).collect();
@@ -100,13 +100,13 @@ impl Parameters {
                 }
             }
         }
-        if order.len() == numbers.len() { Ok(order) } else { Err(self.cycle(numbers, &needs, &open)) }
+        if order.len() == numbers.len() { Ok(order) } else { Err(self.cycle(numbers, sources, &needs, &open)) }
     }
 
     /// The parameters that number `i` mentions.
-    fn needs(&self, i: usize, number: &Number) -> Result<Vec<usize>> {
+    fn needs(&self, i: usize, number: &Number, source: ParameterSource) -> Result<Vec<usize>> {
         let Number::Text(text) = number else { return Ok(Vec::new()) };
-        let names = lexer::names(text).map_err(|problem| fault(&self.values[i].0, ParameterSource::Scene, problem))?;
+        let names = lexer::names(text).map_err(|problem| fault(&self.values[i].0, source, problem))?;
         let mut needs: Vec<usize> = names.iter().filter_map(|name| self.index.get(*name).copied()).collect();
         needs.sort_unstable();
         needs.dedup();
@@ -114,7 +114,13 @@ impl Parameters {
     }
 
     /// The error that shows a cycle among the parameters that are still open: each of them needs another one.
-    fn cycle(&self, numbers: &[Number], needs: &[Vec<usize>], open: &[usize]) -> ParameterError {
+    fn cycle(
+        &self,
+        numbers: &[Number],
+        sources: &[ParameterSource],
+        needs: &[Vec<usize>],
+        open: &[usize],
+    ) -> ParameterError {
         let follow = |i: &usize| needs[*i].iter().copied().find(|n| open[*n] > 0);
         let start = open.iter().position(|count| *count > 0);
         // After as many steps as there are parameters the walk is on the cycle and no longer on the way to it.
@@ -128,7 +134,9 @@ impl Parameters {
         let shown: Vec<&str> = path.iter().map(|i| self.values[*i].0.as_str()).collect();
         let message = format!("parameters depend on each other in a circle: {}", chain(&shown));
         let problem = ExpressionError::whole(&numbers[path[0]].to_string(), message);
-        fault(shown[0], ParameterSource::Scene, problem.hint("give one of them as a number"))
+        let is_set = |i: &&usize| sources[**i] == ParameterSource::Override;
+        let guilty = *path.iter().find(is_set).unwrap_or(&path[0]);
+        fault(&self.values[guilty].0, sources[guilty], problem.hint("give one of them as a number"))
     }
 
     fn unknown(&self, name: &str) -> ParameterError {
@@ -204,8 +212,21 @@ mod tests {
     fn resolve(given: Given, overrides: Set) -> Result<Parameters> {
         let number = |text: &str| text.parse::<f64>().map_or_else(|_| Number::from(text), Number::Value);
         let given: Vec<_> = given.iter().map(|(name, text)| (name.to_string(), number(text))).collect();
-        let overrides: Vec<_> = overrides.iter().map(|(name, value)| (name.to_string(), *value)).collect();
+        let overrides: Vec<_> =
+            overrides.iter().map(|(name, value)| (name.to_string(), Number::Value(*value))).collect();
         Parameters::resolve(&given, &overrides)
+    }
+
+    #[test]
+    fn overrides_are_expressions_like_any_other() {
+        let given: Vec<(String, Number)> =
+            [("l", 2.0), ("m", 3.0)].map(|(name, x)| (name.to_string(), x.into())).to_vec();
+        let with = |text: &str| Parameters::resolve(&given, &[("l".to_string(), Number::from(text))]);
+        assert_eq!(with("2*m").unwrap().get("l"), Some(6.0));
+        assert_eq!(with("pi/2").unwrap().get("l"), Some(std::f64::consts::FRAC_PI_2));
+        for wrong in ["l/2", "q", "2*"] {
+            assert_eq!(with(wrong).unwrap_err().source, ParameterSource::Override, "{wrong}");
+        }
     }
 
     fn message(given: Given, overrides: Set) -> String {

@@ -2,6 +2,7 @@
 
 use super::case::Case;
 use crate::error::Result;
+use crate::math::expression::Number;
 use crate::measure::Recorder;
 use crate::scene::{self, Scene};
 use crate::simulate::{Method, Span, Stop, simulate};
@@ -55,7 +56,11 @@ impl Subject<'static> {
         let json = serde_json::from_str(text.trim_start_matches('\u{feff}')).unwrap_or(Value::Null);
         let base = Case {
             scene: json,
-            set: overrides.set.clone(),
+            set: overrides
+                .set
+                .iter()
+                .filter_map(|(name, _)| Some((name.clone(), study.parameters.get(name)?)))
+                .collect(),
             method: study.method.clone(),
             duration: span.end - span.start,
             typical: Typical::of(study.system(), &study.method, span, study.start())?,
@@ -122,7 +127,8 @@ impl<'a> Subject<'a> {
         if let Some(own) = &self.own {
             return moved(own.system, own.start, &own.q, &own.v);
         }
-        let scene = Scene::parse_in(&self.folder, &case.scene.to_string(), &case.set)?;
+        let set: Vec<(String, Number)> = case.set.iter().map(|(name, value)| (name.clone(), (*value).into())).collect();
+        let scene = Scene::parse_in(&self.folder, &case.scene.to_string(), &set)?;
         let span = span(scene.start_time()?);
         let method = &case.method;
         let overrides = Overrides {

@@ -4,7 +4,6 @@ use crate::error::{Error, Result, suggest};
 use crate::simulate::Observation;
 use crate::system::{Column, MechanicalSystem, Scratch};
 use serde::{Deserialize, Serialize};
-use std::f64::consts::TAU;
 
 /// The quantities that are compared: outputs, or all coordinates of a system without any.
 #[derive(Clone, Debug)]
@@ -22,7 +21,7 @@ impl Watched {
     pub fn new(system: &dyn MechanicalSystem, names: &[String]) -> Result<Watched> {
         let known = system.columns();
         if known.is_empty() && names.is_empty() {
-            let coordinate = |name| Column { name, unit: String::new(), periodic: false };
+            let coordinate = |name| Column { name, unit: String::new(), turn: None };
             return Ok(Watched { columns: system.names().q.into_iter().map(coordinate).collect(), outputs: None });
         }
         let place = |name: &String| {
@@ -52,8 +51,8 @@ impl Watched {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Yardstick {
     pub names: Vec<String>,
-    /// Whether a quantity is an angle known up to full turns.
-    periodic: Vec<bool>,
+    /// A full turn of a quantity, if it is an angle known up to full turns.
+    turns: Vec<Option<f64>>,
     /// One row a time.
     pub rows: Vec<Vec<f64>>,
     scales: Vec<f64>,
@@ -75,7 +74,7 @@ impl Yardstick {
         };
         Yardstick {
             names: columns.iter().map(|column| column.name.clone()).collect(),
-            periodic: columns.iter().map(|column| column.periodic).collect(),
+            turns: columns.iter().map(|column| column.turn).collect(),
             scales: (0..columns.len()).map(scale).collect(),
             rows,
         }
@@ -114,7 +113,7 @@ impl Yardstick {
 
     fn difference(&self, i: usize, own: f64, other: f64) -> f64 {
         let difference = other - own;
-        let turns = if self.periodic[i] { (difference / TAU).round() * TAU } else { 0.0 };
+        let turns = self.turns[i].map_or(0.0, |turn| (difference / turn).round() * turn);
         (difference - turns).abs() / self.scales[i]
     }
 }

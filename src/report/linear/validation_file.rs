@@ -55,6 +55,22 @@ impl ValidationFile {
         }
     }
 
+    /// Whether perturbed motions follow the model.
+    pub fn is_right(&self) -> bool {
+        self.verdict.ltv && self.verdict.lti
+    }
+
+    /// What a negative verdict says, and what may help.
+    pub fn complaint(&self) -> String {
+        let ValidationFile { scene, chart, verdict, .. } = self;
+        let t = significant(self.t, 9);
+        let help = match verdict.ltv {
+            true => "take --chart intrinsic, mass_orthogonal or names of independent coordinates",
+            false => "try another --horizon or --along; equations of one's own may have wrong derivatives",
+        };
+        format!("{scene} at t = {t} s, chart {chart}: {}\n  help: {help}", verdict.text)
+    }
+
     /// Orders, horizons and the verdict.
     pub fn text(&self, found: &Validation) -> String {
         let mut table = Table::new(&["perturbation", "order in eps", "decades", "1 % after (s)", "10 % after (s)"]);

@@ -1,6 +1,7 @@
 //! What a person reads.
 
 use super::{Summary, accuracy, milliseconds};
+use crate::error::clock;
 use crate::measure::work_precision::{Cell, Outcome, Reference, WorkPrecision, cheapest_by_method};
 use crate::report::Table;
 use std::fmt::Write;
@@ -35,7 +36,12 @@ impl Summary<'_> {
 }
 
 fn head(measured: &WorkPrecision) -> String {
-    let mut text = format!("{}: speed for accuracy, {} s to {} s\n", measured.scene, measured.t_start, measured.t_end);
+    let mut text = format!(
+        "{}: speed for accuracy, {} s to {} s\n",
+        measured.scene,
+        clock(measured.t_start),
+        clock(measured.t_end)
+    );
     let Some(reference) = &measured.reference else { return text };
     let Reference { from, checked_by, is_independent, error, worst, values, .. } = reference;
     let names = match &values.names[..] {

@@ -65,6 +65,10 @@ impl Parser<'_> {
             return self.error_at(token.end, format!("expected '(' after the function `{name}`"), "");
         }
         let error = self.error(token, format!("unknown name `{}`", excerpt(name)), "");
+        let held = name.strip_suffix('\'').filter(|held| self.names.resolve(held).is_some());
+        if let Some(held) = held {
+            return error.hint(format!("a rate of this order cannot stand here; `{held}` can"));
+        }
         match name {
             "t" => error.hint("what stands here must not depend on time"),
             "e" => error.hint("Euler's number is `exp(1)`"),

@@ -1,0 +1,182 @@
+//! Units in which a scene may ask for an output.
+
+use crate::error::{Error, Result, nearest};
+use std::f64::consts::{PI, TAU};
+
+/// What an output measures; its first unit is that of the SI.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dimension {
+    Angle,
+    AngularVelocity,
+    Length,
+    Velocity,
+    Force,
+    Torque,
+    Energy,
+    Strain,
+}
+
+/// A unit by its name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unit {
+    pub name: String,
+    /// So many of it are one SI unit.
+    pub per_si: f64,
+}
+
+const POUND: f64 = 4.4482216152605;
+const INCH: f64 = 0.0254;
+const MILE: f64 = 1609.344;
+
+/// Names with their size in SI units.
+type Sizes = &'static [(&'static str, f64)];
+
+const DIMENSIONS: [(Dimension, &str, Sizes); 8] = [
+    (
+        Dimension::Angle,
+        "angle",
+        &[("rad", 1.0), ("mrad", 1e-3), ("deg", PI / 180.0), ("arcmin", PI / 10800.0), ("rev", TAU)],
+    ),
+    (
+        Dimension::AngularVelocity,
+        "angular velocity",
+        &[("rad/s", 1.0), ("deg/s", PI / 180.0), ("rev/s", TAU), ("rpm", TAU / 60.0)],
+    ),
+    (
+        Dimension::Length,
+        "position",
+        &[("m", 1.0), ("km", 1e3), ("cm", 1e-2), ("mm", 1e-3), ("um", 1e-6), ("in", INCH), ("ft", 12.0 * INCH)],
+    ),
+    (
+        Dimension::Velocity,
+        "velocity",
+        &[
+            ("m/s", 1.0),
+            ("cm/s", 1e-2),
+            ("mm/s", 1e-3),
+            ("km/h", 1.0 / 3.6),
+            ("mph", MILE / 3600.0),
+            ("in/s", INCH),
+            ("ft/s", 12.0 * INCH),
+        ],
+    ),
+    (
+        Dimension::Force,
+        "force",
+        &[("N", 1.0), ("mN", 1e-3), ("kN", 1e3), ("MN", 1e6), ("kgf", 9.80665), ("lbf", POUND)],
+    ),
+    (
+        Dimension::Torque,
+        "torque",
+        &[
+            ("N m", 1.0),
+            ("N mm", 1e-3),
+            ("N cm", 1e-2),
+            ("mN m", 1e-3),
+            ("kN m", 1e3),
+            ("MN m", 1e6),
+            ("lbf in", POUND * INCH),
+            ("lbf ft", POUND * 12.0 * INCH),
+        ],
+    ),
+    (
+        Dimension::Energy,
+        "energy",
+        &[("J", 1.0), ("mJ", 1e-3), ("kJ", 1e3), ("MJ", 1e6), ("Wh", 3600.0), ("kWh", 3.6e6)],
+    ),
+    (Dimension::Strain, "strain", &[("", 1.0), ("1", 1.0), ("%", 1e-2), ("mm/m", 1e-3), ("um/m", 1e-6)]),
+];
+
+impl Dimension {
+    /// What a person calls it.
+    pub fn word(self) -> &'static str {
+        self.entry().1
+    }
+
+    /// The unit of the SI.
+    pub fn si(self) -> Unit {
+        Unit { name: self.entry().2[0].0.to_string(), per_si: 1.0 }
+    }
+
+    /// The unit of this name; `N*m`, `Nm` and `N·m` are `N m`.
+    ///
+    /// # Errors
+    /// A name that is not known, or is that of a unit of something else.
+    pub fn unit(self, name: &str) -> Result<Unit> {
+        let (_, word, sizes) = self.entry();
+        if let Some((name, size)) = sizes.iter().find(|(known, _)| plain(known) == plain(name)) {
+            return Ok(Unit { name: name.to_string(), per_si: 1.0 / size });
+        }
+        let message = match dimension_of(name) {
+            Some(other) => format!("`{name}` is a unit of {}, not of {word}", other.word()),
+            None => format!("there is no unit `{name}` of {word}"),
+        };
+        let names = sizes.iter().map(|(name, _)| *name).filter(|name| !name.is_empty());
+        let meant = nearest(name, names.clone()).map_or(String::new(), |near| format!("did you mean `{near}`? "));
+        Err(Error::input(message)
+            .under("unit")
+            .hint(format!("{meant}choose one of {}", names.collect::<Vec<_>>().join(", "))))
+    }
+
+    fn entry(self) -> &'static (Dimension, &'static str, Sizes) {
+        // The table is in the order of the enumeration, which a test compares.
+        &DIMENSIONS[self as usize]
+    }
+}
+
+/// What is measured in a unit.
+pub fn dimension_of(unit: &str) -> Option<Dimension> {
+    let has = |sizes: Sizes| sizes.iter().any(|(known, _)| !known.is_empty() && plain(known) == plain(unit));
+    DIMENSIONS.iter().find(|(_, _, sizes)| has(sizes)).map(|(dimension, ..)| *dimension)
+}
+
+/// A name without the ways of writing a product, and with letters that every keyboard has.
+fn plain(name: &str) -> String {
+    let name = name.replace('°', "deg").replace(['µ', 'μ'], "u");
+    name.replace([' ', '*', '·', '⋅', '.', '\u{a0}'], "")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_dimension_has_its_own_entry_and_begins_with_the_si() {
+        for (i, (dimension, word, sizes)) in DIMENSIONS.iter().enumerate() {
+            assert_eq!((*dimension as usize, dimension.word(), dimension.si().per_si), (i, *word, 1.0));
+            assert_eq!(sizes[0].1, 1.0);
+            let named = sizes.iter().filter(|(name, _)| !name.is_empty());
+            named.for_each(|(name, _)| assert_eq!(dimension_of(name), Some(*dimension), "{name}"));
+        }
+    }
+
+    #[test]
+    fn units_are_read_as_people_write_them() {
+        let table = [
+            (Dimension::Angle, "°", "deg", 180.0 / PI),
+            (Dimension::AngularVelocity, "rpm", "rpm", 60.0 / TAU),
+            (Dimension::Torque, "N·m", "N m", 1.0),
+            (Dimension::Torque, "kNm", "kN m", 1e-3),
+            (Dimension::Length, "µm", "um", 1e6),
+            (Dimension::Velocity, "km/h", "km/h", 3.6),
+            (Dimension::Strain, "%", "%", 100.0),
+        ];
+        for (dimension, written, name, per_si) in table {
+            let unit = dimension.unit(written).unwrap();
+            assert!(unit.name == name && (unit.per_si / per_si - 1.0).abs() < 1e-15, "{written}: {unit:?}");
+        }
+    }
+
+    #[test]
+    fn units_of_something_else_are_refused() {
+        let message = |dimension: Dimension, name: &str| dimension.unit(name).unwrap_err().to_string();
+        assert_eq!(
+            message(Dimension::Angle, "kN"),
+            "at unit: `kN` is a unit of force, not of angle\n  help: choose one of rad, mrad, deg, arcmin, rev"
+        );
+        assert!(
+            message(Dimension::Angle, "degs")
+                .contains("there is no unit `degs` of angle\n  help: did you mean `deg`? ")
+        );
+    }
+}

@@ -1,0 +1,124 @@
+//! The chart of a linear model along the motion that it is compared with.
+
+use crate::error::{Error, Result};
+use crate::linearize::{Chart, Coordinates, Matrix, State, Variation, parallel};
+use crate::system::MechanicalSystem;
+
+/// A chart at the start, and how it goes on from there: a constant one stays, as all do at an equilibrium; the basis of the
+/// intrinsic one is carried parallel, N' = f(N) (classical Runge-Kutta method).
+pub struct Carried<'a> {
+    system: &'a dyn MechanicalSystem,
+    pub start: Coordinates,
+    from: State,
+    /// How fast the basis turns, 1/s; none: the chart is constant.
+    rate: Option<f64>,
+}
+
+/// The basis turns by no more than this from one state to the next, rad: the method's error is then about 1e-7 a radian.
+const TURN: f64 = 0.05;
+/// States from one time that is asked for to the next, at least, in pairs: each pair is a step of the method.
+const FEWEST: f64 = 2.0;
+/// A motion that turns so fast that it takes more of them is not followed for so long.
+const MOST: f64 = 1e6;
+
+impl<'a> Carried<'a> {
+    /// The chart at a state.
+    ///
+    /// # Errors
+    /// A chart that does not exist there.
+    pub fn new(variation: &mut Variation<'a>, chart: &Chart, from: &State) -> Result<Self> {
+        let start = chart.at(variation)?;
+        let moves = *chart == Chart::Intrinsic && start.r.ncols() > 0 && !variation.point.is_equilibrium;
+        let rate = moves.then(|| {
+            let moving = moving(variation, &start);
+            (moving.transpose() * variation.mass() * &moving).amax().sqrt()
+        });
+        Ok(Carried { system: variation.system(), start, from: from.clone(), rate })
+    }
+
+    /// The times (increasing, after the start) with those between that the chart needs, and how many belong to each.
+    ///
+    /// # Errors
+    /// A motion that turns too fast.
+    pub fn times(&self, times: &[f64]) -> Result<Vec<(f64, bool)>> {
+        let Some(rate) = self.rate else { return Ok(times.iter().map(|t| (*t, true)).collect()) };
+        let before = [self.from.t].into_iter().chain(times.iter().copied());
+        let pairs = |from: f64, to: f64| (0.5 * rate * (to - from) / TURN).ceil().max(FEWEST);
+        if before.clone().zip(times).map(|(from, to)| pairs(from, *to)).sum::<f64>() > MOST {
+            let error = Error::input("the intrinsic chart turns too fast to be followed for so long");
+            return Err(error.under("--horizon").hint("give a shorter one, or --chart mass_orthogonal"));
+        }
+        let between = before.zip(times).flat_map(|(from, &to)| {
+            let count = 2 * pairs(from, to) as usize;
+            (1..=count).map(move |i| match i == count {
+                true => (to, true),
+                false => (from + (to - from) * i as f64 / count as f64, false),
+            })
+        });
+        Ok(between.collect())
+    }
+
+    /// The chart at the states of all [`times`](Self::times) that were asked for.
+    ///
+    /// # Errors
+    /// A state at which it does not exist.
+    pub fn along(&self, states: &[(&State, bool)]) -> Result<Vec<Coordinates>> {
+        if self.rate.is_none() {
+            return Ok(states.iter().map(|_| self.start.clone()).collect());
+        }
+        let (mut charts, mut last) = (Vec::new(), Basis::at(self.system, &self.from, &self.start.r)?);
+        for pair in states.chunks_exact(2) {
+            last = last.step(self.system, [pair[0].0, pair[1].0])?;
+            if pair[1].1 {
+                charts.push(last.chart.clone());
+            }
+        }
+        Ok(charts)
+    }
+}
+
+/// A basis at a state with its rate.
+struct Basis {
+    t: f64,
+    chart: Coordinates,
+    rate: Matrix,
+}
+
+impl Basis {
+    /// The one nearest to `n`.
+    fn at(system: &dyn MechanicalSystem, state: &State, n: &Matrix) -> Result<Basis> {
+        Basis::of(&mut Variation::new(system, state.t, &state.q, &state.v)?, n)
+    }
+
+    fn of(variation: &mut Variation, n: &Matrix) -> Result<Basis> {
+        let off = variation.correct(&(variation.g() * n))?;
+        let chart = parallel(variation, orthonormal(n - off, &variation.mass()))?;
+        Ok(Basis { t: variation.point.t, rate: moving(variation, &chart), chart })
+    }
+
+    /// The basis at the last of two states, the first half-way.
+    fn step(&self, system: &dyn MechanicalSystem, [middle, end]: [&State; 2]) -> Result<Basis> {
+        let h = end.t - self.t;
+        let n = &self.chart.r;
+        let mut half = Variation::new(system, middle.t, &middle.q, &middle.v)?;
+        let second = Basis::of(&mut half, &(n + &self.rate * (0.5 * h)))?.rate;
+        let third = Basis::of(&mut half, &(n + &second * (0.5 * h)))?.rate;
+        let mut last = Variation::new(system, end.t, &end.q, &end.v)?;
+        let fourth = Basis::of(&mut last, &(n + &third * h))?.rate;
+        let mean = (&self.rate + (second + third) * 2.0 + fourth) / 6.0;
+        Basis::of(&mut last, &(n + mean * h))
+    }
+}
+
+/// N' of an intrinsic chart, whose tilt is N' + [v, N].
+fn moving(variation: &Variation, chart: &Coordinates) -> Matrix {
+    &chart.tilt - variation.bracket(&variation.point.v) * &chart.r
+}
+
+/// X (X^T M X)^(-1/2): of all orthonormal bases the nearest.
+fn orthonormal(x: Matrix, mass: &Matrix) -> Matrix {
+    let square = (x.transpose() * mass * &x).symmetric_eigen();
+    let scaled = &square.eigenvectors
+        * Matrix::from_diagonal(&square.eigenvalues.map(|value| value.max(f64::MIN_POSITIVE).sqrt().recip()));
+    x * scaled * square.eigenvectors.transpose()
+}
