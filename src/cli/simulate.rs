@@ -1,6 +1,6 @@
 //! `holonom simulate SCENE`
 
-use super::common::{Common, Output, print};
+use super::common::{Common, Output, print, tell};
 use super::interrupt;
 use crate::error::Result;
 use crate::measure::{Record, Recorder};
@@ -28,7 +28,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let mut folder = args.output.folder(&study.name)?;
     let stiffness = study.stiffness(span);
     if let Some(stiffness) = stiffness.as_ref().filter(|_| !args.common.talk.quiet) {
-        eprintln!("warning: {stiffness}\n  help: {}", stiffness.advice);
+        tell(format!("warning: {stiffness}\n  help: {}", stiffness.advice));
     }
     let bar = args.common.talk.progress(1000, &study.name);
     let fraction = |t: f64| (1000.0 * (t - span.start) / (span.end - span.start)) as u64;
@@ -53,7 +53,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     Ok(match &summary.failure {
         None => ExitCode::SUCCESS,
         Some(failure) => {
-            eprintln!("error: {}", crate::error::Error::from(failure.clone()));
+            tell(format!("error: {}", crate::error::Error::from(failure.clone())));
             ExitCode::from(1)
         }
     })
@@ -62,18 +62,18 @@ pub fn run(args: Args) -> Result<ExitCode> {
 /// What makes a motion doubtful although it was computed to the end.
 fn warn(summary: &Summary, trajectory: &Trajectory) {
     for Gap { name, first, count } in trajectory.gaps() {
-        eprintln!(
+        tell(format!(
             "warning: the output `{name}` has no finite value at {count} of {} times, first at t = {first:.6} s: its cells are \
              empty\n  help: look for what it is not defined for",
             trajectory.rows.len()
-        );
+        ));
     }
     let open = summary.drift.position.relative_final;
     if open > MEANINGLESS {
-        eprintln!(
+        tell(format!(
             "warning: the joints have come apart by {open:.1e} of the scene's size: the motion is not that of the scene\n  \
              help: choose a projection such as `manifold`, or a smaller step"
-        );
+        ));
     }
 }
 

@@ -1,6 +1,6 @@
 //! `holonom tradeoff SCENE`
 
-use super::common::{Output, SceneOptions, Talk, choice, number, positive, print};
+use super::common::{Output, SceneOptions, Talk, choice, number, positive, print, tell};
 use super::interrupt;
 use crate::choice::Choice;
 use crate::error::{Error, Result};
@@ -8,6 +8,7 @@ use crate::measure::work_precision::models::{Variant, compare};
 use crate::measure::work_precision::{Filter, Given, Motion, Plan, Runner, Watched, WorkPrecision, grid};
 use crate::report::tradeoff::{ModelsSummary, Summary, models_figure, models_table, tradeoff_figure, tradeoff_table};
 use crate::report::write_whole;
+use crate::files;
 use crate::scene;
 use crate::study::{Overrides, Study};
 use crate::system::MechanicalSystem;
@@ -200,7 +201,7 @@ fn methods(args: &Args, study: &Study) -> Result<ExitCode> {
     if !is_asked() {
         return Ok(ExitCode::SUCCESS);
     }
-    eprintln!("error: interrupted\n  help: go on with --resume");
+    tell("error: interrupted\n  help: go on with --resume");
     Ok(ExitCode::from(1))
 }
 
@@ -221,7 +222,7 @@ fn fingerprint(args: &Args, rows: usize) -> Result<String> {
 /// What was measured before.
 fn resumed(place: &Path, fresh: WorkPrecision) -> Result<WorkPrecision> {
     let wrong = |problem: &str| Error::file(place, format!("{problem}; leave out --resume to begin anew"));
-    let text = std::fs::read_to_string(place).map_err(|_| wrong("there is no measurement to go on with"))?;
+    let text = files::read_text(place).map_err(|_| wrong("there is no measurement to go on with"))?;
     let measured: WorkPrecision =
         serde_json::from_str(&text).map_err(|error| wrong(&format!("this is no measurement ({error})")))?;
     match measured.fingerprint == fresh.fingerprint {
