@@ -101,7 +101,7 @@ where
 }
 
 /// Jacobian, mass matrix, the matrix of Newton's method and its factors, some of them twice.
-const COPIES: f64 = 8.0;
+const COPIES: f64 = 10.0;
 const SPARSE: &str = "choose a sparse implicit integrator, such as radau_iia or generalized_alpha";
 
 /// Size of the systems of Newton's method.
