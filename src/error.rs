@@ -112,7 +112,9 @@ impl fmt::Display for Error {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Error::Input(input) => input.fmt(out),
-            Error::File { path, problem } | Error::Unwritten { path, problem } => write!(out, "{}: {problem}", path.display()),
+            Error::File { path, problem } | Error::Unwritten { path, problem } => {
+                write!(out, "{}: {problem}", path.display())
+            }
             Error::Run(failure) => {
                 write!(out, "stopped at t = {:.6e} s: {}\n  help: {}", failure.t, failure.reason, failure.hint)
             }

@@ -4,11 +4,11 @@ use super::common::{Output, SceneOptions, Talk, choice, number, positive, print,
 use super::interrupt;
 use crate::choice::Choice;
 use crate::error::{Error, Result};
+use crate::files;
 use crate::measure::work_precision::models::{Variant, compare};
 use crate::measure::work_precision::{Filter, Given, Motion, Plan, Runner, Watched, WorkPrecision, grid};
 use crate::report::tradeoff::{ModelsSummary, Summary, models_figure, models_table, tradeoff_figure, tradeoff_table};
 use crate::report::write_whole;
-use crate::files;
 use crate::scene;
 use crate::study::{Overrides, Study};
 use crate::system::MechanicalSystem;

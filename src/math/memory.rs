@@ -20,7 +20,9 @@ pub fn refuse_dense(what: &str, [rows, columns]: [usize; 2], copies: f64) -> Res
         return Ok(());
     }
     let [wanted, limit] = [wanted, limit].map(size);
-    Err(Error::input(format!("{what} takes dense matrices of {rows} x {columns}, {wanted} in all: the limit is {limit}")))
+    Err(Error::input(format!(
+        "{what} takes dense matrices of {rows} x {columns}, {wanted} in all: the limit is {limit}"
+    )))
 }
 
 /// Bytes for a person.
@@ -64,7 +66,9 @@ mod tests {
     fn what_does_not_fit_is_refused() {
         assert!(refuse_dense("a", [1000, 1000], 8.0).is_ok());
         let error = refuse_dense("null_space", [200_000, 200_000], 2.0).unwrap_err().to_string();
-        assert!(error.starts_with("null_space takes dense matrices of 200000 x 200000, 640.0 GB in all: the limit is "));
+        assert!(
+            error.starts_with("null_space takes dense matrices of 200000 x 200000, 640.0 GB in all: the limit is ")
+        );
         // No product overflows.
         assert!(refuse_dense("a", [usize::MAX; 2], 1.0).is_err());
     }

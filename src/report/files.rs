@@ -55,8 +55,7 @@ pub struct Folder {
 impl Folder {
     /// Makes the folder and tries that it can be written to, before anything is computed.
     pub fn create(path: &Path) -> Result<Folder> {
-        std::fs::create_dir_all(path)
-            .map_err(|error| failed(path, "cannot make this folder", &error))?;
+        std::fs::create_dir_all(path).map_err(|error| failed(path, "cannot make this folder", &error))?;
         Staging::create(path).map_err(|error| failed(path, "cannot write here", &error))?;
         Ok(Folder { path: path.to_path_buf(), written: Vec::new(), staging: None })
     }
@@ -92,9 +91,9 @@ impl Folder {
     /// whole.
     pub fn finish(self) -> Result<Written> {
         let Folder { path, written, staging } = self;
-        staging.map_or(Ok(()), Staging::publish).map_err(|(name, error)| {
-            failed(&path.join(name), "not all results are in place", &error)
-        })?;
+        staging
+            .map_or(Ok(()), Staging::publish)
+            .map_err(|(name, error)| failed(&path.join(name), "not all results are in place", &error))?;
         Ok(Written { folder: path, names: written })
     }
 }

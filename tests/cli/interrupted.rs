@@ -89,7 +89,7 @@ fn every_command_hears_signals_in_the_background() {
     let commands: [&[&str]; 3] = [
         &["validate", "scene.json", "--horizon", "1e6", "-o", "here"],
         &["transition", "scene.json", "--lyapunov", "1e6", "-o", "here"],
-        &["linearize", "scene.json", "--at", "1e9", "-o", "here"],
+        &["linearize", "scene.json", "--at", "1e9", "--until", "1e9", "-o", "here"],
     ];
     for args in commands {
         let place = Place::new(PENDULUM);

@@ -44,7 +44,8 @@ fn methods_that_are_dense() {
         let pieces = ["--formulation: ", formulation, size, "the limit is ", "help: choose a sparse formulation"];
         refused(&place, &args.concat(), &pieces);
     }
-    for (integrator, formulation, unknowns) in [("bdf", "ggl", "200"), ("tr_bdf2", "index1", "120"), ("esdirk34", "ggl", "")]
+    for (integrator, formulation, unknowns) in
+        [("bdf", "ggl", "200"), ("tr_bdf2", "index1", "120"), ("esdirk34", "ggl", "")]
     {
         let args = ["simulate", "scene.json", "--formulation", formulation, "--integrator", integrator];
         let size = format!("dense matrices of {unknowns}");
