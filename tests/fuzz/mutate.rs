@@ -216,7 +216,7 @@ fn joint_again(scene: &mut Value, random: &mut Random) {
     let ends = pointers(scene, |at, value| at.contains("/between/") && value.is_string());
     let other = random.pick(&ends).and_then(|at| scene.pointer(at)).cloned();
     let Some(Value::Array(joints)) = scene.get_mut("joints") else { return };
-    let Some(mut joint) = random.pick(joints).cloned() else { return };
+    let Some(mut joint) = random.pick(joints).filter(|joint| joint.is_object()).cloned() else { return };
     joint["name"] = json!(format!("again{}", joints.len()));
     if let (Some(end), Some(other), true) = (joint.pointer_mut("/between/0"), other, random.is_one_in(2)) {
         *end = other;
