@@ -45,7 +45,7 @@ pub(super) fn order(mass: &Pattern, g: &Pattern, late: &[bool]) -> Order {
 }
 
 /// Multipliers of the same coordinates, which no order tells apart: only the first of them is ordered, the others follow
-/// it. Where G has more rows than columns many depend on others, and copies of one joint would couple each with each.
+/// it. Where G has twice as many rows as columns half depend on others, and copies of one joint would couple each with each.
 struct Repeats {
     n: usize,
     /// For each row of G the first with its columns; empty where there are none too many.
@@ -55,7 +55,7 @@ struct Repeats {
 impl Repeats {
     fn of(mass: &Pattern, g: &Pattern) -> Self {
         let n = mass.rows;
-        if g.rows <= n {
+        if g.rows <= 2 * n {
             return Repeats { n, first: Vec::new() };
         }
         let mut columns = vec![Vec::new(); g.rows];
