@@ -10,8 +10,10 @@ pub type Result<T, E = Error> = std::result::Result<T, E>;
 pub enum Error {
     /// The input cannot be meant as it stands.
     Input(Box<Input>),
-    /// A file could not be read or written.
+    /// A file cannot be read, or be where it is wanted.
     File { path: PathBuf, problem: String },
+    /// A file could not be written for want of room, or because a device failed.
+    Unwritten { path: PathBuf, problem: String },
     /// The computation could not go on; what was computed until then is kept.
     Run(Failure),
 }
@@ -76,6 +78,10 @@ impl Error {
         Error::File { path: path.into(), problem: problem.to_string() }
     }
 
+    pub fn unwritten(path: impl Into<PathBuf>, problem: impl ToString) -> Self {
+        Error::Unwritten { path: path.into(), problem: problem.to_string() }
+    }
+
     /// What would be right.
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         if let Error::Input(input) = &mut self {
@@ -124,7 +130,7 @@ impl Error {
     }
 
     pub fn exit_code(&self) -> u8 {
-        if matches!(self, Error::Run(_)) { 1 } else { 2 }
+        if matches!(self, Error::Input(_) | Error::File { .. }) { 2 } else { 1 }
     }
 }
 
@@ -132,7 +138,9 @@ impl fmt::Display for Error {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Error::Input(input) => input.fmt(out),
-            Error::File { path, problem } => write!(out, "{}: {problem}", path.display()),
+            Error::File { path, problem } | Error::Unwritten { path, problem } => {
+                write!(out, "{}: {problem}", path.display())
+            }
             Error::Run(failure) => {
                 write!(out, "stopped at t = {:.6e} s: {}\n  help: {}", failure.t, failure.reason, failure.hint)
             }

@@ -1,5 +1,8 @@
 //! Options and habits that the subcommands share.
 
+pub use super::terminal::{print, tell};
+
+use super::terminal::visible;
 use crate::choice::Choice;
 use crate::error::{Error, Result, Warning, suggest};
 use crate::math::expression::{Number, constant};
@@ -10,7 +13,6 @@ use crate::simulate::Span;
 use crate::study::{Overrides, Study};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// The scene and how to solve it.
@@ -187,7 +189,7 @@ impl Talk {
 
     /// Says on standard error what is doubtful.
     pub fn warn<'w>(&self, warnings: impl IntoIterator<Item = &'w Warning>) {
-        warnings.into_iter().filter(|_| !self.quiet).for_each(|warning| eprintln!("{warning}"));
+        warnings.into_iter().filter(|_| !self.quiet).for_each(|warning| tell(warning.to_string()));
     }
 
     /// A progress bar in `unit`s on a terminal; nothing in a pipe.
@@ -198,7 +200,7 @@ impl Talk {
         let template = "{msg} {wide_bar:.cyan/dim} {percent}% {eta}";
         let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
         // A run that is over at once shows no bar.
-        let bar = ProgressBar::new(length).with_style(style).with_message(what.to_string());
+        let bar = ProgressBar::new(length).with_style(style).with_message(visible(what).into_owned());
         bar.set_draw_target(indicatif::ProgressDrawTarget::stderr_with_hz(5));
         bar
     }
@@ -228,14 +230,6 @@ impl Output {
 
 pub fn to_json(value: &impl serde::Serialize) -> Result<String> {
     serde_json::to_string_pretty(value).map_err(|error| Error::input(format!("cannot print as JSON: {error}")))
-}
-
-/// Writes to standard output; a reader that went away (`| head`) is no error.
-pub fn print(text: &str) -> Result<()> {
-    match std::io::stdout().write_all(text.as_bytes()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Error::file("standard output", error)),
-        _ => Ok(()),
-    }
 }
 
 /// One of `names`, or an error that suggests the nearest.

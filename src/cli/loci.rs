@@ -1,6 +1,6 @@
 //! `holonom loci SCENE`
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, number, positive, print};
+use super::common::{MethodOptions, Output, SceneOptions, Talk, number, positive, print, tell};
 use super::linear::ModelOptions;
 use crate::error::{Error, Result, short};
 use crate::linearize::{At, Loci, Request, Variants, loci_along, loci_over};
@@ -76,7 +76,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     }
     match loci.gaps.last().filter(|_| args.sweep.is_none()).map(|gap| &gap.error) {
         Some(error @ Error::Run(_)) => {
-            eprintln!("error: {error}");
+            tell(format!("error: {error}"));
             Ok(ExitCode::from(1))
         }
         _ => Ok(ExitCode::SUCCESS),
@@ -154,7 +154,7 @@ fn none(args: &Args, loci: &Loci) -> Result<ExitCode> {
         Error::Input(input) if input.path.starts_with('-') => Err(gap.error.clone().in_file(&args.scene.path)),
         error => {
             let name = args.sweep.as_ref().map_or("t", |range| range.parameter.as_str());
-            eprintln!("error: no state has eigenvalues; at {name} = {}: {error}", short(gap.at));
+            tell(format!("error: no state has eigenvalues; at {name} = {}: {error}", short(gap.at)));
             Ok(ExitCode::from(1))
         }
     }

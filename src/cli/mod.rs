@@ -16,6 +16,7 @@ mod schema;
 mod simulate;
 mod stress;
 mod sweep;
+mod terminal;
 mod tradeoff;
 mod transition;
 mod validate;
@@ -106,7 +107,7 @@ pub fn run() -> ExitCode {
     match result {
         Ok(code) => code,
         Err(error) => {
-            eprintln!("error: {error}");
+            terminal::tell(format!("error: {error}"));
             ExitCode::from(error.exit_code())
         }
     }

@@ -1,6 +1,6 @@
 //! `holonom plot SCENE`
 
-use super::common::{Common, Format, Output, number, positive};
+use super::common::{Common, Format, Output, number, positive, tell};
 use super::interrupt;
 use crate::error::{Error, Failure, Result};
 use crate::measure::Recorder;
@@ -118,7 +118,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     Ok(match drawn.failure {
         None => ExitCode::SUCCESS,
         Some(failure) => {
-            eprintln!("error: {}", Error::from(failure));
+            tell(format!("error: {}", Error::from(failure)));
             ExitCode::from(1)
         }
     })

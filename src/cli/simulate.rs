@@ -1,6 +1,6 @@
 //! `holonom simulate SCENE`
 
-use super::common::{Common, Output, print};
+use super::common::{Common, Output, print, tell};
 use super::interrupt;
 use crate::error::{Result, Warning};
 use crate::measure::{Record, Recorder};
@@ -50,7 +50,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     Ok(match &summary.failure {
         None => ExitCode::SUCCESS,
         Some(failure) => {
-            eprintln!("error: {}", crate::error::Error::from(failure.clone()));
+            tell(format!("error: {}", crate::error::Error::from(failure.clone())));
             ExitCode::from(1)
         }
     })

@@ -1,6 +1,6 @@
 //! `holonom sweep SCENE NAME=A..B:N`
 
-use super::common::{Output, SceneOptions, Talk, print};
+use super::common::{Output, SceneOptions, Talk, print, tell};
 use crate::error::{Error, Result, suggest};
 use crate::report::{SweepLook, SweepSummary, sweep_figure, sweep_table};
 use crate::sweep::{Family, Range, Sweep};
@@ -45,7 +45,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     write(&args, &sweep, &summary)?;
     let Some(failure) = &summary.failure else { return Ok(ExitCode::SUCCESS) };
     let ends = summary.ends().join("\n       ");
-    eprintln!("error: the branch ends {ends}\n  help: {}", failure.hint);
+    tell(format!("error: the branch ends {ends}\n  help: {}", failure.hint));
     Ok(ExitCode::from(1))
 }
 

@@ -1,9 +1,10 @@
 //! `holonom tradeoff SCENE`
 
-use super::common::{Output, SceneOptions, Talk, assignment, choice, number, positive, print};
+use super::common::{Output, SceneOptions, Talk, assignment, choice, number, positive, print, tell};
 use super::interrupt;
 use crate::choice::Choice;
 use crate::error::{Error, Result};
+use crate::files;
 use crate::math::expression::Number;
 use crate::measure::work_precision::models::{Variant, compare};
 use crate::measure::work_precision::{Filter, Given, Motion, Plan, Runner, Watched, WorkPrecision, grid};
@@ -201,7 +202,7 @@ fn methods(args: &Args, study: &Study) -> Result<ExitCode> {
     if !is_asked() {
         return Ok(ExitCode::SUCCESS);
     }
-    eprintln!("error: interrupted\n  help: go on with --resume");
+    tell("error: interrupted\n  help: go on with --resume");
     Ok(ExitCode::from(1))
 }
 
@@ -223,7 +224,7 @@ fn fingerprint(args: &Args, rows: usize) -> Result<String> {
 /// What was measured before.
 fn resumed(place: &Path, fresh: WorkPrecision) -> Result<WorkPrecision> {
     let wrong = |problem: &str| Error::file(place, format!("{problem}; leave out --resume to begin anew"));
-    let text = std::fs::read_to_string(place).map_err(|_| wrong("there is no measurement to go on with"))?;
+    let text = files::read_text(place).map_err(|_| wrong("there is no measurement to go on with"))?;
     let measured: WorkPrecision =
         serde_json::from_str(&text).map_err(|error| wrong(&format!("this is no measurement ({error})")))?;
     match measured.fingerprint == fresh.fingerprint {

@@ -1,6 +1,6 @@
 //! `holonom validate SCENE`
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, positive, print};
+use super::common::{MethodOptions, Output, SceneOptions, Talk, positive, print, tell};
 use super::linear::{ChartOptions, StateOptions};
 use crate::error::{Error, Result};
 use crate::report::linear::{ValidationFile, ladder_figure};
@@ -74,7 +74,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     }
     let wrong: Vec<&ValidationFile> = files.iter().filter(|file| !file.is_right()).collect();
     for file in &wrong {
-        eprintln!("error: {}", file.complaint());
+        tell(format!("error: {}", file.complaint()));
     }
     Ok(if wrong.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }

@@ -4,9 +4,11 @@ mod array;
 pub mod mat;
 pub mod npy;
 pub mod npz;
+mod read;
 mod staging;
 
 pub use array::Array;
+pub use read::{read, read_limited, read_text};
 pub use staging::Staging;
 
 use std::fs::OpenOptions;

@@ -23,7 +23,7 @@ pub fn free_directions(dynamics: &mut Dynamics) -> Option<DMatrix<f64>> {
     for j in 0..n {
         let mut unit: Vec<f64> = (0..n).map(|i| if i == j { 1.0 } else { 0.0 }).collect();
         // Z Z^T e_j: the accelerations that a force along coordinate j alone gives.
-        dynamics.kkt.solve(&mut unit, &mut vec![0.0; dynamics.lambda.len()]).ok()?;
+        dynamics.kkt.solve_motion(&mut unit, &mut vec![0.0; dynamics.lambda.len()]).ok()?;
         rest.column_mut(j).copy_from_slice(&unit);
     }
     let mut free = vec![0.0; n];

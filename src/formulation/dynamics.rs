@@ -113,6 +113,8 @@ pub struct Dynamics<'a> {
     /// How near G is to losing rank at the last solution, where that came from another solver than `kkt`: see
     /// [`SaddlePoint::smallest_sine`].
     pub sine: Option<f64>,
+    /// Whether multipliers of redundant rows are those of least norm, which people see; for v' any will do.
+    pub wants_least: bool,
     /// v' of the last solution.
     pub vdot: Vec<f64>,
     /// lambda of the last solution.
@@ -133,6 +135,7 @@ impl<'a> Dynamics<'a> {
             held: Vec::new(),
             rank_tolerance: TRUNCATED,
             sine: None,
+            wants_least: true,
             structure,
             vdot: vec![0.0; n.v],
             lambda: vec![0.0; n.lambda],
@@ -251,7 +254,11 @@ impl<'a> Dynamics<'a> {
 
     fn solve_factored(&mut self) -> Result<(), Halt> {
         self.is_rank_deficient = self.kkt.is_rank_deficient();
-        self.kkt.solve(&mut self.vdot, &mut self.lambda).map_err(|singular| self.halt(singular))?;
+        let solved = match self.wants_least {
+            true => self.kkt.solve(&mut self.vdot, &mut self.lambda),
+            false => self.kkt.solve_motion(&mut self.vdot, &mut self.lambda),
+        };
+        solved.map_err(|singular| self.halt(singular))?;
         self.finite()
     }
 

@@ -59,6 +59,9 @@ pub trait Formulation: Send {
     }
 }
 
+/// What to take where a dense formulation is too large.
+const SPARSE: &str = "choose a sparse formulation, such as index1 with the projection manifold";
+
 /// The constraint rows of a formulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rows {

@@ -1,10 +1,11 @@
 //! Minimal coordinates: the equations on the tangent space of the constraints.
 
 use super::dense::Dense;
-use super::{Dynamics, Entry, Formulation, Halt};
+use super::{Dynamics, Entry, Formulation, Halt, SPARSE};
 use crate::error::Error;
 use crate::math::kkt::{Chart, Reduced};
 use crate::math::largest;
+use crate::math::memory::refuse_dense;
 use crate::system::{MechanicalSystem, Need};
 
 /// With G_b Z = 0 at the start (q_b, v_b) of a step, and Y normal to Z in the metric of diag(M_b),
@@ -35,10 +36,15 @@ pub const ENTRY: Entry = Entry {
     options: &[],
     rows: None,
     make: |_, system| {
+        let n = system.dimensions();
+        refuse_dense("null_space", [n.v, n.v.max(n.lambda)], COPIES).map_err(|error| error.hint(SPARSE))?;
         let tangent_space = TangentSpace::new(system);
         Ok(Box::new(tangent_space.ok_or_else(|| Error::input("null_space: M and G do not fit each other"))?))
     },
 };
+
+/// G^T, Z^T M Z and the three matrices of the chart, for the steps and for the rows of output.
+const COPIES: f64 = 10.0;
 
 struct TangentSpace {
     field: Dense<Reduced>,

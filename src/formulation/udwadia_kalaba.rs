@@ -1,9 +1,10 @@
 //! The equations of Udwadia and Kalaba.
 
 use super::dense::Dense;
-use super::{Entry, OptionDoc};
+use super::{Entry, OptionDoc, SPARSE};
 use crate::error::Error;
 use crate::math::kkt::PseudoInverse;
+use crate::math::memory::refuse_dense;
 
 /// ```text
 /// v' = a + M^-1/2 (G M^-1/2)^+ (gamma - G a),   a = M^-1 f
@@ -25,8 +26,13 @@ pub const ENTRY: Entry = Entry {
     rows: None,
     make: |choice, system| {
         let (structure, tolerance) = (system.structure(), choice.not_negative("tolerance", 1e-10)?);
+        let n = system.dimensions();
+        refuse_dense("udwadia_kalaba", [n.v, n.v.max(n.lambda)], COPIES).map_err(|error| error.hint(SPARSE))?;
         let inverse = PseudoInverse::new(&structure.mass, &structure.g, tolerance);
         let inverse = inverse.ok_or_else(|| Error::input("udwadia_kalaba: the system is too large for dense matrices"));
         Ok(Box::new(Dense(inverse?)))
     },
 };
+
+/// M, G and the parts of the decomposition with its scratch, for the steps and for the rows of output.
+const COPIES: f64 = 14.0;

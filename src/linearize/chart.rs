@@ -68,6 +68,7 @@ impl Chart {
     /// Names that do not exist, too many or too few, or not independent at this state; `intrinsic` for equations that do
     /// not say how M changes.
     pub fn at(&self, variation: &mut Variation) -> Result<Coordinates> {
+        variation.refuse_dense(COPIES)?;
         let z = directions(variation)?;
         match self {
             Chart::Intrinsic => parallel(variation, z),
@@ -86,6 +87,9 @@ impl Chart {
         if levi_civita(variation, &mut connection) { Chart::Intrinsic } else { Chart::MassOrthogonal }
     }
 }
+
+/// Matrices of the size of the velocities: directions, masses, and how both change.
+const COPIES: f64 = 12.0;
 
 /// Z with G Z = 0 and Z^T M Z = I.
 pub(super) fn directions(variation: &mut Variation) -> Result<Matrix> {

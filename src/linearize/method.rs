@@ -67,12 +67,17 @@ pub fn registry() -> &'static [Entry] {
     &[MCS, redundant::RCS, BAUMGARTE, PENALTY, AUGMENTED_LAGRANGIAN, FORCE_PROJECTION]
 }
 
+/// Matrices of the size of the velocities, states being twice as many: the model, its directions, and eigenvectors that
+/// are complex.
+const COPIES: f64 = 40.0;
+
 /// The linear model at the state of `variation`.
 ///
 /// # Errors
 /// An unknown method or option; a chart that does not exist there; eigenvalues that cannot be computed.
 pub fn linearize(variation: &mut Variation, request: &Request) -> Result<LinearModel> {
     let index = request.method.find("method", registry().iter().map(|entry| (entry.name, entry.options)))?;
+    variation.refuse_dense(COPIES)?;
     let clock = Instant::now();
     let built = (registry()[index].build)(variation, request)?;
     let assembly_seconds = clock.elapsed().as_secs_f64();

@@ -4,6 +4,7 @@ use super::{Changes, Matrix, OperatingPoint, Response, singular};
 use crate::error::{Error, Result, clock};
 use crate::formulation::{Dynamics, Halt};
 use crate::math::kkt::Pattern;
+use crate::math::memory::refuse_dense;
 use crate::system::{Column, Loaded, MechanicalSystem, Need, OutputTangent, Tangent};
 
 /// Small changes (dq, dv) of a state, dq along the velocity directions, with those of v' and lambda:
@@ -90,6 +91,15 @@ impl<'a> Variation<'a> {
         let point = self.point.clone();
         let at = Loaded { t: point.t, q: &point.q, v: &point.v, vdot: &point.vdot, lambda: &point.lambda };
         self.load(at).map(|_| ()).map_err(|halt| at_state(point.t, &halt))
+    }
+
+    /// Refuses as many dense matrices of all velocities as would not fit.
+    ///
+    /// # Errors
+    /// Bad input with what to use instead.
+    pub(super) fn refuse_dense(&self, copies: f64) -> Result<()> {
+        let hint = "`holonom linearize --modes N` finds some of the modes by sparse methods";
+        refuse_dense("a linear model with all its modes", [self.len(); 2], copies).map_err(|error| error.hint(hint))
     }
 
     pub fn system(&self) -> &'a dyn MechanicalSystem {

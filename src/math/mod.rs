@@ -5,6 +5,7 @@ pub mod eigen;
 pub mod expression;
 mod interval;
 pub mod kkt;
+pub mod memory;
 mod regime;
 pub mod rotation;
 mod scalar;

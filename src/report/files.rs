@@ -2,15 +2,34 @@
 
 use crate::error::{Error, Result};
 use crate::files::{self, Staging};
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// Writes a file whole, or says why it cannot be.
 pub fn write_whole(path: &Path, contents: &[u8]) -> Result<()> {
-    files::write_whole(path, contents).map_err(|error| Error::file(path, format!("cannot write: {}", reason(&error))))
+    files::write_whole(path, contents).map_err(|error| failed(path, "cannot write", &error))
 }
 
-fn reason(error: &std::io::Error) -> String {
-    use std::io::ErrorKind::*;
+/// Bad input where a file cannot be at its place; where there is room for none, a failure.
+fn failed(path: &Path, what: &str, error: &io::Error) -> Error {
+    use io::ErrorKind::*;
+    let problem = format!("{what}: {}", reason(error));
+    let is_misplaced = matches!(
+        error.kind(),
+        PermissionDenied
+            | NotFound
+            | NotADirectory
+            | IsADirectory
+            | AlreadyExists
+            | ReadOnlyFilesystem
+            | InvalidFilename
+            | InvalidInput
+    );
+    if is_misplaced { Error::file(path, problem) } else { Error::unwritten(path, problem) }
+}
+
+fn reason(error: &io::Error) -> String {
+    use io::ErrorKind::*;
     let elsewhere = "choose another place with -o";
     match error.kind() {
         PermissionDenied => format!("no permission; {elsewhere}"),
@@ -36,9 +55,8 @@ pub struct Folder {
 impl Folder {
     /// Makes the folder and tries that it can be written to, before anything is computed.
     pub fn create(path: &Path) -> Result<Folder> {
-        std::fs::create_dir_all(path)
-            .map_err(|error| Error::file(path, format!("cannot make this folder: {}", reason(&error))))?;
-        Staging::create(path).map_err(|error| Error::file(path, format!("cannot write here: {}", reason(&error))))?;
+        std::fs::create_dir_all(path).map_err(|error| failed(path, "cannot make this folder", &error))?;
+        Staging::create(path).map_err(|error| failed(path, "cannot write here", &error))?;
         Ok(Folder { path: path.to_path_buf(), written: Vec::new(), staging: None })
     }
 
@@ -48,9 +66,7 @@ impl Folder {
 
     /// Writes a file that is seen after [`finish`](Self::finish). The last one vouches for the others.
     pub fn write(&mut self, name: &str, contents: &[u8]) -> Result<()> {
-        let unwritten = |error: std::io::Error| {
-            Error::file(self.path.join(name), format!("nothing was written: {}", reason(&error)))
-        };
+        let unwritten = |error: io::Error| failed(&self.path.join(name), "nothing was written", &error);
         let staging = match &mut self.staging {
             Some(staging) => staging,
             none => none.insert(Staging::create(&self.path).map_err(unwritten)?),
@@ -75,9 +91,9 @@ impl Folder {
     /// whole.
     pub fn finish(self) -> Result<Written> {
         let Folder { path, written, staging } = self;
-        staging.map_or(Ok(()), Staging::publish).map_err(|(name, error)| {
-            Error::file(path.join(name), format!("not all results are in place: {}", reason(&error)))
-        })?;
+        staging
+            .map_or(Ok(()), Staging::publish)
+            .map_err(|(name, error)| failed(&path.join(name), "not all results are in place", &error))?;
         Ok(Written { folder: path, names: written })
     }
 }

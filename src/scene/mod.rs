@@ -130,7 +130,7 @@ pub(crate) fn place(error: Error, path: &Path, text: &str) -> Error {
 
 /// The text of a scene file.
 pub(crate) fn read_text(path: &Path) -> Result<String> {
-    let bytes = std::fs::read(path).map_err(|error| Error::file(path, explain(path, &error)))?;
+    let bytes = crate::files::read(path).map_err(|error| Error::file(path, explain(path, &error)))?;
     String::from_utf8(bytes).map_err(|error| {
         let good = String::from_utf8_lossy(&error.as_bytes()[..error.utf8_error().valid_up_to()]);
         let place = locate::line_and_column(&good, good.len());

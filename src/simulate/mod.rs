@@ -146,8 +146,11 @@ impl<'a> Run<'a> {
             Ok(Problem::new(Dynamics::new(system), formulation::make(&method.formulation, system)?))
         };
         let entry = integrator::find(&method.integrator)?;
+        let mut own = problem()?;
+        // Rows show reactions; steps need the motion alone.
+        own.dynamics.wants_least = false;
         let parts = Parts {
-            problem: problem()?,
+            problem: own,
             integrator: (entry.make)(&Setup {
                 integrator: &method.integrator,
                 formulation: &method.formulation,

@@ -122,7 +122,7 @@ impl<'a> Frozen<'a> {
     /// Z Z^T `force`: the accelerations that a force alone gives.
     fn accelerate(&mut self, mut force: Vec<f64>) -> Option<Vec<f64>> {
         let mut rows = vec![0.0; self.dynamics.lambda.len()];
-        self.dynamics.kkt.solve(&mut force, &mut rows).ok()?;
+        self.dynamics.kkt.solve_motion(&mut force, &mut rows).ok()?;
         force.iter().all(|x| x.is_finite()).then_some(force)
     }
 

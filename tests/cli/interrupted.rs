@@ -22,18 +22,19 @@ fn signal(child: &Child, name: &str) {
     assert!(status.is_ok(), "{status:?}");
 }
 
-/// Whether signals end processes here; under nohup, or in the background of a script, they and ours have them ignored.
-fn hears_signals() -> bool {
+/// Whether this process, and so ours, has HUP ignored, as nohup does.
+fn is_sheltered() -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    let ignored = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0);
-    // SIGHUP, SIGINT and SIGTERM.
-    ignored & (1 | 1 << 1 | 1 << 14) == 0
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0) & 1 != 0
 }
 
 /// Waits until the run steps: it listens by then.
 fn interrupted(place: &Place, args: &[&str], with: &str) -> Output {
-    let child = start(place, args);
+    end(start(place, args), with)
+}
+
+fn end(child: Child, with: &str) -> Output {
     std::thread::sleep(Duration::from_millis(500));
     signal(&child, with);
     let clock = Instant::now();
@@ -44,10 +45,8 @@ fn interrupted(place: &Place, args: &[&str], with: &str) -> Output {
 
 #[test]
 fn an_interrupted_run_writes_what_it_has() {
-    if !hears_signals() {
-        return;
-    }
-    for with in ["INT", "TERM", "HUP"] {
+    let signals = if is_sheltered() { &["INT", "TERM"][..] } else { &["INT", "TERM", "HUP"] };
+    for with in signals {
         let place = Place::new(PENDULUM);
         let output = interrupted(&place, &[&["simulate"], &ENDLESS[..], &["here"]].concat(), with);
         let message = err(&output);
@@ -63,11 +62,55 @@ fn an_interrupted_run_writes_what_it_has() {
     }
 }
 
+/// Starts with signals ignored, as nohup and the background of a script have them.
+fn start_ignoring(place: &Place, ignored: &str, args: &[&str]) -> Child {
+    let script = format!("trap '' {ignored}; exec \"$0\" \"$@\"");
+    let mut command = Command::new("sh");
+    command.args(["-c", &script, env!("CARGO_BIN_EXE_holonom")]).args(args).current_dir(place.path(""));
+    command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
+}
+
+#[test]
+fn signals_are_heard_under_nohup_and_in_the_background() {
+    for (ignored, with) in [("HUP", "TERM"), ("HUP", "INT"), ("INT QUIT", "INT"), ("INT QUIT HUP", "TERM")] {
+        let place = Place::new(PENDULUM);
+        let child = start_ignoring(&place, ignored, &[&["simulate"], &ENDLESS[..], &["here"]].concat());
+        let output = end(child, with);
+        let message = err(&output);
+        assert_eq!(output.status.code(), Some(1), "{ignored}, {with}: {message}");
+        assert!(message.contains(": interrupted\n"), "{message}");
+        assert_eq!(place.json("here/summary.json")["status"], "failed");
+    }
+}
+
+/// As in a terminal: what writes nothing before its end ends at once.
+#[test]
+fn every_command_hears_signals_in_the_background() {
+    let commands: [&[&str]; 2] = [
+        &["validate", "scene.json", "--horizon", "1e6", "-o", "here"],
+        &["transition", "scene.json", "--lyapunov", "1e6", "-o", "here"],
+    ];
+    for args in commands {
+        let place = Place::new(PENDULUM);
+        let output = end(start_ignoring(&place, "INT QUIT HUP", args), "INT");
+        assert_eq!((output.status.code(), err(&output).as_str()), (Some(130), "interrupted\n"), "{args:?}");
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn nohup_keeps_a_run_from_hanging_up() {
+    let place = Place::new(PENDULUM);
+    let mut child = start_ignoring(&place, "HUP", &[&["simulate"], &ENDLESS[..], &["here"]].concat());
+    std::thread::sleep(Duration::from_millis(500));
+    signal(&child, "HUP");
+    std::thread::sleep(Duration::from_millis(300));
+    assert_eq!(child.try_wait().unwrap(), None);
+    assert_eq!(end(child, "TERM").status.code(), Some(1));
+}
+
 #[test]
 fn all_stabilizations_are_interrupted_together() {
-    if !hears_signals() {
-        return;
-    }
     let place = Place::new(PENDULUM);
     let output = interrupted(&place, &[&["drift"], &ENDLESS[..], &["here"]].concat(), "INT");
     assert_eq!(output.status.code(), Some(1), "{}", err(&output));
@@ -78,9 +121,6 @@ fn all_stabilizations_are_interrupted_together() {
 /// What cannot end by itself ends at once, with nothing written.
 #[test]
 fn an_interrupted_command_that_has_no_part_of_a_result_writes_none() {
-    if !hears_signals() {
-        return;
-    }
     let place = Place::new(PENDULUM);
     let output = interrupted(&place, &["validate", "scene.json", "--horizon", "1e6", "-o", "here"], "INT");
     assert_eq!((output.status.code(), err(&output).as_str()), (Some(130), "interrupted\n"));
@@ -90,9 +130,6 @@ fn an_interrupted_command_that_has_no_part_of_a_result_writes_none() {
 /// The second signal does not wait for anything.
 #[test]
 fn the_second_signal_ends_at_once() {
-    if !hears_signals() {
-        return;
-    }
     let place = Place::new(PENDULUM);
     // Between two signals so near to each other 300 000 rows cannot be written, but on a busy machine they may be.
     let ends_at_once = || {
@@ -185,7 +222,7 @@ fn where_the_disk_is_full_nothing_is_written() {
     let (old, files) = (place.text("here/summary.json"), place.files("here"));
     let output = limited(&place, "trap '' XFSZ;");
     let message = err(&output);
-    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert_eq!(output.status.code(), Some(1), "{message}");
     for piece in ["error: here/trajectory.csv: nothing was written: ", "choose another place with -o"] {
         assert!(message.contains(piece), "{message}");
     }
@@ -202,7 +239,7 @@ fn where_the_disk_is_full_nothing_is_written() {
 fn a_full_device_is_told() {
     let place = Place::new(PENDULUM);
     let output = place.run(&["generate", "chain", "-o", "/dev/full"]);
-    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(output.status.code(), Some(1));
     assert!(
         err(&output).starts_with("error: /dev/full: cannot write: the disk is full; make room, or"),
         "{}",
@@ -210,7 +247,7 @@ fn a_full_device_is_told() {
     );
     let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
     let output = place.command(&["simulate", "scene.json", "-o", "here"]).stdout(full).output().unwrap();
-    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(output.status.code(), Some(1));
     assert!(err(&output).starts_with("error: standard output: "), "{}", err(&output));
     // The files were written before.
     assert_whole(&place.path("here"));

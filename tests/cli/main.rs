@@ -7,6 +7,7 @@ mod equilibrium;
 mod generate;
 #[cfg(unix)]
 mod interrupted;
+mod limits;
 mod linear;
 mod loci;
 mod methods;
@@ -16,6 +17,7 @@ mod simulate;
 mod singular;
 mod stress;
 mod sweep;
+mod terminal;
 mod tradeoff;
 mod units;
 mod warnings;

@@ -44,8 +44,8 @@ impl Stock {
         }
     }
 
-    /// Scene `number`: a shipped one, or every eighth one that grew from the schema, with one to three changes; some then
-    /// damaged as text.
+    /// Scene `number`: a shipped one, or every eighth one that grew from the schema, with one to three changes, some of
+    /// them with a part of another scene; some then damaged as text.
     fn mutant(&self, number: u64) -> Vec<u8> {
         let mut random = Random::new(number);
         let is_grown = number % 8 == 7;
@@ -53,6 +53,9 @@ impl Stock {
             Some(scene) if !is_grown => scene.clone(),
             _ => grow::grow(&self.schema, &mut random),
         };
+        if let (Some(other), true) = (random.pick(&self.scenes), random.is_one_in(6)) {
+            mutate::splice(&mut scene, other, &mut random);
+        }
         for _ in 0..random.one([1, 1, 1, 2, 2, 3]) {
             mutate::mutate(&mut scene, &mut random);
         }

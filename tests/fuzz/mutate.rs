@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 type Change = fn(&mut Value, &mut Random);
 
 /// What is done to a scene; the more frequent ones twice.
-const CHANGES: [Change; 28] = [
+const CHANGES: [Change; 29] = [
     magnitude,
     magnitude,
     magnitude,
@@ -37,11 +37,36 @@ const CHANGES: [Change; 28] = [
     settings,
     own_parameter,
     nest,
+    hostile,
 ];
 
 pub fn mutate(scene: &mut Value, random: &mut Random) {
     let change = random.one(CHANGES);
     change(scene, random);
+}
+
+/// A part of another scene: elements of its lists behind those that are there, or a value at the place of one of the same
+/// key.
+pub fn splice(scene: &mut Value, other: &Value, random: &mut Random) {
+    if random.is_one_in(2) {
+        let list = random.one(["bodies", "joints", "forces", "outputs", "inputs"]);
+        let Some(Value::Array(items)) = other.get(list) else { return };
+        let count = random.below(items.len() + 1);
+        if let Some(Value::Array(own)) = scene.get_mut(list) {
+            own.extend(items.iter().take(count).cloned());
+        }
+        return;
+    }
+    let Some(from) = place(other, random, |_, _| true) else { return };
+    let key = from.rsplit('/').next().unwrap_or_default().to_string();
+    let to = place(scene, random, |at, _| at.rsplit('/').next() == Some(key.as_str()));
+    set(scene, to, other.pointer(&from).cloned().unwrap_or_default());
+}
+
+/// Text that steers terminals, files or formats, for any text.
+fn hostile(scene: &mut Value, random: &mut Random) {
+    let at = place(scene, random, |_, value| value.is_string());
+    set(scene, at, json!(words::hostile(random)));
 }
 
 /// JSON pointers of all values below the root that `is_wanted` accepts.
@@ -191,7 +216,7 @@ fn joint_again(scene: &mut Value, random: &mut Random) {
     let ends = pointers(scene, |at, value| at.contains("/between/") && value.is_string());
     let other = random.pick(&ends).and_then(|at| scene.pointer(at)).cloned();
     let Some(Value::Array(joints)) = scene.get_mut("joints") else { return };
-    let Some(mut joint) = random.pick(joints).cloned() else { return };
+    let Some(mut joint) = random.pick(joints).filter(|joint| joint.is_object()).cloned() else { return };
     joint["name"] = json!(format!("again{}", joints.len()));
     if let (Some(end), Some(other), true) = (joint.pointer_mut("/between/0"), other, random.is_one_in(2)) {
         *end = other;

@@ -82,6 +82,35 @@ pub fn word(random: &mut Random) -> String {
     }
 }
 
+/// Control characters, directions of writing, markup, formats, paths and noncharacters, alone or within a word.
+const HOSTILE: [&str; 16] = [
+    "\u{1b}[2J\u{1b}]0;title\u{7}",
+    "\u{9b}31m",
+    "\u{0}\u{1}\u{7f}\r\n",
+    "\u{202e}\u{2066}\u{200f}",
+    "\u{2028}\u{2029}\u{feff}",
+    "</text><script>&amp;]]>",
+    "{msg}{}%s%n{0:9999999999}",
+    "`\n  help: obey",
+    "\"\\\"",
+    "/dev/zero",
+    "../../../../../../dev/full",
+    "con.nul\u{0}.json",
+    "\u{10ffff}\u{fffe}",
+    "a\u{300}\u{301}\u{302}\u{303}",
+    "=cmd()",
+    "--help",
+];
+
+pub fn hostile(random: &mut Random) -> String {
+    let text = random.one(HOSTILE);
+    match random.below(6) {
+        0 => text.repeat(1000),
+        1 => format!("x{text}y"),
+        _ => text.to_string(),
+    }
+}
+
 /// Of any type.
 pub fn thing(random: &mut Random) -> Value {
     match random.below(9) {

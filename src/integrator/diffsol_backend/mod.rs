@@ -13,6 +13,7 @@ use super::{Control, From, Integrator, Problem, Setup, Tolerance};
 use crate::error::Result;
 use crate::formulation::Halt;
 use crate::math::kkt::Singular;
+use crate::math::memory::refuse_dense;
 use diffsol::error::OdeSolverError;
 use diffsol::ode_solver::state::StateCommon;
 use diffsol::{
@@ -77,6 +78,7 @@ pub fn make<'h, 's, S>(
 where
     S: OdeSolverMethod<'h, Equations<'s>> + 'h,
 {
+    refuse_dense(&setup.integrator.name, [unknowns(setup); 2], COPIES).map_err(|error| error.hint(SPARSE))?;
     let form: Box<dyn Form + 's> = match setup.formulation.name.as_str() {
         "ggl" => Box::new(ggl::Ggl::new(setup)),
         _ => Box::new(index1::Index1::new(setup)?),
@@ -96,6 +98,17 @@ where
         // The solver controls its error: what it is offered is all that is left.
         control: Control::new(1.0, 0.0, 0.1, f64::INFINITY),
     }))
+}
+
+/// Jacobian, mass matrix, the matrix of Newton's method and its factors, some of them twice.
+const COPIES: f64 = 10.0;
+const SPARSE: &str = "choose a sparse implicit integrator, such as radau_iia or generalized_alpha";
+
+/// Size of the systems of Newton's method.
+fn unknowns(setup: &Setup) -> usize {
+    let n = setup.system.dimensions();
+    let multipliers = if setup.formulation.name == "ggl" { 2 * n.lambda } else { 0 };
+    n.q + n.v + multipliers
 }
 
 impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Implicit<'h, 's, S> {

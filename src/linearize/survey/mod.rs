@@ -185,8 +185,8 @@ impl Variants<'_> {
 
 fn found(study: &Study, state: &State, at: f64, request: &Request) -> Result<Found> {
     let mut variation = state.variation(study)?;
-    let mass: Matrix = variation.mass();
     let model = linearize(&mut variation, request)?;
+    let mass: Matrix = variation.mass();
     let is_equilibrium = model.point.is_equilibrium;
     let sample = Sample { at, modes: model.modes, mass };
     Ok(Found { state: state.clone(), sample, method: model.method, chart: model.chart, is_equilibrium })

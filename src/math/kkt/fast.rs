@@ -21,14 +21,14 @@ impl Fast {
         let symbolic = Symbolic::new(mass, g, late);
         let operations = symbolic.operations();
         if operations > FILL_FOR_BLOCKS * (symbolic.rows.len() + symbolic.size()) || operations > LONGEST_LIST {
-            Self::blocked(mass, g, late)
+            Self::blocked(symbolic, mass, g, late)
         } else {
             Fast::Compiled(Box::new(Compiled::new(symbolic)))
         }
     }
 
-    pub fn blocked(mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
-        match Blocked::new(Symbolic::new(mass, g, late), mass, g, late) {
+    pub fn blocked(symbolic: Symbolic, mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
+        match Blocked::new(symbolic, mass, g, late) {
             Some(blocked) => Fast::Blocked(Box::new(blocked)),
             None => Fast::Compiled(Box::new(Compiled::new(Symbolic::new(mass, g, late)))),
         }

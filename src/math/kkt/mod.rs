@@ -24,6 +24,7 @@ mod compiled;
 mod condition;
 mod dependence;
 mod fast;
+mod gram;
 mod null_space;
 mod order;
 mod pattern;

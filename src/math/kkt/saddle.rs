@@ -255,6 +255,11 @@ impl SaddlePoint {
         self.solve_for(top, bottom, true)
     }
 
+    /// The same where only a matters: multipliers of dependent rows are any that belong to it.
+    pub fn solve_motion(&mut self, top: &mut [f64], bottom: &mut [f64]) -> Result<(), Singular> {
+        self.solve_for(top, bottom, false)
+    }
+
     /// Where `is_least` is false, multipliers of dependent rows may be any.
     fn solve_for(&mut self, top: &mut [f64], bottom: &mut [f64], is_least: bool) -> Result<(), Singular> {
         if top.len() != self.n || bottom.len() != self.m {

@@ -6,11 +6,12 @@
 //! n_j = e_j - c, where G^T c = G_j^T is solved with the factor itself. N = [n_j], whose part on the left-out rows is
 //! the identity, so that N^T N >= I is well conditioned. Then P = I - N (N^T N)^-1 N^T makes the right side consistent
 //! (least squares) and the multipliers least in norm. A few null vectors are made orthonormal once for a factorization;
-//! of many, N is not formed, and P is applied by conjugate gradients.
+//! of many, P is applied by conjugate gradients, with N^T N of an earlier factorization for a preconditioner.
 
 use super::Pattern;
 use super::Singular;
 use super::fast::Fast;
+use super::gram::Gram;
 use super::pivot::{Quality, ROUND_OFF, Rule};
 use super::system::{System, add, add_scaled, dot, index_of_largest};
 use crate::math::largest;
@@ -31,6 +32,7 @@ pub(super) struct Skipping {
     /// Orthonormal null vectors, one after the other, where they are few; and whether they belong to the last factors.
     basis: Vec<f64>,
     is_spanned: bool,
+    gram: Gram,
     /// G without the rows that are held out.
     values: Vec<f64>,
     /// Scratch of n and of m numbers.
@@ -58,6 +60,7 @@ impl Skipping {
             inconsistency: 0.0,
             basis: Vec::with_capacity(FEW.min(m) * m),
             is_spanned: false,
+            gram: Gram::new(),
             values: Vec::with_capacity(g.entries.len()),
             a: vec![0.0; n],
             top: vec![0.0; n],
@@ -226,36 +229,53 @@ impl Skipping {
     }
 
     fn project_by_gradients(&mut self, system: &System, v: &mut [f64]) -> f64 {
-        let tolerance = 1e-15 * dot(v, v).sqrt();
+        self.form_gram(system);
         self.weights.fill(0.0);
         self.residual.copy_from_slice(v);
         self.null_transposed(system);
+        let tolerance = 1e-15 * dot(v, v).max(dot(&self.residual, &self.residual)).sqrt();
         self.direction.copy_from_slice(&self.residual);
-        let mut square = dot(&self.residual, &self.residual);
-        for _ in 0..MOST_GRADIENTS {
-            if square.sqrt() <= tolerance {
-                break;
-            }
+        self.gram.solve(&self.skipped, &mut self.direction);
+        let mut product = dot(&self.residual, &self.direction);
+        let mut steps = 0;
+        while steps < MOST_GRADIENTS && dot(&self.residual, &self.residual).sqrt() > tolerance {
             // image = N p, and p^T N^T N p = |N p|^2.
             self.null(system);
-            let step = square / dot(&self.image, &self.image);
+            let step = product / dot(&self.image, &self.image);
             add_scaled(step, &self.direction, &mut self.weights);
             // r = N^T (v - N w) afresh would cost as much as this update.
             std::mem::swap(&mut self.residual, &mut self.image);
             self.null_transposed(system);
             std::mem::swap(&mut self.residual, &mut self.image);
             add_scaled(-step, &self.image, &mut self.residual);
-            let next = dot(&self.residual, &self.residual);
-            let ratio = next / square;
-            for (p, r) in self.direction.iter_mut().zip(&self.residual) {
-                *p = r + ratio * *p;
+            self.image.copy_from_slice(&self.residual);
+            self.gram.solve(&self.skipped, &mut self.image);
+            let next = dot(&self.residual, &self.image);
+            let ratio = next / product;
+            for (p, z) in self.direction.iter_mut().zip(&self.image) {
+                *p = z + ratio * *p;
             }
-            square = next;
+            (product, steps) = (next, steps + 1);
         }
+        self.gram.took(steps);
         self.direction.copy_from_slice(&self.weights);
         self.null(system);
         add_scaled(-1.0, &self.image, v);
         dot(&self.image, &self.image).sqrt()
+    }
+
+    fn form_gram(&mut self, system: &System) {
+        if !self.gram.is_stale(&self.skipped) {
+            return;
+        }
+        self.gram.clear(&self.skipped);
+        for k in 0..self.skipped.len() {
+            self.direction.fill(0.0);
+            self.direction[self.skipped[k]] = 1.0;
+            self.null(system);
+            self.gram.push(&self.image);
+        }
+        self.gram.factor();
     }
 
     /// image = N direction, where `direction` is zero but on the left-out rows.

@@ -166,7 +166,7 @@ impl Given {
     /// # Errors
     /// A file that cannot be read or is no such table.
     pub fn read(path: &Path) -> Result<Given> {
-        let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
+        let text = crate::files::read_text(path).map_err(|error| Error::file(path, error))?;
         Given::parse(&path.display().to_string(), &text).map_err(|error| error.in_file(path))
     }
 

@@ -181,7 +181,7 @@ fn failure(at: f64, error: &Error) -> FailureFile {
     let (reason, hint) = match error {
         Error::Input(input) => (input.message.clone(), input.hint.clone()),
         Error::Run(Failure { reason, hint, .. }) => (reason.clone(), Some(hint.clone())),
-        Error::File { problem, .. } => (problem.clone(), None),
+        Error::File { problem, .. } | Error::Unwritten { problem, .. } => (problem.clone(), None),
     };
     FailureFile { at, reason, hint }
 }

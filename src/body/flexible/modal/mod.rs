@@ -12,6 +12,7 @@ use super::eigen::entries;
 use super::shape::{Elastic, PointShape};
 use crate::body::{Build, parse};
 use crate::error::{Error, Result, short};
+use crate::math::memory::refuse_dense;
 use faer::{Mat, Side};
 use std::array::from_fn;
 use std::path::Path;
@@ -46,7 +47,7 @@ fn read<const D: usize>(path: &Path, build: &Build<D>) -> Result<ModalData<Array
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("npz")) {
         return npz::read(path);
     }
-    let text = std::fs::read_to_string(path).map_err(|problem| Error::input(problem.to_string()))?;
+    let text = crate::files::read_text(path).map_err(|problem| Error::input(problem.to_string()))?;
     let json = serde_json::from_str(&text).map_err(|problem| Error::input(format!("not JSON: {problem}")))?;
     resolve(&parse::<ModalData<Table>>(json)?, build)
 }
@@ -94,6 +95,9 @@ fn resolve<const D: usize>(data: &ModalData<Table>, build: &Build<D>) -> Result<
     })
 }
 
+/// Stiffness, damping and mass with their eigenvalues, the integrals of the modes, and the blocks of the equations.
+const COPIES: f64 = 40.0;
+
 fn shapes<const D: usize>(data: &ModalData<Array>) -> Result<ModalShapes<D>> {
     let Some(stiffness) = &data.modal_stiffness else {
         return Err(Error::input("the key `modal_stiffness` is missing").hint("give one number a mode, or a matrix"));
@@ -104,6 +108,8 @@ fn shapes<const D: usize>(data: &ModalData<Array>) -> Result<ModalShapes<D>> {
             .under("modal_stiffness")
             .hint("a body without any is of type \"rigid\""));
     }
+    let too_many = |error: Error| error.under("modal_stiffness").hint("keep fewer modes, the lowest ones");
+    refuse_dense("this body", [n; 2], COPIES).map_err(too_many)?;
     let stiffness = matrix("modal_stiffness", stiffness, n)?;
     let floor = smallest("modal_stiffness", &stiffness)?;
     if floor <= 0.0 {

@@ -3,9 +3,8 @@
 use super::array::Array;
 use super::spec::{Lumped, ModalData, Node, Nodes};
 use crate::error::{Error, Result, suggest};
-use crate::files::npy::Npy;
-use std::fs::File;
-use std::io::{BufReader, Read};
+use crate::files::{self, npy::Npy};
+use std::io::Cursor;
 use std::path::Path;
 use zip::ZipArchive;
 
@@ -26,8 +25,8 @@ const LUMPED: [&str; 3] = ["lumped_masses", "lumped_positions", "lumped_translat
 /// # Errors
 /// Bad input: a file that is no archive of arrays, unknown or missing keys, arrays that do not fit.
 pub fn read(path: &Path) -> Result<ModalData<Array>> {
-    let file = File::open(path).map_err(|problem| Error::input(problem.to_string()))?;
-    let mut archive = ZipArchive::new(BufReader::new(file))
+    let file = files::read(path).map_err(|problem| Error::input(problem.to_string()))?;
+    let mut archive = ZipArchive::new(Cursor::new(file))
         .map_err(|problem| Error::input(problem.to_string()).hint("write it by numpy.savez"))?;
     let names = archive.file_names().filter_map(|name| name.ok().map(|name| name.into_owned()));
     let keys: Vec<String> = names.map(|name| name.trim_end_matches(".npy").to_string()).collect();
@@ -55,14 +54,13 @@ pub fn read(path: &Path) -> Result<ModalData<Array>> {
     })
 }
 
-type Archive = ZipArchive<BufReader<File>>;
+type Archive = ZipArchive<Cursor<Vec<u8>>>;
 
 /// The file of one array.
 fn bytes(archive: &mut Archive, key: &str) -> Result<Option<Vec<u8>>> {
-    let mut bytes = Vec::new();
     let problem = match archive.by_name(&format!("{key}.npy")) {
-        Ok(mut file) => match file.read_to_end(&mut bytes) {
-            Ok(_) => return Ok(Some(bytes)),
+        Ok(file) => match files::read_limited(file) {
+            Ok(bytes) => return Ok(Some(bytes)),
             Err(problem) => problem.to_string(),
         },
         Err(zip::result::ZipError::FileNotFound) => return Ok(None),

@@ -4,6 +4,7 @@ use super::samples::{Random, Sample, distance};
 use super::{agrees_with_lu, reachable, right_side, solved};
 use crate::math::kkt::fast::Fast;
 use crate::math::kkt::pivot::Rule;
+use crate::math::kkt::symbolic::Symbolic;
 use crate::math::kkt::system::System;
 use crate::math::kkt::{Pattern, SaddlePoint, compiled, symbolic};
 
@@ -129,7 +130,7 @@ fn both_ways_of_elimination_agree() {
         let mut results = vec![];
         for mut fast in [
             Fast::Compiled(Box::new(compiled::Compiled::new(symbolic::Symbolic::new(&sample.mass, &sample.g, &late)))),
-            Fast::blocked(&sample.mass, &sample.g, &late),
+            Fast::blocked(Symbolic::new(&sample.mass, &sample.g, &late), &sample.mass, &sample.g, &late),
         ] {
             let mut skipped = vec![];
             fast.factor(&sample.mass_values, &sample.g_values, Rule::STRICT, &mut skipped).ok().unwrap();

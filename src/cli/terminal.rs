@@ -1,0 +1,66 @@
+//! What people read: text on standard output and standard error.
+//!
+//! Names, units and quotations come from scenes. Characters that a terminal obeys instead of showing are escaped here,
+//! where all text passes.
+
+use crate::error::{Error, Result};
+use std::borrow::Cow;
+use std::io::{ErrorKind, Write};
+
+/// Writes to standard output; a reader that went away (`| head`) is no error.
+///
+/// # Errors
+/// What else the system says, such as a full disk.
+pub fn print(text: &str) -> Result<()> {
+    match std::io::stdout().write_all(visible(text).as_bytes()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Error::unwritten("standard output", error.to_string()))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes a line to standard error, where nobody may be there to read it.
+pub fn tell(text: impl AsRef<str>) {
+    let _ = writeln!(std::io::stderr(), "{}", visible(text.as_ref()));
+}
+
+/// The same text with what would steer a terminal, or turn the direction of writing, as `\u001b`: JSON stays the JSON that
+/// it was.
+pub fn visible(text: &str) -> Cow<'_, str> {
+    if !text.contains(steers) {
+        return Cow::Borrowed(text);
+    }
+    let shown = |c: char| if steers(c) { format!("\\u{:04x}", c as u32) } else { c.to_string() };
+    Cow::Owned(text.chars().map(shown).collect())
+}
+
+/// Control characters but line breaks and tabs; marks, embeddings, overrides and isolates of bidirectional text; breaks
+/// of lines and paragraphs.
+fn steers(c: char) -> bool {
+    let is_control = c.is_control() && !matches!(c, '\n' | '\t');
+    is_control || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::visible;
+
+    #[test]
+    fn nothing_steers_the_terminal() {
+        let table = [
+            ("a\tb\nφ\u{301}", "a\tb\nφ\u{301}"),
+            ("\u{1b}[31mred\u{7}\0\r", "\\u001b[31mred\\u0007\\u0000\\u000d"),
+            ("\u{9b}2J\u{7f}", "\\u009b2J\\u007f"),
+            ("\u{202e}txt\u{2066}", "\\u202etxt\\u2066"),
+        ];
+        table.iter().for_each(|(text, shown)| assert_eq!(visible(text), *shown));
+    }
+
+    #[test]
+    fn json_stays_what_it_is() {
+        let value = serde_json::json!({ "a\u{9b}": "\u{1b}\u{202e}\u{7f}\\" });
+        let text = serde_json::to_string_pretty(&value).unwrap();
+        assert_eq!(serde_json::from_str::<serde_json::Value>(&visible(&text)).unwrap(), value);
+    }
+}

@@ -1,0 +1,63 @@
+//! Files are read whole, up to a limit.
+
+use crate::math::memory::size;
+use std::fs::{File, metadata};
+use std::io::{self, Read};
+use std::path::Path;
+
+/// Most that is read of one file, bytes.
+const MOST: u64 = 256_000_000;
+
+/// The contents of a regular file of up to 256 MB. Pipes and devices are refused: they need have no end.
+///
+/// # Errors
+/// What the system says, and what is refused.
+pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    // Before it is opened: that waits for a writer at the other end of a pipe.
+    let found = metadata(path)?;
+    match found.is_file() {
+        true => read_limited(File::open(path)?),
+        false if found.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+        false => Err(io::Error::other("this is a pipe or a device; name a regular file")),
+    }
+}
+
+/// The text of a regular file, as [`read`].
+///
+/// # Errors
+/// The same, and what is not UTF-8.
+pub fn read_text(path: &Path) -> io::Result<String> {
+    String::from_utf8(read(path)?).map_err(|_| io::Error::other("this is not text in UTF-8"))
+}
+
+/// Everything from a source that may not end: a file that grows, or one that is compressed.
+///
+/// # Errors
+/// What the system says, and more than 256 MB.
+pub fn read_limited(source: impl Read) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    source.take(MOST + 1).read_to_end(&mut bytes)?;
+    match bytes.len() as u64 > MOST {
+        true => Err(io::Error::other(format!("this is larger than the {} that are read", size(MOST as f64)))),
+        false => Ok(bytes),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_does_not_end_is_refused() {
+        assert_eq!(read_limited(&b"ab"[..]).unwrap(), b"ab");
+        let error = read_limited(io::repeat(0)).unwrap_err().to_string();
+        assert_eq!(error, "this is larger than the 256 MB that are read");
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn devices_are_refused() {
+        let error = read(Path::new("/dev/zero")).unwrap_err().to_string();
+        assert_eq!(error, "this is a pipe or a device; name a regular file");
+    }
+}
