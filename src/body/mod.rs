@@ -17,12 +17,14 @@ mod probe;
 mod rigid;
 mod rigid_planar;
 mod rigid_spatial;
+mod turning;
 
 pub use build::{Build, MarkerId, MarkerTable, Switches};
 pub use frame::{Frame, Marker, Wrench, cross, dot, in_space, norm, scale, sub, twist_len, unit_axes};
 pub use parse::{parse, parse_among, show};
 pub use probe::{Probe, Quantity, Signal, small_rotation, small_rotation_torque};
 pub use rigid::Initial;
+pub use turning::{Turned, Turning};
 pub(crate) use rigid::quaternion;
 pub(crate) use rigid_planar::RigidPlanar;
 pub(crate) use rigid_spatial::RigidSpatial;

@@ -3,7 +3,7 @@
 use super::beam_outputs;
 use super::format::{InputSpec, MeasureKind, OutputSpec};
 use super::model::{BeamLine, Connection, Driven, EnergyPart, Measure, Part, Watched};
-use crate::body::{Build, MarkerId, Quantity};
+use crate::body::{Build, MarkerId, Quantity, Turned};
 use crate::error::{Error, Result, suggest};
 use crate::force::{self, Force};
 use crate::joint::Joint;
@@ -102,6 +102,7 @@ pub fn outputs<const D: usize>(specs: &[OutputSpec], elements: Elements<D>, buil
         refuse_idle_keys(spec).map_err(place)?;
         let reader = Reader { spec, build };
         let measure = reader.measure(elements).map_err(place)?;
+        build.own("output", &spec.name);
         all.push(Watched { name: spec.name.clone(), unit: reader.unit(&measure), measure });
     }
     Ok(all)
@@ -128,7 +129,8 @@ impl<const D: usize> Reader<'_, D> {
             MeasureKind::Angle => {
                 let (of, to) = (self.marker()?, self.reference()?);
                 self.build.oriented("of", &[of, to])?;
-                Ok(Measure::Turn { of, to })
+                let turning = self.build.turning(vec![Turned { of, to, factor: 1.0 }], 0.0);
+                Ok(Measure::Turn { of, to, turning })
             }
             MeasureKind::AngularVelocity => self.relative(Quantity::Spin(if D == 2 { 2 } else { self.axis("z")? })),
             MeasureKind::Position => self.relative(Quantity::Position(self.axis("x")?)),

@@ -6,7 +6,6 @@ use crate::initial::{self, Followed};
 use crate::scene::Scene;
 use crate::study::AnyMechanism;
 use crate::system::{Column, Names, Scratch};
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// An assembled state with the scene that it is one of.
@@ -71,15 +70,6 @@ impl State {
 
     pub fn nearest(&self) -> Nearest {
         Nearest { value: self.point.value, smallest_sine: self.point.smallest_sine }
-    }
-
-    /// Joins angles that are known up to full turns to those of the state before.
-    fn join(&mut self, before: &State) {
-        let columns = self.mechanism.system().columns();
-        let pairs = self.point.outputs.iter_mut().zip(&before.point.outputs).zip(columns);
-        for ((output, before), _) in pairs.filter(|(_, column)| column.periodic) {
-            *output += ((before - *output) / TAU).round() * TAU;
-        }
     }
 }
 
@@ -155,7 +145,6 @@ impl<'a> Branch<'a> {
     }
 
     fn accept(&mut self, mut state: State) {
-        state.join(&self.last);
         // The sine is that of the others; where more of them depend, it is zero.
         if state.dependent.len() > self.redundant {
             state.point.smallest_sine = 0.0;

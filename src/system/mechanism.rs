@@ -13,7 +13,7 @@ use crate::body::{Frame, MOST_MARKERS, Wrench, cross, norm};
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
 use crate::math::{Rate, Regime, Taylor, Time};
-use crate::scene::{Connection, Driven, Measure, Model, Part, Watched};
+use crate::scene::{Connection, Driven, Model, Part, Watched};
 use nalgebra::DMatrix;
 use std::array::from_fn;
 use std::ops::Range;
@@ -56,7 +56,7 @@ impl<const D: usize> Mechanism<D> {
         let mut g = Pattern { rows: 0, cols: v, entries: Vec::new() };
         let supports: Vec<Support> = (0..model.marker_count()).map(|marker| Support::of(&model, marker)).collect();
         let joints = model.joints.iter().map(|joint| Rows::new(&supports, joint, &mut g)).collect();
-        let dimensions = Dimensions { q, v, lambda: g.rows };
+        let dimensions = Dimensions { q: q + model.turnings.len(), v, lambda: g.rows };
         let length = length_scale(&model);
         let mut tangent = Pattern { rows: v, cols: v, entries: Vec::new() };
         let couplings = Couplings::new(&model, &supports, &mut tangent);
@@ -93,7 +93,7 @@ impl<const D: usize> Mechanism<D> {
         };
         scratch.with(make, |work, regime| {
             self.place(q, v, &[], work);
-            see(work, regime)
+            see(work, regime.turned(self.turned(q)))
         })
     }
 
@@ -218,7 +218,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         };
         let joints = self.model.joints.iter();
         Names {
-            q: all(|part| part.body.coordinate_names()),
+            q: [all(|part| part.body.coordinate_names()), self.turning_names()].concat(),
             v: all(|part| part.body.velocity_names()),
             lambda: joints
                 .flat_map(|joint| {
@@ -228,11 +228,16 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         }
     }
 
+    fn turning_angles(&self) -> usize {
+        self.model.turnings.len()
+    }
+
     fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
         for part in &self.model.bodies {
             let rates = &mut qdot[part.first_q..part.first_q + part.nq];
             part.body.rate(of(q, part, true), of(v, part, false), rates);
         }
+        self.turning_rates(q, v, qdot);
     }
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
@@ -297,6 +302,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         for part in &self.model.bodies {
             part.body.normalize(&mut q[part.first_q..part.first_q + part.nq]);
         }
+        self.continue_turnings(q);
     }
 
     fn energy(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<Energy> {
@@ -309,7 +315,6 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         let column = |output: &Watched| Column {
             name: output.name.clone(),
             unit: output.unit.clone(),
-            periodic: D == 3 && matches!(output.measure, Measure::Turn { .. }),
         };
         self.model.outputs.iter().map(column).collect()
     }
@@ -336,8 +341,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn inputs(&self) -> Vec<Column> {
-        let column =
-            |input: &Driven| Column { name: input.name.clone(), unit: input.unit.to_string(), periodic: false };
+        let column = |input: &Driven| Column { name: input.name.clone(), unit: input.unit.to_string() };
         self.model.inputs.iter().map(column).collect()
     }
 

@@ -15,6 +15,7 @@ mod rows;
 mod support;
 mod tangent;
 mod terms;
+mod turnings;
 mod variation;
 mod view;
 
@@ -65,8 +66,6 @@ pub struct Column {
     pub name: String,
     /// Such as `rad`; empty where it is not known.
     pub unit: String,
-    /// Whether it is an angle known up to full turns, which a trajectory joins to a continuous curve.
-    pub periodic: bool,
 }
 
 /// M(q) v' + G(q,t)^T lambda = f(t,q,v), phi(q,t) = 0, q' = N(q) v.
@@ -114,6 +113,11 @@ pub trait MechanicalSystem: Send + Sync {
         let n = self.dimensions();
         let numbered = |prefix: &str, n: usize| (1..=n).map(|i| format!("{prefix}{i}")).collect();
         Names { q: numbered("q", n.q), v: numbered("v", n.v), lambda: numbered("lambda", n.lambda) }
+    }
+
+    /// So many of the last coordinates count the full turns of angles that the others give up to those. Default: none.
+    fn turning_angles(&self) -> usize {
+        0
     }
 
     /// q' = N(q) v. Default: N = I.

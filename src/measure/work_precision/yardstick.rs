@@ -4,7 +4,6 @@ use crate::error::{Error, Result, suggest};
 use crate::simulate::Observation;
 use crate::system::{Column, MechanicalSystem, Scratch};
 use serde::{Deserialize, Serialize};
-use std::f64::consts::TAU;
 
 /// The quantities that are compared: outputs, or all coordinates of a system without any.
 #[derive(Clone, Debug)]
@@ -22,7 +21,7 @@ impl Watched {
     pub fn new(system: &dyn MechanicalSystem, names: &[String]) -> Result<Watched> {
         let known = system.columns();
         if known.is_empty() && names.is_empty() {
-            let coordinate = |name| Column { name, unit: String::new(), periodic: false };
+            let coordinate = |name| Column { name, unit: String::new() };
             return Ok(Watched { columns: system.names().q.into_iter().map(coordinate).collect(), outputs: None });
         }
         let place = |name: &String| {
@@ -52,8 +51,6 @@ impl Watched {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Yardstick {
     pub names: Vec<String>,
-    /// Whether a quantity is an angle known up to full turns.
-    periodic: Vec<bool>,
     /// One row a time.
     pub rows: Vec<Vec<f64>>,
     scales: Vec<f64>,
@@ -75,7 +72,6 @@ impl Yardstick {
         };
         Yardstick {
             names: columns.iter().map(|column| column.name.clone()).collect(),
-            periodic: columns.iter().map(|column| column.periodic).collect(),
             scales: (0..columns.len()).map(scale).collect(),
             rows,
         }
@@ -113,8 +109,6 @@ impl Yardstick {
     }
 
     fn difference(&self, i: usize, own: f64, other: f64) -> f64 {
-        let difference = other - own;
-        let turns = if self.periodic[i] { (difference / TAU).round() * TAU } else { 0.0 };
-        (difference - turns).abs() / self.scales[i]
+        (other - own).abs() / self.scales[i]
     }
 }
