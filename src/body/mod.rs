@@ -24,10 +24,10 @@ pub use frame::{Frame, Marker, Wrench, cross, dot, in_space, norm, scale, sub, t
 pub use parse::{parse, parse_among, show};
 pub use probe::{Probe, Quantity, Signal, small_rotation, small_rotation_torque};
 pub use rigid::Initial;
-pub use turning::{Turned, Turning};
 pub(crate) use rigid::quaternion;
 pub(crate) use rigid_planar::RigidPlanar;
 pub(crate) use rigid_spatial::RigidSpatial;
+pub use turning::{Turned, Turning};
 
 use crate::error::Result;
 use crate::math::{Dual, Scalar, Taylor};
@@ -152,6 +152,8 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Slope, D> + Send + S
     fn reach(&self) -> f64;
     /// How many of the coordinates are elastic: the last ones.
     fn elastic_count(&self) -> usize;
+    /// Shapes of its markers, where it has elastic coordinates.
+    fn shapes(&self) -> &[flexible::PointShape<D>];
     /// Of a beam in a floating frame.
     fn bent(&self) -> Option<Bent<'_, D>>;
 }

@@ -2,13 +2,14 @@
 
 use super::coupling::Couplings;
 use super::levi_civita::LeviCivita;
+use super::limits::{Extent, limits};
 use super::output_tangent::{OutputTangent, Slopes};
 use super::rows::{PlacedJoint, Rows};
 use super::support::Support;
 use super::tangent::{Evaluation, Loaded, Tangent};
 use super::variation::Varied;
 use super::view::{Plain, gathered};
-use super::{Column, Dimensions, Energy, Group, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
+use super::{Column, Dimensions, Energy, Group, Limited, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
 use crate::body::{Frame, MOST_MARKERS, Wrench, cross, norm};
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
@@ -30,6 +31,8 @@ pub struct Mechanism<const D: usize> {
     /// For every marker the velocities that move it; none on the ground.
     pub(super) supports: Vec<Support>,
     pub(super) length: f64,
+    limited: Vec<Limited>,
+    extents: Vec<Extent<D>>,
 }
 
 /// Memory of one evaluation.
@@ -61,7 +64,8 @@ impl<const D: usize> Mechanism<D> {
         let mut tangent = Pattern { rows: v, cols: v, entries: Vec::new() };
         let couplings = Couplings::new(&model, &supports, &mut tangent);
         let structure = Structure { mass, g, tangent };
-        Mechanism { model, dimensions, structure, joints, couplings, masses, supports, length }
+        let (limited, extents) = limits(&model);
+        Mechanism { model, dimensions, structure, joints, couplings, masses, supports, length, limited, extents }
     }
 
     pub fn model(&self) -> &Model<D> {
@@ -312,10 +316,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn columns(&self) -> Vec<Column> {
-        let column = |output: &Watched| Column {
-            name: output.name.clone(),
-            unit: output.unit.clone(),
-        };
+        let column = |output: &Watched| Column { name: output.name.clone(), unit: output.unit.clone() };
         self.model.outputs.iter().map(column).collect()
     }
 
@@ -376,6 +377,14 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
                 );
             }
         });
+    }
+
+    fn limited(&self) -> &[Limited] {
+        &self.limited
+    }
+
+    fn deformations(&self, q: &[f64], out: &mut [f64]) {
+        out.iter_mut().zip(&self.extents).for_each(|(out, extent)| *out = self.deformation(extent, q));
     }
 
     fn scales(&self) -> Vec<f64> {

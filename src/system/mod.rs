@@ -8,6 +8,7 @@ mod coupling;
 mod equations;
 mod input;
 mod levi_civita;
+mod limits;
 mod mechanism;
 mod output;
 mod output_tangent;
@@ -21,6 +22,7 @@ mod view;
 
 pub use equations::Equations;
 pub use levi_civita::LeviCivita;
+pub use limits::{Limited, Theory};
 pub use mechanism::Mechanism;
 pub use output_tangent::OutputTangent;
 pub use tangent::{Loaded, Tangent};
@@ -176,6 +178,14 @@ pub trait MechanicalSystem: Send + Sync {
     fn time_functions(&self) -> &[TimeFunction] {
         &[]
     }
+
+    /// Parts that hold up to some deformation only. Default: none.
+    fn limited(&self) -> &[Limited] {
+        &[]
+    }
+
+    /// Writes how far each of them is deformed, in the unit of its limit.
+    fn deformations(&self, _q: &[f64], _out: &mut [f64]) {}
 
     /// Units of phi by row that drift is measured against: a length for rows in metres, 1 rad for angles. Default: 1.
     fn scales(&self) -> Vec<f64> {

@@ -33,7 +33,7 @@ impl<const D: usize> Mechanism<D> {
     }
 
     /// A marker as its body's own frame, the first one, carries it: small rotations by deformation do not change the turn.
-    fn undeformed(&self, marker: MarkerId, q: &[f64], v: &[f64]) -> Frame<Taylor<f64>, D> {
+    pub(super) fn undeformed(&self, marker: MarkerId, q: &[f64], v: &[f64]) -> Frame<Taylor<f64>, D> {
         let model = self.model();
         let Some(part) = model.carrier(marker) else {
             return Frame::world().at(&model.ground[marker]);

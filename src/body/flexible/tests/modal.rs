@@ -91,7 +91,15 @@ fn read<const D: usize>(body: Value, folder: &Path) -> Result<ModalShapes<D>> {
     let body: ModalBody = crate::body::parse(body).unwrap();
     let (parameters, table) = (Parameters::default(), MarkerTable::default());
     let (switches, turnings) = (&Default::default(), &Default::default());
-    body.shapes(&Build { parameters: &parameters, markers: &table, outputs: &[], gravity: [0.0; D], folder, switches, turnings })
+    body.shapes(&Build {
+        parameters: &parameters,
+        markers: &table,
+        outputs: &[],
+        gravity: [0.0; D],
+        folder,
+        switches,
+        turnings,
+    })
 }
 
 #[track_caller]
