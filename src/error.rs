@@ -40,6 +40,32 @@ pub struct Failure {
     pub hint: String,
 }
 
+/// What makes a result doubtful, and what to do about it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Warning {
+    pub text: String,
+    pub hint: String,
+}
+
+impl Warning {
+    pub fn new(text: impl Into<String>, hint: impl Into<String>) -> Self {
+        Warning { text: text.into(), hint: hint.into() }
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "warning: {}\n  help: {}", self.text, self.hint)
+    }
+}
+
+/// One string: "TEXT; HINT".
+impl serde::Serialize for Warning {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(&format_args!("{}; {}", self.text, self.hint))
+    }
+}
+
 impl Error {
     /// Bad input at the whole of what is being read; [`under`](Self::under) adds the path from outside.
     pub fn input(message: impl Into<String>) -> Self {

@@ -82,10 +82,11 @@ impl Study {
     pub fn new(scene: Scene, overrides: &Overrides) -> Result<Study> {
         let settings = Settings { parameters: &scene.parameters, scene: &scene.simulation, overrides };
         let is_automatic = settings.is_automatic().map_err(|error| settings.place(error))?;
-        let method = settings.method(is_automatic).map_err(|error| settings.place(error))?;
         let start = scene.start_time()?;
         let span = settings.span(start).map_err(|error| settings.place(error))?;
         let mechanism = AnyMechanism::new(scene.model);
+        let length = mechanism.system().length();
+        let method = settings.method(is_automatic, length).map_err(|error| settings.place(error))?;
         check_options(&method, mechanism.system()).map_err(|error| settings.place(error))?;
         let assembly = initial::assemble(mechanism.system(), start, (&scene.q, &scene.v), &scene.hold)?;
         // Where no end is said, a method is chosen for a second of motion.
@@ -225,8 +226,9 @@ impl Settings<'_> {
         }
     }
 
-    fn method(&self, is_automatic: bool) -> Result<Method> {
-        let (own, given, default) = (self.scene, self.overrides, Method::default());
+    /// The method, with tolerances for a scene of this `length`, m, where none are given.
+    fn method(&self, is_automatic: bool, length: f64) -> Result<Method> {
+        let (own, given, default) = (self.scene, self.overrides, Method::of_length(length));
         let unnamed = Simulation { formulation: None, integrator: None, projection: None, step: None, ..own.clone() };
         let scene = if is_automatic { &unnamed } else { own };
         let pick = |given: &Option<Choice>, scene: &Option<Choice>, default: Choice| {

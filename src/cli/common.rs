@@ -1,7 +1,7 @@
 //! Options and habits that the subcommands share.
 
 use crate::choice::Choice;
-use crate::error::{Error, Result, suggest};
+use crate::error::{Error, Result, Warning, suggest};
 use crate::plot::Figure;
 use crate::report::Folder;
 use crate::scene::Automatic;
@@ -176,6 +176,11 @@ impl Talk {
             (false, false) => print(&text()),
             _ => Ok(()),
         }
+    }
+
+    /// Says on standard error what is doubtful.
+    pub fn warn<'w>(&self, warnings: impl IntoIterator<Item = &'w Warning>) {
+        warnings.into_iter().filter(|_| !self.quiet).for_each(|warning| eprintln!("{warning}"));
     }
 
     /// A progress bar in `unit`s on a terminal; nothing in a pipe.

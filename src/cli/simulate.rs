@@ -2,12 +2,11 @@
 
 use super::common::{Common, Output, print};
 use super::interrupt;
-use crate::error::Result;
+use crate::error::{Result, Warning};
 use crate::measure::{Record, Recorder};
 use crate::report::{self, Folder, Summary, summarize};
 use crate::simulate::simulate;
 use crate::study::Study;
-use crate::trajectory::{Gap, Trajectory};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -19,17 +18,14 @@ pub struct Args {
     output: Output,
 }
 
-/// Joints that are open by this part of the scene's size at the end deserve a warning.
-const MEANINGLESS: f64 = 1e-2;
-
 pub fn run(args: Args) -> Result<ExitCode> {
     let study = args.common.load()?;
     let span = args.common.span(&study)?;
     let mut folder = args.output.folder(&study.name)?;
     let stiffness = study.stiffness(span);
-    if let Some(stiffness) = stiffness.as_ref().filter(|_| !args.common.talk.quiet) {
-        eprintln!("warning: {stiffness}\n  help: {}", stiffness.advice);
-    }
+    // Said before a run that may take long, and not again.
+    let early: Option<Warning> = stiffness.as_ref().map(Warning::from);
+    args.common.talk.warn(&early);
     let bar = args.common.talk.progress(1000, &study.name);
     let fraction = |t: f64| (1000.0 * (t - span.start) / (span.end - span.start)) as u64;
     let mut recorder = Recorder::new(study.system())
@@ -40,16 +36,14 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let seconds = clock.elapsed().as_secs_f64();
     let record = recorder.finish();
     bar.finish_and_clear();
-    let summary = Summary { stiffness, ..summarize(&study, &study.method, &outcome, &record, seconds) };
+    let summary = summarize((&study, stiffness), &outcome, &record, seconds);
     write(&study, &record, &summary, &mut folder, &args.output)?;
     let written = folder.finish()?;
     args.common.talk.print(&summary, || summary.text(&units(&record)))?;
     if !args.common.talk.json && !args.common.talk.quiet {
         print(&format!("\nwritten to {}\n", written.listing()))?;
     }
-    if !args.common.talk.quiet {
-        warn(&summary, &record.trajectory);
-    }
+    args.common.talk.warn(&summary.warnings[early.iter().len()..]);
     Ok(match &summary.failure {
         None => ExitCode::SUCCESS,
         Some(failure) => {
@@ -57,24 +51,6 @@ pub fn run(args: Args) -> Result<ExitCode> {
             ExitCode::from(1)
         }
     })
-}
-
-/// What makes a motion doubtful although it was computed to the end.
-fn warn(summary: &Summary, trajectory: &Trajectory) {
-    for Gap { name, first, count } in trajectory.gaps() {
-        eprintln!(
-            "warning: the output `{name}` has no finite value at {count} of {} times, first at t = {first:.6} s: its cells are \
-             empty\n  help: look for what it is not defined for",
-            trajectory.rows.len()
-        );
-    }
-    let open = summary.drift.position.relative_final;
-    if open > MEANINGLESS {
-        eprintln!(
-            "warning: the joints have come apart by {open:.1e} of the scene's size: the motion is not that of the scene\n  \
-             help: choose a projection such as `manifold`, or a smaller step"
-        );
-    }
 }
 
 fn write(study: &Study, record: &Record, summary: &Summary, folder: &mut Folder, output: &Output) -> Result<()> {

@@ -18,7 +18,8 @@ pub struct OperatingPoint {
     pub is_equilibrium: bool,
 }
 
-/// Accelerations below this part of those that single forces would give are none.
+/// Accelerations below this part of those that single forces would give are none; nor are speeds below this part of those
+/// that such accelerations give over the length of the mechanism.
 const AT_REST: f64 = 1e-9;
 
 impl OperatingPoint {
@@ -48,8 +49,11 @@ fn is_at_rest(dynamics: &Dynamics, v: &[f64]) -> bool {
     for (&(i, j), g) in structure.g.entries.iter().zip(&terms.g) {
         usual[j] += (g * dynamics.lambda[i]).abs();
     }
+    let heaviness = structure.mass.entries.iter().zip(&terms.mass).filter(|((i, j), _)| i == j);
+    let accelerations = heaviness.map(|((i, _), mass)| if *mass > 0.0 { usual[*i] / mass } else { 0.0 });
+    let speed = (accelerations.fold(0.0, f64::max) * dynamics.system.length().min(1.0)).sqrt();
     // Without loads rounding is all there is: an acceleration of 1 m/s^2 or rad/s^2 is the measure then.
     let heaviest = structure.mass.entries.iter().zip(&terms.mass).filter(|((i, j), _)| i == j);
     let heaviest = heaviest.fold(0.0f64, |most, (_, mass)| most.max(*mass));
-    largest(v) <= AT_REST && largest(&inertia) <= AT_REST * largest(&usual).max(heaviest)
+    largest(v) <= AT_REST * speed && largest(&inertia) <= AT_REST * largest(&usual).max(heaviest)
 }

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 /// Energy at the start and the end, and the largest error of the balance. The work of dampers, applied forces, tyres
 /// and moving constraints is integrated along with the motion, so the error is the method's.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct EnergyBalance {
     /// Kinetic + potential at the start, J.
     pub initial: f64,
@@ -17,16 +17,36 @@ pub struct EnergyBalance {
     pub work: f64,
     /// max |kinetic + potential - initial - work|, J.
     pub max_error: f64,
-    /// The same against the largest kinetic energy.
-    pub relative_max_error: f64,
+    /// The same as part of the energy turned over: the largest of kinetic energy, change of potential and work. None where
+    /// that is nothing beside the round-off of the energies.
+    pub relative_max_error: Option<f64>,
+    /// What the tolerated errors of all steps add up to at most, J; none for fixed steps.
+    pub tolerated: Option<f64>,
+}
+
+/// The largest sizes of energies along a motion, J.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sizes {
+    kinetic: f64,
+    potential: f64,
+    /// Of the change of potential, and the work.
+    change: f64,
 }
 
 /// Follows the balance along a motion.
 #[derive(Clone, Debug, Default)]
 pub struct EnergyMeter {
     balance: Option<EnergyBalance>,
-    largest_kinetic: f64,
+    potential: f64,
+    sizes: Sizes,
 }
+
+/// Energies in which rounding leaves this part of themselves show nothing below it.
+const ROUND_OFF: f64 = 1e-12;
+/// A balance that is open by this part of the energy turned over is that of another motion.
+const OPEN: f64 = 0.01;
+/// The balance of a good run is open by less than so many times what the tolerance lets it.
+const BEYOND: f64 = 10.0;
 
 /// One row of the ledger.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,19 +57,34 @@ pub struct Ledger {
     pub error: f64,
 }
 
+impl EnergyBalance {
+    /// Whether a balance is open by more than the tolerance, or the order of a method, leads to expect.
+    pub fn is_open(&self) -> bool {
+        let Some(part) = self.relative_max_error.filter(|part| part.is_nan() || *part > ROUND_OFF.sqrt()) else {
+            return false;
+        };
+        part.is_nan() || part > OPEN || self.tolerated.is_some_and(|tolerated| self.max_error > BEYOND * tolerated)
+    }
+}
+
 impl EnergyMeter {
     /// Adds an accepted state.
     pub fn add(&mut self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) {
         let Some(row) = self.ledger(system, state, scratch) else { return };
         let total = row.kinetic + row.potential;
-        let start = EnergyBalance { initial: total, last: total, work: 0.0, max_error: 0.0, relative_max_error: 0.0 };
-        let balance = self.balance.get_or_insert(start);
+        if self.balance.is_none() {
+            self.potential = row.potential;
+        }
+        let balance = self.balance.get_or_insert(EnergyBalance { initial: total, ..EnergyBalance::default() });
         (balance.last, balance.work) = (total, state.work);
         balance.max_error = balance.max_error.max(row.error.abs());
-        self.largest_kinetic = self.largest_kinetic.max(row.kinetic);
-        if self.largest_kinetic > 0.0 {
-            balance.relative_max_error = balance.max_error / self.largest_kinetic;
+        if let Some(tolerated) = state.tolerated {
+            *balance.tolerated.get_or_insert(0.0) += tolerated;
         }
+        let Sizes { kinetic, potential, change } = &mut self.sizes;
+        *kinetic = kinetic.max(row.kinetic);
+        *potential = potential.max(row.potential.abs());
+        *change = change.max((row.potential - self.potential).abs()).max(state.work.abs());
     }
 
     /// The balance at a state; `None` where the system states no potential.
@@ -62,6 +97,12 @@ impl EnergyMeter {
     }
 
     pub fn balance(&self) -> Option<EnergyBalance> {
-        self.balance
+        let Sizes { kinetic, potential, change } = self.sizes;
+        let turned_over = kinetic.max(change);
+        let is_something = turned_over > ROUND_OFF * potential && turned_over > 0.0;
+        self.balance.map(|balance| EnergyBalance {
+            relative_max_error: is_something.then(|| balance.max_error / turned_over),
+            ..balance
+        })
     }
 }

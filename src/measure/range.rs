@@ -1,6 +1,6 @@
 //! How far the motion went out of the range of what is modelled.
 
-use crate::error::short;
+use crate::error::{Warning, short};
 use crate::simulate::Observation;
 use crate::system::{Limited, MechanicalSystem, Theory};
 
@@ -36,15 +36,15 @@ impl Range {
         }
     }
 
-    /// A text and a hint for each part that went too far.
-    pub fn warnings(&self) -> Vec<(String, String)> {
+    /// One for each part that went too far.
+    pub fn warnings(&self) -> Vec<Warning> {
         let beyond = self.parts.iter().filter(|part| part.deformation > part.limited.theory.most());
         beyond.map(Extreme::warning).collect()
     }
 }
 
 impl Extreme {
-    fn warning(&self) -> (String, String) {
+    fn warning(&self) -> Warning {
         let Limited { part, theory } = &self.limited;
         let [t, deformation, most] = [self.t, self.deformation, theory.most()].map(|x| short(two_digits(x)));
         let (text, hint) = match theory {
@@ -63,7 +63,7 @@ impl Extreme {
                 "take more elements",
             ),
         };
-        (text, hint.to_string())
+        Warning::new(text, hint)
     }
 }
 

@@ -121,7 +121,7 @@ fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
         distance_to_singularity: distance,
         mass_range: mass_range(structure, terms),
         fastest_mode: fastest_mode(study),
-        length_scale: length_scale(system),
+        length_scale: system.length(),
         bodies: bodies(model),
         joints: groups.iter().map(|group| joint_item(group, &system.names().lambda)).collect(),
         forces: forces(model),
@@ -175,10 +175,6 @@ fn fastest_mode(study: &Study) -> Option<Mode> {
     let Assembly { q, v, vdot, lambda, .. } = &study.assembly;
     let state = Loaded { t: study.start_time(), q, v, vdot, lambda };
     Spectrum::at(study.system(), state, 1.0)?.modes.last().copied()
-}
-
-fn length_scale(system: &dyn MechanicalSystem) -> f64 {
-    system.scales().into_iter().find(|scale| *scale != 1.0).unwrap_or(1.0)
 }
 
 /// So many names of coordinates a person reads.

@@ -15,6 +15,7 @@ mod sweep_figure;
 mod table;
 mod tables;
 pub mod tradeoff;
+mod warnings;
 
 pub use check::{Check, check};
 pub use envelope::envelope;

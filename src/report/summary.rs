@@ -1,7 +1,8 @@
 //! `summary.json`.
 
 use super::Table;
-use crate::error::{Failure, short_list};
+use super::warnings::warnings;
+use crate::error::{Failure, Warning, short_list};
 use crate::formulation::Statistics;
 use crate::initial::{Assembly, Level, Move};
 use crate::measure::{Drift, EnergyBalance, Passing, Record, Singularity};
@@ -13,6 +14,8 @@ use serde_json::{Map, Value};
 /// A run in numbers.
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
+    /// What makes the result doubtful; nothing known does where it is empty.
+    pub warnings: Vec<Warning>,
     pub scene: String,
     pub method: Chosen,
     pub status: &'static str,
@@ -63,12 +66,18 @@ pub struct FinalState {
 }
 
 /// Collects the summary of a run.
-pub fn summarize(study: &Study, method: &Method, outcome: &Outcome, record: &Record, wall_seconds: f64) -> Summary {
+pub fn summarize(
+    (study, stiffness): (&Study, Option<Stiffness>),
+    outcome: &Outcome,
+    record: &Record,
+    wall_seconds: f64,
+) -> Summary {
     // What ended a run may be no more than what came of leaving the branch.
     let failure = record.singularity.failure().or(outcome.failure.clone());
     Summary {
+        warnings: stiffness.iter().map(Warning::from).chain(warnings(record)).collect(),
         scene: study.name.clone(),
-        method: Chosen { method: method.clone(), chosen_because: study.chosen_because.clone() },
+        method: Chosen { method: study.method.clone(), chosen_because: study.chosen_because.clone() },
         status: if failure.is_some() { "failed" } else { "completed" },
         failure,
         t_end: outcome.t,
@@ -77,7 +86,7 @@ pub fn summarize(study: &Study, method: &Method, outcome: &Outcome, record: &Rec
         drift: record.drift.clone(),
         energy: record.energy,
         singularity: record.singularity.clone(),
-        stiffness: None,
+        stiffness,
         assembly: (&study.assembly).into(),
         r#final: final_state(record),
     }
@@ -143,13 +152,15 @@ impl Summary {
         }
         text += &drift.to_string();
         if let Some(energy) = &self.energy {
+            let part = energy
+                .relative_max_error
+                .map_or(String::new(), |part| format!(" ({part:.1e} of what was turned over)"));
             text += &format!(
-                "\n  energy {} J -> {} J, work {} J, error of the balance {:.2e} J ({:.1e} of the kinetic energy)\n",
+                "\n  energy {} J -> {} J, work {} J, error of the balance {:.2e} J{part}\n",
                 significant(energy.initial, 6),
                 significant(energy.last, 6),
                 significant(energy.work, 6),
-                energy.max_error,
-                energy.relative_max_error
+                energy.max_error
             );
         }
         text + &self.outputs_text(units)

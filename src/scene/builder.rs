@@ -103,11 +103,21 @@ fn model<const D: usize>(
     let elements = outputs::Elements { bodies: &parts.bodies, beams: &parts.beams, joints: &joints, forces: &forces };
     let outputs = outputs::outputs(&file.outputs, elements, &build)?;
     let inputs = outputs::inputs::<D>(&file.inputs, &forces)?;
-    let Parts { table, ground, bodies, beams, mut q, v } = parts;
+    let Parts { table: markers, ground, bodies, beams, mut q, v } = parts;
     let (switches, turnings) = (switches.into_inner(), turnings.into_inner());
+    let extent = extent(&bodies, &q);
     q.extend(turnings.iter().map(|turning| turning.start));
-    let markers = table;
-    Ok((Model { gravity, markers, ground, bodies, joints, forces, beams, outputs, inputs, switches, turnings }, q, v))
+    let model =
+        Model { gravity, markers, ground, bodies, joints, forces, beams, outputs, inputs, switches, turnings, extent };
+    Ok((model, q, v))
+}
+
+fn extent<const D: usize>(bodies: &[Part<D>], q: &[f64]) -> f64 {
+    let positions = bodies.iter().flat_map(|part| {
+        let names = part.body.coordinate_names().into_iter().zip(&q[part.first_q..]);
+        names.filter(|(name, _)| ["x", "y", "z"].contains(&name.as_str())).map(|(_, x)| x.abs()).collect::<Vec<_>>()
+    });
+    positions.fold(0.0, f64::max)
 }
 
 /// Bodies as they are collected, with their start.

@@ -23,6 +23,8 @@ pub struct Model<const D: usize> {
     pub switches: Switches,
     /// Angles in space that q carries after the coordinates of the bodies.
     pub turnings: Vec<Turning>,
+    /// The largest coordinate of position at the start, m.
+    pub extent: f64,
 }
 
 /// A body in its place.

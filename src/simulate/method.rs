@@ -31,7 +31,16 @@ impl Default for Method {
     }
 }
 
+/// No absolute tolerance that nobody asked for is below this: round-off leaves it of angles.
+const LEAST_ATOL: f64 = 1e-16;
+
 impl Method {
+    /// The default with an absolute tolerance for a small scene of this length, m: 1e-10 of it.
+    pub fn of_length(length: f64) -> Self {
+        let default = Method::default();
+        Method { atol: (default.atol * length.min(1.0)).max(LEAST_ATOL), ..default }
+    }
+
     /// Formulation + integrator + projection, the last where there is one.
     pub fn triple(&self) -> String {
         let Method { formulation, integrator, projection, .. } = self;

@@ -105,9 +105,12 @@ struct Run<'a> {
     /// Whether the projection, or another end of a step, moved the last state.
     is_moved: bool,
     phi_ddot: Vec<f64>,
+    /// M v
+    momentum: Vec<f64>,
     /// Velocities that follow from phi = 0 alone are of lower order and not tested.
     tests_velocities: bool,
     limits_projection: bool,
+    is_explicit: bool,
     /// Why the last step was refused.
     refusal: &'static str,
     /// The step to try next, and whether it may grow after that.
@@ -165,6 +168,7 @@ impl<'a> Run<'a> {
         let zeros = || vec![0.0; y.len()];
         let system = parts.problem.dynamics.system;
         Run {
+            is_explicit: parts.integrator.stability().is_some(),
             problem: parts.problem,
             integrator: parts.integrator,
             projection: parts.projection,
@@ -186,6 +190,7 @@ impl<'a> Run<'a> {
             change: zeros(),
             is_moved: false,
             phi_ddot: vec![0.0; system.dimensions().lambda],
+            momentum: vec![0.0; system.dimensions().v],
             tests_velocities: parts.tests_velocities,
             limits_projection: parts.limits_projection,
             refusal: "",
@@ -323,6 +328,8 @@ impl<'a> Run<'a> {
         }
         let usual = self.approach.largest;
         [&mut self.problem, &mut self.rows.problem].into_iter().for_each(|p| p.dynamics.kkt.usual_sine = usual);
-        sink.accepted(&observation(self.t, &self.y, &self.problem, sine, &mut self.phi_ddot));
+        let tolerated = self.fixed.is_none().then(|| self.tolerated_energy());
+        let state = observation(self.t, &self.y, &self.problem, sine, &mut self.phi_ddot);
+        sink.accepted(&Observation { tolerated, ..state });
     }
 }

@@ -1,6 +1,7 @@
 //! What a run shows of the motion, and to whom.
 
 use crate::error::short;
+use crate::math::largest;
 use std::time::Duration;
 
 /// The interval to simulate and where the output rows lie.
@@ -33,6 +34,8 @@ pub struct Observation<'a> {
     pub phi_ddot: &'a [f64],
     /// Work of forces without potential and of moving constraints since the start, J.
     pub work: f64,
+    /// The change of energy that the tolerated errors of this step make, J; none for fixed steps and rows.
+    pub tolerated: Option<f64>,
     /// The smallest sine between a row of G and those before it (metric M^-1), zero at a singular state; `None` where the
     /// method does not factor the saddle-point matrix there.
     pub sine: Option<f64>,
@@ -67,5 +70,19 @@ impl Stop {
             reason: format!("it takes longer than the {seconds} s that it may"),
             hint: "allow more time, or choose a looser tolerance, a longer step or another method".to_string(),
         }
+    }
+}
+
+impl super::Run<'_> {
+    /// To first order what tolerated errors of q and v do to the energy of the state, J: sum |M v|_i w(v_i) + |f_i| w(q), with
+    /// the tolerance w of the largest coordinate.
+    pub fn tolerated_energy(&mut self) -> f64 {
+        let dynamics = &self.problem.dynamics;
+        let (q, v) = self.problem.split(&self.y);
+        self.momentum.fill(0.0);
+        dynamics.structure.mass.multiply_symmetric(&dynamics.terms.mass, v, &mut self.momentum);
+        let of_q = self.tolerance.weight(0.0, largest(q));
+        let of_v = self.momentum.iter().zip(v).map(|(p, v)| p.abs() * self.tolerance.weight(0.0, *v));
+        of_v.sum::<f64>() + of_q * dynamics.terms.f.iter().map(|f| f.abs()).sum::<f64>()
     }
 }

@@ -59,7 +59,7 @@ impl Run<'_> {
         let theta = (t - self.t) / h;
         let (rows, from) = (&mut self.rows, From { t: self.t, y: &self.y, slope: &self.slope });
         rows.problem.begin_step(self.t, &self.y)?;
-        let is_checked = self.fixed.is_none() && self.integrator.stability().is_some() && !self.approach.reaches(h);
+        let is_checked = self.is_explicit && self.fixed.is_none() && !self.approach.reaches(h);
         if is_checked {
             let around = [(theta - APART).max(0.0), (theta + APART).min(1.0)];
             self.integrator.interpolate(&mut rows.problem, from, h, around[0], &mut rows.y)?;

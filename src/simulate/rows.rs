@@ -94,6 +94,7 @@ pub fn observation<'o>(
         phi_dot: &dynamics.terms.phi_dot,
         phi_ddot,
         work: y[y.len() - 1],
+        tolerated: None,
         sine,
         held: &dynamics.held,
     }

@@ -3,7 +3,7 @@
 use super::auto::{Explicit, Verdict, Work, count, is_awake};
 use super::spectrum::{Mode, Spectrum, fastest};
 use super::{Method, Span};
-use crate::error::short;
+use crate::error::{Warning, short};
 use crate::integrator::{self, Setup, Stability, Store};
 use crate::system::{Loaded, MechanicalSystem};
 use serde::Serialize;
@@ -101,6 +101,12 @@ fn advice(method: &Method, verdict: Verdict, step: f64) -> String {
 /// With two digits.
 fn two(value: f64) -> String {
     short(format!("{value:.1e}").parse().unwrap_or(value))
+}
+
+impl From<&Stiffness> for Warning {
+    fn from(stiffness: &Stiffness) -> Self {
+        Warning::new(stiffness.to_string(), stiffness.advice.clone())
+    }
 }
 
 impl fmt::Display for Stiffness {

@@ -199,11 +199,11 @@ fn power<const D: usize>(frame: &Frame<Taylor<f64>, D>, wrench: &Wrench<f64, D>)
 }
 
 /// A length typical of the scene, m: the largest distance of a marker from its body's origin; where all lie there, of
-/// the ground's markers; else 1.
+/// the ground's markers; else the extent of the start, if that is below 1.
 fn length_scale<const D: usize>(model: &Model<D>) -> f64 {
     let bodies = model.bodies.iter().map(|part| part.body.reach()).fold(0.0, f64::max);
     let ground = model.ground.iter().map(|marker| norm(&marker.offset)).fold(0.0, f64::max);
-    [bodies, ground].into_iter().find(|length| *length > 0.0).unwrap_or(1.0)
+    [bodies, ground, model.extent.min(1.0)].into_iter().find(|length| *length > 0.0).unwrap_or(1.0)
 }
 
 impl<const D: usize> MechanicalSystem for Mechanism<D> {
@@ -385,6 +385,10 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
 
     fn deformations(&self, q: &[f64], out: &mut [f64]) {
         out.iter_mut().zip(&self.extents).for_each(|(out, extent)| *out = self.deformation(extent, q));
+    }
+
+    fn length(&self) -> f64 {
+        self.length
     }
 
     fn scales(&self) -> Vec<f64> {

@@ -187,6 +187,11 @@ pub trait MechanicalSystem: Send + Sync {
     /// Writes how far each of them is deformed, in the unit of its limit.
     fn deformations(&self, _q: &[f64], _out: &mut [f64]) {}
 
+    /// A length typical of the mechanism, m. Default: 1.
+    fn length(&self) -> f64 {
+        1.0
+    }
+
     /// Units of phi by row that drift is measured against: a length for rows in metres, 1 rad for angles. Default: 1.
     fn scales(&self) -> Vec<f64> {
         vec![1.0; self.dimensions().lambda]

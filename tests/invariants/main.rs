@@ -53,7 +53,7 @@ fn fault(tried: &Tried, ready: &Ready, reference: &Record) -> Option<String> {
     let ([motion, energy], [position, velocity]) = (promises::accuracy(tried), promises::drift(tried));
     let found = [
         ("motion", difference(ready, &record, reference), motion),
-        ("energy", record.energy.map_or(f64::NAN, |energy| energy.relative_max_error), energy),
+        ("energy", record.energy.map_or(f64::NAN, |energy| energy.relative_max_error.unwrap()), energy),
         ("position drift", record.drift.position.relative_max, position),
         ("velocity drift", record.drift.velocity.relative_max, velocity),
         ("quaternion norm", norms(&record), 1e-13),

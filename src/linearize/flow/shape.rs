@@ -94,6 +94,10 @@ impl MechanicalSystem for Carrier<'_> {
         self.system.switches()
     }
 
+    fn length(&self) -> f64 {
+        self.system.length()
+    }
+
     fn time_functions(&self) -> &[TimeFunction] {
         self.system.time_functions()
     }

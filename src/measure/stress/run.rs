@@ -143,7 +143,7 @@ fn run(subject: &Subject, case: &Case, limits: Limits) -> Result<Run> {
 
 /// Joints that are open by this part of the scene's size make a motion meaningless.
 const OPEN: f64 = 0.1;
-/// A run that stopped had diverged before if its energy error is this part of the largest kinetic energy.
+/// A run that stopped had diverged before if its energy error is this part of the energy turned over.
 const BLOWN: f64 = 0.5;
 
 impl Run {
@@ -163,7 +163,7 @@ impl Run {
             reason,
             t: outcome.t,
             energy_error: record.energy.map(|energy| energy.max_error),
-            relative_energy_error: record.energy.map(|energy| energy.relative_max_error),
+            relative_energy_error: record.energy.and_then(|energy| energy.relative_max_error),
             error: reference.filter(|_| status == Status::Completed).and_then(|reference| reference.error(&record)),
             drift: Some(record.drift),
             steps: outcome.statistics.steps,
@@ -181,7 +181,8 @@ impl Run {
         let is_blown = self
             .record
             .energy
-            .is_some_and(|energy| energy.relative_max_error.is_nan() || energy.relative_max_error > BLOWN);
+            .and_then(|energy| energy.relative_max_error)
+            .is_some_and(|part| part.is_nan() || part > BLOWN);
         match self.stopped {
             Some(status) => status,
             None if is_open || is_blown || failure.reason.contains(&Halt::NotFinite.to_string()) => Status::Diverged,

@@ -1,0 +1,56 @@
+//! What makes a result doubtful although it was computed to the end.
+
+use super::significant;
+use crate::error::Warning;
+use crate::measure::{Drift, EnergyBalance, Record};
+use crate::trajectory::{Gap, Trajectory};
+
+/// Joints that are open by this part of the scene's size at the end deserve a warning.
+const OPEN: f64 = 1e-2;
+
+/// All that the record of a run has against the run.
+pub fn warnings(record: &Record) -> Vec<Warning> {
+    let energy = record.energy.as_ref().filter(|energy| energy.is_open()).map(open_balance);
+    open_joints(&record.drift)
+        .into_iter()
+        .chain(energy)
+        .chain(gaps(&record.trajectory))
+        .chain(record.range.warnings())
+        .collect()
+}
+
+fn open_joints(drift: &Drift) -> Option<Warning> {
+    let open = drift.position.relative_final;
+    let text =
+        || format!("the joints have come apart by {open:.1e} of the scene's size: the motion is not that of the scene");
+    (open > OPEN).then(|| Warning::new(text(), "choose a projection such as `manifold`, or a smaller step"))
+}
+
+fn open_balance(energy: &EnergyBalance) -> Warning {
+    let in_words = |part: f64| match part < 1.0 {
+        true => format!(", {} % of the energy turned over", significant(100.0 * part, 2)),
+        false => format!(", {} times the energy turned over", significant(part, 2)),
+    };
+    let part = energy.relative_max_error.map_or(String::new(), in_words);
+    let expected = match energy.tolerated {
+        Some(tolerated) => format!("the tolerated errors of all steps make {tolerated:.1e} J"),
+        None => "a step that is short enough leaves far less".to_string(),
+    };
+    let text = format!("the energy balance does not close, by {:.1e} J{part}; {expected}", energy.max_error);
+    let hint = match energy.tolerated {
+        Some(_) => "compare with a tighter --rtol and --atol, and with another integrator",
+        None => "compare with a smaller --step, and with an adaptive integrator",
+    };
+    Warning::new(text, hint)
+}
+
+fn gaps(trajectory: &Trajectory) -> Vec<Warning> {
+    let rows = trajectory.rows.len();
+    let warning = |Gap { name, first, count }: Gap| {
+        let text = format!(
+            "the output `{name}` has no finite value at {count} of {rows} times, first at t = {first:.6} s: its cells are empty"
+        );
+        Warning::new(text, "look for what it is not defined for")
+    };
+    trajectory.gaps().into_iter().map(warning).collect()
+}
