@@ -148,7 +148,7 @@ fn elements_that_may_lose_a_turn_are_told() {
                 "section": {{ "rectangle": {{ "height": 0.02, "width": 0.02 }} }},
                 "markers": {{ "A": [0, 0, 0], "B": [1, 0, 0] }} }}],
             "joints": [{{ "name": "c", "type": "weld", "between": ["ground.O", "b.A"] }}],
-            "forces": [{{ "name": "m", "type": "applied_torque", "at": "b.B", "torque": [0, 0, "0.035*smoothstep(t, 0, 5)"] }}],
+            "forces": [{{ "name": "m", "type": "applied_torque", "at": "b.B", "torque": [0, 0, "0.035*smoothstep(t/5)"] }}],
             "simulation": {{ "t_end": 8 }} }}"#
         ))
     };
