@@ -34,16 +34,10 @@ impl Trajectory {
         own.chain(self.outputs.iter().map(|output| output.name.as_str())).collect()
     }
 
-    /// Adds a row; angles that are known up to full turns are joined to the row before.
+    /// Adds a row.
     pub fn push(&mut self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) {
         let mut outputs = vec![0.0; self.outputs.len()];
         system.outputs(state.t, state.q, state.v, state.lambda, &mut outputs, scratch);
-        if let Some(last) = self.rows.last() {
-            let before = &last[last.len() - outputs.len()..];
-            for ((output, before), column) in outputs.iter_mut().zip(before).zip(&self.outputs) {
-                *output = column.join(*before, *output);
-            }
-        }
         self.rows.push([&[state.t], state.q, state.v, state.lambda, &outputs].concat());
     }
 

@@ -1,6 +1,6 @@
 //! What elements resolve their parts of a scene with.
 
-use super::{Probe, Signal};
+use super::{Probe, Signal, Turned, Turning};
 use crate::error::{Error, Result, Warning, nearest, short, suggest};
 use crate::math::expression::{Expression, Number, Parameters, Switch, TimeFunction};
 use std::cell::RefCell;
@@ -62,6 +62,7 @@ pub struct Build<'a, const D: usize> {
     pub folder: &'a Path,
     /// What its elements have of it so far.
     pub switches: &'a RefCell<Switches>,
+    pub turnings: &'a RefCell<Vec<Turning>>,
 }
 
 /// Where the elements of a scene change their form, and what depends on t alone.
@@ -97,6 +98,14 @@ impl Switches {
 }
 
 impl<const D: usize> Build<'_, D> {
+    /// Says to which element, such as "force" `push`, all belongs that came since the last call.
+    pub fn own(&self, what: &str, name: &str) {
+        self.switches.borrow_mut().own(&format!("the {what} `{name}`"));
+        let mut turnings = self.turnings.borrow_mut();
+        let unnamed = turnings.iter_mut().filter(|turning| turning.name.is_empty());
+        unnamed.for_each(|turning| turning.name = format!("{what}.{name}.turn"));
+    }
+
     pub fn number(&self, field: &str, number: &Number) -> Result<f64> {
         number.evaluate(self.parameters).map_err(|error| Error::from(error).under(field))
     }
@@ -215,6 +224,16 @@ impl<const D: usize> Build<'_, D> {
         let all = &mut self.switches.borrow_mut().all;
         all.push(Switch { thresholds: vec![0.0], of_time: None });
         all.len() - 1
+    }
+
+    /// The number of an angle in space that an element needs counted through full turns; it begins within half a turn of
+    /// `start`. In the plane angles are coordinates.
+    pub fn turning(&self, terms: Vec<Turned>, start: f64) -> usize {
+        let mut all = self.turnings.borrow_mut();
+        if D == 3 {
+            all.push(Turning { name: String::new(), terms, start });
+        }
+        all.len().saturating_sub(1)
     }
 
     /// An expression over t and marker quantities; with their rates where `rates` says so.

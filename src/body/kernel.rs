@@ -1,5 +1,6 @@
 //! Bodies of a few coordinates, all of which move all of their markers: the model's view of every [`BodyKernel`].
 
+use super::flexible::PointShape;
 use super::{Bent, Body, BodyKernel, BodyOver, BodyState, Energy, Frame, Marker, Slope, Wrench, dot};
 use crate::math::{Scalar, Taylor};
 
@@ -119,6 +120,9 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
     }
     fn elastic_count(&self) -> usize {
         0
+    }
+    fn shapes(&self) -> &[PointShape<D>] {
+        &[]
     }
     fn bent(&self) -> Option<Bent<'_, D>> {
         None

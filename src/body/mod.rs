@@ -17,6 +17,7 @@ mod probe;
 mod rigid;
 mod rigid_planar;
 mod rigid_spatial;
+mod turning;
 
 pub use build::{Build, MarkerId, MarkerTable, Switches};
 pub use frame::{Frame, Marker, Wrench, cross, dot, in_space, norm, scale, sub, twist_len, unit_axes};
@@ -26,6 +27,7 @@ pub use rigid::Initial;
 pub(crate) use rigid::quaternion;
 pub(crate) use rigid_planar::RigidPlanar;
 pub(crate) use rigid_spatial::RigidSpatial;
+pub use turning::{Turned, Turning};
 
 use crate::error::Result;
 use crate::math::{Dual, Scalar, Taylor};
@@ -150,6 +152,8 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Slope, D> + Send + S
     fn reach(&self) -> f64;
     /// How many of the coordinates are elastic: the last ones.
     fn elastic_count(&self) -> usize;
+    /// Shapes of its markers, where it has elastic coordinates.
+    fn shapes(&self) -> &[flexible::PointShape<D>];
     /// Of a beam in a floating frame.
     fn bent(&self) -> Option<Bent<'_, D>>;
 }

@@ -2,7 +2,7 @@
 
 use super::spring_damper::optional_not_negative;
 use super::{Action, Built, ForceKernel, ForceSpec};
-use crate::body::{Build, Frame, Wrench, cross, dot};
+use crate::body::{Build, Frame, Turned, Wrench, cross, dot};
 use crate::error::Result;
 use crate::math::expression::Number;
 use crate::math::{Scalar, Taylor, Time};
@@ -11,7 +11,8 @@ use serde::Deserialize;
 use std::array::from_fn;
 
 /// Torque -(k (angle - free_angle) + c angle') on the second marker and its opposite on the first. The angle is that
-/// of the second marker against the first; in space about the first one's z axis and within half a turn of free_angle.
+/// of the second marker against the first; counted through full turns; in space about the first one's z axis, and within half a turn of
+/// free_angle at the start.
 /// Where the markers' z axes do not coincide, the torque is along the gradient of the angle, so that the spring gives
 /// back what it takes.
 #[derive(Deserialize, JsonSchema)]
@@ -34,10 +35,12 @@ impl ForceSpec for TorsionSpring {
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
         let markers = build.between(&self.between)?;
         build.oriented("between", &markers)?;
+        let free = build.number_or("free_angle", &self.free_angle, 0.0)?;
         let force = Torsion {
             k: optional_not_negative("stiffness", &self.stiffness, build)?,
             c: optional_not_negative("damping", &self.damping, build)?,
-            free: build.number_or("free_angle", &self.free_angle, 0.0)?,
+            free,
+            turning: build.turning(vec![Turned { of: markers[1], to: markers[0], factor: 1.0 }], free),
         };
         Ok(Built { force: Box::new(force), markers })
     }
@@ -47,13 +50,15 @@ struct Torsion {
     k: f64,
     c: f64,
     free: f64,
+    /// Number of the angle in space.
+    turning: usize,
 }
 
 impl<const D: usize> ForceKernel<D> for Torsion {
     fn act<S: Scalar>(
         &self,
         frames: &[Frame<Taylor<S>, D>],
-        _: Time<Taylor<S>>,
+        time: Time<Taylor<S>>,
         out: &mut [Wrench<S, D>],
     ) -> Action<S> {
         let [a, b] = [&frames[0], &frames[1]];
@@ -61,8 +66,8 @@ impl<const D: usize> ForceKernel<D> for Torsion {
             (b.turn - a.turn - self.free, [S::zero(), S::zero(), S::one()])
         } else {
             let (c, s) = (dot(&a.axes[0], &b.axes[0]), dot(&a.axes[1], &b.axes[0]));
-            let (sin, cos) = self.free.sin_cos();
-            (Taylor::atan2(s * cos - c * sin, c * cos + s * sin), gradient(a, b, c.x, s.x))
+            let angle = time.regime.angle(self.turning, Taylor::atan2(s, c), self.free);
+            (angle - self.free, gradient(a, b, c.x, s.x))
         };
         let torque = -(twist.x * self.k + twist.d * self.c);
         out[0].torque = axis.map(|x| -(x * torque));

@@ -33,10 +33,11 @@ pub struct Move {
     pub to: f64,
 }
 
-/// Changes beyond rounding.
+/// Changes beyond rounding, but for angles that are counted through turns.
 pub(super) fn moves(system: &dyn MechanicalSystem, (q0, v0): (&[f64], &[f64]), (q, v): (&[f64], &[f64])) -> Vec<Move> {
     let names = system.names();
-    let pairs = names.q.into_iter().zip(q0.iter().zip(q)).chain(names.v.into_iter().zip(v0.iter().zip(v)));
+    let own = names.q.len() - system.turning_angles();
+    let pairs = names.q.into_iter().take(own).zip(q0.iter().zip(q)).chain(names.v.into_iter().zip(v0.iter().zip(v)));
     let mut moves: Vec<Move> = pairs
         .filter(|(_, (from, to))| (*to - *from).abs() > 1e-9 * (1.0 + from.abs()))
         .map(|(name, (&from, &to))| Move { name, from, to })

@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::formulation::Halt;
 use crate::math::kkt::Singular;
 use crate::math::largest;
-use crate::system::Need;
+use crate::system::{MechanicalSystem, Need};
 
 /// ```text
 /// v_h = v + h/2 M^-1 (f(t, q, v_h) - G(q)^T lambda),   q_1 = q + h v_h,   phi(q_1) = 0
@@ -33,7 +33,7 @@ pub const ENTRY: Entry = Entry {
 fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
     let n = setup.system.dimensions();
     let zeros = |n: usize| vec![0.0; n];
-    if n.q != n.v {
+    if n.q != n.v + setup.system.turning_angles() {
         return Err(Error::input(
             "rattle cannot integrate coordinates whose rates are not the velocities, q' = N(q) v",
         )
@@ -137,20 +137,22 @@ impl Rattle {
             self.dv[i] = 0.5 * h * (f - self.f[i]);
         }
         self.f.copy_from_slice(&dynamics.terms.f);
-        self.advance(q, h);
+        self.advance(dynamics.system, q, h);
         dynamics.evaluate(t + h, &self.q, &self.half, Need::CONSTRAINTS);
         self.rows.iter_mut().zip(&dynamics.terms.phi).for_each(|(row, phi)| *row = -phi / h);
         dynamics.kkt.solve(&mut self.dv, &mut self.rows)?;
         self.half.iter_mut().zip(&self.dv).for_each(|(half, dv)| *half += dv);
-        self.advance(q, h);
+        self.advance(dynamics.system, q, h);
         let size = largest(&self.half);
         Ok(if size == 0.0 { 0.0 } else { largest(&self.dv) / size })
     }
 
-    /// q_1 = q + h v_h
-    fn advance(&mut self, q: &[f64], h: f64) {
-        for (i, next) in self.q.iter_mut().enumerate() {
-            *next = q[i] + h * self.half[i];
+    /// q_1 = q + h v_h, and angles in space by the rate that v_h gives them.
+    fn advance(&mut self, system: &dyn MechanicalSystem, q: &[f64], h: f64) {
+        let rate = &mut self.slope[..q.len()];
+        system.rate(q, &self.half, rate);
+        for (next, (q, rate)) in self.q.iter_mut().zip(q.iter().zip(rate)) {
+            *next = q + h * *rate;
         }
     }
 

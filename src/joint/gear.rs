@@ -3,7 +3,7 @@
 use super::driver::relative_turn;
 use super::lock::{Lock, NONE};
 use super::{Built, JointKernel, JointSpec, Shape};
-use crate::body::{Build, Frame};
+use crate::body::{Build, Frame, Turned};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use crate::math::{Scalar, Time};
@@ -46,13 +46,18 @@ impl JointSpec for Gear {
         }
         build.oriented("between", &markers)?;
         let offset = build.number_or("offset", &self.offset, 0.0)?;
-        Ok(Built { joint: Box::new(Pair { teeth: self.teeth.map(f64::from), offset }), markers })
+        let teeth = self.teeth.map(f64::from);
+        let wheel = |i: usize| Some(Turned { of: markers[i], to: *markers.get(i + 2)?, factor: teeth[i] });
+        let turning = build.turning((0..2).filter_map(wheel).collect(), offset);
+        Ok(Built { joint: Box::new(Pair { teeth, offset, turning }), markers })
     }
 }
 
 struct Pair {
     teeth: [f64; 2],
     offset: f64,
+    /// Number of z1 angle1 + z2 angle2 in space.
+    turning: usize,
 }
 
 impl<const D: usize> JointKernel<D> for Pair {
@@ -64,7 +69,7 @@ impl<const D: usize> JointKernel<D> for Pair {
         Shape::Teeth(self.teeth)
     }
 
-    fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], _: Time<S>, out: &mut [S]) {
+    fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]) {
         let [z1, z2] = self.teeth;
         if D == 2 {
             let turn = |i: usize| frames.get(i + 2).map_or(frames[i].turn, |carrier| frames[i].turn - carrier.turn);
@@ -76,9 +81,8 @@ impl<const D: usize> JointKernel<D> for Pair {
             let (c, s) = relative_turn(&axes, &frames[i + 2], &frames[i]);
             S::atan2(s, c)
         };
-        // A full turn of a wheel adds 2 pi z, so the residual is known up to 2 pi: take the branch next to zero.
-        let sum = angle(0) * z1 + angle(1) * z2 - self.offset;
-        let turns = (sum.value() / std::f64::consts::TAU).round();
-        out[0] = (sum - turns * std::f64::consts::TAU) / z1;
+        // A full turn of a wheel adds 2 pi z: the wheels begin in the gap between teeth that is nearest, and stay in it.
+        let sum = time.regime.angle(self.turning, angle(0) * z1 + angle(1) * z2, self.offset);
+        out[0] = (sum - self.offset) / z1;
     }
 }

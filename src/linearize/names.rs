@@ -17,7 +17,7 @@ pub(super) fn directions(system: &dyn MechanicalSystem, q: &[f64]) -> Directions
         unit[direction] = 1.0;
         system.rate(q, &unit, &mut rate);
         unit[direction] = 0.0;
-        let mut moved = (0..rate.len()).filter(|&i| rate[i] != 0.0);
+        let mut moved = (0..rate.len() - system.turning_angles()).filter(|&i| rate[i] != 0.0);
         match (moved.next(), moved.next()) {
             (Some(i), None) if rate[i] == 1.0 => names.q[i].clone(),
             _ => turn(name),

@@ -6,6 +6,7 @@
 //! Solving Ordinary Differential Equations I, II.6 (discontinuous equations).
 
 use super::scalar::Scalar;
+use std::f64::consts::TAU;
 
 /// A piece of a function with thresholds c_0 < c_1 < ...: 2k between c_{k-1} and c_k, 2k + 1 at c_k itself.
 pub type Piece = u32;
@@ -24,23 +25,47 @@ pub fn piece_of(argument: f64, count: usize, threshold: impl Fn(usize) -> f64) -
     Some(2 * low as Piece + Piece::from(is_at))
 }
 
-/// The pieces that the functions of a scene are held on, by the number of their switching function; or none, and each takes
-/// the piece of its argument.
+/// What a state alone does not say of an evaluation: the pieces that the functions of a scene are held on, by the number of
+/// their switching function, or none, and each takes the piece of its argument; and the turns of the angles in space, by the
+/// number of their [`Turning`](crate::body::Turning).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Regime<'a>(Option<&'a [Piece]>);
+pub struct Regime<'a> {
+    pieces: Option<&'a [Piece]>,
+    turned: &'a [f64],
+}
 
 impl<'a> Regime<'a> {
     /// Every function on the piece of its argument.
-    pub const FREE: Regime<'static> = Regime(None);
+    pub const FREE: Regime<'static> = Regime { pieces: None, turned: &[] };
 
     pub fn held(pieces: &'a [Piece]) -> Self {
-        Regime(Some(pieces))
+        Regime { pieces: Some(pieces), turned: &[] }
+    }
+
+    /// The same with angles counted through full turns, rad.
+    #[inline]
+    pub fn turned(self, turned: &'a [f64]) -> Self {
+        Regime { turned, ..self }
+    }
+
+    /// Whether every function takes the piece of its argument.
+    #[inline]
+    pub fn is_free(self) -> bool {
+        self.pieces.is_none()
+    }
+
+    /// `angle`, which is known up to full turns, as the one next to where turning angle `number` has come to; where that is
+    /// not known, next to `start`.
+    #[inline]
+    pub fn angle<S: Scalar>(self, number: usize, angle: S, start: f64) -> S {
+        let near = self.turned.get(number).copied().unwrap_or(start);
+        angle + ((near - angle.value()) / TAU).round() * TAU
     }
 
     /// The piece that switching function `number` is held on.
     #[inline]
     pub fn piece(self, number: usize) -> Option<Piece> {
-        self.0.and_then(|pieces| pieces.get(number).copied())
+        self.pieces.and_then(|pieces| pieces.get(number).copied())
     }
 }
 

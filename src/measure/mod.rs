@@ -2,6 +2,7 @@
 
 mod drift;
 mod energy;
+mod range;
 mod recorder;
 mod singularity;
 pub mod stress;
@@ -9,5 +10,6 @@ pub mod work_precision;
 
 pub use drift::{Drift, DriftLevel};
 pub use energy::{EnergyBalance, EnergyMeter, Ledger};
+pub use range::{Extreme, Range};
 pub use recorder::{Record, Recorder};
 pub use singularity::{Branch, Nearest, Passing, Singularity, dependent_beside};

@@ -2,6 +2,7 @@
 
 use super::drift::{Drift, largest};
 use super::energy::{EnergyBalance, EnergyMeter, Ledger};
+use super::range::Range;
 use super::singularity::{Singularity, Watch};
 use crate::simulate::{Observation, Sink, Stop};
 use crate::system::{MechanicalSystem, Scratch};
@@ -14,6 +15,8 @@ pub struct Record {
     /// `None` where the system states no potential.
     pub energy: Option<EnergyBalance>,
     pub singularity: Singularity,
+    /// How far parts were deformed that hold up to some deformation only.
+    pub range: Range,
     /// Largest |phi|, |phi'|, |phi''| at each output row.
     pub drift_rows: Vec<[f64; 3]>,
     pub ledger_rows: Vec<Ledger>,
@@ -44,6 +47,7 @@ impl<'a> Recorder<'a> {
                 drift: Drift::default(),
                 energy: None,
                 singularity: Singularity::default(),
+                range: Range::new(system),
                 drift_rows: Vec::new(),
                 ledger_rows: Vec::new(),
             },
@@ -76,6 +80,7 @@ impl Sink for Recorder<'_> {
         self.record.drift.add(state, &self.scales);
         self.meter.add(self.system, state, &mut self.scratch);
         self.watch.add(state);
+        self.record.range.add(self.system, state);
         (self.progress)(state.t);
     }
 

@@ -11,7 +11,12 @@ const OPEN: f64 = 1e-2;
 /// All that the record of a run has against the run.
 pub fn warnings(record: &Record) -> Vec<Warning> {
     let energy = record.energy.as_ref().filter(|energy| energy.is_open()).map(open_balance);
-    open_joints(&record.drift).into_iter().chain(energy).chain(gaps(&record.trajectory)).collect()
+    open_joints(&record.drift)
+        .into_iter()
+        .chain(energy)
+        .chain(gaps(&record.trajectory))
+        .chain(record.range.warnings())
+        .collect()
 }
 
 fn open_joints(drift: &Drift) -> Option<Warning> {

@@ -10,7 +10,6 @@ use crate::error::{Error, Result, excerpt, suggest};
 use crate::math::expression::{Number, Parameters};
 use crate::{force, joint};
 use serde_json::{Map, Value};
-use std::cell::RefCell;
 use std::collections::HashSet;
 use std::path::Path;
 
@@ -51,9 +50,16 @@ fn model<const D: usize>(
             .hint("give at least one: nothing else can move"));
     }
     let no_markers = MarkerTable::default();
-    let switches = RefCell::default();
-    let mut build =
-        Build { parameters, markers: &no_markers, outputs: &[], gravity: [0.0; D], folder, switches: &switches };
+    let (switches, turnings) = Default::default();
+    let mut build = Build {
+        parameters,
+        markers: &no_markers,
+        outputs: &[],
+        gravity: [0.0; D],
+        folder,
+        switches: &switches,
+        turnings: &turnings,
+    };
     if let Some(gravity) = &file.gravity {
         build.gravity = build.vector("gravity", gravity)?;
     }
@@ -67,10 +73,10 @@ fn model<const D: usize>(
     }
     outputs::check_names(&file.outputs)?;
     let formulas = outputs::formulas::<D>(&file.outputs);
-    let build = Build { parameters, markers: &parts.table, outputs: &formulas, gravity, folder, switches: &switches };
+    let build = Build { markers: &parts.table, outputs: &formulas, gravity, ..build };
     let entries = joint::registry::<D>();
     let kinds: Vec<&str> = entries.iter().map(|entry| entry.name).collect();
-    let own = |owner: &str| switches.borrow_mut().own(owner);
+    let own = |what: &str, name: &str| build.own(what, name);
     let joints = elements(&file.joints, "joints", "joint", &kinds, own, |kind, json| {
         let entry = entries.iter().find(|entry| entry.name == kind);
         let entry = entry.ok_or_else(|| unknown(kind, "joint", entries.iter().map(|entry| entry.name)))?;
@@ -98,14 +104,13 @@ fn model<const D: usize>(
     let elements = outputs::Elements { bodies: &parts.bodies, beams: &parts.beams, joints: &joints, forces: &forces };
     let outputs = outputs::outputs(&file.outputs, elements, &build)?;
     let inputs = outputs::inputs::<D>(&file.inputs, &forces)?;
-    let Parts { table, ground, bodies, beams, q, v } = parts;
-    let switches = switches.into_inner();
+    let Parts { table: markers, ground, bodies, beams, mut q, v } = parts;
+    let (switches, turnings) = (switches.into_inner(), turnings.into_inner());
     let extent = extent(&bodies, &q);
-    Ok((
-        Model { gravity, markers: table, ground, bodies, joints, forces, beams, outputs, inputs, switches, extent },
-        q,
-        v,
-    ))
+    q.extend(turnings.iter().map(|turning| turning.start));
+    let model =
+        Model { gravity, markers, ground, bodies, joints, forces, beams, outputs, inputs, switches, turnings, extent };
+    Ok((model, q, v))
 }
 
 fn extent<const D: usize>(bodies: &[Part<D>], q: &[f64]) -> f64 {
@@ -154,7 +159,7 @@ impl<const D: usize> Parts<D> {
                 .hint("give each body its own"));
         }
         self.read(&name, json, build).map_err(|error| error.element(&name))?;
-        build.switches.borrow_mut().own(&format!("the body `{name}`"));
+        build.own("body", &name);
         Ok(())
     }
 
@@ -221,7 +226,7 @@ fn elements<E>(
     list: &str,
     what: &str,
     kinds: &[&str],
-    own: impl Fn(&str),
+    own: impl Fn(&str, &str),
     build: impl Fn(&str, Value) -> Result<(&'static str, E, Vec<usize>)>,
 ) -> Result<Vec<Connection<E>>> {
     let mut all: Vec<Connection<E>> = Vec::new();
@@ -237,7 +242,7 @@ fn elements<E>(
             }
             let kind = take_type(&mut json, what, kinds.iter().copied())?;
             let (kind, element, markers) = build(&kind, Value::Object(json)).map_err(|error| error.element(&name))?;
-            own(&format!("the {what} `{name}`"));
+            own(what, &name);
             all.push(Connection { name, kind, element, markers });
             Ok(())
         };

@@ -1,7 +1,7 @@
 //! The checked, named model that a scene describes.
 
 use super::units::Unit;
-use crate::body::{Body, Energy, Frame, Marker, MarkerId, MarkerTable, Quantity, Signal, Switches, dot, sub};
+use crate::body::{Body, Energy, Frame, Marker, MarkerId, MarkerTable, Quantity, Signal, Switches, Turning, dot, sub};
 use crate::force::{Beam, Force, Station};
 use crate::joint::Joint;
 use crate::math::screw::exponential;
@@ -22,6 +22,8 @@ pub struct Model<const D: usize> {
     pub outputs: Vec<Watched>,
     pub inputs: Vec<Driven>,
     pub switches: Switches,
+    /// Angles in space that q carries after the coordinates of the bodies.
+    pub turnings: Vec<Turning>,
     /// The largest coordinate of position at the start, m.
     pub extent: f64,
 }
@@ -135,10 +137,11 @@ pub enum Measure {
         to: MarkerId,
         quantity: Quantity,
     },
-    /// Angle about the third axis of `to`, counted through full turns along a trajectory.
+    /// Angle about the third axis of `to`, counted through full turns; in space as the one next to a turning angle.
     Turn {
         of: MarkerId,
         to: MarkerId,
+        turning: usize,
     },
     /// Distance between two markers and its rate.
     Distance {

@@ -4,7 +4,7 @@ use super::beam_outputs;
 use super::format::{InputSpec, MeasureKind, OutputSpec};
 use super::model::{BeamLine, Connection, Driven, EnergyPart, FORCE_SIZE, Measure, Part, TORQUE_SIZE, Watched};
 use super::units::{Dimension, Unit};
-use crate::body::{Build, MarkerId, Quantity};
+use crate::body::{Build, MarkerId, Quantity, Turned};
 use crate::error::{Error, Result, suggest};
 use crate::force::{self, Force};
 use crate::joint::Joint;
@@ -103,6 +103,7 @@ pub fn outputs<const D: usize>(specs: &[OutputSpec], elements: Elements<D>, buil
         refuse_idle_keys(spec).map_err(place)?;
         let reader = Reader { spec, build };
         let measure = reader.measure(elements).map_err(place)?;
+        build.own("output", &spec.name);
         let unit = unit(spec, dimension(spec.measure, &measure, elements)).map_err(place)?;
         all.push(Watched { name: spec.name.clone(), unit, measure });
     }
@@ -130,7 +131,8 @@ impl<const D: usize> Reader<'_, D> {
             MeasureKind::Angle => {
                 let (of, to) = (self.marker()?, self.reference()?);
                 self.build.oriented("of", &[of, to])?;
-                Ok(Measure::Turn { of, to })
+                let turning = self.build.turning(vec![Turned { of, to, factor: 1.0 }], 0.0);
+                Ok(Measure::Turn { of, to, turning })
             }
             MeasureKind::AngularVelocity => self.relative(Quantity::Spin(if D == 2 { 2 } else { self.axis("z")? })),
             MeasureKind::Position => self.relative(Quantity::Position(self.axis("x")?)),

@@ -71,13 +71,6 @@ impl State {
     pub fn nearest(&self) -> Nearest {
         Nearest { value: self.point.value, smallest_sine: self.point.smallest_sine }
     }
-
-    /// Joins angles that are known up to full turns to those of the state before.
-    fn join(&mut self, before: &State) {
-        let columns = self.mechanism.system().columns();
-        let pairs = self.point.outputs.iter_mut().zip(&before.point.outputs).zip(columns);
-        pairs.for_each(|((output, before), column)| *output = column.join(*before, *output));
-    }
 }
 
 /// Ends are found to this part of the range.
@@ -152,7 +145,6 @@ impl<'a> Branch<'a> {
     }
 
     fn accept(&mut self, mut state: State) {
-        state.join(&self.last);
         // The sine is that of the others; where more of them depend, it is zero.
         if state.dependent.len() > self.redundant {
             state.point.smallest_sine = 0.0;

@@ -2,21 +2,21 @@
 
 use super::coupling::Couplings;
 use super::levi_civita::LeviCivita;
+use super::limits::{Extent, limits};
 use super::output_tangent::{OutputTangent, Slopes};
 use super::rows::{PlacedJoint, Rows};
 use super::support::Support;
 use super::tangent::{Evaluation, Loaded, Tangent};
 use super::variation::Varied;
 use super::view::{Plain, gathered};
-use super::{Column, Dimensions, Energy, Group, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
+use super::{Column, Dimensions, Energy, Group, Limited, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
 use crate::body::{Frame, MOST_MARKERS, Wrench, cross, norm};
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
 use crate::math::{Rate, Regime, Taylor, Time};
-use crate::scene::{Connection, Driven, Measure, Model, Part, Watched};
+use crate::scene::{Connection, Driven, Model, Part, Watched};
 use nalgebra::DMatrix;
 use std::array::from_fn;
-use std::f64::consts::TAU;
 use std::ops::Range;
 
 /// A model with the places of its coordinates, rows and matrix entries fixed.
@@ -31,6 +31,8 @@ pub struct Mechanism<const D: usize> {
     /// For every marker the velocities that move it; none on the ground.
     pub(super) supports: Vec<Support>,
     pub(super) length: f64,
+    limited: Vec<Limited>,
+    extents: Vec<Extent<D>>,
 }
 
 /// Memory of one evaluation.
@@ -57,12 +59,13 @@ impl<const D: usize> Mechanism<D> {
         let mut g = Pattern { rows: 0, cols: v, entries: Vec::new() };
         let supports: Vec<Support> = (0..model.marker_count()).map(|marker| Support::of(&model, marker)).collect();
         let joints = model.joints.iter().map(|joint| Rows::new(&supports, joint, &mut g)).collect();
-        let dimensions = Dimensions { q, v, lambda: g.rows };
+        let dimensions = Dimensions { q: q + model.turnings.len(), v, lambda: g.rows };
         let length = length_scale(&model);
         let mut tangent = Pattern { rows: v, cols: v, entries: Vec::new() };
         let couplings = Couplings::new(&model, &supports, &mut tangent);
         let structure = Structure { mass, g, tangent };
-        Mechanism { model, dimensions, structure, joints, couplings, masses, supports, length }
+        let (limited, extents) = limits(&model);
+        Mechanism { model, dimensions, structure, joints, couplings, masses, supports, length, limited, extents }
     }
 
     pub fn model(&self) -> &Model<D> {
@@ -94,7 +97,7 @@ impl<const D: usize> Mechanism<D> {
         };
         scratch.with(make, |work, regime| {
             self.place(q, v, &[], work);
-            see(work, regime)
+            see(work, regime.turned(self.turned(q)))
         })
     }
 
@@ -219,7 +222,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         };
         let joints = self.model.joints.iter();
         Names {
-            q: all(|part| part.body.coordinate_names()),
+            q: [all(|part| part.body.coordinate_names()), self.turning_names()].concat(),
             v: all(|part| part.body.velocity_names()),
             lambda: joints
                 .flat_map(|joint| {
@@ -229,11 +232,16 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         }
     }
 
+    fn turning_angles(&self) -> usize {
+        self.model.turnings.len()
+    }
+
     fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
         for part in &self.model.bodies {
             let rates = &mut qdot[part.first_q..part.first_q + part.nq];
             part.body.rate(of(q, part, true), of(v, part, false), rates);
         }
+        self.turning_rates(q, v, qdot);
     }
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
@@ -298,6 +306,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         for part in &self.model.bodies {
             part.body.normalize(&mut q[part.first_q..part.first_q + part.nq]);
         }
+        self.continue_turnings(q);
     }
 
     fn energy(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<Energy> {
@@ -307,11 +316,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn columns(&self) -> Vec<Column> {
-        let column = |output: &Watched| Column {
-            name: output.name.clone(),
-            unit: output.unit.name.clone(),
-            turn: (D == 3 && matches!(output.measure, Measure::Turn { .. })).then_some(TAU * output.unit.per_si),
-        };
+        let column = |output: &Watched| Column { name: output.name.clone(), unit: output.unit.name.clone() };
         self.model.outputs.iter().map(column).collect()
     }
 
@@ -337,7 +342,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn inputs(&self) -> Vec<Column> {
-        let column = |input: &Driven| Column { name: input.name.clone(), unit: input.unit.to_string(), turn: None };
+        let column = |input: &Driven| Column { name: input.name.clone(), unit: input.unit.to_string() };
         self.model.inputs.iter().map(column).collect()
     }
 
@@ -372,6 +377,14 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
                 );
             }
         });
+    }
+
+    fn limited(&self) -> &[Limited] {
+        &self.limited
+    }
+
+    fn deformations(&self, q: &[f64], out: &mut [f64]) {
+        out.iter_mut().zip(&self.extents).for_each(|(out, extent)| *out = self.deformation(extent, q));
     }
 
     fn length(&self) -> f64 {

@@ -8,6 +8,7 @@ mod coupling;
 mod equations;
 mod input;
 mod levi_civita;
+mod limits;
 mod mechanism;
 mod output;
 mod output_tangent;
@@ -15,11 +16,13 @@ mod rows;
 mod support;
 mod tangent;
 mod terms;
+mod turnings;
 mod variation;
 mod view;
 
 pub use equations::Equations;
 pub use levi_civita::LeviCivita;
+pub use limits::{Limited, Theory};
 pub use mechanism::Mechanism;
 pub use output_tangent::OutputTangent;
 pub use tangent::{Loaded, Tangent};
@@ -65,15 +68,6 @@ pub struct Column {
     pub name: String,
     /// Such as `rad`; empty where it is not known.
     pub unit: String,
-    /// A full turn in this unit, if it is an angle known up to full turns, which a trajectory joins to a continuous curve.
-    pub turn: Option<f64>,
-}
-
-impl Column {
-    /// `value` by as many full turns further as bring it next to `before`.
-    pub fn join(&self, before: f64, value: f64) -> f64 {
-        self.turn.map_or(value, |turn| value + ((before - value) / turn).round() * turn)
-    }
 }
 
 /// M(q) v' + G(q,t)^T lambda = f(t,q,v), phi(q,t) = 0, q' = N(q) v.
@@ -121,6 +115,11 @@ pub trait MechanicalSystem: Send + Sync {
         let n = self.dimensions();
         let numbered = |prefix: &str, n: usize| (1..=n).map(|i| format!("{prefix}{i}")).collect();
         Names { q: numbered("q", n.q), v: numbered("v", n.v), lambda: numbered("lambda", n.lambda) }
+    }
+
+    /// So many of the last coordinates count the full turns of angles that the others give up to those. Default: none.
+    fn turning_angles(&self) -> usize {
+        0
     }
 
     /// q' = N(q) v. Default: N = I.
@@ -179,6 +178,14 @@ pub trait MechanicalSystem: Send + Sync {
     fn time_functions(&self) -> &[TimeFunction] {
         &[]
     }
+
+    /// Parts that hold up to some deformation only. Default: none.
+    fn limited(&self) -> &[Limited] {
+        &[]
+    }
+
+    /// Writes how far each of them is deformed, in the unit of its limit.
+    fn deformations(&self, _q: &[f64], _out: &mut [f64]) {}
 
     /// A length typical of the mechanism, m. Default: 1.
     fn length(&self) -> f64 {

@@ -33,7 +33,10 @@ impl<const D: usize> Mechanism<D> {
                 signal.evaluate(view.time().map(S::constant), |probe| probe.read(&view.frame(probe.marker)))
             }
             Measure::Relative { of, to, quantity } => relative(&view.frame(*of), &view.frame(*to), *quantity),
-            Measure::Turn { of, to } => turn(&view.frame(*of), &view.frame(*to)),
+            Measure::Turn { of, to, turning } => {
+                let angle = turn(&view.frame(*of), &view.frame(*to));
+                if D == 2 { angle } else { view.time().regime.angle(*turning, angle, 0.0) }
+            }
             Measure::Distance { from, to, rate } => {
                 let gap = sub(&view.frame(*to).r, &view.frame(*from).r);
                 if *rate { separation_rate(&gap) } else { norm(&gap.map(|x| x.x)) }

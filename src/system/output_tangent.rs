@@ -136,7 +136,7 @@ impl<const D: usize> Mechanism<D> {
         let model = self.model();
         match measure {
             Measure::Signal(signal) => on(&signal.markers()),
-            Measure::Relative { of, to, .. } | Measure::Turn { of, to } => on(&[*of, *to]),
+            Measure::Relative { of, to, .. } | Measure::Turn { of, to, .. } => on(&[*of, *to]),
             Measure::Distance { from, to, .. } => on(&[*from, *to]),
             Measure::Reaction { joint, axes, .. } => {
                 let markers = model.joints[*joint].markers.iter().chain([axes]);

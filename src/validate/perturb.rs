@@ -35,13 +35,14 @@ pub fn difference(system: &dyn MechanicalSystem, from: &State, to: &State) -> [V
         return [change, dv];
     }
     let (mut unit, mut rate) = (vec![0.0; from.v.len()], vec![0.0; from.q.len()]);
+    let own = rate.len() - system.turning_angles();
     let dq = (0..from.v.len()).map(|j| {
         unit[j] = 1.0;
         system.rate(&from.q, &unit, &mut rate);
         unit[j] = 0.0;
-        // Columns of N are square to each other.
-        let size: f64 = rate.iter().map(|x| x * x).sum();
-        rate.iter().zip(&change).map(|(x, change)| x * change).sum::<f64>() / size
+        // Columns of N are square to each other, but for angles that are counted through turns.
+        let size: f64 = rate[..own].iter().map(|x| x * x).sum();
+        rate[..own].iter().zip(&change).map(|(x, change)| x * change).sum::<f64>() / size
     });
     [dq.collect(), dv]
 }

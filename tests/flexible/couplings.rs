@@ -80,7 +80,10 @@ fn place(system: &dyn MechanicalSystem, random: &mut Random) -> Vec<f64> {
         ["x", "y", "z", "angle", "qw", "qx", "qy", "qz"].contains(&own)
     };
     let names = system.names().q;
-    let mut q: Vec<f64> = names.iter().map(|name| random.next() * if is_frame(name) { 1.0 } else { 0.1 }).collect();
+    let own = names.len() - system.turning_angles();
+    let mut q: Vec<f64> =
+        names[..own].iter().map(|name| random.next() * if is_frame(name) { 1.0 } else { 0.1 }).collect();
+    q.resize(names.len(), 0.0);
     system.normalize(&mut q);
     q
 }

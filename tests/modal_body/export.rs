@@ -33,9 +33,15 @@ impl<const D: usize> Beam<D> {
         let (rho_a, elements) = (number(&inertia["rhoA"]), number(&beam["elements"]) as usize);
         let (parameters, markers) = (Parameters::default(), MarkerTable::default());
         let folder = Path::new("");
-        let switches = &Default::default();
-        let build =
-            Build { parameters: &parameters, markers: &markers, outputs: &[], gravity: [0.0; D], folder, switches };
+        let build = Build {
+            parameters: &parameters,
+            markers: &markers,
+            outputs: &[],
+            gravity: [0.0; D],
+            folder,
+            switches: &Default::default(),
+            turnings: &Default::default(),
+        };
         let spec: FlexibleBeam = serde_json::from_value(beam).unwrap();
         let (elastic, _) = elastic_beam(&spec, &[0.0, length], &build).unwrap();
         Beam { elastic, length, elements, rho_a, rho_i }

@@ -190,6 +190,9 @@ impl<const D: usize> Body<D> for Floating<D> {
     fn elastic_count(&self) -> usize {
         self.elastic.names.len()
     }
+    fn shapes(&self) -> &[PointShape<D>] {
+        &self.shapes
+    }
     fn bent(&self) -> Option<Bent<'_, D>> {
         let line = self.elastic.line.as_deref()?;
         Some(Bent { line, stretches: &self.elastic.stretches, first: frame_coordinates(D) })

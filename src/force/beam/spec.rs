@@ -11,7 +11,8 @@ use serde::Deserialize;
 
 /// A massless elastic beam between two markers, geometrically exact. It is relaxed where the second marker lies
 /// `length` along the x axis of the first and has the same axes, or is bent from there by `curvature`. In space the
-/// second marker may turn against the first by less than half a turn, in the plane by less than a full one. Its
+/// second marker may turn against the first by less than half a turn, in the plane by less than a full one; a run warns
+/// where it comes near to that. Its
 /// magnitude is the axial force, tension positive.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -5,7 +5,8 @@ use crate::math::kkt::Pattern;
 use crate::system::MechanicalSystem;
 
 /// N and N^+ column by column of N, places and values. A derivative along the directions of v, which is what K, G and L
-/// are, becomes one by q with N^+ = (N^T N)^-1 N^T from the right; N^T N is diagonal for unit quaternions.
+/// are, becomes one by q with N^+ = (N^T N)^-1 N^T from the right; N^T N is diagonal for unit quaternions. Angles that are counted
+/// through turns are left out there: no force changes with those.
 pub struct Kinematics {
     columns: Vec<Vec<(usize, f64)>>,
     inverse: Vec<Vec<(usize, f64)>>,
@@ -33,14 +34,15 @@ impl Kinematics {
         }
         let mut unit = vec![0.0; self.columns.len()];
         let rate = &mut self.rest[0];
+        let own = rate.len() - system.turning_angles();
         for j in 0..unit.len() {
             unit[j] = 1.0;
             system.rate(q, &unit, rate);
             unit[j] = 0.0;
-            let square: f64 = rate.iter().map(|x| x * x).sum();
+            let square: f64 = rate[..own].iter().map(|x| x * x).sum();
             let places = || rate.iter().enumerate().filter(|(_, x)| **x != 0.0);
             self.columns[j] = places().map(|(i, x)| (i, *x)).collect();
-            self.inverse[j] = places().map(|(i, x)| (i, x / square)).collect();
+            self.inverse[j] = places().filter(|(i, _)| *i < own).map(|(i, x)| (i, x / square)).collect();
         }
     }
 
@@ -51,19 +53,21 @@ impl Kinematics {
         }
     }
 
-    /// Adds d(N v)/dq: exact where N is affine in q, as with quaternions.
+    /// Adds d(N v)/dq: exact where N is affine in q, as with quaternions; without the rows of angles that are counted through
+    /// turns, on which nothing else depends.
     pub fn by_q(&mut self, system: &dyn MechanicalSystem, q: &[f64], v: &[f64], out: &mut Dense) {
         if self.is_identity {
             return;
         }
         let [rate, moved, varied] = &mut self.rest;
+        let own = rate.len() - system.turning_angles();
         system.rate(q, v, rate);
         moved.copy_from_slice(q);
-        for j in 0..q.len() {
+        for j in 0..own {
             moved[j] = q[j] + 1.0;
             system.rate(moved, v, varied);
             moved[j] = q[j];
-            for (i, (varied, rate)) in varied.iter().zip(rate.iter()).enumerate() {
+            for (i, (varied, rate)) in varied.iter().zip(rate.iter()).enumerate().take(own) {
                 out.add(i, j, varied - rate);
             }
         }

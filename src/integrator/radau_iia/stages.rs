@@ -157,7 +157,9 @@ impl Stages {
     /// Changes that are but round-off, over the tolerated errors: v is found from phi = 0 by a division by h.
     pub fn round_off(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64, rows: Rows) -> f64 {
         let (q, v) = problem.split(from.y);
-        let (of_q, of_v) = (ROUND_OFF * largest(q), ROUND_OFF * largest(v));
+        // Angles that are counted through turns grow, and nothing is rounded to their size but they.
+        let own = q.len() - problem.dynamics.system.turning_angles();
+        let (of_q, of_v) = (ROUND_OFF * largest(&q[..own]), ROUND_OFF * largest(v));
         let change = &mut self.next[0];
         change[..q.len()].fill(of_q);
         change[q.len()..].fill(if rows == Rows::Position { of_v.max(of_q / h) } else { of_v });

@@ -128,11 +128,7 @@ impl Expression {
     /// The same with the pieces of `regime`, see [`number_switches`](Self::number_switches).
     #[inline]
     pub fn eval_held<S: Scalar>(&self, variables: &[S], regime: Regime) -> S {
-        if regime == Regime::FREE {
-            self.eval(variables)
-        } else {
-            self.program.eval_held(variables, self.first, regime)
-        }
+        if regime.is_free() { self.eval(variables) } else { self.program.eval_held(variables, self.first, regime) }
     }
 
     /// Writes the arguments of its switching functions, one after the other from the number of its first on.

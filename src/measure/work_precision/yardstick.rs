@@ -21,7 +21,7 @@ impl Watched {
     pub fn new(system: &dyn MechanicalSystem, names: &[String]) -> Result<Watched> {
         let known = system.columns();
         if known.is_empty() && names.is_empty() {
-            let coordinate = |name| Column { name, unit: String::new(), turn: None };
+            let coordinate = |name| Column { name, unit: String::new() };
             return Ok(Watched { columns: system.names().q.into_iter().map(coordinate).collect(), outputs: None });
         }
         let place = |name: &String| {
@@ -51,8 +51,6 @@ impl Watched {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Yardstick {
     pub names: Vec<String>,
-    /// A full turn of a quantity, if it is an angle known up to full turns.
-    turns: Vec<Option<f64>>,
     /// One row a time.
     pub rows: Vec<Vec<f64>>,
     scales: Vec<f64>,
@@ -74,7 +72,6 @@ impl Yardstick {
         };
         Yardstick {
             names: columns.iter().map(|column| column.name.clone()).collect(),
-            turns: columns.iter().map(|column| column.turn).collect(),
             scales: (0..columns.len()).map(scale).collect(),
             rows,
         }
@@ -112,8 +109,6 @@ impl Yardstick {
     }
 
     fn difference(&self, i: usize, own: f64, other: f64) -> f64 {
-        let difference = other - own;
-        let turns = self.turns[i].map_or(0.0, |turn| (difference / turn).round() * turn);
-        (difference - turns).abs() / self.scales[i]
+        (other - own).abs() / self.scales[i]
     }
 }

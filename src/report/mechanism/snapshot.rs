@@ -113,7 +113,7 @@ fn of<const D: usize>(mechanism: &Mechanism<D>, state: &State) -> Snapshot {
     let forces = model.given_forces().iter().map(|force| {
         let own: Vec<_> = force.markers.iter().map(|marker| frames[*marker]).collect();
         let mut wrenches = vec![Wrench::<f64, D>::zero(); own.len()];
-        let time = Time { t: Taylor::time(state.t), regime: Regime::FREE };
+        let time = Time { t: Taylor::time(state.t), regime: Regime::FREE.turned(mechanism.turned(&state.q)) };
         force.element.act(&own, time, &mut wrenches);
         let Wrench { force: push, torque } = wrenches.first().copied().unwrap_or(Wrench::zero());
         let wheel = force.element.wheel(state.t);

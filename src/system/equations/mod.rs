@@ -156,5 +156,5 @@ impl<E: Equations> MechanicalSystem for E {
 }
 
 fn named(names: Vec<String>) -> Vec<Column> {
-    names.into_iter().map(|name| Column { name, unit: String::new(), turn: None }).collect()
+    names.into_iter().map(|name| Column { name, unit: String::new() }).collect()
 }

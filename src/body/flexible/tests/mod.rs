@@ -29,6 +29,7 @@ fn build<const D: usize>(scene: &Value, markers: &[f64]) -> Result<Elastic<D>> {
         gravity: [0.0; D],
         folder: std::path::Path::new(""),
         switches: &Default::default(),
+        turnings: &Default::default(),
     };
     elastic_beam(&beam, markers, &build).map(|(elastic, _)| elastic)
 }

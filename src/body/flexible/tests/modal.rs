@@ -90,8 +90,16 @@ fn export<const D: usize>(rod: &Elastic<D>) -> ModalData<Array> {
 fn read<const D: usize>(body: Value, folder: &Path) -> Result<ModalShapes<D>> {
     let body: ModalBody = crate::body::parse(body).unwrap();
     let (parameters, table) = (Parameters::default(), MarkerTable::default());
-    let switches = &Default::default();
-    body.shapes(&Build { parameters: &parameters, markers: &table, outputs: &[], gravity: [0.0; D], folder, switches })
+    let (switches, turnings) = (&Default::default(), &Default::default());
+    body.shapes(&Build {
+        parameters: &parameters,
+        markers: &table,
+        outputs: &[],
+        gravity: [0.0; D],
+        folder,
+        switches,
+        turnings,
+    })
 }
 
 #[track_caller]

@@ -1,0 +1,111 @@
+//! Parts that hold up to some deformation only, and how far they are deformed.
+
+use super::mechanism::Mechanism;
+use crate::body::flexible::PointShape;
+use crate::body::{Bent, MarkerId, dot, norm};
+use crate::scene::{Model, Part};
+use std::array::from_fn;
+use std::f64::consts::PI;
+
+/// What a part assumes of its deformation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Theory {
+    /// Displacements in a floating frame are small beside the length: they enter the elastic forces linearly.
+    SmallDisplacements,
+    /// The ends of an element turn against each other by less than half a turn in space, a full one in the plane.
+    Helix { dimension: usize },
+}
+
+/// A part with such a theory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limited {
+    /// Of the scene, such as `rod`.
+    pub part: String,
+    pub theory: Theory,
+}
+
+impl Theory {
+    /// The deformation up to which it holds: displacement by length, or rad. A cantilever that bends by a tenth of its
+    /// length under a load at its tip is off by 1 % of that.
+    pub fn most(self) -> f64 {
+        match self {
+            Theory::SmallDisplacements => 0.1,
+            // From half a turn on another turn would do as well; the states that are looked at may be a bit apart.
+            Theory::Helix { dimension: 2 } => 1.5 * PI,
+            Theory::Helix { .. } => 0.75 * PI,
+        }
+    }
+}
+
+/// Where a part is looked at.
+pub(super) enum Extent<const D: usize> {
+    /// Points of a body, with its first elastic coordinate and its length, m.
+    Points { first_q: usize, length: f64, points: Vec<PointShape<D>> },
+    /// Both ends of each element.
+    Ends(Vec<[MarkerId; 2]>),
+}
+
+/// Points that the line of a beam is looked at, beside its markers.
+const POINTS: usize = 8;
+
+/// The parts of a model with a limit, and where they are looked at.
+pub(super) fn limits<const D: usize>(model: &Model<D>) -> (Vec<Limited>, Vec<Extent<D>>) {
+    let bodies = model.bodies.iter().filter_map(|part| Some((part.name.clone(), bending(part)?)));
+    let lines = model.beams.iter().map(|beam| {
+        let ends = model.forces[beam.forces()].iter().map(|element| [element.markers[0], element.markers[1]]);
+        (beam.name.clone(), Extent::Ends(ends.collect()))
+    });
+    let massless = model.given_forces().iter().filter(|force| force.kind == "beam");
+    let massless = massless.map(|beam| (beam.name.clone(), Extent::Ends(vec![[beam.markers[0], beam.markers[1]]])));
+    let theory = |extent: &Extent<D>| match extent {
+        Extent::Points { .. } => Theory::SmallDisplacements,
+        Extent::Ends(_) => Theory::Helix { dimension: D },
+    };
+    let all = bodies.chain(lines).chain(massless);
+    all.map(|(part, extent)| (Limited { part, theory: theory(&extent) }, extent)).unzip()
+}
+
+/// Of a body with elastic coordinates, the last ones.
+fn bending<const D: usize>(part: &Part<D>) -> Option<Extent<D>> {
+    let first_q = part.first_q + part.nq - part.body.elastic_count();
+    let mut points = part.body.shapes().to_vec();
+    let mut length = part.body.reach();
+    if let Some(Bent { line, .. }) = part.body.bent() {
+        length = line.length();
+        let place = |k: usize| from_fn(|i| if i == 0 { length * k as f64 / POINTS as f64 } else { 0.0 });
+        points.extend((0..=POINTS).map(|k| line.point(place(k))));
+    }
+    (!points.is_empty() && length > 0.0).then_some(Extent::Points { first_q, length, points })
+}
+
+impl<const D: usize> Mechanism<D> {
+    /// How far a part is deformed at q, in the unit of its limit.
+    pub(super) fn deformation(&self, extent: &Extent<D>, q: &[f64]) -> f64 {
+        match extent {
+            Extent::Points { first_q, length, points } => {
+                points.iter().map(|point| norm(&displacement(point, &q[*first_q..])) / length).fold(0.0, f64::max)
+            }
+            Extent::Ends(elements) => elements.iter().map(|ends| self.angle_between(*ends, q)).fold(0.0, f64::max),
+        }
+    }
+
+    /// By which the second marker is turned against the first.
+    fn angle_between(&self, ends: [MarkerId; 2], q: &[f64]) -> f64 {
+        // Where they are does not depend on how fast they move.
+        let [a, b] = ends.map(|marker| self.undeformed(marker, q, q).map(|x| x.x));
+        if D == 2 {
+            return (b.turn - a.turn).abs();
+        }
+        let trace: f64 = a.axes.iter().zip(&b.axes).map(|(a, b)| dot(a, b)).sum();
+        (0.5 * (trace - 1.0)).clamp(-1.0, 1.0).acos()
+    }
+}
+
+/// sum_i psi_i q_i
+fn displacement<const D: usize>(point: &PointShape<D>, q: &[f64]) -> [f64; D] {
+    let mut sum = [0.0; D];
+    for (dof, translation) in point.dofs.iter().zip(&point.translation) {
+        sum.iter_mut().zip(translation).for_each(|(sum, x)| *sum += q[*dof] * x);
+    }
+    sum
+}
