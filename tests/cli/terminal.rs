@@ -53,10 +53,13 @@ fn quotations_are_escaped() {
 
 /// What is escaped for the terminal means the same as JSON.
 #[test]
-fn json_says_what_the_scene_says() {
-    let place = changed(|scene| scene["outputs"][0]["unit"] = "\u{9b}\u{202e}".into());
-    let text = place.done(&["simulate", "scene.json", "--json"]);
+fn json_says_what_was_typed() {
+    let place = Place::new(PENDULUM);
+    let name = "a\u{202e}b.json";
+    std::fs::rename(place.path("scene.json"), place.path(name)).unwrap();
+    let text = place.done(&["simulate", name, "--json"]);
     let written = place.json("out/pendulum/summary.json");
-    assert!(is_plain(&text));
-    assert_eq!(serde_json::from_str::<Value>(&text).unwrap()["outputs"], written["outputs"]);
+    assert!(is_plain(&text) && text.contains("\\u202e"), "{text}");
+    assert_eq!(serde_json::from_str::<Value>(&text).unwrap(), written);
+    assert_eq!(written["command"][2], name);
 }

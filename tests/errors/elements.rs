@@ -358,7 +358,7 @@ cases! {
     equation_rate:
         pendulum().joint("{ 'name': 'p', 'type': 'equation', 'expression': 'rod.x´ - 1' }") => [
             "scene.json:13:54: at joints[0].expression (`p`): unknown name `rod.x'` at character 1 in \"rod.x' - 1\"",
-            "did you mean `rod.x`?",
+            "a rate of this order cannot stand here; `rod.x` can",
         ];
     equation_unknown:
         pendulum().joint("{ 'name': 'p', 'type': 'equation', 'expression': 'rodd.x - 1' }") => [

@@ -32,15 +32,18 @@ cases! {
         ];
     set_abc:
         pendulum().args(&["--set", "l=abc"]) => [
-            "invalid value 'l=abc' for '--set <NAME=VALUE>': `abc` is not a finite number",
+            "at --set (`l`): unknown name `abc`",
+            "choose one of l, m, pi",
         ];
     set_nan:
         pendulum().args(&["--set", "l=nan"]) => [
-            "invalid value 'l=nan' for '--set <NAME=VALUE>': `nan` is not a finite number",
+            "at --set (`l`): `NaN` is not a number",
+            "expected a finite number",
         ];
     set_inf:
         pendulum().args(&["--set", "l=inf"]) => [
-            "invalid value 'l=inf' for '--set <NAME=VALUE>': `inf` is not a finite number",
+            "at --set (`l`): `inf` is infinite",
+            "expected a finite number",
         ];
     set_empty:
         pendulum().args(&["--set", "=1"]) => [

@@ -142,7 +142,7 @@ fn implicit_methods_win_where_the_rod_is_flexible() {
 #[test]
 fn failures_stay_with_their_reason() {
     let scene = shipped("spinning_top", &[]);
-    let mut hasty = plan(&filter(&["index3", "index1"], &["rattle", "heun", "dop853"], &["none"]), 8.0);
+    let mut hasty = plan(&filter(&["index3", "index1"], &["rattle", "heun", "dop853"], &["none"]), 16.0);
     hasty.is_exhaustive = true;
     let result = measured(motion(&scene, 1.0), &hasty, &[]);
     let of = |name: &'static str| result.cells.iter().filter(move |cell| cell.method.integrator.name == name);
