@@ -22,13 +22,15 @@ pub const ENTRY: Entry = Entry {
         let n = system.dimensions();
         Ok(Some(Box::new(Exact {
             scales: system.scales(),
-            most: choice.whole("iterations", 10, 1..=1000)?,
+            most: choice.whole("iterations", MOST, 1..=1000)?,
             rate: vec![0.0; n.q],
             step: vec![0.0; n.v],
         })))
     },
 };
 
+/// Who allows fewer iterations than by default takes what they leave.
+const MOST: usize = 10;
 /// A residual of this part of the scene's size is no round-off, nor what redundant rows may contradict each other by.
 const OPEN: f64 = 1e-9;
 
@@ -56,7 +58,8 @@ impl Projection for Exact {
             let residual = largest(&dynamics.terms.phi);
             // Near round-off the residual stops falling; another step would only stir it.
             if iterations == self.most || residual == 0.0 || residual > 0.5 * last {
-                if self.is_open(&dynamics.terms.phi) {
+                let is_limited = iterations == self.most && self.most < MOST;
+                if !is_limited && self.is_open(&dynamics.terms.phi) {
                     return Err(Halt::Open);
                 }
                 break;
