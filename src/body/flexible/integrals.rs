@@ -2,7 +2,8 @@
 
 use super::line::Cross;
 use super::section::Section;
-use super::shape::{Piece, Stretch, Symmetric};
+use super::shape::{Piece, Second, Stretch, Symmetric};
+use crate::body::cross;
 use std::array::from_fn;
 use std::collections::BTreeMap;
 
@@ -30,11 +31,26 @@ impl Inertia {
         Inertia { rho_a: section.rho_a, rho_i: section.rho_i, rotary }
     }
 
-    /// psi at the point (y, z) of a section is [0] + y [1] + z [2], as the rotation r moves it by r x (0, y, z).
-    fn shape<const D: usize>(&self, shape: &Cross) -> [[f64; D]; 3] {
+    /// The turn that moves the mass of a section.
+    fn turn(&self, shape: &Cross) -> [f64; 3] {
         let [rx, ry, rz] = shape.rotation;
-        let [ry, rz] = if self.rotary { [ry, rz] } else { [0.0; 2] };
+        if self.rotary { [rx, ry, rz] } else { [rx, 0.0, 0.0] }
+    }
+
+    /// psi at the point (y, z) of a section is [0] + y [1] + z [2], as the rotation r moves it by r x (0, y, z) ...
+    fn shape<const D: usize>(&self, shape: &Cross) -> [[f64; D]; 3] {
+        let [rx, ry, rz] = self.turn(shape);
         [shape.displacement, [-rz, 0.0, rx], [ry, -rx, 0.0]].map(|v| from_fn(|k| v[k]))
+    }
+
+    /// ... and to second order by r x (r x (0, y, z))/2.
+    fn second<const D: usize>(&self, left: &Cross, right: &Cross) -> [[f64; D]; 3] {
+        let [left, right] = [left, right].map(|shape| self.turn(shape));
+        let turned = |unit: [f64; 3]| {
+            let [once, twice] = [cross(&left, &cross(&right, &unit)), cross(&right, &cross(&left, &unit))];
+            from_fn(|k| (once[k] + twice[k]) / 2.0)
+        };
+        [[0.0; D], turned([0.0, 1.0, 0.0]), turned([0.0, 0.0, 1.0])]
     }
 
     /// psi_0 = (s, y, z)
@@ -46,17 +62,45 @@ impl Inertia {
     /// int rho y z = 0, int rho y^2 is the moment of inertia about z and int rho z^2 that about y.
     pub fn piece<const D: usize>(&self, dofs: Vec<usize>, samples: &[Sample]) -> Piece<D> {
         let n = 1 + dofs.len();
-        let mut piece = Piece { dofs, mass: 0.0, moments: vec![[0.0; D]; n], products: vec![[[0.0; D]; D]; n * n] };
+        let mut piece = Piece {
+            dofs,
+            mass: 0.0,
+            moments: vec![[0.0; D]; n],
+            products: vec![[[0.0; D]; D]; n * n],
+            second: Vec::new(),
+        };
         for sample in samples {
             let shapes = sample.shapes.iter().map(|shape| self.shape::<D>(shape));
             let psi: Vec<_> = std::iter::once(Self::rest(sample.s)).chain(shapes).collect();
             self.add(&mut piece, &psi, sample.weight);
         }
+        piece.second = (1..n).map(|i| self.second_of(i - 1, samples)).collect();
         piece
     }
 
+    /// The integrals of psi_ij for all j.
+    fn second_of<const D: usize>(&self, i: usize, samples: &[Sample]) -> Vec<Second<D>> {
+        let count = samples.first().map_or(0, |sample| sample.shapes.len());
+        let integral = |other: usize| {
+            let mut second = Second { other, moment: [0.0; D], product: [[0.0; D]; D] };
+            for Sample { s, weight, shapes } in samples {
+                let [rest, psi] = [Self::rest::<D>(*s), self.second(&shapes[i], &shapes[other])];
+                for ((density, r), p) in self.densities().iter().zip(&rest).zip(&psi) {
+                    (0..D).for_each(|k| (0..D).for_each(|m| second.product[k][m] += density * weight * r[k] * p[m]));
+                }
+            }
+            second
+        };
+        (0..count).map(integral).filter(Second::counts).collect()
+    }
+
+    /// int rho, int rho y^2 and int rho z^2 a length.
+    fn densities(&self) -> [f64; 3] {
+        [self.rho_a, self.rho_i[1], self.rho_i[0]]
+    }
+
     fn add<const D: usize>(&self, piece: &mut Piece<D>, psi: &[[[f64; D]; 3]], weight: f64) {
-        let densities = [self.rho_a, self.rho_i[1], self.rho_i[0]].map(|density| density * weight);
+        let densities = self.densities().map(|density| density * weight);
         piece.mass += densities[0];
         for (a, left) in psi.iter().enumerate() {
             (0..D).for_each(|k| piece.moments[a][k] += densities[0] * left[0][k]);

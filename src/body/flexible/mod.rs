@@ -21,7 +21,7 @@ pub use beam::elastic_beam;
 pub use gauss::{gauss_legendre, on_interval};
 pub use integrals::mass_matrix;
 pub use section::{Section, curvature};
-pub use shape::{Elastic, Line, Piece, PointShape, SectionShape, Stretch, Symmetric};
+pub use shape::{Elastic, Line, Piece, PointShape, Second, SectionShape, Stretch, Symmetric};
 pub use spec::{
     Axial, Damping, Elasticity, FlexibleBeam, FrameConditions, FrameKind, OneOrMany, Ritz,
     SectionShape as SectionGeometry, Stiffness, Theory,

@@ -17,7 +17,7 @@ use super::integrals::mass_matrix;
 use super::line::{BeamLine, Cross, Shapes, Station};
 use super::mesh::Mesh;
 use super::section::Section;
-use super::shape::{Elastic, Piece, Stretch};
+use super::shape::{Elastic, Piece, Second, Stretch};
 use super::spec::FrameConditions;
 use crate::error::{Error, Result};
 use faer::linalg::solvers::Solve;
@@ -198,6 +198,7 @@ fn project_pieces<const D: usize>(pieces: &[Piece<D>], basis: &Mat<f64>) -> Piec
         mass: 0.0,
         moments: vec![[0.0; D]; n],
         products: vec![[[0.0; D]; D]; n * n],
+        second: project_second(pieces, basis),
     };
     for piece in pieces {
         let local = 1 + piece.dofs.len();
@@ -222,6 +223,26 @@ fn project_pieces<const D: usize>(pieces: &[Piece<D>], basis: &Mat<f64>) -> Piec
         }
     }
     sum
+}
+
+/// sum over the pieces of basis^T (m_ij, P_0ij) basis.
+fn project_second<const D: usize>(pieces: &[Piece<D>], basis: &Mat<f64>) -> Vec<Vec<Second<D>>> {
+    let n = basis.ncols();
+    let zeros = || (0..n).map(|other| Second { other, moment: [0.0; D], product: [[0.0; D]; D] }).collect::<Vec<_>>();
+    let mut rows = vec![zeros(); n];
+    for piece in pieces {
+        for (row, &dof) in piece.second.iter().zip(&piece.dofs).filter(|(row, _)| !row.is_empty()) {
+            let mut half = zeros();
+            for second in row {
+                half.iter_mut().for_each(|sum| sum.add(basis[(piece.dofs[second.other], sum.other)], second));
+            }
+            for (a, sums) in rows.iter_mut().enumerate() {
+                sums.iter_mut().zip(&half).for_each(|(sum, half)| sum.add(basis[(dof, a)], half));
+            }
+        }
+    }
+    rows.iter_mut().for_each(|row| row.retain(Second::counts));
+    rows
 }
 
 fn add_product<const D: usize>(sum: &mut [[f64; D]; D], factor: f64, product: &[[f64; D]; D]) {

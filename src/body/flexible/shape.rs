@@ -1,13 +1,16 @@
 //! A flexible body in a floating frame, by its shape functions.
 //!
-//! A point of the body is at u = psi_0 + sum_i psi_i q_i in the floating frame: psi_0 where it is at rest, psi_i the
-//! displacement that elastic coordinate i gives it. All that the equations of motion need of the mass is in
+//! A point of the body is at u = psi_0 + sum_i psi_i q_i + sum_ij psi_ij q_i q_j/2 in the floating frame: psi_0 where it is at
+//! rest, psi_i the displacement that elastic coordinate i gives it, psi_ij that of two of them together. All that the
+//! equations of motion need of the mass to second order in q is in
 //!
 //! ```text
 //! m_a = int rho psi_a dV,   P_ab = int rho psi_a psi_b^T dV      (a, b = 0, 1, ...),
+//! m_ij = int rho psi_ij dV,   P_0ij = int rho psi_0 psi_ij^T dV,
 //! ```
 //!
-//! computed once (Shabana, Dynamics of Multibody Systems, chapter 5: the shape integrals).
+//! computed once (Shabana, Dynamics of Multibody Systems, chapter 5: the shape integrals; Wallrapp, Standardization of
+//! Flexible Body Modeling in Multibody System Codes, Mechanics of Structures and Machines 22, 1994: their second order).
 
 /// A part of a body, a finite element or all of it, whose displacements depend on a few elastic coordinates.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,6 +23,33 @@ pub struct Piece<const D: usize> {
     pub moments: Vec<[f64; D]>,
     /// P_ab with `products[a * (1 + n) + b]`, (1 + n)^2 of them; P_ba = P_ab^T.
     pub products: Vec<[[f64; D]; D]>,
+    /// m_ij and P_0ij for each i, n of them, with those j for which they are not zero.
+    pub second: Vec<Vec<Second<D>>>,
+}
+
+/// Integrals of psi_ij, the same for psi_ji.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Second<const D: usize> {
+    /// Place of j among the piece's coordinates.
+    pub other: usize,
+    /// m_ij
+    pub moment: [f64; D],
+    /// P_0ij
+    pub product: [[f64; D]; D],
+}
+
+impl<const D: usize> Second<D> {
+    /// self += factor other
+    pub fn add(&mut self, factor: f64, other: &Self) {
+        let into = |sums: &mut [f64], values: &[f64]| sums.iter_mut().zip(values).for_each(|(s, x)| *s += factor * x);
+        into(&mut self.moment, &other.moment);
+        into(self.product.as_flattened_mut(), other.product.as_flattened());
+    }
+
+    /// Whether anything of it is not zero.
+    pub fn counts(&self) -> bool {
+        self.moment.iter().chain(self.product.as_flattened()).any(|x| *x != 0.0)
+    }
 }
 
 /// How a point of the body and the axes there move with the elastic coordinates.

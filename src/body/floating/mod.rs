@@ -18,6 +18,7 @@ mod algebra;
 mod elastic;
 mod inertia;
 mod layout;
+mod moving;
 mod point;
 mod spec;
 mod tangent;

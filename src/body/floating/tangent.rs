@@ -1,19 +1,21 @@
 //! K and C of the inertia forces.
 //!
-//! With r = (r_r, r_t, r_i) the rows of M v' - f, a = A^T (r'' - g), alpha = w', U_j = int rho u'' psi_j^T, and the bracket
+//! With r = (r_r, r_t, r_i) the rows of M v' - f, a = A^T (r'' - g), alpha = w', and the bracket
 //! B = alpha x s + w x (w x s) + 2 w x s' + s'':
 //!
 //! ```text
+//! s'' = sum_i q_i'' mu_i + sum_ij q_i' q_j' m_ij
 //! r_r = m (r'' - g) + A B
-//! r_t = s x a + J alpha + w x J w + 2 (tr(Q) w - Q^T w) + ax(int rho u u''^T)
-//! r_i = m_i.a + alpha.ax(W_i) + w.W_i w - w.w tr(W_i) + 2 w.ax(V_i) + sum_j tr(P_ij) q_j''
+//! r_t = s x a + J alpha + w x J w + 2 (tr(Q) w - Q^T w) + ax(sum_i q_i'' W_i + sum_ij q_i' q_j' P_0ij)
+//! r_i = mu_i.a + alpha.ax(W_i) + w.W_i w - w.w tr(W_i) + 2 w.ax(V_i) + sum_j tr(P_ij) q_j''
 //! ```
 //!
-//! A turn dtheta of the frame, in its axes, changes a by a x dtheta and A B by A (dtheta x B); a change of q_j changes u by
-//! psi_j.
+//! A turn dtheta of the frame, in its axes, changes a by a x dtheta and A B by A (dtheta x B); a change of q_j changes s by
+//! mu_j, mu_i by m_ij, W_i by P_ji + P_0ij and P by W_j + W_j^T.
 
 use super::algebra::*;
-use super::inertia::{Moving, angular_velocity, local, world};
+use super::inertia::{angular_velocity, local, world};
+use super::moving::Moving;
 use super::{Floating, frame, frame_velocities, turn_velocity, turns};
 use crate::body::{BodyState, Frame, cross, dot};
 use std::array::from_fn;
@@ -60,9 +62,10 @@ impl<const D: usize> Floating<D> {
     /// d(r_r, r_t)/dtheta.
     fn add_frame_stiffness(&self, motion: &Motion<D>, moving: &Moving<f64, D>, k: &mut [f64]) {
         let s = moving.s();
-        let (swept, rate, push) = (motion.swept(&s), moving.moment(moving.v), moving.moment(motion.vdot));
+        let (swept, rate) = (motion.swept(&s), moving.momentum(moving.v));
+        let (push, (drift, _)) = (moving.momentum(motion.vdot), moving.swerve(moving.v));
         let coriolis = spin(&motion.w, &rate);
-        let bracket: [f64; D] = from_fn(|i| swept[i] + 2.0 * coriolis[i] + push[i]);
+        let bracket: [f64; D] = from_fn(|i| swept[i] + 2.0 * coriolis[i] + push[i] + drift[i]);
         for l in turns(D) {
             let column = turn_velocity(D, l);
             let force = world(&motion.own, &spin(&unit(l), &bracket));
@@ -75,8 +78,8 @@ impl<const D: usize> Floating<D> {
 
     /// d(r_r, r_t)/dw.
     fn add_frame_damping(&self, motion: &Motion<D>, moving: &Moving<f64, D>, c: &mut [f64]) {
-        let (s, rate, w) = (moving.s(), moving.moment(moving.v), &motion.w);
-        let (p, q) = (moving.second(1.0, moving.q), transposed(&moving.second(0.0, moving.v)));
+        let (s, rate, w) = (moving.s(), moving.momentum(moving.v), &motion.w);
+        let (p, q) = (moving.p(), transposed(&moving.flow(moving.v)));
         for l in turns(D) {
             let (e, column) = (unit(l), turn_velocity(D, l));
             let (first, second, third) = (spin(&e, &spin(w, &s)), spin(w, &spin(&e, &s)), spin(&e, &rate));
@@ -91,25 +94,31 @@ impl<const D: usize> Floating<D> {
 
     /// d(r_r, r_t)/dq_j and its rate's, d(r_j)/dtheta and d(r_j)/dw.
     fn add_mixed(&self, motion: &Motion<D>, moving: &Moving<f64, D>, j: usize, k: &mut [f64], c: &mut [f64]) {
-        let (dof, m, w) = (moving.piece.dofs[j], &moving.piece.moments[j + 1], &motion.w);
-        let (weighed, rated, pushed) =
-            (moving.w(j + 1), moving.rated(moving.v, j + 1), moving.rated(motion.vdot, j + 1));
-        let (force, coriolis) = (world(&motion.own, &motion.swept(m)), world(&motion.own, &spin(w, m)));
+        let (dof, mu, w) = (moving.piece.dofs[j], moving.mu(j), &motion.w);
+        let (drift, pushed_on) = (moving.drift(moving.v, j), moving.drift(motion.vdot, j));
+        let (swept, coriolis) = (motion.swept(&mu), spin(w, &drift));
+        let force = world(&motion.own, &from_fn(|i| swept[i] + 2.0 * coriolis[i] + pushed_on[i]));
+        let turned = spin(w, &mu);
+        let braking = world(&motion.own, &from_fn(|i| turned[i] + drift[i]));
         for i in 0..D {
             k[self.layout.column(i, dof)] += force[i];
-            c[self.layout.column(i, dof)] += 2.0 * coriolis[i];
+            c[self.layout.column(i, dof)] += 2.0 * braking[i];
         }
+        let (weighed, rated) = (moving.w(j), moving.rated(moving.v, j));
+        let (curving, curved) = (moving.curved(moving.v, j), moving.curved(motion.vdot, j));
         let grown: Matrix<f64, D> = from_fn(|a| from_fn(|b| weighed[a][b] + weighed[b][a]));
         let (lever, swing, gyroscopic) =
-            (cross(m, &motion.a), swung(&grown, &motion.alpha), cross3(w, &swung(&grown, w)));
-        let (stretching, push) = (swung(&rated, w), axial(&pushed));
-        let moving_out = swung(&transposed(&weighed), w);
+            (cross(&mu, &motion.a), swung(&grown, &motion.alpha), cross3(w, &swung(&grown, w)));
+        let flow: Matrix<f64, D> = from_fn(|a| from_fn(|b| rated[a][b] + curving[b][a]));
+        let (stretching, push, push_on) = (swung(&flow, w), axial(&moving.rated(motion.vdot, j)), axial(&curved));
+        let (moving_out, swerving) = (swung(&transposed(&weighed), w), axial(&curving));
         let (outward, rotating) = (swung(&grown, w), axial(&rated));
         for i in turns(D) {
             let turn = turn_velocity(D, i);
-            k[self.layout.column(turn, dof)] += lever[i] + swing[i] + gyroscopic[i] + 2.0 * stretching[i] - push[i];
-            c[self.layout.column(turn, dof)] += 2.0 * moving_out[i];
-            k[self.layout.row(dof, turn)] -= dot(m, &spin(&unit(i), &motion.a));
+            let pushing = push_on[i] - push[i];
+            k[self.layout.column(turn, dof)] += lever[i] + swing[i] + gyroscopic[i] + 2.0 * stretching[i] + pushing;
+            c[self.layout.column(turn, dof)] += 2.0 * (moving_out[i] + swerving[i]);
+            k[self.layout.row(dof, turn)] -= dot(&mu, &spin(&unit(i), &motion.a));
             c[self.layout.row(dof, turn)] += 2.0 * rotating[i] - outward[i];
         }
     }
@@ -132,6 +141,11 @@ impl<const D: usize> Floating<D> {
             let turned = axial(product);
             k[places[i * n + j]] += dot3(&motion.alpha, &turned) - whirled(product, &motion.w);
             c[places[i * n + j]] += 2.0 * dot3(&motion.w, &turned);
+        }
+        for second in &moving.piece.second[j] {
+            let place = places[second.other * n + j];
+            let swing = dot3(&motion.alpha, &axial(&second.product)) - whirled(&second.product, &motion.w);
+            k[place] += dot(&second.moment, &motion.a) + swing;
         }
     }
 }

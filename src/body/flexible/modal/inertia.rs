@@ -43,6 +43,7 @@ fn empty<const D: usize>(n: usize) -> Piece<D> {
         mass: 0.0,
         moments: vec![[0.0; D]; 1 + n],
         products: vec![[[0.0; D]; D]; (1 + n) * (1 + n)],
+        second: vec![Vec::new(); n],
     }
 }
 

@@ -1,0 +1,140 @@
+//! The mass integrals of one piece at a state.
+//!
+//! With phi_i = du/dq_i = psi_i + sum_j psi_ij q_j, to second order in q:
+//!
+//! ```text
+//! s    = int rho u         = m_0 + sum_i q_i m_i + sum_ij q_i q_j m_ij/2
+//! mu_i = int rho phi_i     = m_i + sum_j q_j m_ij
+//! W_i  = int rho u phi_i^T = P_0i + sum_j q_j (P_ji + P_0ij)
+//! P    = int rho u u^T     = P_00 + sum_i q_i (P_0i + P_i0) + sum_ij q_i q_j (P_ij + (P_0ij + P_0ij^T)/2)
+//! ```
+
+use super::algebra::*;
+use crate::body::flexible::Piece;
+use crate::math::Scalar;
+use std::array::from_fn;
+
+/// One piece at a state.
+pub(super) struct Moving<'a, S, const D: usize> {
+    pub piece: &'a Piece<D>,
+    /// All elastic coordinates and velocities of the body.
+    pub q: &'a [S],
+    pub v: &'a [S],
+}
+
+impl<S: Scalar, const D: usize> Moving<'_, S, D> {
+    /// s
+    pub fn s(&self) -> [S; D] {
+        let mut s = self.piece.moments[0].map(S::constant);
+        for (i, &dof) in self.piece.dofs.iter().enumerate() {
+            let x = self.q[dof];
+            add_scaled(&mut s, x, &self.piece.moments[i + 1]);
+            add_scaled(&mut s, x * 0.5, &self.drift(self.q, i));
+        }
+        s
+    }
+
+    /// mu_i
+    #[inline]
+    pub fn mu(&self, i: usize) -> [S; D] {
+        let mut mu = self.drift(self.q, i);
+        add_scaled(&mut mu, S::one(), &self.piece.moments[i + 1]);
+        mu
+    }
+
+    /// sum_i x_i mu_i: with velocities s'.
+    pub fn momentum(&self, x: &[S]) -> [S; D] {
+        let mut sum = [S::zero(); D];
+        for (i, &dof) in self.piece.dofs.iter().enumerate() {
+            add_scaled(&mut sum, x[dof], &self.mu(i));
+        }
+        sum
+    }
+
+    /// W_i
+    #[inline]
+    pub fn w(&self, i: usize) -> Matrix<S, D> {
+        let mut sum = self.against(i + 1);
+        add_matrix(&mut sum, S::one(), &self.curved(self.q, i));
+        sum
+    }
+
+    /// sum_i x_i W_i: with velocities int rho u u'^T.
+    pub fn flow(&self, x: &[S]) -> Matrix<S, D> {
+        let mut sum = [[S::zero(); D]; D];
+        for (i, &dof) in self.piece.dofs.iter().enumerate() {
+            if x[dof] != S::zero() {
+                add_matrix(&mut sum, x[dof], &self.w(i));
+            }
+        }
+        sum
+    }
+
+    /// sum_j x_j P_ji: with velocities int rho u' psi_i^T.
+    #[inline]
+    pub fn rated(&self, x: &[S], i: usize) -> Matrix<S, D> {
+        self.sum_of_products(x, i + 1)
+    }
+
+    /// P, the symmetric part of P_00 + sum_j q_j P_j0 + sum_i q_i W_i.
+    pub fn p(&self) -> Matrix<S, D> {
+        let mut sum = self.flow(self.q);
+        add_matrix(&mut sum, S::one(), &self.against(0));
+        symmetric(&sum)
+    }
+
+    /// sum_j x_j m_ij
+    #[inline]
+    pub fn drift(&self, x: &[S], i: usize) -> [S; D] {
+        let mut sum = [S::zero(); D];
+        for second in &self.piece.second[i] {
+            add_scaled(&mut sum, x[self.piece.dofs[second.other]], &second.moment);
+        }
+        sum
+    }
+
+    /// sum_j x_j P_0ij
+    #[inline]
+    pub fn curved(&self, x: &[S], i: usize) -> Matrix<S, D> {
+        let mut sum = [[S::zero(); D]; D];
+        for second in &self.piece.second[i] {
+            add_matrix(&mut sum, x[self.piece.dofs[second.other]], &second.product);
+        }
+        sum
+    }
+
+    /// sum_ij x_i x_j m_ij and ax(sum_ij x_i x_j P_0ij).
+    pub fn swerve(&self, x: &[S]) -> ([S; D], [S; 3]) {
+        let (mut drift, mut curved) = ([S::zero(); D], [[S::zero(); D]; D]);
+        for (i, &dof) in self.piece.dofs.iter().enumerate() {
+            add_scaled(&mut drift, x[dof], &self.drift(x, i));
+            add_matrix(&mut curved, x[dof], &self.curved(x, i));
+        }
+        (drift, axial(&curved))
+    }
+
+    /// int rho u psi_b^T to first order in q, b = 0 for psi_0 and 1 + i for psi_i.
+    #[inline]
+    pub fn against(&self, b: usize) -> Matrix<S, D> {
+        let mut sum = self.sum_of_products(self.q, b);
+        add_matrix(&mut sum, S::one(), &self.piece.products[b]);
+        sum
+    }
+
+    /// sum_j x_j P_jb
+    #[inline]
+    fn sum_of_products(&self, x: &[S], b: usize) -> Matrix<S, D> {
+        let width = self.piece.dofs.len() + 1;
+        let mut sum = [[S::zero(); D]; D];
+        for (j, &dof) in self.piece.dofs.iter().enumerate() {
+            add_matrix(&mut sum, x[dof], &self.piece.products[(j + 1) * width + b]);
+        }
+        sum
+    }
+}
+
+/// (m + m^T)/2
+#[inline]
+pub(super) fn symmetric<S: Scalar, const D: usize>(m: &Matrix<S, D>) -> Matrix<S, D> {
+    from_fn(|i| from_fn(|j| (m[i][j] + m[j][i]) * 0.5))
+}
