@@ -63,7 +63,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let mut folder = args.files.folder(&study.name)?;
     let mut files: Vec<ResponseFile> = Vec::new();
     for state in &places {
-        let model = linearize::linearize(&mut state.variation(&study).map_err(in_file)?, &request).map_err(in_file)?;
+        let model = linearize::linearize(&mut state.variation().map_err(in_file)?, &request).map_err(in_file)?;
         let frequencies = frequencies(&args, &model)?;
         let response = respond(&study, &model, &chosen, frequencies);
         write(&args, &response, &mut folder)?;

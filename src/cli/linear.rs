@@ -3,7 +3,7 @@
 use super::common::{MethodOptions, SceneOptions, Talk, number};
 use crate::choice::Choice;
 use crate::error::Result;
-use crate::linearize::{Chart, Request, State, at_rest, registry, states, tighten};
+use crate::linearize::{Chart, Operating, Request, State, at_rest, registry, states, tighten};
 use crate::study::Study;
 
 /// Which linear model.
@@ -69,14 +69,17 @@ impl MethodOptions {
 }
 
 impl StateOptions {
-    pub fn states(&self, study: &Study, talk: &Talk) -> Result<Vec<State>> {
+    pub fn states<'a>(&self, study: &'a Study, talk: &Talk) -> Result<Vec<Operating<'a>>> {
         let times = if self.at.is_empty() { vec![study.start_time()] } else { self.at.clone() };
         if !self.equilibrium {
             let bar = talk.progress(times.len() as u64, &study.name);
             let found = states(study, &times, |_| bar.inc(1));
             bar.finish_and_clear();
-            return found;
+            return Ok(found?.into_iter().map(|state| Operating::moving(study, state)).collect());
         }
-        times.into_iter().map(|t| at_rest(study, &State { t, ..State::start(study) })).collect()
+        let found = times.into_iter().map(|t| at_rest(study, &State { t, ..State::start(study) }));
+        let found: Vec<Operating> = found.collect::<Result<_>>()?;
+        talk.warn(found.iter().filter_map(|operating| operating.doubt.as_ref()));
+        Ok(found)
     }
 }

@@ -47,7 +47,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let mut folder = args.output.folder(&study.name)?;
     let mut results = Vec::new();
     for state in &places {
-        let mut variation = state.variation(&study).map_err(in_file)?;
+        let mut variation = state.variation().map_err(in_file)?;
         let models = models(&args, &requests, &mut variation).map_err(in_file)?;
         results.push(report(&args, &study, &models, &mut folder)?);
     }

@@ -3,7 +3,7 @@
 use super::common::{MethodOptions, Output, SceneOptions, Talk, positive, print};
 use super::linear::StateOptions;
 use crate::error::{Error, Result};
-use crate::linearize::{Defect, Floquet, Lyapunov, State, floquet, lyapunov};
+use crate::linearize::{Defect, Floquet, Lyapunov, Operating, State, floquet, lyapunov};
 use crate::plot::{Figure, Panel, Series};
 use crate::report::{Table, Written, cell, significant};
 use crate::study::Study;
@@ -42,16 +42,17 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let places = args.states.states(&study, &args.talk).map_err(in_file)?;
     let mut folder = args.output.folder(&study.name)?;
     let mut results = Vec::new();
-    for state in &places {
+    for place in &places {
+        let state = &place.state;
         let mut result = json!({ "scene": study.name, "t": state.t });
         if let Some(period) = args.period {
-            let found = floquet(study.system(), state, period).map_err(in_file)?;
+            let found = floquet(place.system(), state, period).map_err(in_file)?;
             let defects = found.defects(SLACK)?;
             show(&args, &floquet_text(&study, state, &found, &defects))?;
             result["floquet"] = floquet_json(&found, &defects);
         }
         if let Some(duration) = args.lyapunov {
-            let found = exponents(&args, &study, state, duration).map_err(in_file)?;
+            let found = exponents(&args, &study.name, place, duration).map_err(in_file)?;
             show(&args, &lyapunov_text(&study, state, &found))?;
             args.output.figure(&mut folder, &format!("lyapunov-{}", cell(state.t)), figure(&study, &found))?;
             result["lyapunov"] = json!({ "times": found.times, "exponents": found.exponents });
@@ -62,10 +63,10 @@ pub fn run(args: Args) -> Result<ExitCode> {
     finish(&args, &results, &folder.finish()?)
 }
 
-fn exponents(args: &Args, study: &Study, state: &State, duration: f64) -> Result<Lyapunov> {
-    let bar = args.talk.progress(1000, &study.name);
+fn exponents(args: &Args, name: &str, place: &Operating, duration: f64) -> Result<Lyapunov> {
+    let bar = args.talk.progress(1000, name);
     let progress = |t: f64| bar.set_position((1000.0 * t / duration) as u64);
-    let found = lyapunov(study.system(), state, (duration, duration / RENEWALS), progress);
+    let found = lyapunov(place.system(), &place.state, (duration, duration / RENEWALS), progress);
     bar.finish_and_clear();
     found
 }

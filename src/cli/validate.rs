@@ -45,16 +45,16 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let places = args.states.states(&study, &args.talk).map_err(in_file)?;
     let mut folder = args.output.folder(&study.name)?;
     let (names, mut files) = (study.system().names(), Vec::new());
-    for state in &places {
-        let found = validate(study.system(), state, &settings).map_err(in_file)?;
+    for place in &places {
+        let found = validate(place.system(), &place.state, &settings).map_err(in_file)?;
         let file = ValidationFile::new(&study.name, &names, &found);
-        let stem = format!("validation-{}", cell(state.t));
+        let stem = format!("validation-{}", cell(place.state.t));
         folder.write_json(&format!("{stem}.json"), &file)?;
         for (i, ladder) in found.ladders.iter().enumerate() {
             let title = format!(
                 "{}, perturbed at t = {} s ({})",
                 study.name,
-                report::significant(state.t, 6),
+                report::significant(place.state.t, 6),
                 ladder.direction
             );
             let name = if i == 0 { stem.clone() } else { format!("{stem}-{}", i + 1) };

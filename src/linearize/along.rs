@@ -2,7 +2,7 @@
 
 use super::Variation;
 use crate::error::{Error, Result, short};
-use crate::initial::{assemble, equilibrium};
+use crate::initial::assemble;
 use crate::simulate::{Method, Observation, Sink, Span, simulate};
 use crate::study::{Overrides, Study};
 
@@ -115,19 +115,4 @@ pub(super) fn follow(study: &Study, method: &Method, from: &State, end: f64) -> 
     }
     let closed = assemble(study.system(), end, (&outcome.q, &outcome.v), &[])?;
     Ok(State { t: end, q: closed.q, v: closed.v })
-}
-
-/// The equilibrium that belongs to a state, with all that depends on time held.
-///
-/// # Errors
-/// None found: what moves, or where force is left. Drives that accelerate.
-pub fn at_rest(study: &Study, state: &State) -> Result<State> {
-    let found = equilibrium(study.system(), state.t, &state.q)?;
-    let rest = State { t: state.t, v: vec![0.0; state.v.len()], q: found.q };
-    match rest.variation(study)?.point.is_equilibrium {
-        true => Ok(rest),
-        false => Err(Error::input(format!("at t = {} s moving constraints accelerate the mechanism", short(state.t)))
-            .under("--equilibrium")
-            .hint("choose a time at which drives stand still or move steadily, or linearize the motion itself")),
-    }
 }

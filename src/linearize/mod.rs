@@ -19,13 +19,14 @@ mod response;
 mod singular;
 mod sparse;
 mod spectrum;
+mod steady;
 mod survey;
 mod tracking;
 mod transition;
 mod unconstrained;
 mod variation;
 
-pub use along::{State, at_rest, states, tighten};
+pub use along::{State, states, tighten};
 pub use chart::{Chart, Coordinates, parallel};
 pub use floquet::{Defect, Floquet, floquet};
 pub use frequency::{Resonances, frequency_response};
@@ -37,6 +38,7 @@ pub use model::{Complex, Cost, Kind, LinearModel, Matrix, Mode, damping, frequen
 pub use point::OperatingPoint;
 pub use response::{Changes, Response};
 pub use sparse::modal;
+pub use steady::{Operating, at_rest};
 pub use survey::{Along, At, Gap, Loci, Reached, Variants, loci_along, loci_over};
 pub use tracking::{Sample, track};
 pub use transition::{Transition, transition};

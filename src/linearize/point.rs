@@ -2,6 +2,7 @@
 
 use crate::formulation::Dynamics;
 use crate::math::largest;
+use crate::system::Spin;
 
 /// A state with its accelerations and multipliers.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -16,6 +17,8 @@ pub struct OperatingPoint {
     pub phi_dot: f64,
     /// v = 0 and v' = 0, to rounding.
     pub is_equilibrium: bool,
+    /// The turn of the axes that q and v are counted in; none in the world's.
+    pub axes: Option<Spin>,
 }
 
 /// Accelerations below this part of those that single forces would give are none; nor are speeds below this part of those
@@ -36,6 +39,7 @@ impl OperatingPoint {
             phi: worst(&terms.phi),
             phi_dot: worst(&terms.phi_dot),
             is_equilibrium: is_at_rest(dynamics, v),
+            axes: dynamics.system.axes(),
         }
     }
 }

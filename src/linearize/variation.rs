@@ -123,6 +123,14 @@ impl<'a> Variation<'a> {
         force
     }
 
+    /// G x, a column each.
+    pub fn g_times(&self, x: &Matrix) -> Matrix {
+        let Dynamics { structure, terms, .. } = &self.dynamics;
+        let mut rows = Matrix::zeros(structure.g.rows, x.ncols());
+        add_product(&structure.g, &terms.g, x, 1.0, &mut rows);
+        rows
+    }
+
     /// What G dv' must be for phi'' + c1 phi' + c0 phi = 0, a column each:
     /// -(Gdd + c1 Gd + c0 G) dq - (G1 + c1 G) dv.
     pub fn rows(&self, changes: &Changes, [c1, c0]: [f64; 2]) -> Matrix {

@@ -5,6 +5,7 @@ use super::levi_civita::LeviCivita;
 use super::limits::{Extent, limits};
 use super::output_tangent::{OutputTangent, Slopes};
 use super::rows::{PlacedJoint, Rows};
+use super::spin::{Placement, Spin};
 use super::support::Support;
 use super::tangent::{Evaluation, Loaded, Tangent};
 use super::variation::Varied;
@@ -294,6 +295,14 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
             }
         }
         is_constant
+    }
+
+    fn spin(&self, t: f64) -> Option<Spin> {
+        self.driven_spin(t)
+    }
+
+    fn placements(&self) -> Option<Vec<Placement>> {
+        self.placed_coordinates()
     }
 
     fn add_stiffness(&self, mass: &mut [f64]) {

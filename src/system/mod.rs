@@ -12,7 +12,10 @@ mod limits;
 mod mechanism;
 mod output;
 mod output_tangent;
+mod rotating;
 mod rows;
+mod spin;
+mod spinning;
 mod support;
 mod tangent;
 mod terms;
@@ -24,6 +27,8 @@ pub use equations::Equations;
 pub use levi_civita::LeviCivita;
 pub use limits::{Limited, Theory};
 pub use mechanism::Mechanism;
+pub use rotating::Rotating;
+pub use spin::{Placement, Spin};
 pub use output_tangent::OutputTangent;
 pub use tangent::{Loaded, Tangent};
 pub use terms::{Need, Scratch, Structure, Terms};
@@ -125,6 +130,23 @@ pub trait MechanicalSystem: Send + Sync {
     /// q' = N(q) v. Default: N = I.
     fn rate(&self, _q: &[f64], v: &[f64], qdot: &mut [f64]) {
         qdot.copy_from_slice(v);
+    }
+
+    /// The constant turn about a fixed axis that drives prescribe at `t`; none where nothing is driven, or more than that,
+    /// which is the default.
+    fn spin(&self, _t: f64) -> Option<Spin> {
+        None
+    }
+
+    /// The turn of the axes that q and v are counted in. Default: none, the world's.
+    fn axes(&self) -> Option<Spin> {
+        None
+    }
+
+    /// The coordinates that turn with the world; all others are the same from all sides. None, which is the default, where
+    /// bodies are held to directions of the world.
+    fn placements(&self) -> Option<Vec<Placement>> {
+        None
     }
 
     /// mass += s^2 times the stiffness of bodies against their own deformation, at the places of M: assembly then closes

@@ -119,6 +119,7 @@ impl<F: Shapes, const D: usize> Line<D> for BeamLine<F> {
         };
         PointShape {
             rest,
+            arm: from_fn(|k| offset[k]),
             dofs,
             translation: shapes.iter().map(translation).collect(),
             rotation: shapes.iter().map(|shape| shape.rotation).collect(),

@@ -57,9 +57,11 @@ impl<const D: usize> Second<D> {
 pub struct PointShape<const D: usize> {
     /// At rest, from the floating frame's origin and in its axes, m.
     pub rest: [f64; D],
+    /// From the line of a beam to the point, in the section's axes, with which it turns.
+    pub arm: [f64; D],
     /// The elastic coordinates that move it.
     pub dofs: Vec<usize>,
-    /// Displacement a coordinate.
+    /// Displacement a coordinate, to first order.
     pub translation: Vec<[f64; D]>,
     /// Small rotation a coordinate; in the plane only the third component is used.
     pub rotation: Vec<[f64; 3]>,

@@ -1,12 +1,14 @@
 //! Points of the body: where they are, and what a wrench there does to each coordinate.
 
+use super::algebra::spin;
 use super::turns;
 use crate::body::flexible::PointShape;
 use crate::body::{Frame, Marker, Wrench, cross, dot, sub};
 use crate::math::Scalar;
 use std::array::from_fn;
 
-/// The frame of a marker: at rest + sum_i t_i q_i, with axes turned by sum_i r_i q_i.
+/// The frame of a marker: at rest + sum_i t_i q_i + (R - 1 - a~) arm, with axes turned by R of a = sum_i r_i q_i. The line
+/// moves by its displacements; what is beside it turns with the section by more than the a x arm that is in t_i.
 #[inline]
 pub(super) fn place<S: Scalar, const D: usize>(
     own: &Frame<S, D>,
@@ -23,8 +25,20 @@ pub(super) fn place<S: Scalar, const D: usize>(
     for (axis, &u) in own.axes.iter().zip(&u) {
         r.iter_mut().zip(axis).for_each(|(r, &a)| *r += a * u);
     }
-    let turned = turn(Frame { r, ..*own }, &angles(shape, coordinate));
+    let a = angles(shape, coordinate);
+    let mut turned = turn(Frame { r, ..*own }, &a);
+    if shape.arm != [0.0; D] {
+        let arm = shape.arm.map(S::constant);
+        let [swung, first, rest] = [along(&turned, &arm), along(own, &spin(&a, &arm)), along(own, &arm)];
+        (0..D).for_each(|k| turned.r[k] += swung[k] - first[k] - rest[k]);
+    }
     turned.at(&Marker { offset: [0.0; D], ..*marker })
+}
+
+/// A vector in the axes of a frame in the world.
+#[inline]
+fn along<S: Scalar, const D: usize>(frame: &Frame<S, D>, vector: &[S; D]) -> [S; D] {
+    from_fn(|k| (0..D).fold(S::zero(), |sum, i| sum + frame.axes[i][k] * vector[i]))
 }
 
 /// The small rotation at a point.
@@ -87,10 +101,19 @@ pub(super) fn pull_back_elastic<S: Scalar, const D: usize>(
     f: &mut [S],
 ) {
     let force: [S; D] = from_fn(|k| dot(&own.axes[k], &wrench.force));
-    let torque = match D {
-        2 => wrench.torque,
-        _ => local_torque(own, &angles(shape, |i| q[i]), &wrench.torque),
-    };
+    let a = angles(shape, |i| q[i]);
+    let mut torque = wrench.torque;
+    if shape.arm != [0.0; D] {
+        let lever = cross(&along(&turn(*own, &a), &shape.arm.map(S::constant)), &wrench.force);
+        (0..3).for_each(|k| torque[k] += lever[k]);
+    }
+    if D == 3 {
+        torque = local_torque(own, &a, &torque);
+    }
+    if shape.arm != [0.0; D] {
+        let first = cross(&shape.arm.map(S::constant), &force);
+        (0..3).for_each(|k| torque[k] -= first[k]);
+    }
     for (f, (translation, rotation)) in f.iter_mut().zip(shape.translation.iter().zip(&shape.rotation)) {
         (0..D).filter(|&k| translation[k] != 0.0).for_each(|k| *f += force[k] * translation[k]);
         (0..3).filter(|&k| rotation[k] != 0.0).for_each(|k| *f += torque[k] * rotation[k]);

@@ -47,11 +47,12 @@ pub(super) fn collect(
     let more: Vec<Vec<Sample>> = outcomes.par_windows(2).map(behind).collect();
     let first = outcomes.iter().find_map(|(_, outcome)| outcome.as_ref().ok());
     let (method, chart) = first.map(|found| (found.method.clone(), found.chart.clone())).unwrap_or_default();
-    let (mut reached, mut gaps, mut samples) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut reached, mut gaps, mut samples, mut doubts) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for ((at, outcome), more) in outcomes.into_iter().zip(more.into_iter().chain([Vec::new()])) {
         match outcome {
             Ok(found) => {
                 reached.push(Reached { at, equilibrium: found.is_equilibrium });
+                doubts.extend(found.doubt.filter(|_| doubts.is_empty()));
                 samples.push(found.sample);
             }
             Err(error) => {
@@ -62,7 +63,7 @@ pub(super) fn collect(
         samples.extend(more);
     }
     let branches = asked(track(&samples), &places);
-    Loci { along, method, chart, places, reached, gaps, branches }
+    Loci { along, method, chart, places, reached, gaps, branches, doubts }
 }
 
 /// The branches at these places only.

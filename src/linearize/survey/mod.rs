@@ -3,8 +3,8 @@
 mod collect;
 
 use super::along::{Walk, follow};
-use super::{Branch, Matrix, Request, Sample, State, at_rest, linearize, tighten};
-use crate::error::{Error, Result};
+use super::{Branch, Matrix, Operating, Request, Sample, State, at_rest, linearize, tighten};
+use crate::error::{Error, Result, Warning};
 use crate::study::{Overrides, Study};
 use crate::sweep::{Family, Range};
 use collect::collect;
@@ -23,6 +23,8 @@ pub struct Loci {
     pub gaps: Vec<Gap>,
     /// Physical ones first.
     pub branches: Vec<Branch>,
+    /// What the states may not be, each once.
+    pub doubts: Vec<Warning>,
 }
 
 /// What the eigenvalues are functions of.
@@ -73,6 +75,7 @@ struct Found {
     method: String,
     chart: String,
     is_equilibrium: bool,
+    doubt: Option<Warning>,
 }
 
 type Outcome = (f64, Result<Found>);
@@ -86,11 +89,11 @@ pub fn loci_along(study: &Study, request: &Request, times: &[f64], progress: imp
         None => walk.to(t).inspect_err(|error| stopped = Some(error.clone())),
     };
     let states: Vec<(f64, Result<State>)> = times.iter().map(|&t| (t, go_to(t))).inspect(|_| progress()).collect();
-    let outcome = |(t, state): (f64, Result<State>)| (t, state.and_then(|state| found(study, &state, t, request)));
+    let moving = |state, t| found(&Operating::moving(study, state), t, request);
+    let outcome = |(t, state): (f64, Result<State>)| (t, state.and_then(|state| moving(state, t)));
     let outcomes: Vec<Outcome> = states.into_par_iter().map(outcome).collect();
     let between = |before: &Found, t: f64| {
-        let state = follow(study, &study.method, &before.state, t)?;
-        found(study, &state, t, request)
+        moving(follow(study, &study.method, &before.state, t)?, t)
     };
     collect(Along::Time, outcomes, between)
 }
@@ -121,7 +124,7 @@ pub fn loci_over(variants: &Variants, at: At, request: &Request, progress: impl 
     let between = |before: &Found, value: f64| match at {
         At::Equilibrium => {
             let study = variants.study(value)?;
-            found(&study, &rest(&study, Some(&before.state.q))?, value, request)
+            found(&rest(&study, Some(&before.state.q))?, value, request)
         }
         _ => variants.found(value, at, request),
     };
@@ -136,31 +139,28 @@ fn at_rest_along<'v>(
     request: &Request,
     progress: &(impl Fn() + Sync),
 ) -> Vec<Outcome> {
-    let at = |value: f64, guess: Option<&[f64]>| {
+    let first = |value: f64| rest(&variants.study(value)?, None).map(|rest| rest.state.q);
+    let mut guess = behind.and_then(|&value| first(value).ok());
+    let mut next = |value: f64| {
         let study = variants.study(value)?;
-        let state = rest(&study, guess)?;
-        Ok::<_, Error>((study, state))
+        let rest = rest(&study, guess.as_deref())?;
+        guess = Some(rest.state.q.clone());
+        found(&rest, value, request)
     };
-    let mut guess = behind.and_then(|&value| at(value, None).ok()).map(|(_, state)| state.q);
     let mut outcomes = Vec::new();
     for &value in values {
-        let outcome = at(value, guess.as_deref()).and_then(|(study, state)| {
-            let found = found(&study, &state, value, request);
-            guess = Some(state.q);
-            found
-        });
-        outcomes.push((value, outcome));
+        outcomes.push((value, next(value)));
         progress();
     }
     outcomes
 }
 
 /// The equilibrium that belongs to a guess; where there is none, that of the scene's own start.
-fn rest(study: &Study, guess: Option<&[f64]>) -> Result<State> {
+fn rest<'a>(study: &'a Study, guess: Option<&[f64]>) -> Result<Operating<'a>> {
     let start = State::start(study);
     let near = guess.filter(|q| q.len() == start.q.len()).map(|q| State { q: q.to_vec(), ..start.clone() });
     match near.map(|near| at_rest(study, &near)) {
-        Some(Ok(state)) => Ok(state),
+        Some(Ok(rest)) => Ok(rest),
         _ => at_rest(study, &start),
     }
 }
@@ -179,15 +179,17 @@ impl Variants<'_> {
             At::Time(t) => super::states(&study, &[t], |_| ())?.into_iter().next(),
             _ => None,
         };
-        found(&study, &state.unwrap_or_else(|| State::start(&study)), value, request)
+        let state = state.unwrap_or_else(|| State::start(&study));
+        found(&Operating::moving(&study, state), value, request)
     }
 }
 
-fn found(study: &Study, state: &State, at: f64, request: &Request) -> Result<Found> {
-    let mut variation = state.variation(study)?;
+fn found(operating: &Operating, at: f64, request: &Request) -> Result<Found> {
+    let mut variation = operating.variation()?;
     let model = linearize(&mut variation, request)?;
     let mass: Matrix = variation.mass();
     let is_equilibrium = model.point.is_equilibrium;
     let sample = Sample { at, modes: model.modes, mass };
-    Ok(Found { state: state.clone(), sample, method: model.method, chart: model.chart, is_equilibrium })
+    let (state, doubt) = (operating.state.clone(), operating.doubt.clone());
+    Ok(Found { state, sample, method: model.method, chart: model.chart, is_equilibrium, doubt })
 }

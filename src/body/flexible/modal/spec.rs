@@ -10,7 +10,8 @@ use std::fmt;
 use std::marker::PhantomData;
 
 /// A flexible body by its modes, such as another program computes them: rigid coordinates of a frame that is fixed in the
-/// data's axes, and one elastic coordinate a mode. Its markers are at the data's nodes.
+/// data's axes, and one elastic coordinate a mode. Its markers are at the data's nodes. Points move in proportion to the
+/// modes: what sections that turn and lines that shorten do to the inertia at second order is not in such data.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ModalBody {

@@ -1,0 +1,133 @@
+//! Rest, in the world or in axes that turn with the mechanism.
+
+use super::{Changes, Matrix, State, Variation};
+use crate::error::{Error, Result, Warning, short};
+use crate::initial::{assemble, equilibrium};
+use crate::study::Study;
+use crate::system::{MechanicalSystem, Rotating};
+
+/// A state with the equations that it is a state of.
+pub struct Operating<'a> {
+    pub state: State,
+    study: &'a Study,
+    /// Where it is a steady rotation: v is counted in these axes.
+    axes: Option<Rotating<'a>>,
+    pub doubt: Option<Warning>,
+}
+
+impl<'a> Operating<'a> {
+    /// A state of the motion.
+    pub fn moving(study: &'a Study, state: State) -> Self {
+        Operating { state, study, axes: None, doubt: None }
+    }
+
+    pub fn system(&self) -> &dyn MechanicalSystem {
+        match &self.axes {
+            Some(axes) => axes,
+            None => self.study.system(),
+        }
+    }
+
+    /// The variational equations there.
+    ///
+    /// # Errors
+    /// See [`Variation::new`].
+    pub fn variation(&self) -> Result<Variation<'_>> {
+        Variation::new(self.system(), self.state.t, &self.state.q, &self.state.v)
+    }
+}
+
+/// The equilibrium that belongs to a state, with all that depends on time held: of a mechanism that drives turn about a
+/// fixed axis at a constant speed, and that is the same all around it, in axes that turn along.
+///
+/// # Errors
+/// None found: what moves, or where force is left. Drives that accelerate.
+pub fn at_rest<'a>(study: &'a Study, state: &State) -> Result<Operating<'a>> {
+    let Some(spin) = study.system().spin(state.t) else { return still(study, state) };
+    match Rotating::new(study.system(), state.t, spin) {
+        Some(axes) if is_same_all_around(&axes, study, state)? => {
+            let found = equilibrium(&axes, state.t, &state.q)?;
+            let rest = State { t: state.t, v: vec![0.0; state.v.len()], q: found.q };
+            Ok(Operating { state: rest, study, axes: Some(axes), doubt: None })
+        }
+        _ => {
+            let text = format!(
+                "a drive turns at {} rad/s, but the mechanism is not the same all around its axis: this is the rest of the \
+                 mechanism with the drive held where it is at t = {} s",
+                short(spin.speed()),
+                short(state.t)
+            );
+            let hint = "leave --equilibrium out to linearize the motion; `holonom transition` says whether it is stable";
+            Ok(Operating { doubt: Some(Warning::new(text, hint)), ..still(study, state)? })
+        }
+    }
+}
+
+fn still<'a>(study: &'a Study, state: &State) -> Result<Operating<'a>> {
+    let found = equilibrium(study.system(), state.t, &state.q)?;
+    let rest = State { t: state.t, v: vec![0.0; state.v.len()], q: found.q };
+    let operating = Operating::moving(study, rest);
+    match operating.variation()?.point.is_equilibrium {
+        true => Ok(operating),
+        false => Err(Error::input(format!("at t = {} s moving constraints accelerate the mechanism", short(state.t)))
+            .under("--equilibrium")
+            .hint("choose a time at which drives stand still or move steadily, or linearize the motion itself")),
+    }
+}
+
+/// An angle that no usual arrangement of parts around an axis repeats after, rad.
+const ANGLE: f64 = 1.0;
+/// Rounding of products, in parts of their terms.
+const SAME: f64 = 1e-8;
+/// Directions that are tried.
+const DIRECTIONS: usize = 3;
+
+/// Whether a turn of everything that moves, at the time when drives have turned it so far, changes nothing: the
+/// inertia forces, the directions that constraints leave, and M, K and C along these.
+fn is_same_all_around(axes: &Rotating, study: &Study, state: &State) -> Result<bool> {
+    let still = vec![0.0; state.v.len()];
+    let closed = assemble(study.system(), state.t, (&state.q, &state.v), &[])?;
+    let other = axes.turned(ANGLE);
+    let mut turned = closed.q.clone();
+    other.turn(ANGLE, &mut turned);
+    let mut here = Variation::new(axes, state.t, &closed.q, &still)?;
+    let Ok(mut there) = Variation::new(&other, state.t, &turned, &still) else { return Ok(false) };
+    let x = directions(&mut here)?;
+    let mut y = x.clone();
+    y.column_iter_mut().for_each(|mut column| other.turn_directions(ANGLE, column.as_mut_slice()));
+    let leaves = there.correct(&(there.g_times(&y)))?;
+    let [mut carried, pushed] = [&here, &there].map(inertia);
+    other.turn_directions(ANGLE, &mut carried);
+    let is_closed = there.point.phi <= SAME && leaves.norm() <= SAME * y.norm();
+    Ok(is_closed && agree(&carried, &pushed) && agree(&products(&here, &x), &products(&there, &y)))
+}
+
+/// M v'
+fn inertia(variation: &Variation) -> Vec<f64> {
+    let (structure, terms) = (&variation.dynamics.structure, &variation.dynamics.terms);
+    let mut inertia = vec![0.0; variation.len()];
+    structure.mass.multiply_symmetric(&terms.mass, &variation.point.vdot, &mut inertia);
+    inertia
+}
+
+/// Some directions that the constraints leave, all of it in each.
+fn directions(variation: &mut Variation) -> Result<Matrix> {
+    // Multiples of the golden ratio and of others like it spread evenly (Weyl).
+    let spread = |i: usize, j: usize| ((i + 1) as f64 * (0.618_033_988_75 + 0.1 * j as f64)).fract() - 0.5;
+    let any = Matrix::from_fn(variation.len(), DIRECTIONS, spread);
+    let correction = variation.correct(&variation.g_times(&any))?;
+    Ok(any - correction)
+}
+
+/// x.K x and x.C x of each two columns.
+fn products(variation: &Variation, x: &Matrix) -> Vec<f64> {
+    let none = Matrix::zeros(x.nrows(), x.ncols());
+    let stiff = variation.force(&Changes { q: x.clone(), v: none.clone() });
+    let damped = variation.force(&Changes { q: none, v: x.clone() });
+    [x.transpose() * stiff, x.transpose() * damped].iter().flat_map(|m| m.iter().copied().collect::<Vec<_>>()).collect()
+}
+
+fn agree(a: &[f64], b: &[f64]) -> bool {
+    let size = crate::math::largest(a).max(crate::math::largest(b));
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME * size)
+}

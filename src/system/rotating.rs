@@ -1,0 +1,353 @@
+//! A mechanism seen from axes that turn with it.
+
+use super::spin::{Block, Placement, Spin};
+use super::{
+    Column, Dimensions, Energy, Group, LeviCivita, Limited, Loaded, MechanicalSystem, Names, Need, OutputTangent,
+    Scratch, Structure, Tangent, Terms,
+};
+use crate::math::Rate;
+use crate::math::expression::Switch;
+use crate::math::kkt::Pattern;
+use nalgebra::DMatrix;
+use std::collections::BTreeMap;
+
+/// The equations of a system in axes that turn at a constant speed, at an instant at which these are the world's: rest in
+/// them is a steady rotation. With v and v' counted in the axes,
+///
+/// ```text
+/// M v' + G^T lambda = f(t, q, v + W xi) - M b(q, v),   phi(q, t) = 0,   q' = N(q) v,   t fixed
+/// ```
+///
+/// These are the equations of the motion at all times where the turn changes nothing: where what is fixed in the world,
+/// joints to the ground, forces and gravity, is the same all around the axis. Components in the world are at each instant
+/// those in the axes.
+pub struct Rotating<'a> {
+    inner: &'a dyn MechanicalSystem,
+    t: f64,
+    pub spin: Spin,
+    placements: Vec<Placement>,
+    structure: Structure,
+    /// Places in the pattern of K and C: those of the inner one, and by row and column.
+    inner_tangent: Pattern,
+    places: Places,
+    /// Places in that of G.
+    g_places: Places,
+}
+
+/// Of entries, by row and column.
+type Places = BTreeMap<(usize, usize), usize>;
+
+/// Matrices that change with the place: what X, Y and Z add to K, C and the gradients of constraints.
+struct Slopes {
+    /// d(W xi)/dq, d(b)/dq and d(b)/dv by the first velocity of their block.
+    blocks: Vec<[Block; 3]>,
+}
+
+impl<'a> Rotating<'a> {
+    /// The system with all that depends on time held at t, in axes that turn by `spin`. None where a body is held to
+    /// directions of the world, so that it cannot turn.
+    pub fn new(inner: &'a dyn MechanicalSystem, t: f64, spin: Spin) -> Option<Self> {
+        let placements = inner.placements()?;
+        let mut structure = inner.structure();
+        let inner_tangent = structure.tangent.clone();
+        let (mut places, mut entries) = (placed(&inner_tangent), inner_tangent.entries.clone());
+        let both = structure.mass.entries.iter().flat_map(|&(i, j)| [(i, j), (j, i)]);
+        for (i, j) in both.chain(inner_tangent.entries.iter().copied()) {
+            let Some((first, size)) = block_of(&placements, j) else { continue };
+            for column in first..first + size {
+                places.entry((i, column)).or_insert_with(|| {
+                    entries.push((i, column));
+                    entries.len() - 1
+                });
+            }
+        }
+        structure.tangent.entries = entries;
+        let g_places = placed(&structure.g);
+        Some(Rotating { inner, t, spin, placements, structure, inner_tangent, places, g_places })
+    }
+
+    /// The same with everything turned by `angle` about the axis, when that is so.
+    pub fn turned(&self, angle: f64) -> Self {
+        Rotating {
+            inner: self.inner,
+            t: self.t + angle / self.spin.speed(),
+            spin: self.spin,
+            placements: self.placements.clone(),
+            structure: self.structure.clone(),
+            inner_tangent: self.inner_tangent.clone(),
+            places: self.places.clone(),
+            g_places: self.g_places.clone(),
+        }
+    }
+
+    /// Turns q by `angle` about the axis.
+    pub fn turn(&self, angle: f64, q: &mut [f64]) {
+        self.placements.iter().for_each(|placement| self.spin.turn(*placement, angle, q));
+        self.inner.normalize(q);
+    }
+
+    /// Turns changes along the velocity directions by `angle` about the axis.
+    pub fn turn_directions(&self, angle: f64, x: &mut [f64]) {
+        self.placements.iter().for_each(|placement| self.spin.turn_directions(*placement, angle, x));
+    }
+
+    /// v + W xi(q)
+    fn velocity(&self, q: &[f64], v: &[f64]) -> Vec<f64> {
+        self.added(v, |placement| self.spin.carried(placement, q))
+    }
+
+    /// v' + b(q, v)
+    fn acceleration(&self, q: &[f64], v: &[f64], vdot: &[f64]) -> Vec<f64> {
+        self.added(vdot, |placement| self.spin.acceleration(placement, q, v))
+    }
+
+    fn added(&self, to: &[f64], what: impl Fn(Placement) -> [f64; 3]) -> Vec<f64> {
+        let mut sum = to.to_vec();
+        for &placement in &self.placements {
+            let ((first, count), more) = (Spin::velocities(placement), what(placement));
+            sum[first..first + count].iter_mut().zip(more).for_each(|(sum, x)| *sum += x);
+        }
+        sum
+    }
+
+    fn slopes(&self, q: &[f64], v: &[f64]) -> Slopes {
+        Slopes { blocks: self.placements.iter().map(|&placement| self.spin.slopes(placement, q, v)).collect() }
+    }
+
+    /// G, L and M of the inner system at a state.
+    fn terms(&self, q: &[f64], v: &[f64], need: Need, scratch: &mut Scratch) -> Terms {
+        let mut terms = Terms::new(self.inner);
+        self.inner.evaluate(self.t, q, v, need, &mut terms, scratch);
+        terms
+    }
+
+    /// target += factor A X with A's values at `pattern`, X the `which` of the slopes, both in the pattern of K and C.
+    fn add_product(&self, pattern: &Pattern, values: &[f64], slopes: &Slopes, which: usize, target: &mut [f64]) {
+        for (&(i, j), value) in pattern.entries.iter().zip(values) {
+            slopes.each(which, j, |column, x| target[self.places[&(i, column)]] += value * x);
+        }
+    }
+
+    /// The same with M, whose lower triangle is at its pattern.
+    fn add_mass_product(&self, mass: &[f64], slopes: &Slopes, which: usize, target: &mut [f64]) {
+        for (&(i, j), value) in self.structure.mass.entries.iter().zip(mass) {
+            slopes.each(which, j, |column, x| target[self.places[&(i, column)]] += value * x);
+            if i != j {
+                slopes.each(which, i, |column, x| target[self.places[&(j, column)]] += value * x);
+            }
+        }
+    }
+
+    /// target += A X at the places of G, A one of G's own.
+    fn add_gradient(&self, values: &[f64], slopes: &Slopes, which: usize, factor: f64, target: &mut [f64]) {
+        for (&(i, j), value) in self.structure.g.entries.iter().zip(values) {
+            slopes.each(which, j, |column, x| {
+                if let Some(&place) = self.g_places.get(&(i, column)) {
+                    target[place] += factor * value * x;
+                }
+            });
+        }
+    }
+}
+
+impl Slopes {
+    /// See the entries of row `row`, by column.
+    fn each(&self, which: usize, row: usize, mut see: impl FnMut(usize, f64)) {
+        let own = |blocks: &&[Block; 3]| (blocks[0].first..blocks[0].first + blocks[0].size).contains(&row);
+        let place = self.blocks.partition_point(|blocks| blocks[0].first <= row);
+        if let Some(blocks) = self.blocks[..place].last().filter(own) {
+            let block = &blocks[which];
+            (0..block.size).for_each(|k| see(block.first + k, block.rows[row - block.first][k]));
+        }
+    }
+}
+
+fn placed(pattern: &Pattern) -> Places {
+    pattern.entries.iter().enumerate().map(|(k, &entry)| (entry, k)).collect()
+}
+
+/// The block that velocity `j` is in: its first one and how many.
+fn block_of(placements: &[Placement], j: usize) -> Option<(usize, usize)> {
+    let place = placements.partition_point(|placement| Spin::velocities(*placement).0 <= j);
+    let block = Spin::velocities(*placements[..place].last()?);
+    (j < block.0 + block.1).then_some(block)
+}
+
+impl MechanicalSystem for Rotating<'_> {
+    fn dimensions(&self) -> Dimensions {
+        self.inner.dimensions()
+    }
+
+    fn structure(&self) -> Structure {
+        self.structure.clone()
+    }
+
+    fn axes(&self) -> Option<Spin> {
+        Some(self.spin)
+    }
+
+    fn evaluate(&self, _t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
+        let all = if need.includes(Need::FORCE) { need | Need::MASS } else { need };
+        let all = if all.includes(Need::CONSTRAINTS) || all.includes(Need::L) { all | Need::G } else { all };
+        self.inner.evaluate(self.t, q, &self.velocity(q, v), all, terms, scratch);
+        let carried = self.acceleration(q, v, &vec![0.0; v.len()]);
+        if need.includes(Need::FORCE) {
+            let mut inertia = vec![0.0; v.len()];
+            self.structure.mass.multiply_symmetric(&terms.mass, &carried, &mut inertia);
+            terms.f.iter_mut().zip(inertia).for_each(|(f, inertia)| *f -= inertia);
+        }
+        if need.includes(Need::CONSTRAINTS) {
+            let mut moved = vec![0.0; terms.gamma.len()];
+            self.structure.g.multiply(&terms.g, &carried, &mut moved);
+            terms.gamma.iter_mut().zip(moved).for_each(|(gamma, moved)| *gamma -= moved);
+            terms.phi_t.fill(0.0);
+        }
+        if need.includes(Need::L) {
+            let Terms { g, l, .. } = terms;
+            self.add_gradient(g, &self.slopes(q, v), 0, 1.0, l);
+        }
+    }
+
+    fn tangent(&self, at: Loaded, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
+        let (v, vdot) = (self.velocity(at.q, at.v), self.acceleration(at.q, at.v, at.vdot));
+        let mut inner = Tangent::new(&self.inner_tangent);
+        if !self.inner.tangent(Loaded { t: self.t, v: &v, vdot: &vdot, ..at }, &mut inner, scratch) {
+            return false;
+        }
+        let count = inner.k.len();
+        for (values, own) in [(&mut tangent.k, &inner.k), (&mut tangent.c, &inner.c)] {
+            values.fill(0.0);
+            values[..count].copy_from_slice(own);
+        }
+        let (slopes, terms) = (self.slopes(at.q, at.v), self.terms(at.q, &v, Need::MASS, scratch));
+        self.add_product(&self.inner_tangent, &inner.c, &slopes, 0, &mut tangent.k);
+        self.add_mass_product(&terms.mass, &slopes, 1, &mut tangent.k);
+        self.add_mass_product(&terms.mass, &slopes, 2, &mut tangent.c);
+        true
+    }
+
+    fn acceleration_gradient(&self, at: Loaded, values: &mut [f64], scratch: &mut Scratch) -> bool {
+        let (v, vdot) = (self.velocity(at.q, at.v), self.acceleration(at.q, at.v, at.vdot));
+        if !self.inner.acceleration_gradient(Loaded { t: self.t, v: &v, vdot: &vdot, ..at }, values, scratch) {
+            return false;
+        }
+        // d(phi'')/dv = 2 L + G [v, .]
+        let (slopes, terms) = (self.slopes(at.q, at.v), self.terms(at.q, &v, Need::G | Need::L, scratch));
+        self.add_gradient(&terms.l, &slopes, 0, 2.0, values);
+        let mut bracket = vec![0.0; terms.g.len()];
+        self.add_bracket(&terms.g, &v, &mut bracket);
+        self.add_gradient(&bracket, &slopes, 0, 1.0, values);
+        self.add_gradient(&terms.g, &slopes, 1, 1.0, values);
+        true
+    }
+
+    fn bracket(&self, v: &[f64], x: &[f64], out: &mut [f64]) {
+        self.inner.bracket(v, x, out);
+    }
+
+    fn levi_civita(&self, at: Loaded, connection: &mut LeviCivita, scratch: &mut Scratch) -> bool {
+        self.inner.levi_civita(at, connection, scratch)
+    }
+
+    fn names(&self) -> Names {
+        self.inner.names()
+    }
+
+    fn turning_angles(&self) -> usize {
+        self.inner.turning_angles()
+    }
+
+    fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
+        self.inner.rate(q, v, qdot);
+    }
+
+    fn add_stiffness(&self, mass: &mut [f64]) {
+        self.inner.add_stiffness(mass);
+    }
+
+    fn normalize(&self, q: &mut [f64]) {
+        self.inner.normalize(q);
+    }
+
+    fn energy(&self, _t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<Energy> {
+        self.inner.energy(self.t, q, &self.velocity(q, v), scratch)
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        self.inner.columns()
+    }
+
+    fn outputs(&self, _t: f64, q: &[f64], v: &[f64], lambda: &[f64], out: &mut [f64], scratch: &mut Scratch) {
+        self.inner.outputs(self.t, q, &self.velocity(q, v), lambda, out, scratch);
+    }
+
+    fn output_tangent(&self, at: Loaded, tangent: &mut OutputTangent, scratch: &mut Scratch) -> bool {
+        let (v, vdot) = (self.velocity(at.q, at.v), self.acceleration(at.q, at.v, at.vdot));
+        if !self.inner.output_tangent(Loaded { t: self.t, v: &v, vdot: &vdot, ..at }, tangent, scratch) {
+            return false;
+        }
+        let slopes = self.slopes(at.q, at.v);
+        for row in 0..tangent.v.nrows() {
+            for j in 0..tangent.v.ncols() {
+                let value = tangent.v[(row, j)];
+                slopes.each(0, j, |column, x| tangent.q[(row, column)] += value * x);
+            }
+        }
+        true
+    }
+
+    fn inputs(&self) -> Vec<Column> {
+        self.inner.inputs()
+    }
+
+    fn input_forces(&self, _t: f64, q: &[f64], v: &[f64], f: &mut DMatrix<f64>, scratch: &mut Scratch) {
+        self.inner.input_forces(self.t, q, &self.velocity(q, v), f, scratch);
+    }
+
+    fn switches(&self) -> &[Switch] {
+        self.inner.switches()
+    }
+
+    fn owner_of_switch(&self, switch: usize) -> &str {
+        self.inner.owner_of_switch(switch)
+    }
+
+    fn switching(&self, at: Loaded, out: &mut [Rate], scratch: &mut Scratch) {
+        let (v, vdot) = (self.velocity(at.q, at.v), self.acceleration(at.q, at.v, at.vdot));
+        self.inner.switching(Loaded { t: self.t, v: &v, vdot: &vdot, ..at }, out, scratch);
+    }
+
+    fn limited(&self) -> &[Limited] {
+        self.inner.limited()
+    }
+
+    fn deformations(&self, q: &[f64], out: &mut [f64]) {
+        self.inner.deformations(q, out);
+    }
+
+    fn length(&self) -> f64 {
+        self.inner.length()
+    }
+
+    fn scales(&self) -> Vec<f64> {
+        self.inner.scales()
+    }
+
+    fn groups(&self) -> Vec<Group> {
+        self.inner.groups()
+    }
+}
+
+impl Rotating<'_> {
+    /// values += G [v, .] at the places of G.
+    fn add_bracket(&self, g: &[f64], v: &[f64], values: &mut [f64]) {
+        let blocks = self.placements.iter().map(|&placement| {
+            let (first, size) = Spin::velocities(placement);
+            let own: [f64; 3] = std::array::from_fn(|k| if size == 3 { v[first + k] } else { 0.0 });
+            let is_turn = matches!(placement, Placement::Axes { .. });
+            let rows = if is_turn { super::spin::skew(&own) } else { [[0.0; 3]; 3] };
+            [Block { first, size, rows }; 3]
+        });
+        self.add_gradient(g, &Slopes { blocks: blocks.collect() }, 0, 1.0, values);
+    }
+}

@@ -1,0 +1,145 @@
+//! A constant turn of everything that moves about a fixed axis, and what it does to the coordinates of bodies.
+//!
+//! Seen from axes that turn with W, a body at rest has the velocity and the acceleration of the axes. With v counted in
+//! the axes, the components of its velocity in space are v + W xi(q), and those of its acceleration v' + b(q, v):
+//!
+//! ```text
+//! places          W xi = W x (r - p)       b = 2 W x v + W x (W x (r - p))
+//! body axes       W xi = w = R^T W         b = -v x w
+//! ```
+
+use crate::body::cross;
+use crate::math::rotation::{axes_from_quaternion, quaternion_from_vector, quaternion_product};
+use std::array::from_fn;
+
+/// A turn at a constant speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spin {
+    /// W, rad/s; a vector along the axis. Along z in the plane.
+    pub velocity: [f64; 3],
+    /// Of the axis, m.
+    pub point: [f64; 3],
+}
+
+/// Coordinates of a body that turn with the world, by their first places in q and v.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Placement {
+    /// x, y(, z) in the world: so many.
+    Place { q: usize, v: usize, count: usize },
+    /// An angle in the plane.
+    Angle { q: usize, v: usize },
+    /// A unit quaternion with the angular velocity in the body's own axes.
+    Axes { q: usize, v: usize },
+}
+
+/// A 3 x 3 matrix among the velocities from `first` on; of a place in the plane its first two rows and columns.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Block {
+    pub first: usize,
+    pub size: usize,
+    pub rows: [[f64; 3]; 3],
+}
+
+impl Spin {
+    /// rad/s
+    pub fn speed(&self) -> f64 {
+        self.velocity.iter().map(|w| w * w).sum::<f64>().sqrt()
+    }
+
+    /// The first of the velocities of a placement, and how many they are.
+    pub(super) fn velocities(placement: Placement) -> (usize, usize) {
+        match placement {
+            Placement::Place { v, count, .. } => (v, count),
+            Placement::Angle { v, .. } => (v, 1),
+            Placement::Axes { v, .. } => (v, 3),
+        }
+    }
+
+    /// W xi(q)
+    pub(super) fn carried(&self, placement: Placement, q: &[f64]) -> [f64; 3] {
+        match placement {
+            Placement::Place { q: first, count, .. } => {
+                cross(&self.velocity, &from_fn(|k| if k < count { q[first + k] - self.point[k] } else { 0.0 }))
+            }
+            Placement::Angle { .. } => [self.velocity[2], 0.0, 0.0],
+            Placement::Axes { q: first, .. } => {
+                axes_from_quaternion(&q[first..first + 4]).map(|axis| crate::body::dot(&axis, &self.velocity))
+            }
+        }
+    }
+
+    /// b(q, v)
+    pub(super) fn acceleration(&self, placement: Placement, q: &[f64], v: &[f64]) -> [f64; 3] {
+        let (first, count) = Self::velocities(placement);
+        let (own, carried) = (from_fn(|k| if k < count { v[first + k] } else { 0.0 }), self.carried(placement, q));
+        match placement {
+            Placement::Place { .. } => {
+                let (coriolis, centripetal) = (cross(&self.velocity, &own), cross(&self.velocity, &carried));
+                from_fn(|k| 2.0 * coriolis[k] + centripetal[k])
+            }
+            Placement::Angle { .. } => [0.0; 3],
+            Placement::Axes { .. } => cross(&carried, &own),
+        }
+    }
+
+    /// d(W xi)/dq, d(b)/dq and d(b)/dv, along the directions of v.
+    pub(super) fn slopes(&self, placement: Placement, q: &[f64], v: &[f64]) -> [Block; 3] {
+        let (first, size) = Self::velocities(placement);
+        let block = |rows| Block { first, size, rows };
+        let none = block([[0.0; 3]; 3]);
+        match placement {
+            Placement::Place { .. } => {
+                let spin = skew(&self.velocity);
+                [block(spin), block(product(&spin, &spin)), block(spin.map(|row| row.map(|x| 2.0 * x)))]
+            }
+            Placement::Angle { .. } => [none; 3],
+            Placement::Axes { .. } => {
+                // A turn of the body by d turns w by w x d in its axes.
+                let (spin, own) = (skew(&self.carried(placement, q)), skew(&from_fn(|k| v[first + k])));
+                let bent = product(&own, &spin).map(|row| row.map(|x| -x));
+                [block(spin), block(bent), block(spin)]
+            }
+        }
+    }
+
+    /// Turns q by `angle` about the axis.
+    pub(super) fn turn(&self, placement: Placement, angle: f64, q: &mut [f64]) {
+        let whole: [f64; 3] = self.velocity.map(|w| w / self.speed() * angle);
+        let turn = quaternion_from_vector(&whole);
+        match placement {
+            Placement::Place { q: first, count, .. } => {
+                let arm: [f64; 3] = from_fn(|k| if k < count { q[first + k] - self.point[k] } else { 0.0 });
+                let turned = rotated(&turn, &arm);
+                (0..count).for_each(|k| q[first + k] = self.point[k] + turned[k]);
+            }
+            Placement::Angle { q: place, .. } => q[place] += whole[2],
+            Placement::Axes { q: first, .. } => {
+                let turned = quaternion_product(&turn, &from_fn(|k| q[first + k]));
+                q[first..first + 4].copy_from_slice(&turned);
+            }
+        }
+    }
+
+    /// Turns changes along the velocity directions by `angle`: body axes take theirs along.
+    pub(super) fn turn_directions(&self, placement: Placement, angle: f64, x: &mut [f64]) {
+        if let Placement::Place { v, count, .. } = placement {
+            let turn = quaternion_from_vector(&self.velocity.map(|w| w / self.speed() * angle));
+            let turned = rotated(&turn, &from_fn(|k| if k < count { x[v + k] } else { 0.0 }));
+            x[v..v + count].copy_from_slice(&turned[..count]);
+        }
+    }
+}
+
+fn rotated(turn: &[f64; 4], x: &[f64; 3]) -> [f64; 3] {
+    let axes = axes_from_quaternion(turn);
+    from_fn(|k| (0..3).map(|j| axes[j][k] * x[j]).sum())
+}
+
+/// The matrix of a x.
+pub(super) fn skew([x, y, z]: &[f64; 3]) -> [[f64; 3]; 3] {
+    [[0.0, -z, *y], [*z, 0.0, -x], [-y, *x, 0.0]]
+}
+
+fn product(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    from_fn(|i| from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
+}

@@ -1,0 +1,96 @@
+//! How a mechanism is driven round, and what of it turns.
+
+use super::mechanism::Mechanism;
+use super::spin::{Placement, Spin};
+use crate::body::{Frame, MarkerId, in_space};
+use crate::joint::{Joint, Shape};
+use crate::math::{Regime, Taylor, Time};
+use crate::scene::{Connection, Part};
+
+/// Drives with speeds or axes that differ by less, in parts of the speed or of a length, are one.
+const SAME: f64 = 1e-9;
+
+impl<const D: usize> Mechanism<D> {
+    /// What all drives that move at `t` prescribe together.
+    pub(super) fn driven_spin(&self, t: f64) -> Option<Spin> {
+        let mut common: Option<Spin> = None;
+        for joint in self.model().joints.iter().filter(|joint| joint.element.depends_on_time()) {
+            let [rate, acceleration] = self.prescribed(joint, t)?;
+            if acceleration != 0.0 {
+                return None;
+            }
+            if rate != 0.0 {
+                let spin = self.turn_about_ground(joint, rate)?;
+                match common {
+                    None => common = Some(spin),
+                    Some(other) if !spin.is_same(&other) => return None,
+                    Some(_) => {}
+                }
+            }
+        }
+        common
+    }
+
+    /// -phi_t and -phi_tt of a joint of one row; none of other joints. What drives prescribe does not depend on where they
+    /// are.
+    fn prescribed(&self, joint: &Connection<Box<dyn Joint<D>>>, t: f64) -> Option<[f64; 2]> {
+        if joint.element.row_names().len() != 1 {
+            return None;
+        }
+        let frames: Vec<_> = joint.markers.iter().map(|&marker| self.fixed(marker).map(Taylor::fixed)).collect();
+        let mut row = [Taylor::fixed(0.0)];
+        let time = Time { t: Taylor::time(t), regime: Regime::FREE };
+        joint.element.levels(&frames, time, &mut row);
+        Some([-row[0].d, -row[0].dd])
+    }
+
+    /// The frame of a marker of the ground; of others any.
+    fn fixed(&self, marker: MarkerId) -> Frame<f64, D> {
+        self.model().ground.get(marker).map_or_else(Frame::world, |own| Frame::world().at(own))
+    }
+
+    /// The turn of the second marker at `rate`, where the first is on the ground, or against it the other way round.
+    fn turn_about_ground(&self, joint: &Connection<Box<dyn Joint<D>>>, rate: f64) -> Option<Spin> {
+        let [first, second] = joint.markers[..] else { return None };
+        let (ground, speed) = match (self.model().carrier(first), self.model().carrier(second)) {
+            (None, Some(_)) => (first, rate),
+            (Some(_), None) => (second, -rate),
+            _ => return None,
+        };
+        let frame = self.fixed(ground);
+        match joint.element.shape(&frame) {
+            Shape::Turn(axis) => Some(Spin { velocity: axis.map(|x| speed * x), point: in_space(&frame.r) }),
+            _ => None,
+        }
+    }
+
+    /// All coordinates that turn, in the order of the bodies.
+    pub(super) fn placed_coordinates(&self) -> Option<Vec<Placement>> {
+        self.model().bodies.iter().map(placements).collect::<Option<Vec<_>>>().map(|all| all.concat())
+    }
+}
+
+/// Of one body: x, y(, z) first, then an angle or a quaternion where it has an orientation.
+fn placements<const D: usize>(part: &Part<D>) -> Option<Vec<Placement>> {
+    let (body, names) = (&part.body, part.body.coordinate_names());
+    let own: Vec<&str> = names.iter().map(String::as_str).collect();
+    let place = Placement::Place { q: part.first_q, v: part.first_v, count: D };
+    let (q, v) = (part.first_q + D, part.first_v + D);
+    match (D, own.as_slice()) {
+        (2, ["x", "y", "angle", ..]) => Some(vec![place, Placement::Angle { q, v }]),
+        (3, ["x", "y", "z", "qw", ..]) => Some(vec![place, Placement::Axes { q, v }]),
+        (2, ["x", "y"]) | (3, ["x", "y", "z"]) if !body.oriented() => Some(vec![place]),
+        _ => None,
+    }
+}
+
+impl Spin {
+    /// About the same axis at the same speed.
+    fn is_same(&self, other: &Spin) -> bool {
+        let turn = |i: usize| (self.velocity[i] - other.velocity[i]).abs();
+        let speed = self.speed();
+        let arm: [f64; 3] = std::array::from_fn(|i| other.point[i] - self.point[i]);
+        let across = crate::body::cross(&self.velocity, &arm);
+        (0..3).all(|i| turn(i) <= SAME * speed && across[i].abs() <= SAME * speed)
+    }
+}
