@@ -60,6 +60,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     if loci.reached.is_empty() {
         return none(&args, &loci);
     }
+    args.talk.warn(&loci.doubts);
     let summary = LociSummary::new(&study.name, &loci);
     folder.write("loci.csv", &loci_table(&loci)?)?;
     let title = match &args.sweep {

@@ -19,15 +19,19 @@ pub struct OperatingPoint {
     pub is_equilibrium: bool,
     /// The turn of the axes that q and v are counted in; none in the world's.
     pub axes: Option<Spin>,
+    /// The turn that drives prescribe, where they do.
+    pub driven: Option<Spin>,
 }
 
 /// Accelerations below this part of those that single forces would give are none; nor are speeds below this part of those
 /// that such accelerations give over the length of the mechanism.
 const AT_REST: f64 = 1e-9;
+/// Rounding of coordinates and of sums of forces.
+const ULPS: f64 = 1e-14;
 
 impl OperatingPoint {
-    /// The state whose terms and solution `dynamics` holds.
-    pub(super) fn new(dynamics: &Dynamics, t: f64, q: &[f64], v: &[f64]) -> Self {
+    /// The state whose terms and solution `dynamics` holds, with its K.
+    pub(super) fn new(dynamics: &Dynamics, k: &[f64], t: f64, q: &[f64], v: &[f64]) -> Self {
         let (terms, scales) = (&dynamics.terms, dynamics.system.scales());
         let worst = |rows: &[f64]| rows.iter().zip(&scales).fold(0.0f64, |worst, (row, s)| worst.max((row / s).abs()));
         OperatingPoint {
@@ -38,14 +42,25 @@ impl OperatingPoint {
             lambda: dynamics.lambda.clone(),
             phi: worst(&terms.phi),
             phi_dot: worst(&terms.phi_dot),
-            is_equilibrium: is_at_rest(dynamics, v),
+            is_equilibrium: is_at_rest(dynamics, &rounding(dynamics, k, q), v),
             axes: dynamics.system.axes(),
+            driven: dynamics.system.spin(t),
         }
     }
 }
 
-/// Whether nothing moves and M v' is nothing beside the forces and reactions that make it up.
-fn is_at_rest(dynamics: &Dynamics, v: &[f64]) -> bool {
+/// What coordinates rounded by some ulps make of each force.
+pub(super) fn rounding(dynamics: &Dynamics, k: &[f64], q: &[f64]) -> Vec<f64> {
+    let mut rounding = vec![0.0; dynamics.vdot.len()];
+    let reach = ULPS * largest(q).max(1.0);
+    for (&(i, _), k) in dynamics.structure.tangent.entries.iter().zip(k) {
+        rounding[i] += reach * k.abs();
+    }
+    rounding
+}
+
+/// Whether nothing moves and M v' is nothing beside the forces and reactions that make it up, or their rounding.
+fn is_at_rest(dynamics: &Dynamics, rounding: &[f64], v: &[f64]) -> bool {
     let (structure, terms) = (&dynamics.structure, &dynamics.terms);
     let mut inertia = vec![0.0; v.len()];
     structure.mass.multiply_symmetric(&terms.mass, &dynamics.vdot, &mut inertia);
@@ -59,5 +74,7 @@ fn is_at_rest(dynamics: &Dynamics, v: &[f64]) -> bool {
     // Without loads rounding is all there is: an acceleration of 1 m/s^2 or rad/s^2 is the measure then.
     let heaviest = structure.mass.entries.iter().zip(&terms.mass).filter(|((i, j), _)| i == j);
     let heaviest = heaviest.fold(0.0f64, |most, (_, mass)| most.max(*mass));
-    largest(v) <= AT_REST * speed && largest(&inertia) <= AT_REST * largest(&usual).max(heaviest)
+    let least = AT_REST * largest(&usual).max(heaviest);
+    let is_balanced = inertia.iter().zip(rounding).all(|(inertia, rounding)| inertia.abs() <= least.max(*rounding));
+    largest(v) <= AT_REST * speed && is_balanced
 }

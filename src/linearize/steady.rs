@@ -1,5 +1,6 @@
 //! Rest, in the world or in axes that turn with the mechanism.
 
+use super::point::rounding;
 use super::{Changes, Matrix, State, Variation};
 use crate::error::{Error, Result, Warning, short};
 use crate::initial::{assemble, equilibrium};
@@ -57,7 +58,8 @@ pub fn at_rest<'a>(study: &'a Study, state: &State) -> Result<Operating<'a>> {
                 short(spin.speed()),
                 short(state.t)
             );
-            let hint = "leave --equilibrium out to linearize the motion; `holonom transition` says whether it is stable";
+            let hint =
+                "leave --equilibrium out to linearize the motion; `holonom transition` says whether it is stable";
             Ok(Operating { doubt: Some(Warning::new(text, hint)), ..still(study, state)? })
         }
     }
@@ -98,8 +100,11 @@ fn is_same_all_around(axes: &Rotating, study: &Study, state: &State) -> Result<b
     let leaves = there.correct(&(there.g_times(&y)))?;
     let [mut carried, pushed] = [&here, &there].map(inertia);
     other.turn_directions(ANGLE, &mut carried);
+    let rounding = rounding(&here.dynamics, &here.tangent.k, &here.point.q);
     let is_closed = there.point.phi <= SAME && leaves.norm() <= SAME * y.norm();
-    Ok(is_closed && agree(&carried, &pushed) && agree(&products(&here, &x), &products(&there, &y)))
+    Ok(is_closed
+        && agree(&carried, &pushed, &rounding)
+        && agree(&products(&here, &x), &products(&there, &y), &[0.0; 2 * DIRECTIONS * DIRECTIONS]))
 }
 
 /// M v'
@@ -127,7 +132,7 @@ fn products(variation: &Variation, x: &Matrix) -> Vec<f64> {
     [x.transpose() * stiff, x.transpose() * damped].iter().flat_map(|m| m.iter().copied().collect::<Vec<_>>()).collect()
 }
 
-fn agree(a: &[f64], b: &[f64]) -> bool {
+fn agree(a: &[f64], b: &[f64], rounding: &[f64]) -> bool {
     let size = crate::math::largest(a).max(crate::math::largest(b));
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME * size)
+    a.iter().zip(b).zip(rounding).all(|((a, b), rounding)| (a - b).abs() <= SAME * size + rounding)
 }

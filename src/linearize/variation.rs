@@ -46,7 +46,7 @@ impl<'a> Variation<'a> {
             return Err(Error::input(NO_TANGENT).hint(GIVE_THEM));
         }
         variation.refine_solution().map_err(|halt| at_state(t, &halt))?;
-        variation.point = OperatingPoint::new(&variation.dynamics, t, q, v);
+        variation.point = OperatingPoint::new(&variation.dynamics, &variation.tangent.k, t, q, v);
         if variation.point.is_equilibrium {
             // Rounding would leave traces of Gdd that no scale tells from small terms.
             variation.point.vdot.fill(0.0);

@@ -27,9 +27,9 @@ pub use equations::Equations;
 pub use levi_civita::LeviCivita;
 pub use limits::{Limited, Theory};
 pub use mechanism::Mechanism;
+pub use output_tangent::OutputTangent;
 pub use rotating::Rotating;
 pub use spin::{Placement, Spin};
-pub use output_tangent::OutputTangent;
 pub use tangent::{Loaded, Tangent};
 pub use terms::{Need, Scratch, Structure, Terms};
 

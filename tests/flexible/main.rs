@@ -16,6 +16,7 @@ mod energy;
 mod outputs;
 mod refusals;
 mod rigid;
+mod rotating;
 mod slider_crank;
 mod spin_up;
 

@@ -95,7 +95,8 @@ impl<const D: usize> Floating<D> {
             let gyroscopic = cross3(&w, &swung(&moving.p(), &w));
             let stretching = swung(&transposed(&moving.flow(moving.v)), &w);
             let hanging = crate::body::cross(&s, &lift);
-            turns(D).for_each(|k| f[turn_velocity(D, k)] -= hanging[k] + gyroscopic[k] + 2.0 * stretching[k] + swerve[k]);
+            turns(D)
+                .for_each(|k| f[turn_velocity(D, k)] -= hanging[k] + gyroscopic[k] + 2.0 * stretching[k] + swerve[k]);
             for (i, &dof) in moving.piece.dofs.iter().enumerate() {
                 let centrifugal = whirled(&moving.w(i), &w);
                 let coriolis = 2.0 * dot3(&w, &axial(&moving.rated(moving.v, i)));

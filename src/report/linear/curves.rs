@@ -1,6 +1,6 @@
 //! Frequency and damping of the modes over time or a parameter.
 
-use super::range::{padded, robust};
+use super::range::{drawn, padded, robust};
 use crate::linearize::{Branch, Complex, Kind};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 use std::f64::consts::TAU;
@@ -18,11 +18,13 @@ const ROUND_OFF: f64 = 1e-6;
 /// parameter with its unit. `None` without physical eigenvalues.
 pub fn frequency_figure(title: &str, along: impl Into<AxisSpec>, branches: &[Branch]) -> Option<Figure> {
     let along = along.into();
-    let physical = branches.iter().filter(|branch| branch.kind == Kind::Physical);
+    let (drawn, left_out) = drawn(branches);
+    let physical = drawn.iter().filter(|branch| branch.kind == Kind::Physical);
     let upper: Vec<&Branch> = physical.filter(|branch| branch.points.iter().any(|point| is_shown(point.1))).collect();
     let frequencies = lines(&upper, |value| value.norm() / TAU);
     let dampings = lines(&upper, |value| if value.norm() > 0.0 { -value.re / value.norm() } else { 0.0 });
     let (frequency_axis, note) = frequency_axis(values(&frequencies))?;
+    let note = if left_out.is_empty() { note } else { left_out };
     let damping_axis = damping_axis(values(&dampings));
     let all = |panel: Panel, lines: Vec<Series>| lines.into_iter().fold(panel, Panel::series);
     let frequencies = all(Panel::new(along.clone(), frequency_axis).title(note), frequencies);

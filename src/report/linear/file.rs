@@ -53,6 +53,20 @@ pub struct OperatingPointFile {
     pub vdot: Map<String, Value>,
     pub lambda: Map<String, Value>,
     pub norms: Norms,
+    /// Where q and v are counted in axes that turn along.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steady_rotation: Option<Turn>,
+}
+
+/// Axes that turn at a constant speed.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Turn {
+    /// rad/s
+    pub speed: f64,
+    /// Its direction.
+    pub axis: [f64; 3],
+    /// A point on it, m.
+    pub point: [f64; 3],
 }
 
 /// Largest components; those of phi and phi' over their scales.
@@ -107,6 +121,11 @@ impl Linear<'_> {
             vdot: named(&self.names.v, &point.vdot),
             lambda: named(&self.names.lambda, &point.lambda),
             norms: self.norms(),
+            steady_rotation: point.axes.map(|spin| Turn {
+                speed: spin.speed(),
+                axis: spin.velocity.map(|w| w / spin.speed()),
+                point: spin.point,
+            }),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::damping::{Ray, rays};
 use super::pairs::are_conjugate;
-use super::range::{padded, robust};
+use super::range::{drawn, padded, robust};
 use crate::error::short;
 use crate::linearize::{Branch, Complex, Kind};
 use crate::plot::{AxisSpec, ColorSeries, Figure, Panel, Series, Style, Tint};
@@ -28,6 +28,8 @@ struct Window {
 /// where the lower one is its mirror image; the axes follow the physical eigenvalues. `None` without finite eigenvalues.
 pub fn loci_figure(title: &str, along: impl Into<AxisSpec>, branches: &[Branch]) -> Option<Figure> {
     let along = along.into();
+    let (drawn, left_out) = drawn(branches);
+    let branches = drawn.as_slice();
     let is_upper = are_mirrored(branches);
     let shown: Vec<Branch> = branches.iter().map(|branch| finite(branch, is_upper)).collect();
     let of = |kind: Kind| shown.iter().filter(move |branch| branch.kind == kind);
@@ -37,7 +39,7 @@ pub fn loci_figure(title: &str, along: impl Into<AxisSpec>, branches: &[Branch])
     let axis = |label: &str, (low, high): (f64, f64)| AxisSpec::from(label).range(low, high);
     let mut panel = Panel::new(axis("real part (1/s)", window.re), axis("imaginary part (rad/s)", window.im))
         .height(PIXELS.1)
-        .title(outside_note(&shown, &window));
+        .title(if left_out.is_empty() { outside_note(&shown, &window) } else { left_out });
     panel = frame_lines(panel, &window, is_upper);
     for (kind, name) in [(Kind::Spurious, "spurious"), (Kind::Uncertain, "uncertain")] {
         let others = points(of(kind)).map(|(_, value)| (value.re, value.im)).collect::<Vec<_>>();

@@ -1,6 +1,6 @@
 //! `loci.csv` and `loci.json`.
 
-use crate::error::{Error, Failure, Result};
+use crate::error::{Error, Failure, Result, Warning};
 use crate::linearize::{Along, Branch, Complex, Kind, Loci, Reached, damping, frequency};
 use crate::plot::AxisSpec;
 use crate::report::{cell, table};
@@ -19,6 +19,7 @@ pub struct LociSummary {
     /// States without.
     pub failures: Vec<FailureFile>,
     pub modes: Vec<ModeSummary>,
+    pub warnings: Vec<Warning>,
 }
 
 /// What the eigenvalues are functions of: time in s, or a parameter of the scene.
@@ -110,6 +111,7 @@ impl LociSummary {
             equilibria: loci.reached.iter().filter(|state| state.equilibrium).count(),
             failures: loci.gaps.iter().map(|gap| failure(gap.at, &gap.error)).collect(),
             modes: upper(loci).map(|(mode, branch)| mode_summary(mode, branch, least)).collect(),
+            warnings: loci.doubts.clone(),
         }
     }
 

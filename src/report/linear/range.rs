@@ -1,5 +1,7 @@
 //! Ranges of axes that a few far values do not spoil.
 
+use crate::linearize::{Branch, Kind};
+
 /// Part of the values at each end that the core of a range leaves out.
 const TAIL: f64 = 0.1;
 /// So many lengths of the core beyond it still belong to the range.
@@ -26,6 +28,7 @@ pub fn padded((low, high): (f64, f64), part: f64, least: f64) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linearize::{Branch, Kind};
 
     #[test]
     fn few_far_values_are_left_outside() {
@@ -43,4 +46,27 @@ mod tests {
         assert_eq!(padded((1.0, 1.0), 0.0, 2.0), (0.0, 2.0));
         assert_eq!(padded((0.0, 10.0), 0.1, 2.0), (-1.0, 11.0));
     }
+}
+
+/// More physical branches than this, of pairs one, hide one another.
+const MOST_DRAWN: usize = 12;
+
+/// The branches that a figure shows, the slowest of the physical ones and all others, and what is said of those left out.
+pub fn drawn(branches: &[Branch]) -> (Vec<Branch>, String) {
+    let slowest = |branch: &Branch| {
+        let sizes = branch.points.iter().map(|(_, value)| value.norm()).filter(|size| size.is_finite());
+        sizes.fold(f64::INFINITY, f64::min)
+    };
+    let is_counted =
+        |branch: &&Branch| branch.kind == Kind::Physical && branch.points.iter().any(|(_, value)| value.im >= 0.0);
+    let mut sizes: Vec<f64> = branches.iter().filter(is_counted).map(slowest).collect();
+    if sizes.len() <= MOST_DRAWN {
+        return (branches.to_vec(), String::new());
+    }
+    sizes.sort_by(f64::total_cmp);
+    // Both of a pair are as slow but for rounding.
+    let bound = sizes[MOST_DRAWN - 1] * (1.0 + 1e-9);
+    let is_drawn = |branch: &&Branch| branch.kind != Kind::Physical || slowest(branch) <= bound;
+    let note = format!("the {MOST_DRAWN} slowest of {} modes; all are in the files", sizes.len());
+    (branches.iter().filter(is_drawn).cloned().collect(), note)
 }

@@ -3,7 +3,7 @@
 use super::pairs::{Pair, damping, pairs};
 use super::{Linear, arrays};
 use crate::error::short;
-use crate::linearize::{Kind, LinearModel};
+use crate::linearize::{Kind, LinearModel, OperatingPoint};
 use crate::report::{Table, significant};
 
 /// Lines of a kind of eigenvalues; the files have all.
@@ -26,7 +26,7 @@ impl Linear<'_> {
             self.scene,
             significant(model.point.t, 9),
             model.method,
-            chart(&model.chart, model.point.is_equilibrium),
+            chart(&model.chart, &model.point),
             self.state_text(),
             modes_text(model, &self.bodies())
         )
@@ -41,24 +41,47 @@ impl Linear<'_> {
         let norms = self.norms();
         let [phi, phi_dot] = [norms.phi, norms.phi_dot].map(|norm| format!("{norm:.1e}"));
         let residual = format!("|phi| {phi}, |phi'| {phi_dot}");
-        match self.model.point.is_equilibrium {
-            true => format!("  an equilibrium: v = 0, v' = 0; {residual}\n"),
-            false => {
-                format!("  not an equilibrium: |v| {}, |v'| {}; {residual}\n", short(norms.v), short(norms.vdot))
+        let point = &self.model.point;
+        match (point.is_equilibrium, &point.axes, &point.driven) {
+            (true, Some(spin), _) => format!(
+                "  a steady rotation at {} rad/s about ({}) through ({}) m; {residual}\n",
+                short(spin.speed()),
+                joined(&spin.velocity.map(|w| w / spin.speed())),
+                joined(&spin.point)
+            ),
+            (true, None, _) => format!("  an equilibrium: v = 0, v' = 0; {residual}\n"),
+            (false, _, driven) => {
+                let moving = format!("|v| {}, |v'| {}; {residual}", short(norms.v), short(norms.vdot));
+                let hint = driven.map_or(String::new(), |spin| {
+                    let speed = short(spin.speed());
+                    format!("  a drive turns at {speed} rad/s: --equilibrium looks at it in axes that turn along\n")
+                });
+                format!("  not an equilibrium: {moving}\n{hint}")
             }
         }
     }
 }
 
+fn joined(numbers: &[f64]) -> String {
+    numbers.iter().map(|x| short(*x)).collect::<Vec<_>>().join(", ")
+}
+
 /// What the chart means for the eigenvalues.
-fn chart(name: &str, is_equilibrium: bool) -> String {
-    if is_equilibrium {
+fn chart(name: &str, point: &OperatingPoint) -> String {
+    if point.is_equilibrium && point.axes.is_some() {
+        return format!(
+            "chart {name}, in axes that turn along, in which this is an equilibrium: all charts have the same \
+             eigenvalues, and the world sees the frequencies more or less by the speed"
+        );
+    }
+    if point.is_equilibrium {
         return format!("chart {name}; at an equilibrium all charts have the same eigenvalues");
     }
     match name {
         "intrinsic" => {
             "chart intrinsic: axes carried along with the motion without turning, so the frozen eigenvalues \
-                        depend on no choice of coordinates"
+                        depend on no choice of coordinates; they are frozen at this instant, and say of a motion \
+                        that is steady in other axes nothing"
                 .to_string()
         }
         "mass_orthogonal" => "chart mass_orthogonal: fixed axes, in the mass metric square to what the constraints \
