@@ -237,3 +237,74 @@ fn a_force_without_a_rest_is_no_equilibrium() {
     let message = seek(&parse(&slope)).unwrap_err().to_string();
     assert!(message.contains("the forces move `cart.") && message.contains("on and on"), "{message}");
 }
+
+/// A cantilever of an absolute beam, clamped at its left end.
+fn clamped(dimension: usize, beam: &str, rest: &str) -> Ready {
+    let (zero, end) = if dimension == 2 { ("[0, 0]", "[1, 0]") } else { ("[0, 0, 0]", "[1, 0, 0]") };
+    parse(&format!(
+        r#"{{ "name": "clamped", "dimension": {dimension}, "ground": {{ "markers": {{ "wall": {zero} }} }},
+        "bodies": [ {{ "name": "beam", "type": "flexible_beam", "frame": "absolute", "length": 1, {beam},
+            "markers": {{ "root": {zero}, "tip": {end} }} }} ],
+        "joints": [ {{ "name": "clamp", "type": "weld", "between": ["ground.wall", "beam.root"] }} ], {rest} }}"#
+    ))
+}
+
+/// An element of a plane beam can be bent to any angle but a full turn, at which its chord vanishes, one in space to any
+/// below half a turn: the matrix has no bounds there, and rest anywhere looks like rounding.
+#[test]
+fn a_beam_whose_elements_would_turn_too_far_is_refused() {
+    let bent = |dimension: usize, elements: usize, turns: f64| {
+        let torque = format!("{}*pi", turns * 200.0);
+        let torque = if dimension == 2 { torque } else { format!(r#"0, 0, "{torque}""#) };
+        let torque = if dimension == 2 { format!(r#""{torque}""#) } else { format!("[{torque}]") };
+        let gj = if dimension == 2 { "" } else { r#", "GJ": 100"# };
+        let beam = format!(
+            r#""elements": {elements}, "stiffness": {{ "EA": 1e4, "EI": 100{gj} }},
+            "inertia": {{ "rhoA": 1, "rhoI": 1e-4 }}"#
+        );
+        let load = format!(
+            r#""forces": [ {{ "name": "load", "type": "applied_torque", "at": "beam.tip", "torque": {torque} }} ]"#
+        );
+        clamped(dimension, &beam, &load)
+    };
+    // The roll of n elements, each of a part of a circle: closed after whole turns.
+    for (dimension, elements, turns) in [(2, 3, 1.0), (2, 2, 1.0), (2, 8, 2.0), (3, 4, 1.0), (3, 3, 1.0), (3, 1, 0.45)] {
+        let roll = bent(dimension, elements, turns);
+        let rest = found(&roll);
+        let names = roll.system().names().q;
+        let at = |name: &str| rest.q[names.iter().position(|known| *known == format!("beam.n{elements}.{name}")).unwrap()];
+        // The chord of a circle that the elements follow exactly, from half an element before its end.
+        let radius = 1.0 / (2.0 * PI * turns);
+        assert!(at("x").hypot(at("y")) < 2.0 * radius + 0.5, "{dimension} {elements} {turns}: {}", at("x"));
+    }
+    for (dimension, elements, turns, needed) in
+        [(2, 1, 1.0, 4), (2, 2, 2.0, 8), (3, 1, 1.0, 4), (3, 2, 1.0, 4), (3, 6, 3.0, 12)]
+    {
+        let message = seek(&bent(dimension, elements, turns)).unwrap_err().to_string();
+        let words = format!("give it {needed} elements or more");
+        assert!(message.contains("of the beam `beam`") && message.contains(&words), "{dimension} {elements}: {message}");
+    }
+}
+
+/// Steel, 1 m x 20 mm x 20 mm under its own weight: rest is judged by the rounding of what is so stiff.
+#[test]
+fn ordinary_beams_have_their_equilibria_and_linear_models() {
+    use holonom::linearize::{State, at_rest};
+    let sag = 7800.0 * 4e-4 * 9.81 / (8.0 * 2.1e11 * 0.02f64.powi(4) / 12.0);
+    for (dimension, gravity) in [(2, "[0, -9.81]"), (3, "[0, -9.81, 0]")] {
+        for elements in [8, 16, 32] {
+            let beam = format!(
+                r#""elements": {elements}, "material": {{ "E": 2.1e11, "nu": 0.3, "rho": 7800 }},
+                "section": {{ "rectangle": {{ "width": 0.02, "height": 0.02 }} }}"#
+            );
+            let steel = clamped(dimension, &beam, &format!(r#""gravity": {gravity}"#));
+            let rest = at_rest(&steel.0, &State::start(&steel.0)).unwrap();
+            assert!(rest.variation().unwrap().point.is_equilibrium);
+            let names = steel.system().names().q;
+            let tip = names.iter().position(|name| *name == format!("beam.n{elements}.y")).unwrap();
+            // Elements of order 2: the last half of one hangs from its middle.
+            let error = rest.state.q[tip].abs() / sag - 1.0;
+            println!("{dimension} {elements}: {error:e}");
+        }
+    }
+}

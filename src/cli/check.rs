@@ -35,6 +35,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     if failure.is_some() {
         check.equilibrium = Some(report::Rest::none(t));
     }
+    args.common.talk.warn(check.equilibrium.iter().flat_map(|rest| &rest.warnings));
     args.common.talk.print(&check, || check.text())?;
     failure.map_or(Ok(ExitCode::SUCCESS), Err)
 }

@@ -4,6 +4,7 @@ use super::common::{MethodOptions, SceneOptions, Talk, number};
 use crate::choice::Choice;
 use crate::error::Result;
 use crate::linearize::{Chart, Operating, Request, State, at_rest, registry, states, tighten};
+use crate::measure::Range;
 use crate::study::Study;
 
 /// Which linear model.
@@ -70,6 +71,15 @@ impl MethodOptions {
 
 impl StateOptions {
     pub fn states<'a>(&self, study: &'a Study, talk: &Talk) -> Result<Vec<Operating<'a>>> {
+        let found = self.operating(study, talk)?;
+        for Operating { state, doubt, .. } in &found {
+            talk.warn(doubt);
+            talk.warn(&Range::warnings_at(study.system(), state.t, &state.q));
+        }
+        Ok(found)
+    }
+
+    fn operating<'a>(&self, study: &'a Study, talk: &Talk) -> Result<Vec<Operating<'a>>> {
         let times = if self.at.is_empty() { vec![study.start_time()] } else { self.at.clone() };
         if !self.equilibrium {
             let bar = talk.progress(times.len() as u64, &study.name);
@@ -77,9 +87,6 @@ impl StateOptions {
             bar.finish_and_clear();
             return Ok(found?.into_iter().map(|state| Operating::moving(study, state)).collect());
         }
-        let found = times.into_iter().map(|t| at_rest(study, &State { t, ..State::start(study) }));
-        let found: Vec<Operating> = found.collect::<Result<_>>()?;
-        talk.warn(found.iter().filter_map(|operating| operating.doubt.as_ref()));
-        Ok(found)
+        times.into_iter().map(|t| at_rest(study, &State { t, ..State::start(study) })).collect()
     }
 }

@@ -30,10 +30,21 @@ impl Range {
 
     /// Adds an accepted state.
     pub fn add(&mut self, system: &dyn MechanicalSystem, state: &Observation) {
-        system.deformations(state.q, &mut self.now);
+        self.see(system, state.t, state.q);
+    }
+
+    fn see(&mut self, system: &dyn MechanicalSystem, t: f64, q: &[f64]) {
+        system.deformations(q, &mut self.now);
         for (part, now) in self.parts.iter_mut().zip(&self.now).filter(|(part, now)| **now > part.deformation) {
-            (part.deformation, part.t) = (*now, state.t);
+            (part.deformation, part.t) = (*now, t);
         }
+    }
+
+    /// What one state is beyond.
+    pub fn warnings_at(system: &dyn MechanicalSystem, t: f64, q: &[f64]) -> Vec<Warning> {
+        let mut range = Range::new(system);
+        range.see(system, t, q);
+        range.warnings()
     }
 
     /// One for each part that went too far.

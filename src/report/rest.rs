@@ -2,8 +2,9 @@
 
 use super::Table;
 use super::summary::significant;
-use crate::error::clock;
+use crate::error::{Warning, clock};
 use crate::initial::{Equilibrium, Stability, Way};
+use crate::measure::Range;
 use crate::study::Study;
 use crate::system::Scratch;
 use serde::Serialize;
@@ -30,6 +31,7 @@ pub struct Rest {
     pub stability: Option<Stability>,
     /// Coordinates that can move without any force against them.
     pub free: Vec<String>,
+    pub warnings: Vec<Warning>,
     /// Coordinates that are elsewhere than at the start: name, from, to.
     #[serde(skip)]
     moves: Vec<(String, f64, f64)>,
@@ -60,6 +62,7 @@ impl Rest {
             free: Vec::new(),
             moves: Vec::new(),
             units: Vec::new(),
+            warnings: Vec::new(),
         }
     }
 
@@ -92,6 +95,7 @@ impl Rest {
             free: found.free,
             moves,
             units: columns.into_iter().map(|column| column.unit).collect(),
+            warnings: Range::warnings_at(system, found.t, &found.q),
         }
     }
 

@@ -13,7 +13,7 @@ pub enum Theory {
     /// Displacements in a floating frame are small beside the length: they enter the elastic forces linearly.
     SmallDisplacements,
     /// The ends of an element turn against each other by less than half a turn in space, a full one in the plane.
-    Helix { dimension: usize },
+    Helix { dimension: usize, elements: usize },
 }
 
 /// A part with such a theory.
@@ -31,11 +31,22 @@ impl Theory {
         match self {
             Theory::SmallDisplacements => 0.1,
             // From half a turn on another turn would do as well; the states that are looked at may be a bit apart.
-            Theory::Helix { dimension: 2 } => 1.5 * PI,
+            Theory::Helix { dimension: 2, .. } => 1.5 * PI,
             Theory::Helix { .. } => 0.75 * PI,
         }
     }
+
+    /// The elements of which none turns by more than a quarter turn, where one of those that there are turns by `turn`.
+    pub fn elements_for(self, turn: f64) -> usize {
+        match self {
+            Theory::SmallDisplacements => 0,
+            Theory::Helix { elements, .. } => (elements as f64 * turn / (0.5 * PI) - ROUNDING).ceil() as usize,
+        }
+    }
 }
+
+/// A quarter turn may be passed by so much of it.
+const ROUNDING: f64 = 0.01;
 
 /// Where a part is looked at.
 pub(super) enum Extent<const D: usize> {
@@ -59,7 +70,7 @@ pub(super) fn limits<const D: usize>(model: &Model<D>) -> (Vec<Limited>, Vec<Ext
     let massless = massless.map(|beam| (beam.name.clone(), Extent::Ends(vec![[beam.markers[0], beam.markers[1]]])));
     let theory = |extent: &Extent<D>| match extent {
         Extent::Points { .. } => Theory::SmallDisplacements,
-        Extent::Ends(_) => Theory::Helix { dimension: D },
+        Extent::Ends(elements) => Theory::Helix { dimension: D, elements: elements.len() },
     };
     let all = bodies.chain(lines).chain(massless);
     all.map(|(part, extent)| (Limited { part, theory: theory(&extent) }, extent)).unzip()

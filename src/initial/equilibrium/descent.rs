@@ -79,7 +79,7 @@ pub(super) fn descend(rest: &mut Rest, q: &[f64]) -> (End, usize) {
 }
 
 /// The coordinate that is farthest from the start, if that is too far.
-fn gone(now: &[f64], start: &[f64]) -> Option<usize> {
+pub(super) fn gone(now: &[f64], start: &[f64]) -> Option<usize> {
     let way = |i: usize| (now[i] - start[i]).abs();
     let farthest = (0..now.len()).max_by(|&i, &j| way(i).total_cmp(&way(j)))?;
     (way(farthest) > AWAY * (1.0 + largest(start))).then_some(farthest)

@@ -4,6 +4,7 @@ use super::rest::{Place, Rest};
 use super::stability::{named, soft};
 use crate::error::{Error, Failure, short};
 use crate::math::largest;
+use crate::system::Limited;
 
 pub(super) fn no_tangent() -> Error {
     Error::input("static equilibrium needs K, which these equations do not give")
@@ -22,6 +23,19 @@ pub(super) fn contradiction(t: f64) -> Error {
     let reason = "the state where all forces balance breaks constraints that depend on others at the start".to_string();
     let hint = "begin beside the singular state, or take away the redundant joints that `holonom check` names";
     Failure { t, reason, hint: hint.to_string() }.into()
+}
+
+/// A beam that would have to be cut finer.
+pub(super) fn too_bent(t: f64, beam: &Limited, turn: f64) -> Error {
+    let reason = format!(
+        "the ends of an element of the beam `{}` would turn against each other by {turn:.2} rad",
+        beam.part
+    );
+    let hint = match beam.theory.elements_for(turn) {
+        0 => "divide it, so that each part turns by a quarter turn at most".to_string(),
+        count => format!("give it {count} elements or more, so that each turns by a quarter turn at most"),
+    };
+    Failure { t, reason, hint }.into()
 }
 
 /// A direction counts as loaded where the force along it is this part of all.

@@ -10,8 +10,9 @@ const MOST: usize = 400;
 
 /// f - G^T lambda = (1 - s) (f - G^T lambda)(start), s from 0 to 1: the force that is missing at the start is taken away
 /// in parts, each solved by Newton's method from the solution before. Where the start is an unloaded equilibrium that is
-/// load stepping. The place, and the steps taken.
-pub(super) fn homotopy(rest: &mut Rest, start: &Place) -> (Option<Place>, usize) {
+/// load stepping. The place that it came to, the part s of the
+/// way that this is, and the steps taken.
+pub(super) fn homotopy(rest: &mut Rest, start: &Place) -> (Place, f64, usize) {
     rest.evaluate(&start.q);
     let missing = rest.force(&start.lambda);
     let (mut at, mut s, mut part, mut steps) = (start.clone(), 0.0, FIRST, 0);
@@ -26,11 +27,11 @@ pub(super) fn homotopy(rest: &mut Rest, start: &Place) -> (Option<Place>, usize)
             None => part *= 0.25,
         }
         if s == 1.0 {
-            return (Some(at), steps);
+            return (at, s, steps);
         }
         if part < SMALLEST {
             break;
         }
     }
-    (None, steps)
+    (at, s, steps)
 }

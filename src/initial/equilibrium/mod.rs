@@ -7,6 +7,7 @@
 mod descent;
 mod failure;
 mod homotopy;
+mod judge;
 mod newton;
 mod rest;
 mod stability;
@@ -16,8 +17,9 @@ pub use stability::Stability;
 use super::{Metric, position};
 use crate::error::Result;
 use crate::math::largest;
-use crate::system::MechanicalSystem;
+use crate::system::{Limited, MechanicalSystem};
 use descent::End;
+use judge::Judge;
 use newton::{Policy, newton};
 use rest::{Place, Rest};
 use serde::Serialize;
@@ -78,13 +80,16 @@ pub fn equilibrium(system: &dyn MechanicalSystem, t: f64, guess: &[f64]) -> Resu
     position::close(&mut Metric::new(system, Vec::new()), t, &mut q)?;
     let mut rest = Rest::new(system, t, &q)?;
     let start = rest.balance(&q).ok_or_else(failure::not_finite)?.place;
-    let mut search = Search { best: None, steps: 0, away: None };
+    let mut search = Search { best: None, steps: 0, away: None, bent: None, judge: Judge::at(&mut rest, &start) };
     if !search.contracts(&mut rest, &start) && !search.grows(&mut rest, &start) {
         search.descends(&mut rest, &start);
     }
     match search.best {
         Some(found) => finish(rest, found, search.steps),
-        None => Err(failure::none_found(&mut rest, &start, search.away)),
+        None => Err(match search.bent {
+            Some((beam, turn)) => failure::too_bent(t, &beam, turn),
+            None => failure::none_found(&mut rest, &start, search.away),
+        }),
     }
 }
 
@@ -93,6 +98,9 @@ struct Search {
     steps: usize,
     /// The coordinate that a descent would move on and on.
     away: Option<usize>,
+    /// The element of a beam that had to turn too far.
+    bent: Option<(Limited, f64)>,
+    judge: Judge,
 }
 
 impl Search {
@@ -110,9 +118,15 @@ impl Search {
         if self.offer(rest, damped, Way::DampedNewton) {
             return true;
         }
-        let (found, steps) = homotopy::homotopy(rest, start);
+        let (reached, part, steps) = homotopy::homotopy(rest, start);
         self.steps += steps;
-        self.offer(rest, found, Way::Homotopy)
+        if part < 1.0 {
+            // All of the load would turn it in proportion.
+            let bent = Judge::bent(rest, &reached.q).map(|(beam, turn)| (beam, turn / part));
+            self.bent = self.bent.take().or(bent);
+            return false;
+        }
+        self.offer(rest, Some(reached), Way::Homotopy)
     }
 
     fn descends(&mut self, rest: &mut Rest, start: &Place) {
@@ -128,6 +142,13 @@ impl Search {
     /// Keeps what is better than before; whether it is good enough to stop.
     fn offer(&mut self, rest: &mut Rest, place: Option<Place>, way: Way) -> bool {
         let Some(place) = place else { return false };
+        if let Some(bent) = Judge::bent(rest, &place.q) {
+            self.bent = Some(bent);
+            return false;
+        }
+        if !self.judge.accepts(rest, &place) {
+            return false;
+        }
         let (stability, free) = stability::judge(rest, &place);
         if self.best.as_ref().is_none_or(|best| stability > best.stability) {
             self.best = Some(Found { place, way, stability, free });

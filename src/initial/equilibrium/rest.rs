@@ -177,18 +177,31 @@ impl<'a> Rest<'a> {
         dq.iter().zip(product).map(|(dq, p)| dq * p).sum::<f64>().max(0.0).sqrt()
     }
 
+    /// The forces and reactions that make up what is left, by the terms.
+    pub fn sizes(&self, place: &Place) -> Vec<f64> {
+        let (terms, structure) = (&self.dynamics.terms, &self.dynamics.structure);
+        let mut sizes: Vec<f64> = terms.f.iter().map(|f| f.abs()).collect();
+        for (&(i, j), g) in structure.g.entries.iter().zip(&terms.g) {
+            sizes[j] += (g * place.lambda[i]).abs();
+        }
+        sizes
+    }
+
+    /// What each force gains by unit changes of all coordinates, by K of the last factorization.
+    pub fn stiffness(&self) -> Vec<f64> {
+        let mut sums = vec![0.0; self.still.len()];
+        for (&(i, _), k) in self.dynamics.structure.tangent.entries.iter().zip(&self.tangent.k) {
+            sums[i] += k.abs();
+        }
+        sums
+    }
+
     /// Whether a force is as small as round-off leaves it: of the forces and reactions that make it up, and of
     /// coordinates rounded by an ulp where K is that of the last factorization.
     pub fn is_round_off(&self, place: &Place, force: &[f64]) -> bool {
-        let (terms, structure) = (&self.dynamics.terms, &self.dynamics.structure);
-        let mut size: Vec<f64> = terms.f.iter().map(|f| f.abs()).collect();
-        for (&(i, j), g) in structure.g.entries.iter().zip(&terms.g) {
-            size[j] += (g * place.lambda[i]).abs();
-        }
         let reach = 1.0f64.max(largest(&place.q));
-        for (&(i, _), k) in structure.tangent.entries.iter().zip(&self.tangent.k) {
-            size[i] += k.abs() * reach;
-        }
+        let sizes = self.sizes(place).into_iter().zip(self.stiffness());
+        let size: Vec<f64> = sizes.map(|(force, stiffness)| force + stiffness * reach).collect();
         let least = LEAST * largest(&size);
         force.iter().zip(&size).all(|(force, size)| force.abs() <= ROUND_OFF * size.max(least))
             && self.gap() <= super::CLOSED

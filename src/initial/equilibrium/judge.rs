@@ -1,0 +1,54 @@
+//! Whether a place that Newton's method came to is one where a mechanism stays at rest.
+
+use super::descent::gone;
+use super::rest::{Place, Rest};
+use crate::math::largest;
+use crate::system::{Limited, Theory};
+
+/// What is left of the forces is nothing below this part of those that balance, or of coordinates rounded where the search
+/// began.
+const NOTHING: f64 = 1e-6;
+const ROUND_OFF: f64 = 1e-13;
+/// In parts of what is warned of: 0.95 of what an element can turn at all.
+const TOO_FAR: f64 = 0.95 / 0.75;
+
+/// What the start says of the forces that are to be balanced.
+pub(super) struct Judge {
+    q: Vec<f64>,
+    loads: f64,
+    stiffness: Vec<f64>,
+}
+
+impl Judge {
+    /// With the terms at the start.
+    pub fn at(rest: &mut Rest, start: &Place) -> Self {
+        rest.evaluate(&start.q);
+        rest.factor(start, 0.0);
+        Judge { q: start.q.clone(), loads: largest(&rest.sizes(start)), stiffness: rest.stiffness() }
+    }
+
+    /// Whether the forces balance there: a matrix without bounds makes any step small, and any force round-off.
+    pub fn accepts(&self, rest: &mut Rest, place: &Place) -> bool {
+        if gone(&place.q, &self.q).is_some() {
+            return false;
+        }
+        let Some(balance) = rest.balance(&place.q) else { return false };
+        let loads = self.loads.max(largest(&rest.sizes(&balance.place)));
+        let reach = largest(&place.q).max(1.0);
+        let allowed = self.stiffness.iter().map(|k| NOTHING * loads + ROUND_OFF * reach * k);
+        balance.force.iter().zip(allowed).all(|(force, allowed)| force.abs() <= allowed)
+    }
+
+    /// The beam with an element that turns farther than it can follow, and how far, rad.
+    pub fn bent(rest: &Rest, q: &[f64]) -> Option<(Limited, f64)> {
+        let system = rest.dynamics.system;
+        let mut deformations = vec![0.0; system.limited().len()];
+        system.deformations(q, &mut deformations);
+        let mut parts = system.limited().iter().cloned().zip(deformations);
+        let is_bent = |(limited, turn): &(Limited, f64)| match limited.theory {
+            Theory::Helix { .. } => *turn > TOO_FAR * limited.theory.most(),
+            Theory::SmallDisplacements => false,
+        };
+        parts.find(is_bent)
+    }
+}
