@@ -5,7 +5,7 @@ mod scenes;
 use holonom::error::Error;
 use holonom::initial::{Equilibrium, Stability, Way, equilibrium};
 use holonom::scene::generate;
-use holonom::system::{MechanicalSystem, Need, Scratch, Terms};
+use holonom::system::{Loaded, MechanicalSystem, Need, Scratch, Terms};
 use scenes::{Ready, parse, shipped};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -36,7 +36,8 @@ fn left(system: &dyn MechanicalSystem, at: &Equilibrium) -> (f64, f64) {
 fn output(scene: &Ready, at: &Equilibrium, name: &str) -> f64 {
     let columns = scene.system().columns();
     let (mut out, still) = (vec![0.0; columns.len()], vec![0.0; scene.system().dimensions().v]);
-    scene.system().outputs(at.t, &at.q, &still, &at.lambda, &mut out, &mut Scratch::default());
+    let at = Loaded { t: at.t, q: &at.q, v: &still, vdot: &still, lambda: &at.lambda };
+    scene.system().outputs(at, &mut out, &mut Scratch::default());
     out[columns.iter().position(|column| column.name == name).unwrap()]
 }
 

@@ -13,6 +13,7 @@ mod mechanism;
 mod output;
 mod output_tangent;
 mod rows;
+mod section;
 mod support;
 mod tangent;
 mod terms;
@@ -144,8 +145,8 @@ pub trait MechanicalSystem: Send + Sync {
         Vec::new()
     }
 
-    /// The outputs at a state with its multipliers.
-    fn outputs(&self, _t: f64, _q: &[f64], _v: &[f64], _lambda: &[f64], _out: &mut [f64], _scratch: &mut Scratch) {}
+    /// The outputs at a state with its v' and lambda.
+    fn outputs(&self, _at: Loaded, _out: &mut [f64], _scratch: &mut Scratch) {}
 
     /// Derivatives of all outputs at a state with its v' and lambda. Returns false where there are outputs and the author of
     /// the equations gave no derivatives.

@@ -18,6 +18,7 @@ mod algebra;
 mod elastic;
 mod inertia;
 mod layout;
+mod part;
 mod point;
 mod spec;
 mod tangent;
@@ -28,6 +29,8 @@ use super::{Bent, Body, BodyOver, BodyState, Energy, Frame, Marker, Wrench, dot}
 use crate::math::rotation::{axes_from_quaternion, quaternion_rate};
 use crate::math::{Scalar, Taylor};
 use layout::Layout;
+
+pub use part::load;
 
 /// The body: what its shapes say, and where each value of its matrices stands.
 pub struct Floating<const D: usize> {

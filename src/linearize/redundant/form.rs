@@ -3,7 +3,7 @@
 use super::Built;
 use super::rounding::Parts;
 use crate::error::Result;
-use crate::linearize::{Changes, Matrix, Variation, names};
+use crate::linearize::{Changes, Matrix, Response, Variation, names};
 
 /// Which constraints stand beside the equations of motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,9 +84,16 @@ impl Form {
         put(&mut c, (0, 2 * n), &outputs.lambda.select_columns(kept));
         let unit = Matrix::identity(size, size);
         let changes = Changes { q: unit.rows(0, n).clone_owned(), v: unit.rows(n, n).clone_owned() };
+        let mut d = outputs.u;
+        if outputs.vdot.iter().any(|slope| *slope != 0.0) {
+            // v' is no state of a pencil; on the constraints the equations give it.
+            let response = Response::exact(variation, &changes)?;
+            c += &outputs.vdot * response.vdot;
+            d += &outputs.vdot * response.driven_vdot;
+        }
         let states = self.states(variation, kept);
         let (chart, infinite) = ("redundant".to_string(), self.infinite(kept.len()));
-        Ok(Built { chart, states, a, b, c, d: outputs.u, e: Some(e), changes, infinite })
+        Ok(Built { chart, states, a, b, c, d, e: Some(e), changes, infinite })
     }
 
     fn states(self, variation: &Variation, kept: &[usize]) -> Vec<String> {
