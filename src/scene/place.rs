@@ -57,7 +57,7 @@ pub struct Cut<const D: usize> {
     pub body: usize,
     /// Abscissa, m.
     pub at: f64,
-    /// How its middle moves with the elastic coordinates.
+    /// How the section moves with the elastic coordinates.
     pub section: PointShape<D>,
     /// The mass beyond.
     pub beyond: Vec<Piece<D>>,

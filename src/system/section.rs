@@ -1,13 +1,13 @@
 //! What a section of a beam in a floating frame carries: all that acts on the body beyond it.
 //!
 //! The method of sections: with the joints, forces, weight and inertia of that part the section is in equilibrium, whatever
-//! coordinates the displacements have and however few. Only the mass of the part is described by these. A section beside
-//! a joint carries the reaction of that joint to round-off.
+//! coordinates the displacements have and however few: these describe where its mass is, and no more. A section beside a
+//! joint carries the reaction of that joint to round-off. Arms and axes are those of the displaced beam, so that the
+//! forces do not depend on the choice of the floating frame but by the terms that its theory leaves out.
 
 use super::mechanism::Mechanism;
 use super::view::View;
-use crate::body::flexible::PointShape;
-use crate::body::{Frame, MOST_MARKERS, Wrench, cross, floating, sub};
+use crate::body::{Frame, MOST_MARKERS, Marker, Wrench, cross, floating, sub};
 use crate::force::{Force, ForceOver};
 use crate::joint::{Joint, JointOver};
 use crate::math::{Scalar, Taylor};
@@ -29,7 +29,7 @@ impl<S: Scalar, const D: usize> Sum<S, D> {
 }
 
 impl<const D: usize> Mechanism<D> {
-    /// Axial force, shear forces, torque and bending moments about the displaced section, in the axes of the floating frame.
+    /// Axial force, shear forces, torque and bending moments, about the section and in its axes where it is displaced.
     pub(super) fn section<S: Scalar>(&self, cut: &Cut<D>, view: &impl View<S, D>) -> [S; 6]
     where
         dyn Force<D>: ForceOver<S, D>,
@@ -38,7 +38,8 @@ impl<const D: usize> Mechanism<D> {
         let part = &self.model().bodies[cut.body];
         let own = view.frame(part.first_marker);
         let [q, v] = elastic(part);
-        let mut sum = Sum { about: point(&own, &cut.section, |i| view.q(q + i)), wrench: Wrench::zero() };
+        let at = floating::place(&own.map(|x| x.x), &cut.section, &Marker::point([0.0; D]), |i| view.q(q + i));
+        let mut sum = Sum { about: at.r, wrench: Wrench::zero() };
         let coordinate = |i: usize| Taylor::new(view.q(q + i), view.v(v + i), view.vdot(v + i));
         for piece in &cut.beyond {
             let load = floating::load(piece, &own, coordinate, &self.model().gravity);
@@ -54,7 +55,7 @@ impl<const D: usize> Mechanism<D> {
             self.act(force, view, &mut wrenches);
             sum.add(&place(self.model().forces[force].markers[slot]), &wrenches[slot]);
         }
-        in_axes(&own, &sum.wrench)
+        in_axes(&at, &sum.wrench)
     }
 
     /// The markers of the joints and forces that a section carries.
@@ -70,24 +71,9 @@ fn elastic<const D: usize>(part: &Part<D>) -> [usize; 2] {
     [part.first_q + part.nq - count, part.first_v + part.nv - count]
 }
 
-/// Where a point of the body is.
-fn point<S: Scalar, const D: usize>(
-    own: &Frame<Taylor<S>, D>,
-    shape: &PointShape<D>,
-    coordinate: impl Fn(usize) -> S,
-) -> [S; D] {
-    let mut r = own.r.map(|x| x.x);
-    for (k, axis) in own.axes.iter().enumerate() {
-        let moves = shape.dofs.iter().zip(&shape.translation);
-        let u = moves.fold(S::constant(shape.rest[k]), |u, (&dof, translation)| u + coordinate(dof) * translation[k]);
-        r.iter_mut().zip(axis).for_each(|(r, e)| *r += e.x * u);
-    }
-    r
-}
-
 /// In the order of [`Station`](crate::force::Station).
-fn in_axes<S: Scalar, const D: usize>(own: &Frame<Taylor<S>, D>, wrench: &Wrench<S, D>) -> [S; 6] {
-    let along = |axis: usize, v: &[S]| own.axes[axis].iter().zip(v).fold(S::zero(), |sum, (&e, &v)| sum + e.x * v);
+fn in_axes<S: Scalar, const D: usize>(at: &Frame<S, D>, wrench: &Wrench<S, D>) -> [S; 6] {
+    let along = |axis: usize, v: &[S]| at.axes[axis].iter().zip(v).fold(S::zero(), |sum, (&e, &v)| sum + e * v);
     from_fn(|i| match (i, D) {
         (0 | 1, _) | (2, 3) => along(i, &wrench.force),
         (5, 2) => wrench.torque[2],

@@ -31,6 +31,7 @@ use crate::math::{Scalar, Taylor};
 use layout::Layout;
 
 pub use part::load;
+pub use point::place;
 
 /// The body: what its shapes say, and where each value of its matrices stands.
 pub struct Floating<const D: usize> {

@@ -8,7 +8,7 @@ use std::array::from_fn;
 
 /// The frame of a marker: at rest + sum_i t_i q_i, with axes turned by sum_i r_i q_i.
 #[inline]
-pub(super) fn place<S: Scalar, const D: usize>(
+pub fn place<S: Scalar, const D: usize>(
     own: &Frame<S, D>,
     shape: &PointShape<D>,
     marker: &Marker<D>,
