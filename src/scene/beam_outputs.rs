@@ -100,7 +100,8 @@ fn cut<const D: usize>(
         s >= at - slack && s > slack
     };
     let origin = line.point([0.0; D]);
-    let frame_is_a_section = origin.translation.iter().flatten().chain(origin.rotation.iter().flatten()).all(|x| *x == 0.0);
+    let frame_is_a_section =
+        origin.translation.iter().flatten().chain(origin.rotation.iter().flatten()).all(|x| *x == 0.0);
     let slots = |name: &str, markers: &[MarkerId]| -> Result<Vec<usize>> {
         if !frame_is_a_section && markers.contains(&own.start) {
             return Err(on_the_frame(&part.name, name));

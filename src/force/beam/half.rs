@@ -42,12 +42,7 @@ impl<S: Scalar> Load<S> {
     pub fn map(&self, change: impl Fn(&Vector<S>) -> Vector<S>) -> Self {
         let Load { force, torque, force_per_length, torque_per_length } = self;
         let [force, torque] = [change(force), change(torque)];
-        Load {
-            force,
-            torque,
-            force_per_length: change(force_per_length),
-            torque_per_length: change(torque_per_length),
-        }
+        Load { force, torque, force_per_length: change(force_per_length), torque_per_length: change(torque_per_length) }
     }
 }
 

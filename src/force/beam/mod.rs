@@ -20,8 +20,8 @@ use super::{Action, ForceKernel};
 use crate::body::{Frame, Wrench, dot};
 use crate::math::screw::{Vector, cross3, dot3, pull_back};
 use crate::math::{Dual, Scalar, Taylor, Time};
-use std::array::from_fn;
 use station::Carried;
+use std::array::from_fn;
 use strain::Strains;
 
 /// A value with its rate.

@@ -3,7 +3,7 @@
 use super::Built;
 use super::rounding::Parts;
 use crate::error::Result;
-use crate::linearize::{Changes, Matrix, Response, Variation, names};
+use crate::linearize::{Changes, Matrix, Variation, names};
 
 /// Which constraints stand beside the equations of motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,11 +85,9 @@ impl Form {
         let unit = Matrix::identity(size, size);
         let changes = Changes { q: unit.rows(0, n).clone_owned(), v: unit.rows(n, n).clone_owned() };
         let mut d = outputs.u;
-        if outputs.vdot.iter().any(|slope| *slope != 0.0) {
-            // v' is no state of a pencil; on the constraints the equations give it.
-            let response = Response::exact(variation, &changes)?;
-            c += &outputs.vdot * response.vdot;
-            d += &outputs.vdot * response.driven_vdot;
+        if let Some(of_force) = over_mass(outputs.vdot, variation.mass()) {
+            c += &of_force * a.rows(n, n);
+            d += &of_force * inputs;
         }
         let states = self.states(variation, kept);
         let (chart, infinite) = ("redundant".to_string(), self.infinite(kept.len()));
@@ -106,6 +104,19 @@ impl Form {
         }
         states
     }
+}
+
+/// W M^-1: what outputs W dv' are of M dv', which a pencil's second rows say. Outputs feel no directions without mass.
+fn over_mass(outputs: Matrix, mut mass: Matrix) -> Option<Matrix> {
+    if outputs.iter().all(|slope| *slope == 0.0) {
+        return None;
+    }
+    for i in 0..mass.nrows() {
+        if mass[(i, i)] == 0.0 {
+            mass[(i, i)] = 1.0;
+        }
+    }
+    Some(mass.lu().solve(&outputs.transpose())?.transpose())
 }
 
 fn put(target: &mut Matrix, at: (usize, usize), block: &Matrix) {
