@@ -331,17 +331,13 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn outputs(&self, at: Loaded, out: &mut [f64], scratch: &mut Scratch) {
-        self.at(at.q, at.v, scratch, |work, regime| {
-            let at = self.accelerate(at, work);
+        self.observed(at, scratch, |at, regime, work| {
             self.write_outputs(&Plain { at, regime, motion: &work.motion }, out);
         });
     }
 
     fn output_tangent(&self, at: Loaded, tangent: &mut OutputTangent, scratch: &mut Scratch) -> bool {
-        self.at(at.q, at.v, scratch, |work, regime| {
-            let at = self.accelerate(at, work);
-            Slopes { mechanism: self, at, regime, work, tangent }.run();
-        });
+        self.observed(at, scratch, |at, regime, work| Slopes { mechanism: self, at, regime, work, tangent }.run());
         true
     }
 

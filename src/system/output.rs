@@ -1,22 +1,31 @@
 //! What a user watches: the outputs of a scene, written once over any scalar, so that values and derivatives agree.
 
+use super::Scratch;
 use super::mechanism::{Mechanism, Workspace};
 use super::tangent::Loaded;
 use super::view::{Plain, View, gathered};
 use crate::body::{Energy, Frame, MOST_MARKERS, MarkerId, Quantity, Wrench, dot, norm, sub, twist_len};
 use crate::force::{Action, Force, ForceOver};
 use crate::joint::{Joint, JointOver, MOST_ROWS, markers_per_pass};
-use crate::math::{Scalar, Taylor};
+use crate::math::{Regime, Scalar, Taylor};
 use crate::scene::{FORCE_SIZE, Measure, TORQUE_SIZE};
 
 impl<const D: usize> Mechanism<D> {
-    /// Gives the frames their accelerations where an output reads them; the state without v' where none does.
-    pub(super) fn accelerate<'a>(&self, at: Loaded<'a>, work: &mut Workspace<D>) -> Loaded<'a> {
-        if !self.model().outputs.iter().any(|output| output.measure.feels_acceleration()) {
-            return Loaded { vdot: &[], ..at };
-        }
-        self.place(at.q, at.v, at.vdot, work);
-        at
+    /// Lends the memory with all frames moved to a state; with its v' only where an output reads it.
+    pub(super) fn observed<R>(
+        &self,
+        at: Loaded,
+        scratch: &mut Scratch,
+        see: impl FnOnce(Loaded, Regime, &mut Workspace<D>) -> R,
+    ) -> R {
+        let is_accelerated = self.model().outputs.iter().any(|output| output.measure.feels_acceleration());
+        let vdot = if is_accelerated { at.vdot } else { &[] };
+        self.at(at.q, at.v, scratch, |work, regime| {
+            if is_accelerated {
+                self.place(at.q, at.v, vdot, work);
+            }
+            see(Loaded { vdot, ..at }, regime, work)
+        })
     }
 
     /// All outputs in the order of the scene.
