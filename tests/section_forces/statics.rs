@@ -2,6 +2,7 @@
 
 use crate::scenes::{Ready, model, parse};
 use crate::{FRAMES, THEORIES, at_rest, frame_keys, gap, reactions, sections};
+use holonom::scene::Scene;
 use std::f64::consts::FRAC_PI_2;
 
 /// A quarter of a circle of radius 1, clamped, with a force out of its plane at its tip.
@@ -150,5 +151,25 @@ fn a_heavy_cantilever_converges() {
         println!("weight in {dimension}: {errors:?} of 120 N");
         // Orders of 3.2 to 4.2 were measured.
         assert!(errors[0] < 0.2 && errors.windows(2).all(|pair| pair[0] > 8.0 * pair[1]), "{errors:?}");
+    }
+}
+
+/// What acts on a floating frame that is no section of its beam acts at no place of it; on one that is, at the left end.
+#[test]
+fn what_acts_on_the_frame_itself() {
+    let scene = |frame: &str| {
+        let (frame, outputs) = (frame_keys(frame), sections(2, "rod", &[0.0]));
+        format!(
+            r#"{{ "name": "frame", "dimension": 2, "gravity": [0, -9.81], "ground": {{ "markers": {{ "o": [0, 0] }} }},
+            "bodies": [ {{ "name": "rod", "type": "flexible_beam", {frame}, "length": 2, "elements": 2,
+                "stiffness": {{ "EA": 1e5, "EI": 300 }}, "inertia": {{ "rhoA": 1 }} }} ],
+            "joints": [ {{ "name": "clamp", "type": "weld", "between": ["ground.o", "rod"] }} ], "outputs": [ {outputs} ] }}"#
+        )
+    };
+    let (_, out) = at_rest(&parse(&scene("tangent")), 0.0);
+    assert!((out[1] / (-2.0 * 9.81) - 1.0).abs() < 1e-10 && (out[2] / (-2.0 * 9.81) - 1.0).abs() < 1e-10, "{out:?}");
+    for frame in ["chord", "mean"] {
+        let error = Scene::parse(&scene(frame), &[]).err().expect("refused").to_string();
+        assert!(error.contains("`clamp` acts on the floating frame of `rod`, which is no section of it"), "{error}");
     }
 }
