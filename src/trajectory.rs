@@ -37,7 +37,7 @@ impl Trajectory {
     /// Adds a row.
     pub fn push(&mut self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) {
         let mut outputs = vec![0.0; self.outputs.len()];
-        system.outputs(state.t, state.q, state.v, state.lambda, &mut outputs, scratch);
+        system.outputs(state.loaded(), &mut outputs, scratch);
         self.rows.push([&[state.t], state.q, state.v, state.lambda, &outputs].concat());
     }
 

@@ -10,7 +10,7 @@ use counting::{Counting, count};
 use holonom::math::Scalar;
 use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate};
 use holonom::study::{Overrides, Study};
-use holonom::system::{Equations, MechanicalSystem, Scratch};
+use holonom::system::{Equations, Loaded, MechanicalSystem, Scratch};
 use std::path::Path;
 
 #[global_allocator]
@@ -170,7 +170,8 @@ fn outputs() {
         let mut out = vec![0.0; system.columns().len()];
         let mut row = || {
             let before = count();
-            system.outputs(0.0, q, v, &study.assembly.lambda, &mut out, &mut scratch);
+            let at = Loaded { t: 0.0, q, v, vdot: &study.assembly.vdot, lambda: &study.assembly.lambda };
+            system.outputs(at, &mut out, &mut scratch);
             system.energy(0.0, q, v, &mut scratch);
             count() - before
         };

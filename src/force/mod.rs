@@ -12,7 +12,7 @@ mod spring_damper;
 mod torsion_spring;
 mod tyre;
 
-pub use beam::{Beam, Station};
+pub use beam::{Beam, Half, Load, Station};
 
 use crate::body::{Build, Frame, MarkerId, Slope, Wrench, parse_among};
 use crate::error::Result;
@@ -70,6 +70,10 @@ pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
     fn wheel(&self, _t: f64) -> Option<Wheel> {
         None
     }
+    /// The element whose sections an output may watch, if it is one.
+    fn beam(&self) -> Option<&Beam> {
+        None
+    }
 }
 
 /// A force over one scalar: what the model calls.
@@ -105,12 +109,16 @@ impl<K: ForceKernel<D>, S: Scalar, const D: usize> ForceOver<S, D> for K {
 /// The object-safe form of a force; implemented for every [`ForceKernel`].
 pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Slope, D> + Send + Sync {
     fn wheel(&self, t: f64) -> Option<Wheel>;
+    fn beam(&self) -> Option<&Beam>;
     fn switching(&self, frames: &[Frame<Taylor<Rate>, D>], time: Time<Taylor<Rate>>, out: &mut [Rate]);
 }
 
 impl<K: ForceKernel<D>, const D: usize> Force<D> for K {
     fn wheel(&self, t: f64) -> Option<Wheel> {
         ForceKernel::wheel(self, t)
+    }
+    fn beam(&self) -> Option<&Beam> {
+        ForceKernel::beam(self)
     }
     fn switching(&self, frames: &[Frame<Taylor<Rate>, D>], time: Time<Taylor<Rate>>, out: &mut [Rate]) {
         ForceKernel::switching(self, frames, time, out);

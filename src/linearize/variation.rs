@@ -284,8 +284,9 @@ fn dense(pattern: &Pattern, values: &[f64]) -> Matrix {
 
 /// C and D of what answers to changes of the state.
 pub(super) fn observe(outputs: &OutputTangent, changes: &Changes, response: &Response) -> [Matrix; 2] {
-    let c = &outputs.q * &changes.q + &outputs.v * &changes.v + &outputs.lambda * &response.lambda;
-    [c, &outputs.u + &outputs.lambda * &response.driven_lambda]
+    let OutputTangent { q, v, vdot, lambda, u } = outputs;
+    let c = q * &changes.q + v * &changes.v + vdot * &response.vdot + lambda * &response.lambda;
+    [c, u + vdot * &response.driven_vdot + lambda * &response.driven_lambda]
 }
 
 /// Why there is no linear model at a state.

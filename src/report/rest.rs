@@ -6,7 +6,7 @@ use crate::error::{Warning, clock};
 use crate::initial::{Equilibrium, Stability, Way};
 use crate::measure::Range;
 use crate::study::Study;
-use crate::system::Scratch;
+use crate::system::{Loaded, Scratch};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -70,7 +70,8 @@ impl Rest {
         let (system, names) = (study.system(), study.system().names());
         let columns = system.columns();
         let (mut outputs, still) = (vec![0.0; columns.len()], vec![0.0; names.v.len()]);
-        system.outputs(found.t, &found.q, &still, &found.lambda, &mut outputs, &mut Scratch::default());
+        let at = Loaded { t: found.t, q: &found.q, v: &still, vdot: &still, lambda: &found.lambda };
+        system.outputs(at, &mut outputs, &mut Scratch::default());
         let pairs = names.q.iter().zip(study.start().0.iter().zip(&found.q));
         let moved = pairs.filter(|(_, (from, to))| (*to - *from).abs() > STILL * (1.0 + from.abs()));
         let mut moves: Vec<_> = moved.map(|(name, (&from, &to))| (name.clone(), from, to)).collect();

@@ -5,7 +5,7 @@ use super::summary::significant;
 use crate::initial::Assembly;
 use crate::math::largest;
 use crate::study::Study;
-use crate::system::Scratch;
+use crate::system::{Loaded, Scratch};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -30,7 +30,8 @@ impl Start {
         let Assembly { q, v, vdot, lambda, .. } = &study.assembly;
         let columns = study.system().columns();
         let mut values = vec![0.0; columns.len()];
-        study.system().outputs(study.start_time(), q, v, lambda, &mut values, &mut Scratch::default());
+        let at = Loaded { t: study.start_time(), q, v, vdot, lambda };
+        study.system().outputs(at, &mut values, &mut Scratch::default());
         let (velocity, acceleration) = (largest(v), largest(vdot));
         Start {
             velocity,

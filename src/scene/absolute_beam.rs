@@ -13,7 +13,7 @@ use super::model::BeamLine;
 use crate::body::flexible::{Damping, FlexibleBeam, Section, curvature};
 use crate::body::{Body, Build, Built, Initial, Marker, RigidPlanar, RigidSpatial, SHARED_KEYS, cross, parse_among};
 use crate::error::{Error, Result, short};
-use crate::force::Beam;
+use crate::force::{Beam, Half};
 use crate::math::expression::Number;
 use crate::math::rotation::{matrix_from_quaternion, quaternion_from_vector, quaternion_product};
 use crate::math::screw::{dot3, exponential};
@@ -99,8 +99,13 @@ impl<const D: usize> AbsoluteBeam<D> {
     /// The record for the model; the place of its elements among the forces is not known yet.
     pub fn line(self, first_body: usize) -> BeamLine {
         let beam = |ends: &[f64]| Beam::new::<D>(&self.section, ends[1] - ends[0], self.curvature, self.damping);
-        let elements = self.abscissae.windows(2).map(beam).collect();
-        BeamLine { name: self.name, first_body, first_force: 0, elements, abscissae: self.abscissae }
+        let elements: Vec<Beam> = self.abscissae.windows(2).map(beam).collect();
+        let half = |element: usize, end: usize| {
+            let beside = self.beside(element + end);
+            beside.half(if end == 0 { beside.after } else { -beside.before }, self.inertia(&beside))
+        };
+        let halves = (0..elements.len()).map(|element| [half(element, 0), half(element, 1)]).collect();
+        BeamLine { name: self.name, first_body, first_force: 0, elements, halves, abscissae: self.abscissae }
     }
 
     fn beside(&self, node: usize) -> Beside {
@@ -110,13 +115,18 @@ impl<const D: usize> AbsoluteBeam<D> {
         Beside { before, after }
     }
 
-    fn body(&self, beside: &Beside, q: &[f64], markers: Vec<Marker<D>>) -> Box<dyn Body<D>> {
-        let own = 0.5 * (beside.before + beside.after);
-        let mass = self.section.rho_a * own;
-        let [y, z] = self.section.rho_i.map(|inertia| match inertia > 0.0 {
-            true => inertia * own,
+    /// Mass of a node, and its moments of inertia about y and z.
+    fn inertia(&self, beside: &Beside) -> (f64, [f64; 2]) {
+        let mass = self.section.rho_a * beside.own();
+        let about = self.section.rho_i.map(|inertia| match inertia > 0.0 {
+            true => inertia * beside.own(),
             false => SMALL_INERTIA * mass * f64::max(beside.before, beside.after).powi(2),
         });
+        (mass, about)
+    }
+
+    fn body(&self, beside: &Beside, q: &[f64], markers: Vec<Marker<D>>) -> Box<dyn Body<D>> {
+        let (mass, [y, z]) = self.inertia(beside);
         match D {
             2 => Box::new(RigidPlanar::new(mass, z, from_fn(|i| q[i]), &[0, 1, 2], markers)),
             _ => {
@@ -134,6 +144,23 @@ struct Beside {
 }
 
 impl Beside {
+    /// The length that a node carries, m.
+    fn own(&self) -> f64 {
+        0.5 * (self.before + self.after)
+    }
+
+    /// The half of the element from the node to `reach` beside it, of the node's mass and moments of inertia.
+    fn half(&self, reach: f64, (mass, [y, z]): (f64, [f64; 2])) -> Half {
+        let share = 0.5 * reach.abs() / self.own();
+        Half {
+            mass: share * mass,
+            arm: reach / 6.0,
+            shifted: share * mass * self.shift().powi(2),
+            moments: [share * z, share * y],
+            per_length: 2.0 / reach.abs(),
+        }
+    }
+
     /// How far the centre of mass of the node is from it along the beam: rho A (after^2 - before^2)/12 divided by the mass.
     fn shift(&self) -> f64 {
         (self.after - self.before) / 6.0

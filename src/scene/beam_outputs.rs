@@ -1,64 +1,158 @@
 //! Outputs of a beam at a place on its line.
 
 use super::format::{MeasureKind, OutputSpec};
-use super::model::{BeamLine, Combination, Measure, Reading};
+use super::model::{BeamLine, Combination, Connection, Measure, Reading};
 use super::outputs::{Elements, find, missing, wrong_component};
-use crate::body::flexible::Stretch;
-use crate::body::{Bent, Build};
+use super::place::{Cut, Place};
+use crate::body::flexible::{Line, Stretch};
+use crate::body::{Bent, Build, MarkerId};
 use crate::error::{Error, Result, short};
+use crate::force::{Beam, Force, Half};
 
-/// What is read of the beam `of`.
+/// What is read of the beam `of`: a body, or a massless one among the forces.
 pub fn measure<const D: usize>(
     spec: &OutputSpec,
     of: &str,
-    Elements { bodies, beams, .. }: Elements<D>,
+    elements: Elements<D>,
+    cuts: &mut Vec<Cut<D>>,
     build: &Build<D>,
 ) -> Result<Measure> {
-    if let Some(beam) = beams.iter().position(|beam| beam.name == of) {
-        let at = place(spec, beams[beam].length(), build)?;
-        return Ok(Measure::Station { beam, at, reading: reading(spec, &beams[beam], at, build)? });
+    let Elements { bodies, beams, forces, .. } = elements;
+    if let Some(beam) = beams.iter().find(|beam| beam.name == of) {
+        return Ok(Measure::Station(on_absolute(spec, beam, elements, build)?));
     }
-    let floating = || bodies.iter().filter_map(|part| Some((part, part.body.bent()?)));
-    let names = floating().map(|(part, _)| part.name.as_str()).chain(beams.iter().map(|beam| beam.name.as_str()));
-    let index = find("flexible beam", of, names.collect::<Vec<_>>().into_iter())?;
-    match floating().nth(index) {
-        Some((part, bent)) => Ok(Measure::Elastic(combination(spec, bent, part.first_q + bent.first, build)?)),
+    let floating = || bodies.iter().enumerate().filter_map(|(body, part)| Some((body, part, part.body.bent()?)));
+    if let Some((body, part, bent)) = floating().find(|(_, part, _)| part.name == of) {
+        return match wanted::<D>(spec, build)? {
+            Wanted::Force(component) => {
+                let at = place(spec, bent.line.length(), build)?;
+                Ok(Measure::Section { cut: cut(body, at, bent.line, elements, cuts)?, component })
+            }
+            wanted => Ok(Measure::Elastic(combination(spec, wanted, bent, part.first_q + bent.first, build)?)),
+        };
+    }
+    let count = beams.first().map_or(forces.len(), |beam| beam.first_force);
+    let massless = || forces[..count].iter().filter_map(|force| Some((force, force.element.beam()?)));
+    let names = floating().map(|(_, part, _)| part.name.as_str()).chain(beams.iter().map(|beam| beam.name.as_str()));
+    let names: Vec<&str> = massless().map(|(force, _)| force.name.as_str()).chain(names).collect();
+    match massless().nth(find("flexible beam", of, names.into_iter())?) {
+        Some((force, beam)) => Ok(Measure::Station(on_massless(spec, force, beam, build)?)),
         None => Err(Error::input(format!("`{of}` is no flexible beam")).under("of")),
     }
 }
 
-/// Of an absolute beam.
-fn reading<const D: usize>(spec: &OutputSpec, beam: &BeamLine, at: f64, build: &Build<D>) -> Result<Reading> {
-    if spec.measure == MeasureKind::Deflection {
-        let axis = component(spec, "y", &["x", "y", "z"][..D])?;
-        return Ok(Reading::Deflection { axis, rest: beam.relaxed(at)[axis] });
-    }
-    let factors = weights::<D>(spec, &[1.0; 6], build)?;
-    Ok(match (spec.measure, factors.iter().position(|factor| *factor != 0.0)) {
-        (MeasureKind::Strain, _) | (_, None) => Reading::Strain(factors),
-        (_, Some(component)) => Reading::Force(component),
+fn on_absolute<const D: usize>(
+    spec: &OutputSpec,
+    beam: &BeamLine,
+    Elements { bodies, .. }: Elements<D>,
+    build: &Build<D>,
+) -> Result<Place> {
+    let at = place(spec, beam.length(), build)?;
+    let element = beam.element_at(at);
+    let node = |node: usize| bodies[beam.first_body + node].first_marker;
+    Ok(Place {
+        element: beam.elements[element].clone(),
+        ends: [node(element), node(element + 1)],
+        halves: beam.halves[element],
+        own: node(0),
+        x: at - beam.abscissae[element],
+        reading: reading(wanted::<D>(spec, build)?, beam.relaxed(at)),
     })
+}
+
+fn on_massless<const D: usize>(
+    spec: &OutputSpec,
+    force: &Connection<Box<dyn Force<D>>>,
+    beam: &Beam,
+    build: &Build<D>,
+) -> Result<Place> {
+    let x = place(spec, beam.length, build)?;
+    let ends: [MarkerId; 2] = [force.markers[0], force.markers[1]];
+    let reading = reading(wanted::<D>(spec, build)?, beam.relaxed(x));
+    Ok(Place { element: beam.clone(), ends, halves: [Half::default(); 2], own: ends[0], x, reading })
+}
+
+fn reading(wanted: Wanted, relaxed: [f64; 3]) -> Reading {
+    match wanted {
+        Wanted::Deflection(axis) => Reading::Deflection { axis, rest: relaxed[axis] },
+        Wanted::Strain(factors) => Reading::Strain(factors),
+        Wanted::Force(component) => Reading::Force(component),
+    }
+}
+
+/// The section of a floating beam at an abscissa, among those that there are already or behind them. What acts there is
+/// beyond it, but at the left end.
+fn cut<const D: usize>(
+    body: usize,
+    at: f64,
+    line: &dyn Line<D>,
+    Elements { bodies, joints, forces, .. }: Elements<D>,
+    cuts: &mut Vec<Cut<D>>,
+) -> Result<usize> {
+    if let Some(known) = cuts.iter().position(|known| known.body == body && known.at == at) {
+        return Ok(known);
+    }
+    let part = &bodies[body];
+    let own = part.first_marker..part.first_marker + part.body.marker_count();
+    let slack = 1e-9 * line.length();
+    let is_beyond = |marker: MarkerId| {
+        let s = part.body.shapes()[marker - own.start].rest[0];
+        s >= at - slack && s > slack
+    };
+    let origin = line.point([0.0; D]);
+    let frame_is_a_section =
+        origin.translation.iter().flatten().chain(origin.rotation.iter().flatten()).all(|x| *x == 0.0);
+    let slots = |name: &str, markers: &[MarkerId]| -> Result<Vec<usize>> {
+        if !frame_is_a_section && markers.contains(&own.start) {
+            return Err(on_the_frame(&part.name, name));
+        }
+        let on_it = |slot: &usize| own.contains(&markers[*slot]) && is_beyond(markers[*slot]);
+        Ok((0..markers.len()).filter(on_it).collect())
+    };
+    let mut all = Cut {
+        body,
+        at,
+        section: line.point(std::array::from_fn(|k| if k == 0 { at } else { 0.0 })),
+        beyond: line.beyond(at),
+        joints: Vec::new(),
+        forces: Vec::new(),
+    };
+    for (i, joint) in joints.iter().enumerate() {
+        all.joints.extend(slots(&joint.name, &joint.markers)?.into_iter().map(|slot| (i, slot)));
+    }
+    for (i, force) in forces.iter().enumerate() {
+        all.forces.extend(slots(&force.name, &force.markers)?.into_iter().map(|slot| (i, slot)));
+    }
+    cuts.push(all);
+    Ok(cuts.len() - 1)
+}
+
+fn on_the_frame(beam: &str, element: &str) -> Error {
+    Error::input(format!("`{element}` acts on the floating frame of `{beam}`, which is no section of it"))
+        .under("of")
+        .hint(format!("give `{beam}` a marker where `{element}` acts"))
 }
 
 /// Of a beam in a floating frame whose elastic coordinates are those from `first` on.
 fn combination<const D: usize>(
     spec: &OutputSpec,
+    wanted: Wanted,
     Bent { line, stretches, .. }: Bent<D>,
     first: usize,
     build: &Build<D>,
 ) -> Result<Combination> {
     let at = place(spec, line.length(), build)?;
     let mut sum = Sum { first, combination: Combination::default() };
-    if spec.measure == MeasureKind::Deflection {
-        let axis = component(spec, "y", &["x", "y", "z"][..D])?;
-        let mut rest = [0.0; D];
-        rest[0] = at;
-        let point = line.point(rest);
-        sum.add(&point.dofs, point.translation.iter().map(|t| t[axis]));
-        return Ok(sum.combination);
-    }
+    let mut weights = match wanted {
+        Wanted::Deflection(axis) => {
+            let point = line.point(std::array::from_fn(|k| if k == 0 { at } else { 0.0 }));
+            sum.add(&point.dofs, point.translation.iter().map(|t| t[axis]));
+            return Ok(sum.combination);
+        }
+        Wanted::Strain(weights) => weights,
+        Wanted::Force(_) => [0.0; 6],
+    };
     let section = line.section(at);
-    let mut weights = weights::<D>(spec, &section.stiffness, build)?;
     if let Some(stretch) = stretches.iter().find(|stretch| at <= stretch.ends[1]).or(stretches.last()) {
         sum.add_extension(stretch, weights[0]);
         weights[0] = 0.0;
@@ -107,10 +201,19 @@ fn component(spec: &OutputSpec, default: &str, known: &[&str]) -> Result<usize> 
     known.iter().position(|known| *known == name).ok_or_else(|| wrong_component(name, known))
 }
 
-/// Factors of the strains: extension, shear along y and z, twist, curvature about y and z.
-fn weights<const D: usize>(spec: &OutputSpec, stiffness: &[f64; 6], build: &Build<D>) -> Result<[f64; 6]> {
-    let only = |i: usize| std::array::from_fn(|k| if k == i { stiffness[i] } else { 0.0 });
-    match spec.measure {
+/// What a measure wants of a section.
+enum Wanted {
+    /// Along an axis.
+    Deflection(usize),
+    /// Strains in the order of [`Station`](crate::force::Station) times these.
+    Strain([f64; 6]),
+    /// A component in the same order.
+    Force(usize),
+}
+
+fn wanted<const D: usize>(spec: &OutputSpec, build: &Build<D>) -> Result<Wanted> {
+    Ok(match spec.measure {
+        MeasureKind::Deflection => Wanted::Deflection(component(spec, "y", &["x", "y", "z"][..D])?),
         MeasureKind::Strain => {
             let (mut y, mut z) = (0.0, 0.0);
             match (&spec.offset, D) {
@@ -118,26 +221,19 @@ fn weights<const D: usize>(spec: &OutputSpec, stiffness: &[f64; 6], build: &Buil
                 (Some(offset), 2) => [y] = build.vector::<1>("offset", offset)?,
                 (Some(offset), _) => [y, z] = build.vector::<2>("offset", offset)?,
             }
-            Ok([1.0, 0.0, 0.0, 0.0, z, -y])
+            Wanted::Strain([1.0, 0.0, 0.0, 0.0, z, -y])
         }
-        MeasureKind::AxialForce => Ok(only(0)),
-        MeasureKind::ShearForce => {
-            let axis = component(spec, "y", &["y", "z"][..D - 1])?;
-            if stiffness[1 + axis] == 0.0 {
-                return Err(Error::input("an Euler-Bernoulli beam in a floating frame has no shear force of its own")
-                    .under("measure")
-                    .hint("use \"theory\": \"timoshenko\", or watch the reaction of a joint"));
-            }
-            Ok(only(1 + axis))
-        }
+        MeasureKind::AxialForce => Wanted::Force(0),
+        MeasureKind::ShearForce => Wanted::Force(1 + component(spec, "y", &["y", "z"][..D - 1])?),
         MeasureKind::Torque if D == 2 => {
-            Err(Error::input("a planar beam carries no torque").under("measure").hint("watch its bending_moment"))
+            return Err(Error::input("a planar beam carries no torque")
+                .under("measure")
+                .hint("watch its bending_moment"));
         }
-        MeasureKind::Torque => Ok(only(3)),
+        MeasureKind::Torque => Wanted::Force(3),
         _ => {
             let known: &[&str] = if D == 2 { &["z"] } else { &["y", "z"] };
-            let axis = component(spec, "z", known)?;
-            Ok(only(if known[axis] == "y" { 4 } else { 5 }))
+            Wanted::Force(if known[component(spec, "z", known)?] == "y" { 4 } else { 5 })
         }
-    }
+    })
 }

@@ -102,14 +102,27 @@ fn model<const D: usize>(
         }));
     }
     let elements = outputs::Elements { bodies: &parts.bodies, beams: &parts.beams, joints: &joints, forces: &forces };
-    let outputs = outputs::outputs(&file.outputs, elements, &build)?;
+    let (outputs, cuts) = outputs::outputs(&file.outputs, elements, &build)?;
     let inputs = outputs::inputs::<D>(&file.inputs, &forces)?;
     let Parts { table: markers, ground, bodies, beams, mut q, v } = parts;
     let (switches, turnings) = (switches.into_inner(), turnings.into_inner());
     let extent = extent(&bodies, &q);
     q.extend(turnings.iter().map(|turning| turning.start));
-    let model =
-        Model { gravity, markers, ground, bodies, joints, forces, beams, outputs, inputs, switches, turnings, extent };
+    let model = Model {
+        gravity,
+        markers,
+        ground,
+        bodies,
+        joints,
+        forces,
+        beams,
+        outputs,
+        cuts,
+        inputs,
+        switches,
+        turnings,
+        extent,
+    };
     Ok((model, q, v))
 }
 

@@ -174,9 +174,9 @@ pub enum MeasureKind {
     Deflection,
     /// Axial strain of beam `of` `at` a place, at a fibre with this `offset`
     Strain,
-    /// N, tension positive, in beam `of` `at` a place
+    /// N, tension positive, in beam `of` `at` a place, along its displaced section's axis; `of` is a body or a force
     AxialForce,
-    /// N, along y or z of the section; Timoshenko or absolute beams only
+    /// N, along y or z of the section, of what is beyond it on what is before
     ShearForce,
     /// N m, about the line of a beam in space
     Torque,

@@ -10,12 +10,14 @@ mod locate;
 mod markers;
 mod model;
 mod outputs;
+mod place;
 mod schema;
 pub mod units;
 
 pub use format::{Assembly, Automatic, Simulation};
 pub use model::{BeamLine, Combination, Connection, Driven, EnergyPart, Measure, Model, Part, Reading, Watched};
 pub use model::{FORCE_SIZE, TORQUE_SIZE};
+pub use place::{Cut, Place};
 pub use schema::schema;
 
 use crate::error::{Error, Result, excerpt, nearest};

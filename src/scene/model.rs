@@ -1,10 +1,10 @@
 //! The checked, named model that a scene describes.
 
+use super::place::{Cut, Place};
 use super::units::Unit;
-use crate::body::{Body, Energy, Frame, Marker, MarkerId, MarkerTable, Quantity, Signal, Switches, Turning, dot, sub};
-use crate::force::{Beam, Force, Station};
+use crate::body::{Body, Energy, Frame, Marker, MarkerId, MarkerTable, Quantity, Signal, Switches, Turning};
+use crate::force::{Beam, Force, Half, Station};
 use crate::joint::Joint;
-use crate::math::screw::exponential;
 use crate::math::{Scalar, Taylor};
 use std::ops::Range;
 
@@ -20,6 +20,8 @@ pub struct Model<const D: usize> {
     pub forces: Vec<Connection<Box<dyn Force<D>>>>,
     pub beams: Vec<BeamLine>,
     pub outputs: Vec<Watched>,
+    /// Sections of beams in floating frames that outputs watch.
+    pub cuts: Vec<Cut<D>>,
     pub inputs: Vec<Driven>,
     pub switches: Switches,
     /// Angles in space that q carries after the coordinates of the bodies.
@@ -51,6 +53,8 @@ pub struct BeamLine {
     /// Abscissae of the nodes from the left end, m; one more than there are elements.
     pub abscissae: Vec<f64>,
     pub elements: Vec<Beam>,
+    /// Of each element the halves that its nodes carry.
+    pub halves: Vec<[Half; 2]>,
 }
 
 impl BeamLine {
@@ -69,32 +73,13 @@ impl BeamLine {
         self.abscissae.last().copied().unwrap_or(0.0)
     }
 
-    /// Reads the section at `s`; `node` gives the frame of a body of the model.
-    pub fn read<S: Scalar, const D: usize>(
-        &self,
-        s: f64,
-        reading: Reading,
-        node: impl Fn(usize) -> Frame<Taylor<S>, D>,
-    ) -> S {
-        let own = node(self.first_body).map(|x| x.x);
-        let station = self.station(s, node);
-        match reading {
-            Reading::Deflection { axis, rest } => dot(&own.axes[axis], &sub(&station.r, &own.r)) - rest,
-            Reading::Strain(factors) => {
-                station.strain.iter().zip(factors).fold(S::zero(), |sum, (&strain, factor)| sum + strain * factor)
-            }
-            Reading::Force(component) => station.force[component],
-        }
-    }
-
     /// Where the relaxed beam is at `s`, in the axes of its left end, m.
     pub fn relaxed(&self, s: f64) -> [f64; 3] {
-        let curvature = self.elements.first().map_or([0.0; 3], Beam::curvature);
-        exponential(&[1.0, 0.0, 0.0], &curvature, s).1
+        self.elements.first().map_or([0.0; 3], |element| element.relaxed(s))
     }
 
-    /// The section at `s` from the left end, 0 <= s <= length; `node` gives the frame of a body of the model. At a node it is
-    /// that of the element to the left of it.
+    /// The section at `s` from the left end, 0 <= s <= length, of the beam without mass; `node` gives the frame of a body of
+    /// the model. At a node it is that of the element to the left of it.
     pub fn station<S: Scalar, const D: usize>(
         &self,
         s: f64,
@@ -164,17 +149,29 @@ pub enum Measure {
     Tension {
         joint: usize,
     },
-    /// Of a beam in a floating frame.
+    /// Deflection or strain of a beam in a floating frame.
     Elastic(Combination),
-    /// Of an absolute beam, at an abscissa.
-    Station {
-        beam: usize,
-        at: f64,
-        reading: Reading,
+    /// Of an absolute beam, or of a massless one.
+    Station(Place),
+    /// A component of force or moment at a [`Cut`].
+    Section {
+        cut: usize,
+        component: usize,
     },
     /// The magnitude of a force.
     Force(usize),
     Energy(EnergyPart),
+}
+
+impl Measure {
+    /// Whether inertia is in what it reads.
+    pub fn feels_acceleration(&self) -> bool {
+        match self {
+            Measure::Station(place) => place.feels_acceleration(),
+            Measure::Section { .. } => true,
+            _ => false,
+        }
+    }
 }
 
 /// Component of a reaction: the size of its force.
@@ -182,10 +179,10 @@ pub const FORCE_SIZE: usize = 6;
 /// Component of a reaction: the size of its torque.
 pub const TORQUE_SIZE: usize = 7;
 
-/// What is read of a section of an absolute beam.
+/// What is read of a section of an absolute or massless beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reading {
-    /// Along an axis of the left end, from the relaxed beam there.
+    /// Along an axis of the beam's left end, from the relaxed beam there.
     Deflection { axis: usize, rest: f64 },
     /// Strains times these.
     Strain([f64; 6]),

@@ -3,6 +3,7 @@
 use super::beam_outputs;
 use super::format::{InputSpec, MeasureKind, OutputSpec};
 use super::model::{BeamLine, Connection, Driven, EnergyPart, FORCE_SIZE, Measure, Part, TORQUE_SIZE, Watched};
+use super::place::Cut;
 use super::units::{Dimension, Unit};
 use crate::body::{Build, MarkerId, Quantity, Turned};
 use crate::error::{Error, Result, suggest};
@@ -95,19 +96,23 @@ fn refuse_idle_keys(spec: &OutputSpec) -> Result<()> {
     }
 }
 
-/// The outputs with everything they name resolved.
-pub fn outputs<const D: usize>(specs: &[OutputSpec], elements: Elements<D>, build: &Build<D>) -> Result<Vec<Watched>> {
-    let mut all: Vec<Watched> = Vec::new();
+/// The outputs with everything they name resolved, and the sections of beams that they watch.
+pub fn outputs<const D: usize>(
+    specs: &[OutputSpec],
+    elements: Elements<D>,
+    build: &Build<D>,
+) -> Result<(Vec<Watched>, Vec<Cut<D>>)> {
+    let (mut all, mut cuts) = (Vec::new(), Vec::new());
     for (i, spec) in specs.iter().enumerate() {
         let place = |error: Error| error.element(&spec.name).under(format!("outputs[{i}]"));
         refuse_idle_keys(spec).map_err(place)?;
         let reader = Reader { spec, build };
-        let measure = reader.measure(elements).map_err(place)?;
+        let measure = reader.measure(elements, &mut cuts).map_err(place)?;
         build.own("output", &spec.name);
         let unit = unit(spec, dimension(spec.measure, &measure, elements)).map_err(place)?;
         all.push(Watched { name: spec.name.clone(), unit, measure });
     }
-    Ok(all)
+    Ok((all, cuts))
 }
 
 /// What outputs may be of.
@@ -125,7 +130,7 @@ struct Reader<'a, const D: usize> {
 }
 
 impl<const D: usize> Reader<'_, D> {
-    fn measure(&self, elements: Elements<D>) -> Result<Measure> {
+    fn measure(&self, elements: Elements<D>, cuts: &mut Vec<Cut<D>>) -> Result<Measure> {
         let Elements { joints, forces, .. } = elements;
         match self.spec.measure {
             MeasureKind::Angle => {
@@ -154,7 +159,7 @@ impl<const D: usize> Reader<'_, D> {
             | MeasureKind::AxialForce
             | MeasureKind::ShearForce
             | MeasureKind::Torque
-            | MeasureKind::BendingMoment => beam_outputs::measure(self.spec, self.of()?, elements, self.build),
+            | MeasureKind::BendingMoment => beam_outputs::measure(self.spec, self.of()?, elements, cuts, self.build),
             MeasureKind::Expression => {
                 let value = self.spec.value.as_ref();
                 let value = value.ok_or_else(|| missing("value", "give an expression over t and marker quantities"))?;

@@ -2,6 +2,7 @@
 
 use crate::error::short;
 use crate::math::largest;
+use crate::system::Loaded;
 use std::time::Duration;
 
 /// The interval to simulate and where the output rows lie.
@@ -41,6 +42,13 @@ pub struct Observation<'a> {
     pub sine: Option<f64>,
     /// Rows of G that depend on the others everywhere, and are left out of the motion.
     pub held: &'a [usize],
+}
+
+impl Observation<'_> {
+    /// The state with its accelerations and multipliers.
+    pub fn loaded(&self) -> Loaded<'_> {
+        Loaded { t: self.t, q: self.q, v: self.v, vdot: self.vdot, lambda: self.lambda }
+    }
 }
 
 /// Receives the motion while it is computed.

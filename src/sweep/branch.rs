@@ -2,10 +2,10 @@
 
 use super::{Family, Limit, Nearest, Point, Range};
 use crate::error::{Error, Result};
-use crate::initial::{self, Followed};
+use crate::initial::{self, Assembly, Followed};
 use crate::scene::Scene;
 use crate::study::AnyMechanism;
-use crate::system::{Column, Names, Scratch};
+use crate::system::{Column, Loaded, Names, Scratch};
 use std::sync::Arc;
 
 /// An assembled state with the scene that it is one of.
@@ -44,10 +44,10 @@ impl Ready {
         let system = self.mechanism.system();
         let assembly = initial::assemble(system, self.t, (&followed.q, &v), &hold)?;
         let mut outputs = vec![0.0; system.columns().len()];
-        let mut scratch = Scratch::default();
-        system.outputs(self.t, &assembly.q, &assembly.v, &assembly.lambda, &mut outputs, &mut scratch);
         let Followed { dependent, smallest_sine, .. } = followed;
-        let (q, v, lambda) = (assembly.q, assembly.v, assembly.lambda);
+        let Assembly { q, v, vdot, lambda, .. } = assembly;
+        let at = Loaded { t: self.t, q: &q, v: &v, vdot: &vdot, lambda: &lambda };
+        system.outputs(at, &mut outputs, &mut Scratch::default());
         let point = Point { value, q, v, lambda, outputs, smallest_sine };
         Ok(State { mechanism: Arc::new(self.mechanism), guess, dependent, point })
     }

@@ -103,7 +103,7 @@ impl<const D: usize> Mechanism<D> {
     }
 
     /// Moves all frames to (q, v), with the accelerations `vdot` or, where it is empty, those at v' = 0.
-    fn place(&self, q: &[f64], v: &[f64], vdot: &[f64], work: &mut Workspace<D>) {
+    pub(super) fn place(&self, q: &[f64], v: &[f64], vdot: &[f64], work: &mut Workspace<D>) {
         work.motion.resize(self.model.marker_count(), Frame::world());
         for part in &self.model.bodies {
             let frames = &mut work.motion[part.first_marker..][..part.body.marker_count()];
@@ -320,7 +320,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
 
     fn energy(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<Energy> {
         Some(self.at(q, v, scratch, |work, regime| {
-            self.energies(&Plain { time: Time { t, regime }, q, v, lambda: &[], motion: &work.motion })
+            self.energies(&Plain { at: Loaded { t, q, v, vdot: &[], lambda: &[] }, regime, motion: &work.motion })
         }))
     }
 
@@ -339,14 +339,14 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         joints.map(group).collect()
     }
 
-    fn outputs(&self, t: f64, q: &[f64], v: &[f64], lambda: &[f64], out: &mut [f64], scratch: &mut Scratch) {
-        self.at(q, v, scratch, |work, regime| {
-            self.write_outputs(&Plain { time: Time { t, regime }, q, v, lambda, motion: &work.motion }, out);
+    fn outputs(&self, at: Loaded, out: &mut [f64], scratch: &mut Scratch) {
+        self.observed(at, scratch, |at, regime, work| {
+            self.write_outputs(&Plain { at, regime, motion: &work.motion }, out);
         });
     }
 
     fn output_tangent(&self, at: Loaded, tangent: &mut OutputTangent, scratch: &mut Scratch) -> bool {
-        self.at(at.q, at.v, scratch, |work, regime| Slopes { mechanism: self, at, regime, work, tangent }.run());
+        self.observed(at, scratch, |at, regime, work| Slopes { mechanism: self, at, regime, work, tangent }.run());
         true
     }
 

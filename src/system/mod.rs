@@ -14,6 +14,7 @@ mod output;
 mod output_tangent;
 mod rotating;
 mod rows;
+mod section;
 mod spin;
 mod spinning;
 mod support;
@@ -166,8 +167,8 @@ pub trait MechanicalSystem: Send + Sync {
         Vec::new()
     }
 
-    /// The outputs at a state with its multipliers.
-    fn outputs(&self, _t: f64, _q: &[f64], _v: &[f64], _lambda: &[f64], _out: &mut [f64], _scratch: &mut Scratch) {}
+    /// The outputs at a state with its v' and lambda.
+    fn outputs(&self, _at: Loaded, _out: &mut [f64], _scratch: &mut Scratch) {}
 
     /// Derivatives of all outputs at a state with its v' and lambda. Returns false where there are outputs and the author of
     /// the equations gave no derivatives.

@@ -1,20 +1,46 @@
 //! What a user watches: the outputs of a scene, written once over any scalar, so that values and derivatives agree.
 
-use super::mechanism::Mechanism;
+use super::Scratch;
+use super::mechanism::{Mechanism, Workspace};
+use super::tangent::Loaded;
 use super::view::{Plain, View, gathered};
 use crate::body::{Energy, Frame, MOST_MARKERS, MarkerId, Quantity, Wrench, dot, norm, sub, twist_len};
 use crate::force::{Action, Force, ForceOver};
 use crate::joint::{Joint, JointOver, MOST_ROWS, markers_per_pass};
-use crate::math::{Scalar, Taylor};
+use crate::math::{Regime, Scalar, Taylor};
 use crate::scene::{FORCE_SIZE, Measure, TORQUE_SIZE};
 
 impl<const D: usize> Mechanism<D> {
+    /// Lends the memory with all frames moved to a state; with its v' only where an output reads it.
+    pub(super) fn observed<R>(
+        &self,
+        at: Loaded,
+        scratch: &mut Scratch,
+        see: impl FnOnce(Loaded, Regime, &mut Workspace<D>) -> R,
+    ) -> R {
+        let is_accelerated = self.model().outputs.iter().any(|output| output.measure.feels_acceleration());
+        let vdot = if is_accelerated { at.vdot } else { &[] };
+        self.at(at.q, at.v, scratch, |work, regime| {
+            if is_accelerated {
+                self.place(at.q, at.v, vdot, work);
+            }
+            see(Loaded { vdot, ..at }, regime, work)
+        })
+    }
+
     /// All outputs in the order of the scene.
     pub(super) fn write_outputs(&self, view: &Plain<D>, out: &mut [f64]) {
-        let mut energies = None;
+        let (mut energies, mut section) = (None, None);
         for (out, output) in out.iter_mut().zip(&self.model().outputs) {
             let value = match output.measure {
                 Measure::Energy(part) => part.of(*energies.get_or_insert_with(|| self.energies(view))),
+                // Outputs of one section mostly stand side by side.
+                Measure::Section { cut, component } => {
+                    let known = section.filter(|(known, _)| *known == cut);
+                    let (_, forces) = known.unwrap_or_else(|| (cut, self.section(&self.model().cuts[cut], view)));
+                    section = Some((cut, forces));
+                    forces[component]
+                }
                 ref measure => self.read(measure, view),
             };
             *out = value * output.unit.per_si;
@@ -47,9 +73,8 @@ impl<const D: usize> Mechanism<D> {
             // phi is l - length: -G^T lambda pulls the second body towards the first.
             Measure::Tension { joint } => view.lambda(self.rows_of_joint(*joint).start),
             Measure::Elastic(combination) => combination.at(|coordinate| view.q(coordinate)),
-            Measure::Station { beam, at, reading } => {
-                model.beams[*beam].read(*at, *reading, |body| view.frame(model.bodies[body].first_marker))
-            }
+            Measure::Station(place) => place.read(&model.gravity, |marker| view.frame(marker)),
+            Measure::Section { cut, component } => self.section(&model.cuts[*cut], view)[*component],
             Measure::Force(force) => self.action(*force, view).magnitude,
             Measure::Energy(part) => part.of(self.energies(view)),
         }
@@ -76,22 +101,33 @@ impl<const D: usize> Mechanism<D> {
     where
         dyn Force<D>: ForceOver<S, D>,
     {
-        let force = &self.model().forces[force];
-        let mut wrenches = [Wrench::zero(); MOST_MARKERS];
+        self.act(force, view, &mut [Wrench::zero(); MOST_MARKERS])
+    }
+
+    /// The same with its wrenches, which are zero on entry.
+    pub(super) fn act<S: Scalar>(
+        &self,
+        force: usize,
+        view: &impl View<S, D>,
+        wrenches: &mut [Wrench<S, D>; MOST_MARKERS],
+    ) -> Action<S>
+    where
+        dyn Force<D>: ForceOver<S, D>,
+    {
+        let (input, force) = (view.input(force), &self.model().forces[force]);
         let wrenches = &mut wrenches[..force.markers.len()];
         let (element, time) = (force.element.as_ref(), view.time().map(Taylor::time));
-        let act = |frames: &[_]| ForceOver::<S, D>::driven(element, &view.input(), frames, time, wrenches);
+        let act = |frames: &[_]| ForceOver::<S, D>::driven(element, &input, frames, time, wrenches);
         gathered(&force.markers, |marker| view.frame(marker), act)
     }
 
-    /// A component of -G^T lambda on the joint's second marker, as a wrench in the axes of a marker.
-    fn reaction<S: Scalar>(&self, view: &impl View<S, D>, joint: usize, (component, axes): (usize, MarkerId)) -> S
+    /// -G^T lambda at one of a joint's markers, in the order of a twist.
+    pub(super) fn reaction_wrench<S: Scalar>(&self, view: &impl View<S, D>, joint: usize, slot: usize) -> [S; 6]
     where
         dyn Joint<D>: JointOver<S, D>,
     {
         let rows = self.rows_of_joint(joint);
         let joint = &self.model().joints[joint];
-        let slot = 1.min(joint.markers.len() - 1);
         let mut slopes = [[S::zero(); 6]; MOST_ROWS];
         let own = &mut slopes[..rows.len()];
         let (element, time, pass) = (joint.element.as_ref(), view.time().map(S::constant), slot / markers_per_pass(D));
@@ -101,8 +137,19 @@ impl<const D: usize> Mechanism<D> {
         let mut wrench = [S::zero(); 6];
         for (slope, row) in slopes.iter().zip(rows) {
             let lambda = view.lambda(row);
-            wrench.iter_mut().zip(&slope[first..]).for_each(|(sum, &entry)| *sum -= lambda * entry);
+            let own = wrench.iter_mut().zip(&slope[first..]).take(twist_len(D));
+            own.for_each(|(sum, &entry)| *sum -= lambda * entry);
         }
+        wrench
+    }
+
+    /// A component of -G^T lambda on the joint's second marker, as a wrench in the axes of a marker.
+    fn reaction<S: Scalar>(&self, view: &impl View<S, D>, joint: usize, (component, axes): (usize, MarkerId)) -> S
+    where
+        dyn Joint<D>: JointOver<S, D>,
+    {
+        let slot = 1.min(self.model().joints[joint].markers.len() - 1);
+        let wrench = self.reaction_wrench(view, joint, slot);
         match component {
             FORCE_SIZE => norm::<S, D>(&std::array::from_fn(|i| wrench[i])),
             TORQUE_SIZE if D == 2 => wrench[2].abs(),

@@ -10,13 +10,15 @@ use crate::math::Regime;
 use crate::scene::{EnergyPart, Measure, Part};
 use nalgebra::DMatrix;
 
-/// Derivatives of the outputs y(t, q, v, lambda, u), a row each.
+/// Derivatives of the outputs y(t, q, v, v', lambda, u), a row each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutputTangent {
-    /// n_y x n_v: along the directions of v, q + N(q) e_j, with v, lambda and u held.
+    /// n_y x n_v: along the directions of v, q + N(q) e_j, with v, v', lambda and u held.
     pub q: DMatrix<f64>,
     /// n_y x n_v
     pub v: DMatrix<f64>,
+    /// n_y x n_v
+    pub vdot: DMatrix<f64>,
     /// n_y x n_c
     pub lambda: DMatrix<f64>,
     /// n_y x n_u: direct, such as that of the size of a driven force.
@@ -27,12 +29,12 @@ impl OutputTangent {
     /// All zero.
     pub fn new(n_y: usize, n_v: usize, n_c: usize, n_u: usize) -> Self {
         let zeros = |columns| DMatrix::zeros(n_y, columns);
-        OutputTangent { q: zeros(n_v), v: zeros(n_v), lambda: zeros(n_c), u: zeros(n_u) }
+        OutputTangent { q: zeros(n_v), v: zeros(n_v), vdot: zeros(n_v), lambda: zeros(n_c), u: zeros(n_u) }
     }
 
     /// Sets all to zero.
     pub fn clear(&mut self) {
-        let all = [&mut self.q, &mut self.v, &mut self.lambda, &mut self.u];
+        let all = [&mut self.q, &mut self.v, &mut self.vdot, &mut self.lambda, &mut self.u];
         all.into_iter().for_each(|matrix| matrix.fill(0.0));
     }
 }
@@ -58,6 +60,9 @@ impl<const D: usize> Slopes<'_, D> {
                 measure => {
                     let carriers = mechanism.carriers(measure);
                     self.along_bodies(row, &carriers, |view| mechanism.read(measure, view) * scale);
+                    if measure.feels_acceleration() {
+                        self.along_accelerations(row, measure, scale);
+                    }
                     self.along_multipliers(row, measure, scale);
                     self.along_inputs(row, measure, scale);
                 }
@@ -80,36 +85,54 @@ impl<const D: usize> Slopes<'_, D> {
     }
 
     fn along_bodies(&mut self, row: usize, carriers: &[Carrier], read: impl Fn(&Moved<D>) -> Slope) {
+        self.along(Along::Coordinates, row, carriers, &read);
+        self.along(Along::Velocities, row, carriers, &read);
+    }
+
+    /// The bodies whose own inertia is read.
+    fn along_accelerations(&mut self, row: usize, measure: &Measure, scale: f64) {
+        let mechanism = self.mechanism;
+        let carriers = match measure {
+            Measure::Section { cut, .. } => {
+                let body = mechanism.model().cuts[*cut].body;
+                vec![whole(body, &mechanism.model().bodies[body])]
+            }
+            measure => mechanism.carriers(measure),
+        };
+        self.along(Along::Accelerations, row, &carriers, |view| mechanism.read(measure, view) * scale);
+    }
+
+    fn along(&mut self, along: Along, row: usize, carriers: &[Carrier], read: impl Fn(&Moved<D>) -> Slope) {
         let bodies = &self.mechanism.model().bodies;
         for carrier in carriers {
             let part = &bodies[carrier.body];
             for directions in carrier.velocities.chunks(6) {
-                for along in [Along::Coordinates, Along::Velocities] {
-                    let at = Loaded { vdot: &[], ..self.at };
-                    self.work.varied.vary(along, part, &at, directions);
-                    let value = self.seen(Seed::Body(part), &read);
-                    let target = if along == Along::Coordinates { &mut self.tangent.q } else { &mut self.tangent.v };
-                    let slopes = directions.iter().zip(value.eps);
-                    slopes.for_each(|(&direction, slope)| target[(row, direction)] += known(slope));
-                }
+                self.work.varied.vary(along, part, &self.at, directions);
+                let value = self.seen(Seed::Body(part), &read);
+                let target = match along {
+                    Along::Coordinates => &mut self.tangent.q,
+                    Along::Velocities => &mut self.tangent.v,
+                    Along::Accelerations => &mut self.tangent.vdot,
+                };
+                let slopes = directions.iter().zip(value.eps);
+                slopes.for_each(|(&direction, slope)| target[(row, direction)] += known(slope));
             }
         }
     }
 
     fn along_multipliers(&mut self, row: usize, measure: &Measure, scale: f64) {
-        let (Measure::Reaction { joint, .. } | Measure::Tension { joint } | Measure::Push { joint }) = *measure else {
-            return;
-        };
-        let rows = self.mechanism.rows_of_joint(joint);
-        let value = self.seen(Seed::Multipliers(rows.start), |view| self.mechanism.read(measure, view) * scale);
-        rows.zip(value.eps).for_each(|(multiplier, slope)| self.tangent.lambda[(row, multiplier)] = known(slope));
+        for joint in self.mechanism.joints_of(measure) {
+            let rows = self.mechanism.rows_of_joint(joint);
+            let value = self.seen(Seed::Multipliers(rows.start), |view| self.mechanism.read(measure, view) * scale);
+            rows.zip(value.eps).for_each(|(multiplier, slope)| self.tangent.lambda[(row, multiplier)] = known(slope));
+        }
     }
 
     fn along_inputs(&mut self, row: usize, measure: &Measure, scale: f64) {
-        let Measure::Force(force) = *measure else { return };
+        let forces = self.mechanism.forces_of(measure);
         let inputs = self.mechanism.model().inputs.iter().enumerate();
-        for (column, input) in inputs.filter(|(_, input)| input.force == force) {
-            let value = self.seen(Seed::Inputs, |view| self.mechanism.read(measure, view) * scale);
+        for (column, input) in inputs.filter(|(_, input)| forces.contains(&input.force)) {
+            let value = self.seen(Seed::Inputs(input.force), |view| self.mechanism.read(measure, view) * scale);
             self.tangent.u[(row, column)] = known(value.eps[input.component]);
         }
     }
@@ -143,13 +166,34 @@ impl<const D: usize> Mechanism<D> {
                 on(&markers.copied().collect::<Vec<_>>())
             }
             Measure::Elastic(combination) => self.bodies_with(&combination.coordinates()),
-            Measure::Station { beam, at, .. } => {
-                let beam = &model.beams[*beam];
-                let left = beam.first_body + beam.element_at(*at);
-                on(&[beam.first_body, left, left + 1].map(|body| model.bodies[body].first_marker))
+            Measure::Station(place) => on(&place.markers()),
+            Measure::Section { cut, .. } => {
+                let cut = &model.cuts[*cut];
+                let mut carriers = on(&self.markers_beyond(cut));
+                carriers.retain(|carrier| carrier.body != cut.body);
+                carriers.push(whole(cut.body, &model.bodies[cut.body]));
+                carriers
             }
             Measure::Force(force) => on(&model.forces[*force].markers),
             Measure::Tension { .. } | Measure::Push { .. } | Measure::Energy(_) => Vec::new(),
+        }
+    }
+
+    /// The joints whose multipliers an output reads.
+    fn joints_of(&self, measure: &Measure) -> Vec<usize> {
+        match measure {
+            Measure::Reaction { joint, .. } | Measure::Tension { joint } | Measure::Push { joint } => vec![*joint],
+            Measure::Section { cut, .. } => self.model().cuts[*cut].joints.iter().map(|&(joint, _)| joint).collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// The forces that an output reads and inputs may drive.
+    fn forces_of(&self, measure: &Measure) -> Vec<usize> {
+        match measure {
+            Measure::Force(force) => vec![*force],
+            Measure::Section { cut, .. } => self.model().cuts[*cut].forces.iter().map(|&(force, _)| force).collect(),
+            _ => Vec::new(),
         }
     }
 

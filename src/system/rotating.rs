@@ -277,8 +277,9 @@ impl MechanicalSystem for Rotating<'_> {
         self.inner.columns()
     }
 
-    fn outputs(&self, _t: f64, q: &[f64], v: &[f64], lambda: &[f64], out: &mut [f64], scratch: &mut Scratch) {
-        self.inner.outputs(self.t, q, &self.velocity(q, v), lambda, out, scratch);
+    fn outputs(&self, at: Loaded, out: &mut [f64], scratch: &mut Scratch) {
+        let (v, vdot) = (self.velocity(at.q, at.v), self.acceleration(at.q, at.v, at.vdot));
+        self.inner.outputs(Loaded { t: self.t, v: &v, vdot: &vdot, ..at }, out, scratch);
     }
 
     fn output_tangent(&self, at: Loaded, tangent: &mut OutputTangent, scratch: &mut Scratch) -> bool {
@@ -289,8 +290,10 @@ impl MechanicalSystem for Rotating<'_> {
         let slopes = self.slopes(at.q, at.v);
         for row in 0..tangent.v.nrows() {
             for j in 0..tangent.v.ncols() {
-                let value = tangent.v[(row, j)];
+                let [value, push] = [tangent.v[(row, j)], tangent.vdot[(row, j)]];
                 slopes.each(0, j, |column, x| tangent.q[(row, column)] += value * x);
+                slopes.each(1, j, |column, x| tangent.q[(row, column)] += push * x);
+                slopes.each(2, j, |column, x| tangent.v[(row, column)] += push * x);
             }
         }
         true

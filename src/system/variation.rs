@@ -13,6 +13,8 @@ pub(super) enum Along {
     Coordinates,
     /// v + e_j, q held.
     Velocities,
+    /// v' + e_j, q and v held.
+    Accelerations,
 }
 
 /// One body as a function of six of its velocity directions, with memory for what follows from it.
@@ -28,7 +30,8 @@ pub(super) struct Varied<const D: usize> {
     pub pulled: Vec<Slope>,
     /// q of a body that is not varied.
     pub rest: Vec<Slope>,
-    moved_vdot: Vec<Slope>,
+    /// The body's v', where it is given.
+    pub moved_vdot: Vec<Slope>,
     directions: Vec<Slope>,
 }
 
@@ -44,24 +47,18 @@ impl<const D: usize> Varied<D> {
         }
         lift(v, &mut self.moved_v);
         lift(q, &mut self.rest);
+        lift(q, &mut self.moved);
+        lift(if at.vdot.is_empty() { at.vdot } else { of(at.vdot, part, false) }, &mut self.moved_vdot);
         match along {
             Along::Coordinates => {
-                self.moved.clear();
-                self.moved.resize(part.nq, Slope::fixed(0.0));
                 part.body.rate(&self.rest, &self.directions, &mut self.moved);
                 self.moved.iter_mut().zip(&self.rest).for_each(|(moved, &q)| *moved += q);
             }
-            Along::Velocities => {
-                lift(q, &mut self.moved);
-                self.moved_v.iter_mut().zip(&self.directions).for_each(|(v, &direction)| *v += direction);
-            }
+            Along::Velocities => add(&mut self.moved_v, &self.directions),
+            Along::Accelerations => add(&mut self.moved_vdot, &self.directions),
         }
         self.frames.resize(part.body.marker_count(), Frame::world());
-        let is_accelerated = !at.vdot.is_empty();
-        if is_accelerated {
-            lift(of(at.vdot, part, false), &mut self.moved_vdot);
-        }
-        let vdot = is_accelerated.then_some(self.moved_vdot.as_slice());
+        let vdot = (!at.vdot.is_empty()).then_some(self.moved_vdot.as_slice());
         part.body.motion(&self.moved, &self.moved_v, vdot, &mut self.frames);
     }
 }
@@ -69,6 +66,10 @@ impl<const D: usize> Varied<D> {
 fn lift(from: &[f64], to: &mut Vec<Slope>) {
     to.clear();
     to.extend(from.iter().map(|&x| Slope::fixed(x)));
+}
+
+fn add(to: &mut [Slope], directions: &[Slope]) {
+    to.iter_mut().zip(directions).for_each(|(to, &direction)| *to += direction);
 }
 
 /// A frame that does not vary.

@@ -1,5 +1,6 @@
 //! A state as outputs and energies read it, over one scalar: the number decides what comes out, values or derivatives.
 
+use super::mechanism::of;
 use super::tangent::Loaded;
 use super::variation::{Varied, fixed};
 use crate::body::{Energy, Frame, MOST_MARKERS, MarkerId, Slope};
@@ -12,41 +13,48 @@ pub(super) trait View<S: Scalar, const D: usize> {
     fn time(&self) -> Time<'_, f64>;
     /// A coordinate of the system.
     fn q(&self, coordinate: usize) -> S;
+    /// A velocity.
+    fn v(&self, direction: usize) -> S;
+    /// Its rate.
+    fn vdot(&self, direction: usize) -> S;
     fn frame(&self, marker: MarkerId) -> Frame<Taylor<S>, D>;
     /// Of a body itself, without forces.
     fn energy(&self, part: &Part<D>, gravity: &[f64; D]) -> Energy<S>;
     fn lambda(&self, row: usize) -> S;
-    /// What inputs add to the components of a driven force.
-    fn input(&self) -> [S; 3];
+    /// What inputs add to the components of a force, if they drive it.
+    fn input(&self, force: usize) -> [S; 3];
 }
 
 /// The state as it is.
 pub(super) struct Plain<'a, const D: usize> {
-    pub time: Time<'a, f64>,
-    pub q: &'a [f64],
-    pub v: &'a [f64],
-    pub lambda: &'a [f64],
+    pub at: Loaded<'a>,
+    pub regime: Regime<'a>,
     pub motion: &'a [Frame<Taylor<f64>, D>],
 }
 
 impl<const D: usize> View<f64, D> for Plain<'_, D> {
     fn time(&self) -> Time<'_, f64> {
-        self.time
+        Time { t: self.at.t, regime: self.regime }
     }
     fn q(&self, coordinate: usize) -> f64 {
-        self.q[coordinate]
+        self.at.q[coordinate]
+    }
+    fn v(&self, direction: usize) -> f64 {
+        self.at.v[direction]
+    }
+    fn vdot(&self, direction: usize) -> f64 {
+        self.at.vdot[direction]
     }
     fn frame(&self, marker: MarkerId) -> Frame<Taylor<f64>, D> {
         self.motion[marker]
     }
     fn energy(&self, part: &Part<D>, gravity: &[f64; D]) -> Energy {
-        let (q, v) = (&self.q[part.first_q..][..part.nq], &self.v[part.first_v..][..part.nv]);
-        part.body.energy(q, v, gravity)
+        part.body.energy(of(self.at.q, part, true), of(self.at.v, part, false), gravity)
     }
     fn lambda(&self, row: usize) -> f64 {
-        self.lambda[row]
+        self.at.lambda[row]
     }
-    fn input(&self) -> [f64; 3] {
+    fn input(&self, _: usize) -> [f64; 3] {
         [0.0; 3]
     }
 }
@@ -58,8 +66,8 @@ pub(super) enum Seed<'a, const D: usize> {
     Body(&'a Part<D>),
     /// The multipliers from this row on.
     Multipliers(usize),
-    /// The inputs' parts of the three components of any force.
-    Inputs,
+    /// The inputs' parts of the three components of a force.
+    Inputs(usize),
 }
 
 /// The state as a function of six directions.
@@ -71,17 +79,29 @@ pub(super) struct Moved<'a, const D: usize> {
     pub seed: Seed<'a, D>,
 }
 
+impl<const D: usize> Moved<'_, D> {
+    /// What `varied` has of the body that moves, beginning where `first` says, and `fixed` of the others.
+    fn value(&self, varied: &[Slope], first: impl Fn(&Part<D>) -> usize, fixed: &[f64], index: usize) -> Slope {
+        let own = match self.seed {
+            Seed::Body(part) => index.checked_sub(first(part)).and_then(|i| varied.get(i)),
+            _ => None,
+        };
+        own.copied().unwrap_or_else(|| Slope::fixed(fixed[index]))
+    }
+}
+
 impl<const D: usize> View<Slope, D> for Moved<'_, D> {
     fn time(&self) -> Time<'_, f64> {
         Time { t: self.at.t, regime: self.regime }
     }
     fn q(&self, coordinate: usize) -> Slope {
-        match self.seed {
-            Seed::Body(part) if (part.first_q..part.first_q + part.nq).contains(&coordinate) => {
-                self.varied.moved[coordinate - part.first_q]
-            }
-            _ => Slope::fixed(self.at.q[coordinate]),
-        }
+        self.value(&self.varied.moved, |part| part.first_q, self.at.q, coordinate)
+    }
+    fn v(&self, direction: usize) -> Slope {
+        self.value(&self.varied.moved_v, |part| part.first_v, self.at.v, direction)
+    }
+    fn vdot(&self, direction: usize) -> Slope {
+        self.value(&self.varied.moved_vdot, |part| part.first_v, self.at.vdot, direction)
     }
     fn frame(&self, marker: MarkerId) -> Frame<Taylor<Slope>, D> {
         match self.seed {
@@ -97,9 +117,8 @@ impl<const D: usize> View<Slope, D> for Moved<'_, D> {
                 part.body.energy(&self.varied.moved, &self.varied.moved_v, gravity)
             }
             _ => {
-                let Loaded { q, v, lambda, .. } = self.at;
-                let Energy { kinetic, potential } =
-                    Plain { time: self.time(), q, v, lambda, motion: self.motion }.energy(part, gravity);
+                let plain = Plain { at: self.at, regime: self.regime, motion: self.motion };
+                let Energy { kinetic, potential } = plain.energy(part, gravity);
                 Energy { kinetic: Slope::fixed(kinetic), potential: Slope::fixed(potential) }
             }
         }
@@ -112,9 +131,9 @@ impl<const D: usize> View<Slope, D> for Moved<'_, D> {
             _ => Slope::fixed(self.at.lambda[row]),
         }
     }
-    fn input(&self) -> [Slope; 3] {
+    fn input(&self, force: usize) -> [Slope; 3] {
         match self.seed {
-            Seed::Inputs => from_fn(|component| Slope::seeded(0.0, component)),
+            Seed::Inputs(driven) if driven == force => from_fn(|component| Slope::seeded(0.0, component)),
             _ => [Slope::fixed(0.0); 3],
         }
     }

@@ -3,7 +3,7 @@
 
 use crate::scenes::Ready;
 use holonom::initial::equilibrium;
-use holonom::system::Scratch;
+use holonom::system::{Loaded, Scratch};
 
 pub const LENGTH: f64 = 2.0;
 pub const EA: f64 = 1e4;
@@ -76,7 +76,8 @@ pub fn at_rest(ready: &Ready, names: &[&str]) -> Vec<f64> {
     let found = equilibrium(system, 0.0, &ready.start().q).unwrap_or_else(|error| panic!("{error}"));
     let columns = system.columns();
     let (mut out, still) = (vec![0.0; columns.len()], vec![0.0; system.dimensions().v]);
-    system.outputs(found.t, &found.q, &still, &found.lambda, &mut out, &mut Scratch::default());
+    let at = Loaded { t: found.t, q: &found.q, v: &still, vdot: &still, lambda: &found.lambda };
+    system.outputs(at, &mut out, &mut Scratch::default());
     names.iter().map(|name| out[columns.iter().position(|column| column.name == *name).unwrap()]).collect()
 }
 

@@ -67,6 +67,8 @@ pub fn plain(study: &Study) -> LinearModel {
             phi: 1.5e-16,
             phi_dot: 2e-15,
             is_equilibrium: false,
+            axes: None,
+            driven: None,
         },
         cost: Cost {
             assembly_seconds: 12.3e-6,

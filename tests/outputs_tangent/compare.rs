@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 
 pub fn outputs(system: &dyn MechanicalSystem, at: Loaded) -> Vec<f64> {
     let mut out = vec![0.0; system.columns().len()];
-    system.outputs(at.t, at.q, at.v, at.lambda, &mut out, &mut Scratch::default());
+    system.outputs(at, &mut out, &mut Scratch::default());
     out
 }
 
@@ -14,7 +14,8 @@ pub fn tangent(system: &dyn MechanicalSystem, at: Loaded) -> OutputTangent {
     let n = system.dimensions();
     // What was there before does not count.
     let mut tangent = OutputTangent::new(system.columns().len(), n.v, n.lambda, system.inputs().len());
-    [&mut tangent.q, &mut tangent.v, &mut tangent.lambda, &mut tangent.u].into_iter().for_each(|m| m.fill(7.0));
+    let OutputTangent { q, v, vdot, lambda, u } = &mut tangent;
+    [q, v, vdot, lambda, u].into_iter().for_each(|m| m.fill(7.0));
     assert!(system.output_tangent(at, &mut tangent, &mut Scratch::default()));
     tangent
 }
@@ -48,7 +49,7 @@ fn ahead(x: &[f64], direction: &[f64], s: f64) -> Vec<f64> {
     x.iter().zip(direction).map(|(x, d)| x + s * d).collect()
 }
 
-/// The derivatives along q, v and lambda at a state agree with differences to `near` of the largest derivative of the
+/// The derivatives along q, v, v' and lambda at a state agree with differences to `near` of the largest derivative of the
 /// output or of its value.
 pub fn check(system: &dyn MechanicalSystem, at: Loaded, near: f64, what: &str) {
     let (n, exact, values) = (system.dimensions(), tangent(system, at), outputs(system, at));
@@ -65,6 +66,7 @@ pub fn check(system: &dyn MechanicalSystem, at: Loaded, near: f64, what: &str) {
         let e = unit(n.v, j);
         compare("q", &exact.q, j, slope(|s| outputs(system, Loaded { q: &moved(system, at.q, &e, s), ..at })));
         compare("v", &exact.v, j, slope(|s| outputs(system, Loaded { v: &ahead(at.v, &e, s), ..at })));
+        compare("v'", &exact.vdot, j, slope(|s| outputs(system, Loaded { vdot: &ahead(at.vdot, &e, s), ..at })));
     }
     for j in 0..n.lambda {
         let e = unit(n.lambda, j);

@@ -106,7 +106,8 @@ fn forces(system: &dyn MechanicalSystem) -> (Vec<f64>, Vec<f64>) {
     let (q, v) = state(system);
     let (mut terms, mut scratch, mut y) = (Terms::new(system), Scratch::default(), vec![0.0; 2]);
     system.evaluate(T, &q, &v, Need::FORCE, &mut terms, &mut scratch);
-    system.outputs(T, &q, &v, &[], &mut y, &mut scratch);
+    let at = Loaded { t: T, q: &q, v: &v, vdot: &v, lambda: &[] };
+    system.outputs(at, &mut y, &mut scratch);
     (terms.f, y)
 }
 

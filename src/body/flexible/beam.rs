@@ -3,7 +3,7 @@
 use super::damping::{Basis, damping};
 use super::integrals::{Inertia, Sum, add_stiffness, stretch};
 use super::line::BeamLine;
-use super::mesh::Mesh;
+use super::mesh::{Mesh, POINTS};
 use super::reduce;
 use super::ritz::Functions;
 use super::section::Section;
@@ -12,8 +12,6 @@ use super::spec::{Axial, FlexibleBeam, FrameConditions, Ritz, Theory};
 use crate::body::Build;
 use crate::error::{Error, Result, short};
 
-/// Gauss points on an element that integrate squares of cubics exactly.
-const POINTS: usize = 4;
 /// Gauss points that integrate w'^2 exactly.
 const STRETCH_POINTS: usize = 3;
 /// Most finite elements of a beam.
@@ -79,11 +77,7 @@ fn functions<const D: usize>(
             .under("theory")
             .hint("leave `theory` out, or give \"elements\" instead of `ritz`"));
     }
-    let factor = match &ritz.axial_mass_factor {
-        None => 1.0,
-        Some(factor) => build.positive("axial_mass_factor", factor).map_err(|error| error.under("ritz"))?,
-    };
-    Functions::of(ritz, length, build)?.elastic(section, inertia, factor, beam.geometric_stiffening.quartic())
+    Functions::of(ritz, length, build)?.elastic(section, inertia, beam.geometric_stiffening.quartic())
 }
 
 fn elements<const D: usize>(
@@ -116,7 +110,7 @@ fn elements<const D: usize>(
     let mesh = Mesh::<D>::new(length, count, markers, section, beam.axial.unwrap_or_default()).fix(conditions);
     let nodal = nodal(&mesh, section, inertia, beam.geometric_stiffening.quartic());
     if beam.modes.is_none() && conditions != FrameConditions::Mean {
-        let line = Box::new(BeamLine { shapes: mesh, section: *section });
+        let line = Box::new(BeamLine { shapes: mesh, inertia: *inertia });
         return Ok((Elastic { line: Some(line), ..nodal }, Basis::Nodal));
     }
     let modes = beam.modes.as_ref().map(|modes| build.count("modes", modes)).transpose()?.map(|modes| modes as usize);
@@ -125,7 +119,7 @@ fn elements<const D: usize>(
             .under("geometric_stiffening")
             .hint("leave `modes` out"));
     }
-    let reduced = reduce::beam(mesh, nodal, section, conditions, markers, modes)?;
+    let reduced = reduce::beam(mesh, nodal, inertia, conditions, markers, modes)?;
     Ok((reduced, Basis::Modal))
 }
 
@@ -150,14 +144,14 @@ fn stiffened<const D: usize>(mesh: &Mesh<D>, element: usize, section: &Section, 
 /// In the coordinates of the nodes; without damping, and without the line, which is the mesh itself.
 fn nodal<const D: usize>(mesh: &Mesh<D>, section: &Section, inertia: &Inertia, quartic: Option<f64>) -> Elastic<D> {
     let mut stiffness = Sum::default();
-    let (mut pieces, mut stretches) = (Vec::new(), Vec::new());
+    let mut stretches = Vec::new();
     for element in 0..mesh.count() {
         let (dofs, samples) = mesh.samples(element, POINTS);
         add_stiffness(&mut stiffness, section, &dofs, &samples);
-        pieces.push(inertia.piece(dofs, &samples));
         if let Some(quartic) = quartic {
             stretches.extend(stiffened(mesh, element, section, quartic));
         }
     }
-    Elastic { names: mesh.names(), pieces, stiffness: stiffness.finish(), damping: Vec::new(), stretches, line: None }
+    let (pieces, stiffness) = (mesh.pieces(0.0, inertia), stiffness.finish());
+    Elastic { names: mesh.names(), pieces, stiffness, damping: Vec::new(), stretches, line: None }
 }

@@ -9,8 +9,8 @@
 //!
 //! so that where sections stay square to the line r_z = w_y' and r_y = -w_z'.
 
-use super::section::Section;
-use super::shape::{Line, PointShape, SectionShape};
+use super::integrals::Inertia;
+use super::shape::{Line, Piece, PointShape, SectionShape};
 use crate::body::{cross, in_space};
 use std::array::from_fn;
 
@@ -96,12 +96,14 @@ pub trait Shapes: Send + Sync {
     fn length(&self) -> f64;
     /// At 0 <= s <= length.
     fn at(&self, s: f64) -> Station;
+    /// The mass integrals of the line from `s` on.
+    fn pieces<const D: usize>(&self, s: f64, inertia: &Inertia) -> Vec<Piece<D>>;
 }
 
-/// Shapes with the stiffness of the section.
+/// Shapes with the mass of the section.
 pub struct BeamLine<F> {
     pub shapes: F,
-    pub section: Section,
+    pub inertia: Inertia,
 }
 
 impl<F: Shapes, const D: usize> Line<D> for BeamLine<F> {
@@ -129,6 +131,10 @@ impl<F: Shapes, const D: usize> Line<D> for BeamLine<F> {
     fn section(&self, s: f64) -> SectionShape {
         let Station { dofs, shapes } = self.shapes.at(s);
         let strains = shapes.iter().map(|shape| shape.strain).collect();
-        SectionShape { dofs, strains, stiffness: self.section.stiffness() }
+        SectionShape { dofs, strains }
+    }
+
+    fn beyond(&self, s: f64) -> Vec<Piece<D>> {
+        self.shapes.pieces(s, &self.inertia)
     }
 }

@@ -2,10 +2,14 @@
 
 use super::element::Element;
 use super::gauss::{gauss_legendre, on_interval};
-use super::integrals::Sample;
+use super::integrals::{Inertia, Sample};
 use super::line::{Shapes, Station};
 use super::section::Section;
+use super::shape::Piece;
 use super::spec::{Axial, FrameConditions};
+
+/// Gauss points on an element that integrate squares of cubics exactly.
+pub const POINTS: usize = 4;
 
 /// So close together, in lengths of the beam, two markers share a node.
 const SAME: f64 = 1e-9;
@@ -116,11 +120,25 @@ impl<const D: usize> Mesh<D> {
 
     /// Free coordinates of an element with `points` samples of it.
     pub fn samples(&self, element: usize, points: usize) -> (Vec<usize>, Vec<Sample>) {
+        self.samples_from(self.nodes[element], element, points)
+    }
+
+    /// The same of the part of an element from `start` on.
+    fn samples_from(&self, start: f64, element: usize, points: usize) -> (Vec<usize>, Vec<Sample>) {
         let [from, to] = [self.nodes[element], self.nodes[element + 1]];
         let rule = gauss_legendre(points);
         let sample =
             |(s, weight)| Sample { s, weight, shapes: self.in_element(element, (s - from) / (to - from)).shapes };
-        (self.in_element(element, 0.5).dofs, on_interval(&rule, [from, to]).map(sample).collect())
+        (self.in_element(element, 0.5).dofs, on_interval(&rule, [start, to]).map(sample).collect())
+    }
+
+    /// The mass integrals of the mesh from `start` on, an element a piece.
+    pub fn pieces<const E: usize>(&self, start: f64, inertia: &Inertia) -> Vec<Piece<E>> {
+        let piece = |element: usize| {
+            let (dofs, samples) = self.samples_from(start.max(self.nodes[element]), element, POINTS);
+            inertia.piece(dofs, &samples)
+        };
+        (0..self.count()).filter(|element| self.nodes[element + 1] > start).map(piece).collect()
     }
 
     /// Motions of all nodes that deform nothing: translations, then rotations, those about y and z with the centre
@@ -157,6 +175,10 @@ impl<const D: usize> Shapes for Mesh<D> {
         let element = self.nodes.partition_point(|node| *node < s).saturating_sub(1).min(self.count() - 1);
         let [from, to] = [self.nodes[element], self.nodes[element + 1]];
         self.in_element(element, ((s - from) / (to - from)).clamp(0.0, 1.0))
+    }
+
+    fn pieces<const E: usize>(&self, s: f64, inertia: &Inertia) -> Vec<Piece<E>> {
+        Mesh::pieces(self, s, inertia)
     }
 }
 

@@ -75,6 +75,8 @@ impl Function {
 pub struct Functions {
     length: f64,
     functions: Vec<Function>,
+    /// Of the mass of axial functions among one another.
+    axial_mass_factor: f64,
 }
 
 impl Shapes for Functions {
@@ -83,6 +85,11 @@ impl Shapes for Functions {
     }
     fn at(&self, s: f64) -> Station {
         Station { dofs: (0..self.functions.len()).collect(), shapes: self.functions.iter().map(|f| f.at(s)).collect() }
+    }
+    fn pieces<const D: usize>(&self, s: f64, inertia: &Inertia) -> Vec<Piece<D>> {
+        let mut piece = inertia.piece((0..self.functions.len()).collect(), &self.samples([s, self.length], PANELS));
+        self.scale_axial(&mut piece);
+        vec![piece]
     }
 }
 
@@ -121,14 +128,18 @@ impl Functions {
                 .under("ritz")
                 .hint("give some as \"bending\" or \"axial\", such as \"sin(pi*x/l)\""));
         }
-        let functions = Functions { length, functions };
+        let axial_mass_factor = match &ritz.axial_mass_factor {
+            None => 1.0,
+            Some(factor) => build.positive("axial_mass_factor", factor).map_err(|error| error.under("ritz"))?,
+        };
+        let functions = Functions { length, functions, axial_mass_factor };
         functions.check_finite()?;
         Ok(functions)
     }
 
     /// Functions with their slopes must exist on the whole beam, ends included, where joints may be.
     fn check_finite(&self) -> Result<()> {
-        let places = self.places(PANELS).map(|(s, _)| s).chain([0.0, self.length]);
+        let places = places([0.0, self.length], PANELS).map(|(s, _)| s).chain([0.0, self.length]);
         for s in places {
             for function in &self.functions {
                 let Cross { displacement, rotation, strain, .. } = function.at(s);
@@ -143,14 +154,8 @@ impl Functions {
         Ok(())
     }
 
-    fn places(&self, panels: usize) -> impl Iterator<Item = (f64, f64)> {
-        let (rule, width) = (gauss_legendre(POINTS), self.length / panels as f64);
-        (0..panels)
-            .flat_map(move |k| on_interval(&rule, [k as f64 * width, (k + 1) as f64 * width]).collect::<Vec<_>>())
-    }
-
-    fn samples(&self, panels: usize) -> Vec<Sample> {
-        self.places(panels).map(|(s, weight)| Sample { s, weight, shapes: self.at(s).shapes }).collect()
+    fn samples(&self, ends: [f64; 2], panels: usize) -> Vec<Sample> {
+        places(ends, panels).map(|(s, weight)| Sample { s, weight, shapes: self.at(s).shapes }).collect()
     }
 
     /// Everything but the damping, with so few points of integration as are exact to rounding.
@@ -161,7 +166,6 @@ impl Functions {
         self,
         section: &Section,
         inertia: &Inertia,
-        axial_mass_factor: f64,
         quartic: Option<f64>,
     ) -> Result<Elastic<D>> {
         let dofs: Vec<usize> = (0..self.functions.len()).collect();
@@ -171,11 +175,11 @@ impl Functions {
             (inertia.piece::<D>(dofs.clone(), samples), stiffness.finish())
         };
         let mut panels = 1;
-        let mut samples = self.samples(panels);
+        let mut samples = self.samples([0.0, self.length], panels);
         let mut last = integrals(&samples);
         while panels < PANELS {
             panels *= 2;
-            samples = self.samples(panels);
+            samples = self.samples([0.0, self.length], panels);
             let finer = integrals(&samples);
             let exact = agree(&diagonals(&last), &diagonals(&finer));
             last = finer;
@@ -185,7 +189,7 @@ impl Functions {
         }
         let (mut piece, stiffness) = last;
         self.check_independent(&piece, &stiffness)?;
-        self.scale_axial(&mut piece, axial_mass_factor);
+        self.scale_axial(&mut piece);
         let points = samples.chunks(1).filter_map(|point| Some((point, quartic?)));
         let stretches = points.scan(0.0, |start, (point, quartic)| {
             let next = stretch(section, quartic, *start, &dofs, point);
@@ -199,7 +203,7 @@ impl Functions {
             stiffness,
             damping: Vec::new(),
             stretches,
-            line: Some(Box::new(BeamLine { shapes: self, section: *section })),
+            line: Some(Box::new(BeamLine { shapes: self, inertia: *inertia })),
         })
     }
 
@@ -213,12 +217,12 @@ impl Functions {
     }
 
     /// Multiplies the mass of axial functions among one another.
-    fn scale_axial<const D: usize>(&self, piece: &mut Piece<D>, factor: f64) {
+    fn scale_axial<const D: usize>(&self, piece: &mut Piece<D>) {
         let n = 1 + self.functions.len();
         let axial = |a: usize| a > 0 && self.functions[a - 1].kind == Kind::Axial;
         for a in (0..n).filter(|&a| axial(a)) {
             for b in (0..n).filter(|&b| axial(b)) {
-                piece.products[a * n + b].iter_mut().flatten().for_each(|product| *product *= factor);
+                piece.products[a * n + b].iter_mut().flatten().for_each(|product| *product *= self.axial_mass_factor);
             }
         }
     }
@@ -243,6 +247,13 @@ impl Functions {
         }
         Ok(())
     }
+}
+
+/// Points of integration with their weights on equal panels of an interval.
+fn places([from, to]: [f64; 2], panels: usize) -> impl Iterator<Item = (f64, f64)> {
+    let (rule, width) = (gauss_legendre(POINTS), (to - from) / panels as f64);
+    let panel = move |k: usize| [from + k as f64 * width, from + (k + 1) as f64 * width];
+    (0..panels).flat_map(move |k| on_interval(&rule, panel(k)).collect::<Vec<_>>())
 }
 
 fn function<const D: usize>(kind: Kind, i: usize, number: &Number, build: &Build<D>) -> Result<Function> {

@@ -73,9 +73,6 @@ pub struct SectionShape {
     pub dofs: Vec<usize>,
     /// Strains a coordinate.
     pub strains: Vec<[f64; 6]>,
-    /// N and N m^2: strains times these are axial force, shear forces, torque and bending moments about y and z. Zero for
-    /// shear where sections stay square to the line; there is no shear force to be had then.
-    pub stiffness: [f64; 6],
 }
 
 /// A length of a beam whose axial force stiffens its bending (von Karman): with the mean extension a.q of the line and
@@ -106,6 +103,8 @@ pub trait Line<const D: usize>: Send + Sync {
     /// The point at `rest` = [s, y(, z)], 0 <= s <= length, which turns with its section.
     fn point(&self, rest: [f64; D]) -> PointShape<D>;
     fn section(&self, s: f64) -> SectionShape;
+    /// The mass from `s` to the end.
+    fn beyond(&self, s: f64) -> Vec<Piece<D>>;
 }
 
 /// Everything that the equations of motion of a flexible body in a floating frame need.

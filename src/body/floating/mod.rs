@@ -19,6 +19,7 @@ mod elastic;
 mod inertia;
 mod layout;
 mod moving;
+mod part;
 mod point;
 mod spec;
 mod tangent;
@@ -29,6 +30,9 @@ use super::{Bent, Body, BodyOver, BodyState, Energy, Frame, Marker, Wrench, dot}
 use crate::math::rotation::{axes_from_quaternion, quaternion_rate};
 use crate::math::{Scalar, Taylor};
 use layout::Layout;
+
+pub use part::load;
+pub use point::place;
 
 /// The body: what its shapes say, and where each value of its matrices stands.
 pub struct Floating<const D: usize> {

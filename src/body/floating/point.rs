@@ -10,7 +10,7 @@ use std::array::from_fn;
 /// The frame of a marker: at rest + sum_i t_i q_i + (R - 1 - a~) arm, with axes turned by R of a = sum_i r_i q_i. The line
 /// moves by its displacements; what is beside it turns with the section by more than the a x arm that is in t_i.
 #[inline]
-pub(super) fn place<S: Scalar, const D: usize>(
+pub fn place<S: Scalar, const D: usize>(
     own: &Frame<S, D>,
     shape: &PointShape<D>,
     marker: &Marker<D>,

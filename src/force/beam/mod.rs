@@ -5,18 +5,22 @@
 //! (Sonneville, Cardona and Bruls, Geometrically exact beam finite element formulated on the special Euclidean group
 //! SE(3), Comput. Methods Appl. Mech. Engrg. 268 (2014) 451-474).
 
+mod half;
+mod line;
 mod spec;
 mod station;
 mod strain;
 
+pub use half::{Half, Load};
 pub use spec::BeamForce;
 pub use station::Station;
 pub use strain::Beam;
 
 use super::{Action, ForceKernel};
-use crate::body::{Frame, Wrench, cross, sub};
-use crate::math::screw::{Vector, dot3, pull_back};
+use crate::body::{Frame, Wrench, dot};
+use crate::math::screw::{Vector, cross3, dot3, pull_back};
 use crate::math::{Dual, Scalar, Taylor, Time};
+use station::Carried;
 use std::array::from_fn;
 use strain::Strains;
 
@@ -35,19 +39,30 @@ impl<const D: usize> ForceKernel<D> for Beam {
         let strain = self.strain(&strains);
         let elastic: [S; 6] = from_fn(|i| (strain[i].re - self.rest[i]) * self.stiffness[i]);
         let damped = from_fn(|i| elastic[i] + strain[i].eps[0] * (self.damping * self.stiffness[i]));
-        let [n, m] = self.conjugate(&strains, &damped);
-        let value = |vector: &Vector<Moving<S>>| vector.map(|x| x.re);
-        let [force, torque] = pull_back(&value(&strains.turn), &value(&strains.gap), &n, &m);
+        let [first, last] = self.carried(&strains, &damped);
         // What the elastic force does is against the growth of the strain.
-        let [force, torque] = [force, torque].map(|v| in_world(&a, &v.map(|x| -x)));
-        let gap = sub(&b.r, &a.r).map(|x| x.re);
+        let [force, torque] = [last.n, last.m].map(|v| in_world(&a, &v.map(|x| -x)));
         out[1] = Wrench { force: from_fn(|i| force[i]), torque };
-        let lever = cross(&gap, &out[1].force);
-        out[0] = Wrench { force: from_fn(|i| -force[i]), torque: from_fn(|i| -(torque[i] + lever[i])) };
+        out[0] = Wrench { force: from_fn(|i| -force[i]), torque: in_world(&a, &first.m) };
         let half_work = (0..6).fold(S::zero(), |sum, i| sum + elastic[i] * (strain[i].re - self.rest[i]));
         let power = (0..6).fold(S::zero(), |sum, i| sum + elastic[i] * strain[i].eps[0]);
         let potential = Taylor::new(half_work * (0.5 * self.length), power * self.length, S::zero());
         Action { potential, magnitude: damped[0] }
+    }
+
+    fn beam(&self) -> Option<&Beam> {
+        Some(self)
+    }
+}
+
+impl Beam {
+    /// What the sections at both ends carry where these are the stresses, nothing loading the element between them.
+    fn carried<S: Scalar>(&self, strains: &Strains<S>, stress: &[S; 6]) -> [Carried<S>; 2] {
+        let [n, m] = self.conjugate(strains, stress);
+        let [turn, gap] = [&strains.turn, &strains.gap].map(|vector| vector.map(|x| x.re));
+        let [n, m] = pull_back(&turn, &gap, &n, &m);
+        let lever = cross3(&gap, &n);
+        [Carried { n, m: from_fn(|i| m[i] + lever[i]) }, Carried { n, m }]
     }
 }
 
@@ -57,4 +72,10 @@ fn in_world<S: Scalar, const D: usize>(frame: &Frame<Moving<S>, D>, v: &Vector<S
         2 => from_fn(|i| if i < 2 { frame.axes[0][i].re * v[0] + frame.axes[1][i].re * v[1] } else { v[2] }),
         _ => from_fn(|i| dot3(&from_fn(|j| frame.axes[j][i].re), v)),
     }
+}
+
+/// A vector of the world in the axes of a frame.
+fn in_axes<S: Scalar, const D: usize>(frame: &Frame<Moving<S>, D>, v: &Vector<S>) -> Vector<S> {
+    let own = from_fn(|k| v[k]);
+    from_fn(|i| if i < D { dot(&frame.axes[i].map(|x| x.re), &own) } else { v[i] })
 }

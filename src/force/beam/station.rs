@@ -1,9 +1,11 @@
 //! What a place between the ends of a beam element is like.
 
+use super::half::Load;
+use super::line::Line;
 use super::strain::Strains;
-use super::{Beam, Moving};
+use super::{Beam, Moving, in_axes};
 use crate::body::Frame;
-use crate::math::screw::{cross3, exponential};
+use crate::math::screw::{Vector, cross3, dot3};
 use crate::math::{Scalar, Taylor};
 use std::array::from_fn;
 
@@ -22,33 +24,97 @@ pub struct Station<S, const D: usize> {
     pub force: [S; 6],
 }
 
+/// Force and moment that a section carries, in the axes of the element's first end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Carried<S> {
+    pub n: Vector<S>,
+    pub m: Vector<S>,
+}
+
 impl Beam {
-    /// The section at `x` from the first end, 0 <= x <= length, with the ends' frames as given.
-    ///
-    /// A helix has one moment, right in the middle of the element; from there it changes with the shear force, by
-    /// M' = -e_x x N. The line follows the helix with the cubic of that change upon it. For small displacements of a beam
-    /// that is loaded at its nodes both are exact.
+    /// The section at `x` from the first end, 0 <= x <= length, with the ends' frames as given, where nothing loads the
+    /// element between them.
     pub fn station<S: Scalar, const D: usize>(&self, ends: [&Frame<Taylor<S>, D>; 2], x: f64) -> Station<S, D> {
+        self.loaded_station(ends, &[Load::none(); 2], x)
+    }
+
+    /// The same where `loads` act on the halves of the element.
+    ///
+    /// What the element does to its ends is exact in equilibrium, however coarse it is; with the loads of its halves it is
+    /// what the sections there carry. Between them force and moment follow from equilibrium, n' + f = 0 and
+    /// m' + r' x n + l = 0: cubics with the right values and slopes at both ends, but for -(r - r_0) x n_0, which is as exact
+    /// as the line. Straight elements under loads at their ends and uniform ones between are exact; others to the fourth
+    /// power of the length.
+    pub fn loaded_station<S: Scalar, const D: usize>(
+        &self,
+        ends: [&Frame<Taylor<S>, D>; 2],
+        loads: &[Load<S>; 2],
+        x: f64,
+    ) -> Station<S, D> {
         let [a, b] = ends.map(|frame| frame.map(|x| Moving { re: x.x, eps: [x.d] }));
         let strains = Strains::between(&a, &b);
         let middle = self.strain(&strains);
-        let mut strain: [S; 6] = from_fn(|i| middle[i].re - self.rest[i]);
-        let mut force: [S; 6] = from_fn(|i| (strain[i] + middle[i].eps[0] * self.damping) * self.stiffness[i]);
-        let growth = cross3(&[force[0], force[1], force[2]], &[S::one(), S::zero(), S::zero()]);
-        let bent = [strain[1] * self.bent[0], strain[2] * self.bent[1]];
-        (strain[1], strain[2]) = (strain[1] - bent[0], strain[2] - bent[1]);
-        for i in 4..6 {
-            let change = growth[i - 3] * (x - 0.5 * self.length);
-            force[i] += change;
-            strain[i] += if self.stiffness[i] > 0.0 { change / self.stiffness[i] } else { S::zero() };
-        }
+        let loads = loads.each_ref().map(|load| load.map(|v| in_axes(&a, v)));
+        let elastic: [S; 6] = from_fn(|i| (middle[i].re - self.rest[i]) * self.stiffness[i]);
+        let viscous: [S; 6] = from_fn(|i| middle[i].eps[0] * (self.damping * self.stiffness[i]));
+        let elastic = loaded(self.carried(&strains, &elastic), &loads);
+        let viscous = self.carried(&strains, &viscous);
+        let line = Line::new(self, &strains, &elastic);
         let part = x / self.length;
-        // The cubic that is level at both ends, against the line: 3 x^2 - 2 x^3 - x.
-        let bulge = part * (part * (3.0 - 2.0 * part) - 1.0) * self.length;
-        let (axes, mut r) = exponential(&strains.shift.map(|u| u.re), &strains.turn.map(|a| a.re), part);
-        (0..3).for_each(|i| r[i] += (axes[1][i] * bent[0] + axes[2][i] * bent[1]) * bulge);
+        let (axes, place) = line.at(part);
+        let in_section = |carried: Carried<S>| -> [S; 6] {
+            from_fn(|i| dot3(&axes[i % 3], if i < 3 { &carried.n } else { &carried.m }))
+        };
+        let elastic = in_section(line.between(&elastic, &loads, part, &place));
+        let viscous = in_section(line.between(&viscous, &[Load::none(); 2], part, &place));
+        let compliance = self.compliance();
         let first = ends[0];
-        let r = from_fn(|i| (0..D).fold(first.r[i].x, |sum, j| sum + first.axes[j][i].x * r[j]));
-        Station { r, strain, force }
+        Station {
+            r: from_fn(|i| (0..D).fold(first.r[i].x, |sum, j| sum + first.axes[j][i].x * place[j])),
+            strain: from_fn(|i| elastic[i] * compliance[i]),
+            force: from_fn(|i| elastic[i] + viscous[i]),
+        }
+    }
+
+    /// One over EA, GA along y and z, GJ, EI about y and z; zero for what the beam does not do.
+    pub(super) fn compliance(&self) -> [f64; 6] {
+        // Of what the stiffness in shear says, this part is bending.
+        let bent = [0.0, self.bent[0], self.bent[1], 0.0, 0.0, 0.0];
+        from_fn(|i| if self.stiffness[i] > 0.0 { (1.0 - bent[i]) / self.stiffness[i] } else { 0.0 })
+    }
+}
+
+/// What the sections at the ends carry, each on the inner side of the half element there.
+fn loaded<S: Scalar>([a, b]: [Carried<S>; 2], loads: &[Load<S>; 2]) -> [Carried<S>; 2] {
+    let add = |v: &Vector<S>, w: &Vector<S>, sign: f64| from_fn(|i| v[i] + w[i] * sign);
+    let with = |c: &Carried<S>, load: &Load<S>, sign| Carried {
+        n: add(&c.n, &load.force, sign),
+        m: add(&c.m, &load.torque, sign),
+    };
+    [with(&a, &loads[0], 1.0), with(&b, &loads[1], -1.0)]
+}
+
+/// Cubics over 0..1 by their value at 1 and their slopes at 0 and 1; zero at 0 (Hermite).
+pub(super) fn cubic(part: f64) -> [f64; 3] {
+    let rest = 1.0 - part;
+    [part * part * (3.0 - 2.0 * part), part * rest * rest, -part * part * rest]
+}
+
+impl<S: Scalar> Line<S> {
+    /// What the section at a part of the element and at `place` carries, by equilibrium with what the ends do.
+    fn between(&self, [a, b]: &[Carried<S>; 2], loads: &[Load<S>; 2], part: f64, place: &Vector<S>) -> Carried<S> {
+        let [value, first, last] = cubic(part);
+        let [first, last] = [first, last].map(|slope| slope * self.length);
+        let growth: Vector<S> = from_fn(|i| b.n[i] - a.n[i]);
+        let (turned, arm) = (cross3(&self.tangent, &growth), cross3(&self.gap, &a.n));
+        let moved = cross3(place, &a.n);
+        let [f, l] = [loads.each_ref().map(|x| x.force_per_length), loads.each_ref().map(|x| x.torque_per_length)];
+        Carried {
+            n: from_fn(|i| a.n[i] + growth[i] * value - f[0][i] * first - f[1][i] * last),
+            m: from_fn(|i| {
+                let rest = b.m[i] - a.m[i] + arm[i];
+                a.m[i] - moved[i] + rest * value - l[0][i] * first - (turned[i] + l[1][i]) * last
+            }),
+        }
     }
 }

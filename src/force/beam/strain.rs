@@ -4,7 +4,7 @@ use super::Moving;
 use crate::body::flexible::Section;
 use crate::body::{Frame, dot, sub};
 use crate::math::Scalar;
-use crate::math::screw::{Vector, rotation_vector, shift};
+use crate::math::screw::{Vector, exponential, rotation_vector, shift};
 use std::array::from_fn;
 
 /// A beam element: relaxed, its second frame lies `length` along the x axis of the first, bent by a curvature.
@@ -71,6 +71,11 @@ impl Beam {
     /// Twist and curvature about y and z of the relaxed beam, 1/m.
     pub fn curvature(&self) -> [f64; 3] {
         [self.rest[3], self.rest[4], self.rest[5]]
+    }
+
+    /// Where the relaxed beam is at `x` from its first end, in the axes there, m.
+    pub fn relaxed(&self, x: f64) -> [f64; 3] {
+        exponential(&[1.0, 0.0, 0.0], &self.curvature(), x).1
     }
 
     /// Length of the bent line by that of the relaxed one, from the logarithm's shift by the length. A line that leans by

@@ -27,10 +27,8 @@ pub(super) fn contradiction(t: f64) -> Error {
 
 /// A beam that would have to be cut finer.
 pub(super) fn too_bent(t: f64, beam: &Limited, turn: f64) -> Error {
-    let reason = format!(
-        "the ends of an element of the beam `{}` would turn against each other by {turn:.2} rad",
-        beam.part
-    );
+    let reason =
+        format!("the ends of an element of the beam `{}` would turn against each other by {turn:.2} rad", beam.part);
     let hint = match beam.theory.elements_for(turn) {
         0 => "divide it, so that each part turns by a quarter turn at most".to_string(),
         count => format!("give it {count} elements or more, so that each turns by a quarter turn at most"),

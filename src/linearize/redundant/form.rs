@@ -84,9 +84,14 @@ impl Form {
         put(&mut c, (0, 2 * n), &outputs.lambda.select_columns(kept));
         let unit = Matrix::identity(size, size);
         let changes = Changes { q: unit.rows(0, n).clone_owned(), v: unit.rows(n, n).clone_owned() };
+        let mut d = outputs.u;
+        if let Some(of_force) = over_mass(outputs.vdot, variation.mass()) {
+            c += &of_force * a.rows(n, n);
+            d += &of_force * inputs;
+        }
         let states = self.states(variation, kept);
         let (chart, infinite) = ("redundant".to_string(), self.infinite(kept.len()));
-        Ok(Built { chart, states, a, b, c, d: outputs.u, e: Some(e), changes, infinite })
+        Ok(Built { chart, states, a, b, c, d, e: Some(e), changes, infinite })
     }
 
     fn states(self, variation: &Variation, kept: &[usize]) -> Vec<String> {
@@ -99,6 +104,19 @@ impl Form {
         }
         states
     }
+}
+
+/// W M^-1: what outputs W dv' are of M dv', which a pencil's second rows say. Outputs feel no directions without mass.
+fn over_mass(outputs: Matrix, mut mass: Matrix) -> Option<Matrix> {
+    if outputs.iter().all(|slope| *slope == 0.0) {
+        return None;
+    }
+    for i in 0..mass.nrows() {
+        if mass[(i, i)] == 0.0 {
+            mass[(i, i)] = 1.0;
+        }
+    }
+    Some(mass.lu().solve(&outputs.transpose())?.transpose())
 }
 
 fn put(target: &mut Matrix, at: (usize, usize), block: &Matrix) {

@@ -42,7 +42,7 @@ impl Watched {
     pub fn read(&self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) -> Vec<f64> {
         let Some((count, places)) = &self.outputs else { return state.q.to_vec() };
         let mut all = vec![0.0; *count];
-        system.outputs(state.t, state.q, state.v, state.lambda, &mut all, scratch);
+        system.outputs(state.loaded(), &mut all, scratch);
         places.iter().map(|place| all[*place]).collect()
     }
 }

@@ -25,29 +25,6 @@ pub fn padded((low, high): (f64, f64), part: f64, least: f64) -> (f64, f64) {
     (low - pad, high + pad)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::linearize::{Branch, Kind};
-
-    #[test]
-    fn few_far_values_are_left_outside() {
-        let near = (0..100).map(|k| f64::from(k) * 0.01);
-        assert_eq!(robust(near.clone()), Some((0.0, 0.99)));
-        let (low, high) = robust(near.chain([1e6, -1e9, f64::NAN])).unwrap();
-        assert!(low > -3.0 && high < 4.0, "{low} {high}");
-        assert_eq!(robust([2.0; 9].into_iter()), Some((2.0, 2.0)));
-        assert_eq!(robust([0.0, 1e6].into_iter()), Some((0.0, 1e6)));
-        assert_eq!(robust(std::iter::empty()), None);
-    }
-
-    #[test]
-    fn ranges_have_a_length() {
-        assert_eq!(padded((1.0, 1.0), 0.0, 2.0), (0.0, 2.0));
-        assert_eq!(padded((0.0, 10.0), 0.1, 2.0), (-1.0, 11.0));
-    }
-}
-
 /// More physical branches than this, of pairs one, hide one another.
 const MOST_DRAWN: usize = 12;
 
@@ -69,4 +46,26 @@ pub fn drawn(branches: &[Branch]) -> (Vec<Branch>, String) {
     let is_drawn = |branch: &&Branch| branch.kind != Kind::Physical || slowest(branch) <= bound;
     let note = format!("the {MOST_DRAWN} slowest of {} modes; all are in the files", sizes.len());
     (branches.iter().filter(is_drawn).cloned().collect(), note)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn few_far_values_are_left_outside() {
+        let near = (0..100).map(|k| f64::from(k) * 0.01);
+        assert_eq!(robust(near.clone()), Some((0.0, 0.99)));
+        let (low, high) = robust(near.chain([1e6, -1e9, f64::NAN])).unwrap();
+        assert!(low > -3.0 && high < 4.0, "{low} {high}");
+        assert_eq!(robust([2.0; 9].into_iter()), Some((2.0, 2.0)));
+        assert_eq!(robust([0.0, 1e6].into_iter()), Some((0.0, 1e6)));
+        assert_eq!(robust(std::iter::empty()), None);
+    }
+
+    #[test]
+    fn ranges_have_a_length() {
+        assert_eq!(padded((1.0, 1.0), 0.0, 2.0), (0.0, 2.0));
+        assert_eq!(padded((0.0, 10.0), 0.1, 2.0), (-1.0, 11.0));
+    }
 }

@@ -132,8 +132,8 @@ impl<E: Equations> MechanicalSystem for E {
         named(self.output_names())
     }
 
-    fn outputs(&self, t: f64, q: &[f64], v: &[f64], _lambda: &[f64], out: &mut [f64], _scratch: &mut Scratch) {
-        Equations::outputs(self, t, q, v, out);
+    fn outputs(&self, at: Loaded, out: &mut [f64], _scratch: &mut Scratch) {
+        Equations::outputs(self, at.t, at.q, at.v, out);
     }
 
     fn output_tangent(&self, at: Loaded, tangent: &mut OutputTangent, _scratch: &mut Scratch) -> bool {

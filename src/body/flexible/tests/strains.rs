@@ -111,10 +111,7 @@ fn a_fibre_strains_as_the_signs_say() {
             let stretched = (right.translation[i][0] - left.translation[i][0]) / (2.0 * h);
             assert_close(stretched, eps - y * kz + z * ky, 1e-7);
         }
-        assert_eq!(section.stiffness, [2e4, 900.0, 700.0, 2.0, 5.0, 3.0]);
     }
-    let slender: Elastic<3> = build(&beam_in_space(json!({})), &[]).unwrap();
-    assert_eq!(slender.line.unwrap().section(s).stiffness, [2e4, 0.0, 0.0, 2.0, 5.0, 3.0]);
 }
 
 /// Modes show the same displacements and strains through their line as their nodes do.
@@ -125,7 +122,8 @@ fn modes_have_a_line() {
     let n = rod.names.len();
     let line = rod.line.unwrap();
     assert_eq!(line.point([0.9, 0.1, 0.0]).translation.len(), n);
-    // K = int strain^T C strain.
+    // K = int strain^T C strain; without shear.
+    let stiffness = Section { ga: [f64::INFINITY; 2], ..SECTION }.stiffness();
     let rule = crate::body::flexible::gauss_legendre(6);
     let mut energy = vec![0.0; n];
     for panel in 0..60 {
@@ -133,7 +131,7 @@ fn modes_have_a_line() {
         for (s, weight) in crate::body::flexible::on_interval(&rule, ends) {
             let section = line.section(s);
             for (i, strain) in section.strains.iter().enumerate() {
-                energy[i] += (0..6).map(|k| weight * section.stiffness[k] * strain[k] * strain[k]).sum::<f64>();
+                energy[i] += (0..6).map(|k| weight * stiffness[k] * strain[k] * strain[k]).sum::<f64>();
             }
         }
     }

@@ -1,0 +1,70 @@
+//! What the mass of a beam adds to the forces of its massless elements.
+
+use crate::body::{Frame, cross};
+use crate::math::screw::Vector;
+use crate::math::{Scalar, Taylor};
+use std::array::from_fn;
+
+/// The half of an element beside one of its ends, as the part that it is of the rigid node there; zero without mass.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Half {
+    /// kg
+    pub mass: f64,
+    /// Where its mass is from the node along the beam, m.
+    pub arm: f64,
+    /// Its part of the mass of the node, times the square of the shift of the node's centre of mass, kg m^2.
+    pub shifted: f64,
+    /// Its part of the node's moments int rho y^2 and int rho z^2, kg m^2.
+    pub moments: [f64; 2],
+    /// One over its length, 1/m.
+    pub per_length: f64,
+}
+
+/// Weight less inertia of a half element, in the world's axes: in all, about the node, and a length at the node.
+#[derive(Clone, Copy, Debug)]
+pub struct Load<S> {
+    /// N
+    pub force: Vector<S>,
+    /// N m
+    pub torque: Vector<S>,
+    /// N/m
+    pub force_per_length: Vector<S>,
+    /// N
+    pub torque_per_length: Vector<S>,
+}
+
+impl<S: Scalar> Load<S> {
+    pub fn none() -> Self {
+        let zero = [S::zero(); 3];
+        Load { force: zero, torque: zero, force_per_length: zero, torque_per_length: zero }
+    }
+
+    pub fn map(&self, change: impl Fn(&Vector<S>) -> Vector<S>) -> Self {
+        let Load { force, torque, force_per_length, torque_per_length } = self;
+        let [force, torque] = [change(force), change(torque)];
+        Load { force, torque, force_per_length: change(force_per_length), torque_per_length: change(torque_per_length) }
+    }
+}
+
+impl Half {
+    /// Of the half element at a node that moves with its accelerations. A point of the beam's axis at x has the acceleration
+    /// r'' + x e''. The moments of both halves of a node add up to that of the rigid body that it is.
+    pub fn load<S: Scalar, const D: usize>(&self, node: &Frame<Taylor<S>, D>, gravity: &[f64; D]) -> Load<S> {
+        let lift: [S; D] = from_fn(|k| -node.r[k].dd + gravity[k]);
+        let along = node.axes[0];
+        let [axis, bent] = [along.map(|e| e.x), along.map(|e| e.dd)];
+        let (hanging, whirling) = (cross(&axis, &lift), cross(&axis, &bent));
+        let mut turning = [S::zero(); 3];
+        for (axis, moment) in node.axes[1..].iter().zip(self.moments) {
+            let rate = cross(&axis.map(|e| e.x), &axis.map(|e| e.dd));
+            (0..3).for_each(|k| turning[k] -= rate[k] * moment);
+        }
+        let of = |k: usize| if k < D { lift[k] * self.mass - bent[k] * (self.mass * self.arm) } else { S::zero() };
+        Load {
+            force: from_fn(of),
+            torque: from_fn(|k| hanging[k] * (self.mass * self.arm) - whirling[k] * self.shifted + turning[k]),
+            force_per_length: from_fn(|k| if k < D { lift[k] * (self.mass * self.per_length) } else { S::zero() }),
+            torque_per_length: turning.map(|t| t * self.per_length),
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! What a section of a beam in a floating frame carries: all that acts on the body beyond it.
+//!
+//! The method of sections: with the joints, forces, weight and inertia of that part the section is in equilibrium, whatever
+//! coordinates the displacements have and however few: these describe where its mass is, and no more. A section beside a
+//! joint carries the reaction of that joint to round-off. Arms and axes are those of the displaced beam, so that the
+//! forces do not depend on the choice of the floating frame but by the terms that its theory leaves out.
+
+use super::mechanism::Mechanism;
+use super::view::View;
+use crate::body::{Frame, MOST_MARKERS, Marker, Wrench, cross, floating, sub};
+use crate::force::{Force, ForceOver};
+use crate::joint::{Joint, JointOver};
+use crate::math::{Scalar, Taylor};
+use crate::scene::{Cut, Part};
+use std::array::from_fn;
+
+/// A sum of wrenches about one point.
+struct Sum<S, const D: usize> {
+    about: [S; D],
+    wrench: Wrench<S, D>,
+}
+
+impl<S: Scalar, const D: usize> Sum<S, D> {
+    fn add(&mut self, at: &[S; D], wrench: &Wrench<S, D>) {
+        let lever = cross(&sub(at, &self.about), &wrench.force);
+        (0..D).for_each(|k| self.wrench.force[k] += wrench.force[k]);
+        (0..3).for_each(|k| self.wrench.torque[k] += wrench.torque[k] + lever[k]);
+    }
+}
+
+impl<const D: usize> Mechanism<D> {
+    /// Axial force, shear forces, torque and bending moments, about the section and in its axes where it is displaced.
+    pub(super) fn section<S: Scalar>(&self, cut: &Cut<D>, view: &impl View<S, D>) -> [S; 6]
+    where
+        dyn Force<D>: ForceOver<S, D>,
+        dyn Joint<D>: JointOver<S, D>,
+    {
+        let part = &self.model().bodies[cut.body];
+        let own = view.frame(part.first_marker);
+        let [q, v] = elastic(part);
+        let at = floating::place(&own.map(|x| x.x), &cut.section, &Marker::point([0.0; D]), |i| view.q(q + i));
+        let mut sum = Sum { about: at.r, wrench: Wrench::zero() };
+        let coordinate = |i: usize| Taylor::new(view.q(q + i), view.v(v + i), view.vdot(v + i));
+        for piece in &cut.beyond {
+            let load = floating::load(piece, &own, coordinate, &self.model().gravity);
+            sum.add(&own.r.map(|x| x.x), &load);
+        }
+        let place = |marker: usize| view.frame(marker).r.map(|x| x.x);
+        for &(joint, slot) in &cut.joints {
+            let wrench = Wrench::from_twist_order(&self.reaction_wrench(view, joint, slot));
+            sum.add(&place(self.model().joints[joint].markers[slot]), &wrench);
+        }
+        for &(force, slot) in &cut.forces {
+            let mut wrenches = [Wrench::zero(); MOST_MARKERS];
+            self.act(force, view, &mut wrenches);
+            sum.add(&place(self.model().forces[force].markers[slot]), &wrenches[slot]);
+        }
+        in_axes(&at, &sum.wrench)
+    }
+
+    /// The markers of the joints and forces that a section carries.
+    pub(super) fn markers_beyond(&self, cut: &Cut<D>) -> Vec<usize> {
+        let joints = cut.joints.iter().flat_map(|&(joint, _)| &self.model().joints[joint].markers);
+        joints.chain(cut.forces.iter().flat_map(|&(force, _)| &self.model().forces[force].markers)).copied().collect()
+    }
+}
+
+/// Places of the first elastic coordinate of a body and of its velocity.
+fn elastic<const D: usize>(part: &Part<D>) -> [usize; 2] {
+    let count = part.body.elastic_count();
+    [part.first_q + part.nq - count, part.first_v + part.nv - count]
+}
+
+/// In the order of [`Station`](crate::force::Station).
+fn in_axes<S: Scalar, const D: usize>(at: &Frame<S, D>, wrench: &Wrench<S, D>) -> [S; 6] {
+    let along = |axis: usize, v: &[S]| at.axes[axis].iter().zip(v).fold(S::zero(), |sum, (&e, &v)| sum + e * v);
+    from_fn(|i| match (i, D) {
+        (0 | 1, _) | (2, 3) => along(i, &wrench.force),
+        (5, 2) => wrench.torque[2],
+        (_, 2) => S::zero(),
+        _ => along(i - 3, &wrench.torque),
+    })
+}
