@@ -62,6 +62,7 @@ fn cloud<const D: usize>(is_curved: bool) -> Cloud<D> {
                 arm,
                 dofs: dofs.to_vec(),
                 translation: psi[1..].to_vec(),
+                shortening: if is_curved { symmetric(dofs.len(), &mut stir) } else { vec![] },
                 rotation,
             });
             masses.push(mass);
@@ -93,7 +94,14 @@ fn cloud<const D: usize>(is_curved: bool) -> Cloud<D> {
 }
 
 fn still<const D: usize>() -> PointShape<D> {
-    PointShape { rest: [0.0; D], arm: [0.0; D], dofs: vec![], translation: vec![], rotation: vec![] }
+    PointShape {
+        rest: [0.0; D],
+        arm: [0.0; D],
+        dofs: vec![],
+        translation: vec![],
+        rotation: vec![],
+        shortening: vec![],
+    }
 }
 
 /// The same for (i, j) and (j, i).

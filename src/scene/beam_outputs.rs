@@ -147,6 +147,9 @@ fn combination<const D: usize>(
         Wanted::Deflection(axis) => {
             let point = line.point(std::array::from_fn(|k| if k == 0 { at } else { 0.0 }));
             sum.add(&point.dofs, point.translation.iter().map(|t| t[axis]));
+            if axis == 0 {
+                sum.add_squares(&point.dofs, &point.shortening, 0.5);
+            }
             return Ok(sum.combination);
         }
         Wanted::Strain(weights) => weights,
@@ -177,9 +180,14 @@ impl Sum {
     /// The extension where it stiffens: a.q + q.S q/2.
     fn add_extension(&mut self, stretch: &Stretch, factor: f64) {
         self.add(&stretch.dofs, stretch.axial.iter().map(|a| factor * a));
-        let places: Vec<usize> = stretch.dofs.iter().map(|dof| self.first + dof).collect();
+        self.add_squares(&stretch.dofs, &stretch.slopes, 0.5 * factor);
+    }
+
+    /// factor q.A q with a matrix by rows, which may be empty.
+    fn add_squares(&mut self, dofs: &[usize], matrix: &[f64], factor: f64) {
+        let places: Vec<usize> = dofs.iter().map(|dof| self.first + dof).collect();
         let pairs = places.iter().flat_map(|&i| places.iter().map(move |&j| [i, j]));
-        let terms = pairs.zip(stretch.slopes.iter().map(|s| 0.5 * factor * s)).filter(|(_, factor)| *factor != 0.0);
+        let terms = pairs.zip(matrix.iter().map(|x| factor * x)).filter(|(_, factor)| *factor != 0.0);
         self.combination.squares.extend(terms);
     }
 }

@@ -93,9 +93,10 @@ impl<const D: usize> Mechanism<D> {
     /// How far a part is deformed at q, in the unit of its limit.
     pub(super) fn deformation(&self, extent: &Extent<D>, q: &[f64]) -> f64 {
         match extent {
-            Extent::Points { first_q, length, points } => {
-                points.iter().map(|point| norm(&displacement(point, &q[*first_q..])) / length).fold(0.0, f64::max)
-            }
+            Extent::Points { first_q, length, points } => points
+                .iter()
+                .map(|point| norm(&point.displacement(|dof| q[first_q + dof])) / length)
+                .fold(0.0, f64::max),
             Extent::Ends(elements) => elements.iter().map(|ends| self.angle_between(*ends, q)).fold(0.0, f64::max),
         }
     }
@@ -110,13 +111,4 @@ impl<const D: usize> Mechanism<D> {
         let trace: f64 = a.axes.iter().zip(&b.axes).map(|(a, b)| dot(a, b)).sum();
         (0.5 * (trace - 1.0)).clamp(-1.0, 1.0).acos()
     }
-}
-
-/// sum_i psi_i q_i
-fn displacement<const D: usize>(point: &PointShape<D>, q: &[f64]) -> [f64; D] {
-    let mut sum = [0.0; D];
-    for (dof, translation) in point.dofs.iter().zip(&point.translation) {
-        sum.iter_mut().zip(translation).for_each(|(sum, x)| *sum += q[*dof] * x);
-    }
-    sum
 }

@@ -94,7 +94,7 @@ fn terms(system: &dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64]) -> Terms {
     terms
 }
 
-/// Truncation 2e-15 of fifth derivatives, of up to 1e5 next to the axis of an angle.
+/// Truncation 3e-18 of fifth derivatives: arms on sections that turn with 100 rad/s have some 1e9.
 fn close(found: &[f64], expected: &[f64], what: &str) {
     for (a, b) in found.iter().zip(expected) {
         assert!((a - b).abs() < 1e-8 * (1.0 + a.abs()), "{what}: {found:?} against {expected:?}");

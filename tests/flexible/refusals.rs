@@ -101,9 +101,9 @@ fn modes_that_are_not_there() {
          `ritz`",
     );
     says(
-        &and(r#""modes": 2, "geometric_stiffening": true"#),
-        "at bodies[0].geometric_stiffening (`rod`): few modes cannot follow the shortening of a bent line, and would be \
-         far too stiff\n  help: leave `modes` out",
+        &and(r#""modes": 2, "geometric_stiffening": "cubic""#),
+        "at bodies[0].geometric_stiffening (`rod`): few modes have no axial strain that the cubic law could count\n  help: \
+         give true, by which the line shortens as it bends, or leave `modes` out",
     );
 }
 

@@ -76,7 +76,7 @@ pub fn moved(system: &dyn MechanicalSystem, q: &[f64], v: &[f64], s: f64) -> Vec
 
 /// d f/ds at zero by central differences of order four.
 pub fn slope(f: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
-    const H: f64 = 5e-4;
+    const H: f64 = 1e-4;
     let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|i| f(i * H));
     (0..a.len()).map(|i| (a[i] - 8.0 * b[i] + 8.0 * c[i] - d[i]) / (12.0 * H)).collect()
 }

@@ -108,18 +108,21 @@ fn elements<const D: usize>(
     };
     let conditions = beam.frame_conditions.unwrap_or_default();
     let mesh = Mesh::<D>::new(length, count, markers, section, beam.axial.unwrap_or_default()).fix(conditions);
-    let nodal = nodal(&mesh, section, inertia, beam.geometric_stiffening.quartic());
+    let law = beam.geometric_stiffening.quartic();
+    // Few modes cannot follow the shortening of a bent line by axial strain: it keeps its length.
+    let shortens = beam.modes.is_some() && law == Some(1.0);
+    let nodal = nodal(&mesh, section, inertia, law.filter(|_| !shortens));
     if beam.modes.is_none() && conditions != FrameConditions::Mean {
-        let line = Box::new(BeamLine { shapes: mesh, inertia: *inertia });
+        let line = Box::new(BeamLine { shapes: mesh, inertia: *inertia, shortens: false });
         return Ok((Elastic { line: Some(line), ..nodal }, Basis::Nodal));
     }
     let modes = beam.modes.as_ref().map(|modes| build.count("modes", modes)).transpose()?.map(|modes| modes as usize);
-    if modes.is_some() && beam.geometric_stiffening.quartic().is_some() {
-        return Err(Error::input("few modes cannot follow the shortening of a bent line, and would be far too stiff")
+    if modes.is_some() && law.is_some() && !shortens {
+        return Err(Error::input("few modes have no axial strain that the cubic law could count")
             .under("geometric_stiffening")
-            .hint("leave `modes` out"));
+            .hint("give true, by which the line shortens as it bends, or leave `modes` out"));
     }
-    let reduced = reduce::beam(mesh, nodal, inertia, conditions, markers, modes)?;
+    let reduced = reduce::beam(mesh, nodal, inertia, conditions, markers, modes, shortens)?;
     Ok((reduced, Basis::Modal))
 }
 

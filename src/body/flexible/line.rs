@@ -96,6 +96,8 @@ pub trait Shapes: Send + Sync {
     fn length(&self) -> f64;
     /// At 0 <= s <= length.
     fn at(&self, s: f64) -> Station;
+    /// Places between which the shapes are smooth, both ends among them.
+    fn breaks(&self) -> Vec<f64>;
     /// The mass integrals of the line from `s` on.
     fn pieces<const D: usize>(&self, s: f64, inertia: &Inertia) -> Vec<Piece<D>>;
 }
@@ -104,6 +106,8 @@ pub trait Shapes: Send + Sync {
 pub struct BeamLine<F> {
     pub shapes: F,
     pub inertia: Inertia,
+    /// Whether the line keeps its length as it bends.
+    pub shortens: bool,
 }
 
 impl<F: Shapes, const D: usize> Line<D> for BeamLine<F> {
@@ -125,6 +129,7 @@ impl<F: Shapes, const D: usize> Line<D> for BeamLine<F> {
             dofs,
             translation: shapes.iter().map(translation).collect(),
             rotation: shapes.iter().map(|shape| shape.rotation).collect(),
+            shortening: if self.shortens { self.shortening(rest[0]) } else { Vec::new() },
         }
     }
 
@@ -135,6 +140,8 @@ impl<F: Shapes, const D: usize> Line<D> for BeamLine<F> {
     }
 
     fn beyond(&self, s: f64) -> Vec<Piece<D>> {
-        self.shapes.pieces(s, &self.inertia)
+        let mut pieces = self.shapes.pieces(s, &self.inertia);
+        pieces.iter_mut().filter(|_| self.shortens).for_each(|piece| self.shorten(s, piece));
+        pieces
     }
 }

@@ -177,6 +177,10 @@ impl<const D: usize> Shapes for Mesh<D> {
         self.in_element(element, ((s - from) / (to - from)).clamp(0.0, 1.0))
     }
 
+    fn breaks(&self) -> Vec<f64> {
+        self.nodes.clone()
+    }
+
     fn pieces<const E: usize>(&self, s: f64, inertia: &Inertia) -> Vec<Piece<E>> {
         Mesh::pieces(self, s, inertia)
     }

@@ -13,6 +13,7 @@ mod reduce;
 mod ritz;
 mod section;
 mod shape;
+mod shorten;
 mod spec;
 #[cfg(test)]
 mod tests;

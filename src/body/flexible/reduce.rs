@@ -16,7 +16,7 @@ use super::eigen::{Modes, dense};
 use super::integrals::{Inertia, mass_matrix};
 use super::line::{BeamLine, Cross, Shapes, Station};
 use super::mesh::Mesh;
-use super::shape::{Elastic, Piece, Second, Stretch};
+use super::shape::{Elastic, Line, Piece, Second, Stretch};
 use super::spec::FrameConditions;
 use crate::error::{Error, Result};
 use faer::linalg::solvers::Solve;
@@ -37,6 +37,7 @@ pub fn beam<const D: usize>(
     conditions: FrameConditions,
     markers: &[f64],
     count: Option<usize>,
+    shortens: bool,
 ) -> Result<Elastic<D>> {
     let n = mesh.coordinates();
     if n > MOST {
@@ -56,7 +57,7 @@ pub fn beam<const D: usize>(
     if modes.squares.is_empty() {
         return Err(Error::input("no elastic coordinate is left").under("modes").hint("give one mode or more"));
     }
-    Ok(project(mesh, nodal, inertia, modes))
+    Ok(project(mesh, nodal, inertia, modes, shortens))
 }
 
 /// Dense matrices of a beam, with the rigid motions that the frame leaves it.
@@ -177,15 +178,24 @@ fn orthonormal(vectors: &Mat<f64>, mass: &Mat<f64>) -> Mat<f64> {
     basis
 }
 
-fn project<const D: usize>(mesh: Mesh<D>, nodal: Elastic<D>, inertia: &Inertia, modes: Modes) -> Elastic<D> {
+fn project<const D: usize>(
+    mesh: Mesh<D>,
+    nodal: Elastic<D>,
+    inertia: &Inertia,
+    modes: Modes,
+    shortens: bool,
+) -> Elastic<D> {
     let basis = modes.vectors;
+    let stretches = nodal.stretches.iter().map(|stretch| project_stretch(stretch, &basis)).collect();
+    let names = (1..=basis.ncols()).map(|i| format!("mode{i}")).collect();
+    let line = BeamLine { shapes: Reduced { mesh, basis }, inertia: *inertia, shortens };
     Elastic {
-        names: (1..=basis.ncols()).map(|i| format!("mode{i}")).collect(),
-        pieces: vec![project_pieces(&nodal.pieces, &basis)],
+        names,
+        pieces: line.beyond(0.0),
         stiffness: modes.squares.iter().enumerate().map(|(i, square)| (i, i, *square)).collect(),
         damping: Vec::new(),
-        stretches: nodal.stretches.iter().map(|stretch| project_stretch(stretch, &basis)).collect(),
-        line: Some(Box::new(BeamLine { shapes: Reduced { mesh, basis }, inertia: *inertia })),
+        stretches,
+        line: Some(Box::new(line)),
     }
 }
 
@@ -284,6 +294,10 @@ impl<const D: usize> Shapes for Reduced<D> {
             nodal.dofs.iter().zip(&nodal.shapes).for_each(|(&dof, one)| shape.add(self.basis[(dof, mode)], one));
         }
         Station { dofs: (0..shapes.len()).collect(), shapes }
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        self.mesh.breaks()
     }
 
     fn pieces<const E: usize>(&self, s: f64, inertia: &Inertia) -> Vec<Piece<E>> {

@@ -86,6 +86,9 @@ impl Shapes for Functions {
     fn at(&self, s: f64) -> Station {
         Station { dofs: (0..self.functions.len()).collect(), shapes: self.functions.iter().map(|f| f.at(s)).collect() }
     }
+    fn breaks(&self) -> Vec<f64> {
+        (0..=PANELS).map(|k| self.length * k as f64 / PANELS as f64).collect()
+    }
     fn pieces<const D: usize>(&self, s: f64, inertia: &Inertia) -> Vec<Piece<D>> {
         let mut piece = inertia.piece((0..self.functions.len()).collect(), &self.samples([s, self.length], PANELS));
         self.scale_axial(&mut piece);
@@ -190,6 +193,9 @@ impl Functions {
         let (mut piece, stiffness) = last;
         self.check_independent(&piece, &stiffness)?;
         self.scale_axial(&mut piece);
+        // Without axial functions the line cannot stretch: it keeps its length as it bends.
+        let shortens = quartic == Some(1.0) && self.functions.iter().all(|function| function.kind != Kind::Axial);
+        let quartic = quartic.filter(|_| !shortens);
         let points = samples.chunks(1).filter_map(|point| Some((point, quartic?)));
         let stretches = points.scan(0.0, |start, (point, quartic)| {
             let next = stretch(section, quartic, *start, &dofs, point);
@@ -197,13 +203,18 @@ impl Functions {
             Some(next)
         });
         let stretches = stretches.collect();
+        let names = self.names();
+        let line = BeamLine { shapes: self, inertia: *inertia, shortens };
+        if shortens {
+            line.shorten(0.0, &mut piece);
+        }
         Ok(Elastic {
-            names: self.names(),
+            names,
             pieces: vec![piece],
             stiffness,
             damping: Vec::new(),
             stretches,
-            line: Some(Box::new(BeamLine { shapes: self, inertia: *inertia })),
+            line: Some(Box::new(line)),
         })
     }
 

@@ -12,6 +12,8 @@
 //! computed once (Shabana, Dynamics of Multibody Systems, chapter 5: the shape integrals; Wallrapp, Standardization of
 //! Flexible Body Modeling in Multibody System Codes, Mechanics of Structures and Machines 22, 1994: their second order).
 
+use crate::math::Scalar;
+
 /// A part of a body, a finite element or all of it, whose displacements depend on a few elastic coordinates.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Piece<const D: usize> {
@@ -65,6 +67,35 @@ pub struct PointShape<const D: usize> {
     pub translation: Vec<[f64; D]>,
     /// Small rotation a coordinate; in the plane only the third component is used.
     pub rotation: Vec<[f64; 3]>,
+    /// Displacement along x of each pair of coordinates, row by row, where the line shortens as it bends; else empty.
+    pub shortening: Vec<f64>,
+}
+
+impl<const D: usize> PointShape<D> {
+    /// Sum of the displacements that coordinates give it, but for what an arm turns at second order.
+    #[inline]
+    pub fn displacement<S: Scalar>(&self, coordinate: impl Fn(usize) -> S) -> [S; D] {
+        let mut u = [S::zero(); D];
+        for (&dof, translation) in self.dofs.iter().zip(&self.translation) {
+            let q = coordinate(dof);
+            u.iter_mut().zip(translation).filter(|(_, t)| **t != 0.0).for_each(|(u, &t)| *u += q * t);
+        }
+        for i in 0..self.shortening_rows() {
+            u[0] += coordinate(self.dofs[i]) * self.shortening_of(i, &coordinate) * 0.5;
+        }
+        u
+    }
+
+    /// d(u_x)/dq_i of the shortening: sum_j S_ij q_j.
+    #[inline]
+    pub fn shortening_of<S: Scalar>(&self, i: usize, coordinate: impl Fn(usize) -> S) -> S {
+        let row = self.shortening[i * self.dofs.len()..].iter().zip(&self.dofs);
+        row.fold(S::zero(), |sum, (&s, &dof)| sum + coordinate(dof) * s)
+    }
+
+    fn shortening_rows(&self) -> usize {
+        if self.shortening.is_empty() { 0 } else { self.dofs.len() }
+    }
 }
 
 /// How a section deforms with the elastic coordinates: extension, shear along y and z, twist, curvature about y and z.

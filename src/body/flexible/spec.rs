@@ -38,7 +38,9 @@ pub struct FlexibleBeam {
     pub rotary_inertia: Option<bool>,
     /// Floating only: axial force stiffens or softens bending. `true`: by the shortening of a bent line, with the axial
     /// energy EA (u' + w'^2/2)^2/2 a length. `"cubic"`: without its last term, EA (u'^2 + u' w'^2)/2, which is the law of the
-    /// IVP test set's problem `crank`; it has no minimum where the slopes are large. Default: false.
+    /// IVP test set's problem `crank`; it has no minimum where the slopes are large. With
+    /// `modes`, or `ritz` without axial functions, nothing can stretch: `true` keeps the length of the line, whose points move
+    /// along it by -int w'^2/2. Default: false.
     #[serde(default)]
     pub geometric_stiffening: Stiffening,
     /// Floating only: Craig-Bampton reduction to the static modes of the markers and so many fixed-interface modes.

@@ -16,14 +16,10 @@ pub fn place<S: Scalar, const D: usize>(
     marker: &Marker<D>,
     coordinate: impl Fn(usize) -> S,
 ) -> Frame<S, D> {
-    let mut u: [S; D] = shape.rest.map(S::constant);
-    for (&dof, translation) in shape.dofs.iter().zip(&shape.translation) {
-        let q = coordinate(dof);
-        u.iter_mut().zip(translation).filter(|(_, t)| **t != 0.0).for_each(|(u, &t)| *u += q * t);
-    }
+    let u = shape.displacement(&coordinate);
     let mut r = own.r;
-    for (axis, &u) in own.axes.iter().zip(&u) {
-        r.iter_mut().zip(axis).for_each(|(r, &a)| *r += a * u);
+    for (axis, (&u, &rest)) in own.axes.iter().zip(u.iter().zip(&shape.rest)) {
+        r.iter_mut().zip(axis).for_each(|(r, &a)| *r += a * (u + rest));
     }
     let a = angles(shape, coordinate);
     let mut turned = turn(Frame { r, ..*own }, &a);
@@ -113,6 +109,9 @@ pub(super) fn pull_back_elastic<S: Scalar, const D: usize>(
     if shape.arm != [0.0; D] {
         let first = cross(&shape.arm.map(S::constant), &force);
         (0..3).for_each(|k| torque[k] -= first[k]);
+    }
+    for (i, f) in f.iter_mut().enumerate().filter(|_| !shape.shortening.is_empty()) {
+        *f += force[0] * shape.shortening_of(i, |dof| q[dof]);
     }
     for (f, (translation, rotation)) in f.iter_mut().zip(shape.translation.iter().zip(&shape.rotation)) {
         (0..D).filter(|&k| translation[k] != 0.0).for_each(|k| *f += force[k] * translation[k]);

@@ -74,7 +74,14 @@ fn refuse_origin<const D: usize>(markers: &[Marker<D>], truth: &str) -> Result<(
 
 /// The shape of a marker that is the floating frame.
 pub(super) fn frame_itself<const D: usize>() -> PointShape<D> {
-    PointShape { rest: [0.0; D], arm: [0.0; D], dofs: Vec::new(), translation: Vec::new(), rotation: Vec::new() }
+    PointShape {
+        rest: [0.0; D],
+        arm: [0.0; D],
+        dofs: Vec::new(),
+        translation: Vec::new(),
+        rotation: Vec::new(),
+        shortening: Vec::new(),
+    }
 }
 
 /// Coordinates and velocities at the start, the elastic ones by their names.

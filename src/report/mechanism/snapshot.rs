@@ -207,10 +207,8 @@ fn line<const D: usize>(part: &Part<D>, own: &Frame<Taylor<f64>, D>, q: &[f64]) 
         let mut rest = [0.0; D];
         rest[0] = line.length() * i as f64 / LINE_PIECES as f64;
         let shape = line.point(rest);
-        let mut u = shape.rest;
-        for (dof, translation) in shape.dofs.iter().zip(&shape.translation) {
-            u.iter_mut().zip(translation).for_each(|(u, t)| *u += t * q[part.first_q + first + dof]);
-        }
+        let moved = shape.displacement(|dof| q[part.first_q + first + dof]);
+        let u = std::array::from_fn(|k| shape.rest[k] + moved[k]);
         in_space(&own.at(&Marker::point(u)).r)
     };
     (0..=LINE_PIECES).map(point).collect()

@@ -224,6 +224,7 @@ fn point<const D: usize>(node: &Node<Array>, n: usize) -> Result<PointShape<D>> 
     Ok(PointShape {
         rest: from_fn(|k| position[k]),
         arm: [0.0; D],
+        shortening: Vec::new(),
         dofs: (0..n).collect(),
         translation: (0..n).map(|mode| from_fn(|k| translation[k * n + mode])).collect(),
         rotation,
