@@ -18,13 +18,16 @@
 //!
 //! Redundant rows get multipliers of least norm, right sides that contradict each other least squares.
 
+mod alike;
 mod blocked;
 mod chart;
 mod compiled;
 mod condition;
 mod dependence;
 mod fast;
-mod gram;
+mod kept;
+mod least;
+mod nearly;
 mod null_space;
 mod order;
 mod pattern;

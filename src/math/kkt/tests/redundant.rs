@@ -40,7 +40,7 @@ fn the_dense_way_agrees_with_the_pseudo_inverse() {
         let (mut a, mut lambda) = (r1.clone(), r2.clone());
         dense.solve(&system, &mut a, &mut lambda);
         let (a_svd, lambda_svd) = sample.by_svd(&r1, &r2);
-        assert_eq!(dense.rank(), 7);
+        assert_eq!(dense.left_out().len(), copies);
         assert!(distance(&a, &a_svd) < 1e-11, "a {:e}", distance(&a, &a_svd));
         assert!(distance(&lambda, &lambda_svd) < 1e-11, "lambda {:e}", distance(&lambda, &lambda_svd));
     }
