@@ -97,7 +97,7 @@ impl<'a> Variation<'a> {
     ///
     /// # Errors
     /// Bad input with what to use instead.
-    pub(super) fn refuse_dense(&self, copies: f64) -> Result<()> {
+    pub(crate) fn refuse_dense(&self, copies: f64) -> Result<()> {
         let hint = "`holonom linearize --modes N` finds some of the modes by sparse methods";
         refuse_dense("a linear model with all its modes", [self.len(); 2], copies).map_err(|error| error.hint(hint))
     }
