@@ -5,7 +5,7 @@ use super::frozen::frozen;
 use super::ladder::ladder;
 use super::{Decay, Frozen, InputCheck, Ladder, Settings, input};
 use crate::error::{Error, Result};
-use crate::linearize::{Chart, Matrix, Minimal, State, Variation, minimal};
+use crate::linearize::{Chart, Matrix, Minimal, State, Variation, minimal, refuse_large};
 use crate::math::eigen::eigen;
 use crate::system::MechanicalSystem;
 use serde::Serialize;
@@ -46,16 +46,13 @@ const STEEP: f64 = 1.6;
 /// A period of the fastest mode counts, times this: longer runs would cost more than they tell.
 const MOST_SWINGS: f64 = 8.0;
 
-/// Matrices of the size of the velocities: the model, the state-transition matrices, and what carries them.
-const COPIES: f64 = 40.0;
-
 /// Compares the model at a state with perturbed simulations.
 ///
 /// # Errors
 /// A chart that does not exist there; a motion that cannot go on.
 pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Settings) -> Result<Validation> {
+    refuse_large(system.dimensions().v)?;
     let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
-    variation.refuse_dense(COPIES)?;
     let chart = settings.chart.clone().unwrap_or_else(|| Chart::preferred(&mut variation));
     let mut model = minimal(&mut variation, &chart)?;
     let name = model.coordinates.name.clone();

@@ -59,12 +59,13 @@ fn methods_that_are_dense() {
 fn linear_models_that_are_dense() {
     let place = chain();
     let pieces = ["dense matrices of 60000 x 60000", "the limit is ", "help: `holonom linearize --modes N`"];
-    let commands: [&[&str]; 5] = [
+    let commands: [&[&str]; 6] = [
         &["linearize", "scene.json"],
         &["linearize", "scene.json", "--method", "rcs"],
         &["transition", "scene.json", "--period", "0.001"],
         &["transition", "scene.json", "--lyapunov", "0.001"],
         &["validate", "scene.json", "--at", "0"],
+        &["loci", "scene.json", "--every", "0.5"],
     ];
     commands.iter().for_each(|args| refused(&place, args, &pieces));
 }

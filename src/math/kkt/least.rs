@@ -119,8 +119,7 @@ impl Least {
         for _ in 0..MOST_GRADIENTS {
             let size = dot(&self.residual, &self.residual).sqrt();
             (least, waited) = if size < 0.5 * least { (size, 0) } else { (least, waited + 1) };
-            // Written so that a NaN ends it.
-            if waited > PATIENCE || !(size > tolerance) {
+            if waited > PATIENCE || size <= tolerance || size.is_nan() {
                 break;
             }
             let next = self.turn(rows, product);
