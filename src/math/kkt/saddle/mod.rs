@@ -245,7 +245,7 @@ impl SaddlePoint {
         if total > DENSE && quality.doubtful && !quality.replaced {
             // Round-off in pivots of dependent rows grows with the condition of the others. Null vectors tell them.
             skipping.factor(&self.system, DOUBTED)?;
-            if skipping.sine(&self.system) < 0.1 * self.rank_tolerance {
+            if skipping.sine(&self.system) < self.rank_tolerance {
                 return Ok(Way::Skipping);
             }
             quality = skipping.factor(&self.system, COLLAPSED)?;
