@@ -6,11 +6,13 @@ use super::terminal::visible;
 use crate::choice::Choice;
 use crate::error::{Error, Result, Warning, suggest};
 use crate::math::expression::{Number, constant};
+use crate::math::memory::refuse_rows;
 use crate::plot::Figure;
 use crate::report::Folder;
 use crate::scene::Automatic;
 use crate::simulate::Span;
 use crate::study::{Overrides, Study};
+use crate::system::Dimensions;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
@@ -155,9 +157,14 @@ impl Common {
         Ok(study)
     }
 
-    /// When to simulate.
+    /// When to simulate, with as many rows as fit into memory.
     pub fn span(&self, study: &Study) -> Result<Span> {
-        study.span().map_err(|error| error.in_file(&self.scene.path))
+        let span = study.span().map_err(|error| error.in_file(&self.scene.path))?;
+        let Dimensions { q, v, lambda, .. } = study.system().dimensions();
+        let columns = 1 + q + v + lambda + study.system().columns().len();
+        refuse_rows((span.end - span.start) / span.output_step + 1.0, columns)
+            .map_err(|error| error.under("--output-step").hint("give a larger one, or an earlier end with --until"))?;
+        Ok(span)
     }
 }
 

@@ -139,7 +139,9 @@ fn one(study: &Study, formulation: &Choice, projection: &Choice, folder: &Folder
     let Outcome { statistics, failure, .. } =
         simulate(study.system(), &method, study.span()?, study.start(), &mut recorder)?;
     let wall_seconds = clock.elapsed().as_secs_f64();
-    let record = recorder.finish();
+    let mut record = recorder.finish();
+    // Of the motion only the times are shown, and there are many records.
+    record.trajectory.rows.iter_mut().for_each(|row| *row = vec![row[0]]);
     Ok(Row {
         method: match (formulation.name.as_str(), projection.name.as_str()) {
             ("index1", _) => projection.to_string(),

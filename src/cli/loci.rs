@@ -3,7 +3,7 @@
 use super::common::{MethodOptions, Output, SceneOptions, Talk, number, positive, print, tell};
 use super::linear::ModelOptions;
 use crate::error::{Error, Result, short};
-use crate::linearize::{At, Loci, Request, Variants, loci_along, loci_over};
+use crate::linearize::{At, Loci, Request, Variants, loci_along, loci_over, refuse_large};
 use crate::report::linear::{LociFile, LociSummary, frequency_figure, loci_figure, loci_table};
 use crate::study::Study;
 use crate::sweep::{Family, Range};
@@ -52,6 +52,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let in_file = |error: Error| error.in_file(&args.scene.path);
     let request = args.model.request()?;
     let study = args.run.load_tight(&args.scene)?;
+    refuse_large(study.system().dimensions().v).map_err(in_file)?;
     let mut folder = args.output.folder(&study.name)?;
     let loci = match &args.sweep {
         Some(range) => over(&args, &study, range, &request).map_err(in_file)?,

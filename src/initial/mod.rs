@@ -123,7 +123,7 @@ impl<'a> Metric<'a> {
     fn solve(&mut self, top: &mut [f64], bottom: &[f64]) -> Result<()> {
         let mut rows = bottom.to_vec();
         rows.resize(self.rows.rows, 0.0);
-        self.kkt.solve(top, &mut rows).map_err(|singular| Error::input(format!("at the start, {singular}")))
+        self.kkt.solve_motion(top, &mut rows).map_err(|singular| Error::input(format!("at the start, {singular}")))
     }
 
     /// W x

@@ -1,7 +1,7 @@
 //! Minimal coordinates of the perturbation: where a moving state's spectrum gets its meaning.
 
 use super::response::beside;
-use super::variation::at_state;
+use super::variation::{at_state, refuse_all_modes};
 use super::{Changes, Matrix, Variation, independent};
 use crate::error::{Error, Result};
 use crate::formulation::{Halt, free_directions};
@@ -68,7 +68,7 @@ impl Chart {
     /// Names that do not exist, too many or too few, or not independent at this state; `intrinsic` for equations that do
     /// not say how M changes.
     pub fn at(&self, variation: &mut Variation) -> Result<Coordinates> {
-        variation.refuse_dense(COPIES)?;
+        refuse_all_modes(variation.len(), COPIES)?;
         let z = directions(variation)?;
         match self {
             Chart::Intrinsic => parallel(variation, z),

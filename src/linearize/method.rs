@@ -2,6 +2,7 @@
 
 use super::spectrum::{Spectrum, spectrum};
 use super::unconstrained::{AUGMENTED_LAGRANGIAN, BAUMGARTE, FORCE_PROJECTION, PENALTY};
+use super::variation::refuse_all_modes;
 use super::{Changes, Chart, Cost, LinearModel, Matrix, Minimal, Variation, minimal, redundant};
 use crate::choice::{Choice, OptionDoc};
 use crate::error::Result;
@@ -71,13 +72,21 @@ pub fn registry() -> &'static [Entry] {
 /// are complex.
 const COPIES: f64 = 40.0;
 
+/// Refuses all modes of so many velocities where their matrices would not fit: before a motion is followed for them.
+///
+/// # Errors
+/// Bad input with what to use instead.
+pub fn refuse_large(velocities: usize) -> Result<()> {
+    refuse_all_modes(velocities, COPIES)
+}
+
 /// The linear model at the state of `variation`.
 ///
 /// # Errors
 /// An unknown method or option; a chart that does not exist there; eigenvalues that cannot be computed.
 pub fn linearize(variation: &mut Variation, request: &Request) -> Result<LinearModel> {
     let index = request.method.find("method", registry().iter().map(|entry| (entry.name, entry.options)))?;
-    variation.refuse_dense(COPIES)?;
+    refuse_large(variation.len())?;
     let clock = Instant::now();
     let built = (registry()[index].build)(variation, request)?;
     let assembly_seconds = clock.elapsed().as_secs_f64();

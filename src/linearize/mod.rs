@@ -32,7 +32,7 @@ pub use floquet::{Defect, Floquet, floquet};
 pub use frequency::{Resonances, frequency_response};
 pub use loci::Branch;
 pub use lyapunov::{Lyapunov, lyapunov};
-pub use method::{Built, Entry, Request, linearize, registry};
+pub use method::{Built, Entry, Request, linearize, refuse_large, registry};
 pub use minimal::{Minimal, minimal};
 pub use model::{Complex, Cost, Kind, LinearModel, Matrix, Mode, damping, frequency};
 pub use point::OperatingPoint;

@@ -93,15 +93,6 @@ impl<'a> Variation<'a> {
         self.load(at).map(|_| ()).map_err(|halt| at_state(point.t, &halt))
     }
 
-    /// Refuses as many dense matrices of all velocities as would not fit.
-    ///
-    /// # Errors
-    /// Bad input with what to use instead.
-    pub(super) fn refuse_dense(&self, copies: f64) -> Result<()> {
-        let hint = "`holonom linearize --modes N` finds some of the modes by sparse methods";
-        refuse_dense("a linear model with all its modes", [self.len(); 2], copies).map_err(|error| error.hint(hint))
-    }
-
     pub fn system(&self) -> &'a dyn MechanicalSystem {
         self.dynamics.system
     }
@@ -293,4 +284,13 @@ pub(super) fn observe(outputs: &OutputTangent, changes: &Changes, response: &Res
 pub(super) fn at_state(t: f64, halt: &Halt) -> Error {
     let hint = halt.hint().unwrap_or("choose another time, a little before or after");
     Error::input(format!("at t = {} s there is no linear model: {halt}", clock(t))).hint(hint)
+}
+
+/// Refuses as many dense matrices of all velocities as would not fit.
+///
+/// # Errors
+/// Bad input with what to use instead.
+pub(crate) fn refuse_all_modes(velocities: usize, copies: f64) -> Result<()> {
+    let hint = "`holonom linearize --modes N` finds some of the modes by sparse methods";
+    refuse_dense("a linear model with all its modes", [velocities; 2], copies).map_err(|error| error.hint(hint))
 }

@@ -1,4 +1,4 @@
-//! Memory of dense matrices, compared with what there is before it is asked for.
+//! Memory of dense matrices and long tables, compared with what there is before it is asked for.
 
 use crate::error::{Error, Result};
 use std::fs::read_to_string;
@@ -25,6 +25,30 @@ pub fn refuse_dense(what: &str, [rows, columns]: [usize; 2], copies: f64) -> Res
     )))
 }
 
+/// Memory of a number that is kept to the end and written as text, bytes.
+const WRITTEN: f64 = 48.0;
+
+/// Refuses so many rows of numbers, kept in memory until they are written, that take more than the machine and the limits
+/// of the process leave.
+///
+/// # Errors
+/// Bad input with the size and the limit; the caller adds what to do.
+pub fn refuse_rows(rows: f64, columns: usize) -> Result<()> {
+    let wanted = WRITTEN * rows * columns as f64;
+    let limit = if wanted > SMALL { free() } else { f64::INFINITY };
+    if wanted <= limit {
+        return Ok(());
+    }
+    let [wanted, limit] = [wanted, limit].map(size);
+    Err(Error::input(format!("{rows:.0} rows of {columns} numbers take {wanted} to write: the limit is {limit}")))
+}
+
+/// How many computations fit at once, at least one, of which each takes `part` of what the process took at most until now.
+pub fn at_once(part: f64) -> usize {
+    let each = part * kilobytes("/proc/self/status", "VmHWM:").unwrap_or(0.0);
+    if each > SMALL { (free() / each).max(1.0) as usize } else { usize::MAX }
+}
+
 /// Bytes for a person.
 pub fn size(bytes: f64) -> String {
     match bytes {
@@ -35,7 +59,12 @@ pub fn size(bytes: f64) -> String {
 
 /// Bytes that dense matrices may take now. Where the system does not tell what there is, only the fixed limit counts.
 fn limit() -> f64 {
-    [available(), address_space()].into_iter().flatten().fold(MOST, f64::min)
+    free().min(MOST)
+}
+
+/// Bytes that nobody uses; infinite where the system does not tell.
+fn free() -> f64 {
+    [available(), address_space()].into_iter().flatten().fold(f64::INFINITY, f64::min)
 }
 
 /// Memory of the machine that nobody uses.
@@ -71,6 +100,20 @@ mod tests {
         );
         // No product overflows.
         assert!(refuse_dense("a", [usize::MAX; 2], 1.0).is_err());
+    }
+
+    #[test]
+    fn rows_that_do_not_fit_are_refused() {
+        assert!(refuse_rows(1000.0, 1000).is_ok());
+        let error = refuse_rows(1e9, 1_000_000).unwrap_err().to_string();
+        let whole = "1000000000 rows of 1000000 numbers take 48000000.0 GB to write: the limit is ";
+        assert!(error.starts_with(whole), "{error}");
+    }
+
+    #[test]
+    fn as_many_run_at_once_as_fit() {
+        assert_eq!(at_once(0.0), usize::MAX);
+        assert_eq!(at_once(1e9), 1);
     }
 
     #[test]

@@ -11,7 +11,7 @@ use crate::measure::dependent_beside;
 use crate::scene::{BeamLine, Connection, Model};
 use crate::simulate::{Mode, Spectrum};
 use crate::study::{AnyMechanism, Study};
-use crate::system::{Group, Loaded, MechanicalSystem, Need, Structure, Terms};
+use crate::system::{Group, Loaded, Need, Structure, Terms};
 use serde::Serialize;
 
 /// What is modelled, and how well posed it is at the start.
@@ -100,10 +100,10 @@ fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
         true => dependent_rows(&structure.g, &terms.g, DEPENDENT),
         false => Dependence { rank: n.lambda, rows: Vec::new() },
     };
-    let groups = system.groups();
+    let (groups, names) = (system.groups(), system.names().lambda);
     let redundant = dependence.rows.iter().map(|row| {
         let others = row.combination.iter().map(|(other, _)| owner(&groups, *other));
-        redundant(system, row.row, owner(&groups, row.row), others)
+        redundant(&names[row.row], owner(&groups, row.row), others)
     });
     Check {
         scene: study.name.clone(),
@@ -123,7 +123,7 @@ fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
         fastest_mode: fastest_mode(study),
         length_scale: system.length(),
         bodies: bodies(model),
-        joints: groups.iter().map(|group| joint_item(group, &system.names().lambda)).collect(),
+        joints: groups.iter().map(|group| joint_item(group, &names)).collect(),
         forces: forces(model),
         left_out: left_out(model),
         equilibrium: None,
@@ -131,9 +131,12 @@ fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
 }
 
 fn condition_without(rows: &[usize], structure: &Structure, terms: &Terms) -> f64 {
-    let place: Vec<Option<usize>> = (0..structure.g.rows)
-        .scan(0, |next, row| {
-            let place = (!rows.contains(&row)).then_some(*next);
+    let mut is_left_out = vec![false; structure.g.rows];
+    rows.iter().for_each(|row| is_left_out[*row] = true);
+    let place: Vec<Option<usize>> = is_left_out
+        .iter()
+        .scan(0, |next, is_left_out| {
+            let place = (!is_left_out).then_some(*next);
             *next += usize::from(place.is_some());
             Some(place)
         })
@@ -149,17 +152,11 @@ fn owner(groups: &[Group], row: usize) -> String {
     groups.iter().find(|group| group.rows.contains(&row)).map_or(String::new(), |group| group.name.clone())
 }
 
-fn redundant(
-    system: &dyn MechanicalSystem,
-    row: usize,
-    joint: String,
-    others: impl Iterator<Item = String>,
-) -> Redundant {
+fn redundant(name: &str, joint: String, others: impl Iterator<Item = String>) -> Redundant {
     let mut follows_from: Vec<String> = others.filter(|other| *other != joint).collect();
     follows_from.dedup();
     follows_from.sort();
     follows_from.dedup();
-    let name = system.names().lambda[row].clone();
     let row = name.rsplit('.').next().unwrap_or_default().to_string();
     Redundant { joint, row, follows_from }
 }

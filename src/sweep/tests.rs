@@ -141,5 +141,7 @@ fn values_beyond_what_expressions_are_defined_for_are_ends() {
 fn redundant_constraints_are_not_singular() {
     let family = Family::parse(include_str!("../../models/parallelogram_redundant.json"), &[]).unwrap();
     let sweep = sweep(&family, "angle0=0.5..1.2:5");
-    assert!(sweep.limits.is_empty() && sweep.nearest_singular.smallest_sine > 0.1, "{:?}", sweep.nearest_singular);
+    // The sine depends on the order of elimination and on which dependent row is dropped. It is never below the smallest
+    // singular value of the unit rows that are left, with the held one: 0.033 to 0.093 here over all choices of that row.
+    assert!(sweep.limits.is_empty() && sweep.nearest_singular.smallest_sine > 0.03, "{:?}", sweep.nearest_singular);
 }

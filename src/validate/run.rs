@@ -5,7 +5,7 @@ use super::frozen::frozen;
 use super::ladder::ladder;
 use super::{Decay, Frozen, InputCheck, Ladder, Settings, input};
 use crate::error::{Error, Result};
-use crate::linearize::{Chart, Matrix, Minimal, State, Variation, minimal};
+use crate::linearize::{Chart, Matrix, Minimal, State, Variation, minimal, refuse_large};
 use crate::math::eigen::eigen;
 use crate::system::MechanicalSystem;
 use serde::Serialize;
@@ -51,6 +51,7 @@ const MOST_SWINGS: f64 = 8.0;
 /// # Errors
 /// A chart that does not exist there; a motion that cannot go on.
 pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Settings) -> Result<Validation> {
+    refuse_large(system.dimensions().v)?;
     let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
     let chart = settings.chart.clone().unwrap_or_else(|| Chart::preferred(&mut variation));
     let mut model = minimal(&mut variation, &chart)?;

@@ -59,13 +59,54 @@ fn methods_that_are_dense() {
 fn linear_models_that_are_dense() {
     let place = chain();
     let pieces = ["dense matrices of 60000 x 60000", "the limit is ", "help: `holonom linearize --modes N`"];
-    let commands: [&[&str]; 4] = [
+    let commands: [&[&str]; 6] = [
         &["linearize", "scene.json"],
         &["linearize", "scene.json", "--method", "rcs"],
         &["transition", "scene.json", "--period", "0.001"],
         &["transition", "scene.json", "--lyapunov", "0.001"],
+        &["validate", "scene.json", "--at", "0"],
+        &["loci", "scene.json", "--every", "0.5"],
     ];
     commands.iter().for_each(|args| refused(&place, args, &pieces));
+}
+
+/// Under a limit of the address space, kB.
+#[cfg(target_os = "linux")]
+fn limited(place: &Place, kilobytes: u32, args: &[&str]) -> std::process::Output {
+    let script = format!("ulimit -v {kilobytes}; exec \"$0\" \"$@\"");
+    let mut command = std::process::Command::new("sh");
+    command.args(["-c", &script, env!("CARGO_BIN_EXE_holonom")]).args(args);
+    command.current_dir(place.path("")).output().unwrap()
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn more_rows_than_memory() {
+    let place = chain();
+    let output = limited(&place, 4_000_000, &["simulate", "scene.json", "--until", "1e-4", "--output-step", "1e-7"]);
+    let message = err(&output);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    let pieces = ["--output-step: 1001 rows of 160003 numbers take 7.7 GB", "the limit is ", "help: give a larger one"];
+    pieces.iter().for_each(|piece| assert!(message.contains(piece), "{piece:?} not in {message}"));
+}
+
+/// Two hundred changed scenes are not in memory at once, and as many run at once as fit.
+#[test]
+#[cfg(target_os = "linux")]
+fn extremes_of_a_large_scene() {
+    let place = Place::new("");
+    place.done(&["generate", "chain", "--n", "5000", "-o", "scene.json"]);
+    let few = ["--map", "mass", "--budget", "1", "--figures", "none", "-o", "here", "--quiet"];
+    let output = limited(&place, 1_500_000, &[&["stress", "scene.json"], &few[..]].concat());
+    assert!(output.status.success(), "{}", err(&output));
+}
+
+/// What is written for each joint does not ask for the names of all.
+#[test]
+fn a_large_scene_is_checked() {
+    let place = chain();
+    let text = place.done(&["check", "scene.json"]);
+    assert!(text.contains("60000 coordinates, 60000 velocities, 40000 constraints of rank 40000"), "{text}");
 }
 
 #[test]

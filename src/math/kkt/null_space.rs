@@ -51,10 +51,6 @@ impl NullSpace {
         }
     }
 
-    pub fn rank(&self) -> usize {
-        self.qr.rank
-    }
-
     pub fn is_deficient(&self, tolerance: f64) -> bool {
         self.qr.is_deficient(tolerance)
     }

@@ -9,7 +9,6 @@ use super::Pattern;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;
 use faer::sparse::{Pair, SymbolicSparseColMat};
-use std::collections::HashMap;
 
 /// Node i < n is coordinate i, node n + j is multiplier j.
 pub(super) struct Order {
@@ -26,67 +25,19 @@ pub(super) fn order(mass: &Pattern, g: &Pattern, late: &[bool]) -> Order {
     let mut nodes: Vec<usize> = (0..n).filter(|&i| !late[i]).collect();
     let early = nodes.len();
     nodes = ordered(&nodes, n + m, mass.entries.iter().copied());
-    let repeats = Repeats::of(mass, g);
     let mut rest: Vec<usize> = (0..n).filter(|&i| late[i]).chain(n..n + m).collect();
     let all: Vec<usize> = nodes.iter().chain(&rest).copied().collect();
     let columns = columns(&lower_adjacency(mass, g, &all), early);
     let cliques = columns.iter().filter(|c| c.first().is_some_and(|&parent| parent as usize >= early));
-    let first = |c: &[u32]| c.iter().map(|&a| all[a as usize]).filter(|&a| repeats.is_first(a)).collect();
-    let cliques: Vec<Vec<usize>> = cliques.map(|c| first(c)).collect();
+    let cliques: Vec<Vec<usize>> = cliques.map(|c| c.iter().map(|&a| all[a as usize]).collect()).collect();
     let mut edges: Vec<(usize, usize)> = cliques
         .iter()
         .flat_map(|c| c.iter().enumerate().flat_map(|(k, &a)| c[..k].iter().map(move |&b| (b, a))))
         .collect();
-    edges.extend(edges_of(mass, g).filter(|(a, b)| repeats.is_first(*a) && repeats.is_first(*b)));
-    rest.retain(|&node| repeats.is_first(node));
-    rest = repeats.restore(&ordered(&rest, n + m, edges.into_iter()));
+    edges.extend(edges_of(mass, g));
+    rest = ordered(&rest, n + m, edges.into_iter());
     nodes.extend(delayed(&rest, n, g, late));
     Order { nodes, early }
-}
-
-/// Multipliers of the same coordinates, which no order tells apart: only the first of them is ordered, the others follow
-/// it. Where G has twice as many rows as columns half depend on others, and copies of one joint would couple each with each.
-struct Repeats {
-    n: usize,
-    /// For each row of G the first with its columns; empty where there are none too many.
-    first: Vec<usize>,
-}
-
-impl Repeats {
-    fn of(mass: &Pattern, g: &Pattern) -> Self {
-        let n = mass.rows;
-        if g.rows <= 2 * n {
-            return Repeats { n, first: Vec::new() };
-        }
-        let mut columns = vec![Vec::new(); g.rows];
-        g.entries.iter().for_each(|&(row, column)| columns[row].push(column));
-        let mut known = HashMap::new();
-        let first = columns.into_iter().enumerate().map(|(row, mut columns)| {
-            columns.sort_unstable();
-            columns.dedup();
-            *known.entry(columns).or_insert(row)
-        });
-        Repeats { n, first: first.collect() }
-    }
-
-    fn is_first(&self, node: usize) -> bool {
-        self.first.is_empty() || node < self.n || self.first[node - self.n] == node - self.n
-    }
-
-    /// The order with those that were left out.
-    fn restore(&self, order: &[usize]) -> Vec<usize> {
-        if self.first.is_empty() {
-            return order.to_vec();
-        }
-        let mut followers = vec![Vec::new(); self.first.len()];
-        let others = self.first.iter().enumerate().filter(|(row, first)| row != *first);
-        others.for_each(|(row, first)| followers[*first].push(self.n + row));
-        let with_followers = |&node: &usize| {
-            let followers = if node < self.n { &[][..] } else { &followers[node - self.n] };
-            std::iter::once(node).chain(followers.iter().copied())
-        };
-        order.iter().flat_map(with_followers).collect()
-    }
 }
 
 /// The entries of the saddle-point matrix as pairs of nodes.

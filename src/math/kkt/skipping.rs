@@ -1,47 +1,33 @@
-//! Redundant rows in a sparse factor: they are left out, and least squares is done over what they leave.
+//! Redundant rows in a sparse factor: they are left out.
 //!
 //! With all coordinates before all multipliers the rest of the elimination acts on -G M^-1 G^T. A pivot that vanishes
 //! there has a vanishing row, so its multiplier can be left out (zero) and nothing else changes: the others solve the
-//! system exactly if the right side lies in the range of G. Every left-out row j gives a null vector of G^T:
-//! n_j = e_j - c, where G^T c = G_j^T is solved with the factor itself. N = [n_j], whose part on the left-out rows is
-//! the identity, so that N^T N >= I is well conditioned. Then P = I - N (N^T N)^-1 N^T makes the right side consistent
-//! (least squares) and the multipliers least in norm. A few null vectors are made orthonormal once for a factorization;
-//! of many, P is applied by conjugate gradients, with N^T N of an earlier factorization for a preconditioner.
+//! system exactly if the right side lies in the range of G, which `Least` sees to.
 
 use super::Pattern;
 use super::Singular;
 use super::fast::Fast;
-use super::gram::Gram;
+use super::least::Least;
 use super::pivot::{Quality, ROUND_OFF, Rule};
-use super::system::{System, add, add_scaled, dot, index_of_largest};
-use crate::math::largest;
+use super::system::{System, add, index_of_largest, iterate};
 
 /// Refinements where the coordinate pivots are true ones, and where some were replaced.
 const SWEEPS: [usize; 2] = [3, 40];
-const MOST_GRADIENTS: usize = 300;
-/// Null vectors that are formed: each costs a solution, a projection by conjugate gradients two for each step.
-const FEW: usize = 16;
 
 pub(super) struct Skipping {
     factor: Fast,
     skipped: Vec<usize>,
-    is_skipped: Vec<bool>,
     replaced: bool,
-    is_holding: bool,
+    /// The ratio of pivots below which rows were left out.
+    collapsed: f64,
     inconsistency: f64,
-    /// Orthonormal null vectors, one after the other, where they are few; and whether they belong to the last factors.
-    basis: Vec<f64>,
-    is_spanned: bool,
-    gram: Gram,
-    /// G without the rows that are held out.
-    values: Vec<f64>,
+    least: Least,
     /// Scratch of n and of m numbers.
     a: Vec<f64>,
     top: Vec<f64>,
     lambda: Vec<f64>,
     bottom: Vec<f64>,
     weights: Vec<f64>,
-    residual: Vec<f64>,
     direction: Vec<f64>,
     image: Vec<f64>,
     probe: (Vec<f64>, Vec<f64>),
@@ -54,43 +40,31 @@ impl Skipping {
         Skipping {
             factor: Fast::new(mass, g, &vec![false; n]),
             skipped: Vec::with_capacity(m),
-            is_skipped: vec![false; m],
             replaced: false,
-            is_holding: false,
+            collapsed: 0.0,
             inconsistency: 0.0,
-            basis: Vec::with_capacity(FEW.min(m) * m),
-            is_spanned: false,
-            gram: Gram::new(),
-            values: Vec::with_capacity(g.entries.len()),
+            least: Least::new(g),
             a: vec![0.0; n],
             top: vec![0.0; n],
             lambda: zeros(),
             bottom: zeros(),
             weights: zeros(),
-            residual: zeros(),
             direction: zeros(),
             image: zeros(),
             probe: (vec![0.0; n], zeros()),
         }
     }
 
-    /// Leaves out the rows that `held` names, and those with pivots that are `collapsed`. `doubtful` in what is returned: it is not sure
-    /// which rows are dependent.
-    pub fn factor(&mut self, system: &System, held: &[bool], collapsed: f64) -> Result<Quality, Singular> {
+    /// Leaves out rows with pivots that are `collapsed`. `doubtful` in what is returned: it is not sure which rows are
+    /// dependent.
+    pub fn factor(&mut self, system: &System, collapsed: f64) -> Result<Quality, Singular> {
         self.a.fill(0.0);
         system.mass.add_diagonal(&system.mass_values, &mut self.a);
         let rule = Rule::lenient(collapsed, &self.a);
-        self.is_holding = held.contains(&true);
-        // A row of zeros collapses.
-        self.values.clear();
-        let rows = system.g.entries.iter().map(|(row, _)| held[*row]);
-        self.values.extend(system.g_values.iter().zip(rows).map(|(value, held)| if held { 0.0 } else { *value }));
-        let result = self.factor.factor(&system.mass_values, &self.values, rule, &mut self.skipped);
+        let result = self.factor.factor(&system.mass_values, &system.g_values, rule, &mut self.skipped);
         let quality = result.map_err(|_| Singular::NotFinite)?;
-        self.is_skipped.fill(false);
-        self.skipped.iter().for_each(|&j| self.is_skipped[j] = true);
-        self.replaced = quality.replaced;
-        self.is_spanned = false;
+        (self.replaced, self.collapsed) = (quality.replaced, collapsed);
+        self.least.clear();
         Ok(quality)
     }
 
@@ -128,14 +102,12 @@ impl Skipping {
             let length = self.weights[j].sqrt();
             self.direction[j] = if length > 0.0 { (1.0 + 0.5 * arbitrary(j)) / length } else { 0.0 };
         }
-        self.null(system);
+        self.refine_null(system);
         self.a.fill(0.0);
         system.g.subtract_transposed(&system.g_values, &self.image, &mut self.a);
+        self.top.fill(0.0);
+        system.mass.add_diagonal(&system.mass_values, &mut self.top);
         self.a.iter().zip(&self.top).map(|(a, mass)| a * a / mass).sum::<f64>().sqrt()
-    }
-
-    pub fn rank(&self) -> usize {
-        self.bottom.len() - self.skipped.len()
     }
 
     /// The rows that the last factorization left out.
@@ -143,10 +115,10 @@ impl Skipping {
         &self.skipped
     }
 
-    /// The smallest pivot over its size, but of `held` rows; zero where more are surely dependent.
-    pub fn smallest_ratio(&self, held: usize) -> f64 {
+    /// The smallest pivot over its size; zero where rows are surely dependent.
+    pub fn smallest_ratio(&self) -> f64 {
         let (ratio, dependent) = self.factor.smallest_ratio(ROUND_OFF);
-        if dependent > held { 0.0 } else { ratio }
+        if dependent > 0 { 0.0 } else { ratio }
     }
 
     /// The norm of the part of the last right side that no motion can meet.
@@ -154,31 +126,12 @@ impl Skipping {
         self.inconsistency
     }
 
-    /// Solves in place, refined to round-off. Right sides of rows that are held out say nothing; those of others that
-    /// were left out count, in least squares. Multipliers are those of least norm where it `is_least`.
+    /// Solves in place, refined to round-off; right sides that contradict each other in least squares. Multipliers are
+    /// those of least norm where it `is_least`.
     pub fn solve(&mut self, system: &System, top: &mut [f64], bottom: &mut [f64], is_least: bool) {
-        self.inconsistency = if self.is_holding { 0.0 } else { self.project(system, bottom) };
-        self.a.fill(0.0);
-        self.lambda.fill(0.0);
-        let mut last = [f64::INFINITY; 2];
-        for _ in 0..SWEEPS[usize::from(self.replaced)] {
-            self.top.copy_from_slice(top);
-            self.bottom.copy_from_slice(bottom);
-            system.residual(&self.a, &self.lambda, &mut self.top, &mut self.bottom);
-            self.factor.solve(&mut self.top, &mut self.bottom);
-            let sizes = [largest(&self.top), largest(&self.bottom)];
-            // A correction that does not shrink is round-off.
-            if !(sizes[0] < 0.5 * last[0] || sizes[1] < 0.5 * last[1]) {
-                break;
-            }
-            add(&self.top, &mut self.a);
-            add(&self.bottom, &mut self.lambda);
-            let small = 1e-16;
-            if sizes[0] <= small * largest(&self.a) && sizes[1] <= small * largest(&self.lambda) {
-                break;
-            }
-            last = sizes;
-        }
+        self.inconsistency = self.project(system, bottom);
+        let Skipping { factor, a, lambda, top: r1, bottom: r2, .. } = self;
+        iterate(factor, system, (top, bottom), (a, lambda), (r1, r2), SWEEPS[usize::from(self.replaced)]);
         top.copy_from_slice(&self.a);
         bottom.copy_from_slice(&self.lambda);
         if is_least {
@@ -188,114 +141,20 @@ impl Skipping {
 
     /// v := P v; returns the norm of what was taken away.
     fn project(&mut self, system: &System, v: &mut [f64]) -> f64 {
-        match self.skipped.len() {
-            0 => 0.0,
-            1..=FEW => self.project_directly(system, v),
-            _ => self.project_by_gradients(system, v),
-        }
-    }
-
-    fn project_directly(&mut self, system: &System, v: &mut [f64]) -> f64 {
-        if !self.is_spanned {
-            self.span(system);
-        }
-        let mut square = 0.0;
-        for null in self.basis.chunks_exact(v.len()) {
-            let part = dot(null, v);
-            add_scaled(-part, null, v);
-            square += part * part;
-        }
-        square.sqrt()
-    }
-
-    /// The basis, by Gram-Schmidt done twice.
-    fn span(&mut self, system: &System) {
-        let m = self.bottom.len();
-        self.basis.clear();
-        for k in 0..self.skipped.len() {
-            self.direction.fill(0.0);
-            self.direction[self.skipped[k]] = 1.0;
-            self.null(system);
-            for _ in 0..2 {
-                for done in self.basis.chunks_exact(m) {
-                    add_scaled(-dot(done, &self.image), done, &mut self.image);
-                }
-                let length = dot(&self.image, &self.image).sqrt();
-                self.image.iter_mut().for_each(|x| *x /= length);
-            }
-            self.basis.extend_from_slice(&self.image);
-        }
-        self.is_spanned = true;
-    }
-
-    fn project_by_gradients(&mut self, system: &System, v: &mut [f64]) -> f64 {
-        self.form_gram(system);
-        self.weights.fill(0.0);
-        self.residual.copy_from_slice(v);
-        self.null_transposed(system);
-        let tolerance = 1e-15 * dot(v, v).max(dot(&self.residual, &self.residual)).sqrt();
-        self.direction.copy_from_slice(&self.residual);
-        self.gram.solve(&self.skipped, &mut self.direction);
-        let mut product = dot(&self.residual, &self.direction);
-        let mut steps = 0;
-        while steps < MOST_GRADIENTS && dot(&self.residual, &self.residual).sqrt() > tolerance {
-            // image = N p, and p^T N^T N p = |N p|^2.
-            self.null(system);
-            let step = product / dot(&self.image, &self.image);
-            add_scaled(step, &self.direction, &mut self.weights);
-            // r = N^T (v - N w) afresh would cost as much as this update.
-            std::mem::swap(&mut self.residual, &mut self.image);
-            self.null_transposed(system);
-            std::mem::swap(&mut self.residual, &mut self.image);
-            add_scaled(-step, &self.image, &mut self.residual);
-            self.image.copy_from_slice(&self.residual);
-            self.gram.solve(&self.skipped, &mut self.image);
-            let next = dot(&self.residual, &self.image);
-            let ratio = next / product;
-            for (p, z) in self.direction.iter_mut().zip(&self.image) {
-                *p = z + ratio * *p;
-            }
-            (product, steps) = (next, steps + 1);
-        }
-        self.gram.took(steps);
-        self.direction.copy_from_slice(&self.weights);
-        self.null(system);
-        add_scaled(-1.0, &self.image, v);
-        dot(&self.image, &self.image).sqrt()
-    }
-
-    fn form_gram(&mut self, system: &System) {
-        if !self.gram.is_stale(&self.skipped) {
-            return;
-        }
-        self.gram.clear(&self.skipped);
-        for k in 0..self.skipped.len() {
-            self.direction.fill(0.0);
-            self.direction[self.skipped[k]] = 1.0;
-            self.null(system);
-            self.gram.push(&self.image);
-        }
-        self.gram.factor();
+        let Skipping { factor, least, skipped, collapsed, .. } = self;
+        let sine = factor.smallest_ratio(collapsed.max(ROUND_OFF)).0.sqrt();
+        least.project(system, skipped, sine, &mut |top, bottom| factor.solve(top, bottom), v)
     }
 
     /// image = N direction, where `direction` is zero but on the left-out rows.
-    fn null(&mut self, system: &System) {
-        self.a.fill(0.0);
-        system.g.subtract_transposed(&system.g_values, &self.direction, &mut self.a);
-        self.image.fill(0.0);
-        self.factor.solve(&mut self.a, &mut self.image);
-        add(&self.direction, &mut self.image);
-    }
-
-    /// residual := N^T residual, standing on the left-out rows.
-    fn null_transposed(&mut self, system: &System) {
-        self.a.fill(0.0);
-        self.lambda.copy_from_slice(&self.residual);
-        self.factor.solve(&mut self.a, &mut self.lambda);
-        system.g.subtract(&system.g_values, &self.a, &mut self.residual);
-        for (r, &skipped) in self.residual.iter_mut().zip(&self.is_skipped) {
-            *r = if skipped { *r } else { 0.0 };
-        }
+    fn refine_null(&mut self, system: &System) {
+        let Skipping { factor, a, lambda, top: r1, bottom: r2, direction, image, probe: (top, bottom), .. } = self;
+        top.fill(0.0);
+        bottom.fill(0.0);
+        system.g.subtract_transposed(&system.g_values, direction, top);
+        iterate(factor, system, (top, bottom), (a, lambda), (r1, r2), SWEEPS[0]);
+        image.copy_from_slice(direction);
+        add(lambda, image);
     }
 }
 

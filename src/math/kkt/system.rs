@@ -1,6 +1,8 @@
 //! The matrix itself, for residuals.
 
 use super::Pattern;
+use super::fast::Fast;
+use crate::math::largest;
 
 /// A copy of the patterns and of the values of the last factorization.
 pub(super) struct System {
@@ -31,6 +33,39 @@ impl System {
         self.mass.subtract_symmetric(&self.mass_values, a, top);
         self.g.subtract_transposed(&self.g_values, lambda, top);
         self.g.subtract(&self.g_values, a, bottom);
+    }
+}
+
+/// Solves [M G^T; G 0] [a; lambda] = [top; bottom] with a factor that may be of a matrix nearby, in so many `sweeps` at most,
+/// until a correction is round-off. `residual` is scratch.
+pub(super) fn iterate(
+    factor: &mut Fast,
+    system: &System,
+    (top, bottom): (&[f64], &[f64]),
+    (a, lambda): (&mut [f64], &mut [f64]),
+    (r1, r2): (&mut [f64], &mut [f64]),
+    sweeps: usize,
+) {
+    a.fill(0.0);
+    lambda.fill(0.0);
+    let mut last = [f64::INFINITY; 2];
+    for _ in 0..sweeps {
+        r1.copy_from_slice(top);
+        r2.copy_from_slice(bottom);
+        system.residual(a, lambda, r1, r2);
+        factor.solve(r1, r2);
+        let sizes = [largest(r1), largest(r2)];
+        // A correction that does not shrink is round-off.
+        if !(sizes[0] < 0.5 * last[0] || sizes[1] < 0.5 * last[1]) {
+            break;
+        }
+        add(r1, a);
+        add(r2, lambda);
+        let small = 1e-16;
+        if sizes[0] <= small * largest(a) && sizes[1] <= small * largest(lambda) {
+            break;
+        }
+        last = sizes;
     }
 }
 

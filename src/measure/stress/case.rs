@@ -3,12 +3,13 @@
 use super::subject::Typical;
 use crate::simulate::Method;
 use serde_json::Value;
+use std::sync::Arc;
 
 /// What a cell simulates: the scene as text, and how.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// The scene; null for own equations.
-    pub scene: Value,
+    /// The scene, shared with other cases until it is changed; null for own equations.
+    pub scene: Arc<Value>,
     /// Replaced parameters.
     pub set: Vec<(String, f64)>,
     pub method: Method,

@@ -7,6 +7,7 @@ use super::reference::Reference;
 use super::subject::Subject;
 use crate::error::{Error, Result};
 use crate::formulation::Halt;
+use crate::math::memory::at_once;
 use crate::measure::{Record, Recorder};
 use crate::simulate::{Outcome, Stop, simulate};
 use rayon::prelude::*;
@@ -21,6 +22,10 @@ pub struct Limits {
     /// All of them: what has not begun then is left out, and what runs ends.
     pub end: Instant,
 }
+
+/// Memory of a cell, over what the process took at most until now, which has run the subject once: implicit methods take
+/// more.
+const MEMORY: f64 = 2.0;
 
 /// A map with its cells, by method, then row, then column.
 pub struct Stressed {
@@ -41,15 +46,20 @@ pub fn stress(subject: &Subject, map: Map, limits: Limits, progress: &(impl Fn()
     let reference = map.keeps_motion().then(|| Reference::of(subject, 3 * limits.cell)).flatten();
     let (columns, rows) = (map.x.entries.len(), map.y.entries.len());
     let place = |index: usize| [index / (rows * columns), index / columns % rows, index % columns];
-    let mut order: Vec<(usize, Place)> =
-        (0..map.len()).map(|index| (index, Place::of(subject, &map, place(index)))).collect();
-    order.sort_by(|a, b| a.1.cost().total_cmp(&b.1.cost()));
-    let one = |(index, place): (usize, Place)| {
-        let cell = place.cell(subject, limits, reference.as_ref());
+    let mut order: Vec<(usize, f64)> =
+        (0..map.len()).map(|index| (index, Place::of(subject, &map, place(index)).cost())).collect();
+    order.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let one = |(index, _): (usize, f64)| {
+        let cell = Place::of(subject, &map, place(index)).cell(subject, limits, reference.as_ref());
         progress();
         (index, cell)
     };
-    let mut cells: Vec<(usize, Cell)> = order.into_iter().par_bridge().map(one).collect();
+    let all = || order.into_iter().par_bridge().map(one).collect();
+    let threads = at_once(MEMORY).min(rayon::current_num_threads());
+    let mut cells: Vec<(usize, Cell)> = match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+        Ok(pool) => pool.install(all),
+        Err(_) => all(),
+    };
     cells.sort_by_key(|(index, _)| *index);
     Stressed { map, cells: cells.into_iter().map(|(_, cell)| cell).collect() }
 }

@@ -10,6 +10,7 @@ use crate::study::{Overrides, Study};
 use crate::system::{Dimensions, MechanicalSystem};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// A scene or own equations, with what is usual for them.
@@ -41,6 +42,8 @@ pub struct Typical {
 /// Output rows of a cell, and of the run that tells what is typical.
 const ROWS: f64 = 100.0;
 const TYPICAL_ROWS: f64 = 2000.0;
+/// Most numbers that its rows hold.
+const TYPICAL_NUMBERS: f64 = 1e7;
 /// The run that tells what is typical ends here.
 const PATIENCE: Duration = Duration::from_secs(3);
 
@@ -55,7 +58,7 @@ impl Subject<'static> {
         let text = scene::read_text(path)?;
         let json = serde_json::from_str(text.trim_start_matches('\u{feff}')).unwrap_or(Value::Null);
         let base = Case {
-            scene: json,
+            scene: Arc::new(json),
             set: overrides
                 .set
                 .iter()
@@ -92,7 +95,7 @@ impl<'a> Subject<'a> {
             name: name.to_string(),
             dimensions: system.dimensions(),
             base: Case {
-                scene: Value::Null,
+                scene: Arc::new(Value::Null),
                 set: Vec::new(),
                 duration: span.end - span.start,
                 typical: Typical::of(system, &method, span, (q, v))?,
@@ -184,7 +187,9 @@ impl Typical {
         let stop = || (clock.elapsed() > PATIENCE).then(|| Stop::deadline(PATIENCE));
         let mut recorder = Recorder::new(system).with_stop(stop);
         let duration = span.end - span.start;
-        let span = Span { output_step: duration / TYPICAL_ROWS, ..span };
+        let Dimensions { q, v, lambda, .. } = system.dimensions();
+        let rows = (TYPICAL_NUMBERS / (1 + q + v + lambda) as f64).clamp(2.0, TYPICAL_ROWS);
+        let span = Span { output_step: duration / rows, ..span };
         let outcome = simulate(system, method, span, start, &mut recorder)?;
         let trajectory = recorder.finish().trajectory;
         let steps = outcome.statistics.steps.max(1) as f64;

@@ -6,6 +6,7 @@ use super::sample::sample;
 use super::yardstick::{Watched, Yardstick};
 use crate::choice::Choice;
 use crate::error::{Error, Failure, Result, suggest};
+use crate::formulation;
 use crate::integrator;
 use crate::simulate::{Method, Span};
 use rayon::prelude::*;
@@ -136,9 +137,13 @@ fn tightest(line: &[Rung]) -> f64 {
 
 fn climb(motion: &Motion, watched: &Watched, span: Span, names: [&str; 3], allowed: Duration) -> Result<Line> {
     let clock = Instant::now();
-    let [formulation, integrator, projection] = names.map(Choice::named);
-    let triple = Triple { formulation, integrator, projection };
+    let [own, integrator, projection] = names.map(Choice::named);
+    let triple = Triple { formulation: own, integrator, projection };
     let mut line = Vec::new();
+    // Minimal coordinates of large systems do not fit into memory.
+    if formulation::make(&triple.formulation, motion.system).is_err() {
+        return Ok(line);
+    }
     for rtol in LADDER {
         let left = allowed.saturating_sub(clock.elapsed());
         let method = triple.at((rtol, rtol * motion.ratio), None);

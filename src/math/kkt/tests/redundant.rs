@@ -2,6 +2,8 @@
 
 use super::samples::{Random, Sample, distance};
 use super::{agrees_with_lu, reachable, solved};
+use crate::math::kkt::alike::Alike;
+use crate::math::kkt::least::Least;
 use crate::math::kkt::null_space::NullSpace;
 use crate::math::kkt::system::System;
 use crate::math::kkt::{Pattern, SaddlePoint};
@@ -40,7 +42,7 @@ fn the_dense_way_agrees_with_the_pseudo_inverse() {
         let (mut a, mut lambda) = (r1.clone(), r2.clone());
         dense.solve(&system, &mut a, &mut lambda);
         let (a_svd, lambda_svd) = sample.by_svd(&r1, &r2);
-        assert_eq!(dense.rank(), 7);
+        assert_eq!(dense.left_out().len(), copies);
         assert!(distance(&a, &a_svd) < 1e-11, "a {:e}", distance(&a, &a_svd));
         assert!(distance(&lambda, &lambda_svd) < 1e-11, "lambda {:e}", distance(&lambda, &lambda_svd));
     }
@@ -134,4 +136,60 @@ fn the_fast_way_is_given_up_and_tried_again() {
         calls += 1;
     }
     assert!(calls <= 64 && calls > 40, "{calls}");
+}
+
+/// Work is counted in solutions without the redundant rows: it does not grow with their number.
+#[test]
+fn least_multipliers_take_few_solutions_however_many_rows_are_redundant() {
+    let mut random = Random(31);
+    let reduced = Sample::chain(60, &mut random);
+    for count in [10, 40, 110] {
+        let mut sample = reduced.clone();
+        (0..count).for_each(|k| sample.append(&[(k, 1.0), (k + 5, -0.5), (k + 9, 0.25)]));
+        let (n, m) = sample.sizes();
+        let mut system = System::new(&sample.mass, &sample.g);
+        system.store(&sample.mass_values, &sample.g_values);
+        let (_, _, mut solver) = solved(&reduced, &vec![0.0; n], &[0.0; 120]);
+        let (rows, sine): (Vec<usize>, f64) = ((120..m).collect(), solver.smallest_sine());
+        let (mut solutions, mut v) = (0, random.vector(m));
+        let before = v.clone();
+        let mut inverse = |top: &mut [f64], bottom: &mut [f64]| {
+            solutions += 1;
+            solver.solve(top, &mut bottom[..120]).unwrap();
+            bottom[120..].fill(0.0);
+        };
+        Least::new(&sample.g).project(&system, &rows, sine, &mut inverse, &mut v);
+        // N w at first, N^T of what is left, and both again for each of two steps.
+        assert!(solutions <= 6, "{count} rows: {solutions}");
+        // The same force, and nothing along null vectors: e_j less its combination.
+        let force = |v: &[f64]| {
+            let mut force = vec![0.0; n];
+            sample.g.multiply_transposed(&sample.g_values, v, &mut force);
+            force
+        };
+        assert!(distance(&force(&v), &force(&before)) < 1e-11);
+        for k in 0..count {
+            let along = v[120 + k] - v[k] + 0.5 * v[k + 5] - 0.25 * v[k + 9];
+            assert!(along.abs() < 1e-11, "{count} rows: {along:e}");
+        }
+    }
+}
+
+/// Found among themselves, so that no matrix couples each with each.
+#[test]
+fn copies_of_a_joint_share_its_force() {
+    let mut random = Random(32);
+    let reduced = Sample::planar(2, &[(1, 0), (1, 2)], &mut random);
+    let mut sample = reduced.clone();
+    (0..999).for_each(|_| [2, 3].into_iter().for_each(|row| sample.append(&[(row, 1.0)])));
+    let mut alike = Alike::new(&sample.g);
+    assert!(alike.is_crowded && !Alike::new(&reduced.g).is_crowded);
+    assert_eq!(alike.dependent(&sample.g_values, 1e-10), (4..2002).collect::<Vec<usize>>());
+    let (r1, mut r2) = (random.vector(6), random.vector(4));
+    let (a, lambda, _) = solved(&reduced, &r1, &r2);
+    (0..999).for_each(|_| r2.extend([r2[2], r2[3]]));
+    let (a_all, lambda_all, solver) = solved(&sample, &r1, &r2);
+    assert_eq!((solver.rank(), solver.left_out().len()), (4, 1998));
+    let shared: Vec<f64> = (0..2002).map(|k| if k < 2 { lambda[k] } else { lambda[2 + k % 2] / 1000.0 }).collect();
+    assert!(distance(&a_all, &a) < 1e-12 && distance(&lambda_all, &shared) < 1e-12);
 }

@@ -3,6 +3,7 @@
 use super::super::extreme::{Extreme, decades};
 use super::super::json::has;
 use super::stiffness::set;
+use std::sync::Arc;
 
 pub const EXTREME: Extreme = Extreme {
     name: "damping",
@@ -11,5 +12,5 @@ pub const EXTREME: Extreme = Extreme {
     keeps_motion: false,
     suits: |subject| has(&subject.base.scene, "forces", &["damping"]),
     values: |_| decades(-2, 12, 2),
-    apply: |case, value| set(&mut case.scene, "damping", value),
+    apply: |case, value| set(Arc::make_mut(&mut case.scene), "damping", value),
 };

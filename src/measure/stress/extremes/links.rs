@@ -4,6 +4,7 @@ use super::super::extreme::{Extreme, ladder};
 use crate::error::{Error, Result};
 use crate::scene::generate;
 use serde_json::Value;
+use std::sync::Arc;
 
 /// The scene generated again with so many links or loops.
 pub const EXTREME: Extreme = Extreme {
@@ -14,7 +15,7 @@ pub const EXTREME: Extreme = Extreme {
     suits: |subject| kind(&subject.base.scene).is_ok(),
     values: |_| ladder(1.0, 200.0),
     apply: |case, n| {
-        case.scene = kind(&case.scene)?(n.round().max(1.0) as usize);
+        case.scene = Arc::new(kind(&case.scene)?(n.round().max(1.0) as usize));
         Ok(())
     },
 };

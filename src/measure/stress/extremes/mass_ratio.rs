@@ -4,6 +4,7 @@ use super::super::extreme::{Extreme, decades};
 use super::super::json::{elements, has, multiply};
 use crate::error::{Error, Result};
 use serde_json::Value;
+use std::sync::Arc;
 
 /// Mass and inertia of the last body of the list that has a mass, which in chains is the end.
 pub const EXTREME: Extreme = Extreme {
@@ -13,7 +14,7 @@ pub const EXTREME: Extreme = Extreme {
     keeps_motion: false,
     suits: |subject| has(&subject.base.scene, "bodies", &["mass"]),
     values: |_| decades(-8, 8, 2),
-    apply: |case, factor| scale(&mut case.scene, factor),
+    apply: |case, factor| scale(Arc::make_mut(&mut case.scene), factor),
 };
 
 fn scale(scene: &mut Value, factor: f64) -> Result<()> {

@@ -3,6 +3,7 @@
 use super::super::extreme::{Extreme, decades};
 use super::super::json::{elements, faster, has, multiply};
 use serde_json::Value;
+use std::sync::Arc;
 
 /// Velocities of the start and the time of drivers times the factor, and the simulated time divided by it: as much motion
 /// in each case.
@@ -14,7 +15,7 @@ pub const EXTREME: Extreme = Extreme {
     suits: |subject| moves(&subject.base.scene),
     values: |_| decades(-1, 4, 1),
     apply: |case, factor| {
-        quicken(&mut case.scene, factor);
+        quicken(Arc::make_mut(&mut case.scene), factor);
         case.duration /= factor;
         Ok(())
     },

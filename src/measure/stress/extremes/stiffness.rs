@@ -4,6 +4,7 @@ use super::super::extreme::{Extreme, decades};
 use super::super::json::{elements, has, replace};
 use crate::error::{Error, Result};
 use serde_json::Value;
+use std::sync::Arc;
 
 pub const EXTREME: Extreme = Extreme {
     name: "stiffness",
@@ -12,7 +13,7 @@ pub const EXTREME: Extreme = Extreme {
     keeps_motion: false,
     suits: |subject| has(&subject.base.scene, "forces", &["stiffness"]),
     values: |_| decades(-2, 12, 2),
-    apply: |case, value| set(&mut case.scene, "stiffness", value),
+    apply: |case, value| set(Arc::make_mut(&mut case.scene), "stiffness", value),
 };
 
 /// Gives every force that has this coefficient the same.

@@ -1,8 +1,12 @@
 //! Factor and solve: which way is taken, and when another one.
 
+mod findings;
+
+use super::alike::Alike;
 use super::fast::Fast;
+use super::kept::Kept;
 use super::null_space::NullSpace;
-use super::pivot::{COLLAPSED, Rule};
+use super::pivot::{COLLAPSED, DOUBTED, Rule};
 use super::skipping::Skipping;
 use super::system::{System, add};
 use super::{Pattern, Singular};
@@ -19,6 +23,7 @@ const RETRY: u32 = 64;
 enum Way {
     None,
     Fast { refine: bool },
+    Kept,
     Skipping,
     Dense,
 }
@@ -32,10 +37,13 @@ pub struct SaddlePoint {
     m: usize,
     is_shaped: bool,
     system: System,
-    fast: Fast,
+    alike: Alike,
+    /// None where rows always depend on others.
+    fast: Option<Fast>,
     /// Coordinates eliminated behind their multipliers: without mass, or with very many multipliers.
     late: Vec<bool>,
     has_hubs: bool,
+    kept: Option<Box<Kept>>,
     skipping: Option<Box<Skipping>>,
     dense: Option<Box<NullSpace>>,
     way: Way,
@@ -68,15 +76,18 @@ impl SaddlePoint {
         let mut late = vec![true; n];
         mass.entries.iter().filter(|(i, j)| i == j).for_each(|&(i, _)| late[i] = false);
         let has_hubs = mark_hubs(g, &mut late);
+        let alike = Alike::new(g);
         SaddlePoint {
             rank_tolerance: 1e-10,
             n,
             m,
             is_shaped,
             system: System::new(mass, g),
-            fast: Fast::new(mass, g, &late),
+            fast: (!alike.is_crowded).then(|| Fast::new(mass, g, &late)),
+            alike,
             late,
             has_hubs,
+            kept: None,
             skipping: None,
             dense: None,
             way: Way::None,
@@ -97,7 +108,7 @@ impl SaddlePoint {
     /// Factors the matrix with these values. A pivot collapses on the fast way when elimination leaves it less than 1e-11
     /// of its size; below 1e-7 solutions are refined once.
     pub fn factor(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
-        if self.goes_fast(mass, g)? { Ok(()) } else { self.finish_rank_revealing() }
+        if self.goes_fast(mass, g)? || self.drops_rows(None)? { Ok(()) } else { self.finish_rank_revealing() }
     }
 
     /// Whether the fast way could be taken; the values are stored if not, or if solutions need a refinement.
@@ -122,6 +133,9 @@ impl SaddlePoint {
     /// projection; the next projection farther away takes back what the state moved along them.
     pub fn factor_truncated(&mut self, mass: &[f64], g: &[f64], part: f64) -> Result<(), Singular> {
         let is_fast = self.goes_fast(mass, g)?;
+        if !is_fast && self.drops_rows(Some(part))? {
+            return Ok(());
+        }
         let least = part * self.usual_sine;
         let is_regular = is_fast && (self.way == Way::Fast { refine: false } || self.smallest_sine() >= least);
         if is_regular || least * least <= COLLAPSED {
@@ -129,7 +143,7 @@ impl SaddlePoint {
         }
         let System { mass, g, .. } = &self.system;
         let skipping = self.skipping.get_or_insert_with(|| Box::new(Skipping::new(mass, g)));
-        let quality = skipping.factor(&self.system, &self.held, least * least)?;
+        let quality = skipping.factor(&self.system, least * least)?;
         // Coordinates with little mass of their own would look as rows that are nearly dependent do.
         if quality.replaced {
             return if is_fast { Ok(()) } else { self.finish_rank_revealing() };
@@ -138,23 +152,27 @@ impl SaddlePoint {
         Ok(())
     }
 
+    /// Whether there are rows that are held out, or that depend on others over the same coordinates: then the others are
+    /// factored.
+    fn drops_rows(&mut self, part: Option<f64>) -> Result<bool, Singular> {
+        if !self.is_holding {
+            let rows = self.alike.dependent(&self.system.g_values, self.rank_tolerance);
+            if rows.is_empty() {
+                return Ok(false);
+            }
+            self.kept = self.kept.take().filter(|kept| kept.is_without(rows));
+            self.kept.get_or_insert_with(|| Box::new(Kept::new(&self.system, rows)));
+        }
+        let Some(kept) = &mut self.kept else { return Ok(false) };
+        (kept.inner.rank_tolerance, kept.inner.usual_sine) = (self.rank_tolerance, self.usual_sine);
+        kept.factor(&self.system.mass_values, &self.system.g_values, part)?;
+        (self.way, self.is_truncated) = (Way::Kept, kept.inner.is_truncated);
+        Ok(true)
+    }
+
     fn finish_rank_revealing(&mut self) -> Result<(), Singular> {
         self.way = self.factor_rank_revealing()?;
         Ok(())
-    }
-
-    /// Whether the last factorization succeeded.
-    pub fn is_factored(&self) -> bool {
-        self.way != Way::None
-    }
-
-    /// Rows that the last factorization left out as dependent.
-    pub fn left_out(&self) -> &[usize] {
-        match (self.way, &self.skipping, &self.dense) {
-            (Way::Skipping, Some(skipping), _) => skipping.left_out(),
-            (Way::Dense, _, Some(dense)) => dense.left_out(),
-            _ => &[],
-        }
     }
 
     /// Leaves out these rows, and no others, from now on, whatever their pivots. Rows that depend on the others wherever
@@ -162,12 +180,9 @@ impl SaddlePoint {
     pub fn hold(&mut self, rows: &[usize]) {
         self.held.fill(false);
         rows.iter().filter(|row| **row < self.m).for_each(|row| self.held[*row] = true);
-        self.is_holding = !rows.is_empty();
-    }
-
-    /// Whether a row is left out by [`Self::hold`].
-    pub fn is_held(&self, row: usize) -> bool {
-        self.held[row]
+        self.is_holding = self.held.contains(&true);
+        self.kept = self.is_holding.then(|| Box::new(Kept::new(&self.system, rows)));
+        self.way = Way::None;
     }
 
     fn tries_fast(&mut self) -> bool {
@@ -180,7 +195,8 @@ impl SaddlePoint {
 
     fn factor_fast(&mut self, mass: &[f64], g: &[f64]) -> bool {
         loop {
-            match self.fast.factor(mass, g, Rule::STRICT, &mut self.skipped) {
+            let Some(fast) = &mut self.fast else { return false };
+            match fast.factor(mass, g, Rule::STRICT, &mut self.skipped) {
                 Ok(quality) => {
                     if quality.weak {
                         self.system.store(mass, g);
@@ -217,7 +233,7 @@ impl SaddlePoint {
         } else {
             return false;
         }
-        self.fast = Fast::new(&self.system.mass, &self.system.g, &self.late);
+        self.fast = Some(Fast::new(&self.system.mass, &self.system.g, &self.late));
         true
     }
 
@@ -225,11 +241,16 @@ impl SaddlePoint {
         let System { mass, g, .. } = &self.system;
         let total = self.n + self.m;
         let skipping = self.skipping.get_or_insert_with(|| Box::new(Skipping::new(mass, g)));
-        let quality = skipping.factor(&self.system, &self.held, COLLAPSED)?;
-        let is_doubtful = quality.replaced || quality.doubtful;
-        if self.is_holding && !is_doubtful {
-            return Ok(Way::Skipping);
+        let mut quality = skipping.factor(&self.system, COLLAPSED)?;
+        if total > DENSE && quality.doubtful && !quality.replaced {
+            // Round-off in pivots of dependent rows grows with the condition of the others. Null vectors tell them.
+            skipping.factor(&self.system, DOUBTED)?;
+            if skipping.sine(&self.system) < self.rank_tolerance {
+                return Ok(Way::Skipping);
+            }
+            quality = skipping.factor(&self.system, COLLAPSED)?;
         }
+        let is_doubtful = quality.replaced || quality.doubtful;
         // Of a large system it is not asked which nearly dependent rows are so, only whether leaving some out, or giving
         // coordinates a little mass, still gives a solution.
         let is_accepted = if total <= DENSE {
@@ -265,15 +286,17 @@ impl SaddlePoint {
         if top.len() != self.n || bottom.len() != self.m {
             return Err(Singular::Shape);
         }
-        match (self.way, &mut self.skipping, &mut self.dense) {
-            (Way::Fast { refine: false }, ..) => self.fast.solve(top, bottom),
-            (Way::Fast { refine: true }, ..) => {
-                refine(&mut self.fast, (top, bottom), (&mut self.top, &mut self.bottom), |a, lambda, top, bottom| {
-                    self.system.residual(a, lambda, top, bottom)
+        let (system, counts_all) = (&self.system, !self.is_holding);
+        match (self.way, &mut self.fast, &mut self.kept, &mut self.skipping, &mut self.dense) {
+            (Way::Fast { refine: false }, Some(fast), ..) => fast.solve(top, bottom),
+            (Way::Fast { refine: true }, Some(fast), ..) => {
+                refine(fast, (top, bottom), (&mut self.top, &mut self.bottom), |a, lambda, top, bottom| {
+                    system.residual(a, lambda, top, bottom)
                 })
             }
-            (Way::Skipping, Some(skipping), _) => skipping.solve(&self.system, top, bottom, is_least),
-            (Way::Dense, _, Some(dense)) => dense.solve(&self.system, top, bottom),
+            (Way::Kept, _, Some(kept), ..) => kept.solve(system, (top, bottom), counts_all, is_least)?,
+            (Way::Skipping, .., Some(skipping), _) => skipping.solve(system, top, bottom, is_least),
+            (Way::Dense, .., Some(dense)) => dense.solve(system, top, bottom),
             _ => return Err(Singular::NotFactored),
         }
         finite(top, bottom)
@@ -293,7 +316,8 @@ impl SaddlePoint {
             return Err(Singular::Shape);
         }
         let System { mass: m, g: j, .. } = &self.system;
-        refine(&mut self.fast, (top, bottom), (&mut self.top, &mut self.bottom), |a, lambda, top, bottom| {
+        let Some(fast) = &mut self.fast else { return Err(Singular::NotFactored) };
+        refine(fast, (top, bottom), (&mut self.top, &mut self.bottom), |a, lambda, top, bottom| {
             m.subtract_symmetric(mass, a, top);
             j.subtract_transposed(g, lambda, top);
             j.subtract(g, a, bottom);
@@ -312,49 +336,6 @@ impl SaddlePoint {
         let result = self.solve_for(correction, &mut lambda, false);
         self.multipliers = lambda;
         result
-    }
-
-    /// The rank of G: m on the fast way, 0 without a factorization.
-    pub fn rank(&self) -> usize {
-        match (self.way, &self.skipping, &self.dense) {
-            (Way::Fast { .. }, ..) => self.m,
-            (Way::Skipping, Some(skipping), _) => skipping.rank(),
-            (Way::Dense, _, Some(dense)) => dense.rank(),
-            _ => 0,
-        }
-    }
-
-    /// Whether the last factorization needed no rank-revealing one.
-    pub fn is_fast(&self) -> bool {
-        matches!(self.way, Way::Fast { .. })
-    }
-
-    /// Whether rows are dependent, to round-off.
-    pub fn is_rank_deficient(&self) -> bool {
-        self.is_holding || !self.is_truncated && self.rank() < self.m
-    }
-
-    /// The norm of the part of the last right side r2 that no a can meet; zero unless rows are dependent.
-    pub fn inconsistency(&self) -> f64 {
-        match (self.way, &self.skipping, &self.dense) {
-            (Way::Skipping, Some(skipping), _) => skipping.inconsistency(),
-            (Way::Dense, _, Some(dense)) => dense.inconsistency(),
-            _ => 0.0,
-        }
-    }
-
-    /// How near G is to losing rank: about the smallest sine between one of its rows and those before it (metric M^-1),
-    /// rows that are held out left aside; by the smallest pivot over its size before elimination, which is its square. In
-    /// [0, 1], zero where other rows are dependent, and without a factorization.
-    pub fn smallest_sine(&self) -> f64 {
-        let held = self.held.iter().filter(|held| **held).count();
-        let ratio: f64 = match (self.way, &self.skipping, &self.dense) {
-            (Way::Fast { .. }, ..) => self.fast.smallest_ratio(0.0).0,
-            (Way::Skipping, Some(skipping), _) => skipping.smallest_ratio(held),
-            (Way::Dense, _, Some(dense)) if dense.left_out().len() <= held => dense.smallest_ratio(),
-            _ => 0.0,
-        };
-        ratio.max(0.0).sqrt()
     }
 }
 

@@ -1,0 +1,91 @@
+//! Rows of G over the same coordinates: copies of one joint, or more joints between two bodies than these can move.
+
+use super::Pattern;
+use super::system::{add_scaled, dot};
+use std::collections::HashMap;
+
+/// The groups of such rows. Which of a group depend on earlier ones costs rows x coordinates^2 and fills nothing, where a
+/// factorization would couple each with each.
+pub(super) struct Alike {
+    groups: Vec<Group>,
+    /// Whether a group has more rows than coordinates, so that some always depend on others.
+    pub is_crowded: bool,
+    /// Scratch: orthonormal rows, one after the other, and a row.
+    basis: Vec<f64>,
+    row: Vec<f64>,
+    dependent: Vec<usize>,
+}
+
+struct Group {
+    columns: usize,
+    rows: Vec<Row>,
+}
+
+struct Row {
+    number: usize,
+    /// Entries of G, each with the column of the group in which it stands.
+    entries: Vec<(usize, usize)>,
+}
+
+impl Alike {
+    pub fn new(g: &Pattern) -> Self {
+        let mut rows = vec![Vec::new(); g.rows];
+        g.entries.iter().enumerate().for_each(|(entry, (row, column))| rows[*row].push((entry, *column)));
+        let mut places = HashMap::new();
+        let mut groups: Vec<Group> = Vec::new();
+        for (number, mut entries) in rows.into_iter().enumerate() {
+            let mut columns: Vec<usize> = entries.iter().map(|(_, column)| *column).collect();
+            columns.sort_unstable();
+            columns.dedup();
+            entries.iter_mut().for_each(|(_, column)| *column = columns.partition_point(|known| known < column));
+            let width = columns.len();
+            let place = *places.entry(columns).or_insert(groups.len());
+            if place == groups.len() {
+                groups.push(Group { columns: width, rows: Vec::new() });
+            }
+            groups[place].rows.push(Row { number, entries });
+        }
+        groups.retain(|group| group.rows.len() > 1);
+        let most = |size: fn(&Group) -> usize| groups.iter().map(size).max().unwrap_or(0);
+        Alike {
+            is_crowded: groups.iter().any(|group| group.rows.len() > group.columns),
+            basis: Vec::with_capacity(most(|group| group.columns * group.columns.min(group.rows.len()))),
+            row: Vec::with_capacity(most(|group| group.columns)),
+            dependent: Vec::with_capacity(groups.iter().map(|group| group.rows.len()).sum()),
+            groups,
+        }
+    }
+
+    /// Rows, in order, of which, scaled to unit length, less than `tolerance` is left orthogonal to those of their group
+    /// before them.
+    pub fn dependent(&mut self, values: &[f64], tolerance: f64) -> &[usize] {
+        self.dependent.clear();
+        for group in &self.groups {
+            self.basis.clear();
+            for row in &group.rows {
+                self.row.clear();
+                self.row.resize(group.columns, 0.0);
+                row.entries.iter().for_each(|&(entry, column)| self.row[column] += values[entry]);
+                let length = dot(&self.row, &self.row).sqrt();
+                self.row.iter_mut().for_each(|x| *x /= length);
+                let left = orthogonalize(&mut self.row, &self.basis);
+                // Written so that the NaN of a row of zeros is dependent.
+                if left > tolerance && self.basis.len() < group.columns * group.columns {
+                    self.basis.extend(self.row.iter().map(|x| x / left));
+                } else {
+                    self.dependent.push(row.number);
+                }
+            }
+        }
+        self.dependent.sort_unstable();
+        &self.dependent
+    }
+}
+
+/// Takes the part along a basis away, twice for round-off; returns the length of what is left.
+fn orthogonalize(row: &mut [f64], basis: &[f64]) -> f64 {
+    for _ in 0..2 {
+        basis.chunks_exact(row.len().max(1)).for_each(|known| add_scaled(-dot(known, row), known, row));
+    }
+    dot(row, row).sqrt()
+}

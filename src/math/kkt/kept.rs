@@ -1,0 +1,119 @@
+//! The system without some rows of G.
+
+use super::least::Least;
+use super::system::System;
+use super::{Pattern, SaddlePoint, Singular};
+
+/// A solver of its own over the rows that are kept: what is left out costs nothing.
+pub(super) struct Kept {
+    pub inner: SaddlePoint,
+    /// The rows that are kept, and those that are left out at the last factorization.
+    rows: Vec<usize>,
+    dropped: Vec<usize>,
+    left_out: Vec<usize>,
+    /// Places of their entries in the whole G, and their values.
+    entries: Vec<usize>,
+    g: Vec<f64>,
+    bottom: Vec<f64>,
+    least: Least,
+    inconsistency: f64,
+}
+
+impl Kept {
+    pub fn new(system: &System, dropped: &[usize]) -> Self {
+        let mut is_kept = vec![true; system.g.rows];
+        dropped.iter().for_each(|row| is_kept[*row] = false);
+        let rows: Vec<usize> = (0..system.g.rows).filter(|row| is_kept[*row]).collect();
+        let mut number = vec![0; system.g.rows];
+        rows.iter().enumerate().for_each(|(k, row)| number[*row] = k);
+        let entries: Vec<usize> = (0..system.g.entries.len()).filter(|k| is_kept[system.g.entries[*k].0]).collect();
+        let places = entries.iter().map(|k| system.g.entries[*k]).map(|(row, column)| (number[row], column));
+        let g = Pattern { rows: rows.len(), cols: system.g.cols, entries: places.collect() };
+        Kept {
+            inner: SaddlePoint::new(&system.mass, &g),
+            dropped: (0..system.g.rows).filter(|row| !is_kept[*row]).collect(),
+            left_out: Vec::with_capacity(system.g.rows),
+            g: vec![0.0; entries.len()],
+            bottom: vec![0.0; rows.len()],
+            least: Least::new(&system.g),
+            inconsistency: 0.0,
+            entries,
+            rows,
+        }
+    }
+
+    pub fn is_without(&self, rows: &[usize]) -> bool {
+        self.dropped == rows
+    }
+
+    /// Factors with these values of the whole system, truncated below `part` of the usual sine where it is given.
+    pub fn factor(&mut self, mass: &[f64], g: &[f64], part: Option<f64>) -> Result<(), Singular> {
+        self.left_out.clear();
+        self.least.clear();
+        self.g.iter_mut().zip(&self.entries).for_each(|(value, k)| *value = g[*k]);
+        match part {
+            Some(part) => self.inner.factor_truncated(mass, &self.g, part)?,
+            None => self.inner.factor(mass, &self.g)?,
+        }
+        self.left_out.extend_from_slice(&self.dropped);
+        self.left_out.extend(self.inner.left_out().iter().map(|k| self.rows[*k]));
+        Ok(())
+    }
+
+    /// All rows of the whole G that were left out.
+    pub fn left_out(&self) -> &[usize] {
+        &self.left_out
+    }
+
+    /// The norm of the part of the last right side that no motion can meet.
+    pub fn inconsistency(&self) -> f64 {
+        self.inconsistency.max(self.inner.inconsistency())
+    }
+
+    /// Solves in place. Right sides of rows that are left out count, in least squares, where it `counts_all`; multipliers
+    /// are those of least norm where it `is_least`.
+    pub fn solve(
+        &mut self,
+        system: &System,
+        (top, bottom): (&mut [f64], &mut [f64]),
+        counts_all: bool,
+        is_least: bool,
+    ) -> Result<(), Singular> {
+        self.inconsistency = if counts_all { self.project(system, bottom)? } else { 0.0 };
+        solve(&mut self.inner, &self.rows, (top, bottom, &mut self.bottom), is_least)?;
+        if is_least {
+            self.project(system, bottom)?;
+        }
+        Ok(())
+    }
+
+    /// v := P v; returns the norm of what was taken away. Where rows are dependent among the others too, the part in their
+    /// null space stays, orthogonal to what is taken away.
+    fn project(&mut self, system: &System, v: &mut [f64]) -> Result<f64, Singular> {
+        let Kept { inner, rows, dropped, bottom: short, least, .. } = self;
+        let (sine, mut result) = (inner.smallest_sine(), Ok(()));
+        let mut inverse = |top: &mut [f64], bottom: &mut [f64]| {
+            let solved = solve(inner, rows, (top, bottom, short), true);
+            result = result.and(solved);
+        };
+        let norm = least.project(system, dropped, sine, &mut inverse, v);
+        result.map(|()| norm)
+    }
+}
+
+/// Multipliers of rows that are left out come out as zero. `short` is scratch for the others.
+fn solve(
+    inner: &mut SaddlePoint,
+    rows: &[usize],
+    (top, bottom, short): (&mut [f64], &mut [f64], &mut [f64]),
+    is_least: bool,
+) -> Result<(), Singular> {
+    short.iter_mut().zip(rows).for_each(|(value, row)| *value = bottom[*row]);
+    match is_least {
+        true => inner.solve(top, short)?,
+        false => inner.solve_motion(top, short)?,
+    }
+    bottom.fill(0.0);
+    short.iter().zip(rows).for_each(|(value, row)| bottom[*row] = *value);
+    Ok(())
+}

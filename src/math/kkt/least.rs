@@ -1,0 +1,176 @@
+//! The part of multipliers that dependent rows leave open, and of right sides that no motion can meet: null vectors of G^T.
+//!
+//! Every left-out row j gives one: n_j = e_j - c, where G^T c = G_j^T is solved by whatever solves the system without these
+//! rows. N = [n_j], whose part on the left-out rows is the identity, so that N^T N >= I is well conditioned. Then
+//! P = I - N (N^T N)^-1 N^T makes right sides consistent (least squares) and multipliers least in norm. A few null vectors
+//! are made orthonormal once for a factorization; of many, P is applied by conjugate gradients from `Nearly`, which has it
+//! nearly right and is their preconditioner.
+
+use super::Pattern;
+use super::nearly::Nearly;
+use super::system::{System, add, add_scaled, dot};
+
+const MOST_GRADIENTS: usize = 300;
+/// Steps without half the residual after which it is round-off of large null vectors.
+const PATIENCE: usize = 20;
+/// Null vectors that are formed, each for one solution.
+const FEW: usize = 4;
+/// Residual, over the size of what is projected, that is round-off.
+const SMALL: f64 = 1e-14;
+
+/// Solves the system without the left-out rows, whose right sides say nothing and whose multipliers come out as zero.
+pub(super) type Solve<'s> = &'s mut dyn FnMut(&mut [f64], &mut [f64]);
+
+pub(super) struct Least {
+    nearly: Option<Box<Nearly>>,
+    /// Orthonormal null vectors, one after the other, where they are few; and whether these, and `nearly`, belong to the
+    /// last factors.
+    basis: Vec<f64>,
+    is_current: bool,
+    /// Scratch of n and of m numbers.
+    a: Vec<f64>,
+    lambda: Vec<f64>,
+    weights: Vec<f64>,
+    residual: Vec<f64>,
+    direction: Vec<f64>,
+    image: Vec<f64>,
+}
+
+impl Least {
+    pub fn new(g: &Pattern) -> Self {
+        let zeros = || vec![0.0; g.rows];
+        Least {
+            nearly: None,
+            basis: Vec::with_capacity(FEW.min(g.rows) * g.rows),
+            is_current: false,
+            a: vec![0.0; g.cols],
+            lambda: zeros(),
+            weights: zeros(),
+            residual: zeros(),
+            direction: zeros(),
+            image: zeros(),
+        }
+    }
+
+    /// Another matrix.
+    pub fn clear(&mut self) {
+        self.is_current = false;
+    }
+
+    /// v := P v; returns the norm of what was taken away. `sine`: see `Nearly`.
+    pub fn project(&mut self, system: &System, rows: &[usize], sine: f64, solve: Solve, v: &mut [f64]) -> f64 {
+        match rows.len() {
+            0 => 0.0,
+            1..=FEW => self.project_directly(system, rows, solve, v),
+            _ => self.project_by_gradients(system, rows, sine, solve, v),
+        }
+    }
+
+    fn project_directly(&mut self, system: &System, rows: &[usize], solve: Solve, v: &mut [f64]) -> f64 {
+        if !self.is_current {
+            self.span(system, rows, solve);
+        }
+        let mut square = 0.0;
+        for null in self.basis.chunks_exact(v.len()) {
+            let part = dot(null, v);
+            add_scaled(-part, null, v);
+            square += part * part;
+        }
+        square.sqrt()
+    }
+
+    /// The basis, by Gram-Schmidt done twice.
+    fn span(&mut self, system: &System, rows: &[usize], solve: Solve) {
+        self.basis.clear();
+        for row in rows {
+            self.direction.fill(0.0);
+            self.direction[*row] = 1.0;
+            self.null(system, solve);
+            for _ in 0..2 {
+                for done in self.basis.chunks_exact(self.image.len()) {
+                    add_scaled(-dot(done, &self.image), done, &mut self.image);
+                }
+                let length = dot(&self.image, &self.image).sqrt();
+                self.image.iter_mut().for_each(|x| *x /= length);
+            }
+            self.basis.extend_from_slice(&self.image);
+        }
+        self.is_current = true;
+    }
+
+    /// With residual = N^T (v - N w): `nearly` gives w to begin with.
+    fn project_by_gradients(&mut self, system: &System, rows: &[usize], sine: f64, solve: Solve, v: &mut [f64]) -> f64 {
+        let nearly = self.nearly.get_or_insert_with(|| Box::new(Nearly::new(system)));
+        if !self.is_current {
+            nearly.factor(system, sine);
+            self.is_current = true;
+        }
+        self.residual.copy_from_slice(v);
+        nearly.null_part(&mut self.residual);
+        keep(rows, &self.residual, &mut self.direction);
+        self.null(system, solve);
+        self.weights.copy_from_slice(&self.image);
+        let tolerance = SMALL * dot(v, v).max(dot(&self.weights, &self.weights)).sqrt();
+        self.residual.copy_from_slice(v);
+        add_scaled(-1.0, &self.weights, &mut self.residual);
+        self.null_transposed(system, rows, solve);
+        let (mut product, mut least, mut waited) = (0.0, f64::INFINITY, 0);
+        self.direction.fill(0.0);
+        for _ in 0..MOST_GRADIENTS {
+            let size = dot(&self.residual, &self.residual).sqrt();
+            (least, waited) = if size < 0.5 * least { (size, 0) } else { (least, waited + 1) };
+            if waited > PATIENCE || size <= tolerance || size.is_nan() {
+                break;
+            }
+            let next = self.turn(rows, product);
+            // image = N p, and p^T N^T N p = |N p|^2.
+            self.null(system, solve);
+            let step = next / dot(&self.image, &self.image);
+            add_scaled(step, &self.image, &mut self.weights);
+            // r = N^T (v - N w) afresh would cost as much as this update.
+            std::mem::swap(&mut self.residual, &mut self.image);
+            self.null_transposed(system, rows, solve);
+            std::mem::swap(&mut self.residual, &mut self.image);
+            add_scaled(-step, &self.image, &mut self.residual);
+            product = next;
+        }
+        add_scaled(-1.0, &self.weights, v);
+        dot(&self.weights, &self.weights).sqrt()
+    }
+
+    /// The next direction; returns the residual times what the preconditioner makes of it. `last` is that of the last one.
+    fn turn(&mut self, rows: &[usize], last: f64) -> f64 {
+        self.image.copy_from_slice(&self.residual);
+        self.nearly.iter_mut().for_each(|nearly| nearly.null_part(&mut self.image));
+        let next = dot(&self.residual, &self.image);
+        let ratio = if last > 0.0 { next / last } else { 0.0 };
+        keep(rows, &self.image, &mut self.lambda);
+        self.direction.iter_mut().zip(&self.lambda).for_each(|(p, z)| *p = z + ratio * *p);
+        next
+    }
+
+    /// image = N direction, where `direction` is zero but on the left-out rows.
+    fn null(&mut self, system: &System, solve: Solve) {
+        self.a.fill(0.0);
+        system.g.subtract_transposed(&system.g_values, &self.direction, &mut self.a);
+        self.image.fill(0.0);
+        solve(&mut self.a, &mut self.image);
+        add(&self.direction, &mut self.image);
+    }
+
+    /// residual := N^T residual, standing on the left-out rows.
+    fn null_transposed(&mut self, system: &System, rows: &[usize], solve: Solve) {
+        self.a.fill(0.0);
+        self.lambda.copy_from_slice(&self.residual);
+        solve(&mut self.a, &mut self.lambda);
+        self.lambda.copy_from_slice(&self.residual);
+        system.g.subtract(&system.g_values, &self.a, &mut self.lambda);
+        keep(rows, &self.lambda, &mut self.residual);
+    }
+}
+
+/// `to` := `from` on these rows, zero on the others.
+fn keep(rows: &[usize], from: &[f64], to: &mut [f64]) {
+    to.fill(0.0);
+    rows.iter().for_each(|row| to[*row] = from[*row]);
+}

@@ -1,0 +1,87 @@
+//! Nearly the part of a vector in the null space of G^T, by one sparse factorization, however many rows are dependent.
+//!
+//! With D = diag M and a small delta
+//!
+//! ```text
+//! [I    G       ] [nu]   [v]
+//! [G^T  -delta D] [y ] = [0]
+//! ```
+//!
+//! nu is delta/(delta + sigma^2) times what v has along an eigenvector of G D^-1 G^T with eigenvalue sigma^2: all of what
+//! lies in the null space, and of the rest the less the smaller delta is. The system has the form of that of the motion, with
+//! the multipliers for coordinates and, for delta D, a coordinate more in each row, and is factored in the same way.
+
+use super::Pattern;
+use super::fast::Fast;
+use super::pivot::Rule;
+use super::system::System;
+
+/// delta over the square of the smallest sine of the independent rows, and how often the system is solved: what is left of
+/// the rest is the one to the power of the other.
+const DELTA: f64 = 1e-8;
+const TIMES: usize = 2;
+/// Least delta, of rows of unit length in the metric of D^-1, beside round-off.
+const LEAST: f64 = 1e-13;
+
+pub(super) struct Nearly {
+    factor: Fast,
+    /// 1 for the multipliers, 1 / (delta D) for the coordinates beside them.
+    mass: Vec<f64>,
+    /// G^T, then the identity.
+    g: Vec<f64>,
+    skipped: Vec<usize>,
+    diagonal: Vec<f64>,
+    lengths: Vec<f64>,
+    top: Vec<f64>,
+    bottom: Vec<f64>,
+}
+
+impl Nearly {
+    pub fn new(system: &System) -> Self {
+        let Pattern { rows: m, cols: n, entries } = &system.g;
+        let beside = (0..*n).map(|i| (i, m + i));
+        let entries: Vec<_> = entries.iter().map(|&(row, column)| (column, row)).chain(beside).collect();
+        let mut g = vec![1.0; entries.len()];
+        g[..system.g_values.len()].fill(0.0);
+        let (mass, transposed) = (Pattern::diagonal(m + n), Pattern { rows: *n, cols: m + n, entries });
+        Nearly {
+            factor: Fast::new(&mass, &transposed, &vec![false; m + n]),
+            mass: vec![1.0; m + n],
+            g,
+            skipped: Vec::with_capacity(*n),
+            diagonal: vec![0.0; *n],
+            lengths: vec![0.0; *m],
+            top: vec![0.0; m + n],
+            bottom: vec![0.0; *n],
+        }
+    }
+
+    /// With the values of the system; `sine` is the smallest of the independent rows of G.
+    pub fn factor(&mut self, system: &System, sine: f64) {
+        let Nearly { factor, mass, g, skipped, diagonal, lengths, .. } = self;
+        diagonal.fill(0.0);
+        system.mass.add_diagonal(&system.mass_values, diagonal);
+        let largest = diagonal.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        // Coordinates without mass move as those with the most do.
+        diagonal.iter_mut().filter(|d| **d <= 0.0).for_each(|d| *d = largest);
+        lengths.fill(0.0);
+        let entries = system.g.entries.iter().zip(&system.g_values);
+        entries.for_each(|((row, column), value)| lengths[*row] += value * value / diagonal[*column]);
+        let delta = (DELTA * sine * sine).max(LEAST) * lengths.iter().copied().fold(0.0, f64::max);
+        mass[lengths.len()..].iter_mut().zip(&*diagonal).for_each(|(beside, d)| *beside = 1.0 / (delta * d));
+        g[..system.g_values.len()].copy_from_slice(&system.g_values);
+        // Pivots of coordinates that no row holds are as small as delta, and none is zero but by round-off.
+        let _ = factor.factor(mass, g, Rule::lenient(f64::MIN_POSITIVE, mass), skipped);
+    }
+
+    /// v := nu.
+    pub fn null_part(&mut self, v: &mut [f64]) {
+        for _ in 0..TIMES {
+            self.top.fill(0.0);
+            self.top[..v.len()].copy_from_slice(v);
+            self.bottom.fill(0.0);
+            self.factor.solve(&mut self.top, &mut self.bottom);
+            v.copy_from_slice(&self.top[..v.len()]);
+        }
+    }
+}

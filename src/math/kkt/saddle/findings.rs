@@ -1,0 +1,67 @@
+//! What the last factorization says.
+
+use super::{SaddlePoint, Way};
+
+impl SaddlePoint {
+    /// Whether the last factorization succeeded.
+    pub fn is_factored(&self) -> bool {
+        self.way != Way::None
+    }
+
+    /// Rows that the last factorization left out as dependent.
+    pub fn left_out(&self) -> &[usize] {
+        match (self.way, &self.kept, &self.skipping, &self.dense) {
+            (Way::Kept, Some(kept), ..) => kept.left_out(),
+            (Way::Skipping, _, Some(skipping), _) => skipping.left_out(),
+            (Way::Dense, .., Some(dense)) => dense.left_out(),
+            _ => &[],
+        }
+    }
+
+    /// Whether a row is left out by [`Self::hold`].
+    pub fn is_held(&self, row: usize) -> bool {
+        self.held[row]
+    }
+
+    /// The rank of G: m on the fast way, 0 without a factorization.
+    pub fn rank(&self) -> usize {
+        match self.way {
+            Way::None => 0,
+            _ => self.m - self.left_out().len(),
+        }
+    }
+
+    /// Whether the last factorization needed no rank-revealing one.
+    pub fn is_fast(&self) -> bool {
+        matches!(self.way, Way::Fast { .. })
+    }
+
+    /// Whether rows are dependent, to round-off.
+    pub fn is_rank_deficient(&self) -> bool {
+        self.is_holding || !self.is_truncated && self.rank() < self.m
+    }
+
+    /// The norm of the part of the last right side r2 that no a can meet; zero unless rows are dependent.
+    pub fn inconsistency(&self) -> f64 {
+        match (self.way, &self.kept, &self.skipping, &self.dense) {
+            (Way::Kept, Some(kept), ..) => kept.inconsistency(),
+            (Way::Skipping, _, Some(skipping), _) => skipping.inconsistency(),
+            (Way::Dense, .., Some(dense)) => dense.inconsistency(),
+            _ => 0.0,
+        }
+    }
+
+    /// How near G is to losing rank: about the smallest sine between one of its rows and those before it (metric M^-1),
+    /// rows that are held out left aside; by the smallest pivot over its size before elimination, which is its square. In
+    /// [0, 1], zero where other rows are dependent, and without a factorization.
+    pub fn smallest_sine(&self) -> f64 {
+        let ratio: f64 = match (self.way, &self.fast, &self.kept, &self.skipping, &self.dense) {
+            (Way::Fast { .. }, Some(fast), ..) => fast.smallest_ratio(0.0).0,
+            (Way::Kept, _, Some(kept), ..) if self.is_holding => return kept.inner.smallest_sine(),
+            (Way::Skipping, .., Some(skipping), _) => skipping.smallest_ratio(),
+            (Way::Dense, .., Some(dense)) if dense.left_out().is_empty() => dense.smallest_ratio(),
+            _ => 0.0,
+        };
+        ratio.max(0.0).sqrt()
+    }
+}
