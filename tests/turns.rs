@@ -49,6 +49,33 @@ fn torsion_springs_wind_up_beyond_half_a_turn() {
     assert!(motion.worst("speed", |t| 3.5 * t.cos()) < 1e-7);
 }
 
+/// Angles that outputs watch are counted beside the motion: its steps are those of the scene without them, bit by bit.
+#[test]
+fn watched_angles_leave_the_motion_as_it_is() {
+    let governor = std::fs::read_to_string(scenes::model("flyball_governor")).unwrap();
+    let mut scene: serde_json::Value = serde_json::from_str(&governor).unwrap();
+    let watched = parse(&scene.to_string());
+    scene["outputs"].as_array_mut().unwrap().retain(|output| output["measure"] != "angle");
+    let alone = parse(&scene.to_string());
+    for method in [
+        adaptive("ggl", "radau_iia", "none", 1e-8),
+        adaptive("index1", "dopri5", "manifold", 1e-6),
+        adaptive("index1", "dop853", "none", 1e-6),
+        adaptive("index2", "phem56", "none", 1e-6),
+        adaptive("index3", "generalized_alpha", "none", 1e-4),
+        fixed("index1", "radau_iia", "none", 1e-3),
+    ] {
+        let runs = [&watched, &alone].map(|ready| ready.run(&method, until(0.1)));
+        let [watched, alone] = runs.each_ref().map(|run| {
+            let trajectory = &run.record.trajectory;
+            trajectory.row_state(trajectory.rows.last().unwrap())
+        });
+        let name = &method.integrator.name;
+        assert_eq!(runs[0].outcome.statistics.steps, runs[1].outcome.statistics.steps, "{name}");
+        assert_eq!((&watched.0[..alone.0.len()], watched.1), (alone.0, alone.1), "{name}");
+    }
+}
+
 /// 1000 rad in steps of up to half a turn, and rows 100 rad apart.
 #[test]
 fn turns_are_counted_over_steps_not_over_rows() {

@@ -91,11 +91,10 @@ impl Explicit {
     }
 
     fn error(&self, tolerance: &Tolerance, from: &[f64], to: &[f64], h: f64) -> Option<f64> {
-        let n = from.len() - 1;
+        let last = from.len() - 1;
         let sum = |weights: &[f64], i: usize| weights.iter().zip(&self.k).map(|(e, k)| e * k[i]).sum::<f64>();
-        let square = |weights: &[f64]| {
-            (0..n).map(|i| (h * sum(weights, i) / tolerance.weight(from[i], to[i])).powi(2)).sum::<f64>()
-        };
+        let square = |weights: &[f64]| tolerance.squares(last, from, to, |i| h * sum(weights, i));
+        let n = tolerance.tested(last);
         match &self.tableau.error {
             ErrorEstimate::None => None,
             ErrorEstimate::Embedded(weights) => Some((square(weights) / n as f64).sqrt()),

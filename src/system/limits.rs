@@ -91,12 +91,12 @@ impl<const D: usize> Mechanism<D> {
 
     /// By which the second marker is turned against the first.
     fn angle_between(&self, ends: [MarkerId; 2], q: &[f64]) -> f64 {
-        // Where they are does not depend on how fast they move.
-        let [a, b] = ends.map(|marker| self.undeformed(marker, q, q).map(|x| x.x));
+        // How they stand does not depend on how fast they move.
+        let [a, b] = ends.map(|marker| self.carried(marker, q, q));
         if D == 2 {
-            return (b.turn - a.turn).abs();
+            return (b.turn() - a.turn()).abs();
         }
-        let trace: f64 = a.axes.iter().zip(&b.axes).map(|(a, b)| dot(a, b)).sum();
+        let trace: f64 = (0..D).map(|i| dot(&a.axis(i), &b.axis(i))).sum();
         (0.5 * (trace - 1.0)).clamp(-1.0, 1.0).acos()
     }
 }

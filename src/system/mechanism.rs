@@ -237,11 +237,15 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
+        self.own_rate(q, v, qdot);
+        self.turning_rates(q, v, qdot);
+    }
+
+    fn own_rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
         for part in &self.model.bodies {
             let rates = &mut qdot[part.first_q..part.first_q + part.nq];
             part.body.rate(of(q, part, true), of(v, part, false), rates);
         }
-        self.turning_rates(q, v, qdot);
     }
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {

@@ -122,9 +122,19 @@ pub trait MechanicalSystem: Send + Sync {
         0
     }
 
+    /// The coordinates but for those.
+    fn own<'q>(&self, q: &'q [f64]) -> &'q [f64] {
+        &q[..q.len() - self.turning_angles()]
+    }
+
     /// q' = N(q) v. Default: N = I.
     fn rate(&self, _q: &[f64], v: &[f64], qdot: &mut [f64]) {
         qdot.copy_from_slice(v);
+    }
+
+    /// The same without the rates of turning angles, which are left as they are.
+    fn own_rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
+        self.rate(q, v, qdot);
     }
 
     /// mass += s^2 times the stiffness of bodies against their own deformation, at the places of M: assembly then closes
