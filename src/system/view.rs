@@ -127,12 +127,18 @@ pub(super) fn gathered<T: Copy, R>(
     item: impl Fn(MarkerId) -> T,
     see: impl FnOnce(&[T]) -> R,
 ) -> R {
-    match *markers {
+    mapped(markers, |marker| item(*marker), see)
+}
+
+/// The same of anything that there is of each marker.
+#[inline]
+pub(super) fn mapped<S, T: Copy, R>(all: &[S], item: impl Fn(&S) -> T, see: impl FnOnce(&[T]) -> R) -> R {
+    match all {
         [a] => see(&[item(a)]),
         [a, b] => see(&[item(a), item(b)]),
         _ => {
-            let many: [T; MOST_MARKERS] = from_fn(|i| item(markers[i.min(markers.len() - 1)]));
-            see(&many[..markers.len()])
+            let many: [T; MOST_MARKERS] = from_fn(|i| item(&all[i.min(all.len() - 1)]));
+            see(&many[..all.len()])
         }
     }
 }
