@@ -114,6 +114,35 @@ fn bodies_with_one_axis_stay_within_reach_of_rattle() {
     assert!(motion.worst("r.rz", |t| 3.5 * t.sin()) < 1e-4);
 }
 
+/// A driver takes what it drives through five revolutions, there and back, in steps of any kind, and outputs count them.
+#[test]
+fn drivers_prescribe_several_revolutions() {
+    let driven = parse(
+        r#"{ "name": "driven", "dimension": 3, "ground": { "markers": { "O": [0, 0, 0] } },
+        "bodies": [{ "name": "r", "type": "rigid", "mass": 1, "inertia": [1, 2, 3], "markers": { "A": [0.3, 0.1, 0] } }],
+        "joints": [{ "name": "O", "type": "revolute", "between": ["ground.O", "r.A"] },
+                   { "name": "drive", "type": "driver", "between": ["ground.O", "r.A"], "coordinate": "angle",
+                     "value": "5*pi*(1 - cos(t))" }],
+        "outputs": [{ "name": "angle", "measure": "angle", "of": "r.A" }],
+        "simulation": { "t_end": 6 } }"#,
+    );
+    let value = |t: f64| 5.0 * std::f64::consts::PI * (1.0 - t.cos());
+    for (method, tolerance) in [
+        (adaptive("index1", "dop853", "manifold", 1e-9), 1e-9),
+        (adaptive("index1", "dopri5", "none", 1e-8), 1e-5),
+        (adaptive("ggl", "radau_iia", "none", 1e-9), 1e-9),
+        (adaptive("index1", "bdf", "none", 1e-8), 1e-4),
+        (adaptive("index2", "phem56", "none", 1e-8), 1e-5),
+        (fixed("index3", "generalized_alpha", "none", 0.01), 1e-9),
+        // Up to 2.9 rad a step.
+        (fixed("index3", "radau_iia", "none", 0.2), 1e-9),
+    ] {
+        let motion = driven.run(&method, Span { start: 0.0, end: 6.0, output_step: 3.0 });
+        let error = motion.worst("angle", value);
+        assert!(error < tolerance, "{}: {error:e}", method.integrator.name);
+    }
+}
+
 /// Without a projection the mesh drifts by more than half a tooth, 2 pi/400 here, and does not jump to the next gap.
 #[test]
 fn gears_keep_their_gap_however_far_drift_goes() {

@@ -1,6 +1,6 @@
 //! How a body stands and turns: what angles need of its motion, without the places of its markers.
 
-use super::{Frame, Marker, unit_axes};
+use super::{Frame, Marker};
 use crate::math::Taylor;
 use crate::math::rotation::axes_from_quaternion;
 use std::array::from_fn;
@@ -17,10 +17,6 @@ pub struct Attitude<const D: usize> {
 }
 
 impl<const D: usize> Attitude<D> {
-    pub fn ground() -> Self {
-        Attitude { axes: unit_axes(), turn: 0.0, spin: [0.0; 3] }
-    }
-
     /// In space, of a quaternion and the angular velocity in the body's own axes.
     #[inline]
     pub fn of_quaternion(p: &[f64], w: &[f64]) -> Self {
@@ -37,9 +33,9 @@ impl<const D: usize> From<&Frame<Taylor<f64>, D>> for Attitude<D> {
     }
 }
 
-/// A marker as its body's own frame carries it.
+/// A marker as its body's own frame carries it, or the ground.
 pub struct Carried<'a, const D: usize> {
-    pub body: Attitude<D>,
+    pub body: Option<Attitude<D>>,
     pub marker: &'a Marker<D>,
 }
 
@@ -47,12 +43,23 @@ impl<const D: usize> Carried<'_, D> {
     /// Its i-th axis in the world.
     #[inline]
     pub fn axis(&self, i: usize) -> [f64; D] {
-        let (axes, parts) = (&self.body.axes, &self.marker.axes[i]);
-        from_fn(|k| (0..D).map(|j| axes[j][k] * parts[j]).sum())
+        let own = self.marker.axes[i];
+        let Some(Attitude { axes, .. }) = &self.body else { return own };
+        let mut axis = axes[0].map(|x| x * own[0]);
+        for j in 1..D {
+            (0..D).for_each(|k| axis[k] += axes[j][k] * own[j]);
+        }
+        axis
+    }
+
+    /// Its angular velocity in the world, rad/s.
+    #[inline]
+    pub fn spin(&self) -> [f64; 3] {
+        self.body.map_or([0.0; 3], |body| body.spin)
     }
 
     /// rad, in the plane.
     pub fn turn(&self) -> f64 {
-        self.body.turn + self.marker.turn
+        self.body.map_or(0.0, |body| body.turn) + self.marker.turn
     }
 }

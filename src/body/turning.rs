@@ -40,13 +40,14 @@ impl Turned {
         let (x, e) = (of.axis(0), [to.axis(0), to.axis(1)]);
         let [c, s] = [dot(&e[0], &x), dot(&e[1], &x)];
         let across: [f64; D] = from_fn(|i| c * e[1][i] - s * e[0][i]);
-        let spin = sub(&of.body.spin, &to.body.spin);
+        let spin = sub(&of.spin(), &to.spin());
         [c, s, dot(&spin, &cross(&x, &across)) / (c * c + s * s).max(STEEP * STEEP)]
     }
 }
 
 impl Turning {
     /// Its rate, rad/s, but for steep axes.
+    #[inline]
     pub fn rate<'m, const D: usize>(&self, marker: impl Fn(MarkerId) -> Carried<'m, D>) -> f64 {
         self.terms.iter().map(|term| term.factor * term.at(&marker)[2]).sum()
     }
@@ -56,7 +57,7 @@ impl Turning {
         let mut sum = 0.0;
         for term in &self.terms {
             let [c, s, _] = term.at(&marker);
-            if c.hypot(s) < UPRIGHT {
+            if c * c + s * s < UPRIGHT * UPRIGHT {
                 return before;
             }
             sum += term.factor * s.atan2(c);

@@ -333,6 +333,7 @@ impl<'a> Run<'a> {
         [&mut self.problem, &mut self.rows.problem].into_iter().for_each(|p| p.dynamics.kkt.usual_sine = usual);
         let tolerated = self.fixed.is_none().then(|| self.tolerated_energy());
         let state = observation(self.t, &self.y, &self.problem, sine, &mut self.phi_ddot);
-        sink.accepted(&Observation { tolerated, ..state });
+        let apart = self.fixed.map(|step| step * self.integrator.spacing());
+        sink.accepted(&Observation { tolerated, apart, ..state });
     }
 }

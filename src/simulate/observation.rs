@@ -36,6 +36,8 @@ pub struct Observation<'a> {
     pub work: f64,
     /// The change of energy that the tolerated errors of this step make, J; none for fixed steps and rows.
     pub tolerated: Option<f64>,
+    /// The longest time between evaluations of the equations in a fixed step, s; none for others.
+    pub apart: Option<f64>,
     /// The smallest sine between a row of G and those before it (metric M^-1), zero at a singular state; `None` where the
     /// method does not factor the saddle-point matrix there.
     pub sine: Option<f64>,

@@ -12,6 +12,8 @@ use std::f64::consts::PI;
 pub enum Theory {
     /// Displacements in a floating frame are small beside the length: they enter the elastic forces linearly.
     SmallDisplacements,
+    /// What a bushing turns by in space is small beside a radian.
+    SmallRotations,
     /// The ends of an element turn against each other by less than half a turn in space, a full one in the plane.
     Helix { dimension: usize },
 }
@@ -30,6 +32,8 @@ impl Theory {
     pub fn most(self) -> f64 {
         match self {
             Theory::SmallDisplacements => 0.1,
+            // Where the sine is 4 % less than the angle.
+            Theory::SmallRotations => 0.5,
             // From half a turn on another turn would do as well; the states that are looked at may be a bit apart.
             Theory::Helix { dimension: 2 } => 1.5 * PI,
             Theory::Helix { .. } => 0.75 * PI,
@@ -50,19 +54,22 @@ const POINTS: usize = 8;
 
 /// The parts of a model with a limit, and where they are looked at.
 pub(super) fn limits<const D: usize>(model: &Model<D>) -> (Vec<Limited>, Vec<Extent<D>>) {
-    let bodies = model.bodies.iter().filter_map(|part| Some((part.name.clone(), bending(part)?)));
+    let small = Theory::SmallDisplacements;
+    let bodies = model.bodies.iter().filter_map(|part| Some((part.name.clone(), small, bending(part)?)));
+    let helix = Theory::Helix { dimension: D };
     let lines = model.beams.iter().map(|beam| {
         let ends = model.forces[beam.forces()].iter().map(|element| [element.markers[0], element.markers[1]]);
-        (beam.name.clone(), Extent::Ends(ends.collect()))
+        (beam.name.clone(), helix, Extent::Ends(ends.collect()))
     });
-    let massless = model.given_forces().iter().filter(|force| force.kind == "beam");
-    let massless = massless.map(|beam| (beam.name.clone(), Extent::Ends(vec![[beam.markers[0], beam.markers[1]]])));
-    let theory = |extent: &Extent<D>| match extent {
-        Extent::Points { .. } => Theory::SmallDisplacements,
-        Extent::Ends(_) => Theory::Helix { dimension: D },
-    };
-    let all = bodies.chain(lines).chain(massless);
-    all.map(|(part, extent)| (Limited { part, theory: theory(&extent) }, extent)).unzip()
+    let forces = model.given_forces().iter().filter_map(|force| {
+        let theory = match force.kind {
+            "beam" => helix,
+            _ if force.element.takes_small_rotations() => Theory::SmallRotations,
+            _ => return None,
+        };
+        Some((force.name.clone(), theory, Extent::Ends(vec![[force.markers[0], force.markers[1]]])))
+    });
+    bodies.chain(lines).chain(forces).map(|(part, theory, extent)| (Limited { part, theory }, extent)).unzip()
 }
 
 /// Of a body with elastic coordinates, the last ones.

@@ -5,12 +5,13 @@ use super::levi_civita::LeviCivita;
 use super::limits::{Extent, limits};
 use super::output_tangent::{OutputTangent, Slopes};
 use super::rows::{PlacedJoint, Rows};
+use super::scale::{length_scale, row_scales};
 use super::support::Support;
 use super::tangent::{Evaluation, Loaded, Tangent};
 use super::variation::Varied;
 use super::view::{Plain, gathered};
 use super::{Column, Dimensions, Energy, Group, Limited, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
-use crate::body::{Frame, MOST_MARKERS, Wrench, cross, norm};
+use crate::body::{Frame, MOST_MARKERS, Wrench, cross};
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
 use crate::math::{Rate, Regime, Taylor, Time};
@@ -136,7 +137,7 @@ impl<const D: usize> Mechanism<D> {
             terms.power += action.potential.d;
             for (wrench, &marker) in wrenches.iter().zip(&force.markers) {
                 let frame = &work.motion[marker];
-                terms.power += power(frame, wrench);
+                terms.power += wrench.power(frame);
                 if let Some(part) = self.model.carrier(marker) {
                     let (index, support) = (marker - part.first_marker, &self.supports[marker]);
                     let frame = frame.map(|x| x.x);
@@ -187,23 +188,6 @@ pub(super) fn with_frames<R, const D: usize>(
     see: impl FnOnce(&[Frame<Taylor<f64>, D>]) -> R,
 ) -> R {
     gathered(markers, |marker| all[marker], see)
-}
-
-/// Power of a wrench at a moving frame, W.
-fn power<const D: usize>(frame: &Frame<Taylor<f64>, D>, wrench: &Wrench<f64, D>) -> f64 {
-    let force: f64 = frame.r.iter().zip(wrench.force).map(|(r, f)| r.d * f).sum();
-    match wrench.torque == [0.0; 3] {
-        true => force,
-        false => force + frame.angular_velocity().iter().zip(wrench.torque).map(|(w, m)| w * m).sum::<f64>(),
-    }
-}
-
-/// A length typical of the scene, m: the largest distance of a marker from its body's origin; where all lie there, of
-/// the ground's markers; else the extent of the start, if that is below 1.
-fn length_scale<const D: usize>(model: &Model<D>) -> f64 {
-    let bodies = model.bodies.iter().map(|part| part.body.reach()).fold(0.0, f64::max);
-    let ground = model.ground.iter().map(|marker| norm(&marker.offset)).fold(0.0, f64::max);
-    [bodies, ground, model.extent.min(1.0)].into_iter().find(|length| *length > 0.0).unwrap_or(1.0)
 }
 
 impl<const D: usize> MechanicalSystem for Mechanism<D> {
@@ -391,12 +375,19 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         out.iter_mut().zip(&self.extents).for_each(|(out, extent)| *out = self.deformation(extent, q));
     }
 
+    fn turning_bodies(&self) -> Vec<String> {
+        self.oriented_bodies().map(|part| part.name.clone()).collect()
+    }
+
+    fn spins(&self, q: &[f64], v: &[f64], out: &mut [f64]) {
+        self.write_spins(q, v, out);
+    }
+
     fn length(&self) -> f64 {
         self.length
     }
 
     fn scales(&self) -> Vec<f64> {
-        let rows = self.model.joints.iter().flat_map(|joint| joint.element.row_names());
-        rows.map(|row| if matches!(row, "x" | "y" | "z" | "length") { self.length } else { 1.0 }).collect()
+        row_scales(&self.model, self.length)
     }
 }

@@ -13,6 +13,7 @@ mod mechanism;
 mod output;
 mod output_tangent;
 mod rows;
+mod scale;
 mod support;
 mod tangent;
 mod terms;
@@ -196,6 +197,14 @@ pub trait MechanicalSystem: Send + Sync {
 
     /// Writes how far each of them is deformed, in the unit of its limit.
     fn deformations(&self, _q: &[f64], _out: &mut [f64]) {}
+
+    /// Names of the bodies that turn. Default: none.
+    fn turning_bodies(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Writes the size of the angular velocity of each of them, rad/s.
+    fn spins(&self, _q: &[f64], _v: &[f64], _out: &mut [f64]) {}
 
     /// A length typical of the mechanism, m. Default: 1.
     fn length(&self) -> f64 {

@@ -1,7 +1,8 @@
 //! The angles in space that q carries beside the coordinates of the bodies.
 
 use super::mechanism::{Mechanism, of};
-use crate::body::{Attitude, Carried, MarkerId};
+use crate::body::{Carried, MarkerId, norm};
+use crate::scene::Part;
 
 impl<const D: usize> Mechanism<D> {
     /// Those of q.
@@ -31,14 +32,26 @@ impl<const D: usize> Mechanism<D> {
         }
     }
 
+    /// All but point masses.
+    pub(super) fn oriented_bodies(&self) -> impl Iterator<Item = &Part<D>> {
+        self.model().bodies.iter().filter(|part| part.body.oriented())
+    }
+
+    /// Writes the size of the angular velocity of each of them, rad/s.
+    pub(super) fn write_spins(&self, q: &[f64], v: &[f64], out: &mut [f64]) {
+        for (out, part) in out.iter_mut().zip(self.oriented_bodies()) {
+            *out = norm(&part.body.attitude(of(q, part, true), of(v, part, false)).spin);
+        }
+    }
+
     /// A marker as its body's own frame carries it.
     #[inline]
     pub(super) fn carried(&self, marker: MarkerId, q: &[f64], v: &[f64]) -> Carried<'_, D> {
         let model = self.model();
         match model.carrier(marker) {
-            None => Carried { body: Attitude::ground(), marker: &model.ground[marker] },
+            None => Carried { body: None, marker: &model.ground[marker] },
             Some(part) => Carried {
-                body: part.body.attitude(of(q, part, true), of(v, part, false)),
+                body: Some(part.body.attitude(of(q, part, true), of(v, part, false))),
                 marker: part.body.marker(marker - part.first_marker),
             },
         }

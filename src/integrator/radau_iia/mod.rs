@@ -7,6 +7,7 @@ mod order;
 mod stages;
 mod velocity;
 
+use super::explicit::widest_gap;
 use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tolerance, With, collapsed};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
@@ -280,6 +281,10 @@ impl Integrator for RadauIIA {
             velocity::slope(problem, from.t + h, to, &mut self.slope)?;
         }
         Ok(Some(error))
+    }
+
+    fn spacing(&self) -> f64 {
+        widest_gap(&self.order.method().nodes).0
     }
 
     fn restart(&mut self) {
