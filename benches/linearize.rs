@@ -161,7 +161,8 @@ fn chains() {
         let study = hanging(links);
         let (q, v) = study.start();
         let rest = at_rest(&study, &State { t: 0.0, q: q.to_vec(), v: v.to_vec() });
-        let mut variation = rest.and_then(|rest| rest.variation(&study)).unwrap_or_else(|error| panic!("{error}"));
+        let mut variation =
+            rest.and_then(|rest| rest.state.variation(&study)).unwrap_or_else(|error| panic!("{error}"));
         let few = || Complex::new(0.0, 0.0);
         let mut found: Option<LinearModel> = None;
         let time =

@@ -49,6 +49,33 @@ fn torsion_springs_wind_up_beyond_half_a_turn() {
     assert!(motion.worst("speed", |t| 3.5 * t.cos()) < 1e-7);
 }
 
+/// Angles that outputs watch are counted beside the motion: its steps are those of the scene without them, bit by bit.
+#[test]
+fn watched_angles_leave_the_motion_as_it_is() {
+    let governor = std::fs::read_to_string(scenes::model("flyball_governor")).unwrap();
+    let mut scene: serde_json::Value = serde_json::from_str(&governor).unwrap();
+    let watched = parse(&scene.to_string());
+    scene["outputs"].as_array_mut().unwrap().retain(|output| output["measure"] != "angle");
+    let alone = parse(&scene.to_string());
+    for method in [
+        adaptive("ggl", "radau_iia", "none", 1e-8),
+        adaptive("index1", "dopri5", "manifold", 1e-6),
+        adaptive("index1", "dop853", "none", 1e-6),
+        adaptive("index2", "phem56", "none", 1e-6),
+        adaptive("index3", "generalized_alpha", "none", 1e-4),
+        fixed("index1", "radau_iia", "none", 1e-3),
+    ] {
+        let runs = [&watched, &alone].map(|ready| ready.run(&method, until(0.1)));
+        let [watched, alone] = runs.each_ref().map(|run| {
+            let trajectory = &run.record.trajectory;
+            trajectory.row_state(trajectory.rows.last().unwrap())
+        });
+        let name = &method.integrator.name;
+        assert_eq!(runs[0].outcome.statistics.steps, runs[1].outcome.statistics.steps, "{name}");
+        assert_eq!((&watched.0[..alone.0.len()], watched.1), (alone.0, alone.1), "{name}");
+    }
+}
+
 /// 1000 rad in steps of up to half a turn, and rows 100 rad apart.
 #[test]
 fn turns_are_counted_over_steps_not_over_rows() {
@@ -85,6 +112,35 @@ fn bodies_with_one_axis_stay_within_reach_of_rattle() {
     let motion = guided.run(&fixed("index3", "rattle", "none", 1e-3), until(4.0));
     assert!(motion.worst("angle", |t| 3.5 * t.sin()) < 1e-4);
     assert!(motion.worst("r.rz", |t| 3.5 * t.sin()) < 1e-4);
+}
+
+/// A driver takes what it drives through five revolutions, there and back, in steps of any kind, and outputs count them.
+#[test]
+fn drivers_prescribe_several_revolutions() {
+    let driven = parse(
+        r#"{ "name": "driven", "dimension": 3, "ground": { "markers": { "O": [0, 0, 0] } },
+        "bodies": [{ "name": "r", "type": "rigid", "mass": 1, "inertia": [1, 2, 3], "markers": { "A": [0.3, 0.1, 0] } }],
+        "joints": [{ "name": "O", "type": "revolute", "between": ["ground.O", "r.A"] },
+                   { "name": "drive", "type": "driver", "between": ["ground.O", "r.A"], "coordinate": "angle",
+                     "value": "5*pi*(1 - cos(t))" }],
+        "outputs": [{ "name": "angle", "measure": "angle", "of": "r.A" }],
+        "simulation": { "t_end": 6 } }"#,
+    );
+    let value = |t: f64| 5.0 * std::f64::consts::PI * (1.0 - t.cos());
+    for (method, tolerance) in [
+        (adaptive("index1", "dop853", "manifold", 1e-9), 1e-9),
+        (adaptive("index1", "dopri5", "none", 1e-8), 1e-5),
+        (adaptive("ggl", "radau_iia", "none", 1e-9), 1e-9),
+        (adaptive("index1", "bdf", "none", 1e-8), 1e-4),
+        (adaptive("index2", "phem56", "none", 1e-8), 1e-5),
+        (fixed("index3", "generalized_alpha", "none", 0.01), 1e-9),
+        // Up to 2.9 rad a step.
+        (fixed("index3", "radau_iia", "none", 0.2), 1e-9),
+    ] {
+        let motion = driven.run(&method, Span { start: 0.0, end: 6.0, output_step: 3.0 });
+        let error = motion.worst("angle", value);
+        assert!(error < tolerance, "{}: {error:e}", method.integrator.name);
+    }
 }
 
 /// Without a projection the mesh drifts by more than half a tooth, 2 pi/400 here, and does not jump to the next gap.

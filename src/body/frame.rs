@@ -154,6 +154,17 @@ impl<S: Scalar, const D: usize> Wrench<S, D> {
     }
 }
 
+impl<const D: usize> Wrench<f64, D> {
+    /// Its power at a moving frame, W.
+    pub fn power(&self, frame: &Frame<Taylor<f64>, D>) -> f64 {
+        let force: f64 = frame.r.iter().zip(self.force).map(|(r, f)| r.d * f).sum();
+        match self.torque == [0.0; 3] {
+            true => force,
+            false => force + dot(&frame.angular_velocity(), &self.torque),
+        }
+    }
+}
+
 pub fn unit_axes<S: Scalar, const D: usize>() -> [[S; D]; D] {
     from_fn(|i| from_fn(|j| if i == j { S::one() } else { S::zero() }))
 }

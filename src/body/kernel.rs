@@ -1,7 +1,7 @@
 //! Bodies of a few coordinates, all of which move all of their markers: the model's view of every [`BodyKernel`].
 
 use super::flexible::PointShape;
-use super::{Bent, Body, BodyKernel, BodyOver, BodyState, Energy, Frame, Marker, Slope, Wrench, dot};
+use super::{Attitude, Bent, Body, BodyKernel, BodyOver, BodyState, Energy, Frame, Marker, Slope, Wrench, dot};
 use crate::math::{Scalar, Taylor};
 
 /// More coordinates than this no [`BodyKernel`] has.
@@ -29,6 +29,7 @@ impl<K: BodyKernel<D>, S: Scalar, const D: usize> BodyOver<S, D> for K {
 }
 
 /// q with q' = N(q) v and q'' = (N(q') - N(0)) v + N(q) v', from N's being affine in q.
+#[inline]
 pub(super) fn coordinate_path<S: Scalar>(
     rate: impl Fn(&[S], &[S], &mut [S]),
     (q, v, vdot): (&[S], &[S], Option<&[S]>),
@@ -111,6 +112,9 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
     }
     fn turning(&self) -> Option<usize> {
         BodyKernel::turning(self)
+    }
+    fn attitude(&self, q: &[f64], v: &[f64]) -> Attitude<D> {
+        BodyKernel::attitude(self, q, v)
     }
     fn has_constant_mass(&self) -> bool {
         true

@@ -5,6 +5,7 @@
 //!
 //! To add one: a file with a [`BodySpec`] and a [`BodyKernel`], and a line in [`registry`].
 
+mod attitude;
 mod build;
 pub mod flexible;
 pub mod floating;
@@ -19,6 +20,7 @@ mod rigid_planar;
 mod rigid_spatial;
 mod turning;
 
+pub use attitude::{Attitude, Carried};
 pub use build::{Build, MarkerId, MarkerTable, Switches};
 pub use frame::{Frame, Marker, Wrench, cross, dot, in_space, norm, scale, sub, twist_len, unit_axes};
 pub use parse::{parse, parse_among, show};
@@ -79,6 +81,16 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
     /// See [`Body::turning`]. Default: none, for N = I.
     fn turning(&self) -> Option<usize> {
         None
+    }
+
+    /// See [`Body::attitude`].
+    fn attitude(&self, q: &[f64], v: &[f64]) -> Attitude<D>
+    where
+        Self: Sized,
+    {
+        let mut own = [Frame::world()];
+        self.motion(q, v, None, &mut own);
+        (&own[0]).into()
     }
 
     /// f += weight and velocity-dependent inertia forces.
@@ -146,6 +158,8 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Slope, D> + Send + S
     fn oriented(&self) -> bool;
     /// The first of three velocities that are an angular velocity in the body's own axes; none where N = I.
     fn turning(&self) -> Option<usize>;
+    /// How its own frame stands and turns.
+    fn attitude(&self, q: &[f64], v: &[f64]) -> Attitude<D>;
     /// Whether M does not depend on q.
     fn has_constant_mass(&self) -> bool;
     /// Largest distance of a marker from the origin of the coordinates, m.

@@ -4,8 +4,9 @@
 //! rotation: a = sum_i z_i atan2(s_i, c_i), s_i = e_y . b_x and c_i = e_x . b_x, brought back to what the quaternions say at
 //! every accepted state. Between those a' is integrated, which tells the turn however far a step goes.
 
-use super::{Frame, MarkerId, dot};
-use crate::math::{Regime, Taylor};
+use super::{Carried, MarkerId, cross, dot, sub};
+use crate::math::Regime;
+use std::array::from_fn;
 
 /// z times the angle of marker `of` about the z axis of marker `to`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,29 +33,31 @@ const UPRIGHT: f64 = 1e-6;
 const STEEP: f64 = 0.2;
 
 impl Turned {
-    /// c and s.
-    fn parts<const D: usize>(&self, frame: impl Fn(MarkerId) -> Frame<Taylor<f64>, D>) -> [Taylor<f64>; 2] {
-        let (of, to) = (frame(self.of), frame(self.to));
-        [0, 1].map(|axis| dot(&to.axes[axis], &of.axes[0]))
+    /// c, s and the rate of the angle, rad/s, but for steep axes: (w_b - w_e) . b_x x (c e_y - s e_x)/(c^2 + s^2).
+    #[inline]
+    fn at<'m, const D: usize>(&self, marker: impl Fn(MarkerId) -> Carried<'m, D>) -> [f64; 3] {
+        let (of, to) = (marker(self.of), marker(self.to));
+        let (x, e) = (of.axis(0), [to.axis(0), to.axis(1)]);
+        let [c, s] = [dot(&e[0], &x), dot(&e[1], &x)];
+        let across: [f64; D] = from_fn(|i| c * e[1][i] - s * e[0][i]);
+        let spin = sub(&of.spin(), &to.spin());
+        [c, s, dot(&spin, &cross(&x, &across)) / (c * c + s * s).max(STEEP * STEEP)]
     }
 }
 
 impl Turning {
-    /// Its rate (c s' - s c')/(c^2 + s^2), rad/s, but for steep axes.
-    pub fn rate<const D: usize>(&self, frame: impl Fn(MarkerId) -> Frame<Taylor<f64>, D>) -> f64 {
-        let rate = |term: &Turned| {
-            let [c, s] = term.parts(&frame);
-            (c.x * s.d - s.x * c.d) / (c.x * c.x + s.x * s.x).max(STEEP * STEEP)
-        };
-        self.terms.iter().map(|term| term.factor * rate(term)).sum()
+    /// Its rate, rad/s, but for steep axes.
+    #[inline]
+    pub fn rate<'m, const D: usize>(&self, marker: impl Fn(MarkerId) -> Carried<'m, D>) -> f64 {
+        self.terms.iter().map(|term| term.factor * term.at(&marker)[2]).sum()
     }
 
     /// The angle next to `before`, or that itself where there is none.
-    pub fn next_to<const D: usize>(&self, before: f64, frame: impl Fn(MarkerId) -> Frame<Taylor<f64>, D>) -> f64 {
+    pub fn next_to<'m, const D: usize>(&self, before: f64, marker: impl Fn(MarkerId) -> Carried<'m, D>) -> f64 {
         let mut sum = 0.0;
         for term in &self.terms {
-            let [c, s] = term.parts(&frame).map(|x| x.x);
-            if c.hypot(s) < UPRIGHT {
+            let [c, s, _] = term.at(&marker);
+            if c * c + s * s < UPRIGHT * UPRIGHT {
                 return before;
             }
             sum += term.factor * s.atan2(c);

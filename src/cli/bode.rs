@@ -53,7 +53,7 @@ struct Chosen {
 pub fn run(args: Args) -> Result<ExitCode> {
     let in_file = |error: Error| error.in_file(&args.scene.path);
     let request = args.model.request()?;
-    let study = args.run.load_tight(&args.scene)?;
+    let study = args.run.load_tight(&args.scene, &args.talk)?;
     let (inputs, outputs) = (study.system().inputs(), study.system().columns());
     let chosen = Chosen {
         inputs: choose("input", &args.inputs, &inputs).map_err(in_file)?,

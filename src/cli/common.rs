@@ -41,11 +41,14 @@ pub struct SceneOptions {
     pub set: Vec<(String, Number)>,
 }
 
+/// Heads the options that change the scene's settings.
+const OWN: &str = "In the place of the scene's own settings";
+
 /// Leaves the method to the program.
 #[derive(Args)]
 pub struct AutoOption {
     /// auto: formulation, integrator and projection by the stiffness of the start
-    #[arg(long, value_name = "auto", value_parser = automatic,
+    #[arg(long, help_heading = OWN, value_name = "auto", value_parser = automatic,
           conflicts_with_all = ["formulation", "integrator", "projection", "step"])]
     pub method: Option<Automatic>,
 }
@@ -54,28 +57,28 @@ pub struct AutoOption {
 #[derive(Args)]
 pub struct MethodOptions {
     /// Formulation, such as index1 or baumgarte:alpha=5,beta=5
-    #[arg(long, value_parser = choice)]
+    #[arg(long, help_heading = OWN, value_parser = choice)]
     pub formulation: Option<Choice>,
     /// Integrator, such as dop853
-    #[arg(long, value_parser = choice)]
+    #[arg(long, help_heading = OWN, value_parser = choice)]
     pub integrator: Option<Choice>,
     /// Projection after each step, such as manifold:sweeps=2
-    #[arg(long, value_parser = choice)]
+    #[arg(long, help_heading = OWN, value_parser = choice)]
     pub projection: Option<Choice>,
     /// Relative tolerance
-    #[arg(long, value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, help_heading = OWN, value_parser = positive, allow_negative_numbers = true)]
     pub rtol: Option<f64>,
     /// Absolute tolerance
-    #[arg(long, value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, help_heading = OWN, value_parser = positive, allow_negative_numbers = true)]
     pub atol: Option<f64>,
     /// Fixed step, s
-    #[arg(long, value_name = "H", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, help_heading = OWN, value_name = "H", value_parser = positive, allow_negative_numbers = true)]
     pub step: Option<f64>,
     /// End time, s
-    #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, help_heading = OWN, value_name = "T", value_parser = number, allow_negative_numbers = true)]
     pub until: Option<f64>,
     /// Distance of the rows of the trajectory, s
-    #[arg(long, value_name = "DT", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, help_heading = OWN, value_name = "DT", value_parser = positive, allow_negative_numbers = true)]
     pub output_step: Option<f64>,
 }
 
@@ -85,7 +88,7 @@ pub struct Talk {
     /// Print the result as JSON on standard output, and nothing else there
     #[arg(long)]
     pub json: bool,
-    /// Print nothing but errors
+    /// Print nothing but errors, and JSON where that is asked for
     #[arg(long)]
     pub quiet: bool,
 }
@@ -150,11 +153,9 @@ pub fn assignment(text: &str) -> Result<(String, Number), String> {
 }
 
 impl Common {
-    /// The scene with its method; what is doubtful about its start is said.
+    /// The scene with its method.
     pub fn load(&self) -> Result<Study> {
-        let study = self.method.load(&self.scene, self.choice.method)?;
-        self.talk.warn(&study.doubts);
-        Ok(study)
+        self.talk.load(&self.scene.path, &self.method.overrides(&self.scene, self.choice.method))
     }
 
     /// When to simulate, with as many rows as fit into memory.
@@ -169,12 +170,7 @@ impl Common {
 }
 
 impl MethodOptions {
-    /// The scene with these settings; `method` where it is left to the program.
-    pub fn load(&self, scene: &SceneOptions, method: Option<Automatic>) -> Result<Study> {
-        Study::load(&scene.path, &self.overrides(scene, method))
-    }
-
-    /// What these settings change of a scene's own.
+    /// What these settings change of a scene's own; `method` where it is left to the program.
     pub fn overrides(&self, scene: &SceneOptions, method: Option<Automatic>) -> Overrides {
         let MethodOptions { rtol, atol, step, until, output_step, .. } = *self;
         let [formulation, integrator, projection] =
@@ -185,6 +181,13 @@ impl MethodOptions {
 }
 
 impl Talk {
+    /// The scene; what is doubtful about its start is said.
+    pub fn load(&self, path: &Path, overrides: &Overrides) -> Result<Study> {
+        let study = Study::load(path, overrides)?;
+        self.warn(&study.doubts);
+        Ok(study)
+    }
+
     /// Prints the result: JSON where asked, else text unless quiet.
     pub fn print(&self, json: &impl serde::Serialize, text: impl FnOnce() -> String) -> Result<()> {
         match (self.json, self.quiet) {

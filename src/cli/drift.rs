@@ -1,9 +1,10 @@
 //! `holonom drift SCENE`
 
-use super::common::{Common, Output, print};
+use super::common::{Common, MethodOptions, Output, print};
 use super::interrupt;
 use crate::error::{Error, Failure, Result, clock};
 use crate::formulation::Choice;
+use crate::integrator;
 use crate::measure::{Drift, EnergyBalance, Record, Recorder, Singularity};
 use crate::plot::{AxisSpec, Figure, Panel, Series};
 use crate::report::{Folder, Table, cell, envelope, table};
@@ -15,6 +16,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 #[derive(clap::Args)]
+#[command(mut_arg("formulation", |arg| arg.hide(true)), mut_arg("projection", |arg| arg.hide(true)))]
 pub struct Args {
     #[command(flatten)]
     common: Common,
@@ -42,7 +44,8 @@ struct Row {
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
-    let study = args.common.load()?;
+    refuse_stabilization(&args.common.method)?;
+    let study = load(&args.common)?;
     args.common.span(&study)?;
     let first = compared(&study, 1.0)?;
     let mut folder = args.output.folder(&study.name)?;
@@ -74,6 +77,30 @@ pub fn run(args: Args) -> Result<ExitCode> {
         Some(failure) => Err(failure.clone().into()),
         None => Ok(ExitCode::SUCCESS),
     }
+}
+
+/// All of them are compared.
+fn refuse_stabilization(method: &MethodOptions) -> Result<()> {
+    let given = [("--formulation", &method.formulation), ("--projection", &method.projection)];
+    match given.into_iter().find(|(_, choice)| choice.is_some()) {
+        None => Ok(()),
+        Some((option, _)) => {
+            Err(Error::input("`drift` compares every formulation and projection that the integrator goes with")
+                .under(option)
+                .hint("leave it out; `simulate` runs one of them, and writes its drift.csv"))
+        }
+    }
+}
+
+/// The scene; with an integrator of the command line on the first formulation that goes with it, since all do not depend on
+/// the scene's own.
+fn load(common: &Common) -> Result<Study> {
+    let mut overrides = common.method.overrides(&common.scene, common.choice.method);
+    if let Some(entry) = overrides.integrator.as_ref().and_then(|choice| integrator::find(choice).ok()) {
+        overrides.formulation = entry.accepts.first().map(|name| Choice::named(name));
+        overrides.projection = Some(Choice::named("none"));
+    }
+    common.talk.load(&common.scene.path, &overrides)
 }
 
 /// One stabilization that fails is a result; all of them, or one that was interrupted, are a failed run.
@@ -144,6 +171,7 @@ fn one(study: &Study, formulation: &Choice, projection: &Choice, folder: &Folder
     record.trajectory.rows.iter_mut().for_each(|row| *row = vec![row[0]]);
     Ok(Row {
         method: match (formulation.name.as_str(), projection.name.as_str()) {
+            ("index1", "none") => formulation.to_string(),
             ("index1", _) => projection.to_string(),
             (_, "none") => formulation.to_string(),
             _ => format!("{formulation} + {projection}"),

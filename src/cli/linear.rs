@@ -62,9 +62,10 @@ impl ModelOptions {
 
 impl MethodOptions {
     /// The scene with these settings, its states computed to what a linear model needs.
-    pub fn load_tight(&self, scene: &SceneOptions) -> Result<Study> {
-        let mut study = self.load(scene, None)?;
-        tighten(&mut study, &self.overrides(scene, None));
+    pub fn load_tight(&self, scene: &SceneOptions, talk: &Talk) -> Result<Study> {
+        let overrides = self.overrides(scene, None);
+        let mut study = talk.load(&scene.path, &overrides)?;
+        tighten(&mut study, &overrides);
         Ok(study)
     }
 }

@@ -41,17 +41,19 @@ pub struct Args {
 
 pub fn run(args: Args) -> Result<ExitCode> {
     let in_file = |error: Error| error.in_file(&args.scene.path);
-    let study = args.run.load_tight(&args.scene)?;
+    let study = args.run.load_tight(&args.scene, &args.talk)?;
     let requests = requests(&args).map_err(|error| error.under("--method"))?;
     let places = args.states.states(&study, &args.talk).map_err(in_file)?;
     let mut folder = args.output.folder(&study.name)?;
-    let mut results = Vec::new();
+    let (mut results, mut uncertain) = (Vec::new(), Vec::new());
     for state in &places {
         let mut variation = state.variation().map_err(in_file)?;
         let models = models(&args, &requests, &mut variation).map_err(in_file)?;
+        uncertain.extend(models.iter().filter(|model| model.has_uncertain_kinds()).map(|model| model.method.clone()));
         results.push(report(&args, &study, &models, &mut folder)?);
     }
     let written = folder.finish()?;
+    args.talk.warn(&report::uncertain_kinds(uncertain.iter().map(String::as_str)));
     match (args.talk.json, results.as_slice()) {
         (true, [one]) => args.talk.print(one, String::new)?,
         (true, all) => args.talk.print(&all, String::new)?,

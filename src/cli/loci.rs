@@ -3,8 +3,9 @@
 use super::common::{MethodOptions, Output, SceneOptions, Talk, number, positive, print, tell};
 use super::linear::ModelOptions;
 use crate::error::{Error, Result, short};
-use crate::linearize::{At, Loci, Request, Variants, loci_along, loci_over, refuse_large};
+use crate::linearize::{At, Kind, Loci, Request, Variants, loci_along, loci_over, refuse_large};
 use crate::report::linear::{LociFile, LociSummary, frequency_figure, loci_figure, loci_table};
+use crate::report::uncertain_kinds;
 use crate::study::Study;
 use crate::sweep::{Family, Range};
 use std::process::ExitCode;
@@ -51,7 +52,7 @@ fn range(text: &str) -> Result<Range, String> {
 pub fn run(args: Args) -> Result<ExitCode> {
     let in_file = |error: Error| error.in_file(&args.scene.path);
     let request = args.model.request()?;
-    let study = args.run.load_tight(&args.scene)?;
+    let study = args.run.load_tight(&args.scene, &args.talk)?;
     refuse_large(study.system().dimensions().v).map_err(in_file)?;
     let mut folder = args.output.folder(&study.name)?;
     let loci = match &args.sweep {
@@ -72,6 +73,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
     args.output.figure(&mut folder, "loci_modes", frequency_figure(&title, summary.axis(), &loci.branches))?;
     folder.write_json("loci.json", &LociFile::new(summary.clone(), &loci))?;
     let written = folder.finish()?;
+    let uncertain = loci.branches.iter().filter(|branch| branch.kind == Kind::Uncertain);
+    args.talk.warn(&uncertain_kinds(uncertain.map(|_| loci.method.as_str())));
     args.talk.print(&summary, || summary.text())?;
     if !args.talk.json && !args.talk.quiet {
         print(&format!("\nwritten to {}\n", written.listing()))?;

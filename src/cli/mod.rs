@@ -41,8 +41,8 @@ enum Command {
     Simulate(simulate::Args),
     /// The same scene under every stabilization: drift against time, one table, one figure
     ///
-    /// By the integrator of the scene or of the command line: every stabilization of index 1 for explicit ones; for implicit
-    /// ones all formulations and projections that they go with.
+    /// By the integrator of the scene or of the command line: every stabilization of index 1 for those that take vector fields,
+    /// and all other formulations and projections that it goes with. So --formulation and --projection are refused.
     Drift(drift::Args),
     /// Speed for accuracy: what every method costs for the digits it gives, and which to choose
     ///

@@ -38,13 +38,15 @@ pub struct Args {
     /// Frames a second
     #[arg(long, default_value_t = 25.0, requires = "animate", value_parser = rate)]
     fps: f64,
-    /// Seconds of the scene in a second of the animation (default: 1 where that takes 2 to 20 s)
+    /// Seconds of the scene in a second of the animation (default: 1 where that takes 2 to 20 s, else what takes 4 to
+    /// 10 s)
     #[arg(long, value_name = "FACTOR", requires = "animate", value_parser = positive, allow_negative_numbers = true)]
     speed: Option<f64>,
     /// Markers whose paths are drawn, or none (default: those whose positions are outputs)
     #[arg(long, value_name = "BODY.MARKER[,...]", value_delimiter = ',')]
     trace: Vec<String>,
     /// From where a spatial scene is seen: iso, xy, xz, yz, front, side, top or azimuth=DEG,elevation=DEG
+    /// (default: iso)
     #[arg(long)]
     view: Option<String>,
     /// Write the names of the bodies beside them

@@ -112,6 +112,7 @@ fn scenes(path: &Path) -> Result<Vec<PathBuf>> {
 fn prepare(args: &Args, path: &Path) -> Result<(Subject<'static>, Vec<Map>)> {
     let scene = SceneOptions { path: path.to_path_buf(), set: args.set.clone() };
     let subject = Subject::load(path, &args.method.overrides(&scene, None))?;
+    args.talk.warn(&subject.doubts);
     let quantity = args.show.as_ref().map(|name| quantity(name)).transpose()?;
     let axis = |text: &str, option: &str| Axis::parse(text, &subject).map_err(|error| error.under(option));
     let mut maps = match (&args.x, &args.y) {

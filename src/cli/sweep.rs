@@ -38,6 +38,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let known = family.outputs()?;
     known_output(&known, &args.outputs).map_err(|error| error.under("--outputs"))?;
     known_output(&known, args.against.as_slice()).map_err(|error| error.under("--against"))?;
+    args.talk.warn(&family.doubts());
     let bar = args.talk.progress(args.range.count as u64, &args.range.parameter);
     let sweep = family.sweep(&args.range, |done| bar.set_position(done as u64))?;
     bar.finish_and_clear();

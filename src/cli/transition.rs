@@ -38,7 +38,7 @@ const SLACK: f64 = 1e-5;
 
 pub fn run(args: Args) -> Result<ExitCode> {
     let in_file = |error: Error| error.in_file(&args.scene.path);
-    let study = args.run.load_tight(&args.scene)?;
+    let study = args.run.load_tight(&args.scene, &args.talk)?;
     let places = args.states.states(&study, &args.talk).map_err(in_file)?;
     let mut folder = args.output.folder(&study.name)?;
     let mut results = Vec::new();

@@ -35,7 +35,7 @@ pub struct Args {
 
 pub fn run(args: Args) -> Result<ExitCode> {
     let in_file = |error: Error| error.in_file(&args.scene.path);
-    let study = args.run.load_tight(&args.scene)?;
+    let study = args.run.load_tight(&args.scene, &args.talk)?;
     let default = Settings::default();
     let directions = match args.along.as_slice() {
         [] => default.directions,

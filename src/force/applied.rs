@@ -1,10 +1,10 @@
 //! Applied force and torque: expressions of time, of marker quantities and of named outputs.
 
-use super::{Action, Built, ForceKernel, ForceSpec};
-use crate::body::{Build, Frame, MOST_MARKERS, MarkerId, Probe, Signal, Wrench, cross, norm};
+use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion};
+use crate::body::{Build, MOST_MARKERS, MarkerId, Probe, Signal, Wrench, cross, norm};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
-use crate::math::{Rate, Scalar, Taylor, Time};
+use crate::math::{Rate, Scalar, Time};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -138,12 +138,12 @@ struct Applied {
 }
 
 impl Applied {
-    fn read<S: Scalar, const D: usize>(&self, probe: &Probe, frames: &[Frame<Taylor<S>, D>]) -> S {
+    fn read<S: Scalar, const D: usize>(&self, probe: &Probe, frames: &Motion<S, D>) -> S {
         let place = self.markers.iter().position(|&known| known == probe.marker);
         probe.read(&frames[place.unwrap_or(0)])
     }
 
-    fn components<S: Scalar, const D: usize>(&self, frames: &[Frame<Taylor<S>, D>], time: Time<S>) -> [S; 3] {
+    fn components<S: Scalar, const D: usize>(&self, frames: &Motion<S, D>, time: Time<S>) -> [S; 3] {
         let value = |signal: &Signal| signal.evaluate(time, |probe| self.read(probe, frames));
         match self.signals.as_slice() {
             [torque] => [S::zero(), S::zero(), value(torque)],
@@ -153,16 +153,11 @@ impl Applied {
 }
 
 impl<const D: usize> ForceKernel<D> for Applied {
-    fn act<S: Scalar>(
-        &self,
-        frames: &[Frame<Taylor<S>, D>],
-        time: Time<Taylor<S>>,
-        out: &mut [Wrench<S, D>],
-    ) -> Action<S> {
+    fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
         self.driven(&[S::zero(); 3], frames, time, out)
     }
 
-    fn switching(&self, frames: &[Frame<Taylor<Rate>, D>], time: Time<Taylor<Rate>>, out: &mut [Rate]) {
+    fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
         for signal in &self.signals {
             signal.switching(time.map(|t| t.x), |probe| self.read(probe, frames), out);
         }
@@ -171,8 +166,8 @@ impl<const D: usize> ForceKernel<D> for Applied {
     fn driven<S: Scalar>(
         &self,
         input: &[S; 3],
-        frames: &[Frame<Taylor<S>, D>],
-        time: Time<Taylor<S>>,
+        frames: &Motion<S, D>,
+        time: Instant<S>,
         out: &mut [Wrench<S, D>],
     ) -> Action<S> {
         let own = self.components(frames, time.map(|t| t.x));

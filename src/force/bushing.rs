@@ -1,20 +1,18 @@
 //! Bushing: springs and dampers along and about all axes.
 
-use super::{Action, Built, ForceKernel, ForceSpec};
-use crate::body::{
-    Build, Frame, Wrench, cross, dot, norm, scale, small_rotation, small_rotation_torque, sub, twist_len,
-};
+use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion};
+use crate::body::{Build, Wrench, cross, dot, norm, scale, small_rotation, small_rotation_torque, sub, twist_len};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
-use crate::math::{Scalar, Taylor, Time};
+use crate::math::{Scalar, Taylor};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::array::from_fn;
 
 /// Linear stiffness and damping against displacement and rotation of the second marker, in the axes of the first: 3
 /// numbers (x, y, angle) in the plane, 6 (x, y, z, rx, ry, rz) in space. Rotations in space are meant to be small: the
-/// rotation vector is that of the skew part of the relative rotation, and the torque is minus the gradient of the energy
-/// stored in it.
+/// rotation vector is that of the skew part of the relative rotation, of the length of its sine, and the torque is minus the
+/// gradient of the energy stored in it. Runs in which it turns farther are warned of.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Bushing {
@@ -65,12 +63,11 @@ impl Cushion {
 }
 
 impl<const D: usize> ForceKernel<D> for Cushion {
-    fn act<S: Scalar>(
-        &self,
-        frames: &[Frame<Taylor<S>, D>],
-        _: Time<Taylor<S>>,
-        out: &mut [Wrench<S, D>],
-    ) -> Action<S> {
+    fn takes_small_rotations(&self) -> bool {
+        D == 3 && self.k[3..].iter().chain(&self.c[3..]).any(|coefficient| *coefficient > 0.0)
+    }
+
+    fn act<S: Scalar>(&self, frames: &Motion<S, D>, _: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
         let [a, b] = [&frames[0], &frames[1]];
         let gap = sub(&b.r, &a.r);
         let mut potential = Taylor::fixed(S::zero());

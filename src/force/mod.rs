@@ -20,6 +20,11 @@ use crate::math::{Rate, Scalar, Taylor, Time};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 
+/// The moving frames of a force's markers.
+pub type Motion<S, const D: usize> = [Frame<Taylor<S>, D>];
+/// The time of an evaluation, as it goes on.
+pub type Instant<'a, S> = Time<'a, Taylor<S>>;
+
 /// What a force says beside its wrenches.
 #[derive(Clone, Copy, Debug)]
 pub struct Action<S> {
@@ -48,24 +53,23 @@ pub struct Wheel {
 /// A force's equations, written once over any scalar.
 pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
     /// One wrench a marker; `out` holds zeros on entry.
-    fn act<S: Scalar>(
-        &self,
-        frames: &[Frame<Taylor<S>, D>],
-        time: Time<Taylor<S>>,
-        out: &mut [Wrench<S, D>],
-    ) -> Action<S>;
+    fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S>;
     /// The same where inputs drive it: `input` adds to its components, N or N m, in its own axes. Default: none can.
     fn driven<S: Scalar>(
         &self,
         _input: &[S; 3],
-        frames: &[Frame<Taylor<S>, D>],
-        time: Time<Taylor<S>>,
+        frames: &Motion<S, D>,
+        time: Instant<S>,
         out: &mut [Wrench<S, D>],
     ) -> Action<S> {
         ForceKernel::act(self, frames, time, out)
     }
     /// Writes the arguments of its switching functions at their numbers. Default: none.
-    fn switching(&self, _frames: &[Frame<Taylor<Rate>, D>], _time: Time<Taylor<Rate>>, _out: &mut [Rate]) {}
+    fn switching(&self, _frames: &Motion<Rate, D>, _time: Instant<Rate>, _out: &mut [Rate]) {}
+    /// Whether its law takes the rotation between its markers to be small. Default: no.
+    fn takes_small_rotations(&self) -> bool {
+        false
+    }
     /// The wheel that a drawing shows, if it is one.
     fn wheel(&self, _t: f64) -> Option<Wheel> {
         None
@@ -79,29 +83,17 @@ pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
 /// A force over one scalar: what the model calls.
 pub trait ForceOver<S: Scalar, const D: usize> {
     /// All inputs zero; `out` holds zeros on entry.
-    fn act(&self, frames: &[Frame<Taylor<S>, D>], time: Time<Taylor<S>>, out: &mut [Wrench<S, D>]) -> Action<S>;
+    fn act(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S>;
     /// With inputs that add to its components.
-    fn driven(
-        &self,
-        input: &[S; 3],
-        frames: &[Frame<Taylor<S>, D>],
-        time: Time<Taylor<S>>,
-        out: &mut [Wrench<S, D>],
-    ) -> Action<S>;
+    fn driven(&self, input: &[S; 3], frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S>;
 }
 
 impl<K: ForceKernel<D>, S: Scalar, const D: usize> ForceOver<S, D> for K {
-    fn act(&self, frames: &[Frame<Taylor<S>, D>], time: Time<Taylor<S>>, out: &mut [Wrench<S, D>]) -> Action<S> {
+    fn act(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
         ForceKernel::act(self, frames, time, out)
     }
 
-    fn driven(
-        &self,
-        input: &[S; 3],
-        frames: &[Frame<Taylor<S>, D>],
-        time: Time<Taylor<S>>,
-        out: &mut [Wrench<S, D>],
-    ) -> Action<S> {
+    fn driven(&self, input: &[S; 3], frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
         ForceKernel::driven(self, input, frames, time, out)
     }
 }
@@ -110,7 +102,8 @@ impl<K: ForceKernel<D>, S: Scalar, const D: usize> ForceOver<S, D> for K {
 pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Slope, D> + Send + Sync {
     fn wheel(&self, t: f64) -> Option<Wheel>;
     fn beam(&self) -> Option<&Beam>;
-    fn switching(&self, frames: &[Frame<Taylor<Rate>, D>], time: Time<Taylor<Rate>>, out: &mut [Rate]);
+    fn takes_small_rotations(&self) -> bool;
+    fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]);
 }
 
 impl<K: ForceKernel<D>, const D: usize> Force<D> for K {
@@ -120,7 +113,10 @@ impl<K: ForceKernel<D>, const D: usize> Force<D> for K {
     fn beam(&self) -> Option<&Beam> {
         ForceKernel::beam(self)
     }
-    fn switching(&self, frames: &[Frame<Taylor<Rate>, D>], time: Time<Taylor<Rate>>, out: &mut [Rate]) {
+    fn takes_small_rotations(&self) -> bool {
+        ForceKernel::takes_small_rotations(self)
+    }
+    fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
         ForceKernel::switching(self, frames, time, out);
     }
 }

@@ -1,10 +1,10 @@
 //! Linear spring and damper along the line between two points.
 
-use super::{Action, Built, ForceKernel, ForceSpec};
-use crate::body::{Build, Frame, Wrench, dot, sub};
+use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion};
+use crate::body::{Build, Wrench, dot, sub};
 use crate::error::Result;
+use crate::math::Scalar;
 use crate::math::expression::Number;
-use crate::math::{Scalar, Taylor, Time};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -51,12 +51,7 @@ struct Spring {
 }
 
 impl<const D: usize> ForceKernel<D> for Spring {
-    fn act<S: Scalar>(
-        &self,
-        frames: &[Frame<Taylor<S>, D>],
-        _: Time<Taylor<S>>,
-        out: &mut [Wrench<S, D>],
-    ) -> Action<S> {
+    fn act<S: Scalar>(&self, frames: &Motion<S, D>, _: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
         let gap = sub(&frames[1].r, &frames[0].r);
         let square = dot(&gap, &gap);
         // Without free length, preload and damping the force is k times the gap, also where the gap closes.

@@ -1,11 +1,11 @@
 //! Linear torsion spring and damper.
 
 use super::spring_damper::optional_not_negative;
-use super::{Action, Built, ForceKernel, ForceSpec};
+use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion};
 use crate::body::{Build, Frame, Turned, Wrench, cross, dot};
 use crate::error::Result;
 use crate::math::expression::Number;
-use crate::math::{Scalar, Taylor, Time};
+use crate::math::{Scalar, Taylor};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::array::from_fn;
@@ -55,12 +55,7 @@ struct Torsion {
 }
 
 impl<const D: usize> ForceKernel<D> for Torsion {
-    fn act<S: Scalar>(
-        &self,
-        frames: &[Frame<Taylor<S>, D>],
-        time: Time<Taylor<S>>,
-        out: &mut [Wrench<S, D>],
-    ) -> Action<S> {
+    fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
         let [a, b] = [&frames[0], &frames[1]];
         let (twist, axis) = if D == 2 {
             (b.turn - a.turn - self.free, [S::zero(), S::zero(), S::one()])

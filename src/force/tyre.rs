@@ -1,10 +1,10 @@
 //! Vertical tyre on a road profile.
 
-use super::{Action, Built, ForceKernel, ForceSpec, Wheel};
-use crate::body::{Build, Frame, Wrench};
+use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion, Wheel};
+use crate::body::{Build, Wrench};
 use crate::error::Result;
 use crate::math::expression::{Expression, Number};
-use crate::math::{Rate, Scalar, Taylor, Time};
+use crate::math::{Rate, Scalar, Taylor};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -53,7 +53,7 @@ struct Spring {
 }
 
 impl Spring {
-    fn squeeze<S: Scalar, const D: usize>(&self, frames: &[Frame<Taylor<S>, D>], time: Time<Taylor<S>>) -> Taylor<S> {
+    fn squeeze<S: Scalar, const D: usize>(&self, frames: &Motion<S, D>, time: Instant<S>) -> Taylor<S> {
         self.road.eval_held(&[time.t], time.regime) - frames[0].r[D - 1] + self.radius
     }
 
@@ -63,7 +63,7 @@ impl Spring {
 }
 
 impl<const D: usize> ForceKernel<D> for Spring {
-    fn switching(&self, frames: &[Frame<Taylor<Rate>, D>], time: Time<Taylor<Rate>>, out: &mut [Rate]) {
+    fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
         self.road.arguments(&[time.t.x], time.regime, out);
         if let Some([gap, pull]) = self.lift_off {
             let squeeze = self.squeeze(frames, time);
@@ -75,12 +75,7 @@ impl<const D: usize> ForceKernel<D> for Spring {
         Some(Wheel { radius: self.radius, road: self.road.eval(&[t]) })
     }
 
-    fn act<S: Scalar>(
-        &self,
-        frames: &[Frame<Taylor<S>, D>],
-        time: Time<Taylor<S>>,
-        out: &mut [Wrench<S, D>],
-    ) -> Action<S> {
+    fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
         let squeeze = self.squeeze(frames, time);
         let is_below = |number: usize, x: f64| time.regime.piece(number).map_or(x < 0.0, |piece| piece == 0);
         if self.lift_off.is_some_and(|[gap, _]| is_below(gap, squeeze.value())) {

@@ -2,16 +2,27 @@
 
 use super::Problem;
 use crate::formulation::Halt;
+use crate::system::MechanicalSystem;
+use std::ops::Range;
 
 /// Tolerated local error of component y: atol + rtol |y|, with one atol for metres, radians and their rates, and y counted
 /// from the origin: a mechanism of micrometres needs an atol as much smaller, one far from the origin stands better there.
+/// Angles that count turns are not tested: they are brought back to what the other coordinates say, and what only watches a
+/// motion must not change its steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     pub rtol: f64,
     pub atol: f64,
+    /// The place in y of the first such angle, and that behind the last.
+    turning: [usize; 2],
 }
 
 impl Tolerance {
+    pub fn new(rtol: f64, atol: f64, system: &dyn MechanicalSystem) -> Self {
+        let q = system.dimensions().q;
+        Tolerance { rtol, atol, turning: [q - system.turning_angles(), q] }
+    }
+
     /// Tolerated error between two states.
     #[inline]
     pub fn weight(&self, from: f64, to: f64) -> f64 {
@@ -26,8 +37,30 @@ impl Tolerance {
     /// The same over a step.
     pub fn norm_between(&self, from: &[f64], to: &[f64], change: &[f64]) -> f64 {
         let n = from.len() - 1;
-        let sum: f64 = (0..n).map(|i| (change[i] / self.weight(from[i], to[i])).powi(2)).sum();
-        (sum / n as f64).sqrt()
+        (self.squares(n, from, to, |i| change[i]) / self.tested(n) as f64).sqrt()
+    }
+
+    /// Other numbers for the same components.
+    pub fn with(&self, rtol: f64, atol: f64) -> Self {
+        Tolerance { rtol, atol, ..*self }
+    }
+
+    /// The places in y of the angles that count turns.
+    pub fn untested(&self) -> Range<usize> {
+        self.turning[0]..self.turning[1]
+    }
+
+    /// How many of the first n components are tested.
+    pub fn tested(&self, n: usize) -> usize {
+        n - self.untested().len()
+    }
+
+    /// Sum of the squares of `error` over the tolerated ones in a step, of the tested ones among the first n components.
+    #[inline]
+    pub fn squares(&self, n: usize, from: &[f64], to: &[f64], error: impl Fn(usize) -> f64) -> f64 {
+        let add = |sum: f64, i: usize| sum + (error(i) / self.weight(from[i], to[i])).powi(2);
+        let Range { start, end } = self.untested();
+        (end..n).fold((0..start).fold(0.0, add), add)
     }
 }
 

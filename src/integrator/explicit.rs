@@ -91,11 +91,10 @@ impl Explicit {
     }
 
     fn error(&self, tolerance: &Tolerance, from: &[f64], to: &[f64], h: f64) -> Option<f64> {
-        let n = from.len() - 1;
+        let last = from.len() - 1;
         let sum = |weights: &[f64], i: usize| weights.iter().zip(&self.k).map(|(e, k)| e * k[i]).sum::<f64>();
-        let square = |weights: &[f64]| {
-            (0..n).map(|i| (h * sum(weights, i) / tolerance.weight(from[i], to[i])).powi(2)).sum::<f64>()
-        };
+        let square = |weights: &[f64]| tolerance.squares(last, from, to, |i| h * sum(weights, i));
+        let n = tolerance.tested(last);
         match &self.tableau.error {
             ErrorEstimate::None => None,
             ErrorEstimate::Embedded(weights) => Some((square(weights) / n as f64).sqrt()),
@@ -118,11 +117,11 @@ pub(super) fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[
     }
 }
 
-/// The middle of the widest interval of [0, 1] without a node.
-pub(super) fn middle_of_widest_gap(nodes: &[f64]) -> f64 {
+/// The length and the middle of the widest interval of [0, 1] without a node; 0 is one.
+pub(super) fn widest_gap(nodes: &[f64]) -> (f64, f64) {
     let next = |node: f64| nodes.iter().copied().filter(|other| *other > node).fold(1.0, f64::min);
-    let gaps = nodes.iter().map(|&node| (next(node) - node, 0.5 * (next(node) + node)));
-    gaps.fold((0.0, 0.5), |widest: (f64, f64), gap| if gap.0 > widest.0 { gap } else { widest }).1
+    let gap = |node: f64| (next(node) - node, 0.5 * (next(node) + node));
+    nodes.iter().map(|&node| gap(node)).fold(gap(0.0), |widest, gap| if gap.0 > widest.0 { gap } else { widest })
 }
 
 impl Integrator for Explicit {
@@ -172,7 +171,11 @@ impl Integrator for Explicit {
     }
 
     fn widest_gap(&self) -> Option<f64> {
-        Some(middle_of_widest_gap(&self.tableau.c[..self.stages()]))
+        Some(widest_gap(&self.tableau.c[..self.stages()]).1)
+    }
+
+    fn spacing(&self) -> f64 {
+        widest_gap(&self.tableau.c[..self.stages()]).0
     }
 
     /// Cubic Hermite interpolation, and beyond it what comes from the stages.

@@ -117,6 +117,11 @@ pub trait Integrator {
         None
     }
 
+    /// The longest part of a step between evaluations of the equations.
+    fn spacing(&self) -> f64 {
+        1.0
+    }
+
     /// Prepares interpolation over the step just accepted; `slope` is y' at its end `to`.
     fn prepare(&mut self, problem: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt>;
 

@@ -50,6 +50,13 @@ pub enum Kind {
     Infinite,
 }
 
+impl LinearModel {
+    /// Whether some eigenvalues are [`Kind::Uncertain`].
+    pub fn has_uncertain_kinds(&self) -> bool {
+        self.modes.iter().any(|mode| mode.kind == Kind::Uncertain)
+    }
+}
+
 /// An eigenvalue with its motion exp(value t) shape.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {

@@ -44,7 +44,7 @@ impl OperatingPoint {
             phi_dot: worst(&terms.phi_dot),
             is_equilibrium: is_at_rest(dynamics, &rounding(dynamics, k, q), v),
             axes: dynamics.system.axes(),
-            driven: dynamics.system.spin(t),
+            driven: dynamics.system.prescribed_spin(t),
         }
     }
 }

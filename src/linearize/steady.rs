@@ -44,7 +44,7 @@ impl<'a> Operating<'a> {
 /// # Errors
 /// None found: what moves, or where force is left. Drives that accelerate.
 pub fn at_rest<'a>(study: &'a Study, state: &State) -> Result<Operating<'a>> {
-    let Some(spin) = study.system().spin(state.t) else { return still(study, state) };
+    let Some(spin) = study.system().prescribed_spin(state.t) else { return still(study, state) };
     match Rotating::new(study.system(), state.t, spin) {
         Some(axes) if is_same_all_around(&axes, study, state)? => {
             let found = equilibrium(&axes, state.t, &state.q)?;

@@ -130,7 +130,8 @@ impl Neg for Interval {
 impl Add for Interval {
     type Output = Self;
     fn add(self, o: Self) -> Self {
-        Interval::new(self.low + o.low, self.high + o.high)
+        let (low, high) = (self.low + o.low, self.high + o.high);
+        if low <= high { Interval { low, high } } else { Self::WHOLE }
     }
 }
 impl Sub for Interval {
@@ -157,7 +158,8 @@ impl Div for Interval {
 impl Add<f64> for Interval {
     type Output = Self;
     fn add(self, x: f64) -> Self {
-        Interval::new(self.low + x, self.high + x)
+        let (low, high) = (self.low + x, self.high + x);
+        if low <= high { Interval { low, high } } else { Self::WHOLE }
     }
 }
 impl Sub<f64> for Interval {

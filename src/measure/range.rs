@@ -1,14 +1,19 @@
-//! How far the motion went out of the range of what is modelled.
+//! How far the motion went out of the range of what is modelled, and of what the steps of its method can see.
 
 use crate::error::{Warning, short};
 use crate::simulate::Observation;
 use crate::system::{Limited, MechanicalSystem, Theory};
+use std::f64::consts::PI;
 
-/// The largest deformation of each part that holds up to some only.
+/// The largest deformation of each part that holds up to some only, and the largest turn between evaluations.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Range {
     pub parts: Vec<Extreme>,
+    /// In fixed steps: by how much a body turned between evaluations of the equations, rad; its number; and when, s.
+    pub leap: Option<(f64, usize, f64)>,
     now: Vec<f64>,
+    bodies: Vec<String>,
+    spins: Vec<f64>,
 }
 
 /// The largest deformation of a part.
@@ -25,12 +30,19 @@ impl Range {
     pub fn new(system: &dyn MechanicalSystem) -> Self {
         let start = |limited: &Limited| Extreme { limited: limited.clone(), deformation: 0.0, t: 0.0 };
         let parts: Vec<Extreme> = system.limited().iter().map(start).collect();
-        Range { now: vec![0.0; parts.len()], parts }
+        let bodies = system.turning_bodies();
+        Range { now: vec![0.0; parts.len()], spins: vec![0.0; bodies.len()], parts, bodies, leap: None }
     }
 
     /// Adds an accepted state.
     pub fn add(&mut self, system: &dyn MechanicalSystem, state: &Observation) {
         self.see(system, state.t, state.q);
+        let Some(apart) = state.apart else { return };
+        system.spins(state.q, state.v, &mut self.spins);
+        let before = self.leap.map_or(0.0, |(turn, ..)| turn);
+        let leap = self.spins.iter().enumerate().map(|(body, spin)| (apart * spin, body, state.t));
+        let farther = leap.filter(|(turn, ..)| *turn > before).max_by(|a, b| a.0.total_cmp(&b.0));
+        self.leap = farther.or(self.leap);
     }
 
     fn see(&mut self, system: &dyn MechanicalSystem, t: f64, q: &[f64]) {
@@ -47,10 +59,22 @@ impl Range {
         range.warnings()
     }
 
-    /// One for each part that went too far.
+    /// One for each part that went too far, and one for steps that are too long to see how bodies turn.
     pub fn warnings(&self) -> Vec<Warning> {
         let beyond = self.parts.iter().filter(|part| part.deformation > part.limited.theory.most());
-        beyond.map(Extreme::warning).collect()
+        beyond.map(Extreme::warning).chain(self.leaping()).collect()
+    }
+
+    /// From half a turn on another way round would do as well.
+    fn leaping(&self) -> Option<Warning> {
+        let (turn, body, t) = self.leap.filter(|(turn, ..)| *turn >= PI)?;
+        let [turn, t] = [turn, t].map(|x| short(two_digits(x)));
+        let text = format!(
+            "`{}` turns by {turn} rad, half a revolution or more, between two evaluations of the equations at t = {t} s: \
+             steps so long do not see the motion",
+            self.bodies[body]
+        );
+        Some(Warning::new(text, "choose a smaller --step, or an adaptive method"))
     }
 }
 
@@ -65,6 +89,13 @@ impl Extreme {
                      are small, up to some {most}"
                 ),
                 "model it with \"frame\": \"absolute\", or as several bodies",
+            ),
+            Theory::SmallRotations => (
+                format!(
+                    "the bushing `{part}` turns by {deformation} rad at t = {t} s: its rotations are small, up to some {most}, \
+                     and its torque is that of their sine"
+                ),
+                "hold larger rotations by a joint with a torsion_spring",
             ),
             Theory::Helix { .. } => (
                 format!(

@@ -27,3 +27,4 @@ pub use sweep::SweepSummary;
 pub use sweep_figure::{SweepLook, sweep_figure};
 pub use table::Table;
 pub use tables::{cell, drift_table, energy_table, sweep_table, table, trajectory_table};
+pub use warnings::uncertain_kinds;

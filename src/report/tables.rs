@@ -5,6 +5,8 @@ use crate::measure::Record;
 use crate::sweep::Sweep;
 use crate::system::Names;
 use crate::trajectory::Trajectory;
+use std::fmt;
+use std::io::Write;
 
 /// `t`, coordinates, velocities, multipliers, outputs: one row an output time, at full precision.
 pub fn trajectory_table(trajectory: &Trajectory) -> Result<Vec<u8>> {
@@ -50,26 +52,45 @@ pub fn energy_table(record: &Record) -> Result<Vec<u8>> {
 /// A number at full precision, with an exponent where zeros alone would fill the cell; empty where there is no value, as
 /// of an output outside what it is defined for.
 pub fn cell(value: f64) -> String {
-    if !value.is_finite() {
-        return String::new();
-    }
-    match value == 0.0 || (1e-5..1e15).contains(&value.abs()) {
-        true => value.to_string(),
-        false => format!("{value:e}"),
+    Cell(value).to_string()
+}
+
+struct Cell(f64);
+
+impl fmt::Display for Cell {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Cell(value) = self;
+        match value.abs() {
+            _ if !value.is_finite() => Ok(()),
+            0.0 | 1e-5..1e15 => write!(out, "{value}"),
+            _ => write!(out, "{value:e}"),
+        }
     }
 }
 
+/// Numbers under headings: cells that need no quotation.
 fn write<'a>(headings: Vec<&str>, rows: impl Iterator<Item = &'a [f64]>) -> Result<Vec<u8>> {
-    table(headings.into_iter().map(String::from), rows.map(|row| row.iter().copied().map(cell).collect()))
+    let mut all = table(headings.into_iter().map(String::from), std::iter::empty())?;
+    for row in rows {
+        for (i, value) in row.iter().enumerate() {
+            let before = if i > 0 { "," } else { "" };
+            write!(all, "{before}{}", Cell(*value)).map_err(|error| failed(&error))?;
+        }
+        all.push(b'\n');
+    }
+    Ok(all)
+}
+
+fn failed(error: &dyn fmt::Display) -> Error {
+    Error::input(format!("cannot write the table: {error}"))
 }
 
 /// Rows of cells under headings.
 pub fn table(headings: impl Iterator<Item = String>, rows: impl Iterator<Item = Vec<String>>) -> Result<Vec<u8>> {
-    let failed = |error: csv::Error| Error::input(format!("cannot write the table: {error}"));
     let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(headings).map_err(failed)?;
+    writer.write_record(headings).map_err(|error| failed(&error))?;
     for row in rows {
-        writer.write_record(row).map_err(failed)?;
+        writer.write_record(row).map_err(|error| failed(&error))?;
     }
-    writer.into_inner().map_err(|error| Error::input(format!("cannot write the table: {error}")))
+    writer.into_inner().map_err(|error| failed(&error))
 }

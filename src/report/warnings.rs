@@ -19,6 +19,21 @@ pub fn warnings(record: &Record) -> Vec<Warning> {
         .collect()
 }
 
+/// Kinds of eigenvalues that are not known, by these methods, each of which may be named more than once.
+pub fn uncertain_kinds<'m>(methods: impl Iterator<Item = &'m str>) -> Option<Warning> {
+    let mut names: Vec<&str> = Vec::new();
+    methods.for_each(|method| {
+        if !names.contains(&method) {
+            names.push(method)
+        }
+    });
+    let text = || {
+        format!("kinds of eigenvalues are uncertain by {}: no gap tells physical from spurious ones", names.join(", "))
+    };
+    (!names.is_empty())
+        .then(|| Warning::new(text(), "take --method mcs, which has no spurious ones, or larger penalties and gains"))
+}
+
 fn open_joints(drift: &Drift) -> Option<Warning> {
     let open = drift.position.relative_final;
     let text =

@@ -7,8 +7,9 @@ use super::outputs;
 use super::{AnyModel, Scene, markers};
 use crate::body::{self, Build, Built, Initial, Marker, MarkerTable, parse, show};
 use crate::error::{Error, Result, excerpt, suggest};
+use crate::force::{self, Force};
+use crate::joint::{self, Joint};
 use crate::math::expression::{Number, Parameters};
-use crate::{force, joint};
 use serde_json::{Map, Value};
 use std::collections::HashSet;
 use std::path::Path;
@@ -74,32 +75,11 @@ fn model<const D: usize>(
     outputs::check_names(&file.outputs)?;
     let formulas = outputs::formulas::<D>(&file.outputs);
     let build = Build { markers: &parts.table, outputs: &formulas, gravity, ..build };
-    let entries = joint::registry::<D>();
-    let kinds: Vec<&str> = entries.iter().map(|entry| entry.name).collect();
-    let own = |what: &str, name: &str| build.own(what, name);
-    let joints = elements(&file.joints, "joints", "joint", &kinds, own, |kind, json| {
-        let entry = entries.iter().find(|entry| entry.name == kind);
-        let entry = entry.ok_or_else(|| unknown(kind, "joint", entries.iter().map(|entry| entry.name)))?;
-        let built = (entry.build)(json, &build)?;
-        Ok((entry.name, built.joint, built.markers))
-    })?;
-    let entries = force::registry::<D>();
-    let kinds: Vec<&str> = entries.iter().map(|entry| entry.name).collect();
-    let mut forces = elements(&file.forces, "forces", "force", &kinds, own, |kind, json| {
-        let entry = entries.iter().find(|entry| entry.name == kind);
-        let entry = entry.ok_or_else(|| unknown(kind, "force", entries.iter().map(|entry| entry.name)))?;
-        let built = (entry.build)(json, &build)?;
-        Ok((entry.name, built.force, built.markers))
-    })?;
+    let joints = joints(&file.joints, &build)?;
+    let mut forces = forces(&file.forces, &build)?;
     for beam in &mut parts.beams {
         beam.first_force = forces.len();
-        let ends = |i: usize| [0, 1].map(|k| parts.bodies[beam.first_body + i + k].first_marker).to_vec();
-        forces.extend(beam.elements.iter().enumerate().map(|(i, element)| Connection {
-            name: format!("{}.e{i}", beam.name),
-            kind: "beam",
-            element: Box::new(element.clone()) as _,
-            markers: ends(i),
-        }));
+        forces.extend(line_elements(beam, &parts.bodies));
     }
     let elements = outputs::Elements { bodies: &parts.bodies, beams: &parts.beams, joints: &joints, forces: &forces };
     let (outputs, cuts) = outputs::outputs(&file.outputs, elements, &build)?;
@@ -124,6 +104,39 @@ fn model<const D: usize>(
         extent,
     };
     Ok((model, q, v))
+}
+
+fn joints<const D: usize>(given: &[Value], build: &Build<D>) -> Result<Vec<Connection<Box<dyn Joint<D>>>>> {
+    let entries = joint::registry::<D>();
+    let kinds: Vec<&str> = entries.iter().map(|entry| entry.name).collect();
+    elements(given, ("joints", "joint"), &kinds, build, |kind, json| {
+        let entry = &entries[kind];
+        let built = (entry.build)(json, build)?;
+        Ok((entry.name, built.joint, built.markers))
+    })
+}
+
+fn forces<const D: usize>(given: &[Value], build: &Build<D>) -> Result<Vec<Connection<Box<dyn Force<D>>>>> {
+    let entries = force::registry::<D>();
+    let kinds: Vec<&str> = entries.iter().map(|entry| entry.name).collect();
+    elements(given, ("forces", "force"), &kinds, build, |kind, json| {
+        let entry = &entries[kind];
+        let built = (entry.build)(json, build)?;
+        Ok((entry.name, built.force, built.markers))
+    })
+}
+
+/// The elements of an absolute beam, between its nodes.
+fn line_elements<const D: usize>(
+    beam: &BeamLine,
+    bodies: &[Part<D>],
+) -> impl Iterator<Item = Connection<Box<dyn Force<D>>>> {
+    beam.elements.iter().enumerate().map(|(i, element)| Connection {
+        name: format!("{}.e{i}", beam.name),
+        kind: "beam",
+        element: Box::new(element.clone()) as _,
+        markers: [0, 1].map(|k| bodies[beam.first_body + i + k].first_marker).to_vec(),
+    })
 }
 
 fn extent<const D: usize>(bodies: &[Part<D>], q: &[f64]) -> f64 {
@@ -233,14 +246,13 @@ pub(super) fn start_and_markers(json: &mut Map<String, Value>) -> Result<(Initia
     Ok((initial, markers))
 }
 
-/// Joints or forces: name and type are taken off, the rest is the kind's own.
-fn elements<E>(
+/// Joints or forces: name and type are taken off, the rest is the kind's own, of which `make` hears the place among `kinds`.
+fn elements<E, const D: usize>(
     given: &[Value],
-    list: &str,
-    what: &str,
+    (list, what): (&str, &str),
     kinds: &[&str],
-    own: impl Fn(&str, &str),
-    build: impl Fn(&str, Value) -> Result<(&'static str, E, Vec<usize>)>,
+    build: &Build<D>,
+    make: impl Fn(usize, Value) -> Result<(&'static str, E, Vec<usize>)>,
 ) -> Result<Vec<Connection<E>>> {
     let mut all: Vec<Connection<E>> = Vec::new();
     let mut names = HashSet::new();
@@ -254,8 +266,12 @@ fn elements<E>(
                     .hint(format!("give each {what} its own")));
             }
             let kind = take_type(&mut json, what, kinds.iter().copied())?;
-            let (kind, element, markers) = build(&kind, Value::Object(json)).map_err(|error| error.element(&name))?;
-            own(what, &name);
+            let place = kinds.iter().position(|known| *known == kind);
+            let made = place
+                .ok_or_else(|| unknown(&kind, what, kinds.iter().copied()))
+                .and_then(|place| make(place, Value::Object(json)));
+            let (kind, element, markers) = made.map_err(|error| error.element(&name))?;
+            build.own(what, &name);
             all.push(Connection { name, kind, element, markers });
             Ok(())
         };

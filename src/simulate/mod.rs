@@ -163,7 +163,7 @@ impl<'a> Run<'a> {
             tests_velocities: formulation::rows(&method.formulation) != Some(Constraints::Position),
             limits_projection: true,
         };
-        let tolerance = Tolerance { rtol: method.rtol, atol: method.atol };
+        let tolerance = Tolerance::new(method.rtol, method.atol, system);
         Ok(Run::of(parts, (tolerance, method.step), span, [q, v, &[0.0]].concat()))
     }
 
@@ -333,6 +333,7 @@ impl<'a> Run<'a> {
         [&mut self.problem, &mut self.rows.problem].into_iter().for_each(|p| p.dynamics.kkt.usual_sine = usual);
         let tolerated = self.fixed.is_none().then(|| self.tolerated_energy());
         let state = observation(self.t, &self.y, &self.problem, sine, &mut self.phi_ddot);
-        sink.accepted(&Observation { tolerated, ..state });
+        let apart = self.fixed.map(|step| step * self.integrator.spacing());
+        sink.accepted(&Observation { tolerated, apart, ..state });
     }
 }

@@ -37,6 +37,8 @@ pub struct Observation<'a> {
     pub work: f64,
     /// The change of energy that the tolerated errors of this step make, J; none for fixed steps and rows.
     pub tolerated: Option<f64>,
+    /// The longest time between evaluations of the equations in a fixed step, s; none for others.
+    pub apart: Option<f64>,
     /// The smallest sine between a row of G and those before it (metric M^-1), zero at a singular state; `None` where the
     /// method does not factor the saddle-point matrix there.
     pub sine: Option<f64>,
@@ -89,7 +91,7 @@ impl super::Run<'_> {
         let (q, v) = self.problem.split(&self.y);
         self.momentum.fill(0.0);
         dynamics.structure.mass.multiply_symmetric(&dynamics.terms.mass, v, &mut self.momentum);
-        let of_q = self.tolerance.weight(0.0, largest(q));
+        let of_q = self.tolerance.weight(0.0, largest(dynamics.system.own(q)));
         let of_v = self.momentum.iter().zip(v).map(|(p, v)| p.abs() * self.tolerance.weight(0.0, *v));
         of_v.sum::<f64>() + of_q * dynamics.terms.f.iter().map(|f| f.abs()).sum::<f64>()
     }

@@ -59,14 +59,13 @@ impl Run<'_> {
         let theta = (t - self.t) / h;
         let (rows, from) = (&mut self.rows, From { t: self.t, y: &self.y, slope: &self.slope });
         rows.problem.begin_step(self.t, &self.y)?;
+        self.integrator.interpolate(&mut rows.problem, from, h, theta, &mut rows.y)?;
         let is_checked = self.is_explicit && self.fixed.is_none() && !self.approach.reaches(h);
         if is_checked {
-            let around = [(theta - APART).max(0.0), (theta + APART).min(1.0)];
-            self.integrator.interpolate(&mut rows.problem, from, h, around[0], &mut rows.y)?;
-            self.integrator.interpolate(&mut rows.problem, from, h, around[1], &mut rows.ahead)?;
-            rows.differentiate(h * (around[1] - around[0]));
+            let apart = if theta + APART < 1.0 { APART } else { -APART };
+            self.integrator.interpolate(&mut rows.problem, from, h, theta + apart, &mut rows.ahead)?;
+            rows.differentiate(h * apart);
         }
-        self.integrator.interpolate(&mut rows.problem, from, h, theta, &mut rows.y)?;
         project(t, &mut rows.y, &mut rows.problem, &mut rows.projection, sweeps)?;
         rows.evaluate(t)?;
         Ok((is_checked && self.row_contradicts(h)).then_some(theta))

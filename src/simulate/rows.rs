@@ -40,7 +40,7 @@ impl<'a> Rows<'a> {
         self.problem.derivative(t, &self.y, &mut self.slope)
     }
 
-    /// Sets `vdot` from `y` and the state `dt` ahead.
+    /// Sets `vdot` from `y` and the state `dt` ahead, or behind.
     pub fn differentiate(&mut self, dt: f64) {
         let (before, after) = (self.problem.split(&self.y).1, self.problem.split(&self.ahead).1);
         let rates = before.iter().zip(after).map(|(before, after)| (after - before) / dt);
@@ -95,6 +95,7 @@ pub fn observation<'o>(
         phi_ddot,
         work: y[y.len() - 1],
         tolerated: None,
+        apart: None,
         sine,
         held: &dynamics.held,
     }

@@ -120,11 +120,6 @@ impl Run<'_> {
     /// How far the projection moved the state, in units of the tolerance; `change` holds the state before.
     fn correction(&mut self) -> f64 {
         self.change.iter_mut().zip(&self.next).for_each(|(change, next)| *change -= next);
-        // What the state says of angles that are counted through turns is no error of theirs.
-        let turning = self.problem.dynamics.system.turning_angles();
-        let q = self.problem.split_mut(&mut self.change).0;
-        let own = q.len() - turning;
-        q[own..].fill(0.0);
         if !self.tests_velocities {
             self.problem.split_mut(&mut self.change).1.fill(0.0);
         }

@@ -2,10 +2,10 @@
 
 use super::branch::{Branch, State};
 use super::{Limit, Nearest, Point, Range, Sweep};
-use crate::error::{Error, Result, suggest};
+use crate::error::{Error, Result, Warning, suggest};
 use crate::math::expression::Number;
 use crate::scene::{self, Scene};
-use crate::study::AnyMechanism;
+use crate::study::{AnyMechanism, Overrides, Study};
 use crate::system::Column;
 use std::path::{Path, PathBuf};
 
@@ -57,6 +57,12 @@ impl Family {
 
     fn with(&self, set: &[(String, Number)]) -> Result<Scene> {
         Scene::parse_in(scene::folder(self.path.as_deref()), &self.text, set)
+    }
+
+    /// What is doubtful about its start; nothing where it cannot be assembled, which a sweep says better.
+    pub fn doubts(&self) -> Vec<Warning> {
+        let study = self.scene().and_then(|scene| Study::new(scene, &Overrides::default()));
+        study.map_or(Vec::new(), |study| study.doubts)
     }
 
     /// The outputs of the scene.

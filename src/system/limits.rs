@@ -12,6 +12,8 @@ use std::f64::consts::PI;
 pub enum Theory {
     /// Displacements in a floating frame are small beside the length: they enter the elastic forces linearly.
     SmallDisplacements,
+    /// What a bushing turns by in space is small beside a radian.
+    SmallRotations,
     /// The ends of an element turn against each other by less than half a turn in space, a full one in the plane.
     Helix { dimension: usize, elements: usize },
 }
@@ -30,6 +32,8 @@ impl Theory {
     pub fn most(self) -> f64 {
         match self {
             Theory::SmallDisplacements => 0.1,
+            // Where the sine is 4 % less than the angle.
+            Theory::SmallRotations => 0.5,
             // From half a turn on another turn would do as well; the states that are looked at may be a bit apart.
             Theory::Helix { dimension: 2, .. } => 1.5 * PI,
             Theory::Helix { .. } => 0.75 * PI,
@@ -39,7 +43,7 @@ impl Theory {
     /// The elements of which none turns by more than a quarter turn, where one of those that there are turns by `turn`.
     pub fn elements_for(self, turn: f64) -> usize {
         match self {
-            Theory::SmallDisplacements => 0,
+            Theory::SmallDisplacements | Theory::SmallRotations => 0,
             Theory::Helix { elements, .. } => (elements as f64 * turn / (0.5 * PI) - ROUNDING).ceil() as usize,
         }
     }
@@ -61,19 +65,23 @@ const POINTS: usize = 8;
 
 /// The parts of a model with a limit, and where they are looked at.
 pub(super) fn limits<const D: usize>(model: &Model<D>) -> (Vec<Limited>, Vec<Extent<D>>) {
-    let bodies = model.bodies.iter().filter_map(|part| Some((part.name.clone(), bending(part)?)));
+    let small = Theory::SmallDisplacements;
+    let bodies = model.bodies.iter().filter_map(|part| Some((part.name.clone(), small, bending(part)?)));
+    let helix = |elements| Theory::Helix { dimension: D, elements };
     let lines = model.beams.iter().map(|beam| {
         let ends = model.forces[beam.forces()].iter().map(|element| [element.markers[0], element.markers[1]]);
-        (beam.name.clone(), Extent::Ends(ends.collect()))
+        let ends: Vec<_> = ends.collect();
+        (beam.name.clone(), helix(ends.len()), Extent::Ends(ends))
     });
-    let massless = model.given_forces().iter().filter(|force| force.kind == "beam");
-    let massless = massless.map(|beam| (beam.name.clone(), Extent::Ends(vec![[beam.markers[0], beam.markers[1]]])));
-    let theory = |extent: &Extent<D>| match extent {
-        Extent::Points { .. } => Theory::SmallDisplacements,
-        Extent::Ends(elements) => Theory::Helix { dimension: D, elements: elements.len() },
-    };
-    let all = bodies.chain(lines).chain(massless);
-    all.map(|(part, extent)| (Limited { part, theory: theory(&extent) }, extent)).unzip()
+    let forces = model.given_forces().iter().filter_map(|force| {
+        let theory = match force.kind {
+            "beam" => helix(1),
+            _ if force.element.takes_small_rotations() => Theory::SmallRotations,
+            _ => return None,
+        };
+        Some((force.name.clone(), theory, Extent::Ends(vec![[force.markers[0], force.markers[1]]])))
+    });
+    bodies.chain(lines).chain(forces).map(|(part, theory, extent)| (Limited { part, theory }, extent)).unzip()
 }
 
 /// Of a body with elastic coordinates, the last ones.
@@ -103,12 +111,12 @@ impl<const D: usize> Mechanism<D> {
 
     /// By which the second marker is turned against the first.
     fn angle_between(&self, ends: [MarkerId; 2], q: &[f64]) -> f64 {
-        // Where they are does not depend on how fast they move.
-        let [a, b] = ends.map(|marker| self.undeformed(marker, q, q).map(|x| x.x));
+        // How they stand does not depend on how fast they move.
+        let [a, b] = ends.map(|marker| self.carried(marker, q, q));
         if D == 2 {
-            return (b.turn - a.turn).abs();
+            return (b.turn() - a.turn()).abs();
         }
-        let trace: f64 = a.axes.iter().zip(&b.axes).map(|(a, b)| dot(a, b)).sum();
+        let trace: f64 = (0..D).map(|i| dot(&a.axis(i), &b.axis(i))).sum();
         (0.5 * (trace - 1.0)).clamp(-1.0, 1.0).acos()
     }
 }

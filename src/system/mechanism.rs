@@ -5,13 +5,14 @@ use super::levi_civita::LeviCivita;
 use super::limits::{Extent, limits};
 use super::output_tangent::{OutputTangent, Slopes};
 use super::rows::{PlacedJoint, Rows};
+use super::scale::{length_scale, row_scales};
 use super::spin::{Placement, Spin};
 use super::support::Support;
 use super::tangent::{Evaluation, Loaded, Tangent};
 use super::variation::Varied;
-use super::view::{Plain, gathered};
+use super::view::{Plain, along_motion, gathered};
 use super::{Column, Dimensions, Energy, Group, Limited, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
-use crate::body::{Frame, MOST_MARKERS, Wrench, cross, norm};
+use crate::body::{Frame, MOST_MARKERS, Wrench, cross};
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
 use crate::math::{Rate, Regime, Taylor, Time};
@@ -137,7 +138,7 @@ impl<const D: usize> Mechanism<D> {
             terms.power += action.potential.d;
             for (wrench, &marker) in wrenches.iter().zip(&force.markers) {
                 let frame = &work.motion[marker];
-                terms.power += power(frame, wrench);
+                terms.power += wrench.power(frame);
                 if let Some(part) = self.model.carrier(marker) {
                     let (index, support) = (marker - part.first_marker, &self.supports[marker]);
                     let frame = frame.map(|x| x.x);
@@ -168,11 +169,6 @@ impl<const D: usize> Mechanism<D> {
     }
 }
 
-/// A value and its rate, each with its own rate along the motion.
-fn along_motion(x: Taylor<f64>) -> Taylor<Rate> {
-    Taylor::new(Rate { re: x.x, eps: [x.d] }, Rate { re: x.d, eps: [x.dd] }, Rate::fixed(x.dd))
-}
-
 /// The part of q or v that belongs to a body.
 pub(super) fn of<'a, const D: usize>(all: &'a [f64], part: &Part<D>, coordinates: bool) -> &'a [f64] {
     match coordinates {
@@ -188,23 +184,6 @@ pub(super) fn with_frames<R, const D: usize>(
     see: impl FnOnce(&[Frame<Taylor<f64>, D>]) -> R,
 ) -> R {
     gathered(markers, |marker| all[marker], see)
-}
-
-/// Power of a wrench at a moving frame, W.
-fn power<const D: usize>(frame: &Frame<Taylor<f64>, D>, wrench: &Wrench<f64, D>) -> f64 {
-    let force: f64 = frame.r.iter().zip(wrench.force).map(|(r, f)| r.d * f).sum();
-    match wrench.torque == [0.0; 3] {
-        true => force,
-        false => force + frame.angular_velocity().iter().zip(wrench.torque).map(|(w, m)| w * m).sum::<f64>(),
-    }
-}
-
-/// A length typical of the scene, m: the largest distance of a marker from its body's origin; where all lie there, of
-/// the ground's markers; else the extent of the start, if that is below 1.
-fn length_scale<const D: usize>(model: &Model<D>) -> f64 {
-    let bodies = model.bodies.iter().map(|part| part.body.reach()).fold(0.0, f64::max);
-    let ground = model.ground.iter().map(|marker| norm(&marker.offset)).fold(0.0, f64::max);
-    [bodies, ground, model.extent.min(1.0)].into_iter().find(|length| *length > 0.0).unwrap_or(1.0)
 }
 
 impl<const D: usize> MechanicalSystem for Mechanism<D> {
@@ -238,11 +217,15 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
+        self.own_rate(q, v, qdot);
+        self.turning_rates(q, v, qdot);
+    }
+
+    fn own_rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
         for part in &self.model.bodies {
             let rates = &mut qdot[part.first_q..part.first_q + part.nq];
             part.body.rate(of(q, part, true), of(v, part, false), rates);
         }
-        self.turning_rates(q, v, qdot);
     }
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
@@ -297,7 +280,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         is_constant
     }
 
-    fn spin(&self, t: f64) -> Option<Spin> {
+    fn prescribed_spin(&self, t: f64) -> Option<Spin> {
         self.driven_spin(t)
     }
 
@@ -396,12 +379,19 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         out.iter_mut().zip(&self.extents).for_each(|(out, extent)| *out = self.deformation(extent, q));
     }
 
+    fn turning_bodies(&self) -> Vec<String> {
+        self.oriented_bodies().map(|part| part.name.clone()).collect()
+    }
+
+    fn spins(&self, q: &[f64], v: &[f64], out: &mut [f64]) {
+        self.write_spins(q, v, out);
+    }
+
     fn length(&self) -> f64 {
         self.length
     }
 
     fn scales(&self) -> Vec<f64> {
-        let rows = self.model.joints.iter().flat_map(|joint| joint.element.row_names());
-        rows.map(|row| if matches!(row, "x" | "y" | "z" | "length") { self.length } else { 1.0 }).collect()
+        row_scales(&self.model, self.length)
     }
 }

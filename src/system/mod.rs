@@ -14,6 +14,7 @@ mod output;
 mod output_tangent;
 mod rotating;
 mod rows;
+mod scale;
 mod section;
 mod spin;
 mod spinning;
@@ -128,14 +129,24 @@ pub trait MechanicalSystem: Send + Sync {
         0
     }
 
+    /// The coordinates but for those.
+    fn own<'q>(&self, q: &'q [f64]) -> &'q [f64] {
+        &q[..q.len() - self.turning_angles()]
+    }
+
     /// q' = N(q) v. Default: N = I.
     fn rate(&self, _q: &[f64], v: &[f64], qdot: &mut [f64]) {
         qdot.copy_from_slice(v);
     }
 
+    /// The same without the rates of turning angles, which are left as they are.
+    fn own_rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
+        self.rate(q, v, qdot);
+    }
+
     /// The constant turn about a fixed axis that drives prescribe at `t`; none where nothing is driven, or more than that,
     /// which is the default.
-    fn spin(&self, _t: f64) -> Option<Spin> {
+    fn prescribed_spin(&self, _t: f64) -> Option<Spin> {
         None
     }
 
@@ -209,6 +220,14 @@ pub trait MechanicalSystem: Send + Sync {
 
     /// Writes how far each of them is deformed, in the unit of its limit.
     fn deformations(&self, _q: &[f64], _out: &mut [f64]) {}
+
+    /// Names of the bodies that turn. Default: none.
+    fn turning_bodies(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Writes the size of the angular velocity of each of them, rad/s.
+    fn spins(&self, _q: &[f64], _v: &[f64], _out: &mut [f64]) {}
 
     /// A length typical of the mechanism, m. Default: 1.
     fn length(&self) -> f64 {

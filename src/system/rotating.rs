@@ -261,6 +261,18 @@ impl MechanicalSystem for Rotating<'_> {
         self.inner.rate(q, v, qdot);
     }
 
+    fn own_rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
+        self.inner.own_rate(q, v, qdot);
+    }
+
+    fn turning_bodies(&self) -> Vec<String> {
+        self.inner.turning_bodies()
+    }
+
+    fn spins(&self, q: &[f64], v: &[f64], out: &mut [f64]) {
+        self.inner.spins(q, v, out);
+    }
+
     fn add_stiffness(&self, mass: &mut [f64]) {
         self.inner.add_stiffness(mass);
     }

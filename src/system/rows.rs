@@ -3,6 +3,7 @@
 use super::mechanism::{Mechanism, of};
 use super::support::Support;
 use super::variation::{Along, Varied, fixed};
+use super::view::mapped;
 use super::{Loaded, Terms};
 use crate::body::{Frame, MOST_MARKERS, Slope, Wrench, twist_len};
 use crate::joint::{Joint, MOST_ROWS, markers_per_pass};
@@ -73,8 +74,8 @@ impl<const D: usize> PlacedJoint<'_, D> {
         let phi_t = &mut terms.phi_t[self.rows.range()];
         phi_t.fill(0.0);
         if self.rows.rheonomic {
-            let held: [_; MOST_MARKERS] = from_fn(|i| frames[i.min(frames.len() - 1)].map(|x| Taylor::fixed(x.x)));
-            self.joint.element.levels(&held[..frames.len()], time.map(Taylor::running), levels);
+            let held = |frame: &Frame<Taylor<f64>, D>| frame.map(|x| Taylor::fixed(x.x));
+            mapped(frames, held, |held| self.joint.element.levels(held, time.map(Taylor::running), levels));
             phi_t.iter_mut().zip(levels).for_each(|(rate, level)| *rate = level.d);
         }
     }
@@ -95,9 +96,8 @@ impl<const D: usize> PlacedJoint<'_, D> {
 
     /// Writes the arguments of its switching functions at their numbers.
     pub fn switching(&self, time: Time<Rate>, frames: &Motion<f64, D>, out: &mut [Rate]) {
-        let rates: [_; MOST_MARKERS] =
-            from_fn(|i| frames[i.min(frames.len() - 1)].map(|x| Rate { re: x.x, eps: [x.d] }));
-        self.joint.element.switching(&rates[..frames.len()], time, out);
+        let rates = |frame: &Frame<Taylor<f64>, D>| frame.map(|x| Rate { re: x.x, eps: [x.d] });
+        mapped(frames, rates, |rates| self.joint.element.switching(rates, time, out));
     }
 
     fn pull_back(

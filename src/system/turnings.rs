@@ -1,8 +1,8 @@
 //! The angles in space that q carries beside the coordinates of the bodies.
 
 use super::mechanism::{Mechanism, of};
-use crate::body::{Frame, Marker, MarkerId};
-use crate::math::Taylor;
+use crate::body::{Carried, MarkerId, norm};
+use crate::scene::Part;
 
 impl<const D: usize> Mechanism<D> {
     /// Those of q.
@@ -19,27 +19,41 @@ impl<const D: usize> Mechanism<D> {
     pub(super) fn turning_rates(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
         let first = q.len() - self.model().turnings.len();
         for (rate, turning) in qdot[first..].iter_mut().zip(&self.model().turnings) {
-            *rate = turning.rate(|marker| self.undeformed(marker, q, v));
+            *rate = turning.rate(|marker| self.carried(marker, q, v));
         }
     }
 
     /// Brings them back to what the bodies say, each within half a turn of where it was.
     pub(super) fn continue_turnings(&self, q: &mut [f64]) {
         let first = q.len() - self.model().turnings.len();
-        // Where the markers are does not depend on how fast they move: any numbers serve as velocities.
+        // How the markers stand does not depend on how fast they move: any numbers serve as velocities.
         for (i, turning) in self.model().turnings.iter().enumerate() {
-            q[first + i] = turning.next_to(q[first + i], |marker| self.undeformed(marker, q, q));
+            q[first + i] = turning.next_to(q[first + i], |marker| self.carried(marker, q, q));
         }
     }
 
-    /// A marker as its body's own frame, the first one, carries it: small rotations by deformation do not change the turn.
-    pub(super) fn undeformed(&self, marker: MarkerId, q: &[f64], v: &[f64]) -> Frame<Taylor<f64>, D> {
+    /// All but point masses.
+    pub(super) fn oriented_bodies(&self) -> impl Iterator<Item = &Part<D>> {
+        self.model().bodies.iter().filter(|part| part.body.oriented())
+    }
+
+    /// Writes the size of the angular velocity of each of them, rad/s.
+    pub(super) fn write_spins(&self, q: &[f64], v: &[f64], out: &mut [f64]) {
+        for (out, part) in out.iter_mut().zip(self.oriented_bodies()) {
+            *out = norm(&part.body.attitude(of(q, part, true), of(v, part, false)).spin);
+        }
+    }
+
+    /// A marker as its body's own frame carries it.
+    #[inline]
+    pub(super) fn carried(&self, marker: MarkerId, q: &[f64], v: &[f64]) -> Carried<'_, D> {
         let model = self.model();
-        let Some(part) = model.carrier(marker) else {
-            return Frame::world().at(&model.ground[marker]);
-        };
-        let mut own = [Frame::world()];
-        part.body.motion(of(q, part, true), of(v, part, false), None, &mut own);
-        own[0].at(&Marker { offset: [0.0; D], ..*part.body.marker(marker - part.first_marker) })
+        match model.carrier(marker) {
+            None => Carried { body: None, marker: &model.ground[marker] },
+            Some(part) => Carried {
+                body: Some(part.body.attitude(of(q, part, true), of(v, part, false))),
+                marker: part.body.marker(marker - part.first_marker),
+            },
+        }
     }
 }

@@ -4,7 +4,7 @@ use super::mechanism::of;
 use super::tangent::Loaded;
 use super::variation::{Varied, fixed};
 use crate::body::{Energy, Frame, MOST_MARKERS, MarkerId, Slope};
-use crate::math::{Regime, Scalar, Taylor, Time};
+use crate::math::{Rate, Regime, Scalar, Taylor, Time};
 use crate::scene::Part;
 use std::array::from_fn;
 
@@ -146,12 +146,23 @@ pub(super) fn gathered<T: Copy, R>(
     item: impl Fn(MarkerId) -> T,
     see: impl FnOnce(&[T]) -> R,
 ) -> R {
-    match *markers {
+    mapped(markers, |marker| item(*marker), see)
+}
+
+/// The same of anything that there is of each marker.
+#[inline]
+pub(super) fn mapped<S, T: Copy, R>(all: &[S], item: impl Fn(&S) -> T, see: impl FnOnce(&[T]) -> R) -> R {
+    match all {
         [a] => see(&[item(a)]),
         [a, b] => see(&[item(a), item(b)]),
         _ => {
-            let many: [T; MOST_MARKERS] = from_fn(|i| item(markers[i.min(markers.len() - 1)]));
-            see(&many[..markers.len()])
+            let many: [T; MOST_MARKERS] = from_fn(|i| item(&all[i.min(all.len() - 1)]));
+            see(&many[..all.len()])
         }
     }
+}
+
+/// A value and its rate, each with its own rate along the motion.
+pub(super) fn along_motion(x: Taylor<f64>) -> Taylor<Rate> {
+    Taylor::new(Rate { re: x.x, eps: [x.d] }, Rate { re: x.d, eps: [x.dd] }, Rate::fixed(x.dd))
 }

@@ -1,7 +1,7 @@
 use super::*;
 
 const METHODS: [&str; 10] = [
-    "none",
+    "index1",
     "baumgarte",
     "baumgarte:alpha",
     "invariant_manifold",
@@ -31,14 +31,14 @@ fn json_and_table_agree() {
     assert_eq!(printed, place.text("here/drift.json"));
     let rows: Vec<Value> = serde_json::from_str(&printed).unwrap();
     let header = place.text("here/drift.csv").lines().next().unwrap().to_string();
-    assert!(header.starts_with("t,position none,velocity none,position baumgarte,"), "{header}");
+    assert!(header.starts_with("t,position index1,velocity index1,position baumgarte,"), "{header}");
     assert_eq!(rows.len(), METHODS.len());
     for row in &rows {
         assert_eq!((&row["status"], &row["failure"]), (&"completed".into(), &Value::Null));
         assert!(header.contains(row["method"].as_str().unwrap()));
     }
     let drift = |i: usize| rows[i]["drift"]["position"]["max"].as_f64().unwrap();
-    assert!(drift(0) > 1e-10 && drift(9) < 1e-14, "none {} exact {}", drift(0), drift(9));
+    assert!(drift(0) > 1e-10 && drift(9) < 1e-14, "index1 {} exact {}", drift(0), drift(9));
     assert!(fs::read(place.path("here/drift.png")).unwrap().starts_with(b"\x89PNG"));
 }
 
@@ -47,7 +47,7 @@ fn runs_that_all_fail_are_a_failure() {
     let place = Place::new(PENDULUM.replace(r#""force": [0, 0]"#, r#""force": ["sqrt(0.5 - t)", 0]"#));
     let output = place.run(&["drift", "scene.json", "-o", "here", "--figures", "none"]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(out(&output).contains("none FAILED at t = ") && err(&output).starts_with("error: stopped at t = "));
+    assert!(out(&output).contains("index1 FAILED at t = ") && err(&output).starts_with("error: stopped at t = "));
     assert_eq!(place.files("here"), ["drift.csv", "drift.json"]);
     let rows: Vec<Value> = serde_json::from_str(&place.text("here/drift.json")).unwrap();
     assert!(rows.iter().all(|row| row["status"] == "failed"));
@@ -63,10 +63,22 @@ fn every_integrator_is_compared_on_what_it_goes_with() {
         let rows: Vec<Value> = serde_json::from_str(&place.done(&args)).unwrap();
         rows.iter().map(|row| row["method"].as_str().unwrap().to_string()).collect()
     };
-    let implicit = rows(&["--formulation", "ggl", "--integrator", "radau_iia", "--projection", "none"]);
-    assert!(["none", "manifold", "index2", "index3", "ggl"].iter().all(|name| implicit.iter().any(|row| row == name)));
+    let implicit = rows(&["--integrator", "radau_iia"]);
+    assert!(
+        ["index1", "manifold", "index2", "index3", "ggl"].iter().all(|name| implicit.iter().any(|row| row == name))
+    );
     assert!(implicit.iter().all(|row| !row.starts_with("baumgarte")), "{implicit:?}");
-    let alpha =
-        ["--formulation", "index3", "--integrator", "generalized_alpha", "--projection", "none", "--step", "0.01"];
-    assert_eq!(rows(&alpha)[0], "index3");
+    assert_eq!(rows(&["--integrator", "generalized_alpha", "--step", "0.01"])[0], "index3");
+}
+
+/// One of what is compared would be replaced by all of them.
+#[test]
+fn a_formulation_or_projection_is_refused() {
+    let place = Place::new(PENDULUM);
+    for (option, value) in [("--formulation", "baumgarte"), ("--projection", "manifold")] {
+        let output = place.run(&["drift", "scene.json", option, value, "-o", "here"]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(err(&output).contains(option) && err(&output).contains("`drift` compares every"), "{}", err(&output));
+        assert!(!place.path("here").exists());
+    }
 }

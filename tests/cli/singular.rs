@@ -69,7 +69,7 @@ fn drift_tells_which_methods_leave_the_branch() {
     let text = place.done(&["drift", "scene.json", "--figures", "none"]);
     let told =
         |method: &str| text.lines().any(|line| line.trim_start().starts_with(&format!("{method} left its branch")));
-    assert!(told("none") && !told("manifold") && !told("exact"), "{text}");
+    assert!(told("index1") && !told("manifold") && !told("exact"), "{text}");
 }
 
 /// Perturbations are carried over a singular state as the motion is.

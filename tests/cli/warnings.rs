@@ -99,3 +99,98 @@ fn a_doubtful_start_is_said() {
     let error = String::from_utf8(output.stderr).unwrap();
     assert!(error.contains("cannot all be closed") && error.contains("60*pi/180"), "{error}");
 }
+
+/// Every command that reads a scene says once what is doubtful about its start, and before it fails.
+#[test]
+fn every_command_says_a_doubtful_start_once() {
+    let scene = PENDULUM
+        .replace(r#""angle": 0"#, r#""angle": 6.5"#)
+        .replace(r#""gravity""#, r#""parameters": { "l": 1 }, "gravity""#)
+        .replace(r#""outputs""#, r#""inputs": [{ "name": "u", "force": "push", "component": "x" }], "outputs""#);
+    let place = Place::new(scene);
+    let commands: [&[&str]; 12] = [
+        &["check"],
+        &["simulate"],
+        &["sweep", "l=1..2:3"],
+        &["drift"],
+        &["tradeoff", "--budget", "1s", "--repeats", "1"],
+        &["stress", "--map", "gain", "--budget", "1"],
+        &["plot"],
+        &["linearize"],
+        &["loci", "--every", "0.5"],
+        &["bode"],
+        &["validate"],
+        &["transition", "--lyapunov", "0.5"],
+    ];
+    for command in commands {
+        let args = [&command[..1], &["scene.json"], &command[1..]].concat();
+        let written = if command[0] == "check" { &[][..] } else { &["-o", "here", "--figures", "svg"] };
+        let output = place.run(&[&args, written].concat());
+        assert_ne!(output.status.code(), Some(2), "{command:?}: {}", err(&output));
+        assert_eq!(err(&output).matches("6.5*pi/180").count(), 1, "{command:?}: {}", err(&output));
+        let quiet = place.run(&[&args[..], &["--quiet"], written].concat());
+        assert!(!err(&quiet).contains("6.5*pi/180"), "{command:?}: {}", err(&quiet));
+    }
+}
+
+/// A penalty that holds nothing leaves no gap between motions on and off the constraints.
+#[test]
+fn kinds_that_are_not_known_are_said_once() {
+    let place = Place::new(PENDULUM);
+    let weak = ["--method", "penalty:penalty=1e-3", "-o", "here", "--figures", "none"];
+    for command in [&["linearize", "scene.json", "--at", "0,0.5,1"][..], &["loci", "scene.json", "--every", "0.5"]] {
+        let output = place.run(&[command, &weak].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        assert_eq!(err(&output).matches("uncertain by penalty:penalty=1e-3:").count(), 1, "{}", err(&output));
+    }
+    let output = place.run(&["linearize", "scene.json", "-o", "here"]);
+    assert!(!err(&output).contains("uncertain"), "{}", err(&output));
+}
+
+/// A block on a bushing that a torque turns by what is given.
+fn bushed(torque: f64, stiffness: &str) -> String {
+    format!(
+        r#"{{ "name": "bushed", "dimension": 3,
+            "bodies": [ {{ "name": "b", "type": "rigid", "mass": 1, "inertia": [1, 1, 1] }} ],
+            "forces": [ {{ "name": "rubber", "type": "bushing", "between": ["ground", "b"],
+                           "stiffness": [1, 1, 1, {stiffness}], "damping": [0, 0, 0, {stiffness}] }},
+                        {{ "name": "turn", "type": "applied_torque", "at": "b", "torque": [0, 0, {torque}] }} ],
+            "simulation": {{ "t_end": 5 }} }}"#
+    )
+}
+
+/// Beyond a quarter of a turn the torque falls again: what follows is no motion of a bushing.
+#[test]
+fn a_bushing_that_turns_far_is_a_warning() {
+    assert_eq!(warnings(&bushed(0.3, "1, 1, 1"), &[]), [""; 0]);
+    let found = warnings(&bushed(2.0, "1, 1, 1"), &[]);
+    assert!(found[0].contains("`rubber` turns by") && found[0].contains("torsion_spring"), "{found:?}");
+    // One that holds no rotation takes none to be small.
+    assert_eq!(warnings(&bushed(2.0, "0, 0, 0"), &[]), [""; 0]);
+}
+
+/// Half a revolution between two evaluations may be one the other way round.
+#[test]
+fn fixed_steps_that_do_not_see_a_turn_are_a_warning() {
+    let spun = |dimension: &str, inertia: &str, spin: &str| {
+        format!(
+            r#"{{ "name": "spun", "dimension": {dimension},
+                "bodies": [ {{ "name": "rotor", "type": "rigid", "mass": 1, "inertia": {inertia},
+                               "initial": {{ "angular_velocity": {spin} }} }} ],
+                "simulation": {{ "t_end": 1 }} }}"#
+        )
+    };
+    // rk4 evaluates in the middle, too; Radau IIA of order 5 at 0, 0.155, 0.645 and 1 of a step.
+    for (scene, bound) in [(spun("2", "1", "100"), 0.0628), (spun("3", "[1, 2, 3]", "[0, 0, 100]"), 0.0628)] {
+        for (integrator, formulation, factor) in [("rk4", "index1", 1.0), ("radau_iia:order=5", "ggl", 0.5 / 0.49)] {
+            for (part, count) in [(0.99, 0), (1.01, 1)] {
+                let step = (part * factor * bound).to_string();
+                let method = ["--integrator", integrator, "--formulation", formulation, "--projection", "none"];
+                let found = warnings(&scene, &[&method[..], &["--step", &step]].concat());
+                let said = found.iter().filter(|warning| warning.contains("`rotor` turns by")).count();
+                assert_eq!(said, count, "{integrator} {step}: {found:?}");
+            }
+        }
+        assert_eq!(warnings(&scene, &[]), [""; 0]);
+    }
+}

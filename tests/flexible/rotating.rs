@@ -217,10 +217,10 @@ fn a_motion_is_the_same_in_both_axes() {
     let end = 0.7;
     let world = scene.tight(1e-10, end, end);
     let system = scene.system();
-    let axes = Rotating::new(system, 0.0, system.spin(0.0).unwrap()).unwrap();
+    let axes = Rotating::new(system, 0.0, system.prescribed_spin(0.0).unwrap()).unwrap();
     let mut v = scene.start().v.clone();
     v[5] -= 3.0;
-    let mut last = Last::default();
+    let mut last = Last;
     let span = Span { start: 0.0, end, output_step: end };
     let outcome =
         holonom::simulate::simulate(&axes, &crate::scenes::dop853(1e-10), span, (&scene.start().q, &v), &mut last)
@@ -234,7 +234,6 @@ fn a_motion_is_the_same_in_both_axes() {
     }
 }
 
-#[derive(Default)]
 struct Last;
 
 impl holonom::simulate::Sink for Last {

@@ -55,6 +55,22 @@ fn loci_follow_the_physical_eigenvalues() {
     says(&svg(loci_figure("loci", "time (s)", &branches)), &[">50 spurious points lie outside"]);
 }
 
+/// What may be physical lies within the axes, and looks unlike what is spurious.
+#[test]
+fn uncertain_eigenvalues_are_told_from_spurious_ones() {
+    let mut branches = pair(Kind::Physical, |t| complex(-1.0 - t, 5.0 + t)).to_vec();
+    branches.extend(pair(Kind::Uncertain, |t| complex(-30.0, 60.0 + t)));
+    branches.extend(pair(Kind::Spurious, |t| complex(-40.0, 50.0 + t)));
+    let both = svg(loci_figure("loci", "time (s)", &branches));
+    says(&both, &["uncertain</text>", "spurious</text>"]);
+    assert!(!both.contains("uncertain points lie outside"), "{both}");
+    branches.truncate(4);
+    let without = svg(loci_figure("loci", "time (s)", &branches));
+    let vermilion = |svg: &str| svg.to_lowercase().matches("#d55e00").count();
+    branches.truncate(2);
+    assert!(vermilion(&without) > vermilion(&svg(loci_figure("loci", "time (s)", &branches))));
+}
+
 #[test]
 fn loci_without_much_to_show() {
     assert!(loci_figure("loci", "time (s)", &[]).is_none() && frequency_figure("f", "time (s)", &[]).is_none());

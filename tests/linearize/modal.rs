@@ -29,7 +29,7 @@ fn start(study: &Study) -> State {
 }
 
 fn rest(study: &Study) -> State {
-    at_rest(study, &start(study)).unwrap()
+    at_rest(study, &start(study)).unwrap().state
 }
 
 fn dense(variation: &mut Variation) -> LinearModel {

@@ -32,7 +32,7 @@ fn pair(im: f64) -> [Complex<f64>; 2] {
 /// of its equations.
 fn at_equilibrium(name: &str, set: &[(&str, f64)], known: &[Complex<f64>]) {
     let scene = shipped(name, set);
-    let state = at_rest(&scene.0, &start(&scene)).unwrap();
+    let state = at_rest(&scene.0, &start(&scene)).unwrap().state;
     let mut variation = state.variation(&scene.0).unwrap();
     assert!(variation.point.is_equilibrium, "{name}");
     for method in EXACT {

@@ -26,7 +26,7 @@ mod tangent;
 
 use super::flexible::{Elastic, PointShape};
 use super::kernel::coordinate_path;
-use super::{Bent, Body, BodyOver, BodyState, Energy, Frame, Marker, Wrench, dot};
+use super::{Attitude, Bent, Body, BodyOver, BodyState, Energy, Frame, Marker, Wrench, dot};
 use crate::math::rotation::{axes_from_quaternion, quaternion_rate};
 use crate::math::{Scalar, Taylor};
 use layout::Layout;
@@ -185,6 +185,12 @@ impl<const D: usize> Body<D> for Floating<D> {
     }
     fn turning(&self) -> Option<usize> {
         (D == 3).then_some(turn_velocity(D, 0))
+    }
+    fn attitude(&self, q: &[f64], v: &[f64]) -> Attitude<D> {
+        match D {
+            2 => Attitude { axes: frame::<f64, D>(q).axes, turn: q[2], spin: [0.0, 0.0, v[2]] },
+            _ => Attitude::of_quaternion(&q[3..7], &v[3..6]),
+        }
     }
     fn has_constant_mass(&self) -> bool {
         false

@@ -16,10 +16,10 @@ pub use spec::BeamForce;
 pub use station::Station;
 pub use strain::Beam;
 
-use super::{Action, ForceKernel};
+use super::{Action, ForceKernel, Instant, Motion};
 use crate::body::{Frame, Wrench, dot};
 use crate::math::screw::{Vector, cross3, dot3, pull_back};
-use crate::math::{Dual, Scalar, Taylor, Time};
+use crate::math::{Dual, Scalar, Taylor};
 use station::Carried;
 use std::array::from_fn;
 use strain::Strains;
@@ -28,12 +28,7 @@ use strain::Strains;
 pub(crate) type Moving<S> = Dual<S, 1>;
 
 impl<const D: usize> ForceKernel<D> for Beam {
-    fn act<S: Scalar>(
-        &self,
-        frames: &[Frame<Taylor<S>, D>],
-        _: Time<Taylor<S>>,
-        out: &mut [Wrench<S, D>],
-    ) -> Action<S> {
+    fn act<S: Scalar>(&self, frames: &Motion<S, D>, _: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
         let [a, b] = [&frames[0], &frames[1]].map(|frame| frame.map(|x| Moving { re: x.x, eps: [x.d] }));
         let strains = Strains::between(&a, &b);
         let strain = self.strain(&strains);

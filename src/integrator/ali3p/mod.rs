@@ -147,7 +147,7 @@ impl Ali3p {
                 self.matrix.factor(problem, at, h)?;
             }
             let change = self.iterate(problem, h)?;
-            let still = 4.0 * STILL * largest(q).max(1.0) / (h * h);
+            let still = 4.0 * STILL * largest(problem.dynamics.system.own(q)).max(1.0) / (h * h);
             let small = (SMALL * largest(&self.a_new).max(largest(v) / h)).max(still);
             let ratio = if iteration == 0 { 1.0 } else { change / last };
             // The next iteration would change that by the ratio.

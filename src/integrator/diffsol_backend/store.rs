@@ -21,7 +21,7 @@ impl<'s> Store<'s> {
     }
 }
 
-/// A tolerated error of unknowns that are not tested: those without a rate, and the work.
+/// A tolerated error of unknowns that are not tested: those without a rate, angles that count turns, and the work.
 const NOT_TESTED: f64 = 1e20;
 
 /// Equations and tolerances for diffsol. Its limit of Newton failures counts those of the whole run; where Newton's
@@ -29,9 +29,11 @@ const NOT_TESTED: f64 = 1e20;
 fn problem_of<'s>(form: Box<dyn Form + 's>, rates: usize, tolerance: &Tolerance) -> OdeSolverProblem<Equations<'s>> {
     let eqn = Equations::new(form, rates);
     // diffsol takes the mean over all unknowns, our norm that over the tested ones.
-    let tested = ((rates - 1) as f64 / eqn.len as f64).sqrt();
+    let tested = (tolerance.tested(rates - 1) as f64 / eqn.len as f64).sqrt();
     let mut atol = Values::from_element(eqn.len, NOT_TESTED, eqn.context);
-    atol.inner_mut().as_mut_slice()[..rates - 1].fill(tested * tolerance.atol);
+    let places = atol.inner_mut().as_mut_slice();
+    places[..rates - 1].fill(tested * tolerance.atol);
+    places[tolerance.untested()].fill(NOT_TESTED);
     OdeSolverProblem {
         eqn,
         rtol: tested * tolerance.rtol,

@@ -92,9 +92,8 @@ impl GeneralizedAlpha {
     fn error(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64, to: &[f64]) -> f64 {
         let (q, _) = problem.split(to);
         problem.dynamics.system.rate(q, self.motion.local_error(h), &mut self.error);
-        let weighted = self.error.iter().zip(from.y.iter().zip(q));
-        let sum: f64 = weighted.map(|(error, (from, to))| (error / tolerance.weight(*from, *to)).powi(2)).sum();
-        (sum / q.len() as f64).sqrt()
+        let sum = tolerance.squares(q.len(), from.y, q, |i| self.error[i]);
+        (sum / tolerance.tested(q.len()) as f64).sqrt()
     }
 }
 

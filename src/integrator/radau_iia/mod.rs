@@ -7,11 +7,13 @@ mod order;
 mod stages;
 mod velocity;
 
+use super::explicit::widest_gap;
 use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tolerance, With, collapsed};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
 use crate::formulation::{self, Halt, Rows};
 use crate::math::largest;
+use crate::system::MechanicalSystem;
 use collocation::Collocation;
 use convergence::{Convergence, Verdict};
 use newton::Newton;
@@ -63,7 +65,7 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         newton: Newton::new(rows, most / 2, setup)?,
         stages: Stages::new(most, n),
         row: Stages::new(most, n),
-        tolerance: Tolerance { rtol: 1.0, atol: 1.0 },
+        tolerance: Tolerance::new(1.0, 1.0, setup.system),
         convergence: Convergence::new(),
         before: Unknowns::new(most, n),
         tried: None,
@@ -193,9 +195,9 @@ impl RadauIIA {
 const EXACT: f64 = 1e-14;
 const SMALLEST: f64 = 1e-10;
 
-fn exact(q: &[f64]) -> Tolerance {
-    let size = Some(largest(q)).filter(|size| *size > 0.0).map_or(1.0, |size| size.clamp(SMALLEST, 1.0));
-    Tolerance { rtol: EXACT, atol: EXACT * size }
+fn exact(q: &[f64], system: &dyn MechanicalSystem) -> Tolerance {
+    let size = Some(largest(system.own(q))).filter(|size| *size > 0.0).map_or(1.0, |size| size.clamp(SMALLEST, 1.0));
+    Tolerance::new(EXACT, EXACT * size, system)
 }
 
 /// One step as an implicit system: its stages, matrices and the judgement of their convergence.
@@ -257,7 +259,7 @@ impl Integrator for RadauIIA {
         let method = self.order.current();
         self.tried = Some(Step { start: from.t, h, method });
         let tolerance = match self.is_fixed {
-            true => exact(problem.split(from.y).0),
+            true => exact(problem.split(from.y).0, problem.dynamics.system),
             false => internal(tolerance, self.order.method().stages()),
         };
         self.tolerance = tolerance;
@@ -279,6 +281,10 @@ impl Integrator for RadauIIA {
             velocity::slope(problem, from.t + h, to, &mut self.slope)?;
         }
         Ok(Some(error))
+    }
+
+    fn spacing(&self) -> f64 {
+        widest_gap(&self.order.method().nodes).0
     }
 
     fn restart(&mut self) {

@@ -125,5 +125,5 @@ impl Order {
 pub fn internal(tolerance: &Tolerance, s: usize) -> Tolerance {
     let s = s as f64;
     let rtol = 0.1 * tolerance.rtol.powf((s + 1.0) / (2.0 * s));
-    Tolerance { rtol, atol: rtol * tolerance.atol / tolerance.rtol }
+    tolerance.with(rtol, rtol * tolerance.atol / tolerance.rtol)
 }

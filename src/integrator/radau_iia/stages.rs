@@ -111,6 +111,7 @@ impl Stages {
     /// leaves about h |omega|/8 of its error.
     pub fn advance(&mut self, problem: &Problem, method: &Collocation, from: From, h: f64) {
         let (nq, nv, s) = (self.n.q, self.n.v, method.stages());
+        let system = problem.dynamics.system;
         for i in 0..s {
             let (q, v) = self.next[i].split_at_mut(nq);
             q.copy_from_slice(&self.y[i][..nq]);
@@ -119,12 +120,16 @@ impl Stages {
             combine(&mut v[..nv], h, &method.a[i], &self.unknowns.vdot);
         }
         let sweeps = if nq == nv { 1 } else { SWEEPS };
-        for _ in 0..sweeps {
+        for sweep in 1..=sweeps {
             for i in 0..s {
                 let (q, v) = self.next[i].split_at(nq);
                 let sum = v.iter().zip(&self.unknowns.shift[i]).map(|(v, shift)| v + shift);
                 self.velocity.iter_mut().zip(sum).for_each(|(place, sum)| *place = sum);
-                problem.dynamics.system.rate(q, &self.velocity, &mut self.qdot[i]);
+                // Nothing turns with the angles that count turns: they follow once.
+                match sweep == sweeps {
+                    true => system.rate(q, &self.velocity, &mut self.qdot[i]),
+                    false => system.own_rate(q, &self.velocity, &mut self.qdot[i]),
+                }
             }
             for i in 0..s {
                 self.next[i][..nq].copy_from_slice(&from.y[..nq]);
@@ -158,8 +163,7 @@ impl Stages {
     pub fn round_off(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64, rows: Rows) -> f64 {
         let (q, v) = problem.split(from.y);
         // Angles that are counted through turns grow, and nothing is rounded to their size but they.
-        let own = q.len() - problem.dynamics.system.turning_angles();
-        let (of_q, of_v) = (ROUND_OFF * largest(&q[..own]), ROUND_OFF * largest(v));
+        let (of_q, of_v) = (ROUND_OFF * largest(problem.dynamics.system.own(q)), ROUND_OFF * largest(v));
         let change = &mut self.next[0];
         change[..q.len()].fill(of_q);
         change[q.len()..].fill(if rows == Rows::Position { of_v.max(of_q / h) } else { of_v });

@@ -19,7 +19,8 @@ use projection::Straightening;
 use shape::Shape;
 
 /// Of the motion and of columns of size 1.
-const TOLERANCE: Tolerance = Tolerance { rtol: 1e-12, atol: 1e-13 };
+const RTOL: f64 = 1e-12;
+const ATOL: f64 = 1e-13;
 /// A run takes no more steps than this.
 const MOST_STEPS: usize = 2_000_000;
 const SHORTER: &str = "choose a shorter time";
@@ -63,7 +64,8 @@ pub fn flow(
         limits_projection: false,
     };
     let horizon = times.last().map_or(start.t, |last| last.max(start.t));
-    let mut run = Segments::new(parts, TOLERANCE, (start.t, horizon), shape.pack(bundle));
+    let tolerance = Tolerance::new(RTOL, ATOL, &carrier);
+    let mut run = Segments::new(parts, tolerance, (start.t, horizon), shape.pack(bundle));
     let mut counter = Counter(0);
     for &end in times {
         run.advance(end, &mut counter).map_err(stopped)?;

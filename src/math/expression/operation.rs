@@ -163,9 +163,6 @@ impl Two {
     #[inline]
     pub fn apply<S: Scalar>(self, a: S, b: S) -> S {
         let (u, v) = (a.value(), b.value());
-        if self.compares() {
-            return Self::piece(a, b).map_or(S::constant(f64::NAN), |piece| self.on(piece, a, b));
-        }
         match self {
             Two::Add => a + b,
             Two::Sub => a - b,
@@ -178,7 +175,7 @@ impl Two {
             // Adding zero makes -0 into 0: the angle of the negative x axis is pi, never -pi.
             Two::Atan2 => S::atan2(a + 0.0, b),
             Two::Hypot => hypot(a, b),
-            compares => compares.on(1, a, b),
+            compares => Self::piece(a, b).map_or(S::constant(f64::NAN), |piece| compares.on(piece, a, b)),
         }
     }
 }

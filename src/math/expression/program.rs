@@ -102,37 +102,37 @@ impl Program {
     /// The value with every operation on the piece of its argument.
     #[inline]
     pub fn eval<S: Scalar>(&self, variables: &[S]) -> S {
-        self.run(variables, &mut |_, own, _| own)
+        self.run::<S, true>(variables, &mut |_, own, _| own)
     }
 
     /// The value with every operation that changes its form held on its piece of `regime`; its switching functions there are
     /// numbered from `first` on. Where a piece has no value so far from where it belongs, as the root of a negative number,
     /// the pieces are those of the arguments.
     pub fn eval_held<S: Scalar>(&self, variables: &[S], first: usize, regime: Regime) -> S {
-        let held = self.run(variables, &mut |number, own, _| regime.piece(first + number).unwrap_or(own));
+        let held = self.run::<S, false>(variables, &mut |number, own, _| regime.piece(first + number).unwrap_or(own));
         if held.value().is_finite() { held } else { self.eval(variables) }
     }
 
     /// Writes the arguments of its switching functions, with the pieces of `regime`.
     pub fn arguments<S: Scalar>(&self, variables: &[S], first: usize, regime: Regime, out: &mut [S]) {
-        self.run(variables, &mut |number, own, argument| {
+        self.run::<S, false>(variables, &mut |number, own, argument| {
             out[number] = argument;
             regime.piece(first + number).unwrap_or(own)
         });
     }
 
     /// `choose` gives the piece of each operation that changes its form, from its number, the piece of its argument, and the
-    /// argument.
+    /// argument; it is not asked where all are `OWN`.
     #[inline]
-    fn run<S: Scalar>(&self, variables: &[S], choose: &mut impl FnMut(usize, Piece, S) -> Piece) -> S {
+    fn run<S: Scalar, const OWN: bool>(&self, variables: &[S], choose: &mut impl FnMut(usize, Piece, S) -> Piece) -> S {
         match self.depth <= SHALLOW {
-            true => self.run_on::<S, SHALLOW>(variables, choose),
-            false => self.run_on::<S, MAX_STACK>(variables, choose),
+            true => self.run_on::<S, SHALLOW, OWN>(variables, choose),
+            false => self.run_on::<S, MAX_STACK, OWN>(variables, choose),
         }
     }
 
     #[inline]
-    fn run_on<S: Scalar, const N: usize>(
+    fn run_on<S: Scalar, const N: usize, const OWN: bool>(
         &self,
         variables: &[S],
         choose: &mut impl FnMut(usize, Piece, S) -> Piece,
@@ -147,28 +147,27 @@ impl Program {
         for op in &self.ops {
             height = height + 1 - op.operands();
             let top = height - 1;
-            let x = stack[top];
             stack[top] = match *op {
                 Op::Constant(value) => S::constant(value),
                 Op::Variable(index) => variables[index],
-                Op::One(function) => match function.thresholds() {
-                    [] => function.apply(x),
-                    thresholds => {
-                        let own = piece_of(x.value(), thresholds.len(), |k| thresholds[k]);
-                        chosen(own, x).map_or(x, |piece| function.on(piece, x))
-                    }
-                },
-                Op::Two(function) if function.compares() => {
-                    let y = stack[height];
+                Op::One(function) if OWN || function.thresholds().is_empty() => function.apply(stack[top]),
+                Op::Two(function) if OWN || !function.compares() => function.apply(stack[top], stack[height]),
+                Op::Table(index) if OWN => self.tables[index].apply(stack[top]),
+                Op::One(function) => {
+                    let (x, thresholds) = (stack[top], function.thresholds());
+                    let own = piece_of(x.value(), thresholds.len(), |k| thresholds[k]);
+                    chosen(own, x).map_or(x, |piece| function.on(piece, x))
+                }
+                Op::Two(function) => {
+                    let (x, y) = (stack[top], stack[height]);
                     let piece = chosen(Two::piece(x, y), x - y);
                     piece.map_or(S::constant(f64::NAN), |piece| function.on(piece, x, y))
                 }
-                Op::Two(function) => function.apply(x, stack[height]),
                 Op::Table(index) => {
-                    let table = &self.tables[index];
+                    let (x, table) = (stack[top], &self.tables[index]);
                     chosen(table.piece(x.value()), x).map_or(x, |piece| table.on(piece, x))
                 }
-                Op::Select => select(x, stack[height], stack[height + 1]),
+                Op::Select => select(stack[top], stack[height], stack[height + 1]),
             };
         }
         stack[0]

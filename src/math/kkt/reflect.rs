@@ -97,8 +97,10 @@ impl Reflected {
         column[0] = beta;
         column[1..].iter_mut().for_each(|v| *v /= alpha - beta);
         for (other, square) in tail.chunks_exact_mut(rows).zip(&mut self.squares[k + 1..]) {
-            reflect(self.factors[k], &column[1..], &mut other[k..]);
-            *square = dot(&other[k + 1..], &other[k + 1..]);
+            // A column that has nothing along the reflector, as many of a sparse matrix, stays as it is.
+            if reflect(self.factors[k], &column[1..], &mut other[k..]) {
+                *square = dot(&other[k + 1..], &other[k + 1..]);
+            }
         }
     }
 
@@ -144,12 +146,16 @@ impl Reflected {
     }
 }
 
-/// x := (I - factor v v^T) x with v = (1, below).
-fn reflect(factor: f64, below: &[f64], x: &mut [f64]) {
-    let Some((first, rest)) = x.split_first_mut() else { return };
+/// x := (I - factor v v^T) x with v = (1, below); false where x starts with zero and stays.
+fn reflect(factor: f64, below: &[f64], x: &mut [f64]) -> bool {
+    let Some((first, rest)) = x.split_first_mut() else { return false };
     let w = factor * (*first + dot(below, rest));
+    if w == 0.0 && *first == 0.0 {
+        return false;
+    }
     *first -= w;
     add_scaled(-w, below, rest);
+    true
 }
 
 /// P^T H P = L L^T of a symmetric positive semidefinite H (lower triangle given), in place.

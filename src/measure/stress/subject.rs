@@ -1,7 +1,7 @@
 //! What is driven to extremes: a scene, or own equations.
 
 use super::case::Case;
-use crate::error::Result;
+use crate::error::{Result, Warning};
 use crate::math::expression::Number;
 use crate::measure::Recorder;
 use crate::scene::{self, Scene};
@@ -16,6 +16,8 @@ use std::time::{Duration, Instant};
 /// A scene or own equations, with what is usual for them.
 pub struct Subject<'a> {
     pub name: String,
+    /// What is doubtful about the scene's start.
+    pub doubts: Vec<Warning>,
     pub base: Case,
     pub dimensions: Dimensions,
     folder: PathBuf,
@@ -70,6 +72,7 @@ impl Subject<'static> {
             start_error: [0.0; 2],
         };
         Ok(Subject {
+            doubts: study.doubts.clone(),
             name: study.name.clone(),
             base,
             dimensions: study.system().dimensions(),
@@ -92,6 +95,7 @@ impl<'a> Subject<'a> {
         (q, v): (&[f64], &[f64]),
     ) -> Result<Self> {
         Ok(Subject {
+            doubts: Vec::new(),
             name: name.to_string(),
             dimensions: system.dimensions(),
             base: Case {

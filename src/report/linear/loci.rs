@@ -12,7 +12,8 @@ use std::collections::BTreeMap;
 const FREE: f64 = 0.06;
 /// An axis is at least this part of the other one long, so that round-off does not fill it.
 const LEAST: f64 = 0.02;
-/// Place of black in the palette.
+/// Places in the palette.
+const VERMILION: usize = 1;
 const BLACK: usize = 6;
 /// About the pixels between the axes, across and up.
 const PIXELS: (f64, f64) = (440.0, 400.0);
@@ -25,7 +26,8 @@ struct Window {
 }
 
 /// The eigenvalues with time or a parameter as colour, which `along` names with its unit. Only the upper half is drawn
-/// where the lower one is its mirror image; the axes follow the physical eigenvalues. `None` without finite eigenvalues.
+/// where the lower one is its mirror image; the axes follow the physical eigenvalues and those
+/// that may be. `None` without finite eigenvalues.
 pub fn loci_figure(title: &str, along: impl Into<AxisSpec>, branches: &[Branch]) -> Option<Figure> {
     let along = along.into();
     let (drawn, left_out) = drawn(branches);
@@ -33,18 +35,19 @@ pub fn loci_figure(title: &str, along: impl Into<AxisSpec>, branches: &[Branch])
     let is_upper = are_mirrored(branches);
     let shown: Vec<Branch> = branches.iter().map(|branch| finite(branch, is_upper)).collect();
     let of = |kind: Kind| shown.iter().filter(move |branch| branch.kind == kind);
-    let window = window(of(Kind::Physical), is_upper)
-        .or_else(|| window(of(Kind::Uncertain), is_upper))
-        .or_else(|| window(of(Kind::Spurious), is_upper))?;
+    let physical = || of(Kind::Physical).chain(of(Kind::Uncertain));
+    let window = window(physical(), is_upper).or_else(|| window(of(Kind::Spurious), is_upper))?;
     let axis = |label: &str, (low, high): (f64, f64)| AxisSpec::from(label).range(low, high);
     let mut panel = Panel::new(axis("real part (1/s)", window.re), axis("imaginary part (rad/s)", window.im))
         .height(PIXELS.1)
         .title(if left_out.is_empty() { outside_note(&shown, &window) } else { left_out });
     panel = frame_lines(panel, &window, is_upper);
-    for (kind, name) in [(Kind::Spurious, "spurious"), (Kind::Uncertain, "uncertain")] {
+    for (kind, name, style) in
+        [(Kind::Spurious, "spurious", Style::Crosses), (Kind::Uncertain, "uncertain", Style::Dots)]
+    {
         let others = points(of(kind)).map(|(_, value)| (value.re, value.im)).collect::<Vec<_>>();
         if !others.is_empty() {
-            panel = panel.series(Series::dots(name, others).style(Style::Crosses));
+            panel = panel.series(Series::dots(name, others).style(style).color(VERMILION));
         }
     }
     panel = panel.series(Series::line("", joined(of(Kind::Physical))).style(Style::Thin).color(BLACK));

@@ -1,0 +1,18 @@
+//! What sizes in a scene are large and small beside.
+
+use crate::body::norm;
+use crate::scene::Model;
+
+/// A length typical of the scene, m: the largest distance of a marker from its body's origin; where all lie there, of
+/// the ground's markers; else the extent of the start, if that is below 1.
+pub(super) fn length_scale<const D: usize>(model: &Model<D>) -> f64 {
+    let bodies = model.bodies.iter().map(|part| part.body.reach()).fold(0.0, f64::max);
+    let ground = model.ground.iter().map(|marker| norm(&marker.offset)).fold(0.0, f64::max);
+    [bodies, ground, model.extent.min(1.0)].into_iter().find(|length| *length > 0.0).unwrap_or(1.0)
+}
+
+/// The unit of each row of phi that drift is measured against: the length for rows in metres, 1 rad for angles.
+pub(super) fn row_scales<const D: usize>(model: &Model<D>, length: f64) -> Vec<f64> {
+    let rows = model.joints.iter().flat_map(|joint| joint.element.row_names());
+    rows.map(|row| if matches!(row, "x" | "y" | "z" | "length") { length } else { 1.0 }).collect()
+}
