@@ -88,21 +88,29 @@ impl Extreme {
                     "`{part}` is deformed by {deformation} of its length at t = {t} s: in a floating frame displacements \
                      are small, up to some {most}"
                 ),
-                "model it with \"frame\": \"absolute\", or as several bodies",
+                "model it with \"frame\": \"absolute\", or as several bodies".to_string(),
             ),
             Theory::SmallRotations => (
                 format!(
                     "the bushing `{part}` turns by {deformation} rad at t = {t} s: its rotations are small, up to some {most}, \
                      and its torque is that of their sine"
                 ),
-                "hold larger rotations by a joint with a torsion_spring",
+                "hold larger rotations by a joint with a torsion_spring".to_string(),
             ),
             Theory::Helix { .. } => (
                 format!(
                     "the ends of an element of the beam `{part}` turn against each other by {deformation} rad at t = {t} \
                      s: from {most} rad on an element may lose a turn"
                 ),
-                "take more elements",
+                "take more elements".to_string(),
+            ),
+            Theory::Mesh { elements } => (
+                format!(
+                    "the curvature of the beam `{part}` changes so much from one of its {elements} elements to the next that \
+                     they miss some {} % of the energy of bending at t = {t} s",
+                    short(two_digits(100.0 * self.deformation))
+                ),
+                format!("take {} elements or more", theory.elements_for(self.deformation)),
             ),
         };
         Warning::new(text, hint)

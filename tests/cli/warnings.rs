@@ -194,3 +194,24 @@ fn fixed_steps_that_do_not_see_a_turn_are_a_warning() {
         assert_eq!(warnings(&scene, &[]), [""; 0]);
     }
 }
+
+/// A rubber beam that whips: too coarse with 12 elements, and told how many it takes.
+#[test]
+fn a_mesh_that_is_too_coarse_is_said() {
+    let rubber = |elements: usize| {
+        format!(
+            r#"{{ "name": "rubber", "dimension": 2, "gravity": [0, -9.81],
+            "ground": {{ "markers": {{ "pivot": [0, 0] }} }},
+            "bodies": [{{ "name": "rod", "type": "flexible_beam", "frame": "absolute", "length": 1.2, "elements": {elements},
+                "stiffness": {{ "EA": 1260, "EI": 0.0085 }}, "inertia": {{ "rhoA": 9.97, "rhoI": 6.7e-5 }},
+                "markers": {{ "pivot": [0, 0], "tip": [1.2, 0] }} }}],
+            "joints": [{{ "name": "hinge", "type": "revolute", "between": ["ground.pivot", "rod.pivot"] }}],
+            "simulation": {{ "t_end": 0.5, "output_step": 0.1, "integrator": "dop853" }} }}"#
+        )
+    };
+    let found = warnings(&rubber(8), &[]);
+    assert!(found.len() == 1 && found[0].contains("`rod`") && found[0].contains("energy of bending"), "{found:?}");
+    let needed: usize = found[0].split("take ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+    assert!((10..60).contains(&needed), "{found:?}");
+    assert_eq!(warnings(&rubber(needed + 12), &[]), [""; 0]);
+}
