@@ -56,7 +56,7 @@ fn on_absolute<const D: usize>(
         halves: beam.halves[element],
         own: node(0),
         x: at - beam.abscissae[element],
-        reading: reading(wanted::<D>(spec, build)?, beam.relaxed(at)),
+        reading: reading(wanted::<D>(spec, build)?, beam.relaxed(at), &beam.section(at).compliance::<D>()),
     })
 }
 
@@ -68,14 +68,14 @@ fn on_massless<const D: usize>(
 ) -> Result<Place> {
     let x = place(spec, beam.length, build)?;
     let ends: [MarkerId; 2] = [force.markers[0], force.markers[1]];
-    let reading = reading(wanted::<D>(spec, build)?, beam.relaxed(x));
+    let reading = reading(wanted::<D>(spec, build)?, beam.relaxed(x), &beam.compliance()[0]);
     Ok(Place { element: beam.clone(), ends, halves: [Half::default(); 2], own: ends[0], x, reading })
 }
 
-fn reading(wanted: Wanted, relaxed: [f64; 3]) -> Reading {
+fn reading(wanted: Wanted, relaxed: [f64; 3], compliance: &[f64; 6]) -> Reading {
     match wanted {
         Wanted::Deflection(axis) => Reading::Deflection { axis, rest: relaxed[axis] },
-        Wanted::Strain(factors) => Reading::Strain(factors),
+        Wanted::Strain(factors) => Reading::Strain(std::array::from_fn(|i| factors[i] * compliance[i])),
         Wanted::Force(component) => Reading::Force(component),
     }
 }

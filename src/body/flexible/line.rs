@@ -9,7 +9,6 @@
 //!
 //! so that where sections stay square to the line r_z = w_y' and r_y = -w_z'.
 
-use super::integrals::Inertia;
 use super::shape::{Line, Piece, PointShape, SectionShape};
 use crate::body::{cross, in_space};
 use std::array::from_fn;
@@ -97,22 +96,16 @@ pub trait Shapes: Send + Sync {
     /// At 0 <= s <= length.
     fn at(&self, s: f64) -> Station;
     /// The mass integrals of the line from `s` on.
-    fn pieces<const D: usize>(&self, s: f64, inertia: &Inertia) -> Vec<Piece<D>>;
+    fn pieces<const D: usize>(&self, s: f64) -> Vec<Piece<D>>;
 }
 
-/// Shapes with the mass of the section.
-pub struct BeamLine<F> {
-    pub shapes: F,
-    pub inertia: Inertia,
-}
-
-impl<F: Shapes, const D: usize> Line<D> for BeamLine<F> {
+impl<F: Shapes, const D: usize> Line<D> for F {
     fn length(&self) -> f64 {
-        self.shapes.length()
+        Shapes::length(self)
     }
 
     fn point(&self, rest: [f64; D]) -> PointShape<D> {
-        let Station { dofs, shapes } = self.shapes.at(rest[0]);
+        let Station { dofs, shapes } = self.at(rest[0]);
         let mut offset = in_space(&rest);
         offset[0] = 0.0;
         let translation = |shape: &Cross| {
@@ -129,12 +122,12 @@ impl<F: Shapes, const D: usize> Line<D> for BeamLine<F> {
     }
 
     fn section(&self, s: f64) -> SectionShape {
-        let Station { dofs, shapes } = self.shapes.at(s);
+        let Station { dofs, shapes } = self.at(s);
         let strains = shapes.iter().map(|shape| shape.strain).collect();
         SectionShape { dofs, strains }
     }
 
     fn beyond(&self, s: f64) -> Vec<Piece<D>> {
-        self.shapes.pieces(s, &self.inertia)
+        self.pieces(s)
     }
 }

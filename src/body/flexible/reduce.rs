@@ -13,8 +13,8 @@
 //! moment of momentum: the rest of the modes.
 
 use super::eigen::{Modes, dense};
-use super::integrals::{Inertia, mass_matrix};
-use super::line::{BeamLine, Cross, Shapes, Station};
+use super::integrals::mass_matrix;
+use super::line::{Cross, Shapes, Station};
 use super::mesh::Mesh;
 use super::shape::{Elastic, Piece, Second, Stretch};
 use super::spec::FrameConditions;
@@ -33,7 +33,6 @@ const MOST: usize = 4000;
 pub fn beam<const D: usize>(
     mesh: Mesh<D>,
     nodal: Elastic<D>,
-    inertia: &Inertia,
     conditions: FrameConditions,
     markers: &[f64],
     count: Option<usize>,
@@ -56,7 +55,7 @@ pub fn beam<const D: usize>(
     if modes.squares.is_empty() {
         return Err(Error::input("no elastic coordinate is left").under("modes").hint("give one mode or more"));
     }
-    Ok(project(mesh, nodal, inertia, modes))
+    Ok(project(mesh, nodal, modes))
 }
 
 /// Dense matrices of a beam, with the rigid motions that the frame leaves it.
@@ -177,7 +176,7 @@ fn orthonormal(vectors: &Mat<f64>, mass: &Mat<f64>) -> Mat<f64> {
     basis
 }
 
-fn project<const D: usize>(mesh: Mesh<D>, nodal: Elastic<D>, inertia: &Inertia, modes: Modes) -> Elastic<D> {
+fn project<const D: usize>(mesh: Mesh<D>, nodal: Elastic<D>, modes: Modes) -> Elastic<D> {
     let basis = modes.vectors;
     Elastic {
         names: (1..=basis.ncols()).map(|i| format!("mode{i}")).collect(),
@@ -185,7 +184,7 @@ fn project<const D: usize>(mesh: Mesh<D>, nodal: Elastic<D>, inertia: &Inertia, 
         stiffness: modes.squares.iter().enumerate().map(|(i, square)| (i, i, *square)).collect(),
         damping: Vec::new(),
         stretches: nodal.stretches.iter().map(|stretch| project_stretch(stretch, &basis)).collect(),
-        line: Some(Box::new(BeamLine { shapes: Reduced { mesh, basis }, inertia: *inertia })),
+        line: Some(Box::new(Reduced { mesh, basis })),
     }
 }
 
@@ -286,7 +285,7 @@ impl<const D: usize> Shapes for Reduced<D> {
         Station { dofs: (0..shapes.len()).collect(), shapes }
     }
 
-    fn pieces<const E: usize>(&self, s: f64, inertia: &Inertia) -> Vec<Piece<E>> {
-        vec![project_pieces(&self.mesh.pieces(s, inertia), &self.basis)]
+    fn pieces<const E: usize>(&self, s: f64) -> Vec<Piece<E>> {
+        vec![project_pieces(&self.mesh.pieces(s), &self.basis)]
     }
 }

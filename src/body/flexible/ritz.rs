@@ -2,9 +2,9 @@
 
 use super::eigen::{dense, first_dependent};
 use super::gauss::{gauss_legendre, on_interval};
-use super::integrals::{Inertia, Sample, Sum, add_stiffness, mass_matrix, stretch};
-use super::line::{BeamLine, Bending, Cross, Shapes, Station};
-use super::section::Section;
+use super::integrals::{Sample, Sum, add_stiffness, mass_matrix, piece, stretch};
+use super::line::{Bending, Cross, Shapes, Station};
+use super::profile::Profile;
 use super::shape::{Elastic, Piece, Symmetric};
 use super::spec::Ritz;
 use crate::body::Build;
@@ -77,6 +77,7 @@ pub struct Functions {
     functions: Vec<Function>,
     /// Of the mass of axial functions among one another.
     axial_mass_factor: f64,
+    profile: Profile,
 }
 
 impl Shapes for Functions {
@@ -86,8 +87,8 @@ impl Shapes for Functions {
     fn at(&self, s: f64) -> Station {
         Station { dofs: (0..self.functions.len()).collect(), shapes: self.functions.iter().map(|f| f.at(s)).collect() }
     }
-    fn pieces<const D: usize>(&self, s: f64, inertia: &Inertia) -> Vec<Piece<D>> {
-        let mut piece = inertia.piece((0..self.functions.len()).collect(), &self.samples([s, self.length], PANELS));
+    fn pieces<const D: usize>(&self, s: f64) -> Vec<Piece<D>> {
+        let mut piece = piece((0..self.functions.len()).collect(), &self.samples([s, self.length], PANELS));
         self.scale_axial(&mut piece);
         vec![piece]
     }
@@ -96,7 +97,7 @@ impl Shapes for Functions {
 impl Functions {
     /// # Errors
     /// Bad input: none at all, one that is no expression of x, or one that is not finite on the beam.
-    pub fn of<const D: usize>(ritz: &Ritz, length: f64, build: &Build<D>) -> Result<Self> {
+    pub fn of<const D: usize>(ritz: &Ritz, length: f64, profile: Profile, build: &Build<D>) -> Result<Self> {
         let given = [
             (Kind::Bending, &ritz.bending),
             (Kind::BendingZ, &ritz.bending_z),
@@ -132,7 +133,7 @@ impl Functions {
             None => 1.0,
             Some(factor) => build.positive("axial_mass_factor", factor).map_err(|error| error.under("ritz"))?,
         };
-        let functions = Functions { length, functions, axial_mass_factor };
+        let functions = Functions { length, functions, axial_mass_factor, profile };
         functions.check_finite()?;
         Ok(functions)
     }
@@ -155,24 +156,19 @@ impl Functions {
     }
 
     fn samples(&self, ends: [f64; 2], panels: usize) -> Vec<Sample> {
-        places(ends, panels).map(|(s, weight)| Sample { s, weight, shapes: self.at(s).shapes }).collect()
+        places(ends, panels).map(|at| Sample::new(&self.profile, at, self.at(at.0).shapes)).collect()
     }
 
     /// Everything but the damping, with so few points of integration as are exact to rounding.
     ///
     /// # Errors
     /// Bad input: functions that depend on one another, or move the beam as its frame does.
-    pub fn elastic<const D: usize>(
-        self,
-        section: &Section,
-        inertia: &Inertia,
-        quartic: Option<f64>,
-    ) -> Result<Elastic<D>> {
+    pub fn elastic<const D: usize>(self, quartic: Option<f64>) -> Result<Elastic<D>> {
         let dofs: Vec<usize> = (0..self.functions.len()).collect();
         let integrals = |samples: &[Sample]| {
             let mut stiffness = Sum::default();
-            add_stiffness(&mut stiffness, section, &dofs, samples);
-            (inertia.piece::<D>(dofs.clone(), samples), stiffness.finish())
+            add_stiffness(&mut stiffness, &dofs, samples);
+            (piece::<D>(dofs.clone(), samples), stiffness.finish())
         };
         let mut panels = 1;
         let mut samples = self.samples([0.0, self.length], panels);
@@ -192,7 +188,7 @@ impl Functions {
         self.scale_axial(&mut piece);
         let points = samples.chunks(1).filter_map(|point| Some((point, quartic?)));
         let stretches = points.scan(0.0, |start, (point, quartic)| {
-            let next = stretch(section, quartic, *start, &dofs, point);
+            let next = stretch(quartic, *start, &dofs, point);
             *start = next.ends[1];
             Some(next)
         });
@@ -203,7 +199,7 @@ impl Functions {
             stiffness,
             damping: Vec::new(),
             stretches,
-            line: Some(Box::new(BeamLine { shapes: self, inertia: *inertia })),
+            line: Some(Box::new(self)),
         })
     }
 
