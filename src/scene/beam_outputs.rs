@@ -19,7 +19,7 @@ pub fn measure<const D: usize>(
 ) -> Result<Measure> {
     let Elements { bodies, beams, forces, .. } = elements;
     if let Some(beam) = beams.iter().find(|beam| beam.name == of) {
-        return Ok(Measure::Station(on_absolute(spec, beam, elements, build)?));
+        return Ok(Measure::Station(Box::new(on_absolute(spec, beam, elements, build)?)));
     }
     let floating = || bodies.iter().enumerate().filter_map(|(body, part)| Some((body, part, part.body.bent()?)));
     if let Some((body, part, bent)) = floating().find(|(_, part, _)| part.name == of) {
@@ -36,7 +36,7 @@ pub fn measure<const D: usize>(
     let names = floating().map(|(_, part, _)| part.name.as_str()).chain(beams.iter().map(|beam| beam.name.as_str()));
     let names: Vec<&str> = massless().map(|(force, _)| force.name.as_str()).chain(names).collect();
     match massless().nth(find("flexible beam", of, names.into_iter())?) {
-        Some((force, beam)) => Ok(Measure::Station(on_massless(spec, force, beam, build)?)),
+        Some((force, beam)) => Ok(Measure::Station(Box::new(on_massless(spec, force, beam, build)?))),
         None => Err(Error::input(format!("`{of}` is no flexible beam")).under("of")),
     }
 }

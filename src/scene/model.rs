@@ -160,7 +160,7 @@ pub enum Measure {
     /// Deflection or strain of a beam in a floating frame.
     Elastic(Combination),
     /// Of an absolute beam, or of a massless one.
-    Station(Place),
+    Station(Box<Place>),
     /// A component of force or moment at a [`Cut`].
     Section {
         cut: usize,
