@@ -6,14 +6,18 @@
 //! rho A h^3/36. Between equal elements the two shifts cancel. The statics of a straight element under loads at its nodes
 //! or its own weight are exact; frequencies of bending converge with the fourth power of its length (the third where an
 //! end turns freely), those of extension and torsion with the second.
+//!
+//! A tapered element has the mean compliance of its part of the beam. What it leaves out is how the compliance leans from
+//! one end to the other: bending under shear forces then converges with the second power of the length.
 
+use super::beam_mass::NodeMass;
 use super::builder::start_and_markers;
 use super::markers;
 use super::model::BeamLine;
-use crate::body::flexible::{Damping, FlexibleBeam, Section, curvature};
+use crate::body::flexible::{Damping, FlexibleBeam, Profile, curvature};
 use crate::body::{Body, Build, Built, Initial, Marker, RigidPlanar, RigidSpatial, SHARED_KEYS, cross, parse_among};
 use crate::error::{Error, Result, short};
-use crate::force::{Beam, Half};
+use crate::force::Beam;
 use crate::math::expression::Number;
 use crate::math::rotation::{matrix_from_quaternion, quaternion_from_vector, quaternion_product};
 use crate::math::screw::{dot3, exponential};
@@ -28,7 +32,7 @@ pub fn is_absolute_beam(kind: &str, json: &Map<String, Value>) -> bool {
 /// A beam, checked and divided into elements.
 pub struct AbsoluteBeam<const D: usize> {
     name: String,
-    section: Section,
+    profile: Profile,
     /// Twist and curvatures of the relaxed beam, 1/m.
     curvature: [f64; 3],
     /// s
@@ -66,7 +70,7 @@ impl<const D: usize> AbsoluteBeam<D> {
         };
         Ok(AbsoluteBeam {
             name: name.to_string(),
-            section: Section::of(&spec, build)?,
+            profile: Profile::of(&spec, length, build)?,
             curvature: curvature(spec.curvature.as_ref(), build)?,
             damping: damping(spec.damping.as_ref(), build).map_err(|error| error.under("damping"))?,
             markers: named.into_iter().map(at_node).collect::<Result<_>>()?,
@@ -80,9 +84,9 @@ impl<const D: usize> AbsoluteBeam<D> {
     pub fn nodes(&self) -> Vec<(Vec<String>, Built<D>)> {
         let node = |node: usize| {
             let here = || self.markers.iter().filter(move |(at, ..)| *at == node);
-            let beside = self.beside(node);
+            let mass = NodeMass::of(&self.profile, &self.abscissae, node);
             let from_centre = |mut marker: Marker<D>| {
-                marker.offset[0] -= beside.shift();
+                marker.offset[0] -= mass.shift();
                 marker
             };
             let own = Marker::point([0.0; D]);
@@ -90,43 +94,30 @@ impl<const D: usize> AbsoluteBeam<D> {
             let frames = [own].into_iter().chain((node == 0).then_some(own));
             let markers = frames.chain(here().map(|(_, _, marker)| *marker)).map(from_centre).collect();
             let names = here().map(|(_, name, _)| name.clone()).collect();
-            let (q, v) = self.start.at(self.abscissae[node], beside.shift(), &self.curvature);
-            (names, Built { body: self.body(&beside, &q, markers), q, v })
+            let (q, v) = self.start.at(self.abscissae[node], mass.shift(), &self.curvature);
+            (names, Built { body: self.body(&mass, &q, markers), q, v })
         };
         (0..self.abscissae.len()).map(node).collect()
     }
 
     /// The record for the model; the place of its elements among the forces is not known yet.
     pub fn line(self, first_body: usize) -> BeamLine {
-        let beam = |ends: &[f64]| Beam::new::<D>(&self.section, ends[1] - ends[0], self.curvature, self.damping);
-        let elements: Vec<Beam> = self.abscissae.windows(2).map(beam).collect();
-        let half = |element: usize, end: usize| {
-            let beside = self.beside(element + end);
-            beside.half(if end == 0 { beside.after } else { -beside.before }, self.inertia(&beside))
+        let beam = |ends: &[f64]| {
+            let (ends, length) = ([ends[0], ends[1]], ends[1] - ends[0]);
+            let mean = self.profile.mean(ends);
+            Beam::new::<D>(&mean, length, self.curvature, self.damping)
+                .tapered::<D>(ends.map(|s| self.profile.within(ends, s)))
         };
-        let halves = (0..elements.len()).map(|element| [half(element, 0), half(element, 1)]).collect();
-        BeamLine { name: self.name, first_body, first_force: 0, elements, halves, abscissae: self.abscissae }
+        let elements: Vec<Beam> = self.abscissae.windows(2).map(beam).collect();
+        let mass = |node: usize| NodeMass::of(&self.profile, &self.abscissae, node);
+        let nodes: Vec<NodeMass> = (0..self.abscissae.len()).map(mass).collect();
+        let halves = nodes.windows(2).map(|ends| [ends[0].half(true), ends[1].half(false)]).collect();
+        let AbsoluteBeam { name, profile, abscissae, .. } = self;
+        BeamLine { name, first_body, first_force: 0, elements, halves, abscissae, profile }
     }
 
-    fn beside(&self, node: usize) -> Beside {
-        let at = |node: usize| self.abscissae[node];
-        let before = if node > 0 { at(node) - at(node - 1) } else { 0.0 };
-        let after = if node + 1 < self.abscissae.len() { at(node + 1) - at(node) } else { 0.0 };
-        Beside { before, after }
-    }
-
-    /// Mass of a node, and its moments of inertia about y and z.
-    fn inertia(&self, beside: &Beside) -> (f64, [f64; 2]) {
-        let mass = self.section.rho_a * beside.own();
-        let about = self.section.rho_i.map(|inertia| match inertia > 0.0 {
-            true => inertia * beside.own(),
-            false => SMALL_INERTIA * mass * f64::max(beside.before, beside.after).powi(2),
-        });
-        (mass, about)
-    }
-
-    fn body(&self, beside: &Beside, q: &[f64], markers: Vec<Marker<D>>) -> Box<dyn Body<D>> {
-        let (mass, [y, z]) = self.inertia(beside);
+    fn body(&self, node: &NodeMass, q: &[f64], markers: Vec<Marker<D>>) -> Box<dyn Body<D>> {
+        let (mass, [y, z]) = (node.mass(), node.about());
         match D {
             2 => Box::new(RigidPlanar::new(mass, z, from_fn(|i| q[i]), &[0, 1, 2], markers)),
             _ => {
@@ -136,42 +127,6 @@ impl<const D: usize> AbsoluteBeam<D> {
         }
     }
 }
-
-/// Lengths of the elements beside a node, m; zero beyond an end.
-struct Beside {
-    before: f64,
-    after: f64,
-}
-
-impl Beside {
-    /// The length that a node carries, m.
-    fn own(&self) -> f64 {
-        0.5 * (self.before + self.after)
-    }
-
-    /// The half of the element from the node to `reach` beside it, of the node's mass and moments of inertia.
-    fn half(&self, reach: f64, (mass, [y, z]): (f64, [f64; 2])) -> Half {
-        let share = 0.5 * reach.abs() / self.own();
-        Half {
-            mass: share * mass,
-            arm: reach / 6.0,
-            shifted: share * mass * self.shift().powi(2),
-            moments: [share * z, share * y],
-            per_length: 2.0 / reach.abs(),
-        }
-    }
-
-    /// How far the centre of mass of the node is from it along the beam: rho A (after^2 - before^2)/12 divided by the mass.
-    fn shift(&self) -> f64 {
-        (self.after - self.before) / 6.0
-    }
-}
-
-/// Without rotary inertia of the section a planar node gets this times its mass and the square of the element's length,
-/// for M must have an inverse. It lowers the square of a frequency by this part of (k h)^2, k being the wave number and h
-/// the length, and lumping the mass by (k h)^4/720: this is the smaller part unless k h < 0.27, where both are below
-/// 1e-5. A smaller one makes the nodes' own rotation faster: here it is forty times as fast as the shortest wave.
-const SMALL_INERTIA: f64 = 1e-4;
 
 fn refuse_floating(json: &Map<String, Value>) -> Result<()> {
     if let Some(key) = FLOATING.iter().find(|key| json.contains_key(**key)) {

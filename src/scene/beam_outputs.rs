@@ -19,7 +19,7 @@ pub fn measure<const D: usize>(
 ) -> Result<Measure> {
     let Elements { bodies, beams, forces, .. } = elements;
     if let Some(beam) = beams.iter().find(|beam| beam.name == of) {
-        return Ok(Measure::Station(on_absolute(spec, beam, elements, build)?));
+        return Ok(Measure::Station(Box::new(on_absolute(spec, beam, elements, build)?)));
     }
     let floating = || bodies.iter().enumerate().filter_map(|(body, part)| Some((body, part, part.body.bent()?)));
     if let Some((body, part, bent)) = floating().find(|(_, part, _)| part.name == of) {
@@ -36,7 +36,7 @@ pub fn measure<const D: usize>(
     let names = floating().map(|(_, part, _)| part.name.as_str()).chain(beams.iter().map(|beam| beam.name.as_str()));
     let names: Vec<&str> = massless().map(|(force, _)| force.name.as_str()).chain(names).collect();
     match massless().nth(find("flexible beam", of, names.into_iter())?) {
-        Some((force, beam)) => Ok(Measure::Station(on_massless(spec, force, beam, build)?)),
+        Some((force, beam)) => Ok(Measure::Station(Box::new(on_massless(spec, force, beam, build)?))),
         None => Err(Error::input(format!("`{of}` is no flexible beam")).under("of")),
     }
 }
@@ -56,7 +56,7 @@ fn on_absolute<const D: usize>(
         halves: beam.halves[element],
         own: node(0),
         x: at - beam.abscissae[element],
-        reading: reading(wanted::<D>(spec, build)?, beam.relaxed(at)),
+        reading: reading(wanted::<D>(spec, build)?, beam.relaxed(at), &beam.section(at).compliance::<D>()),
     })
 }
 
@@ -68,14 +68,14 @@ fn on_massless<const D: usize>(
 ) -> Result<Place> {
     let x = place(spec, beam.length, build)?;
     let ends: [MarkerId; 2] = [force.markers[0], force.markers[1]];
-    let reading = reading(wanted::<D>(spec, build)?, beam.relaxed(x));
+    let reading = reading(wanted::<D>(spec, build)?, beam.relaxed(x), &beam.compliance()[0]);
     Ok(Place { element: beam.clone(), ends, halves: [Half::default(); 2], own: ends[0], x, reading })
 }
 
-fn reading(wanted: Wanted, relaxed: [f64; 3]) -> Reading {
+fn reading(wanted: Wanted, relaxed: [f64; 3], compliance: &[f64; 6]) -> Reading {
     match wanted {
         Wanted::Deflection(axis) => Reading::Deflection { axis, rest: relaxed[axis] },
-        Wanted::Strain(factors) => Reading::Strain(factors),
+        Wanted::Strain(factors) => Reading::Strain(std::array::from_fn(|i| factors[i] * compliance[i])),
         Wanted::Force(component) => Reading::Force(component),
     }
 }

@@ -1,6 +1,7 @@
 //! Scenes: JSON in, a checked model out.
 
 mod absolute_beam;
+mod beam_mass;
 mod beam_outputs;
 mod builder;
 mod format;

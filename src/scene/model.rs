@@ -2,6 +2,7 @@
 
 use super::place::{Cut, Place};
 use super::units::Unit;
+use crate::body::flexible::{Profile, Section};
 use crate::body::{Body, Energy, Frame, Marker, MarkerId, MarkerTable, Quantity, Signal, Switches, Turning};
 use crate::force::{Beam, Force, Half, Station};
 use crate::joint::Joint;
@@ -53,6 +54,7 @@ pub struct BeamLine {
     /// Abscissae of the nodes from the left end, m; one more than there are elements.
     pub abscissae: Vec<f64>,
     pub elements: Vec<Beam>,
+    pub profile: Profile,
     /// Of each element the halves that its nodes carry.
     pub halves: Vec<[Half; 2]>,
 }
@@ -78,7 +80,13 @@ impl BeamLine {
         self.elements.first().map_or([0.0; 3], |element| element.relaxed(s))
     }
 
-    /// The section at `s` from the left end, 0 <= s <= length, of the beam without mass; `node` gives the frame of a body of
+    /// The section at `s`; at a node that to the left of it.
+    pub fn section(&self, s: f64) -> Section {
+        let element = self.element_at(s);
+        self.profile.within([self.abscissae[element], self.abscissae[element + 1]], s)
+    }
+
+    /// What the section at `s` from the left end, 0 <= s <= length, carries of the beam without mass; `node` gives the frame of a body of
     /// the model. At a node it is that of the element to the left of it.
     pub fn station<S: Scalar, const D: usize>(
         &self,
@@ -152,7 +160,7 @@ pub enum Measure {
     /// Deflection or strain of a beam in a floating frame.
     Elastic(Combination),
     /// Of an absolute beam, or of a massless one.
-    Station(Place),
+    Station(Box<Place>),
     /// A component of force or moment at a [`Cut`].
     Section {
         cut: usize,
@@ -184,7 +192,7 @@ pub const TORQUE_SIZE: usize = 7;
 pub enum Reading {
     /// Along an axis of the beam's left end, from the relaxed beam there.
     Deflection { axis: usize, rest: f64 },
-    /// Strains times these.
+    /// Elastic forces of the section times these: strains with factors.
     Strain([f64; 6]),
     /// A component of force or moment.
     Force(usize),

@@ -42,9 +42,9 @@ impl Place {
             return dot(&own.axes[axis], &sub(&r, &own.r)) - rest;
         }
         let loads: [Load<S>; 2] = std::array::from_fn(|i| self.halves[i].load(&ends[i], gravity));
-        let Station { strain, force, .. } = self.element.loaded_station(ends.each_ref(), &loads, self.x);
+        let Station { elastic, force, .. } = self.element.loaded_station(ends.each_ref(), &loads, self.x);
         match self.reading {
-            Reading::Strain(factors) => strain.iter().zip(factors).fold(S::zero(), |sum, (&s, f)| sum + s * f),
+            Reading::Strain(factors) => elastic.iter().zip(factors).fold(S::zero(), |sum, (&x, f)| sum + x * f),
             Reading::Force(component) => force[component],
             Reading::Deflection { .. } => S::zero(),
         }

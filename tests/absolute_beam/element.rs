@@ -181,8 +181,8 @@ fn stations_have_the_moments_and_the_line_of_beam_theory() {
         let moments = [torque[0], torque[1] - force[2] * rest, torque[2] + force[1] * rest];
         (0..3).for_each(|i| near(station.force[i], force[i]));
         (0..3).for_each(|i| near(station.force[3 + i], moments[i]));
-        near(station.strain[1], force[1] / ga_y);
-        near(station.strain[5], moments[2] / ei_z);
+        near(station.elastic[1] / ga_y, force[1] / ga_y);
+        near(station.elastic[5] / ei_z, moments[2] / ei_z);
         [stretched(x), y(x), z(x)].iter().zip(station.r).for_each(|(expected, found)| near(found, *expected));
     }
 }

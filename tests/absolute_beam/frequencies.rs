@@ -6,7 +6,7 @@ use nalgebra::{Cholesky, DMatrix, SymmetricEigen};
 use std::f64::consts::PI;
 
 /// rad/s in ascending order: (Z^T K Z) x = w^2 (Z^T M Z) x with Z a basis of the motions that the joints leave.
-fn frequencies(ready: &Ready) -> Vec<f64> {
+pub fn frequencies(ready: &Ready) -> Vec<f64> {
     let (system, (q, v)) = (ready.system(), ready.0.start());
     let (n, structure) = (system.dimensions(), system.structure());
     let (mut terms, mut scratch) = (Terms::new(system), Scratch::default());

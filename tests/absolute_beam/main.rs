@@ -10,3 +10,4 @@ mod errors;
 mod frequencies;
 mod large;
 mod statics;
+mod tapered;

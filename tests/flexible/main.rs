@@ -19,6 +19,7 @@ mod rigid;
 mod rotating;
 mod slider_crank;
 mod spin_up;
+mod tapered;
 
 /// Numbers with three digits.
 fn brief(numbers: &[f64]) -> String {

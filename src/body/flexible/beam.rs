@@ -1,12 +1,12 @@
 //! From what a scene says of a beam in a floating frame to the numbers that its equations of motion need.
 
 use super::damping::{Basis, damping};
-use super::integrals::{Inertia, Sum, add_stiffness, stretch};
-use super::line::BeamLine;
-use super::mesh::{Mesh, POINTS};
+use super::integrals::{Sum, add_stiffness, stretch};
+use super::line::Shapes;
+use super::mesh::Mesh;
+use super::profile::Profile;
 use super::reduce;
 use super::ritz::Functions;
-use super::section::Section;
 use super::shape::{Elastic, Stretch};
 use super::spec::{Axial, FlexibleBeam, FrameConditions, Ritz, Theory};
 use crate::body::Build;
@@ -27,18 +27,16 @@ pub fn elastic_beam<const D: usize>(
     build: &Build<D>,
 ) -> Result<(Elastic<D>, f64)> {
     let length = build.positive("length", &beam.length)?;
-    let section = Section::of(beam, build)?;
+    let profile = Profile::of(beam, length, build)?;
     check_markers(markers, length)?;
     if beam.curvature.is_some() {
         return Err(Error::input("a beam in a floating frame is straight")
             .under("curvature")
             .hint("remove it, or give \"frame\": \"absolute\""));
     }
-    let rotary = beam.rotary_inertia.unwrap_or(beam.theory == Theory::Timoshenko);
-    let inertia = Inertia::of(&section, rotary);
     let (mut elastic, basis) = match &beam.ritz {
-        Some(ritz) => (functions(beam, ritz, length, &section, &inertia, build)?, Basis::Functions),
-        None => elements(beam, length, markers, &section, &inertia, build)?,
+        Some(ritz) => (functions(beam, ritz, length, profile, build)?, Basis::Functions),
+        None => elements(beam, length, markers, profile, build)?,
     };
     elastic.damping = damping(&beam.damping, &elastic, basis, build)?;
     Ok((elastic, length))
@@ -57,8 +55,7 @@ fn functions<const D: usize>(
     beam: &FlexibleBeam,
     ritz: &Ritz,
     length: f64,
-    section: &Section,
-    inertia: &Inertia,
+    profile: Profile,
     build: &Build<D>,
 ) -> Result<Elastic<D>> {
     let others = [
@@ -77,15 +74,14 @@ fn functions<const D: usize>(
             .under("theory")
             .hint("leave `theory` out, or give \"elements\" instead of `ritz`"));
     }
-    Functions::of(ritz, length, build)?.elastic(section, inertia, beam.geometric_stiffening.quartic())
+    Functions::of(ritz, length, profile, build)?.elastic(beam.geometric_stiffening.quartic())
 }
 
 fn elements<const D: usize>(
     beam: &FlexibleBeam,
     length: f64,
     markers: &[f64],
-    section: &Section,
-    inertia: &Inertia,
+    profile: Profile,
     build: &Build<D>,
 ) -> Result<(Elastic<D>, Basis)> {
     let count = match beam.elements.as_ref().map(|given| build.count("elements", given)).transpose()? {
@@ -107,14 +103,13 @@ fn elements<const D: usize>(
         Some(count) => count as usize,
     };
     let conditions = beam.frame_conditions.unwrap_or_default();
-    let mesh = Mesh::<D>::new(length, count, markers, section, beam.axial.unwrap_or_default()).fix(conditions);
+    let mesh = Mesh::<D>::new(length, count, markers, profile, beam.axial.unwrap_or_default()).fix(conditions);
     let law = beam.geometric_stiffening.quartic();
     // Few modes cannot follow the shortening of a bent line by axial strain: it keeps its length.
     let shortens = beam.modes.is_some() && law == Some(1.0);
-    let nodal = nodal(&mesh, section, inertia, law.filter(|_| !shortens));
+    let nodal = nodal(&mesh, law.filter(|_| !shortens));
     if beam.modes.is_none() && conditions != FrameConditions::Mean {
-        let line = Box::new(BeamLine { shapes: mesh, inertia: *inertia, shortens: false });
-        return Ok((Elastic { line: Some(line), ..nodal }, Basis::Nodal));
+        return Ok((Elastic { line: Some(Box::new(mesh)), ..nodal }, Basis::Nodal));
     }
     let modes = beam.modes.as_ref().map(|modes| build.count("modes", modes)).transpose()?.map(|modes| modes as usize);
     if modes.is_some() && law.is_some() && !shortens {
@@ -122,39 +117,39 @@ fn elements<const D: usize>(
             .under("geometric_stiffening")
             .hint("give true, by which the line shortens as it bends, or leave `modes` out"));
     }
-    let reduced = reduce::beam(mesh, nodal, inertia, conditions, markers, modes, shortens)?;
+    let reduced = reduce::beam(mesh, nodal, conditions, markers, modes, shortens)?;
     Ok((reduced, Basis::Modal))
 }
 
 /// The stretches of an element. Its u' cannot follow w'^2, which would lock it: both count by their means over the
 /// element, or at the two points at which a quadratic displacement has its best slopes.
-fn stiffened<const D: usize>(mesh: &Mesh<D>, element: usize, section: &Section, quartic: f64) -> Vec<Stretch> {
+fn stiffened<const D: usize>(mesh: &Mesh<D>, element: usize, quartic: f64) -> Vec<Stretch> {
     let start = mesh.start(element);
     match mesh.axial() {
         Axial::Linear => {
             let (dofs, samples) = mesh.samples(element, STRETCH_POINTS);
-            vec![stretch(section, quartic, start, &dofs, &samples)]
+            vec![stretch(quartic, start, &dofs, &samples)]
         }
         Axial::Quadratic => {
             let (dofs, samples) = mesh.samples(element, 2);
             let middle = start + samples[0].weight;
             let halves = samples.chunks(1).zip([start, middle]);
-            halves.map(|(point, start)| stretch(section, quartic, start, &dofs, point)).collect()
+            halves.map(|(point, start)| stretch(quartic, start, &dofs, point)).collect()
         }
     }
 }
 
 /// In the coordinates of the nodes; without damping, and without the line, which is the mesh itself.
-fn nodal<const D: usize>(mesh: &Mesh<D>, section: &Section, inertia: &Inertia, quartic: Option<f64>) -> Elastic<D> {
+fn nodal<const D: usize>(mesh: &Mesh<D>, quartic: Option<f64>) -> Elastic<D> {
     let mut stiffness = Sum::default();
     let mut stretches = Vec::new();
     for element in 0..mesh.count() {
-        let (dofs, samples) = mesh.samples(element, POINTS);
-        add_stiffness(&mut stiffness, section, &dofs, &samples);
+        let (dofs, samples) = mesh.samples(element, mesh.points());
+        add_stiffness(&mut stiffness, &dofs, &samples);
         if let Some(quartic) = quartic {
-            stretches.extend(stiffened(mesh, element, section, quartic));
+            stretches.extend(stiffened(mesh, element, quartic));
         }
     }
-    let (pieces, stiffness) = (mesh.pieces(0.0, inertia), stiffness.finish());
+    let (pieces, stiffness) = (mesh.pieces(0.0), stiffness.finish());
     Elastic { names: mesh.names(), pieces, stiffness, damping: Vec::new(), stretches, line: None }
 }

@@ -1,6 +1,7 @@
 //! The integrals over a beam that the equations of motion need, from its shapes at points of integration.
 
 use super::line::Cross;
+use super::profile::Profile;
 use super::section::Section;
 use super::shape::{Piece, Second, Stretch, Symmetric};
 use crate::body::cross;
@@ -12,8 +13,18 @@ pub struct Sample {
     pub s: f64,
     /// m
     pub weight: f64,
+    pub section: Section,
+    pub inertia: Inertia,
     /// What the coordinates do here, in the order of the piece's.
     pub shapes: Vec<Cross>,
+}
+
+impl Sample {
+    pub fn new(profile: &Profile, (s, weight): (f64, f64), shapes: Vec<Cross>) -> Self {
+        let section = profile.at(s);
+        let inertia = Inertia { rho_a: section.rho_a, rho_i: section.rho_i, rotary: profile.rotary };
+        Sample { s, weight, section, inertia, shapes }
+    }
 }
 
 /// How the mass of a section counts.
@@ -27,10 +38,6 @@ pub struct Inertia {
 }
 
 impl Inertia {
-    pub fn of(section: &Section, rotary: bool) -> Self {
-        Inertia { rho_a: section.rho_a, rho_i: section.rho_i, rotary }
-    }
-
     /// The turn that moves the mass of a section.
     fn turn(&self, shape: &Cross) -> [f64; 3] {
         let [rx, ry, rz] = shape.rotation;
@@ -58,42 +65,6 @@ impl Inertia {
         [[s, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|v| from_fn(|k| v[k]))
     }
 
-    /// The mass integrals over all samples. Axes of the section are principal ones, so that int rho y = int rho z =
-    /// int rho y z = 0, int rho y^2 is the moment of inertia about z and int rho z^2 that about y.
-    pub fn piece<const D: usize>(&self, dofs: Vec<usize>, samples: &[Sample]) -> Piece<D> {
-        let n = 1 + dofs.len();
-        let mut piece = Piece {
-            dofs,
-            mass: 0.0,
-            moments: vec![[0.0; D]; n],
-            products: vec![[[0.0; D]; D]; n * n],
-            second: Vec::new(),
-        };
-        for sample in samples {
-            let shapes = sample.shapes.iter().map(|shape| self.shape::<D>(shape));
-            let psi: Vec<_> = std::iter::once(Self::rest(sample.s)).chain(shapes).collect();
-            self.add(&mut piece, &psi, sample.weight);
-        }
-        piece.second = (1..n).map(|i| self.second_of(i - 1, samples)).collect();
-        piece
-    }
-
-    /// The integrals of psi_ij for all j.
-    fn second_of<const D: usize>(&self, i: usize, samples: &[Sample]) -> Vec<Second<D>> {
-        let count = samples.first().map_or(0, |sample| sample.shapes.len());
-        let integral = |other: usize| {
-            let mut second = Second { other, moment: [0.0; D], product: [[0.0; D]; D] };
-            for Sample { s, weight, shapes } in samples {
-                let [rest, psi] = [Self::rest::<D>(*s), self.second(&shapes[i], &shapes[other])];
-                for ((density, r), p) in self.densities().iter().zip(&rest).zip(&psi) {
-                    (0..D).for_each(|k| (0..D).for_each(|m| second.product[k][m] += density * weight * r[k] * p[m]));
-                }
-            }
-            second
-        };
-        (0..count).map(integral).filter(Second::counts).collect()
-    }
-
     /// int rho, int rho y^2 and int rho z^2 a length.
     fn densities(&self) -> [f64; 3] {
         [self.rho_a, self.rho_i[1], self.rho_i[0]]
@@ -112,6 +83,37 @@ impl Inertia {
             }
         }
     }
+}
+
+/// The mass integrals over all samples. Axes of the section are principal ones, so that int rho y = int rho z =
+/// int rho y z = 0, int rho y^2 is the moment of inertia about z and int rho z^2 that about y.
+pub fn piece<const D: usize>(dofs: Vec<usize>, samples: &[Sample]) -> Piece<D> {
+    let n = 1 + dofs.len();
+    let mut piece =
+        Piece { dofs, mass: 0.0, moments: vec![[0.0; D]; n], products: vec![[[0.0; D]; D]; n * n], second: Vec::new() };
+    for Sample { s, weight, inertia, shapes, .. } in samples {
+        let shapes = shapes.iter().map(|shape| inertia.shape::<D>(shape));
+        let psi: Vec<_> = std::iter::once(Inertia::rest(*s)).chain(shapes).collect();
+        inertia.add(&mut piece, &psi, *weight);
+    }
+    piece.second = (1..n).map(|i| second_of(i - 1, samples)).collect();
+    piece
+}
+
+/// The integrals of psi_ij for all j.
+fn second_of<const D: usize>(i: usize, samples: &[Sample]) -> Vec<Second<D>> {
+    let count = samples.first().map_or(0, |sample| sample.shapes.len());
+    let integral = |other: usize| {
+        let mut second = Second { other, moment: [0.0; D], product: [[0.0; D]; D] };
+        for Sample { s, weight, inertia, shapes, .. } in samples {
+            let [rest, psi] = [Inertia::rest::<D>(*s), inertia.second(&shapes[i], &shapes[other])];
+            for ((density, r), p) in inertia.densities().iter().zip(&rest).zip(&psi) {
+                (0..D).for_each(|k| (0..D).for_each(|m| second.product[k][m] += density * weight * r[k] * p[m]));
+            }
+        }
+        second
+    };
+    (0..count).map(integral).filter(Second::counts).collect()
 }
 
 /// Entries of a symmetric matrix, added up in their places; in the order of the places.
@@ -134,9 +136,9 @@ impl Sum {
 }
 
 /// int strains^T stiffness strains over the samples, added to `sum`.
-pub fn add_stiffness(sum: &mut Sum, section: &Section, dofs: &[usize], samples: &[Sample]) {
-    let stiffness = section.stiffness();
+pub fn add_stiffness(sum: &mut Sum, dofs: &[usize], samples: &[Sample]) {
     for sample in samples {
+        let stiffness = sample.section.stiffness();
         for (a, left) in sample.shapes.iter().enumerate() {
             for (b, right) in sample.shapes.iter().enumerate().take(a + 1) {
                 let energy: f64 = (0..6).map(|k| stiffness[k] * left.strain[k] * right.strain[k]).sum();
@@ -149,7 +151,7 @@ pub fn add_stiffness(sum: &mut Sum, section: &Section, dofs: &[usize], samples: 
 }
 
 /// Geometric stiffening from the abscissa `start` on, by the means over samples; only the coordinates that stretch or turn the line there.
-pub fn stretch(section: &Section, quartic: f64, start: f64, dofs: &[usize], samples: &[Sample]) -> Stretch {
+pub fn stretch(quartic: f64, start: f64, dofs: &[usize], samples: &[Sample]) -> Stretch {
     let counts = |i: &usize| {
         samples.iter().map(|sample| &sample.shapes[*i]).any(|shape| shape.strain[0] != 0.0 || shape.slope != [0.0; 2])
     };
@@ -162,7 +164,7 @@ pub fn stretch(section: &Section, quartic: f64, start: f64, dofs: &[usize], samp
     Stretch {
         ends: [start, start + length],
         dofs: used.iter().map(|&i| dofs[i]).collect(),
-        weight: section.ea * length,
+        weight: samples.iter().map(|sample| sample.section.ea * sample.weight).sum(),
         quartic,
         axial: used.iter().map(|&i| mean(&|shapes| shapes[i].strain[0])).collect(),
         slopes: used.iter().flat_map(|&i| used.iter().map(move |&j| (i, j))).map(|(i, j)| product(i, j)).collect(),

@@ -9,8 +9,8 @@
 //!
 //! so that where sections stay square to the line r_z = w_y' and r_y = -w_z'.
 
-use super::integrals::Inertia;
 use super::shape::{Line, Piece, PointShape, SectionShape};
+use super::shorten::{shorten, shortening};
 use crate::body::{cross, in_space};
 use std::array::from_fn;
 
@@ -98,25 +98,23 @@ pub trait Shapes: Send + Sync {
     fn at(&self, s: f64) -> Station;
     /// Places between which the shapes are smooth, both ends among them.
     fn breaks(&self) -> Vec<f64>;
-    /// The mass integrals of the line from `s` on.
-    fn pieces<const D: usize>(&self, s: f64, inertia: &Inertia) -> Vec<Piece<D>>;
+    /// kg/m
+    fn density(&self, s: f64) -> f64;
+    /// Whether the line keeps its length as it bends. Default: no.
+    fn shortens(&self) -> bool {
+        false
+    }
+    /// The mass integrals of the line from `s` on, without what it shortens by; one piece of all coordinates where it does.
+    fn pieces<const D: usize>(&self, s: f64) -> Vec<Piece<D>>;
 }
 
-/// Shapes with the mass of the section.
-pub struct BeamLine<F> {
-    pub shapes: F,
-    pub inertia: Inertia,
-    /// Whether the line keeps its length as it bends.
-    pub shortens: bool,
-}
-
-impl<F: Shapes, const D: usize> Line<D> for BeamLine<F> {
+impl<F: Shapes, const D: usize> Line<D> for F {
     fn length(&self) -> f64 {
-        self.shapes.length()
+        Shapes::length(self)
     }
 
     fn point(&self, rest: [f64; D]) -> PointShape<D> {
-        let Station { dofs, shapes } = self.shapes.at(rest[0]);
+        let Station { dofs, shapes } = self.at(rest[0]);
         let mut offset = in_space(&rest);
         offset[0] = 0.0;
         let translation = |shape: &Cross| {
@@ -129,19 +127,19 @@ impl<F: Shapes, const D: usize> Line<D> for BeamLine<F> {
             dofs,
             translation: shapes.iter().map(translation).collect(),
             rotation: shapes.iter().map(|shape| shape.rotation).collect(),
-            shortening: if self.shortens { self.shortening(rest[0]) } else { Vec::new() },
+            shortening: if self.shortens() { shortening(self, rest[0]) } else { Vec::new() },
         }
     }
 
     fn section(&self, s: f64) -> SectionShape {
-        let Station { dofs, shapes } = self.shapes.at(s);
+        let Station { dofs, shapes } = self.at(s);
         let strains = shapes.iter().map(|shape| shape.strain).collect();
         SectionShape { dofs, strains }
     }
 
     fn beyond(&self, s: f64) -> Vec<Piece<D>> {
-        let mut pieces = self.shapes.pieces(s, &self.inertia);
-        pieces.iter_mut().filter(|_| self.shortens).for_each(|piece| self.shorten(s, piece));
+        let mut pieces = self.pieces(s);
+        pieces.iter_mut().filter(|_| self.shortens()).for_each(|piece| shorten(self, s, piece));
         pieces
     }
 }

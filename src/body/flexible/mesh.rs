@@ -2,14 +2,16 @@
 
 use super::element::Element;
 use super::gauss::{gauss_legendre, on_interval};
-use super::integrals::{Inertia, Sample};
+use super::integrals::{Sample, piece};
 use super::line::{Shapes, Station};
-use super::section::Section;
+use super::profile::Profile;
 use super::shape::Piece;
 use super::spec::{Axial, FrameConditions};
 
-/// Gauss points on an element that integrate squares of cubics exactly.
-pub const POINTS: usize = 4;
+/// Gauss points on an element that integrate squares of cubics exactly ...
+const POINTS: usize = 4;
+/// ... and those that do so with a mass or a stiffness up to the fifth power of s.
+const TAPERED: usize = 6;
 
 /// So close together, in lengths of the beam, two markers share a node.
 const SAME: f64 = 1e-9;
@@ -22,6 +24,7 @@ pub struct Mesh<const D: usize> {
     pub nodes: Vec<f64>,
     elements: Vec<Element>,
     axial: Axial,
+    profile: Profile,
     /// Coordinates by their number among those of all nodes; `None` where the frame fixes them.
     free: Vec<Option<usize>>,
 }
@@ -40,10 +43,13 @@ impl<const D: usize> Mesh<D> {
     }
 
     /// At least `elements` elements with nodes at both ends and all `markers`.
-    pub fn new(length: f64, elements: usize, markers: &[f64], section: &Section, axial: Axial) -> Self {
+    pub fn new(length: f64, elements: usize, markers: &[f64], profile: Profile, axial: Axial) -> Self {
         let nodes = subdivide(&breaks(length, markers), elements);
-        let elements = nodes.windows(2).map(|ends| Element::new(ends[1] - ends[0], section)).collect();
-        let mut mesh = Mesh { nodes, elements, axial, free: Vec::new() };
+        let elements = nodes
+            .windows(2)
+            .map(|ends| Element::new(ends[1] - ends[0], &profile.at(0.5 * (ends[0] + ends[1]))))
+            .collect();
+        let mut mesh = Mesh { nodes, elements, axial, profile, free: Vec::new() };
         mesh.free = (0..mesh.total()).map(Some).collect();
         mesh
     }
@@ -127,18 +133,15 @@ impl<const D: usize> Mesh<D> {
     fn samples_from(&self, start: f64, element: usize, points: usize) -> (Vec<usize>, Vec<Sample>) {
         let [from, to] = [self.nodes[element], self.nodes[element + 1]];
         let rule = gauss_legendre(points);
-        let sample =
-            |(s, weight)| Sample { s, weight, shapes: self.in_element(element, (s - from) / (to - from)).shapes };
+        let sample = |at: (f64, f64)| {
+            Sample::new(&self.profile, at, self.in_element(element, (at.0 - from) / (to - from)).shapes)
+        };
         (self.in_element(element, 0.5).dofs, on_interval(&rule, [start, to]).map(sample).collect())
     }
 
-    /// The mass integrals of the mesh from `start` on, an element a piece.
-    pub fn pieces<const E: usize>(&self, start: f64, inertia: &Inertia) -> Vec<Piece<E>> {
-        let piece = |element: usize| {
-            let (dofs, samples) = self.samples_from(start.max(self.nodes[element]), element, POINTS);
-            inertia.piece(dofs, &samples)
-        };
-        (0..self.count()).filter(|element| self.nodes[element + 1] > start).map(piece).collect()
+    /// Gauss points on an element that integrate mass and stiffness.
+    pub fn points(&self) -> usize {
+        if self.profile.is_uniform() { POINTS } else { TAPERED }
     }
 
     /// Motions of all nodes that deform nothing: translations, then rotations, those about y and z with the centre
@@ -181,8 +184,17 @@ impl<const D: usize> Shapes for Mesh<D> {
         self.nodes.clone()
     }
 
-    fn pieces<const E: usize>(&self, s: f64, inertia: &Inertia) -> Vec<Piece<E>> {
-        Mesh::pieces(self, s, inertia)
+    fn density(&self, s: f64) -> f64 {
+        self.profile.at(s).rho_a
+    }
+
+    /// An element a piece.
+    fn pieces<const E: usize>(&self, s: f64) -> Vec<Piece<E>> {
+        let of = |element: usize| {
+            let (dofs, samples) = self.samples_from(s.max(self.nodes[element]), element, self.points());
+            piece(dofs, &samples)
+        };
+        (0..self.count()).filter(|element| self.nodes[element + 1] > s).map(of).collect()
     }
 }
 

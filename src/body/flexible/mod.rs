@@ -9,6 +9,8 @@ mod integrals;
 mod line;
 mod mesh;
 pub mod modal;
+mod profile;
+mod read_section;
 mod reduce;
 mod ritz;
 mod section;
@@ -21,6 +23,7 @@ mod tests;
 pub use beam::elastic_beam;
 pub use gauss::{gauss_legendre, on_interval};
 pub use integrals::mass_matrix;
+pub use profile::Profile;
 pub use section::{Section, curvature};
 pub use shape::{Elastic, Line, Piece, PointShape, Second, SectionShape, Stretch, Symmetric};
 pub use spec::{

@@ -13,10 +13,10 @@
 //! moment of momentum: the rest of the modes.
 
 use super::eigen::{Modes, dense};
-use super::integrals::{Inertia, mass_matrix};
-use super::line::{BeamLine, Cross, Shapes, Station};
+use super::integrals::mass_matrix;
+use super::line::{Cross, Shapes, Station};
 use super::mesh::Mesh;
-use super::shape::{Elastic, Line, Piece, Second, Stretch};
+use super::shape::{Elastic, Piece, Second, Stretch};
 use super::spec::FrameConditions;
 use crate::error::{Error, Result};
 use faer::linalg::solvers::Solve;
@@ -33,7 +33,6 @@ const MOST: usize = 4000;
 pub fn beam<const D: usize>(
     mesh: Mesh<D>,
     nodal: Elastic<D>,
-    inertia: &Inertia,
     conditions: FrameConditions,
     markers: &[f64],
     count: Option<usize>,
@@ -57,7 +56,7 @@ pub fn beam<const D: usize>(
     if modes.squares.is_empty() {
         return Err(Error::input("no elastic coordinate is left").under("modes").hint("give one mode or more"));
     }
-    Ok(project(mesh, nodal, inertia, modes, shortens))
+    Ok(project(mesh, nodal, modes, shortens))
 }
 
 /// Dense matrices of a beam, with the rigid motions that the frame leaves it.
@@ -178,20 +177,14 @@ fn orthonormal(vectors: &Mat<f64>, mass: &Mat<f64>) -> Mat<f64> {
     basis
 }
 
-fn project<const D: usize>(
-    mesh: Mesh<D>,
-    nodal: Elastic<D>,
-    inertia: &Inertia,
-    modes: Modes,
-    shortens: bool,
-) -> Elastic<D> {
+fn project<const D: usize>(mesh: Mesh<D>, nodal: Elastic<D>, modes: Modes, shortens: bool) -> Elastic<D> {
     let basis = modes.vectors;
     let stretches = nodal.stretches.iter().map(|stretch| project_stretch(stretch, &basis)).collect();
     let names = (1..=basis.ncols()).map(|i| format!("mode{i}")).collect();
-    let line = BeamLine { shapes: Reduced { mesh, basis }, inertia: *inertia, shortens };
+    let line = Reduced { mesh, basis, shortens };
     Elastic {
         names,
-        pieces: line.beyond(0.0),
+        pieces: super::shape::Line::beyond(&line, 0.0),
         stiffness: modes.squares.iter().enumerate().map(|(i, square)| (i, i, *square)).collect(),
         damping: Vec::new(),
         stretches,
@@ -280,6 +273,7 @@ fn project_stretch(stretch: &Stretch, basis: &Mat<f64>) -> Stretch {
 struct Reduced<const D: usize> {
     mesh: Mesh<D>,
     basis: Mat<f64>,
+    shortens: bool,
 }
 
 impl<const D: usize> Shapes for Reduced<D> {
@@ -300,7 +294,15 @@ impl<const D: usize> Shapes for Reduced<D> {
         self.mesh.breaks()
     }
 
-    fn pieces<const E: usize>(&self, s: f64, inertia: &Inertia) -> Vec<Piece<E>> {
-        vec![project_pieces(&self.mesh.pieces(s, inertia), &self.basis)]
+    fn density(&self, s: f64) -> f64 {
+        self.mesh.density(s)
+    }
+
+    fn shortens(&self) -> bool {
+        self.shortens
+    }
+
+    fn pieces<const E: usize>(&self, s: f64) -> Vec<Piece<E>> {
+        vec![project_pieces(&self.mesh.pieces(s), &self.basis)]
     }
 }

@@ -2,10 +2,11 @@
 
 use super::eigen::{dense, first_dependent};
 use super::gauss::{gauss_legendre, on_interval};
-use super::integrals::{Inertia, Sample, Sum, add_stiffness, mass_matrix, stretch};
-use super::line::{BeamLine, Bending, Cross, Shapes, Station};
-use super::section::Section;
+use super::integrals::{Sample, Sum, add_stiffness, mass_matrix, piece, stretch};
+use super::line::{Bending, Cross, Shapes, Station};
+use super::profile::Profile;
 use super::shape::{Elastic, Piece, Symmetric};
+use super::shorten::shorten;
 use super::spec::Ritz;
 use crate::body::Build;
 use crate::error::{Error, Result};
@@ -77,6 +78,9 @@ pub struct Functions {
     functions: Vec<Function>,
     /// Of the mass of axial functions among one another.
     axial_mass_factor: f64,
+    profile: Profile,
+    /// Without axial functions the line cannot stretch: it keeps its length as it bends.
+    shortens: bool,
 }
 
 impl Shapes for Functions {
@@ -89,8 +93,14 @@ impl Shapes for Functions {
     fn breaks(&self) -> Vec<f64> {
         (0..=PANELS).map(|k| self.length * k as f64 / PANELS as f64).collect()
     }
-    fn pieces<const D: usize>(&self, s: f64, inertia: &Inertia) -> Vec<Piece<D>> {
-        let mut piece = inertia.piece((0..self.functions.len()).collect(), &self.samples([s, self.length], PANELS));
+    fn density(&self, s: f64) -> f64 {
+        self.profile.at(s).rho_a
+    }
+    fn shortens(&self) -> bool {
+        self.shortens
+    }
+    fn pieces<const D: usize>(&self, s: f64) -> Vec<Piece<D>> {
+        let mut piece = piece((0..self.functions.len()).collect(), &self.samples([s, self.length], PANELS));
         self.scale_axial(&mut piece);
         vec![piece]
     }
@@ -99,7 +109,7 @@ impl Shapes for Functions {
 impl Functions {
     /// # Errors
     /// Bad input: none at all, one that is no expression of x, or one that is not finite on the beam.
-    pub fn of<const D: usize>(ritz: &Ritz, length: f64, build: &Build<D>) -> Result<Self> {
+    pub fn of<const D: usize>(ritz: &Ritz, length: f64, profile: Profile, build: &Build<D>) -> Result<Self> {
         let given = [
             (Kind::Bending, &ritz.bending),
             (Kind::BendingZ, &ritz.bending_z),
@@ -135,7 +145,7 @@ impl Functions {
             None => 1.0,
             Some(factor) => build.positive("axial_mass_factor", factor).map_err(|error| error.under("ritz"))?,
         };
-        let functions = Functions { length, functions, axial_mass_factor };
+        let functions = Functions { length, functions, axial_mass_factor, shortens: false, profile };
         functions.check_finite()?;
         Ok(functions)
     }
@@ -158,24 +168,19 @@ impl Functions {
     }
 
     fn samples(&self, ends: [f64; 2], panels: usize) -> Vec<Sample> {
-        places(ends, panels).map(|(s, weight)| Sample { s, weight, shapes: self.at(s).shapes }).collect()
+        places(ends, panels).map(|at| Sample::new(&self.profile, at, self.at(at.0).shapes)).collect()
     }
 
     /// Everything but the damping, with so few points of integration as are exact to rounding.
     ///
     /// # Errors
     /// Bad input: functions that depend on one another, or move the beam as its frame does.
-    pub fn elastic<const D: usize>(
-        self,
-        section: &Section,
-        inertia: &Inertia,
-        quartic: Option<f64>,
-    ) -> Result<Elastic<D>> {
+    pub fn elastic<const D: usize>(mut self, quartic: Option<f64>) -> Result<Elastic<D>> {
         let dofs: Vec<usize> = (0..self.functions.len()).collect();
         let integrals = |samples: &[Sample]| {
             let mut stiffness = Sum::default();
-            add_stiffness(&mut stiffness, section, &dofs, samples);
-            (inertia.piece::<D>(dofs.clone(), samples), stiffness.finish())
+            add_stiffness(&mut stiffness, &dofs, samples);
+            (piece::<D>(dofs.clone(), samples), stiffness.finish())
         };
         let mut panels = 1;
         let mut samples = self.samples([0.0, self.length], panels);
@@ -193,28 +198,26 @@ impl Functions {
         let (mut piece, stiffness) = last;
         self.check_independent(&piece, &stiffness)?;
         self.scale_axial(&mut piece);
-        // Without axial functions the line cannot stretch: it keeps its length as it bends.
-        let shortens = quartic == Some(1.0) && self.functions.iter().all(|function| function.kind != Kind::Axial);
-        let quartic = quartic.filter(|_| !shortens);
+        self.shortens = quartic == Some(1.0) && self.functions.iter().all(|function| function.kind != Kind::Axial);
+        let quartic = quartic.filter(|_| !self.shortens);
+        if self.shortens {
+            shorten(&self, 0.0, &mut piece);
+        }
         let points = samples.chunks(1).filter_map(|point| Some((point, quartic?)));
         let stretches = points.scan(0.0, |start, (point, quartic)| {
-            let next = stretch(section, quartic, *start, &dofs, point);
+            let next = stretch(quartic, *start, &dofs, point);
             *start = next.ends[1];
             Some(next)
         });
         let stretches = stretches.collect();
         let names = self.names();
-        let line = BeamLine { shapes: self, inertia: *inertia, shortens };
-        if shortens {
-            line.shorten(0.0, &mut piece);
-        }
         Ok(Elastic {
             names,
             pieces: vec![piece],
             stiffness,
             damping: Vec::new(),
             stretches,
-            line: Some(Box::new(line)),
+            line: Some(Box::new(self)),
         })
     }
 

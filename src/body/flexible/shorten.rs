@@ -12,62 +12,59 @@
 //! 1991).
 
 use super::gauss::{gauss_legendre, on_interval};
-use super::line::{BeamLine, Shapes};
+use super::line::Shapes;
 use super::shape::{Piece, Second};
 
 /// Gauss points between two breaks of the shapes: squares of slopes of cubics are exact by 3.
 const POINTS: usize = 6;
 
-impl<F: Shapes> BeamLine<F> {
-    /// -int w_i'.w_j' ds from the left end to `s`, row by row for the coordinates there.
-    pub(super) fn shortening(&self, s: f64) -> Vec<f64> {
-        let mut table = Vec::new();
-        for [from, to] in self.spans().into_iter().filter(|[from, _]| *from < s) {
-            self.add_shortening(&mut table, [from, to.min(s)]);
-        }
-        table
+/// -int w_i'.w_j' ds from the left end to `s`, row by row for the coordinates there.
+pub fn shortening(line: &impl Shapes, s: f64) -> Vec<f64> {
+    let mut table = Vec::new();
+    for [from, to] in spans(line).into_iter().filter(|[from, _]| *from < s) {
+        add_shortening(line, &mut table, [from, to.min(s)]);
     }
+    table
+}
 
-    /// Adds m_ij and P_0ij of the shortening to the piece of all coordinates from `start` on.
-    pub(super) fn shorten<const D: usize>(&self, start: f64, piece: &mut Piece<D>) {
-        let (n, rule) = (piece.dofs.len(), gauss_legendre(POINTS));
-        let mut table = vec![0.0; n * n];
-        let mut sums = vec![[0.0; 2]; n * n];
-        for [from, to] in self.spans() {
-            let within = [from.max(start), to];
-            for (s, weight) in on_interval(&rule, within).filter(|_| to > start) {
-                let mut there = table.clone();
-                self.add_shortening(&mut there, [from, s]);
-                let mass = weight * self.inertia.rho_a;
-                let both = sums.iter_mut().zip(&there);
-                both.for_each(|(sum, x)| *sum = [sum[0] + mass * x, sum[1] + mass * s * x]);
-            }
-            self.add_shortening(&mut table, [from, to]);
+/// Adds m_ij and P_0ij of the shortening to the piece of all coordinates from `start` on.
+pub fn shorten<const D: usize>(line: &impl Shapes, start: f64, piece: &mut Piece<D>) {
+    let (n, rule) = (piece.dofs.len(), gauss_legendre(POINTS));
+    let mut table = vec![0.0; n * n];
+    let mut sums = vec![[0.0; 2]; n * n];
+    for [from, to] in spans(line) {
+        for (s, weight) in on_interval(&rule, [from.max(start), to]).filter(|_| to > start) {
+            let mut there = table.clone();
+            add_shortening(line, &mut there, [from, s]);
+            let mass = weight * line.density(s);
+            let both = sums.iter_mut().zip(&there);
+            both.for_each(|(sum, x)| *sum = [sum[0] + mass * x, sum[1] + mass * s * x]);
         }
-        for (k, [moment, product]) in sums.into_iter().enumerate() {
-            let (row, other) = (&mut piece.second[k / n], k % n);
-            let mut second = Second { other, moment: [0.0; D], product: [[0.0; D]; D] };
-            (second.moment[0], second.product[0][0]) = (moment, product);
-            match row.iter_mut().find(|known| known.other == other) {
-                Some(known) => known.add(1.0, &second),
-                None if second.counts() => row.push(second),
-                None => {}
-            }
+        add_shortening(line, &mut table, [from, to]);
+    }
+    for (k, [moment, product]) in sums.into_iter().enumerate() {
+        let mut second = Second { other: k % n, moment: [0.0; D], product: [[0.0; D]; D] };
+        (second.moment[0], second.product[0][0]) = (moment, product);
+        let row = &mut piece.second[k / n];
+        match row.iter_mut().find(|known| known.other == second.other) {
+            Some(known) => known.add(1.0, &second),
+            None if second.counts() => row.push(second),
+            None => {}
         }
     }
+}
 
-    fn add_shortening(&self, table: &mut Vec<f64>, ends: [f64; 2]) {
-        for (s, weight) in on_interval(&gauss_legendre(POINTS), ends) {
-            let shapes = self.shapes.at(s).shapes;
-            table.resize(shapes.len() * shapes.len(), 0.0);
-            let pairs = shapes.iter().flat_map(|left| shapes.iter().map(move |right| (left.slope, right.slope)));
-            for (sum, (left, right)) in table.iter_mut().zip(pairs) {
-                *sum -= weight * (left[0] * right[0] + left[1] * right[1]);
-            }
+fn add_shortening(line: &impl Shapes, table: &mut Vec<f64>, ends: [f64; 2]) {
+    for (s, weight) in on_interval(&gauss_legendre(POINTS), ends) {
+        let shapes = line.at(s).shapes;
+        table.resize(shapes.len() * shapes.len(), 0.0);
+        let pairs = shapes.iter().flat_map(|left| shapes.iter().map(move |right| (left.slope, right.slope)));
+        for (sum, (left, right)) in table.iter_mut().zip(pairs) {
+            *sum -= weight * (left[0] * right[0] + left[1] * right[1]);
         }
     }
+}
 
-    fn spans(&self) -> Vec<[f64; 2]> {
-        self.shapes.breaks().windows(2).map(|ends| [ends[0], ends[1]]).collect()
-    }
+fn spans(line: &impl Shapes) -> Vec<[f64; 2]> {
+    line.breaks().windows(2).map(|ends| [ends[0], ends[1]]).collect()
 }

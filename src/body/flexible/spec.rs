@@ -4,8 +4,9 @@ use crate::math::expression::Number;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// A slender beam of constant section. Its origin is its left end; the x axis runs along it, markers lie at
-/// [s, y] or [s, y, z] with 0 <= s <= length.
+/// A slender beam. Its origin is its left end; the x axis runs along it, markers lie at [s, y] or [s, y, z] with
+/// 0 <= s <= length. The numbers of `section`, `stiffness` and `inertia` may be expressions of s, such as
+/// "0.1*(1 - s/4)": a tapered beam. A section that jumps needs a marker there, for a node.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FlexibleBeam {
@@ -155,7 +156,7 @@ pub struct Elasticity {
     pub g: Option<Number>,
 }
 
-/// A section in the y-z plane of the beam.
+/// A section in the y-z plane of the beam; of a `flexible_beam` its numbers may depend on s, m from the left end.
 #[derive(Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum SectionShape {
@@ -165,7 +166,8 @@ pub enum SectionShape {
     Circle { radius: Number, inner_radius: Option<Number> },
 }
 
-/// Stiffness of a section. Two numbers where a scene in space has two directions.
+/// Stiffness of a section. Two numbers where a scene in space has two directions; of a `flexible_beam` they may depend on
+/// s, m from the left end.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stiffness {
@@ -183,7 +185,7 @@ pub struct Stiffness {
     pub gj: Option<Number>,
 }
 
-/// Inertia of a section.
+/// Inertia of a section; its numbers may depend on s, m from the left end.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SectionInertia {

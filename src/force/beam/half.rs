@@ -16,8 +16,10 @@ pub struct Half {
     pub shifted: f64,
     /// Its part of the node's moments int rho y^2 and int rho z^2, kg m^2.
     pub moments: [f64; 2],
-    /// One over its length, 1/m.
-    pub per_length: f64,
+    /// The mass a length at the node, kg/m.
+    pub mass_per_length: f64,
+    /// int rho y^2 and int rho z^2 a length at the node, kg m.
+    pub moments_per_length: [f64; 2],
 }
 
 /// Weight less inertia of a half element, in the world's axes: in all, about the node, and a length at the node.
@@ -54,17 +56,21 @@ impl Half {
         let along = node.axes[0];
         let [axis, bent] = [along.map(|e| e.x), along.map(|e| e.dd)];
         let (hanging, whirling) = (cross(&axis, &lift), cross(&axis, &bent));
-        let mut turning = [S::zero(); 3];
-        for (axis, moment) in node.axes[1..].iter().zip(self.moments) {
-            let rate = cross(&axis.map(|e| e.x), &axis.map(|e| e.dd));
-            (0..3).for_each(|k| turning[k] -= rate[k] * moment);
-        }
+        let turning = |moments: [f64; 2]| -> Vector<S> {
+            let mut torque = [S::zero(); 3];
+            for (axis, moment) in node.axes[1..].iter().zip(moments) {
+                let rate = cross(&axis.map(|e| e.x), &axis.map(|e| e.dd));
+                (0..3).for_each(|k| torque[k] -= rate[k] * moment);
+            }
+            torque
+        };
+        let turned = turning(self.moments);
         let of = |k: usize| if k < D { lift[k] * self.mass - bent[k] * (self.mass * self.arm) } else { S::zero() };
         Load {
             force: from_fn(of),
-            torque: from_fn(|k| hanging[k] * (self.mass * self.arm) - whirling[k] * self.shifted + turning[k]),
-            force_per_length: from_fn(|k| if k < D { lift[k] * (self.mass * self.per_length) } else { S::zero() }),
-            torque_per_length: turning.map(|t| t * self.per_length),
+            torque: from_fn(|k| hanging[k] * (self.mass * self.arm) - whirling[k] * self.shifted + turned[k]),
+            force_per_length: from_fn(|k| if k < D { lift[k] * self.mass_per_length } else { S::zero() }),
+            torque_per_length: turning(self.moments_per_length),
         }
     }
 }

@@ -31,11 +31,11 @@ impl<S: Scalar> Line<S> {
     /// With what the sections at the ends carry by their strains.
     pub fn new(beam: &Beam, strains: &Strains<S>, ends: &[Carried<S>; 2]) -> Self {
         let [shift, turn, gap] = [&strains.shift, &strains.turn, &strains.gap].map(|v| v.map(|x| x.re));
-        let (compliance, per_length) = (beam.compliance(), 1.0 / beam.length);
+        let per_length = 1.0 / beam.length;
         let axes = [unit_axes(), exponential(&shift, &turn, 1.0).0];
         let strain = |end: usize, i: usize| {
             let carried = if i < 3 { &ends[end].n } else { &ends[end].m };
-            dot3(&axes[end][i % 3], carried) * compliance[i] + beam.rest[i]
+            dot3(&axes[end][i % 3], carried) * beam.compliance[end][i] + beam.rest[i]
         };
         let both = |first: usize, helix: &Vector<S>| -> [Vector<S>; 2] {
             from_fn(|end| from_fn(|i| strain(end, first + i) - helix[i] * per_length))

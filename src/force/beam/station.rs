@@ -9,17 +9,17 @@ use crate::math::screw::{Vector, cross3, dot3};
 use crate::math::{Scalar, Taylor};
 use std::array::from_fn;
 
-/// A section of a beam: where it is, how it is strained, and what it carries.
+/// A section of a beam: where it is, and what it carries.
 ///
-/// Strains and forces are in the order extension, shear along y and z, twist, curvature about y and z; or axial force,
-/// shear forces, torque and bending moments, in the section's axes. They act on the section from the side of larger
-/// abscissae; strains are against the relaxed beam.
+/// In the order axial force, shear forces along y and z, torque, bending moments about y and z, in the section's axes.
+/// They act on the section from the side of larger abscissae. The elastic ones times the compliances of the section are its
+/// strains against the relaxed beam: extension, shear, twist, curvatures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Station<S, const D: usize> {
     /// m
     pub r: [S; D],
-    /// Strains, without and 1/m.
-    pub strain: [S; 6],
+    /// Without damping, N and N m.
+    pub elastic: [S; 6],
     /// N and N m.
     pub force: [S; 6],
 }
@@ -67,20 +67,12 @@ impl Beam {
         };
         let elastic = in_section(line.between(&elastic, &loads, part, &place));
         let viscous = in_section(line.between(&viscous, &[Load::none(); 2], part, &place));
-        let compliance = self.compliance();
         let first = ends[0];
         Station {
             r: from_fn(|i| (0..D).fold(first.r[i].x, |sum, j| sum + first.axes[j][i].x * place[j])),
-            strain: from_fn(|i| elastic[i] * compliance[i]),
+            elastic,
             force: from_fn(|i| elastic[i] + viscous[i]),
         }
-    }
-
-    /// One over EA, GA along y and z, GJ, EI about y and z; zero for what the beam does not do.
-    pub(super) fn compliance(&self) -> [f64; 6] {
-        // Of what the stiffness in shear says, this part is bending.
-        let bent = [0.0, self.bent[0], self.bent[1], 0.0, 0.0, 0.0];
-        from_fn(|i| if self.stiffness[i] > 0.0 { (1.0 - bent[i]) / self.stiffness[i] } else { 0.0 })
     }
 }
 

@@ -21,6 +21,8 @@ pub struct Beam {
     pub(super) rest: [f64; 6],
     /// The part of the shear strain, along y and z, that is bending in truth.
     pub(super) bent: [f64; 2],
+    /// One over EA, GA along y and z, GJ, EI about y and z of the sections at the ends; zero for what the beam does not do.
+    pub(super) compliance: [[f64; 6]; 2],
     /// Stress is stiffness times (strain + damping times its rate), s.
     pub(super) damping: f64,
 }
@@ -65,7 +67,19 @@ impl Beam {
         };
         let stiffness = [section.ea, along_y, if D == 2 { 0.0 } else { along_z }, twist, about, about_z];
         let rest = [1.0, 0.0, 0.0, curvature[0], curvature[1], curvature[2]];
-        Beam { length, stiffness, rest, bent: [along_y * bending[0], along_z * bending[1]], damping }
+        let bent = [along_y * bending[0], along_z * bending[1]];
+        Beam { length, stiffness, rest, bent, compliance: [section.compliance::<D>(); 2], damping }
+    }
+
+    /// An element of a tapered beam, that is to have the mean compliance of it: with its sections at the ends.
+    #[must_use]
+    pub fn tapered<const D: usize>(self, ends: [Section; 2]) -> Self {
+        Beam { compliance: ends.map(|section| section.compliance::<D>()), ..self }
+    }
+
+    /// One over EA, GA along y and z, GJ, EI about y and z of the sections at the ends; zero for what the beam does not do.
+    pub fn compliance(&self) -> &[[f64; 6]; 2] {
+        &self.compliance
     }
 
     /// Twist and curvature about y and z of the relaxed beam, 1/m.

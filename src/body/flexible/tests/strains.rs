@@ -3,7 +3,7 @@
 use super::*;
 use crate::body::flexible::line::{Cross, Shapes};
 use crate::body::flexible::mesh::Mesh;
-use crate::body::flexible::{Axial, Section};
+use crate::body::flexible::{Axial, Profile, Section};
 use faer::linalg::solvers::Solve;
 
 const SECTION: Section =
@@ -21,7 +21,7 @@ fn at<const D: usize>(mesh: &Mesh<D>, s: f64, q: &[f64]) -> Cross {
 fn meshes<const D: usize>() -> Vec<Mesh<D>> {
     let slender = Section { ga: [f64::INFINITY; 2], ..SECTION };
     [(SECTION, Axial::Linear), (SECTION, Axial::Quadratic), (slender, Axial::Linear), (slender, Axial::Quadratic)]
-        .map(|(section, axial)| Mesh::new(1.5, 5, &[0.4], &section, axial))
+        .map(|(section, axial)| Mesh::new(1.5, 5, &[0.4], Profile::uniform(section, false), axial))
         .into()
 }
 

@@ -1,0 +1,180 @@
+//! The section along a beam.
+
+use super::gauss::{gauss_legendre, on_interval};
+use super::section::{Matter, Section, Shape};
+use super::spec::Theory;
+use crate::error::{Error, Result, short};
+use crate::math::expression::Expression;
+use std::array::from_fn;
+
+/// The section is looked at in so many equal parts of the beam.
+const LOOKED_AT: u32 = 2000;
+/// Gauss points for means over an element.
+const POINTS: usize = 6;
+/// Abscissae at the ends of an element are taken so far inside of it, in its lengths: a section may jump at a node.
+const INSIDE: f64 = 1e-9;
+
+/// The section of a beam at each of its places.
+#[derive(Clone, Debug)]
+pub struct Profile {
+    form: Form,
+    /// Whether sections that bending turns have inertia (Rayleigh); those that twist always have.
+    pub rotary: bool,
+}
+
+#[derive(Clone, Debug)]
+enum Form {
+    Uniform(Section),
+    Tapered(Laws),
+}
+
+impl Profile {
+    /// The section that the laws give, which must do so on the whole length.
+    pub(super) fn new(laws: Laws, length: f64, rotary: bool) -> Result<Self> {
+        laws.check(length)?;
+        let form = if laws.vary() { Form::Tapered(laws) } else { Form::Uniform(laws.at(0.0)) };
+        Ok(Profile { form, rotary })
+    }
+
+    pub fn uniform(section: Section, rotary: bool) -> Self {
+        Profile { form: Form::Uniform(section), rotary }
+    }
+
+    pub fn is_uniform(&self) -> bool {
+        matches!(self.form, Form::Uniform(_))
+    }
+
+    pub fn at(&self, s: f64) -> Section {
+        match &self.form {
+            Form::Uniform(section) => *section,
+            Form::Tapered(laws) => laws.at(s),
+        }
+    }
+
+    /// At `s` of an element, on its side of a jump.
+    pub fn within(&self, [from, to]: [f64; 2], s: f64) -> Section {
+        let gap = INSIDE * (to - from);
+        self.at(s.clamp(from + gap, to - gap))
+    }
+
+    /// The section with the mean compliance of a part of the beam: what its extension, its twist and its bending under
+    /// equal moments take is exact.
+    pub fn mean(&self, ends: [f64; 2]) -> Section {
+        let Form::Tapered(laws) = &self.form else { return self.at(ends[0]) };
+        let mean = |of: &dyn Fn(&Section) -> f64| {
+            let sum: f64 = on_interval(&gauss_legendre(POINTS), ends).map(|(s, weight)| weight * of(&laws.at(s))).sum();
+            sum / (ends[1] - ends[0])
+        };
+        let inverse = |of: &dyn Fn(&Section) -> f64| 1.0 / mean(&|section| 1.0 / of(section));
+        Section {
+            ea: inverse(&|section| section.ea),
+            ga: from_fn(|i| inverse(&|section| section.ga[i])),
+            gj: inverse(&|section| section.gj),
+            ei: from_fn(|i| inverse(&|section| section.ei[i])),
+            rho_a: mean(&|section| section.rho_a),
+            rho_i: from_fn(|i| mean(&|section| section.rho_i[i])),
+        }
+    }
+}
+
+/// Numbers along the beam, and what section they make.
+#[derive(Clone, Debug)]
+pub(super) struct Laws {
+    pub make: Make,
+    pub laws: Vec<Law>,
+    pub theory: Theory,
+    /// Of the scene.
+    pub dimension: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Make {
+    /// Height and width.
+    Rectangle(Matter),
+    /// Radius and inner radius.
+    Circle(Matter),
+    /// EA, GA along y and z, GJ, EI about y and z, rho A, rho I about y and z.
+    Numbers,
+}
+
+impl Laws {
+    pub fn at(&self, s: f64) -> Section {
+        let value = |i: usize| self.laws[i].at(s);
+        let fill = |matter: Matter, shape| match self.dimension {
+            2 => matter.fill::<2>(&shape),
+            _ => matter.fill::<3>(&shape),
+        };
+        let section = match self.make {
+            Make::Rectangle(matter) => fill(matter, Shape::rectangle(value(0), value(1))),
+            Make::Circle(matter) => fill(matter, Shape::circle(value(0), value(1))),
+            Make::Numbers => Section {
+                ea: value(0),
+                ga: [value(1), value(2)],
+                gj: value(3),
+                ei: [value(4), value(5)],
+                rho_a: value(6),
+                rho_i: [value(7), value(8)],
+            },
+        };
+        section.of_theory(self.theory)
+    }
+
+    fn vary(&self) -> bool {
+        self.laws.iter().any(Law::varies)
+    }
+
+    fn check(&self, length: f64) -> Result<()> {
+        let parts = if self.vary() { LOOKED_AT } else { 0 };
+        for part in 0..=parts {
+            let s = length * f64::from(part) / f64::from(LOOKED_AT);
+            self.laws.iter().try_for_each(|law| law.check(s))?;
+            if matches!(self.make, Make::Circle(_)) && self.laws[1].at(s) >= self.laws[0].at(s) {
+                let place = if self.vary() { format!(" at s = {}", short(s)) } else { String::new() };
+                return Err(Error::input(format!("the inner radius is not smaller than the outer one{place}"))
+                    .under("section.circle.inner_radius"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A number along the beam, as an expression of s.
+#[derive(Clone, Debug)]
+pub(super) struct Law {
+    /// JSON path from the body on.
+    pub path: String,
+    /// Its last part.
+    pub field: String,
+    pub value: Expression,
+    /// Whether it may be zero.
+    pub may_vanish: bool,
+}
+
+impl Law {
+    pub fn constant(value: f64) -> Self {
+        Law { path: String::new(), field: String::new(), value: Expression::from(value), may_vanish: true }
+    }
+
+    fn at(&self, s: f64) -> f64 {
+        self.value.eval(&[s])
+    }
+
+    fn varies(&self) -> bool {
+        !self.value.is_constant()
+    }
+
+    /// A constant was looked at when it was read.
+    fn check(&self, s: f64) -> Result<()> {
+        let (value, field, place) = (self.at(s), &self.field, short(s));
+        let error = |what: String| Err(Error::input(what).under(&self.path));
+        match value {
+            _ if !self.varies() => Ok(()),
+            _ if !value.is_finite() => error(format!("{field}, `{}`, is not finite at s = {place}", self.value)),
+            _ if value < 0.0 || (value == 0.0 && !self.may_vanish) => {
+                let least = if self.may_vanish { "cannot be negative" } else { "must be above zero" };
+                error(format!("{field} is {} at s = {place}, but {least} on the whole beam", short(value)))
+            }
+            _ => Ok(()),
+        }
+    }
+}
