@@ -26,7 +26,8 @@ fn at<'a>(json: &'a Value, path: &Path) -> &'a Value {
     let enter = |value: &'a Value, segment: &Segment| match segment {
         Segment::Map { key } => value.get(key),
         Segment::Seq { index } => value.get(index),
-        Segment::Enum { .. } | Segment::Unknown => None,
+        Segment::Enum { variant } => value.get(variant),
+        Segment::Unknown => None,
     };
     path.iter().try_fold(json, |value, segment| enter(value, segment).ok_or(value)).unwrap_or_else(|deepest| deepest)
 }
@@ -106,6 +107,14 @@ mod tests {
         teeth: Option<i32>,
         axis: Option<Vec<Number>>,
         side: Option<Side>,
+        shape: Option<Shape>,
+    }
+
+    #[derive(Deserialize, Debug)]
+    #[serde(rename_all = "snake_case")]
+    #[allow(dead_code)]
+    enum Shape {
+        Ring { width: f64 },
     }
 
     #[derive(Deserialize, Debug)]
@@ -139,6 +148,7 @@ mod tests {
                 json!({ "side": "iner" }),
                 "at side: `iner` is none of the possible values\n  help: did you mean `inner`?",
             ),
+            (json!({ "shape": { "ring": [1] } }), "at shape.ring: expected an object {...}, found a list of 1"),
             (json!([]), "expected an object {...}, found an empty list"),
         ];
         for (json, expected) in table {
