@@ -96,6 +96,8 @@ fn degrees_of_freedom_are_those_of_the_mechanisms() {
         ("quarter_car", 2),
         ("right_angle_cantilever", 96),
         ("robot_arm", 1),
+        ("rotating_blade", 96),
+        ("rotating_shaft", 48),
         ("slider_crank", 1),
         ("slider_crank_offset", 0),
         ("slider_crank_singular", 1),

@@ -38,6 +38,7 @@ fn json_has_it_under_a_key() {
         "stable",
         "stability",
         "free",
+        "warnings",
     ];
     assert_eq!(keys(rest), expected);
     assert_eq!((&rest["converged"], &rest["stable"]), (&Value::from(true), &Value::from(true)));
