@@ -70,8 +70,8 @@ pub(super) enum Extent<const D: usize> {
     Line(Vec<[MarkerId; 2]>),
 }
 
-/// A line that turns by less than this from end to end, rad, is as good as straight.
-const STRAIGHT: f64 = 0.1;
+/// A line whose elements turn by less than this together, rad, is as good as straight.
+const STRAIGHT: f64 = 0.5;
 
 /// Points that the line of a beam is looked at, beside its markers.
 const POINTS: usize = 8;
@@ -133,16 +133,16 @@ impl<const D: usize> Mechanism<D> {
     fn roughness(&self, elements: &[[MarkerId; 2]], q: &[f64]) -> f64 {
         let last = elements.len() - 1;
         let mut around = [0, 0, 1].map(|i| self.turn_between(elements[i], q));
-        let (mut change, mut whole) = (0.0, 0.0);
+        let (mut change, mut whole, mut bend) = (0.0, 0.0, 0.0);
         for i in 0..=last {
             let [before, here, after] = around;
             let span = if i == 0 || i == last { 1.0 } else { 2.0 };
             let jump: [f64; 3] = from_fn(|k| (after[k] - before[k]) / span);
             change += dot(&jump, &jump) / 12.0;
             whole += dot(&here, &here);
+            bend += norm(&here);
             around = [here, after, if i + 2 <= last { self.turn_between(elements[i + 2], q) } else { after }];
         }
-        let bend = (elements.len() as f64 * whole).sqrt();
         if bend > STRAIGHT { change / whole } else { 0.0 }
     }
 

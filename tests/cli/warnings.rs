@@ -206,10 +206,10 @@ fn a_mesh_that_is_too_coarse_is_said() {
                 "stiffness": {{ "EA": 1260, "EI": 0.0085 }}, "inertia": {{ "rhoA": 9.97, "rhoI": 6.7e-5 }},
                 "markers": {{ "pivot": [0, 0], "tip": [1.2, 0] }} }}],
             "joints": [{{ "name": "hinge", "type": "revolute", "between": ["ground.pivot", "rod.pivot"] }}],
-            "simulation": {{ "t_end": 0.5, "output_step": 0.1, "integrator": "dop853" }} }}"#
+            "simulation": {{ "t_end": 0.55, "output_step": 0.1, "integrator": "dop853" }} }}"#
         )
     };
-    let found = warnings(&rubber(8), &[]);
+    let found = warnings(&rubber(12), &[]);
     assert!(found.len() == 1 && found[0].contains("`rod`") && found[0].contains("energy of bending"), "{found:?}");
     let needed: usize = found[0].split("take ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
     assert!((10..60).contains(&needed), "{found:?}");

@@ -21,9 +21,10 @@ fn swing<const D: usize>() -> Value {
     let at = |x: f64| if planar { json!([x, 0]) } else { json!([x, 0, 0]) };
     let stiffness = match planar {
         true => json!({ "EA": 2e4, "EI": 30, "GA": 5e3 }),
-        false => json!({ "EA": 2e4, "EI": [50, 30], "GA": [9e3, 7e3], "GJ": 20 }),
+        false => json!({ "EA": 2e4, "EI": [50, 30], "GA": [9e3, 7e3], "GJ": 2e-6 }),
     };
-    let inertia = if planar { json!(1e-3) } else { json!([2e-3, 1e-3]) };
+    // As good as none: what sections turn at second order is not in the data of modal bodies.
+    let inertia = if planar { json!(1e-10) } else { json!([2e-10, 1e-10]) };
     json!({
         "name": "swing", "dimension": D,
         "parameters": { "angle": 0.3 },
