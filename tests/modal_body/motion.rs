@@ -23,8 +23,8 @@ fn moves_as_its_beam<const D: usize>(file: &str) {
         let size = exact.iter().fold(1.0f64, |size, x| size.max(x.abs()));
         let off = found.iter().zip(&exact).fold(0.0f64, |off, (a, b)| off.max((a - b).abs()));
         // The same equations up to round-off, so that also the steps are the same, but for sections that turn: the inertia of
-        // 1e-10 that twist needs in space leaves 2e-10.
-        assert!(off < 5e-10 * size, "{heading}: {off:e} of {size}");
+        // 1e-10 that twist needs in space leaves 1e-8 of the rate of a mode that twists.
+        assert!(off < 2e-8 * size, "{heading}: {off:e} of {size}");
     }
     // It is no rigid rod.
     let names = &exact.names.q;
