@@ -40,7 +40,7 @@ pub(super) fn angular_velocity<S: Scalar, const D: usize>(v: &[S]) -> [S; 3] {
 impl<const D: usize> Floating<D> {
     pub(super) fn moving<'a, S: Scalar>(&'a self, q: &'a [S], v: &'a [S]) -> impl Iterator<Item = Moving<'a, S, D>> {
         let (q, v) = (&q[frame_coordinates(D)..], v.get(frame_velocities(D)..).unwrap_or(&[]));
-        self.elastic.pieces.iter().map(move |piece| Moving { piece, q, v })
+        self.elastic.pieces.iter().zip(&self.curves).map(move |(piece, curves)| Moving { piece, q, v, curves })
     }
 
     /// Values of M.
@@ -92,16 +92,20 @@ impl<const D: usize> Floating<D> {
             let coriolis = spin(&w, &rate);
             let force = world(&own, &from_fn(|k| whirl[k] + 2.0 * coriolis[k] + drift[k]));
             (0..D).for_each(|k| f[k] += moving.piece.mass * gravity[k] - force[k]);
-            let gyroscopic = cross3(&w, &swung(&moving.p(), &w));
-            let stretching = swung(&transposed(&moving.flow(moving.v)), &w);
-            let hanging = crate::body::cross(&s, &lift);
-            turns(D)
-                .for_each(|k| f[turn_velocity(D, k)] -= hanging[k] + gyroscopic[k] + 2.0 * stretching[k] + swerve[k]);
+            let (mut p, mut flow) = (moving.against(0), [[0.0; D]; D]);
             for (i, &dof) in moving.piece.dofs.iter().enumerate() {
-                let centrifugal = whirled(&moving.w(i), &w);
+                let weighed = moving.w(i);
+                add_matrix(&mut p, moving.q[dof], &weighed);
+                add_matrix(&mut flow, moving.v[dof], &weighed);
+                let centrifugal = whirled(&weighed, &w);
                 let coriolis = 2.0 * dot3(&w, &axial(&moving.rated(moving.v, i)));
                 f[frame_velocities(D) + dof] += centrifugal - coriolis - dot(&moving.mu(i), &lift);
             }
+            let gyroscopic = cross3(&w, &swung(&symmetric(&p), &w));
+            let stretching = swung(&transposed(&flow), &w);
+            let hanging = crate::body::cross(&s, &lift);
+            turns(D)
+                .for_each(|k| f[turn_velocity(D, k)] -= hanging[k] + gyroscopic[k] + 2.0 * stretching[k] + swerve[k]);
         }
     }
 

@@ -30,6 +30,7 @@ use super::{Attitude, Bent, Body, BodyOver, BodyState, Energy, Frame, Marker, Wr
 use crate::math::rotation::{axes_from_quaternion, quaternion_rate};
 use crate::math::{Scalar, Taylor};
 use layout::Layout;
+use moving::Curves;
 
 pub use part::load;
 pub use point::place;
@@ -41,6 +42,7 @@ pub struct Floating<const D: usize> {
     markers: Vec<Marker<D>>,
     shapes: Vec<PointShape<D>>,
     layout: Layout,
+    curves: Vec<Curves<D>>,
 }
 
 /// Coordinates of the frame.
@@ -67,7 +69,8 @@ impl<const D: usize> Floating<D> {
     /// `markers` and where they are on the body, one shape each; the first is the frame itself.
     pub fn new(elastic: Elastic<D>, markers: Vec<Marker<D>>, shapes: Vec<PointShape<D>>) -> Self {
         let layout = Layout::new(&elastic, frame_velocities(D));
-        Floating { elastic, markers, shapes, layout }
+        let curves = elastic.pieces.iter().map(Curves::of).collect();
+        Floating { elastic, markers, shapes, layout, curves }
     }
 }
 

@@ -20,6 +20,35 @@ pub(super) struct Moving<'a, S, const D: usize> {
     /// All elastic coordinates and velocities of the body.
     pub q: &'a [S],
     pub v: &'a [S],
+    pub curves: &'a Curves<D>,
+}
+
+/// What of second order a piece has, ready for use.
+pub(super) struct Curves<const D: usize> {
+    /// P_ji + P_0ij at `[j * n + i]`; empty where no P_0ij is there.
+    bent: Vec<Matrix<f64, D>>,
+    /// Whether there are m_ij, and whether sum_ij q_i' q_j' P_0ij turns the frame.
+    drifts: bool,
+    swerves: bool,
+}
+
+impl<const D: usize> Curves<D> {
+    pub fn of(piece: &Piece<D>) -> Self {
+        let (n, all) = (piece.dofs.len(), || piece.second.iter().flatten());
+        let mut bent = Vec::new();
+        if all().next().is_some() {
+            bent.extend(
+                (0..n)
+                    .flat_map(|j| (0..n).map(move |i| (j, i)))
+                    .map(|(j, i)| piece.products[(j + 1) * (n + 1) + i + 1]),
+            );
+            for (i, second) in piece.second.iter().enumerate().flat_map(|(i, row)| row.iter().map(move |x| (i, x))) {
+                add_matrix(&mut bent[second.other * n + i], 1.0, &second.product);
+            }
+        }
+        let drifts = all().any(|second| second.moment != [0.0; D]);
+        Curves { bent, drifts, swerves: drifts || all().any(|second| axial(&second.product) != [0.0; 3]) }
+    }
 }
 
 impl<S: Scalar, const D: usize> Moving<'_, S, D> {
@@ -29,7 +58,9 @@ impl<S: Scalar, const D: usize> Moving<'_, S, D> {
         for (i, &dof) in self.piece.dofs.iter().enumerate() {
             let x = self.q[dof];
             add_scaled(&mut s, x, &self.piece.moments[i + 1]);
-            add_scaled(&mut s, x * 0.5, &self.drift(self.q, i));
+            if self.curves.drifts {
+                add_scaled(&mut s, x * 0.5, &self.drift(self.q, i));
+            }
         }
         s
     }
@@ -37,7 +68,7 @@ impl<S: Scalar, const D: usize> Moving<'_, S, D> {
     /// mu_i
     #[inline]
     pub fn mu(&self, i: usize) -> [S; D] {
-        let mut mu = self.drift(self.q, i);
+        let mut mu = if self.curves.drifts { self.drift(self.q, i) } else { [S::zero(); D] };
         add_scaled(&mut mu, S::one(), &self.piece.moments[i + 1]);
         mu
     }
@@ -54,8 +85,14 @@ impl<S: Scalar, const D: usize> Moving<'_, S, D> {
     /// W_i
     #[inline]
     pub fn w(&self, i: usize) -> Matrix<S, D> {
-        let mut sum = self.against(i + 1);
-        add_matrix(&mut sum, S::one(), &self.curved(self.q, i));
+        let n = self.piece.dofs.len();
+        if self.curves.bent.is_empty() {
+            return self.against(i + 1);
+        }
+        let mut sum = self.piece.products[i + 1].map(|row| row.map(S::constant));
+        for (j, &dof) in self.piece.dofs.iter().enumerate() {
+            add_matrix(&mut sum, self.q[dof], &self.curves.bent[j * n + i]);
+        }
         sum
     }
 
@@ -106,6 +143,9 @@ impl<S: Scalar, const D: usize> Moving<'_, S, D> {
     /// sum_ij x_i x_j m_ij and ax(sum_ij x_i x_j P_0ij).
     pub fn swerve(&self, x: &[S]) -> ([S; D], [S; 3]) {
         let (mut drift, mut curved) = ([S::zero(); D], [[S::zero(); D]; D]);
+        if !self.curves.swerves {
+            return (drift, [S::zero(); 3]);
+        }
         for (i, &dof) in self.piece.dofs.iter().enumerate() {
             add_scaled(&mut drift, x[dof], &self.drift(x, i));
             add_matrix(&mut curved, x[dof], &self.curved(x, i));
