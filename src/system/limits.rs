@@ -39,7 +39,7 @@ impl Theory {
             // From half a turn on another turn would do as well; the states that are looked at may be a bit apart.
             Theory::Helix { dimension: 2, .. } => 1.5 * PI,
             Theory::Helix { .. } => 0.75 * PI,
-            // Ten times what the displacements of a beam that flies freely were found to be off by.
+            // A rubber pendulum of 12 elements, 6 % off in places, misses 18 %.
             Theory::Mesh { .. } => 0.1,
         }
     }
@@ -55,7 +55,7 @@ impl Theory {
     }
 }
 
-/// Part of the energy of bending that elements miss, of order 2 in their length, which is right to any eye.
+/// Part of the energy of bending that elements miss, of order 2 in their length, that a finer mesh aims at.
 const SMOOTH: f64 = 0.02;
 /// A quarter turn may be passed by so much of it.
 const ROUNDING: f64 = 0.01;

@@ -37,7 +37,7 @@ pub struct Rotating<'a> {
 /// Of entries, by row and column.
 type Places = BTreeMap<(usize, usize), usize>;
 
-/// Matrices that change with the place: what X, Y and Z add to K, C and the gradients of constraints.
+/// How the motion of the axes changes from place to place.
 struct Slopes {
     /// d(W xi)/dq, d(b)/dq and d(b)/dv by the first velocity of their block.
     blocks: Vec<[Block; 3]>,

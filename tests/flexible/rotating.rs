@@ -2,7 +2,7 @@
 
 use crate::scenes::{Ready, parse, shipped};
 use holonom::choice::Choice;
-use holonom::linearize::{Operating, Request, State, at_rest, linearize};
+use holonom::linearize::{Chart, Operating, Request, State, at_rest, linearize};
 use holonom::simulate::Span;
 use holonom::system::Rotating;
 
@@ -150,6 +150,24 @@ fn the_shipped_blade_flaps_and_lags_as_published() {
             assert_has(&found, flap, 3e-4, &format!("flap at {speed}"));
             assert_has(&found, lag, 4e-4, &format!("lag at {speed}"));
         }
+    }
+}
+
+/// In axes that turn along all charts and methods say the same.
+#[test]
+fn a_steady_rotation_has_one_spectrum() {
+    let blade = shipped("rotating_blade", &[("speed", 6.0)]);
+    let operating = at_rest(&blade.0, &State::start(&blade.0)).unwrap();
+    let slowest = |method: &str, chart: Option<Chart>| {
+        let request = Request { method: Choice::named(method), chart };
+        let model = linearize(&mut operating.variation().unwrap(), &request).unwrap();
+        model.modes.iter().map(|mode| mode.value.im).filter(|im| *im > 1.0).fold(f64::INFINITY, f64::min)
+    };
+    let first = slowest("mcs", None);
+    for (method, chart) in [("mcs", Some(Chart::MassOrthogonal)), ("mcs", Some(Chart::Frozen)), ("rcs", None)] {
+        let other = slowest(method, chart.clone());
+        // Frequencies of up to 6e4 rad/s are in the same matrix: their rounding in the square of the slowest.
+        assert!((other / first - 1.0).abs() < 1e-6, "{method} {chart:?}: {other} {first}");
     }
 }
 
