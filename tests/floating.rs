@@ -1,6 +1,6 @@
 //! The equations of motion of flexible bodies in floating frames, against sums over the points that carry their mass.
 
-use holonom::body::flexible::{Elastic, Piece, PointShape, Second, Stretch};
+use holonom::body::flexible::{Disc, Elastic, Inertia, Piece, PointShape, Second, Stretch};
 use holonom::body::floating::{Floating, frame_coordinates, frame_velocities};
 use holonom::body::{Body, BodyOver, BodyState, Frame, Marker, Wrench, dot};
 use holonom::math::Taylor;
@@ -83,7 +83,7 @@ fn cloud<const D: usize>(is_curved: bool) -> Cloud<D> {
     };
     let elastic = Elastic {
         names: (1..=ELASTIC).map(|i| format!("e{i}")).collect(),
-        pieces,
+        inertia: Inertia { pieces, discs: if is_curved { discs(&mut stir) } else { vec![] } },
         stiffness: matrix(&mut stir),
         damping: matrix(&mut stir),
         stretches: vec![stretch(&mut stir, &[0, 3]), stretch(&mut stir, &[1, 2, 5])],
@@ -102,6 +102,16 @@ fn still<const D: usize>() -> PointShape<D> {
         rotation: vec![],
         shortening: vec![],
     }
+}
+
+/// Sections that turn, and some that do not.
+fn discs(stir: &mut Stir) -> Vec<Disc> {
+    let mut disc = |dofs: &[usize]| {
+        let [a, b, c]: [f64; 3] = stir.vector();
+        let inertia = [[2.0, a / 3.0, b / 3.0], [a / 3.0, 2.5, c / 3.0], [b / 3.0, c / 3.0, 3.0]];
+        Disc { dofs: dofs.to_vec(), rotation: dofs.iter().map(|_| stir.vector()).collect(), inertia }
+    };
+    [&[1, 0][..], &[2, 4, 3], &[]].map(&mut disc).to_vec()
 }
 
 /// The same for (i, j) and (j, i).

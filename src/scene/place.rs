@@ -1,7 +1,7 @@
 //! Places on beams that outputs watch.
 
 use super::model::Reading;
-use crate::body::flexible::{Piece, PointShape};
+use crate::body::flexible::{Inertia, PointShape};
 use crate::body::{Frame, MarkerId, dot, sub};
 use crate::force::{Beam, Half, Load, Station};
 use crate::math::{Scalar, Taylor};
@@ -60,7 +60,7 @@ pub struct Cut<const D: usize> {
     /// How the section moves with the elastic coordinates.
     pub section: PointShape<D>,
     /// The mass beyond.
-    pub beyond: Vec<Piece<D>>,
+    pub beyond: Inertia<D>,
     /// Joints and forces with the slot of each of their markers beyond.
     pub joints: Vec<(usize, usize)>,
     pub forces: Vec<(usize, usize)>,

@@ -41,9 +41,12 @@ impl<const D: usize> Mechanism<D> {
         let at = floating::place(&own.map(|x| x.x), &cut.section, &Marker::point([0.0; D]), |i| view.q(q + i));
         let mut sum = Sum { about: at.r, wrench: Wrench::zero() };
         let coordinate = |i: usize| Taylor::new(view.q(q + i), view.v(v + i), view.vdot(v + i));
-        for piece in &cut.beyond {
-            let load = floating::load(piece, &own, coordinate, &self.model().gravity);
-            sum.add(&own.r.map(|x| x.x), &load);
+        let origin = own.r.map(|x| x.x);
+        for piece in &cut.beyond.pieces {
+            sum.add(&origin, &floating::load(piece, &own, coordinate, &self.model().gravity));
+        }
+        for disc in &cut.beyond.discs {
+            sum.add(&origin, &floating::resistance(disc, &own, coordinate));
         }
         let place = |marker: usize| view.frame(marker).r.map(|x| x.x);
         for &(joint, slot) in &cut.joints {

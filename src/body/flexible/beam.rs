@@ -150,6 +150,6 @@ fn nodal<const D: usize>(mesh: &Mesh<D>, quartic: Option<f64>) -> Elastic<D> {
             stretches.extend(stiffened(mesh, element, quartic));
         }
     }
-    let (pieces, stiffness) = (mesh.pieces(0.0), stiffness.finish());
-    Elastic { names: mesh.names(), pieces, stiffness, damping: Vec::new(), stretches, line: None }
+    let (inertia, stiffness) = (mesh.inertia(0.0), stiffness.finish());
+    Elastic { names: mesh.names(), inertia, stiffness, damping: Vec::new(), stretches, line: None }
 }

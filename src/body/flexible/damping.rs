@@ -44,7 +44,7 @@ fn rayleigh<const D: usize>(
 ) -> Result<Symmetric> {
     let factor = |field, number: &Option<Number>| number.as_ref().map_or(Ok(0.0), |n| build.not_negative(field, n));
     let mut sum = Sum::default();
-    sum.add_all(factor("mass", mass)?, &mass_matrix(&elastic.pieces));
+    sum.add_all(factor("mass", mass)?, &mass_matrix(&elastic.inertia));
     sum.add_all(factor("stiffness", stiffness)?, &elastic.stiffness);
     Ok(sum.finish())
 }
@@ -68,7 +68,7 @@ fn modal<const D: usize>(
         let strength = |&(i, j, square): &(usize, usize, f64)| (i, j, 2.0 * ratios[i] * square.sqrt());
         return Ok(elastic.stiffness.iter().map(strength).filter(|entry| entry.2 != 0.0).collect());
     }
-    let mass = dense(n, &mass_matrix(&elastic.pieces));
+    let mass = dense(n, &mass_matrix(&elastic.inertia));
     let Some(modes) = Modes::of(dense(n, &elastic.stiffness).as_ref(), mass.as_ref()) else {
         return Err(Error::input("the modes of the functions cannot be computed").under("modal"));
     };

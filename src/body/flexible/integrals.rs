@@ -3,8 +3,8 @@
 use super::line::Cross;
 use super::profile::Profile;
 use super::section::Section;
-use super::shape::{Piece, Second, Stretch, Symmetric};
-use crate::body::cross;
+use super::shape::{Disc, Inertia, Piece, Stretch, Symmetric};
+use crate::body::dot;
 use std::array::from_fn;
 use std::collections::BTreeMap;
 
@@ -14,106 +14,72 @@ pub struct Sample {
     /// m
     pub weight: f64,
     pub section: Section,
-    pub inertia: Inertia,
+    /// Whether sections that bending turns have inertia (Rayleigh); those that twist always have.
+    rotary: bool,
     /// What the coordinates do here, in the order of the piece's.
     pub shapes: Vec<Cross>,
 }
 
 impl Sample {
     pub fn new(profile: &Profile, (s, weight): (f64, f64), shapes: Vec<Cross>) -> Self {
-        let section = profile.at(s);
-        let inertia = Inertia { rho_a: section.rho_a, rho_i: section.rho_i, rotary: profile.rotary };
-        Sample { s, weight, section, inertia, shapes }
+        Sample { s, weight, section: profile.at(s), rotary: profile.rotary, shapes }
     }
-}
 
-/// How the mass of a section counts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Inertia {
-    pub rho_a: f64,
-    /// About y and z.
-    pub rho_i: [f64; 2],
-    /// Whether sections that bending turns have inertia (Rayleigh); those that twist always have.
-    pub rotary: bool,
-}
-
-impl Inertia {
     /// The turn that moves the mass of a section.
     fn turn(&self, shape: &Cross) -> [f64; 3] {
         let [rx, ry, rz] = shape.rotation;
         if self.rotary { [rx, ry, rz] } else { [rx, 0.0, 0.0] }
     }
 
-    /// psi at the point (y, z) of a section is [0] + y [1] + z [2], as the rotation r moves it by r x (0, y, z) ...
-    fn shape<const D: usize>(&self, shape: &Cross) -> [[f64; D]; 3] {
-        let [rx, ry, rz] = self.turn(shape);
-        [shape.displacement, [-rz, 0.0, rx], [ry, -rx, 0.0]].map(|v| from_fn(|k| v[k]))
-    }
-
-    /// ... and to second order by r x (r x (0, y, z))/2.
-    fn second<const D: usize>(&self, left: &Cross, right: &Cross) -> [[f64; D]; 3] {
-        let [left, right] = [left, right].map(|shape| self.turn(shape));
-        let turned = |unit: [f64; 3]| {
-            let [once, twice] = [cross(&left, &cross(&right, &unit)), cross(&right, &cross(&left, &unit))];
-            from_fn(|k| (once[k] + twice[k]) / 2.0)
-        };
-        [[0.0; D], turned([0.0, 1.0, 0.0]), turned([0.0, 0.0, 1.0])]
-    }
-
-    /// psi_0 = (s, y, z)
-    fn rest<const D: usize>(s: f64) -> [[f64; D]; 3] {
-        [[s, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|v| from_fn(|k| v[k]))
-    }
-
-    /// int rho, int rho y^2 and int rho z^2 a length.
-    fn densities(&self) -> [f64; 3] {
-        [self.rho_a, self.rho_i[1], self.rho_i[0]]
-    }
-
-    fn add<const D: usize>(&self, piece: &mut Piece<D>, psi: &[[[f64; D]; 3]], weight: f64) {
-        let densities = self.densities().map(|density| density * weight);
-        piece.mass += densities[0];
-        for (a, left) in psi.iter().enumerate() {
-            (0..D).for_each(|k| piece.moments[a][k] += densities[0] * left[0][k]);
-            for (b, right) in psi.iter().enumerate() {
-                let product = &mut piece.products[a * psi.len() + b];
-                for ((density, l), r) in densities.iter().zip(left).zip(right) {
-                    (0..D).for_each(|k| (0..D).for_each(|m| product[k][m] += density * l[k] * r[m]));
-                }
-            }
-        }
+    fn disc<const D: usize>(&self, dofs: &[usize]) -> Disc {
+        let turns = |turn: &[f64; 3]| if D == 2 { turn[2] != 0.0 } else { *turn != [0.0; 3] };
+        let turning = dofs.iter().zip(self.shapes.iter().map(|shape| self.turn(shape))).filter(|(_, turn)| turns(turn));
+        let (dofs, rotation) = turning.unzip();
+        // int rho z^2 is the moment about y, int rho y^2 that about z.
+        let [y, z] = self.section.rho_i.map(|density| density * self.weight);
+        Disc { dofs, rotation, inertia: [[y + z, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]] }
     }
 }
 
-/// The mass integrals over all samples. Axes of the section are principal ones, so that int rho y = int rho z =
-/// int rho y z = 0, int rho y^2 is the moment of inertia about z and int rho z^2 that about y.
+/// The mass integrals of the line over all samples.
 pub fn piece<const D: usize>(dofs: Vec<usize>, samples: &[Sample]) -> Piece<D> {
-    let n = 1 + dofs.len();
-    let mut piece =
-        Piece { dofs, mass: 0.0, moments: vec![[0.0; D]; n], products: vec![[[0.0; D]; D]; n * n], second: Vec::new() };
-    for Sample { s, weight, inertia, shapes, .. } in samples {
-        let shapes = shapes.iter().map(|shape| inertia.shape::<D>(shape));
-        let psi: Vec<_> = std::iter::once(Inertia::rest(*s)).chain(shapes).collect();
-        inertia.add(&mut piece, &psi, *weight);
+    let n = dofs.len();
+    let mut piece = Piece {
+        dofs,
+        mass: 0.0,
+        moments: vec![[0.0; D]; 1 + n],
+        products: vec![[[0.0; D]; D]; (1 + n) * (1 + n)],
+        second: vec![Vec::new(); n],
+    };
+    for sample in samples {
+        let displacements = sample.shapes.iter().map(|shape| shape.displacement);
+        let psi: Vec<_> = std::iter::once([sample.s, 0.0, 0.0]).chain(displacements).collect();
+        add_point(&mut piece, &psi, sample.weight * sample.section.rho_a);
     }
-    piece.second = (1..n).map(|i| second_of(i - 1, samples)).collect();
     piece
 }
 
-/// The integrals of psi_ij for all j.
-fn second_of<const D: usize>(i: usize, samples: &[Sample]) -> Vec<Second<D>> {
-    let count = samples.first().map_or(0, |sample| sample.shapes.len());
-    let integral = |other: usize| {
-        let mut second = Second { other, moment: [0.0; D], product: [[0.0; D]; D] };
-        for Sample { s, weight, inertia, shapes, .. } in samples {
-            let [rest, psi] = [Inertia::rest::<D>(*s), inertia.second(&shapes[i], &shapes[other])];
-            for ((density, r), p) in inertia.densities().iter().zip(&rest).zip(&psi) {
-                (0..D).for_each(|k| (0..D).for_each(|m| second.product[k][m] += density * weight * r[k] * p[m]));
-            }
+fn add_point<const D: usize>(piece: &mut Piece<D>, psi: &[[f64; 3]], mass: f64) {
+    piece.mass += mass;
+    for (a, left) in psi.iter().enumerate() {
+        (0..D).for_each(|k| piece.moments[a][k] += mass * left[k]);
+        for (b, right) in psi.iter().enumerate() {
+            let product = &mut piece.products[a * psi.len() + b];
+            (0..D).for_each(|k| (0..D).for_each(|m| product[k][m] += mass * left[k] * right[m]));
         }
-        second
-    };
-    (0..count).map(integral).filter(Second::counts).collect()
+    }
+}
+
+/// The sections at all samples; those that nothing turns are one.
+pub fn discs<const D: usize>(dofs: &[usize], samples: &[Sample]) -> Vec<Disc> {
+    let discs = samples.iter().map(|sample| sample.disc::<D>(dofs));
+    let (fixed, mut turning): (Vec<_>, Vec<_>) = discs.partition(|disc| disc.dofs.is_empty());
+    let whole = fixed
+        .into_iter()
+        .reduce(|sum, disc| Disc { inertia: from_fn(|i| from_fn(|j| sum.inertia[i][j] + disc.inertia[i][j])), ..sum });
+    turning.extend(whole);
+    turning.retain(|disc| disc.inertia != [[0.0; 3]; 3]);
+    turning
 }
 
 /// Entries of a symmetric matrix, added up in their places; in the order of the places.
@@ -171,20 +137,32 @@ pub fn stretch(quartic: f64, start: f64, dofs: &[usize], samples: &[Sample]) -> 
     }
 }
 
-/// The elastic mass matrix, M_ij = tr P_ij.
-pub fn mass_matrix<const D: usize>(pieces: &[Piece<D>]) -> Symmetric {
+/// The elastic mass matrix where nothing is deformed: M_ij = tr P_ij + sum r_i.J r_j of the discs.
+pub fn mass_matrix<const D: usize>(inertia: &Inertia<D>) -> Symmetric {
     let mut sum = Sum::default();
-    for piece in pieces {
+    for piece in &inertia.pieces {
         let n = 1 + piece.dofs.len();
-        for (a, &i) in piece.dofs.iter().enumerate() {
-            for (b, &j) in piece.dofs.iter().enumerate().take(a + 1) {
-                let product = &piece.products[(a + 1) * n + b + 1];
-                let trace: f64 = (0..D).map(|k| product[k][k]).sum();
-                if trace != 0.0 {
-                    sum.add(i, j, trace);
-                }
+        add_pairs(&mut sum, &piece.dofs, |a, b| {
+            let product = &piece.products[(a + 1) * n + b + 1];
+            (0..D).map(|k| product[k][k]).sum()
+        });
+    }
+    for disc in &inertia.discs {
+        add_pairs(&mut sum, &disc.dofs, |a, b| {
+            let [left, right] = [disc.rotation[a], disc.rotation[b]];
+            (0..3).map(|i| left[i] * dot(&disc.inertia[i], &right)).sum()
+        });
+    }
+    sum.finish()
+}
+
+fn add_pairs(sum: &mut Sum, dofs: &[usize], value: impl Fn(usize, usize) -> f64) {
+    for (a, &i) in dofs.iter().enumerate() {
+        for (b, &j) in dofs.iter().enumerate().take(a + 1) {
+            let value = value(a, b);
+            if value != 0.0 {
+                sum.add(i, j, value);
             }
         }
     }
-    sum.finish()
 }

@@ -9,7 +9,7 @@
 //!
 //! so that where sections stay square to the line r_z = w_y' and r_y = -w_z'.
 
-use super::shape::{Line, Piece, PointShape, SectionShape};
+use super::shape::{Inertia, Line, PointShape, SectionShape};
 use super::shorten::{shorten, shortening};
 use crate::body::{cross, in_space};
 use std::array::from_fn;
@@ -104,8 +104,8 @@ pub trait Shapes: Send + Sync {
     fn shortens(&self) -> bool {
         false
     }
-    /// The mass integrals of the line from `s` on, without what it shortens by; one piece of all coordinates where it does.
-    fn pieces<const D: usize>(&self, s: f64) -> Vec<Piece<D>>;
+    /// The mass from `s` on, without what the line shortens by; one piece of all coordinates where it does.
+    fn inertia<const D: usize>(&self, s: f64) -> Inertia<D>;
 }
 
 impl<F: Shapes, const D: usize> Line<D> for F {
@@ -137,9 +137,9 @@ impl<F: Shapes, const D: usize> Line<D> for F {
         SectionShape { dofs, strains }
     }
 
-    fn beyond(&self, s: f64) -> Vec<Piece<D>> {
-        let mut pieces = self.pieces(s);
-        pieces.iter_mut().filter(|_| self.shortens()).for_each(|piece| shorten(self, s, piece));
-        pieces
+    fn beyond(&self, s: f64) -> Inertia<D> {
+        let mut inertia = self.inertia(s);
+        inertia.pieces.iter_mut().filter(|_| self.shortens()).for_each(|piece| shorten(self, s, piece));
+        inertia
     }
 }

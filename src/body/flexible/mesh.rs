@@ -2,16 +2,19 @@
 
 use super::element::Element;
 use super::gauss::{gauss_legendre, on_interval};
-use super::integrals::{Sample, piece};
+use super::integrals::{Sample, discs, piece};
 use super::line::{Shapes, Station};
 use super::profile::Profile;
-use super::shape::Piece;
+use super::shape::Inertia;
 use super::spec::{Axial, FrameConditions};
 
 /// Gauss points on an element that integrate squares of cubics exactly ...
 const POINTS: usize = 4;
 /// ... and those that do so with a mass or a stiffness up to the fifth power of s.
 const TAPERED: usize = 6;
+
+/// Gauss points that integrate squares of turns exactly, quadratics at most.
+const TURNS: usize = 3;
 
 /// So close together, in lengths of the beam, two markers share a node.
 const SAME: f64 = 1e-9;
@@ -189,12 +192,17 @@ impl<const D: usize> Shapes for Mesh<D> {
     }
 
     /// An element a piece.
-    fn pieces<const E: usize>(&self, s: f64) -> Vec<Piece<E>> {
-        let of = |element: usize| {
-            let (dofs, samples) = self.samples_from(s.max(self.nodes[element]), element, self.points());
-            piece(dofs, &samples)
-        };
-        (0..self.count()).filter(|element| self.nodes[element + 1] > s).map(of).collect()
+    fn inertia<const E: usize>(&self, s: f64) -> Inertia<E> {
+        let mut inertia = Inertia::default();
+        for element in (0..self.count()).filter(|element| self.nodes[element + 1] > s) {
+            let start = s.max(self.nodes[element]);
+            let (dofs, samples) = self.samples_from(start, element, self.points());
+            inertia.pieces.push(piece(dofs, &samples));
+            let (dofs, samples) =
+                self.samples_from(start, element, if self.profile.is_uniform() { TURNS } else { TAPERED });
+            inertia.discs.extend(discs::<E>(&dofs, &samples));
+        }
+        inertia
     }
 }
 

@@ -25,7 +25,7 @@ pub use gauss::{gauss_legendre, on_interval};
 pub use integrals::mass_matrix;
 pub use profile::Profile;
 pub use section::{Section, curvature};
-pub use shape::{Elastic, Line, Piece, PointShape, Second, SectionShape, Stretch, Symmetric};
+pub use shape::{Disc, Elastic, Inertia, Line, Piece, PointShape, Second, SectionShape, Stretch, Symmetric};
 pub use spec::{
     Axial, Damping, Elasticity, FlexibleBeam, FrameConditions, FrameKind, OneOrMany, Ritz,
     SectionShape as SectionGeometry, Stiffness, Theory,

@@ -16,11 +16,12 @@ use super::eigen::{Modes, dense};
 use super::integrals::mass_matrix;
 use super::line::{Cross, Shapes, Station};
 use super::mesh::Mesh;
-use super::shape::{Elastic, Piece, Second, Stretch};
+use super::shape::{Disc, Elastic, Inertia, Piece, Stretch};
 use super::spec::FrameConditions;
 use crate::error::{Error, Result};
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef, Side};
+use std::array::from_fn;
 
 /// Largest dense problem, in coordinates.
 const MOST: usize = 4000;
@@ -46,7 +47,7 @@ pub fn beam<const D: usize>(
     }
     let full = System {
         stiffness: dense(n, &nodal.stiffness),
-        mass: dense(n, &mass_matrix(&nodal.pieces)),
+        mass: dense(n, &mass_matrix(&nodal.inertia)),
         rigid: match conditions {
             FrameConditions::Mean => columns(n, &mesh.rigid_motions(mesh.length() / 2.0)),
             FrameConditions::Tangent | FrameConditions::Chord => Mat::zeros(n, 0),
@@ -184,7 +185,7 @@ fn project<const D: usize>(mesh: Mesh<D>, nodal: Elastic<D>, modes: Modes, short
     let line = Reduced { mesh, basis, shortens };
     Elastic {
         names,
-        pieces: super::shape::Line::beyond(&line, 0.0),
+        inertia: super::shape::Line::beyond(&line, 0.0),
         stiffness: modes.squares.iter().enumerate().map(|(i, square)| (i, i, *square)).collect(),
         damping: Vec::new(),
         stretches,
@@ -200,7 +201,7 @@ fn project_pieces<const D: usize>(pieces: &[Piece<D>], basis: &Mat<f64>) -> Piec
         mass: 0.0,
         moments: vec![[0.0; D]; n],
         products: vec![[[0.0; D]; D]; n * n],
-        second: project_second(pieces, basis),
+        second: vec![Vec::new(); n - 1],
     };
     for piece in pieces {
         let local = 1 + piece.dofs.len();
@@ -227,24 +228,13 @@ fn project_pieces<const D: usize>(pieces: &[Piece<D>], basis: &Mat<f64>) -> Piec
     sum
 }
 
-/// sum over the pieces of basis^T (m_ij, P_0ij) basis.
-fn project_second<const D: usize>(pieces: &[Piece<D>], basis: &Mat<f64>) -> Vec<Vec<Second<D>>> {
-    let n = basis.ncols();
-    let zeros = || (0..n).map(|other| Second { other, moment: [0.0; D], product: [[0.0; D]; D] }).collect::<Vec<_>>();
-    let mut rows = vec![zeros(); n];
-    for piece in pieces {
-        for (row, &dof) in piece.second.iter().zip(&piece.dofs).filter(|(row, _)| !row.is_empty()) {
-            let mut half = zeros();
-            for second in row {
-                half.iter_mut().for_each(|sum| sum.add(basis[(piece.dofs[second.other], sum.other)], second));
-            }
-            for (a, sums) in rows.iter_mut().enumerate() {
-                sums.iter_mut().zip(&half).for_each(|(sum, half)| sum.add(basis[(dof, a)], half));
-            }
-        }
-    }
-    rows.iter_mut().for_each(|row| row.retain(Second::counts));
-    rows
+fn project_disc(disc: &Disc, basis: &Mat<f64>) -> Disc {
+    let turn = |mode: usize| {
+        let both = disc.dofs.iter().zip(&disc.rotation);
+        both.fold([0.0; 3], |sum, (&dof, turn)| from_fn(|k| sum[k] + basis[(dof, mode)] * turn[k]))
+    };
+    let dofs: Vec<usize> = (0..basis.ncols()).filter(|_| !disc.dofs.is_empty()).collect();
+    Disc { rotation: dofs.iter().copied().map(turn).collect(), dofs, inertia: disc.inertia }
 }
 
 fn add_product<const D: usize>(sum: &mut [[f64; D]; D], factor: f64, product: &[[f64; D]; D]) {
@@ -302,7 +292,9 @@ impl<const D: usize> Shapes for Reduced<D> {
         self.shortens
     }
 
-    fn pieces<const E: usize>(&self, s: f64) -> Vec<Piece<E>> {
-        vec![project_pieces(&self.mesh.pieces(s), &self.basis)]
+    fn inertia<const E: usize>(&self, s: f64) -> Inertia<E> {
+        let Inertia { pieces, discs } = self.mesh.inertia(s);
+        let discs = discs.iter().map(|disc| project_disc(disc, &self.basis)).collect();
+        Inertia { pieces: vec![project_pieces(&pieces, &self.basis)], discs }
     }
 }

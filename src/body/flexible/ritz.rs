@@ -2,10 +2,10 @@
 
 use super::eigen::{dense, first_dependent};
 use super::gauss::{gauss_legendre, on_interval};
-use super::integrals::{Sample, Sum, add_stiffness, mass_matrix, piece, stretch};
+use super::integrals::{Sample, Sum, add_stiffness, discs, mass_matrix, piece, stretch};
 use super::line::{Bending, Cross, Shapes, Station};
 use super::profile::Profile;
-use super::shape::{Elastic, Piece, Symmetric};
+use super::shape::{Elastic, Inertia, Piece, Symmetric};
 use super::shorten::shorten;
 use super::spec::Ritz;
 use crate::body::Build;
@@ -79,6 +79,8 @@ pub struct Functions {
     /// Of the mass of axial functions among one another.
     axial_mass_factor: f64,
     profile: Profile,
+    /// As many as their integrals need.
+    panels: usize,
     /// Without axial functions the line cannot stretch: it keeps its length as it bends.
     shortens: bool,
 }
@@ -88,7 +90,7 @@ impl Shapes for Functions {
         self.length
     }
     fn at(&self, s: f64) -> Station {
-        Station { dofs: (0..self.functions.len()).collect(), shapes: self.functions.iter().map(|f| f.at(s)).collect() }
+        Station { dofs: self.dofs(), shapes: self.functions.iter().map(|f| f.at(s)).collect() }
     }
     fn breaks(&self) -> Vec<f64> {
         (0..=PANELS).map(|k| self.length * k as f64 / PANELS as f64).collect()
@@ -99,10 +101,8 @@ impl Shapes for Functions {
     fn shortens(&self) -> bool {
         self.shortens
     }
-    fn pieces<const D: usize>(&self, s: f64) -> Vec<Piece<D>> {
-        let mut piece = piece((0..self.functions.len()).collect(), &self.samples([s, self.length], PANELS));
-        self.scale_axial(&mut piece);
-        vec![piece]
+    fn inertia<const D: usize>(&self, s: f64) -> Inertia<D> {
+        self.sum(&self.samples([s, self.length], self.panels))
     }
 }
 
@@ -145,7 +145,7 @@ impl Functions {
             None => 1.0,
             Some(factor) => build.positive("axial_mass_factor", factor).map_err(|error| error.under("ritz"))?,
         };
-        let functions = Functions { length, functions, axial_mass_factor, shortens: false, profile };
+        let functions = Functions { length, functions, axial_mass_factor, panels: PANELS, shortens: false, profile };
         functions.check_finite()?;
         Ok(functions)
     }
@@ -167,6 +167,16 @@ impl Functions {
         Ok(())
     }
 
+    fn dofs(&self) -> Vec<usize> {
+        (0..self.functions.len()).collect()
+    }
+
+    fn sum<const D: usize>(&self, samples: &[Sample]) -> Inertia<D> {
+        let mut piece = piece(self.dofs(), samples);
+        self.scale_axial(&mut piece);
+        Inertia { pieces: vec![piece], discs: discs::<D>(&self.dofs(), samples) }
+    }
+
     fn samples(&self, ends: [f64; 2], panels: usize) -> Vec<Sample> {
         places(ends, panels).map(|at| Sample::new(&self.profile, at, self.at(at.0).shapes)).collect()
     }
@@ -176,11 +186,11 @@ impl Functions {
     /// # Errors
     /// Bad input: functions that depend on one another, or move the beam as its frame does.
     pub fn elastic<const D: usize>(mut self, quartic: Option<f64>) -> Result<Elastic<D>> {
-        let dofs: Vec<usize> = (0..self.functions.len()).collect();
+        let dofs = self.dofs();
         let integrals = |samples: &[Sample]| {
             let mut stiffness = Sum::default();
             add_stiffness(&mut stiffness, &dofs, samples);
-            (piece::<D>(dofs.clone(), samples), stiffness.finish())
+            (self.sum::<D>(samples), stiffness.finish())
         };
         let mut panels = 1;
         let mut samples = self.samples([0.0, self.length], panels);
@@ -189,19 +199,19 @@ impl Functions {
             panels *= 2;
             samples = self.samples([0.0, self.length], panels);
             let finer = integrals(&samples);
-            let exact = agree(&diagonals(&last), &diagonals(&finer));
+            let exact = agree(&diagonals(dofs.len(), &last), &diagonals(dofs.len(), &finer));
             last = finer;
             if exact {
                 break;
             }
         }
-        let (mut piece, stiffness) = last;
-        self.check_independent(&piece, &stiffness)?;
-        self.scale_axial(&mut piece);
+        self.panels = panels;
+        let (mut inertia, stiffness) = last;
+        self.check_independent(&inertia, &stiffness)?;
         self.shortens = quartic == Some(1.0) && self.functions.iter().all(|function| function.kind != Kind::Axial);
         let quartic = quartic.filter(|_| !self.shortens);
         if self.shortens {
-            shorten(&self, 0.0, &mut piece);
+            inertia.pieces.iter_mut().for_each(|piece| shorten(&self, 0.0, piece));
         }
         let points = samples.chunks(1).filter_map(|point| Some((point, quartic?)));
         let stretches = points.scan(0.0, |start, (point, quartic)| {
@@ -211,14 +221,7 @@ impl Functions {
         });
         let stretches = stretches.collect();
         let names = self.names();
-        Ok(Elastic {
-            names,
-            pieces: vec![piece],
-            stiffness,
-            damping: Vec::new(),
-            stretches,
-            line: Some(Box::new(self)),
-        })
+        Ok(Elastic { names, inertia, stiffness, damping: Vec::new(), stretches, line: Some(Box::new(self)) })
     }
 
     fn names(&self) -> Vec<String> {
@@ -241,9 +244,9 @@ impl Functions {
         }
     }
 
-    fn check_independent<const D: usize>(&self, piece: &Piece<D>, stiffness: &Symmetric) -> Result<()> {
+    fn check_independent<const D: usize>(&self, inertia: &Inertia<D>, stiffness: &Symmetric) -> Result<()> {
         let n = self.functions.len();
-        let mass = dense(n, &mass_matrix(std::slice::from_ref(piece)));
+        let mass = dense(n, &mass_matrix(inertia));
         if let Some(i) = first_dependent(mass.as_ref(), DEPENDENT) {
             let function = &self.functions[i];
             let what = match mass[(i, i)] == 0.0 {
@@ -283,10 +286,8 @@ fn function<const D: usize>(kind: Kind, i: usize, number: &Number, build: &Build
 }
 
 /// Of mass and stiffness.
-fn diagonals<const D: usize>((piece, stiffness): &(Piece<D>, Symmetric)) -> Vec<f64> {
-    let n = piece.dofs.len();
-    let mass = dense(n, &mass_matrix(std::slice::from_ref(piece)));
-    let stiffness = dense(n, stiffness);
+fn diagonals<const D: usize>(n: usize, (inertia, stiffness): &(Inertia<D>, Symmetric)) -> Vec<f64> {
+    let (mass, stiffness) = (dense(n, &mass_matrix(inertia)), dense(n, stiffness));
     (0..n).flat_map(|i| [mass[(i, i)], stiffness[(i, i)]]).collect()
 }
 

@@ -14,6 +14,26 @@
 
 use crate::math::Scalar;
 
+/// All the mass of a body.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Inertia<const D: usize> {
+    pub pieces: Vec<Piece<D>>,
+    /// Rotary inertia of the sections of a beam, whose mass is on its line.
+    pub discs: Vec<Disc>,
+}
+
+/// The sections about a point of integration of a beam: a thin disc that is turned by the small rotation
+/// a = sum_i r_i q_i, in space by Cayley's rotation of this vector.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Disc {
+    /// The elastic coordinates that turn it, each once.
+    pub dofs: Vec<usize>,
+    /// r_i
+    pub rotation: Vec<[f64; 3]>,
+    /// At rest about the frame's axes, row by row, kg m^2; in the plane the last counts.
+    pub inertia: [[f64; 3]; 3],
+}
+
 /// A part of a body, a finite element or all of it, whose displacements depend on a few elastic coordinates.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Piece<const D: usize> {
@@ -135,14 +155,14 @@ pub trait Line<const D: usize>: Send + Sync {
     fn point(&self, rest: [f64; D]) -> PointShape<D>;
     fn section(&self, s: f64) -> SectionShape;
     /// The mass from `s` to the end.
-    fn beyond(&self, s: f64) -> Vec<Piece<D>>;
+    fn beyond(&self, s: f64) -> Inertia<D>;
 }
 
 /// Everything that the equations of motion of a flexible body in a floating frame need.
 pub struct Elastic<const D: usize> {
     /// Of the elastic coordinates, such as `n3_y` or `mode2`.
     pub names: Vec<String>,
-    pub pieces: Vec<Piece<D>>,
+    pub inertia: Inertia<D>,
     pub stiffness: Symmetric,
     pub damping: Symmetric,
     /// Empty without geometric stiffening.

@@ -40,7 +40,7 @@ pub(super) fn angular_velocity<S: Scalar, const D: usize>(v: &[S]) -> [S; 3] {
 impl<const D: usize> Floating<D> {
     pub(super) fn moving<'a, S: Scalar>(&'a self, q: &'a [S], v: &'a [S]) -> impl Iterator<Item = Moving<'a, S, D>> {
         let (q, v) = (&q[frame_coordinates(D)..], v.get(frame_velocities(D)..).unwrap_or(&[]));
-        self.elastic.pieces.iter().zip(&self.curves).map(move |(piece, curves)| Moving { piece, q, v, curves })
+        self.elastic.inertia.pieces.iter().zip(&self.curves).map(move |(piece, curves)| Moving { piece, q, v, curves })
     }
 
     /// Values of M.

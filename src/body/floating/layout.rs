@@ -1,6 +1,6 @@
 //! Where each value of M, K and C of a flexible body stands: the pattern is fixed when the body is made.
 
-use crate::body::flexible::Elastic;
+use crate::body::flexible::{Elastic, Inertia};
 use std::collections::BTreeMap;
 
 /// Places of the values.
@@ -12,6 +12,7 @@ pub(super) struct Layout {
     pub tangent: Vec<(usize, usize)>,
     nv: usize,
     pub pieces: Vec<PieceLayout>,
+    pub discs: Vec<PieceLayout>,
     /// Entries of K (both triangles) at which each entry of the stiffness and damping stands.
     pub stiffness: Vec<[usize; 2]>,
     pub damping: Vec<[usize; 2]>,
@@ -21,7 +22,7 @@ pub(super) struct Layout {
     pub stretches: Vec<Vec<usize>>,
 }
 
-/// Places of one piece's entries.
+/// Places of the entries of one piece or disc.
 pub(super) struct PieceLayout {
     /// M: entries of (i, j <= i), row by row.
     pub mass: Vec<usize>,
@@ -38,8 +39,9 @@ impl Layout {
             (0..nv).for_each(|j| tangent.add(i, j));
             (0..nv).filter(|_| i >= nv).for_each(|j| tangent.add(j, i));
         }
-        for piece in &elastic.pieces {
-            each_pair(&piece.dofs, |i, j| {
+        let Inertia { pieces, discs } = &elastic.inertia;
+        for dofs in pieces.iter().map(|piece| &piece.dofs).chain(discs.iter().map(|disc| &disc.dofs)) {
+            each_pair(dofs, |i, j| {
                 tangent.add(nv + i, nv + j);
                 if j <= i {
                     mass.add(nv + i, nv + j);
@@ -63,7 +65,8 @@ impl Layout {
         };
         let both = |&(i, j, _): &(usize, usize, f64)| [tangent.find(nv + i, nv + j), tangent.find(nv + j, nv + i)];
         Layout {
-            pieces: elastic.pieces.iter().map(|p| piece(&p.dofs)).collect(),
+            pieces: pieces.iter().map(|p| piece(&p.dofs)).collect(),
+            discs: discs.iter().map(|disc| piece(&disc.dofs)).collect(),
             stiffness: elastic.stiffness.iter().map(both).collect(),
             sparing: elastic.stiffness.iter().map(|&(i, j, _)| mass.get(nv + i, nv + j)).collect(),
             damping: elastic.damping.iter().map(both).collect(),

@@ -12,15 +12,17 @@
 //!
 //! less the work of gravity and of the elastic forces K q + D q' and those of geometric stiffening. The whole coupling of
 //! rigid and elastic motion is kept; integrals are taken once, piece by piece ([`Piece`]), so that work and memory grow
-//! with the number of elements. Shabana, Dynamics of Multibody Systems, chapter 5.
+//! with the number of elements. The sections of a beam turn as rigid [`discs`] beside that. Shabana, Dynamics of Multibody Systems, chapter 5.
 
 mod algebra;
+mod discs;
 mod elastic;
 mod inertia;
 mod layout;
 mod moving;
 mod part;
 mod point;
+mod small_turn;
 mod spec;
 mod tangent;
 
@@ -32,7 +34,7 @@ use crate::math::{Scalar, Taylor};
 use layout::Layout;
 use moving::Curves;
 
-pub use part::load;
+pub use part::{load, resistance};
 pub use point::place;
 
 /// The body: what its shapes say, and where each value of its matrices stands.
@@ -43,6 +45,8 @@ pub struct Floating<const D: usize> {
     shapes: Vec<PointShape<D>>,
     layout: Layout,
     curves: Vec<Curves<D>>,
+    /// Values of M.
+    discs_in_plane: Vec<(usize, f64)>,
 }
 
 /// Coordinates of the frame.
@@ -69,8 +73,10 @@ impl<const D: usize> Floating<D> {
     /// `markers` and where they are on the body, one shape each; the first is the frame itself.
     pub fn new(elastic: Elastic<D>, markers: Vec<Marker<D>>, shapes: Vec<PointShape<D>>) -> Self {
         let layout = Layout::new(&elastic, frame_velocities(D));
-        let curves = elastic.pieces.iter().map(Curves::of).collect();
-        Floating { elastic, markers, shapes, layout, curves }
+        let curves = elastic.inertia.pieces.iter().map(Curves::of).collect();
+        let mut body = Floating { elastic, markers, shapes, layout, curves, discs_in_plane: Vec::new() };
+        body.discs_in_plane = body.constant_mass();
+        body
     }
 }
 
@@ -128,7 +134,10 @@ impl<S: Scalar, const D: usize> BodyOver<S, D> for Floating<D> {
 
     fn energy(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S> {
         let inertia = self.inertia_energy(q, v, gravity);
-        Energy { potential: inertia.potential + self.elastic_energy(q), ..inertia }
+        Energy {
+            kinetic: inertia.kinetic + self.disc_energy(q, v),
+            potential: inertia.potential + self.elastic_energy(q),
+        }
     }
 }
 
@@ -157,6 +166,7 @@ impl<const D: usize> Body<D> for Floating<D> {
     }
     fn mass(&self, q: &[f64], values: &mut [f64]) {
         self.write_mass(q, values);
+        self.add_disc_mass(q, values);
     }
     fn add_stiffness(&self, values: &mut [f64]) {
         for ((.., stiffness), place) in self.elastic.stiffness.iter().zip(&self.layout.sparing) {
@@ -165,6 +175,7 @@ impl<const D: usize> Body<D> for Floating<D> {
     }
     fn own_forces(&self, q: &[f64], v: &[f64], gravity: &[f64; D], f: &mut [f64]) {
         self.add_inertia_forces(q, v, gravity, f);
+        self.add_disc_forces(q, v, f);
         self.add_elastic_forces(q, v, f);
     }
     fn tangent_pattern(&self) -> Vec<(usize, usize)> {
@@ -172,6 +183,7 @@ impl<const D: usize> Body<D> for Floating<D> {
     }
     fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]) {
         self.add_inertia_tangent(at, k, c);
+        self.add_disc_tangent(at, k, c);
         self.add_elastic_tangent(at.q, k, c);
     }
     fn dissipation(&self, v: &[f64]) -> f64 {

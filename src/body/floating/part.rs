@@ -1,6 +1,7 @@
 //! What the mass of a part of the body does to the rest of it.
 
-use crate::body::flexible::Piece;
+use super::point::turn;
+use crate::body::flexible::{Disc, Piece};
 use crate::body::{Frame, Wrench, cross};
 use crate::math::{Scalar, Taylor};
 use std::array::from_fn;
@@ -32,6 +33,33 @@ pub fn load<S: Scalar, const D: usize>(
         (0..3).for_each(|i| torque[i] += moment[i]);
     }
     Wrench { force: from_fn(|i| lift[i] * piece.mass - moving[i]), torque }
+}
+
+/// What the sections about a point resist, a torque: with the axes e_k of the frame turned as they are and
+/// P = tr(J)/2 - J, the integral of the products of two coordinates,
+///
+/// ```text
+/// torque = -sum_kl P_kl e_k x e_l''
+/// ```
+pub fn resistance<S: Scalar, const D: usize>(
+    disc: &Disc,
+    own: &Frame<Taylor<S>, D>,
+    coordinate: impl Fn(usize) -> Taylor<S>,
+) -> Wrench<S, D> {
+    let mut a = [Taylor::fixed(S::zero()); 3];
+    for (&dof, turn) in disc.dofs.iter().zip(&disc.rotation) {
+        let q = coordinate(dof);
+        (0..3).for_each(|k| a[k] += q * turn[k]);
+    }
+    let turned = turn(*own, &a);
+    let half: f64 = (0..3).map(|k| disc.inertia[k][k]).sum::<f64>() / 2.0;
+    let mut wrench = Wrench::zero();
+    for (k, l) in (0..D).flat_map(|k| (0..D).map(move |l| (k, l))) {
+        let product = if k == l { half - disc.inertia[k][k] } else { -disc.inertia[k][l] };
+        let moment = cross(&turned.axes[k].map(|e| e.x), &turned.axes[l].map(|e| e.dd));
+        (0..3).for_each(|i| wrench.torque[i] -= moment[i] * product);
+    }
+    wrench
 }
 
 /// Integrals of u over a piece.

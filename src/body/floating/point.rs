@@ -1,6 +1,7 @@
 //! Points of the body: where they are, and what a wrench there does to each coordinate.
 
 use super::algebra::spin;
+use super::small_turn::SmallTurn;
 use super::turns;
 use crate::body::flexible::PointShape;
 use crate::body::{Frame, Marker, Wrench, cross, dot, sub};
@@ -48,23 +49,17 @@ fn angles<S: Scalar, const D: usize>(shape: &PointShape<D>, coordinate: impl Fn(
     sum
 }
 
-/// A frame turned by an angle in the plane; in space by Cayley's rotation of the vector a, which is that of the small
-/// rotation a to second order and orthogonal for any: R = 1 + (a~ + a~ a~ / 2)/(1 + a.a/4).
+/// A frame turned by an angle in the plane, in space by the small turn a.
 #[inline]
-fn turn<S: Scalar, const D: usize>(frame: Frame<S, D>, a: &[S; 3]) -> Frame<S, D> {
+pub(super) fn turn<S: Scalar, const D: usize>(frame: Frame<S, D>, a: &[S; 3]) -> Frame<S, D> {
     if D == 2 {
         let (s, c) = (a[2].sin(), a[2].cos());
         let [x, y] = [frame.axes[0], frame.axes[1]];
         let axes = from_fn(|i| from_fn(|k| if i == 0 { x[k] * c + y[k] * s } else { y[k] * c - x[k] * s }));
         return Frame { axes, turn: frame.turn + a[2], ..frame };
     }
-    let factor = (dot(a, a) * 0.25 + 1.0).recip();
-    let columns: [[S; 3]; 3] = from_fn(|j| {
-        let unit: [S; 3] = from_fn(|k| if k == j { S::one() } else { S::zero() });
-        let once = cross(a, &unit);
-        let twice = cross(a, &once);
-        from_fn(|k| unit[k] + (once[k] + twice[k] * 0.5) * factor)
-    });
+    let small = SmallTurn::of(*a);
+    let columns: [[S; 3]; 3] = from_fn(|j| small.turned(&from_fn(|k| if k == j { S::one() } else { S::zero() })));
     let axes = from_fn(|j| from_fn(|k| (0..D).fold(S::zero(), |sum, i| sum + frame.axes[i][k] * columns[j][i])));
     Frame { axes, ..frame }
 }
@@ -119,11 +114,9 @@ pub(super) fn pull_back_elastic<S: Scalar, const D: usize>(
     }
 }
 
-/// What the rates of the small rotation a feel of a torque: with the angular velocity (a' + a x a' / 2)/(1 + a.a/4) in the
-/// frame's axes, T^T m = (m - a x m / 2)/(1 + a.a/4).
+/// What the rates of the small turn a feel of a torque.
 fn local_torque<S: Scalar, const D: usize>(own: &Frame<S, D>, a: &[S; 3], torque: &[S; 3]) -> [S; 3] {
     let moment: [S; 3] = from_fn(|k| (0..D).fold(S::zero(), |sum, i| sum + own.axes[k % D][i] * torque[i]));
-    let across = cross(a, &moment);
-    let factor = (dot(a, a) * 0.25 + 1.0).recip();
-    from_fn(|k| (moment[k] - across[k] * 0.5) * factor)
+    let small = SmallTurn::of(*a);
+    small.felt(&small.back(&moment))
 }

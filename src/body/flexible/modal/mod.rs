@@ -9,7 +9,7 @@ pub use array::{Array, Table};
 pub use spec::{Lumped, ModalBody, ModalData, Node, Nodes};
 
 use super::eigen::entries;
-use super::shape::{Elastic, PointShape};
+use super::shape::{Elastic, Inertia, PointShape};
 use crate::body::{Build, parse};
 use crate::error::{Error, Result, short};
 use crate::math::memory::refuse_dense;
@@ -148,7 +148,7 @@ fn shapes<const D: usize>(data: &ModalData<Array>) -> Result<ModalShapes<D>> {
     };
     let elastic = Elastic {
         names: (1..=n).map(|i| format!("mode{i}")).collect(),
-        pieces: vec![piece],
+        inertia: Inertia { pieces: vec![piece], discs: Vec::new() },
         stiffness: entries(stiffness.as_ref()),
         damping: entries(damping.as_ref()),
         stretches: Vec::new(),

@@ -39,7 +39,7 @@ fn the_rod_of_the_ivp_test_set() {
         assert_close(stiffness[(i, j)], fk * kq[i][j], 1e-7 * stiffness[(j, j)]);
     }
 
-    let piece: &Piece<2> = &rod.pieces[0];
+    let piece: Piece<2> = whole(&rod);
     let cross = |a: usize, b: usize| piece.products[5 * a + b][0][1] - piece.products[5 * a + b][1][0];
     let bq =
         [(0, 2, -16.0 / PI.powi(3)), (0, 3, 8.0 / PI.powi(3) - 1.0 / PI), (1, 3, 0.5 / PI), (0, 1, 0.0), (2, 3, 0.0)];

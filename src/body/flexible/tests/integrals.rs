@@ -30,10 +30,8 @@ fn variants() -> Vec<Value> {
 fn without_elastic_motion_it_is_a_rigid_rod() {
     for variant in variants() {
         let rod: Elastic<3> = build(&beam_in_space(variant), &[0.0, 0.4]).unwrap();
-        let mass: f64 = rod.pieces.iter().map(|piece| piece.mass).sum();
-        let moment: [f64; 3] = from_fn(|k| rod.pieces.iter().map(|piece| piece.moments[0][k]).sum());
-        let product: [[f64; 3]; 3] =
-            from_fn(|k| from_fn(|m| rod.pieces.iter().map(|piece| piece.products[0][k][m]).sum()));
+        let Piece { mass, moments, products, .. } = whole(&rod);
+        let (moment, product) = (moments[0], products[0]);
         assert_close(mass, 0.8 * L, 1e-14);
         let exact = [[0.8 * L.powi(3) / 3.0, 0.0, 0.0], [0.0, 1e-3 * L, 0.0], [0.0, 0.0, 2e-3 * L]];
         for k in 0..3 {
@@ -123,26 +121,23 @@ struct Motion {
 }
 
 /// The same energy from the integrals: with U = psi q and W = psi q', v = velocity + spin x U + W.
-fn energy_of_integrals(pieces: &[Piece<3>], motion: &Motion) -> f64 {
-    let mut energy = 0.0;
-    for piece in pieces {
-        let n = 1 + piece.dofs.len();
-        let place: Vec<f64> = std::iter::once(1.0).chain(piece.dofs.iter().map(|&i| motion.q[i])).collect();
-        let rate: Vec<f64> = std::iter::once(0.0).chain(piece.dofs.iter().map(|&i| motion.rate[i])).collect();
-        let moment = |x: &[f64]| -> [f64; 3] { from_fn(|k| (0..n).map(|a| x[a] * piece.moments[a][k]).sum()) };
-        let product = |x: &[f64], y: &[f64]| -> [[f64; 3]; 3] {
-            from_fn(|k| from_fn(|m| (0..n * n).map(|i| x[i / n] * y[i % n] * piece.products[i][k][m]).sum()))
-        };
-        let dot = |a: [f64; 3], b: [f64; 3]| -> f64 { (0..3).map(|k| a[k] * b[k]).sum() };
-        let turning = crate::body::cross(&motion.spin, &moment(&place));
-        energy += 0.5 * piece.mass * dot(motion.velocity, motion.velocity);
-        energy += dot(motion.velocity, turning) + dot(motion.velocity, moment(&rate));
-        let [uu, uw, ww] = [product(&place, &place), product(&place, &rate), product(&rate, &rate)];
-        let trace = |p: &[[f64; 3]; 3]| p[0][0] + p[1][1] + p[2][2];
-        let along: f64 = (0..9).map(|i| motion.spin[i / 3] * uu[i / 3][i % 3] * motion.spin[i % 3]).sum();
-        energy += 0.5 * (trace(&uu) * dot(motion.spin, motion.spin) - along) + 0.5 * trace(&ww);
-        energy += dot(motion.spin, from_fn(|k| uw[(k + 1) % 3][(k + 2) % 3] - uw[(k + 2) % 3][(k + 1) % 3]));
-    }
+fn energy_of_integrals(piece: &Piece<3>, motion: &Motion) -> f64 {
+    let n = 1 + piece.dofs.len();
+    let place: Vec<f64> = std::iter::once(1.0).chain(piece.dofs.iter().map(|&i| motion.q[i])).collect();
+    let rate: Vec<f64> = std::iter::once(0.0).chain(piece.dofs.iter().map(|&i| motion.rate[i])).collect();
+    let moment = |x: &[f64]| -> [f64; 3] { from_fn(|k| (0..n).map(|a| x[a] * piece.moments[a][k]).sum()) };
+    let product = |x: &[f64], y: &[f64]| -> [[f64; 3]; 3] {
+        from_fn(|k| from_fn(|m| (0..n * n).map(|i| x[i / n] * y[i % n] * piece.products[i][k][m]).sum()))
+    };
+    let dot = |a: [f64; 3], b: [f64; 3]| -> f64 { (0..3).map(|k| a[k] * b[k]).sum() };
+    let turning = crate::body::cross(&motion.spin, &moment(&place));
+    let mut energy = 0.5 * piece.mass * dot(motion.velocity, motion.velocity);
+    energy += dot(motion.velocity, turning) + dot(motion.velocity, moment(&rate));
+    let [uu, uw, ww] = [product(&place, &place), product(&place, &rate), product(&rate, &rate)];
+    let trace = |p: &[[f64; 3]; 3]| p[0][0] + p[1][1] + p[2][2];
+    let along: f64 = (0..9).map(|i| motion.spin[i / 3] * uu[i / 3][i % 3] * motion.spin[i % 3]).sum();
+    energy += 0.5 * (trace(&uu) * dot(motion.spin, motion.spin) - along) + 0.5 * trace(&ww);
+    energy += dot(motion.spin, from_fn(|k| uw[(k + 1) % 3][(k + 2) % 3] - uw[(k + 2) % 3][(k + 1) % 3]));
     energy
 }
 
@@ -162,7 +157,7 @@ fn integrals_hold_the_energy_of_the_field() {
             q: (0..n).map(|_| random()).collect(),
             rate: (0..n).map(|_| random()).collect(),
         };
-        let (field, integrals) = (energy_of_field(&rod, &motion), energy_of_integrals(&rod.pieces, &motion));
+        let (field, integrals) = (energy_of_field(&rod, &motion), energy_of_integrals(&whole(&rod), &motion));
         assert_close(integrals / field, 1.0, 1e-12);
     }
 }
@@ -178,7 +173,7 @@ fn mean_axes_have_no_momentum() {
                     continue;
                 }
                 let rod: Elastic<3> = build(&beam_in_space(more.clone()), markers).unwrap();
-                let piece = &rod.pieces[0];
+                let piece = whole(&rod);
                 for i in 1..piece.moments.len() {
                     (0..3).for_each(|k| assert_close(piece.moments[i][k], 0.0, 1e-12));
                     let p = piece.products[i];
