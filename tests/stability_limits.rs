@@ -111,6 +111,7 @@ fn adaptive_steps_that_stability_holds_short_are_told() {
     let told = warning(&scene, &Method::default(), 10.0).unwrap();
     assert!((told.mode.decay - 1e6).abs() < 1.0 && (told.limit - 3.3).abs() < 0.02, "{told:?}");
     assert!((told.steps_for_stability / 3.02e6 - 1.0).abs() < 0.01, "{told:?}");
+    assert!(told.implicit_gain.unwrap() > 100.0, "{told:?}");
     assert!(told.advice.contains("--formulation ggl --integrator radau_iia"), "{}", told.advice);
     assert_eq!(warning(&oscillator(1.0, 0.1), &Method::default(), 10.0), None);
     // A swing that is awake asks for its steps by accuracy.

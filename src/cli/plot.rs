@@ -9,7 +9,7 @@ use crate::report::mechanism::{
 };
 use crate::report::significant;
 use crate::report::{Folder, Written};
-use crate::simulate::{Span, simulate};
+use crate::simulate::Span;
 use crate::study::{AnyMechanism, Study};
 use crate::trajectory::Trajectory;
 use serde::Serialize;
@@ -185,8 +185,7 @@ impl Args {
         let mut recorder = Recorder::new(study.system())
             .with_progress(|t| bar.set_position(fraction(t)))
             .with_stop(|| interrupt::stop(folder));
-        let outcome =
-            simulate(study.system(), &study.method, Span { output_step, ..span }, study.start(), &mut recorder)?;
+        let (outcome, _) = study.simulate(Span { output_step, ..span }, &mut recorder)?;
         let record = recorder.finish();
         bar.finish_and_clear();
         Ok((record.trajectory, outcome.failure))

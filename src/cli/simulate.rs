@@ -5,7 +5,6 @@ use super::interrupt;
 use crate::error::{Result, Warning};
 use crate::measure::{Record, Recorder};
 use crate::report::{self, Folder, Summary, summarize};
-use crate::simulate::simulate;
 use crate::study::Study;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -32,13 +31,13 @@ pub fn run(args: Args) -> Result<ExitCode> {
         .with_progress(|t| bar.set_position(fraction(t)))
         .with_stop(|| interrupt::stop(&folder));
     let clock = Instant::now();
-    let outcome = simulate(study.system(), &study.method, span, study.start(), &mut recorder)?;
+    let (outcome, legs) = study.simulate(span, &mut recorder)?;
     let seconds = clock.elapsed().as_secs_f64();
     let record = recorder.finish();
     bar.finish_and_clear();
     let summary = Summary {
         command: std::env::args().collect(),
-        ..summarize((&study, stiffness, &early), &outcome, &record, seconds)
+        ..summarize((&study, stiffness, &early), (&outcome, &legs), &record, seconds)
     };
     write(&study, &record, &summary, &mut folder, &args.output)?;
     let written = folder.finish()?;

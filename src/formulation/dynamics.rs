@@ -5,6 +5,7 @@ use crate::math::kkt::{SaddlePoint, Singular, TRUNCATED};
 use crate::system::{MechanicalSystem, Need, Scratch, Structure, Terms};
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use std::ops::Add;
 
 /// Why a state cannot be evaluated.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,6 +94,22 @@ pub struct Statistics {
     pub projections: u64,
     /// Accepted states at which G was rank deficient.
     pub rank_deficient: u64,
+}
+
+impl Add for Statistics {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Statistics {
+            steps: self.steps + other.steps,
+            rejected: self.rejected + other.rejected,
+            rhs_evaluations: self.rhs_evaluations + other.rhs_evaluations,
+            jacobian_evaluations: self.jacobian_evaluations + other.jacobian_evaluations,
+            factorizations: self.factorizations + other.factorizations,
+            newton_iterations: self.newton_iterations + other.newton_iterations,
+            projections: self.projections + other.projections,
+            rank_deficient: self.rank_deficient + other.rank_deficient,
+        }
+    }
 }
 
 /// A system, the terms of its equations at the last state, and the factors of

@@ -171,7 +171,7 @@ fn mass_range(structure: &Structure, terms: &Terms) -> [f64; 2] {
 fn fastest_mode(study: &Study) -> Option<Mode> {
     let Assembly { q, v, vdot, lambda, .. } = &study.assembly;
     let state = Loaded { t: study.start_time(), q, v, vdot, lambda };
-    Spectrum::at(study.system(), state, 1.0)?.modes.last().copied()
+    Spectrum::at(study.system(), state)?.modes.last().copied()
 }
 
 /// So many names of coordinates a person reads.

@@ -6,7 +6,7 @@ use crate::error::{Failure, Warning, clock, short_list};
 use crate::formulation::Statistics;
 use crate::initial::{Assembly, Level, Move};
 use crate::measure::{Drift, EnergyBalance, Passing, Record, Singularity};
-use crate::simulate::{Method, Outcome, Stiffness};
+use crate::simulate::{Leg, Method, Outcome, Stiffness};
 use crate::study::Study;
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -39,10 +39,35 @@ pub struct Summary {
 /// The method, and why where it was left to the program.
 #[derive(Clone, Debug, Serialize)]
 pub struct Chosen {
+    /// That of the longest leg.
     #[serde(flatten)]
     pub method: Method,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chosen_because: Option<String>,
+    /// Where the method changed on the way, all in their order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub legs: Vec<Leg>,
+}
+
+impl Chosen {
+    fn of(study: &Study, legs: &[Leg], end: f64) -> Self {
+        let ends = legs.iter().skip(1).map(|leg| leg.from).chain([end]);
+        let longest =
+            legs.iter().zip(ends).max_by(|(a, a_end), (b, b_end)| (a_end - a.from).total_cmp(&(b_end - b.from)));
+        Chosen {
+            method: longest.map_or(&study.method, |(leg, _)| &leg.method).clone(),
+            chosen_because: study.chosen_because.clone(),
+            legs: if legs.len() > 1 { legs.to_vec() } else { Vec::new() },
+        }
+    }
+
+    fn text(&self) -> String {
+        let first = self.chosen_because.iter().map(|because| format!("  auto: {because}\n"));
+        let later = self.legs.iter().skip(1).map(|Leg { from, method, because }| {
+            format!("  auto: from t = {} s on by {}. {because}\n", clock(*from), method.triple())
+        });
+        first.chain(later).collect()
+    }
 }
 
 /// What assembly did.
@@ -72,7 +97,7 @@ pub struct FinalState {
 /// Collects the summary of a run, with warnings from before it.
 pub fn summarize(
     (study, stiffness, early): (&Study, Option<Stiffness>, &[Warning]),
-    outcome: &Outcome,
+    (outcome, legs): (&Outcome, &[Leg]),
     record: &Record,
     wall_seconds: f64,
 ) -> Summary {
@@ -85,7 +110,7 @@ pub fn summarize(
         parameters,
         warnings: early.iter().cloned().chain(warnings(record)).collect(),
         scene: study.name.clone(),
-        method: Chosen { method: study.method.clone(), chosen_because: study.chosen_because.clone() },
+        method: Chosen::of(study, legs, outcome.t),
         status: if failure.is_some() { "failed" } else { "completed" },
         failure,
         t_end: outcome.t,
@@ -129,9 +154,7 @@ impl Summary {
         };
         let s = &self.statistics;
         let mut text = format!("{}: {formulation} + {integrator} + {projection}, {accuracy}\n", self.scene);
-        if let Some(because) = &self.method.chosen_because {
-            text += &format!("  auto: {because}\n");
-        }
+        text += &self.method.text();
         if let Some(failure) = &self.failure {
             text += &format!("  FAILED at t = {:.6e} s: {}\n  help: {}\n", failure.t, failure.reason, failure.hint);
         }

@@ -1,8 +1,9 @@
 //! The only time loop: steps, step control, projection and output.
 
 mod approach;
-mod auto;
+mod automatic;
 mod changes;
+mod contest;
 mod crowd;
 mod ending;
 mod events;
@@ -17,7 +18,7 @@ mod start;
 mod step;
 mod stiffness;
 
-pub use auto::{Advice, advise};
+pub use automatic::{Leg, advise, simulate_automatic};
 pub use method::Method;
 pub use observation::{Observation, Sink, Span, Stop};
 pub(crate) use segments::Segments;
@@ -31,7 +32,7 @@ use plan::NextStop;
 use rows::{Rows, observation};
 use step::is_too_large;
 
-use crate::error::{Error, Failure, Result};
+use crate::error::{Failure, Result};
 use crate::formulation::{self, Dynamics, Rows as Constraints, Statistics};
 use crate::integrator::{self, Integrator, Problem, Setup, Store, Tolerance};
 use crate::projection::{self, Projection};
@@ -64,18 +65,11 @@ pub fn simulate(
     sink: &mut dyn Sink,
 ) -> Result<Outcome> {
     method.check()?;
-    if !(span.end > span.start && span.output_step > 0.0) {
-        return Err(Error::input(format!("nothing to simulate from {} s to {} s", span.start, span.end))
-            .hint("the end must come after the start and the output step must be above zero"));
-    }
+    span.check()?;
     let store = Store::default();
-    let mut run = Run::new((system, &store), method, span, q, v)?;
+    let mut run = Run::new((system, &store), method, span, [q, v, &[0.0]].concat())?;
     let failure = run.integrate(sink).err();
-    if failure.is_some() {
-        run.last_good_row(sink);
-    }
-    let (q, v) = run.problem.split(&run.y);
-    Ok(Outcome { statistics: run.problem.dynamics.statistics, t: run.t, q: q.to_vec(), v: v.to_vec(), failure })
+    Ok(run.finish(failure, sink))
 }
 
 struct Run<'a> {
@@ -120,6 +114,8 @@ struct Run<'a> {
     cut: Option<f64>,
     /// Since when the steps tried are counted, and how many they are.
     progress: (f64, usize),
+    /// Work after which the run pauses, in evaluations: see [`Run::mark`].
+    allowance: f64,
 }
 
 /// What a run is made of.
@@ -139,8 +135,7 @@ impl<'a> Run<'a> {
         (system, store): (&'s dyn MechanicalSystem, &'a Store<'s>),
         method: &'a Method,
         span: Span,
-        q: &[f64],
-        v: &[f64],
+        y: Vec<f64>,
     ) -> Result<Self> {
         let problem = || -> Result<Problem<'a>> {
             Ok(Problem::new(Dynamics::new(system), formulation::make(&method.formulation, system)?))
@@ -164,7 +159,7 @@ impl<'a> Run<'a> {
             limits_projection: true,
         };
         let tolerance = Tolerance::new(method.rtol, method.atol, system);
-        Ok(Run::of(parts, (tolerance, method.step), span, [q, v, &[0.0]].concat()))
+        Ok(Run::of(parts, (tolerance, method.step), span, y))
     }
 
     fn of(parts: Parts<'a>, (tolerance, fixed): (Tolerance, Option<f64>), span: Span, y: Vec<f64>) -> Self {
@@ -201,6 +196,7 @@ impl<'a> Run<'a> {
             growing: true,
             cut: None,
             progress: (span.start, 0),
+            allowance: f64::INFINITY,
             y,
         }
     }
@@ -222,9 +218,27 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Steps to the end of the span.
+    /// Begins at the state it has, which another run has come to and shown.
+    fn go_on(&mut self) -> Result<(), Failure> {
+        (self.progress, self.divided) = ((self.t, 0), self.t);
+        self.begin_form()?;
+        self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
+        self.h = self.first_step().map_err(|halt| self.halted(&halt))?;
+        Ok(())
+    }
+
+    /// What has become of it.
+    fn finish(&mut self, failure: Option<Failure>, sink: &mut dyn Sink) -> Outcome {
+        if failure.is_some() {
+            self.last_good_row(sink);
+        }
+        let (q, v) = self.problem.split(&self.y);
+        Outcome { statistics: self.problem.dynamics.statistics, t: self.t, q: q.to_vec(), v: v.to_vec(), failure }
+    }
+
+    /// Steps to the end of the span, or until the work comes to what is allowed.
     fn advance(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
-        while self.t < self.span.end {
+        while self.t < self.span.end && self.mark().work < self.allowance {
             self.ask(sink)?;
             self.check_progress()?;
             let stop = self.next_stop();

@@ -1,6 +1,6 @@
 //! What a run shows of the motion, and to whom.
 
-use crate::error::short;
+use crate::error::{Error, Result, short};
 use crate::math::largest;
 use crate::system::Loaded;
 use std::time::Duration;
@@ -15,6 +15,16 @@ pub struct Span {
 }
 
 impl Span {
+    /// # Errors
+    /// An end before the start, or rows that lead nowhere.
+    pub(crate) fn check(&self) -> Result<()> {
+        if self.end > self.start && self.output_step > 0.0 {
+            return Ok(());
+        }
+        Err(Error::input(format!("nothing to simulate from {} s to {} s", self.start, self.end))
+            .hint("the end must come after the start and the output step must be above zero"))
+    }
+
     /// Time of output row `row`: multiples of the output step, and the end.
     pub(crate) fn row(&self, row: u64) -> f64 {
         let t = self.start + row as f64 * self.output_step;

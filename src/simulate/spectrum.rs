@@ -46,29 +46,18 @@ pub struct Spectrum {
     pub modes: Vec<Mode>,
     /// Whether there are too many coordinates for all modes: only the fastest are then known, and roughly.
     pub is_estimate: bool,
-    /// How fast Z^T C Z and Z^T K Z change as the state moves on, over the masses: 1/s^2 and 1/s^3.
-    pub turning: [f64; 2],
-    /// How far the fastest mode is out of its rest at the state, m or rad.
-    pub excitation: f64,
 }
 
 impl Spectrum {
-    /// At a state that will move on for about `duration`. None where the equations give no K and C or are not finite.
-    pub fn at(system: &dyn MechanicalSystem, state: Loaded, duration: f64) -> Option<Self> {
+    /// At a state with the v' and lambda of the equations. None where these give no K and C or are not finite.
+    pub fn at(system: &dyn MechanicalSystem, state: Loaded) -> Option<Self> {
         let mut frozen = Frozen::new(system, state)?;
         if system.dimensions().v > MOST_VELOCITIES {
-            let modes = frozen.fastest()?;
-            return Some(Spectrum { modes, is_estimate: true, turning: [0.0; 2], excitation: 0.0 });
+            return Some(Spectrum { modes: frozen.fastest()?, is_estimate: true });
         }
         let z = free_directions(&mut frozen.dynamics)?;
         let [k, c] = frozen.reduced(&z);
-        let modes = modes(&k, &c)?;
-        let excitation = modes.last().map_or(Some(0.0), |fastest| frozen.excitation(state, fastest.rate()))?;
-        let ahead = AHEAD * duration;
-        frozen.move_on(state, ahead)?;
-        let [k_ahead, c_ahead] = frozen.reduced(&z);
-        let turning = [(&c_ahead - &c).norm() / ahead, (&k_ahead - &k).norm() / ahead];
-        Some(Spectrum { modes, is_estimate: false, turning, excitation })
+        Some(Spectrum { modes: modes(&k, &c)?, is_estimate: false })
     }
 }
 
@@ -81,8 +70,6 @@ pub fn fastest(system: &dyn MechanicalSystem, state: Loaded) -> Option<Mode> {
 const SLOWEST: f64 = 1e-6;
 /// More velocities than this are too many for dense matrices.
 const MOST_VELOCITIES: usize = 300;
-/// Differences over time are taken over this part of it.
-const AHEAD: f64 = 1e-6;
 /// Iterations for the fastest mode alone: a few percent where others are as fast.
 const ITERATIONS: usize = 60;
 
@@ -110,15 +97,6 @@ impl<'a> Frozen<'a> {
         (known && tangent.k.iter().chain(&tangent.c).all(|x| x.is_finite())).then_some(())
     }
 
-    /// K and C where the state will be after `time`, at the same v, v' and lambda.
-    fn move_on(&mut self, state: Loaded, time: f64) -> Option<()> {
-        let mut q = vec![0.0; state.q.len()];
-        self.dynamics.system.rate(state.q, state.v, &mut q);
-        q.iter_mut().zip(state.q).for_each(|(rate, q)| *rate = q + time * *rate);
-        self.dynamics.system.normalize(&mut q);
-        self.fill(Loaded { q: &q, t: state.t + time, ..state })
-    }
-
     /// Z Z^T `force`: the accelerations that a force alone gives.
     fn accelerate(&mut self, mut force: Vec<f64>) -> Option<Vec<f64>> {
         let mut rows = vec![0.0; self.dynamics.lambda.len()];
@@ -137,21 +115,6 @@ impl<'a> Frozen<'a> {
         pattern.multiply(&self.tangent.k, x, &mut sum);
         pattern.multiply(&self.tangent.c, v, &mut sum);
         sum
-    }
-
-    /// What of v and v' belongs to a mode of rate w far above all others: Z Z^T K / w^2 keeps it and next to nothing of
-    /// slower ones. Its amplitude is v / w or v' / w^2.
-    fn excitation(&mut self, state: Loaded, rate: f64) -> Option<f64> {
-        let still = vec![0.0; state.v.len()];
-        let along = |frozen: &mut Self, x: &[f64]| {
-            let fast = frozen.resistance(x, &still);
-            Some(frozen.accelerate(fast)?.iter().fold(0.0f64, |largest, x| largest.max(x.abs())) / rate.powi(2))
-        };
-        let mut force = still.clone();
-        let Dynamics { structure, terms, .. } = &self.dynamics;
-        structure.mass.multiply_symmetric(&terms.mass, state.vdot, &mut force);
-        let vdot = self.accelerate(force)?;
-        Some((along(self, state.v)? / rate).max(along(self, &vdot)? / rate.powi(2)))
     }
 
     /// The fastest modes, by powers of (x, v) -> (v, -Z Z^T (K x + C v)).
@@ -259,7 +222,7 @@ mod tests {
 
     fn modes(stiffness: f64, damping: f64) -> [Option<Vec<Mode>>; 2] {
         let system = TwoMass { stiffness, damping };
-        let all = Spectrum::at(&system, STATE, 1.0).map(|spectrum| spectrum.modes);
+        let all = Spectrum::at(&system, STATE).map(|spectrum| spectrum.modes);
         [all, Frozen::new(&system, STATE).and_then(|mut frozen| frozen.fastest())]
     }
 

@@ -1,6 +1,6 @@
 //! Whether an explicit method is the wrong one for a motion, said before it runs.
 
-use super::auto::{Explicit, Verdict, Work, count, is_awake};
+use super::automatic::rival;
 use super::spectrum::{Mode, Spectrum, fastest};
 use super::{Method, Span};
 use crate::error::{Warning, short};
@@ -22,8 +22,8 @@ pub struct Stiffness {
     /// The longest stable step, s, and how many of them the run takes.
     pub stable_step: f64,
     pub steps_for_stability: f64,
-    /// Steps that the accuracy of the slower modes asks for, where the method chooses them.
-    pub steps_for_accuracy: Option<f64>,
+    /// How much farther an implicit method comes for the same work, where the method chooses its steps.
+    pub implicit_gain: Option<f64>,
     /// A method that can, in words.
     pub advice: String,
 }
@@ -34,13 +34,15 @@ const DOUBT: f64 = 0.5;
 const GROWN: f64 = 1.0;
 /// Part of the limit that is advised.
 const SAFETY: f64 = 0.9;
+/// From here on another method deserves a word.
+const MUCH: f64 = 3.0;
 /// An adaptive method may take so many steps for stability before anything is asked.
 const FEW: f64 = 150.0;
 
 /// Warns of a method that is explicit, for a motion from `state`, which has the v' and lambda of the equations, over
 /// `span`. None where nothing is wrong or known.
 pub fn stiffness(system: &dyn MechanicalSystem, method: &Method, state: Loaded, span: Span) -> Option<Stiffness> {
-    let (order, stability) = explicit(system, method)?;
+    let stability = explicit(system, method)?;
     let duration = span.end - span.start;
     let rough = fastest(system, state)?;
     // Below the limits along its own direction and both axes by far, no mode needs a closer look.
@@ -50,51 +52,64 @@ pub fn stiffness(system: &dyn MechanicalSystem, method: &Method, state: Loaded, 
     if least.iter().all(|limit| rough.rate() * longest < DOUBT * limit) {
         return None;
     }
-    let spectrum = Spectrum::at(system, state, duration)?;
-    let limit = |mode: &Mode| stability.limit(mode.decay, mode.swing);
-    let stable_step = |mode: &Mode| limit(mode) / mode.rate().max(f64::MIN_POSITIVE);
-    let &mode = spectrum.modes.iter().min_by(|a, b| stable_step(a).total_cmp(&stable_step(b)))?;
-    let work = Work::new(&spectrum, duration, method.rtol, Explicit { order, stability: limit(&mode) });
-    let awake = is_awake(&spectrum, state, (method.rtol, method.atol));
-    let verdict = work.verdict(awake);
-    let is_wrong = match method.step {
-        // What grows little over the whole run is an error of accuracy.
-        Some(step) => {
-            step > stable_step(&mode) && duration / step * stability.growth(mode.decay, mode.swing, step) > GROWN
+    match method.step {
+        Some(step) => too_long(system, state, step, duration, &stability),
+        None => too_many(system, method, state, span),
+    }
+    .map(|(mode, gain)| {
+        let limit = stability.limit(mode.decay, mode.swing);
+        let stable_step = limit / mode.rate().max(f64::MIN_POSITIVE);
+        Stiffness {
+            integrator: method.integrator.name.clone(),
+            mode,
+            limit,
+            step: method.step,
+            stable_step,
+            steps_for_stability: duration / stable_step,
+            implicit_gain: gain,
+            advice: advice(method, SAFETY * stable_step),
         }
-        None => matches!(verdict, Verdict::Damped | Verdict::Asleep) || !awake && work.crawls(),
-    };
-    is_wrong.then(|| Stiffness {
-        integrator: method.integrator.name.clone(),
-        mode,
-        limit: limit(&mode),
-        step: method.step,
-        stable_step: stable_step(&mode),
-        steps_for_stability: duration / stable_step(&mode),
-        steps_for_accuracy: method.step.is_none().then(|| work.asked(awake)),
-        advice: advice(method, verdict, SAFETY * stable_step(&mode)),
     })
 }
 
-/// Order and stability of the method; none where its steps may be as long as they like.
-pub fn explicit(system: &dyn MechanicalSystem, method: &Method) -> Option<(usize, Stability)> {
+/// The mode that a fixed step makes grow. What grows little over the whole run is an error of accuracy.
+fn too_long(
+    system: &dyn MechanicalSystem,
+    state: Loaded,
+    step: f64,
+    duration: f64,
+    stability: &Stability,
+) -> Option<(Mode, Option<f64>)> {
+    let spectrum = Spectrum::at(system, state)?;
+    let stable = |mode: &Mode| stability.limit(mode.decay, mode.swing) / mode.rate().max(f64::MIN_POSITIVE);
+    let &mode = spectrum.modes.iter().min_by(|a, b| stable(a).total_cmp(&stable(b)))?;
+    let grows = duration / step * stability.growth(mode.decay, mode.swing, step) > GROWN;
+    (step > stable(&mode) && grows).then_some((mode, None))
+}
+
+/// The mode for whose sake alone an adaptive method takes its steps.
+fn too_many(system: &dyn MechanicalSystem, method: &Method, state: Loaded, span: Span) -> Option<(Mode, Option<f64>)> {
+    let contest = rival(system, method, span, (state.q, state.v))?;
+    (contest.gain > MUCH).then_some((contest.mode, Some(contest.gain)))
+}
+
+/// Stability of the method; none where its steps may be as long as they like.
+pub fn explicit(system: &dyn MechanicalSystem, method: &Method) -> Option<Stability> {
     let entry = integrator::find(&method.integrator).ok()?;
     let (store, is_fixed) = (Store::default(), method.step.is_some());
     let (integrator, formulation) = (&method.integrator, &method.formulation);
     let integrator = (entry.make)(&Setup { integrator, formulation, system, store: &store, is_fixed }).ok()?;
-    Some((integrator.order(), integrator.stability()?))
+    integrator.stability()
 }
 
-fn advice(method: &Method, verdict: Verdict, step: f64) -> String {
+fn advice(method: &Method, step: f64) -> String {
     let implicit = "an implicit method: --formulation ggl --integrator radau_iia --projection none";
-    let damps = "generalized_alpha on ggl, which damps the fast oscillation away";
-    let other = match verdict {
-        Verdict::Awake => damps,
-        _ => implicit,
-    };
     match method.step {
-        Some(_) => format!("take steps below {} s, or {other}", two(step)),
-        None => format!("take {other}; `--method auto` chooses by the start"),
+        Some(_) => format!(
+            "take steps below {} s, or {implicit}; generalized_alpha on ggl damps what is too fast for its steps away",
+            two(step)
+        ),
+        None => format!("take {implicit}; `--method auto` chooses on the way"),
     }
 }
 
@@ -112,18 +127,19 @@ impl From<&Stiffness> for Warning {
 impl fmt::Display for Stiffness {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Stiffness { integrator, mode, limit, .. } = self;
-        match (self.step, self.steps_for_accuracy) {
-            (Some(step), _) => write!(
+        match self.step {
+            Some(step) => write!(
                 out,
                 "a mode of the start {mode}: {integrator} with steps of {} s is unstable above {} 1/s",
                 short(step),
                 two(limit / step)
             ),
-            (None, accuracy) => write!(
+            None => write!(
                 out,
-                "the fastest mode of the start {mode}: {integrator} needs {} steps to stay stable, {} for accuracy",
-                count(self.steps_for_stability),
-                count(accuracy.unwrap_or(0.0))
+                "the fastest mode of the start {mode}: {integrator} needs {} steps to stay stable, and radau_iia comes {} \
+                 times as far for the same work",
+                two(self.steps_for_stability.ceil()),
+                two(self.implicit_gain.unwrap_or(1.0))
             ),
         }
     }

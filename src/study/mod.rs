@@ -10,7 +10,7 @@ use crate::initial::{self, Assembly};
 use crate::integrator::Steps;
 use crate::math::expression::{Number, Parameters};
 use crate::scene::{self, AnyModel, Automatic, Scene, Simulation};
-use crate::simulate::{Advice, Method, Span, Stiffness, advise, stiffness};
+use crate::simulate::{Leg, Method, Outcome, Sink, Span, Stiffness, advise, simulate, simulate_automatic, stiffness};
 use crate::system::{Loaded, MechanicalSystem, Mechanism};
 use crate::{formulation, integrator, projection};
 use std::path::Path;
@@ -97,13 +97,13 @@ impl Study {
         let assembly = initial::assemble(mechanism.system(), start, (&scene.q, &scene.v), &scene.hold);
         let assembly = assembly.map_err(|error| explained(error, of_scene(&mechanism)))?;
         // Where no end is said, a method is chosen for a second of motion.
+        let asked = span.unwrap_or(Span { start, end: start + 1.0, output_step: 1.0 });
         let (method, chosen_because) = match is_automatic {
-            true => choose(
-                mechanism.system(),
-                &assembly,
-                span.unwrap_or(Span { start, end: start + 1.0, output_step: 1.0 }),
-                &method,
-            ),
+            true => {
+                let (tolerances, state) = ((method.rtol, method.atol), (&assembly.q[..], &assembly.v[..]));
+                let Leg { method, because, .. } = advise(mechanism.system(), tolerances, asked, state)?;
+                (method, Some(because))
+            }
             false => (method, None),
         };
         let doubts = doubts(&mechanism, &scene.q, &assembly);
@@ -145,6 +145,21 @@ impl Study {
         self.chosen_because.is_none().then(|| stiffness(self.system(), &self.method, state, span))?
     }
 
+    /// Simulates by the method, or, where that is left to the program, by it and others where these come farther. Returns
+    /// these in their order, none where the method was named.
+    ///
+    /// # Errors
+    /// Bad input only: see [`simulate`].
+    pub fn simulate(&self, span: Span, sink: &mut dyn Sink) -> Result<(Outcome, Vec<Leg>)> {
+        match &self.chosen_because {
+            None => Ok((simulate(self.system(), &self.method, span, self.start(), sink)?, Vec::new())),
+            Some(because) => {
+                let first = Leg { from: span.start, method: self.method.clone(), because: because.clone() };
+                simulate_automatic(self.system(), &first, span, self.start(), sink)
+            }
+        }
+    }
+
     /// When the motion starts, s.
     pub fn start_time(&self) -> f64 {
         self.start_time
@@ -154,13 +169,6 @@ impl Study {
     pub fn start(&self) -> (&[f64], &[f64]) {
         (&self.assembly.q, &self.assembly.v)
     }
-}
-
-fn choose(system: &dyn MechanicalSystem, start: &Assembly, span: Span, given: &Method) -> (Method, Option<String>) {
-    let Assembly { q, v, vdot, lambda, .. } = start;
-    let state = Loaded { t: span.start, q, v, vdot, lambda };
-    let Advice { method, because } = advise(system, state, span, (given.rtol, given.atol));
-    (method, Some(because))
 }
 
 /// Refuses unknown names and options of formulation, integrator and projection before anything is computed.

@@ -39,11 +39,11 @@ fn close(x: &Value) -> bool {
 }
 
 #[test]
-fn calm_motions_get_an_explicit_method_by_the_tolerance() {
-    for (rtol, integrator) in [("1e-9", "dop853"), ("1e-4", "dopri5")] {
+fn calm_motions_get_an_explicit_method() {
+    for rtol in ["1e-9", "1e-4"] {
         let (names, because, _) = chosen(PENDULUM, &["--method", "auto", "--rtol", rtol]);
-        assert_eq!(names, format!("index1 {integrator} manifold"));
-        assert!(because.starts_with("not stiff. "), "{because}");
+        assert_eq!(names, "index1 dop853 manifold");
+        assert!(because.starts_with("not stiff: "), "{because}");
     }
 }
 
@@ -51,8 +51,8 @@ fn calm_motions_get_an_explicit_method_by_the_tolerance() {
 fn fast_decay_gets_an_implicit_one() {
     let (names, because, x) = chosen(&pair("1e6", "1e3", 0.0), &[]);
     assert_eq!(names, "ggl radau_iia none");
-    assert!(because.starts_with("stiff. The fastest mode at the start decays at 1e6 1/s"), "{because}");
-    assert!(because.contains("1.6e6 steps for stability"), "{because}");
+    assert!(because.starts_with("stiff. At t = ") && because.contains("decays at 1e6 1/s"), "{because}");
+    assert!(because.contains("tried there, radau_iia comes "), "{because}");
     assert!(close(&x), "{x}");
 }
 
@@ -60,7 +60,7 @@ fn fast_decay_gets_an_implicit_one() {
 fn damping_that_an_explicit_method_follows_cheaply_gets_an_explicit_one() {
     let (names, because, x) = chosen(&pair("1", "0.1", 0.0), &[]);
     assert_eq!(names, "index1 dop853 manifold");
-    assert!(because.starts_with("hardly stiff. The fastest mode at the start decays at "), "{because}");
+    assert!(because.contains("not stiff"), "{because}");
     assert!((x.as_f64().unwrap() - 0.58).abs() < 0.1, "{x}");
 }
 
@@ -69,21 +69,20 @@ fn damping_that_an_explicit_method_follows_cheaply_gets_an_explicit_one() {
 fn fast_oscillations_are_stepped_over_or_resolved() {
     let (names, because, x) = chosen(&pair("1e8", "0", 0.0), &[]);
     assert_eq!(names, "ggl radau_iia none");
-    assert!(because.contains("swings at 320000 rad/s and is at rest") && because.contains("generalized_alpha"));
+    assert!(because.starts_with("stiff. ") && because.contains("swings at 320000 rad/s"), "{because}");
     assert!(close(&x), "{x}");
     let (names, because, _) = chosen(&pair("1e8", "0", 1e-3), &["--until", "0.1"]);
     assert_eq!(names, "index1 dop853 manifold");
-    assert!(because.contains("is awake") && because.contains("generalized_alpha"), "{because}");
+    assert!(because.starts_with("fast, not stiff. ") && because.contains("generalized_alpha"), "{because}");
 }
 
-/// The flyball governor: its dampers turn with it, which costs Newton's iteration what stiffness costs an explicit method,
-/// unless they are strong.
+/// The flyball governor: its dampers turn with it, which costs Newton's iteration what stiffness costs an explicit method.
 #[test]
 fn stiff_directions_that_turn_are_counted() {
     let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("models/flyball_governor.json")).unwrap();
     let (names, because, _) = chosen(&text, &["--method", "auto", "--until", "1", "--set", "damping=2e4"]);
     assert_eq!(names, "index1 dop853 manifold");
-    assert!(because.contains("turn with the motion"), "{because}");
+    assert!(because.starts_with("fast, not stiff. "), "{because}");
     assert_eq!(chosen(&text, &["--method", "auto", "--until", "1"]).0, "ggl radau_iia none");
 }
 
@@ -104,7 +103,7 @@ fn too_many_coordinates_for_all_modes_leave_the_fastest() {
     place.done(&["generate", "chain", "--n", "150", "-o", "scene.json"]);
     let text = place.text("scene.json");
     let (names, because, _) = chosen(&text, &["--method", "auto", "--until", "0.01", "--output-step", "0.01"]);
-    assert!(names.starts_with("index1 dop") && because.starts_with("not stiff. "), "{names}: {because}");
+    assert!(names.starts_with("index1 dop") && because.starts_with("not stiff: "), "{names}: {because}");
 }
 
 #[test]
@@ -112,7 +111,7 @@ fn the_reason_is_printed_and_only_where_auto_chose() {
     let place = Place::new(PENDULUM);
     let text = place.done(&["simulate", "scene.json", "--method", "auto"]);
     assert!(
-        text.starts_with("pendulum: index1 + dop853 + manifold, rtol 1e-8, atol 1e-10\n  auto: not stiff."),
+        text.starts_with("pendulum: index1 + dop853 + manifold, rtol 1e-8, atol 1e-10\n  auto: not stiff:"),
         "{text}"
     );
     assert!(!place.done(&["simulate", "scene.json"]).contains("auto:"));
@@ -131,4 +130,25 @@ fn drift_compares_what_the_choice_goes_with() {
     assert!(text.starts_with("pendulum: drift with dop853") && text.contains("auto: not stiff"), "{text}");
     let stiff = Place::new(pair("1e6", "1e3", 0.0)).done(&["drift", "scene.json", "--figures", "none"]);
     assert!(stiff.contains("drift with radau_iia") && stiff.lines().any(|row| row.starts_with("  ggl ")), "{stiff}");
+}
+
+/// A mass on a strong spring lies still until something passes by: what was stepped over asks for its steps from then on,
+/// and the other way round once a damper has taken the motion away.
+#[test]
+fn the_method_changes_where_the_motion_does() {
+    let place = Place::new(&pair("1e6", "if(t < 5, 0, 100)", 1e-2));
+    let printed = place.done(&["simulate", "scene.json", "--json", "--figures", "none", "--rtol", "1e-6"]);
+    let summary: Value = serde_json::from_str(&printed).unwrap();
+    let legs = summary["method"]["legs"].as_array().unwrap();
+    let names: Vec<&str> = legs.iter().map(|leg| leg["integrator"].as_str().unwrap()).collect();
+    assert_eq!(names, ["dop853", "radau_iia"], "{legs:?}");
+    assert!(legs[1]["from"].as_f64().unwrap() > 5.0, "{legs:?}");
+    assert!(summary["energy"]["relative_max_error"].as_f64().unwrap() < 1e-4, "{}", summary["energy"]);
+    // Rows go on through the change, each once.
+    let rows = place.text("out/pair/trajectory.csv");
+    let times: Vec<f64> = rows.lines().skip(1).map(|row| row.split(',').next().unwrap().parse().unwrap()).collect();
+    assert_eq!(times.len(), 501);
+    assert!(times.iter().enumerate().all(|(i, t)| (t - 0.02 * i as f64).abs() < 1e-9), "{times:?}");
+    let text = place.done(&["simulate", "scene.json", "--figures", "none", "--rtol", "1e-6", "-o", "again"]);
+    assert!(text.contains("s on by ggl + radau_iia. stiff. At t = "), "{text}");
 }

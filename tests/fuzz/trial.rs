@@ -84,7 +84,7 @@ fn run(study: &Study) -> Result<Ending, String> {
     };
     let record = recorder.finish();
     rows_are_sound(&record)?;
-    let summary = summarize((study, None, &[]), &outcome, &record, 0.0);
+    let summary = summarize((study, None, &[]), (&outcome, &[]), &record, 0.0);
     sound(serde_json::to_string(&summary).is_ok(), "the summary is no JSON")?;
     match &outcome.failure {
         None => Ok(Ending::Completed),

@@ -22,7 +22,7 @@ use std::array::from_fn;
 
 type Matrix3 = [[f64; 3]; 3];
 
-/// What turns a disc: the frame, and a in it.
+/// What turns a disc in space: the frame, and a in it.
 struct Turning<S> {
     /// w and w'
     frame: [[S; 3]; 2],
@@ -45,17 +45,13 @@ impl<S: Scalar> Turning<S> {
     }
 
     /// w_s
-    fn spin<const D: usize>(&self) -> [S; 3] {
+    fn spin(&self) -> [S; 3] {
         let ([w, _], [a, rate, _]) = (&self.frame, &self.own);
-        if D == 2 {
-            return from_fn(|k| w[k] + rate[k]);
-        }
         let small = SmallTurn::of(*a);
         let [carried, own] = [small.back(w), small.rate(rate)];
         from_fn(|k| carried[k] + own[k])
     }
 
-    /// In space.
     fn resistance(&self, inertia: &Matrix3) -> Resistance<S> {
         let ([w, alpha], [a, rate, acceleration]) = (&self.frame, &self.own);
         let small = SmallTurn::of(*a);
@@ -142,12 +138,15 @@ impl<const D: usize> Floating<D> {
     }
 
     pub(super) fn disc_energy<S: Scalar>(&self, q: &[S], v: &[S]) -> S {
+        if D == 2 {
+            return self.discs_in_plane.iter().fold(S::zero(), |sum, &(place, value)| {
+                let (i, j) = self.layout.mass[place];
+                sum + v[i] * v[j] * if i == j { 0.5 * value } else { value }
+            });
+        }
         let energy = |disc: &Disc| {
-            let spin = Turning::of::<D>(disc, q, v, &[]).spin::<D>();
-            match D {
-                2 => spin[2] * spin[2] * (disc.inertia[2][2] * 0.5),
-                _ => dot(&spin, &times(&disc.inertia, &spin)) * 0.5,
-            }
+            let spin = Turning::of::<D>(disc, q, v, &[]).spin();
+            dot(&spin, &times(&disc.inertia, &spin)) * 0.5
         };
         self.elastic.inertia.discs.iter().fold(S::zero(), |sum, disc| sum + energy(disc))
     }

@@ -1,0 +1,132 @@
+//! Two methods against each other on the same stretch of a motion.
+//!
+//! No spectrum tells what a method will cost: a mesh has modes of all speeds, some asleep, and directions that turn hold implicit
+//! steps as short as stability holds explicit ones. What settles it is a trial: which method comes farther for the same work.
+//! The spectrum only tells when to try: where the fastest mode of the state has to do with the steps that are taken.
+
+use super::spectrum::{Mode, fastest};
+use super::{Method, Observation, Run, Sink, Span};
+use crate::error::{Failure, Result};
+use crate::formulation::Dynamics;
+use crate::integrator::Store;
+use crate::system::{Loaded, MechanicalSystem};
+
+/// Work of an evaluation in implicit methods, its share of factorizations and back-substitutions included, in evaluations by
+/// explicit ones: 2 to 4 on the shipped scenes, whatever their size.
+const IMPLICIT: f64 = 3.0;
+/// From this part of the longest stable step on, stability may be what holds the steps of an explicit method.
+const HELD: f64 = 0.3;
+/// Up to so many times the longest stable step an explicit method may be worth trying in the place of an implicit one.
+const NEAR: f64 = 20.0;
+/// Most of the longest stable step, as |lambda| h, that is asked of methods without a limit of their own: dop853's.
+const STABLE: f64 = 6.1;
+/// Least work of a trial, in evaluations: the first steps of radau_iia, each up to eight times the one before.
+const LEAST: f64 = 300.0;
+/// A trial has so much of the work that it is compared with.
+const SHARE: f64 = 0.5;
+
+/// How far a run has come, s, after how much work, in evaluations, and how many steps.
+#[derive(Clone, Copy, Debug)]
+pub struct Mark {
+    pub t: f64,
+    pub work: f64,
+    pub steps: u64,
+}
+
+/// What a trial shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contest {
+    /// Where it begins, s.
+    pub t: f64,
+    /// The fastest mode there.
+    pub mode: Mode,
+    /// Mean step of the method that carries the motion, s.
+    pub step: f64,
+    /// How much farther the other method comes for the same work.
+    pub gain: f64,
+}
+
+/// Sees nothing.
+pub struct Quiet;
+
+impl Sink for Quiet {
+    fn accepted(&mut self, _: &Observation) {}
+    fn row(&mut self, _: &Observation) {}
+}
+
+impl<'a> Run<'a> {
+    /// A run without rows, begun.
+    pub fn unseen<'s: 'a>(
+        (system, store): (&'s dyn MechanicalSystem, &'a Store<'s>),
+        method: &'a Method,
+        [start, end]: [f64; 2],
+        y: Vec<f64>,
+    ) -> Result<(Self, Option<Failure>)> {
+        let mut run = Run::new((system, store), method, Span { start, end, output_step: f64::INFINITY }, y)?;
+        // The only row of the span, its end, counts as shown.
+        run.rows.next = 2;
+        let failure = run.go_on().err();
+        Ok((run, failure))
+    }
+
+    pub fn mark(&self) -> Mark {
+        let dynamics = &self.problem.dynamics.statistics;
+        let price = if self.is_explicit { 1.0 } else { IMPLICIT };
+        Mark { t: self.t, work: price * dynamics.rhs_evaluations as f64, steps: dynamics.steps }
+    }
+
+    /// The fastest mode of the state, where steps since `mark` were so long that it matters to which kind of method goes
+    /// on; with their mean.
+    pub fn hindered(&self, mark: Mark) -> Option<(Mode, f64)> {
+        let step = (self.t - mark.t) / (self.mark().steps - mark.steps).max(1) as f64;
+        let (system, (q, v)) = (self.problem.dynamics.system, self.problem.split(&self.y));
+        let mut dynamics = Dynamics::new(system);
+        dynamics.solve(self.t, q, v, |_, _| 0.0).ok()?;
+        let mode = fastest(system, Loaded { t: self.t, q, v, vdot: &dynamics.vdot, lambda: &dynamics.lambda })?;
+        let stability = self.integrator.stability();
+        let limit = stability.as_ref().map_or(STABLE, |stability| stability.limit(mode.decay, mode.swing));
+        let part = step * mode.rate() / limit;
+        let matters = if self.is_explicit { part > HELD } else { part < NEAR };
+        matters.then_some((mode, step))
+    }
+
+    /// Lets `other` try from the state of this run, whose pace since `mark` is known.
+    pub fn contest(
+        &self,
+        mark: Mark,
+        (mode, step): (Mode, f64),
+        other: &Method,
+        system: &dyn MechanicalSystem,
+    ) -> Result<Contest> {
+        let own = self.mark();
+        let pace = (own.t - mark.t) / (own.work - mark.work);
+        let budget = LEAST.max(SHARE * (own.work - mark.work));
+        let theirs = trial(system, other, (self.t, self.span.end), &self.y, budget)?;
+        Ok(Contest { t: self.t, mode, step, gain: theirs / pace })
+    }
+}
+
+/// Seconds for a unit of work in the second half of a trial, whose first steps are short; zero where it fails.
+fn trial(
+    system: &dyn MechanicalSystem,
+    method: &Method,
+    (from, to): (f64, f64),
+    y: &[f64],
+    budget: f64,
+) -> Result<f64> {
+    let store = Store::default();
+    let (mut run, failure) = Run::unseen((system, &store), method, [from, to], y.to_vec())?;
+    if failure.is_some() {
+        return Ok(0.0);
+    }
+    let mut marks = vec![run.mark()];
+    for part in [0.5, 1.0] {
+        run.allowance = part * budget;
+        if run.advance(&mut Quiet).is_err() {
+            return Ok(0.0);
+        }
+        marks.push(run.mark());
+    }
+    let from = if run.t < to && marks[2].work > marks[1].work { marks[1] } else { marks[0] };
+    Ok((run.t - from.t) / (marks[2].work - from.work))
+}
