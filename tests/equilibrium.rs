@@ -145,6 +145,35 @@ fn long_chains_hang() {
     }
 }
 
+/// A beam on a hinge, released level, swings down however stiff it is, and its weight stretches it there by g/(2 EA).
+#[test]
+fn stiff_beams_hang() {
+    for (dimension, elements, ei) in
+        [2, 3].into_iter().flat_map(|d| [(d, 2, 1e4), (d, 8, 1e2), (d, 8, 1e6), (d, 32, 1e4)])
+    {
+        let (zero, end, gravity) = match dimension {
+            2 => ("[0, 0]", "[1, 0]", "[0, -9.81]"),
+            _ => ("[0, 0, 0]", "[1, 0, 0]", "[0, -9.81, 0]"),
+        };
+        let beam = parse(&format!(
+            r#"{{ "name": "hinged", "dimension": {dimension}, "gravity": {gravity},
+            "ground": {{ "markers": {{ "wall": {zero} }} }},
+            "bodies": [ {{ "name": "rod", "type": "flexible_beam", "frame": "absolute", "length": 1,
+                "elements": {elements}, "stiffness": {{ "EA": "1e3*{ei}", "EI": {ei}{} }},
+                "inertia": {{ "rhoA": 1, "rhoI": 1e-4 }}, "markers": {{ "root": {zero}, "tip": {end} }} }} ],
+            "joints": [ {{ "name": "hinge", "type": "revolute", "between": ["ground.wall", "rod.root"] }} ],
+            "outputs": [ {{ "name": "y", "measure": "position", "of": "rod.tip", "component": "y" }} ] }}"#,
+            if dimension == 2 { String::new() } else { format!(r#", "GJ": {ei}"#) }
+        ));
+        let hanging = seek(&beam).unwrap_or_else(|error| panic!("{dimension} {elements} {ei:e}: {error}"));
+        let y = output(&beam, &hanging, "y");
+        let exact = -1.0 - 9.81 / (2e3 * ei);
+        println!("{dimension} {elements} {ei:e}: {y} {exact}, {:?} in {} steps", hanging.stability, hanging.steps);
+        assert!((y - exact).abs() < 1e-9, "{dimension} {elements} {ei:e}: {y} {exact}");
+        assert_eq!(hanging.stability, Stability::Stable, "{dimension} {elements} {ei:e}");
+    }
+}
+
 /// A cantilever of rigid links on torsion springs, bent by a force across its end.
 fn cantilever(n: usize, load: f64) -> String {
     let length = 1.0 / n as f64;

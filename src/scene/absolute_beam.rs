@@ -100,8 +100,8 @@ impl<const D: usize> AbsoluteBeam<D> {
         (0..self.abscissae.len()).map(node).collect()
     }
 
-    /// The record for the model; the place of its elements among the forces is not known yet.
-    pub fn line(self, first_body: usize) -> BeamLine {
+    /// The record for the model, with the places of its first node among the bodies and its first element among the forces.
+    pub fn line(self, first_body: usize, first_force: usize) -> BeamLine {
         let beam = |ends: &[f64]| {
             let (ends, length) = ([ends[0], ends[1]], ends[1] - ends[0]);
             let mean = self.profile.mean(ends);
@@ -113,7 +113,7 @@ impl<const D: usize> AbsoluteBeam<D> {
         let nodes: Vec<NodeMass> = (0..self.abscissae.len()).map(mass).collect();
         let halves = nodes.windows(2).map(|ends| [ends[0].half(true), ends[1].half(false)]).collect();
         let AbsoluteBeam { name, profile, abscissae, .. } = self;
-        BeamLine { name, first_body, first_force: 0, elements, halves, abscissae, profile }
+        BeamLine { name, first_body, first_force, elements, halves, abscissae, profile }
     }
 
     fn body(&self, node: &NodeMass, q: &[f64], markers: Vec<Marker<D>>) -> Box<dyn Body<D>> {

@@ -2,10 +2,11 @@
 
 use super::absolute_beam::{AbsoluteBeam, is_absolute_beam};
 use super::format::{Dimension, SceneFile};
-use super::model::{BeamLine, Connection, Model, Part};
+use super::model::{BeamLine, Connection, Driven, Model, Part, Watched};
 use super::outputs;
+use super::place::Cut;
 use super::{AnyModel, Scene, markers};
-use crate::body::{self, Build, Built, Initial, Marker, MarkerTable, parse, show};
+use crate::body::{self, Build, Built, Initial, Marker, MarkerTable, Switches, Turning, parse, show};
 use crate::error::{Error, Result, excerpt, suggest};
 use crate::force::{self, Force};
 use crate::joint::{self, Joint};
@@ -40,70 +41,46 @@ pub fn build(file: SceneFile, overrides: &[(String, Number)], folder: &Path) -> 
     })
 }
 
+/// The model with its start: first what has markers, which then all that is between them can name.
 fn model<const D: usize>(
     file: &SceneFile,
     parameters: &Parameters,
     folder: &Path,
 ) -> Result<(Model<D>, Vec<f64>, Vec<f64>)> {
-    if file.bodies.is_empty() {
-        return Err(Error::input("the scene has no body")
-            .under("bodies")
-            .hint("give at least one: nothing else can move"));
-    }
-    let no_markers = MarkerTable::default();
-    let (switches, turnings) = Default::default();
-    let mut build = Build {
-        parameters,
-        markers: &no_markers,
-        outputs: &[],
-        gravity: [0.0; D],
-        folder,
-        switches: &switches,
-        turnings: &turnings,
-    };
+    let (markers, switches, turnings) = Default::default();
+    let (gravity, outputs) = ([0.0; D], &[][..]);
+    let mut build =
+        Build { parameters, markers: &markers, outputs, gravity, folder, switches: &switches, turnings: &turnings };
     if let Some(gravity) = &file.gravity {
         build.gravity = build.vector("gravity", gravity)?;
     }
-    let gravity = build.gravity;
-    let ground = markers::markers(&file.ground.markers, &[0.0; D], &build).map_err(|error| error.under("ground"))?;
-    switches.borrow_mut().own("the ground");
-    let mut parts = Parts::new(ground);
-    for (i, json) in file.bodies.iter().enumerate() {
-        let place = format!("bodies[{i}]");
-        parts.add(json.clone(), &build).map_err(|error| error.under(place))?;
-    }
+    let (gravity, parts) = (build.gravity, Parts::collect(file, &build)?);
     outputs::check_names(&file.outputs)?;
     let formulas = outputs::formulas::<D>(&file.outputs);
-    let build = Build { markers: &parts.table, outputs: &formulas, gravity, ..build };
-    let joints = joints(&file.joints, &build)?;
-    let mut forces = forces(&file.forces, &build)?;
-    for beam in &mut parts.beams {
-        beam.first_force = forces.len();
-        forces.extend(line_elements(beam, &parts.bodies));
+    let links = Links::read(file, &parts, &Build { markers: &parts.table, outputs: &formulas, ..build })?;
+    Ok(parts.joined(links, gravity, switches.into_inner(), turnings.into_inner()))
+}
+
+/// What is between markers, and what is watched and driven.
+struct Links<const D: usize> {
+    joints: Vec<Connection<Box<dyn Joint<D>>>>,
+    forces: Vec<Connection<Box<dyn Force<D>>>>,
+    outputs: Vec<Watched>,
+    cuts: Vec<Cut<D>>,
+    inputs: Vec<Driven>,
+}
+
+impl<const D: usize> Links<D> {
+    fn read(file: &SceneFile, parts: &Parts<D>, build: &Build<D>) -> Result<Self> {
+        let joints = joints(&file.joints, build)?;
+        let mut forces = forces(&file.forces, build)?;
+        forces.extend(parts.beams.iter().flat_map(|beam| line_elements(beam, &parts.bodies)));
+        let Parts { bodies, beams, .. } = parts;
+        let elements = outputs::Elements { bodies, beams, joints: &joints, forces: &forces };
+        let (outputs, cuts) = outputs::outputs(&file.outputs, elements, build)?;
+        let inputs = outputs::inputs::<D>(&file.inputs, &forces)?;
+        Ok(Links { joints, forces, outputs, cuts, inputs })
     }
-    let elements = outputs::Elements { bodies: &parts.bodies, beams: &parts.beams, joints: &joints, forces: &forces };
-    let (outputs, cuts) = outputs::outputs(&file.outputs, elements, &build)?;
-    let inputs = outputs::inputs::<D>(&file.inputs, &forces)?;
-    let Parts { table: markers, ground, bodies, beams, mut q, v } = parts;
-    let (switches, turnings) = (switches.into_inner(), turnings.into_inner());
-    let extent = extent(&bodies, &q);
-    q.extend(turnings.iter().map(|turning| turning.start));
-    let model = Model {
-        gravity,
-        markers,
-        ground,
-        bodies,
-        joints,
-        forces,
-        beams,
-        outputs,
-        cuts,
-        inputs,
-        switches,
-        turnings,
-        extent,
-    };
-    Ok((model, q, v))
 }
 
 fn joints<const D: usize>(given: &[Value], build: &Build<D>) -> Result<Vec<Connection<Box<dyn Joint<D>>>>> {
@@ -155,10 +132,27 @@ struct Parts<const D: usize> {
     beams: Vec<BeamLine>,
     q: Vec<f64>,
     v: Vec<f64>,
+    /// Index among the forces that the first element of the next absolute beam has.
+    next_force: usize,
 }
 
 impl<const D: usize> Parts<D> {
-    fn new(ground: Vec<(String, Marker<D>)>) -> Self {
+    fn collect(file: &SceneFile, build: &Build<D>) -> Result<Self> {
+        if file.bodies.is_empty() {
+            return Err(Error::input("the scene has no body")
+                .under("bodies")
+                .hint("give at least one: nothing else can move"));
+        }
+        let ground = markers::markers(&file.ground.markers, &[0.0; D], build).map_err(|error| error.under("ground"))?;
+        build.switches.borrow_mut().own("the ground");
+        let mut parts = Parts::new(ground, file.forces.len());
+        for (i, json) in file.bodies.iter().enumerate() {
+            parts.add(json.clone(), build).map_err(|error| error.under(format!("bodies[{i}]")))?;
+        }
+        Ok(parts)
+    }
+
+    fn new(ground: Vec<(String, Marker<D>)>, next_force: usize) -> Self {
         let mut parts = Parts {
             table: MarkerTable::default(),
             ground: Vec::new(),
@@ -166,6 +160,7 @@ impl<const D: usize> Parts<D> {
             beams: Vec::new(),
             q: Vec::new(),
             v: Vec::new(),
+            next_force,
         };
         parts.table.add("ground".to_string(), None, true);
         parts.ground.push(Marker::point([0.0; D]));
@@ -203,7 +198,9 @@ impl<const D: usize> Parts<D> {
                 let named = own.into_iter().chain(markers.into_iter().map(|marker| format!("{name}.{marker}")));
                 self.place(format!("{name}.n{node}"), named, built);
             }
-            self.beams.push(beam.line(first_body));
+            let line = beam.line(first_body, self.next_force);
+            self.next_force = line.forces().end;
+            self.beams.push(line);
             return Ok(());
         }
         let origin = match json.remove("origin") {
@@ -232,6 +229,36 @@ impl<const D: usize> Parts<D> {
         self.bodies.push(Part { name, first_marker, first_q, first_v, nq, nv, body: built.body });
         self.q.extend(built.q);
         self.v.extend(built.v);
+    }
+
+    /// The model, with the start of all coordinates.
+    fn joined(
+        self,
+        links: Links<D>,
+        gravity: [f64; D],
+        switches: Switches,
+        turnings: Vec<Turning>,
+    ) -> (Model<D>, Vec<f64>, Vec<f64>) {
+        let Parts { table: markers, ground, bodies, beams, mut q, v, .. } = self;
+        let Links { joints, forces, outputs, cuts, inputs } = links;
+        let extent = extent(&bodies, &q);
+        q.extend(turnings.iter().map(|turning| turning.start));
+        let model = Model {
+            gravity,
+            markers,
+            ground,
+            bodies,
+            joints,
+            forces,
+            beams,
+            outputs,
+            cuts,
+            inputs,
+            switches,
+            turnings,
+            extent,
+        };
+        (model, q, v)
     }
 }
 

@@ -5,15 +5,21 @@ use holonom::system::{Loaded, Need, Scratch, Tangent, Terms};
 use nalgebra::{Cholesky, DMatrix, SymmetricEigen};
 use std::f64::consts::PI;
 
-/// rad/s in ascending order: (Z^T K Z) x = w^2 (Z^T M Z) x with Z a basis of the motions that the joints leave.
+/// rad/s in ascending order, at the start.
 pub fn frequencies(ready: &Ready) -> Vec<f64> {
-    let (system, (q, v)) = (ready.system(), ready.0.start());
+    squares(ready, 0.0, ready.0.start().0).into_iter().map(|square| square.max(0.0).sqrt()).collect()
+}
+
+/// Of frequencies about a place at rest, in ascending order: (Z^T K Z) x = w^2 (Z^T M Z) x with Z a basis of the motions
+/// that the joints leave, none of which lambda does work over to second order.
+pub fn squares(ready: &Ready, t: f64, q: &[f64]) -> Vec<f64> {
+    let (system, v) = (ready.system(), &vec![0.0; ready.system().dimensions().v][..]);
     let (n, structure) = (system.dimensions(), system.structure());
     let (mut terms, mut scratch) = (Terms::new(system), Scratch::default());
     let mut tangent = Tangent::new(&structure.tangent);
-    system.evaluate(0.0, q, v, Need::DYNAMICS, &mut terms, &mut scratch);
+    system.evaluate(t, q, v, Need::DYNAMICS, &mut terms, &mut scratch);
     let lambda = vec![0.0; n.lambda];
-    assert!(system.tangent(Loaded { t: 0.0, q, v, vdot: v, lambda: &lambda }, &mut tangent, &mut scratch));
+    assert!(system.tangent(Loaded { t, q, v, vdot: v, lambda: &lambda }, &mut tangent, &mut scratch));
     let (mut k, mut m) = (DMatrix::<f64>::zeros(n.v, n.v), DMatrix::<f64>::zeros(n.v, n.v));
     structure.tangent.entries.iter().zip(&tangent.k).for_each(|(&place, k_ij)| k[place] += k_ij);
     structure.mass.entries.iter().zip(&terms.mass).for_each(|(&place, m_ij)| m[place] += m_ij);
@@ -28,7 +34,7 @@ pub fn frequencies(ready: &Ready) -> Vec<f64> {
     let symmetric = &inverse * k * inverse.transpose();
     let mut squares: Vec<f64> = SymmetricEigen::new(symmetric).eigenvalues.iter().copied().collect();
     squares.sort_by(f64::total_cmp);
-    squares.into_iter().map(|square| square.max(0.0).sqrt()).collect()
+    squares
 }
 
 /// A planar beam with length, EI and rhoA of one, held at its ends by joints of these types.

@@ -4,10 +4,12 @@
 #[path = "../scenes/mod.rs"]
 mod scenes;
 
+mod buckling;
 mod dynamics;
 mod element;
 mod errors;
 mod frequencies;
 mod large;
+mod shooting;
 mod statics;
 mod tapered;

@@ -15,7 +15,7 @@ pub fn equilibrium(ready: &Ready, steps: usize) -> Vec<f64> {
 }
 
 /// Newton's method for G^T lambda = f, phi = 0.
-fn balance(system: &dyn MechanicalSystem, t: f64, q: &mut [f64], lambda: &mut [f64]) {
+pub fn balance(system: &dyn MechanicalSystem, t: f64, q: &mut [f64], lambda: &mut [f64]) {
     let (n, structure) = (system.dimensions(), system.structure());
     let (mut terms, mut scratch) = (Terms::new(system), Scratch::default());
     let mut tangent = Tangent::new(&structure.tangent);
@@ -110,12 +110,16 @@ fn an_end_moment_bends_a_beam_into_a_circle() {
 /// Torsion turns the tip by M L/GJ, also by more than a full turn over the length.
 #[test]
 fn an_end_torque_twists_a_beam_evenly() {
-    let rod = cantilever(4, "timoshenko", ["0"; 3], ["30*2.5*pi*t", "0", "0"]);
-    let q = equilibrium(&rod, 10);
-    // The quaternion of the last node: a turn by 2.5 pi about x.
-    let [w, x] = [q[q.len() - 4], q[q.len() - 3]];
-    let (sin, cos) = (1.25 * std::f64::consts::PI).sin_cos();
-    assert!((w * sin - x * cos).abs() < 1e-11, "{w} {x}");
+    for (elements, turns) in [(4, 1.25), (8, 3.0)] {
+        let rod = cantilever(elements, "timoshenko", ["0"; 3], [&format!("60*{turns}*pi*t"), "0", "0"]);
+        let q = equilibrium(&rod, 10);
+        let twisted = |element: usize| {
+            let [a, b] = [element, element + 1].map(|node| &q[7 * node + 3..7 * node + 5]);
+            2.0 * (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1])
+        };
+        let each = std::f64::consts::TAU * turns / elements as f64;
+        assert!((0..elements).all(|element| (twisted(element) - each).abs() < 1e-11), "{elements} {turns}");
+    }
 }
 
 /// A beam that bends under its own weight, as a cantilever and with elements of unequal length: nodal loads of a

@@ -13,6 +13,7 @@ mod assembly;
 mod beams;
 mod couplings;
 mod energy;
+mod inextensible;
 mod outputs;
 mod refusals;
 mod rigid;

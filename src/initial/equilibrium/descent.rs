@@ -1,7 +1,7 @@
 //! A way down along the forces.
 
 use super::newton::{Policy, newton};
-use super::rest::{Balance, Place, Rest};
+use super::rest::{Balance, Change, Place, Rest};
 use crate::math::largest;
 
 /// Pseudo-time steps.
@@ -21,6 +21,8 @@ const AWAY: f64 = 100.0;
 const STIFFEST: f64 = 1e12;
 /// Steps of the way back to phi = 0.
 const CLOSING: usize = 12;
+/// Further iterations of a step.
+const RELAXING: usize = 6;
 
 /// Where a descent leads.
 pub(super) enum End {
@@ -31,7 +33,8 @@ pub(super) enum End {
     Stuck,
 }
 
-/// Pseudo-transient continuation: dq/dtau = f - G^T lambda on phi = 0, by implicit Euler steps of one iteration each,
+/// Pseudo-transient continuation: dq/dtau = f - G^T lambda on phi = 0, by implicit Euler steps of one iteration each where
+/// that does,
 ///
 /// ```text
 /// [ K + I/dtau  G^T ] [ dq      ]   [ f - G^T lambda ]
@@ -95,11 +98,39 @@ fn advance(rest: &mut Rest, at: &Balance, shift: f64) -> Option<(Balance, f64)> 
     if !(before > 0.0 && predicted.is_finite()) {
         return None;
     }
-    let there = rest.moved(&at.place, &change, 1.0);
-    let q = close(rest, there, size)?;
-    let next = rest.balance(&q)?;
-    let gain = 0.5 * (before + dot(&next.force, &change.q)) / predicted;
+    let (mut next, mut way) = (onward(rest, &at.place, &change, size)?, change.q);
+    relax(rest, &mut next, &mut way, shift, length(&at.force))?;
+    let gain = 0.5 * (dot(&at.force, &way) + dot(&next.force, &way)) / predicted;
     (gain > LEAST).then_some((next, gain))
+}
+
+/// Where a change leads, on phi = 0.
+fn onward(rest: &mut Rest, from: &Place, change: &Change, size: f64) -> Option<Balance> {
+    let there = rest.moved(from, change, 1.0);
+    let q = close(rest, there, size)?;
+    rest.balance(&q)
+}
+
+/// force = dq/dtau to the size of the force before the step: a stiff beam that turns goes along a circle, and one iteration
+/// along the tangent, which stretches it.
+fn relax(rest: &mut Rest, at: &mut Balance, way: &mut [f64], shift: f64, enough: f64) -> Option<()> {
+    let mut last = f64::INFINITY;
+    for _ in 0..RELAXING {
+        let left: Vec<f64> = at.force.iter().zip(&*way).map(|(force, way)| force - shift * way).collect();
+        let size = length(&left);
+        if size <= enough {
+            return Some(());
+        }
+        if size >= last {
+            return None;
+        }
+        last = size;
+        rest.factor(&at.place, shift);
+        let change = rest.solve(&left)?;
+        way.iter_mut().zip(&change.q).for_each(|(way, dq)| *way += dq);
+        *at = onward(rest, &at.place, &change, length(way))?;
+    }
+    None
 }
 
 /// Back to phi = 0 by least changes, which together are shorter than the step.

@@ -40,6 +40,8 @@ pub(super) fn too_bent(t: f64, beam: &Limited, turn: f64) -> Error {
 const LOADED: f64 = 1e-6;
 
 const HOLD: &str = "hold it by a joint or a spring, or take the force away";
+const BEGIN_NEARER: &str = "begin nearer to it, or look at the motion with `holonom simulate`: with some damping it comes to \
+                            rest where there is an equilibrium";
 
 /// What keeps the mechanism moving, seen from the start; `away` is what a descent would move on and on.
 pub(super) fn none_found(rest: &mut Rest, start: &Place, away: Option<usize>) -> Error {
@@ -52,10 +54,12 @@ pub(super) fn none_found(rest: &mut Rest, start: &Place, away: Option<usize>) ->
         let loaded: Vec<_> = soft.directions.into_iter().filter(|d| along(d) > LOADED * all * d.amax()).collect();
         if !loaded.is_empty() {
             let names = named(rest, &loaded).join("`, `");
-            return failure(
-                format!("there is no static equilibrium: nothing holds `{names}` against the forces that move it"),
-                HOLD,
-            );
+            let holds = format!("nothing holds `{names}` against the forces that move it");
+            // What a force moves at the start may be held elsewhere, as a pendulum is that begins level.
+            return match away {
+                Some(_) => failure(format!("there is no static equilibrium: {holds}"), HOLD),
+                None => failure(format!("no static equilibrium was found; at the start {holds}"), BEGIN_NEARER),
+            };
         }
     }
     if let Some(name) = away.and_then(|coordinate| rest.dynamics.system.names().q.get(coordinate).cloned()) {
@@ -69,7 +73,6 @@ pub(super) fn none_found(rest: &mut Rest, start: &Place, away: Option<usize>) ->
             short(worst.map_or(0.0, |i| balance.force[i].abs())),
             name.trim_end_matches('\'')
         ),
-        "begin nearer to it, or look at the motion with `holonom simulate`: with some damping it comes to rest where \
-         there is an equilibrium",
+        BEGIN_NEARER,
     )
 }

@@ -21,8 +21,9 @@ pub enum Stability {
 
 /// More velocities than this are too many for dense matrices.
 const MOST_VELOCITIES: usize = 300;
-/// Part of the largest eigenvalue that is round-off.
-const ROUND_OFF: f64 = 1e-12;
+/// Part of the largest eigenvalue, over the number of directions, that is round-off. Turning nodes of little inertia make
+/// that 1e11 of the stiffness by which a beam hangs.
+const ROUND_OFF: f64 = 1e-14;
 /// Part of K that may be skew before its eigenvalues mean something else.
 const SKEW: f64 = 1e-6;
 /// A coordinate takes part in a direction by this part of the largest, and so many are named.
