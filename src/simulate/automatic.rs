@@ -21,10 +21,12 @@ pub struct Leg {
     pub because: String,
 }
 
-/// Work before the first look, in evaluations: the first steps are no measure.
+/// Work before the first look, in evaluations.
 const FIRST: f64 = 200.0;
-/// The other method must come this much farther to take over.
+/// An implicit method must come this much farther to take over, and an explicit one, which takes a few long steps before
+/// stability holds them.
 const WORTH: f64 = 1.5;
+const WORTH_BACK: f64 = 3.0;
 /// Runs that stop again within this part of the span are not helped by the other method.
 const AGAIN: f64 = 1e-6;
 
@@ -46,9 +48,10 @@ pub fn rival(system: &dyn MechanicalSystem, method: &Method, span: Span, start: 
     if failure.is_some() {
         return None;
     }
-    let mark = run.mark();
-    run.allowance = FIRST;
-    run.advance(&mut Quiet).ok()?;
+    let (mark, failure) = run.window(FIRST, &mut Quiet);
+    if failure.is_some() {
+        return None;
+    }
     let hindered = run.hindered(mark)?;
     run.contest(mark, hindered, &implicit, system).ok()
 }
@@ -68,9 +71,8 @@ pub fn advise(
     let store = Store::default();
     let (run, failure) = Run::unseen((system, &store), &methods[0], [span.start, span.end], flat(start))?;
     let mut drive = Drive { system, methods: &methods, run, carrier: 0, spent: Statistics::default() };
-    let mark = drive.run.mark();
-    drive.run.allowance = FIRST;
-    let failure = failure.or_else(|| drive.run.advance(&mut Quiet).err());
+    let (mark, stopped) = drive.run.window(FIRST, &mut Quiet);
+    let failure = failure.or(stopped);
     let (carrier, because) = drive.look(mark, failure.as_ref())?.unwrap_or((0, CALM.to_string()));
     Ok(Leg { from: span.start, method: methods[carrier].clone(), because })
 }
@@ -100,10 +102,9 @@ pub fn simulate_automatic(
     // What was found out before is not asked again at once.
     let mut window = 2.0 * FIRST;
     while failure.is_none() && drive.run.t < span.end {
-        let mark = drive.run.mark();
-        drive.run.allowance = mark.work + window;
+        let mark;
+        (mark, failure) = drive.run.window(window, sink);
         window *= 2.0;
-        failure = drive.run.advance(sink).err();
         let since = drive.run.t - legs[legs.len() - 1].from;
         let is_stopped =
             failure.is_some() && (sink.stops().is_some() || legs.len() > 1 && since < AGAIN * (span.end - span.start));
@@ -145,8 +146,8 @@ impl<'s: 'a, 'a> Drive<'s, 'a> {
         }
         let Some(hindered) = self.run.hindered(mark) else { return Ok(None) };
         let contest = self.run.contest(mark, hindered, &self.methods[other], self.system)?;
-        let carrier = if contest.gain > WORTH { other } else { self.carrier };
-        Ok(Some((carrier, words(&contest, names))))
+        let wins = contest.gain > if self.carrier == 0 { WORTH } else { WORTH_BACK };
+        Ok(Some((if wins { other } else { self.carrier }, words(&contest, names, wins))))
     }
 
     /// Hands the motion on to another method.
@@ -162,14 +163,14 @@ impl<'s: 'a, 'a> Drive<'s, 'a> {
 
 const FILTER: &str = ". Where only the slow motion is wanted, generalized_alpha on ggl damps the oscillation away";
 
-fn words(Contest { t, mode, step, gain }: &Contest, [own, other]: [&str; 2]) -> String {
+fn words(Contest { t, mode, step, gain }: &Contest, [own, other]: [&str; 2], wins: bool) -> String {
     let two = |x: f64| short(format!("{x:.1e}").parse().unwrap_or(x));
-    let kind = match (own, *gain > WORTH) {
+    let kind = match (own, wins) {
         ("dop853", true) => "stiff",
         ("dop853", false) => "fast, not stiff",
         _ => "no longer stiff",
     };
-    let verdict = if *gain > WORTH { "comes" } else { "comes only" };
+    let verdict = if wins { "comes" } else { "comes only" };
     let filter = if kind == "fast, not stiff" { FILTER } else { "" };
     format!(
         "{kind}. At t = {} s the fastest mode {mode} and {own} takes steps of {} s; tried there, {other} {verdict} {} times as \

@@ -25,6 +25,11 @@ const LEAST: f64 = 300.0;
 /// A trial has so much of the work that it is compared with.
 const SHARE: f64 = 0.5;
 
+/// Steps grow where the next one is so many times their mean.
+const GROWN: f64 = 2.0;
+/// How often a run that is watched goes on for that.
+const GROWTHS: usize = 5;
+
 /// How far a run has come, s, after how much work, in evaluations, and how many steps.
 #[derive(Clone, Copy, Debug)]
 pub struct Mark {
@@ -75,10 +80,37 @@ impl<'a> Run<'a> {
         Mark { t: self.t, work: price * dynamics.rhs_evaluations as f64, steps: dynamics.steps }
     }
 
+    /// Goes on for so much work, of which the first half is no measure: steps that begin small grow. While they do, it goes on.
+    /// Returns where the measure begins, and the failure of the run.
+    pub fn window(&mut self, work: f64, sink: &mut dyn Sink) -> (Mark, Option<Failure>) {
+        let mut mark = self.mark();
+        for _ in 0..=GROWTHS {
+            let start = self.mark();
+            for part in [0.5, 1.0] {
+                self.allowance = start.work + part * work;
+                if let Err(failure) = self.advance(sink) {
+                    return (mark, Some(failure));
+                }
+                if part < 1.0 && self.t < self.span.end {
+                    mark = self.mark();
+                }
+            }
+            if self.t >= self.span.end || self.h < GROWN * self.step_since(mark) {
+                break;
+            }
+        }
+        (mark, None)
+    }
+
+    /// Mean step since then.
+    fn step_since(&self, mark: Mark) -> f64 {
+        (self.t - mark.t) / (self.mark().steps - mark.steps).max(1) as f64
+    }
+
     /// The fastest mode of the state, where steps since `mark` were so long that it matters to which kind of method goes
     /// on; with their mean.
     pub fn hindered(&self, mark: Mark) -> Option<(Mode, f64)> {
-        let step = (self.t - mark.t) / (self.mark().steps - mark.steps).max(1) as f64;
+        let step = self.step_since(mark);
         let (system, (q, v)) = (self.problem.dynamics.system, self.problem.split(&self.y));
         let mut dynamics = Dynamics::new(system);
         dynamics.solve(self.t, q, v, |_, _| 0.0).ok()?;
@@ -99,7 +131,7 @@ impl<'a> Run<'a> {
         system: &dyn MechanicalSystem,
     ) -> Result<Contest> {
         let own = self.mark();
-        let pace = (own.t - mark.t) / (own.work - mark.work);
+        let pace = (own.t - mark.t) / (own.work - mark.work).max(1.0);
         let budget = LEAST.max(SHARE * (own.work - mark.work));
         let theirs = trial(system, other, (self.t, self.span.end), &self.y, budget)?;
         Ok(Contest { t: self.t, mode, step, gain: theirs / pace })
@@ -119,14 +151,7 @@ fn trial(
     if failure.is_some() {
         return Ok(0.0);
     }
-    let mut marks = vec![run.mark()];
-    for part in [0.5, 1.0] {
-        run.allowance = part * budget;
-        if run.advance(&mut Quiet).is_err() {
-            return Ok(0.0);
-        }
-        marks.push(run.mark());
-    }
-    let from = if run.t < to && marks[2].work > marks[1].work { marks[1] } else { marks[0] };
-    Ok((run.t - from.t) / (marks[2].work - from.work))
+    let (mark, failure) = run.window(budget, &mut Quiet);
+    let now = run.mark();
+    Ok(if failure.is_some() { 0.0 } else { (now.t - mark.t) / (now.work - mark.work).max(1.0) })
 }
