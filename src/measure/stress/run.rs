@@ -1,35 +1,26 @@
-//! All cells of a map, in parallel, each under its deadline.
+//! All cells of a map, in parallel, in rounds of growing deadlines.
 
 use super::case::Case;
 use super::cell::{Cell, Status};
 use super::map::Map;
-use super::reference::Reference;
+use super::place::{Limits, Place};
+use super::reference::{Rows, Search};
 use super::subject::Subject;
-use crate::error::{Error, Result};
-use crate::formulation::Halt;
 use crate::math::memory::at_once;
-use crate::measure::{Record, Recorder};
-use crate::simulate::{Outcome, Stop, simulate};
 use rayon::prelude::*;
-use std::cell::Cell as Flag;
 use std::time::{Duration, Instant};
-
-/// How long cells may take.
-#[derive(Clone, Copy, Debug)]
-pub struct Limits {
-    /// Each of them.
-    pub cell: Duration,
-    /// All of them: what has not begun then is left out, and what runs ends.
-    pub end: Instant,
-}
 
 /// Memory of a cell, over what the process took at most until now, which has run the subject once: implicit methods take
 /// more.
 const MEMORY: f64 = 2.0;
+/// A reference, which serves many cells, may take so many times their limit.
+const REFERENCE: u32 = 3;
 
 /// A map with its cells, by method, then row, then column.
 pub struct Stressed {
     pub map: Map,
+    /// The quantities whose errors the cells tell.
+    pub watched: Vec<String>,
     pub cells: Vec<Cell>,
 }
 
@@ -38,165 +29,165 @@ impl Stressed {
         let (columns, rows) = (self.map.x.entries.len(), self.map.y.entries.len());
         self.cells.get((method * rows + row) * columns + column).filter(|_| column < columns && row < rows)
     }
+
+    /// Whether no cell has a value to show.
+    pub fn is_empty(&self) -> bool {
+        self.cells.iter().all(|cell| self.map.quantity.of(cell).is_none())
+    }
 }
 
-/// Simulates every cell; `progress` hears of each that is done. The cells do not depend on the order in which they are run,
-/// but for deadlines: cheap ones come first, so that dear ones are left out.
+/// Simulates every cell, and every motion of them once more as a reference; `progress` hears of each cell that is done.
+///
+/// What a cell costs is known only when it is run. So all are run in rounds: each has the same time, as much as lets the
+/// round take about half of what is left, and what does not come through has more in the next round. Thus cheap cells come before
+/// dear ones, and no method takes the time of another. In a round the middle of the map comes first. Which cells are done
+/// depends on deadlines, what they hold does not.
 pub fn stress(subject: &Subject, map: Map, limits: Limits, progress: &(impl Fn() + Sync)) -> Stressed {
-    let reference = map.keeps_motion().then(|| Reference::of(subject, 3 * limits.cell)).flatten();
-    let (columns, rows) = (map.x.entries.len(), map.y.entries.len());
-    let place = |index: usize| [index / (rows * columns), index / columns % rows, index % columns];
-    let mut order: Vec<(usize, f64)> =
-        (0..map.len()).map(|index| (index, Place::of(subject, &map, place(index)).cost())).collect();
-    order.sort_by(|a, b| a.1.total_cmp(&b.1));
-    let one = |(index, _): (usize, f64)| {
-        let cell = Place::of(subject, &map, place(index)).cell(subject, limits, reference.as_ref());
-        progress();
-        (index, cell)
-    };
-    let all = || order.into_iter().par_bridge().map(one).collect();
+    // Cells are what runs in parallel: matrices on other threads would wait for them.
+    faer::set_global_parallelism(faer::Par::Seq);
     let threads = at_once(MEMORY).min(rayon::current_num_threads());
-    let mut cells: Vec<(usize, Cell)> = match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+    let mut work = Work::new(subject, &map);
+    let mut all = || work.run(subject, limits, threads, progress);
+    match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
         Ok(pool) => pool.install(all),
         Err(_) => all(),
-    };
-    cells.sort_by_key(|(index, _)| *index);
-    Stressed { map, cells: cells.into_iter().map(|(_, cell)| cell).collect() }
+    }
+    work.finish(map)
 }
 
-/// A cell before it is run.
-struct Place {
-    at: [usize; 3],
-    case: Case,
-    /// What was wrong with its changes.
-    refused: Option<Error>,
+/// What is to be run, and what came of it.
+struct Work {
+    cells: Vec<Slot>,
+    motions: Vec<(Case, Search)>,
+    /// Everything, from the middle of the map outwards: a motion, then its cells.
+    order: Vec<Job>,
 }
 
-impl Place {
-    fn of(subject: &Subject, map: &Map, at: [usize; 3]) -> Self {
-        let [panel, row, column] = at;
-        let mut case = subject.base.clone();
-        let entries = [&map.methods[panel], &map.x.entries[column], &map.y.entries[row]];
-        let mut changes = entries.into_iter().flat_map(|entry| &entry.changes);
-        let refused = changes.try_for_each(|change| change.apply(&mut case)).err();
-        Place { at, case, refused }
-    }
+/// A cell and what is known of it.
+struct Slot {
+    place: Place,
+    motion: Option<usize>,
+    cell: Cell,
+    rows: Rows,
+    is_done: bool,
+}
 
-    /// About how many steps it will take.
-    fn cost(&self) -> f64 {
-        let Case { method, duration, typical, .. } = &self.case;
-        duration / method.step.unwrap_or(typical.step * (method.rtol / 1e-8).powf(1.0 / 8.0))
-    }
+#[derive(Clone, Copy)]
+enum Job {
+    Motion(usize),
+    Cell(usize),
+}
 
-    fn cell(self, subject: &Subject, limits: Limits, reference: Option<&Reference>) -> Cell {
-        let Place { at: [panel, row, column], case, refused } = self;
-        let clock = Instant::now();
-        let blank = Cell {
-            panel,
-            column,
-            row,
-            method: case.method.clone(),
-            status: Status::LeftOut,
-            reason: None,
-            t: 0.0,
-            drift: None,
-            energy_error: None,
-            relative_energy_error: None,
-            error: None,
-            steps: 0,
-            rhs_evaluations: 0,
-            seconds: 0.0,
-        };
-        if clock >= limits.end {
-            return blank;
+enum Came {
+    Motion(usize, Search),
+    Cell(usize, Box<(Cell, Rows)>),
+}
+
+impl Work {
+    fn new(subject: &Subject, map: &Map) -> Self {
+        let mut work = Work { cells: Vec::new(), motions: Vec::new(), order: Vec::new() };
+        let mut known: Vec<[Option<usize>; 3]> = Vec::new();
+        for at in (0..map.len()).map(|index| map.place(index)) {
+            let place = Place::of(subject, map, at);
+            let motion = place.is_possible().then(|| {
+                let key = map.motion(at);
+                known.iter().position(|other| *other == key).unwrap_or_else(|| {
+                    known.push(key);
+                    work.motions.push((motion(subject, map, at), Search::Pending));
+                    known.len() - 1
+                })
+            });
+            let cell = place.blank();
+            work.cells.push(Slot { place, motion, cell, rows: Rows::new(), is_done: false });
         }
-        let run = refused.map_or_else(|| run(subject, &case, limits), Err);
-        let seconds = clock.elapsed().as_secs_f64();
-        match run {
-            Err(error) => Cell { status: Status::Refused, reason: Some(message(&error)), seconds, ..blank },
-            Ok(run) => Cell { seconds, ..run.cell(blank, reference) },
+        let mut cells: Vec<usize> = (0..map.len()).collect();
+        let distance = |index: &usize| map.eccentricity(map.place(*index));
+        cells.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let mut is_listed = vec![false; work.motions.len()];
+        for index in cells {
+            let motion = work.cells[index].motion.filter(|motion| !std::mem::replace(&mut is_listed[*motion], true));
+            work.order.extend(motion.map(Job::Motion));
+            work.order.push(Job::Cell(index));
         }
+        work
     }
-}
 
-/// The first line of an error, which says what is wrong.
-fn message(error: &Error) -> String {
-    error.to_string().lines().next().unwrap_or_default().to_string()
-}
-
-struct Run {
-    outcome: Outcome,
-    record: Record,
-    /// How a run that was stopped from outside is called.
-    stopped: Option<Status>,
-}
-
-fn run(subject: &Subject, case: &Case, limits: Limits) -> Result<Run> {
-    subject.with(case, |system, span, start| {
-        let (begin, stopped) = (Instant::now(), Flag::new(None));
-        let stop = || {
-            let now = Instant::now();
-            let status = match () {
-                () if now.duration_since(begin) > limits.cell => Status::TooSlow,
-                () if now > limits.end => Status::LeftOut,
-                () => return None,
-            };
-            stopped.set(Some(status));
-            Some(Stop::deadline(limits.cell))
-        };
-        let mut recorder = Recorder::new(system).with_stop(stop);
-        let outcome = simulate(system, &case.method, span, start, &mut recorder)?;
-        let record = recorder.finish();
-        Ok(Run { outcome, record, stopped: stopped.get() })
-    })
-}
-
-/// Joints that are open by this part of the scene's size make a motion meaningless.
-const OPEN: f64 = 0.1;
-/// A run that stopped had diverged before if its energy error is this part of the energy turned over.
-const BLOWN: f64 = 0.5;
-
-impl Run {
-    fn cell(self, blank: Cell, reference: Option<&Reference>) -> Cell {
-        let status = self.status();
-        let Run { outcome, record, .. } = self;
-        let reason = match (&outcome.failure, status) {
-            (_, Status::LeftOut) => None,
-            (Some(failure), _) => Some(failure.reason.clone()),
-            (None, Status::Diverged) => {
-                Some(format!("the joints are open by {:.1e} of the scene's size", record.drift.position.relative_max))
+    fn run(&mut self, subject: &Subject, limits: Limits, threads: usize, progress: &(impl Fn() + Sync)) {
+        let mut share = Duration::ZERO;
+        loop {
+            let pending: Vec<Job> = self.order.iter().copied().filter(|job| self.is_pending(*job)).collect();
+            let left = limits.end.saturating_duration_since(Instant::now());
+            if pending.is_empty() || left.is_zero() {
+                return;
             }
-            (None, _) => None,
-        };
-        Cell {
-            status,
-            reason,
-            t: outcome.t,
-            energy_error: record.energy.map(|energy| energy.max_error),
-            relative_energy_error: record.energy.and_then(|energy| energy.relative_max_error),
-            error: reference.filter(|_| status == Status::Completed).and_then(|reference| reference.error(&record)),
-            drift: Some(record.drift),
-            steps: outcome.statistics.steps,
-            rhs_evaluations: outcome.statistics.rhs_evaluations,
-            ..blank
+            let half = left.mul_f64(0.5 * threads as f64 / pending.len() as f64);
+            share = half.max(2 * share).min(left).min(limits.cell);
+            let is_last = share == limits.cell;
+            for came in self.round(&pending, subject, limits, share) {
+                self.take(came, is_last, progress);
+            }
         }
     }
 
-    fn status(&self) -> Status {
-        let open = self.record.drift.position.relative_max;
-        let is_open = open.is_nan() || open > OPEN;
-        let Some(failure) = &self.outcome.failure else {
-            return if is_open { Status::Diverged } else { Status::Completed };
-        };
-        let is_blown = self
-            .record
-            .energy
-            .and_then(|energy| energy.relative_max_error)
-            .is_some_and(|part| part.is_nan() || part > BLOWN);
-        match self.stopped {
-            Some(status) => status,
-            None if is_open || is_blown || failure.reason.contains(&Halt::NotFinite.to_string()) => Status::Diverged,
-            None => Status::Failed,
+    fn is_pending(&self, job: Job) -> bool {
+        match job {
+            Job::Motion(index) => matches!(self.motions[index].1, Search::Pending),
+            Job::Cell(index) => !self.cells[index].is_done,
         }
     }
+
+    /// Runs what is pending in order, each for its share; what the end comes before is not begun.
+    fn round(&self, pending: &[Job], subject: &Subject, limits: Limits, share: Duration) -> Vec<Came> {
+        let one = |job: &Job| {
+            let came = || match *job {
+                Job::Motion(index) => {
+                    let allowed = if share == limits.cell { REFERENCE * share } else { share };
+                    Came::Motion(index, Search::run(subject, &self.motions[index].0, allowed, limits.end))
+                }
+                Job::Cell(index) => Came::Cell(index, Box::new(self.cells[index].place.run(subject, limits, share))),
+            };
+            (Instant::now() < limits.end).then(came)
+        };
+        pending.iter().par_bridge().filter_map(one).collect()
+    }
+
+    fn take(&mut self, came: Came, is_last: bool, progress: &impl Fn()) {
+        match came {
+            Came::Motion(index, Search::Pending) if is_last => self.motions[index].1 = Search::Hopeless,
+            Came::Motion(index, search) => self.motions[index].1 = search,
+            Came::Cell(index, came) => {
+                let slot = &mut self.cells[index];
+                (slot.cell, slot.rows) = *came;
+                slot.is_done = slot.cell.status != Status::LeftOut;
+                if slot.is_done {
+                    progress();
+                }
+            }
+        }
+    }
+
+    fn finish(self, map: Map) -> Stressed {
+        let reference = |motion: Option<usize>| match self.motions.get(motion?)? {
+            (_, Search::Found(reference)) => Some(reference),
+            _ => None,
+        };
+        let names = |motion| reference(motion).map_or(&[][..], |reference| &reference.names);
+        let judged = |slot: &Slot| {
+            let is_completed = slot.cell.status == Status::Completed;
+            let errors = reference(slot.motion).filter(|_| is_completed).map(|reference| reference.errors(&slot.rows));
+            slot.cell.clone().judged(names(slot.motion), errors.unwrap_or_default())
+        };
+        let watched = (0..self.motions.len()).map(|motion| names(Some(motion))).find(|names| !names.is_empty());
+        Stressed { watched: watched.unwrap_or_default().to_vec(), cells: self.cells.iter().map(judged).collect(), map }
+    }
+}
+
+/// The case without what does not change its motion.
+fn motion(subject: &Subject, map: &Map, at: [usize; 3]) -> Case {
+    let mut case = subject.base.clone();
+    for change in map.changes(at).filter(|change| !change.keeps_motion()) {
+        // It was made before without an error.
+        let _ = change.apply(&mut case);
+    }
+    case
 }

@@ -1,0 +1,167 @@
+//! A cell before and while it is run.
+
+use super::case::Case;
+use super::cell::{Cell, Status};
+use super::map::Map;
+use super::reference::{Rows, watched};
+use super::subject::Subject;
+use crate::error::{Error, Result, short};
+use crate::formulation::Halt;
+use crate::measure::{Record, Recorder};
+use crate::simulate::{Outcome, Stop, simulate};
+use cpu_time::ThreadTime;
+use std::cell::Cell as Flag;
+use std::time::{Duration, Instant};
+
+/// How long cells may take.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// CPU time of each of them.
+    pub cell: Duration,
+    /// All of them: what has not begun then is left out, and what runs ends.
+    pub end: Instant,
+}
+
+/// A case with its place in the map.
+pub(super) struct Place {
+    at: [usize; 3],
+    case: Case,
+    /// What was wrong with its changes.
+    refused: Option<Error>,
+}
+
+impl Place {
+    pub fn of(subject: &Subject, map: &Map, at: [usize; 3]) -> Self {
+        let mut case = subject.base.clone();
+        let refused = map.changes(at).try_for_each(|change| change.apply(&mut case)).err();
+        Place { at, case, refused }
+    }
+
+    pub fn is_possible(&self) -> bool {
+        self.refused.is_none()
+    }
+
+    /// The cell of which nothing is known.
+    pub fn blank(&self) -> Cell {
+        let [panel, row, column] = self.at;
+        Cell {
+            panel,
+            column,
+            row,
+            method: self.case.method.clone(),
+            status: Status::LeftOut,
+            reason: Some("not begun: the budget was over".to_string()),
+            t: 0.0,
+            drift: None,
+            energy_error: None,
+            relative_energy_error: None,
+            error: None,
+            worst: None,
+            errors: Vec::new(),
+            holds: None,
+            steps: 0,
+            rhs_evaluations: 0,
+            seconds: 0.0,
+        }
+    }
+
+    /// Runs it for its share of the time, with the rows that tell its errors.
+    pub fn run(&self, subject: &Subject, limits: Limits, share: Duration) -> (Cell, Rows) {
+        let clock = Instant::now();
+        let run = match &self.refused {
+            Some(error) => Err(message(error)),
+            None => run(subject, &self.case, limits, share).map_err(|error| message(&error)),
+        };
+        let blank = Cell { seconds: clock.elapsed().as_secs_f64(), reason: None, ..self.blank() };
+        match run {
+            Err(reason) => (Cell { status: Status::Refused, reason: Some(reason), ..blank }, Rows::new()),
+            Ok(run) => {
+                let rows = watched(&run.record);
+                (run.cell(blank), rows)
+            }
+        }
+    }
+}
+
+/// The first line of an error, which says what is wrong.
+fn message(error: &Error) -> String {
+    error.to_string().lines().next().unwrap_or_default().to_string()
+}
+
+struct Run {
+    outcome: Outcome,
+    record: Record,
+    /// How a run that was stopped from outside is called.
+    stopped: Option<Status>,
+}
+
+fn run(subject: &Subject, case: &Case, limits: Limits, share: Duration) -> Result<Run> {
+    subject.with(case, |system, span, start| {
+        let (begin, cpu, stopped) = (Instant::now(), ThreadTime::now(), Flag::new(None));
+        let stop = || {
+            let now = Instant::now();
+            // The clock of CPU time is slow to read.
+            let is_over = now.duration_since(begin) > share;
+            let status = match () {
+                () if is_over && cpu.elapsed() > limits.cell => Status::TooSlow,
+                () if is_over && share < limits.cell || now > limits.end => Status::LeftOut,
+                () => return None,
+            };
+            stopped.set(Some(status));
+            Some(Stop::deadline(limits.cell))
+        };
+        let mut recorder = Recorder::new(system).with_stop(stop);
+        let outcome = simulate(system, &case.method, span, start, &mut recorder)?;
+        let record = recorder.finish();
+        Ok(Run { outcome, record, stopped: stopped.get() })
+    })
+}
+
+/// Joints that are open by this part of the scene's size make a motion meaningless.
+const OPEN: f64 = 0.1;
+/// A run that stopped had diverged before if its energy error is this part of the energy turned over.
+const BLOWN: f64 = 0.5;
+
+impl Run {
+    fn cell(self, blank: Cell) -> Cell {
+        let status = self.status();
+        let Run { outcome, record, .. } = self;
+        let reason = match (&outcome.failure, status) {
+            (_, Status::LeftOut) => Some(format!("its share of the budget was over at t = {} s", short(outcome.t))),
+            (Some(failure), _) => Some(failure.reason.clone()),
+            (None, Status::Diverged) => {
+                Some(format!("the joints are open by {:.1e} of the scene's size", record.drift.position.relative_max))
+            }
+            (None, _) => None,
+        };
+        Cell {
+            status,
+            reason,
+            t: outcome.t,
+            energy_error: record.energy.map(|energy| energy.max_error),
+            relative_energy_error: record.energy.and_then(|energy| energy.relative_max_error),
+            drift: Some(record.drift),
+            steps: outcome.statistics.steps,
+            rhs_evaluations: outcome.statistics.rhs_evaluations,
+            ..blank
+        }
+    }
+
+    fn status(&self) -> Status {
+        let open = self.record.drift.position.relative_max;
+        let is_open = open.is_nan() || open > OPEN;
+        let Some(failure) = &self.outcome.failure else {
+            return if is_open { Status::Diverged } else { Status::Completed };
+        };
+        let is_blown = self
+            .record
+            .energy
+            .and_then(|energy| energy.relative_max_error)
+            .is_some_and(|part| part.is_nan() || part > BLOWN);
+        match self.stopped {
+            Some(status) => status,
+            None if is_open || is_blown || failure.reason.contains(&Halt::NotFinite.to_string()) => Status::Diverged,
+            None => Status::Failed,
+        }
+    }
+}
