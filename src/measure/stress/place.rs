@@ -2,6 +2,7 @@
 
 use super::case::Case;
 use super::cell::{Cell, Status};
+use super::deadline::{Deadline, Limits};
 use super::map::Map;
 use super::reference::{Rows, watched};
 use super::subject::Subject;
@@ -9,18 +10,8 @@ use crate::error::{Error, Result, short};
 use crate::formulation::Halt;
 use crate::measure::{Record, Recorder};
 use crate::simulate::{Outcome, Stop, simulate};
-use cpu_time::ThreadTime;
 use std::cell::Cell as Flag;
 use std::time::{Duration, Instant};
-
-/// How long cells may take.
-#[derive(Clone, Copy, Debug)]
-pub struct Limits {
-    /// CPU time of each of them.
-    pub cell: Duration,
-    /// All of them: what has not begun then is left out, and what runs ends.
-    pub end: Instant,
-}
 
 /// A case with its place in the map.
 pub(super) struct Place {
@@ -39,6 +30,10 @@ impl Place {
 
     pub fn is_possible(&self) -> bool {
         self.refused.is_none()
+    }
+
+    pub fn integrator(&self) -> &str {
+        &self.case.method.integrator.name
     }
 
     /// The cell of which nothing is known.
@@ -65,8 +60,8 @@ impl Place {
         }
     }
 
-    /// Runs it for its share of the time, with the rows that tell its errors.
-    pub fn run(&self, subject: &Subject, limits: Limits, share: Duration) -> (Cell, Rows) {
+    /// Runs it for its share of the time: with the rows that tell its errors, and the part of the motion that came through.
+    pub fn run(&self, subject: &Subject, limits: Limits, share: Duration) -> (Cell, Rows, f64) {
         let clock = Instant::now();
         let run = match &self.refused {
             Some(error) => Err(message(error)),
@@ -74,10 +69,10 @@ impl Place {
         };
         let blank = Cell { seconds: clock.elapsed().as_secs_f64(), reason: None, ..self.blank() };
         match run {
-            Err(reason) => (Cell { status: Status::Refused, reason: Some(reason), ..blank }, Rows::new()),
+            Err(reason) => (Cell { status: Status::Refused, reason: Some(reason), ..blank }, Rows::new(), 1.0),
             Ok(run) => {
-                let rows = watched(&run.record);
-                (run.cell(blank), rows)
+                let (rows, part) = (watched(&run.record), run.part);
+                (run.cell(blank), rows, part)
             }
         }
     }
@@ -93,27 +88,25 @@ struct Run {
     record: Record,
     /// How a run that was stopped from outside is called.
     stopped: Option<Status>,
+    part: f64,
 }
 
 fn run(subject: &Subject, case: &Case, limits: Limits, share: Duration) -> Result<Run> {
     subject.with(case, |system, span, start| {
-        let (begin, cpu, stopped) = (Instant::now(), ThreadTime::now(), Flag::new(None));
+        let (deadline, stopped) = (Deadline::new(share, limits), Flag::new(None));
         let stop = || {
-            let now = Instant::now();
-            // The clock of CPU time is slow to read.
-            let is_over = now.duration_since(begin) > share;
-            let status = match () {
-                () if is_over && cpu.elapsed() > limits.cell => Status::TooSlow,
-                () if is_over && share < limits.cell || now > limits.end => Status::LeftOut,
-                () => return None,
-            };
-            stopped.set(Some(status));
-            Some(Stop::deadline(limits.cell))
+            let is_slow = share == limits.cell && deadline.is_used_up();
+            let status = if is_slow { Status::TooSlow } else { Status::LeftOut };
+            (is_slow || deadline.is_over()).then(|| {
+                stopped.set(Some(status));
+                Stop::deadline(limits.cell)
+            })
         };
         let mut recorder = Recorder::new(system).with_stop(stop);
         let outcome = simulate(system, &case.method, span, start, &mut recorder)?;
         let record = recorder.finish();
-        Ok(Run { outcome, record, stopped: stopped.get() })
+        let part = (outcome.t - span.start) / case.duration;
+        Ok(Run { outcome, record, stopped: stopped.get(), part })
     })
 }
 

@@ -1,13 +1,14 @@
 //! The motion that errors are measured against.
 
 use super::case::Case;
+use super::deadline::{Deadline, Limits};
 use super::subject::Subject;
 use crate::choice::Choice;
 use crate::measure::{Record, Recorder};
 use crate::simulate::{Method, Stop, simulate};
 use crate::system::{Column, MechanicalSystem};
 use crate::trajectory::Trajectory;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Rows of the watched quantities: outputs, or coordinates where the scene names none.
 pub(super) type Rows = Vec<Vec<f64>>;
@@ -34,13 +35,13 @@ const TIGHT: f64 = 1e-13;
 const METHODS: [[&str; 3]; 2] = [["index1", "dop853", "manifold"], ["ggl", "radau_iia", "none"]];
 
 impl Search {
-    /// The motion of the case, by the first method that gets there in the time that each is allowed, and before the end.
-    pub fn run(subject: &Subject, case: &Case, allowed: Duration, end: Instant) -> Self {
+    /// The motion of the case, by the first method that gets there in the CPU time that each is allowed.
+    pub fn run(subject: &Subject, case: &Case, allowed: Duration, limits: Limits) -> Self {
         let mut search = Search::Hopeless;
         for names in METHODS {
             let [formulation, integrator, projection] = names.map(Choice::named);
             let method = Method { formulation, integrator, projection, rtol: TIGHT, atol: TIGHT, step: None };
-            match Self::by(subject, Case { method, ..case.clone() }, allowed, end) {
+            match Self::by(subject, Case { method, ..case.clone() }, allowed, limits) {
                 Search::Hopeless => {}
                 Search::Pending => search = Search::Pending,
                 found => return found,
@@ -49,18 +50,17 @@ impl Search {
         search
     }
 
-    fn by(subject: &Subject, case: Case, allowed: Duration, end: Instant) -> Self {
-        let end = end.min(Instant::now() + allowed);
-        let is_over = || Instant::now() > end;
+    fn by(subject: &Subject, case: Case, allowed: Duration, limits: Limits) -> Self {
+        let deadline = Deadline::new(allowed, limits);
         let found = subject.with(&case, |system, span, start| {
-            let mut recorder = Recorder::new(system).with_stop(|| is_over().then(|| Stop::deadline(allowed)));
+            let mut recorder = Recorder::new(system).with_stop(|| deadline.is_over().then(|| Stop::deadline(allowed)));
             let outcome = simulate(system, &case.method, span, start, &mut recorder)?;
             let record = recorder.finish();
             Ok(outcome.failure.is_none().then(|| Reference::new(system, &record)))
         });
         match found {
             Ok(Some(reference)) => Search::Found(reference),
-            _ if is_over() => Search::Pending,
+            _ if deadline.is_over() => Search::Pending,
             _ => Search::Hopeless,
         }
     }

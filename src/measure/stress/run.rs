@@ -1,14 +1,16 @@
-//! All cells of a map, in parallel, in rounds of growing deadlines.
+//! All cells of a map, in parallel, each under its deadline.
 
 use super::case::Case;
 use super::cell::{Cell, Status};
+use super::deadline::Limits;
 use super::map::Map;
-use super::place::{Limits, Place};
-use super::reference::{Rows, Search};
+use super::place::Place;
+use super::queue::{Job, Queues, What};
+use super::reference::{Reference, Rows, Search};
 use super::subject::Subject;
 use crate::math::memory::at_once;
-use rayon::prelude::*;
-use std::time::{Duration, Instant};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
 
 /// Memory of a cell, over what the process took at most until now, which has run the subject once: implicit methods take
 /// more.
@@ -38,19 +40,18 @@ impl Stressed {
 
 /// Simulates every cell, and every motion of them once more as a reference; `progress` hears of each cell that is done.
 ///
-/// What a cell costs is known only when it is run. So all are run in rounds: each has the same time, as much as lets the
-/// round take about half of what is left, and what does not come through has more in the next round. Thus cheap cells come before
-/// dear ones, and no method takes the time of another. In a round the middle of the map comes first. Which cells are done
-/// depends on deadlines, what they hold does not.
+/// What a cell costs is known only when it is run. So each has a short time first, and what does not come through waits until
+/// others have had as much: cheap cells come before dear ones, and of these the middle of the map first. The methods, and the
+/// references beside them, have equal times. Which cells are done depends on deadlines, what they hold does not.
 pub fn stress(subject: &Subject, map: Map, limits: Limits, progress: &(impl Fn() + Sync)) -> Stressed {
     // Cells are what runs in parallel: matrices on other threads would wait for them.
     faer::set_global_parallelism(faer::Par::Seq);
+    let work = Work::new(subject, &map);
+    let one = || work.run(subject, limits, progress);
     let threads = at_once(MEMORY).min(rayon::current_num_threads());
-    let mut work = Work::new(subject, &map);
-    let mut all = || work.run(subject, limits, threads, progress);
     match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
-        Ok(pool) => pool.install(all),
-        Err(_) => all(),
+        Ok(pool) => drop(pool.broadcast(|_| one())),
+        Err(_) => one(),
     }
     work.finish(map)
 }
@@ -58,128 +59,114 @@ pub fn stress(subject: &Subject, map: Map, limits: Limits, progress: &(impl Fn()
 /// What is to be run, and what came of it.
 struct Work {
     cells: Vec<Slot>,
-    motions: Vec<(Case, Search)>,
-    /// Everything, from the middle of the map outwards: a motion, then its cells.
-    order: Vec<Job>,
+    motions: Vec<(Case, Mutex<Search>)>,
+    queues: Mutex<Queues>,
 }
 
 /// A cell and what is known of it.
 struct Slot {
     place: Place,
     motion: Option<usize>,
-    cell: Cell,
-    rows: Rows,
-    is_done: bool,
-}
-
-#[derive(Clone, Copy)]
-enum Job {
-    Motion(usize),
-    Cell(usize),
-}
-
-enum Came {
-    Motion(usize, Search),
-    Cell(usize, Box<(Cell, Rows)>),
+    came: Mutex<(Cell, Rows)>,
 }
 
 impl Work {
     fn new(subject: &Subject, map: &Map) -> Self {
-        let mut work = Work { cells: Vec::new(), motions: Vec::new(), order: Vec::new() };
+        let mut order: Vec<usize> = (0..map.len()).collect();
+        let distance = |index: &usize| map.eccentricity(map.place(*index));
+        order.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let mut ranks = vec![0; order.len()];
+        order.into_iter().enumerate().for_each(|(rank, index)| ranks[index] = rank);
+        let (mut cells, mut motions, mut queues) = (Vec::new(), Vec::new(), Queues::default());
         let mut known: Vec<[Option<usize>; 3]> = Vec::new();
-        for at in (0..map.len()).map(|index| map.place(index)) {
+        for (index, rank) in ranks.into_iter().enumerate() {
+            let at = map.place(index);
             let place = Place::of(subject, map, at);
             let motion = place.is_possible().then(|| {
                 let key = map.motion(at);
                 known.iter().position(|other| *other == key).unwrap_or_else(|| {
+                    queues.add("", Job::new(rank, What::Motion(known.len())));
                     known.push(key);
-                    work.motions.push((motion(subject, map, at), Search::Pending));
+                    motions.push((motion(subject, map, at), Mutex::new(Search::Pending)));
                     known.len() - 1
                 })
             });
-            let cell = place.blank();
-            work.cells.push(Slot { place, motion, cell, rows: Rows::new(), is_done: false });
+            queues.add(&format!("{} {}", at[0], place.integrator()), Job::new(rank, What::Cell(index)));
+            let came = Mutex::new((place.blank(), Rows::new()));
+            cells.push(Slot { place, motion, came });
         }
-        let mut cells: Vec<usize> = (0..map.len()).collect();
-        let distance = |index: &usize| map.eccentricity(map.place(*index));
-        cells.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
-        let mut is_listed = vec![false; work.motions.len()];
-        for index in cells {
-            let motion = work.cells[index].motion.filter(|motion| !std::mem::replace(&mut is_listed[*motion], true));
-            work.order.extend(motion.map(Job::Motion));
-            work.order.push(Job::Cell(index));
-        }
-        work
+        Work { cells, motions, queues: Mutex::new(queues) }
     }
 
-    fn run(&mut self, subject: &Subject, limits: Limits, threads: usize, progress: &(impl Fn() + Sync)) {
-        let mut share = Duration::ZERO;
+    /// Works at what comes next until all is done or the time is over.
+    fn run(&self, subject: &Subject, limits: Limits, progress: &(impl Fn() + Sync)) {
         loop {
-            let pending: Vec<Job> = self.order.iter().copied().filter(|job| self.is_pending(*job)).collect();
-            let left = limits.end.saturating_duration_since(Instant::now());
-            if pending.is_empty() || left.is_zero() {
-                return;
-            }
-            let half = left.mul_f64(0.5 * threads as f64 / pending.len() as f64);
-            share = half.max(2 * share).min(left).min(limits.cell);
-            let is_last = share == limits.cell;
-            for came in self.round(&pending, subject, limits, share) {
-                self.take(came, is_last, progress);
-            }
-        }
-    }
-
-    fn is_pending(&self, job: Job) -> bool {
-        match job {
-            Job::Motion(index) => matches!(self.motions[index].1, Search::Pending),
-            Job::Cell(index) => !self.cells[index].is_done,
-        }
-    }
-
-    /// Runs what is pending in order, each for its share; what the end comes before is not begun.
-    fn round(&self, pending: &[Job], subject: &Subject, limits: Limits, share: Duration) -> Vec<Came> {
-        let one = |job: &Job| {
-            let came = || match *job {
-                Job::Motion(index) => {
-                    let allowed = if share == limits.cell { REFERENCE * share } else { share };
-                    Came::Motion(index, Search::run(subject, &self.motions[index].0, allowed, limits.end))
-                }
-                Job::Cell(index) => Came::Cell(index, Box::new(self.cells[index].place.run(subject, limits, share))),
+            let next = locked(&self.queues).take(limits.cell);
+            let Some((queue, job)) = next.filter(|_| Instant::now() < limits.end) else { return };
+            let clock = Instant::now();
+            let part = match job.what {
+                What::Motion(index) => self.search(subject, &self.motions[index], job, limits),
+                What::Cell(index) => self.simulate(subject, &self.cells[index], job, limits),
             };
-            (Instant::now() < limits.end).then(came)
-        };
-        pending.iter().par_bridge().filter_map(one).collect()
+            if part.is_none() && matches!(job.what, What::Cell(_)) {
+                progress();
+            }
+            let again = part.map(|part| job.again(part, limits.cell));
+            locked(&self.queues).give_back((queue, job), limits.cell, clock.elapsed(), again);
+        }
     }
 
-    fn take(&mut self, came: Came, is_last: bool, progress: &impl Fn()) {
-        match came {
-            Came::Motion(index, Search::Pending) if is_last => self.motions[index].1 = Search::Hopeless,
-            Came::Motion(index, search) => self.motions[index].1 = search,
-            Came::Cell(index, came) => {
-                let slot = &mut self.cells[index];
-                (slot.cell, slot.rows) = *came;
-                slot.is_done = slot.cell.status != Status::LeftOut;
-                if slot.is_done {
-                    progress();
-                }
-            }
-        }
+    /// Runs a cell; the part of it that came through if it was cut short.
+    fn simulate(&self, subject: &Subject, slot: &Slot, job: Job, limits: Limits) -> Option<f64> {
+        let (cell, rows, part) = slot.place.run(subject, limits, job.share(limits.cell));
+        let is_cut = cell.status == Status::LeftOut;
+        *locked(&slot.came) = (cell, rows);
+        is_cut.then_some(part)
+    }
+
+    /// Looks for a reference; 1 if that was cut short.
+    fn search(
+        &self,
+        subject: &Subject,
+        (case, found): &(Case, Mutex<Search>),
+        job: Job,
+        limits: Limits,
+    ) -> Option<f64> {
+        let share = job.share(limits.cell);
+        let is_last = share == limits.cell;
+        let search = Search::run(subject, case, if is_last { REFERENCE * share } else { share }, limits);
+        let is_cut = matches!(search, Search::Pending) && !is_last;
+        *locked(found) = search;
+        is_cut.then_some(1.0)
     }
 
     fn finish(self, map: Map) -> Stressed {
-        let reference = |motion: Option<usize>| match self.motions.get(motion?)? {
-            (_, Search::Found(reference)) => Some(reference),
+        let found = |(_, search): (Case, Mutex<Search>)| match into_inner(search) {
+            Search::Found(reference) => Some(reference),
             _ => None,
         };
-        let names = |motion| reference(motion).map_or(&[][..], |reference| &reference.names);
-        let judged = |slot: &Slot| {
-            let is_completed = slot.cell.status == Status::Completed;
-            let errors = reference(slot.motion).filter(|_| is_completed).map(|reference| reference.errors(&slot.rows));
-            slot.cell.clone().judged(names(slot.motion), errors.unwrap_or_default())
+        let references: Vec<Option<Reference>> = self.motions.into_iter().map(found).collect();
+        let judged = |slot: Slot| {
+            let (cell, rows) = into_inner(slot.came);
+            let reference = slot.motion.and_then(|motion| references[motion].as_ref());
+            match reference.filter(|_| cell.status == Status::Completed) {
+                Some(reference) => cell.judged(&reference.names, reference.errors(&rows)),
+                None => cell.judged(&[], Vec::new()),
+            }
         };
-        let watched = (0..self.motions.len()).map(|motion| names(Some(motion))).find(|names| !names.is_empty());
-        Stressed { watched: watched.unwrap_or_default().to_vec(), cells: self.cells.iter().map(judged).collect(), map }
+        let cells = self.cells.into_iter().map(judged).collect();
+        let watched = references.iter().flatten().next().map_or(Vec::new(), |reference| reference.names.clone());
+        Stressed { map, watched, cells }
     }
+}
+
+/// What a mutex guards; a thread that ended badly left it whole.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn into_inner<T>(mutex: Mutex<T>) -> T {
+    mutex.into_inner().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// The case without what does not change its motion.
