@@ -96,7 +96,7 @@ fn what_completes_need_not_be_right() {
         let off = whole.cells.iter().find(|cell| cell.row == manifold && cell.holds == Some(false)).unwrap();
         assert!(off.status == Status::Completed && off.error.unwrap() > OFF && off.worst.is_some(), "{off:?}");
         for sentence in sentences(&whole) {
-            assert!(sentence.contains(&format!("manifold holds until h = 0.002 (error ")), "{sentence}");
+            assert!(sentence.contains("manifold holds until h = 0.002 (error "), "{sentence}");
             assert!(sentence.contains(&format!(", at {step} it completes with outputs ")), "{sentence}");
         }
         // Neither outputs nor energy are far off where a cell holds.

@@ -37,7 +37,7 @@ fn span(values: impl Iterator<Item = f64> + Clone) -> Option<String> {
 fn gain(verdict: &GainVerdict) -> String {
     let GainVerdict { method, quantity, steps, left_out, too_slow, .. } = verdict;
     let held = [("manifold", (|step| &step.manifold) as Run), ("the integrator alone", |step| &step.none)];
-    let held = held.map(|(name, level)| holds(name, steps, level)).join(", ");
+    let held = held.map(|(name, level)| holds(name, steps, level)).join("; ");
     let unknown: Vec<String> = [(*left_out, Status::LeftOut), (*too_slow, Status::TooSlow)]
         .into_iter()
         .filter(|(count, _)| *count > 0)
@@ -137,7 +137,7 @@ fn holds(name: &str, steps: &[StepVerdict], level: Run) -> String {
         _ if ended.is_empty() => "was not run to an end".to_string(),
         Some([.., (step, _)]) => {
             let error = ended[..held].iter().filter_map(|(_, level)| level.error).fold(0.0, f64::max);
-            format!("holds until h = {} (error {})", short(*step), two(error))
+            format!("holds until h = {} (error {})", short(*step), percent(error))
         }
         _ => format!("holds at none of the {} steps that came to an end", ended.len()),
     };
@@ -145,14 +145,22 @@ fn holds(name: &str, steps: &[StepVerdict], level: Run) -> String {
     format!("{name} {until}{then}")
 }
 
+/// A part of its size, for a person.
+fn percent(part: f64) -> String {
+    format!("{} %", two(100.0 * part))
+}
+
 /// What is the matter with a simulation that does not hold.
 fn what(level: &Level) -> String {
-    let off =
-        |part: f64| if part < 10.0 { format!("{:.0} %", 100.0 * part) } else { format!("{part:.0e} times its size") };
     match (level.status, level.error, level.energy) {
-        (Status::Completed, Some(error), _) if error > OFF => format!("it completes with outputs {} off", off(error)),
-        (Status::Completed, _, Some(energy)) if energy > OFF => format!("it completes with energy {} off", off(energy)),
+        (Status::Completed, Some(error), _) if error > OFF => {
+            format!("it completes with outputs {} off", percent(error))
+        }
+        (Status::Completed, _, Some(energy)) if energy > OFF => {
+            format!("it completes with energy {} off", percent(energy))
+        }
         (Status::Completed, ..) => "it completes, with an error that is not known".to_string(),
+        (Status::Refused, ..) => "it is refused".to_string(),
         (status, ..) => format!("it has {}", status.word()),
     }
 }
