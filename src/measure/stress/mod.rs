@@ -17,10 +17,10 @@ mod gains;
 mod json;
 mod map;
 mod maps;
-mod place;
 mod queue;
 mod reference;
 mod run;
+mod simulation;
 mod subject;
 mod verdict;
 

@@ -1,16 +1,15 @@
 //! All cells of a map, in parallel, each under its deadline.
 
-use super::case::Case;
 use super::cell::{Cell, Status};
 use super::deadline::Limits;
 use super::map::Map;
-use super::place::Place;
 use super::queue::{Job, Queues, What};
 use super::reference::{Reference, Rows, Search};
+use super::simulation::{blank, run};
 use super::subject::Subject;
 use crate::math::memory::at_once;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Memory of a cell, over what the process took at most until now, which has run the subject once: implicit methods take
 /// more.
@@ -47,7 +46,7 @@ pub fn stress(subject: &Subject, map: Map, limits: Limits, progress: &(impl Fn()
     // Cells are what runs in parallel: matrices on other threads would wait for them.
     faer::set_global_parallelism(faer::Par::Seq);
     let work = Work::new(subject, &map);
-    let one = || work.run(subject, limits, progress);
+    let one = || work.run(subject, &map, limits, progress);
     let threads = at_once(MEMORY).min(rayon::current_num_threads());
     match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
         Ok(pool) => drop(pool.broadcast(|_| one())),
@@ -59,14 +58,15 @@ pub fn stress(subject: &Subject, map: Map, limits: Limits, progress: &(impl Fn()
 /// What is to be run, and what came of it.
 struct Work {
     cells: Vec<Slot>,
-    motions: Vec<(Case, Mutex<Search>)>,
+    /// The place of one of its cells, and the reference.
+    motions: Vec<([usize; 3], Mutex<Search>)>,
     queues: Mutex<Queues>,
 }
 
 /// A cell and what is known of it.
 struct Slot {
-    place: Place,
-    motion: Option<usize>,
+    at: [usize; 3],
+    motion: usize,
     came: Mutex<(Cell, Rows)>,
 }
 
@@ -81,32 +81,41 @@ impl Work {
         let mut known: Vec<[Option<usize>; 3]> = Vec::new();
         for (index, rank) in ranks.into_iter().enumerate() {
             let at = map.place(index);
-            let place = Place::of(subject, map, at);
-            let motion = place.is_possible().then(|| {
-                let key = map.motion(at);
-                known.iter().position(|other| *other == key).unwrap_or_else(|| {
-                    queues.add("", Job::new(rank, What::Motion(known.len())));
-                    known.push(key);
-                    motions.push((motion(subject, map, at), Mutex::new(Search::Pending)));
-                    known.len() - 1
-                })
+            let key = map.motion(at);
+            let motion = known.iter().position(|other| *other == key).unwrap_or_else(|| {
+                queues.add("", Job::new(rank, What::Motion(known.len())));
+                known.push(key);
+                motions.push((at, Mutex::new(Search::Pending)));
+                known.len() - 1
             });
-            queues.add(&format!("{} {}", at[0], place.integrator()), Job::new(rank, What::Cell(index)));
-            let came = Mutex::new((place.blank(), Rows::new()));
-            cells.push(Slot { place, motion, came });
+            let blank = blank(subject, map, at);
+            queues.add(&format!("{} {}", at[0], blank.method.integrator), Job::new(rank, What::Cell(index)));
+            cells.push(Slot { at, motion, came: Mutex::new((blank, Rows::new())) });
         }
         Work { cells, motions, queues: Mutex::new(queues) }
     }
 
     /// Works at what comes next until all is done or the time is over.
-    fn run(&self, subject: &Subject, limits: Limits, progress: &(impl Fn() + Sync)) {
+    fn run(&self, subject: &Subject, map: &Map, limits: Limits, progress: &(impl Fn() + Sync)) {
         loop {
             let next = locked(&self.queues).take(limits.cell);
             let Some((queue, job)) = next.filter(|_| Instant::now() < limits.end) else { return };
             let clock = Instant::now();
+            let share = job.share(limits.cell);
             let part = match job.what {
-                What::Motion(index) => self.search(subject, &self.motions[index], job, limits),
-                What::Cell(index) => self.simulate(subject, &self.cells[index], job, limits),
+                What::Motion(index) => {
+                    let (at, found) = &self.motions[index];
+                    let (search, is_cut) = search(subject, map, *at, (limits, share));
+                    *locked(found) = search;
+                    is_cut.then_some(1.0)
+                }
+                What::Cell(index) => {
+                    let slot = &self.cells[index];
+                    let (cell, rows, part) = run(subject, map, slot.at, (limits, share));
+                    let is_cut = cell.status == Status::LeftOut;
+                    *locked(&slot.came) = (cell, rows);
+                    is_cut.then_some(part)
+                }
             };
             if part.is_none() && matches!(job.what, What::Cell(_)) {
                 progress();
@@ -116,39 +125,15 @@ impl Work {
         }
     }
 
-    /// Runs a cell; the part of it that came through if it was cut short.
-    fn simulate(&self, subject: &Subject, slot: &Slot, job: Job, limits: Limits) -> Option<f64> {
-        let (cell, rows, part) = slot.place.run(subject, limits, job.share(limits.cell));
-        let is_cut = cell.status == Status::LeftOut;
-        *locked(&slot.came) = (cell, rows);
-        is_cut.then_some(part)
-    }
-
-    /// Looks for a reference; 1 if that was cut short.
-    fn search(
-        &self,
-        subject: &Subject,
-        (case, found): &(Case, Mutex<Search>),
-        job: Job,
-        limits: Limits,
-    ) -> Option<f64> {
-        let share = job.share(limits.cell);
-        let is_last = share == limits.cell;
-        let search = Search::run(subject, case, if is_last { REFERENCE * share } else { share }, limits);
-        let is_cut = matches!(search, Search::Pending) && !is_last;
-        *locked(found) = search;
-        is_cut.then_some(1.0)
-    }
-
     fn finish(self, map: Map) -> Stressed {
-        let found = |(_, search): (Case, Mutex<Search>)| match into_inner(search) {
+        let found = |(_, search): ([usize; 3], Mutex<Search>)| match into_inner(search) {
             Search::Found(reference) => Some(reference),
             _ => None,
         };
         let references: Vec<Option<Reference>> = self.motions.into_iter().map(found).collect();
         let judged = |slot: Slot| {
             let (cell, rows) = into_inner(slot.came);
-            let reference = slot.motion.and_then(|motion| references[motion].as_ref());
+            let reference = references[slot.motion].as_ref();
             match reference.filter(|_| cell.status == Status::Completed) {
                 Some(reference) => cell.judged(&reference.names, reference.errors(&rows)),
                 None => cell.judged(&[], Vec::new()),
@@ -169,12 +154,15 @@ fn into_inner<T>(mutex: Mutex<T>) -> T {
     mutex.into_inner().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The case without what does not change its motion.
-fn motion(subject: &Subject, map: &Map, at: [usize; 3]) -> Case {
+/// Looks for the reference of a place; whether it was cut short.
+fn search(subject: &Subject, map: &Map, at: [usize; 3], (limits, share): (Limits, Duration)) -> (Search, bool) {
     let mut case = subject.base.clone();
-    for change in map.changes(at).filter(|change| !change.keeps_motion()) {
-        // It was made before without an error.
-        let _ = change.apply(&mut case);
+    let mut changes = map.changes(at).filter(|change| !change.keeps_motion());
+    if changes.try_for_each(|change| change.apply(&mut case)).is_err() {
+        return (Search::Hopeless, false);
     }
-    case
+    let is_last = share == limits.cell;
+    let search = Search::run(subject, &case, if is_last { REFERENCE * share } else { share }, limits);
+    let is_cut = matches!(search, Search::Pending) && !is_last;
+    (search, is_cut)
 }

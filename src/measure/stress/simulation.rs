@@ -1,4 +1,4 @@
-//! A cell before and while it is run.
+//! One simulation.
 
 use super::case::Case;
 use super::cell::{Cell, Status};
@@ -10,70 +10,57 @@ use crate::error::{Error, Result, short};
 use crate::formulation::Halt;
 use crate::measure::{Record, Recorder};
 use crate::simulate::{Outcome, Stop, simulate};
+use serde_json::Value;
 use std::cell::Cell as Flag;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// A case with its place in the map.
-pub(super) struct Place {
-    at: [usize; 3],
-    case: Case,
-    /// What was wrong with its changes.
-    refused: Option<Error>,
+/// The cell of which nothing is known. Its scene, of which there would be many, is left aside.
+pub(super) fn blank(subject: &Subject, map: &Map, [panel, row, column]: [usize; 3]) -> Cell {
+    let mut case = Case { scene: Arc::new(Value::Null), ..subject.base.clone() };
+    for change in map.changes([panel, row, column]) {
+        // What changes the scene has no say in the method.
+        let _ = change.apply(&mut case);
+    }
+    Cell {
+        panel,
+        column,
+        row,
+        method: case.method,
+        status: Status::LeftOut,
+        reason: Some("not begun: the budget was over".to_string()),
+        t: 0.0,
+        drift: None,
+        energy_error: None,
+        relative_energy_error: None,
+        error: None,
+        worst: None,
+        errors: Vec::new(),
+        holds: None,
+        steps: 0,
+        rhs_evaluations: 0,
+        seconds: 0.0,
+    }
 }
 
-impl Place {
-    pub fn of(subject: &Subject, map: &Map, at: [usize; 3]) -> Self {
-        let mut case = subject.base.clone();
-        let refused = map.changes(at).try_for_each(|change| change.apply(&mut case)).err();
-        Place { at, case, refused }
-    }
-
-    pub fn is_possible(&self) -> bool {
-        self.refused.is_none()
-    }
-
-    pub fn integrator(&self) -> &str {
-        &self.case.method.integrator.name
-    }
-
-    /// The cell of which nothing is known.
-    pub fn blank(&self) -> Cell {
-        let [panel, row, column] = self.at;
-        Cell {
-            panel,
-            column,
-            row,
-            method: self.case.method.clone(),
-            status: Status::LeftOut,
-            reason: Some("not begun: the budget was over".to_string()),
-            t: 0.0,
-            drift: None,
-            energy_error: None,
-            relative_energy_error: None,
-            error: None,
-            worst: None,
-            errors: Vec::new(),
-            holds: None,
-            steps: 0,
-            rhs_evaluations: 0,
-            seconds: 0.0,
-        }
-    }
-
-    /// Runs it for its share of the time: with the rows that tell its errors, and the part of the motion that came through.
-    pub fn run(&self, subject: &Subject, limits: Limits, share: Duration) -> (Cell, Rows, f64) {
-        let clock = Instant::now();
-        let run = match &self.refused {
-            Some(error) => Err(message(error)),
-            None => run(subject, &self.case, limits, share).map_err(|error| message(&error)),
-        };
-        let blank = Cell { seconds: clock.elapsed().as_secs_f64(), reason: None, ..self.blank() };
-        match run {
-            Err(reason) => (Cell { status: Status::Refused, reason: Some(reason), ..blank }, Rows::new(), 1.0),
-            Ok(run) => {
-                let (rows, part) = (watched(&run.record), run.part);
-                (run.cell(blank), rows, part)
-            }
+/// Runs a cell for its share of the time: with the rows that tell its errors, and the part of the motion that came through.
+pub(super) fn run(
+    subject: &Subject,
+    map: &Map,
+    at: [usize; 3],
+    (limits, share): (Limits, Duration),
+) -> (Cell, Rows, f64) {
+    let clock = Instant::now();
+    let mut case = subject.base.clone();
+    let changed = map.changes(at).try_for_each(|change| change.apply(&mut case));
+    let run = changed.and_then(|()| simulated(subject, &case, limits, share));
+    let seconds = clock.elapsed().as_secs_f64();
+    let blank = Cell { seconds, reason: None, method: case.method, ..blank(subject, map, at) };
+    match run {
+        Err(error) => (Cell { status: Status::Refused, reason: Some(message(&error)), ..blank }, Rows::new(), 1.0),
+        Ok(run) => {
+            let (rows, part) = (watched(&run.record), run.part);
+            (run.cell(blank), rows, part)
         }
     }
 }
@@ -91,7 +78,7 @@ struct Run {
     part: f64,
 }
 
-fn run(subject: &Subject, case: &Case, limits: Limits, share: Duration) -> Result<Run> {
+fn simulated(subject: &Subject, case: &Case, limits: Limits, share: Duration) -> Result<Run> {
     subject.with(case, |system, span, start| {
         let (deadline, stopped) = (Deadline::new(share, limits), Flag::new(None));
         let stop = || {
