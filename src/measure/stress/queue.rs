@@ -37,7 +37,8 @@ impl Job {
     /// The next attempt, without those that come to nothing even if the motion goes on [`GROWTH`] times as fast as the part
     /// did that came through.
     pub fn again(self, part: f64, limit: Duration) -> Self {
-        let wanted = self.share(limit).div_f64(part.max(1e-6).min(1.0)).min(limit) / GROWTH;
+        let part = if part > 1e-6 { part.min(1.0) } else { 1e-6 };
+        let wanted = self.share(limit).div_f64(part).min(limit) / GROWTH;
         let mut next = Job { level: self.level + 1, ..self };
         while next.share(limit) < wanted {
             next.level += 1;
