@@ -6,7 +6,8 @@ use common::equations::robot_arm::{RobotArm, START};
 use common::{fixed, until};
 use holonom::choice::Choice;
 use holonom::measure::stress::{
-    Axis, Cell, Change, Entry, Extreme, Limits, Map, Quantity, Status, Stressed, Subject, find, maps, pair, stress,
+    Axis, Cell, Change, Entry, Extreme, Level, Limits, Map, Quantity, Status, StepVerdict, Stressed, Subject, find,
+    maps, pair, stress,
 };
 use holonom::study::Overrides;
 use std::path::Path;
@@ -89,16 +90,18 @@ fn the_verdict_on_baumgarte_of_the_scene() {
     assert_ne!(best("rk4", Quantity::Position, 0), best("rk4", Quantity::Velocity, 0));
     assert!(best("rk4", Quantity::Position, 0) >= 2.0 * best("rk4", Quantity::Position, 4));
     for verdict in &gains {
-        for step in verdict.steps.iter().filter(|step| step.none.is_some()) {
-            let [best, twice] = [step.best.unwrap().value, step.manifold_twice.unwrap()];
+        for step in verdict.steps.iter().filter(|step| step.none.drift.is_some()) {
+            let [best, twice] = [step.best.unwrap().value, step.manifold_twice.drift.unwrap()];
             assert!(best > 1e3 * twice, "{} {step:?}", verdict.method);
             // The pair (2/h, 1/h^2), which needs no search, amplifies truncation errors.
-            let is_far = step.own_gains.is_none_or(|own| own > 3.0 * best);
+            let is_far = step.own_gains.drift.is_none_or(|own| own > 3.0 * best);
             assert!(is_far || verdict.quantity == Quantity::Position, "{} {step:?}", verdict.method);
         }
         // Post-stabilization completes at every step at which the integrator alone does, and at the next one or two.
-        let held = |level: fn(&_) -> Option<f64>| verdict.steps.iter().take_while(|step| level(step).is_some()).count();
-        let (alone, once, twice) = (held(|s| s.none), held(|s| s.manifold), held(|s| s.manifold_twice));
+        let held = |level: fn(&StepVerdict) -> &Level| {
+            verdict.steps.iter().take_while(|step| level(step).drift.is_some()).count()
+        };
+        let (alone, once, twice) = (held(|s| &s.none), held(|s| &s.manifold), held(|s| &s.manifold_twice));
         assert!(once > alone && twice > alone && alone > 2, "{alone} {once} {twice}");
     }
 }

@@ -16,6 +16,7 @@ use crate::system::Dimensions;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// The scene and how to solve it.
 #[derive(Args)]
@@ -140,6 +141,21 @@ pub fn number(text: &str) -> Result<f64, String> {
 
 pub fn positive(text: &str) -> Result<f64, String> {
     number(text).and_then(|value| if value > 0.0 { Ok(value) } else { Err("it must be above zero".to_string()) })
+}
+
+/// A time with its unit, s where it has none.
+pub fn duration(text: &str) -> Result<Duration, String> {
+    let split = text.find(|c: char| c.is_alphabetic()).unwrap_or(text.len());
+    let (value, unit) = text.split_at(split);
+    let unit = match unit.trim() {
+        "" | "s" => 1.0,
+        "ms" => 1e-3,
+        "min" | "m" => 60.0,
+        "h" => 3600.0,
+        other => return Err(format!("`{other}` is no unit of time; write 60s, 5min or 1h")),
+    };
+    let seconds = unit * positive(value)?;
+    Duration::try_from_secs_f64(seconds).map_err(|_| "that is too long".to_string())
 }
 
 pub fn assignment(text: &str) -> Result<(String, Number), String> {

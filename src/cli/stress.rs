@@ -1,6 +1,6 @@
 //! `holonom stress SCENE`
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, assignment, pick, positive, print};
+use super::common::{MethodOptions, Output, SceneOptions, Talk, assignment, duration, pick, print};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use crate::measure::stress::{Axis, Limits, Map, Quantity, Stressed, Subject, known, maps, pair, registry, stress};
@@ -30,12 +30,13 @@ pub struct Args {
     /// What the figures show: position, velocity, final_position, energy, error or seconds
     #[arg(long, value_name = "QUANTITY")]
     show: Option<String>,
-    /// Time of each simulation, s
-    #[arg(long, value_name = "SECONDS", default_value_t = 1.0, value_parser = positive)]
-    limit: f64,
-    /// Time of all simulations of a scene, s; what has no time left is left out, and said so (default: 60, with --all 20)
-    #[arg(long, value_name = "SECONDS", value_parser = positive)]
-    budget: Option<f64>,
+    /// CPU time of each simulation, such as 1s or 500ms
+    #[arg(long, value_name = "TIME", default_value = "1s", value_parser = duration, allow_hyphen_values = true)]
+    limit: Duration,
+    /// Time for all of a scene, such as 20s or 5min; what has no time left is left out, and said so (default: 60s, with
+    /// --all 20s)
+    #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true)]
+    budget: Option<Duration>,
     /// Every scene of a folder, and one report
     #[arg(long)]
     all: bool,
@@ -60,9 +61,10 @@ pub fn run(args: Args) -> Result<ExitCode> {
 }
 
 fn run_one(args: &Args, path: &Path) -> Result<ExitCode> {
+    let begin = Instant::now();
     let (subject, maps) = prepare(args, path)?;
     let mut folder = args.output.folder(&subject.name)?;
-    let (file, stressed) = simulate(args, &subject, maps);
+    let (file, stressed) = simulate(args, &subject, maps, begin);
     write(args, &mut folder, std::slice::from_ref(&file), &[], |_, map| format!("stress-{map}"), &stressed)?;
     args.talk.print(&file, || text(&file, &stressed))?;
     tell_folder(args, folder)?;
@@ -74,10 +76,11 @@ fn run_all(args: &Args, path: &Path) -> Result<ExitCode> {
     let mut folder = args.output.folder("stress")?;
     let (mut files, mut unread, mut all) = (Vec::new(), Vec::new(), Vec::new());
     for scene in scenes {
+        let begin = Instant::now();
         match prepare(args, &scene) {
             Err(error) => unread.push((scene.display().to_string(), error.to_string())),
             Ok((subject, maps)) => {
-                let (file, stressed) = simulate(args, &subject, maps);
+                let (file, stressed) = simulate(args, &subject, maps, begin);
                 if !args.talk.json && !args.talk.quiet {
                     print(&text(&file, &stressed))?;
                 }
@@ -128,12 +131,19 @@ fn quantity(name: &str) -> Result<Quantity> {
     Ok(Quantity::ALL.into_iter().find(|quantity| quantity.name() == name).unwrap_or(Quantity::Velocity))
 }
 
+impl Args {
+    fn budget(&self) -> Duration {
+        let usual = Duration::from_secs(if self.all { 20 } else { 60 });
+        self.budget.unwrap_or(usual).min(LONGEST)
+    }
+}
+
+/// Longer times are no end that a clock can tell.
+const LONGEST: Duration = Duration::from_secs(1_000_000_000);
+
 /// Simulates the maps, each with its share of the time that is left.
-fn simulate(args: &Args, subject: &Subject, maps: Vec<Map>) -> (StressFile, Vec<Stressed>) {
-    let usual = if args.all { 20.0 } else { 60.0 };
-    let budget = Duration::from_secs_f64(args.budget.unwrap_or(usual).min(1e9));
-    let cell = Duration::from_secs_f64(args.limit.min(1e9));
-    let (begin, count) = (Instant::now(), maps.len());
+fn simulate(args: &Args, subject: &Subject, maps: Vec<Map>, begin: Instant) -> (StressFile, Vec<Stressed>) {
+    let (budget, cell, count) = (args.budget(), args.limit.min(LONGEST), maps.len());
     let bar = args.talk.progress(maps.iter().map(|map| map.len() as u64).sum(), &subject.name);
     let one = |(k, map): (usize, Map)| {
         let left = budget.saturating_sub(begin.elapsed());
@@ -164,7 +174,7 @@ fn write(
 ) -> Result<()> {
     let names = files.iter().flat_map(|file| file.maps.iter().map(move |map| (&file.scene, &map.name)));
     for ((scene, map), stressed) in names.zip(stressed) {
-        args.output.figure(folder, &stem(scene, map), Some(stress_figure(scene, stressed)))?;
+        args.output.figure(folder, &stem(scene, map), stress_figure(scene, stressed))?;
     }
     let figure = |scene: &str, map: &str| Some(format!("{}.{}", stem(scene, map), args.output.figures.extension()?));
     folder.write("stress.md", stress_page(files, unread, figure).as_bytes())?;

@@ -1,6 +1,6 @@
 //! `holonom tradeoff SCENE`
 
-use super::common::{Output, SceneOptions, Talk, assignment, choice, number, positive, print, tell};
+use super::common::{Output, SceneOptions, Talk, assignment, choice, duration, number, print, tell};
 use super::interrupt;
 use crate::choice::Choice;
 use crate::error::{Error, Result};
@@ -71,20 +71,6 @@ pub struct Args {
 
 /// Results so far are written so often.
 const SAVED: Duration = Duration::from_secs(5);
-
-fn duration(text: &str) -> Result<Duration, String> {
-    let split = text.find(|c: char| c.is_alphabetic()).unwrap_or(text.len());
-    let (value, unit) = text.split_at(split);
-    let unit = match unit.trim() {
-        "" | "s" => 1.0,
-        "ms" => 1e-3,
-        "min" | "m" => 60.0,
-        "h" => 3600.0,
-        other => return Err(format!("`{other}` is no unit of time; write 60s, 5min or 1h")),
-    };
-    let seconds = unit * positive(value)?;
-    Duration::try_from_secs_f64(seconds).map_err(|_| "that is too long".to_string())
-}
 
 pub fn run(args: Args) -> Result<ExitCode> {
     let study = args.talk.load(&args.scene.path, &args.overrides())?;

@@ -67,6 +67,7 @@ fn bad_input_is_told() {
         (&["--map", "gain", "--show", "speed"], "there is no quantity `speed`"),
         (&["--x", "step"], "--y"),
         (&["--limit", "0"], "it must be above zero"),
+        (&["--budget", "20 parsecs"], "`parsecs` is no unit of time; write 60s, 5min or 1h"),
         (&["--integrator", "rk"], "there is no integrator `rk`"),
     ] {
         let output = place.run(&[&["stress", "scene.json"], args].concat());
@@ -91,4 +92,48 @@ fn a_folder_of_scenes_gets_one_report() {
     assert!(page.contains("## pendulum") && page.contains("## Not run") && page.contains("bad.json"), "{page}");
     let nothing = place.run(&["stress", "--all", "nowhere"]);
     assert_eq!(nothing.status.code(), Some(2), "{}", err(&nothing));
+}
+
+/// Times have their units, as in `tradeoff`; what no time was left for is no field of grey.
+#[test]
+fn an_empty_map_is_told_in_words() {
+    for (map, of) in [("gain", "was not run to an end"), ("time", "nothing is known: the budget left out all 25 cells")]
+    {
+        let place = Place::new(PENDULUM);
+        let args = ["stress", "scene.json", "--map", map, "--limit", "100ms", "-o", "here"];
+        let text = place.done(&[&args[..], &["--budget", "0.001ms"]].concat());
+        assert!(text.contains(of) && text.contains("there is no figure"), "{text}");
+        assert_eq!(place.files("here"), ["stress.csv", "stress.json", "stress.md"]);
+        assert!(!place.text("here/stress.md").contains("!["));
+        let cells = place.json("here/stress.json")["maps"][0]["cells"].clone();
+        let is_left_out =
+            |cell: &Value| cell["status"] == "left_out" && cell["error"].is_null() && cell["holds"].is_null();
+        assert!(cells.as_array().unwrap().iter().all(is_left_out));
+    }
+}
+
+/// The error of each simulation stands beside its drift.
+#[test]
+fn files_carry_errors() {
+    for (x, y) in [("tolerance=1e-8..1e-4:2:log", "time=0.5..1:2"), ("step=1e-3..1e-2:2", "time=0.5..1:2")] {
+        let place = Place::new(PENDULUM);
+        let method = if x.starts_with("step") { "rk4" } else { "dopri5" };
+        let step: &[&str] = if x.starts_with("step") { &["--step", "0.01"] } else { &[] };
+        let args =
+            ["stress", "scene.json", "--x", x, "--y", y, "--integrator", method, "-o", "here", "--budget", "60s"];
+        place.done(&[&args[..], step].concat());
+        let json = place.json("here/stress.json");
+        for cell in json["maps"][0]["cells"].as_array().unwrap() {
+            let error = cell["error"].as_f64().unwrap();
+            assert!(error > 0.0 && error < 0.1 && cell["holds"] == true && cell["worst"].is_string(), "{cell}");
+        }
+        let table = place.text("here/stress.csv");
+        let headings: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+        let at = |name: &str| headings.iter().position(|heading| *heading == name).unwrap();
+        for line in table.lines().skip(1) {
+            let values: Vec<&str> = line.split(',').collect();
+            assert!(values[at("error")].parse::<f64>().unwrap() < 0.1 && values[at("holds")] == "true", "{line}");
+            assert_eq!(values[at("status")], "completed");
+        }
+    }
 }

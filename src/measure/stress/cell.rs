@@ -17,7 +17,7 @@ pub enum Status {
     Refused,
     /// The deadline of a cell passed.
     TooSlow,
-    /// The time for all cells was over.
+    /// The time for all cells was over: nothing is known of how it ends.
     LeftOut,
 }
 
@@ -33,7 +33,15 @@ impl Status {
             Status::LeftOut => "left out",
         }
     }
+
+    /// Whether the simulation came to an end of its own, good or bad.
+    pub fn is_ended(self) -> bool {
+        !matches!(self, Status::TooSlow | Status::LeftOut)
+    }
 }
+
+/// A motion whose outputs or energy are off by this part is not the one that was asked for.
+pub const OFF: f64 = 0.1;
 
 /// One simulation and what was measured of it.
 #[derive(Clone, Debug, Serialize)]
@@ -52,14 +60,44 @@ pub struct Cell {
     pub drift: Option<Drift>,
     /// max |kinetic + potential - initial - work|, J.
     pub energy_error: Option<f64>,
-    /// The same against the largest kinetic energy.
+    /// The same as part of the energy turned over: see [`EnergyBalance`](crate::measure::EnergyBalance).
     pub relative_energy_error: Option<f64>,
-    /// Largest error of an output against the reference, as a part of the output's largest value; of coordinates where the
-    /// scene names no outputs. None where no reference was computed, or the cell did not complete.
+    /// Largest difference of an output from an accurate run of the same motion, in scales of the output; of coordinates where
+    /// the scene names no outputs. None where no accurate run came through, or the cell did not complete.
     pub error: Option<f64>,
+    /// The output that has it.
+    pub worst: Option<String>,
+    /// The differences of all outputs.
+    #[serde(skip)]
+    pub errors: Vec<f64>,
+    /// Whether it completed with outputs and energy within [`OFF`]. None where that is not known.
+    pub holds: Option<bool>,
     pub steps: u64,
     pub rhs_evaluations: u64,
     pub seconds: f64,
+}
+
+impl Cell {
+    /// The same cell with its errors, and whether it holds.
+    pub(super) fn judged(mut self, names: &[String], errors: Vec<f64>) -> Self {
+        let largest = errors.iter().enumerate().max_by(|a, b| magnitude(*a.1).total_cmp(&magnitude(*b.1)));
+        self.error = largest.map(|(_, error)| *error);
+        self.worst = largest.and_then(|(i, _)| names.get(i).cloned());
+        let within = |part: f64| part <= OFF;
+        let keeps_energy = self.relative_energy_error.is_none_or(within);
+        self.holds = match (self.status, self.error) {
+            (Status::Completed, Some(error)) => Some(keeps_energy && within(error)),
+            (Status::Completed, None) => (!keeps_energy).then_some(false),
+            (status, _) => status.is_ended().then_some(false),
+        };
+        self.errors = errors;
+        self
+    }
+}
+
+/// What is no number is the largest.
+fn magnitude(error: f64) -> f64 {
+    if error.is_nan() { f64::INFINITY } else { error }
 }
 
 /// What a map shows of its cells.
@@ -104,8 +142,8 @@ impl Quantity {
             Quantity::Position => "position drift (m, rad)",
             Quantity::Velocity => "velocity drift (m/s, rad/s)",
             Quantity::FinalPosition => "final position drift (m, rad)",
-            Quantity::Energy => "energy error / kinetic energy",
-            Quantity::Error => "relative error of outputs",
+            Quantity::Energy => "relative energy error",
+            Quantity::Error => "error of outputs / their scale",
             Quantity::Seconds => "computing time (s)",
         }
     }

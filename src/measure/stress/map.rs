@@ -121,10 +121,6 @@ impl Axis {
                 .zip(values.last())
                 .is_some_and(|(first, last)| last / first >= 30.0 || first / last >= 30.0)
     }
-
-    fn keeps_motion(&self) -> bool {
-        self.entries.iter().flat_map(|entry| &entry.changes).all(Change::keeps_motion)
-    }
 }
 
 /// A range as `sweep` reads it, with fewer values where none are said.
@@ -140,11 +136,40 @@ fn range(text: &str, is_log: bool) -> Result<Range> {
     if asks_log || is_log && range.from > 0.0 && range.to > 0.0 { range.log() } else { Ok(range) }
 }
 
+impl Entry {
+    fn keeps_motion(&self) -> bool {
+        self.changes.iter().all(Change::keeps_motion)
+    }
+
+    /// Of a list, the part of the way from its middle, 0, to its ends, 1; what stands beside the numbers is in the middle.
+    fn eccentricity(entries: &[Entry], at: usize) -> f64 {
+        let ends = entries.len().saturating_sub(1).max(1) as f64;
+        entries[at].value.map_or(0.0, |_| (2.0 * at as f64 / ends - 1.0).abs())
+    }
+}
+
 impl Map {
-    /// Whether one reference serves all cells.
-    pub fn keeps_motion(&self) -> bool {
-        let methods = self.methods.iter().flat_map(|entry| &entry.changes);
-        self.x.keeps_motion() && self.y.keeps_motion() && methods.into_iter().all(Change::keeps_motion)
+    /// What the cell of a method, row and column changes, in this order: method, x, y.
+    pub(super) fn changes(&self, [panel, row, column]: [usize; 3]) -> impl Iterator<Item = &Change> {
+        let entries = [&self.methods[panel], &self.x.entries[column], &self.y.entries[row]];
+        entries.into_iter().flat_map(|entry| &entry.changes)
+    }
+
+    /// Tells the motions of cells apart, by the places that have a say in them.
+    pub(super) fn motion(&self, [panel, row, column]: [usize; 3]) -> [Option<usize>; 3] {
+        let entries = [(&self.methods, panel), (&self.y.entries, row), (&self.x.entries, column)];
+        entries.map(|(entries, at)| (!entries[at].keeps_motion()).then_some(at))
+    }
+
+    /// How far a cell is from the middle of the map, where scenes are most themselves.
+    pub(super) fn eccentricity(&self, [_, row, column]: [usize; 3]) -> f64 {
+        Entry::eccentricity(&self.x.entries, column).hypot(Entry::eccentricity(&self.y.entries, row))
+    }
+
+    /// The method, row and column of a cell by its number.
+    pub(super) fn place(&self, index: usize) -> [usize; 3] {
+        let (columns, rows) = (self.x.entries.len(), self.y.entries.len());
+        [index / (rows * columns), index / columns % rows, index % columns]
     }
 
     pub fn len(&self) -> usize {

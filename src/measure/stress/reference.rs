@@ -1,69 +1,139 @@
 //! The motion that errors are measured against.
 
+use super::case::Case;
+use super::deadline::{Deadline, Limits};
 use super::subject::Subject;
 use crate::choice::Choice;
 use crate::measure::{Record, Recorder};
 use crate::simulate::{Method, Stop, simulate};
+use crate::system::{Column, MechanicalSystem};
 use crate::trajectory::Trajectory;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-/// Outputs at the rows of a tight solution.
-pub struct Reference {
-    rows: Vec<Vec<f64>>,
-    /// The largest value of each output.
-    sizes: Vec<f64>,
+/// Rows of the watched quantities: outputs, or coordinates where the scene names none.
+pub(super) type Rows = Vec<Vec<f64>>;
+
+/// The watched quantities along a tight solution.
+pub(super) struct Reference {
+    pub names: Vec<String>,
+    rows: Rows,
+    /// What each is measured by.
+    scales: Vec<f64>,
+}
+
+/// What the search for a reference came to.
+pub(super) enum Search {
+    /// It takes more time.
+    Pending,
+    Found(Reference),
+    /// No method gets there.
+    Hopeless,
 }
 
 const TIGHT: f64 = 1e-13;
+/// An explicit and an implicit method: one of them suits.
+const METHODS: [[&str; 3]; 2] = [["index1", "dop853", "manifold"], ["ggl", "radau_iia", "none"]];
 
-impl Reference {
-    /// The motion of the subject as it is, by `dop853` or, where that does not get there in time, `radau_iia`. None where
-    /// neither does.
-    pub fn of(subject: &Subject, allowed: Duration) -> Option<Self> {
-        let choices = [("index1", "dop853", "manifold"), ("ggl", "radau_iia", "none")];
-        choices.into_iter().find_map(|(formulation, integrator, projection)| {
-            let [formulation, integrator, projection] = [formulation, integrator, projection].map(Choice::named);
+impl Search {
+    /// The motion of the case, by the first method that gets there in the CPU time that each is allowed.
+    pub fn run(subject: &Subject, case: &Case, allowed: Duration, limits: Limits) -> Self {
+        let mut search = Search::Hopeless;
+        for names in METHODS {
+            let [formulation, integrator, projection] = names.map(Choice::named);
             let method = Method { formulation, integrator, projection, rtol: TIGHT, atol: TIGHT, step: None };
-            Self::by(subject, method, allowed)
-        })
-    }
-
-    fn by(subject: &Subject, method: Method, allowed: Duration) -> Option<Self> {
-        let mut case = subject.base.clone();
-        case.method = method;
-        let clock = Instant::now();
-        let stop = || (clock.elapsed() > allowed).then(|| Stop::deadline(allowed));
-        let rows = subject.with(&case, |system, span, start| {
-            let mut recorder = Recorder::new(system).with_stop(stop);
-            let outcome = simulate(system, &case.method, span, start, &mut recorder)?;
-            Ok(outcome.failure.is_none().then(|| watched(&recorder.finish())))
-        });
-        let rows = rows.ok()??;
-        let size = |i: usize| rows.iter().fold(0.0, |size: f64, row| size.max(row[i].abs()));
-        let sizes = (0..rows.first()?.len()).map(size).collect();
-        Some(Reference { rows, sizes })
-    }
-
-    /// The largest error of an output as a part of its largest value; none where rows are missing.
-    pub fn error(&self, record: &Record) -> Option<f64> {
-        let found = watched(record);
-        if found.len() != self.rows.len() {
-            return None;
+            match Self::by(subject, Case { method, ..case.clone() }, allowed, limits) {
+                Search::Hopeless => {}
+                Search::Pending => search = Search::Pending,
+                found => return found,
+            }
         }
-        let error = |(found, exact): (&Vec<f64>, &Vec<f64>)| {
-            let values = found.iter().zip(exact).zip(&self.sizes).filter(|(_, size)| **size > 0.0);
-            values.fold(0.0, |error: f64, ((found, exact), size)| error.max((found - exact).abs() / size))
-        };
-        Some(found.iter().zip(&self.rows).map(error).fold(0.0, f64::max))
+        search
+    }
+
+    fn by(subject: &Subject, case: Case, allowed: Duration, limits: Limits) -> Self {
+        let deadline = Deadline::new(allowed, limits);
+        let found = subject.with(&case, |system, span, start| {
+            let mut recorder = Recorder::new(system).with_stop(|| deadline.is_over().then(|| Stop::deadline(allowed)));
+            let outcome = simulate(system, &case.method, span, start, &mut recorder)?;
+            let record = recorder.finish();
+            Ok(outcome.failure.is_none().then(|| Reference::new(system, &record)))
+        });
+        match found {
+            Ok(Some(reference)) => Search::Found(reference),
+            _ if deadline.is_over() => Search::Pending,
+            _ => Search::Hopeless,
+        }
     }
 }
 
-/// Outputs by row; coordinates where there are none.
-fn watched(record: &Record) -> Vec<Vec<f64>> {
+impl Reference {
+    fn new(system: &dyn MechanicalSystem, record: &Record) -> Self {
+        let rows = watched(record);
+        let columns = match record.trajectory.outputs.is_empty() {
+            true => system.names().q.into_iter().map(|name| Column { name, unit: String::new() }).collect(),
+            false => record.trajectory.outputs.clone(),
+        };
+        let scales = scales(&columns, &rows, record, system);
+        Reference { names: columns.into_iter().map(|column| column.name).collect(), rows, scales }
+    }
+
+    /// The largest difference of each quantity in its scale; infinite where rows are missing.
+    pub fn errors(&self, rows: &Rows) -> Vec<f64> {
+        let error = |i: usize| {
+            let pairs = rows.iter().zip(&self.rows).map(|(found, exact)| (found[i], exact[i]));
+            // Where the output is not defined, there is nothing to compare.
+            let differences = pairs.filter(|pair| pair.1.is_finite()).map(|(found, exact)| (found - exact).abs());
+            differences.fold(0.0, |most: f64, one| if one > most || one.is_nan() { one } else { most }) / self.scales[i]
+        };
+        let is_whole = rows.len() == self.rows.len();
+        (0..self.names.len()).map(|i| if is_whole { error(i) } else { f64::INFINITY }).collect()
+    }
+}
+
+pub(super) fn watched(record: &Record) -> Rows {
     let trajectory: &Trajectory = &record.trajectory;
     let row = |row: &Vec<f64>| match trajectory.outputs.is_empty() {
         true => trajectory.row_state(row).0.to_vec(),
         false => trajectory.row_outputs(row).to_vec(),
     };
     trajectory.rows.iter().map(row).collect()
+}
+
+/// What is smaller than this part of its like is zero by physics: its digits are round-off.
+const ZERO: f64 = 1e-8;
+
+/// Each quantity is measured by its own largest value; one that is zero by physics by the largest of its like. Energies,
+/// whose zero is arbitrary, are measured by the kinetic energy at least.
+fn scales(columns: &[Column], rows: &Rows, record: &Record, system: &dyn MechanicalSystem) -> Vec<f64> {
+    let largest = |i: usize| largest(rows.iter().map(|row| row[i]));
+    let of_unit = |unit: &str| {
+        let same = (0..columns.len()).filter(|i| columns[*i].unit == unit);
+        same.fold(like(unit, record, system), |most, i| most.max(largest(i)))
+    };
+    let kinetic = record.ledger_rows.iter().fold(0.0, |most: f64, row| most.max(row.kinetic));
+    let scale = |i: usize| {
+        let (own, of_unit) = (largest(i), of_unit(&columns[i].unit));
+        match columns[i].unit.as_str() {
+            "J" => own.max(kinetic),
+            _ if own < ZERO * of_unit => of_unit,
+            _ => own,
+        }
+    };
+    (0..columns.len()).map(|i| Some(scale(i)).filter(|scale| *scale > 0.0).unwrap_or(1.0)).collect()
+}
+
+/// What the state itself says of a unit: the scene's size, velocities, multipliers.
+fn like(unit: &str, record: &Record, system: &dyn MechanicalSystem) -> f64 {
+    let trajectory = &record.trajectory;
+    let states = trajectory.rows.iter().map(|row| trajectory.row_state(row));
+    match unit {
+        "m" => largest(system.scales().into_iter()),
+        "m/s" | "rad/s" => largest(states.flat_map(|state| state.1.iter().copied())),
+        "N" | "N m" => largest(states.flat_map(|state| state.2.iter().copied())),
+        _ => 0.0,
+    }
+}
+
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |largest: f64, value| largest.max(value.abs()))
 }

@@ -1,35 +1,27 @@
 //! All cells of a map, in parallel, each under its deadline.
 
-use super::case::Case;
 use super::cell::{Cell, Status};
+use super::deadline::Limits;
 use super::map::Map;
-use super::reference::Reference;
+use super::queue::{Job, Queues, What};
+use super::reference::{Reference, Rows, Search};
+use super::simulation::{blank, run};
 use super::subject::Subject;
-use crate::error::{Error, Result};
-use crate::formulation::Halt;
 use crate::math::memory::at_once;
-use crate::measure::{Record, Recorder};
-use crate::simulate::{Outcome, Stop, simulate};
-use rayon::prelude::*;
-use std::cell::Cell as Flag;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
-
-/// How long cells may take.
-#[derive(Clone, Copy, Debug)]
-pub struct Limits {
-    /// Each of them.
-    pub cell: Duration,
-    /// All of them: what has not begun then is left out, and what runs ends.
-    pub end: Instant,
-}
 
 /// Memory of a cell, over what the process took at most until now, which has run the subject once: implicit methods take
 /// more.
 const MEMORY: f64 = 2.0;
+/// A reference, which serves many cells, may take so many times their limit.
+const REFERENCE: u32 = 3;
 
 /// A map with its cells, by method, then row, then column.
 pub struct Stressed {
     pub map: Map,
+    /// The quantities whose errors the cells tell.
+    pub watched: Vec<String>,
     pub cells: Vec<Cell>,
 }
 
@@ -38,165 +30,139 @@ impl Stressed {
         let (columns, rows) = (self.map.x.entries.len(), self.map.y.entries.len());
         self.cells.get((method * rows + row) * columns + column).filter(|_| column < columns && row < rows)
     }
+
+    /// Whether no cell has a value to show.
+    pub fn is_empty(&self) -> bool {
+        self.cells.iter().all(|cell| self.map.quantity.of(cell).is_none())
+    }
 }
 
-/// Simulates every cell; `progress` hears of each that is done. The cells do not depend on the order in which they are run,
-/// but for deadlines: cheap ones come first, so that dear ones are left out.
+/// Simulates every cell, and every motion of them once more as a reference; `progress` hears of each cell that is done.
+///
+/// What a cell costs is known only when it is run. So each has a short time first, and what does not come through waits until
+/// others have had as much: cheap cells come before dear ones, and of these the middle of the map first. The methods, and the
+/// references beside them, have equal times. Which cells are done depends on deadlines, what they hold does not.
 pub fn stress(subject: &Subject, map: Map, limits: Limits, progress: &(impl Fn() + Sync)) -> Stressed {
-    let reference = map.keeps_motion().then(|| Reference::of(subject, 3 * limits.cell)).flatten();
-    let (columns, rows) = (map.x.entries.len(), map.y.entries.len());
-    let place = |index: usize| [index / (rows * columns), index / columns % rows, index % columns];
-    let mut order: Vec<(usize, f64)> =
-        (0..map.len()).map(|index| (index, Place::of(subject, &map, place(index)).cost())).collect();
-    order.sort_by(|a, b| a.1.total_cmp(&b.1));
-    let one = |(index, _): (usize, f64)| {
-        let cell = Place::of(subject, &map, place(index)).cell(subject, limits, reference.as_ref());
-        progress();
-        (index, cell)
-    };
-    let all = || order.into_iter().par_bridge().map(one).collect();
+    // Cells are what runs in parallel: matrices on other threads would wait for them.
+    faer::set_global_parallelism(faer::Par::Seq);
+    let work = Work::new(subject, &map);
+    let one = || work.run(subject, &map, limits, progress);
     let threads = at_once(MEMORY).min(rayon::current_num_threads());
-    let mut cells: Vec<(usize, Cell)> = match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
-        Ok(pool) => pool.install(all),
-        Err(_) => all(),
-    };
-    cells.sort_by_key(|(index, _)| *index);
-    Stressed { map, cells: cells.into_iter().map(|(_, cell)| cell).collect() }
+    match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+        Ok(pool) => drop(pool.broadcast(|_| one())),
+        Err(_) => one(),
+    }
+    work.finish(map)
 }
 
-/// A cell before it is run.
-struct Place {
+/// What is to be run, and what came of it.
+struct Work {
+    cells: Vec<Slot>,
+    /// The place of one of its cells, and the reference.
+    motions: Vec<([usize; 3], Mutex<Search>)>,
+    queues: Mutex<Queues>,
+}
+
+/// A cell and what is known of it.
+struct Slot {
     at: [usize; 3],
-    case: Case,
-    /// What was wrong with its changes.
-    refused: Option<Error>,
+    motion: usize,
+    came: Mutex<(Cell, Rows)>,
 }
 
-impl Place {
-    fn of(subject: &Subject, map: &Map, at: [usize; 3]) -> Self {
-        let [panel, row, column] = at;
-        let mut case = subject.base.clone();
-        let entries = [&map.methods[panel], &map.x.entries[column], &map.y.entries[row]];
-        let mut changes = entries.into_iter().flat_map(|entry| &entry.changes);
-        let refused = changes.try_for_each(|change| change.apply(&mut case)).err();
-        Place { at, case, refused }
-    }
-
-    /// About how many steps it will take.
-    fn cost(&self) -> f64 {
-        let Case { method, duration, typical, .. } = &self.case;
-        duration / method.step.unwrap_or(typical.step * (method.rtol / 1e-8).powf(1.0 / 8.0))
-    }
-
-    fn cell(self, subject: &Subject, limits: Limits, reference: Option<&Reference>) -> Cell {
-        let Place { at: [panel, row, column], case, refused } = self;
-        let clock = Instant::now();
-        let blank = Cell {
-            panel,
-            column,
-            row,
-            method: case.method.clone(),
-            status: Status::LeftOut,
-            reason: None,
-            t: 0.0,
-            drift: None,
-            energy_error: None,
-            relative_energy_error: None,
-            error: None,
-            steps: 0,
-            rhs_evaluations: 0,
-            seconds: 0.0,
-        };
-        if clock >= limits.end {
-            return blank;
+impl Work {
+    fn new(subject: &Subject, map: &Map) -> Self {
+        let mut order: Vec<usize> = (0..map.len()).collect();
+        let distance = |index: &usize| map.eccentricity(map.place(*index));
+        order.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let mut ranks = vec![0; order.len()];
+        order.into_iter().enumerate().for_each(|(rank, index)| ranks[index] = rank);
+        let (mut cells, mut motions, mut queues) = (Vec::new(), Vec::new(), Queues::default());
+        let mut known: Vec<[Option<usize>; 3]> = Vec::new();
+        for (index, rank) in ranks.into_iter().enumerate() {
+            let at = map.place(index);
+            let key = map.motion(at);
+            let motion = known.iter().position(|other| *other == key).unwrap_or_else(|| {
+                queues.add("", Job::new(rank, What::Motion(known.len())));
+                known.push(key);
+                motions.push((at, Mutex::new(Search::Pending)));
+                known.len() - 1
+            });
+            let blank = blank(subject, map, at);
+            queues.add(&format!("{} {}", at[0], blank.method.integrator), Job::new(rank, What::Cell(index)));
+            cells.push(Slot { at, motion, came: Mutex::new((blank, Rows::new())) });
         }
-        let run = refused.map_or_else(|| run(subject, &case, limits), Err);
-        let seconds = clock.elapsed().as_secs_f64();
-        match run {
-            Err(error) => Cell { status: Status::Refused, reason: Some(message(&error)), seconds, ..blank },
-            Ok(run) => Cell { seconds, ..run.cell(blank, reference) },
-        }
+        Work { cells, motions, queues: Mutex::new(queues) }
     }
-}
 
-/// The first line of an error, which says what is wrong.
-fn message(error: &Error) -> String {
-    error.to_string().lines().next().unwrap_or_default().to_string()
-}
-
-struct Run {
-    outcome: Outcome,
-    record: Record,
-    /// How a run that was stopped from outside is called.
-    stopped: Option<Status>,
-}
-
-fn run(subject: &Subject, case: &Case, limits: Limits) -> Result<Run> {
-    subject.with(case, |system, span, start| {
-        let (begin, stopped) = (Instant::now(), Flag::new(None));
-        let stop = || {
-            let now = Instant::now();
-            let status = match () {
-                () if now.duration_since(begin) > limits.cell => Status::TooSlow,
-                () if now > limits.end => Status::LeftOut,
-                () => return None,
+    /// Works at what comes next until all is done or the time is over.
+    fn run(&self, subject: &Subject, map: &Map, limits: Limits, progress: &(impl Fn() + Sync)) {
+        loop {
+            let next = locked(&self.queues).take(limits.cell);
+            let Some((queue, job)) = next.filter(|_| Instant::now() < limits.end) else { return };
+            let clock = Instant::now();
+            let share = job.share(limits.cell);
+            let part = match job.what {
+                What::Motion(index) => {
+                    let (at, found) = &self.motions[index];
+                    let (search, is_cut) = search(subject, map, *at, (limits, share));
+                    *locked(found) = search;
+                    is_cut.then_some(1.0)
+                }
+                What::Cell(index) => {
+                    let slot = &self.cells[index];
+                    let (cell, rows, part) = run(subject, map, slot.at, (limits, share));
+                    let is_cut = cell.status == Status::LeftOut;
+                    *locked(&slot.came) = (cell, rows);
+                    is_cut.then_some(part)
+                }
             };
-            stopped.set(Some(status));
-            Some(Stop::deadline(limits.cell))
+            if part.is_none() && matches!(job.what, What::Cell(_)) {
+                progress();
+            }
+            let again = part.map(|part| job.again(part, limits.cell));
+            locked(&self.queues).give_back((queue, job), limits.cell, clock.elapsed(), again);
+        }
+    }
+
+    fn finish(self, map: Map) -> Stressed {
+        let found = |(_, search): ([usize; 3], Mutex<Search>)| match into_inner(search) {
+            Search::Found(reference) => Some(reference),
+            _ => None,
         };
-        let mut recorder = Recorder::new(system).with_stop(stop);
-        let outcome = simulate(system, &case.method, span, start, &mut recorder)?;
-        let record = recorder.finish();
-        Ok(Run { outcome, record, stopped: stopped.get() })
-    })
+        let references: Vec<Option<Reference>> = self.motions.into_iter().map(found).collect();
+        let judged = |slot: Slot| {
+            let (cell, rows) = into_inner(slot.came);
+            let reference = references[slot.motion].as_ref();
+            match reference.filter(|_| cell.status == Status::Completed) {
+                Some(reference) => cell.judged(&reference.names, reference.errors(&rows)),
+                None => cell.judged(&[], Vec::new()),
+            }
+        };
+        let cells = self.cells.into_iter().map(judged).collect();
+        let watched = references.iter().flatten().next().map_or(Vec::new(), |reference| reference.names.clone());
+        Stressed { map, watched, cells }
+    }
 }
 
-/// Joints that are open by this part of the scene's size make a motion meaningless.
-const OPEN: f64 = 0.1;
-/// A run that stopped had diverged before if its energy error is this part of the energy turned over.
-const BLOWN: f64 = 0.5;
+/// What a mutex guards; a thread that ended badly left it whole.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
-impl Run {
-    fn cell(self, blank: Cell, reference: Option<&Reference>) -> Cell {
-        let status = self.status();
-        let Run { outcome, record, .. } = self;
-        let reason = match (&outcome.failure, status) {
-            (_, Status::LeftOut) => None,
-            (Some(failure), _) => Some(failure.reason.clone()),
-            (None, Status::Diverged) => {
-                Some(format!("the joints are open by {:.1e} of the scene's size", record.drift.position.relative_max))
-            }
-            (None, _) => None,
-        };
-        Cell {
-            status,
-            reason,
-            t: outcome.t,
-            energy_error: record.energy.map(|energy| energy.max_error),
-            relative_energy_error: record.energy.and_then(|energy| energy.relative_max_error),
-            error: reference.filter(|_| status == Status::Completed).and_then(|reference| reference.error(&record)),
-            drift: Some(record.drift),
-            steps: outcome.statistics.steps,
-            rhs_evaluations: outcome.statistics.rhs_evaluations,
-            ..blank
-        }
-    }
+fn into_inner<T>(mutex: Mutex<T>) -> T {
+    mutex.into_inner().unwrap_or_else(PoisonError::into_inner)
+}
 
-    fn status(&self) -> Status {
-        let open = self.record.drift.position.relative_max;
-        let is_open = open.is_nan() || open > OPEN;
-        let Some(failure) = &self.outcome.failure else {
-            return if is_open { Status::Diverged } else { Status::Completed };
-        };
-        let is_blown = self
-            .record
-            .energy
-            .and_then(|energy| energy.relative_max_error)
-            .is_some_and(|part| part.is_nan() || part > BLOWN);
-        match self.stopped {
-            Some(status) => status,
-            None if is_open || is_blown || failure.reason.contains(&Halt::NotFinite.to_string()) => Status::Diverged,
-            None => Status::Failed,
-        }
+/// Looks for the reference of a place; whether it was cut short.
+fn search(subject: &Subject, map: &Map, at: [usize; 3], (limits, share): (Limits, Duration)) -> (Search, bool) {
+    let mut case = subject.base.clone();
+    let mut changes = map.changes(at).filter(|change| !change.keeps_motion());
+    if changes.try_for_each(|change| change.apply(&mut case)).is_err() {
+        return (Search::Hopeless, false);
     }
+    let is_last = share == limits.cell;
+    let search = Search::run(subject, &case, if is_last { REFERENCE * share } else { share }, limits);
+    let is_cut = matches!(search, Search::Pending) && !is_last;
+    (search, is_cut)
 }

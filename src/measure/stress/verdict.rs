@@ -11,17 +11,22 @@ pub struct Verdict {
     pub method: String,
     pub cells: usize,
     pub completed: usize,
+    /// Of these, how many hold, and how many do not: see [`Cell`]. Of the others it is not known.
+    pub held: usize,
+    pub off: usize,
     /// How many did not complete, by how they ended.
     pub others: Vec<(Status, usize)>,
     /// Least and largest of the map's quantity in completed cells.
     pub range: Option<[f64; 2]>,
-    /// Where all that did not complete lies.
+    /// Least and largest error of completed cells.
+    pub errors: Option<[f64; 2]>,
+    /// Where all that ended badly lies.
     pub bounds: Vec<Bound>,
-    /// Why cells did not complete, how many for the same reason, and where the first of them lies.
+    /// Why cells ended badly or were too slow, how many for the same reason, and where the first of them lies.
     pub reasons: Vec<Reason>,
 }
 
-/// All cells that did not complete lie on this side of an axis.
+/// All cells that ended badly lie on this side of an axis.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Bound {
     pub axis: String,
@@ -55,17 +60,18 @@ impl Stressed {
         let cells: Vec<&Cell> = self.cells.iter().filter(|cell| cell.panel == method).collect();
         let count = |status: Status| cells.iter().filter(|cell| cell.status == status).count();
         let statuses = [Status::Diverged, Status::Failed, Status::Refused, Status::TooSlow, Status::LeftOut];
-        let values = cells.iter().filter_map(|cell| self.map.quantity.of(cell));
-        let range = values.fold(None, |range: Option<[f64; 2]>, value| {
-            Some(range.map_or([value; 2], |[low, high]| [low.min(value), high.max(value)]))
-        });
+        let completed = || cells.iter().filter(|cell| cell.status == Status::Completed);
+        let judged = |holds: bool| completed().filter(|cell| cell.holds == Some(holds)).count();
         let bounds = [bound(&self.map.x, &cells, |cell| cell.column), bound(&self.map.y, &cells, |cell| cell.row)];
         Verdict {
             method: self.map.methods[method].label.clone(),
             cells: cells.len(),
             completed: count(Status::Completed),
+            held: judged(true),
+            off: judged(false),
             others: statuses.into_iter().map(|status| (status, count(status))).filter(|(_, n)| *n > 0).collect(),
-            range,
+            range: range(cells.iter().filter_map(|cell| self.map.quantity.of(cell))),
+            errors: range(completed().filter_map(|cell| cell.error)),
             bounds: bounds.into_iter().flatten().collect(),
             reasons: self.reasons(&cells),
         }
@@ -77,7 +83,7 @@ impl Stressed {
             |reason: &str| reason.chars().filter(|c| !c.is_ascii_digit() && !"+-.e".contains(*c)).collect::<String>();
         let mut found: Vec<Reason> = Vec::new();
         for cell in cells {
-            let Some(reason) = &cell.reason else { continue };
+            let Some(reason) = cell.reason.as_ref().filter(|_| cell.status != Status::LeftOut) else { continue };
             match found.iter_mut().find(|known| known.status == cell.status && kind(&known.reason) == kind(reason)) {
                 Some(known) => known.count += 1,
                 None => found.push(Reason {
@@ -92,6 +98,13 @@ impl Stressed {
         found.sort_by_key(|reason| std::cmp::Reverse(reason.count));
         found
     }
+}
+
+/// Least and largest.
+fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+    values.fold(None, |range, value| {
+        Some(range.map_or([value; 2], |[low, high]: [f64; 2]| [low.min(value), high.max(value)]))
+    })
 }
 
 /// The side of an axis on which all cells lie that ended badly, if there is one and it is not all of the axis.

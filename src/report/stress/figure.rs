@@ -1,6 +1,6 @@
 //! A map as a figure.
 
-use crate::measure::stress::{Axis, Status, Stressed};
+use crate::measure::stress::{Axis, Cell, OFF, Status, Stressed};
 use crate::plot::{AxisSpec, Figure, HeatMap, Panel};
 
 /// Height of a row of cells, in nominal pixels.
@@ -8,8 +8,12 @@ const ROW: f64 = 21.0;
 /// Smaller values have the colour of this one: they are round-off.
 const ROUND_OFF: f64 = 1e-16;
 
-/// One panel a method, one above another, on the same colours; words upon cells that did not complete.
-pub fn stress_figure(scene: &str, stressed: &Stressed) -> Figure {
+/// One panel a method, one above another, on the same colours; words upon cells that did not complete or are far off. None
+/// where there is nothing to colour.
+pub fn stress_figure(scene: &str, stressed: &Stressed) -> Option<Figure> {
+    if stressed.is_empty() {
+        return None;
+    }
     let map = &stressed.map;
     let values: Vec<f64> = stressed.cells.iter().filter_map(|cell| map.quantity.of(cell)).collect();
     let low = values.iter().copied().fold(1.0, f64::min).max(ROUND_OFF);
@@ -17,7 +21,7 @@ pub fn stress_figure(scene: &str, stressed: &Stressed) -> Figure {
     let title = format!("{scene}: {} by {} and {}{}", map.quantity.label(), map.x.name, map.y.name, legend(stressed));
     let title = title.replace('_', " ");
     let panels = (0..map.methods.len()).map(|method| panel(stressed, method, (low, high)));
-    panels.fold(Figure::new().title(title), Figure::panel)
+    Some(panels.fold(Figure::new().title(title), Figure::panel))
 }
 
 fn panel(stressed: &Stressed, method: usize, (low, high): (f64, f64)) -> Panel {
@@ -29,10 +33,8 @@ fn panel(stressed: &Stressed, method: usize, (low, high): (f64, f64)) -> Panel {
     for (row, (from_row, _)) in rows.iter().enumerate() {
         for (column, (from_column, _)) in columns.iter().enumerate() {
             let Some(cell) = stressed.cell(method, *from_row, *from_column) else { continue };
-            match map.quantity.of(cell) {
-                Some(value) => cells.set(column, row, value),
-                None => symbol(cell.status).into_iter().for_each(|symbol| cells.mark(column, row, symbol)),
-            }
+            map.quantity.of(cell).into_iter().for_each(|value| cells.set(column, row, value));
+            symbol(cell).into_iter().for_each(|(symbol, _)| cells.mark(column, row, symbol));
         }
     }
     Panel::new(x, y).title(map.methods[method].label.clone()).heat_map(cells).height(ROW * rows.len().max(4) as f64)
@@ -40,28 +42,26 @@ fn panel(stressed: &Stressed, method: usize, (low, high): (f64, f64)) -> Panel {
 
 /// What the symbols mean that stand upon cells; `slow` speaks for itself.
 fn legend(stressed: &Stressed) -> String {
-    let mut found: Vec<Status> = stressed.cells.iter().map(|cell| cell.status).collect();
-    found.sort();
-    found.dedup();
-    let all: Vec<String> = found
-        .into_iter()
-        .filter(|status| *status != Status::TooSlow)
-        .filter_map(|status| Some((symbol(status)?, status.word())))
-        .map(|(symbol, word)| format!("{symbol}={word}"))
-        .collect();
+    let mut found: Vec<&Cell> = stressed.cells.iter().filter(|cell| cell.status != Status::TooSlow).collect();
+    found.sort_by_key(|cell| cell.status);
+    let mut all: Vec<String> =
+        found.into_iter().filter_map(symbol).map(|(symbol, word)| format!("{symbol}={word}")).collect();
+    all.dedup();
     if all.is_empty() { String::new() } else { format!(" ({})", all.join(", ")) }
 }
 
-/// What stands upon a cell without a value.
-fn symbol(status: Status) -> Option<&'static str> {
-    match status {
-        Status::Completed => None,
-        Status::Diverged => Some("∞"),
-        Status::Failed => Some("×"),
-        Status::Refused => Some("no"),
-        Status::TooSlow => Some("slow"),
-        Status::LeftOut => Some("–"),
-    }
+/// What stands upon a cell, and what it means.
+fn symbol(cell: &Cell) -> Option<(&'static str, String)> {
+    let symbol = match cell.status {
+        Status::Completed if cell.holds == Some(false) => return Some(("!", format!("off by over {} %", 100.0 * OFF))),
+        Status::Completed => return None,
+        Status::Diverged => "∞",
+        Status::Failed => "×",
+        Status::Refused => "no",
+        Status::TooSlow => "slow",
+        Status::LeftOut => "–",
+    };
+    Some((symbol, cell.status.word().to_string()))
 }
 
 /// The entries of an axis in ascending order with where they stand, and the axis.

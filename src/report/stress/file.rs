@@ -28,6 +28,8 @@ pub struct MapFile {
     pub x: AxisFile,
     pub y: AxisFile,
     pub methods: Vec<String>,
+    /// Whether there is nothing to draw.
+    pub is_empty: bool,
     pub words: Vec<String>,
     pub verdicts: Vec<Verdict>,
     pub gains: Vec<GainVerdict>,
@@ -65,6 +67,7 @@ impl From<&Stressed> for MapFile {
             x: AxisFile::from(&map.x),
             y: AxisFile::from(&map.y),
             methods: map.methods.iter().map(|method| method.label.clone()).collect(),
+            is_empty: stressed.is_empty(),
             words: sentences(stressed),
             verdicts: stressed.verdicts(),
             gains: stressed.gains(),
@@ -73,7 +76,7 @@ impl From<&Stressed> for MapFile {
     }
 }
 
-const HEADINGS: [&str; 23] = [
+const HEADINGS: [&str; 26] = [
     "scene",
     "map",
     "x_name",
@@ -94,7 +97,10 @@ const HEADINGS: [&str; 23] = [
     "velocity_drift",
     "final_position_drift",
     "energy_error",
+    "relative_energy_error",
     "error",
+    "worst_output",
+    "holds",
     "steps",
     "seconds",
 ];
@@ -131,7 +137,10 @@ fn row(scene: &str, map: &MapFile, cell: &Cell) -> Vec<String> {
         number(drift.map(|drift| drift.velocity.max)),
         number(drift.map(|drift| drift.position.last)),
         number(cell.energy_error),
+        number(cell.relative_energy_error),
         number(cell.error),
+        cell.worst.clone().unwrap_or_default(),
+        cell.holds.map_or(String::new(), |holds| holds.to_string()),
         cell.steps.to_string(),
         full(cell.seconds),
     ]

@@ -1,16 +1,22 @@
 //! Verdicts in words that a person can act on.
 
 use crate::error::short;
-use crate::measure::stress::{Axis, Best, Bound, GainVerdict, Reason, Side, Status, StepVerdict, Stressed, Verdict};
+use crate::measure::stress::{
+    Axis, Best, Bound, GainVerdict, Level, OFF, Reason, Side, Status, StepVerdict, Stressed, Verdict,
+};
 use crate::report::Table;
 
 /// The verdict on a map: a sentence or two for each method.
 pub fn sentences(stressed: &Stressed) -> Vec<String> {
     let gains = stressed.gains();
-    if gains.is_empty() {
-        return stressed.verdicts().iter().map(|verdict| general(stressed, verdict)).collect();
+    let mut all: Vec<String> = match gains.is_empty() {
+        true => stressed.verdicts().iter().map(|verdict| general(stressed, verdict)).collect(),
+        false => gains.iter().map(gain).collect(),
+    };
+    if stressed.is_empty() {
+        all.push(format!("No cell has a value of {}: there is no figure.", stressed.map.quantity.label()));
     }
-    gains.iter().map(gain).collect()
+    all
 }
 
 fn two(value: f64) -> String {
@@ -21,23 +27,72 @@ fn span(values: impl Iterator<Item = f64> + Clone) -> Option<String> {
     let low = values.clone().fold(f64::INFINITY, f64::min);
     let high = values.fold(f64::NEG_INFINITY, f64::max);
     match low.total_cmp(&high) {
-        std::cmp::Ordering::Less => Some(format!("{low:.1e} to {high:.1e}")),
-        std::cmp::Ordering::Equal => Some(format!("{low:.1e}")),
+        std::cmp::Ordering::Less => Some(format!("{} to {}", two(low), two(high))),
+        std::cmp::Ordering::Equal => Some(two(low)),
         std::cmp::Ordering::Greater => None,
     }
 }
 
-/// Which gain is best where, and what post-stabilization leaves on the same steps.
+/// Which gain is best where, how far off it is, and what post-stabilization leaves on the same steps.
 fn gain(verdict: &GainVerdict) -> String {
-    let GainVerdict { method, quantity, steps, steady } = verdict;
-    let what = format!("{method}, {} drift", quantity.name());
-    let best: Vec<(f64, Best)> = steps.iter().map_while(|step| Some((step.step, step.best?))).collect();
+    let GainVerdict { method, quantity, steps, left_out, too_slow, .. } = verdict;
+    let held = [("manifold", (|step| &step.manifold) as Run), ("the integrator alone", |step| &step.none)];
+    let held = held.map(|(name, level)| holds(name, steps, level)).join("; ");
+    let unknown: Vec<String> = [(*left_out, Status::LeftOut), (*too_slow, Status::TooSlow)]
+        .into_iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, status)| format!("{count} {}", status.word()))
+        .collect();
+    let unknown = if unknown.is_empty() { String::new() } else { format!(" Not known: {}.", unknown.join(", ")) };
+    format!(
+        "{method}, {} drift: {}. Within {} % in outputs and energy, {held}.{unknown}",
+        quantity.name(),
+        best(verdict),
+        100.0 * OFF
+    )
+}
+
+/// What Baumgarte's gains come to, and the methods without gains beside them.
+fn best(verdict: &GainVerdict) -> String {
+    let GainVerdict { steps, left_out, too_slow, .. } = verdict;
+    let is_whole = left_out + too_slow == 0;
+    let best: Vec<(f64, Best)> = steps.iter().filter_map(|step| Some((step.step, step.best?))).collect();
     let (Some((fine, at_fine)), Some((coarse, at_coarse))) = (best.first(), best.last()) else {
-        return format!("{what}: Baumgarte completes with no gain. {}", holds(steps));
+        let ended: usize = steps.iter().map(|step| step.gains_ended).sum();
+        let none = match (ended, is_whole) {
+            (0, _) => "no gain was run to an end".to_string(),
+            (_, true) => "Baumgarte completes with no gain".to_string(),
+            (ended, false) => {
+                format!("Baumgarte completes with none of the {ended} gains and steps that came to an end")
+            }
+        };
+        return format!("{none}; {}", beside(steps));
     };
     let left = span(best.iter().map(|(_, best)| best.value)).unwrap_or_default();
+    let error = span(best.iter().filter_map(|(_, best)| best.error));
+    let error = error.map_or(String::new(), |error| format!(" with an error of {error}"));
     let [at_coarse, coarse, at_fine, fine] = [at_coarse.gain, *coarse, at_fine.gain, *fine].map(short);
-    let even = match steady {
+    let farther = verdict.farther.as_ref().map_or(String::new(), |farther| {
+        let (step, gain, ratio) = (short(farther.step), short(farther.gain), two(farther.ratio));
+        let output = &farther.output;
+        format!(
+            "; at h = {step} the gain that drifts least, {gain} 1/s, is {ratio} times as far off as none in {output}"
+        )
+    });
+    format!(
+        "Baumgarte's best gain goes from {at_coarse} 1/s at h = {coarse} to {at_fine} at h = {fine} and leaves \
+         {left}{error}; {}{farther}. On the same steps {}",
+        even(verdict, is_whole),
+        beside(steps)
+    )
+}
+
+/// A gain that leaves so many times the best is not good.
+const EVEN: f64 = 10.0;
+
+/// How good one gain for all steps is.
+fn even(verdict: &GainVerdict, is_whole: bool) -> String {
+    match verdict.steady {
         Some(steady) if steady.ratio < EVEN => {
             format!("{} 1/s is within a factor of {} of the best at all of them", short(steady.gain), two(steady.ratio))
         }
@@ -46,52 +101,82 @@ fn gain(verdict: &GainVerdict) -> String {
             short(steady.gain),
             two(steady.ratio)
         ),
-        None => "no gain completes at all of them".to_string(),
-    };
-    format!(
-        "{what}: Baumgarte's best gain goes from {at_coarse} 1/s at h = {coarse} to {at_fine} at h = {fine} and leaves {left}; \
-         {even}; {}. {}",
-        beside(steps),
-        holds(steps)
-    )
+        None if is_whole => "no gain completes at all of them".to_string(),
+        None => "no gain is known to complete at all of them".to_string(),
+    }
 }
 
-/// A gain that leaves so many times the best is not good.
-const EVEN: f64 = 10.0;
-
-type Level = fn(&StepVerdict) -> Option<f64>;
+type Run = fn(&StepVerdict) -> &Level;
 
 /// What the methods without gains leave.
 fn beside(steps: &[StepVerdict]) -> String {
-    let methods: [(&str, Level); 3] = [
-        ("(2/h, 1/h²)", |step| step.own_gains),
-        ("manifold", |step| step.manifold),
-        ("manifold twice", |step| step.manifold_twice),
+    let methods: [(&str, Run); 3] = [
+        ("(2/h, 1/h²)", |step| &step.own_gains),
+        ("manifold", |step| &step.manifold),
+        ("manifold twice", |step| &step.manifold_twice),
     ];
-    let left = methods.map(|(name, value)| {
-        let left = span(steps.iter().filter_map(value));
-        left.map_or(format!("{name} completes nowhere"), |left| format!("{name} leaves {left}"))
+    let left = methods.map(|(name, level)| {
+        let left = span(steps.iter().filter_map(|step| level(step).drift));
+        let ended = steps.iter().filter(|step| level(step).status.is_ended()).count();
+        match (left, ended) {
+            (Some(left), _) => format!("{name} leaves {left}"),
+            (None, 0) => format!("{name} was not run to an end"),
+            (None, ended) if ended == steps.len() => format!("{name} completes nowhere"),
+            (None, ended) => format!("{name} completes at none of the {ended} steps that came to an end"),
+        }
     });
     left.join(", ")
 }
 
-/// Up to which step runs complete.
-fn holds(steps: &[StepVerdict]) -> String {
-    let until = |value: Level| {
-        let held = steps.iter().take_while(|step| value(step).is_some()).last();
-        held.map_or("at none of the steps".to_string(), |step| format!("until h = {}", short(step.step)))
+/// Up to which of the steps that came to an end a method is right, how far off it is, and what is the matter then.
+fn holds(name: &str, steps: &[StepVerdict], level: Run) -> String {
+    let ended: Vec<(f64, &Level)> =
+        steps.iter().map(|step| (step.step, level(step))).filter(|(_, level)| level.status.is_ended()).collect();
+    let held = ended.iter().take_while(|(_, level)| level.holds == Some(true)).count();
+    let until = match ended.get(..held) {
+        _ if ended.is_empty() => "was not run to an end".to_string(),
+        Some([.., (step, _)]) => {
+            let error = ended[..held].iter().filter_map(|(_, level)| level.error).fold(0.0, f64::max);
+            format!("holds until h = {} (error {})", short(*step), percent(error))
+        }
+        _ => format!("holds at none of the {} steps that came to an end", ended.len()),
     };
-    format!("manifold holds {}, the integrator alone {}.", until(|step| step.manifold), until(|step| step.none))
+    let then = ended.get(held).map_or(String::new(), |(step, level)| format!(", at {} {}", short(*step), what(level)));
+    format!("{name} {until}{then}")
+}
+
+/// A part of its size, for a person.
+fn percent(part: f64) -> String {
+    format!("{} %", two(100.0 * part))
+}
+
+/// What is the matter with a simulation that does not hold.
+fn what(level: &Level) -> String {
+    match (level.status, level.error, level.energy) {
+        (Status::Completed, Some(error), _) if error > OFF => {
+            format!("it completes with outputs {} off", percent(error))
+        }
+        (Status::Completed, _, Some(energy)) if energy > OFF => {
+            format!("it completes with energy {} off", percent(energy))
+        }
+        (Status::Completed, ..) => "it completes, with an error that is not known".to_string(),
+        (Status::Refused, ..) => "it is refused".to_string(),
+        (status, ..) => format!("it has {}", status.word()),
+    }
 }
 
 /// How many cells completed, what they left, and where and why the others did not.
 fn general(stressed: &Stressed, verdict: &Verdict) -> String {
-    let Verdict { method, cells, completed, others, range, bounds, reasons } = verdict;
+    let Verdict { method, cells, completed, others, range, bounds, reasons, .. } = verdict;
     let name = if method.is_empty() { String::new() } else { format!("{method}: ") };
+    if others == &[(Status::LeftOut, *cells)] {
+        return format!("{name}nothing is known: the budget left out all {cells} cells.");
+    }
     let mut text = format!("{name}{completed} of {cells} cells completed");
     if let Some([low, high]) = range {
-        text += &format!(", {} {low:.1e} to {high:.1e}", stressed.map.quantity.label());
+        text += &format!(", {} {} to {}", stressed.map.quantity.label(), two(*low), two(*high));
     }
+    text += &judged(verdict);
     let counts: Vec<String> = others.iter().map(|(status, count)| format!("{count} {}", status.word())).collect();
     if !counts.is_empty() {
         text += &format!("; {}", counts.join(", "));
@@ -106,6 +191,22 @@ fn general(stressed: &Stressed, verdict: &Verdict) -> String {
         Some(reason) => text + &because(stressed, reason),
         None => text + ".",
     }
+}
+
+/// How far off the completed cells are.
+fn judged(verdict: &Verdict) -> String {
+    let Verdict { completed, held, off, errors, .. } = verdict;
+    let Some([low, high]) = errors else {
+        return if *completed > 0 { "; how far off they are is not known".to_string() } else { String::new() };
+    };
+    let unknown = completed - held - off;
+    let unknown = if unknown > 0 { format!(", {unknown} not known") } else { String::new() };
+    let percent = 100.0 * OFF;
+    format!(
+        "; {held} of them within {percent} % in outputs and energy, {off} not{unknown}, error {} to {}",
+        two(*low),
+        two(*high)
+    )
 }
 
 fn place(stressed: &Stressed, bound: &Bound) -> String {
@@ -130,13 +231,27 @@ fn because(stressed: &Stressed, reason: &Reason) -> String {
 
 /// What each step leaves, by gain and by projection.
 pub fn gain_table(verdict: &GainVerdict) -> Table {
-    let mut table =
-        Table::new(&["h (s)", "none", "best gain (1/s)", "leaves", "(2/h, 1/h²)", "manifold", "manifold × 2"]);
-    let cell = |value: Option<f64>| value.map_or("-".to_string(), |value| format!("{value:.2e}"));
+    let headings =
+        ["h (s)", "none", "best gain (1/s)", "leaves", "error", "(2/h, 1/h²)", "manifold", "error", "manifold × 2"];
+    let mut table = Table::new(&headings);
     for step in &verdict.steps {
-        let best = step.best.map_or("-".to_string(), |best| short(best.gain));
-        let left = [step.best.map(|best| best.value), step.own_gains, step.manifold, step.manifold_twice].map(cell);
-        table.row([short(step.step), cell(step.none), best].into_iter().chain(left));
+        let (gain, value, error) = match &step.best {
+            Some(best) => (short(best.gain), number(best.value), best.error.map_or("-".to_string(), number)),
+            None if step.gains_left_out > 0 => ["left out", "-", "-"].map(String::from).into(),
+            None => ["none", "-", "-"].map(String::from).into(),
+        };
+        let [none, own, once, twice] = [&step.none, &step.own_gains, &step.manifold, &step.manifold_twice].map(shown);
+        let once_error = step.manifold.error.map_or("-".to_string(), number);
+        table.row([short(step.step), none, gain, value, error, own, once, once_error, twice]);
     }
     table
+}
+
+fn number(value: f64) -> String {
+    format!("{value:.2e}")
+}
+
+/// The drift, or how it ended.
+fn shown(level: &Level) -> String {
+    level.drift.map_or(level.status.word().to_string(), number)
 }

@@ -1,0 +1,147 @@
+//! One simulation.
+
+use super::case::Case;
+use super::cell::{Cell, Status};
+use super::deadline::{Deadline, Limits};
+use super::map::Map;
+use super::reference::{Rows, watched};
+use super::subject::Subject;
+use crate::error::{Error, Result, short};
+use crate::formulation::Halt;
+use crate::measure::{Record, Recorder};
+use crate::simulate::{Outcome, Stop, simulate};
+use serde_json::Value;
+use std::cell::Cell as Flag;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// The cell of which nothing is known. Its scene, of which there would be many, is left aside.
+pub(super) fn blank(subject: &Subject, map: &Map, [panel, row, column]: [usize; 3]) -> Cell {
+    let mut case = Case { scene: Arc::new(Value::Null), ..subject.base.clone() };
+    for change in map.changes([panel, row, column]) {
+        // What changes the scene has no say in the method.
+        let _ = change.apply(&mut case);
+    }
+    Cell {
+        panel,
+        column,
+        row,
+        method: case.method,
+        status: Status::LeftOut,
+        reason: Some("not begun: the budget was over".to_string()),
+        t: 0.0,
+        drift: None,
+        energy_error: None,
+        relative_energy_error: None,
+        error: None,
+        worst: None,
+        errors: Vec::new(),
+        holds: None,
+        steps: 0,
+        rhs_evaluations: 0,
+        seconds: 0.0,
+    }
+}
+
+/// Runs a cell for its share of the time: with the rows that tell its errors, and the part of the motion that came through.
+pub(super) fn run(
+    subject: &Subject,
+    map: &Map,
+    at: [usize; 3],
+    (limits, share): (Limits, Duration),
+) -> (Cell, Rows, f64) {
+    let clock = Instant::now();
+    let mut case = subject.base.clone();
+    let changed = map.changes(at).try_for_each(|change| change.apply(&mut case));
+    let run = changed.and_then(|()| simulated(subject, &case, limits, share));
+    let seconds = clock.elapsed().as_secs_f64();
+    let blank = Cell { seconds, reason: None, method: case.method, ..blank(subject, map, at) };
+    match run {
+        Err(error) => (Cell { status: Status::Refused, reason: Some(message(&error)), ..blank }, Rows::new(), 1.0),
+        Ok(run) => {
+            let (rows, part) = (watched(&run.record), run.part);
+            (run.cell(blank), rows, part)
+        }
+    }
+}
+
+/// The first line of an error, which says what is wrong.
+fn message(error: &Error) -> String {
+    error.to_string().lines().next().unwrap_or_default().to_string()
+}
+
+struct Run {
+    outcome: Outcome,
+    record: Record,
+    /// How a run that was stopped from outside is called.
+    stopped: Option<Status>,
+    part: f64,
+}
+
+fn simulated(subject: &Subject, case: &Case, limits: Limits, share: Duration) -> Result<Run> {
+    subject.with(case, |system, span, start| {
+        let (deadline, stopped) = (Deadline::new(share, limits), Flag::new(None));
+        let stop = || {
+            let is_slow = share == limits.cell && deadline.is_used_up();
+            let status = if is_slow { Status::TooSlow } else { Status::LeftOut };
+            (is_slow || deadline.is_over()).then(|| {
+                stopped.set(Some(status));
+                Stop::deadline(limits.cell)
+            })
+        };
+        let mut recorder = Recorder::new(system).with_stop(stop);
+        let outcome = simulate(system, &case.method, span, start, &mut recorder)?;
+        let record = recorder.finish();
+        let part = (outcome.t - span.start) / case.duration;
+        Ok(Run { outcome, record, stopped: stopped.get(), part })
+    })
+}
+
+/// Joints that are open by this part of the scene's size make a motion meaningless.
+const OPEN: f64 = 0.1;
+/// A run that stopped had diverged before if its energy error is this part of the energy turned over.
+const BLOWN: f64 = 0.5;
+
+impl Run {
+    fn cell(self, blank: Cell) -> Cell {
+        let status = self.status();
+        let Run { outcome, record, .. } = self;
+        let reason = match (&outcome.failure, status) {
+            (_, Status::LeftOut) => Some(format!("its share of the budget was over at t = {} s", short(outcome.t))),
+            (Some(failure), _) => Some(failure.reason.clone()),
+            (None, Status::Diverged) => {
+                Some(format!("the joints are open by {:.1e} of the scene's size", record.drift.position.relative_max))
+            }
+            (None, _) => None,
+        };
+        Cell {
+            status,
+            reason,
+            t: outcome.t,
+            energy_error: record.energy.map(|energy| energy.max_error),
+            relative_energy_error: record.energy.and_then(|energy| energy.relative_max_error),
+            drift: Some(record.drift),
+            steps: outcome.statistics.steps,
+            rhs_evaluations: outcome.statistics.rhs_evaluations,
+            ..blank
+        }
+    }
+
+    fn status(&self) -> Status {
+        let open = self.record.drift.position.relative_max;
+        let is_open = open.is_nan() || open > OPEN;
+        let Some(failure) = &self.outcome.failure else {
+            return if is_open { Status::Diverged } else { Status::Completed };
+        };
+        let is_blown = self
+            .record
+            .energy
+            .and_then(|energy| energy.relative_max_error)
+            .is_some_and(|part| part.is_nan() || part > BLOWN);
+        match self.stopped {
+            Some(status) => status,
+            None if is_open || is_blown || failure.reason.contains(&Halt::NotFinite.to_string()) => Status::Diverged,
+            None => Status::Failed,
+        }
+    }
+}
