@@ -44,10 +44,8 @@ fn candidates(rtol: f64, atol: f64) -> [Method; 2] {
 pub fn rival(system: &dyn MechanicalSystem, method: &Method, span: Span, start: (&[f64], &[f64])) -> Option<Contest> {
     let [_, implicit] = candidates(method.rtol, method.atol);
     let store = Store::default();
-    let (mut run, failure) = Run::unseen((system, &store), method, [span.start, span.end], flat(start)).ok()?;
-    if failure.is_some() {
-        return None;
-    }
+    let mut run = Run::unseen((system, &store), method, [span.start, span.end], flat(start)).ok()?;
+    run.begin(&mut Quiet).ok()?;
     let (mark, failure) = run.window(FIRST, &mut Quiet);
     if failure.is_some() {
         return None;
@@ -69,14 +67,29 @@ pub fn advise(
     let methods = candidates(rtol, atol);
     methods[0].check()?;
     let store = Store::default();
-    let (run, failure) = Run::unseen((system, &store), &methods[0], [span.start, span.end], flat(start))?;
+    let mut run = Run::unseen((system, &store), &methods[0], [span.start, span.end], flat(start))?;
+    let mut failure = run.begin(&mut Quiet).err();
     let mut drive = Drive { system, methods: &methods, run, carrier: 0, spent: Statistics::default() };
-    let (mark, stopped) = drive.run.window(FIRST, &mut Quiet);
-    let failure = failure.or(stopped);
-    let (carrier, because) = drive.look(mark, failure.as_ref())?.unwrap_or((0, CALM.to_string()));
-    Ok(Leg { from: span.start, method: methods[carrier].clone(), because })
+    let unseen = Span { output_step: f64::INFINITY, ..span };
+    let (mut chosen, mut because, mut window) = (0, CALM.to_string(), FIRST);
+    while drive.run.t < span.end && window < MOST_ADVICE {
+        let (mark, stopped) = drive.run.window(window, &mut Quiet);
+        failure = failure.or(stopped);
+        let Some(look) = drive.look(mark, failure.as_ref())? else { break };
+        (chosen, because) = look;
+        if failure.is_some() {
+            break;
+        }
+        if chosen != drive.carrier {
+            failure = drive.change(chosen, &store, unseen)?;
+        }
+        window *= 2.0;
+    }
+    Ok(Leg { from: span.start, method: methods[chosen].clone(), because })
 }
 
+/// An advice looks at no more work than this at a time, in evaluations.
+const MOST_ADVICE: f64 = 4e3;
 const CALM: &str = "not stiff: accuracy, not stability, limits explicit steps";
 
 /// Integrates `system` from (q, v), which should be consistent, over `span`, by the method of `first` and others where these
@@ -113,7 +126,7 @@ pub fn simulate_automatic(
         }
         let Some((carrier, because)) = drive.look(mark, failure.as_ref())? else { continue };
         if carrier != drive.carrier {
-            failure = drive.change(carrier, &store, span)?.err();
+            failure = drive.change(carrier, &store, span)?;
             legs.push(Leg { from: drive.run.t, method: methods[carrier].clone(), because });
         }
     }
@@ -151,13 +164,13 @@ impl<'s: 'a, 'a> Drive<'s, 'a> {
     }
 
     /// Hands the motion on to another method.
-    fn change(&mut self, carrier: usize, store: &'a Store<'s>, span: Span) -> Result<std::result::Result<(), Failure>> {
+    fn change(&mut self, carrier: usize, store: &'a Store<'s>, span: Span) -> Result<Option<Failure>> {
         let next = Run::new((self.system, store), &self.methods[carrier], span, self.run.y.clone())?;
         let before = std::mem::replace(&mut self.run, next);
         self.carrier = carrier;
         self.spent = self.spent + before.problem.dynamics.statistics;
         (self.run.t, self.run.rows.next) = (before.t, before.rows.next);
-        Ok(self.run.go_on())
+        Ok(self.run.go_on(&before.problem.dynamics.held).err())
     }
 }
 

@@ -60,18 +60,16 @@ impl Sink for Quiet {
 }
 
 impl<'a> Run<'a> {
-    /// A run without rows, begun.
+    /// A run without rows.
     pub fn unseen<'s: 'a>(
         (system, store): (&'s dyn MechanicalSystem, &'a Store<'s>),
         method: &'a Method,
         [start, end]: [f64; 2],
         y: Vec<f64>,
-    ) -> Result<(Self, Option<Failure>)> {
+    ) -> Result<Self> {
         let mut run = Run::new((system, store), method, Span { start, end, output_step: f64::INFINITY }, y)?;
-        // The only row of the span, its end, counts as shown.
-        run.rows.next = 2;
-        let failure = run.go_on().err();
-        Ok((run, failure))
+        run.rows.next = 1;
+        Ok(run)
     }
 
     pub fn mark(&self) -> Mark {
@@ -133,25 +131,12 @@ impl<'a> Run<'a> {
         let own = self.mark();
         let pace = (own.t - mark.t) / (own.work - mark.work).max(1.0);
         let budget = LEAST.max(SHARE * (own.work - mark.work));
-        let theirs = trial(system, other, (self.t, self.span.end), &self.y, budget)?;
+        let store = Store::default();
+        let mut rival = Run::unseen((system, &store), other, [self.t, self.span.end], self.y.clone())?;
+        let failure = rival.go_on(&self.problem.dynamics.held).err();
+        let (mark, stopped) = if failure.is_none() { rival.window(budget, &mut Quiet) } else { (rival.mark(), failure) };
+        let now = rival.mark();
+        let theirs = if stopped.is_some() { 0.0 } else { (now.t - mark.t) / (now.work - mark.work).max(1.0) };
         Ok(Contest { t: self.t, mode, step, gain: theirs / pace })
     }
-}
-
-/// Seconds for a unit of work in the second half of a trial, whose first steps are short; zero where it fails.
-fn trial(
-    system: &dyn MechanicalSystem,
-    method: &Method,
-    (from, to): (f64, f64),
-    y: &[f64],
-    budget: f64,
-) -> Result<f64> {
-    let store = Store::default();
-    let (mut run, failure) = Run::unseen((system, &store), method, [from, to], y.to_vec())?;
-    if failure.is_some() {
-        return Ok(0.0);
-    }
-    let (mark, failure) = run.window(budget, &mut Quiet);
-    let now = run.mark();
-    Ok(if failure.is_some() { 0.0 } else { (now.t - mark.t) / (now.work - mark.work).max(1.0) })
 }

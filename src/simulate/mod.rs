@@ -218,10 +218,11 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Begins at the state it has, which another run has come to and shown.
-    fn go_on(&mut self) -> Result<(), Failure> {
+    /// Begins at the state it has, which another run has come to and shown, with the rows that it left out.
+    fn go_on(&mut self, held: &[usize]) -> Result<(), Failure> {
         (self.progress, self.divided) = ((self.t, 0), self.t);
         self.begin_form()?;
+        self.hold(held);
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
         self.h = self.first_step().map_err(|halt| self.halted(&halt))?;
         Ok(())

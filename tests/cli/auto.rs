@@ -113,33 +113,3 @@ fn drift_compares_what_the_choice_goes_with() {
     let stiff = Place::new(pair("1e6", "1e3", 0.0)).done(&["drift", "scene.json", "--figures", "none"]);
     assert!(stiff.contains("drift with radau_iia") && stiff.lines().any(|row| row.starts_with("  ggl ")), "{stiff}");
 }
-
-/// The rod of the slider crank swings at the start, and then no more than its method's steps are short for.
-#[test]
-fn the_method_changes_on_the_way() {
-    let text = include_str!("../../models/flexible_slider_crank_modes.json");
-    let place = Place::new(text);
-    let common = ["simulate", "scene.json", "--figures", "none", "--rtol", "1e-6", "--atol", "1e-8", "-o", "here"];
-    let run = |more: &[&str]| place.done(&[&common[..], more].concat());
-    let printed = run(&["--method", "auto"]);
-    assert!(printed.contains(" s on by ggl + radau_iia. stiff. At t = "), "{printed}");
-    let summary = place.json("here/summary.json");
-    let legs = summary["method"]["legs"].as_array().unwrap();
-    let names: Vec<&str> = legs.iter().map(|leg| leg["integrator"].as_str().unwrap()).collect();
-    assert_eq!(names, ["dop853", "radau_iia"], "{legs:?}");
-    assert_eq!(summary["method"]["integrator"], "radau_iia", "that of the longest leg");
-    // Work of forces is carried on through the change, and rows come each once.
-    assert!(summary["energy"]["relative_max_error"].as_f64().unwrap() < 1e-5, "{}", summary["energy"]);
-    let times = |text: String| -> Vec<String> {
-        text.lines().map(|row| row.split(',').next().unwrap_or_default().to_string()).collect()
-    };
-    let rows = times(place.text("here/trajectory.csv"));
-    run(&["--formulation", "index1", "--integrator", "dop853", "--projection", "manifold"]);
-    assert_eq!(rows, times(place.text("here/trajectory.csv")));
-    let other = place.json("here/summary.json");
-    assert_ne!(other["statistics"]["steps"], summary["statistics"]["steps"]);
-    for (name, value) in other["final"]["q"].as_object().unwrap() {
-        let gap = value.as_f64().unwrap() - summary["final"]["q"][name].as_f64().unwrap();
-        assert!(gap.abs() < 1e-4, "{name}: {gap}");
-    }
-}
