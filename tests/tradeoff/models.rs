@@ -8,7 +8,11 @@ use std::time::Duration;
 fn variant(name: &str, set: &[(&str, f64)], until: f64) -> Variant {
     let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
     let overrides = Overrides { set, until: Some(until), ..Overrides::default() };
-    Variant { name: name.to_string(), study: Study::load(&model(name), &overrides).unwrap() }
+    Variant {
+        name: name.to_string(),
+        study: Study::load(&model(name), &overrides).unwrap(),
+        source: Some((model(name), overrides)),
+    }
 }
 
 fn costs(variants: &[Variant], outputs: &[&str]) -> ModelCosts {
