@@ -155,15 +155,8 @@ fn methods(args: &Args, study: &Study) -> Result<ExitCode> {
         given,
     };
     let fresh = WorkPrecision {
-        scene: study.name.clone(),
         fingerprint: fingerprint(args, rows)?,
-        t_start: span.start,
-        t_end: span.end,
-        rows,
-        reference: None,
-        cells: Vec::new(),
-        seconds: 0.0,
-        left_out: None,
+        ..WorkPrecision::fresh(&study.name, (span.start, span.end), rows)
     };
     let mut folder = args.output.folder(&study.name)?;
     let place = args.output.path(&study.name).join("tradeoff.json");

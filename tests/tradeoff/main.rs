@@ -44,18 +44,7 @@ pub fn plan(filter: &Filter, seconds: f64) -> Plan {
 }
 
 pub fn fresh(motion: &Motion) -> WorkPrecision {
-    let (t_start, t_end) = motion.between;
-    WorkPrecision {
-        scene: "test".to_string(),
-        fingerprint: String::new(),
-        t_start,
-        t_end,
-        rows: ROWS,
-        reference: None,
-        cells: Vec::new(),
-        seconds: 0.0,
-        left_out: None,
-    }
+    WorkPrecision::fresh("test", motion.between, ROWS)
 }
 
 pub fn measured(motion: Motion, plan: &Plan, outputs: &[&str]) -> WorkPrecision {

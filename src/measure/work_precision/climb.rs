@@ -4,7 +4,7 @@ use super::grid::Triple;
 use super::ladder::tolerances;
 use super::reference::check;
 use super::runner::Motion;
-use super::sample::{Sample, sample};
+use super::sample::{Allowed, Sample, sample};
 use super::yardstick::Watched;
 use crate::choice::Choice;
 use crate::error::{Failure, Result};
@@ -25,11 +25,13 @@ const FAMILIES: [[&str; 3]; 6] = [
     ["index1", "dopri5", "exact"],
     ["index2", "radau_iia", "none"],
 ];
-/// Parts of the budget for each method, one after the other: quick runs show which methods bring the motion to its end, and
+/// Parts of the budget in CPU time for each method, one after the other: quick runs show which methods bring the motion to its end, and
 /// longer ones are made where these are not good enough;
 const PARTS: [f64; 3] = [0.02, 0.06, 0.2];
 /// the last where two do not agree in anything yet.
-const LAST: f64 = 0.5;
+const LAST: f64 = 0.4;
+/// Part of the budget that all of them may take on a busy machine.
+const WAITED: f64 = 0.45;
 
 /// Runs of one method that came through, from loose to tight.
 #[derive(Default)]
@@ -65,15 +67,23 @@ impl Rung {
 /// Bad input.
 pub fn climb(motion: &Motion, watched: &Watched, span: Span, (wanted, budget): (f64, Duration)) -> Result<Vec<Line>> {
     let mut lines: Vec<Line> = FAMILIES.iter().map(|_| Line::default()).collect();
+    let clock = Instant::now();
     for part in PARTS.into_iter().chain([LAST]) {
         let error = check(&lines, watched).map_or(f64::INFINITY, |checked| checked.error.0);
         if error <= if part == LAST { 0.1 } else { wanted } {
             break;
         }
-        let clock = Instant::now();
+        let part = budget.mul_f64(part);
         let up = |(line, names): (&mut Line, &[&str; 3])| -> Result<()> {
-            let left = || budget.mul_f64(part).saturating_sub(clock.elapsed());
-            while !(motion.is_stopped)() && line.step(motion, watched, span, (*names, left()))? {}
+            let mut cpu = part;
+            while !(motion.is_stopped)() && !cpu.is_zero() {
+                let wall = budget.mul_f64(WAITED).saturating_sub(clock.elapsed());
+                let (is_more, seconds) = line.step(motion, watched, span, (*names, Allowed { cpu, wall }))?;
+                cpu = cpu.saturating_sub(Duration::from_secs_f64(seconds));
+                if !is_more {
+                    break;
+                }
+            }
             Ok(())
         };
         lines.par_iter_mut().zip(&FAMILIES).map(up).collect::<Result<()>>()?;
@@ -82,39 +92,40 @@ pub fn climb(motion: &Motion, watched: &Watched, span: Span, (wanted, budget): (
 }
 
 impl Line {
-    /// Makes the next run where it can be expected to fit into the time allowed; whether there may be another.
+    /// Makes the next run where it can be expected to fit into the time allowed; whether there may be another, and the CPU time spent, s.
     fn step(
         &mut self,
         motion: &Motion,
         watched: &Watched,
         span: Span,
-        (names, allowed): ([&str; 3], Duration),
-    ) -> Result<bool> {
-        let Some(rtol) = LADDER.get(self.next).copied() else { return Ok(false) };
-        if allowed.is_zero() || self.forecast(motion) > allowed.as_secs_f64() {
-            return Ok(false);
+        (names, allowed): ([&str; 3], Allowed),
+    ) -> Result<(bool, f64)> {
+        let Some(rtol) = LADDER.get(self.next).copied() else { return Ok((false, 0.0)) };
+        if allowed.wall.is_zero() || self.forecast(motion) > allowed.cpu.as_secs_f64() {
+            return Ok((false, 0.0));
         }
         let [formulation, integrator, projection] = names.map(Choice::named);
         let triple = Triple { formulation, integrator, projection };
         // Minimal coordinates of large systems do not fit into memory.
         if formulation::make(&triple.formulation, motion.system).is_err() {
-            return Ok(false);
+            return Ok((false, 0.0));
         }
         let method = triple.at(tolerances(rtol, motion), None);
         let run = sample(motion, watched, &method, span, allowed)?;
+        let seconds = run.seconds;
         if run.is_too_slow {
             self.failure = Some((method, run));
-            return Ok(false);
+            return Ok((false, seconds));
         }
         // What fails at one tolerance may come through at a tighter one.
         self.next += 1;
         if run.failure.is_some() {
             self.failure = Some((method, run));
-            return Ok(true);
+            return Ok((true, seconds));
         }
         self.failure = None;
         self.rungs.push(Rung { method, run });
-        Ok(true)
+        Ok((true, seconds))
     }
 
     /// At least so long the next run takes, s.

@@ -75,7 +75,7 @@ impl<'a> Runner<'a> {
 
     /// No run takes longer than it may, and than many times what the cheapest takes that has as many digits.
     fn limit(&self, result: &WorkPrecision, decades: u32, allowed: Duration) -> Duration {
-        let best = advice::cheapest(&result.cells, 0.1f64.powf(f64::from(decades))).and_then(|best| best.seconds());
+        let best = advice::cheapest(&result.cells, 0.1f64.powf(f64::from(decades))).and_then(|best| best.cost);
         let allowed = allowed.min(self.left());
         match best {
             Some(best) if !self.plan.is_exhaustive => allowed.min(Duration::from_secs_f64(WORTH_TRYING * best)),

@@ -32,7 +32,7 @@ pub use given::Given;
 pub use grid::{Filter, Triple, grid};
 pub use reference::{Pace, Reference};
 pub use runner::{Motion, Plan, Runner};
-pub use sample::{Sample, cpu_seconds, sample};
+pub use sample::{Allowed, Sample, cpu_seconds, sample};
 pub use scale::Sizes;
 pub use yardstick::{Watched, Yardstick};
 
@@ -56,4 +56,21 @@ pub struct WorkPrecision {
     pub seconds: f64,
     /// What the budget left out, if anything.
     pub left_out: Option<String>,
+}
+
+impl WorkPrecision {
+    /// Nothing measured yet.
+    pub fn fresh(scene: &str, (t_start, t_end): (f64, f64), rows: usize) -> WorkPrecision {
+        WorkPrecision {
+            scene: scene.to_string(),
+            fingerprint: String::new(),
+            t_start,
+            t_end,
+            rows,
+            reference: None,
+            cells: Vec::new(),
+            seconds: 0.0,
+            left_out: None,
+        }
+    }
 }

@@ -58,7 +58,7 @@ impl ModelCosts {
     /// How far the richest model itself may be off, and in what: the most that twice the mesh, or a hundredth of the
     /// tolerance, changes of it. None where it has a mesh and the finer one was not run.
     pub fn uncertainty(&self) -> Option<(f64, &str)> {
-        let numerical = (self.models[self.richest].numerical_error?, "its numbers");
+        let numerical = (self.models[self.richest].numerical_error?, "the worst output");
         let Finer { velocities, outputs, failure } = &self.finer;
         let mesh = outputs.iter().map(|output| (output.max, output.name.as_str()));
         let is_known = failure.is_none() && (velocities.is_none() || !outputs.is_empty());

@@ -5,7 +5,7 @@ use super::cell::Cell;
 use super::given::Given;
 use super::grid::Triple;
 use super::reference::Reference;
-use super::sample::{Sample, sample};
+use super::sample::{Allowed, Sample, sample};
 use super::yardstick::Watched;
 use crate::error::Result;
 use crate::simulate::{Method, Span};
@@ -149,6 +149,7 @@ impl<'a> Runner<'a> {
         method: &Method,
         allowed: Duration,
     ) -> Result<(Sample, Vec<f64>)> {
+        let allowed = Allowed { wall: self.left(), cpu: allowed };
         let run = || sample(&self.motion, &self.watched, method, self.span(result), allowed);
         let first = run()?;
         let mut seconds = vec![first.seconds];

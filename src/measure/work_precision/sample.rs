@@ -43,11 +43,33 @@ impl Sample {
     }
 }
 
-/// Runs `method` until it ends or the CPU time `allowed` is over.
+/// How long a run may take.
+#[derive(Clone, Copy, Debug)]
+pub struct Allowed {
+    /// CPU time, so that what else the machine does ends no run;
+    pub cpu: Duration,
+    /// up to a time that somebody waits.
+    pub wall: Duration,
+}
+
+impl From<Duration> for Allowed {
+    fn from(cpu: Duration) -> Allowed {
+        Allowed { cpu, wall: BUSY * cpu }
+    }
+}
+
+/// Runs `method` until it ends or the time `allowed` is over.
 ///
 /// # Errors
 /// Bad input only, as [`simulate`].
-pub fn sample(motion: &Motion, watched: &Watched, method: &Method, span: Span, allowed: Duration) -> Result<Sample> {
+pub fn sample(
+    motion: &Motion,
+    watched: &Watched,
+    method: &Method,
+    span: Span,
+    allowed: impl Into<Allowed>,
+) -> Result<Sample> {
+    let allowed = allowed.into();
     // On one thread, so that its time is the method's.
     faer::set_global_parallelism(faer::Par::Seq);
     let system = motion.system;
@@ -65,7 +87,8 @@ pub fn sample(motion: &Motion, watched: &Watched, method: &Method, span: Span, a
     };
     let (outcome, seconds) = cpu_seconds(|| simulate(system, method, span, motion.start, &mut sink));
     let outcome = outcome?;
-    let is_too_slow = outcome.failure.as_ref().is_some_and(|failure| failure.reason == Stop::deadline(allowed).reason);
+    let is_too_slow =
+        outcome.failure.as_ref().is_some_and(|failure| failure.reason == Stop::deadline(allowed.cpu).reason);
     let Sampler { rows, sizes, drift, .. } = sink;
     Ok(Sample { rows, sizes, drift, statistics: outcome.statistics, failure: outcome.failure, is_too_slow, seconds })
 }
@@ -86,7 +109,7 @@ struct Sampler<'a> {
     rows: Vec<Vec<f64>>,
     sizes: Sizes,
     drift: Drift,
-    allowed: Duration,
+    allowed: Allowed,
     clocks: (ThreadTime, Instant),
 }
 
@@ -111,8 +134,8 @@ impl Sink for Sampler<'_> {
         }
         // The clock of CPU time is slow to read, and never ahead of the other.
         let (cpu, wall) = self.clocks;
-        let waited = wall.elapsed();
-        let is_over = waited > self.allowed && (waited > BUSY * self.allowed || cpu.elapsed() > self.allowed);
-        is_over.then(|| Stop::deadline(self.allowed))
+        let (waited, Allowed { cpu: most, wall: longest }) = (wall.elapsed(), self.allowed);
+        let is_over = waited > longest || waited > most && cpu.elapsed() > most;
+        is_over.then(|| Stop::deadline(most))
     }
 }

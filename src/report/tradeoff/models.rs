@@ -71,26 +71,22 @@ impl<'a> ModelsSummary<'a> {
 /// How far the richest model itself can be believed.
 fn convergence(costs: &ModelCosts) -> String {
     let Finer { velocities, failure, .. } = &costs.finer;
-    let mesh = if velocities.is_some() {
-        "twice its elements"
-    } else {
-        "it has no mesh to refine; a hundredth of its tolerance"
+    let mesh = match velocities {
+        Some(_) => "with twice its elements",
+        None => "without a mesh to refine, with a hundredth of its tolerance",
     };
-    match (costs.uncertainty(), failure) {
+    let text = match (costs.uncertainty(), failure) {
         (Some((error, output)), _) if error > CONVERGED => {
-            format!(
-                "  the richest is NOT converged: {mesh} changes {output} by {}; nothing nearer to it than that can be told\n\n",
-                percent(error)
-            )
+            let error = percent(error);
+            format!("the richest is NOT converged: {mesh} {output} changes by {error}; what is nearer cannot be told")
         }
         (Some((error, output)), _) => {
-            format!("  the richest is converged: {mesh} changes {output} by {} at most\n\n", percent(error))
+            format!("the richest is converged: {mesh} {output} changes by {} at most", percent(error))
         }
-        (None, Some(failure)) => {
-            format!("  whether the richest is converged is not known: twice its elements: {}\n\n", failure.reason)
-        }
-        (None, None) => "  whether the richest is converged is not known\n\n".to_string(),
-    }
+        (None, Some(failure)) => format!("whether the richest is converged is not known: {mesh}: {}", failure.reason),
+        (None, None) => "whether the richest is converged is not known".to_string(),
+    };
+    format!("  {text}\n\n")
 }
 
 fn percent(part: f64) -> String {
