@@ -65,7 +65,7 @@ fn advice_does_not_depend_on_the_load() {
         let idle = measure();
         let is_done = AtomicBool::new(false);
         let busy = std::thread::scope(|scope| {
-            for _ in 0..8 {
+            for _ in 0..4 {
                 scope.spawn(|| while !is_done.load(Ordering::Relaxed) {});
             }
             let busy = measure();

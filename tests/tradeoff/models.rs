@@ -49,15 +49,16 @@ fn more_elements_come_nearer_to_the_richest() {
     assert!(errors[0] > 5.0 * errors[1] && errors[1] > 8.0 * errors[2] && errors[2] > 0.0, "{errors:?}");
     // Twice the mesh of the richest changes it by less than a half of what the next poorer one is off.
     let (uncertainty, output) = costs.uncertainty().unwrap();
-    assert_eq!(costs.finer.velocities, Some(2 * costs.models[3].velocities - 4), "{:?}", costs.finer);
+    assert_eq!(costs.finer.velocities, Some(2 * costs.models[3].velocities - 7), "{:?}", costs.finer);
     assert!(output == "deflection" && uncertainty < 0.5 * errors[2] && uncertainty > 0.0, "{uncertainty} {errors:?}");
 }
 
-/// One element against two: the richer one itself changes by per cents over four.
+/// A rod of one element: with two its outputs change by per cents.
 #[test]
 fn a_richest_model_that_is_poor_is_found_out() {
-    let variants = [1.0, 2.0].map(|n| variant("flexible_slider_crank_fe", &[("n", n)], 0.01));
-    let costs = costs(&variants, &["deflection"]);
+    let variants =
+        [variant("flexible_slider_crank_fe", &[("n", 1.0)], 0.01), variant("flexible_slider_crank_rigid", &[], 0.01)];
+    let costs = costs(&variants, &[]);
     assert!(costs.uncertainty().unwrap().0 > 0.01, "{:?}", costs.finer);
 }
 

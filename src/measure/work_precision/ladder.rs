@@ -21,7 +21,7 @@ const RUN: [f64; 4] = [0.001, 0.005, 0.02, 0.1];
 const SURE: f64 = 1.2;
 /// Part of the budget after which no more of the grid is tried, so that the comparison of explicit and implicit methods has
 /// its time.
-const GRID: f64 = 0.9;
+const GRID: f64 = 0.85;
 /// Times as dear as the best for its digits: a method is tried on below,
 const WORTH_TRYING: f64 = 5.0;
 /// and at all tolerances.
@@ -182,7 +182,7 @@ impl<'a> Runner<'a> {
             let quickest = of_kind.filter_map(forecast).min_by(|a, b| a.0.total_cmp(&b.0));
             if let Some((_, triple, decades)) = quickest {
                 let method = self.method(result, triple, decades);
-                let outcome = self.first(result, &method, self.left().mul_f64(0.5))?;
+                let outcome = self.first(result, &method, self.left())?;
                 self.put(result, triple, decades, outcome);
             }
         }
