@@ -11,7 +11,7 @@ use crate::error::{Failure, Result};
 use crate::formulation;
 use crate::integrator;
 use crate::simulate::{Method, Span};
-use rayon::prelude::*;
+use std::panic::resume_unwind;
 use std::time::{Duration, Instant};
 
 /// rtol, from loose to tight.
@@ -79,7 +79,7 @@ pub fn climb(motion: &Motion, watched: &Watched, span: Span, (wanted, budget): (
         let waited = budget.mul_f64(WAITED[usize::from(is_last)]);
         let least =
             lines.iter().map(|line| line.forecast(motion)).filter(|time| *time > 0.0).fold(f64::INFINITY, f64::min);
-        let up = |(line, names): (&mut Line, &[&str; 3])| -> Result<()> {
+        let up = &|(line, names): (&mut Line, &[&str; 3])| -> Result<()> {
             if is_last && line.forecast(motion) > QUICK * least {
                 return Ok(());
             }
@@ -94,7 +94,11 @@ pub fn climb(motion: &Motion, watched: &Watched, span: Span, (wanted, budget): (
             }
             Ok(())
         };
-        lines.par_iter_mut().zip(&FAMILIES).map(up).collect::<Result<()>>()?;
+        // Threads of their own: the pool may be busy with other measurements.
+        std::thread::scope(|scope| {
+            let threads: Vec<_> = lines.iter_mut().zip(&FAMILIES).map(|pair| scope.spawn(move || up(pair))).collect();
+            threads.into_iter().try_for_each(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic)))
+        })?;
     }
     Ok(lines)
 }

@@ -19,9 +19,10 @@ const FINE: [u32; 6] = [7, 5, 8, 4, 10, 11];
 const RUN: [f64; 4] = [0.001, 0.005, 0.02, 0.1];
 /// A run is not tried that is forecast to take so many times as long as it may.
 const SURE: f64 = 1.2;
-/// Part of the budget after which no more of the grid is tried, so that the comparison of explicit and implicit methods has
-/// its time.
-const GRID: f64 = 0.85;
+/// Part of the budget after which no more runs are begun.
+const GRID: f64 = 0.95;
+/// Part of the budget for the comparison of explicit and implicit methods.
+const SETTLED: f64 = 0.15;
 /// Times as dear as the best for its digits: a method is tried on below,
 const WORTH_TRYING: f64 = 5.0;
 /// and at all tolerances.
@@ -33,6 +34,9 @@ impl<'a> Runner<'a> {
     /// The grid: quick runs of all methods, then longer ones.
     pub(super) fn climb(&mut self, result: &mut WorkPrecision) -> Result<Option<Pause>> {
         for part in RUN {
+            if part == RUN[RUN.len() - 1] {
+                self.settle(result)?;
+            }
             let allowed = self.plan.budget.mul_f64(part);
             let ladder = COARSE.map(|decades| (decades, false)).into_iter().chain(FINE.map(|decades| (decades, true)));
             for (decades, is_fine) in ladder {
@@ -166,7 +170,7 @@ impl<'a> Runner<'a> {
 
     /// Where no explicit method came to the digits asked for, or no implicit one, the run is made that will be the quickest
     /// of its kind, so that it is known by how much the other kind wins.
-    pub(super) fn settle(&mut self, result: &mut WorkPrecision) -> Result<()> {
+    fn settle(&mut self, result: &mut WorkPrecision) -> Result<()> {
         for kind in [true, false] {
             let has = |cell: &Cell| cell.is_explicit == kind && cell.digits() >= Some(f64::from(self.plan.digits));
             if result.cells.iter().any(has) {
@@ -182,7 +186,7 @@ impl<'a> Runner<'a> {
             let quickest = of_kind.filter_map(forecast).min_by(|a, b| a.0.total_cmp(&b.0));
             if let Some((_, triple, decades)) = quickest {
                 let method = self.method(result, triple, decades);
-                let outcome = self.first(result, &method, self.left())?;
+                let outcome = self.first(result, &method, self.left().min(self.plan.budget.mul_f64(SETTLED)))?;
                 self.put(result, triple, decades, outcome);
             }
         }

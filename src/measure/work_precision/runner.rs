@@ -97,7 +97,7 @@ impl<'a> Runner<'a> {
             result.reference = Some(reference);
             self.keep(result, runs);
         }
-        let paused = self.measure(result)?;
+        let paused = self.climb(result)?;
         result.price();
         let left_out = self.leave_out(result, paused.as_ref());
         result.seconds = before + self.clock.elapsed().as_secs_f64();
@@ -132,14 +132,6 @@ impl<'a> Runner<'a> {
         (self.watch)(result, next);
         let is_over = self.left() == Duration::ZERO;
         if (self.motion.is_stopped)() { Some(Pause::Asked) } else { is_over.then_some(Pause::Budget) }
-    }
-
-    fn measure(&mut self, result: &mut WorkPrecision) -> Result<Option<Pause>> {
-        let paused = self.climb(result)?;
-        if !matches!(paused, Some(Pause::Asked)) {
-            self.settle(result)?;
-        }
-        Ok(paused)
     }
 
     /// A run, several times where it is quick.
