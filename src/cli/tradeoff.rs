@@ -194,9 +194,7 @@ fn methods(args: &Args, study: &Study) -> Result<ExitCode> {
     }
     match (is_asked(), measured.lacks(args.digits)) {
         (true, _) => tell("error: interrupted\n  help: go on with --resume"),
-        (_, Some(Lack { why, hint, is_all: true })) => {
-            tell(&format!("error: no recommendation: {why}\n  help: {hint}"))
-        }
+        (_, Some(Lack { why, hint, is_all: true })) => tell(format!("error: no recommendation: {why}\n  help: {hint}")),
         _ => return Ok(ExitCode::SUCCESS),
     }
     Ok(ExitCode::from(1))
