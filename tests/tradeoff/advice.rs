@@ -64,7 +64,11 @@ fn advice_does_not_depend_on_the_load() {
         let is_done = AtomicBool::new(false);
         let busy = std::thread::scope(|scope| {
             for _ in 0..4 {
-                scope.spawn(|| while !is_done.load(Ordering::Relaxed) {});
+                scope.spawn(|| {
+                    while !is_done.load(Ordering::Relaxed) {
+                        std::hint::spin_loop();
+                    }
+                });
             }
             let busy = measure();
             is_done.store(true, Ordering::Relaxed);
