@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::files;
 use crate::math::expression::Number;
 use crate::measure::work_precision::models::{Variant, compare};
-use crate::measure::work_precision::{Filter, Given, Motion, Plan, Runner, Watched, WorkPrecision, grid};
+use crate::measure::work_precision::{Filter, Given, Lack, Motion, Plan, Runner, Watched, WorkPrecision, grid};
 use crate::report::tradeoff::{ModelsSummary, Summary, models_figure, models_table, tradeoff_figure, tradeoff_table};
 use crate::report::write_whole;
 use crate::scene;
@@ -38,17 +38,17 @@ pub struct Args {
     /// Outputs whose accuracy counts (default: all)
     #[arg(long, value_name = "NAME[,NAME...]", value_delimiter = ',')]
     outputs: Vec<String>,
-    /// Digits to show the methods for
+    /// Digits to show the methods for, and that the reference must be good for
     #[arg(long, value_name = "N", default_value_t = 6)]
     digits: u32,
     /// Time for all of it, such as 60s or 5min
     #[arg(long, value_name = "TIME", default_value = "60s", value_parser = duration, allow_hyphen_values = true)]
     budget: Duration,
-    /// Runs of each method that is near the best
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..))]
+    /// Runs of a method, or model, that is quick; the fastest counts
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..))]
     repeats: u16,
     /// Times at which motions are compared
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u16).range(1..))]
     rows: u16,
     /// Try methods on that have fallen far behind
     #[arg(long)]
@@ -141,15 +141,8 @@ fn methods(args: &Args, study: &Study) -> Result<ExitCode> {
         given,
     };
     let fresh = WorkPrecision {
-        scene: study.name.clone(),
         fingerprint: fingerprint(args, rows)?,
-        t_start: span.start,
-        t_end: span.end,
-        rows,
-        reference: None,
-        cells: Vec::new(),
-        seconds: 0.0,
-        left_out: None,
+        ..WorkPrecision::fresh(&study.name, (span.start, span.end), rows)
     };
     let mut folder = args.output.folder(&study.name)?;
     let place = args.output.path(&study.name).join("tradeoff.json");
@@ -185,10 +178,11 @@ fn methods(args: &Args, study: &Study) -> Result<ExitCode> {
     if !args.talk.json && !args.talk.quiet {
         print(&format!("\nwritten to {}\n", written.listing()))?;
     }
-    if !is_asked() {
-        return Ok(ExitCode::SUCCESS);
+    match (is_asked(), measured.lacks(args.digits)) {
+        (true, _) => tell("error: interrupted\n  help: go on with --resume"),
+        (_, Some(Lack { why, hint, is_all: true })) => tell(format!("error: no recommendation: {why}\n  help: {hint}")),
+        _ => return Ok(ExitCode::SUCCESS),
     }
-    tell("error: interrupted\n  help: go on with --resume");
     Ok(ExitCode::from(1))
 }
 
@@ -234,7 +228,8 @@ fn variant(text: &str, args: &Args, like: &Study) -> Result<Variant> {
     let span = like.span()?;
     let overrides = Overrides { set: own, until: Some(span.end), ..args.overrides() };
     let study = args.talk.load(Path::new(path), &overrides).map_err(of_variants)?;
-    Ok(Variant { name: named(Path::new(path), set), study })
+    let source = Some((PathBuf::from(path), overrides));
+    Ok(Variant { name: named(Path::new(path), set), study, source })
 }
 
 /// A parameter at fault was given by `--variants`, not by `--set`.
@@ -259,11 +254,12 @@ fn models(args: &Args, study: Study) -> Result<ExitCode> {
     }
     let (name, title) = (study.name.clone(), format!("{}: what models cost", study.name));
     let set = args.scene.set.iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>().join(",");
-    let own = Variant { name: named(&args.scene.path, &set), study };
+    let source = Some((args.scene.path.clone(), args.overrides()));
+    let own = Variant { name: named(&args.scene.path, &set), study, source };
     let variants: Vec<Variant> = [own].into_iter().chain(others).collect();
     let mut folder = args.output.folder(&name)?;
     let repeats = usize::from(args.repeats);
-    let bar = args.talk.progress((variants.len() * (repeats + 1)) as u64, &name);
+    let bar = args.talk.progress((variants.len() * (repeats + 1) + 1) as u64, &name);
     let watch = |name: &str, done: usize| {
         bar.set_message(name.to_string());
         bar.set_position(done as u64);

@@ -12,6 +12,7 @@ mod markers;
 mod model;
 mod outputs;
 mod place;
+mod refine;
 mod schema;
 pub mod units;
 
@@ -19,6 +20,7 @@ pub use format::{Assembly, Automatic, Simulation};
 pub use model::{BeamLine, Combination, Connection, Driven, EnergyPart, Measure, Model, Part, Reading, Watched};
 pub use model::{FORCE_SIZE, TORQUE_SIZE};
 pub use place::{Cut, Place};
+pub use refine::refined;
 pub use schema::schema;
 
 use crate::error::{Error, Result, excerpt, nearest};

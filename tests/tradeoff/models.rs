@@ -8,7 +8,11 @@ use std::time::Duration;
 fn variant(name: &str, set: &[(&str, f64)], until: f64) -> Variant {
     let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
     let overrides = Overrides { set, until: Some(until), ..Overrides::default() };
-    Variant { name: name.to_string(), study: Study::load(&model(name), &overrides).unwrap() }
+    Variant {
+        name: name.to_string(),
+        study: Study::load(&model(name), &overrides).unwrap(),
+        source: Some((model(name), overrides)),
+    }
 }
 
 fn costs(variants: &[Variant], outputs: &[&str]) -> ModelCosts {
@@ -43,6 +47,19 @@ fn more_elements_come_nearer_to_the_richest() {
     let errors: Vec<f64> = costs.models.iter().map(|model| model.error().unwrap()).collect();
     // Of order four: a factor of 16 asymptotically, less where two elements are still coarse.
     assert!(errors[0] > 5.0 * errors[1] && errors[1] > 8.0 * errors[2] && errors[2] > 0.0, "{errors:?}");
+    // Twice the mesh of the richest changes it by less than a half of what the next poorer one is off.
+    let (uncertainty, output) = costs.uncertainty().unwrap();
+    assert_eq!(costs.finer.velocities, Some(2 * costs.models[3].velocities - 7), "{:?}", costs.finer);
+    assert!(output == "deflection" && uncertainty < 0.5 * errors[2] && uncertainty > 0.0, "{uncertainty} {errors:?}");
+}
+
+/// A rod of one element: with two its outputs change by per cents.
+#[test]
+fn a_richest_model_that_is_poor_is_found_out() {
+    let variants =
+        [variant("flexible_slider_crank_fe", &[("n", 1.0)], 0.01), variant("flexible_slider_crank_rigid", &[], 0.01)];
+    let costs = costs(&variants, &[]);
+    assert!(costs.uncertainty().unwrap().0 > 0.01, "{:?}", costs.finer);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::{ROWS, filter, fresh, measured, motion, plan};
 use crate::common::unconstrained::Exponential;
 use crate::scenes::shipped;
-use holonom::measure::work_precision::{Given, Motion, Plan, Runner, Watched, Yardstick};
+use holonom::measure::work_precision::{Given, Motion, Plan, Runner, Sizes, Watched, Yardstick};
 use holonom::system::Column;
 
 fn column(name: &str, unit: &str) -> Column {
@@ -13,12 +13,12 @@ fn column(name: &str, unit: &str) -> Column {
 #[test]
 fn differences_are_relative_to_the_largest_value() {
     let columns = [column("x", "m"), column("zero", "m"), column("angle", "rad")];
-    let own = Yardstick::new(&columns, vec![vec![2.0, 0.0, 0.1], vec![-4.0, 0.0, 3.0]]);
+    let own = Yardstick::new(&columns, vec![vec![2.0, 0.0, 0.1], vec![-4.0, 0.0, 3.0]], &Sizes::default());
     let rows = vec![vec![2.0, 0.0, 0.1], vec![-4.1, 0.0, 3.0]];
     let (error, worst) = own.error(&rows);
     assert!((error - 0.1 / 4.0).abs() < 1e-15 && worst == "x", "{error} {worst}");
-    // What is zero throughout is compared at a part of its kind, so that round-off of it is no error.
-    assert!((own.errors(&[vec![2.0, 4e-15, 0.1], vec![-4.0, 0.0, 3.0]])[1] - 1e-6).abs() < 1e-12);
+    // What is zero throughout is compared at a thousandth of its kind, so that round-off of it is no error.
+    assert!((own.errors(&[vec![2.0, 4e-9, 0.1], vec![-4.0, 0.0, 3.0]])[1] - 1e-6).abs() < 1e-12);
     assert_eq!(own.error(&rows[..1]).0, f64::INFINITY);
     assert!(own.error(&[vec![f64::NAN, 0.0, 0.0], vec![0.0, 0.0, 0.0]]).0.is_nan());
     let (max, rms) = own.spread("x", &[2.0, -3.0]).unwrap();

@@ -2,55 +2,109 @@
 
 use super::WorkPrecision;
 use super::cell::{Cell, Held};
+use crate::simulate::Method;
 use serde::Serialize;
 
-/// Digits by which a reference must be better than what it vouches for.
-const BETTER: f64 = 2.0;
 /// Digits that are asked for.
 const MOST_DIGITS: u32 = 14;
+/// Costs within this factor of the least are a tie: counted work tells times no better.
+pub const TIE: f64 = 1.15;
+/// Drift below is round-off.
+const ROUND_OFF: f64 = 1e-12;
 
-/// Runs that take up to this much longer than the cheapest are as cheap, as far as a clock can tell: of those with its
-/// integrator the one that drifts least is recommended.
-const AS_CHEAP: f64 = 1.1;
+/// Of runs that cost and drift alike that is chosen which is best known, in this order; others come after.
+const KNOWN: [&[&str]; 3] = [
+    &["dop853", "radau_iia", "dopri5", "rk4", "phem56", "generalized_alpha", "bdf"],
+    &["index1", "ggl", "index2", "index3", "null_space", "baumgarte"],
+    &["manifold", "exact", "none"],
+];
 
-/// The cheapest run for so many digits, and the next.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+/// The run to choose for so many digits, and what else there is.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Recommendation {
     pub digits: u32,
-    /// Places in the list of cells.
+    /// Places in the list of cells. The cheapest; of a tie the one that drifts least, then the one that is known best.
     pub best: usize,
-    /// The cheapest with another integrator.
+    /// Other methods that cost as little within [`TIE`].
+    pub ties: Vec<usize>,
+    /// The best with another integrator.
     pub next: Option<usize>,
-    /// The cheapest whose steps stability limits, and that whose steps may be as long as they like.
+    /// The best whose steps stability limits, and that whose steps may be as long as they like.
     pub explicit: Option<usize>,
     pub implicit: Option<usize>,
 }
 
+/// Why there is no recommendation for so many digits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lack {
+    pub why: String,
+    pub hint: String,
+    /// Whether there is none for any.
+    pub is_all: bool,
+}
+
 impl WorkPrecision {
-    /// The cheapest run for at least so many digits; none where no run has them, or the reference cannot tell.
-    pub fn recommend(&self, digits: u32) -> Option<Recommendation> {
-        if f64::from(digits) + BETTER > self.reference.as_ref()?.digits() {
+    /// Why no run is known to have so many digits; none where one is.
+    pub fn lacks(&self, digits: u32) -> Option<Lack> {
+        if self.recommend(digits).is_some() {
             return None;
         }
-        let cells = &self.cells;
-        let cheapest = |is_meant: &dyn Fn(&Cell) -> bool| {
-            let good = |i: &usize| cells[*i].digits() >= Some(f64::from(digits)) && is_meant(&cells[*i]);
-            let times = (0..cells.len()).filter(good).filter_map(|i| Some((i, cells[i].seconds()?)));
-            let times: Vec<(usize, f64)> = times.collect();
-            let (first, least) = times.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1))?;
-            let drift = |i: usize| cells[i].drift().map_or(f64::INFINITY, Held::largest);
-            let is_like = |i: usize| cells[i].method.integrator == cells[first].method.integrator;
-            let as_cheap = times.into_iter().filter(|(i, seconds)| *seconds <= AS_CHEAP * least && is_like(*i));
-            as_cheap.map(|(i, _)| i).min_by(|a, b| drift(*a).total_cmp(&drift(*b)))
+        let is_all = self.recommendations().is_empty();
+        let best = self.cells.iter().filter_map(|cell| Some((cell.error()?, cell)));
+        let best = best.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, cell)| cell);
+        let reference = self.reference.as_ref();
+        let (why, hint) = match (reference, best) {
+            (None, _) => ("there is no reference".to_string(), "give more time by --budget"),
+            (Some(_), None) => {
+                ("no run came to its end".to_string(), "give more time by --budget; tradeoff.csv has the reasons")
+            }
+            (Some(reference), _) if reference.digits() < f64::from(digits) => (
+                format!("the reference is sure of {:.1} digits ({})", reference.digits(), reference.worst),
+                "give more time by --budget, or choose by --outputs what counts",
+            ),
+            (Some(_), Some(cell)) => (
+                format!(
+                    "the most accurate run, {}, has {:.1} digits",
+                    cell.method.triple(),
+                    cell.digits().unwrap_or(0.0)
+                ),
+                "give more time by --budget, or try all tolerances by --exhaustive",
+            ),
         };
-        let best = cheapest(&|_| true)?;
+        Some(Lack { why, hint: hint.to_string(), is_all })
+    }
+
+    /// The run to choose for at least so many digits; none where no run is known to have them.
+    pub fn recommend(&self, digits: u32) -> Option<Recommendation> {
+        let tied = self.cheapest(digits, &|_| true);
+        let first = |is_meant: &dyn Fn(&Cell) -> bool| self.cheapest(digits, is_meant).first().copied();
+        let (best, cells) = (*tied.first()?, &self.cells);
+        let mut ties: Vec<usize> = Vec::new();
+        for place in tied {
+            if [best].iter().chain(&ties).all(|known| !cells[*known].is_of(&cells[place].method)) {
+                ties.push(place);
+            }
+        }
         Some(Recommendation {
             digits,
             best,
-            next: cheapest(&|cell| cell.method.integrator != cells[best].method.integrator),
-            explicit: cheapest(&|cell| cell.is_explicit),
-            implicit: cheapest(&|cell| !cell.is_explicit),
+            ties,
+            next: first(&|cell| cell.method.integrator != cells[best].method.integrator),
+            explicit: first(&|cell| cell.is_explicit),
+            implicit: first(&|cell| !cell.is_explicit),
         })
+    }
+
+    /// Runs with at least so many digits that cost as little as the cheapest of them, the one to choose first.
+    fn cheapest(&self, digits: u32, is_meant: &dyn Fn(&Cell) -> bool) -> Vec<usize> {
+        let good = |cell: &Cell| cell.digits() >= Some(f64::from(digits)) && is_meant(cell);
+        let all = self.cells.iter().enumerate().filter(|(_, cell)| good(cell));
+        let costs: Vec<(usize, f64)> = all.filter_map(|(place, cell)| Some((place, cell.cost?))).collect();
+        let least = costs.iter().fold(f64::INFINITY, |least, (_, cost)| least.min(*cost));
+        let mut tied: Vec<usize> =
+            costs.into_iter().filter(|(_, cost)| *cost <= TIE * least).map(|(place, _)| place).collect();
+        tied.sort_by_key(|place| merit(&self.cells[*place]));
+        tied
     }
 
     /// One for each number of digits that is reached.
@@ -60,7 +114,7 @@ impl WorkPrecision {
 
     /// The places of runs than which none is both cheaper and more accurate, from cheap to dear.
     pub fn front(&self) -> Vec<usize> {
-        let known = |i: usize| Some((i, self.cells[i].seconds()?, self.cells[i].error()?));
+        let known = |i: usize| Some((i, self.cells[i].cost?, self.cells[i].error()?));
         let mut all: Vec<(usize, f64, f64)> = (0..self.cells.len()).filter_map(known).collect();
         all.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.2.total_cmp(&b.2)));
         let mut best = f64::INFINITY;
@@ -73,31 +127,42 @@ impl WorkPrecision {
     }
 }
 
+/// Less is better: decades of drift, then how well the method is known.
+fn merit(cell: &Cell) -> (i32, [usize; 3], u32) {
+    let drift = cell.drift().map_or(1.0, Held::largest).max(ROUND_OFF);
+    let Method { integrator, formulation, projection, .. } = &cell.method;
+    let names = [integrator, formulation, projection].map(|choice| choice.name.as_str());
+    let mut known = [0; 3];
+    for ((place, list), name) in known.iter_mut().zip(KNOWN).zip(names) {
+        *place = list.iter().position(|known| *known == name).unwrap_or(list.len());
+    }
+    (drift.log10().round() as i32, known, cell.decades)
+}
+
+fn cost(cell: &Cell) -> f64 {
+    cell.cost.unwrap_or(f64::INFINITY)
+}
+
 /// The cheapest run with at most this error.
 pub(super) fn cheapest(cells: &[Cell], error: f64) -> Option<&Cell> {
     let good = cells.iter().filter(|cell| cell.error().is_some_and(|own| own <= error));
-    good.min_by(|a, b| a.seconds().unwrap_or(f64::INFINITY).total_cmp(&b.seconds().unwrap_or(f64::INFINITY)))
+    good.min_by(|a, b| cost(a).total_cmp(&cost(b)))
 }
 
-/// The places of runs that take at most `factor` times as long as the cheapest that is as accurate.
-pub(super) fn near_best(cells: &[Cell], factor: f64) -> Vec<usize> {
-    let is_near = |cell: &Cell| {
-        let best = cheapest(cells, cell.error()?)?;
-        Some(cell.seconds()? <= factor * best.seconds()?)
-    };
-    (0..cells.len()).filter(|i| is_near(&cells[*i]) == Some(true)).collect()
+/// How many times the cheapest that is as accurate each run costs; none where it has no result.
+pub(super) fn behind(cells: &[Cell]) -> Vec<Option<f64>> {
+    cells.iter().map(|cell| Some(cell.cost? / cheapest(cells, cell.error()?)?.cost?)).collect()
 }
 
 /// Of each method the place of its cheapest run with so many digits, else of its most accurate, else of its last; the
-/// first kind by time, the others by accuracy.
+/// first kind by cost, the others by accuracy.
 pub fn cheapest_by_method(cells: &[Cell], digits: u32) -> (Vec<usize>, Vec<usize>) {
     let (mut reached, mut others): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
     for group in cells.chunk_by(|a, b| a.is_of(&b.method)) {
         let first = group.as_ptr_range();
         let offset = cells.iter().position(|cell| std::ptr::eq(cell, first.start)).unwrap_or(0);
-        let seconds = |i: &usize| group[*i].seconds().unwrap_or(f64::INFINITY);
         let good = (0..group.len()).filter(|i| group[*i].digits() >= Some(f64::from(digits)));
-        match good.min_by(|a, b| seconds(a).total_cmp(&seconds(b))) {
+        match good.min_by(|a, b| cost(&group[*a]).total_cmp(&cost(&group[*b]))) {
             Some(i) => reached.push(offset + i),
             None => {
                 let error = |i: &usize| group[*i].error().unwrap_or(f64::INFINITY);
@@ -106,9 +171,8 @@ pub fn cheapest_by_method(cells: &[Cell], digits: u32) -> (Vec<usize>, Vec<usize
             }
         }
     }
-    let time = |i: &usize| cells[*i].seconds().unwrap_or(f64::INFINITY);
     let error = |i: &usize| cells[*i].error().unwrap_or(f64::INFINITY);
-    reached.sort_by(|a, b| time(a).total_cmp(&time(b)));
+    reached.sort_by(|a, b| cost(&cells[*a]).total_cmp(&cost(&cells[*b])));
     others.sort_by(|a, b| error(a).total_cmp(&error(b)));
     (reached, others)
 }

@@ -14,6 +14,8 @@ pub struct Cell {
     pub decades: u32,
     /// Whether stability limits its steps.
     pub is_explicit: bool,
+    /// CPU time by counted work, s: see [`WorkPrecision::price`](super::WorkPrecision::price).
+    pub cost: Option<f64>,
     #[serde(flatten)]
     pub outcome: Outcome,
 }
@@ -23,12 +25,13 @@ pub struct Cell {
 #[serde(tag = "status", rename_all = "snake_case")]
 pub enum Outcome {
     Completed {
-        /// Largest difference from the reference over the times compared, relative to each quantity's own largest value.
+        /// Largest difference from the reference over the times compared, relative to the size of each quantity, and what the
+        /// reference itself may be off.
         error: f64,
         /// The quantity that is farthest off.
         worst: String,
         drift: Held,
-        /// CPU time of each repeat, s.
+        /// CPU time of each repeat, s; the fastest counts.
         cpu_seconds: Vec<f64>,
         statistics: Statistics,
     },
@@ -70,10 +73,10 @@ impl Held {
 }
 
 impl Cell {
-    /// Median CPU time of a completed run, s.
+    /// CPU time measured of a completed run, s.
     pub fn seconds(&self) -> Option<f64> {
         let Outcome::Completed { cpu_seconds, .. } = &self.outcome else { return None };
-        median(cpu_seconds)
+        cpu_seconds.iter().copied().reduce(f64::min)
     }
 
     pub fn error(&self) -> Option<f64> {

@@ -1,8 +1,10 @@
 //! Which run comes next, and which are not worth making.
 
 use super::cell::{Cell, Outcome};
+use super::climb::Rung;
 use super::grid::Triple;
-use super::runner::{Pause, Runner, WORTH_REPEATING};
+use super::runner::{Motion, Pause, Runner};
+use super::sample::Sample;
 use super::{WorkPrecision, advice};
 use crate::error::{Error, Failure, Result, short};
 use crate::integrator::{self, Steps};
@@ -11,25 +13,35 @@ use std::time::Duration;
 
 /// rtol = 10^-decades: first these, of all methods,
 const COARSE: [u32; 4] = [3, 6, 9, 12];
-/// then these, of methods that are near the best somewhere.
-const FINE: [u32; 6] = [4, 5, 7, 8, 10, 11];
+/// then these, of methods that are near the best somewhere; first those about the digits that are usually asked for.
+const FINE: [u32; 6] = [7, 5, 8, 4, 10, 11];
 /// Parts of the budget that one run may take: quick runs of all methods come before slow ones of any.
-const RUN: [f64; 4] = [0.001, 0.005, 0.02, 0.08];
-/// Part of the budget after which no more of the grid is tried, so that repeats find their time.
-const GRID: f64 = 0.75;
-/// Times as slow as the best for its digits: a method is tried on below.
-const WORTH_TRYING: f64 = 10.0;
+const RUN: [f64; 4] = [0.001, 0.005, 0.02, 0.1];
+/// A run is not tried that is forecast to take so many times as long as it may.
+const SURE: f64 = 1.2;
+/// Part of the budget after which no more runs are begun.
+const GRID: f64 = 0.95;
+/// Part of the budget for the comparison of explicit and implicit methods.
+const SETTLED: f64 = 0.15;
+/// Times as dear as the best for its digits: a method is tried on below,
+const WORTH_TRYING: f64 = 5.0;
+/// and at all tolerances.
+const NEAR: f64 = 3.0;
 /// A fixed step errs by 10^-decades where it is this part of the pace times 10^-(decades/p).
 const FIXED: f64 = 0.3;
 
 impl<'a> Runner<'a> {
     /// The grid: quick runs of all methods, then longer ones.
-    pub(super) fn climb(&mut self, result: &mut WorkPrecision) -> Result<Option<(Pause, String)>> {
+    pub(super) fn climb(&mut self, result: &mut WorkPrecision) -> Result<Option<Pause>> {
         for part in RUN {
+            if part == RUN[RUN.len() - 1] {
+                self.settle(result)?;
+            }
             let allowed = self.plan.budget.mul_f64(part);
             let ladder = COARSE.map(|decades| (decades, false)).into_iter().chain(FINE.map(|decades| (decades, true)));
             for (decades, is_fine) in ladder {
-                if let Some(paused) = self.rung(result, decades, is_fine, allowed)? {
+                result.price();
+                if let Some(paused) = self.rung(result, (decades, is_fine), allowed)? {
                     return Ok(Some(paused));
                 }
             }
@@ -41,24 +53,21 @@ impl<'a> Runner<'a> {
     fn rung(
         &mut self,
         result: &mut WorkPrecision,
-        decades: u32,
-        is_fine: bool,
+        (decades, is_fine): (u32, bool),
         allowed: Duration,
-    ) -> Result<Option<(Pause, String)>> {
-        let pending = self.pending(result, decades, is_fine, allowed);
-        for (done, triple) in pending.iter().enumerate() {
+    ) -> Result<Option<Pause>> {
+        for triple in self.pending(result, (decades, is_fine), allowed) {
             let method = self.method(result, triple, decades);
             let pause = match self.clock.elapsed() > self.plan.budget.mul_f64(GRID) {
                 true => Some(Pause::Budget),
                 false => self.pauses(result, &method.triple()),
             };
-            if let Some(pause) = pause {
-                let what = format!("{} runs at 1e-{decades} and what comes after them", pending.len() - done);
-                return Ok(Some((pause, what)));
+            if pause.is_some() {
+                return Ok(pause);
             }
             let outcome = match self.skips(result, triple, decades, allowed) {
                 Some(reason) => skipped(result, triple, decades, reason),
-                None => self.first(result, &method, allowed.min(self.left()))?,
+                None => self.first(result, &method, self.limit(result, decades, allowed))?,
             };
             // What was cut short is no result.
             if !(self.motion.is_stopped)() {
@@ -68,16 +77,77 @@ impl<'a> Runner<'a> {
         Ok(None)
     }
 
+    /// No run takes longer than it may, and than many times what the cheapest takes that has as many digits.
+    fn limit(&self, result: &WorkPrecision, decades: u32, allowed: Duration) -> Duration {
+        let best = advice::cheapest(&result.cells, 0.1f64.powf(f64::from(decades))).and_then(|best| best.cost);
+        let allowed = allowed.min(self.left());
+        match best {
+            Some(best) if !self.plan.is_exhaustive => allowed.min(Duration::from_secs_f64(WORTH_TRYING * best)),
+            _ => allowed,
+        }
+    }
+
+    /// Gives every run of the grid that was not made its reason; returns how many `paused` kept from being made.
+    pub(super) fn leave_out(&self, result: &mut WorkPrecision, paused: Option<&Pause>) -> usize {
+        let behind = advice::behind(&result.cells);
+        let mut left_out = 0;
+        for (triple, decades) in
+            self.plan.triples.iter().flat_map(|t| COARSE.into_iter().chain(FINE).map(move |d| (t, d)))
+        {
+            let (key, best) = (triple.at((1.0, 1.0), None), result.cells.iter().zip(&behind));
+            if cells_of(result, triple).any(|cell| cell.decades == decades) {
+                continue;
+            }
+            let own = best.filter(|(cell, _)| cell.is_of(&key)).filter_map(|(_, behind)| *behind);
+            let reason = match own.reduce(f64::min) {
+                Some(times) if times > NEAR && FINE.contains(&decades) => {
+                    format!("takes {} times as long as the best for its digits, where it is nearest", two(times))
+                }
+                None if FINE.contains(&decades) => "no run of this method came through".to_string(),
+                _ if paused.is_some() => {
+                    left_out += 1;
+                    let forecast = self.forecast(result, triple, decades);
+                    let time = forecast
+                        .map_or(String::new(), |forecast| format!(": would take about {} s", two(forecast.seconds)));
+                    format!("did not fit into the budget of {} s{time}", self.plan.budget.as_secs_f64())
+                }
+                _ => "would take longer than a run may".to_string(),
+            };
+            self.put(result, triple, decades, Outcome::Skipped { reason });
+        }
+        left_out
+    }
+
+    /// The runs that the reference was found by are runs of the grid.
+    pub(super) fn keep(&self, result: &mut WorkPrecision, runs: Vec<Rung>) {
+        for Rung { method, run } in runs {
+            let own = self.plan.triples.iter().find(|triple| triple.at((method.rtol, method.atol), None) == method);
+            let decades = COARSE.into_iter().chain(FINE).find(|decades| rtol(*decades) == method.rtol);
+            if let Some((triple, decades)) = own.zip(decades) {
+                let seconds = vec![run.seconds];
+                self.put(result, triple, decades, self.outcome(result, run, seconds));
+            }
+        }
+    }
+
     /// In the place of what was there.
     fn put(&self, result: &mut WorkPrecision, triple: &Triple, decades: u32, outcome: Outcome) {
         let method = self.method(result, triple, decades);
         result.cells.retain(|cell| !(cell.decades == decades && cell.is_of(&method)));
         let is_explicit = self.is_explicit(triple);
-        result.cells.push(Cell { method, decades, is_explicit, outcome });
+        result.cells.push(Cell { method, decades, is_explicit, cost: None, outcome });
+        result.price();
     }
 
     /// Those that will be quick come first: what they take is what the others are judged by.
-    fn pending(&self, result: &WorkPrecision, decades: u32, is_fine: bool, allowed: Duration) -> Vec<&'a Triple> {
+    fn pending(&self, result: &WorkPrecision, (decades, is_fine): (u32, bool), allowed: Duration) -> Vec<&'a Triple> {
+        let near = advice::behind(&result.cells);
+        let near: Vec<&Cell> =
+            result.cells.iter().zip(near).filter(|(_, b)| b.is_some_and(|b| b <= NEAR)).map(|(cell, _)| cell).collect();
+        let is_near = |triple: &Triple| {
+            let key = triple.at((1.0, 1.0), None);
+            near.iter().any(|cell| cell.is_of(&key))
+        };
         let mut pending: Vec<(f64, &Triple)> = Vec::new();
         let is_last = allowed == self.longest();
         for triple in &self.plan.triples {
@@ -85,7 +155,7 @@ impl<'a> Runner<'a> {
             let is_due = own.is_none_or(|cell| matches!(cell.outcome, Outcome::TooSlow { .. }));
             let seconds = self.forecast(result, triple, decades).map_or(0.0, |forecast| forecast.seconds);
             let fits = is_last || seconds <= allowed.as_secs_f64();
-            if is_due && fits && (!is_fine || self.plan.is_exhaustive || is_near_best(result, triple)) {
+            if is_due && fits && (!is_fine || self.plan.is_exhaustive || is_near(triple)) {
                 pending.push((seconds, triple));
             }
         }
@@ -100,7 +170,7 @@ impl<'a> Runner<'a> {
 
     /// Where no explicit method came to the digits asked for, or no implicit one, the run is made that will be the quickest
     /// of its kind, so that it is known by how much the other kind wins.
-    pub(super) fn settle(&mut self, result: &mut WorkPrecision) -> Result<()> {
+    fn settle(&mut self, result: &mut WorkPrecision) -> Result<()> {
         for kind in [true, false] {
             let has = |cell: &Cell| cell.is_explicit == kind && cell.digits() >= Some(f64::from(self.plan.digits));
             if result.cells.iter().any(has) {
@@ -116,7 +186,7 @@ impl<'a> Runner<'a> {
             let quickest = of_kind.filter_map(forecast).min_by(|a, b| a.0.total_cmp(&b.0));
             if let Some((_, triple, decades)) = quickest {
                 let method = self.method(result, triple, decades);
-                let outcome = self.first(result, &method, self.left().mul_f64(0.5))?;
+                let outcome = self.first(result, &method, self.left().min(self.plan.budget.mul_f64(SETTLED)))?;
                 self.put(result, triple, decades, outcome);
             }
         }
@@ -134,8 +204,6 @@ impl<'a> Runner<'a> {
     }
 
     fn method(&self, result: &WorkPrecision, triple: &Triple, decades: u32) -> Method {
-        let rtol = 0.1f64.powi(decades as i32);
-        let rtol = format!("{rtol:.0e}").parse().unwrap_or(rtol);
         let entry = integrator::find(&triple.integrator).ok();
         let step = entry.filter(|entry| entry.steps == Steps::Fixed).map(|entry| {
             let pace = result.reference.as_ref().map_or(1.0, |reference| match self.is_explicit(triple) {
@@ -146,8 +214,7 @@ impl<'a> Runner<'a> {
             let (start, end) = self.motion.between;
             (end - start) / ((end - start) / step).ceil().max(1.0)
         });
-        let atol = rtol * self.motion.ratio;
-        triple.at((rtol, format!("{atol:.3e}").parse().unwrap_or(atol)), step)
+        triple.at(tolerances(rtol(decades), &self.motion), step)
     }
 
     /// Why a run is not worth making.
@@ -157,17 +224,18 @@ impl<'a> Runner<'a> {
         }
         let own = result.reference.as_ref()?.error;
         let last = last(result, triple, decades);
-        if last.and_then(Cell::error).is_some_and(|error| error <= own) {
+        // An error is what was told and that of the reference.
+        if last.and_then(Cell::error).is_some_and(|error| error <= 2.0 * own) {
             return Some("as accurate as the reference at a looser tolerance already".to_string());
         }
         let forecast = self.forecast(result, triple, decades)?;
         let seconds = two(forecast.seconds);
-        let best = advice::cheapest(&result.cells, forecast.error).and_then(|best| Some((best, best.seconds()?)));
+        let best = advice::cheapest(&result.cells, forecast.error).and_then(|best| Some((best, best.cost?)));
         match best {
             Some((best, cheapest)) if forecast.seconds > WORTH_TRYING * cheapest => {
                 Some(format!("would take about {seconds} s, where {} takes {} s", best.method.triple(), two(cheapest)))
             }
-            _ if forecast.seconds > 2.0 * allowed.as_secs_f64() => {
+            _ if forecast.seconds > SURE * allowed.as_secs_f64() => {
                 Some(format!("would take about {seconds} s, more than the {} s that a run may", allowed.as_secs_f64()))
             }
             _ => None,
@@ -187,43 +255,47 @@ impl<'a> Runner<'a> {
             Outcome::TooSlow { t, cpu_seconds, .. } if *t > start => {
                 (cpu_seconds * (end - start) / (t - start), 0.1f64.powf(f64::from(last.decades)))
             }
-            _ => (last.seconds()?, last.error()?),
+            _ => (last.cost?, last.error()?),
         };
-        let before = self::last(result, triple, last.decades).and_then(|cell| Some((cell.seconds()?, cell.decades)));
+        let before = self::last(result, triple, last.decades).and_then(|cell| Some((cell.cost?, cell.decades)));
         let own_decade = before.map(|(before, at)| (seconds / before).powf(1.0 / f64::from(last.decades - at)));
         let decade = own_decade.map_or(decade, |own| decade.min(own.max(1.0)));
         Some(Forecast { seconds: seconds * decade.powf(more), error: error * 0.1f64.powf(more) })
     }
 
     fn first(&self, result: &WorkPrecision, method: &Method, allowed: Duration) -> Result<Outcome> {
-        let run = match self.sample(result, method, allowed) {
+        let (run, cpu_seconds) = match self.sample(result, method, allowed) {
             // What a method cannot do for this mechanism is a result, since all were asked for.
             Err(Error::Input(input)) => return Ok(Outcome::Skipped { reason: input.message }),
             run => run?,
         };
+        Ok(self.outcome(result, run, cpu_seconds))
+    }
+
+    fn outcome(&self, result: &WorkPrecision, run: Sample, cpu_seconds: Vec<f64>) -> Outcome {
         if let Some(Failure { t, .. }) = run.failure.as_ref().filter(|_| run.is_too_slow) {
             let (start, end) = self.motion.between;
             let all = two(run.seconds * (end - start) / (t - start));
             let reason = format!("would take about {all} s: it came to t = {t:.3e} s in {} s", two(run.seconds));
-            return Ok(Outcome::TooSlow { t: *t, cpu_seconds: run.seconds, reason });
+            return Outcome::TooSlow { t: *t, cpu_seconds: run.seconds, reason };
         }
         if let Some(failure) = run.failure {
-            return Ok(Outcome::Failed { failure, cpu_seconds: run.seconds });
+            return Outcome::Failed { failure, cpu_seconds: run.seconds };
         }
-        let Some(reference) = &result.reference else { return Ok(Outcome::Skipped { reason: String::new() }) };
+        let Some(reference) = &result.reference else { return Outcome::Skipped { reason: String::new() } };
         let (error, worst) = reference.values.error(&run.rows);
         if !error.is_finite() {
             let (reason, hint) = ("the result is not finite".to_string(), "try a tighter tolerance".to_string());
             let failure = Failure { t: self.motion.between.1, reason, hint };
-            return Ok(Outcome::Failed { failure, cpu_seconds: run.seconds });
+            return Outcome::Failed { failure, cpu_seconds: run.seconds };
         }
-        Ok(Outcome::Completed {
-            error,
-            worst: worst.to_string(),
+        Outcome::Completed {
+            error: error + reference.error,
+            worst,
             drift: (&run.drift).into(),
-            cpu_seconds: vec![run.seconds],
+            cpu_seconds,
             statistics: run.statistics,
-        })
+        }
     }
 }
 
@@ -252,9 +324,15 @@ fn last<'r>(result: &'r WorkPrecision, triple: &Triple, decades: u32) -> Option<
     cells_of(result, triple).filter(|cell| cell.decades < decades).max_by_key(|cell| cell.decades)
 }
 
-fn is_near_best(result: &WorkPrecision, triple: &Triple) -> bool {
-    let key = triple.at((1.0, 1.0), None);
-    advice::near_best(&result.cells, WORTH_REPEATING).iter().any(|index| result.cells[*index].is_of(&key))
+fn rtol(decades: u32) -> f64 {
+    let rtol = 0.1f64.powi(decades as i32);
+    format!("{rtol:.0e}").parse().unwrap_or(rtol)
+}
+
+/// rtol with the atol that goes with it, as a command line can give them.
+pub(super) fn tolerances(rtol: f64, motion: &Motion) -> (f64, f64) {
+    let atol = rtol * motion.ratio;
+    (rtol, format!("{atol:.3e}").parse().unwrap_or(atol))
 }
 
 fn two(value: f64) -> String {

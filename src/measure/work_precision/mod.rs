@@ -1,10 +1,11 @@
 //! Speed for accuracy: what every method costs for the digits it gives, on one motion.
 //!
-//! 1. A reference ([`Reference`]): the motion at the tightest tolerance, its error told by a second method of another family.
+//! 1. A reference ([`Reference`]): the motion as good as the digits that are asked for need it, or better where that is
+//!    cheap, its error told by a second method of another family.
 //! 2. A grid ([`grid`]): formulation x integrator x projection, each at a ladder of tolerances or steps. Methods that have
 //!    fallen far behind are not tried at tighter ones, and the result says so.
-//! 3. Times: medians of CPU seconds over repeats, one round over all methods after the other, so that what else the
-//!    machine does favours none.
+//! 3. Costs ([`WorkPrecision::price`]): counted work times the CPU time of a unit of its kind, so that what else the machine
+//!    does favours none.
 //! 4. What to choose ([`WorkPrecision::recommend`]): the cheapest run for so many digits, and the next best.
 //!
 //! What a richer model of the same mechanism costs and gives is measured by [`models::compare`].
@@ -13,20 +14,26 @@
 
 mod advice;
 mod cell;
+mod climb;
+mod given;
 mod grid;
 mod ladder;
 pub mod models;
 mod reference;
 mod runner;
 mod sample;
+mod scale;
+mod work;
 mod yardstick;
 
-pub use advice::{Recommendation, cheapest_by_method};
+pub use advice::{Lack, Recommendation, TIE, cheapest_by_method};
 pub use cell::{Cell, Held, Outcome};
+pub use given::Given;
 pub use grid::{Filter, Triple, grid};
-pub use reference::{Given, Pace, Reference};
+pub use reference::{Pace, Reference};
 pub use runner::{Motion, Plan, Runner};
-pub use sample::{Sample, cpu_seconds, sample};
+pub use sample::{Allowed, Sample, cpu_seconds, sample};
+pub use scale::Sizes;
 pub use yardstick::{Watched, Yardstick};
 
 use serde::{Deserialize, Serialize};
@@ -49,4 +56,21 @@ pub struct WorkPrecision {
     pub seconds: f64,
     /// What the budget left out, if anything.
     pub left_out: Option<String>,
+}
+
+impl WorkPrecision {
+    /// Nothing measured yet.
+    pub fn fresh(scene: &str, (t_start, t_end): (f64, f64), rows: usize) -> WorkPrecision {
+        WorkPrecision {
+            scene: scene.to_string(),
+            fingerprint: String::new(),
+            t_start,
+            t_end,
+            rows,
+            reference: None,
+            cells: Vec::new(),
+            seconds: 0.0,
+            left_out: None,
+        }
+    }
 }

@@ -5,16 +5,30 @@ use super::sample::{Sample, sample};
 use super::yardstick::{Watched, Yardstick};
 use crate::error::{Error, Failure, Result};
 use crate::formulation::Statistics;
+use crate::scene::{self, Scene};
 use crate::simulate::{Method, Span};
-use crate::study::Study;
+use crate::study::{Overrides, Study};
 use crate::system::{Column, Dimensions};
 use serde::Serialize;
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// A model with its name, such as `rod.json:modes=2`.
 pub struct Variant {
     pub name: String,
     pub study: Study,
+    /// Where it comes from, so that a finer mesh can be made of it.
+    pub source: Option<(PathBuf, Overrides)>,
+}
+
+impl Variant {
+    /// The model with twice the elements and modes of its beams; none where it has none, or that cannot be built.
+    fn finer(&self) -> Option<Study> {
+        let (path, overrides) = self.source.as_ref()?;
+        let text = scene::refined(&scene::read_text(path).ok()?)?;
+        let scene = Scene::parse_in(scene::folder(Some(path)), &text, &overrides.set).ok()?;
+        Study::new(scene, overrides).ok()
+    }
 }
 
 /// Models against the richest of them.
@@ -27,6 +41,29 @@ pub struct ModelCosts {
     pub richest: usize,
     pub rows: usize,
     pub models: Vec<ModelCost>,
+    pub finer: Finer,
+}
+
+/// Whether the richest model is good enough to compare with: itself against a finer one.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Finer {
+    /// Of the model with twice the elements and modes; none where the richest has no beams to refine.
+    pub velocities: Option<usize>,
+    /// How far it is from the richest.
+    pub outputs: Vec<OutputError>,
+    pub failure: Option<Failure>,
+}
+
+impl ModelCosts {
+    /// How far the richest model itself may be off, and in what: the most that twice the mesh, or a hundredth of the
+    /// tolerance, changes of it. None where it has a mesh and the finer one was not run.
+    pub fn uncertainty(&self) -> Option<(f64, &str)> {
+        let numerical = (self.models[self.richest].numerical_error?, "the worst output");
+        let Finer { velocities, outputs, failure } = &self.finer;
+        let mesh = outputs.iter().map(|output| (output.max, output.name.as_str()));
+        let is_known = failure.is_none() && (velocities.is_none() || !outputs.is_empty());
+        is_known.then(|| mesh.fold(numerical, |most, next| if next.0 > most.0 { next } else { most }))
+    }
 }
 
 /// What a model costs, and gives.
@@ -48,7 +85,7 @@ pub struct ModelCost {
     pub failure: Option<Failure>,
 }
 
-/// Relative to the largest value of the richest model.
+/// Relative to the size of the quantity in the motion of the richest model: see [`Yardstick`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OutputError {
     pub name: String,
@@ -100,9 +137,23 @@ pub fn compare(
         }
     }
     let rich = runs[richest].tight.as_ref().filter(|sample| sample.failure.is_none());
-    let rich = rich.map(|sample| Yardstick::new(&columns, sample.rows.clone()));
+    let rich = rich.map(|sample| Yardstick::new(&columns, sample.rows.clone(), &sample.sizes));
     let rich = rich.ok_or_else(|| runs[richest].failure(span.start))?;
-    Ok(ModelCosts { richest, rows: ROWS, models: runs.iter().map(|run| run.cost(&rich)).collect(), columns })
+    watch("the richest with a finer mesh", (repeats + 1) * variants.len());
+    let finer = finer(&variants[richest], &columns, span, allowed, &rich)?;
+    let models = runs.iter().map(|run| run.cost(&rich)).collect();
+    Ok(ModelCosts { richest, rows: ROWS, models, columns, finer })
+}
+
+/// The richest model against itself with twice the mesh.
+fn finer(richest: &Variant, columns: &[Column], span: Span, allowed: Duration, rich: &Yardstick) -> Result<Finer> {
+    let Some(study) = richest.finer() else { return Ok(Finer::default()) };
+    let velocities = Some(study.system().dimensions().v);
+    let variant = Variant { name: String::new(), study, source: None };
+    let mut run = Run::new(&variant, columns)?;
+    run.repeat(span, 0, allowed)?;
+    let cost = run.cost(rich);
+    Ok(Finer { velocities, outputs: cost.outputs, failure: cost.failure })
 }
 
 /// A model on its way.
@@ -166,7 +217,7 @@ impl<'a> Run<'a> {
         let Dimensions { q, v, lambda } = self.variant.study.system().dimensions();
         let failure = [&self.tight, &self.usual].into_iter().flatten().find_map(|sample| sample.failure.clone());
         let tight = self.tight.as_ref().filter(|_| failure.is_none());
-        let own = tight.map(|tight| Yardstick::new(&self.watched.columns, tight.rows.clone()));
+        let own = tight.map(|tight| Yardstick::new(&self.watched.columns, tight.rows.clone(), &tight.sizes));
         let usual = self.usual.as_ref().filter(|_| failure.is_none());
         let of = |column: &Column, place: usize, rows: &[Vec<f64>]| {
             let values: Vec<f64> = rows.iter().map(|row| row[place]).collect();

@@ -1,11 +1,12 @@
 //! The order in which runs are made, and for how long.
 
-use super::cell::{Cell, Outcome};
+use super::WorkPrecision;
+use super::cell::Cell;
+use super::given::Given;
 use super::grid::Triple;
-use super::reference::{Given, Reference};
-use super::sample::{Sample, sample};
+use super::reference::Reference;
+use super::sample::{Allowed, Sample, sample};
 use super::yardstick::Watched;
-use super::{WorkPrecision, advice};
 use crate::error::Result;
 use crate::simulate::{Method, Span};
 use crate::system::MechanicalSystem;
@@ -31,11 +32,11 @@ pub struct Plan {
     pub triples: Vec<Triple>,
     /// For all of it.
     pub budget: Duration,
-    /// Runs of each method that is worth it.
+    /// Runs of a method that is quick; the fastest counts.
     pub repeats: usize,
     /// Times at which motions are compared.
     pub rows: usize,
-    /// For which explicit and implicit methods are compared, however slow one kind is.
+    /// That the reference must be good for, and for which explicit and implicit methods are compared, however slow one kind is.
     pub digits: u32,
     /// Whether methods are tried on that have fallen behind.
     pub is_exhaustive: bool,
@@ -43,12 +44,8 @@ pub struct Plan {
     pub given: Option<Given>,
 }
 
-/// Part of the budget for the reference.
-const REFERENCE: f64 = 0.25;
-/// Runs are repeated that are up to so many times as slow as the best for their digits.
-pub(super) const WORTH_REPEATING: f64 = 3.0;
-/// A time below is taken over several runs, s.
-const SHORTEST: f64 = 1e-3;
+/// A run is quick below this part of the budget.
+const QUICK: f64 = 5e-4;
 
 /// Makes the runs.
 pub struct Runner<'a> {
@@ -88,17 +85,21 @@ impl<'a> Runner<'a> {
         (result.left_out, self.clock) = (None, Instant::now());
         if result.reference.is_none() {
             (self.watch)(result, "reference");
-            let allowed = self.plan.budget.mul_f64(REFERENCE);
+            let plan = (self.plan.digits, self.plan.budget);
             let given = self.plan.given.as_ref();
-            let reference = Reference::find(&self.motion, &self.watched, (self.span(result), given), allowed);
+            let reference = Reference::find(&self.motion, &self.watched, (self.span(result), given), plan);
             // One that was cut short is none.
             if (self.motion.is_stopped)() {
                 result.left_out = Some("all: the measurement was interrupted".to_string());
                 return Ok(());
             }
-            result.reference = Some(reference?);
+            let (reference, runs) = reference?;
+            result.reference = Some(reference);
+            self.keep(result, runs);
         }
-        let paused = self.measure(result)?;
+        let paused = self.climb(result)?;
+        result.price();
+        let left_out = self.leave_out(result, paused.as_ref());
         result.seconds = before + self.clock.elapsed().as_secs_f64();
         let name = |cell: &Cell| {
             let Method { formulation, integrator, projection, .. } = &cell.method;
@@ -107,9 +108,12 @@ impl<'a> Runner<'a> {
             })
         };
         result.cells.sort_by_key(|cell| (name(cell), cell.decades));
-        result.left_out = paused.map(|(pause, what)| match pause {
-            Pause::Budget => format!("{what} did not fit into the budget of {} s", self.plan.budget.as_secs_f64()),
-            Pause::Asked => format!("{what}: the measurement was interrupted"),
+        result.left_out = paused.map(|pause| match pause {
+            Pause::Budget => format!(
+                "{left_out} runs that did not fit into the budget of {} s; --resume goes on",
+                self.plan.budget.as_secs_f64()
+            ),
+            Pause::Asked => format!("{left_out} runs: the measurement was interrupted"),
         });
         Ok(())
     }
@@ -130,39 +134,21 @@ impl<'a> Runner<'a> {
         if (self.motion.is_stopped)() { Some(Pause::Asked) } else { is_over.then_some(Pause::Budget) }
     }
 
-    fn measure(&mut self, result: &mut WorkPrecision) -> Result<Option<(Pause, String)>> {
-        let paused = self.climb(result)?;
-        if let Some((Pause::Asked, _)) = paused {
-            return Ok(paused);
+    /// A run, several times where it is quick.
+    pub(super) fn sample(
+        &self,
+        result: &WorkPrecision,
+        method: &Method,
+        allowed: Duration,
+    ) -> Result<(Sample, Vec<f64>)> {
+        let allowed = Allowed { wall: self.left(), cpu: allowed };
+        let run = || sample(&self.motion, &self.watched, method, self.span(result), allowed);
+        let first = run()?;
+        let mut seconds = vec![first.seconds];
+        let quick = QUICK * self.plan.budget.as_secs_f64();
+        while first.failure.is_none() && seconds.len() < self.plan.repeats && first.seconds < quick {
+            seconds.push(run()?.seconds);
         }
-        self.settle(result)?;
-        Ok(self.repeat(result)?.or(paused))
-    }
-
-    pub(super) fn sample(&self, result: &WorkPrecision, method: &Method, allowed: Duration) -> Result<Sample> {
-        sample(&self.motion, &self.watched, method, self.span(result), allowed)
-    }
-
-    /// Rounds over all runs that are near the best for their digits.
-    fn repeat(&mut self, result: &mut WorkPrecision) -> Result<Option<(Pause, String)>> {
-        for round in 1..self.plan.repeats {
-            let worth = advice::near_best(&result.cells, WORTH_REPEATING);
-            for index in worth {
-                let Outcome::Completed { cpu_seconds, .. } = &result.cells[index].outcome else { continue };
-                let Some(seconds) = cpu_seconds.first().filter(|_| cpu_seconds.len() <= round) else { continue };
-                let runs = (SHORTEST / seconds).ceil().clamp(1.0, 20.0);
-                if let Some(pause) = self.pauses(result, &format!("repeat {round}")) {
-                    return Ok(Some((pause, format!("repeats from number {} on", round + 1))));
-                }
-                let mut sum = 0.0;
-                for _ in 0..runs as usize {
-                    sum += self.sample(result, &result.cells[index].method, self.plan.budget)?.seconds;
-                }
-                if let Outcome::Completed { cpu_seconds, .. } = &mut result.cells[index].outcome {
-                    cpu_seconds.push(sum / runs);
-                }
-            }
-        }
-        Ok(None)
+        Ok((first, seconds))
     }
 }

@@ -1,6 +1,7 @@
 //! One run, with as little beside it as can be.
 
 use super::runner::Motion;
+use super::scale::Sizes;
 use super::yardstick::Watched;
 use crate::error::{Failure, Result};
 use crate::formulation::Statistics;
@@ -8,7 +9,6 @@ use crate::measure::Drift;
 use crate::simulate::{Method, Observation, Sink, Span, Stop, simulate};
 use crate::system::Scratch;
 use cpu_time::ThreadTime;
-use std::cell::Cell;
 use std::time::{Duration, Instant};
 
 /// What one run gave.
@@ -16,6 +16,8 @@ use std::time::{Duration, Instant};
 pub struct Sample {
     /// Of the quantities watched, one row an output time after the start, where all motions are alike.
     pub rows: Vec<Vec<f64>>,
+    /// Over the same rows and the start.
+    pub sizes: Sizes,
     pub drift: Drift,
     pub statistics: Statistics,
     pub failure: Option<Failure>,
@@ -25,11 +27,49 @@ pub struct Sample {
     pub seconds: f64,
 }
 
-/// Runs `method` until it ends or the CPU time `allowed` is over.
+impl Sample {
+    /// So long the run would have taken to its end by how far it came, s; none where it failed.
+    pub fn whole(&self, motion: &Motion) -> Option<f64> {
+        let (start, end) = motion.between;
+        match &self.failure {
+            Some(failure) if self.is_too_slow && failure.t > start => {
+                Some(self.seconds * (end - start) / (failure.t - start))
+            }
+            // One that was stopped at once says nothing.
+            Some(_) if self.is_too_slow => Some(0.0),
+            Some(_) => None,
+            None => Some(self.seconds),
+        }
+    }
+}
+
+/// How long a run may take.
+#[derive(Clone, Copy, Debug)]
+pub struct Allowed {
+    /// CPU time, so that what else the machine does ends no run;
+    pub cpu: Duration,
+    /// up to a time that somebody waits.
+    pub wall: Duration,
+}
+
+impl From<Duration> for Allowed {
+    fn from(cpu: Duration) -> Allowed {
+        Allowed { cpu, wall: BUSY * cpu }
+    }
+}
+
+/// Runs `method` until it ends or the time `allowed` is over.
 ///
 /// # Errors
 /// Bad input only, as [`simulate`].
-pub fn sample(motion: &Motion, watched: &Watched, method: &Method, span: Span, allowed: Duration) -> Result<Sample> {
+pub fn sample(
+    motion: &Motion,
+    watched: &Watched,
+    method: &Method,
+    span: Span,
+    allowed: impl Into<Allowed>,
+) -> Result<Sample> {
+    let allowed = allowed.into();
     // On one thread, so that its time is the method's.
     faer::set_global_parallelism(faer::Par::Seq);
     let system = motion.system;
@@ -40,16 +80,17 @@ pub fn sample(motion: &Motion, watched: &Watched, method: &Method, span: Span, a
         scales: system.scales(),
         start: span.start,
         rows: Vec::new(),
+        sizes: Sizes::default(),
         drift: Drift::default(),
         allowed,
         clocks: (ThreadTime::now(), Instant::now()),
-        asked: Cell::new(0),
     };
     let (outcome, seconds) = cpu_seconds(|| simulate(system, method, span, motion.start, &mut sink));
     let outcome = outcome?;
-    let is_too_slow = outcome.failure.as_ref().is_some_and(|failure| failure.reason == Stop::deadline(allowed).reason);
-    let Sampler { rows, drift, .. } = sink;
-    Ok(Sample { rows, drift, statistics: outcome.statistics, failure: outcome.failure, is_too_slow, seconds })
+    let is_too_slow =
+        outcome.failure.as_ref().is_some_and(|failure| failure.reason == Stop::deadline(allowed.cpu).reason);
+    let Sampler { rows, sizes, drift, .. } = sink;
+    Ok(Sample { rows, sizes, drift, statistics: outcome.statistics, failure: outcome.failure, is_too_slow, seconds })
 }
 
 /// CPU time that `work` takes on this thread, s.
@@ -66,16 +107,14 @@ struct Sampler<'a> {
     scales: Vec<f64>,
     start: f64,
     rows: Vec<Vec<f64>>,
+    sizes: Sizes,
     drift: Drift,
-    allowed: Duration,
+    allowed: Allowed,
     clocks: (ThreadTime, Instant),
-    asked: Cell<u32>,
 }
 
-/// The clock of CPU time is slow to read: once in so many steps.
-const ASKED: u32 = 16;
 /// On a busy machine a run may take so many times its CPU time.
-const BUSY: u32 = 4;
+const BUSY: u32 = 3;
 
 impl Sink for Sampler<'_> {
     fn accepted(&mut self, state: &Observation) {
@@ -83,6 +122,7 @@ impl Sink for Sampler<'_> {
     }
 
     fn row(&mut self, state: &Observation) {
+        self.sizes.add(self.motion.system, state, &self.scales, &mut self.scratch);
         if state.t > self.start {
             self.rows.push(self.watched.read(self.motion.system, state, &mut self.scratch));
         }
@@ -92,12 +132,10 @@ impl Sink for Sampler<'_> {
         if (self.motion.is_stopped)() {
             return Some(Stop { reason: "interrupted".to_string(), hint: "begin again".to_string() });
         }
-        self.asked.set(self.asked.get().wrapping_add(1));
-        if !self.asked.get().is_multiple_of(ASKED) {
-            return None;
-        }
+        // The clock of CPU time is slow to read, and never ahead of the other.
         let (cpu, wall) = self.clocks;
-        let is_over = cpu.elapsed() > self.allowed || wall.elapsed() > BUSY * self.allowed;
-        is_over.then(|| Stop::deadline(self.allowed))
+        let (waited, Allowed { cpu: most, wall: longest }) = (wall.elapsed(), self.allowed);
+        let is_over = waited > longest || waited > most && cpu.elapsed() > most;
+        is_over.then(|| Stop::deadline(most))
     }
 }

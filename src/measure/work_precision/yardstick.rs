@@ -1,5 +1,6 @@
 //! What of a motion is compared, and how.
 
+use super::scale::{Sizes, scales};
 use crate::error::{Error, Result, suggest};
 use crate::simulate::Observation;
 use crate::system::{Column, MechanicalSystem, Scratch};
@@ -47,7 +48,7 @@ impl Watched {
     }
 }
 
-/// Values that others are compared with, each relative to its own largest over the motion.
+/// Values that others are compared with, and the size of each quantity that errors are relative to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Yardstick {
     pub names: Vec<String>,
@@ -56,35 +57,20 @@ pub struct Yardstick {
     scales: Vec<f64>,
 }
 
-/// What is smaller than this part of the largest quantity in its unit is no quantity of this motion: it is compared at that.
-const SMALLEST: f64 = 1e-9;
-
 impl Yardstick {
-    pub fn new(columns: &[Column], rows: Vec<Vec<f64>>) -> Yardstick {
-        let largest = |i: usize| rows.iter().fold(0.0f64, |most, row| most.max(row[i].abs()));
-        let of_unit = |unit: &str| {
-            let same = (0..columns.len()).filter(|i| columns[*i].unit == unit);
-            same.fold(0.0f64, |most, i| most.max(largest(i)))
-        };
-        let scale = |i: usize| match largest(i).max(SMALLEST * of_unit(&columns[i].unit)) {
-            0.0 => 1.0,
-            scale => scale,
-        };
-        Yardstick {
-            names: columns.iter().map(|column| column.name.clone()).collect(),
-            scales: (0..columns.len()).map(scale).collect(),
-            rows,
-        }
+    pub fn new(columns: &[Column], rows: Vec<Vec<f64>>, sizes: &Sizes) -> Yardstick {
+        let names = columns.iter().map(|column| column.name.clone()).collect();
+        Yardstick { names, scales: scales(columns, &rows, sizes), rows }
     }
 
     /// The largest relative difference, and the quantity that has it. Rows that are missing make it infinite.
-    pub fn error(&self, rows: &[Vec<f64>]) -> (f64, &str) {
+    pub fn error(&self, rows: &[Vec<f64>]) -> (f64, String) {
         if rows.len() != self.rows.len() {
-            return (f64::INFINITY, "");
+            return (f64::INFINITY, String::new());
         }
-        self.errors(rows).into_iter().zip(&self.names).fold((0.0, ""), |worst, (error, name)| {
-            if error > worst.0 || error.is_nan() || worst.1.is_empty() { (error, name.as_str()) } else { worst }
-        })
+        let errors = self.errors(rows).into_iter().zip(&self.names);
+        let worst = errors.reduce(|worst, next| if next.0 > worst.0 || next.0.is_nan() { next } else { worst });
+        worst.map_or((0.0, String::new()), |(error, name)| (error, name.clone()))
     }
 
     /// The largest relative difference of each quantity.

@@ -15,14 +15,15 @@ pub fn tradeoff_figure(measured: &WorkPrecision, digits: u32) -> Option<Figure> 
     }
     let evaluations = |cell: &Cell| cell.statistics().map(|work| work.rhs_evaluations as f64);
     let factorizations = |cell: &Cell| cell.statistics().map(|work| work.factorizations as f64);
+    let cost = |cell: &Cell| cell.cost;
     let drift = |cell: &Cell| cell.drift().map(Held::largest);
     let panel = |x: Quantity, y: Quantity| panel(measured, &named, x, y);
     let error = || Quantity("error (relative)", &Cell::error);
     let figure = Figure::new().title(format!("{}: speed for accuracy", measured.scene)).columns(2).width(WIDTH);
     Some(
         figure
-            .panel(panel(Quantity("CPU time (s)", &Cell::seconds), error()))
-            .panel(panel(Quantity("CPU time (s)", &Cell::seconds), Quantity("drift of φ, φ′ (relative)", &drift)))
+            .panel(panel(Quantity("CPU time (s)", &cost), error()))
+            .panel(panel(Quantity("CPU time (s)", &cost), Quantity("drift of φ, φ′ (relative)", &drift)))
             .panel(panel(Quantity("evaluations of the equations of motion", &evaluations), error()))
             .panel(panel(Quantity("factorizations", &factorizations), error())),
     )

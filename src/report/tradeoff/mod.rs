@@ -48,13 +48,21 @@ fn advice(measured: &WorkPrecision, places: Recommendation, scene: &str) -> Advi
     let cell = |place: usize| &measured.cells[place];
     let run = |place: usize| {
         let Cell { method, .. } = cell(place);
-        let time = cell(place).seconds().map_or(String::new(), milliseconds);
+        let time = cell(place).cost.map_or(String::new(), milliseconds);
         format!("{} at {}, {time}", method.triple(), accuracy(method))
     };
     let best = cell(places.best);
     let next = places.next.map_or(String::new(), |next| format!("; next best {}", run(next)));
+    let ties: Vec<String> = places.ties.iter().map(|place| cell(*place).method.triple()).collect();
+    let tie = match &ties[..] {
+        [] => String::new(),
+        [one] => format!("; a tie with {one}"),
+        [first, rest @ ..] => format!("; a tie with {first} and {} more", rest.len()),
+    };
     let drift = best.drift().map_or(0.0, Held::largest);
-    let sentence = format!("{}{next}; drift {drift:.0e}", run(places.best));
+    let is_tied = places.next.is_some_and(|next| places.ties.contains(&next));
+    let next = if is_tied { String::new() } else { next };
+    let sentence = format!("{}{tie}{next}; drift {drift:.0e}", run(places.best));
     Advice { places, sentence, command: command(&best.method, scene) }
 }
 

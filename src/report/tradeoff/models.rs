@@ -2,7 +2,7 @@
 
 use super::milliseconds;
 use crate::error::Result;
-use crate::measure::work_precision::models::{ModelCost, ModelCosts};
+use crate::measure::work_precision::models::{Finer, ModelCost, ModelCosts};
 use crate::report::{Table, cell, table};
 use serde::Serialize;
 
@@ -22,12 +22,17 @@ struct ModelAdvice {
     sentence: String,
 }
 
-/// Parts of the largest value of an output.
+/// A model is converged that a finer one changes by less.
+const CONVERGED: f64 = 0.01;
+/// Parts of the size of an output.
 const WITHIN: [f64; 4] = [0.1, 0.01, 1e-3, 1e-4];
 
 impl<'a> ModelsSummary<'a> {
     pub fn new(costs: &'a ModelCosts) -> ModelsSummary<'a> {
-        let mut recommendations: Vec<ModelAdvice> = WITHIN.iter().filter_map(|within| advice(costs, *within)).collect();
+        // Nothing can be told that is nearer than the richest model is to itself.
+        let told = costs.uncertainty().map_or(0.0, |(error, _)| error);
+        let mut recommendations: Vec<ModelAdvice> =
+            WITHIN.iter().filter(|within| **within >= told).filter_map(|within| advice(costs, *within)).collect();
         // Once it is the richest, it stays so.
         recommendations.dedup_by(|a, b| a.model == b.model && b.model == costs.models[costs.richest].name);
         ModelsSummary { costs, recommendations }
@@ -37,6 +42,7 @@ impl<'a> ModelsSummary<'a> {
         let ModelCosts { models, richest, rows, .. } = self.costs;
         let rich = &models[*richest];
         let mut text = format!("models against the richest, {}, at {rows} times of the motion\n\n", rich.name);
+        text += &convergence(self.costs);
         for advice in &self.recommendations {
             text += &format!("  {}\n", advice.sentence);
         }
@@ -60,6 +66,27 @@ impl<'a> ModelsSummary<'a> {
         let outputs = self.costs.columns.iter().map(|column| of(&column.name));
         [model.name.clone()].into_iter().chain(outputs).collect()
     }
+}
+
+/// How far the richest model itself can be believed.
+fn convergence(costs: &ModelCosts) -> String {
+    let Finer { velocities, failure, .. } = &costs.finer;
+    let mesh = match velocities {
+        Some(_) => "with twice its elements",
+        None => "without a mesh to refine, with a hundredth of its tolerance",
+    };
+    let text = match (costs.uncertainty(), failure) {
+        (Some((error, output)), _) if error > CONVERGED => {
+            let error = percent(error);
+            format!("the richest is NOT converged: {mesh} {output} changes by {error}; what is nearer cannot be told")
+        }
+        (Some((error, output)), _) => {
+            format!("the richest is converged: {mesh} {output} changes by {} at most", percent(error))
+        }
+        (None, Some(failure)) => format!("whether the richest is converged is not known: {mesh}: {}", failure.reason),
+        (None, None) => "whether the richest is converged is not known".to_string(),
+    };
+    format!("  {text}\n\n")
 }
 
 fn percent(part: f64) -> String {

@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::measure::work_precision::{Cell, Outcome, WorkPrecision};
 use crate::report::{cell as number, table};
 
-const HEADINGS: [&str; 24] = [
+const HEADINGS: [&str; 25] = [
     "formulation",
     "integrator",
     "projection",
@@ -15,6 +15,7 @@ const HEADINGS: [&str; 24] = [
     "digits",
     "error",
     "worst",
+    "cost",
     "cpu_seconds",
     "fastest",
     "slowest",
@@ -50,6 +51,7 @@ fn row(cell: &Cell) -> Vec<String> {
                 |pick: fn(f64, f64) -> f64| cpu_seconds.iter().copied().reduce(pick).map_or(String::new(), number);
             let numbers = [cell.digits().unwrap_or(0.0), *error].map(number);
             row.extend(["completed".to_string()].into_iter().chain(numbers).chain([worst.clone()]));
+            row.push(cell.cost.map_or(String::new(), number));
             row.extend([cell.seconds().map_or(String::new(), number), extreme(f64::min), extreme(f64::max)]);
             row.push(cpu_seconds.len().to_string());
             row.extend([drift.position, drift.velocity].map(number));
@@ -65,10 +67,10 @@ fn row(cell: &Cell) -> Vec<String> {
             row.extend(work.map(|count| count.to_string()));
         }
         Outcome::Failed { cpu_seconds, .. } => {
-            row.extend(["failed", "", "", ""].map(String::from).into_iter().chain([number(*cpu_seconds)]));
+            row.extend(["failed", "", "", "", ""].map(String::from).into_iter().chain([number(*cpu_seconds)]));
         }
         Outcome::TooSlow { cpu_seconds, .. } => {
-            row.extend(["too_slow", "", "", ""].map(String::from).into_iter().chain([number(*cpu_seconds)]));
+            row.extend(["too_slow", "", "", "", ""].map(String::from).into_iter().chain([number(*cpu_seconds)]));
         }
         Outcome::Skipped { .. } => row.push("skipped".to_string()),
     }

@@ -2,7 +2,7 @@
 
 use super::{Summary, accuracy, milliseconds};
 use crate::error::clock;
-use crate::measure::work_precision::{Cell, Outcome, Reference, WorkPrecision, cheapest_by_method};
+use crate::measure::work_precision::{Cell, Lack, Outcome, Reference, WorkPrecision, cheapest_by_method};
 use crate::report::Table;
 use std::fmt::Write;
 
@@ -25,10 +25,10 @@ impl Summary<'_> {
         }
         let asked = self.recommendations.iter().find(|advice| advice.places.digits == digits);
         let most = asked.or(self.recommendations.last());
-        text += &match most {
-            None => "  no run has a digit that the reference vouches for\n".to_string(),
-            Some(advice) => format!("\n  {}\n{}", advice.command, families(measured, advice)),
-        };
+        if let Some(Lack { why, hint, .. }) = measured.lacks(digits) {
+            text += &format!("  for {digits} digits: none; {why}\n    {hint}\n");
+        }
+        text += &most.map_or(String::new(), |advice| format!("\n  {}\n{}", advice.command, families(measured, advice)));
         let digits = most.map_or(digits, |advice| advice.places.digits);
         let left_out = measured.left_out.iter().map(|what| format!("\n  left out: {what}\n"));
         text + &tables(measured, digits) + &left_out.collect::<String>()
@@ -48,10 +48,11 @@ fn head(measured: &WorkPrecision) -> String {
         few if few.len() <= 6 => few.join(", "),
         many => format!("{} and {} more", many[..5].join(", "), many.len() - 5),
     };
-    let _ = writeln!(text, "  compared at {} times, each relative to its largest value: {names}", measured.rows);
+    let _ =
+        writeln!(text, "  compared at {} times of the motion, each relative to its size in it: {names}", measured.rows);
     let _ = writeln!(text, "  reference: {from}; differs from {checked_by} by {error:.0e} ({worst})");
     if !is_independent {
-        text += "  no second method came through: the reference's error is only its change with the tolerance\n";
+        text += "  no second method came as far: the reference's error is only its change with the tolerance\n";
     }
     text + "\n"
 }
@@ -60,7 +61,7 @@ fn head(measured: &WorkPrecision) -> String {
 fn families(measured: &WorkPrecision, advice: &super::Advice) -> String {
     let pair = |place: Option<usize>| {
         let cell = &measured.cells[place?];
-        Some((cell.method.triple(), cell.seconds()?))
+        Some((cell.method.triple(), cell.cost?))
     };
     let (Some(explicit), Some(implicit)) = (pair(advice.places.explicit), pair(advice.places.implicit)) else {
         return String::new();
@@ -83,12 +84,11 @@ fn families(measured: &WorkPrecision, advice: &super::Advice) -> String {
 /// The cheapest run of each method that has the digits; the others by what they have.
 fn tables(measured: &WorkPrecision, digits: u32) -> String {
     let (reached, others) = cheapest_by_method(&measured.cells, digits);
-    let limit = measured.reference.as_ref().map_or(16.0, Reference::digits);
     let first = format!("{digits} digits or more");
-    let headings = [&first, "accuracy", "digits", "CPU", "repeats", "rhs", "factored", "max |φ|", "max |φ′|"];
+    let headings = [&first, "accuracy", "digits", "CPU", "rhs", "factored", "max |φ|", "max |φ′|"];
     let mut table = Table::new(&headings).words(1);
     for cell in reached.iter().map(|place| &measured.cells[*place]) {
-        table.row(line(cell, limit));
+        table.row(line(cell));
     }
     let mut text = format!("\n{table}");
     if !others.is_empty() {
@@ -96,7 +96,7 @@ fn tables(measured: &WorkPrecision, digits: u32) -> String {
         for cell in others.iter().map(|place| &measured.cells[*place]) {
             let ends = measured.cells.iter().filter(|other| other.is_of(&cell.method));
             let then = ends.filter(|other| other.decades > cell.decades || cell.reason().is_some()).find_map(reason);
-            let cells = line(cell, limit);
+            let cells = line(cell);
             table.row(cells.into_iter().take(4).chain([then.unwrap_or_default()]));
         }
         text += &format!("\n{table}");
@@ -114,17 +114,15 @@ fn reason(cell: &Cell) -> Option<String> {
     }
 }
 
-fn line(cell: &Cell, limit: f64) -> Vec<String> {
-    let (digits, mark) = cell.digits().map_or((0.0, ""), |own| if own > limit { (limit, ">") } else { (own, "") });
+fn line(cell: &Cell) -> Vec<String> {
     let mut cells = vec![cell.method.triple(), accuracy(&cell.method)];
-    let Outcome::Completed { cpu_seconds, statistics, drift, .. } = &cell.outcome else {
+    let Outcome::Completed { statistics, drift, .. } = &cell.outcome else {
         cells.extend(["-", "-"].map(String::from));
         return cells;
     };
     cells.extend([
-        format!("{mark}{digits:.1}"),
-        cell.seconds().map_or(String::new(), milliseconds),
-        cpu_seconds.len().to_string(),
+        format!("{:.1}", cell.digits().unwrap_or(0.0)),
+        cell.cost.map_or(String::new(), milliseconds),
         statistics.rhs_evaluations.to_string(),
         statistics.factorizations.to_string(),
         format!("{:.0e}", drift.position),

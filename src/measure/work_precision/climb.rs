@@ -1,0 +1,179 @@
+//! Runs of a few methods of other families, ever tighter, cheap ones first.
+
+use super::grid::Triple;
+use super::ladder::tolerances;
+use super::reference::check;
+use super::runner::Motion;
+use super::sample::{Allowed, Sample, sample};
+use super::yardstick::Watched;
+use crate::choice::Choice;
+use crate::error::{Failure, Result};
+use crate::formulation;
+use crate::integrator;
+use crate::simulate::{Method, Span};
+use std::panic::resume_unwind;
+use std::time::{Duration, Instant};
+
+/// rtol, from loose to tight.
+const LADDER: [f64; 6] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13];
+/// Explicit and implicit methods, one in minimal coordinates, a half-explicit one.
+const FAMILIES: [[&str; 3]; 6] = [
+    ["index1", "dop853", "exact"],
+    ["ggl", "radau_iia", "none"],
+    ["null_space", "dopri5", "none"],
+    ["index2", "phem56", "manifold"],
+    ["index1", "dopri5", "exact"],
+    ["index2", "radau_iia", "none"],
+];
+/// Parts of the budget in CPU time for each method, one after the other: quick runs show which methods bring the motion to its end, and
+/// longer ones are made where these are not good enough;
+const PARTS: [f64; 3] = [0.02, 0.06, 0.2];
+/// the last where two do not agree in anything yet.
+const LAST: f64 = 0.4;
+/// Parts of the budget that all of them may take on a busy machine, without the last and with it.
+const WAITED: [f64; 2] = [0.45, 0.8];
+/// In the last those methods run that need so many times what the quickest needs.
+const QUICK: f64 = 3.0;
+
+/// Runs of one method that came through, from loose to tight.
+#[derive(Default)]
+pub struct Line {
+    pub rungs: Vec<Rung>,
+    /// The place of the next one in the ladder.
+    next: usize,
+    /// Where and why the last one tried did not.
+    failure: Option<(Method, Sample)>,
+}
+
+/// A run that came through.
+pub struct Rung {
+    pub method: Method,
+    pub run: Sample,
+}
+
+impl Rung {
+    pub fn name(&self) -> String {
+        format!("{}, rtol {:e}", self.method.triple(), self.method.rtol)
+    }
+
+    /// The mean step, made longer by what the tolerance made it shorter.
+    pub fn pace(&self, span: Span) -> f64 {
+        let order = integrator::find(&self.method.integrator).map_or(5, |entry| entry.order.max(5));
+        (span.end - span.start) / self.run.statistics.steps.max(1) as f64 * self.method.rtol.powf(-1.0 / order as f64)
+    }
+}
+
+/// Quick runs of all families, then longer ones until two agree to `wanted`.
+///
+/// # Errors
+/// Bad input.
+pub fn climb(motion: &Motion, watched: &Watched, span: Span, (wanted, budget): (f64, Duration)) -> Result<Vec<Line>> {
+    let mut lines: Vec<Line> = FAMILIES.iter().map(|_| Line::default()).collect();
+    let clock = Instant::now();
+    for part in PARTS.into_iter().chain([LAST]) {
+        let error = check(&lines, watched).map_or(f64::INFINITY, |checked| checked.error.0);
+        if error <= if part == LAST { 0.1 } else { wanted } {
+            break;
+        }
+        let (is_last, part) = (part == LAST, budget.mul_f64(part));
+        let waited = budget.mul_f64(WAITED[usize::from(is_last)]);
+        let least =
+            lines.iter().map(|line| line.forecast(motion)).filter(|time| *time > 0.0).fold(f64::INFINITY, f64::min);
+        let up = &|(line, names): (&mut Line, &[&str; 3])| -> Result<()> {
+            if is_last && line.forecast(motion) > QUICK * least {
+                return Ok(());
+            }
+            let mut cpu = part;
+            while !(motion.is_stopped)() && !cpu.is_zero() {
+                let wall = waited.saturating_sub(clock.elapsed());
+                let (is_more, seconds) = line.step(motion, watched, span, (*names, Allowed { cpu, wall }))?;
+                cpu = cpu.saturating_sub(Duration::from_secs_f64(seconds));
+                if !is_more {
+                    break;
+                }
+            }
+            Ok(())
+        };
+        // Threads of their own: the pool may be busy with other measurements.
+        std::thread::scope(|scope| {
+            let threads: Vec<_> = lines.iter_mut().zip(&FAMILIES).map(|pair| scope.spawn(move || up(pair))).collect();
+            threads.into_iter().try_for_each(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic)))
+        })?;
+    }
+    Ok(lines)
+}
+
+impl Line {
+    /// Makes the next run where it can be expected to fit into the time allowed; whether there may be another, and the CPU time spent, s.
+    fn step(
+        &mut self,
+        motion: &Motion,
+        watched: &Watched,
+        span: Span,
+        (names, allowed): ([&str; 3], Allowed),
+    ) -> Result<(bool, f64)> {
+        let Some(rtol) = LADDER.get(self.next).copied() else { return Ok((false, 0.0)) };
+        if allowed.wall.is_zero() || self.forecast(motion) > allowed.cpu.as_secs_f64() {
+            return Ok((false, 0.0));
+        }
+        let [formulation, integrator, projection] = names.map(Choice::named);
+        let triple = Triple { formulation, integrator, projection };
+        // Minimal coordinates of large systems do not fit into memory.
+        if formulation::make(&triple.formulation, motion.system).is_err() {
+            return Ok((false, 0.0));
+        }
+        let method = triple.at(tolerances(rtol, motion), None);
+        let run = sample(motion, watched, &method, span, allowed)?;
+        let seconds = run.seconds;
+        if run.is_too_slow {
+            self.failure = Some((method, run));
+            return Ok((false, seconds));
+        }
+        // What fails at one tolerance may come through at a tighter one.
+        self.next += 1;
+        if run.failure.is_some() {
+            self.failure = Some((method, run));
+            return Ok((true, seconds));
+        }
+        self.failure = None;
+        self.rungs.push(Rung { method, run });
+        Ok((true, seconds))
+    }
+
+    /// At least so long the next run takes, s.
+    fn forecast(&self, motion: &Motion) -> f64 {
+        let stopped = self.failure.as_ref().and_then(|(_, run)| run.whole(motion));
+        stopped.or_else(|| self.rungs.last().map(|rung| rung.run.seconds)).unwrap_or(0.0)
+    }
+}
+
+/// What to do where no method came through: the time that the quickest needs, by how far it came.
+pub fn nothing(lines: &[Line], motion: &Motion, budget: Duration) -> Failure {
+    let stopped = lines.iter().filter_map(|line| line.failure.as_ref());
+    let forecasts =
+        stopped.clone().filter_map(|(method, run)| Some((method, run.whole(motion).filter(|seconds| *seconds > 0.0)?)));
+    let quickest = forecasts.min_by(|a, b| a.1.total_cmp(&b.1));
+    let failed = stopped.clone().find(|(_, run)| !run.is_too_slow).and_then(|(_, run)| run.failure.clone());
+    let t = stopped.filter_map(|(_, run)| run.failure.as_ref()).fold(motion.between.0, |t, failure| t.max(failure.t));
+    match (quickest, failed) {
+        (Some((method, seconds)), _) => Failure {
+            t,
+            reason: format!(
+                "no method brings the motion to its end in {} s, so that there is nothing to compare with; the quickest, {} at rtol {:e}, would take about {seconds:.1} s",
+                budget.as_secs_f64(),
+                method.triple(),
+                method.rtol
+            ),
+            hint: format!(
+                "give more time by --budget {:.0}s, a shorter motion by --until, or values by --reference FILE",
+                (seconds / PARTS[1]).ceil()
+            ),
+        },
+        (None, Some(failure)) => failure,
+        (None, None) => Failure {
+            t,
+            reason: "no method starts in the time allowed".to_string(),
+            hint: "give more time by --budget".to_string(),
+        },
+    }
+}
