@@ -9,14 +9,7 @@ use scenes::{Ready, parse, shipped};
 /// Begins with a method named, whether it is a good one or not.
 fn begun_with(scene: &Ready, names: [&str; 3], span: Span) -> (Outcome, Vec<Leg>, holonom::measure::Record) {
     let [formulation, integrator, projection] = names.map(holonom::formulation::Choice::named);
-    let method = holonom::simulate::Method {
-        formulation,
-        integrator,
-        projection,
-        rtol: 1e-7,
-        atol: 1e-9,
-        step: None,
-    };
+    let method = holonom::simulate::Method { formulation, integrator, projection, rtol: 1e-7, atol: 1e-9, step: None };
     let first = Leg { from: span.start, method, because: String::new() };
     let mut recorder = Recorder::new(scene.system());
     let (outcome, legs) = simulate_automatic(scene.system(), &first, span, scene.0.start(), &mut recorder).unwrap();
@@ -30,10 +23,9 @@ const IMPLICIT: [&str; 3] = ["ggl", "radau_iia", "none"];
 /// and a pendulum that has nothing fast.
 #[test]
 fn a_bad_beginning_is_left() {
-    for (scene, first, then) in [
-        (shipped("spin_up_beam", &[]), EXPLICIT, "radau_iia"),
-        (shipped("pendulum", &[]), IMPLICIT, "dop853"),
-    ] {
+    for (scene, first, then) in
+        [(shipped("spin_up_beam", &[]), EXPLICIT, "radau_iia"), (shipped("pendulum", &[]), IMPLICIT, "dop853")]
+    {
         let span = Span { output_step: 0.01, ..scene.span() };
         let (outcome, legs, record) = begun_with(&scene, first, span);
         let names: Vec<&str> = legs.iter().map(|leg| leg.method.integrator.name.as_str()).collect();
@@ -58,8 +50,8 @@ fn a_bad_beginning_is_left() {
     }
 }
 
-/// Round-off stops one method where the rails of two equal cranks are in line, and then the other: the run ends with the
-/// reason, and what it had.
+/// A force that has no value beyond a place stops one method, and then the other: the run ends with the reason, and what it
+/// had.
 #[test]
 fn where_both_methods_stop_the_run_does() {
     let scene = parse(

@@ -118,13 +118,14 @@ fn adaptive_steps_that_stability_holds_short_are_told() {
     assert_eq!(warning(&oscillator(1e4, 0.0), &Method::default(), 10.0), None);
 }
 
-/// No false alarm: of the shipped scenes with their own settings only the governor, whose dampers make it stiff.
+/// No false alarm of the shipped scenes with their own settings: even of the governor, whose dampers hold dop853 to its
+/// steps, an implicit method comes less than twice as far.
 #[test]
 fn shipped_scenes_are_not_warned_of() {
     for path in scenes::models() {
         let scene = scenes::load(&path, &[]);
         let told = scene.0.stiffness(scene.span());
-        assert_eq!(told.is_some(), scene.0.name == "flyball_governor", "{}: {told:?}", scene.0.name);
+        assert!(told.is_none(), "{}: {told:?}", scene.0.name);
     }
     let told = scenes::shipped("quarter_car", &[("c_strut", 2e5)]);
     let told = told.0.stiffness(told.span()).unwrap();

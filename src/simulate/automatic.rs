@@ -46,12 +46,21 @@ pub fn rival(system: &dyn MechanicalSystem, method: &Method, span: Span, start: 
     let store = Store::default();
     let mut run = Run::unseen((system, &store), method, [span.start, span.end], flat(start)).ok()?;
     run.begin(&mut Quiet).ok()?;
-    let (mark, failure) = run.window(FIRST, &mut Quiet);
-    if failure.is_some() {
-        return None;
+    let mut window = FIRST;
+    while window < MOST_ADVICE {
+        let (mark, failure) = run.window(window, &mut Quiet);
+        if failure.is_some() || run.t >= span.end {
+            return None;
+        }
+        if let Some(hindered) = run.hindered(mark) {
+            return run.contest(mark, hindered, &implicit, system).ok();
+        }
+        if run.has_shown_itself(mark) {
+            return None;
+        }
+        window *= 2.0;
     }
-    let hindered = run.hindered(mark)?;
-    run.contest(mark, hindered, &implicit, system).ok()
+    None
 }
 
 /// The choice for a motion from (q, v) over `span`, by its beginning.
@@ -72,11 +81,18 @@ pub fn advise(
     let mut drive = Drive { system, methods: &methods, run, carrier: 0, spent: Statistics::default() };
     let unseen = Span { output_step: f64::INFINITY, ..span };
     let (mut chosen, mut because, mut window) = (0, CALM.to_string(), FIRST);
-    while drive.run.t < span.end && window < MOST_ADVICE {
+    while window < MOST_ADVICE {
         let (mark, stopped) = drive.run.window(window, &mut Quiet);
         failure = failure.or(stopped);
-        let Some(look) = drive.look(mark, failure.as_ref())? else { break };
-        (chosen, because) = look;
+        if drive.run.t >= span.end {
+            break;
+        }
+        match drive.look(mark, failure.as_ref())? {
+            Some(look) if look.0 != drive.carrier || because == CALM => (chosen, because) = look,
+            Some(_) => {}
+            None if drive.run.has_shown_itself(mark) => break,
+            None => {}
+        }
         if failure.is_some() {
             break;
         }
@@ -89,7 +105,7 @@ pub fn advise(
 }
 
 /// An advice looks at no more work than this at a time, in evaluations.
-const MOST_ADVICE: f64 = 4e3;
+const MOST_ADVICE: f64 = 2e4;
 const CALM: &str = "not stiff: accuracy, not stability, limits explicit steps";
 
 /// Integrates `system` from (q, v), which should be consistent, over `span`, by the method of `first` and others where these
@@ -181,7 +197,8 @@ fn words(Contest { t, mode, step, gain }: &Contest, [own, other]: [&str; 2], win
     let kind = match (own, wins) {
         ("dop853", true) => "stiff",
         ("dop853", false) => "fast, not stiff",
-        _ => "no longer stiff",
+        (_, true) => "no longer stiff",
+        _ => "stiff",
     };
     let verdict = if wins { "comes" } else { "comes only" };
     let filter = if kind == "fast, not stiff" { FILTER } else { "" };

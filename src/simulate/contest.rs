@@ -30,6 +30,9 @@ const GROWN: f64 = 2.0;
 /// How often a run that is watched goes on for that.
 const GROWTHS: usize = 5;
 
+/// This part of the work that is left says enough of it.
+const SHOWN: f64 = 0.1;
+
 /// How far a run has come, s, after how much work, in evaluations, and how many steps.
 #[derive(Clone, Copy, Debug)]
 pub struct Mark {
@@ -100,6 +103,13 @@ impl<'a> Run<'a> {
         (mark, None)
     }
 
+    /// Whether the work so far is a good part of what the motion will take at the pace since `mark`.
+    pub fn has_shown_itself(&self, mark: Mark) -> bool {
+        let now = self.mark();
+        let left = (self.span.end - now.t) * (now.work - mark.work) / (now.t - mark.t);
+        now.work > SHOWN * left
+    }
+
     /// Mean step since then.
     fn step_since(&self, mark: Mark) -> f64 {
         (self.t - mark.t) / (self.mark().steps - mark.steps).max(1) as f64
@@ -134,7 +144,8 @@ impl<'a> Run<'a> {
         let store = Store::default();
         let mut rival = Run::unseen((system, &store), other, [self.t, self.span.end], self.y.clone())?;
         let failure = rival.go_on(&self.problem.dynamics.held).err();
-        let (mark, stopped) = if failure.is_none() { rival.window(budget, &mut Quiet) } else { (rival.mark(), failure) };
+        let (mark, stopped) =
+            if failure.is_none() { rival.window(budget, &mut Quiet) } else { (rival.mark(), failure) };
         let now = rival.mark();
         let theirs = if stopped.is_some() { 0.0 } else { (now.t - mark.t) / (now.work - mark.work).max(1.0) };
         Ok(Contest { t: self.t, mode, step, gain: theirs / pace })
