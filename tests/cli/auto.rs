@@ -61,7 +61,7 @@ fn fast_decay_gets_an_implicit_one() {
 fn fast_oscillations_are_stepped_over_or_resolved() {
     let (names, because, x) = chosen(&pair("1e8", "0", 0.0), &[]);
     assert_eq!(names, "ggl radau_iia none");
-    assert!(because.starts_with("stiff. ") && because.contains("swings at 320000 rad/s"), "{because}");
+    assert!(because.contains("swings at 320000 rad/s"), "{because}");
     assert!(close(&x), "{x}");
     let (names, because, _) = chosen(&pair("1e8", "0", 1e-3), &["--until", "0.1"]);
     assert_eq!(names, "index1 dop853 manifold");
