@@ -64,6 +64,30 @@ impl Tolerance {
     }
 }
 
+/// How the tolerance of a method's steps follows from what is asked of the motion: factor asked^power. Where the error of a
+/// step is that of the solution, O(h^(p+1)), errors add up to its power p/(p+1), which the power (p + 1)/p makes up for;
+/// with local extrapolation they add up to a multiple of it. Source: Shampine, SIAM J. Numer. Anal. 12 (1975) on error per
+/// step and per unit step. The factors are measured: medians over the shipped scenes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tightening {
+    pub factor: f64,
+    pub power: f64,
+}
+
+/// Tolerances below this round-off does not allow.
+const LEAST_RTOL: f64 = 1e-14;
+
+impl Tightening {
+    /// Steps are given, or their errors add up to no more than one is allowed.
+    pub const NONE: Self = Tightening { factor: 1.0, power: 1.0 };
+
+    /// The tolerance of steps: never looser than what is `asked`, nor tighter than round-off allows.
+    pub fn of_steps(self, asked: &Tolerance) -> Tolerance {
+        let rtol = (self.factor * asked.rtol.powf(self.power)).max(LEAST_RTOL).min(asked.rtol);
+        asked.with(rtol, asked.atol * rtol / asked.rtol)
+    }
+}
+
 /// h_new = h safety err^-expo err_old^beta within [shrink, grow] h. Source: Hairer, Norsett, Wanner, Solving Ordinary
 /// Differential Equations I, II.4 and the codes DOPRI5 and DOP853. Predictive, for implicit methods: not more than
 /// h_new = h safety (h/h_old) (err_old/err^2)^expo. Source: Hairer, Wanner II, IV.8 (8.25), after Gustafsson.
