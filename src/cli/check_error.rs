@@ -38,7 +38,8 @@ pub fn check_error(study: &Study, span: Span, first: &Trajectory, (talk, folder)
 /// carries them.
 fn amplified(study: &Study, span: Span, goes_on: impl FnMut(f64) -> bool) -> Option<f64> {
     let start = State::start(study);
-    let state = Loaded { t: start.t, q: &start.q, v: &start.v, vdot: &study.assembly.vdot, lambda: &study.assembly.lambda };
+    let state =
+        Loaded { t: start.t, q: &start.q, v: &start.v, vdot: &study.assembly.vdot, lambda: &study.assembly.lambda };
     if stiffness(study.system(), &Method::default(), state, span).is_some() {
         return None;
     }

@@ -65,10 +65,10 @@ pub struct MethodOptions {
     /// Projection after each step, such as manifold:sweeps=2
     #[arg(long, help_heading = OWN, value_parser = choice)]
     pub projection: Option<Choice>,
-    /// Relative tolerance
+    /// Relative tolerance, asked of the motion: steps are controlled by tighter ones
     #[arg(long, help_heading = OWN, value_parser = positive, allow_negative_numbers = true)]
     pub rtol: Option<f64>,
-    /// Absolute tolerance
+    /// Absolute tolerance, likewise
     #[arg(long, help_heading = OWN, value_parser = positive, allow_negative_numbers = true)]
     pub atol: Option<f64>,
     /// Fixed step, s

@@ -29,7 +29,9 @@ pub fn amplification(
     };
     let columns = chart(start)?.changes();
     if columns.q.ncols() > 2 * MOST {
-        return Err(Error::input(format!("more than {MOST} degrees of freedom are too many to carry small changes of")));
+        return Err(Error::input(format!(
+            "more than {MOST} degrees of freedom are too many to carry small changes of"
+        )));
     }
     if columns.q.ncols() == 0 {
         return Ok(1.0);

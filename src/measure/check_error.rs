@@ -65,7 +65,9 @@ fn differences(first: &Trajectory, second: &Trajectory) -> Vec<(String, Differen
         (name.clone(), Difference { max, last, unit: unit.to_string() })
     };
     match has_outputs {
-        true => first.outputs.iter().map(|column| (&column.name, column.unit.as_str())).enumerate().map(named).collect(),
+        true => {
+            first.outputs.iter().map(|column| (&column.name, column.unit.as_str())).enumerate().map(named).collect()
+        }
         false => first.names.q.iter().map(|name| (name, "")).enumerate().map(named).collect(),
     }
 }

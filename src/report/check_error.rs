@@ -5,9 +5,10 @@ use crate::error::{Warning, clock, short};
 use crate::measure::CheckError;
 use crate::simulate::Method;
 
-const UNCHECKED: &str = "the tolerance is one of steps: --check-error measures what their errors add up to";
+const UNCHECKED: &str = "errors are estimated of single steps only: --check-error measures what they add up to";
 const UNCHECKED_STEP: &str = "nothing estimates the errors of fixed steps: --check-error measures them";
-const PENALIZED: &str = "the limit is the penalty, whose error O(1/penalty) no tolerance or step takes away: compare with a larger one";
+const PENALIZED: &str =
+    "the limit is the penalty, whose error O(1/penalty) no tolerance or step takes away: compare with a larger one";
 
 /// The error as a person reads it: the differences to a second run, or that nobody knows it.
 pub fn text(method: &Method, check: Option<&CheckError>) -> String {
@@ -27,7 +28,9 @@ fn differences(check: &CheckError) -> String {
         table.row([name.clone(), max, last, difference.unit.clone()]);
     }
     let amplified = match check.amplification {
-        Some(factor) => format!("the motion itself amplifies small changes of its start {} times", significant(factor, 2)),
+        Some(factor) => {
+            format!("the motion itself amplifies small changes of its start {} times", significant(factor, 2))
+        }
         None => "how much the motion itself amplifies small changes is not known".to_string(),
     };
     format!("{table}  {amplified}\n")

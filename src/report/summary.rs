@@ -1,7 +1,7 @@
 //! `summary.json`.
 
-use super::{Table, check_error};
 use super::warnings::warnings;
+use super::{Table, check_error};
 use crate::error::{Failure, Warning, clock, short_list};
 use crate::formulation::Statistics;
 use crate::initial::{Assembly, Level, Move};
