@@ -74,9 +74,9 @@ pub struct Tightening {
     pub power: f64,
 }
 
-/// Steps are not controlled more tightly than this unless that is asked for: Newton's methods, which go two digits further, reach
-/// round-off.
-const LEAST_RTOL: f64 = 1e-12;
+/// Steps are not controlled more tightly than this unless that is asked for: Newton's methods, which go two digits further, and
+/// projections near singular states come near round-off.
+const LEAST_RTOL: f64 = 1e-11;
 
 impl Tightening {
     /// Steps are given, or their errors add up to no more than one is allowed.
@@ -191,7 +191,7 @@ mod tests {
         let asked = |rtol: f64| Tolerance { rtol, atol: 1e-2 * rtol, turning: [0, 0] };
         let steps = |rtol: f64| Tightening { factor: 10.0, power: 1.5 }.of_steps(&asked(rtol)).rtol;
         assert_eq!(steps(1.0), 1.0);
-        assert!((steps(1e-4) / 1e-5 - 1.0).abs() < 1e-12 && steps(1e-11) == 1e-12 && steps(1e-15) == 1e-15);
+        assert!((steps(1e-4) / 1e-5 - 1.0).abs() < 1e-12 && steps(1e-10) == 1e-11 && steps(1e-15) == 1e-15);
         assert_eq!(Tightening::NONE.of_steps(&asked(1e-8)), asked(1e-8));
     }
 }
