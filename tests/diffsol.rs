@@ -5,7 +5,7 @@ mod scenes;
 
 use common::driven_pendulum::{DrivenPendulum, start};
 use common::stiff::{STIFF, slow_position};
-use common::{adaptive, distance, fixed, run, until};
+use common::{adaptive, distance, fixed, run, stepwise, until};
 use holonom::integrator::{Entry, Steps, registry};
 use holonom::projection::registry as projections;
 use holonom::scene::Scene;
@@ -74,7 +74,7 @@ fn ggl_holds_both_constraints_and_runs_repeat_bit_by_bit() {
     let (q, v) = start();
     for entry in implicit() {
         let drift = |formulation: &str| {
-            let method = adaptive(formulation, entry.name, "none", 1e-6);
+            let method = stepwise(formulation, entry.name, "none", 1e-6);
             let runs = [(); 2].map(|()| run(&DrivenPendulum, &method, until(END), (&q, &v)).completed());
             assert_eq!(runs[0].last(), runs[1].last());
             assert_eq!(runs[0].outcome.statistics, runs[1].outcome.statistics);
@@ -111,7 +111,7 @@ fn a_stiff_motion_is_stepped_over() {
         [("bdf", 1e-6, 200, 1e-4), ("tr_bdf2", 1e-6, 500, 3e-4), ("esdirk34", 1e-8, 600, 2e-5)]
     {
         for formulation in ["index1", "ggl"] {
-            let run = ready.run(&adaptive(formulation, integrator, "none", tolerance), ready.span());
+            let run = ready.run(&stepwise(formulation, integrator, "none", tolerance), ready.span());
             let x = *run.column("x").last().unwrap();
             assert!((x - slow_position()).abs() < off, "{integrator} {formulation}: {x}");
             assert!(run.outcome.statistics.steps < most, "{integrator}: {:?}", run.outcome.statistics);
@@ -126,7 +126,7 @@ fn a_damped_stiff_motion_is_stepped_over_at_any_tolerance() {
     let ready = Ready(Study::new(scene, &Default::default()).unwrap());
     for (tolerance, most) in [(1e-4, 100), (1e-6, 200), (1e-8, 500), (1e-10, 1500)] {
         for formulation in ["index1", "ggl"] {
-            let run = ready.run(&adaptive(formulation, "bdf", "none", tolerance), ready.span());
+            let run = ready.run(&stepwise(formulation, "bdf", "none", tolerance), ready.span());
             let error = (run.column("x").last().unwrap() - slow_position()).abs();
             // The force of the hard spring is rounded to 4e-8 N.
             assert!(error < 1e-7 + 100.0 * tolerance, "{formulation} {tolerance}: {error:e}");
@@ -143,7 +143,7 @@ fn rotations_in_space() {
         let exact = ready.run(&adaptive("index1", "dop853", "manifold", 1e-11), ready.span()).column(column);
         for entry in implicit() {
             for formulation in ["index1", "ggl"] {
-                let run = ready.run(&adaptive(formulation, entry.name, "none", 1e-7), ready.span());
+                let run = ready.run(&stepwise(formulation, entry.name, "none", 1e-7), ready.span());
                 let error = distance(&run.column(column), &exact);
                 assert!(error < 1e-3, "{scene} {} {formulation}: {error:e}", entry.name);
                 let most = if entry.name == "tr_bdf2" { 25_000 } else { 6_000 };
@@ -198,7 +198,7 @@ fn compare(scene: &str, ready: &Ready, span: Span, columns: &[&str], steps: &[f6
     });
     let methods = [("index1", "dop853", "manifold"), ("index2", "phem56", "manifold")].into_iter().chain(implicit);
     let adaptive =
-        methods.flat_map(|(f, i, p)| [1e-4, 1e-6, 1e-8, 1e-10].map(|tolerance| adaptive(f, i, p, tolerance)));
+        methods.flat_map(|(f, i, p)| [1e-4, 1e-6, 1e-8, 1e-10].map(|tolerance| stepwise(f, i, p, tolerance)));
     let fixed = steps.iter().map(|&step| fixed("index3", "generalized_alpha", "none", step));
     println!("\n{scene}\n{:34} accuracy digits   steps  evaluations  matrices  newton        ms", "method");
     for method in adaptive.chain(fixed) {

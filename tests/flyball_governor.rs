@@ -4,7 +4,7 @@
 mod common;
 mod scenes;
 
-use common::{adaptive, fixed};
+use common::{adaptive, fixed, stepwise};
 use holonom::simulate::Span;
 use scenes::{Run, shipped};
 
@@ -74,6 +74,19 @@ fn agrees_with_the_minimal_coordinates() {
     assert!(run.record.energy.unwrap().relative_max_error.unwrap() < 1e-11, "{:?}", run.record.energy);
 }
 
+/// The springs are so stiff that errors of 1e-6 m/s show in their force: as shipped it is known all the same.
+#[test]
+fn the_spring_force_is_as_good_as_the_motion() {
+    let ready = shipped("flyball_governor", &[]);
+    let span = Span { start: 0.0, end: 1.0, output_step: 0.01 };
+    let force = |run: Run| run.column("spring_force");
+    let own = force(ready.run(&ready.0.method, span));
+    let exact = force(ready.run(&adaptive("index1", "dop853", "manifold", 1e-11), span));
+    let error = own.iter().zip(&exact).map(|(own, exact)| (own - exact).abs()).fold(0.0, f64::max);
+    let largest = exact.iter().fold(0.0, |largest: f64, force| largest.max(force.abs()));
+    assert!(error < 1e-5 * largest, "{error:e} of {largest}");
+}
+
 /// Second order at steps that resolve the turning of the shaft but not the springs, whose rate is 5000 1/s.
 #[test]
 fn implicit_steps_need_not_resolve_the_springs() {
@@ -87,13 +100,13 @@ fn implicit_steps_need_not_resolve_the_springs() {
 }
 
 /// Collocation steps over the dampers, whose rate is 8000 1/s, at any accuracy: dop853 takes 10,400 steps to 5 s. The turn of
-/// the shaft amplifies local errors about 100 times.
+/// the shaft amplifies local errors about 100 times: at 1e-4 the last digit of the tolerance moves the error from 5e-3 to 1.2e-2.
 #[test]
 fn collocation_reaches_the_reference_in_a_tenth_of_the_steps() {
     let ready = shipped("flyball_governor", &[]);
     let span = Span { start: 0.0, end: 5.0, output_step: ROW };
-    for (tolerance, most) in [(1e-4, 1e-2), (1e-7, 2e-5), (1e-10, 2e-8)] {
-        let run = ready.run(&adaptive("ggl", "radau_iia", "none", tolerance), span);
+    for (tolerance, most) in [(1e-4, 2e-2), (1e-7, 2e-5), (1e-10, 2e-8)] {
+        let run = ready.run(&stepwise("ggl", "radau_iia", "none", tolerance), span);
         let [values, rates] = errors(&run, &REFERENCE[1]);
         println!("{tolerance:e}: {values:e} {rates:e} {:?}", run.outcome.statistics);
         assert!(values < most && run.outcome.statistics.steps < 1042, "{tolerance:e}: {values:e}");

@@ -6,7 +6,7 @@ mod scenes;
 use common::driven_pendulum::{self, DrivenPendulum};
 use common::equations::andrews;
 use common::unconstrained::{Arenstorf, Power};
-use common::{Run, adaptive, distance, fixed, method, run, until};
+use common::{Run, adaptive, distance, fixed, method, run, stepwise, until};
 use holonom::integrator::registry;
 use holonom::simulate::{Method, Span};
 use scenes::shipped;
@@ -51,7 +51,7 @@ fn quadrature_conditions() {
 fn phem56_without_constraints_is_dopri5() {
     let (q, v) = Arenstorf::START;
     let orbit = |formulation: &str, integrator: &str| {
-        let method = adaptive(formulation, integrator, "none", 1e-7);
+        let method = stepwise(formulation, integrator, "none", 1e-7);
         run(&Arenstorf, &method, until(Arenstorf::PERIOD), (&q, &v)).completed()
     };
     let (half, full) = (orbit("index2", "phem56"), orbit("index1", "dopri5"));
@@ -65,7 +65,7 @@ fn phem56_on_andrews() {
     // Steps measured, and a tenth more.
     for (tolerance, most) in [(1e-6, 67), (1e-8, 157), (1e-10, 395)] {
         let run = shipped("andrews", &[])
-            .run(&adaptive("index2", "phem56", "none", tolerance), Span { start: 0.0, end: 0.03, output_step: 0.03 });
+            .run(&stepwise("index2", "phem56", "none", tolerance), Span { start: 0.0, end: 0.03, output_step: 0.03 });
         let counts = run.outcome.statistics;
         let angles = ["beta", "Theta", "gamma"].into_iter().zip(andrews::END.q);
         let errors: Vec<f64> = angles.map(|(name, angle)| (run.column(name).last().unwrap() - angle).abs()).collect();

@@ -51,6 +51,22 @@ fn the_tightest_tolerance() {
     });
 }
 
+/// What is asked of a motion is met over it, whatever the method: a step's errors add up, which its control knows.
+#[test]
+fn the_motion_is_as_accurate_as_asked() {
+    let (q, v) = start();
+    let span = until(1.5);
+    let exact = run(&DrivenPendulum, &fixed("index1", "dop853", "exact", 1.5 / 320.0), span, (&q, &v)).completed();
+    methods(|entry| entry.steps != Steps::Fixed).into_par_iter().for_each(|(formulation, integrator)| {
+        for tolerance in [1e-3, 1e-4, 1e-6] {
+            let run = run(&DrivenPendulum, &adaptive(formulation, integrator, "none", tolerance), span, (&q, &v));
+            let error = distance(run.completed().last().0, exact.last().0) / tolerance;
+            println!("{formulation} {integrator} {tolerance:e}: {error:.2} tolerances");
+            assert!(error < 10.0, "{formulation} {integrator} {tolerance:e}: {error:.1} tolerances");
+        }
+    });
+}
+
 #[test]
 fn the_loosest_tolerance() {
     let (q, v) = start();

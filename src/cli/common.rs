@@ -48,7 +48,7 @@ const OWN: &str = "In the place of the scene's own settings";
 /// Leaves the method to the program.
 #[derive(Args)]
 pub struct AutoOption {
-    /// auto: formulation, integrator and projection by the stiffness of the start
+    /// auto: formulation, integrator and projection by trials along the motion
     #[arg(long, help_heading = OWN, value_name = "auto", value_parser = automatic,
           conflicts_with_all = ["formulation", "integrator", "projection", "step"])]
     pub method: Option<Automatic>,
@@ -66,10 +66,10 @@ pub struct MethodOptions {
     /// Projection after each step, such as manifold:sweeps=2
     #[arg(long, help_heading = OWN, value_parser = choice)]
     pub projection: Option<Choice>,
-    /// Relative tolerance
+    /// Relative tolerance, asked of the motion: steps are controlled by tighter ones
     #[arg(long, help_heading = OWN, value_parser = positive, allow_negative_numbers = true)]
     pub rtol: Option<f64>,
-    /// Absolute tolerance
+    /// Absolute tolerance, likewise
     #[arg(long, help_heading = OWN, value_parser = positive, allow_negative_numbers = true)]
     pub atol: Option<f64>,
     /// Fixed step, s

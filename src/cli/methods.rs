@@ -123,7 +123,7 @@ fn text(pairs: &[Pair]) -> String {
     {
         text += &format!("\n{}", list(heading, &items));
     }
-    text + "\nWrite options as baumgarte:alpha=5,beta=5. `--method auto` chooses by the stiffness of a scene and says why.\n"
+    text + "\nWrite options as baumgarte:alpha=5,beta=5. `--method auto` chooses on the way and says why.\n"
 }
 
 /// One row for the formulations of an integrator that have the same orders with every projection.

@@ -2,6 +2,7 @@
 
 mod bode;
 mod check;
+mod check_error;
 mod common;
 mod drift;
 mod generate;

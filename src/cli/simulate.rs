@@ -1,5 +1,6 @@
 //! `holonom simulate SCENE`
 
+use super::check_error::check_error;
 use super::common::{Common, Output, print, tell};
 use super::interrupt;
 use crate::error::{Result, Warning};
@@ -15,6 +16,9 @@ pub struct Args {
     common: Common,
     #[command(flatten)]
     output: Output,
+    /// Run again at a tenth of the tolerance, or half the step, and tell by how much each output differs
+    #[arg(long)]
+    check_error: bool,
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
@@ -38,6 +42,11 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let summary = Summary {
         command: std::env::args().collect(),
         ..summarize((&study, stiffness, &early), (&outcome, &legs), &record, seconds)
+    };
+    let is_checked = args.check_error && summary.failure.is_none();
+    let summary = match is_checked {
+        true => summary.checked(check_error(&study, span, &record.trajectory, (&args.common.talk, &folder))),
+        false => summary,
     };
     write(&study, &record, &summary, &mut folder, &args.output)?;
     let written = folder.finish()?;

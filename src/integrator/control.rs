@@ -64,6 +64,31 @@ impl Tolerance {
     }
 }
 
+/// How the tolerance of a method's steps follows from what is asked of the motion: factor asked^power. Where the error of a
+/// step is that of the solution, O(h^(p+1)), errors add up to its power p/(p+1), which the power (p + 1)/p makes up for;
+/// with local extrapolation they add up to a multiple of it. Source: Shampine, SIAM J. Numer. Anal. 12 (1975) on error per
+/// step and per unit step. The factors are measured: medians over the shipped scenes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tightening {
+    pub factor: f64,
+    pub power: f64,
+}
+
+/// Steps are not controlled more tightly than this unless that is asked for: Newton's methods, which go two digits further, and
+/// projections near singular states come near round-off.
+const LEAST_RTOL: f64 = 1e-11;
+
+impl Tightening {
+    /// Steps are given, or their errors add up to no more than one is allowed.
+    pub const NONE: Self = Tightening { factor: 1.0, power: 1.0 };
+
+    /// The tolerance of steps: never looser than what is `asked`, nor tighter than Newton's methods can follow.
+    pub fn of_steps(self, asked: &Tolerance) -> Tolerance {
+        let rtol = (self.factor * asked.rtol.powf(self.power)).max(LEAST_RTOL).min(asked.rtol);
+        asked.with(rtol, asked.atol * rtol / asked.rtol)
+    }
+}
+
 /// h_new = h safety err^-expo err_old^beta within [shrink, grow] h. Source: Hairer, Norsett, Wanner, Solving Ordinary
 /// Differential Equations I, II.4 and the codes DOPRI5 and DOP853. Predictive, for implicit methods: not more than
 /// h_new = h safety (h/h_old) (err_old/err^2)^expo. Source: Hairer, Wanner II, IV.8 (8.25), after Gustafsson.
@@ -155,4 +180,18 @@ pub fn first_step(
     let largest = d1.max(d2);
     let step = if largest <= 1e-15 { (guess * 1e-3).max(1e-6) } else { (0.01 / largest).powf(1.0 / order as f64) };
     Ok(step.min(100.0 * guess).min(span))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_never_looser_than_asked_nor_tighter_than_round_off() {
+        let asked = |rtol: f64| Tolerance { rtol, atol: 1e-2 * rtol, turning: [0, 0] };
+        let steps = |rtol: f64| Tightening { factor: 10.0, power: 1.5 }.of_steps(&asked(rtol)).rtol;
+        assert_eq!(steps(1.0), 1.0);
+        assert!((steps(1e-4) / 1e-5 - 1.0).abs() < 1e-12 && steps(1e-10) == 1e-11 && steps(1e-15) == 1e-15);
+        assert_eq!(Tightening::NONE.of_steps(&asked(1e-8)), asked(1e-8));
+    }
 }

@@ -1,7 +1,7 @@
 //! A singly diagonally implicit Runge-Kutta method of four stages, the first explicit.
 
 use super::diffsol_backend::{self, Newton, Traits};
-use super::{Entry, Integrator, Setup, Steps};
+use super::{Entry, Integrator, Setup, Steps, Tightening};
 use crate::error::Result;
 
 /// ```text
@@ -19,6 +19,8 @@ pub const ENTRY: Entry = Entry {
     order: 3,
     orders: &[],
     steps: Steps::Own,
+    // Errors over a motion were 5 rtol^(3/4).
+    tightening: Tightening { factor: 0.1, power: 4.0 / 3.0 },
     accepts: diffsol_backend::ACCEPTS,
     refuses: &[],
     options: &[],

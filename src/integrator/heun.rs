@@ -1,7 +1,7 @@
 //! Heun's method of order 2.
 
 use super::explicit::{ErrorEstimate, Explicit, Tableau};
-use super::{Control, Entry, Steps, VECTOR_FIELDS};
+use super::{Control, Entry, Steps, Tightening, VECTOR_FIELDS};
 
 /// Explicit trapezoidal rule: k2 = F(t + h, y + h k1), y_1 = y + h (k1 + k2)/2. Order 2 in q, v (and lambda, which is
 /// computed from them); two evaluations a step; fixed steps.
@@ -11,6 +11,7 @@ pub const ENTRY: Entry = Entry {
     order: 2,
     orders: &[],
     steps: Steps::Fixed,
+    tightening: Tightening::NONE,
     accepts: VECTOR_FIELDS,
     refuses: &[],
     options: &[],

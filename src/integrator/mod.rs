@@ -24,7 +24,7 @@ mod rk4;
 mod stability;
 mod tr_bdf2;
 
-pub use control::{Control, Tolerance, first_step};
+pub use control::{Control, Tightening, Tolerance, first_step};
 pub use diffsol_backend::Store;
 pub use problem::Problem;
 pub use stability::Stability;
@@ -189,6 +189,7 @@ pub struct Entry {
     /// Proven orders in q, v and lambda where they are not `order`.
     pub orders: &'static [(With, [usize; 3])],
     pub steps: Steps,
+    pub tightening: Tightening,
     /// Formulations it can integrate.
     pub accepts: &'static [&'static str],
     /// What would cost it an order.

@@ -1,7 +1,7 @@
 //! RATTLE.
 
 use super::hermite::Hermite;
-use super::{Control, Entry, From, Integrator, Problem, Setup, Stability, Steps, Tolerance};
+use super::{Control, Entry, From, Integrator, Problem, Setup, Stability, Steps, Tightening, Tolerance};
 use crate::error::{Error, Result};
 use crate::formulation::Halt;
 use crate::math::kkt::Singular;
@@ -24,6 +24,7 @@ pub const ENTRY: Entry = Entry {
     order: 2,
     orders: &[],
     steps: Steps::Fixed,
+    tightening: Tightening::NONE,
     accepts: &["index3"],
     refuses: &[],
     options: &[],

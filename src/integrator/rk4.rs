@@ -1,7 +1,7 @@
 //! The classical Runge-Kutta method of order 4.
 
 use super::explicit::{ErrorEstimate, Explicit, Tableau};
-use super::{Control, Entry, Steps, VECTOR_FIELDS};
+use super::{Control, Entry, Steps, Tightening, VECTOR_FIELDS};
 
 /// Kutta (1901). Order 4 in q and v (and lambda, which is computed from them); four evaluations a step; fixed steps.
 pub const ENTRY: Entry = Entry {
@@ -10,6 +10,7 @@ pub const ENTRY: Entry = Entry {
     order: 4,
     orders: &[],
     steps: Steps::Fixed,
+    tightening: Tightening::NONE,
     accepts: VECTOR_FIELDS,
     refuses: &[],
     options: &[],

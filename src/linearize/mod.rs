@@ -1,6 +1,7 @@
 //! Linear models at any state of a trajectory.
 
 mod along;
+mod amplification;
 mod chart;
 mod floquet;
 pub mod flow;
@@ -27,6 +28,7 @@ mod unconstrained;
 mod variation;
 
 pub use along::{State, states, tighten};
+pub use amplification::amplification;
 pub use chart::{Chart, Coordinates, parallel};
 pub use floquet::{Defect, Floquet, floquet};
 pub use frequency::{Resonances, frequency_response};

@@ -1,5 +1,6 @@
 //! What a motion is judged by: drift, energy, statistics.
 
+mod check_error;
 mod drift;
 mod energy;
 mod range;
@@ -8,6 +9,7 @@ mod singularity;
 pub mod stress;
 pub mod work_precision;
 
+pub use check_error::{CheckError, Difference, closer};
 pub use drift::{Drift, DriftLevel};
 pub use energy::{EnergyBalance, EnergyMeter, Ledger};
 pub use range::{Extreme, Range};

@@ -1,6 +1,7 @@
 //! Results as files and text.
 
 mod check;
+mod check_error;
 mod envelope;
 mod figures;
 mod files;

@@ -1,11 +1,11 @@
 //! `summary.json`.
 
-use super::Table;
 use super::warnings::warnings;
+use super::{Table, check_error};
 use crate::error::{Failure, Warning, clock, short_list};
 use crate::formulation::Statistics;
 use crate::initial::{Assembly, Level, Move};
-use crate::measure::{Drift, EnergyBalance, Passing, Record, Singularity};
+use crate::measure::{CheckError, Drift, EnergyBalance, Passing, Record, Singularity};
 use crate::simulate::{Leg, Method, Outcome, Stiffness};
 use crate::study::Study;
 use serde::Serialize;
@@ -33,6 +33,8 @@ pub struct Summary {
     /// Modes that the method cannot step over; none where it can, or is implicit.
     pub stiffness: Option<Stiffness>,
     pub assembly: AssemblySummary,
+    /// The error by a second run, where that was asked for.
+    pub check_error: Option<CheckError>,
     pub r#final: FinalState,
 }
 
@@ -121,6 +123,7 @@ pub fn summarize(
         singularity: record.singularity.clone(),
         stiffness,
         assembly: (&study.assembly).into(),
+        check_error: None,
         r#final: final_state(record),
     }
 }
@@ -194,7 +197,15 @@ impl Summary {
                 energy.max_error
             );
         }
-        text + &self.outputs_text(units)
+        text += &self.outputs_text(units);
+        text + &check_error::text(&self.method.method, self.check_error.as_ref())
+    }
+
+    /// The same with the error by a second run.
+    pub fn checked(mut self, check: CheckError) -> Self {
+        self.warnings.extend(check_error::cut_short(&check));
+        self.check_error = Some(check);
+        self
     }
 
     /// A line that says how far the start was moved, where it was.

@@ -205,7 +205,7 @@ pub struct Simulation {
     pub t_end: Option<Number>,
     /// Distance of the rows of the trajectory, s. Default: a five-hundredth of the time.
     pub output_step: Option<Number>,
-    /// Formulation, integrator and projection by the stiffness of the start, in the place of the three.
+    /// Formulation, integrator and projection by trials along the motion, in the place of the three.
     pub method: Option<Automatic>,
     pub formulation: Option<Choice>,
     pub integrator: Option<Choice>,

@@ -18,11 +18,13 @@ pub struct Method {
     pub step: Option<f64>,
 }
 
+/// What costs least most often: at equal errors dop853 takes fewer evaluations than dopri5 on 18 of 29 shipped scenes at three
+/// digits, on 23 of 28 at six and on 19 of 23 at eight, where it is 2.3 times as fast in the median.
 impl Default for Method {
     fn default() -> Self {
         Method {
             formulation: Choice::named("index1"),
-            integrator: Choice::named("dopri5"),
+            integrator: Choice::named("dop853"),
             projection: Choice::named("manifold"),
             rtol: 1e-8,
             atol: 1e-10,

@@ -158,7 +158,7 @@ impl<'a> Run<'a> {
             tests_velocities: formulation::rows(&method.formulation) != Some(Constraints::Position),
             limits_projection: true,
         };
-        let tolerance = Tolerance::new(method.rtol, method.atol, system);
+        let tolerance = entry.tightening.of_steps(&Tolerance::new(method.rtol, method.atol, system));
         Ok(Run::of(parts, (tolerance, method.step), span, y))
     }
 

@@ -17,7 +17,7 @@ const METHODS: [&str; 10] = [
 fn every_stabilization_has_a_row() {
     let place = Place::new(PENDULUM);
     let text = place.done(&["drift", "scene.json", "-o", "here"]);
-    assert!(text.starts_with("pendulum: drift with dopri5, rtol 1e-8, atol 1e-10\n"), "{text}");
+    assert!(text.starts_with("pendulum: drift with dop853, rtol 1e-8, atol 1e-10\n"), "{text}");
     let rows: Vec<&str> = text.lines().skip(3).take_while(|line| !line.is_empty()).map(str::trim).collect();
     assert_eq!(rows.len(), METHODS.len(), "{text}");
     rows.iter().zip(METHODS).for_each(|(row, method)| assert!(row.starts_with(method), "{row}"));

@@ -2,6 +2,7 @@
 
 mod auto;
 mod check;
+mod check_error;
 mod drift;
 mod equilibrium;
 mod generate;

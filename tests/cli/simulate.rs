@@ -16,7 +16,7 @@ fn the_files_lie_in_a_folder_of_the_scenes_name() {
     let place = Place::new(PENDULUM);
     let text = place.done(&["simulate", "scene.json"]);
     assert_eq!(place.files("out/pendulum"), FILES);
-    assert!(text.starts_with("pendulum: index1 + dopri5 + manifold, rtol 1e-8, atol 1e-10\n"), "{text}");
+    assert!(text.starts_with("pendulum: index1 + dop853 + manifold, rtol 1e-8, atol 1e-10\n"), "{text}");
     assert!(text.contains("written to out/pendulum: trajectory.csv") && text.contains("theta"), "{text}");
     assert_no_nan(&place, "out/pendulum");
 }
@@ -70,7 +70,7 @@ fn the_summary_has_the_promised_keys() {
         "energy",
         "final",
     ];
-    assert_keys(&summary, &top, &["assembly", "singularity", "stiffness"]);
+    assert_keys(&summary, &top, &["assembly", "check_error", "singularity", "stiffness"]);
     assert_eq!(summary["warnings"], serde_json::json!([]));
     assert_keys(&summary["method"], &["formulation", "integrator", "projection", "rtol", "atol", "step"], &[]);
     let counters = ["steps", "rejected", "rhs_evaluations", "jacobian_evaluations", "factorizations"];

@@ -9,6 +9,7 @@ pub mod stiff;
 pub mod unconstrained;
 
 use holonom::formulation::Choice;
+use holonom::integrator::{self, Tightening};
 use holonom::measure::{Record, Recorder};
 use holonom::simulate::{Method, Outcome, Span, simulate};
 use holonom::system::MechanicalSystem;
@@ -32,6 +33,20 @@ pub fn fixed(formulation: &str, integrator: &str, projection: &str, step: f64) -
 /// Adaptive, with rtol = atol.
 pub fn adaptive(formulation: &str, integrator: &str, projection: &str, tolerance: f64) -> Method {
     Method { rtol: tolerance, atol: tolerance, ..method(formulation, integrator, projection) }
+}
+
+/// Adaptive, with rtol = atol = `tolerance` of its steps: what is asked of the motion is looser.
+pub fn stepwise(formulation: &str, integrator: &str, projection: &str, tolerance: f64) -> Method {
+    let method = method(formulation, integrator, projection);
+    let asked = asked_for(&method, tolerance);
+    Method { rtol: asked, atol: asked, ..method }
+}
+
+/// What to ask of a motion so that its steps have the tolerance.
+pub fn asked_for(method: &Method, tolerance: f64) -> f64 {
+    let Tightening { factor, power } = integrator::find(&method.integrator).unwrap().tightening;
+    // Below that steps are controlled by what is asked.
+    if tolerance < 1e-11 { tolerance } else { (tolerance / factor).powf(1.0 / power).max(tolerance) }
 }
 
 /// From 0 to `end` with rows at both ends only.

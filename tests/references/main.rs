@@ -7,12 +7,12 @@
 mod common;
 mod table;
 
-use common::distance;
 use common::equations::andrews::{self, Andrews};
 use common::equations::car_axis::{self, CarAxis};
 use common::equations::crank::{self, Crank};
 use common::equations::pendulum::{self, Pendulum};
 use common::equations::robot_arm::{self, RobotArm};
+use common::{asked_for, distance};
 use holonom::formulation::Dynamics;
 use holonom::simulate::Method;
 use table::Runs::{Steps, Tolerances};
@@ -85,7 +85,8 @@ fn andrews_takes_no_more_than_other_codes() {
         ("index1 dop853 exact", 1e-8, 100, 1174, 8.9),
         ("index1 dop853 exact", 1e-12, 268, u64::MAX, 13.6),
     ] {
-        let run = ANDREWS.run(&Method { rtol: tolerance, atol: tolerance, ..named(names) });
+        let asked = asked_for(&named(names), tolerance);
+        let run = ANDREWS.run(&Method { rtol: asked, atol: asked, ..named(names) });
         let (work, found) = (&run.outcome.statistics, mixed_digits(run.last().0, andrews::END.q, 1.0));
         println!("{names} {tolerance:e}: {found:.2} digits, {work:?}");
         assert!(work.steps + work.rejected <= steps && work.rhs_evaluations <= evaluations, "{names}: {work:?}");
@@ -132,7 +133,7 @@ fn constrained_robot_arm() {
         ("index2 phem56 none", Tolerances(&[(1e-6, 2.5, 2700), (1e-8, 5.7, 5300), (1e-10, 7.6, 13000)])),
         ("index2 phem56 manifold", Tolerances(&[(1e-6, 2.5, 3100), (1e-8, 5.2, 6200), (1e-10, 7.0, 15000)])),
         ("index3 generalized_alpha none", Steps(&[(1e-3, 1.3, 11000), (5e-4, 1.9, 22000)])),
-        ("index3 radau_iia none", Tolerances(&[(1e-6, 3.7, 13500), (1e-8, 4.6, 17000), (1e-12, 7.4, 28000)])),
+        ("index3 radau_iia none", Tolerances(&[(1e-6, 3.0, 13500), (1e-8, 4.6, 17000), (1e-12, 7.4, 28000)])),
         ("ggl radau_iia none", Tolerances(&[(1e-6, 2.7, 12000), (1e-8, 4.2, 17000), (1e-12, 7.2, 26000)])),
     ]);
 }

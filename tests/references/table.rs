@@ -1,7 +1,7 @@
 //! A method at falling tolerances against a reference, as lines of a table.
 
 use crate::common::equations::State;
-use crate::common::{Run, method, run, until};
+use crate::common::{Run, asked_for, method, run, until};
 use holonom::simulate::Method;
 use holonom::system::MechanicalSystem;
 use rayon::prelude::*;
@@ -18,7 +18,7 @@ pub struct Problem {
 
 /// What runs are asked for.
 pub enum Runs {
-    /// With rtol, and atol by the problem.
+    /// With rtol of the steps, and atol by the problem.
     Tolerances(&'static [Asked]),
     /// With a fixed step, s.
     Steps(&'static [Asked]),
@@ -83,7 +83,10 @@ impl Runs {
         let method = named(names);
         let line = |&asked: &Asked| {
             let method = match self {
-                Runs::Tolerances(_) => Method { rtol: asked.0, atol: asked.0 * small, ..method.clone() },
+                Runs::Tolerances(_) => {
+                    let rtol = asked_for(&method, asked.0);
+                    Method { rtol, atol: rtol * small, ..method.clone() }
+                }
                 Runs::Steps(_) => Method { step: Some(asked.0), ..method.clone() },
             };
             Line { names, asked, method }

@@ -3,7 +3,7 @@
 mod matrix;
 
 use super::hermite::Hermite;
-use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tolerance};
+use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
 use crate::formulation::{Halt, turn};
@@ -39,6 +39,7 @@ pub const ENTRY: Entry = Entry {
     order: 2,
     orders: &[],
     steps: Steps::Fixed,
+    tightening: Tightening::NONE,
     accepts: &["index3"],
     refuses: &[],
     options: &[OptionDoc {

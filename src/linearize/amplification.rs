@@ -1,0 +1,95 @@
+//! How much a motion amplifies small changes.
+
+use super::flow::{Bundle, flow};
+use super::{Chart, Matrix, State, Variation};
+use crate::error::{Error, Result};
+use crate::system::MechanicalSystem;
+
+/// More degrees of freedom cost too many motions side by side.
+const MOST: usize = 40;
+/// Powers of ten within which the rate s is sought, 1/s, and how often the range is made smaller by a third.
+const RATES: [f64; 2] = [-4.0, 8.0];
+const THIRDS: usize = 20;
+
+/// The growth of that small change of the start which grows most up to any of `times` (increasing, after the start): the norm
+/// of the transition matrices in mass-orthonormal states (z, y/s). With the rate s that makes it least an oscillation at one
+/// frequency counts 1, and free flight, too: only what makes small errors large counts. `goes_on` is told the times.
+///
+/// # Errors
+/// Too many degrees of freedom, a motion that cannot go on, or one that `goes_on` ends.
+pub fn amplification(
+    system: &dyn MechanicalSystem,
+    start: &State,
+    times: &[f64],
+    mut goes_on: impl FnMut(f64) -> bool,
+) -> Result<f64> {
+    let chart = |state: &State| {
+        let mut variation = Variation::new(system, state.t, &state.q, &state.v)?;
+        Chart::MassOrthogonal.at(&mut variation)
+    };
+    let columns = chart(start)?.changes();
+    if columns.q.ncols() > 2 * MOST {
+        return Err(Error::input(format!(
+            "more than {MOST} degrees of freedom are too many to carry small changes of"
+        )));
+    }
+    if columns.q.ncols() == 0 {
+        return Ok(1.0);
+    }
+    let (mut found, bundle) = (Vec::new(), Bundle { columns, ..Bundle::of(start) });
+    flow(system, &bundle, times, |snapshot| {
+        found.push(chart(&snapshot.motion).map(|chart| chart.states_of(&snapshot.columns)));
+        goes_on(snapshot.motion.t)
+    })?;
+    if found.len() < times.len() {
+        return Err(Error::input("it was ended"));
+    }
+    Ok(least_norm(&found.into_iter().collect::<Result<Vec<Matrix>>>()?))
+}
+
+/// min over s of the largest norm of diag(1, 1/s) X diag(1, s), and that of the start, 1. It is convex in log s: Sezginer,
+/// Overton, IEEE Trans. Automatic Control 35 (1990) 229-230.
+fn least_norm(matrices: &[Matrix]) -> f64 {
+    let largest = |power: f64| {
+        let norms = matrices.iter().map(|matrix| scaled(matrix, 10f64.powf(power)).singular_values().max());
+        norms.fold(1.0, f64::max)
+    };
+    let [mut low, mut high] = RATES;
+    for _ in 0..THIRDS {
+        let third = (high - low) / 3.0;
+        match largest(low + third) < largest(high - third) {
+            true => high -= third,
+            false => low += third,
+        }
+    }
+    largest(0.5 * (low + high))
+}
+
+fn scaled(matrix: &Matrix, rate: f64) -> Matrix {
+    let (mut scaled, k) = (matrix.clone(), matrix.nrows() / 2);
+    scaled.columns_mut(k, k).scale_mut(rate);
+    scaled.rows_mut(k, k).unscale_mut(rate);
+    scaled
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The exact transition matrices of z'' = a z.
+    fn at(a: f64, t: f64) -> Matrix {
+        let w = f64::abs(a).sqrt();
+        let (c, s) = if a < 0.0 { ((w * t).cos(), (w * t).sin()) } else { ((w * t).cosh(), (w * t).sinh()) };
+        Matrix::from_row_slice(2, 2, &[c, s / w, a.signum() * s * w, c])
+    }
+
+    #[test]
+    fn only_what_grows_counts() {
+        let along = |a: f64| (1..=20).map(|i| at(a, 0.1 * f64::from(i))).collect::<Vec<Matrix>>();
+        // An oscillation at 300 rad/s: 1; a saddle: e^(w t).
+        assert!((least_norm(&along(-9e4)) - 1.0).abs() < 1e-2);
+        assert!((least_norm(&along(9.0)) / f64::exp(6.0) - 1.0).abs() < 1e-2);
+        // Free flight: what it leaves of s is the range that is sought.
+        assert!((least_norm(&[Matrix::from_row_slice(2, 2, &[1.0, 2.0, 0.0, 1.0])]) - 1.0).abs() < 1e-2);
+    }
+}

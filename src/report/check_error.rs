@@ -1,0 +1,56 @@
+//! What a run says of its own error.
+
+use super::{Table, significant};
+use crate::error::{Warning, clock, short};
+use crate::measure::CheckError;
+use crate::simulate::Method;
+
+const UNCHECKED: &str = "errors are estimated of single steps only: --check-error measures what they add up to";
+const UNCHECKED_STEP: &str = "nothing estimates the errors of fixed steps: --check-error measures them";
+const PENALIZED: &str =
+    "the limit is the penalty, whose error O(1/penalty) no tolerance or step takes away: compare with a larger one";
+
+/// The error as a person reads it: the differences to a second run, or that nobody knows it.
+pub fn text(method: &Method, check: Option<&CheckError>) -> String {
+    let found = match (check, method.step) {
+        (Some(check), _) => differences(check),
+        (None, Some(_)) => format!("  {UNCHECKED_STEP}\n"),
+        (None, None) => format!("  {UNCHECKED}\n"),
+    };
+    let is_penalized = method.formulation.name == "penalty";
+    format!("\n{found}{}", if is_penalized { format!("  {PENALIZED}\n") } else { String::new() })
+}
+
+fn differences(check: &CheckError) -> String {
+    let mut table = Table::new(&[&format!("difference to {}", with(check)), "max", "final", ""]).words(3);
+    for (name, difference) in &check.outputs {
+        let [max, last] = [difference.max, difference.last].map(|value| format!("{value:.1e}"));
+        table.row([name.clone(), max, last, difference.unit.clone()]);
+    }
+    let amplified = match check.amplification {
+        Some(factor) => {
+            format!("the motion itself amplifies small changes of its start {} times", significant(factor, 2))
+        }
+        None => "how much the motion itself amplifies small changes is not known".to_string(),
+    };
+    format!("{table}  {amplified}\n")
+}
+
+fn with(check: &CheckError) -> String {
+    match check.step {
+        Some(step) => format!("step {} s", clock(step)),
+        None => format!("rtol {}, atol {}", short(check.rtol), short(check.atol)),
+    }
+}
+
+/// A second run that ended early says nothing about what came after.
+pub fn cut_short(check: &CheckError) -> Option<Warning> {
+    let failure = check.failure.as_ref()?;
+    let text = format!(
+        "the second run, with {}, ended at t = {} s: {}; its differences are those up to there",
+        with(check),
+        clock(failure.t),
+        failure.reason
+    );
+    Some(Warning::new(text, "compare with another integrator or projection"))
+}
