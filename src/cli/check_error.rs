@@ -6,7 +6,7 @@ use crate::error::Failure;
 use crate::linearize::{State, amplification};
 use crate::measure::{CheckError, Recorder, closer};
 use crate::report::Folder;
-use crate::simulate::{Method, Span, simulate, stiffness};
+use crate::simulate::{Method, Span, stiffness};
 use crate::study::Study;
 use crate::system::Loaded;
 use crate::trajectory::Trajectory;
@@ -20,10 +20,10 @@ pub fn check_error(study: &Study, span: Span, first: &Trajectory, (talk, folder)
     let show = |t: f64| bar.set_position((1000.0 * (t - span.start) / (span.end - span.start)) as u64);
     let method = closer(&study.method);
     let mut recorder = Recorder::new(study.system()).with_progress(show).with_stop(|| interrupt::stop(folder));
-    let outcome = simulate(study.system(), &method, span, study.start(), &mut recorder);
+    let outcome = study.simulate(&method, span, &mut recorder);
     let second = recorder.finish();
     let failure = match outcome {
-        Ok(outcome) => second.singularity.failure().or(outcome.failure),
+        Ok((outcome, _)) => second.singularity.failure().or(outcome.failure),
         Err(error) => Some(Failure { t: span.start, reason: error.to_string(), hint: String::new() }),
     };
     let growth = amplified(study, span, |t| {

@@ -185,7 +185,7 @@ impl Args {
         let mut recorder = Recorder::new(study.system())
             .with_progress(|t| bar.set_position(fraction(t)))
             .with_stop(|| interrupt::stop(folder));
-        let (outcome, _) = study.simulate(Span { output_step, ..span }, &mut recorder)?;
+        let (outcome, _) = study.simulate(&study.method, Span { output_step, ..span }, &mut recorder)?;
         let record = recorder.finish();
         bar.finish_and_clear();
         Ok((record.trajectory, outcome.failure))

@@ -35,7 +35,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         .with_progress(|t| bar.set_position(fraction(t)))
         .with_stop(|| interrupt::stop(&folder));
     let clock = Instant::now();
-    let (outcome, legs) = study.simulate(span, &mut recorder)?;
+    let (outcome, legs) = study.simulate(&study.method, span, &mut recorder)?;
     let seconds = clock.elapsed().as_secs_f64();
     let record = recorder.finish();
     bar.finish_and_clear();

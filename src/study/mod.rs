@@ -145,16 +145,16 @@ impl Study {
         self.chosen_because.is_none().then(|| stiffness(self.system(), &self.method, state, span))?
     }
 
-    /// Simulates by the method, or, where that is left to the program, by it and others where these come farther. Returns
-    /// these in their order, none where the method was named.
+    /// Simulates by `method`, or, where that is left to the program, by it and others where these come farther, with its
+    /// tolerances. Returns these in their order, none where the method was named.
     ///
     /// # Errors
     /// Bad input only: see [`simulate`].
-    pub fn simulate(&self, span: Span, sink: &mut dyn Sink) -> Result<(Outcome, Vec<Leg>)> {
+    pub fn simulate(&self, method: &Method, span: Span, sink: &mut dyn Sink) -> Result<(Outcome, Vec<Leg>)> {
         match &self.chosen_because {
-            None => Ok((simulate(self.system(), &self.method, span, self.start(), sink)?, Vec::new())),
+            None => Ok((simulate(self.system(), method, span, self.start(), sink)?, Vec::new())),
             Some(because) => {
-                let first = Leg { from: span.start, method: self.method.clone(), because: because.clone() };
+                let first = Leg { from: span.start, method: method.clone(), because: because.clone() };
                 simulate_automatic(self.system(), &first, span, self.start(), sink)
             }
         }
