@@ -50,7 +50,7 @@ fn tip([x, y, z]: [f64; 3]) -> [f64; 3] {
 
 #[test]
 fn a_quarter_of_a_circle_bends_as_castigliano_says() {
-    let load = 1e-3;
+    let load = 1e-5;
     for (dimension, frame) in [2, 3].into_iter().flat_map(|d| FRAMES.map(|frame| (d, frame))) {
         for direction in 0..dimension {
             let force: [f64; 3] = std::array::from_fn(|k| if k == direction { load } else { 0.0 });
@@ -63,9 +63,10 @@ fn a_quarter_of_a_circle_bends_as_castigliano_says() {
                 largest(gaps) / size
             });
             println!("{dimension} {frame} along {}: {}", names[direction], brief(&errors));
-            // Of the square of what an element turns by, h = pi/8 here; static modes of the tip are exact in it.
-            assert!(errors[0] < 0.2 * (PI / 8.0).powi(2), "{errors:?}");
-            assert!(errors.windows(2).all(|pair| (pair[0] / pair[1] - 4.0).abs() < 0.4), "{errors:?}");
+            // In the plane of fourth order in what an element turns by; across it of second, as EI and GJ differ.
+            let (most, fall) = if direction < 2 { (3e-4, 16.0) } else { (1e-2, 4.0) };
+            assert!(errors[0] < most, "{errors:?}");
+            assert!(errors.windows(2).all(|pair| (pair[0] / pair[1] / fall - 1.0).abs() < 0.1), "{errors:?}");
         }
     }
 }
@@ -75,8 +76,8 @@ fn ring(frame: &str, elements: usize) -> Ready {
     let half = |name: &str, initial: &str| {
         format!(
             r#"{{ "name": "{name}", "type": "flexible_beam", {frame}, "length": {PI}, "elements": {},
-            "curvature": [0, 0, 1], "stiffness": {{ "EA": 1e7, "GJ": {GJ}, "EI": {EI} }},
-            "inertia": {{ "rhoA": 1, "rhoI": 1e-6 }}, "initial": {initial},
+            "curvature": [0, 0, 1], "stiffness": {{ "EA": 1e9, "GJ": {GJ}, "EI": {EI} }},
+            "inertia": {{ "rhoA": 1, "rhoI": 1e-8 }}, "initial": {initial},
             "markers": {{ "left": [0, 0, 0], "right": [{PI}, 0, 0] }} }}"#,
             elements / 2
         )
@@ -97,12 +98,15 @@ fn rings_vibrate_as_love_says() {
         let all = [16, 32, 64].map(|elements| frequencies_at_start(&ring(frame, elements)));
         for n in [2.0f64, 3.0] {
             let square = n * n;
-            for below in [square + 1.0, square + EI / GJ] {
+            // The stretch of the line leaves EI/EA = 1e-7.
+            for (below, most, fall) in [(square + 1.0, 1e-5, 13.0), (square + EI / GJ, 3e-4, 3.0)] {
                 let exact = (EI * square * (square - 1.0).powi(2) / below).sqrt();
-                let errors =
-                    [0, 1, 2].map(|i| all[i].iter().map(|x| (x / exact - 1.0).abs()).fold(f64::INFINITY, f64::min));
+                let errors = [0, 1, 2].map(|i| {
+                    let away = all[i].iter().map(|x| (x / exact - 1.0).abs());
+                    away.fold(f64::INFINITY, f64::min)
+                });
                 println!("{frame}, {n} waves, {exact}: {}", brief(&errors));
-                assert!(errors[2] < 2e-3 && errors.windows(2).all(|pair| pair[0] > 3.5 * pair[1]), "{errors:?}");
+                assert!(errors[2] < most && errors.windows(2).all(|pair| pair[0] > fall * pair[1]), "{errors:?}");
             }
         }
     }
@@ -123,7 +127,8 @@ fn curved_blades_in_steady_rotation() {
             let keys = r#""frame": "floating", "elements": 24, "rotary_inertia": true, "geometric_stiffening": true"#;
             let keys = format!(r#"{keys}, "frame_conditions": "{conditions}""#);
             let found = frequencies(&driven(&blade(&keys), "[0, 0, 0]", speed));
-            println!("{speed} {conditions}: {} {}", brief(&found[..5]), brief(&exact[..5]));
+            let gaps: Vec<f64> = found.iter().zip(&exact[..4]).map(|(found, exact)| found / exact - 1.0).collect();
+            println!("{speed} {conditions}: {} off by {}", brief(&exact[..4]), brief(&gaps));
             for exact in &exact[..4] {
                 assert_has(&found, *exact, 2e-3, &format!("{conditions} {speed}"));
             }
