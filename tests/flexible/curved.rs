@@ -130,7 +130,9 @@ fn curved_blades_in_steady_rotation() {
             let gaps: Vec<f64> = found.iter().zip(&exact[..4]).map(|(found, exact)| found / exact - 1.0).collect();
             println!("{speed} {conditions}: {} off by {}", brief(&exact[..4]), brief(&gaps));
             for exact in &exact[..4] {
-                assert_has(&found, *exact, 2e-3, &format!("{conditions} {speed}"));
+                // 24 elements leave 1.3e-4; what deforms the blade, with the square of the speed, 6e-5 of second order.
+                let most = 2e-4 + 1e-4 * speed * speed;
+                assert_has(&found, *exact, most, &format!("{conditions} {speed}"));
             }
         }
     }
