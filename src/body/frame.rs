@@ -82,6 +82,14 @@ fn add_rotated<S: Scalar, const D: usize>(target: &mut [S; D], axes: &[[S; D]; D
     }
 }
 
+impl<const D: usize> Frame<f64, D> {
+    /// A marker whose axes are given in those of this frame, with axes in those that this frame is given in.
+    pub fn carry(&self, marker: Marker<D>) -> Marker<D> {
+        let Frame { axes, turn, .. } = self.at(&marker);
+        Marker { axes, turn, ..marker }
+    }
+}
+
 impl<S: Scalar, const D: usize> Frame<Taylor<S>, D> {
     /// Velocity of the origin, m/s.
     pub fn velocity(&self) -> [S; D] {

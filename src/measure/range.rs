@@ -20,7 +20,7 @@ pub struct Range {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extreme {
     pub limited: Limited,
-    /// In the unit of the limit: displacement by length, or rad.
+    /// In the unit of the limit: displacement by length, load by critical load, or rad.
     pub deformation: f64,
     /// s
     pub t: f64,
@@ -89,6 +89,20 @@ impl Extreme {
                      are small, up to some {most}"
                 ),
                 "model it with \"frame\": \"absolute\", or as several bodies".to_string(),
+            ),
+            Theory::SmallMoments => (
+                format!(
+                    "the bending moments of `{part}` come to {deformation} of those at which it buckles sideways at t = {t} s: \
+                     a floating frame does not see how they soften lateral bending and twist, by the square of that"
+                ),
+                "model it with \"frame\": \"absolute\"".to_string(),
+            ),
+            Theory::SmallAxialForces => (
+                format!(
+                    "the axial force of `{part}` comes to {deformation} of its Euler load at t = {t} s, and does not stiffen \
+                     or soften its bending"
+                ),
+                "give \"geometric_stiffening\": true".to_string(),
             ),
             Theory::SmallRotations => (
                 format!(

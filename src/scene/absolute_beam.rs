@@ -14,13 +14,13 @@ use super::beam_mass::NodeMass;
 use super::builder::start_and_markers;
 use super::markers;
 use super::model::BeamLine;
-use crate::body::flexible::{Damping, FlexibleBeam, Profile, curvature};
+use crate::body::flexible::{Damping, FlexibleBeam, Profile, ReferenceLine, curvature};
 use crate::body::{Body, Build, Built, Initial, Marker, RigidPlanar, RigidSpatial, SHARED_KEYS, cross, parse_among};
 use crate::error::{Error, Result, short};
 use crate::force::Beam;
 use crate::math::expression::Number;
 use crate::math::rotation::{matrix_from_quaternion, quaternion_from_vector, quaternion_product};
-use crate::math::screw::{dot3, exponential};
+use crate::math::screw::dot3;
 use serde_json::{Map, Value};
 use std::array::from_fn;
 
@@ -33,8 +33,7 @@ pub fn is_absolute_beam(kind: &str, json: &Map<String, Value>) -> bool {
 pub struct AbsoluteBeam<const D: usize> {
     name: String,
     profile: Profile,
-    /// Twist and curvatures of the relaxed beam, 1/m.
-    curvature: [f64; 3],
+    line: ReferenceLine,
     /// s
     damping: f64,
     abscissae: Vec<f64>,
@@ -71,7 +70,7 @@ impl<const D: usize> AbsoluteBeam<D> {
         Ok(AbsoluteBeam {
             name: name.to_string(),
             profile: Profile::of(&spec, length, build)?,
-            curvature: curvature(spec.curvature.as_ref(), build)?,
+            line: ReferenceLine { length, curvature: curvature(spec.curvature.as_ref(), build)? },
             damping: damping(spec.damping.as_ref(), build).map_err(|error| error.under("damping"))?,
             markers: named.into_iter().map(at_node).collect::<Result<_>>()?,
             abscissae,
@@ -94,7 +93,7 @@ impl<const D: usize> AbsoluteBeam<D> {
             let frames = [own].into_iter().chain((node == 0).then_some(own));
             let markers = frames.chain(here().map(|(_, _, marker)| *marker)).map(from_centre).collect();
             let names = here().map(|(_, name, _)| name.clone()).collect();
-            let (q, v) = self.start.at(self.abscissae[node], mass.shift(), &self.curvature);
+            let (q, v) = self.start.at(self.abscissae[node], mass.shift(), &self.line);
             (names, Built { body: self.body(&mass, &q, markers), q, v })
         };
         (0..self.abscissae.len()).map(node).collect()
@@ -105,7 +104,7 @@ impl<const D: usize> AbsoluteBeam<D> {
         let beam = |ends: &[f64]| {
             let (ends, length) = ([ends[0], ends[1]], ends[1] - ends[0]);
             let mean = self.profile.mean(ends);
-            Beam::new::<D>(&mean, length, self.curvature, self.damping)
+            Beam::new::<D>(&mean, length, self.line.curvature, self.damping)
                 .tapered::<D>(ends.map(|s| self.profile.within(ends, s)))
         };
         let elements: Vec<Beam> = self.abscissae.windows(2).map(beam).collect();
@@ -226,8 +225,8 @@ impl<const D: usize> Start<D> {
     }
 
     /// Coordinates and velocities of the node at `s`, with its centre of mass `ahead` of it.
-    fn at(&self, s: f64, ahead: f64, curvature: &[f64; 3]) -> (Vec<f64>, Vec<f64>) {
-        let (axes, node) = exponential(&[1.0, 0.0, 0.0], curvature, s);
+    fn at(&self, s: f64, ahead: f64, line: &ReferenceLine) -> (Vec<f64>, Vec<f64>) {
+        let (axes, node) = line.at(s);
         let centre: [f64; 3] = from_fn(|i| node[i] + ahead * axes[0][i]);
         let turn = match D {
             2 => quaternion_from_vector(&[0.0, 0.0, self.angle]),
@@ -240,10 +239,10 @@ impl<const D: usize> Start<D> {
         let mut q: Vec<f64> = (0..D).map(|i| self.position[i] + arm[i]).collect();
         let mut v: Vec<f64> = (0..D).map(|i| self.velocity[i] + lever[i]).collect();
         if D == 2 {
-            q.push(self.angle + curvature[2] * s);
+            q.push(self.angle + line.curvature[2] * s);
             v.push(self.spin[2]);
         } else {
-            q.extend(quaternion_product(&turn, &quaternion_from_vector(&curvature.map(|k| k * s))));
+            q.extend(quaternion_product(&turn, &quaternion_from_vector(&line.curvature.map(|k| k * s))));
             v.extend(axes.map(|axis| dot3(&axis, &self.spin)));
         }
         (q, v)

@@ -5,7 +5,7 @@ use super::model::{BeamLine, Combination, Connection, Measure, Reading};
 use super::outputs::{Elements, find, missing, wrong_component};
 use super::place::{Cut, Place};
 use crate::body::flexible::{Line, Stretch};
-use crate::body::{Bent, Build, MarkerId};
+use crate::body::{Bent, Build, Marker, MarkerId};
 use crate::error::{Error, Result, short};
 use crate::force::{Beam, Force, Half};
 
@@ -96,7 +96,7 @@ fn cut<const D: usize>(
     let own = part.first_marker..part.first_marker + part.body.marker_count();
     let slack = 1e-9 * line.length();
     let is_beyond = |marker: MarkerId| {
-        let s = part.body.shapes()[marker - own.start].rest[0];
+        let s = part.body.marker(marker - own.start).offset[0];
         s >= at - slack && s > slack
     };
     let origin = line.point([0.0; D]);
@@ -113,6 +113,7 @@ fn cut<const D: usize>(
         body,
         at,
         section: line.point(std::array::from_fn(|k| if k == 0 { at } else { 0.0 })),
+        axes: line.at_rest(at).carry(Marker::point([0.0; D])),
         beyond: line.beyond(at),
         joints: Vec::new(),
         forces: Vec::new(),

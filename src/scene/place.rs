@@ -2,7 +2,7 @@
 
 use super::model::Reading;
 use crate::body::flexible::{Inertia, PointShape};
-use crate::body::{Frame, MarkerId, dot, sub};
+use crate::body::{Frame, Marker, MarkerId, dot, sub};
 use crate::force::{Beam, Half, Load, Station};
 use crate::math::{Scalar, Taylor};
 
@@ -57,8 +57,9 @@ pub struct Cut<const D: usize> {
     pub body: usize,
     /// Abscissa, m.
     pub at: f64,
-    /// How the section moves with the elastic coordinates.
+    /// How the section moves with the elastic coordinates, and its axes at rest.
     pub section: PointShape<D>,
+    pub axes: Marker<D>,
     /// The mass beyond.
     pub beyond: Inertia<D>,
     /// Joints and forces with the slot of each of their markers beyond.

@@ -5,6 +5,7 @@
 //! and gets the derivatives.
 
 mod coupling;
+mod critical;
 mod equations;
 mod input;
 mod levi_civita;

@@ -7,7 +7,7 @@
 
 use super::mechanism::Mechanism;
 use super::view::View;
-use crate::body::{Frame, MOST_MARKERS, Marker, Wrench, cross, floating, sub};
+use crate::body::{Frame, MOST_MARKERS, Wrench, cross, floating, sub};
 use crate::force::{Force, ForceOver};
 use crate::joint::{Joint, JointOver};
 use crate::math::{Scalar, Taylor};
@@ -38,7 +38,7 @@ impl<const D: usize> Mechanism<D> {
         let part = &self.model().bodies[cut.body];
         let own = view.frame(part.first_marker);
         let [q, v] = elastic(part);
-        let at = floating::place(&own.map(|x| x.x), &cut.section, &Marker::point([0.0; D]), |i| view.q(q + i));
+        let at = floating::place(&own.map(|x| x.x), &cut.section, &cut.axes, |i| view.q(q + i));
         let mut sum = Sum { about: at.r, wrench: Wrench::zero() };
         let coordinate = |i: usize| Taylor::new(view.q(q + i), view.v(v + i), view.vdot(v + i));
         let origin = own.r.map(|x| x.x);

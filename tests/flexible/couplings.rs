@@ -10,13 +10,14 @@ use holonom::study::AnyMechanism;
 use holonom::system::{Loaded, MechanicalSystem, Mechanism, Need, Scratch, Terms};
 
 /// Beams of every make, in the plane and in space.
-const MAKES: [&str; 6] = [
+const MAKES: [&str; 7] = [
     r#""elements": 2, "geometric_stiffening": true, "theory": "timoshenko""#,
     r#""elements": 2, "frame_conditions": "chord", "axial": "quadratic", "geometric_stiffening": "cubic""#,
     r#""elements": 2, "frame_conditions": "mean", "rotary_inertia": true"#,
     r#""elements": 4, "frame_conditions": "mean", "modes": 2, "theory": "timoshenko""#,
     r#""elements": 4, "frame_conditions": "chord", "modes": 1, "damping": { "rayleigh": { "mass": 1, "stiffness": 0.01 } }"#,
     r#""ritz": { "bending": ["x^2", "x^3"], "axial": ["x"] IN_SPACE }, "geometric_stiffening": true"#,
+    r#""elements": 3, "curvature": CURVATURE, "rotary_inertia": true, "geometric_stiffening": true"#,
 ];
 
 /// Marker p is off the axis and turned, r along it or at an end.
@@ -27,7 +28,7 @@ fn beam(name: &str, dimension: usize, make: usize) -> String {
             r#"{{ "name": "{name}", "type": "flexible_beam", "frame": "floating", "length": 1.2, {},
             "stiffness": {{ "EA": 90, "EI": 3, "GA": 40 }}, "inertia": {{ "rhoA": 1.3, "rhoI": 0.02 }},
             "markers": {{ "p": {{ "position": [0.5, 0.1], "angle": 0.4 }}, "r": [{}, 0] }} }}"#,
-            keys.replace("IN_SPACE", ""),
+            keys.replace("IN_SPACE", "").replace("CURVATURE", "0.7"),
             [1.2, 0.8][make % 2]
         ),
         _ => format!(
@@ -35,7 +36,8 @@ fn beam(name: &str, dimension: usize, make: usize) -> String {
             "stiffness": {{ "EA": 90, "EI": [3, 4], "GA": [40, 30], "GJ": 2 }},
             "inertia": {{ "rhoA": 1.3, "rhoI": [0.02, 0.03] }},
             "markers": {{ "p": {{ "position": [0.5, 0.1, -0.15], "rotation": [0.3, -0.5, 0.2] }}, "r": [{}, 0, 0] }} }}"#,
-            keys.replace("IN_SPACE", r#", "bending_z": ["x^2"], "torsion": ["x"]"#),
+            keys.replace("IN_SPACE", r#", "bending_z": ["x^2"], "torsion": ["x"]"#)
+                .replace("CURVATURE", "[0.3, -0.5, 0.7]"),
             [1.2, 0.8][make % 2]
         ),
     }

@@ -10,6 +10,10 @@ use nalgebra::DMatrix;
 
 /// Speeds of a free beam that set it vibrating: a tip force that acts at the start only would be no different.
 fn free(dimension: usize, frame: &str, stiffening: bool, size: f64) -> Ready {
+    bent(dimension, frame, stiffening, size, "")
+}
+
+fn bent(dimension: usize, frame: &str, stiffening: bool, size: f64, curvature: &str) -> Ready {
     let elastic = match (frame, dimension) {
         ("mean", _) => r#""elastic": { "mode1": 0.02, "mode2": 0.01, "mode3": -0.01 },"#,
         ("tangent", 2) => r#""elastic": { "n4_y": 0.1, "n4_r": 0.06, "n2_y": 0.03, "n3_x": 0.01 },"#,
@@ -25,7 +29,7 @@ fn free(dimension: usize, frame: &str, stiffening: bool, size: f64) -> Ready {
     };
     let elastic = if frame == "absolute" { String::new() } else { scaled(elastic, size) };
     let stiffens = if stiffening { r#""geometric_stiffening": true,"# } else { "" };
-    let more = format!(r#""initial": {{ {elastic} {start} }}, {stiffens}"#);
+    let more = format!(r#""initial": {{ {elastic} {start} }}, {curvature} {stiffens}"#);
     let rod = Rod { dimension, frame, theory: "timoshenko", elements: 4, stiffness: 1.0, more: &more }.json();
     parse(&scene(dimension, &rod, r#""simulation": { "t_end": 1 }"#))
 }
@@ -65,24 +69,36 @@ fn free_beams_keep_energy_and_momentum() {
             if stiffening && frame == "absolute" {
                 continue;
             }
-            let beam = free(dimension, frame, stiffening, 1.0);
-            let run = beam.tight(1e-12, 1.0, 0.1);
-            let energy = run.record.energy.as_ref().expect("a mechanism has energy");
-            let what = format!("{dimension} {frame} {stiffening}: energy {:.1e}", energy.relative_max_error.unwrap());
-            println!("{what}");
-            assert!(energy.relative_max_error.unwrap() < 1e-10, "{what}");
-            if frame == "absolute" {
-                continue;
-            }
-            let (q, v) = beam.0.start();
-            let before = momentum(&beam, q, v);
-            let after = momentum(&beam, &run.outcome.q, &run.outcome.v);
-            let size = largest(before.iter().copied());
-            let gap = largest(before.iter().zip(&after).map(|(a, b)| a - b)) / size;
-            println!("    momentum {} kept to {gap:.1e}", brief(&before));
-            assert!(gap < 1e-10, "{what}: {before:?} {after:?}");
+            assert_kept(&free(dimension, frame, stiffening, 1.0), &format!("{dimension} {frame} {stiffening}"));
         }
     }
+}
+
+#[test]
+fn curved_beams_keep_them_too() {
+    for (dimension, curvature) in [(2, r#""curvature": 0.8,"#), (3, r#""curvature": [0.3, -0.5, 0.8],"#)] {
+        for (frame, stiffening) in ["tangent", "mean"].into_iter().flat_map(|frame| [(frame, false), (frame, true)]) {
+            let beam = bent(dimension, frame, stiffening, 1.0, curvature);
+            assert_kept(&beam, &format!("{dimension} {frame} {stiffening} curved"));
+        }
+    }
+}
+
+fn assert_kept(beam: &Ready, what: &str) {
+    let run = beam.tight(1e-12, 1.0, 0.1);
+    let error = run.record.energy.as_ref().expect("a mechanism has energy").relative_max_error.unwrap();
+    println!("{what}: energy {error:.1e}");
+    assert!(error < 1e-10, "{what}: {error}");
+    if what.contains("absolute") {
+        return;
+    }
+    let (q, v) = beam.0.start();
+    let before = momentum(beam, q, v);
+    let after = momentum(beam, &run.outcome.q, &run.outcome.v);
+    let size = largest(before.iter().copied());
+    let gap = largest(before.iter().zip(&after).map(|(a, b)| a - b)) / size;
+    println!("    momentum {} kept to {gap:.1e}", brief(&before));
+    assert!(gap < 1e-10, "{what}: {before:?} {after:?}");
 }
 
 /// generalized_alpha without numerical damping: energy swings about its value and does not drift.

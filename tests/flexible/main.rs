@@ -12,6 +12,7 @@ mod agreement;
 mod assembly;
 mod beams;
 mod couplings;
+mod curved;
 mod energy;
 mod inextensible;
 mod outputs;

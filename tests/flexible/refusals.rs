@@ -132,11 +132,6 @@ fn starts_of_coordinates_that_are_not_there() {
 #[test]
 fn keys_of_the_other_kind() {
     says(
-        &and(r#""curvature": 1"#),
-        "at bodies[0].curvature (`rod`): a beam in a floating frame is straight\n  help: remove it, or give \"frame\": \
-         \"absolute\"",
-    );
-    says(
         &and(r#""frame_conditions": "corotational""#),
         "at bodies[0].frame_conditions (`rod`): `corotational` is none of the possible values\n  help: choose one of \
          tangent, chord, mean",

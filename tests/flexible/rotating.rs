@@ -11,25 +11,31 @@ fn mcs() -> Request {
 }
 
 /// Angular frequencies of a model about rest in turning axes, from the slowest, each pair once.
-fn frequencies(scene: &Ready) -> Vec<f64> {
+pub fn frequencies(scene: &Ready) -> Vec<f64> {
     let operating = at_rest(&scene.0, &State::start(&scene.0)).unwrap();
     assert!(operating.doubt.is_none(), "{:?}", operating.doubt);
+    assert!(operating.variation().unwrap().point.axes.is_some());
     spectrum(&operating).into_iter().map(|(_, im)| im).collect()
 }
 
 /// Real and imaginary parts, the upper half from the slowest.
 fn spectrum(operating: &Operating) -> Vec<(f64, f64)> {
     let model = linearize(&mut operating.variation().unwrap(), &mcs()).unwrap();
-    assert!(model.point.is_equilibrium && model.point.axes.is_some());
+    assert!(model.point.is_equilibrium);
     let mut upper: Vec<_> =
         model.modes.iter().map(|mode| (mode.value.re, mode.value.im)).filter(|(_, im)| *im > 0.0).collect();
     upper.sort_by(|a, b| a.1.total_cmp(&b.1));
     upper
 }
 
+/// Angular frequencies about the start, which is at rest.
+pub fn frequencies_at_start(scene: &Ready) -> Vec<f64> {
+    spectrum(&Operating::moving(&scene.0, State::start(&scene.0))).into_iter().map(|(_, im)| im).collect()
+}
+
 /// The frequency nearest to the exact one, in parts of it.
 #[track_caller]
-fn assert_has(found: &[f64], exact: f64, tolerance: f64, what: &str) {
+pub fn assert_has(found: &[f64], exact: f64, tolerance: f64, what: &str) {
     let error = found.iter().map(|x| (x / exact - 1.0).abs()).fold(f64::INFINITY, f64::min);
     assert!(error < tolerance, "{what}: {exact} missed by {error:.1e} of it in {:?}", &found[..found.len().min(8)]);
 }
@@ -45,7 +51,7 @@ const FRAMES: [&str; 6] = [
 ];
 
 /// A cantilever of length 1 on a driven hub, which turns about the axis into which `axis` brings z.
-fn driven(beam: &str, axis: &str, speed: f64) -> Ready {
+pub fn driven(beam: &str, axis: &str, speed: f64) -> Ready {
     parse(&format!(
         r#"{{ "name": "driven", "dimension": 3,
         "ground": {{ "markers": {{ "hub": {{ "position": [0, 0, 0], "rotation": {axis} }} }} }},

@@ -6,16 +6,20 @@ use super::line::Shapes;
 use super::mesh::Mesh;
 use super::profile::Profile;
 use super::reduce;
+use super::reference::{ReferenceLine, curvature};
 use super::ritz::Functions;
 use super::shape::{Elastic, Stretch};
 use super::spec::{Axial, FlexibleBeam, FrameConditions, Ritz, Theory};
-use crate::body::Build;
+use crate::body::{Build, norm};
 use crate::error::{Error, Result, short};
+use std::f64::consts::PI;
 
 /// Gauss points that integrate w'^2 exactly.
 const STRETCH_POINTS: usize = 3;
 /// Most finite elements of a beam.
 const MOST_ELEMENTS: u32 = 10_000;
+/// What an element of a curved beam may turn by, rad, of which it is a chord.
+const MOST_TURN: f64 = 0.5 * PI;
 
 /// The shapes of a beam whose markers are at the abscissae `markers`, and its length in m.
 ///
@@ -29,14 +33,13 @@ pub fn elastic_beam<const D: usize>(
     let length = build.positive("length", &beam.length)?;
     let profile = Profile::of(beam, length, build)?;
     check_markers(markers, length)?;
-    if beam.curvature.is_some() {
-        return Err(Error::input("a beam in a floating frame is straight")
-            .under("curvature")
-            .hint("remove it, or give \"frame\": \"absolute\""));
+    let line = ReferenceLine { length, curvature: curvature(beam.curvature.as_ref(), build)? };
+    if !line.is_straight() {
+        check_curved(beam)?;
     }
     let (mut elastic, basis) = match &beam.ritz {
         Some(ritz) => (functions(beam, ritz, length, profile, build)?, Basis::Functions),
-        None => elements(beam, length, markers, profile, build)?,
+        None => elements(beam, line, markers, profile, build)?,
     };
     elastic.damping = damping(&beam.damping, &elastic, basis, build)?;
     Ok((elastic, length))
@@ -49,6 +52,26 @@ fn check_markers(markers: &[f64], length: f64) -> Result<()> {
             .under("markers")
             .hint(format!("the beam is from s = 0 to {}", short(length)))),
     }
+}
+
+/// What is there for straight beams alone.
+fn check_curved(beam: &FlexibleBeam) -> Result<()> {
+    let refuse = |key: &str, what: &str, instead: &str| {
+        let hint = format!("{instead}, or \"frame\": \"absolute\"");
+        Err(Error::input(format!("of a curved beam {what}")).under(key).hint(hint))
+    };
+    if beam.ritz.is_some() {
+        return refuse("ritz", "no displacement functions are known", "give \"elements\" instead");
+    }
+    if beam.frame_conditions == Some(FrameConditions::Chord) {
+        let what = "the chord is not the x axis of the frame";
+        return refuse("frame_conditions", what, "give \"tangent\" or \"mean\"");
+    }
+    if beam.modes.is_some() && beam.geometric_stiffening.quartic().is_some() {
+        let what = "few modes cannot tell how axial force stiffens it";
+        return refuse("geometric_stiffening", what, "leave `modes` out");
+    }
+    Ok(())
 }
 
 fn functions<const D: usize>(
@@ -79,7 +102,7 @@ fn functions<const D: usize>(
 
 fn elements<const D: usize>(
     beam: &FlexibleBeam,
-    length: f64,
+    line: ReferenceLine,
     markers: &[f64],
     profile: Profile,
     build: &Build<D>,
@@ -103,7 +126,8 @@ fn elements<const D: usize>(
         Some(count) => count as usize,
     };
     let conditions = beam.frame_conditions.unwrap_or_default();
-    let mesh = Mesh::<D>::new(length, count, markers, profile, beam.axial.unwrap_or_default()).fix(conditions);
+    check_turn(&line, count)?;
+    let mesh = Mesh::<D>::new(line, count, markers, profile, beam.axial.unwrap_or_default()).fix(conditions);
     let law = beam.geometric_stiffening.quartic();
     // Few modes cannot follow the shortening of a bent line by axial strain: it keeps its length.
     let shortens = beam.modes.is_some() && law == Some(1.0);
@@ -119,6 +143,21 @@ fn elements<const D: usize>(
     }
     let reduced = reduce::beam(mesh, nodal, conditions, markers, modes, shortens)?;
     Ok((reduced, Basis::Modal))
+}
+
+fn check_turn(line: &ReferenceLine, elements: usize) -> Result<()> {
+    let turn = line.length * norm(&line.curvature);
+    match turn <= MOST_TURN * elements as f64 * (1.0 + 1e-9) {
+        true => Ok(()),
+        false => {
+            Err(Error::input(format!("an element of this curved beam turns by {} rad", short(turn / elements as f64)))
+                .under("elements")
+                .hint(format!(
+                    "give {} or more, of which none turns by more than a quarter turn",
+                    (turn / MOST_TURN).ceil()
+                )))
+        }
+    }
 }
 
 /// The stretches of an element. Its u' cannot follow w'^2, which would lock it: both count by their means over the

@@ -2,15 +2,18 @@
 
 use super::line::Cross;
 use super::profile::Profile;
+use super::reference::ReferenceLine;
 use super::section::Section;
 use super::shape::{Disc, Inertia, Piece, Stretch, Symmetric};
-use crate::body::dot;
+use crate::body::{dot, scale};
 use std::array::from_fn;
 use std::collections::BTreeMap;
+use std::iter::{once, zip};
 
 /// A point of integration on the line.
 pub struct Sample {
-    pub s: f64,
+    /// The axes of the section at rest, and where it is, m.
+    rest: ([[f64; 3]; 3], [f64; 3]),
     /// m
     pub weight: f64,
     pub section: Section,
@@ -21,14 +24,14 @@ pub struct Sample {
 }
 
 impl Sample {
-    pub fn new(profile: &Profile, (s, weight): (f64, f64), shapes: Vec<Cross>) -> Self {
-        Sample { s, weight, section: profile.at(s), rotary: profile.rotary, shapes }
+    pub fn new(profile: &Profile, line: &ReferenceLine, (s, weight): (f64, f64), shapes: Vec<Cross>) -> Self {
+        Sample { rest: line.at(s), weight, section: profile.at(s), rotary: profile.rotary, shapes }
     }
 
     /// The turn that moves the mass of a section.
     fn turn(&self, shape: &Cross) -> [f64; 3] {
-        let [rx, ry, rz] = shape.rotation;
-        if self.rotary { [rx, ry, rz] } else { [rx, 0.0, 0.0] }
+        let ([x, ..], _) = &self.rest;
+        if self.rotary { shape.rotation } else { scale(x, dot(x, &shape.rotation)) }
     }
 
     fn disc<const D: usize>(&self, dofs: &[usize]) -> Disc {
@@ -37,7 +40,10 @@ impl Sample {
         let (dofs, rotation) = turning.unzip();
         // int rho z^2 is the moment about y, int rho y^2 that about z.
         let [y, z] = self.section.rho_i.map(|density| density * self.weight);
-        Disc { dofs, rotation, inertia: [[y + z, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]] }
+        let (axes, _) = &self.rest;
+        let about =
+            |i: usize, j: usize| zip(axes, [y + z, y, z]).map(|(axis, moment)| axis[i] * moment * axis[j]).sum();
+        Disc { dofs, rotation, inertia: from_fn(|i| from_fn(|j| about(i, j))) }
     }
 }
 
@@ -53,7 +59,7 @@ pub fn piece<const D: usize>(dofs: Vec<usize>, samples: &[Sample]) -> Piece<D> {
     };
     for sample in samples {
         let displacements = sample.shapes.iter().map(|shape| shape.displacement);
-        let psi: Vec<_> = std::iter::once([sample.s, 0.0, 0.0]).chain(displacements).collect();
+        let psi: Vec<_> = once(sample.rest.1).chain(displacements).collect();
         add_point(&mut piece, &psi, sample.weight * sample.section.rho_a);
     }
     piece

@@ -7,17 +7,21 @@
 //! strain of the fibre at (y, z):  u' - y r_z' + z r_y'
 //! ```
 //!
-//! so that where sections stay square to the line r_z = w_y' and r_y = -w_z'.
+//! so that where sections stay square to the line r_z = w_y' and r_y = -w_z'. On a line that is curved at rest strains and
+//! slopes are in the axes of its elements, displacements and rotations in those of the floating frame.
 
+use super::profile::Profile;
+use super::reference::ReferenceLine;
+use super::section::Section;
 use super::shape::{Inertia, Line, PointShape, SectionShape};
 use super::shorten::{shorten, shortening};
-use crate::body::{cross, in_space};
+use crate::body::{Frame, Marker, cross, in_space};
 use std::array::from_fn;
 
 /// What one coordinate does to one section.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cross {
-    /// Of the line: u, w_y, w_z.
+    /// Of the line: u, w_y, w_z where it is straight.
     pub displacement: [f64; 3],
     /// r_x, r_y, r_z
     pub rotation: [f64; 3],
@@ -92,14 +96,12 @@ pub struct Station {
 
 /// Displacements of the line of a beam as functions of the place.
 pub trait Shapes: Send + Sync {
-    /// m
-    fn length(&self) -> f64;
+    fn reference(&self) -> &ReferenceLine;
     /// At 0 <= s <= length.
     fn at(&self, s: f64) -> Station;
     /// Places between which the shapes are smooth, both ends among them.
     fn breaks(&self) -> Vec<f64>;
-    /// kg/m
-    fn density(&self, s: f64) -> f64;
+    fn profile(&self) -> &Profile;
     /// Whether the line keeps its length as it bends. Default: no.
     fn shortens(&self) -> bool {
         false
@@ -110,24 +112,29 @@ pub trait Shapes: Send + Sync {
 
 impl<F: Shapes, const D: usize> Line<D> for F {
     fn length(&self) -> f64 {
-        Shapes::length(self)
+        self.reference().length
     }
 
-    fn point(&self, rest: [f64; D]) -> PointShape<D> {
-        let Station { dofs, shapes } = self.at(rest[0]);
-        let mut offset = in_space(&rest);
-        offset[0] = 0.0;
+    fn at_rest(&self, s: f64) -> Frame<f64, D> {
+        self.reference().section(s)
+    }
+
+    fn point(&self, mut place: [f64; D]) -> PointShape<D> {
+        let s = std::mem::replace(&mut place[0], 0.0);
+        let (section, Station { dofs, shapes }) = (self.reference().section(s), self.at(s));
+        let rest = section.at(&Marker::point(place)).r;
+        let arm = Frame { r: [0.0; D], ..section }.at(&Marker::point(place)).r;
         let translation = |shape: &Cross| {
-            let turned = cross(&shape.rotation, &offset);
+            let turned = cross(&shape.rotation, &in_space(&arm));
             from_fn(|k| shape.displacement[k] + turned[k])
         };
         PointShape {
             rest,
-            arm: from_fn(|k| offset[k]),
+            arm,
             dofs,
             translation: shapes.iter().map(translation).collect(),
             rotation: shapes.iter().map(|shape| shape.rotation).collect(),
-            shortening: if self.shortens() { shortening(self, rest[0]) } else { Vec::new() },
+            shortening: if self.shortens() { shortening(self, s) } else { Vec::new() },
         }
     }
 
@@ -135,6 +142,10 @@ impl<F: Shapes, const D: usize> Line<D> for F {
         let Station { dofs, shapes } = self.at(s);
         let strains = shapes.iter().map(|shape| shape.strain).collect();
         SectionShape { dofs, strains }
+    }
+
+    fn material(&self, s: f64) -> Section {
+        self.profile().at(s)
     }
 
     fn beyond(&self, s: f64) -> Inertia<D> {

@@ -5,12 +5,15 @@ use super::gauss::{gauss_legendre, on_interval};
 use super::integrals::{Sample, discs, piece};
 use super::line::{Shapes, Station};
 use super::profile::Profile;
+use super::reference::ReferenceLine;
 use super::shape::Inertia;
 use super::spec::{Axial, FrameConditions};
+use crate::body::{cross, dot, sub};
+use std::array::from_fn;
 
 /// Gauss points on an element that integrate squares of cubics exactly ...
 const POINTS: usize = 4;
-/// ... and those that do so with a mass or a stiffness up to the fifth power of s.
+/// ... and those that do so with a mass or a stiffness up to the fifth power of s, or on an arc to 1e-10.
 const TAPERED: usize = 6;
 
 /// Gauss points that integrate squares of turns exactly, quadratics at most.
@@ -25,6 +28,7 @@ const SAME: f64 = 1e-9;
 pub struct Mesh<const D: usize> {
     /// Abscissae of the nodes, m.
     pub nodes: Vec<f64>,
+    line: ReferenceLine,
     elements: Vec<Element>,
     axial: Axial,
     profile: Profile,
@@ -46,13 +50,13 @@ impl<const D: usize> Mesh<D> {
     }
 
     /// At least `elements` elements with nodes at both ends and all `markers`.
-    pub fn new(length: f64, elements: usize, markers: &[f64], profile: Profile, axial: Axial) -> Self {
-        let nodes = subdivide(&breaks(length, markers), elements);
+    pub fn new(line: ReferenceLine, elements: usize, markers: &[f64], profile: Profile, axial: Axial) -> Self {
+        let nodes = subdivide(&breaks(line.length, markers), elements);
         let elements = nodes
             .windows(2)
-            .map(|ends| Element::new(ends[1] - ends[0], &profile.at(0.5 * (ends[0] + ends[1]))))
+            .map(|ends| Element::new(&line, [ends[0], ends[1]], &profile.at(0.5 * (ends[0] + ends[1]))))
             .collect();
-        let mut mesh = Mesh { nodes, elements, axial, profile, free: Vec::new() };
+        let mut mesh = Mesh { nodes, line, elements, axial, profile, free: Vec::new() };
         mesh.free = (0..mesh.total()).map(Some).collect();
         mesh
     }
@@ -115,11 +119,11 @@ impl<const D: usize> Mesh<D> {
         (0..self.total()).filter(|&i| self.free[i].is_some()).map(name).collect()
     }
 
-    /// Free coordinates of an element in increasing order, and what they do at `xi` of it.
-    fn in_element(&self, element: usize, xi: f64) -> Station {
+    /// Free coordinates of an element in increasing order, and what they do at `s` of it.
+    fn in_element(&self, element: usize, s: f64) -> Station {
         let ends = self.node(element).chain(self.node(element + 1));
         let middle = (self.axial == Axial::Quadratic).then(|| self.first(element) + Self::PER_NODE);
-        let shapes = self.elements[element].shapes::<D>(xi, self.axial);
+        let shapes = self.elements[element].shapes::<D>(&self.line.at(s).1, self.axial);
         let free = ends.chain(middle).zip(shapes).filter_map(|(i, shape)| Some((self.free[i]?, shape)));
         let mut free: Vec<_> = free.collect();
         free.sort_unstable_by_key(|(dof, _)| *dof);
@@ -134,61 +138,61 @@ impl<const D: usize> Mesh<D> {
 
     /// The same of the part of an element from `start` on.
     fn samples_from(&self, start: f64, element: usize, points: usize) -> (Vec<usize>, Vec<Sample>) {
-        let [from, to] = [self.nodes[element], self.nodes[element + 1]];
         let rule = gauss_legendre(points);
-        let sample = |at: (f64, f64)| {
-            Sample::new(&self.profile, at, self.in_element(element, (at.0 - from) / (to - from)).shapes)
-        };
-        (self.in_element(element, 0.5).dofs, on_interval(&rule, [start, to]).map(sample).collect())
+        let sample = |at: (f64, f64)| Sample::new(&self.profile, &self.line, at, self.in_element(element, at.0).shapes);
+        let ends = [start, self.nodes[element + 1]];
+        (self.in_element(element, start).dofs, on_interval(&rule, ends).map(sample).collect())
     }
 
     /// Gauss points on an element that integrate mass and stiffness.
     pub fn points(&self) -> usize {
-        if self.profile.is_uniform() { POINTS } else { TAPERED }
+        if self.profile.is_uniform() && self.line.is_straight() { POINTS } else { TAPERED }
     }
 
-    /// Motions of all nodes that deform nothing: translations, then rotations, those about y and z with the centre
-    /// `about`.
-    pub fn rigid_motions(&self, about: f64) -> Vec<Vec<f64>> {
-        let mut motions = vec![vec![0.0; self.total()]; Self::PER_NODE];
-        for (k, s) in self.nodes.iter().enumerate() {
-            let at = self.first(k);
-            for (part, motion) in motions.iter_mut().enumerate() {
-                motion[at + part] = 1.0;
-            }
-            let arm = s - about;
-            if D == 2 {
-                motions[2][at + 1] = arm;
-            } else {
-                motions[4][at + 2] = -arm;
-                motions[5][at + 1] = arm;
-            }
-            if self.axial == Axial::Quadratic && k + 1 < self.nodes.len() {
-                motions[0][at + Self::PER_NODE] = 1.0;
-            }
+    /// Motions of all nodes that deform nothing: translations, then rotations about the middle of the beam.
+    pub fn rigid_motions(&self) -> Vec<Vec<f64>> {
+        (0..Self::PER_NODE).map(|part| self.rigid_motion(part)).collect()
+    }
+
+    fn rigid_motion(&self, part: usize) -> Vec<f64> {
+        let place = |s: f64| self.line.at(s).1;
+        let middle = place(0.5 * self.line.length);
+        let unit = |axis: usize| from_fn(|k| if k == axis { 1.0 } else { 0.0 });
+        let displacement = |r: &[f64; 3]| match part < D {
+            true => unit(part),
+            false => cross(&unit(3 + part - Self::PER_NODE), &sub(r, &middle)),
+        };
+        let mut motion = vec![0.0; self.total()];
+        for (node, &s) in self.nodes.iter().enumerate() {
+            let own = &mut motion[self.node(node)];
+            own[..D].copy_from_slice(&displacement(&place(s))[..D]);
+            own.iter_mut().skip(D).enumerate().for_each(|(k, turn)| *turn = if D + k == part { 1.0 } else { 0.0 });
         }
-        motions
+        for (i, element) in self.elements.iter().enumerate().filter(|_| self.axial == Axial::Quadratic) {
+            let (middle, along) = element.middle();
+            motion[self.first(i) + Self::PER_NODE] = dot(&along, &displacement(&middle));
+        }
+        motion
     }
 }
 
 impl<const D: usize> Shapes for Mesh<D> {
-    fn length(&self) -> f64 {
-        self.nodes.last().copied().unwrap_or(0.0)
+    fn reference(&self) -> &ReferenceLine {
+        &self.line
     }
 
     /// At a node the element before it counts: only strains differ between the two.
     fn at(&self, s: f64) -> Station {
         let element = self.nodes.partition_point(|node| *node < s).saturating_sub(1).min(self.count() - 1);
-        let [from, to] = [self.nodes[element], self.nodes[element + 1]];
-        self.in_element(element, ((s - from) / (to - from)).clamp(0.0, 1.0))
+        self.in_element(element, s)
     }
 
     fn breaks(&self) -> Vec<f64> {
         self.nodes.clone()
     }
 
-    fn density(&self, s: f64) -> f64 {
-        self.profile.at(s).rho_a
+    fn profile(&self) -> &Profile {
+        &self.profile
     }
 
     /// An element a piece.

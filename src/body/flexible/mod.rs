@@ -12,6 +12,7 @@ pub mod modal;
 mod profile;
 mod read_section;
 mod reduce;
+mod reference;
 mod ritz;
 mod section;
 mod shape;
@@ -24,7 +25,8 @@ pub use beam::elastic_beam;
 pub use gauss::{gauss_legendre, on_interval};
 pub use integrals::mass_matrix;
 pub use profile::Profile;
-pub use section::{Section, curvature};
+pub use reference::{ReferenceLine, curvature};
+pub use section::Section;
 pub use shape::{Disc, Elastic, Inertia, Line, Piece, PointShape, Second, SectionShape, Stretch, Symmetric};
 pub use spec::{
     Axial, Damping, Elasticity, FlexibleBeam, FrameConditions, FrameKind, OneOrMany, Ritz,

@@ -16,6 +16,8 @@ use super::eigen::{Modes, dense};
 use super::integrals::mass_matrix;
 use super::line::{Cross, Shapes, Station};
 use super::mesh::Mesh;
+use super::profile::Profile;
+use super::reference::ReferenceLine;
 use super::shape::{Disc, Elastic, Inertia, Piece, Stretch};
 use super::spec::FrameConditions;
 use crate::error::{Error, Result};
@@ -49,7 +51,7 @@ pub fn beam<const D: usize>(
         stiffness: dense(n, &nodal.stiffness),
         mass: dense(n, &mass_matrix(&nodal.inertia)),
         rigid: match conditions {
-            FrameConditions::Mean => columns(n, &mesh.rigid_motions(mesh.length() / 2.0)),
+            FrameConditions::Mean => columns(n, &mesh.rigid_motions()),
             FrameConditions::Tangent | FrameConditions::Chord => Mat::zeros(n, 0),
         },
     };
@@ -267,8 +269,8 @@ struct Reduced<const D: usize> {
 }
 
 impl<const D: usize> Shapes for Reduced<D> {
-    fn length(&self) -> f64 {
-        self.mesh.length()
+    fn reference(&self) -> &ReferenceLine {
+        self.mesh.reference()
     }
 
     fn at(&self, s: f64) -> Station {
@@ -284,8 +286,8 @@ impl<const D: usize> Shapes for Reduced<D> {
         self.mesh.breaks()
     }
 
-    fn density(&self, s: f64) -> f64 {
-        self.mesh.density(s)
+    fn profile(&self) -> &Profile {
+        self.mesh.profile()
     }
 
     fn shortens(&self) -> bool {

@@ -5,6 +5,7 @@ use super::gauss::{gauss_legendre, on_interval};
 use super::integrals::{Sample, Sum, add_stiffness, discs, mass_matrix, piece, stretch};
 use super::line::{Bending, Cross, Shapes, Station};
 use super::profile::Profile;
+use super::reference::ReferenceLine;
 use super::shape::{Elastic, Inertia, Piece, Symmetric};
 use super::shorten::shorten;
 use super::spec::Ritz;
@@ -74,7 +75,7 @@ impl Function {
 /// The functions of a beam, one elastic coordinate each.
 #[derive(Clone, Debug)]
 pub struct Functions {
-    length: f64,
+    line: ReferenceLine,
     functions: Vec<Function>,
     /// Of the mass of axial functions among one another.
     axial_mass_factor: f64,
@@ -86,23 +87,23 @@ pub struct Functions {
 }
 
 impl Shapes for Functions {
-    fn length(&self) -> f64 {
-        self.length
+    fn reference(&self) -> &ReferenceLine {
+        &self.line
     }
     fn at(&self, s: f64) -> Station {
         Station { dofs: self.dofs(), shapes: self.functions.iter().map(|f| f.at(s)).collect() }
     }
     fn breaks(&self) -> Vec<f64> {
-        (0..=PANELS).map(|k| self.length * k as f64 / PANELS as f64).collect()
+        (0..=PANELS).map(|k| self.line.length * k as f64 / PANELS as f64).collect()
     }
-    fn density(&self, s: f64) -> f64 {
-        self.profile.at(s).rho_a
+    fn profile(&self) -> &Profile {
+        &self.profile
     }
     fn shortens(&self) -> bool {
         self.shortens
     }
     fn inertia<const D: usize>(&self, s: f64) -> Inertia<D> {
-        self.sum(&self.samples([s, self.length], self.panels))
+        self.sum(&self.samples([s, self.line.length], self.panels))
     }
 }
 
@@ -145,14 +146,21 @@ impl Functions {
             None => 1.0,
             Some(factor) => build.positive("axial_mass_factor", factor).map_err(|error| error.under("ritz"))?,
         };
-        let functions = Functions { length, functions, axial_mass_factor, panels: PANELS, shortens: false, profile };
+        let functions = Functions {
+            line: ReferenceLine::straight(length),
+            functions,
+            axial_mass_factor,
+            panels: PANELS,
+            shortens: false,
+            profile,
+        };
         functions.check_finite()?;
         Ok(functions)
     }
 
     /// Functions with their slopes must exist on the whole beam, ends included, where joints may be.
     fn check_finite(&self) -> Result<()> {
-        let places = places([0.0, self.length], PANELS).map(|(s, _)| s).chain([0.0, self.length]);
+        let places = places([0.0, self.line.length], PANELS).map(|(s, _)| s).chain([0.0, self.line.length]);
         for s in places {
             for function in &self.functions {
                 let Cross { displacement, rotation, strain, .. } = function.at(s);
@@ -178,7 +186,7 @@ impl Functions {
     }
 
     fn samples(&self, ends: [f64; 2], panels: usize) -> Vec<Sample> {
-        places(ends, panels).map(|at| Sample::new(&self.profile, at, self.at(at.0).shapes)).collect()
+        places(ends, panels).map(|at| Sample::new(&self.profile, &self.line, at, self.at(at.0).shapes)).collect()
     }
 
     /// Everything but the damping, with so few points of integration as are exact to rounding.
@@ -193,11 +201,11 @@ impl Functions {
             (self.sum::<D>(samples), stiffness.finish())
         };
         let mut panels = 1;
-        let mut samples = self.samples([0.0, self.length], panels);
+        let mut samples = self.samples([0.0, self.line.length], panels);
         let mut last = integrals(&samples);
         while panels < PANELS {
             panels *= 2;
-            samples = self.samples([0.0, self.length], panels);
+            samples = self.samples([0.0, self.line.length], panels);
             let finer = integrals(&samples);
             let exact = agree(&diagonals(dofs.len(), &last), &diagonals(dofs.len(), &finer));
             last = finer;

@@ -1,8 +1,6 @@
 //! A beam's section in numbers.
 
-use super::spec::{OneOrMany, Theory};
-use crate::body::Build;
-use crate::error::{Error, Result};
+use super::spec::Theory;
 use std::f64::consts::PI;
 
 /// Stiffness and inertia of a section with principal axes y and z; in the plane those about z and along y count.
@@ -40,22 +38,6 @@ impl Section {
         match theory {
             Theory::EulerBernoulli => Section { ga: [f64::INFINITY; 2], ..self },
             Theory::Timoshenko => self,
-        }
-    }
-}
-
-/// Curvature of a relaxed beam, 1/m: twist, about y and about z.
-///
-/// # Errors
-/// Bad input: not one number in the plane, three in space.
-pub fn curvature<const D: usize>(given: Option<&OneOrMany>, build: &Build<D>) -> Result<[f64; 3]> {
-    match given {
-        None => Ok([0.0; 3]),
-        Some(OneOrMany::One(number)) if D == 2 => Ok([0.0, 0.0, build.number("curvature", number)?]),
-        Some(OneOrMany::Many(numbers)) if D == 3 => build.vector("curvature", numbers),
-        Some(_) => {
-            let expected = if D == 2 { "one number" } else { "three numbers: twist, about y and about z" };
-            Err(Error::input(format!("expected {expected}")).under("curvature").hint("1/m, of the relaxed beam"))
         }
     }
 }

@@ -12,6 +12,8 @@
 //! computed once (Shabana, Dynamics of Multibody Systems, chapter 5: the shape integrals; Wallrapp, Standardization of
 //! Flexible Body Modeling in Multibody System Codes, Mechanics of Structures and Machines 22, 1994: their second order).
 
+use super::section::Section;
+use crate::body::Frame;
 use crate::math::Scalar;
 
 /// All the mass of a body.
@@ -79,7 +81,7 @@ impl<const D: usize> Second<D> {
 pub struct PointShape<const D: usize> {
     /// At rest, from the floating frame's origin and in its axes, m.
     pub rest: [f64; D],
-    /// From the line of a beam to the point, in the section's axes, with which it turns.
+    /// From the line of a beam to the point at rest, in the same axes; it turns with the section.
     pub arm: [f64; D],
     /// The elastic coordinates that move it.
     pub dofs: Vec<usize>,
@@ -151,9 +153,13 @@ pub type Symmetric = Vec<(usize, usize, f64)>;
 pub trait Line<const D: usize>: Send + Sync {
     /// m
     fn length(&self) -> f64;
-    /// The point at `rest` = [s, y(, z)], 0 <= s <= length, which turns with its section.
-    fn point(&self, rest: [f64; D]) -> PointShape<D>;
+    /// The section at `s` at rest, in the floating frame.
+    fn at_rest(&self, s: f64) -> Frame<f64, D>;
+    /// The point at `place` = [s, y(, z)], 0 <= s <= length, which turns with its section.
+    fn point(&self, place: [f64; D]) -> PointShape<D>;
     fn section(&self, s: f64) -> SectionShape;
+    /// Stiffness and mass of the section at `s`.
+    fn material(&self, s: f64) -> Section;
     /// The mass from `s` to the end.
     fn beyond(&self, s: f64) -> Inertia<D>;
 }

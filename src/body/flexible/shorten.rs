@@ -36,7 +36,7 @@ pub fn shorten<const D: usize>(line: &impl Shapes, start: f64, piece: &mut Piece
         for (s, weight) in on_interval(&rule, [from.max(start), to]).filter(|_| to > start) {
             let mut there = table.clone();
             add_shortening(line, &mut there, [from, s]);
-            let mass = weight * line.density(s);
+            let mass = weight * line.profile().at(s).rho_a;
             let both = sums.iter_mut().zip(&there);
             both.for_each(|(sum, x)| *sum = [sum[0] + mass * x, sum[1] + mass * s * x]);
         }

@@ -4,8 +4,8 @@ use crate::math::expression::Number;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// A slender beam. Its origin is its left end; the x axis runs along it, markers lie at [s, y] or [s, y, z] with
-/// 0 <= s <= length. The numbers of `section`, `stiffness` and `inertia` may be expressions of s, such as
+/// A slender beam. Its origin is its left end, where the x axis runs along it; markers lie at [s, y] or [s, y, z] with
+/// 0 <= s <= length, in the axes of the section at s. The numbers of `section`, `stiffness` and `inertia` may be expressions of s, such as
 /// "0.1*(1 - s/4)": a tapered beam. A section that jumps needs a marker there, for a node.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -29,7 +29,8 @@ pub struct FlexibleBeam {
     pub inertia: Option<SectionInertia>,
     /// Default: none.
     pub damping: Option<Damping>,
-    /// Absolute only: curvature of the relaxed beam, 1/m: one number in the plane; in space [twist, about y, about z].
+    /// Curvature of the relaxed beam, 1/m: one number in the plane; in space [twist, about y, about z]. Floating with elements
+    /// and the frame conditions `tangent` and `mean` only.
     pub curvature: Option<OneOrMany>,
     /// Floating only: how the frame moves with the beam. Default: `tangent`.
     pub frame_conditions: Option<FrameConditions>,

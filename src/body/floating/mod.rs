@@ -28,7 +28,7 @@ mod tangent;
 
 use super::flexible::{Elastic, PointShape};
 use super::kernel::coordinate_path;
-use super::{Attitude, Bent, Body, BodyOver, BodyState, Energy, Frame, Marker, Wrench, dot};
+use super::{Attitude, Bent, Body, BodyOver, BodyState, Energy, Frame, Marker, Wrench, norm};
 use crate::math::rotation::{axes_from_quaternion, quaternion_rate};
 use crate::math::{Scalar, Taylor};
 use layout::Layout;
@@ -40,7 +40,7 @@ pub use point::place;
 /// The body: what its shapes say, and where each value of its matrices stands.
 pub struct Floating<const D: usize> {
     elastic: Elastic<D>,
-    /// The frame itself first.
+    /// The frame itself first; of a beam at [s, y(, z)], with axes in those of the frame.
     markers: Vec<Marker<D>>,
     shapes: Vec<PointShape<D>>,
     layout: Layout,
@@ -211,7 +211,7 @@ impl<const D: usize> Body<D> for Floating<D> {
         false
     }
     fn reach(&self) -> f64 {
-        self.markers.iter().map(|marker| dot(&marker.offset, &marker.offset).sqrt()).fold(0.0, f64::max)
+        self.shapes.iter().map(|shape| norm(&shape.rest)).fold(0.0, f64::max)
     }
     fn elastic_count(&self) -> usize {
         self.elastic.names.len()

@@ -16,15 +16,14 @@ impl BodySpec for FlexibleBeam {
         // The first marker is the frame itself.
         let places: Vec<f64> = markers.iter().skip(1).map(|marker| marker.offset[0]).collect();
         let (elastic, length) = elastic_beam::<D>(self, &places, build)?;
-        let shapes = markers.iter().enumerate().map(|(i, marker)| match (&elastic.line, i) {
+        let on_line = |(i, mut marker): (usize, Marker<D>)| match (&elastic.line, i) {
             (Some(line), 1..) => {
-                let mut rest = marker.offset;
-                rest[0] = rest[0].clamp(0.0, length);
-                line.point(rest)
+                marker.offset[0] = marker.offset[0].clamp(0.0, length);
+                (line.point(marker.offset), line.at_rest(marker.offset[0]).carry(marker))
             }
-            _ => frame_itself(),
-        });
-        let shapes = shapes.collect();
+            _ => (frame_itself(), marker),
+        };
+        let (shapes, markers) = markers.into_iter().enumerate().map(on_line).unzip();
         let (q, v) = start(initial, &elastic.names, build)?;
         Ok(Built { body: Box::new(Floating::new(elastic, markers, shapes)), q, v })
     }

@@ -1,10 +1,10 @@
 //! Strains of a beam element, and the stresses that belong to them.
 
 use super::Moving;
-use crate::body::flexible::Section;
+use crate::body::flexible::{ReferenceLine, Section};
 use crate::body::{Frame, dot, sub};
 use crate::math::Scalar;
-use crate::math::screw::{Vector, exponential, rotation_vector, shift};
+use crate::math::screw::{Vector, rotation_vector, shift};
 use std::array::from_fn;
 
 /// A beam element: relaxed, its second frame lies `length` along the x axis of the first, bent by a curvature.
@@ -89,7 +89,7 @@ impl Beam {
 
     /// Where the relaxed beam is at `x` from its first end, in the axes there, m.
     pub fn relaxed(&self, x: f64) -> [f64; 3] {
-        exponential(&[1.0, 0.0, 0.0], &self.curvature(), x).1
+        ReferenceLine { length: self.length, curvature: self.curvature() }.at(x).1
     }
 
     /// Length of the bent line by that of the relaxed one, from the logarithm's shift by the length. A line that leans by

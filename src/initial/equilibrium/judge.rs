@@ -47,7 +47,7 @@ impl Judge {
         let mut parts = system.limited().iter().cloned().zip(deformations);
         let is_bent = |(limited, turn): &(Limited, f64)| match limited.theory {
             Theory::Helix { .. } => *turn > TOO_FAR * limited.theory.most(),
-            Theory::SmallDisplacements | Theory::SmallRotations | Theory::Mesh { .. } => false,
+            _ => false,
         };
         parts.find(is_bent)
     }

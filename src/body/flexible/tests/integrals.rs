@@ -3,6 +3,7 @@
 use super::*;
 use crate::body::flexible::{Piece, gauss_legendre, on_interval};
 use std::array::from_fn;
+use std::f64::consts::PI;
 
 const L: f64 = 1.5;
 
@@ -38,6 +39,31 @@ fn without_elastic_motion_it_is_a_rigid_rod() {
             assert_close(moment[k], [0.8 * L * L / 2.0, 0.0, 0.0][k], 1e-14);
             (0..3).for_each(|m| assert_close(product[k][m], exact[k][m], 1e-14));
         }
+    }
+}
+
+/// A semicircle: its mass at distance 2/pi of the radius from its centre, its products those of a half ring.
+#[test]
+fn without_elastic_motion_an_arc_is_a_rigid_one() {
+    let radius = L / PI;
+    for more in [json!({}), json!({ "frame_conditions": "mean" }), json!({ "modes": 2 })] {
+        let mut keys = json!({ "curvature": [0, 0, "pi/l"] });
+        keys.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        let arc: Elastic<3> = build(&beam_in_space(keys), &[0.0, 0.4]).unwrap();
+        let (mut mass, mut moment, mut product) = (0.0, [0.0; 3], [[0.0; 3]; 3]);
+        for piece in &arc.inertia.pieces {
+            mass += piece.mass;
+            (0..3).for_each(|k| moment[k] += piece.moments[0][k]);
+            add(&mut product, &piece.products[0]);
+        }
+        let m = 0.8 * L;
+        assert_close(mass, m, 1e-14);
+        // x = R sin a, y = R (1 - cos a): in x the mean of sin, in y that of 1.
+        let square = m * radius * radius;
+        let expected = [[0.5 * square, 2.0 / PI * square, 0.0], [2.0 / PI * square, 1.5 * square, 0.0], [0.0; 3]];
+        // What six points leave of an element that turns by 0.8 rad.
+        (0..3).for_each(|k| assert_close(moment[k], [2.0 / PI * m * radius, m * radius, 0.0][k], 1e-12));
+        (0..3).for_each(|k| (0..3).for_each(|j| assert_close(product[k][j], expected[k][j], 1e-11)));
     }
 }
 

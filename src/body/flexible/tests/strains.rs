@@ -3,7 +3,7 @@
 use super::*;
 use crate::body::flexible::line::{Cross, Shapes};
 use crate::body::flexible::mesh::Mesh;
-use crate::body::flexible::{Axial, Profile, Section};
+use crate::body::flexible::{Axial, Profile, ReferenceLine, Section};
 use faer::linalg::solvers::Solve;
 
 const SECTION: Section =
@@ -21,15 +21,48 @@ fn at<const D: usize>(mesh: &Mesh<D>, s: f64, q: &[f64]) -> Cross {
 fn meshes<const D: usize>() -> Vec<Mesh<D>> {
     let slender = Section { ga: [f64::INFINITY; 2], ..SECTION };
     [(SECTION, Axial::Linear), (SECTION, Axial::Quadratic), (slender, Axial::Linear), (slender, Axial::Quadratic)]
-        .map(|(section, axial)| Mesh::new(1.5, 5, &[0.4], Profile::uniform(section, false), axial))
+        .map(|(section, axial)| {
+            Mesh::new(ReferenceLine::straight(1.5), 5, &[0.4], Profile::uniform(section, false), axial)
+        })
         .into()
+}
+
+/// The same on an arc, or in space on a helix.
+fn curved<const D: usize>() -> Vec<Mesh<D>> {
+    let curvature = if D == 2 { [0.0, 0.0, 1.3] } else { [0.5, -0.7, 1.1] };
+    let line = ReferenceLine { length: 1.5, curvature };
+    [Axial::Linear, Axial::Quadratic]
+        .map(|axial| Mesh::new(line, 5, &[0.4], Profile::uniform(SECTION, false), axial))
+        .into()
+}
+
+/// The line moves as it stands, off the chords, too.
+#[test]
+fn rigid_motions_carry_the_line() {
+    fn check<const D: usize>() {
+        for (mesh, part) in
+            curved::<D>().iter().flat_map(|mesh| (D..mesh.rigid_motions().len()).map(move |k| (mesh, k)))
+        {
+            let (motion, axis) = (&mesh.rigid_motions()[part], if D == 2 { 2 } else { part - D });
+            let turn: [f64; 3] = from_fn(|k| if k == axis { 1.0 } else { 0.0 });
+            let place = |s: f64| mesh.reference().at(s).1;
+            let moved = |s: f64| at(mesh, s, motion).displacement;
+            for s in [0.1, 0.4, 0.77, 1.5] {
+                let expected = cross(&turn, &from_fn(|k| place(s)[k] - place(0.0)[k]));
+                (0..3).for_each(|k| assert_close(moved(s)[k] - moved(0.0)[k], expected[k], 1e-14));
+                (0..3).for_each(|k| assert_close(at(mesh, s, motion).rotation[k], turn[k], 1e-14));
+            }
+        }
+    }
+    check::<2>();
+    check::<3>();
 }
 
 #[test]
 fn rigid_motions_do_not_strain() {
     fn check<const D: usize>() {
-        for mesh in meshes::<D>() {
-            for motion in mesh.rigid_motions(0.6) {
+        for mesh in meshes::<D>().into_iter().chain(curved()) {
+            for motion in mesh.rigid_motions() {
                 for s in [0.0, 0.1, 0.4, 0.77, 1.5] {
                     at(&mesh, s, &motion).strain.iter().for_each(|strain| assert_close(*strain, 0.0, 1e-12));
                 }

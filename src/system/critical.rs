@@ -1,0 +1,81 @@
+//! What the linear elasticity of a beam in a floating frame leaves out: loads by those at which it would buckle.
+//!
+//! ```text
+//! Euler:    N = pi^2 EI/L^2
+//! sideways: M = pi/L sqrt(EI GJ/((1 - EI/EJ)(1 - GJ/EJ)))
+//! ```
+//!
+//! with the weak bending stiffness EI and the strong one EJ, in which the moment bends (Trahair, Flexural-Torsional Buckling
+//! of Structures, 1993, chapters 3 and 7). The force is that of the longest part between joints, hinged there, or twice the
+//! length that is beyond all joints. The moment is that of the whole beam, hinged at both ends, the same all along: a
+//! cantilever buckles at half of it, or at 1.3 times where a force at the tip makes it. A beam that is as stiff one way as the
+//! other never buckles sideways.
+
+use super::limits::{Extent, POINTS, Theory};
+use crate::body::Bent;
+use crate::body::flexible::{Line, Section};
+use crate::scene::{Model, Part};
+use std::array::from_fn;
+use std::f64::consts::PI;
+use std::iter::zip;
+
+/// A load of a section by its critical one, as factors of coordinates.
+pub(super) struct Load(Vec<(usize, f64)>);
+
+impl Load {
+    /// Such a multiple of strain number `strain` of the section at `s`, with the first elastic coordinate.
+    fn new<const D: usize>(line: &dyn Line<D>, first_q: usize, s: f64, (strain, factor): (usize, f64)) -> Self {
+        let section = line.section(s);
+        let terms =
+            zip(&section.dofs, &section.strains).map(|(dof, strains)| (first_q + dof, factor * strains[strain]));
+        Load(terms.filter(|(_, factor)| *factor != 0.0).collect())
+    }
+
+    pub fn at(&self, q: &[f64]) -> f64 {
+        self.0.iter().map(|&(place, factor)| factor * q[place]).sum()
+    }
+}
+
+/// What is left out of a beam in a floating frame, and where it shows.
+pub(super) fn loads<const D: usize>(model: &Model<D>, part: &Part<D>) -> Vec<(Theory, Extent<D>)> {
+    let Some(Bent { line, stretches, first }) = part.body.bent() else { return Vec::new() };
+    let (length, free) = (line.length(), free_length(model, part, line.length()));
+    let end = from_fn(|k| if k == 0 { length } else { 0.0 });
+    let stiffens = !stretches.is_empty() || !line.point(end).shortening.is_empty();
+    let along = |of: &dyn Fn(&Section) -> (usize, f64)| -> Vec<Load> {
+        let places = (0..=POINTS).map(|k| length * k as f64 / POINTS as f64);
+        let loads = places.map(|s| Load::new(line, part.first_q + first, s, of(&line.material(s))));
+        loads.filter(|load| !load.0.is_empty()).collect()
+    };
+    let forces = if stiffens { Vec::new() } else { along(&|section| axial_force::<D>(section, free)) };
+    let moments = if D == 3 { along(&|section| moment(section, length)) } else { Vec::new() };
+    let all = [(Theory::SmallAxialForces, forces), (Theory::SmallMoments, moments)];
+    all.into_iter().filter(|(_, loads)| !loads.is_empty()).map(|(theory, all)| (theory, Extent::Loads(all))).collect()
+}
+
+/// The length of a beam hinged at both ends that buckles under the same axial force: between joints, or twice an end
+/// beyond them.
+fn free_length<const D: usize>(model: &Model<D>, part: &Part<D>, length: f64) -> f64 {
+    let own = part.first_marker..part.first_marker + part.body.marker_count();
+    let held = model.joints.iter().flat_map(|joint| &joint.markers).filter(|marker| own.contains(marker));
+    let places = held.map(|marker| part.body.marker(marker - own.start).offset[0]);
+    match places.fold(None, |ends, s| Some(ends.map_or([s, s], |[a, b]: [f64; 2]| [a.min(s), b.max(s)]))) {
+        None => length,
+        Some([first, last]) => (last - first).max(2.0 * first).max(2.0 * (length - last)),
+    }
+}
+
+/// Number and factor of the strain whose stress is the axial force.
+fn axial_force<const D: usize>(section: &Section, length: f64) -> (usize, f64) {
+    let [about_y, about_z] = section.ei;
+    let weak = if D == 2 { about_z } else { about_y.min(about_z) };
+    (0, section.ea * length * length / (PI * PI * weak))
+}
+
+/// The same of the bending moment, about the axis in which the section is strong.
+fn moment(section: &Section, length: f64) -> (usize, f64) {
+    let ([about_y, about_z], gj) = (section.ei, section.gj);
+    let (strain, weak, strong) = if about_y > about_z { (4, about_z, about_y) } else { (5, about_y, about_z) };
+    let bent = (1.0 - weak / strong) * (1.0 - gj / strong).max(0.0);
+    (strain, strong * length / PI * (bent / (weak * gj)).sqrt())
+}
