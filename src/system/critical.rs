@@ -6,8 +6,8 @@
 //! ```
 //!
 //! with the weak bending stiffness EI and the strong one EJ, in which the moment bends (Trahair, Flexural-Torsional Buckling
-//! of Structures, 1993, chapters 3 and 7). The force is that of the longest part between joints, hinged there, or twice the
-//! length that is beyond all joints. The moment is that of the whole beam, hinged at both ends, the same all along: a
+//! of Structures, 1993, chapters 3 and 7). The force is that of the part between the outermost joints, hinged there, or of twice
+//! what is beyond them. The moment is that of the whole beam, hinged at both ends, the same all along: a
 //! cantilever buckles at half of it, or at 1.3 times where a force at the tip makes it. A beam that is as stiff one way as the
 //! other never buckles sideways.
 
@@ -53,8 +53,8 @@ pub(super) fn loads<const D: usize>(model: &Model<D>, part: &Part<D>) -> Vec<(Th
     all.into_iter().filter(|(_, loads)| !loads.is_empty()).map(|(theory, all)| (theory, Extent::Loads(all))).collect()
 }
 
-/// The length of a beam hinged at both ends that buckles under the same axial force: between joints, or twice an end
-/// beyond them.
+/// The length of a beam hinged at both ends that buckles under the same axial force: between the outermost joints, or twice
+/// an end beyond them.
 fn free_length<const D: usize>(model: &Model<D>, part: &Part<D>, length: f64) -> f64 {
     let own = part.first_marker..part.first_marker + part.body.marker_count();
     let held = model.joints.iter().flat_map(|joint| &joint.markers).filter(|marker| own.contains(marker));
