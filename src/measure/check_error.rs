@@ -58,7 +58,7 @@ fn differences(first: &Trajectory, second: &Trajectory) -> Vec<(String, Differen
     let rows: Vec<[Vec<f64>; 2]> = both.map(|(one, other)| [values(first, one), values(second, other)]).collect();
     let difference = |i: usize| {
         let all = || rows.iter().map(|[one, other]| (one[i] - other[i]).abs());
-        (all().fold(f64::NAN, f64::max), all().last().unwrap_or(f64::NAN))
+        (all().fold(f64::NAN, f64::max), all().next_back().unwrap_or(f64::NAN))
     };
     let named = |(i, (name, unit)): (usize, (&String, &str))| {
         let (max, last) = difference(i);
