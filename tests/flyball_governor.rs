@@ -4,7 +4,7 @@
 mod common;
 mod scenes;
 
-use common::{adaptive, fixed, stepwise};
+use common::{adaptive, fixed};
 use holonom::simulate::Span;
 use scenes::{Run, shipped};
 
@@ -106,7 +106,7 @@ fn collocation_reaches_the_reference_in_a_tenth_of_the_steps() {
     let ready = shipped("flyball_governor", &[]);
     let span = Span { start: 0.0, end: 5.0, output_step: ROW };
     for (tolerance, most) in [(1e-4, 2e-2), (1e-7, 2e-5), (1e-10, 2e-8)] {
-        let run = ready.run(&stepwise("ggl", "radau_iia", "none", tolerance), span);
+        let run = ready.run(&adaptive("ggl", "radau_iia", "none", tolerance), span);
         let [values, rates] = errors(&run, &REFERENCE[1]);
         println!("{tolerance:e}: {values:e} {rates:e} {:?}", run.outcome.statistics);
         assert!(values < most && run.outcome.statistics.steps < 1042, "{tolerance:e}: {values:e}");
