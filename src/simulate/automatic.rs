@@ -27,6 +27,8 @@ const FIRST: f64 = 200.0;
 /// stability holds them.
 const WORTH: f64 = 1.5;
 const WORTH_BACK: f64 = 3.0;
+/// What comes no farther than this is no alternative.
+const SLOWER: f64 = 0.5;
 /// Runs that stop again within this part of the span are not helped by the other method.
 const AGAIN: f64 = 1e-6;
 
@@ -87,13 +89,10 @@ pub fn advise(
         if drive.run.t >= span.end {
             break;
         }
-        match drive.look(mark, failure.as_ref())? {
-            Some(look) if look.0 != drive.carrier || because == CALM => (chosen, because) = look,
-            Some(_) => {}
-            None if drive.run.has_shown_itself(mark) => break,
-            None => {}
+        if let Some(look) = drive.look(mark, failure.as_ref())?.filter(|look| look.0 != chosen || because == CALM) {
+            (chosen, because) = look;
         }
-        if failure.is_some() {
+        if failure.is_some() || chosen == drive.carrier && drive.run.has_shown_itself(mark) {
             break;
         }
         if chosen != drive.carrier {
@@ -196,6 +195,7 @@ fn words(Contest { t, mode, step, gain }: &Contest, [own, other]: [&str; 2], win
     let two = |x: f64| short(format!("{x:.1e}").parse().unwrap_or(x));
     let kind = match (own, wins) {
         ("dop853", true) => "stiff",
+        ("dop853", false) if *gain < SLOWER => "not stiff",
         ("dop853", false) => "fast, not stiff",
         (_, true) => "no longer stiff",
         _ => "stiff",

@@ -14,8 +14,9 @@ use crate::system::{Loaded, MechanicalSystem};
 /// Work of an evaluation in implicit methods, its share of factorizations and back-substitutions included, in evaluations by
 /// explicit ones: 2 to 4 on the shipped scenes, whatever their size.
 const IMPLICIT: f64 = 3.0;
-/// From this part of the longest stable step on, stability may be what holds the steps of an explicit method.
-const HELD: f64 = 0.3;
+/// From this part of the longest stable step on, stability may be what holds the steps of an explicit method: with the steps
+/// that it refuses again and again they are a quarter of it on average.
+const HELD: f64 = 0.1;
 /// Up to so many times the longest stable step an explicit method may be worth trying in the place of an implicit one.
 const NEAR: f64 = 20.0;
 /// Most of the longest stable step, as |lambda| h, that is asked of methods without a limit of their own: dop853's.
@@ -23,7 +24,7 @@ const STABLE: f64 = 6.1;
 /// Least work of a trial, in evaluations: the first steps of radau_iia, each up to eight times the one before.
 const LEAST: f64 = 300.0;
 /// A trial has so much of the work that it is compared with.
-const SHARE: f64 = 0.5;
+const SHARE: f64 = 0.25;
 
 /// Steps grow where the next one is so many times their mean.
 const GROWN: f64 = 2.0;

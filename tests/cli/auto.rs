@@ -43,7 +43,7 @@ fn calm_motions_get_an_explicit_method() {
     for rtol in ["1e-9", "1e-4"] {
         let (names, because, _) = chosen(PENDULUM, &["--method", "auto", "--rtol", rtol]);
         assert_eq!(names, "index1 dop853 manifold");
-        assert!(because.starts_with("not stiff: "), "{because}");
+        assert!(because.starts_with("not stiff"), "{because}");
     }
 }
 
@@ -61,7 +61,7 @@ fn fast_decay_gets_an_implicit_one() {
 fn fast_oscillations_are_stepped_over_or_resolved() {
     let (names, because, x) = chosen(&pair("1e8", "0", 0.0), &[]);
     assert_eq!(names, "ggl radau_iia none");
-    assert!(because.contains("swings at 320000 rad/s"), "{because}");
+    assert!(because.starts_with("stiff. ") && because.contains("swings at 320000 rad/s"), "{because}");
     assert!(close(&x), "{x}");
     let (names, because, _) = chosen(&pair("1e8", "0", 1e-3), &["--until", "0.1"]);
     assert_eq!(names, "index1 dop853 manifold");
@@ -85,7 +85,7 @@ fn too_many_coordinates_for_all_modes_leave_the_fastest() {
     place.done(&["generate", "chain", "--n", "150", "-o", "scene.json"]);
     let text = place.text("scene.json");
     let (names, because, _) = chosen(&text, &["--method", "auto", "--until", "0.01", "--output-step", "0.01"]);
-    assert!(names.starts_with("index1 dop") && because.starts_with("not stiff: "), "{names}: {because}");
+    assert!(names.starts_with("index1 dop") && because.starts_with("not stiff"), "{names}: {because}");
 }
 
 #[test]
@@ -93,7 +93,7 @@ fn the_reason_is_printed_and_only_where_auto_chose() {
     let place = Place::new(PENDULUM);
     let text = place.done(&["simulate", "scene.json", "--method", "auto"]);
     assert!(
-        text.starts_with("pendulum: index1 + dop853 + manifold, rtol 1e-8, atol 1e-10\n  auto: not stiff:"),
+        text.starts_with("pendulum: index1 + dop853 + manifold, rtol 1e-8, atol 1e-10\n  auto: not stiff"),
         "{text}"
     );
     assert!(!place.done(&["simulate", "scene.json"]).contains("auto:"));

@@ -13,6 +13,16 @@ fn residual(system: &dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64], vdot: &
     r
 }
 
+/// sum_j |M_ij v'_j|
+fn inertial(system: &dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64], vdot: &[f64]) -> Vec<f64> {
+    let mut terms = Terms::new(system);
+    system.evaluate(t, q, v, Need::DYNAMICS, &mut terms, &mut Scratch::default());
+    let [mass, vdot] = [&terms.mass[..], vdot].map(|x| x.iter().map(|x| x.abs()).collect::<Vec<_>>());
+    let mut sums = vec![0.0; v.len()];
+    system.structure().mass.multiply_symmetric(&mass, &vdot, &mut sums);
+    sums
+}
+
 fn dense(pattern: &holonom::math::kkt::Pattern, values: &[f64], column: usize) -> Vec<f64> {
     let mut unit = vec![0.0; pattern.cols];
     unit[column] = 1.0;
@@ -33,6 +43,7 @@ pub fn check(system: &dyn MechanicalSystem, at: Loaded, what: &str) {
     let mut tangent = Tangent::new(&pattern);
     assert!(system.tangent(at, &mut tangent, &mut Scratch::default()));
     let h = 1e-6;
+    let inertial = inertial(system, t, q, v, vdot);
     for j in 0..v.len() {
         let mut direction = vec![0.0; v.len()];
         direction[j] = 1.0;
@@ -45,8 +56,8 @@ pub fn check(system: &dyn MechanicalSystem, at: Loaded, what: &str) {
         let c = (r(q, &faster(h)), r(q, &faster(-h)));
         for (name, values, (plus, minus)) in [("K", &tangent.k, k), ("C", &tangent.c, c)] {
             let exact = dense(&pattern, values, j);
-            // Differences with h = 1e-6 lose ten digits of the largest force, reactions included.
-            let scale = plus.iter().chain(&exact).chain(lambda).fold(1.0f64, |s, x| s.max(x.abs()));
+            // Differences with h = 1e-6 lose ten digits of the largest force, reactions and what M v' is summed of included.
+            let scale = plus.iter().chain(&exact).chain(lambda).chain(&inertial).fold(1.0f64, |s, x| s.max(x.abs()));
             for (i, exact) in exact.iter().enumerate() {
                 let difference = (plus[i] - minus[i]) / (2.0 * h);
                 let error = (difference - exact).abs();
