@@ -4,9 +4,9 @@ use super::case::Case;
 use super::deadline::{Deadline, Limits};
 use super::subject::Subject;
 use crate::choice::Choice;
-use crate::measure::{Record, Recorder};
-use crate::simulate::{Method, Stop, simulate};
-use crate::system::{Column, MechanicalSystem};
+use crate::measure::{Record, Recorder, Sizes, scales};
+use crate::simulate::{Method, Observation, Sink, Stop, simulate};
+use crate::system::{Column, MechanicalSystem, Scratch};
 use crate::trajectory::Trajectory;
 use std::time::Duration;
 
@@ -53,10 +53,12 @@ impl Search {
     fn by(subject: &Subject, case: Case, allowed: Duration, limits: Limits) -> Self {
         let deadline = Deadline::new(allowed, limits);
         let found = subject.with(&case, |system, span, start| {
-            let mut recorder = Recorder::new(system).with_stop(|| deadline.is_over().then(|| Stop::deadline(allowed)));
-            let outcome = simulate(system, &case.method, span, start, &mut recorder)?;
-            let record = recorder.finish();
-            Ok(outcome.failure.is_none().then(|| Reference::new(system, &record)))
+            let recorder = Recorder::new(system).with_stop(|| deadline.is_over().then(|| Stop::deadline(allowed)));
+            let (sizes, scales, scratch) = (Sizes::default(), system.scales(), Scratch::default());
+            let mut measured = Measured { recorder, system, sizes, scales, scratch };
+            let outcome = simulate(system, &case.method, span, start, &mut measured)?;
+            let Measured { recorder, sizes, .. } = measured;
+            Ok(outcome.failure.is_none().then(|| Reference::new(system, &recorder.finish(), &sizes)))
         });
         match found {
             Ok(Some(reference)) => Search::Found(reference),
@@ -67,13 +69,13 @@ impl Search {
 }
 
 impl Reference {
-    fn new(system: &dyn MechanicalSystem, record: &Record) -> Self {
+    fn new(system: &dyn MechanicalSystem, record: &Record, sizes: &Sizes) -> Self {
         let rows = watched(record);
         let columns = match record.trajectory.outputs.is_empty() {
             true => system.names().q.into_iter().map(|name| Column { name, unit: String::new() }).collect(),
             false => record.trajectory.outputs.clone(),
         };
-        let scales = scales(&columns, &rows, record, system);
+        let scales = scales(&columns, &rows, sizes);
         Reference { names: columns.into_iter().map(|column| column.name).collect(), rows, scales }
     }
 
@@ -99,41 +101,26 @@ pub(super) fn watched(record: &Record) -> Rows {
     trajectory.rows.iter().map(row).collect()
 }
 
-/// What is smaller than this part of its like is zero by physics: its digits are round-off.
-const ZERO: f64 = 1e-8;
-
-/// Each quantity is measured by its own largest value; one that is zero by physics by the largest of its like. Energies,
-/// whose zero is arbitrary, are measured by the kinetic energy at least.
-fn scales(columns: &[Column], rows: &Rows, record: &Record, system: &dyn MechanicalSystem) -> Vec<f64> {
-    let largest = |i: usize| largest(rows.iter().map(|row| row[i]));
-    let of_unit = |unit: &str| {
-        let same = (0..columns.len()).filter(|i| columns[*i].unit == unit);
-        same.fold(like(unit, record, system), |most, i| most.max(largest(i)))
-    };
-    let kinetic = record.ledger_rows.iter().fold(0.0, |most: f64, row| most.max(row.kinetic));
-    let scale = |i: usize| {
-        let (own, of_unit) = (largest(i), of_unit(&columns[i].unit));
-        match columns[i].unit.as_str() {
-            "J" => own.max(kinetic),
-            _ if own < ZERO * of_unit => of_unit,
-            _ => own,
-        }
-    };
-    (0..columns.len()).map(|i| Some(scale(i)).filter(|scale| *scale > 0.0).unwrap_or(1.0)).collect()
+/// Records a motion with the sizes that its errors are relative to.
+struct Measured<'a> {
+    recorder: Recorder<'a>,
+    system: &'a dyn MechanicalSystem,
+    sizes: Sizes,
+    scales: Vec<f64>,
+    scratch: Scratch,
 }
 
-/// What the state itself says of a unit: the scene's size, velocities, multipliers.
-fn like(unit: &str, record: &Record, system: &dyn MechanicalSystem) -> f64 {
-    let trajectory = &record.trajectory;
-    let states = trajectory.rows.iter().map(|row| trajectory.row_state(row));
-    match unit {
-        "m" => largest(system.scales().into_iter()),
-        "m/s" | "rad/s" => largest(states.flat_map(|state| state.1.iter().copied())),
-        "N" | "N m" => largest(states.flat_map(|state| state.2.iter().copied())),
-        _ => 0.0,
+impl Sink for Measured<'_> {
+    fn accepted(&mut self, state: &Observation) {
+        self.recorder.accepted(state);
     }
-}
 
-fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |largest: f64, value| largest.max(value.abs()))
+    fn row(&mut self, state: &Observation) {
+        self.sizes.add(self.system, state, &self.scales, &mut self.scratch);
+        self.recorder.row(state);
+    }
+
+    fn stops(&self) -> Option<Stop> {
+        self.recorder.stops()
+    }
 }

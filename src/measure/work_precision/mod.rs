@@ -22,7 +22,6 @@ pub mod models;
 mod reference;
 mod runner;
 mod sample;
-mod scale;
 mod work;
 mod yardstick;
 
@@ -33,7 +32,6 @@ pub use grid::{Filter, Triple, grid};
 pub use reference::{Pace, Reference};
 pub use runner::{Motion, Plan, Runner};
 pub use sample::{Allowed, Sample, cpu_seconds, sample};
-pub use scale::Sizes;
 pub use yardstick::{Watched, Yardstick};
 
 use serde::{Deserialize, Serialize};

@@ -1,11 +1,10 @@
 //! One run, with as little beside it as can be.
 
 use super::runner::Motion;
-use super::scale::Sizes;
 use super::yardstick::Watched;
 use crate::error::{Failure, Result};
 use crate::formulation::Statistics;
-use crate::measure::Drift;
+use crate::measure::{Drift, Sizes};
 use crate::simulate::{Method, Observation, Sink, Span, Stop, simulate};
 use crate::system::Scratch;
 use cpu_time::ThreadTime;
