@@ -79,10 +79,14 @@ pub fn advise(
     methods[0].check()?;
     let store = Store::default();
     let mut run = Run::unseen((system, &store), &methods[0], [span.start, span.end], flat(start))?;
-    let mut failure = run.begin(&mut Quiet).err();
+    if let Err(Failure { reason, .. }) = run.begin(&mut Quiet) {
+        // Whatever the method, the run will say so at its start.
+        let because = format!("nothing was tried: {reason}");
+        return Ok(Leg { from: span.start, method: methods[0].clone(), because });
+    }
     let mut drive = Drive { system, methods: &methods, run, carrier: 0, spent: Statistics::default() };
     let unseen = Span { output_step: f64::INFINITY, ..span };
-    let (mut chosen, mut because, mut window) = (0, CALM.to_string(), FIRST);
+    let (mut chosen, mut because, mut window, mut failure) = (0, CALM.to_string(), FIRST, None);
     while window < MOST_ADVICE {
         let (mark, stopped) = drive.run.window(window, &mut Quiet);
         failure = failure.or(stopped);
@@ -160,7 +164,7 @@ struct Drive<'s, 'a> {
     methods: &'a [Method; 2],
     run: Run<'a>,
     carrier: usize,
-    /// By the methods before.
+    /// By the methods before; trials are not counted.
     spent: Statistics,
 }
 
