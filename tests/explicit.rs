@@ -38,7 +38,7 @@ fn orders_on_a_nonlinear_equation() {
 /// sum_i b_i c_i^k = 1/(k + 1) for k < p, and for no k beyond the method's quadrature order.
 #[test]
 fn quadrature_conditions() {
-    let is_explicit = |entry: &&Entry| entry.accepts.contains(&"index1") && entry.steps != Steps::Own;
+    let is_explicit = |entry: &&Entry| entry.takes("index1") && entry.steps != Steps::Own;
     for entry in registry().iter().filter(is_explicit) {
         let error = |k: usize| {
             let method = fixed("index1", entry.name, "none", 1.0);

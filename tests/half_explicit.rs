@@ -35,7 +35,7 @@ fn the_velocity_constraint_is_held_to_round_off() {
 /// sum_i b_i c_i^k = 1/(k + 1) for k < p, without constraints.
 #[test]
 fn quadrature_conditions() {
-    for entry in registry().iter().filter(|entry| entry.accepts == ["index2"]) {
+    for entry in registry().iter().filter(|entry| entry.accepts().eq(["index2"])) {
         let error = |k: usize| {
             let method = fixed("index2", entry.name, "none", 1.0);
             let run = run(&Power(k as i32), &method, until(1.0), (&[0.0], &[0.0])).completed();

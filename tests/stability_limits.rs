@@ -27,7 +27,7 @@ fn oscillator(k: f64, c: f64) -> Ready {
 /// Limits of all integrators that have one, with a formulation each.
 fn limits(system: &Ready) -> Vec<(&'static str, &'static str, Stability)> {
     let of = |entry: &'static integrator::Entry| {
-        let [name, formulation] = [entry.name, entry.accepts[0]];
+        let [name, formulation] = [entry.name, entry.accepts().next()?];
         let (integrator, choice, store) = (Choice::named(name), Choice::named(formulation), Store::default());
         let setup = Setup {
             integrator: &integrator,

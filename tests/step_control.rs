@@ -15,8 +15,8 @@ use rayon::prelude::*;
 fn methods(wanted: impl Fn(&Entry) -> bool) -> Vec<(&'static str, &'static str)> {
     let solved = ["index1", "index2", "index3", "ggl"];
     let pairs = registry().iter().filter(|entry| wanted(entry)).flat_map(|entry| {
-        let accepted = entry.accepts.iter().filter(|formulation| solved.contains(formulation));
-        accepted.map(|formulation| (*formulation, entry.name))
+        let accepted = entry.accepts().filter(|formulation| solved.contains(formulation));
+        accepted.map(|formulation| (formulation, entry.name))
     });
     pairs.collect()
 }

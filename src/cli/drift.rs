@@ -97,7 +97,7 @@ fn refuse_stabilization(method: &MethodOptions) -> Result<()> {
 fn load(common: &Common) -> Result<Study> {
     let mut overrides = common.method.overrides(&common.scene, common.choice.method);
     if let Some(entry) = overrides.integrator.as_ref().and_then(|choice| integrator::find(choice).ok()) {
-        overrides.formulation = entry.accepts.first().map(|name| Choice::named(name));
+        overrides.formulation = entry.accepts().next().map(Choice::named);
         overrides.projection = Some(Choice::named("none"));
     }
     common.talk.load(&common.scene.path, &overrides)

@@ -5,7 +5,7 @@ use super::purpose::purpose;
 use crate::choice::Choice;
 use crate::error::Result;
 use crate::formulation::OptionDoc;
-use crate::integrator::{self, Entry, VECTOR_FIELDS};
+use crate::integrator::{self, Entry};
 use crate::report::Table;
 use crate::{formulation, projection};
 use serde::Serialize;
@@ -83,7 +83,7 @@ fn pairs(args: &Args) -> Result<Vec<Pair>> {
     }
     let is_wanted = |choice: &Option<Choice>, name: &str| choice.as_ref().is_none_or(|choice| choice.name == name);
     let entries = integrator::registry().iter().filter(|entry| is_wanted(&integrator, entry.name));
-    let pairs = entries.flat_map(|entry| entry.accepts.iter().map(move |name| (entry, *name)));
+    let pairs = entries.flat_map(|entry| entry.accepts().map(move |name| (entry, name)));
     Ok(pairs.filter(|(_, name)| is_wanted(&formulation, name)).collect())
 }
 
@@ -91,8 +91,8 @@ fn methods(pairs: &[Pair]) -> Methods {
     let triples = pairs.iter().flat_map(|&(entry, formulation)| {
         let accepted = projection::registry().iter().filter(move |other| !entry.refuses(formulation, other.name));
         accepted.map(move |projection| {
-            let [q, v, lambda] = entry.orders_with(formulation, projection.name);
-            Triple { formulation, integrator: entry.name, projection: projection.name, q, v, lambda }
+            let (integrator, projection, order) = (entry.name, projection.name, entry.order);
+            Triple { formulation, integrator, projection, q: order, v: order, lambda: order }
         })
     });
     let item = |name, about, options: &'static [OptionDoc]| {
@@ -115,8 +115,9 @@ fn text(pairs: &[Pair]) -> String {
     text += &orders(pairs);
     text += "\nOrders in q, v and lambda, each a test; one number where they agree; - where the projection would cost an \
              order\nand is refused. With penalty they are those of the approach to the motion that the penalty leaves.\n";
-    if pairs.iter().any(|(entry, _)| entry.accepts == VECTOR_FIELDS) {
-        let (first, rest) = VECTOR_FIELDS.split_at(5);
+    if pairs.iter().any(|(entry, _)| entry.follows_fields()) {
+        let fields = fields();
+        let (first, rest) = fields.split_at(5);
         text += &format!("Vector fields are {},\n{}.\n", first.join(", "), rest.join(", "));
     }
     for (heading, items) in [("formulations", formulations), ("integrators", integrators), ("projections", projections)]
@@ -124,6 +125,11 @@ fn text(pairs: &[Pair]) -> String {
         text += &format!("\n{}", list(heading, &items));
     }
     text + "\nWrite options as baumgarte:alpha=5,beta=5. `--method auto` chooses on the way and says why.\n"
+}
+
+/// The formulations that explicit methods follow.
+fn fields() -> Vec<&'static str> {
+    formulation::registry().iter().filter(|entry| entry.field.is_some()).map(|entry| entry.name).collect()
 }
 
 /// One row for the formulations of an integrator that have the same orders with every projection.
@@ -142,7 +148,7 @@ fn orders(pairs: &[Pair]) -> String {
         }
         for (i, (cells, formulations)) in rows.into_iter().enumerate() {
             let name = if i == 0 { of_one[0].0.name } else { "" };
-            let with = if formulations == VECTOR_FIELDS { "vector fields".to_string() } else { formulations.join(" ") };
+            let with = if formulations == fields() { "vector fields".to_string() } else { formulations.join(" ") };
             table.row([name.to_string(), with].into_iter().chain(cells));
         }
     }
@@ -150,10 +156,9 @@ fn orders(pairs: &[Pair]) -> String {
 }
 
 fn cells(entry: &Entry, formulation: &str) -> Vec<String> {
-    let cell = |projection: &str| match entry.orders_with(formulation, projection) {
-        _ if entry.refuses(formulation, projection) => "-".to_string(),
-        [q, v, lambda] if q == v && v == lambda => q.to_string(),
-        orders => orders.map(|order| order.to_string()).join(" "),
+    let cell = |projection: &str| match entry.refuses(formulation, projection) {
+        true => "-".to_string(),
+        false => entry.order.to_string(),
     };
     projection::registry().iter().map(|entry| cell(entry.name)).collect()
 }

@@ -21,6 +21,6 @@ pub const ENTRY: Entry = Entry {
         OMEGA,
         XI,
     ],
-    rows: None,
-    make: |choice, system| Ok(Box::new(Penalty::new(choice.whole("iterations", 3, 1..=100)?, choice, system)?)),
+    dae: None,
+    field: Some(|choice, system| Ok(Box::new(Penalty::new(choice.whole("iterations", 3, 1..=100)?, choice, system)?))),
 };

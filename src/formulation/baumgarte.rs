@@ -1,7 +1,7 @@
 //! Baumgarte stabilization.
 
 use super::index1::{RANK, rank_tolerance};
-use super::{Dynamics, Entry, Formulation, Halt, OptionDoc};
+use super::{Choice, Dae, Dynamics, Entry, Formulation, Halt, OptionDoc, Row};
 use crate::error::Result;
 
 /// ```text
@@ -20,13 +20,21 @@ pub const ENTRY: Entry = Entry {
         OptionDoc { name: "beta", about: "frequency of phi, 1/s (default alpha)" },
         RANK,
     ],
-    rows: None,
-    make: |choice, _| {
-        let alpha = choice.not_negative("alpha", 5.0)?;
-        let (beta, rank_tolerance) = (choice.not_negative("beta", alpha)?, rank_tolerance(choice)?);
-        Ok(Box::new(Baumgarte { alpha, beta, rank_tolerance }))
-    },
+    dae: Some(|choice| {
+        let [alpha, beta] = gains(choice)?;
+        Ok(Dae::with(Row { position: beta * beta, velocity: 2.0 * alpha, acceleration: 1.0 }))
+    }),
+    field: Some(|choice, _| {
+        let [alpha, beta] = gains(choice)?;
+        Ok(Box::new(Baumgarte { alpha, beta, rank_tolerance: rank_tolerance(choice)? }))
+    }),
 };
+
+/// alpha and beta
+fn gains(choice: &Choice) -> Result<[f64; 2]> {
+    let alpha = choice.not_negative("alpha", 5.0)?;
+    Ok([alpha, choice.not_negative("beta", alpha)?])
+}
 
 struct Baumgarte {
     alpha: f64,

@@ -90,6 +90,8 @@ pub struct Statistics {
     /// Factorizations of the saddle-point matrix.
     pub factorizations: u64,
     pub newton_iterations: u64,
+    /// Sets of equations that Newton's method solved as far as round-off let it, and not to the tolerance.
+    pub stagnated: u64,
     /// Sweeps of the projection.
     pub projections: u64,
     /// Accepted states at which G was rank deficient.
@@ -106,6 +108,7 @@ impl Add for Statistics {
             jacobian_evaluations: self.jacobian_evaluations + other.jacobian_evaluations,
             factorizations: self.factorizations + other.factorizations,
             newton_iterations: self.newton_iterations + other.newton_iterations,
+            stagnated: self.stagnated + other.stagnated,
             projections: self.projections + other.projections,
             rank_deficient: self.rank_deficient + other.rank_deficient,
         }

@@ -20,10 +20,10 @@ pub const ENTRY: Entry = Entry {
         OptionDoc { name: "position", about: "rate p at which phi decays, 1/s (default 10)" },
         OptionDoc { name: "velocity", about: "rate r at which phi' decays, 1/s (default position)" },
     ],
-    rows: None,
-    make: |choice, system| {
+    dae: None,
+    field: Some(|choice, system| {
         let position = choice.not_negative("position", 10.0)?;
         let gains = [position, choice.not_negative("velocity", position)?];
         Ok(Box::new(InvariantManifold::new(gains, Stabilizer::new(Field::Both, system), system)))
-    },
+    }),
 };

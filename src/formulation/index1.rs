@@ -1,6 +1,6 @@
 //! Index 1: the constraints differentiated twice, lambda eliminated.
 
-use super::{Choice, Dynamics, Entry, Formulation, Halt, OptionDoc, Rows};
+use super::{Choice, Dae, Dynamics, Entry, Formulation, Halt, OptionDoc, Row};
 use crate::error::Result;
 use crate::math::kkt::TRUNCATED;
 
@@ -14,8 +14,8 @@ pub const ENTRY: Entry = Entry {
     name: "index1",
     about: "phi'' = 0, lambda eliminated; drifts unless projected",
     options: &[RANK],
-    rows: Some(Rows::Acceleration),
-    make: |choice, _| Ok(Box::new(Index1 { rank_tolerance: rank_tolerance(choice)? })),
+    dae: Some(|_| Ok(Dae::with(Row::ACCELERATION))),
+    field: Some(|choice, _| Ok(Box::new(Index1 { rank_tolerance: rank_tolerance(choice)? }))),
 };
 
 /// Constraints nearer than this to depending on others have no say in v' and lambda.

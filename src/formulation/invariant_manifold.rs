@@ -21,12 +21,12 @@ pub const ENTRY: Entry = Entry {
             about: "F: both (default), full, mass_weighted, triangular, position, velocity, gradient",
         },
     ],
-    rows: None,
-    make: |choice, system| {
+    dae: None,
+    field: Some(|choice, system| {
         let gamma = choice.not_negative("gamma", 10.0)?;
         let stabilizer = Stabilizer::new(Field::from_choice(choice)?, system);
         Ok(Box::new(InvariantManifold::new([gamma; 2], stabilizer, system)))
-    },
+    }),
 };
 
 pub(super) struct InvariantManifold {

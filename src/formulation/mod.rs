@@ -1,9 +1,10 @@
 //! What is integrated: ways to turn the constrained equations into something an integrator can step.
 //!
-//! To add one: a file with a [`Formulation`] and an [`Entry`], and a line in [`registry`].
+//! To add one: a file with an [`Entry`], and a line in [`registry`].
 
 mod augmented_lagrangian;
 mod baumgarte;
+mod dae;
 mod dense;
 mod directions;
 mod dynamics;
@@ -13,16 +14,21 @@ mod index1;
 mod index2;
 mod index3;
 mod invariant_manifold;
+mod iteration;
 mod null_space;
 mod penalty;
+mod residual;
 mod stabilizer;
 mod turn;
 mod udwadia_kalaba;
 
 pub use crate::choice::{Choice, OptionDoc};
+pub use dae::{Dae, Row};
 pub use directions::{degrees_of_freedom, free_directions, reduce};
 pub use dynamics::{Dynamics, Halt, Statistics};
+pub use iteration::{Change, Iteration, Linearized, NO_TANGENT, Number, Slopes};
 pub use penalty::{OMEGA, PENALTY, XI, mean_compliance};
+pub use residual::Residual;
 pub use stabilizer::{Field, Stabilizer};
 pub use turn::turn;
 
@@ -62,27 +68,25 @@ pub trait Formulation: Send {
 /// What to take where a dense formulation is too large.
 const SPARSE: &str = "choose a sparse formulation, such as index1 with the projection manifold";
 
-/// The constraint rows of a formulation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rows {
-    /// phi = 0
-    Position,
-    /// phi' = G v + phi_t = 0
-    Velocity,
-    /// Both, with multipliers of their own.
-    PositionAndVelocity,
-    /// phi'' = G v' - gamma = 0
-    Acceleration,
-}
-
 /// One formulation as the command line, the scene format and the table of methods know it.
 pub struct Entry {
     pub name: &'static str,
     pub about: &'static str,
     pub options: &'static [OptionDoc],
-    /// The constraints that integrators solve together with the motion; none for a vector field that has no lambda.
-    pub rows: Option<Rows>,
-    pub make: fn(&Choice, &dyn MechanicalSystem) -> Result<Box<dyn Formulation>>,
+    /// The equations with multipliers, for methods that solve them; none where lambda is no unknown.
+    pub dae: Option<fn(&Choice) -> Result<Dae>>,
+    /// The vector field, for methods that follow one; none where the constraints themselves are solved.
+    pub field: Option<MakeField>,
+}
+
+/// Makes a vector field for a system.
+pub type MakeField = fn(&Choice, &dyn MechanicalSystem) -> Result<Box<dyn Formulation>>;
+
+impl Entry {
+    /// The equations with the default options.
+    pub fn default_dae(&self) -> Option<Dae> {
+        self.dae.and_then(|dae| dae(&Choice::named(self.name)).ok())
+    }
 }
 
 /// Every formulation, in the order of the documentation.
@@ -102,13 +106,22 @@ pub fn registry() -> &'static [Entry] {
     ]
 }
 
-/// The constraint rows of the formulation that `choice` names.
-pub fn rows(choice: &Choice) -> Option<Rows> {
-    registry().iter().find(|entry| entry.name == choice.name).and_then(|entry| entry.rows)
+/// The entry of this name.
+pub fn named(name: &str) -> Option<&'static Entry> {
+    registry().iter().find(|entry| entry.name == name)
 }
 
-/// The formulation that `choice` names, for `system`.
+/// The equations with multipliers of the formulation that `choice` names, where it has them.
+///
+/// # Errors
+/// Bad options.
+pub fn dae(choice: &Choice) -> Result<Option<Dae>> {
+    named(&choice.name).and_then(|entry| entry.dae).map(|dae| dae(choice)).transpose()
+}
+
+/// The vector field of the formulation that `choice` names, for `system`. Where the constraints themselves are solved, it is
+/// the one that observes: v' and lambda are those of the equations of motion at (q, v), and so of the order of q and v.
 pub fn make(choice: &Choice, system: &dyn MechanicalSystem) -> Result<Box<dyn Formulation>> {
     let entry = choice.find("formulation", registry().iter().map(|entry| (entry.name, entry.options)))?;
-    (registry()[entry].make)(choice, system)
+    registry()[entry].field.unwrap_or(|_, _| Ok(Box::new(index1::Index1::default())))(choice, system)
 }

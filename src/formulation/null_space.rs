@@ -34,13 +34,13 @@ pub const ENTRY: Entry = Entry {
     name: "null_space",
     about: "minimal coordinates in the tangent space, with a new base each step: no drift; dense",
     options: &[],
-    rows: None,
-    make: |_, system| {
+    dae: None,
+    field: Some(|_, system| {
         let n = system.dimensions();
         refuse_dense("null_space", [n.v, n.v.max(n.lambda)], COPIES).map_err(|error| error.hint(SPARSE))?;
         let tangent_space = TangentSpace::new(system);
         Ok(Box::new(tangent_space.ok_or_else(|| Error::input("null_space: M and G do not fit each other"))?))
-    },
+    }),
 };
 
 /// G^T, Z^T M Z and the three matrices of the chart, for the steps and for the rows of output.

@@ -23,8 +23,8 @@ pub const ENTRY: Entry = Entry {
     name: "penalty",
     about: "(M + G^T a G) v' = f + G^T a c: error O(1/penalty), redundant rows and singular positions allowed",
     options: &[PENALTY, OMEGA, XI],
-    rows: None,
-    make: |choice, system| Ok(Box::new(Penalty::new(1, choice, system)?)),
+    dae: None,
+    field: Some(|choice, system| Ok(Box::new(Penalty::new(1, choice, system)?))),
 };
 
 pub const PENALTY: OptionDoc =

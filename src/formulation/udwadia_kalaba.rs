@@ -23,15 +23,15 @@ pub const ENTRY: Entry = Entry {
         name: "tolerance",
         about: "singular values up to this part of the largest count as zero (default 1e-10)",
     }],
-    rows: None,
-    make: |choice, system| {
+    dae: None,
+    field: Some(|choice, system| {
         let (structure, tolerance) = (system.structure(), choice.not_negative("tolerance", 1e-10)?);
         let n = system.dimensions();
         refuse_dense("udwadia_kalaba", [n.v, n.v.max(n.lambda)], COPIES).map_err(|error| error.hint(SPARSE))?;
         let inverse = PseudoInverse::new(&structure.mass, &structure.g, tolerance);
         let inverse = inverse.ok_or_else(|| Error::input("udwadia_kalaba: the system is too large for dense matrices"));
         Ok(Box::new(Dense(inverse?)))
-    },
+    }),
 };
 
 /// M, G and the parts of the decomposition with its scratch, for the steps and for the rows of output.

@@ -1,7 +1,7 @@
 //! Backward differentiation formulas.
 
 use super::diffsol_backend::{self, Newton, Traits};
-use super::{Entry, Integrator, Setup, Steps, Tightening, With};
+use super::{Entry, Integrator, Setup, Steps, Tightening, refuses};
 use crate::error::Result;
 
 /// ```text
@@ -22,12 +22,11 @@ pub const ENTRY: Entry = Entry {
     name: "bdf",
     about: "implicit, order 1 to 5 by itself, for stiff motions that are smooth; chooses its steps",
     order: 5,
-    orders: &[],
     steps: Steps::Own,
     // At order 5, which tight tolerances lead to; errors over a motion were 1 to 4 rtol^(5/6).
     tightening: Tightening { factor: 0.3, power: 1.2 },
-    accepts: diffsol_backend::ACCEPTS,
-    refuses: &[With { formulation: "index1", projections: ALL }, With { formulation: "ggl", projections: ALL }],
+    solves: diffsol_backend::solves,
+    refuses: refuses::all,
     options: &[],
     make,
 };
@@ -37,6 +36,3 @@ fn make<'h, 's>(setup: &Setup<'h, 's>) -> Result<Box<dyn Integrator + 'h>> {
     let traits = Traits { order: 2, follows: false };
     diffsol_backend::make(setup, traits, |problem, state| problem.bdf_solver::<Newton>(state))
 }
-
-/// A projection would start the method anew, at order 1.
-const ALL: &[&str] = &["position", "velocity", "manifold", "full", "exact"];

@@ -1,7 +1,7 @@
 //! Dormand and Prince's method of order 5(4).
 
 use super::explicit::{ErrorEstimate, Explicit, Tableau};
-use super::{Control, Entry, Steps, Tightening, VECTOR_FIELDS};
+use super::{Control, Entry, Steps, Tightening, refuses, takes};
 
 /// Source: Dormand, Prince, J. Comput. Appl. Math. 6 (1980) 19-26; interpolation of order 4 and step control as in
 /// Hairer's DOPRI5. Order 5 in q and v (and lambda); six evaluations a step, and one more after a projection, which
@@ -10,12 +10,11 @@ pub const ENTRY: Entry = Entry {
     name: "dopri5",
     about: "Dormand-Prince 5(4), 6 or (projected) 7 evaluations a step, adaptive",
     order: 5,
-    orders: &[],
     steps: Steps::Either,
     // Errors over a motion were 5 to 20 times rtol, and 40 in long ones.
     tightening: Tightening { factor: 0.1, power: 1.0 },
-    accepts: VECTOR_FIELDS,
-    refuses: &[],
+    solves: takes::vector_fields,
+    refuses: refuses::none,
     options: &[],
     make: |setup| Ok(Box::new(Explicit::new(&TABLEAU, setup.len()))),
 };

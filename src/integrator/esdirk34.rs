@@ -1,7 +1,7 @@
 //! A singly diagonally implicit Runge-Kutta method of four stages, the first explicit.
 
 use super::diffsol_backend::{self, Newton, Traits};
-use super::{Entry, Integrator, Setup, Steps, Tightening};
+use super::{Entry, Integrator, Setup, Steps, Tightening, refuses};
 use crate::error::Result;
 
 /// ```text
@@ -17,12 +17,11 @@ pub const ENTRY: Entry = Entry {
     name: "esdirk34",
     about: "implicit, L-stable, for stiff motions, also those that nothing damps; chooses its steps",
     order: 3,
-    orders: &[],
     steps: Steps::Own,
     // Errors over a motion were 5 rtol^(3/4).
     tightening: Tightening { factor: 0.1, power: 4.0 / 3.0 },
-    accepts: diffsol_backend::ACCEPTS,
-    refuses: &[],
+    solves: diffsol_backend::solves,
+    refuses: refuses::none,
     options: &[],
     make,
 };

@@ -1,7 +1,7 @@
 //! Brasey and Hairer's half-explicit methods.
 
 use super::half_explicit::{HalfExplicit, Tableau};
-use super::{Control, Entry, HALF_EXPLICIT, Steps, Tightening};
+use super::{Control, Entry, Steps, Tightening, refuses, takes};
 
 /// Source: Brasey, Hairer, SIAM J. Numer. Anal. 30 (1993) 538-552. Order 3 in q, v and lambda; three solutions a step
 /// and the one that observes v' and lambda; fixed steps; interpolation of order 3.
@@ -24,11 +24,10 @@ const fn entry(name: &'static str, about: &'static str, order: usize, make: Make
         name,
         about,
         order,
-        orders: &[],
         steps: Steps::Fixed,
         tightening: Tightening::NONE,
-        accepts: HALF_EXPLICIT,
-        refuses: &[],
+        solves: takes::velocity_rows,
+        refuses: refuses::none,
         options: &[],
         make,
     }

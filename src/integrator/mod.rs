@@ -20,8 +20,10 @@ mod phem56;
 mod problem;
 mod radau_iia;
 mod rattle;
+mod refuses;
 mod rk4;
 mod stability;
+mod takes;
 mod tr_bdf2;
 
 pub use control::{Control, Tightening, Tolerance, first_step};
@@ -33,12 +35,6 @@ use crate::error::{Error, Result};
 use crate::formulation::{self, Choice, Halt, OptionDoc};
 use crate::math::kkt::Singular;
 use crate::system::MechanicalSystem;
-
-/// Why an implicit method has no matrix.
-const NO_TANGENT: Halt = Halt::Unsuitable {
-    reason: "implicit methods need K and C, which these equations do not give",
-    hint: "implement MechanicalSystem::tangent, or use a method that needs none, such as phem56 with index2",
-};
 
 /// Why the matrix of a step is singular: with all rows in it, of which some depend on others at its start and ahead, and
 /// yet ask for another position there, these contradict each other.
@@ -102,6 +98,9 @@ pub trait Integrator {
     fn seen(&self) -> Option<f64> {
         None
     }
+
+    /// The last attempt was accepted; `tolerance` is that of the run's steps.
+    fn accepted(&mut self, _tolerance: &Tolerance) {}
 
     /// Forgets the steps so far: the equations change their form here.
     fn restart(&mut self) {}
@@ -184,59 +183,41 @@ pub enum Steps {
 pub struct Entry {
     pub name: &'static str,
     pub about: &'static str,
-    /// Proven order in q, v and lambda, but for what `orders` says.
+    /// Proven order in q, v and lambda.
     pub order: usize,
-    /// Proven orders in q, v and lambda where they are not `order`.
-    pub orders: &'static [(With, [usize; 3])],
     pub steps: Steps,
     pub tightening: Tightening,
-    /// Formulations it can integrate.
-    pub accepts: &'static [&'static str],
-    /// What would cost it an order.
-    pub refuses: &'static [With],
+    /// Whether it integrates a formulation.
+    pub solves: fn(&formulation::Entry) -> bool,
+    /// Whether a projection would cost it an order with a formulation.
+    pub refuses: fn(&formulation::Entry, projection: &str) -> bool,
     pub options: &'static [OptionDoc],
     pub make: for<'h, 's> fn(&Setup<'h, 's>) -> Result<Box<dyn Integrator + 'h>>,
 }
 
-/// Projections beside a formulation.
-#[derive(Clone, Copy, Debug)]
-pub struct With {
-    pub formulation: &'static str,
-    pub projections: &'static [&'static str],
-}
-
-impl With {
-    fn includes(&self, formulation: &str, projection: &str) -> bool {
-        self.formulation == formulation && self.projections.contains(&projection)
-    }
-}
-
 impl Entry {
-    /// Proven orders in q, v and lambda.
-    pub fn orders_with(&self, formulation: &str, projection: &str) -> [usize; 3] {
-        let own = self.orders.iter().find(|(with, _)| with.includes(formulation, projection));
-        own.map_or([self.order; 3], |(_, orders)| *orders)
+    /// The formulations that it integrates, in the order of their registry.
+    pub fn accepts(&self) -> impl Iterator<Item = &'static str> + use<> {
+        let solves = self.solves;
+        formulation::registry().iter().filter(move |entry| solves(entry)).map(|entry| entry.name)
     }
 
+    /// Whether it integrates the formulation of this name.
+    pub fn takes(&self, formulation: &str) -> bool {
+        formulation::named(formulation).is_some_and(self.solves)
+    }
+
+    /// Whether the projection would cost it an order with the formulation.
     pub fn refuses(&self, formulation: &str, projection: &str) -> bool {
-        self.refuses.iter().any(|with| with.includes(formulation, projection))
+        formulation::named(formulation).is_some_and(|entry| (self.refuses)(entry, projection))
+    }
+
+    /// Whether it follows a vector field, as explicit methods do.
+    pub fn follows_fields(&self) -> bool {
+        let fields = || formulation::registry().iter().filter(|entry| entry.field.is_some());
+        fields().all(self.solves)
     }
 }
-
-/// Formulations that are vector fields, which any explicit method takes.
-pub const VECTOR_FIELDS: &[&str] = &[
-    "index1",
-    "baumgarte",
-    "invariant_manifold",
-    "force_projection",
-    "penalty",
-    "augmented_lagrangian",
-    "udwadia_kalaba",
-    "null_space",
-];
-
-/// What half-explicit methods take.
-pub const HALF_EXPLICIT: &[&str] = &["index2"];
 
 /// Every integrator, in the order of the documentation.
 pub fn registry() -> &'static [Entry] {
@@ -268,16 +249,16 @@ pub fn find(choice: &Choice) -> Result<&'static Entry> {
 /// Refuses a formulation that the integrator does not take, naming what goes together.
 pub fn check_pair(entry: &Entry, formulation: &Choice) -> Result<()> {
     let name = formulation.name.as_str();
-    if entry.accepts.contains(&name) || formulation::registry().iter().all(|known| known.name != name) {
+    if entry.takes(name) || formulation::named(name).is_none() {
         // An unknown formulation is refused by its own registry, with names to choose from.
         return Ok(());
     }
-    let takers: Vec<&str> =
-        registry().iter().filter(|other| other.accepts.contains(&name)).map(|other| other.name).collect();
+    let takers: Vec<&str> = registry().iter().filter(|other| other.takes(name)).map(|other| other.name).collect();
     let takers = if takers.is_empty() { "no integrator".to_string() } else { takers.join(", ") };
+    let accepted: Vec<&str> = entry.accepts().collect();
     Err(Error::input(format!("{} cannot integrate {name}", entry.name)).hint(format!(
         "{} accepts {}; {name} goes with {takers}",
         entry.name,
-        entry.accepts.join(", ")
+        accepted.join(", ")
     )))
 }

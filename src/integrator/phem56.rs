@@ -2,7 +2,7 @@
 
 use super::dopri5;
 use super::half_explicit::{HalfExplicit, Tableau};
-use super::{Entry, HALF_EXPLICIT, Steps, Tightening};
+use super::{Entry, Steps, Tightening, refuses, takes};
 
 /// Source: Murua, BIT 37 (1997) 641-662 (PHEM56): the stages of DOPRI5, each with a constraint of its own. Order 5 in q,
 /// v and lambda; six solutions a step: the first stage, which is also the end of the step before, takes the
@@ -12,12 +12,11 @@ pub const ENTRY: Entry = Entry {
     name: "phem56",
     about: "half-explicit, 6 or (projected) 7 solutions a step, adaptive",
     order: 5,
-    orders: &[],
     steps: Steps::Either,
     // Errors over a motion were 3 rtol^0.9, and 30 in long ones.
     tightening: Tightening { factor: 0.06, power: 1.1 },
-    accepts: HALF_EXPLICIT,
-    refuses: &[],
+    solves: takes::velocity_rows,
+    refuses: refuses::none,
     options: &[],
     make: |setup| Ok(Box::new(HalfExplicit::new(&TABLEAU, setup))),
 };

@@ -1,11 +1,12 @@
 //! RATTLE.
 
 use super::hermite::Hermite;
-use super::{Control, Entry, From, Integrator, Problem, Setup, Stability, Steps, Tightening, Tolerance};
+use super::{Control, Entry, From, Integrator, Problem, Setup, Stability, Steps, Tightening, Tolerance, refuses, takes};
 use crate::error::{Error, Result};
 use crate::formulation::Halt;
 use crate::math::kkt::Singular;
 use crate::math::largest;
+use crate::math::newton::{Limits, Monitor};
 use crate::system::{MechanicalSystem, Need};
 
 /// ```text
@@ -22,11 +23,10 @@ pub const ENTRY: Entry = Entry {
     name: "rattle",
     about: "symmetric, symplectic, for constant M; holds phi and phi', fixed steps",
     order: 2,
-    orders: &[],
     steps: Steps::Fixed,
     tightening: Tightening::NONE,
-    accepts: &["index3"],
-    refuses: &[],
+    solves: takes::position_rows,
+    refuses: refuses::none,
     options: &[],
     make,
 };
@@ -72,9 +72,20 @@ struct Rattle {
     polynomial: Hermite,
 }
 
-/// Iterations of the first half, and the relative change of v_h below which it may stop falling.
-const MOST: usize = 100;
+/// Relative change of v_h below which it may stop falling, and the part of that which is round-off.
 const SMALL: f64 = 1e-9;
+const ROUND_OFF: f64 = 1e-7;
+const MOST: usize = 100;
+/// In units of what may stop falling.
+const LIMITS: Limits = Limits {
+    most: MOST,
+    tolerance: ROUND_OFF,
+    round_off: ROUND_OFF,
+    stagnation: 1.0,
+    patience: MOST,
+    least_rate: 0.0,
+    kept_rate: 0.0,
+};
 
 impl Rattle {
     /// M, G and f at the start, with factors; they may be there from the step before.
@@ -109,19 +120,14 @@ impl Rattle {
         for i in 0..v.len() {
             self.half[i] = v[i] + 0.5 * h * vdot[i];
         }
-        let mut last = f64::INFINITY;
-        for _ in 0..MOST {
+        let mut newton = Monitor::default();
+        let converged = newton.solve(LIMITS, |_| {
             problem.dynamics.statistics.newton_iterations += 1;
             let change = self.iterate(problem, (from.t, q), h)?;
-            if !change.is_finite() {
-                return Err(Halt::NotFinite);
-            }
-            if change == 0.0 || change < self.still(h) && change > 0.5 * last {
-                return Ok(());
-            }
-            last = change;
-        }
-        Err(Halt::Singular(Singular::Apart))
+            Ok::<_, Halt>(change / self.still(h))
+        })?;
+        problem.dynamics.statistics.stagnated += u64::from(converged && newton.has_stagnated);
+        if converged { Ok(()) } else { Err(Halt::Singular(Singular::Apart)) }
     }
 
     /// Relative change of v_h that may be round-off: that of phi over h stands against all else in tiny steps.

@@ -1,7 +1,7 @@
 //! The trapezoidal rule and BDF2 in one step.
 
 use super::diffsol_backend::{self, Newton, Traits};
-use super::{Entry, Integrator, Setup, Steps, Tightening};
+use super::{Entry, Integrator, Setup, Steps, Tightening, refuses};
 use crate::error::Result;
 
 /// ```text
@@ -17,12 +17,11 @@ pub const ENTRY: Entry = Entry {
     name: "tr_bdf2",
     about: "implicit, L-stable, for stiff motions at two or three digits; chooses its steps",
     order: 2,
-    orders: &[],
     steps: Steps::Own,
     // Errors over a motion were 1.5 to 3 rtol^(2/3).
     tightening: Tightening { factor: 0.25, power: 1.5 },
-    accepts: diffsol_backend::ACCEPTS,
-    refuses: &[],
+    solves: diffsol_backend::solves,
+    refuses: refuses::none,
     options: &[],
     make,
 };

@@ -6,6 +6,7 @@ pub mod expression;
 mod interval;
 pub mod kkt;
 pub mod memory;
+pub mod newton;
 mod regime;
 pub mod rotation;
 mod scalar;

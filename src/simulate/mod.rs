@@ -33,7 +33,7 @@ use rows::{Rows, observation};
 use step::is_too_large;
 
 use crate::error::{Failure, Result};
-use crate::formulation::{self, Dynamics, Rows as Constraints, Statistics};
+use crate::formulation::{self, Dynamics, Statistics};
 use crate::integrator::{self, Integrator, Problem, Setup, Store, Tolerance};
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
@@ -155,7 +155,7 @@ impl<'a> Run<'a> {
             })?,
             projection: projection::make(&method.projection, system)?,
             rows: (problem()?, projection::make(&method.projection, system)?),
-            tests_velocities: formulation::rows(&method.formulation) != Some(Constraints::Position),
+            tests_velocities: formulation::dae(&method.formulation)?.is_none_or(|dae| dae.velocity_index() == 1),
             limits_projection: true,
         };
         let tolerance = entry.tightening.of_steps(&Tolerance::new(method.rtol, method.atol, system));
@@ -329,6 +329,7 @@ impl<'a> Run<'a> {
         std::mem::swap(&mut self.y, &mut self.next);
         std::mem::swap(&mut self.slope, &mut self.next_slope);
         self.problem.dynamics.statistics.steps += 1;
+        self.integrator.accepted(&self.tolerance);
         self.observe(sink);
     }
 

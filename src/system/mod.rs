@@ -51,6 +51,16 @@ pub struct Dimensions {
     pub v: usize,
     /// n_c
     pub lambda: usize,
+    /// How many constraints, the last ones, are nonholonomic: A v + a = 0, with A in the rows of G and A v + a in those of
+    /// phi'. They have no position, so phi is zero there.
+    pub nonholonomic: usize,
+}
+
+impl Dimensions {
+    /// Constraints that have a position, which come first.
+    pub fn holonomic(self) -> usize {
+        self.lambda - self.nonholonomic
+    }
 }
 
 /// Names of the columns that a user reads.

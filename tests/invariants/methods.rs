@@ -19,7 +19,7 @@ pub struct Tried {
 /// All triples of the registries that are accepted.
 pub fn all() -> Vec<Tried> {
     let entries = integrator::registry().iter();
-    let pairs = entries.flat_map(|entry| entry.accepts.iter().map(move |formulation| (entry, *formulation)));
+    let pairs = entries.flat_map(|entry| entry.accepts().map(move |formulation| (entry, formulation)));
     let triples = pairs.flat_map(|(entry, formulation)| {
         let accepted = projection::registry().iter().filter(move |other| !entry.refuses(formulation, other.name));
         accepted.map(move |projection| tried(entry, formulation, projection.name))

@@ -1,6 +1,6 @@
 //! The tangent matrix with the penalty in it.
 
-use super::super::NO_TANGENT;
+use crate::formulation::NO_TANGENT;
 use super::super::Problem;
 use crate::formulation::Halt;
 use crate::math::kkt::{Pattern, Unsymmetric};

@@ -3,11 +3,12 @@
 mod matrix;
 
 use super::hermite::Hermite;
-use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance};
+use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, refuses, takes};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
 use crate::formulation::{Halt, turn};
 use crate::math::largest;
+use crate::math::newton::{Limits, Monitor};
 use crate::system::{Loaded, Need};
 use matrix::Penalized;
 
@@ -37,11 +38,10 @@ pub const ENTRY: Entry = Entry {
     name: "ali3p",
     about: "index-3 augmented Lagrangian, projected: holds phi, phi'; redundant and singular G allowed; fixed steps",
     order: 2,
-    orders: &[],
     steps: Steps::Fixed,
     tightening: Tightening::NONE,
-    accepts: &["index3"],
-    refuses: &[],
+    solves: takes::position_rows,
+    refuses: refuses::none,
     options: &[OptionDoc {
         name: "penalty",
         about: "h^2/4 alpha over the mass on a constraint, of which an iteration leaves 1/penalty (default 1e7)",
@@ -56,11 +56,12 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
     let zeros = |n: usize| vec![0.0; n];
     Ok(Box::new(Ali3p {
         matrix,
-        reached: None,
+        is_started: false,
         a: zeros(n.v),
         a_new: zeros(n.v),
         predicted: zeros(n.q),
         lambda: zeros(n.lambda),
+        lambda_start: zeros(n.lambda),
         step: zeros(n.v),
         rows: zeros(n.lambda),
         scales: setup.system.scales(),
@@ -73,13 +74,14 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
 
 struct Ali3p {
     matrix: Penalized,
-    /// Time at which `a_new` was reached.
-    reached: Option<f64>,
+    /// Whether `a` and lambda* are those of the step before.
+    is_started: bool,
     a: Vec<f64>,
     a_new: Vec<f64>,
     predicted: Vec<f64>,
-    /// lambda*
+    /// lambda*, and at the start of the step.
     lambda: Vec<f64>,
+    lambda_start: Vec<f64>,
     /// A change of q, v or a.
     step: Vec<f64>,
     rows: Vec<f64>,
@@ -92,22 +94,33 @@ struct Ali3p {
     polynomial: Hermite,
 }
 
-/// Iterations, and the ratio of two changes from which the matrix is renewed.
-const MOST: usize = 40;
-const SLOW: f64 = 0.3;
-/// Relative change of a that is round-off, and below which it may stop falling; and change of q, beside 1 m or rad or the
-/// largest q, below which it may.
-const ROUND_OFF: f64 = 1e-15;
+/// Relative change of a below which it may stop falling, and the part of that which is round-off; and change of q, beside 1 m
+/// or rad or the largest q, below which it may.
 const SMALL: f64 = 1e-8;
+const ROUND_OFF: f64 = 1e-7;
 const STILL: f64 = 1e-14;
 /// Largest phi of a step that has converged, in units of its scale.
 const MET: f64 = 1e-8;
+const MOST: usize = 40;
+/// In units of what may stop falling.
+const LIMITS: Limits = Limits {
+    most: MOST,
+    tolerance: ROUND_OFF,
+    round_off: ROUND_OFF,
+    stagnation: 1.0,
+    patience: MOST,
+    least_rate: 0.0,
+    kept_rate: 0.0,
+};
+/// Relative to what is projected: each solution gains what the penalty leaves.
+const PROJECTED: Limits = Limits { tolerance: 0.0, round_off: 1e-15, stagnation: f64::INFINITY, ..LIMITS };
 
 impl Ali3p {
     /// a and lambda* of the step before, or where there is none those of the state.
-    fn begin(&mut self, problem: &Problem, from: From, h: f64) {
-        if self.reached.take().is_some_and(|t| (t - from.t).abs() < 1e-6 * h) {
-            self.a.copy_from_slice(&self.a_new);
+    fn begin(&mut self, problem: &Problem, from: From) {
+        if self.is_started {
+            self.a_new.copy_from_slice(&self.a);
+            self.lambda.copy_from_slice(&self.lambda_start);
             return;
         }
         self.a.copy_from_slice(problem.split(from.slope).1);
@@ -138,28 +151,24 @@ impl Ali3p {
     fn converge(&mut self, problem: &mut Problem, from: From, h: f64, to: &mut [f64]) -> Result<(), Halt> {
         let t = from.t + h;
         self.predict(problem, from, h);
-        let (mut last, mut is_slow) = (f64::INFINITY, true);
-        for iteration in 0..MOST {
+        let mut is_factored = false;
+        let mut newton = Monitor::default();
+        let converged = newton.solve(LIMITS, |renews| {
             self.advance(problem, from, h, to);
             let (q, v) = problem.split(to);
             problem.dynamics.evaluate(t, q, v, Need::DYNAMICS);
-            if is_slow {
+            if renews || !is_factored {
                 let at = Loaded { t, q, v, vdot: &self.a_new, lambda: &self.lambda };
                 self.matrix.factor(problem, at, h)?;
+                is_factored = true;
             }
             let change = self.iterate(problem, h)?;
             let still = 4.0 * STILL * largest(problem.dynamics.system.own(q)).max(1.0) / (h * h);
-            let small = (SMALL * largest(&self.a_new).max(largest(v) / h)).max(still);
-            let ratio = if iteration == 0 { 1.0 } else { change / last };
-            // The next iteration would change that by the ratio.
-            if change * ratio.min(1.0) <= ROUND_OFF / SMALL * small || change < small && ratio > 0.5 {
-                self.advance(problem, from, h, to);
-                return Ok(());
-            }
-            is_slow = iteration > 0 && ratio > SLOW && change > small;
-            last = change;
-        }
-        Err(Halt::NotConverged)
+            Ok::<_, Halt>(change / (SMALL * largest(&self.a_new).max(largest(v) / h)).max(still))
+        })?;
+        problem.dynamics.statistics.stagnated += u64::from(converged && newton.has_stagnated);
+        self.advance(problem, from, h, to);
+        if converged { Ok(()) } else { Err(Halt::NotConverged) }
     }
 
     /// One iteration from the terms at q_1, v_1; the largest change of a_1.
@@ -199,19 +208,16 @@ impl Ali3p {
     /// G x + b = 0 with least change of x.
     fn meet(&mut self, problem: &Problem, x: &mut [f64], b: impl Fn(&Problem, usize) -> f64) -> Result<(), Halt> {
         let (g, values) = (&problem.dynamics.structure.g, &problem.dynamics.terms.g);
-        let mut last = f64::INFINITY;
-        loop {
+        let met = Monitor::default().solve(PROJECTED, |_| {
             self.rows.iter_mut().enumerate().for_each(|(j, row)| *row = b(problem, j));
             g.multiply(values, x, &mut self.rows);
             self.step.fill(0.0);
             self.matrix.solve(g, &mut self.rows, &mut self.step)?;
             x.iter_mut().zip(&self.step).for_each(|(x, step)| *x += step);
-            let change = largest(&self.step);
-            if change <= ROUND_OFF * largest(x) || change > 0.5 * last {
-                return Ok(());
-            }
-            last = change;
-        }
+            let (change, size) = (largest(&self.step), largest(x));
+            Ok::<_, Halt>(if change > 0.0 { change / size } else { 0.0 })
+        })?;
+        if met { Ok(()) } else { Err(Halt::NotConverged) }
     }
 }
 
@@ -233,10 +239,9 @@ impl Integrator for Ali3p {
         to: &mut [f64],
     ) -> Result<Option<f64>, Halt> {
         let (t, work) = (from.t + h, to.len() - 1);
-        self.begin(problem, from, h);
+        self.begin(problem, from);
         self.converge(problem, from, h, to)?;
         self.project(problem, t, to)?;
-        self.reached = Some(t);
         to[work] = from.y[work];
         problem.derivative(t, to, &mut self.slope)?;
         to[work] += 0.5 * h * (from.slope[work] + self.slope[work]);
@@ -247,8 +252,14 @@ impl Integrator for Ali3p {
         Some(&self.slope)
     }
 
+    fn accepted(&mut self, _: &Tolerance) {
+        self.a.copy_from_slice(&self.a_new);
+        self.lambda_start.copy_from_slice(&self.lambda);
+        self.is_started = true;
+    }
+
     fn restart(&mut self) {
-        self.reached = None;
+        self.is_started = false;
     }
 
     fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt> {

@@ -1,17 +1,16 @@
 //! Implicit integrators of diffsol: their steps behind our trait.
 //!
-//! To add one: a file like `bdf.rs` that names the solver; to add a formulation: a [`Form`].
+//! To add one: a file like `bdf.rs` that names the solver.
 
 mod equations;
 mod form;
-mod ggl;
-mod index1;
 mod kinematics;
+mod rows;
 mod store;
 
 use super::{Control, From, Integrator, Problem, Setup, Tolerance};
 use crate::error::Result;
-use crate::formulation::Halt;
+use crate::formulation::{self, Dae, Halt};
 use crate::math::kkt::Singular;
 use crate::math::memory::refuse_dense;
 use diffsol::error::OdeSolverError;
@@ -23,8 +22,11 @@ use equations::{Equations, Values};
 use form::Form;
 pub use store::Store;
 
-/// The formulations that there is a [`Form`] of.
-pub const ACCEPTS: &[&str] = &["index1", "ggl"];
+/// Where lambda follows from accelerations, or q is moved to phi = 0 by multipliers of its own: with phi' = 0 or phi = 0 alone
+/// diffsol's steps lose orders.
+pub fn solves(formulation: &formulation::Entry) -> bool {
+    formulation.default_dae().is_some_and(|dae| dae.holds(2) || dae.mu.is_some())
+}
 
 /// Solves the linear systems of Newton's method, dense.
 pub type Newton = NalgebraLU<f64>;
@@ -78,11 +80,10 @@ pub fn make<'h, 's, S>(
 where
     S: OdeSolverMethod<'h, Equations<'s>> + 'h,
 {
-    refuse_dense(&setup.integrator.name, [unknowns(setup); 2], COPIES).map_err(|error| error.hint(SPARSE))?;
-    let form: Box<dyn Form + 's> = match setup.formulation.name.as_str() {
-        "ggl" => Box::new(ggl::Ggl::new(setup)),
-        _ => Box::new(index1::Index1::new(setup)?),
-    };
+    let dae = formulation::dae(setup.formulation)?.unwrap_or(Dae::with(formulation::Row::ACCELERATION));
+    let unknowns = rows::unknowns(&dae, setup.system.dimensions());
+    refuse_dense(&setup.integrator.name, [unknowns; 2], COPIES).map_err(|error| error.hint(SPARSE))?;
+    let form: Box<dyn Form + 's> = Box::new(rows::Rows::new(dae, setup));
     Ok(Box::new(Implicit {
         store: setup.store,
         form: Some(form),
@@ -103,13 +104,6 @@ where
 /// Jacobian, mass matrix, the matrix of Newton's method and its factors, some of them twice.
 const COPIES: f64 = 10.0;
 const SPARSE: &str = "choose a sparse implicit integrator, such as radau_iia or generalized_alpha";
-
-/// Size of the systems of Newton's method.
-fn unknowns(setup: &Setup) -> usize {
-    let n = setup.system.dimensions();
-    let multipliers = if setup.formulation.name == "ggl" { 2 * n.lambda } else { 0 };
-    n.q + n.v + multipliers
-}
 
 impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Implicit<'h, 's, S> {
     /// A solver at `from` whose first step is at most `h`.

@@ -4,24 +4,22 @@ mod motion;
 mod newton;
 
 use super::hermite::Hermite;
-use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, With};
+use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, refuses, takes};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
-use crate::formulation::{self, Halt, Rows};
+use crate::formulation::{self, Halt};
 use motion::{Motion, Scheme};
 use newton::Newton;
 
 /// ```text
-/// q_1 = q + h v + h^2 ((1/2 - beta) a + beta a_1) - A^-1 G^T eta,   v_1 = v + h ((1 - gamma) a + gamma a_1)
-/// (1 - alpha_m) a_1 + alpha_m a = (1 - alpha_f) v'_1 + alpha_f v'
-/// M v'_1 + G^T lambda_1 = f,   phi(q_1, t_1) = 0;   ggl: and G v_1 + phi_t = 0;   index3: eta = 0
+/// q_1 = q + h v + h^2 ((1/2 - beta) a + beta a_1) + u,   v_1 = v + h ((1 - gamma) a + gamma a_1) + w
+/// (1 - alpha_m) a_1 + alpha_m a = (1 - alpha_f) v'_1 + alpha_f v',   M v'_1 + G^T lambda_1 = f
 /// alpha_m = (2 r - 1)/(r + 1),  alpha_f = r/(r + 1),  gamma = 1/2 + alpha_f - alpha_m,  beta = (gamma + 1/2)^2/4
 /// ```
 ///
-/// with r = rho_inf, the damping at infinite frequency, and A = M + gamma' h C + beta' h^2 K. Source: Chung, Hulbert,
+/// with the rows and the shifts u and w of the formulation's `Dae`, r = rho_inf, the damping at infinite frequency. Source: Chung, Hulbert,
 /// J. Appl. Mech. 60 (1993) 371-375; Arnold, Bruels, Multibody Syst. Dyn. 18 (2007) 185-202; stabilized index 2:
-/// Arnold, Bruels, Cardona, Numer. Math. 129 (2015) 149-179, who take G^T eta: with A^-1 before it unlike units do not
-/// meet and stiff springs are not excited. Rotations advance along the group, q exp(Dq) by four Runge-Kutta stages of
+/// Arnold, Bruels, Cardona, Numer. Math. 129 (2015) 149-179. Rotations advance along the group, q exp(Dq) by four Runge-Kutta stages of
 /// q' = N(q) Dq; with ggl in two factors, one for the change that was predicted and one for the rest, so that Newton's
 /// method sees small rotations only and steps of a radian converge. (That moves q by O(h^4), which the phi of index3
 /// would amplify by h^-2.) Order 2 in q, v and lambda; implicit, for stiff motions.
@@ -36,18 +34,18 @@ use newton::Newton;
 /// Error of a step: (1/6 - beta - (alpha_m - alpha_f)/2) h^2 (a_1 - a) in q, the leading term; v and lambda, index 2
 /// and 3, are left out. Source: Geradin, Cardona, Flexible Multibody Dynamics (2001), chapter 7. When the step
 /// changes, a = v'(t + (alpha_m - alpha_f) h) is moved with it: Jay, Negrut, ECCOMAS Multibody Dynamics (2009)
-/// 143-158. One matrix a step, from exact K and C; an evaluation and a back-substitution (with ggl two) an iteration.
+/// 143-158. One matrix, from exact K and C, for as many steps as it serves; an evaluation and a back-substitution (with
+/// ggl two) an iteration.
 /// The work is the trapezoidal rule. Cubic Hermite interpolation.
 pub const ENTRY: Entry = Entry {
     name: "generalized_alpha",
     about: "implicit, damped at high frequencies by rho_inf, for stiff motions; holds phi, with ggl phi' too",
     order: 2,
-    orders: &[],
     steps: Steps::Either,
     // Errors over a motion were 10 rtol^(2/3), 70 of swings that last, whose v the estimate leaves out.
     tightening: Tightening { factor: 0.01, power: 1.5 },
-    accepts: &["index3", "ggl"],
-    refuses: &[With { formulation: "index3", projections: &["full"] }],
+    solves: takes::positions,
+    refuses: refuses::shared_error,
     options: &[OptionDoc {
         name: "rho_inf",
         about: "what is left of infinitely fast oscillations a step, 0 to 1 (default 0.8)",
@@ -56,23 +54,25 @@ pub const ENTRY: Entry = Entry {
 };
 
 /// With 0.98 the energy of a pendulum grows a million times in steps of a hundredth of its period.
-const MOST_WITH_INDEX3: f64 = 0.9;
+const MOST_WITH_POSITIONS: f64 = 0.9;
 
 fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
     let r = setup.integrator.not_negative("rho_inf", 0.8)?;
     if r > 1.0 {
         return Err(Error::input(format!("generalized_alpha: rho_inf is {r}")).hint("give a number from 0 to 1"));
     }
-    if r > MOST_WITH_INDEX3 && formulation::rows(setup.formulation) == Some(Rows::Position) {
-        let what = format!("generalized_alpha: with rho_inf = {r} the multipliers of index3 swing up without bound");
+    let dae = formulation::dae(setup.formulation)?
+        .ok_or_else(|| Error::input(format!("generalized_alpha cannot integrate {}", setup.formulation.name)))?;
+    if r > MOST_WITH_POSITIONS && dae.velocity_index() == 2 {
+        let name = &setup.formulation.name;
+        let what = format!("generalized_alpha: with rho_inf = {r} the multipliers of {name} swing up without bound");
         return Err(Error::input(what).hint("give 0.9 or less, or use the formulation ggl"));
     }
-    let holds_velocity = formulation::rows(setup.formulation) == Some(Rows::PositionAndVelocity);
-    let newton = Newton::new(setup.system, holds_velocity)
+    let newton = Newton::new(dae, setup.is_fixed, setup.system)
         .ok_or_else(|| Error::input("there is not enough memory for a matrix of this size"))?;
     let n = setup.system.dimensions();
     Ok(Box::new(GeneralizedAlpha {
-        motion: Motion::new(Scheme::new(r), n, holds_velocity),
+        motion: Motion::new(Scheme::new(r), n, &dae),
         newton,
         error: vec![0.0; n.q],
         control: Control::new(3.0, 0.13, 0.2, 2.0),
@@ -118,17 +118,20 @@ impl Integrator for GeneralizedAlpha {
     ) -> Result<Option<f64>, Halt> {
         self.motion.begin(problem, from, h, to)?;
         self.newton.converge(problem, &mut self.motion, from, h, to)?;
-        self.motion.reached(from.t + h);
         let work = to.len() - 1;
-        // Power at the new state by its own v' and lambda, of which the work needs order 2 only.
-        let (terms, lambda) = (&problem.dynamics.terms, &self.motion.end.lambda);
-        let reaction: f64 = lambda.iter().zip(&terms.phi_t).map(|(lambda, rate)| lambda * rate).sum();
-        to[work] = from.y[work] + 0.5 * h * (from.slope[work] + terms.power + reaction);
+        // By the power at the new state, of which the work needs order 2 only.
+        to[work] = from.y[work] + 0.5 * h * (from.slope[work] + self.newton.power());
         Ok(Some(self.error(problem, tolerance, from, h, to)))
+    }
+
+    fn accepted(&mut self, _: &Tolerance) {
+        self.motion.accepted();
+        self.newton.accepted();
     }
 
     fn restart(&mut self) {
         self.motion.restart();
+        self.newton.restart();
     }
 
     fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt> {

@@ -1,15 +1,16 @@
 //! Accelerations carried from step to step, and where they lead.
 
 use super::super::{From, Problem};
-use crate::formulation::{Halt, turn};
+use crate::formulation::{Change, Dae, Halt, Slopes, turn};
+use crate::math::largest;
 use crate::system::Dimensions;
 
 /// Coefficients of the method.
 pub(super) struct Scheme {
     alpha_m: f64,
     alpha_f: f64,
-    pub gamma: f64,
-    pub beta: f64,
+    gamma: f64,
+    beta: f64,
 }
 
 impl Scheme {
@@ -21,7 +22,7 @@ impl Scheme {
     }
 
     /// da_1/dv'_1
-    pub fn slope(&self) -> f64 {
+    fn slope(&self) -> f64 {
         (1.0 - self.alpha_f) / (1.0 - self.alpha_m)
     }
 
@@ -38,8 +39,6 @@ impl Scheme {
 
 /// What one step hands to the next.
 pub(super) struct Carried {
-    /// Time that it belongs to; none before it is known.
-    t: Option<f64>,
     /// Step that `a` goes with.
     h: f64,
     pub a: Vec<f64>,
@@ -49,22 +48,21 @@ pub(super) struct Carried {
 
 impl Carried {
     fn new(n: Dimensions) -> Self {
-        Carried { t: None, h: 1.0, a: vec![0.0; n.v], vdot: vec![0.0; n.v], lambda: vec![0.0; n.lambda] }
-    }
-
-    fn is_at(&self, t: f64, h: f64) -> bool {
-        self.t.is_some_and(|own| (own - t).abs() < 1e-6 * h)
+        Carried { h: 1.0, a: vec![0.0; n.v], vdot: vec![0.0; n.v], lambda: vec![0.0; n.lambda] }
     }
 }
 
 pub(super) struct Motion {
-    pub scheme: Scheme,
+    scheme: Scheme,
+    /// What the start hands over is known.
+    is_started: bool,
     start: Carried,
     pub end: Carried,
     /// a at the start, for the step that is made.
     a: Vec<f64>,
-    /// -A^-1 G^T eta
-    pub shift: Vec<f64>,
+    /// The shifts of v and q.
+    w: Vec<f64>,
+    u: Vec<f64>,
     /// Change of q along the directions of v: with a_1 as predicted, and by what it then differs.
     predicted: Vec<f64>,
     change: Vec<f64>,
@@ -75,18 +73,20 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    pub fn new(scheme: Scheme, n: Dimensions, is_split: bool) -> Self {
+    pub fn new(scheme: Scheme, n: Dimensions, dae: &Dae) -> Self {
         let zeros = |n: usize| vec![0.0; n];
         Motion {
             scheme,
+            is_started: false,
             start: Carried::new(n),
             end: Carried::new(n),
             a: zeros(n.v),
-            shift: zeros(n.v),
+            w: zeros(n.v),
+            u: zeros(n.v),
             predicted: zeros(n.v),
             change: zeros(n.v),
             a_predicted: zeros(n.v),
-            between: is_split.then(|| zeros(n.q)),
+            between: dae.mu.map(|_| zeros(n.q)),
             stages: [zeros(n.q), zeros(n.q), zeros(n.q)],
         }
     }
@@ -94,20 +94,18 @@ impl Motion {
     /// Takes over what the step before reached (or starts), for a step of size `h`; a step tried before from here is
     /// forgotten. `ahead` is scratch. Leaves v' and lambda of the start as a prediction of those at the end.
     pub fn begin(&mut self, problem: &mut Problem, from: From, h: f64, ahead: &mut [f64]) -> Result<(), Halt> {
-        if self.end.is_at(from.t, h) {
-            std::mem::swap(&mut self.start, &mut self.end);
-        } else if !self.start.is_at(from.t, h) {
+        if !self.is_started {
             self.start(problem, from, h, ahead)?;
         }
-        self.end.t = None;
         self.end.h = h;
-        let Carried { a, vdot, lambda, h: own, .. } = &self.start;
+        let Carried { a, vdot, lambda, h: own } = &self.start;
         for (i, next) in self.a.iter_mut().enumerate() {
             *next = vdot[i] + h / own * (a[i] - vdot[i]);
         }
         self.end.vdot.copy_from_slice(vdot);
         self.end.lambda.copy_from_slice(lambda);
-        self.shift.fill(0.0);
+        self.w.fill(0.0);
+        self.u.fill(0.0);
         self.predict(problem, from, h);
         Ok(())
     }
@@ -127,18 +125,35 @@ impl Motion {
             *a = vdot[i] + self.scheme.lead() * (dynamics.vdot[i] - vdot[i]);
         }
         self.start.lambda.copy_from_slice(&dynamics.lambda);
-        (self.start.t, self.start.h) = (Some(from.t), h);
+        (self.is_started, self.start.h) = (true, h);
         Ok(())
     }
 
     /// Forgets the last step.
     pub fn restart(&mut self) {
-        (self.start.t, self.end.t) = (None, None);
+        self.is_started = false;
     }
 
-    /// The step has found its end at `t`.
-    pub fn reached(&mut self, t: f64) {
-        self.end.t = Some(t);
+    /// The step is taken.
+    pub fn accepted(&mut self) {
+        std::mem::swap(&mut self.start, &mut self.end);
+    }
+
+    /// How q_1 and v_1 change with v'_1 and the shifts.
+    pub fn slopes(&self, h: f64) -> Slopes<f64> {
+        let (Scheme { gamma, beta, .. }, slope) = (&self.scheme, self.scheme.slope());
+        Slopes { v: h * gamma * slope, q: h * h * beta * slope, w: 1.0, w_q: 0.0, u: 1.0 }
+    }
+
+    /// Changes the unknowns; the largest change of v'_1, or of a shift as such.
+    pub fn correct(&mut self, change: &Change<f64>, h: f64) -> f64 {
+        let add = |sum: &mut [f64], change: &[f64]| sum.iter_mut().zip(change).for_each(|(sum, change)| *sum += change);
+        add(&mut self.end.vdot, &change.a);
+        add(&mut self.end.lambda, &change.lambda);
+        add(&mut self.w, &change.w);
+        add(&mut self.u, &change.u);
+        let slopes = self.slopes(h);
+        largest(&change.a).max(largest(&change.w) / slopes.v).max(largest(&change.u) / slopes.q)
     }
 
     /// The leading term of the error of q along the directions of v.
@@ -170,7 +185,7 @@ impl Motion {
         }
     }
 
-    /// a_1, v_1 and q_1 that go with v'_1 and the shift.
+    /// a_1, v_1 and q_1 that go with v'_1 and the shifts.
     pub fn advance(&mut self, problem: &Problem, from: From, h: f64, to: &mut [f64]) {
         let (q0, v0) = problem.split(from.y);
         let (q, v) = problem.split_mut(to);
@@ -178,8 +193,8 @@ impl Motion {
         for i in 0..v.len() {
             let a = self.a_end(i);
             self.end.a[i] = a;
-            v[i] = v0[i] + h * ((1.0 - gamma) * self.a[i] + gamma * a);
-            self.change[i] = h * h * beta * (a - self.a_predicted[i]) + self.shift[i];
+            v[i] = v0[i] + h * ((1.0 - gamma) * self.a[i] + gamma * a) + self.w[i];
+            self.change[i] = h * h * beta * (a - self.a_predicted[i]) + self.u[i];
         }
         let start = self.between.as_deref().unwrap_or_else(|| {
             self.change.iter_mut().zip(&self.predicted).for_each(|(change, predicted)| *change += predicted);

@@ -1,51 +1,83 @@
 //! Newton's method for the end of a step.
 
-use super::super::{From, NO_TANGENT, Problem, collapsed};
+use super::super::{From, Problem, collapsed};
 use super::motion::Motion;
-use crate::formulation::Halt;
-use crate::math::kkt::Unsymmetric;
+use crate::formulation::{Dae, Halt, Iteration, Linearized, Residual, Slopes};
 use crate::math::largest;
-use crate::system::{Loaded, MechanicalSystem, Need, Tangent};
+use crate::math::newton::{Limits, Monitor};
+use crate::system::{Loaded, MechanicalSystem};
 
-/// Iterations, and the ratio of two changes from which the matrix is renewed, as far predictions and kinks of forces want.
+/// Corrections, as far predictions and kinks of forces want.
 const MOST: usize = 25;
-const SLOW: f64 = 0.3;
-/// Relative change of v' that is round-off, and below which it may stop falling; and change of q, beside 1 m or rad or the
-/// largest q, below which it may: near rest, and far from the origin, v' is round-off itself.
-const ROUND_OFF: f64 = 1e-15;
+/// Relative change of v' below which it may stop falling, and the part of that which is round-off; and change of q, beside
+/// 1 m or rad or the largest q, below which it may: near rest, and far from the origin, v' is round-off itself.
 const SMALL: f64 = 1e-8;
+const ROUND_OFF: f64 = 1e-7;
 const STILL: f64 = 1e-14;
-/// Solves M v'_1 + G^T lambda_1 = f with phi = 0 for v'_1 and lambda_1; with G v + phi_t = 0 too also for the shift of q.
-pub(super) struct Newton {
-    holds_velocity: bool,
-    tangent: Tangent,
-    matrix: Unsymmetric<f64>,
-    top: Vec<f64>,
-    bottom: Vec<f64>,
-    shift: Vec<f64>,
+/// The part of it that may be left where steps are controlled: phi is round-off then, and no more is asked of v'.
+const CONTROLLED: f64 = 1e-5;
+/// With this rate the matrix serves the next step too: an iteration more costs far less than K and C. It serves steps up to
+/// this factor longer or shorter, in which M is most of it.
+const KEPT_RATE: f64 = 1e-2;
+const BAND: f64 = 1.3;
+
+/// In units of what may stop falling.
+fn limits(is_fixed: bool) -> Limits {
+    Limits {
+        most: MOST,
+        tolerance: if is_fixed { ROUND_OFF } else { CONTROLLED },
+        round_off: ROUND_OFF,
+        stagnation: 1.0,
+        patience: MOST,
+        least_rate: 0.0,
+        kept_rate: KEPT_RATE,
+    }
 }
 
-/// How q_1 and v_1 change with v'_1.
-#[derive(Clone, Copy)]
-struct Slopes {
-    /// beta' h^2
-    q: f64,
-    /// gamma' h
-    v: f64,
+
+/// Solves the equations at the end of a step for v'_1, lambda_1 and the shifts.
+pub(super) struct Newton {
+    dae: Dae,
+    limits: Limits,
+    at: Linearized,
+    iteration: Iteration<f64>,
+    residual: Residual,
+    monitor: Monitor,
+    is_linearized: bool,
+    /// The step and the dropped rows for which the matrix is factored.
+    factored: Option<f64>,
+    dropped: Vec<usize>,
 }
 
 impl Newton {
     /// None where there is not enough memory.
-    pub fn new(system: &dyn MechanicalSystem, holds_velocity: bool) -> Option<Self> {
-        let (n, structure) = (system.dimensions(), system.structure());
+    pub fn new(dae: Dae, is_fixed: bool, system: &dyn MechanicalSystem) -> Option<Self> {
         Some(Newton {
-            holds_velocity,
-            tangent: Tangent::new(&structure.tangent),
-            matrix: Unsymmetric::new(&structure.mass, &structure.tangent, &structure.g)?,
-            top: vec![0.0; n.v],
-            bottom: vec![0.0; n.lambda],
-            shift: vec![0.0; n.v],
+            dae,
+            limits: limits(is_fixed),
+            at: Linearized::new(dae, system),
+            iteration: Iteration::new(dae, system)?,
+            residual: Residual::new(system.dimensions()),
+            monitor: Monitor::default(),
+            is_linearized: false,
+            factored: None,
+            dropped: Vec::new(),
         })
+    }
+
+    /// The matrix stays for the next step where it serves.
+    pub fn accepted(&mut self) {
+        self.is_linearized &= self.monitor.keeps_matrix();
+    }
+
+    /// The equations change their form.
+    pub fn restart(&mut self) {
+        self.is_linearized = false;
+    }
+
+    /// Power of the forces without a potential and of moving constraints at the end, W.
+    pub fn power(&self) -> f64 {
+        self.residual.power
     }
 
     /// Leaves q_1 and v_1 in `to`, and v'_1 and lambda_1 at the end of `motion`.
@@ -57,106 +89,65 @@ impl Newton {
         h: f64,
         to: &mut [f64],
     ) -> Result<(), Halt> {
-        let t = from.t + h;
-        let slope = motion.scheme.slope();
-        let slopes = Slopes { q: h * h * motion.scheme.beta * slope, v: h * motion.scheme.gamma * slope };
-        let (mut last, mut is_slow) = (f64::INFINITY, true);
-        for iteration in 0..MOST {
+        let mut monitor = std::mem::take(&mut self.monitor);
+        let converged = monitor.solve(self.limits, |renews| {
             motion.advance(problem, from, h, to);
-            let (q, v) = problem.split(to);
-            problem.dynamics.evaluate(t, q, v, Need::DYNAMICS);
-            if is_slow {
-                self.factor(problem, motion, (from, h), slopes, to)?;
-            }
-            let change = self.iterate(problem, motion, slopes)?;
-            if !change.is_finite() {
-                return Err(Halt::NotFinite);
-            }
-            let still = STILL * largest(problem.split(to).0).max(1.0);
-            let small = (SMALL * size(problem, motion, h, to)).max(still / slopes.q);
-            let ratio = if iteration == 0 { 1.0 } else { change / last };
-            // The next iteration would change that by the ratio.
-            if change * ratio.min(1.0) <= ROUND_OFF / SMALL * small || change < small && ratio > 0.5 {
-                motion.advance(problem, from, h, to);
-                return Ok(());
-            }
-            is_slow = iteration > 0 && ratio > SLOW && change > small;
-            last = change;
+            self.is_linearized &= !renews;
+            self.evaluate(problem, motion, (from, h), to)?;
+            self.iteration.load(std::iter::once((1.0, &self.residual)));
+            self.iteration.solve(&mut self.at, &problem.dynamics.structure)?;
+            problem.dynamics.statistics.newton_iterations += 1;
+            Ok::<_, Halt>(motion.correct(&self.iteration.change, h) / self.small(problem, motion, h, to))
+        });
+        self.monitor = monitor;
+        if !converged? {
+            self.is_linearized = false;
+            return Err(Halt::NotConverged);
         }
-        Err(Halt::NotConverged)
+        problem.dynamics.statistics.stagnated += u64::from(self.monitor.has_stagnated);
+        motion.advance(problem, from, h, to);
+        Ok(())
     }
 
-    /// [A G^T; G 0] at the predicted state, whose terms are there.
-    fn factor(
+    /// The residual at q_1, v_1, and the matrix where there is none for this step.
+    fn evaluate(
         &mut self,
         problem: &mut Problem,
         motion: &Motion,
         (from, h): (From, f64),
-        slopes: Slopes,
         to: &[f64],
     ) -> Result<(), Halt> {
+        let ((q, v), t) = (problem.split(to), from.t + h);
+        let (vdot, lambda) = (&motion.end.vdot, &motion.end.lambda);
+        let dynamics = &mut problem.dynamics;
+        if self.is_linearized {
+            self.residual.evaluate(&self.dae, (t, q, v), (vdot, lambda), dynamics)?;
+        } else {
+            if to.iter().any(|x| !x.is_finite()) {
+                return Err(Halt::NotFinite);
+            }
+            self.at.update(Loaded { t, q, v, vdot, lambda }, dynamics)?;
+            dynamics.statistics.rhs_evaluations += 1;
+            self.residual.of_terms(&self.dae, (vdot, lambda), dynamics);
+            (self.is_linearized, self.factored) = (true, None);
+        }
+        if self.factored.is_some_and(|own| own / h <= BAND && h / own <= BAND) && self.dropped == dynamics.held {
+            self.iteration.rescale(motion.slopes(h));
+            return Ok(());
+        }
+        self.factored = None;
+        let factored = self.iteration.factor(motion.slopes(h), &self.at, dynamics);
+        factored.map_err(|singular| collapsed(singular, problem, from, h))?;
+        self.factored = Some(h);
+        self.dropped.clone_from(&problem.dynamics.held);
+        Ok(())
+    }
+
+    /// The change of v'_1 that may stop falling: of the largest a_1 and v_1/h.
+    fn small(&self, problem: &Problem, motion: &Motion, h: f64, to: &[f64]) -> f64 {
         let (q, v) = problem.split(to);
-        let dynamics = &mut problem.dynamics;
-        let at = Loaded { t: from.t + h, q, v, vdot: &motion.end.vdot, lambda: &motion.end.lambda };
-        if !dynamics.system.tangent(at, &mut self.tangent, &mut dynamics.scratch) {
-            return Err(NO_TANGENT);
-        }
-        dynamics.statistics.jacobian_evaluations += 1;
-        dynamics.statistics.factorizations += 1;
-        let (structure, terms) = (&dynamics.structure, &dynamics.terms);
-        self.matrix.hold(&dynamics.held);
-        self.matrix.clear();
-        self.matrix.add_mass(&structure.mass, &terms.mass);
-        self.matrix.add(&structure.tangent, &self.tangent.c, slopes.v, false);
-        self.matrix.add(&structure.tangent, &self.tangent.k, slopes.q, false);
-        self.matrix.factor(&structure.g, &terms.g).map_err(|singular| collapsed(singular, problem, from, h))
+        let size = largest(&motion.end.a).max(largest(v) / h);
+        let Slopes { q: by_q, .. } = motion.slopes(h);
+        (SMALL * size).max(STILL * largest(q).max(1.0) / by_q)
     }
-
-    /// One iteration from the terms at q_1, v_1; the largest change of v'_1, or of the shift as such.
-    fn iterate(&mut self, problem: &mut Problem, motion: &mut Motion, slopes: Slopes) -> Result<f64, Halt> {
-        let dynamics = &mut problem.dynamics;
-        dynamics.statistics.newton_iterations += 1;
-        let (terms, structure) = (&dynamics.terms, &dynamics.structure);
-        // top = f - M v' - G^T lambda
-        self.top.fill(0.0);
-        structure.mass.multiply_symmetric(&terms.mass, &motion.end.vdot, &mut self.top);
-        structure.g.multiply_transposed(&terms.g, &motion.end.lambda, &mut self.top);
-        self.top.iter_mut().zip(&terms.f).for_each(|(top, f)| *top = f - *top);
-        let (rows, slope) = match self.holds_velocity {
-            true => (&terms.phi_dot, slopes.v),
-            false => (&terms.phi, slopes.q),
-        };
-        let mut moved = 0.0;
-        if self.holds_velocity {
-            self.move_q(&terms.phi, &terms.phi_dot, slopes)?;
-            // Forces change with the shift: K times it.
-            self.bottom.fill(0.0);
-            let shift = &mut self.shift;
-            motion.shift.iter_mut().zip(&*shift).for_each(|(sum, shift)| *sum += shift);
-            moved = largest(shift) / slopes.q;
-            shift.iter_mut().for_each(|shift| *shift = -*shift);
-            structure.tangent.multiply(&self.tangent.k, shift, &mut self.top);
-        }
-        self.bottom.iter_mut().zip(rows).for_each(|(row, residual)| *row = -residual / slope);
-        self.matrix.solve(&mut self.top, &mut self.bottom)?;
-        motion.end.vdot.iter_mut().zip(&self.top).for_each(|(vdot, change)| *vdot += change);
-        motion.end.lambda.iter_mut().zip(&self.bottom).for_each(|(lambda, change)| *lambda += change);
-        Ok(largest(&self.top).max(moved))
-    }
-
-    /// The shift that is missing: v'_1 meets the rows of G v + phi_t, which moves q, and the shift meets what then is left
-    /// of phi.
-    fn move_q(&mut self, phi: &[f64], phi_dot: &[f64], slopes: Slopes) -> Result<(), Halt> {
-        self.shift.fill(0.0);
-        for (row, (phi, phi_dot)) in self.bottom.iter_mut().zip(phi.iter().zip(phi_dot)) {
-            *row = slopes.q / slopes.v * phi_dot - phi;
-        }
-        Ok(self.matrix.solve(&mut self.shift, &mut self.bottom)?)
-    }
-}
-
-/// What changes of v'_1 are measured against: the largest a_1 and v_1/h.
-fn size(problem: &Problem, motion: &Motion, h: f64, to: &[f64]) -> f64 {
-    let (_, v) = problem.split(to);
-    largest(&motion.end.a).max(largest(v) / h)
 }

@@ -1,44 +1,43 @@
 //! Radau IIA collocation of orders 5, 9 and 13.
 
 mod collocation;
-mod convergence;
-mod newton;
+mod matrices;
 mod order;
 mod stages;
 mod velocity;
 
 use super::explicit::widest_gap;
-use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, With, collapsed};
+use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, collapsed, refuses};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
-use crate::formulation::{self, Halt, Rows};
+use crate::formulation::{self, Dae, Halt, Linearized};
 use crate::math::largest;
-use crate::system::MechanicalSystem;
+use crate::math::newton::{Limits, Monitor};
+use crate::system::{Loaded, MechanicalSystem};
 use collocation::Collocation;
-use convergence::{Convergence, Verdict};
-use newton::Newton;
+use matrices::Matrices;
 use order::{Order, Seen, internal};
 use stages::{Stages, Unknowns, combine};
 
 /// ```text
-/// V_i = v + h sum a_ij V'_j,   Q_i = q + h sum a_ij N V_j,   M V'_i + G^T L_i = f,   with at every stage
-/// index3: phi = 0;   index2: G V + phi_t = 0;   index1: G V' = gamma
-/// ggl: phi = 0, G V + phi_t = 0 and Q_i = q + h sum a_ij N (V_j + U_j),   M U_i + G^T mu_i = 0
+/// V_i = v + h sum a_ij (A_j + W_j),   Q_i = q + h sum a_ij N (V_j + U_j),   M A_i + G^T lambda_i = f
 /// ```
 ///
-/// with lambda as an unknown in all of them; s = 3, 5 or 7 stages. Source: Hairer, Wanner, Solving Ordinary Differential
+/// with the rows of the formulation's [`Dae`] at every stage, and its shifts U and W; s = 3, 5 or 7 stages. Source: Hairer, Wanner, Solving Ordinary Differential
 /// Equations II, IV.5, IV.8, VII.6 and the codes RADAU5 and RADAU; constants are computed from their definition. L-stable.
-/// Order 2 s - 1 in q, v and lambda. With index3 the v of the last stage, and so lambda, would have order s: Hairer,
-/// Lubich, Roche, Lecture Notes in Mathematics 1409 (1989). So a step of index3, and a row, ends with v moved to
+/// Order 2 s - 1 in q, v and lambda. Where phi = 0 alone is solved the v of the last stage, and so lambda, would have order s: Hairer,
+/// Lubich, Roche, Lecture Notes in Mathematics 1409 (1989). So such a step, and a row, ends with v moved to
 /// G v + phi_t = 0, by the matrix that the new state's v' and lambda need in any case.
 ///
-/// One matrix of n_v + n_c unknowns for the real eigenvalue of A and (s - 1)/2 complex ones a step, dense or sparse, from
-/// exact K, C, G and L: q and v are eliminated. s evaluations and (s + 1)/2 back-substitutions an iteration; ggl has s more,
-/// of the saddle-point matrix. Constantly redundant constraints are left out of the matrices. Error: the difference to a
+/// One matrix of n_v + n_c unknowns for the real eigenvalue of A and (s - 1)/2 complex ones, dense or sparse, from exact K,
+/// C, G and L: q and v are eliminated. The matrices stay for the next step as long as Newton's method contracts
+/// thirty thousand times with them and the step grows by less than a fifth. s evaluations and (s + 1)/2 back-substitutions an
+/// iteration, s more of the saddle-point matrix for each shift. Constantly redundant constraints are dropped from the
+/// matrices. Error: the difference to a
 /// formula of order s, damped along stiff directions; velocities that phi = 0 determines, of index 2, are weighted by h,
 /// lambda is left out. Steps and stages follow from it, from the decay of the Legendre coefficients over the step and from
 /// the contraction of Newton's method, which large rotations in a step slow down. An output row inside a step is a step
-/// of its own, since the collocation polynomial has order s only: rows cost work that is not counted.
+/// of its own, since the collocation polynomial has order s only.
 ///
 /// Limits: with index3 round-off of phi over h is an error of v, and with index3 and ggl round-off along nearly dependent
 /// rows is that over their sine (1e-4 between masses 1 : 1e8 in line), so that steps of less than 1e-7 s there may end a
@@ -47,12 +46,11 @@ pub const ENTRY: Entry = Entry {
     name: "radau_iia",
     about: "implicit collocation of variable order 5, 9, 13, L-stable: stiff motions, and high accuracy",
     order: 5,
-    orders: &[],
     steps: Steps::Either,
     // Errors over a motion were 0.1 rtol^0.8, with what `internal` makes of rtol: index 3 and fast modes lose order.
     tightening: Tightening { factor: 10.0, power: 1.25 },
-    accepts: &["ggl", "index3", "index2", "index1"],
-    refuses: &[With { formulation: "index3", projections: &["full"] }],
+    solves: |formulation| formulation.dae.is_some(),
+    refuses: refuses::shared_error,
     options: &[OptionDoc { name: "order", about: "5, 9 or 13 (default: chosen as it goes; 5 with a fixed step)" }],
     make,
 };
@@ -60,21 +58,25 @@ pub const ENTRY: Entry = Entry {
 fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
     let n = setup.system.dimensions();
     let order = Order::new(setup.integrator, setup.is_fixed)?;
-    let rows = formulation::rows(setup.formulation)
+    let dae = formulation::dae(setup.formulation)?
         .ok_or_else(|| Error::input(format!("radau_iia cannot integrate {}", setup.formulation.name)))?;
     let most = order.most_stages();
+    let matrices = || Matrices::new(dae, most / 2, setup);
     Ok(Box::new(RadauIIA {
-        newton: Newton::new(rows, most / 2, setup)?,
+        dae,
+        at: Linearized::new(dae, setup.system),
+        is_linearized: false,
+        matrices: matrices()?,
+        row_matrices: matrices()?,
         stages: Stages::new(most, n),
         row: Stages::new(most, n),
         tolerance: Tolerance::new(1.0, 1.0, setup.system),
-        convergence: Convergence::new(),
+        newton: Monitor::default(),
         before: Unknowns::new(most, n),
         tried: None,
         accepted: None,
         lambda: vec![0.0; n.lambda],
-        factored: None,
-        dropped: Vec::new(),
+        is_begun: false,
         error_x: vec![0.0; n.v],
         error_v: vec![0.0; n.v],
         error: vec![0.0; setup.len()],
@@ -86,28 +88,31 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
 }
 
 struct RadauIIA {
+    dae: Dae,
     order: Order,
     is_fixed: bool,
-    newton: Newton,
+    /// M, G, L, K and C, and whether they are there.
+    at: Linearized,
+    is_linearized: bool,
+    matrices: Matrices,
     stages: Stages,
-    /// The stages of a step to an output row, and the internal tolerance.
+    /// Those of a step to an output row, and the internal tolerance.
+    row_matrices: Matrices,
     row: Stages,
     tolerance: Tolerance,
-    convergence: Convergence,
+    newton: Monitor,
     /// The last attempt.
     tried: Option<Step>,
     /// The last accepted step and its stages, whose polynomials predict those of the next.
     accepted: Option<Step>,
     before: Unknowns,
-    /// lambda at the start of the step.
+    /// lambda at the start of the step, and whether one was tried from there.
     lambda: Vec<f64>,
-    /// Step, method and dropped rows that the matrices are factored for.
-    factored: Option<(f64, usize)>,
-    dropped: Vec<usize>,
+    is_begun: bool,
     error_x: Vec<f64>,
     error_v: Vec<f64>,
     error: Vec<f64>,
-    /// y' at the end of the last attempt, with index3.
+    /// y' at the end of the last attempt, where v was moved.
     slope: Vec<f64>,
     /// Of the last attempt.
     seen: Seen,
@@ -115,44 +120,31 @@ struct RadauIIA {
 
 #[derive(Clone, Copy)]
 struct Step {
-    start: f64,
     h: f64,
     /// Index of its method.
     method: usize,
 }
 
 impl RadauIIA {
-    /// A new start means that the last attempt was accepted: its stages predict the next, and M, G, K and C are renewed.
-    fn begin(&mut self, problem: &mut Problem, tolerance: &Tolerance, from: From) -> Result<(), Halt> {
-        if self.tried.is_some_and(|step| step.start == from.t) {
-            return Ok(());
-        }
-        if let Some(step) = self.tried.take() {
-            std::mem::swap(&mut self.before, &mut self.stages.unknowns);
-            self.accepted = Some(step);
-            self.order.accepted(tolerance, &self.seen);
-        }
-        self.lambda.copy_from_slice(&problem.dynamics.lambda);
-        self.factored = None;
-        self.newton.linearize(problem, from, &self.lambda)
-    }
-
-    /// The matrices for a step `h`, unless they are there.
-    fn factor(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<(), Halt> {
-        let wanted = Some((h, self.order.current()));
-        if self.factored == wanted && self.dropped == problem.dynamics.held {
-            return Ok(());
-        }
-        self.factored = None;
-        if let Err(singular) = self.newton.factor(self.order.method(), h, &mut problem.dynamics) {
-            return Err(collapsed(singular, problem, from, h));
-        }
-        self.factored = wanted;
-        self.dropped.clone_from(&problem.dynamics.held);
+    /// M, G, K and C at the start of a step.
+    fn linearize(&mut self, problem: &mut Problem, from: From) -> Result<(), Halt> {
+        self.matrices.forget();
+        self.row_matrices.forget();
+        self.is_linearized = false;
+        let ((q, v), (_, vdot)) = (problem.split(from.y), problem.split(from.slope));
+        let at = Loaded { t: from.t, q, v, vdot, lambda: &self.lambda };
+        self.at.update(at, &mut problem.dynamics)?;
+        self.is_linearized = true;
         Ok(())
     }
 
-    /// A first guess of V' and lambda: constant at the very start, else by the step before.
+    fn factor(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<(), Halt> {
+        let method = (self.order.method(), self.order.current());
+        let factored = self.matrices.factor(method, h, &self.at, &mut problem.dynamics);
+        factored.map_err(|singular| collapsed(singular, problem, from, h))
+    }
+
+    /// A first guess of the accelerations and lambda: constant at the very start, else by the step before.
     fn predict(&mut self, problem: &Problem, from: From, h: f64) {
         let unknowns = &mut self.stages.unknowns;
         match self.accepted {
@@ -160,9 +152,18 @@ impl RadauIIA {
                 let ahead = self.order.method().nodes.iter().map(|node| 1.0 + node * h / step.h);
                 unknowns.predict(&self.before, self.order.get(step.method), ahead);
             }
-            None => unknowns.hold(problem.split(from.slope).1, &self.lambda),
+            None => unknowns.reset(problem.split(from.slope).1, &self.lambda),
         }
-        self.newton.leave_out(unknowns);
+        self.matrices.leave_out(unknowns);
+    }
+
+    /// Solves the equations of all stages for a step `h`, with the matrices that are there or new ones.
+    fn solve(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<bool, Halt> {
+        self.factor(problem, from, h)?;
+        self.predict(problem, from, h);
+        let RadauIIA { dae, order, at, matrices, stages, newton, is_fixed, tolerance, .. } = self;
+        let mut collocation = System { dae, method: order.method(), at, matrices, stages, is_fixed: *is_fixed };
+        collocation.solve(newton, problem, tolerance, from, h)
     }
 
     /// The difference to a formula of order s, damped along the stiff directions, over the tolerated errors.
@@ -183,8 +184,9 @@ impl RadauIIA {
             x[k] = h * (gamma * v0[k] + stages.map(|(y, d)| d * y[nq + k]).sum::<f64>());
         }
         v.iter_mut().zip(vdot0).for_each(|(v, vdot)| *v = h * gamma * vdot);
-        combine(v, h, &method.error, &self.stages.unknowns.vdot);
-        self.newton.filter((h * gamma, h), x, v, &problem.dynamics)?;
+        combine(v, h, &method.error, &self.stages.unknowns.a);
+        combine(v, h, &method.error, &self.stages.unknowns.w);
+        self.matrices.real.damp(&self.at, h, x, v, &problem.dynamics)?;
         let (dq, dv) = self.error.split_at_mut(nq);
         problem.dynamics.system.rate(q0, x, dq);
         dv[..v.len()].copy_from_slice(v);
@@ -202,41 +204,64 @@ fn exact(q: &[f64], system: &dyn MechanicalSystem) -> Tolerance {
     Tolerance::new(EXACT, EXACT * size, system)
 }
 
-/// One step as an implicit system: its stages, matrices and the judgement of their convergence.
-struct Solver<'a> {
-    stages: &'a mut Stages,
-    newton: &'a mut Newton,
-    convergence: &'a mut Convergence,
+/// The equations of all stages of one step.
+struct System<'a> {
+    dae: &'a Dae,
     method: &'a Collocation,
+    at: &'a mut Linearized,
+    matrices: &'a mut Matrices,
+    stages: &'a mut Stages,
     is_fixed: bool,
 }
 
-impl Solver<'_> {
-    /// Solves the equations of all stages for a step `h` from their first guess.
-    fn solve(&mut self, problem: &mut Problem, tolerance: &Tolerance, from: From, h: f64) -> Result<(), Halt> {
-        let (rows, s) = (self.newton.rows, self.method.stages());
-        self.stages.rest(from);
-        self.stages.advance(problem, self.method, from, h);
-        let floor = self.stages.round_off(problem, tolerance, from, h, rows);
-        // A fixed step cannot be tried smaller.
-        let limits = if self.is_fixed { (50, 10) } else { (7 + 5 * (s - 3) / 2, 0) };
-        self.convergence.begin(limits, tolerance.rtol, floor);
-        loop {
-            for i in 0..s {
-                let t = from.t + self.method.nodes[i] * h;
-                self.stages.leave(i, t, rows, &mut problem.dynamics)?;
-            }
-            self.newton.correct(self.method, h, self.stages, &mut problem.dynamics)?;
-            self.stages.advance(problem, self.method, from, h);
-            let change = self.stages.change(tolerance, from, s);
-            match self.convergence.judge(change) {
-                Verdict::Converged => break,
-                Verdict::GoOn => {}
-                Verdict::Failed => return Err(Halt::NotConverged),
-            }
-        }
-        self.stages.work(self.method, from, h);
-        Ok(())
+/// Corrections of a step that cannot be tried smaller, and how many of them may grow.
+const MOST_FIXED: usize = 50;
+const PATIENCE: usize = 10;
+/// Round-off of many operations over that of a few.
+const MANY: f64 = 100.0;
+/// Two changes tell little of the rate.
+const LEAST_RATE: f64 = 0.1;
+/// An iteration more costs an evaluation a stage, about as much as a new matrix does.
+const KEPT_RATE: f64 = 3e-5;
+
+/// Corrections of a step with `s` stages. Source: the code RADAU.
+fn most(s: usize, is_fixed: bool) -> usize {
+    if is_fixed { MOST_FIXED } else { 7 + 5 * (s - 3) / 2 }
+}
+
+impl System<'_> {
+    /// From their first guess.
+    fn solve(
+        &mut self,
+        newton: &mut Monitor,
+        problem: &mut Problem,
+        tolerance: &Tolerance,
+        from: From,
+        h: f64,
+    ) -> Result<bool, Halt> {
+        let System { dae, method, at, matrices, stages, is_fixed } = self;
+        stages.reset(from);
+        stages.advance(problem, method, from, h);
+        let round_off = stages.round_off(problem, tolerance, from, h, dae);
+        let limits = Limits {
+            most: most(method.stages(), *is_fixed),
+            tolerance: (10.0 * f64::EPSILON / tolerance.rtol).max(tolerance.rtol.sqrt().min(0.03)),
+            round_off,
+            stagnation: MANY * round_off,
+            patience: if *is_fixed { PATIENCE } else { 0 },
+            least_rate: LEAST_RATE,
+            kept_rate: KEPT_RATE,
+        };
+        let converged = newton.solve(limits, |_| {
+            stages.evaluate(dae, method, (from.t, h), &mut problem.dynamics)?;
+            let Stages { residuals, unknowns, .. } = &mut **stages;
+            matrices.correct(method, residuals, at, unknowns, &mut problem.dynamics)?;
+            stages.advance(problem, method, from, h);
+            Ok::<_, Halt>(stages.change(tolerance, from, method.stages()))
+        })?;
+        problem.dynamics.statistics.stagnated += u64::from(converged && newton.has_stagnated);
+        stages.work(method, from, h);
+        Ok(converged)
     }
 }
 
@@ -257,32 +282,52 @@ impl Integrator for RadauIIA {
         h: f64,
         to: &mut [f64],
     ) -> Result<Option<f64>, Halt> {
-        self.begin(problem, tolerance, from)?;
         let method = self.order.current();
-        self.tried = Some(Step { start: from.t, h, method });
-        let tolerance = match self.is_fixed {
+        self.tried = Some(Step { h, method });
+        self.tolerance = match self.is_fixed {
             true => exact(problem.split(from.y).0, problem.dynamics.system),
             false => internal(tolerance, self.order.method().stages()),
         };
-        self.tolerance = tolerance;
-        self.factor(problem, from, h)?;
-        self.predict(problem, from, h);
-        let RadauIIA { order, newton, stages, convergence, is_fixed, .. } = self;
-        let mut solver = Solver { stages, newton, convergence, method: order.method(), is_fixed: *is_fixed };
-        solver.solve(problem, &tolerance, from, h)?;
-        self.order.limit(&self.convergence);
-        to.copy_from_slice(&self.stages.y[self.order.method().stages() - 1]);
+        if !std::mem::replace(&mut self.is_begun, true) {
+            self.lambda.copy_from_slice(&problem.dynamics.lambda);
+        }
+        let is_new = !self.is_linearized;
+        if is_new {
+            self.linearize(problem, from)?;
+        }
+        let mut converged = self.solve(problem, from, h)?;
+        if !converged && !is_new {
+            self.linearize(problem, from)?;
+            converged = self.solve(problem, from, h)?;
+        }
+        if !converged {
+            return Err(Halt::NotConverged);
+        }
+        let s = self.order.method().stages();
+        self.order.limit(&self.newton, most(s, self.is_fixed));
+        to.copy_from_slice(&self.stages.y[s - 1]);
+        let tolerance = self.tolerance;
         let error = self.estimate(problem, &tolerance, from, h, to)?;
         self.seen = Seen {
             error,
             decay: self.stages.decay(self.order.method(), &tolerance, from),
-            theta: self.convergence.theta,
+            theta: self.newton.rate,
         };
-        if self.newton.rows == Rows::Position && (self.is_fixed || error <= 1.0) {
+        if self.dae.velocity_index() == 2 && (self.is_fixed || error <= 1.0) {
             velocity::project(problem, from.t + h, to)?;
             velocity::slope(problem, from.t + h, to, &mut self.slope)?;
         }
         Ok(Some(error))
+    }
+
+    /// The stages predict those of the next step, and M, G, K and C stay as long as they serve.
+    fn accepted(&mut self, tolerance: &Tolerance) {
+        let Some(step) = self.tried.take() else { return };
+        std::mem::swap(&mut self.before, &mut self.stages.unknowns);
+        self.accepted = Some(step);
+        self.is_begun = false;
+        self.is_linearized &= self.newton.keeps_matrix();
+        self.order.accepted(tolerance, &self.seen);
     }
 
     fn spacing(&self) -> f64 {
@@ -291,10 +336,11 @@ impl Integrator for RadauIIA {
 
     fn restart(&mut self) {
         (self.tried, self.accepted) = (None, None);
+        (self.is_begun, self.is_linearized) = (false, false);
     }
 
     fn last_slope(&self) -> Option<&[f64]> {
-        (self.newton.rows == Rows::Position).then_some(&self.slope)
+        (self.dae.velocity_index() == 2).then_some(&self.slope)
     }
 
     fn prepare(&mut self, _: &mut Problem, _: From, _: f64, _: &[f64], _: &[f64]) -> Result<(), Halt> {
@@ -310,21 +356,18 @@ impl Integrator for RadauIIA {
         theta: f64,
         out: &mut [f64],
     ) -> Result<(), Halt> {
-        let RadauIIA { order, newton, stages, row, tolerance, .. } = self;
+        let RadauIIA { dae, order, at, row_matrices, stages, row, tolerance, is_fixed, .. } = self;
         let (method, h) = (order.method(), theta * h);
-        newton.prepare(problem, from)?;
-        newton.factor(method, h, &mut problem.dynamics)?;
+        row_matrices.factor((method, order.current()), h, at, &mut problem.dynamics)?;
         row.unknowns.predict(&stages.unknowns, method, method.nodes.iter().map(|node| theta * node));
-        newton.leave_out(&mut row.unknowns);
-        let mut convergence = Convergence::new();
-        let is_fixed = self.is_fixed;
-        let mut solver = Solver { stages: row, newton, convergence: &mut convergence, method, is_fixed };
-        match solver.solve(problem, tolerance, from, h) {
-            Ok(()) => out.copy_from_slice(&row.y[method.stages() - 1]),
-            Err(_) => stages.interpolate(method, from, theta, out),
+        row_matrices.leave_out(&mut row.unknowns);
+        let mut system = System { dae, method, at, matrices: row_matrices, stages: row, is_fixed: *is_fixed };
+        match system.solve(&mut Monitor::default(), problem, tolerance, from, h) {
+            Ok(true) => out.copy_from_slice(&row.y[method.stages() - 1]),
+            _ => stages.interpolate(method, from, theta, out),
         }
-        match newton.rows {
-            Rows::Position => velocity::project(problem, from.t + h, out),
+        match dae.velocity_index() {
+            2 => velocity::project(problem, from.t + h, out),
             _ => Ok(()),
         }
     }

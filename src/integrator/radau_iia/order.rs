@@ -1,10 +1,10 @@
 //! The number of stages, chosen as the integration goes.
 
 use super::collocation::Collocation;
-use super::convergence::Convergence;
 use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::integrator::{Control, Tolerance};
+use crate::math::newton::Monitor;
 
 /// The methods to choose from and the one in use.
 ///
@@ -113,12 +113,19 @@ impl Order {
         ratio * old as f64 / new as f64
     }
 
-    /// Keeps the next step from where the Newton iteration would contract too slowly: theta grows like h.
-    pub fn limit(&mut self, convergence: &Convergence) {
-        self.control.safety = convergence.safety();
-        self.control.grow = (SLOW / convergence.theta).clamp(1.0, 5.0);
+    /// The next step: shorter where Newton's method took many of its corrections, of which there are `most`; no longer than
+    /// where it would contract too slowly, as theta grows like h; and the same where its matrix may stay and would be good
+    /// for one a little longer.
+    pub fn limit(&mut self, newton: &Monitor, most: usize) {
+        let (most, iterations) = (most as f64, newton.iterations as f64);
+        self.control.safety = 0.9 * (2.0 * most + 1.0) / (2.0 * most + iterations);
+        self.control.grow = (SLOW / newton.rate).clamp(1.0, 5.0);
+        self.control.dead_band = if newton.keeps_matrix() { BAND } else { 1.0 };
     }
 }
+
+/// A step that may grow by less stays as it is. Source: QUOT2 of the code RADAU5.
+const BAND: f64 = 1.2;
 
 /// The error estimate is of order s + 1, the solution of order 2 s: with this tolerance the second meets the given one.
 /// Source: the code RADAU5 of Hairer and Wanner.

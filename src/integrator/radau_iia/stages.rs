@@ -1,20 +1,19 @@
 //! The stages of a step and what their equations leave.
 
 use super::collocation::Collocation;
-use crate::formulation::{Dynamics, Halt, Rows};
+use crate::formulation::{Dae, Dynamics, Halt, Residual};
 use crate::integrator::{From, Problem, Tolerance};
 use crate::math::largest;
-use crate::system::{Dimensions, Need};
+use crate::system::Dimensions;
 
-/// V_i = v + h sum a_ij V'_j,  Q_i = q + h sum a_ij N(Q_j) (V_j + U_j), with V', lambda and, where positions and
-/// velocities are both constrained, the shift U and mu as unknowns.
+/// V_i = v + h sum a_ij (A_j + W_j),  Q_i = q + h sum a_ij N(Q_j) (V_j + U_j), with the accelerations A, lambda and, where
+/// positions or velocities have multipliers of their own, the shifts U and W as unknowns.
 pub struct Stages {
     pub unknowns: Unknowns,
     /// Q_i, V_i and the work at each stage, flat.
     pub y: Vec<Vec<f64>>,
     pub residuals: Vec<Residual>,
     n: Dimensions,
-    power: Vec<f64>,
     next: Vec<Vec<f64>>,
     qdot: Vec<Vec<f64>>,
     velocity: Vec<f64>,
@@ -26,31 +25,29 @@ const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
 
 /// What is solved for, stage by stage.
 pub struct Unknowns {
-    pub vdot: Vec<Vec<f64>>,
+    pub a: Vec<Vec<f64>>,
     pub lambda: Vec<Vec<f64>>,
-    pub shift: Vec<Vec<f64>>,
-    pub mu: Vec<Vec<f64>>,
+    pub w: Vec<Vec<f64>>,
+    pub u: Vec<Vec<f64>>,
 }
 
 impl Unknowns {
     pub fn new(most: usize, n: Dimensions) -> Self {
         let rows = |width: usize| vec![vec![0.0; width]; most];
-        Unknowns { vdot: rows(n.v), lambda: rows(n.lambda), shift: rows(n.v), mu: rows(n.lambda) }
+        Unknowns { a: rows(n.v), lambda: rows(n.lambda), w: rows(n.v), u: rows(n.v) }
     }
 
-    /// All stages alike, without shift.
-    pub fn hold(&mut self, vdot: &[f64], lambda: &[f64]) {
-        self.vdot.iter_mut().for_each(|stage| stage.copy_from_slice(vdot));
+    /// All stages alike, without shifts.
+    pub fn reset(&mut self, a: &[f64], lambda: &[f64]) {
+        self.a.iter_mut().for_each(|stage| stage.copy_from_slice(a));
         self.lambda.iter_mut().for_each(|stage| stage.copy_from_slice(lambda));
-        self.shift.iter_mut().chain(&mut self.mu).for_each(|stage| stage.fill(0.0));
+        self.without_shifts();
     }
 
-    /// All but mu from the polynomials over the stages of another step by `method`, at the places `at` of that step, none
+    /// A and lambda from the polynomials over the stages of another step by `method`, at the places `at` of that step, none
     /// of them its start.
     pub fn predict(&mut self, before: &Unknowns, method: &Collocation, at: impl Iterator<Item = f64> + Clone) {
-        let pairs =
-            [(&mut self.vdot, &before.vdot), (&mut self.lambda, &before.lambda), (&mut self.shift, &before.shift)];
-        for (stages, before) in pairs {
+        for (stages, before) in [(&mut self.a, &before.a), (&mut self.lambda, &before.lambda)] {
             for (stage, x) in stages.iter_mut().zip(at.clone()) {
                 stage.fill(0.0);
                 for (j, before) in before.iter().enumerate().take(method.stages()) {
@@ -59,11 +56,14 @@ impl Unknowns {
                 }
             }
         }
-        // mu is linear in its equations, and what rows that depend on others have of it would grow by extrapolation.
-        self.mu.iter_mut().for_each(|stage| stage.fill(0.0));
+        self.without_shifts();
     }
 
-    /// Multipliers of rows that are left out of the matrices: no correction reaches them.
+    fn without_shifts(&mut self) {
+        self.w.iter_mut().chain(&mut self.u).for_each(|stage| stage.fill(0.0));
+    }
+
+    /// Multipliers of rows that are dropped from the matrices: no correction reaches them.
     pub fn leave_out(&mut self, rows: &[bool]) {
         for lambda in &mut self.lambda {
             lambda.iter_mut().zip(rows).filter(|(_, out)| **out).for_each(|(lambda, _)| *lambda = 0.0);
@@ -71,43 +71,26 @@ impl Unknowns {
     }
 }
 
-/// What is left of the equations of one stage, with its sign turned.
-#[derive(Clone)]
-pub struct Residual {
-    /// f - M V' - G^T lambda
-    pub motion: Vec<f64>,
-    /// -phi, -phi' or gamma - G V'
-    pub rows: Vec<f64>,
-    /// -M U - G^T mu
-    pub shift: Vec<f64>,
-    /// -phi beside velocity rows
-    pub position: Vec<f64>,
-}
-
 impl Stages {
     pub fn new(most: usize, n: Dimensions) -> Self {
         let rows = |width: usize| vec![vec![0.0; width]; most];
-        let zeros = |n: usize| vec![0.0; n];
-        let (motion, rows_) = (zeros(n.v), zeros(n.lambda));
-        let residual = Residual { shift: motion.clone(), position: rows_.clone(), motion, rows: rows_ };
         Stages {
             unknowns: Unknowns::new(most, n),
             y: rows(n.q + n.v + 1),
-            residuals: vec![residual; most],
+            residuals: vec![Residual::new(n); most],
             n,
-            power: zeros(most),
             next: rows(n.q + n.v + 1),
             qdot: rows(n.q),
-            velocity: zeros(n.v),
+            velocity: vec![0.0; n.v],
         }
     }
 
     /// All stages at the start, from where Q_i is found.
-    pub fn rest(&mut self, from: From) {
+    pub fn reset(&mut self, from: From) {
         self.y.iter_mut().for_each(|y| y.copy_from_slice(from.y));
     }
 
-    /// Q_i and V_i that go with V' and U. Where N depends on q, Q_i is found by sweeps from what it was, each of which
+    /// Q_i and V_i that go with the unknowns. Where N depends on q, Q_i is found by sweeps from what it was, each of which
     /// leaves about h |omega|/8 of its error.
     pub fn advance(&mut self, problem: &Problem, method: &Collocation, from: From, h: f64) {
         let (nq, nv, s) = (self.n.q, self.n.v, method.stages());
@@ -117,13 +100,14 @@ impl Stages {
             q.copy_from_slice(&self.y[i][..nq]);
             v[..nv].copy_from_slice(&from.y[nq..nq + nv]);
             v[nv] = self.y[i][nq + nv];
-            combine(&mut v[..nv], h, &method.a[i], &self.unknowns.vdot);
+            combine(&mut v[..nv], h, &method.a[i], &self.unknowns.a);
+            combine(&mut v[..nv], h, &method.a[i], &self.unknowns.w);
         }
         let sweeps = if nq == nv { 1 } else { SWEEPS };
         for sweep in 1..=sweeps {
             for i in 0..s {
                 let (q, v) = self.next[i].split_at(nq);
-                let sum = v.iter().zip(&self.unknowns.shift[i]).map(|(v, shift)| v + shift);
+                let sum = v.iter().zip(&self.unknowns.u[i]).map(|(v, shift)| v + shift);
                 self.velocity.iter_mut().zip(sum).for_each(|(place, sum)| *place = sum);
                 // Nothing turns with the angles that count turns: they follow once.
                 match sweep == sweeps {
@@ -160,13 +144,13 @@ impl Stages {
     }
 
     /// Changes that are but round-off, over the tolerated errors: v is found from phi = 0 by a division by h.
-    pub fn round_off(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64, rows: Rows) -> f64 {
+    pub fn round_off(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64, dae: &Dae) -> f64 {
         let (q, v) = problem.split(from.y);
         // Angles that are counted through turns grow, and nothing is rounded to their size but they.
         let (of_q, of_v) = (ROUND_OFF * largest(problem.dynamics.system.own(q)), ROUND_OFF * largest(v));
         let change = &mut self.next[0];
         change[..q.len()].fill(of_q);
-        change[q.len()..].fill(if rows == Rows::Position { of_v.max(of_q / h) } else { of_v });
+        change[q.len()..].fill(if dae.velocity_index() == 2 { of_v.max(of_q / h) } else { of_v });
         tolerance.norm(from.y, change)
     }
 
@@ -176,44 +160,25 @@ impl Stages {
         let [last, before, first] = [0, 1, 2].map(|k| {
             let sum = &mut self.next[0];
             sum.fill(0.0);
-            combine(&mut sum[self.n.q..self.n.q + self.n.v], 1.0, &method.tail[k], &self.unknowns.vdot);
+            combine(&mut sum[self.n.q..self.n.q + self.n.v], 1.0, &method.tail[k], &self.unknowns.a);
             tolerance.norm(from.y, sum)
         });
         if before + first > 0.0 { last.hypot(before) / before.hypot(first) } else { 0.0 }
     }
 
-    /// All that is left of the equations at stage i, time `t`.
-    pub fn leave(&mut self, i: usize, t: f64, rows: Rows, dynamics: &mut Dynamics) -> Result<(), Halt> {
-        let (q, v) = self.y[i].split_at(self.n.q);
-        let v = &v[..self.n.v];
-        if self.y[i].iter().any(|x| !x.is_finite()) {
-            return Err(Halt::NotFinite);
+    /// The residuals of all stages of a step from (t, y) by `h`. An evaluation a stage.
+    pub fn evaluate(
+        &mut self,
+        dae: &Dae,
+        method: &Collocation,
+        (t, h): (f64, f64),
+        dynamics: &mut Dynamics,
+    ) -> Result<(), Halt> {
+        for (i, residual) in self.residuals.iter_mut().enumerate().take(method.stages()) {
+            let (q, v) = self.y[i].split_at(self.n.q);
+            let unknowns = (&self.unknowns.a[i][..], &self.unknowns.lambda[i][..]);
+            residual.evaluate(dae, (t + method.nodes[i] * h, q, &v[..self.n.v]), unknowns, dynamics)?;
         }
-        dynamics.statistics.rhs_evaluations += 1;
-        dynamics.evaluate(t, q, v, Need::DYNAMICS);
-        let (terms, structure, out) = (&dynamics.terms, &dynamics.structure, &mut self.residuals[i]);
-        out.motion.fill(0.0);
-        structure.mass.multiply_symmetric(&terms.mass, &self.unknowns.vdot[i], &mut out.motion);
-        structure.g.multiply_transposed(&terms.g, &self.unknowns.lambda[i], &mut out.motion);
-        out.motion.iter_mut().zip(&terms.f).for_each(|(left, f)| *left = f - *left);
-        out.rows.fill(0.0);
-        match rows {
-            Rows::Position => subtract(&mut out.rows, &terms.phi),
-            Rows::Velocity | Rows::PositionAndVelocity => subtract(&mut out.rows, &terms.phi_dot),
-            Rows::Acceleration => {
-                structure.g.multiply(&terms.g, &self.unknowns.vdot[i], &mut out.rows);
-                out.rows.iter_mut().zip(&terms.gamma).for_each(|(left, gamma)| *left = gamma - *left);
-            }
-        }
-        if rows == Rows::PositionAndVelocity {
-            out.shift.fill(0.0);
-            structure.mass.multiply_symmetric(&terms.mass, &self.unknowns.shift[i], &mut out.shift);
-            structure.g.multiply_transposed(&terms.g, &self.unknowns.mu[i], &mut out.shift);
-            out.shift.iter_mut().for_each(|left| *left = -*left);
-            out.position.fill(0.0);
-            subtract(&mut out.position, &terms.phi);
-        }
-        self.power[i] = terms.power + self.unknowns.lambda[i].iter().zip(&terms.phi_t).map(|(l, p)| l * p).sum::<f64>();
         Ok(())
     }
 
@@ -221,7 +186,8 @@ impl Stages {
     pub fn work(&mut self, method: &Collocation, from: From, h: f64) {
         let last = from.y.len() - 1;
         for (y, a) in self.y.iter_mut().zip(&method.a) {
-            y[last] = from.y[last] + h * a.iter().zip(&self.power).map(|(a, power)| a * power).sum::<f64>();
+            let power = a.iter().zip(&self.residuals).map(|(a, residual)| a * residual.power);
+            y[last] = from.y[last] + h * power.sum::<f64>();
         }
     }
 }
@@ -232,8 +198,4 @@ pub fn combine(y: &mut [f64], h: f64, weights: &[f64], k: &[Vec<f64>]) {
         let factor = h * weight;
         y.iter_mut().zip(k).for_each(|(y, k)| *y += factor * k);
     }
-}
-
-fn subtract(y: &mut [f64], x: &[f64]) {
-    y.iter_mut().zip(x).for_each(|(y, x)| *y -= x);
 }

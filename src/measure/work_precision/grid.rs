@@ -43,7 +43,7 @@ pub fn grid(filter: &Filter) -> Result<Vec<Triple>> {
     let mut triples = Vec::new();
     for integrator in &integrators {
         let entry = integrator::find(integrator).map_err(|error| error.under("--integrator"))?;
-        for formulation in formulations.iter().filter(|choice| entry.accepts.contains(&choice.name.as_str())) {
+        for formulation in formulations.iter().filter(|choice| entry.takes(&choice.name)) {
             let with =
                 |projection| Triple { formulation: formulation.clone(), integrator: integrator.clone(), projection };
             triples.extend(projections(entry, formulation, filter).into_iter().map(with));
@@ -75,7 +75,7 @@ fn named<'n>(given: &[Choice], known: impl Iterator<Item = &'n str>) -> Vec<Choi
 fn projections(entry: &Entry, formulation: &Choice, filter: &Filter) -> Vec<Choice> {
     let usual: &[&str] = match formulation.name.as_str() {
         "index1" => &["none", "manifold", "exact"],
-        "index2" if integrator::HALF_EXPLICIT == entry.accepts => &["none", "manifold"],
+        "index2" if entry.accepts().eq(["index2"]) => &["none", "manifold"],
         _ => &["none"],
     };
     let wanted = named(&filter.projections, usual.iter().copied());

@@ -214,7 +214,7 @@ impl<'a> Run<'a> {
     }
 
     fn cost(&self, rich: &Yardstick) -> ModelCost {
-        let Dimensions { q, v, lambda } = self.variant.study.system().dimensions();
+        let Dimensions { q, v, lambda, .. } = self.variant.study.system().dimensions();
         let failure = [&self.tight, &self.usual].into_iter().flatten().find_map(|sample| sample.failure.clone());
         let tight = self.tight.as_ref().filter(|_| failure.is_none());
         let own = tight.map(|tight| Yardstick::new(&self.watched.columns, tight.rows.clone(), &tight.sizes));

@@ -155,9 +155,10 @@ impl<T: Field> Unsymmetric<T> {
         }
     }
 
-    /// L += factor B, with the values of B at the places of G.
-    pub fn couple(&mut self, values: &[f64], factor: T) {
-        self.coupling.iter_mut().zip(values).for_each(|(entry, &value)| *entry += factor * value);
+    /// L += B, with the values of B at the places of G, times a factor for each row.
+    pub fn couple(&mut self, values: &[f64], factor: impl Fn(usize) -> T) {
+        let places = self.coupling.iter_mut().zip(&self.g.entries);
+        places.zip(values).for_each(|((entry, &(row, _)), &value)| *entry += factor(row) * value);
     }
 
     /// A_ij += value

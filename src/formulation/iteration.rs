@@ -1,0 +1,368 @@
+//! The matrices with which implicit methods solve their equations.
+
+use super::{Dynamics, Dae, Halt, Residual, Row};
+use crate::math::kkt::{Field, Pattern, SaddlePoint, Singular, Unsymmetric};
+use crate::system::{Loaded, MechanicalSystem, Need, Structure, Tangent};
+use faer::c64;
+use std::ops::{Add, Div, Mul, Sub};
+
+/// Why an implicit method has no matrix.
+pub const NO_TANGENT: Halt = Halt::Unsuitable {
+    reason: "implicit methods need K and C, which these equations do not give",
+    hint: "implement MechanicalSystem::tangent, or use a method that needs none, such as phem56 with index2",
+};
+
+/// M, G, L, K and C at one state, with the factors of [M G^T; G 0] where shifts are solved for.
+pub struct Linearized {
+    dae: Dae,
+    mass: Vec<f64>,
+    g: Vec<f64>,
+    l: Vec<f64>,
+    tangent: Tangent,
+    shifts: Option<SaddlePoint>,
+    dropped: Vec<usize>,
+}
+
+impl Linearized {
+    pub fn new(dae: Dae, system: &dyn MechanicalSystem) -> Self {
+        let structure = system.structure();
+        let zeros = |pattern: &Pattern| vec![0.0; pattern.entries.len()];
+        Linearized {
+            dae,
+            mass: zeros(&structure.mass),
+            g: zeros(&structure.g),
+            l: zeros(&structure.g),
+            tangent: Tangent::new(&structure.tangent),
+            shifts: dae.has_shifts().then(|| SaddlePoint::new(&structure.mass, &structure.g)),
+            dropped: Vec::new(),
+        }
+    }
+
+    /// Takes them at a state. One evaluation of K and C.
+    ///
+    /// # Errors
+    /// [`NO_TANGENT`]; a singular state, where shifts are solved for.
+    pub fn update(&mut self, at: Loaded, dynamics: &mut Dynamics) -> Result<(), Halt> {
+        let need = if self.dae.needs_l() { Need::DYNAMICS | Need::L } else { Need::DYNAMICS };
+        dynamics.evaluate(at.t, at.q, at.v, need);
+        if !dynamics.system.tangent(at, &mut self.tangent, &mut dynamics.scratch) {
+            return Err(NO_TANGENT);
+        }
+        dynamics.statistics.jacobian_evaluations += 1;
+        let terms = &dynamics.terms;
+        self.mass.copy_from_slice(&terms.mass);
+        self.g.copy_from_slice(&terms.g);
+        self.l.copy_from_slice(&terms.l);
+        if let Some(shifts) = &mut self.shifts {
+            if self.dropped != dynamics.held {
+                shifts.hold(&dynamics.held);
+                self.dropped.clone_from(&dynamics.held);
+            }
+            dynamics.statistics.factorizations += 1;
+            shifts.factor(&self.mass, &self.g)?;
+        }
+        Ok(())
+    }
+}
+
+/// How q and v of a method change with its unknowns: dv = v da + w dw, dq = q da + w_q dw + u du.
+#[derive(Clone, Copy, Debug)]
+pub struct Slopes<T> {
+    pub v: T,
+    pub q: T,
+    pub w: T,
+    pub w_q: T,
+    pub u: T,
+}
+
+/// With q and v eliminated by their slopes s, a change of the unknowns solves
+///
+/// ```text
+/// [ M + s_v C + s_q K   G^T ] [ da      ]   [ f - M a - G^T lambda ]
+/// [ G + (l/g) L         0   ] [ dlambda ] = [ -(row of lambda)/g   ]    g = c_0 s_q + c_1 s_v + c_2,  l = c_1 s_q + 2 c_2 s_v
+/// ```
+///
+/// less what the shifts dw and du change there, which come before it from the rows of eta and mu with G da as the row of
+/// lambda asks for it:
+///
+/// ```text
+/// [ M  G^T ] [ dw ]   [ 0                                ]
+/// [ G  0   ] [ .  ] = [ -(row of eta + its g G da) / ... ]    and du likewise
+/// ```
+///
+/// The rows are of the size of accelerations however small the step. Of phi'', its change with q by h^2 is left out.
+/// Source: Hairer, Wanner, Solving Ordinary Differential Dae II, IV.8, with the second-order structure used.
+pub struct Iteration<T> {
+    pub matrix: Unsymmetric<T>,
+    rows: Rows<T>,
+    slopes: Slopes<T>,
+    pub change: Change<T>,
+    part: [Vec<f64>; 2],
+}
+
+/// Changes of the unknowns: da, dw and du with n_v entries each, and dlambda. On the way in the residual is here.
+pub struct Change<T> {
+    pub a: Vec<T>,
+    pub lambda: Vec<T>,
+    pub w: Vec<T>,
+    pub u: Vec<T>,
+    /// G dw and G du.
+    eta: Vec<T>,
+    mu: Vec<T>,
+}
+
+/// A real number, or a complex one that stands for itself and its conjugate.
+pub trait Number:
+    Field + PartialEq + Mul<Output = Self> + Div<Output = Self> + Add<Output = Self> + Sub<Output = Self>
+{
+    const PARTS: usize;
+    fn part(self, k: usize) -> f64;
+    fn set_part(&mut self, part: f64, k: usize);
+    /// Sum with its conjugate.
+    fn total(self) -> f64;
+}
+
+impl Number for f64 {
+    const PARTS: usize = 1;
+    fn part(self, _: usize) -> f64 {
+        self
+    }
+    fn set_part(&mut self, part: f64, _: usize) {
+        *self = part;
+    }
+    fn total(self) -> f64 {
+        self
+    }
+}
+
+impl Number for c64 {
+    const PARTS: usize = 2;
+    fn part(self, k: usize) -> f64 {
+        if k == 0 { self.re } else { self.im }
+    }
+    fn set_part(&mut self, part: f64, k: usize) {
+        if k == 0 { self.re = part } else { self.im = part }
+    }
+    fn total(self) -> f64 {
+        2.0 * self.re
+    }
+}
+
+/// What multiplies G and L in the change of a row by a, w and u.
+#[derive(Clone, Copy)]
+struct Slope<T> {
+    a: [T; 2],
+    w: [T; 2],
+    u: [T; 2],
+}
+
+impl<T: Number> Slope<T> {
+    fn of(row: Row, s: &Slopes<T>) -> Self {
+        let by = |q: T, v: T, a: T| {
+            let g = q * row.position + v * row.velocity + a * row.acceleration;
+            [g, q * row.velocity + v * (2.0 * row.acceleration)]
+        };
+        let (zero, one) = (T::ZERO, T::real(1.0));
+        Slope { a: by(s.q, s.v, one), w: by(s.w_q, s.w, zero), u: by(s.u, zero, zero) }
+    }
+}
+
+/// The slopes of the rows of all multipliers, of holonomic constraints and of the others behind them.
+struct Rows<T> {
+    dae: Dae,
+    holonomic: usize,
+    lambda: [Slope<T>; 2],
+    eta: [Option<Slope<T>>; 2],
+    mu: [Option<Slope<T>>; 2],
+}
+
+impl<T: Number> Rows<T> {
+    fn new(dae: Dae, holonomic: usize, s: &Slopes<T>) -> Self {
+        let both = [dae, dae.nonholonomic()];
+        Rows {
+            dae,
+            holonomic,
+            lambda: both.map(|dae| Slope::of(dae.lambda, s)),
+            eta: both.map(|dae| dae.eta.map(|row| Slope::of(row, s))),
+            mu: both.map(|dae| dae.mu.map(|row| Slope::of(row, s))),
+        }
+    }
+
+    fn kind(&self, row: usize) -> usize {
+        usize::from(row >= self.holonomic)
+    }
+}
+
+impl<T: Number> Iteration<T> {
+    /// None where there is not enough memory.
+    pub fn new(dae: Dae, system: &dyn MechanicalSystem) -> Option<Self> {
+        let (n, structure) = (system.dimensions(), system.structure());
+        let zeros = |n: usize| vec![T::ZERO; n];
+        let shift = |is_there: bool| if is_there { (zeros(n.v), zeros(n.lambda)) } else { (Vec::new(), Vec::new()) };
+        let ((w, eta), (u, mu)) = (shift(dae.eta.is_some()), shift(dae.mu.is_some()));
+        let none = Slopes { v: T::ZERO, q: T::ZERO, w: T::ZERO, w_q: T::ZERO, u: T::ZERO };
+        Some(Iteration {
+            matrix: Unsymmetric::new(&structure.mass, &structure.tangent, &structure.g)?,
+            rows: Rows::new(dae, n.holonomic(), &none),
+            slopes: none,
+            change: Change { a: zeros(n.v), lambda: zeros(n.lambda), w, u, eta, mu },
+            part: [vec![0.0; n.v], vec![0.0; n.lambda]],
+        })
+    }
+
+    /// The matrix for these slopes. One factorization.
+    ///
+    /// # Errors
+    /// A singular matrix.
+    pub fn factor(&mut self, slopes: Slopes<T>, at: &Linearized, dynamics: &mut Dynamics) -> Result<(), Singular> {
+        dynamics.statistics.factorizations += 1;
+        let structure = &dynamics.structure;
+        self.rescale(slopes);
+        self.matrix.hold(&dynamics.held);
+        self.matrix.clear();
+        self.matrix.add_mass(&structure.mass, &at.mass);
+        self.matrix.add(&structure.tangent, &at.tangent.c, slopes.v, false);
+        self.matrix.add(&structure.tangent, &at.tangent.k, slopes.q, false);
+        if at.dae.needs_l() {
+            let rows = &self.rows;
+            let ratio = rows.lambda.map(|Slope { a: [g, l], .. }| l / g);
+            self.matrix.couple(&at.l, |row| ratio[rows.kind(row)]);
+        }
+        self.matrix.factor(&structure.g, &at.g)
+    }
+
+    /// Takes these slopes for the rows, and for the rest those that the matrix is factored for: they should be near.
+    pub fn rescale(&mut self, slopes: Slopes<T>) {
+        self.rows = Rows::new(self.rows.dae, self.rows.holonomic, &slopes);
+        self.slopes = slopes;
+    }
+
+    /// Takes the sum of weighted residuals for the next [`solve`](Self::solve).
+    pub fn load<'r>(&mut self, residuals: impl Iterator<Item = (T, &'r Residual)>) {
+        let Change { a, lambda, eta, mu, .. } = &mut self.change;
+        [&mut *a, lambda, eta, mu].into_iter().for_each(|sum| sum.fill(T::ZERO));
+        for (weight, residual) in residuals {
+            let Residual { motion, lambda: of_lambda, eta: of_eta, mu: of_mu, .. } = residual;
+            for (sum, values) in [(&mut *a, motion), (lambda, of_lambda), (eta, of_eta), (mu, of_mu)] {
+                sum.iter_mut().zip(values).for_each(|(sum, &value)| *sum += weight * value);
+            }
+        }
+    }
+
+    /// Turns the residual into the changes of the unknowns, in `change`. One back-substitution, and for each shift one of
+    /// [M G^T; G 0] (two where numbers are complex).
+    pub fn solve(&mut self, at: &mut Linearized, structure: &Structure) -> Result<(), Halt> {
+        let Iteration { matrix, rows, slopes, change, part } = self;
+        let Change { a, lambda, w, u, eta, mu } = change;
+        for (i, row) in lambda.iter_mut().enumerate() {
+            *row = *row / rows.lambda[rows.kind(i)].a[0];
+        }
+        if let Some(shifts) = &mut at.shifts {
+            for (i, row) in eta.iter_mut().enumerate() {
+                *row = rows.eta[rows.kind(i)].map_or(T::ZERO, |slope| (*row - slope.a[0] * lambda[i]) / slope.w[0]);
+            }
+            shift(shifts, eta, w, part)?;
+            subtract(&structure.tangent, &at.tangent.c, slopes.w, w, a);
+            subtract(&structure.tangent, &at.tangent.k, slopes.w_q, w, a);
+            rows.subtract(&structure.g, &at.l, |slope| slope.w, (w, eta), lambda);
+            for (i, row) in mu.iter_mut().enumerate() {
+                let moved = |slope: Slope<T>| {
+                    let by_w = eta.get(i).map_or(T::ZERO, |gw| slope.w[0] * *gw);
+                    (*row - slope.a[0] * lambda[i] - by_w) / slope.u[0]
+                };
+                *row = rows.mu[rows.kind(i)].map_or(T::ZERO, moved);
+            }
+            shift(shifts, mu, u, part)?;
+            subtract(&structure.tangent, &at.tangent.k, slopes.u, u, a);
+            rows.subtract(&structure.g, &at.l, |slope| slope.u, (u, mu), lambda);
+        }
+        Ok(matrix.solve(a, lambda)?)
+    }
+}
+
+impl<T: Number> Rows<T> {
+    /// lambda -= (g G x + l L x)/g_a, with G x in `gx`: what a shift changes in the rows of lambda.
+    fn subtract(
+        &self,
+        pattern: &Pattern,
+        l: &[f64],
+        by: impl Fn(&Slope<T>) -> [T; 2],
+        (x, gx): (&[T], &[T]),
+        lambda: &mut [T],
+    ) {
+        let factors = self.lambda.map(|slope| by(&slope).map(|factor| factor / slope.a[0]));
+        for (i, gx) in gx.iter().enumerate() {
+            lambda[i] = lambda[i] - factors[self.kind(i)][0] * *gx;
+        }
+        if x.is_empty() || !self.dae.needs_l() {
+            return;
+        }
+        for (&(i, j), &l) in pattern.entries.iter().zip(l) {
+            lambda[i] = lambda[i] - factors[self.kind(i)][1] * x[j] * l;
+        }
+    }
+}
+
+/// The least x in the metric of M with G x = `rows`.
+fn shift<T: Number>(solver: &mut SaddlePoint, rows: &[T], x: &mut [T], part: &mut [Vec<f64>; 2]) -> Result<(), Halt> {
+    if x.is_empty() {
+        return Ok(());
+    }
+    let [top, bottom] = part;
+    for k in 0..T::PARTS {
+        bottom.iter_mut().zip(rows).for_each(|(part, row)| *part = row.part(k));
+        solver.solve_projection(bottom, top)?;
+        x.iter_mut().zip(&*top).for_each(|(x, &part)| x.set_part(part, k));
+    }
+    Ok(())
+}
+
+/// out -= factor (K or C) x
+fn subtract<T: Number>(pattern: &Pattern, values: &[f64], factor: T, x: &[T], out: &mut [T]) {
+    if x.is_empty() || factor == T::ZERO {
+        return;
+    }
+    for (&(i, j), &value) in pattern.entries.iter().zip(values) {
+        out[i] = out[i] - factor * x[j] * value;
+    }
+}
+
+impl Iteration<f64> {
+    /// Damps raw errors of q (along the directions of v) and v along the stiff directions, in place, by the matrix for
+    /// the slopes tau and tau^2:
+    ///
+    /// ```text
+    /// (M + tau C + tau^2 K) e_v + tau G^T e_lambda = M raw_v - tau K raw_x,   e_x = raw_x + tau e_v
+    /// 0 = c_0 G e_x + c_1 (L e_x + G e_v) + c_2 (2 L e_v + G (e_v - raw_v)/tau)
+    /// ```
+    ///
+    /// Source: Hairer, Wanner II, (8.20), by the row of lambda. What phi = 0 alone determines of v has index 2, and its
+    /// error is weighted by the step `h`.
+    pub fn damp(&mut self, at: &Linearized, h: f64, x: &mut [f64], v: &mut [f64], dynamics: &Dynamics) -> Result<(), Halt> {
+        let (structure, tau, row) = (&dynamics.structure, self.slopes.v, self.rows.dae.lambda);
+        let [free, rows] = &mut self.part;
+        let Change { a: top, lambda: bottom, .. } = &mut self.change;
+        free.fill(0.0);
+        structure.tangent.multiply(&at.tangent.k, x, free);
+        free.iter_mut().for_each(|free| *free *= -tau);
+        structure.mass.multiply_symmetric(&at.mass, v, free);
+        top.copy_from_slice(free);
+        bottom.fill(0.0);
+        for (i, (place, &(_, j))) in structure.g.entries.iter().enumerate().map(|(i, place)| (i, (place.0, place))) {
+            let of_x = tau * (row.position * at.g[i] + row.velocity * at.l[i]);
+            bottom[place] += row.acceleration * at.g[i] * v[j] - of_x * x[j];
+        }
+        for (i, bottom) in bottom.iter_mut().enumerate() {
+            *bottom /= self.rows.lambda[self.rows.kind(i)].a[0];
+        }
+        self.matrix.solve(top, bottom)?;
+        x.iter_mut().zip(&*top).for_each(|(x, v)| *x += tau * v);
+        v.copy_from_slice(top);
+        if self.rows.dae.velocity_index() == 2 {
+            rows.fill(0.0);
+            self.matrix.solve(free, rows)?;
+            v.iter_mut().zip(free).for_each(|(v, free)| *v = *free + h * (*v - *free));
+        }
+        Ok(())
+    }
+}

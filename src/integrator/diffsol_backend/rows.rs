@@ -1,0 +1,219 @@
+//! A formulation with its multipliers for implicit integrators.
+
+use super::super::{From, Setup};
+use super::form::{Dense, Form};
+use super::kinematics::Kinematics;
+use crate::formulation::{Dae, Dynamics, Halt, NO_TANGENT, Residual, Row, Statistics};
+use crate::system::{Dimensions, Loaded, Need, Tangent};
+use std::ops::Range;
+
+/// ```text
+/// q' = N (v + u),   v' = a + w,   w' = power
+/// 0 = M a + G^T lambda - f,   0 = M w + G^T eta,   0 = M u + G^T mu,   and the rows of lambda, eta and mu
+/// ```
+///
+/// in q, v, the work, a and lambda, then w and eta, u and mu where the [`Dae`] has them: with rates as unknowns no M stands
+/// before a derivative, where diffsol wants a constant. The Jacobian is exact but for the change of phi'' with q, from which
+/// no stiffness comes, and at mu = eta = 0, which holds for the exact motion. Multipliers of dropped rows are zero.
+pub struct Rows<'s> {
+    dae: Dae,
+    dynamics: Dynamics<'s>,
+    residual: Residual,
+    tangent: Tangent,
+    kinematics: Kinematics,
+    /// v + u
+    velocity: Vec<f64>,
+    places: Places,
+}
+
+/// Where the unknowns stand; the equations of motion are in the rows of a, those of the shifts in theirs.
+struct Places {
+    v: Range<usize>,
+    work: usize,
+    a: Range<usize>,
+    lambda: Range<usize>,
+    /// A shift with its multipliers: of v, and of q.
+    w: Option<[Range<usize>; 2]>,
+    u: Option<[Range<usize>; 2]>,
+    end: usize,
+}
+
+impl Places {
+    fn new(dae: &Dae, n: Dimensions) -> Self {
+        let work = n.q + n.v;
+        let mut end = work + 1;
+        let mut next = |size: usize| {
+            end += size;
+            end - size..end
+        };
+        let (a, lambda) = (next(n.v), next(n.lambda));
+        let w = dae.eta.map(|_| [next(n.v), next(n.lambda)]);
+        let u = dae.mu.map(|_| [next(n.v), next(n.lambda)]);
+        Places { v: n.q..work, work, a, lambda, w, u, end }
+    }
+}
+
+/// Unknowns of a system of these dimensions.
+pub fn unknowns(dae: &Dae, n: Dimensions) -> usize {
+    Places::new(dae, n).end
+}
+
+impl<'s> Rows<'s> {
+    pub fn new(dae: Dae, setup: &Setup<'_, 's>) -> Self {
+        let n = setup.system.dimensions();
+        Rows {
+            dae,
+            dynamics: Dynamics::new(setup.system),
+            residual: Residual::new(n),
+            tangent: Tangent::new(&setup.system.structure().tangent),
+            kinematics: Kinematics::new(setup.system),
+            velocity: vec![0.0; n.v],
+            places: Places::new(&dae, n),
+        }
+    }
+
+    /// v + u
+    fn moves(&mut self, x: &[f64]) {
+        self.velocity.copy_from_slice(&x[self.places.v.clone()]);
+        if let Some([u, _]) = &self.places.u {
+            self.velocity.iter_mut().zip(&x[u.clone()]).for_each(|(velocity, u)| *velocity += u);
+        }
+    }
+
+    /// The rows of q' and v' of the Jacobian.
+    fn rates(&mut self, x: &[f64], out: &mut Dense) {
+        self.moves(x);
+        let Places { v, a, w, u, .. } = &self.places;
+        let (system, q) = (self.dynamics.system, &x[..v.start]);
+        self.kinematics.update(system, q);
+        self.kinematics.by_q(system, q, &self.velocity, out);
+        self.kinematics.by_v((0, v.start), out);
+        u.iter().for_each(|[u, _]| self.kinematics.by_v((0, u.start), out));
+        let rates = [Some(a), w.as_ref().map(|[w, _]| w)];
+        for rate in rates.into_iter().flatten() {
+            rate.clone().zip(v.clone()).for_each(|(rate, v)| out.add(v, rate, 1.0));
+        }
+    }
+
+    /// The equations of motion, and of the shifts.
+    fn balances(&self, out: &mut Dense) {
+        let Places { v, a, lambda, w, u, .. } = &self.places;
+        let (terms, structure) = (&self.dynamics.terms, &self.dynamics.structure);
+        let (mass, g, tangent) = (&structure.mass, &structure.g, &structure.tangent);
+        self.kinematics.along(a.start, tangent, &self.tangent.k, out);
+        out.block((a.start, v.start), tangent, &self.tangent.c);
+        let pairs = [Some([a, lambda]), w.as_ref().map(|[w, eta]| [w, eta]), u.as_ref().map(|[u, mu]| [u, mu])];
+        for [moved, multipliers] in pairs.into_iter().flatten() {
+            out.symmetric((moved.start, moved.start), mass, &terms.mass, 1.0);
+            out.transposed((moved.start, multipliers.start), g, &terms.g);
+        }
+    }
+
+    /// The rows of one kind of multipliers, which begin at `at`.
+    fn constraints(&self, dae: impl Fn(&Dae) -> Option<Row>, at: usize, out: &mut Dense) {
+        let Places { v, a, .. } = &self.places;
+        let (terms, g) = (&self.dynamics.terms, &self.dynamics.structure.g);
+        let kinds = [dae(&self.dae), dae(&self.dae.nonholonomic())];
+        let holonomic = self.dynamics.system.dimensions().holonomic();
+        let dropped = &self.dynamics.held;
+        dropped.iter().for_each(|row| out.add(at + row, at + row, 1.0));
+        for (&(i, j), (g, l)) in g.entries.iter().zip(terms.g.iter().zip(&terms.l)) {
+            if dropped.contains(&i) {
+                continue;
+            }
+            let Some(row) = kinds[usize::from(i >= holonomic)] else { continue };
+            self.kinematics.add_along(at + i, j, row.position * g + row.velocity * l, out);
+            out.add(at + i, v.start + j, row.velocity * g + 2.0 * row.acceleration * l);
+            out.add(at + i, a.start + j, row.acceleration * g);
+        }
+    }
+}
+
+impl Form for Rows<'_> {
+    fn len(&self) -> usize {
+        self.places.end
+    }
+
+    fn start(&mut self, from: From, x: &mut [f64], rate: &mut [f64]) -> Result<(), Halt> {
+        let Places { v, work, a, lambda, .. } = &self.places;
+        let (q, speed) = (&from.y[..v.start], &from.y[v.clone()]);
+        self.dynamics.solve(from.t, q, speed, |_, _| 0.0)?;
+        let is_dropped = |row: &usize| self.dynamics.held.contains(row);
+        if !self.dynamics.kkt.left_out().iter().all(is_dropped) {
+            return Err(Halt::Unsuitable {
+                reason: "redundant constraints cannot be solved by this integrator",
+                hint: "`holonom check` names them; radau_iia and generalized_alpha solve them",
+            });
+        }
+        x.fill(0.0);
+        rate.fill(0.0);
+        x[..=*work].copy_from_slice(from.y);
+        rate[..=*work].copy_from_slice(from.slope);
+        x[a.clone()].copy_from_slice(&self.dynamics.vdot);
+        x[lambda.clone()].copy_from_slice(&self.dynamics.lambda);
+        Ok(())
+    }
+
+    fn evaluate(&mut self, t: f64, x: &[f64], out: &mut [f64]) -> Result<(), Halt> {
+        self.moves(x);
+        let Places { v, work, a, lambda, w, u, .. } = &self.places;
+        let (dynamics, q) = (&mut self.dynamics, &x[..v.start]);
+        let state = (t, q, &x[v.clone()]);
+        self.residual.evaluate(&self.dae, state, (&x[a.clone()], &x[lambda.clone()]), dynamics)?;
+        out.fill(0.0);
+        dynamics.system.rate(q, &self.velocity, &mut out[..v.start]);
+        out[v.clone()].copy_from_slice(&x[a.clone()]);
+        out[*work] = self.residual.power;
+        out[a.clone()].copy_from_slice(&self.residual.motion);
+        out[lambda.clone()].copy_from_slice(&self.residual.lambda);
+        if let Some([w, eta]) = w {
+            out[v.clone()].iter_mut().zip(&x[w.clone()]).for_each(|(rate, w)| *rate += w);
+            out[eta.clone()].copy_from_slice(&self.residual.eta);
+        }
+        if let Some([_, mu]) = u {
+            out[mu.clone()].copy_from_slice(&self.residual.mu);
+        }
+        let (terms, structure) = (&dynamics.terms, &dynamics.structure);
+        for [moved, multipliers] in [w, u].into_iter().flatten() {
+            structure.mass.multiply_symmetric(&terms.mass, &x[moved.clone()], &mut out[moved.clone()]);
+            structure.g.multiply_transposed(&terms.g, &x[multipliers.clone()], &mut out[moved.clone()]);
+        }
+        let multipliers = [Some(lambda), w.as_ref().map(|[_, eta]| eta), u.as_ref().map(|[_, mu]| mu)];
+        for place in multipliers.into_iter().flatten() {
+            dynamics.held.iter().for_each(|row| out[place.start + row] = -x[place.start + row]);
+        }
+        // The residual has its sign turned.
+        out[a.start..].iter_mut().for_each(|left| *left = -*left);
+        for [moved, _] in [w, u].into_iter().flatten() {
+            out[moved.clone()].iter_mut().for_each(|left| *left = -*left);
+        }
+        Ok(())
+    }
+
+    fn jacobian(&mut self, t: f64, x: &[f64], out: &mut Dense) -> Result<(), Halt> {
+        let Places { v, a, lambda, w, u, .. } = &self.places;
+        let (dynamics, q, v) = (&mut self.dynamics, &x[..v.start], &x[v.clone()]);
+        dynamics.statistics.jacobian_evaluations += 1;
+        dynamics.evaluate(t, q, v, Need::DYNAMICS | Need::L);
+        let at = Loaded { t, q, v, vdot: &x[a.clone()], lambda: &x[lambda.clone()] };
+        if !dynamics.system.tangent(at, &mut self.tangent, &mut dynamics.scratch) {
+            return Err(NO_TANGENT);
+        }
+        let places = [Some(lambda), w.as_ref().map(|[_, eta]| eta), u.as_ref().map(|[_, mu]| mu)];
+        let [of_lambda, of_eta, of_mu] = places.map(|place| place.map(|place| place.start));
+        self.rates(x, out);
+        self.balances(out);
+        of_lambda.into_iter().for_each(|at| self.constraints(|dae| Some(dae.lambda), at, out));
+        of_eta.into_iter().for_each(|at| self.constraints(|dae| dae.eta, at, out));
+        of_mu.into_iter().for_each(|at| self.constraints(|dae| dae.mu, at, out));
+        Ok(())
+    }
+
+    fn follow(&mut self, run: &Dynamics) {
+        self.dynamics.follow(run);
+    }
+
+    fn statistics(&mut self) -> &mut Statistics {
+        &mut self.dynamics.statistics
+    }
+}

@@ -1,0 +1,109 @@
+//! The simplified Newton iteration: one saddle-point system for each eigenvalue of A.
+
+use super::collocation::{Collocation, Mode};
+use super::stages::Unknowns;
+use crate::error::{Error, Result};
+use crate::formulation::{Dae, Dynamics, Halt, Iteration, Linearized, Number, Residual, Slopes};
+use crate::integrator::Setup;
+use crate::math::kkt::Singular;
+use faer::c64;
+
+/// The matrices of all eigenvalues at one state, for one step and method.
+pub struct Matrices {
+    pub real: Iteration<f64>,
+    pairs: Vec<Iteration<c64>>,
+    /// The step and the method that they are factored for, and the rows that are dropped there.
+    factored: Option<(f64, usize)>,
+    dropped: Vec<usize>,
+}
+
+/// V changes by h a W and Q by (h a)^2 W where W is the change of V' along an eigenvector of A with the eigenvalue a.
+fn slopes<T: Number>(ha: T) -> Slopes<T> {
+    Slopes { v: ha, q: ha * ha, w: ha, w_q: ha * ha, u: ha }
+}
+
+impl Matrices {
+    pub fn new(dae: Dae, most_pairs: usize, setup: &Setup) -> Result<Self> {
+        let no_memory = || Error::input("there is not enough memory for the matrices of this size");
+        let pair = |_| Iteration::new(dae, setup.system).ok_or_else(no_memory);
+        Ok(Matrices {
+            real: Iteration::new(dae, setup.system).ok_or_else(no_memory)?,
+            pairs: (0..most_pairs).map(pair).collect::<Result<_>>()?,
+            factored: None,
+            dropped: Vec::new(),
+        })
+    }
+
+    /// Factors for a step `h` of `method`, of that index, unless that is done.
+    pub fn factor(
+        &mut self,
+        (method, index): (&Collocation, usize),
+        h: f64,
+        at: &Linearized,
+        dynamics: &mut Dynamics,
+    ) -> Result<(), Singular> {
+        if self.factored == Some((h, index)) && self.dropped == dynamics.held {
+            return Ok(());
+        }
+        self.factored = None;
+        self.real.factor(slopes(h * method.real.value), at, dynamics)?;
+        for (pair, mode) in self.pairs.iter_mut().zip(&method.pairs) {
+            pair.factor(slopes(mode.value * h), at, dynamics)?;
+        }
+        self.factored = Some((h, index));
+        self.dropped.clone_from(&dynamics.held);
+        Ok(())
+    }
+
+    /// They belong to another state from now on.
+    pub fn forget(&mut self) {
+        self.factored = None;
+    }
+
+    /// Sets the multipliers that no correction reaches to zero.
+    pub fn leave_out(&self, unknowns: &mut Unknowns) {
+        unknowns.leave_out(self.real.matrix.left_out());
+        self.pairs.iter().for_each(|pair| unknowns.leave_out(pair.matrix.left_out()));
+    }
+
+    /// One correction of all stages by their residuals.
+    pub fn correct(
+        &mut self,
+        method: &Collocation,
+        residuals: &[Residual],
+        at: &mut Linearized,
+        unknowns: &mut Unknowns,
+        dynamics: &mut Dynamics,
+    ) -> Result<(), Halt> {
+        dynamics.statistics.newton_iterations += 1;
+        correct(&mut self.real, &method.real, residuals, at, unknowns, dynamics)?;
+        let mut pairs = self.pairs.iter_mut().zip(&method.pairs);
+        pairs.try_for_each(|(pair, mode)| correct(pair, mode, residuals, at, unknowns, dynamics))
+    }
+}
+
+/// The part of all stages along one eigenvector.
+fn correct<T: Number>(
+    iteration: &mut Iteration<T>,
+    mode: &Mode<T>,
+    residuals: &[Residual],
+    at: &mut Linearized,
+    unknowns: &mut Unknowns,
+    dynamics: &Dynamics,
+) -> Result<(), Halt> {
+    iteration.load(mode.left.iter().copied().zip(residuals));
+    iteration.solve(at, &dynamics.structure)?;
+    let (change, Unknowns { a, lambda, w, u }) = (&iteration.change, unknowns);
+    spread(mode, &change.a, a);
+    spread(mode, &change.lambda, lambda);
+    spread(mode, &change.w, w);
+    spread(mode, &change.u, u);
+    Ok(())
+}
+
+/// Adds a part along a mode, and along its conjugate, to the stages.
+fn spread<T: Number>(mode: &Mode<T>, change: &[T], out: &mut [Vec<f64>]) {
+    for (&right, out) in mode.right.iter().zip(out) {
+        out.iter_mut().zip(change).for_each(|(out, &change)| *out += (right * change).total());
+    }
+}

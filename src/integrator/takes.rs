@@ -1,0 +1,23 @@
+//! Which formulations a family of methods integrates.
+
+use crate::formulation::{Dae, Entry, Row};
+
+/// Vector fields, for explicit methods.
+pub(super) fn vector_fields(formulation: &Entry) -> bool {
+    formulation.field.is_some()
+}
+
+/// phi = 0 alone.
+pub(super) fn position_rows(formulation: &Entry) -> bool {
+    formulation.default_dae() == Some(Dae::with(Row::POSITION))
+}
+
+/// phi' = 0 alone, for half-explicit methods.
+pub(super) fn velocity_rows(formulation: &Entry) -> bool {
+    formulation.default_dae() == Some(Dae::with(Row::VELOCITY))
+}
+
+/// Whatever holds phi = 0.
+pub(super) fn positions(formulation: &Entry) -> bool {
+    formulation.default_dae().is_some_and(|dae| dae.holds(0))
+}

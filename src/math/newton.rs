@@ -1,0 +1,222 @@
+//! Newton's method: one loop and one judge of its convergence, under all that is solved by iteration.
+
+/// What an iteration is allowed, in the unit of the sizes of its changes.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Limits {
+    /// Corrections at most.
+    pub most: usize,
+    /// Tolerated error of the result.
+    pub tolerance: f64,
+    /// Changes up to this size are round-off.
+    pub round_off: f64,
+    /// Stagnation tolerance: changes up to this size that no longer fall are round-off too.
+    pub stagnation: f64,
+    /// Corrections that may grow before the iteration counts as diverged.
+    pub patience: usize,
+    /// A smaller rate than this is not relied upon.
+    pub least_rate: f64,
+    /// With a rate up to this the matrix serves the next system too.
+    pub kept_rate: f64,
+}
+
+/// What is to be done after a correction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    Continue,
+    Converged,
+    Diverged,
+}
+
+/// Judges the sizes of successive changes d_k. With the rate theta = |d_k|/|d_(k-1)|, the geometric mean of the last two, the
+/// error left after a correction is theta/(1 - theta) |d_k|. Source: Hairer, Wanner, Solving Ordinary Differential
+/// Equations II, IV.8.
+#[derive(Clone, Debug)]
+pub struct Monitor {
+    limits: Limits,
+    /// Ratio of successive changes; [`AT_ONCE`] after a single one.
+    pub rate: f64,
+    pub iterations: usize,
+    /// Whether the last iteration ended where its changes no longer fell.
+    pub has_stagnated: bool,
+    /// theta/(1 - theta), kept between iterations as a first guess.
+    contraction: f64,
+    size: f64,
+    ratio: f64,
+    /// Size of the change with which the last iteration diverged; infinite once one converged.
+    stalled: f64,
+}
+
+/// The rate where one correction was enough.
+const AT_ONCE: f64 = 1e-3;
+/// Rates above which an iteration has diverged: after two changes, of which the first may have corrected what the start
+/// left of its constraints, and later.
+const DIVERGED: [f64; 2] = [2.0, 0.99];
+/// Below the stagnation tolerance changes that shrink by less than this no longer fall.
+const STAGNANT: f64 = 0.5;
+/// Round-off that shorter steps meet again is of the same size but for this factor, and at most this part of the unit.
+const ALIKE: f64 = 10.0;
+const TOLERABLE: f64 = 0.1;
+/// A matrix whose corrections shrink by less does not serve its own system.
+const RENEWED: f64 = 0.3;
+
+impl Default for Monitor {
+    fn default() -> Self {
+        Monitor {
+            limits: Limits::default(),
+            rate: AT_ONCE,
+            iterations: 0,
+            has_stagnated: false,
+            contraction: 1.0,
+            size: f64::INFINITY,
+            ratio: 1.0,
+            stalled: f64::INFINITY,
+        }
+    }
+}
+
+impl Monitor {
+    /// Iterates: `correct` takes off one correction, with a new matrix where it is told `true`, and returns the size of the
+    /// change. Returns whether the iteration converged.
+    pub fn solve<E>(&mut self, limits: Limits, mut correct: impl FnMut(bool) -> Result<f64, E>) -> Result<bool, E> {
+        self.begin(limits);
+        loop {
+            let change = correct(self.wants_matrix())?;
+            match self.judge(change) {
+                Verdict::Continue => {}
+                verdict => return Ok(verdict == Verdict::Converged),
+            }
+        }
+    }
+
+    fn begin(&mut self, limits: Limits) {
+        self.limits = limits;
+        self.contraction = self.contraction.powf(0.8);
+        (self.rate, self.iterations, self.has_stagnated, self.size) = (AT_ONCE, 0, false, f64::INFINITY);
+    }
+
+    /// Whether the corrections so far ask for another matrix.
+    fn wants_matrix(&self) -> bool {
+        self.iterations > 1 && self.ratio > RENEWED && self.size > self.limits.stagnation
+    }
+
+    /// Whether the matrix of the last iteration is good enough for the next one.
+    pub fn keeps_matrix(&self) -> bool {
+        self.rate <= self.limits.kept_rate
+    }
+
+    /// What is left of the error, in the unit of changes.
+    pub fn error(&self) -> f64 {
+        self.contraction * self.size
+    }
+
+    fn judge(&mut self, change: f64) -> Verdict {
+        let verdict = self.watch(change);
+        self.stalled = match verdict {
+            Verdict::Converged => f64::INFINITY,
+            Verdict::Diverged if self.is_round_off(change) => {
+                (self.rate, self.has_stagnated, self.stalled) = (AT_ONCE, true, f64::INFINITY);
+                return Verdict::Converged;
+            }
+            Verdict::Diverged => change,
+            Verdict::Continue => self.stalled,
+        };
+        verdict
+    }
+
+    /// Whether changes that no longer fall are round-off: they are below the stagnation tolerance, or tolerable and of the
+    /// size at which the iteration of a longer step stopped too, which would contract less: unlike masses and nearly
+    /// dependent constraints make round-off larger than is known.
+    fn is_round_off(&self, change: f64) -> bool {
+        let is_met_again = change <= ALIKE * self.stalled && self.stalled <= ALIKE * change;
+        change <= self.limits.stagnation || change <= TOLERABLE && is_met_again
+    }
+
+    fn watch(&mut self, change: f64) -> Verdict {
+        let Limits { most, tolerance, round_off, stagnation, patience, least_rate, .. } = self.limits;
+        self.iterations += 1;
+        let last = std::mem::replace(&mut self.size, change.max(f64::MIN_POSITIVE));
+        if change <= round_off {
+            self.rate = self.rate.min(AT_ONCE);
+            return Verdict::Converged;
+        }
+        if self.iterations > 1 {
+            let ratio = change / last;
+            self.rate = if self.iterations == 2 { ratio } else { (ratio * self.ratio).sqrt() };
+            self.ratio = ratio;
+            let limit = DIVERGED[usize::from(self.iterations > 2)];
+            let is_stagnant = self.iterations > 2 && change <= stagnation && self.rate > STAGNANT;
+            if self.rate.is_nan() || is_stagnant || self.rate > limit && self.iterations > patience {
+                return Verdict::Diverged;
+            }
+            self.rate = self.rate.min(DIVERGED[1]);
+            self.contraction = (self.rate / (1.0 - self.rate)).max(least_rate);
+            let left = most.saturating_sub(self.iterations) as i32;
+            if self.iterations > patience.max(2) && self.contraction * change * self.rate.powi(left) > tolerance {
+                return Verdict::Diverged;
+            }
+        }
+        match change {
+            _ if self.contraction * change <= tolerance => Verdict::Converged,
+            _ if self.iterations >= most || change.is_nan() => Verdict::Diverged,
+            _ => Verdict::Continue,
+        }
+    }
+
+    /// What the next iteration takes from the last: see [`restore`](Self::restore).
+    pub fn memory(&self) -> [f64; 2] {
+        [self.contraction, self.stalled]
+    }
+
+    /// Goes on as the monitor whose [`memory`](Self::memory) this was.
+    pub fn restore(&mut self, [contraction, stalled]: [f64; 2]) {
+        (self.contraction, self.stalled) = (contraction, stalled);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIMITS: Limits = Limits {
+        most: 20,
+        tolerance: 1e-3,
+        round_off: 1e-12,
+        stagnation: 1e-9,
+        patience: 0,
+        least_rate: 0.0,
+        kept_rate: 1e-3,
+    };
+
+    /// The sizes of changes that shrink by `rate` until the iteration ends.
+    fn run(monitor: &mut Monitor, limits: Limits, rate: f64, floor: f64) -> (bool, usize) {
+        let mut size = 1.0 / rate;
+        let converged = monitor.solve(limits, |_| {
+            size = (size * rate).max(floor);
+            Ok::<_, ()>(size)
+        });
+        (converged == Ok(true), monitor.iterations)
+    }
+
+    #[test]
+    fn the_error_left_is_that_of_the_rate() {
+        let mut monitor = Monitor::default();
+        // 1, 0.1, 0.01, 0.001: what is left of the third change is a ninth of it.
+        assert_eq!(run(&mut monitor, LIMITS, 0.1, 0.0), (true, 4));
+        assert!((monitor.error() / (1e-3 / 9.0) - 1.0).abs() < 1e-12 && !monitor.keeps_matrix());
+    }
+
+    #[test]
+    fn an_iteration_that_cannot_arrive_is_given_up_early() {
+        let (converged, iterations) = run(&mut Monitor::default(), LIMITS, 0.8, 0.0);
+        assert!(!converged && iterations == 3, "{iterations}");
+    }
+
+    #[test]
+    fn changes_that_stop_falling_at_round_off_are_accepted_and_said_so() {
+        let mut monitor = Monitor::default();
+        let exact = Limits { tolerance: 1e-14, ..LIMITS };
+        let (converged, _) = run(&mut monitor, exact, 1e-3, 1e-10);
+        assert!(converged && monitor.has_stagnated);
+        assert!(!run(&mut monitor, exact, 1e-3, 1e-7).0, "above the stagnation tolerance");
+    }
+}
