@@ -1,26 +1,31 @@
 //! Advice over all scenes: `cargo bench --bench advice`, some 20 minutes on two cores; with names, these scenes alone.
 //!
-//! Each scene is measured as `holonom tradeoff --budget 20s` does it, with three methods more: the scene's own, that of a
-//! scene without one, and that of `--method auto` at 3, 6 and 9 digits. From these runs come three tables:
+//! Each scene is measured as `holonom tradeoff --budget 20s` does it, with two methods more: the scene's own, and that of a
+//! scene without one; then `--method auto` as it runs, changes of method and trials included, at rtol 1e-3 to 1e-12. From
+//! these runs come three tables:
 //!
 //! - Error over tolerance of each integrator at rtol 1e-3, 1e-6, 1e-9.
 //! - Cost of the three at 3, 6, 9 digits over that of the best; a dash where no run came to the digits in the time.
 //! - What is recommended, and how far the reference vouches.
 
 use holonom::error::Result;
+use holonom::formulation::{Choice, Statistics};
+use holonom::measure::Drift;
 use holonom::measure::work_precision::{
-    Cell, Filter, Motion, Outcome, Plan, Runner, Triple, Watched, WorkPrecision, grid,
+    Cell, Filter, Motion, Outcome, Plan, Runner, Triple, Watched, WorkPrecision, cpu_seconds, grid,
 };
 use holonom::report::Table;
-use holonom::scene::Automatic;
-use holonom::simulate::Method;
+use holonom::simulate::{Leg, Method, Observation, Sink, Span, Stop, atol_of, simulate_automatic};
 use holonom::study::{Overrides, Study};
+use holonom::system::{MechanicalSystem, Scratch};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 const BUDGET: Duration = Duration::from_secs(20);
 const DIGITS: [u32; 3] = [3, 6, 9];
+/// One run of auto may take so long.
+const LONGEST: Duration = Duration::from_secs(10);
 /// Scenes at a time: the search for a reference takes several threads of each.
 const AT_ONCE: usize = 2;
 /// Of each integrator, in the forms that are usual: formulation and projection.
@@ -41,11 +46,18 @@ const USUAL: [(&str, &str, &str); 10] = [
 struct Measured {
     name: String,
     result: WorkPrecision,
-    /// The scene's own, without one, auto for each number of digits.
+    /// The scene's own, and that without one.
     own: Triple,
     default: Triple,
-    auto: Vec<Triple>,
+    auto: Vec<Automatic>,
     wall: f64,
+}
+
+/// A run of auto.
+struct Automatic {
+    digits: u32,
+    /// Of legs and trials; where work of a kind has no price, the CPU time.
+    cost: f64,
 }
 
 fn triple(method: &Method) -> Triple {
@@ -56,15 +68,9 @@ fn triple(method: &Method) -> Triple {
 fn measure(path: &Path) -> Result<Measured> {
     let clock = Instant::now();
     let study = Study::load(path, &Overrides::default())?;
-    let auto = |digits: &u32| {
-        let rtol = 0.1f64.powi(*digits as i32);
-        let overrides = Overrides { method: Some(Automatic::Auto), rtol: Some(rtol), ..Overrides::default() };
-        Study::load(path, &overrides).map(|study| triple(&study.method))
-    };
-    let auto: Vec<Triple> = DIGITS.iter().map(auto).collect::<Result<_>>()?;
     let (own, default) = (triple(&study.method), triple(&Method::default()));
     let mut triples = grid(&Filter::default())?;
-    for asked in [&own, &default].into_iter().chain(&auto) {
+    for asked in [&own, &default] {
         if !triples.contains(asked) {
             triples.push(asked.clone());
         }
@@ -75,8 +81,92 @@ fn measure(path: &Path) -> Result<Measured> {
     let between = (span.start, span.end);
     let motion = Motion { system: study.system(), start: study.start(), between, ratio, is_stopped: &|| false };
     let mut result = WorkPrecision::fresh(&study.name, between, rows);
-    Runner::new(motion, &plan, Watched::new(study.system(), &[])?, |_, _| ()).run(&mut result)?;
+    let watched = Watched::new(study.system(), &[])?;
+    Runner::new(motion, &plan, watched.clone(), |_, _| ()).run(&mut result)?;
+    let span = Span { output_step: (span.end - span.start) / rows as f64, ..span };
+    let mut auto = Vec::new();
+    for decades in 3..=12 {
+        auto.extend(automatic(&study, (&result, &watched), span, decades)?);
+        if auto.last().is_some_and(|run| run.digits >= DIGITS[2]) {
+            break;
+        }
+    }
     Ok(Measured { name: study.name.clone(), result, own, default, auto, wall: clock.elapsed().as_secs_f64() })
+}
+
+/// Auto at rtol 10^-decades; none where it did not come to its end.
+fn automatic(
+    study: &Study,
+    (result, watched): (&WorkPrecision, &Watched),
+    span: Span,
+    decades: u32,
+) -> Result<Option<Automatic>> {
+    let rtol = 0.1f64.powi(decades as i32);
+    let tolerances = (rtol, atol_of(rtol, study.method.atol / study.method.rtol));
+    let system = study.system();
+    let (rows, drift, scratch) = (Vec::new(), Drift::default(), Scratch::default());
+    let mut seen = Seen { system, watched, scales: system.scales(), scratch, rows, drift, begun: Instant::now() };
+    let (run, seconds) = cpu_seconds(|| simulate_automatic(system, tolerances, span, study.start(), &mut seen));
+    let (outcome, legs) = run?;
+    let told: Vec<String> =
+        legs.iter().map(|leg| format!("{} from {:.2e} s", leg.method.integrator.name, leg.from)).collect();
+    let told = format!("{}: auto at 1e-{decades}, {}", study.name, told.join(", "));
+    let Some(reference) = result.reference.as_ref().filter(|_| outcome.failure.is_none()) else {
+        println!("{told}: {}", outcome.failure.map_or(String::new(), |failure| failure.reason));
+        return Ok(None);
+    };
+    let error = reference.values.error(&seen.rows[1..]).0 + reference.error;
+    let error = error.max(seen.drift.position.relative_max);
+    let cost = cost(result, &legs).unwrap_or(seconds);
+    println!("{told}: error {error:.1e}, {cost:.2e} s by counts, {seconds:.2e} s");
+    Ok(Some(Automatic { digits: (-error.log10()).floor().max(0.0) as u32, cost }))
+}
+
+/// By the prices of the work of each kind.
+fn cost(result: &WorkPrecision, legs: &[Leg]) -> Option<f64> {
+    let mut priced = result.clone();
+    let known = priced.cells.len();
+    for Leg { method, statistics, trials, .. } in legs {
+        let is_explicit = method.integrator.name == "dop853";
+        let (formulation, integrator) = if is_explicit { ("ggl", "radau_iia") } else { ("index1", "dop853") };
+        let (formulation, integrator) = (Choice::named(formulation), Choice::named(integrator));
+        priced.cells.push(unpriced(method.clone(), is_explicit, *statistics));
+        priced.cells.push(unpriced(Method { formulation, integrator, ..method.clone() }, !is_explicit, *trials));
+    }
+    priced.price();
+    let worked = priced.cells[known..].iter().filter(|cell| cell.statistics() != Some(Statistics::default()));
+    worked.map(|cell| cell.cost).sum()
+}
+
+fn unpriced(method: Method, is_explicit: bool, statistics: Statistics) -> Cell {
+    let (worst, drift, cpu_seconds) = (String::new(), (&Drift::default()).into(), Vec::new());
+    let outcome = Outcome::Completed { error: 1.0, worst, drift, cpu_seconds, statistics };
+    Cell { method, decades: 0, is_explicit, cost: None, outcome }
+}
+
+/// What is compared of a run of auto.
+struct Seen<'a> {
+    system: &'a dyn MechanicalSystem,
+    watched: &'a Watched,
+    scales: Vec<f64>,
+    scratch: Scratch,
+    rows: Vec<Vec<f64>>,
+    drift: Drift,
+    begun: Instant,
+}
+
+impl Sink for Seen<'_> {
+    fn accepted(&mut self, state: &Observation) {
+        self.drift.add(state, &self.scales);
+    }
+
+    fn row(&mut self, state: &Observation) {
+        self.rows.push(self.watched.read(self.system, state, &mut self.scratch));
+    }
+
+    fn stops(&self) -> Option<Stop> {
+        (self.begun.elapsed() > LONGEST).then(|| Stop::deadline(LONGEST))
+    }
 }
 
 impl Measured {
@@ -91,6 +181,13 @@ impl Measured {
         let good = self.of(triple).filter(|cell| cell.digits() >= Some(f64::from(digits)));
         let cost = good.filter_map(|cell| cell.cost).reduce(f64::min)?;
         Some(cost / self.result.cells[best].cost?)
+    }
+
+    /// The same of auto.
+    fn auto_behind(&self, digits: u32) -> Option<f64> {
+        let best = self.result.recommend(digits)?.best;
+        let good = self.auto.iter().filter(|run| run.digits >= digits);
+        Some(good.map(|run| run.cost).reduce(f64::min)? / self.result.cells[best].cost?)
     }
 
     fn failed(&self) -> usize {
@@ -171,18 +268,15 @@ fn costs(all: &[Measured]) -> Table {
     let mut table = Table::new(&headings).words(1);
     for scene in all {
         let number = |ratio: Option<f64>| ratio.map_or("-".to_string(), |ratio| format!("{ratio:.2}"));
-        let three = |of: &dyn Fn(usize) -> Triple| {
-            let ratios = DIGITS.iter().enumerate().map(|(place, digits)| number(scene.behind(&of(place), *digits)));
-            ratios.collect::<Vec<_>>().join(" ")
-        };
+        let three = |of: &dyn Fn(u32) -> Option<f64>| DIGITS.map(|digits| number(of(digits))).join(" ");
         let best = scene.result.recommend(6).map(|advice| scene.result.cells[advice.best].method.triple());
         table.row(vec![
             scene.name.clone(),
             format!("{:.1} s", scene.wall),
             scene.result.reference.as_ref().map_or("-".to_string(), |reference| format!("{:.0e}", reference.error)),
-            three(&|_| scene.own.clone()),
-            three(&|_| scene.default.clone()),
-            three(&|place| scene.auto[place].clone()),
+            three(&|digits| scene.behind(&scene.own, digits)),
+            three(&|digits| scene.behind(&scene.default, digits)),
+            three(&|digits| scene.auto_behind(digits)),
             scene.failed().to_string(),
             best.unwrap_or_else(|| "-".to_string()),
         ]);

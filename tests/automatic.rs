@@ -2,52 +2,111 @@
 
 mod scenes;
 
-use holonom::measure::Recorder;
-use holonom::simulate::{Leg, Outcome, Span, simulate_automatic};
+use holonom::formulation::{Choice, Statistics};
+use holonom::measure::{Record, Recorder};
+use holonom::simulate::{Leg, Method, Outcome, Span, simulate, simulate_automatic};
+use holonom::study::{Overrides, Study};
 use scenes::{Ready, parse, shipped};
+use std::path::Path;
 
-/// Begins with a method named, whether it is a good one or not.
-fn begun_with(scene: &Ready, names: [&str; 3], span: Span) -> (Outcome, Vec<Leg>, holonom::measure::Record) {
-    let [formulation, integrator, projection] = names.map(holonom::formulation::Choice::named);
-    let method = holonom::simulate::Method { formulation, integrator, projection, rtol: 1e-7, atol: 1e-9, step: None };
-    let first = Leg { from: span.start, method, because: String::new() };
+fn automatic(scene: &Ready, rtol: f64, span: Span) -> (Outcome, Vec<Leg>, Record) {
     let mut recorder = Recorder::new(scene.system());
-    let (outcome, legs) = simulate_automatic(scene.system(), &first, span, scene.0.start(), &mut recorder).unwrap();
+    let start = scene.0.start();
+    let (outcome, legs) = simulate_automatic(scene.system(), (rtol, 1e-2 * rtol), span, start, &mut recorder).unwrap();
     (outcome, legs, recorder.finish())
 }
 
-const EXPLICIT: [&str; 3] = ["index1", "dop853", "manifold"];
+fn alone(scene: &Ready, names: [&str; 3], rtol: f64, span: Span) -> Outcome {
+    let [formulation, integrator, projection] = names.map(Choice::named);
+    let method = Method { formulation, integrator, projection, rtol, atol: 1e-2 * rtol, step: None };
+    simulate(scene.system(), &method, span, scene.0.start(), &mut Recorder::new(scene.system())).unwrap()
+}
+
+/// Largest difference of a coordinate, relative to the largest coordinate.
+fn gap(a: &Outcome, b: &Outcome) -> f64 {
+    let size = a.q.iter().fold(0.0f64, |size, q| size.max(q.abs()));
+    a.q.iter().zip(&b.q).fold(0.0f64, |gap, (a, b)| gap.max((a - b).abs())) / size
+}
+
+fn integrators(legs: &[Leg]) -> Vec<&str> {
+    legs.iter().map(|leg| leg.method.integrator.name.as_str()).collect()
+}
+
 const IMPLICIT: [&str; 3] = ["ggl", "radau_iia", "none"];
 
-/// Whatever a run begins with, it goes on with what comes farther: fine finite elements that no step of dop853 goes over,
-/// and a pendulum that has nothing fast.
+/// Fine finite elements that no step of dop853 goes over are left to what comes farther.
 #[test]
 fn a_bad_beginning_is_left() {
-    for (scene, first, then) in
-        [(shipped("spin_up_beam", &[]), EXPLICIT, "radau_iia"), (shipped("pendulum", &[]), IMPLICIT, "dop853")]
-    {
-        let span = Span { output_step: 0.01, ..scene.span() };
-        let (outcome, legs, record) = begun_with(&scene, first, span);
-        let names: Vec<&str> = legs.iter().map(|leg| leg.method.integrator.name.as_str()).collect();
-        assert_eq!(names, [first[1], then], "{legs:?}");
-        assert!(outcome.failure.is_none() && legs[1].from < 0.2 * span.end, "{legs:?}");
-        // Rows come each once, through the change.
-        let times: Vec<f64> = record.trajectory.rows.iter().map(|row| row[0]).collect();
-        assert_eq!(times.len(), (span.end / 0.01).round() as usize + 1);
-        assert!(times.iter().enumerate().all(|(i, t)| (t - 0.01 * i as f64).abs() < 1e-9));
-        // The work of forces is carried on.
-        let energy = record.energy.as_ref().unwrap();
-        assert!(energy.relative_max_error.unwrap() < 1e-4, "{energy:?}");
-        // The same again, bit by bit, and near to the one method alone.
-        let (again, ..) = begun_with(&scene, first, span);
-        assert_eq!(again, outcome);
-        let other = if first == EXPLICIT { IMPLICIT } else { EXPLICIT };
-        let (alone, legs, _) = begun_with(&scene, other, span);
-        assert_eq!(legs.len(), 1, "{legs:?}");
-        let size = alone.q.iter().fold(0.0f64, |size, q| size.max(q.abs()));
-        let gap = alone.q.iter().zip(&outcome.q).fold(0.0f64, |gap, (a, b)| gap.max((a - b).abs())) / size;
-        assert!(gap < 1e-4, "{gap:e}");
+    let scene = shipped("spin_up_beam", &[]);
+    let span = Span { output_step: 0.01, ..scene.span() };
+    let (outcome, legs, record) = automatic(&scene, 1e-7, span);
+    assert_eq!(integrators(&legs), ["dop853", "radau_iia"]);
+    assert!(outcome.failure.is_none() && legs[1].from < 0.01 * span.end, "{legs:?}");
+    // Rows come each once, through the change.
+    let times: Vec<f64> = record.trajectory.rows.iter().map(|row| row[0]).collect();
+    assert_eq!(times.len(), (span.end / 0.01).round() as usize + 1);
+    assert!(times.iter().enumerate().all(|(i, t)| (t - 0.01 * i as f64).abs() < 1e-9));
+    // The work of forces is carried on.
+    let energy = record.energy.as_ref().unwrap();
+    assert!(energy.relative_max_error.unwrap() < 1e-4, "{energy:?}");
+    // The same again, bit by bit, and near to the one method alone.
+    assert_eq!(automatic(&scene, 1e-7, span).0, outcome);
+    let alone = alone(&scene, IMPLICIT, 1e-7, span);
+    assert!(gap(&alone, &outcome) < 1e-4, "{:e}", gap(&alone, &outcome));
+    // All work is counted: that of the motion as that of one method is, that of the trials beside it.
+    let own = legs.iter().fold(Statistics::default(), |sum, leg| sum + leg.statistics);
+    assert_eq!(own, outcome.statistics);
+    let trials: Vec<u64> = legs.iter().map(|leg| leg.trials.rhs_evaluations).collect();
+    assert!(trials[0] > 0 && trials.iter().sum::<u64>() < own.rhs_evaluations, "{trials:?} beside {own:?}");
+    assert!(own.rhs_evaluations < 2 * alone.statistics.rhs_evaluations, "{own:?} {:?}", alone.statistics);
+}
+
+/// A damper that no explicit step goes over, for a while.
+#[test]
+fn the_explicit_method_comes_back() {
+    let scene = parse(
+        r#"{ "name": "brake", "dimension": 2, "bodies": [{ "name": "m", "type": "point_mass", "mass": 1,
+            "initial": { "position": [1, 0] } }],
+            "joints": [{ "name": "rail", "type": "equation", "expression": "m.y" }],
+            "forces": [{ "name": "f", "type": "applied_force", "at": "m",
+                         "force": ["-10*sin(m.x) - if(t < 20, 1e4, 0)*m.x'", 0] }] }"#,
+    );
+    let span = Span { start: 0.0, end: 120.0, output_step: 1.0 };
+    let (outcome, legs, _) = automatic(&scene, 1e-7, span);
+    assert_eq!(integrators(&legs), ["dop853", "radau_iia", "dop853"], "{legs:?}");
+    assert!(outcome.failure.is_none() && legs[2].from > 20.0 && legs[2].from < 60.0, "{legs:?}");
+    let alone = alone(&scene, IMPLICIT, 1e-10, span);
+    assert!(gap(&alone, &outcome) < 1e-5, "{:e}", gap(&alone, &outcome));
+}
+
+/// A motion that its driver determines has no error of steps: at a loose tolerance it is right to round-off.
+#[test]
+fn a_driven_motion_is_where_the_joints_are_closed() {
+    for name in ["slider_crank_offset", "universal_shaft"] {
+        let scene = shipped(name, &[]);
+        let [loose, tight] = [1e-3, 1e-10].map(|rtol| automatic(&scene, rtol, scene.span()));
+        assert_eq!(loose.1[0].method.projection.name, "exact");
+        assert!(gap(&loose.0, &tight.0) < 1e-13, "{name}: {:e}", gap(&loose.0, &tight.0));
+        assert!(loose.0.statistics.rhs_evaluations * 3 < tight.0.statistics.rhs_evaluations);
     }
+}
+
+/// What is left of a short run is less than a trial costs.
+#[test]
+fn short_runs_try_nothing() {
+    let (outcome, legs, _) = automatic(&shipped("quarter_car", &[]), 1e-3, shipped("quarter_car", &[]).span());
+    assert!(outcome.failure.is_none() && outcome.statistics.rhs_evaluations < 1000, "{:?}", outcome.statistics);
+    assert!(legs.len() == 1 && legs[0].trials == Statistics::default(), "{legs:?}");
+}
+
+/// Left behind by a looser rtol, atol would govern; left behind by a tighter one it is what the scene asks for.
+#[test]
+fn a_looser_rtol_takes_atol_along() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/andrews.json");
+    let atol = |rtol, atol| {
+        Study::load(&path, &Overrides { rtol: Some(rtol), atol, ..Overrides::default() }).unwrap().method.atol
+    };
+    assert_eq!([atol(1e-3, None), atol(1e-12, None), atol(1e-3, Some(1e-7))], [1e-5, 1e-11, 1e-7]);
 }
 
 /// A force that has no value beyond a place stops one method, and then the other: the run ends with the reason, and what it
@@ -60,7 +119,7 @@ fn where_both_methods_stop_the_run_does() {
             "joints": [{ "name": "rail", "type": "equation", "expression": "m.y" }],
             "forces": [{ "name": "f", "type": "applied_force", "at": "m", "force": ["1/m.x^2*sqrt(m.x - 0.5)", 0] }] }"#,
     );
-    let (outcome, legs, record) = begun_with(&scene, EXPLICIT, Span { start: 0.0, end: 5.0, output_step: 0.1 });
+    let (outcome, legs, record) = automatic(&scene, 1e-7, Span { start: 0.0, end: 5.0, output_step: 0.1 });
     let failure = outcome.failure.expect("nothing is defined beyond x = 0.5");
     assert!(legs.len() >= 2 && failure.t > 0.3 && failure.t < 5.0, "{legs:?} {failure:?}");
     assert!(record.trajectory.rows.len() > 3);

@@ -100,7 +100,7 @@ fn load(common: &Common) -> Result<Study> {
         overrides.formulation = entry.accepts().next().map(Choice::named);
         overrides.projection = Some(Choice::named("none"));
     }
-    common.talk.load(&common.scene.path, &overrides)
+    common.talk.load(&common.scene.path, &overrides)?.settled()
 }
 
 /// One stabilization that fails is a result; all of them, or one that was interrupted, are a failed run.

@@ -75,7 +75,7 @@ const SAVED: Duration = Duration::from_secs(5);
 pub fn run(args: Args) -> Result<ExitCode> {
     let study = args.talk.load(&args.scene.path, &args.overrides())?;
     study.span().map_err(|error| error.in_file(&args.scene.path))?;
-    if args.variants.is_empty() { methods(&args, &study) } else { models(&args, study) }
+    if args.variants.is_empty() { methods(&args, &study) } else { models(&args, study.settled()?) }
 }
 
 impl Args {
@@ -227,7 +227,7 @@ fn variant(text: &str, args: &Args, like: &Study) -> Result<Variant> {
     let own: Vec<(String, Number)> = own.collect::<Result<_>>().map_err(|error| error.under("--variants"))?;
     let span = like.span()?;
     let overrides = Overrides { set: own, until: Some(span.end), ..args.overrides() };
-    let study = args.talk.load(Path::new(path), &overrides).map_err(of_variants)?;
+    let study = args.talk.load(Path::new(path), &overrides).and_then(Study::settled).map_err(of_variants)?;
     let source = Some((PathBuf::from(path), overrides));
     Ok(Variant { name: named(Path::new(path), set), study, source })
 }

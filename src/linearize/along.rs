@@ -3,7 +3,7 @@
 use super::Variation;
 use crate::error::{Error, Result, short};
 use crate::initial::assemble;
-use crate::simulate::{Method, Observation, Sink, Span, simulate};
+use crate::simulate::{Method, Observation, Sink, Span};
 use crate::study::{Overrides, Study};
 
 /// A state on the constraints.
@@ -40,7 +40,7 @@ pub fn tighten(study: &mut Study, given: &Overrides) {
         return;
     }
     *rtol = given.rtol.unwrap_or(rtol.min(TOLERANCE));
-    *atol = given.atol.unwrap_or(atol.min(TOLERANCE));
+    *atol = given.atol.unwrap_or(atol.min(TOLERANCE.max(*rtol)));
 }
 
 /// The states of the study's motion at `times`, in their order, each brought back to the constraints.
@@ -76,7 +76,7 @@ impl<'a> Walk<'a> {
         if t > self.last.t {
             // Fixed steps carry a history of their own, such as accelerations: a new start would be another motion.
             let from = if self.study.method.step.is_some() { &State::start(self.study) } else { &self.last };
-            self.last = follow(self.study, &self.study.method, from, t)?;
+            self.last = follow(self.study, from, t)?;
         }
         Ok(self.last.clone())
     }
@@ -107,9 +107,9 @@ impl Sink for Nothing {
 }
 
 /// Integrates to `end` and closes what drift has opened.
-pub(super) fn follow(study: &Study, method: &Method, from: &State, end: f64) -> Result<State> {
+pub(super) fn follow(study: &Study, from: &State, end: f64) -> Result<State> {
     let span = Span { start: from.t, end, output_step: end - from.t };
-    let outcome = simulate(study.system(), method, span, (&from.q, &from.v), &mut Nothing)?;
+    let (outcome, _) = study.simulate_from((&from.q, &from.v), &study.method, span, &mut Nothing)?;
     if let Some(failure) = outcome.failure {
         return Err(failure.into());
     }

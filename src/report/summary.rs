@@ -49,6 +49,9 @@ pub struct Chosen {
     /// Where the method changed on the way, all in their order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub legs: Vec<Leg>,
+    /// Work of the methods that tried, beside that of those that carried the motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trials: Option<Statistics>,
 }
 
 impl Chosen {
@@ -58,14 +61,16 @@ impl Chosen {
             legs.iter().zip(ends).max_by(|(a, a_end), (b, b_end)| (a_end - a.from).total_cmp(&(b_end - b.from)));
         Chosen {
             method: longest.map_or(&study.method, |(leg, _)| &leg.method).clone(),
-            chosen_because: study.chosen_because.clone(),
+            chosen_because: longest.map(|(leg, _)| leg.because.clone()),
             legs: if legs.len() > 1 { legs.to_vec() } else { Vec::new() },
+            trials: legs.iter().map(|leg| leg.trials).reduce(|sum, trials| sum + trials),
         }
     }
 
     fn text(&self) -> String {
-        let first = self.chosen_because.iter().map(|because| format!("  auto: {because}\n"));
-        let later = self.legs.iter().skip(1).map(|Leg { from, method, because }| {
+        let only = self.chosen_because.iter().filter(|_| self.legs.is_empty());
+        let first = only.map(|because| format!("  auto: {because}\n"));
+        let later = self.legs.iter().skip(1).map(|Leg { from, method, because, .. }| {
             format!("  auto: from t = {} s on by {}. {because}\n", clock(*from), method.triple())
         });
         first.chain(later).collect()
@@ -156,6 +161,7 @@ impl Summary {
             None => format!("rtol {rtol:e}, atol {atol:e}"),
         };
         let s = &self.statistics;
+        let trials = self.method.trials.filter(|trials| trials.rhs_evaluations > 0);
         let mut text = format!("{}: {formulation} + {integrator} + {projection}, {accuracy}\n", self.scene);
         text += &self.method.text();
         if let Some(failure) = &self.failure {
@@ -163,12 +169,13 @@ impl Summary {
         }
         text += &self.assembly_text();
         text += &format!(
-            "  t = {} s reached in {}: {} steps, {} rejected, {} evaluations, {} factorizations\n\n",
+            "  t = {} s reached in {}: {} steps, {} rejected, {} evaluations{}, {} factorizations\n\n",
             clock(self.t_end),
             elapsed(self.wall_seconds),
             s.steps,
             s.rejected,
             s.rhs_evaluations,
+            trials.map_or(String::new(), |trials| format!(" and {} in trials", trials.rhs_evaluations)),
             s.factorizations
         );
         if s.rank_deficient > s.steps {

@@ -7,7 +7,7 @@
 use super::contest::{Contest, Mark, Quiet};
 use super::{Method, Outcome, Run, Sink, Span};
 use crate::error::{Failure, Result, clock, short};
-use crate::formulation::{Choice, Statistics};
+use crate::formulation::{Choice, Dynamics, Statistics, degrees_of_freedom};
 use crate::integrator::Store;
 use crate::system::MechanicalSystem;
 use serde::Serialize;
@@ -19,6 +19,9 @@ pub struct Leg {
     #[serde(flatten)]
     pub method: Method,
     pub because: String,
+    /// Its own work, and that of the other method, which tried.
+    pub statistics: Statistics,
+    pub trials: Statistics,
 }
 
 /// Work before the first look, in evaluations.
@@ -29,167 +32,210 @@ const WORTH: f64 = 1.5;
 const WORTH_BACK: f64 = 3.0;
 /// What comes no farther than this is no alternative.
 const SLOWER: f64 = 0.5;
-/// Runs that stop again within this part of the span are not helped by the other method.
+/// Runs that stop again within this part of the span are not helped by the other method. Nor would `augmented_lagrangian` help
+/// at singular states: it comes over those of `n_four_bar`, but 1e-4 to 1e-2 beside the motion.
 const AGAIN: f64 = 1e-6;
-
-/// The explicit method, and the one without a limit of stability.
-fn candidates(rtol: f64, atol: f64) -> [Method; 2] {
-    let method = |names: [&str; 3]| {
-        let [formulation, integrator, projection] = names.map(Choice::named);
-        Method { formulation, integrator, projection, rtol, atol, step: None }
-    };
-    [method(["index1", "dop853", "manifold"]), method(["ggl", "radau_iia", "none"])]
-}
-
-/// What a method that was named has against it at the beginning of a motion: how much farther an implicit one comes. `None`
-/// where stability does not hold its steps, or nothing is known.
-pub fn rival(system: &dyn MechanicalSystem, method: &Method, span: Span, start: (&[f64], &[f64])) -> Option<Contest> {
-    let [_, implicit] = candidates(method.rtol, method.atol);
-    let store = Store::default();
-    let mut run = Run::unseen((system, &store), method, [span.start, span.end], flat(start)).ok()?;
-    run.begin(&mut Quiet).ok()?;
-    let mut window = FIRST;
-    while window < MOST_ADVICE {
-        let (mark, failure) = run.window(window, &mut Quiet);
-        if failure.is_some() || run.t >= span.end {
-            return None;
-        }
-        if let Some(hindered) = run.hindered(mark) {
-            return run.contest(mark, hindered, &implicit, system).ok();
-        }
-        if run.has_shown_itself(mark) {
-            return None;
-        }
-        window *= 2.0;
-    }
-    None
-}
-
-/// The choice for a motion from (q, v) over `span`, by its beginning.
-///
-/// # Errors
-/// Bad input only: tolerances that are none.
-pub fn advise(
-    system: &dyn MechanicalSystem,
-    (rtol, atol): (f64, f64),
-    span: Span,
-    start: (&[f64], &[f64]),
-) -> Result<Leg> {
-    let methods = candidates(rtol, atol);
-    methods[0].check()?;
-    let store = Store::default();
-    let mut run = Run::unseen((system, &store), &methods[0], [span.start, span.end], flat(start))?;
-    if let Err(Failure { reason, .. }) = run.begin(&mut Quiet) {
-        // Whatever the method, the run will say so at its start.
-        let because = format!("nothing was tried: {reason}");
-        return Ok(Leg { from: span.start, method: methods[0].clone(), because });
-    }
-    let mut drive = Drive { system, methods: &methods, run, carrier: 0, spent: Statistics::default() };
-    let unseen = Span { output_step: f64::INFINITY, ..span };
-    let (mut chosen, mut because, mut window, mut failure) = (0, CALM.to_string(), FIRST, None);
-    while window < MOST_ADVICE {
-        let (mark, stopped) = drive.run.window(window, &mut Quiet);
-        failure = failure.or(stopped);
-        if drive.run.t >= span.end {
-            break;
-        }
-        if let Some(look) = drive.look(mark, failure.as_ref())?.filter(|look| look.0 != chosen || because == CALM) {
-            (chosen, because) = look;
-        }
-        if failure.is_some() || chosen == drive.carrier && drive.run.has_shown_itself(mark) {
-            break;
-        }
-        if chosen != drive.carrier {
-            failure = drive.change(chosen, &store, unseen)?;
-        }
-        window *= 2.0;
-    }
-    Ok(Leg { from: span.start, method: methods[chosen].clone(), because })
-}
 
 /// An advice looks at no more work than this at a time, in evaluations.
 const MOST_ADVICE: f64 = 2e4;
 const CALM: &str = "not stiff: accuracy, not stability, limits explicit steps";
 
-/// Integrates `system` from (q, v), which should be consistent, over `span`, by the method of `first` and others where these
-/// come farther. Returns the methods in their order.
+/// Formulation, integrator and projection.
+fn method([formulation, integrator, projection]: [&str; 3], (rtol, atol): (f64, f64)) -> Method {
+    let [formulation, integrator, projection] = [formulation, integrator, projection].map(Choice::named);
+    Method { formulation, integrator, projection, rtol, atol, step: None }
+}
+
+/// The one without a limit of stability.
+fn implicit(tolerances: (f64, f64)) -> Method {
+    method(["ggl", "radau_iia", "none"], tolerances)
+}
+
+/// Its place among the candidates.
+const EXPLICIT: usize = 0;
+
+/// A motion that its drivers determine is where the constraints are closed: nothing is left to the steps.
+fn candidates(system: &dyn MechanicalSystem, tolerances: (f64, f64), t: f64, (q, v): (&[f64], &[f64])) -> [Method; 2] {
+    let mut dynamics = Dynamics::new(system);
+    let is_driven = dynamics.solve(t, q, v, |_, _| 0.0).is_ok() && degrees_of_freedom(&dynamics) == 0;
+    let projection = if is_driven { "exact" } else { "manifold" };
+    [method(["index1", "dop853", projection], tolerances), implicit(tolerances)]
+}
+
+/// What a method that was named has against it at the beginning of a motion: how much farther an implicit one comes. `None`
+/// where stability does not hold its steps, or nothing is known.
+pub fn rival(system: &dyn MechanicalSystem, method: &Method, span: Span, start: (&[f64], &[f64])) -> Option<Contest> {
+    let (methods, store) = ([method.clone(), implicit((method.rtol, method.atol))], Store::default());
+    let mut drive = Drive::new((system, &store), &methods, unseen(span), start).ok()?;
+    drive.run.begin(&mut Quiet).ok()?;
+    let is_enough = |drive: &Drive, mark, changes| drive.contest.is_some() || changes || drive.is_known(mark);
+    drive.go(&mut Quiet, is_enough).ok()?;
+    drive.contest
+}
+
+/// The one method for a motion from (q, v) over `span` that carries its beginning.
+///
+/// # Errors
+/// Bad input only: tolerances that are none.
+pub fn advise(
+    system: &dyn MechanicalSystem,
+    tolerances: (f64, f64),
+    span: Span,
+    start: (&[f64], &[f64]),
+) -> Result<(Method, String)> {
+    let (methods, store) = (candidates(system, tolerances, span.start, start), Store::default());
+    methods[EXPLICIT].check()?;
+    let mut drive = Drive::new((system, &store), &methods, unseen(span), start)?;
+    if let Err(Failure { reason, .. }) = drive.run.begin(&mut Quiet) {
+        // Whatever the method, the run will say so at its start.
+        return Ok((methods[EXPLICIT].clone(), format!("nothing was tried: {reason}")));
+    }
+    drive.go(&mut Quiet, |drive, mark, changes| !changes && drive.is_known(mark))?;
+    let Leg { method, because, .. } = drive.leg;
+    Ok((method, because))
+}
+
+/// Integrates `system` from (q, v), which should be consistent, over `span`, with these `tolerances`: an explicit method
+/// begins, and others go on where they come farther. Returns the methods in their order.
 ///
 /// # Errors
 /// Bad input only, as in [`simulate`](super::simulate).
 pub fn simulate_automatic(
     system: &dyn MechanicalSystem,
-    first: &Leg,
+    tolerances: (f64, f64),
     span: Span,
     start: (&[f64], &[f64]),
     sink: &mut dyn Sink,
 ) -> Result<(Outcome, Vec<Leg>)> {
     span.check()?;
-    let methods = candidates(first.method.rtol, first.method.atol);
-    let carrier = usize::from(first.method.integrator != methods[0].integrator);
-    let store = Store::default();
-    let run = Run::new((system, &store), &methods[carrier], span, flat(start))?;
-    let mut drive = Drive { system, methods: &methods, run, carrier, spent: Statistics::default() };
-    let mut legs = vec![first.clone()];
-    let mut failure = drive.run.begin(sink).err();
-    // What was found out before is not asked again at once.
-    let mut window = 2.0 * FIRST;
-    while failure.is_none() && drive.run.t < span.end {
-        let mark;
-        (mark, failure) = drive.run.window(window, sink);
-        window *= 2.0;
-        let since = drive.run.t - legs[legs.len() - 1].from;
-        let is_stopped =
-            failure.is_some() && (sink.stops().is_some() || legs.len() > 1 && since < AGAIN * (span.end - span.start));
-        if is_stopped || failure.is_none() && drive.run.t >= span.end {
-            break;
-        }
-        let Some((carrier, because)) = drive.look(mark, failure.as_ref())? else { continue };
-        if carrier != drive.carrier {
-            failure = drive.change(carrier, &store, span)?;
-            legs.push(Leg { from: drive.run.t, method: methods[carrier].clone(), because });
-        }
-    }
-    let outcome = drive.run.finish(failure, sink);
-    Ok((Outcome { statistics: drive.spent + outcome.statistics, ..outcome }, legs))
+    let (methods, store) = (candidates(system, tolerances, span.start, start), Store::default());
+    methods[EXPLICIT].check()?;
+    let mut drive = Drive::new((system, &store), &methods, span, start)?;
+    let failure = match drive.run.begin(sink) {
+        Ok(()) => drive.go(sink, |_, _, _| false)?,
+        Err(failure) => Some(failure),
+    };
+    Ok(drive.finish(failure, sink))
 }
 
-/// (q, v), and no work so far.
-fn flat((q, v): (&[f64], &[f64])) -> Vec<f64> {
-    [q, v, &[0.0]].concat()
+/// Without rows.
+fn unseen(span: Span) -> Span {
+    Span { output_step: f64::INFINITY, ..span }
 }
 
 /// A run that may change its method.
 struct Drive<'s, 'a> {
     system: &'s dyn MechanicalSystem,
+    store: &'a Store<'s>,
     methods: &'a [Method; 2],
+    span: Span,
     run: Run<'a>,
     carrier: usize,
-    /// By the methods before; trials are not counted.
-    spent: Statistics,
+    /// How many methods stopped here.
+    stopped: usize,
+    /// Work until the next look, in evaluations.
+    window: f64,
+    /// The last trial.
+    contest: Option<Contest>,
+    /// Those before, and that of the carrier.
+    legs: Vec<Leg>,
+    leg: Leg,
 }
 
 impl<'s: 'a, 'a> Drive<'s, 'a> {
-    /// Which method should go on and why, where that is a question: after the work since `mark`, or after a failure.
-    fn look(&self, mark: Mark, failure: Option<&Failure>) -> Result<Option<(usize, String)>> {
-        let other = 1 - self.carrier;
-        let names = [self.carrier, other].map(|i| self.methods[i].integrator.name.as_str());
+    fn new(
+        (system, store): (&'s dyn MechanicalSystem, &'a Store<'s>),
+        methods: &'a [Method; 2],
+        span: Span,
+        (q, v): (&[f64], &[f64]),
+    ) -> Result<Self> {
+        let run = Run::new((system, store), &methods[EXPLICIT], span, [q, v, &[0.0]].concat())?;
+        let leg = Leg::of(span.start, &methods[EXPLICIT], CALM.to_string());
+        let (carrier, stopped, window, contest, legs) = (EXPLICIT, 0, FIRST, None, Vec::new());
+        Ok(Drive { system, store, methods, span, run, carrier, stopped, window, contest, legs, leg })
+    }
+
+    /// Goes on to the end, to a failure that both methods have, or until a look `is_enough`: after the work since a
+    /// mark, and whether the method should change.
+    fn go(&mut self, sink: &mut dyn Sink, is_enough: impl Fn(&Self, Mark, bool) -> bool) -> Result<Option<Failure>> {
+        let (mut mark, mut failure) = (self.run.mark(), None);
+        loop {
+            if failure.is_none() {
+                (mark, failure) = self.run.window(self.window, sink);
+                self.window *= 2.0;
+            }
+            if self.is_over(failure.as_ref(), sink) {
+                break;
+            }
+            let next = self.look(mark, failure.as_ref())?;
+            if is_enough(self, mark, next.is_some()) {
+                break;
+            }
+            failure = next.map_or(Ok(None), |(next, because)| self.change(next, because))?;
+        }
+        Ok(failure)
+    }
+
+    fn is_over(&mut self, failure: Option<&Failure>, sink: &dyn Sink) -> bool {
+        if failure.is_none() {
+            return self.run.t >= self.span.end;
+        }
+        let is_again = self.run.t - self.leg.from < AGAIN * (self.span.end - self.span.start);
+        self.stopped = if is_again { self.stopped + 1 } else { 1 };
+        sink.stops().is_some() || self.stopped == self.methods.len()
+    }
+
+    /// Whether its work says enough of the motion.
+    fn is_known(&self, mark: Mark) -> bool {
+        self.window > MOST_ADVICE || self.run.has_shown_itself(mark)
+    }
+
+    /// Which other method should go on and why, if one should: after the work since `mark`, or after a failure.
+    fn look(&mut self, mark: Mark, failure: Option<&Failure>) -> Result<Option<(usize, String)>> {
+        let place = 1 - self.carrier;
+        let [own, other] = [self.carrier, place].map(|place| &self.methods[place]);
+        let names = [own, other].map(|method| method.integrator.name.as_str());
         if let Some(Failure { t, reason, .. }) = failure {
-            return Ok(Some((other, format!("{} stopped at t = {} s: {reason}", names[0], clock(*t)))));
+            let because = format!("{} stopped at t = {} s: {reason}", own.triple(), clock(*t));
+            return Ok(Some((place, because)));
         }
         let Some(hindered) = self.run.hindered(mark) else { return Ok(None) };
-        let contest = self.run.contest(mark, hindered, &self.methods[other], self.system)?;
-        let wins = contest.gain > if self.carrier == 0 { WORTH } else { WORTH_BACK };
-        Ok(Some((if wins { other } else { self.carrier }, words(&contest, names, wins))))
+        let (contest, work) = self.run.contest(mark, hindered, other, self.system)?;
+        self.contest = Some(contest);
+        self.leg.trials = self.leg.trials + work;
+        let wins = contest.gain > if self.carrier == EXPLICIT { WORTH } else { WORTH_BACK };
+        let because = words(&contest, names, wins);
+        if !wins && self.leg.because == CALM {
+            self.leg.because.clone_from(&because);
+        }
+        Ok(wins.then_some((place, because)))
     }
 
     /// Hands the motion on to another method.
-    fn change(&mut self, carrier: usize, store: &'a Store<'s>, span: Span) -> Result<Option<Failure>> {
-        let next = Run::new((self.system, store), &self.methods[carrier], span, self.run.y.clone())?;
-        let before = std::mem::replace(&mut self.run, next);
+    fn change(&mut self, carrier: usize, because: String) -> Result<Option<Failure>> {
         self.carrier = carrier;
-        self.spent = self.spent + before.problem.dynamics.statistics;
+        let method = &self.methods[carrier];
+        let next = Run::new((self.system, self.store), method, self.span, self.run.y.clone())?;
+        let before = std::mem::replace(&mut self.run, next);
         (self.run.t, self.run.rows.next) = (before.t, before.rows.next);
+        let leg = std::mem::replace(&mut self.leg, Leg::of(before.t, method, because));
+        self.legs.push(Leg { statistics: before.problem.dynamics.statistics, ..leg });
         Ok(self.run.go_on(&before.problem.dynamics.held).err())
+    }
+
+    fn finish(mut self, failure: Option<Failure>, sink: &mut dyn Sink) -> (Outcome, Vec<Leg>) {
+        let outcome = self.run.finish(failure, sink);
+        self.legs.push(Leg { statistics: outcome.statistics, ..self.leg });
+        let statistics = self.legs.iter().fold(Statistics::default(), |sum, leg| sum + leg.statistics);
+        (Outcome { statistics, ..outcome }, self.legs)
+    }
+}
+
+impl Leg {
+    /// Before any work.
+    fn of(from: f64, method: &Method, because: String) -> Self {
+        let none = Statistics::default();
+        Leg { from, method: method.clone(), because, statistics: none, trials: none }
     }
 }
 

@@ -7,7 +7,7 @@
 use super::spectrum::{Mode, fastest};
 use super::{Method, Observation, Run, Sink, Span};
 use crate::error::{Failure, Result};
-use crate::formulation::Dynamics;
+use crate::formulation::{Dynamics, Statistics};
 use crate::integrator::Store;
 use crate::system::{Loaded, MechanicalSystem};
 
@@ -23,7 +23,7 @@ const NEAR: f64 = 20.0;
 const STABLE: f64 = 6.1;
 /// Least work of a trial, in evaluations: the first steps of radau_iia, each up to eight times the one before.
 const LEAST: f64 = 300.0;
-/// A trial has so much of the work that it is compared with.
+/// A trial has so much of the work that it is compared with, and is worth no more of what is left.
 const SHARE: f64 = 0.25;
 
 /// Steps grow where the next one is so many times their mean.
@@ -106,9 +106,13 @@ impl<'a> Run<'a> {
 
     /// Whether the work so far is a good part of what the motion will take at the pace since `mark`.
     pub fn has_shown_itself(&self, mark: Mark) -> bool {
+        self.mark().work > SHOWN * self.left(mark)
+    }
+
+    /// Work to the end at the pace since `mark`.
+    fn left(&self, mark: Mark) -> f64 {
         let now = self.mark();
-        let left = (self.span.end - now.t) * (now.work - mark.work) / (now.t - mark.t);
-        now.work > SHOWN * left
+        (self.span.end - now.t) * (now.work - mark.work) / (now.t - mark.t)
     }
 
     /// Mean step since then.
@@ -117,8 +121,11 @@ impl<'a> Run<'a> {
     }
 
     /// The fastest mode of the state, where steps since `mark` were so long that it matters to which kind of method goes
-    /// on; with their mean.
+    /// on, and enough is left to do; with their mean.
     pub fn hindered(&self, mark: Mark) -> Option<(Mode, f64)> {
+        if SHARE * self.left(mark) < LEAST {
+            return None;
+        }
         let step = self.step_since(mark);
         let (system, (q, v)) = (self.problem.dynamics.system, self.problem.split(&self.y));
         let mut dynamics = Dynamics::new(system);
@@ -131,14 +138,14 @@ impl<'a> Run<'a> {
         matters.then_some((mode, step))
     }
 
-    /// Lets `other` try from the state of this run, whose pace since `mark` is known.
+    /// Lets `other` try from the state of this run, whose pace since `mark` is known; with the work of the trial.
     pub fn contest(
         &self,
         mark: Mark,
         (mode, step): (Mode, f64),
         other: &Method,
         system: &dyn MechanicalSystem,
-    ) -> Result<Contest> {
+    ) -> Result<(Contest, Statistics)> {
         let own = self.mark();
         let pace = (own.t - mark.t) / (own.work - mark.work).max(1.0);
         let budget = LEAST.max(SHARE * (own.work - mark.work));
@@ -149,6 +156,7 @@ impl<'a> Run<'a> {
             if failure.is_none() { rival.window(budget, &mut Quiet) } else { (rival.mark(), failure) };
         let now = rival.mark();
         let theirs = if stopped.is_some() { 0.0 } else { (now.t - mark.t) / (now.work - mark.work).max(1.0) };
-        Ok(Contest { t: self.t, mode, step, gain: theirs / pace })
+        let contest = Contest { t: self.t, mode, step, gain: theirs / pace };
+        Ok((contest, rival.problem.dynamics.statistics))
     }
 }

@@ -38,6 +38,12 @@ const SMALL: f64 = 1e-2;
 /// No absolute tolerance that nobody asked for is below this: round-off leaves it of angles.
 const LEAST_ATOL: f64 = 1e-16;
 
+/// The atol that goes with `rtol` in this `ratio`, as a command line can give it.
+pub fn atol_of(rtol: f64, ratio: f64) -> f64 {
+    let atol = rtol * ratio;
+    format!("{atol:.3e}").parse().unwrap_or(atol)
+}
+
 impl Method {
     /// The default, with an absolute tolerance of 1e-8 of the length, m, of a scene that is smaller than a centimetre.
     pub fn of_length(length: f64) -> Self {

@@ -19,7 +19,7 @@ mod step;
 mod stiffness;
 
 pub use automatic::{Leg, advise, simulate_automatic};
-pub use method::Method;
+pub use method::{Method, atol_of};
 pub use observation::{Observation, Sink, Span, Stop};
 pub(crate) use segments::Segments;
 pub use spectrum::{Mode, Spectrum};

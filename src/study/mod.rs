@@ -10,7 +10,9 @@ use crate::initial::{self, Assembly};
 use crate::integrator::Steps;
 use crate::math::expression::{Number, Parameters};
 use crate::scene::{self, AnyModel, Automatic, Scene, Simulation};
-use crate::simulate::{Leg, Method, Outcome, Sink, Span, Stiffness, advise, simulate, simulate_automatic, stiffness};
+use crate::simulate::{
+    Leg, Method, Outcome, Sink, Span, Stiffness, advise, atol_of, simulate, simulate_automatic, stiffness,
+};
 use crate::system::{Loaded, MechanicalSystem, Mechanism};
 use crate::{formulation, integrator, projection};
 use std::path::Path;
@@ -61,7 +63,9 @@ pub struct Study {
     pub parameters: Parameters,
     pub mechanism: AnyMechanism,
     pub method: Method,
-    /// Why this method, where it was left to the program.
+    /// Whether methods are left to the program, with the tolerances of `method`.
+    pub is_automatic: bool,
+    /// Why this one method, where it was left to the program: see [`Study::settled`].
     pub chosen_because: Option<String>,
     pub assembly: Assembly,
     /// What is doubtful about the start.
@@ -96,16 +100,6 @@ impl Study {
         check_options(&method, mechanism.system()).map_err(|error| settings.place(error))?;
         let assembly = initial::assemble(mechanism.system(), start, (&scene.q, &scene.v), &scene.hold);
         let assembly = assembly.map_err(|error| explained(error, of_scene(&mechanism)))?;
-        // Where no end is said, a method is chosen for a second of motion.
-        let asked = span.unwrap_or(Span { start, end: start + 1.0, output_step: 1.0 });
-        let (method, chosen_because) = match is_automatic {
-            true => {
-                let (tolerances, state) = ((method.rtol, method.atol), (&assembly.q[..], &assembly.v[..]));
-                let Leg { method, because, .. } = advise(mechanism.system(), tolerances, asked, state)?;
-                (method, Some(because))
-            }
-            false => (method, None),
-        };
         let doubts = doubts(&mechanism, &scene.q, &assembly);
         Ok(Study {
             doubts,
@@ -115,7 +109,8 @@ impl Study {
             parameters: scene.parameters,
             mechanism,
             method,
-            chosen_because,
+            is_automatic,
+            chosen_because: None,
             assembly,
             reference: scene.simulation.reference,
             start_time: start,
@@ -125,6 +120,21 @@ impl Study {
 
     pub fn system(&self) -> &dyn MechanicalSystem {
         self.mechanism.system()
+    }
+
+    /// The same with one method, where methods are left to the program: that which carries the beginning of the motion.
+    ///
+    /// # Errors
+    /// Bad input only: see [`advise`].
+    pub fn settled(mut self) -> Result<Study> {
+        if std::mem::take(&mut self.is_automatic) {
+            // Where no end is said, a method is chosen for a second of motion.
+            let start = self.start_time;
+            let span = self.span.unwrap_or(Span { start, end: start + 1.0, output_step: 1.0 });
+            let (method, because) = advise(self.system(), (self.method.rtol, self.method.atol), span, self.start())?;
+            (self.method, self.chosen_because) = (method, Some(because));
+        }
+        Ok(self)
     }
 
     /// When to simulate.
@@ -142,21 +152,32 @@ impl Study {
     pub fn stiffness(&self, span: Span) -> Option<Stiffness> {
         let Assembly { q, v, vdot, lambda, .. } = &self.assembly;
         let state = Loaded { t: span.start, q, v, vdot, lambda };
-        self.chosen_because.is_none().then(|| stiffness(self.system(), &self.method, state, span))?
+        (!self.is_automatic).then(|| stiffness(self.system(), &self.method, state, span))?
     }
 
-    /// Simulates by `method`, or, where that is left to the program, by it and others where these come farther, with its
-    /// tolerances. Returns these in their order, none where the method was named.
+    /// Simulates by `method`, or, where methods are left to the program, by those that come farthest with its tolerances.
+    /// Returns these in their order, none where the method was named.
     ///
     /// # Errors
     /// Bad input only: see [`simulate`].
     pub fn simulate(&self, method: &Method, span: Span, sink: &mut dyn Sink) -> Result<(Outcome, Vec<Leg>)> {
-        match &self.chosen_because {
-            None => Ok((simulate(self.system(), method, span, self.start(), sink)?, Vec::new())),
-            Some(because) => {
-                let first = Leg { from: span.start, method: method.clone(), because: because.clone() };
-                simulate_automatic(self.system(), &first, span, self.start(), sink)
-            }
+        self.simulate_from(self.start(), method, span, sink)
+    }
+
+    /// The same from another consistent (q, v).
+    ///
+    /// # Errors
+    /// As [`Study::simulate`].
+    pub fn simulate_from(
+        &self,
+        start: (&[f64], &[f64]),
+        method: &Method,
+        span: Span,
+        sink: &mut dyn Sink,
+    ) -> Result<(Outcome, Vec<Leg>)> {
+        match self.is_automatic {
+            true => simulate_automatic(self.system(), (method.rtol, method.atol), span, start, sink),
+            false => Ok((simulate(self.system(), method, span, start, sink)?, Vec::new())),
         }
     }
 
@@ -256,12 +277,17 @@ impl Settings<'_> {
         let steps = integrator::find(&integrator).map_err(|error| error.under("integrator"))?.steps;
         let own_step =
             if given.integrator.is_some() && steps != Steps::Fixed { None } else { self.number("step", &scene.step)? };
+        let own_rtol = self.number("rtol", &scene.rtol)?.unwrap_or(default.rtol);
+        let own_atol = self.number("atol", &scene.atol)?.unwrap_or(default.atol);
+        // A looser one takes the other along, which would govern if it were left behind.
+        let (rtol, atol) =
+            given.rtol.map_or((own_rtol, own_atol), |rtol| (rtol, own_atol.max(atol_of(rtol, own_atol / own_rtol))));
         let method = Method {
             formulation: pick(&given.formulation, &scene.formulation, default.formulation),
             integrator,
             projection: pick(&given.projection, &scene.projection, default.projection),
-            rtol: given.rtol.or(self.number("rtol", &scene.rtol)?).unwrap_or(default.rtol),
-            atol: given.atol.or(self.number("atol", &scene.atol)?).unwrap_or(default.atol),
+            rtol,
+            atol: given.atol.unwrap_or(atol),
             step: given.step.or(own_step),
         };
         method.check()?;

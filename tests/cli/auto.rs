@@ -113,3 +113,11 @@ fn drift_compares_what_the_choice_goes_with() {
     let stiff = Place::new(pair("1e6", "1e3", 0.0)).done(&["drift", "scene.json", "--figures", "none"]);
     assert!(stiff.contains("drift with radau_iia") && stiff.lines().any(|row| row.starts_with("  ggl ")), "{stiff}");
 }
+
+/// The state that is linearized is that of the automatic run, which goes where no step of dop853 would come to in time.
+#[test]
+fn linearize_follows_the_automatic_run() {
+    let place = Place::new(pair("1e12", "1e9", 0.0));
+    let text = place.done(&["linearize", "scene.json", "--at", "10"]);
+    assert!(text.starts_with("pair at t = 10 s: linear model"), "{text}");
+}

@@ -92,7 +92,7 @@ pub fn loci_along(study: &Study, request: &Request, times: &[f64], progress: imp
     let moving = |state, t| found(&Operating::moving(study, state), t, request);
     let outcome = |(t, state): (f64, Result<State>)| (t, state.and_then(|state| moving(state, t)));
     let outcomes: Vec<Outcome> = states.into_par_iter().map(outcome).collect();
-    let between = |before: &Found, t: f64| moving(follow(study, &study.method, &before.state, t)?, t);
+    let between = |before: &Found, t: f64| moving(follow(study, &before.state, t)?, t);
     collect(Along::Time, outcomes, between)
 }
 

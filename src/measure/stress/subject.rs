@@ -55,7 +55,7 @@ impl Subject<'static> {
     /// # Errors
     /// As [`Study::load`]; a scene without an end time.
     pub fn load(path: &Path, overrides: &Overrides) -> Result<Self> {
-        let study = Study::load(path, overrides)?;
+        let study = Study::load(path, overrides)?.settled()?;
         let span = study.span().map_err(|error| error.in_file(path))?;
         let text = scene::read_text(path)?;
         let json = serde_json::from_str(text.trim_start_matches('\u{feff}')).unwrap_or(Value::Null);

@@ -95,9 +95,12 @@ impl WorkPrecision {
         })
     }
 
-    /// Runs with at least so many digits that cost as little as the cheapest of them, the one to choose first.
+    /// Runs with at least so many digits, whose joints are closed to as many, that cost as little as the cheapest of them, the one to choose first.
     fn cheapest(&self, digits: u32, is_meant: &dyn Fn(&Cell) -> bool) -> Vec<usize> {
-        let good = |cell: &Cell| cell.digits() >= Some(f64::from(digits)) && is_meant(cell);
+        // Outputs at rest do not show that joints come apart.
+        let gap = 0.1f64.powi(digits as i32).max(ROUND_OFF);
+        let is_closed = |cell: &Cell| cell.drift().is_some_and(|drift| drift.position <= gap);
+        let good = |cell: &Cell| cell.digits() >= Some(f64::from(digits)) && is_closed(cell) && is_meant(cell);
         let all = self.cells.iter().enumerate().filter(|(_, cell)| good(cell));
         let costs: Vec<(usize, f64)> = all.filter_map(|(place, cell)| Some((place, cell.cost?))).collect();
         let least = costs.iter().fold(f64::INFINITY, |least, (_, cost)| least.min(*cost));

@@ -1,7 +1,6 @@
 //! Runs of a few methods of other families, ever tighter, cheap ones first.
 
 use super::grid::Triple;
-use super::ladder::tolerances;
 use super::reference::check;
 use super::runner::Motion;
 use super::sample::{Allowed, Sample, sample};
@@ -10,7 +9,7 @@ use crate::choice::Choice;
 use crate::error::{Failure, Result};
 use crate::formulation;
 use crate::integrator;
-use crate::simulate::{Method, Span};
+use crate::simulate::{Method, Span, atol_of};
 use std::panic::resume_unwind;
 use std::time::{Duration, Instant};
 
@@ -122,7 +121,7 @@ impl Line {
         if formulation::make(&triple.formulation, motion.system).is_err() {
             return Ok((false, 0.0));
         }
-        let method = triple.at(tolerances(rtol, motion), None);
+        let method = triple.at((rtol, atol_of(rtol, motion.ratio)), None);
         let run = sample(motion, watched, &method, span, allowed)?;
         let seconds = run.seconds;
         if run.is_too_slow {

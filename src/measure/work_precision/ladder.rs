@@ -3,12 +3,12 @@
 use super::cell::{Cell, Outcome};
 use super::climb::Rung;
 use super::grid::Triple;
-use super::runner::{Motion, Pause, Runner};
+use super::runner::{Pause, Runner};
 use super::sample::Sample;
 use super::{WorkPrecision, advice};
 use crate::error::{Error, Failure, Result, short};
 use crate::integrator::{self, Steps};
-use crate::simulate::{Method, explicit};
+use crate::simulate::{Method, atol_of, explicit};
 use std::time::Duration;
 
 /// rtol = 10^-decades: first these, of all methods,
@@ -214,7 +214,8 @@ impl<'a> Runner<'a> {
             let (start, end) = self.motion.between;
             (end - start) / ((end - start) / step).ceil().max(1.0)
         });
-        triple.at(tolerances(rtol(decades), &self.motion), step)
+        let rtol = rtol(decades);
+        triple.at((rtol, atol_of(rtol, self.motion.ratio)), step)
     }
 
     /// Why a run is not worth making.
@@ -327,12 +328,6 @@ fn last<'r>(result: &'r WorkPrecision, triple: &Triple, decades: u32) -> Option<
 fn rtol(decades: u32) -> f64 {
     let rtol = 0.1f64.powi(decades as i32);
     format!("{rtol:.0e}").parse().unwrap_or(rtol)
-}
-
-/// rtol with the atol that goes with it, as a command line can give them.
-pub(super) fn tolerances(rtol: f64, motion: &Motion) -> (f64, f64) {
-    let atol = rtol * motion.ratio;
-    (rtol, format!("{atol:.3e}").parse().unwrap_or(atol))
 }
 
 fn two(value: f64) -> String {

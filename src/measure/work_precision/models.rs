@@ -27,7 +27,7 @@ impl Variant {
         let (path, overrides) = self.source.as_ref()?;
         let text = scene::refined(&scene::read_text(path).ok()?)?;
         let scene = Scene::parse_in(scene::folder(Some(path)), &text, &overrides.set).ok()?;
-        Study::new(scene, overrides).ok()
+        Study::new(scene, overrides).and_then(Study::settled).ok()
     }
 }
 
