@@ -8,7 +8,7 @@ use crate::error::{Error, Result, Warning, suggest};
 use crate::math::expression::{Number, constant};
 use crate::math::memory::refuse_rows;
 use crate::plot::Figure;
-use crate::report::Folder;
+use crate::report::{Folder, Written};
 use crate::scene::Automatic;
 use crate::simulate::Span;
 use crate::study::{Overrides, Study};
@@ -211,6 +211,11 @@ impl Talk {
             (false, false) => print(&text()),
             _ => Ok(()),
         }
+    }
+
+    /// Says where the results are, where text is wanted.
+    pub fn tell_files(&self, written: &Written) -> Result<()> {
+        if self.json || self.quiet { Ok(()) } else { print(&format!("\nwritten to {}\n", written.listing())) }
     }
 
     /// Says on standard error what is doubtful.

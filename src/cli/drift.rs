@@ -1,6 +1,6 @@
 //! `holonom drift SCENE`
 
-use super::common::{Common, MethodOptions, Output, print};
+use super::common::{Common, MethodOptions, Output};
 use super::interrupt;
 use crate::error::{Error, Failure, Result, clock};
 use crate::formulation::Choice;
@@ -70,9 +70,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     folder.write_json("drift.json", &rows)?;
     let written = folder.finish()?;
     args.common.talk.print(&rows, || text(&study, &rows))?;
-    if !args.common.talk.json && !args.common.talk.quiet {
-        print(&format!("\nwritten to {}\n", written.listing()))?;
-    }
+    args.common.talk.tell_files(&written)?;
     match fatal(&rows) {
         Some(failure) => Err(failure.clone().into()),
         None => Ok(ExitCode::SUCCESS),

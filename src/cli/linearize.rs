@@ -57,8 +57,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     match (args.talk.json, results.as_slice()) {
         (true, [one]) => args.talk.print(one, String::new)?,
         (true, all) => args.talk.print(&all, String::new)?,
-        (false, _) if !args.talk.quiet => print(&format!("\nwritten to {}\n", written.listing()))?,
-        _ => {}
+        (false, _) => args.talk.tell_files(&written)?,
     }
     Ok(ExitCode::SUCCESS)
 }

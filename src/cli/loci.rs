@@ -1,6 +1,6 @@
 //! `holonom loci SCENE`
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, number, positive, print, tell};
+use super::common::{MethodOptions, Output, SceneOptions, Talk, number, positive, tell};
 use super::linear::ModelOptions;
 use crate::error::{Error, Result, short};
 use crate::linearize::{At, Kind, Loci, Request, Variants, loci_along, loci_over, refuse_large};
@@ -76,9 +76,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let uncertain = loci.branches.iter().filter(|branch| branch.kind == Kind::Uncertain);
     args.talk.warn(&uncertain_kinds(uncertain.map(|_| loci.method.as_str())));
     args.talk.print(&summary, || summary.text())?;
-    if !args.talk.json && !args.talk.quiet {
-        print(&format!("\nwritten to {}\n", written.listing()))?;
-    }
+    args.talk.tell_files(&written)?;
     match loci.gaps.last().filter(|_| args.sweep.is_none()).map(|gap| &gap.error) {
         Some(error @ Error::Run(_)) => {
             tell(format!("error: {error}"));

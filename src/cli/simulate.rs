@@ -1,7 +1,7 @@
 //! `holonom simulate SCENE`
 
 use super::check_error::check_error;
-use super::common::{Common, Output, print, tell};
+use super::common::{Common, Output, tell};
 use super::interrupt;
 use crate::error::{Result, Warning};
 use crate::measure::{Record, Recorder};
@@ -51,9 +51,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     write(&study, &record, &summary, &mut folder, &args.output)?;
     let written = folder.finish()?;
     args.common.talk.print(&summary, || summary.text(&units(&record)))?;
-    if !args.common.talk.json && !args.common.talk.quiet {
-        print(&format!("\nwritten to {}\n", written.listing()))?;
-    }
+    args.common.talk.tell_files(&written)?;
     args.common.talk.warn(&summary.warnings[early.len()..]);
     Ok(match &summary.failure {
         None => ExitCode::SUCCESS,

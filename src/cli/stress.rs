@@ -187,7 +187,7 @@ fn write(
 
 fn tell_folder(args: &Args, folder: Folder) -> Result<()> {
     let folder = folder.finish()?;
-    if args.talk.json || args.talk.quiet { Ok(()) } else { print(&format!("\nwritten to {}\n", folder.listing())) }
+    args.talk.tell_files(&folder)
 }
 
 /// The verdicts, and the table of the gains.

@@ -1,6 +1,6 @@
 //! `holonom sweep SCENE NAME=A..B:N`
 
-use super::common::{Output, SceneOptions, Talk, print, tell};
+use super::common::{Output, SceneOptions, Talk, tell};
 use crate::error::{Error, Result, suggest};
 use crate::report::{SweepLook, SweepSummary, sweep_figure, sweep_table};
 use crate::sweep::{Family, Range, Sweep};
@@ -66,5 +66,5 @@ fn write(args: &Args, sweep: &Sweep, summary: &SweepSummary) -> Result<()> {
     folder.write_json("sweep.json", summary)?;
     let written = folder.finish()?;
     args.talk.print(summary, || summary.text())?;
-    if args.talk.json || args.talk.quiet { Ok(()) } else { print(&format!("\nwritten to {}\n", written.listing())) }
+    args.talk.tell_files(&written)
 }

@@ -75,7 +75,7 @@ fn finish(args: &Args, results: &[Value], written: &Written) -> Result<ExitCode>
     match (args.talk.json, results) {
         (true, [one]) => args.talk.print(one, String::new)?,
         (true, all) => args.talk.print(&all, String::new)?,
-        (false, _) => show(args, &format!("\nwritten to {}\n", written.listing()))?,
+        (false, _) => args.talk.tell_files(written)?,
     }
     Ok(ExitCode::SUCCESS)
 }

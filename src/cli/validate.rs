@@ -69,8 +69,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     match (args.talk.json, files.as_slice()) {
         (true, [one]) => args.talk.print(one, String::new)?,
         (true, all) => args.talk.print(&all, String::new)?,
-        (false, _) if !args.talk.quiet => print(&format!("\nwritten to {}\n", written.listing()))?,
-        _ => {}
+        (false, _) => args.talk.tell_files(&written)?,
     }
     let wrong: Vec<&ValidationFile> = files.iter().filter(|file| !file.is_right()).collect();
     for file in &wrong {

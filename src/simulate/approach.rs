@@ -65,7 +65,12 @@ impl Approach {
 
     /// Whether a step of size `h` comes near a singular state.
     pub fn reaches(&self, h: f64) -> bool {
-        self.sine < NEAR * self.largest || self.rate < 0.0 && h > 0.5 * self.ahead()
+        self.is_near() || self.rate < 0.0 && h > 0.5 * self.ahead()
+    }
+
+    /// Whether the last state is near a singular one.
+    pub fn is_near(&self) -> bool {
+        self.sine < NEAR * self.largest
     }
 
     /// Whether steps that small will not come over a singular state.

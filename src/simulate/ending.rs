@@ -7,6 +7,8 @@ use crate::formulation::Halt;
 const SINGULAR: &str = "this tolerance is too near to round-off there: try a looser one, or a fixed --step with `rk4`, which \
      goes over it";
 
+const PASSES: &str = "`index1` with `dop853` and `manifold` goes over it";
+
 /// So many steps that come no farther than this part of the span will not come to its end.
 const MOST_TRIES: usize = 50_000;
 const CRAWL: f64 = 1e-8;
@@ -53,11 +55,18 @@ impl Run<'_> {
         let is_stuck = self.keeps_constraints() && self.approach.is_stuck(h);
         match smaller > self.smallest() && !is_stuck {
             true => Ok(smaller),
-            false if is_stuck => {
-                let reason = format!("the motion comes to a singular state, and {reason}, down to a step of {h:.1e} s");
-                Err(self.failure(reason, Some(SINGULAR)))
+            false => Err(self.too_small(format!("{reason}, down to a step of {h:.1e} s"), hint)),
+        }
+    }
+
+    /// Steps have become too small; a singular state nearby is reason enough.
+    pub fn too_small(&self, reason: String, hint: Option<&str>) -> Failure {
+        match self.approach.is_near() {
+            true => {
+                let help = if self.keeps_constraints() { SINGULAR } else { PASSES };
+                self.failure(format!("the motion comes to a singular state, and {reason}"), Some(help))
             }
-            false => Err(self.failure(format!("{reason}, down to a step of {h:.1e} s"), hint)),
+            false => self.failure(reason, hint),
         }
     }
 

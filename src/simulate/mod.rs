@@ -314,7 +314,7 @@ impl<'a> Run<'a> {
         let proposed = self.integrator.control().accept(size, error, self.growing);
         self.h = if is_cut { self.h.max(proposed) } else { proposed };
         match self.t < self.span.end && self.h < self.smallest() {
-            true => Err(self.failure(format!("steps have fallen to {:.1e} s", self.h), None)),
+            true => Err(self.too_small(format!("steps have fallen to {:.1e} s", self.h), None)),
             false => Ok(()),
         }
     }

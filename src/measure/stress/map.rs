@@ -172,6 +172,15 @@ impl Map {
         [index / (rows * columns), index / columns % rows, index % columns]
     }
 
+    /// The numbers of the cells beside one, by the same method.
+    pub(super) fn beside(&self, [panel, row, column]: [usize; 3]) -> impl Iterator<Item = usize> {
+        let (columns, rows) = (self.x.entries.len(), self.y.entries.len());
+        let beside = |at: usize, count: usize| [at.checked_sub(1), Some(at + 1).filter(|at| *at < count)];
+        let lines = beside(row, rows).into_iter().flatten().map(move |row| (row, column));
+        let along = beside(column, columns).into_iter().flatten().map(move |column| (row, column));
+        lines.chain(along).map(move |(row, column)| (panel * rows + row) * columns + column)
+    }
+
     pub fn len(&self) -> usize {
         self.x.entries.len() * self.y.entries.len() * self.methods.len()
     }

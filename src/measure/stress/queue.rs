@@ -1,6 +1,6 @@
 //! In which order cells are run, and for how long, while nobody knows what they cost.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::time::Duration;
 
 /// The first attempt at a job has so much, each later one so many times as much as the one before: what all attempts before
@@ -8,16 +8,18 @@ use std::time::Duration;
 const FIRST: Duration = Duration::from_millis(4);
 const GROWTH: u32 = 4;
 
-/// A simulation to make, before others if it is of a lower level, or nearer to the middle of the map.
+/// A simulation to make, before others if it is expected to be cheaper, or nearer to the middle of the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Job {
-    /// The attempts before it, or those that would come to nothing.
+    is_unknown: bool,
+    /// Of [`GROWTH`] in its share.
     level: u32,
     rank: usize,
+    is_tried: bool,
     pub what: What,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) enum What {
     /// The reference of this motion.
     Motion(usize),
@@ -26,12 +28,12 @@ pub(super) enum What {
 
 impl Job {
     pub fn new(rank: usize, what: What) -> Self {
-        Job { level: 0, rank, what }
+        Job { is_unknown: true, level: 0, rank, is_tried: false, what }
     }
 
     /// The time it may take, up to the limit.
     pub fn share(&self, limit: Duration) -> Duration {
-        FIRST.saturating_mul(GROWTH.saturating_pow(self.level)).min(limit)
+        share(self.level, limit)
     }
 
     /// The next attempt, without those that come to nothing even if the motion goes on [`GROWTH`] times as fast as the part
@@ -39,12 +41,21 @@ impl Job {
     pub fn again(self, part: f64, limit: Duration) -> Self {
         let part = if part > 1e-6 { part.min(1.0) } else { 1e-6 };
         let wanted = self.share(limit).div_f64(part).min(limit) / GROWTH;
-        let mut next = Job { level: self.level + 1, ..self };
-        while next.share(limit) < wanted {
-            next.level += 1;
-        }
-        next
+        Job { is_unknown: false, level: level_for(wanted, limit).max(self.level + 1), is_tried: true, ..self }
     }
+}
+
+fn share(level: u32, limit: Duration) -> Duration {
+    FIRST.saturating_mul(GROWTH.saturating_pow(level)).min(limit)
+}
+
+/// The first whose share is no less than `wanted`.
+fn level_for(wanted: Duration, limit: Duration) -> u32 {
+    let mut level = 0;
+    while share(level, limit) < wanted.min(limit) {
+        level += 1;
+    }
+    level
 }
 
 /// Jobs by method. Whichever has taken least has its turn, so that none takes the time of another.
@@ -57,7 +68,30 @@ pub(super) struct Queues {
 #[derive(Default)]
 struct Queue {
     waiting: BTreeSet<Job>,
+    /// The same by what they are.
+    jobs: HashMap<What, Job>,
     spent: Duration,
+}
+
+impl Queue {
+    fn add(&mut self, job: Job) {
+        self.waiting.insert(job);
+        self.jobs.insert(job.what, job);
+    }
+
+    fn pop(&mut self) -> Option<Job> {
+        let job = self.waiting.pop_first()?;
+        self.jobs.remove(&job.what)
+    }
+
+    /// Expects this level of a job that was not tried yet, if its other neighbours tell of none that is lower.
+    fn expect(&mut self, what: What, level: u32) {
+        let Some(job) = self.jobs.get(&what).copied() else { return };
+        if job.is_unknown || !job.is_tried && level < job.level {
+            self.waiting.remove(&job);
+            self.add(Job { is_unknown: false, level, ..job });
+        }
+    }
 }
 
 impl Queues {
@@ -68,23 +102,34 @@ impl Queues {
             self.queues.push(Queue::default());
             self.queues.len() - 1
         });
-        self.queues[queue].waiting.insert(job);
+        self.queues[queue].add(job);
     }
 
     /// What comes next, with its queue. It counts with its share until it is back.
     pub fn take(&mut self, limit: Duration) -> Option<(usize, Job)> {
         let waiting = self.queues.iter_mut().enumerate().filter(|(_, queue)| !queue.waiting.is_empty());
         let (index, queue) = waiting.min_by_key(|(_, queue)| queue.spent)?;
-        let job = queue.waiting.pop_first()?;
+        let job = queue.pop()?;
         queue.spent += job.share(limit);
         Some((index, job))
     }
 
-    /// Notes what a job took, with its next attempt where it needs one.
-    pub fn give_back(&mut self, (index, job): (usize, Job), limit: Duration, took: Duration, next: Option<Job>) {
+    /// Notes what a job took, and after which part of its motion it was cut short; none where it needs no more attempts. Its
+    /// neighbours are expected to cost up to twice as much.
+    pub fn give_back(
+        &mut self,
+        (index, job): (usize, Job),
+        limit: Duration,
+        (took, cut): (Duration, Option<f64>),
+        neighbours: impl IntoIterator<Item = What>,
+    ) {
         let queue = &mut self.queues[index];
         queue.spent = (queue.spent + took).saturating_sub(job.share(limit));
-        queue.waiting.extend(next);
+        if let Some(part) = cut {
+            queue.add(job.again(part, limit));
+        }
+        let level = if cut.is_some() { job.level + 1 } else { level_for(2 * took, limit) };
+        neighbours.into_iter().for_each(|what| queue.expect(what, level));
     }
 }
 
@@ -105,7 +150,7 @@ mod tests {
         while begun[1] < 100 {
             let (queue, job) = queues.take(LIMIT).unwrap();
             begun[queue] += 1;
-            queues.give_back((queue, job), LIMIT, Duration::from_millis([100, 10][queue]), None);
+            queues.give_back((queue, job), LIMIT, (Duration::from_millis([100, 10][queue]), None), []);
         }
         assert!((9..=11).contains(&begun[0]), "{begun:?}");
     }
@@ -117,5 +162,27 @@ mod tests {
         assert_eq!(job.again(0.5, LIMIT).share(LIMIT), 4 * FIRST);
         assert_eq!(job.again(0.01, LIMIT).share(LIMIT), 64 * FIRST);
         assert_eq!([0.0, f64::NAN].map(|part| job.again(part, LIMIT).share(LIMIT)), [64 * FIRST; 2]);
+    }
+
+    /// Jobs in a row that cost the more the farther right, where the middle is dear: in order of their costs, and little
+    /// time is lost in attempts.
+    #[test]
+    fn cheap_jobs_come_first_and_neighbours_tell_what_is_cheap() {
+        let needs = |k: usize| Duration::from_secs_f64(1e-3 * 2f64.powi(k as i32));
+        let mut queues = Queues::default();
+        (0..9).for_each(|k: usize| queues.add("", Job::new(k.abs_diff(4), What::Cell(k))));
+        let (mut spent, mut through) = (Duration::ZERO, Vec::new());
+        while let Some((queue, job)) = queues.take(LIMIT) {
+            let What::Cell(k) = job.what else { unreachable!() };
+            let took = needs(k).min(job.share(LIMIT));
+            let cut = (took < needs(k)).then(|| took.div_duration_f64(needs(k)));
+            through.extend(cut.is_none().then_some(k));
+            spent += took;
+            let neighbours = [k.checked_sub(1), Some(k + 1)].into_iter().flatten().map(What::Cell);
+            queues.give_back((queue, job), LIMIT, (took, cut), neighbours);
+        }
+        assert!(through.windows(2).all(|pair| pair[0] < pair[1] + 3), "{through:?}");
+        let least: Duration = (0..9).map(needs).sum();
+        assert!(spent < least.mul_f64(1.3), "{spent:?} of {least:?}");
     }
 }

@@ -23,8 +23,8 @@ pub(super) struct Reference {
 
 /// What the search for a reference came to.
 pub(super) enum Search {
-    /// It takes more time.
-    Pending,
+    /// It takes more time: this part of the motion came through.
+    Pending(f64),
     Found(Reference),
     /// No method gets there.
     Hopeless,
@@ -43,11 +43,15 @@ impl Search {
             let method = Method { formulation, integrator, projection, rtol: TIGHT, atol: TIGHT, step: None };
             match Self::by(subject, Case { method, ..case.clone() }, allowed, limits) {
                 Search::Hopeless => {}
-                Search::Pending => search = Search::Pending,
+                Search::Pending(part) => search = Search::Pending(part.max(search.part())),
                 found => return found,
             }
         }
         search
+    }
+
+    fn part(&self) -> f64 {
+        if let Search::Pending(part) = self { *part } else { 0.0 }
     }
 
     fn by(subject: &Subject, case: Case, allowed: Duration, limits: Limits) -> Self {
@@ -58,13 +62,13 @@ impl Search {
             let mut measured = Measured { recorder, system, sizes, scales, scratch };
             let outcome = simulate(system, &case.method, span, start, &mut measured)?;
             let Measured { recorder, sizes, .. } = measured;
-            Ok(outcome.failure.is_none().then(|| Reference::new(system, &recorder.finish(), &sizes)))
+            Ok(match outcome.failure {
+                None => Search::Found(Reference::new(system, &recorder.finish(), &sizes)),
+                Some(_) if deadline.is_over() => Search::Pending((outcome.t - span.start) / case.duration),
+                Some(_) => Search::Hopeless,
+            })
         });
-        match found {
-            Ok(Some(reference)) => Search::Found(reference),
-            _ if deadline.is_over() => Search::Pending,
-            _ => Search::Hopeless,
-        }
+        found.unwrap_or(Search::Hopeless)
     }
 }
 

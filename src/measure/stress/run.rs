@@ -8,6 +8,7 @@ use super::reference::{Reference, Rows, Search};
 use super::simulation::{blank, run};
 use super::subject::Subject;
 use crate::math::memory::at_once;
+use cpu_time::ThreadTime;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -40,8 +41,8 @@ impl Stressed {
 /// Simulates every cell, and every motion of them once more as a reference; `progress` hears of each cell that is done.
 ///
 /// What a cell costs is known only when it is run. So each has a short time first, and what does not come through waits until
-/// others have had as much: cheap cells come before dear ones, and of these the middle of the map first. The methods, and the
-/// references beside them, have equal times. Which cells are done depends on deadlines, what they hold does not.
+/// others have had as much, those beside it that are cheaper first: from the middle of the map on, where cells are cheap.
+/// The methods, and the references beside them, have equal times. Which cells are done depends on deadlines, what they hold does not.
 pub fn stress(subject: &Subject, map: Map, limits: Limits, progress: &(impl Fn() + Sync)) -> Stressed {
     // Cells are what runs in parallel: matrices on other threads would wait for them.
     faer::set_global_parallelism(faer::Par::Seq);
@@ -85,7 +86,7 @@ impl Work {
             let motion = known.iter().position(|other| *other == key).unwrap_or_else(|| {
                 queues.add("", Job::new(rank, What::Motion(known.len())));
                 known.push(key);
-                motions.push((at, Mutex::new(Search::Pending)));
+                motions.push((at, Mutex::new(Search::Pending(0.0))));
                 known.len() - 1
             });
             let blank = blank(subject, map, at);
@@ -100,29 +101,50 @@ impl Work {
         loop {
             let next = locked(&self.queues).take(limits.cell);
             let Some((queue, job)) = next.filter(|_| Instant::now() < limits.end) else { return };
-            let clock = Instant::now();
-            let share = job.share(limits.cell);
-            let part = match job.what {
-                What::Motion(index) => {
-                    let (at, found) = &self.motions[index];
-                    let (search, is_cut) = search(subject, map, *at, (limits, share));
-                    *locked(found) = search;
-                    is_cut.then_some(1.0)
-                }
-                What::Cell(index) => {
-                    let slot = &self.cells[index];
-                    let (cell, rows, part) = run(subject, map, slot.at, (limits, share));
-                    let is_cut = cell.status == Status::LeftOut;
-                    *locked(&slot.came) = (cell, rows);
-                    is_cut.then_some(part)
-                }
-            };
-            if part.is_none() && matches!(job.what, What::Cell(_)) {
+            let clock = ThreadTime::now();
+            let cut = self.attempt(subject, map, job, limits);
+            if cut.is_none() && matches!(job.what, What::Cell(_)) {
                 progress();
             }
-            let again = part.map(|part| job.again(part, limits.cell));
-            locked(&self.queues).give_back((queue, job), limits.cell, clock.elapsed(), again);
+            let came = (clock.elapsed(), cut);
+            locked(&self.queues).give_back((queue, job), limits.cell, came, self.neighbours(map, job.what));
         }
+    }
+
+    /// Makes an attempt; the part of the motion after which it was cut short.
+    fn attempt(&self, subject: &Subject, map: &Map, job: Job, limits: Limits) -> Option<f64> {
+        let share = job.share(limits.cell);
+        match job.what {
+            What::Motion(index) => {
+                let (at, found) = &self.motions[index];
+                let search = search(subject, map, *at, (limits, share));
+                let cut = match search {
+                    Search::Pending(part) if share < limits.cell => Some(part),
+                    _ => None,
+                };
+                *locked(found) = search;
+                cut
+            }
+            What::Cell(index) => {
+                let slot = &self.cells[index];
+                let (cell, rows, part) = run(subject, map, slot.at, (limits, share));
+                let cut = (cell.status == Status::LeftOut).then_some(part);
+                *locked(&slot.came) = (cell, rows);
+                cut
+            }
+        }
+    }
+
+    /// The jobs beside one on its map, or their references beside one of them.
+    fn neighbours(&self, map: &Map, what: What) -> impl Iterator<Item = What> {
+        let at = match what {
+            What::Motion(index) => self.motions[index].0,
+            What::Cell(index) => self.cells[index].at,
+        };
+        map.beside(at).map(move |index| match what {
+            What::Motion(_) => What::Motion(self.cells[index].motion),
+            What::Cell(_) => What::Cell(index),
+        })
     }
 
     fn finish(self, map: Map) -> Stressed {
@@ -154,15 +176,13 @@ fn into_inner<T>(mutex: Mutex<T>) -> T {
     mutex.into_inner().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Looks for the reference of a place; whether it was cut short.
-fn search(subject: &Subject, map: &Map, at: [usize; 3], (limits, share): (Limits, Duration)) -> (Search, bool) {
+/// Looks for the reference of a place.
+fn search(subject: &Subject, map: &Map, at: [usize; 3], (limits, share): (Limits, Duration)) -> Search {
     let mut case = subject.base.clone();
     let mut changes = map.changes(at).filter(|change| !change.keeps_motion());
     if changes.try_for_each(|change| change.apply(&mut case)).is_err() {
-        return (Search::Hopeless, false);
+        return Search::Hopeless;
     }
     let is_last = share == limits.cell;
-    let search = Search::run(subject, &case, if is_last { REFERENCE * share } else { share }, limits);
-    let is_cut = matches!(search, Search::Pending) && !is_last;
-    (search, is_cut)
+    Search::run(subject, &case, if is_last { REFERENCE * share } else { share }, limits)
 }

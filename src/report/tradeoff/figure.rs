@@ -6,8 +6,8 @@ use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 /// Methods that have a colour; the others stand back as crosses.
 const NAMED: usize = 6;
 
-/// Work-precision diagrams with the Pareto front of CPU time: errors against CPU time, evaluations and factorizations, and
-/// drift against CPU time. `None` where no run was completed.
+/// Work-precision diagrams, each with its Pareto front: errors against CPU time, evaluations and factorizations, and drift
+/// against CPU time. `None` where no run was completed.
 pub fn tradeoff_figure(measured: &WorkPrecision, digits: u32) -> Option<Figure> {
     let named = named(measured, digits);
     if named.is_empty() {
@@ -55,13 +55,25 @@ fn panel(measured: &WorkPrecision, named: &[usize], x: Quantity, y: Quantity) ->
     let point = |cell: &Cell| Some((x.1(cell)?, y.1(cell)?));
     let is_named = |cell: &Cell| named.iter().any(|place| cell.is_of(&measured.cells[*place].method));
     let others = measured.cells.iter().filter(|cell| !is_named(cell)).filter_map(point).collect();
-    let front = measured.front().into_iter().filter_map(|place| point(&measured.cells[place])).collect();
     let panel = Panel::new(axis(x), axis(y))
         .series(Series::line("other methods", others).style(Style::Crosses))
-        .series(Series::line("Pareto front of CPU time", front).style(Style::Guide));
+        .series(Series::line("Pareto front", front(measured.cells.iter().filter_map(point))).style(Style::Guide));
     named.iter().enumerate().fold(panel, |panel, (color, place)| {
         let method = &measured.cells[*place].method;
         let points = measured.cells.iter().filter(|cell| cell.is_of(method)).filter_map(point).collect();
         panel.series(Series::line(method.triple(), points).style(Style::LineDots).color(color))
     })
+}
+
+/// The points that no other beats in both.
+fn front(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+    let mut front: Vec<(f64, f64)> = points.collect();
+    front.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut least = f64::INFINITY;
+    front.retain(|point| {
+        let is_less = point.1 < least;
+        least = least.min(point.1);
+        is_less
+    });
+    front
 }

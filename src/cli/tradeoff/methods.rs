@@ -1,0 +1,177 @@
+//! Every method at many tolerances, and which to choose.
+
+use super::Args;
+use crate::cli::common::tell;
+use crate::cli::interrupt;
+use crate::error::{Error, Result};
+use crate::files;
+use crate::measure::work_precision::{Filter, Given, Lack, Motion, Plan, Runner, Watched, WorkPrecision, grid};
+use crate::report::tradeoff::{Summary, tradeoff_figure, tradeoff_table};
+use crate::report::{Folder, write_whole};
+use crate::scene;
+use crate::study::Study;
+use crate::system::MechanicalSystem;
+use crate::{formulation, projection};
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+/// Results so far are written so often.
+const SAVED: Duration = Duration::from_secs(5);
+
+pub fn run(args: &Args, study: &Study) -> Result<ExitCode> {
+    let question = Question::new(args, study)?;
+    let folder = args.output.folder(&study.name)?;
+    let place = args.output.path(&study.name).join("tradeoff.json");
+    let mut measured = question.begin(args, study, &place)?;
+    question.measure(args, study, &place, &mut measured)?;
+    report(args, &measured, folder)
+}
+
+/// What is to be measured: which quantities, by which methods, for how long.
+struct Question {
+    watched: Watched,
+    plan: Plan,
+}
+
+impl Question {
+    fn new(args: &Args, study: &Study) -> Result<Self> {
+        let span = study.span()?;
+        let given = args.reference(study).as_deref().map(Given::read).transpose()?;
+        let outputs = args.outputs(study, given.as_ref());
+        let watched = Watched::new(study.system(), &outputs).map_err(|error| error.under("--outputs"))?;
+        let rows = usize::from(args.rows);
+        let rows = given.as_ref().map_or(Ok(rows), |given| given.parts((span.start, span.end), rows))?;
+        let filter = Filter {
+            formulations: args.formulation.clone(),
+            integrators: args.integrator.clone(),
+            projections: args.projection.clone(),
+        };
+        args.check_choices(study.system())?;
+        let plan = Plan {
+            triples: grid(&filter)?,
+            budget: args.budget,
+            repeats: usize::from(args.repeats),
+            rows,
+            digits: args.digits,
+            is_exhaustive: args.exhaustive,
+            given,
+        };
+        Ok(Question { watched, plan })
+    }
+
+    /// What is known before: nothing, or what `--resume` finds.
+    fn begin(&self, args: &Args, study: &Study, place: &Path) -> Result<WorkPrecision> {
+        let (span, rows) = (study.span()?, self.plan.rows);
+        let fresh = WorkPrecision {
+            fingerprint: fingerprint(args, rows)?,
+            ..WorkPrecision::fresh(&study.name, (span.start, span.end), rows)
+        };
+        if args.resume { resumed(place, fresh) } else { Ok(fresh) }
+    }
+
+    fn measure(self, args: &Args, study: &Study, place: &Path, measured: &mut WorkPrecision) -> Result<()> {
+        let span = study.span()?;
+        let bar = args.talk.progress(1000, &study.name);
+        let (clock, mut saved) = (Instant::now(), Instant::now());
+        let watch = |measured: &WorkPrecision, next: &str| {
+            bar.set_position((1e3 * clock.elapsed().as_secs_f64() / args.budget.as_secs_f64()) as u64);
+            bar.set_message(next.to_string());
+            if saved.elapsed() > SAVED {
+                saved = Instant::now();
+                // What cannot be saved now will be told at the end.
+                let _ = save(place, measured);
+            }
+        };
+        let motion = Motion {
+            system: study.system(),
+            start: study.start(),
+            between: (span.start, span.end),
+            ratio: study.method.atol / study.method.rtol,
+            is_stopped: &interrupt::is_asked,
+        };
+        let result = Runner::new(motion, &self.plan, self.watched, watch).run(measured);
+        bar.finish_and_clear();
+        result
+    }
+}
+
+fn report(args: &Args, measured: &WorkPrecision, mut folder: Folder) -> Result<ExitCode> {
+    let summary = Summary::new(measured, &args.named());
+    folder.write_json("tradeoff.json", &summary)?;
+    folder.write("tradeoff.csv", &tradeoff_table(measured)?)?;
+    args.output.figure(&mut folder, "tradeoff", tradeoff_figure(measured, args.digits))?;
+    let written = folder.finish()?;
+    args.talk.print(&summary, || summary.text(args.digits))?;
+    args.talk.tell_files(&written)?;
+    match (interrupt::is_asked(), measured.lacks(args.digits)) {
+        (true, _) => tell("error: interrupted\n  help: go on with --resume"),
+        (_, Some(Lack { why, hint, is_all: true })) => tell(format!("error: no recommendation: {why}\n  help: {hint}")),
+        _ => return Ok(ExitCode::SUCCESS),
+    }
+    Ok(ExitCode::from(1))
+}
+
+impl Args {
+    /// The table to measure against: that of the command line, or that which the scene brings.
+    fn reference(&self, study: &Study) -> Option<PathBuf> {
+        let own = || Some(scene::folder(Some(&self.scene.path)).join(study.reference.as_ref()?));
+        self.reference.clone().or_else(own)
+    }
+
+    /// What to compare; by default all that a table has.
+    fn outputs(&self, study: &Study, given: Option<&Given>) -> Vec<String> {
+        let known = study.system().columns();
+        let has = |name: &&str| known.iter().any(|column| column.name == **name);
+        match given {
+            Some(given) if self.outputs.is_empty() => given.names().filter(has).map(str::to_string).collect(),
+            _ => self.outputs.clone(),
+        }
+    }
+
+    /// Refuses unknown options of what is named, before anything is run.
+    fn check_choices(&self, system: &dyn MechanicalSystem) -> Result<()> {
+        for choice in &self.formulation {
+            formulation::make(choice, system).map_err(|error| error.under("--formulation"))?;
+        }
+        for choice in &self.projection {
+            projection::make(choice, system).map_err(|error| error.under("--projection"))?;
+        }
+        Ok(())
+    }
+
+    /// The scene as the command line names it, with what it changes.
+    fn named(&self) -> String {
+        let set = self.scene.set.iter().map(|(name, value)| format!(" --set {name}={value}"));
+        let until = self.until.iter().map(|until| format!(" --until {until}"));
+        [self.scene.path.display().to_string()].into_iter().chain(set).chain(until).collect()
+    }
+}
+
+fn save(place: &Path, measured: &WorkPrecision) -> Result<()> {
+    let text = serde_json::to_string_pretty(measured).map_err(|error| Error::file(place, error))?;
+    write_whole(place, text.as_bytes())
+}
+
+/// Of all that makes measurements comparable: the scene, what is changed of it, what is compared and when.
+fn fingerprint(args: &Args, rows: usize) -> Result<String> {
+    let mut hasher = DefaultHasher::new();
+    scene::read_text(&args.scene.path)?.hash(&mut hasher);
+    let set: Vec<(&str, String)> =
+        args.scene.set.iter().map(|(name, value)| (name.as_str(), value.to_string())).collect();
+    (set, args.until.map(f64::to_bits), &args.outputs, rows, &args.reference).hash(&mut hasher);
+    Ok(format!("{:016x}", hasher.finish()))
+}
+
+/// What was measured before.
+fn resumed(place: &Path, fresh: WorkPrecision) -> Result<WorkPrecision> {
+    let wrong = |problem: &str| Error::file(place, format!("{problem}; leave out --resume to begin anew"));
+    let text = files::read_text(place).map_err(|_| wrong("there is no measurement to go on with"))?;
+    let measured: WorkPrecision =
+        serde_json::from_str(&text).map_err(|error| wrong(&format!("this is no measurement ({error})")))?;
+    match measured.fingerprint == fresh.fingerprint {
+        true => Ok(measured),
+        false => Err(wrong("this is a measurement of another scene, or with other options")),
+    }
+}

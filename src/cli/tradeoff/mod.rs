@@ -1,0 +1,74 @@
+//! `holonom tradeoff SCENE`
+
+mod methods;
+mod models;
+
+use super::common::{Output, SceneOptions, Talk, choice, duration, number};
+use crate::choice::Choice;
+use crate::error::Result;
+use crate::study::Overrides;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Duration;
+
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    scene: SceneOptions,
+    /// Formulations to compare, such as index1; repeat for several (default: all)
+    #[arg(long, value_parser = choice)]
+    formulation: Vec<Choice>,
+    /// Integrators to compare; repeat for several (default: all)
+    #[arg(long, value_parser = choice)]
+    integrator: Vec<Choice>,
+    /// Projections to compare; repeat for several (default: those that are usual with each formulation)
+    #[arg(long, value_parser = choice)]
+    projection: Vec<Choice>,
+    /// End time, s
+    #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
+    until: Option<f64>,
+    /// Outputs whose accuracy counts (default: all)
+    #[arg(long, value_name = "NAME[,NAME...]", value_delimiter = ',')]
+    outputs: Vec<String>,
+    /// Digits to show the methods for, and that the reference must be good for
+    #[arg(long, value_name = "N", default_value_t = 6)]
+    digits: u32,
+    /// Time for all of it, such as 60s or 5min
+    #[arg(long, value_name = "TIME", default_value = "60s", value_parser = duration, allow_hyphen_values = true)]
+    budget: Duration,
+    /// Runs of a method, or model, that is quick; the fastest counts
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..))]
+    repeats: u16,
+    /// Times at which motions are compared
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u16).range(1..))]
+    rows: u16,
+    /// Try methods on that have fallen far behind
+    #[arg(long)]
+    exhaustive: bool,
+    /// Go on with the measurement in the folder of the results
+    #[arg(long)]
+    resume: bool,
+    /// Table (CSV) of values to compare with: t and outputs by name, in the place of a computed reference
+    #[arg(long, value_name = "FILE")]
+    reference: Option<PathBuf>,
+    /// Compare models in the place of methods: scenes of the same mechanism, with their own parameters as in
+    /// rod.json:modes=2,n=8
+    #[arg(long, value_name = "SCENE[:NAME=VALUE,...]", num_args = 1..)]
+    variants: Vec<String>,
+    #[command(flatten)]
+    output: Output,
+    #[command(flatten)]
+    talk: Talk,
+}
+
+pub fn run(args: Args) -> Result<ExitCode> {
+    let study = args.talk.load(&args.scene.path, &args.overrides())?;
+    study.span().map_err(|error| error.in_file(&args.scene.path))?;
+    if args.variants.is_empty() { methods::run(&args, &study) } else { models::run(&args, study.settled()?) }
+}
+
+impl Args {
+    fn overrides(&self) -> Overrides {
+        Overrides { set: self.scene.set.clone(), until: self.until, ..Overrides::default() }
+    }
+}

@@ -1,0 +1,75 @@
+//! What a richer model costs and gives.
+
+use super::Args;
+use crate::cli::common::assignment;
+use crate::error::{Error, Result};
+use crate::math::expression::Number;
+use crate::measure::work_precision::models::{Variant, compare};
+use crate::report::tradeoff::{ModelsSummary, models_figure, models_table};
+use crate::study::{Overrides, Study};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+pub fn run(args: &Args, study: Study) -> Result<ExitCode> {
+    let mut others = Vec::new();
+    for text in &args.variants {
+        others.push(variant(text, args, &study)?);
+    }
+    let (name, title) = (study.name.clone(), format!("{}: what models cost", study.name));
+    let set = args.scene.set.iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>().join(",");
+    let source = Some((args.scene.path.clone(), args.overrides()));
+    let own = Variant { name: named(&args.scene.path, &set), study, source };
+    let variants: Vec<Variant> = [own].into_iter().chain(others).collect();
+    let mut folder = args.output.folder(&name)?;
+    let repeats = usize::from(args.repeats);
+    let bar = args.talk.progress((variants.len() * (repeats + 1) + 1) as u64, &name);
+    let watch = |name: &str, done: usize| {
+        bar.set_message(name.to_string());
+        bar.set_position(done as u64);
+    };
+    let costs = compare(&variants, &args.outputs, (repeats, args.budget), watch);
+    bar.finish_and_clear();
+    let costs = costs?;
+    let summary = ModelsSummary::new(&costs);
+    folder.write_json("models.json", &summary)?;
+    folder.write("models.csv", &models_table(&costs)?)?;
+    args.output.figure(&mut folder, "models", models_figure(&title, &costs))?;
+    let written = folder.finish()?;
+    args.talk.print(&summary, || summary.text())?;
+    args.talk.tell_files(&written)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A scene with parameters of its own.
+fn variant(text: &str, args: &Args, like: &Study) -> Result<Variant> {
+    let (path, set) = match text.rsplit_once(':') {
+        Some((path, rest)) if rest.contains('=') => (path, rest),
+        _ => (text, ""),
+    };
+    let pairs = set.split(',').filter(|pair| !pair.is_empty());
+    let own = pairs.map(|pair| {
+        let wrong = |_| Error::input(format!("`{pair}` is no parameter")).hint("write SCENE:NAME=VALUE,NAME=VALUE");
+        assignment(pair).map_err(wrong)
+    });
+    let own: Vec<(String, Number)> = own.collect::<Result<_>>().map_err(|error| error.under("--variants"))?;
+    let span = like.span()?;
+    let overrides = Overrides { set: own, until: Some(span.end), ..args.overrides() };
+    let study = args.talk.load(Path::new(path), &overrides).and_then(Study::settled).map_err(of_variants)?;
+    let source = Some((PathBuf::from(path), overrides));
+    Ok(Variant { name: named(Path::new(path), set), study, source })
+}
+
+/// A parameter at fault was given by `--variants`, not by `--set`.
+fn of_variants(error: Error) -> Error {
+    let Error::Input(mut input) = error else { return error };
+    if input.path == "--set" {
+        input.path = "--variants".to_string();
+    }
+    Error::Input(input)
+}
+
+/// The file's name and the parameters.
+fn named(path: &Path, set: &str) -> String {
+    let stem = path.file_stem().map_or(String::new(), |stem| stem.to_string_lossy().into_owned());
+    if set.is_empty() { stem } else { format!("{stem}:{set}") }
+}
