@@ -99,7 +99,7 @@ pub trait Integrator {
         None
     }
 
-    /// The last attempt was accepted; `tolerance` is that of the run's steps.
+    /// The last attempt was accepted and the next step proposed; `tolerance` is that of the run's steps.
     fn accepted(&mut self, _tolerance: &Tolerance) {}
 
     /// Forgets the steps so far: the equations change their form here.

@@ -259,6 +259,7 @@ impl<'a> Run<'a> {
                 self.ask(sink)?;
             }
             self.propose(size, error, end.is_some() || self.cut.is_some())?;
+            self.integrator.accepted(&self.tolerance);
             (self.growing, self.cut) = (true, None);
             if self.t < self.span.end && (self.events.is_at_threshold() || stop.changes_form && self.t >= stop.t) {
                 self.change_form(None)?;
@@ -329,7 +330,6 @@ impl<'a> Run<'a> {
         std::mem::swap(&mut self.y, &mut self.next);
         std::mem::swap(&mut self.slope, &mut self.next_slope);
         self.problem.dynamics.statistics.steps += 1;
-        self.integrator.accepted(&self.tolerance);
         self.observe(sink);
     }
 
