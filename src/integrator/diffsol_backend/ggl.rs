@@ -14,7 +14,8 @@ use std::ops::Range;
 /// ```
 ///
 /// in q, v, w, a, u, lambda, mu: with rates as unknowns no M stands before a derivative, where diffsol wants a constant.
-/// The Jacobian is exact at mu = 0, which holds for the exact motion.
+/// The Jacobian is exact at mu = 0, which holds for the exact motion. diffsol solves with its matrix before it takes the norm
+/// of an error, which leaves what is along the constraints: no driver, however fast, makes steps shorter.
 pub struct Ggl<'s> {
     dynamics: Dynamics<'s>,
     tangent: Tangent,
