@@ -213,3 +213,15 @@ fn a_load_that_starts_from_zero_is_seen() {
         }
     }
 }
+
+/// Long steps over a motion that a driver prescribes: where a row is so far off the constraints that no projection finds back,
+/// its step ends there.
+#[test]
+fn a_row_that_cannot_be_projected_ends_its_step() {
+    let ready = shipped("slider_crank_offset", &[]);
+    let rows = |method: &Method| ready.run(method, ready.span()).column("piston_x");
+    let exact = rows(&ready.0.method);
+    let rtol = 3e-3;
+    let found = rows(&Method { rtol, atol: 1e-6, ..adaptive("ggl", "radau_iia", "none", rtol) });
+    assert!(distance(&found, &exact) < rtol, "{:e}", distance(&found, &exact));
+}

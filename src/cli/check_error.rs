@@ -3,16 +3,12 @@
 use super::common::Talk;
 use super::interrupt;
 use crate::error::Failure;
-use crate::linearize::{State, amplification};
+use crate::linearize::amplified;
 use crate::measure::{CheckError, Recorder, closer};
 use crate::report::Folder;
-use crate::simulate::{Method, Span, stiffness};
+use crate::simulate::Span;
 use crate::study::Study;
-use crate::system::Loaded;
 use crate::trajectory::Trajectory;
-
-/// Times up to which the growth of small changes is looked at.
-const TIMES: u32 = 20;
 
 /// Runs the study again with closer steps, and compares the `first` run with that.
 pub fn check_error(study: &Study, span: Span, first: &Trajectory, (talk, folder): (&Talk, &Folder)) -> CheckError {
@@ -32,17 +28,4 @@ pub fn check_error(study: &Study, span: Span, first: &Trajectory, (talk, folder)
     });
     bar.finish_and_clear();
     CheckError { amplification: growth, ..CheckError::new(first, &second.trajectory, &method, failure) }
-}
-
-/// How much the motion amplifies small changes; none where there are too many, or too fast ones for the explicit method that
-/// carries them.
-fn amplified(study: &Study, span: Span, goes_on: impl FnMut(f64) -> bool) -> Option<f64> {
-    let start = State::start(study);
-    let state =
-        Loaded { t: start.t, q: &start.q, v: &start.v, vdot: &study.assembly.vdot, lambda: &study.assembly.lambda };
-    if stiffness(study.system(), &Method::default(), state, span).is_some() {
-        return None;
-    }
-    let time = |i: u32| span.start + (span.end - span.start) * f64::from(i) / f64::from(TIMES);
-    amplification(study.system(), &start, &(1..=TIMES).map(time).collect::<Vec<f64>>(), goes_on).ok()
 }

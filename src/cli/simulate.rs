@@ -27,7 +27,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let mut folder = args.output.folder(&study.name)?;
     let stiffness = study.stiffness(span);
     // Said before a run that may take long, and not again.
-    let early: Vec<Warning> = study.doubts.iter().cloned().chain(stiffness.as_ref().map(Warning::from)).collect();
+    let of_method = stiffness.as_ref().map(Warning::from).into_iter().chain(study.method.beyond_reach(study.system()));
+    let early: Vec<Warning> = study.doubts.iter().cloned().chain(of_method).collect();
     args.common.talk.warn(&early[study.doubts.len()..]);
     let bar = args.common.talk.progress(1000, &study.name);
     let fraction = |t: f64| (1000.0 * (t - span.start) / (span.end - span.start)) as u64;

@@ -1,6 +1,6 @@
 //! The matrices with which implicit methods solve their equations.
 
-use super::{Dynamics, Dae, Halt, Residual, Row};
+use super::{Dae, Dynamics, Halt, Residual, Row};
 use crate::math::kkt::{Field, Pattern, SaddlePoint, Singular, Unsymmetric};
 use crate::system::{Loaded, MechanicalSystem, Need, Structure, Tangent};
 use faer::c64;
@@ -338,7 +338,14 @@ impl Iteration<f64> {
     ///
     /// Source: Hairer, Wanner II, (8.20), by the row of lambda. What phi = 0 alone determines of v has index 2, and its
     /// error is weighted by the step `h`.
-    pub fn damp(&mut self, at: &Linearized, h: f64, x: &mut [f64], v: &mut [f64], dynamics: &Dynamics) -> Result<(), Halt> {
+    pub fn damp(
+        &mut self,
+        at: &Linearized,
+        h: f64,
+        x: &mut [f64],
+        v: &mut [f64],
+        dynamics: &Dynamics,
+    ) -> Result<(), Halt> {
         let (structure, tau, row) = (&dynamics.structure, self.slopes.v, self.rows.dae.lambda);
         let [free, rows] = &mut self.part;
         let Change { a: top, lambda: bottom, .. } = &mut self.change;

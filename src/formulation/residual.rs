@@ -1,6 +1,6 @@
 //! What the equations leave at a state.
 
-use super::{Dynamics, Dae, Halt, Row};
+use super::{Dae, Dynamics, Halt, Row};
 use crate::system::{Dimensions, Need};
 
 /// The residual of [`Dae`], with its sign turned. The shifts w and u meet their own equations exactly, since

@@ -87,6 +87,12 @@ impl Tightening {
         let rtol = (self.factor * asked.rtol.powf(self.power)).max(LEAST_RTOL).min(asked.rtol);
         asked.with(rtol, asked.atol * rtol / asked.rtol)
     }
+
+    /// The rtol of the motion that steps stand for which are controlled as tightly as this one lets them: above `asked` where
+    /// they would have to be tighter.
+    pub fn reached(self, asked: &Tolerance) -> f64 {
+        (self.of_steps(asked).rtol / self.factor).powf(1.0 / self.power)
+    }
 }
 
 /// h_new = h safety err^-expo err_old^beta within [shrink, grow] h. Source: Hairer, Norsett, Wanner, Solving Ordinary
@@ -196,6 +202,8 @@ mod tests {
         let steps = |rtol: f64| Tightening { factor: 10.0, power: 1.5 }.of_steps(&asked(rtol)).rtol;
         assert_eq!(steps(1.0), 1.0);
         assert!((steps(1e-4) / 1e-5 - 1.0).abs() < 1e-12 && steps(1e-10) == 1e-11 && steps(1e-15) == 1e-15);
+        let reached = |rtol: f64| Tightening { factor: 10.0, power: 1.5 }.reached(&asked(rtol));
+        assert!((reached(1e-6) / 1e-6 - 1.0).abs() < 1e-12 && (reached(1e-10) / 1e-8 - 1.0).abs() < 1e-12);
         assert_eq!(Tightening::NONE.of_steps(&asked(1e-8)), asked(1e-8));
     }
 }

@@ -1,7 +1,9 @@
 //! RATTLE.
 
 use super::hermite::Hermite;
-use super::{Control, Entry, From, Integrator, Problem, Setup, Stability, Steps, Tightening, Tolerance, refuses, takes};
+use super::{
+    Control, Entry, From, Integrator, Problem, Setup, Stability, Steps, Tightening, Tolerance, refuses, takes,
+};
 use crate::error::{Error, Result};
 use crate::formulation::Halt;
 use crate::math::kkt::Singular;

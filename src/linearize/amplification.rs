@@ -3,8 +3,12 @@
 use super::flow::{Bundle, flow};
 use super::{Chart, Matrix, State, Variation};
 use crate::error::{Error, Result};
-use crate::system::MechanicalSystem;
+use crate::simulate::{Method, Span, stiffness};
+use crate::study::Study;
+use crate::system::{Loaded, MechanicalSystem};
 
+/// Times up to which the growth of small changes of a study is looked at.
+const TIMES: u32 = 20;
 /// More degrees of freedom cost too many motions side by side.
 const MOST: usize = 40;
 /// Powers of ten within which the rate s is sought, 1/s, and how often the range is made smaller by a third.
@@ -45,6 +49,19 @@ pub fn amplification(
         return Err(Error::input("it was ended"));
     }
     Ok(least_norm(&found.into_iter().collect::<Result<Vec<Matrix>>>()?))
+}
+
+/// The [`amplification`] of a study's motion; none where there are too many degrees of freedom, or too fast ones for the
+/// explicit method that carries them.
+pub fn amplified(study: &Study, span: Span, goes_on: impl FnMut(f64) -> bool) -> Option<f64> {
+    let start = State::start(study);
+    let state =
+        Loaded { t: start.t, q: &start.q, v: &start.v, vdot: &study.assembly.vdot, lambda: &study.assembly.lambda };
+    if stiffness(study.system(), &Method::default(), state, span).is_some() {
+        return None;
+    }
+    let time = |i: u32| span.start + (span.end - span.start) * f64::from(i) / f64::from(TIMES);
+    amplification(study.system(), &start, &(1..=TIMES).map(time).collect::<Vec<f64>>(), goes_on).ok()
 }
 
 /// min over s of the largest norm of diag(1, 1/s) X diag(1, s), and that of the start, 1. It is convex in log s: Sezginer,

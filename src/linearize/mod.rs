@@ -28,7 +28,7 @@ mod unconstrained;
 mod variation;
 
 pub use along::{State, states, tighten};
-pub use amplification::amplification;
+pub use amplification::{amplification, amplified};
 pub use chart::{Chart, Coordinates, parallel};
 pub use floquet::{Defect, Floquet, floquet};
 pub use frequency::{Resonances, frequency_response};

@@ -2,7 +2,6 @@
 
 use super::Run;
 use super::events::{Passage, Turn};
-use super::rows::project;
 use crate::error::{Failure, short};
 use crate::formulation::Halt;
 use crate::integrator::{From, first_step};
@@ -31,8 +30,7 @@ impl Run<'_> {
             self.integrator.interpolate(&mut self.rows.problem, from, *h, theta, &mut self.next)?;
             (*h, *end) = (theta * *h, None);
             let t = self.t + *h;
-            let sweeps = self.sweeps(*h);
-            project(t, &mut self.next, &mut self.problem, &mut self.projection, sweeps)?;
+            self.project_within(t, *h)?;
             self.problem.derivative(t, &self.next, &mut self.next_slope)?;
             passage = self.passage(*h, t)?;
         }

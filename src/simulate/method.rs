@@ -1,9 +1,10 @@
 //! Which method a run uses.
 
-use crate::error::{Error, Result, short};
+use crate::error::{Error, Result, Warning, short};
 use crate::formulation::Choice;
-use crate::integrator::{self, Steps};
+use crate::integrator::{self, Steps, Tolerance};
 use crate::projection;
+use crate::system::MechanicalSystem;
 use serde::{Deserialize, Serialize};
 
 /// A method: formulation x integrator x projection, with its accuracy.
@@ -44,6 +45,9 @@ pub fn atol_of(rtol: f64, ratio: f64) -> f64 {
     format!("{atol:.3e}").parse().unwrap_or(atol)
 }
 
+/// Errors of motions that amplify none are to be within so many tolerances.
+const FACTOR: f64 = 10.0;
+
 impl Method {
     /// The default, with an absolute tolerance of 1e-8 of the length, m, of a scene that is smaller than a centimetre.
     pub fn of_length(length: f64) -> Self {
@@ -58,6 +62,18 @@ impl Method {
             "none" => format!("{formulation} + {integrator}"),
             _ => format!("{formulation} + {integrator} + {projection}"),
         }
+    }
+
+    /// What steps cannot be controlled tightly enough for, where that is asked: of methods of low order rtol 1e-9, say.
+    pub fn beyond_reach(&self, system: &dyn MechanicalSystem) -> Option<Warning> {
+        let (entry, asked) = (integrator::find(&self.integrator).ok()?, Tolerance::new(self.rtol, self.atol, system));
+        let reached = entry.tightening.reached(&asked);
+        let is_beyond = self.step.is_none() && reached > FACTOR * self.rtol;
+        is_beyond.then(|| {
+            let (name, rtol, reached) = (entry.name, short(self.rtol), format!("{reached:.0e}"));
+            let text = format!("{name} comes to errors of about {reached}, not to rtol {rtol}: its steps are at their tightest");
+            Warning::new(text, "choose a method of higher order, such as dop853, or radau_iia for stiff motions; --check-error measures errors")
+        })
     }
 
     /// Refuses combinations that make no sense, naming those that do.

@@ -33,7 +33,7 @@ use rows::{Rows, observation};
 use step::is_too_large;
 
 use crate::error::{Failure, Result};
-use crate::formulation::{self, Dynamics, Statistics};
+use crate::formulation::{self, Choice, Dynamics, Statistics};
 use crate::integrator::{self, Integrator, Problem, Setup, Store, Tolerance};
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
@@ -118,6 +118,16 @@ struct Run<'a> {
     allowance: f64,
 }
 
+/// What is done to states on the dense output: the projection of the method, but where both levels are integrated, these hold
+/// at the ends of steps to round-off, and the error of a step is measured along them. Between the ends nothing else keeps
+/// the dense output near them, least of all where a driver leaves no free direction.
+fn within(method: &Method, system: &dyn MechanicalSystem) -> Result<Option<Box<dyn Projection>>> {
+    match formulation::dae(&method.formulation)? {
+        Some(dae) if dae.holds(0) && dae.holds(1) => projection::make(&Choice::named("exact"), system),
+        _ => projection::make(&method.projection, system),
+    }
+}
+
 /// What a run is made of.
 pub(crate) struct Parts<'a> {
     pub problem: Problem<'a>,
@@ -154,7 +164,7 @@ impl<'a> Run<'a> {
                 is_fixed: method.step.is_some(),
             })?,
             projection: projection::make(&method.projection, system)?,
-            rows: (problem()?, projection::make(&method.projection, system)?),
+            rows: (problem()?, within(method, system)?),
             tests_velocities: formulation::dae(&method.formulation)?.is_none_or(|dae| dae.velocity_index() == 1),
             limits_projection: true,
         };

@@ -53,7 +53,8 @@ impl Run<'_> {
         self.integrator.prepare(&mut self.rows.problem, from, h, &self.next, &self.next_slope)
     }
 
-    /// Evaluates the row at `t`; its fraction of the step where it contradicts that.
+    /// Evaluates the row at `t`; its fraction of the step where it contradicts that, or is so far off the constraints that it
+    /// cannot be projected.
     fn row_within(&mut self, t: f64, h: f64) -> Result<Option<f64>, Halt> {
         let sweeps = self.sweeps(h);
         let theta = (t - self.t) / h;
@@ -66,7 +67,10 @@ impl Run<'_> {
             self.integrator.interpolate(&mut rows.problem, from, h, theta + apart, &mut rows.ahead)?;
             rows.differentiate(h * apart);
         }
-        project(t, &mut rows.y, &mut rows.problem, &mut rows.projection, sweeps)?;
+        match project(t, &mut rows.y, &mut rows.problem, &mut rows.projection, sweeps) {
+            Err(halt) if self.fixed.is_none() && !halt.is_final() => return Ok(Some(theta)),
+            projected => projected?,
+        }
         rows.evaluate(t)?;
         Ok((is_checked && self.row_contradicts(h)).then_some(theta))
     }

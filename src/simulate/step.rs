@@ -36,7 +36,7 @@ impl Run<'_> {
             return Ok(error);
         }
         let t = self.end_of(*h, *end);
-        let error = self.project_step(t, *h, error, is_singular)?;
+        let error = self.project_step((*h, *end), error, is_singular)?;
         if error.is_some_and(is_too_large) {
             return Ok(error);
         }
@@ -84,10 +84,19 @@ impl Run<'_> {
     }
 
     /// Projects the new state, and refuses it where that moves it too far.
-    fn project_step(&mut self, t: f64, h: f64, error: Option<f64>, is_singular: bool) -> Result<Option<f64>, Halt> {
+    fn project_step(
+        &mut self,
+        (h, end): (f64, Option<f64>),
+        error: Option<f64>,
+        is_singular: bool,
+    ) -> Result<Option<f64>, Halt> {
         self.change.copy_from_slice(&self.next);
-        let sweeps = self.sweeps(h);
-        project(t, &mut self.next, &mut self.problem, &mut self.projection, sweeps)?;
+        let (t, sweeps) = (self.end_of(h, end), self.sweeps(h));
+        // A method that chooses its steps comes to a stop on the dense output of one that ends behind it.
+        match end.is_some() && self.integrator.seen().is_some_and(|seen| seen > h) {
+            true => self.project_within(t, h)?,
+            false => project(t, &mut self.next, &mut self.problem, &mut self.projection, sweeps)?,
+        }
         self.is_moved = self.projection.is_some() || self.change != self.next;
         if error.is_none() || !self.is_moved {
             return Ok(error);
@@ -100,6 +109,12 @@ impl Run<'_> {
         }
         self.refusal = "the projection moves the state by far more than the tolerance (is the start consistent?)";
         Ok(if is_far { Some(correction) } else { error })
+    }
+
+    /// Projects a state that is on the dense output of a step.
+    pub fn project_within(&mut self, t: f64, h: f64) -> Result<(), Halt> {
+        let sweeps = self.sweeps(h);
+        project(t, &mut self.next, &mut self.problem, &mut self.rows.projection, sweeps)
     }
 
     pub fn hold(&mut self, rows: &[usize]) {

@@ -37,6 +37,21 @@ fn an_energy_balance_that_does_not_close_is_a_warning() {
     }
 }
 
+/// Steps of order 3 would have to be controlled to 1e-13.
+#[test]
+fn a_tolerance_out_of_reach_is_a_warning() {
+    let esdirk = ["--integrator", "esdirk34", "--projection", "none"];
+    let asked = |rtol: &str| warnings(PENDULUM, &[&esdirk[..], &["--rtol", rtol, "--atol", "1e-10"]].concat());
+    assert_eq!(asked("1e-7"), [""; 0]);
+    let found = asked("1e-9");
+    assert!(
+        found.len() == 1 && found[0].contains("esdirk34 comes to errors of about 3e-8, not to rtol 1e-9"),
+        "{found:?}"
+    );
+    assert!(found[0].contains("dop853"), "{found:?}");
+    assert_eq!(warnings(PENDULUM, &["--rtol", "1e-11", "--atol", "1e-13"]), [""; 0]);
+}
+
 /// What is left of an energy that is nothing has no relative size.
 #[test]
 fn a_body_at_rest_has_no_relative_error() {

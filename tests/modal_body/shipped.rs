@@ -1,8 +1,9 @@
 //! The shipped scene's data are the export of the beam that it names.
 
 use crate::export::Beam;
-use crate::scenes::model;
+use crate::scenes::{model, shipped};
 use holonom::body::flexible::modal::{Array, ModalData};
+use holonom::simulate::Method;
 use serde_json::{Value, json};
 
 /// Steel, 0.8 m long, 30 mm wide and 4 mm high.
@@ -37,6 +38,22 @@ fn the_link_is_the_strip() {
         assert_eq!(place, known);
         // Ten digits are written.
         assert!((found - exact).abs() <= 1e-9 * exact.abs() + 1e-12, "{place}: {found} instead of {exact}");
+    }
+}
+
+/// The force of the hinge is that of bends of a millimetre: tolerances of one per cent of `rtol` for a metre give it as exactly as
+/// the motion, within ten tolerances.
+#[test]
+fn the_hinge_force_is_as_good_as_the_motion() {
+    let ready = shipped("modal_link", &[]);
+    let own = &ready.0.method;
+    let force = |method: &Method| ready.run(method, ready.span()).column("hinge_force");
+    let exact = force(&Method { rtol: 1e-12, atol: 1e-14, ..own.clone() });
+    let largest = exact.iter().fold(0.0, |largest: f64, force| largest.max(force.abs()));
+    for rtol in [1e-3, 1e-6, own.rtol] {
+        let found = force(&Method { rtol, atol: own.atol * rtol / own.rtol, ..own.clone() });
+        let off = found.iter().zip(&exact).fold(0.0, |off: f64, (a, b)| off.max((a - b).abs()));
+        assert!(off < 10.0 * rtol * largest, "rtol {rtol}: {off:e} of {largest}");
     }
 }
 

@@ -1,8 +1,8 @@
 //! The tangent matrix with the penalty in it.
 
-use crate::formulation::NO_TANGENT;
 use super::super::Problem;
 use crate::formulation::Halt;
+use crate::formulation::NO_TANGENT;
 use crate::math::kkt::{Pattern, Unsymmetric};
 use crate::system::{Loaded, MechanicalSystem, Tangent};
 use std::collections::BTreeSet;

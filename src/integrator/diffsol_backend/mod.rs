@@ -138,18 +138,19 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Implicit<'h, 's, S> {
         }
     }
 
-    /// Takes a step, unless the solver is ahead, and writes the state at its end, or at `end` if that comes first.
-    fn advance(&mut self, solver: &mut S, began: f64, end: f64, to: &mut [f64]) -> Result<(), Halt> {
+    /// Takes a step, unless the solver is ahead, and writes the state at its end, or after `h` if that comes first.
+    fn advance(&mut self, solver: &mut S, (began, h): (f64, f64), to: &mut [f64]) -> Result<(), Halt> {
+        let end = began + h;
         if !self.is_ahead {
             // Smaller steps are lost in the rounding of t.
-            *solver.config_mut().as_base_mut().minimum_timestep = f64::EPSILON * began.abs().max(1e-3 * (end - began));
+            *solver.config_mut().as_base_mut().minimum_timestep = f64::EPSILON * began.abs().max(1e-3 * h);
             solver.step().map_err(|error| self.halt(error))?;
             // What stopped an evaluation on the way was overcome.
             self.own_halt();
         }
         let t = solver.state().t;
         self.is_ahead = t > end;
-        self.own_step = if self.is_ahead { end - began } else { t - began };
+        self.own_step = if t < end { t - began } else { h };
         if self.own_step <= 0.0 {
             return Err(Halt::TooInaccurate);
         }
@@ -238,7 +239,7 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Integrator for Implicit<'h, 
             _ => {}
         }
         let mut solver = self.resume(tolerance, from, h)?;
-        let result = self.advance(&mut solver, from.t, from.t + h, to);
+        let result = self.advance(&mut solver, (from.t, h), to);
         self.count(&solver, problem);
         result?;
         (self.began, self.reached) = (from.t, from.t + self.own_step);

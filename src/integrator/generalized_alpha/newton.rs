@@ -34,7 +34,6 @@ fn limits(is_fixed: bool) -> Limits {
     }
 }
 
-
 /// Solves the equations at the end of a step for v'_1, lambda_1 and the shifts.
 pub(super) struct Newton {
     dae: Dae,

@@ -308,11 +308,8 @@ impl Integrator for RadauIIA {
         to.copy_from_slice(&self.stages.y[s - 1]);
         let tolerance = self.tolerance;
         let error = self.estimate(problem, &tolerance, from, h, to)?;
-        self.seen = Seen {
-            error,
-            decay: self.stages.decay(self.order.method(), &tolerance, from),
-            theta: self.newton.rate,
-        };
+        self.seen =
+            Seen { error, decay: self.stages.decay(self.order.method(), &tolerance, from), theta: self.newton.rate };
         if self.dae.velocity_index() == 2 && (self.is_fixed || error <= 1.0) {
             velocity::project(problem, from.t + h, to)?;
             velocity::slope(problem, from.t + h, to, &mut self.slope)?;
