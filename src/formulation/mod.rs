@@ -18,6 +18,7 @@ mod iteration;
 mod null_space;
 mod penalty;
 mod residual;
+mod stabilized_index1;
 mod stabilizer;
 mod turn;
 mod udwadia_kalaba;
@@ -96,6 +97,7 @@ pub fn registry() -> &'static [Entry] {
         index2::ENTRY,
         index3::ENTRY,
         ggl::ENTRY,
+        stabilized_index1::ENTRY,
         baumgarte::ENTRY,
         invariant_manifold::ENTRY,
         force_projection::ENTRY,

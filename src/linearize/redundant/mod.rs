@@ -1,16 +1,17 @@
 //! Redundant coordinates (RCS): descriptor forms E x' = A x of the constrained equations.
 
-mod form;
+mod pencil;
 mod rounding;
 
 use super::method::{Built, Entry};
-use crate::choice::OptionDoc;
-use form::Form;
+use crate::choice::{Choice, OptionDoc};
+use crate::error::{Error, Result};
+use crate::formulation::{self, Dae};
 
 /// The pencil (E, A) of the equations with multipliers, in all coordinates, its state frozen:
 ///
 /// ```text
-/// dq' = dv - [v, dq]                    GGL: - G^T dmu
+/// dq' = dv - [v, dq]                    GGL: - M^-1 G^T dmu
 /// M dv' = -K dq - C dv - G^T dlambda
 /// index 3: G dq = 0                     2 (n - m) finite eigenvalues, 3 m infinite
 /// index 2: Gd dq + G dv = 0             2 (n - m), m zeros, 2 m infinite
@@ -26,7 +27,7 @@ pub const RCS: Entry = Entry {
     name: "rcs",
     about: "descriptor form (E, A) in all coordinates and multipliers: exact at an equilibrium",
     options: &[
-        OptionDoc { name: "form", about: "index3, index2, index1 or ggl (default index3)" },
+        OptionDoc { name: "form", about: "a formulation with multipliers: index3, index2, index1, ggl, baumgarte (default index3)" },
         OptionDoc {
             name: "solver",
             about: "null_space: deflation by null spaces; gsvd: deflation by generalized singular values; qz: generalized \
@@ -34,8 +35,15 @@ pub const RCS: Entry = Entry {
         },
     ],
     build: |variation, request| {
-        let form = Form::named(request.method.one_of("form", &["index3", "index2", "index1", "ggl"])?);
         request.method.one_of("solver", &["null_space", "gsvd", "qz"])?;
-        form.build(variation)
+        pencil::build(&dae(request.method)?, variation)
     },
 };
+
+/// The equations of the formulation that the option `form` names, index 3 where it is not given.
+fn dae(method: &Choice) -> Result<Dae> {
+    let others = formulation::registry().iter().filter(|entry| entry.dae.is_some()).map(|entry| entry.name);
+    let known: Vec<&str> = std::iter::once("index3").chain(others.filter(|name| *name != "index3")).collect();
+    let form = Choice::named(method.one_of("form", &known)?);
+    formulation::dae(&form)?.ok_or_else(|| Error::input(format!("{form} has no rows")))
+}

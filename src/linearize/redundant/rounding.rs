@@ -1,5 +1,7 @@
 //! Matrices of a pencil without what rounding leaves in place of zeros.
 
+use crate::formulation::Row;
+use crate::linearize::response::beside;
 use crate::linearize::{Matrix, Variation};
 
 /// Part of the largest entry, in the metric of the mass, that is only rounding. Ten times less than what rounds the largest
@@ -16,6 +18,13 @@ pub struct Parts {
 }
 
 impl Parts {
+    /// What a row is of (dq, dv): 0 = c_2 (G dv' + ...) + c_1 (Gd dq + G dv) + c_0 G dq.
+    pub fn row(&self, row: Row) -> Matrix {
+        let Parts { g, gd, rows, .. } = self;
+        let still = Matrix::zeros(g.nrows(), g.ncols());
+        rows * row.acceleration - beside([gd, g]) * row.velocity - beside([g, &still]) * row.position
+    }
+
     /// Drops what is smaller than rounding of the largest entries. Scaling a pencil by the size of its entries would take
     /// 1e-30 in the place of a zero as seriously as the rest, and ranks would be found wrong.
     pub fn clean(&mut self, variation: &Variation) {

@@ -1,0 +1,19 @@
+//! Stabilized index 1: constraints of all three levels together.
+
+use super::{Dae, Entry, Row};
+
+/// ```text
+/// q' = N (v + u),   M u + G^T mu = 0,    v' = a + w,   M w + G^T eta = 0,    M a + G^T lambda = f
+/// phi = 0,   G v + phi_t = 0,   G a - gamma = 0
+/// ```
+///
+/// The equations of Gear, Gupta and Leimkuhler carried to the accelerations: Fuehrer, Leimkuhler, Numer. Math. 59 (1991)
+/// 55-69. mu = eta = 0 for the exact motion. lambda is that of a, and so free of what a discretization leaves along the
+/// constraints; the largest of the systems, and all three levels hold at every step as far as the iteration goes.
+pub const ENTRY: Entry = Entry {
+    name: "stabilized_index1",
+    about: "phi = 0, G v + phi_t = 0 and phi'' = 0 together, for integrators that solve all three",
+    options: &[],
+    dae: Some(|_| Ok(Dae { lambda: Row::ACCELERATION, eta: Some(Row::VELOCITY), mu: Some(Row::POSITION) })),
+    field: None,
+};

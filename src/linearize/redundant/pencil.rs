@@ -1,0 +1,115 @@
+//! The pencils.
+
+use super::Built;
+use super::rounding::Parts;
+use crate::error::Result;
+use crate::formulation::{Dae, Row};
+use crate::linearize::{Changes, Matrix, Variation, names};
+
+/// Infinite eigenvalues with `m` independent constraints: those of index 1 for a row of phi'' beside M v', one more a
+/// multiplier for each time that the row is differentiated less, and for mu, which stands beside q', one less.
+fn infinite(dae: &Dae, m: usize) -> usize {
+    let of = |row: Option<Row>, most: usize| row.map_or(0, |row| m * (most - row.level()));
+    of(Some(dae.lambda), 3) + of(dae.eta, 3) + of(dae.mu, 2)
+}
+
+/// The multipliers of one kind: their rows and the place of the first.
+#[derive(Clone, Copy)]
+struct Kind {
+    row: Row,
+    at: usize,
+}
+
+/// (E, A), B, C and D in x = (dq, dv, dlambda), with deta and dmu behind where the equations have them.
+pub fn build(dae: &Dae, variation: &mut Variation) -> Result<Built> {
+    let kept = variation.independent_rows();
+    let (n, m) = (variation.len(), kept.len());
+    let kept_rows = |rows: Matrix| rows.select_rows(&kept);
+    let mut parts = Parts {
+        k: variation.k(),
+        c: variation.c(),
+        g: kept_rows(variation.g()),
+        gd: kept_rows(variation.gd()),
+        rows: kept_rows(variation.rows(&Changes::all(n), [0.0; 2])),
+    };
+    parts.clean(variation);
+    let mut end = 2 * n;
+    let mut place = |row: Row| {
+        end += m;
+        Kind { row, at: end - m }
+    };
+    let (lambda, eta, mu) = (place(dae.lambda), dae.eta.map(&mut place), dae.mu.map(&mut place));
+    let (mut e, mut a) = (Matrix::zeros(end, end), Matrix::zeros(end, end));
+    let Parts { k, c, g, .. } = &parts;
+    put(&mut e, (0, 0), &Matrix::identity(n, n));
+    put(&mut e, (n, n), &variation.mass());
+    put(&mut a, (0, 0), &-variation.bracket(&variation.point.v));
+    put(&mut a, (0, n), &Matrix::identity(n, n));
+    put(&mut a, (n, 0), &-k);
+    put(&mut a, (n, n), &-c);
+    put(&mut a, (n, lambda.at), &-g.transpose());
+    // G M^-1, transposed: what multipliers of their own change of v' and q'.
+    let shift = if dae.has_shifts() { over_mass(g.clone(), variation.mass()) } else { None };
+    if let (Some(eta), Some(shift)) = (eta, &shift) {
+        put(&mut a, (n, eta.at), &-g.transpose());
+        put(&mut a, (lambda.at, eta.at), &(shift * g.transpose() * -lambda.row.acceleration));
+    }
+    if let (Some(mu), Some(shift)) = (mu, &shift) {
+        put(&mut a, (0, mu.at), &-shift.transpose());
+    }
+    for Kind { row, at } in [Some(lambda), eta, mu].into_iter().flatten() {
+        put(&mut e, (at, n), &(g * row.acceleration));
+        put(&mut a, (at, 0), &parts.row(row));
+    }
+    observe(dae, variation, &kept, (e, a))
+}
+
+/// With the inputs and outputs.
+fn observe(dae: &Dae, variation: &mut Variation, kept: &[usize], (e, a): (Matrix, Matrix)) -> Result<Built> {
+    let (n, size) = (variation.len(), a.nrows());
+    let (inputs, outputs) = (variation.inputs(), variation.outputs()?);
+    let (mut b, mut c) = (Matrix::zeros(size, inputs.ncols()), Matrix::zeros(outputs.q.nrows(), size));
+    put(&mut b, (n, 0), &inputs);
+    put(&mut c, (0, 0), &outputs.q);
+    put(&mut c, (0, n), &outputs.v);
+    put(&mut c, (0, 2 * n), &outputs.lambda.select_columns(kept));
+    let unit = Matrix::identity(size, size);
+    let changes = Changes { q: unit.rows(0, n).clone_owned(), v: unit.rows(n, n).clone_owned() };
+    let mut d = outputs.u;
+    if let Some(of_force) = of_outputs(outputs.vdot, variation.mass()) {
+        c += &of_force * a.rows(n, n);
+        d += &of_force * inputs;
+    }
+    let states = states(dae, variation, kept);
+    let (chart, infinite) = ("redundant".to_string(), infinite(dae, kept.len()));
+    Ok(Built { chart, states, a, b, c, d, e: Some(e), changes, infinite })
+}
+
+fn states(dae: &Dae, variation: &Variation, kept: &[usize]) -> Vec<String> {
+    let system = variation.system();
+    let mut states = names::directions(system, &variation.point.q).states();
+    let multipliers = system.names().lambda;
+    for (_, suffix) in [(Some(dae.lambda), ""), (dae.eta, " eta"), (dae.mu, " mu")].iter().filter(|kind| kind.0.is_some()) {
+        states.extend(kept.iter().map(|&row| format!("{}{suffix}", multipliers[row])));
+    }
+    states
+}
+
+/// What outputs W dv' are of M dv', if any are.
+fn of_outputs(outputs: Matrix, mass: Matrix) -> Option<Matrix> {
+    if outputs.iter().all(|slope| *slope == 0.0) { None } else { over_mass(outputs, mass) }
+}
+
+/// W M^-1; directions without mass stay as they are, and no output feels them.
+fn over_mass(outputs: Matrix, mut mass: Matrix) -> Option<Matrix> {
+    for i in 0..mass.nrows() {
+        if mass[(i, i)] == 0.0 {
+            mass[(i, i)] = 1.0;
+        }
+    }
+    Some(mass.lu().solve(&outputs.transpose())?.transpose())
+}
+
+fn put(target: &mut Matrix, at: (usize, usize), block: &Matrix) {
+    target.view_mut(at, block.shape()).copy_from(block);
+}
