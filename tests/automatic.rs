@@ -12,7 +12,7 @@ fn begun_with(scene: &Ready, names: [&str; 3], span: Span) -> (Outcome, Vec<Leg>
     let method = holonom::simulate::Method { formulation, integrator, projection, rtol: 1e-7, atol: 1e-9, step: None };
     let first = Leg { from: span.start, method, because: String::new() };
     let mut recorder = Recorder::new(scene.system());
-    let (outcome, legs) = simulate_automatic(scene.system(), &first, span, scene.0.start(), &mut recorder).unwrap();
+    let (outcome, legs, _) = simulate_automatic(scene.system(), &first, span, scene.0.start(), &mut recorder).unwrap();
     (outcome, legs, recorder.finish())
 }
 

@@ -5,7 +5,7 @@
 //! one of both would, wherever along the motion that changes. All is counted in evaluations: a run is repeatable bit by bit.
 
 use super::contest::{Contest, Mark, Quiet};
-use super::{Method, Outcome, Run, Sink, Span};
+use super::{Checkpoint, Method, Outcome, Run, Sink, Span};
 use crate::error::{Failure, Result, clock, short};
 use crate::formulation::{Choice, Statistics};
 use crate::integrator::Store;
@@ -112,7 +112,7 @@ const MOST_ADVICE: f64 = 2e4;
 const CALM: &str = "not stiff: accuracy, not stability, limits explicit steps";
 
 /// Integrates `system` from (q, v), which should be consistent, over `span`, by the method of `first` and others where these
-/// come farther. Returns the methods in their order.
+/// come farther. Returns the methods in their order, and where a run by the last of them can go on.
 ///
 /// # Errors
 /// Bad input only, as in [`simulate`](super::simulate).
@@ -122,7 +122,7 @@ pub fn simulate_automatic(
     span: Span,
     start: (&[f64], &[f64]),
     sink: &mut dyn Sink,
-) -> Result<(Outcome, Vec<Leg>)> {
+) -> Result<(Outcome, Vec<Leg>, Option<Checkpoint>)> {
     span.check()?;
     let methods = candidates(first.method.rtol, first.method.atol);
     let carrier = usize::from(first.method.integrator != methods[0].integrator);
@@ -131,6 +131,7 @@ pub fn simulate_automatic(
     let mut drive = Drive { system, methods: &methods, run, carrier, spent: Statistics::default() };
     let mut legs = vec![first.clone()];
     let mut failure = drive.run.begin(sink).err();
+    let has_begun = failure.is_none();
     // What was found out before is not asked again at once.
     let mut window = 2.0 * FIRST;
     while failure.is_none() && drive.run.t < span.end {
@@ -149,8 +150,9 @@ pub fn simulate_automatic(
             legs.push(Leg { from: drive.run.t, method: methods[carrier].clone(), because });
         }
     }
+    let saved = has_begun.then(|| drive.run.checkpoint(&methods[drive.carrier]));
     let outcome = drive.run.finish(failure, sink);
-    Ok((Outcome { statistics: drive.spent + outcome.statistics, ..outcome }, legs))
+    Ok((Outcome { statistics: drive.spent + outcome.statistics, ..outcome }, legs, saved))
 }
 
 /// (q, v), and no work so far.

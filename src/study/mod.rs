@@ -10,7 +10,10 @@ use crate::initial::{self, Assembly};
 use crate::integrator::Steps;
 use crate::math::expression::{Number, Parameters};
 use crate::scene::{self, AnyModel, Automatic, Scene, Simulation};
-use crate::simulate::{Leg, Method, Outcome, Sink, Span, Stiffness, advise, simulate, simulate_automatic, stiffness};
+use crate::simulate::{
+    Checkpoint, Leg, Method, Outcome, Sink, Span, Start, Stiffness, advise, simulate_automatic, simulate_from,
+    stiffness,
+};
 use crate::system::{Loaded, MechanicalSystem, Mechanism};
 use crate::{formulation, integrator, projection};
 use std::path::Path;
@@ -72,6 +75,9 @@ pub struct Study {
     /// `None` where neither the scene nor the command line says until when.
     span: Option<Span>,
 }
+
+/// How a run ended, the methods that carried it where these were left to the program, and where it can go on.
+pub type Simulated = (Outcome, Vec<Leg>, Option<Checkpoint>);
 
 impl Study {
     /// Reads a scene, assembles it and settles how to simulate it.
@@ -151,11 +157,29 @@ impl Study {
     /// # Errors
     /// Bad input only: see [`simulate`].
     pub fn simulate(&self, method: &Method, span: Span, sink: &mut dyn Sink) -> Result<(Outcome, Vec<Leg>)> {
-        match &self.chosen_because {
-            None => Ok((simulate(self.system(), method, span, self.start(), sink)?, Vec::new())),
-            Some(because) => {
-                let first = Leg { from: span.start, method: method.clone(), because: because.clone() };
-                simulate_automatic(self.system(), &first, span, self.start(), sink)
+        let (q, v) = self.start();
+        self.simulate_from(method, span, Start::State(q, v), sink).map(|(outcome, legs, _)| (outcome, legs))
+    }
+
+    /// The same from a start that may be where another run was saved, whose method goes on where that is left to the program;
+    /// with where this one can go on.
+    ///
+    /// # Errors
+    /// Bad input only: see [`simulate_from`].
+    pub fn simulate_from(&self, method: &Method, span: Span, start: Start, sink: &mut dyn Sink) -> Result<Simulated> {
+        let leg =
+            |from: f64, method: &Method, because: &str| Leg { from, method: method.clone(), because: because.into() };
+        let by = |method: &Method, legs: Vec<Leg>, sink: &mut dyn Sink| {
+            let (outcome, saved) = simulate_from(self.system(), method, span, start, sink)?;
+            Ok((outcome, legs, saved))
+        };
+        match (&self.chosen_because, start) {
+            (None, _) => by(method, Vec::new(), sink),
+            (Some(because), Start::State(q, v)) => {
+                simulate_automatic(self.system(), &leg(span.start, method, because), span, (q, v), sink)
+            }
+            (Some(_), Start::Saved(saved)) => {
+                by(saved.method(), vec![leg(saved.t(), saved.method(), "the method of the run that goes on")], sink)
             }
         }
     }
