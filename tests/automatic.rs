@@ -12,7 +12,8 @@ use std::path::Path;
 fn automatic(scene: &Ready, rtol: f64, span: Span) -> (Outcome, Vec<Leg>, Record) {
     let mut recorder = Recorder::new(scene.system());
     let start = scene.0.start();
-    let (outcome, legs) = simulate_automatic(scene.system(), (rtol, 1e-2 * rtol), span, start, &mut recorder).unwrap();
+    let (outcome, legs, _) =
+        simulate_automatic(scene.system(), (rtol, 1e-2 * rtol), span, start, &mut recorder).unwrap();
     (outcome, legs, recorder.finish())
 }
 

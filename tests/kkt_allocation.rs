@@ -77,7 +77,7 @@ fn nor_by_the_dense_solvers() {
         let (mass_values, mut top, mut bottom) = (vec![1.0; g.cols], vec![1.0; g.cols], vec![0.0; g.rows]);
         for (k, solver) in solvers.iter_mut().enumerate() {
             let mut round = || {
-                solver.factor(&mass_values, &values).unwrap();
+                solver.factor(&mass_values, &values, 0.0).unwrap();
                 top.fill(1.0);
                 bottom.fill(0.0);
                 solver.solve(&mut top, &mut bottom).unwrap();
@@ -99,7 +99,7 @@ fn pseudo_inverse_of_many_rows() {
         let mut solver = PseudoInverse::new(&mass, &g, 1e-10).unwrap();
         let (mass, mut top, mut bottom) = (vec![1.0; n], vec![1.0; n], vec![0.0; m]);
         let mut round = || {
-            solver.factor(&mass, &values).unwrap();
+            solver.factor(&mass, &values, 0.0).unwrap();
             solver.solve(&mut top, &mut bottom).unwrap();
         };
         round();

@@ -13,6 +13,7 @@ mod loci;
 mod methods;
 mod plot;
 mod purpose;
+mod restart;
 mod schema;
 mod simulate;
 mod stress;

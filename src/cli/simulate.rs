@@ -2,11 +2,13 @@
 
 use super::check_error::check_error;
 use super::common::{Common, Output, tell};
-use super::interrupt;
+use super::{interrupt, restart};
 use crate::error::{Result, Warning};
 use crate::measure::{Record, Recorder};
 use crate::report::{self, Folder, Summary, summarize};
+use crate::simulate::Start;
 use crate::study::Study;
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -19,16 +21,21 @@ pub struct Args {
     /// Run again at a tenth of the tolerance, or half the step, and tell by how much each output differs
     #[arg(long)]
     check_error: bool,
+    /// Go on from the end of another run of this scene, its summary.json, to a later --until
+    #[arg(long, value_name = "FILE", conflicts_with = "check_error")]
+    start: Option<PathBuf>,
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
     let study = args.common.load()?;
     let span = args.common.span(&study)?;
+    let saved = args.start.as_ref().map(|path| restart::read(path, &study)).transpose()?;
+    let doubt = saved.as_ref().and_then(|saved| restart::doubt(saved, &study));
     let mut folder = args.output.folder(&study.name)?;
     let stiffness = study.stiffness(span);
     // Said before a run that may take long, and not again.
     let of_method = stiffness.as_ref().map(Warning::from).into_iter().chain(study.method.beyond_reach(study.system()));
-    let early: Vec<Warning> = study.doubts.iter().cloned().chain(of_method).collect();
+    let early: Vec<Warning> = study.doubts.iter().cloned().chain(of_method).chain(doubt).collect();
     args.common.talk.warn(&early[study.doubts.len()..]);
     let bar = args.common.talk.progress(1000, &study.name);
     let fraction = |t: f64| (1000.0 * (t - span.start) / (span.end - span.start)) as u64;
@@ -36,12 +43,15 @@ pub fn run(args: Args) -> Result<ExitCode> {
         .with_progress(|t| bar.set_position(fraction(t)))
         .with_stop(|| interrupt::stop(&folder));
     let clock = Instant::now();
-    let (outcome, legs) = study.simulate(&study.method, span, &mut recorder)?;
+    let (q, v) = study.start();
+    let start = saved.as_ref().map_or(Start::State(q, v), Start::Saved);
+    let (outcome, legs, saved) = study.simulate_from(&study.method, span, start, &mut recorder)?;
     let seconds = clock.elapsed().as_secs_f64();
     let record = recorder.finish();
     bar.finish_and_clear();
     let summary = Summary {
         command: std::env::args().collect(),
+        restart: saved,
         ..summarize((&study, stiffness, &early), (&outcome, &legs), &record, seconds)
     };
     let is_checked = args.check_error && summary.failure.is_none();

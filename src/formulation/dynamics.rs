@@ -128,8 +128,12 @@ pub struct Dynamics<'a> {
     pub kkt: SaddlePoint,
     /// Constraints that depend on the others wherever phi = 0, and are left out.
     pub held: Vec<usize>,
-    /// Rows count as dependent below this part of the usual sine: see [`SaddlePoint::factor_truncated`].
+    /// Rows count as dependent below this part of the reference value: see [`SaddlePoint::factor_truncated`].
     pub rank_tolerance: f64,
+    /// Of a dense solver other than `kkt`: the rank indicator at the last solution, and its reference value, settled at the
+    /// start of a step as that of `kkt` is.
+    pub dense_indicator: f64,
+    pub dense_reference: f64,
     /// How near G is to losing rank at the last solution, where that came from another solver than `kkt`: see
     /// [`SaddlePoint::smallest_sine`].
     pub sine: Option<f64>,
@@ -154,6 +158,8 @@ impl<'a> Dynamics<'a> {
             kkt: SaddlePoint::new(&structure.mass, &structure.g),
             held: Vec::new(),
             rank_tolerance: TRUNCATED,
+            dense_indicator: 0.0,
+            dense_reference: 0.0,
             sine: None,
             wants_least: true,
             structure,
@@ -220,10 +226,15 @@ impl<'a> Dynamics<'a> {
         }
     }
 
-    /// Leaves out the rows, and takes the pieces of functions, that another one does.
+    /// Drops the rows, and takes the pieces of functions, that another one does.
     pub fn follow(&mut self, other: &Dynamics) {
         self.hold(&other.held);
         self.scratch.pieces.clone_from(&other.scratch.pieces);
+    }
+
+    /// Settles the reference values of the rank indicators.
+    pub fn refer_to(&mut self, saddle: f64, dense: f64) {
+        (self.kkt.rank_reference, self.dense_reference) = (saddle, dense);
     }
 
     /// Why the terms have no solution, with names.

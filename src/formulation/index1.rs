@@ -21,7 +21,7 @@ pub const ENTRY: Entry = Entry {
 /// Constraints nearer than this to depending on others have no say in v' and lambda.
 pub(super) const RANK: OptionDoc = OptionDoc {
     name: "rank_tolerance",
-    about: "part of the usual sine below which constraints count as dependent (default 1e-4; 0 for the plain equations)",
+    about: "part of the reference value of the rank indicator below which constraints count as dependent (default 1e-4; 0 for the plain equations)",
 };
 
 pub(super) fn rank_tolerance(choice: &Choice) -> Result<f64> {

@@ -49,6 +49,17 @@ pub trait Formulation: Send {
         vdot: &mut [f64],
     ) -> Result<(), Halt>;
 
+    /// Settles by the first state of a run what holds in all of it.
+    fn settle(&mut self, _t: f64, _q: &[f64], _v: &[f64], _dynamics: &mut Dynamics) {}
+
+    /// What is settled, as numbers that [`Self::recall`] takes.
+    fn settled(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Settles what was settled before.
+    fn recall(&mut self, _settled: &[f64]) {}
+
     /// A step begins at a state of the motion: what follows are states within that step, until it ends.
     fn begin_step(&mut self, _t: f64, _q: &[f64], _v: &[f64], _dynamics: &mut Dynamics) -> Result<(), Halt> {
         Ok(())

@@ -4,8 +4,8 @@ use super::dense::Dense;
 use super::{Dynamics, Entry, Formulation, Halt, SPARSE};
 use crate::error::Error;
 use crate::math::kkt::{Chart, Reduced};
-use crate::math::largest;
 use crate::math::memory::refuse_dense;
+use crate::math::{Piece, largest};
 use crate::system::{MechanicalSystem, Need};
 
 /// With G_b Z = 0 at the start (q_b, v_b) of a step, and Y normal to Z in the metric of diag(M_b),
@@ -51,8 +51,8 @@ struct TangentSpace {
     chart: Chart,
     /// Whether states are within a step, and so of the chart; others stand for themselves.
     is_within: bool,
-    /// t and q of the base.
-    base: (f64, Vec<f64>),
+    /// t, q and the pieces of functions of the base.
+    base: (f64, Vec<f64>, Vec<Piece>),
     /// The state on the manifold.
     q: Vec<f64>,
     v: Vec<f64>,
@@ -73,7 +73,7 @@ impl TangentSpace {
             field: Dense(Reduced::new(&structure.mass, &structure.g)?),
             chart: Chart::new(&structure.mass, &structure.g),
             is_within: false,
-            base: (f64::NAN, zeros(n.q)),
+            base: (f64::NAN, zeros(n.q), Vec::new()),
             q: zeros(n.q),
             v: zeros(n.v),
             step: zeros(n.v),
@@ -97,7 +97,7 @@ impl TangentSpace {
         loop {
             dynamics.evaluate(t, &self.q, &self.v, Need::CONSTRAINTS | Need::G);
             if progress.is_slow {
-                self.chart.factor(&dynamics.terms.g);
+                self.chart.factor(&dynamics.terms.g, dynamics.dense_reference);
             }
             self.chart.solve(&dynamics.terms.phi, &mut self.step);
             dynamics.system.rate(&self.q, &self.step, &mut self.rate);
@@ -175,11 +175,12 @@ impl Formulation for TangentSpace {
 
     fn begin_step(&mut self, t: f64, q: &[f64], v: &[f64], dynamics: &mut Dynamics) -> Result<(), Halt> {
         self.is_within = true;
-        if self.base.0 != t || self.base.1 != q {
+        if self.base.0 != t || self.base.1 != q || self.base.2 != dynamics.scratch.pieces {
             dynamics.evaluate(t, q, v, Need::MASS | Need::G);
             self.chart.rebase(&dynamics.terms.mass, &dynamics.terms.g);
             self.base.0 = t;
             self.base.1.copy_from_slice(q);
+            self.base.2.clone_from(&dynamics.scratch.pieces);
         }
         Ok(())
     }
@@ -189,8 +190,8 @@ impl Formulation for TangentSpace {
     }
 
     fn end_step(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), Halt> {
-        self.lift(t, q, v, dynamics)?;
         self.is_within = false;
+        self.lift(t, q, v, dynamics)?;
         q.copy_from_slice(&self.q);
         v.copy_from_slice(&self.v);
         Ok(())

@@ -3,13 +3,13 @@
 use super::{Choice, Dynamics, Entry, Formulation, Halt, OptionDoc};
 use crate::error::Result;
 use crate::math::kkt::{Pattern, SaddlePoint};
-use crate::system::{MechanicalSystem, Structure, Terms};
+use crate::system::{MechanicalSystem, Need, Structure, Terms};
 
 /// ```text
 /// (M + G^T a G) v' = f + G^T a c,   c = gamma - 2 xi omega phi' - omega^2 phi,   lambda = a (G v' - c)
 /// ```
 ///
-/// with a = penalty / mean over the rows of (G diag(M)^-1 G^T)_jj, taken at the first state and then held, so that the
+/// with a = penalty / mean over the rows of (G diag(M)^-1 G^T)_jj, settled at the state where a run starts, so that the
 /// field is smooth. (The whole M^-1 would cost a solution a row.) Source: Bayo, Garcia de Jalon, Serna, Comput. Methods
 /// Appl. Mech. Eng. 71 (1988) 183-195. Error of v' and lambda against `baumgarte:alpha=xi omega,beta=omega`:
 /// O(1/penalty), whatever the step. Order in q, v, lambda: that of the integrator, to the motion that the penalty leaves.
@@ -45,7 +45,7 @@ pub(super) struct Penalty {
     penalty: f64,
     omega: f64,
     xi: f64,
-    /// a, once a state is known.
+    /// a of the run; outside of one that of the state at hand.
     weight: Option<f64>,
     kkt: SaddlePoint,
     mass: Vec<f64>,
@@ -76,7 +76,7 @@ impl Penalty {
 
     fn factor(&mut self, dynamics: &mut Dynamics) -> Result<(), Halt> {
         let Dynamics { terms, structure, .. } = &*dynamics;
-        let weight = *self.weight.get_or_insert_with(|| self.penalty / mean_compliance(structure, terms));
+        let weight = self.weight.unwrap_or_else(|| self.penalty / mean_compliance(structure, terms));
         let (mass, slack) = self.mass.split_at_mut(terms.mass.len());
         mass.copy_from_slice(&terms.mass);
         slack.fill(weight);
@@ -87,6 +87,19 @@ impl Penalty {
 }
 
 impl Formulation for Penalty {
+    fn settle(&mut self, t: f64, q: &[f64], v: &[f64], dynamics: &mut Dynamics) {
+        dynamics.evaluate(t, q, v, Need::MASS | Need::G);
+        self.weight = Some(self.penalty / mean_compliance(&dynamics.structure, &dynamics.terms));
+    }
+
+    fn settled(&self) -> Vec<f64> {
+        Vec::from_iter(self.weight)
+    }
+
+    fn recall(&mut self, settled: &[f64]) {
+        self.weight = settled.first().copied();
+    }
+
     fn derivative(
         &mut self,
         t: f64,

@@ -151,6 +151,20 @@ impl Control {
         if (1.0..self.dead_band).contains(&factor) { h } else { h * factor }
     }
 
+    /// What it carries from step to step.
+    pub fn memory(&self) -> Vec<f64> {
+        let (size, error) = self.before.unzip();
+        [Some(self.last), size, error].into_iter().flatten().collect()
+    }
+
+    /// Goes on with what [`Self::memory`] said.
+    pub fn recall(&mut self, memory: &[f64]) {
+        if let Some((last, before)) = memory.split_first() {
+            self.last = *last;
+            self.before = before.first().copied().zip(before.get(1).copied());
+        }
+    }
+
     /// The step to try again after the error was too large.
     pub fn reject(&self, h: f64, error: f64) -> f64 {
         h * (self.safety * error.powf(-self.exponent)).clamp(self.shrink, 1.0)

@@ -133,6 +133,14 @@ impl Integrator for Explicit {
         &mut self.control
     }
 
+    fn memory(&self) -> Vec<f64> {
+        self.control.memory()
+    }
+
+    fn recall(&mut self, memory: &[f64]) {
+        self.control.recall(memory);
+    }
+
     fn stability(&self) -> Option<Stability> {
         Some(Stability::of(|i| self.tableau.a[i], self.tableau.b))
     }
@@ -149,7 +157,7 @@ impl Integrator for Explicit {
         self.evaluate(problem, 1..self.stages(), from, h)?;
         combine(to, from.y, h, self.tableau.b, &self.k);
         if let Some(end) = self.end_stage() {
-            problem.derivative(from.t + h, to, &mut self.k[end])?;
+            problem.derivative(from.end, to, &mut self.k[end])?;
         }
         Ok(self.error(tolerance, from.y, to, h))
     }

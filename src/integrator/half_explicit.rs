@@ -156,6 +156,14 @@ impl Integrator for HalfExplicit {
         &mut self.control
     }
 
+    fn memory(&self) -> Vec<f64> {
+        self.control.memory()
+    }
+
+    fn recall(&mut self, memory: &[f64]) {
+        self.control.recall(memory);
+    }
+
     /// Along the directions that the constraints allow the stages are those of an explicit method.
     fn stability(&self) -> Option<Stability> {
         Some(Stability::of(|i| self.tableau.stage(i).0, self.tableau.last()))
@@ -177,7 +185,7 @@ impl Integrator for HalfExplicit {
         combine(to, from.y, h, self.tableau.last(), &self.k);
         problem.dynamics.system.normalize(problem.split_mut(to).0);
         let Some(weights) = self.tableau.explicit.and_then(Explicit::embedded) else { return Ok(None) };
-        problem.derivative(from.t + h, to, &mut self.k[self.tableau.constraint.len()])?;
+        problem.derivative(from.end, to, &mut self.k[self.tableau.constraint.len()])?;
         self.estimate(problem, weights, h)?;
         Ok(Some(tolerance.norm_between(from.y, to, &self.error)))
     }

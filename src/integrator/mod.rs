@@ -105,6 +105,18 @@ pub trait Integrator {
     /// Forgets the steps so far: the equations change their form here.
     fn restart(&mut self) {}
 
+    /// The state that the last attempt left was moved, as by a projection.
+    fn moved(&mut self) {}
+
+    /// What the method carries from step to step beside y and y', as numbers that [`Self::recall`] takes: the control's
+    /// last error, say. None for a method that begins anew after a restart, which a user is told.
+    fn memory(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Goes on with what it carried then, from a state at which the problem is evaluated before the next step.
+    fn recall(&mut self, _memory: &[f64]) {}
+
     /// Writes the solution of lower order that the last attempt was compared with; false where there is none.
     fn lower_order(&self, _from: From, _h: f64, _out: &mut [f64]) -> bool {
         false
@@ -142,6 +154,8 @@ pub struct From<'a> {
     pub y: &'a [f64],
     /// y' at (t, y).
     pub slope: &'a [f64],
+    /// When a step of the size that is asked for ends: t + h, but for the rounding of a grid or a stop that it meets.
+    pub end: f64,
 }
 
 /// What an integrator is made for.

@@ -44,7 +44,8 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
     }
     Ok(Box::new(Rattle {
         mass: None,
-        held: vec![f64::NAN; setup.len()],
+        is_ahead: false,
+        is_ready: false,
         half: zeros(n.v),
         q: zeros(n.q),
         f: zeros(n.v),
@@ -59,8 +60,10 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
 struct Rattle {
     /// M at the first state, which all others are compared with.
     mass: Option<Vec<f64>>,
-    /// The state whose terms and factors the problem holds since the last step.
-    held: Vec<f64>,
+    /// Whether the problem holds the terms and factors of the state that the last attempt ended at, and whether that is the
+    /// state from which the next step starts.
+    is_ahead: bool,
+    is_ready: bool,
     /// v_h
     half: Vec<f64>,
     q: Vec<f64>,
@@ -94,11 +97,11 @@ impl Rattle {
     fn start(&mut self, problem: &mut Problem, from: From) -> Result<(), Halt> {
         let (q, v) = problem.split(from.y);
         let dynamics = &mut problem.dynamics;
-        if self.held != from.y {
+        self.is_ahead = false;
+        if !std::mem::take(&mut self.is_ready) {
             dynamics.evaluate(from.t, q, v, Need::DYNAMICS);
             dynamics.factor()?;
         }
-        self.held.fill(f64::NAN);
         self.compare(&dynamics.terms.mass)?;
         self.f.copy_from_slice(&dynamics.terms.f);
         Ok(())
@@ -125,7 +128,7 @@ impl Rattle {
         let mut newton = Monitor::default();
         let converged = newton.solve(LIMITS, |_| {
             problem.dynamics.statistics.newton_iterations += 1;
-            let change = self.iterate(problem, (from.t, q), h)?;
+            let change = self.iterate(problem, (from, q), h)?;
             Ok::<_, Halt>(change / self.still(h))
         })?;
         problem.dynamics.statistics.stagnated += u64::from(converged && newton.has_stagnated);
@@ -139,15 +142,15 @@ impl Rattle {
     }
 
     /// One correction of v_h for the forces and for phi(q_1); its size relative to v_h.
-    fn iterate(&mut self, problem: &mut Problem, (t, q): (f64, &[f64]), h: f64) -> Result<f64, Halt> {
+    fn iterate(&mut self, problem: &mut Problem, (from, q): (From, &[f64]), h: f64) -> Result<f64, Halt> {
         let dynamics = &mut problem.dynamics;
-        dynamics.evaluate(t, q, &self.half, Need::FORCE);
+        dynamics.evaluate(from.t, q, &self.half, Need::FORCE);
         for (i, f) in dynamics.terms.f.iter().enumerate() {
             self.dv[i] = 0.5 * h * (f - self.f[i]);
         }
         self.f.copy_from_slice(&dynamics.terms.f);
         self.advance(dynamics.system, q, h);
-        dynamics.evaluate(t + h, &self.q, &self.half, Need::CONSTRAINTS);
+        dynamics.evaluate(from.end, &self.q, &self.half, Need::CONSTRAINTS);
         self.rows.iter_mut().zip(&dynamics.terms.phi).for_each(|(row, phi)| *row = -phi / h);
         dynamics.kkt.solve(&mut self.dv, &mut self.rows)?;
         self.half.iter_mut().zip(&self.dv).for_each(|(half, dv)| *half += dv);
@@ -181,6 +184,11 @@ impl Rattle {
         for (v, (half, dv)) in v.iter_mut().zip(self.half.iter().zip(&self.dv)) {
             *v = half + dv;
         }
+        // Beside a singular state y' is truncated, and these factors are not.
+        self.is_ahead = dynamics.kkt.is_regular(dynamics.rank_tolerance);
+        if !self.is_ahead {
+            return problem.derivative(t, to, &mut self.slope);
+        }
         dynamics.solve_at_velocity(t, q, v)?;
         let (qdot, rest) = self.slope.split_at_mut(q.len());
         dynamics.system.rate(q, v, qdot);
@@ -213,15 +221,39 @@ impl Integrator for Rattle {
     ) -> Result<Option<f64>, Halt> {
         self.start(problem, from)?;
         self.first_half(problem, from, h)?;
-        self.second_half(problem, from.t + h, h, to)?;
+        self.second_half(problem, from.end, h, to)?;
         let work = to.len() - 1;
         to[work] = from.y[work] + 0.5 * h * (from.slope[work] + self.slope[work]);
-        self.held.copy_from_slice(to);
         Ok(None)
     }
 
     fn last_slope(&self) -> Option<&[f64]> {
         Some(&self.slope)
+    }
+
+    fn restart(&mut self) {
+        (self.is_ahead, self.is_ready) = (false, false);
+    }
+
+    fn accepted(&mut self, _: &Tolerance) {
+        self.is_ready = self.is_ahead;
+    }
+
+    fn moved(&mut self) {
+        (self.is_ahead, self.is_ready) = (false, false);
+    }
+
+    fn memory(&self) -> Vec<f64> {
+        let mass = self.mass.iter().flatten().copied();
+        std::iter::once(f64::from(self.is_ready)).chain(mass).collect()
+    }
+
+    /// The problem is evaluated where the run goes on, as at the end of a step.
+    fn recall(&mut self, memory: &[f64]) {
+        if let Some((is_ready, mass)) = memory.split_first() {
+            self.is_ready = *is_ready != 0.0;
+            self.mass = (!mass.is_empty()).then(|| mass.to_vec());
+        }
     }
 
     fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt> {

@@ -3,7 +3,7 @@
 use super::Variation;
 use crate::error::{Error, Result, short};
 use crate::initial::assemble;
-use crate::simulate::{Method, Observation, Sink, Span};
+use crate::simulate::{Method, Observation, Sink, Span, Start};
 use crate::study::{Overrides, Study};
 
 /// A state on the constraints.
@@ -109,7 +109,8 @@ impl Sink for Nothing {
 /// Integrates to `end` and closes what drift has opened.
 pub(super) fn follow(study: &Study, from: &State, end: f64) -> Result<State> {
     let span = Span { start: from.t, end, output_step: end - from.t };
-    let (outcome, _) = study.simulate_from((&from.q, &from.v), &study.method, span, &mut Nothing)?;
+    let start = Start::State(&from.q, &from.v);
+    let (outcome, _, _) = study.simulate_from(&study.method, span, start, &mut Nothing)?;
     if let Some(failure) = outcome.failure {
         return Err(failure.into());
     }

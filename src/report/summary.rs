@@ -6,7 +6,7 @@ use crate::error::{Failure, Warning, clock, short_list};
 use crate::formulation::Statistics;
 use crate::initial::{Assembly, Level, Move};
 use crate::measure::{CheckError, Drift, EnergyBalance, Passing, Record, Singularity};
-use crate::simulate::{Leg, Method, Outcome, Stiffness};
+use crate::simulate::{Checkpoint, Leg, Method, Outcome, Stiffness};
 use crate::study::Study;
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -36,6 +36,8 @@ pub struct Summary {
     /// The error by a second run, where that was asked for.
     pub check_error: Option<CheckError>,
     pub r#final: FinalState,
+    /// From where `--start` goes on; none where the run could not begin.
+    pub restart: Option<Checkpoint>,
 }
 
 /// The method, and why where it was left to the program.
@@ -130,6 +132,7 @@ pub fn summarize(
         assembly: (&study.assembly).into(),
         check_error: None,
         r#final: final_state(record),
+        restart: None,
     }
 }
 

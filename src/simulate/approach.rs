@@ -1,5 +1,7 @@
 //! Steps over singular states.
 
+use serde::{Deserialize, Deserializer, Serialize};
+
 /// Below this part of the largest sine a state is near a singular one.
 const NEAR: f64 = 0.1;
 /// Below this part steps are placed about the singular state.
@@ -20,13 +22,16 @@ const SHARE: f64 = 0.1;
 /// On a branch of the motion v' is smooth through a singular state, but the stages of a step lie off the constraints by
 /// some delta, and there v' is wrong by delta over the sine. A step that is refused for this and made smaller, again and
 /// again, ends ever nearer to the singular state until round-off over the sine is the error. A step well over it is good.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Approach {
+    #[serde(deserialize_with = "never")]
     t: f64,
     pub sine: f64,
     rate: f64,
     /// The last step, and how fast `rate` changes; infinite as long as it is not known.
+    #[serde(deserialize_with = "endless")]
     step: f64,
+    #[serde(deserialize_with = "endless")]
     bend: f64,
     /// The largest sine so far: unlike masses and lengths make it small where nothing is singular.
     pub largest: f64,
@@ -34,6 +39,16 @@ pub struct Approach {
     regular: f64,
     /// Whether a step over the singular state was tried from here.
     is_tried: bool,
+}
+
+/// Infinity is null in JSON.
+fn endless<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
+}
+
+/// The time before the first state.
+fn never<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(from)?.unwrap_or(f64::NEG_INFINITY))
 }
 
 impl Default for Approach {

@@ -5,7 +5,7 @@
 //! one of both would, wherever along the motion that changes. All is counted in evaluations: a run is repeatable bit by bit.
 
 use super::contest::{Contest, Mark, Quiet};
-use super::{Method, Outcome, Run, Sink, Span};
+use super::{Checkpoint, Method, Outcome, Run, Sink, Span};
 use crate::error::{Failure, Result, clock, short};
 use crate::formulation::{Choice, Dynamics, Statistics, degrees_of_freedom};
 use crate::integrator::Store;
@@ -96,7 +96,8 @@ pub fn advise(
 }
 
 /// Integrates `system` from (q, v), which should be consistent, over `span`, with these `tolerances`: an explicit method
-/// begins, and others go on where they come farther. Returns the methods in their order.
+/// begins, and others go on where they come farther. Returns the methods in their order, and where a run by the last of them
+/// can go on.
 ///
 /// # Errors
 /// Bad input only, as in [`simulate`](super::simulate).
@@ -106,16 +107,20 @@ pub fn simulate_automatic(
     span: Span,
     start: (&[f64], &[f64]),
     sink: &mut dyn Sink,
-) -> Result<(Outcome, Vec<Leg>)> {
+) -> Result<(Outcome, Vec<Leg>, Option<Checkpoint>)> {
     span.check()?;
     let (methods, store) = (candidates(system, tolerances, span.start, start), Store::default());
     methods[EXPLICIT].check()?;
     let mut drive = Drive::new((system, &store), &methods, span, start)?;
-    let failure = match drive.run.begin(sink) {
+    let begun = drive.run.begin(sink);
+    let has_begun = begun.is_ok();
+    let failure = match begun {
         Ok(()) => drive.go(sink, |_, _, _| false)?,
         Err(failure) => Some(failure),
     };
-    Ok(drive.finish(failure, sink))
+    let saved = has_begun.then(|| drive.run.checkpoint(&methods[drive.carrier]));
+    let (outcome, legs) = drive.finish(failure, sink);
+    Ok((outcome, legs, saved))
 }
 
 /// Without rows.
@@ -232,6 +237,11 @@ impl<'s: 'a, 'a> Drive<'s, 'a> {
 }
 
 impl Leg {
+    /// Of a run that goes on where another was saved.
+    pub fn going_on(from: f64, method: &Method, statistics: Statistics) -> Self {
+        Leg { statistics, ..Leg::of(from, method, "the method of the run that goes on".to_string()) }
+    }
+
     /// Before any work.
     fn of(from: f64, method: &Method, because: String) -> Self {
         let none = Statistics::default();

@@ -26,9 +26,9 @@ impl Run<'_> {
         for _ in 0..MOST_CUTS {
             let own = passage.filter(|_| self.integrator.own_step().is_some());
             let Some(Passage::Within(theta)) = own else { break };
-            let from = From { t: self.t, y: &self.y, slope: &self.slope };
+            let from = From { t: self.t, y: &self.y, slope: &self.slope, end: self.end_of(*h, *end) };
             self.integrator.interpolate(&mut self.rows.problem, from, *h, theta, &mut self.next)?;
-            (*h, *end) = (theta * *h, None);
+            (*h, *end, self.is_moved) = (theta * *h, None, true);
             let t = self.t + *h;
             self.project_within(t, *h)?;
             self.problem.derivative(t, &self.next, &mut self.next_slope)?;
@@ -44,7 +44,7 @@ impl Run<'_> {
         }
         let mut prepared = false;
         let Run { events, rows, integrator, problem, .. } = self;
-        let from = From { t: self.t, y: &self.y, slope: &self.slope };
+        let from = From { t: self.t, y: &self.y, slope: &self.slope, end };
         let (next, next_slope) = (&self.next, &self.next_slope);
         let (q, v) = problem.split(next);
         let (_, vdot) = problem.split(next_slope);
@@ -175,6 +175,7 @@ impl Run<'_> {
         dynamics.factor_truncated()?;
         let mut change = vec![0.0; dynamics.vdot.len()];
         dynamics.kkt.solve_projection(kink, &mut change)?;
+        dynamics.kkt.forget();
         self.problem.split_mut(&mut self.y).1.iter_mut().zip(&change).for_each(|(v, change)| *v -= change);
         let work = kinetic(&self.y, self) - before;
         let last = self.y.len() - 1;

@@ -1,5 +1,7 @@
 //! Turns at thresholds that crowd without end.
 
+use serde::{Deserialize, Serialize};
+
 /// Turns are looked at in windows of so many.
 const WINDOW: usize = 250;
 /// A run that has so many turns before it at the rate of the last window does not come to its end.
@@ -12,7 +14,7 @@ const DECAY: usize = 4;
 const UNSEEN: usize = 2;
 
 /// The turns of a run.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Crowd {
     window: Window,
     last: Option<Window>,
@@ -21,7 +23,7 @@ pub struct Crowd {
     unseen: usize,
 }
 
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Window {
     start: f64,
     count: usize,

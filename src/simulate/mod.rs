@@ -3,6 +3,7 @@
 mod approach;
 mod automatic;
 mod changes;
+mod checkpoint;
 mod contest;
 mod crowd;
 mod ending;
@@ -19,6 +20,7 @@ mod step;
 mod stiffness;
 
 pub use automatic::{Leg, advise, simulate_automatic};
+pub use checkpoint::{Checkpoint, Start, simulate_from};
 pub use method::{Method, atol_of};
 pub use observation::{Observation, Sink, Span, Stop};
 pub(crate) use segments::Segments;
@@ -64,12 +66,7 @@ pub fn simulate(
     (q, v): (&[f64], &[f64]),
     sink: &mut dyn Sink,
 ) -> Result<Outcome> {
-    method.check()?;
-    span.check()?;
-    let store = Store::default();
-    let mut run = Run::new((system, &store), method, span, [q, v, &[0.0]].concat())?;
-    let failure = run.integrate(sink).err();
-    Ok(run.finish(failure, sink))
+    Ok(simulate_from(system, method, span, Start::State(q, v), sink)?.0)
 }
 
 struct Run<'a> {
@@ -211,13 +208,9 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn integrate(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
-        self.begin(sink)?;
-        self.advance(sink)
-    }
-
     fn begin(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
         self.begin_form()?;
+        self.settle();
         self.check_start()?;
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
         self.observe(sink);
@@ -232,10 +225,19 @@ impl<'a> Run<'a> {
     fn go_on(&mut self, held: &[usize]) -> Result<(), Failure> {
         (self.progress, self.divided) = ((self.t, 0), self.t);
         self.begin_form()?;
+        self.settle();
         self.hold(held);
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
         self.h = self.first_step().map_err(|halt| self.halted(&halt))?;
         Ok(())
+    }
+
+    /// Settles what holds in the whole run.
+    fn settle(&mut self) {
+        let (q, v) = self.problem.split(&self.y);
+        self.problem.formulation.settle(self.t, q, v, &mut self.problem.dynamics);
+        let settled = self.problem.formulation.settled();
+        self.rows.problem.formulation.recall(&settled);
     }
 
     /// What has become of it.
@@ -340,9 +342,13 @@ impl<'a> Run<'a> {
         std::mem::swap(&mut self.y, &mut self.next);
         std::mem::swap(&mut self.slope, &mut self.next_slope);
         self.problem.dynamics.statistics.steps += 1;
+        if self.is_moved {
+            self.integrator.moved();
+        }
         self.observe(sink);
     }
 
+    /// Settles at an accepted state what the next step judges the rank by, and shows the state.
     fn observe(&mut self, sink: &mut dyn Sink) {
         let deficient = self.problem.dynamics.is_rank_deficient;
         self.problem.dynamics.statistics.rank_deficient += u64::from(deficient);
@@ -355,8 +361,18 @@ impl<'a> Run<'a> {
         if let Some(sine) = sine {
             self.approach.add(self.t, sine);
         }
-        let usual = self.approach.largest;
-        [&mut self.problem, &mut self.rows.problem].into_iter().for_each(|p| p.dynamics.kkt.usual_sine = usual);
+        let dense = dynamics.dense_reference.max(dynamics.dense_indicator);
+        self.refer_to(dense);
+        self.show(sine, sink);
+    }
+
+    /// Settles the reference values of the rank indicators, that of a dense solver by this one.
+    fn refer_to(&mut self, dense: f64) {
+        let Run { problem, rows, approach, .. } = self;
+        [problem, &mut rows.problem].into_iter().for_each(|p| p.dynamics.refer_to(approach.largest, dense));
+    }
+
+    fn show(&mut self, sine: Option<f64>, sink: &mut dyn Sink) {
         let tolerated = self.fixed.is_none().then(|| self.tolerated_energy());
         let state = observation(self.t, &self.y, &self.problem, sine, &mut self.phi_ddot);
         let apart = self.fixed.map(|step| step * self.integrator.spacing());

@@ -3,10 +3,11 @@
 use crate::error::{Error, Result, short};
 use crate::math::largest;
 use crate::system::Loaded;
+use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
 /// The interval to simulate and where the output rows lie.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Span {
     pub start: f64,
     pub end: f64,

@@ -31,9 +31,9 @@ impl Run<'_> {
                 self.rows.emit(t, sink)?;
             } else {
                 if !std::mem::replace(&mut prepared, true) {
-                    self.prepare(h)?;
+                    self.prepare(h, end)?;
                 }
-                if let Some(theta) = self.row_within(t, h)? {
+                if let Some(theta) = self.row_within(t, h, end)? {
                     return Ok(Some(theta));
                 }
                 self.rows.show(t, sink);
@@ -46,8 +46,8 @@ impl Run<'_> {
         }
     }
 
-    fn prepare(&mut self, h: f64) -> Result<(), Halt> {
-        let from = From { t: self.t, y: &self.y, slope: &self.slope };
+    fn prepare(&mut self, h: f64, end: f64) -> Result<(), Halt> {
+        let from = From { t: self.t, y: &self.y, slope: &self.slope, end };
         // Interpolation stages run on the rows' problem: they do not count.
         self.rows.problem.begin_step(self.t, &self.y)?;
         self.integrator.prepare(&mut self.rows.problem, from, h, &self.next, &self.next_slope)
@@ -55,10 +55,10 @@ impl Run<'_> {
 
     /// Evaluates the row at `t`; its fraction of the step where it contradicts that, or is so far off the constraints that it
     /// cannot be projected.
-    fn row_within(&mut self, t: f64, h: f64) -> Result<Option<f64>, Halt> {
+    fn row_within(&mut self, t: f64, h: f64, end: f64) -> Result<Option<f64>, Halt> {
         let sweeps = self.sweeps(h);
         let theta = (t - self.t) / h;
-        let (rows, from) = (&mut self.rows, From { t: self.t, y: &self.y, slope: &self.slope });
+        let (rows, from) = (&mut self.rows, From { t: self.t, y: &self.y, slope: &self.slope, end });
         rows.problem.begin_step(self.t, &self.y)?;
         self.integrator.interpolate(&mut rows.problem, from, h, theta, &mut rows.y)?;
         let is_checked = self.is_explicit && self.fixed.is_none() && !self.approach.reaches(h);

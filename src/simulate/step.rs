@@ -74,7 +74,7 @@ impl Run<'_> {
     }
 
     fn attempt(&mut self, h: &mut f64, end: &mut Option<f64>) -> Result<Option<f64>, Halt> {
-        let from = From { t: self.t, y: &self.y, slope: &self.slope };
+        let from = From { t: self.t, y: &self.y, slope: &self.slope, end: self.end_of(*h, *end) };
         self.problem.begin_step(self.t, &self.y)?;
         let error = self.integrator.attempt(&mut self.problem, &self.tolerance, from, *h, &mut self.next)?;
         if let Some(own) = self.integrator.own_step() {
@@ -145,7 +145,7 @@ impl Run<'_> {
     /// it. Near a singular state the stages are far off along the nearly dependent rows, which the projection takes away
     /// from both, so that the error before it says nothing.
     fn error_within_constraints(&mut self, t: f64, h: f64) -> Result<Option<f64>, Halt> {
-        let from = From { t: self.t, y: &self.y, slope: &self.slope };
+        let from = From { t: self.t, y: &self.y, slope: &self.slope, end: t };
         if !self.integrator.lower_order(from, h, &mut self.change) {
             return Ok(Some(f64::NAN));
         }

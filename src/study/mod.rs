@@ -11,7 +11,8 @@ use crate::integrator::Steps;
 use crate::math::expression::{Number, Parameters};
 use crate::scene::{self, AnyModel, Automatic, Scene, Simulation};
 use crate::simulate::{
-    Leg, Method, Outcome, Sink, Span, Stiffness, advise, atol_of, simulate, simulate_automatic, stiffness,
+    Checkpoint, Leg, Method, Outcome, Sink, Span, Start, Stiffness, advise, atol_of, simulate_automatic, simulate_from,
+    stiffness,
 };
 use crate::system::{Loaded, MechanicalSystem, Mechanism};
 use crate::{formulation, integrator, projection};
@@ -76,6 +77,9 @@ pub struct Study {
     /// `None` where neither the scene nor the command line says until when.
     span: Option<Span>,
 }
+
+/// How a run ended, the methods that carried it where these were left to the program, and where it can go on.
+pub type Simulated = (Outcome, Vec<Leg>, Option<Checkpoint>);
 
 impl Study {
     /// Reads a scene, assembles it and settles how to simulate it.
@@ -161,23 +165,29 @@ impl Study {
     /// # Errors
     /// Bad input only: see [`simulate`].
     pub fn simulate(&self, method: &Method, span: Span, sink: &mut dyn Sink) -> Result<(Outcome, Vec<Leg>)> {
-        self.simulate_from(self.start(), method, span, sink)
+        let (q, v) = self.start();
+        self.simulate_from(method, span, Start::State(q, v), sink).map(|(outcome, legs, _)| (outcome, legs))
     }
 
-    /// The same from another consistent (q, v).
+    /// The same from another consistent state, or from where another run was saved, whose method goes on where that is left to
+    /// the program; with where this one can go on.
     ///
     /// # Errors
-    /// As [`Study::simulate`].
-    pub fn simulate_from(
-        &self,
-        start: (&[f64], &[f64]),
-        method: &Method,
-        span: Span,
-        sink: &mut dyn Sink,
-    ) -> Result<(Outcome, Vec<Leg>)> {
-        match self.is_automatic {
-            true => simulate_automatic(self.system(), (method.rtol, method.atol), span, start, sink),
-            false => Ok((simulate(self.system(), method, span, start, sink)?, Vec::new())),
+    /// Bad input only: see [`simulate_from`].
+    pub fn simulate_from(&self, method: &Method, span: Span, start: Start, sink: &mut dyn Sink) -> Result<Simulated> {
+        match start {
+            Start::State(q, v) if self.is_automatic => {
+                simulate_automatic(self.system(), (method.rtol, method.atol), span, (q, v), sink)
+            }
+            Start::Saved(saved) if self.is_automatic => {
+                let (outcome, next) = simulate_from(self.system(), saved.method(), span, start, sink)?;
+                let leg = Leg::going_on(saved.t(), saved.method(), outcome.statistics);
+                Ok((outcome, vec![leg], next))
+            }
+            _ => {
+                let (outcome, saved) = simulate_from(self.system(), method, span, start, sink)?;
+                Ok((outcome, Vec::new(), saved))
+            }
         }
     }
 

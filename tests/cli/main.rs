@@ -13,6 +13,7 @@ mod linear;
 mod loci;
 mod methods;
 mod plot;
+mod restart;
 mod schema;
 mod simulate;
 mod singular;

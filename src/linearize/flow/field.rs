@@ -110,8 +110,8 @@ impl<'a> Field<'a> {
 
 impl Formulation for Field<'_> {
     fn begin_step(&mut self, _: f64, _: &[f64], _: &[f64], carrier: &mut Dynamics) -> Result<(), Halt> {
-        self.plain.kkt.usual_sine = carrier.kkt.usual_sine;
-        self.variation.dynamics.kkt.usual_sine = carrier.kkt.usual_sine;
+        self.plain.kkt.rank_reference = carrier.kkt.rank_reference;
+        self.variation.dynamics.kkt.rank_reference = carrier.kkt.rank_reference;
         Ok(())
     }
 

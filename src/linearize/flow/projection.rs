@@ -54,7 +54,7 @@ impl<'a> Straightening<'a> {
 
 impl Projection for Straightening<'_> {
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], carrier: &mut Dynamics) -> Result<(), Halt> {
-        self.dynamics.kkt.usual_sine = carrier.kkt.usual_sine;
+        self.dynamics.kkt.rank_reference = carrier.kkt.rank_reference;
         let Shape { q: nq, v: nv, columns, members } = self.shape;
         let (q0, q) = q.split_at_mut(nq);
         let (v0, v) = v.split_at_mut(nv);

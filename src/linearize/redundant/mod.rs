@@ -27,7 +27,10 @@ pub const RCS: Entry = Entry {
     name: "rcs",
     about: "descriptor form (E, A) in all coordinates and multipliers: exact at an equilibrium",
     options: &[
-        OptionDoc { name: "form", about: "a formulation with multipliers: index3, index2, index1, ggl, baumgarte (default index3)" },
+        OptionDoc {
+            name: "form",
+            about: "a formulation with multipliers: index3, index2, index1, ggl, baumgarte (default index3)",
+        },
         OptionDoc {
             name: "solver",
             about: "null_space: deflation by null spaces; gsvd: deflation by generalized singular values; qz: generalized \
@@ -36,7 +39,7 @@ pub const RCS: Entry = Entry {
     ],
     build: |variation, request| {
         request.method.one_of("solver", &["null_space", "gsvd", "qz"])?;
-        pencil::build(&dae(request.method)?, variation)
+        pencil::build(&dae(&request.method)?, variation)
     },
 };
 

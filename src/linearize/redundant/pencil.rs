@@ -89,7 +89,9 @@ fn states(dae: &Dae, variation: &Variation, kept: &[usize]) -> Vec<String> {
     let system = variation.system();
     let mut states = names::directions(system, &variation.point.q).states();
     let multipliers = system.names().lambda;
-    for (_, suffix) in [(Some(dae.lambda), ""), (dae.eta, " eta"), (dae.mu, " mu")].iter().filter(|kind| kind.0.is_some()) {
+    for (_, suffix) in
+        [(Some(dae.lambda), ""), (dae.eta, " eta"), (dae.mu, " mu")].iter().filter(|kind| kind.0.is_some())
+    {
         states.extend(kept.iter().map(|&row| format!("{}{suffix}", multipliers[row])));
     }
     states

@@ -67,8 +67,8 @@ impl Chart {
         }
     }
 
-    /// Makes ready to solve with these values of G.
-    pub fn factor(&mut self, g: &[f64]) {
+    /// Makes ready to solve with these values of G; `reference`: see [`Solver::factor`](super::Solver::factor).
+    pub fn factor(&mut self, g: &[f64], reference: f64) {
         let rank = self.base.rank;
         self.place.rows = rank;
         self.place.values.fill(0.0);
@@ -77,7 +77,7 @@ impl Chart {
             add_scaled(value / self.norms[i], &self.normal[j * rank..(j + 1) * rank], row);
         }
         // Where a step ends beside a singular state, what round-off would move is left to the next step.
-        self.place.factor_truncated(DEPENDENT);
+        self.place.factor_truncated(DEPENDENT, reference);
     }
 
     /// d = Y c with G d = r.

@@ -46,7 +46,7 @@ impl Kept {
         self.dropped == rows
     }
 
-    /// Factors with these values of the whole system, truncated below `part` of the usual sine where it is given.
+    /// Factors with these values of the whole system, truncated below `part` of the reference value where it is given.
     pub fn factor(&mut self, mass: &[f64], g: &[f64], part: Option<f64>) -> Result<(), Singular> {
         self.left_out.clear();
         self.least.clear();

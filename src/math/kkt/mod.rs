@@ -59,8 +59,12 @@ pub use unsymmetric::{Field, Unsymmetric};
 
 /// A way to solve the system: factor once, then solve any number of times.
 pub trait Solver {
-    /// With these values at the places of M and G.
-    fn factor(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular>;
+    /// With these values at the places of M and G. Near singular states rows count as dependent below 1e-4 of
+    /// `reference`, the rank indicator where nothing is singular; zero where that is not known.
+    fn factor(&mut self, mass: &[f64], g: &[f64], reference: f64) -> Result<(), Singular>;
+
+    /// How near G is to losing rank at the last factorization, rows that were left out aside.
+    fn rank_indicator(&self) -> f64;
 
     /// (r1, r2) -> (a, lambda), in place.
     fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) -> Result<(), Singular>;

@@ -77,9 +77,9 @@ impl NullSpace {
     }
 
     /// See [`Reflected::factor_truncated`].
-    pub fn factor_truncated(&mut self, system: &System, tolerance: f64) -> Result<(), Singular> {
+    pub fn factor_truncated(&mut self, system: &System, tolerance: f64, reference: f64) -> Result<(), Singular> {
         self.scale_rows(system);
-        self.qr.factor_truncated(tolerance);
+        self.qr.factor_truncated(tolerance, reference);
         self.finish(system)
     }
 

@@ -22,7 +22,7 @@ const MASSLESS: f64 = 1e-11;
 /// lambda has the least norm. Costs about n^3/3 + 12 n m^2. Nothing allocates after the first use, in which faer asks for
 /// the sizes of the caches.
 pub struct PseudoInverse {
-    /// Singular values up to this part of the largest count as zero, and up to 1e-4 of what is usual for the smallest.
+    /// Singular values up to this part of the largest count as zero, and up to 1e-4 of the reference value.
     pub tolerance: f64,
     mass: Pattern,
     g: Pattern,
@@ -34,8 +34,6 @@ pub struct PseudoInverse {
     w: Vec<f64>,
     s: Vec<f64>,
     rank: usize,
-    /// The largest ratio so far of the smallest singular value to the largest.
-    usual: f64,
     held: Vec<usize>,
     is_factored: bool,
     x: Vec<f64>,
@@ -62,7 +60,6 @@ impl PseudoInverse {
             w: vec![0.0; m * size],
             s: vec![0.0; size],
             rank: 0,
-            usual: 0.0,
             held: Vec::with_capacity(m),
             is_factored: false,
             x: vec![0.0; n],
@@ -91,7 +88,7 @@ impl PseudoInverse {
         }
     }
 
-    fn decompose(&mut self) -> Result<(), Singular> {
+    fn decompose(&mut self, reference: f64) -> Result<(), Singular> {
         let (n, m, size) = (self.scale.len(), self.g.rows, self.s.len());
         let result = svd(
             MatRef::from_column_major_slice(&self.a, n, m),
@@ -103,16 +100,14 @@ impl PseudoInverse {
             Spec::default(),
         );
         let largest = self.s.first().copied().unwrap_or(0.0);
-        let limit = largest * self.tolerance.max(TRUNCATED * self.usual);
+        let limit = largest * self.tolerance.max(TRUNCATED * reference);
         self.rank = self.s.iter().take_while(|s| **s > limit).count();
-        let smallest = self.s[..self.rank].last().map_or(0.0, |s| s / largest);
-        self.usual = self.usual.max(smallest);
         result.map_err(|_| Singular::NotFinite)
     }
 }
 
 impl Solver for PseudoInverse {
-    fn factor(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
+    fn factor(&mut self, mass: &[f64], g: &[f64], reference: f64) -> Result<(), Singular> {
         self.is_factored = false;
         if mass.len() != self.mass.entries.len() || g.len() != self.g.entries.len() {
             return Err(Singular::Shape);
@@ -130,7 +125,7 @@ impl Solver for PseudoInverse {
         for row in self.a.chunks_exact_mut(n.max(1)) {
             self.root.forward(row);
         }
-        self.decompose()?;
+        self.decompose(reference)?;
         self.is_factored = true;
         Ok(())
     }
@@ -164,6 +159,11 @@ impl Solver for PseudoInverse {
     fn hold(&mut self, rows: &[usize]) {
         self.held.clear();
         self.held.extend(rows.iter().filter(|row| **row < self.g.rows));
+    }
+
+    /// The smallest singular value, of those that count, over the largest.
+    fn rank_indicator(&self) -> f64 {
+        self.s[..self.rank].last().map_or(0.0, |smallest| smallest / self.s[0])
     }
 
     fn is_rank_deficient(&self) -> bool {

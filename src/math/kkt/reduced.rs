@@ -8,7 +8,7 @@ use super::{Pattern, Singular, Solver};
 /// from the rest. Dependent rows get multipliers of least norm, contradictions least squares.
 pub struct Reduced {
     /// Rows of G count as dependent when their pivot in the QR falls below this part of the largest,
-    /// or below 1e-4 of what is usual for the smallest.
+    /// or below 1e-4 of the reference value.
     pub rank_tolerance: f64,
     system: System,
     null_space: NullSpace,
@@ -29,7 +29,7 @@ impl Reduced {
 }
 
 impl Solver for Reduced {
-    fn factor(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
+    fn factor(&mut self, mass: &[f64], g: &[f64], reference: f64) -> Result<(), Singular> {
         self.is_factored = false;
         if mass.len() != self.system.mass.entries.len() || g.len() != self.system.g.entries.len() {
             return Err(Singular::Shape);
@@ -38,7 +38,7 @@ impl Solver for Reduced {
             return Err(Singular::NotFinite);
         }
         self.system.store(mass, g);
-        self.null_space.factor_truncated(&self.system, self.rank_tolerance)?;
+        self.null_space.factor_truncated(&self.system, self.rank_tolerance, reference)?;
         self.is_factored = true;
         Ok(())
     }
@@ -58,7 +58,11 @@ impl Solver for Reduced {
         self.null_space.is_deficient(self.rank_tolerance)
     }
 
+    fn rank_indicator(&self) -> f64 {
+        self.null_space.smallest_ratio().sqrt()
+    }
+
     fn smallest_sine(&self) -> Option<f64> {
-        Some(self.null_space.smallest_ratio().sqrt())
+        Some(self.rank_indicator())
     }
 }

@@ -9,8 +9,6 @@ pub(super) struct Reflected {
     pub values: Vec<f64>,
     pub permutation: Vec<usize>,
     pub rank: usize,
-    /// The largest ratio so far of the last pivot to the first.
-    usual: f64,
     /// What the first column left out had to offer, of the first pivot.
     rest: f64,
     factors: Vec<f64>,
@@ -24,7 +22,6 @@ impl Reflected {
             values: vec![0.0; rows * cols],
             permutation: (0..cols).collect(),
             rank: 0,
-            usual: 0.0,
             rest: 0.0,
             factors: vec![0.0; rows.min(cols)],
             squares: vec![0.0; cols],
@@ -60,10 +57,10 @@ impl Reflected {
         }
     }
 
-    /// The same, but columns also count as dependent below 1e-4 of what is usual for the smallest: see `TRUNCATED`.
-    pub fn factor_truncated(&mut self, tolerance: f64) {
-        self.factor(tolerance.max(TRUNCATED * self.usual));
-        self.usual = self.usual.max(self.smallest_ratio());
+    /// The same, but columns also count as dependent below 1e-4 of `reference`, the smallest ratio where nothing is
+    /// singular: see `TRUNCATED`.
+    pub fn factor_truncated(&mut self, tolerance: f64, reference: f64) {
+        self.factor(tolerance.max(TRUNCATED * reference));
     }
 
     /// Whether columns are dependent to `tolerance`.

@@ -64,7 +64,7 @@ pub struct Events<'a> {
     /// Numbers of those that are at a threshold at the end of the step.
     at: Vec<usize>,
     /// How often each has turned at the start of the step.
-    turned: Vec<u8>,
+    pub turned: Vec<u8>,
     /// Times that are shorter are none, s.
     shortest: f64,
 }

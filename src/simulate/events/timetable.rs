@@ -13,7 +13,7 @@ const MOST_LOOKS: usize = 20_000;
 /// What the equations do by the clock.
 pub struct Timetable<'a> {
     switches: &'a [Switch],
-    watch: Watch<'a>,
+    pub watch: Watch<'a>,
     start: f64,
     end: f64,
     /// The next change of form.
@@ -34,6 +34,12 @@ impl<'a> Timetable<'a> {
         }
         self.next = self.find_next(t, pieces);
         self.watch.forget();
+    }
+
+    /// Goes on at `t` with this next change, of a run that was watched up to `end`.
+    pub fn recall(&mut self, t: f64, next: Option<f64>, end: f64, pieces: &[Piece]) {
+        let is_farther = next.is_none() && self.end > end;
+        self.next = if is_farther { self.find_next(t, pieces) } else { next.filter(|next| *next < self.end) };
     }
 
     /// The next time at which a function of time changes its form; none up to the end.

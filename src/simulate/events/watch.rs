@@ -50,6 +50,18 @@ impl<'a> Watch<'a> {
         Watch { functions, shortest: 0.5 * SHORTEST * span, seen: f64::NEG_INFINITY }
     }
 
+    /// Up to where steps are resolved, if anywhere, and whether the enclosures of each function are too wide.
+    pub fn memory(&self) -> (Option<f64>, Vec<bool>) {
+        let seen = Some(self.seen).filter(|seen| seen.is_finite());
+        (seen, self.functions.iter().map(|watched| watched.is_loose).collect())
+    }
+
+    /// Goes on with what [`Self::memory`] said.
+    pub fn recall(&mut self, seen: Option<f64>, loose: &[bool]) {
+        self.seen = seen.unwrap_or(f64::NEG_INFINITY);
+        self.functions.iter_mut().zip(loose).for_each(|(watched, loose)| watched.is_loose = *loose);
+    }
+
     /// The functions are others from here on.
     pub fn forget(&mut self) {
         self.seen = f64::NEG_INFINITY;

@@ -3,6 +3,11 @@
 use super::{SaddlePoint, Way};
 
 impl SaddlePoint {
+    /// Forgets the last factors: they are of a state that does not count.
+    pub fn forget(&mut self) {
+        self.way = Way::None;
+    }
+
     /// Whether the last factorization succeeded.
     pub fn is_factored(&self) -> bool {
         self.way != Way::None
@@ -36,6 +41,15 @@ impl SaddlePoint {
         matches!(self.way, Way::Fast { .. })
     }
 
+    /// Whether the last factors are those of a factorization that is truncated below this part, too.
+    pub fn is_regular(&self, part: f64) -> bool {
+        match (self.way, &self.kept) {
+            (Way::Fast { refine }, _) => !refine || self.smallest_sine() >= part * self.rank_reference,
+            (Way::Kept, Some(kept)) => kept.inner.is_regular(part),
+            _ => false,
+        }
+    }
+
     /// Whether rows are dependent, to round-off.
     pub fn is_rank_deficient(&self) -> bool {
         self.is_holding || !self.is_truncated && self.rank() < self.m
@@ -56,7 +70,7 @@ impl SaddlePoint {
     /// [0, 1], zero where other rows are dependent, and without a factorization.
     pub fn smallest_sine(&self) -> f64 {
         let ratio: f64 = match (self.way, &self.fast, &self.kept, &self.skipping, &self.dense) {
-            (Way::Fast { .. }, Some(fast), ..) => fast.smallest_ratio(0.0).0,
+            (Way::Fast { .. }, Some(orders), ..) => orders.smallest_ratio(),
             (Way::Kept, _, Some(kept), ..) if self.is_holding => return kept.inner.smallest_sine(),
             (Way::Skipping, .., Some(skipping), _) => skipping.smallest_ratio(),
             (Way::Dense, .., Some(dense)) if dense.left_out().is_empty() => dense.smallest_ratio(),

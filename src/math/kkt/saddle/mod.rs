@@ -1,23 +1,22 @@
 //! Factor and solve: which way is taken, and when another one.
 
 mod findings;
+mod orders;
 
 use super::alike::Alike;
 use super::fast::Fast;
 use super::kept::Kept;
 use super::null_space::NullSpace;
-use super::pivot::{COLLAPSED, DOUBTED, Rule};
+use super::pivot::{COLLAPSED, DOUBTED};
 use super::skipping::Skipping;
 use super::system::{System, add};
 use super::{Pattern, Singular};
+use orders::Orders;
 
 /// Up to this n + m all doubts are settled by the dense rank-revealing factorization (10 to 100 ms
 /// there), up to the second those about whether the motion is determined.
 const DENSE: usize = 600;
 const LARGEST_DENSE: usize = 1500;
-/// After this many failures in a row at the same pivot the fast way is only tried at every 64th call.
-const PATIENCE: u32 = 3;
-const RETRY: u32 = 64;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Way {
@@ -28,7 +27,8 @@ enum Way {
     Dense,
 }
 
-/// [M G^T; G 0] with frozen patterns. Nothing allocates after the first use of each way.
+/// [M G^T; G 0] with frozen patterns. Nothing allocates after the first use of each way. A solution depends on the values,
+/// the rows that are held out, and [`Self::rank_reference`], never on what was factored before.
 pub struct SaddlePoint {
     /// Rows of G count as dependent when their pivot in the QR of G^T (unit rows, mass metric) falls below this part of
     /// the largest.
@@ -39,26 +39,19 @@ pub struct SaddlePoint {
     system: System,
     alike: Alike,
     /// None where rows always depend on others.
-    fast: Option<Fast>,
-    /// Coordinates eliminated behind their multipliers: without mass, or with very many multipliers.
-    late: Vec<bool>,
-    has_hubs: bool,
+    fast: Option<Orders>,
     kept: Option<Box<Kept>>,
     skipping: Option<Box<Skipping>>,
     dense: Option<Box<NullSpace>>,
     way: Way,
-    /// The smallest sine where nothing is singular, against which a truncated factorization judges; none before it is
-    /// known.
-    pub usual_sine: f64,
+    /// Reference value of the rank indicator, [`Self::smallest_sine`] where nothing is singular, against which a truncated
+    /// factorization judges; zero before it is known.
+    pub rank_reference: f64,
     /// Rows that stay left out, and whether there are any.
     held: Vec<bool>,
     is_holding: bool,
     /// Whether rows are left out that are not surely dependent.
     is_truncated: bool,
-    /// The node whose pivot collapsed last, how often in a row, and the calls since the fast way was given up.
-    failed: usize,
-    failures: u32,
-    waited: u32,
     skipped: Vec<usize>,
     top: Vec<f64>,
     bottom: Vec<f64>,
@@ -73,9 +66,6 @@ impl SaddlePoint {
         let empty = Pattern::default();
         let (mass, g) = if is_shaped { (mass, g) } else { (&empty, &empty) };
         let (n, m) = (mass.rows, g.rows);
-        let mut late = vec![true; n];
-        mass.entries.iter().filter(|(i, j)| i == j).for_each(|&(i, _)| late[i] = false);
-        let has_hubs = mark_hubs(g, &mut late);
         let alike = Alike::new(g);
         SaddlePoint {
             rank_tolerance: 1e-10,
@@ -83,21 +73,16 @@ impl SaddlePoint {
             m,
             is_shaped,
             system: System::new(mass, g),
-            fast: (!alike.is_crowded).then(|| Fast::new(mass, g, &late)),
+            fast: (!alike.is_crowded).then(|| Orders::new(mass, g)),
             alike,
-            late,
-            has_hubs,
             kept: None,
             skipping: None,
             dense: None,
             way: Way::None,
-            usual_sine: 0.0,
+            rank_reference: 0.0,
             held: vec![false; m],
             is_holding: false,
             is_truncated: false,
-            failed: usize::MAX,
-            failures: 0,
-            waited: 0,
             skipped: Vec::with_capacity(m),
             top: vec![0.0; n],
             bottom: vec![0.0; m],
@@ -118,7 +103,7 @@ impl SaddlePoint {
         if !self.is_shaped || mass.len() != m.entries.len() || g.len() != j.entries.len() {
             return Err(Singular::Shape);
         }
-        if !self.is_holding && self.tries_fast() && self.factor_fast(mass, g) {
+        if !self.is_holding && self.factor_fast(mass, g) {
             return Ok(true);
         }
         if !mass.iter().chain(g).all(|v| v.is_finite()) {
@@ -128,7 +113,7 @@ impl SaddlePoint {
         Ok(false)
     }
 
-    /// The same, but rows count as dependent below this part of the usual sine, 1e-4 say. Between such states and singular ones
+    /// The same, but rows count as dependent below this part of the reference value, 1e-4 say. Between such states and singular ones
     /// accelerations are more wrong by round-off than they are without these rows, and so are velocities after a
     /// projection; the next projection farther away takes back what the state moved along them.
     pub fn factor_truncated(&mut self, mass: &[f64], g: &[f64], part: f64) -> Result<(), Singular> {
@@ -136,9 +121,8 @@ impl SaddlePoint {
         if !is_fast && self.drops_rows(Some(part))? {
             return Ok(());
         }
-        let least = part * self.usual_sine;
-        let is_regular = is_fast && (self.way == Way::Fast { refine: false } || self.smallest_sine() >= least);
-        if is_regular || least * least <= COLLAPSED {
+        let least = part * self.rank_reference;
+        if is_fast && self.is_regular(part) || least * least <= COLLAPSED {
             return if is_fast { Ok(()) } else { self.finish_rank_revealing() };
         }
         let System { mass, g, .. } = &self.system;
@@ -164,7 +148,7 @@ impl SaddlePoint {
             self.kept.get_or_insert_with(|| Box::new(Kept::new(&self.system, rows)));
         }
         let Some(kept) = &mut self.kept else { return Ok(false) };
-        (kept.inner.rank_tolerance, kept.inner.usual_sine) = (self.rank_tolerance, self.usual_sine);
+        (kept.inner.rank_tolerance, kept.inner.rank_reference) = (self.rank_tolerance, self.rank_reference);
         kept.factor(&self.system.mass_values, &self.system.g_values, part)?;
         (self.way, self.is_truncated) = (Way::Kept, kept.inner.is_truncated);
         Ok(true)
@@ -185,55 +169,13 @@ impl SaddlePoint {
         self.way = Way::None;
     }
 
-    fn tries_fast(&mut self) -> bool {
-        if self.failures < PATIENCE {
-            return true;
-        }
-        self.waited = (self.waited + 1) % RETRY;
-        self.waited == 0
-    }
-
     fn factor_fast(&mut self, mass: &[f64], g: &[f64]) -> bool {
-        loop {
-            let Some(fast) = &mut self.fast else { return false };
-            match fast.factor(mass, g, Rule::STRICT, &mut self.skipped) {
-                Ok(quality) => {
-                    if quality.weak {
-                        self.system.store(mass, g);
-                    }
-                    self.failures = 0;
-                    self.way = Way::Fast { refine: quality.weak };
-                    return true;
-                }
-                Err(node) if self.reorders(node, mass) => {}
-                Err(node) => {
-                    self.failures = if node == self.failed { self.failures.saturating_add(1) } else { 1 };
-                    self.failed = node;
-                    return false;
-                }
-            }
+        let Some(orders) = &mut self.fast else { return false };
+        let Some(quality) = orders.factor(&self.system, (mass, g), &mut self.skipped) else { return false };
+        if quality.weak {
+            self.system.store(mass, g);
         }
-    }
-
-    /// Whether another order may help, which is then taken: coordinates found without mass go behind their multipliers;
-    /// hubs go ahead of theirs if a multiplier's pivot collapsed. Each happens at most once for each coordinate.
-    fn reorders(&mut self, node: usize, mass: &[f64]) -> bool {
-        if node < self.n && !self.late[node] {
-            self.top.fill(0.0);
-            self.system.mass.add_diagonal(mass, &mut self.top);
-            if self.top[node] != 0.0 {
-                return false;
-            }
-            self.late.iter_mut().zip(&self.top).filter(|(_, d)| **d == 0.0).for_each(|(late, _)| *late = true);
-        } else if node >= self.n && self.has_hubs {
-            self.has_hubs = false;
-            self.top.fill(0.0);
-            self.system.mass.add_diagonal(mass, &mut self.top);
-            self.late.iter_mut().zip(&self.top).for_each(|(late, d)| *late &= *d == 0.0);
-        } else {
-            return false;
-        }
-        self.fast = Some(Fast::new(&self.system.mass, &self.system.g, &self.late));
+        self.way = Way::Fast { refine: quality.weak };
         true
     }
 
@@ -287,7 +229,13 @@ impl SaddlePoint {
             return Err(Singular::Shape);
         }
         let (system, counts_all) = (&self.system, !self.is_holding);
-        match (self.way, &mut self.fast, &mut self.kept, &mut self.skipping, &mut self.dense) {
+        match (
+            self.way,
+            self.fast.as_mut().and_then(Orders::taken),
+            &mut self.kept,
+            &mut self.skipping,
+            &mut self.dense,
+        ) {
             (Way::Fast { refine: false }, Some(fast), ..) => fast.solve(top, bottom),
             (Way::Fast { refine: true }, Some(fast), ..) => {
                 refine(fast, (top, bottom), (&mut self.top, &mut self.bottom), |a, lambda, top, bottom| {
@@ -316,7 +264,7 @@ impl SaddlePoint {
             return Err(Singular::Shape);
         }
         let System { mass: m, g: j, .. } = &self.system;
-        let Some(fast) = &mut self.fast else { return Err(Singular::NotFactored) };
+        let Some(fast) = self.fast.as_mut().and_then(Orders::taken) else { return Err(Singular::NotFactored) };
         refine(fast, (top, bottom), (&mut self.top, &mut self.bottom), |a, lambda, top, bottom| {
             m.subtract_symmetric(mass, a, top);
             j.subtract_transposed(g, lambda, top);
@@ -357,17 +305,4 @@ fn refine(
 
 fn finite(top: &[f64], bottom: &[f64]) -> Result<(), Singular> {
     if top.iter().chain(bottom).all(|v| v.is_finite()) { Ok(()) } else { Err(Singular::NotFinite) }
-}
-
-/// Marks coordinates that very many multipliers touch; returns whether there are any. Eliminated early, one with k
-/// multipliers would leave a dense k x k block.
-fn mark_hubs(g: &Pattern, late: &mut [bool]) -> bool {
-    let mut degrees = vec![0_usize; g.cols];
-    g.entries.iter().for_each(|&(_, i)| degrees[i] += 1);
-    let limit = (4 * g.rows.isqrt()).max(32);
-    let mut any = false;
-    for (late, _) in late.iter_mut().zip(degrees).filter(|(_, degree)| *degree > limit) {
-        (*late, any) = (true, true);
-    }
-    any
 }

@@ -72,14 +72,14 @@ fn released_rows_count_again() {
     assert!(solver.is_fast() && distance(&top, &a) < 1e-12 && distance(&bottom, &lambda) < 1e-12);
 }
 
-/// Two rows that become parallel at s = 0: below 1e-4 of the usual sine only what both ask for counts.
+/// Two rows that become parallel at s = 0: below 1e-4 of the reference value only what both ask for counts.
 #[test]
 fn nearly_dependent_rows_are_truncated() {
     let (mass, g) = (Pattern::diagonal(3), Pattern::dense(2, 3));
     let values = |s: f64| [1.0, 2.0, 0.5, 1.0, 2.0 + s, 0.5];
     let mut solver = SaddlePoint::new(&mass, &g);
-    let mut right = |usual: f64, s: f64| {
-        solver.usual_sine = usual;
+    let mut right = |reference: f64, s: f64| {
+        solver.rank_reference = reference;
         solver.factor_truncated(&[1.0, 1.0, 1.0], &values(s), 1e-4).unwrap();
         // Contradicting accelerations: solved for, they cost 1/s.
         let (mut a, mut lambda) = ([0.0; 3], [1.0, 1.0 + 1e-3]);
@@ -87,10 +87,10 @@ fn nearly_dependent_rows_are_truncated() {
         (solver.rank(), solver.is_rank_deficient(), a[1])
     };
     for s in [1e-3, 1e-5, 1e-7, 1e-9] {
-        // Nothing is known to be usual, or so little is.
-        for usual in [0.0, s] {
-            let (rank, is_deficient, a) = right(usual, s);
-            assert!(rank == 2 && !is_deficient && (a * s / 1e-3 - 1.0).abs() < 1e-2, "{usual} {s}: {rank} {a:e}");
+        // No reference value is known, or so small a one.
+        for reference in [0.0, s] {
+            let (rank, is_deficient, a) = right(reference, s);
+            assert!(rank == 2 && !is_deficient && (a * s / 1e-3 - 1.0).abs() < 1e-2, "{reference} {s}: {rank} {a:e}");
         }
         let (rank, _, a) = right(1.0, s);
         let is_truncated = s < 1e-4;

@@ -1,6 +1,7 @@
 //! Solutions against dense oracles.
 
 mod held;
+mod pure;
 mod redundant;
 mod regular;
 mod reports;

@@ -115,7 +115,7 @@ fn redundant_rows_in_a_net() {
 }
 
 #[test]
-fn the_fast_way_is_given_up_and_tried_again() {
+fn the_fast_way_is_taken_wherever_it_can_be() {
     let mut random = Random(17);
     let good = Sample::mechanism(&mut random);
     let mut bad = good.clone();
@@ -129,13 +129,8 @@ fn the_fast_way_is_given_up_and_tried_again() {
         solver.factor(&bad.mass_values, &bad.g_values).unwrap();
         assert_eq!(solver.rank(), 19);
     }
-    let mut calls = 0;
-    while !solver.is_fast() {
-        solver.factor(&good.mass_values, &good.g_values).unwrap();
-        assert_eq!(solver.rank(), 20);
-        calls += 1;
-    }
-    assert!(calls <= 64 && calls > 40, "{calls}");
+    solver.factor(&good.mass_values, &good.g_values).unwrap();
+    assert!(solver.is_fast() && solver.rank() == 20);
 }
 
 /// Work is counted in solutions without the redundant rows: it does not grow with their number.

@@ -31,9 +31,9 @@ use sparse::Sparse;
 /// seen. Rows and columns are scaled alike to A of unit size and to rows of G of unit size, so that pivots
 /// are chosen between like and like.
 ///
-/// Rows of G that are dropped have lambda zero, and r2 there has no say: those that [`Unsymmetric::hold`] names, else those
-/// that are dependent at the first factorization. That solves consistent and constantly redundant constraints. When the
-/// rank differs later, factoring fails.
+/// Rows of G that are dropped have lambda zero, and r2 there has no say: those that [`Unsymmetric::hold`] names, else, where
+/// the matrix of all rows is singular, those that are dependent in the values at hand. That solves consistent redundant
+/// constraints.
 pub struct Unsymmetric<T> {
     n: usize,
     matrix: Matrix<T>,
@@ -65,8 +65,6 @@ enum Factors<T> {
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum State {
-    /// Never factored: which rows are dependent is not known.
-    New,
     /// The last factorization failed, or there is a new matrix.
     Open,
     Factored,
@@ -108,7 +106,7 @@ impl<T: Field> Unsymmetric<T> {
             left_out: vec![false; g.rows],
             keeps_rows: false,
             right: vec![T::ZERO; size],
-            state: State::New,
+            state: State::Open,
             fits: true,
             matrix,
         })
@@ -132,9 +130,7 @@ impl<T: Field> Unsymmetric<T> {
         self.matrix.values.fill(T::ZERO);
         self.coupling.fill(T::ZERO);
         self.fits = true;
-        if self.state == State::Factored {
-            self.state = State::Open;
-        }
+        self.state = State::Open;
     }
 
     /// A += M, given by one triangle.
@@ -172,10 +168,8 @@ impl<T: Field> Unsymmetric<T> {
     /// Puts G in and factors.
     ///
     /// # Errors
-    /// Values that are not finite or not in the pattern; a singular matrix, but for rows of G that were dependent at the
-    /// first factorization already.
+    /// Values that are not finite or not in the pattern; a singular matrix, but for rows of G that are dropped.
     pub fn factor(&mut self, g: &Pattern, values: &[f64]) -> Result<(), Singular> {
-        let is_new = self.state == State::New;
         if !self.fits || g.entries.len() != self.g.entries.len() || values.len() != g.entries.len() {
             return Err(Singular::Shape);
         }
@@ -183,10 +177,10 @@ impl<T: Field> Unsymmetric<T> {
             return Err(Singular::NotFinite);
         }
         self.balance(values);
-        self.renew_redundancy(values)?;
-        if self.factor_scaled(values)
-            || is_new && !self.keeps_rows && self.leave_out(values) && self.factor_scaled(values)
-        {
+        if !self.keeps_rows {
+            self.left_out.fill(false);
+        }
+        if self.factor_scaled(values) || !self.keeps_rows && self.leave_out(values) && self.factor_scaled(values) {
             self.state = State::Factored;
             return Ok(());
         }
@@ -236,18 +230,10 @@ impl<T: Field> Unsymmetric<T> {
         }
     }
 
-    /// The rows to leave out where some are; it is an error when there are more or less of them than at first.
-    fn renew_redundancy(&mut self, g: &[f64]) -> Result<(), Singular> {
-        let Some(redundancy) = &mut self.redundancy else { return Ok(()) };
-        let count = redundancy.find(&self.weight, g, &mut self.left_out);
-        if count == redundancy.count { Ok(()) } else { Err(Singular::Collapsed) }
-    }
-
-    /// Whether there are rows to leave out.
+    /// Whether there are dependent rows to leave out.
     fn leave_out(&mut self, g: &[f64]) -> bool {
-        let redundancy = Redundancy::new(&self.g, &self.weight, g, &mut self.left_out);
-        self.redundancy = (redundancy.count > 0).then_some(redundancy);
-        self.redundancy.is_some()
+        let redundancy = self.redundancy.get_or_insert_with(|| Redundancy::new(&self.g));
+        redundancy.find(&self.weight, g, &mut self.left_out) > 0
     }
 
     /// Whether the scaled matrix has all its pivots.

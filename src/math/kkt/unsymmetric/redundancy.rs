@@ -9,23 +9,17 @@ use super::super::pivot::{COLLAPSED, Rule};
 pub(super) struct Redundancy {
     fast: Fast,
     skipped: Vec<usize>,
-    /// How many rows there were at first.
-    pub count: usize,
 }
 
 impl Redundancy {
-    /// Marks the rows in `out`.
-    pub fn new(g: &Pattern, weight: &[f64], values: &[f64], out: &mut [bool]) -> Self {
-        let mut redundancy = Redundancy {
+    pub fn new(g: &Pattern) -> Self {
+        Redundancy {
             fast: Fast::new(&Pattern::diagonal(g.cols), g, &vec![false; g.cols]),
             skipped: Vec::with_capacity(g.rows),
-            count: 0,
-        };
-        redundancy.count = redundancy.find(weight, values, out);
-        redundancy
+        }
     }
 
-    /// Marks the rows anew and returns how many there are; none where the values are of no use.
+    /// Marks the rows in `out` and returns how many there are; none where the values are of no use.
     pub fn find(&mut self, weight: &[f64], values: &[f64], out: &mut [bool]) -> usize {
         if self.fast.factor(weight, values, Rule::lenient(COLLAPSED, weight), &mut self.skipped).is_err() {
             self.skipped.clear();

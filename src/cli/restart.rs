@@ -1,0 +1,76 @@
+//! `--start FILE`: the end of another run of the same scene.
+
+use crate::error::{Error, Result, Warning};
+use crate::simulate::Checkpoint;
+use crate::study::Study;
+use serde::Deserialize;
+use serde_json::{Map, Value};
+use std::path::Path;
+
+/// What is read of a `summary.json`.
+#[derive(Deserialize)]
+struct Saved {
+    parameters: Map<String, Value>,
+    r#final: State,
+    restart: Option<Checkpoint>,
+}
+
+#[derive(Deserialize)]
+struct State {
+    q: Map<String, Value>,
+    v: Map<String, Value>,
+}
+
+/// Where the run of this summary can go on.
+pub fn read(path: &Path, study: &Study) -> Result<Checkpoint> {
+    let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
+    let saved = parse(&text).and_then(|saved| checked(saved, study));
+    saved.map_err(|error| error.under("--start").in_file(path))
+}
+
+fn parse(text: &str) -> Result<Saved> {
+    serde_json::from_str(text).map_err(|error| {
+        Error::input(format!("it is no summary of a run: {error}"))
+            .hint("name the summary.json that `holonom simulate` has written")
+    })
+}
+
+/// Refuses a run of another scene.
+fn checked(Saved { parameters, r#final: State { q, v }, restart }: Saved, study: &Study) -> Result<Checkpoint> {
+    let names = study.system().names();
+    let other = |found: &Map<String, Value>, known: &[String]| {
+        let is_known = |name: &&String| known.contains(name);
+        let new = found.keys().find(|name| !is_known(name)).or(known.iter().find(|name| !found.contains_key(*name)));
+        new.cloned().or_else(|| found.keys().zip(known).find(|(a, b)| a != b).map(|(a, _)| a.clone()))
+    };
+    if let Some(name) = other(&q, &names.q).or_else(|| other(&v, &names.v)) {
+        return Err(Error::input(format!("it is of another scene than `{}`: they do not share `{name}`", study.name))
+            .hint("a run goes on with the scene, and the parameters, that it began with"));
+    }
+    for (name, value) in study.parameters.iter() {
+        let saved = parameters.get(name).and_then(Value::as_f64);
+        if saved != Some(value) {
+            let was = saved.map_or("missing".to_string(), |saved| saved.to_string());
+            return Err(Error::input(format!("the parameter `{name}` is {value} here and {was} there"))
+                .hint(format!("give --set {name}={was}, or begin anew without --start")));
+        }
+    }
+    restart.ok_or_else(|| Error::input("that run could not begin, so that there is nothing to go on from"))
+}
+
+/// What is said of a run that does not go on as it was.
+pub fn doubt(saved: &Checkpoint, study: &Study) -> Option<Warning> {
+    let (t, method) = (saved.t(), saved.method());
+    if study.chosen_because.is_none() && *method != study.method {
+        return Some(Warning::new(
+            format!("the method is another one than up to t = {t} s, and begins anew from the state there"),
+            format!("with {} at the same tolerances or step the run would go on as it was", method.triple()),
+        ));
+    }
+    (!saved.is_exact()).then(|| {
+        Warning::new(
+            format!("{} begins anew at t = {t} s, with what it knows of that state alone", method.integrator.name),
+            "the run goes on within the tolerance, but not bit by bit as it would have; explicit methods do",
+        )
+    })
+}

@@ -1,0 +1,88 @@
+//! The orders of elimination of the fast way, by the masses at hand and nothing else.
+
+use super::super::Pattern;
+use super::super::fast::Fast;
+use super::super::pivot::{Quality, Rule};
+use super::super::system::System;
+
+/// Factors for one pattern of vanishing masses: the same values get the same order, whatever was factored before.
+pub(super) struct Orders {
+    /// Entries of M on its diagonal, with their coordinates.
+    diagonal: Vec<(usize, usize)>,
+    /// Coordinates without mass, for which the factors are made, and scratch for those of the values at hand.
+    massless: Vec<bool>,
+    found: Vec<bool>,
+    /// Coordinates that very many multipliers touch: eliminated early, one with k multipliers would leave a dense k x k
+    /// block.
+    hubs: Vec<bool>,
+    /// With hubs behind their multipliers, and ahead of them where a multiplier's pivot collapses without them. Coordinates
+    /// without mass are always behind.
+    factors: [Option<Fast>; 2],
+    taken: usize,
+}
+
+impl Orders {
+    pub fn new(mass: &Pattern, g: &Pattern) -> Self {
+        let entries = mass.entries.iter().enumerate();
+        Orders {
+            diagonal: entries.filter(|(_, (i, j))| i == j).map(|(entry, (i, _))| (entry, *i)).collect(),
+            massless: vec![true; g.cols],
+            found: vec![true; g.cols],
+            hubs: hubs(g),
+            factors: [None, None],
+            taken: 0,
+        }
+    }
+
+    /// None where a pivot collapses in each order.
+    pub fn factor(
+        &mut self,
+        System { mass: m, g: j, .. }: &System,
+        (mass, g): (&[f64], &[f64]),
+        skipped: &mut Vec<usize>,
+    ) -> Option<Quality> {
+        self.meet(mass);
+        for (order, factors) in self.factors.iter_mut().enumerate() {
+            let late = |(massless, hub): (&bool, &bool)| *massless || *hub && order == 0;
+            let fast = factors.get_or_insert_with(|| {
+                Fast::new(m, j, &self.massless.iter().zip(&self.hubs).map(late).collect::<Vec<_>>())
+            });
+            match fast.factor(mass, g, Rule::STRICT, skipped) {
+                Ok(quality) => {
+                    self.taken = order;
+                    return Some(quality);
+                }
+                Err(node) if node < m.rows || !self.hubs.contains(&true) => return None,
+                Err(_) => {}
+            }
+        }
+        None
+    }
+
+    /// Forgets the factors where other masses vanish.
+    fn meet(&mut self, mass: &[f64]) {
+        self.found.fill(true);
+        self.diagonal.iter().for_each(|&(entry, i)| self.found[i] &= mass[entry] == 0.0);
+        if self.found != self.massless {
+            self.massless.copy_from_slice(&self.found);
+            self.factors = [None, None];
+        }
+    }
+
+    /// The factors of the last success.
+    pub fn taken(&mut self) -> Option<&mut Fast> {
+        self.factors[self.taken].as_mut()
+    }
+
+    /// See [`Fast::smallest_ratio`].
+    pub fn smallest_ratio(&self) -> f64 {
+        self.factors[self.taken].as_ref().map_or(0.0, |fast| fast.smallest_ratio(0.0).0)
+    }
+}
+
+fn hubs(g: &Pattern) -> Vec<bool> {
+    let mut degrees = vec![0_usize; g.cols];
+    g.entries.iter().for_each(|&(_, i)| degrees[i] += 1);
+    let limit = (4 * g.rows.isqrt()).max(32);
+    degrees.into_iter().map(|degree| degree > limit).collect()
+}

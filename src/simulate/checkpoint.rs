@@ -1,0 +1,209 @@
+//! A run saved between two of its steps, and one that goes on from there.
+
+use super::approach::Approach;
+use super::crowd::Crowd;
+use super::{Method, Outcome, Run, Sink, Span};
+use crate::error::{Error, Failure, Result};
+use crate::formulation::Statistics;
+use crate::integrator::Store;
+use crate::math::Piece;
+use crate::system::{Loaded, MechanicalSystem};
+use serde::{Deserialize, Serialize};
+
+/// All that a run carries from one accepted step to the next: the state, and what adapts. A run of the same method and span
+/// that goes on from here is bit by bit the one that went on by itself. JSON keeps it exactly.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Checkpoint {
+    method: Method,
+    span: Span,
+    t: f64,
+    /// q, v, and the work since the start.
+    y: Vec<f64>,
+    /// Rows of G that are dropped.
+    dropped: Vec<usize>,
+    /// The pieces on which functions are held, their next change by the clock, up to where the clock is watched, and which
+    /// functions of time have no useful enclosures.
+    pieces: Vec<Piece>,
+    next_change: Option<f64>,
+    watched: (Option<f64>, Vec<bool>),
+    turned: Vec<u8>,
+    turned_at: Vec<f64>,
+    crowd: Crowd,
+    /// The rank indicator at the last states with its reference value, and that of a dense solver.
+    approach: Approach,
+    dense_reference: f64,
+    formulation: Vec<f64>,
+    integrator: Vec<f64>,
+    h: f64,
+    growing: bool,
+    cut: Option<f64>,
+    divided: f64,
+    progress: (f64, usize),
+    next_row: u64,
+    factored: u64,
+    statistics: Statistics,
+}
+
+/// Where a run starts.
+#[derive(Clone, Copy, Debug)]
+pub enum Start<'a> {
+    /// At (q, v), which should be consistent.
+    State(&'a [f64], &'a [f64]),
+    /// Where another one was saved: going on with all that it carried if the method is the same, else anew from its state.
+    Saved(&'a Checkpoint),
+}
+
+/// Integrates `system` over `span`, or what is left of it. A run that cannot go on is no error: its outcome says where and
+/// why, and the sink holds what came before. Returns where a run can go on, too; none where it could not begin.
+///
+/// # Errors
+/// Bad input only: an unknown or impossible method, a bad span, a saved run of another system or beyond the span.
+pub fn simulate_from(
+    system: &dyn MechanicalSystem,
+    method: &Method,
+    span: Span,
+    start: Start,
+    sink: &mut dyn Sink,
+) -> Result<(Outcome, Option<Checkpoint>)> {
+    method.check()?;
+    span.check()?;
+    let store = Store::default();
+    let y = match start {
+        Start::State(q, v) => [q, v, &[0.0]].concat(),
+        Start::Saved(saved) => saved.checked(system, span)?.y.clone(),
+    };
+    let mut run = Run::new((system, &store), method, span, y)?;
+    let begun = match start {
+        Start::State(..) => run.begin(sink),
+        Start::Saved(saved) => run.go_on_from(saved, method, sink),
+    };
+    let has_begun = begun.is_ok();
+    let failure = begun.and_then(|()| run.advance(sink)).err();
+    let saved = has_begun.then(|| run.checkpoint(method));
+    Ok((run.finish(failure, sink), saved))
+}
+
+impl Checkpoint {
+    /// The time of the state, s.
+    pub fn t(&self) -> f64 {
+        self.t
+    }
+
+    /// The method of the run that was saved.
+    pub fn method(&self) -> &Method {
+        &self.method
+    }
+
+    /// Whether the method goes on with what it carried; else it begins anew, and the run is the same within the tolerance
+    /// only.
+    pub fn is_exact(&self) -> bool {
+        !self.integrator.is_empty()
+    }
+
+    /// Whether all that is saved has a place in the system.
+    fn fits(&self, system: &dyn MechanicalSystem) -> bool {
+        let (n, switches) = (system.dimensions(), system.switches());
+        let are_pieces = self.pieces.iter().zip(switches).all(|(piece, s)| *piece as usize <= 2 * s.thresholds.len());
+        let lengths = [self.y.len(), self.turned_at.len(), self.pieces.len(), self.turned.len()];
+        let all = n.q + n.v + 1;
+        lengths == [all, all, switches.len(), switches.len()]
+            && are_pieces
+            && self.dropped.iter().all(|row| *row < n.lambda)
+            && self.h > 0.0
+    }
+
+    /// Refuses a run of another system, and one that has come to the end of the span or farther.
+    fn checked(&self, system: &dyn MechanicalSystem, span: Span) -> Result<&Self> {
+        if !self.fits(system) {
+            return Err(Error::input("the saved run is one of another system"));
+        }
+        match self.t < span.end && self.t >= span.start {
+            true => Ok(self),
+            false => Err(Error::input(format!("nothing to simulate from {} s to {} s", self.t, span.end))
+                .hint("the saved run has come to that end: go on to a later one with --until")),
+        }
+    }
+}
+
+impl Run<'_> {
+    /// Saves what the next steps depend on.
+    pub fn checkpoint(&self, method: &Method) -> Checkpoint {
+        let (dynamics, timetable) = (&self.problem.dynamics, &self.events.timetable);
+        Checkpoint {
+            method: method.clone(),
+            span: self.span,
+            t: self.t,
+            y: self.y.clone(),
+            dropped: dynamics.held.clone(),
+            pieces: self.events.pieces.clone(),
+            next_change: timetable.next_change(),
+            watched: timetable.watch.memory(),
+            turned: self.events.turned.clone(),
+            turned_at: self.turned_at.clone(),
+            crowd: self.crowd,
+            approach: self.approach,
+            dense_reference: dynamics.dense_reference,
+            formulation: self.problem.formulation.settled(),
+            integrator: self.integrator.memory(),
+            h: self.h,
+            growing: self.growing,
+            cut: self.cut,
+            divided: self.divided,
+            progress: self.progress,
+            next_row: self.rows.next,
+            factored: self.factored,
+            statistics: dynamics.statistics,
+        }
+    }
+
+    /// Goes on where another run was saved, and shows the state there, as at any start.
+    fn go_on_from(&mut self, saved: &Checkpoint, method: &Method, sink: &mut dyn Sink) -> Result<(), Failure> {
+        self.t = saved.t;
+        match saved.method == *method {
+            true => self.recall(saved)?,
+            false => self.go_on(&saved.dropped)?,
+        }
+        self.show((self.approach != Approach::default()).then_some(self.approach.sine), sink);
+        self.rows.y.copy_from_slice(&self.y);
+        self.rows.emit(self.t, sink).map_err(|halt| self.halted(&halt))?;
+        let is_same = self.span.start == saved.span.start && self.span.output_step == saved.span.output_step;
+        self.rows.next = if is_same { saved.next_row } else { self.next_row() };
+        Ok(())
+    }
+
+    /// The first row behind the state.
+    fn next_row(&self) -> u64 {
+        let Span { start, output_step, .. } = self.span;
+        1 + ((self.t - start) / output_step * (1.0 + 4.0 * f64::EPSILON)) as u64
+    }
+
+    fn recall(&mut self, saved: &Checkpoint) -> Result<(), Failure> {
+        self.problem.formulation.recall(&saved.formulation);
+        self.rows.problem.formulation.recall(&saved.formulation);
+        self.integrator.recall(&saved.integrator);
+        (self.approach, self.crowd, self.divided) = (saved.approach, saved.crowd, saved.divided);
+        (self.h, self.growing, self.cut) = (saved.h, saved.growing, saved.cut);
+        (self.progress, self.factored) = (saved.progress, saved.factored);
+        self.turned_at.clone_from(&saved.turned_at);
+        self.hold(&saved.dropped);
+        self.refer_to(saved.dense_reference);
+        self.recall_events(saved);
+        self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
+        let ((q, v), (_, vdot)) = (self.problem.split(&self.y), self.problem.split(&self.slope));
+        self.events.start_at(Loaded { t: self.t, q, v, vdot, lambda: &[] });
+        // The work of the saved run holds that of this evaluation.
+        self.problem.dynamics.statistics = saved.statistics;
+        Ok(())
+    }
+
+    fn recall_events(&mut self, saved: &Checkpoint) {
+        let Run { events, problem, rows, t, .. } = self;
+        events.pieces.clone_from(&saved.pieces);
+        events.turned.clone_from(&saved.turned);
+        events.timetable.recall(*t, saved.next_change, saved.span.end, &saved.pieces);
+        events.timetable.watch.recall(saved.watched.0, &saved.watched.1);
+        for dynamics in [&mut problem.dynamics, &mut rows.problem.dynamics] {
+            dynamics.scratch.pieces.clone_from(&saved.pieces);
+        }
+    }
+}

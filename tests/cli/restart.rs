@@ -1,0 +1,76 @@
+//! `simulate --start FILE`.
+
+use super::*;
+
+/// The last row of a trajectory.
+fn last(place: &Place, folder: &str) -> String {
+    place.text(&format!("{folder}/trajectory.csv")).lines().last().unwrap().to_string()
+}
+
+fn summary(place: &Place, folder: &str) -> Value {
+    place.json(&format!("{folder}/summary.json"))
+}
+
+/// What is said of bad input.
+fn refused(place: &Place, args: &[&str]) -> String {
+    let output = place.run(args);
+    assert_eq!(output.status.code(), Some(2), "{args:?}");
+    err(&output)
+}
+
+/// Fixed steps of the whole and of its parts are the same.
+#[test]
+fn a_run_in_two_parts_is_bit_by_bit_the_whole() {
+    let place = Place::new(PENDULUM);
+    let simulate = |rest: &[&str]| {
+        let method = ["simulate", "scene.json", "--integrator", "rk4", "--step", "0.01", "--quiet"];
+        place.done(&[&method[..], rest].concat())
+    };
+    simulate(&["-o", "whole"]);
+    simulate(&["-o", "first", "--until", "0.4"]);
+    simulate(&["-o", "second", "--start", "first/summary.json"]);
+    assert_eq!(last(&place, "second"), last(&place, "whole"));
+    let [whole, second] = ["whole", "second"].map(|folder| summary(&place, folder));
+    assert_eq!(second["statistics"], whole["statistics"]);
+    assert_eq!(second["restart"]["y"], whole["restart"]["y"]);
+    // The second trajectory begins where the first one ended.
+    let text = place.text("second/trajectory.csv");
+    assert!(text.lines().nth(1).unwrap().starts_with("0.4,"), "{text}");
+    assert_eq!(text.lines().count(), 1 + 7);
+}
+
+#[test]
+fn another_method_begins_anew_and_says_so() {
+    let place = Place::new(PENDULUM);
+    place.done(&["simulate", "scene.json", "-o", "first", "--until", "0.4", "--quiet"]);
+    place.done(&["simulate", "scene.json", "-o", "second", "--start", "first/summary.json", "--rtol", "1e-9"]);
+    let warnings = summary(&place, "second")["warnings"].to_string();
+    assert!(warnings.contains("begins anew"), "{warnings}");
+    let implicit =
+        ["simulate", "scene.json", "--formulation", "ggl", "--integrator", "bdf", "--projection", "none", "--quiet"];
+    place.done(&[&implicit[..], &["-o", "bdf", "--until", "0.4"]].concat());
+    place.done(&[&implicit[..], &["-o", "more", "--start", "bdf/summary.json"]].concat());
+    let warnings = summary(&place, "more")["warnings"].to_string();
+    assert!(warnings.contains("bdf begins anew"), "{warnings}");
+    place.done(&["simulate", "scene.json", "-o", "third", "--start", "first/summary.json"]);
+    assert_eq!(summary(&place, "third")["warnings"], Value::Array(vec![]));
+}
+
+#[test]
+fn what_does_not_go_on_is_refused() {
+    let place = Place::new(PENDULUM);
+    place.done(&["simulate", "scene.json", "-o", "first", "--quiet"]);
+    let check = |file: &str, words: &str| {
+        let error = refused(&place, &["simulate", "scene.json", "--start", file, "--until", "2"]);
+        assert!(error.contains(words), "{error}");
+    };
+    let error = refused(&place, &["simulate", "scene.json", "--start", "first/summary.json"]);
+    assert!(error.contains("go on to a later one with --until"), "{error}");
+    check("none.json", "none.json");
+    check("scene.json", "no summary of a run");
+    let broken = place.text("first/summary.json").replace("\"pieces\": []", "\"pieces\": [7]");
+    fs::write(place.path("broken.json"), broken).unwrap();
+    check("broken.json", "of another system");
+    fs::write(place.path("other.json"), place.text("first/summary.json").replace("rod.x", "bar.x")).unwrap();
+    check("other.json", "bar.x");
+}

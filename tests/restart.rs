@@ -1,0 +1,182 @@
+//! A run that was saved at an accepted step and goes on from there is, bit by bit, the run that went on by itself.
+
+mod scenes;
+
+use holonom::formulation::Choice;
+use holonom::integrator::{self, Steps};
+use holonom::projection;
+use holonom::simulate::{Checkpoint, Method, Observation, Outcome, Sink, Span, Start, Stop, simulate_from};
+use rayon::prelude::*;
+use scenes::{Ready, parse, shipped};
+
+/// Implicit methods, which carry more than their control's last error; the multistep method among them restarts at order one.
+const EXCEPTIONS: [&str; 6] = ["radau_iia", "generalized_alpha", "ali3p", "bdf", "tr_bdf2", "esdirk34"];
+
+/// Steps of a run with fixed ones.
+const STEPS: f64 = 40.0;
+
+/// A mass on a spring whose floor it hits, pushed by a table, a pulse and a sine.
+const EVENTS: &str = r#"{ "name": "events", "dimension": 2, "gravity": [0, -9.81],
+    "parameters": { "l": 1 },
+    "ground": { "markers": { "O": [0, 0] } },
+    "bodies": [{ "name": "rod", "type": "rigid", "mass": 1, "inertia": "l^2/12", "markers": { "A": ["-l/2", 0], "B": ["l/2", 0] },
+                 "initial": { "position": ["l/2", 0] } }],
+    "joints": [{ "name": "O", "type": "revolute", "between": ["ground.O", "rod.A"] }],
+    "forces": [
+        { "name": "floor", "type": "applied_torque", "at": "rod", "torque": "if(rod.angle < -1, -200*(rod.angle + 1), 0)" },
+        { "name": "push", "type": "applied_torque", "at": "rod",
+          "torque": "table(t, 0, 0, 0.2, 1, 0.31, -2, 0.5, 3, 1, 0) + exp(-((t - 0.4)/0.003)^2) + if(t > 0.6, sin(40*t), 0)" }],
+    "simulation": { "t_end": 1 } }"#;
+
+fn cases() -> Vec<(Ready, f64)> {
+    let shipped = |name: &str, end: f64| (shipped(name, &[]), end);
+    vec![
+        shipped("four_bar_spring", 0.4),
+        (parse(EVENTS), 0.8),
+        shipped("quarter_car", 0.7),
+        shipped("slider_crank_singular", 1.2),
+        shipped("parallelogram_redundant", 0.3),
+        shipped("bricard", 0.2),
+        shipped("spinning_top", 0.05),
+        shipped("flexible_pendulum", 0.02),
+    ]
+}
+
+/// Everything that goes together, but for the exceptions.
+fn methods(ready: &Ready, span: Span) -> Vec<Method> {
+    let mut all = Vec::new();
+    for entry in integrator::registry().iter().filter(|entry| !EXCEPTIONS.contains(&entry.name)) {
+        for formulation in entry.accepts {
+            for projection in projection::registry() {
+                let step = (entry.steps == Steps::Fixed).then_some((span.end - span.start) / STEPS);
+                let named = Choice::named;
+                let (formulation, integrator, projection) =
+                    (named(formulation), named(entry.name), named(projection.name));
+                let method = Method { formulation, integrator, projection, rtol: 1e-5, atol: 1e-7, step };
+                all.push(method.clone());
+                if entry.name == "dopri5" {
+                    // No step is a binary fraction.
+                    all.push(Method { step: Some((span.end - span.start) / 37.0), ..method });
+                }
+            }
+        }
+    }
+    let (q, v) = ready.0.start();
+    // Rattle takes no quaternions.
+    let is_possible = |method: &Method| {
+        simulate_from(ready.system(), method, span, Start::State(q, v), &mut Numbers::up_to(1)).is_ok()
+    };
+    all.retain(is_possible);
+    all
+}
+
+/// Every number that a run shows; stops it after so many accepted states.
+struct Numbers {
+    accepted: Vec<Vec<u64>>,
+    rows: Vec<Vec<u64>>,
+    most: usize,
+}
+
+impl Numbers {
+    fn up_to(most: usize) -> Self {
+        Numbers { accepted: Vec::new(), rows: Vec::new(), most }
+    }
+}
+
+fn bits(at: &Observation) -> Vec<u64> {
+    let states = at.q.iter().chain(at.v).chain(at.vdot).chain(at.lambda);
+    let residuals = at.phi.iter().chain(at.phi_dot).chain(at.phi_ddot);
+    [at.t, at.work].iter().chain(states).chain(residuals).map(|x| x.to_bits()).collect()
+}
+
+impl Sink for Numbers {
+    fn accepted(&mut self, state: &Observation) {
+        self.accepted.push(bits(state));
+    }
+
+    fn row(&mut self, state: &Observation) {
+        self.rows.push(bits(state));
+    }
+
+    fn stops(&self) -> Option<Stop> {
+        let is_over = self.accepted.len() >= self.most;
+        is_over.then(|| Stop { reason: "saved".to_string(), hint: String::new() })
+    }
+}
+
+fn run(
+    ready: &Ready,
+    method: &Method,
+    span: Span,
+    start: Start,
+    most: usize,
+) -> (Outcome, Option<Checkpoint>, Numbers) {
+    let mut numbers = Numbers::up_to(most);
+    let (outcome, saved) = simulate_from(ready.system(), method, span, start, &mut numbers).unwrap();
+    (outcome, saved, numbers)
+}
+
+/// Through JSON.
+fn written(saved: &Checkpoint) -> Checkpoint {
+    let read: Checkpoint = serde_json::from_str(&serde_json::to_string(saved).unwrap()).unwrap();
+    assert_eq!(&read, saved);
+    read
+}
+
+/// Where the run that goes on differs from the one that went on, if it does; how many restarts were compared.
+fn compared(ready: &Ready, method: &Method, span: Span) -> Result<usize, String> {
+    let (q, v) = ready.0.start();
+    let start = Start::State(q, v);
+    let (whole, last, all) = run(ready, method, span, start, usize::MAX);
+    let Some(last) = last else { return Ok(0) };
+    let count = all.accepted.len();
+    let mut places: Vec<usize> = [1, count / 4, count / 2, 3 * count / 4, count - 1].into();
+    places.retain(|place| (1..count).contains(place));
+    places.dedup();
+    for &place in &places {
+        let (_, saved, first) = run(ready, method, span, start, place);
+        let Some(saved) = saved else { return Err(format!("{place}: nothing saved")) };
+        if first.accepted != all.accepted[..place] {
+            return Err(format!("{place}: the run to be saved is another one"));
+        }
+        let (outcome, saved, rest) = run(ready, method, span, Start::Saved(&written(&saved)), usize::MAX);
+        // Where the form of the equations changes at the saved state, the run shows it with v' before, and this one after that.
+        let length = 2 + q.len() + v.len();
+        if rest.accepted[0][..length] != all.accepted[place - 1][..length] {
+            return Err(format!("{place} of {count}: another state"));
+        }
+        if let Some(k) = (1..=count - place).find(|k| rest.accepted.get(*k) != all.accepted.get(place - 1 + k)) {
+            return Err(format!("{place} of {count}: differs {k} steps later"));
+        }
+        let shown = all.rows.len().saturating_sub(rest.rows.len() - 1);
+        if rest.rows[1..] != all.rows[shown..] {
+            return Err(format!("{place} of {count}: other rows"));
+        }
+        if outcome != whole {
+            return Err(format!("{place} of {count}: {:?} {:?}", outcome.statistics, whole.statistics));
+        }
+        if saved.as_ref() != Some(&last) {
+            return Err(format!("{place} of {count}: saved\n{saved:?}\n{last:?}"));
+        }
+    }
+    Ok(places.len())
+}
+
+#[test]
+fn a_run_that_goes_on_is_the_one_that_went_on() {
+    let mut wrong = Vec::new();
+    for (ready, end) in cases() {
+        let span = Span { start: 0.0, end, output_step: end / 7.0 };
+        let methods = methods(&ready, span);
+        let found: Vec<_> = methods.par_iter().map(|method| (method, compared(&ready, method, span))).collect();
+        let name = &ready.0.name;
+        let told = |(method, found): &(&Method, Result<usize, String>)| {
+            Some(format!("{name}, {}: {}", method.triple(), found.as_ref().err()?))
+        };
+        wrong.extend(found.iter().filter_map(told));
+        let restarts: usize = found.iter().filter_map(|(_, found)| found.as_ref().ok()).sum();
+        // Most methods go together with the scene, and come five steps far.
+        assert!(restarts > 2 * methods.len(), "{name}: {restarts} restarts of {} runs", methods.len());
+    }
+    assert!(wrong.is_empty(), "{} differ:\n{}", wrong.len(), wrong.join("\n"));
+}
