@@ -46,7 +46,7 @@ fn cases() -> Vec<(Ready, f64)> {
 fn methods(ready: &Ready, span: Span) -> Vec<Method> {
     let mut all = Vec::new();
     for entry in integrator::registry().iter().filter(|entry| !EXCEPTIONS.contains(&entry.name)) {
-        for formulation in entry.accepts {
+        for formulation in entry.accepts() {
             for projection in projection::registry() {
                 let step = (entry.steps == Steps::Fixed).then_some((span.end - span.start) / STEPS);
                 let named = Choice::named;
