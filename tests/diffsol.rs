@@ -54,8 +54,8 @@ fn errors(rows: &[Vec<f64>], reference: &[Vec<f64>]) -> [f64; 3] {
 fn every_triple_has_its_order() {
     let (_, reference) = solve(&adaptive("index1", "dop853", "exact", 1e-13));
     let triples = triples();
-    // Three formulations: two methods with all projections, and bdf with none.
-    assert_eq!(triples.len(), 39);
+    // Four formulations: two methods with all projections, and bdf with none.
+    assert_eq!(triples.len(), 52);
     for (entry, formulation, projection) in triples {
         let (coarse, fine, off) = if entry.name == "bdf" { (1e-6, 1e-11, 1.0) } else { (1e-5, 1e-9, 0.3) };
         // Gains that are no faster than the motion.

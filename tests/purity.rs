@@ -74,7 +74,7 @@ fn evaluated(problem: &mut Problem, State { t, y }: &State) -> Vec<Result<Vec<u6
 fn fields(system: &dyn MechanicalSystem) -> impl Iterator<Item = Choice> {
     let is_small = system.dimensions().v <= DENSE;
     let all = formulation::registry().iter();
-    all.filter(move |entry| is_small || entry.rows.is_some() || entry.name == "penalty")
+    all.filter(move |entry| is_small || entry.dae.is_some() || entry.name == "penalty")
         .map(|entry| Choice::named(entry.name))
 }
 

@@ -4,7 +4,7 @@ use super::{Dae, Dynamics, Halt, Residual, Row};
 use crate::math::kkt::{Field, Pattern, SaddlePoint, Singular, Unsymmetric};
 use crate::system::{Loaded, MechanicalSystem, Need, Structure, Tangent};
 use faer::c64;
-use std::ops::{Add, Div, Mul, Sub};
+use std::ops::{Add, Div, DivAssign, Mul, Sub, SubAssign};
 
 /// Why an implicit method has no matrix.
 pub const NO_TANGENT: Halt = Halt::Unsuitable {
@@ -21,6 +21,8 @@ pub struct Linearized {
     tangent: Tangent,
     shifts: Option<SaddlePoint>,
     dropped: Vec<usize>,
+    /// t, q, v, v' and lambda of the state; empty before there is one.
+    point: Vec<f64>,
 }
 
 impl Linearized {
@@ -35,7 +37,32 @@ impl Linearized {
             tangent: Tangent::new(&structure.tangent),
             shifts: dae.has_shifts().then(|| SaddlePoint::new(&structure.mass, &structure.g)),
             dropped: Vec::new(),
+            point: Vec::with_capacity(
+                1 + system.dimensions().q + 2 * system.dimensions().v + system.dimensions().lambda,
+            ),
         }
+    }
+
+    /// t, q, v, v' and lambda of the state, from which [`recall`](Self::recall) takes them again.
+    pub fn point(&self) -> &[f64] {
+        &self.point
+    }
+
+    /// Takes them at the state of a [`point`](Self::point), which was counted before.
+    ///
+    /// # Errors
+    /// As [`update`](Self::update).
+    pub fn recall(&mut self, point: &[f64], dynamics: &mut Dynamics) -> Result<(), Halt> {
+        let (n, counted) = (dynamics.system.dimensions(), dynamics.statistics);
+        let Some((&t, rest)) = point.split_first().filter(|(_, rest)| rest.len() == n.q + 2 * n.v + n.lambda) else {
+            return Ok(());
+        };
+        let (q, rest) = rest.split_at(n.q);
+        let (v, rest) = rest.split_at(n.v);
+        let (vdot, lambda) = rest.split_at(n.v);
+        self.update(Loaded { t, q, v, vdot, lambda }, dynamics)?;
+        dynamics.statistics = counted;
+        Ok(())
     }
 
     /// Takes them at a state. One evaluation of K and C.
@@ -53,6 +80,9 @@ impl Linearized {
         self.mass.copy_from_slice(&terms.mass);
         self.g.copy_from_slice(&terms.g);
         self.l.copy_from_slice(&terms.l);
+        self.point.clear();
+        self.point.push(at.t);
+        [at.q, at.v, at.vdot, at.lambda].into_iter().for_each(|values| self.point.extend_from_slice(values));
         if let Some(shifts) = &mut self.shifts {
             if self.dropped != dynamics.held {
                 shifts.hold(&dynamics.held);
@@ -113,7 +143,14 @@ pub struct Change<T> {
 
 /// A real number, or a complex one that stands for itself and its conjugate.
 pub trait Number:
-    Field + PartialEq + Mul<Output = Self> + Div<Output = Self> + Add<Output = Self> + Sub<Output = Self>
+    Field
+    + PartialEq
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + SubAssign
+    + DivAssign
 {
     const PARTS: usize;
     fn part(self, k: usize) -> f64;
@@ -255,7 +292,7 @@ impl<T: Number> Iteration<T> {
         let Iteration { matrix, rows, slopes, change, part } = self;
         let Change { a, lambda, w, u, eta, mu } = change;
         for (i, row) in lambda.iter_mut().enumerate() {
-            *row = *row / rows.lambda[rows.kind(i)].a[0];
+            *row /= rows.lambda[rows.kind(i)].a[0];
         }
         if let Some(shifts) = &mut at.shifts {
             for (i, row) in eta.iter_mut().enumerate() {
@@ -292,13 +329,13 @@ impl<T: Number> Rows<T> {
     ) {
         let factors = self.lambda.map(|slope| by(&slope).map(|factor| factor / slope.a[0]));
         for (i, gx) in gx.iter().enumerate() {
-            lambda[i] = lambda[i] - factors[self.kind(i)][0] * *gx;
+            lambda[i] -= factors[self.kind(i)][0] * *gx;
         }
         if x.is_empty() || !self.dae.needs_l() {
             return;
         }
         for (&(i, j), &l) in pattern.entries.iter().zip(l) {
-            lambda[i] = lambda[i] - factors[self.kind(i)][1] * x[j] * l;
+            lambda[i] -= factors[self.kind(i)][1] * x[j] * l;
         }
     }
 }
@@ -323,7 +360,7 @@ fn subtract<T: Number>(pattern: &Pattern, values: &[f64], factor: T, x: &[T], ou
         return;
     }
     for (&(i, j), &value) in pattern.entries.iter().zip(values) {
-        out[i] = out[i] - factor * x[j] * value;
+        out[i] -= factor * x[j] * value;
     }
 }
 

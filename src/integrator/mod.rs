@@ -16,6 +16,7 @@ mod half_explicit;
 mod hem;
 mod hermite;
 mod heun;
+mod memory;
 mod phem56;
 mod problem;
 mod radau_iia;

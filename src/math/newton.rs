@@ -162,14 +162,14 @@ impl Monitor {
         }
     }
 
-    /// What the next iteration takes from the last: see [`restore`](Self::restore).
-    pub fn memory(&self) -> [f64; 2] {
-        [self.contraction, self.stalled]
+    /// What the next iteration takes from the last one, which converged: see [`recall`](Self::recall).
+    pub fn memory(&self) -> f64 {
+        self.contraction
     }
 
     /// Goes on as the monitor whose [`memory`](Self::memory) this was.
-    pub fn restore(&mut self, [contraction, stalled]: [f64; 2]) {
-        (self.contraction, self.stalled) = (contraction, stalled);
+    pub fn recall(&mut self, contraction: f64) {
+        self.contraction = contraction;
     }
 }
 

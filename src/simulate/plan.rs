@@ -30,7 +30,10 @@ impl Run<'_> {
             None => {
                 let span = (self.t, self.span.end - self.t);
                 let order = self.integrator.order();
+                let lambda = self.problem.dynamics.lambda.clone();
                 let step = first_step(&mut self.problem, &self.tolerance, span, &self.y, &self.slope, order)?;
+                // It looks ahead; lambda is that of the start.
+                self.problem.dynamics.lambda = lambda;
                 // The control lets it grow, or says why it cannot.
                 Ok(step.max(2.0 * self.smallest()))
             }

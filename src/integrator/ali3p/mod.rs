@@ -3,6 +3,7 @@
 mod matrix;
 
 use super::hermite::Hermite;
+use super::memory::Reader;
 use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, refuses, takes};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
@@ -256,6 +257,17 @@ impl Integrator for Ali3p {
         self.a.copy_from_slice(&self.a_new);
         self.lambda_start.copy_from_slice(&self.lambda);
         self.is_started = true;
+    }
+
+    fn memory(&self) -> Vec<f64> {
+        [&[f64::from(self.is_started)], &self.a[..], &self.lambda_start].concat()
+    }
+
+    fn recall(&mut self, memory: &[f64]) {
+        let mut memory = Reader(memory);
+        self.is_started = memory.number() != 0.0;
+        memory.fill(&mut self.a);
+        memory.fill(&mut self.lambda_start);
     }
 
     fn restart(&mut self) {

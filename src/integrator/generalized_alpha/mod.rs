@@ -4,6 +4,7 @@ mod motion;
 mod newton;
 
 use super::hermite::Hermite;
+use super::memory::Reader;
 use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, refuses, takes};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
@@ -127,6 +128,19 @@ impl Integrator for GeneralizedAlpha {
     fn accepted(&mut self, _: &Tolerance) {
         self.motion.accepted();
         self.newton.accepted();
+    }
+
+    fn memory(&self) -> Vec<f64> {
+        let control = self.control.memory();
+        [&[control.len() as f64][..], &control, &self.motion.memory(), &self.newton.memory()].concat()
+    }
+
+    fn recall(&mut self, memory: &[f64]) {
+        let mut memory = Reader(memory);
+        let control = memory.number() as usize;
+        self.control.recall(memory.slice(control));
+        self.motion.recall(&mut memory);
+        self.newton.recall(memory);
     }
 
     fn restart(&mut self) {

@@ -1,5 +1,6 @@
 //! Accelerations carried from step to step, and where they lead.
 
+use super::super::memory::Reader;
 use super::super::{From, Problem};
 use crate::formulation::{Change, Dae, Halt, Slopes, turn};
 use crate::math::largest;
@@ -132,6 +133,20 @@ impl Motion {
     /// Forgets the last step.
     pub fn restart(&mut self) {
         self.is_started = false;
+    }
+
+    /// What the start hands over, as numbers.
+    pub fn memory(&self) -> Vec<f64> {
+        let Carried { h, a, vdot, lambda } = &self.start;
+        [&[f64::from(self.is_started), *h], &a[..], vdot, lambda].concat()
+    }
+
+    /// Goes on with a [`memory`](Self::memory).
+    pub fn recall(&mut self, memory: &mut Reader) {
+        self.is_started = memory.number() != 0.0;
+        let Carried { h, a, vdot, lambda } = &mut self.start;
+        *h = memory.number();
+        [a, vdot, lambda].into_iter().for_each(|values| memory.fill(values));
     }
 
     /// The step is taken.

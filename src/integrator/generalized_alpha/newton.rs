@@ -1,5 +1,6 @@
 //! Newton's method for the end of a step.
 
+use super::super::memory::Reader;
 use super::super::{From, Problem, collapsed};
 use super::motion::Motion;
 use crate::formulation::{Dae, Halt, Iteration, Linearized, Residual, Slopes};
@@ -46,6 +47,8 @@ pub(super) struct Newton {
     /// The step and the dropped rows for which the matrix is factored.
     factored: Option<f64>,
     dropped: Vec<usize>,
+    /// The step and the state of the matrix that a saved run had.
+    recalled: Option<(f64, Vec<f64>)>,
 }
 
 impl Newton {
@@ -61,6 +64,7 @@ impl Newton {
             is_linearized: false,
             factored: None,
             dropped: Vec::new(),
+            recalled: None,
         })
     }
 
@@ -72,6 +76,32 @@ impl Newton {
     /// The equations change their form.
     pub fn restart(&mut self) {
         self.is_linearized = false;
+    }
+
+    /// What the next step takes over of the iteration: how it contracted, and for which step and state the matrix is, if it
+    /// stays.
+    pub fn memory(&self) -> Vec<f64> {
+        let h = self.factored.filter(|_| self.is_linearized).unwrap_or(0.0);
+        let point = if self.is_linearized { self.at.point() } else { &[] };
+        [&[self.monitor.memory(), h], point].concat()
+    }
+
+    /// Goes on with a [`memory`](Self::memory) from the next step on.
+    pub fn recall(&mut self, mut memory: Reader) {
+        self.monitor.recall(memory.number());
+        self.recalled = Some((memory.number(), memory.rest().to_vec()));
+    }
+
+    /// Makes the matrix again that a saved run had.
+    fn renew(&mut self, problem: &mut Problem, motion: &Motion) -> Result<(), Halt> {
+        let Some((h, point)) = self.recalled.take().filter(|(h, _)| *h > 0.0) else { return Ok(()) };
+        let counted = problem.dynamics.statistics;
+        self.at.recall(&point, &mut problem.dynamics)?;
+        self.iteration.factor(motion.slopes(h), &self.at, &mut problem.dynamics)?;
+        self.dropped.clone_from(&problem.dynamics.held);
+        problem.dynamics.statistics = counted;
+        (self.is_linearized, self.factored) = (true, Some(h));
+        Ok(())
     }
 
     /// Power of the forces without a potential and of moving constraints at the end, W.
@@ -88,6 +118,7 @@ impl Newton {
         h: f64,
         to: &mut [f64],
     ) -> Result<(), Halt> {
+        self.renew(problem, motion)?;
         let mut monitor = std::mem::take(&mut self.monitor);
         let converged = monitor.solve(self.limits, |renews| {
             motion.advance(problem, from, h, to);
@@ -119,7 +150,7 @@ impl Newton {
         let ((q, v), t) = (problem.split(to), from.t + h);
         let (vdot, lambda) = (&motion.end.vdot, &motion.end.lambda);
         let dynamics = &mut problem.dynamics;
-        if self.is_linearized {
+        if self.is_linearized && self.dropped == dynamics.held {
             self.residual.evaluate(&self.dae, (t, q, v), (vdot, lambda), dynamics)?;
         } else {
             if to.iter().any(|x| !x.is_finite()) {
@@ -130,7 +161,7 @@ impl Newton {
             self.residual.of_terms(&self.dae, (vdot, lambda), dynamics);
             (self.is_linearized, self.factored) = (true, None);
         }
-        if self.factored.is_some_and(|own| own / h <= BAND && h / own <= BAND) && self.dropped == dynamics.held {
+        if self.factored.is_some_and(|own| own / h <= BAND && h / own <= BAND) {
             self.iteration.rescale(motion.slopes(h));
             return Ok(());
         }

@@ -55,6 +55,16 @@ impl Matrices {
         Ok(())
     }
 
+    /// The step and the method that they are factored for.
+    pub fn factored(&self) -> Option<(f64, usize)> {
+        self.factored
+    }
+
+    /// Whether they are without these rows, as far as they are factored at all.
+    pub fn serves(&self, dropped: &[usize]) -> bool {
+        self.factored.is_none() || self.dropped == dropped
+    }
+
     /// They belong to another state from now on.
     pub fn forget(&mut self) {
         self.factored = None;

@@ -7,6 +7,7 @@ mod stages;
 mod velocity;
 
 use super::explicit::widest_gap;
+use super::memory::Reader;
 use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, collapsed, refuses};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
@@ -77,6 +78,7 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         accepted: None,
         lambda: vec![0.0; n.lambda],
         is_begun: false,
+        recalled: None,
         error_x: vec![0.0; n.v],
         error_v: vec![0.0; n.v],
         error: vec![0.0; setup.len()],
@@ -112,6 +114,8 @@ struct RadauIIA {
     error_x: Vec<f64>,
     error_v: Vec<f64>,
     error: Vec<f64>,
+    /// The step, the method and the state of the matrices that a saved run had.
+    recalled: Option<(f64, usize, Vec<f64>)>,
     /// y' at the end of the last attempt, where v was moved.
     slope: Vec<f64>,
     /// Of the last attempt.
@@ -134,6 +138,17 @@ impl RadauIIA {
         let ((q, v), (_, vdot)) = (problem.split(from.y), problem.split(from.slope));
         let at = Loaded { t: from.t, q, v, vdot, lambda: &self.lambda };
         self.at.update(at, &mut problem.dynamics)?;
+        self.is_linearized = true;
+        Ok(())
+    }
+
+    /// Makes the matrices again that a saved run had.
+    fn renew(&mut self, problem: &mut Problem) -> Result<(), Halt> {
+        let Some((h, index, point)) = self.recalled.take() else { return Ok(()) };
+        let counted = problem.dynamics.statistics;
+        self.at.recall(&point, &mut problem.dynamics)?;
+        self.matrices.factor((self.order.get(index), index), h, &self.at, &mut problem.dynamics)?;
+        problem.dynamics.statistics = counted;
         self.is_linearized = true;
         Ok(())
     }
@@ -291,7 +306,8 @@ impl Integrator for RadauIIA {
         if !std::mem::replace(&mut self.is_begun, true) {
             self.lambda.copy_from_slice(&problem.dynamics.lambda);
         }
-        let is_new = !self.is_linearized;
+        self.renew(problem)?;
+        let is_new = !self.is_linearized || !self.matrices.serves(&problem.dynamics.held);
         if is_new {
             self.linearize(problem, from)?;
         }
@@ -322,6 +338,7 @@ impl Integrator for RadauIIA {
         let Some(step) = self.tried.take() else { return };
         std::mem::swap(&mut self.before, &mut self.stages.unknowns);
         self.accepted = Some(step);
+        self.row_matrices.forget();
         self.is_begun = false;
         self.is_linearized &= self.newton.keeps_matrix();
         self.order.accepted(tolerance, &self.seen);
@@ -329,6 +346,35 @@ impl Integrator for RadauIIA {
 
     fn spacing(&self) -> f64 {
         widest_gap(&self.order.method().nodes).0
+    }
+
+    fn memory(&self) -> Vec<f64> {
+        let mut memory = self.order.memory();
+        memory.push(self.newton.memory());
+        let Step { h, method } = self.accepted.unwrap_or(Step { h: 0.0, method: 0 });
+        memory.extend([h, method as f64]);
+        let stages = self.order.get(method).stages();
+        [&self.before.a, &self.before.lambda].into_iter().for_each(|rows| memory.extend(rows[..stages].concat()));
+        if let Some((h, index)) = self.matrices.factored().filter(|_| self.is_linearized) {
+            memory.extend([h, index as f64]);
+            memory.extend(self.at.point());
+        }
+        memory
+    }
+
+    fn recall(&mut self, memory: &[f64]) {
+        let mut memory = Reader(memory);
+        self.order.recall(&mut memory);
+        self.newton.recall(memory.number());
+        let (h, method) = (memory.number(), memory.number() as usize);
+        self.accepted = (h > 0.0 && method < self.order.len()).then_some(Step { h, method });
+        let Some(Step { method, .. }) = self.accepted else { return };
+        let stages = self.order.get(method).stages();
+        [&mut self.before.a, &mut self.before.lambda]
+            .into_iter()
+            .for_each(|rows| rows[..stages].iter_mut().for_each(|row| memory.fill(row)));
+        let (h, index) = (memory.number(), memory.number() as usize);
+        self.recalled = (h > 0.0 && index < self.order.len()).then(|| (h, index, memory.rest().to_vec()));
     }
 
     fn restart(&mut self) {

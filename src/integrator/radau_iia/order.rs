@@ -3,6 +3,7 @@
 use super::collocation::Collocation;
 use crate::choice::Choice;
 use crate::error::{Error, Result};
+use crate::integrator::memory::Reader;
 use crate::integrator::{Control, Tolerance};
 use crate::math::newton::Monitor;
 
@@ -53,6 +54,29 @@ impl Order {
         let mut order = Order { methods, current: 0, control, steady: 0, last_decay: None };
         order.set(0);
         Ok(order)
+    }
+
+    pub fn len(&self) -> usize {
+        self.methods.len()
+    }
+
+    /// What the choice and the control of steps carry on, as numbers.
+    pub fn memory(&self) -> Vec<f64> {
+        let Control { safety, grow, dead_band, .. } = self.control;
+        let control = self.control.memory();
+        let own = [self.current as f64, self.steady as f64, self.last_decay.unwrap_or(-1.0), safety, grow, dead_band];
+        [&own[..], &[control.len() as f64], &control].concat()
+    }
+
+    /// Goes on with a [`memory`](Self::memory).
+    pub fn recall(&mut self, memory: &mut Reader) {
+        self.set((memory.number() as usize).min(self.methods.len() - 1));
+        self.steady = memory.number() as usize;
+        self.last_decay = Some(memory.number()).filter(|decay| *decay >= 0.0);
+        (self.control.safety, self.control.grow) = (memory.number(), memory.number());
+        self.control.dead_band = memory.number();
+        let control = memory.number() as usize;
+        self.control.recall(memory.slice(control));
     }
 
     pub fn most_stages(&self) -> usize {
