@@ -118,7 +118,7 @@ fn automatic(
     let (rows, drift, scratch) = (Vec::new(), Drift::default(), Scratch::default());
     let mut seen = Seen { system, watched, scales: system.scales(), scratch, rows, drift, begun: Instant::now() };
     let (run, seconds) = cpu_seconds(|| simulate_automatic(system, tolerances, span, study.start(), &mut seen));
-    let (outcome, legs) = run?;
+    let (outcome, legs, _) = run?;
     let told: Vec<String> =
         legs.iter().map(|leg| format!("{} from {:.2e} s", leg.method.integrator.name, leg.from)).collect();
     let told = format!("{}: auto at 1e-{decades}, {}", study.name, told.join(", "));
