@@ -7,6 +7,7 @@ pub fn purpose(name: &str) -> &'static str {
         "index2" => "half-explicit methods: velocities that hold, and reactions without second derivatives of phi",
         "index3" => "structural dynamics, and implicit methods that damp what is fast",
         "ggl" => "stiff motions that must keep both constraints without a projection",
+        "stabilized_index1" => "the same with reactions that are free of what a step leaves along the constraints",
         "baumgarte" => "real time with fixed steps, and comparison with older codes; gains about 1/h",
         "invariant_manifold" => "fixed steps, and studies of how fast an error should decay",
         "force_projection" => "control: forces and constraint errors apart, no gain in the forces themselves",

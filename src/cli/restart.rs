@@ -61,7 +61,7 @@ fn checked(Saved { parameters, r#final: State { q, v }, restart }: Saved, study:
 /// What is said of a run that does not go on as it was.
 pub fn doubt(saved: &Checkpoint, study: &Study) -> Option<Warning> {
     let (t, method) = (saved.t(), saved.method());
-    if study.chosen_because.is_none() && *method != study.method {
+    if !study.is_automatic && *method != study.method {
         return Some(Warning::new(
             format!("the method is another one than up to t = {t} s, and begins anew from the state there"),
             format!("with {} at the same tolerances or step the run would go on as it was", method.triple()),
@@ -70,7 +70,7 @@ pub fn doubt(saved: &Checkpoint, study: &Study) -> Option<Warning> {
     (!saved.is_exact()).then(|| {
         Warning::new(
             format!("{} begins anew at t = {t} s, with what it knows of that state alone", method.integrator.name),
-            "the run goes on within the tolerance, but not bit by bit as it would have; explicit methods do",
+            "the run goes on within the tolerance, but not bit by bit as it would have; all methods but bdf, tr_bdf2 and esdirk34 do",
         )
     })
 }

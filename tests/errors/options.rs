@@ -289,7 +289,7 @@ cases! {
     a_formulation_that_is_not_solved_with_derivatives:
         pendulum().args(&["--integrator", "esdirk34", "--formulation", "index3"]) => [
             "at --formulation: esdirk34 cannot integrate index3",
-            "esdirk34 accepts index1, ggl; index3 goes with radau_iia, rattle, generalized_alpha",
+            "esdirk34 accepts index1, ggl, stabilized_index1, baumgarte; index3 goes with radau_iia, rattle, generalized_alpha",
         ];
     generalized_alpha_rho_inf_2:
         pendulum().args(&["--integrator", "generalized_alpha:rho_inf=2", "--formulation", "index3", "--step", "0.01"]) => [
