@@ -5,7 +5,8 @@ use super::{Dynamics, Entry, Formulation, Halt, SPARSE};
 use crate::error::Error;
 use crate::math::kkt::{Chart, Reduced};
 use crate::math::memory::refuse_dense;
-use crate::math::{Piece, largest};
+use crate::math::Piece;
+use crate::math::newton::{Limits, Monitor, relative};
 use crate::system::{MechanicalSystem, Need};
 
 /// With G_b Z = 0 at the start (q_b, v_b) of a step, and Y normal to Z in the metric of diag(M_b),
@@ -62,8 +63,9 @@ struct TangentSpace {
     rows: Vec<f64>,
 }
 
-/// The change relative to the state below which it may stop falling.
-const SMALL: f64 = 1e-9;
+/// Changes in parts of the largest component: they halve at least until round-off, or else the state is not in the chart,
+/// or on another branch of the constraints.
+const LIMITS: Limits = Limits { round_off: f64::EPSILON, stagnation: 1e-9, contraction: 0.5, ..Limits::NONE };
 
 impl TangentSpace {
     fn new(system: &dyn MechanicalSystem) -> Option<Self> {
@@ -91,69 +93,40 @@ impl TangentSpace {
         self.lift_velocity(dynamics)
     }
 
-    /// Newton's method, by the matrix of the guess while this gains two digits an iteration.
+    /// Newton's method, by the matrix of the guess while that does.
     fn lift_position(&mut self, t: f64, dynamics: &mut Dynamics) -> Result<(), Halt> {
-        let mut progress = Progress::default();
-        loop {
+        let mut is_factored = false;
+        converge(|renews| {
             dynamics.evaluate(t, &self.q, &self.v, Need::CONSTRAINTS | Need::G);
-            if progress.is_slow {
+            if !std::mem::replace(&mut is_factored, true) || renews {
                 self.chart.factor(&dynamics.terms.g, dynamics.dense_reference);
             }
             self.chart.solve(&dynamics.terms.phi, &mut self.step);
             dynamics.system.rate(&self.q, &self.step, &mut self.rate);
             self.q.iter_mut().zip(&self.rate).for_each(|(q, rate)| *q -= rate);
             dynamics.system.normalize(&mut self.q);
-            if progress.settles(&self.step, &self.q)? {
-                return Ok(());
-            }
-        }
+            change(&self.step, &self.q)
+        })
     }
 
     /// The matrix is that of a position close by, which a few iterations make up for.
     fn lift_velocity(&mut self, dynamics: &Dynamics) -> Result<(), Halt> {
-        let mut progress = Progress::default();
-        loop {
+        converge(|_| {
             self.rows.copy_from_slice(&dynamics.terms.phi_t);
             dynamics.structure.g.multiply(&dynamics.terms.g, &self.v, &mut self.rows);
             self.chart.solve(&self.rows, &mut self.step);
             self.v.iter_mut().zip(&self.step).for_each(|(v, step)| *v -= step);
-            if progress.settles(&self.step, &self.v)? {
-                return Ok(());
-            }
-        }
+            change(&self.step, &self.v)
+        })
     }
 }
 
-/// How an iteration goes on.
-struct Progress {
-    last: f64,
-    /// Whether the last change gained less than two digits.
-    is_slow: bool,
+fn converge(correct: impl FnMut(bool) -> Result<f64, Halt>) -> Result<(), Halt> {
+    if Monitor::default().solve(LIMITS, correct)? { Ok(()) } else { Err(Halt::NotConverged) }
 }
 
-impl Default for Progress {
-    fn default() -> Self {
-        Progress { last: f64::INFINITY, is_slow: true }
-    }
-}
-
-impl Progress {
-    /// Whether `x`, just changed by `step`, is at round-off. Changes halve at least until then, or else the state is
-    /// not in the chart, or on another branch of the constraints.
-    fn settles(&mut self, step: &[f64], x: &[f64]) -> Result<bool, Halt> {
-        if !step.iter().all(|step| step.is_finite()) {
-            return Err(Halt::NotFinite);
-        }
-        let (change, size) = (largest(step), largest(x));
-        let falls = change <= 0.5 * self.last;
-        self.is_slow = change > 0.01 * self.last;
-        self.last = change;
-        match change <= f64::EPSILON * size || change < SMALL * size && !falls {
-            true => Ok(true),
-            false if falls => Ok(false),
-            false => Err(Halt::NotConverged),
-        }
-    }
+fn change(step: &[f64], x: &[f64]) -> Result<f64, Halt> {
+    if step.iter().all(|step| step.is_finite()) { Ok(relative(step, x)) } else { Err(Halt::NotFinite) }
 }
 
 impl Formulation for TangentSpace {

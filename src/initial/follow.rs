@@ -2,7 +2,9 @@
 
 use super::position::{CLOSED, step};
 use super::{Metric, holds};
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::math::largest;
+use crate::math::newton::{Limits, Monitor};
 use crate::system::MechanicalSystem;
 
 /// Positions on the constraints.
@@ -15,13 +17,11 @@ pub struct Followed {
     pub dependent: Vec<usize>,
 }
 
-const MOST_ITERATIONS: usize = 20;
-/// Steps of Newton's method at least so much shorter than those before. Where that holds from the start, there is one
-/// solution around the guess, and it is the continuation of the state from which the guess was taken; other solutions
-/// are attracted to less steeply (P. Deuflhard, Newton Methods for Nonlinear Problems, 2011, section 5.1).
-const CONTRACTION: f64 = 0.25;
-/// Steps of this part of the coordinates are round-off, also near a singular state.
-const ROUND_OFF: f64 = 1e-11;
+/// Newton's method, in parts of 1 m or rad and the largest coordinate, to round-off, also near a singular state. Where its
+/// changes contract so from the second on, there is one solution around the guess, and it is the continuation of the state
+/// from which the guess was taken; other solutions are attracted to less steeply (P. Deuflhard, Newton Methods for
+/// Nonlinear Problems, 2011, section 5.1).
+const LIMITS: Limits = Limits { most: 20, round_off: 1e-11, contraction: 0.25, ..Limits::NONE };
 
 /// Closes the joints from a guess near by; `None` where Newton's method does not contract from its first step on, so that
 /// it may lead to another branch or nowhere. Rows named in `dependent` are left out and checked at the end.
@@ -39,26 +39,16 @@ pub fn follow(
     metric.kkt.hold(dependent);
     let (mut q, still) = (guess.to_vec(), vec![0.0; system.dimensions().v]);
     system.normalize(&mut q);
-    let (mut rate, mut last) = (vec![0.0; q.len()], f64::INFINITY);
-    for _ in 0..MOST_ITERATIONS {
+    let mut rate = vec![0.0; q.len()];
+    let contracts = Monitor::default().solve(LIMITS, |_| {
         metric.at(t, &q, &still)?;
         let d = step(&mut metric, None)?;
-        let size = d.iter().zip(metric.weigh(&d)).map(|(a, b)| a * b).sum::<f64>().max(0.0).sqrt();
-        let largest = q.iter().fold(1.0f64, |largest, q| largest.max(q.abs()));
-        let is_still = d.iter().all(|d| d.abs() <= ROUND_OFF * largest);
-        let contracts = size <= CONTRACTION * last;
-        if !is_still && !contracts {
-            return Ok(None);
-        }
         system.rate(&q, &d, &mut rate);
         q.iter_mut().zip(&rate).for_each(|(q, rate)| *q += rate);
         system.normalize(&mut q);
-        if is_still {
-            return end(metric, t, q, &still);
-        }
-        last = size;
-    }
-    Ok(None)
+        Ok::<_, Error>(largest(&d) / largest(&q).max(1.0))
+    })?;
+    if contracts { end(metric, t, q, &still) } else { Ok(None) }
 }
 
 /// What is known of a state, if all its joints are closed.

@@ -14,6 +14,7 @@ pub use report::{Assembly, Level, Move};
 use crate::error::{Error, Result, short};
 use crate::formulation::{Dynamics, Halt};
 use crate::math::kkt::{Pattern, SaddlePoint};
+use crate::math::largest_in;
 use crate::system::{MechanicalSystem, Need, Scratch, Terms};
 
 /// Makes a guess consistent at time `t`, moving least in the mass metric and keeping what `hold` names. Flexible bodies
@@ -140,7 +141,7 @@ impl<'a> Metric<'a> {
     }
 
     fn worst(&self, rows: &[f64]) -> f64 {
-        rows.iter().zip(&self.scales).fold(0.0, |worst, (row, scale)| worst.max((row / scale).abs()))
+        largest_in(&self.scales, rows)
     }
 
     /// The joints with the largest residuals, for a message.

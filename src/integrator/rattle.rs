@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::formulation::Halt;
 use crate::math::kkt::Singular;
 use crate::math::largest;
-use crate::math::newton::{Limits, Monitor};
+use crate::math::newton::{Limits, Monitor, relative};
 use crate::system::{MechanicalSystem, Need};
 
 /// ```text
@@ -82,15 +82,8 @@ const SMALL: f64 = 1e-9;
 const ROUND_OFF: f64 = 1e-7;
 const MOST: usize = 100;
 /// In units of what may stop falling.
-const LIMITS: Limits = Limits {
-    most: MOST,
-    tolerance: ROUND_OFF,
-    round_off: ROUND_OFF,
-    stagnation: 1.0,
-    patience: MOST,
-    least_rate: 0.0,
-    kept_rate: 0.0,
-};
+const LIMITS: Limits =
+    Limits { most: MOST, tolerance: ROUND_OFF, round_off: ROUND_OFF, stagnation: 1.0, ..Limits::NONE };
 
 impl Rattle {
     /// M, G and f at the start, with factors; they may be there from the step before.
@@ -155,8 +148,7 @@ impl Rattle {
         dynamics.kkt.solve(&mut self.dv, &mut self.rows)?;
         self.half.iter_mut().zip(&self.dv).for_each(|(half, dv)| *half += dv);
         self.advance(dynamics.system, q, h);
-        let size = largest(&self.half);
-        Ok(if size == 0.0 { 0.0 } else { largest(&self.dv) / size })
+        Ok(relative(&self.dv, &self.half))
     }
 
     /// q_1 = q + h v_h, and angles in space by the rate that v_h gives them.

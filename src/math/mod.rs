@@ -23,3 +23,8 @@ pub use taylor::Taylor;
 pub fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |largest, x| f64::max(largest, x.abs()))
 }
+
+/// max |x_i / units_i|, as [`largest`].
+pub fn largest_in(units: &[f64], x: &[f64]) -> f64 {
+    x.iter().zip(units).fold(0.0, |largest, (x, unit)| f64::max(largest, (x / unit).abs()))
+}

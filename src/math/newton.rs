@@ -1,7 +1,9 @@
 //! Newton's method: one loop and one judge of its convergence, under all that is solved by iteration.
 
+use super::largest;
+
 /// What an iteration is allowed, in the unit of the sizes of its changes.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Limits {
     /// Corrections at most.
     pub most: usize,
@@ -11,12 +13,28 @@ pub struct Limits {
     pub round_off: f64,
     /// Stagnation tolerance: changes up to this size that no longer fall are round-off too.
     pub stagnation: f64,
+    /// Changes above the stagnation tolerance shrink to this part of the last one at least, from the second on.
+    pub contraction: f64,
     /// Corrections that may grow before the iteration counts as diverged.
     pub patience: usize,
     /// A smaller rate than this is not relied upon.
     pub least_rate: f64,
     /// With a rate up to this the matrix serves the next system too.
     pub kept_rate: f64,
+}
+
+impl Limits {
+    /// None at all: uses set those that they have.
+    pub const NONE: Limits = Limits {
+        most: usize::MAX,
+        tolerance: 0.0,
+        round_off: 0.0,
+        stagnation: 0.0,
+        contraction: f64::INFINITY,
+        patience: usize::MAX,
+        least_rate: 0.0,
+        kept_rate: 0.0,
+    };
 }
 
 /// What is to be done after a correction.
@@ -35,6 +53,8 @@ pub struct Monitor {
     limits: Limits,
     /// Ratio of successive changes; [`AT_ONCE`] after a single one.
     pub rate: f64,
+    /// The largest ratio of successive changes above the stagnation tolerance; zero where there is none.
+    pub slowest: f64,
     pub iterations: usize,
     /// Whether the last iteration ended where its changes no longer fell.
     pub has_stagnated: bool,
@@ -62,8 +82,9 @@ const RENEWED: f64 = 0.3;
 impl Default for Monitor {
     fn default() -> Self {
         Monitor {
-            limits: Limits::default(),
+            limits: Limits::NONE,
             rate: AT_ONCE,
+            slowest: 0.0,
             iterations: 0,
             has_stagnated: false,
             contraction: 1.0,
@@ -91,7 +112,8 @@ impl Monitor {
     fn begin(&mut self, limits: Limits) {
         self.limits = limits;
         self.contraction = self.contraction.powf(0.8);
-        (self.rate, self.iterations, self.has_stagnated, self.size) = (AT_ONCE, 0, false, f64::INFINITY);
+        (self.rate, self.slowest, self.iterations) = (AT_ONCE, 0.0, 0);
+        (self.has_stagnated, self.size) = (false, f64::INFINITY);
     }
 
     /// Whether the corrections so far ask for another matrix.
@@ -132,7 +154,7 @@ impl Monitor {
     }
 
     fn watch(&mut self, change: f64) -> Verdict {
-        let Limits { most, tolerance, round_off, stagnation, patience, least_rate, .. } = self.limits;
+        let Limits { most, tolerance, round_off, stagnation, contraction, patience, least_rate, .. } = self.limits;
         self.iterations += 1;
         let last = std::mem::replace(&mut self.size, change.max(f64::MIN_POSITIVE));
         if change <= round_off {
@@ -143,14 +165,18 @@ impl Monitor {
             let ratio = change / last;
             self.rate = if self.iterations == 2 { ratio } else { (ratio * self.ratio).sqrt() };
             self.ratio = ratio;
+            if change > stagnation {
+                self.slowest = self.slowest.max(ratio);
+            }
             let limit = DIVERGED[usize::from(self.iterations > 2)];
             let is_stagnant = self.iterations > 2 && change <= stagnation && self.rate > STAGNANT;
-            if self.rate.is_nan() || is_stagnant || self.rate > limit && self.iterations > patience {
+            let has_diverged = self.rate > limit && self.iterations > patience;
+            if self.rate.is_nan() || is_stagnant || ratio > contraction || has_diverged {
                 return Verdict::Diverged;
             }
             self.rate = self.rate.min(DIVERGED[1]);
             self.contraction = (self.rate / (1.0 - self.rate)).max(least_rate);
-            let left = most.saturating_sub(self.iterations) as i32;
+            let left = most.saturating_sub(self.iterations).min(i32::MAX as usize) as i32;
             if self.iterations > patience.max(2) && self.contraction * change * self.rate.powi(left) > tolerance {
                 return Verdict::Diverged;
             }
@@ -173,6 +199,12 @@ impl Monitor {
     }
 }
 
+/// A change in parts of what changes; nothing is no part of nothing.
+pub fn relative(change: &[f64], changed: &[f64]) -> f64 {
+    let change = largest(change);
+    if change > 0.0 { change / largest(changed) } else { 0.0 }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -183,8 +215,8 @@ mod tests {
         round_off: 1e-12,
         stagnation: 1e-9,
         patience: 0,
-        least_rate: 0.0,
         kept_rate: 1e-3,
+        ..Limits::NONE
     };
 
     /// The sizes of changes that shrink by `rate` until the iteration ends.
@@ -218,5 +250,16 @@ mod tests {
         let (converged, _) = run(&mut monitor, exact, 1e-3, 1e-10);
         assert!(converged && monitor.has_stagnated);
         assert!(!run(&mut monitor, exact, 1e-3, 1e-7).0, "above the stagnation tolerance");
+    }
+
+    #[test]
+    fn changes_that_do_not_contract_are_given_up_unless_they_are_round_off() {
+        let steep = Limits { tolerance: 0.0, patience: 20, contraction: 0.25, ..LIMITS };
+        let mut monitor = Monitor::default();
+        assert_eq!(run(&mut monitor, steep, 0.5, 0.0), (false, 2));
+        assert_eq!(monitor.slowest, 0.5);
+        // 1, 1e-2, ..., 1e-10, 1e-10: the last is not counted.
+        assert_eq!(run(&mut monitor, steep, 1e-2, 1e-10), (true, 7));
+        assert!((monitor.slowest / 1e-2 - 1.0).abs() < 1e-12 && monitor.has_stagnated);
     }
 }

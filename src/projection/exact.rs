@@ -3,7 +3,8 @@
 use super::{Entry, Projection, move_back};
 use crate::error::Result;
 use crate::formulation::{Dynamics, Halt, OptionDoc};
-use crate::math::largest;
+use crate::math::largest_in;
+use crate::math::newton::{Limits, Monitor};
 use crate::system::Need;
 
 /// ```text
@@ -31,7 +32,9 @@ pub const ENTRY: Entry = Entry {
 
 /// Who allows fewer iterations than by default takes what they leave.
 const MOST: usize = 10;
-/// A residual of this part of the scene's size is no round-off, nor what redundant rows may contradict each other by.
+/// In units of what the scene's size makes no round-off, nor what redundant rows may contradict each other by. A residual
+/// below that falls by half at least, until another step would only stir its round-off.
+const LIMITS: Limits = Limits { stagnation: 1.0, contraction: 0.5, ..Limits::NONE };
 const OPEN: f64 = 1e-9;
 
 struct Exact {
@@ -41,32 +44,25 @@ struct Exact {
     step: Vec<f64>,
 }
 
-impl Exact {
-    fn is_open(&self, phi: &[f64]) -> bool {
-        phi.iter().zip(&self.scales).any(|(phi, scale)| phi.abs() > OPEN * scale)
-    }
-}
-
 impl Projection for Exact {
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), Halt> {
         let need = Need::MASS | Need::CONSTRAINTS | Need::G;
-        let (mut last, mut iterations) = (f64::INFINITY, 0);
-        loop {
+        let (mut newton, mut is_evaluated) = (Monitor::default(), false);
+        // As many corrections, and the residual that they leave.
+        let limits = Limits { most: self.most + 1, ..LIMITS };
+        let closed = newton.solve(limits, |_| {
+            if std::mem::replace(&mut is_evaluated, true) {
+                dynamics.kkt.solve_projection(&dynamics.terms.phi, &mut self.step)?;
+                move_back(q, &self.step, &mut self.rate, dynamics.system);
+            }
             dynamics.statistics.projections += 1;
             dynamics.evaluate(t, q, v, need);
             dynamics.factor_truncated()?;
-            let residual = largest(&dynamics.terms.phi);
-            // Near round-off the residual stops falling; another step would only stir it.
-            if iterations == self.most || residual == 0.0 || residual > 0.5 * last {
-                let is_limited = iterations == self.most && self.most < MOST;
-                if !is_limited && self.is_open(&dynamics.terms.phi) {
-                    return Err(Halt::Open);
-                }
-                break;
-            }
-            (last, iterations) = (residual, iterations + 1);
-            dynamics.kkt.solve_projection(&dynamics.terms.phi, &mut self.step)?;
-            move_back(q, &self.step, &mut self.rate, dynamics.system);
+            Ok::<_, Halt>(largest_in(&self.scales, &dynamics.terms.phi) / OPEN)
+        })?;
+        let is_limited = newton.iterations > self.most && self.most < MOST;
+        if !closed && !is_limited {
+            return Err(Halt::Open);
         }
         dynamics.kkt.solve_projection(&dynamics.terms.phi_dot, &mut self.step)?;
         v.iter_mut().zip(&self.step).for_each(|(v, dv)| *v -= dv);

@@ -3,6 +3,7 @@
 use super::{Run, Sink};
 use crate::error::Failure;
 use crate::formulation::Halt;
+use crate::math::largest_in;
 
 const SINGULAR: &str = "this tolerance is too near to round-off there: try a looser one, or a fixed --step with `rk4`, which \
      goes over it";
@@ -34,8 +35,7 @@ impl Run<'_> {
 
     /// Ends a motion that is no longer one of this mechanism.
     pub fn check_joints(&self) -> Result<(), Failure> {
-        let rows = self.problem.dynamics.terms.phi.iter().zip(&self.scales);
-        let open = rows.fold(0.0, |open: f64, (phi, scale)| open.max(phi.abs() / scale));
+        let open = largest_in(&self.scales, &self.problem.dynamics.terms.phi);
         match open > MOST_OPEN {
             true => Err(self.failure(format!("the joints have come apart by {open:.1e} times the scene's size"), None)),
             false => Ok(()),

@@ -3,6 +3,7 @@
 use super::newton::{Policy, newton};
 use super::rest::{Balance, Change, Place, Rest};
 use crate::math::largest;
+use crate::math::newton::{Limits, Monitor};
 
 /// Pseudo-time steps.
 const MOST: usize = 500;
@@ -19,8 +20,8 @@ const GOOD: f64 = 0.75;
 const AWAY: f64 = 100.0;
 /// The shift over the first at which steps no longer move anything.
 const STIFFEST: f64 = 1e12;
-/// Steps of the way back to phi = 0.
-const CLOSING: usize = 12;
+/// Of the way back to phi = 0, in units of the scene's scale: round-off, also of nearly dependent rows.
+const CLOSING: Limits = Limits { most: 12, round_off: 1e-14, stagnation: 1e-11, contraction: 1.0, ..Limits::NONE };
 /// Further iterations of a step.
 const RELAXING: usize = 6;
 
@@ -135,25 +136,17 @@ fn relax(rest: &mut Rest, at: &mut Balance, way: &mut [f64], shift: f64, enough:
 
 /// Back to phi = 0 by least changes, which together are shorter than the step.
 fn close(rest: &mut Rest, place: Place, size: f64) -> Option<Vec<f64>> {
-    let (mut at, mut last, mut way) = (place, f64::INFINITY, 0.0);
-    for _ in 0..CLOSING {
+    let (mut at, mut way, mut is_evaluated) = (place, 0.0, false);
+    let closed: Result<bool, ()> = Monitor::default().solve(CLOSING, |_| {
+        if std::mem::replace(&mut is_evaluated, true) {
+            let change = rest.closing().ok_or(())?;
+            way += length(&change.q);
+            at = rest.moved(&at, &change, 1.0);
+        }
         rest.evaluate(&at.q);
-        let gap = rest.gap();
-        if gap <= 1e-14 || gap <= 1e-11 && gap > 0.5 * last {
-            return Some(at.q);
-        }
-        if gap.is_nan() || gap >= last {
-            return None;
-        }
-        last = gap;
-        let change = rest.closing()?;
-        way += length(&change.q);
-        if way > 0.5 * size {
-            return None;
-        }
-        at = rest.moved(&at, &change, 1.0);
-    }
-    None
+        if way > 0.5 * size { Err(()) } else { Ok(rest.gap()) }
+    });
+    (closed == Ok(true)).then_some(at.q)
 }
 
 fn length(x: &[f64]) -> f64 {

@@ -4,7 +4,7 @@ use super::failure;
 use crate::error::Result;
 use crate::formulation::{Dynamics, turn};
 use crate::math::kkt::{Pattern, SaddlePoint, Unsymmetric};
-use crate::math::largest;
+use crate::math::{largest, largest_in};
 use crate::system::{Loaded, MechanicalSystem, Need, Tangent};
 
 /// Coordinates with multipliers.
@@ -107,8 +107,7 @@ impl<'a> Rest<'a> {
 
     /// max |phi| of the terms, in units of the scene's scale.
     pub fn gap(&self) -> f64 {
-        let rows = self.dynamics.terms.phi.iter().zip(&self.scales);
-        rows.fold(0.0, |gap, (phi, scale)| gap.max((phi / scale).abs()))
+        largest_in(&self.scales, &self.dynamics.terms.phi)
     }
 
     /// Multipliers that leave the least force. The terms are then those at q.

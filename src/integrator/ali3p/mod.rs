@@ -9,7 +9,7 @@ use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
 use crate::formulation::{Halt, turn};
 use crate::math::largest;
-use crate::math::newton::{Limits, Monitor};
+use crate::math::newton::{Limits, Monitor, relative};
 use crate::system::{Loaded, Need};
 use matrix::Penalized;
 
@@ -104,15 +104,8 @@ const STILL: f64 = 1e-14;
 const MET: f64 = 1e-8;
 const MOST: usize = 40;
 /// In units of what may stop falling.
-const LIMITS: Limits = Limits {
-    most: MOST,
-    tolerance: ROUND_OFF,
-    round_off: ROUND_OFF,
-    stagnation: 1.0,
-    patience: MOST,
-    least_rate: 0.0,
-    kept_rate: 0.0,
-};
+const LIMITS: Limits =
+    Limits { most: MOST, tolerance: ROUND_OFF, round_off: ROUND_OFF, stagnation: 1.0, ..Limits::NONE };
 /// Relative to what is projected: each solution gains what the penalty leaves.
 const PROJECTED: Limits = Limits { tolerance: 0.0, round_off: 1e-15, stagnation: f64::INFINITY, ..LIMITS };
 
@@ -215,8 +208,7 @@ impl Ali3p {
             self.step.fill(0.0);
             self.matrix.solve(g, &mut self.rows, &mut self.step)?;
             x.iter_mut().zip(&self.step).for_each(|(x, step)| *x += step);
-            let (change, size) = (largest(&self.step), largest(x));
-            Ok::<_, Halt>(if change > 0.0 { change / size } else { 0.0 })
+            Ok::<_, Halt>(relative(&self.step, x))
         })?;
         if met { Ok(()) } else { Err(Halt::NotConverged) }
     }

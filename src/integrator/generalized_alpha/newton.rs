@@ -29,9 +29,8 @@ fn limits(is_fixed: bool) -> Limits {
         tolerance: if is_fixed { ROUND_OFF } else { CONTROLLED },
         round_off: ROUND_OFF,
         stagnation: 1.0,
-        patience: MOST,
-        least_rate: 0.0,
         kept_rate: KEPT_RATE,
+        ..Limits::NONE
     }
 }
 

@@ -266,6 +266,7 @@ impl System<'_> {
             patience: if *is_fixed { PATIENCE } else { 0 },
             least_rate: LEAST_RATE,
             kept_rate: KEPT_RATE,
+            ..Limits::NONE
         };
         let converged = newton.solve(limits, |_| {
             stages.evaluate(dae, method, (from.t, h), &mut problem.dynamics)?;
