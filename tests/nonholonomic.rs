@@ -85,7 +85,8 @@ fn the_blade_holds_to_round_off_where_rows_are_solved() {
         ("ggl", "generalized_alpha"),
         ("stabilized_index1", "generalized_alpha"),
     ] {
-        let found = run(&Skate, &fixed(formulation, integrator, "none", 0.01), until(END), (&[0.0; 3], &[0.0, 0.0, OMEGA]));
+        let found =
+            run(&Skate, &fixed(formulation, integrator, "none", 0.01), until(END), (&[0.0; 3], &[0.0, 0.0, OMEGA]));
         let (_, velocity) = found.completed().drift();
         assert!(velocity < 1e-13, "{formulation} + {integrator}: {velocity:e}");
     }

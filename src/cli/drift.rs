@@ -154,6 +154,7 @@ fn stabilizations(step: f64) -> Vec<(Choice, Choice)> {
         other("index3", "none"),
         other("index3", "velocity"),
         other("ggl", "none"),
+        other("stabilized_index1", "none"),
     ]
 }
 

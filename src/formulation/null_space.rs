@@ -3,9 +3,9 @@
 use super::dense::Dense;
 use super::{Dynamics, Entry, Formulation, Halt, SPARSE};
 use crate::error::Error;
+use crate::math::Piece;
 use crate::math::kkt::{Chart, Reduced};
 use crate::math::memory::refuse_dense;
-use crate::math::Piece;
 use crate::math::newton::{Limits, Monitor, relative};
 use crate::system::{MechanicalSystem, Need};
 

@@ -106,8 +106,6 @@ pub struct Control {
     pub grow: f64,
     /// Factor on the optimal step.
     pub safety: f64,
-    /// A step that could grow by less than this factor stays as it is, for matrices that are made for it.
-    pub dead_band: f64,
     /// max(err, 1e-4) of the last accepted step.
     last: f64,
     /// Size and error of the last accepted step, of a predictive control.
@@ -123,7 +121,6 @@ impl Control {
             shrink,
             grow,
             safety: 0.9,
-            dead_band: 1.0,
             last: 1e-4,
             before: None,
             is_predictive: false,
@@ -147,8 +144,7 @@ impl Control {
             }
             self.before = Some((h, error));
         }
-        let factor = factor.clamp(self.shrink, if growing { self.grow } else { 1.0 });
-        if (1.0..self.dead_band).contains(&factor) { h } else { h * factor }
+        h * factor.clamp(self.shrink, if growing { self.grow } else { 1.0 })
     }
 
     /// What it carries from step to step.

@@ -72,7 +72,7 @@ const AT_ONCE: f64 = 1e-3;
 /// left of its constraints, and later.
 const DIVERGED: [f64; 2] = [2.0, 0.99];
 /// Below the stagnation tolerance changes that shrink by less than this no longer fall.
-const STAGNANT: f64 = 0.5;
+const STAGNANT: f64 = 0.9;
 /// Round-off that shorter steps meet again is of the same size but for this factor, and at most this part of the unit.
 const ALIKE: f64 = 10.0;
 const TOLERABLE: f64 = 0.1;

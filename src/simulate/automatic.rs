@@ -29,7 +29,7 @@ const FIRST: f64 = 200.0;
 /// An implicit method must come this much farther to take over, and an explicit one, which takes a few long steps before
 /// stability holds them.
 const WORTH: f64 = 1.5;
-const WORTH_BACK: f64 = 3.0;
+const WORTH_BACK: f64 = 2.0;
 /// What comes no farther than this is no alternative.
 const SLOWER: f64 = 0.5;
 /// Runs that stop again within this part of the span are not helped by the other method. Nor would `augmented_lagrangian` help

@@ -45,7 +45,7 @@ fn methods_that_are_dense() {
         refused(&place, &args.concat(), &pieces);
     }
     for (integrator, formulation, unknowns) in
-        [("bdf", "ggl", "200"), ("tr_bdf2", "index1", "120"), ("esdirk34", "ggl", "")]
+        [("bdf", "ggl", "320"), ("tr_bdf2", "index1", "220"), ("esdirk34", "ggl", "")]
     {
         let args = ["simulate", "scene.json", "--formulation", formulation, "--integrator", integrator];
         let size = format!("dense matrices of {unknowns}");

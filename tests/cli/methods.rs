@@ -14,7 +14,7 @@ fn every_name_and_its_orders_are_there() {
         line.split_whitespace().map(str::to_string).collect::<Vec<_>>()
     };
     assert_eq!(row("dop853"), ["dop853", "vector", "fields", "8", "8", "8", "8", "8", "8"]);
-    assert_eq!(row("bdf")[1..], ["index1", "ggl", "5", "-", "-", "-", "-", "-"]);
+    assert_eq!(row("bdf")[1..], ["index1", "ggl", "stabilized_index1", "baumgarte", "5", "-", "-", "-", "-", "-"]);
 }
 
 #[test]

@@ -75,7 +75,7 @@ fn the_summary_has_the_promised_keys() {
     assert_keys(&summary["method"], &["formulation", "integrator", "projection", "rtol", "atol", "step"], &[]);
     let counters = ["steps", "rejected", "rhs_evaluations", "jacobian_evaluations", "factorizations"];
     let rest = ["newton_iterations", "projections"];
-    assert_keys(&summary["statistics"], &[&counters[..], &rest].concat(), &["rank_deficient"]);
+    assert_keys(&summary["statistics"], &[&counters[..], &rest].concat(), &["rank_deficient", "stagnated"]);
     assert_keys(&summary["drift"], &["position", "velocity", "acceleration"], &[]);
     for level in ["position", "velocity", "acceleration"] {
         assert_keys(&summary["drift"][level], &["max", "final"], &["relative_max", "relative_final"]);

@@ -23,7 +23,7 @@ fn unknown_names() {
     says(&message("four_bar_S1", "baumgart", None), &["baumgarte"]);
     says(&message("four_bar_S1", "baumgarte:alfa=3", None), &["alfa", "alpha"]);
     says(&message("four_bar_S1", "mcs:form=index3", None), &["form", "takes no options"]);
-    says(&message("four_bar_S1", "rcs:form=index4", None), &["index4", "index3, index2, index1, ggl"]);
+    says(&message("four_bar_S1", "rcs:form=index4", None), &["index4", "index3, index1, index2, ggl"]);
     says(&message("four_bar_S1", "rcs:solver=svd", None), &["svd", "null_space, gsvd, qz"]);
     says(&message("four_bar_S1", "penalty:kind=soft", None), &["soft", "inertial, elastic"]);
     says(&message("four_bar_S1", "baumgarte:projected=maybe", None), &["maybe", "no, yes"]);

@@ -38,6 +38,9 @@ impl Scheme {
     }
 }
 
+/// Of q, in the shift that its rows ask for: a few operations.
+const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
+
 /// What one step hands to the next.
 pub(super) struct Carried {
     /// Step that `a` goes with.
@@ -160,15 +163,17 @@ impl Motion {
         Slopes { v: h * gamma * slope, q: h * h * beta * slope, w: 1.0, w_q: 0.0, u: 1.0 }
     }
 
-    /// Changes the unknowns; the largest change of v'_1, or of a shift as such.
-    pub fn correct(&mut self, change: &Change<f64>, h: f64) -> f64 {
+    /// Changes the unknowns; the largest change of v'_1, or of a shift as such. What is round-off of q, which is up to
+    /// `reach`, is no change: over h^2 it would hide those of v'_1.
+    pub fn correct(&mut self, change: &Change<f64>, h: f64, reach: f64) -> f64 {
         let add = |sum: &mut [f64], change: &[f64]| sum.iter_mut().zip(change).for_each(|(sum, change)| *sum += change);
         add(&mut self.end.vdot, &change.a);
         add(&mut self.end.lambda, &change.lambda);
         add(&mut self.w, &change.w);
         add(&mut self.u, &change.u);
         let slopes = self.slopes(h);
-        largest(&change.a).max(largest(&change.w) / slopes.v).max(largest(&change.u) / slopes.q)
+        let moved = Some(largest(&change.u)).filter(|moved| *moved > ROUND_OFF * reach).unwrap_or(0.0);
+        largest(&change.a).max(largest(&change.w) / slopes.v).max(moved / slopes.q)
     }
 
     /// The leading term of the error of q along the directions of v.

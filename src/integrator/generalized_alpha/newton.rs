@@ -126,7 +126,8 @@ impl Newton {
             self.iteration.load(std::iter::once((1.0, &self.residual)));
             self.iteration.solve(&mut self.at, &problem.dynamics.structure)?;
             problem.dynamics.statistics.newton_iterations += 1;
-            Ok::<_, Halt>(motion.correct(&self.iteration.change, h) / self.small(problem, motion, h, to))
+            let reach = largest(problem.split(to).0);
+            Ok::<_, Halt>(motion.correct(&self.iteration.change, h, reach) / self.small(problem, motion, h, to))
         });
         self.monitor = monitor;
         if !converged? {

@@ -4,6 +4,7 @@ mod collocation;
 mod matrices;
 mod order;
 mod stages;
+mod system;
 mod velocity;
 
 use super::explicit::widest_gap;
@@ -13,12 +14,12 @@ use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
 use crate::formulation::{self, Dae, Halt, Linearized};
 use crate::math::largest;
-use crate::math::newton::{Limits, Monitor};
+use crate::math::newton::Monitor;
 use crate::system::{Loaded, MechanicalSystem};
-use collocation::Collocation;
 use matrices::Matrices;
 use order::{Order, Seen, internal};
 use stages::{Stages, Unknowns, combine};
+use system::{System, most};
 
 /// ```text
 /// V_i = v + h sum a_ij (A_j + W_j),   Q_i = q + h sum a_ij N (V_j + U_j),   M A_i + G^T lambda_i = f
@@ -32,7 +33,7 @@ use stages::{Stages, Unknowns, combine};
 ///
 /// One matrix of n_v + n_c unknowns for the real eigenvalue of A and (s - 1)/2 complex ones, dense or sparse, from exact K,
 /// C, G and L: q and v are eliminated. The matrices stay for the next step as long as Newton's method contracts
-/// thirty thousand times with them and the step grows by less than a fifth. s evaluations and (s + 1)/2 back-substitutions an
+/// thirty thousand times with them. s evaluations and (s + 1)/2 back-substitutions an
 /// iteration, s more of the saddle-point matrix for each shift. Constantly redundant constraints are dropped from the
 /// matrices. Error: the difference to a
 /// formula of order s, damped along stiff directions; velocities that phi = 0 determines, of index 2, are weighted by h,
@@ -217,68 +218,6 @@ const SMALLEST: f64 = 1e-10;
 fn exact(q: &[f64], system: &dyn MechanicalSystem) -> Tolerance {
     let size = Some(largest(system.own(q))).filter(|size| *size > 0.0).map_or(1.0, |size| size.clamp(SMALLEST, 1.0));
     Tolerance::new(EXACT, EXACT * size, system)
-}
-
-/// The equations of all stages of one step.
-struct System<'a> {
-    dae: &'a Dae,
-    method: &'a Collocation,
-    at: &'a mut Linearized,
-    matrices: &'a mut Matrices,
-    stages: &'a mut Stages,
-    is_fixed: bool,
-}
-
-/// Corrections of a step that cannot be tried smaller, and how many of them may grow.
-const MOST_FIXED: usize = 50;
-const PATIENCE: usize = 10;
-/// Round-off of many operations over that of a few.
-const MANY: f64 = 100.0;
-/// Two changes tell little of the rate.
-const LEAST_RATE: f64 = 0.1;
-/// An iteration more costs an evaluation a stage, about as much as a new matrix does.
-const KEPT_RATE: f64 = 3e-5;
-
-/// Corrections of a step with `s` stages. Source: the code RADAU.
-fn most(s: usize, is_fixed: bool) -> usize {
-    if is_fixed { MOST_FIXED } else { 7 + 5 * (s - 3) / 2 }
-}
-
-impl System<'_> {
-    /// From their first guess.
-    fn solve(
-        &mut self,
-        newton: &mut Monitor,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        h: f64,
-    ) -> Result<bool, Halt> {
-        let System { dae, method, at, matrices, stages, is_fixed } = self;
-        stages.reset(from);
-        stages.advance(problem, method, from, h);
-        let round_off = stages.round_off(problem, tolerance, from, h, dae);
-        let limits = Limits {
-            most: most(method.stages(), *is_fixed),
-            tolerance: (10.0 * f64::EPSILON / tolerance.rtol).max(tolerance.rtol.sqrt().min(0.03)),
-            round_off,
-            stagnation: MANY * round_off,
-            patience: if *is_fixed { PATIENCE } else { 0 },
-            least_rate: LEAST_RATE,
-            kept_rate: KEPT_RATE,
-            ..Limits::NONE
-        };
-        let converged = newton.solve(limits, |_| {
-            stages.evaluate(dae, method, (from.t, h), &mut problem.dynamics)?;
-            let Stages { residuals, unknowns, .. } = &mut **stages;
-            matrices.correct(method, residuals, at, unknowns, &mut problem.dynamics)?;
-            stages.advance(problem, method, from, h);
-            Ok::<_, Halt>(stages.change(tolerance, from, method.stages()))
-        })?;
-        problem.dynamics.statistics.stagnated += u64::from(converged && newton.has_stagnated);
-        stages.work(method, from, h);
-        Ok(converged)
-    }
 }
 
 impl Integrator for RadauIIA {

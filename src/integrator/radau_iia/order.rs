@@ -62,9 +62,9 @@ impl Order {
 
     /// What the choice and the control of steps carry on, as numbers.
     pub fn memory(&self) -> Vec<f64> {
-        let Control { safety, grow, dead_band, .. } = self.control;
+        let Control { safety, grow, .. } = self.control;
         let control = self.control.memory();
-        let own = [self.current as f64, self.steady as f64, self.last_decay.unwrap_or(-1.0), safety, grow, dead_band];
+        let own = [self.current as f64, self.steady as f64, self.last_decay.unwrap_or(-1.0), safety, grow];
         [&own[..], &[control.len() as f64], &control].concat()
     }
 
@@ -74,7 +74,6 @@ impl Order {
         self.steady = memory.number() as usize;
         self.last_decay = Some(memory.number()).filter(|decay| *decay >= 0.0);
         (self.control.safety, self.control.grow) = (memory.number(), memory.number());
-        self.control.dead_band = memory.number();
         let control = memory.number() as usize;
         self.control.recall(memory.slice(control));
     }
@@ -137,19 +136,14 @@ impl Order {
         ratio * old as f64 / new as f64
     }
 
-    /// The next step: shorter where Newton's method took many of its corrections, of which there are `most`; no longer than
-    /// where it would contract too slowly, as theta grows like h; and the same where its matrix may stay and would be good
-    /// for one a little longer.
+    /// The next step: shorter where Newton's method took many of its corrections, of which there are `most`, and no longer than
+    /// where it would contract too slowly, as theta grows like h.
     pub fn limit(&mut self, newton: &Monitor, most: usize) {
         let (most, iterations) = (most as f64, newton.iterations as f64);
         self.control.safety = 0.9 * (2.0 * most + 1.0) / (2.0 * most + iterations);
         self.control.grow = (SLOW / newton.rate).clamp(1.0, 5.0);
-        self.control.dead_band = if newton.keeps_matrix() { BAND } else { 1.0 };
     }
 }
-
-/// A step that may grow by less stays as it is. Source: QUOT2 of the code RADAU5.
-const BAND: f64 = 1.2;
 
 /// The error estimate is of order s + 1, the solution of order 2 s: with this tolerance the second meets the given one.
 /// Source: the code RADAU5 of Hairer and Wanner.

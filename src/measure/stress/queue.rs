@@ -85,7 +85,7 @@ impl Queue {
     }
 
     /// Expects this level of a job that was not tried yet, if its other neighbours tell of none that is lower.
-    fn expect(&mut self, what: What, level: u32) {
+    fn foresee(&mut self, what: What, level: u32) {
         let Some(job) = self.jobs.get(&what).copied() else { return };
         if job.is_unknown || !job.is_tried && level < job.level {
             self.waiting.remove(&job);
@@ -129,7 +129,7 @@ impl Queues {
             queue.add(job.again(part, limit));
         }
         let level = if cut.is_some() { job.level + 1 } else { level_for(2 * took, limit) };
-        neighbours.into_iter().for_each(|what| queue.expect(what, level));
+        neighbours.into_iter().for_each(|what| queue.foresee(what, level));
     }
 }
 

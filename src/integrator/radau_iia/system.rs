@@ -1,0 +1,70 @@
+//! The equations of a step and how they are solved.
+
+use super::collocation::Collocation;
+use super::matrices::Matrices;
+use super::stages::Stages;
+use crate::formulation::{Dae, Halt, Linearized};
+use crate::integrator::{From, Problem, Tolerance};
+use crate::math::newton::{Limits, Monitor};
+
+/// The equations of all stages of one step.
+pub struct System<'a> {
+    pub dae: &'a Dae,
+    pub method: &'a Collocation,
+    pub at: &'a mut Linearized,
+    pub matrices: &'a mut Matrices,
+    pub stages: &'a mut Stages,
+    pub is_fixed: bool,
+}
+
+/// Corrections of a step that cannot be tried smaller, and how many of them may grow.
+const MOST_FIXED: usize = 50;
+const PATIENCE: usize = 10;
+/// Round-off of many operations over that of a few.
+const MANY: f64 = 100.0;
+/// Two changes tell little of the rate.
+const LEAST_RATE: f64 = 0.1;
+/// An iteration more costs an evaluation a stage, about as much as a new matrix does.
+const KEPT_RATE: f64 = 3e-5;
+
+/// Corrections of a step with `s` stages. Source: the code RADAU.
+pub fn most(s: usize, is_fixed: bool) -> usize {
+    if is_fixed { MOST_FIXED } else { 7 + 5 * (s - 3) / 2 }
+}
+
+impl System<'_> {
+    /// From their first guess.
+    pub fn solve(
+        &mut self,
+        newton: &mut Monitor,
+        problem: &mut Problem,
+        tolerance: &Tolerance,
+        from: From,
+        h: f64,
+    ) -> Result<bool, Halt> {
+        let System { dae, method, at, matrices, stages, is_fixed } = self;
+        stages.reset(from);
+        stages.advance(problem, method, from, h);
+        let round_off = stages.round_off(problem, tolerance, from, h, dae);
+        let limits = Limits {
+            most: most(method.stages(), *is_fixed),
+            tolerance: (10.0 * f64::EPSILON / tolerance.rtol).max(tolerance.rtol.sqrt().min(0.03)),
+            round_off,
+            stagnation: MANY * round_off,
+            patience: if *is_fixed { PATIENCE } else { 0 },
+            least_rate: LEAST_RATE,
+            kept_rate: KEPT_RATE,
+            ..Limits::NONE
+        };
+        let converged = newton.solve(limits, |_| {
+            stages.evaluate(dae, method, (from.t, h), &mut problem.dynamics)?;
+            let Stages { residuals, unknowns, .. } = &mut **stages;
+            matrices.correct(method, residuals, at, unknowns, &mut problem.dynamics)?;
+            stages.advance(problem, method, from, h);
+            Ok::<_, Halt>(stages.change(tolerance, from, method.stages()))
+        })?;
+        problem.dynamics.statistics.stagnated += u64::from(converged && newton.has_stagnated);
+        stages.work(method, from, h);
+        Ok(converged)
+    }
+}
