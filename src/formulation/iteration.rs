@@ -255,7 +255,7 @@ impl<T: Number> Iteration<T> {
         let Iteration { matrix, rows, slopes, change, part } = self;
         let Change { a, lambda, w, u, eta, mu } = change;
         for (i, row) in lambda.iter_mut().enumerate() {
-            *row = *row / rows.lambda[rows.kind(i)].a[0];
+            *row /= rows.lambda[rows.kind(i)].a[0];
         }
         if let Some(shifts) = &mut at.shifts {
             for (i, row) in eta.iter_mut().enumerate() {
@@ -292,13 +292,13 @@ impl<T: Number> Rows<T> {
     ) {
         let factors = self.lambda.map(|slope| by(&slope).map(|factor| factor / slope.a[0]));
         for (i, gx) in gx.iter().enumerate() {
-            lambda[i] = lambda[i] - factors[self.kind(i)][0] * *gx;
+            lambda[i] -= factors[self.kind(i)][0] * *gx;
         }
         if x.is_empty() || !self.dae.needs_l() {
             return;
         }
         for (&(i, j), &l) in pattern.entries.iter().zip(l) {
-            lambda[i] = lambda[i] - factors[self.kind(i)][1] * x[j] * l;
+            lambda[i] -= factors[self.kind(i)][1] * x[j] * l;
         }
     }
 }
@@ -323,7 +323,7 @@ fn subtract<T: Number>(pattern: &Pattern, values: &[f64], factor: T, x: &[T], ou
         return;
     }
     for (&(i, j), &value) in pattern.entries.iter().zip(values) {
-        out[i] = out[i] - factor * x[j] * value;
+        out[i] -= factor * x[j] * value;
     }
 }
 
