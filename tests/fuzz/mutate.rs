@@ -266,7 +266,8 @@ fn settings(scene: &mut Value, random: &mut Random) {
 fn method(scene: &mut Value, random: &mut Random) {
     let Some(Value::Object(settings)) = scene.get_mut("simulation") else { return };
     let Some(integrator) = random.pick(integrator::registry()) else { return };
-    let Some(formulation) = random.pick(&integrator.accepts().collect::<Vec<_>>()) else { return };
+    let accepted: Vec<_> = integrator.accepts().collect();
+    let Some(formulation) = random.pick(&accepted) else { return };
     let Some(projection) = random.pick(projection::registry()) else { return };
     if integrator.steps == integrator::Steps::Fixed {
         settings.insert("step".into(), json!(random.one([1e-3, 1e-2, 0.1])));
