@@ -58,6 +58,7 @@ fn a_bad_beginning_is_left() {
     let own = legs.iter().fold(Statistics::default(), |sum, leg| sum + leg.statistics);
     assert_eq!(own, outcome.statistics);
     let trials: Vec<u64> = legs.iter().map(|leg| leg.trials.rhs_evaluations).collect();
+    assert!(legs[0].trials.rows.rhs_evaluations > 0, "rows of a trial count too: {legs:?}");
     assert!(trials[0] > 0 && trials.iter().sum::<u64>() < own.rhs_evaluations, "{trials:?} beside {own:?}");
     assert!(own.rhs_evaluations < 2 * alone.statistics.rhs_evaluations, "{own:?} {:?}", alone.statistics);
 }

@@ -70,26 +70,6 @@ fn scenes_do_not_drift() {
     }
 }
 
-/// Between steps rows have the order of the method's own interpolation, one less than that of the method.
-#[test]
-fn rows_within_steps_keep_their_order() {
-    let (q, v) = start();
-    let rows = |integrator: &str, formulation: &str, steps: usize| {
-        let span = Span { start: 0.0, end: 1.5, output_step: 1.5 / 31.0 };
-        let method = fixed(formulation, integrator, "none", 1.5 / steps as f64);
-        run(&DrivenPendulum, &method, span, (&q, &v)).completed().record.trajectory.rows
-    };
-    let exact = rows("dop853", "index1", 640);
-    for (integrator, order, steps) in [("rk4", 3.0, 128), ("dopri5", 4.0, 128), ("dop853", 7.0, 32)] {
-        let error = |steps: usize| {
-            let rows = rows(integrator, "null_space", steps);
-            rows.iter().zip(&exact).map(|(a, b)| distance(&a[1..9], &b[1..9])).fold(0.0, f64::max)
-        };
-        let found = (error(steps) / error(2 * steps)).log2();
-        assert!(found > order - 0.3, "{integrator}: order {found:.2}");
-    }
-}
-
 /// The top turns by quaternions: order of rk4 in all of q and v.
 #[test]
 fn rotations_in_space_keep_their_order() {

@@ -17,7 +17,8 @@ fn integrators() -> impl Iterator<Item = &'static Entry> {
     registry().iter().filter(|entry| entry.steps != Steps::Own)
 }
 
-/// q, v and lambda at eight times; steps that are a multiple of eight in number need no interpolation.
+/// q, v and lambda at eight times; steps that are a multiple of eight in number need no interpolation, and one more puts
+/// the rows at all eighths of a step.
 fn solution(formulation: &str, integrator: &str, projection: &str, steps: usize) -> Vec<Vec<f64>> {
     let (q, v) = start();
     let method = fixed(formulation, integrator, projection, END / steps as f64);
@@ -63,6 +64,21 @@ fn gentle(formulation: &str) -> String {
 
 #[test]
 fn every_triple_has_the_order_of_its_integrator() {
+    check_orders(|entry| (steps(entry), 0.3));
+}
+
+/// Of order 8 the next term of the interpolation's error still counts at steps that leave errors of 1e-12: found 7.49 to 8.49,
+/// and 0.2 farther off at steps a fifth longer.
+#[test]
+fn rows_between_steps_have_the_order_of_the_steps() {
+    check_orders(|entry| match entry.order {
+        8 => ([41, 49], 0.55),
+        _ => (steps(entry).map(|n| n + 1), 0.3),
+    });
+}
+
+/// In these two numbers of steps, to so much.
+fn check_orders(of: impl Fn(&Entry) -> ([usize; 2], f64) + Sync) {
     let reference = solution("index1", "dop853", "exact", 160);
     let triples: Vec<_> = integrators()
         .flat_map(|entry| entry.accepts().map(move |formulation| (entry, gentle(formulation))))
@@ -75,12 +91,12 @@ fn every_triple_has_the_order_of_its_integrator() {
     // 4 explicit integrators x 8 vector fields x 6 projections, and what takes index 2 or 3.
     assert!(triples.len() >= 216);
     triples.par_iter().for_each(|(entry, formulation, projection)| {
-        let [coarse, fine] = steps(entry);
+        let ([coarse, fine], slack) = of(entry);
         let found = [coarse, fine].map(|n| errors(&solution(formulation, entry.name, projection, n), &reference));
         for (level, name) in ["q", "v", "lambda"].into_iter().enumerate() {
             let order = (found[0][level] / found[1][level]).ln() / (fine as f64 / coarse as f64).ln();
             let what = format!("{formulation} + {} + {projection}: order {order:.2} in {name}, {found:?}", entry.name);
-            assert!((order - entry.order as f64).abs() < 0.3, "{what}");
+            assert!((order - entry.order as f64).abs() < slack, "{what}");
         }
     });
 }

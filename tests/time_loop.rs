@@ -5,10 +5,10 @@ mod common;
 use common::driven_pendulum::{self, DrivenPendulum};
 use common::unconstrained::Exponential;
 use common::{Run, adaptive, fixed, method, run, until};
-use holonom::formulation::Dynamics;
+use holonom::formulation::{Dynamics, Statistics, Work};
 use holonom::math::Scalar;
 use holonom::measure::Recorder;
-use holonom::simulate::{Method, Observation, Sink, Span, Stop, simulate};
+use holonom::simulate::{Method, Observation, Outcome, Sink, Span, Stop, simulate};
 use holonom::system::Equations;
 use rayon::prelude::*;
 
@@ -77,7 +77,11 @@ fn rows_do_not_change_the_steps() {
     let method = adaptive("index1", "dop853", "manifold", 1e-8);
     let few = pendulum(&method, until(2.0)).completed();
     let many = pendulum(&method, Span { output_step: 0.001, ..until(2.0) }).completed();
-    assert_eq!(few.outcome, many.outcome);
+    let steps = |run: &Run| {
+        let statistics = Statistics { rows: Work::default(), ..run.outcome.statistics };
+        Outcome { statistics, ..run.outcome.clone() }
+    };
+    assert_eq!(steps(&few), steps(&many));
     assert_eq!(many.record.trajectory.rows.len(), 2001);
 }
 
@@ -115,6 +119,43 @@ fn work_is_counted() {
     // Newton's method is quadratic: two steps to round-off, a third that shows it.
     let counts = pendulum(&fixed("index1", "rk4", "exact", 0.02), until(1.0)).completed().outcome.statistics;
     assert!(counts.projections <= 3 * n, "{counts:?}");
+}
+
+/// Two rows within each step and one at the end of every second: an evaluation and a projection each, and what the
+/// interpolation takes; before them a look at the start, which counts no factorization. The work of the steps stays as it is without rows.
+#[test]
+fn work_of_rows_is_counted_beside_that_of_steps() {
+    let rows = Span { output_step: 0.008, ..until(1.0) };
+    for (formulation, integrator, projection, stages) in [
+        ("index1", "rk4", "none", 0),
+        ("index1", "rk4", "manifold", 0),
+        ("index1", "dopri5", "manifold", 0),
+        ("index1", "dop853", "manifold", 3),
+        ("index2", "hem4", "manifold", 0),
+        ("index2", "hem5", "none", 1),
+        ("index2", "phem56", "manifold", 1),
+    ] {
+        let method = fixed(formulation, integrator, projection, 0.02);
+        let [all, none] = [rows, until(1.0)].map(|span| pendulum(&method, span).completed().outcome.statistics);
+        assert_eq!(all.of_steps(), none.of_steps(), "{integrator}");
+        let Work { rhs_evaluations, factorizations, projections, .. } = all.rows;
+        let sweeps = if projection == "none" { 0 } else { 100 };
+        assert_eq!([rhs_evaluations, projections], [127 + 50 * stages, sweeps], "{integrator} {projection}");
+        assert_eq!(factorizations, rhs_evaluations - 1 + projections, "{integrator} {projection}");
+        // The look at the start, its row, and that at the end.
+        assert_eq!(none.rows.rhs_evaluations, 3, "{integrator}");
+    }
+}
+
+/// A step of its own to each row, of three stages or more, with a factorization.
+#[test]
+fn rows_of_radau_iia_cost_more_than_its_steps() {
+    let method = adaptive("index2", "radau_iia", "none", 1e-8);
+    let rows = Span { output_step: 1e-3, ..until(1.0) };
+    let [all, none] = [rows, until(1.0)].map(|span| pendulum(&method, span).completed().outcome.statistics);
+    assert_eq!(all.of_steps(), none.of_steps());
+    assert!(all.rows.rhs_evaluations > 3000 && all.rows.factorizations > 900, "{all:?}");
+    assert!(all.rows.newton_iterations > 900 && all.rows.rhs_evaluations > all.rhs_evaluations, "{all:?}");
 }
 
 /// Compares lambda and phi' of every accepted state with those of a fresh evaluation.

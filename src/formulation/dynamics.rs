@@ -1,11 +1,10 @@
 //! The equations of motion of one system with the memory to solve them.
 
+use super::Statistics;
 use crate::error::Result;
 use crate::math::kkt::{SaddlePoint, Singular, TRUNCATED};
 use crate::system::{MechanicalSystem, Need, Scratch, Structure, Terms};
-use serde::{Deserialize, Serialize};
 use std::fmt;
-use std::ops::Add;
 
 /// Why a state cannot be evaluated.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,42 +74,6 @@ impl From<Singular> for Halt {
         match singular {
             Singular::NotFinite => Halt::NotFinite,
             other => Halt::Singular(other),
-        }
-    }
-}
-
-/// Work done in a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Statistics {
-    pub steps: u64,
-    pub rejected: u64,
-    /// Solutions of the equations of motion.
-    pub rhs_evaluations: u64,
-    pub jacobian_evaluations: u64,
-    /// Factorizations of the saddle-point matrix.
-    pub factorizations: u64,
-    pub newton_iterations: u64,
-    /// Sets of equations that Newton's method solved as far as round-off let it, and not to the tolerance.
-    pub stagnated: u64,
-    /// Sweeps of the projection.
-    pub projections: u64,
-    /// Accepted states at which G was rank deficient.
-    pub rank_deficient: u64,
-}
-
-impl Add for Statistics {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Statistics {
-            steps: self.steps + other.steps,
-            rejected: self.rejected + other.rejected,
-            rhs_evaluations: self.rhs_evaluations + other.rhs_evaluations,
-            jacobian_evaluations: self.jacobian_evaluations + other.jacobian_evaluations,
-            factorizations: self.factorizations + other.factorizations,
-            newton_iterations: self.newton_iterations + other.newton_iterations,
-            stagnated: self.stagnated + other.stagnated,
-            projections: self.projections + other.projections,
-            rank_deficient: self.rank_deficient + other.rank_deficient,
         }
     }
 }

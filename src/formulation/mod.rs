@@ -21,18 +21,20 @@ mod penalty;
 mod residual;
 mod stabilized_index1;
 mod stabilizer;
+mod statistics;
 mod turn;
 mod udwadia_kalaba;
 
 pub use crate::choice::{Choice, OptionDoc};
 pub use dae::{Dae, Row};
 pub use directions::{degrees_of_freedom, free_directions, reduce};
-pub use dynamics::{Dynamics, Halt, Statistics};
+pub use dynamics::{Dynamics, Halt};
 pub use iteration::{Change, Iteration, Number, Slopes};
 pub use linearized::{Linearized, NO_TANGENT};
 pub use penalty::{OMEGA, PENALTY, XI, mean_compliance};
 pub use residual::Residual;
 pub use stabilizer::{Field, Stabilizer};
+pub use statistics::{Statistics, Work};
 pub use turn::turn;
 
 use crate::error::Result;

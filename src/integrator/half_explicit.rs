@@ -7,6 +7,9 @@ use crate::formulation::Halt;
 use crate::math::kkt::TwoPlaces;
 use crate::system::Need;
 
+/// The cubic has an error of h^4 over a step, and so rows of order 4.
+const CUBIC: usize = 4;
+
 /// The constants of a half-explicit method.
 pub struct Tableau {
     pub order: usize,
@@ -79,7 +82,7 @@ impl HalfExplicit {
             error: zeros(len),
             off: zeros(n.v),
             solver: TwoPlaces::new(n.v, n.lambda),
-            polynomial: Hermite::new(len, 0),
+            polynomial: Hermite::new(len, usize::from(tableau.order > CUBIC)),
         }
     }
 
@@ -194,9 +197,13 @@ impl Integrator for HalfExplicit {
         self.tableau.explicit.map(|_| &self.k[self.tableau.constraint.len()][..])
     }
 
-    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt> {
-        self.polynomial.prepare(from, h, to, slope);
-        Ok(())
+    fn prepare(&mut self, problem: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt> {
+        let HalfExplicit { polynomial, stage, error, .. } = self;
+        polynomial.prepare(from, h, to, slope);
+        match self.tableau.order > CUBIC {
+            true => polynomial.raise(problem, from, h, [stage, error]),
+            false => Ok(()),
+        }
     }
 
     fn interpolate(&mut self, _: &mut Problem, from: From, _: f64, theta: f64, out: &mut [f64]) -> Result<(), Halt> {

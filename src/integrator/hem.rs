@@ -13,7 +13,7 @@ pub const HEM4: Entry =
     entry("hem4", "half-explicit, 5 stages, fixed steps", 4, |setup| Ok(Box::new(HalfExplicit::new(&FOURTH, setup))));
 
 /// Source: Brasey, Computing 48 (1992) 191-201 (HEM5). Order 5 in q, v and lambda; eight solutions a step and the one
-/// that observes; fixed steps.
+/// that observes; fixed steps; interpolation of order 4 with an evaluation of its own.
 pub const HEM5: Entry =
     entry("hem5", "half-explicit, 8 stages, fixed steps", 5, |setup| Ok(Box::new(HalfExplicit::new(&FIFTH, setup))));
 

@@ -103,6 +103,9 @@ pub struct FinalState {
     pub outputs: Map<String, Value>,
 }
 
+/// Work of rows is told where it is more than this part of that of the steps.
+const SHOWN: f64 = 0.1;
+
 /// Collects the summary of a run, with warnings from before it.
 pub fn summarize(
     (study, stiffness, early): (&Study, Option<Stiffness>, &[Warning]),
@@ -165,6 +168,7 @@ impl Summary {
         };
         let s = &self.statistics;
         let trials = self.method.trials.filter(|trials| trials.rhs_evaluations > 0);
+        let rows = Some(s.rows.rhs_evaluations).filter(|rows| *rows as f64 > SHOWN * s.rhs_evaluations as f64);
         let mut text = format!("{}: {formulation} + {integrator} + {projection}, {accuracy}\n", self.scene);
         text += &self.method.text();
         if let Some(failure) = &self.failure {
@@ -172,12 +176,13 @@ impl Summary {
         }
         text += &self.assembly_text();
         text += &format!(
-            "  t = {} s reached in {}: {} steps, {} rejected, {} evaluations{}, {} factorizations\n\n",
+            "  t = {} s reached in {}: {} steps, {} rejected, {} evaluations{}{}, {} factorizations\n\n",
             clock(self.t_end),
             elapsed(self.wall_seconds),
             s.steps,
             s.rejected,
             s.rhs_evaluations,
+            rows.map_or(String::new(), |rows| format!(" and {rows} in rows")),
             trials.map_or(String::new(), |trials| format!(" and {} in trials", trials.rhs_evaluations)),
             s.factorizations
         );

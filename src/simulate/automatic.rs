@@ -224,7 +224,7 @@ impl<'s: 'a, 'a> Drive<'s, 'a> {
         let before = std::mem::replace(&mut self.run, next);
         (self.run.t, self.run.rows.next) = (before.t, before.rows.next);
         let leg = std::mem::replace(&mut self.leg, Leg::of(before.t, method, because));
-        self.legs.push(Leg { statistics: before.problem.dynamics.statistics, ..leg });
+        self.legs.push(Leg { statistics: before.statistics(), ..leg });
         Ok(self.run.go_on(&before.problem.dynamics.held).err())
     }
 

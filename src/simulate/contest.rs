@@ -5,7 +5,7 @@
 //! The spectrum only tells when to try: where the fastest mode of the state has to do with the steps that are taken.
 
 use super::spectrum::{Mode, fastest};
-use super::{Method, Observation, Run, Sink, Span};
+use super::{Method, Observation, Run, Sink};
 use crate::error::{Failure, Result};
 use crate::formulation::{Dynamics, Statistics};
 use crate::integrator::Store;
@@ -34,12 +34,20 @@ const GROWTHS: usize = 5;
 /// This part of the work that is left says enough of it.
 const SHOWN: f64 = 0.1;
 
-/// How far a run has come, s, after how much work, in evaluations, and how many steps.
+/// How far a run has come, s, after how much work of steps and of rows, in evaluations, and how many steps.
 #[derive(Clone, Copy, Debug)]
 pub struct Mark {
     pub t: f64,
     pub work: f64,
+    pub rows: f64,
     pub steps: u64,
+}
+
+impl Mark {
+    /// How far the run has come since another mark for a unit of work, that of rows included.
+    fn pace(&self, since: Mark) -> f64 {
+        (self.t - since.t) / (self.work + self.rows - since.work - since.rows).max(1.0)
+    }
 }
 
 /// What a trial shows.
@@ -63,23 +71,12 @@ impl Sink for Quiet {
     fn row(&mut self, _: &Observation) {}
 }
 
-impl<'a> Run<'a> {
-    /// A run without rows.
-    pub fn unseen<'s: 'a>(
-        (system, store): (&'s dyn MechanicalSystem, &'a Store<'s>),
-        method: &'a Method,
-        [start, end]: [f64; 2],
-        y: Vec<f64>,
-    ) -> Result<Self> {
-        let mut run = Run::new((system, store), method, Span { start, end, output_step: f64::INFINITY }, y)?;
-        run.rows.next = 1;
-        Ok(run)
-    }
-
+impl Run<'_> {
     pub fn mark(&self) -> Mark {
-        let dynamics = &self.problem.dynamics.statistics;
+        let Statistics { steps, rhs_evaluations, rows, .. } = self.statistics();
         let price = if self.is_explicit { 1.0 } else { IMPLICIT };
-        Mark { t: self.t, work: price * dynamics.rhs_evaluations as f64, steps: dynamics.steps }
+        let [work, rows] = [rhs_evaluations, rows.rhs_evaluations].map(|count| price * count as f64);
+        Mark { t: self.t, work, rows, steps }
     }
 
     /// Goes on for so much work, of which the first half is no measure: steps that begin small grow. While they do, it goes on.
@@ -138,7 +135,8 @@ impl<'a> Run<'a> {
         matters.then_some((mode, step))
     }
 
-    /// Lets `other` try from the state of this run, whose pace since `mark` is known; with the work of the trial.
+    /// Lets `other` try from the state of this run, whose pace since `mark` is known, with the same rows, which nobody sees;
+    /// with the work of the trial.
     pub fn contest(
         &self,
         mark: Mark,
@@ -147,16 +145,15 @@ impl<'a> Run<'a> {
         system: &dyn MechanicalSystem,
     ) -> Result<(Contest, Statistics)> {
         let own = self.mark();
-        let pace = (own.t - mark.t) / (own.work - mark.work).max(1.0);
         let budget = LEAST.max(SHARE * (own.work - mark.work));
         let store = Store::default();
-        let mut rival = Run::unseen((system, &store), other, [self.t, self.span.end], self.y.clone())?;
+        let mut rival = Run::new((system, &store), other, self.span, self.y.clone())?;
+        (rival.t, rival.rows.next) = (self.t, self.rows.next);
         let failure = rival.go_on(&self.problem.dynamics.held).err();
-        let (mark, stopped) =
+        let (since, stopped) =
             if failure.is_none() { rival.window(budget, &mut Quiet) } else { (rival.mark(), failure) };
-        let now = rival.mark();
-        let theirs = if stopped.is_some() { 0.0 } else { (now.t - mark.t) / (now.work - mark.work).max(1.0) };
-        let contest = Contest { t: self.t, mode, step, gain: theirs / pace };
-        Ok((contest, rival.problem.dynamics.statistics))
+        let theirs = if stopped.is_some() { 0.0 } else { rival.mark().pace(since) };
+        let contest = Contest { t: self.t, mode, step, gain: theirs / own.pace(mark) };
+        Ok((contest, rival.statistics()))
     }
 }

@@ -130,7 +130,7 @@ pub(crate) struct Parts<'a> {
     pub problem: Problem<'a>,
     pub integrator: Box<dyn Integrator + 'a>,
     pub projection: Option<Box<dyn Projection + 'a>>,
-    /// The same again for rows, whose work does not count.
+    /// The same again for rows, whose work is counted beside that of steps.
     pub rows: (Problem<'a>, Option<Box<dyn Projection + 'a>>),
     pub tests_velocities: bool,
     /// Whether a projection that moves the state by far more than the tolerance refuses a step.
@@ -246,7 +246,7 @@ impl<'a> Run<'a> {
             self.last_good_row(sink);
         }
         let (q, v) = self.problem.split(&self.y);
-        Outcome { statistics: self.problem.dynamics.statistics, t: self.t, q: q.to_vec(), v: v.to_vec(), failure }
+        Outcome { statistics: self.statistics(), t: self.t, q: q.to_vec(), v: v.to_vec(), failure }
     }
 
     /// Steps to the end of the span, or until the work comes to what is allowed.

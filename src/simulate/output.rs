@@ -48,7 +48,6 @@ impl Run<'_> {
 
     fn prepare(&mut self, h: f64, end: f64) -> Result<(), Halt> {
         let from = From { t: self.t, y: &self.y, slope: &self.slope, end };
-        // Interpolation stages run on the rows' problem: they do not count.
         self.rows.problem.begin_step(self.t, &self.y)?;
         self.integrator.prepare(&mut self.rows.problem, from, h, &self.next, &self.next_slope)
     }

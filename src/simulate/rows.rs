@@ -1,11 +1,11 @@
 //! Output rows, and what is shown of a state.
 
 use super::Observation;
-use crate::formulation::Halt;
+use crate::formulation::{Halt, Statistics};
 use crate::integrator::Problem;
 use crate::projection::Projection;
 
-/// Output rows have a problem of their own, so that they do not count in the statistics.
+/// Output rows have a problem of their own: their work is counted beside that of the steps.
 pub struct Rows<'a> {
     pub problem: Problem<'a>,
     pub projection: Option<Box<dyn Projection + 'a>>,
@@ -72,6 +72,14 @@ pub fn project(
         }
     }
     Ok(())
+}
+
+impl super::Run<'_> {
+    /// Work of steps, and of rows beside it.
+    pub fn statistics(&self) -> Statistics {
+        let rows = self.rows.problem.dynamics.statistics.of_steps();
+        Statistics { rows, ..self.problem.dynamics.statistics }
+    }
 }
 
 pub fn observation<'o>(

@@ -75,7 +75,8 @@ fn the_summary_has_the_promised_keys() {
     assert_keys(&summary["method"], &["formulation", "integrator", "projection", "rtol", "atol", "step"], &[]);
     let counters = ["steps", "rejected", "rhs_evaluations", "jacobian_evaluations", "factorizations"];
     let rest = ["newton_iterations", "projections"];
-    assert_keys(&summary["statistics"], &[&counters[..], &rest].concat(), &["rank_deficient", "stagnated"]);
+    assert_keys(&summary["statistics"], &[&counters[..], &rest, &["rows"]].concat(), &["rank_deficient", "stagnated"]);
+    assert_keys(&summary["statistics"]["rows"], &[&counters[2..], &rest].concat(), &[]);
     assert_keys(&summary["drift"], &["position", "velocity", "acceleration"], &[]);
     for level in ["position", "velocity", "acceleration"] {
         assert_keys(&summary["drift"][level], &["max", "final"], &["relative_max", "relative_final"]);
@@ -99,6 +100,17 @@ fn the_summary_says_what_was_done() {
     assert_eq!(summary["method"]["step"], Value::Null);
     assert!(summary["statistics"]["steps"].as_u64().unwrap() > 10);
     assert!(summary["drift"]["position"]["max"].as_f64().unwrap() < 1e-12);
+}
+
+/// Many rows are most of the work; few are not worth a word.
+#[test]
+fn work_of_rows_is_told_where_it_counts() {
+    let place = Place::new(PENDULUM);
+    for (step, is_told) in [("0.001", true), ("1", false)] {
+        let text = place.done(&["simulate", "scene.json", "-o", "here", "--output-step", step]);
+        let rows = &place.json("here/summary.json")["statistics"]["rows"]["rhs_evaluations"];
+        assert_eq!(text.contains(&format!("evaluations and {rows} in rows, ")), is_told, "{text}");
+    }
 }
 
 #[test]

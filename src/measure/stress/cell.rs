@@ -73,6 +73,7 @@ pub struct Cell {
     /// Whether it completed with outputs and energy within [`OFF`]. None where that is not known.
     pub holds: Option<bool>,
     pub steps: u64,
+    /// Of steps and rows.
     pub rhs_evaluations: u64,
     pub seconds: f64,
 }

@@ -122,7 +122,7 @@ impl Run {
             relative_energy_error: record.energy.and_then(|energy| energy.relative_max_error),
             drift: Some(record.drift),
             steps: outcome.statistics.steps,
-            rhs_evaluations: outcome.statistics.rhs_evaluations,
+            rhs_evaluations: outcome.statistics.whole().rhs_evaluations,
             ..blank
         }
     }

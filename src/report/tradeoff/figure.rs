@@ -13,8 +13,8 @@ pub fn tradeoff_figure(measured: &WorkPrecision, digits: u32) -> Option<Figure> 
     if named.is_empty() {
         return None;
     }
-    let evaluations = |cell: &Cell| cell.statistics().map(|work| work.rhs_evaluations as f64);
-    let factorizations = |cell: &Cell| cell.statistics().map(|work| work.factorizations as f64);
+    let evaluations = |cell: &Cell| cell.statistics().map(|work| work.whole().rhs_evaluations as f64);
+    let factorizations = |cell: &Cell| cell.statistics().map(|work| work.whole().factorizations as f64);
     let cost = |cell: &Cell| cell.cost;
     let drift = |cell: &Cell| cell.drift().map(Held::largest);
     let panel = |x: Quantity, y: Quantity| panel(measured, &named, x, y);

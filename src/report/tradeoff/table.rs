@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::measure::work_precision::{Cell, Outcome, WorkPrecision};
 use crate::report::{cell as number, table};
 
-const HEADINGS: [&str; 25] = [
+const HEADINGS: [&str; 26] = [
     "formulation",
     "integrator",
     "projection",
@@ -29,6 +29,7 @@ const HEADINGS: [&str; 25] = [
     "factorizations",
     "newton_iterations",
     "projections",
+    "row_evaluations",
     "reason",
 ];
 
@@ -63,6 +64,7 @@ fn row(cell: &Cell) -> Vec<String> {
                 s.factorizations,
                 s.newton_iterations,
                 s.projections,
+                s.rows.rhs_evaluations,
             ];
             row.extend(work.map(|count| count.to_string()));
         }

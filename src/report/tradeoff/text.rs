@@ -123,8 +123,8 @@ fn line(cell: &Cell) -> Vec<String> {
     cells.extend([
         format!("{:.1}", cell.digits().unwrap_or(0.0)),
         cell.cost.map_or(String::new(), milliseconds),
-        statistics.rhs_evaluations.to_string(),
-        statistics.factorizations.to_string(),
+        statistics.whole().rhs_evaluations.to_string(),
+        statistics.whole().factorizations.to_string(),
         format!("{:.0e}", drift.position),
         format!("{:.0e}", drift.velocity),
     ]);
