@@ -65,9 +65,9 @@ fn every_method_keeps_a_skate_on_its_blade() {
             let (q, v, _) = found.last();
             let error = q.iter().zip(exact(END)).fold(0.0, |worst: f64, (q, exact)| worst.max((q - exact).abs()));
             let across = (v[1] * q[2].cos() - v[0] * q[2].sin()).abs();
-            // Steps of 2e-3 with order 2: 1e-6. Penalties leave 1e-7 of the accelerations.
+            // Steps of 2e-3 with order 2, 2e-3^2 of what turns at 2 rad/s; penalties leave 1e-7 of the accelerations.
             let what = format!("{formulation} + {}: {error:e} in q, {across:e} across", entry.name);
-            assert!(error < 1e-5 && across < 1e-5, "{what}");
+            assert!(error < 3e-5 && across < 3e-5, "{what}");
             tried += 1;
         }
     }

@@ -28,8 +28,8 @@ pub struct Slopes<T> {
 /// lambda asks for it:
 ///
 /// ```text
-/// [ M  G^T ] [ dw ]   [ 0                                ]
-/// [ G  0   ] [ .  ] = [ -(row of eta + its g G da) / ... ]    and du likewise
+/// [ M  G^T ] [ dw   ]   [ -M w - G^T eta                   ]
+/// [ G  0   ] [ deta ] = [ -(row of eta + its g G da) / ... ]    and du likewise
 /// ```
 ///
 /// The rows are of the size of accelerations however small the step. Of phi'', its change with q by h^2 is left out.
@@ -40,17 +40,18 @@ pub struct Iteration<T> {
     slopes: Slopes<T>,
     pub change: Change<T>,
     part: [Vec<f64>; 2],
+    /// G dw and G du.
+    moved: [Vec<T>; 2],
 }
 
-/// Changes of the unknowns: da, dw and du with n_v entries each, and dlambda. On the way in the residual is here.
+/// Changes of the unknowns. On the way in the residual is here.
 pub struct Change<T> {
     pub a: Vec<T>,
     pub lambda: Vec<T>,
     pub w: Vec<T>,
     pub u: Vec<T>,
-    /// G dw and G du.
-    eta: Vec<T>,
-    mu: Vec<T>,
+    pub eta: Vec<T>,
+    pub mu: Vec<T>,
 }
 
 /// A real number, or a complex one that stands for itself and its conjugate.
@@ -156,6 +157,7 @@ impl<T: Number> Iteration<T> {
             slopes: none,
             change: Change { a: zeros(n.v), lambda: zeros(n.lambda), w, u, eta, mu },
             part: [vec![0.0; n.v], vec![0.0; n.lambda]],
+            moved: [zeros(n.lambda), zeros(n.lambda)],
         })
     }
 
@@ -188,11 +190,12 @@ impl<T: Number> Iteration<T> {
 
     /// Takes the sum of weighted residuals for the next [`solve`](Self::solve).
     pub fn load<'r>(&mut self, residuals: impl Iterator<Item = (T, &'r Residual)>) {
-        let Change { a, lambda, eta, mu, .. } = &mut self.change;
-        [&mut *a, lambda, eta, mu].into_iter().for_each(|sum| sum.fill(T::ZERO));
+        let Change { a, lambda, w, eta, u, mu } = &mut self.change;
+        [&mut *a, lambda, w, eta, u, mu].into_iter().for_each(|sum| sum.fill(T::ZERO));
         for (weight, residual) in residuals {
-            let Residual { motion, lambda: of_lambda, eta: of_eta, mu: of_mu, .. } = residual;
-            for (sum, values) in [(&mut *a, motion), (lambda, of_lambda), (eta, of_eta), (mu, of_mu)] {
+            let Residual { motion, lambda: rows, w: of_w, eta: of_eta, u: of_u, mu: of_mu, .. } = residual;
+            let pairs = [(&mut *a, motion), (lambda, rows), (w, of_w), (eta, of_eta), (u, of_u), (mu, of_mu)];
+            for (sum, values) in pairs {
                 sum.iter_mut().zip(values).for_each(|(sum, &value)| *sum += weight * value);
             }
         }
@@ -201,29 +204,30 @@ impl<T: Number> Iteration<T> {
     /// Turns the residual into the changes of the unknowns, in `change`. One back-substitution, and for each shift one of
     /// [M G^T; G 0] (two where numbers are complex).
     pub fn solve(&mut self, at: &mut Linearized, structure: &Structure) -> Result<(), Halt> {
-        let Iteration { matrix, rows, slopes, change, part } = self;
+        let Iteration { matrix, rows, slopes, change, part, moved: [gw, gu] } = self;
         let Change { a, lambda, w, u, eta, mu } = change;
         for (i, row) in lambda.iter_mut().enumerate() {
             *row /= rows.lambda[rows.kind(i)].a[0];
         }
-        if let Some(shifts) = &mut at.shifts {
+        if !eta.is_empty() {
             for (i, row) in eta.iter_mut().enumerate() {
                 *row = rows.eta[rows.kind(i)].map_or(T::ZERO, |slope| (*row - slope.a[0] * lambda[i]) / slope.w[0]);
             }
-            shift(shifts, eta, w, part)?;
+            gw.copy_from_slice(eta);
+            shift(&mut at.shifts, w, eta, part)?;
             subtract(&structure.tangent, &at.tangent.c, slopes.w, w, a);
             subtract(&structure.tangent, &at.tangent.k, slopes.w_q, w, a);
-            rows.subtract(&structure.g, &at.l, |slope| slope.w, (w, eta), lambda);
+            rows.subtract(&structure.g, &at.l, |slope| slope.w, (w, gw), lambda);
+        }
+        if !mu.is_empty() {
             for (i, row) in mu.iter_mut().enumerate() {
-                let moved = |slope: Slope<T>| {
-                    let by_w = eta.get(i).map_or(T::ZERO, |gw| slope.w[0] * *gw);
-                    (*row - slope.a[0] * lambda[i] - by_w) / slope.u[0]
-                };
+                let moved = |slope: Slope<T>| (*row - slope.a[0] * lambda[i] - slope.w[0] * gw[i]) / slope.u[0];
                 *row = rows.mu[rows.kind(i)].map_or(T::ZERO, moved);
             }
-            shift(shifts, mu, u, part)?;
+            gu.copy_from_slice(mu);
+            shift(&mut at.shifts, u, mu, part)?;
             subtract(&structure.tangent, &at.tangent.k, slopes.u, u, a);
-            rows.subtract(&structure.g, &at.l, |slope| slope.u, (u, mu), lambda);
+            rows.subtract(&structure.g, &at.l, |slope| slope.u, (u, gu), lambda);
         }
         Ok(matrix.solve(a, lambda)?)
     }
@@ -252,16 +256,21 @@ impl<T: Number> Rows<T> {
     }
 }
 
-/// The least x in the metric of M with G x = `rows`.
-fn shift<T: Number>(solver: &mut SaddlePoint, rows: &[T], x: &mut [T], part: &mut [Vec<f64>; 2]) -> Result<(), Halt> {
-    if x.is_empty() {
-        return Ok(());
-    }
+/// [M G^T; G 0] (x, multipliers) = (x, multipliers), in place, a real part at a time.
+fn shift<T: Number>(
+    solver: &mut Option<SaddlePoint>,
+    x: &mut [T],
+    multipliers: &mut [T],
+    part: &mut [Vec<f64>; 2],
+) -> Result<(), Halt> {
+    let Some(solver) = solver else { return Ok(()) };
     let [top, bottom] = part;
     for k in 0..T::PARTS {
-        bottom.iter_mut().zip(rows).for_each(|(part, row)| *part = row.part(k));
-        solver.solve_projection(bottom, top)?;
+        top.iter_mut().zip(&*x).for_each(|(part, x)| *part = x.part(k));
+        bottom.iter_mut().zip(&*multipliers).for_each(|(part, row)| *part = row.part(k));
+        solver.solve(top, bottom)?;
         x.iter_mut().zip(&*top).for_each(|(x, &part)| x.set_part(part, k));
+        multipliers.iter_mut().zip(&*bottom).for_each(|(x, &part)| x.set_part(part, k));
     }
     Ok(())
 }

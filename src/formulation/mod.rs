@@ -32,7 +32,7 @@ pub use dynamics::{Dynamics, Halt};
 pub use iteration::{Change, Iteration, Number, Slopes};
 pub use linearized::{Linearized, NO_TANGENT};
 pub use penalty::{OMEGA, PENALTY, XI, mean_compliance};
-pub use residual::Residual;
+pub use residual::{Residual, Unknowns};
 pub use stabilizer::{Field, Stabilizer};
 pub use statistics::{Statistics, Work};
 pub use turn::turn;

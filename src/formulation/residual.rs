@@ -3,13 +3,26 @@
 use super::{Dae, Dynamics, Halt, Row};
 use crate::system::{Dimensions, Need};
 
-/// The residual of [`Dae`], with its sign turned. The shifts w and u meet their own equations exactly, since
-/// methods find them as -M^-1 G^T eta and -M^-1 G^T mu.
+/// The unknowns of [`Dae`] beside q and v: n_v and n_c numbers in turn; of shifts that it does not have, none.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Unknowns<'u> {
+    pub a: &'u [f64],
+    pub lambda: &'u [f64],
+    pub w: &'u [f64],
+    pub eta: &'u [f64],
+    pub u: &'u [f64],
+    pub mu: &'u [f64],
+}
+
+/// The residual of [`Dae`], with its sign turned.
 #[derive(Clone, Debug)]
 pub struct Residual {
     /// f - M a - G^T lambda, n_v
     pub motion: Vec<f64>,
-    /// n_c each
+    /// -M w - G^T eta and -M u - G^T mu, where there are shifts.
+    pub w: Vec<f64>,
+    pub u: Vec<f64>,
+    /// The rows, n_c each.
     pub lambda: Vec<f64>,
     pub eta: Vec<f64>,
     pub mu: Vec<f64>,
@@ -22,10 +35,11 @@ impl Residual {
     pub fn new(n: Dimensions) -> Self {
         let rows = || vec![0.0; n.lambda];
         let (lambda, eta, mu, phi_ddot) = (rows(), rows(), rows(), rows());
-        Residual { motion: vec![0.0; n.v], lambda, eta, mu, phi_ddot, power: 0.0 }
+        let zeros = || vec![0.0; n.v];
+        Residual { motion: zeros(), w: zeros(), u: zeros(), lambda, eta, mu, phi_ddot, power: 0.0 }
     }
 
-    /// Evaluates the terms at (t, q, v) and the residual for the unknowns (a, lambda). One evaluation.
+    /// Evaluates the terms at (t, q, v) and the residual for the unknowns. One evaluation.
     ///
     /// # Errors
     /// A state that is not finite.
@@ -33,7 +47,7 @@ impl Residual {
         &mut self,
         dae: &Dae,
         (t, q, v): (f64, &[f64], &[f64]),
-        unknowns: (&[f64], &[f64]),
+        unknowns: Unknowns,
         dynamics: &mut Dynamics,
     ) -> Result<(), Halt> {
         if q.iter().chain(v).any(|x| !x.is_finite()) {
@@ -46,11 +60,23 @@ impl Residual {
     }
 
     /// The same by terms that are there.
-    pub fn of_terms(&mut self, dae: &Dae, (a, lambda): (&[f64], &[f64]), dynamics: &Dynamics) {
+    pub fn of_terms(&mut self, dae: &Dae, unknowns: Unknowns, dynamics: &Dynamics) {
         let (terms, structure) = (&dynamics.terms, &dynamics.structure);
-        self.motion.fill(0.0);
-        structure.mass.multiply_symmetric(&terms.mass, a, &mut self.motion);
-        structure.g.multiply_transposed(&terms.g, lambda, &mut self.motion);
+        let Unknowns { a, lambda, w, eta, u, mu } = unknowns;
+        let inertia = |x: &[f64], multipliers: &[f64], out: &mut [f64]| {
+            out.fill(0.0);
+            structure.mass.multiply_symmetric(&terms.mass, x, out);
+            structure.g.multiply_transposed(&terms.g, multipliers, out);
+        };
+        for (is_there, x, multipliers, out) in
+            [(dae.eta.is_some(), w, eta, &mut self.w), (dae.mu.is_some(), u, mu, &mut self.u)]
+        {
+            if is_there {
+                inertia(x, multipliers, out);
+                out.iter_mut().for_each(|left| *left = -*left);
+            }
+        }
+        inertia(a, lambda, &mut self.motion);
         self.motion.iter_mut().zip(&terms.f).for_each(|(left, f)| *left = f - *left);
         if dae.holds(2) {
             self.phi_ddot.iter_mut().zip(&terms.gamma).for_each(|(row, gamma)| *row = -gamma);

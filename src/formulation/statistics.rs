@@ -67,6 +67,15 @@ pub struct Work {
     pub projections: u64,
 }
 
+impl From<Work> for Statistics {
+    /// As that of steps.
+    fn from(work: Work) -> Self {
+        let Work { rhs_evaluations, jacobian_evaluations, factorizations, newton_iterations, projections } = work;
+        let none = Statistics::default();
+        Statistics { rhs_evaluations, jacobian_evaluations, factorizations, newton_iterations, projections, ..none }
+    }
+}
+
 impl Add for Work {
     type Output = Self;
     fn add(self, other: Self) -> Self {

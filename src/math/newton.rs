@@ -123,7 +123,7 @@ impl Monitor {
 
     /// Whether the matrix of the last iteration is good enough for the next one.
     pub fn keeps_matrix(&self) -> bool {
-        self.rate <= self.limits.kept_rate
+        self.slowest <= self.limits.kept_rate
     }
 
     /// What is left of the error, in the unit of changes.
@@ -186,6 +186,11 @@ impl Monitor {
             _ if self.iterations >= most || change.is_nan() => Verdict::Diverged,
             _ => Verdict::Continue,
         }
+    }
+
+    /// The next iteration is of the same system with another matrix: where the last one stopped says nothing of round-off.
+    pub fn reset(&mut self) {
+        self.stalled = f64::INFINITY;
     }
 
     /// What the next iteration takes from the last one, which converged: see [`recall`](Self::recall).

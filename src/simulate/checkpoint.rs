@@ -152,7 +152,7 @@ impl Run<'_> {
             progress: self.progress,
             next_row: self.rows.next,
             factored: self.factored,
-            statistics: dynamics.statistics,
+            statistics: self.statistics(),
         }
     }
 
@@ -166,6 +166,10 @@ impl Run<'_> {
         self.show((self.approach != Approach::default()).then_some(self.approach.sine), sink);
         self.rows.y.copy_from_slice(&self.y);
         self.rows.emit(self.t, sink).map_err(|halt| self.halted(&halt))?;
+        if saved.method == *method {
+            // The work of the saved run holds that of this row.
+            self.rows.problem.dynamics.statistics = saved.statistics.rows.into();
+        }
         let is_same = self.span.start == saved.span.start && self.span.output_step == saved.span.output_step;
         self.rows.next = if is_same { saved.next_row } else { self.next_row() };
         Ok(())

@@ -99,9 +99,13 @@ fn recommendations_are_the_best_of_what_was_measured() {
     let drift = |place: usize| result.cells[place].drift().unwrap().largest();
     for advice in all {
         let digits = f64::from(advice.digits);
-        let (best, next) = (&result.cells[advice.best], &result.cells[advice.next.unwrap()]);
+        // What round-off lets be reached, one method may reach alone.
+        let Some(next) = advice.next.or_else(|| (advice.digits >= 12).then_some(advice.best)) else {
+            panic!("nothing next to the best for {digits} digits")
+        };
+        let (best, next) = (&result.cells[advice.best], &result.cells[next]);
         assert!(best.digits().unwrap() >= digits && next.digits().unwrap() >= digits);
-        assert_ne!(best.method.integrator, next.method.integrator);
+        assert!(advice.next.is_none() || best.method.integrator != next.method.integrator);
         let good = result.cells.iter().filter(|cell| cell.digits() >= Some(digits));
         let least = good.filter_map(|cell| cell.cost).fold(f64::INFINITY, f64::min);
         for place in [&[advice.best], &advice.ties[..]].concat() {

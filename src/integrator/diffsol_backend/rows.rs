@@ -3,7 +3,7 @@
 use super::super::{From, Setup};
 use super::form::{Dense, Form};
 use super::kinematics::Kinematics;
-use crate::formulation::{Dae, Dynamics, Halt, NO_TANGENT, Residual, Row, Statistics};
+use crate::formulation::{Dae, Dynamics, Halt, NO_TANGENT, Residual, Row, Statistics, Unknowns};
 use crate::system::{Dimensions, Loaded, Need, Tangent};
 use std::ops::Range;
 
@@ -159,33 +159,31 @@ impl Form for Rows<'_> {
         let Places { v, work, a, lambda, w, u, .. } = &self.places;
         let (dynamics, q) = (&mut self.dynamics, &x[..v.start]);
         let state = (t, q, &x[v.clone()]);
-        self.residual.evaluate(&self.dae, state, (&x[a.clone()], &x[lambda.clone()]), dynamics)?;
-        out.fill(0.0);
+        let pair = |places: &Option<[Range<usize>; 2]>| {
+            places.as_ref().map_or([&[][..]; 2], |[moved, multipliers]| [&x[moved.clone()], &x[multipliers.clone()]])
+        };
+        let ([of_w, of_eta], [of_u, of_mu]) = (pair(w), pair(u));
+        let (a_1, lambda_1) = (&x[a.clone()], &x[lambda.clone()]);
+        let unknowns = Unknowns { a: a_1, lambda: lambda_1, w: of_w, eta: of_eta, u: of_u, mu: of_mu };
+        self.residual.evaluate(&self.dae, state, unknowns, dynamics)?;
+        let Residual { motion, lambda: rows, w: left_w, eta: left_eta, u: left_u, mu: left_mu, power, .. } =
+            &self.residual;
         dynamics.system.rate(q, &self.velocity, &mut out[..v.start]);
-        out[v.clone()].copy_from_slice(&x[a.clone()]);
-        out[*work] = self.residual.power;
-        out[a.clone()].copy_from_slice(&self.residual.motion);
-        out[lambda.clone()].copy_from_slice(&self.residual.lambda);
-        if let Some([w, eta]) = w {
-            out[v.clone()].iter_mut().zip(&x[w.clone()]).for_each(|(rate, w)| *rate += w);
-            out[eta.clone()].copy_from_slice(&self.residual.eta);
-        }
-        if let Some([_, mu]) = u {
-            out[mu.clone()].copy_from_slice(&self.residual.mu);
-        }
-        let (terms, structure) = (&dynamics.terms, &dynamics.structure);
-        for [moved, multipliers] in [w, u].into_iter().flatten() {
-            structure.mass.multiply_symmetric(&terms.mass, &x[moved.clone()], &mut out[moved.clone()]);
-            structure.g.multiply_transposed(&terms.g, &x[multipliers.clone()], &mut out[moved.clone()]);
-        }
+        out[v.clone()].copy_from_slice(a_1);
+        out[v.clone()].iter_mut().zip(of_w).for_each(|(rate, w)| *rate += w);
+        out[*work] = *power;
+        let mut set = |place: &Range<usize>, left: &[f64]| {
+            out[place.clone()].iter_mut().zip(left).for_each(|(out, left)| *out = -left);
+        };
+        set(a, motion);
+        set(lambda, rows);
+        w.iter()
+            .for_each(|[w, eta]| [(w, left_w), (eta, left_eta)].into_iter().for_each(|(place, left)| set(place, left)));
+        u.iter()
+            .for_each(|[u, mu]| [(u, left_u), (mu, left_mu)].into_iter().for_each(|(place, left)| set(place, left)));
         let multipliers = [Some(lambda), w.as_ref().map(|[_, eta]| eta), u.as_ref().map(|[_, mu]| mu)];
         for place in multipliers.into_iter().flatten() {
-            dynamics.held.iter().for_each(|row| out[place.start + row] = -x[place.start + row]);
-        }
-        // The residual has its sign turned.
-        out[a.start..].iter_mut().for_each(|left| *left = -*left);
-        for [moved, _] in [w, u].into_iter().flatten() {
-            out[moved.clone()].iter_mut().for_each(|left| *left = -*left);
+            dynamics.held.iter().for_each(|row| out[place.start + row] = x[place.start + row]);
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use super::super::memory::Reader;
 use super::super::{From, Problem};
-use crate::formulation::{Change, Dae, Halt, Slopes, turn};
+use crate::formulation::{Change, Dae, Halt, Slopes, Unknowns, turn};
 use crate::math::largest;
 use crate::system::Dimensions;
 
@@ -38,9 +38,6 @@ impl Scheme {
     }
 }
 
-/// Of q, in the shift that its rows ask for: a few operations.
-const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
-
 /// What one step hands to the next.
 pub(super) struct Carried {
     /// Step that `a` goes with.
@@ -58,15 +55,21 @@ impl Carried {
 
 pub(super) struct Motion {
     scheme: Scheme,
+    /// See [`Dae::velocity_index`].
+    velocity_index: usize,
     /// What the start hands over is known.
     is_started: bool,
     start: Carried,
     pub end: Carried,
+    /// How v' and lambda changed over the last step, 1/s: zero before there is one.
+    trend: [Vec<f64>; 2],
     /// a at the start, for the step that is made.
     a: Vec<f64>,
-    /// The shifts of v and q.
+    /// The shifts of v and q with their multipliers.
     w: Vec<f64>,
+    eta: Vec<f64>,
     u: Vec<f64>,
+    mu: Vec<f64>,
     /// Change of q along the directions of v: with a_1 as predicted, and by what it then differs.
     predicted: Vec<f64>,
     change: Vec<f64>,
@@ -81,12 +84,16 @@ impl Motion {
         let zeros = |n: usize| vec![0.0; n];
         Motion {
             scheme,
+            velocity_index: dae.velocity_index(),
             is_started: false,
             start: Carried::new(n),
             end: Carried::new(n),
+            trend: [zeros(n.v), zeros(n.lambda)],
             a: zeros(n.v),
             w: zeros(n.v),
+            eta: zeros(n.lambda),
             u: zeros(n.v),
+            mu: zeros(n.lambda),
             predicted: zeros(n.v),
             change: zeros(n.v),
             a_predicted: zeros(n.v),
@@ -96,7 +103,7 @@ impl Motion {
     }
 
     /// Takes over what the step before reached (or starts), for a step of size `h`; a step tried before from here is
-    /// forgotten. `ahead` is scratch. Leaves v' and lambda of the start as a prediction of those at the end.
+    /// forgotten. `ahead` is scratch. Leaves a prediction of v' and lambda at the end, along the line of the last step.
     pub fn begin(&mut self, problem: &mut Problem, from: From, h: f64, ahead: &mut [f64]) -> Result<(), Halt> {
         if !self.is_started {
             self.start(problem, from, h, ahead)?;
@@ -106,10 +113,11 @@ impl Motion {
         for (i, next) in self.a.iter_mut().enumerate() {
             *next = vdot[i] + h / own * (a[i] - vdot[i]);
         }
-        self.end.vdot.copy_from_slice(vdot);
-        self.end.lambda.copy_from_slice(lambda);
-        self.w.fill(0.0);
-        self.u.fill(0.0);
+        let ends = [(&mut self.end.vdot, vdot, &self.trend[0]), (&mut self.end.lambda, lambda, &self.trend[1])];
+        for (end, start, trend) in ends {
+            end.iter_mut().zip(start.iter().zip(trend)).for_each(|(end, (start, trend))| *end = start + h * trend);
+        }
+        [&mut self.w, &mut self.eta, &mut self.u, &mut self.mu].into_iter().for_each(|shift| shift.fill(0.0));
         self.predict(problem, from, h);
         Ok(())
     }
@@ -130,6 +138,7 @@ impl Motion {
         }
         self.start.lambda.copy_from_slice(&dynamics.lambda);
         (self.is_started, self.start.h) = (true, h);
+        self.trend.iter_mut().for_each(|trend| trend.fill(0.0));
         Ok(())
     }
 
@@ -141,7 +150,8 @@ impl Motion {
     /// What the start hands over, as numbers.
     pub fn memory(&self) -> Vec<f64> {
         let Carried { h, a, vdot, lambda } = &self.start;
-        [&[f64::from(self.is_started), *h], &a[..], vdot, lambda].concat()
+        let [of_vdot, of_lambda] = &self.trend;
+        [&[f64::from(self.is_started), *h], &a[..], vdot, lambda, of_vdot, of_lambda].concat()
     }
 
     /// Goes on with a [`memory`](Self::memory).
@@ -149,12 +159,25 @@ impl Motion {
         self.is_started = memory.number() != 0.0;
         let Carried { h, a, vdot, lambda } = &mut self.start;
         *h = memory.number();
-        [a, vdot, lambda].into_iter().for_each(|values| memory.fill(values));
+        let [of_vdot, of_lambda] = &mut self.trend;
+        [a, vdot, lambda, of_vdot, of_lambda].into_iter().for_each(|values| memory.fill(values));
     }
 
     /// The step is taken.
     pub fn accepted(&mut self) {
+        let (Carried { vdot, lambda, h, .. }, Carried { vdot: vdot_0, lambda: lambda_0, .. }) =
+            (&self.end, &self.start);
+        let [of_vdot, of_lambda] = &mut self.trend;
+        for (trend, (end, start)) in [(of_vdot, (vdot, vdot_0)), (of_lambda, (lambda, lambda_0))] {
+            trend.iter_mut().zip(end.iter().zip(start)).for_each(|(trend, (end, start))| *trend = (end - start) / h);
+        }
         std::mem::swap(&mut self.start, &mut self.end);
+    }
+
+    /// The unknowns at the end.
+    pub fn unknowns(&self) -> Unknowns<'_> {
+        let Carried { vdot, lambda, .. } = &self.end;
+        Unknowns { a: vdot, lambda, w: &self.w, eta: &self.eta, u: &self.u, mu: &self.mu }
     }
 
     /// How q_1 and v_1 change with v'_1 and the shifts.
@@ -163,17 +186,21 @@ impl Motion {
         Slopes { v: h * gamma * slope, q: h * h * beta * slope, w: 1.0, w_q: 0.0, u: 1.0 }
     }
 
-    /// Changes the unknowns; the largest change of v'_1, or of a shift as such. What is round-off of q, which is up to
-    /// `reach`, is no change: over h^2 it would hide those of v'_1.
-    pub fn correct(&mut self, change: &Change<f64>, h: f64, reach: f64) -> f64 {
+    /// Changes the unknowns; the largest change of v'_1, or of a shift as such. `round_off` is that of q: what a row of phi
+    /// makes of it is no change, since over h^2 it would hide all others.
+    pub fn correct(&mut self, change: &Change<f64>, h: f64, round_off: f64) -> f64 {
         let add = |sum: &mut [f64], change: &[f64]| sum.iter_mut().zip(change).for_each(|(sum, change)| *sum += change);
         add(&mut self.end.vdot, &change.a);
         add(&mut self.end.lambda, &change.lambda);
         add(&mut self.w, &change.w);
+        add(&mut self.eta, &change.eta);
         add(&mut self.u, &change.u);
+        add(&mut self.mu, &change.mu);
         let slopes = self.slopes(h);
-        let moved = Some(largest(&change.u)).filter(|moved| *moved > ROUND_OFF * reach).unwrap_or(0.0);
-        largest(&change.a).max(largest(&change.w) / slopes.v).max(moved / slopes.q)
+        let beyond = |size: f64, round_off: f64| if size > round_off { size } else { 0.0 };
+        let of_v = if self.velocity_index == 2 { round_off / slopes.q } else { 0.0 };
+        let moved = beyond(largest(&change.u), round_off) / slopes.q;
+        beyond(largest(&change.a), of_v).max(largest(&change.w) / slopes.v).max(moved)
     }
 
     /// The leading term of the error of q along the directions of v.

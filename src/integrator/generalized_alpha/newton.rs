@@ -11,12 +11,14 @@ use crate::system::{Loaded, MechanicalSystem};
 /// Corrections, as far predictions and kinks of forces want.
 const MOST: usize = 25;
 /// Relative change of v' below which it may stop falling, and the part of that which is round-off; and change of q, beside
-/// 1 m or rad or the largest q, below which it may: near rest, and far from the origin, v' is round-off itself.
+/// the largest q, below which it may: near rest, and far from the origin, v' is round-off itself.
 const SMALL: f64 = 1e-8;
 const ROUND_OFF: f64 = 1e-7;
 const STILL: f64 = 1e-14;
+/// Round-off of q in phi, as part of the largest: a few operations.
+const OF_Q: f64 = 16.0 * f64::EPSILON;
 /// The part of it that may be left where steps are controlled: phi is round-off then, and no more is asked of v'.
-const CONTROLLED: f64 = 1e-5;
+const CONTROLLED: f64 = 1e-6;
 /// With this rate the matrix serves the next step too: an iteration more costs far less than K and C. It serves steps up to
 /// this factor longer or shorter, in which M is most of it.
 const KEPT_RATE: f64 = 1e-2;
@@ -126,8 +128,8 @@ impl Newton {
             self.iteration.load(std::iter::once((1.0, &self.residual)));
             self.iteration.solve(&mut self.at, &problem.dynamics.structure)?;
             problem.dynamics.statistics.newton_iterations += 1;
-            let reach = largest(problem.split(to).0);
-            Ok::<_, Halt>(motion.correct(&self.iteration.change, h, reach) / self.small(problem, motion, h, to))
+            let round_off = OF_Q * largest(problem.split(to).0);
+            Ok::<_, Halt>(motion.correct(&self.iteration.change, h, round_off) / self.small(problem, motion, h, to))
         });
         self.monitor = monitor;
         if !converged? {
@@ -151,14 +153,14 @@ impl Newton {
         let (vdot, lambda) = (&motion.end.vdot, &motion.end.lambda);
         let dynamics = &mut problem.dynamics;
         if self.is_linearized && self.dropped == dynamics.held {
-            self.residual.evaluate(&self.dae, (t, q, v), (vdot, lambda), dynamics)?;
+            self.residual.evaluate(&self.dae, (t, q, v), motion.unknowns(), dynamics)?;
         } else {
             if to.iter().any(|x| !x.is_finite()) {
                 return Err(Halt::NotFinite);
             }
             self.at.update(Loaded { t, q, v, vdot, lambda }, dynamics)?;
             dynamics.statistics.rhs_evaluations += 1;
-            self.residual.of_terms(&self.dae, (vdot, lambda), dynamics);
+            self.residual.of_terms(&self.dae, motion.unknowns(), dynamics);
             (self.is_linearized, self.factored) = (true, None);
         }
         if self.factored.is_some_and(|own| own / h <= BAND && h / own <= BAND) {
@@ -178,6 +180,7 @@ impl Newton {
         let (q, v) = problem.split(to);
         let size = largest(&motion.end.a).max(largest(v) / h);
         let Slopes { q: by_q, .. } = motion.slopes(h);
-        (SMALL * size).max(STILL * largest(q).max(1.0) / by_q)
+        let reach = Some(largest(q)).filter(|reach| *reach > 0.0).unwrap_or(1.0);
+        (SMALL * size).max(STILL * reach / by_q)
     }
 }

@@ -103,11 +103,13 @@ fn correct<T: Number>(
 ) -> Result<(), Halt> {
     iteration.load(mode.left.iter().copied().zip(residuals));
     iteration.solve(at, &dynamics.structure)?;
-    let (change, Unknowns { a, lambda, w, u }) = (&iteration.change, unknowns);
+    let (change, Unknowns { a, lambda, w, eta, u, mu }) = (&iteration.change, unknowns);
     spread(mode, &change.a, a);
     spread(mode, &change.lambda, lambda);
     spread(mode, &change.w, w);
+    spread(mode, &change.eta, eta);
     spread(mode, &change.u, u);
+    spread(mode, &change.mu, mu);
     Ok(())
 }
 

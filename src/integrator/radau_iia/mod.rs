@@ -68,6 +68,7 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         dae,
         at: Linearized::new(dae, setup.system),
         is_linearized: false,
+        is_fresh: false,
         matrices: matrices()?,
         row_matrices: matrices()?,
         stages: Stages::new(most, n),
@@ -97,6 +98,8 @@ struct RadauIIA {
     /// M, G, L, K and C, and whether they are there.
     at: Linearized,
     is_linearized: bool,
+    /// Whether that is at the start of the step.
+    is_fresh: bool,
     matrices: Matrices,
     stages: Stages,
     /// Those of a step to an output row, and the internal tolerance.
@@ -139,7 +142,7 @@ impl RadauIIA {
         let ((q, v), (_, vdot)) = (problem.split(from.y), problem.split(from.slope));
         let at = Loaded { t: from.t, q, v, vdot, lambda: &self.lambda };
         self.at.update(at, &mut problem.dynamics)?;
-        self.is_linearized = true;
+        (self.is_linearized, self.is_fresh) = (true, true);
         Ok(())
     }
 
@@ -247,12 +250,12 @@ impl Integrator for RadauIIA {
             self.lambda.copy_from_slice(&problem.dynamics.lambda);
         }
         self.renew(problem)?;
-        let is_new = !self.is_linearized || !self.matrices.serves(&problem.dynamics.held);
-        if is_new {
+        if !self.is_linearized || !self.matrices.serves(&problem.dynamics.held) {
             self.linearize(problem, from)?;
         }
         let mut converged = self.solve(problem, from, h)?;
-        if !converged && !is_new {
+        if !converged && !self.is_fresh {
+            self.newton.reset();
             self.linearize(problem, from)?;
             converged = self.solve(problem, from, h)?;
         }
@@ -279,7 +282,7 @@ impl Integrator for RadauIIA {
         std::mem::swap(&mut self.before, &mut self.stages.unknowns);
         self.accepted = Some(step);
         self.row_matrices.forget();
-        self.is_begun = false;
+        (self.is_begun, self.is_fresh) = (false, false);
         self.is_linearized &= self.newton.keeps_matrix();
         self.order.accepted(tolerance, &self.seen);
     }
@@ -294,7 +297,9 @@ impl Integrator for RadauIIA {
         let Step { h, method } = self.accepted.unwrap_or(Step { h: 0.0, method: 0 });
         memory.extend([h, method as f64]);
         let stages = self.order.get(method).stages();
-        [&self.before.a, &self.before.lambda].into_iter().for_each(|rows| memory.extend(rows[..stages].concat()));
+        [&self.before.a, &self.before.lambda, &self.before.w, &self.before.u]
+            .into_iter()
+            .for_each(|rows| memory.extend(rows[..stages].concat()));
         if let Some((h, index)) = self.matrices.factored().filter(|_| self.is_linearized) {
             memory.extend([h, index as f64]);
             memory.extend(self.at.point());
@@ -310,7 +315,7 @@ impl Integrator for RadauIIA {
         self.accepted = (h > 0.0 && method < self.order.len()).then_some(Step { h, method });
         let Some(Step { method, .. }) = self.accepted else { return };
         let stages = self.order.get(method).stages();
-        [&mut self.before.a, &mut self.before.lambda]
+        [&mut self.before.a, &mut self.before.lambda, &mut self.before.w, &mut self.before.u]
             .into_iter()
             .for_each(|rows| rows[..stages].iter_mut().for_each(|row| memory.fill(row)));
         let (h, index) = (memory.number(), memory.number() as usize);

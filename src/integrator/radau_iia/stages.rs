@@ -1,7 +1,7 @@
 //! The stages of a step and what their equations leave.
 
 use super::collocation::Collocation;
-use crate::formulation::{Dae, Dynamics, Halt, Residual};
+use crate::formulation::{self, Dae, Dynamics, Halt, Residual};
 use crate::integrator::{From, Problem, Tolerance};
 use crate::math::largest;
 use crate::system::Dimensions;
@@ -28,26 +28,37 @@ pub struct Unknowns {
     pub a: Vec<Vec<f64>>,
     pub lambda: Vec<Vec<f64>>,
     pub w: Vec<Vec<f64>>,
+    pub eta: Vec<Vec<f64>>,
     pub u: Vec<Vec<f64>>,
+    pub mu: Vec<Vec<f64>>,
 }
 
 impl Unknowns {
     pub fn new(most: usize, n: Dimensions) -> Self {
         let rows = |width: usize| vec![vec![0.0; width]; most];
-        Unknowns { a: rows(n.v), lambda: rows(n.lambda), w: rows(n.v), u: rows(n.v) }
+        let [of_v, of_rows] = [n.v, n.lambda];
+        Unknowns {
+            a: rows(of_v),
+            lambda: rows(of_rows),
+            w: rows(of_v),
+            eta: rows(of_rows),
+            u: rows(of_v),
+            mu: rows(of_rows),
+        }
     }
 
     /// All stages alike, without shifts.
     pub fn reset(&mut self, a: &[f64], lambda: &[f64]) {
         self.a.iter_mut().for_each(|stage| stage.copy_from_slice(a));
         self.lambda.iter_mut().for_each(|stage| stage.copy_from_slice(lambda));
-        self.without_shifts();
+        [&mut self.w, &mut self.eta, &mut self.u, &mut self.mu].into_iter().flatten().for_each(|stage| stage.fill(0.0));
     }
 
-    /// A and lambda from the polynomials over the stages of another step by `method`, at the places `at` of that step, none
+    /// All but eta and mu from the polynomials over the stages of another step by `method`, at the places `at` of that step, none
     /// of them its start.
     pub fn predict(&mut self, before: &Unknowns, method: &Collocation, at: impl Iterator<Item = f64> + Clone) {
-        for (stages, before) in [(&mut self.a, &before.a), (&mut self.lambda, &before.lambda)] {
+        let Unknowns { a, lambda, w, eta, u, mu } = self;
+        for (stages, before) in [(a, &before.a), (lambda, &before.lambda), (w, &before.w), (u, &before.u)] {
             for (stage, x) in stages.iter_mut().zip(at.clone()) {
                 stage.fill(0.0);
                 for (j, before) in before.iter().enumerate().take(method.stages()) {
@@ -56,11 +67,8 @@ impl Unknowns {
                 }
             }
         }
-        self.without_shifts();
-    }
-
-    fn without_shifts(&mut self) {
-        self.w.iter_mut().chain(&mut self.u).for_each(|stage| stage.fill(0.0));
+        // They are linear in their equations, and what rows that depend on others have of them would grow by extrapolation.
+        eta.iter_mut().chain(mu).for_each(|stage| stage.fill(0.0));
     }
 
     /// Multipliers of rows that are dropped from the matrices: no correction reaches them.
@@ -176,7 +184,9 @@ impl Stages {
     ) -> Result<(), Halt> {
         for (i, residual) in self.residuals.iter_mut().enumerate().take(method.stages()) {
             let (q, v) = self.y[i].split_at(self.n.q);
-            let unknowns = (&self.unknowns.a[i][..], &self.unknowns.lambda[i][..]);
+            let Unknowns { a, lambda, w, eta, u, mu } = &self.unknowns;
+            let [a, lambda, w, eta, u, mu] = [a, lambda, w, eta, u, mu].map(|stages| &stages[i][..]);
+            let unknowns = formulation::Unknowns { a, lambda, w, eta, u, mu };
             residual.evaluate(dae, (t + method.nodes[i] * h, q, &v[..self.n.v]), unknowns, dynamics)?;
         }
         Ok(())
