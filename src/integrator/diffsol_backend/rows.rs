@@ -117,6 +117,9 @@ impl<'s> Rows<'s> {
         let holonomic = self.dynamics.system.dimensions().holonomic();
         let dropped = &self.dynamics.held;
         dropped.iter().for_each(|row| out.add(at + row, at + row, 1.0));
+        // Multipliers without a row are zero.
+        let without = |row: &usize| kinds[usize::from(*row >= holonomic)].is_none() && !dropped.contains(row);
+        (0..g.rows).filter(without).for_each(|row| out.add(at + row, at + row, 1.0));
         for (&(i, j), (g, l)) in g.entries.iter().zip(terms.g.iter().zip(&terms.l)) {
             if dropped.contains(&i) {
                 continue;
@@ -184,6 +187,10 @@ impl Form for Rows<'_> {
         let multipliers = [Some(lambda), w.as_ref().map(|[_, eta]| eta), u.as_ref().map(|[_, mu]| mu)];
         for place in multipliers.into_iter().flatten() {
             dynamics.held.iter().for_each(|row| out[place.start + row] = x[place.start + row]);
+        }
+        let n = dynamics.system.dimensions();
+        for [_, place] in u {
+            (place.start + n.holonomic()..place.end).for_each(|row| out[row] += x[row]);
         }
         Ok(())
     }

@@ -61,8 +61,6 @@ pub(super) struct Motion {
     is_started: bool,
     start: Carried,
     pub end: Carried,
-    /// How v' and lambda changed over the last step, 1/s: zero before there is one.
-    trend: [Vec<f64>; 2],
     /// a at the start, for the step that is made.
     a: Vec<f64>,
     /// The shifts of v and q with their multipliers.
@@ -88,7 +86,6 @@ impl Motion {
             is_started: false,
             start: Carried::new(n),
             end: Carried::new(n),
-            trend: [zeros(n.v), zeros(n.lambda)],
             a: zeros(n.v),
             w: zeros(n.v),
             eta: zeros(n.lambda),
@@ -103,7 +100,7 @@ impl Motion {
     }
 
     /// Takes over what the step before reached (or starts), for a step of size `h`; a step tried before from here is
-    /// forgotten. `ahead` is scratch. Leaves a prediction of v' and lambda at the end, along the line of the last step.
+    /// forgotten. `ahead` is scratch. Leaves v' and lambda of the start as a prediction of those at the end.
     pub fn begin(&mut self, problem: &mut Problem, from: From, h: f64, ahead: &mut [f64]) -> Result<(), Halt> {
         if !self.is_started {
             self.start(problem, from, h, ahead)?;
@@ -113,10 +110,8 @@ impl Motion {
         for (i, next) in self.a.iter_mut().enumerate() {
             *next = vdot[i] + h / own * (a[i] - vdot[i]);
         }
-        let ends = [(&mut self.end.vdot, vdot, &self.trend[0]), (&mut self.end.lambda, lambda, &self.trend[1])];
-        for (end, start, trend) in ends {
-            end.iter_mut().zip(start.iter().zip(trend)).for_each(|(end, (start, trend))| *end = start + h * trend);
-        }
+        self.end.vdot.copy_from_slice(vdot);
+        self.end.lambda.copy_from_slice(lambda);
         [&mut self.w, &mut self.eta, &mut self.u, &mut self.mu].into_iter().for_each(|shift| shift.fill(0.0));
         self.predict(problem, from, h);
         Ok(())
@@ -138,7 +133,6 @@ impl Motion {
         }
         self.start.lambda.copy_from_slice(&dynamics.lambda);
         (self.is_started, self.start.h) = (true, h);
-        self.trend.iter_mut().for_each(|trend| trend.fill(0.0));
         Ok(())
     }
 
@@ -150,8 +144,7 @@ impl Motion {
     /// What the start hands over, as numbers.
     pub fn memory(&self) -> Vec<f64> {
         let Carried { h, a, vdot, lambda } = &self.start;
-        let [of_vdot, of_lambda] = &self.trend;
-        [&[f64::from(self.is_started), *h], &a[..], vdot, lambda, of_vdot, of_lambda].concat()
+        [&[f64::from(self.is_started), *h], &a[..], vdot, lambda].concat()
     }
 
     /// Goes on with a [`memory`](Self::memory).
@@ -159,18 +152,11 @@ impl Motion {
         self.is_started = memory.number() != 0.0;
         let Carried { h, a, vdot, lambda } = &mut self.start;
         *h = memory.number();
-        let [of_vdot, of_lambda] = &mut self.trend;
-        [a, vdot, lambda, of_vdot, of_lambda].into_iter().for_each(|values| memory.fill(values));
+        [a, vdot, lambda].into_iter().for_each(|values| memory.fill(values));
     }
 
     /// The step is taken.
     pub fn accepted(&mut self) {
-        let (Carried { vdot, lambda, h, .. }, Carried { vdot: vdot_0, lambda: lambda_0, .. }) =
-            (&self.end, &self.start);
-        let [of_vdot, of_lambda] = &mut self.trend;
-        for (trend, (end, start)) in [(of_vdot, (vdot, vdot_0)), (of_lambda, (lambda, lambda_0))] {
-            trend.iter_mut().zip(end.iter().zip(start)).for_each(|(trend, (end, start))| *trend = (end - start) / h);
-        }
         std::mem::swap(&mut self.start, &mut self.end);
     }
 

@@ -15,6 +15,8 @@ const MOST: usize = 25;
 const SMALL: f64 = 1e-8;
 const ROUND_OFF: f64 = 1e-7;
 const STILL: f64 = 1e-14;
+/// The smallest largest q that counts, m or rad.
+const LEAST: f64 = 1e-10;
 /// Round-off of q in phi, as part of the largest: a few operations.
 const OF_Q: f64 = 16.0 * f64::EPSILON;
 /// The part of it that may be left where steps are controlled: phi is round-off then, and no more is asked of v'.
@@ -45,6 +47,8 @@ pub(super) struct Newton {
     residual: Residual,
     monitor: Monitor,
     is_linearized: bool,
+    /// Whether the last iteration began with the matrix of a step before.
+    pub is_stale: bool,
     /// The step and the dropped rows for which the matrix is factored.
     factored: Option<f64>,
     dropped: Vec<usize>,
@@ -58,11 +62,12 @@ impl Newton {
         Some(Newton {
             dae,
             limits: limits(is_fixed),
-            at: Linearized::new(dae, system),
+            at: Linearized::new(dae, system).without_metric(),
             iteration: Iteration::new(dae, system)?,
             residual: Residual::new(system.dimensions()),
             monitor: Monitor::default(),
             is_linearized: false,
+            is_stale: false,
             factored: None,
             dropped: Vec::new(),
             recalled: None,
@@ -120,6 +125,7 @@ impl Newton {
         to: &mut [f64],
     ) -> Result<(), Halt> {
         self.renew(problem, motion)?;
+        self.is_stale = self.is_linearized;
         let mut monitor = std::mem::take(&mut self.monitor);
         let converged = monitor.solve(self.limits, |renews| {
             motion.advance(problem, from, h, to);
@@ -163,6 +169,8 @@ impl Newton {
             self.residual.of_terms(&self.dae, motion.unknowns(), dynamics);
             (self.is_linearized, self.factored) = (true, None);
         }
+        // Found from nothing by one metric, the shifts meet their own equations in it.
+        [&mut self.residual.w, &mut self.residual.u].into_iter().for_each(|left| left.fill(0.0));
         if self.factored.is_some_and(|own| own / h <= BAND && h / own <= BAND) {
             self.iteration.rescale(motion.slopes(h));
             return Ok(());
@@ -180,7 +188,7 @@ impl Newton {
         let (q, v) = problem.split(to);
         let size = largest(&motion.end.a).max(largest(v) / h);
         let Slopes { q: by_q, .. } = motion.slopes(h);
-        let reach = Some(largest(q)).filter(|reach| *reach > 0.0).unwrap_or(1.0);
+        let reach = Some(largest(q)).filter(|reach| *reach > 0.0).map_or(1.0, |reach| reach.max(LEAST));
         (SMALL * size).max(STILL * reach / by_q)
     }
 }

@@ -253,13 +253,16 @@ impl Integrator for RadauIIA {
         if !self.is_linearized || !self.matrices.serves(&problem.dynamics.held) {
             self.linearize(problem, from)?;
         }
-        let mut converged = self.solve(problem, from, h)?;
-        if !converged && !self.is_fresh {
+        let mut solved = self.solve(problem, from, h);
+        let is_solved = |solved: &std::result::Result<bool, Halt>| {
+            solved.as_ref().map_or_else(Halt::is_final, |converged| *converged)
+        };
+        if !self.is_fresh && !is_solved(&solved) {
             self.newton.reset();
             self.linearize(problem, from)?;
-            converged = self.solve(problem, from, h)?;
+            solved = self.solve(problem, from, h);
         }
-        if !converged {
+        if !solved? {
             return Err(Halt::NotConverged);
         }
         let s = self.order.method().stages();
