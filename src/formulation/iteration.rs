@@ -214,10 +214,7 @@ impl<T: Number> Iteration<T> {
                 *row = rows.eta[rows.kind(i)].map_or(T::ZERO, |slope| (*row - slope.a[0] * lambda[i]) / slope.w[0]);
             }
             gw.copy_from_slice(eta);
-            match &mut at.shifts {
-                Some(metric) => shift(metric, w, eta, part)?,
-                None => matrix.solve(w, eta)?,
-            }
+            shift(&mut at.shifts, w, eta, part)?;
             subtract(&structure.tangent, &at.tangent.c, slopes.w, w, a);
             subtract(&structure.tangent, &at.tangent.k, slopes.w_q, w, a);
             rows.subtract(&structure.g, &at.l, |slope| slope.w, (w, gw), lambda);
@@ -228,10 +225,7 @@ impl<T: Number> Iteration<T> {
                 *row = rows.mu[rows.kind(i)].map_or(T::ZERO, moved);
             }
             gu.copy_from_slice(mu);
-            match &mut at.shifts {
-                Some(metric) => shift(metric, u, mu, part)?,
-                None => matrix.solve(u, mu)?,
-            }
+            shift(&mut at.shifts, u, mu, part)?;
             subtract(&structure.tangent, &at.tangent.k, slopes.u, u, a);
             rows.subtract(&structure.g, &at.l, |slope| slope.u, (u, gu), lambda);
         }
@@ -264,11 +258,12 @@ impl<T: Number> Rows<T> {
 
 /// [M G^T; G 0] (x, multipliers) = (x, multipliers), in place, a real part at a time.
 fn shift<T: Number>(
-    solver: &mut SaddlePoint,
+    solver: &mut Option<SaddlePoint>,
     x: &mut [T],
     multipliers: &mut [T],
     part: &mut [Vec<f64>; 2],
 ) -> Result<(), Halt> {
+    let Some(solver) = solver else { return Ok(()) };
     let [top, bottom] = part;
     for k in 0..T::PARTS {
         top.iter_mut().zip(&*x).for_each(|(part, x)| *part = x.part(k));

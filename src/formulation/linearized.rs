@@ -41,13 +41,6 @@ impl Linearized {
         }
     }
 
-    /// Shifts are found by the matrix of the iteration in the place of M: so they stretch nothing that is stiff, where a method
-    /// takes up the shift of each step at once.
-    pub fn without_metric(mut self) -> Self {
-        self.shifts = None;
-        self
-    }
-
     /// t, q, v, v' and lambda of the state, from which [`recall`](Self::recall) takes them again.
     pub fn point(&self) -> &[f64] {
         &self.point

@@ -123,7 +123,7 @@ impl Monitor {
 
     /// Whether the matrix of the last iteration is good enough for the next one.
     pub fn keeps_matrix(&self) -> bool {
-        self.rate.max(self.slowest) <= self.limits.kept_rate
+        self.rate <= self.limits.kept_rate
     }
 
     /// What is left of the error, in the unit of changes.

@@ -189,7 +189,7 @@ impl Form for Rows<'_> {
             dynamics.held.iter().for_each(|row| out[place.start + row] = x[place.start + row]);
         }
         let n = dynamics.system.dimensions();
-        for [_, place] in u {
+        if let Some([_, place]) = u {
             (place.start + n.holonomic()..place.end).for_each(|row| out[row] += x[row]);
         }
         Ok(())

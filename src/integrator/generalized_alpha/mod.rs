@@ -18,8 +18,7 @@ use newton::Newton;
 /// alpha_m = (2 r - 1)/(r + 1),  alpha_f = r/(r + 1),  gamma = 1/2 + alpha_f - alpha_m,  beta = (gamma + 1/2)^2/4
 /// ```
 ///
-/// with the rows and the shifts u and w of the formulation's `Dae`, weighted by M + gamma' h C + beta' h^2 K in the place of M, so
-/// that stiff springs are not excited; r = rho_inf, the damping at infinite frequency. Source: Chung, Hulbert,
+/// with the rows and the shifts u and w of the formulation's `Dae`, r = rho_inf, the damping at infinite frequency. Source: Chung, Hulbert,
 /// J. Appl. Mech. 60 (1993) 371-375; Arnold, Bruels, Multibody Syst. Dyn. 18 (2007) 185-202; stabilized index 2:
 /// Arnold, Bruels, Cardona, Numer. Math. 129 (2015) 149-179. Rotations advance along the group, q exp(Dq) by four Runge-Kutta stages of
 /// q' = N(q) Dq; with ggl in two factors, one for the change that was predicted and one for the rest, so that Newton's

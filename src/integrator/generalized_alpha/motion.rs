@@ -55,8 +55,6 @@ impl Carried {
 
 pub(super) struct Motion {
     scheme: Scheme,
-    /// See [`Dae::velocity_index`].
-    velocity_index: usize,
     /// What the start hands over is known.
     is_started: bool,
     start: Carried,
@@ -82,7 +80,6 @@ impl Motion {
         let zeros = |n: usize| vec![0.0; n];
         Motion {
             scheme,
-            velocity_index: dae.velocity_index(),
             is_started: false,
             start: Carried::new(n),
             end: Carried::new(n),
@@ -183,10 +180,8 @@ impl Motion {
         add(&mut self.u, &change.u);
         add(&mut self.mu, &change.mu);
         let slopes = self.slopes(h);
-        let beyond = |size: f64, round_off: f64| if size > round_off { size } else { 0.0 };
-        let of_v = if self.velocity_index == 2 { round_off / slopes.q } else { 0.0 };
-        let moved = beyond(largest(&change.u), round_off) / slopes.q;
-        beyond(largest(&change.a), of_v).max(largest(&change.w) / slopes.v).max(moved)
+        let moved = Some(largest(&change.u)).filter(|moved| *moved > round_off).unwrap_or(0.0) / slopes.q;
+        largest(&change.a).max(largest(&change.w) / slopes.v).max(moved)
     }
 
     /// The leading term of the error of q along the directions of v.

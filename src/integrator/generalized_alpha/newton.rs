@@ -62,7 +62,7 @@ impl Newton {
         Some(Newton {
             dae,
             limits: limits(is_fixed),
-            at: Linearized::new(dae, system).without_metric(),
+            at: Linearized::new(dae, system),
             iteration: Iteration::new(dae, system)?,
             residual: Residual::new(system.dimensions()),
             monitor: Monitor::default(),
