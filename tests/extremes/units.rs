@@ -82,7 +82,8 @@ fn adaptive_methods_do_not_see_units() {
 fn fixed_steps_do_not_see_units() {
     compare(&fixed("index3", "rattle", "none", 1e-3), 1e-12);
     compare(&fixed("ggl", "radau_iia", "none", 1e-3), 1e-12);
-    compare(&fixed("ggl", "generalized_alpha", "none", 1e-3), 1e-11);
-    compare(&fixed("index3", "generalized_alpha", "none", 1e-3), 1e-11);
+    // A matrix that stays leaves round-off of q over h^2 in v', which sums of a step before or after see.
+    compare(&fixed("ggl", "generalized_alpha", "none", 1e-3), 1e-9);
+    compare(&fixed("index3", "generalized_alpha", "none", 1e-3), 1e-9);
     compare(&fixed("index3", "ali3p", "none", 1e-3), 1e-11);
 }
