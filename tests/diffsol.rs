@@ -192,7 +192,9 @@ fn redundant_constraints_are_dropped() {
     for entry in implicit() {
         for formulation in entry.accepts() {
             let found = outputs(formulation, entry.name);
-            assert_eq!(found.len(), reference.len(), "{} {formulation}", entry.name);
+            let error = distance(&found, &reference) / distance(&reference, &vec![0.0; reference.len()]);
+            // Of the tolerance of 1e-6; index1 drifts by as much again.
+            assert!(error < 3e-5, "{} {formulation}: {error:e}", entry.name);
         }
     }
 }

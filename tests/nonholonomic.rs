@@ -61,7 +61,6 @@ fn every_method_keeps_a_skate_on_its_blade() {
                 Steps::Fixed => fixed(formulation, entry.name, "none", 2e-3),
                 _ => adaptive(formulation, entry.name, "none", 1e-7),
             };
-            println!("{formulation} + {}", entry.name);
             let found = run(&Skate, &method, until(END), (&[0.0; 3], &[0.0, 0.0, OMEGA])).completed();
             let (q, v, _) = found.last();
             let error = q.iter().zip(exact(END)).fold(0.0, |worst: f64, (q, exact)| worst.max((q - exact).abs()));

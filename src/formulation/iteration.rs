@@ -33,7 +33,7 @@ pub struct Slopes<T> {
 /// ```
 ///
 /// The rows are of the size of accelerations however small the step. Of phi'', its change with q by h^2 is left out.
-/// Source: Hairer, Wanner, Solving Ordinary Differential Dae II, IV.8, with the second-order structure used.
+/// Source: Hairer, Wanner, Solving Ordinary Differential Equations II, IV.8, with the second-order structure used.
 pub struct Iteration<T> {
     pub matrix: Unsymmetric<T>,
     rows: Rows<T>,

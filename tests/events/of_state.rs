@@ -83,7 +83,6 @@ fn contacts_of_any_law() {
         let rows = |names: [&str; 3]| scene.run(&method(names, 1e-9), span).column("m.y");
         let expected = scene.run(&dop853(1e-12), span).column("m.y");
         for names in [["index1", "dopri5", "none"], ["ggl", "radau_iia", "none"], ["index1", "bdf", "none"]] {
-            println!("{law} with {names:?}");
             let error = rows(names).iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             assert!(error < 1e-4, "{law} with {names:?}: {error:.1e}");
         }

@@ -24,7 +24,7 @@ pub enum Ending {
     Failed,
 }
 
-/// Velocities of a system whose dense matrices take a tenth of a second.
+/// Velocities and multipliers of a system whose dense matrices take a tenth of a second.
 const LARGE: usize = 300;
 
 /// Of one whose eigenvalues do not take long, also where they do not converge.
@@ -55,11 +55,12 @@ fn try_all(path: &Path) -> Result<Ending, String> {
     // Names may be anything, that too.
     let has_name = std::fs::read_to_string(path).is_ok_and(|text| text.contains("NaN"));
     sound(has_name || !check(&study).text().contains("NaN"), "the check prints NaN")?;
-    if study.system().dimensions().v > LARGE {
+    let dimensions = study.system().dimensions();
+    if dimensions.v + dimensions.lambda > LARGE {
         return Ok(Ending::Large);
     }
     let ending = run(&study)?;
-    if study.system().dimensions().v > MEDIUM {
+    if dimensions.v > MEDIUM {
         return Ok(ending);
     }
     let model = State::start(&study).variation(&study).and_then(|mut variation| {

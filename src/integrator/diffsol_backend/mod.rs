@@ -142,8 +142,9 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Implicit<'h, 's, S> {
     fn advance(&mut self, solver: &mut S, (began, h): (f64, f64), to: &mut [f64]) -> Result<(), Halt> {
         let end = began + h;
         if !self.is_ahead {
-            // Smaller steps are lost in the rounding of t.
-            *solver.config_mut().as_base_mut().minimum_timestep = f64::EPSILON * began.abs().max(1e-3 * h);
+            // Smaller steps are lost in the rounding of t; without a least one diffsol tries for ever.
+            let least = f64::EPSILON * began.abs().max(1e-3 * h);
+            *solver.config_mut().as_base_mut().minimum_timestep = least.max(f64::MIN_POSITIVE);
             solver.step().map_err(|error| self.halt(error))?;
             // What stopped an evaluation on the way was overcome.
             self.own_halt();
@@ -170,7 +171,9 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Implicit<'h, 's, S> {
     fn halt(&self, error: DiffsolError) -> Halt {
         self.own_halt().unwrap_or(match error {
             DiffsolError::OdeSolverError(OdeSolverError::TooManyErrorTestFailures { .. }) => Halt::TooInaccurate,
-            DiffsolError::OdeSolverError(OdeSolverError::StepSizeTooSmall { .. }) => Halt::NotConverged,
+            DiffsolError::OdeSolverError(
+                OdeSolverError::StepSizeTooSmall { .. } | OdeSolverError::TooManyNonlinearSolverFailures { .. },
+            ) => Halt::NotConverged,
             _ => Halt::Singular(Singular::NotFactored),
         })
     }
