@@ -4,62 +4,22 @@
 mod common;
 
 use common::driven_pendulum::{DrivenPendulum, start};
+use common::orders::{self, END, Rows, integrators, steps};
 use common::{fixed, run, until};
-use holonom::integrator::{Entry, Steps, registry};
-use holonom::projection::registry as projections;
-use holonom::simulate::Span;
-use rayon::prelude::*;
+use holonom::integrator::Entry;
+use holonom::simulate::{Method, Span};
 
-const END: f64 = 1.5;
+const LEVELS: [(&str, std::ops::Range<usize>); 3] = [("q", 1..5), ("v", 5..9), ("lambda", 9..11)];
 
-/// Those that take fixed steps; the others have their orders proven by tolerances in tests/diffsol.rs.
-fn integrators() -> impl Iterator<Item = &'static Entry> {
-    registry().iter().filter(|entry| entry.steps != Steps::Own)
-}
-
-/// q, v and lambda at eight times; steps that are a multiple of eight in number need no interpolation, and one more puts
-/// the rows at all eighths of a step.
-fn solution(formulation: &str, integrator: &str, projection: &str, steps: usize) -> Vec<Vec<f64>> {
+/// q, v and lambda at eight times.
+fn solution(method: &Method) -> Rows {
     let (q, v) = start();
-    let method = fixed(formulation, integrator, projection, END / steps as f64);
     let span = Span { output_step: END / 8.0, ..until(END) };
-    run(&DrivenPendulum, &method, span, (&q, &v)).completed().record.trajectory.rows
+    run(&DrivenPendulum, method, span, (&q, &v)).completed().record.trajectory.rows
 }
 
-/// Euclidean norms of the errors of q, v and lambda over all rows: one component alone may pass through zero.
-fn errors(rows: &[Vec<f64>], reference: &[Vec<f64>]) -> [f64; 3] {
-    [1..5, 5..9, 9..11].map(|columns| {
-        let error = |(row, exact): (&Vec<f64>, &Vec<f64>)| -> f64 {
-            columns.clone().map(|i| (row[i] - exact[i]).powi(2)).sum()
-        };
-        rows.iter().zip(reference).map(error).sum::<f64>().sqrt()
-    })
-}
-
-/// Numbers of steps at which the leading term of the error rules while the error is above 1e-12, four digits over
-/// round-off. That range is narrow for order 8, whose leading term is small, as are all those of collocation.
-fn steps(entry: &Entry) -> [usize; 2] {
-    match (entry.name, entry.order) {
-        ("radau_iia", _) => [64, 128],
-        (_, ..=4) => [128, 256],
-        (_, 5) => [256, 512],
-        _ => [32, 40],
-    }
-}
-
-/// Gains with which the stabilizing terms are no faster than the motion; faster ones need smaller steps to show the
-/// order.
-fn gentle(formulation: &str) -> String {
-    match formulation {
-        "baumgarte" => "baumgarte:alpha=1".to_string(),
-        "invariant_manifold" => "invariant_manifold:gamma=1".to_string(),
-        "force_projection" => "force_projection:position=1".to_string(),
-        // What a penalty solves differs from the equations of motion by O(1/penalty): with 1e18 by less than round-off,
-        // so that the common reference serves. Ordinary penalties have a test of their own below.
-        "penalty" => "penalty:penalty=1e18,omega=1".to_string(),
-        "augmented_lagrangian" => "augmented_lagrangian:omega=1".to_string(),
-        other => other.to_string(),
-    }
+fn errors(rows: &Rows, reference: &Rows) -> [f64; 3] {
+    LEVELS.map(|(_, columns)| orders::error(rows, reference, &columns))
 }
 
 #[test]
@@ -79,26 +39,8 @@ fn rows_between_steps_have_the_order_of_the_steps() {
 
 /// In these two numbers of steps, to so much.
 fn check_orders(of: impl Fn(&Entry) -> ([usize; 2], f64) + Sync) {
-    let reference = solution("index1", "dop853", "exact", 160);
-    let triples: Vec<_> = integrators()
-        .flat_map(|entry| entry.accepts().map(move |formulation| (entry, gentle(formulation))))
-        .flat_map(|(entry, formulation)| {
-            let name = formulation.split(':').next().unwrap_or_default().to_string();
-            let accepted = projections().iter().filter(move |projection| !entry.refuses(&name, projection.name));
-            accepted.map(move |projection| (entry, formulation.clone(), projection.name))
-        })
-        .collect();
-    // 4 explicit integrators x 8 vector fields x 6 projections, and what takes index 2 or 3.
-    assert!(triples.len() >= 216);
-    triples.par_iter().for_each(|(entry, formulation, projection)| {
-        let ([coarse, fine], slack) = of(entry);
-        let found = [coarse, fine].map(|n| errors(&solution(formulation, entry.name, projection, n), &reference));
-        for (level, name) in ["q", "v", "lambda"].into_iter().enumerate() {
-            let order = (found[0][level] / found[1][level]).ln() / (fine as f64 / coarse as f64).ln();
-            let what = format!("{formulation} + {} + {projection}: order {order:.2} in {name}, {found:?}", entry.name);
-            assert!((order - entry.order as f64).abs() < slack, "{what}");
-        }
-    });
+    let reference = solution(&fixed("index1", "dop853", "exact", END / 160.0));
+    orders::check(&LEVELS, &reference, of, solution);
 }
 
 /// A low penalty solves another problem, with the same order: its own solution at fine steps is the reference, and not
@@ -106,6 +48,9 @@ fn check_orders(of: impl Fn(&Entry) -> ([usize; 2], f64) + Sync) {
 #[test]
 fn a_low_penalty_has_the_order_of_its_integrator_and_an_error_of_its_own() {
     let formulation = "penalty:penalty=1e4,omega=1";
+    let solution = |formulation, integrator, projection, n: usize| {
+        solution(&fixed(formulation, integrator, projection, END / n as f64))
+    };
     let reference = solution(formulation, "dop853", "none", 160);
     // 1e-4 of the accelerations; measured.
     let [q, v, lambda] = errors(&reference, &solution("index1", "dop853", "exact", 160));

@@ -219,7 +219,8 @@ impl<'a> Dynamics<'a> {
     fn infinite_term(&self) -> Option<String> {
         let Terms { f, g, phi, phi_dot, gamma, .. } = &self.terms;
         if let Some(i) = f.iter().position(|f| !f.is_finite()) {
-            return Some(format!("the force on `{}`", self.coordinate(i)));
+            let what = if i < self.system.dimensions().moving() { "force on" } else { "rate of" };
+            return Some(format!("the {what} `{}`", self.coordinate(i)));
         }
         let levels = [phi, phi_dot, gamma].into_iter().find_map(|rows| rows.iter().position(|x| !x.is_finite()));
         let entry = || g.iter().position(|g| !g.is_finite()).map(|entry| self.structure.g.entries[entry].0);

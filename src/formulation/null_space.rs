@@ -116,7 +116,7 @@ impl TangentSpace {
             dynamics.structure.g.multiply(&dynamics.terms.g, &self.v, &mut self.rows);
             self.chart.solve(&self.rows, &mut self.step);
             self.v.iter_mut().zip(&self.step).for_each(|(v, step)| *v -= step);
-            change(&self.step, &self.v)
+            change(&self.step, &self.v[..dynamics.system.dimensions().moving()])
         })
     }
 }

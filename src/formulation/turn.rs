@@ -4,7 +4,7 @@ use crate::system::MechanicalSystem;
 
 /// q = q0 exp(change): a constant rate by the classical Runge-Kutta method, with an error of O(|change|^5).
 pub fn turn(system: &dyn MechanicalSystem, stages: &mut [Vec<f64>; 3], q0: &[f64], change: &[f64], q: &mut [f64]) {
-    if q.len() == change.len() {
+    if q.len() == system.dimensions().moving() {
         q.iter_mut().zip(q0.iter().zip(change)).for_each(|(q, (q0, dq))| *q = q0 + dq);
         return;
     }

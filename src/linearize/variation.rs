@@ -5,7 +5,7 @@ use crate::error::{Error, Result, clock};
 use crate::formulation::{Dynamics, Halt};
 use crate::math::kkt::Pattern;
 use crate::math::memory::refuse_dense;
-use crate::system::{Column, Loaded, MechanicalSystem, Need, OutputTangent, Tangent};
+use crate::system::{Column, Loaded, MechanicalSystem, Need, OutputTangent, Tangent, refuse_states};
 
 /// Small changes (dq, dv) of a state, dq along the velocity directions, with those of v' and lambda:
 ///
@@ -29,6 +29,7 @@ pub struct Variation<'a> {
 }
 
 const NO_TANGENT: &str = "these equations give no K, C and gradient of phi''";
+const LATER: &str = "simulate a small change of the start, and compare";
 const GIVE_THEM: &str = "implement MechanicalSystem::tangent and acceleration_gradient, or write them as Equations";
 
 impl<'a> Variation<'a> {
@@ -37,6 +38,7 @@ impl<'a> Variation<'a> {
     /// # Errors
     /// A state without determined accelerations; a singular one; equations without derivatives.
     pub fn new(system: &'a dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64]) -> Result<Self> {
+        refuse_states(system, "linear models", LATER)?;
         let dynamics = Dynamics::new(system);
         let tangent = Tangent::new(&dynamics.structure.tangent);
         let (gdd, own) = (vec![0.0; dynamics.structure.g.entries.len()], v.to_vec());

@@ -22,10 +22,11 @@ impl Run<'_> {
     pub fn check_start(&mut self) -> Result<(), Failure> {
         let (q, v) = self.problem.split(&self.y);
         let dynamics = &mut self.rows.problem.dynamics;
+        let moving = ..dynamics.system.dimensions().moving();
         let (dependent, contradiction) = dynamics.dependent_rows(self.t, q, v);
         let duration = self.span.end - self.span.start;
         let mut is_undetermined = false;
-        if !dependent.is_empty() && largest(v) <= AT_REST * largest(&dynamics.vdot) * duration {
+        if !dependent.is_empty() && largest(&v[moving]) <= AT_REST * largest(&dynamics.vdot[moving]) * duration {
             let vdot = dynamics.vdot.clone();
             let (_, contradiction) = dynamics.dependent_rows(self.t, q, &vdot);
             is_undetermined = self.is_contradiction(contradiction);

@@ -61,7 +61,7 @@ impl<const D: usize> Mechanism<D> {
         let mut g = Pattern { rows: 0, cols: v, entries: Vec::new() };
         let supports: Vec<Support> = (0..model.marker_count()).map(|marker| Support::of(&model, marker)).collect();
         let joints = model.joints.iter().map(|joint| Rows::new(&supports, joint, &mut g)).collect();
-        let dimensions = Dimensions { q: q + model.turnings.len(), v, lambda: g.rows, nonholonomic: 0 };
+        let dimensions = Dimensions { q: q + model.turnings.len(), v, lambda: g.rows, nonholonomic: 0, states: 0 };
         let length = length_scale(&model);
         let mut tangent = Pattern { rows: v, cols: v, entries: Vec::new() };
         let couplings = Couplings::new(&model, &supports, &mut tangent);

@@ -19,6 +19,7 @@ mod scale;
 mod section;
 mod spin;
 mod spinning;
+mod states;
 mod support;
 mod tangent;
 mod terms;
@@ -33,6 +34,7 @@ pub use mechanism::Mechanism;
 pub use output_tangent::OutputTangent;
 pub use rotating::Rotating;
 pub use spin::{Placement, Spin};
+pub use states::refuse_states;
 pub use tangent::{Loaded, Tangent};
 pub use terms::{Need, Scratch, Structure, Terms};
 
@@ -54,6 +56,9 @@ pub struct Dimensions {
     /// How many constraints, the last ones, are nonholonomic: A v + a = 0, with A in the rows of G and A v + a in those of
     /// phi'. They have no position, so phi is zero there.
     pub nonholonomic: usize,
+    /// How many velocities, the last ones, are states xi of controllers, filters and actuators: xi' = r(t, q, v, xi), with r
+    /// in their rows of f and ones in those of M. They have no position and no constraint: N and G are zero there.
+    pub states: usize,
 }
 
 impl Dimensions {
@@ -61,12 +66,18 @@ impl Dimensions {
     pub fn holonomic(self) -> usize {
         self.lambda - self.nonholonomic
     }
+
+    /// Velocities that move q, which come first.
+    pub fn moving(self) -> usize {
+        self.v - self.states
+    }
 }
 
 /// Names of the columns that a user reads.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Names {
     pub q: Vec<String>,
+    /// Of states xi, too, which come last.
     pub v: Vec<String>,
     pub lambda: Vec<String>,
 }
@@ -89,6 +100,9 @@ pub struct Column {
 }
 
 /// M(q) v' + G(q,t)^T lambda = f(t,q,v), phi(q,t) = 0, q' = N(q) v.
+///
+/// The last velocities may be states xi, see [`Dimensions::states`]: f, K and C then hold r and how it changes, so that every
+/// formulation and integrator has them without knowing.
 ///
 /// Immutable while it is solved, so threads share it; scratch memory comes from the caller.
 pub trait MechanicalSystem: Send + Sync {
@@ -128,11 +142,12 @@ pub trait MechanicalSystem: Send + Sync {
         false
     }
 
-    /// Default: `q1, q2 ...`, `v1 ...`, `lambda1 ...`.
+    /// Default: `q1, q2 ...`, `v1 ...` and `xi1 ...`, `lambda1 ...`.
     fn names(&self) -> Names {
         let n = self.dimensions();
-        let numbered = |prefix: &str, n: usize| (1..=n).map(|i| format!("{prefix}{i}")).collect();
-        Names { q: numbered("q", n.q), v: numbered("v", n.v), lambda: numbered("lambda", n.lambda) }
+        let numbered = |prefix: &str, n: usize| (1..=n).map(|i| format!("{prefix}{i}")).collect::<Vec<String>>();
+        let v = [numbered("v", n.moving()), numbered("xi", n.states)].concat();
+        Names { q: numbered("q", n.q), v, lambda: numbered("lambda", n.lambda) }
     }
 
     /// So many of the last coordinates count the full turns of angles that the others give up to those. Default: none.
@@ -147,7 +162,7 @@ pub trait MechanicalSystem: Send + Sync {
 
     /// q' = N(q) v. Default: N = I.
     fn rate(&self, _q: &[f64], v: &[f64], qdot: &mut [f64]) {
-        qdot.copy_from_slice(v);
+        qdot.copy_from_slice(&v[..qdot.len()]);
     }
 
     /// The same without the rates of turning angles, which are left as they are.

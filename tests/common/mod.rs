@@ -5,6 +5,8 @@
 pub mod driven_pendulum;
 #[path = "../equations/mod.rs"]
 pub mod equations;
+pub mod motor;
+pub mod orders;
 pub mod stiff;
 pub mod unconstrained;
 

@@ -17,7 +17,7 @@ pub use stability::Stability;
 use super::{Metric, position};
 use crate::error::Result;
 use crate::math::largest;
-use crate::system::{Limited, MechanicalSystem};
+use crate::system::{Limited, MechanicalSystem, refuse_states};
 use descent::End;
 use judge::Judge;
 use newton::{Policy, newton};
@@ -75,6 +75,7 @@ struct Found {
 /// Joints that cannot be closed at `t`, a state that cannot be evaluated, equations without K: bad input. No equilibrium
 /// found: a failure that says what moves or where the largest force is left.
 pub fn equilibrium(system: &dyn MechanicalSystem, t: f64, guess: &[f64]) -> Result<Equilibrium> {
+    refuse_states(system, "the static equilibrium", "simulate with damping until the motion ends")?;
     let mut q = guess.to_vec();
     system.normalize(&mut q);
     position::close(&mut Metric::new(system, Vec::new()), t, &mut q)?;

@@ -17,12 +17,12 @@ pub struct Kinematics {
 impl Kinematics {
     pub fn new(system: &dyn MechanicalSystem) -> Self {
         let n = system.dimensions();
-        let identity: Vec<_> = (0..n.v).map(|j| vec![(j, 1.0)]).collect();
+        let identity: Vec<_> = (0..n.v).map(|j| Vec::from_iter((j < n.moving()).then_some((j, 1.0)))).collect();
         let zeros = || vec![0.0; n.q];
         Kinematics {
             columns: identity.clone(),
             inverse: identity,
-            is_identity: n.q == n.v,
+            is_identity: n.q == n.moving(),
             rest: [zeros(), zeros(), zeros()],
         }
     }

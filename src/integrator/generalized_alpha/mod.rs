@@ -9,6 +9,7 @@ use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening,
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
 use crate::formulation::{self, Halt};
+use crate::system::refuse_states;
 use motion::{Motion, Scheme};
 use newton::Newton;
 
@@ -54,10 +55,15 @@ pub const ENTRY: Entry = Entry {
     make,
 };
 
+const STEP: &str = "give a fixed step, or choose radau_iia";
+
 /// With 0.98 the energy of a pendulum grows a million times in steps of a hundredth of its period.
 const MOST_WITH_POSITIONS: f64 = 0.9;
 
 fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
+    if !setup.is_fixed {
+        refuse_states(setup.system, "generalized_alpha, whose error of a step is that of q,", STEP)?;
+    }
     let r = setup.integrator.not_negative("rho_inf", 0.8)?;
     if r > 1.0 {
         return Err(Error::input(format!("generalized_alpha: rho_inf is {r}")).hint("give a number from 0 to 1"));

@@ -111,7 +111,7 @@ impl Stages {
             combine(&mut v[..nv], h, &method.a[i], &self.unknowns.a);
             combine(&mut v[..nv], h, &method.a[i], &self.unknowns.w);
         }
-        let sweeps = if nq == nv { 1 } else { SWEEPS };
+        let sweeps = if nq == self.n.moving() { 1 } else { SWEEPS };
         for sweep in 1..=sweeps {
             for i in 0..s {
                 let (q, v) = self.next[i].split_at(nq);

@@ -66,7 +66,7 @@ pub trait Equations: Send + Sync + 'static {
 impl<E: Equations> MechanicalSystem for E {
     fn dimensions(&self) -> Dimensions {
         let (n, m) = self.size();
-        Dimensions { q: n, v: n, lambda: m, nonholonomic: 0 }
+        Dimensions { q: n, v: n, lambda: m, nonholonomic: 0, states: 0 }
     }
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {

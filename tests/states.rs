@@ -1,0 +1,217 @@
+//! States xi of controllers, filters and actuators, xi' = r(t, q, v, xi), through own equations: every method takes them at its
+//! full order.
+
+mod common;
+
+use common::motor::{Motor, exact, start};
+use common::orders::{self, END, Rows, steps};
+use common::{adaptive, fixed, run, until};
+use holonom::initial::equilibrium;
+use holonom::integrator::{Entry, Steps, registry};
+use holonom::linearize::Variation;
+use holonom::simulate::{Checkpoint, Method, Observation, Sink, Span, Start, Stop, simulate, simulate_from};
+use holonom::system::{Dimensions, Loaded, MechanicalSystem, Need, Scratch, Tangent, Terms};
+use std::ops::Range;
+
+const LEVELS: [(&str, Range<usize>); 4] = [("q", 1..3), ("v", 3..5), ("xi", 5..6), ("lambda", 6..7)];
+
+/// t, q, v, xi and lambda at eight times.
+fn solution(method: &Method) -> Rows {
+    let (q, v) = start();
+    let span = Span { output_step: END / 8.0, ..until(END) };
+    run(&Motor, method, span, (&q, &v)).completed().record.trajectory.rows
+}
+
+fn reference() -> Rows {
+    exact(&(0..=8).map(|k| f64::from(k) * END / 8.0).collect::<Vec<f64>>())
+}
+
+#[test]
+fn every_triple_has_the_order_of_its_integrator() {
+    orders::check(&LEVELS, &reference(), |entry| (steps(entry), 0.3), solution);
+}
+
+/// As in tests/orders.rs.
+#[test]
+fn rows_between_steps_have_the_order_of_the_steps() {
+    let of = |entry: &Entry| match entry.order {
+        8 => ([41, 49], 0.55),
+        _ => (steps(entry).map(|n| n + 1), 0.3),
+    };
+    orders::check(&LEVELS, &reference(), of, solution);
+}
+
+/// As in tests/diffsol.rs: the power of the mean step that the error falls with.
+#[test]
+fn methods_that_choose_their_steps_have_their_order() {
+    let reference = reference();
+    for entry in registry().iter().filter(|entry| entry.steps == Steps::Own) {
+        let (tolerances, slack) = if entry.name == "bdf" { ([1e-6, 1e-11], 1.0) } else { ([1e-5, 1e-9], 0.3) };
+        for formulation in entry.accepts() {
+            let found = tolerances.map(|tolerance| {
+                let method = adaptive(&orders::gentle(formulation), entry.name, "none", tolerance);
+                let (q, v) = start();
+                let span = Span { output_step: END / 8.0, ..until(END) };
+                let run = run(&Motor, &method, span, (&q, &v)).completed();
+                (run.outcome.statistics.steps as f64, run.record.trajectory.rows)
+            });
+            for (name, columns) in &LEVELS {
+                let errors = [0, 1].map(|k| orders::error(&found[k].1, &reference, columns));
+                let order = (errors[0] / errors[1]).ln() / (found[1].0 / found[0].0).ln();
+                let what = format!("{formulation} + {}: order {order:.2} in {name}, {errors:?}", entry.name);
+                assert!((order - entry.order as f64).abs() < slack, "{what}");
+            }
+        }
+    }
+}
+
+#[test]
+fn states_are_named_after_the_velocities() {
+    let (q, v) = start();
+    let run = run(&Motor, &fixed("index1", "rk4", "manifold", 0.1), until(END), (&q, &v));
+    let headings = run.record.trajectory.headings().join(",");
+    assert_eq!(headings, "t,q1,q2,v1,v2,xi1,lambda1");
+}
+
+/// Bits of the accepted states; stops after so many.
+struct Bits(Vec<Vec<u64>>, usize);
+
+impl Sink for Bits {
+    fn accepted(&mut self, at: &Observation) {
+        let all = [at.t, at.work].into_iter().chain([at.q, at.v, at.vdot, at.lambda].concat());
+        self.0.push(all.map(f64::to_bits).collect());
+    }
+    fn row(&mut self, _: &Observation) {}
+    fn stops(&self) -> Option<Stop> {
+        (self.0.len() >= self.1).then(|| Stop { reason: "saved".to_string(), hint: String::new() })
+    }
+}
+
+#[test]
+fn a_saved_run_goes_on_bit_by_bit() {
+    let (q, v) = start();
+    let span = Span { output_step: END / 7.0, ..until(END) };
+    for entry in registry().iter().filter(|entry| entry.steps != Steps::Own) {
+        for formulation in entry.accepts() {
+            let method = match entry.name {
+                _ if entry.steps == Steps::Fixed => fixed(formulation, entry.name, "manifold", END / 40.0),
+                "generalized_alpha" => fixed(formulation, entry.name, "manifold", END / 40.0),
+                _ => adaptive(formulation, entry.name, "manifold", 1e-6),
+            };
+            let carry_on = |start: Start, most: usize| {
+                let mut bits = Bits(Vec::new(), most);
+                let saved = simulate_from(&Motor, &method, span, start, &mut bits).unwrap().1.unwrap();
+                let text = serde_json::to_string(&saved).unwrap();
+                (bits.0, serde_json::from_str::<Checkpoint>(&text).unwrap())
+            };
+            let (whole, last) = carry_on(Start::State(&q, &v), usize::MAX);
+            let (_, saved) = carry_on(Start::State(&q, &v), whole.len() / 2);
+            let (rest, end) = carry_on(Start::Saved(&saved), usize::MAX);
+            assert!(rest[..] == whole[whole.len() / 2 - 1..] && end == last, "{}", method.triple());
+        }
+    }
+}
+
+/// A mass at rest, and a swing of two states that nothing reads, xi = (cos 20 t, -sin 20 t).
+struct Unread;
+
+const SWING: f64 = 20.0;
+
+impl MechanicalSystem for Unread {
+    fn dimensions(&self) -> Dimensions {
+        Dimensions { q: 1, v: 3, lambda: 0, nonholonomic: 0, states: 2 }
+    }
+    fn evaluate(&self, _: f64, _: &[f64], v: &[f64], _: Need, terms: &mut Terms, _: &mut Scratch) {
+        terms.mass.copy_from_slice(&[1.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
+        terms.f.copy_from_slice(&[0.0, SWING * v[2], -SWING * v[1]]);
+    }
+    fn tangent(&self, _: Loaded, tangent: &mut Tangent, _: &mut Scratch) -> bool {
+        tangent.k.fill(0.0);
+        tangent.c.copy_from_slice(&[0.0, 0.0, 0.0, 0.0, 0.0, -SWING, 0.0, SWING, 0.0]);
+        true
+    }
+}
+
+/// Their error counts though q and v say nothing of it: a step of a second would be good for those.
+#[test]
+fn steps_are_controlled_by_states_too() {
+    for entry in registry().iter().filter(|entry| entry.steps != Steps::Fixed) {
+        for formulation in entry.accepts() {
+            let method = adaptive(formulation, entry.name, "none", 1e-6);
+            let start: (&[f64], &[f64]) = (&[1.0], &[0.0, 1.0, 0.0]);
+            if entry.name == "generalized_alpha" {
+                let refused = simulate(&Unread, &method, until(1.0), start, &mut Bits(Vec::new(), 9)).unwrap_err();
+                assert!(refused.to_string().contains("cannot take a system with states xi"), "{refused}");
+                continue;
+            }
+            let found = run(&Unread, &method, until(1.0), start).completed();
+            let (_, v, _) = found.last();
+            let error = (v[1] - SWING.cos()).abs().max((v[2] + SWING.sin()).abs());
+            // README: within ten tolerances.
+            assert!(error < 1e-5, "{formulation} + {}: {error:e}", entry.name);
+        }
+    }
+}
+
+/// A rotor, q = (cos, sin) of its angle, with a motor: as many coordinates as velocities, and yet q' = N v.
+struct Rotor;
+
+impl MechanicalSystem for Rotor {
+    fn dimensions(&self) -> Dimensions {
+        Dimensions { q: 2, v: 2, lambda: 0, nonholonomic: 0, states: 1 }
+    }
+    /// w' = i, i' = 1 - i - w
+    fn evaluate(&self, _: f64, _: &[f64], v: &[f64], _: Need, terms: &mut Terms, _: &mut Scratch) {
+        terms.mass.copy_from_slice(&[1.0, 0.0, 1.0]);
+        terms.f.copy_from_slice(&[v[1], 1.0 - v[1] - v[0]]);
+    }
+    fn tangent(&self, _: Loaded, tangent: &mut Tangent, _: &mut Scratch) -> bool {
+        tangent.k.fill(0.0);
+        tangent.c.copy_from_slice(&[0.0, -1.0, 1.0, 1.0]);
+        true
+    }
+    fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
+        qdot.copy_from_slice(&[-q[1] * v[0], q[0] * v[0]]);
+    }
+    fn normalize(&self, q: &mut [f64]) {
+        let length = q[0].hypot(q[1]);
+        q.iter_mut().for_each(|q| *q /= length);
+    }
+}
+
+/// From rest: w'' + w' + w = 1, so w = 1 - exp(-t/2) (cos b t + sin(b t)/(2 b)) with b = sqrt(3)/2, and i = w'. The angle is its
+/// integral, t - i - w.
+#[test]
+fn coordinates_are_told_from_states() {
+    let (t, b) = (END, 0.75f64.sqrt());
+    let (sin, cos) = (b * t).sin_cos();
+    let decay = (-0.5 * t).exp();
+    let (w, i) = (1.0 - decay * (cos + sin / (2.0 * b)), decay * sin / b);
+    let angle = t - i - w;
+    let exact = [angle.cos(), angle.sin(), w, i];
+    for entry in registry().iter().filter(|entry| entry.name != "rattle") {
+        for formulation in entry.accepts() {
+            let method = match entry.steps {
+                Steps::Own => adaptive(formulation, entry.name, "none", 1e-8),
+                _ => fixed(formulation, entry.name, "none", END / 1000.0),
+            };
+            let found = run(&Rotor, &method, until(END), (&[1.0, 0.0], &[0.0, 0.0])).completed();
+            let error = common::distance(&found.record.trajectory.rows[1][1..5], &exact);
+            // Order 2 in a thousand steps of a motion of unit size.
+            assert!(error < 2e-6, "{formulation} + {}: {error:e}", entry.name);
+        }
+    }
+}
+
+/// What has no place for states says so.
+#[test]
+fn linear_models_and_equilibria_refuse_states() {
+    let (q, v) = start();
+    for refused in [Variation::new(&Motor, 0.0, &q, &v).err(), equilibrium(&Motor, 0.0, &q).err()] {
+        let text = refused.unwrap().to_string();
+        assert!(text.contains("cannot take a system with states xi"), "{text}");
+    }
+    let rattle = fixed("index3", "rattle", "none", 0.1);
+    let refused = simulate(&Rotor, &rattle, until(END), (&q, &[0.0, 0.0]), &mut Bits(Vec::new(), 9)).unwrap_err();
+    assert!(refused.to_string().contains("q' = N(q) v"), "{refused}");
+}
