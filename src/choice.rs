@@ -4,6 +4,7 @@ use crate::error::{Error, Result, excerpt, suggest};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
+use std::any::Any;
 use std::borrow::Cow;
 use std::fmt;
 
@@ -12,6 +13,32 @@ use std::fmt;
 pub struct Choice {
     pub name: String,
     pub options: Vec<(String, String)>,
+    own: Own,
+}
+
+/// The entry of a user, which no registry has. The name says which it is: choices of one name are equal.
+#[derive(Clone, Copy, Debug, Default)]
+struct Own(Option<&'static (dyn Any + Send + Sync)>);
+
+impl PartialEq for Own {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+/// What a registry lists.
+pub trait Listed: Send + Sync + Sized + 'static {
+    /// Such as `formulation`.
+    const KIND: &'static str;
+
+    fn name(&self) -> &'static str;
+
+    fn options(&self) -> &'static [OptionDoc];
+
+    /// The choice of an entry that comes from outside the crate: [`Method`](crate::simulate::Method) takes it as any other.
+    fn choice(&'static self) -> Choice {
+        Choice { own: Own(Some(self)), ..Choice::named(self.name()) }
+    }
 }
 
 /// An option of a method.
@@ -24,7 +51,13 @@ pub struct OptionDoc {
 
 impl Choice {
     pub fn named(name: &str) -> Self {
-        Choice { name: name.to_string(), options: Vec::new() }
+        Choice { name: name.to_string(), ..Choice::default() }
+    }
+
+    /// The same with an option more.
+    pub fn with(mut self, key: &str, value: &str) -> Self {
+        self.options.push((key.to_string(), value.to_string()));
+        self
     }
 
     /// Parses `name` or `name:key=value,key=value`; hyphens count as underscores.
@@ -39,30 +72,32 @@ impl Choice {
                 pair.trim()
             ))),
         });
-        Ok(Choice { name: canonical(name), options: options.collect::<Result<_>>()? })
+        Ok(Choice { name: canonical(name), options: options.collect::<Result<_>>()?, own: Own::default() })
     }
 
-    /// Index of the entry with this name; an error that names the possible ones, also for unknown options.
-    pub fn find<'a>(
-        &self,
-        what: &str,
-        entries: impl Iterator<Item = (&'a str, &'a [OptionDoc])> + Clone,
-    ) -> Result<usize> {
-        let Some(index) = entries.clone().position(|(name, _)| name == self.name) else {
-            let hint = suggest(&self.name, entries.map(|(name, _)| name));
-            return Err(Error::input(format!("there is no {what} `{}`", excerpt(&self.name))).hint(hint));
+    /// The entry that it stands for; an error that names the possible ones, also for unknown options.
+    pub fn entry<E: Listed>(&self, registry: &'static [E]) -> Result<&'static E> {
+        let Some(entry) = self.lookup(registry) else {
+            let hint = suggest(&self.name, registry.iter().map(E::name));
+            return Err(Error::input(format!("there is no {} `{}`", E::KIND, excerpt(&self.name))).hint(hint));
         };
-        let known: &[OptionDoc] = entries.clone().nth(index).map_or(&[], |(_, options)| options);
+        let known = entry.options();
         for (key, _) in &self.options {
             if known.iter().all(|option| option.name != key) {
                 let hint = match known.is_empty() {
                     true => format!("{} takes no options", self.name),
                     false => suggest(key, known.iter().map(|option| option.name)),
                 };
-                return Err(Error::input(format!("{what} {} has no option `{key}`", self.name)).hint(hint));
+                return Err(Error::input(format!("{} {} has no option `{key}`", E::KIND, self.name)).hint(hint));
             }
         }
-        Ok(index)
+        Ok(entry)
+    }
+
+    /// The entry that it brings along, or the one of its name.
+    pub fn lookup<E: Listed>(&self, registry: &'static [E]) -> Option<&'static E> {
+        let own = self.own.0.and_then(|own| own.downcast_ref());
+        own.or_else(|| registry.iter().find(|entry| entry.name() == self.name))
     }
 
     pub fn text(&self, key: &str) -> Option<&str> {
@@ -162,7 +197,7 @@ fn from_json(value: &Value) -> Result<Choice> {
                 let value = value.as_str().map_or_else(|| value.to_string(), str::to_string);
                 (canonical(key), value)
             });
-            Ok(Choice { name: canonical(name), options: options.collect() })
+            Ok(Choice { name: canonical(name), options: options.collect(), own: Own::default() })
         }
         _ => Err(wrong()),
     }

@@ -130,11 +130,9 @@ fn of(study: &Study, formulation: &Choice, projection: &Choice) -> Method {
 /// (2/h, 1/h^2).
 fn stabilizations(step: f64) -> Vec<(Choice, Choice)> {
     let gain = crate::report::significant(1.0 / step, 3);
-    let gained = |name: &str, keys: &[&str]| Choice {
-        name: name.to_string(),
-        options: keys.iter().map(|key| (key.to_string(), gain.clone())).collect(),
-    };
-    let sweeps = Choice { name: "manifold".to_string(), options: vec![("sweeps".to_string(), "2".to_string())] };
+    let gained =
+        |name: &str, keys: &[&str]| keys.iter().fold(Choice::named(name), |choice, key| choice.with(key, &gain));
+    let sweeps = Choice::named("manifold").with("sweeps", "2");
     let index1 = || Choice::named("index1");
     let none = || Choice::named("none");
     let other = |formulation: &str, projection: &str| (Choice::named(formulation), Choice::named(projection));

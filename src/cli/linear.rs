@@ -53,7 +53,7 @@ impl ModelOptions {
     /// An unknown method or option.
     pub fn request(&self) -> Result<Request> {
         let method = Choice::parse(&self.method).and_then(|method| {
-            method.find("method", registry().iter().map(|entry| (entry.name, entry.options)))?;
+            method.entry(registry())?;
             Ok(method)
         });
         Ok(Request { method: method.map_err(|error| error.under("--method"))?, chart: self.chart.chart() })

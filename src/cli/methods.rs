@@ -74,8 +74,7 @@ fn pairs(args: &Args) -> Result<Vec<Pair>> {
     let wanted = |name: &Option<String>| name.as_deref().map(Choice::parse).transpose();
     let (formulation, integrator) = (wanted(&args.formulation)?, wanted(&args.integrator)?);
     if let Some(choice) = &formulation {
-        let known = formulation::registry().iter().map(|entry| (entry.name, entry.options));
-        choice.find("formulation", known).map_err(|error| error.under("--formulation"))?;
+        choice.entry(formulation::registry()).map_err(|error| error.under("--formulation"))?;
     }
     if let Some(choice) = &integrator {
         let entry = integrator::find(choice).map_err(|error| error.under("--integrator"))?;

@@ -1,6 +1,7 @@
 //! What is integrated: ways to turn the constrained equations into something an integrator can step.
 //!
-//! To add one: a file with an [`Entry`], and a line in [`registry`].
+//! To add one: a file with an [`Entry`], and a line in [`registry`]; from outside the crate, an [`Entry`] and its
+//! [`choice`](Listed::choice).
 
 mod augmented_lagrangian;
 mod baumgarte;
@@ -37,6 +38,7 @@ pub use stabilizer::{Field, Stabilizer};
 pub use statistics::{Statistics, Work};
 pub use turn::turn;
 
+use crate::choice::Listed;
 use crate::error::Result;
 use crate::system::MechanicalSystem;
 
@@ -105,6 +107,18 @@ impl Entry {
     }
 }
 
+impl Listed for Entry {
+    const KIND: &'static str = "formulation";
+
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn options(&self) -> &'static [OptionDoc] {
+        self.options
+    }
+}
+
 /// Every formulation, in the order of the documentation.
 pub fn registry() -> &'static [Entry] {
     &[
@@ -128,17 +142,21 @@ pub fn named(name: &str) -> Option<&'static Entry> {
     registry().iter().find(|entry| entry.name == name)
 }
 
+/// The entry that `choice` stands for, with whatever options.
+pub fn lookup(choice: &Choice) -> Option<&'static Entry> {
+    choice.lookup(registry())
+}
+
 /// The equations with multipliers of the formulation that `choice` names, where it has them.
 ///
 /// # Errors
 /// Bad options.
 pub fn dae(choice: &Choice) -> Result<Option<Dae>> {
-    named(&choice.name).and_then(|entry| entry.dae).map(|dae| dae(choice)).transpose()
+    lookup(choice).and_then(|entry| entry.dae).map(|dae| dae(choice)).transpose()
 }
 
 /// The vector field of the formulation that `choice` names, for `system`. Where the constraints themselves are solved, it is
 /// the one that observes: v' and lambda are those of the equations of motion at (q, v), and so of the order of q and v.
 pub fn make(choice: &Choice, system: &dyn MechanicalSystem) -> Result<Box<dyn Formulation>> {
-    let entry = choice.find("formulation", registry().iter().map(|entry| (entry.name, entry.options)))?;
-    registry()[entry].field.unwrap_or(|_, _| Ok(Box::new(index1::Index1::default())))(choice, system)
+    choice.entry(registry())?.field.unwrap_or(|_, _| Ok(Box::new(index1::Index1::default())))(choice, system)
 }

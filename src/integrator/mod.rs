@@ -32,6 +32,7 @@ pub use diffsol_backend::Store;
 pub use problem::Problem;
 pub use stability::Stability;
 
+use crate::choice::Listed;
 use crate::error::{Error, Result};
 use crate::formulation::{self, Choice, Halt, OptionDoc};
 use crate::math::kkt::Singular;
@@ -234,6 +235,18 @@ impl Entry {
     }
 }
 
+impl Listed for Entry {
+    const KIND: &'static str = "integrator";
+
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn options(&self) -> &'static [OptionDoc] {
+        self.options
+    }
+}
+
 /// Every integrator, in the order of the documentation.
 pub fn registry() -> &'static [Entry] {
     &[
@@ -255,20 +268,17 @@ pub fn registry() -> &'static [Entry] {
     ]
 }
 
-/// The registry's entry that `choice` names.
+/// The entry that `choice` stands for.
 pub fn find(choice: &Choice) -> Result<&'static Entry> {
-    let index = choice.find("integrator", registry().iter().map(|entry| (entry.name, entry.options)))?;
-    Ok(&registry()[index])
+    choice.entry(registry())
 }
 
 /// Refuses a formulation that the integrator does not take, naming what goes together.
 pub fn check_pair(entry: &Entry, formulation: &Choice) -> Result<()> {
     let name = formulation.name.as_str();
-    if entry.takes(name) || formulation::named(name).is_none() {
-        // An unknown formulation is refused by its own registry, with names to choose from.
-        return Ok(());
-    }
-    let takers: Vec<&str> = registry().iter().filter(|other| other.takes(name)).map(|other| other.name).collect();
+    // An unknown formulation is refused by its own registry, with names to choose from.
+    let Some(solved) = formulation::lookup(formulation).filter(|known| !(entry.solves)(known)) else { return Ok(()) };
+    let takers: Vec<&str> = registry().iter().filter(|other| (other.solves)(solved)).map(|other| other.name).collect();
     let takers = if takers.is_empty() { "no integrator".to_string() } else { takers.join(", ") };
     let accepted: Vec<&str> = entry.accepts().collect();
     Err(Error::input(format!("{} cannot integrate {name}", entry.name)).hint(format!(

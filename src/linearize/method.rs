@@ -4,7 +4,7 @@ use super::spectrum::{Spectrum, spectrum};
 use super::unconstrained::{AUGMENTED_LAGRANGIAN, BAUMGARTE, FORCE_PROJECTION, PENALTY};
 use super::variation::refuse_all_modes;
 use super::{Changes, Chart, Cost, LinearModel, Matrix, Minimal, Variation, minimal, redundant};
-use crate::choice::{Choice, OptionDoc};
+use crate::choice::{Choice, Listed, OptionDoc};
 use crate::error::Result;
 use std::time::Instant;
 
@@ -63,6 +63,18 @@ const MCS: Entry = Entry {
     },
 };
 
+impl Listed for Entry {
+    const KIND: &'static str = "method";
+
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn options(&self) -> &'static [OptionDoc] {
+        self.options
+    }
+}
+
 /// Every method, in the order of the documentation.
 pub fn registry() -> &'static [Entry] {
     &[MCS, redundant::RCS, BAUMGARTE, PENALTY, AUGMENTED_LAGRANGIAN, FORCE_PROJECTION]
@@ -85,10 +97,10 @@ pub fn refuse_large(velocities: usize) -> Result<()> {
 /// # Errors
 /// An unknown method or option; a chart that does not exist there; eigenvalues that cannot be computed.
 pub fn linearize(variation: &mut Variation, request: &Request) -> Result<LinearModel> {
-    let index = request.method.find("method", registry().iter().map(|entry| (entry.name, entry.options)))?;
+    let entry = request.method.entry(registry())?;
     refuse_large(variation.len())?;
     let clock = Instant::now();
-    let built = (registry()[index].build)(variation, request)?;
+    let built = (entry.build)(variation, request)?;
     let assembly_seconds = clock.elapsed().as_secs_f64();
     let clock = Instant::now();
     let Spectrum { modes, conditioning, off_constraints } = spectrum(variation, &built, request)?;

@@ -5,6 +5,7 @@
 mod exact;
 mod post_stabilization;
 
+use crate::choice::Listed;
 use crate::error::Result;
 use crate::formulation::{Choice, Dynamics, Halt, OptionDoc};
 use crate::system::MechanicalSystem;
@@ -25,6 +26,18 @@ pub struct Entry {
 
 type Make = fn(&Choice, &dyn MechanicalSystem) -> Result<Option<Box<dyn Projection>>>;
 
+impl Listed for Entry {
+    const KIND: &'static str = "projection";
+
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn options(&self) -> &'static [OptionDoc] {
+        self.options
+    }
+}
+
 /// Every projection, in the order of the documentation.
 pub fn registry() -> &'static [Entry] {
     &[
@@ -42,8 +55,7 @@ const NONE: Entry =
 
 /// The projection that `choice` names, for `system`.
 pub fn make(choice: &Choice, system: &dyn MechanicalSystem) -> Result<Option<Box<dyn Projection>>> {
-    let entry = choice.find("projection", registry().iter().map(|entry| (entry.name, entry.options)))?;
-    (registry()[entry].make)(choice, system)
+    (choice.entry(registry())?.make)(choice, system)
 }
 
 /// q moves by -dq (directions of v) and returns to its normal form.

@@ -1,7 +1,7 @@
 //! Which method a run uses.
 
 use crate::error::{Error, Result, Warning, short};
-use crate::formulation::Choice;
+use crate::formulation::{self, Choice};
 use crate::integrator::{self, Steps, Tolerance};
 use crate::projection;
 use crate::system::MechanicalSystem;
@@ -81,9 +81,11 @@ impl Method {
         let entry = integrator::find(&self.integrator).map_err(|error| error.under("integrator"))?;
         integrator::check_pair(entry, &self.formulation).map_err(|error| error.under("formulation"))?;
         let (formulation, projection) = (self.formulation.name.as_str(), self.projection.name.as_str());
-        if entry.refuses(formulation, projection) {
+        let known = formulation::lookup(&self.formulation);
+        let refuses = |projection: &str| known.is_some_and(|known| (entry.refuses)(known, projection));
+        if refuses(projection) {
             let others = projection::registry().iter().map(|other| other.name);
-            let others: Vec<&str> = others.filter(|other| !entry.refuses(formulation, other)).collect();
+            let others: Vec<&str> = others.filter(|other| !refuses(other)).collect();
             return Err(Error::input(format!("{} with {formulation} loses an order with {projection}", entry.name))
                 .under("projection")
                 .hint(format!("{} with {formulation} goes with {}", entry.name, others.join(", "))));

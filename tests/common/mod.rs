@@ -7,6 +7,7 @@ pub mod driven_pendulum;
 pub mod equations;
 pub mod motor;
 pub mod orders;
+pub mod saved;
 pub mod stiff;
 pub mod unconstrained;
 

@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! x'' = -x lambda - K i y,   y'' = -g - y lambda + K i x,   0 = (x^2 + y^2 - 1)/2
-//! i' = (U sin 3 t - R i - S i^3 - K w)/L,   w = x y' - y x'
+//! i' = (U sin 2 t - R i - S i^3 - K w)/L,   w = x y' - y x'
 //! ```
 
 use holonom::system::{Dimensions, Loaded, MechanicalSystem, Need, Scratch, Tangent, Terms};
@@ -15,12 +15,12 @@ const GRAVITY: f64 = 9.81;
 const K: f64 = 1.0;
 const L: f64 = 0.5;
 const R: f64 = 1.0;
-const S: f64 = 0.3;
+const S: f64 = 0.1;
 const U: f64 = 4.0;
 
 /// i' at the speed w.
 fn rate(t: f64, w: f64, i: f64) -> f64 {
-    (U * (3.0 * t).sin() - R * i - S * i.powi(3) - K * w) / L
+    (U * (2.0 * t).sin() - R * i - S * i.powi(3) - K * w) / L
 }
 
 impl MechanicalSystem for Motor {

@@ -69,8 +69,7 @@ pub fn check(
     assert!(triples.len() >= 216);
     triples.par_iter().for_each(|(entry, formulation, projection)| {
         let ([coarse, fine], slack) = of(entry);
-        let found =
-            [coarse, fine].map(|n| solution(&fixed(formulation, entry.name, projection, END / n as f64)));
+        let found = [coarse, fine].map(|n| solution(&fixed(formulation, entry.name, projection, END / n as f64)));
         for (name, columns) in levels {
             let errors = [0, 1].map(|k| error(&found[k], reference, columns));
             let order = (errors[0] / errors[1]).ln() / (fine as f64 / coarse as f64).ln();

@@ -28,7 +28,8 @@ impl Shape {
     }
 
     pub fn carrier<'a>(&self, system: &'a dyn MechanicalSystem) -> Carrier<'a> {
-        let dimensions = Dimensions { q: self.coordinates(), v: self.velocities(), lambda: 0, nonholonomic: 0, states: 0 };
+        let dimensions =
+            Dimensions { q: self.coordinates(), v: self.velocities(), lambda: 0, nonholonomic: 0, states: 0 };
         Carrier { system, dimensions }
     }
 

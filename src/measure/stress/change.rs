@@ -60,5 +60,5 @@ impl Change {
 pub(super) fn baumgarte(gain: f64) -> Choice {
     let gain = gain.to_string();
     let options = ["alpha", "beta"].map(|key| (key.to_string(), gain.clone()));
-    Choice { name: "baumgarte".to_string(), options: options.to_vec() }
+    options.iter().fold(Choice::named("baumgarte"), |choice, (key, value)| choice.with(key, value))
 }

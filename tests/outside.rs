@@ -1,0 +1,197 @@
+//! A formulation, an integrator and a projection from outside the crate: each an `Entry` of its own, chosen by `choice()`.
+
+mod common;
+
+use common::driven_pendulum::{DrivenPendulum, start};
+use common::orders::{self, END, Rows};
+use common::{fixed, run, until};
+use holonom::choice::{Choice, Listed, OptionDoc};
+use holonom::formulation::{self, Dae, Dynamics, Formulation, Halt, Row};
+use holonom::integrator::{self, Control, From, Integrator, Problem, Steps, Tightening, Tolerance};
+use holonom::measure::Recorder;
+use holonom::projection;
+use holonom::simulate::{Method, Span, simulate};
+
+/// phi = 0 and phi'' = 0 together, q' = N (v + u): Gear, Gupta and Leimkuhler on the level of the accelerations.
+static ROWS: formulation::Entry = formulation::Entry {
+    name: "ggl_of_accelerations",
+    about: "phi = 0 and phi'' = 0 together",
+    options: &[],
+    dae: Some(|_| Ok(Dae { mu: Some(Row::POSITION), ..Dae::with(Row::ACCELERATION) })),
+    field: None,
+};
+
+/// phi'' + rate phi' = 0
+static FIELD: formulation::Entry = formulation::Entry {
+    name: "braked",
+    about: "phi'' + rate phi' = 0",
+    options: &[OptionDoc { name: "rate", about: "at which phi' decays, 1/s (default 1)" }],
+    dae: None,
+    field: Some(|choice, _| Ok(Box::new(Braked(choice.not_negative("rate", 1.0)?)))),
+};
+
+struct Braked(f64);
+
+impl Formulation for Braked {
+    fn derivative(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        dynamics: &mut Dynamics,
+        qdot: &mut [f64],
+        vdot: &mut [f64],
+    ) -> Result<(), Halt> {
+        dynamics.solve(t, q, v, |_, phi_dot| -self.0 * phi_dot)?;
+        dynamics.system.rate(q, v, qdot);
+        vdot.copy_from_slice(&dynamics.vdot);
+        Ok(())
+    }
+}
+
+/// y_1 = y + h F(t + h/2, y + h/2 F(t, y))
+static MIDPOINT: integrator::Entry = integrator::Entry {
+    name: "midpoint",
+    about: "the explicit midpoint rule",
+    order: 2,
+    steps: Steps::Fixed,
+    tightening: Tightening::NONE,
+    solves: |formulation| formulation.field.is_some(),
+    refuses: |_, _| false,
+    options: &[],
+    make: |setup| {
+        let zeros = || vec![0.0; setup.len()];
+        Ok(Box::new(Midpoint { middle: zeros(), slope: zeros(), control: Control::new(2.0, 0.0, 0.2, 5.0) }))
+    },
+};
+
+struct Midpoint {
+    middle: Vec<f64>,
+    slope: Vec<f64>,
+    control: Control,
+}
+
+impl Integrator for Midpoint {
+    fn order(&self) -> usize {
+        MIDPOINT.order
+    }
+
+    fn attempt(
+        &mut self,
+        problem: &mut Problem,
+        _: &Tolerance,
+        from: From,
+        h: f64,
+        to: &mut [f64],
+    ) -> Result<Option<f64>, Halt> {
+        let ahead = |out: &mut [f64], h: f64, slope: &[f64]| {
+            out.iter_mut().zip(from.y.iter().zip(slope)).for_each(|(out, (y, slope))| *out = y + h * slope);
+        };
+        ahead(&mut self.middle, 0.5 * h, from.slope);
+        problem.derivative(from.t + 0.5 * h, &self.middle, &mut self.slope)?;
+        ahead(to, h, &self.slope);
+        Ok(None)
+    }
+
+    fn control(&mut self) -> &mut Control {
+        &mut self.control
+    }
+
+    fn prepare(&mut self, _: &mut Problem, _: From, _: f64, _: &[f64], _: &[f64]) -> Result<(), Halt> {
+        Ok(())
+    }
+
+    /// The parabola that leaves with y' and comes to the end.
+    fn interpolate(&mut self, _: &mut Problem, from: From, h: f64, theta: f64, out: &mut [f64]) -> Result<(), Halt> {
+        let slopes = from.slope.iter().zip(&self.slope);
+        out.iter_mut()
+            .zip(from.y.iter().zip(slopes))
+            .for_each(|(out, (y, (start, mean)))| *out = y + h * theta * (start + theta * (mean - start)));
+        Ok(())
+    }
+}
+
+/// The one of the crate under another name.
+static PROJECTION: projection::Entry = projection::Entry {
+    name: "closed",
+    about: "positions and velocities to round-off",
+    options: &[],
+    make: |_, system| projection::make(&Choice::named("exact"), system),
+};
+
+fn solution(method: &Method) -> (Rows, (f64, f64)) {
+    let (q, v) = start();
+    let span = Span { output_step: END / 8.0, ..until(END) };
+    let run = run(&DrivenPendulum, method, span, (&q, &v)).completed();
+    let drift = run.drift();
+    (run.record.trajectory.rows, drift)
+}
+
+/// Order in q, v and lambda, as in tests/orders.rs, and the larger drift.
+fn check(order: f64, [coarse, fine]: [usize; 2], method: impl Fn(f64) -> Method) -> (f64, f64) {
+    let reference = solution(&fixed("index1", "dop853", "exact", END / 160.0)).0;
+    let (found, drift) = solution(&method(END / coarse as f64));
+    let (finer, _) = solution(&method(END / fine as f64));
+    for (name, columns) in [("q", 1..5), ("v", 5..9), ("lambda", 9..11)] {
+        let errors = [&found, &finer].map(|rows| orders::error(rows, &reference, &columns));
+        let observed = (errors[0] / errors[1]).ln() / (fine as f64 / coarse as f64).ln();
+        let triple = method(1.0).triple();
+        assert!((observed - order).abs() < 0.3, "{triple}: order {observed:.2} in {name}, {errors:?}");
+    }
+    drift
+}
+
+#[test]
+fn implicit_integrators_solve_the_rows_of_a_formulation_from_outside() {
+    for (integrator, order, steps) in [("radau_iia", 5.0, [64, 128]), ("generalized_alpha", 2.0, [128, 256])] {
+        let of = |step: f64| Method { formulation: ROWS.choice(), ..fixed("", integrator, "none", step) };
+        let (position, velocity) = check(order, steps, of);
+        // phi is solved, to a few units in the last place of squared lengths; phi' is not, and drifts.
+        assert!(position < 8.0 * f64::EPSILON && velocity > 1e-12, "{integrator}: {position:e} {velocity:e}");
+    }
+}
+
+#[test]
+fn explicit_integrators_follow_a_field_from_outside() {
+    let formulation = FIELD.choice().with("rate", "2");
+    check(4.0, [128, 256], |step| Method { formulation: formulation.clone(), ..fixed("", "rk4", "none", step) });
+}
+
+#[test]
+fn all_three_parts_may_come_from_outside() {
+    let of = |step: f64| Method {
+        formulation: FIELD.choice(),
+        integrator: MIDPOINT.choice(),
+        projection: PROJECTION.choice(),
+        ..fixed("", "", "", step)
+    };
+    let (position, velocity) = check(2.0, [128, 256], of);
+    // As of `exact` in tests/orders.rs.
+    assert!(position < 4.0 * f64::EPSILON && velocity < 4.0 * f64::EPSILON, "{position:e} {velocity:e}");
+}
+
+/// Pairs and options are checked as those of the crate are.
+#[test]
+fn what_does_not_go_together_is_refused() {
+    let (q, v) = start();
+    let refused = |method: &Method| {
+        let mut recorder = Recorder::new(&DrivenPendulum);
+        let run = simulate(&DrivenPendulum, method, until(END), (&q, &v), &mut recorder);
+        run.map(|_| ()).unwrap_err().to_string()
+    };
+    let pair = refused(&Method { formulation: ROWS.choice(), ..fixed("", "rk4", "none", 0.1) });
+    assert!(pair.contains("rk4 cannot integrate ggl_of_accelerations"), "{pair}");
+    let option = refused(&Method { formulation: FIELD.choice().with("rat", "2"), ..fixed("", "rk4", "none", 0.1) });
+    assert!(option.contains("formulation braked has no option `rat`"), "{option}");
+    let unknown = refused(&Method { formulation: Choice::named("braked"), ..fixed("", "rk4", "none", 0.1) });
+    assert!(unknown.contains("there is no formulation `braked`"), "{unknown}");
+}
+
+/// A saved run names its method, and goes on with the entry that the method brings along.
+#[test]
+fn a_saved_run_goes_on_with_it() {
+    let (q, v) = start();
+    let method = Method { formulation: ROWS.choice(), ..fixed("", "radau_iia", "none", END / 40.0) };
+    let span = Span { output_step: END / 7.0, ..until(END) };
+    assert!(!common::saved::differs(&DrivenPendulum, &method, span, (&q, &v)));
+}
