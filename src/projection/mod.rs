@@ -53,9 +53,10 @@ pub fn registry() -> &'static [Entry] {
 const NONE: Entry =
     Entry { name: "none", about: "the state as the integrator left it", options: &[], make: |_, _| Ok(None) };
 
-/// The projection that `choice` names, for `system`.
+/// The projection that `choice` names, for `system`; none where there is nothing to project onto.
 pub fn make(choice: &Choice, system: &dyn MechanicalSystem) -> Result<Option<Box<dyn Projection>>> {
-    (choice.entry(registry())?.make)(choice, system)
+    let made = (choice.entry(registry())?.make)(choice, system)?;
+    Ok(made.filter(|_| system.dimensions().lambda > 0))
 }
 
 /// q moves by -dq (directions of v) and returns to its normal form.

@@ -166,7 +166,7 @@ impl<'s: 'a, 'a> Drive<'s, 'a> {
         let (mut mark, mut failure) = (self.run.mark(), None);
         loop {
             if failure.is_none() {
-                (mark, failure) = self.run.window(self.window, sink);
+                (mark, failure) = self.run.window(self.window, f64::INFINITY, sink);
                 self.window *= 2.0;
             }
             if self.is_over(failure.as_ref(), sink) {

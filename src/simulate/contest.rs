@@ -23,7 +23,7 @@ const NEAR: f64 = 20.0;
 const STABLE: f64 = 6.1;
 /// Least work of a trial, in evaluations: the first steps of radau_iia, each up to eight times the one before.
 const LEAST: f64 = 300.0;
-/// A trial has so much of the work that it is compared with, and is worth no more of what is left.
+/// A trial has so much of the work that it is compared with, and is worth no more of what is left, however long its steps grow.
 const SHARE: f64 = 0.25;
 
 /// Steps grow where the next one is so many times their mean.
@@ -34,7 +34,7 @@ const GROWTHS: usize = 5;
 /// This part of the work that is left says enough of it.
 const SHOWN: f64 = 0.1;
 
-/// How far a run has come, s, after how much work of steps and of rows, in evaluations, and how many steps.
+/// How far a run has come, s, after how much work in evaluations, of which so much was for rows, and how many steps.
 #[derive(Clone, Copy, Debug)]
 pub struct Mark {
     pub t: f64,
@@ -44,9 +44,9 @@ pub struct Mark {
 }
 
 impl Mark {
-    /// How far the run has come since another mark for a unit of work, that of rows included.
+    /// How far the run has come since another mark for a unit of work.
     fn pace(&self, since: Mark) -> f64 {
-        (self.t - since.t) / (self.work + self.rows - since.work - since.rows).max(1.0)
+        (self.t - since.t) / (self.work - since.work).max(1.0)
     }
 }
 
@@ -75,14 +75,15 @@ impl Run<'_> {
     pub fn mark(&self) -> Mark {
         let Statistics { steps, rhs_evaluations, rows, .. } = self.statistics();
         let price = if self.is_explicit { 1.0 } else { IMPLICIT };
-        let [work, rows] = [rhs_evaluations, rows.rhs_evaluations].map(|count| price * count as f64);
-        Mark { t: self.t, work, rows, steps }
+        let [own, rows] = [rhs_evaluations, rows.rhs_evaluations].map(|count| price * count as f64);
+        Mark { t: self.t, work: own + rows, rows, steps }
     }
 
-    /// Goes on for so much work, of which the first half is no measure: steps that begin small grow. While they do, it goes on.
-    /// Returns where the measure begins, and the failure of the run.
-    pub fn window(&mut self, work: f64, sink: &mut dyn Sink) -> (Mark, Option<Failure>) {
+    /// Goes on for so much work, of which the first half is no measure: steps that begin small grow. While they do, it goes on,
+    /// up to the `most` work. Returns where the measure begins, and the failure of the run.
+    pub fn window(&mut self, work: f64, most: f64, sink: &mut dyn Sink) -> (Mark, Option<Failure>) {
         let mut mark = self.mark();
+        let most = mark.work + most;
         for _ in 0..=GROWTHS {
             let start = self.mark();
             for part in [0.5, 1.0] {
@@ -94,7 +95,8 @@ impl Run<'_> {
                     mark = self.mark();
                 }
             }
-            if self.t >= self.span.end || self.h < GROWN * self.step_since(mark) {
+            let has_grown = self.h < GROWN * self.step_since(mark);
+            if self.t >= self.span.end || has_grown || self.mark().work + work > most {
                 break;
             }
         }
@@ -106,10 +108,10 @@ impl Run<'_> {
         self.mark().work > SHOWN * self.left(mark)
     }
 
-    /// Work to the end at the pace since `mark`.
+    /// Work of steps to the end at the pace since `mark`: rows are due whatever the method.
     fn left(&self, mark: Mark) -> f64 {
         let now = self.mark();
-        (self.span.end - now.t) * (now.work - mark.work) / (now.t - mark.t)
+        (self.span.end - now.t) * (now.work - now.rows - mark.work + mark.rows) / (now.t - mark.t)
     }
 
     /// Mean step since then.
@@ -145,13 +147,13 @@ impl Run<'_> {
         system: &dyn MechanicalSystem,
     ) -> Result<(Contest, Statistics)> {
         let own = self.mark();
-        let budget = LEAST.max(SHARE * (own.work - mark.work));
+        let (budget, most) = (LEAST.max(SHARE * (own.work - mark.work)), SHARE * self.left(mark));
         let store = Store::default();
         let mut rival = Run::new((system, &store), other, self.span, self.y.clone())?;
         (rival.t, rival.rows.next) = (self.t, self.rows.next);
         let failure = rival.go_on(&self.problem.dynamics.held).err();
         let (since, stopped) =
-            if failure.is_none() { rival.window(budget, &mut Quiet) } else { (rival.mark(), failure) };
+            if failure.is_none() { rival.window(budget, most, &mut Quiet) } else { (rival.mark(), failure) };
         let theirs = if stopped.is_some() { 0.0 } else { rival.mark().pace(since) };
         let contest = Contest { t: self.t, mode, step, gain: theirs / own.pace(mark) };
         Ok((contest, rival.statistics()))
