@@ -62,7 +62,8 @@ pub struct Monitor {
     contraction: f64,
     size: f64,
     ratio: f64,
-    /// Size of the change with which the last iteration diverged; infinite once one converged.
+    /// Size of the change with which the last iteration diverged, or at which changes are known to be round-off; zero once one
+    /// converged.
     stalled: f64,
 }
 
@@ -90,7 +91,7 @@ impl Default for Monitor {
             contraction: 1.0,
             size: f64::INFINITY,
             ratio: 1.0,
-            stalled: f64::INFINITY,
+            stalled: 0.0,
         }
     }
 }
@@ -133,21 +134,22 @@ impl Monitor {
 
     fn judge(&mut self, change: f64) -> Verdict {
         let verdict = self.watch(change);
-        self.stalled = match verdict {
-            Verdict::Converged => f64::INFINITY,
+        match verdict {
+            Verdict::Continue => {}
+            Verdict::Converged => self.stalled = 0.0,
             Verdict::Diverged if self.is_round_off(change) => {
-                (self.rate, self.has_stagnated, self.stalled) = (AT_ONCE, true, f64::INFINITY);
+                (self.rate, self.has_stagnated) = (AT_ONCE, true);
                 return Verdict::Converged;
             }
-            Verdict::Diverged => change,
-            Verdict::Continue => self.stalled,
-        };
+            Verdict::Diverged => self.stalled = change,
+        }
         verdict
     }
 
     /// Whether changes that no longer fall are round-off: they are below the stagnation tolerance, or tolerable and of the
     /// size at which the iteration of a longer step stopped too, which would contract less: unlike masses and nearly
-    /// dependent constraints make round-off larger than is known.
+    /// dependent constraints make round-off larger than is known. Later steps meet it at once, or each would have to be shorter
+    /// than the one before.
     fn is_round_off(&self, change: f64) -> bool {
         let is_met_again = change <= ALIKE * self.stalled && self.stalled <= ALIKE * change;
         change <= self.limits.stagnation || change <= TOLERABLE && is_met_again
@@ -190,17 +192,17 @@ impl Monitor {
 
     /// The next iteration is of the same system with another matrix: where the last one stopped says nothing of round-off.
     pub fn reset(&mut self) {
-        self.stalled = f64::INFINITY;
+        self.stalled = 0.0;
     }
 
     /// What the next iteration takes from the last one, which converged: see [`recall`](Self::recall).
-    pub fn memory(&self) -> f64 {
-        self.contraction
+    pub fn memory(&self) -> [f64; 2] {
+        [self.contraction, self.stalled]
     }
 
     /// Goes on as the monitor whose [`memory`](Self::memory) this was.
-    pub fn recall(&mut self, contraction: f64) {
-        self.contraction = contraction;
+    pub fn recall(&mut self, [contraction, stalled]: [f64; 2]) {
+        (self.contraction, self.stalled) = (contraction, stalled);
     }
 }
 
@@ -255,6 +257,16 @@ mod tests {
         let (converged, _) = run(&mut monitor, exact, 1e-3, 1e-10);
         assert!(converged && monitor.has_stagnated);
         assert!(!run(&mut monitor, exact, 1e-3, 1e-7).0, "above the stagnation tolerance");
+    }
+
+    /// A longer step stopped at this size, too: from the second on such changes are round-off, until an iteration converges.
+    #[test]
+    fn round_off_that_was_met_twice_is_known() {
+        let mut monitor = Monitor::default();
+        let exact = Limits { tolerance: 1e-14, ..LIMITS };
+        let met = [1e-7, 3e-7, 1e-7].map(|floor| run(&mut monitor, exact, 1e-3, floor).0);
+        assert_eq!(met, [false, true, true]);
+        assert!(run(&mut monitor, exact, 1e-3, 0.0).0 && !run(&mut monitor, exact, 1e-3, 1e-7).0);
     }
 
     #[test]

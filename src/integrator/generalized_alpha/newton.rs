@@ -89,12 +89,12 @@ impl Newton {
     pub fn memory(&self) -> Vec<f64> {
         let h = self.factored.filter(|_| self.is_linearized).unwrap_or(0.0);
         let point = if self.is_linearized { self.at.point() } else { &[] };
-        [&[self.monitor.memory(), h], point].concat()
+        [&self.monitor.memory()[..], &[h], point].concat()
     }
 
     /// Goes on with a [`memory`](Self::memory) from the next step on.
     pub fn recall(&mut self, mut memory: Reader) {
-        self.monitor.recall(memory.number());
+        self.monitor.recall([memory.number(), memory.number()]);
         self.recalled = Some((memory.number(), memory.rest().to_vec()));
     }
 

@@ -296,7 +296,7 @@ impl Integrator for RadauIIA {
 
     fn memory(&self) -> Vec<f64> {
         let mut memory = self.order.memory();
-        memory.push(self.newton.memory());
+        memory.extend(self.newton.memory());
         let Step { h, method } = self.accepted.unwrap_or(Step { h: 0.0, method: 0 });
         memory.extend([h, method as f64]);
         let stages = self.order.get(method).stages();
@@ -313,7 +313,7 @@ impl Integrator for RadauIIA {
     fn recall(&mut self, memory: &[f64]) {
         let mut memory = Reader(memory);
         self.order.recall(&mut memory);
-        self.newton.recall(memory.number());
+        self.newton.recall([memory.number(), memory.number()]);
         let (h, method) = (memory.number(), memory.number() as usize);
         self.accepted = (h > 0.0 && method < self.order.len()).then_some(Step { h, method });
         let Some(Step { method, .. }) = self.accepted else { return };
