@@ -4,6 +4,7 @@ use super::Run;
 use super::rows::project;
 use crate::formulation::Halt;
 use crate::integrator::From;
+use crate::math::largest;
 
 /// A correction that moves the state by more than this many tolerated errors refuses the step.
 const MOST_CORRECTION: f64 = 10.0;
@@ -154,12 +155,17 @@ impl Run<'_> {
         Ok(Some(self.tolerance.norm_between(&self.y, &self.next, &self.change) / self.allowed()))
     }
 
-    /// The error to be put up with, in units of the tolerance. Round-off moves positions along nearly dependent rows by eps
-    /// over the sine, and velocities by eps over its square: no step can be better.
-    fn allowed(&self) -> f64 {
+    /// The error to be put up with, in units of the tolerance. Round-off of the largest coordinate moves all that nearly
+    /// dependent rows join by eps over the sine, and velocities by eps over its square: no step can be better.
+    fn allowed(&mut self) -> f64 {
         let dynamics = &self.problem.dynamics;
         let sine = self.approach.sine.min(dynamics.sine.unwrap_or_else(|| dynamics.kkt.smallest_sine()));
-        let round_off = ROUND_OFF / (sine * sine) * self.tolerance.norm(&self.next, &self.next);
+        let (q, v) = self.problem.split(&self.next);
+        let sizes = [largest(dynamics.system.own(q)), largest(v)];
+        let n = q.len();
+        self.change[..n].fill(sizes[0]);
+        self.change[n..].fill(sizes[1]);
+        let round_off = ROUND_OFF / (sine * sine) * self.tolerance.norm(&self.next, &self.change);
         1.0 + round_off.min(MOST_ROUND_OFF)
     }
 }
