@@ -247,11 +247,10 @@ impl<T: Number> Rows<T> {
         for (i, gx) in gx.iter().enumerate() {
             lambda[i] -= factors[self.kind(i)][0] * *gx;
         }
-        if x.is_empty() || !self.dae.needs_l() {
-            return;
-        }
-        for (&(i, j), &l) in pattern.entries.iter().zip(l) {
-            lambda[i] -= factors[self.kind(i)][1] * x[j] * l;
+        if self.dae.needs_l() {
+            for (&(i, j), &l) in pattern.entries.iter().zip(l) {
+                lambda[i] -= factors[self.kind(i)][1] * x[j] * l;
+            }
         }
     }
 }
@@ -277,11 +276,10 @@ fn shift<T: Number>(
 
 /// out -= factor (K or C) x
 fn subtract<T: Number>(pattern: &Pattern, values: &[f64], factor: T, x: &[T], out: &mut [T]) {
-    if x.is_empty() || factor == T::ZERO {
-        return;
-    }
-    for (&(i, j), &value) in pattern.entries.iter().zip(values) {
-        out[i] -= factor * x[j] * value;
+    if factor != T::ZERO {
+        for (&(i, j), &value) in pattern.entries.iter().zip(values) {
+            out[i] -= factor * x[j] * value;
+        }
     }
 }
 
@@ -313,9 +311,8 @@ impl Iteration<f64> {
         structure.mass.multiply_symmetric(&at.mass, v, free);
         top.copy_from_slice(free);
         bottom.fill(0.0);
-        for (i, (place, &(_, j))) in structure.g.entries.iter().enumerate().map(|(i, place)| (i, (place.0, place))) {
-            let of_x = tau * (row.position * at.g[i] + row.velocity * at.l[i]);
-            bottom[place] += row.acceleration * at.g[i] * v[j] - of_x * x[j];
+        for ((&(i, j), g), l) in structure.g.entries.iter().zip(&at.g).zip(&at.l) {
+            bottom[i] += row.acceleration * g * v[j] - tau * (row.position * g + row.velocity * l) * x[j];
         }
         for (i, bottom) in bottom.iter_mut().enumerate() {
             *bottom /= self.rows.lambda[self.rows.kind(i)].a[0];

@@ -3,7 +3,8 @@
 use super::{Dae, Dynamics, Halt, Row};
 use crate::system::{Dimensions, Need};
 
-/// The unknowns of [`Dae`] beside q and v: n_v and n_c numbers in turn; of shifts that it does not have, none.
+/// The unknowns of [`Dae`] beside q and v: n_v and n_c numbers in turn; of shifts that it does not have, or whose own equations
+/// are met, none.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Unknowns<'u> {
     pub a: &'u [f64],
@@ -68,13 +69,10 @@ impl Residual {
             structure.mass.multiply_symmetric(&terms.mass, x, out);
             structure.g.multiply_transposed(&terms.g, multipliers, out);
         };
-        for (is_there, x, multipliers, out) in
-            [(dae.eta.is_some(), w, eta, &mut self.w), (dae.mu.is_some(), u, mu, &mut self.u)]
-        {
-            if is_there {
-                inertia(x, multipliers, out);
-                out.iter_mut().for_each(|left| *left = -*left);
-            }
+        let shifts = [(dae.eta, w, eta, &mut self.w), (dae.mu, u, mu, &mut self.u)];
+        for (_, x, multipliers, out) in shifts.into_iter().filter(|(row, x, ..)| row.is_some() && !x.is_empty()) {
+            inertia(x, multipliers, out);
+            out.iter_mut().for_each(|left| *left = -*left);
         }
         inertia(a, lambda, &mut self.motion);
         self.motion.iter_mut().zip(&terms.f).for_each(|(left, f)| *left = f - *left);

@@ -61,11 +61,9 @@ pub(super) struct Motion {
     pub end: Carried,
     /// a at the start, for the step that is made.
     a: Vec<f64>,
-    /// The shifts of v and q with their multipliers.
+    /// The shifts of v and q, each correction of which meets its own equation, as does their sum.
     w: Vec<f64>,
-    eta: Vec<f64>,
     u: Vec<f64>,
-    mu: Vec<f64>,
     /// Change of q along the directions of v: with a_1 as predicted, and by what it then differs.
     predicted: Vec<f64>,
     change: Vec<f64>,
@@ -85,9 +83,7 @@ impl Motion {
             end: Carried::new(n),
             a: zeros(n.v),
             w: zeros(n.v),
-            eta: zeros(n.lambda),
             u: zeros(n.v),
-            mu: zeros(n.lambda),
             predicted: zeros(n.v),
             change: zeros(n.v),
             a_predicted: zeros(n.v),
@@ -109,7 +105,7 @@ impl Motion {
         }
         self.end.vdot.copy_from_slice(vdot);
         self.end.lambda.copy_from_slice(lambda);
-        [&mut self.w, &mut self.eta, &mut self.u, &mut self.mu].into_iter().for_each(|shift| shift.fill(0.0));
+        [&mut self.w, &mut self.u].into_iter().for_each(|shift| shift.fill(0.0));
         self.predict(problem, from, h);
         Ok(())
     }
@@ -157,10 +153,9 @@ impl Motion {
         std::mem::swap(&mut self.start, &mut self.end);
     }
 
-    /// The unknowns at the end.
+    /// The unknowns at the end, but for the shifts.
     pub fn unknowns(&self) -> Unknowns<'_> {
-        let Carried { vdot, lambda, .. } = &self.end;
-        Unknowns { a: vdot, lambda, w: &self.w, eta: &self.eta, u: &self.u, mu: &self.mu }
+        Unknowns { a: &self.end.vdot, lambda: &self.end.lambda, ..Unknowns::default() }
     }
 
     /// How q_1 and v_1 change with v'_1 and the shifts.
@@ -176,9 +171,7 @@ impl Motion {
         add(&mut self.end.vdot, &change.a);
         add(&mut self.end.lambda, &change.lambda);
         add(&mut self.w, &change.w);
-        add(&mut self.eta, &change.eta);
         add(&mut self.u, &change.u);
-        add(&mut self.mu, &change.mu);
         let slopes = self.slopes(h);
         let moved = Some(largest(&change.u)).filter(|moved| *moved > round_off).unwrap_or(0.0) / slopes.q;
         largest(&change.a).max(largest(&change.w) / slopes.v).max(moved)

@@ -169,8 +169,6 @@ impl Newton {
             self.residual.of_terms(&self.dae, motion.unknowns(), dynamics);
             (self.is_linearized, self.factored) = (true, None);
         }
-        // Found from nothing by one metric, the shifts meet their own equations in it.
-        [&mut self.residual.w, &mut self.residual.u].into_iter().for_each(|left| left.fill(0.0));
         if self.factored.is_some_and(|own| own / h <= BAND && h / own <= BAND) {
             self.iteration.rescale(motion.slopes(h));
             return Ok(());
