@@ -1,6 +1,6 @@
 //! What linear models cost: `cargo bench --bench linearize`. Single thread.
 
-#[path = "../tests/equations/mod.rs"]
+#[path = "../tests/common/equations/mod.rs"]
 mod equations;
 
 use equations::andrews::Andrews;

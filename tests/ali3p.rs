@@ -1,14 +1,11 @@
 //! The index-3 augmented Lagrangian method: what it holds, and where others fail.
 
-mod common;
-mod scenes;
-
-use common::driven_pendulum::{DrivenPendulum, start};
-use common::{adaptive, distance, fixed, run, until};
+use crate::common::driven_pendulum::{DrivenPendulum, start};
+use crate::common::{adaptive, distance, fixed, run, until};
+use crate::scenes::shipped;
 use holonom::math::Scalar;
 use holonom::simulate::Span;
 use holonom::system::Equations;
-use scenes::shipped;
 
 #[test]
 fn constraints_hold_and_the_penalty_does_not_matter() {

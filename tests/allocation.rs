@@ -1,20 +1,13 @@
 //! Accepted steps allocate nothing: a run of 2N steps makes as many allocations as one of N.
 
-mod common;
-#[path = "common/counting.rs"]
-mod counting;
-
-use common::driven_pendulum::{self, DrivenPendulum};
-use common::{adaptive, fixed};
-use counting::{Counting, count};
+use crate::common::counting::count;
+use crate::common::driven_pendulum::{self, DrivenPendulum};
+use crate::common::{adaptive, fixed};
 use holonom::math::Scalar;
 use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate};
 use holonom::study::{Overrides, Study};
 use holonom::system::{Equations, Loaded, MechanicalSystem, Scratch};
 use std::path::Path;
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 /// Methods that between them use every vector field, projection, field and kind of explicit integrator.
 const METHODS: [(&str, &str, &str); 17] = [

@@ -1,12 +1,9 @@
 //! Andrews' squeezing mechanism as seven rigid bodies, against the seven angles of the IVP test set.
 
-mod equations;
-mod scenes;
-
-use equations::andrews::Andrews;
+use crate::common::equations::andrews::Andrews;
+use crate::scenes::shipped;
 use holonom::math::{Scalar, Taylor};
 use holonom::system::{MechanicalSystem, Need, Scratch, Terms};
-use scenes::shipped;
 
 const ANGLES: [&str; 7] = ["beta", "Theta", "gamma", "Phi", "delta", "Omega", "epsilon"];
 

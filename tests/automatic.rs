@@ -1,12 +1,10 @@
 //! Runs that change their method on the way.
 
-mod scenes;
-
+use crate::scenes::{Ready, parse, shipped};
 use holonom::formulation::{Choice, Statistics};
 use holonom::measure::{Record, Recorder};
 use holonom::simulate::{Leg, Method, Outcome, Span, simulate, simulate_automatic};
 use holonom::study::{Overrides, Study};
-use scenes::{Ready, parse, shipped};
 use std::path::Path;
 
 fn automatic(scene: &Ready, rtol: f64, span: Span) -> (Outcome, Vec<Leg>, Record) {

@@ -1,12 +1,10 @@
 //! Shipped scenes against closed forms, elliptic functions and equations in minimal coordinates.
 
-mod scenes;
-
+use crate::scenes::{Run, dop853, load, models, parse, shipped};
 use holonom::math::Scalar;
 use holonom::measure::Recorder;
 use holonom::simulate::{Span, simulate};
 use holonom::system::Equations;
-use scenes::{Run, dop853, load, models, parse, shipped};
 
 /// What errors of 1e-13 a step add up to over some hundred steps of motions that amplify them mildly.
 const CLOSE: f64 = 1e-10;
@@ -341,7 +339,8 @@ fn energy_is_accounted_for() {
         ("bushing_block", "c", 5.0),
         ("slider_crank", "torque", 0.5),
     ];
-    let dissipative = dissipative.map(|(name, parameter, value)| (scenes::model(name), Some((parameter, value))));
+    let dissipative =
+        dissipative.map(|(name, parameter, value)| (crate::scenes::model(name), Some((parameter, value))));
     for (path, change) in conservative.chain(dissipative) {
         let ready = load(&path, change.as_slice());
         let run = ready.tight(1e-11, ready.span().end, ready.span().end / 10.0);

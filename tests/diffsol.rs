@@ -1,18 +1,15 @@
 //! The implicit integrators of diffsol: orders, stiff motions, rotations, what they refuse; and a table beside our own.
 
-mod common;
-mod scenes;
-
-use common::driven_pendulum::{DrivenPendulum, start};
-use common::stiff::{STIFF, slow_position};
-use common::{adaptive, distance, fixed, run, stepwise, until};
+use crate::common::driven_pendulum::{DrivenPendulum, start};
+use crate::common::stiff::{STIFF, slow_position};
+use crate::common::{adaptive, distance, fixed, run, stepwise, until};
+use crate::scenes::{Ready, parse, shipped};
 use holonom::integrator::{Entry, Steps, registry};
 use holonom::projection::registry as projections;
 use holonom::scene::Scene;
 use holonom::simulate::{Method, Span};
 use holonom::study::Study;
 use holonom::system::{Dimensions, MechanicalSystem, Need, Scratch, Terms};
-use scenes::{Ready, parse, shipped};
 use std::time::Instant;
 
 const END: f64 = 1.5;
@@ -224,7 +221,8 @@ fn equations_without_derivatives_are_refused() {
 
 /// Prints digits of the worst of `columns` at the end against work; `--nocapture` shows it.
 fn compare(scene: &str, ready: &Ready, span: Span, columns: &[&str], steps: &[f64]) {
-    let last = |run: &scenes::Run| columns.iter().map(|name| *run.column(name).last().unwrap()).collect::<Vec<_>>();
+    let last =
+        |run: &crate::scenes::Run| columns.iter().map(|name| *run.column(name).last().unwrap()).collect::<Vec<_>>();
     let reference = last(&ready.run(&adaptive("index1", "dop853", "manifold", 1e-13), span));
     let implicit = implicit().flat_map(|entry| {
         let projection = if entry.refuses("index1", "manifold") { "none" } else { "manifold" };

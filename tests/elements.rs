@@ -3,14 +3,8 @@
 //! The tables in `scenes/examples.rs` hold an example for each kind; the tests walk the registries, so that a kind
 //! without one fails.
 
-#[path = "scenes/differences.rs"]
-mod differences;
-#[path = "scenes/examples.rs"]
-mod examples;
-mod scenes;
-
-use differences::{moved, slope};
-use examples::{BETWEEN, FORCES, JOINTS, Nature};
+use crate::scenes::differences::{moved, slope};
+use crate::scenes::examples::{BETWEEN, FORCES, JOINTS, Nature};
 use holonom::scene::Scene;
 use holonom::study::AnyMechanism;
 use holonom::system::{MechanicalSystem, Mechanism, Need, Scratch, Terms};

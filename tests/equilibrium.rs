@@ -1,12 +1,10 @@
 //! Static equilibrium: known ones, large deformations, redundant rows, and what has none.
 
-mod scenes;
-
+use crate::scenes::{Ready, parse, shipped};
 use holonom::error::Error;
 use holonom::initial::{Equilibrium, Stability, Way, equilibrium};
 use holonom::scene::generate;
 use holonom::system::{Loaded, MechanicalSystem, Need, Scratch, Terms};
-use scenes::{Ready, parse, shipped};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The equilibrium at the start time from the start.
@@ -60,8 +58,8 @@ fn a_pendulum_hangs() {
 /// Every shipped scene has one, but for none of them by chance: all are checked by their equations.
 #[test]
 fn shipped_scenes_come_to_rest() {
-    for path in scenes::models() {
-        let scene = scenes::load(&path, &[]);
+    for path in crate::scenes::models() {
+        let scene = crate::scenes::load(&path, &[]);
         if scene.0.name == "flying_spaghetti" {
             let error = seek(&scene).unwrap_err().to_string();
             assert!(error.contains("nothing holds `beam.n0.x`"), "{error}");
@@ -111,8 +109,9 @@ fn suspensions_start_at_rest() {
 #[test]
 fn a_softer_tyre_sinks() {
     let scene = shipped("quarter_car", &[]);
-    let text =
-        std::fs::read_to_string(scenes::model("quarter_car")).unwrap().replace("(m_body + m_wheel)*g/k_tyre", "0");
+    let text = std::fs::read_to_string(crate::scenes::model("quarter_car"))
+        .unwrap()
+        .replace("(m_body + m_wheel)*g/k_tyre", "0");
     let sunk = found(&parse(&text));
     let by = found(&scene).q[0] - sunk.q[0];
     assert!((by - 438.0 * 9.81 / 2e5).abs() < 1e-12, "{by}");
@@ -229,7 +228,7 @@ fn a_cantilever_bends_as_far_as_it_is_long() {
 /// A load that ramps with time is held at the time that is asked for.
 #[test]
 fn time_is_held() {
-    let text = std::fs::read_to_string(scenes::model("bushing_block")).unwrap();
+    let text = std::fs::read_to_string(crate::scenes::model("bushing_block")).unwrap();
     let ramp = r#""forces": [ { "name": "ramp", "type": "applied_force", "at": "block", "force": [0, 0, "-10*t"] }, "#;
     let scene = parse(&text.replacen(r#""forces": ["#, ramp, 1));
     let height = |t: f64| equilibrium(scene.system(), t, &scene.start().q).unwrap().q[2];

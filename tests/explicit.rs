@@ -1,10 +1,8 @@
 //! Explicit Runge-Kutta methods without constraints: order conditions, interpolation, step control.
 
-mod common;
-
-use common::driven_pendulum::{self, DrivenPendulum};
-use common::unconstrained::{Arenstorf, Exponential, Power};
-use common::{Run, adaptive, distance, fixed, run, stepwise, until};
+use crate::common::driven_pendulum::{self, DrivenPendulum};
+use crate::common::unconstrained::{Arenstorf, Exponential, Power};
+use crate::common::{Run, adaptive, distance, fixed, run, stepwise, until};
 use holonom::error::Failure;
 use holonom::integrator::{Entry, Steps, registry};
 use holonom::simulate::Span;

@@ -1,12 +1,9 @@
 //! The stiff flyball governor as a spatial scene against a computation in its three minimal coordinates, valid while
 //! both rods move alike.
 
-mod common;
-mod scenes;
-
-use common::{adaptive, fixed};
+use crate::common::{adaptive, fixed};
+use crate::scenes::{Run, shipped};
 use holonom::simulate::Span;
-use scenes::{Run, shipped};
 
 const OUTPUTS: [&str; 6] = ["psi", "beta", "s", "shaft_speed", "beta_rate", "s_rate"];
 

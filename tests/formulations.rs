@@ -1,17 +1,14 @@
 //! Formulations against each other at single states, and what tells them apart.
 
-mod common;
-mod scenes;
-
-use common::driven_pendulum::{DrivenPendulum, start};
-use common::{distance, fixed, run, until};
+use crate::common::driven_pendulum::{DrivenPendulum, start};
+use crate::common::{distance, fixed, run, until};
+use crate::scenes::shipped;
 use holonom::formulation::{Choice, Dynamics, Halt, make};
 use holonom::initial::assemble;
 use holonom::math::Scalar;
 use holonom::simulate::Span;
 use holonom::system::{Equations, MechanicalSystem};
 use proptest::prelude::*;
-use scenes::shipped;
 
 /// v' and lambda of `formulation` at a state.
 fn solve(system: &dyn MechanicalSystem, formulation: &str, t: f64, q: &[f64], v: &[f64]) -> (Vec<f64>, Vec<f64>) {
@@ -142,7 +139,7 @@ fn a_redundant_mechanism_runs_and_its_rank_is_reported() {
     let scene = shipped("parallelogram_redundant", &[]);
     let span = Span { start: 0.0, end: 1.0, output_step: 0.1 };
     let rows = |formulation: &str| {
-        let method = common::adaptive(formulation, "dop853", "manifold", 1e-10);
+        let method = crate::common::adaptive(formulation, "dop853", "manifold", 1e-10);
         let run = scene.run(&method, span);
         (run.record.trajectory.rows, run.outcome.statistics)
     };

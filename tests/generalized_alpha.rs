@@ -1,11 +1,9 @@
 //! Generalized-alpha where it is meant for: stiff motions, and rotations; with steps of its own, redundant constraints,
 //! long runs, many bodies.
 
-mod common;
-
-use common::driven_pendulum::{DrivenPendulum, start};
-use common::stiff::{STIFF, slow_position};
-use common::{adaptive, distance, fixed, stepwise, until};
+use crate::common::driven_pendulum::{DrivenPendulum, start};
+use crate::common::stiff::{STIFF, slow_position};
+use crate::common::{adaptive, distance, fixed, stepwise, until};
 use holonom::formulation::Choice;
 use holonom::math::Scalar;
 use holonom::measure::Recorder;
@@ -76,10 +74,10 @@ fn rotations_converge_with_order_two() {
 }
 
 /// Errors of q, v and lambda at the end, and the number of steps.
-fn errors(formulation: &str, tolerance: f64, exact: &common::Run) -> ([f64; 3], f64) {
+fn errors(formulation: &str, tolerance: f64, exact: &crate::common::Run) -> ([f64; 3], f64) {
     let (q, v) = start();
     let method = stepwise(formulation, "generalized_alpha", "none", tolerance);
-    let run = common::run(&DrivenPendulum, &method, until(1.5), (&q, &v)).completed();
+    let run = crate::common::run(&DrivenPendulum, &method, until(1.5), (&q, &v)).completed();
     let ((q, v, lambda), (q1, v1, lambda1)) = (run.last(), exact.last());
     let found = [distance(q, q1), distance(v, v1), distance(lambda, lambda1)];
     assert!(run.drift().0 < 1e-14, "{:?}", run.drift());
@@ -91,7 +89,8 @@ fn errors(formulation: &str, tolerance: f64, exact: &common::Run) -> ([f64; 3], 
 #[test]
 fn steps_of_its_own_keep_order_two() {
     let (q, v) = start();
-    let exact = common::run(&DrivenPendulum, &adaptive("index1", "dop853", "exact", 1e-12), until(1.5), (&q, &v));
+    let exact =
+        crate::common::run(&DrivenPendulum, &adaptive("index1", "dop853", "exact", 1e-12), until(1.5), (&q, &v));
     for formulation in ["index3", "ggl"] {
         let (coarse, few) = errors(formulation, 1e-6, &exact);
         let (fine, many) = errors(formulation, 1e-9, &exact);
@@ -131,10 +130,11 @@ fn long_runs_keep_their_energy() {
 #[test]
 fn redundant_constraints_are_solved() {
     let study = shipped("parallelogram_redundant");
-    let exact = common::run(study.system(), &adaptive("index1", "dop853", "exact", 1e-12), until(2.0), study.start());
+    let exact =
+        crate::common::run(study.system(), &adaptive("index1", "dop853", "exact", 1e-12), until(2.0), study.start());
     for formulation in ["index3", "ggl"] {
         let method = fixed(formulation, "generalized_alpha", "none", 1e-3);
-        let run = common::run(study.system(), &method, until(2.0), study.start()).completed();
+        let run = crate::common::run(study.system(), &method, until(2.0), study.start()).completed();
         let ((q, v, lambda), (q1, v1, lambda1)) = (run.last(), exact.last());
         let errors = [distance(q, q1), distance(v, v1), distance(lambda, lambda1)];
         // Some h^2, of values of 2, 7 and 30.
@@ -169,7 +169,7 @@ fn redundant_constraints_that_contradict_each_other_end_the_run() {
             fixed(formulation, "generalized_alpha", "none", 1e-3),
             adaptive(formulation, "generalized_alpha", "none", 1e-6),
         ] {
-            let run = common::run(&Torn, &method, until(1.0), (&[0.0, 1.0], &[0.0, 0.0]));
+            let run = crate::common::run(&Torn, &method, until(1.0), (&[0.0, 1.0], &[0.0, 0.0]));
             let failure = run.outcome.failure.unwrap();
             assert!(failure.reason.contains("contradict"), "{failure:?}");
             assert!(failure.hint.contains("holonom check"), "{failure:?}");
@@ -185,7 +185,7 @@ fn a_chain_of_two_hundred_links() {
     for formulation in ["index3", "ggl"] {
         let method = fixed(formulation, "generalized_alpha", "none", 1e-3);
         let span = Span { start: 0.0, end: 0.1, output_step: 0.1 };
-        let run = common::run(study.system(), &method, span, study.start()).completed();
+        let run = crate::common::run(study.system(), &method, span, study.start()).completed();
         assert!(run.drift().0 < 1e-13 && (formulation == "index3" || run.drift().1 < 1e-10), "{:?}", run.drift());
         // Of 0.24 J that turn from potential to kinetic energy.
         let error = run.record.energy.unwrap().max_error;

@@ -1,15 +1,12 @@
 //! Half-explicit methods: what they hold, what they cost, how they fail.
 
-mod common;
-mod scenes;
-
-use common::driven_pendulum::{self, DrivenPendulum};
-use common::equations::andrews;
-use common::unconstrained::{Arenstorf, Power};
-use common::{Run, adaptive, distance, fixed, method, run, stepwise, until};
+use crate::common::driven_pendulum::{self, DrivenPendulum};
+use crate::common::equations::andrews;
+use crate::common::unconstrained::{Arenstorf, Power};
+use crate::common::{Run, adaptive, distance, fixed, method, run, stepwise, until};
+use crate::scenes::shipped;
 use holonom::integrator::registry;
 use holonom::simulate::{Method, Span};
-use scenes::shipped;
 
 /// Methods for index 2, with solutions a fixed step.
 const HALF_EXPLICIT: [(&str, u64); 4] = [("hem3", 4), ("hem4", 6), ("hem5", 9), ("phem56", 6)];
@@ -85,8 +82,8 @@ fn redundant_constraints() {
     let method = adaptive("index2", "phem56", "manifold", 1e-8);
     let span = Span { start: 0.0, end: 1.0, output_step: 0.1 };
     let ready = shipped("parallelogram_redundant", &[]);
-    let (half, full) = (ready.run(&method, span), ready.run(&scenes::dop853(1e-12), span));
-    let last = |run: &scenes::Run| run.record.trajectory.rows.last().unwrap().clone();
+    let (half, full) = (ready.run(&method, span), ready.run(&crate::scenes::dop853(1e-12), span));
+    let last = |run: &crate::scenes::Run| run.record.trajectory.rows.last().unwrap().clone();
     let (half_last, full_last) = (last(&half), last(&full));
     let (half, full) = (half.record.trajectory.row_state(&half_last), full.record.trajectory.row_state(&full_last));
     assert!(distance(half.0, full.0) < 1e-6);

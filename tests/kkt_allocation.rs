@@ -1,13 +1,7 @@
 //! Factor and solve allocate nothing after their first use.
 
-#[path = "common/counting.rs"]
-mod counting;
-
-use counting::{Counting, count};
+use crate::common::counting::count;
 use holonom::math::kkt::{Field, Pattern, PseudoInverse, Reduced, SaddlePoint, Solver, Unsymmetric};
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 /// Allocations of a few rounds of factor, solve, projection and refinement, after a first one.
 fn allocations(mass: &Pattern, mass_values: &[f64], g: &Pattern, g_values: &[f64]) -> usize {

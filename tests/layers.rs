@@ -245,6 +245,25 @@ fn files_are_short() {
     assert!(long.is_empty(), "more than {LONGEST}:\n{}", long.join("\n"));
 }
 
+/// `autotests` is off, so that tests are linked into few programs: a file that none of them names would never run.
+#[test]
+fn every_test_is_run() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let manifest = fs::read_to_string(folder.join("Cargo.toml")).unwrap();
+    let programs: Vec<&str> =
+        manifest.split("[[test]]\nname = \"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+    let texts = programs.iter().filter_map(|name| fs::read_to_string(folder.join(format!("tests/{name}.rs"))).ok());
+    let named: Vec<String> = texts.flat_map(|text| text.lines().map(str::to_string).collect::<Vec<_>>()).collect();
+    for path in fs::read_dir(folder.join("tests")).unwrap().map(|entry| entry.unwrap().path()) {
+        let name = path.file_stem().unwrap().to_string_lossy().to_string();
+        let is_module = path.extension().is_some_and(|end| end == "rs") || path.join("mod.rs").exists();
+        let times = named.iter().filter(|line| **line == format!("mod {name};")).count();
+        let is_shared = ["common", "scenes"].contains(&name.as_str());
+        let is_named = programs.contains(&name.as_str()) || times == 1 || is_shared;
+        assert!(!is_module || is_named, "{name} is in {times} of {programs:?}");
+    }
+}
+
 #[test]
 fn paths_are_read_as_the_compiler_does() {
     let source = |module: &[&str]| Source {

@@ -1,12 +1,10 @@
 //! Shipped mechanisms against references computed with 34 digits, closed loops and balances of power and force.
 
-mod scenes;
-
+use crate::scenes::{Run, dop853, shipped};
 use holonom::formulation::Choice;
 use holonom::math::{Dual, Scalar, Taylor};
 use holonom::report::check;
 use holonom::simulate::{Method, Span};
-use scenes::{Run, dop853, shipped};
 use std::f64::consts::{PI, TAU};
 
 /// theta1, theta2, omega1, omega2 and lambda of the robot arm at t = 1, 2, ... 10 s: extrapolation with 34 digits, by

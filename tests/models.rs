@@ -1,10 +1,8 @@
 //! Every shipped scene loads, starts where it says, and runs with its own method.
 
-mod scenes;
-
+use crate::scenes::{Ready, load, model, models};
 use holonom::simulate::Span;
 use holonom::system::{Need, Scratch, Terms};
-use scenes::{Ready, load, model, models};
 use serde_json::Value;
 use std::path::Path;
 

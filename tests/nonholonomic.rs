@@ -1,9 +1,7 @@
 //! Velocity constraints without a position level, A v + a = 0, through own equations: every formulation with multipliers and
 //! every vector field keeps them, whatever the method.
 
-mod common;
-
-use common::{adaptive, fixed, run, until};
+use crate::common::{adaptive, fixed, run, until};
 use holonom::integrator::{Steps, registry};
 use holonom::system::{Dimensions, Loaded, MechanicalSystem, Need, Scratch, Structure, Tangent, Terms};
 

@@ -1,14 +1,11 @@
 //! Minimal coordinates in the tangent space: no drift, wherever the state is looked at, and what is integrated.
 
-mod common;
-mod scenes;
-
-use common::driven_pendulum::{DrivenPendulum, start};
-use common::equations::pendulum::Pendulum;
-use common::{adaptive, distance, fixed, run, until};
+use crate::common::driven_pendulum::{DrivenPendulum, start};
+use crate::common::equations::pendulum::Pendulum;
+use crate::common::{adaptive, distance, fixed, run, until};
+use crate::scenes::shipped;
 use holonom::simulate::{Observation, Sink, Span, simulate};
 use holonom::system::MechanicalSystem;
-use scenes::shipped;
 
 /// Largest |phi| and |G v + phi_t| over accepted steps and rows.
 #[derive(Default)]

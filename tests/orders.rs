@@ -1,11 +1,9 @@
 //! Convergence orders of every accepted triple formulation x integrator x projection in q, v and lambda, and the
 //! orders of the drift.
 
-mod common;
-
-use common::driven_pendulum::{DrivenPendulum, start};
-use common::orders::{self, END, Rows, integrators, steps};
-use common::{fixed, run, until};
+use crate::common::driven_pendulum::{DrivenPendulum, start};
+use crate::common::orders::{self, END, Rows, integrators, steps};
+use crate::common::{fixed, run, until};
 use holonom::integrator::Entry;
 use holonom::simulate::{Method, Span};
 

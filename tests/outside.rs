@@ -1,10 +1,8 @@
 //! A formulation, an integrator and a projection from outside the crate: each an `Entry` of its own, chosen by `choice()`.
 
-mod common;
-
-use common::driven_pendulum::{DrivenPendulum, start};
-use common::orders::{self, END, Rows};
-use common::{fixed, run, until};
+use crate::common::driven_pendulum::{DrivenPendulum, start};
+use crate::common::orders::{self, END, Rows};
+use crate::common::{fixed, run, until};
 use holonom::choice::{Choice, Listed, OptionDoc};
 use holonom::formulation::{self, Dae, Dynamics, Formulation, Halt, Row};
 use holonom::integrator::{self, Control, From, Integrator, Problem, Steps, Tightening, Tolerance};
@@ -193,5 +191,5 @@ fn a_saved_run_goes_on_with_it() {
     let (q, v) = start();
     let method = Method { formulation: ROWS.choice(), ..fixed("", "radau_iia", "none", END / 40.0) };
     let span = Span { output_step: END / 7.0, ..until(END) };
-    assert!(!common::saved::differs(&DrivenPendulum, &method, span, (&q, &v)));
+    assert!(!crate::common::saved::differs(&DrivenPendulum, &method, span, (&q, &v)));
 }

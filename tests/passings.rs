@@ -1,14 +1,11 @@
 //! Singular states that a motion passes: their times, what depends on what there, and whether the motion kept to its
 //! branch.
 
-mod common;
-mod scenes;
-
-use common::{adaptive, fixed, stepwise};
+use crate::common::{adaptive, fixed, stepwise};
+use crate::scenes::{Ready, model, parse, shipped};
 use holonom::measure::{Branch, Recorder, Singularity, dependent_beside};
 use holonom::scene::generate::n_four_bar;
 use holonom::simulate::{Method, Span, simulate};
-use scenes::{Ready, model, parse, shipped};
 
 const CASES: [&str; 2] = ["slider_crank_singular", "slider_crank_singular_2"];
 /// First passages, from a computation with 30 digits. Case 1 swings about the folded position, so that all passages are

@@ -1,15 +1,13 @@
 //! Evaluation without memory: y' and lambda at a state depend on that, the scene and what is settled for a step, never on what
 //! was evaluated before.
 
-mod scenes;
-
+use crate::scenes::{load, models};
 use holonom::formulation::{self, Choice, Dynamics};
 use holonom::integrator::Problem;
 use holonom::measure::Recorder;
 use holonom::simulate::{Method, Span, simulate};
 use holonom::system::MechanicalSystem;
 use rayon::prelude::*;
-use scenes::{load, models};
 
 /// Larger systems are left to the sparse formulations.
 const DENSE: usize = 60;
@@ -22,7 +20,7 @@ struct State {
 }
 
 /// States of the motion by the scene's own method, as many off the constraints, one far away and one that is none.
-fn states(path: &std::path::Path) -> (scenes::Ready, Vec<State>) {
+fn states(path: &std::path::Path) -> (crate::scenes::Ready, Vec<State>) {
     let ready = load(path, &[]);
     let (system, span) = (ready.system(), ready.span());
     let end = span.start + 0.1 * (span.end - span.start);

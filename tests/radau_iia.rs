@@ -1,19 +1,16 @@
 //! Radau IIA: its higher orders, counters of other codes, output rows, rotations, redundant rows, stiffness.
 
-mod common;
-mod scenes;
-
-use common::driven_pendulum::{DrivenPendulum, start};
-use common::equations::State;
-use common::equations::andrews::{self, Andrews};
-use common::equations::crank::{self, Crank};
-use common::stiff::{STIFF, slow_position};
-use common::unconstrained::Power;
-use common::{Run, adaptive, distance, fixed, run, stepwise, until};
+use crate::common::driven_pendulum::{DrivenPendulum, start};
+use crate::common::equations::State;
+use crate::common::equations::andrews::{self, Andrews};
+use crate::common::equations::crank::{self, Crank};
+use crate::common::stiff::{STIFF, slow_position};
+use crate::common::unconstrained::Power;
+use crate::common::{Run, adaptive, distance, fixed, run, stepwise, until};
+use crate::scenes::{dop853, parse, shipped};
 use holonom::scene::generate;
 use holonom::simulate::{Method, Span};
 use holonom::system::MechanicalSystem;
-use scenes::{dop853, parse, shipped};
 
 const FORMULATIONS: [&str; 4] = ["ggl", "index3", "index2", "index1"];
 
@@ -166,7 +163,7 @@ fn stiff_motions_are_stepped_over() {
     }
 }
 
-fn shipped_stiff(damping: f64) -> scenes::Ready {
+fn shipped_stiff(damping: f64) -> crate::scenes::Ready {
     parse(&STIFF.replace("\"damping\": 0 }", &format!("\"damping\": {damping} }}")))
 }
 

@@ -1,17 +1,14 @@
 //! RATTLE: constraints at round-off, energy without drift over a million steps, and what it refuses.
 
-mod common;
-mod scenes;
-
-use common::driven_pendulum::{self, DrivenPendulum};
-use common::equations::heavy_top::{self, HeavyTop};
-use common::equations::pendulum::{self, Pendulum};
-use common::equations::robot_arm::{self, RobotArm};
-use common::{fixed, run, until};
+use crate::common::driven_pendulum::{self, DrivenPendulum};
+use crate::common::equations::heavy_top::{self, HeavyTop};
+use crate::common::equations::pendulum::{self, Pendulum};
+use crate::common::equations::robot_arm::{self, RobotArm};
+use crate::common::{fixed, run, until};
+use crate::scenes::shipped;
 use holonom::measure::Recorder;
 use holonom::simulate::{Observation, Sink, simulate};
 use holonom::system::{MechanicalSystem, Scratch};
-use scenes::shipped;
 
 /// Largest errors over the accepted steps: of the energy, J, in the first and in the second half of a run, of what else
 /// stays, and of the constraints.

@@ -1,11 +1,8 @@
 //! Redundant rows change neither the motion nor the work that it takes.
 
-mod common;
-mod scenes;
-
-use common::fixed;
+use crate::common::fixed;
+use crate::scenes::{Ready, Run, parse};
 use holonom::simulate::Span;
-use scenes::{Ready, Run, parse};
 use serde_json::{Value, json};
 
 fn rod(name: String, x: f64, y: f64, angle: f64) -> Value {

@@ -1,13 +1,11 @@
 //! A run that was saved at an accepted step and goes on from there is, bit by bit, the run that went on by itself.
 
-mod scenes;
-
+use crate::scenes::{Ready, parse, shipped};
 use holonom::formulation::Choice;
 use holonom::integrator::{self, Steps};
 use holonom::projection;
 use holonom::simulate::{Checkpoint, Method, Observation, Outcome, Sink, Span, Start, Stop, simulate_from};
 use rayon::prelude::*;
-use scenes::{Ready, parse, shipped};
 
 /// Those of diffsol, which keeps its matrices and its control of steps to itself: they begin anew, bdf at order one.
 const EXCEPTIONS: [&str; 3] = ["bdf", "tr_bdf2", "esdirk34"];

@@ -3,10 +3,8 @@
 //! The motion amplifies a perturbation about 1e4 times over the 10 s, so drifts of different programs agree only where
 //! they are well above round-off, and solutions only at small steps.
 
-mod common;
-
-use common::equations::robot_arm::{END, RobotArm, START};
-use common::{Run, adaptive, distance, fixed, run, until};
+use crate::common::equations::robot_arm::{END, RobotArm, START};
+use crate::common::{Run, adaptive, distance, fixed, run, until};
 use holonom::simulate::Span;
 use rayon::prelude::*;
 

@@ -1,15 +1,12 @@
 //! How long the steps of explicit methods may be: the limits that they state, measured on oscillators; and the warning
 //! before a run whose steps are too long or too many.
 
-mod common;
-mod scenes;
-
-use common::{fixed, method};
+use crate::common::{fixed, method};
+use crate::scenes::{Ready, parse};
 use holonom::formulation::Choice;
 use holonom::integrator::{self, Setup, Stability, Store};
 use holonom::measure::Recorder;
 use holonom::simulate::{Method, Span, simulate};
-use scenes::{Ready, parse};
 
 /// x'' + c x' + k x = 0 on a rail.
 fn oscillator(k: f64, c: f64) -> Ready {
@@ -121,12 +118,12 @@ fn adaptive_steps_that_stability_holds_short_are_told() {
 /// No false alarm: the shipped scenes with their own settings have methods that go with them.
 #[test]
 fn shipped_scenes_are_not_warned_of() {
-    for path in scenes::models() {
-        let scene = scenes::load(&path, &[]);
+    for path in crate::scenes::models() {
+        let scene = crate::scenes::load(&path, &[]);
         let told = scene.0.stiffness(scene.span());
         assert!(told.is_none(), "{}: {told:?}", scene.0.name);
     }
-    let told = scenes::shipped("quarter_car", &[("c_strut", 2e5)]);
+    let told = crate::scenes::shipped("quarter_car", &[("c_strut", 2e5)]);
     let told = told.0.stiffness(told.span()).unwrap();
     // The strut pulls the wheel and the body together: c (1/m + 1/M).
     assert!((told.mode.decay / (2e5 * (1.0 / 38.0 + 1.0 / 400.0)) - 1.0).abs() < 0.01, "{told:?}");

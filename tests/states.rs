@@ -1,11 +1,9 @@
 //! States xi of controllers, filters and actuators, xi' = r(t, q, v, xi), through own equations: every method takes them at its
 //! full order.
 
-mod common;
-
-use common::motor::{Motor, exact, start};
-use common::orders::{self, END, Rows, steps};
-use common::{adaptive, fixed, run, until};
+use crate::common::motor::{Motor, exact, start};
+use crate::common::orders::{self, END, Rows, steps};
+use crate::common::{adaptive, fixed, run, until};
 use holonom::initial::equilibrium;
 use holonom::integrator::{Entry, Steps, registry};
 use holonom::linearize::Variation;
@@ -90,7 +88,7 @@ fn a_saved_run_goes_on_bit_by_bit() {
                 "generalized_alpha" => fixed(formulation, entry.name, "manifold", END / 40.0),
                 _ => adaptive(formulation, entry.name, "manifold", 1e-6),
             };
-            let differs = common::saved::differs(&Motor, &method, span, (&q, &v));
+            let differs = crate::common::saved::differs(&Motor, &method, span, (&q, &v));
             assert!(!differs, "{}", method.triple());
         }
     }
@@ -180,7 +178,7 @@ fn coordinates_are_told_from_states() {
                 _ => fixed(formulation, entry.name, "none", END / 1000.0),
             };
             let found = run(&Rotor, &method, until(END), (&[1.0, 0.0], &[0.0, 0.0])).completed();
-            let error = common::distance(&found.record.trajectory.rows[1][1..5], &exact);
+            let error = crate::common::distance(&found.record.trajectory.rows[1][1..5], &exact);
             // Order 2 in a thousand steps of a motion of unit size.
             assert!(error < 2e-6, "{formulation} + {}: {error:e}", entry.name);
         }

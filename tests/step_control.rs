@@ -1,10 +1,8 @@
 //! Step control at its limits: tolerances of 1e-14 and 1, steps far too large and far too small, forces that jump. Every
 //! adaptive method ends, at the end or with a reason, without a number that is none.
 
-mod common;
-
-use common::driven_pendulum::{DrivenPendulum, start};
-use common::{Run, adaptive, distance, fixed, run, until};
+use crate::common::driven_pendulum::{DrivenPendulum, start};
+use crate::common::{Run, adaptive, distance, fixed, run, until};
 use holonom::integrator::{Entry, Steps, registry};
 use holonom::math::Scalar;
 use holonom::simulate::Span;

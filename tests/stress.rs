@@ -1,9 +1,7 @@
 //! Maps over extremes: the verdict of the robot arm on Baumgarte's gains, and what cells are called.
 
-mod common;
-
-use common::equations::robot_arm::{RobotArm, START};
-use common::{fixed, until};
+use crate::common::equations::robot_arm::{RobotArm, START};
+use crate::common::{fixed, until};
 use holonom::choice::Choice;
 use holonom::measure::stress::{
     Axis, Cell, Change, Entry, Extreme, Level, Limits, Map, Quantity, Status, StepVerdict, Stressed, Subject, find,

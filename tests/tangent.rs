@@ -1,9 +1,6 @@
 //! K and C of every shipped scene against central differences of the residual r = M v' + G^T lambda - f.
 
-#[path = "scenes/differences.rs"]
-mod differences;
-
-use differences::stirred;
+use crate::scenes::differences::stirred;
 use holonom::formulation::Dynamics;
 use holonom::study::Study;
 use holonom::system::Loaded;
@@ -19,7 +16,7 @@ fn check(study: &Study) {
     let mut dynamics = Dynamics::new(system);
     dynamics.solve(t, &q, &v, |_, _| 0.0).unwrap();
     let at = Loaded { t, q: &q, v: &v, vdot: &dynamics.vdot, lambda: &dynamics.lambda };
-    differences::check(system, at, &study.name);
+    crate::scenes::differences::check(system, at, &study.name);
 }
 
 #[test]

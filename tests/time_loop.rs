@@ -1,10 +1,8 @@
 //! The time loop: where steps and rows lie, what is counted, how a run fails.
 
-mod common;
-
-use common::driven_pendulum::{self, DrivenPendulum};
-use common::unconstrained::Exponential;
-use common::{Run, adaptive, fixed, method, run, until};
+use crate::common::driven_pendulum::{self, DrivenPendulum};
+use crate::common::unconstrained::Exponential;
+use crate::common::{Run, adaptive, fixed, method, run, until};
 use holonom::formulation::{Dynamics, Statistics, Work};
 use holonom::math::Scalar;
 use holonom::measure::Recorder;

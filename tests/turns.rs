@@ -1,11 +1,8 @@
 //! Angles in space that go through full turns, and parts that are deformed beyond what their theory holds for.
 
-mod common;
-mod scenes;
-
-use common::{adaptive, fixed, method, until};
+use crate::common::{adaptive, fixed, method, until};
+use crate::scenes::{Ready, parse, shipped};
 use holonom::simulate::{Method, Span};
-use scenes::{Ready, parse, shipped};
 
 /// A unit flywheel on a unit torsion spring, which starts with 3.5 rad/s: angle(t) = 3.5 sin t winds it up to 3.5 rad.
 fn wound(free_angle: f64) -> Ready {
@@ -52,7 +49,7 @@ fn torsion_springs_wind_up_beyond_half_a_turn() {
 /// Angles that outputs watch are counted beside the motion: its steps are those of the scene without them, bit by bit.
 #[test]
 fn watched_angles_leave_the_motion_as_it_is() {
-    let governor = std::fs::read_to_string(scenes::model("flyball_governor")).unwrap();
+    let governor = std::fs::read_to_string(crate::scenes::model("flyball_governor")).unwrap();
     let mut scene: serde_json::Value = serde_json::from_str(&governor).unwrap();
     let watched = parse(&scene.to_string());
     scene["outputs"].as_array_mut().unwrap().retain(|output| output["measure"] != "angle");
@@ -163,7 +160,8 @@ fn gears_keep_their_gap_however_far_drift_goes() {
     let (q, v) = (&mesh.start().q, mesh.start().v.clone());
     // A rate of the mesh that opens it by 0.02 rad/s, which index 1 does not see.
     let open: Vec<f64> = v.iter().enumerate().map(|(i, v)| if i == 5 { v + 0.02 } else { *v }).collect();
-    let run = common::run(mesh.system(), &fixed("index1", "rk4", "none", 0.01), until(2.0), (q, &open)).completed();
+    let run =
+        crate::common::run(mesh.system(), &fixed("index1", "rk4", "none", 0.01), until(2.0), (q, &open)).completed();
     let drift = run.record.drift.position.last;
     assert!((drift - 0.04).abs() < 1e-3, "{drift}");
 }

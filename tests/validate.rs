@@ -76,7 +76,7 @@ fn quick_scenes_follow_their_linear_models() {
     }
 }
 
-/// All, minutes: `cargo test --release --test validate -- --ignored --nocapture`.
+/// All, minutes: `cargo test --release --test linear validate -- --ignored --nocapture`.
 #[test]
 #[ignore = "takes minutes"]
 fn every_scene_follows_its_linear_model_at_three_states() {

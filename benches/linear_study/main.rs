@@ -9,8 +9,8 @@ mod figures;
 mod sheet;
 mod tables;
 
-#[path = "../../tests/equations/mod.rs"]
-mod equations;
+#[path = "../../tests/common/mod.rs"]
+mod common;
 #[path = "../../tests/linearize/systems.rs"]
 #[allow(dead_code)]
 mod systems;

@@ -1,9 +1,9 @@
 //! Loads at which beams buckle: where the least square of a frequency is zero, and where no more load is borne.
 
-use crate::frequencies::squares;
+use crate::absolute_beam::frequencies::squares;
+use crate::absolute_beam::shooting::{Rod, moment, position, solve};
+use crate::absolute_beam::statics::{balance, equilibrium};
 use crate::scenes::{Ready, parse};
-use crate::shooting::{Rod, moment, position, solve};
-use crate::statics::{balance, equilibrium};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 

@@ -1,8 +1,8 @@
 //! Large displacements against exact and published results.
 
+use crate::absolute_beam::shooting::Rod;
+use crate::absolute_beam::statics::{equilibrium, place};
 use crate::scenes::{Ready, model, parse};
-use crate::shooting::Rod;
-use crate::statics::{equilibrium, place};
 use holonom::scene::Scene;
 use holonom::study::{Overrides, Study};
 use nalgebra::Vector3;

@@ -1,6 +1,6 @@
 //! Natural frequencies of a tapered cantilever.
 
-use crate::frequencies::frequencies;
+use crate::absolute_beam::frequencies::frequencies;
 use crate::scenes::{Ready, parse};
 
 /// A cantilever of length and width one whose height falls to half of it, in units of EI and rho A at its root; so thin

@@ -1,6 +1,6 @@
 //! Runs that are interrupted, killed or find the disk full leave whole files or none.
 
-use crate::{PENDULUM, Place, err, out};
+use crate::cli::{PENDULUM, Place, err, out};
 use serde_json::Value;
 use std::fs;
 use std::os::unix::process::ExitStatusExt;

@@ -1,6 +1,6 @@
 //! What does not fit is refused before it is asked for.
 
-use crate::{Place, err};
+use crate::cli::{Place, err};
 use serde_json::json;
 use std::fs;
 

@@ -1,6 +1,6 @@
 //! What a scene says is shown, not obeyed.
 
-use crate::{PENDULUM, Place, err, out};
+use crate::cli::{PENDULUM, Place, err, out};
 use serde_json::Value;
 
 /// Escape, bell, NUL, a control sequence of one character, a right-to-left override and an isolate.

@@ -2,8 +2,8 @@
 
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
+pub mod counting;
 pub mod driven_pendulum;
-#[path = "../equations/mod.rs"]
 pub mod equations;
 pub mod motor;
 pub mod orders;

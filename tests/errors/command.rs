@@ -1,6 +1,6 @@
 //! The command line itself.
 
-use crate::{PENDULUM, refused};
+use crate::errors::{PENDULUM, refused};
 use std::fs;
 use tempfile::TempDir;
 

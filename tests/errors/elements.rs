@@ -1,6 +1,6 @@
 //! Elements that cannot be meant as they stand.
 
-use crate::{pendulum, top};
+use crate::errors::{pendulum, top};
 
 cases! {
     unknown_marker:
@@ -563,7 +563,7 @@ fn a_second_body_of_the_same_name() {
 fn a_scene_without_bodies() {
     let text = r#"{ "name": "nothing", "dimension": 2, "bodies": [] }"#;
     let pieces = ["scene.json:1:48: at bodies: the scene has no body", "give at least one"];
-    crate::scene(text).refused_with(&pieces);
+    crate::errors::scene(text).refused_with(&pieces);
 }
 
 #[test]

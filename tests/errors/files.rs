@@ -1,6 +1,6 @@
 //! Files and folders that cannot be read or written. No case relies on permissions, which do not stop root.
 
-use crate::{PENDULUM, refused, scene};
+use crate::errors::{PENDULUM, refused, scene};
 use std::fs;
 
 fn refused_in_a_folder(args: &[&str], pieces: &[&str]) {

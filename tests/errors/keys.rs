@@ -1,6 +1,6 @@
 //! Keys that are misspelled or missing, and values of the wrong kind.
 
-use crate::{pendulum, top};
+use crate::errors::{pendulum, top};
 
 cases! {
     typo_top:

@@ -1,6 +1,6 @@
 //! Methods, tolerances and times, in the scene and on the command line.
 
-use crate::pendulum;
+use crate::errors::pendulum;
 
 cases! {
     typo_simulation:

@@ -1,6 +1,6 @@
 //! Scenes that are well formed but have no consistent start.
 
-use crate::pendulum;
+use crate::errors::pendulum;
 
 cases! {
     unreachable:
@@ -85,7 +85,7 @@ const ROD: &str = "{ 'name': 'N', 'type': 'distance', 'between': ['ground.P', 'r
 const DRIVE: &str =
     "{ 'name': 'N', 'type': 'driver', 'between': ['ground.O', 'rod.A'], 'coordinate': 'angle', 'value': 'L' }";
 
-fn pair(element: &str, [a, b]: [&str; 2]) -> crate::Scene {
+fn pair(element: &str, [a, b]: [&str; 2]) -> crate::errors::Scene {
     let joint = |name: &str, value: &str| element.replace('N', name).replace('L', value);
     pendulum().and_joint(&joint("first", a)).and_joint(&joint("second", b))
 }
@@ -129,5 +129,5 @@ fn a_four_bar_with_too_short_links() {
     );
     let pieces =
         ["scene.json:2:11: at joints: the joints cannot all be closed; gaps that remain", "`A`", "help: check"];
-    crate::scene(crate::json(&text)).refused_with(&pieces);
+    crate::errors::scene(crate::errors::json(&text)).refused_with(&pieces);
 }

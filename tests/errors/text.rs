@@ -1,6 +1,6 @@
 //! Files that are not text, not JSON, or say a thing twice.
 
-use crate::{PENDULUM, pendulum, scene};
+use crate::errors::{PENDULUM, pendulum, scene};
 
 cases! {
     trailing_comma:

@@ -1,7 +1,7 @@
 //! Forces and motions that are given over time.
 
-use super::scenes::{dop853, parse, shipped};
 use super::{ADAPTIVE, attempt, fixed, method, pushed};
+use crate::scenes::{dop853, parse, shipped};
 use holonom::simulate::Span;
 use std::f64::consts::PI;
 

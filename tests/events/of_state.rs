@@ -1,7 +1,7 @@
 //! Contacts that come and go with the motion.
 
-use super::scenes::{Ready, dop853, parse};
 use super::{ADAPTIVE, attempt, fixed, method};
+use crate::scenes::{Ready, dop853, parse};
 use holonom::measure::Recorder;
 use holonom::simulate::{Span, simulate};
 

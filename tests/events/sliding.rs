@@ -1,7 +1,7 @@
 //! Forces that jump where they hold the motion: the run ends and names them.
 
-use super::scenes::parse;
 use super::{ADAPTIVE, attempt, method, pushed};
+use crate::scenes::parse;
 
 /// Coulomb's law without a law for sticking: at rest after 0.6 s.
 #[test]

@@ -1,6 +1,6 @@
 //! A chain of point masses, joined by rods or springs: as a scene, and as its own equations in 32 digits.
 
-use crate::double_double::Double;
+use crate::extremes::double_double::Double;
 use crate::scenes::{Ready, parse};
 
 /// What joins a mass to the one before, or to the ground at the origin.

@@ -1,7 +1,7 @@
 //! Masses that differ by eight orders of magnitude, beside each other in a chain.
 
-use crate::chain::{Chain, Exact, Link::Rod};
 use crate::common::{Run, adaptive, distance, run, until};
+use crate::extremes::chain::{Chain, Exact, Link::Rod};
 
 /// Largest errors of q over the length of a link, of v over the largest, and of tensions over the largest.
 pub fn errors(chain: &Chain, methods: &[[&str; 3]], tolerance: f64, end: f64) -> Vec<[f64; 3]> {

@@ -1,7 +1,7 @@
 //! Springs of any stiffness in a chain.
 
-use crate::chain::{Chain, Link};
-use crate::masses::{METHODS, errors};
+use crate::extremes::chain::{Chain, Link};
+use crate::extremes::masses::{METHODS, errors};
 use Link::{Rod, Spring};
 
 /// From springs that hardly pull to springs that are as good as rods and swing at 2e5 rad/s: by 1e-9 m, so that velocities

@@ -1,7 +1,7 @@
 //! The same chain in other units of length and mass: the same steps and the same digits.
 
-use crate::chain::{Chain, Link};
 use crate::common::{adaptive, distance, fixed, run, until};
+use crate::extremes::chain::{Chain, Link};
 use Link::{Rod, Spring};
 use holonom::simulate::Method;
 

@@ -1,7 +1,7 @@
 //! Both kinds of beams where deformations are small: they differ by the square of the load, and by the mesh.
 
-use crate::beams::{FLOATING, Rod, THEORIES, at_rest, largest, place_outputs, scene};
-use crate::brief;
+use crate::flexible::beams::{FLOATING, Rod, THEORIES, at_rest, largest, place_outputs, scene};
+use crate::flexible::brief;
 use crate::scenes::{Run, parse};
 
 const PLANE: &str = "xy";

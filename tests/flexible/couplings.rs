@@ -1,7 +1,7 @@
 //! Every kind of joint and force on markers of floating beams: at their ends, along them, and off their axes.
 
-use crate::differences::{self, moved, slope};
-use crate::examples::{FORCES, JOINTS, Nature};
+use crate::scenes::differences::{moved, slope};
+use crate::scenes::examples::{FORCES, JOINTS, Nature};
 use crate::scenes::{dop853, parse, shipped};
 use holonom::formulation::Choice;
 use holonom::scene::{AnyModel, Scene};
@@ -142,7 +142,7 @@ fn joints_on_beams_have_true_derivatives() {
         system.structure().g.multiply(&here.g, &v, &mut along);
         close(&slope(frozen), &along, &format!("G of {what}"));
         let (vdot, lambda) = (random.list(n.v), random.list(n.lambda));
-        differences::check(system, Loaded { t, q: &q, v: &v, vdot: &vdot, lambda: &lambda }, what);
+        crate::scenes::differences::check(system, Loaded { t, q: &q, v: &v, vdot: &vdot, lambda: &lambda }, what);
     });
 }
 
@@ -159,7 +159,7 @@ fn forces_on_beams_have_true_derivatives_and_potentials() {
             let n = system.dimensions();
             let (t, q, v) = (0.4, place(system, &mut random), random.list(n.v));
             let (vdot, lambda) = (random.list(n.v), random.list(n.lambda));
-            differences::check(system, Loaded { t, q: &q, v: &v, vdot: &vdot, lambda: &lambda }, what);
+            crate::scenes::differences::check(system, Loaded { t, q: &q, v: &v, vdot: &vdot, lambda: &lambda }, what);
             if !of_nature {
                 return;
             }

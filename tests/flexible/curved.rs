@@ -1,8 +1,8 @@
 //! Curved beams in a floating frame: closed forms of arcs and rings, and absolute beams of the same curvature.
 
-use crate::beams::{at_rest, largest};
-use crate::brief;
-use crate::rotating::{assert_has, driven, frequencies, frequencies_at_start};
+use crate::flexible::beams::{at_rest, largest};
+use crate::flexible::brief;
+use crate::flexible::rotating::{assert_has, driven, frequencies, frequencies_at_start};
 use crate::scenes::{Ready, parse};
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -1,7 +1,7 @@
 //! Energy and momentum of beams that nothing damps.
 
-use crate::beams::{FLOATING, FRAMES, Rod, largest, scene};
-use crate::brief;
+use crate::flexible::beams::{FLOATING, FRAMES, Rod, largest, scene};
+use crate::flexible::brief;
 use crate::scenes::{Ready, parse};
 use holonom::formulation::Choice;
 use holonom::simulate::{Method, Span};

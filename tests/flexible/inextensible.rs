@@ -1,6 +1,6 @@
 //! The beam that is spun up against an elastica in motion: no strain along it, no limit to its bending.
 
-use crate::beams::largest;
+use crate::flexible::beams::largest;
 use crate::scenes::{Run, model, parse};
 use holonom::simulate::Span;
 use nalgebra::{DMatrix, DVector};

@@ -1,6 +1,6 @@
 //! What a beam's outputs say of a cantilever under loads at its tip, in both kinds alike.
 
-use crate::beams::{EA, EI, FRAMES, GA, LENGTH, Rod, THEORIES, at_rest, scene};
+use crate::flexible::beams::{EA, EI, FRAMES, GA, LENGTH, Rod, THEORIES, at_rest, scene};
 use crate::scenes::parse;
 use holonom::scene::Scene;
 

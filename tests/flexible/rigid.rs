@@ -1,7 +1,7 @@
 //! Beams that move as a whole: no strain, and the rigid body as the limit of stiff ones.
 
-use crate::beams::{FLOATING, FRAMES, Rod, THEORIES, largest, place_outputs, scene};
-use crate::brief;
+use crate::flexible::beams::{FLOATING, FRAMES, Rod, THEORIES, largest, place_outputs, scene};
+use crate::flexible::brief;
 use crate::scenes::{Ready, parse};
 use holonom::formulation::Choice;
 use holonom::simulate::{Method, Span};

@@ -1,6 +1,6 @@
 //! The slider-crank with an elastic rod: the IVP test set's problem `crank`, and its rod in finite elements.
 
-use crate::brief;
+use crate::flexible::brief;
 use crate::scenes::{Ready, Run, shipped};
 use holonom::formulation::Choice;
 use holonom::simulate::{Method, Span};

@@ -1,6 +1,6 @@
 //! The beam on a hub that is spun up, Kane, Ryan and Banerjee's example.
 
-use crate::beams::largest;
+use crate::flexible::beams::largest;
 use crate::scenes::{Ready, Run, model, parse, shipped};
 use holonom::simulate::Span;
 

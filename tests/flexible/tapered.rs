@@ -1,7 +1,7 @@
 //! Tapered beams: sections as expressions of s, against closed forms of statics.
 
-use crate::beams::{FRAMES, THEORIES, at_rest, scene};
-use crate::brief;
+use crate::flexible::beams::{FRAMES, THEORIES, at_rest, scene};
+use crate::flexible::brief;
 use crate::scenes::parse;
 use holonom::scene::Scene;
 

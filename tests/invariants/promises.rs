@@ -1,6 +1,6 @@
 //! What a method promises of a motion of a quarter of a second, with speeds of some metres a second.
 
-use crate::methods::Tried;
+use crate::invariants::methods::Tried;
 
 /// Largest errors of coordinates and velocities against the reference, and of the energy balance over the kinetic energy.
 /// Ten times what the worst of some twenty mechanisms showed: a method that lost an order, or an invariant, is far off.

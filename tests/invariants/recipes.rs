@@ -1,6 +1,6 @@
 //! Random mechanisms, and the same ones seen otherwise.
 
-use crate::random::{Numbers, Recipe};
+use crate::scenes::random::{Numbers, Recipe};
 use serde_json::{Value, json};
 
 /// Trees and loops, planar and spatial, every fifth one with a constraint stated twice.

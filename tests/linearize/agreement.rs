@@ -1,8 +1,8 @@
 //! Exact methods agree with each other, on random mechanisms.
 
-use crate::models::{model, values};
-use crate::random::{Numbers, Recipe};
-use crate::reference::distance;
+use crate::linearize::models::{model, values};
+use crate::linearize::reference::distance;
+use crate::scenes::random::{Numbers, Recipe};
 use holonom::initial::{assemble, equilibrium};
 use holonom::linearize::{Chart, Kind, Matrix, Variation};
 use proptest::prelude::*;

@@ -1,8 +1,8 @@
 //! Linear models whose eigenvalues have a formula.
 
-use crate::models::{model, values};
-use crate::reference::distance;
-use crate::systems::{FourBar, TwoMass};
+use crate::linearize::models::{model, values};
+use crate::linearize::reference::distance;
+use crate::linearize::systems::{FourBar, TwoMass};
 use holonom::linearize::{Chart, Complex, Kind, State, Variation, transition};
 use holonom::math::Scalar;
 use holonom::system::Equations;

@@ -1,7 +1,7 @@
 //! Every method at the equilibria of the references.
 
-use crate::models::{at, counts, held_roots, model, values};
-use crate::reference::{distance, spectrum};
+use crate::linearize::models::{at, counts, held_roots, model, values};
+use crate::linearize::reference::{distance, spectrum};
 use holonom::linearize::{Complex, Kind};
 
 /// With the number of constraints.

@@ -1,6 +1,6 @@
 //! A few modes by sparse methods against all modes of dense ones.
 
-use crate::reference::distance;
+use crate::linearize::reference::distance;
 use holonom::choice::Choice;
 use holonom::linearize::{Chart, Complex, LinearModel, Matrix, Request, State, Variation, at_rest, linearize, modal};
 use holonom::scene::{Scene, generate};

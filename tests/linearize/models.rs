@@ -1,7 +1,7 @@
 //! Linear models of the references, and what is asked of them.
 
-use crate::reference::Reference;
-use crate::systems::system;
+use crate::linearize::reference::Reference;
+use crate::linearize::systems::system;
 use holonom::choice::Choice;
 use holonom::linearize::{Chart, Complex, Kind, LinearModel, Request, Variation, linearize};
 

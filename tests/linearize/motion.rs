@@ -1,8 +1,8 @@
 //! The state-transition matrix along motions: orders, invariants, Floquet multipliers, Lyapunov exponents.
 
-use crate::closed_forms::Spherical;
-use crate::reference::{Reference, distance};
-use crate::systems::{DoublePendulum, system};
+use crate::linearize::closed_forms::Spherical;
+use crate::linearize::reference::{Reference, distance};
+use crate::linearize::systems::{DoublePendulum, system};
 use holonom::linearize::{Chart, Complex, Matrix, State, Variation, floquet, lyapunov, minimal, transition};
 use holonom::math::Scalar;
 use holonom::math::eigen::expm;

@@ -1,7 +1,7 @@
 //! Methods at moving states, where charts differ.
 
-use crate::models::{at, counts, model, values};
-use crate::reference::{distance, spectrum};
+use crate::linearize::models::{at, counts, model, values};
+use crate::linearize::reference::{distance, spectrum};
 use holonom::linearize::{Chart, Kind, Matrix, Variation};
 
 const MOVING: [(&str, &[&str]); 3] = [
@@ -53,7 +53,7 @@ fn projected_methods_are_those_of_minimal_coordinates() {
 /// multiple ones (the critical roots, and zeros without gains, in blocks of size 2 or larger) to the root of rounding.
 #[test]
 fn all_eigenvalues_of_baumgarte_are_those_of_the_references() {
-    for label in crate::reference::LABELS {
+    for label in crate::linearize::reference::LABELS {
         at(label, |variation, reference| {
             for case in reference.0["baumgarte"].as_array().unwrap() {
                 let [c1, c0] = ["c1", "c0"].map(|key| case[key].as_f64().unwrap());

@@ -1,7 +1,7 @@
 //! How far penalties move physical eigenvalues.
 
-use crate::models::{at, model, values};
-use crate::reference::{distance, spectrum};
+use crate::linearize::models::{at, model, values};
+use crate::linearize::reference::{distance, spectrum};
 use holonom::formulation::mean_compliance;
 use holonom::linearize::{Complex, Kind, Matrix, Variation};
 

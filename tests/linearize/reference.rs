@@ -1,6 +1,6 @@
 //! Known answers in 30 digits, at equilibria and moving states.
 
-use crate::systems::system;
+use crate::linearize::systems::system;
 use holonom::linearize::{Chart, Complex, Variation, minimal};
 use serde_json::Value;
 

@@ -1,6 +1,6 @@
 //! What has no linear model, or no such one, and what the message says.
 
-use crate::models::{at, request};
+use crate::linearize::models::{at, request};
 use crate::scenes::shipped;
 use holonom::linearize::{Chart, Variation, linearize};
 use std::f64::consts::FRAC_PI_2;

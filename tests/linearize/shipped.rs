@@ -1,8 +1,8 @@
 //! The same states in the shipped scenes, which have other coordinates and constraints: bodies with angles and joints.
 
-use crate::closed_forms::crank_angle;
-use crate::models::{model, values};
-use crate::reference::{Reference, distance, spectrum};
+use crate::linearize::closed_forms::crank_angle;
+use crate::linearize::models::{model, values};
+use crate::linearize::reference::{Reference, distance, spectrum};
 use crate::scenes::{Ready, shipped};
 use holonom::initial::{Stability, assemble, equilibrium};
 use holonom::linearize::{Chart, Complex, Kind, State, Variation, at_rest};

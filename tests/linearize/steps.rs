@@ -1,8 +1,8 @@
 //! Eigenvalues of one step of an integrator about an equilibrium.
 
-use crate::closed_forms::{crank_angle, rhombus};
 use crate::common::{fixed, run, until};
-use crate::systems::FourBar;
+use crate::linearize::closed_forms::{crank_angle, rhombus};
+use crate::linearize::systems::FourBar;
 use holonom::linearize::Complex;
 use nalgebra::{Matrix2, Vector2};
 use std::f64::consts::FRAC_PI_2;

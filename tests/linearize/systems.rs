@@ -81,6 +81,6 @@ pub fn system(label: &str) -> Box<dyn MechanicalSystem> {
         "two_mass_eq" => Box::new(TwoMass { c1: 0.0 }),
         "four_bar_N1" | "four_bar_S1" => Box::new(FourBar { l0: 2f64.sqrt(), c1: 0.0 }),
         "double_pendulum_N1" => Box::new(DoublePendulum),
-        _ => Box::new(crate::equations::andrews::Andrews),
+        _ => Box::new(crate::common::equations::andrews::Andrews),
     }
 }

@@ -1,6 +1,6 @@
 //! Through the program: where files are looked for, and what is refused.
 
-use crate::{modal, swing, write};
+use crate::modal_body::{modal, swing, write};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! The motion of a beam and of its modes.
 
+use crate::modal_body::{modal, swing, write};
 use crate::scenes::{Run, load};
-use crate::{modal, swing, write};
 use serde_json::Value;
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! The shipped scene's data are the export of the beam that it names.
 
-use crate::export::Beam;
+use crate::modal_body::export::Beam;
 use crate::scenes::{model, shipped};
 use holonom::body::flexible::modal::{Array, ModalData};
 use holonom::simulate::Method;

@@ -1,6 +1,6 @@
 //! Derivatives of outputs against differences.
 
-use crate::differences::moved;
+use crate::scenes::differences::moved;
 use holonom::system::{Loaded, MechanicalSystem, OutputTangent, Scratch};
 use nalgebra::DMatrix;
 

@@ -1,6 +1,6 @@
 //! Own equations with outputs and an input.
 
-use crate::compare::check;
+use crate::outputs_tangent::compare::check;
 use holonom::math::Scalar;
 use holonom::system::{Equations, Loaded, MechanicalSystem, OutputTangent, Scratch};
 use nalgebra::DMatrix;

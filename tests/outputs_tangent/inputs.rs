@@ -1,6 +1,6 @@
 //! The forces of inputs against what the forces of a scene do when a constant is added to the component that is driven.
 
-use crate::measures::{mechanism, random};
+use crate::outputs_tangent::measures::{mechanism, random};
 use holonom::system::{Loaded, MechanicalSystem, Need, Scratch, Terms};
 use nalgebra::DMatrix;
 
@@ -125,9 +125,9 @@ fn inputs_add_to_components() {
         let mut found = DMatrix::from_element(v.len(), 2, 7.0);
         system.input_forces(T, &q, &v, &mut found, &mut Scratch::default());
         let at = Loaded { t: T, q: &q, v: &v, vdot: &v, lambda: &[] };
-        let direct = crate::compare::tangent(system, at).u;
-        let slopes = crate::compare::slope(|s| {
-            let moved = crate::measures::mechanism(&case.json(s));
+        let direct = crate::outputs_tangent::compare::tangent(system, at).u;
+        let slopes = crate::outputs_tangent::compare::slope(|s| {
+            let moved = crate::outputs_tangent::measures::mechanism(&case.json(s));
             let (f, y) = forces(moved.system());
             [f, y].concat()
         });
@@ -157,6 +157,6 @@ fn inputs_of_one_force() {
     system.input_forces(0.0, &[0.5, 0.6], &[0.0; 2], &mut found, &mut Scratch::default());
     assert_eq!(found, DMatrix::from_row_slice(2, 3, &[1.0, 0.0, 0.0, 0.0, 1.0, 1.0]));
     let at = Loaded { t: 0.0, q: &[0.5, 0.6], v: &[0.0; 2], vdot: &[0.0; 2], lambda: &[] };
-    let direct = crate::compare::tangent(system, at).u;
+    let direct = crate::outputs_tangent::compare::tangent(system, at).u;
     [0.6, 0.8, 0.8].iter().zip(direct.iter()).for_each(|(expected, found)| assert!((expected - found).abs() < 1e-15));
 }

@@ -1,8 +1,8 @@
 //! Every kind of measure in the plane and in space, of every kind of joint, force and beam, at states away from all special
 //! positions.
 
-use crate::compare::check;
-use crate::examples::{FORCES, JOINTS};
+use crate::outputs_tangent::compare::check;
+use crate::scenes::examples::{FORCES, JOINTS};
 use holonom::scene::Scene;
 use holonom::study::AnyMechanism;
 use holonom::system::{Loaded, MechanicalSystem};

@@ -1,7 +1,7 @@
 //! The outputs of every shipped scene, at its start and away from it.
 
-use crate::compare::check;
-use crate::differences::stirred;
+use crate::outputs_tangent::compare::check;
+use crate::scenes::differences::stirred;
 use crate::scenes::{load, models};
 use holonom::formulation::Dynamics;
 use holonom::system::{Loaded, MechanicalSystem};

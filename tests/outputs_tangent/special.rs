@@ -1,7 +1,7 @@
 //! States where sizes and angles have no slope: derivatives are numbers there, zero for the sizes.
 
-use crate::compare::tangent;
-use crate::measures::mechanism;
+use crate::outputs_tangent::compare::tangent;
+use crate::outputs_tangent::measures::mechanism;
 use holonom::system::{Loaded, MechanicalSystem, OutputTangent};
 
 /// All coordinates, velocities and multipliers zero, quaternions at rest.

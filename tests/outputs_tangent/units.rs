@@ -1,6 +1,6 @@
 //! Outputs in other units than those of the SI.
 
-use crate::compare::{outputs, tangent};
+use crate::outputs_tangent::compare::{outputs, tangent};
 use crate::scenes::dop853;
 use holonom::measure::Recorder;
 use holonom::scene::Scene;

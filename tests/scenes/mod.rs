@@ -1,6 +1,10 @@
 //! What the tests of scenes share: load, assemble, simulate.
 #![allow(dead_code)]
 
+pub mod differences;
+pub mod examples;
+pub mod random;
+
 use holonom::formulation::Choice;
 use holonom::initial::Assembly;
 use holonom::measure::{Record, Recorder};

@@ -1,7 +1,7 @@
 //! Section forces as outputs of linear models: C and D know how v' answers.
 
 use crate::scenes::{Ready, parse};
-use crate::{at_rest, frame_keys, reactions, sections};
+use crate::section_forces::{at_rest, frame_keys, reactions, sections};
 use holonom::choice::Choice;
 use holonom::linearize::{Chart, LinearModel, Matrix, Request, Variation, linearize};
 

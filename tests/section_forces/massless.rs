@@ -1,7 +1,7 @@
 //! The force `beam`: its sections, which it is asked for by its name.
 
 use crate::scenes::{Ready, parse};
-use crate::{at_rest, gap, reactions, sections};
+use crate::section_forces::{at_rest, gap, reactions, sections};
 use holonom::scene::Scene;
 
 /// A body on a massless beam from a wall, with a force and a torque on it.

@@ -1,7 +1,7 @@
 //! Beams that move: weight and inertia between the ends count.
 
 use crate::scenes::{Ready, parse};
-use crate::{FRAMES, THEORIES, frame_keys, reactions, sections};
+use crate::section_forces::{FRAMES, THEORIES, frame_keys, reactions, sections};
 use holonom::formulation::Choice;
 use holonom::simulate::{Method, Span};
 

@@ -1,7 +1,7 @@
 //! Beams at rest.
 
 use crate::scenes::{Ready, model, parse};
-use crate::{FRAMES, THEORIES, at_rest, frame_keys, gap, reactions, sections};
+use crate::section_forces::{FRAMES, THEORIES, at_rest, frame_keys, gap, reactions, sections};
 use holonom::scene::Scene;
 use std::f64::consts::FRAC_PI_2;
 

@@ -2,8 +2,8 @@
 
 use super::parallelogram::angle;
 use super::reference::{AT_REST, RUNNING, TWO_LOOPS};
-use super::scenes::{Ready, parse, shipped};
 use super::{adaptive, last};
+use crate::scenes::{Ready, parse, shipped};
 use holonom::scene::generate::n_four_bar;
 use holonom::simulate::Span;
 use rayon::prelude::*;

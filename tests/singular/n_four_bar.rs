@@ -1,8 +1,8 @@
 //! N four-bar linkages in a row, which pass flat: there N + 1 motions are possible.
 
 use super::reference::{ONE_LOOP, TWO_LOOPS};
-use super::scenes::{load, model, parse};
 use super::{adaptive, errors, fixed, last};
+use crate::scenes::{load, model, parse};
 use holonom::scene::generate::n_four_bar;
 use holonom::simulate::Span;
 

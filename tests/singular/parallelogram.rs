@@ -1,7 +1,7 @@
 //! A parallelogram linkage that turns through its change points, as a pendulum does that turns over.
 
-use super::scenes::{Ready, Run, model, parse, shipped};
 use super::{adaptive, fixed, last};
+use crate::scenes::{Ready, Run, model, parse, shipped};
 use holonom::measure::Recorder;
 use holonom::simulate::{Span, simulate};
 

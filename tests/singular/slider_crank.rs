@@ -1,8 +1,8 @@
 //! Slider-crank with equal links, folded seven or eleven times in 10 s.
 
 use super::reference::{AT_REST, RUNNING};
-use super::scenes::shipped;
 use super::{adaptive, errors, fixed, last};
+use crate::scenes::shipped;
 use holonom::measure::{Record, Recorder};
 use holonom::simulate::{Method, Span, simulate};
 

@@ -2,14 +2,12 @@
 
 mod by_clock;
 mod of_state;
-#[path = "../scenes/mod.rs"]
-mod scenes;
 mod sliding;
 
+use crate::scenes::Ready;
 use holonom::formulation::Choice;
 use holonom::measure::{Record, Recorder};
 use holonom::simulate::{Method, Outcome, Span, simulate};
-use scenes::Ready;
 
 /// A method of every family that adapts its steps.
 const ADAPTIVE: [[&str; 3]; 11] = [
@@ -52,7 +50,7 @@ fn attempt(scene: &Ready, method: &Method, end: f64) -> (Outcome, Record) {
 
 /// A mass of 1 kg, free in the plane, pushed along x by an expression.
 fn pushed(force: &str) -> Ready {
-    scenes::parse(&format!(
+    crate::scenes::parse(&format!(
         r#"{{ "name": "pushed", "dimension": 2, "bodies": [{{ "name": "m", "type": "point_mass", "mass": 1 }}],
             "forces": [{{ "name": "push", "type": "applied_force", "at": "m", "force": ["{force}", 0] }}],
             "simulation": {{ "t_end": 10 }} }}"#

@@ -1,16 +1,13 @@
 //! Section forces of beams against statics, in equilibrium and in motion: absolute, floating and massless beams.
 
-#[path = "../scenes/mod.rs"]
-mod scenes;
-
 mod linear;
 mod massless;
 mod motion;
 mod statics;
 
+use crate::scenes::Ready;
 use holonom::initial::equilibrium;
 use holonom::system::{Loaded, Scratch};
-use scenes::Ready;
 
 /// The six components of a section, or the three in the plane, with their names in a scene.
 fn components(dimension: usize) -> &'static [(&'static str, &'static str)] {

@@ -1,20 +1,16 @@
 //! Speed for accuracy: what is measured is what runs give, and what is recommended is the best of it.
 
 mod advice;
-#[path = "../common/mod.rs"]
-mod common;
 mod models;
 mod reference;
 mod scale;
-#[path = "../scenes/mod.rs"]
-mod scenes;
 
-use common::method;
+use crate::common::method;
+use crate::scenes::{Ready, shipped};
 use holonom::measure::work_precision::{
     Cell, Filter, Motion, Outcome, Plan, Runner, Sample, TIE, Watched, WorkPrecision, cheapest_by_method, grid, sample,
 };
 use holonom::simulate::{Method, Span};
-use scenes::{Ready, shipped};
 use std::time::Duration;
 
 pub const ROWS: usize = 200;

@@ -1,11 +1,6 @@
 //! Extremes that the equations allow: masses, stiffnesses, lengths and speeds that are far apart. What each method keeps of
 //! a solution in 32 digits, and the same digits in any units.
 
-#[path = "../common/mod.rs"]
-mod common;
-#[path = "../scenes/mod.rs"]
-mod scenes;
-
 mod chain;
 mod double_double;
 mod masses;

@@ -3,13 +3,11 @@
 mod drift;
 mod full_axle;
 mod reference;
-#[path = "../scenes/mod.rs"]
-mod scenes;
 
+use crate::scenes::{Ready, Run, dop853, model, parse, shipped};
 use holonom::formulation::Choice;
 use holonom::simulate::{Method, Span};
 use reference::STATES;
-use scenes::{Ready, Run, dop853, model, parse, shipped};
 use serde_json::{Value, json};
 
 /// Rod forces at rest in the design position, N.

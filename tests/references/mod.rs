@@ -3,16 +3,14 @@
 //! A line asserts what was measured: 0.1 to 0.3 digits less, 5 to 12 % of evaluations more, since another libm shifts
 //! steps. A method is added by its lines in the tables.
 
-#[path = "../common/mod.rs"]
-mod common;
 mod table;
 
-use common::equations::andrews::{self, Andrews};
-use common::equations::car_axis::{self, CarAxis};
-use common::equations::crank::{self, Crank};
-use common::equations::pendulum::{self, Pendulum};
-use common::equations::robot_arm::{self, RobotArm};
-use common::{asked_for, distance};
+use crate::common::equations::andrews::{self, Andrews};
+use crate::common::equations::car_axis::{self, CarAxis};
+use crate::common::equations::crank::{self, Crank};
+use crate::common::equations::pendulum::{self, Pendulum};
+use crate::common::equations::robot_arm::{self, RobotArm};
+use crate::common::{asked_for, distance};
 use holonom::formulation::Dynamics;
 use holonom::simulate::Method;
 use table::Runs::{Steps, Tolerances};

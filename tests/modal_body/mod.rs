@@ -1,9 +1,6 @@
 //! Bodies in modal coordinates from the scene file to the motion: that of the beam they were exported from; what is
 //! refused; where their files are looked for.
 
-#[path = "../scenes/mod.rs"]
-mod scenes;
-
 mod command;
 mod export;
 mod motion;

@@ -1,13 +1,6 @@
 //! Flexible beams in whole scenes: published motions, closed forms, both kinds against each other, energy, outputs, and
 //! what is refused.
 
-#[path = "../scenes/differences.rs"]
-mod differences;
-#[path = "../scenes/examples.rs"]
-mod examples;
-#[path = "../scenes/mod.rs"]
-mod scenes;
-
 mod agreement;
 mod assembly;
 mod beams;

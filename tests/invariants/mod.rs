@@ -3,12 +3,9 @@
 mod methods;
 mod momentum;
 mod promises;
-#[path = "../linearize/random.rs"]
-mod random;
 mod recipes;
-#[path = "../scenes/mod.rs"]
-mod scenes;
 
+use crate::scenes::{Ready, Run, dop853, parse};
 use holonom::choice::Choice;
 use holonom::measure::{Record, Recorder};
 use holonom::simulate::{Method, Span, simulate};
@@ -16,7 +13,6 @@ use methods::{Tried, all};
 use momentum::momentum;
 use rayon::prelude::*;
 use recipes::{Displacement, floating, recipe, reversed};
-use scenes::{Ready, Run, dop853, parse};
 use serde_json::Value;
 
 const END: f64 = 0.25;

@@ -4,13 +4,11 @@ mod adaptive;
 mod n_four_bar;
 mod parallelogram;
 mod reference;
-#[path = "../scenes/mod.rs"]
-mod scenes;
 mod slider_crank;
 
+use crate::scenes::Run;
 use holonom::formulation::Choice;
 use holonom::simulate::Method;
-use scenes::Run;
 
 /// A method with fixed steps by its names as on the command line.
 fn fixed(formulation: &str, integrator: &str, projection: &str, step: f64) -> Method {

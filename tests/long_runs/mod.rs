@@ -1,12 +1,10 @@
 //! How errors grow over thousands of periods of a pendulum, by method: the law of each, against the closed form. The same
 //! over a million periods: `cargo bench --bench million_periods`.
 
-#[path = "../common/mod.rs"]
-mod common;
 #[allow(dead_code, reason = "the bench uses all of it")]
 mod pendulum;
 
-use common::{fixed, stepwise};
+use crate::common::{fixed, stepwise};
 use holonom::simulate::Method;
 use pendulum::{AMPLITUDE, GRAVITY, Mark, period, phase, run};
 

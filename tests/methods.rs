@@ -1,0 +1,31 @@
+//! What methods promise: orders, references, extremes, restarts.
+
+mod ali3p;
+mod andrews;
+mod common;
+mod diffsol;
+mod explicit;
+mod extremes;
+mod formulations;
+mod generalized_alpha;
+mod half_explicit;
+mod invariants;
+mod long_runs;
+mod nonholonomic;
+mod null_space;
+mod orders;
+mod outside;
+mod passings;
+mod purity;
+mod radau_iia;
+mod rattle;
+mod redundancy;
+mod references;
+mod restart;
+mod robot_arm;
+mod scenes;
+mod singular;
+mod stability_limits;
+mod states;
+mod step_control;
+mod time_loop;

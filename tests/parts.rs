@@ -1,0 +1,19 @@
+//! What mechanisms are made of: bodies, joints, forces, outputs, and shipped scenes.
+
+mod absolute_beam;
+mod closed_forms;
+mod common;
+mod elements;
+mod equilibrium;
+mod events;
+mod flexible;
+mod floating;
+mod flyball_governor;
+mod mechanisms;
+mod modal_body;
+mod models;
+mod scenes;
+mod section_forces;
+mod suspension;
+mod tangent;
+mod turns;

@@ -1,0 +1,13 @@
+//! The program as a user runs it, its advice and what the source keeps to.
+
+mod automatic;
+mod cli;
+mod common;
+mod errors;
+mod layers;
+mod robustness;
+mod scenes;
+mod stress;
+mod stress_budget;
+mod stress_truth;
+mod tradeoff;
