@@ -71,8 +71,18 @@ fn the_loosest_tolerance() {
     methods(|entry| entry.steps != Steps::Fixed).into_par_iter().for_each(|(formulation, integrator)| {
         let run = run(&DrivenPendulum, &adaptive(formulation, integrator, "none", 1.0), until(20.0), (&q, &v));
         let what = format!("{formulation} {integrator}");
-        println!("{what}: {:?} {:?}", run.outcome.statistics, run.outcome.failure);
         sound(&run, &what);
+        let drift = run.record.drift.position.max;
+        match (&run.outcome.failure, formulation) {
+            // A wrong acceleration is integrated twice: the rod, of 1 m, comes apart, which ends a run or leaves its steps no size.
+            (failure, "index1") => assert!(failure.is_some() || drift < 1.0, "{what}: {drift:e} m apart in silence"),
+            (failure, _) => {
+                assert_eq!(*failure, None, "{what}");
+                // phi is solved for to a part of the tolerance, or to round-off; with phi' = 0 it drifts as far as is tolerated.
+                let most = if formulation == "index2" { 2.0 } else { 0.03 };
+                assert!(drift < most, "{what}: {drift:e} m");
+            }
+        }
     });
 }
 
@@ -86,11 +96,15 @@ fn steps_of_any_size() {
             let run = run(&DrivenPendulum, &method, until(count * step), (&q, &v));
             let what = format!("{formulation} {integrator} {step:e}");
             sound(&run, &what);
+            let drift = run.record.drift.position.max;
             if step < 1.0 {
-                // Nothing has moved by more than v t.
+                // Nothing has moved by more than v t, and constraints hold to the round-off of a hundred steps.
                 assert_eq!(run.outcome.failure, None, "{what}");
                 let moved = distance(run.last().0, &q) / (count * step);
-                assert!(moved < 2.0 * distance(&v, &[0.0; 4]) + 1.0, "{what}: {moved}");
+                assert!(moved < 2.0 * distance(&v, &[0.0; 4]) + 1.0 && drift < 1e-13, "{what}: {moved} {drift:e}");
+            } else {
+                // No method follows the motion; one that solves for phi to round-off may still go on along the constraints.
+                assert!(run.outcome.failure.is_some() || drift < 1e-10, "{what}: {drift:e} in silence");
             }
         });
     }
