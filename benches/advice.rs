@@ -10,6 +10,7 @@
 //!   run came to the digits in the time.
 //! - What is recommended, and how far the reference vouches.
 
+use cpu_time::ThreadTime;
 use holonom::error::Result;
 use holonom::formulation::{Choice, Statistics};
 use holonom::linearize::amplified;
@@ -29,7 +30,7 @@ const BUDGET: Duration = Duration::from_secs(20);
 /// Where no reference has six digits in that.
 const LONG: Duration = Duration::from_secs(120);
 const DIGITS: [u32; 3] = [3, 6, 9];
-/// One run of auto may take so long.
+/// One run of auto may take so much CPU time.
 const LONGEST: Duration = Duration::from_secs(10);
 /// A motion that makes small changes larger by more than this amplifies errors.
 const CALM: f64 = 10.0;
@@ -131,7 +132,7 @@ fn automatic(
     let tolerances = (rtol, atol_of(rtol, study.method.atol / study.method.rtol));
     let system = study.system();
     let (rows, drift, scratch) = (Vec::new(), Drift::default(), Scratch::default());
-    let mut seen = Seen { system, watched, scales: system.scales(), scratch, rows, drift, begun: Instant::now() };
+    let mut seen = Seen { system, watched, scales: system.scales(), scratch, rows, drift, begun: ThreadTime::now() };
     let (run, seconds) = cpu_seconds(|| simulate_automatic(system, tolerances, span, study.start(), &mut seen));
     let (outcome, legs, _) = run?;
     let told: Vec<String> =
@@ -178,7 +179,7 @@ struct Seen<'a> {
     scratch: Scratch,
     rows: Vec<Vec<f64>>,
     drift: Drift,
-    begun: Instant,
+    begun: ThreadTime,
 }
 
 impl Sink for Seen<'_> {

@@ -79,11 +79,11 @@ fn a_second_run_that_fails_is_said_and_the_first_is_kept() {
     scene["simulation"] = serde_json::json!({ "t_end": 1, "output_step": 0.1, "integrator": "dop853" });
     let place = Place::new(scene.to_string());
     let output =
-        place.run(&["simulate", "scene.json", "-o", "here", "--rtol", "1e-11", "--atol", "1e-11", "--check-error"]);
+        place.run(&["simulate", "scene.json", "-o", "here", "--rtol", "1e-14", "--atol", "1e-14", "--check-error"]);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
     let message = err(&output);
     assert!(
-        message.starts_with("warning: the second run, with rtol 1e-12, atol 1e-12, ended at t = 0.72"),
+        message.starts_with("warning: the second run, with rtol 1e-15, atol 1e-15, ended at t = 0.72"),
         "{message}"
     );
     let summary = place.json("here/summary.json");
