@@ -42,7 +42,7 @@ fn times_of_passages() {
                 }
             }
             let nearest = found.nearest.unwrap();
-            assert!(nearest.sine < 1e-5, "{nearest:?}");
+            assert!(nearest.rank_indicator < 1e-5, "{nearest:?}");
         }
     }
 }
@@ -118,8 +118,8 @@ fn regular_motions_pass_none() {
     for (scene, end) in [("andrews", 0.03), ("robot_arm", 10.0), ("five_link_suspension", 2.5), ("bricard", 10.0)] {
         for projection in ["none", "manifold"] {
             let found = watched(&shipped(scene, &[]), &adaptive("index1", "dop853", projection, 1e-6), end);
-            let sine = found.nearest.unwrap().sine;
-            assert!(found.count == 0 && (1e-2..=1.0).contains(&sine), "{scene} {projection}: {found:?}");
+            let rank_indicator = found.nearest.unwrap().rank_indicator;
+            assert!(found.count == 0 && (1e-2..=1.0).contains(&rank_indicator), "{scene} {projection}: {found:?}");
         }
     }
     let free = watched(&shipped("quarter_car", &[]), &Method::default(), 1.0);
@@ -138,8 +138,8 @@ fn nearly_singular_geometry_is_no_error() {
     assert!(found.count > 1, "{found:?}");
     for passing in &found.passed {
         assert!(!passing.is_singular && passing.branch == Branch::Kept, "{passing:?}");
-        // The square of the sine is 6 times the difference of the lengths, to first order in it.
-        assert!((passing.sine / 6e-5_f64.sqrt() - 1.0).abs() < 1e-4, "{passing:?}");
+        // The square of the rank indicator is 6 times the difference of the lengths, to first order in it.
+        assert!((passing.rank_indicator / 6e-5_f64.sqrt() - 1.0).abs() < 1e-4, "{passing:?}");
     }
 }
 

@@ -59,7 +59,7 @@ fn evaluated(problem: &mut Problem, State { t, y }: &State) -> Vec<Result<Vec<u6
         let begun = if begins { problem.begin_step(*t, y) } else { Ok(()) };
         let found = begun.and_then(|()| problem.derivative(*t, y, &mut slope));
         let dynamics = &problem.dynamics;
-        let numbers = slope.iter().chain(&dynamics.vdot).chain(&dynamics.lambda).chain(&dynamics.sine);
+        let numbers = slope.iter().chain(&dynamics.vdot).chain(&dynamics.lambda).chain(&dynamics.rank_indicator);
         let bits = numbers.map(|x| x.to_bits()).chain([u64::from(dynamics.is_rank_deficient)]);
         found.map(|()| bits.collect()).map_err(|halt| halt.to_string())
     };

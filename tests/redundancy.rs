@@ -58,14 +58,14 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |distance, (a, b)| f64::max(distance, (a - b).abs()))
 }
 
-/// Pivots of dependent rows are 1e-12 here, for round-off over the square of the smallest sine, 0.002: taken seriously they
-/// would make the mechanism rigid.
+/// Pivots of dependent rows are 1e-12 here, for round-off over the square of the rank indicator, 0.002: taken seriously
+/// they would make the mechanism rigid.
 #[test]
 fn guides_of_scissors() {
     let [plain, guided] = [false, true].map(|has_guides| run(&scissors(50, has_guides)));
     assert_eq!(plain.outcome.statistics.factorizations, guided.outcome.statistics.factorizations);
     assert_eq!(guided.outcome.statistics.rank_deficient, guided.outcome.statistics.steps + 1);
-    // Round-off over the sine, times accelerations of 1e2.
+    // Round-off over the rank indicator, times accelerations of 1e2.
     assert!(distance(&plain.outcome.q, &guided.outcome.q) < 1e-10);
     assert!(guided.record.singularity.passed.is_empty(), "{:?}", guided.record.singularity.passed);
     assert!(guided.outcome.failure.is_none() && guided.record.drift.position.max < 1e-11);

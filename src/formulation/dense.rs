@@ -18,12 +18,12 @@ impl<S: Solver + Send> Formulation for Dense<S> {
     ) -> Result<(), Halt> {
         dynamics.right_sides(t, q, v, |_, _| 0.0);
         dynamics.statistics.factorizations += 1;
-        self.0.hold(&dynamics.held);
+        self.0.drop_rows(&dynamics.dropped);
         let factored = self.0.factor(&dynamics.terms.mass, &dynamics.terms.g, dynamics.dense_reference);
         factored.map_err(|singular| dynamics.halt(singular))?;
         dynamics.dense_indicator = self.0.rank_indicator();
         dynamics.is_rank_deficient = self.0.is_rank_deficient();
-        dynamics.sine = self.0.smallest_sine();
+        dynamics.rank_indicator = self.0.row_indicator();
         self.0.solve(&mut dynamics.vdot, &mut dynamics.lambda).map_err(|singular| dynamics.halt(singular))?;
         dynamics.finite()?;
         dynamics.system.rate(q, v, qdot);

@@ -10,7 +10,7 @@ const NOTHING: f64 = 1e-10;
 /// Velocities less independent rows of G, at the state whose factors `dynamics` holds.
 pub fn degrees_of_freedom(dynamics: &Dynamics) -> usize {
     let left_out = dynamics.kkt.left_out();
-    let is_out = |row: &usize| left_out.contains(row) || dynamics.held.contains(row);
+    let is_out = |row: &usize| left_out.contains(row) || dynamics.dropped.contains(row);
     let rank = (0..dynamics.lambda.len()).filter(|row| !is_out(row)).count();
     dynamics.vdot.len().saturating_sub(rank)
 }

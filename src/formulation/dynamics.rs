@@ -89,8 +89,8 @@ pub struct Dynamics<'a> {
     pub structure: Structure,
     pub terms: Terms,
     pub kkt: SaddlePoint,
-    /// Constraints that depend on the others wherever phi = 0, and are left out.
-    pub held: Vec<usize>,
+    /// Constraints that depend on the others wherever phi = 0, and are dropped.
+    pub dropped: Vec<usize>,
     /// Rows count as dependent below this part of the reference value: see [`SaddlePoint::factor_truncated`].
     pub rank_tolerance: f64,
     /// Of a dense solver other than `kkt`: the rank indicator at the last solution, and its reference value, settled at the
@@ -98,8 +98,8 @@ pub struct Dynamics<'a> {
     pub dense_indicator: f64,
     pub dense_reference: f64,
     /// How near G is to losing rank at the last solution, where that came from another solver than `kkt`: see
-    /// [`SaddlePoint::smallest_sine`].
-    pub sine: Option<f64>,
+    /// [`SaddlePoint::rank_indicator`].
+    pub rank_indicator: Option<f64>,
     /// Whether multipliers of redundant rows are those of least norm, which people see; for v' any will do.
     pub wants_least: bool,
     /// v' of the last solution.
@@ -119,11 +119,11 @@ impl<'a> Dynamics<'a> {
             system,
             terms: Terms::new(system),
             kkt: SaddlePoint::new(&structure.mass, &structure.g),
-            held: Vec::new(),
+            dropped: Vec::new(),
             rank_tolerance: TRUNCATED,
             dense_indicator: 0.0,
             dense_reference: 0.0,
-            sine: None,
+            rank_indicator: None,
             wants_least: true,
             structure,
             vdot: vec![0.0; n.v],
@@ -181,17 +181,17 @@ impl<'a> Dynamics<'a> {
         (!self.kkt.left_out().is_empty()).then(|| self.kkt.inconsistency() / scale)
     }
 
-    /// Leaves out these rows from now on: see [`SaddlePoint::hold`].
-    pub fn hold(&mut self, rows: &[usize]) {
-        if self.held != rows {
-            self.kkt.hold(rows);
-            self.held = rows.to_vec();
+    /// Drops these rows from now on: see [`SaddlePoint::drop_rows`].
+    pub fn drop_rows(&mut self, rows: &[usize]) {
+        if self.dropped != rows {
+            self.kkt.drop_rows(rows);
+            self.dropped = rows.to_vec();
         }
     }
 
     /// Drops the rows, and takes the pieces of functions, that another one does.
     pub fn follow(&mut self, other: &Dynamics) {
-        self.hold(&other.held);
+        self.drop_rows(&other.dropped);
         self.scratch.pieces.clone_from(&other.scratch.pieces);
     }
 

@@ -18,7 +18,7 @@ pub const ENTRY: Entry = Entry {
     field: Some(|choice, _| Ok(Box::new(Index1 { rank_tolerance: rank_tolerance(choice)? }))),
 };
 
-/// Constraints nearer than this to depending on others have no say in v' and lambda.
+/// Constraints nearer than this to depending on others are dropped from v' and lambda.
 pub(super) const RANK: OptionDoc = OptionDoc {
     name: "rank_tolerance",
     about: "part of the reference value of the rank indicator below which constraints count as dependent (default 1e-4; 0 for the plain equations)",

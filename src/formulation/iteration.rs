@@ -169,7 +169,7 @@ impl<T: Number> Iteration<T> {
         dynamics.statistics.factorizations += 1;
         let structure = &dynamics.structure;
         self.rescale(slopes);
-        self.matrix.hold(&dynamics.held);
+        self.matrix.drop_rows(&dynamics.dropped);
         self.matrix.clear();
         self.matrix.add_mass(&structure.mass, &at.mass);
         self.matrix.add(&structure.tangent, &at.tangent.c, slopes.v, false);

@@ -82,9 +82,9 @@ impl Linearized {
         self.point.push(at.t);
         [at.q, at.v, at.vdot, at.lambda].into_iter().for_each(|values| self.point.extend_from_slice(values));
         if let Some(shifts) = &mut self.shifts {
-            if self.dropped != dynamics.held {
-                shifts.hold(&dynamics.held);
-                self.dropped.clone_from(&dynamics.held);
+            if self.dropped != dynamics.dropped {
+                shifts.drop_rows(&dynamics.dropped);
+                self.dropped.clone_from(&dynamics.dropped);
             }
             dynamics.statistics.factorizations += 1;
             shifts.factor(&self.mass, &self.g)?;

@@ -72,7 +72,7 @@ pub struct Stabilizer {
 /// The system for (dq, dv) together: [W^-1 H^T; H 0] [dz; .] = [0; h].
 struct Full {
     kkt: SaddlePoint,
-    held: Vec<usize>,
+    dropped: Vec<usize>,
     mass: Vec<f64>,
     h: Vec<f64>,
     dz: Vec<f64>,
@@ -130,7 +130,7 @@ impl Stabilizer {
         full.h[..entries].copy_from_slice(&terms.g);
         full.h[entries..2 * entries].copy_from_slice(&terms.g);
         full.h[2 * entries..].copy_from_slice(&terms.l);
-        full.hold(&dynamics.held, m);
+        full.drop_rows(&dynamics.dropped, m);
         dynamics.statistics.factorizations += 1;
         full.kkt.factor(&full.mass, &full.h)?;
         let bottom = &mut full.dz[2 * n..];
@@ -163,7 +163,7 @@ impl Full {
         let h = Pattern { rows: 2 * m, cols: 2 * n, entries };
         Full {
             kkt: SaddlePoint::new(&mass, &h),
-            held: Vec::new(),
+            dropped: Vec::new(),
             mass: vec![1.0; mass.entries.len()],
             h: vec![0.0; h.entries.len()],
             dz: vec![0.0; 2 * (n + m)],
@@ -171,11 +171,11 @@ impl Full {
     }
 
     /// Leaves out the rows of both levels that `rows` names, of `m`.
-    fn hold(&mut self, rows: &[usize], m: usize) {
+    fn drop_rows(&mut self, rows: &[usize], m: usize) {
         let both = || rows.iter().copied().chain(rows.iter().map(|row| row + m));
-        if !self.held.iter().copied().eq(both()) {
-            self.held = both().collect();
-            self.kkt.hold(&self.held);
+        if !self.dropped.iter().copied().eq(both()) {
+            self.dropped = both().collect();
+            self.kkt.drop_rows(&self.dropped);
         }
     }
 }

@@ -12,7 +12,7 @@ use crate::system::MechanicalSystem;
 pub struct Followed {
     pub q: Vec<f64>,
     /// How near the constraints and what is held are to losing rank: 0 at a singular state.
-    pub smallest_sine: f64,
+    pub rank_indicator: f64,
     /// Constraints that depend on the others.
     pub dependent: Vec<usize>,
 }
@@ -36,7 +36,7 @@ pub fn follow(
     dependent: &[usize],
 ) -> Result<Option<Followed>> {
     let mut metric = Metric::new(system, holds::directions(system, hold)?);
-    metric.kkt.hold(dependent);
+    metric.kkt.drop_rows(dependent);
     let (mut q, still) = (guess.to_vec(), vec![0.0; system.dimensions().v]);
     system.normalize(&mut q);
     let mut rate = vec![0.0; q.len()];
@@ -60,7 +60,7 @@ fn end(mut metric: Metric, t: f64, q: Vec<f64>, still: &[f64]) -> Result<Option<
     let rows = metric.kkt.left_out().iter().copied();
     let dependent: Vec<usize> = rows.filter(|row| *row < metric.terms.phi.len()).collect();
     // How near the others are.
-    metric.kkt.hold(&dependent);
+    metric.kkt.drop_rows(&dependent);
     metric.at(t, &q, still)?;
-    Ok(Some(Followed { q, smallest_sine: metric.kkt.smallest_sine(), dependent }))
+    Ok(Some(Followed { q, rank_indicator: metric.kkt.rank_indicator(), dependent }))
 }

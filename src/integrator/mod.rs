@@ -41,7 +41,7 @@ use crate::system::MechanicalSystem;
 /// Why the matrix of a step is singular: with all rows in it, of which some depend on others at its start and ahead, and
 /// yet ask for another position there, these contradict each other.
 fn collapsed(singular: Singular, problem: &mut Problem, from: From, h: f64) -> Halt {
-    if singular != Singular::Collapsed || !problem.dynamics.held.is_empty() {
+    if singular != Singular::Collapsed || !problem.dynamics.dropped.is_empty() {
         return singular.into();
     }
     let ahead: Vec<f64> = from.y.iter().zip(from.slope).map(|(y, slope)| y + h * slope).collect();

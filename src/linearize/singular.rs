@@ -9,13 +9,14 @@ use crate::math::largest;
 use crate::system::Need;
 
 /// By how much G changes, over its largest entry, between a state and the one beside it that it is compared with: far
-/// beyond the part of the usual sine (1e-4) below which rows count as dependent, and near enough to be the same assembly.
+/// beyond the part of the reference rank indicator (1e-4) below which rows count as dependent, and near enough to be
+/// the same assembly.
 const APART: f64 = 0.02;
 
 /// About the smallest sine between a row of G and those before it at which a state is looked at. Below, the square of its
 /// inverse times rounding, of the state as well, is a part of the accelerations: 1e-4 beside a fold, whatever the chart.
 const NEAR: f64 = 1e-5;
-/// By how much the sine grows beside a singular state, at least; beside others it is about the same.
+/// By how much the rank indicator grows beside a singular state, at least; beside others it is about the same.
 const GROWTH: f64 = 1e2;
 
 /// Refuses a singular state, and states so near to one that their accelerations are uncertain: with fewer independent
@@ -27,13 +28,13 @@ const GROWTH: f64 = 1e2;
 /// The state is singular.
 pub(super) fn refuse(variation: &mut Variation) -> Result<()> {
     let here = Rank::of(&variation.dynamics);
-    if here.rank == variation.point.lambda.len() && here.sine >= NEAR {
+    if here.rank == variation.point.lambda.len() && here.rank_indicator >= NEAR {
         return Ok(());
     }
     let directions = directions(variation)?;
     let Some(beside) = rank_beside(variation, &directions) else { return Ok(()) };
     let t = short(variation.point.t);
-    let problem = match (beside.rank > here.rank, beside.sine > GROWTH * here.sine) {
+    let problem = match (beside.rank > here.rank, beside.rank_indicator > GROWTH * here.rank_indicator) {
         (true, _) => format!("only {} constraints are independent, {} beside it", here.rank, beside.rank),
         (false, true) if beside.rank == here.rank => {
             "constraints are nearly dependent, and less so beside it".to_string()
@@ -49,13 +50,13 @@ pub(super) fn refuse(variation: &mut Variation) -> Result<()> {
 /// Of G.
 struct Rank {
     rank: usize,
-    /// See [`SaddlePoint::smallest_sine`](crate::math::kkt::SaddlePoint::smallest_sine).
-    sine: f64,
+    /// See [`SaddlePoint::rank_indicator`](crate::math::kkt::SaddlePoint::rank_indicator).
+    rank_indicator: f64,
 }
 
 impl Rank {
     fn of(dynamics: &Dynamics) -> Self {
-        Rank { rank: dynamics.kkt.rank(), sine: dynamics.kkt.smallest_sine() }
+        Rank { rank: dynamics.kkt.rank(), rank_indicator: dynamics.kkt.rank_indicator() }
     }
 }
 

@@ -67,8 +67,8 @@ impl<'a> Variation<'a> {
         self.load(Loaded { t, q, v, vdot: &vdot, lambda: &lambda })
     }
 
-    /// v' and lambda to rounding. Near singular states the error of a plain solution would come back in K and Gdd, over the
-    /// fourth power of the sine between constraints.
+    /// v' and lambda to rounding. Near singular states the error of a plain solution would come back in K and Gdd, over
+    /// the fourth power of the rank indicator.
     fn refine_solution(&mut self) -> Result<(), Halt> {
         let Dynamics { kkt, terms, vdot, lambda, .. } = &mut self.dynamics;
         vdot.copy_from_slice(&terms.f);

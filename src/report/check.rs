@@ -86,9 +86,9 @@ fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
     let mut dynamics = Dynamics::new(system);
     dynamics.evaluate(study.start_time(), q, v, Need::DYNAMICS);
     let (rows, _) = dynamics.dependent_rows(study.start_time(), q, v);
-    dynamics.hold(&rows);
+    dynamics.drop_rows(&rows);
     // Assembly has solved at this state, so it can be factored; the distance is zero where it could not.
-    let distance = dynamics.factor().map_or(0.0, |()| dynamics.kkt.smallest_sine());
+    let distance = dynamics.factor().map_or(0.0, |()| dynamics.kkt.rank_indicator());
     let (terms, structure) = (&dynamics.terms, &dynamics.structure);
     let n = system.dimensions();
     let beside = match rows.is_empty() {

@@ -281,8 +281,8 @@ fn singular_text(found: &Singularity) -> String {
     let Some(nearest) = found.nearest else { return String::new() };
     if found.passed.is_empty() {
         let condition = nearest.condition.map_or(String::new(), |condition| format!(", condition {condition:.1e}"));
-        let [sine, t] = [nearest.sine, nearest.t].map(|value| significant(value, 3));
-        return format!("  nearest to a singular state at t = {t} s: sine {sine}{condition}\n\n");
+        let [rank_indicator, t] = [nearest.rank_indicator, nearest.t].map(|value| significant(value, 3));
+        return format!("  nearest to a singular state at t = {t} s: rank indicator {rank_indicator}{condition}\n\n");
     }
     let times = |kind: bool| -> Vec<String> {
         let of_kind = found.passed.iter().filter(|passing| passing.is_singular == kind);

@@ -46,7 +46,7 @@ pub struct LimitSummary {
     pub within: f64,
     pub unreached: f64,
     pub reason: String,
-    pub smallest_sine: f64,
+    pub rank_indicator: f64,
     pub outputs: Map<String, Value>,
 }
 
@@ -122,11 +122,11 @@ impl SweepSummary {
     }
 
     fn singular_line(&self) -> String {
-        let Nearest { value, smallest_sine } = self.nearest_singular;
+        let Nearest { value, rank_indicator } = self.nearest_singular;
         let place = format!("{} = {}", self.parameter, significant(value, 8));
-        match smallest_sine < SINGULAR {
-            true => format!("  SINGULAR at {place}: distance {smallest_sine:.1e}\n"),
-            false => format!("  nearest to a singular state at {place}: distance {smallest_sine:.1e} (1 is far)\n"),
+        match rank_indicator < SINGULAR {
+            true => format!("  SINGULAR at {place}: distance {rank_indicator:.1e}\n"),
+            false => format!("  nearest to a singular state at {place}: distance {rank_indicator:.1e} (1 is far)\n"),
         }
     }
 
@@ -192,7 +192,7 @@ fn limit_summary(sweep: &Sweep, limit: &sweep::Limit) -> LimitSummary {
         within: limit.within,
         unreached: limit.unreached,
         reason: limit.reason.clone(),
-        smallest_sine: limit.point.smallest_sine,
+        rank_indicator: limit.point.rank_indicator,
         outputs: names.zip(limit.point.outputs.iter().map(|value| json!(value))).collect(),
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Deserializer, Serialize};
 
-/// Below this part of the largest sine a state is near a singular one.
+/// Below this part of the largest rank indicator a state is near a singular one.
 const NEAR: f64 = 0.1;
 /// Below this part steps are placed about the singular state.
 const PLACED: f64 = 0.3;
@@ -16,24 +16,25 @@ const SLACK: f64 = 0.05;
 /// The local error of such a step as part of the error of the run.
 const SHARE: f64 = 0.1;
 
-/// How the motion comes near a singular state, where G loses rank: by the smallest sine of a constraint row at the last
-/// accepted states, which falls to zero there linearly in time.
+/// How the motion comes near a singular state, where G loses rank: by the rank indicator of a constraint row at the
+/// last accepted states, which falls to zero there linearly in time.
 ///
 /// On a branch of the motion v' is smooth through a singular state, but the stages of a step lie off the constraints by
-/// some delta, and there v' is wrong by delta over the sine. A step that is refused for this and made smaller, again and
-/// again, ends ever nearer to the singular state until round-off over the sine is the error. A step well over it is good.
+/// some delta, and there v' is wrong by delta over the rank indicator. A step that is refused for this and made
+/// smaller, again and again, ends ever nearer to the singular state until round-off over the rank indicator is the
+/// error. A step well over it is good.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Approach {
     #[serde(deserialize_with = "never")]
     t: f64,
-    pub sine: f64,
+    pub rank_indicator: f64,
     rate: f64,
     /// The last step, and how fast `rate` changes; infinite as long as it is not known.
     #[serde(deserialize_with = "endless")]
     step: f64,
     #[serde(deserialize_with = "endless")]
     bend: f64,
-    /// The largest sine so far: unlike masses and lengths make it small where nothing is singular.
+    /// The largest rank indicator so far: unlike masses and lengths make it small where nothing is singular.
     pub largest: f64,
     /// The last step that did not come near a singular state.
     regular: f64,
@@ -55,7 +56,7 @@ impl Default for Approach {
     fn default() -> Self {
         Approach {
             t: f64::NEG_INFINITY,
-            sine: 1.0,
+            rank_indicator: 1.0,
             rate: 0.0,
             step: f64::INFINITY,
             bend: f64::INFINITY,
@@ -67,15 +68,15 @@ impl Default for Approach {
 }
 
 impl Approach {
-    /// Takes the sine at an accepted state.
-    pub fn add(&mut self, t: f64, sine: f64) {
+    /// Takes the rank indicator at an accepted state.
+    pub fn add(&mut self, t: f64, rank_indicator: f64) {
         let step = t - self.t;
-        let largest = self.largest.max(sine);
-        let is_regular = sine > PLACED * largest && step.is_finite();
+        let largest = self.largest.max(rank_indicator);
+        let is_regular = rank_indicator > PLACED * largest && step.is_finite();
         let regular = if is_regular { step } else { self.regular };
-        let rate = (sine - self.sine) / step;
+        let rate = (rank_indicator - self.rank_indicator) / step;
         let bend = if self.step.is_finite() { 2.0 * (rate - self.rate) / (step + self.step) } else { f64::INFINITY };
-        *self = Approach { t, sine, rate, step, bend, largest, regular, is_tried: false };
+        *self = Approach { t, rank_indicator, rate, step, bend, largest, regular, is_tried: false };
     }
 
     /// Whether a step of size `h` comes near a singular state.
@@ -85,17 +86,17 @@ impl Approach {
 
     /// Whether the last state is near a singular one.
     pub fn is_near(&self) -> bool {
-        self.sine < NEAR * self.largest
+        self.rank_indicator < NEAR * self.largest
     }
 
     /// Whether steps that small will not come over a singular state.
     pub fn is_stuck(&self, h: f64) -> bool {
-        self.sine < PLACED * self.largest && h < STUCK * self.regular
+        self.rank_indicator < PLACED * self.largest && h < STUCK * self.regular
     }
 
     /// The time to the singular state, at the last rate.
     fn ahead(&self) -> f64 {
-        -self.sine / self.rate
+        -self.rank_indicator / self.rate
     }
 
     /// The step to try where control proposes `h`: once from each state one that goes well over the singular state, which
@@ -103,7 +104,8 @@ impl Approach {
     pub fn place(&mut self, h: f64, gap: f64) -> f64 {
         let (ahead, across) = (self.ahead(), self.ahead() / gap);
         // At a singular state there is nothing ahead.
-        if !(self.sine < PLACED * self.largest && self.sine > AT * self.largest && self.rate < 0.0) {
+        if !(self.rank_indicator < PLACED * self.largest && self.rank_indicator > AT * self.largest && self.rate < 0.0)
+        {
             h
         } else if !self.is_tried && across <= h.max(self.regular) {
             self.is_tried = true;
@@ -116,10 +118,10 @@ impl Approach {
     /// The step to take in a run with fixed steps of size `h`, where `left` is the time to the next state of the grid and
     /// `end` that to the end of the run. A singular state is met in the `gap` of one step, from an extra state before it.
     ///
-    /// Round-off of positions leaves eps/s^2 in the velocities and eps/s^3 in the accelerations of a stage where the sine
-    /// is s, about a tenth of the step over `scale`, the time in which the motion changes: this bounds what a short step
-    /// over a singular state can reach. So that step is as long as a method of this `order` may take it: its local error,
-    /// (step/scale)^(order + 1), is still round-off.
+    /// Round-off of positions leaves eps/s^2 in the velocities and eps/s^3 in the accelerations of a stage where the
+    /// rank indicator is s, about a tenth of the step over `scale`, the time in which the motion changes: this bounds
+    /// what a short step over a singular state can reach. So that step is as long as a method of this `order` may take
+    /// it: its local error, (step/scale)^(order + 1), is still round-off.
     pub fn place_fixed(&self, h: f64, (left, end): (f64, f64), (gap, order): (f64, usize)) -> f64 {
         let ahead = self.ahead();
         if !(self.rate < 0.0 && ahead < end) {
@@ -144,9 +146,11 @@ impl Approach {
 mod tests {
     use super::Approach;
 
-    fn near(sine: f64) -> Approach {
+    fn near(rank_indicator: f64) -> Approach {
         let mut approach = Approach::default();
-        [(0.9, 1.0), (1.0, sine + 0.1), (1.1, sine)].into_iter().for_each(|(t, sine)| approach.add(t, sine));
+        [(0.9, 1.0), (1.0, rank_indicator + 0.1), (1.1, rank_indicator)]
+            .into_iter()
+            .for_each(|(t, rank_indicator)| approach.add(t, rank_indicator));
         approach
     }
 
@@ -163,7 +167,9 @@ mod tests {
     #[test]
     fn short_steps_stop_before_the_singular_state_until_one_as_long_as_before_goes_over_it() {
         let mut approach = Approach::default();
-        [(0.8, 1.0), (0.9, 0.5), (1.0, 0.4), (1.1, 0.2)].into_iter().for_each(|(t, sine)| approach.add(t, sine));
+        [(0.8, 1.0), (0.9, 0.5), (1.0, 0.4), (1.1, 0.2)]
+            .into_iter()
+            .for_each(|(t, rank_indicator)| approach.add(t, rank_indicator));
         assert!((approach.place(0.09, 0.5) - 0.05).abs() < 1e-12, "0.2 is longer than the regular 0.1");
         approach.add(1.15, 0.1);
         assert!((approach.place(0.05, 0.5) - 0.1).abs() < 1e-12);

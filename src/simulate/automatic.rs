@@ -225,7 +225,7 @@ impl<'s: 'a, 'a> Drive<'s, 'a> {
         (self.run.t, self.run.rows.next) = (before.t, before.rows.next);
         let leg = std::mem::replace(&mut self.leg, Leg::of(before.t, method, because));
         self.legs.push(Leg { statistics: before.statistics(), ..leg });
-        Ok(self.run.go_on(&before.problem.dynamics.held).err())
+        Ok(self.run.go_on(&before.problem.dynamics.dropped).err())
     }
 
     fn finish(mut self, failure: Option<Failure>, sink: &mut dyn Sink) -> (Outcome, Vec<Leg>) {

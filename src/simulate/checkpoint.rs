@@ -134,7 +134,7 @@ impl Run<'_> {
             span: self.span,
             t: self.t,
             y: self.y.clone(),
-            dropped: dynamics.held.clone(),
+            dropped: dynamics.dropped.clone(),
             pieces: self.events.pieces.clone(),
             next_change: timetable.next_change(),
             watched: timetable.watch.memory(),
@@ -163,7 +163,7 @@ impl Run<'_> {
             true => self.recall(saved)?,
             false => self.go_on(&saved.dropped)?,
         }
-        self.show((self.approach != Approach::default()).then_some(self.approach.sine), sink);
+        self.show((self.approach != Approach::default()).then_some(self.approach.rank_indicator), sink);
         self.rows.y.copy_from_slice(&self.y);
         self.rows.emit(self.t, sink).map_err(|halt| self.halted(&halt))?;
         if saved.method == *method {
@@ -189,7 +189,7 @@ impl Run<'_> {
         (self.h, self.growing, self.cut) = (saved.h, saved.growing, saved.cut);
         (self.progress, self.factored) = (saved.progress, saved.factored);
         self.turned_at.clone_from(&saved.turned_at);
-        self.hold(&saved.dropped);
+        self.drop_rows(&saved.dropped);
         self.refer_to(saved.dense_reference);
         self.recall_events(saved);
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;

@@ -151,7 +151,7 @@ impl Run<'_> {
         let store = Store::default();
         let mut rival = Run::new((system, &store), other, self.span, self.y.clone())?;
         (rival.t, rival.rows.next) = (self.t, self.rows.next);
-        let failure = rival.go_on(&self.problem.dynamics.held).err();
+        let failure = rival.go_on(&self.problem.dynamics.dropped).err();
         let (since, stopped) =
             if failure.is_none() { rival.window(budget, most, &mut Quiet) } else { (rival.mark(), failure) };
         let theirs = if stopped.is_some() { 0.0 } else { rival.mark().pace(since) };

@@ -221,12 +221,12 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Begins at the state it has, which another run has come to and shown, with the rows that it left out.
-    fn go_on(&mut self, held: &[usize]) -> Result<(), Failure> {
+    /// Begins at the state it has, which another run has come to and shown, with the rows that it dropped.
+    fn go_on(&mut self, dropped: &[usize]) -> Result<(), Failure> {
         (self.progress, self.divided) = ((self.t, 0), self.t);
         self.begin_form()?;
         self.settle();
-        self.hold(held);
+        self.drop_rows(dropped);
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
         self.h = self.first_step().map_err(|halt| self.halted(&halt))?;
         Ok(())
@@ -356,14 +356,14 @@ impl<'a> Run<'a> {
         // Without a new factorization, as in `penalty`, what the last one says is of another state.
         let is_factored = dynamics.statistics.factorizations > self.factored;
         self.factored = dynamics.statistics.factorizations;
-        let own = || (is_factored && dynamics.kkt.is_factored()).then(|| dynamics.kkt.smallest_sine());
-        let sine = dynamics.sine.or_else(own);
-        if let Some(sine) = sine {
-            self.approach.add(self.t, sine);
+        let own = || (is_factored && dynamics.kkt.is_factored()).then(|| dynamics.kkt.rank_indicator());
+        let rank_indicator = dynamics.rank_indicator.or_else(own);
+        if let Some(rank_indicator) = rank_indicator {
+            self.approach.add(self.t, rank_indicator);
         }
         let dense = dynamics.dense_reference.max(dynamics.dense_indicator);
         self.refer_to(dense);
-        self.show(sine, sink);
+        self.show(rank_indicator, sink);
     }
 
     /// Settles the reference values of the rank indicators, that of a dense solver by this one.
@@ -372,9 +372,9 @@ impl<'a> Run<'a> {
         [problem, &mut rows.problem].into_iter().for_each(|p| p.dynamics.refer_to(approach.largest, dense));
     }
 
-    fn show(&mut self, sine: Option<f64>, sink: &mut dyn Sink) {
+    fn show(&mut self, rank_indicator: Option<f64>, sink: &mut dyn Sink) {
         let tolerated = self.fixed.is_none().then(|| self.tolerated_energy());
-        let state = observation(self.t, &self.y, &self.problem, sine, &mut self.phi_ddot);
+        let state = observation(self.t, &self.y, &self.problem, rank_indicator, &mut self.phi_ddot);
         let apart = self.fixed.map(|step| step * self.integrator.spacing());
         sink.accepted(&Observation { tolerated, apart, ..state });
     }

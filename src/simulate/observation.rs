@@ -50,11 +50,11 @@ pub struct Observation<'a> {
     pub tolerated: Option<f64>,
     /// The longest time between evaluations of the equations in a fixed step, s; none for others.
     pub apart: Option<f64>,
-    /// The smallest sine between a row of G and those before it (metric M^-1), zero at a singular state; `None` where the
-    /// method does not factor the saddle-point matrix there.
-    pub sine: Option<f64>,
-    /// Rows of G that depend on the others everywhere, and are left out of the motion.
-    pub held: &'a [usize],
+    /// The smallest sine between a row of G and those before it (metric M^-1), zero at a singular state; `None` where
+    /// the method does not factor the saddle-point matrix there.
+    pub rank_indicator: Option<f64>,
+    /// Rows of G that depend on the others everywhere, and are dropped.
+    pub dropped: &'a [usize],
 }
 
 impl Observation<'_> {

@@ -86,7 +86,7 @@ pub fn observation<'o>(
     t: f64,
     y: &'o [f64],
     problem: &'o Problem,
-    sine: Option<f64>,
+    rank_indicator: Option<f64>,
     phi_ddot: &'o mut [f64],
 ) -> Observation<'o> {
     let dynamics = &problem.dynamics;
@@ -104,7 +104,7 @@ pub fn observation<'o>(
         work: y[y.len() - 1],
         tolerated: None,
         apart: None,
-        sine,
-        held: &dynamics.held,
+        rank_indicator,
+        dropped: &dynamics.dropped,
     }
 }

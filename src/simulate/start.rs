@@ -16,7 +16,7 @@ const ROUND_OFF: f64 = 1e-6;
 const AT_REST: f64 = 1e-12;
 
 impl Run<'_> {
-    /// Finds the rows that depend on others at the start, and leaves them out until they do not hold any more. Refuses
+    /// Finds the rows that depend on others at the start, and drops them until they do not hold any more. Refuses
     /// velocities that no motion has, and a state of rest that the accelerations leave along no motion: bounded
     /// multipliers push along none of the dependent rows, so that a motion from rest begins along v', as along a velocity.
     pub fn check_start(&mut self) -> Result<(), Failure> {
@@ -37,7 +37,7 @@ impl Run<'_> {
         if is_undetermined {
             return Err(self.failure(UNDETERMINED.to_string(), Some(BRANCHES)));
         }
-        self.hold(&dependent);
+        self.drop_rows(&dependent);
         Ok(())
     }
 

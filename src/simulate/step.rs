@@ -9,7 +9,7 @@ use crate::math::largest;
 /// A correction that moves the state by more than this many tolerated errors refuses the step.
 const MOST_CORRECTION: f64 = 10.0;
 
-/// Near a singular state one sweep leaves errors of the positions, over the sine, in the velocities.
+/// Near a singular state one sweep leaves errors of the positions, over the rank indicator, in the velocities.
 const SINGULAR_SWEEPS: usize = 2;
 
 /// Round-off of a projection where the rows of G are well apart.
@@ -45,16 +45,16 @@ impl Run<'_> {
             Some(slope) if !self.is_moved => self.next_slope.copy_from_slice(slope),
             _ => self.problem.derivative(t, &self.next, &mut self.next_slope)?,
         }
-        if self.held_rows_open() {
+        if self.dropped_rows_open() {
             self.release_rows()?;
             return self.step(h, end);
         }
         Ok(error)
     }
 
-    /// Counts all constraints from the last state on, which is brought back to those that were left out up to there.
+    /// Counts all constraints from the last state on, which is brought back to those that were dropped up to there.
     fn release_rows(&mut self) -> Result<(), Halt> {
-        self.hold(&[]);
+        self.drop_rows(&[]);
         project(self.t, &mut self.y, &mut self.problem, &mut self.projection, SINGULAR_SWEEPS)?;
         self.problem.derivative(self.t, &self.y, &mut self.slope)
     }
@@ -118,19 +118,19 @@ impl Run<'_> {
         project(t, &mut self.next, &mut self.problem, &mut self.rows.projection, sweeps)
     }
 
-    pub fn hold(&mut self, rows: &[usize]) {
-        self.problem.dynamics.hold(rows);
-        self.rows.problem.dynamics.hold(rows);
+    pub fn drop_rows(&mut self, rows: &[usize]) {
+        self.problem.dynamics.drop_rows(rows);
+        self.rows.problem.dynamics.drop_rows(rows);
     }
 
-    /// Whether constraints that depended on the others at the start, and were left out, do not hold any more: then the
+    /// Whether constraints that depended on the others at the start, and were dropped, do not hold any more: then the
     /// start was a singular state, and they count elsewhere.
-    fn held_rows_open(&self) -> bool {
+    fn dropped_rows_open(&self) -> bool {
         let dynamics = &self.problem.dynamics;
         let relative = |row: usize| dynamics.terms.phi[row].abs() / self.scales[row];
-        let kept = (0..self.scales.len()).filter(|row| !dynamics.held.contains(row)).map(relative);
+        let kept = (0..self.scales.len()).filter(|row| !dynamics.dropped.contains(row)).map(relative);
         let most = HELD + MOST_HELD * kept.fold(0.0, f64::max);
-        dynamics.held.iter().any(|row| relative(*row) > most)
+        dynamics.dropped.iter().any(|row| relative(*row) > most)
     }
 
     /// How far the projection moved the state, in units of the tolerance; `change` holds the state before.
@@ -156,16 +156,17 @@ impl Run<'_> {
     }
 
     /// The error to be put up with, in units of the tolerance. Round-off of the largest coordinate moves all that nearly
-    /// dependent rows join by eps over the sine, and velocities by eps over its square: no step can be better.
+    /// dependent rows join by eps over the rank indicator, and velocities by eps over its square: no step can be better.
     fn allowed(&mut self) -> f64 {
         let dynamics = &self.problem.dynamics;
-        let sine = self.approach.sine.min(dynamics.sine.unwrap_or_else(|| dynamics.kkt.smallest_sine()));
+        let rank_indicator =
+            self.approach.rank_indicator.min(dynamics.rank_indicator.unwrap_or_else(|| dynamics.kkt.rank_indicator()));
         let (q, v) = self.problem.split(&self.next);
         let sizes = [largest(dynamics.system.own(q)), largest(v)];
         let n = q.len();
         self.change[..n].fill(sizes[0]);
         self.change[n..].fill(sizes[1]);
-        let round_off = ROUND_OFF / (sine * sine) * self.tolerance.norm(&self.next, &self.change);
+        let round_off = ROUND_OFF / (rank_indicator * rank_indicator) * self.tolerance.norm(&self.next, &self.change);
         1.0 + round_off.min(MOST_ROUND_OFF)
     }
 }

@@ -44,11 +44,11 @@ impl Ready {
         let system = self.mechanism.system();
         let assembly = initial::assemble(system, self.t, (&followed.q, &v), &hold)?;
         let mut outputs = vec![0.0; system.columns().len()];
-        let Followed { dependent, smallest_sine, .. } = followed;
+        let Followed { dependent, rank_indicator, .. } = followed;
         let Assembly { q, v, vdot, lambda, .. } = assembly;
         let at = Loaded { t: self.t, q: &q, v: &v, vdot: &vdot, lambda: &lambda };
         system.outputs(at, &mut outputs, &mut Scratch::default());
-        let point = Point { value, q, v, lambda, outputs, smallest_sine };
+        let point = Point { value, q, v, lambda, outputs, rank_indicator };
         Ok(State { mechanism: Arc::new(self.mechanism), guess, dependent, point })
     }
 }
@@ -60,7 +60,7 @@ impl State {
         let (q, v, hold) = &ready.scene;
         let q = initial::assemble(ready.mechanism.system(), ready.t, (q, v), hold)?.q;
         // A state on the constraints is followed to itself; a singular one need not be.
-        let followed = ready.follow(&q, &[])?.unwrap_or(Followed { q, smallest_sine: 0.0, dependent: Vec::new() });
+        let followed = ready.follow(&q, &[])?.unwrap_or(Followed { q, rank_indicator: 0.0, dependent: Vec::new() });
         ready.complete(value, followed)
     }
 
@@ -69,7 +69,7 @@ impl State {
     }
 
     pub fn nearest(&self) -> Nearest {
-        Nearest { value: self.point.value, smallest_sine: self.point.smallest_sine }
+        Nearest { value: self.point.value, rank_indicator: self.point.rank_indicator }
     }
 }
 
@@ -145,11 +145,11 @@ impl<'a> Branch<'a> {
     }
 
     fn accept(&mut self, mut state: State) {
-        // The sine is that of the others; where more of them depend, it is zero.
+        // The rank indicator is that of the others; where more of them depend, it is zero.
         if state.dependent.len() > self.redundant {
-            state.point.smallest_sine = 0.0;
+            state.point.rank_indicator = 0.0;
         }
-        if state.point.smallest_sine < self.nearest.smallest_sine {
+        if state.point.rank_indicator < self.nearest.rank_indicator {
             self.nearest = state.nearest();
         }
         self.before = Some(std::mem::replace(&mut self.last, state));
@@ -197,7 +197,7 @@ impl<'a> Branch<'a> {
         let q = initial::assemble(ready.mechanism.system(), ready.t, (last, v), hold).ok()?.q;
         let size = last.iter().fold(1.0f64, |size, q| size.max(q.abs()));
         let is_beside = q.iter().zip(last).all(|(q, last)| (q - last).abs() < BESIDE * size);
-        let followed = Followed { q, smallest_sine: 0.0, dependent: Vec::new() };
+        let followed = Followed { q, rank_indicator: 0.0, dependent: Vec::new() };
         if is_beside { ready.complete(target, followed).ok() } else { None }
     }
 

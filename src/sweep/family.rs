@@ -193,7 +193,7 @@ impl<P: FnMut(usize)> Walk<'_, P> {
             (self.progress)(self.done);
         }
         let met = branch.nearest();
-        if met.smallest_sine < nearest.smallest_sine {
+        if met.rank_indicator < nearest.rank_indicator {
             *nearest = met;
         }
         side

@@ -94,7 +94,7 @@ pub struct Point {
     pub lambda: Vec<f64>,
     pub outputs: Vec<f64>,
     /// How near the constraints and what is held are to losing rank: 1 is far, 0 singular.
-    pub smallest_sine: f64,
+    pub rank_indicator: f64,
 }
 
 /// An end of the branch.
@@ -114,5 +114,5 @@ pub struct Limit {
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Nearest {
     pub value: f64,
-    pub smallest_sine: f64,
+    pub rank_indicator: f64,
 }

@@ -99,7 +99,7 @@ fn beside_a_singular_state() {
         let stiffness = 4.0 * sin * cos * acceleration + 2.0 * (cos * cos - sin * sin) * rate * rate - 9.81 * sin;
         let known = [-stiffness / inertia, -4.0 * sin * cos * rate / inertia];
         let off = [found.a[(1, 0)] - known[0], found.a[(1, 1)] - known[1]];
-        // Rounding, of the state as well, over the square of the sine, 2.6 times the angle.
+        // Rounding, of the state as well, over the square of the rank indicator, 2.6 times the angle.
         assert!(off.iter().all(|x| x.abs() < 1e-13 / (beside * beside)), "{beside} {rate}: {off:?} of {known:?}");
     }
 }

@@ -99,7 +99,7 @@ fn error_at_the_end(top: usize, integrator: &str, projection: &str, step: f64) -
 }
 
 /// Stages of a fixed step beside a flat state do not decide the branch, and smaller steps do not come nearer to it than
-/// round-off allows: what is left at small steps is eps over the square of the sine, some 1e-10.
+/// round-off allows: what is left at small steps is eps over the square of the rank indicator, some 1e-10.
 #[test]
 fn fixed_steps_go_over_flat_states_whatever_their_size() {
     for (top, integrator, projection, step) in [

@@ -136,7 +136,7 @@ fn it_falls_from_rest_at_a_change_point() {
     for (formulation, tolerance) in [("index1", 1e-6), ("index2", 1e-6), ("index1", 1e-9), ("index2", 1e-9)] {
         let run = alike.run(&adaptive(formulation, "radau_iia", "none", tolerance), end);
         let error = (last(&run, "angle") - exact).abs();
-        // Beside a change point errors of the positions grow by the inverse of its sine.
+        // Beside a change point errors of the positions grow by the inverse of its rank indicator.
         assert!(error < 1e4 * tolerance, "{formulation} {tolerance:e}: {error:e}");
     }
     let text = std::fs::read_to_string(model("parallelogram")).unwrap();

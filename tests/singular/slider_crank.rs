@@ -92,7 +92,7 @@ fn rows_are_as_good_as_steps() {
         let column = |name| run.record.trajectory.column(name).unwrap();
         let rates = column("crank.angle'").into_iter().zip(column("rod.angle'"));
         for (angle, (crank, rod)) in column("crank.angle").into_iter().zip(rates) {
-            // Round-off of the velocities over the square of the sine.
+            // Round-off of the velocities over the square of the rank indicator.
             let round_off = 1e-14 / angle.cos().powi(2);
             assert!((crank + rod).abs() < 10.0 * tolerance + round_off, "at {angle}: {:e}", crank + rod);
         }

@@ -63,9 +63,9 @@ impl<'a> Rest<'a> {
         if !system.tangent(at, &mut tangent, &mut dynamics.scratch) {
             return Err(failure::no_tangent());
         }
-        let (held, _) = dynamics.dependent_rows(t, q, &still);
-        dynamics.hold(&held);
-        let rows: Vec<usize> = (0..n.lambda).filter(|row| !held.contains(row)).collect();
+        let (dropped, _) = dynamics.dependent_rows(t, q, &still);
+        dynamics.drop_rows(&dropped);
+        let rows: Vec<usize> = (0..n.lambda).filter(|row| !dropped.contains(row)).collect();
         let place = |row: usize| rows.binary_search(&row).ok();
         let all = dynamics.structure.g.entries.iter().enumerate();
         let (entries, places) = all.filter_map(|(k, &(i, j))| Some((k, (place(i)?, j)))).unzip();
@@ -73,7 +73,7 @@ impl<'a> Rest<'a> {
         let structure = &dynamics.structure;
         let matrix = Unsymmetric::new(&structure.mass, &structure.tangent, &g);
         let mut level = SaddlePoint::new(&Pattern::diagonal(n.v), &structure.g);
-        level.hold(&held);
+        level.drop_rows(&dropped);
         Ok(Rest {
             level,
             ones: vec![1.0; n.v],
@@ -133,8 +133,8 @@ impl<'a> Rest<'a> {
 
     /// Multipliers are those of least norm from now on.
     pub fn release(&mut self) {
-        self.dynamics.hold(&[]);
-        self.level.hold(&[]);
+        self.dynamics.drop_rows(&[]);
+        self.level.drop_rows(&[]);
     }
 
     /// Factors at a place whose terms are there; false where the matrix is singular.

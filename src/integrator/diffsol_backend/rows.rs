@@ -115,7 +115,7 @@ impl<'s> Rows<'s> {
         let (terms, g) = (&self.dynamics.terms, &self.dynamics.structure.g);
         let kinds = [dae(&self.dae), dae(&self.dae.nonholonomic())];
         let holonomic = self.dynamics.system.dimensions().holonomic();
-        let dropped = &self.dynamics.held;
+        let dropped = &self.dynamics.dropped;
         dropped.iter().for_each(|row| out.add(at + row, at + row, 1.0));
         // Multipliers without a row are zero.
         let without = |row: &usize| kinds[usize::from(*row >= holonomic)].is_none() && !dropped.contains(row);
@@ -141,7 +141,7 @@ impl Form for Rows<'_> {
         let Places { v, work, a, lambda, .. } = &self.places;
         let (q, speed) = (&from.y[..v.start], &from.y[v.clone()]);
         self.dynamics.solve(from.t, q, speed, |_, _| 0.0)?;
-        let is_dropped = |row: &usize| self.dynamics.held.contains(row);
+        let is_dropped = |row: &usize| self.dynamics.dropped.contains(row);
         if !self.dynamics.kkt.left_out().iter().all(is_dropped) {
             return Err(Halt::Unsuitable {
                 reason: "redundant constraints cannot be solved by this integrator",
@@ -186,7 +186,7 @@ impl Form for Rows<'_> {
             .for_each(|[u, mu]| [(u, left_u), (mu, left_mu)].into_iter().for_each(|(place, left)| set(place, left)));
         let multipliers = [Some(lambda), w.as_ref().map(|[_, eta]| eta), u.as_ref().map(|[_, mu]| mu)];
         for place in multipliers.into_iter().flatten() {
-            dynamics.held.iter().for_each(|row| out[place.start + row] = x[place.start + row]);
+            dynamics.dropped.iter().for_each(|row| out[place.start + row] = x[place.start + row]);
         }
         let n = dynamics.system.dimensions();
         if let Some([_, place]) = u {

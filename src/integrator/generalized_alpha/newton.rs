@@ -104,7 +104,7 @@ impl Newton {
         let counted = problem.dynamics.statistics;
         self.at.recall(&point, &mut problem.dynamics)?;
         self.iteration.factor(motion.slopes(h), &self.at, &mut problem.dynamics)?;
-        self.dropped.clone_from(&problem.dynamics.held);
+        self.dropped.clone_from(&problem.dynamics.dropped);
         problem.dynamics.statistics = counted;
         (self.is_linearized, self.factored) = (true, Some(h));
         Ok(())
@@ -158,7 +158,7 @@ impl Newton {
         let ((q, v), t) = (problem.split(to), from.t + h);
         let (vdot, lambda) = (&motion.end.vdot, &motion.end.lambda);
         let dynamics = &mut problem.dynamics;
-        if self.is_linearized && self.dropped == dynamics.held {
+        if self.is_linearized && self.dropped == dynamics.dropped {
             self.residual.evaluate(&self.dae, (t, q, v), motion.unknowns(), dynamics)?;
         } else {
             if to.iter().any(|x| !x.is_finite()) {
@@ -177,7 +177,7 @@ impl Newton {
         let factored = self.iteration.factor(motion.slopes(h), &self.at, dynamics);
         factored.map_err(|singular| collapsed(singular, problem, from, h))?;
         self.factored = Some(h);
-        self.dropped.clone_from(&problem.dynamics.held);
+        self.dropped.clone_from(&problem.dynamics.dropped);
         Ok(())
     }
 

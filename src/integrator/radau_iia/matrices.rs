@@ -42,7 +42,7 @@ impl Matrices {
         at: &Linearized,
         dynamics: &mut Dynamics,
     ) -> Result<(), Singular> {
-        if self.factored == Some((h, index)) && self.dropped == dynamics.held {
+        if self.factored == Some((h, index)) && self.dropped == dynamics.dropped {
             return Ok(());
         }
         self.factored = None;
@@ -51,7 +51,7 @@ impl Matrices {
             pair.factor(slopes(mode.value * h), at, dynamics)?;
         }
         self.factored = Some((h, index));
-        self.dropped.clone_from(&dynamics.held);
+        self.dropped.clone_from(&dynamics.dropped);
         Ok(())
     }
 

@@ -41,9 +41,9 @@ use system::{System, most};
 /// the contraction of Newton's method, which large rotations in a step slow down. An output row inside a step is a step
 /// of its own, since the collocation polynomial has order s only.
 ///
-/// Limits: with index3 round-off of phi over h is an error of v, and with index3 and ggl round-off along nearly dependent
-/// rows is that over their sine (1e-4 between masses 1 : 1e8 in line), so that steps of less than 1e-7 s there may end a
-/// run: index2 goes on.
+/// Limits: with index3 round-off of phi over h is an error of v, and with index3 and ggl round-off along nearly
+/// dependent rows is that over their rank indicator (1e-4 between masses 1 : 1e8 in line), so that steps of less than
+/// 1e-7 s there may end a run: index2 goes on.
 pub const ENTRY: Entry = Entry {
     name: "radau_iia",
     about: "implicit collocation of variable order 5, 9, 13, L-stable: stiff motions, and high accuracy",
@@ -250,7 +250,7 @@ impl Integrator for RadauIIA {
             self.lambda.copy_from_slice(&problem.dynamics.lambda);
         }
         self.renew(problem)?;
-        if !self.is_linearized || !self.matrices.serves(&problem.dynamics.held) {
+        if !self.is_linearized || !self.matrices.serves(&problem.dynamics.dropped) {
             self.linearize(problem, from)?;
         }
         let mut solved = self.solve(problem, from, h);

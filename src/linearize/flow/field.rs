@@ -27,7 +27,7 @@ impl<'a> Field<'a> {
         let zeros = Matrix::zeros(shape.v, shape.columns);
         let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
         let mut plain = Dynamics::new(system);
-        [&mut plain, &mut variation.dynamics].into_iter().for_each(|dynamics| dynamics.hold(dependent));
+        [&mut plain, &mut variation.dynamics].into_iter().for_each(|dynamics| dynamics.drop_rows(dependent));
         Ok(Field {
             shape: *shape,
             variation,
@@ -129,7 +129,7 @@ impl Formulation for Field<'_> {
         let (qdot0, qdot) = qdot.split_at_mut(nq);
         let (vdot0, vdot) = vdot.split_at_mut(nv);
         self.motion(t, (q0, v0), qdot0, vdot0)?;
-        let mut sine = self.variation.dynamics.kkt.smallest_sine();
+        let mut rank_indicator = self.variation.dynamics.kkt.rank_indicator();
         let (dq_dot, qdot) = qdot.split_at_mut(nv * columns);
         let (dv_dot, vdot) = vdot.split_at_mut(nv * columns);
         if columns > 0 {
@@ -141,9 +141,9 @@ impl Formulation for Field<'_> {
             let (own_q, own_v) = (i * nq..(i + 1) * nq, i * nv..(i + 1) * nv);
             let state = (&qs[own_q.clone()], &vs[own_v.clone()], amplitude);
             self.member(t, state, &mut qdot[own_q], &mut vdot[own_v])?;
-            sine = sine.min(self.plain.kkt.smallest_sine());
+            rank_indicator = rank_indicator.min(self.plain.kkt.rank_indicator());
         }
-        carrier.sine = (!self.variation.dynamics.lambda.is_empty()).then_some(sine);
+        carrier.rank_indicator = (!self.variation.dynamics.lambda.is_empty()).then_some(rank_indicator);
         Ok(())
     }
 }

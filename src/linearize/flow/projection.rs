@@ -18,7 +18,7 @@ pub struct Straightening<'a> {
 impl<'a> Straightening<'a> {
     pub fn new(system: &'a dyn MechanicalSystem, shape: &Shape, dependent: &[usize]) -> Result<Self> {
         let (n, mut dynamics) = (system.dimensions(), Dynamics::new(system));
-        dynamics.hold(dependent);
+        dynamics.drop_rows(dependent);
         let manifold = projection::make(&Choice::named("manifold"), system)?;
         Ok(Straightening { shape: *shape, dynamics, manifold, correction: vec![0.0; n.v], rows: vec![0.0; n.lambda] })
     }

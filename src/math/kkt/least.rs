@@ -57,12 +57,19 @@ impl Least {
         self.is_current = false;
     }
 
-    /// v := P v; returns the norm of what was taken away. `sine`: see `Nearly`.
-    pub fn project(&mut self, system: &System, rows: &[usize], sine: f64, solve: Solve, v: &mut [f64]) -> f64 {
+    /// v := P v; returns the norm of what was taken away. `rank_indicator`: see `Nearly`.
+    pub fn project(
+        &mut self,
+        system: &System,
+        rows: &[usize],
+        rank_indicator: f64,
+        solve: Solve,
+        v: &mut [f64],
+    ) -> f64 {
         match rows.len() {
             0 => 0.0,
             1..=FEW => self.project_directly(system, rows, solve, v),
-            _ => self.project_by_gradients(system, rows, sine, solve, v),
+            _ => self.project_by_gradients(system, rows, rank_indicator, solve, v),
         }
     }
 
@@ -99,10 +106,17 @@ impl Least {
     }
 
     /// With residual = N^T (v - N w): `nearly` gives w to begin with.
-    fn project_by_gradients(&mut self, system: &System, rows: &[usize], sine: f64, solve: Solve, v: &mut [f64]) -> f64 {
+    fn project_by_gradients(
+        &mut self,
+        system: &System,
+        rows: &[usize],
+        rank_indicator: f64,
+        solve: Solve,
+        v: &mut [f64],
+    ) -> f64 {
         let nearly = self.nearly.get_or_insert_with(|| Box::new(Nearly::new(system)));
         if !self.is_current {
-            nearly.factor(system, sine);
+            nearly.factor(system, rank_indicator);
             self.is_current = true;
         }
         self.residual.copy_from_slice(v);

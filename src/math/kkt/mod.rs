@@ -63,21 +63,21 @@ pub trait Solver {
     /// `reference`, the rank indicator where nothing is singular; zero where that is not known.
     fn factor(&mut self, mass: &[f64], g: &[f64], reference: f64) -> Result<(), Singular>;
 
-    /// How near G is to losing rank at the last factorization, rows that were left out aside.
+    /// How near G is to losing rank at the last factorization, rows that were dropped aside; in a metric of its own.
     fn rank_indicator(&self) -> f64;
 
     /// (r1, r2) -> (a, lambda), in place.
     fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) -> Result<(), Singular>;
 
-    /// Leaves out these rows from the next factorization on, where the solver can be misled by them: see
-    /// [`SaddlePoint::hold`].
-    fn hold(&mut self, _rows: &[usize]) {}
+    /// Drops these rows from the next factorization on, where the solver can be misled by them: see
+    /// [`SaddlePoint::drop_rows`].
+    fn drop_rows(&mut self, _rows: &[usize]) {}
 
     /// Whether rows of G were dependent at the last factorization.
     fn is_rank_deficient(&self) -> bool;
 
-    /// See [`SaddlePoint::smallest_sine`]; none where the solver does not say.
-    fn smallest_sine(&self) -> Option<f64> {
+    /// [`SaddlePoint::rank_indicator`]; none where the solver does not say.
+    fn row_indicator(&self) -> Option<f64> {
         None
     }
 }

@@ -16,8 +16,8 @@ use super::fast::Fast;
 use super::pivot::Rule;
 use super::system::System;
 
-/// delta over the square of the smallest sine of the independent rows, and how often the system is solved: what is left of
-/// the rest is the one to the power of the other.
+/// delta over the square of the rank indicator of the independent rows, and how often the system is solved: what is
+/// left of the rest is the one to the power of the other.
 const DELTA: f64 = 1e-8;
 const TIMES: usize = 2;
 /// Least delta, of rows of unit length in the metric of D^-1, beside round-off.
@@ -56,8 +56,8 @@ impl Nearly {
         }
     }
 
-    /// With the values of the system; `sine` is the smallest of the independent rows of G.
-    pub fn factor(&mut self, system: &System, sine: f64) {
+    /// With the values of the system; `rank_indicator` is that of the independent rows of G.
+    pub fn factor(&mut self, system: &System, rank_indicator: f64) {
         let Nearly { factor, mass, g, skipped, diagonal, lengths, .. } = self;
         diagonal.fill(0.0);
         system.mass.add_diagonal(&system.mass_values, diagonal);
@@ -67,7 +67,7 @@ impl Nearly {
         lengths.fill(0.0);
         let entries = system.g.entries.iter().zip(&system.g_values);
         entries.for_each(|((row, column), value)| lengths[*row] += value * value / diagonal[*column]);
-        let delta = (DELTA * sine * sine).max(LEAST) * lengths.iter().copied().fold(0.0, f64::max);
+        let delta = (DELTA * rank_indicator * rank_indicator).max(LEAST) * lengths.iter().copied().fold(0.0, f64::max);
         mass[lengths.len()..].iter_mut().zip(&*diagonal).for_each(|(beside, d)| *beside = 1.0 / (delta * d));
         g[..system.g_values.len()].copy_from_slice(&system.g_values);
         // Pivots of coordinates that no row holds are as small as delta, and none is zero but by round-off.

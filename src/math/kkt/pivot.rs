@@ -18,9 +18,9 @@ pub(super) const ROUND_OFF: f64 = 1e-13;
 pub(super) const COLLAPSED: f64 = 1e-12;
 /// Multipliers with pivots up to here may be dependent where others are nearly so.
 pub(super) const DOUBTED: f64 = 1e-8;
-/// The sine of a row, as part of the usual one, below which a truncated solution leaves it out. With a sine s, round-off
-/// moves positions along the nearly dependent row by eps/s, so velocities by eps/s^2 and accelerations by eps/s^3: all
-/// of it at 6e-6, the more with drift.
+/// The rank indicator of a row, as part of its reference value, below which a truncated solution drops it. With an
+/// indicator s, round-off moves positions along the nearly dependent row by eps/s, so velocities by eps/s^2 and
+/// accelerations by eps/s^3: all of it at 6e-6, the more with drift.
 pub const TRUNCATED: f64 = 1e-4;
 /// A collapsed coordinate pivot becomes this part of its size.
 const REPLACED: f64 = 1e-7;

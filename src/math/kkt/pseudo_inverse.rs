@@ -34,7 +34,7 @@ pub struct PseudoInverse {
     w: Vec<f64>,
     s: Vec<f64>,
     rank: usize,
-    held: Vec<usize>,
+    dropped: Vec<usize>,
     is_factored: bool,
     x: Vec<f64>,
     y: Vec<f64>,
@@ -60,7 +60,7 @@ impl PseudoInverse {
             w: vec![0.0; m * size],
             s: vec![0.0; size],
             rank: 0,
-            held: Vec::with_capacity(m),
+            dropped: Vec::with_capacity(m),
             is_factored: false,
             x: vec![0.0; n],
             y: vec![0.0; m],
@@ -119,7 +119,7 @@ impl Solver for PseudoInverse {
         let n = self.scale.len();
         self.a.fill(0.0);
         self.g.entries.iter().zip(g).for_each(|(&(j, i), value)| self.a[j * n + i] += value * self.scale[i]);
-        for &row in &self.held {
+        for &row in &self.dropped {
             self.a[row * n..(row + 1) * n].fill(0.0);
         }
         for row in self.a.chunks_exact_mut(n.max(1)) {
@@ -156,9 +156,9 @@ impl Solver for PseudoInverse {
         Ok(())
     }
 
-    fn hold(&mut self, rows: &[usize]) {
-        self.held.clear();
-        self.held.extend(rows.iter().filter(|row| **row < self.g.rows));
+    fn drop_rows(&mut self, rows: &[usize]) {
+        self.dropped.clear();
+        self.dropped.extend(rows.iter().filter(|row| **row < self.g.rows));
     }
 
     /// The smallest singular value, of those that count, over the largest.

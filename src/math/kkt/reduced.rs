@@ -62,7 +62,7 @@ impl Solver for Reduced {
         self.null_space.smallest_ratio().sqrt()
     }
 
-    fn smallest_sine(&self) -> Option<f64> {
+    fn row_indicator(&self) -> Option<f64> {
         Some(self.rank_indicator())
     }
 }

@@ -85,9 +85,9 @@ impl Skipping {
         if is_solved { Ok(()) } else { Err(Singular::Undetermined { coordinate }) }
     }
 
-    /// Pivots are squares of sines, so that round-off hides sines below 1e-7. Null vectors show them: the length (metric
-    /// M^-1) of G^T N w for a mix w of the left-out rows, all scaled to the same length.
-    pub fn sine(&mut self, system: &System) -> f64 {
+    /// Pivots are squares of sines, so that round-off hides sines below 1e-7. Null vectors show them: the length
+    /// (metric M^-1) of G^T N w for a mix w of the left-out rows, all scaled to the same length.
+    pub fn rank_indicator(&mut self, system: &System) -> f64 {
         if self.skipped.is_empty() {
             return 0.0;
         }
@@ -142,8 +142,8 @@ impl Skipping {
     /// v := P v; returns the norm of what was taken away.
     fn project(&mut self, system: &System, v: &mut [f64]) -> f64 {
         let Skipping { factor, least, skipped, collapsed, .. } = self;
-        let sine = factor.smallest_ratio(collapsed.max(ROUND_OFF)).0.sqrt();
-        least.project(system, skipped, sine, &mut |top, bottom| factor.solve(top, bottom), v)
+        let rank_indicator = factor.smallest_ratio(collapsed.max(ROUND_OFF)).0.sqrt();
+        least.project(system, skipped, rank_indicator, &mut |top, bottom| factor.solve(top, bottom), v)
     }
 
     /// image = N direction, where `direction` is zero but on the left-out rows.

@@ -226,5 +226,5 @@ impl TwoPlaces {
 
 /// Rows that stay left out ask for nothing.
 fn leave_out(kkt: &SaddlePoint, rows: &mut [f64]) {
-    rows.iter_mut().enumerate().filter(|(row, _)| kkt.is_held(*row)).for_each(|(_, value)| *value = 0.0);
+    rows.iter_mut().enumerate().filter(|(row, _)| kkt.is_dropped(*row)).for_each(|(_, value)| *value = 0.0);
 }

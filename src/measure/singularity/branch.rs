@@ -9,11 +9,11 @@ use super::Branch;
 use super::path::Sample;
 use super::survey::Survey;
 
-/// States on the way to a singular one are kept each time the sine has halved since the last.
+/// States on the way to a singular one are kept each time the rank indicator has halved since the last.
 const HALVED: f64 = 0.5;
-/// The way is followed below this part of the largest sine.
+/// The way is followed below this part of the largest rank indicator.
 const ZONE: f64 = 0.3;
-/// Velocities are compared at so many times the least sine.
+/// Velocities are compared at so many times the least rank indicator.
 const ASIDE: f64 = 6.0;
 /// The state after the one that is compared is at least this part of the time between those compared farther on.
 const APART: f64 = 0.25;
@@ -22,11 +22,11 @@ const APART: f64 = 0.25;
 const JUMP: f64 = 0.1;
 const DOUBT: f64 = 3.0;
 const MOST_DOUBT: f64 = 0.5;
-/// Drift of the positions, relative to the square of the sine, and of the velocities, relative to the sine, that can turn
-/// a motion.
+/// Drift of the positions, relative to the square of the rank indicator, and of the velocities, relative to the rank
+/// indicator, that can turn a motion.
 const TURNED: f64 = 0.01;
 
-/// The sine below which drift of the positions and velocities, relative to their scales, can turn a motion.
+/// The rank indicator below which drift of the positions and velocities, relative to their scales, can turn a motion.
 pub fn reach([position, velocity]: [f64; 2]) -> f64 {
     (position / TURNED).sqrt().max(velocity / TURNED)
 }
@@ -46,33 +46,37 @@ struct Open {
     /// One or two states before it, and up to two after it.
     before: Vec<Sample>,
     after: Vec<Sample>,
-    sine: f64,
+    rank_indicator: f64,
     may_turn: bool,
 }
 
 impl Turning {
-    /// A singular or nearly singular state was passed at `t`. It is no wonder that a motion turns sharply where geometry
-    /// makes it: only at a singular state, or where drift reaches, it `may_turn` from its branch.
-    pub fn begin(&mut self, passing: usize, t: f64, sine: f64, may_turn: bool) {
-        let aside = self.way.iter().rposition(|sample| sample.t < t && sample.sine >= ASIDE * sine).unwrap_or(0);
+    /// A singular or nearly singular state was passed at `t`. It is no wonder that a motion turns sharply where
+    /// geometry makes it: only at a singular state, or where drift reaches, it `may_turn` from its branch.
+    pub fn begin(&mut self, passing: usize, t: f64, rank_indicator: f64, may_turn: bool) {
+        let aside = self
+            .way
+            .iter()
+            .rposition(|sample| sample.t < t && sample.rank_indicator >= ASIDE * rank_indicator)
+            .unwrap_or(0);
         let before = match self.way.get(..=aside) {
             Some(way) => way[aside.saturating_sub(1)..].to_vec(),
             None => vec![self.last[1].clone()],
         };
-        self.open = Some(Open { passing, before, after: Vec::new(), sine, may_turn });
+        self.open = Some(Open { passing, before, after: Vec::new(), rank_indicator, may_turn });
         self.way.clear();
     }
 
     /// Takes an accepted state, and judges the singular state before it once it is far enough behind.
     pub fn add(&mut self, now: &Sample, largest: f64, survey: &mut Survey) -> Option<(usize, Branch)> {
-        let falls = now.sine < self.last[1].sine;
-        if now.sine > ZONE * largest {
+        let falls = now.rank_indicator < self.last[1].rank_indicator;
+        if now.rank_indicator > ZONE * largest {
             self.way.clear();
         } else if falls {
             if self.way.is_empty() {
                 self.way.extend(self.last.iter().filter(|sample| !sample.q.is_empty()).cloned());
             }
-            if self.way.last().is_none_or(|last| now.sine < HALVED * last.sine) {
+            if self.way.last().is_none_or(|last| now.rank_indicator < HALVED * last.rank_indicator) {
                 self.way.push(now.clone());
             }
         }
@@ -96,7 +100,9 @@ impl Open {
     fn is_seen(&mut self, now: &Sample) -> bool {
         let Some(from) = self.before.last() else { return false };
         let is_next = match self.after.first() {
-            None => now.t > from.t && now.sine >= (ASIDE * self.sine).min(0.5 * from.sine),
+            None => {
+                now.t > from.t && now.rank_indicator >= (ASIDE * self.rank_indicator).min(0.5 * from.rank_indicator)
+            }
             Some(first) => now.t - first.t >= APART * (first.t - from.t),
         };
         if is_next {

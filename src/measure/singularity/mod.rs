@@ -31,8 +31,9 @@ pub struct Singularity {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Nearest {
     pub t: f64,
-    pub sine: f64,
-    /// Condition number of the equilibrated saddle-point matrix there; `None` where it is infinite, or the system large.
+    pub rank_indicator: f64,
+    /// Condition number of the equilibrated saddle-point matrix there; `None` where it is infinite, or the system
+    /// large.
     pub condition: Option<f64>,
 }
 
@@ -40,8 +41,8 @@ pub struct Nearest {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Passing {
     pub t: f64,
-    /// The smallest sine there: round-off and the error of interpolation at a singular state.
-    pub sine: f64,
+    /// The rank indicator there: round-off and the error of interpolation at a singular state.
+    pub rank_indicator: f64,
     /// Whether it counts as singular, or as near to it.
     pub is_singular: bool,
     /// Rank of G there (`None` for large systems), and beside it.
@@ -82,7 +83,7 @@ impl Singularity {
     }
 }
 
-/// Dips of the sine below this part of the largest one are looked at.
+/// Dips of the rank indicator below this part of the largest one are looked at.
 const DIP: f64 = 0.8;
 /// Below this part the state is near to a singular one, below the second it is singular.
 const NEAR: f64 = 1e-2;
@@ -119,13 +120,13 @@ impl<'a> Watch<'a> {
         if state.phi.is_empty() {
             return;
         }
-        self.survey.hold(state.held);
-        let sine = state.sine.unwrap_or_else(|| self.survey.sine(state.t, state.q));
+        self.survey.drop_rows(state.dropped);
+        let rank_indicator = state.rank_indicator.unwrap_or_else(|| self.survey.rank_indicator(state.t, state.q));
         self.last.rotate_left(1);
-        self.last[2].copy(state, sine);
+        self.last[2].copy(state, rank_indicator);
         self.seen += 1;
-        self.largest = self.largest.max(sine);
-        self.note(state.t, sine, state.q);
+        self.largest = self.largest.max(rank_indicator);
+        self.note(state.t, rank_indicator, state.q);
         if self.seen >= 3 && self.dips() {
             self.look_at_dip();
         }
@@ -146,7 +147,7 @@ impl<'a> Watch<'a> {
     /// The result.
     pub fn finish(mut self) -> Singularity {
         // A run that ends just behind a singular state sees no rise after it.
-        if self.seen >= 3 && self.last[2].sine <= self.last[1].sine {
+        if self.seen >= 3 && self.last[2].rank_indicator <= self.last[1].rank_indicator {
             self.look_at_dip();
         }
         let judged = self.turning.judge(&mut self.survey);
@@ -161,45 +162,49 @@ impl<'a> Watch<'a> {
     /// Forgets a state that was looked at only because drift might have turned the motion there.
     fn drop_if_far(&mut self, passing: usize) {
         let passed = &mut self.found.passed;
-        if passed.get(passing).is_some_and(|p| p.branch != Branch::Left && p.sine > NEAR * self.largest) {
+        if passed.get(passing).is_some_and(|p| p.branch != Branch::Left && p.rank_indicator > NEAR * self.largest) {
             passed.remove(passing);
             self.found.count -= 1;
         }
     }
 
-    fn note(&mut self, t: f64, sine: f64, q: &[f64]) {
-        if self.found.nearest.is_none_or(|nearest| sine < nearest.sine) {
-            self.found.nearest = Some(Nearest { t, sine, condition: None });
+    fn note(&mut self, t: f64, rank_indicator: f64, q: &[f64]) {
+        if self.found.nearest.is_none_or(|nearest| rank_indicator < nearest.rank_indicator) {
+            self.found.nearest = Some(Nearest { t, rank_indicator, condition: None });
             self.survey.keep_nearest(t, q);
         }
     }
 
-    /// Whether the sine has a minimum about the middle state.
+    /// Whether the rank indicator has a minimum about the middle state.
     fn dips(&self) -> bool {
         let [a, b, c] = &self.last;
-        b.sine <= a.sine && b.sine < c.sine && b.sine < DIP * self.largest
+        b.rank_indicator <= a.rank_indicator
+            && b.rank_indicator < c.rank_indicator
+            && b.rank_indicator < DIP * self.largest
     }
 
     fn look_at_dip(&mut self) {
         let path = Path::new(&self.last, &mut self.survey);
-        let sines = [self.last[0].sine, self.last[2].sine];
+        let indicators = [self.last[0].rank_indicator, self.last[2].rank_indicator];
         let drift = self.survey.drift(&self.last[1]);
         let near = NEAR * self.largest;
         let turned = branch::reach(drift).min(FAR * self.largest);
-        let Some((t, sine)) = self.survey.least_sine(&path, sines, near.max(turned)) else { return };
+        let Some((t, rank_indicator)) = self.survey.least_rank_indicator(&path, indicators, near.max(turned)) else {
+            return;
+        };
         let q = self.survey.position(&path, t);
-        self.note(t, sine, &q);
-        if sine > near.max(turned) {
+        self.note(t, rank_indicator, &q);
+        if rank_indicator > near.max(turned) {
             return;
         }
         let judged = self.turning.judge(&mut self.survey);
         self.settle(judged);
-        let is_singular = sine < SINGULAR * self.largest;
-        let (lost, joints) = self.survey.dependence(t, &q, 10.0 * sine);
-        self.turning.begin(self.found.passed.len(), t, sine, is_singular || sine < turned);
+        let is_singular = rank_indicator < SINGULAR * self.largest;
+        let (lost, joints) = self.survey.dependence(t, &q, 10.0 * rank_indicator);
+        self.turning.begin(self.found.passed.len(), t, rank_indicator, is_singular || rank_indicator < turned);
         let regular_rank = self.survey.regular_rank();
         let rank = if is_singular { lost } else { Some(regular_rank) };
-        let passing = Passing { t, sine, is_singular, rank, regular_rank, joints, branch: Branch::Open };
+        let passing = Passing { t, rank_indicator, is_singular, rank, regular_rank, joints, branch: Branch::Open };
         self.found.count += 1;
         if self.found.passed.len() < MOST_PASSED {
             self.found.passed.push(passing);

@@ -7,7 +7,7 @@ use crate::simulate::Observation;
 #[derive(Clone, Debug, Default)]
 pub struct Sample {
     pub t: f64,
-    pub sine: f64,
+    pub rank_indicator: f64,
     pub q: Vec<f64>,
     pub v: Vec<f64>,
     pub vdot: Vec<f64>,
@@ -16,8 +16,8 @@ pub struct Sample {
 }
 
 impl Sample {
-    pub fn copy(&mut self, state: &Observation, sine: f64) {
-        (self.t, self.sine) = (state.t, sine);
+    pub fn copy(&mut self, state: &Observation, rank_indicator: f64) {
+        (self.t, self.rank_indicator) = (state.t, rank_indicator);
         let Sample { q, v, vdot, phi, phi_dot, .. } = self;
         let all = [(q, state.q), (v, state.v), (vdot, state.vdot), (phi, state.phi), (phi_dot, state.phi_dot)];
         for (own, other) in all {

@@ -12,11 +12,11 @@ const NAMED: usize = 1000;
 const DEPENDENT: f64 = 1e-4;
 /// The condition number is computed up to this many unknowns.
 const SMALL: usize = 300;
-/// Golden sections end at this part of a path, and where the sine is this part of what counts as near.
+/// Golden sections end at this part of a path, and where the rank indicator is this part of what counts as near.
 const SHORTEST: f64 = 1e-6;
 const TINY: f64 = 5e-4;
-/// The points of the two lines are where the sine is about this part of what counts as near: the lines are straight, and
-/// round-off is small.
+/// The points of the two lines are where the rank indicator is about this part of what counts as near: the lines are
+/// straight, and round-off is small.
 const ASIDE: f64 = 2e-2;
 /// Newton's steps that bring a path back to the drift of the motion.
 const SWEEPS: usize = 2;
@@ -36,12 +36,12 @@ impl<'a> Survey<'a> {
     }
 
     /// Leaves out rows that depend on others everywhere.
-    pub fn hold(&mut self, rows: &[usize]) {
-        self.dynamics.hold(rows);
+    pub fn drop_rows(&mut self, rows: &[usize]) {
+        self.dynamics.drop_rows(rows);
     }
 
     pub fn regular_rank(&self) -> usize {
-        self.rows() - self.dynamics.held.len()
+        self.rows() - self.dynamics.dropped.len()
     }
 
     fn rows(&self) -> usize {
@@ -63,15 +63,15 @@ impl<'a> Survey<'a> {
         rate
     }
 
-    /// The smallest sine at a position; zero where the matrix is singular.
-    pub fn sine(&mut self, t: f64, q: &[f64]) -> f64 {
+    /// The rank indicator at a position; zero where the matrix is singular.
+    pub fn rank_indicator(&mut self, t: f64, q: &[f64]) -> f64 {
         self.evaluate(t, q);
-        self.dynamics.factor().map_or(0.0, |()| self.dynamics.kkt.smallest_sine())
+        self.dynamics.factor().map_or(0.0, |()| self.dynamics.kkt.rank_indicator())
     }
 
-    fn sine_on(&mut self, path: &Path, t: f64) -> f64 {
+    fn rank_indicator_on(&mut self, path: &Path, t: f64) -> f64 {
         let q = self.position(path, t);
-        self.sine(t, &q)
+        self.rank_indicator(t, &q)
     }
 
     /// The position near a place on a path that has the drift of its middle state, which interpolation does not keep.
@@ -92,18 +92,18 @@ impl<'a> Survey<'a> {
         q
     }
 
-    /// Where the sine is least on a path from and to states with `sines`, and how small, if it comes near to `bound`: by
-    /// golden sections, as long as the minimum can be below with twice the steepest slope seen; and then, since the sine falls to a singular state and rises from it linearly, by where two
-    /// lines meet.
-    pub fn least_sine(&mut self, path: &Path, sines: [f64; 2], bound: f64) -> Option<(f64, f64)> {
+    /// Where the rank indicator is least on a path from and to states with `indicators`, and how small, if it comes
+    /// near to `bound`: by golden sections, as long as the minimum can be below with twice the steepest slope seen; and
+    /// then, since the rank indicator falls to a singular state and rises from it linearly, by where two lines meet.
+    pub fn least_rank_indicator(&mut self, path: &Path, indicators: [f64; 2], bound: f64) -> Option<(f64, f64)> {
         let [mut from, _, mut to] = path.times;
         let width = to - from;
         // Times of steps near round-off do not come any closer.
         let shortest = (SHORTEST * width).max(8.0 * f64::EPSILON * from.abs().max(to.abs()));
         let mut inner = [to - GOLDEN * (to - from), from + GOLDEN * (to - from)];
-        let mut values = inner.map(|t| self.sine_on(path, t));
+        let mut values = inner.map(|t| self.rank_indicator_on(path, t));
         // Of a dip that is alike on both sides the inner values tell no slope.
-        let outer = [(sines[0] - values[0]) / (inner[0] - from), (sines[1] - values[1]) / (to - inner[1])];
+        let outer = [(indicators[0] - values[0]) / (inner[0] - from), (indicators[1] - values[1]) / (to - inner[1])];
         let mut steepest = 2.0 * outer[0].abs().max(outer[1].abs());
         while to - from > shortest && values[0].min(values[1]) > TINY * bound {
             steepest = steepest.max(2.0 * (values[1] - values[0]).abs() / (inner[1] - inner[0]));
@@ -113,17 +113,17 @@ impl<'a> Survey<'a> {
             if values[0] < values[1] {
                 to = inner[1];
                 inner = [to - GOLDEN * (to - from), inner[0]];
-                values = [self.sine_on(path, inner[0]), values[0]];
+                values = [self.rank_indicator_on(path, inner[0]), values[0]];
             } else {
                 from = inner[0];
                 inner = [inner[1], from + GOLDEN * (to - from)];
-                values = [values[1], self.sine_on(path, inner[1])];
+                values = [values[1], self.rank_indicator_on(path, inner[1])];
             }
         }
         let least = values[0].min(values[1]);
         let t = if values[0] < values[1] { inner[0] } else { inner[1] };
         let mut aside = 1e-3 * width;
-        let mut sides = |aside: f64| [t - aside, t + aside].map(|t| self.sine_on(path, t));
+        let mut sides = |aside: f64| [t - aside, t + aside].map(|t| self.rank_indicator_on(path, t));
         let [before, after] = sides(aside);
         aside = (ASIDE * bound * aside / before.max(after)).min(0.1 * width);
         let [before, after] = sides(aside);
@@ -141,7 +141,7 @@ impl<'a> Survey<'a> {
         }
         self.evaluate(t, q);
         let found = dependent_rows(&self.dynamics.structure.g, &self.dynamics.terms.g, tolerance.max(DEPENDENT));
-        let new = found.rows.iter().filter(|row| !self.dynamics.held.contains(&row.row));
+        let new = found.rows.iter().filter(|row| !self.dynamics.dropped.contains(&row.row));
         let rows: Vec<usize> =
             new.flat_map(|row| row.combination.iter().map(|(other, _)| *other).chain([row.row])).collect();
         let groups = self.dynamics.system.groups();

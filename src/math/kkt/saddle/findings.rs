@@ -23,9 +23,9 @@ impl SaddlePoint {
         }
     }
 
-    /// Whether a row is left out by [`Self::hold`].
-    pub fn is_held(&self, row: usize) -> bool {
-        self.held[row]
+    /// True if a row is dropped by [`Self::drop_rows`].
+    pub fn is_dropped(&self, row: usize) -> bool {
+        self.dropped[row]
     }
 
     /// The rank of G: m on the fast way, 0 without a factorization.
@@ -44,7 +44,7 @@ impl SaddlePoint {
     /// Whether the last factors are those of a factorization that is truncated below this part, too.
     pub fn is_regular(&self, part: f64) -> bool {
         match (self.way, &self.kept) {
-            (Way::Fast { refine }, _) => !refine || self.smallest_sine() >= part * self.rank_reference,
+            (Way::Fast { refine }, _) => !refine || self.rank_indicator() >= part * self.rank_reference,
             (Way::Kept, Some(kept)) => kept.inner.is_regular(part),
             _ => false,
         }
@@ -52,7 +52,7 @@ impl SaddlePoint {
 
     /// Whether rows are dependent, to round-off.
     pub fn is_rank_deficient(&self) -> bool {
-        self.is_holding || !self.is_truncated && self.rank() < self.m
+        self.drops_rows || !self.is_truncated && self.rank() < self.m
     }
 
     /// The norm of the part of the last right side r2 that no a can meet; zero unless rows are dependent.
@@ -66,12 +66,12 @@ impl SaddlePoint {
     }
 
     /// How near G is to losing rank: about the smallest sine between one of its rows and those before it (metric M^-1),
-    /// rows that are held out left aside; by the smallest pivot over its size before elimination, which is its square. In
-    /// [0, 1], zero where other rows are dependent, and without a factorization.
-    pub fn smallest_sine(&self) -> f64 {
+    /// rows that are dropped left aside; by the smallest pivot over its size before elimination, which is its square.
+    /// In [0, 1], zero where other rows are dependent, and without a factorization.
+    pub fn rank_indicator(&self) -> f64 {
         let ratio: f64 = match (self.way, &self.fast, &self.kept, &self.skipping, &self.dense) {
             (Way::Fast { .. }, Some(orders), ..) => orders.smallest_ratio(),
-            (Way::Kept, _, Some(kept), ..) if self.is_holding => return kept.inner.smallest_sine(),
+            (Way::Kept, _, Some(kept), ..) if self.drops_rows => return kept.inner.rank_indicator(),
             (Way::Skipping, .., Some(skipping), _) => skipping.smallest_ratio(),
             (Way::Dense, .., Some(dense)) if dense.left_out().is_empty() => dense.smallest_ratio(),
             _ => 0.0,

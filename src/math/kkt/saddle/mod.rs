@@ -27,8 +27,8 @@ enum Way {
     Dense,
 }
 
-/// [M G^T; G 0] with frozen patterns. Nothing allocates after the first use of each way. A solution depends on the values,
-/// the rows that are held out, and [`Self::rank_reference`], never on what was factored before.
+/// [M G^T; G 0] with frozen patterns. Nothing allocates after the first use of each way. A solution depends on the
+/// values, the rows that are dropped, and [`Self::rank_reference`], never on what was factored before.
 pub struct SaddlePoint {
     /// Rows of G count as dependent when their pivot in the QR of G^T (unit rows, mass metric) falls below this part of
     /// the largest.
@@ -44,12 +44,12 @@ pub struct SaddlePoint {
     skipping: Option<Box<Skipping>>,
     dense: Option<Box<NullSpace>>,
     way: Way,
-    /// Reference value of the rank indicator, [`Self::smallest_sine`] where nothing is singular, against which a truncated
-    /// factorization judges; zero before it is known.
+    /// Reference value of the rank indicator, [`Self::rank_indicator`] where nothing is singular, against which a
+    /// truncated factorization judges; zero before it is known.
     pub rank_reference: f64,
-    /// Rows that stay left out, and whether there are any.
-    held: Vec<bool>,
-    is_holding: bool,
+    /// Rows that are dropped by [`Self::drop_rows`], and whether there are any.
+    dropped: Vec<bool>,
+    drops_rows: bool,
     /// Whether rows are left out that are not surely dependent.
     is_truncated: bool,
     skipped: Vec<usize>,
@@ -80,8 +80,8 @@ impl SaddlePoint {
             dense: None,
             way: Way::None,
             rank_reference: 0.0,
-            held: vec![false; m],
-            is_holding: false,
+            dropped: vec![false; m],
+            drops_rows: false,
             is_truncated: false,
             skipped: Vec::with_capacity(m),
             top: vec![0.0; n],
@@ -103,7 +103,7 @@ impl SaddlePoint {
         if !self.is_shaped || mass.len() != m.entries.len() || g.len() != j.entries.len() {
             return Err(Singular::Shape);
         }
-        if !self.is_holding && self.factor_fast(mass, g) {
+        if !self.drops_rows && self.factor_fast(mass, g) {
             return Ok(true);
         }
         if !mass.iter().chain(g).all(|v| v.is_finite()) {
@@ -136,10 +136,10 @@ impl SaddlePoint {
         Ok(())
     }
 
-    /// Whether there are rows that are held out, or that depend on others over the same coordinates: then the others are
+    /// Whether there are rows that are dropped, or that depend on others over the same coordinates: then the others are
     /// factored.
     fn drops_rows(&mut self, part: Option<f64>) -> Result<bool, Singular> {
-        if !self.is_holding {
+        if !self.drops_rows {
             let rows = self.alike.dependent(&self.system.g_values, self.rank_tolerance);
             if rows.is_empty() {
                 return Ok(false);
@@ -159,13 +159,13 @@ impl SaddlePoint {
         Ok(())
     }
 
-    /// Leaves out these rows, and no others, from now on, whatever their pivots. Rows that depend on the others wherever
-    /// phi = 0 do not where it is not: there their small pivots, taken seriously, would stop the motion.
-    pub fn hold(&mut self, rows: &[usize]) {
-        self.held.fill(false);
-        rows.iter().filter(|row| **row < self.m).for_each(|row| self.held[*row] = true);
-        self.is_holding = self.held.contains(&true);
-        self.kept = self.is_holding.then(|| Box::new(Kept::new(&self.system, rows)));
+    /// Leaves out these rows, and no others, from now on, whatever their pivots. Rows that depend on the others
+    /// wherever phi = 0 do not where it is not: there their small pivots, taken seriously, would stop the motion.
+    pub fn drop_rows(&mut self, rows: &[usize]) {
+        self.dropped.fill(false);
+        rows.iter().filter(|row| **row < self.m).for_each(|row| self.dropped[*row] = true);
+        self.drops_rows = self.dropped.contains(&true);
+        self.kept = self.drops_rows.then(|| Box::new(Kept::new(&self.system, rows)));
         self.way = Way::None;
     }
 
@@ -187,7 +187,7 @@ impl SaddlePoint {
         if total > DENSE && quality.doubtful && !quality.replaced {
             // Round-off in pivots of dependent rows grows with the condition of the others. Null vectors tell them.
             skipping.factor(&self.system, DOUBTED)?;
-            if skipping.sine(&self.system) < self.rank_tolerance {
+            if skipping.rank_indicator(&self.system) < self.rank_tolerance {
                 return Ok(Way::Skipping);
             }
             quality = skipping.factor(&self.system, COLLAPSED)?;
@@ -196,7 +196,7 @@ impl SaddlePoint {
         // Of a large system it is not asked which nearly dependent rows are so, only whether leaving some out, or giving
         // coordinates a little mass, still gives a solution.
         let is_accepted = if total <= DENSE {
-            !is_doubtful && skipping.sine(&self.system) < 0.1 * self.rank_tolerance
+            !is_doubtful && skipping.rank_indicator(&self.system) < 0.1 * self.rank_tolerance
         } else if is_doubtful {
             match skipping.probe(&self.system) {
                 Err(error) if total > LARGEST_DENSE => return Err(error),
@@ -228,7 +228,7 @@ impl SaddlePoint {
         if top.len() != self.n || bottom.len() != self.m {
             return Err(Singular::Shape);
         }
-        let (system, counts_all) = (&self.system, !self.is_holding);
+        let (system, counts_all) = (&self.system, !self.drops_rows);
         match (
             self.way,
             self.fast.as_mut().and_then(Orders::taken),

@@ -1,6 +1,6 @@
 //! Solutions against dense oracles.
 
-mod held;
+mod dropped;
 mod pure;
 mod redundant;
 mod regular;

@@ -25,14 +25,14 @@ fn solve(solver: &mut SaddlePoint, (mass, g): &Values, (n, m): (usize, usize)) -
         factored?;
         let (mut top, mut bottom) = (right_side(n), right_side(m));
         solver.solve(&mut top, &mut bottom)?;
-        let sine = solver.smallest_sine();
-        Ok([bits(&top, &bottom), vec![sine.to_bits()]].concat())
+        let rank_indicator = solver.rank_indicator();
+        Ok([bits(&top, &bottom), vec![rank_indicator.to_bits()]].concat())
     };
     let mut found = vec![solved(None), solved(Some(1e-4)), solved(Some(1e-2))];
-    solver.hold(&[m - 1]);
+    solver.drop_rows(&[m - 1]);
     let (mut top, mut bottom) = (right_side(n), right_side(m));
     found.push(solver.factor(mass, g).and_then(|()| solver.solve(&mut top, &mut bottom)).map(|()| bits(&top, &bottom)));
-    solver.hold(&[]);
+    solver.drop_rows(&[]);
     found
 }
 

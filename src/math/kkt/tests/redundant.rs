@@ -21,7 +21,7 @@ fn redundant_rows_get_least_multipliers() {
         let (a, lambda, solver) = solved(&sample, &r1, &r2);
         let (a_svd, lambda_svd) = sample.by_svd(&r1, &r2);
         assert_eq!(solver.rank(), 20);
-        assert!(solver.is_rank_deficient() && solver.smallest_sine() == 0.0 && solver.inconsistency() < 1e-13);
+        assert!(solver.is_rank_deficient() && solver.rank_indicator() == 0.0 && solver.inconsistency() < 1e-13);
         assert!(distance(&a, &a_svd) < 1e-10, "a {:e}", distance(&a, &a_svd));
         assert!(distance(&lambda, &lambda_svd) < 1e-10, "lambda {:e}", distance(&lambda, &lambda_svd));
     }
@@ -145,7 +145,7 @@ fn least_multipliers_take_few_solutions_however_many_rows_are_redundant() {
         let mut system = System::new(&sample.mass, &sample.g);
         system.store(&sample.mass_values, &sample.g_values);
         let (_, _, mut solver) = solved(&reduced, &vec![0.0; n], &[0.0; 120]);
-        let (rows, sine): (Vec<usize>, f64) = ((120..m).collect(), solver.smallest_sine());
+        let (rows, rank_indicator): (Vec<usize>, f64) = ((120..m).collect(), solver.rank_indicator());
         let (mut solutions, mut v) = (0, random.vector(m));
         let before = v.clone();
         let mut inverse = |top: &mut [f64], bottom: &mut [f64]| {
@@ -153,7 +153,7 @@ fn least_multipliers_take_few_solutions_however_many_rows_are_redundant() {
             solver.solve(top, &mut bottom[..120]).unwrap();
             bottom[120..].fill(0.0);
         };
-        Least::new(&sample.g).project(&system, &rows, sine, &mut inverse, &mut v);
+        Least::new(&sample.g).project(&system, &rows, rank_indicator, &mut inverse, &mut v);
         // N w at first, N^T of what is left, and both again for each of two steps.
         assert!(solutions <= 6, "{count} rows: {solutions}");
         // The same force, and nothing along null vectors: e_j less its combination.

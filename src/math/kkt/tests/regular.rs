@@ -88,7 +88,7 @@ fn units_of_rows_do_not_change_the_motion() {
     r2.iter_mut().enumerate().for_each(|(j, v)| *v *= unit(j));
     let (scaled, _, other) = solved(&sample, &r1, &r2);
     assert!(distance(&scaled, &a) < 1e-11);
-    assert!((solver.smallest_sine() / other.smallest_sine() - 1.0).abs() < 1e-9);
+    assert!((solver.rank_indicator() / other.rank_indicator() - 1.0).abs() < 1e-9);
     sample.append(&[(4, 1.0), (5, 1.0)]);
     let r2 = reachable(&sample, &mut random);
     let (a, _, solver) = solved(&sample, &r1, &r2);

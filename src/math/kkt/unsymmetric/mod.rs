@@ -31,9 +31,9 @@ use sparse::Sparse;
 /// seen. Rows and columns are scaled alike to A of unit size and to rows of G of unit size, so that pivots
 /// are chosen between like and like.
 ///
-/// Rows of G that are dropped have lambda zero, and r2 there has no say: those that [`Unsymmetric::hold`] names, else, where
-/// the matrix of all rows is singular, those that are dependent in the values at hand. That solves consistent redundant
-/// constraints.
+/// Rows of G that are dropped have lambda zero, and r2 there is not read: those that [`Unsymmetric::drop_rows`] names,
+/// else, where the matrix of all rows is singular, those that are dependent in the values at hand. That solves
+/// consistent redundant constraints.
 pub struct Unsymmetric<T> {
     n: usize,
     matrix: Matrix<T>,
@@ -119,7 +119,7 @@ impl<T: Field> Unsymmetric<T> {
     }
 
     /// Drops these rows of G, and no others, from the next factorization on.
-    pub fn hold(&mut self, rows: &[usize]) {
+    pub fn drop_rows(&mut self, rows: &[usize]) {
         self.keeps_rows = true;
         self.left_out.fill(false);
         rows.iter().filter(|row| **row < self.g.rows).for_each(|row| self.left_out[*row] = true);

@@ -132,7 +132,7 @@ fn a_rank_that_changes_is_singular_only_where_the_dropped_rows_are_given() {
                 assert_eq!(system.left_out().iter().filter(|out| **out).count(), dropped);
             }
             let dropped: Vec<usize> = (0..one.g.rows).filter(|row| system.left_out()[*row]).collect();
-            system.hold(&dropped);
+            system.drop_rows(&dropped);
             one.put(&mut system);
             assert_eq!(system.factor(&one.g, &twice), Err(Singular::Collapsed));
             assert!(system.solve(&mut [1.0; 18], &mut vec![0.0; one.g.rows]).is_err());
@@ -185,7 +185,7 @@ fn rows_that_are_held_are_dropped_and_no_others() {
     let mut system = one.system::<f64>(false);
     for (rows, is_regular) in [(vec![12], true), (vec![], false), (vec![11], true)] {
         one.put(&mut system);
-        system.hold(&rows);
+        system.drop_rows(&rows);
         assert_eq!(system.factor(&one.g, &one.rows).is_ok(), is_regular, "{rows:?}");
     }
 }

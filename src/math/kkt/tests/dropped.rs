@@ -1,4 +1,4 @@
-//! Rows that are left out on purpose: held, or truncated.
+//! Rows that are dropped on purpose: by name, or truncated.
 
 use super::samples::{Random, Sample, distance};
 use super::{reachable, right_side, solved};
@@ -18,36 +18,36 @@ fn redundant(off: f64, random: &mut Random) -> (Sample, Sample) {
 
 /// Whatever their pivots are, from 1e-4, where nothing else would leave them out, to round-off.
 #[test]
-fn held_rows_leave_the_motion_of_the_others() {
+fn dropped_rows_leave_the_motion_of_the_others() {
     let mut random = Random(21);
     for off in [1e-2, 1e-4, 1e-6, 1e-9, 0.0] {
         let (reduced, sample) = redundant(off, &mut random);
         let (r1, mut r2) = right_side(&sample, &mut random);
         let (a, _, _) = solved(&reduced, &r1, &r2[..20]);
         let mut solver = SaddlePoint::new(&sample.mass, &sample.g);
-        solver.hold(&[20, 21]);
+        solver.drop_rows(&[20, 21]);
         solver.factor(&sample.mass_values, &sample.g_values).unwrap();
         let mut top = r1.clone();
         solver.solve(&mut top, &mut r2).unwrap();
         assert!(distance(&top, &a) < 1e-10, "{off:e}: {:e}", distance(&top, &a));
         assert_eq!((solver.rank(), solver.inconsistency()), (20, 0.0), "{off:e}");
-        assert!(solver.is_rank_deficient() && solver.is_held(20) && !solver.is_held(3));
+        assert!(solver.is_rank_deficient() && solver.is_dropped(20) && !solver.is_dropped(3));
         let mut left_out = solver.left_out().to_vec();
         left_out.sort_unstable();
         assert_eq!(left_out, [20, 21]);
     }
 }
 
-/// Exactly dependent: the forces of all rows together are those of least norm, as without holding.
+/// Exactly dependent: the forces of all rows together are those of least norm, as without dropping any.
 #[test]
-fn held_rows_share_the_multipliers() {
+fn dropped_rows_share_the_multipliers() {
     let mut random = Random(22);
     let (_, sample) = redundant(0.0, &mut random);
     let r1 = random.vector(21);
     let r2 = reachable(&sample, &mut random);
     let (a_svd, lambda_svd) = sample.by_svd(&r1, &r2);
     let mut solver = SaddlePoint::new(&sample.mass, &sample.g);
-    solver.hold(&[20, 21]);
+    solver.drop_rows(&[20, 21]);
     solver.factor(&sample.mass_values, &sample.g_values).unwrap();
     let (mut a, mut lambda) = (r1, r2);
     solver.solve(&mut a, &mut lambda).unwrap();
@@ -62,8 +62,8 @@ fn released_rows_count_again() {
     let (r1, r2) = right_side(&sample, &mut random);
     let (a, lambda, _) = solved(&sample, &r1, &r2);
     let mut solver = SaddlePoint::new(&sample.mass, &sample.g);
-    for (held, rank) in [(&[4][..], 19), (&[], 20)] {
-        solver.hold(held);
+    for (dropped, rank) in [(&[4][..], 19), (&[], 20)] {
+        solver.drop_rows(dropped);
         solver.factor(&sample.mass_values, &sample.g_values).unwrap();
         assert_eq!(solver.rank(), rank);
     }
@@ -97,7 +97,7 @@ fn nearly_dependent_rows_are_truncated() {
         assert_eq!(rank, if is_truncated { 1 } else { 2 }, "{s}");
         assert!(!is_truncated || a.abs() < 1.0, "{s}: {a:e}");
     }
-    // The sine is still reported.
+    // The rank indicator is still reported.
     let (rank, is_deficient, _) = right(1.0, 1e-5);
-    assert!(rank == 1 && !is_deficient && (solver.smallest_sine() / 1e-5) < 1.0);
+    assert!(rank == 1 && !is_deficient && (solver.rank_indicator() / 1e-5) < 1.0);
 }
