@@ -98,6 +98,7 @@ pub mod simulate;
 pub mod study;
 pub mod sweep;
 pub mod system;
+pub mod tolerances;
 pub mod trajectory;
 pub mod validate;
 

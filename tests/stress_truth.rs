@@ -2,10 +2,11 @@
 
 use holonom::choice::Choice;
 use holonom::measure::stress::{
-    Axis, Cell, Limits, Map, OFF, Quantity, Status, Stressed, Subject, find, maps, pair, stress,
+    Axis, Cell, Limits, Map, Quantity, Status, Stressed, Subject, find, maps, pair, stress,
 };
 use holonom::report::stress::{sentences, stress_figure};
 use holonom::study::Overrides;
+use holonom::tolerances::report::WRONG_MOTION;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -95,19 +96,19 @@ fn what_completes_need_not_be_right() {
     for (whole, most, step) in [(robot_arm(), "0.002", "0.005"), (slider_crank(), "0.005", "0.01")] {
         let manifold = row(&whole, "manifold");
         let off = whole.cells.iter().find(|cell| cell.row == manifold && cell.holds == Some(false)).unwrap();
-        assert!(off.status == Status::Completed && off.error.unwrap() > OFF && off.worst.is_some(), "{off:?}");
+        assert!(off.status == Status::Completed && off.error.unwrap() > WRONG_MOTION && off.worst.is_some(), "{off:?}");
         for sentence in sentences(&whole) {
             assert!(sentence.contains(&format!("manifold holds until h = {most} (error ")), "{sentence}");
             assert!(sentence.contains(&format!(", at {step} it completes with outputs ")), "{sentence}");
         }
         // Neither outputs nor energy are far off where a cell holds.
         let is_within = |cell: &Cell| {
-            cell.error.unwrap() <= OFF
-                && cell.relative_energy_error.is_none_or(|part| part <= OFF)
+            cell.error.unwrap() <= WRONG_MOTION
+                && cell.relative_energy_error.is_none_or(|part| part <= WRONG_MOTION)
                 && cell.drift.is_some()
         };
         assert!(whole.cells.iter().filter(|cell| cell.holds == Some(true)).all(is_within));
-        assert!(whole.cells.iter().any(|cell| cell.relative_energy_error.is_some_and(|part| part > OFF)));
+        assert!(whole.cells.iter().any(|cell| cell.relative_energy_error.is_some_and(|part| part > WRONG_MOTION)));
     }
 }
 

@@ -6,6 +6,7 @@
 
 use super::{Carried, MarkerId, cross, dot, sub};
 use crate::math::Regime;
+use crate::tolerances::body as tolerances;
 use std::array::from_fn;
 
 /// z times the angle of marker `of` about the z axis of marker `to`.
@@ -27,11 +28,6 @@ pub struct Turning {
     pub start: f64,
 }
 
-/// Below this cosine of its elevation the x axis of one marker is along the z axis of the other, and there is no angle.
-const UPRIGHT: f64 = 1e-6;
-/// Below this one the rate is that of an axis which leans so much: none that an angle alone has makes steps short.
-const STEEP: f64 = 0.2;
-
 impl Turned {
     /// c, s and the rate of the angle, rad/s, but for steep axes: (w_b - w_e) . b_x x (c e_y - s e_x)/(c^2 + s^2).
     #[inline]
@@ -41,7 +37,7 @@ impl Turned {
         let [c, s] = [dot(&e[0], &x), dot(&e[1], &x)];
         let across: [f64; D] = from_fn(|i| c * e[1][i] - s * e[0][i]);
         let spin = sub(&of.spin(), &to.spin());
-        [c, s, dot(&spin, &cross(&x, &across)) / (c * c + s * s).max(STEEP * STEEP)]
+        [c, s, dot(&spin, &cross(&x, &across)) / (c * c + s * s).max(tolerances::LEANING * tolerances::LEANING)]
     }
 }
 
@@ -57,7 +53,7 @@ impl Turning {
         let mut sum = 0.0;
         for term in &self.terms {
             let [c, s, _] = term.at(&marker);
-            if c * c + s * s < UPRIGHT * UPRIGHT {
+            if c * c + s * s < tolerances::UPRIGHT * tolerances::UPRIGHT {
                 return before;
             }
             sum += term.factor * s.atan2(c);

@@ -7,6 +7,7 @@ use crate::linearize::{Defect, Floquet, Lyapunov, Operating, State, floquet, lya
 use crate::plot::{Figure, Panel, Series};
 use crate::report::{Table, Written, cell, significant};
 use crate::study::Study;
+use crate::tolerances::report as tolerances;
 use serde_json::{Value, json};
 use std::process::ExitCode;
 
@@ -33,8 +34,6 @@ pub struct Args {
 
 /// Columns are made orthonormal so often.
 const RENEWALS: f64 = 500.0;
-/// A multiplier may be outside the unit circle by so much: the root of what integration leaves of a double one.
-const SLACK: f64 = 1e-5;
 
 pub fn run(args: Args) -> Result<ExitCode> {
     let in_file = |error: Error| error.in_file(&args.scene.path);
@@ -47,7 +46,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         let mut result = json!({ "scene": study.name, "t": state.t });
         if let Some(period) = args.period {
             let found = floquet(place.system(), state, period).map_err(in_file)?;
-            let defects = found.defects(SLACK)?;
+            let defects = found.defects(tolerances::MULTIPLIER_OUTSIDE)?;
             show(&args, &floquet_text(&study, state, &found, &defects))?;
             result["floquet"] = floquet_json(&found, &defects);
         }
@@ -94,7 +93,7 @@ fn floquet_json(found: &Floquet, defects: &[Defect]) -> Value {
         "monodromy": found.monodromy.row_iter().map(|row| row.iter().copied().collect()).collect::<Vec<Vec<f64>>>(),
         "multipliers": pairs(&found.multipliers),
         "exponents": pairs(&found.exponents()),
-        "stable": found.is_stable(SLACK),
+        "stable": found.is_stable(tolerances::MULTIPLIER_OUTSIDE),
         "grows_like_t": !defects.is_empty(),
     })
 }
@@ -105,7 +104,7 @@ fn floquet_text(study: &Study, state: &State, found: &Floquet, defects: &[Defect
         let cells = [value.re, value.im, value.norm(), exponent.re];
         table.row(cells.map(|x| significant(x, 7)));
     }
-    let verdict = match (found.is_stable(SLACK), defects.first()) {
+    let verdict = match (found.is_stable(tolerances::MULTIPLIER_OUTSIDE), defects.first()) {
         (false, _) => "small changes grow".to_string(),
         (true, None) => "no small change grows".to_string(),
         (true, Some(Defect { count, vectors, .. })) => format!(

@@ -2,10 +2,8 @@
 
 use super::Dynamics;
 use crate::math::kkt::Pattern;
+use crate::tolerances::initial as tolerances;
 use nalgebra::DMatrix;
-
-/// What is left of a column of Z Z^T, over the column without constraints, where Z is complete.
-const NOTHING: f64 = 1e-10;
 
 /// Velocities less independent rows of G, at the state whose factors `dynamics` holds.
 pub fn degrees_of_freedom(dynamics: &Dynamics) -> usize {
@@ -38,13 +36,10 @@ pub fn free_directions(dynamics: &mut Dynamics) -> Option<DMatrix<f64>> {
     })
 }
 
-/// Entries of Z^T M Z may differ so much from those of the identity.
-const ORTHONORMAL: f64 = 1e-6;
-
 fn is_identity(gram: &DMatrix<f64>) -> bool {
     let n = gram.nrows();
     let mut places = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
-    places.all(|(i, j)| (gram[(i, j)] - if i == j { 1.0 } else { 0.0 }).abs() <= ORTHONORMAL)
+    places.all(|(i, j)| (gram[(i, j)] - if i == j { 1.0 } else { 0.0 }).abs() <= tolerances::ORTHONORMAL)
 }
 
 fn diagonal(dynamics: &Dynamics) -> Vec<f64> {
@@ -74,7 +69,7 @@ fn factor_of_solutions(dynamics: &mut Dynamics, masses: &[f64]) -> Option<DMatri
     while columns.len() < most {
         let left = |i: usize| if whole[i] > 0.0 { rest[(i, i)] / whole[i] } else { 0.0 };
         let pivot = (0..n).max_by(|&i, &j| left(i).total_cmp(&left(j))).unwrap_or(0);
-        if left(pivot) < NOTHING {
+        if left(pivot) < tolerances::NO_DIRECTION {
             break;
         }
         let column = rest.column(pivot) / rest[(pivot, pivot)].sqrt();

@@ -2,8 +2,9 @@
 
 use super::Statistics;
 use crate::error::Result;
-use crate::math::kkt::{SaddlePoint, Singular, TRUNCATED};
+use crate::math::kkt::{SaddlePoint, Singular};
 use crate::system::{MechanicalSystem, Need, Scratch, Structure, Terms};
+use crate::tolerances::math::TRUNCATED_RANK;
 use std::fmt;
 
 /// Why a state cannot be evaluated.
@@ -120,7 +121,7 @@ impl<'a> Dynamics<'a> {
             terms: Terms::new(system),
             kkt: SaddlePoint::new(&structure.mass, &structure.g),
             dropped: Vec::new(),
-            rank_tolerance: TRUNCATED,
+            rank_tolerance: TRUNCATED_RANK,
             dense_indicator: 0.0,
             dense_reference: 0.0,
             rank_indicator: None,

@@ -2,7 +2,7 @@
 
 use super::{Choice, Dae, Dynamics, Entry, Formulation, Halt, OptionDoc, Row};
 use crate::error::Result;
-use crate::math::kkt::TRUNCATED;
+use crate::tolerances::math::TRUNCATED_RANK;
 
 /// ```text
 /// q' = N v,   [M G^T; G 0] [v'; lambda] = [f; gamma]
@@ -25,7 +25,7 @@ pub(super) const RANK: OptionDoc = OptionDoc {
 };
 
 pub(super) fn rank_tolerance(choice: &Choice) -> Result<f64> {
-    choice.not_negative(RANK.name, TRUNCATED)
+    choice.not_negative(RANK.name, TRUNCATED_RANK)
 }
 
 pub(super) struct Index1 {
@@ -34,7 +34,7 @@ pub(super) struct Index1 {
 
 impl Default for Index1 {
     fn default() -> Self {
-        Index1 { rank_tolerance: TRUNCATED }
+        Index1 { rank_tolerance: TRUNCATED_RANK }
     }
 }
 

@@ -8,6 +8,7 @@ use crate::math::kkt::{Chart, Reduced};
 use crate::math::memory::refuse_dense;
 use crate::math::newton::{Limits, Monitor, relative};
 use crate::system::{MechanicalSystem, Need};
+use crate::tolerances::initial as tolerances;
 
 /// With G_b Z = 0 at the start (q_b, v_b) of a step, and Y normal to Z in the metric of diag(M_b),
 ///
@@ -65,7 +66,12 @@ struct TangentSpace {
 
 /// Changes in parts of the largest component: they halve at least until round-off, or else the state is not in the chart,
 /// or on another branch of the constraints.
-const LIMITS: Limits = Limits { round_off: f64::EPSILON, stagnation: 1e-9, contraction: 0.5, ..Limits::NONE };
+const LIMITS: Limits = Limits {
+    round_off: f64::EPSILON,
+    stagnation: tolerances::CHART_STAGNATION,
+    contraction: tolerances::NEWTON_HALVES,
+    ..Limits::NONE
+};
 
 impl TangentSpace {
     fn new(system: &dyn MechanicalSystem) -> Option<Self> {

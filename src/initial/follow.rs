@@ -1,11 +1,12 @@
 //! From a state to one beside it, on the same branch.
 
-use super::position::{CLOSED, step};
+use super::position::step;
 use super::{Metric, holds};
 use crate::error::{Error, Result};
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor};
 use crate::system::MechanicalSystem;
+use crate::tolerances::initial as tolerances;
 
 /// Positions on the constraints.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,7 +22,12 @@ pub struct Followed {
 /// changes contract so from the second on, there is one solution around the guess, and it is the continuation of the state
 /// from which the guess was taken; other solutions are attracted to less steeply (P. Deuflhard, Newton Methods for
 /// Nonlinear Problems, 2011, section 5.1).
-const LIMITS: Limits = Limits { most: 20, round_off: 1e-11, contraction: 0.25, ..Limits::NONE };
+const LIMITS: Limits = Limits {
+    most: tolerances::FOLLOWING_ITERATIONS,
+    round_off: tolerances::FOLLOWED,
+    contraction: tolerances::UNIQUE_CONTRACTION,
+    ..Limits::NONE
+};
 
 /// Closes the joints from a guess near by; `None` where Newton's method does not contract from its first step on, so that
 /// it may lead to another branch or nowhere. Rows named in `dependent` are left out and checked at the end.
@@ -54,7 +60,7 @@ pub fn follow(
 /// What is known of a state, if all its joints are closed.
 fn end(mut metric: Metric, t: f64, q: Vec<f64>, still: &[f64]) -> Result<Option<Followed>> {
     metric.at(t, &q, still)?;
-    if metric.worst(&metric.terms.phi) > CLOSED {
+    if metric.worst(&metric.terms.phi) > tolerances::CLOSED {
         return Ok(None);
     }
     let rows = metric.kkt.left_out().iter().copied();

@@ -16,6 +16,7 @@ use crate::formulation::{Dynamics, Halt};
 use crate::math::kkt::{Pattern, SaddlePoint};
 use crate::math::largest_in;
 use crate::system::{MechanicalSystem, Need, Scratch, Terms};
+use crate::tolerances::initial as tolerances;
 
 /// Makes a guess consistent at time `t`, moving least in the mass metric and keeping what `hold` names. Flexible bodies
 /// in floating frames resist deformation with their stiffness besides.
@@ -63,9 +64,6 @@ struct Metric<'a> {
     held: Vec<usize>,
 }
 
-/// Directions without mass move freely: their weight is this part of the largest.
-const LEAST_WEIGHT: f64 = 1e-6;
-
 impl<'a> Metric<'a> {
     fn new(system: &'a dyn MechanicalSystem, held: Vec<usize>) -> Self {
         let structure = system.structure();
@@ -104,7 +102,7 @@ impl<'a> Metric<'a> {
         self.weights.copy_from_slice(&self.terms.mass);
         self.system.add_stiffness(&mut self.weights);
         for (weight, (i, j)) in self.weights.iter_mut().zip(&self.mass.entries) {
-            *weight = if i == j { (*weight / unit).max(LEAST_WEIGHT) } else { *weight / unit };
+            *weight = if i == j { (*weight / unit).max(tolerances::LEAST_WEIGHT) } else { *weight / unit };
         }
         let n = self.terms.g.len();
         self.values[..n].copy_from_slice(&self.terms.g);

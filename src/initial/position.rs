@@ -2,12 +2,7 @@
 
 use super::Metric;
 use crate::error::{Error, Result, short};
-
-const MOST_ITERATIONS: usize = 200;
-/// A closed loop may keep this residual, in units of the scene's scale: round-off of chains of transformations.
-pub(super) const CLOSED: f64 = 1e-10;
-/// A held coordinate may move by rounding.
-const HELD: f64 = 1e-9;
+use crate::tolerances::initial as tolerances;
 
 /// Sequential quadratic programming: [W G^T; G 0] [d; .] = [-W (q - q_0); -phi]. The first part pulls back towards the
 /// guess within the tangent space, the second is Newton's step; where the pull does not help, Newton's step alone is
@@ -17,7 +12,7 @@ pub fn close(metric: &mut Metric, t: f64, q: &mut [f64]) -> Result<()> {
     let still = vec![0.0; n.v];
     let mut moved = vec![0.0; n.v];
     let (mut best, mut stalled) = (f64::INFINITY, 0);
-    for _ in 0..MOST_ITERATIONS {
+    for _ in 0..tolerances::ASSEMBLY_ITERATIONS {
         metric.at(t, q, &still)?;
         let residual = metric.worst(&metric.terms.phi);
         let pulled = step(metric, Some(&moved))?;
@@ -25,7 +20,7 @@ pub fn close(metric: &mut Metric, t: f64, q: &mut [f64]) -> Result<()> {
         let settled = size <= 1e-12 * (1.0 + moved.iter().fold(0.0f64, |size, d| size.max(d.abs())));
         stalled = if residual < 0.9 * best { 0 } else { stalled + 1 };
         best = best.min(residual);
-        if residual < CLOSED && (settled || stalled > 8) {
+        if residual < tolerances::CLOSED && (settled || stalled > 8) {
             return kept(metric, &moved);
         }
         if stalled > 40 {
@@ -39,7 +34,7 @@ pub fn close(metric: &mut Metric, t: f64, q: &mut [f64]) -> Result<()> {
                 let newton = step(metric, None)?;
                 match advance(metric, t, q, &newton, residual)? {
                     Some(factor) => (factor, newton),
-                    None if residual < CLOSED => return kept(metric, &moved),
+                    None if residual < tolerances::CLOSED => return kept(metric, &moved),
                     None => break,
                 }
             }
@@ -53,7 +48,9 @@ pub fn close(metric: &mut Metric, t: f64, q: &mut [f64]) -> Result<()> {
 /// Held coordinates that contradict the joints meet them half way, step by step; that is no hold.
 fn kept(metric: &Metric, moved: &[f64]) -> Result<()> {
     let most = moved.iter().fold(1.0f64, |most, d| most.max(d.abs()));
-    let Some(&held) = metric.held.iter().find(|&&held| moved[held].abs() > HELD * most) else { return Ok(()) };
+    let Some(&held) = metric.held.iter().find(|&&held| moved[held].abs() > tolerances::SAME * most) else {
+        return Ok(());
+    };
     let names = metric.system.names().v;
     let name = names[held].trim_end_matches('\'');
     let by = short(moved[held]);
@@ -81,7 +78,7 @@ fn advance(metric: &mut Metric, t: f64, q: &mut [f64], step: &[f64], residual: f
         q.iter_mut().zip(&start).zip(&rate).for_each(|((q, start), rate)| *q = start + rate);
         metric.system.normalize(q);
         let now = metric.level(t, q, &scaled).phi;
-        if now.is_finite() && (now < residual * (1.0 - 0.1 * factor) || now < CLOSED) {
+        if now.is_finite() && (now < residual * (1.0 - 0.1 * factor) || now < tolerances::CLOSED) {
             return Ok(Some(factor));
         }
         factor *= 0.5;

@@ -2,11 +2,7 @@
 
 use super::Metric;
 use crate::error::{Error, Result, short};
-
-/// What may remain of G v + phi_t against the size of its terms.
-const FITTED: f64 = 1e-9;
-/// A start that keeps less than this part of the given velocities contradicts the joints.
-const KEPT: f64 = 1e-6;
+use crate::tolerances::initial as tolerances;
 
 pub fn fit(metric: &mut Metric, t: f64, q: &[f64], v: &mut [f64]) -> Result<()> {
     let given = v.to_vec();
@@ -20,7 +16,7 @@ pub fn fit(metric: &mut Metric, t: f64, q: &[f64], v: &mut [f64]) -> Result<()> 
     }
     metric.at(t, q, v)?;
     let largest = v.iter().chain(&given).chain(&metric.terms.phi_t).fold(0.0f64, |largest, x| largest.max(x.abs()));
-    if metric.worst(&metric.terms.phi_dot) > FITTED * largest.max(f64::MIN_POSITIVE) {
+    if metric.worst(&metric.terms.phi_dot) > tolerances::SAME * largest.max(f64::MIN_POSITIVE) {
         let culprits = metric.culprits(&metric.terms.phi_dot);
         return Err(match metric.held.is_empty() {
             true => Error::input(format!(
@@ -38,7 +34,7 @@ pub fn fit(metric: &mut Metric, t: f64, q: &[f64], v: &mut [f64]) -> Result<()> 
     let size = |metric: &Metric, v: &[f64]| v.iter().zip(metric.weigh(v)).map(|(a, b)| a * b).sum::<f64>();
     let (before, after) = (size(metric, &given), size(metric, v));
     let driven = metric.terms.phi_t.iter().any(|rate| *rate != 0.0);
-    if before > 0.0 && !driven && after < KEPT * KEPT * before {
+    if before > 0.0 && !driven && after < tolerances::VELOCITIES_KEPT * tolerances::VELOCITIES_KEPT * before {
         let names = metric.system.names().v;
         let fastest = (0..given.len()).max_by(|&i, &j| given[i].abs().total_cmp(&given[j].abs())).unwrap_or(0);
         return Err(Error::input(format!(

@@ -3,6 +3,7 @@
 use super::Problem;
 use crate::formulation::Halt;
 use crate::system::MechanicalSystem;
+use crate::tolerances::integrator as tolerances;
 use std::ops::Range;
 
 /// Tolerated local error of component y: atol + rtol |y|, with one atol for metres, radians and their rates, and y counted
@@ -74,17 +75,13 @@ pub struct Tightening {
     pub power: f64,
 }
 
-/// Steps are not controlled more tightly than this unless that is asked for: Newton's methods, which go two digits further, and
-/// projections near singular states come near round-off.
-const LEAST_RTOL: f64 = 1e-11;
-
 impl Tightening {
     /// Steps are given, or their errors add up to no more than one is allowed.
     pub const NONE: Self = Tightening { factor: 1.0, power: 1.0 };
 
     /// The tolerance of steps: never looser than what is `asked`, nor tighter than Newton's methods can follow.
     pub fn of_steps(self, asked: &Tolerance) -> Tolerance {
-        let rtol = (self.factor * asked.rtol.powf(self.power)).max(LEAST_RTOL).min(asked.rtol);
+        let rtol = (self.factor * asked.rtol.powf(self.power)).max(tolerances::CONTROLLED_RTOL).min(asked.rtol);
         asked.with(rtol, asked.atol * rtol / asked.rtol)
     }
 
@@ -167,13 +164,6 @@ impl Control {
     }
 }
 
-/// How often a guess is divided by ten where y' has no value ahead.
-const SHORTER: usize = 20;
-
-/// Most of the span that a first guess may be, as in SUNDIALS IDA. At rest y' is round-off and sets no time of its own, and a
-/// load that rises there is seen early, if at all.
-const MOST_OF_SPAN: f64 = 1e-3;
-
 /// A first step from the sizes of y, y' and y''. Source: Hairer, Norsett, Wanner, II.4, with one extra evaluation.
 pub fn first_step(
     problem: &mut Problem,
@@ -185,13 +175,13 @@ pub fn first_step(
 ) -> Result<f64, Halt> {
     let (d0, d1) = (tolerance.norm(y, y), tolerance.norm(y, slope));
     let guess = if d0 < 1e-10 || d1 < 1e-10 { 1e-6 } else { 0.01 * d0 / d1 };
-    let mut guess = guess.min(MOST_OF_SPAN * span);
+    let mut guess = guess.min(tolerances::FIRST_STEP_OF_SPAN * span);
     let mut next = vec![0.0; y.len()];
-    for shorter in 0..=SHORTER {
+    for shorter in 0..=tolerances::FIRST_STEP_SHORTER {
         let ahead: Vec<f64> = y.iter().zip(slope).map(|(y, slope)| y + guess * slope).collect();
         match problem.derivative(t + guess, &ahead, &mut next) {
             Ok(()) => break,
-            Err(halt) if halt.is_final() || shorter == SHORTER => return Err(halt),
+            Err(halt) if halt.is_final() || shorter == tolerances::FIRST_STEP_SHORTER => return Err(halt),
             Err(_) => guess *= 0.1,
         }
     }

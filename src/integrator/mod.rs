@@ -37,6 +37,7 @@ use crate::error::{Error, Result};
 use crate::formulation::{self, Choice, Halt, OptionDoc};
 use crate::math::kkt::Singular;
 use crate::system::MechanicalSystem;
+use crate::tolerances::integrator as tolerances;
 
 /// Why the matrix of a step is singular: with all rows in it, of which some depend on others at its start and ahead, and
 /// yet ask for another position there, these contradict each other.
@@ -49,12 +50,10 @@ fn collapsed(singular: Singular, problem: &mut Problem, from: From, h: f64) -> H
         let (q, v) = problem.split(y);
         problem.dynamics.dependent_rows_open(t, q, v)
     };
-    let is_torn = open(from.t, from.y).is_some() && open(from.t + h, &ahead).is_some_and(|open| open > OPEN);
+    let is_torn = open(from.t, from.y).is_some()
+        && open(from.t + h, &ahead).is_some_and(|open| open > tolerances::REDUNDANT_ROWS_OPEN);
     if is_torn { CONTRADICTION } else { singular.into() }
 }
-
-/// What round-off leaves of phi where rows say the same, over its scale.
-const OPEN: f64 = 1e-11;
 
 const CONTRADICTION: Halt = Halt::Unsuitable {
     reason: "redundant constraints contradict each other during the motion",

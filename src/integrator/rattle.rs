@@ -10,6 +10,7 @@ use crate::math::kkt::Singular;
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor, relative};
 use crate::system::{MechanicalSystem, Need};
+use crate::tolerances::integrator as tolerances;
 
 /// ```text
 /// v_h = v + h/2 M^-1 (f(t, q, v_h) - G(q)^T lambda),   q_1 = q + h v_h,   phi(q_1) = 0
@@ -77,13 +78,14 @@ struct Rattle {
     polynomial: Hermite,
 }
 
-/// Relative change of v_h below which it may stop falling, and the part of that which is round-off.
-const SMALL: f64 = 1e-9;
-const ROUND_OFF: f64 = 1e-7;
-const MOST: usize = 100;
 /// In units of what may stop falling.
-const LIMITS: Limits =
-    Limits { most: MOST, tolerance: ROUND_OFF, round_off: ROUND_OFF, stagnation: 1.0, ..Limits::NONE };
+const LIMITS: Limits = Limits {
+    most: tolerances::RATTLE_ITERATIONS,
+    tolerance: tolerances::ROUND_OFF_OF_STAGNATION,
+    round_off: tolerances::ROUND_OFF_OF_STAGNATION,
+    stagnation: 1.0,
+    ..Limits::NONE
+};
 
 impl Rattle {
     /// M, G and f at the start, with factors; they may be there from the step before.
@@ -131,7 +133,7 @@ impl Rattle {
     /// Relative change of v_h that may be round-off: that of phi over h stands against all else in tiny steps.
     fn still(&self, h: f64) -> f64 {
         let of_phi = 16.0 * f64::EPSILON * largest(&self.q) / h;
-        SMALL.max(of_phi / largest(&self.half))
+        tolerances::STAGNATION_OF_VELOCITY.max(of_phi / largest(&self.half))
     }
 
     /// One correction of v_h for the forces and for phi(q_1); its size relative to v_h.

@@ -1,5 +1,7 @@
 //! How long the steps of an explicit method may be.
 
+use crate::tolerances::integrator as tolerances;
+
 /// Where steps keep a mode x' = lambda x from growing.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stability {
@@ -8,14 +10,6 @@ pub enum Stability {
     /// |h lambda| < 2, and damping h c/2 < 0.8 of a first half that is iterated.
     Leapfrog,
 }
-
-/// What may grow a radian, in ln |x|: all but a few methods grow a little on the imaginary axis, however short the steps.
-const GROWTH: f64 = 1e-3;
-/// Contraction of an iteration that a hundred rounds bring to round-off.
-const ITERABLE: f64 = 0.8;
-/// Limits are sought up to this |z| in such steps, and refined.
-const FARTHEST: f64 = 50.0;
-const STRIDE: f64 = 0.01;
 
 impl Stability {
     /// Of an explicit Runge-Kutta method, row i with i entries at most: R(z) = 1 + sum_k z^k b^T A^(k-1) 1.
@@ -37,14 +31,15 @@ impl Stability {
         let Stability::Polynomial(coefficients) = self else {
             // c is twice the decay of a swing, and that of the fast one of two decays.
             let damping = if swing > 0.0 { 2.0 } else { 1.0 } * direction[0].abs();
-            return f64::min(2.0, 2.0 * ITERABLE / damping);
+            return f64::min(2.0, 2.0 * tolerances::ITERABLE / damping);
         };
-        let holds = |size: f64| excess(coefficients, direction.map(|x| x * size)) <= GROWTH * size;
-        let mut size = STRIDE;
-        while size < FARTHEST && holds(size) {
-            size += STRIDE;
+        let holds =
+            |size: f64| excess(coefficients, direction.map(|x| x * size)) <= tolerances::STABILITY_GROWTH * size;
+        let mut size = tolerances::STRIDE_TO_LIMIT;
+        while size < tolerances::FARTHEST_LIMIT && holds(size) {
+            size += tolerances::STRIDE_TO_LIMIT;
         }
-        let (mut low, mut high) = (size - STRIDE, size);
+        let (mut low, mut high) = (size - tolerances::STRIDE_TO_LIMIT, size);
         for _ in 0..20 {
             let middle = 0.5 * (low + high);
             *(if holds(middle) { &mut low } else { &mut high }) = middle;

@@ -5,6 +5,7 @@ use crate::error::{Error, Result, short};
 use crate::initial::assemble;
 use crate::simulate::{Method, Observation, Sink, Span, Start};
 use crate::study::{Overrides, Study};
+use crate::tolerances::linearize as tolerances;
 
 /// A state on the constraints.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,17 +31,14 @@ impl State {
     }
 }
 
-/// States of a run are integrated at least so well.
-const TOLERANCE: f64 = 1e-10;
-
 /// Tightens the tolerances that the command line leaves open, so that states are known better than what is read off them.
 pub fn tighten(study: &mut Study, given: &Overrides) {
     let Method { rtol, atol, step, .. } = &mut study.method;
     if step.is_some() {
         return;
     }
-    *rtol = given.rtol.unwrap_or(rtol.min(TOLERANCE));
-    *atol = given.atol.unwrap_or(atol.min(TOLERANCE.max(*rtol)));
+    *rtol = given.rtol.unwrap_or(rtol.min(tolerances::RUN_TOLERANCE));
+    *atol = given.atol.unwrap_or(atol.min(tolerances::RUN_TOLERANCE.max(*rtol)));
 }
 
 /// The states of the study's motion at `times`, in their order, each brought back to the constraints.

@@ -6,14 +6,7 @@ use crate::error::{Error, Result};
 use crate::simulate::{Method, Span, stiffness};
 use crate::study::Study;
 use crate::system::{Loaded, MechanicalSystem};
-
-/// Times up to which the growth of small changes of a study is looked at.
-const TIMES: u32 = 20;
-/// More degrees of freedom cost too many motions side by side.
-const MOST: usize = 40;
-/// Powers of ten within which the rate s is sought, 1/s, and how often the range is made smaller by a third.
-const RATES: [f64; 2] = [-4.0, 8.0];
-const THIRDS: usize = 20;
+use crate::tolerances::linearize as tolerances;
 
 /// The growth of that small change of the start which grows most up to any of `times` (increasing, after the start): the norm
 /// of the transition matrices in mass-orthonormal states (z, y/s). With the rate s that makes it least an oscillation at one
@@ -32,9 +25,10 @@ pub fn amplification(
         Chart::MassOrthogonal.at(&mut variation)
     };
     let columns = chart(start)?.changes();
-    if columns.q.ncols() > 2 * MOST {
+    if columns.q.ncols() > 2 * tolerances::AMPLIFIED_FREEDOM {
         return Err(Error::input(format!(
-            "more than {MOST} degrees of freedom are too many to carry small changes of"
+            "more than {} degrees of freedom are too many to carry small changes of",
+            tolerances::AMPLIFIED_FREEDOM
         )));
     }
     if columns.q.ncols() == 0 {
@@ -60,8 +54,9 @@ pub fn amplified(study: &Study, span: Span, goes_on: impl FnMut(f64) -> bool) ->
     if stiffness(study.system(), &Method::default(), state, span).is_some() {
         return None;
     }
-    let time = |i: u32| span.start + (span.end - span.start) * f64::from(i) / f64::from(TIMES);
-    amplification(study.system(), &start, &(1..=TIMES).map(time).collect::<Vec<f64>>(), goes_on).ok()
+    let time = |i: u32| span.start + (span.end - span.start) * f64::from(i) / f64::from(tolerances::AMPLIFIED_TIMES);
+    amplification(study.system(), &start, &(1..=tolerances::AMPLIFIED_TIMES).map(time).collect::<Vec<f64>>(), goes_on)
+        .ok()
 }
 
 /// min over s of the largest norm of diag(1, 1/s) X diag(1, s), and that of the start, 1. It is convex in log s: Sezginer,
@@ -71,8 +66,8 @@ fn least_norm(matrices: &[Matrix]) -> f64 {
         let norms = matrices.iter().map(|matrix| scaled(matrix, 10f64.powf(power)).singular_values().max());
         norms.fold(1.0, f64::max)
     };
-    let [mut low, mut high] = RATES;
-    for _ in 0..THIRDS {
+    let [mut low, mut high] = tolerances::RATES_SOUGHT;
+    for _ in 0..tolerances::RATES_THIRDS {
         let third = (high - low) / 3.0;
         match largest(low + third) < largest(high - third) {
             true => high -= third,

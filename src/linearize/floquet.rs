@@ -4,6 +4,7 @@ use super::{Chart, Complex, Matrix, State, Variation, transition};
 use crate::error::{Error, Result};
 use crate::math::eigen::{eigen, singular_values};
 use crate::system::MechanicalSystem;
+use crate::tolerances::linearize as tolerances;
 
 /// How small changes grow over a period of a motion.
 #[derive(Clone, Debug)]
@@ -17,9 +18,6 @@ pub struct Floquet {
     /// Largest difference of (q, v) at the end from the start.
     pub gap: f64,
 }
-
-/// A motion that misses its start by more than this part of (1 + |q|, |v|) is not periodic.
-const RETURNS: f64 = 1e-5;
 
 impl Floquet {
     /// log(multiplier) / period: growth rate and, up to multiples of the motion's own, frequency, 1/s.
@@ -42,9 +40,6 @@ pub struct Defect {
     pub count: usize,
     pub vectors: usize,
 }
-
-/// Singular values of M - m below this part of the largest are none.
-const NONE: f64 = 1e-6;
 
 impl Floquet {
     /// The multipliers on the unit circle, up to `slack`, that are defective: of each kind one. Multipliers that rounding has
@@ -74,7 +69,7 @@ impl Floquet {
         let mut shifted = self.monodromy.map(Complex::from);
         (0..shifted.nrows()).for_each(|i| shifted[(i, i)] -= multiplier);
         let sizes = singular_values(&shifted).map_err(|unsolved| Error::input(unsolved.to_string()))?;
-        Ok(sizes.iter().filter(|size| **size <= NONE * sizes[0]).count())
+        Ok(sizes.iter().filter(|size| **size <= tolerances::NO_MULTIPLIER * sizes[0]).count())
     }
 }
 
@@ -91,7 +86,7 @@ pub fn floquet(system: &dyn MechanicalSystem, start: &State, period: f64) -> Res
     };
     let gap = gap(&found.state.q, &start.q).max(gap(&found.state.v, &start.v));
     let size = |x: &[f64]| x.iter().fold(1.0f64, |most, x| most.max(x.abs()));
-    if gap > RETURNS * size(&start.q).max(size(&start.v)) {
+    if gap > tolerances::PERIODIC * size(&start.q).max(size(&start.v)) {
         let message =
             format!("after {period} s the motion is {gap:.1e} away from its start, so this is not its period");
         return Err(Error::input(message)

@@ -2,6 +2,7 @@
 
 use super::{Complex, Kind, LinearModel, Matrix};
 use crate::math::eigen::ComplexMatrix;
+use crate::tolerances::linearize as tolerances;
 use nalgebra::linalg::Hessenberg;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -94,10 +95,6 @@ pub struct Resonances {
     pub to: f64,
 }
 
-/// Modes slower than this part of the fastest do not count: they are rigid motions with round-off.
-const STILL: f64 = 1e-6;
-/// Least damping ratio of a peak that can be drawn, and the largest of one that points might miss.
-const PEAK: (f64, f64) = (1e-6, 0.2);
 /// Points of a peak, in half widths from its top.
 const ACROSS: [f64; 11] = [-10.0, -5.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 5.0, 10.0];
 
@@ -106,7 +103,7 @@ impl Resonances {
     pub fn around(model: &LinearModel) -> Self {
         let sizes = || model.modes.iter().filter(|mode| mode.kind == Kind::Physical).map(|mode| mode.frequency());
         let fastest = sizes().fold(0.0, f64::max);
-        let slowest = sizes().filter(|f| *f > STILL * fastest).fold(fastest, f64::min);
+        let slowest = sizes().filter(|f| *f > tolerances::NO_MODE * fastest).fold(fastest, f64::min);
         match slowest > 0.0 && fastest.is_finite() {
             true => Resonances { from: slowest / 10.0, to: fastest * 10.0 },
             false => Resonances { from: 0.01, to: 100.0 },
@@ -125,7 +122,7 @@ impl Resonances {
         let mut all = self.frequencies(count);
         for mode in model.modes.iter().filter(|mode| mode.kind == Kind::Physical && mode.value.im > 0.0) {
             let ratio = mode.damping().abs();
-            if (PEAK.0..PEAK.1).contains(&ratio) {
+            if (tolerances::PEAKS.0..tolerances::PEAKS.1).contains(&ratio) {
                 all.extend(ACROSS.iter().map(|width| (mode.value.im + width * mode.value.re.abs()) / TAU));
             }
         }

@@ -4,9 +4,7 @@ use super::chart::constant;
 use super::names::{Directions, directions};
 use super::{Coordinates, Matrix, Variation};
 use crate::error::{Error, Result, clock, suggest};
-
-/// Coordinates that leave a direction of motion this small a part of what they could are not independent.
-const DEPENDENT: f64 = 1e-7;
+use crate::tolerances::linearize as tolerances;
 
 /// A coordinate that can be chosen: its name, that of its rate, and the direction of v that it is.
 struct Candidate {
@@ -29,7 +27,7 @@ pub(super) fn coordinates(variation: &mut Variation, z: &Matrix, names: &[String
     let weighed = weighed(variation, z);
     let rows = Matrix::from_fn(degrees, degrees, |i, j| weighed[(chosen[i].direction, j)]);
     let smallest = rows.singular_values().iter().fold(f64::INFINITY, |least, x| least.min(*x));
-    if smallest < DEPENDENT {
+    if smallest < tolerances::INDEPENDENT {
         let message = format!("{} are not independent at t = {} s", names.join(", "), clock(variation.point.t));
         return Err(Error::input(message).under("--independent").hint(format!("independent here are: {}", best())));
     }

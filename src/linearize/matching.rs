@@ -2,6 +2,7 @@
 
 use super::{Complex, Matrix, Mode};
 use crate::math::eigen::{ComplexMatrix, assign};
+use crate::tolerances::linearize as tolerances;
 
 /// An eigenvalue with its shape.
 #[derive(Clone, Debug)]
@@ -40,9 +41,6 @@ struct Set {
     values: Vec<Complex<f64>>,
 }
 
-/// A part of the largest eigenvalue below which differences are round-off.
-const ROUND_OFF: f64 = 1e-6;
-
 /// The place in `ends` of each of `starts`, whose values are `predicted`; none where a branch ends.
 pub(super) fn matching(
     starts: &[&Node],
@@ -69,16 +67,8 @@ fn is_allowed(from: Side, to: Side) -> bool {
     !matches!((from, to), (Side::Upper, Side::Lower) | (Side::Lower, Side::Upper))
 }
 
-/// A step in which two modes could be exchanged for less than this is not clear.
-const CLEAR: f64 = 1.0;
-/// A mode that changes by more than this in a step may be another.
-const CHANGED: f64 = 0.5;
-
-/// Modes whose values agree to this part before and after are one for the eye: it does not matter which is which.
-const EQUAL: f64 = 1e-3;
-
 fn are_equal(a: Complex<f64>, b: Complex<f64>) -> bool {
-    (a - b).norm() <= EQUAL * a.norm().max(b.norm())
+    (a - b).norm() <= tolerances::EQUAL_MODES * a.norm().max(b.norm())
 }
 
 /// Whether it is clear which mode is which: they change little, and the best way to go on is much better than any in which two of them are exchanged.
@@ -92,11 +82,11 @@ pub(super) fn is_clear(starts: &[&Node], ends: &[Node], mass: &Matrix) -> bool {
         let is_pair = from.partner[i] == Some(k) || to.partner[j] == Some(l);
         let is_possible = !is_pair && is_allowed(from.sides[i], to.sides[l]) && is_allowed(from.sides[k], to.sides[j]);
         let is_one = are_equal(values[i], values[k]) && are_equal(to.values[j], to.values[l]);
-        !is_possible || is_one || cost[(i, l)] + cost[(k, j)] - cost[(i, j)] - cost[(k, l)] >= CLEAR
+        !is_possible || is_one || cost[(i, l)] + cost[(k, j)] - cost[(i, j)] - cost[(k, l)] >= tolerances::CLEAR_MATCH
     };
     // Where modes become more or fewer, states between do not help.
     starts.len() != ends.len()
-        || matched.iter().all(|place| cost[*place] <= CHANGED)
+        || matched.iter().all(|place| cost[*place] <= tolerances::CHANGED_MODE)
             && matched.iter().enumerate().all(|(n, a)| matched[..n].iter().all(|b| exchange(a, b)))
 }
 
@@ -119,7 +109,7 @@ fn cost(starts: &[&Node], predicted: &[Complex<f64>], ends: &[Node], mass: &Matr
     };
     let (of_x, of_y, product) = (sizes(&x, &mx), sizes(&y, &my), x.adjoint() * &my);
     let largest = predicted.iter().chain(ends.iter().map(|end| &end.value)).fold(0.0f64, |most, z| most.max(z.norm()));
-    let floor = (ROUND_OFF * largest).max(f64::MIN_POSITIVE);
+    let floor = (tolerances::EIGENVALUES_AGREE * largest).max(f64::MIN_POSITIVE);
     Matrix::from_fn(starts.len(), ends.len(), |i, j| {
         let (a, b) = (predicted[i], ends[j].value);
         let sizes = of_x[i] * of_y[j];

@@ -3,6 +3,7 @@
 use crate::formulation::Dynamics;
 use crate::math::largest;
 use crate::system::Spin;
+use crate::tolerances::linearize as tolerances;
 
 /// A state with its accelerations and multipliers.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -22,12 +23,6 @@ pub struct OperatingPoint {
     /// The turn that drives prescribe, where they do.
     pub driven: Option<Spin>,
 }
-
-/// Accelerations below this part of those that single forces would give are none; nor are speeds below this part of those
-/// that such accelerations give over the length of the mechanism.
-const AT_REST: f64 = 1e-9;
-/// Rounding of coordinates and of sums of forces.
-const ULPS: f64 = 1e-14;
 
 impl OperatingPoint {
     /// The state whose terms and solution `dynamics` holds, with its K.
@@ -52,7 +47,7 @@ impl OperatingPoint {
 /// What coordinates rounded by some ulps make of each force.
 pub(super) fn rounding(dynamics: &Dynamics, k: &[f64], q: &[f64]) -> Vec<f64> {
     let mut rounding = vec![0.0; dynamics.vdot.len()];
-    let reach = ULPS * largest(q).max(1.0);
+    let reach = tolerances::ROUND_OFF_OF_SUMS * largest(q).max(1.0);
     for (&(i, _), k) in dynamics.structure.tangent.entries.iter().zip(k) {
         rounding[i] += reach * k.abs();
     }
@@ -74,7 +69,7 @@ fn is_at_rest(dynamics: &Dynamics, rounding: &[f64], v: &[f64]) -> bool {
     // Without loads rounding is all there is: an acceleration of 1 m/s^2 or rad/s^2 is the measure then.
     let heaviest = structure.mass.entries.iter().zip(&terms.mass).filter(|((i, j), _)| i == j);
     let heaviest = heaviest.fold(0.0f64, |most, (_, mass)| most.max(*mass));
-    let least = AT_REST * largest(&usual).max(heaviest);
+    let least = tolerances::SAME * largest(&usual).max(heaviest);
     let is_balanced = inertia.iter().zip(rounding).all(|(inertia, rounding)| inertia.abs() <= least.max(*rounding));
-    largest(v) <= AT_REST * speed && is_balanced
+    largest(v) <= tolerances::SAME * speed && is_balanced
 }

@@ -7,17 +7,7 @@ use crate::formulation::Dynamics;
 use crate::initial::assemble;
 use crate::math::largest;
 use crate::system::Need;
-
-/// By how much G changes, over its largest entry, between a state and the one beside it that it is compared with: far
-/// beyond the part of the reference rank indicator (1e-4) below which rows count as dependent, and near enough to be
-/// the same assembly.
-const APART: f64 = 0.02;
-
-/// About the smallest sine between a row of G and those before it at which a state is looked at. Below, the square of its
-/// inverse times rounding, of the state as well, is a part of the accelerations: 1e-4 beside a fold, whatever the chart.
-const NEAR: f64 = 1e-5;
-/// By how much the rank indicator grows beside a singular state, at least; beside others it is about the same.
-const GROWTH: f64 = 1e2;
+use crate::tolerances::linearize as tolerances;
 
 /// Refuses a singular state, and states so near to one that their accelerations are uncertain: with fewer independent
 /// constraints than a state beside, or rows that are much closer to being dependent. There the motions that the
@@ -28,19 +18,20 @@ const GROWTH: f64 = 1e2;
 /// The state is singular.
 pub(super) fn refuse(variation: &mut Variation) -> Result<()> {
     let here = Rank::of(&variation.dynamics);
-    if here.rank == variation.point.lambda.len() && here.rank_indicator >= NEAR {
+    if here.rank == variation.point.lambda.len() && here.rank_indicator >= tolerances::SINGULAR_MODEL {
         return Ok(());
     }
     let directions = directions(variation)?;
     let Some(beside) = rank_beside(variation, &directions) else { return Ok(()) };
     let t = short(variation.point.t);
-    let problem = match (beside.rank > here.rank, beside.rank_indicator > GROWTH * here.rank_indicator) {
-        (true, _) => format!("only {} constraints are independent, {} beside it", here.rank, beside.rank),
-        (false, true) if beside.rank == here.rank => {
-            "constraints are nearly dependent, and less so beside it".to_string()
-        }
-        _ => return Ok(()),
-    };
+    let problem =
+        match (beside.rank > here.rank, beside.rank_indicator > tolerances::SINGULAR_GROWTH * here.rank_indicator) {
+            (true, _) => format!("only {} constraints are independent, {} beside it", here.rank, beside.rank),
+            (false, true) if beside.rank == here.rank => {
+                "constraints are nearly dependent, and less so beside it".to_string()
+            }
+            _ => return Ok(()),
+        };
     Err(Error::input(format!(
         "singular state: at t = {t} s {problem}, so motions cross here and have no common linear model"
     ))
@@ -79,7 +70,7 @@ fn rank_beside(variation: &Variation, directions: &Matrix) -> Option<Rank> {
     }
     let mut rate = vec![0.0; point.q.len()];
     system.rate(&point.q, &direction, &mut rate);
-    let step = APART * size / slope;
+    let step = tolerances::NEARBY_STATE * size / slope;
     let mut moved: Vec<f64> = point.q.iter().zip(&rate).map(|(q, rate)| q + step * rate).collect();
     system.normalize(&mut moved);
     let beside = assemble(system, point.t, (&moved, &point.v), &[]).ok()?;

@@ -5,6 +5,7 @@ use super::method::{Built, Request};
 use super::{Complex, Kind, Matrix, Mode, Variation};
 use crate::error::{Error, Result, clock};
 use crate::math::eigen::{ComplexMatrix, Deflation, Unsolved, eigen, finite_by, generalized};
+use crate::tolerances::linearize as tolerances;
 
 /// Eigenvalues with vectors.
 struct Solved {
@@ -120,9 +121,6 @@ fn parts(left: &ComplexMatrix, right: &ComplexMatrix) -> Matrix {
     parts
 }
 
-/// Kinds are clear where the part of a spurious mode off the constraints is so many times that of any physical one.
-const CLEAR: f64 = 2.0;
-
 /// As many physical modes as there are states of minimal coordinates: those of which the least part is off the directions
 /// that the constraints allow, in the metric of the kinetic energy. Where no gap lies between them and the others, those
 /// that are not well apart are uncertain.
@@ -149,9 +147,9 @@ fn kinds(
     order.iter().take(physical).for_each(|&j| kinds[j] = Kind::Physical);
     let worst = physical.checked_sub(1).map_or(0.0, |last| parts[order[last]]);
     let least = parts[order[physical]];
-    if least < CLEAR * worst {
+    if least < tolerances::SPURIOUS_GAP * worst {
         (0..kinds.len())
-            .filter(|&j| CLEAR * parts[j] > least && parts[j] < CLEAR * worst)
+            .filter(|&j| tolerances::SPURIOUS_GAP * parts[j] > least && parts[j] < tolerances::SPURIOUS_GAP * worst)
             .for_each(|j| kinds[j] = Kind::Uncertain);
     }
     Ok((kinds, Some([worst, least])))

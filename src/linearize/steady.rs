@@ -6,6 +6,7 @@ use crate::error::{Error, Result, Warning, short};
 use crate::initial::{assemble, equilibrium};
 use crate::study::Study;
 use crate::system::{MechanicalSystem, Rotating};
+use crate::tolerances::linearize as tolerances;
 
 /// A state with the equations that it is a state of.
 pub struct Operating<'a> {
@@ -77,34 +78,31 @@ fn still<'a>(study: &'a Study, state: &State) -> Result<Operating<'a>> {
     }
 }
 
-/// An angle that no usual arrangement of parts around an axis repeats after, rad.
-const ANGLE: f64 = 1.0;
-/// Rounding of products, in parts of their terms.
-const SAME: f64 = 1e-8;
-/// Directions that are tried.
-const DIRECTIONS: usize = 3;
-
 /// Whether a turn of everything that moves, at the time when drives have turned it so far, changes nothing: the
 /// inertia forces, the directions that constraints leave, and M, K and C along these.
 fn is_same_all_around(axes: &Rotating, study: &Study, state: &State) -> Result<bool> {
     let still = vec![0.0; state.v.len()];
     let closed = assemble(study.system(), state.t, (&state.q, &state.v), &[])?;
-    let other = axes.turned(ANGLE);
+    let other = axes.turned(tolerances::ODD_ANGLE);
     let mut turned = closed.q.clone();
-    other.turn(ANGLE, &mut turned);
+    other.turn(tolerances::ODD_ANGLE, &mut turned);
     let mut here = Variation::new(axes, state.t, &closed.q, &still)?;
     let Ok(mut there) = Variation::new(&other, state.t, &turned, &still) else { return Ok(false) };
     let x = directions(&mut here)?;
     let mut y = x.clone();
-    y.column_iter_mut().for_each(|mut column| other.turn_directions(ANGLE, column.as_mut_slice()));
+    y.column_iter_mut().for_each(|mut column| other.turn_directions(tolerances::ODD_ANGLE, column.as_mut_slice()));
     let leaves = there.correct(&(there.g_times(&y)))?;
     let [mut carried, pushed] = [&here, &there].map(inertia);
-    other.turn_directions(ANGLE, &mut carried);
+    other.turn_directions(tolerances::ODD_ANGLE, &mut carried);
     let rounding = rounding(&here.dynamics, &here.tangent.k, &here.point.q);
-    let is_closed = there.point.phi <= SAME && leaves.norm() <= SAME * y.norm();
+    let is_closed = there.point.phi <= tolerances::STEADY && leaves.norm() <= tolerances::STEADY * y.norm();
     Ok(is_closed
         && agree(&carried, &pushed, &rounding)
-        && agree(&products(&here, &x), &products(&there, &y), &[0.0; 2 * DIRECTIONS * DIRECTIONS]))
+        && agree(
+            &products(&here, &x),
+            &products(&there, &y),
+            &[0.0; 2 * tolerances::STEADY_DIRECTIONS * tolerances::STEADY_DIRECTIONS],
+        ))
 }
 
 /// M v'
@@ -119,7 +117,7 @@ fn inertia(variation: &Variation) -> Vec<f64> {
 fn directions(variation: &mut Variation) -> Result<Matrix> {
     // Multiples of the golden ratio and of others like it spread evenly (Weyl).
     let spread = |i: usize, j: usize| ((i + 1) as f64 * (0.618_033_988_75 + 0.1 * j as f64)).fract() - 0.5;
-    let any = Matrix::from_fn(variation.len(), DIRECTIONS, spread);
+    let any = Matrix::from_fn(variation.len(), tolerances::STEADY_DIRECTIONS, spread);
     let correction = variation.correct(&variation.g_times(&any))?;
     Ok(any - correction)
 }
@@ -134,5 +132,5 @@ fn products(variation: &Variation, x: &Matrix) -> Vec<f64> {
 
 fn agree(a: &[f64], b: &[f64], rounding: &[f64]) -> bool {
     let size = crate::math::largest(a).max(crate::math::largest(b));
-    a.iter().zip(b).zip(rounding).all(|((a, b), rounding)| (a - b).abs() <= SAME * size + rounding)
+    a.iter().zip(b).zip(rounding).all(|((a, b), rounding)| (a - b).abs() <= tolerances::STEADY * size + rounding)
 }

@@ -1,6 +1,7 @@
 //! Newton's method: one loop and one judge of its convergence, under all that is solved by iteration.
 
 use super::largest;
+use crate::tolerances::math as tolerances;
 
 /// What an iteration is allowed, in the unit of the sizes of its changes.
 #[derive(Clone, Copy, Debug)]
@@ -51,7 +52,7 @@ pub enum Verdict {
 #[derive(Clone, Debug)]
 pub struct Monitor {
     limits: Limits,
-    /// Ratio of successive changes; [`AT_ONCE`] after a single one.
+    /// Ratio of successive changes; `tolerances::RATE_AT_ONCE` after a single one.
     pub rate: f64,
     /// The largest ratio of successive changes above the stagnation tolerance; zero where there is none.
     pub slowest: f64,
@@ -67,24 +68,11 @@ pub struct Monitor {
     stalled: f64,
 }
 
-/// The rate where one correction was enough.
-const AT_ONCE: f64 = 1e-3;
-/// Rates above which an iteration has diverged: after two changes, of which the first may have corrected what the start
-/// left of its constraints, and later.
-const DIVERGED: [f64; 2] = [2.0, 0.99];
-/// Below the stagnation tolerance changes that shrink by less than this no longer fall.
-const STAGNANT: f64 = 0.9;
-/// Round-off that shorter steps meet again is of the same size but for this factor, and at most this part of the unit.
-const ALIKE: f64 = 10.0;
-const TOLERABLE: f64 = 0.1;
-/// A matrix whose corrections shrink by less does not serve its own system.
-const RENEWED: f64 = 0.3;
-
 impl Default for Monitor {
     fn default() -> Self {
         Monitor {
             limits: Limits::NONE,
-            rate: AT_ONCE,
+            rate: tolerances::RATE_AT_ONCE,
             slowest: 0.0,
             iterations: 0,
             has_stagnated: false,
@@ -113,13 +101,13 @@ impl Monitor {
     fn begin(&mut self, limits: Limits) {
         self.limits = limits;
         self.contraction = self.contraction.powf(0.8);
-        (self.rate, self.slowest, self.iterations) = (AT_ONCE, 0.0, 0);
+        (self.rate, self.slowest, self.iterations) = (tolerances::RATE_AT_ONCE, 0.0, 0);
         (self.has_stagnated, self.size) = (false, f64::INFINITY);
     }
 
     /// Whether the corrections so far ask for another matrix.
     fn wants_matrix(&self) -> bool {
-        self.iterations > 1 && self.ratio > RENEWED && self.size > self.limits.stagnation
+        self.iterations > 1 && self.ratio > tolerances::MATRIX_RENEWED && self.size > self.limits.stagnation
     }
 
     /// Whether the matrix of the last iteration is good enough for the next one.
@@ -138,7 +126,7 @@ impl Monitor {
             Verdict::Continue => {}
             Verdict::Converged => self.stalled = 0.0,
             Verdict::Diverged if self.is_round_off(change) => {
-                (self.rate, self.has_stagnated) = (AT_ONCE, true);
+                (self.rate, self.has_stagnated) = (tolerances::RATE_AT_ONCE, true);
                 return Verdict::Converged;
             }
             Verdict::Diverged => self.stalled = change,
@@ -151,8 +139,9 @@ impl Monitor {
     /// dependent constraints make round-off larger than is known. Later steps meet it at once, or each would have to be shorter
     /// than the one before.
     fn is_round_off(&self, change: f64) -> bool {
-        let is_met_again = change <= ALIKE * self.stalled && self.stalled <= ALIKE * change;
-        change <= self.limits.stagnation || change <= TOLERABLE && is_met_again
+        let is_met_again = change <= tolerances::ROUND_OFF_ALIKE * self.stalled
+            && self.stalled <= tolerances::ROUND_OFF_ALIKE * change;
+        change <= self.limits.stagnation || change <= tolerances::ROUND_OFF_TOLERABLE && is_met_again
     }
 
     fn watch(&mut self, change: f64) -> Verdict {
@@ -160,7 +149,7 @@ impl Monitor {
         self.iterations += 1;
         let last = std::mem::replace(&mut self.size, change.max(f64::MIN_POSITIVE));
         if change <= round_off {
-            self.rate = self.rate.min(AT_ONCE);
+            self.rate = self.rate.min(tolerances::RATE_AT_ONCE);
             return Verdict::Converged;
         }
         if self.iterations > 1 {
@@ -170,13 +159,13 @@ impl Monitor {
             if change > stagnation {
                 self.slowest = self.slowest.max(ratio);
             }
-            let limit = DIVERGED[usize::from(self.iterations > 2)];
-            let is_stagnant = self.iterations > 2 && change <= stagnation && self.rate > STAGNANT;
+            let limit = tolerances::DIVERGED[usize::from(self.iterations > 2)];
+            let is_stagnant = self.iterations > 2 && change <= stagnation && self.rate > tolerances::STAGNANT;
             let has_diverged = self.rate > limit && self.iterations > patience;
             if self.rate.is_nan() || is_stagnant || ratio > contraction || has_diverged {
                 return Verdict::Diverged;
             }
-            self.rate = self.rate.min(DIVERGED[1]);
+            self.rate = self.rate.min(tolerances::DIVERGED[1]);
             self.contraction = (self.rate / (1.0 - self.rate)).max(least_rate);
             let left = most.saturating_sub(self.iterations).min(i32::MAX as usize) as i32;
             if self.iterations > patience.max(2) && self.contraction * change * self.rate.powi(left) > tolerance {

@@ -5,6 +5,7 @@
 //! (Sonneville, Cardona and Bruls, Comput. Methods Appl. Mech. Engrg. 268 (2014) 451-474, appendix A).
 
 use super::Scalar;
+use crate::tolerances::math as tolerances;
 use std::array::from_fn;
 
 /// A vector of space over any scalar.
@@ -56,15 +57,14 @@ fn quaternion<S: Scalar>(r: &[[S; 3]; 3]) -> (S, Vector<S>) {
     (part(skew[largest]), v)
 }
 
-/// Terms of the series: those left out are below 1e-17 of the first in the ranges used.
-const TERMS: usize = 9;
-
 fn series<S: Scalar>(x: S, coefficient: impl Fn(usize) -> f64) -> S {
-    (0..TERMS - 1).rev().fold(S::constant(coefficient(TERMS - 1)), |sum, k| sum * x + coefficient(k))
+    (0..tolerances::SERIES_TERMS - 1)
+        .rev()
+        .fold(S::constant(coefficient(tolerances::SERIES_TERMS - 1)), |sum, k| sum * x + coefficient(k))
 }
 
 /// c = sum_k 2 zeta(2k + 2)/(2 pi)^(2k + 2) x^k with x = |a|^2; here up to k = 8.
-const COTANGENT: [f64; TERMS] = [
+const COTANGENT: [f64; tolerances::SERIES_TERMS] = [
     1.0 / 12.0,
     1.0 / 720.0,
     1.0 / 30_240.0,
@@ -76,13 +76,10 @@ const COTANGENT: [f64; TERMS] = [
     43_867.0 / 5_109_094_217_170_944_000.0,
 ];
 
-/// The series serve up to this square of an angle.
-const NEAR: f64 = 0.3;
-
 /// c(x) with x = |a|^2; it has a pole where |a| is a full turn.
 #[inline]
 pub fn cotangent<S: Scalar>(x: S) -> S {
-    if x.value() < NEAR {
+    if x.value() < tolerances::SERIES_OF_ROTATIONS {
         return series(x, |k| COTANGENT[k]);
     }
     let half = x.sqrt() * 0.5;
@@ -92,7 +89,7 @@ pub fn cotangent<S: Scalar>(x: S) -> S {
 /// dc/dx.
 #[inline]
 pub fn cotangent_slope<S: Scalar>(x: S) -> S {
-    if x.value() < NEAR {
+    if x.value() < tolerances::SERIES_OF_ROTATIONS {
         // One term less than c itself has; it is below 1e-17 of the first all the same.
         return series(x, |k| COTANGENT.get(k + 1).map_or(0.0, |c| c * (k + 1) as f64));
     }
@@ -134,8 +131,8 @@ pub fn pull_back<S: Scalar>(a: &Vector<S>, p: &Vector<S>, n: &Vector<S>, m: &Vec
 }
 
 /// 1/(n + 1)! by n.
-const INVERSE_FACTORIALS: [f64; 2 * TERMS + 1] = {
-    let mut all = [1.0; 2 * TERMS + 1];
+const INVERSE_FACTORIALS: [f64; 2 * tolerances::SERIES_TERMS + 1] = {
+    let mut all = [1.0; 2 * tolerances::SERIES_TERMS + 1];
     let mut n = 1;
     while n < all.len() {
         all[n] = all[n - 1] / (n + 1) as f64;
@@ -146,7 +143,7 @@ const INVERSE_FACTORIALS: [f64; 2 * TERMS + 1] = {
 
 /// sin(a)/a, (1 - cos a)/a^2 and (a - sin a)/a^3 with x = a^2.
 fn turning<S: Scalar>(x: S) -> [S; 3] {
-    if x.value() < NEAR {
+    if x.value() < tolerances::SERIES_OF_ROTATIONS {
         let sign = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
         return from_fn(|first| series(x, |k| sign(k) * INVERSE_FACTORIALS[2 * k + first]));
     }
@@ -198,8 +195,8 @@ mod tests {
     /// Both forms of the exponential's factors agree where one takes over from the other, and so do their slopes.
     #[test]
     fn both_forms_of_the_turning_agree() {
-        let below = turning(Dual::<f64, 1>::seeded(NEAR * (1.0 - 1e-15), 0));
-        let above = turning(Dual::<f64, 1>::seeded(NEAR, 0));
+        let below = turning(Dual::<f64, 1>::seeded(tolerances::SERIES_OF_ROTATIONS * (1.0 - 1e-15), 0));
+        let above = turning(Dual::<f64, 1>::seeded(tolerances::SERIES_OF_ROTATIONS, 0));
         for (below, above) in below.iter().zip(&above) {
             assert!((below.re - above.re).abs() < 1e-15, "{below:?} {above:?}");
             // The closed form loses two digits in its slope there.
@@ -210,13 +207,21 @@ mod tests {
     /// c and dc/dx agree across the bound of the series, and dc/dx is the derivative of c.
     #[test]
     fn both_forms_of_the_cotangent_agree() {
-        for x in [0.0, 0.1, NEAR - 1e-12, NEAR, 1.0, 5.0, 9.0] {
+        for x in [0.0, 0.1, tolerances::SERIES_OF_ROTATIONS - 1e-12, tolerances::SERIES_OF_ROTATIONS, 1.0, 5.0, 9.0] {
             let seeded = cotangent(Dual::<f64, 1>::seeded(x, 0));
             // 1 - b loses a digit and a half at the bound, its derivative the same again.
             assert!((seeded.eps[0] - cotangent_slope(x)).abs() < 1e-14, "{x}: {seeded:?}");
         }
-        let (below, above) = (cotangent(NEAR * (1.0 - 1e-15)), cotangent(NEAR * (1.0 + 1e-15)));
+        let (below, above) = (
+            cotangent(tolerances::SERIES_OF_ROTATIONS * (1.0 - 1e-15)),
+            cotangent(tolerances::SERIES_OF_ROTATIONS * (1.0 + 1e-15)),
+        );
         assert!((below - above).abs() < 1e-15);
-        assert!((cotangent_slope(NEAR * (1.0 - 1e-15)) - cotangent_slope(NEAR)).abs() < 1e-14);
+        assert!(
+            (cotangent_slope(tolerances::SERIES_OF_ROTATIONS * (1.0 - 1e-15))
+                - cotangent_slope(tolerances::SERIES_OF_ROTATIONS))
+            .abs()
+                < 1e-14
+        );
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::simulate::Observation;
 use crate::system::{MechanicalSystem, Scratch};
+use crate::tolerances::report as tolerances;
 use serde::Serialize;
 
 /// Energy at the start and the end, and the largest error of the balance. The work of dampers, applied forces, tyres
@@ -41,15 +42,6 @@ pub struct EnergyMeter {
     sizes: Sizes,
 }
 
-/// Energies in which rounding leaves this part of themselves show nothing below it.
-const ROUND_OFF: f64 = 1e-12;
-/// A motion that turns over this part of what is tolerated is none.
-const UNSEEN: f64 = 1e-3;
-/// A balance that is open by this part of the energy turned over is that of another motion.
-const OPEN: f64 = 0.01;
-/// The balance of a good run is open by less than so many times what the tolerance lets it.
-const BEYOND: f64 = 10.0;
-
 /// One row of the ledger.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ledger {
@@ -62,10 +54,14 @@ pub struct Ledger {
 impl EnergyBalance {
     /// Whether a balance is open by more than the tolerance, or the order of a method, leads to expect.
     pub fn is_open(&self) -> bool {
-        let Some(part) = self.relative_max_error.filter(|part| part.is_nan() || *part > ROUND_OFF.sqrt()) else {
+        let Some(part) =
+            self.relative_max_error.filter(|part| part.is_nan() || *part > tolerances::ENERGY_ROUND_OFF.sqrt())
+        else {
             return false;
         };
-        part.is_nan() || part > OPEN || self.tolerated.is_some_and(|tolerated| self.max_error > BEYOND * tolerated)
+        part.is_nan()
+            || part > tolerances::ENERGY_OPEN
+            || self.tolerated.is_some_and(|tolerated| self.max_error > tolerances::ENERGY_BEYOND * tolerated)
     }
 }
 
@@ -102,7 +98,8 @@ impl EnergyMeter {
         let Sizes { kinetic, potential, change } = self.sizes;
         let turned_over = kinetic.max(change);
         self.balance.map(|balance| {
-            let nothing = (ROUND_OFF * potential).max(UNSEEN * balance.tolerated.unwrap_or(0.0));
+            let nothing = (tolerances::ENERGY_ROUND_OFF * potential)
+                .max(tolerances::ENERGY_UNSEEN * balance.tolerated.unwrap_or(0.0));
             let relative_max_error = (turned_over > nothing).then(|| balance.max_error / turned_over);
             EnergyBalance { relative_max_error, ..balance }
         })

@@ -3,6 +3,7 @@
 use crate::scene::units::{Dimension, dimension_of};
 use crate::simulate::Observation;
 use crate::system::{Column, MechanicalSystem, Scratch};
+use crate::tolerances::report as tolerances;
 
 /// Sizes of a motion, over its rows. Coordinates in metres and in radians are not told apart.
 #[derive(Clone, Debug, Default)]
@@ -19,13 +20,6 @@ pub struct Sizes {
     /// A length typical of the mechanism, m.
     length: f64,
 }
-
-/// A length, an angle or a speed that is smaller than this part of the largest is zero by symmetry, or as good as that.
-const SMALL: f64 = 1e-3;
-/// A kinetic energy that swings by less than this part of itself is constant.
-const CONSTANT: f64 = 1e-3;
-/// Round-off: what is smaller than this part of the largest quantity in its unit is no quantity of this motion.
-const SMALLEST: f64 = 1e-9;
 
 impl Sizes {
     /// Adds a row; `scales` are those of the rows of phi.
@@ -49,7 +43,7 @@ impl Sizes {
         // Of angles in a small mechanism no length is made.
         let length = self.length.min(1.0);
         let (least, most) = self.kinetic.unwrap_or_default();
-        let energy = (most - least).max(CONSTANT * most);
+        let energy = (most - least).max(tolerances::CONSTANT_ENERGY * most);
         match dimension {
             Dimension::Angle => self.travel,
             Dimension::Length => self.travel * length,
@@ -87,12 +81,14 @@ pub fn scales(columns: &[Column], rows: &[Vec<f64>], sizes: &Sizes) -> Vec<f64> 
             Some(Dimension::Energy) => {
                 match swing(i).max(sizes.of(Dimension::Energy) * per_si(unit, Dimension::Energy)) {
                     0.0 => largest(i),
-                    swing => swing.max(SMALLEST * largest(i)),
+                    swing => swing.max(tolerances::SAME * largest(i)),
                 }
             }
             Some(kind @ (Dimension::Force | Dimension::Torque)) => of_kind(unit, kind),
-            Some(kind) if kind != Dimension::Strain => largest(i).max(SMALL * of_kind(unit, kind)),
-            _ => largest(i).max(SMALLEST * of_unit(unit)),
+            Some(kind) if kind != Dimension::Strain => {
+                largest(i).max(tolerances::ZERO_BY_SYMMETRY * of_kind(unit, kind))
+            }
+            _ => largest(i).max(tolerances::SAME * of_unit(unit)),
         };
         if scale > 0.0 { scale } else { 1.0 }
     };

@@ -6,6 +6,7 @@ use crate::formulation::{Dynamics, Halt, OptionDoc};
 use crate::math::largest_in;
 use crate::math::newton::{Limits, Monitor};
 use crate::system::Need;
+use crate::tolerances::initial as tolerances;
 
 /// ```text
 /// min |q - q~|_M  s.t.  phi = 0,   then   min |v - v~|_M  s.t.  G v + phi_t = 0
@@ -23,19 +24,16 @@ pub const ENTRY: Entry = Entry {
         let n = system.dimensions();
         Ok(Some(Box::new(Exact {
             scales: system.scales(),
-            most: choice.whole("iterations", MOST, 1..=1000)?,
+            most: choice.whole("iterations", tolerances::PROJECTIONS, 1..=1000)?,
             rate: vec![0.0; n.q],
             step: vec![0.0; n.v],
         })))
     },
 };
 
-/// Who allows fewer iterations than by default takes what they leave.
-const MOST: usize = 10;
 /// In units of what the scene's size makes no round-off, nor what redundant rows may contradict each other by. A residual
 /// below that falls by half at least, until another step would only stir its round-off.
-const LIMITS: Limits = Limits { stagnation: 1.0, contraction: 0.5, ..Limits::NONE };
-const OPEN: f64 = 1e-9;
+const LIMITS: Limits = Limits { stagnation: 1.0, contraction: tolerances::NEWTON_HALVES, ..Limits::NONE };
 
 struct Exact {
     most: usize,
@@ -58,9 +56,9 @@ impl Projection for Exact {
             dynamics.statistics.projections += 1;
             dynamics.evaluate(t, q, v, need);
             dynamics.factor_truncated()?;
-            Ok::<_, Halt>(largest_in(&self.scales, &dynamics.terms.phi) / OPEN)
+            Ok::<_, Halt>(largest_in(&self.scales, &dynamics.terms.phi) / tolerances::SAME)
         })?;
-        let is_limited = newton.iterations > self.most && self.most < MOST;
+        let is_limited = newton.iterations > self.most && self.most < tolerances::PROJECTIONS;
         if !closed && !is_limited {
             return Err(Halt::Open);
         }

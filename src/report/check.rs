@@ -12,6 +12,7 @@ use crate::scene::{BeamLine, Connection, Model};
 use crate::simulate::{Mode, Spectrum};
 use crate::study::{AnyMechanism, Study};
 use crate::system::{Group, Loaded, Need, Structure, Terms};
+use crate::tolerances::math as tolerances;
 use serde::Serialize;
 
 /// What is modelled, and how well posed it is at the start.
@@ -77,9 +78,6 @@ pub fn check(study: &Study) -> Check {
     }
 }
 
-/// Rows count as dependent below this part of their size.
-const DEPENDENT: f64 = 1e-10;
-
 fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
     let system = study.system();
     let (q, v) = study.start();
@@ -97,7 +95,7 @@ fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
     };
     // The search for what depends on what is dense: it runs only where something does.
     let dependence = match !rows.is_empty() {
-        true => dependent_rows(&structure.g, &terms.g, DEPENDENT),
+        true => dependent_rows(&structure.g, &terms.g, tolerances::RANK),
         false => Dependence { rank: n.lambda, rows: Vec::new() },
     };
     let (groups, names) = (system.groups(), system.names().lambda);

@@ -7,6 +7,7 @@ use crate::initial::{Equilibrium, Stability, Way};
 use crate::measure::Range;
 use crate::study::Study;
 use crate::system::{Loaded, Scratch};
+use crate::tolerances::report as tolerances;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -39,8 +40,6 @@ pub struct Rest {
     units: Vec<String>,
 }
 
-/// Moves below this part of 1 and the coordinate are rounding.
-const STILL: f64 = 1e-9;
 const MOST_MOVES: usize = 10;
 
 impl Rest {
@@ -73,7 +72,7 @@ impl Rest {
         let at = Loaded { t: found.t, q: &found.q, v: &still, vdot: &still, lambda: &found.lambda };
         system.outputs(at, &mut outputs, &mut Scratch::default());
         let pairs = names.q.iter().zip(study.start().0.iter().zip(&found.q));
-        let moved = pairs.filter(|(_, (from, to))| (*to - *from).abs() > STILL * (1.0 + from.abs()));
+        let moved = pairs.filter(|(_, (from, to))| (*to - *from).abs() > tolerances::SAME * (1.0 + from.abs()));
         let mut moves: Vec<_> = moved.map(|(name, (&from, &to))| (name.clone(), from, to)).collect();
         moves.sort_by(|a, b| (b.2 - b.1).abs().total_cmp(&(a.2 - a.1).abs()));
         Rest {

@@ -6,6 +6,7 @@ use crate::initial::Assembly;
 use crate::math::largest;
 use crate::study::Study;
 use crate::system::{Loaded, Scratch};
+use crate::tolerances::report as tolerances;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -22,9 +23,6 @@ pub struct Start {
     units: Vec<String>,
 }
 
-/// Accelerations below are those of a scene whose data are given to seven digits.
-const RESTING: f64 = 1e-6;
-
 impl Start {
     pub fn of(study: &Study) -> Start {
         let Assembly { q, v, vdot, lambda, .. } = &study.assembly;
@@ -36,7 +34,7 @@ impl Start {
         Start {
             velocity,
             acceleration,
-            is_equilibrium: velocity == 0.0 && acceleration < RESTING,
+            is_equilibrium: velocity == 0.0 && acceleration < tolerances::RESTING_START,
             outputs: columns
                 .iter()
                 .map(|column| column.name.clone())

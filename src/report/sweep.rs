@@ -4,6 +4,7 @@ use super::Table;
 use super::figures::MOST_COORDINATES;
 use super::summary::significant;
 use crate::sweep::{self, Nearest, Point, Sweep};
+use crate::tolerances::report as tolerances;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -83,9 +84,6 @@ pub(super) fn shown<'a>(sweep: &Sweep, point: &'a Point) -> &'a [f64] {
     if sweep.outputs.is_empty() { &point.q } else { &point.outputs }
 }
 
-/// Nearer states are called singular.
-const SINGULAR: f64 = 1e-3;
-
 impl SweepSummary {
     pub fn new(sweep: &Sweep) -> Self {
         let range = &sweep.range;
@@ -124,7 +122,7 @@ impl SweepSummary {
     fn singular_line(&self) -> String {
         let Nearest { value, rank_indicator } = self.nearest_singular;
         let place = format!("{} = {}", self.parameter, significant(value, 8));
-        match rank_indicator < SINGULAR {
+        match rank_indicator < tolerances::TOLD_SINGULAR {
             true => format!("  SINGULAR at {place}: distance {rank_indicator:.1e}\n"),
             false => format!("  nearest to a singular state at {place}: distance {rank_indicator:.1e} (1 is far)\n"),
         }

@@ -3,10 +3,8 @@
 use super::significant;
 use crate::error::Warning;
 use crate::measure::{Drift, EnergyBalance, Record};
+use crate::tolerances::report as tolerances;
 use crate::trajectory::{Gap, Trajectory};
-
-/// Joints that are open by this part of the scene's size at the end deserve a warning.
-const OPEN: f64 = 1e-2;
 
 /// All that the record of a run has against the run.
 pub fn warnings(record: &Record) -> Vec<Warning> {
@@ -38,7 +36,8 @@ fn open_joints(drift: &Drift) -> Option<Warning> {
     let open = drift.position.relative_final;
     let text =
         || format!("the joints have come apart by {open:.1e} of the scene's size: the motion is not that of the scene");
-    (open > OPEN).then(|| Warning::new(text(), "choose a projection such as `manifold`, or a smaller step"))
+    (open > tolerances::JOINTS_OPEN)
+        .then(|| Warning::new(text(), "choose a projection such as `manifold`, or a smaller step"))
 }
 
 fn open_balance(energy: &EnergyBalance) -> Warning {

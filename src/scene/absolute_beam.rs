@@ -21,6 +21,7 @@ use crate::force::Beam;
 use crate::math::expression::Number;
 use crate::math::rotation::{matrix_from_quaternion, quaternion_from_vector, quaternion_product};
 use crate::math::screw::dot3;
+use crate::tolerances::body as tolerances;
 use serde_json::{Map, Value};
 use std::array::from_fn;
 
@@ -47,9 +48,6 @@ const FLOATING: [&str; 6] = ["frame_conditions", "axial", "rotary_inertia", "geo
 
 /// More elements than this are a slip of the hand.
 const MOST_ELEMENTS: u32 = 10_000;
-
-/// Two places on a beam nearer than this part of its length are one.
-const SAME: f64 = 1e-9;
 
 impl<const D: usize> AbsoluteBeam<D> {
     /// Takes the rest of the body's JSON.
@@ -172,15 +170,16 @@ fn damping<const D: usize>(given: Option<&Damping>, build: &Build<D>) -> Result<
 /// Abscissae of the nodes: both ends, every marker, and equal elements between these, none longer than the length
 /// divided by `wanted`.
 fn mesh(length: f64, wanted: u32, markers: impl Iterator<Item = f64>) -> Vec<f64> {
-    let mut stops: Vec<f64> = markers.filter(|s| *s > SAME * length && *s < (1.0 - SAME) * length).collect();
+    let mut stops: Vec<f64> =
+        markers.filter(|s| *s > tolerances::SAME * length && *s < (1.0 - tolerances::SAME) * length).collect();
     stops.push(length);
     stops.sort_by(f64::total_cmp);
-    stops.dedup_by(|b, a| *b - *a < SAME * length);
+    stops.dedup_by(|b, a| *b - *a < tolerances::SAME * length);
     let mut abscissae = vec![0.0];
     let mut from = 0.0;
     for to in stops {
         // Round-off must not add an element.
-        let parts = ((to - from) / length * f64::from(wanted) - SAME).ceil().max(1.0) as u32;
+        let parts = ((to - from) / length * f64::from(wanted) - tolerances::SAME).ceil().max(1.0) as u32;
         abscissae.extend((1..parts).map(|i| from + (to - from) * f64::from(i) / f64::from(parts)));
         abscissae.push(to);
         from = to;
@@ -194,7 +193,7 @@ fn check_marker(name: &str, s: f64, abscissae: &[f64]) -> Result<usize> {
         return Err(Error::input(format!("`{name}` is the name of a node")).hint("choose another one"));
     }
     let length = abscissae[abscissae.len() - 1];
-    let slack = SAME * length;
+    let slack = tolerances::SAME * length;
     if !(-slack..=length + slack).contains(&s) {
         return Err(Error::input(format!("the marker is off the beam, at s = {}", short(s)))
             .hint(format!("give [s, ...] with 0 <= s <= {}, the length", short(length))));

@@ -1,20 +1,7 @@
 //! Steps over singular states.
 
+use crate::tolerances::simulate as tolerances;
 use serde::{Deserialize, Deserializer, Serialize};
-
-/// Below this part of the largest rank indicator a state is near a singular one.
-const NEAR: f64 = 0.1;
-/// Below this part steps are placed about the singular state.
-const PLACED: f64 = 0.3;
-
-/// Below this part the state is singular to round-off.
-const AT: f64 = 1e-6;
-/// Steps that are this part of those far from singular states will not come over one.
-const STUCK: f64 = 1e-8;
-/// A fixed step over a singular state may start late by this part of itself rather than after a step so short.
-const SLACK: f64 = 0.05;
-/// The local error of such a step as part of the error of the run.
-const SHARE: f64 = 0.1;
 
 /// How the motion comes near a singular state, where G loses rank: by the rank indicator of a constraint row at the
 /// last accepted states, which falls to zero there linearly in time.
@@ -72,7 +59,7 @@ impl Approach {
     pub fn add(&mut self, t: f64, rank_indicator: f64) {
         let step = t - self.t;
         let largest = self.largest.max(rank_indicator);
-        let is_regular = rank_indicator > PLACED * largest && step.is_finite();
+        let is_regular = rank_indicator > tolerances::PLACED_STEPS * largest && step.is_finite();
         let regular = if is_regular { step } else { self.regular };
         let rate = (rank_indicator - self.rank_indicator) / step;
         let bend = if self.step.is_finite() { 2.0 * (rate - self.rate) / (step + self.step) } else { f64::INFINITY };
@@ -86,12 +73,13 @@ impl Approach {
 
     /// Whether the last state is near a singular one.
     pub fn is_near(&self) -> bool {
-        self.rank_indicator < NEAR * self.largest
+        self.rank_indicator < tolerances::NEAR_SINGULAR * self.largest
     }
 
     /// Whether steps that small will not come over a singular state.
     pub fn is_stuck(&self, h: f64) -> bool {
-        self.rank_indicator < PLACED * self.largest && h < STUCK * self.regular
+        self.rank_indicator < tolerances::PLACED_STEPS * self.largest
+            && h < tolerances::STUCK_AT_SINGULAR * self.regular
     }
 
     /// The time to the singular state, at the last rate.
@@ -104,7 +92,9 @@ impl Approach {
     pub fn place(&mut self, h: f64, gap: f64) -> f64 {
         let (ahead, across) = (self.ahead(), self.ahead() / gap);
         // At a singular state there is nothing ahead.
-        if !(self.rank_indicator < PLACED * self.largest && self.rank_indicator > AT * self.largest && self.rate < 0.0)
+        if !(self.rank_indicator < tolerances::PLACED_STEPS * self.largest
+            && self.rank_indicator > tolerances::AT_SINGULAR * self.largest
+            && self.rate < 0.0)
         {
             h
         } else if !self.is_tried && across <= h.max(self.regular) {
@@ -128,13 +118,13 @@ impl Approach {
             return left;
         }
         let scale = (-self.largest / self.rate).min((self.largest / self.bend.abs()).sqrt());
-        let local_error = f64::EPSILON.max(SHARE * (h / scale).powi(order as i32));
+        let local_error = f64::EPSILON.max(tolerances::SINGULAR_SHARE * (h / scale).powi(order as i32));
         let longest = scale * local_error.powf(1.0 / (order as f64 + 1.0));
         let across = h.max(longest).min((end - ahead) / (1.0 - gap));
         let before = ahead - gap * across;
         if before >= left || ahead < 0.5 * gap * across {
             left
-        } else if before > SLACK * across {
+        } else if before > tolerances::LATE_FIXED_STEP * across {
             before
         } else {
             ahead / gap

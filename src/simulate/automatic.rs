@@ -10,6 +10,7 @@ use crate::error::{Failure, Result, clock, short};
 use crate::formulation::{Choice, Dynamics, Statistics, degrees_of_freedom};
 use crate::integrator::Store;
 use crate::system::MechanicalSystem;
+use crate::tolerances::simulate as tolerances;
 use serde::Serialize;
 
 /// A method with the reason for it, in one or two sentences, and the time from which on it carries the motion, s.
@@ -24,20 +25,6 @@ pub struct Leg {
     pub trials: Statistics,
 }
 
-/// Work before the first look, in evaluations.
-const FIRST: f64 = 200.0;
-/// An implicit method must come this much farther to take over, and an explicit one, which takes a few long steps before
-/// stability holds them.
-const WORTH: f64 = 1.5;
-const WORTH_BACK: f64 = 2.0;
-/// What comes no farther than this is no alternative.
-const SLOWER: f64 = 0.5;
-/// Runs that stop again within this part of the span are not helped by the other method. Nor would `augmented_lagrangian` help
-/// at singular states: it comes over those of `n_four_bar`, but 1e-4 to 1e-2 beside the motion.
-const AGAIN: f64 = 1e-6;
-
-/// An advice looks at no more work than this at a time, in evaluations.
-const MOST_ADVICE: f64 = 2e4;
 const CALM: &str = "not stiff: accuracy, not stability, limits explicit steps";
 
 /// Formulation, integrator and projection.
@@ -156,7 +143,7 @@ impl<'s: 'a, 'a> Drive<'s, 'a> {
     ) -> Result<Self> {
         let run = Run::new((system, store), &methods[EXPLICIT], span, [q, v, &[0.0]].concat())?;
         let leg = Leg::of(span.start, &methods[EXPLICIT], CALM.to_string());
-        let (carrier, stopped, window, contest, legs) = (EXPLICIT, 0, FIRST, None, Vec::new());
+        let (carrier, stopped, window, contest, legs) = (EXPLICIT, 0, tolerances::IMPLICIT_TRIED, None, Vec::new());
         Ok(Drive { system, store, methods, span, run, carrier, stopped, window, contest, legs, leg })
     }
 
@@ -185,14 +172,14 @@ impl<'s: 'a, 'a> Drive<'s, 'a> {
         if failure.is_none() {
             return self.run.t >= self.span.end;
         }
-        let is_again = self.run.t - self.leg.from < AGAIN * (self.span.end - self.span.start);
+        let is_again = self.run.t - self.leg.from < tolerances::STOPS_AGAIN * (self.span.end - self.span.start);
         self.stopped = if is_again { self.stopped + 1 } else { 1 };
         sink.stops().is_some() || self.stopped == self.methods.len()
     }
 
     /// Whether its work says enough of the motion.
     fn is_known(&self, mark: Mark) -> bool {
-        self.window > MOST_ADVICE || self.run.has_shown_itself(mark)
+        self.window > tolerances::ADVICE_WORK || self.run.has_shown_itself(mark)
     }
 
     /// Which other method should go on and why, if one should: after the work since `mark`, or after a failure.
@@ -208,7 +195,8 @@ impl<'s: 'a, 'a> Drive<'s, 'a> {
         let (contest, work) = self.run.contest(mark, hindered, other, self.system)?;
         self.contest = Some(contest);
         self.leg.trials = self.leg.trials + work;
-        let wins = contest.gain > if self.carrier == EXPLICIT { WORTH } else { WORTH_BACK };
+        let wins = contest.gain
+            > if self.carrier == EXPLICIT { tolerances::IMPLICIT_WORTH } else { tolerances::EXPLICIT_WORTH };
         let because = words(&contest, names, wins);
         if !wins && self.leg.because == CALM {
             self.leg.because.clone_from(&because);
@@ -255,7 +243,7 @@ fn words(Contest { t, mode, step, gain }: &Contest, [own, other]: [&str; 2], win
     let two = |x: f64| short(format!("{x:.1e}").parse().unwrap_or(x));
     let kind = match (own, wins) {
         ("dop853", true) => "stiff",
-        ("dop853", false) if *gain < SLOWER => "not stiff",
+        ("dop853", false) if *gain < tolerances::NO_ALTERNATIVE => "not stiff",
         ("dop853", false) => "fast, not stiff",
         (_, true) => "no longer stiff",
         _ => "stiff",

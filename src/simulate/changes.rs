@@ -7,13 +7,7 @@ use crate::formulation::Halt;
 use crate::integrator::{From, first_step};
 use crate::math::largest;
 use crate::system::{Loaded, Need, Scratch};
-
-/// What round-off may leave of constraints and their rates, as part of the scene's scales.
-const ROUND_OFF: f64 = 1e-9;
-/// A jump of v' of more tolerated errors over a step makes the next one start small.
-const SMALL_JUMP: f64 = 1.0;
-/// A step is cut to passages on its dense output at most so often.
-const MOST_CUTS: usize = 10;
+use crate::tolerances::simulate as tolerances;
 
 const CONTINUOUS: &str = "write a law that passes through zero steadily, such as `tanh(x/width)` in the place of \
      `sign(x)`, or `smoothstep` in the place of `step` and `if`";
@@ -23,7 +17,7 @@ impl Run<'_> {
     /// output, since it would not find back to that place.
     pub fn end_at_passage(&mut self, h: &mut f64, end: &mut Option<f64>) -> Result<Option<Passage>, Halt> {
         let mut passage = self.passage(*h, self.end_of(*h, *end))?;
-        for _ in 0..MOST_CUTS {
+        for _ in 0..tolerances::CUTS {
             let own = passage.filter(|_| self.integrator.own_step().is_some());
             let Some(Passage::Within(theta)) = own else { break };
             let from = From { t: self.t, y: &self.y, slope: &self.slope, end: self.end_of(*h, *end) };
@@ -94,7 +88,7 @@ impl Run<'_> {
         let jump: Vec<f64> = self.slope.iter().zip(&before).map(|(after, before)| self.h * (after - before)).collect();
         // A method that chooses its own steps knows nothing of the steps before.
         let is_own = self.integrator.own_step().is_some();
-        if self.fixed.is_none() && (is_own || self.tolerance.norm(&self.y, &jump) > SMALL_JUMP) {
+        if self.fixed.is_none() && (is_own || self.tolerance.norm(&self.y, &jump) > tolerances::SMALL_JUMP) {
             self.start_small()?;
         }
         Ok(())
@@ -146,7 +140,7 @@ impl Run<'_> {
         let [now, rate] = self.constraints();
         let jumps = |new: &[f64], old: &[f64]| new.iter().zip(old).map(|(new, old)| new - old).collect::<Vec<f64>>();
         let (jump, kink) = (jumps(&now, &phi), jumps(&rate, &phi_dot));
-        if let Some(row) = (0..jump.len()).find(|&row| jump[row].abs() > ROUND_OFF * self.scales[row]) {
+        if let Some(row) = (0..jump.len()).find(|&row| jump[row].abs() > tolerances::SAME * self.scales[row]) {
             let (names, by) = (
                 self.problem.dynamics.system.names().lambda,
                 short(format!("{:.1e}", jump[row].abs()).parse().unwrap_or(0.0)),
@@ -156,7 +150,7 @@ impl Run<'_> {
                 self.failure(reason, Some("prescribe a motion without jumps: no mechanism follows one in no time"))
             );
         }
-        if largest(&kink) > ROUND_OFF * (largest(&rate) + largest(self.problem.split(&self.y).1)) {
+        if largest(&kink) > tolerances::SAME * (largest(&rate) + largest(self.problem.split(&self.y).1)) {
             self.kick(&kink).map_err(|halt| self.halted(&halt))?;
         }
         Ok(())

@@ -10,29 +10,7 @@ use crate::error::{Failure, Result};
 use crate::formulation::{Dynamics, Statistics};
 use crate::integrator::Store;
 use crate::system::{Loaded, MechanicalSystem};
-
-/// Work of an evaluation in implicit methods, its share of factorizations and back-substitutions included, in evaluations by
-/// explicit ones: 2 to 4 on the shipped scenes, whatever their size.
-const IMPLICIT: f64 = 3.0;
-/// From this part of the longest stable step on, stability may be what holds the steps of an explicit method: with the steps
-/// that it refuses again and again they are a quarter of it on average.
-const HELD: f64 = 0.1;
-/// Up to so many times the longest stable step an explicit method may be worth trying in the place of an implicit one.
-const NEAR: f64 = 20.0;
-/// Most of the longest stable step, as |lambda| h, that is asked of methods without a limit of their own: dop853's.
-const STABLE: f64 = 6.1;
-/// Least work of a trial, in evaluations: the first steps of radau_iia, each up to eight times the one before.
-const LEAST: f64 = 300.0;
-/// A trial has so much of the work that it is compared with, and is worth no more of what is left, however long its steps grow.
-const SHARE: f64 = 0.25;
-
-/// Steps grow where the next one is so many times their mean.
-const GROWN: f64 = 2.0;
-/// How often a run that is watched goes on for that.
-const GROWTHS: usize = 5;
-
-/// This part of the work that is left says enough of it.
-const SHOWN: f64 = 0.1;
+use crate::tolerances::simulate as tolerances;
 
 /// How far a run has come, s, after how much work in evaluations, of which so much was for rows, and how many steps.
 #[derive(Clone, Copy, Debug)]
@@ -74,7 +52,7 @@ impl Sink for Quiet {
 impl Run<'_> {
     pub fn mark(&self) -> Mark {
         let Statistics { steps, rhs_evaluations, rows, .. } = self.statistics();
-        let price = if self.is_explicit { 1.0 } else { IMPLICIT };
+        let price = if self.is_explicit { 1.0 } else { tolerances::IMPLICIT_WORK };
         let [own, rows] = [rhs_evaluations, rows.rhs_evaluations].map(|count| price * count as f64);
         Mark { t: self.t, work: own + rows, rows, steps }
     }
@@ -84,7 +62,7 @@ impl Run<'_> {
     pub fn window(&mut self, work: f64, most: f64, sink: &mut dyn Sink) -> (Mark, Option<Failure>) {
         let mut mark = self.mark();
         let most = mark.work + most;
-        for _ in 0..=GROWTHS {
+        for _ in 0..=tolerances::WATCHED_AGAIN {
             let start = self.mark();
             for part in [0.5, 1.0] {
                 self.allowance = start.work + part * work;
@@ -95,7 +73,7 @@ impl Run<'_> {
                     mark = self.mark();
                 }
             }
-            let has_grown = self.h < GROWN * self.step_since(mark);
+            let has_grown = self.h < tolerances::STEPS_GROW * self.step_since(mark);
             if self.t >= self.span.end || has_grown || self.mark().work + work > most {
                 break;
             }
@@ -105,7 +83,7 @@ impl Run<'_> {
 
     /// Whether the work so far is a good part of what the motion will take at the pace since `mark`.
     pub fn has_shown_itself(&self, mark: Mark) -> bool {
-        self.mark().work > SHOWN * self.left(mark)
+        self.mark().work > tolerances::TRIAL_SHOWS * self.left(mark)
     }
 
     /// Work of steps to the end at the pace since `mark`: rows are due whatever the method.
@@ -122,7 +100,7 @@ impl Run<'_> {
     /// The fastest mode of the state, where steps since `mark` were so long that it matters to which kind of method goes
     /// on, and enough is left to do; with their mean.
     pub fn hindered(&self, mark: Mark) -> Option<(Mode, f64)> {
-        if SHARE * self.left(mark) < LEAST {
+        if tolerances::TRIAL_SHARE * self.left(mark) < tolerances::TRIAL_WORK {
             return None;
         }
         let step = self.step_since(mark);
@@ -131,9 +109,11 @@ impl Run<'_> {
         dynamics.solve(self.t, q, v, |_, _| 0.0).ok()?;
         let mode = fastest(system, Loaded { t: self.t, q, v, vdot: &dynamics.vdot, lambda: &dynamics.lambda })?;
         let stability = self.integrator.stability();
-        let limit = stability.as_ref().map_or(STABLE, |stability| stability.limit(mode.decay, mode.swing));
+        let limit =
+            stability.as_ref().map_or(tolerances::STABLE_STEP, |stability| stability.limit(mode.decay, mode.swing));
         let part = step * mode.rate() / limit;
-        let matters = if self.is_explicit { part > HELD } else { part < NEAR };
+        let matters =
+            if self.is_explicit { part > tolerances::STABILITY_HOLDS } else { part < tolerances::EXPLICIT_AGAIN };
         matters.then_some((mode, step))
     }
 
@@ -147,7 +127,8 @@ impl Run<'_> {
         system: &dyn MechanicalSystem,
     ) -> Result<(Contest, Statistics)> {
         let own = self.mark();
-        let (budget, most) = (LEAST.max(SHARE * (own.work - mark.work)), SHARE * self.left(mark));
+        let share = |work: f64| tolerances::TRIAL_SHARE * work;
+        let (budget, most) = (tolerances::TRIAL_WORK.max(share(own.work - mark.work)), share(self.left(mark)));
         let store = Store::default();
         let mut rival = Run::new((system, &store), other, self.span, self.y.clone())?;
         (rival.t, rival.rows.next) = (self.t, self.rows.next);

@@ -1,17 +1,7 @@
 //! Turns at thresholds that crowd without end.
 
+use crate::tolerances::simulate as tolerances;
 use serde::{Deserialize, Serialize};
-
-/// Turns are looked at in windows of so many.
-const WINDOW: usize = 250;
-/// A run that has so many turns before it at the rate of the last window does not come to its end.
-const MOST: f64 = 5e7;
-/// Nor does one with so many where the last windows, this number of them, were each shorter and slower than the one before:
-/// the motion comes to rest at the threshold, and the turns get ever more.
-const MOST_IN_DECAY: f64 = 1e5;
-const DECAY: usize = 4;
-/// Nor does one whose turns, in so many windows, were all nearer to each other than the tolerance: it has lost the motion.
-const UNSEEN: usize = 2;
 
 /// The turns of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -38,7 +28,7 @@ impl Crowd {
     pub fn add(&mut self, t: f64, rate: f64, moves: bool) {
         let Window { start, count, rates, moves: moved, .. } = &mut self.window;
         (*count, *rates, *moved) = (*count + 1, *rates + rate.abs(), *moved || moves);
-        if *count < WINDOW {
+        if *count < tolerances::TURNS_IN_WINDOW {
             return;
         }
         self.window.duration = t - *start;
@@ -52,8 +42,10 @@ impl Crowd {
     /// How many turns took how long, where a run of the span `left` would not come to an end.
     pub fn endless(&self, left: f64) -> Option<(usize, f64)> {
         let duration = self.last?.duration;
-        let ahead = WINDOW as f64 * left / duration;
-        let is_endless = ahead > MOST || self.decaying >= DECAY && ahead > MOST_IN_DECAY || self.unseen >= UNSEEN;
-        is_endless.then_some((WINDOW, duration))
+        let ahead = tolerances::TURNS_IN_WINDOW as f64 * left / duration;
+        let is_endless = ahead > tolerances::TURNS
+            || self.decaying >= tolerances::WINDOWS_IN_DECAY && ahead > tolerances::TURNS_IN_DECAY
+            || self.unseen >= tolerances::WINDOWS_UNSEEN;
+        is_endless.then_some((tolerances::TURNS_IN_WINDOW, duration))
     }
 }

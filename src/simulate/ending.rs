@@ -4,31 +4,28 @@ use super::{Run, Sink};
 use crate::error::Failure;
 use crate::formulation::Halt;
 use crate::math::largest_in;
+use crate::tolerances::simulate as tolerances;
 
 const SINGULAR: &str = "this tolerance is too near to round-off there: try a looser one, or a fixed --step with `rk4`, which \
      goes over it";
 
 const PASSES: &str = "`index1` with `dop853` and `manifold` goes over it";
 
-/// So many steps that come no farther than this part of the span will not come to its end.
-const MOST_TRIES: usize = 50_000;
-const CRAWL: f64 = 1e-8;
-
-/// Joints that are open by so many times the scene's size will not close again.
-const MOST_OPEN: f64 = 10.0;
-
 impl Run<'_> {
     /// Ends a run that would never come to its end.
     pub fn check_progress(&mut self) -> Result<(), Failure> {
         let (since, tries) = self.progress;
         let advanced = self.t - since;
-        if advanced > CRAWL * (self.span.end - self.span.start) {
+        if advanced > tolerances::CRAWL * (self.span.end - self.span.start) {
             self.progress = (self.t, 0);
             return Ok(());
         }
         self.progress.1 += 1;
-        match tries > MOST_TRIES {
-            true => Err(self.failure(format!("{MOST_TRIES} steps have come no farther than {advanced:.1e} s"), None)),
+        match tries > tolerances::CRAWLING_STEPS {
+            true => Err(self.failure(
+                format!("{} steps have come no farther than {advanced:.1e} s", tolerances::CRAWLING_STEPS),
+                None,
+            )),
             false => Ok(()),
         }
     }
@@ -36,7 +33,7 @@ impl Run<'_> {
     /// Ends a motion that is no longer one of this mechanism.
     pub fn check_joints(&self) -> Result<(), Failure> {
         let open = largest_in(&self.scales, &self.problem.dynamics.terms.phi);
-        match open > MOST_OPEN {
+        match open > tolerances::JOINTS_APART {
             true => Err(self.failure(format!("the joints have come apart by {open:.1e} times the scene's size"), None)),
             false => Ok(()),
         }

@@ -5,6 +5,7 @@ use crate::formulation::{self, Choice};
 use crate::integrator::{self, Steps, Tolerance};
 use crate::projection;
 use crate::system::MechanicalSystem;
+use crate::tolerances::simulate as tolerances;
 use serde::{Deserialize, Serialize};
 
 /// A method: formulation x integrator x projection, with its accuracy.
@@ -34,25 +35,20 @@ impl Default for Method {
     }
 }
 
-/// Scenes of this length, m, and more have one absolute tolerance.
-const SMALL: f64 = 1e-2;
-/// No absolute tolerance that nobody asked for is below this: round-off leaves it of angles.
-const LEAST_ATOL: f64 = 1e-16;
-
 /// The atol that goes with `rtol` in this `ratio`, as a command line can give it.
 pub fn atol_of(rtol: f64, ratio: f64) -> f64 {
     let atol = rtol * ratio;
     format!("{atol:.3e}").parse().unwrap_or(atol)
 }
 
-/// Errors of motions that amplify none are to be within so many tolerances.
-const FACTOR: f64 = 10.0;
-
 impl Method {
     /// The default, with an absolute tolerance of 1e-8 of the length, m, of a scene that is smaller than a centimetre.
     pub fn of_length(length: f64) -> Self {
         let default = Method::default();
-        Method { atol: (default.atol * (length / SMALL).min(1.0)).max(LEAST_ATOL), ..default }
+        Method {
+            atol: (default.atol * (length / tolerances::SHORT_SCENE).min(1.0)).max(tolerances::LEAST_ATOL),
+            ..default
+        }
     }
 
     /// Formulation + integrator + projection, the last where there is one.
@@ -68,7 +64,7 @@ impl Method {
     pub fn beyond_reach(&self, system: &dyn MechanicalSystem) -> Option<Warning> {
         let (entry, asked) = (integrator::find(&self.integrator).ok()?, Tolerance::new(self.rtol, self.atol, system));
         let reached = entry.tightening.reached(&asked);
-        let is_beyond = self.step.is_none() && reached > FACTOR * self.rtol;
+        let is_beyond = self.step.is_none() && reached > tolerances::ERROR_OF_MOTION * self.rtol;
         is_beyond.then(|| {
             let (name, rtol, reached) = (entry.name, short(self.rtol), format!("{reached:.0e}"));
             let text = format!("{name} comes to errors of about {reached}, not to rtol {rtol}: its steps are at their tightest");

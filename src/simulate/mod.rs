@@ -39,9 +39,7 @@ use crate::formulation::{self, Choice, Dynamics, Statistics};
 use crate::integrator::{self, Integrator, Problem, Setup, Store, Tolerance};
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
-
-/// A step that is undecided about a threshold is not made shorter than so many of those that make no sense.
-const SHORTEST: f64 = 1e3;
+use crate::tolerances::simulate as tolerances;
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -308,7 +306,9 @@ impl<'a> Run<'a> {
             Some(Passage::AtStart(number)) => {
                 self.change_form(Some(number))?;
                 // A step that leaves on neither side is longer than the way to the threshold.
-                if self.fixed.is_none() && 0.1 * self.h > SHORTEST * self.smallest() && self.events.is_undecided(number)
+                if self.fixed.is_none()
+                    && 0.1 * self.h > tolerances::UNDECIDED_STEP * self.smallest()
+                    && self.events.is_undecided(number)
                 {
                     self.h *= 0.1;
                 }

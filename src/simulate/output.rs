@@ -4,22 +4,14 @@ use super::rows::project;
 use super::{Run, Sink};
 use crate::formulation::Halt;
 use crate::integrator::From;
-
-/// A time nearer to the end of a step than this part of it is the end.
-const SLACK: f64 = 1e-9;
-/// v' of the dense output is a difference over this part of the step.
-const APART: f64 = 1e-3;
-/// The v' of a row contradicts the dense output where the difference over the step is so many tolerated errors of v, and more
-/// than this part of all accelerations at hand.
-const MANY: f64 = 100.0;
-const PART: f64 = 0.2;
+use crate::tolerances::simulate as tolerances;
 
 impl Run<'_> {
     /// Emits the rows within the step from `t` to `t + h`; the fraction of the step at which a row contradicts it, if one
     /// does: at that row something acts that the step has not seen.
     pub fn output(&mut self, h: f64, end: Option<f64>, sink: &mut dyn Sink) -> Result<Option<f64>, Halt> {
         let end = self.end_of(h, end);
-        let slack = SLACK * h;
+        let slack = tolerances::SAME * h;
         let mut prepared = false;
         loop {
             let t = self.span.row(self.rows.next);
@@ -62,7 +54,11 @@ impl Run<'_> {
         self.integrator.interpolate(&mut rows.problem, from, h, theta, &mut rows.y)?;
         let is_checked = self.is_explicit && self.fixed.is_none() && !self.approach.reaches(h);
         if is_checked {
-            let apart = if theta + APART < 1.0 { APART } else { -APART };
+            let apart = if theta + tolerances::DIFFERENCE_OF_ROWS < 1.0 {
+                tolerances::DIFFERENCE_OF_ROWS
+            } else {
+                -tolerances::DIFFERENCE_OF_ROWS
+            };
             self.integrator.interpolate(&mut rows.problem, from, h, theta + apart, &mut rows.ahead)?;
             rows.differentiate(h * apart);
         }
@@ -83,7 +79,8 @@ impl Run<'_> {
         row.zip(&self.rows.vdot).zip(ends).zip(size).any(|(((row, dense), (a, b)), (v0, v1))| {
             let off = (row - dense).abs();
             let all = row.abs() + dense.abs() + a.abs() + b.abs();
-            off > PART * all && h * off > MANY * self.tolerance.weight(*v0, *v1)
+            off > tolerances::CONTRADICTED_PART * all
+                && h * off > tolerances::CONTRADICTED_ERRORS * self.tolerance.weight(*v0, *v1)
         })
     }
 }

@@ -4,11 +4,7 @@ use super::Run;
 use super::events::Events;
 use crate::formulation::Halt;
 use crate::integrator::first_step;
-
-/// The parts of a fixed step that misses what acts by the clock, beside steps on which that is almost cubic.
-const FINER: f64 = 0.125;
-/// The part of what is resolved that one cubic shows.
-const SHOWN: f64 = 0.25;
+use crate::tolerances::simulate as tolerances;
 
 /// A time at which a step must end.
 #[derive(Clone, Copy)]
@@ -17,11 +13,6 @@ pub struct NextStop {
     /// Whether a function of time changes its form there.
     pub changes_form: bool,
 }
-
-/// A time of the grid nearer than this part of a step is passed over.
-const TINY: f64 = 1e-3;
-/// What rounding may leave of a step, as part of it, and of the time.
-const ROUND_OFF: f64 = 1e-9;
 
 impl Run<'_> {
     pub fn first_step(&mut self) -> Result<f64, Halt> {
@@ -86,10 +77,13 @@ impl Run<'_> {
     fn resolved(&mut self, size: f64, stop: f64) -> f64 {
         let (t, Events { timetable, pieces, .. }) = (self.t, &mut self.events);
         let Some(step) = self.fixed else { return timetable.resolved(t, size, stop, pieces) };
-        if t >= self.divided && timetable.resolved(t, size / SHOWN, stop, pieces) >= size / SHOWN {
+        if t >= self.divided
+            && timetable.resolved(t, size / tolerances::SHOWN_BY_CUBIC, stop, pieces)
+                >= size / tolerances::SHOWN_BY_CUBIC
+        {
             return size;
         }
-        let parts = FINER * timetable.finely_resolved(t, size / FINER, pieces);
+        let parts = tolerances::FINER_PARTS * timetable.finely_resolved(t, size / tolerances::FINER_PARTS, pieces);
         self.divided = self.next_of_grid(step);
         parts.min(size)
     }
@@ -108,14 +102,14 @@ impl Run<'_> {
 
     /// The next time start + k h. Times are counted, not added up, so that rounding does not gather.
     fn next_of_grid(&self, h: f64) -> f64 {
-        let passed = ((self.t - self.span.start) / h + TINY).floor();
+        let passed = ((self.t - self.span.start) / h + tolerances::PASSED_GRID_TIME).floor();
         self.span.start + (passed + 1.0) * h
     }
 
     /// From here to the next time of the grid of steps `h`: `h` itself from a time of the grid.
     fn to_grid(&self, h: f64) -> f64 {
         let left = self.next_of_grid(h) - self.t;
-        if (left - h).abs() < ROUND_OFF * h + 4.0 * f64::EPSILON * self.t.abs() { h } else { left }
+        if (left - h).abs() < tolerances::SAME * h + 4.0 * f64::EPSILON * self.t.abs() { h } else { left }
     }
 
     /// The time of the grid at which a step of size `size` ends, if it does, in a run with fixed steps `h`.

@@ -3,6 +3,8 @@
 use crate::error::short;
 use crate::formulation::{Dynamics, free_directions, reduce};
 use crate::system::{Loaded, MechanicalSystem, Tangent};
+use crate::tolerances::initial::DENSE_EIGENVALUES;
+use crate::tolerances::simulate as tolerances;
 use serde::Serialize;
 use std::fmt;
 
@@ -24,7 +26,7 @@ impl fmt::Display for Mode {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let two = |value: f64| short(format!("{value:.1e}").parse().unwrap_or(value));
         match (self.decay, self.swing) {
-            _ if self.rate() < SLOWEST => write!(out, "neither swings nor decays"),
+            _ if self.rate() < tolerances::SLOWEST_MODE => write!(out, "neither swings nor decays"),
             (decay, swing) if swing > decay.abs() => write!(out, "swings at {} rad/s", two(swing)),
             (decay, _) if decay < 0.0 => write!(out, "grows at {} 1/s", two(-decay)),
             (decay, _) => write!(out, "decays at {} 1/s", two(decay)),
@@ -52,7 +54,7 @@ impl Spectrum {
     /// At a state with the v' and lambda of the equations. None where these give no K and C or are not finite.
     pub fn at(system: &dyn MechanicalSystem, state: Loaded) -> Option<Self> {
         let mut frozen = Frozen::new(system, state)?;
-        if system.dimensions().v > MOST_VELOCITIES {
+        if system.dimensions().v > DENSE_EIGENVALUES {
             return Some(Spectrum { modes: frozen.fastest()?, is_estimate: true });
         }
         let z = free_directions(&mut frozen.dynamics)?;
@@ -65,13 +67,6 @@ impl Spectrum {
 pub fn fastest(system: &dyn MechanicalSystem, state: Loaded) -> Option<Mode> {
     Frozen::new(system, state)?.fastest()?.last().copied()
 }
-
-/// Slower than this, 1/s, a mode is one of rounding or as good as none.
-const SLOWEST: f64 = 1e-6;
-/// More velocities than this are too many for dense matrices.
-const MOST_VELOCITIES: usize = 300;
-/// Iterations for the fastest mode alone: a few percent where others are as fast.
-const ITERATIONS: usize = 60;
 
 type Matrix = nalgebra::DMatrix<f64>;
 
@@ -123,7 +118,7 @@ impl<'a> Frozen<'a> {
         // Any vector will do; this one has all directions in it and no symmetry.
         let mut x = self.accelerate((0..n).map(|i| (1.0 + i as f64).sqrt().fract() - 0.5).collect())?;
         let mut v = vec![0.0; n];
-        for _ in 0..ITERATIONS {
+        for _ in 0..tolerances::POWER_ITERATIONS {
             let a = self.follow(&x, &v)?;
             let size = norm(&a) + norm(&v);
             if size == 0.0 {

@@ -3,17 +3,13 @@
 use super::Run;
 use crate::error::Failure;
 use crate::math::largest;
+use crate::tolerances::simulate as tolerances;
 
 const NO_BRANCH: &str = "the start is a singular state, with velocities that no motion through it has: constraints \
      that depend on each other there ask for different accelerations";
 const UNDETERMINED: &str = "the start is a singular state at rest, and the motion is not determined: several motions \
      meet there, and the forces push it along none of them";
 const BRANCHES: &str = "give velocities along one of the motions that meet there, or start beside it";
-
-/// What round-off may leave of accelerations of constraints, and of their lengths.
-const ROUND_OFF: f64 = 1e-6;
-/// Velocities that are this part of what the accelerations would make over the run are none.
-const AT_REST: f64 = 1e-12;
 
 impl Run<'_> {
     /// Finds the rows that depend on others at the start, and drops them until they do not hold any more. Refuses
@@ -26,7 +22,9 @@ impl Run<'_> {
         let (dependent, contradiction) = dynamics.dependent_rows(self.t, q, v);
         let duration = self.span.end - self.span.start;
         let mut is_undetermined = false;
-        if !dependent.is_empty() && largest(&v[moving]) <= AT_REST * largest(&dynamics.vdot[moving]) * duration {
+        let is_at_rest =
+            largest(&v[moving.clone()]) <= tolerances::START_AT_REST * largest(&dynamics.vdot[moving]) * duration;
+        if !dependent.is_empty() && is_at_rest {
             let vdot = dynamics.vdot.clone();
             let (_, contradiction) = dynamics.dependent_rows(self.t, q, &vdot);
             is_undetermined = self.is_contradiction(contradiction);
@@ -45,6 +43,7 @@ impl Run<'_> {
     /// open joints during the run.
     fn is_contradiction(&self, (contradiction, usual): (f64, f64)) -> bool {
         let opened = contradiction * (self.span.end - self.span.start).powi(2);
-        contradiction > ROUND_OFF * usual && opened > ROUND_OFF * largest(&self.scales)
+        contradiction > tolerances::CONTRADICTING_START * usual
+            && opened > tolerances::CONTRADICTING_START * largest(&self.scales)
     }
 }

@@ -5,21 +5,7 @@ use super::rows::project;
 use crate::formulation::Halt;
 use crate::integrator::From;
 use crate::math::largest;
-
-/// A correction that moves the state by more than this many tolerated errors refuses the step.
-const MOST_CORRECTION: f64 = 10.0;
-
-/// Near a singular state one sweep leaves errors of the positions, over the rank indicator, in the velocities.
-const SINGULAR_SWEEPS: usize = 2;
-
-/// Round-off of a projection where the rows of G are well apart.
-const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
-/// Where it is more than so many tolerated errors, the state is too near to a singular one.
-const MOST_ROUND_OFF: f64 = 1e3;
-
-/// A row that depends on others is no more open than this, and than so many times the others, which drift may open.
-const HELD: f64 = 1e-11;
-const MOST_HELD: f64 = 1e3;
+use crate::tolerances::simulate as tolerances;
 
 /// Whether an error in units of the tolerance refuses a step.
 pub fn is_too_large(error: f64) -> bool {
@@ -55,7 +41,7 @@ impl Run<'_> {
     /// Counts all constraints from the last state on, which is brought back to those that were dropped up to there.
     fn release_rows(&mut self) -> Result<(), Halt> {
         self.drop_rows(&[]);
-        project(self.t, &mut self.y, &mut self.problem, &mut self.projection, SINGULAR_SWEEPS)?;
+        project(self.t, &mut self.y, &mut self.problem, &mut self.projection, tolerances::SINGULAR_SWEEPS)?;
         self.problem.derivative(self.t, &self.y, &mut self.slope)
     }
 
@@ -66,7 +52,7 @@ impl Run<'_> {
 
     /// Sweeps of the projection in a step of size `h`.
     pub fn sweeps(&self, h: f64) -> usize {
-        if self.is_singular(h) { SINGULAR_SWEEPS } else { 1 }
+        if self.is_singular(h) { tolerances::SINGULAR_SWEEPS } else { 1 }
     }
 
     /// Whether states at the ends of steps are on the constraints, by a projection or by what is integrated.
@@ -103,7 +89,7 @@ impl Run<'_> {
             return Ok(error);
         }
         let correction = self.correction();
-        let is_far = self.limits_projection && correction > MOST_CORRECTION * self.allowed();
+        let is_far = self.limits_projection && correction > tolerances::FAR_CORRECTION * self.allowed();
         if is_singular && (is_far || error.is_some_and(is_too_large)) {
             self.refusal = "the error of a step over a singular state stays above the tolerance";
             return self.error_within_constraints(t, h);
@@ -129,7 +115,7 @@ impl Run<'_> {
         let dynamics = &self.problem.dynamics;
         let relative = |row: usize| dynamics.terms.phi[row].abs() / self.scales[row];
         let kept = (0..self.scales.len()).filter(|row| !dynamics.dropped.contains(row)).map(relative);
-        let most = HELD + MOST_HELD * kept.fold(0.0, f64::max);
+        let most = tolerances::DROPPED_ROW_OPEN + tolerances::DROPPED_ROW_OPEN_OF_OTHERS * kept.fold(0.0, f64::max);
         dynamics.dropped.iter().any(|row| relative(*row) > most)
     }
 
@@ -150,7 +136,7 @@ impl Run<'_> {
         if !self.integrator.lower_order(from, h, &mut self.change) {
             return Ok(Some(f64::NAN));
         }
-        project(t, &mut self.change, &mut self.problem, &mut self.projection, SINGULAR_SWEEPS)?;
+        project(t, &mut self.change, &mut self.problem, &mut self.projection, tolerances::SINGULAR_SWEEPS)?;
         self.change.iter_mut().zip(&self.next).for_each(|(change, next)| *change -= next);
         Ok(Some(self.tolerance.norm_between(&self.y, &self.next, &self.change) / self.allowed()))
     }
@@ -166,7 +152,7 @@ impl Run<'_> {
         let n = q.len();
         self.change[..n].fill(sizes[0]);
         self.change[n..].fill(sizes[1]);
-        let round_off = ROUND_OFF / (rank_indicator * rank_indicator) * self.tolerance.norm(&self.next, &self.change);
-        1.0 + round_off.min(MOST_ROUND_OFF)
+        let size = self.tolerance.norm(&self.next, &self.change);
+        1.0 + (tolerances::ROUND_OFF / (rank_indicator * rank_indicator) * size).min(tolerances::SINGULAR_ROUND_OFF)
     }
 }

@@ -6,6 +6,7 @@ use super::{Method, Span};
 use crate::error::{Warning, short};
 use crate::integrator::{self, Setup, Stability, Store};
 use crate::system::{Loaded, MechanicalSystem};
+use crate::tolerances::simulate as tolerances;
 use serde::Serialize;
 use std::fmt;
 
@@ -28,17 +29,6 @@ pub struct Stiffness {
     pub advice: String,
 }
 
-/// What a rough estimate of the fastest mode may be off by.
-const DOUBT: f64 = 0.5;
-/// Powers of e that an unstable mode grows by over a run before it counts.
-const GROWN: f64 = 1.0;
-/// Part of the limit that is advised.
-const SAFETY: f64 = 0.9;
-/// From here on another method deserves a word.
-const MUCH: f64 = 3.0;
-/// An adaptive method may take so many steps for stability before anything is asked.
-const FEW: f64 = 150.0;
-
 /// Warns of a method that is explicit, for a motion from `state`, which has the v' and lambda of the equations, over
 /// `span`. None where nothing is wrong or known.
 pub fn stiffness(system: &dyn MechanicalSystem, method: &Method, state: Loaded, span: Span) -> Option<Stiffness> {
@@ -48,8 +38,8 @@ pub fn stiffness(system: &dyn MechanicalSystem, method: &Method, state: Loaded, 
     // Below the limits along its own direction and both axes by far, no mode needs a closer look.
     let least =
         [(rough.decay, rough.swing), (1.0, 0.0), (0.0, 1.0)].map(|(decay, swing)| stability.limit(decay, swing));
-    let longest = method.step.unwrap_or(duration / FEW);
-    if least.iter().all(|limit| rough.rate() * longest < DOUBT * limit) {
+    let longest = method.step.unwrap_or(duration / tolerances::STEPS_FOR_STABILITY);
+    if least.iter().all(|limit| rough.rate() * longest < tolerances::DOUBTED_MODE * limit) {
         return None;
     }
     match method.step {
@@ -67,7 +57,7 @@ pub fn stiffness(system: &dyn MechanicalSystem, method: &Method, state: Loaded, 
             stable_step,
             steps_for_stability: duration / stable_step,
             implicit_gain: gain,
-            advice: advice(method, SAFETY * stable_step),
+            advice: advice(method, tolerances::ADVISED_STEP * stable_step),
         }
     })
 }
@@ -83,14 +73,14 @@ fn too_long(
     let spectrum = Spectrum::at(system, state)?;
     let stable = |mode: &Mode| stability.limit(mode.decay, mode.swing) / mode.rate().max(f64::MIN_POSITIVE);
     let &mode = spectrum.modes.iter().min_by(|a, b| stable(a).total_cmp(&stable(b)))?;
-    let grows = duration / step * stability.growth(mode.decay, mode.swing, step) > GROWN;
+    let grows = duration / step * stability.growth(mode.decay, mode.swing, step) > tolerances::UNSTABLE_MODE;
     (step > stable(&mode) && grows).then_some((mode, None))
 }
 
 /// The mode for whose sake alone an adaptive method takes its steps.
 fn too_many(system: &dyn MechanicalSystem, method: &Method, state: Loaded, span: Span) -> Option<(Mode, Option<f64>)> {
     let contest = rival(system, method, span, (state.q, state.v))?;
-    (contest.gain > MUCH).then_some((contest.mode, Some(contest.gain)))
+    (contest.gain > tolerances::ANOTHER_METHOD).then_some((contest.mode, Some(contest.gain)))
 }
 
 /// Stability of the method; none where its steps may be as long as they like.

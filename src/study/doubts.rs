@@ -7,11 +7,8 @@ use crate::initial::{Assembly, Move};
 use crate::joint::{Joint, Shape};
 use crate::scene::Connection;
 use crate::system::{MechanicalSystem, Mechanism, Scratch};
+use crate::tolerances::report as tolerances;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
-
-/// Assembly that moves a position by so many lengths of the mechanism, or an angle by more than a quarter of a turn, may have
-/// found another configuration than the one that was meant.
-const FAR: f64 = 1.0;
 
 /// What is doubtful about the scene alone.
 pub fn of_scene(mechanism: &AnyMechanism) -> &[Warning] {
@@ -43,7 +40,7 @@ fn moved_far(moves: &[Move], length: f64) -> Option<Warning> {
     let is_far = |step: &&Move| {
         let (_, coordinate) = step.name.rsplit_once('.').unwrap_or(("", &step.name));
         match coordinate {
-            "x" | "y" | "z" => (step.to - step.from).abs() > FAR * length,
+            "x" | "y" | "z" => (step.to - step.from).abs() > tolerances::ASSEMBLY_MOVED * length,
             "qw" | "qx" | "qy" | "qz" => (step.to - step.from).abs() > FRAC_1_SQRT_2,
             "angle" => (step.to - step.from).abs() > FRAC_PI_2,
             _ => false,
@@ -55,9 +52,6 @@ fn moved_far(moves: &[Move], length: f64) -> Option<Warning> {
                 is right in \"hold\" of \"assembly\"";
     Some(Warning::new(text, hint))
 }
-
-/// A guess with a smaller cosine between two axes has them against each other.
-const AGAINST: f64 = -0.9;
 
 /// Joints whose axes point against each other at the assembled start, and not in the guess: their rows hold both ways.
 fn turned_over(mechanism: &Mechanism<3>, guess: &[f64], q: &[f64]) -> Vec<Warning> {
@@ -75,7 +69,7 @@ fn turned_over(mechanism: &Mechanism<3>, guess: &[f64], q: &[f64]) -> Vec<Warnin
         mechanism.model().joints.iter().map(cosine).collect::<Vec<f64>>()
     };
     let joints = mechanism.model().joints.iter().zip(cosines(guess).into_iter().zip(cosines(q)));
-    let over = joints.filter(|(_, (guess, found))| *guess > AGAINST && *found < 0.0);
+    let over = joints.filter(|(_, (guess, found))| *guess > tolerances::AXES_AGAINST && *found < 0.0);
     let warning = |(joint, _): (&Connection<Box<dyn Joint<3>>>, _)| {
         Warning::new(
             format!(

@@ -6,6 +6,7 @@ use crate::initial::{self, Assembly, Followed};
 use crate::scene::Scene;
 use crate::study::AnyMechanism;
 use crate::system::{Column, Loaded, Names, Scratch};
+use crate::tolerances::report as tolerances;
 use std::sync::Arc;
 
 /// An assembled state with the scene that it is one of.
@@ -73,11 +74,6 @@ impl State {
     }
 }
 
-/// Ends are found to this part of the range.
-const RESOLUTION: f64 = 1e-8;
-/// Steps towards one value. Halving to the resolution takes 27.
-const MOST_STEPS: usize = 1000;
-
 /// The way from a state outwards.
 pub struct Branch<'a> {
     family: &'a Family,
@@ -92,7 +88,7 @@ pub struct Branch<'a> {
 
 impl<'a> Branch<'a> {
     pub fn new(family: &'a Family, range: &'a Range, start: State) -> Self {
-        let (parameter, resolution) = (range.parameter.as_str(), RESOLUTION * range.length());
+        let (parameter, resolution) = (range.parameter.as_str(), tolerances::PARAMETER_END * range.length());
         let (nearest, redundant) = (start.nearest(), start.dependent.len());
         Branch { family, parameter, resolution, last: start, before: None, nearest, redundant }
     }
@@ -113,7 +109,7 @@ impl<'a> Branch<'a> {
     pub fn go(&mut self, target: f64) -> Option<Limit> {
         let mut step = target - self.last.point.value;
         let mut problem = None;
-        for _ in 0..MOST_STEPS {
+        for _ in 0..tolerances::BRANCH_STEPS {
             let rest = target - self.last.point.value;
             if rest == 0.0 {
                 return None;
@@ -190,13 +186,11 @@ impl<'a> Branch<'a> {
     /// The state at the end itself, where that is the target: Newton's method does not contract there, but assembly finds
     /// it all the same.
     fn at_the_end(&self, target: f64) -> Option<State> {
-        /// At a distance d to the end the state is as far away as the root of d.
-        const BESIDE: f64 = 1e-2;
         let ready = Ready::at(self.family, self.parameter, target).ok()?;
         let (last, (_, v, hold)) = (&self.last.point.q, &ready.scene);
         let q = initial::assemble(ready.mechanism.system(), ready.t, (last, v), hold).ok()?.q;
         let size = last.iter().fold(1.0f64, |size, q| size.max(q.abs()));
-        let is_beside = q.iter().zip(last).all(|(q, last)| (q - last).abs() < BESIDE * size);
+        let is_beside = q.iter().zip(last).all(|(q, last)| (q - last).abs() < tolerances::BRANCH_BESIDE * size);
         let followed = Followed { q, rank_indicator: 0.0, dependent: Vec::new() };
         if is_beside { ready.complete(target, followed).ok() } else { None }
     }

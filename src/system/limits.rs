@@ -5,6 +5,7 @@ use super::mechanism::Mechanism;
 use crate::body::flexible::PointShape;
 use crate::body::{Bent, MarkerId, dot, norm};
 use crate::scene::{Model, Part};
+use crate::tolerances::body as tolerances;
 use std::array::from_fn;
 use std::f64::consts::PI;
 
@@ -57,17 +58,14 @@ impl Theory {
     /// an error that is allowed, where it is `turn`.
     pub fn elements_for(self, turn: f64) -> usize {
         match self {
-            Theory::Helix { elements, .. } => (elements as f64 * turn / (0.5 * PI) - ROUNDING).ceil() as usize,
-            Theory::Mesh { elements } => (elements as f64 * (turn / SMOOTH).sqrt()).ceil() as usize,
+            Theory::Helix { elements, .. } => {
+                (elements as f64 * turn / (0.5 * PI) - tolerances::QUARTER_TURN).ceil() as usize
+            }
+            Theory::Mesh { elements } => (elements as f64 * (turn / tolerances::MESH_AIM).sqrt()).ceil() as usize,
             _ => 0,
         }
     }
 }
-
-/// Part of the energy of bending that elements miss, of order 2 in their length, that a finer mesh aims at.
-const SMOOTH: f64 = 0.02;
-/// A quarter turn may be passed by so much of it.
-const ROUNDING: f64 = 0.01;
 
 /// Where a part is looked at.
 pub(super) enum Extent<const D: usize> {
@@ -80,9 +78,6 @@ pub(super) enum Extent<const D: usize> {
     /// The same of a line of elements of one length.
     Line(Vec<[MarkerId; 2]>),
 }
-
-/// A line whose elements turn by less than this together, rad, is as good as straight.
-const STRAIGHT: f64 = 0.5;
 
 /// Equal parts of the line of a beam at whose ends it is looked at, beside its markers.
 pub(super) const POINTS: usize = 8;
@@ -157,7 +152,7 @@ impl<const D: usize> Mechanism<D> {
             bend += norm(&here);
             around = [here, after, if i + 2 <= last { self.turn_between(elements[i + 2], q) } else { after }];
         }
-        if bend > STRAIGHT { change / whole } else { 0.0 }
+        if bend > tolerances::STRAIGHT { change / whole } else { 0.0 }
     }
 
     /// The rotation vector of the second marker against the first.

@@ -6,9 +6,7 @@ use crate::body::{Frame, MarkerId, in_space};
 use crate::joint::{Joint, Shape};
 use crate::math::{Regime, Taylor, Time};
 use crate::scene::{Connection, Part};
-
-/// Drives with speeds or axes that differ by less, in parts of the speed or of a length, are one.
-const SAME: f64 = 1e-9;
+use crate::tolerances::body as tolerances;
 
 impl<const D: usize> Mechanism<D> {
     /// What all drives that move at `t` prescribe together.
@@ -91,6 +89,6 @@ impl Spin {
         let speed = self.speed();
         let arm: [f64; 3] = std::array::from_fn(|i| other.point[i] - self.point[i]);
         let across = crate::body::cross(&self.velocity, &arm);
-        (0..3).all(|i| turn(i) <= SAME * speed && across[i].abs() <= SAME * speed)
+        (0..3).all(|i| turn(i) <= tolerances::SAME * speed && across[i].abs() <= tolerances::SAME * speed)
     }
 }

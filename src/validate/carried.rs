@@ -3,6 +3,7 @@
 use crate::error::{Error, Result};
 use crate::linearize::{Chart, Coordinates, Matrix, State, Variation, parallel};
 use crate::system::MechanicalSystem;
+use crate::tolerances::linearize as tolerances;
 
 /// A chart at the start, and how it goes on from there: a constant one stays, as all do at an equilibrium; the basis of the
 /// intrinsic one is carried parallel, N' = f(N) (classical Runge-Kutta method).
@@ -13,13 +14,6 @@ pub struct Carried<'a> {
     /// How fast the basis turns, 1/s; none: the chart is constant.
     rate: Option<f64>,
 }
-
-/// The basis turns by no more than this from one state to the next, rad: the method's error is then about 1e-7 a radian.
-const TURN: f64 = 0.05;
-/// States from one time that is asked for to the next, at least, in pairs: each pair is a step of the method.
-const FEWEST: f64 = 2.0;
-/// A motion that turns so fast that it takes more of them is not followed for so long.
-const MOST: f64 = 1e6;
 
 impl<'a> Carried<'a> {
     /// The chart at a state.
@@ -43,8 +37,10 @@ impl<'a> Carried<'a> {
     pub fn times(&self, times: &[f64]) -> Result<Vec<(f64, bool)>> {
         let Some(rate) = self.rate else { return Ok(times.iter().map(|t| (*t, true)).collect()) };
         let before = [self.from.t].into_iter().chain(times.iter().copied());
-        let pairs = |from: f64, to: f64| (0.5 * rate * (to - from) / TURN).ceil().max(FEWEST);
-        if before.clone().zip(times).map(|(from, to)| pairs(from, *to)).sum::<f64>() > MOST {
+        let pairs = |from: f64, to: f64| {
+            (0.5 * rate * (to - from) / tolerances::CARRIED_TURN).ceil().max(tolerances::CARRIED_STATES)
+        };
+        if before.clone().zip(times).map(|(from, to)| pairs(from, *to)).sum::<f64>() > tolerances::CARRIED_MOST {
             let error = Error::input("the intrinsic chart turns too fast to be followed for so long");
             return Err(error.under("--horizon").hint("give a shorter one, or --chart mass_orthogonal"));
         }

@@ -8,6 +8,7 @@ use crate::linearize::flow::{Bundle, flow};
 use crate::linearize::{Matrix, State};
 use crate::math::eigen::expm;
 use crate::system::MechanicalSystem;
+use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
 
 /// How the frozen model leaves the motion.
@@ -19,11 +20,6 @@ pub struct Frozen {
     pub errors: Vec<f64>,
     pub decay: Decay,
 }
-
-/// Rounding of the integration of columns of size 1.
-const FLOOR: f64 = 3e-13;
-/// Errors up to here are in the range where the lowest power of h rules.
-const SMALL: f64 = 3e-3;
 
 /// exp(A h) against the state-transition matrix X(h) over halved steps from `longest`. Its error is -A' h^2/2 and falls as
 /// h^2, or faster where A does not change; a term missing in A shows as order 1.
@@ -57,8 +53,9 @@ pub fn frozen(
         errors.push((&exact - predicted).norm() / exact.norm());
     }
     // Fast modes are as exact as they are, in units of slow ones; and what the shortest step leaves is rounding at most.
-    let floor = (FLOOR * (speed.fastest / rate).max(1.0)).max(errors.first().copied().unwrap_or(0.0));
-    let decay = decay(&steps, &errors, |_| SMALL, floor);
+    let floor =
+        (tolerances::COLUMN_ROUND_OFF * (speed.fastest / rate).max(1.0)).max(errors.first().copied().unwrap_or(0.0));
+    let decay = decay(&steps, &errors, |_| tolerances::LOWEST_POWER, floor);
     Ok(Frozen { steps, errors, decay })
 }
 

@@ -2,12 +2,13 @@
 
 use super::carried::Carried;
 use super::perturb::{EPSILONS, difference};
-use super::run::{Norm, TOO_LARGE, floor};
+use super::run::{Norm, floor};
 use super::{Decay, decay};
 use crate::error::Result;
 use crate::linearize::flow::{Bundle, Pulse, flow};
 use crate::linearize::{Changes, Matrix, Minimal, State};
 use crate::system::MechanicalSystem;
+use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
 
 /// How one input was checked.
@@ -24,9 +25,6 @@ pub struct InputCheck {
     /// Relative error of x' = A x + B u at the end of the pulse.
     pub error_lti: f64,
 }
-
-/// Steps of the frozen model over a pulse; the error of its fourth-order method is below 1e-9.
-const STEPS: usize = 400;
 
 /// A smooth pulse of each size, and the model with its B beside.
 pub(super) fn check(
@@ -75,7 +73,8 @@ pub(super) fn check(
     let reached = chart.states_of(&end.columns);
     let error_lti = norm.states(&(&lti / size - &reached)) / norm.states(&reached);
     let columns = norm.size((end.columns.q.as_slice(), end.columns.v.as_slice()));
-    let scaled = decay(&EPSILONS, &errors_ltv, |eps| TOO_LARGE * eps * columns, floor(&errors_ltv));
+    let scaled =
+        decay(&EPSILONS, &errors_ltv, |eps| tolerances::SECOND_ORDER_RANGE * eps * columns, floor(&errors_ltv));
     Ok(Some(InputCheck { input: name, width, amplitudes, errors_ltv, order_ltv: scaled, error_lti }))
 }
 
@@ -83,9 +82,9 @@ pub(super) fn check(
 fn response(model: &Minimal, pulse: &Pulse) -> Matrix {
     let b = model.b.columns(pulse.input, 1).clone_owned();
     let mut x = Matrix::zeros(model.a.nrows(), 1);
-    let h = pulse.width / STEPS as f64;
+    let h = pulse.width / tolerances::PULSE_STEPS as f64;
     let slope = |x: &Matrix, s: f64| -> Matrix { &model.a * x + &b * pulse.at(pulse.start + s) };
-    for i in 0..STEPS {
+    for i in 0..tolerances::PULSE_STEPS {
         let s = i as f64 * h;
         let k1 = slope(&x, s);
         let k2 = slope(&(&x + &k1 * (0.5 * h)), s + 0.5 * h);

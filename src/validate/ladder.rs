@@ -2,13 +2,14 @@
 
 use super::carried::Carried;
 use super::perturb::{EPSILONS, difference, moved};
-use super::run::{Norm, TOO_LARGE, floor};
+use super::run::{Norm, floor};
 use super::{Decay, decay, horizon};
 use crate::error::{Error, Result};
 use crate::linearize::flow::{Bundle, Snapshot, flow};
 use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State};
 use crate::math::eigen::expm;
 use crate::system::MechanicalSystem;
+use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
 
 /// Perturbations along one direction.
@@ -79,7 +80,8 @@ pub(super) fn ladder(
     let errors_ltv = followed.errors(end, &end.columns);
     let errors_lti = followed.errors(end, &Changes { q: all.q * last, v: all.v * last });
     let size = norm.size((end.columns.q.as_slice(), end.columns.v.as_slice()));
-    let order_ltv = decay(&followed.epsilons, &errors_ltv, |eps| TOO_LARGE * eps * size, floor(&errors_ltv));
+    let order_ltv =
+        decay(&followed.epsilons, &errors_ltv, |eps| tolerances::SECOND_ORDER_RANGE * eps * size, floor(&errors_ltv));
     let drift_lti = followed.drift();
     let horizons = [0.01, 0.1].map(|share| horizon(&followed.times, &drift_lti, share));
     let (curves, curve_epsilon) = followed.curves();

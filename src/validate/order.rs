@@ -1,5 +1,6 @@
 //! Observed orders.
 
+use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
 
 /// How errors fall with what they depend on.
@@ -15,22 +16,17 @@ pub struct Decay {
     pub is_exact: bool,
 }
 
-/// Points that a slope needs.
-const LEAST_POINTS: usize = 4;
-/// Above rounding by this factor an error is not disturbed by it.
-const CLEAR: f64 = 30.0;
-
 /// The slope by least squares over the points whose error is at most `largest` and above rounding, `floor` (both for the
 /// errors as they are).
 pub fn decay(sizes: &[f64], errors: &[f64], largest: impl Fn(f64) -> f64, floor: f64) -> Decay {
-    let points = sizes
-        .iter()
-        .zip(errors)
-        .filter(|(size, error)| error.is_finite() && **error > CLEAR * floor && **error <= largest(**size));
+    let points = sizes.iter().zip(errors).filter(|(size, error)| {
+        error.is_finite() && **error > tolerances::ABOVE_ROUNDING * floor && **error <= largest(**size)
+    });
     let logs: Vec<(f64, f64)> = points.map(|(size, error)| (size.log10(), error.log10())).collect();
-    let is_exact = errors.iter().filter(|error| error.is_finite()).all(|error| *error <= CLEAR * floor);
+    let is_exact =
+        errors.iter().filter(|error| error.is_finite()).all(|error| *error <= tolerances::ABOVE_ROUNDING * floor);
     let (low, high) = logs.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), (x, _)| (a.min(*x), b.max(*x)));
-    let enough = logs.len() >= LEAST_POINTS;
+    let enough = logs.len() >= tolerances::SLOPE_POINTS;
     Decay {
         order: enough.then(|| slope(&logs)),
         decades: if enough { high - low } else { 0.0 },

@@ -8,6 +8,7 @@ use crate::error::{Error, Result};
 use crate::linearize::{Chart, Matrix, Minimal, State, Variation, minimal, refuse_large};
 use crate::math::eigen::eigen;
 use crate::system::MechanicalSystem;
+use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
 
 /// The linear model at a state against simulations.
@@ -36,15 +37,6 @@ pub struct Verdict {
     pub lti: bool,
     pub text: String,
 }
-
-/// Relative errors above this are not in the range where eps^2 rules.
-pub(super) const TOO_LARGE: f64 = 0.1;
-/// An order may be this much below 2.
-const SLACK: f64 = 0.1;
-/// Of exp(A h) a missing term makes order 1; steps near the time of the fastest modes have a little less than 2.
-const STEEP: f64 = 1.6;
-/// A period of the fastest mode counts, times this: longer runs would cost more than they tell.
-const MOST_SWINGS: f64 = 8.0;
 
 /// Compares the model at a state with perturbed simulations.
 ///
@@ -100,7 +92,7 @@ impl Speed {
 
     /// Of a usual mode, with not too many of the fastest in it.
     fn period(&self) -> f64 {
-        std::f64::consts::TAU * (1.0 / self.usual).min(MOST_SWINGS / self.fastest)
+        std::f64::consts::TAU * (1.0 / self.usual).min(tolerances::FASTEST_PERIODS / self.fastest)
     }
 }
 
@@ -135,8 +127,9 @@ pub(super) fn floor(errors: &[f64]) -> f64 {
 
 fn judge(ladders: &[Ladder], frozen: &Frozen, inputs: &[InputCheck]) -> Verdict {
     let orders = ladders.iter().map(|ladder| &ladder.order_ltv).chain(inputs.iter().map(|input| &input.order_ltv));
-    let passes = |decay: &Decay| decay.is_exact || decay.order.is_some_and(|order| order > 2.0 - SLACK);
-    let steep = |decay: &Decay| decay.is_exact || decay.order.is_some_and(|order| order > STEEP);
+    let passes =
+        |decay: &Decay| decay.is_exact || decay.order.is_some_and(|order| order > 2.0 - tolerances::ORDER_SLACK);
+    let steep = |decay: &Decay| decay.is_exact || decay.order.is_some_and(|order| order > tolerances::STEEP_ENOUGH);
     let (ltv, lti) = (orders.clone().all(passes), steep(&frozen.decay));
     let lowest = orders.filter_map(|decay| decay.order).fold(f64::INFINITY, f64::min);
     let order = if lowest.is_finite() { format!("order {lowest:.2}") } else { "exact to rounding".to_string() };

@@ -8,9 +8,10 @@ mod scale;
 use crate::common::method;
 use crate::scenes::{Ready, shipped};
 use holonom::measure::work_precision::{
-    Cell, Filter, Motion, Outcome, Plan, Runner, Sample, TIE, Watched, WorkPrecision, cheapest_by_method, grid, sample,
+    Cell, Filter, Motion, Outcome, Plan, Runner, Sample, Watched, WorkPrecision, cheapest_by_method, grid, sample,
 };
 use holonom::simulate::{Method, Span};
+use holonom::tolerances::report::TIED_COSTS;
 use std::time::Duration;
 
 pub const ROWS: usize = 200;
@@ -106,7 +107,7 @@ fn recommendations_are_the_best_of_what_was_measured() {
         let good = result.cells.iter().filter(|cell| cell.digits() >= Some(digits));
         let least = good.filter_map(|cell| cell.cost).fold(f64::INFINITY, f64::min);
         for place in [&[advice.best], &advice.ties[..]].concat() {
-            assert!(cost(place) <= TIE * least);
+            assert!(cost(place) <= TIED_COSTS * least);
             // By decades of drift; below 1e-12 it is round-off.
             assert!(drift(advice.best) <= 10.0 * drift(place).max(1e-12), "{} {}", drift(advice.best), drift(place));
         }

@@ -9,6 +9,7 @@ use super::reference::ReferenceLine;
 use super::shape::Inertia;
 use super::spec::{Axial, FrameConditions};
 use crate::body::{cross, dot, sub};
+use crate::tolerances::body as tolerances;
 use std::array::from_fn;
 
 /// Gauss points on an element that integrate squares of cubics exactly ...
@@ -18,9 +19,6 @@ const TAPERED: usize = 6;
 
 /// Gauss points that integrate squares of turns exactly, quadratics at most.
 const TURNS: usize = 3;
-
-/// So close together, in lengths of the beam, two markers share a node.
-const SAME: f64 = 1e-9;
 
 /// Elements from node to node; node k has x, y, r in the plane and x, y, z, rx, ry, rz in space, an element with quadratic
 /// axial displacement x of its middle too. Some of these coordinates the floating frame fixes.
@@ -212,11 +210,11 @@ impl<const D: usize> Shapes for Mesh<D> {
 
 /// Both ends and the markers between them, in order, each place once.
 fn breaks(length: f64, markers: &[f64]) -> Vec<f64> {
-    let inside = |s: &&f64| **s > SAME * length && **s < (1.0 - SAME) * length;
+    let inside = |s: &&f64| **s > tolerances::SAME * length && **s < (1.0 - tolerances::SAME) * length;
     let mut places: Vec<f64> = markers.iter().filter(inside).copied().collect();
     places.extend([0.0, length]);
     places.sort_by(f64::total_cmp);
-    places.dedup_by(|b, a| *b - *a < SAME * length);
+    places.dedup_by(|b, a| *b - *a < tolerances::SAME * length);
     places
 }
 
@@ -227,7 +225,8 @@ fn subdivide(places: &[f64], elements: usize) -> Vec<f64> {
     for _ in stretches.len()..elements {
         let size = |k: usize| stretches[k] / counts[k] as f64;
         // Equal stretches differ by rounding only: the first of them is next.
-        let next = (1..counts.len()).fold(0, |best, k| if size(k) > size(best) * (1.0 + SAME) { k } else { best });
+        let next =
+            (1..counts.len()).fold(0, |best, k| if size(k) > size(best) * (1.0 + tolerances::SAME) { k } else { best });
         counts[next] += 1;
     }
     let mut nodes = vec![0.0];

@@ -5,14 +5,13 @@ use super::section::{Matter, Section, Shape};
 use super::spec::Theory;
 use crate::error::{Error, Result, short};
 use crate::math::expression::Expression;
+use crate::tolerances::body as tolerances;
 use std::array::from_fn;
 
 /// The section is looked at in so many equal parts of the beam.
 const LOOKED_AT: u32 = 2000;
 /// Gauss points for means over an element.
 const POINTS: usize = 6;
-/// Abscissae at the ends of an element are taken so far inside of it, in its lengths: a section may jump at a node.
-const INSIDE: f64 = 1e-9;
 
 /// The section of a beam at each of its places.
 #[derive(Clone, Debug)]
@@ -53,7 +52,7 @@ impl Profile {
 
     /// At `s` of an element, on its side of a jump.
     pub fn within(&self, [from, to]: [f64; 2], s: f64) -> Section {
-        let gap = INSIDE * (to - from);
+        let gap = tolerances::SAME * (to - from);
         self.at(s.clamp(from + gap, to - gap))
     }
 

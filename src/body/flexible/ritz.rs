@@ -13,19 +13,12 @@ use crate::body::Build;
 use crate::error::{Error, Result};
 use crate::math::Taylor;
 use crate::math::expression::{Expression, Number, Scope};
+use crate::tolerances::body as tolerances;
 
 /// Most functions: their integrals are computed for all pairs.
 const MOST: usize = 200;
 /// Gauss points on a panel.
 const POINTS: usize = 12;
-/// Most panels; only functions that are not smooth, or not exact to rounding, need so many.
-const PANELS: usize = 64;
-/// Integrals are taken as exact when halving the panels changes none by more than this.
-const CONVERGED: f64 = 1e-12;
-/// Pivots smaller than this, relative to their diagonal, are round-off.
-const DEPENDENT: f64 = 1e-13;
-/// As good as infinite: expressions have such slopes where the exact ones are.
-const HUGE: f64 = 1e150;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
@@ -94,7 +87,7 @@ impl Shapes for Functions {
         Station { dofs: self.dofs(), shapes: self.functions.iter().map(|f| f.at(s)).collect() }
     }
     fn breaks(&self) -> Vec<f64> {
-        (0..=PANELS).map(|k| self.line.length * k as f64 / PANELS as f64).collect()
+        (0..=tolerances::RITZ_PANELS).map(|k| self.line.length * k as f64 / tolerances::RITZ_PANELS as f64).collect()
     }
     fn profile(&self) -> &Profile {
         &self.profile
@@ -150,7 +143,7 @@ impl Functions {
             line: ReferenceLine::straight(length),
             functions,
             axial_mass_factor,
-            panels: PANELS,
+            panels: tolerances::RITZ_PANELS,
             shortens: false,
             profile,
         };
@@ -160,11 +153,16 @@ impl Functions {
 
     /// Functions with their slopes must exist on the whole beam, ends included, where joints may be.
     fn check_finite(&self) -> Result<()> {
-        let places = places([0.0, self.line.length], PANELS).map(|(s, _)| s).chain([0.0, self.line.length]);
+        let places =
+            places([0.0, self.line.length], tolerances::RITZ_PANELS).map(|(s, _)| s).chain([0.0, self.line.length]);
         for s in places {
             for function in &self.functions {
                 let Cross { displacement, rotation, strain, .. } = function.at(s);
-                if displacement.iter().chain(&rotation).chain(&strain).any(|value| value.is_nan() || value.abs() > HUGE)
+                if displacement
+                    .iter()
+                    .chain(&rotation)
+                    .chain(&strain)
+                    .any(|value| value.is_nan() || value.abs() > tolerances::RITZ_INFINITE)
                 {
                     return Err(function
                         .fault(format!("`{}` has no finite value and derivatives at x = {s}", function.value))
@@ -203,7 +201,7 @@ impl Functions {
         let mut panels = 1;
         let mut samples = self.samples([0.0, self.line.length], panels);
         let mut last = integrals(&samples);
-        while panels < PANELS {
+        while panels < tolerances::RITZ_PANELS {
             panels *= 2;
             samples = self.samples([0.0, self.line.length], panels);
             let finer = integrals(&samples);
@@ -255,7 +253,7 @@ impl Functions {
     fn check_independent<const D: usize>(&self, inertia: &Inertia<D>, stiffness: &Symmetric) -> Result<()> {
         let n = self.functions.len();
         let mass = dense(n, &mass_matrix(inertia));
-        if let Some(i) = first_dependent(mass.as_ref(), DEPENDENT) {
+        if let Some(i) = first_dependent(mass.as_ref(), tolerances::ROUND_OFF_OF_FACTORS) {
             let function = &self.functions[i];
             let what = match mass[(i, i)] == 0.0 {
                 true => "is zero everywhere",
@@ -263,7 +261,7 @@ impl Functions {
             };
             return Err(function.fault(format!("`{}` {what}", function.value)).hint("remove it"));
         }
-        if let Some(i) = first_dependent(dense(n, stiffness).as_ref(), DEPENDENT) {
+        if let Some(i) = first_dependent(dense(n, stiffness).as_ref(), tolerances::ROUND_OFF_OF_FACTORS) {
             let function = &self.functions[i];
             let with = if i == 0 { "" } else { ", with those before it," };
             return Err(function
@@ -300,5 +298,5 @@ fn diagonals<const D: usize>(n: usize, (inertia, stiffness): &(Inertia<D>, Symme
 }
 
 fn agree(a: &[f64], b: &[f64]) -> bool {
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= CONVERGED * b.abs())
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= tolerances::RITZ_CONVERGED * b.abs())
 }

@@ -4,26 +4,16 @@ use super::newton::{Policy, newton};
 use super::rest::{Balance, Change, Place, Rest};
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor};
+use crate::tolerances::initial as tolerances;
 
-/// Pseudo-time steps.
-const MOST: usize = 500;
-/// Length of the first, m or rad: rotations must stay small.
-const FIRST: f64 = 0.1;
-/// Newton's method is tried when the force has fallen by this since it was tried last.
-const FALL: f64 = 0.03;
-/// Work over what K predicts: below the first a step is taken back, below the second the next is shorter, above the third
-/// longer.
-const LEAST: f64 = 0.1;
-const POOR: f64 = 0.4;
-const GOOD: f64 = 0.75;
-/// From a start to where nothing holds a body any more, over 1 and the largest q.
-const AWAY: f64 = 100.0;
-/// The shift over the first at which steps no longer move anything.
-const STIFFEST: f64 = 1e12;
 /// Of the way back to phi = 0, in units of the scene's scale: round-off, also of nearly dependent rows.
-const CLOSING: Limits = Limits { most: 12, round_off: 1e-14, stagnation: 1e-11, contraction: 1.0, ..Limits::NONE };
-/// Further iterations of a step.
-const RELAXING: usize = 6;
+const CLOSING: Limits = Limits {
+    most: tolerances::CLOSING_ITERATIONS,
+    round_off: tolerances::ROUND_OFF_OF_SUMS,
+    stagnation: tolerances::CLOSING_STAGNATION,
+    contraction: 1.0,
+    ..Limits::NONE
+};
 
 /// Where a descent leads.
 pub(super) enum End {
@@ -47,10 +37,10 @@ pub(super) enum End {
 /// Toint, Trust-Region Methods, 2000, chapter 6. Where it leads, and the steps taken.
 pub(super) fn descend(rest: &mut Rest, q: &[f64]) -> (End, usize) {
     let Some(mut at) = rest.balance(q) else { return (End::Stuck, 0) };
-    let mut shift = largest(&at.force) / FIRST;
-    let (most, mut tried) = (STIFFEST * shift, length(&at.force));
-    for step in 0..MOST {
-        if length(&at.force) <= FALL * tried {
+    let mut shift = largest(&at.force) / tolerances::DESCENT_FIRST;
+    let (most, mut tried) = (tolerances::DESCENT_STIFFEST * shift, length(&at.force));
+    for step in 0..tolerances::DESCENT_STEPS {
+        if length(&at.force) <= tolerances::DESCENT_FALL * tried {
             tried = length(&at.force);
             if let Some((place, true)) = newton(rest, at.place.clone(), None, Policy::NEAR) {
                 return (End::Rest(place), step);
@@ -64,8 +54,8 @@ pub(super) fn descend(rest: &mut Rest, q: &[f64]) -> (End, usize) {
         match if factored { advance(rest, &at, shift) } else { None } {
             Some((next, gain)) => {
                 shift *= match gain {
-                    gain if gain > GOOD => 0.25,
-                    gain if gain < POOR => 2.0,
+                    gain if gain > tolerances::DESCENT_LONGER => 0.25,
+                    gain if gain < tolerances::DESCENT_SHORTER => 2.0,
                     _ => 1.0,
                 };
                 at = next;
@@ -79,14 +69,14 @@ pub(super) fn descend(rest: &mut Rest, q: &[f64]) -> (End, usize) {
             break;
         }
     }
-    (End::Stuck, MOST)
+    (End::Stuck, tolerances::DESCENT_STEPS)
 }
 
 /// The coordinate that is farthest from the start, if that is too far.
 pub(super) fn gone(now: &[f64], start: &[f64]) -> Option<usize> {
     let way = |i: usize| (now[i] - start[i]).abs();
     let farthest = (0..now.len()).max_by(|&i, &j| way(i).total_cmp(&way(j)))?;
-    (way(farthest) > AWAY * (1.0 + largest(start))).then_some(farthest)
+    (way(farthest) > tolerances::AWAY * (1.0 + largest(start))).then_some(farthest)
 }
 
 /// One step by the factors; none where it goes up or does not come back to phi = 0.
@@ -102,7 +92,7 @@ fn advance(rest: &mut Rest, at: &Balance, shift: f64) -> Option<(Balance, f64)> 
     let (mut next, mut way) = (onward(rest, &at.place, &change, size)?, change.q);
     relax(rest, &mut next, &mut way, shift, length(&at.force))?;
     let gain = 0.5 * (dot(&at.force, &way) + dot(&next.force, &way)) / predicted;
-    (gain > LEAST).then_some((next, gain))
+    (gain > tolerances::DESCENT_TAKEN_BACK).then_some((next, gain))
 }
 
 /// Where a change leads, on phi = 0.
@@ -116,7 +106,7 @@ fn onward(rest: &mut Rest, from: &Place, change: &Change, size: f64) -> Option<B
 /// along the tangent, which stretches it.
 fn relax(rest: &mut Rest, at: &mut Balance, way: &mut [f64], shift: f64, enough: f64) -> Option<()> {
     let mut last = f64::INFINITY;
-    for _ in 0..RELAXING {
+    for _ in 0..tolerances::RELAXATIONS {
         let left: Vec<f64> = at.force.iter().zip(&*way).map(|(force, way)| force - shift * way).collect();
         let size = length(&left);
         if size <= enough {

@@ -5,6 +5,7 @@ use super::stability::{named, soft};
 use crate::error::{Error, Failure, short};
 use crate::math::largest;
 use crate::system::Limited;
+use crate::tolerances::initial as tolerances;
 
 pub(super) fn no_tangent() -> Error {
     Error::input("static equilibrium needs K, which these equations do not give")
@@ -36,9 +37,6 @@ pub(super) fn too_bent(t: f64, beam: &Limited, turn: f64) -> Error {
     Failure { t, reason, hint }.into()
 }
 
-/// A direction counts as loaded where the force along it is this part of all.
-const LOADED: f64 = 1e-6;
-
 const HOLD: &str = "hold it by a joint or a spring, or take the force away";
 const BEGIN_NEARER: &str = "begin nearer to it, or look at the motion with `holonom simulate`: with some damping it comes to \
                             rest where there is an equilibrium";
@@ -51,7 +49,8 @@ pub(super) fn none_found(rest: &mut Rest, start: &Place, away: Option<usize>) ->
     let all = largest(&balance.force);
     if let Some(soft) = soft(rest, start) {
         let along = |d: &nalgebra::DVector<f64>| d.iter().zip(&balance.force).map(|(d, f)| d * f).sum::<f64>().abs();
-        let loaded: Vec<_> = soft.directions.into_iter().filter(|d| along(d) > LOADED * all * d.amax()).collect();
+        let loaded: Vec<_> =
+            soft.directions.into_iter().filter(|d| along(d) > tolerances::LOADED * all * d.amax()).collect();
         if !loaded.is_empty() {
             let names = named(rest, &loaded).join("`, `");
             let holds = format!("nothing holds `{names}` against the forces that move it");

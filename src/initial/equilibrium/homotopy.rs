@@ -2,11 +2,7 @@
 
 use super::newton::{Policy, newton};
 use super::rest::{Place, Rest};
-
-/// First part of the load, the smallest, and how often it may change.
-const FIRST: f64 = 0.1;
-const SMALLEST: f64 = 1e-4;
-const MOST: usize = 400;
+use crate::tolerances::initial as tolerances;
 
 /// f - G^T lambda = (1 - s) (f - G^T lambda)(start), s from 0 to 1: the force that is missing at the start is taken away
 /// in parts, each solved by Newton's method from the solution before. Where the start is an unloaded equilibrium that is
@@ -15,9 +11,9 @@ const MOST: usize = 400;
 pub(super) fn homotopy(rest: &mut Rest, start: &Place) -> (Place, f64, usize) {
     rest.evaluate(&start.q);
     let missing = rest.force(&start.lambda);
-    let (mut at, mut s, mut part, mut steps) = (start.clone(), 0.0, FIRST, 0);
-    for _ in 0..MOST {
-        let next: f64 = if s + part > 1.0 - SMALLEST { 1.0 } else { s + part };
+    let (mut at, mut s, mut part, mut steps) = (start.clone(), 0.0, tolerances::LOAD_FIRST, 0);
+    for _ in 0..tolerances::LOAD_CHANGES {
+        let next: f64 = if s + part > 1.0 - tolerances::LOAD_SMALLEST { 1.0 } else { s + part };
         let goal: Vec<f64> = missing.iter().map(|force| (1.0 - next) * force).collect();
         match newton(rest, at.clone(), Some(&goal), Policy::NEAR) {
             Some((place, contracts)) => {
@@ -29,7 +25,7 @@ pub(super) fn homotopy(rest: &mut Rest, start: &Place) -> (Place, f64, usize) {
         if s == 1.0 {
             return (at, s, steps);
         }
-        if part < SMALLEST {
+        if part < tolerances::LOAD_SMALLEST {
             break;
         }
     }

@@ -4,13 +4,7 @@ use super::descent::gone;
 use super::rest::{Place, Rest};
 use crate::math::largest;
 use crate::system::{Limited, Theory};
-
-/// What is left of the forces is nothing below this part of those that balance, or of coordinates rounded where the search
-/// began.
-const NOTHING: f64 = 1e-6;
-const ROUND_OFF: f64 = 1e-13;
-/// In parts of what is warned of: 0.95 of what an element can turn at all.
-const TOO_FAR: f64 = 0.95 / 0.75;
+use crate::tolerances::initial as tolerances;
 
 /// What the start says of the forces that are to be balanced.
 pub(super) struct Judge {
@@ -35,7 +29,8 @@ impl Judge {
         let Some(balance) = rest.balance(&place.q) else { return false };
         let loads = self.loads.max(largest(&rest.sizes(&balance.place)));
         let reach = largest(&place.q).max(1.0);
-        let allowed = self.stiffness.iter().map(|k| NOTHING * loads + ROUND_OFF * reach * k);
+        let allowed =
+            self.stiffness.iter().map(|k| tolerances::FORCE_LEFT * loads + tolerances::COORDINATES_ROUNDED * reach * k);
         balance.force.iter().zip(allowed).all(|(force, allowed)| force.abs() <= allowed)
     }
 
@@ -46,7 +41,7 @@ impl Judge {
         system.deformations(q, &mut deformations);
         let mut parts = system.limited().iter().cloned().zip(deformations);
         let is_bent = |(limited, turn): &(Limited, f64)| match limited.theory {
-            Theory::Helix { .. } => *turn > TOO_FAR * limited.theory.most(),
+            Theory::Helix { .. } => *turn > tolerances::TOO_FAR_TURNED * limited.theory.most(),
             _ => false,
         };
         parts.find(is_bent)

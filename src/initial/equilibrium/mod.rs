@@ -18,6 +18,7 @@ use super::{Metric, position};
 use crate::error::Result;
 use crate::math::largest;
 use crate::system::{Limited, MechanicalSystem, refuse_states};
+use crate::tolerances::initial as tolerances;
 use descent::End;
 use judge::Judge;
 use newton::{Policy, newton};
@@ -166,12 +167,9 @@ fn finish(mut rest: Rest, found: Found, steps: usize) -> Result<Equilibrium> {
         place.lambda = balance.place.lambda;
     }
     let (residual, gap) = (largest(&rest.force(&place.lambda)), rest.gap());
-    if gap > CLOSED {
+    if gap > tolerances::REDUNDANT_ROWS_CLOSED {
         return Err(failure::contradiction(rest.t));
     }
     let (t, iterations) = (rest.t, rest.iterations);
     Ok(Equilibrium { t, q: place.q, lambda: place.lambda, way, iterations, steps, residual, gap, stability, free })
 }
-
-/// Largest phi, in units of its scale, of rows that are left out because they depend on others.
-const CLOSED: f64 = 1e-8;

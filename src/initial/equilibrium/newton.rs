@@ -3,6 +3,7 @@
 use super::rest::{Change, Place, Rest};
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor};
+use crate::tolerances::initial as tolerances;
 
 /// How Newton's method is kept from going astray.
 #[derive(Clone, Copy)]
@@ -13,21 +14,16 @@ pub(super) struct Policy {
 
 impl Policy {
     /// Bent beams need steps that grow before they shrink.
-    pub const FULL: Policy = Policy { limits: Limits { most: 40, ..Limits::NONE }, is_damped: false };
-    pub const DAMPED: Policy = Policy { limits: Limits { most: 60, ..Limits::NONE }, is_damped: true };
+    pub const FULL: Policy =
+        Policy { limits: Limits { most: tolerances::FULL_ITERATIONS, ..Limits::NONE }, is_damped: false };
+    pub const DAMPED: Policy =
+        Policy { limits: Limits { most: tolerances::DAMPED_ITERATIONS, ..Limits::NONE }, is_damped: true };
     /// Near a solution.
-    pub const NEAR: Policy = Policy { limits: Limits { most: 12, contraction: 0.5, ..Limits::NONE }, is_damped: false };
+    pub const NEAR: Policy = Policy {
+        limits: Limits { most: tolerances::CLOSING_ITERATIONS, contraction: tolerances::NEWTON_HALVES, ..Limits::NONE },
+        is_damped: false,
+    };
 }
-
-/// Steps that shrink by this from the first lead to the one solution around the start (P. Deuflhard, Newton Methods for
-/// Nonlinear Problems, 2011, section 5.1).
-const CONTRACTION: f64 = 0.25;
-/// Changes of q, m or rad over 1 and the largest q: where two in a row are shorter the second is round-off, as of the first
-/// its square is left, or no longer falls; longer ones lead nowhere.
-const SMALL: f64 = 1e-8;
-const FAR: f64 = 100.0;
-/// The shortest damped step.
-const SHORTEST: f64 = 1e-3;
 
 /// Solves f - G^T lambda = `goal` (zero where none) with phi = 0; the place, and whether all steps contracted. None where
 /// Newton's method fails.
@@ -45,17 +41,17 @@ pub(super) fn newton(rest: &mut Rest, start: Place, goal: Option<&[f64]>, policy
         was_still = is_still;
         let change = if factored { rest.solve(&force) } else { None }.ok_or(())?;
         let (size, part) = (rest.size(&change.q), largest(&change.q) / (1.0 + largest(&at.q)));
-        if part > FAR {
+        if part > tolerances::AWAY {
             return Err(());
         }
-        let is_small = part <= SMALL;
+        let is_small = part <= tolerances::EQUILIBRIUM_STAGNATION;
         let is_damped = policy.is_damped && !is_small;
         let next = if is_damped { damped(rest, &at, &change, size) } else { Some(rest.moved(&at, &change, 1.0)) };
         at = next.ok_or(())?;
         let is_round_off = std::mem::replace(&mut was_small, is_small) && is_small;
         Ok(if is_round_off { 0.0 } else { size.max(f64::MIN_POSITIVE) })
     });
-    (converged == Ok(true)).then_some((at, newton.slowest <= CONTRACTION))
+    (converged == Ok(true)).then_some((at, newton.slowest <= tolerances::UNIQUE_CONTRACTION))
 }
 
 /// f - G^T lambda - goal of the terms.
@@ -69,7 +65,7 @@ fn left(rest: &Rest, at: &Place, goal: Option<&[f64]>) -> Vec<f64> {
 /// which does not depend on the units of forces and constraints (Deuflhard, section 3.3).
 fn damped(rest: &mut Rest, at: &Place, change: &Change, size: f64) -> Option<Place> {
     let mut part = 1.0;
-    while part > SHORTEST {
+    while part > tolerances::SHORTEST_DAMPED {
         let next = rest.moved(at, change, part);
         rest.evaluate(&next.q);
         let force = rest.force(&next.lambda);

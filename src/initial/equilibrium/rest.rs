@@ -6,6 +6,7 @@ use crate::formulation::{Dynamics, turn};
 use crate::math::kkt::{Pattern, SaddlePoint, Unsymmetric};
 use crate::math::{largest, largest_in};
 use crate::system::{Loaded, MechanicalSystem, Need, Tangent};
+use crate::tolerances::initial as tolerances;
 
 /// Coordinates with multipliers.
 #[derive(Clone, Debug)]
@@ -201,12 +202,8 @@ impl<'a> Rest<'a> {
         let reach = 1.0f64.max(largest(&place.q));
         let sizes = self.sizes(place).into_iter().zip(self.stiffness());
         let size: Vec<f64> = sizes.map(|(force, stiffness)| force + stiffness * reach).collect();
-        let least = LEAST * largest(&size);
-        force.iter().zip(&size).all(|(force, size)| force.abs() <= ROUND_OFF * size.max(least))
-            && self.gap() <= super::CLOSED
+        let least = tolerances::BALANCED_LEAST * largest(&size);
+        force.iter().zip(&size).all(|(force, size)| force.abs() <= tolerances::ROUND_OFF_OF_SUMS * size.max(least))
+            && self.gap() <= tolerances::REDUNDANT_ROWS_CLOSED
     }
 }
-
-/// Sums of a few terms are right to some ulps; terms below the second part of the largest are as good as none.
-const ROUND_OFF: f64 = 1e-14;
-const LEAST: f64 = 1e-8;

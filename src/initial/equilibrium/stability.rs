@@ -2,6 +2,7 @@
 
 use super::rest::{Place, Rest};
 use crate::formulation::{free_directions, reduce};
+use crate::tolerances::initial as tolerances;
 use nalgebra::{DVector, SymmetricEigen};
 use serde::Serialize;
 
@@ -19,15 +20,6 @@ pub enum Stability {
     Stable,
 }
 
-/// More velocities than this are too many for dense matrices.
-const MOST_VELOCITIES: usize = 300;
-/// Part of the largest eigenvalue, over the number of directions, that is round-off. Turning nodes of little inertia make
-/// that 1e11 of the stiffness by which a beam hangs.
-const ROUND_OFF: f64 = 1e-14;
-/// Part of K that may be skew before its eigenvalues mean something else.
-const SKEW: f64 = 1e-6;
-/// A coordinate takes part in a direction by this part of the largest, and so many are named.
-const PART: f64 = 0.3;
 const MOST_NAMED: usize = 6;
 
 /// Directions without stiffness among those that the constraints allow.
@@ -40,7 +32,7 @@ pub(super) struct Soft {
 
 /// Z^T K Z at a place, as far as it can be looked at.
 pub(super) fn soft(rest: &mut Rest, place: &Place) -> Option<Soft> {
-    if rest.dynamics.vdot.len() > MOST_VELOCITIES {
+    if rest.dynamics.vdot.len() > tolerances::DENSE_EIGENVALUES {
         return None;
     }
     let balance = rest.balance(&place.q)?;
@@ -49,11 +41,11 @@ pub(super) fn soft(rest: &mut Rest, place: &Place) -> Option<Soft> {
     let z = free_directions(&mut rest.dynamics)?;
     let k = reduce(&rest.dynamics.structure.tangent, &rest.tangent.k, &z);
     let symmetric = 0.5 * (&k + k.transpose());
-    let is_symmetric = (&k - &symmetric).amax() <= SKEW * k.amax();
+    let is_symmetric = (&k - &symmetric).amax() <= tolerances::SKEW * k.amax();
     if k.is_empty() {
         return Some(Soft { smallest: f64::INFINITY, directions: Vec::new(), is_symmetric });
     }
-    let least = ROUND_OFF * k.amax() * k.nrows() as f64;
+    let least = tolerances::ROUND_OFF_OF_SUMS * k.amax() * k.nrows() as f64;
     let eigen = SymmetricEigen::new(symmetric);
     let soft = eigen.eigenvalues.iter().enumerate().filter(|(_, value)| value.abs() <= least);
     Some(Soft {
@@ -81,7 +73,7 @@ pub(super) fn named(rest: &Rest, directions: &[DVector<f64>]) -> Vec<String> {
     let names = rest.dynamics.system.names().v;
     let mut found = Vec::new();
     for direction in directions {
-        let taking = |i: &usize| direction[*i].abs() >= PART * direction.amax();
+        let taking = |i: &usize| direction[*i].abs() >= tolerances::TAKES_PART * direction.amax();
         found.extend((0..direction.len()).filter(taking));
     }
     found.sort_unstable();

@@ -11,6 +11,7 @@ use crate::formulation::{Halt, turn};
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor, relative};
 use crate::system::{Loaded, Need};
+use crate::tolerances::integrator as tolerances;
 use matrix::Penalized;
 
 /// ```text
@@ -95,19 +96,17 @@ struct Ali3p {
     polynomial: Hermite,
 }
 
-/// Relative change of a below which it may stop falling, and the part of that which is round-off; and change of q, beside 1 m
-/// or rad or the largest q, below which it may.
-const SMALL: f64 = 1e-8;
-const ROUND_OFF: f64 = 1e-7;
-const STILL: f64 = 1e-14;
-/// Largest phi of a step that has converged, in units of its scale.
-const MET: f64 = 1e-8;
-const MOST: usize = 40;
 /// In units of what may stop falling.
-const LIMITS: Limits =
-    Limits { most: MOST, tolerance: ROUND_OFF, round_off: ROUND_OFF, stagnation: 1.0, ..Limits::NONE };
+const LIMITS: Limits = Limits {
+    most: tolerances::FIXED_STEP_ITERATIONS,
+    tolerance: tolerances::ROUND_OFF_OF_STAGNATION,
+    round_off: tolerances::ROUND_OFF_OF_STAGNATION,
+    stagnation: 1.0,
+    ..Limits::NONE
+};
 /// Relative to what is projected: each solution gains what the penalty leaves.
-const PROJECTED: Limits = Limits { tolerance: 0.0, round_off: 1e-15, stagnation: f64::INFINITY, ..LIMITS };
+const PROJECTED: Limits =
+    Limits { tolerance: 0.0, round_off: tolerances::ROUNDED_ZERO, stagnation: f64::INFINITY, ..LIMITS };
 
 impl Ali3p {
     /// a and lambda* of the step before, or where there is none those of the state.
@@ -157,8 +156,11 @@ impl Ali3p {
                 is_factored = true;
             }
             let change = self.iterate(problem, h)?;
-            let still = 4.0 * STILL * largest(problem.dynamics.system.own(q)).max(1.0) / (h * h);
-            Ok::<_, Halt>(change / (SMALL * largest(&self.a_new).max(largest(v) / h)).max(still))
+            let still =
+                4.0 * tolerances::ROUND_OFF_OF_SUMS * largest(problem.dynamics.system.own(q)).max(1.0) / (h * h);
+            Ok::<_, Halt>(
+                change / (tolerances::STAGNATION_OF_ACCELERATION * largest(&self.a_new).max(largest(v) / h)).max(still),
+            )
         })?;
         problem.dynamics.statistics.stagnated += u64::from(converged && newton.has_stagnated);
         self.advance(problem, from, h, to);
@@ -187,7 +189,13 @@ impl Ali3p {
         let (q, v) = problem.split_mut(to);
         let need = Need::CONSTRAINTS | Need::G;
         problem.dynamics.evaluate(t, q, v, need);
-        let off = problem.dynamics.terms.phi.iter().zip(&self.scales).any(|(phi, scale)| phi.abs() > MET * scale);
+        let off = problem
+            .dynamics
+            .terms
+            .phi
+            .iter()
+            .zip(&self.scales)
+            .any(|(phi, scale)| phi.abs() > tolerances::PENALTY_CLOSED * scale);
         if off {
             return Err(Halt::NotConverged);
         }

@@ -3,6 +3,7 @@
 use super::super::Tolerance;
 use super::equations::{Equations, Values};
 use super::form::Form;
+use crate::tolerances::integrator as tolerances;
 use diffsol::{OdeSolverOptions, OdeSolverProblem, Vector};
 use std::cell::OnceCell;
 
@@ -21,19 +22,16 @@ impl<'s> Store<'s> {
     }
 }
 
-/// A tolerated error of unknowns that are not tested: those without a rate, angles that count turns, and the work.
-const NOT_TESTED: f64 = 1e20;
-
 /// Equations and tolerances for diffsol. Its limit of Newton failures counts those of the whole run; where Newton's
 /// method stops at a fifth of the tolerance, which is its default, what is left shows in lambda and as drift.
 fn problem_of<'s>(form: Box<dyn Form + 's>, rates: usize, tolerance: &Tolerance) -> OdeSolverProblem<Equations<'s>> {
     let eqn = Equations::new(form, rates);
     // diffsol takes the mean over all unknowns, our norm that over the tested ones.
     let tested = (tolerance.tested(rates - 1) as f64 / eqn.len as f64).sqrt();
-    let mut atol = Values::from_element(eqn.len, NOT_TESTED, eqn.context);
+    let mut atol = Values::from_element(eqn.len, tolerances::NOT_TESTED, eqn.context);
     let places = atol.inner_mut().as_mut_slice();
     places[..rates - 1].fill(tested * tolerance.atol);
-    places[tolerance.untested()].fill(NOT_TESTED);
+    places[tolerance.untested()].fill(tolerances::NOT_TESTED);
     OdeSolverProblem {
         eqn,
         rtol: tested * tolerance.rtol,

@@ -10,6 +10,7 @@ use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
 use crate::formulation::{self, Halt};
 use crate::system::refuse_states;
+use crate::tolerances::integrator as tolerances;
 use motion::{Motion, Scheme};
 use newton::Newton;
 
@@ -57,9 +58,6 @@ pub const ENTRY: Entry = Entry {
 
 const STEP: &str = "give a fixed step, or choose radau_iia";
 
-/// With 0.98 the energy of a pendulum grows a million times in steps of a hundredth of its period.
-const MOST_WITH_POSITIONS: f64 = 0.9;
-
 fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
     if !setup.is_fixed {
         refuse_states(setup.system, "generalized_alpha, whose error of a step is that of q,", STEP)?;
@@ -70,7 +68,7 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
     }
     let dae = formulation::dae(setup.formulation)?
         .ok_or_else(|| Error::input(format!("generalized_alpha cannot integrate {}", setup.formulation.name)))?;
-    if r > MOST_WITH_POSITIONS && dae.velocity_index() == 2 {
+    if r > tolerances::UNDAMPED_WITH_POSITIONS && dae.velocity_index() == 2 {
         let name = &setup.formulation.name;
         let what = format!("generalized_alpha: with rho_inf = {r} the multipliers of {name} swing up without bound");
         return Err(Error::input(what).hint("give 0.9 or less, or use the formulation ggl"));

@@ -7,33 +7,16 @@ use crate::formulation::{Dae, Halt, Iteration, Linearized, Residual, Slopes};
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor};
 use crate::system::{Loaded, MechanicalSystem};
-
-/// Corrections, as far predictions and kinks of forces want.
-const MOST: usize = 25;
-/// Relative change of v' below which it may stop falling, and the part of that which is round-off; and change of q, beside
-/// the largest q, below which it may: near rest, and far from the origin, v' is round-off itself.
-const SMALL: f64 = 1e-8;
-const ROUND_OFF: f64 = 1e-7;
-const STILL: f64 = 1e-14;
-/// The smallest largest q that counts, m or rad.
-const LEAST: f64 = 1e-10;
-/// Round-off of q in phi, as part of the largest: a few operations.
-const OF_Q: f64 = 16.0 * f64::EPSILON;
-/// The part of it that may be left where steps are controlled: phi is round-off then, and no more is asked of v'.
-const CONTROLLED: f64 = 1e-6;
-/// With this rate the matrix serves the next step too: an iteration more costs far less than K and C. It serves steps up to
-/// this factor longer or shorter, in which M is most of it.
-const KEPT_RATE: f64 = 1e-2;
-const BAND: f64 = 1.3;
+use crate::tolerances::integrator as tolerances;
 
 /// In units of what may stop falling.
 fn limits(is_fixed: bool) -> Limits {
     Limits {
-        most: MOST,
-        tolerance: if is_fixed { ROUND_OFF } else { CONTROLLED },
-        round_off: ROUND_OFF,
+        most: tolerances::GENERALIZED_ALPHA_ITERATIONS,
+        tolerance: if is_fixed { tolerances::ROUND_OFF_OF_STAGNATION } else { tolerances::CONTROLLED_ERROR },
+        round_off: tolerances::ROUND_OFF_OF_STAGNATION,
         stagnation: 1.0,
-        kept_rate: KEPT_RATE,
+        kept_rate: tolerances::GENERALIZED_ALPHA_MATRIX_KEPT,
         ..Limits::NONE
     }
 }
@@ -134,7 +117,7 @@ impl Newton {
             self.iteration.load(std::iter::once((1.0, &self.residual)));
             self.iteration.solve(&mut self.at, &problem.dynamics.structure)?;
             problem.dynamics.statistics.newton_iterations += 1;
-            let round_off = OF_Q * largest(problem.split(to).0);
+            let round_off = tolerances::ROUND_OFF * largest(problem.split(to).0);
             Ok::<_, Halt>(motion.correct(&self.iteration.change, h, round_off) / self.small(problem, motion, h, to))
         });
         self.monitor = monitor;
@@ -169,7 +152,7 @@ impl Newton {
             self.residual.of_terms(&self.dae, motion.unknowns(), dynamics);
             (self.is_linearized, self.factored) = (true, None);
         }
-        if self.factored.is_some_and(|own| own / h <= BAND && h / own <= BAND) {
+        if self.factored.is_some_and(|own| own / h <= tolerances::MATRIX_BAND && h / own <= tolerances::MATRIX_BAND) {
             self.iteration.rescale(motion.slopes(h));
             return Ok(());
         }
@@ -186,7 +169,8 @@ impl Newton {
         let (q, v) = problem.split(to);
         let size = largest(&motion.end.a).max(largest(v) / h);
         let Slopes { q: by_q, .. } = motion.slopes(h);
-        let reach = Some(largest(q)).filter(|reach| *reach > 0.0).map_or(1.0, |reach| reach.max(LEAST));
-        (SMALL * size).max(STILL * reach / by_q)
+        let reach =
+            Some(largest(q)).filter(|reach| *reach > 0.0).map_or(1.0, |reach| reach.max(tolerances::LEAST_LARGEST_Q));
+        (tolerances::STAGNATION_OF_ACCELERATION * size).max(tolerances::ROUND_OFF_OF_SUMS * reach / by_q)
     }
 }

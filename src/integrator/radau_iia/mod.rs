@@ -16,6 +16,7 @@ use crate::formulation::{self, Dae, Halt, Linearized};
 use crate::math::largest;
 use crate::math::newton::Monitor;
 use crate::system::{Loaded, MechanicalSystem};
+use crate::tolerances::integrator as tolerances;
 use matrices::Matrices;
 use order::{Order, Seen, internal};
 use stages::{Stages, Unknowns, combine};
@@ -213,14 +214,11 @@ impl RadauIIA {
     }
 }
 
-/// Of the equations of a fixed step: their solution to round-off, beside 1 m or rad or a smaller largest q, which is none
-/// below the second.
-const EXACT: f64 = 1e-14;
-const SMALLEST: f64 = 1e-10;
-
 fn exact(q: &[f64], system: &dyn MechanicalSystem) -> Tolerance {
-    let size = Some(largest(system.own(q))).filter(|size| *size > 0.0).map_or(1.0, |size| size.clamp(SMALLEST, 1.0));
-    Tolerance::new(EXACT, EXACT * size, system)
+    let size = Some(largest(system.own(q)))
+        .filter(|size| *size > 0.0)
+        .map_or(1.0, |size| size.clamp(tolerances::LEAST_LARGEST_Q, 1.0));
+    Tolerance::new(tolerances::ROUND_OFF_OF_SUMS, tolerances::ROUND_OFF_OF_SUMS * size, system)
 }
 
 impl Integrator for RadauIIA {

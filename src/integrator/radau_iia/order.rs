@@ -6,6 +6,7 @@ use crate::error::{Error, Result};
 use crate::integrator::memory::Reader;
 use crate::integrator::{Control, Tolerance};
 use crate::math::newton::Monitor;
+use crate::tolerances::integrator as tolerances;
 
 /// The methods to choose from and the one in use.
 ///
@@ -31,11 +32,6 @@ pub struct Seen {
 }
 
 const STAGES: [usize; 3] = [3, 5, 7];
-/// Steps at one order before it may change, and the gain that is worth a change.
-const STEADY: usize = 4;
-const GAIN: f64 = 1.2;
-/// Contraction that a larger step may come to.
-const SLOW: f64 = 0.4;
 
 impl Order {
     pub fn new(choice: &Choice, is_fixed: bool) -> Result<Self> {
@@ -107,14 +103,14 @@ impl Order {
         self.steady += 1;
         let decay = seen.decay * self.last_decay.unwrap_or(seen.decay);
         self.last_decay = Some(seen.decay);
-        if self.steady < STEADY {
+        if self.steady < tolerances::RADAU_STEADY {
             return;
         }
         let (best, gain) = self.neighbours().fold((self.current, 1.0), |best, index| {
             let gain = self.gain(index, tolerance, seen, decay.sqrt());
             if gain > best.1 { (index, gain) } else { best }
         });
-        if best != self.current && gain > GAIN {
+        if best != self.current && gain > tolerances::RADAU_GAIN {
             self.set(best);
         }
     }
@@ -132,7 +128,7 @@ impl Order {
         let step = |error: f64, s: usize| error.powf(-1.0 / (s as f64 + 1.0));
         let ratio = step(error, new) / step(seen.error.max(1e-16), old);
         // A larger step contracts less.
-        let ratio = if new > old { ratio.min(SLOW / seen.theta) } else { ratio };
+        let ratio = if new > old { ratio.min(tolerances::RADAU_SLOW / seen.theta) } else { ratio };
         ratio * old as f64 / new as f64
     }
 
@@ -141,7 +137,7 @@ impl Order {
     pub fn limit(&mut self, newton: &Monitor, most: usize) {
         let (most, iterations) = (most as f64, newton.iterations as f64);
         self.control.safety = 0.9 * (2.0 * most + 1.0) / (2.0 * most + iterations);
-        self.control.grow = (SLOW / newton.rate).clamp(1.0, 5.0);
+        self.control.grow = (tolerances::RADAU_SLOW / newton.rate).clamp(1.0, 5.0);
     }
 }
 

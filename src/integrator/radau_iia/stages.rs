@@ -5,6 +5,7 @@ use crate::formulation::{self, Dae, Dynamics, Halt, Residual};
 use crate::integrator::{From, Problem, Tolerance};
 use crate::math::largest;
 use crate::system::Dimensions;
+use crate::tolerances::integrator as tolerances;
 
 /// V_i = v + h sum a_ij (A_j + W_j),  Q_i = q + h sum a_ij N(Q_j) (V_j + U_j), with the accelerations A, lambda and, where
 /// positions or velocities have multipliers of their own, the shifts U and W as unknowns.
@@ -18,10 +19,6 @@ pub struct Stages {
     qdot: Vec<Vec<f64>>,
     velocity: Vec<f64>,
 }
-
-const SWEEPS: usize = 6;
-/// Of a few operations.
-const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
 
 /// What is solved for, stage by stage.
 pub struct Unknowns {
@@ -111,7 +108,7 @@ impl Stages {
             combine(&mut v[..nv], h, &method.a[i], &self.unknowns.a);
             combine(&mut v[..nv], h, &method.a[i], &self.unknowns.w);
         }
-        let sweeps = if nq == self.n.moving() { 1 } else { SWEEPS };
+        let sweeps = if nq == self.n.moving() { 1 } else { tolerances::RADAU_SWEEPS };
         for sweep in 1..=sweeps {
             for i in 0..s {
                 let (q, v) = self.next[i].split_at(nq);
@@ -155,7 +152,8 @@ impl Stages {
     pub fn round_off(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64, dae: &Dae) -> f64 {
         let (q, v) = problem.split(from.y);
         // Angles that are counted through turns grow, and nothing is rounded to their size but they.
-        let (of_q, of_v) = (ROUND_OFF * largest(problem.dynamics.system.own(q)), ROUND_OFF * largest(v));
+        let (of_q, of_v) =
+            (tolerances::ROUND_OFF * largest(problem.dynamics.system.own(q)), tolerances::ROUND_OFF * largest(v));
         let change = &mut self.next[0];
         change[..q.len()].fill(of_q);
         change[q.len()..].fill(if dae.velocity_index() == 2 { of_v.max(of_q / h) } else { of_v });

@@ -6,6 +6,7 @@ use super::stages::Stages;
 use crate::formulation::{Dae, Halt, Linearized};
 use crate::integrator::{From, Problem, Tolerance};
 use crate::math::newton::{Limits, Monitor};
+use crate::tolerances::integrator as tolerances;
 
 /// The equations of all stages of one step.
 pub struct System<'a> {
@@ -17,19 +18,9 @@ pub struct System<'a> {
     pub is_fixed: bool,
 }
 
-/// Corrections of a step that cannot be tried smaller, and how many of them may grow.
-const MOST_FIXED: usize = 50;
-const PATIENCE: usize = 10;
-/// Round-off of many operations over that of a few.
-const MANY: f64 = 100.0;
-/// Two changes tell little of the rate.
-const LEAST_RATE: f64 = 0.1;
-/// An iteration more costs an evaluation a stage, about as much as a new matrix does.
-const KEPT_RATE: f64 = 3e-5;
-
 /// Corrections of a step with `s` stages. Source: the code RADAU.
 pub fn most(s: usize, is_fixed: bool) -> usize {
-    if is_fixed { MOST_FIXED } else { 7 + 5 * (s - 3) / 2 }
+    if is_fixed { tolerances::FIXED_STEP_ITERATIONS } else { 7 + 5 * (s - 3) / 2 }
 }
 
 impl System<'_> {
@@ -50,10 +41,10 @@ impl System<'_> {
             most: most(method.stages(), *is_fixed),
             tolerance: (10.0 * f64::EPSILON / tolerance.rtol).max(tolerance.rtol.sqrt().min(0.03)),
             round_off,
-            stagnation: MANY * round_off,
-            patience: if *is_fixed { PATIENCE } else { 0 },
-            least_rate: LEAST_RATE,
-            kept_rate: KEPT_RATE,
+            stagnation: tolerances::RADAU_STAGNATION * round_off,
+            patience: if *is_fixed { tolerances::RADAU_PATIENCE } else { 0 },
+            least_rate: tolerances::RADAU_LEAST_RATE,
+            kept_rate: tolerances::RADAU_MATRIX_KEPT,
             ..Limits::NONE
         };
         let converged = newton.solve(limits, |_| {

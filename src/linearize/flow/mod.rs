@@ -14,15 +14,11 @@ use crate::integrator::{self, Problem, Setup, Store, Tolerance};
 use crate::projection::Projection;
 use crate::simulate::{Observation, Parts, Segments, Sink, Stop};
 use crate::system::MechanicalSystem;
+use crate::tolerances::linearize as tolerances;
 use field::Field;
 use projection::Straightening;
 use shape::Shape;
 
-/// Of the motion and of columns of size 1.
-const RTOL: f64 = 1e-12;
-const ATOL: f64 = 1e-13;
-/// A run takes no more steps than this.
-const MOST_STEPS: usize = 2_000_000;
 const SHORTER: &str = "choose a shorter time";
 
 /// Carries a bundle along its motion and shows it at `times` (increasing, after the start) by dop853 on the equations of
@@ -64,7 +60,7 @@ pub fn flow(
         limits_projection: false,
     };
     let horizon = times.last().map_or(start.t, |last| last.max(start.t));
-    let tolerance = Tolerance::new(RTOL, ATOL, &carrier);
+    let tolerance = Tolerance::new(tolerances::FLOW_RTOL, tolerances::FLOW_ATOL, &carrier);
     let mut run = Segments::new(parts, tolerance, (start.t, horizon), shape.pack(bundle));
     let mut counter = Counter(0);
     for &end in times {
@@ -90,7 +86,7 @@ impl Sink for Counter {
     fn row(&mut self, _: &Observation) {}
 
     fn stops(&self) -> Option<Stop> {
-        (self.0 > MOST_STEPS).then(|| Stop {
+        (self.0 > tolerances::FLOW_STEPS).then(|| Stop {
             reason: "the explicit method that carries perturbations needs more than two million steps".to_string(),
             hint: "choose a shorter time, or a model without its fastest modes".to_string(),
         })

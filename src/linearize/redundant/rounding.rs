@@ -3,10 +3,7 @@
 use crate::formulation::Row;
 use crate::linearize::response::beside;
 use crate::linearize::{Matrix, Variation};
-
-/// Part of the largest entry, in the metric of the mass, that is only rounding. Ten times less than what rounds the largest
-/// itself, so that frequencies that are a million times lower keep five digits.
-const ROUNDING: f64 = 1e-17;
+use crate::tolerances::linearize as tolerances;
 
 /// K, C, G, Gd and -(Gdd, G1) of a pencil.
 pub struct Parts {
@@ -67,7 +64,7 @@ fn over(entry: f64, scale: f64) -> f64 {
 /// Entries whose size is below rounding of what is usual in their row become zero.
 fn drop_small(matrix: &mut Matrix, sizes: &Matrix, usual: impl Fn(usize) -> f64) {
     for ((i, j), size) in (0..sizes.ncols()).flat_map(|j| (0..sizes.nrows()).map(move |i| (i, j))).zip(sizes.iter()) {
-        if *size < ROUNDING * usual(i) {
+        if *size < tolerances::FROZEN_ZERO * usual(i) {
             matrix[(i, j)] = 0.0;
         }
     }

@@ -9,9 +9,7 @@ use crate::linearize::method::Built;
 use crate::linearize::spectrum::refused;
 use crate::linearize::variation::observe;
 use crate::linearize::{Matrix, Response, Variation};
-
-/// A stiffness that is this part of the largest one, per mass, is rounding.
-const NOTHING: f64 = 1e-14;
+use crate::tolerances::linearize as tolerances;
 
 /// D += H(s) - C (s - A)^-1 B at s = 0, H the transfer function of all modes.
 pub fn add_residual<'a>(
@@ -67,5 +65,5 @@ fn held(equations: &Quadratic) -> Option<Shifted<'_>> {
         p.iter().zip(product).map(|(p, x)| (p.conj() * x).re).sum::<f64>()
     };
     let softest = energy(&equations.stiffness).abs() / energy(&equations.mass).abs();
-    (softest > NOTHING * equations.fastest().powi(2)).then_some(operator)
+    (softest > tolerances::ROUND_OFF_OF_SUMS * equations.fastest().powi(2)).then_some(operator)
 }

@@ -12,16 +12,13 @@ use super::variation::observe;
 use super::{Changes, Complex, Cost, LinearModel, Matrix, Response, Variation};
 use crate::error::{Error, Result};
 use crate::math::eigen::Unsolved;
+use crate::tolerances::linearize as tolerances;
 use quadratic::Quadratic;
 use reduce::Modal;
 use search::{Found, Space};
 use std::time::Instant;
 
 type C = Complex<f64>;
-
-/// |op x - theta x| / |theta x| of a mode that is returned, with the operator of the search. Rounding in K is some 1e-16 of
-/// the square of the fastest rate over the square of that of the mode, and nothing makes up for it.
-const RESIDUAL: f64 = 1e-4;
 
 /// The `count` modes nearest to `shift`, in 1/s (0: the slowest ones), as a model in modal coordinates. A conjugate pair
 /// is one mode. All modes come where there are not so many, and more where one has no vector of its own.
@@ -119,7 +116,7 @@ fn finish(
         let [p, u] = [&space[0] * vector, &space[1] * vector];
         let residual = residual(found, mode.value, p.iter().chain(u.iter()).copied());
         let residual = residual.map_err(|unsolved| refused(t, &unsolved))?;
-        if residual.is_nan() || residual > RESIDUAL {
+        if residual.is_nan() || residual > tolerances::MODE_RESIDUAL {
             return Err(refused(t, &Unsolved::NotConverged { converged: 0, wanted: modes.len() }));
         }
     }

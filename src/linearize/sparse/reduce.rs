@@ -4,6 +4,7 @@ use super::quadratic::Quadratic;
 use super::search::{Found, Space};
 use crate::linearize::{Complex, Matrix};
 use crate::math::eigen::{Eigen, Unsolved, eigen};
+use crate::tolerances::linearize as tolerances;
 
 type C = Complex<f64>;
 
@@ -15,9 +16,6 @@ pub struct Modal {
     pub inputs: Matrix,
     pub states: Vec<String>,
 }
-
-/// |y| |x| / |y^H x| of eigenvalues from which on their vectors are taken for dependent.
-const DEFECTIVE: f64 = 1e5;
 
 /// The pencil between the spaces. For the adjoint vectors (b, w = s b)
 ///
@@ -72,7 +70,7 @@ fn units(solved: &Eigen) -> Vec<Unit> {
     let all = solved.values.iter().enumerate().filter(|(_, value)| value.im >= 0.0);
     let unit = |(column, value): (usize, &C)| {
         let left = solved.left.column(column).norm();
-        Unit { column, value: *value, is_defective: !(left > 0.0 && left < DEFECTIVE) }
+        Unit { column, value: *value, is_defective: !(left > 0.0 && left < tolerances::DEFECTIVE_MODE) }
     };
     all.map(unit).collect()
 }

@@ -5,6 +5,7 @@ use super::shifted::Shifted;
 use crate::linearize::{Complex, Matrix};
 use crate::math::eigen::{Options, Partial, Unsolved, nearest};
 use crate::math::kkt::Singular;
+use crate::tolerances::linearize as tolerances;
 
 type C = Complex<f64>;
 
@@ -21,26 +22,13 @@ pub struct Found<'a> {
     pub operator: Shifted<'a>,
 }
 
-/// Imaginary parts below this part of an eigenvalue's distance to the shift are rounding.
-const REAL: f64 = 1e-5;
-/// Neighbours whose distances differ less than that are not parted.
-const APART: f64 = 1e-6;
-/// Eigenvectors that a real basis has of a conjugate are no new ones below this.
-const CONJUGATE: f64 = 1e-6;
-/// The shift for the slowest modes lies at this part of the last of them, off the eigenvalues 0 of rigid bodies.
-const OFF: f64 = 0.02;
-/// And another one at this part of itself.
-const BESIDE: f64 = 1e-3;
-/// The slowest rate that rounding in K leaves, as a part of the fastest.
-const ROUNDING: f64 = 1e-7;
-
 /// All eigenvalues of which `count` modes nearest to `shift` (im >= 0) are some.
 pub fn find<'a>([equations, adjoint]: [&'a Quadratic; 2], count: usize, shift: C) -> Result<Found<'a>, Unsolved> {
     let total = equations.finite;
     let each = if shift.im > 0.0 { 1 } else { 2 };
     let mut wanted = (each * count + count / 8 + 6).min(total);
     let (sigma, rate) = match shift.norm() > 0.0 {
-        true => (shift + BESIDE * shift.norm(), shift.norm()),
+        true => (shift + tolerances::SHIFT_BESIDE * shift.norm(), shift.norm()),
         false => slowest(equations, &mut wanted)?,
     };
     let mut operator = beside(equations, sigma, rate)?;
@@ -97,17 +85,17 @@ fn slowest(equations: &Quadratic, count: &mut usize) -> Result<(C, f64), Unsolve
         };
         let rates = partial.values.iter().map(|theta| (operator.sigma + theta.inv()).norm());
         let last = rates.fold(0.0, f64::max);
-        if OFF * last < ROUNDING * fastest && *count < equations.finite {
+        if tolerances::SHIFT_OF_SLOWEST * last < tolerances::ROUNDING_OF_K * fastest && *count < equations.finite {
             *count = (2 * *count).min(equations.finite);
             continue;
         }
-        let next = (OFF * last).max(ROUNDING * fastest);
+        let next = (tolerances::SHIFT_OF_SLOWEST * last).max(tolerances::ROUNDING_OF_K * fastest);
         if used <= last && used >= 1e-4 * last || next >= used && sigma < used {
             return Ok((C::from(next), last.max(next)));
         }
         sigma = next;
     }
-    Ok((C::from(sigma), sigma / OFF))
+    Ok((C::from(sigma), sigma / tolerances::SHIFT_OF_SLOWEST))
 }
 
 /// How many values to keep: up to the widest gap among the last ones, so that no pair is parted and both sides keep the
@@ -120,17 +108,17 @@ fn cut(partial: &Partial, is_all: bool) -> Option<usize> {
     let size = |k: usize| partial.values[k].norm();
     let gap = |k: usize| size(k - 1) / size(k);
     let last = (count.saturating_sub(5).max(1)..count).max_by(|&a, &b| gap(a).total_cmp(&gap(b)))?;
-    (gap(last) > 1.0 + APART).then_some(last)
+    (gap(last) > 1.0 + tolerances::EIGENVALUES_AGREE).then_some(last)
 }
 
 /// Modes that are nearest to `shift` for certain when all within the radius of the first `cut` values about sigma are known.
 /// A pair is one; so are two real eigenvalues, which may be a double zero.
 fn modes(partial: &Partial, cut: usize, sigma: C, shift: C) -> usize {
-    let radius = (1.0 + APART) / partial.values[cut - 1].norm() - (sigma - shift).norm();
+    let radius = (1.0 + tolerances::EIGENVALUES_AGREE) / partial.values[cut - 1].norm() - (sigma - shift).norm();
     let values = partial.values.iter().take(cut).map(|theta| (sigma + theta.inv(), theta.norm().recip()));
     let inside = values.filter(|(value, _)| (value - shift).norm() <= radius);
     let halves = inside.map(|(value, far)| match value.im {
-        im if im.abs() <= REAL * far => 1,
+        im if im.abs() <= tolerances::REAL_MODE * far => 1,
         im if im > 0.0 => 2,
         _ => 0,
     });
@@ -143,7 +131,7 @@ fn real(partial: &Partial, cut: usize, is_closed: bool, scale: &[f64]) -> Space 
     let q = partial.schur.as_ref().map_or(&partial.right, |[vectors, _]| vectors).columns(0, cut);
     let parts = Matrix::from_fn(q.nrows(), 2 * cut, |i, j| if j < cut { q[(i, j)].re } else { q[(i, j - cut)].im });
     let gram = (parts.transpose() * &parts).symmetric_eigen();
-    let mut kept: Vec<usize> = (0..2 * cut).filter(|&j| gram.eigenvalues[j] > CONJUGATE).collect();
+    let mut kept: Vec<usize> = (0..2 * cut).filter(|&j| gram.eigenvalues[j] > tolerances::NEW_MODE).collect();
     kept.sort_by(|&i, &j| gram.eigenvalues[j].total_cmp(&gram.eigenvalues[i]));
     kept.truncate(if is_closed { cut } else { 2 * cut });
     let weights =

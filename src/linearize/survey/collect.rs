@@ -3,13 +3,9 @@
 use super::{Along, Found, Gap, Loci, Outcome, Reached};
 use crate::error::Result;
 use crate::linearize::{Branch, Sample, track};
+use crate::tolerances::linearize as tolerances;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
-
-/// Halvings of a step in which it is not clear which mode is which; fewer with many modes, since each costs a model.
-const HALVINGS: usize = 6;
-const FEW_HALVINGS: usize = 3;
-const MANY: usize = 40;
 
 /// What lies between two states, as far as it takes to tell the modes apart.
 fn refined(
@@ -39,7 +35,11 @@ pub(super) fn collect(
     let places: Vec<f64> = outcomes.iter().map(|(at, _)| *at).collect();
     let behind = |pair: &[Outcome]| match (&pair[0].1, &pair[1].1) {
         (Ok(before), Ok(after)) => {
-            let halvings = if before.sample.modes.len() > MANY { FEW_HALVINGS } else { HALVINGS };
+            let halvings = if before.sample.modes.len() > tolerances::MANY_MODES {
+                tolerances::FEW_HALVINGS
+            } else {
+                tolerances::HALVINGS
+            };
             refined(before, after, halvings, &between)
         }
         _ => Vec::new(),

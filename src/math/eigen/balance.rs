@@ -1,6 +1,7 @@
 //! Scaling of a pencil A - lambda E.
 
 use super::{Matrix, dense};
+use crate::tolerances::math as tolerances;
 
 /// D1 A D2 / time and D1 E D2, all by powers of two, so without rounding.
 pub struct Balanced {
@@ -14,12 +15,6 @@ pub struct Balanced {
     pub time: f64,
 }
 
-/// Of rows and columns; a few are usual, some tens where units are far apart.
-const SWEEPS: usize = 100;
-/// An entry below this part of the largest of its row, and of its column, is what rounding left of a zero: its size says
-/// nothing about units.
-const ROUNDING: f64 = 1e-15;
-
 /// Chooses the unit of time by the sizes of all entries, then makes rows and columns of |A| / time + |E| sum to about 1 (as
 /// Lemonnier and Van Dooren, "Balancing regular matrix pencils", SIAM J. Matrix Anal. Appl. 28, 2006, with sums for
 /// squares). Entries are at most about 1 then, and what is round-off can be told by its size. A few n^2 operations a sweep.
@@ -30,7 +25,7 @@ pub fn balance(a: &Matrix, e: &Matrix) -> Balanced {
     let size = dense::power_of_two((a.amax() / time).max(e.amax()).clamp(f64::MIN_POSITIVE, 1e300));
     let rows = vec![1.0 / size; n];
     let mut balanced = Balanced { a: a / time / size, e: e / size, rows, cols: vec![1.0; n], time };
-    for _ in 0..SWEEPS {
+    for _ in 0..tolerances::BALANCE_SWEEPS {
         if !balanced.sweep() {
             break;
         }
@@ -45,7 +40,7 @@ fn time(a: &Matrix, e: &Matrix) -> f64 {
     let n = a.nrows();
     let entries = logarithms(a, e);
     let (mut cols, mut time) = (vec![0.0; n], 0.0);
-    for _ in 0..SWEEPS {
+    for _ in 0..tolerances::BALANCE_SWEEPS {
         let rows = means(n, entries.iter().map(|x| (x.row, x.time(time) - x.size - cols[x.col])));
         cols = means(n, entries.iter().map(|x| (x.col, x.time(time) - x.size - rows[x.row])));
         let of_a = entries.iter().filter(|x| x.is_of_a);
@@ -82,7 +77,7 @@ fn of_one(matrix: &Matrix, is_of_a: bool) -> Vec<Logarithm> {
     let cols: Vec<f64> = matrix.column_iter().map(|col| col.amax()).collect();
     let places = (0..n * n).map(|k| (k % n, k / n));
     places
-        .filter(|&(row, col)| matrix[(row, col)].abs() > ROUNDING * rows[row].min(cols[col]))
+        .filter(|&(row, col)| matrix[(row, col)].abs() > tolerances::ROUNDED_ZERO * rows[row].min(cols[col]))
         .map(|(row, col)| Logarithm { row, col, size: matrix[(row, col)].abs().log2(), is_of_a })
         .filter(|entry| entry.size.is_finite())
         .collect()

@@ -1,9 +1,7 @@
 //! The exponential of a matrix.
 
 use super::{Matrix, Unsolved, dense};
-
-/// Above this norm the powers of A that choose the order of approximation would overflow.
-const LARGE: f64 = 1e20;
+use crate::tolerances::math as tolerances;
 
 /// exp(A) by scaling and squaring of Pade approximants of order up to 13 (Al-Mohy and Higham, "A new scaling and
 /// squaring algorithm for the matrix exponential", SIAM J. Matrix Anal. Appl. 31, 2009). About 20 n^3 operations, and
@@ -18,7 +16,7 @@ pub fn expm(a: &Matrix) -> Result<Matrix, Unsolved> {
     }
     let mut halvings = 0;
     let mut scaled = a.clone();
-    while scaled.amax() > LARGE {
+    while scaled.amax() > tolerances::EXPONENTIAL_OVERFLOW {
         scaled /= 2.0;
         halvings += 1;
     }

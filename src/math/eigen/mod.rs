@@ -20,7 +20,7 @@ mod tests;
 mod unsolved;
 
 pub use assignment::assign;
-pub use deflate::{Deflated, Deflation, Finite, TOLERANCE, deflate, finite, finite_by};
+pub use deflate::{Deflated, Deflation, Finite, deflate, finite, finite_by};
 pub use dense::{pseudo_inverse, singular_values};
 pub use exponential::{expm, expm_with_input};
 pub use krylov::{Options, Partial, nearest};

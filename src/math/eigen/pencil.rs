@@ -3,6 +3,7 @@
 use super::balance::{Balanced, balance};
 use super::conjugates::{self, Unit};
 use super::{Complex, ComplexMatrix, Matrix, Unsolved, dense};
+use crate::tolerances::math as tolerances;
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::gevd::{ComputeEigenvectors, GevdParams, gevd_real, gevd_scratch};
@@ -32,13 +33,6 @@ pub struct Split {
     /// Least finiteness of the finite eigenvalues over the largest of the infinite ones.
     pub gap: f64,
 }
-
-/// |beta A x - alpha E x| / |x| of a vector that is none.
-const INACCURATE: f64 = 1e-12;
-/// Both alpha and beta below this, in the balanced pencil, are 0/0.
-const NOTHING: f64 = 1e-13;
-/// Least gap between finite and infinite eigenvalues.
-const CLEAR: f64 = 10.0;
 
 /// All eigenvalues, finite and infinite, by QZ on the balanced pencil; about 70 n^3 operations.
 ///
@@ -112,7 +106,10 @@ fn check(pencil: &Balanced, found: &[(Unit, f64)]) -> Result<(), Unsolved> {
     };
     let wanted = pencil.a.nrows();
     let converged = count(&|(unit, beta)| unit.value.is_finite() && beta.is_finite());
-    let dependent = count(&|(unit, beta)| beta.abs() <= NOTHING * size_e && unit.value.norm() <= NOTHING * size_a);
+    let dependent = count(&|(unit, beta)| {
+        beta.abs() <= tolerances::ROUND_OFF_OF_FACTORS * size_e
+            && unit.value.norm() <= tolerances::ROUND_OFF_OF_FACTORS * size_a
+    });
     match (converged < wanted, dependent) {
         (true, _) => Err(Unsolved::NotConverged { converged, wanted }),
         (_, 1..) => Err(Unsolved::SingularPencil { dependent }),
@@ -130,7 +127,7 @@ fn vector(pencil: &Balanced, (unit, beta): &(Unit, f64), right: &Mat<f64>) -> Ve
     };
     let residual = (product(&pencil.a) * Complex::from(*beta) - product(&pencil.e) * unit.value).norm();
     let size = pencil.a.norm() * beta.abs() + pencil.e.norm() * unit.value.norm();
-    match residual <= INACCURATE * size * x.norm() {
+    match residual <= tolerances::EIGENVECTOR_OF_PENCIL * size * x.norm() {
         true => x.iter().zip(&pencil.cols).map(|(x, d)| *x * *d).collect(),
         false => vec![Complex::ZERO; n],
     }
@@ -146,7 +143,7 @@ impl Generalized {
         let least = finite.checked_sub(1).map_or(1.0, |last| self.finiteness[last]);
         let largest = self.finiteness.get(finite).copied().unwrap_or(f64::MIN_POSITIVE).max(f64::MIN_POSITIVE);
         let gap = (least / largest).min(f64::MAX);
-        if infinite > 0 && gap < CLEAR || least == 0.0 {
+        if infinite > 0 && gap < tolerances::RANK_GAP || least == 0.0 {
             return Err(Unsolved::Doubtful { gap });
         }
         let values: Vec<_> = (0..finite).map(|i| self.alpha[i] / self.beta[i]).collect();

@@ -3,6 +3,7 @@
 use super::conjugates::{self, Unit};
 use super::inverse::{self, residual};
 use super::{Complex, ComplexMatrix, Matrix, Unsolved, dense};
+use crate::tolerances::math as tolerances;
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{ComputeEigenvectors, evd_real, evd_scratch};
@@ -22,17 +23,6 @@ pub struct Eigen {
     /// Condition number of `right`; infinite if it is singular to rounding.
     pub conditioning: f64,
 }
-
-/// |A x - lambda x| / |A| of a vector that can be had better.
-const INACCURATE: f64 = 1e-13;
-/// The same in the matrix before it was balanced.
-const POOR: f64 = 1e-10;
-/// And of an eigenvalue that has not converged.
-const FAILED: f64 = 1e-8;
-/// Up to here the inverse of the right vectors gives the left ones, which is biorthogonal also within equal eigenvalues.
-const WELL_CONDITIONED: f64 = 1e8;
-/// |y^H x| at norms 1, of which only a defective eigenvalue has less: the square root of rounding.
-const ORTHOGONAL: f64 = 1e-7;
 
 /// All eigenvalues with left and right vectors: balancing (Parlett and Reinsch, by powers of two), then the QR
 /// algorithm. About 30 n^3 operations.
@@ -112,10 +102,15 @@ fn vectors(a: &Matrix, units: &[Unit], right: &Mat<f64>, left: &Mat<f64>) -> Res
     let mut found = Vec::new();
     for unit in units {
         let (mut x, mut y) = (unit.vector(right.as_ref()), unit.vector(left.as_ref()));
-        if !(residual(&complex, unit.value, &x) <= INACCURATE && y.iter().all(|y| y.is_finite())) {
-            (x, y) = inverse::vectors(&complex, unit.value, unit.column as u64, INACCURATE)?;
+        if !(residual(&complex, unit.value, &x) <= tolerances::ROUND_OFF_OF_FACTORS && y.iter().all(|y| y.is_finite()))
+        {
+            (x, y) = inverse::vectors(&complex, unit.value, unit.column as u64, tolerances::ROUND_OFF_OF_FACTORS)?;
         }
-        converged += if residual(&complex, unit.value, &x) <= FAILED { 1 + usize::from(unit.is_pair()) } else { 0 };
+        converged += if residual(&complex, unit.value, &x) <= tolerances::EIGENVALUE_FAILED {
+            1 + usize::from(unit.is_pair())
+        } else {
+            0
+        };
         found.push((x, y));
     }
     let wanted = a.nrows();
@@ -131,8 +126,8 @@ fn mend(a: &Matrix, units: &[Unit], right: &mut [Vector], left: &mut [Vector]) -
         let poor =
             |x: &Vector, y: &Vector| residual(&complex, unit.value, x).max(residual(&of_adjoint, unit.value.conj(), y));
         let before = poor(x, y);
-        if before > POOR {
-            let found = inverse::vectors(&complex, unit.value, unit.column as u64, INACCURATE)?;
+        if before > tolerances::EIGENVECTOR_REPEATED {
+            let found = inverse::vectors(&complex, unit.value, unit.column as u64, tolerances::ROUND_OFF_OF_FACTORS)?;
             if poor(&found.0, &found.1) < before {
                 (*x, *y) = found;
             }
@@ -142,14 +137,14 @@ fn mend(a: &Matrix, units: &[Unit], right: &mut [Vector], left: &mut [Vector]) -
 }
 
 fn biorthogonal(right: &ComplexMatrix, mut left: ComplexMatrix, conditioning: f64) -> ComplexMatrix {
-    if conditioning < WELL_CONDITIONED
+    if conditioning < tolerances::WELL_CONDITIONED_VECTORS
         && let Some(inverse) = right.clone().try_inverse()
     {
         return inverse.adjoint();
     }
     for (mut y, x) in left.column_iter_mut().zip(right.column_iter()) {
         let product = y.dotc(&x);
-        let factor = if product.norm() > ORTHOGONAL { product.conj().inv() } else { Complex::ZERO };
+        let factor = if product.norm() > tolerances::DEFECTIVE { product.conj().inv() } else { Complex::ZERO };
         y.iter_mut().for_each(|y| *y *= factor);
     }
     left

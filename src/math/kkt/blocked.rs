@@ -4,6 +4,7 @@ use super::Pattern;
 use super::pivot::{Quality, Rule};
 use super::symbolic::Symbolic;
 use super::system::balance;
+use crate::tolerances::math as tolerances;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::sparse::linalg::cholesky::{
@@ -12,10 +13,6 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{Pair, SparseColMatRef, SymbolicSparseColMat};
 use faer::{MatMut, Par, Side, Spec};
-
-/// What faer puts in the place of a collapsed pivot: so large that its row and column of L vanish, so that the multiplier
-/// is left out.
-const LEFT_OUT: f64 = 1e200;
 
 /// Factors S K S, where S scales the coordinates to unit mass and the rows of G to (G diag(M)^-1 G^T)_jj = 1, so that
 /// the thresholds of the pivots, which faer takes absolute, are relative ones.
@@ -80,7 +77,7 @@ impl Blocked {
         let replaced = self.assemble(mass, g, rule);
         let regularization = LdltRegularization {
             dynamic_regularization_signs: Some(&self.signs),
-            dynamic_regularization_delta: LEFT_OUT,
+            dynamic_regularization_delta: tolerances::PLACE_OF_A_VANISHED_ROW,
             dynamic_regularization_epsilon: rule.collapsed,
         };
         let matrix = SparseColMatRef::new(self.matrix.as_ref(), &self.entries);
@@ -130,7 +127,7 @@ impl Blocked {
         let mut quality = Quality { replaced, ..Quality::GOOD };
         for ((&d, &node), &sign) in self.diagonal.iter().zip(&self.symbolic.order.nodes).zip(&self.signs) {
             let pivot = d * f64::from(sign);
-            let left_out = pivot.abs() >= 1e-3 * LEFT_OUT || pivot.is_nan();
+            let left_out = pivot.abs() >= 1e-3 * tolerances::PLACE_OF_A_VANISHED_ROW || pivot.is_nan();
             if left_out || pivot <= rule.weak {
                 quality.judge((node, self.symbolic.n), (if left_out { 0.0 } else { pivot }, 1.0), rule, skipped)?;
             }
@@ -159,7 +156,7 @@ impl Blocked {
         let mut found = (1.0, 0);
         for (d, &sign) in self.diagonal.iter().zip(&self.signs) {
             let pivot: f64 = d * f64::from(sign);
-            match pivot > collapsed && pivot < 1e-3 * LEFT_OUT {
+            match pivot > collapsed && pivot < 1e-3 * tolerances::PLACE_OF_A_VANISHED_ROW {
                 true => found.0 = pivot.min(found.0),
                 false => found.1 += usize::from(sign < 0),
             }

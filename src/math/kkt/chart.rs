@@ -4,6 +4,7 @@ use super::Pattern;
 use super::null_space::scaled_rows;
 use super::reflect::Reflected;
 use super::system::{add_scaled, dot};
+use crate::tolerances::math as tolerances;
 
 /// With S = diag(M)^-1/2 and Y = S Q_1 from the pivoted QR of (G S)^T at the base, d = Y c solves G d = r at another
 /// place: G Y c = r, by a pivoted QR of (G Y)^T. Such a d has no part along the base's null space in the metric of
@@ -26,9 +27,6 @@ pub struct Chart {
     x: Vec<f64>,
     c: Vec<f64>,
 }
-
-/// Rows of G count as dependent when their pivot falls below this part of the largest.
-const DEPENDENT: f64 = 1e-10;
 
 impl Chart {
     /// The patterns must fit each other.
@@ -53,7 +51,7 @@ impl Chart {
     pub fn rebase(&mut self, mass: &[f64], g: &[f64]) {
         let values = &mut self.base.values;
         scaled_rows((&self.mass, mass), (&self.g, g), &mut self.scale, &mut self.norms, values);
-        self.base.factor(DEPENDENT);
+        self.base.factor(tolerances::RANK);
         let rank = self.base.rank;
         self.has_say.fill(false);
         self.base.permutation[..rank].iter().for_each(|row| self.has_say[*row] = true);
@@ -77,7 +75,7 @@ impl Chart {
             add_scaled(value / self.norms[i], &self.normal[j * rank..(j + 1) * rank], row);
         }
         // Where a step ends beside a singular state, what round-off would move is left to the next step.
-        self.place.factor_truncated(DEPENDENT, reference);
+        self.place.factor_truncated(tolerances::RANK, reference);
     }
 
     /// d = Y c with G d = r.

@@ -2,12 +2,8 @@
 
 use super::system::{System, add, balance, dot};
 use super::{Pattern, SaddlePoint};
+use crate::tolerances::math as tolerances;
 use faer::{Mat, Side};
-
-/// Up to this n + m by all eigenvalues.
-const DENSE: usize = 600;
-/// Steps of the power iterations beyond.
-const STEPS: usize = 40;
 
 /// The 2-norm condition number of E K E, where the diagonal E makes the masses one and the rows of G of unit norm in the
 /// mass metric, so that units do not count. By the eigenvalues up to n + m = 600, beyond by power iterations (a lower
@@ -25,7 +21,7 @@ pub fn condition_number(mass: &Pattern, mass_values: &[f64], g: &Pattern, g_valu
     balance((mass, mass_values), (g, g_values), None, &mut scale);
     if mass.rows + g.rows == 0 {
         1.0
-    } else if mass.rows + g.rows <= DENSE {
+    } else if mass.rows + g.rows <= tolerances::DENSE_EQUATIONS {
         by_eigenvalues(&system, &scale)
     } else {
         by_iteration(&system, &scale)
@@ -81,7 +77,7 @@ fn power(scale: &[f64], e: impl Fn(&f64) -> f64, mut apply: impl FnMut(&[f64], &
     let mut x: Vec<f64> = (0..scale.len()).map(|i| (1.0 + 0.7 * i as f64 * (i as f64 + 3.0)).sin()).collect();
     let mut y = x.clone();
     let mut norm = 0.0;
-    for _ in 0..STEPS {
+    for _ in 0..tolerances::CONDITION_STEPS {
         let length = dot(&x, &x).sqrt();
         x.iter_mut().zip(scale).for_each(|(x, s)| *x *= e(s) / length);
         if !apply(&x, &mut y) {

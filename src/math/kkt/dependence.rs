@@ -2,9 +2,7 @@
 
 use super::Pattern;
 use super::system::{add_scaled, dot};
-
-/// Coefficients below this (for rows of unit length) are not named.
-const NEGLIGIBLE: f64 = 1e-8;
+use crate::tolerances::math as tolerances;
 
 /// The rank of a matrix, and its dependent rows.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -105,7 +103,7 @@ impl Basis {
             if c != 0.0 {
                 add_scaled(-c, &member.along, &mut along[..k]);
             }
-            if c.abs() > NEGLIGIBLE {
+            if c.abs() > tolerances::NAMED_DEPENDENCE {
                 combination.push((member.row, c * length / member.length));
             }
         }

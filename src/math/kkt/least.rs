@@ -9,14 +9,7 @@
 use super::Pattern;
 use super::nearly::Nearly;
 use super::system::{System, add, add_scaled, dot};
-
-const MOST_GRADIENTS: usize = 300;
-/// Steps without half the residual after which it is round-off of large null vectors.
-const PATIENCE: usize = 20;
-/// Null vectors that are formed, each for one solution.
-const FEW: usize = 4;
-/// Residual, over the size of what is projected, that is round-off.
-const SMALL: f64 = 1e-14;
+use crate::tolerances::math as tolerances;
 
 /// Solves the system without the left-out rows, whose right sides say nothing and whose multipliers come out as zero.
 pub(super) type Solve<'s> = &'s mut dyn FnMut(&mut [f64], &mut [f64]);
@@ -41,7 +34,7 @@ impl Least {
         let zeros = || vec![0.0; g.rows];
         Least {
             nearly: None,
-            basis: Vec::with_capacity(FEW.min(g.rows) * g.rows),
+            basis: Vec::with_capacity(tolerances::NULL_VECTORS.min(g.rows) * g.rows),
             is_current: false,
             a: vec![0.0; g.cols],
             lambda: zeros(),
@@ -68,7 +61,7 @@ impl Least {
     ) -> f64 {
         match rows.len() {
             0 => 0.0,
-            1..=FEW => self.project_directly(system, rows, solve, v),
+            1..=tolerances::NULL_VECTORS => self.project_directly(system, rows, solve, v),
             _ => self.project_by_gradients(system, rows, rank_indicator, solve, v),
         }
     }
@@ -124,16 +117,16 @@ impl Least {
         keep(rows, &self.residual, &mut self.direction);
         self.null(system, solve);
         self.weights.copy_from_slice(&self.image);
-        let tolerance = SMALL * dot(v, v).max(dot(&self.weights, &self.weights)).sqrt();
+        let tolerance = tolerances::ROUND_OFF_OF_SUMS * dot(v, v).max(dot(&self.weights, &self.weights)).sqrt();
         self.residual.copy_from_slice(v);
         add_scaled(-1.0, &self.weights, &mut self.residual);
         self.null_transposed(system, rows, solve);
         let (mut product, mut least, mut waited) = (0.0, f64::INFINITY, 0);
         self.direction.fill(0.0);
-        for _ in 0..MOST_GRADIENTS {
+        for _ in 0..tolerances::GRADIENTS {
             let size = dot(&self.residual, &self.residual).sqrt();
             (least, waited) = if size < 0.5 * least { (size, 0) } else { (least, waited + 1) };
-            if waited > PATIENCE || size <= tolerance || size.is_nan() {
+            if waited > tolerances::GRADIENTS_WITHOUT_GAIN || size <= tolerance || size.is_nan() {
                 break;
             }
             let next = self.turn(rows, product);

@@ -50,7 +50,6 @@ pub use chart::Chart;
 pub use condition::condition_number;
 pub use dependence::{Dependence, DependentRow, dependent_rows};
 pub use pattern::Pattern;
-pub use pivot::TRUNCATED;
 pub use pseudo_inverse::PseudoInverse;
 pub use reduced::Reduced;
 pub use saddle::SaddlePoint;

@@ -15,13 +15,7 @@ use super::Pattern;
 use super::fast::Fast;
 use super::pivot::Rule;
 use super::system::System;
-
-/// delta over the square of the rank indicator of the independent rows, and how often the system is solved: what is
-/// left of the rest is the one to the power of the other.
-const DELTA: f64 = 1e-8;
-const TIMES: usize = 2;
-/// Least delta, of rows of unit length in the metric of D^-1, beside round-off.
-const LEAST: f64 = 1e-13;
+use crate::tolerances::math as tolerances;
 
 pub(super) struct Nearly {
     factor: Fast,
@@ -67,7 +61,9 @@ impl Nearly {
         lengths.fill(0.0);
         let entries = system.g.entries.iter().zip(&system.g_values);
         entries.for_each(|((row, column), value)| lengths[*row] += value * value / diagonal[*column]);
-        let delta = (DELTA * rank_indicator * rank_indicator).max(LEAST) * lengths.iter().copied().fold(0.0, f64::max);
+        let delta = (tolerances::REGULARIZATION * rank_indicator * rank_indicator)
+            .max(tolerances::ROUND_OFF_OF_FACTORS)
+            * lengths.iter().copied().fold(0.0, f64::max);
         mass[lengths.len()..].iter_mut().zip(&*diagonal).for_each(|(beside, d)| *beside = 1.0 / (delta * d));
         g[..system.g_values.len()].copy_from_slice(&system.g_values);
         // Pivots of coordinates that no row holds are as small as delta, and none is zero but by round-off.
@@ -76,7 +72,7 @@ impl Nearly {
 
     /// v := nu.
     pub fn null_part(&mut self, v: &mut [f64]) {
-        for _ in 0..TIMES {
+        for _ in 0..tolerances::REGULARIZED_SOLUTIONS {
             self.top.fill(0.0);
             self.top[..v.len()].copy_from_slice(v);
             self.bottom.fill(0.0);

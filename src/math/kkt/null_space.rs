@@ -3,9 +3,7 @@
 use super::reflect::{Reflected, Squared};
 use super::system::{System, add, add_scaled, dot, index_of_largest};
 use super::{Pattern, Singular};
-
-/// A reduced mass whose pivot is below this part of the largest does not determine the motion.
-const MASSLESS: f64 = 1e-11;
+use crate::tolerances::math as tolerances;
 
 /// With S = diag(M)^-1/2 (massless coordinates: the largest of the others) and rows of G S scaled by D^-1 to unit norm:
 ///
@@ -110,7 +108,7 @@ impl NullSpace {
             self.qr.apply_transposed(&mut self.w);
             self.reduced.values[k * size..(k + 1) * size].copy_from_slice(&self.w[r..]);
         }
-        if self.reduced.factor(MASSLESS, &mut self.a[r..]).is_err() {
+        if self.reduced.factor(tolerances::MASSLESS, &mut self.a[r..]).is_err() {
             self.a[..r].fill(0.0);
             self.qr.apply(&mut self.a);
             scale_by(&self.scale, &mut self.a);

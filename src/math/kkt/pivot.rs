@@ -1,5 +1,7 @@
 //! Which pivots are good enough, and what becomes of those that are not.
 
+use crate::tolerances::math as tolerances;
+
 /// Ratios of a pivot to its size before elimination. For a multiplier the ratio is the squared sine of the angle between
 /// its row of G and the rows before it, in the metric of M^-1; round-off of exactly dependent rows leaves 1e-16 to 1e-14.
 #[derive(Clone, Copy)]
@@ -12,27 +14,14 @@ pub(super) struct Rule {
     pub floor: Option<f64>,
 }
 
-/// Below this a collapsed multiplier pivot is round-off, so that its row is surely dependent.
-pub(super) const ROUND_OFF: f64 = 1e-13;
-/// Where the fast path has failed, a multiplier with a pivot below is left out.
-pub(super) const COLLAPSED: f64 = 1e-12;
-/// Multipliers with pivots up to here may be dependent where others are nearly so.
-pub(super) const DOUBTED: f64 = 1e-8;
-/// The rank indicator of a row, as part of its reference value, below which a truncated solution drops it. With an
-/// indicator s, round-off moves positions along the nearly dependent row by eps/s, so velocities by eps/s^2 and
-/// accelerations by eps/s^3: all of it at 6e-6, the more with drift.
-pub const TRUNCATED: f64 = 1e-4;
-/// A collapsed coordinate pivot becomes this part of its size.
-const REPLACED: f64 = 1e-7;
-
 impl Rule {
     /// Stops at a collapse: the fast path.
-    pub const STRICT: Rule = Rule { collapsed: 1e-11, weak: 1e-7, floor: None };
+    pub const STRICT: Rule = Rule { collapsed: tolerances::COLLAPSED_FAST, weak: tolerances::WEAK_FAST, floor: None };
 
     /// Goes on at a collapse: a multiplier is left out, a coordinate gets a small mass.
     pub fn lenient(collapsed: f64, mass_diagonal: &[f64]) -> Rule {
         let largest = mass_diagonal.iter().fold(0.0, |largest: f64, v| largest.max(v.abs()));
-        let floor = REPLACED * if largest > 0.0 { largest } else { 1.0 };
+        let floor = tolerances::REPLACED_MASS * if largest > 0.0 { largest } else { 1.0 };
         Rule { collapsed, weak: 1e-8, floor: Some(floor) }
     }
 }
@@ -69,9 +58,9 @@ impl Quality {
         let Some(floor) = rule.floor else { return Err(node) };
         if node < n {
             self.replaced = true;
-            return Ok(1.0 / (REPLACED * size).max(floor));
+            return Ok(1.0 / (tolerances::REPLACED_MASS * size).max(floor));
         }
-        self.doubtful |= pivot.abs() > ROUND_OFF * size;
+        self.doubtful |= pivot.abs() > tolerances::ROUND_OFF_OF_FACTORS * size;
         skipped.push(node - n);
         Ok(0.0)
     }

@@ -1,16 +1,13 @@
 //! The saddle-point system by a pseudo-inverse, dense.
 
-use super::pivot::TRUNCATED;
 use super::reflect::Squared;
 use super::system::{add_scaled, dot, index_of_largest};
 use super::{Pattern, Singular, Solver};
+use crate::tolerances::math as tolerances;
 use faer::diag::DiagMut;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::svd::{ComputeSvdVectors, svd, svd_scratch};
 use faer::{MatMut, MatRef, Par, Spec};
-
-/// A mass whose pivot, with unit masses on the diagonal, is below this is none.
-const MASSLESS: f64 = 1e-11;
 
 /// With M = R^-T R^-1 (Cholesky), A = G R and its singular values A = W S U^T above the tolerance:
 ///
@@ -82,7 +79,7 @@ impl PseudoInverse {
         for (&(i, j), value) in self.mass.entries.iter().zip(mass) {
             self.root.values[i.min(j) * n + i.max(j)] += value * self.scale[i] * self.scale[j];
         }
-        match self.root.factor(MASSLESS, &mut self.x) {
+        match self.root.factor(tolerances::MASSLESS, &mut self.x) {
             Ok(()) => Ok(()),
             Err(()) => Err(Singular::Massless { coordinate: index_of_largest(&self.x) }),
         }
@@ -100,7 +97,7 @@ impl PseudoInverse {
             Spec::default(),
         );
         let largest = self.s.first().copied().unwrap_or(0.0);
-        let limit = largest * self.tolerance.max(TRUNCATED * reference);
+        let limit = largest * self.tolerance.max(tolerances::TRUNCATED_RANK * reference);
         self.rank = self.s.iter().take_while(|s| **s > limit).count();
         result.map_err(|_| Singular::NotFinite)
     }

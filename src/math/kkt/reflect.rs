@@ -1,7 +1,7 @@
 //! Column-pivoted Householder QR and diagonally pivoted Cholesky on flat column-major slices, without allocation.
 
-use super::pivot::TRUNCATED;
 use super::system::{add_scaled, dot};
+use crate::tolerances::math as tolerances;
 
 /// A Pi = Q R of a tall or wide `rows` x `cols` matrix, in place: R above, the reflectors (leading 1 not stored) below.
 pub(super) struct Reflected {
@@ -58,9 +58,9 @@ impl Reflected {
     }
 
     /// The same, but columns also count as dependent below 1e-4 of `reference`, the smallest ratio where nothing is
-    /// singular: see `TRUNCATED`.
+    /// singular: see `tolerances::TRUNCATED_RANK`.
     pub fn factor_truncated(&mut self, tolerance: f64, reference: f64) {
-        self.factor(tolerance.max(TRUNCATED * reference));
+        self.factor(tolerance.max(tolerances::TRUNCATED_RANK * reference));
     }
 
     /// Whether columns are dependent to `tolerance`.

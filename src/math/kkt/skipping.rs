@@ -8,11 +8,9 @@ use super::Pattern;
 use super::Singular;
 use super::fast::Fast;
 use super::least::Least;
-use super::pivot::{Quality, ROUND_OFF, Rule};
+use super::pivot::{Quality, Rule};
 use super::system::{System, add, index_of_largest, iterate};
-
-/// Refinements where the coordinate pivots are true ones, and where some were replaced.
-const SWEEPS: [usize; 2] = [3, 40];
+use crate::tolerances::math as tolerances;
 
 pub(super) struct Skipping {
     factor: Fast,
@@ -117,7 +115,7 @@ impl Skipping {
 
     /// The smallest pivot over its size; zero where rows are surely dependent.
     pub fn smallest_ratio(&self) -> f64 {
-        let (ratio, dependent) = self.factor.smallest_ratio(ROUND_OFF);
+        let (ratio, dependent) = self.factor.smallest_ratio(tolerances::ROUND_OFF_OF_FACTORS);
         if dependent > 0 { 0.0 } else { ratio }
     }
 
@@ -131,7 +129,14 @@ impl Skipping {
     pub fn solve(&mut self, system: &System, top: &mut [f64], bottom: &mut [f64], is_least: bool) {
         self.inconsistency = self.project(system, bottom);
         let Skipping { factor, a, lambda, top: r1, bottom: r2, .. } = self;
-        iterate(factor, system, (top, bottom), (a, lambda), (r1, r2), SWEEPS[usize::from(self.replaced)]);
+        iterate(
+            factor,
+            system,
+            (top, bottom),
+            (a, lambda),
+            (r1, r2),
+            tolerances::REFINEMENTS[usize::from(self.replaced)],
+        );
         top.copy_from_slice(&self.a);
         bottom.copy_from_slice(&self.lambda);
         if is_least {
@@ -142,7 +147,7 @@ impl Skipping {
     /// v := P v; returns the norm of what was taken away.
     fn project(&mut self, system: &System, v: &mut [f64]) -> f64 {
         let Skipping { factor, least, skipped, collapsed, .. } = self;
-        let rank_indicator = factor.smallest_ratio(collapsed.max(ROUND_OFF)).0.sqrt();
+        let rank_indicator = factor.smallest_ratio(collapsed.max(tolerances::ROUND_OFF_OF_FACTORS)).0.sqrt();
         least.project(system, skipped, rank_indicator, &mut |top, bottom| factor.solve(top, bottom), v)
     }
 
@@ -152,7 +157,7 @@ impl Skipping {
         top.fill(0.0);
         bottom.fill(0.0);
         system.g.subtract_transposed(&system.g_values, direction, top);
-        iterate(factor, system, (top, bottom), (a, lambda), (r1, r2), SWEEPS[0]);
+        iterate(factor, system, (top, bottom), (a, lambda), (r1, r2), tolerances::REFINEMENTS[0]);
         image.copy_from_slice(direction);
         add(lambda, image);
     }

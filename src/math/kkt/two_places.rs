@@ -3,6 +3,7 @@
 use super::system::{add_scaled, dot};
 use super::{Pattern, SaddlePoint, Singular};
 use crate::math::largest;
+use crate::tolerances::math as tolerances;
 
 /// ```text
 /// [M   G1^T] [a     ]   [f]
@@ -18,10 +19,10 @@ pub struct TwoPlaces {
     /// GMRES basis, by scaled rows.
     basis: Vec<Vec<f64>>,
     /// Columns of the triangular factor of the Hessenberg matrix.
-    triangle: Vec<[f64; MOST + 1]>,
+    triangle: Vec<[f64; tolerances::GMRES_VECTORS + 1]>,
     rotations: Vec<(f64, f64)>,
     /// Right side of the least-squares problem, and its solution.
-    reduced: [f64; MOST + 1],
+    reduced: [f64; tolerances::GMRES_VECTORS + 1],
     /// Size of each row, which its residual is measured against.
     scale: Vec<f64>,
     force: Vec<f64>,
@@ -30,18 +31,6 @@ pub struct TwoPlaces {
     top: Vec<f64>,
     bottom: Vec<f64>,
 }
-
-/// Vectors between restarts, and restarts.
-const MOST: usize = 24;
-const CYCLES: usize = 12;
-/// What one cycle gains; more would be lost to rounding.
-const GAIN: f64 = 1e-10;
-/// Residual relative to the rows that is round-off, and the largest that is a solution.
-const ROUND_OFF: f64 = 1e-16;
-const SOLVED: f64 = 1e-9;
-/// The same of dependent rows, which a drift of the positions by round-off, over the step, makes contradict each other: the
-/// best of all a is the solution.
-const CONSISTENT: f64 = 1e-5;
 
 /// The factored symmetric matrix with G2.
 struct Pair<'p> {
@@ -53,12 +42,12 @@ struct Pair<'p> {
 impl TwoPlaces {
     /// For `n` coordinates and `m` constraints.
     pub fn new(n: usize, m: usize) -> Self {
-        let most = MOST.min(m);
+        let most = tolerances::GMRES_VECTORS.min(m);
         TwoPlaces {
             basis: vec![vec![0.0; m]; most + 1],
-            triangle: vec![[0.0; MOST + 1]; most],
+            triangle: vec![[0.0; tolerances::GMRES_VECTORS + 1]; most],
             rotations: vec![(1.0, 0.0); most],
-            reduced: [0.0; MOST + 1],
+            reduced: [0.0; tolerances::GMRES_VECTORS + 1],
             scale: vec![0.0; m],
             force: vec![0.0; n],
             diagonal: vec![0.0; n],
@@ -87,7 +76,7 @@ impl TwoPlaces {
         self.force.copy_from_slice(top);
         self.b.copy_from_slice(bottom);
         let mut last = f64::INFINITY;
-        for cycle in 0..CYCLES {
+        for cycle in 0..tolerances::GMRES_RESTARTS {
             top.copy_from_slice(&self.force);
             bottom.copy_from_slice(&self.b);
             pair.kkt.solve(top, bottom)?;
@@ -98,8 +87,9 @@ impl TwoPlaces {
                 self.measure(&pair, mass, r, (top, bottom));
             }
             let residual = self.residual(&pair, r, top);
-            let solved = if pair.kkt.is_rank_deficient() { CONSISTENT } else { SOLVED };
-            if residual <= ROUND_OFF || residual <= solved && residual > 0.1 * last {
+            let solved =
+                if pair.kkt.is_rank_deficient() { tolerances::GMRES_CONSISTENT } else { tolerances::GMRES_SOLVED };
+            if residual <= tolerances::GMRES_ROUND_OFF || residual <= solved && residual > 0.1 * last {
                 return Ok(());
             }
             if residual.is_nan() || residual >= 0.9 * last {
@@ -159,7 +149,7 @@ impl TwoPlaces {
                 break;
             }
             count += 1;
-            if self.reduced[count].abs() <= GAIN * norm {
+            if self.reduced[count].abs() <= tolerances::GMRES_GAIN * norm {
                 break;
             }
         }

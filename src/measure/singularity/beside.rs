@@ -3,10 +3,7 @@
 use crate::formulation::Dynamics;
 use crate::math::largest;
 use crate::system::{MechanicalSystem, Need};
-
-/// Distance to the state beside, m or rad, and Newton's steps to bring it to the constraints.
-const ASIDE: f64 = 1e-3;
-const SWEEPS: usize = 8;
+use crate::tolerances::report as tolerances;
 
 /// The rows of G that depend on others at a state near the given one, in a direction that the constraints allow and that
 /// has nothing special.
@@ -22,8 +19,8 @@ pub fn dependent_beside(system: &dyn MechanicalSystem, t: f64, q: &[f64]) -> Vec
         return Vec::new();
     }
     let size = largest(&step).max(f64::MIN_POSITIVE);
-    step.iter_mut().for_each(|x| *x *= ASIDE / size);
-    for sweep in 0..=SWEEPS {
+    step.iter_mut().for_each(|x| *x *= tolerances::STATE_BESIDE / size);
+    for sweep in 0..=tolerances::STATE_BESIDE_SWEEPS {
         system.rate(&aside, &step, &mut rate);
         let sign = if sweep == 0 { 1.0 } else { -1.0 };
         aside.iter_mut().zip(&rate).for_each(|(q, rate)| *q += sign * rate);

@@ -8,27 +8,11 @@
 use super::Branch;
 use super::path::Sample;
 use super::survey::Survey;
-
-/// States on the way to a singular one are kept each time the rank indicator has halved since the last.
-const HALVED: f64 = 0.5;
-/// The way is followed below this part of the largest rank indicator.
-const ZONE: f64 = 0.3;
-/// Velocities are compared at so many times the least rank indicator.
-const ASIDE: f64 = 6.0;
-/// The state after the one that is compared is at least this part of the time between those compared farther on.
-const APART: f64 = 0.25;
-/// A change of the velocity, relative to its size, that no smooth motion makes; beside so many times what the lower rule
-/// makes of the same accelerations otherwise, since over long steps both rules err, but not beyond a part of its size.
-const JUMP: f64 = 0.1;
-const DOUBT: f64 = 3.0;
-const MOST_DOUBT: f64 = 0.5;
-/// Drift of the positions, relative to the square of the rank indicator, and of the velocities, relative to the rank
-/// indicator, that can turn a motion.
-const TURNED: f64 = 0.01;
+use crate::tolerances::report as tolerances;
 
 /// The rank indicator below which drift of the positions and velocities, relative to their scales, can turn a motion.
 pub fn reach([position, velocity]: [f64; 2]) -> f64 {
-    (position / TURNED).sqrt().max(velocity / TURNED)
+    (position / tolerances::DRIFT_TURNS).sqrt().max(velocity / tolerances::DRIFT_TURNS)
 }
 
 /// The way to a singular state, and from it.
@@ -57,7 +41,7 @@ impl Turning {
         let aside = self
             .way
             .iter()
-            .rposition(|sample| sample.t < t && sample.rank_indicator >= ASIDE * rank_indicator)
+            .rposition(|sample| sample.t < t && sample.rank_indicator >= tolerances::WAY_COMPARED * rank_indicator)
             .unwrap_or(0);
         let before = match self.way.get(..=aside) {
             Some(way) => way[aside.saturating_sub(1)..].to_vec(),
@@ -70,13 +54,13 @@ impl Turning {
     /// Takes an accepted state, and judges the singular state before it once it is far enough behind.
     pub fn add(&mut self, now: &Sample, largest: f64, survey: &mut Survey) -> Option<(usize, Branch)> {
         let falls = now.rank_indicator < self.last[1].rank_indicator;
-        if now.rank_indicator > ZONE * largest {
+        if now.rank_indicator > tolerances::WAY_BEGINS * largest {
             self.way.clear();
         } else if falls {
             if self.way.is_empty() {
                 self.way.extend(self.last.iter().filter(|sample| !sample.q.is_empty()).cloned());
             }
-            if self.way.last().is_none_or(|last| now.rank_indicator < HALVED * last.rank_indicator) {
+            if self.way.last().is_none_or(|last| now.rank_indicator < tolerances::WAY_HALVED * last.rank_indicator) {
                 self.way.push(now.clone());
             }
         }
@@ -101,9 +85,11 @@ impl Open {
         let Some(from) = self.before.last() else { return false };
         let is_next = match self.after.first() {
             None => {
-                now.t > from.t && now.rank_indicator >= (ASIDE * self.rank_indicator).min(0.5 * from.rank_indicator)
+                now.t > from.t
+                    && now.rank_indicator
+                        >= (tolerances::WAY_COMPARED * self.rank_indicator).min(0.5 * from.rank_indicator)
             }
-            Some(first) => now.t - first.t >= APART * (first.t - from.t),
+            Some(first) => now.t - first.t >= tolerances::WAY_APART * (first.t - from.t),
         };
         if is_next {
             self.after.push(now.clone());
@@ -121,7 +107,8 @@ impl Open {
         let doubt: Vec<f64> = change.iter().zip(&lower).map(|(change, lower)| change - lower).collect();
         survey.weigh(to.t, &to.q);
         let size = survey.size(&to.v).max(survey.size(&from.v));
-        let smooth = JUMP * size + (DOUBT * survey.size(&doubt)).min(MOST_DOUBT * size);
+        let smooth = tolerances::JUMPED * size
+            + (tolerances::JUMP_DOUBTED * survey.size(&doubt)).min(tolerances::JUMP_DOUBTED_MOST * size);
         match survey.size(&jump) {
             _ if size <= 0.0 => Branch::Open,
             jump if (jump > smooth || jump.is_nan()) && self.may_turn => Branch::Left,

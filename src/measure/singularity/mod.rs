@@ -9,6 +9,7 @@ use crate::error::{Failure, short_list};
 use crate::formulation::Dynamics;
 use crate::simulate::Observation;
 use crate::system::MechanicalSystem;
+use crate::tolerances::report as tolerances;
 pub use beside::dependent_beside;
 use branch::Turning;
 use path::{Path, Sample};
@@ -83,13 +84,6 @@ impl Singularity {
     }
 }
 
-/// Dips of the rank indicator below this part of the largest one are looked at.
-const DIP: f64 = 0.8;
-/// Below this part the state is near to a singular one, below the second it is singular.
-const NEAR: f64 = 1e-2;
-const SINGULAR: f64 = 1e-3;
-/// Below this part drift may turn the motion.
-const FAR: f64 = 0.2;
 const MOST_PASSED: usize = 1000;
 
 /// Follows a motion.
@@ -162,7 +156,9 @@ impl<'a> Watch<'a> {
     /// Forgets a state that was looked at only because drift might have turned the motion there.
     fn drop_if_far(&mut self, passing: usize) {
         let passed = &mut self.found.passed;
-        if passed.get(passing).is_some_and(|p| p.branch != Branch::Left && p.rank_indicator > NEAR * self.largest) {
+        if passed.get(passing).is_some_and(|p| {
+            p.branch != Branch::Left && p.rank_indicator > tolerances::TOLD_NEAR_SINGULAR * self.largest
+        }) {
             passed.remove(passing);
             self.found.count -= 1;
         }
@@ -180,15 +176,15 @@ impl<'a> Watch<'a> {
         let [a, b, c] = &self.last;
         b.rank_indicator <= a.rank_indicator
             && b.rank_indicator < c.rank_indicator
-            && b.rank_indicator < DIP * self.largest
+            && b.rank_indicator < tolerances::DIP_OF_RANK * self.largest
     }
 
     fn look_at_dip(&mut self) {
         let path = Path::new(&self.last, &mut self.survey);
         let indicators = [self.last[0].rank_indicator, self.last[2].rank_indicator];
         let drift = self.survey.drift(&self.last[1]);
-        let near = NEAR * self.largest;
-        let turned = branch::reach(drift).min(FAR * self.largest);
+        let near = tolerances::TOLD_NEAR_SINGULAR * self.largest;
+        let turned = branch::reach(drift).min(tolerances::DRIFT_MAY_TURN * self.largest);
         let Some((t, rank_indicator)) = self.survey.least_rank_indicator(&path, indicators, near.max(turned)) else {
             return;
         };
@@ -199,7 +195,7 @@ impl<'a> Watch<'a> {
         }
         let judged = self.turning.judge(&mut self.survey);
         self.settle(judged);
-        let is_singular = rank_indicator < SINGULAR * self.largest;
+        let is_singular = rank_indicator < tolerances::TOLD_SINGULAR * self.largest;
         let (lost, joints) = self.survey.dependence(t, &q, 10.0 * rank_indicator);
         self.turning.begin(self.found.passed.len(), t, rank_indicator, is_singular || rank_indicator < turned);
         let regular_rank = self.survey.regular_rank();

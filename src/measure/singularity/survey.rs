@@ -5,21 +5,8 @@ use crate::formulation::Dynamics;
 use crate::math::kkt::{condition_number, dependent_rows};
 use crate::math::largest;
 use crate::system::Need;
+use crate::tolerances::report as tolerances;
 
-/// Up to this many unknowns the joints that depend on each other are named.
-const NAMED: usize = 1000;
-/// Rows count as dependent at least below this part of their length.
-const DEPENDENT: f64 = 1e-4;
-/// The condition number is computed up to this many unknowns.
-const SMALL: usize = 300;
-/// Golden sections end at this part of a path, and where the rank indicator is this part of what counts as near.
-const SHORTEST: f64 = 1e-6;
-const TINY: f64 = 5e-4;
-/// The points of the two lines are where the rank indicator is about this part of what counts as near: the lines are
-/// straight, and round-off is small.
-const ASIDE: f64 = 2e-2;
-/// Newton's steps that bring a path back to the drift of the motion.
-const SWEEPS: usize = 2;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// A system with the memory to look at its constraints anywhere.
@@ -78,7 +65,7 @@ impl<'a> Survey<'a> {
     pub fn position(&mut self, path: &Path, t: f64) -> Vec<f64> {
         let mut q = path.at(t);
         let (mut step, mut rate) = (vec![0.0; self.rest.len()], vec![0.0; q.len()]);
-        for _ in 0..SWEEPS {
+        for _ in 0..tolerances::PATH_SWEEPS {
             self.evaluate(t, &q);
             let dynamics = &mut self.dynamics;
             dynamics.terms.phi.iter_mut().zip(&path.phi).for_each(|(phi, drift)| *phi -= drift);
@@ -99,13 +86,13 @@ impl<'a> Survey<'a> {
         let [mut from, _, mut to] = path.times;
         let width = to - from;
         // Times of steps near round-off do not come any closer.
-        let shortest = (SHORTEST * width).max(8.0 * f64::EPSILON * from.abs().max(to.abs()));
+        let shortest = (tolerances::GOLDEN_SHORTEST * width).max(8.0 * f64::EPSILON * from.abs().max(to.abs()));
         let mut inner = [to - GOLDEN * (to - from), from + GOLDEN * (to - from)];
         let mut values = inner.map(|t| self.rank_indicator_on(path, t));
         // Of a dip that is alike on both sides the inner values tell no slope.
         let outer = [(indicators[0] - values[0]) / (inner[0] - from), (indicators[1] - values[1]) / (to - inner[1])];
         let mut steepest = 2.0 * outer[0].abs().max(outer[1].abs());
-        while to - from > shortest && values[0].min(values[1]) > TINY * bound {
+        while to - from > shortest && values[0].min(values[1]) > tolerances::GOLDEN_NEAR * bound {
             steepest = steepest.max(2.0 * (values[1] - values[0]).abs() / (inner[1] - inner[0]));
             if values[0].min(values[1]) - steepest * (to - from) > bound {
                 return None;
@@ -125,7 +112,7 @@ impl<'a> Survey<'a> {
         let mut aside = 1e-3 * width;
         let mut sides = |aside: f64| [t - aside, t + aside].map(|t| self.rank_indicator_on(path, t));
         let [before, after] = sides(aside);
-        aside = (ASIDE * bound * aside / before.max(after)).min(0.1 * width);
+        aside = (tolerances::LINES_ASIDE * bound * aside / before.max(after)).min(0.1 * width);
         let [before, after] = sides(aside);
         // The lines of a minimum that is round do not meet near zero.
         match least < 0.5 * before.min(after) {
@@ -136,11 +123,15 @@ impl<'a> Survey<'a> {
 
     /// The rank at a position, and the joints whose rows depend on each other there.
     pub fn dependence(&mut self, t: f64, q: &[f64], tolerance: f64) -> (Option<usize>, Vec<String>) {
-        if self.unknowns() > NAMED {
+        if self.unknowns() > tolerances::NAMED_DEPENDENT_JOINTS {
             return (None, Vec::new());
         }
         self.evaluate(t, q);
-        let found = dependent_rows(&self.dynamics.structure.g, &self.dynamics.terms.g, tolerance.max(DEPENDENT));
+        let found = dependent_rows(
+            &self.dynamics.structure.g,
+            &self.dynamics.terms.g,
+            tolerance.max(tolerances::DEPENDENT_AT_LEAST),
+        );
         let new = found.rows.iter().filter(|row| !self.dynamics.dropped.contains(&row.row));
         let rows: Vec<usize> =
             new.flat_map(|row| row.combination.iter().map(|(other, _)| *other).chain([row.row])).collect();
@@ -176,7 +167,7 @@ impl<'a> Survey<'a> {
     }
 
     pub fn condition_at_nearest(&mut self) -> Option<f64> {
-        if self.unknowns() > SMALL {
+        if self.unknowns() > tolerances::CONDITION_OF_RUN {
             return None;
         }
         let (t, q) = std::mem::take(&mut self.nearest);

@@ -2,6 +2,7 @@
 
 use crate::measure::Drift;
 use crate::simulate::Method;
+use crate::tolerances::report as tolerances;
 use serde::Serialize;
 
 /// How a cell ended.
@@ -40,9 +41,6 @@ impl Status {
     }
 }
 
-/// A motion whose outputs or energy are off by this part is not the one that was asked for.
-pub const OFF: f64 = 0.1;
-
 /// One simulation and what was measured of it.
 #[derive(Clone, Debug, Serialize)]
 pub struct Cell {
@@ -70,7 +68,7 @@ pub struct Cell {
     /// The differences of all outputs.
     #[serde(skip)]
     pub errors: Vec<f64>,
-    /// Whether it completed with outputs and energy within [`OFF`]. None where that is not known.
+    /// Whether it completed with outputs and energy within `tolerances::WRONG_MOTION`. None where that is not known.
     pub holds: Option<bool>,
     pub steps: u64,
     /// Of steps and rows.
@@ -84,7 +82,7 @@ impl Cell {
         let largest = errors.iter().enumerate().max_by(|a, b| magnitude(*a.1).total_cmp(&magnitude(*b.1)));
         self.error = largest.map(|(_, error)| *error);
         self.worst = largest.and_then(|(i, _)| names.get(i).cloned());
-        let within = |part: f64| part <= OFF;
+        let within = |part: f64| part <= tolerances::WRONG_MOTION;
         let keeps_energy = self.relative_energy_error.is_none_or(within);
         self.holds = match (self.status, self.error) {
             (Status::Completed, Some(error)) => Some(keeps_energy && within(error)),

@@ -2,6 +2,7 @@
 
 use super::cell::{Cell, Quantity, Status};
 use super::run::Stressed;
+use crate::tolerances::report as tolerances;
 use serde::Serialize;
 
 /// One integrator on the map of gains, judged by the drift of velocities or positions.
@@ -71,9 +72,6 @@ pub struct Farther {
     pub output: String,
     pub ratio: f64,
 }
-
-/// Errors below are those of the reference.
-const NOISE: f64 = 1e-9;
 
 impl Stressed {
     /// The verdicts by integrator, each by velocities and by positions; empty for other maps.
@@ -176,7 +174,8 @@ impl<'a> Levels<'a> {
         let at = |(column, step): (usize, &StepVerdict)| {
             let ((best, cell), none) = (self.best(column)?, self.named("none", column)?);
             let pairs = self.stressed.watched.iter().zip(cell.errors.iter().zip(&none.errors));
-            let seen = pairs.filter(|(_, (own, none))| **own > NOISE && **none > NOISE);
+            let seen = pairs
+                .filter(|(_, (own, none))| **own > tolerances::REFERENCE_NOISE && **none > tolerances::REFERENCE_NOISE);
             let ratios = seen.map(|(output, (own, none))| (output, own / none));
             let (output, ratio) = ratios.max_by(|a, b| a.1.total_cmp(&b.1))?;
             Some(Farther { step: step.step, gain: best.gain, output: output.clone(), ratio })

@@ -25,7 +25,7 @@ mod subject;
 mod verdict;
 
 pub use case::Case;
-pub use cell::{Cell, OFF, Quantity, Status};
+pub use cell::{Cell, Quantity, Status};
 pub use change::Change;
 pub use deadline::Limits;
 pub use extreme::{Extreme, find, ladder};

@@ -7,6 +7,7 @@ use crate::choice::Choice;
 use crate::measure::{Record, Recorder, Sizes, scales};
 use crate::simulate::{Method, Observation, Sink, Stop, simulate};
 use crate::system::{Column, MechanicalSystem, Scratch};
+use crate::tolerances::report as tolerances;
 use crate::trajectory::Trajectory;
 use std::time::Duration;
 
@@ -30,7 +31,6 @@ pub(super) enum Search {
     Hopeless,
 }
 
-const TIGHT: f64 = 1e-13;
 /// An explicit and an implicit method: one of them suits.
 const METHODS: [[&str; 3]; 2] = [["index1", "dop853", "manifold"], ["ggl", "radau_iia", "none"]];
 
@@ -40,7 +40,14 @@ impl Search {
         let mut search = Search::Hopeless;
         for names in METHODS {
             let [formulation, integrator, projection] = names.map(Choice::named);
-            let method = Method { formulation, integrator, projection, rtol: TIGHT, atol: TIGHT, step: None };
+            let method = Method {
+                formulation,
+                integrator,
+                projection,
+                rtol: tolerances::REFERENCE_RTOL,
+                atol: tolerances::REFERENCE_RTOL,
+                step: None,
+            };
             match Self::by(subject, Case { method, ..case.clone() }, allowed, limits) {
                 Search::Hopeless => {}
                 Search::Pending(part) => search = Search::Pending(part.max(search.part())),

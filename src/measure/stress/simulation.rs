@@ -10,6 +10,7 @@ use crate::error::{Error, Result, short};
 use crate::formulation::Halt;
 use crate::measure::{Record, Recorder};
 use crate::simulate::{Outcome, Stop, simulate};
+use crate::tolerances::report as tolerances;
 use serde_json::Value;
 use std::cell::Cell as Flag;
 use std::sync::Arc;
@@ -97,11 +98,6 @@ fn simulated(subject: &Subject, case: &Case, limits: Limits, share: Duration) ->
     })
 }
 
-/// Joints that are open by this part of the scene's size make a motion meaningless.
-const OPEN: f64 = 0.1;
-/// A run that stopped had diverged before if its energy error is this part of the energy turned over.
-const BLOWN: f64 = 0.5;
-
 impl Run {
     fn cell(self, blank: Cell) -> Cell {
         let status = self.status();
@@ -129,7 +125,7 @@ impl Run {
 
     fn status(&self) -> Status {
         let open = self.record.drift.position.relative_max;
-        let is_open = open.is_nan() || open > OPEN;
+        let is_open = open.is_nan() || open > tolerances::MEANINGLESS;
         let Some(failure) = &self.outcome.failure else {
             return if is_open { Status::Diverged } else { Status::Completed };
         };
@@ -137,7 +133,7 @@ impl Run {
             .record
             .energy
             .and_then(|energy| energy.relative_max_error)
-            .is_some_and(|part| part.is_nan() || part > BLOWN);
+            .is_some_and(|part| part.is_nan() || part > tolerances::BLOWN_UP);
         match self.stopped {
             Some(status) => status,
             None if is_open || is_blown || failure.reason.contains(&Halt::NotFinite.to_string()) => Status::Diverged,

@@ -3,14 +3,11 @@
 use super::WorkPrecision;
 use super::cell::{Cell, Held};
 use crate::simulate::Method;
+use crate::tolerances::report as tolerances;
 use serde::Serialize;
 
 /// Digits that are asked for.
 const MOST_DIGITS: u32 = 14;
-/// Costs within this factor of the least are a tie: counted work tells times no better.
-pub const TIE: f64 = 1.15;
-/// Drift below is round-off.
-const ROUND_OFF: f64 = 1e-12;
 
 /// Of runs that cost and drift alike that is chosen which is best known, in this order; others come after.
 const KNOWN: [&[&str]; 3] = [
@@ -25,7 +22,7 @@ pub struct Recommendation {
     pub digits: u32,
     /// Places in the list of cells. The cheapest; of a tie the one that drifts least, then the one that is known best.
     pub best: usize,
-    /// Other methods that cost as little within [`TIE`].
+    /// Other methods that cost as little within `tolerances::TIED_COSTS`.
     pub ties: Vec<usize>,
     /// The best with another integrator.
     pub next: Option<usize>,
@@ -98,14 +95,17 @@ impl WorkPrecision {
     /// Runs with at least so many digits, whose joints are closed to as many, that cost as little as the cheapest of them, the one to choose first.
     fn cheapest(&self, digits: u32, is_meant: &dyn Fn(&Cell) -> bool) -> Vec<usize> {
         // Outputs at rest do not show that joints come apart.
-        let gap = 0.1f64.powi(digits as i32).max(ROUND_OFF);
+        let gap = 0.1f64.powi(digits as i32).max(tolerances::DRIFT_ROUND_OFF);
         let is_closed = |cell: &Cell| cell.drift().is_some_and(|drift| drift.position <= gap);
         let good = |cell: &Cell| cell.digits() >= Some(f64::from(digits)) && is_closed(cell) && is_meant(cell);
         let all = self.cells.iter().enumerate().filter(|(_, cell)| good(cell));
         let costs: Vec<(usize, f64)> = all.filter_map(|(place, cell)| Some((place, cell.cost?))).collect();
         let least = costs.iter().fold(f64::INFINITY, |least, (_, cost)| least.min(*cost));
-        let mut tied: Vec<usize> =
-            costs.into_iter().filter(|(_, cost)| *cost <= TIE * least).map(|(place, _)| place).collect();
+        let mut tied: Vec<usize> = costs
+            .into_iter()
+            .filter(|(_, cost)| *cost <= tolerances::TIED_COSTS * least)
+            .map(|(place, _)| place)
+            .collect();
         tied.sort_by_key(|place| merit(&self.cells[*place]));
         tied
     }
@@ -132,7 +132,7 @@ impl WorkPrecision {
 
 /// Less is better: decades of drift, then how well the method is known.
 fn merit(cell: &Cell) -> (i32, [usize; 3], u32) {
-    let drift = cell.drift().map_or(1.0, Held::largest).max(ROUND_OFF);
+    let drift = cell.drift().map_or(1.0, Held::largest).max(tolerances::DRIFT_ROUND_OFF);
     let Method { integrator, formulation, projection, .. } = &cell.method;
     let names = [integrator, formulation, projection].map(|choice| choice.name.as_str());
     let mut known = [0; 3];

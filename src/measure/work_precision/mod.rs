@@ -25,7 +25,7 @@ mod sample;
 mod work;
 mod yardstick;
 
-pub use advice::{Lack, Recommendation, TIE, cheapest_by_method};
+pub use advice::{Lack, Recommendation, cheapest_by_method};
 pub use cell::{Cell, Held, Outcome};
 pub use given::Given;
 pub use grid::{Filter, Triple, grid};

@@ -9,6 +9,7 @@ use crate::scene::{self, Scene};
 use crate::simulate::{Method, Span};
 use crate::study::{Overrides, Study};
 use crate::system::{Column, Dimensions};
+use crate::tolerances::report as tolerances;
 use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -107,8 +108,6 @@ impl ModelCost {
 
 /// Times at which models are compared.
 const ROWS: usize = 200;
-/// How much tighter the run is that tells a model's own error.
-const TIGHTER: f64 = 1e-2;
 
 /// Runs all models over the span of the first, each with its own method, `repeats` times in turn; `watch` hears which comes
 /// next and how many runs are done. `outputs` names what to compare, all of the richest model where it is empty.
@@ -245,6 +244,6 @@ impl<'a> Run<'a> {
 
 fn tighter(method: &Method) -> Method {
     // Below, round-off is all that is left.
-    let rtol = (TIGHTER * method.rtol).max(1e-13).min(method.rtol);
+    let rtol = (tolerances::MODEL_TIGHTER * method.rtol).max(1e-13).min(method.rtol);
     Method { rtol, atol: method.atol * rtol / method.rtol, ..method.clone() }
 }

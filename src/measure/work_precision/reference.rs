@@ -6,11 +6,9 @@ use super::runner::Motion;
 use super::yardstick::{Watched, Yardstick};
 use crate::error::Result;
 use crate::simulate::Span;
+use crate::tolerances::report as tolerances;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
-
-/// The reference's error is this part of what is asked for.
-const MARGIN: f64 = 0.1;
 
 /// Values to compare with, and how far they can be believed.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -50,7 +48,8 @@ impl Reference {
         (span, given): (Span, Option<&Given>),
         (digits, budget): (u32, Duration),
     ) -> Result<(Reference, Vec<Rung>)> {
-        let lines = climb(motion, watched, span, (MARGIN * 0.1f64.powf(f64::from(digits)), budget))?;
+        let lines =
+            climb(motion, watched, span, (tolerances::REFERENCE_MARGIN * 0.1f64.powf(f64::from(digits)), budget))?;
         let pace = pace(&lines, span);
         let mut checked = check(&lines, watched).ok_or_else(|| nothing(&lines, motion, budget))?;
         if let Some(given) = given {

@@ -10,6 +10,7 @@ use super::yardstick::Watched;
 use crate::error::Result;
 use crate::simulate::{Method, Span};
 use crate::system::MechanicalSystem;
+use crate::tolerances::report as tolerances;
 use std::time::{Duration, Instant};
 
 /// What is measured on.
@@ -43,9 +44,6 @@ pub struct Plan {
     /// Values to compare with, in the place of a computed reference.
     pub given: Option<Given>,
 }
-
-/// A run is quick below this part of the budget.
-const QUICK: f64 = 5e-4;
 
 /// Makes the runs.
 pub struct Runner<'a> {
@@ -145,7 +143,7 @@ impl<'a> Runner<'a> {
         let run = || sample(&self.motion, &self.watched, method, self.span(result), allowed);
         let first = run()?;
         let mut seconds = vec![first.seconds];
-        let quick = QUICK * self.plan.budget.as_secs_f64();
+        let quick = tolerances::QUICK_RUN * self.plan.budget.as_secs_f64();
         while first.failure.is_none() && seconds.len() < self.plan.repeats && first.seconds < quick {
             seconds.push(run()?.seconds);
         }

@@ -2,6 +2,7 @@
 
 use crate::linearize::{Complex, Kind, LinearModel};
 use crate::report::{Table, significant};
+use crate::tolerances::report as tolerances;
 use serde::Serialize;
 
 /// How a method did.
@@ -50,9 +51,6 @@ fn one(model: &LinearModel, reference: &[Complex<f64>]) -> Comparison {
     }
 }
 
-/// An eigenvalue this much smaller than the largest counts as zero: its error is measured against the largest.
-const ZERO: f64 = 1e-9;
-
 /// Each reference value is compared with the nearest of those that are left.
 fn largest_error(found: &[Complex<f64>], reference: &[Complex<f64>]) -> Option<f64> {
     if reference.is_empty() || found.len() != reference.len() {
@@ -64,7 +62,7 @@ fn largest_error(found: &[Complex<f64>], reference: &[Complex<f64>]) -> Option<f
     for known in reference {
         let distance = |value: &Complex<f64>| (value - known).norm();
         let (at, _) = left.iter().enumerate().min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))?;
-        let size = if known.norm() > ZERO * largest { known.norm() } else { largest };
+        let size = if known.norm() > tolerances::SAME * largest { known.norm() } else { largest };
         let error = distance(&left.swap_remove(at));
         worst = worst.max(if size > 0.0 { error / size } else { error });
     }

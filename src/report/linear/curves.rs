@@ -3,6 +3,7 @@
 use super::range::{drawn, padded, robust};
 use crate::linearize::{Branch, Complex, Kind};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
+use crate::tolerances::linearize as tolerances;
 use std::f64::consts::TAU;
 
 /// More lines than this have no names.
@@ -12,7 +13,6 @@ const WIDE: f64 = 100.0;
 const FREE: f64 = 0.06;
 /// An axis of damping ratios is at least so long where they differ by round-off only.
 const LEAST_DAMPING: f64 = 0.02;
-const ROUND_OFF: f64 = 1e-6;
 
 /// |lambda| / 2 pi and -Re(lambda) / |lambda| of the physical eigenvalues, each conjugate pair once; `along` names time or
 /// parameter with its unit. `None` without physical eigenvalues.
@@ -85,7 +85,7 @@ fn damping_axis(values: Vec<f64>) -> AxisSpec {
     let axis = AxisSpec::from("damping ratio");
     let (low, high) = bounds(&values);
     match high - low {
-        span if span < ROUND_OFF => {
+        span if span < tolerances::EIGENVALUES_AGREE => {
             let (low, high) = padded((low, high), 0.0, LEAST_DAMPING);
             axis.range(low, high)
         }

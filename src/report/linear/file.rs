@@ -3,6 +3,7 @@
 use super::Linear;
 use crate::linearize::{Cost, Kind, LinearModel, Matrix, Mode};
 use crate::report::cell;
+use crate::tolerances::report as tolerances;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -78,9 +79,6 @@ pub struct Norms {
     pub vdot: f64,
 }
 
-/// Parts below this are left out of a file.
-const LEAST_PART: f64 = 1e-3;
-
 /// The name of a model's files without their ends: `linear-0.01`, and `linear-0.01-rcs-form-index2` where several methods
 /// are asked for at a time.
 pub fn linear_stem(t: f64, method: Option<&str>) -> String {
@@ -148,7 +146,7 @@ fn eigenvalue(model: &LinearModel, mode: &Mode) -> Eigenvalue {
     let is_finite = mode.kind != Kind::Infinite && mode.value.re.is_finite() && mode.value.im.is_finite();
     let finite = |value: f64| is_finite.then_some(value);
     let parts = largest_parts(&model.states, &mode.participation).into_iter();
-    let parts = parts.filter(|(_, part)| *part >= LEAST_PART);
+    let parts = parts.filter(|(_, part)| *part >= tolerances::PART_OF_MODE);
     Eigenvalue {
         re: finite(mode.value.re),
         im: finite(mode.value.im),

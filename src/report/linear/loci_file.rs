@@ -4,6 +4,7 @@ use crate::error::{Error, Failure, Result, Warning};
 use crate::linearize::{Along, Branch, Complex, Kind, Loci, Reached, damping, frequency};
 use crate::plot::AxisSpec;
 use crate::report::{cell, table};
+use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
 
 /// Eigenvalues at many states in numbers.
@@ -90,8 +91,6 @@ pub struct PointFile {
     pub damping_ratio: f64,
 }
 
-/// A real part below this part of the eigenvalue is round-off, and so is one below so many 1/s.
-const ROUND_OFF: f64 = 1e-6;
 /// Growth by this part over the whole of the motion is not worth telling.
 const LITTLE: f64 = 0.01;
 
@@ -100,7 +99,7 @@ impl LociSummary {
         let ends = [loci.places.first(), loci.places.last()].map(|place| place.copied().unwrap_or(0.0));
         let (name, unit, log, least) = match &loci.along {
             Along::Time => ("t".to_string(), "s", false, LITTLE / (ends[1] - ends[0])),
-            Along::Parameter(range) => (range.parameter.clone(), "", range.is_log, ROUND_OFF),
+            Along::Parameter(range) => (range.parameter.clone(), "", range.is_log, tolerances::EIGENVALUES_AGREE),
         };
         LociSummary {
             scene: scene.to_string(),
@@ -196,7 +195,7 @@ fn mode_summary(mode: String, branch: &Branch, least: f64) -> ModeSummary {
     let mut growing: Vec<Stretch> = Vec::new();
     let mut goes_on = false;
     for (at, value) in &branch.points {
-        let grows = value.re > least && value.re > ROUND_OFF * value.norm();
+        let grows = value.re > least && value.re > tolerances::EIGENVALUES_AGREE * value.norm();
         match growing.last_mut().filter(|_| grows && goes_on) {
             Some(last) => last.to = *at,
             None if grows => growing.push(Stretch { from: *at, to: *at }),

@@ -3,13 +3,12 @@
 use super::loci_file::{Extent, FailureFile, LociSummary, ModeSummary, Stretch};
 use crate::linearize::Kind;
 use crate::report::{Table, significant};
+use crate::tolerances::report as tolerances;
 
 /// Lines of the table; the files have all modes.
 const MOST_LINES: usize = 30;
 /// Stretches of a mode that are listed.
 const MOST_STRETCHES: usize = 4;
-/// Damping below this is round-off.
-const NO_DAMPING: f64 = 1e-9;
 
 impl LociSummary {
     /// Method, chart and states, then the modes.
@@ -82,7 +81,7 @@ impl LociSummary {
 }
 
 fn cells(mode: &ModeSummary) -> [String; 4] {
-    let clean = |x: f64| if x.abs() < NO_DAMPING { 0.0 } else { x };
+    let clean = |x: f64| if x.abs() < tolerances::SAME { 0.0 } else { x };
     let Extent { min, max } = mode.damping_ratio;
     let growing: Vec<String> = mode.growing.iter().take(MOST_STRETCHES).map(stretch).collect();
     let more = if mode.growing.len() > MOST_STRETCHES { ", ..." } else { "" };

@@ -1,6 +1,7 @@
 //! Conjugate pairs of eigenvalues.
 
 use crate::linearize::{Complex, Kind, LinearModel, Mode};
+use crate::tolerances::linearize as tolerances;
 
 /// An eigenvalue alone, or the one with the positive imaginary part of a pair.
 #[derive(Clone, Copy, Debug)]
@@ -9,16 +10,10 @@ pub struct Pair<'a> {
     pub is_pair: bool,
 }
 
-/// Damping below this is round-off, whose sign would mislead.
-const NO_DAMPING: f64 = 1e-9;
-
 /// The damping ratio as a person reads it.
 pub fn damping(mode: &Mode) -> f64 {
-    Some(mode.damping()).filter(|ratio| ratio.abs() > NO_DAMPING).unwrap_or(0.0)
+    Some(mode.damping()).filter(|ratio| ratio.abs() > tolerances::SAME).unwrap_or(0.0)
 }
-
-/// Two values are conjugate to this part of their size.
-const ROUNDING: f64 = 1e-6;
 
 /// The finite eigenvalues of a kind in their order, each pair once.
 pub fn pairs(model: &LinearModel, kind: Kind) -> Vec<Pair<'_>> {
@@ -41,6 +36,6 @@ pub fn pairs(model: &LinearModel, kind: Kind) -> Vec<Pair<'_>> {
 
 /// Whether two values that are not real are conjugate to each other.
 pub fn are_conjugate(a: Complex<f64>, b: Complex<f64>) -> bool {
-    let near = ROUNDING * a.norm();
+    let near = tolerances::EIGENVALUES_AGREE * a.norm();
     a.im != 0.0 && a.im * b.im < 0.0 && (a - b.conj()).norm() <= near
 }

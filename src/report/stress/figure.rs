@@ -1,7 +1,8 @@
 //! A map as a figure.
 
-use crate::measure::stress::{Axis, Cell, OFF, Status, Stressed};
+use crate::measure::stress::{Axis, Cell, Status, Stressed};
 use crate::plot::{AxisSpec, Figure, HeatMap, Panel};
+use crate::tolerances::report::WRONG_MOTION;
 
 /// Height of a row of cells, in nominal pixels.
 const ROW: f64 = 21.0;
@@ -53,7 +54,9 @@ fn legend(stressed: &Stressed) -> String {
 /// What stands upon a cell, and what it means.
 fn symbol(cell: &Cell) -> Option<(&'static str, String)> {
     let symbol = match cell.status {
-        Status::Completed if cell.holds == Some(false) => return Some(("!", format!("off by over {} %", 100.0 * OFF))),
+        Status::Completed if cell.holds == Some(false) => {
+            return Some(("!", format!("off by over {} %", 100.0 * WRONG_MOTION)));
+        }
         Status::Completed => return None,
         Status::Diverged => "∞",
         Status::Failed => "×",

@@ -2,9 +2,10 @@
 
 use crate::error::short;
 use crate::measure::stress::{
-    Axis, Best, Bound, GainVerdict, Level, OFF, Reason, Side, Status, StepVerdict, Stressed, Verdict,
+    Axis, Best, Bound, GainVerdict, Level, Reason, Side, Status, StepVerdict, Stressed, Verdict,
 };
 use crate::report::Table;
+use crate::tolerances::report::WRONG_MOTION;
 
 /// The verdict on a map: a sentence or two for each method.
 pub fn sentences(stressed: &Stressed) -> Vec<String> {
@@ -48,7 +49,7 @@ fn gain(verdict: &GainVerdict) -> String {
         "{method}, {} drift: {}. Within {} % in outputs and energy, {held}.{unknown}",
         quantity.name(),
         best(verdict),
-        100.0 * OFF
+        100.0 * WRONG_MOTION
     )
 }
 
@@ -153,10 +154,10 @@ fn percent(part: f64) -> String {
 /// What is the matter with a simulation that does not hold.
 fn what(level: &Level) -> String {
     match (level.status, level.error, level.energy) {
-        (Status::Completed, Some(error), _) if error > OFF => {
+        (Status::Completed, Some(error), _) if error > WRONG_MOTION => {
             format!("it completes with outputs {} off", percent(error))
         }
-        (Status::Completed, _, Some(energy)) if energy > OFF => {
+        (Status::Completed, _, Some(energy)) if energy > WRONG_MOTION => {
             format!("it completes with energy {} off", percent(energy))
         }
         (Status::Completed, ..) => "it completes, with an error that is not known".to_string(),
@@ -201,7 +202,7 @@ fn judged(verdict: &Verdict) -> String {
     };
     let unknown = completed - held - off;
     let unknown = if unknown > 0 { format!(", {unknown} not known") } else { String::new() };
-    let percent = 100.0 * OFF;
+    let percent = 100.0 * WRONG_MOTION;
     format!(
         "; {held} of them within {percent} % in outputs and energy, {off} not{unknown}, error {} to {}",
         two(*low),

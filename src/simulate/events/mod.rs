@@ -13,20 +13,8 @@ pub use timetable::Timetable;
 use crate::math::expression::Switch;
 use crate::math::{Piece, Rate, piece_of};
 use crate::system::{Loaded, MechanicalSystem, Scratch};
+use crate::tolerances::simulate as tolerances;
 use range::{Range, first_out};
-
-/// A passage nearer to the start of a step than this part of it is at the start.
-const AT_START: f64 = 1e-12;
-/// Passages are found to this part of the span: what is left of a coordinate there may be round-off.
-const SHORTEST: f64 = 1e-13;
-/// Switching functions of switching functions of ... at the start.
-const DEEPEST: usize = 10;
-/// An argument is at a threshold within this part of its change over the step.
-const AT: f64 = 1e-10;
-/// Where the cubic between both ends of a step comes nearer to a threshold than this part of its range, the dense output is
-/// looked at, at so many places.
-const NEAR: f64 = 0.2;
-const LOOKS: usize = 8;
 
 /// Where a step goes over a threshold.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,7 +73,7 @@ impl<'a> Events<'a> {
             within: zeros(),
             at: Vec::new(),
             turned: vec![0; switches.len()],
-            shortest: SHORTEST * (end - start),
+            shortest: tolerances::PASSAGE * (end - start),
         }
     }
 
@@ -103,7 +91,7 @@ impl<'a> Events<'a> {
     pub fn begin(&mut self, at: Loaded) {
         self.timetable.place(at.t, &mut self.pieces);
         // An argument may depend on other pieces.
-        for _ in 0..DEEPEST {
+        for _ in 0..tolerances::NESTED_SWITCHES {
             let before = self.pieces.clone();
             self.start_at(at);
             for &number in &self.of_state {
@@ -157,10 +145,10 @@ impl<'a> Events<'a> {
                 range.beyond(x.re).abs() <= soon.max(part * swing) && range.outward(x) > 0.0
             };
             match () {
-                _ if is_at(a, AT_START) || range.beyond(a.re) > 0.0 && range.outward(a) > 0.0 => {
+                _ if is_at(a, tolerances::PASSAGE_AT_START) || range.beyond(a.re) > 0.0 && range.outward(a) > 0.0 => {
                     return Ok(Some(Passage::AtStart(number)));
                 }
-                _ if is_at(b, AT) => at.push(number),
+                _ if is_at(b, tolerances::AT_THRESHOLD) => at.push(number),
                 _ if range.beyond(b.re) < 0.0 && !argument.may_come_near() => {}
                 _ => {
                     let mut beyond = |theta: f64| {
@@ -168,7 +156,7 @@ impl<'a> Events<'a> {
                         Ok(range.beyond(within[number].re))
                     };
                     let passage = argument.first_passage(first, &mut beyond)?;
-                    if passage < AT_START {
+                    if passage < tolerances::PASSAGE_AT_START {
                         return Ok(Some(Passage::AtStart(number)));
                     }
                     first = passage.min(first);
@@ -216,7 +204,7 @@ impl<'a> Events<'a> {
             let x = self.start[turn.number];
             let sign = if self.pieces[turn.number] > turn.from { -1.0 } else { 1.0 };
             let was_driven_out = turn.rate > 0.0 || turn.from % 2 == 1;
-            was_driven_out && sign * x.eps[0] > AT * turn.rate
+            was_driven_out && sign * x.eps[0] > tolerances::AT_THRESHOLD * turn.rate
         };
         turns.iter().find(is_driven_back).copied()
     }
@@ -262,7 +250,7 @@ impl Argument {
     }
 
     fn looks() -> impl Iterator<Item = f64> {
-        (1..LOOKS).map(|k| k as f64 / LOOKS as f64)
+        (1..tolerances::LOOKS_AT_STEP).map(|k| k as f64 / tolerances::LOOKS_AT_STEP as f64)
     }
 
     /// Whether the cubic comes near to a threshold.
@@ -270,7 +258,7 @@ impl Argument {
         let ends = [self.a.re, self.b.re];
         let all = || Self::looks().map(|theta| self.cubic(theta)).chain(ends);
         let (low, high) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-        let margin = NEAR * (high - low);
+        let margin = tolerances::NEAR_THRESHOLD * (high - low);
         self.range.beyond(low - margin) >= 0.0 || self.range.beyond(high + margin) >= 0.0
     }
 

@@ -1,14 +1,10 @@
 //! When functions of t change their form.
 
 use super::range::{Range, first_out};
-use super::watch::{FINELY, ROUGHLY, Watch};
+use super::watch::Watch;
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::{Interval, Piece, Regime, Taylor, piece_of};
-
-/// Where an argument stays at a threshold with both its rates, it is looked at after this part of the span.
-const AHEAD: f64 = 1e-5;
-/// Intervals that a search for a change of form may look at; what is left then is judged by its ends.
-const MOST_LOOKS: usize = 20_000;
+use crate::tolerances::simulate as tolerances;
 
 /// What the equations do by the clock.
 pub struct Timetable<'a> {
@@ -50,13 +46,13 @@ impl<'a> Timetable<'a> {
     /// The step from `t` that misses nothing of the functions of time: `h` or less. They are held on these pieces up to
     /// `stop`.
     pub fn resolved(&mut self, t: f64, h: f64, stop: f64, pieces: &[Piece]) -> f64 {
-        self.watch.resolved((t, h, stop), ROUGHLY, Regime::held(pieces))
+        self.watch.resolved((t, h, stop), tolerances::RESOLVED_ROUGHLY, Regime::held(pieces))
     }
 
     /// A step that not only misses nothing, but on which the functions are almost cubics.
     pub fn finely_resolved(&mut self, t: f64, h: f64, pieces: &[Piece]) -> f64 {
         self.watch.forget();
-        self.watch.resolved((t, h, f64::INFINITY), FINELY, Regime::held(pieces))
+        self.watch.resolved((t, h, f64::INFINITY), tolerances::RESOLVED_FINELY, Regime::held(pieces))
     }
 
     /// The piece on which an argument is right after `t`: at a threshold its slope decides.
@@ -71,7 +67,7 @@ impl<'a> Timetable<'a> {
             Some(_) if x.d != 0.0 => side(x.d),
             Some(_) if x.dd != 0.0 => side(x.dd),
             Some(k) => {
-                let later = argument.at(t + AHEAD * (self.end - self.start), regime) - thresholds[k];
+                let later = argument.at(t + tolerances::LOOKED_AHEAD * (self.end - self.start), regime) - thresholds[k];
                 if later == 0.0 { 0 } else { side(later) }
             }
         };
@@ -84,7 +80,7 @@ impl<'a> Timetable<'a> {
             let Some(argument) = &switch.of_time else { continue };
             let Some(range) = Range::of(pieces[number], &switch.thresholds) else { continue };
             let search = Search { argument, range, regime: Regime::held(pieces) };
-            let exit = search.first_exit(t, first.unwrap_or(self.end), &mut MOST_LOOKS.clone());
+            let exit = search.first_exit(t, first.unwrap_or(self.end), &mut tolerances::LOOKS_FOR_CHANGE.clone());
             first = exit.or(first);
         }
         first.filter(|first| *first < self.end)

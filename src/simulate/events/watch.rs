@@ -7,20 +7,7 @@
 
 use crate::math::expression::TimeFunction;
 use crate::math::{Interval, Regime, Scalar, Taylor};
-
-/// What lasts this part of the span is not missed, nor anything longer.
-const SHORTEST: f64 = 1e-4;
-/// A window is looked at whole for so many steps of the size at hand.
-const WINDOW: f64 = 8.0;
-/// What a function may do beside its cubic, as part of how it and its rates change it over a quarter: where an estimate of
-/// the error sees to the rest, and where none does.
-pub const ROUGHLY: f64 = 0.1;
-pub const FINELY: f64 = 1e-4;
-/// What is nothing beside the size of a function, and in its own unit.
-const SMALL: f64 = 1e-9;
-const NOTHING: f64 = 1e-14;
-/// Enclosures of one window; more, and those of the function are too wide.
-const MOST_LOOKS: usize = 100;
+use crate::tolerances::simulate as tolerances;
 
 /// The functions of time of a run.
 pub struct Watch<'a> {
@@ -47,7 +34,7 @@ struct Quarter {
 impl<'a> Watch<'a> {
     pub fn new(functions: &'a [TimeFunction], span: f64) -> Self {
         let functions = functions.iter().map(|function| Watched { function, is_loose: false }).collect();
-        Watch { functions, shortest: 0.5 * SHORTEST * span, seen: f64::NEG_INFINITY }
+        Watch { functions, shortest: 0.5 * tolerances::NEVER_MISSED * span, seen: f64::NEG_INFINITY }
     }
 
     /// Up to where steps are resolved, if anywhere, and whether the enclosures of each function are too wide.
@@ -72,7 +59,7 @@ impl<'a> Watch<'a> {
         if self.functions.is_empty() || t + h <= self.seen {
             return h;
         }
-        let whole = (WINDOW * h).min(stop - t);
+        let whole = (tolerances::WATCHED_STEPS * h).min(stop - t);
         let mut window = whole;
         while window > self.shortest {
             let shortest = self.shortest;
@@ -106,13 +93,13 @@ impl Watched<'_> {
         if nodes.iter().any(|node| !node.x.is_finite()) {
             return None;
         }
-        let mut looks = MOST_LOOKS;
+        let mut looks = tolerances::LOOKS_IN_WINDOW;
         for (i, quarter) in quarters(&times, &nodes).into_iter().enumerate() {
             let middle = self.at(0.5 * (quarter.from + quarter.to), regime);
             let (a, b, width) = (nodes[i], nodes[i + 1], quarter.to - quarter.from);
             let cubic = 0.5 * (a.x + b.x) + width / 8.0 * (a.d - b.d);
             let change = (b.x - a.x).abs() + 0.25 * width * (a.d.abs() + b.d.abs());
-            let small = SMALL * a.x.abs().max(b.x.abs()) + NOTHING;
+            let small = tolerances::SAME * a.x.abs().max(b.x.abs()) + tolerances::NO_FUNCTION;
             if (middle.x - cubic).abs() > beside * change + small {
                 return Some(quarter.from);
             }
@@ -179,7 +166,7 @@ fn quarters(times: &[f64; 5], nodes: &[Taylor<f64>; 5]) -> [Quarter; 4] {
     };
     std::array::from_fn(|i| {
         let allowed = std::array::from_fn(|level| {
-            let small = (SMALL * size + NOTHING) / (times[4] - times[0]).powi(level as i32);
+            let small = (tolerances::SAME * size + tolerances::NO_FUNCTION) / (times[4] - times[0]).powi(level as i32);
             let margin = bend(i, level).min(bend(i + 1, level)) + small;
             let hull = Interval::new(levels[i][level], levels[i + 1][level]);
             Interval { low: hull.low - margin, high: hull.high + margin }

@@ -1,6 +1,7 @@
 //! One level of a staircase.
 
 use super::super::{Matrix, Unsolved};
+use crate::tolerances::math as tolerances;
 
 /// With P = [P1 P2] and X = [X1 X2] that have inverses,
 ///
@@ -65,28 +66,23 @@ pub struct Ranks {
     gap: f64,
 }
 
-/// What rounding leaves of a zero singular value.
-const ROUNDING: f64 = 1e-15;
-/// Least gap between zero and nonzero.
-const CLEAR: f64 = 10.0;
-
 impl Ranks {
     pub fn new(tolerance: f64) -> Ranks {
-        Ranks { tolerance: tolerance.max(ROUNDING), gap: f64::INFINITY }
+        Ranks { tolerance: tolerance.max(tolerances::ROUNDED_ZERO), gap: f64::INFINITY }
     }
 
     /// How many of these descending singular values are not zero.
     pub fn rank(&mut self, values: &[f64]) -> usize {
         let rank = values.iter().take_while(|value| **value > self.tolerance).count();
         let kept = rank.checked_sub(1).map_or(1.0, |last| values[last]);
-        let dropped = values.get(rank).copied().unwrap_or(0.0).max(ROUNDING);
+        let dropped = values.get(rank).copied().unwrap_or(0.0).max(tolerances::ROUNDED_ZERO);
         self.gap = self.gap.min(kept / dropped);
         rank
     }
 
     pub fn gap(&self) -> Result<f64, Unsolved> {
-        let gap = self.gap.min(ROUNDING.recip());
-        if gap < CLEAR { Err(Unsolved::Doubtful { gap }) } else { Ok(gap) }
+        let gap = self.gap.min(tolerances::ROUNDED_ZERO.recip());
+        if gap < tolerances::RANK_GAP { Err(Unsolved::Doubtful { gap }) } else { Ok(gap) }
     }
 }
 

@@ -6,6 +6,7 @@ mod null_space;
 
 use super::balance::balance;
 use super::{Complex, ComplexMatrix, Matrix, Unsolved, dense, eigen};
+use crate::tolerances::math as tolerances;
 use level::{Level, Ranks};
 
 /// How the infinite eigenvalues are found, one level (one for each size of their Jordan blocks) after the other.
@@ -17,9 +18,6 @@ pub enum Deflation {
     /// others. Ranks do not hang on how rows of A compare with rows of E.
     Gsvd,
 }
-
-/// Singular values below this, of a balanced pencil, are zero. Rounding leaves about 1e-15.
-pub const TOLERANCE: f64 = 1e-10;
 
 /// The finite part of a pencil with r finite eigenvalues, see [`deflate`]:
 ///
@@ -54,7 +52,7 @@ impl Deflated {
 
 /// Removes the infinite eigenvalues, by a staircase of rank decisions (Van Dooren, "The computation of Kronecker's
 /// canonical form of a singular pencil", Linear Algebra Appl. 27, 1979). For the matrices of index 3, m at each of three
-/// levels. Singular values of the balanced pencil below `tolerance` (see [`TOLERANCE`]) are zero. About 30 n^3 operations a level.
+/// levels. Singular values of the balanced pencil below `tolerance` (see `tolerances::RANK_OF_PENCIL`) are zero. About 30 n^3 operations a level.
 ///
 /// # Errors
 /// Matrices that are not square, alike and finite; a singular pencil, det(A - s E) = 0 for every s; a rank that cannot be
@@ -134,7 +132,7 @@ pub fn finite(a: &Matrix, e: &Matrix) -> Result<Finite, Unsolved> {
 
 /// The same with either deflation.
 pub fn finite_by(a: &Matrix, e: &Matrix, by: Deflation) -> Result<Finite, Unsolved> {
-    let deflated = deflate(a, e, by, TOLERANCE)?;
+    let deflated = deflate(a, e, by, tolerances::RANK_OF_PENCIL)?;
     let inner = eigen(&deflated.rate)?;
     let mut right = dense::complex(&deflated.basis) * inner.right;
     let lengths: Vec<f64> = right.column_iter().map(|column| column.norm()).collect();

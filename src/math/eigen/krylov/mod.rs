@@ -5,6 +5,7 @@ mod schur;
 mod space;
 
 use super::{Complex, ComplexMatrix, Unsolved};
+use crate::tolerances::math as tolerances;
 use ritz::Ritz;
 use schur::Ordered;
 use space::Krylov;
@@ -34,9 +35,6 @@ impl Default for Options {
         Options { subspace: None, tolerance: 1e-12, restarts: 300, filter: 0, repeats: false, schur: false }
     }
 }
-
-/// The sum of the largest magnitudes grows by more than this part where values were missing.
-const NEW: f64 = 1e-8;
 
 /// Some eigenvalues of an operator, see [`nearest`].
 #[derive(Clone, Debug, PartialEq)]
@@ -90,7 +88,10 @@ pub fn nearest(
         converged = ritz.converged(options.tolerance);
         if converged == count {
             let size: f64 = ritz.values.iter().map(|theta| theta.norm()).sum();
-            if !options.repeats || count == n || known.is_some_and(|before: f64| size - before <= NEW * size) {
+            if !options.repeats
+                || count == n
+                || known.is_some_and(|before: f64| size - before <= tolerances::KRYLOV_NEW * size)
+            {
                 return space.finish(ritz, options.schur);
             }
             known = Some(size);

@@ -2,6 +2,7 @@
 
 use super::super::{Complex, ComplexMatrix, Unsolved, dense};
 use super::Ritz;
+use crate::tolerances::math as tolerances;
 use nalgebra::Vector2;
 use nalgebra::linalg::{Schur, givens::GivensRotation};
 
@@ -11,18 +12,13 @@ pub struct Ordered {
     pub t: ComplexMatrix,
 }
 
-/// What may be left below the diagonal of T, over T.
-const TRIANGULAR: f64 = 1e-13;
-/// QR steps for each eigenvalue; two or three are usual.
-const STEPS: usize = 60;
-
 impl Ordered {
     pub fn of(h: &ComplexMatrix) -> Result<Ordered, Unsolved> {
         if let Some(ordered) = Self::by_vectors(h)? {
             return Ok(ordered);
         }
         let m = h.nrows();
-        let schur = Schur::try_new(h.clone(), f64::EPSILON, STEPS * m.max(1));
+        let schur = Schur::try_new(h.clone(), f64::EPSILON, tolerances::QR_STEPS * m.max(1));
         let (q, t) = schur.ok_or(Unsolved::NotConverged { converged: 0, wanted: m })?.unpack();
         let mut ordered = Ordered { q, t };
         ordered.sort();
@@ -38,7 +34,7 @@ impl Ordered {
         let t =
             dense::product(dense::view(&q).adjoint(), dense::view(&dense::product(dense::view(h), dense::view(&q))));
         let below = t.column_iter().enumerate().map(|(j, column)| column.rows(j + 1, m - j - 1).norm());
-        let is_triangular = below.fold(0.0, f64::max) <= TRIANGULAR * t.norm();
+        let is_triangular = below.fold(0.0, f64::max) <= tolerances::ROUND_OFF_OF_FACTORS * t.norm();
         Ok(is_triangular.then(|| Ordered { q, t: t.upper_triangle() }))
     }
 

@@ -2,6 +2,7 @@
 
 use super::super::{ComplexMatrix, Unsolved, dense};
 use super::{C, Ordered, Partial, Ritz};
+use crate::tolerances::math as tolerances;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::{DVector, DVectorView};
@@ -23,9 +24,6 @@ pub struct Krylov<F> {
     filter: usize,
     applications: usize,
 }
-
-/// A vector of which less than this is left after orthogonalization lies in the space.
-const INSIDE: f64 = 1e-14;
 
 impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
     pub fn new(n: usize, m: usize, filter: usize, apply: F) -> Result<Self, Unsolved> {
@@ -55,7 +53,7 @@ impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
         }
         self.orthogonalize(&mut fresh, k);
         let norm = fresh.norm();
-        if norm > INSIDE {
+        if norm > tolerances::ROUND_OFF_OF_SUMS {
             self.v.set_column(k, &(fresh / C::from(norm)));
         } else {
             self.v.column_mut(k).fill(C::ZERO);
@@ -102,7 +100,7 @@ impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
             }
             let after = next.norm();
             self.size += 1;
-            let is_inside = after <= INSIDE * before;
+            let is_inside = after <= tolerances::ROUND_OFF_OF_SUMS * before;
             self.rest = if is_inside { 0.0 } else { after };
             match is_inside {
                 true => self.start(k + 1)?,

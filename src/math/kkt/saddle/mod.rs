@@ -7,16 +7,11 @@ use super::alike::Alike;
 use super::fast::Fast;
 use super::kept::Kept;
 use super::null_space::NullSpace;
-use super::pivot::{COLLAPSED, DOUBTED};
 use super::skipping::Skipping;
 use super::system::{System, add};
 use super::{Pattern, Singular};
+use crate::tolerances::math as tolerances;
 use orders::Orders;
-
-/// Up to this n + m all doubts are settled by the dense rank-revealing factorization (10 to 100 ms
-/// there), up to the second those about whether the motion is determined.
-const DENSE: usize = 600;
-const LARGEST_DENSE: usize = 1500;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Way {
@@ -122,7 +117,7 @@ impl SaddlePoint {
             return Ok(());
         }
         let least = part * self.rank_reference;
-        if is_fast && self.is_regular(part) || least * least <= COLLAPSED {
+        if is_fast && self.is_regular(part) || least * least <= tolerances::COLLAPSED {
             return if is_fast { Ok(()) } else { self.finish_rank_revealing() };
         }
         let System { mass, g, .. } = &self.system;
@@ -183,23 +178,23 @@ impl SaddlePoint {
         let System { mass, g, .. } = &self.system;
         let total = self.n + self.m;
         let skipping = self.skipping.get_or_insert_with(|| Box::new(Skipping::new(mass, g)));
-        let mut quality = skipping.factor(&self.system, COLLAPSED)?;
-        if total > DENSE && quality.doubtful && !quality.replaced {
+        let mut quality = skipping.factor(&self.system, tolerances::COLLAPSED)?;
+        if total > tolerances::DENSE_EQUATIONS && quality.doubtful && !quality.replaced {
             // Round-off in pivots of dependent rows grows with the condition of the others. Null vectors tell them.
-            skipping.factor(&self.system, DOUBTED)?;
+            skipping.factor(&self.system, tolerances::DOUBTED)?;
             if skipping.rank_indicator(&self.system) < self.rank_tolerance {
                 return Ok(Way::Skipping);
             }
-            quality = skipping.factor(&self.system, COLLAPSED)?;
+            quality = skipping.factor(&self.system, tolerances::COLLAPSED)?;
         }
         let is_doubtful = quality.replaced || quality.doubtful;
         // Of a large system it is not asked which nearly dependent rows are so, only whether leaving some out, or giving
         // coordinates a little mass, still gives a solution.
-        let is_accepted = if total <= DENSE {
+        let is_accepted = if total <= tolerances::DENSE_EQUATIONS {
             !is_doubtful && skipping.rank_indicator(&self.system) < 0.1 * self.rank_tolerance
         } else if is_doubtful {
             match skipping.probe(&self.system) {
-                Err(error) if total > LARGEST_DENSE => return Err(error),
+                Err(error) if total > tolerances::DENSE_EQUATIONS_OF_MOTION => return Err(error),
                 result => result.is_ok(),
             }
         } else {

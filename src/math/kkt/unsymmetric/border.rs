@@ -2,6 +2,7 @@
 
 use super::Field;
 use super::matrix::Matrix;
+use crate::tolerances::math as tolerances;
 
 /// What is eliminated last. A pivot in a long row, taken early, fills all columns that follow; so does the column of a
 /// multiplier that has nothing but a long row to take its pivot from.
@@ -11,13 +12,6 @@ pub(super) struct Border {
     pub columns: Vec<bool>,
 }
 
-/// Rows of fewer entries are not long, nor are those of so many times the mean or fewer.
-const MANY: usize = 50;
-const TIMES_MEAN: usize = 12;
-/// Entries of long rows grow before their turn comes, by an estimate to some tens for beams of 10,000 elements: less than
-/// this makes up for.
-const LAST_CHOICE: f64 = 1e-4;
-
 impl Border {
     /// None where there is no long row, or so many that they would fill more than they save. Columns from `n` on are
     /// those of multipliers.
@@ -25,12 +19,12 @@ impl Border {
         let size = matrix.size();
         let mut counts = vec![0_usize; size];
         matrix.entries().for_each(|(row, ..)| counts[row] += 1);
-        let many = (TIMES_MEAN * matrix.values.len() / size.max(1)).max(MANY);
+        let many = (tolerances::LONG_ROW_OF_MEAN * matrix.values.len() / size.max(1)).max(tolerances::LONG_ROW);
         let is_long = |row: usize| row < n && counts[row] > many;
         let mut columns: Vec<bool> = (0..size).map(is_long).collect();
         matrix.entries().filter(|&(row, col, _)| col >= n && is_long(row)).for_each(|(_, col, _)| columns[col] = true);
         let width = columns.iter().filter(|column| **column).count();
-        let rank = |row: usize| if is_long(row) { LAST_CHOICE } else { 1.0 };
+        let rank = |row: usize| if is_long(row) { tolerances::LAST_CHOICE } else { 1.0 };
         let is_worth_it = width > 0 && width * width <= matrix.values.len();
         is_worth_it.then(|| Border { rank: (0..size).map(rank).collect(), columns })
     }

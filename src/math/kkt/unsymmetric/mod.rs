@@ -1,5 +1,7 @@
 //! The saddle-point system of implicit methods, whose upper block is not symmetric.
 
+use crate::tolerances::math as tolerances;
+
 mod border;
 mod dense;
 mod field;
@@ -70,18 +72,11 @@ enum State {
     Factored,
 }
 
-/// Entries of which one in this many, or more, stands for dense factors. Measured on chains (factor and three solves,
-/// dense : sparse, microseconds): 20 rows (half full) 5 : 6, 40 (a third) 16 : 12, 100 (an eighth) 88 : 32, 1000 20769 :
-/// 320, 100,000 - : 37,740; complex ones 7 : 9, 26 : 17, 149 : 43, 63920 : 400, - : 50,270.
-const FULL: usize = 3;
-/// A pivot of the scaled matrix below this is round-off.
-const COLLAPSED: f64 = 1e-14;
-
 impl<T: Field> Unsymmetric<T> {
     /// For A with entries of M (one triangle) and of C and K, and for G; none where there is not enough memory.
     pub fn new(mass: &Pattern, tangent: &Pattern, g: &Pattern) -> Option<Self> {
         let places = matrix::places(mass, tangent, g)?;
-        let is_dense = FULL * places.compute_nnz() >= places.nrows() * places.ncols();
+        let is_dense = tolerances::DENSE_PART * places.compute_nnz() >= places.nrows() * places.ncols();
         Self::at(places, g, is_dense)
     }
 
@@ -260,7 +255,7 @@ impl<T: Field> Unsymmetric<T> {
             Factors::Dense(factors) => factors.factor(&self.scaled),
             Factors::Sparse(factors) => factors.factor(&self.matrix.places, &self.scaled),
         };
-        smallest > COLLAPSED
+        smallest > tolerances::SINGULAR_ITERATION_MATRIX
     }
 
     /// Whether a row of G is dropped, for all of them.

@@ -2,7 +2,8 @@
 
 use super::super::Pattern;
 use super::super::fast::Fast;
-use super::super::pivot::{COLLAPSED, Rule};
+use super::super::pivot::Rule;
+use crate::tolerances::math as tolerances;
 
 /// The rows whose pivots collapse in the L D L^T of G diag(weight)^-1 G^T, which stays sparse where G is. The order of
 /// elimination is frozen, so that the same mechanism leaves out the same rows from state to state.
@@ -21,7 +22,7 @@ impl Redundancy {
 
     /// Marks the rows in `out` and returns how many there are; none where the values are of no use.
     pub fn find(&mut self, weight: &[f64], values: &[f64], out: &mut [bool]) -> usize {
-        if self.fast.factor(weight, values, Rule::lenient(COLLAPSED, weight), &mut self.skipped).is_err() {
+        if self.fast.factor(weight, values, Rule::lenient(tolerances::COLLAPSED, weight), &mut self.skipped).is_err() {
             self.skipped.clear();
         }
         out.fill(false);
