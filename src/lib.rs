@@ -47,6 +47,7 @@
 //! | [`linearize`] | linear models at a state, by every method; state-transition matrix, loci | a file and a line in [`linearize::registry`] |
 //! | [`validate`] | linear models against perturbed simulations | |
 //! | [`measure`] | drift, energy balance; speed for accuracy ([`measure::work_precision`]); maps over extremes ([`measure::stress`]) | an extreme: a file and a line in [`measure::stress::registry`] |
+//! | [`tolerances`] | every threshold, with what it decides, its unit, reason and test | |
 //! | [`plot`], [`report`], [`cli`] | figures, files and text, the command line | one file a subcommand |
 //!
 //! # Example

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// From the lowest to the highest; a module uses those of its own layer and of lower ones. The same order as DESIGN.md, section 3.
 const LAYERS: &[&[&str]] = &[
+    &["tolerances"],
     &["error", "files", "choice", "math"],
     &["state"],
     &["body"],
@@ -233,6 +234,80 @@ fn only_the_command_line_prints() {
         })
         .collect();
     assert!(printing.is_empty(), "printing belongs to src/cli:\n{}", printing.join("\n"));
+}
+
+/// Where small numbers are no thresholds: figures.
+const DRAWN: &[&str] = &["src/plot", "src/report/mechanism", "src/report/stress/figure.rs"];
+
+/// The value of `const NAME: f64 = 1e-9;`.
+fn bare_number(text: &str) -> Option<f64> {
+    let (_, declared) = text.split_once("const ")?;
+    declared.split_once(": f64 = ")?.1.trim().strip_suffix(';')?.parse().ok()
+}
+
+#[test]
+fn thresholds_are_on_their_page() {
+    let strays: Vec<String> = sources()
+        .iter()
+        .filter(|source| source.module.first().is_none_or(|module| module != "tolerances"))
+        .filter(|source| !DRAWN.iter().any(|place| source.path.starts_with(place)))
+        .flat_map(|source| {
+            let is_threshold = |text: &str| bare_number(text).is_some_and(|x| x != 0.0 && x.abs() <= 1e-3);
+            source.code.iter().filter(move |(_, text)| is_threshold(text)).map(|(line, _)| source.place(*line))
+        })
+        .collect();
+    assert!(strays.is_empty(), "numbers that decide belong to src/tolerances:\n{}", strays.join("\n"));
+    assert_eq!(bare_number("    pub(super) const TINY: f64 = 1e-9;"), Some(1e-9));
+}
+
+/// The thresholds of the page, by name, with their doc comments on one line.
+fn thresholds() -> Vec<(String, String)> {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/tolerances");
+    let (mut paths, mut found) = (Vec::new(), Vec::new());
+    collect(&page, &mut paths);
+    for path in paths {
+        let mut doc = String::new();
+        for line in fs::read_to_string(path).unwrap().lines() {
+            match (line.strip_prefix("/// "), line.strip_prefix("pub const ")) {
+                (Some(text), _) => doc = format!("{doc} {text}"),
+                (_, Some(item)) => found.push((item.split(':').next().unwrap().to_string(), std::mem::take(&mut doc))),
+                _ => {}
+            }
+        }
+    }
+    found
+}
+
+/// All text of src and tests.
+fn all_text() -> String {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut folders = vec![root.join("src"), root.join("tests")];
+    let mut text = String::new();
+    while let Some(folder) = folders.pop() {
+        for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            match path.is_dir() {
+                true => folders.push(path),
+                false if path.extension().is_some_and(|end| end == "rs") => text += &fs::read_to_string(path).unwrap(),
+                false => {}
+            }
+        }
+    }
+    text
+}
+
+#[test]
+fn thresholds_have_a_unit_a_reason_and_a_test() {
+    let (thresholds, text) = (thresholds(), all_text());
+    assert!(thresholds.len() > 100, "the page is read otherwise than it is written");
+    for (name, doc) in thresholds {
+        let parts = ["Unit: `[", " Why: ", " Test: "].map(|part| doc.find(part));
+        assert!(parts.is_sorted() && parts[0].is_some(), "{name} does not say Unit, Why and Test: {doc}");
+        let test = &doc[parts[2].unwrap() + " Test: ".len()..];
+        let named = test.strip_prefix('`').and_then(|rest| rest.split('`').next());
+        let is_known = named.map_or(test.starts_with("none: "), |named| text.contains(&format!("fn {named}()")));
+        assert!(is_known, "{name}: there is no test {test}");
+        assert!(text.matches(&name).count() > 1, "{name} is not used");
+    }
 }
 
 #[test]

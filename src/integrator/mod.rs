@@ -51,7 +51,7 @@ fn collapsed(singular: Singular, problem: &mut Problem, from: From, h: f64) -> H
         problem.dynamics.dependent_rows_open(t, q, v)
     };
     let is_torn = open(from.t, from.y).is_some()
-        && open(from.t + h, &ahead).is_some_and(|open| open > tolerances::REDUNDANT_ROWS_OPEN);
+        && open(from.t + h, &ahead).is_some_and(|open| open > tolerances::ROUND_OFF_OF_PHI);
     if is_torn { CONTRADICTION } else { singular.into() }
 }
 

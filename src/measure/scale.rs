@@ -43,7 +43,7 @@ impl Sizes {
         // Of angles in a small mechanism no length is made.
         let length = self.length.min(1.0);
         let (least, most) = self.kinetic.unwrap_or_default();
-        let energy = (most - least).max(tolerances::CONSTANT_ENERGY * most);
+        let energy = (most - least).max(tolerances::ZERO_BY_SYMMETRY * most);
         match dimension {
             Dimension::Angle => self.travel,
             Dimension::Length => self.travel * length,

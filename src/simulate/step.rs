@@ -115,7 +115,7 @@ impl Run<'_> {
         let dynamics = &self.problem.dynamics;
         let relative = |row: usize| dynamics.terms.phi[row].abs() / self.scales[row];
         let kept = (0..self.scales.len()).filter(|row| !dynamics.dropped.contains(row)).map(relative);
-        let most = tolerances::DROPPED_ROW_OPEN + tolerances::DROPPED_ROW_OPEN_OF_OTHERS * kept.fold(0.0, f64::max);
+        let most = tolerances::ROUND_OFF_OF_PHI + tolerances::DROPPED_ROW_OPEN_OF_OTHERS * kept.fold(0.0, f64::max);
         dynamics.dropped.iter().any(|row| relative(*row) > most)
     }
 
@@ -152,7 +152,8 @@ impl Run<'_> {
         let n = q.len();
         self.change[..n].fill(sizes[0]);
         self.change[n..].fill(sizes[1]);
-        let size = self.tolerance.norm(&self.next, &self.change);
-        1.0 + (tolerances::ROUND_OFF / (rank_indicator * rank_indicator) * size).min(tolerances::SINGULAR_ROUND_OFF)
+        let round_off = tolerances::PROJECTION_ROUND_OFF / (rank_indicator * rank_indicator)
+            * self.tolerance.norm(&self.next, &self.change);
+        1.0 + round_off.min(tolerances::SINGULAR_ROUND_OFF)
     }
 }

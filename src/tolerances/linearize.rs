@@ -3,197 +3,205 @@
 pub use super::{ROUND_OFF_OF_SUMS, SAME};
 
 /// States of a run are integrated at least so well.
-/// Unit: [1], rtol. Why: models differ in the seventh digit then, at most. Test: none: TODO.
+/// Unit: `[1]`, rtol. Why: a choice. Test: none: not tried with other values.
 pub const RUN_TOLERANCE: f64 = 1e-10;
 
 /// Times up to which the growth of small changes is looked at.
-/// Unit: [times]. Why: a choice. Test: none: TODO.
+/// Unit: `[times]`. Why: a choice. Test: none: not tried with other values.
 pub const AMPLIFIED_TIMES: u32 = 20;
 
 /// Degrees of freedom up to which it is.
-/// Unit: [degrees of freedom]. Why: that many motions side by side. Test: none: TODO.
+/// Unit: `[degrees of freedom]`. Why: that many motions side by side. Test: none: a count of work, not tried.
 pub const AMPLIFIED_FREEDOM: usize = 40;
 
 /// Powers of ten within which the rate of the metric is sought.
-/// Unit: [log10 of 1/s]. Why: from hours to gigahertz. Test: none: TODO.
+/// Unit: `[log10 of 1/s]`. Why: a choice. Test: none: not tried with other values.
 pub const RATES_SOUGHT: [f64; 2] = [-4.0, 8.0];
 
-/// How often that range is made smaller by a third.
-/// Unit: [times]. Why: to 1 %. Test: none: TODO.
+/// How often the range of these rates is made smaller by a third.
+/// Unit: `[times]`. Why: (2/3)^20 of twelve decades: a hundredth of a power of e. Test: none: a count of work, not
+/// tried.
 pub const RATES_THIRDS: usize = 20;
 
 /// A motion that misses its start by more is not periodic.
-/// Unit: [1] of (1 + |q|, |v|). Why: a period typed with six digits passes. Test: none: TODO.
+/// Unit: `[1]` of (1 + |q|, |v|). Why: a choice: a period written with six digits passes. Test: none: with a thousand
+/// times more or less the tests of its room pass.
 pub const PERIODIC: f64 = 1e-5;
 
 /// Singular values of M - m that are none: so many vectors a multiplier has.
-/// Unit: [1] of the largest. Why: the square root of what integration leaves, 1e-12. Test: none: TODO.
+/// Unit: `[1]` of the largest. Why: the square root of FLOW_RTOL. Test: none: with a thousand times more or less the
+/// tests of its room pass.
 pub const NO_MULTIPLIER: f64 = 1e-6;
 
 /// Tolerance of the variational equations.
-/// Unit: [1], rtol. Why: tighter than all that is compared with them, looser than round-off. Test: none: TODO.
+/// Unit: `[1]`, rtol. Why: a choice: looser than round-off, tighter than what is compared with it. Test:
+/// `an_upright_pendulum_is_unstable`.
 pub const FLOW_RTOL: f64 = 1e-12;
 
-/// The same of their columns, which are of size 1.
-/// Unit: [1]. Why: a tenth of it. Test: none: TODO.
+/// Absolute tolerance of the columns of the variational equations, which are of size 1.
+/// Unit: `[1]`. Why: a tenth of FLOW_RTOL. Test: none: with a thousand times more or less the tests of its room pass.
 pub const FLOW_ATOL: f64 = 1e-13;
 
 /// Steps at most of such a run.
-/// Unit: [steps]. Why: a choice: minutes. Test: none: TODO.
+/// Unit: `[steps]`. Why: a choice. Test: `a_double_pendulum_is_chaotic`.
 pub const FLOW_STEPS: usize = 2_000_000;
 
 /// Modes that are slower do not count: they are rigid motions with round-off.
-/// Unit: [1] of the fastest. Why: the square root of what rounding leaves of K. Test: none: TODO.
+/// Unit: `[1]` of the fastest. Why: a choice, above the square root of rounding. Test: none: not tried with other
+/// values.
 pub const NO_MODE: f64 = 1e-6;
 
 /// Least damping ratio of a peak that can be drawn, and the largest of one that points might miss.
-/// Unit: [1]. Why: a choice: a millionth of the axis; the spacing of points. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice: a millionth of the axis; the spacing of points. Test: none: not tried with other values.
 pub const PEAKS: (f64, f64) = (1e-6, 0.2);
 
 /// Coordinates are not independent that leave a direction of motion this small a part of what they could.
-/// Unit: [1]. Why: nearer, the model loses half of its digits. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice: half of the digits of the model would be lost. Test: none: with a thousand times more or
+/// less the tests of its room pass.
 pub const INDEPENDENT: f64 = 1e-7;
 
 /// Differences of eigenvalues that are round-off: modes are one, a pair is conjugate, a real part is none.
-/// Unit: [1] of the eigenvalue, or of the largest. Why: the square root of rounding, by which double ones split, and a
-/// hundred. Test: none: TODO.
+/// Unit: `[1]` of the eigenvalue, or of the largest. Why: a choice, above the square root of rounding, by which double
+/// ones split. Test: none: not tried with other values.
 pub const EIGENVALUES_AGREE: f64 = 1e-6;
 
 /// A step in which two modes could be exchanged for less is not clear.
-/// Unit: [1], cost of the match. Why: a choice: see the cost. Test: none: TODO.
+/// Unit: `[1]`, cost of the match. Why: a choice: see the cost. Test: none: not tried with other values.
 pub const CLEAR_MATCH: f64 = 1.0;
 
 /// A mode that changes by more in a step may be another.
-/// Unit: [1], cost of the match. Why: a choice: half of the above. Test: none: TODO.
+/// Unit: `[1]`, cost of the match. Why: a choice: half of the above. Test: none: not tried with other values.
 pub const CHANGED_MODE: f64 = 0.5;
 
 /// Modes whose values agree before and after are one for the eye: it does not matter which is which.
-/// Unit: [1]. Why: a choice: the width of a line in a figure. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const EQUAL_MODES: f64 = 1e-3;
 
 /// Entries of the pencil of all coordinates that are only rounding.
-/// Unit: [1] of the largest, in the metric of the mass. Why: ten times less than what rounds the largest itself, so
-/// that frequencies that are a million times lower keep five digits. Test: none: TODO.
+/// Unit: `[1]` of the largest, in the metric of the mass. Why: ten times less than what rounds the largest itself, so
+/// that frequencies that are a million times lower keep five digits. Test: none: not tried with other values.
 pub const FROZEN_ZERO: f64 = 1e-17;
 
 /// How much G changes to the nearby state that a singular one is compared with.
-/// Unit: [1] of its largest entry. Why: far beyond TRUNCATED_RANK, below which rows count as dependent, and near enough
-/// to be the same assembly. Test: none: TODO.
+/// Unit: `[1]` of its largest entry. Why: far beyond TRUNCATED_RANK, below which rows count as dependent, and near
+/// enough to be the same assembly. Test: `singular_states`.
 pub const NEARBY_STATE: f64 = 0.02;
 
 /// The rank indicator at which a state is looked at before it is linearized.
-/// Unit: [1]. Why: the square of its inverse times rounding, of the state as well, is a part of the accelerations: 1e-4
-/// beside a fold, whatever the chart. Test: none: TODO.
+/// Unit: `[1]`. Why: the square of its inverse times rounding, of the state as well, is a part of the accelerations:
+/// 1e-4 beside a fold, whatever the chart. Test: `singular_states`.
 pub const SINGULAR_MODEL: f64 = 1e-5;
 
-/// By how much the rank indicator grows beside a singular state, at least.
-/// Unit: [1]. Why: beside others it is about the same. Test: none: TODO.
+/// Growth of the rank indicator from a singular state to a nearby one, at least.
+/// Unit: `[1]`. Why: a choice: beside others it is about the same. Test: `singular_states`.
 pub const SINGULAR_GROWTH: f64 = 1e2;
 
 /// Residual of a mode that is returned, with the operator of the search.
-/// Unit: [1] of |theta x|. Why: rounding in K is some 1e-16 of the square of the fastest rate over the square of that
-/// of the mode, and nothing makes up for it. Test: none: TODO.
+/// Unit: `[1]` of |theta x|. Why: rounding in K is some 1e-16 of the square of the fastest rate over the square of that
+/// of the mode, and nothing makes up for it. Test: none: not tried with other values.
 pub const MODE_RESIDUAL: f64 = 1e-4;
 
 /// |y| |x| / |y^H x| of eigenvalues from which on their vectors are taken for dependent.
-/// Unit: [1]. Why: their square is the error of the gain, 1e-6 of it rounding. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const DEFECTIVE_MODE: f64 = 1e5;
 
 /// Imaginary parts that are rounding.
-/// Unit: [1] of the distance to the shift. Why: a choice: real double eigenvalues split by the root of the residual.
-/// Test: none: TODO.
+/// Unit: `[1]` of the distance to the shift. Why: a choice: real double eigenvalues split by the root of the residual.
+/// Test: none: not tried with other values.
 pub const REAL_MODE: f64 = 1e-5;
 
 /// Eigenvectors that a real basis has of a conjugate are no new ones below this.
-/// Unit: [1], square of their length. Why: a thousandth of a vector. Test: none: TODO.
+/// Unit: `[1]`, square of their length. Why: a choice. Test: none: not tried with other values.
 pub const NEW_MODE: f64 = 1e-6;
 
 /// The shift for the slowest modes, off the eigenvalues 0 of rigid bodies.
-/// Unit: [1] of the last of them. Why: a choice: near enough for all of them. Test: none: TODO.
+/// Unit: `[1]` of the last of them. Why: a choice. Test: none: not tried with other values.
 pub const SHIFT_OF_SLOWEST: f64 = 0.02;
 
-/// Another shift, where the first is an eigenvalue.
-/// Unit: [1] of itself. Why: a choice. Test: none: TODO.
+/// Distance of another shift from one that is an eigenvalue.
+/// Unit: `[1]` of itself. Why: a choice. Test: none: not tried with other values.
 pub const SHIFT_BESIDE: f64 = 1e-3;
 
 /// The slowest rate that rounding in K leaves.
-/// Unit: [1] of the fastest. Why: the root of a hundred ulps. Test: none: TODO.
+/// Unit: `[1]` of the fastest. Why: some ten times the square root of rounding. Test: none: not tried with other
+/// values.
 pub const ROUNDING_OF_K: f64 = 1e-7;
 
 /// Kinds of modes are clear where the part of a spurious one off the constraints is so many times that of any physical
 /// one.
-/// Unit: [1]. Why: a choice: the least that is a gap. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice: the least that is a gap. Test: none: not tried with other values.
 pub const SPURIOUS_GAP: f64 = 2.0;
 
 /// An angle that no usual arrangement of parts around an axis repeats after.
-/// Unit: [rad]. Why: it is no rational part of a turn. Test: none: TODO.
+/// Unit: `[rad]`. Why: it is no rational part of a turn. Test: none: not tried with other values.
 pub const ODD_ANGLE: f64 = 1.0;
 
 /// Rounding of products that say whether a mechanism is the same all around.
-/// Unit: [1] of their terms. Why: the square root of rounding. Test: none: TODO.
+/// Unit: `[1]` of their terms. Why: the square root of rounding. Test: none: not tried with other values.
 pub const STEADY: f64 = 1e-8;
 
 /// Directions that are tried.
-/// Unit: [directions]. Why: a choice. Test: none: TODO.
+/// Unit: `[directions]`. Why: a choice. Test: none: a count of work, not tried.
 pub const STEADY_DIRECTIONS: usize = 3;
 
 /// Halvings of a step in which it is not clear which mode is which.
-/// Unit: [times]. Why: a choice. Test: none: TODO.
+/// Unit: `[times]`. Why: a choice. Test: none: a count of work, not tried.
 pub const HALVINGS: usize = 6;
 
-/// The same with many modes.
-/// Unit: [times]. Why: each costs a model. Test: none: TODO.
+/// Halvings of such a step with many modes.
+/// Unit: `[times]`. Why: a choice: each costs a model. Test: none: a count of work, not tried.
 pub const FEW_HALVINGS: usize = 3;
 
-/// How many those are.
-/// Unit: [modes]. Why: a choice. Test: none: TODO.
+/// Modes from which on FEW_HALVINGS are made.
+/// Unit: `[modes]`. Why: a choice. Test: none: a count of work, not tried.
 pub const MANY_MODES: usize = 40;
 
 /// The basis of the intrinsic chart turns by no more from one state to the next.
-/// Unit: [rad]. Why: the method's error is then about 1e-7 a radian. Test: none: TODO.
+/// Unit: `[rad]`. Why: the method's error is then about 1e-7 a radian. Test: none: not tried with other values.
 pub const CARRIED_TURN: f64 = 0.05;
 
 /// States from one time that is asked for to the next, at least.
-/// Unit: [states]. Why: a step of the method is a pair of them. Test: none: TODO.
+/// Unit: `[states]`. Why: a step of the method is a pair of them. Test: none: not tried with other values.
 pub const CARRIED_STATES: f64 = 2.0;
 
 /// States at most.
-/// Unit: [states]. Why: a motion that turns so fast is not followed for so long. Test: none: TODO.
+/// Unit: `[states]`. Why: a choice: a motion that turns so fast is not followed for so long. Test: none: not tried with
+/// other values.
 pub const CARRIED_MOST: f64 = 1e6;
 
 /// Rounding of the integration of columns of size 1.
-/// Unit: [1]. Why: three of FLOW_ATOL. Test: none: TODO.
+/// Unit: `[1]`. Why: three times FLOW_ATOL. Test: none: not tried with other values.
 pub const COLUMN_ROUND_OFF: f64 = 3e-13;
 
 /// Errors up to here are in the range where the lowest power of h rules.
-/// Unit: [1]. Why: a choice. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const LOWEST_POWER: f64 = 3e-3;
 
 /// Steps of the frozen model over a pulse.
-/// Unit: [steps]. Why: the error of its fourth-order method is below 1e-9. Test: none: TODO.
+/// Unit: `[steps]`. Why: the error of its fourth-order method is below 1e-9. Test: none: a count of work, not tried.
 pub const PULSE_STEPS: usize = 400;
 
 /// Points that an observed order needs.
-/// Unit: [points]. Why: a choice: three slopes. Test: none: TODO.
+/// Unit: `[points]`. Why: a choice. Test: none: a count of work, not tried.
 pub const SLOPE_POINTS: usize = 4;
 
-/// Above rounding by this factor an error is not disturbed by it.
-/// Unit: [1]. Why: an order is off by 1/30/ln(3) at most. Test: none: TODO.
+/// Errors this factor above rounding are not disturbed by it.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const ABOVE_ROUNDING: f64 = 30.0;
 
 /// Relative errors above are not in the range where eps^2 rules.
-/// Unit: [1]. Why: the next term is a tenth, too. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const SECOND_ORDER_RANGE: f64 = 0.1;
 
 /// An order may be this much below 2.
-/// Unit: [1]. Why: a choice. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const ORDER_SLACK: f64 = 0.1;
 
 /// Order of exp(A h) that is none of a missing term.
-/// Unit: [1]. Why: a missing term makes order 1; steps near the time of the fastest modes have a little less than 2.
-/// Test: none: TODO.
+/// Unit: `[1]`. Why: a missing term makes order 1; steps near the time of the fastest modes have a little less than 2.
+/// Test: none: not tried with other values.
 pub const STEEP_ENOUGH: f64 = 1.6;
 
 /// How many periods of the fastest mode a run counts at most.
-/// Unit: [periods]. Why: longer runs would cost more than they tell. Test: none: TODO.
+/// Unit: `[periods]`. Why: longer runs would cost more than they tell. Test: none: not tried with other values.
 pub const FASTEST_PERIODS: f64 = 8.0;

@@ -2,191 +2,184 @@
 
 pub use super::SAME;
 
+/// A length, an angle, a speed or a swing of the kinetic energy that is smaller is zero by symmetry, or as good as
+/// that: no errors are relative to it.
+/// Unit: `[1]` of the largest of its kind. Why: the promise of the README. Test: none: not tried with other values.
+pub const ZERO_BY_SYMMETRY: f64 = 1e-3;
+
 /// Energies in which rounding leaves this part of themselves show nothing below it.
-/// Unit: [1]. Why: a choice: the energy is a sum over bodies of squares. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const ENERGY_ROUND_OFF: f64 = 1e-12;
 
 /// A motion that turns over this part of what is tolerated is none.
-/// Unit: [1]. Why: a choice. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const ENERGY_UNSEEN: f64 = 1e-3;
 
 /// A balance that is open by this part is that of another motion: a warning.
-/// Unit: [1] of the energy turned over. Why: README: one percent. Test: none: TODO.
+/// Unit: `[1]` of the energy turned over. Why: the promise of the README. Test: none: not tried with other values.
 pub const ENERGY_OPEN: f64 = 0.01;
 
 /// The balance of a good run is open by less than so many times what the tolerance lets it.
-/// Unit: [1]. Why: README: ten times. Test: none: TODO.
+/// Unit: `[1]`. Why: the promise of the README. Test: none: not tried with other values.
 pub const ENERGY_BEYOND: f64 = 10.0;
 
-/// A length, an angle or a speed that is smaller is zero by symmetry, or as good as that.
-/// Unit: [1] of the largest. Why: README: a thousandth of the motion's. Test: none: TODO.
-pub const ZERO_BY_SYMMETRY: f64 = 1e-3;
-
-/// A kinetic energy that swings by less is constant.
-/// Unit: [1] of itself. Why: a choice. Test: none: TODO.
-pub const CONSTANT_ENERGY: f64 = 1e-3;
-
 /// Distance to the nearby state that tells a singular one from redundant rows.
-/// Unit: [m, rad]. Why: a choice: its square is phi before it is brought back. Test: none: TODO.
+/// Unit: `[m, rad]`. Why: a choice. Test: none: not tried with other values.
 pub const STATE_BESIDE: f64 = 1e-3;
 
 /// Newton's steps to bring it to the constraints.
-/// Unit: [steps]. Why: from 1e-6 three are enough where nothing is singular; the rank falls with the distance there.
-/// Test: none: TODO.
+/// Unit: `[steps]`. Why: a choice. Test: none: a count of work, not tried.
 pub const STATE_BESIDE_SWEEPS: usize = 8;
 
 /// States on the way to a singular one are kept each time the rank indicator has halved since the last.
-/// Unit: [1]. Why: a choice. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const WAY_HALVED: f64 = 0.5;
 
 /// The way is followed below this part of the largest rank indicator.
-/// Unit: [1]. Why: a choice. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const WAY_BEGINS: f64 = 0.3;
 
 /// Velocities are compared at so many times the least rank indicator.
-/// Unit: [1]. Why: a choice: far enough for the drift, near enough for the rule. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const WAY_COMPARED: f64 = 6.0;
 
 /// The state after the one that is compared is at least so much farther on.
-/// Unit: [1] of the time between those compared. Why: a choice. Test: none: TODO.
+/// Unit: `[1]` of the time between those compared. Why: a choice. Test: none: not tried with other values.
 pub const WAY_APART: f64 = 0.25;
 
 /// A change of the velocity that no smooth motion makes.
-/// Unit: [1] of its size. Why: a choice. Test: none: TODO.
+/// Unit: `[1]` of its size. Why: a choice. Test: none: not tried with other values.
 pub const JUMPED: f64 = 0.1;
 
-/// Beside so many times what the lower rule makes of the same accelerations otherwise.
-/// Unit: [1]. Why: over long steps both rules err. Test: none: TODO.
+/// A jump of the velocity is beside so many times what the lower rule makes of the same accelerations otherwise.
+/// Unit: `[1]`. Why: a choice: over long steps both rules err. Test: none: not tried with other values.
 pub const JUMP_DOUBTED: f64 = 3.0;
 
-/// But not beyond this part of the velocity.
-/// Unit: [1]. Why: a jump that large is one. Test: none: TODO.
+/// A change of the velocity by this part of its size is a jump whatever the rules err by.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const JUMP_DOUBTED_MOST: f64 = 0.5;
 
 /// Drift that can turn a motion at a singular state: of the positions relative to the square of the rank indicator, of
 /// the velocities relative to it.
-/// Unit: [1]. Why: a choice: the branches part by their whole size there. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const DRIFT_TURNS: f64 = 0.01;
 
 /// Dips of the rank indicator that are looked at.
-/// Unit: [1] of the largest. Why: a choice: speed. Test: none: TODO.
+/// Unit: `[1]` of the largest. Why: a choice. Test: none: time alone depends on it.
 pub const DIP_OF_RANK: f64 = 0.8;
 
-/// Below it a state is told as near to a singular one.
-/// Unit: [1] of the largest. Why: a choice. Test: none: TODO.
+/// A state is told as near to a singular one whose rank indicator is below.
+/// Unit: `[1]` of the largest. Why: a choice. Test: none: not tried with other values.
 pub const TOLD_NEAR_SINGULAR: f64 = 1e-2;
 
-/// Below it a state is told as singular.
-/// Unit: [1] of the largest. Why: a choice: a minimum between steps is found to 5e-6. Test: none: TODO.
+/// A state is told as singular whose rank indicator is below.
+/// Unit: `[1]` of the largest. Why: a choice. Test: none: not tried with other values.
 pub const TOLD_SINGULAR: f64 = 1e-3;
 
-/// Below it drift may turn the motion.
-/// Unit: [1] of the largest. Why: a choice. Test: none: TODO.
+/// Drift may turn the motion where the rank indicator is below.
+/// Unit: `[1]` of the largest. Why: a choice. Test: none: not tried with other values.
 pub const DRIFT_MAY_TURN: f64 = 0.2;
 
 /// Unknowns up to which the joints that depend on each other are named.
-/// Unit: [unknowns]. Why: by the cube. Test: none: TODO.
+/// Unit: `[unknowns]`. Why: a choice: time goes with the cube. Test: none: time alone depends on it.
 pub const NAMED_DEPENDENT_JOINTS: usize = 1000;
 
-/// Rows count as dependent at least below this.
-/// Unit: [1] of their length. Why: as TRUNCATED_RANK. Test: none: TODO.
-pub const DEPENDENT_AT_LEAST: f64 = 1e-4;
-
 /// Unknowns up to which the condition number of the nearest state is computed.
-/// Unit: [unknowns]. Why: by the cube. Test: none: TODO.
+/// Unit: `[unknowns]`. Why: a choice: time goes with the cube. Test: none: time alone depends on it.
 pub const CONDITION_OF_RUN: usize = 300;
 
 /// Golden sections for a passage of a singular state end here.
-/// Unit: [1] of a path. Why: a choice: two lines find the rest. Test: none: TODO.
+/// Unit: `[1]` of a path. Why: a choice. Test: none: not tried with other values.
 pub const GOLDEN_SHORTEST: f64 = 1e-6;
 
-/// And where the rank indicator is this part of what counts as near.
-/// Unit: [1]. Why: as before. Test: none: TODO.
+/// Golden sections for a passage also end where the rank indicator is this part of TOLD_NEAR_SINGULAR.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const GOLDEN_NEAR: f64 = 5e-4;
 
 /// The points of the two lines that meet in a passage, by the rank indicator as a part of what counts as near.
-/// Unit: [1]. Why: the lines are straight there, and round-off is small. Test: none: TODO.
+/// Unit: `[1]`. Why: the lines are straight there, and round-off is small. Test: none: not tried with other values.
 pub const LINES_ASIDE: f64 = 2e-2;
 
 /// Newton's steps that bring a path back to the drift of the motion.
-/// Unit: [steps]. Why: the interpolation is off by the error of a step. Test: none: TODO.
+/// Unit: `[steps]`. Why: a choice. Test: none: a count of work, not tried.
 pub const PATH_SWEEPS: usize = 2;
 
 /// A motion whose outputs or energy are off by this is not the one that was asked for.
-/// Unit: [1] of their scales. Why: README: ten percent. Test: none: TODO.
+/// Unit: `[1]` of their scales. Why: the promise of the README. Test: none: not tried with other values.
 pub const WRONG_MOTION: f64 = 0.1;
 
 /// Errors that are those of the reference.
-/// Unit: [1] of the scales. Why: a choice: the reference is at REFERENCE_RTOL, amplified ten thousand times. Test:
-/// none: TODO.
+/// Unit: `[1]` of the scales. Why: a choice, above REFERENCE_RTOL. Test: none: not tried with other values.
 pub const REFERENCE_NOISE: f64 = 1e-9;
 
 /// Tolerance of the references of stress.
-/// Unit: [1], rtol. Why: the tightest that methods take. Test: none: TODO.
+/// Unit: `[1]`, rtol. Why: the tightest of the tolerances that methods are tried at. Test: none: not tried with other
+/// values.
 pub const REFERENCE_RTOL: f64 = 1e-13;
 
 /// Joints that are open by this make a motion meaningless.
-/// Unit: [1] of the scene's size. Why: a choice. Test: none: TODO.
+/// Unit: `[1]` of the scene's size. Why: a choice. Test: none: not tried with other values.
 pub const MEANINGLESS: f64 = 0.1;
 
 /// A run that stopped had diverged before if its energy error is this.
-/// Unit: [1] of the energy turned over. Why: a choice. Test: none: TODO.
+/// Unit: `[1]` of the energy turned over. Why: a choice. Test: none: not tried with other values.
 pub const BLOWN_UP: f64 = 0.5;
 
 /// Costs within this factor of the least are a tie.
-/// Unit: [1]. Why: counted work tells times no better. Test: none: TODO.
+/// Unit: `[1]`. Why: counted work tells times no better; a choice. Test: none: not tried with other values.
 pub const TIED_COSTS: f64 = 1.15;
 
 /// Drift that is round-off: two runs below tie.
-/// Unit: [1] of the scene's size. Why: chains add up some thousand ulps. Test: none: TODO.
+/// Unit: `[1]` of the scene's size. Why: a choice. Test: none: not tried with other values.
 pub const DRIFT_ROUND_OFF: f64 = 1e-12;
 
 /// How much tighter the run is that tells a model's own error.
-/// Unit: [1]. Why: two digits. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice: two digits. Test: none: not tried with other values.
 pub const MODEL_TIGHTER: f64 = 1e-2;
 
 /// The reference's error over what is asked for.
-/// Unit: [1]. Why: one digit. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice: one digit. Test: none: not tried with other values.
 pub const REFERENCE_MARGIN: f64 = 0.1;
 
 /// Part of the budget below which a run is quick.
-/// Unit: [1]. Why: a choice. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const QUICK_RUN: f64 = 5e-4;
 
 /// Accelerations of a start that rests.
-/// Unit: [1] of the largest that single forces make. Why: those of a scene whose data are given to seven digits. Test:
-/// none: TODO.
+/// Unit: `[1]` of the largest that single forces make. Why: those of a scene whose data are given to seven digits.
+/// Test: none: not tried with other values.
 pub const RESTING_START: f64 = 1e-6;
 
 /// Joints that are open by this at the end: a warning.
-/// Unit: [1] of the scene's size. Why: a choice. Test: none: TODO.
+/// Unit: `[1]` of the scene's size. Why: a choice. Test: none: not tried with other values.
 pub const JOINTS_OPEN: f64 = 1e-2;
 
 /// Assembly that moves a position by so many lengths of the mechanism may have found another configuration than the one
 /// that was meant.
-/// Unit: [1]. Why: a choice; of angles a quarter of a turn. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice; of angles a quarter of a turn. Test: none: not tried with other values.
 pub const ASSEMBLY_MOVED: f64 = 1.0;
 
 /// A guess whose axes have a smaller cosine has them against each other.
-/// Unit: [1]. Why: a choice: within 26 degrees of it. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice: within 26 degrees of opposite. Test: none: not tried with other values.
 pub const AXES_AGAINST: f64 = -0.9;
 
 /// A multiplier may be outside the unit circle by so much.
-/// Unit: [1]. Why: the root of what integration leaves of a double one. Test: none: TODO.
+/// Unit: `[1]`. Why: the root of what integration leaves of a double one. Test: none: not tried with other values.
 pub const MULTIPLIER_OUTSIDE: f64 = 1e-5;
 
 /// Parts of bodies in a mode that are left out of a file.
-/// Unit: [1] of its kinetic energy. Why: a choice. Test: none: TODO.
+/// Unit: `[1]` of its kinetic energy. Why: a choice. Test: none: not tried with other values.
 pub const PART_OF_MODE: f64 = 1e-3;
 
 /// Ends of a branch are found to this.
-/// Unit: [1] of the range. Why: a choice: README promises a millionth. Test: none: TODO.
+/// Unit: `[1]` of the range. Why: a choice: the README promises a millionth. Test: none: not tried with other values.
 pub const PARAMETER_END: f64 = 1e-8;
 
 /// Steps towards one value of a sweep.
-/// Unit: [steps]. Why: halving to the resolution takes 27. Test: none: TODO.
+/// Unit: `[steps]`. Why: halving to the resolution takes 27. Test: none: a count of work, not tried.
 pub const BRANCH_STEPS: usize = 1000;
 
 /// Distance at which the other branch is looked for beside an end.
-/// Unit: [1] of the range. Why: at a distance d the state is as far away as the root of d. Test: none: TODO.
+/// Unit: `[1]` of the range. Why: at a distance d the state is as far away as the root of d. Test: none: not tried with
+/// other values.
 pub const BRANCH_BESIDE: f64 = 1e-2;

@@ -1,290 +1,317 @@
 //! The time loop: events, singular states, choice of methods, rows.
 
-pub use super::{ROUND_OFF, SAME};
+pub use super::{ROUND_OFF_OF_PHI, SAME};
 
-/// A state whose rank indicator is below is near a singular one: two sweeps project it.
-/// Unit: [1] of the largest so far. Why: one sweep leaves errors of the positions, over the rank indicator, in the
-/// velocities. Test: none: TODO.
+/// A state whose rank indicator is below is near a singular one.
+/// Unit: `[1]` of the largest so far. Why: a choice. Test: none: with a thousand times more or less the tests of its
+/// room pass.
 pub const NEAR_SINGULAR: f64 = 0.1;
 
-/// Below it steps are placed about the singular state.
-/// Unit: [1] of the largest so far. Why: a choice: where one step goes on. Test: none: TODO.
+/// Steps are placed about a singular state where the rank indicator is below.
+/// Unit: `[1]` of the largest so far. Why: a choice. Test:
+/// `short_steps_stop_before_the_singular_state_until_one_as_long_as_before_goes_over_it`.
 pub const PLACED_STEPS: f64 = 0.3;
 
-/// Below it the state is singular to round-off.
-/// Unit: [1] of the largest so far. Why: some ulps over it are 1e-9, a change of the state that no tolerance asks for.
-/// Test: none: TODO.
+/// A state whose rank indicator is below is singular to round-off: no step is placed from it.
+/// Unit: `[1]` of the largest so far. Why: a choice. Test:
+/// `from_rest_at_a_change_point_it_goes_where_it_is_pushed_or_says_why_not`.
 pub const AT_SINGULAR: f64 = 1e-6;
 
-/// Steps this short will not come over a singular state.
-/// Unit: [1] of those far from it. Why: a choice. Test: none: TODO.
+/// Steps near a singular state that are so short will not come over it.
+/// Unit: `[1]` of those far from it. Why: a choice. Test: none: with a thousand times more or less the tests of its
+/// room pass.
 pub const STUCK_AT_SINGULAR: f64 = 1e-8;
 
 /// How late a fixed step over a singular state may start, rather than after a step so short.
-/// Unit: [1] of the step. Why: a choice. Test: none: TODO.
+/// Unit: `[1]` of the step. Why: a choice. Test: `rk4_with_projection_keeps_its_order_through_the_folds`.
 pub const LATE_FIXED_STEP: f64 = 0.05;
 
 /// The local error of a step over a singular state.
-/// Unit: [1] of the error of the run. Why: there are few of them. Test: none: TODO.
+/// Unit: `[1]` of the error of the run. Why: a choice: there are few of them. Test:
+/// `rk4_with_projection_follows_the_reference`.
 pub const SINGULAR_SHARE: f64 = 0.1;
 
+/// Round-off of a projection where the rows of G are well apart: near a singular state it is that over the square of
+/// the rank indicator.
+/// Unit: `[1]` of the largest state. Why: two operations; with ROUND_OFF, twice as much, motions leave their branch.
+/// Test: `every_passage_is_counted_and_none_is_called_left`.
+pub const PROJECTION_ROUND_OFF: f64 = 8.0 * f64::EPSILON;
+
 /// Sweeps of a projection near a singular state.
-/// Unit: [sweeps]. Why: one leaves errors of the positions, over the rank indicator, in the velocities. Test: none:
-/// TODO.
+/// Unit: `[sweeps]`. Why: one leaves errors of the positions, over the rank indicator, in the velocities. Test:
+/// `from_rest_at_a_change_point_it_goes_where_it_is_pushed_or_says_why_not`.
 pub const SINGULAR_SWEEPS: usize = 2;
 
 /// A correction of a projection above which it refuses the step.
-/// Unit: [tolerated errors]. Why: a choice: the error of the step itself is one of them at most. Test: none: TODO.
+/// Unit: `[tolerated errors]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room
+/// pass.
 pub const FAR_CORRECTION: f64 = 10.0;
 
 /// Round-off of a projection above which a state is too near to a singular one.
-/// Unit: [tolerated errors]. Why: a choice: what lies beyond is another motion. Test: none: TODO.
+/// Unit: `[tolerated errors]`. Why: a choice. Test:
+/// `from_rest_at_a_change_point_it_goes_where_it_is_pushed_or_says_why_not`.
 pub const SINGULAR_ROUND_OFF: f64 = 1e3;
 
-/// A dropped row is no more open than this, else all rows are counted again.
-/// Unit: [1] of its scale. Why: round-off of phi, and a hundred for chains. Test: none: TODO.
-pub const DROPPED_ROW_OPEN: f64 = 1e-11;
-
-/// Nor more than so many times the others.
-/// Unit: [1]. Why: drift may open them all, and nearly dependent ones more. Test: none: TODO.
+/// A dropped row may be open by so many times what the others are.
+/// Unit: `[1]`. Why: a choice: drift may open them all. Test: none: with a thousand times more or less the tests of its
+/// room pass.
 pub const DROPPED_ROW_OPEN_OF_OTHERS: f64 = 1e3;
 
 /// Work before automatic choice looks at the steps first.
-/// Unit: [evaluations]. Why: a choice: some steps, so that short runs try nothing. Test: none: TODO.
+/// Unit: `[evaluations]`. Why: a choice: short runs try nothing. Test: none: not tried with other values.
 pub const IMPLICIT_TRIED: f64 = 200.0;
 
 /// How much farther an implicit method must come for the same work to take over.
-/// Unit: [1]. Why: a choice: trials differ by a third from one place to another. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const IMPLICIT_WORTH: f64 = 1.5;
 
-/// The same of an explicit one.
-/// Unit: [1]. Why: it takes a few long steps before stability holds them. Test: none: TODO.
+/// How much farther an explicit method must come for the same work to take over from an implicit one.
+/// Unit: `[1]`. Why: a choice: it takes a few long steps before stability limits them. Test: none: not tried with other
+/// values.
 pub const EXPLICIT_WORTH: f64 = 2.0;
 
 /// What comes no farther than this is no alternative.
-/// Unit: [1]. Why: a choice. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const NO_ALTERNATIVE: f64 = 0.5;
 
 /// Runs that stop again so near are not helped by the other method.
-/// Unit: [1] of the span. Why: a choice. Nor would augmented_lagrangian help at singular states: it comes over those of
-/// n_four_bar, but 1e-4 to 1e-2 beside the motion. Test: none: TODO.
+/// Unit: `[1]` of the span. Why: a choice. Nor would augmented_lagrangian help at singular states: it comes over those
+/// of n_four_bar, but 1e-4 to 1e-2 beside the motion. Test: none: not tried with other values.
 pub const STOPS_AGAIN: f64 = 1e-6;
 
 /// Work at most that an advice looks at at a time.
-/// Unit: [evaluations]. Why: a choice: a second of a large scene. Test: none: TODO.
+/// Unit: `[evaluations]`. Why: a choice. Test: none: not tried with other values.
 pub const ADVICE_WORK: f64 = 2e4;
 
 /// Work of an evaluation in implicit methods, with its share of factorizations and back-substitutions.
-/// Unit: [evaluations by explicit ones]. Why: 2 to 4 on the shipped scenes, whatever their size. Test: none: TODO.
+/// Unit: `[evaluations by explicit ones]`. Why: 2 to 4 on the shipped scenes, whatever their size. Test: none: not
+/// tried with other values.
 pub const IMPLICIT_WORK: f64 = 3.0;
 
-/// From here on stability may be what limits the steps of an explicit method.
-/// Unit: [1] of the longest stable step. Why: with the steps that it refuses again and again they are a quarter of it
-/// on average. Test: none: TODO.
+/// Steps of an explicit method that are longer may be limited by stability.
+/// Unit: `[1]` of the longest stable step. Why: with the steps that it refuses again and again they are a quarter of it
+/// on average. Test: none: not tried with other values.
 pub const STABILITY_HOLDS: f64 = 0.1;
 
-/// Up to here an explicit method may be worth trying in the place of an implicit one.
-/// Unit: [1] of the longest stable step. Why: a choice: its evaluations are that much cheaper at best. Test: none:
-/// TODO.
+/// Steps of an implicit method up to so long leave an explicit one worth trying.
+/// Unit: `[1]` of the longest stable step. Why: a choice. Test: none: not tried with other values.
 pub const EXPLICIT_AGAIN: f64 = 20.0;
 
 /// The longest stable step of methods without a limit of their own.
-/// Unit: [1], |lambda| h. Why: that of dop853. Test: none: TODO.
+/// Unit: `[1]`, |lambda| h. Why: that of dop853. Test: none: not tried with other values.
 pub const STABLE_STEP: f64 = 6.1;
 
 /// Least work of a trial.
-/// Unit: [evaluations]. Why: the first steps of radau_iia, each up to eight times the one before. Test: none: TODO.
+/// Unit: `[evaluations]`. Why: the first steps of radau_iia, each up to eight times the one before. Test: none: not
+/// tried with other values.
 pub const TRIAL_WORK: f64 = 300.0;
 
 /// Work of a trial, and what it is worth of what is left.
-/// Unit: [1] of the work it is compared with. Why: a choice. Test: none: TODO.
+/// Unit: `[1]` of the work it is compared with. Why: a choice. Test: none: not tried with other values.
 pub const TRIAL_SHARE: f64 = 0.25;
 
 /// Steps grow where the next one is so many times their mean.
-/// Unit: [1]. Why: a choice. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const STEPS_GROW: f64 = 2.0;
 
 /// How often a run that is watched goes on for that.
-/// Unit: [times]. Why: a choice: 2^5 of its first work. Test: none: TODO.
+/// Unit: `[times]`. Why: a choice. Test: none: a count of work, not tried.
 pub const WATCHED_AGAIN: usize = 5;
 
 /// This part of the work that is left says enough of it.
-/// Unit: [1]. Why: a choice. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const TRIAL_SHOWS: f64 = 0.1;
 
 /// Turns at thresholds are looked at in windows of so many.
-/// Unit: [turns]. Why: a choice. Test: none: TODO.
+/// Unit: `[turns]`. Why: a choice. Test: none: a count of work, not tried.
 pub const TURNS_IN_WINDOW: usize = 250;
 
-/// A run with so many turns before it, at the rate of the last window, does not come to its end.
-/// Unit: [turns]. Why: a choice: hours. Test: none: TODO.
+/// A run with so many turns at thresholds before it, at the rate of the last window, does not come to its end.
+/// Unit: `[turns]`. Why: a choice. Test: none: not tried with other values.
 pub const TURNS: f64 = 5e7;
 
-/// Nor does one with so many where the last windows were each shorter and slower than the one before.
-/// Unit: [turns]. Why: the motion comes to rest at the threshold, and the turns get ever more. Test: none: TODO.
+/// Turns before a run, at the rate of the last window, with which it does not come to its end where the last windows
+/// were each shorter and slower than the one before.
+/// Unit: `[turns]`. Why: a choice: the motion comes to rest at the threshold, and the turns get ever more. Test: none:
+/// not tried with other values.
 pub const TURNS_IN_DECAY: f64 = 1e5;
 
-/// The number of these windows.
-/// Unit: [windows]. Why: a choice: three ratios in a row. Test: none: TODO.
+/// Windows of turns, each shorter and slower than the one before, that show a motion coming to rest at a threshold.
+/// Unit: `[windows]`. Why: a choice. Test: none: a count of work, not tried.
 pub const WINDOWS_IN_DECAY: usize = 4;
 
-/// Nor does one whose turns, in so many windows, were all nearer to each other than the tolerance.
-/// Unit: [windows]. Why: it has lost the motion. Test: none: TODO.
+/// Windows of turns nearer to each other than the tolerance, after which a run has lost the motion.
+/// Unit: `[windows]`. Why: a choice. Test: none: a count of work, not tried.
 pub const WINDOWS_UNSEEN: usize = 2;
 
-/// Steps that come no farther than CRAWL will not come to the end.
-/// Unit: [steps]. Why: a choice: seconds. Test: none: TODO.
+/// Steps that together come no farther than CRAWL end the run.
+/// Unit: `[steps]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
 pub const CRAWLING_STEPS: usize = 50_000;
 
-/// How far they come.
-/// Unit: [1] of the span. Why: so slow, a run takes 5e12 steps. Test: none: TODO.
+/// Part of the span that CRAWLING_STEPS must exceed.
+/// Unit: `[1]` of the span. Why: a choice: at this rate a run takes 5e12 steps. Test: none: with a thousand times more
+/// or less the tests of its room pass.
 pub const CRAWL: f64 = 1e-8;
 
 /// Joints that are open so far will not close again.
-/// Unit: [1] of the scene's size. Why: a choice. Test: none: TODO.
+/// Unit: `[1]` of the scene's size. Why: a choice. Test: none: not tried with other values.
 pub const JOINTS_APART: f64 = 10.0;
 
 /// A passage of a threshold nearer to the start of a step than this is at the start.
-/// Unit: [1] of the step. Why: the round-off of a step where t is a thousand times as large. Test: none: TODO.
+/// Unit: `[1]` of the step. Why: a choice, some thousand ulps. Test: none: with a thousand times more or less the tests
+/// of its room pass.
 pub const PASSAGE_AT_START: f64 = 1e-12;
 
 /// Passages are found to this.
-/// Unit: [1] of the span. Why: what is left of a coordinate there may be round-off. Test: none: TODO.
+/// Unit: `[1]` of the span. Why: what is left of a coordinate there may be round-off. Test: none: with a thousand times
+/// more or less the tests of its room pass.
 pub const PASSAGE: f64 = 1e-13;
 
 /// Switching functions of switching functions of ... that are settled at the start.
-/// Unit: [levels]. Why: a choice. Test: none: TODO.
+/// Unit: `[levels]`. Why: a choice. Test: none: a count of work, not tried.
 pub const NESTED_SWITCHES: usize = 10;
 
 /// An argument is at a threshold within this.
-/// Unit: [1] of its change over the step. Why: a choice: tighter than tolerances, looser than the round-off of the
-/// dense output. Test: none: TODO.
+/// Unit: `[1]` of its change over the step. Why: a choice. Test: none: with a thousand times more or less the tests of
+/// its room pass.
 pub const AT_THRESHOLD: f64 = 1e-10;
 
 /// The dense output is looked at where the cubic between both ends of a step comes nearer to a threshold.
-/// Unit: [1] of its range. Why: a choice: dense outputs differ from their cubic by less in a step of one tolerated
-/// error. Test: none: TODO.
+/// Unit: `[1]` of its range. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
 pub const NEAR_THRESHOLD: f64 = 0.2;
 
-/// At so many places.
-/// Unit: [places]. Why: a choice. Test: none: TODO.
+/// Places at which the dense output is looked at where a step comes near a threshold.
+/// Unit: `[places]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
 pub const LOOKS_AT_STEP: usize = 8;
 
 /// Where an argument stays at a threshold with both its rates, it is looked at after this.
-/// Unit: [1] of the span. Why: a tenth of what is never missed. Test: none: TODO.
+/// Unit: `[1]` of the span. Why: a choice: a tenth of what is never missed. Test: none: with a thousand times more or
+/// less the tests of its room pass.
 pub const LOOKED_AHEAD: f64 = 1e-5;
 
 /// Intervals that a search for a change of form may look at; what is left is judged by its ends.
-/// Unit: [intervals]. Why: a choice: milliseconds. Test: none: TODO.
+/// Unit: `[intervals]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
 pub const LOOKS_FOR_CHANGE: usize = 20_000;
 
 /// What lasts so long is not missed, nor anything longer.
-/// Unit: [1] of the span. Why: the promise of the README; each tenth costs some steps of functions of time that are
-/// short. Test: none: TODO.
+/// Unit: `[1]` of the span. Why: the promise of the README. Test: `a_bump_is_met_whenever_it_comes`.
 pub const NEVER_MISSED: f64 = 1e-4;
 
 /// A window is looked at whole for so many steps of the size at hand.
-/// Unit: [steps]. Why: speed only. Test: none: TODO.
+/// Unit: `[steps]`. Why: a choice of speed. Test: `a_bump_is_met_whenever_it_comes`.
 pub const WATCHED_STEPS: f64 = 8.0;
 
 /// What a function of time may do beside its cubic where an estimate of the error sees to the rest.
-/// Unit: [1] of how it and its rates change it over a quarter. Why: a choice. Test: none: TODO.
+/// Unit: `[1]` of how it and its rates change it over a quarter. Why: a choice. Test:
+/// `a_bump_is_met_whenever_it_comes`.
 pub const RESOLVED_ROUGHLY: f64 = 0.1;
 
-/// The same where no estimate does.
-/// Unit: [1], as before. Why: a pulse of a tenth of the step is met to 1e-7 by rk4. Test: none: TODO.
+/// What a function of time may do beside its cubic where no estimate of the error sees to the rest.
+/// Unit: `[1]`, as before. Why: a pulse of a tenth of the step is met to 1e-7 by rk4. Test: none: with a thousand times
+/// more or less the tests of its room pass.
 pub const RESOLVED_FINELY: f64 = 1e-4;
 
 /// What is nothing of a function of time.
-/// Unit: [its own unit]. Why: a size that its round-off has where it is of order one. Test: none: TODO.
+/// Unit: `[its own unit]`. Why: a choice: round-off of a function of order one. Test: none: with a thousand times more
+/// or less the tests of its room pass.
 pub const NO_FUNCTION: f64 = 1e-14;
 
 /// Enclosures of one window.
-/// Unit: [enclosures]. Why: with more those of the function are too wide. Test: none: TODO.
+/// Unit: `[enclosures]`. Why: with more those of the function are too wide. Test: none: with a thousand times more or
+/// less the tests of its room pass.
 pub const LOOKS_IN_WINDOW: usize = 100;
 
 /// A jump of v' that makes the next step start small.
-/// Unit: [tolerated errors] over a step. Why: below one the step does not see it. Test: none: TODO.
+/// Unit: `[tolerated errors]` over a step. Why: a smaller one is within the tolerance. Test: none: with a thousand
+/// times more or less the tests of its room pass.
 pub const SMALL_JUMP: f64 = 1.0;
 
 /// How often a step is cut to passages on its dense output at most.
-/// Unit: [cuts]. Why: a choice: each is a step again. Test: none: TODO.
+/// Unit: `[cuts]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
 pub const CUTS: usize = 10;
 
 /// Scenes of this length and more have one absolute tolerance.
-/// Unit: [m]. Why: README: a scene smaller than a centimetre gets 1e-8 of its length. Test: none: TODO.
+/// Unit: `[m]`. Why: README: a scene smaller than a centimetre gets 1e-8 of its length. Test: none: with a thousand
+/// times more or less the tests of its room pass.
 pub const SHORT_SCENE: f64 = 1e-2;
 
 /// No absolute tolerance that nobody asked for is below.
-/// Unit: [m, rad]. Why: round-off leaves it of angles. Test: none: TODO.
+/// Unit: `[m, rad]`. Why: round-off leaves it of angles. Test: none: with a thousand times more or less the tests of
+/// its room pass.
 pub const LEAST_ATOL: f64 = 1e-16;
 
 /// Errors of motions that amplify none are to be within so many tolerances.
-/// Unit: [tolerances]. Why: the promise of the README, in the median one. Test: none: TODO.
+/// Unit: `[tolerances]`. Why: the promise of the README. Test: none: with a thousand times more or less the tests of
+/// its room pass.
 pub const ERROR_OF_MOTION: f64 = 10.0;
 
 /// A step that is undecided about a threshold is not made shorter than so many of those that make no sense.
-/// Unit: [1]. Why: a choice: three digits of the time are left. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
 pub const UNDECIDED_STEP: f64 = 1e3;
 
 /// v' of the dense output is a difference over this.
-/// Unit: [1] of the step. Why: a choice: the error of a difference over it, 1e-6 of what the next derivative makes,
-/// meets its round-off. Test: none: TODO.
+/// Unit: `[1]` of the step. Why: a choice. Test: `rows_do_not_change_the_steps`.
 pub const DIFFERENCE_OF_ROWS: f64 = 1e-3;
 
-/// The v' of a row contradicts the dense output where the difference is so many tolerated errors of v over the step,
-/// Unit: [tolerated errors]. Why: a choice. Test: none: TODO.
+/// The v' of a row contradicts the dense output where the difference over the step is more than so many tolerated
+/// errors of v, and CONTRADICTED_PART.
+/// Unit: `[tolerated errors]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room
+/// pass.
 pub const CONTRADICTED_ERRORS: f64 = 100.0;
 
-/// and more than this part of all accelerations at hand.
-/// Unit: [1]. Why: a choice. Test: none: TODO.
+/// The v' of a row contradicts the dense output where the difference is also more than this part of all accelerations
+/// at hand.
+/// Unit: `[1]`. Why: a choice. Test: `rows_do_not_change_the_steps`.
 pub const CONTRADICTED_PART: f64 = 0.2;
 
 /// The parts of a fixed step that misses what acts by the clock.
-/// Unit: [1] of steps on which that is almost cubic. Why: a pulse of a tenth of the step is met to 1e-7 by rk4. Test:
-/// none: TODO.
+/// Unit: `[1]` of steps on which that is almost cubic. Why: a pulse of a tenth of the step is met to 1e-7 by rk4. Test:
+/// none: with a thousand times more or less the tests of its room pass.
 pub const FINER_PARTS: f64 = 0.125;
 
 /// The part of what is resolved that one cubic shows.
-/// Unit: [1]. Why: the quarters between which a function is looked at. Test: none: TODO.
+/// Unit: `[1]`. Why: the quarters between which a function is looked at. Test: none: with a thousand times more or less
+/// the tests of its room pass.
 pub const SHOWN_BY_CUBIC: f64 = 0.25;
 
 /// A time of the grid of fixed steps nearer than this is passed over.
-/// Unit: [1] of the step. Why: a step so short would cost as much as a whole one. Test: none: TODO.
+/// Unit: `[1]` of the step. Why: a choice. Test: `a_run_is_stopped_between_steps`.
 pub const PASSED_GRID_TIME: f64 = 1e-3;
 
 /// A mode that is slower is one of rounding, or as good as none.
-/// Unit: [1/s]. Why: a choice: a week a radian. Test: none: TODO.
+/// Unit: `[1/s]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
 pub const SLOWEST_MODE: f64 = 1e-6;
 
 /// Iterations for the fastest mode alone.
-/// Unit: [iterations]. Why: a few percent where others are as fast. Test: none: TODO.
+/// Unit: `[iterations]`. Why: a few percent where others are as fast. Test: `shipped_scenes_are_not_warned_of`.
 pub const POWER_ITERATIONS: usize = 60;
 
 /// What round-off may leave of accelerations of constraints, and of their lengths, at a singular start.
-/// Unit: [1] of the usual ones. Why: a choice: a million times below, it is data of six digits. Test: none: TODO.
+/// Unit: `[1]` of the usual ones. Why: a choice. Test: none: with a thousand times more or less the tests of its room
+/// pass.
 pub const CONTRADICTING_START: f64 = 1e-6;
 
 /// Velocities at a singular start that are none.
-/// Unit: [1] of what the accelerations would make over the run. Why: a choice. Test: none: TODO.
+/// Unit: `[1]` of what the accelerations would make over the run. Why: a choice. Test: none: with a thousand times more
+/// or less the tests of its room pass.
 pub const START_AT_REST: f64 = 1e-12;
 
 /// What a rough estimate of the fastest mode may be off by.
-/// Unit: [1]. Why: a choice. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: `fixed_steps_that_are_too_long_are_told`.
 pub const DOUBTED_MODE: f64 = 0.5;
 
 /// Powers of e that an unstable mode grows by over a run before it counts.
-/// Unit: [1]. Why: below one nothing is seen of it. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
 pub const UNSTABLE_MODE: f64 = 1.0;
 
 /// Part of the limit of stability that is advised.
-/// Unit: [1]. Why: a choice, as of step control. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice, as of step control. Test: `fixed_steps_that_are_too_long_are_told`.
 pub const ADVISED_STEP: f64 = 0.9;
 
 /// Times the limit from which on another method deserves a word.
-/// Unit: [1]. Why: a choice. Test: none: TODO.
+/// Unit: `[1]`. Why: a choice. Test: `shipped_scenes_are_not_warned_of`.
 pub const ANOTHER_METHOD: f64 = 3.0;
 
 /// Steps that an adaptive method may take for stability before anything is asked.
-/// Unit: [steps]. Why: a choice: less than the run itself costs at any tolerance. Test: none: TODO.
+/// Unit: `[steps]`. Why: a choice. Test: `shipped_scenes_are_not_warned_of`.
 pub const STEPS_FOR_STABILITY: f64 = 150.0;

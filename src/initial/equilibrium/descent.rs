@@ -10,7 +10,7 @@ use crate::tolerances::initial as tolerances;
 const CLOSING: Limits = Limits {
     most: tolerances::CLOSING_ITERATIONS,
     round_off: tolerances::ROUND_OFF_OF_SUMS,
-    stagnation: tolerances::CLOSING_STAGNATION,
+    stagnation: tolerances::ROUND_OFF_OF_PHI,
     contraction: 1.0,
     ..Limits::NONE
 };

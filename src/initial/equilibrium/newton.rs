@@ -44,7 +44,7 @@ pub(super) fn newton(rest: &mut Rest, start: Place, goal: Option<&[f64]>, policy
         if part > tolerances::AWAY {
             return Err(());
         }
-        let is_small = part <= tolerances::EQUILIBRIUM_STAGNATION;
+        let is_small = part <= tolerances::NEWTON_STAGNATION;
         let is_damped = policy.is_damped && !is_small;
         let next = if is_damped { damped(rest, &at, &change, size) } else { Some(rest.moved(&at, &change, 1.0)) };
         at = next.ok_or(())?;

@@ -159,7 +159,7 @@ impl Ali3p {
             let still =
                 4.0 * tolerances::ROUND_OFF_OF_SUMS * largest(problem.dynamics.system.own(q)).max(1.0) / (h * h);
             Ok::<_, Halt>(
-                change / (tolerances::STAGNATION_OF_ACCELERATION * largest(&self.a_new).max(largest(v) / h)).max(still),
+                change / (tolerances::NEWTON_STAGNATION * largest(&self.a_new).max(largest(v) / h)).max(still),
             )
         })?;
         problem.dynamics.statistics.stagnated += u64::from(converged && newton.has_stagnated);
@@ -195,7 +195,7 @@ impl Ali3p {
             .phi
             .iter()
             .zip(&self.scales)
-            .any(|(phi, scale)| phi.abs() > tolerances::PENALTY_CLOSED * scale);
+            .any(|(phi, scale)| phi.abs() > tolerances::REDUNDANT_ROWS_CLOSED * scale);
         if off {
             return Err(Halt::NotConverged);
         }

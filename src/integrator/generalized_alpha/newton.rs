@@ -171,6 +171,6 @@ impl Newton {
         let Slopes { q: by_q, .. } = motion.slopes(h);
         let reach =
             Some(largest(q)).filter(|reach| *reach > 0.0).map_or(1.0, |reach| reach.max(tolerances::LEAST_LARGEST_Q));
-        (tolerances::STAGNATION_OF_ACCELERATION * size).max(tolerances::ROUND_OFF_OF_SUMS * reach / by_q)
+        (tolerances::NEWTON_STAGNATION * size).max(tolerances::ROUND_OFF_OF_SUMS * reach / by_q)
     }
 }

@@ -5,6 +5,7 @@ use crate::formulation::Dynamics;
 use crate::math::kkt::{condition_number, dependent_rows};
 use crate::math::largest;
 use crate::system::Need;
+use crate::tolerances::math::TRUNCATED_RANK;
 use crate::tolerances::report as tolerances;
 
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
@@ -127,11 +128,7 @@ impl<'a> Survey<'a> {
             return (None, Vec::new());
         }
         self.evaluate(t, q);
-        let found = dependent_rows(
-            &self.dynamics.structure.g,
-            &self.dynamics.terms.g,
-            tolerance.max(tolerances::DEPENDENT_AT_LEAST),
-        );
+        let found = dependent_rows(&self.dynamics.structure.g, &self.dynamics.terms.g, tolerance.max(TRUNCATED_RANK));
         let new = found.rows.iter().filter(|row| !self.dynamics.dropped.contains(&row.row));
         let rows: Vec<usize> =
             new.flat_map(|row| row.combination.iter().map(|(other, _)| *other).chain([row.row])).collect();
