@@ -22,8 +22,7 @@ impl Run<'_> {
         let (dependent, contradiction) = dynamics.dependent_rows(self.t, q, v);
         let duration = self.span.end - self.span.start;
         let mut is_undetermined = false;
-        let is_at_rest =
-            largest(&v[moving]) <= tolerances::START_AT_REST * largest(&dynamics.vdot[moving]) * duration;
+        let is_at_rest = largest(&v[moving]) <= tolerances::START_AT_REST * largest(&dynamics.vdot[moving]) * duration;
         if !dependent.is_empty() && is_at_rest {
             let vdot = dynamics.vdot.clone();
             let (_, contradiction) = dynamics.dependent_rows(self.t, q, &vdot);
