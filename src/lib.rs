@@ -8,6 +8,8 @@
 //! phi(q,t) = 0                         n_c holonomic constraints
 //! phi' = G v + phi_t = 0
 //! phi'' = G v' - gamma = 0             gamma: what is left of phi'' at v' = 0, with its sign turned
+//! A(q,t) v + a(q,t) = 0                nonholonomic rows, the last ones of G and phi'
+//! xi' = r(t,q,v,xi)                    states of controllers, filters and actuators, the last ones of v; f may depend on xi
 //! ```
 //!
 //! SI units, angles in radians. `lambda` is signed so that `-G^T lambda` is the generalized force of the joints: the
@@ -49,6 +51,9 @@
 //! | [`measure`] | drift, energy balance; speed for accuracy ([`measure::work_precision`]); maps over extremes ([`measure::stress`]) | an extreme: a file and a line in [`measure::stress::registry`] |
 //! | [`tolerances`] | every threshold, with what it decides, its unit, reason and test | |
 //! | [`plot`], [`report`], [`cli`] | figures, files and text, the command line | one file a subcommand |
+//!
+//! A formulation, an integrator or a projection may come from outside the crate, too: an `Entry` of one's own and its
+//! [`choice`](choice::Listed::choice) in a [`simulate::Method`], as in `tests/outside.rs`.
 //!
 //! # Example
 //!

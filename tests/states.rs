@@ -1,10 +1,10 @@
 //! States xi of controllers, filters and actuators, xi' = r(t, q, v, xi), through own equations: every method takes them at its
 //! full order.
 
-use crate::common::motor::{Motor, exact, start};
+use crate::common::motor::{MOTOR, Motor, exact, start};
 use crate::common::orders::{self, END, Rows, steps};
 use crate::common::{adaptive, fixed, run, until};
-use holonom::initial::equilibrium;
+use holonom::initial::{assemble, equilibrium};
 use holonom::integrator::{Entry, Steps, registry};
 use holonom::linearize::Variation;
 use holonom::measure::Recorder;
@@ -18,7 +18,7 @@ const LEVELS: [(&str, Range<usize>); 4] = [("q", 1..3), ("v", 3..5), ("xi", 5..6
 fn solution(method: &Method) -> Rows {
     let (q, v) = start();
     let span = Span { output_step: END / 8.0, ..until(END) };
-    run(&Motor, method, span, (&q, &v)).completed().record.trajectory.rows
+    run(&MOTOR, method, span, (&q, &v)).completed().record.trajectory.rows
 }
 
 fn reference() -> Rows {
@@ -56,7 +56,7 @@ fn methods_that_choose_their_steps_have_their_order() {
                 let method = adaptive(&orders::gentle(formulation), entry.name, "none", tolerance);
                 let (q, v) = start();
                 let span = Span { output_step: END / 8.0, ..until(END) };
-                let run = run(&Motor, &method, span, (&q, &v)).completed();
+                let run = run(&MOTOR, &method, span, (&q, &v)).completed();
                 (run.outcome.statistics.steps as f64, run.record.trajectory.rows)
             });
             for (name, columns) in &LEVELS {
@@ -69,10 +69,18 @@ fn methods_that_choose_their_steps_have_their_order() {
     }
 }
 
+/// A start that is off the circle is closed by q and v alone.
+#[test]
+fn assembly_leaves_states_as_they_are() {
+    let assembled = assemble(&MOTOR, 0.0, (&[0.8, -0.7], &[0.5, 0.3, 0.4]), &[]).unwrap();
+    assert!(assembled.after.phi < 1e-15 && assembled.after.phi_dot < 1e-15, "{:?}", assembled.after);
+    assert_eq!(assembled.v[2], 0.4);
+}
+
 #[test]
 fn states_are_named_after_the_velocities() {
     let (q, v) = start();
-    let run = run(&Motor, &fixed("index1", "rk4", "manifold", 0.1), until(END), (&q, &v));
+    let run = run(&MOTOR, &fixed("index1", "rk4", "manifold", 0.1), until(END), (&q, &v));
     let headings = run.record.trajectory.headings().join(",");
     assert_eq!(headings, "t,q1,q2,v1,v2,xi1,lambda1");
 }
@@ -88,9 +96,26 @@ fn a_saved_run_goes_on_bit_by_bit() {
                 "generalized_alpha" => fixed(formulation, entry.name, "manifold", END / 40.0),
                 _ => adaptive(formulation, entry.name, "manifold", 1e-6),
             };
-            let differs = crate::common::saved::differs(&Motor, &method, span, (&q, &v));
+            let differs = crate::common::saved::differs(&MOTOR, &method, span, (&q, &v));
             assert!(!differs, "{}", method.triple());
         }
+    }
+}
+
+/// Newton's methods and their ends see states in whatever unit: 1e6 times as large a number changes rounding alone.
+#[test]
+fn the_unit_of_a_state_is_of_no_account() {
+    let (q, v) = start();
+    for (entry, formulation) in orders::integrators().flat_map(|entry| entry.accepts().map(move |name| (entry, name))) {
+        let method = fixed(formulation, entry.name, "none", END / 100.0);
+        let [ampere, micro] = [1.0, 1e-6].map(|unit| {
+            let v = [v[0], v[1], v[2] / unit];
+            let run = run(&Motor { unit }, &method, until(END), (&q, &v)).completed();
+            let (q, v, lambda) = run.last();
+            [q[0], q[1], v[0], v[1], unit * v[2], lambda[0]]
+        });
+        let off = common::distance(&ampere, &micro);
+        assert!(off < 1e-10, "{}: {off:e}", method.triple());
     }
 }
 
@@ -189,7 +214,7 @@ fn coordinates_are_told_from_states() {
 #[test]
 fn linear_models_and_equilibria_refuse_states() {
     let (q, v) = start();
-    for refused in [Variation::new(&Motor, 0.0, &q, &v).err(), equilibrium(&Motor, 0.0, &q).err()] {
+    for refused in [Variation::new(&MOTOR, 0.0, &q, &v).err(), equilibrium(&MOTOR, 0.0, &q).err()] {
         let text = refused.unwrap().to_string();
         assert!(text.contains("cannot take a system with states xi"), "{text}");
     }

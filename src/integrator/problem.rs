@@ -4,7 +4,7 @@ use crate::formulation::{Dynamics, Formulation, Halt};
 use crate::system::Dimensions;
 
 /// y = (q, v, w) with w the work of forces without a potential and of moving constraints, J, which is carried along so
-/// that the energy balance has the accuracy of the method.
+/// that the energy balance has the accuracy of the method. States xi are the last of v.
 pub struct Problem<'a> {
     pub dynamics: Dynamics<'a>,
     pub formulation: Box<dyn Formulation + 'a>,

@@ -57,7 +57,8 @@ pub struct Dimensions {
     /// phi'. They have no position, so phi is zero there.
     pub nonholonomic: usize,
     /// How many velocities, the last ones, are states xi of controllers, filters and actuators: xi' = r(t, q, v, xi), with r
-    /// in their rows of f and ones in those of M. They have no position and no constraint: N and G are zero there.
+    /// in their rows of f and ones on those of M. They have no position and no constraint: N and G are zero there. Their
+    /// errors are tested as those of velocities.
     pub states: usize,
 }
 

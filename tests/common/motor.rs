@@ -8,7 +8,12 @@
 
 use holonom::system::{Dimensions, Loaded, MechanicalSystem, Need, Scratch, Tangent, Terms};
 
-pub struct Motor;
+/// Its state is counted in so many A.
+pub struct Motor {
+    pub unit: f64,
+}
+
+pub const MOTOR: Motor = Motor { unit: 1.0 };
 
 const GRAVITY: f64 = 9.81;
 /// N m/A
@@ -29,11 +34,12 @@ impl MechanicalSystem for Motor {
     }
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], _: Need, terms: &mut Terms, _: &mut Scratch) {
-        let (&[x, y], &[vx, vy, i]) = (q, v) else { return };
+        let (&[x, y], &[vx, vy, xi]) = (q, v) else { return };
+        let i = self.unit * xi;
         let places = self.structure().mass.entries;
         places.iter().zip(&mut terms.mass).for_each(|((i, j), mass)| *mass = f64::from(u8::from(i == j)));
         let w = x * vy - y * vx;
-        terms.f.copy_from_slice(&[-K * i * y, K * i * x - GRAVITY, rate(t, w, i)]);
+        terms.f.copy_from_slice(&[-K * i * y, K * i * x - GRAVITY, rate(t, w, i) / self.unit]);
         terms.power = K * i * w;
         terms.phi[0] = 0.5 * (x * x + y * y - 1.0);
         terms.phi_dot[0] = x * vx + y * vy;
@@ -43,11 +49,14 @@ impl MechanicalSystem for Motor {
     }
 
     fn tangent(&self, at: Loaded, tangent: &mut Tangent, _: &mut Scratch) -> bool {
-        let (&[x, y], &[vx, vy, i], &[lambda]) = (at.q, at.v, at.lambda) else { return false };
+        let (&[x, y], &[vx, vy, xi], &[lambda]) = (at.q, at.v, at.lambda) else { return false };
+        let i = self.unit * xi;
         let k = [[lambda, K * i, 0.0], [-K * i, lambda, 0.0], [K * vy / L, -K * vx / L, 0.0]];
         let c = [[0.0, 0.0, K * y], [0.0, 0.0, -K * x], [-K * y / L, K * x / L, (R + 3.0 * S * i * i) / L]];
         for (place, &(row, column)) in self.structure().tangent.entries.iter().enumerate() {
-            (tangent.k[place], tangent.c[place]) = (k[row][column], c[row][column]);
+            let unit = |of: usize| if of == 2 { self.unit } else { 1.0 };
+            tangent.k[place] = k[row][column] / unit(row);
+            tangent.c[place] = c[row][column] * unit(column) / unit(row);
         }
         true
     }

@@ -89,6 +89,8 @@ const MOST_PASSED: usize = 1000;
 /// Follows a motion.
 pub struct Watch<'a> {
     survey: Survey<'a>,
+    /// Velocities that move q.
+    moving: usize,
     /// The last three accepted states, the latest last.
     last: [Sample; 3],
     seen: usize,
@@ -101,6 +103,7 @@ impl<'a> Watch<'a> {
     pub fn new(system: &'a dyn MechanicalSystem) -> Self {
         Watch {
             survey: Survey::new(Dynamics::new(system)),
+            moving: system.dimensions().moving(),
             last: Default::default(),
             seen: 0,
             largest: 0.0,
@@ -117,7 +120,7 @@ impl<'a> Watch<'a> {
         self.survey.drop_rows(state.dropped);
         let rank_indicator = state.rank_indicator.unwrap_or_else(|| self.survey.rank_indicator(state.t, state.q));
         self.last.rotate_left(1);
-        self.last[2].copy(state, rank_indicator);
+        self.last[2].copy(state, rank_indicator, self.moving);
         self.seen += 1;
         self.largest = self.largest.max(rank_indicator);
         self.note(state.t, rank_indicator, state.q);

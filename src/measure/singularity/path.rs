@@ -16,7 +16,8 @@ pub struct Sample {
 }
 
 impl Sample {
-    pub fn copy(&mut self, state: &Observation, rank_indicator: f64) {
+    /// Takes a state, of whose velocities the first ones move: what states xi do is no passage of a singular position.
+    pub fn copy(&mut self, state: &Observation, rank_indicator: f64, moving: usize) {
         (self.t, self.rank_indicator) = (state.t, rank_indicator);
         let Sample { q, v, vdot, phi, phi_dot, .. } = self;
         let all = [(q, state.q), (v, state.v), (vdot, state.vdot), (phi, state.phi), (phi_dot, state.phi_dot)];
@@ -24,6 +25,7 @@ impl Sample {
             own.clear();
             own.extend_from_slice(other);
         }
+        [v, vdot].into_iter().for_each(|rates| rates[moving..].fill(0.0));
     }
 }
 
