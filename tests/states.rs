@@ -114,7 +114,7 @@ fn the_unit_of_a_state_is_of_no_account() {
             let (q, v, lambda) = run.last();
             [q[0], q[1], v[0], v[1], unit * v[2], lambda[0]]
         });
-        let off = common::distance(&ampere, &micro);
+        let off = crate::common::distance(&ampere, &micro);
         assert!(off < 1e-10, "{}: {off:e}", method.triple());
     }
 }

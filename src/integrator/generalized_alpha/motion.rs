@@ -164,9 +164,9 @@ impl Motion {
         Slopes { v: h * gamma * slope, q: h * h * beta * slope, w: 1.0, w_q: 0.0, u: 1.0 }
     }
 
-    /// Changes the unknowns; the largest change of v'_1, or of a shift as such. `round_off` is that of q: what a row of phi
+    /// Changes the unknowns; the largest change of the first `moving` v'_1, or of a shift as such, and of xi'_1. `round_off` is that of q: what a row of phi
     /// makes of it is no change, since over h^2 it would hide all others.
-    pub fn correct(&mut self, change: &Change<f64>, h: f64, round_off: f64) -> f64 {
+    pub fn correct(&mut self, change: &Change<f64>, moving: usize, h: f64, round_off: f64) -> [f64; 2] {
         let add = |sum: &mut [f64], change: &[f64]| sum.iter_mut().zip(change).for_each(|(sum, change)| *sum += change);
         add(&mut self.end.vdot, &change.a);
         add(&mut self.end.lambda, &change.lambda);
@@ -174,7 +174,8 @@ impl Motion {
         add(&mut self.u, &change.u);
         let slopes = self.slopes(h);
         let moved = Some(largest(&change.u)).filter(|moved| *moved > round_off).unwrap_or(0.0) / slopes.q;
-        largest(&change.a).max(largest(&change.w) / slopes.v).max(moved)
+        let (a, states) = change.a.split_at(moving);
+        [largest(a).max(largest(&change.w) / slopes.v).max(moved), largest(states)]
     }
 
     /// The leading term of the error of q along the directions of v.

@@ -118,7 +118,10 @@ impl Newton {
             self.iteration.solve(&mut self.at, &problem.dynamics.structure)?;
             problem.dynamics.statistics.newton_iterations += 1;
             let round_off = tolerances::ROUND_OFF * largest(problem.split(to).0);
-            Ok::<_, Halt>(motion.correct(&self.iteration.change, h, round_off) / self.small(problem, motion, h, to))
+            let moving = problem.dynamics.system.dimensions().moving();
+            let [change, of_states] = motion.correct(&self.iteration.change, moving, h, round_off);
+            let [small, small_state] = self.small(problem, motion, h, to);
+            Ok::<_, Halt>(change / small + of_states / small_state)
         });
         self.monitor = monitor;
         if !converged? {
@@ -164,13 +167,18 @@ impl Newton {
         Ok(())
     }
 
-    /// The change of v'_1 that may stop falling: of the largest a_1 and v_1/h.
-    fn small(&self, problem: &Problem, motion: &Motion, h: f64, to: &[f64]) -> f64 {
+    /// The changes of v'_1 and of xi'_1, in whatever unit, that may stop falling: of the largest a_1 and v_1/h of each.
+    fn small(&self, problem: &Problem, motion: &Motion, h: f64, to: &[f64]) -> [f64; 2] {
         let (q, v) = problem.split(to);
-        let size = largest(&motion.end.a).max(largest(v) / h);
-        let Slopes { q: by_q, .. } = motion.slopes(h);
+        let moving = problem.dynamics.system.dimensions().moving();
+        let [size, of_states] =
+            [0..moving, moving..v.len()].map(|part| largest(&motion.end.a[part.clone()]).max(largest(&v[part]) / h));
+        let Slopes { q: by_q, v: by_v, .. } = motion.slopes(h);
         let reach =
             Some(largest(q)).filter(|reach| *reach > 0.0).map_or(1.0, |reach| reach.max(tolerances::LEAST_LARGEST_Q));
-        (tolerances::NEWTON_STAGNATION * size).max(tolerances::ROUND_OFF_OF_SUMS * reach / by_q)
+        [
+            (tolerances::NEWTON_STAGNATION * size).max(tolerances::ROUND_OFF_OF_SUMS * reach / by_q),
+            (tolerances::NEWTON_STAGNATION * of_states).max(tolerances::ROUND_OFF_OF_SUMS / by_v),
+        ]
     }
 }

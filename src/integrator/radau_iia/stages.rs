@@ -152,11 +152,13 @@ impl Stages {
     pub fn round_off(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64, dae: &Dae) -> f64 {
         let (q, v) = problem.split(from.y);
         // Angles that are counted through turns grow, and nothing is rounded to their size but they.
-        let (of_q, of_v) =
-            (tolerances::ROUND_OFF * largest(problem.dynamics.system.own(q)), tolerances::ROUND_OFF * largest(v));
+        let (moving, states) = v.split_at(self.n.moving());
+        let own = problem.dynamics.system.own(q);
+        let [of_q, of_v, of_states] = [own, moving, states].map(|x| tolerances::ROUND_OFF * largest(x));
         let change = &mut self.next[0];
         change[..q.len()].fill(of_q);
         change[q.len()..].fill(if dae.velocity_index() == 2 { of_v.max(of_q / h) } else { of_v });
+        change[q.len() + moving.len()..].fill(of_states);
         tolerance.norm(from.y, change)
     }
 
