@@ -164,8 +164,8 @@ impl Motion {
         Slopes { v: h * gamma * slope, q: h * h * beta * slope, w: 1.0, w_q: 0.0, u: 1.0 }
     }
 
-    /// Changes the unknowns; the largest change of the first `moving` v'_1, or of a shift as such, and of xi'_1. `round_off` is that of q: what a row of phi
-    /// makes of it is no change, since over h^2 it would hide all others.
+    /// Changes the unknowns; the largest change of the first `moving` v'_1, or of a shift as such, and that of xi'_1.
+    /// `round_off` is that of q: what a row of phi makes of it is no change, since over h^2 it would hide all others.
     pub fn correct(&mut self, change: &Change<f64>, moving: usize, h: f64, round_off: f64) -> [f64; 2] {
         let add = |sum: &mut [f64], change: &[f64]| sum.iter_mut().zip(change).for_each(|(sum, change)| *sum += change);
         add(&mut self.end.vdot, &change.a);
