@@ -6,15 +6,16 @@ use crate::formulation::{Dynamics, Halt, OptionDoc};
 use crate::math::largest_in;
 use crate::math::newton::{Limits, Monitor};
 use crate::system::Need;
-use crate::tolerances::{ROUND_OFF, initial as tolerances};
+use crate::tolerances::initial as tolerances;
 
 /// ```text
 /// min |q - q~|_M  s.t.  phi = 0,   then   min |v - v~|_M  s.t.  G v + phi_t = 0
 /// ```
 ///
 /// Source: Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482. Newton's method with the mass matrix as metric, until the
-/// residual is round-off or no longer falls; order of the integrator kept; a residual that stops falling before is refused.
-/// One evaluation and factorization an iteration, and one more, which the velocities share with the test of the residual.
+/// residual no longer falls; order of the integrator kept; a residual that stops
+/// falling before is refused. One evaluation and factorization an iteration, and one more,
+/// which the velocities share with the test of the residual.
 pub const ENTRY: Entry = Entry {
     name: "exact",
     about: "positions by Newton's method to round-off, then velocities",
@@ -31,13 +32,8 @@ pub const ENTRY: Entry = Entry {
 };
 
 /// In units of what the scene's size makes no round-off, nor what redundant rows may contradict each other by. A residual
-/// below that falls by half at least, until it is round-off, or another step would only stir it.
-const LIMITS: Limits = Limits {
-    round_off: ROUND_OFF / tolerances::SAME,
-    stagnation: 1.0,
-    contraction: tolerances::NEWTON_HALVES,
-    ..Limits::NONE
-};
+/// below that falls by half at least, until another step would only stir its round-off.
+const LIMITS: Limits = Limits { stagnation: 1.0, contraction: tolerances::NEWTON_HALVES, ..Limits::NONE };
 
 struct Exact {
     most: usize,
