@@ -7,7 +7,7 @@
 use super::contest::{Contest, Mark, Quiet};
 use super::{Checkpoint, Method, Outcome, Run, Sink, Span};
 use crate::error::{Failure, Result, clock, short};
-use crate::formulation::{Choice, Dynamics, Statistics, degrees_of_freedom};
+use crate::formulation::{Choice, Statistics};
 use crate::integrator::Store;
 use crate::system::MechanicalSystem;
 use crate::tolerances::simulate as tolerances;
@@ -41,12 +41,8 @@ fn implicit(tolerances: (f64, f64)) -> Method {
 /// Its place among the candidates.
 const EXPLICIT: usize = 0;
 
-/// A motion that its drivers determine is where the constraints are closed: nothing is left to the steps.
-fn candidates(system: &dyn MechanicalSystem, tolerances: (f64, f64), t: f64, (q, v): (&[f64], &[f64])) -> [Method; 2] {
-    let mut dynamics = Dynamics::new(system);
-    let is_driven = dynamics.solve(t, q, v, |_, _| 0.0).is_ok() && degrees_of_freedom(&dynamics) == 0;
-    let projection = if is_driven { "exact" } else { "manifold" };
-    [method(["index1", "dop853", projection], tolerances), implicit(tolerances)]
+fn candidates(tolerances: (f64, f64)) -> [Method; 2] {
+    [method(["index1", "dop853", "manifold"], tolerances), implicit(tolerances)]
 }
 
 /// What a method that was named has against it at the beginning of a motion: how much farther an implicit one comes. `None`
@@ -70,7 +66,7 @@ pub fn advise(
     span: Span,
     start: (&[f64], &[f64]),
 ) -> Result<(Method, String)> {
-    let (methods, store) = (candidates(system, tolerances, span.start, start), Store::default());
+    let (methods, store) = (candidates(tolerances), Store::default());
     methods[EXPLICIT].check()?;
     let mut drive = Drive::new((system, &store), &methods, unseen(span), start)?;
     if let Err(Failure { reason, .. }) = drive.run.begin(&mut Quiet) {
@@ -96,7 +92,7 @@ pub fn simulate_automatic(
     sink: &mut dyn Sink,
 ) -> Result<(Outcome, Vec<Leg>, Option<Checkpoint>)> {
     span.check()?;
-    let (methods, store) = (candidates(system, tolerances, span.start, start), Store::default());
+    let (methods, store) = (candidates(tolerances), Store::default());
     methods[EXPLICIT].check()?;
     let mut drive = Drive::new((system, &store), &methods, span, start)?;
     let begun = drive.run.begin(sink);
