@@ -45,14 +45,10 @@ impl Add for Statistics {
         Statistics {
             steps: self.steps + other.steps,
             rejected: self.rejected + other.rejected,
-            rhs_evaluations: self.rhs_evaluations + other.rhs_evaluations,
-            jacobian_evaluations: self.jacobian_evaluations + other.jacobian_evaluations,
-            factorizations: self.factorizations + other.factorizations,
-            newton_iterations: self.newton_iterations + other.newton_iterations,
             stagnated: self.stagnated + other.stagnated,
-            projections: self.projections + other.projections,
             rank_deficient: self.rank_deficient + other.rank_deficient,
             rows: self.rows + other.rows,
+            ..Statistics::from(self.of_steps() + other.of_steps())
         }
     }
 }

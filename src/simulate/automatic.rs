@@ -41,6 +41,7 @@ fn implicit(tolerances: (f64, f64)) -> Method {
 /// Its place among the candidates.
 const EXPLICIT: usize = 0;
 
+/// The explicit method that every run begins with, and the one that may take over.
 fn candidates(tolerances: (f64, f64)) -> [Method; 2] {
     [method(["index1", "dop853", "manifold"], tolerances), implicit(tolerances)]
 }

@@ -77,13 +77,14 @@ fn adaptive_methods_do_not_see_units() {
     compare(&adaptive("index3", "radau_iia", "none", 1e-8), 1e-11);
 }
 
-/// The equations of a fixed step are solved to round-off, in all units; by generalized_alpha and ali3p to 1e-14 of 1 m.
+/// The equations of a fixed step are solved to round-off, in all units.
 #[test]
 fn fixed_steps_do_not_see_units() {
     compare(&fixed("index3", "rattle", "none", 1e-3), 1e-12);
     compare(&fixed("ggl", "radau_iia", "none", 1e-3), 1e-12);
-    // A matrix that stays leaves round-off of q over h^2 in v', which sums of a step before or after see.
+    compare(&fixed("index3", "generalized_alpha", "none", 1e-3), 1e-12);
+    // Shifts are told from round-off by its size in one number for all of q, which may end iterations elsewhere in megametres: 2.7e-10
+    // was found.
     compare(&fixed("ggl", "generalized_alpha", "none", 1e-3), 1e-9);
-    compare(&fixed("index3", "generalized_alpha", "none", 1e-3), 1e-9);
-    compare(&fixed("index3", "ali3p", "none", 1e-3), 1e-11);
+    compare(&fixed("index3", "ali3p", "none", 1e-3), 1e-12);
 }
