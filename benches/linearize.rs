@@ -3,6 +3,8 @@
 #[path = "../tests/common/equations/mod.rs"]
 mod equations;
 
+mod common;
+
 use equations::andrews::Andrews;
 use holonom::choice::Choice;
 use holonom::formulation::Dynamics;
@@ -20,18 +22,9 @@ use std::time::Instant;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-/// The least of some rounds of repeated calls, s.
-fn seconds(rounds: usize, mut call: impl FnMut()) -> f64 {
-    call();
-    let clock = Instant::now();
-    call();
-    let calls = (0.02 / clock.elapsed().as_secs_f64()).ceil().clamp(1.0, 1e5) as usize;
-    let round = |_| {
-        let clock = Instant::now();
-        (0..calls).for_each(|_| call());
-        clock.elapsed().as_secs_f64() / calls as f64
-    };
-    (0..rounds).map(round).fold(f64::INFINITY, f64::min)
+/// The least CPU time of a call, s.
+fn seconds(call: impl FnMut()) -> f64 {
+    common::least_times(&mut [(String::new(), Box::new(call))])[0]
 }
 
 fn shipped(name: &str) -> Study {
@@ -77,11 +70,11 @@ fn andrews() {
             if !model(true) {
                 continue;
             }
-            let [matrices, values] = [false, true].map(|with| 1e6 * seconds(5, || assert!(model(with))));
+            let [matrices, values] = [false, true].map(|with| 1e6 * seconds(|| assert!(model(with))));
             println!("  {:<36} {matrices:>10.1} {values:>18.1}", format!("{name}, {chart:?}"));
         }
         let mut dynamics = Dynamics::new(system);
-        let solve = 1e6 * seconds(5, || dynamics.solve(state.t, &state.q, &state.v, |_, _| 0.0).ok().unwrap());
+        let solve = 1e6 * seconds(|| dynamics.solve(state.t, &state.q, &state.v, |_, _| 0.0).ok().unwrap());
         println!("  {:<36} {solve:>10.1}", format!("{name}, v' and lambda alone"));
     }
 }
@@ -127,14 +120,14 @@ fn differences() {
     println!("\n7 angles, chart of beta                       us   error of eigenvalues");
     let mut variation = Variation::new(&Andrews, state.t, &state.q, &state.v).unwrap();
     let mut exact = Matrix::zeros(2, 2);
-    let time = seconds(5, || {
+    let time = seconds(|| {
         variation.move_to(state.t, &state.q, &state.v).ok().unwrap();
         exact = minimal(&mut variation, &Chart::parse("q1")).unwrap().a;
     });
     println!("  {:<36} {:>10.1} {:>14.1e}", "exact derivatives, with B, C, D", 1e6 * time, error(&exact));
     for step in [1e-4, 1e-5, 1e-6, 1e-7] {
         let mut a = Matrix::from_row_slice(2, 2, &[0.0, 1.0, 0.0, 0.0]);
-        let time = seconds(5, || {
+        let time = seconds(|| {
             for (i, scale) in [1.0, centre[1].abs()].into_iter().enumerate() {
                 let h = step * scale;
                 let moved = |sign: f64| [0, 1].map(|k| centre[k] + if k == i { sign * h } else { 0.0 });
@@ -165,8 +158,7 @@ fn chains() {
             rest.and_then(|rest| rest.state.variation(&study)).unwrap_or_else(|error| panic!("{error}"));
         let few = || Complex::new(0.0, 0.0);
         let mut found: Option<LinearModel> = None;
-        let time =
-            1e3 * seconds(1, || found = Some(modal(&mut variation, 20, few()).unwrap_or_else(|e| panic!("{e}"))));
+        let time = 1e3 * seconds(|| found = Some(modal(&mut variation, 20, few()).unwrap_or_else(|e| panic!("{e}"))));
         let values: Vec<Complex<f64>> =
             found.iter().flat_map(|model| model.modes.iter().map(|mode| mode.value)).collect();
         print!("  {:<28} {time:>14.1}", variation.len());

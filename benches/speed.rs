@@ -1,14 +1,17 @@
-//! What an evaluation, a solution and a run cost: `cargo bench`. Single thread.
+//! What an evaluation, a solution and a run cost: `cargo bench --bench speed`. Single thread; the cases of a table take
+//! turns, so that their ratios hold on a busy machine.
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+mod common;
+
+use common::{Case, compare};
 use holonom::formulation::{Choice, Dynamics};
 use holonom::measure::Recorder;
 use holonom::scene::{Scene, generate};
 use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate};
 use holonom::study::{Overrides, Study};
 use holonom::system::Need;
+use std::cell::RefCell;
 use std::path::Path;
-use std::time::Duration;
 
 /// A sink that keeps nothing.
 struct Nothing;
@@ -18,15 +21,27 @@ impl Sink for Nothing {
     fn row(&mut self, _: &Observation) {}
 }
 
-fn shipped(name: &str) -> Study {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(name);
-    Study::load(&path, &Default::default()).unwrap_or_else(|error| panic!("{error}"))
+fn shipped(name: &str, overrides: &Overrides) -> Study {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(format!("{name}.json"));
+    Study::load(&path, overrides).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn n_four_bar(n: usize) -> Study {
-    let text = generate::n_four_bar(n).to_string();
-    let scene = Scene::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}"));
-    Study::new(scene, &Default::default()).unwrap_or_else(|error| panic!("{error}"))
+fn generated(scene: &serde_json::Value) -> Study {
+    let study = Scene::parse(&scene.to_string(), &[]).and_then(|scene| Study::new(scene, &Default::default()));
+    study.unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn fixed(names: [&str; 3], step: f64) -> Method {
+    let [formulation, integrator, projection] = names.map(Choice::named);
+    Method { formulation, integrator, projection, step: Some(step), ..Method::default() }
+}
+
+fn adaptive(names: [&str; 3], tolerance: f64) -> Method {
+    Method { step: None, rtol: tolerance, atol: tolerance, ..fixed(names, 0.0) }
+}
+
+fn case<'a>(name: impl Into<String>, call: impl FnMut() + 'a) -> Case<'a> {
+    (name.into(), Box::new(call))
 }
 
 fn run(study: &Study, method: &Method, end: f64) -> Outcome {
@@ -38,26 +53,22 @@ fn run(study: &Study, method: &Method, end: f64) -> Outcome {
 }
 
 /// M, f, phi, phi', gamma and G, and the saddle-point solution, at the start.
-fn evaluation(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("evaluation");
-    for (name, study) in [("andrews", shipped("andrews.json")), ("spinning_top", shipped("spinning_top.json"))] {
-        let mut dynamics = Dynamics::new(study.system());
+fn evaluation() {
+    for name in ["andrews", "spinning_top"] {
+        let study = shipped(name, &Default::default());
         let (q, v) = study.start();
-        group.bench_function(BenchmarkId::new("terms", name), |bencher| {
-            bencher.iter(|| dynamics.evaluate(0.0, q, v, Need::DYNAMICS));
-        });
-        group.bench_function(BenchmarkId::new("saddle_point", name), |bencher| {
-            bencher.iter(|| {
-                let factored = dynamics.factor();
-                let (f, gamma) = (dynamics.terms.f.clone(), dynamics.terms.gamma.clone());
-                dynamics.vdot.copy_from_slice(&f);
-                dynamics.lambda.copy_from_slice(&gamma);
-                (factored, dynamics.kkt.solve(&mut dynamics.vdot, &mut dynamics.lambda).is_ok())
-            });
-        });
-        group.bench_function(BenchmarkId::new("v' and lambda", name), |bencher| {
-            bencher.iter(|| dynamics.solve(0.0, q, v, |_, _| 0.0));
-        });
+        let dynamics = RefCell::new(Dynamics::new(study.system()));
+        let evaluate = || dynamics.borrow_mut().evaluate(0.0, q, v, Need::DYNAMICS);
+        let saddle_point = || {
+            let dynamics = &mut *dynamics.borrow_mut();
+            assert!(dynamics.factor().is_ok());
+            dynamics.vdot.copy_from_slice(&dynamics.terms.f);
+            dynamics.lambda.copy_from_slice(&dynamics.terms.gamma);
+            assert!(dynamics.kkt.solve(&mut dynamics.vdot, &mut dynamics.lambda).is_ok());
+        };
+        let solve = || assert!(dynamics.borrow_mut().solve(0.0, q, v, |_, _| 0.0).is_ok());
+        let cases = vec![case("v' and lambda", solve), case("terms", evaluate), case("saddle point", saddle_point)];
+        compare(&format!("{name}, one evaluation"), cases);
     }
 }
 
@@ -85,86 +96,61 @@ fn digits(study: &Study, method: &Method) -> f64 {
     -worst.log10()
 }
 
-/// Andrews' mechanism and the heavy top end to end; digits and evaluations are printed first.
-fn end_to_end(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("end to end");
-    let andrews = shipped("andrews.json");
+/// Andrews' mechanism end to end, with digits and evaluations in the names.
+fn end_to_end() {
+    let andrews = shipped("andrews", &Default::default());
+    let mut cases = Vec::new();
     for tolerance in [1e-7, 1e-8, 1e-9, 1e-10] {
-        for integrator in ["dopri5", "dop853"] {
-            let method = Method {
-                integrator: Choice::named(integrator),
-                rtol: tolerance,
-                atol: tolerance,
-                step: None,
-                ..andrews.method.clone()
-            };
-            let statistics = run(&andrews, &method, 0.03).statistics;
-            println!(
-                "andrews, {integrator} at {tolerance:e}: {:.1} digits, {} steps, {} rejected, {} evaluations",
-                digits(&andrews, &method),
-                statistics.steps,
-                statistics.rejected,
-                statistics.rhs_evaluations
-            );
-            let id = BenchmarkId::new(format!("andrews {integrator}"), format!("{tolerance:e}"));
-            group.bench_function(id, |bencher| bencher.iter(|| run(&andrews, &method, 0.03)));
+        for integrator in ["dop853", "dopri5"] {
+            let method = adaptive(["index1", integrator, "manifold"], tolerance);
+            let work = run(&andrews, &method, 0.03).statistics;
+            let digits = digits(&andrews, &method);
+            let name = format!("{integrator} {tolerance:e}, {digits:.1} digits, {} evaluations", work.rhs_evaluations);
+            let andrews = &andrews;
+            cases.push(case(name, move || drop(run(andrews, &method, 0.03))));
         }
     }
-    let top = shipped("spinning_top.json");
-    group.bench_function("spinning_top, 1 s", |bencher| bencher.iter(|| run(&top, &top.method, 1.0)));
+    compare("andrews, 0.03 s", cases);
 }
 
-/// One step of rk4 with projection on N four-bar linkages: O(N).
-fn growth(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("n_four_bar, rk4 step");
-    group.measurement_time(Duration::from_secs(3)).sample_size(20);
-    for n in [1, 10, 100, 1000] {
-        let study = n_four_bar(n);
-        let method = Method { integrator: Choice::named("rk4"), step: Some(1e-4), ..Method::default() };
-        group.throughput(Throughput::Elements(n as u64));
-        // Twenty steps a run, so that setting up counts little.
-        group.bench_function(BenchmarkId::new("20 steps", n), |bencher| {
-            bencher.iter(|| run(&study, &method, 20e-4));
-        });
-    }
+/// Twenty steps of rk4 with projection on N four-bar linkages: O(N).
+fn growth() {
+    let method = fixed(["index1", "rk4", "manifold"], 1e-4);
+    let studies = [1, 10, 100, 1000].map(|n| (n, generated(&generate::n_four_bar(n))));
+    let cases = studies.iter().map(|(n, study)| case(format!("N = {n}"), || drop(run(study, &method, 20e-4))));
+    compare("n_four_bar, 20 steps of rk4", cases.collect());
 }
 
 /// Stiff by its dampers, or oscillating fast at rest: what implicit methods are for, against dop853 at one tolerance.
-fn stiff(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("stiff");
-    group.measurement_time(Duration::from_secs(3)).sample_size(10);
+fn stiff() {
     let strut = Overrides { set: vec![("c_strut".to_string(), 2e5.into())], ..Overrides::default() };
     for (name, end, overrides) in [("flyball_governor", 1.0, Overrides::default()), ("quarter_car", 2.0, strut)] {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(format!("{name}.json"));
-        let study = Study::load(&path, &overrides).unwrap_or_else(|error| panic!("{error}"));
-        for names in [["index1", "dop853", "manifold"], ["ggl", "radau_iia", "none"], ["ggl", "bdf", "none"]] {
-            let [formulation, integrator, projection] = names.map(Choice::named);
-            let method = Method { formulation, integrator, projection, rtol: 1e-6, atol: 1e-6, step: None };
-            println!("{name}, {}: {:?}", names[1], run(&study, &method, end).statistics);
-            group
-                .bench_function(BenchmarkId::new(name, names[1]), |bencher| bencher.iter(|| run(&study, &method, end)));
-        }
+        let study = shipped(name, &overrides);
+        let methods = [["index1", "dop853", "manifold"], ["ggl", "radau_iia", "none"], ["ggl", "bdf", "none"]];
+        let cases = methods.map(|names| {
+            let (method, study) = (adaptive(names, 1e-6), &study);
+            let work = run(study, &method, end).statistics;
+            let name = format!("{}, {} steps, {} evaluations", names[1], work.steps, work.rhs_evaluations);
+            case(name, move || drop(run(study, &method, end)))
+        });
+        compare(&format!("{name}, {end} s"), cases.into());
     }
 }
 
 /// Five steps of implicit methods on chains: O(N).
-fn implicit_growth(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("chain, five implicit steps");
-    group.measurement_time(Duration::from_secs(3)).sample_size(10);
-    for n in [20, 200, 2000] {
-        let scene = Scene::parse(&generate::chain(n).to_string(), &[]).unwrap_or_else(|error| panic!("{error}"));
-        let study = Study::new(scene, &Default::default()).unwrap_or_else(|error| panic!("{error}"));
-        group.throughput(Throughput::Elements(n as u64));
-        for integrator in ["radau_iia", "generalized_alpha"] {
-            let (formulation, projection) = (Choice::named("ggl"), Choice::named("none"));
-            let integrator_ = Choice::named(integrator);
-            let method =
-                Method { formulation, integrator: integrator_, projection, step: Some(1e-4), ..Method::default() };
-            group
-                .bench_function(BenchmarkId::new(integrator, n), |bencher| bencher.iter(|| run(&study, &method, 5e-4)));
-        }
+fn implicit_growth() {
+    let studies = [20, 200, 2000].map(|n| (n, generated(&generate::chain(n))));
+    for integrator in ["radau_iia", "generalized_alpha"] {
+        let method = fixed(["ggl", integrator, "none"], 1e-4);
+        let cases = studies.iter().map(|(n, study)| case(format!("N = {n}"), || drop(run(study, &method, 5e-4))));
+        compare(&format!("chain, five steps of {integrator}"), cases.collect());
     }
 }
 
-criterion_group!(benches, evaluation, end_to_end, growth, stiff, implicit_growth);
-criterion_main!(benches);
+fn main() {
+    evaluation();
+    end_to_end();
+    growth();
+    stiff();
+    implicit_growth();
+}

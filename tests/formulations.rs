@@ -8,7 +8,6 @@ use holonom::initial::assemble;
 use holonom::math::Scalar;
 use holonom::simulate::Span;
 use holonom::system::{Equations, MechanicalSystem};
-use proptest::prelude::*;
 
 /// v' and lambda of `formulation` at a state.
 fn solve(system: &dyn MechanicalSystem, formulation: &str, t: f64, q: &[f64], v: &[f64]) -> (Vec<f64>, Vec<f64>) {
@@ -57,31 +56,40 @@ impl Equations for Coupled {
     }
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+/// Forty random seeds in 0.1 to 30 with times in 0 to 2 s.
+fn stirred() -> impl Iterator<Item = (f64, f64)> {
+    let mut random = fastrand::Rng::with_seed(1);
+    std::iter::repeat_with(move || (0.1 + 29.9 * random.f64(), 2.0 * random.f64())).take(40)
+}
 
-    #[test]
-    fn formulations_without_terms_of_their_own_have_the_accelerations_of_index_1(seed in 0.1..30.0, t in 0.0..2.0) {
-        let coupled = ([1.0, 1.0, 0.0], [0.1, 0.2, 0.3]);
-        let pendulum = start();
+#[test]
+fn formulations_without_terms_of_their_own_have_the_accelerations_of_index_1() {
+    let coupled = ([1.0, 1.0, 0.0], [0.1, 0.2, 0.3]);
+    let pendulum = start();
+    for (seed, t) in stirred() {
         let states = [
-            (&DrivenPendulum as &dyn MechanicalSystem, consistent(&DrivenPendulum, (&pendulum.0, &pendulum.1), seed, t)),
+            (
+                &DrivenPendulum as &dyn MechanicalSystem,
+                consistent(&DrivenPendulum, (&pendulum.0, &pendulum.1), seed, t),
+            ),
             (&Coupled, consistent(&Coupled, (&coupled.0, &coupled.1), seed, t)),
         ];
         for (system, (q, v)) in states {
             for formulation in ["udwadia_kalaba", "null_space", "force_projection"] {
                 let [vdot, lambda] = error(system, formulation, t, &q, &v);
-                prop_assert!(vdot < 1e-10 && lambda < 1e-10, "{} {:e} {:e}", formulation, vdot, lambda);
+                assert!(vdot < 1e-10 && lambda < 1e-10, "{formulation} {seed} {t}: {vdot:e} {lambda:e}");
             }
             // Consistent to round-off, so that omega does not count.
             let [vdot, lambda] = error(system, "augmented_lagrangian", t, &q, &v);
-            prop_assert!(vdot < 1e-10 && lambda < 1e-10, "{:e} {:e}", vdot, lambda);
+            assert!(vdot < 1e-10 && lambda < 1e-10, "{seed} {t}: {vdot:e} {lambda:e}");
         }
     }
+}
 
-    #[test]
-    fn errors_of_penalties_are_powers_of_the_penalty(seed in 0.1..30.0, t in 0.0..2.0) {
-        let (q, v) = start();
+#[test]
+fn errors_of_penalties_are_powers_of_the_penalty() {
+    let (q, v) = start();
+    for (seed, t) in stirred() {
         let (q, v) = consistent(&DrivenPendulum, (&q, &v), seed, t);
         for iterations in 1..=3 {
             let found = [1e3, 1e4].map(|penalty| {
@@ -90,10 +98,10 @@ proptest! {
             });
             for level in 0..2 {
                 let order = (found[0][level] / found[1][level]).log10();
-                prop_assert!((order - f64::from(iterations)).abs() < 0.1, "{}: {} {:?}", iterations, order, found);
+                assert!((order - f64::from(iterations)).abs() < 0.1, "{seed} {t}, {iterations}: {order} {found:?}");
             }
             if iterations == 1 {
-                prop_assert_eq!(found[0], error(&DrivenPendulum, "penalty:penalty=1e3", t, &q, &v));
+                assert_eq!(found[0], error(&DrivenPendulum, "penalty:penalty=1e3", t, &q, &v));
             }
         }
     }

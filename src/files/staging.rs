@@ -3,9 +3,9 @@
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
+use tempfile::TempDir;
 
-/// How the hidden folders are called; the number of the process and a count follow.
+/// How the hidden folders are called; random letters follow.
 const PREFIX: &str = ".holonom-";
 /// Locked for as long as the process lives that writes beside it.
 const LOCK: &str = ".lock";
@@ -21,9 +21,10 @@ const LOCK: &str = ".lock";
 /// them shows whether their process lives.
 pub struct Staging {
     target: PathBuf,
-    hidden: PathBuf,
     names: Vec<String>,
-    lock: Option<File>,
+    // Before the folder: an open file could not be removed everywhere.
+    _lock: Option<File>,
+    hidden: TempDir,
 }
 
 impl Staging {
@@ -34,14 +35,9 @@ impl Staging {
     pub fn create(target: &Path) -> io::Result<Staging> {
         remove_abandoned(target);
         loop {
-            static COUNT: AtomicU32 = AtomicU32::new(0);
-            let count = COUNT.fetch_add(1, Ordering::Relaxed);
-            let hidden = target.join(format!("{PREFIX}{}-{count}", std::process::id()));
-            match own(&hidden) {
-                Ok(lock) => return Ok(Staging { target: target.to_path_buf(), hidden, names: Vec::new(), lock }),
-                // Of a killed process with the same number.
-                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-                Err(error) => return Err(error),
+            let hidden = tempfile::Builder::new().prefix(PREFIX).tempdir_in(target)?;
+            if let Some(lock) = lock(hidden.path())? {
+                return Ok(Staging { target: target.to_path_buf(), names: Vec::new(), _lock: lock, hidden });
             }
         }
     }
@@ -54,7 +50,7 @@ impl Staging {
         if self.target.join(name).is_dir() {
             return Err(io::ErrorKind::IsADirectory.into());
         }
-        let mut file = File::create(self.hidden.join(name))?;
+        let mut file = File::create(self.hidden.path().join(name))?;
         file.write_all(contents)?;
         file.sync_all()?;
         if !self.names.iter().any(|known| known == name) {
@@ -72,30 +68,24 @@ impl Staging {
             removed(&self.target.join(last)).map_err(|error| (last.clone(), error))?;
         }
         self.names.iter().try_for_each(|name| {
-            std::fs::rename(self.hidden.join(name), self.target.join(name)).map_err(|error| (name.clone(), error))
+            std::fs::rename(self.hidden.path().join(name), self.target.join(name))
+                .map_err(|error| (name.clone(), error))
         })
     }
 }
 
-impl Drop for Staging {
-    fn drop(&mut self) {
-        // An open file could not be removed everywhere.
-        drop(self.lock.take());
-        // What stays behind is hidden, and the next process to come here tries again.
-        let _ = std::fs::remove_dir_all(&self.hidden);
-    }
-}
-
-/// A new folder with its lock, held where the file system knows locks.
-fn own(hidden: &Path) -> io::Result<Option<File>> {
-    std::fs::create_dir(hidden)?;
-    let lock = File::create_new(hidden.join(LOCK))?;
-    match lock.try_lock() {
-        // Between making and locking it another process may have taken it for abandoned.
-        Ok(()) if hidden.join(LOCK).exists() => Ok(Some(lock)),
-        Ok(()) | Err(std::fs::TryLockError::WouldBlock) => Err(io::ErrorKind::AlreadyExists.into()),
-        Err(std::fs::TryLockError::Error(_)) => Ok(None),
-    }
+/// The lock of a new folder, `Some(None)` where the file system knows no locks; none if another process took the folder
+/// for an abandoned one before it was locked.
+fn lock(hidden: &Path) -> io::Result<Option<Option<File>>> {
+    let lock = match File::create_new(hidden.join(LOCK)) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        created => created?,
+    };
+    Ok(match lock.try_lock() {
+        Ok(()) => hidden.join(LOCK).exists().then_some(Some(lock)),
+        Err(std::fs::TryLockError::WouldBlock) => None,
+        Err(std::fs::TryLockError::Error(_)) => Some(None),
+    })
 }
 
 fn removed(path: &Path) -> io::Result<()> {
@@ -124,7 +114,7 @@ mod tests {
     use super::*;
 
     /// A folder with `a` and `b` of before.
-    fn place() -> tempfile::TempDir {
+    fn place() -> TempDir {
         let place = tempfile::tempdir().unwrap();
         ["a", "b"].iter().for_each(|name| std::fs::write(place.path().join(name), "old").unwrap());
         place
@@ -180,7 +170,7 @@ mod tests {
         let place = place();
         let mut staging = Staging::create(place.path()).unwrap();
         ["a", "b"].iter().for_each(|name| staging.write(name, b"new").unwrap());
-        std::fs::remove_file(staging.hidden.join("a")).unwrap();
+        std::fs::remove_file(staging.hidden.path().join("a")).unwrap();
         assert_eq!(staging.publish().unwrap_err().0, "a");
         assert_eq!(contents(place.path()), pairs([("a", "old")]));
     }

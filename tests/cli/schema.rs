@@ -1,4 +1,5 @@
 use super::*;
+use crate::common::json_schema::faults;
 
 fn schema() -> Value {
     serde_json::from_str(&Place::new("").done(&["schema"])).unwrap()
@@ -18,30 +19,29 @@ fn the_committed_schema_is_that_of_the_program() {
 
 #[test]
 fn every_shipped_scene_is_valid() {
-    let validator = jsonschema::validator_for(&schema()).unwrap();
+    let schema = schema();
     let scenes = files(&models()).into_iter().filter(|name| name.ends_with(".json") && name != "scene.schema.json");
     for name in scenes {
         let scene: Value = serde_json::from_str(&fs::read_to_string(models().join(&name)).unwrap()).unwrap();
-        let faults: Vec<String> =
-            validator.iter_errors(&scene).map(|error| format!("{}: {error}", error.instance_path())).collect();
+        let faults = faults(&schema, &scene);
         assert!(faults.is_empty(), "{name}: {faults:#?}");
     }
 }
 
 #[test]
 fn generated_scenes_are_valid() {
-    let validator = jsonschema::validator_for(&schema()).unwrap();
+    let schema = schema();
     for name in ["chain", "flexible_chain", "n_four_bar"] {
         let scene: Value = serde_json::from_str(&Place::new("").done(&["generate", name])).unwrap();
-        assert!(validator.is_valid(&scene), "{name}");
+        assert_eq!(faults(&schema, &scene), [""; 0], "{name}");
     }
-    assert!(validator.is_valid(&serde_json::from_str(&parallelogram()).unwrap()));
+    assert_eq!(faults(&schema, &serde_json::from_str(&parallelogram()).unwrap()), [""; 0]);
 }
 
 #[test]
 fn slips_are_not_valid() {
-    let validator = jsonschema::validator_for(&schema()).unwrap();
-    assert!(validator.is_valid(&serde_json::from_str(PENDULUM).unwrap()));
+    let schema = schema();
+    assert_eq!(faults(&schema, &serde_json::from_str(PENDULUM).unwrap()), [""; 0]);
     let slips = [
         ("gravity", "gravty"),
         ("inertia", "inertai"),
@@ -58,6 +58,6 @@ fn slips_are_not_valid() {
     for (right, wrong) in slips {
         assert!(PENDULUM.contains(right), "{right}");
         let scene: Value = serde_json::from_str(&PENDULUM.replacen(right, wrong, 1)).unwrap();
-        assert!(!validator.is_valid(&scene), "{wrong}");
+        assert!(!faults(&schema, &scene).is_empty(), "{wrong}");
     }
 }

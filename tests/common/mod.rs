@@ -5,6 +5,7 @@
 pub mod counting;
 pub mod driven_pendulum;
 pub mod equations;
+pub mod json_schema;
 pub mod motor;
 pub mod orders;
 pub mod saved;

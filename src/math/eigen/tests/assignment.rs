@@ -1,6 +1,5 @@
 use super::super::{Matrix, assign};
 use super::samples::Random;
-use proptest::prelude::*;
 use std::time::Instant;
 
 fn total(cost: &Matrix, columns: &[usize]) -> f64 {
@@ -23,18 +22,20 @@ fn least(cost: &Matrix, row: usize, used: &mut Vec<usize>) -> f64 {
     best
 }
 
-proptest! {
-    #[test]
-    fn no_other_is_cheaper(rows in 0usize..6, more in 0usize..3, seed in any::<u64>(), coarse: bool) {
+#[test]
+fn no_other_is_cheaper() {
+    for seed in 0..256 {
         let mut random = Random(seed);
+        let (rows, more) = (seed as usize % 6, seed as usize / 6 % 3);
         // Coarse ones have many ties.
+        let coarse = seed % 2 == 0;
         let cost = random.matrix(rows, rows + more).map(|x| if coarse { (3.0 * x).round() } else { x });
         let found = assign(&cost);
         let mut columns = found.clone();
         columns.sort_unstable();
         columns.dedup();
-        prop_assert_eq!(columns.len(), rows);
-        prop_assert!((total(&cost, &found) - least(&cost, 0, &mut Vec::new())).abs() < 1e-12);
+        assert_eq!(columns.len(), rows);
+        assert!((total(&cost, &found) - least(&cost, 0, &mut Vec::new())).abs() < 1e-12, "{cost}");
     }
 }
 

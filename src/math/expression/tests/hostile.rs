@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::math::Taylor;
-use proptest::prelude::*;
 
 #[test]
 fn depth_is_bounded() {
@@ -99,45 +98,66 @@ const TOKENS: [&str; 46] = [
     ".",
 ];
 
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+const TEXTS: usize = 2000;
 
-    #[test]
-    fn random_bytes_never_panic(bytes in proptest::collection::vec(any::<u8>(), 0..60)) {
+fn random() -> fastrand::Rng {
+    fastrand::Rng::with_seed(1)
+}
+
+#[test]
+fn random_bytes_never_panic() {
+    let mut random = random();
+    for _ in 0..TEXTS {
+        let bytes: Vec<u8> = (0..random.usize(..60)).map(|_| random.u8(..)).collect();
         survive(&String::from_utf8_lossy(&bytes));
     }
+}
 
-    #[test]
-    fn random_characters_never_panic(text in "\\PC{0,40}") {
-        survive(&text);
+#[test]
+fn random_characters_never_panic() {
+    let mut random = random();
+    for _ in 0..TEXTS {
+        survive(&(0..random.usize(..40)).map(|_| random.char(..)).collect::<String>());
     }
+}
 
-    #[test]
-    fn random_tokens_never_panic(words in proptest::collection::vec(0..TOKENS.len(), 0..25)) {
-        survive(&words.iter().map(|i| TOKENS[*i]).collect::<String>());
+#[test]
+fn random_tokens_never_panic() {
+    let mut random = random();
+    for _ in 0..TEXTS {
+        survive(&(0..random.usize(..25)).map(|_| TOKENS[random.usize(..TOKENS.len())]).collect::<String>());
     }
+}
 
-    #[test]
-    fn random_formulas_are_the_same_over_all_numbers(text in formula()) {
-        prop_assert!(Expression::parse(&text, &Fixture).is_ok(), "{}", text);
+#[test]
+fn random_formulas_are_the_same_over_all_numbers() {
+    let mut random = random();
+    for _ in 0..TEXTS {
+        let text = formula(&mut random, 6);
+        assert!(Expression::parse(&text, &Fixture).is_ok(), "{text}");
         survive(&text);
     }
 }
 
-/// Texts that parse.
-fn formula() -> impl Strategy<Value = String> {
-    let leaf = prop_oneof![Just("x"), Just("y"), Just("t"), Just("k"), Just("0"), Just("1.5")].prop_map(String::from);
-    leaf.prop_recursive(6, 40, 3, |inner| {
-        let two = ["+", "-", "*", "/", "^", " and ", "^2*"];
-        let one = ["-", "sin", "exp", "sqrt", "abs", "tanh", "asin", "step", "not "];
-        let many = ["min", "hypot", "atan2", "pow"];
-        prop_oneof![
-            (inner.clone(), 0..two.len(), inner.clone()).prop_map(move |(a, i, b)| format!("{a}{}{b}", two[i])),
-            (0..one.len(), inner.clone()).prop_map(move |(i, a)| format!("({}({a}))", one[i])),
-            (0..many.len(), inner.clone(), inner.clone()).prop_map(move |(i, a, b)| format!("{}({a},{b})", many[i])),
-            (inner.clone(), inner.clone(), inner).prop_map(|(c, a, b)| format!("if({c} > 1, {a}, {b})")),
-        ]
-    })
+/// A text that parses, nested at most `depth` times.
+fn formula(random: &mut fastrand::Rng, depth: usize) -> String {
+    let mut one_of = |texts: &[&str]| texts[random.usize(..texts.len())].to_string();
+    let leaf = one_of(&["x", "y", "t", "k", "0", "1.5"]);
+    let two = one_of(&["+", "-", "*", "/", "^", " and ", "^2*"]);
+    let one = one_of(&["-", "sin", "exp", "sqrt", "abs", "tanh", "asin", "step", "not "]);
+    let many = one_of(&["min", "hypot", "atan2", "pow"]);
+    if depth == 0 {
+        return leaf;
+    }
+    let kind = random.u8(..6);
+    let mut inner = || formula(random, depth - 1);
+    match kind {
+        0 => format!("{}{two}{}", inner(), inner()),
+        1 => format!("({one}({}))", inner()),
+        2 => format!("{many}({},{})", inner(), inner()),
+        3 => format!("if({} > 1, {}, {})", inner(), inner(), inner()),
+        _ => leaf,
+    }
 }
 
 #[test]
