@@ -95,18 +95,18 @@ fn ring(frame: &str, elements: usize) -> Ready {
 #[test]
 fn rings_vibrate_as_love_says() {
     for frame in &FRAMES[..2] {
-        let all = [16, 32, 64].map(|elements| frequencies_at_start(&ring(frame, elements)));
+        let all = [16, 32].map(|elements| frequencies_at_start(&ring(frame, elements)));
         for n in [2.0f64, 3.0] {
             let square = n * n;
             // The stretch of the line leaves EI/EA = 1e-7.
-            for (below, most, fall) in [(square + 1.0, 1e-5, 13.0), (square + EI / GJ, 3e-4, 3.0)] {
+            for (below, most, fall) in [(square + 1.0, 1e-4, 13.0), (square + EI / GJ, 1e-3, 3.0)] {
                 let exact = (EI * square * (square - 1.0).powi(2) / below).sqrt();
-                let errors = [0, 1, 2].map(|i| {
+                let errors = [0, 1].map(|i| {
                     let away = all[i].iter().map(|x| (x / exact - 1.0).abs());
                     away.fold(f64::INFINITY, f64::min)
                 });
                 println!("{frame}, {n} waves, {exact}: {}", brief(&errors));
-                assert!(errors[2] < most && errors.windows(2).all(|pair| pair[0] > fall * pair[1]), "{errors:?}");
+                assert!(errors[1] < most && errors[0] > fall * errors[1], "{errors:?}");
             }
         }
     }
@@ -121,7 +121,7 @@ fn curved_blades_in_steady_rotation() {
             "inertia": {{ "rhoA": 1, "rhoI": [1e-3, 2e-3] }}"#
         )
     };
-    for speed in [0.5, 1.0, 3.0] {
+    for speed in [0.5, 3.0] {
         let exact = frequencies(&driven(&blade(r#""frame": "absolute", "elements": 48"#), "[0, 0, 0]", speed));
         for conditions in ["tangent", "mean"] {
             let keys = r#""frame": "floating", "elements": 24, "rotary_inertia": true, "geometric_stiffening": true"#;

@@ -63,7 +63,7 @@ fn advice_does_not_depend_on_the_load() {
         let idle = measure();
         let is_done = AtomicBool::new(false);
         let busy = std::thread::scope(|scope| {
-            for _ in 0..4 {
+            for _ in 0..2 {
                 scope.spawn(|| {
                     while !is_done.load(Ordering::Relaxed) {
                         std::hint::spin_loop();
