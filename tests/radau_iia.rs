@@ -222,3 +222,13 @@ fn a_row_that_cannot_be_projected_ends_its_step() {
     let found = rows(&Method { rtol, atol: 1e-6, ..adaptive("ggl", "radau_iia", "none", rtol) });
     assert!(distance(&found, &exact) < rtol, "{:e}", distance(&found, &exact));
 }
+
+/// Shifts of positions leave stiff coordinates alone: moved by their mass, a shaft of EA = 1e4 EI rings after every step, which
+/// takes 135 steps. 50 are taken.
+#[test]
+fn shifts_excite_nothing_stiff() {
+    let shaft = shipped("rotating_shaft", &[]);
+    let span = Span { start: 0.0, end: 1.0, output_step: 1.0 };
+    let statistics = shaft.run(&adaptive("ggl", "radau_iia", "none", 1e-3), span).outcome.statistics;
+    assert!(statistics.steps < 70, "{statistics:?}");
+}

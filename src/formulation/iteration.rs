@@ -29,7 +29,7 @@ pub struct Slopes<T> {
 ///
 /// ```text
 /// [ M  G^T ] [ dw   ]   [ -M w - G^T eta                   ]
-/// [ G  0   ] [ deta ] = [ -(row of eta + its g G da) / ... ]    and du likewise
+/// [ G  0   ] [ deta ] = [ -(row of eta + its g G da) / ... ]    and du likewise, with the M of [`Linearized::weigh`]
 /// ```
 ///
 /// The rows are of the size of accelerations however small the step. Of phi'', its change with q by h^2 is left out.
@@ -202,7 +202,7 @@ impl<T: Number> Iteration<T> {
     }
 
     /// Turns the residual into the changes of the unknowns, in `change`. One back-substitution, and for each shift one of
-    /// [M G^T; G 0] (two where numbers are complex).
+    /// its own matrix (two where numbers are complex).
     pub fn solve(&mut self, at: &mut Linearized, structure: &Structure) -> Result<(), Halt> {
         let Iteration { matrix, rows, slopes, change, part, moved: [gw, gu] } = self;
         let Change { a, lambda, w, u, eta, mu } = change;

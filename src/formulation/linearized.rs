@@ -1,7 +1,7 @@
 //! What implicit methods linearize about.
 
 use super::{Dae, Dynamics, Halt};
-use crate::math::kkt::{Pattern, SaddlePoint};
+use crate::math::kkt::{Pattern, SaddlePoint, Singular};
 use crate::system::{Loaded, MechanicalSystem, Need, Tangent};
 
 /// Why an implicit method has no matrix.
@@ -10,7 +10,7 @@ pub const NO_TANGENT: Halt = Halt::Unsuitable {
     hint: "implement MechanicalSystem::tangent, or use a method that needs none, such as phem56 with index2",
 };
 
-/// M, G, L, K and C at one state, with the factors of [M G^T; G 0] where shifts are solved for.
+/// M, G, L, K and C at one state, with the factors of [M + S  G^T; G  0] where shifts are solved for.
 pub struct Linearized {
     pub(super) dae: Dae,
     pub(super) mass: Vec<f64>,
@@ -18,6 +18,7 @@ pub struct Linearized {
     pub(super) l: Vec<f64>,
     pub(super) tangent: Tangent,
     pub(super) shifts: Option<SaddlePoint>,
+    metric: Metric,
     dropped: Vec<usize>,
     /// t, q, v, v' and lambda of the state; empty before there is one.
     point: Vec<f64>,
@@ -27,13 +28,16 @@ impl Linearized {
     pub fn new(dae: Dae, system: &dyn MechanicalSystem) -> Self {
         let structure = system.structure();
         let zeros = |pattern: &Pattern| vec![0.0; pattern.entries.len()];
+        let metric = Metric::new(system);
+        let shifts = dae.has_shifts().then(|| SaddlePoint::new(&metric.pattern, &structure.g));
         Linearized {
             dae,
             mass: zeros(&structure.mass),
             g: zeros(&structure.g),
             l: zeros(&structure.g),
             tangent: Tangent::new(&structure.tangent),
-            shifts: dae.has_shifts().then(|| SaddlePoint::new(&structure.mass, &structure.g)),
+            shifts,
+            metric,
             dropped: Vec::new(),
             point: Vec::with_capacity(
                 1 + system.dimensions().q + 2 * system.dimensions().v + system.dimensions().lambda,
@@ -66,7 +70,7 @@ impl Linearized {
     /// Takes them at a state. One evaluation of K and C.
     ///
     /// # Errors
-    /// [`NO_TANGENT`]; a singular state, where shifts are solved for.
+    /// [`NO_TANGENT`].
     pub fn update(&mut self, at: Loaded, dynamics: &mut Dynamics) -> Result<(), Halt> {
         let need = if self.dae.needs_l() { Need::DYNAMICS | Need::L } else { Need::DYNAMICS };
         dynamics.evaluate(at.t, at.q, at.v, need);
@@ -81,14 +85,75 @@ impl Linearized {
         self.point.clear();
         self.point.push(at.t);
         [at.q, at.v, at.vdot, at.lambda].into_iter().for_each(|values| self.point.extend_from_slice(values));
-        if let Some(shifts) = &mut self.shifts {
-            if self.dropped != dynamics.dropped {
-                shifts.drop_rows(&dynamics.dropped);
-                self.dropped.clone_from(&dynamics.dropped);
-            }
-            dynamics.statistics.factorizations += 1;
-            shifts.factor(&self.mass, &self.g)?;
-        }
         Ok(())
     }
+
+    /// S of the last [`weigh`](Self::weigh), n_v
+    pub fn stiffness(&self) -> &[f64] {
+        &self.metric.stiffness
+    }
+
+    /// Takes M + S for the metric of the shifts of a step with s = dq/da; M alone where velocities are shifted, too.
+    /// One factorization.
+    ///
+    /// # Errors
+    /// A singular matrix.
+    pub fn weigh(&mut self, s: f64, dynamics: &mut Dynamics) -> Result<(), Singular> {
+        let Some(shifts) = &mut self.shifts else { return Ok(()) };
+        if self.dropped != dynamics.dropped {
+            shifts.drop_rows(&dynamics.dropped);
+            self.dropped.clone_from(&dynamics.dropped);
+        }
+        let s = if self.dae.eta.is_none() { s } else { 0.0 };
+        self.metric.take(s, &self.mass, (&dynamics.structure.tangent, &self.tangent.k));
+        dynamics.statistics.factorizations += 1;
+        shifts.factor(&self.metric.values, &self.g)
+    }
+}
+
+/// M + S with S_i = s K_ii of the coordinates with s K_ii > M_ii, else 0. By M alone the light and stiff ones would move most,
+/// and ring ever after. M + s K would move all as forces of the constraints do within the step, but K has reactions in
+/// it, too, of either sign.
+struct Metric {
+    /// That of M with the diagonal behind it.
+    pattern: Pattern,
+    values: Vec<f64>,
+    /// Coordinates with mass; states are none.
+    diagonal: Vec<usize>,
+    moving: usize,
+    masses: Vec<f64>,
+    stiffness: Vec<f64>,
+}
+
+impl Metric {
+    fn new(system: &dyn MechanicalSystem) -> Self {
+        let (mass, n) = (&system.structure().mass, system.dimensions());
+        let mut diagonal: Vec<usize> =
+            mass.entries.iter().filter(|(i, j)| i == j && *i < n.moving()).map(|(i, _)| *i).collect();
+        diagonal.sort_unstable();
+        diagonal.dedup();
+        let entries: Vec<_> = mass.entries.iter().copied().chain(diagonal.iter().map(|&i| (i, i))).collect();
+        let [masses, stiffness] = [0; 2].map(|_| vec![0.0; n.v]);
+        let values = Vec::with_capacity(entries.len());
+        Metric { pattern: Pattern { entries, ..*mass }, values, diagonal, moving: n.moving(), masses, stiffness }
+    }
+
+    fn take(&mut self, s: f64, mass: &[f64], (tangent, k): (&Pattern, &[f64])) {
+        let Metric { pattern, values, diagonal, moving, masses, stiffness } = self;
+        diagonal_of(pattern, mass, masses);
+        diagonal_of(tangent, k, stiffness);
+        for (i, (stiffness, mass)) in stiffness.iter_mut().zip(masses).enumerate() {
+            let is_stiff = i < *moving && *mass > 0.0 && s * *stiffness > *mass;
+            *stiffness = if is_stiff { s * *stiffness } else { 0.0 };
+        }
+        values.clear();
+        values.extend(mass.iter().copied().chain(diagonal.iter().map(|&i| stiffness[i])));
+    }
+}
+
+/// The diagonal of a matrix.
+fn diagonal_of(pattern: &Pattern, values: &[f64], sums: &mut [f64]) {
+    sums.fill(0.0);
+    let diagonal = pattern.entries.iter().zip(values).filter(|((i, j), _)| i == j);
+    diagonal.for_each(|(&(i, _), value)| sums[i] += value);
 }

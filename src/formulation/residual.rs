@@ -13,6 +13,8 @@ pub struct Unknowns<'u> {
     pub eta: &'u [f64],
     pub u: &'u [f64],
     pub mu: &'u [f64],
+    /// S of the metric M + S of shifts, a diagonal; empty for none.
+    pub stiffness: &'u [f64],
 }
 
 /// The residual of [`Dae`], with its sign turned.
@@ -20,7 +22,7 @@ pub struct Unknowns<'u> {
 pub struct Residual {
     /// f - M a - G^T lambda, n_v
     pub motion: Vec<f64>,
-    /// -M w - G^T eta and -M u - G^T mu, where there are shifts.
+    /// -M w - G^T eta and -(M + S) u - G^T mu, where there are shifts.
     pub w: Vec<f64>,
     pub u: Vec<f64>,
     /// The rows, n_c each.
@@ -63,7 +65,7 @@ impl Residual {
     /// The same by terms that are there.
     pub fn of_terms(&mut self, dae: &Dae, unknowns: Unknowns, dynamics: &Dynamics) {
         let (terms, structure) = (&dynamics.terms, &dynamics.structure);
-        let Unknowns { a, lambda, w, eta, u, mu } = unknowns;
+        let Unknowns { a, lambda, w, eta, u, mu, stiffness } = unknowns;
         let inertia = |x: &[f64], multipliers: &[f64], out: &mut [f64]| {
             out.fill(0.0);
             structure.mass.multiply_symmetric(&terms.mass, x, out);
@@ -72,6 +74,7 @@ impl Residual {
         let shifts = [(dae.eta, w, eta, &mut self.w), (dae.mu, u, mu, &mut self.u)];
         for (_, x, multipliers, out) in shifts.into_iter().filter(|(row, x, ..)| row.is_some() && !x.is_empty()) {
             inertia(x, multipliers, out);
+            out.iter_mut().zip(x.iter().zip(stiffness)).for_each(|(out, (x, stiffness))| *out += stiffness * x);
             out.iter_mut().for_each(|left| *left = -*left);
         }
         inertia(a, lambda, &mut self.motion);

@@ -167,7 +167,7 @@ impl Form for Rows<'_> {
         };
         let ([of_w, of_eta], [of_u, of_mu]) = (pair(w), pair(u));
         let (a_1, lambda_1) = (&x[a.clone()], &x[lambda.clone()]);
-        let unknowns = Unknowns { a: a_1, lambda: lambda_1, w: of_w, eta: of_eta, u: of_u, mu: of_mu };
+        let unknowns = Unknowns { a: a_1, lambda: lambda_1, w: of_w, eta: of_eta, u: of_u, mu: of_mu, stiffness: &[] };
         self.residual.evaluate(&self.dae, state, unknowns, dynamics)?;
         let Residual { motion, lambda: rows, w: left_w, eta: left_eta, u: left_u, mu: left_mu, power, .. } =
             &self.residual;

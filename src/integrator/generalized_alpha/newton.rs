@@ -9,6 +9,9 @@ use crate::math::newton::{Limits, Monitor};
 use crate::system::{Loaded, MechanicalSystem};
 use crate::tolerances::integrator as tolerances;
 
+/// The metric of shifts is M alone: sums of corrections in the metrics of several states would depend on how they were found.
+const MASS: f64 = 0.0;
+
 /// In units of what may stop falling.
 fn limits(is_fixed: bool) -> Limits {
     Limits {
@@ -86,6 +89,7 @@ impl Newton {
         let Some((h, point)) = self.recalled.take().filter(|(h, _)| *h > 0.0) else { return Ok(()) };
         let counted = problem.dynamics.statistics;
         self.at.recall(&point, &mut problem.dynamics)?;
+        self.at.weigh(MASS, &mut problem.dynamics)?;
         self.iteration.factor(motion.slopes(h), &self.at, &mut problem.dynamics)?;
         self.dropped.clone_from(&problem.dynamics.dropped);
         problem.dynamics.statistics = counted;
@@ -151,6 +155,7 @@ impl Newton {
                 return Err(Halt::NotFinite);
             }
             self.at.update(Loaded { t, q, v, vdot, lambda }, dynamics)?;
+            self.at.weigh(MASS, dynamics)?;
             dynamics.statistics.rhs_evaluations += 1;
             self.residual.of_terms(&self.dae, motion.unknowns(), dynamics);
             (self.is_linearized, self.factored) = (true, None);

@@ -34,6 +34,25 @@ impl Matrices {
         })
     }
 
+    fn is_factored(&self, index: usize, h: f64, dynamics: &Dynamics) -> bool {
+        self.factored == Some((h, index)) && self.dropped == dynamics.dropped
+    }
+
+    /// Takes the metric of shifts for a step `h` of `method`, of that index, before the matrices are factored for it. A row
+    /// within the step keeps the step's.
+    pub fn weigh(
+        &self,
+        (method, index): (&Collocation, usize),
+        h: f64,
+        at: &mut Linearized,
+        dynamics: &mut Dynamics,
+    ) -> Result<(), Singular> {
+        match self.is_factored(index, h, dynamics) {
+            true => Ok(()),
+            false => at.weigh(slopes(h * method.real.value).q, dynamics),
+        }
+    }
+
     /// Factors for a step `h` of `method`, of that index, unless that is done.
     pub fn factor(
         &mut self,
@@ -42,7 +61,7 @@ impl Matrices {
         at: &Linearized,
         dynamics: &mut Dynamics,
     ) -> Result<(), Singular> {
-        if self.factored == Some((h, index)) && self.dropped == dynamics.dropped {
+        if self.is_factored(index, h, dynamics) {
             return Ok(());
         }
         self.factored = None;

@@ -152,7 +152,9 @@ impl RadauIIA {
         let Some((h, index, point)) = self.recalled.take() else { return Ok(()) };
         let counted = problem.dynamics.statistics;
         self.at.recall(&point, &mut problem.dynamics)?;
-        self.matrices.factor((self.order.get(index), index), h, &self.at, &mut problem.dynamics)?;
+        let method = (self.order.get(index), index);
+        self.matrices.weigh(method, h, &mut self.at, &mut problem.dynamics)?;
+        self.matrices.factor(method, h, &self.at, &mut problem.dynamics)?;
         problem.dynamics.statistics = counted;
         self.is_linearized = true;
         Ok(())
@@ -160,7 +162,8 @@ impl RadauIIA {
 
     fn factor(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<(), Halt> {
         let method = (self.order.method(), self.order.current());
-        let factored = self.matrices.factor(method, h, &self.at, &mut problem.dynamics);
+        let factored = self.matrices.weigh(method, h, &mut self.at, &mut problem.dynamics);
+        let factored = factored.and_then(|()| self.matrices.factor(method, h, &self.at, &mut problem.dynamics));
         factored.map_err(|singular| collapsed(singular, problem, from, h))
     }
 

@@ -180,13 +180,14 @@ impl Stages {
         dae: &Dae,
         method: &Collocation,
         (t, h): (f64, f64),
+        stiffness: &[f64],
         dynamics: &mut Dynamics,
     ) -> Result<(), Halt> {
         for (i, residual) in self.residuals.iter_mut().enumerate().take(method.stages()) {
             let (q, v) = self.y[i].split_at(self.n.q);
             let Unknowns { a, lambda, w, eta, u, mu } = &self.unknowns;
             let [a, lambda, w, eta, u, mu] = [a, lambda, w, eta, u, mu].map(|stages| &stages[i][..]);
-            let unknowns = formulation::Unknowns { a, lambda, w, eta, u, mu };
+            let unknowns = formulation::Unknowns { a, lambda, w, eta, u, mu, stiffness };
             residual.evaluate(dae, (t + method.nodes[i] * h, q, &v[..self.n.v]), unknowns, dynamics)?;
         }
         Ok(())

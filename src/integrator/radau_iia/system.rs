@@ -48,7 +48,7 @@ impl System<'_> {
             ..Limits::NONE
         };
         let converged = newton.solve(limits, |_| {
-            stages.evaluate(dae, method, (from.t, h), &mut problem.dynamics)?;
+            stages.evaluate(dae, method, (from.t, h), at.stiffness(), &mut problem.dynamics)?;
             let Stages { residuals, unknowns, .. } = &mut **stages;
             matrices.correct(method, residuals, at, unknowns, &mut problem.dynamics)?;
             stages.advance(problem, method, from, h);
