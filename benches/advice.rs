@@ -11,13 +11,13 @@
 //! - What is recommended, and how far the reference vouches.
 
 use cpu_time::ThreadTime;
+use holonom::analysis::Drift;
+use holonom::compare::work_precision::{
+    Cell, Filter, Motion, Outcome, Plan, Runner, Triple, Watched, WorkPrecision, cpu_seconds, grid,
+};
 use holonom::error::Result;
 use holonom::formulation::{Choice, Statistics};
 use holonom::linearize::amplified;
-use holonom::measure::Drift;
-use holonom::measure::work_precision::{
-    Cell, Filter, Motion, Outcome, Plan, Runner, Triple, Watched, WorkPrecision, cpu_seconds, grid,
-};
 use holonom::report::Table;
 use holonom::simulate::{Leg, Method, Observation, Sink, Span, Stop, atol_of, simulate_automatic};
 use holonom::study::{Overrides, Study};
@@ -117,7 +117,7 @@ fn measure(path: &Path) -> Result<Measured> {
         }
     }
     let (name, began) = (study.name.clone(), Instant::now());
-    let amplification = amplified(&study, span, |_| began.elapsed() < PATIENCE);
+    let amplification = amplified(&study, span, |_| began.elapsed() < PATIENCE).ok();
     Ok(Measured { name, result, budget, own, default, auto, amplification, wall: clock.elapsed().as_secs_f64() })
 }
 

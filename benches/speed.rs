@@ -4,8 +4,8 @@
 mod common;
 
 use common::{Case, compare};
+use holonom::analysis::Recorder;
 use holonom::formulation::{Choice, Dynamics};
-use holonom::measure::Recorder;
 use holonom::scene::{Scene, generate};
 use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate};
 use holonom::study::{Overrides, Study};

@@ -5,8 +5,8 @@
 //! tight solution at all hundredths of a second. A controller that calls a step at a time waits for the slow ones too:
 //! the time that 99 % of the steps keep stands beside their median.
 
+use holonom::analysis::Recorder;
 use holonom::formulation::Choice;
-use holonom::measure::Recorder;
 use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate};
 use holonom::study::{Overrides, Study};
 use std::path::Path;

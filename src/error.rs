@@ -240,6 +240,22 @@ pub fn short(value: f64) -> String {
     shown(format!("{value:.3e}").parse().unwrap_or(value))
 }
 
+/// A number with so many significant digits, without an exponent where that is short.
+pub fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 {
+        return "0".to_string();
+    }
+    let size = value.abs().log10().floor() as i32;
+    if !(-4..digits as i32).contains(&size) {
+        return format!("{value:.*e}", digits - 1);
+    }
+    let text = format!("{value:.*}", (digits as i32 - 1 - size).max(0) as usize);
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_string(),
+        false => text,
+    }
+}
+
 /// A time with at most nine digits that count: 0.6 where rounding has made it 0.6000000000000001.
 pub fn clock(t: f64) -> String {
     shown(format!("{t:.8e}").parse().unwrap_or(t))

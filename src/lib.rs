@@ -46,9 +46,10 @@
 //! | [`integrator`] | one file a method | a file and a line |
 //! | [`simulate`], [`trajectory`], [`study`] | the only time loop; its rows; a scene made ready | |
 //! | [`sweep`] | a scene assembled at many values of a parameter | |
+//! | [`analysis`] | what is seen of a state or of one run: rank and redundancy, singular states, drift, energy | |
 //! | [`linearize`] | linear models at a state, by every method; state-transition matrix, loci | a file and a line in [`linearize::registry`] |
 //! | [`validate`] | linear models against perturbed simulations | |
-//! | [`measure`] | drift, energy balance; speed for accuracy ([`measure::work_precision`]); maps over extremes ([`measure::stress`]) | an extreme: a file and a line in [`measure::stress::registry`] |
+//! | [`compare`] | many simulations of one scene: drift under stabilizations, speed for accuracy ([`compare::work_precision`]), maps over stress parameters ([`compare::stress`]) | a stress parameter: a file and a line in [`compare::stress::registry`] |
 //! | [`tolerances`] | every threshold, with what it decides, its unit, reason and test | |
 //! | [`plot`], [`report`], [`cli`] | figures, files and text, the command line | one file a subcommand |
 //!
@@ -58,7 +59,7 @@
 //! # Example
 //!
 //! ```
-//! use holonom::measure::Recorder;
+//! use holonom::analysis::Recorder;
 //! use holonom::scene::Scene;
 //! use holonom::simulate::simulate;
 //! use holonom::study::Study;
@@ -83,9 +84,11 @@
 // Derivatives of products and quotients are sums of products: that is no slip.
 #![allow(clippy::suspicious_arithmetic_impl)]
 
+pub mod analysis;
 pub mod body;
 pub mod choice;
 pub mod cli;
+pub mod compare;
 pub mod error;
 pub mod files;
 pub mod force;
@@ -95,7 +98,6 @@ pub mod integrator;
 pub mod joint;
 pub mod linearize;
 pub mod math;
-pub mod measure;
 pub mod plot;
 pub mod projection;
 pub mod report;

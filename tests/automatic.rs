@@ -1,8 +1,8 @@
 //! Runs that change their method on the way.
 
 use crate::scenes::{Ready, parse, shipped};
+use holonom::analysis::{Record, Recorder};
 use holonom::formulation::{Choice, Statistics};
-use holonom::measure::{Record, Recorder};
 use holonom::simulate::{Leg, Method, Outcome, Span, simulate, simulate_automatic};
 use holonom::study::{Overrides, Study};
 use std::path::Path;

@@ -1,8 +1,8 @@
 //! Shipped scenes against closed forms, elliptic functions and equations in minimal coordinates.
 
 use crate::scenes::{Run, dop853, load, models, parse, shipped};
+use holonom::analysis::Recorder;
 use holonom::math::Scalar;
-use holonom::measure::Recorder;
 use holonom::simulate::{Span, simulate};
 use holonom::system::Equations;
 

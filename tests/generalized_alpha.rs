@@ -4,9 +4,9 @@
 use crate::common::driven_pendulum::{DrivenPendulum, start};
 use crate::common::stiff::{STIFF, slow_position};
 use crate::common::{adaptive, distance, fixed, stepwise, until};
+use holonom::analysis::Recorder;
 use holonom::formulation::Choice;
 use holonom::math::Scalar;
-use holonom::measure::Recorder;
 use holonom::scene::Scene;
 use holonom::scene::generate;
 use holonom::simulate::Span;

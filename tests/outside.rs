@@ -3,10 +3,10 @@
 use crate::common::driven_pendulum::{DrivenPendulum, start};
 use crate::common::orders::{self, END, Rows};
 use crate::common::{fixed, run, until};
+use holonom::analysis::Recorder;
 use holonom::choice::{Choice, Listed, OptionDoc};
 use holonom::formulation::{self, Dae, Dynamics, Formulation, Halt, Row};
 use holonom::integrator::{self, Control, From, Integrator, Problem, Steps, Tightening, Tolerance};
-use holonom::measure::Recorder;
 use holonom::projection;
 use holonom::simulate::{Method, Span, simulate};
 

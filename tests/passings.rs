@@ -3,7 +3,7 @@
 
 use crate::common::{adaptive, fixed, stepwise};
 use crate::scenes::{Ready, model, parse, shipped};
-use holonom::measure::{Branch, Recorder, Singularity, dependent_beside};
+use holonom::analysis::{Branch, Recorder, Singularity, dependent_nearby};
 use holonom::scene::generate::n_four_bar;
 use holonom::simulate::{Method, Span, simulate};
 
@@ -145,7 +145,7 @@ fn nearly_singular_geometry_is_no_error() {
 
 #[test]
 fn a_singular_start_is_told_from_redundant_constraints() {
-    let beside = |ready: &Ready| dependent_beside(ready.system(), 0.0, ready.0.start().0).len();
+    let beside = |ready: &Ready| dependent_nearby(ready.system(), 0.0, ready.0.start().0).len();
     let half = std::f64::consts::FRAC_PI_2;
     assert_eq!(beside(&shipped(CASES[0], &[("phi0", half), ("w0", 1.0)])), 0, "folded");
     assert_eq!(beside(&shipped("parallelogram_redundant", &[])), 1, "redundant everywhere");

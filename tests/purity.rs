@@ -2,9 +2,9 @@
 //! was evaluated before.
 
 use crate::scenes::{load, models};
+use holonom::analysis::Recorder;
 use holonom::formulation::{self, Choice, Dynamics};
 use holonom::integrator::Problem;
-use holonom::measure::Recorder;
 use holonom::simulate::{Method, Span, simulate};
 use holonom::system::MechanicalSystem;
 use rayon::prelude::*;

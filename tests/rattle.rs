@@ -6,7 +6,7 @@ use crate::common::equations::pendulum::{self, Pendulum};
 use crate::common::equations::robot_arm::{self, RobotArm};
 use crate::common::{fixed, run, until};
 use crate::scenes::shipped;
-use holonom::measure::Recorder;
+use holonom::analysis::Recorder;
 use holonom::simulate::{Observation, Sink, simulate};
 use holonom::system::{MechanicalSystem, Scratch};
 

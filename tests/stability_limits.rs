@@ -3,9 +3,9 @@
 
 use crate::common::{fixed, method};
 use crate::scenes::{Ready, parse};
+use holonom::analysis::Recorder;
 use holonom::formulation::Choice;
 use holonom::integrator::{self, Setup, Stability, Store};
-use holonom::measure::Recorder;
 use holonom::simulate::{Method, Span, simulate};
 
 /// x'' + c x' + k x = 0 on a rail.

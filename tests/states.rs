@@ -4,10 +4,10 @@
 use crate::common::motor::{MOTOR, Motor, exact, start};
 use crate::common::orders::{self, END, Rows, steps};
 use crate::common::{adaptive, fixed, run, until};
+use holonom::analysis::Recorder;
 use holonom::initial::{assemble, equilibrium};
 use holonom::integrator::{Entry, Steps, registry};
 use holonom::linearize::Variation;
-use holonom::measure::Recorder;
 use holonom::simulate::{Method, Span, simulate};
 use holonom::system::{Dimensions, Loaded, MechanicalSystem, Need, Scratch, Tangent, Terms};
 use std::ops::Range;

@@ -3,7 +3,7 @@
 use crate::common::equations::robot_arm::{RobotArm, START};
 use crate::common::{fixed, until};
 use holonom::choice::Choice;
-use holonom::measure::stress::{
+use holonom::compare::stress::{
     Axis, Cell, Change, Entry, Extreme, Level, Limits, Map, Quantity, Status, StepVerdict, Stressed, Subject, find,
     maps, pair, stress,
 };

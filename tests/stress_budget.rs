@@ -1,6 +1,6 @@
 //! What a budget is spent on. Alone in its file, since other tests would take its time.
 
-use holonom::measure::stress::{Limits, Status, Subject, maps, stress};
+use holonom::compare::stress::{Limits, Status, Subject, maps, stress};
 use holonom::study::Overrides;
 use std::path::Path;
 use std::time::{Duration, Instant};

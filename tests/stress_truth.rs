@@ -1,7 +1,7 @@
 //! What maps over extremes say is so: what was left out is not called failed, and what completes is not called right.
 
 use holonom::choice::Choice;
-use holonom::measure::stress::{
+use holonom::compare::stress::{
     Axis, Cell, Limits, Map, Quantity, Status, Stressed, Subject, find, maps, pair, stress,
 };
 use holonom::report::stress::{sentences, stress_figure};

@@ -3,9 +3,9 @@
 use crate::common::driven_pendulum::{self, DrivenPendulum};
 use crate::common::unconstrained::Exponential;
 use crate::common::{Run, adaptive, fixed, method, run, until};
+use holonom::analysis::Recorder;
 use holonom::formulation::{Dynamics, Statistics, Work};
 use holonom::math::Scalar;
-use holonom::measure::Recorder;
 use holonom::simulate::{Method, Observation, Outcome, Sink, Span, Stop, simulate};
 use holonom::system::Equations;
 use rayon::prelude::*;

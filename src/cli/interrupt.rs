@@ -56,7 +56,7 @@ fn handle(then: impl Fn() + Send + 'static) -> Result<(), ctrlc::Error> {
     ctrlc::set_handler(then)
 }
 
-/// Why a run should end, whose results go to `folder`: for [`Recorder::with_stop`](crate::measure::Recorder::with_stop).
+/// Why a run should end, whose results go to `folder`: for [`Recorder::with_stop`](crate::analysis::Recorder::with_stop).
 /// A command that asks also writes what it has.
 pub fn stop(folder: &Folder) -> Option<Stop> {
     is_asked().then(|| Stop {

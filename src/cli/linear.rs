@@ -1,10 +1,10 @@
 //! Options and habits of the commands that make linear models.
 
 use super::common::{MethodOptions, SceneOptions, Talk, number};
+use crate::analysis::Range;
 use crate::choice::Choice;
 use crate::error::Result;
 use crate::linearize::{Chart, Operating, Request, State, at_rest, registry, states, tighten};
-use crate::measure::Range;
 use crate::study::Study;
 
 /// Which linear model.

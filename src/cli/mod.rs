@@ -2,7 +2,6 @@
 
 mod bode;
 mod check;
-mod check_error;
 mod common;
 mod drift;
 mod generate;

@@ -2,12 +2,12 @@
 
 use super::common::{Common, Format, Output, number, positive, tell};
 use super::interrupt;
+use crate::analysis::Recorder;
+use crate::error::significant;
 use crate::error::{Error, Failure, Result};
-use crate::measure::Recorder;
 use crate::report::mechanism::{
     Look, Motion, State, Trace, View, animation, find_trace, mechanism_figure, output_traces, stroboscope_figure, up,
 };
-use crate::report::significant;
 use crate::report::{Folder, Written};
 use crate::simulate::Span;
 use crate::study::{AnyMechanism, Study};

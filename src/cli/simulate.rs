@@ -1,10 +1,10 @@
 //! `holonom simulate SCENE`
 
-use super::check_error::check_error;
 use super::common::{Common, Output, tell};
 use super::{interrupt, restart};
+use crate::analysis::{Record, Recorder};
+use crate::compare::check_error;
 use crate::error::{Result, Warning};
-use crate::measure::{Record, Recorder};
 use crate::report::{self, Folder, Summary, summarize};
 use crate::simulate::Start;
 use crate::study::Study;
@@ -54,9 +54,14 @@ pub fn run(args: Args) -> Result<ExitCode> {
         restart: saved,
         ..summarize((&study, stiffness, &early), (&outcome, &legs), &record, seconds)
     };
-    let is_checked = args.check_error && summary.failure.is_none();
-    let summary = match is_checked {
-        true => summary.checked(check_error(&study, span, &record.trajectory, (&args.common.talk, &folder))),
+    let summary = match args.check_error && summary.failure.is_none() {
+        true => {
+            let bar = args.common.talk.progress(1000, &format!("{}: the error", study.name));
+            let watch = (|t: f64| bar.set_position(fraction(t)), || interrupt::stop(&folder));
+            let check = check_error(&study, span, &record.trajectory, watch);
+            bar.finish_and_clear();
+            summary.checked(check)
+        }
         false => summary,
     };
     write(&study, &record, &summary, &mut folder, &args.output)?;

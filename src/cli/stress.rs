@@ -1,9 +1,9 @@
 //! `holonom stress SCENE`
 
 use super::common::{MethodOptions, Output, SceneOptions, Talk, assignment, duration, pick, print};
+use crate::compare::stress::{Axis, Limits, Map, Quantity, Stressed, Subject, known, maps, pair, registry, stress};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
-use crate::measure::stress::{Axis, Limits, Map, Quantity, Stressed, Subject, known, maps, pair, registry, stress};
 use crate::report::stress::{MapFile, StressFile, gain_table, sentences, stress_figure, stress_page, stress_table};
 use crate::report::{Folder, Table};
 use std::path::{Path, PathBuf};

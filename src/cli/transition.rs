@@ -2,10 +2,11 @@
 
 use super::common::{MethodOptions, Output, SceneOptions, Talk, positive, print};
 use super::linear::StateOptions;
+use crate::error::significant;
 use crate::error::{Error, Result};
 use crate::linearize::{Defect, Floquet, Lyapunov, Operating, State, floquet, lyapunov};
 use crate::plot::{Figure, Panel, Series};
-use crate::report::{Table, Written, cell, significant};
+use crate::report::{Table, Written, cell};
 use crate::study::Study;
 use crate::tolerances::report as tolerances;
 use serde_json::{Value, json};

@@ -3,8 +3,8 @@
 use super::common::{MethodOptions, Output, SceneOptions, Talk, positive, print, tell};
 use super::linear::{ChartOptions, StateOptions};
 use crate::error::{Error, Result};
+use crate::report::cell;
 use crate::report::linear::{ValidationFile, ladder_figure};
-use crate::report::{self, cell};
 use crate::validate::{Direction, Settings, validate};
 use std::process::ExitCode;
 
@@ -54,7 +54,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
             let title = format!(
                 "{}, perturbed at t = {} s ({})",
                 study.name,
-                report::significant(place.state.t, 6),
+                crate::error::significant(place.state.t, 6),
                 ladder.direction
             );
             let name = if i == 0 { stem.clone() } else { format!("{stem}-{}", i + 1) };

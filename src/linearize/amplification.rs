@@ -45,18 +45,19 @@ pub fn amplification(
     Ok(least_norm(&found.into_iter().collect::<Result<Vec<Matrix>>>()?))
 }
 
-/// The [`amplification`] of a study's motion; none where there are too many degrees of freedom, or too fast ones for the
-/// explicit method that carries them.
-pub fn amplified(study: &Study, span: Span, goes_on: impl FnMut(f64) -> bool) -> Option<f64> {
+/// The [`amplification`] of a study's motion.
+///
+/// # Errors
+/// As [`amplification`]; modes that are too fast for the explicit method that carries small changes.
+pub fn amplified(study: &Study, span: Span, goes_on: impl FnMut(f64) -> bool) -> Result<f64> {
     let start = State::start(study);
     let state =
         Loaded { t: start.t, q: &start.q, v: &start.v, vdot: &study.assembly.vdot, lambda: &study.assembly.lambda };
-    if stiffness(study.system(), &Method::default(), state, span).is_some() {
-        return None;
+    if let Some(stiffness) = stiffness(study.system(), &Method::default(), state, span) {
+        return Err(Error::input(stiffness.to_string()));
     }
     let time = |i: u32| span.start + (span.end - span.start) * f64::from(i) / f64::from(tolerances::AMPLIFIED_TIMES);
     amplification(study.system(), &start, &(1..=tolerances::AMPLIFIED_TIMES).map(time).collect::<Vec<f64>>(), goes_on)
-        .ok()
 }
 
 /// min over s of the largest norm of diag(1, 1/s) X diag(1, s), and that of the start, 1. It is convex in log s: Sezginer,

@@ -3,16 +3,14 @@
 use super::Table;
 use super::rest::Rest;
 use super::start::Start;
-use super::summary::{AssemblySummary, significant};
-use crate::formulation::Dynamics;
+use super::summary::AssemblySummary;
+use crate::analysis::{Rank, Redundant};
+use crate::error::significant;
 use crate::initial::Assembly;
-use crate::math::kkt::{Dependence, Pattern, condition_number, dependent_rows};
-use crate::measure::dependent_beside;
 use crate::scene::{BeamLine, Connection, Model};
-use crate::simulate::{Mode, Spectrum};
+use crate::simulate::Mode;
 use crate::study::{AnyMechanism, Study};
-use crate::system::{Group, Loaded, Need, Structure, Terms};
-use crate::tolerances::math as tolerances;
+use crate::system::{Group, Loaded};
 use serde::Serialize;
 
 /// What is modelled, and how well posed it is at the start.
@@ -52,15 +50,6 @@ pub struct Check {
     pub equilibrium: Option<Rest>,
 }
 
-/// A redundant row.
-#[derive(Clone, Debug, Serialize)]
-pub struct Redundant {
-    pub joint: String,
-    pub row: String,
-    /// The joints whose rows it follows from.
-    pub follows_from: Vec<String>,
-}
-
 /// An element of the scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct Item {
@@ -79,97 +68,32 @@ pub fn check(study: &Study) -> Check {
 }
 
 fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
-    let system = study.system();
-    let (q, v) = study.start();
-    let mut dynamics = Dynamics::new(system);
-    dynamics.evaluate(study.start_time(), q, v, Need::DYNAMICS);
-    let (rows, _) = dynamics.dependent_rows(study.start_time(), q, v);
-    dynamics.drop_rows(&rows);
-    // Assembly has solved at this state, so it can be factored; the distance is zero where it could not.
-    let distance = dynamics.factor().map_or(0.0, |()| dynamics.kkt.rank_indicator());
-    let (terms, structure) = (&dynamics.terms, &dynamics.structure);
-    let n = system.dimensions();
-    let beside = match rows.is_empty() {
-        true => n.lambda,
-        false => n.lambda - dependent_beside(system, study.start_time(), q).len(),
-    };
-    // The search for what depends on what is dense: it runs only where something does.
-    let dependence = match !rows.is_empty() {
-        true => dependent_rows(&structure.g, &terms.g, tolerances::RANK),
-        false => Dependence { rank: n.lambda, rows: Vec::new() },
-    };
-    let (groups, names) = (system.groups(), system.names().lambda);
-    let redundant = dependence.rows.iter().map(|row| {
-        let others = row.combination.iter().map(|(other, _)| owner(&groups, *other));
-        redundant(&names[row.row], owner(&groups, row.row), others)
-    });
+    let (system, Assembly { q, v, vdot, lambda, .. }) = (study.system(), &study.assembly);
+    let found = Rank::at(system, Loaded { t: study.start_time(), q, v, vdot, lambda });
+    let (n, names) = (system.dimensions(), system.names().lambda);
     Check {
         scene: study.name.clone(),
         dimension: D,
         coordinates: n.q,
         velocities: n.v,
         constraints: n.lambda,
-        rank: dependence.rank,
-        rank_beside: beside,
-        degrees_of_freedom: n.v - dependence.rank,
-        redundant: redundant.collect(),
+        rank: found.rank,
+        rank_beside: found.nearby,
+        degrees_of_freedom: n.v - found.rank,
+        redundant: found.redundant,
         assembly: (&study.assembly).into(),
         start: Start::of(study),
-        condition: condition_without(&rows, structure, terms),
-        distance_to_singularity: distance,
-        mass_range: mass_range(structure, terms),
-        fastest_mode: fastest_mode(study),
+        condition: found.condition,
+        distance_to_singularity: found.distance_to_singularity,
+        mass_range: found.mass_range,
+        fastest_mode: found.fastest_mode,
         length_scale: system.length(),
         bodies: bodies(model),
-        joints: groups.iter().map(|group| joint_item(group, &names)).collect(),
+        joints: system.groups().iter().map(|group| joint_item(group, &names)).collect(),
         forces: forces(model),
         left_out: left_out(model),
         equilibrium: None,
     }
-}
-
-fn condition_without(rows: &[usize], structure: &Structure, terms: &Terms) -> f64 {
-    let mut is_left_out = vec![false; structure.g.rows];
-    rows.iter().for_each(|row| is_left_out[*row] = true);
-    let place: Vec<Option<usize>> = is_left_out
-        .iter()
-        .scan(0, |next, is_left_out| {
-            let place = (!is_left_out).then_some(*next);
-            *next += usize::from(place.is_some());
-            Some(place)
-        })
-        .collect();
-    let kept = structure.g.entries.iter().zip(&terms.g);
-    let kept = kept.filter_map(|(&(row, column), value)| Some(((place[row]?, column), *value)));
-    let (entries, values): (Vec<_>, Vec<_>) = kept.unzip();
-    let g = Pattern { rows: structure.g.rows - rows.len(), cols: structure.g.cols, entries };
-    condition_number(&structure.mass, &terms.mass, &g, &values)
-}
-
-fn owner(groups: &[Group], row: usize) -> String {
-    groups.iter().find(|group| group.rows.contains(&row)).map_or(String::new(), |group| group.name.clone())
-}
-
-fn redundant(name: &str, joint: String, others: impl Iterator<Item = String>) -> Redundant {
-    let mut follows_from: Vec<String> = others.filter(|other| *other != joint).collect();
-    follows_from.dedup();
-    follows_from.sort();
-    follows_from.dedup();
-    let row = name.rsplit('.').next().unwrap_or_default().to_string();
-    Redundant { joint, row, follows_from }
-}
-
-fn mass_range(structure: &Structure, terms: &Terms) -> [f64; 2] {
-    let entries = structure.mass.entries.iter().zip(&terms.mass);
-    let diagonal = entries.filter(|((i, j), _)| i == j).map(|(_, mass)| *mass);
-    let range = diagonal.fold([f64::INFINITY, 0.0], |[low, high], mass| [mass.min(low), mass.max(high)]);
-    if range[0].is_finite() { range } else { [0.0, 0.0] }
-}
-
-fn fastest_mode(study: &Study) -> Option<Mode> {
-    let Assembly { q, v, vdot, lambda, .. } = &study.assembly;
-    let state = Loaded { t: study.start_time(), q, v, vdot, lambda };
-    Spectrum::at(study.system(), state)?.modes.last().copied()
 }
 
 /// So many names of coordinates a person reads.

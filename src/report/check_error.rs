@@ -1,8 +1,9 @@
 //! What a run says of its own error.
 
-use super::{Table, significant};
+use super::Table;
+use crate::compare::CheckError;
+use crate::error::significant;
 use crate::error::{Warning, clock, short};
-use crate::measure::CheckError;
 use crate::simulate::Method;
 
 const UNCHECKED: &str = "errors are estimated of single steps only: --check-error measures what they add up to";
@@ -27,11 +28,11 @@ fn differences(check: &CheckError) -> String {
         let [max, last] = [difference.max, difference.last].map(|value| format!("{value:.1e}"));
         table.row([name.clone(), max, last, difference.unit.clone()]);
     }
-    let amplified = match check.amplification {
-        Some(factor) => {
-            format!("the motion itself amplifies small changes of its start {} times", significant(factor, 2))
+    let amplified = match &check.amplification {
+        Ok(factor) => {
+            format!("the motion itself amplifies small changes of its start {} times", significant(*factor, 2))
         }
-        None => "how much the motion itself amplifies small changes is not known".to_string(),
+        Err(cause) => format!("how much the motion itself amplifies small changes is not known: {cause}"),
     };
     format!("{table}  {amplified}\n")
 }

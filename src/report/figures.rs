@@ -1,7 +1,7 @@
 //! Figures of a run.
 
 use super::envelope;
-use crate::measure::Record;
+use crate::analysis::Record;
 use crate::plot::{Figure, Panel, Series};
 use crate::scene::units::{Dimension, dimension_of};
 
@@ -74,7 +74,7 @@ pub fn energy_figure(title: &str, record: &Record) -> Option<Figure> {
     if times.len() < 2 || record.ledger_rows.len() != times.len() {
         return None;
     }
-    let curve = |label: &str, value: fn(&crate::measure::Ledger) -> f64| {
+    let curve = |label: &str, value: fn(&crate::analysis::Ledger) -> f64| {
         Series::line(label, times.iter().zip(&record.ledger_rows).map(|(t, row)| (*t, value(row))).collect())
     };
     let mut energies = Panel::new("time (s)", "energy (J)")

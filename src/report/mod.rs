@@ -2,6 +2,7 @@
 
 mod check;
 mod check_error;
+mod drift;
 mod envelope;
 mod figures;
 mod files;
@@ -19,11 +20,12 @@ pub mod tradeoff;
 mod warnings;
 
 pub use check::{Check, check};
+pub use drift::{drift_text, stabilizations_figure, stabilizations_table};
 pub use envelope::envelope;
 pub use figures::{drift_figure, energy_figure, outputs_figure};
 pub use files::{Folder, Written, write_whole};
 pub use rest::Rest;
-pub use summary::{Summary, significant, summarize};
+pub use summary::{Summary, summarize};
 pub use sweep::SweepSummary;
 pub use sweep_figure::{SweepLook, sweep_figure};
 pub use table::Table;

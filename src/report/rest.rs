@@ -1,10 +1,10 @@
 //! What `check --static` says of the equilibrium.
 
 use super::Table;
-use super::summary::significant;
+use crate::analysis::Range;
+use crate::error::significant;
 use crate::error::{Warning, clock};
 use crate::initial::{Equilibrium, Stability, Way};
-use crate::measure::Range;
 use crate::study::Study;
 use crate::system::{Loaded, Scratch};
 use crate::tolerances::report as tolerances;

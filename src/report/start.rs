@@ -1,7 +1,7 @@
 //! What `check` says of the motion at the start.
 
 use super::Table;
-use super::summary::significant;
+use crate::error::significant;
 use crate::initial::Assembly;
 use crate::math::largest;
 use crate::study::Study;

@@ -2,10 +2,11 @@
 
 use super::warnings::warnings;
 use super::{Table, check_error};
-use crate::error::{Failure, Warning, clock, short_list};
+use crate::analysis::{Drift, EnergyBalance, Passing, Record, Singularity};
+use crate::compare::CheckError;
+use crate::error::{Failure, Warning, clock, short_list, significant};
 use crate::formulation::Statistics;
 use crate::initial::{Assembly, Level, Move};
-use crate::measure::{CheckError, Drift, EnergyBalance, Passing, Record, Singularity};
 use crate::simulate::{Checkpoint, Leg, Method, Outcome, Stiffness};
 use crate::study::Study;
 use serde::Serialize;
@@ -245,22 +246,6 @@ impl Summary {
             table.row([name.clone(), value, unit.clone()]);
         }
         format!("\n{table}")
-    }
-}
-
-/// A number with so many significant digits, without an exponent where that is short.
-pub fn significant(value: f64, digits: usize) -> String {
-    if value == 0.0 {
-        return "0".to_string();
-    }
-    let size = value.abs().log10().floor() as i32;
-    if !(-4..digits as i32).contains(&size) {
-        return format!("{value:.*e}", digits - 1);
-    }
-    let text = format!("{value:.*}", (digits as i32 - 1 - size).max(0) as usize);
-    match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_string(),
-        false => text,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Table;
 use super::figures::MOST_COORDINATES;
-use super::summary::significant;
+use crate::error::significant;
 use crate::sweep::{self, Nearest, Point, Sweep};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;

@@ -1,7 +1,7 @@
 //! Comma-separated tables that open in Python, MATLAB and a spreadsheet.
 
+use crate::analysis::Record;
 use crate::error::{Error, Result};
-use crate::measure::Record;
 use crate::sweep::Sweep;
 use crate::system::Names;
 use crate::trajectory::Trajectory;

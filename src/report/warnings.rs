@@ -1,8 +1,8 @@
 //! What makes a result doubtful although it was computed to the end.
 
-use super::significant;
+use crate::analysis::{Drift, EnergyBalance, Record};
 use crate::error::Warning;
-use crate::measure::{Drift, EnergyBalance, Record};
+use crate::error::significant;
 use crate::tolerances::report as tolerances;
 use crate::trajectory::{Gap, Trajectory};
 

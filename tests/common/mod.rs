@@ -12,9 +12,9 @@ pub mod saved;
 pub mod stiff;
 pub mod unconstrained;
 
+use holonom::analysis::{Record, Recorder};
 use holonom::formulation::Choice;
 use holonom::integrator::{self, Tightening};
-use holonom::measure::{Record, Recorder};
 use holonom::simulate::{Method, Outcome, Span, simulate};
 use holonom::system::MechanicalSystem;
 

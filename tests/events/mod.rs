@@ -5,8 +5,8 @@ mod of_state;
 mod sliding;
 
 use crate::scenes::Ready;
+use holonom::analysis::{Record, Recorder};
 use holonom::formulation::Choice;
-use holonom::measure::{Record, Recorder};
 use holonom::simulate::{Method, Outcome, Span, simulate};
 
 /// A method of every family that adapts its steps.

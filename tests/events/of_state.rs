@@ -2,7 +2,7 @@
 
 use super::{ADAPTIVE, attempt, fixed, method};
 use crate::scenes::{Ready, dop853, parse};
-use holonom::measure::Recorder;
+use holonom::analysis::Recorder;
 use holonom::simulate::{Span, simulate};
 
 const G: f64 = 9.81;

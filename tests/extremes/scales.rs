@@ -2,8 +2,8 @@
 
 use crate::common::{Run, adaptive, distance, run, stepwise, until};
 use crate::scenes::{Ready, parse};
+use holonom::analysis::Recorder;
 use holonom::math::Scalar;
-use holonom::measure::Recorder;
 use holonom::simulate::{Observation, Sink, Stop, simulate};
 use holonom::system::Equations;
 use std::time::Duration;

@@ -1,8 +1,8 @@
 //! What a scene must survive: being read, assembled, checked, simulated for a while and linearized.
 
+use holonom::analysis::{Record, Recorder};
 use holonom::error::{Error, Result};
 use holonom::linearize::{Request, State, linearize};
-use holonom::measure::{Record, Recorder};
 use holonom::report::{check, summarize, trajectory_table};
 use holonom::simulate::{Stop, simulate};
 use holonom::study::{Overrides, Study};

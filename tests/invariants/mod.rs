@@ -6,8 +6,8 @@ mod promises;
 mod recipes;
 
 use crate::scenes::{Ready, Run, dop853, parse};
+use holonom::analysis::{Record, Recorder};
 use holonom::choice::Choice;
-use holonom::measure::{Record, Recorder};
 use holonom::simulate::{Method, Span, simulate};
 use methods::{Tried, all};
 use momentum::momentum;

@@ -2,7 +2,7 @@
 
 use crate::outputs_tangent::compare::{outputs, tangent};
 use crate::scenes::dop853;
-use holonom::measure::Recorder;
+use holonom::analysis::Recorder;
 use holonom::scene::Scene;
 use holonom::simulate::simulate;
 use holonom::study::Study;

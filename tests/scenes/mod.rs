@@ -5,9 +5,9 @@ pub mod differences;
 pub mod examples;
 pub mod random;
 
+use holonom::analysis::{Record, Recorder};
 use holonom::formulation::Choice;
 use holonom::initial::Assembly;
-use holonom::measure::{Record, Recorder};
 use holonom::scene::Scene;
 use holonom::simulate::{Method, Outcome, Span, simulate};
 use holonom::study::{Overrides, Study};

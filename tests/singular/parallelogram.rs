@@ -2,7 +2,7 @@
 
 use super::{adaptive, fixed, last};
 use crate::scenes::{Ready, Run, model, parse, shipped};
-use holonom::measure::Recorder;
+use holonom::analysis::Recorder;
 use holonom::simulate::{Span, simulate};
 
 const RATE: f64 = 12.0;

@@ -3,7 +3,7 @@
 use super::reference::{AT_REST, RUNNING};
 use super::{adaptive, errors, fixed, last};
 use crate::scenes::shipped;
-use holonom::measure::{Record, Recorder};
+use holonom::analysis::{Record, Recorder};
 use holonom::simulate::{Method, Span, simulate};
 
 const SECONDS: Span = Span { start: 0.0, end: 10.0, output_step: 1.0 };

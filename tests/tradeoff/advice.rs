@@ -2,7 +2,7 @@
 
 use super::{filter, measured, motion, plan};
 use crate::scenes::shipped;
-use holonom::measure::work_precision::{Filter, Outcome, Plan, WorkPrecision};
+use holonom::compare::work_precision::{Filter, Outcome, Plan, WorkPrecision};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 

@@ -7,7 +7,7 @@ mod scale;
 
 use crate::common::method;
 use crate::scenes::{Ready, shipped};
-use holonom::measure::work_precision::{
+use holonom::compare::work_precision::{
     Cell, Filter, Motion, Outcome, Plan, Runner, Sample, Watched, WorkPrecision, cheapest_by_method, grid, sample,
 };
 use holonom::simulate::{Method, Span};

@@ -1,7 +1,7 @@
 //! What models cost.
 
 use crate::scenes::model;
-use holonom::measure::work_precision::models::{ModelCosts, Variant, compare};
+use holonom::compare::work_precision::models::{ModelCosts, Variant, compare};
 use holonom::study::{Overrides, Study};
 use std::time::Duration;
 

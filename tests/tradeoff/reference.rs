@@ -3,8 +3,8 @@
 use super::{ROWS, filter, fresh, measured, motion, plan};
 use crate::common::unconstrained::Exponential;
 use crate::scenes::shipped;
-use holonom::measure::Sizes;
-use holonom::measure::work_precision::{Given, Motion, Plan, Runner, Watched, Yardstick};
+use holonom::analysis::Sizes;
+use holonom::compare::work_precision::{Given, Motion, Plan, Runner, Watched, Yardstick};
 use holonom::system::Column;
 
 fn column(name: &str, unit: &str) -> Column {

@@ -2,8 +2,8 @@
 
 use super::{ROWS, filter, measured, motion, plan};
 use crate::scenes::shipped;
-use holonom::measure::Sizes;
-use holonom::measure::work_precision::{Watched, Yardstick, sample};
+use holonom::analysis::Sizes;
+use holonom::compare::work_precision::{Watched, Yardstick, sample};
 use holonom::simulate::{Method, Span};
 use holonom::system::Column;
 use std::time::Duration;

@@ -3,9 +3,9 @@
 use super::Args;
 use crate::cli::common::tell;
 use crate::cli::interrupt;
+use crate::compare::work_precision::{Filter, Given, Lack, Motion, Plan, Runner, Watched, WorkPrecision, grid};
 use crate::error::{Error, Result};
 use crate::files;
-use crate::measure::work_precision::{Filter, Given, Lack, Motion, Plan, Runner, Watched, WorkPrecision, grid};
 use crate::report::tradeoff::{Summary, tradeoff_figure, tradeoff_table};
 use crate::report::{Folder, write_whole};
 use crate::scene;

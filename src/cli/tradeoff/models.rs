@@ -2,9 +2,9 @@
 
 use super::Args;
 use crate::cli::common::assignment;
+use crate::compare::work_precision::models::{Variant, compare};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
-use crate::measure::work_precision::models::{Variant, compare};
 use crate::report::tradeoff::{ModelsSummary, models_figure, models_table};
 use crate::study::{Overrides, Study};
 use std::path::{Path, PathBuf};

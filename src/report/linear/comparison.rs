@@ -1,7 +1,8 @@
 //! Several methods at one state.
 
+use crate::error::significant;
 use crate::linearize::{Complex, Kind, LinearModel};
-use crate::report::{Table, significant};
+use crate::report::Table;
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
 

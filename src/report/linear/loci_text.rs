@@ -1,8 +1,9 @@
 //! Eigenvalues at many states as a person reads them in a terminal.
 
 use super::loci_file::{Extent, FailureFile, LociSummary, ModeSummary, Stretch};
+use crate::error::significant;
 use crate::linearize::Kind;
-use crate::report::{Table, significant};
+use crate::report::Table;
 use crate::tolerances::report as tolerances;
 
 /// Lines of the table; the files have all modes.

@@ -2,8 +2,9 @@
 
 use super::Response;
 use crate::error::Result;
+use crate::error::significant;
 use crate::linearize::Complex;
-use crate::report::{Table, cell, significant, table};
+use crate::report::{Table, cell, table};
 use serde::Serialize;
 
 /// Responses of a model at frequencies.

@@ -3,8 +3,9 @@
 use super::pairs::{Pair, damping, pairs};
 use super::{Linear, arrays};
 use crate::error::short;
+use crate::error::significant;
 use crate::linearize::{Kind, LinearModel, OperatingPoint};
-use crate::report::{Table, significant};
+use crate::report::Table;
 
 /// Lines of a kind of eigenvalues; the files have all.
 const MOST_LINES: usize = 30;

@@ -1,8 +1,9 @@
 //! `validation-T.json`, its text and its figure.
 
 use super::{Deviation, ErrorOrder, validation_figure};
+use crate::error::significant;
 use crate::plot::Figure;
-use crate::report::{Table, significant};
+use crate::report::Table;
 use crate::system::Names;
 use crate::validate::{Decay, InputCheck, Ladder, Validation, Verdict};
 use serde::Serialize;

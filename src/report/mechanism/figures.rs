@@ -7,9 +7,9 @@ use super::snapshot::{Link, Snapshot, snapshot, up};
 use super::traces::{Trace, curves};
 use super::view::{View, direction, dot, length, less, unit};
 use super::{bodies, glyphs, ground};
+use crate::error::significant;
 use crate::joint::Shape;
 use crate::plot::{Align, Animation, Figure, Item, Panel, Place, Series, Spot, Tint};
-use crate::report::significant;
 use crate::study::{AnyMechanism, Study};
 
 /// How to show a scene.

@@ -6,11 +6,11 @@ use super::motion::State;
 use super::snapshot::{Snapshot, snapshot};
 use super::view::{along, length, less};
 use crate::error::short;
+use crate::error::significant;
 use crate::formulation::turn;
 use crate::linearize::{Complex, Kind, LinearModel, Mode};
 use crate::plot::{Animation, Figure, Item, Tint};
 use crate::report::linear::pairs::{Pair, damping, pairs};
-use crate::report::significant;
 use crate::study::Study;
 use std::f64::consts::TAU;
 

@@ -1,6 +1,6 @@
 //! A map as a figure.
 
-use crate::measure::stress::{Axis, Cell, Status, Stressed};
+use crate::compare::stress::{Axis, Cell, Status, Stressed};
 use crate::plot::{AxisSpec, Figure, HeatMap, Panel};
 use crate::tolerances::report::WRONG_MOTION;
 

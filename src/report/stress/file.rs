@@ -1,8 +1,8 @@
 //! `stress.json` and `stress.csv`.
 
 use super::words::sentences;
+use crate::compare::stress::{Axis, Cell, GainVerdict, Quantity, Stressed, Verdict};
 use crate::error::Result;
-use crate::measure::stress::{Axis, Cell, GainVerdict, Quantity, Stressed, Verdict};
 use crate::report::{cell as full, table};
 use crate::simulate::Method;
 use serde::Serialize;

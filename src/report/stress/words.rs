@@ -1,9 +1,9 @@
 //! Verdicts in words that a person can act on.
 
-use crate::error::short;
-use crate::measure::stress::{
+use crate::compare::stress::{
     Axis, Best, Bound, GainVerdict, Level, Reason, Side, Status, StepVerdict, Stressed, Verdict,
 };
+use crate::error::short;
 use crate::report::Table;
 use crate::tolerances::report::WRONG_MOTION;
 

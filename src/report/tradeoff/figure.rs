@@ -1,6 +1,6 @@
 //! Error and drift against CPU time.
 
-use crate::measure::work_precision::{Cell, Held, WorkPrecision, cheapest_by_method};
+use crate::compare::work_precision::{Cell, Held, WorkPrecision, cheapest_by_method};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 
 /// Methods that have a colour; the others stand back as crosses.

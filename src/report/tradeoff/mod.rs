@@ -11,7 +11,7 @@ pub use models::{ModelsSummary, models_table};
 pub use models_figure::models_figure;
 pub use table::tradeoff_table;
 
-use crate::measure::work_precision::{Cell, Held, Recommendation, WorkPrecision};
+use crate::compare::work_precision::{Cell, Held, Recommendation, WorkPrecision};
 use crate::simulate::Method;
 use serde::Serialize;
 
@@ -88,7 +88,7 @@ fn command(method: &Method, scene: &str) -> String {
 pub(super) fn milliseconds(seconds: f64) -> String {
     let ms = 1e3 * seconds;
     match ms {
-        ms if ms < 1e3 => format!("{} ms", crate::report::significant(format!("{ms:.2e}").parse().unwrap_or(ms), 3)),
+        ms if ms < 1e3 => format!("{} ms", crate::error::significant(format!("{ms:.2e}").parse().unwrap_or(ms), 3)),
         ms => format!("{:.1} s", 1e-3 * ms),
     }
 }

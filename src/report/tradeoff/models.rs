@@ -1,8 +1,8 @@
 //! What models cost and give, for a person and as a table.
 
 use super::milliseconds;
+use crate::compare::work_precision::models::{Finer, ModelCost, ModelCosts};
 use crate::error::Result;
-use crate::measure::work_precision::models::{Finer, ModelCost, ModelCosts};
 use crate::report::{Table, cell, table};
 use serde::Serialize;
 
@@ -93,7 +93,7 @@ fn percent(part: f64) -> String {
     match 100.0 * part {
         0.0 => "0".to_string(),
         much if much >= 0.01 => {
-            format!("{} %", crate::report::significant(format!("{much:.1e}").parse().unwrap_or(much), 2))
+            format!("{} %", crate::error::significant(format!("{much:.1e}").parse().unwrap_or(much), 2))
         }
         little => format!("{little:.0e} %"),
     }

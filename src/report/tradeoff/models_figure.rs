@@ -1,6 +1,6 @@
 //! Differences of models from the richest against their CPU time.
 
-use crate::measure::work_precision::models::{ModelCost, ModelCosts};
+use crate::compare::work_precision::models::{ModelCost, ModelCosts};
 use crate::plot::{AxisSpec, Figure, Panel, Series};
 
 /// Of the axis of time, on both sides.

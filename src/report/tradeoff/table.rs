@@ -1,7 +1,7 @@
 //! Every run as a row.
 
+use crate::compare::work_precision::{Cell, Outcome, WorkPrecision};
 use crate::error::Result;
-use crate::measure::work_precision::{Cell, Outcome, WorkPrecision};
 use crate::report::{cell as number, table};
 
 const HEADINGS: [&str; 26] = [

@@ -1,8 +1,8 @@
 //! What a person reads.
 
 use super::{Summary, accuracy, milliseconds};
+use crate::compare::work_precision::{Cell, Lack, Outcome, Reference, WorkPrecision, cheapest_by_method};
 use crate::error::clock;
-use crate::measure::work_precision::{Cell, Lack, Outcome, Reference, WorkPrecision, cheapest_by_method};
 use crate::report::Table;
 use std::fmt::Write;
 

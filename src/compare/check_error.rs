@@ -1,7 +1,10 @@
 //! The error that a run has reached, by one that is more accurate.
 
+use crate::analysis::Recorder;
 use crate::error::Failure;
-use crate::simulate::Method;
+use crate::linearize::amplified;
+use crate::simulate::{Method, Span, Stop};
+use crate::study::Study;
 use crate::trajectory::Trajectory;
 use serde::{Serialize, Serializer};
 
@@ -15,8 +18,9 @@ pub struct CheckError {
     /// Over the rows that both have. Coordinates where the scene has no outputs.
     #[serde(serialize_with = "by_name")]
     pub outputs: Vec<(String, Difference)>,
-    /// How much the motion amplifies small changes of its start; none where that cannot be had.
-    pub amplification: Option<f64>,
+    /// How much the motion amplifies small changes of its start, or why that is not known.
+    #[serde(serialize_with = "if_known")]
+    pub amplification: Result<f64, String>,
     /// Why the second run ended early.
     pub failure: Option<Failure>,
 }
@@ -30,22 +34,45 @@ pub struct Difference {
     pub unit: String,
 }
 
+/// Runs the study again with closer steps, and compares the `first` run with that. `show` is told the times, `stop` asked
+/// whether to end.
+pub fn check_error(
+    study: &Study,
+    span: Span,
+    first: &Trajectory,
+    (show, stop): (impl Fn(f64), impl Fn() -> Option<Stop>),
+) -> CheckError {
+    let method = closer(&study.method);
+    let mut recorder = Recorder::new(study.system()).with_progress(&show).with_stop(&stop);
+    let outcome = study.simulate(&method, span, &mut recorder);
+    let second = recorder.finish();
+    let failure = match outcome {
+        Ok((outcome, _)) => second.singularity.failure().or(outcome.failure),
+        Err(error) => Some(Failure { t: span.start, reason: error.to_string(), hint: String::new() }),
+    };
+    let amplification = amplified(study, span, |t| {
+        show(t);
+        stop().is_none()
+    });
+    let Method { rtol, atol, step, .. } = method;
+    CheckError {
+        rtol,
+        atol,
+        step,
+        outputs: differences(first, &second.trajectory),
+        amplification: amplification.map_err(|error| error.to_string()),
+        failure,
+    }
+}
+
 /// The same method at a tenth of the tolerance, or half the step.
-pub fn closer(method: &Method) -> Method {
+fn closer(method: &Method) -> Method {
     let mut closer = method.clone();
     match &mut closer.step {
         Some(step) => *step *= 0.5,
         None => (closer.rtol, closer.atol) = (method.rtol / 10.0, method.atol / 10.0),
     }
     closer
-}
-
-impl CheckError {
-    /// Compares a run with the `second`, which was made by `method`.
-    pub fn new(first: &Trajectory, second: &Trajectory, method: &Method, failure: Option<Failure>) -> Self {
-        let &Method { rtol, atol, step, .. } = method;
-        CheckError { rtol, atol, step, outputs: differences(first, second), amplification: None, failure }
-    }
 }
 
 fn differences(first: &Trajectory, second: &Trajectory) -> Vec<(String, Difference)> {
@@ -74,4 +101,8 @@ fn differences(first: &Trajectory, second: &Trajectory) -> Vec<(String, Differen
 
 fn by_name<S: Serializer>(outputs: &[(String, Difference)], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_map(outputs.iter().map(|(name, difference)| (name, difference)))
+}
+
+fn if_known<S: Serializer>(amplification: &Result<f64, String>, serializer: S) -> Result<S::Ok, S::Error> {
+    amplification.as_ref().ok().serialize(serializer)
 }

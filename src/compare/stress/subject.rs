@@ -1,9 +1,9 @@
 //! What is driven to extremes: a scene, or own equations.
 
 use super::case::Case;
+use crate::analysis::Recorder;
 use crate::error::{Result, Warning};
 use crate::math::expression::Number;
-use crate::measure::Recorder;
 use crate::scene::{self, Scene};
 use crate::simulate::{Method, Span, Stop, simulate};
 use crate::study::{Overrides, Study};

@@ -1,6 +1,6 @@
 //! What became of one simulation.
 
-use crate::measure::Drift;
+use crate::analysis::Drift;
 use crate::simulate::Method;
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
@@ -58,7 +58,7 @@ pub struct Cell {
     pub drift: Option<Drift>,
     /// max |kinetic + potential - initial - work|, J.
     pub energy_error: Option<f64>,
-    /// The same as part of the energy turned over: see [`EnergyBalance`](crate::measure::EnergyBalance).
+    /// The same as part of the energy turned over: see [`EnergyBalance`](crate::analysis::EnergyBalance).
     pub relative_energy_error: Option<f64>,
     /// Largest difference of an output from an accurate run of the same motion, in scales of the output; of coordinates where
     /// the scene names no outputs. None where no accurate run came through, or the cell did not complete.

@@ -1,7 +1,7 @@
 //! What of a motion is compared, and how.
 
+use crate::analysis::{Sizes, scales};
 use crate::error::{Error, Result, suggest};
-use crate::measure::{Sizes, scales};
 use crate::simulate::Observation;
 use crate::system::{Column, MechanicalSystem, Scratch};
 use serde::{Deserialize, Serialize};

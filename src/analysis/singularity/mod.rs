@@ -1,6 +1,5 @@
 //! Singular states on the way: where G loses rank, so that the motion could go on along several branches.
 
-mod beside;
 mod branch;
 mod path;
 mod survey;
@@ -10,7 +9,6 @@ use crate::formulation::Dynamics;
 use crate::simulate::Observation;
 use crate::system::MechanicalSystem;
 use crate::tolerances::report as tolerances;
-pub use beside::dependent_beside;
 use branch::Turning;
 use path::{Path, Sample};
 use serde::Serialize;

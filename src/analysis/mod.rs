@@ -1,19 +1,18 @@
-//! What a motion is judged by: drift, energy, statistics.
+//! What is seen of a state or of one run: rank and redundancy, drift, energy balance,
+//! singular states, range of the model.
 
-mod check_error;
 mod drift;
 mod energy;
 mod range;
+mod rank;
 mod recorder;
 mod scale;
 mod singularity;
-pub mod stress;
-pub mod work_precision;
 
-pub use check_error::{CheckError, Difference, closer};
 pub use drift::{Drift, DriftLevel};
 pub use energy::{EnergyBalance, EnergyMeter, Ledger};
 pub use range::{Extreme, Range};
+pub use rank::{Rank, Redundant, dependent_nearby};
 pub use recorder::{Record, Recorder};
 pub use scale::{Sizes, scales};
-pub use singularity::{Branch, Nearest, Passing, Singularity, dependent_beside};
+pub use singularity::{Branch, Nearest, Passing, Singularity};

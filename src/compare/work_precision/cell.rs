@@ -1,8 +1,8 @@
 //! One method at one tolerance or step.
 
+use crate::analysis::Drift;
 use crate::error::Failure;
 use crate::formulation::Statistics;
-use crate::measure::Drift;
 use crate::simulate::Method;
 use serde::{Deserialize, Serialize};
 

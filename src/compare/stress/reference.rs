@@ -3,8 +3,8 @@
 use super::case::Case;
 use super::deadline::{Deadline, Limits};
 use super::subject::Subject;
+use crate::analysis::{Record, Recorder, Sizes, scales};
 use crate::choice::Choice;
-use crate::measure::{Record, Recorder, Sizes, scales};
 use crate::simulate::{Method, Observation, Sink, Stop, simulate};
 use crate::system::{Column, MechanicalSystem, Scratch};
 use crate::tolerances::report as tolerances;

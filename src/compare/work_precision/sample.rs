@@ -2,9 +2,9 @@
 
 use super::runner::Motion;
 use super::yardstick::Watched;
+use crate::analysis::{Drift, Sizes};
 use crate::error::{Failure, Result};
 use crate::formulation::Statistics;
-use crate::measure::{Drift, Sizes};
 use crate::simulate::{Method, Observation, Sink, Span, Stop, simulate};
 use crate::system::Scratch;
 use cpu_time::ThreadTime;

@@ -1,0 +1,138 @@
+//! Rank and redundancy of the constraints at a state.
+
+use crate::formulation::Dynamics;
+use crate::math::kkt::{Dependence, Pattern, condition_number, dependent_rows};
+use crate::math::largest;
+use crate::simulate::{Mode, Spectrum};
+use crate::system::{Group, Loaded, MechanicalSystem, Need, Structure, Terms};
+use crate::tolerances::math::RANK;
+use crate::tolerances::report as tolerances;
+use serde::Serialize;
+
+/// How well posed a state is.
+#[derive(Clone, Debug)]
+pub struct Rank {
+    /// Rank of G.
+    pub rank: usize,
+    /// Rank of G at a nearby state: higher where this one is singular.
+    pub nearby: usize,
+    /// Rows that follow from others, by joint.
+    pub redundant: Vec<Redundant>,
+    /// Condition number of the equilibrated saddle-point matrix without the redundant rows.
+    pub condition: f64,
+    /// The smallest sine between a row of G and those before it, in the metric of M^-1, without the redundant rows: 1 is far
+    /// from losing rank, 0 a singular state.
+    pub distance_to_singularity: f64,
+    /// Largest and smallest entry on the diagonal of M, kg or kg m^2.
+    pub mass_range: [f64; 2],
+    /// The fastest mode, 1/s; none where nothing is free to move.
+    pub fastest_mode: Option<Mode>,
+}
+
+/// A redundant row.
+#[derive(Clone, Debug, Serialize)]
+pub struct Redundant {
+    pub joint: String,
+    pub row: String,
+    /// The joints whose rows it follows from.
+    pub follows_from: Vec<String>,
+}
+
+impl Rank {
+    /// At a consistent state.
+    pub fn at(system: &dyn MechanicalSystem, state: Loaded) -> Self {
+        let Loaded { t, q, v, .. } = state;
+        let mut dynamics = Dynamics::new(system);
+        dynamics.evaluate(t, q, v, Need::DYNAMICS);
+        let (rows, _) = dynamics.dependent_rows(t, q, v);
+        dynamics.drop_rows(&rows);
+        // A consistent state can be factored; the distance is zero where it could not.
+        let distance = dynamics.factor().map_or(0.0, |()| dynamics.kkt.rank_indicator());
+        let (terms, structure, all) = (&dynamics.terms, &dynamics.structure, system.dimensions().lambda);
+        // The search for what depends on what is dense: it runs only where something does.
+        let (nearby, dependence) = match rows.is_empty() {
+            true => (all, Dependence { rank: all, rows: Vec::new() }),
+            false => (all - dependent_nearby(system, t, q).len(), dependent_rows(&structure.g, &terms.g, RANK)),
+        };
+        let (groups, names) = (system.groups(), system.names().lambda);
+        let redundant = dependence.rows.iter().map(|row| {
+            let others = row.combination.iter().map(|(other, _)| owner(&groups, *other));
+            redundant(&names[row.row], owner(&groups, row.row), others)
+        });
+        Rank {
+            rank: dependence.rank,
+            nearby,
+            redundant: redundant.collect(),
+            condition: condition_without(&rows, structure, terms),
+            distance_to_singularity: distance,
+            mass_range: mass_range(structure, terms),
+            fastest_mode: Spectrum::at(system, state).and_then(|spectrum| spectrum.modes.last().copied()),
+        }
+    }
+}
+
+fn condition_without(rows: &[usize], structure: &Structure, terms: &Terms) -> f64 {
+    let mut is_left_out = vec![false; structure.g.rows];
+    rows.iter().for_each(|row| is_left_out[*row] = true);
+    let place: Vec<Option<usize>> = is_left_out
+        .iter()
+        .scan(0, |next, is_left_out| {
+            let place = (!is_left_out).then_some(*next);
+            *next += usize::from(place.is_some());
+            Some(place)
+        })
+        .collect();
+    let kept = structure.g.entries.iter().zip(&terms.g);
+    let kept = kept.filter_map(|(&(row, column), value)| Some(((place[row]?, column), *value)));
+    let (entries, values): (Vec<_>, Vec<_>) = kept.unzip();
+    let g = Pattern { rows: structure.g.rows - rows.len(), cols: structure.g.cols, entries };
+    condition_number(&structure.mass, &terms.mass, &g, &values)
+}
+
+fn owner(groups: &[Group], row: usize) -> String {
+    groups.iter().find(|group| group.rows.contains(&row)).map_or(String::new(), |group| group.name.clone())
+}
+
+fn redundant(name: &str, joint: String, others: impl Iterator<Item = String>) -> Redundant {
+    let mut follows_from: Vec<String> = others.filter(|other| *other != joint).collect();
+    follows_from.dedup();
+    follows_from.sort();
+    follows_from.dedup();
+    let row = name.rsplit('.').next().unwrap_or_default().to_string();
+    Redundant { joint, row, follows_from }
+}
+
+fn mass_range(structure: &Structure, terms: &Terms) -> [f64; 2] {
+    let entries = structure.mass.entries.iter().zip(&terms.mass);
+    let diagonal = entries.filter(|((i, j), _)| i == j).map(|(_, mass)| *mass);
+    let range = diagonal.fold([f64::INFINITY, 0.0], |[low, high], mass| [mass.min(low), mass.max(high)]);
+    if range[0].is_finite() { range } else { [0.0, 0.0] }
+}
+
+/// The rows of G that depend on others at a state near the given one, in a direction that the constraints allow and that
+/// has nothing special.
+pub fn dependent_nearby(system: &dyn MechanicalSystem, t: f64, q: &[f64]) -> Vec<usize> {
+    let mut dynamics = Dynamics::new(system);
+    let n = system.dimensions();
+    let (rest, mut step, mut rate) = (vec![0.0; n.v], vec![0.0; n.v], vec![0.0; n.q]);
+    let mut aside = q.to_vec();
+    step.iter_mut().enumerate().for_each(|(i, x)| *x = (1.0 + 0.7 * i as f64 * (i as f64 + 3.0)).sin());
+    dynamics.evaluate(t, q, &rest, Need::MASS | Need::CONSTRAINTS | Need::G);
+    // [M G^T; G 0] [d; .] = [r; 0]: an arbitrary force moves the mechanism as it can.
+    if dynamics.factor().is_err() || dynamics.kkt.solve(&mut step, &mut vec![0.0; n.lambda]).is_err() {
+        return Vec::new();
+    }
+    let size = largest(&step).max(f64::MIN_POSITIVE);
+    step.iter_mut().for_each(|x| *x *= tolerances::STATE_BESIDE / size);
+    for sweep in 0..=tolerances::STATE_BESIDE_SWEEPS {
+        system.rate(&aside, &step, &mut rate);
+        let sign = if sweep == 0 { 1.0 } else { -1.0 };
+        aside.iter_mut().zip(&rate).for_each(|(q, rate)| *q += sign * rate);
+        system.normalize(&mut aside);
+        dynamics.evaluate(t, &aside, &rest, Need::MASS | Need::CONSTRAINTS | Need::G);
+        if dynamics.factor().is_err() || dynamics.kkt.solve_projection(&dynamics.terms.phi, &mut step).is_err() {
+            return Vec::new();
+        }
+    }
+    dynamics.dependent_rows(t, &aside, &rest).0
+}

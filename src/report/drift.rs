@@ -1,0 +1,76 @@
+//! What `drift` says, its table and its figure.
+
+use super::{Table, cell, envelope, table};
+use crate::analysis::Drift;
+use crate::compare::StabilizedRun;
+use crate::error::{Result, clock};
+use crate::plot::{AxisSpec, Figure, Panel, Series};
+use crate::simulate::Method;
+use crate::study::Study;
+
+/// One row a stabilization, and what failed.
+pub fn drift_text(study: &Study, rows: &[StabilizedRun]) -> String {
+    let Method { integrator, rtol, atol, step, .. } = &study.method;
+    let accuracy = match step {
+        Some(step) => format!("step {} s", clock(*step)),
+        None => format!("rtol {rtol:e}, atol {atol:e}"),
+    };
+    let mut table =
+        Table::new(&["", "max |φ|", "max |φ′|", "final |φ|", "final |φ′|", "energy error", "steps", "rhs", "ms"]);
+    for row in rows {
+        let Drift { position, velocity, .. } = &row.drift;
+        let drift = [position.max, velocity.max, position.last, velocity.last].map(|value| format!("{value:.2e}"));
+        let energy = row.energy.map_or("-".to_string(), |energy| format!("{:.2e}", energy.max_error));
+        let work = [row.steps.to_string(), row.rhs_evaluations.to_string(), format!("{:.2}", 1e3 * row.wall_seconds)];
+        table.row([row.method.clone()].into_iter().chain(drift).chain([energy]).chain(work));
+    }
+    let because = study.chosen_because.as_ref().map_or(String::new(), |because| format!("  auto: {because}\n"));
+    let text = format!("{}: drift with {integrator}, {accuracy}\n{because}\n{table}", study.name);
+    let failures = rows.iter().filter_map(|row| Some((&row.method, row.failure.as_ref()?)));
+    let lines =
+        failures.map(|(method, failure)| format!("\n  {method} FAILED at t = {:.4e} s: {}", failure.t, failure.reason));
+    let left = rows.iter().filter_map(|row| Some((&row.method, row.record.singularity.left()?)));
+    let jumps = left.map(|(method, at)| {
+        let t = at.t;
+        format!("\n  {method} left its branch: its velocity jumped at the singular state of t = {t:.6} s")
+    });
+    let lines: String = lines.chain(jumps).collect();
+    text + &lines + if lines.is_empty() { "" } else { "\n" }
+}
+
+/// `t`, then |phi| and |phi'| of every method; empty where a run had ended.
+pub fn stabilizations_table(rows: &[StabilizedRun]) -> Result<Vec<u8>> {
+    let names = rows.iter().flat_map(|row| [format!("position {}", row.method), format!("velocity {}", row.method)]);
+    let longest = rows.iter().map(|row| row.record.drift_rows.len()).max().unwrap_or(0);
+    let line = |i: usize| {
+        let t = rows.iter().find_map(|row| row.record.trajectory.times().nth(i)).unwrap_or(0.0);
+        let levels = rows.iter().flat_map(|row| match row.record.drift_rows.get(i) {
+            Some([position, velocity, _]) => [cell(*position), cell(*velocity)],
+            None => [String::new(), String::new()],
+        });
+        [cell(t)].into_iter().chain(levels).collect()
+    };
+    table(["t".to_string()].into_iter().chain(names), (0..longest).map(line))
+}
+
+/// Points of a curve, each the largest drift of its window.
+const WINDOWS: usize = 60;
+
+/// The method, short enough for a legend.
+fn legend(method: &str) -> String {
+    method.replace("alpha", "α").replace("beta", "β").replace("gamma", "γ").replace(':', " ").replace(',', ", ")
+}
+
+/// Drift of positions and of velocities over time, a curve for each stabilization.
+pub fn stabilizations_figure(name: &str, rows: &[StabilizedRun]) -> Option<Figure> {
+    let panel = |level: usize, label: &str| {
+        rows.iter().fold(Panel::new("time (s)", AxisSpec::from(label).log()), |panel, row| {
+            let times = row.record.trajectory.times();
+            let points = times.zip(&row.record.drift_rows).map(|(t, levels)| (t, levels[level]));
+            let curve = envelope(points, row.record.drift_rows.len(), WINDOWS);
+            panel.series(Series::line(legend(&row.method), curve))
+        })
+    };
+    let figure = Figure::new().title(format!("{name}: drift under every stabilization"));
+    Some(figure.panel(panel(0, "position drift |φ| (m, rad)")).panel(panel(1, "velocity drift |φ′| (m/s, rad/s)")))
+}
