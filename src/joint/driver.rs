@@ -1,7 +1,7 @@
 //! Driver: a relative coordinate prescribed as a function of time.
 
 use super::lock::{Lock, NONE, direction};
-use super::{Built, JointKernel, JointSpec, Shape};
+use super::{Axis, Built, JointKernel, JointSpec};
 use crate::body::{Build, Frame, dot, in_space, sub};
 use crate::error::{Error, Result};
 use crate::math::expression::{Expression, Number};
@@ -75,15 +75,15 @@ impl<const D: usize> JointKernel<D> for Drive<D> {
         true
     }
 
-    fn shape(&self, first: &Frame<f64, D>) -> Shape {
-        let axis = |i: usize| Shape::Axis(in_space(&first.axes[i]));
+    fn joint_axis(&self, first: &Frame<f64, D>) -> Option<Axis> {
+        let along = |i: usize| Some(Axis::Along(in_space(&first.axes[i])));
         match self.coordinate {
-            Coordinate::X => axis(0),
-            Coordinate::Y => axis(1),
-            Coordinate::Z => axis(D - 1),
-            Coordinate::Distance => Shape::Plain,
-            Coordinate::Angle if D == 2 => Shape::Turn([0.0, 0.0, 1.0]),
-            Coordinate::Angle => Shape::Turn(in_space(&self.axes.axis(first, 2))),
+            Coordinate::X => along(0),
+            Coordinate::Y => along(1),
+            Coordinate::Z => along(D - 1),
+            Coordinate::Distance => None,
+            Coordinate::Angle if D == 2 => Some(Axis::Turn([0.0, 0.0, 1.0])),
+            Coordinate::Angle => Some(Axis::Turn(in_space(&self.axes.axis(first, 2)))),
         }
     }
 

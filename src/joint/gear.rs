@@ -2,7 +2,7 @@
 
 use super::driver::relative_turn;
 use super::lock::{Lock, NONE};
-use super::{Built, JointKernel, JointSpec, Shape};
+use super::{Built, JointKernel, JointSpec};
 use crate::body::{Build, Frame, Turned};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
@@ -63,10 +63,6 @@ struct Pair {
 impl<const D: usize> JointKernel<D> for Pair {
     fn row_names(&self) -> Vec<&'static str> {
         vec!["angle"]
-    }
-
-    fn shape(&self, _first: &Frame<f64, D>) -> Shape {
-        Shape::Teeth(self.teeth)
     }
 
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]) {

@@ -1,6 +1,6 @@
 //! The kernel behind most joints: some relative translations and rotations of two frames are locked.
 
-use super::{Built, JointKernel, Shape};
+use super::{Axis, Built, JointKernel};
 use crate::body::{Build, Frame, dot, in_space, sub, unit_axes};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
@@ -73,13 +73,13 @@ impl<const D: usize> JointKernel<D> for Lock<D> {
         self.translation.iter().map(|&i| TRANSLATIONS[i]).chain(rotations).collect()
     }
 
-    fn shape(&self, first: &Frame<f64, D>) -> Shape {
+    fn joint_axis(&self, first: &Frame<f64, D>) -> Option<Axis> {
         match (D, self.translation.len()) {
             // A hinge in the plane has its axis out of it; balls and crosses have none.
-            (2, 2) => Shape::Plain,
-            (3, 3) if self.rotation.len() < 2 => Shape::Plain,
-            (2, _) => Shape::Axis(in_space(&self.axis(first, 0))),
-            _ => Shape::Axis(in_space(&self.axis(first, 2))),
+            (2, 2) => None,
+            (3, 3) if self.rotation.len() < 2 => None,
+            (2, _) => Some(Axis::Along(in_space(&self.axis(first, 0)))),
+            _ => Some(Axis::Along(in_space(&self.axis(first, 2)))),
         }
     }
 

@@ -30,16 +30,13 @@ use std::array::from_fn;
 /// So many rows a joint may have.
 pub const MOST_ROWS: usize = 6;
 
-/// What a drawing shows of a joint beside its kind and markers; directions are in the world.
+/// The axis of a joint, a direction in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shape {
-    Plain,
-    /// Something slides along this direction through the first marker, or turns about it.
-    Axis([f64; 3]),
-    /// Something is turned about this direction.
+pub enum Axis {
+    /// The second marker slides along it through the first, or turns freely about it.
+    Along([f64; 3]),
+    /// The joint says how far the second marker is turned about it.
     Turn([f64; 3]),
-    /// Numbers of teeth of two wheels.
-    Teeth([f64; 2]),
 }
 
 /// A joint's equations, written once over any scalar.
@@ -50,9 +47,9 @@ pub trait JointKernel<const D: usize>: Send + Sync + 'static {
     fn depends_on_time(&self) -> bool {
         false
     }
-    /// What a drawing shows of it, with its first marker at `first`.
-    fn shape(&self, _first: &Frame<f64, D>) -> Shape {
-        Shape::Plain
+    /// Its axis with the first marker at `first`, if it has one.
+    fn joint_axis(&self, _first: &Frame<f64, D>) -> Option<Axis> {
+        None
     }
     /// One value a row at the frames of the joint's markers.
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]);
@@ -73,7 +70,7 @@ pub trait JointOver<S: Scalar, const D: usize> {
 pub trait Joint<const D: usize>: JointOver<f64, D> + JointOver<Slope, D> + Send + Sync {
     fn row_names(&self) -> Vec<&'static str>;
     fn depends_on_time(&self) -> bool;
-    fn shape(&self, first: &Frame<f64, D>) -> Shape;
+    fn joint_axis(&self, first: &Frame<f64, D>) -> Option<Axis>;
     fn switching(&self, frames: &[Frame<Rate, D>], time: Time<Rate>, out: &mut [Rate]);
 }
 
@@ -116,8 +113,8 @@ impl<K: JointKernel<D>, const D: usize> Joint<D> for K {
     fn depends_on_time(&self) -> bool {
         JointKernel::depends_on_time(self)
     }
-    fn shape(&self, first: &Frame<f64, D>) -> Shape {
-        JointKernel::shape(self, first)
+    fn joint_axis(&self, first: &Frame<f64, D>) -> Option<Axis> {
+        JointKernel::joint_axis(self, first)
     }
     fn switching(&self, frames: &[Frame<Rate, D>], time: Time<Rate>, out: &mut [Rate]) {
         JointKernel::switching(self, frames, time, out);

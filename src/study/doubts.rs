@@ -4,7 +4,7 @@ use super::AnyMechanism;
 use crate::body::dot;
 use crate::error::{Error, Warning, short};
 use crate::initial::{Assembly, Move};
-use crate::joint::{Joint, Shape};
+use crate::joint::{Axis, Joint};
 use crate::scene::Connection;
 use crate::system::{MechanicalSystem, Mechanism, Scratch};
 use crate::tolerances::report as tolerances;
@@ -59,10 +59,10 @@ fn turned_over(mechanism: &Mechanism<3>, guess: &[f64], q: &[f64]) -> Vec<Warnin
     let cosines = |q: &[f64]| {
         let frames = mechanism.frames(q, &still, &mut Scratch::default());
         let cosine = |joint: &Connection<Box<dyn Joint<3>>>| {
-            let axis = |k: usize| joint.element.shape(&frames[joint.markers[k]].map(|x| x.x));
+            let axis = |k: usize| joint.element.joint_axis(&frames[joint.markers[k]].map(|x| x.x));
             let rows = joint.element.row_names();
             match ["rx", "ry"].iter().all(|row| rows.contains(row)).then(|| [axis(0), axis(1)]) {
-                Some([Shape::Axis(a), Shape::Axis(b)]) => dot(&a, &b),
+                Some([Some(Axis::Along(a)), Some(Axis::Along(b))]) => dot(&a, &b),
                 _ => 1.0,
             }
         };

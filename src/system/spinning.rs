@@ -3,7 +3,7 @@
 use super::mechanism::Mechanism;
 use super::spin::{Placement, Spin};
 use crate::body::{Frame, MarkerId, in_space};
-use crate::joint::{Joint, Shape};
+use crate::joint::{Axis, Joint};
 use crate::math::{Regime, Taylor, Time};
 use crate::scene::{Connection, Part};
 use crate::tolerances::body as tolerances;
@@ -56,8 +56,8 @@ impl<const D: usize> Mechanism<D> {
             _ => return None,
         };
         let frame = self.fixed(ground);
-        match joint.element.shape(&frame) {
-            Shape::Turn(axis) => Some(Spin { velocity: axis.map(|x| speed * x), point: in_space(&frame.r) }),
+        match joint.element.joint_axis(&frame) {
+            Some(Axis::Turn(axis)) => Some(Spin { velocity: axis.map(|x| speed * x), point: in_space(&frame.r) }),
             _ => None,
         }
     }

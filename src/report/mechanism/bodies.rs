@@ -3,7 +3,7 @@
 use super::hull::{hull, rounded};
 use super::pen::{BOLD, Layer, Pen, THIN};
 use super::snapshot::{Limb, Pose};
-use super::view::{along, cross, direction, dot, length, less};
+use super::view::{along, dot, length, less, straight};
 use crate::plot::{Spot, Tint};
 
 /// From the markers to the outline of a body, pixels.
@@ -119,15 +119,6 @@ fn spin(pen: &mut Pen, limb: &Limb, color: usize) {
     let spoke = vec![pen.spot(limb.centre.r), ring[0]];
     pen.line(ring, tint, THIN);
     pen.line(spoke, tint, THIN);
-}
-
-/// The direction of points on a line.
-pub fn straight(points: &[[f64; 3]]) -> Option<[f64; 3]> {
-    let from = *points.first()?;
-    let far = points.iter().copied().max_by(|a, b| length(less(*a, from)).total_cmp(&length(less(*b, from))))?;
-    let axis = direction(less(far, from))?;
-    let off = points.iter().map(|point| length(cross(axis, less(*point, from)))).fold(0.0, f64::max);
-    (off < 1e-6 * length(less(far, from))).then_some(axis)
 }
 
 /// A circle with two dark quarters at the centre of mass, and a stalk to the body's middle where it lies outside.

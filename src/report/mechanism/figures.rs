@@ -8,7 +8,7 @@ use super::traces::{Trace, curves};
 use super::view::{View, direction, dot, length, less, unit};
 use super::{bodies, glyphs, ground};
 use crate::error::significant;
-use crate::joint::Shape;
+use crate::joint::Axis;
 use crate::plot::{Align, Animation, Figure, Item, Panel, Place, Series, Spot, Tint};
 use crate::study::{AnyMechanism, Study};
 
@@ -226,8 +226,8 @@ const SAMPLES: usize = 300;
 fn course(motion: &Motion) -> Course {
     let mechanism = &motion.study.mechanism;
     let slides = |link: &Link| ["prismatic", "cylindrical", "point_on_line"].contains(&link.kind);
-    let place = |link: &Link| match link.shape {
-        Shape::Axis(axis) if slides(link) => Some(dot(direction(axis)?, less(link.ends[1].r, link.ends[0].r))),
+    let place = |link: &Link| match link.axis {
+        Some(Axis::Along(axis)) if slides(link) => Some(dot(direction(axis)?, less(link.ends[1].r, link.ends[0].r))),
         _ => None,
     };
     let first = snapshot(mechanism, &motion.state(motion.reach().0));

@@ -1,9 +1,8 @@
 //! Glyphs of forces.
 
-use super::glyphs::Sight;
 use super::joints::turn;
 use super::pen::{BOLD, Layer, Pen, THIN};
-use super::snapshot::Link;
+use super::snapshot::{Link, Sight};
 use super::view::{along, cross, direction, dot, less, unit};
 use crate::plot::{Spot, Tint};
 use std::f64::consts::TAU;

@@ -1,17 +1,8 @@
 //! Which sign stands for which kind of joint or force: the only place that knows.
 
 use super::pen::{Layer, Pen};
-use super::snapshot::{Link, Snapshot};
+use super::snapshot::{Link, Sight, Snapshot};
 use super::{bodies, forces, joints};
-
-/// What a sign has to know of the whole.
-pub struct Sight {
-    pub is_planar: bool,
-    /// From where to where a slide goes along its axis during the motion, m.
-    pub travel: Option<(f64, f64)>,
-    /// Between the first two markers at the start, m.
-    pub length: f64,
-}
 
 /// What the whole motion says of the joints and forces, in their order.
 #[derive(Clone, Debug, Default)]

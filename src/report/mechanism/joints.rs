@@ -1,10 +1,9 @@
 //! Glyphs of joints.
 
-use super::glyphs::Sight;
 use super::pen::{BOLD, Layer, Pen, THIN};
-use super::snapshot::{Link, Pose};
+use super::snapshot::{Link, Pose, Sight};
 use super::view::{along, cross, direction, dot, length, less};
-use crate::joint::Shape;
+use crate::joint::Axis;
 use crate::plot::Tint;
 use std::f64::consts::{PI, TAU};
 
@@ -15,10 +14,8 @@ const RAIL: f64 = 9.0;
 const REACH: f64 = 16.0;
 
 fn axis(link: &Link) -> Option<[f64; 3]> {
-    match link.shape {
-        Shape::Axis(axis) | Shape::Turn(axis) => direction(axis),
-        _ => None,
-    }
+    let (Axis::Along(axis) | Axis::Turn(axis)) = link.axis?;
+    direction(axis)
 }
 
 /// A circle, in space with its axis.
@@ -132,15 +129,15 @@ pub fn distance(pen: &mut Pen, link: &Link, _: &Sight) {
 pub fn driver(pen: &mut Pen, link: &Link, _: &Sight) {
     let (at, ink) = (link.ends[1].r, pen.ink(0.1));
     pen.layer = Layer::Arrow;
-    match link.shape {
-        Shape::Turn(axis) => turn(pen, at, axis, 17.0, ink),
-        Shape::Axis(axis) => {
+    match link.axis {
+        Some(Axis::Turn(axis)) => turn(pen, at, axis, 17.0, ink),
+        Some(Axis::Along(axis)) => {
             let step = |size: f64| pen.beside((at, axis.map(|x| x * size)));
             let both = [step(-26.0), step(26.0)];
             pen.arrow(vec![both[0], both[1]], ink, BOLD);
             pen.arrow(vec![both[1], both[0]], ink, BOLD);
         }
-        _ => {
+        None => {
             let spots = vec![pen.spot(link.ends[0].r), pen.spot(at)];
             pen.dashes(spots, ink, BOLD);
             let way = direction(less(at, link.ends[0].r)).unwrap_or([0.0; 3]);
@@ -160,13 +157,14 @@ pub fn turn(pen: &mut Pen, at: [f64; 3], axis: [f64; 3], radius: f64, ink: Tint)
 
 /// The pitch circles of two wheels, each with a spoke that turns with it.
 pub fn gear(pen: &mut Pen, link: &Link, _: &Sight) {
-    let Shape::Teeth(teeth) = link.shape else { return };
+    // As the numbers of teeth.
+    let [turn_a, turn_b, ..] = link.turns[..] else { return };
     let [a, b] = [&link.ends[0], &link.ends[1]];
-    let [za, zb] = teeth.map(f64::abs);
+    let [za, zb] = [turn_a.abs(), turn_b.abs()];
     let gap = less(b.r, a.r);
     // Both circles meet: the gap is made of the two radii, which are as the numbers of teeth.
     let out = |axis: [f64; 3], way: [f64; 3]| direction(along(way, axis, -dot(axis, way))).unwrap_or([0.0; 3]);
-    let inner = if teeth[0] * teeth[1] < 0.0 { -1.0 } else { 1.0 };
+    let inner = if turn_a * turn_b < 0.0 { -1.0 } else { 1.0 };
     let towards = less(out(a.axes[2], gap).map(|x| za * x), out(b.axes[2], gap.map(|x| -x)).map(|x| inner * zb * x));
     let module = dot(gap, towards) / dot(towards, towards);
     if !module.is_finite() || length(gap) == 0.0 {

@@ -1,11 +1,10 @@
 //! What is where at one time: bodies, joints and forces of a planar or spatial scene alike, all in space.
 
-use super::bodies::straight;
 use super::motion::State;
-use super::view::{along, cross, direction, dot, length, less};
-use crate::body::{Bent, Frame, Marker, Wrench, in_space};
+use super::view::{along, cross, direction, dot, length, less, straight};
+use crate::body::{Bent, Frame, Marker, Wrench, in_space, twist_len};
 use crate::force::Wheel;
-use crate::joint::Shape;
+use crate::joint::{Axis, Joint, JointOver, MOST_ROWS, markers_per_pass};
 use crate::math::{Regime, Taylor, Time};
 use crate::scene::{BeamLine, Connection, Model, Part};
 use crate::study::AnyMechanism;
@@ -44,12 +43,23 @@ pub struct Link {
     pub ends: Vec<Pose>,
     pub carriers: Vec<Option<usize>>,
     /// Of a joint.
-    pub shape: Shape,
+    pub axis: Option<Axis>,
+    /// How much the first row of a joint grows with a turn of each marker about its z axis.
+    pub turns: Vec<f64>,
     /// Of a tyre.
     pub wheel: Option<Wheel>,
     /// What a force does at its first marker, N and N m.
     pub force: [f64; 3],
     pub torque: [f64; 3],
+}
+
+/// What a sign has to know of the whole.
+pub struct Sight {
+    pub is_planar: bool,
+    /// From where to where a slide goes along its axis during the motion, m.
+    pub travel: Option<(f64, f64)>,
+    /// Between the first two markers at the start, m.
+    pub length: f64,
 }
 
 /// A scene at one time.
@@ -105,15 +115,15 @@ fn of<const D: usize>(mechanism: &Mechanism<D>, state: &State) -> Snapshot {
     let (model, frames) = (mechanism.model(), frames(mechanism, state));
     let poses: Vec<Pose> = frames.iter().map(pose).collect();
     let used = used(model);
+    let time = Time { t: Taylor::time(state.t), regime: Regime::FREE.turned(mechanism.turned(&state.q)) };
     let joints = model.joints.iter().map(|joint| {
-        let shape =
-            joint.markers.first().map_or(Shape::Plain, |first| joint.element.shape(&frames[*first].map(|x| x.x)));
-        Link { shape, ..link(model, joint, &poses) }
+        let own: Vec<_> = joint.markers.iter().map(|marker| frames[*marker]).collect();
+        let axis = own.first().and_then(|first| joint.element.joint_axis(&first.map(|x| x.x)));
+        Link { axis, turns: turns(&*joint.element, &own, time.map(|t| t.x)), ..link(model, joint, &poses) }
     });
     let forces = model.given_forces().iter().map(|force| {
         let own: Vec<_> = force.markers.iter().map(|marker| frames[*marker]).collect();
         let mut wrenches = vec![Wrench::<f64, D>::zero(); own.len()];
-        let time = Time { t: Taylor::time(state.t), regime: Regime::FREE.turned(mechanism.turned(&state.q)) };
         force.element.act(&own, time, &mut wrenches);
         let Wrench { force: push, torque } = wrenches.first().copied().unwrap_or(Wrench::zero());
         let wheel = force.element.wheel(state.t);
@@ -126,6 +136,22 @@ fn of<const D: usize>(mechanism: &Mechanism<D>, state: &State) -> Snapshot {
     model.beams.iter().for_each(|beam| join(beam, &mut limbs, |body| frames[model.bodies[body].first_marker]));
     limbs.iter_mut().enumerate().for_each(|(i, limb)| limb.may_spin = D == 3 && may_spin(limb, i, &joints));
     Snapshot { is_planar: D == 2, limbs, joints, forces: forces.collect(), markers: poses }
+}
+
+/// See [`Link::turns`].
+fn turns<const D: usize>(joint: &dyn Joint<D>, frames: &[Frame<Taylor<f64>, D>], time: Time<f64>) -> Vec<f64> {
+    let mut rows = [[0.0; 6]; MOST_ROWS];
+    let rows = &mut rows[..joint.row_names().len()];
+    let turn = |(i, frame): (usize, &Frame<Taylor<f64>, D>)| {
+        JointOver::<f64, D>::gradient(joint, frames, time, i / markers_per_pass(D), rows);
+        let row = rows.first().copied().unwrap_or_default();
+        match &row[i % markers_per_pass(D) * twist_len(D)..] {
+            [_, _, _, x, y, z, ..] if D == 3 => dot([*x, *y, *z], pose(frame).axes[2]),
+            [_, _, turn, ..] => *turn,
+            _ => 0.0,
+        }
+    };
+    frames.iter().enumerate().map(turn).collect()
 }
 
 /// Which markers a joint or force holds.
@@ -142,7 +168,8 @@ fn link<E, const D: usize>(model: &Model<D>, connection: &Connection<E>, poses: 
         kind: connection.kind,
         ends: connection.markers.iter().map(|marker| poses[*marker]).collect(),
         carriers: connection.markers.iter().map(|marker| model.markers.bodies[*marker]).collect(),
-        shape: Shape::Plain,
+        axis: None,
+        turns: Vec::new(),
         wheel: None,
         force: [0.0; 3],
         torque: [0.0; 3],
@@ -153,8 +180,8 @@ fn link<E, const D: usize>(model: &Model<D>, connection: &Connection<E>, poses: 
 fn may_spin(limb: &Limb, body: usize, joints: &[Link]) -> bool {
     let Some(line) = straight(&limb.points) else { return false };
     let mut own = joints.iter().filter(|joint| joint.carriers.contains(&Some(body)));
-    own.all(|joint| match joint.shape {
-        Shape::Axis(axis) => length(cross(line, axis)) < 1e-3 * length(axis),
+    own.all(|joint| match joint.axis {
+        Some(Axis::Along(axis)) => length(cross(line, axis)) < 1e-3 * length(axis),
         _ => true,
     })
 }

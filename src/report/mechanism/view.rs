@@ -136,6 +136,15 @@ pub fn square_to(axis: [f64; 3], hint: [f64; 3]) -> [[f64; 3]; 2] {
     [first, cross(axis, first)]
 }
 
+/// The direction of points on a line.
+pub fn straight(points: &[[f64; 3]]) -> Option<[f64; 3]> {
+    let from = *points.first()?;
+    let far = points.iter().copied().max_by(|a, b| length(less(*a, from)).total_cmp(&length(less(*b, from))))?;
+    let axis = direction(less(far, from))?;
+    let off = points.iter().map(|point| length(cross(axis, less(*point, from)))).fold(0.0, f64::max);
+    (off < 1e-6 * length(less(far, from))).then_some(axis)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
