@@ -49,7 +49,7 @@
 //! | [`analysis`] | what is seen of a state or of one run: rank and redundancy, singular states, drift, energy | |
 //! | [`linearize`] | linear models at a state, by every method; state-transition matrix, loci | a file and a line in [`linearize::registry`] |
 //! | [`validate`] | linear models against perturbed simulations | |
-//! | [`compare`] | many simulations of one scene: drift under stabilizations, speed for accuracy ([`compare::work_precision`]), maps over stress parameters ([`compare::stress`]) | a stress parameter: a file and a line in [`compare::stress::registry`] |
+//! | [`compare`] | many simulations of one scene: drift under stabilizations, speed for accuracy ([`compare::work_precision`]), maps over stress parameters ([`compare::stress`]) | a stress parameter: an entry in [`compare::stress::registry`] |
 //! | [`tolerances`] | every threshold, with what it decides, its unit, reason and test | |
 //! | [`plot`], [`report`], [`cli`] | figures, files and text, the command line | one file a subcommand |
 //!

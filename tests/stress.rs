@@ -4,8 +4,8 @@ use crate::common::equations::robot_arm::{RobotArm, START};
 use crate::common::{fixed, until};
 use holonom::choice::Choice;
 use holonom::compare::stress::{
-    Axis, Cell, Change, Entry, Extreme, Level, Limits, Map, Quantity, Status, StepVerdict, Stressed, Subject, find,
-    maps, pair, stress,
+    Axis, Cell, Change, Entry, Level, Limits, Map, Quantity, Status, StepVerdict, StressParameter, Stressed, Subject,
+    find, maps, pair, stress,
 };
 use holonom::study::Overrides;
 use std::path::Path;
@@ -15,7 +15,7 @@ fn limits(seconds: f64) -> Limits {
     Limits { cell: Duration::from_secs_f64(seconds), end: Instant::now() + Duration::from_secs(120) }
 }
 
-fn extreme(name: &str) -> &'static Extreme {
+fn parameter(name: &str) -> &'static StressParameter {
     find(name).unwrap()
 }
 
@@ -47,7 +47,7 @@ fn the_verdict_on_baumgarte_in_numbers() {
         row("index1", "manifold"),
     ];
     let y = Axis { name: "method".into(), unit: String::new(), entries: rows };
-    let x = Axis::of(extreme("step"), vec![0.01, 0.005, 0.001]);
+    let x = Axis::of(parameter("step"), vec![0.01, 0.005, 0.001]);
     let integrator = |name: &str| Entry::named(name, vec![Change::Integrator(Choice::named(name))]);
     let methods = ["heun", "rk4"].map(integrator).to_vec();
     let map = Map { methods, ..pair(&subject, x, y, Quantity::Velocity) };
@@ -76,7 +76,7 @@ fn the_verdict_on_baumgarte_of_the_scene() {
     let subject = scene("robot_arm", Overrides::default());
     let mut map = named(&subject, "gain");
     let steps = vec![0.001, 0.002, 0.005, 0.01, 0.02, 0.05];
-    map.x = Axis::of(extreme("step"), steps);
+    map.x = Axis::of(parameter("step"), steps);
     let stressed = stress(&subject, map, limits(20.0), &|| {});
     let gains = stressed.gains();
     let verdict = |method: &str, quantity: Quantity| {
@@ -151,14 +151,14 @@ fn maps_are_repeatable() {
 fn light_bodies_do_not_hang_the_recorder() {
     let subject = scene("robot_arm", Overrides { rtol: Some(1e-8), atol: Some(1e-8), ..Overrides::default() });
     let [x, y] = [("mass_ratio", vec![1e-8, 1.0]), ("tolerance", vec![1e-8])]
-        .map(|(name, values)| Axis::of(extreme(name), values));
+        .map(|(name, values)| Axis::of(parameter(name), values));
     let stressed = stress(&subject, pair(&subject, x, y, Quantity::Velocity), limits(2.0), &|| {});
     assert!(all(&stressed, |cell| cell.seconds < 5.0), "{:?}", stressed.cells);
     assert_eq!(stressed.cells[1].status, Status::Completed);
 }
 
 #[test]
-fn every_extreme_changes_some_scene() {
+fn every_stress_parameter_changes_some_scene() {
     for (name, model, values) in [
         ("mass_ratio", "four_bar_spring", [1e-2, 1e2]),
         ("stiffness", "four_bar_spring", [1.0, 1e3]),
@@ -178,16 +178,16 @@ fn every_extreme_changes_some_scene() {
         let overrides =
             Overrides { until, integrator: dopri5, projection: Some(Choice::named("none")), ..Overrides::default() };
         let subject = scene(model, overrides);
-        assert!((extreme(name).suits)(&subject), "{name} {model}");
-        let y = Axis::of(extreme("tolerance"), vec![1e-7]);
+        assert!((parameter(name).suits)(&subject), "{name} {model}");
+        let y = Axis::of(parameter("tolerance"), vec![1e-7]);
         let map = match name {
             "tolerance" => pair(
                 &subject,
-                Axis::of(extreme(name), values.to_vec()),
-                Axis::of(extreme("time"), vec![2.0]),
+                Axis::of(parameter(name), values.to_vec()),
+                Axis::of(parameter("time"), vec![2.0]),
                 Quantity::Velocity,
             ),
-            _ => pair(&subject, Axis::of(extreme(name), values.to_vec()), y, Quantity::Velocity),
+            _ => pair(&subject, Axis::of(parameter(name), values.to_vec()), y, Quantity::Velocity),
         };
         let stressed = stress(&subject, map, limits(20.0), &|| {});
         let [a, b] = &stressed.cells[..] else { panic!("two cells") };

@@ -1,7 +1,7 @@
 //! What sets a cell apart from the scene as it is.
 
 use super::case::Case;
-use super::extreme::Extreme;
+use super::parameters::{StressParameter, baumgarte};
 use crate::choice::Choice;
 use crate::error::Result;
 use crate::integrator::{Steps, find};
@@ -9,7 +9,7 @@ use crate::integrator::{Steps, find};
 /// One thing that a place in a map changes.
 #[derive(Clone)]
 pub enum Change {
-    Extreme(&'static Extreme, f64),
+    StressParameter(&'static StressParameter, f64),
     /// A parameter of the scene.
     Parameter(String, f64),
     Integrator(Choice),
@@ -28,7 +28,7 @@ impl Change {
         let typical_step = case.typical.step;
         let method = &mut case.method;
         match self {
-            Change::Extreme(extreme, value) => return (extreme.apply)(case, *value),
+            Change::StressParameter(parameter, value) => return (parameter.apply)(case, *value),
             Change::Parameter(name, value) => case.set.push((name.clone(), *value)),
             Change::Integrator(integrator) => {
                 let is_fixed = find(integrator)?.steps == Steps::Fixed;
@@ -49,16 +49,9 @@ impl Change {
     /// Whether the motion that is to be computed stays the same.
     pub fn keeps_motion(&self) -> bool {
         match self {
-            Change::Extreme(extreme, _) => extreme.keeps_motion,
+            Change::StressParameter(parameter, _) => parameter.keeps_motion,
             Change::Parameter(..) => false,
             _ => true,
         }
     }
-}
-
-/// Baumgarte's stabilization with alpha = beta = `gain`: phi'' + 2 gain phi' + gain^2 phi = 0.
-pub(super) fn baumgarte(gain: f64) -> Choice {
-    let gain = gain.to_string();
-    let options = ["alpha", "beta"].map(|key| (key.to_string(), gain.clone()));
-    options.iter().fold(Choice::named("baumgarte"), |choice, (key, value)| choice.with(key, value))
 }

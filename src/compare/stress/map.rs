@@ -1,8 +1,8 @@
-//! Two extremes at a time, and the methods that are compared on them.
+//! Two stress parameters at a time, and the methods that are compared on them.
 
 use super::cell::Quantity;
 use super::change::Change;
-use super::extreme::{Extreme, find};
+use super::parameters::{StressParameter, find, registry};
 use super::subject::Subject;
 use crate::error::{Error, Result, short, suggest};
 use crate::sweep::Range;
@@ -38,9 +38,9 @@ pub struct Map {
 }
 
 impl Entry {
-    /// A value of an extreme.
-    pub fn of(extreme: &'static Extreme, value: f64) -> Self {
-        Entry { label: short(value), value: Some(value), changes: vec![Change::Extreme(extreme, value)] }
+    /// A value of a stress parameter.
+    pub fn of(parameter: &'static StressParameter, value: f64) -> Self {
+        Entry { label: short(value), value: Some(value), changes: vec![Change::StressParameter(parameter, value)] }
     }
 
     pub fn named(label: &str, changes: Vec<Change>) -> Self {
@@ -52,40 +52,40 @@ impl Entry {
 const COUNT: usize = 9;
 
 impl Axis {
-    pub fn of(extreme: &'static Extreme, values: Vec<f64>) -> Self {
+    pub fn of(parameter: &'static StressParameter, values: Vec<f64>) -> Self {
         Axis {
-            name: extreme.name.to_string(),
-            unit: extreme.unit.to_string(),
-            entries: values.into_iter().map(|value| Entry::of(extreme, value)).collect(),
+            name: parameter.name.to_string(),
+            unit: parameter.unit.to_string(),
+            entries: values.into_iter().map(|value| Entry::of(parameter, value)).collect(),
         }
     }
 
-    /// The extreme with the values that suit the subject.
-    pub fn usual(extreme: &'static Extreme, subject: &Subject) -> Self {
-        Axis::of(extreme, (extreme.values)(subject))
+    /// The stress parameter with the values that suit the subject.
+    pub fn usual(parameter: &'static StressParameter, subject: &Subject) -> Self {
+        Axis::of(parameter, (parameter.values)(subject))
     }
 
-    /// `EXTREME`, `EXTREME=A..B[:N][:log]` or `PARAMETER=A..B[:N][:log]`; without N nine values, of extremes with a constant
+    /// `EXTREME`, `EXTREME=A..B[:N][:log]` or `PARAMETER=A..B[:N][:log]`; without N nine values, of stress parameters with a constant
     /// factor.
     ///
     /// # Errors
-    /// A name that is neither an extreme nor a parameter of the scene, a bad range, an extreme that the scene does not have.
+    /// A name that is neither a stress parameter nor one of the scene, a bad range, a stress parameter that the scene does not have.
     pub fn parse(text: &str, subject: &Subject) -> Result<Self> {
         let name = text.split('=').next().unwrap_or_default().trim();
-        let extreme = find(name).ok();
+        let found = find(name).ok();
         let is_parameter = subject.parameters().any(|known| known == name);
-        if extreme.is_none() && !is_parameter {
-            let extremes = super::registry().iter().map(|extreme| extreme.name);
+        if found.is_none() && !is_parameter {
+            let all = registry().iter().map(|parameter| parameter.name);
             return Err(Error::input(format!("`{name}` is neither an extreme nor a parameter of the scene"))
-                .hint(suggest(name, extremes.chain(subject.parameters()))));
+                .hint(suggest(name, all.chain(subject.parameters()))));
         }
-        if let Some(extreme) = extreme.filter(|extreme| !(extreme.suits)(subject)) {
-            let error = Error::input(format!("the scene has no {name}: {}", extreme.about));
+        if let Some(parameter) = found.filter(|parameter| !(parameter.suits)(subject)) {
+            let error = Error::input(format!("the scene has no {name}: {}", parameter.about));
             return Err(error.hint("`holonom stress --list` says which extremes there are"));
         }
-        match (extreme, text.contains('=')) {
-            (Some(extreme), false) => Ok(Axis::usual(extreme, subject)),
-            (Some(extreme), true) => Ok(Axis::of(extreme, range(text, true)?.values())),
+        match (found, text.contains('=')) {
+            (Some(parameter), false) => Ok(Axis::usual(parameter, subject)),
+            (Some(parameter), true) => Ok(Axis::of(parameter, range(text, true)?.values())),
             (None, _) => Ok(Axis::parameter(&range(text, false)?)),
         }
     }

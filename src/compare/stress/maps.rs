@@ -2,8 +2,8 @@
 
 use super::cell::Quantity;
 use super::change::Change;
-use super::extreme::{Extreme, find};
 use super::map::{Axis, Entry, Map};
+use super::parameters::find;
 use super::subject::Subject;
 use crate::choice::Choice;
 use crate::error::{Error, Result, suggest};
@@ -16,9 +16,9 @@ pub struct MapEntry {
     y: &'static str,
     quantity: Quantity,
     methods: fn() -> Vec<Entry>,
-    /// Changes the axes from the usual values of their extremes.
+    /// Changes the axes from the usual values of their stress parameters.
     adapt: fn(&mut Map),
-    /// Whether it makes sense where both extremes are there.
+    /// Whether it makes sense where both stress parameters are there.
     suits: fn(&Subject) -> bool,
 }
 
@@ -124,7 +124,7 @@ pub fn known() -> &'static [MapEntry] {
 /// The maps of these names, or all that make sense for the subject.
 ///
 /// # Errors
-/// An unknown name, or a map of extremes that the scene does not have.
+/// An unknown name, or a map of stress parameters that the scene does not have.
 pub fn maps(subject: &Subject, names: &[String]) -> Result<Vec<Map>> {
     if names.is_empty() {
         return known().iter().filter(|entry| entry.suits(subject)).map(|entry| entry.map(subject)).collect();
@@ -160,8 +160,8 @@ pub fn pair(subject: &Subject, x: Axis, y: Axis, quantity: Quantity) -> Map {
     }
 }
 
-fn has(extreme: &str, subject: &Subject) -> bool {
-    find(extreme).is_ok_and(|extreme| (extreme.suits)(subject))
+fn has(parameter: &str, subject: &Subject) -> bool {
+    find(parameter).is_ok_and(|parameter| (parameter.suits)(subject))
 }
 
 impl MapEntry {
@@ -170,10 +170,7 @@ impl MapEntry {
     }
 
     fn map(&self, subject: &Subject) -> Result<Map> {
-        let axis = |name: &str| -> Result<Axis> {
-            let extreme: &'static Extreme = find(name)?;
-            Ok(Axis::usual(extreme, subject))
-        };
+        let axis = |name: &str| -> Result<Axis> { Ok(Axis::usual(find(name)?, subject)) };
         let mut map = Map {
             name: self.name.to_string(),
             about: self.about.to_string(),

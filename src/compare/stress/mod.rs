@@ -1,22 +1,21 @@
-//! Maps over extremes: what becomes of a simulation where steps, gains, masses, stiffness, tolerances, speeds, sizes or
+//! Maps over stress parameters: what becomes of a simulation where steps, gains, masses, stiffness, tolerances, speeds, sizes or
 //! times are far from what is usual.
 //!
 //! A [`Map`] is two axes and the methods that are compared on them. Each of its cells is one simulation of a [`Case`],
 //! the scene with the [`Change`]s of its place, run under a deadline. What fails is a result, what is left out is none: see
 //! [`Status`]. What completes is compared with an accurate run of the same motion.
 //!
-//! To add an extreme: a file in `extremes` and a line in [`registry`].
+//! To add a stress parameter: an entry in [`registry`].
 
 mod case;
 mod cell;
 mod change;
 mod deadline;
-mod extreme;
-mod extremes;
 mod gains;
 mod json;
 mod map;
 mod maps;
+mod parameters;
 mod queue;
 mod reference;
 mod run;
@@ -24,15 +23,14 @@ mod simulation;
 mod subject;
 mod verdict;
 
-pub use case::Case;
+pub use case::{Case, Typical};
 pub use cell::{Cell, Quantity, Status};
 pub use change::Change;
 pub use deadline::Limits;
-pub use extreme::{Extreme, find, ladder};
-pub use extremes::registry;
 pub use gains::{Best, Farther, GainVerdict, Level, Steady, StepVerdict};
 pub use map::{Axis, Entry, Map};
 pub use maps::{MapEntry, known, maps, pair};
+pub use parameters::{StressParameter, find, ladder, registry};
 pub use run::{Stressed, stress};
-pub use subject::{Subject, Typical};
+pub use subject::Subject;
 pub use verdict::{Bound, Reason, Side, Verdict};

@@ -1,6 +1,6 @@
-//! What is driven to extremes: a scene, or own equations.
+//! What a map varies: a scene, or own equations.
 
-use super::case::Case;
+use super::case::{Case, Typical};
 use crate::analysis::Recorder;
 use crate::error::{Result, Warning};
 use crate::math::expression::Number;
@@ -29,16 +29,6 @@ struct Own<'a> {
     start: f64,
     q: Vec<f64>,
     v: Vec<f64>,
-}
-
-/// Scales that values are chosen by.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Typical {
-    /// Mean step of the scene's own method, s.
-    pub step: f64,
-    /// Mean time from one upward crossing of its mean to the next, of the first output or coordinate that has two; the
-    /// duration where none has, s.
-    pub period: f64,
 }
 
 /// Output rows of a cell, and of the run that tells what is typical.
@@ -83,7 +73,7 @@ impl Subject<'static> {
 }
 
 impl<'a> Subject<'a> {
-    /// Own equations from a consistent (q, v). Extremes of scenes do not suit them.
+    /// Own equations from a consistent (q, v). Stress parameters of scenes do not suit them.
     ///
     /// # Errors
     /// As [`simulate`].

@@ -1,0 +1,326 @@
+//! The stress parameters: what a map can vary over many powers of ten.
+
+use super::case::Case;
+use super::json::{elements, faster, has, multiply, replace};
+use super::subject::Subject;
+use crate::choice::Choice;
+use crate::error::{Error, Result, suggest};
+use crate::scene::generate;
+use serde_json::Value;
+use std::sync::Arc;
+
+/// Something of a simulation that a map can vary over many powers of ten.
+pub struct StressParameter {
+    pub name: &'static str,
+    /// Empty for a ratio.
+    pub unit: &'static str,
+    pub about: &'static str,
+    /// Whether the motion that is to be computed stays the same, so that one reference serves all values.
+    pub keeps_motion: bool,
+    /// Whether the subject has it.
+    pub suits: fn(&Subject) -> bool,
+    /// Values where none are given.
+    pub values: fn(&Subject) -> Vec<f64>,
+    /// Gives the case this value.
+    pub apply: fn(&mut Case, f64) -> Result<()>,
+}
+
+/// The stress parameter of this name.
+///
+/// # Errors
+/// An unknown name, with the one that was meant.
+pub fn find(name: &str) -> Result<&'static StressParameter> {
+    let canonical = name.replace('-', "_");
+    registry().iter().find(|parameter| parameter.name == canonical).ok_or_else(|| {
+        let names = registry().iter().map(|parameter| parameter.name);
+        Error::input(format!("there is no extreme `{name}`")).hint(suggest(name, names))
+    })
+}
+
+/// Every stress parameter, in the order of the documentation.
+pub fn registry() -> &'static [StressParameter] {
+    &[
+        StressParameter {
+            name: "step",
+            unit: "s",
+            about: "fixed step of the method",
+            keeps_motion: true,
+            suits: |_| true,
+            values: |subject| {
+                let step = subject.base.typical.step;
+                ladder(step / 40.0, 6.0 * step)
+            },
+            apply: |case, step| {
+                case.method.step = Some(step);
+                Ok(())
+            },
+        },
+        // alpha = beta, the critical damping of phi'' + 2 alpha phi' + beta^2 phi = 0. From gains that do nothing within a step to
+        // those at which explicit methods are unstable.
+        StressParameter {
+            name: "gain",
+            unit: "1/s",
+            about: "Baumgarte's gains alpha = beta",
+            keeps_motion: true,
+            suits: |subject| subject.dimensions.lambda > 0,
+            values: |subject| {
+                let rate = 1.0 / subject.base.typical.step;
+                ladder(0.02 * rate, 40.0 * rate)
+            },
+            apply: |case, gain| {
+                (case.method.formulation, case.method.projection) = (baumgarte(gain), Choice::named("none"));
+                Ok(())
+            },
+        },
+        StressParameter {
+            name: "tolerance",
+            unit: "",
+            about: "rtol = atol of adaptive methods",
+            keeps_motion: true,
+            suits: |_| true,
+            values: |_| decades(-14, -2, 2),
+            apply: |case, tolerance| {
+                (case.method.rtol, case.method.atol, case.method.step) = (tolerance, tolerance, None);
+                Ok(())
+            },
+        },
+        // Mass and inertia of the last body of the list that has a mass, which in chains is the end.
+        StressParameter {
+            name: "mass_ratio",
+            unit: "",
+            about: "factor on mass and inertia of the last body",
+            keeps_motion: false,
+            suits: |subject| has(&subject.base.scene, "bodies", &["mass"]),
+            values: |_| decades(-8, 8, 2),
+            apply: |case, factor| scale(Arc::make_mut(&mut case.scene), factor),
+        },
+        StressParameter {
+            name: "stiffness",
+            unit: "N/m",
+            about: "stiffness of all springs (N/m, N m/rad), bushings and tyres",
+            keeps_motion: false,
+            suits: |subject| has(&subject.base.scene, "forces", &["stiffness"]),
+            values: |_| decades(-2, 12, 2),
+            apply: |case, value| set(Arc::make_mut(&mut case.scene), "stiffness", value),
+        },
+        StressParameter {
+            name: "damping",
+            unit: "N s/m",
+            about: "damping of all springs (N s/m, N m s/rad), bushings and tyres",
+            keeps_motion: false,
+            suits: |subject| has(&subject.base.scene, "forces", &["damping"]),
+            values: |_| decades(-2, 12, 2),
+            apply: |case, value| set(Arc::make_mut(&mut case.scene), "damping", value),
+        },
+        // Velocities of the start and the time of drivers times the factor, and the simulated time divided by it: as much motion
+        // in each case.
+        StressParameter {
+            name: "speed",
+            unit: "",
+            about: "factor on the velocities of the start and the time of drivers; the simulated time divided by it",
+            keeps_motion: false,
+            suits: |subject| moves(&subject.base.scene),
+            values: |_| decades(-1, 4, 1),
+            apply: |case, factor| {
+                quicken(Arc::make_mut(&mut case.scene), factor);
+                case.duration /= factor;
+                Ok(())
+            },
+        },
+        // A crank of r whose slider runs on a line at the offset folds with its rod of l where r + offset = l:
+        // r = (1 - gap) l - offset.
+        StressParameter {
+            name: "link_ratio",
+            unit: "",
+            about: "gap 1 - (r + offset)/l to the singular geometry of a planar crank r on a rod l (scenes with parameters r and l)",
+            keeps_motion: false,
+            suits: |subject| lengths(&subject.base.scene).is_ok(),
+            values: |_| decades(-9, 0, 1).into_iter().map(|gap| 0.5 * gap).collect(),
+            apply: |case, gap| {
+                let given =
+                    |name: &str| case.set.iter().rev().find(|(known, _)| known == name).map(|(_, value)| *value);
+                let [length, offset] = lengths(&case.scene)?;
+                let [length, offset] = [given("l").unwrap_or(length), given("offset").unwrap_or(offset)];
+                case.set.push(("r".to_string(), (1.0 - gap) * length - offset));
+                Ok(())
+            },
+        },
+        // The scene generated again with so many links or loops.
+        StressParameter {
+            name: "links",
+            unit: "",
+            about: "number of links or loops of a generated scene (n_four_bar, chain, flexible_chain)",
+            keeps_motion: false,
+            suits: |subject| kind(&subject.base.scene).is_ok(),
+            values: |_| ladder(1.0, 200.0),
+            apply: |case, n| {
+                case.scene = Arc::new(kind(&case.scene)?(n.round().max(1.0) as usize));
+                Ok(())
+            },
+        },
+        // In periods of the subject: see [`Typical`](super::Typical).
+        StressParameter {
+            name: "time",
+            unit: "periods",
+            about: "simulated time in periods of the motion",
+            keeps_motion: false,
+            suits: |_| true,
+            values: |_| decades(0, 6, 1),
+            apply: |case, periods| {
+                case.duration = periods * case.typical.period;
+                Ok(())
+            },
+        },
+        StressParameter {
+            name: "start_error",
+            about: "error of positions, in sizes of the scene, and of velocities, in these over the period",
+            apply: |case, error| {
+                case.start_error = [error; 2];
+                Ok(())
+            },
+            ..START
+        },
+        StressParameter {
+            name: "position_error",
+            about: "error of the positions of the start, in sizes of the scene",
+            apply: |case, error| {
+                case.start_error[0] = error;
+                Ok(())
+            },
+            ..START
+        },
+        StressParameter {
+            name: "velocity_error",
+            about: "error of the velocities of the start, in sizes of the scene over the period",
+            apply: |case, error| {
+                case.start_error[1] = error;
+                Ok(())
+            },
+            ..START
+        },
+    ]
+}
+
+/// Errors of a start that is not consistent.
+const START: StressParameter = StressParameter {
+    name: "",
+    unit: "",
+    about: "",
+    keeps_motion: false,
+    suits: |subject| subject.dimensions.lambda > 0,
+    values: |_| decades(-14, 0, 2),
+    apply: |_, _| Ok(()),
+};
+
+/// Baumgarte's stabilization with alpha = beta = `gain`: phi'' + 2 gain phi' + gain^2 phi = 0.
+pub(super) fn baumgarte(gain: f64) -> Choice {
+    let gain = gain.to_string();
+    let options = ["alpha", "beta"].map(|key| (key.to_string(), gain.clone()));
+    options.iter().fold(Choice::named("baumgarte"), |choice, (key, value)| choice.with(key, value))
+}
+
+/// Of the rod, and the offset.
+fn lengths(scene: &Value) -> Result<[f64; 2]> {
+    let parameter = |name: &str| scene.get("parameters")?.get(name)?.as_f64();
+    let is_planar = scene.get("dimension").and_then(Value::as_i64) == Some(2);
+    let rod = parameter("l").filter(|_| is_planar && parameter("r").is_some());
+    rod.map(|length| [length, parameter("offset").unwrap_or(0.0)]).ok_or_else(|| {
+        Error::input("the scene is no planar one with parameters `r` and `l` that are numbers")
+            .hint("name a parameter as the axis")
+    })
+}
+
+/// What generates scenes of this name: `chain_10` is a `chain`.
+fn kind(scene: &Value) -> Result<fn(usize) -> Value> {
+    let name = scene.get("name").and_then(Value::as_str).unwrap_or_default();
+    let kind = name.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end_matches('_');
+    let found = generate::registry().iter().find(|(known, _)| *known == kind);
+    found.map(|(_, make)| *make).ok_or_else(|| Error::input(format!("`{name}` is no generated scene")))
+}
+
+fn scale(scene: &mut Value, factor: f64) -> Result<()> {
+    let body = elements(scene, "bodies").filter(|body| body.get("mass").is_some()).last();
+    let body = body.ok_or_else(|| Error::input("no body of the scene has a mass to change"))?;
+    for key in ["mass", "inertia"] {
+        body.get_mut(key).into_iter().for_each(|value| multiply(value, factor));
+    }
+    Ok(())
+}
+
+/// Gives every force that has this coefficient the same.
+fn set(scene: &mut Value, key: &str, value: f64) -> Result<()> {
+    let mut found = false;
+    for coefficient in elements(scene, "forces").filter_map(|force| force.get_mut(key)) {
+        replace(coefficient, value);
+        found = true;
+    }
+    if found { Ok(()) } else { Err(Error::input(format!("no force of the scene has a {key} to change"))) }
+}
+
+const VELOCITIES: [&str; 3] = ["velocity", "angular_velocity", "elastic_velocity"];
+const DRIVEN: [&str; 2] = ["driver", "equation"];
+
+fn moves(scene: &Value) -> bool {
+    let bodies = scene.get("bodies").and_then(Value::as_array).into_iter().flatten();
+    let starts = bodies.filter_map(|body| body.get("initial"));
+    let joints = scene.get("joints").and_then(Value::as_array).into_iter().flatten();
+    let mut kinds = joints.filter_map(|joint| joint.get("type")?.as_str());
+    starts.into_iter().any(|start| VELOCITIES.iter().any(|key| start.get(key).is_some()))
+        || has(scene, "bodies", &["motion"])
+        || kinds.any(|kind| DRIVEN.contains(&kind))
+}
+
+fn quicken(scene: &mut Value, factor: f64) {
+    for start in elements(scene, "bodies").filter_map(|body| body.get_mut("initial")) {
+        for key in VELOCITIES {
+            match start.get_mut(key) {
+                Some(Value::Object(map)) => map.values_mut().for_each(|value| multiply(value, factor)),
+                Some(value) => multiply(value, factor),
+                None => {}
+            }
+        }
+    }
+    let is_driven =
+        |joint: &&mut Value| joint.get("type").and_then(Value::as_str).is_some_and(|kind| DRIVEN.contains(&kind));
+    for joint in elements(scene, "joints").filter(is_driven) {
+        for key in ["value", "expression"] {
+            joint.get_mut(key).into_iter().for_each(|value| faster(value, factor));
+        }
+    }
+}
+
+/// 1, 2, 5, 10, 20 ... from `low` to `high`.
+pub fn ladder(low: f64, high: f64) -> Vec<f64> {
+    let decades = low.log10().floor() as i32..=high.log10().ceil() as i32;
+    let rungs = decades.flat_map(|exponent| [1, 2, 5].map(|digit| decimal(digit, exponent)));
+    rungs.filter(|rung| (low * (1.0 - 1e-9)..=high * (1.0 + 1e-9)).contains(rung)).collect()
+}
+
+/// Powers of ten, every `stride`-th.
+fn decades(from: i32, to: i32, stride: usize) -> Vec<f64> {
+    (from..=to).step_by(stride).map(|exponent| decimal(1, exponent)).collect()
+}
+
+/// The number nearest to digit 10^exponent.
+fn decimal(digit: u32, exponent: i32) -> f64 {
+    format!("{digit}e{exponent}").parse().unwrap_or(f64::NAN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ladders_have_round_rungs() {
+        assert_eq!(ladder(4e-3, 0.11), [5e-3, 0.01, 0.02, 0.05, 0.1]);
+        assert_eq!(ladder(1.0, 1.0), [1.0]);
+        assert_eq!(decades(-4, 4, 4), [1e-4, 1.0, 1e4]);
+    }
+
+    #[test]
+    fn unknown_extremes_suggest_the_nearest() {
+        assert!(find("mass-ratio").is_ok());
+        let error = find("stifness").err().map(|error| error.to_string());
+        assert!(error.is_some_and(|error| error.contains("did you mean `stiffness`?")));
+    }
+}
