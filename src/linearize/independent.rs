@@ -1,7 +1,7 @@
 //! Independent coordinates by name.
 
-use super::chart::constant;
-use super::names::{Directions, directions};
+use super::changes::{Directions, directions};
+use super::coordinates::constant;
 use super::{Coordinates, Matrix, Variation};
 use crate::error::{Error, Result, clock, suggest};
 use crate::tolerances::linearize as tolerances;

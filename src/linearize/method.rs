@@ -1,79 +1,13 @@
-//! The methods of linearization, and what each makes.
+//! Every method of linearization, and the linear model by one of them.
 
+use super::entry::{Built, Entry, Request};
+use super::minimal::MCS;
 use super::spectrum::{Spectrum, spectrum};
 use super::unconstrained::{AUGMENTED_LAGRANGIAN, BAUMGARTE, FORCE_PROJECTION, PENALTY};
 use super::variation::refuse_all_modes;
-use super::{Changes, Chart, Cost, LinearModel, Matrix, Minimal, Variation, minimal, redundant};
-use crate::choice::{Choice, Listed, OptionDoc};
+use super::{Cost, LinearModel, Variation, redundant};
 use crate::error::Result;
 use std::time::Instant;
-
-/// What is asked for.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Request {
-    pub method: Choice,
-    /// Of minimal coordinates; none: `intrinsic` where the equations allow it, else `mass_orthogonal`.
-    pub chart: Option<Chart>,
-}
-
-impl Request {
-    pub(super) fn chart(&self, variation: &mut Variation) -> Chart {
-        self.chart.clone().unwrap_or_else(|| Chart::preferred(variation))
-    }
-}
-
-/// The matrices of a method.
-pub struct Built {
-    pub chart: String,
-    pub states: Vec<String>,
-    pub a: Matrix,
-    pub b: Matrix,
-    pub c: Matrix,
-    pub d: Matrix,
-    pub e: Option<Matrix>,
-    /// (dq, dv) of each state.
-    pub changes: Changes,
-    /// How many eigenvalues are infinite.
-    pub infinite: usize,
-}
-
-impl Built {
-    pub fn minimal(model: Minimal) -> Self {
-        let Minimal { coordinates, changes, a, b, c, d } = model;
-        Built { chart: coordinates.name, states: coordinates.states, a, b, c, d, e: None, changes, infinite: 0 }
-    }
-}
-
-/// One method as the command line and the table of methods know it.
-pub struct Entry {
-    pub name: &'static str,
-    pub about: &'static str,
-    pub options: &'static [OptionDoc],
-    pub build: fn(&mut Variation, &Request) -> Result<Built>,
-}
-
-/// Minimal coordinates: see [`minimal`].
-const MCS: Entry = Entry {
-    name: "mcs",
-    about: "minimal coordinates in a chart: exact at every state, no spurious eigenvalues",
-    options: &[],
-    build: |variation, request| {
-        let chart = request.chart(variation);
-        Ok(Built::minimal(minimal(variation, &chart)?))
-    },
-};
-
-impl Listed for Entry {
-    const KIND: &'static str = "method";
-
-    fn name(&self) -> &'static str {
-        self.name
-    }
-
-    fn options(&self) -> &'static [OptionDoc] {
-        self.options
-    }
-}
 
 /// Every method, in the order of the documentation.
 pub fn registry() -> &'static [Entry] {

@@ -1,7 +1,8 @@
 //! Minimal coordinates (MCS): the model in a chart of the directions that the constraints allow.
 
-use super::response::beside;
-use super::variation::observe;
+use super::changes::beside;
+use super::entry::{Built, Entry};
+use super::response::observe;
 use super::{Changes, Chart, Coordinates, Matrix, Response, Variation};
 use crate::error::Result;
 
@@ -16,6 +17,24 @@ pub struct Minimal {
     pub c: Matrix,
     pub d: Matrix,
 }
+
+impl From<Minimal> for Built {
+    fn from(model: Minimal) -> Self {
+        let Minimal { coordinates, changes, a, b, c, d } = model;
+        Built { chart: coordinates.name, states: coordinates.states, a, b, c, d, e: None, changes, infinite: 0 }
+    }
+}
+
+/// Minimal coordinates: see [`minimal`].
+pub(super) const MCS: Entry = Entry {
+    name: "mcs",
+    about: "minimal coordinates in a chart: exact at every state, no spurious eigenvalues",
+    options: &[],
+    build: |variation, request| {
+        let chart = request.chart(variation);
+        Ok(minimal(variation, &chart)?.into())
+    },
+};
 
 /// The model in a chart: each state is a change (dq, dv) that the constraints allow, and a back-substitution gives its dv'
 /// and dlambda. Exact in constant charts and in the intrinsic one. Gonzalez, Masarati, Cuadrado, Naya, J. Comput.

@@ -1,8 +1,9 @@
 //! How v' and lambda of a formulation answer to changes of the state and to inputs.
 
 use super::variation::at_state;
-use super::{Matrix, Variation};
+use super::{Changes, Matrix, Variation};
 use crate::error::Result;
+use crate::system::OutputTangent;
 
 /// dv' = `vdot` x + `driven_vdot` u and dlambda = `lambda` x + `driven_lambda` u, a column each for the changes of the
 /// state that were asked for and for the inputs.
@@ -12,27 +13,6 @@ pub struct Response {
     pub lambda: Matrix,
     pub driven_vdot: Matrix,
     pub driven_lambda: Matrix,
-}
-
-/// Changes of the state, a column each.
-#[derive(Clone, Debug)]
-pub struct Changes {
-    /// Along the velocity directions.
-    pub q: Matrix,
-    pub v: Matrix,
-}
-
-impl Changes {
-    /// Of no column.
-    pub fn none(n: usize) -> Self {
-        Changes { q: Matrix::zeros(n, 0), v: Matrix::zeros(n, 0) }
-    }
-
-    /// Each direction of q, then each of v.
-    pub fn all(n: usize) -> Self {
-        let (unit, none) = (Matrix::identity(n, n), Matrix::zeros(n, n));
-        Changes { q: beside([&unit, &none]), v: beside([&none, &unit]) }
-    }
 }
 
 impl Response {
@@ -53,9 +33,9 @@ impl Response {
     }
 }
 
-/// [left right]
-pub(super) fn beside([left, right]: [&Matrix; 2]) -> Matrix {
-    let mut both = left.clone().resize_horizontally(left.ncols() + right.ncols(), 0.0);
-    both.columns_mut(left.ncols(), right.ncols()).copy_from(right);
-    both
+/// C and D of what answers to changes of the state.
+pub(super) fn observe(outputs: &OutputTangent, changes: &Changes, response: &Response) -> [Matrix; 2] {
+    let OutputTangent { q, v, vdot, lambda, u } = outputs;
+    let c = q * &changes.q + v * &changes.v + vdot * &response.vdot + lambda * &response.lambda;
+    [c, u + vdot * &response.driven_vdot + lambda * &response.driven_lambda]
 }

@@ -1,29 +1,30 @@
-//! States at which constraints that are independent beside them depend on each other.
+//! States at which constraints that are independent nearby depend on each other.
 
-use super::chart::directions;
-use super::{Matrix, Variation};
+use super::{Matrix, OperatingPoint};
 use crate::error::{Error, Result, short};
 use crate::formulation::Dynamics;
 use crate::initial::assemble;
 use crate::math::largest;
-use crate::system::Need;
+use crate::system::{MechanicalSystem, Need};
 use crate::tolerances::linearize as tolerances;
 
+/// True if rows of G depend on others, or nearly: at a singular state, and where constraints are redundant.
+pub(super) fn is_suspect(dynamics: &Dynamics) -> bool {
+    let here = Rank::of(dynamics);
+    here.rank < dynamics.lambda.len() || here.rank_indicator < tolerances::SINGULAR_MODEL
+}
+
 /// Refuses a singular state, and states so near to one that their accelerations are uncertain: with fewer independent
-/// constraints than a state beside, or rows that are much closer to being dependent. There the motions that the
+/// constraints than a nearby state, or rows that are much closer to being dependent. There the motions that the
 /// constraints allow cross, and the spectrum along all directions of both belongs to no motion. Redundant constraints are
-/// dependent beside the state as well, and pass.
+/// dependent at the nearby state as well, and pass.
 ///
 /// # Errors
 /// The state is singular.
-pub(super) fn refuse(variation: &mut Variation) -> Result<()> {
-    let here = Rank::of(&variation.dynamics);
-    if here.rank == variation.point.lambda.len() && here.rank_indicator >= tolerances::SINGULAR_MODEL {
-        return Ok(());
-    }
-    let directions = directions(variation)?;
-    let Some(beside) = rank_beside(variation, &directions) else { return Ok(()) };
-    let t = short(variation.point.t);
+pub(super) fn refuse(dynamics: &Dynamics, point: &OperatingPoint, directions: &Matrix) -> Result<()> {
+    let here = Rank::of(dynamics);
+    let Some(beside) = rank_nearby(dynamics.system, point, directions) else { return Ok(()) };
+    let t = short(point.t);
     let problem =
         match (beside.rank > here.rank, beside.rank_indicator > tolerances::SINGULAR_GROWTH * here.rank_indicator) {
             (true, _) => format!("only {} constraints are independent, {} beside it", here.rank, beside.rank),
@@ -51,9 +52,8 @@ impl Rank {
     }
 }
 
-/// The rank of G at a state beside, along all free directions at a time; none where there is no such state.
-fn rank_beside(variation: &Variation, directions: &Matrix) -> Option<Rank> {
-    let (system, point) = (variation.system(), &variation.point);
+/// The rank of G at a nearby state, along all free directions at a time; none where there is no such state.
+fn rank_nearby(system: &dyn MechanicalSystem, point: &OperatingPoint, directions: &Matrix) -> Option<Rank> {
     let mut direction = vec![0.0; directions.nrows()];
     for (k, column) in directions.column_iter().enumerate() {
         // No two alike, so that no symmetry of a mechanism keeps it singular.

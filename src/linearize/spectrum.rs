@@ -1,7 +1,6 @@
 //! Eigenvalues of a model: physical, spurious and infinite ones told apart.
 
-use super::chart::directions;
-use super::method::{Built, Request};
+use super::entry::{Built, Request};
 use super::{Complex, Kind, Matrix, Mode, Variation};
 use crate::error::{Error, Result, clock};
 use crate::math::eigen::{ComplexMatrix, Deflation, Unsolved, eigen, finite_by, generalized};
@@ -130,7 +129,7 @@ fn kinds(
     shapes: &ComplexMatrix,
     weighed: &ComplexMatrix,
 ) -> Result<(Vec<Kind>, Option<[f64; 2]>)> {
-    let z = directions(variation)?;
+    let z = variation.free_directions()?;
     let physical = 2 * z.ncols();
     if shapes.ncols() <= physical {
         return Ok((vec![Kind::Physical; shapes.ncols()], None));

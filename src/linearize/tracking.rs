@@ -1,7 +1,15 @@
 //! Eigenvalues of one state after another, joined to branches.
 
 use super::matching::{Node, is_clear, matching};
-use super::{Branch, Complex, Kind, Matrix, Mode};
+use super::{Complex, Kind, Matrix, Mode};
+
+/// One eigenvalue followed through time or a parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Branch {
+    pub kind: Kind,
+    /// Time or parameter, and the eigenvalue there, 1/s.
+    pub points: Vec<(f64, Complex<f64>)>,
+}
 
 /// The eigenvalues at a time or at a value of a parameter.
 #[derive(Clone, Debug)]

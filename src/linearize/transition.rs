@@ -27,19 +27,6 @@ impl Transition {
     }
 }
 
-impl Coordinates {
-    /// (z, y) of changes that the constraints allow.
-    pub fn states_of(&self, changes: &Changes) -> Matrix {
-        let z = &self.b * &changes.q;
-        let y = &self.b * (&changes.v - &self.tilt * &z);
-        let (k, columns) = z.shape();
-        let mut both = Matrix::zeros(2 * k, columns);
-        both.rows_mut(0, k).copy_from(&z);
-        both.rows_mut(k, k).copy_from(&y);
-        both
-    }
-}
-
 /// X' = A_u X along the motion from `start`, X(0) the states of `chart` there, at each of `times` (increasing).
 ///
 /// # Errors

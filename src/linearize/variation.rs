@@ -1,8 +1,8 @@
 //! The variational equations at a state: every matrix of a linear model.
 
-use super::{Changes, Matrix, OperatingPoint, Response, singular};
+use super::{Changes, Matrix, OperatingPoint, singular};
 use crate::error::{Error, Result, clock};
-use crate::formulation::{Dynamics, Halt};
+use crate::formulation::{Dynamics, Halt, free_directions};
 use crate::math::kkt::Pattern;
 use crate::math::memory::refuse_dense;
 use crate::system::{Column, Loaded, MechanicalSystem, Need, OutputTangent, Tangent, refuse_states};
@@ -54,7 +54,10 @@ impl<'a> Variation<'a> {
             variation.point.vdot.fill(0.0);
         }
         variation.load_point()?;
-        singular::refuse(&mut variation)?;
+        if singular::is_suspect(&variation.dynamics) {
+            let directions = variation.free_directions()?;
+            singular::refuse(&variation.dynamics, &variation.point, &directions)?;
+        }
         Ok(variation)
     }
 
@@ -174,6 +177,13 @@ impl<'a> Variation<'a> {
         Ok(corrections)
     }
 
+    /// Z with G Z = 0 and Z^T M Z = I.
+    pub(super) fn free_directions(&mut self) -> Result<Matrix> {
+        let z = free_directions(&mut self.dynamics).ok_or_else(|| at_state(self.point.t, &Halt::NotFinite))?;
+        let correction = self.correct(&(self.g() * &z))?;
+        Ok(z - correction)
+    }
+
     /// Names of the inputs and of the outputs.
     pub fn names(&self) -> (Vec<String>, Vec<String>) {
         let names = |columns: Vec<Column>| columns.into_iter().map(|column| column.name).collect();
@@ -273,13 +283,6 @@ fn dense(pattern: &Pattern, values: &[f64]) -> Matrix {
     let mut matrix = Matrix::zeros(pattern.rows, pattern.cols);
     pattern.entries.iter().zip(values).for_each(|(&place, value)| matrix[place] += value);
     matrix
-}
-
-/// C and D of what answers to changes of the state.
-pub(super) fn observe(outputs: &OutputTangent, changes: &Changes, response: &Response) -> [Matrix; 2] {
-    let OutputTangent { q, v, vdot, lambda, u } = outputs;
-    let c = q * &changes.q + v * &changes.v + vdot * &response.vdot + lambda * &response.lambda;
-    [c, u + vdot * &response.driven_vdot + lambda * &response.driven_lambda]
 }
 
 /// Why there is no linear model at a state.

@@ -42,6 +42,7 @@ mod family;
 mod range;
 #[cfg(test)]
 mod tests;
+mod walk;
 
 pub use family::Family;
 pub use range::Range;

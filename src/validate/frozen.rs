@@ -1,7 +1,7 @@
 //! The frozen model exp(A t) against the variational equations.
 
 use super::carried::Carried;
-use super::run::Speed;
+use super::perturb::Speed;
 use super::{Decay, decay};
 use crate::error::{Error, Result};
 use crate::linearize::flow::{Bundle, flow};

@@ -1,8 +1,7 @@
 //! The response to a small pulse of an input.
 
 use super::carried::Carried;
-use super::perturb::{EPSILONS, difference};
-use super::run::{Norm, floor};
+use super::perturb::{EPSILONS, Norm, difference, floor};
 use super::{Decay, decay};
 use crate::error::Result;
 use crate::linearize::flow::{Bundle, Pulse, flow};

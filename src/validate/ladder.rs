@@ -1,8 +1,7 @@
 //! One direction: perturbations of many sizes, followed and predicted.
 
 use super::carried::Carried;
-use super::perturb::{EPSILONS, difference, moved};
-use super::run::{Norm, floor};
+use super::perturb::{EPSILONS, Norm, difference, floor, moved};
 use super::{Decay, decay, horizon};
 use crate::error::{Error, Result};
 use crate::linearize::flow::{Bundle, Snapshot, flow};

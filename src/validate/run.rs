@@ -3,10 +3,10 @@
 use super::carried::Carried;
 use super::frozen::frozen;
 use super::ladder::ladder;
+use super::perturb::{Norm, Speed};
 use super::{Decay, Frozen, InputCheck, Ladder, Settings, input};
-use crate::error::{Error, Result};
-use crate::linearize::{Chart, Matrix, Minimal, State, Variation, minimal, refuse_large};
-use crate::math::eigen::eigen;
+use crate::error::Result;
+use crate::linearize::{Chart, State, Variation, minimal, refuse_large};
 use crate::system::MechanicalSystem;
 use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
@@ -70,59 +70,6 @@ pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Setting
     }
     let verdict = judge(&ladders, &frozen, &inputs);
     Ok(Validation { t: start.t, chart: name, followed, rate: norm.rate, ladders, frozen, inputs, verdict })
-}
-
-/// Rates of a model, 1/s.
-pub(super) struct Speed {
-    pub usual: f64,
-    pub fastest: f64,
-}
-
-impl Speed {
-    fn of(model: &Minimal) -> Result<Self> {
-        let values = eigen(&model.a).map_err(|unsolved| Error::input(unsolved.to_string()))?.values;
-        let rates: Vec<f64> = values.iter().map(|value| value.norm()).filter(|rate| *rate > 1e-6).collect();
-        let fastest = rates.iter().copied().fold(1.0, f64::max);
-        let mean = rates.iter().map(|rate| rate.ln()).sum::<f64>() / rates.len().max(1) as f64;
-        Ok(Speed {
-            usual: if rates.is_empty() { 1.0 } else { mean.exp() },
-            fastest: if rates.is_empty() { 1.0 } else { fastest },
-        })
-    }
-
-    /// Of a usual mode, with not too many of the fastest in it.
-    fn period(&self) -> f64 {
-        std::f64::consts::TAU * (1.0 / self.usual).min(tolerances::FASTEST_PERIODS / self.fastest)
-    }
-}
-
-/// Sizes of changes, velocities over `rate`.
-pub(super) struct Norm {
-    pub rate: f64,
-}
-
-impl Norm {
-    pub fn size(&self, (dq, dv): (&[f64], &[f64])) -> f64 {
-        let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
-        (square(dq) + square(dv) / self.rate.powi(2)).sqrt()
-    }
-
-    /// |change - eps column|
-    pub fn off(&self, (dq, dv): (&[f64], &[f64]), (cq, cv): (&[f64], &[f64]), eps: f64) -> f64 {
-        let rest = |x: &[f64], c: &[f64]| x.iter().zip(c).map(|(x, c)| x - eps * c).collect::<Vec<f64>>();
-        self.size((&rest(dq, cq), &rest(dv, cv)))
-    }
-
-    /// Of states (z, y).
-    pub fn states(&self, x: &Matrix) -> f64 {
-        let k = x.nrows() / 2;
-        self.size((x.rows(0, k).clone_owned().as_slice(), x.rows(k, k).clone_owned().as_slice()))
-    }
-}
-
-/// The error of the smallest perturbation is rounding.
-pub(super) fn floor(errors: &[f64]) -> f64 {
-    errors.last().copied().filter(|error| error.is_finite()).unwrap_or(0.0).max(1e-15)
 }
 
 fn judge(ladders: &[Ladder], frozen: &Frozen, inputs: &[InputCheck]) -> Verdict {

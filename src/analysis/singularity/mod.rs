@@ -181,7 +181,8 @@ impl<'a> Watch<'a> {
     }
 
     fn look_at_dip(&mut self) {
-        let path = Path::new(&self.last, &mut self.survey);
+        let rates = self.last.each_ref().map(|sample| self.survey.rate(&sample.q, &sample.v));
+        let path = Path::new(&self.last, &rates);
         let indicators = [self.last[0].rank_indicator, self.last[2].rank_indicator];
         let drift = self.survey.drift(&self.last[1]);
         let near = tolerances::TOLD_NEAR_SINGULAR * self.largest;

@@ -1,6 +1,5 @@
 //! The motion between accepted states.
 
-use super::survey::Survey;
 use crate::simulate::Observation;
 
 /// An accepted state.
@@ -40,9 +39,9 @@ pub struct Path {
 }
 
 impl Path {
-    pub fn new(samples: &[Sample; 3], survey: &mut Survey) -> Self {
+    /// `rates`: q' at the samples.
+    pub fn new(samples: &[Sample; 3], rates: &[Vec<f64>; 3]) -> Self {
         let times = [0, 1, 2].map(|i: usize| samples[i].t);
-        let rates = [0, 1, 2].map(|i: usize| survey.rate(&samples[i].q, &samples[i].v));
         let doubled = [0, 1, 2, 3, 4, 5].map(|i: usize| times[i / 2]);
         let coordinate = |k: usize| {
             let mut table = [0, 1, 2, 3, 4, 5].map(|i: usize| samples[i / 2].q[k]);

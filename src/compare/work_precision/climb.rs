@@ -1,10 +1,8 @@
 //! Runs of a few methods of other families, ever tighter, cheap ones first.
 
 use super::grid::Triple;
-use super::reference::check;
-use super::runner::Motion;
-use super::sample::{Allowed, Sample, sample};
-use super::yardstick::Watched;
+use super::sample::{Allowed, Motion, Sample, sample};
+use super::yardstick::{Watched, Yardstick};
 use crate::choice::Choice;
 use crate::error::{Failure, Result};
 use crate::formulation;
@@ -144,6 +142,39 @@ impl Line {
         let stopped = self.failure.as_ref().and_then(|(_, run)| run.whole(motion));
         stopped.or_else(|| self.rungs.last().map(|rung| rung.run.seconds)).unwrap_or(0.0)
     }
+}
+
+/// The best run so far, how far it can be believed, and by which other run.
+pub struct Checked<'l> {
+    pub best: &'l Rung,
+    pub by: Option<&'l Rung>,
+    pub error: (f64, String),
+    pub values: Yardstick,
+}
+
+/// The tightest run, of those as tight the method that is named first, against the run that agrees best: two methods do not
+/// come by chance to the same wrong digits. Its own looser run counts where no other is as tight as that.
+pub fn check<'l>(lines: &'l [Line], watched: &Watched) -> Option<Checked<'l>> {
+    let own = lines.iter().min_by(|a, b| tightest(a).total_cmp(&tightest(b)))?;
+    let (best, rest) = own.rungs.split_last()?;
+    let others = lines.iter().filter_map(|line| line.rungs.last()).filter(|rung| !same(rung, best));
+    let looser = rest.last();
+    let is_alone = looser.is_some_and(|looser| others.clone().all(|rung| rung.method.rtol > looser.method.rtol));
+    let candidates = others.chain(looser.filter(|_| is_alone));
+    let values = Yardstick::new(&watched.columns, best.run.rows.clone(), &best.run.sizes);
+    let checked = candidates.map(|rung| (values.error(&rung.run.rows), rung));
+    let nearest = checked.min_by(|a, b| a.0.0.total_cmp(&b.0.0));
+    let (error, by) = nearest.map_or(((1.0, String::new()), None), |(error, by)| (error, Some(by)));
+    Some(Checked { best, by, error, values })
+}
+
+/// Whether both are runs of one method.
+pub fn same(a: &Rung, b: &Rung) -> bool {
+    a.method.triple() == b.method.triple()
+}
+
+fn tightest(line: &Line) -> f64 {
+    line.rungs.last().map_or(f64::INFINITY, |rung| rung.method.rtol)
 }
 
 /// What to do where no method came through: the time that the quickest needs, by how far it came.

@@ -30,8 +30,8 @@ pub use cell::{Cell, Held, Outcome};
 pub use given::Given;
 pub use grid::{Filter, Triple, grid};
 pub use reference::{Pace, Reference};
-pub use runner::{Motion, Plan, Runner};
-pub use sample::{Allowed, Sample, cpu_seconds, sample};
+pub use runner::{Plan, Runner};
+pub use sample::{Allowed, Motion, Sample, cpu_seconds, sample};
 pub use yardstick::{Watched, Yardstick};
 
 use serde::{Deserialize, Serialize};

@@ -1,7 +1,6 @@
 //! What a model costs: models of one mechanism, from poor to rich, on the same motion.
 
-use super::runner::Motion;
-use super::sample::{Sample, sample};
+use super::sample::{Motion, Sample, sample};
 use super::yardstick::{Watched, Yardstick};
 use crate::error::{Error, Failure, Result};
 use crate::formulation::Statistics;

@@ -1,8 +1,8 @@
 //! What accuracy is measured against.
 
-use super::climb::{Line, Rung, climb, nothing};
+use super::climb::{Checked, Line, Rung, check, climb, nothing, same};
 use super::given::Given;
-use super::runner::Motion;
+use super::sample::Motion;
 use super::yardstick::{Watched, Yardstick};
 use crate::error::Result;
 use crate::simulate::Span;
@@ -71,41 +71,9 @@ impl Reference {
     }
 }
 
-/// The best run so far, how far it can be believed, and by which other run.
-pub(super) struct Checked<'l> {
-    best: &'l Rung,
-    by: Option<&'l Rung>,
-    pub error: (f64, String),
-    values: Yardstick,
-}
-
-/// The tightest run, of those as tight the method that is named first, against the run that agrees best: two methods do not
-/// come by chance to the same wrong digits. Its own looser run counts where no other is as tight as that.
-pub(super) fn check<'l>(lines: &'l [Line], watched: &Watched) -> Option<Checked<'l>> {
-    let own = lines.iter().min_by(|a, b| tightest(a).total_cmp(&tightest(b)))?;
-    let (best, rest) = own.rungs.split_last()?;
-    let others = lines.iter().filter_map(|line| line.rungs.last()).filter(|rung| !same(rung, best));
-    let looser = rest.last();
-    let is_alone = looser.is_some_and(|looser| others.clone().all(|rung| rung.method.rtol > looser.method.rtol));
-    let candidates = others.chain(looser.filter(|_| is_alone));
-    let values = Yardstick::new(&watched.columns, best.run.rows.clone(), &best.run.sizes);
-    let checked = candidates.map(|rung| (values.error(&rung.run.rows), rung));
-    let nearest = checked.min_by(|a, b| a.0.0.total_cmp(&b.0.0));
-    let (error, by) = nearest.map_or(((1.0, String::new()), None), |(error, by)| (error, Some(by)));
-    Some(Checked { best, by, error, values })
-}
-
-fn same(a: &Rung, b: &Rung) -> bool {
-    a.method.triple() == b.method.triple()
-}
-
 /// By the loosest runs of the first two families; where one of them has none, by the other.
 fn pace(lines: &[Line], span: Span) -> Pace {
     let of = |line: usize| lines.get(line).and_then(|line| line.rungs.first()).map(|rung| rung.pace(span));
     let any = (0..lines.len()).find_map(of).unwrap_or(1e-3 * (span.end - span.start));
     Pace { explicit: of(0).unwrap_or(any), implicit: of(1).unwrap_or(any) }
-}
-
-fn tightest(line: &Line) -> f64 {
-    line.rungs.last().map_or(f64::INFINITY, |rung| rung.method.rtol)
 }

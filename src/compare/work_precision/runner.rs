@@ -5,27 +5,12 @@ use super::cell::Cell;
 use super::given::Given;
 use super::grid::Triple;
 use super::reference::Reference;
-use super::sample::{Allowed, Sample, sample};
+use super::sample::{Allowed, Motion, Sample, sample};
 use super::yardstick::Watched;
 use crate::error::Result;
 use crate::simulate::{Method, Span};
-use crate::system::MechanicalSystem;
 use crate::tolerances::report as tolerances;
 use std::time::{Duration, Instant};
-
-/// What is measured on.
-#[derive(Clone, Copy)]
-pub struct Motion<'a> {
-    pub system: &'a dyn MechanicalSystem,
-    /// Consistent q and v.
-    pub start: (&'a [f64], &'a [f64]),
-    /// From when to when, s.
-    pub between: (f64, f64),
-    /// atol over rtol.
-    pub ratio: f64,
-    /// Whether the user wants it to end.
-    pub is_stopped: &'a (dyn Fn() -> bool + Sync),
-}
 
 /// What to measure.
 #[derive(Clone, Debug)]

@@ -1,14 +1,27 @@
 //! One run, with as little beside it as can be.
 
-use super::runner::Motion;
 use super::yardstick::Watched;
 use crate::analysis::{Drift, Sizes};
 use crate::error::{Failure, Result};
 use crate::formulation::Statistics;
 use crate::simulate::{Method, Observation, Sink, Span, Stop, simulate};
-use crate::system::Scratch;
+use crate::system::{MechanicalSystem, Scratch};
 use cpu_time::ThreadTime;
 use std::time::{Duration, Instant};
+
+/// What is measured on.
+#[derive(Clone, Copy)]
+pub struct Motion<'a> {
+    pub system: &'a dyn MechanicalSystem,
+    /// Consistent q and v.
+    pub start: (&'a [f64], &'a [f64]),
+    /// From when to when, s.
+    pub between: (f64, f64),
+    /// atol over rtol.
+    pub ratio: f64,
+    /// Whether the user wants it to end.
+    pub is_stopped: &'a (dyn Fn() -> bool + Sync),
+}
 
 /// What one run gave.
 #[derive(Clone, Debug)]

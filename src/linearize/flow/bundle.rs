@@ -1,6 +1,9 @@
-//! What is carried along a motion.
+//! What is carried along a motion, and how it lies in one flat state.
 
-use crate::linearize::{Changes, State};
+use crate::linearize::{Changes, Matrix, State};
+use crate::math::expression::{Switch, TimeFunction};
+use crate::math::kkt::Pattern;
+use crate::system::{Dimensions, MechanicalSystem, Need, Scratch, Structure, Terms};
 
 /// A motion, columns of its variational equations, and motions beside it.
 #[derive(Clone, Debug)]
@@ -16,6 +19,21 @@ pub struct Bundle {
     /// Amplitude of the pulse that drives each member; none: no member is driven.
     pub pushes: Vec<f64>,
     pub pulse: Option<Pulse>,
+}
+
+impl Bundle {
+    /// The motion from a state alone.
+    pub fn of(start: &State) -> Self {
+        let columns = Changes::none(start.v.len());
+        Bundle {
+            start: start.clone(),
+            columns,
+            driven: Vec::new(),
+            members: Vec::new(),
+            pushes: Vec::new(),
+            pulse: None,
+        }
+    }
 }
 
 /// An input u(t) = amplitude (4 s (1 - s))^8 for s = (t - start)/width in [0, 1]: smooth to the seventh derivative.
@@ -41,4 +59,110 @@ pub struct Snapshot {
     pub motion: State,
     pub columns: Changes,
     pub members: Vec<State>,
+}
+
+/// y = (q_0, dq_1 .. dq_k, q_1 .. q_p; v_0, dv_1 .. dv_k, v_1 .. v_p; work)
+#[derive(Clone, Copy, Debug)]
+pub struct Shape {
+    pub q: usize,
+    pub v: usize,
+    pub columns: usize,
+    pub members: usize,
+}
+
+/// A system of that size, and what acts on it by the clock: what the integrator sees.
+pub struct Carrier<'a> {
+    system: &'a dyn MechanicalSystem,
+    dimensions: Dimensions,
+}
+
+impl Shape {
+    pub fn of(system: &dyn MechanicalSystem, bundle: &Bundle) -> Self {
+        let Dimensions { q, v, .. } = system.dimensions();
+        Shape { q, v, columns: bundle.columns.q.ncols(), members: bundle.members.len() }
+    }
+
+    pub fn carrier<'a>(&self, system: &'a dyn MechanicalSystem) -> Carrier<'a> {
+        let dimensions =
+            Dimensions { q: self.coordinates(), v: self.velocities(), lambda: 0, nonholonomic: 0, states: 0 };
+        Carrier { system, dimensions }
+    }
+
+    fn coordinates(&self) -> usize {
+        self.q * (1 + self.members) + self.v * self.columns
+    }
+
+    fn velocities(&self) -> usize {
+        self.v * (1 + self.members + self.columns)
+    }
+
+    /// Of a flat q: that of the motion, the columns', the members'.
+    pub fn parts<'y>(&self, q: &'y [f64]) -> [&'y [f64]; 3] {
+        let (motion, rest) = q.split_at(self.q);
+        let (columns, members) = rest.split_at(self.v * self.columns);
+        [motion, columns, members]
+    }
+
+    /// The same of a flat v.
+    pub fn rates<'y>(&self, v: &'y [f64]) -> [&'y [f64]; 3] {
+        let (motion, rest) = v.split_at(self.v);
+        let (columns, members) = rest.split_at(self.v * self.columns);
+        [motion, columns, members]
+    }
+
+    pub fn pack(&self, bundle: &Bundle) -> Vec<f64> {
+        let mut y = vec![0.0; self.coordinates() + self.velocities() + 1];
+        let (motion, columns) = (bundle.start.clone(), bundle.columns.clone());
+        self.repack(&Snapshot { motion, columns, members: bundle.members.clone() }, &mut y);
+        y
+    }
+
+    pub fn repack(&self, snapshot: &Snapshot, y: &mut [f64]) {
+        let Snapshot { motion, columns, members } = snapshot;
+        let q = motion.q.iter().chain(columns.q.iter()).chain(members.iter().flat_map(|member| &member.q));
+        let v = motion.v.iter().chain(columns.v.iter()).chain(members.iter().flat_map(|member| &member.v));
+        y.iter_mut().zip(q.chain(v)).for_each(|(y, x)| *y = *x);
+    }
+
+    pub fn unpack(&self, t: f64, y: &[f64]) -> Snapshot {
+        let (q, rest) = y.split_at(self.coordinates());
+        let ([q, dq, qs], [v, dv, vs]) = (self.parts(q), self.rates(&rest[..self.velocities()]));
+        let columns = Changes {
+            q: Matrix::from_column_slice(self.v, self.columns, dq),
+            v: Matrix::from_column_slice(self.v, self.columns, dv),
+        };
+        let member = |i: usize| State {
+            t,
+            q: qs[i * self.q..(i + 1) * self.q].to_vec(),
+            v: vs[i * self.v..(i + 1) * self.v].to_vec(),
+        };
+        let members = (0..self.members).map(member).collect();
+        Snapshot { motion: State { t, q: q.to_vec(), v: v.to_vec() }, columns, members }
+    }
+}
+
+impl MechanicalSystem for Carrier<'_> {
+    fn dimensions(&self) -> Dimensions {
+        self.dimensions
+    }
+
+    fn switches(&self) -> &[Switch] {
+        self.system.switches()
+    }
+
+    fn length(&self) -> f64 {
+        self.system.length()
+    }
+
+    fn time_functions(&self) -> &[TimeFunction] {
+        self.system.time_functions()
+    }
+
+    fn evaluate(&self, _: f64, _: &[f64], _: &[f64], _: Need, _: &mut Terms, _: &mut Scratch) {}
+
+    fn structure(&self) -> Structure {
+        let n = self.dimensions.v;
+        let empty = |rows| Pattern { rows, cols: n, entries: Vec::new() };
+        Structure { mass: empty(n), g: empty(0), tangent: empty(n) }
+    }
 }

@@ -1,7 +1,6 @@
 //! The slope of a bundle.
 
-use super::shape::Shape;
-use super::{Bundle, Pulse};
+use super::bundle::{Bundle, Pulse, Shape};
 use crate::error::Result;
 use crate::formulation::{Dynamics, Formulation, Halt};
 use crate::linearize::{Changes, Matrix, Variation};

@@ -3,11 +3,9 @@
 mod bundle;
 mod field;
 mod projection;
-mod shape;
 
 pub use bundle::{Bundle, Pulse, Snapshot};
 
-use super::State;
 use crate::error::{Error, Failure, Result};
 use crate::formulation::{Choice, Dynamics};
 use crate::integrator::{self, Problem, Setup, Store, Tolerance};
@@ -15,9 +13,9 @@ use crate::projection::Projection;
 use crate::simulate::{Observation, Parts, Segments, Sink, Stop};
 use crate::system::MechanicalSystem;
 use crate::tolerances::linearize as tolerances;
+use bundle::Shape;
 use field::Field;
 use projection::Straightening;
-use shape::Shape;
 
 const SHORTER: &str = "choose a shorter time";
 
@@ -96,19 +94,4 @@ impl Sink for Counter {
 /// The tolerance is not the user's, so that what else a failure advises does not help.
 fn stopped(failure: Failure) -> Error {
     Failure { hint: SHORTER.to_string(), ..failure }.into()
-}
-
-impl Bundle {
-    /// The motion from a state alone.
-    pub fn of(start: &State) -> Self {
-        let columns = super::Changes::none(start.v.len());
-        Bundle {
-            start: start.clone(),
-            columns,
-            driven: Vec::new(),
-            members: Vec::new(),
-            pushes: Vec::new(),
-            pulse: None,
-        }
-    }
 }

@@ -1,6 +1,6 @@
 //! What is done with a bundle after each step.
 
-use super::shape::Shape;
+use super::bundle::Shape;
 use crate::error::Result;
 use crate::formulation::{Choice, Dynamics, Halt};
 use crate::projection::{self, Projection};

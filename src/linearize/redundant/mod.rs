@@ -3,7 +3,7 @@
 mod pencil;
 mod rounding;
 
-use super::method::{Built, Entry};
+use super::entry::{Built, Entry};
 use crate::choice::{Choice, OptionDoc};
 use crate::error::{Error, Result};
 use crate::formulation::{self, Dae};

@@ -4,7 +4,8 @@ use super::Built;
 use super::rounding::Parts;
 use crate::error::Result;
 use crate::formulation::{Dae, Row};
-use crate::linearize::{Changes, Matrix, Variation, names};
+use crate::linearize::changes::directions;
+use crate::linearize::{Changes, Matrix, Variation};
 
 /// Infinite eigenvalues with `m` independent constraints: those of index 1 for a row of phi'' beside M v', one more a
 /// multiplier for each time that the row is differentiated less, and for mu, which stands beside q', one less.
@@ -87,7 +88,7 @@ fn observe(dae: &Dae, variation: &mut Variation, kept: &[usize], (e, a): (Matrix
 
 fn states(dae: &Dae, variation: &Variation, kept: &[usize]) -> Vec<String> {
     let system = variation.system();
-    let mut states = names::directions(system, &variation.point.q).states();
+    let mut states = directions(system, &variation.point.q).states();
     let multipliers = system.names().lambda;
     for (_, suffix) in
         [(Some(dae.lambda), ""), (dae.eta, " eta"), (dae.mu, " mu")].iter().filter(|kind| kind.0.is_some())

@@ -1,7 +1,7 @@
 //! Matrices of a pencil without what rounding leaves in place of zeros.
 
 use crate::formulation::Row;
-use crate::linearize::response::beside;
+use crate::linearize::changes::beside;
 use crate::linearize::{Matrix, Variation};
 use crate::tolerances::linearize as tolerances;
 

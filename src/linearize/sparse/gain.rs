@@ -5,9 +5,9 @@ use super::search::{Found, Space};
 use super::shifted::Shifted;
 use super::{C, changes};
 use crate::error::Result;
-use crate::linearize::method::Built;
+use crate::linearize::entry::Built;
+use crate::linearize::response::observe;
 use crate::linearize::spectrum::refused;
-use crate::linearize::variation::observe;
 use crate::linearize::{Matrix, Response, Variation};
 use crate::tolerances::linearize as tolerances;
 

@@ -6,9 +6,9 @@ mod reduce;
 mod search;
 mod shifted;
 
-use super::method::Built;
+use super::entry::Built;
+use super::response::observe;
 use super::spectrum::{modes_of, refused};
-use super::variation::observe;
 use super::{Changes, Complex, Cost, LinearModel, Matrix, Response, Variation};
 use crate::error::{Error, Result};
 use crate::math::eigen::Unsolved;

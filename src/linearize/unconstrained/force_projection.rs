@@ -3,7 +3,7 @@
 use super::{PROJECTED, build};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
-use crate::linearize::method::Entry;
+use crate::linearize::entry::Entry;
 use crate::linearize::{Changes, Matrix, Response, Variation};
 use crate::math::eigen::pseudo_inverse;
 

@@ -10,10 +10,11 @@ pub(super) use baumgarte::BAUMGARTE;
 pub(super) use force_projection::FORCE_PROJECTION;
 pub(super) use penalty::{AUGMENTED_LAGRANGIAN, PENALTY};
 
-use super::method::{Built, Request};
+use super::changes::directions;
+use super::entry::{Built, Request};
 use super::minimal::restrict;
-use super::variation::observe;
-use super::{Changes, Matrix, Response, Variation, names};
+use super::response::observe;
+use super::{Changes, Matrix, Response, Variation};
 use crate::choice::OptionDoc;
 use crate::error::Result;
 
@@ -32,7 +33,7 @@ fn build(
 ) -> Result<Built> {
     if request.method.one_of("projected", &["no", "yes"])? == "yes" {
         let coordinates = request.chart(variation).at(variation)?;
-        return Ok(Built::minimal(restrict(variation, coordinates, response)?));
+        return Ok(restrict(variation, coordinates, response)?.into());
     }
     let n = variation.len();
     let changes = Changes::all(n);
@@ -42,7 +43,7 @@ fn build(
     a.view_mut((n, 0), (n, 2 * n)).copy_from(&response.vdot);
     let b = response.driven_vdot.clone().insert_rows(0, n, 0.0);
     let [c, d] = observe(&variation.outputs()?, &changes, &response);
-    let states = names::directions(variation.system(), &variation.point.q).states();
+    let states = directions(variation.system(), &variation.point.q).states();
     let chart = "redundant".to_string();
     Ok(Built { chart, states, a, b, c, d, e: None, changes, infinite: 0 })
 }

@@ -4,7 +4,7 @@ use super::{PROJECTED, build};
 use crate::choice::{Choice, OptionDoc};
 use crate::error::{Error, Result};
 use crate::formulation::{self, mean_compliance};
-use crate::linearize::method::Entry;
+use crate::linearize::entry::Entry;
 use crate::linearize::variation::at_state;
 use crate::linearize::{Changes, Matrix, Response, Variation};
 use crate::system::Loaded;

@@ -1,0 +1,118 @@
+//! Minimal coordinates of the perturbation at a state.
+
+use super::changes::beside;
+use super::{Changes, Matrix, Variation};
+use crate::error::{Error, Result};
+use crate::system::{LeviCivita, Loaded};
+
+/// The chart at a state.
+///
+/// ```text
+/// dq = R z,   dv = R y + T z,   z' = y + turn z,   y' = B dv' - drift_z z - drift_y y,   B R = I
+/// ```
+#[derive(Clone, Debug)]
+pub struct Coordinates {
+    pub name: String,
+    /// Names of z, then of y.
+    pub states: Vec<String>,
+    pub r: Matrix,
+    pub tilt: Matrix,
+    pub b: Matrix,
+    pub turn: Matrix,
+    pub drift: [Matrix; 2],
+}
+
+impl Coordinates {
+    /// (dq, dv) of a unit of each state.
+    pub fn changes(&self) -> Changes {
+        let none = Matrix::zeros(self.r.nrows(), self.r.ncols());
+        Changes { q: beside([&self.r, &none]), v: beside([&self.tilt, &self.r]) }
+    }
+
+    /// (z, y) of changes that the constraints allow.
+    pub fn states_of(&self, changes: &Changes) -> Matrix {
+        let z = &self.b * &changes.q;
+        let y = &self.b * (&changes.v - &self.tilt * &z);
+        let (k, columns) = z.shape();
+        let mut both = Matrix::zeros(2 * k, columns);
+        both.rows_mut(0, k).copy_from(&z);
+        both.rows_mut(k, k).copy_from(&y);
+        both
+    }
+}
+
+/// z = B dq with a constant B, R given:
+///
+/// ```text
+/// dv = R y - S Gd R z,   z' = y + B Q R z,   Q = -[v, .],   G S = I, B S = 0
+/// ```
+pub(super) fn constant(
+    variation: &mut Variation,
+    name: &str,
+    states: Vec<String>,
+    (r, b): (Matrix, Matrix),
+) -> Result<Coordinates> {
+    let correction = variation.correct(&(variation.gd() * &r))?;
+    // Of the smallest correction in the mass metric what B does not see.
+    let tilt = &r * (&b * &correction) - correction;
+    let turn = -&b * variation.bracket(&variation.point.v) * &r;
+    let none = Matrix::zeros(r.ncols(), r.ncols());
+    Ok(Coordinates { name: name.to_string(), states, r, tilt, b, turn, drift: [none.clone(), none] })
+}
+
+/// dq = Z z with Z held and nothing else: z' = y.
+pub(super) fn frozen(variation: &Variation, z: Matrix) -> Coordinates {
+    let turned = variation.bracket(&variation.point.v) * &z;
+    let b = z.transpose() * variation.mass();
+    let none = Matrix::zeros(z.ncols(), z.ncols());
+    let drift = [none.clone(), &b * &turned];
+    Coordinates { name: "frozen".to_string(), states: numbered(z.ncols()), tilt: turned, r: z, b, turn: none, drift }
+}
+
+/// dq = N u with N parallel in the mass metric, N^T (M N' + W N) = 0. With Q = -[v, .] and S the least corrections,
+///
+/// ```text
+/// G'  = Gd - G Q                      G'' = Gdd - 2 Gd Q + G Q^2 - G Q'
+/// N'  = -S G' N - N (N^T W N)
+/// N^T M N'' = -N'^T (M N' + W N) - N^T (M' N' + W' N + W N')
+/// dv  = N u' + (N' - Q N) u           dv' = N u'' + (2 N' - Q N) u' + (N'' - Q' N - Q N') u
+/// ```
+///
+/// # Errors
+/// Equations that do not say how M changes; a singular state.
+pub fn parallel(variation: &mut Variation, n: Matrix) -> Result<Coordinates> {
+    let mut connection = LeviCivita::new(variation.len());
+    if !levi_civita(variation, &mut connection) {
+        return Err(Error::input("the intrinsic chart needs a mass matrix whose change along the motion is known")
+            .under("--chart")
+            .hint(
+                "bodies in floating frames have none: take --chart mass_orthogonal, or name independent coordinates",
+            ));
+    }
+    let LeviCivita { w, w_dot, mass_dot } = connection;
+    let (mass, g) = (variation.mass(), variation.g());
+    let q = -variation.bracket(&variation.point.v);
+    let q_dot = -variation.bracket(&variation.point.vdot);
+    let wn = &w * &n;
+    let n_dot = -variation.correct(&((variation.gd() - g * &q) * &n))? - &n * (n.transpose() * &wn);
+    let bent =
+        n_dot.transpose() * (&mass * &n_dot + &wn) + n.transpose() * (mass_dot * &n_dot + w_dot * &n + &w * &n_dot);
+    let b = n.transpose() * mass;
+    let turned = &q * &n;
+    let drift = [-bent - &b * (q_dot * &n + &q * &n_dot), &b * (&n_dot * 2.0 - &turned)];
+    let none = Matrix::zeros(n.ncols(), n.ncols());
+    let states = numbered(n.ncols());
+    Ok(Coordinates { name: "intrinsic".to_string(), states, tilt: n_dot - turned, r: n, b, turn: none, drift })
+}
+
+pub(super) fn levi_civita(variation: &mut Variation, connection: &mut LeviCivita) -> bool {
+    let Variation { dynamics, point, .. } = variation;
+    let at = Loaded { t: point.t, q: &point.q, v: &point.v, vdot: &point.vdot, lambda: &point.lambda };
+    dynamics.system.levi_civita(at, connection, &mut dynamics.scratch)
+}
+
+/// u1 .. uk, u1' .. uk'
+pub(super) fn numbered(k: usize) -> Vec<String> {
+    let names = (1..=k).map(|i| format!("u{i}"));
+    names.clone().chain(names.map(|name| format!("{name}'"))).collect()
+}

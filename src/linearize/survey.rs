@@ -1,0 +1,257 @@
+//! Linear models at many states: along a motion, or over a parameter.
+
+use super::along::{Walk, follow};
+use super::{Branch, Matrix, Operating, Request, Sample, State, at_rest, linearize, tighten, track};
+use crate::error::{Error, Result, Warning};
+use crate::study::{Overrides, Study};
+use crate::sweep::{Family, Range};
+use crate::tolerances::linearize as tolerances;
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+
+/// Eigenvalues at many states, as branches.
+#[derive(Clone, Debug)]
+pub struct Loci {
+    pub along: Along,
+    /// As in [`LinearModel`](super::LinearModel), of the first state that has one; empty where none has.
+    pub method: String,
+    pub chart: String,
+    /// All places in their order.
+    pub places: Vec<f64>,
+    pub reached: Vec<Reached>,
+    pub gaps: Vec<Gap>,
+    /// Physical ones first.
+    pub branches: Vec<Branch>,
+    /// What the states may not be, each once.
+    pub doubts: Vec<Warning>,
+}
+
+/// What the eigenvalues are functions of.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Along {
+    /// s
+    Time,
+    Parameter(Range),
+}
+
+/// A place with a linear model.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Reached {
+    pub at: f64,
+    pub equilibrium: bool,
+}
+
+/// A place without one, and why.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gap {
+    pub at: f64,
+    pub error: Error,
+}
+
+/// One scene a value of a parameter.
+pub struct Variants<'a> {
+    pub family: &'a Family,
+    /// How each is simulated.
+    pub overrides: &'a Overrides,
+    pub range: &'a Range,
+}
+
+/// Which state of each scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum At {
+    Start,
+    /// Of its motion.
+    Time(f64),
+    /// At rest at the scene's start time. Each search begins at the equilibrium of the neighbour, outwards from the value
+    /// that is nearest to the scene's own, so that a branch of equilibria is followed.
+    Equilibrium,
+}
+
+/// What one state gives.
+struct Found {
+    state: State,
+    sample: Sample,
+    method: String,
+    chart: String,
+    is_equilibrium: bool,
+    doubt: Option<Warning>,
+}
+
+type Outcome = (f64, Result<Found>);
+
+/// Eigenvalues at `times` (increasing) of the study's motion; `progress` hears of each. Where the motion cannot go on, the
+/// later times are gaps. Where it is not clear which mode is which, states between the times are looked at as well.
+pub fn loci_along(study: &Study, request: &Request, times: &[f64], progress: impl Fn() + Sync) -> Loci {
+    let (mut walk, mut stopped) = (Walk::new(study), None);
+    let mut go_to = |t: f64| match &stopped {
+        Some(error) => Err(Error::clone(error)),
+        None => walk.to(t).inspect_err(|error| stopped = Some(error.clone())),
+    };
+    let states: Vec<(f64, Result<State>)> = times.iter().map(|&t| (t, go_to(t))).inspect(|_| progress()).collect();
+    let moving = |state, t| found(&Operating::moving(study, state), t, request);
+    let outcome = |(t, state): (f64, Result<State>)| (t, state.and_then(|state| moving(state, t)));
+    let outcomes: Vec<Outcome> = states.into_par_iter().map(outcome).collect();
+    let between = |before: &Found, t: f64| moving(follow(study, &before.state, t)?, t);
+    collect(Along::Time, outcomes, between)
+}
+
+/// Eigenvalues of a scene for each value of a parameter; `progress` hears of each. Values without a state or a model are
+/// gaps.
+///
+/// # Errors
+/// A parameter that the scene does not have.
+pub fn loci_over(variants: &Variants, at: At, request: &Request, progress: impl Fn() + Sync) -> Result<Loci> {
+    let own = variants.family.own_value(&variants.range.parameter)?;
+    let values = variants.range.values();
+    let outcomes: Vec<Outcome> = match at {
+        At::Equilibrium => {
+            let distance = |i: &usize| (values[*i] - own).abs();
+            let middle = (0..values.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
+            let (before, after) = values.split_at(middle);
+            let down = || at_rest_along(variants, before.iter().rev(), values.get(middle), request, &progress);
+            let up = || at_rest_along(variants, after.iter(), None, request, &progress);
+            let (down, up) = rayon::join(down, up);
+            down.into_iter().rev().chain(up).collect()
+        }
+        _ => {
+            let outcome = |&value: &f64| (value, variants.found(value, at, request));
+            values.par_iter().map(outcome).inspect(|_| progress()).collect()
+        }
+    };
+    let between = |before: &Found, value: f64| match at {
+        At::Equilibrium => {
+            let study = variants.study(value)?;
+            found(&rest(&study, Some(&before.state.q))?, value, request)
+        }
+        _ => variants.found(value, at, request),
+    };
+    Ok(collect(Along::Parameter(variants.range.clone()), outcomes, between))
+}
+
+/// Equilibria from value to value, the first from that of the scene at the value `behind`.
+fn at_rest_along<'v>(
+    variants: &Variants,
+    values: impl Iterator<Item = &'v f64>,
+    behind: Option<&f64>,
+    request: &Request,
+    progress: &(impl Fn() + Sync),
+) -> Vec<Outcome> {
+    let first = |value: f64| rest(&variants.study(value)?, None).map(|rest| rest.state.q);
+    let mut guess = behind.and_then(|&value| first(value).ok());
+    let mut next = |value: f64| {
+        let study = variants.study(value)?;
+        let rest = rest(&study, guess.as_deref())?;
+        guess = Some(rest.state.q.clone());
+        found(&rest, value, request)
+    };
+    let mut outcomes = Vec::new();
+    for &value in values {
+        outcomes.push((value, next(value)));
+        progress();
+    }
+    outcomes
+}
+
+/// The equilibrium that belongs to a guess; where there is none, that of the scene's own start.
+fn rest<'a>(study: &'a Study, guess: Option<&[f64]>) -> Result<Operating<'a>> {
+    let start = State::start(study);
+    let near = guess.filter(|q| q.len() == start.q.len()).map(|q| State { q: q.to_vec(), ..start.clone() });
+    match near.map(|near| at_rest(study, &near)) {
+        Some(Ok(rest)) => Ok(rest),
+        _ => at_rest(study, &start),
+    }
+}
+
+impl Variants<'_> {
+    fn study(&self, value: f64) -> Result<Study> {
+        let scene = self.family.scene_at(&self.range.parameter, value)?;
+        let mut study = Study::new(scene, self.overrides)?;
+        tighten(&mut study, self.overrides);
+        Ok(study)
+    }
+
+    fn found(&self, value: f64, at: At, request: &Request) -> Result<Found> {
+        let study = self.study(value)?;
+        let state = match at {
+            At::Time(t) => super::states(&study, &[t], |_| ())?.into_iter().next(),
+            _ => None,
+        };
+        let state = state.unwrap_or_else(|| State::start(&study));
+        found(&Operating::moving(&study, state), value, request)
+    }
+}
+
+fn found(operating: &Operating, at: f64, request: &Request) -> Result<Found> {
+    let mut variation = operating.variation()?;
+    let model = linearize(&mut variation, request)?;
+    let mass: Matrix = variation.mass();
+    let is_equilibrium = model.point.is_equilibrium;
+    let sample = Sample { at, modes: model.modes, mass };
+    let (state, doubt) = (operating.state.clone(), operating.doubt.clone());
+    Ok(Found { state, sample, method: model.method, chart: model.chart, is_equilibrium, doubt })
+}
+
+/// What lies between two states, as far as it takes to tell the modes apart.
+fn refined(
+    before: &Found,
+    after: &Found,
+    halvings: usize,
+    between: &impl Fn(&Found, f64) -> Result<Found>,
+) -> Vec<Sample> {
+    if halvings == 0 || before.sample.leads_clearly_to(&after.sample) {
+        return Vec::new();
+    }
+    // Where there is no model between, modes are told apart as well as may be.
+    let Ok(middle) = between(before, 0.5 * (before.sample.at + after.sample.at)) else { return Vec::new() };
+    let mut samples = refined(before, &middle, halvings - 1, between);
+    let rest = refined(&middle, after, halvings - 1, between);
+    samples.push(middle.sample);
+    samples.extend(rest);
+    samples
+}
+
+/// Branches and gaps of what was found at the places; `between` gives the state behind one at another place.
+fn collect(along: Along, outcomes: Vec<Outcome>, between: impl Fn(&Found, f64) -> Result<Found> + Sync) -> Loci {
+    let places: Vec<f64> = outcomes.iter().map(|(at, _)| *at).collect();
+    let behind = |pair: &[Outcome]| match (&pair[0].1, &pair[1].1) {
+        (Ok(before), Ok(after)) => {
+            let halvings = if before.sample.modes.len() > tolerances::MANY_MODES {
+                tolerances::FEW_HALVINGS
+            } else {
+                tolerances::HALVINGS
+            };
+            refined(before, after, halvings, &between)
+        }
+        _ => Vec::new(),
+    };
+    let more: Vec<Vec<Sample>> = outcomes.par_windows(2).map(behind).collect();
+    let first = outcomes.iter().find_map(|(_, outcome)| outcome.as_ref().ok());
+    let (method, chart) = first.map(|found| (found.method.clone(), found.chart.clone())).unwrap_or_default();
+    let (mut reached, mut gaps, mut samples, mut doubts) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for ((at, outcome), more) in outcomes.into_iter().zip(more.into_iter().chain([Vec::new()])) {
+        match outcome {
+            Ok(found) => {
+                reached.push(Reached { at, equilibrium: found.is_equilibrium });
+                doubts.extend(found.doubt.filter(|_| doubts.is_empty()));
+                samples.push(found.sample);
+            }
+            Err(error) => {
+                gaps.push(Gap { at, error });
+                samples.push(Sample::gap(at));
+            }
+        }
+        samples.extend(more);
+    }
+    let branches = asked(track(&samples), &places);
+    Loci { along, method, chart, places, reached, gaps, branches, doubts }
+}
+
+/// The branches at these places only.
+fn asked(branches: Vec<Branch>, places: &[f64]) -> Vec<Branch> {
+    let places: BTreeSet<u64> = places.iter().map(|place| place.to_bits()).collect();
+    let at_places = |mut branch: Branch| {
+        branch.points.retain(|(at, _)| places.contains(&at.to_bits()));
+        branch
+    };
+    branches.into_iter().map(at_places).filter(|branch| !branch.points.is_empty()).collect()
+}
