@@ -5,7 +5,7 @@ use crate::common::{fixed, method};
 use crate::scenes::{Ready, parse};
 use holonom::analysis::Recorder;
 use holonom::formulation::Choice;
-use holonom::integrator::{self, Setup, Stability, Store};
+use holonom::integrator::{self, Setup, Stability};
 use holonom::simulate::{Method, Span, simulate};
 
 /// x'' + c x' + k x = 0 on a rail.
@@ -25,14 +25,8 @@ fn oscillator(k: f64, c: f64) -> Ready {
 fn limits(system: &Ready) -> Vec<(&'static str, &'static str, Stability)> {
     let of = |entry: &'static integrator::Entry| {
         let [name, formulation] = [entry.name, entry.accepts().next()?];
-        let (integrator, choice, store) = (Choice::named(name), Choice::named(formulation), Store::default());
-        let setup = Setup {
-            integrator: &integrator,
-            formulation: &choice,
-            system: system.system(),
-            store: &store,
-            is_fixed: true,
-        };
+        let (integrator, choice) = (Choice::named(name), Choice::named(formulation));
+        let setup = Setup { integrator: &integrator, formulation: &choice, system: system.system(), is_fixed: true };
         Some((name, formulation, (entry.make)(&setup).ok()?.stability()?))
     };
     integrator::registry().iter().filter_map(of).collect()

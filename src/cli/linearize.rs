@@ -4,8 +4,8 @@ use super::common::{MethodOptions, Output, SceneOptions, Talk, number, print};
 use super::linear::{ChartOptions, StateOptions};
 use crate::choice::Choice;
 use crate::error::{Error, Result};
-use crate::linearize::{self, Chart, Complex, Kind, LinearModel, Request, Variation};
-use crate::report::linear::{Linear, compare, comparison_text, linear_stem};
+use crate::linearize::{self, Chart, Comparison, Complex, Kind, LinearModel, Request, Variation, compare};
+use crate::report::linear::{Linear, comparison_text, linear_stem};
 use crate::report::mechanism::{Look, mode_figure};
 use crate::report::{self, Folder};
 use crate::study::Study;
@@ -97,7 +97,7 @@ fn requests(args: &Args) -> Result<Vec<Request>> {
 #[serde(untagged)]
 enum Result_ {
     One(Box<report::linear::LinearFile>),
-    All { t: f64, methods: Vec<report::linear::Comparison> },
+    All { t: f64, methods: Vec<Comparison> },
 }
 
 fn report(args: &Args, study: &Study, models: &[LinearModel], folder: &mut Folder) -> Result<Result_> {

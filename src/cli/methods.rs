@@ -7,6 +7,7 @@ use crate::error::Result;
 use crate::formulation::OptionDoc;
 use crate::integrator::{self, Entry};
 use crate::report::Table;
+use crate::simulate::check_pair;
 use crate::{formulation, projection};
 use serde::Serialize;
 use std::process::ExitCode;
@@ -78,7 +79,7 @@ fn pairs(args: &Args) -> Result<Vec<Pair>> {
     }
     if let Some(choice) = &integrator {
         let entry = integrator::find(choice).map_err(|error| error.under("--integrator"))?;
-        formulation.iter().try_for_each(|formulation| integrator::check_pair(entry, formulation))?;
+        formulation.iter().try_for_each(|formulation| check_pair(entry, formulation))?;
     }
     let is_wanted = |choice: &Option<Choice>, name: &str| choice.as_ref().is_none_or(|choice| choice.name == name);
     let entries = integrator::registry().iter().filter(|entry| is_wanted(&integrator, entry.name));

@@ -1,6 +1,6 @@
 //! Backward differentiation formulas.
 
-use super::diffsol_backend::{self, Newton, Traits};
+use super::diffsol_backend::{self, Newton, Traits, serve, start_state};
 use super::{Entry, Integrator, Setup, Steps, Tightening, refuses};
 use crate::error::Result;
 
@@ -31,8 +31,10 @@ pub const ENTRY: Entry = Entry {
     make,
 };
 
-fn make<'h, 's>(setup: &Setup<'h, 's>) -> Result<Box<dyn Integrator + 'h>> {
+fn make<'s>(setup: &Setup<'s>) -> Result<Box<dyn Integrator + 's>> {
     // A run starts with order 1, whose error is O(h^2): the power of h that the first step is chosen by.
     let traits = Traits { order: 2, follows: false };
-    diffsol_backend::make(setup, traits, |problem, state| problem.bdf_solver::<Newton>(state))
+    diffsol_backend::make(setup, traits, |problem, exchange| {
+        Box::pin(async move { serve(problem.bdf_solver::<Newton>(start_state(&exchange)), &exchange).await })
+    })
 }

@@ -28,12 +28,11 @@ mod takes;
 mod tr_bdf2;
 
 pub use control::{Control, Tightening, Tolerance, first_step};
-pub use diffsol_backend::Store;
 pub use problem::Problem;
 pub use stability::Stability;
 
 use crate::choice::Listed;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::formulation::{self, Choice, Halt, OptionDoc};
 use crate::math::kkt::Singular;
 use crate::system::MechanicalSystem;
@@ -160,18 +159,16 @@ pub struct From<'a> {
 }
 
 /// What an integrator is made for.
-pub struct Setup<'h, 's> {
+pub struct Setup<'s> {
     /// Its own name and options.
-    pub integrator: &'h Choice,
-    pub formulation: &'h Choice,
+    pub integrator: &'s Choice,
+    pub formulation: &'s Choice,
     pub system: &'s dyn MechanicalSystem,
-    /// Where an integrator may keep what another part of it borrows.
-    pub store: &'h Store<'s>,
     /// Whether the steps are fixed.
     pub is_fixed: bool,
 }
 
-impl Setup<'_, '_> {
+impl Setup<'_> {
     /// Length of the flat state.
     pub fn len(&self) -> usize {
         let n = self.system.dimensions();
@@ -207,7 +204,7 @@ pub struct Entry {
     /// Whether a projection would cost it an order with a formulation.
     pub refuses: fn(&formulation::Entry, projection: &str) -> bool,
     pub options: &'static [OptionDoc],
-    pub make: for<'h, 's> fn(&Setup<'h, 's>) -> Result<Box<dyn Integrator + 'h>>,
+    pub make: for<'s> fn(&Setup<'s>) -> Result<Box<dyn Integrator + 's>>,
 }
 
 impl Entry {
@@ -270,19 +267,4 @@ pub fn registry() -> &'static [Entry] {
 /// The entry that `choice` stands for.
 pub fn find(choice: &Choice) -> Result<&'static Entry> {
     choice.entry(registry())
-}
-
-/// Refuses a formulation that the integrator does not take, naming what goes together.
-pub fn check_pair(entry: &Entry, formulation: &Choice) -> Result<()> {
-    let name = formulation.name.as_str();
-    // An unknown formulation is refused by its own registry, with names to choose from.
-    let Some(solved) = formulation::lookup(formulation).filter(|known| !(entry.solves)(known)) else { return Ok(()) };
-    let takers: Vec<&str> = registry().iter().filter(|other| (other.solves)(solved)).map(|other| other.name).collect();
-    let takers = if takers.is_empty() { "no integrator".to_string() } else { takers.join(", ") };
-    let accepted: Vec<&str> = entry.accepts().collect();
-    Err(Error::input(format!("{} cannot integrate {name}", entry.name)).hint(format!(
-        "{} accepts {}; {name} goes with {takers}",
-        entry.name,
-        accepted.join(", ")
-    )))
 }

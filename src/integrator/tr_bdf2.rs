@@ -1,6 +1,6 @@
 //! The trapezoidal rule and BDF2 in one step.
 
-use super::diffsol_backend::{self, Newton, Traits};
+use super::diffsol_backend::{self, Newton, Traits, serve, start_state};
 use super::{Entry, Integrator, Setup, Steps, Tightening, refuses};
 use crate::error::Result;
 
@@ -26,7 +26,9 @@ pub const ENTRY: Entry = Entry {
     make,
 };
 
-fn make<'h, 's>(setup: &Setup<'h, 's>) -> Result<Box<dyn Integrator + 'h>> {
+fn make<'s>(setup: &Setup<'s>) -> Result<Box<dyn Integrator + 's>> {
     let traits = Traits { order: ENTRY.order, follows: true };
-    diffsol_backend::make(setup, traits, |problem, state| problem.tr_bdf2_solver::<Newton>(state))
+    diffsol_backend::make(setup, traits, |problem, exchange| {
+        Box::pin(async move { serve(problem.tr_bdf2_solver::<Newton>(start_state(&exchange)), &exchange).await })
+    })
 }

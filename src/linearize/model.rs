@@ -1,6 +1,7 @@
 //! What every method of linearization returns.
 
 use super::OperatingPoint;
+use crate::tolerances::linearize as tolerances;
 pub use nalgebra::Complex;
 use nalgebra::DMatrix;
 use std::f64::consts::TAU;
@@ -50,6 +51,18 @@ pub enum Kind {
     Infinite,
 }
 
+impl Kind {
+    /// The word in files and text.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Physical => "physical",
+            Kind::Uncertain => "uncertain",
+            Kind::Spurious => "spurious",
+            Kind::Infinite => "infinite",
+        }
+    }
+}
+
 impl LinearModel {
     /// Whether some eigenvalues are [`Kind::Uncertain`].
     pub fn has_uncertain_kinds(&self) -> bool {
@@ -81,6 +94,11 @@ impl Mode {
     pub fn damping(&self) -> f64 {
         damping(self.value)
     }
+
+    /// The same without what rounding leaves in place of zero.
+    pub fn clean_damping(&self) -> f64 {
+        Some(self.damping()).filter(|ratio| ratio.abs() > tolerances::SAME).unwrap_or(0.0)
+    }
 }
 
 /// |lambda| / 2 pi, Hz.
@@ -92,6 +110,38 @@ pub fn frequency(value: Complex<f64>) -> f64 {
 pub fn damping(value: Complex<f64>) -> f64 {
     let size = value.norm();
     if size > 0.0 && size.is_finite() { 0.0 - value.re / size } else { 0.0 }
+}
+
+/// An eigenvalue alone, or the one with the positive imaginary part of a pair.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair<'a> {
+    pub mode: &'a Mode,
+    pub is_pair: bool,
+}
+
+/// The finite eigenvalues of a kind in their order, each pair once.
+pub fn pairs(model: &LinearModel, kind: Kind) -> Vec<Pair<'_>> {
+    let modes: Vec<&Mode> = model.modes.iter().filter(|mode| mode.kind == kind).collect();
+    let mut is_taken = vec![false; modes.len()];
+    let mut found = Vec::new();
+    for i in 0..modes.len() {
+        if std::mem::replace(&mut is_taken[i], true) {
+            continue;
+        }
+        let partner = (i + 1..modes.len()).find(|&j| !is_taken[j] && are_conjugate(modes[i].value, modes[j].value));
+        if let Some(j) = partner {
+            is_taken[j] = true;
+        }
+        let upper = partner.filter(|&j| modes[j].value.im > modes[i].value.im).unwrap_or(i);
+        found.push(Pair { mode: modes[upper], is_pair: partner.is_some() });
+    }
+    found
+}
+
+/// Whether two values that are not real are conjugate to each other.
+pub fn are_conjugate(a: Complex<f64>, b: Complex<f64>) -> bool {
+    let near = tolerances::EIGENVALUES_AGREE * a.norm();
+    a.im != 0.0 && a.im * b.im < 0.0 && (a - b.conj()).norm() <= near
 }
 
 /// What a model took.

@@ -8,7 +8,6 @@ use super::contest::{Contest, Mark, Quiet};
 use super::{Checkpoint, Method, Outcome, Run, Sink, Span};
 use crate::error::{Failure, Result, clock, short};
 use crate::formulation::{Choice, Statistics};
-use crate::integrator::Store;
 use crate::system::MechanicalSystem;
 use crate::tolerances::simulate as tolerances;
 use serde::Serialize;
@@ -49,8 +48,8 @@ fn candidates(tolerances: (f64, f64)) -> [Method; 2] {
 /// What a method that was named has against it at the beginning of a motion: how much farther an implicit one comes. `None`
 /// where stability does not hold its steps, or nothing is known.
 pub fn rival(system: &dyn MechanicalSystem, method: &Method, span: Span, start: (&[f64], &[f64])) -> Option<Contest> {
-    let (methods, store) = ([method.clone(), implicit((method.rtol, method.atol))], Store::default());
-    let mut drive = Drive::new((system, &store), &methods, unseen(span), start).ok()?;
+    let methods = [method.clone(), implicit((method.rtol, method.atol))];
+    let mut drive = Drive::new(system, &methods, unseen(span), start).ok()?;
     drive.run.begin(&mut Quiet).ok()?;
     let is_enough = |drive: &Drive, mark, changes| drive.contest.is_some() || changes || drive.is_known(mark);
     drive.go(&mut Quiet, is_enough).ok()?;
@@ -67,9 +66,9 @@ pub fn advise(
     span: Span,
     start: (&[f64], &[f64]),
 ) -> Result<(Method, String)> {
-    let (methods, store) = (candidates(tolerances), Store::default());
+    let methods = candidates(tolerances);
     methods[EXPLICIT].check()?;
-    let mut drive = Drive::new((system, &store), &methods, unseen(span), start)?;
+    let mut drive = Drive::new(system, &methods, unseen(span), start)?;
     if let Err(Failure { reason, .. }) = drive.run.begin(&mut Quiet) {
         // Whatever the method, the run will say so at its start.
         return Ok((methods[EXPLICIT].clone(), format!("nothing was tried: {reason}")));
@@ -93,9 +92,9 @@ pub fn simulate_automatic(
     sink: &mut dyn Sink,
 ) -> Result<(Outcome, Vec<Leg>, Option<Checkpoint>)> {
     span.check()?;
-    let (methods, store) = (candidates(tolerances), Store::default());
+    let methods = candidates(tolerances);
     methods[EXPLICIT].check()?;
-    let mut drive = Drive::new((system, &store), &methods, span, start)?;
+    let mut drive = Drive::new(system, &methods, span, start)?;
     let begun = drive.run.begin(sink);
     let has_begun = begun.is_ok();
     let failure = match begun {
@@ -113,9 +112,8 @@ fn unseen(span: Span) -> Span {
 }
 
 /// A run that may change its method.
-struct Drive<'s, 'a> {
-    system: &'s dyn MechanicalSystem,
-    store: &'a Store<'s>,
+struct Drive<'a> {
+    system: &'a dyn MechanicalSystem,
     methods: &'a [Method; 2],
     span: Span,
     run: Run<'a>,
@@ -131,17 +129,17 @@ struct Drive<'s, 'a> {
     leg: Leg,
 }
 
-impl<'s: 'a, 'a> Drive<'s, 'a> {
+impl<'a> Drive<'a> {
     fn new(
-        (system, store): (&'s dyn MechanicalSystem, &'a Store<'s>),
+        system: &'a dyn MechanicalSystem,
         methods: &'a [Method; 2],
         span: Span,
         (q, v): (&[f64], &[f64]),
     ) -> Result<Self> {
-        let run = Run::new((system, store), &methods[EXPLICIT], span, [q, v, &[0.0]].concat())?;
+        let run = Run::new(system, &methods[EXPLICIT], span, [q, v, &[0.0]].concat())?;
         let leg = Leg::of(span.start, &methods[EXPLICIT], CALM.to_string());
         let (carrier, stopped, window, contest, legs) = (EXPLICIT, 0, tolerances::IMPLICIT_TRIED, None, Vec::new());
-        Ok(Drive { system, store, methods, span, run, carrier, stopped, window, contest, legs, leg })
+        Ok(Drive { system, methods, span, run, carrier, stopped, window, contest, legs, leg })
     }
 
     /// Goes on to the end, to a failure that both methods have, or until a look `is_enough`: after the work since a
@@ -205,7 +203,7 @@ impl<'s: 'a, 'a> Drive<'s, 'a> {
     fn change(&mut self, carrier: usize, because: String) -> Result<Option<Failure>> {
         self.carrier = carrier;
         let method = &self.methods[carrier];
-        let next = Run::new((self.system, self.store), method, self.span, self.run.y.clone())?;
+        let next = Run::new(self.system, method, self.span, self.run.y.clone())?;
         let before = std::mem::replace(&mut self.run, next);
         (self.run.t, self.run.rows.next) = (before.t, before.rows.next);
         let leg = std::mem::replace(&mut self.leg, Leg::of(before.t, method, because));

@@ -5,7 +5,6 @@ use super::crowd::Crowd;
 use super::{Method, Outcome, Run, Sink, Span};
 use crate::error::{Error, Failure, Result};
 use crate::formulation::Statistics;
-use crate::integrator::Store;
 use crate::math::Piece;
 use crate::system::{Loaded, MechanicalSystem};
 use serde::{Deserialize, Serialize};
@@ -67,12 +66,11 @@ pub fn simulate_from(
 ) -> Result<(Outcome, Option<Checkpoint>)> {
     method.check()?;
     span.check()?;
-    let store = Store::default();
     let y = match start {
         Start::State(q, v) => [q, v, &[0.0]].concat(),
         Start::Saved(saved) => saved.checked(system, span)?.y.clone(),
     };
-    let mut run = Run::new((system, &store), method, span, y)?;
+    let mut run = Run::new(system, method, span, y)?;
     let begun = match start {
         Start::State(..) => run.begin(sink),
         Start::Saved(saved) => run.go_on_from(saved, method, sink),

@@ -8,7 +8,6 @@ use super::spectrum::{Mode, fastest};
 use super::{Method, Observation, Run, Sink};
 use crate::error::{Failure, Result};
 use crate::formulation::{Dynamics, Statistics};
-use crate::integrator::Store;
 use crate::system::{Loaded, MechanicalSystem};
 use crate::tolerances::simulate as tolerances;
 
@@ -129,8 +128,7 @@ impl Run<'_> {
         let own = self.mark();
         let share = |work: f64| tolerances::TRIAL_SHARE * work;
         let (budget, most) = (tolerances::TRIAL_WORK.max(share(own.work - mark.work)), share(self.left(mark)));
-        let store = Store::default();
-        let mut rival = Run::new((system, &store), other, self.span, self.y.clone())?;
+        let mut rival = Run::new(system, other, self.span, self.y.clone())?;
         (rival.t, rival.rows.next) = (self.t, self.rows.next);
         let failure = rival.go_on(&self.problem.dynamics.dropped).err();
         let (since, stopped) =

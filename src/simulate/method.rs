@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result, Warning, short};
 use crate::formulation::{self, Choice};
-use crate::integrator::{self, Steps, Tolerance};
+use crate::integrator::{self, Integrator, Setup, Steps, Tolerance};
 use crate::projection;
 use crate::system::MechanicalSystem;
 use crate::tolerances::simulate as tolerances;
@@ -75,7 +75,7 @@ impl Method {
     /// Refuses combinations that make no sense, naming those that do.
     pub fn check(&self) -> Result<()> {
         let entry = integrator::find(&self.integrator).map_err(|error| error.under("integrator"))?;
-        integrator::check_pair(entry, &self.formulation).map_err(|error| error.under("formulation"))?;
+        check_pair(entry, &self.formulation).map_err(|error| error.under("formulation"))?;
         let (formulation, projection) = (self.formulation.name.as_str(), self.projection.name.as_str());
         let known = formulation::lookup(&self.formulation);
         let refuses = |projection: &str| known.is_some_and(|known| (entry.refuses)(known, projection));
@@ -106,4 +106,34 @@ impl Method {
             _ => Ok(()),
         }
     }
+
+    /// Refuses options that the formulation, the integrator or the projection does not take, and a system that is too large
+    /// for one of them.
+    pub fn check_options(&self, system: &dyn MechanicalSystem) -> Result<()> {
+        formulation::make(&self.formulation, system).map_err(|error| error.under("formulation"))?;
+        self.make_integrator(system).map_err(|error| error.under("integrator"))?;
+        projection::make(&self.projection, system).map_err(|error| error.under("projection"))?;
+        Ok(())
+    }
+
+    pub(super) fn make_integrator<'a>(&'a self, system: &'a dyn MechanicalSystem) -> Result<Box<dyn Integrator + 'a>> {
+        let Method { integrator, formulation, step, .. } = self;
+        (integrator::find(integrator)?.make)(&Setup { integrator, formulation, system, is_fixed: step.is_some() })
+    }
+}
+
+/// Refuses a formulation that the integrator does not take, naming what goes together.
+pub fn check_pair(entry: &integrator::Entry, formulation: &Choice) -> Result<()> {
+    let name = formulation.name.as_str();
+    // An unknown formulation is refused by its own registry, with names to choose from.
+    let Some(solved) = formulation::lookup(formulation).filter(|known| !(entry.solves)(known)) else { return Ok(()) };
+    let takers: Vec<&str> =
+        integrator::registry().iter().filter(|other| (other.solves)(solved)).map(|other| other.name).collect();
+    let takers = if takers.is_empty() { "no integrator".to_string() } else { takers.join(", ") };
+    let accepted: Vec<&str> = entry.accepts().collect();
+    Err(Error::input(format!("{} cannot integrate {name}", entry.name)).hint(format!(
+        "{} accepts {}; {name} goes with {takers}",
+        entry.name,
+        accepted.join(", ")
+    )))
 }

@@ -21,7 +21,7 @@ mod stiffness;
 
 pub use automatic::{Leg, advise, simulate_automatic};
 pub use checkpoint::{Checkpoint, Start, simulate_from};
-pub use method::{Method, atol_of};
+pub use method::{Method, atol_of, check_pair};
 pub use observation::{Observation, Sink, Span, Stop};
 pub(crate) use segments::Segments;
 pub use spectrum::{Mode, Spectrum};
@@ -36,7 +36,7 @@ use step::is_too_large;
 
 use crate::error::{Failure, Result};
 use crate::formulation::{self, Choice, Dynamics, Statistics};
-use crate::integrator::{self, Integrator, Problem, Setup, Store, Tolerance};
+use crate::integrator::{self, Integrator, Problem, Tolerance};
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
 use crate::tolerances::simulate as tolerances;
@@ -136,12 +136,7 @@ pub(crate) struct Parts<'a> {
 }
 
 impl<'a> Run<'a> {
-    fn new<'s: 'a>(
-        (system, store): (&'s dyn MechanicalSystem, &'a Store<'s>),
-        method: &'a Method,
-        span: Span,
-        y: Vec<f64>,
-    ) -> Result<Self> {
+    fn new(system: &'a dyn MechanicalSystem, method: &'a Method, span: Span, y: Vec<f64>) -> Result<Self> {
         let problem = || -> Result<Problem<'a>> {
             Ok(Problem::new(Dynamics::new(system), formulation::make(&method.formulation, system)?))
         };
@@ -151,13 +146,7 @@ impl<'a> Run<'a> {
         own.dynamics.wants_least = false;
         let parts = Parts {
             problem: own,
-            integrator: (entry.make)(&Setup {
-                integrator: &method.integrator,
-                formulation: &method.formulation,
-                system,
-                store,
-                is_fixed: method.step.is_some(),
-            })?,
+            integrator: method.make_integrator(system)?,
             projection: projection::make(&method.projection, system)?,
             rows: (problem()?, within(method, system)?),
             tests_velocities: formulation::dae(&method.formulation)?.is_none_or(|dae| dae.velocity_index() == 1),

@@ -4,7 +4,7 @@ use super::automatic::rival;
 use super::spectrum::{Mode, Spectrum, fastest};
 use super::{Method, Span};
 use crate::error::{Warning, short};
-use crate::integrator::{self, Setup, Stability, Store};
+use crate::integrator::Stability;
 use crate::system::{Loaded, MechanicalSystem};
 use crate::tolerances::simulate as tolerances;
 use serde::Serialize;
@@ -85,11 +85,7 @@ fn too_many(system: &dyn MechanicalSystem, method: &Method, state: Loaded, span:
 
 /// Stability of the method; none where its steps may be as long as they like.
 pub fn explicit(system: &dyn MechanicalSystem, method: &Method) -> Option<Stability> {
-    let entry = integrator::find(&method.integrator).ok()?;
-    let (store, is_fixed) = (Store::default(), method.step.is_some());
-    let (integrator, formulation) = (&method.integrator, &method.formulation);
-    let integrator = (entry.make)(&Setup { integrator, formulation, system, store: &store, is_fixed }).ok()?;
-    integrator.stability()
+    method.make_integrator(system).ok()?.stability()
 }
 
 fn advice(method: &Method, step: f64) -> String {

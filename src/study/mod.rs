@@ -7,7 +7,7 @@ use doubts::{doubts, explained, of_scene};
 use crate::choice::Choice;
 use crate::error::{Error, Result, Warning, clock};
 use crate::initial::{self, Assembly};
-use crate::integrator::Steps;
+use crate::integrator::{self, Steps};
 use crate::math::expression::{Number, Parameters};
 use crate::scene::{self, AnyModel, Automatic, Scene, Simulation};
 use crate::simulate::{
@@ -15,7 +15,6 @@ use crate::simulate::{
     stiffness,
 };
 use crate::system::{Loaded, MechanicalSystem, Mechanism};
-use crate::{formulation, integrator, projection};
 use std::path::Path;
 
 /// A mechanism in the plane or in space.
@@ -101,7 +100,7 @@ impl Study {
         let mechanism = AnyMechanism::new(scene.model);
         let length = mechanism.system().length();
         let method = settings.method(is_automatic, length).map_err(|error| settings.place(error))?;
-        check_options(&method, mechanism.system()).map_err(|error| settings.place(error))?;
+        method.check_options(mechanism.system()).map_err(|error| settings.place(error))?;
         let assembly = initial::assemble(mechanism.system(), start, (&scene.q, &scene.v), &scene.hold);
         let assembly = assembly.map_err(|error| explained(error, of_scene(&mechanism)))?;
         let doubts = doubts(&mechanism, &scene.q, &assembly);
@@ -200,18 +199,6 @@ impl Study {
     pub fn start(&self) -> (&[f64], &[f64]) {
         (&self.assembly.q, &self.assembly.v)
     }
-}
-
-/// Refuses unknown names and options of formulation, integrator and projection before anything is computed.
-fn check_options(method: &Method, system: &dyn MechanicalSystem) -> Result<()> {
-    formulation::make(&method.formulation, system).map_err(|error| error.under("formulation"))?;
-    let entry = integrator::find(&method.integrator)?;
-    let (store, is_fixed) = (integrator::Store::default(), method.step.is_some());
-    let (integrator, formulation) = (&method.integrator, &method.formulation);
-    let setup = integrator::Setup { integrator, formulation, system, store: &store, is_fixed };
-    (entry.make)(&setup).map_err(|error| error.under("integrator"))?;
-    projection::make(&method.projection, system).map_err(|error| error.under("projection"))?;
-    Ok(())
 }
 
 /// The scene's settings under those of the command line.

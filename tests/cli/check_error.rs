@@ -91,3 +91,14 @@ fn a_second_run_that_fails_is_said_and_the_first_is_kept() {
     assert!(summary["check_error"]["failure"]["reason"].is_string(), "{summary}");
     assert_eq!(place.text("here/trajectory.csv").lines().count(), 12);
 }
+
+/// Small changes of a stiff motion cannot be carried by an explicit method.
+#[test]
+fn an_amplification_that_is_not_known_has_a_cause() {
+    let place = Place::new(include_str!("../../models/quarter_car.json"));
+    let method = ["--formulation", "ggl", "--integrator", "radau_iia", "--projection", "none"];
+    let args = ["simulate", "scene.json", "--set", "c_strut=2e5", "--check-error", "-o", "here"];
+    let text = place.done(&[&args[..], &method].concat());
+    assert!(text.contains("amplifies small changes is not known: the fastest mode of the start"), "{text}");
+    assert_eq!(place.json("here/summary.json")["check_error"]["amplification"], Value::Null);
+}

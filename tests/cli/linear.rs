@@ -109,3 +109,19 @@ fn transition_tells_growth() {
     assert!(last >= 2, "{json}");
     assert_eq!(place.run(&["transition", "scene.json"]).status.code(), Some(2));
 }
+
+/// What carries perturbations ends where the motion does, and says why.
+#[test]
+fn a_motion_that_fails_is_told_with_its_cause() {
+    let place = Place::new(PENDULUM.replace(r#""force": [0, 0]"#, r#""force": ["sqrt(0.5 - t)", 0]"#));
+    for command in [
+        &["validate", "--at", "0.3", "--horizon", "1"][..],
+        &["transition", "--period", "1"],
+        &["transition", "--lyapunov", "1"],
+    ] {
+        let output = place.run(&[command, &["scene.json", "--figures", "none", "-o", "here"]].concat());
+        assert_eq!(output.status.code(), Some(1), "{command:?}");
+        let cause = "error: stopped at t = 5.000000e-1 s: the force on `rod.x` is infinite or not a number";
+        assert!(err(&output).starts_with(cause), "{command:?}: {}", err(&output));
+    }
+}

@@ -1,7 +1,8 @@
 //! `--method all`.
 
 use super::sample::{complex, descriptor, plain, study};
-use holonom::report::linear::{compare, comparison_text};
+use holonom::linearize::compare;
+use holonom::report::linear::comparison_text;
 
 #[test]
 fn methods_are_compared_with_a_reference() {

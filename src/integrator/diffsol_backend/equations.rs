@@ -7,15 +7,17 @@ use diffsol::{
     OdeEquations, OdeEquationsRef, Op, UnitCallable, Vector, VectorCommon,
 };
 use std::cell::RefCell;
+use std::rc::Rc;
 
 pub type Values = NalgebraVec<f64>;
 type Entries = NalgebraMat<f64>;
 
 /// diffsol calls with shared references and takes numbers only: the form is behind a cell, and what stops it is kept
-/// here, while the numbers are NaN, which makes diffsol try a smaller step.
+/// here, while the numbers are NaN, which makes diffsol try a smaller step. Clones share both.
+#[derive(Clone)]
 pub struct Equations<'s> {
-    form: RefCell<Box<dyn Form + 's>>,
-    halt: RefCell<Option<Halt>>,
+    form: Rc<RefCell<Box<dyn Form + 's>>>,
+    halt: Rc<RefCell<Option<Halt>>>,
     /// Unknowns, and how many of them have a rate.
     pub len: usize,
     pub rates: usize,
@@ -26,8 +28,8 @@ impl<'s> Equations<'s> {
     pub fn new(form: Box<dyn Form + 's>, rates: usize) -> Self {
         let len = form.len();
         Equations {
-            form: RefCell::new(form),
-            halt: RefCell::default(),
+            form: Rc::new(RefCell::new(form)),
+            halt: Rc::default(),
             len,
             rates,
             context: NalgebraContext::default(),

@@ -6,7 +6,7 @@ mod equations;
 mod form;
 mod kinematics;
 mod rows;
-mod store;
+mod solver;
 
 use super::{Control, From, Integrator, Problem, Setup, Tolerance};
 use crate::error::Result;
@@ -14,13 +14,10 @@ use crate::formulation::{self, Dae, Halt};
 use crate::math::kkt::Singular;
 use crate::math::memory::refuse_dense;
 use diffsol::error::OdeSolverError;
-use diffsol::ode_solver::state::StateCommon;
-use diffsol::{
-    DiffsolError, NalgebraLU, OdeSolverConfig, OdeSolverMethod, OdeSolverProblem, OdeSolverState, Vector, VectorCommon,
-};
+use diffsol::{DiffsolError, NalgebraLU, Vector};
 use equations::{Equations, Values};
-use form::Form;
-pub use store::Store;
+use solver::{Counted, Request, Solver};
+pub use solver::{Start, serve, start_state};
 
 /// Where lambda follows from accelerations, or q is moved to phi = 0 by multipliers of its own: with phi' = 0 or phi = 0 alone
 /// diffsol's steps lose orders.
@@ -31,12 +28,6 @@ pub fn solves(formulation: &formulation::Entry) -> bool {
 /// Solves the linear systems of Newton's method, dense.
 pub type Newton = NalgebraLU<f64>;
 
-/// Makes a solver that goes on from a state.
-pub type Start<'h, 's, S> = fn(
-    &'h OdeSolverProblem<Equations<'s>>,
-    <S as OdeSolverMethod<'h, Equations<'s>>>::State,
-) -> std::result::Result<S, DiffsolError>;
-
 /// What our time loop must know of a method.
 #[derive(Clone, Copy)]
 pub struct Traits {
@@ -46,12 +37,11 @@ pub struct Traits {
 }
 
 /// Steps of a solver, which keeps its state between attempts.
-pub struct Implicit<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> {
-    store: &'h Store<'s>,
-    form: Option<Box<dyn Form + 's>>,
-    start: Start<'h, 's, S>,
+struct Implicit<'s> {
+    equations: Equations<'s>,
+    start: Start<'s>,
     traits: Traits,
-    solver: Option<S>,
+    solver: Option<Solver<'s>>,
     /// Where the last attempt started and ended, and whether the solver is ahead of that.
     began: f64,
     reached: f64,
@@ -63,30 +53,13 @@ pub struct Implicit<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> {
     control: Control,
 }
 
-/// What a solver counts.
-#[derive(Clone, Copy, Default)]
-struct Counted {
-    iterations: usize,
-    factorizations: usize,
-    rejected: usize,
-}
-
 /// A method of diffsol on the formulation of `setup`.
-pub fn make<'h, 's, S>(
-    setup: &Setup<'h, 's>,
-    traits: Traits,
-    start: Start<'h, 's, S>,
-) -> Result<Box<dyn Integrator + 'h>>
-where
-    S: OdeSolverMethod<'h, Equations<'s>> + 'h,
-{
+pub fn make<'s>(setup: &Setup<'s>, traits: Traits, start: Start<'s>) -> Result<Box<dyn Integrator + 's>> {
     let dae = formulation::dae(setup.formulation)?.unwrap_or(Dae::with(formulation::Row::ACCELERATION));
     let unknowns = rows::unknowns(&dae, setup.system.dimensions());
     refuse_dense(&setup.integrator.name, [unknowns; 2], COPIES).map_err(|error| error.hint(SPARSE))?;
-    let form: Box<dyn Form + 's> = Box::new(rows::Rows::new(dae, setup));
     Ok(Box::new(Implicit {
-        store: setup.store,
-        form: Some(form),
+        equations: Equations::new(Box::new(rows::Rows::new(dae, setup)), setup.len()),
         start,
         traits,
         solver: None,
@@ -105,33 +78,23 @@ where
 const COPIES: f64 = 10.0;
 const SPARSE: &str = "choose a sparse implicit integrator, such as radau_iia or generalized_alpha";
 
-impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Implicit<'h, 's, S> {
+impl<'s> Implicit<'s> {
     /// A solver at `from` whose first step is at most `h`.
-    fn begin(&mut self, tolerance: &Tolerance, from: From, h: f64) -> Result<S, Halt> {
-        if let Some(form) = self.form.take() {
-            self.store.fill(form, self.y.len(), tolerance);
-        }
-        let problem = self.store.problem().ok_or(Halt::NotConverged)?;
-        let (eqn, empty) = (&problem.eqn, || Values::zeros(0, problem.eqn.context));
-        let mut y = Values::zeros(eqn.len, eqn.context);
-        let mut dy = y.clone();
-        let (x, rate) = (y.inner_mut().as_mut_slice(), dy.inner_mut().as_mut_slice());
-        eqn.with(|form| form.start(from, x, rate))?;
-        let (s, ds, g, dg, sg, dsg) = (empty(), empty(), empty(), empty(), empty(), empty());
-        let state = S::State::new_from_common(StateCommon { y, dy, g, dg, s, ds, sg, dsg, t: from.t, h });
-        self.counted = Counted::default();
-        self.is_ahead = false;
-        (self.start)(problem, state).map_err(|error| self.halt(error))
+    fn begin(&mut self, tolerance: &Tolerance, from: From, h: f64) -> Result<Solver<'s>, Halt> {
+        let eqn = &self.equations;
+        let (mut x, mut rate) = (Values::zeros(eqn.len, eqn.context), Values::zeros(eqn.len, eqn.context));
+        eqn.with(|form| form.start(from, x.inner_mut().as_mut_slice(), rate.inner_mut().as_mut_slice()))?;
+        (self.counted, self.is_ahead) = (Counted::default(), false);
+        let begun = Solver::new((self.start, eqn.clone()), tolerance, (from.t, h), [x, rate]);
+        begun.map_err(|error| self.halt(error))
     }
 
     /// The solver as it goes on from `from`.
-    fn resume(&mut self, tolerance: &Tolerance, from: From, h: f64) -> Result<S, Halt> {
+    fn resume(&mut self, tolerance: &Tolerance, from: From, h: f64) -> Result<Solver<'s>, Halt> {
         match self.solver.take() {
             Some(solver) if self.reached == from.t && self.y == from.y => Ok(solver),
             Some(mut solver) if self.traits.follows && self.reached == from.t && !self.is_ahead => {
-                let state = solver.state_mut();
-                state.y.inner_mut().as_mut_slice()[..from.y.len()].copy_from_slice(from.y);
-                state.dy.inner_mut().as_mut_slice()[..from.y.len()].copy_from_slice(from.slope);
+                solver.go_on_from(from.y, from.slope).map_err(|error| self.halt(error))?;
                 Ok(solver)
             }
             _ => self.begin(tolerance, from, h),
@@ -139,37 +102,31 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Implicit<'h, 's, S> {
     }
 
     /// Takes a step, unless the solver is ahead, and writes the state at its end, or after `h` if that comes first.
-    fn advance(&mut self, solver: &mut S, (began, h): (f64, f64), to: &mut [f64]) -> Result<(), Halt> {
+    fn advance(&mut self, solver: &mut Solver, (began, h): (f64, f64), to: &mut [f64]) -> Result<(), Halt> {
         let end = began + h;
         if !self.is_ahead {
             // Smaller steps are lost in the rounding of t; without a least one diffsol tries for ever.
             let least = f64::EPSILON * began.abs().max(1e-3 * h);
-            *solver.config_mut().as_base_mut().minimum_timestep = least.max(f64::MIN_POSITIVE);
-            solver.step().map_err(|error| self.halt(error))?;
+            solver.request(Request::Step(least.max(f64::MIN_POSITIVE))).map_err(|error| self.halt(error))?;
             // What stopped an evaluation on the way was overcome.
-            self.own_halt();
+            self.equations.take_halt();
         }
-        let t = solver.state().t;
+        let t = solver.t();
         self.is_ahead = t > end;
         self.own_step = if t < end { t - began } else { h };
         if self.own_step <= 0.0 {
             return Err(Halt::TooInaccurate);
         }
-        match self.is_ahead {
-            true => at(solver, end, to),
-            false => to.copy_from_slice(&solver.state().y.inner().as_slice()[..to.len()]),
-        }
+        solver
+            .request(if self.is_ahead { Request::At(end) } else { Request::State })
+            .map_err(|error| self.halt(error))?;
+        solver.read(to);
         Ok(())
-    }
-
-    /// What stopped an evaluation since the last call.
-    fn own_halt(&self) -> Option<Halt> {
-        self.store.problem().and_then(|problem| problem.eqn.take_halt())
     }
 
     /// Why the solver gave up.
     fn halt(&self, error: DiffsolError) -> Halt {
-        self.own_halt().unwrap_or(match error {
+        self.equations.take_halt().unwrap_or(match error {
             DiffsolError::OdeSolverError(OdeSolverError::TooManyErrorTestFailures { .. }) => Halt::TooInaccurate,
             DiffsolError::OdeSolverError(
                 OdeSolverError::StepSizeTooSmall { .. } | OdeSolverError::TooManyNonlinearSolverFailures { .. },
@@ -179,15 +136,8 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Implicit<'h, 's, S> {
     }
 
     /// Adds the work since the last call to that of the run.
-    fn count(&mut self, solver: &S, problem: &mut Problem) {
-        let found = solver.get_statistics();
-        let now = Counted {
-            iterations: found.number_of_nonlinear_solver_iterations,
-            factorizations: found.number_of_linear_solver_setups,
-            rejected: found.number_of_error_test_failures
-                + found.number_of_linear_solver_setups_from_second_convergence_fail,
-        };
-        let own = self.store.problem().map(|problem| problem.eqn.take_statistics()).unwrap_or_default();
+    fn count(&mut self, solver: &Solver, problem: &mut Problem) {
+        let (now, own) = (solver.counted(), self.equations.take_statistics());
         let total = &mut problem.dynamics.statistics;
         total.newton_iterations += (now.iterations - self.counted.iterations) as u64;
         total.rejected += (now.rejected - self.counted.rejected) as u64;
@@ -198,15 +148,7 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Implicit<'h, 's, S> {
     }
 }
 
-/// The state at a time within the last step; NaN where the solver has none.
-fn at<'h, 's: 'h, S: OdeSolverMethod<'h, Equations<'s>>>(solver: &S, t: f64, out: &mut [f64]) {
-    match solver.interpolate(t.min(solver.state().t)) {
-        Ok(y) => out.copy_from_slice(&y.inner().as_slice()[..out.len()]),
-        Err(_) => out.fill(f64::NAN),
-    }
-}
-
-impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Integrator for Implicit<'h, 's, S> {
+impl Integrator for Implicit<'_> {
     fn order(&self) -> usize {
         self.traits.order
     }
@@ -220,7 +162,7 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Integrator for Implicit<'h, 
     }
 
     fn seen(&self) -> Option<f64> {
-        self.solver.as_ref().map(|solver| solver.state().t - self.began)
+        self.solver.as_ref().map(|solver| solver.t() - self.began)
     }
 
     fn restart(&mut self) {
@@ -235,12 +177,7 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Integrator for Implicit<'h, 
         h: f64,
         to: &mut [f64],
     ) -> Result<Option<f64>, Halt> {
-        let dynamics = &problem.dynamics;
-        match (&mut self.form, self.store.problem()) {
-            (Some(form), _) => form.follow(dynamics),
-            (None, Some(solved)) => solved.eqn.with(|form| form.follow(dynamics)),
-            _ => {}
-        }
+        self.equations.with(|form| form.follow(&problem.dynamics));
         let mut solver = self.resume(tolerance, from, h)?;
         let result = self.advance(&mut solver, (from.t, h), to);
         self.count(&solver, problem);
@@ -261,10 +198,13 @@ impl<'h, 's, S: OdeSolverMethod<'h, Equations<'s>>> Integrator for Implicit<'h, 
     }
 
     fn interpolate(&mut self, _: &mut Problem, from: From, h: f64, theta: f64, out: &mut [f64]) -> Result<(), Halt> {
-        match &self.solver {
-            Some(solver) => at(solver, from.t + theta * h, out),
-            None => out.fill(f64::NAN),
-        }
+        let Some(mut solver) = self.solver.take() else {
+            out.fill(f64::NAN);
+            return Ok(());
+        };
+        solver.request(Request::At(from.t + theta * h)).map_err(|error| self.halt(error))?;
+        solver.read(out);
+        self.solver = Some(solver);
         Ok(())
     }
 }

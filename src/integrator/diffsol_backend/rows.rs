@@ -59,7 +59,7 @@ pub fn unknowns(dae: &Dae, n: Dimensions) -> usize {
 }
 
 impl<'s> Rows<'s> {
-    pub fn new(dae: Dae, setup: &Setup<'_, 's>) -> Self {
+    pub fn new(dae: Dae, setup: &Setup<'s>) -> Self {
         let n = setup.system.dimensions();
         Rows {
             dae,

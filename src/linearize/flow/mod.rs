@@ -8,7 +8,7 @@ pub use bundle::{Bundle, Pulse, Snapshot};
 
 use crate::error::{Error, Failure, Result};
 use crate::formulation::{Choice, Dynamics};
-use crate::integrator::{self, Problem, Setup, Store, Tolerance};
+use crate::integrator::{self, Problem, Setup, Tolerance};
 use crate::projection::Projection;
 use crate::simulate::{Observation, Parts, Segments, Sink, Stop};
 use crate::system::MechanicalSystem;
@@ -45,9 +45,8 @@ pub fn flow(
     let projection = || -> Result<Option<Box<dyn Projection>>> {
         Ok(Some(Box::new(Straightening::new(system, &shape, &dependent)?)))
     };
-    let (store, integrator, formulation) = (Store::default(), Choice::named("dop853"), Choice::named("index1"));
-    let setup =
-        Setup { integrator: &integrator, formulation: &formulation, system: &carrier, store: &store, is_fixed: false };
+    let (integrator, formulation) = (Choice::named("dop853"), Choice::named("index1"));
+    let setup = Setup { integrator: &integrator, formulation: &formulation, system: &carrier, is_fixed: false };
     let parts = Parts {
         problem: problem()?,
         integrator: (integrator::find(&integrator)?.make)(&setup)?,

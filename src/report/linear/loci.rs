@@ -1,172 +1,321 @@
-//! Eigenvalues in the complex plane.
+//! `loci.csv`, `loci.json`, and eigenvalues at many states as a person reads them in a terminal.
 
-use super::damping::{Ray, rays};
-use super::pairs::are_conjugate;
-use super::range::{drawn, padded, robust};
-use crate::error::short;
-use crate::linearize::{Branch, Complex, Kind};
-use crate::plot::{AxisSpec, ColorSeries, Figure, Panel, Series, Style, Tint};
-use std::collections::BTreeMap;
+use crate::error::{Error, Failure, Result, Warning, significant};
+use crate::linearize::{Along, Branch, Complex, Kind, Loci, Reached, damping, frequency};
+use crate::plot::AxisSpec;
+use crate::report::{Table, cell, table};
+use crate::tolerances::linearize as tolerances;
+use crate::tolerances::report::SAME;
+use serde::Serialize;
 
-/// Free part of an axis at both ends.
-const FREE: f64 = 0.06;
-/// An axis is at least this part of the other one long, so that round-off does not fill it.
-const LEAST: f64 = 0.02;
-/// Places in the palette.
-const VERMILION: usize = 1;
-const BLACK: usize = 6;
-/// About the pixels between the axes, across and up.
-const PIXELS: (f64, f64) = (440.0, 400.0);
-
-/// Ranges of real and imaginary parts.
-#[derive(Clone, Copy, Debug)]
-struct Window {
-    re: (f64, f64),
-    im: (f64, f64),
+/// Eigenvalues at many states in numbers.
+#[derive(Clone, Debug, Serialize)]
+pub struct LociSummary {
+    pub scene: String,
+    pub method: String,
+    pub chart: String,
+    pub along: AlongFile,
+    /// States with eigenvalues, and how many of them are equilibria.
+    pub reached: usize,
+    pub equilibria: usize,
+    /// States without.
+    pub failures: Vec<FailureFile>,
+    pub modes: Vec<ModeSummary>,
+    pub warnings: Vec<Warning>,
 }
 
-/// The eigenvalues with time or a parameter as colour, which `along` names with its unit. Only the upper half is drawn
-/// where the lower one is its mirror image; the axes follow the physical eigenvalues and those
-/// that may be. `None` without finite eigenvalues.
-pub fn loci_figure(title: &str, along: impl Into<AxisSpec>, branches: &[Branch]) -> Option<Figure> {
-    let along = along.into();
-    let (drawn, left_out) = drawn(branches);
-    let branches = drawn.as_slice();
-    let is_upper = are_mirrored(branches);
-    let shown: Vec<Branch> = branches.iter().map(|branch| finite(branch, is_upper)).collect();
-    let of = |kind: Kind| shown.iter().filter(move |branch| branch.kind == kind);
-    let physical = || of(Kind::Physical).chain(of(Kind::Uncertain));
-    let window = window(physical(), is_upper).or_else(|| window(of(Kind::Spurious), is_upper))?;
-    let axis = |label: &str, (low, high): (f64, f64)| AxisSpec::from(label).range(low, high);
-    let mut panel = Panel::new(axis("real part (1/s)", window.re), axis("imaginary part (rad/s)", window.im))
-        .height(PIXELS.1)
-        .title(if left_out.is_empty() { outside_note(&shown, &window) } else { left_out });
-    panel = frame_lines(panel, &window, is_upper);
-    for (kind, name, style) in
-        [(Kind::Spurious, "spurious", Style::Crosses), (Kind::Uncertain, "uncertain", Style::Dots)]
-    {
-        let others = points(of(kind)).map(|(_, value)| (value.re, value.im)).collect::<Vec<_>>();
-        if !others.is_empty() {
-            panel = panel.series(Series::dots(name, others).style(style).color(VERMILION));
+/// What the eigenvalues are functions of: time in s, or a parameter of the scene.
+#[derive(Clone, Debug, Serialize)]
+pub struct AlongFile {
+    pub name: String,
+    pub unit: &'static str,
+    pub from: f64,
+    pub to: f64,
+    pub count: usize,
+    pub log: bool,
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub struct FailureFile {
+    pub at: f64,
+    pub reason: String,
+    pub hint: Option<String>,
+}
+
+/// Where a mode goes.
+#[derive(Clone, Debug, Serialize)]
+pub struct ModeSummary {
+    pub mode: String,
+    pub kind: Kind,
+    pub frequency_hz: Extent,
+    pub damping_ratio: Extent,
+    /// First and last state of each stretch with a real part above zero.
+    pub growing: Vec<Stretch>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Extent {
+    pub min: f64,
+    pub max: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Stretch {
+    pub from: f64,
+    pub to: f64,
+}
+
+/// `loci.json`: the summary, which states are equilibria, and the branches.
+#[derive(Clone, Debug, Serialize)]
+pub struct LociFile {
+    #[serde(flatten)]
+    pub summary: LociSummary,
+    pub states: Vec<Reached>,
+    pub branches: Vec<BranchFile>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub struct BranchFile {
+    pub mode: String,
+    pub kind: Kind,
+    /// Whether the conjugates are eigenvalues too, a branch that is left out.
+    pub pair: bool,
+    pub points: Vec<PointFile>,
+}
+
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct PointFile {
+    pub at: f64,
+    pub re: f64,
+    pub im: f64,
+    pub frequency_hz: f64,
+    pub damping_ratio: f64,
+}
+
+/// Growth by this part over the whole of the motion is not worth telling.
+const LITTLE: f64 = 0.01;
+
+impl LociSummary {
+    pub fn new(scene: &str, loci: &Loci) -> Self {
+        let ends = [loci.places.first(), loci.places.last()].map(|place| place.copied().unwrap_or(0.0));
+        let (name, unit, log, least) = match &loci.along {
+            Along::Time => ("t".to_string(), "s", false, LITTLE / (ends[1] - ends[0])),
+            Along::Parameter(range) => (range.parameter.clone(), "", range.is_log, tolerances::EIGENVALUES_AGREE),
+        };
+        LociSummary {
+            scene: scene.to_string(),
+            method: loci.method.clone(),
+            chart: loci.chart.clone(),
+            along: AlongFile { name, unit, from: ends[0], to: ends[1], count: loci.places.len(), log },
+            reached: loci.reached.len(),
+            equilibria: loci.reached.iter().filter(|state| state.equilibrium).count(),
+            failures: loci.gaps.iter().map(|gap| failure(gap.at, &gap.error)).collect(),
+            modes: upper(loci).map(|(mode, branch)| mode_summary(mode, branch, least)).collect(),
+            warnings: loci.doubts.clone(),
         }
     }
-    panel = panel.series(Series::line("", joined(of(Kind::Physical))).style(Style::Thin).color(BLACK));
-    let colored: Vec<(f64, f64, f64)> =
-        points(of(Kind::Physical)).map(|(at, value)| (value.re, value.im, at)).collect();
-    if !colored.is_empty() {
-        panel = panel.color_series(ColorSeries { scale: along.scale, ..ColorSeries::new(along.label, colored) });
+
+    /// The axis of time or parameter.
+    pub fn axis(&self) -> AxisSpec {
+        let axis = AxisSpec::from(if self.along.unit.is_empty() { self.along.name.as_str() } else { "time (s)" });
+        if self.along.log { axis.log() } else { axis }
     }
-    Some(Figure::new().title(title).panel(panel))
 }
 
-/// The finite points of a branch; those below the real axis become gaps where only the upper half is drawn.
-fn finite(branch: &Branch, is_upper: bool) -> Branch {
-    let is_shown = |value: Complex<f64>| {
-        value.re.is_finite() && value.im.is_finite() && !(is_upper && value.im < 0.0) && branch.kind != Kind::Infinite
+impl LociFile {
+    pub fn new(summary: LociSummary, loci: &Loci) -> Self {
+        let branches = upper(loci).map(|(mode, branch)| branch_file(mode, branch)).collect();
+        LociFile { summary, states: loci.reached.clone(), branches }
+    }
+}
+
+/// Time or parameter, then real and imaginary part, frequency and damping ratio of each mode; empty cells where there are
+/// none.
+///
+/// # Errors
+/// A table that cannot be written.
+pub fn loci_table(loci: &Loci) -> Result<Vec<u8>> {
+    let along = match &loci.along {
+        Along::Time => "t".to_string(),
+        Along::Parameter(range) => range.parameter.clone(),
     };
-    let gap = Complex::new(f64::NAN, f64::NAN);
-    let points = branch.points.iter().map(|(at, value)| (*at, if is_shown(*value) { *value } else { gap }));
-    Branch { kind: branch.kind, points: points.collect() }
+    let modes: Vec<(String, &Branch)> = upper(loci).collect();
+    let names = modes
+        .iter()
+        .flat_map(|(mode, _)| ["re", "im", "frequency_hz", "damping_ratio"].map(|column| format!("{mode}.{column}")));
+    let starts: Vec<usize> = modes.iter().map(|(_, branch)| start(loci, branch)).collect();
+    let rows = loci.places.iter().enumerate().map(|(row, place)| {
+        let cells = modes.iter().zip(&starts).flat_map(|((_, branch), start)| {
+            let point = row.checked_sub(*start).and_then(|i| branch.points.get(i));
+            cells(point.map(|point| point.1).filter(|value| value.re.is_finite()))
+        });
+        [cell(*place)].into_iter().chain(cells).collect()
+    });
+    table([along].into_iter().chain(names), rows)
 }
 
-fn points<'a>(branches: impl Iterator<Item = &'a Branch>) -> impl Iterator<Item = (f64, Complex<f64>)> {
-    branches.flat_map(|branch| &branch.points).copied().filter(|(_, value)| value.re.is_finite())
+/// The row in which a branch begins.
+fn start(loci: &Loci, branch: &Branch) -> usize {
+    let first = branch.points.first().map_or(f64::NAN, |point| point.0);
+    loci.places.iter().position(|place| *place == first).unwrap_or(usize::MAX)
 }
 
-/// The branches as one line with gaps. Between two states a pair becomes real at the axis, not on the way to it.
-fn joined<'a>(branches: impl Iterator<Item = &'a Branch>) -> Vec<(f64, f64)> {
-    let mut line = Vec::new();
-    for branch in branches {
-        for (i, (_, value)) in branch.points.iter().enumerate() {
-            let before = i.checked_sub(1).map_or(*value, |before| branch.points[before].1);
-            if (before.im == 0.0) != (value.im == 0.0) {
-                line.push((if value.im == 0.0 { before.re } else { value.re }, 0.0));
+fn cells(value: Option<Complex<f64>>) -> [String; 4] {
+    match value {
+        Some(value) => [value.re, value.im, frequency(value), damping(value)].map(cell),
+        None => Default::default(),
+    }
+}
+
+/// The branches by the names of their modes, without those that are conjugate to others everywhere.
+fn upper(loci: &Loci) -> impl Iterator<Item = (String, &Branch)> {
+    let is_upper = |branch: &&Branch| branch.points.iter().any(|(_, value)| value.im >= 0.0);
+    let named = |(i, branch)| (format!("mode{}", i + 1), branch);
+    loci.branches.iter().filter(is_upper).enumerate().map(named)
+}
+
+/// The points that are numbers.
+fn finite(branch: &Branch) -> impl Iterator<Item = (f64, Complex<f64>)> + Clone {
+    branch.points.iter().copied().filter(|(_, value)| value.re.is_finite() && value.im.is_finite())
+}
+
+fn failure(at: f64, error: &Error) -> FailureFile {
+    let (reason, hint) = match error {
+        Error::Input(input) => (input.message.clone(), input.hint.clone()),
+        Error::Run(Failure { reason, hint, .. }) => (reason.clone(), Some(hint.clone())),
+        Error::File { problem, .. } | Error::Unwritten { problem, .. } => (problem.clone(), None),
+    };
+    FailureFile { at, reason, hint }
+}
+
+fn mode_summary(mode: String, branch: &Branch, least: f64) -> ModeSummary {
+    let extent = |of: fn(Complex<f64>) -> f64| {
+        let values = finite(branch).map(|(_, value)| of(value));
+        Extent { min: values.clone().fold(f64::INFINITY, f64::min), max: values.fold(f64::NEG_INFINITY, f64::max) }
+    };
+    let mut growing: Vec<Stretch> = Vec::new();
+    let mut goes_on = false;
+    for (at, value) in &branch.points {
+        let grows = value.re > least && value.re > tolerances::EIGENVALUES_AGREE * value.norm();
+        match growing.last_mut().filter(|_| grows && goes_on) {
+            Some(last) => last.to = *at,
+            None if grows => growing.push(Stretch { from: *at, to: *at }),
+            None => {}
+        }
+        goes_on = grows;
+    }
+    ModeSummary { mode, kind: branch.kind, frequency_hz: extent(frequency), damping_ratio: extent(damping), growing }
+}
+
+fn branch_file(mode: String, branch: &Branch) -> BranchFile {
+    let point = |(at, value): (f64, Complex<f64>)| PointFile {
+        at,
+        re: value.re,
+        im: value.im,
+        frequency_hz: frequency(value),
+        damping_ratio: damping(value),
+    };
+    let pair = finite(branch).all(|(_, value)| value.im > 0.0);
+    BranchFile { mode, kind: branch.kind, pair, points: finite(branch).map(point).collect() }
+}
+
+/// Lines of the table; the files have all modes.
+const MOST_LINES: usize = 30;
+/// Stretches of a mode that are listed.
+const MOST_STRETCHES: usize = 4;
+
+impl LociSummary {
+    /// Method, chart and states, then the modes.
+    pub fn text(&self) -> String {
+        let along = &self.along;
+        let unit = if along.unit.is_empty() { String::new() } else { format!(" {}", along.unit) };
+        let ends = [along.from, along.to].map(|end| significant(end, 9));
+        let mut text = format!(
+            "{}: eigenvalues at {} of {} states, {} from {} to {}{unit}, by {}, chart {}\n  {}\n",
+            self.scene,
+            self.reached,
+            along.count,
+            along.name,
+            ends[0],
+            ends[1],
+            self.method,
+            self.chart,
+            self.meaning()
+        );
+        for (first, last, count) in self.gaps() {
+            let place = if count == 1 { significant(first.at, 9) } else { span(first.at, last.at) };
+            text += &format!("  NO EIGENVALUES at {} = {place}{unit}: {}\n", along.name, first.reason);
+        }
+        text + "\n" + &self.table(&unit)
+    }
+
+    /// What the real parts say.
+    fn meaning(&self) -> &'static str {
+        match self.equilibria {
+            all if all == self.reached => "all are equilibria: one with a growing mode is unstable",
+            0 => {
+                "none is an equilibrium: a growing mode tells where neighbours leave the motion at that instant, and proves \
+                 nothing about its stability"
             }
-            line.push((value.re, value.im));
+            _ => "some are equilibria: only there does a growing mode mean that the state is unstable",
         }
-        line.push((f64::NAN, f64::NAN));
     }
-    line
-}
 
-/// Whether every eigenvalue below the real axis has its conjugate at the same place of time or parameter.
-fn are_mirrored(branches: &[Branch]) -> bool {
-    let mut upper: BTreeMap<u64, Vec<Complex<f64>>> = BTreeMap::new();
-    let all = || branches.iter().flat_map(|branch| &branch.points);
-    all()
-        .filter(|(_, value)| value.im > 0.0)
-        .for_each(|(at, value)| upper.entry(at.to_bits()).or_default().push(*value));
-    let has_partner = |at: f64, value: Complex<f64>| {
-        upper.get(&at.to_bits()).is_some_and(|list| list.iter().any(|other| are_conjugate(*other, value)))
-    };
-    all().filter(|(_, value)| value.im < 0.0).all(|(at, value)| has_partner(*at, *value))
-}
+    /// Neighbouring states without eigenvalues for the same reason.
+    fn gaps(&self) -> Vec<(&FailureFile, &FailureFile, usize)> {
+        let mut found: Vec<(&FailureFile, &FailureFile, usize)> = Vec::new();
+        for failure in &self.failures {
+            match found.last_mut() {
+                Some((first, last, count)) if first.reason == failure.reason => (*last, *count) = (failure, *count + 1),
+                _ => found.push((failure, failure, 1)),
+            }
+        }
+        found
+    }
 
-fn window<'a>(branches: impl Iterator<Item = &'a Branch>, is_upper: bool) -> Option<Window> {
-    let mut values: Vec<Complex<f64>> = points(branches).map(|(_, value)| value).collect();
-    // Far off is what is large: a real part that is rare may still be small beside the others' imaginary parts.
-    let (_, largest) = robust(values.iter().map(|value| value.norm()))?;
-    values.retain(|value| value.norm() <= largest);
-    let extent = |part: fn(&Complex<f64>) -> f64| {
-        let parts = values.iter().map(part);
-        (parts.clone().fold(f64::INFINITY, f64::min), parts.fold(f64::NEG_INFINITY, f64::max))
-    };
-    let (re, im) = (extent(|value| value.re), extent(|value| value.im));
-    let size = [re.0, re.1, im.0, im.1].into_iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-    let least = if size > 0.0 { LEAST * size } else { 1.0 };
-    let re = with_zero(re, 2.0 * least);
-    let im = if is_upper { (0.0, im.1.max(0.0)) } else { with_zero(im, 2.0 * least) };
-    Some(Window { re: padded(re, FREE, 2.0 * least), im: padded(im, FREE, 2.0 * least) })
-}
-
-/// The range with zero in it, unless it is far away.
-fn with_zero((low, high): (f64, f64), least: f64) -> (f64, f64) {
-    let near = 2.0 * (high - low).max(least);
-    match () {
-        _ if low > 0.0 && low <= near => (0.0, high),
-        _ if high < 0.0 && -high <= near => (low, 0.0),
-        _ => (low, high),
+    fn table(&self, unit: &str) -> String {
+        let growing = format!("growing at {}{}", self.along.name, unit.replace(" s", " (s)"));
+        let mut table = Table::new(&["mode", "frequency (Hz)", "damping ratio", &growing]).words(1).words(2).words(3);
+        let of = |kind: Kind| self.modes.iter().filter(move |mode| mode.kind == kind);
+        of(Kind::Physical).take(MOST_LINES).for_each(|mode| table.row(mode_cells(mode)));
+        let [physical, uncertain, spurious] =
+            [Kind::Physical, Kind::Uncertain, Kind::Spurious].map(|kind| of(kind).count());
+        let mut text = if physical > 0 { table.to_string() } else { "  no physical eigenvalues\n".to_string() };
+        if physical > MOST_LINES {
+            text += &format!("  {} more in the files\n", physical - MOST_LINES);
+        }
+        if uncertain > 0 {
+            text += &format!("  {uncertain} uncertain in the files: neither clearly physical nor spurious\n");
+        }
+        if spurious > 0 {
+            text += &format!("  {spurious} spurious in the files\n");
+        }
+        text
     }
 }
 
-/// The axes of the plane and lines of constant damping.
-fn frame_lines(panel: Panel, window: &Window, is_upper: bool) -> Panel {
-    let Window { re, im } = *window;
-    let across = Series::line("", vec![(re.0, 0.0), (re.1, 0.0)]).style(Style::Thin).color(BLACK);
-    let up = Series::line("", vec![(0.0, im.0), (0.0, im.1)]).color(BLACK);
-    let pixels = (PIXELS.0 / (re.1 - re.0), PIXELS.1 / (im.1 - im.0));
-    let rays = rays(re.0, im.1, pixels);
-    let (origin, gap) = ((0.0, 0.0), (f64::NAN, f64::NAN));
-    let line = |ray: &Ray| {
-        let lower = if is_upper { gap } else { (ray.end.0, -ray.end.1) };
-        [ray.end, origin, lower, gap]
-    };
-    let guide = Series::line("", rays.iter().flat_map(line).collect()).style(Style::Guide);
-    let panel = panel.series(guide).series(across).series(up);
-    rays.iter().fold(panel, |panel, ray| {
-        let (x, y) = (0.93 * ray.end.0, 0.93 * ray.end.1);
-        panel.annotate_in(Tint::Ink(0.4), x, y, format!("ζ = {}", short(ray.ratio)))
-    })
+fn mode_cells(mode: &ModeSummary) -> [String; 4] {
+    let clean = |x: f64| if x.abs() < SAME { 0.0 } else { x };
+    let Extent { min, max } = mode.damping_ratio;
+    let growing: Vec<String> = mode.growing.iter().take(MOST_STRETCHES).map(stretch).collect();
+    let more = if mode.growing.len() > MOST_STRETCHES { ", ..." } else { "" };
+    [
+        mode.mode.clone(),
+        extent(mode.frequency_hz, 5),
+        extent(Extent { min: clean(min), max: clean(max) }, 4),
+        if growing.is_empty() { "-".to_string() } else { growing.join(", ") + more },
+    ]
 }
 
-/// How many points lie outside the axes.
-fn outside_note(shown: &[Branch], window: &Window) -> String {
-    let inside = |value: Complex<f64>| {
-        (window.re.0..=window.re.1).contains(&value.re) && (window.im.0..=window.im.1).contains(&value.im)
-    };
-    let count = |kind: Kind| {
-        points(shown.iter().filter(|branch| branch.kind == kind)).filter(|(_, value)| !inside(*value)).count()
-    };
-    let kinds = [
-        (count(Kind::Physical), "physical"),
-        (count(Kind::Uncertain), "uncertain"),
-        (count(Kind::Spurious), "spurious"),
-    ];
-    let words: Vec<String> =
-        kinds.iter().filter(|(count, _)| *count > 0).map(|(count, kind)| format!("{count} {kind}")).collect();
-    match (words.is_empty(), kinds.iter().map(|(count, _)| count).sum::<usize>()) {
-        (true, _) => String::new(),
-        (_, 1) => format!("{} point lies outside", words.join(" and ")),
-        _ => format!("{} points lie outside", words.join(" and ")),
-    }
+fn extent(extent: Extent, digits: usize) -> String {
+    let [min, max] = [extent.min, extent.max].map(|end| significant(end, digits));
+    if min == max { min } else { format!("{min} to {max}") }
+}
+
+fn stretch(stretch: &Stretch) -> String {
+    if stretch.from == stretch.to { significant(stretch.from, 6) } else { span(stretch.from, stretch.to) }
+}
+
+fn span(from: f64, to: f64) -> String {
+    format!("{} to {}", significant(from, 6), significant(to, 6))
 }

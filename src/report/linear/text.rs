@@ -1,10 +1,8 @@
-//! A linear model as a person reads it in a terminal.
+//! A linear model, and several, as a person reads them in a terminal.
 
-use super::pairs::{Pair, damping, pairs};
-use super::{Linear, arrays};
-use crate::error::short;
-use crate::error::significant;
-use crate::linearize::{Kind, LinearModel, OperatingPoint};
+use super::Linear;
+use crate::error::{short, significant};
+use crate::linearize::{Comparison, Kind, LinearModel, OperatingPoint, Pair, pairs};
 use crate::report::Table;
 
 /// Lines of a kind of eigenvalues; the files have all.
@@ -120,7 +118,7 @@ fn modes_text(model: &LinearModel, bodies: &[&str]) -> String {
         }
         number += found.len().saturating_sub(most);
         if found.len() > most {
-            left_out.push(format!("  {} more {} in the files\n", found.len() - most, arrays::kind(kind)));
+            left_out.push(format!("  {} more {} in the files\n", found.len() - most, kind.name()));
         }
     }
     let infinite = model.modes.iter().filter(|mode| mode.kind == Kind::Infinite).count();
@@ -142,8 +140,8 @@ fn cells(bodies: &[&str], number: usize, pair: &Pair) -> [String; 7] {
         significant(value.re, 6),
         imaginary,
         significant(mode.frequency(), 5),
-        significant(damping(mode), 4),
-        arrays::kind(mode.kind).to_string(),
+        significant(mode.clean_damping(), 4),
+        mode.kind.name().to_string(),
         movers(bodies, &mode.energy),
     ]
 }
@@ -163,4 +161,51 @@ fn movers(bodies: &[&str], energy: &[f64]) -> String {
         large.clone().take(MOST_NAMED).map(|(name, sum)| format!("{name} {:.0}", 100.0 * sum)).collect();
     let more = if large.count() > MOST_NAMED { ", ..." } else { "" };
     words.join(", ") + more
+}
+
+/// One line a method, the reference first.
+pub fn comparison_text(rows: &[Comparison], is_equilibrium: bool) -> String {
+    let headings = [
+        "method",
+        "chart",
+        "against first",
+        "physical",
+        "spurious",
+        "infinite",
+        "off constraints",
+        "conditioning",
+        "size",
+        "matrices (us)",
+        "eigenvalues (us)",
+    ];
+    let mut table = Table::new(&headings).words(1);
+    for row in rows {
+        let counts = [row.physical, row.spurious, row.infinite].map(|count| count.to_string());
+        let [physical, spurious, infinite] = counts;
+        table.row([
+            row.method.clone(),
+            row.chart.clone(),
+            row.error.map_or("-".to_string(), |error| format!("{error:.1e}")),
+            physical,
+            spurious,
+            infinite,
+            row.off_constraints
+                .map_or("-".to_string(), |[physical, spurious]| format!("{physical:.0e} / {spurious:.0e}")),
+            row.conditioning.map_or("-".to_string(), |condition| significant(condition, 2)),
+            row.size.to_string(),
+            significant(row.assembly_microseconds, 3),
+            significant(row.eigen_microseconds, 3),
+        ]);
+    }
+    let note = match is_equilibrium {
+        true => "",
+        false => {
+            "  off equilibrium only models in the same chart have the same eigenvalues: those of redundant coordinates and the \
+             plain projection (frozen) belong to no chart\n"
+        }
+    };
+    format!(
+        "{table}  off constraints: largest part of a physical mode / smallest part of a spurious one that the constraints \
+         do not allow\n{note}"
+    )
 }

@@ -8,9 +8,9 @@ use super::view::{along, length, less};
 use crate::error::short;
 use crate::error::significant;
 use crate::formulation::turn;
-use crate::linearize::{Complex, Kind, LinearModel, Mode};
+use crate::linearize::{Complex, Kind, LinearModel, Mode, Pair, pairs};
 use crate::plot::{Animation, Figure, Item, Tint};
-use crate::report::linear::pairs::{Pair, damping, pairs};
+
 use crate::study::Study;
 use std::f64::consts::TAU;
 
@@ -105,7 +105,7 @@ fn shaped(model: &LinearModel) -> Vec<(usize, Pair<'_>)> {
 fn title(pair: &Pair) -> String {
     let mode = pair.mode;
     let text = match mode.value.im != 0.0 {
-        true => format!("{} Hz, ζ = {}", short(mode.frequency()), short(damping(mode))),
+        true => format!("{} Hz, ζ = {}", short(mode.frequency()), short(mode.clean_damping())),
         false => format!("{} 1/s, no swing", short(mode.value.re)),
     };
     text.replace('-', "−")

@@ -1,8 +1,6 @@
 //! Several methods at one state.
 
-use crate::error::significant;
-use crate::linearize::{Complex, Kind, LinearModel};
-use crate::report::Table;
+use super::{Complex, Kind, LinearModel};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
 
@@ -68,51 +66,4 @@ fn largest_error(found: &[Complex<f64>], reference: &[Complex<f64>]) -> Option<f
         worst = worst.max(if size > 0.0 { error / size } else { error });
     }
     worst.is_finite().then_some(worst)
-}
-
-/// One line a method, the reference first.
-pub fn comparison_text(rows: &[Comparison], is_equilibrium: bool) -> String {
-    let headings = [
-        "method",
-        "chart",
-        "against first",
-        "physical",
-        "spurious",
-        "infinite",
-        "off constraints",
-        "conditioning",
-        "size",
-        "matrices (us)",
-        "eigenvalues (us)",
-    ];
-    let mut table = Table::new(&headings).words(1);
-    for row in rows {
-        let counts = [row.physical, row.spurious, row.infinite].map(|count| count.to_string());
-        let [physical, spurious, infinite] = counts;
-        table.row([
-            row.method.clone(),
-            row.chart.clone(),
-            row.error.map_or("-".to_string(), |error| format!("{error:.1e}")),
-            physical,
-            spurious,
-            infinite,
-            row.off_constraints
-                .map_or("-".to_string(), |[physical, spurious]| format!("{physical:.0e} / {spurious:.0e}")),
-            row.conditioning.map_or("-".to_string(), |condition| significant(condition, 2)),
-            row.size.to_string(),
-            significant(row.assembly_microseconds, 3),
-            significant(row.eigen_microseconds, 3),
-        ]);
-    }
-    let note = match is_equilibrium {
-        true => "",
-        false => {
-            "  off equilibrium only models in the same chart have the same eigenvalues: those of redundant coordinates and the \
-             plain projection (frozen) belong to no chart\n"
-        }
-    };
-    format!(
-        "{table}  off constraints: largest part of a physical mode / smallest part of a spurious one that the constraints \
-         do not allow\n{note}"
-    )
 }
