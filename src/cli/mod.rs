@@ -11,7 +11,6 @@ mod linearize;
 mod loci;
 mod methods;
 mod plot;
-mod purpose;
 mod restart;
 mod schema;
 mod simulate;

@@ -2,16 +2,18 @@
 
 use super::Table;
 use super::rest::Rest;
-use super::start::Start;
 use super::summary::AssemblySummary;
 use crate::analysis::{Rank, Redundant};
 use crate::error::significant;
 use crate::initial::Assembly;
+use crate::math::largest;
 use crate::scene::{BeamLine, Connection, Model};
 use crate::simulate::Mode;
 use crate::study::{AnyMechanism, Study};
-use crate::system::{Group, Loaded};
+use crate::system::{Group, Loaded, Scratch};
+use crate::tolerances::report as tolerances;
 use serde::Serialize;
+use serde_json::{Map, Value};
 
 /// What is modelled, and how well posed it is at the start.
 #[derive(Clone, Debug, Serialize)]
@@ -48,6 +50,19 @@ pub struct Check {
     /// The static equilibrium where it is asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub equilibrium: Option<Rest>,
+}
+
+/// Rates and outputs at the assembled start.
+#[derive(Clone, Debug, Serialize)]
+pub struct Start {
+    /// max |v| and max |v'|, m and rad per s and s^2.
+    pub velocity: f64,
+    pub acceleration: f64,
+    /// Whether nothing moves, and nothing will.
+    pub is_equilibrium: bool,
+    pub outputs: Map<String, Value>,
+    #[serde(skip)]
+    units: Vec<String>,
 }
 
 /// An element of the scene.
@@ -241,5 +256,46 @@ impl Check {
             significant(self.length_scale, 4),
             self.left_out.join("; ")
         )
+    }
+}
+
+impl Start {
+    pub fn of(study: &Study) -> Start {
+        let Assembly { q, v, vdot, lambda, .. } = &study.assembly;
+        let columns = study.system().columns();
+        let mut values = vec![0.0; columns.len()];
+        let at = Loaded { t: study.start_time(), q, v, vdot, lambda };
+        study.system().outputs(at, &mut values, &mut Scratch::default());
+        let (velocity, acceleration) = (largest(v), largest(vdot));
+        Start {
+            velocity,
+            acceleration,
+            is_equilibrium: velocity == 0.0 && acceleration < tolerances::RESTING_START,
+            outputs: columns
+                .iter()
+                .map(|column| column.name.clone())
+                .zip(values.into_iter().map(Value::from))
+                .collect(),
+            units: columns.into_iter().map(|column| column.unit).collect(),
+        }
+    }
+
+    pub fn text(&self) -> String {
+        let mut text = match (self.is_equilibrium, self.velocity) {
+            (true, _) => format!("static equilibrium: at rest, accelerations below {:.1e}\n", self.acceleration),
+            (false, 0.0) => {
+                format!("at rest, accelerations up to {} m/s^2 or rad/s^2\n", significant(self.acceleration, 4))
+            }
+            _ => String::new(),
+        };
+        if !self.outputs.is_empty() {
+            let mut table = Table::new(&["output at the start", "", ""]);
+            for ((name, value), unit) in self.outputs.iter().zip(&self.units) {
+                let value = value.as_f64().map_or("?".to_string(), |value| significant(value, 8));
+                table.row([name.clone(), value, unit.clone()]);
+            }
+            text += &format!("\n{table}\n");
+        }
+        text
     }
 }

@@ -1,6 +1,7 @@
 //! What `drift` says, its table and its figure.
 
-use super::{Table, cell, envelope, table};
+use super::figures::envelope;
+use super::{Table, cell, table};
 use crate::analysis::Drift;
 use crate::compare::StabilizedRun;
 use crate::error::{Result, clock};

@@ -3,13 +3,11 @@
 mod check;
 mod check_error;
 mod drift;
-mod envelope;
 mod figures;
 mod files;
 pub mod linear;
 pub mod mechanism;
 mod rest;
-mod start;
 pub mod stress;
 mod summary;
 mod sweep;
@@ -21,7 +19,6 @@ mod warnings;
 
 pub use check::{Check, check};
 pub use drift::{drift_text, stabilizations_figure, stabilizations_table};
-pub use envelope::envelope;
 pub use figures::{drift_figure, energy_figure, outputs_figure};
 pub use files::{Folder, Written, write_whole};
 pub use rest::Rest;

@@ -1,7 +1,7 @@
 //! What sets a cell apart from the scene as it is.
 
-use super::case::Case;
 use super::parameters::{StressParameter, baumgarte};
+use super::subject::Case;
 use crate::choice::Choice;
 use crate::error::Result;
 use crate::integrator::{Steps, find};

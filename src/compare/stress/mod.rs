@@ -7,7 +7,6 @@
 //!
 //! To add a stress parameter: an entry in [`registry`].
 
-mod case;
 mod cell;
 mod change;
 mod deadline;
@@ -23,7 +22,6 @@ mod simulation;
 mod subject;
 mod verdict;
 
-pub use case::{Case, Typical};
 pub use cell::{Cell, Quantity, Status};
 pub use change::Change;
 pub use deadline::Limits;
@@ -32,5 +30,5 @@ pub use map::{Axis, Entry, Map};
 pub use maps::{MapEntry, known, maps, pair};
 pub use parameters::{StressParameter, find, ladder, registry};
 pub use run::{Stressed, stress};
-pub use subject::Subject;
+pub use subject::{Case, Subject, Typical};
 pub use verdict::{Bound, Reason, Side, Verdict};

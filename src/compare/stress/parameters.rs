@@ -1,7 +1,7 @@
 //! The stress parameters: what a map can vary over many powers of ten.
 
-use super::case::Case;
 use super::json::{elements, faster, has, multiply, replace};
+use super::subject::Case;
 use super::subject::Subject;
 use crate::choice::Choice;
 use crate::error::{Error, Result, suggest};

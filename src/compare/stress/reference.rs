@@ -1,7 +1,7 @@
 //! The motion that errors are measured against.
 
-use super::case::Case;
 use super::deadline::{Deadline, Limits};
+use super::subject::Case;
 use super::subject::Subject;
 use crate::analysis::{Record, Recorder, Sizes, scales};
 use crate::choice::Choice;

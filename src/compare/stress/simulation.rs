@@ -1,10 +1,10 @@
 //! One simulation.
 
-use super::case::Case;
 use super::cell::{Cell, Status};
 use super::deadline::{Deadline, Limits};
 use super::map::Map;
 use super::reference::{Rows, watched};
+use super::subject::Case;
 use super::subject::Subject;
 use crate::analysis::{Record, Recorder};
 use crate::error::{Error, Result, short};

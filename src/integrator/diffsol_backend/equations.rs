@@ -1,6 +1,6 @@
-//! A form as diffsol sees it.
+//! The rows of a formulation as diffsol sees it.
 
-use super::form::{Dense, Form};
+use super::rows::{Dense, Rows};
 use crate::formulation::{Halt, Statistics};
 use diffsol::{
     ConstantOp, LinearOp, Matrix, NalgebraContext, NalgebraMat, NalgebraVec, NonLinearOp, NonLinearOpJacobian,
@@ -12,11 +12,11 @@ use std::rc::Rc;
 pub type Values = NalgebraVec<f64>;
 type Entries = NalgebraMat<f64>;
 
-/// diffsol calls with shared references and takes numbers only: the form is behind a cell, and what stops it is kept
+/// diffsol calls with shared references and takes numbers only: the rows are behind a cell, and what stops it is kept
 /// here, while the numbers are NaN, which makes diffsol try a smaller step. Clones share both.
 #[derive(Clone)]
 pub struct Equations<'s> {
-    form: Rc<RefCell<Box<dyn Form + 's>>>,
+    rows: Rc<RefCell<Rows<'s>>>,
     halt: Rc<RefCell<Option<Halt>>>,
     /// Unknowns, and how many of them have a rate.
     pub len: usize,
@@ -25,10 +25,10 @@ pub struct Equations<'s> {
 }
 
 impl<'s> Equations<'s> {
-    pub fn new(form: Box<dyn Form + 's>, rates: usize) -> Self {
-        let len = form.len();
+    pub fn new(rows: Rows<'s>, rates: usize) -> Self {
+        let len = rows.len();
         Equations {
-            form: Rc::new(RefCell::new(form)),
+            rows: Rc::new(RefCell::new(rows)),
             halt: Rc::default(),
             len,
             rates,
@@ -36,23 +36,23 @@ impl<'s> Equations<'s> {
         }
     }
 
-    /// Uses the form.
-    pub fn with<R>(&self, see: impl FnOnce(&mut dyn Form) -> R) -> R {
-        see(&mut **self.form.borrow_mut())
+    /// Uses the rows.
+    pub fn with<R>(&self, see: impl FnOnce(&mut Rows<'s>) -> R) -> R {
+        see(&mut self.rows.borrow_mut())
     }
 
-    /// What stopped the form first since the last call.
+    /// What stopped the rows first since the last call.
     pub fn take_halt(&self) -> Option<Halt> {
         self.halt.take()
     }
 
     /// The work done since the last call.
     pub fn take_statistics(&self) -> Statistics {
-        self.with(|form| std::mem::take(form.statistics()))
+        self.with(|rows| std::mem::take(rows.statistics()))
     }
 
-    fn fill(&self, values: &mut [f64], see: impl FnOnce(&mut dyn Form, &mut [f64]) -> Result<(), Halt>) {
-        if let Err(halt) = self.with(|form| see(form, values)) {
+    fn fill(&self, values: &mut [f64], see: impl FnOnce(&mut Rows<'s>, &mut [f64]) -> Result<(), Halt>) {
+        if let Err(halt) = self.with(|rows| see(rows, values)) {
             values.fill(f64::NAN);
             // The first one is the cause: NaN makes others follow.
             self.halt.borrow_mut().get_or_insert(halt);
@@ -66,7 +66,7 @@ pub struct View<'r, 's>(&'r Equations<'s>);
 impl NonLinearOp for View<'_, '_> {
     fn call_inplace(&self, x: &Values, t: f64, y: &mut Values) {
         let x = x.inner().as_slice();
-        self.0.fill(y.inner_mut().as_mut_slice(), |form, y| form.evaluate(t, x, y));
+        self.0.fill(y.inner_mut().as_mut_slice(), |rows, y| rows.evaluate(t, x, y));
     }
 }
 
@@ -77,9 +77,9 @@ impl NonLinearOpJacobian for View<'_, '_> {
 
     fn jacobian_inplace(&self, x: &Values, t: f64, y: &mut Entries) {
         let (n, x) = (self.0.len, x.inner().as_slice());
-        self.0.fill(y.inner_mut().as_mut_slice(), |form, values| {
+        self.0.fill(y.inner_mut().as_mut_slice(), |rows, values| {
             values.fill(0.0);
-            form.jacobian(t, x, &mut Dense { n, values })
+            rows.jacobian(t, x, &mut Dense { n, values })
         });
     }
 }

@@ -1,6 +1,6 @@
 //! q' = N(q) v and its derivatives.
 
-use super::form::Dense;
+use super::rows::Dense;
 use crate::math::kkt::Pattern;
 use crate::system::MechanicalSystem;
 

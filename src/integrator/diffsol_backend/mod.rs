@@ -3,7 +3,6 @@
 //! To add one: a file like `bdf.rs` that names the solver.
 
 mod equations;
-mod form;
 mod kinematics;
 mod rows;
 mod solver;
@@ -59,7 +58,7 @@ pub fn make<'s>(setup: &Setup<'s>, traits: Traits, start: Start<'s>) -> Result<B
     let unknowns = rows::unknowns(&dae, setup.system.dimensions());
     refuse_dense(&setup.integrator.name, [unknowns; 2], COPIES).map_err(|error| error.hint(SPARSE))?;
     Ok(Box::new(Implicit {
-        equations: Equations::new(Box::new(rows::Rows::new(dae, setup)), setup.len()),
+        equations: Equations::new(rows::Rows::new(dae, setup), setup.len()),
         start,
         traits,
         solver: None,
@@ -83,7 +82,7 @@ impl<'s> Implicit<'s> {
     fn begin(&mut self, tolerance: &Tolerance, from: From, h: f64) -> Result<Solver<'s>, Halt> {
         let eqn = &self.equations;
         let (mut x, mut rate) = (Values::zeros(eqn.len, eqn.context), Values::zeros(eqn.len, eqn.context));
-        eqn.with(|form| form.start(from, x.inner_mut().as_mut_slice(), rate.inner_mut().as_mut_slice()))?;
+        eqn.with(|rows| rows.start(from, x.inner_mut().as_mut_slice(), rate.inner_mut().as_mut_slice()))?;
         (self.counted, self.is_ahead) = (Counted::default(), false);
         let begun = Solver::new((self.start, eqn.clone()), tolerance, (from.t, h), [x, rate]);
         begun.map_err(|error| self.halt(error))
@@ -177,7 +176,7 @@ impl Integrator for Implicit<'_> {
         h: f64,
         to: &mut [f64],
     ) -> Result<Option<f64>, Halt> {
-        self.equations.with(|form| form.follow(&problem.dynamics));
+        self.equations.with(|rows| rows.follow(&problem.dynamics));
         let mut solver = self.resume(tolerance, from, h)?;
         let result = self.advance(&mut solver, (from.t, h), to);
         self.count(&solver, problem);

@@ -1,9 +1,9 @@
 //! A formulation with its multipliers for implicit integrators.
 
 use super::super::{From, Setup};
-use super::form::{Dense, Form};
 use super::kinematics::Kinematics;
 use crate::formulation::{Dae, Dynamics, Halt, NO_TANGENT, Residual, Row, Statistics, Unknowns};
+use crate::math::kkt::Pattern;
 use crate::system::{Dimensions, Loaded, Need, Tangent};
 use std::ops::Range;
 
@@ -132,12 +132,15 @@ impl<'s> Rows<'s> {
     }
 }
 
-impl Form for Rows<'_> {
-    fn len(&self) -> usize {
+/// As diffsol takes them: x' = F(t, x) in the first unknowns, which are q, v and the work, and 0 = F(t, x) in the rest.
+impl Rows<'_> {
+    /// How many unknowns x has.
+    pub fn len(&self) -> usize {
         self.places.end
     }
 
-    fn start(&mut self, from: From, x: &mut [f64], rate: &mut [f64]) -> Result<(), Halt> {
+    /// x and x' where a run starts, from q, v and the work with their rates.
+    pub fn start(&mut self, from: From, x: &mut [f64], rate: &mut [f64]) -> Result<(), Halt> {
         let Places { v, work, a, lambda, .. } = &self.places;
         let (q, speed) = (&from.y[..v.start], &from.y[v.clone()]);
         self.dynamics.solve(from.t, q, speed, |_, _| 0.0)?;
@@ -157,7 +160,7 @@ impl Form for Rows<'_> {
         Ok(())
     }
 
-    fn evaluate(&mut self, t: f64, x: &[f64], out: &mut [f64]) -> Result<(), Halt> {
+    pub fn evaluate(&mut self, t: f64, x: &[f64], out: &mut [f64]) -> Result<(), Halt> {
         self.moves(x);
         let Places { v, work, a, lambda, w, u, .. } = &self.places;
         let (dynamics, q) = (&mut self.dynamics, &x[..v.start]);
@@ -195,7 +198,8 @@ impl Form for Rows<'_> {
         Ok(())
     }
 
-    fn jacobian(&mut self, t: f64, x: &[f64], out: &mut Dense) -> Result<(), Halt> {
+    /// Adds dF/dx, or what is close enough to it for Newton's method, to a matrix of zeros.
+    pub fn jacobian(&mut self, t: f64, x: &[f64], out: &mut Dense) -> Result<(), Halt> {
         let Places { v, a, lambda, w, u, .. } = &self.places;
         let (dynamics, q, v) = (&mut self.dynamics, &x[..v.start], &x[v.clone()]);
         dynamics.statistics.jacobian_evaluations += 1;
@@ -214,11 +218,45 @@ impl Form for Rows<'_> {
         Ok(())
     }
 
-    fn follow(&mut self, run: &Dynamics) {
+    /// Leaves out the rows of constraints, and takes the pieces of functions, that the run does.
+    pub fn follow(&mut self, run: &Dynamics) {
         self.dynamics.follow(run);
     }
 
-    fn statistics(&mut self) -> &mut Statistics {
+    /// The work done here.
+    pub fn statistics(&mut self) -> &mut Statistics {
         &mut self.dynamics.statistics
+    }
+}
+
+/// A square matrix, column by column.
+pub struct Dense<'m> {
+    pub n: usize,
+    pub values: &'m mut [f64],
+}
+
+impl Dense<'_> {
+    pub fn add(&mut self, row: usize, column: usize, value: f64) {
+        self.values[column * self.n + row] += value;
+    }
+
+    /// Adds a matrix with its first entry at `at`.
+    pub fn block(&mut self, at: (usize, usize), pattern: &Pattern, values: &[f64]) {
+        pattern.entries.iter().zip(values).for_each(|(&(i, j), value)| self.add(at.0 + i, at.1 + j, *value));
+    }
+
+    /// Adds the transposed matrix.
+    pub fn transposed(&mut self, at: (usize, usize), pattern: &Pattern, values: &[f64]) {
+        pattern.entries.iter().zip(values).for_each(|(&(i, j), value)| self.add(at.0 + j, at.1 + i, *value));
+    }
+
+    /// Adds `factor` times a symmetric matrix of which the entries give one triangle.
+    pub fn symmetric(&mut self, at: (usize, usize), pattern: &Pattern, values: &[f64], factor: f64) {
+        for (&(i, j), value) in pattern.entries.iter().zip(values) {
+            self.add(at.0 + i, at.1 + j, factor * value);
+            if i != j {
+                self.add(at.0 + j, at.1 + i, factor * value);
+            }
+        }
     }
 }

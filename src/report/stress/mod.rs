@@ -2,10 +2,8 @@
 
 mod figure;
 mod file;
-mod markdown;
 mod words;
 
 pub use figure::stress_figure;
-pub use file::{MapFile, StressFile, stress_table};
-pub use markdown::stress_page;
+pub use file::{MapFile, StressFile, stress_page, stress_table};
 pub use words::{gain_table, sentences};

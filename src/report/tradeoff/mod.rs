@@ -2,13 +2,11 @@
 
 mod figure;
 mod models;
-mod models_figure;
 mod table;
 mod text;
 
 pub use figure::tradeoff_figure;
-pub use models::{ModelsSummary, models_table};
-pub use models_figure::models_figure;
+pub use models::{ModelsSummary, models_figure, models_table};
 pub use table::tradeoff_table;
 
 use crate::compare::work_precision::{Cell, Held, Recommendation, WorkPrecision};
