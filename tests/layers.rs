@@ -400,16 +400,30 @@ fn every_test_is_run() {
     }
 }
 
+fn source(module: &[&str], text: &str) -> Source {
+    let module = module.iter().map(|part| part.to_string()).collect();
+    let code = text.lines().enumerate().map(|(i, line)| (i + 1, line.to_string())).collect();
+    Source { path: PathBuf::new(), module, code, lines: 0 }
+}
+
+#[test]
+fn circles_are_found_through_what_a_folder_takes() {
+    let found = |of_b: &str| {
+        let modules = [("a", "use super::b::B;"), ("b", of_b), ("c", "use crate::f::{A, b};")];
+        let folder = source(&["f"], "mod a;\npub use a::{A, Other};");
+        let sources: Vec<Source> =
+            modules.iter().map(|(name, text)| source(&["f", name], text)).chain([folder]).collect();
+        circle(&sources, &["f".to_string()]).into_iter().collect::<Vec<_>>()
+    };
+    assert_eq!(found("use super::A;"), ["a", "b"]);
+    assert_eq!(found("let x = crate::f::a::new();"), ["a", "b"]);
+    assert_eq!(found("use crate::math::A;"), [""; 0]);
+}
+
 #[test]
 fn paths_are_read_as_the_compiler_does() {
-    let source = |module: &[&str]| Source {
-        path: PathBuf::new(),
-        module: module.iter().map(|part| part.to_string()).collect(),
-        code: Vec::new(),
-        lines: 0,
-    };
     let paths = |module: &[&str], text: &str| -> Vec<String> {
-        source(module).paths(text).iter().map(|path| path.join("::")).collect()
+        source(module, "").paths(text).iter().map(|path| path.join("::")).collect()
     };
     let deep = &["body", "rigid"];
     assert_eq!(

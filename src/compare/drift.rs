@@ -12,9 +12,11 @@ use std::time::Instant;
 /// A run under one stabilization.
 #[derive(Serialize)]
 pub struct StabilizedRun {
+    /// Its name in tables: the formulation, or the projection after index 1.
     pub method: String,
     pub formulation: Choice,
     pub projection: Choice,
+    /// `completed` or `failed`.
     pub status: &'static str,
     pub failure: Option<Failure>,
     pub drift: Drift,
@@ -25,6 +27,7 @@ pub struct StabilizedRun {
     pub factorizations: u64,
     pub wall_seconds: f64,
     #[serde(skip)]
+    /// What was recorded; of the trajectory the times alone.
     pub record: Record,
 }
 
