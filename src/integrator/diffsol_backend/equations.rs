@@ -1,6 +1,7 @@
 //! The rows of a formulation as diffsol sees it.
 
-use super::rows::{Dense, Rows};
+use super::kinematics::Dense;
+use super::rows::Rows;
 use crate::formulation::{Halt, Statistics};
 use diffsol::{
     ConstantOp, LinearOp, Matrix, NalgebraContext, NalgebraMat, NalgebraVec, NonLinearOp, NonLinearOpJacobian,

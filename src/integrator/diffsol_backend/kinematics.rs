@@ -1,6 +1,5 @@
 //! q' = N(q) v and its derivatives.
 
-use super::rows::Dense;
 use crate::math::kkt::Pattern;
 use crate::system::MechanicalSystem;
 
@@ -81,5 +80,37 @@ impl Kinematics {
     /// The same for one entry in column `j`.
     pub fn add_along(&self, row: usize, j: usize, value: f64, out: &mut Dense) {
         self.inverse[j].iter().for_each(|&(k, weight)| out.add(row, k, value * weight));
+    }
+}
+
+/// A square matrix, column by column.
+pub struct Dense<'m> {
+    pub n: usize,
+    pub values: &'m mut [f64],
+}
+
+impl Dense<'_> {
+    pub fn add(&mut self, row: usize, column: usize, value: f64) {
+        self.values[column * self.n + row] += value;
+    }
+
+    /// Adds a matrix with its first entry at `at`.
+    pub fn block(&mut self, at: (usize, usize), pattern: &Pattern, values: &[f64]) {
+        pattern.entries.iter().zip(values).for_each(|(&(i, j), value)| self.add(at.0 + i, at.1 + j, *value));
+    }
+
+    /// Adds the transposed matrix.
+    pub fn transposed(&mut self, at: (usize, usize), pattern: &Pattern, values: &[f64]) {
+        pattern.entries.iter().zip(values).for_each(|(&(i, j), value)| self.add(at.0 + j, at.1 + i, *value));
+    }
+
+    /// Adds `factor` times a symmetric matrix of which the entries give one triangle.
+    pub fn symmetric(&mut self, at: (usize, usize), pattern: &Pattern, values: &[f64], factor: f64) {
+        for (&(i, j), value) in pattern.entries.iter().zip(values) {
+            self.add(at.0 + i, at.1 + j, factor * value);
+            if i != j {
+                self.add(at.0 + j, at.1 + i, factor * value);
+            }
+        }
     }
 }

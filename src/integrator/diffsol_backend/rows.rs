@@ -1,9 +1,8 @@
 //! A formulation with its multipliers for implicit integrators.
 
 use super::super::{From, Setup};
-use super::kinematics::Kinematics;
+use super::kinematics::{Dense, Kinematics};
 use crate::formulation::{Dae, Dynamics, Halt, NO_TANGENT, Residual, Row, Statistics, Unknowns};
-use crate::math::kkt::Pattern;
 use crate::system::{Dimensions, Loaded, Need, Tangent};
 use std::ops::Range;
 
@@ -226,37 +225,5 @@ impl Rows<'_> {
     /// The work done here.
     pub fn statistics(&mut self) -> &mut Statistics {
         &mut self.dynamics.statistics
-    }
-}
-
-/// A square matrix, column by column.
-pub struct Dense<'m> {
-    pub n: usize,
-    pub values: &'m mut [f64],
-}
-
-impl Dense<'_> {
-    pub fn add(&mut self, row: usize, column: usize, value: f64) {
-        self.values[column * self.n + row] += value;
-    }
-
-    /// Adds a matrix with its first entry at `at`.
-    pub fn block(&mut self, at: (usize, usize), pattern: &Pattern, values: &[f64]) {
-        pattern.entries.iter().zip(values).for_each(|(&(i, j), value)| self.add(at.0 + i, at.1 + j, *value));
-    }
-
-    /// Adds the transposed matrix.
-    pub fn transposed(&mut self, at: (usize, usize), pattern: &Pattern, values: &[f64]) {
-        pattern.entries.iter().zip(values).for_each(|(&(i, j), value)| self.add(at.0 + j, at.1 + i, *value));
-    }
-
-    /// Adds `factor` times a symmetric matrix of which the entries give one triangle.
-    pub fn symmetric(&mut self, at: (usize, usize), pattern: &Pattern, values: &[f64], factor: f64) {
-        for (&(i, j), value) in pattern.entries.iter().zip(values) {
-            self.add(at.0 + i, at.1 + j, factor * value);
-            if i != j {
-                self.add(at.0 + j, at.1 + i, factor * value);
-            }
-        }
     }
 }
