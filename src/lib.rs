@@ -36,9 +36,9 @@
 //! | module | what is there | add one |
 //! |---|---|---|
 //! | [`error`], [`math`] | errors with place and remedy; dual and Taylor numbers, expressions, saddle-point solver | |
-//! | [`body`] | rigid bodies and point masses, their frames at markers | a file and a line in [`body::registry`] |
-//! | [`joint`], [`force`] | constraints and wrenches over frames | a file and a line in the registry |
-//! | [`scene`] | the JSON format, its checks and its schema | |
+//! | [`body`] | rigid bodies and point masses, their frames at markers | a file and a line in [`body::registry`], or from outside |
+//! | [`joint`], [`force`] | constraints and wrenches over frames | a file and a line in the registry, or from outside |
+//! | [`scene`] | the JSON format, its checks and its schema; scenes built in code | |
 //! | [`system`] | [`system::MechanicalSystem`], which solvers see; own equations by [`system::Equations`] | implement it |
 //! | [`formulation`] | what is integrated: index 1, Baumgarte, invariant manifold, penalty, null space ... | a file and a line |
 //! | [`projection`] | what is done after a step: post-stabilization, coordinate projection | a file and a line |
@@ -53,8 +53,21 @@
 //! | [`tolerances`] | every threshold, with what it decides, its unit, reason and test | |
 //! | [`plot`], [`report`], [`cli`] | figures, files and text, the command line | one file a subcommand |
 //!
-//! A formulation, an integrator or a projection may come from outside the crate, too: an `Entry` of one's own and its
-//! [`choice`](choice::Listed::choice) in a [`simulate::Method`], as in `tests/outside.rs`.
+//! # Own parts
+//!
+//! All that has a registry may come from outside the crate. Examples to copy, run by the tests, are in `tests/examples`:
+//!
+//! | own | by | example |
+//! |---|---|---|
+//! | equations | [`system::Equations`], or [`system::MechanicalSystem`] in full | `own_equations.rs` |
+//! | joint | [`joint::JointSpec`], [`joint::JointKernel`], [`scene::Elements::with_joint`] | `own_joint.rs` |
+//! | force | [`force::ForceSpec`], [`force::ForceKernel`], [`scene::Elements::with_force`] | `own_force.rs` |
+//! | body | [`body::BodySpec`], [`body::BodyKernel`], [`scene::Elements::with_body`] | `own_body.rs` |
+//! | integrator | [`integrator::Entry`] and its [`choice`](choice::Listed::choice) in a [`simulate::Method`] | `own_integrator.rs`, `own_tableau.rs` |
+//! | formulation | [`formulation::Entry`] likewise | `own_formulation.rs` |
+//! | projection | [`projection::Entry`] likewise | `own_projection.rs` |
+//!
+//! Beside them: a scene built in code by [`scene::SceneBuilder`] (`scene_in_code.rs`), and a linear model (`linear_model.rs`).
 //!
 //! # Example
 //!

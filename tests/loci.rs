@@ -155,7 +155,8 @@ fn model(study: &Study, state: &State, method: &str) -> LinearModel {
 }
 
 fn over(scene: &str, range: &str, at: At) -> Loci {
-    let (family, overrides) = (Family::load(&path(scene), &[]).unwrap(), Overrides::default());
+    let overrides = Overrides::default();
+    let family = Family::load(&path(scene), &overrides).unwrap();
     let range: Range = range.parse().unwrap();
     loci_over(&Variants { family: &family, overrides: &overrides, range: &range }, at, &request("mcs"), || ()).unwrap()
 }

@@ -80,7 +80,7 @@ impl<const D: usize> BodyKernel<D> for Guided<D> {
         &self.markers
     }
 
-    fn frames<S: Scalar>(&self, q: &[S], out: &mut [Frame<S, D>]) {
+    fn frame<S: Scalar>(&self, q: &[S]) -> Frame<S, D> {
         let mut body = Frame::world();
         body.r = self.position(q);
         for (axis, start) in body.axes.iter_mut().zip(&self.axes) {
@@ -92,7 +92,7 @@ impl<const D: usize> BodyKernel<D> for Guided<D> {
                 axis[j] = s * start[i] + c * start[j];
             }
         }
-        out.iter_mut().zip(&self.markers).for_each(|(frame, marker)| *frame = body.at(marker));
+        body
     }
 
     fn pull_back<S: Scalar>(&self, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]) {
@@ -107,9 +107,6 @@ impl<const D: usize> BodyKernel<D> for Guided<D> {
         }
     }
 
-    fn mass_pattern(&self) -> Vec<(usize, usize)> {
-        (0..self.free().len()).map(|i| (i, i)).collect()
-    }
     fn mass(&self, values: &mut [f64]) {
         values.fill(self.mass);
         if let Some(turn) = self.turn {

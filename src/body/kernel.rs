@@ -1,11 +1,14 @@
 //! Bodies of a few coordinates, all of which move all of their markers: the model's view of every [`BodyKernel`].
 
 use super::flexible::PointShape;
-use super::{Attitude, Bent, Body, BodyKernel, BodyOver, BodyState, Energy, Frame, Marker, Slope, Wrench, dot};
+use super::{
+    Attitude, Bent, Body, BodyKernel, BodyOver, BodyState, Energy, Frame, Marker, Slope, Wrench, cross, dot, sub,
+};
 use crate::math::{Scalar, Taylor};
+use std::array::from_fn;
 
-/// More coordinates than this no [`BodyKernel`] has.
-const ON_STACK: usize = 8;
+/// More coordinates than this no [`BodyKernel`] has: they are kept on the stack.
+pub const MOST_COORDINATES: usize = 8;
 
 impl<K: BodyKernel<D>, S: Scalar, const D: usize> BodyOver<S, D> for K {
     fn rate(&self, q: &[S], v: &[S], qdot: &mut [S]) {
@@ -13,10 +16,11 @@ impl<K: BodyKernel<D>, S: Scalar, const D: usize> BodyOver<S, D> for K {
     }
 
     fn motion(&self, q: &[S], v: &[S], vdot: Option<&[S]>, out: &mut [Frame<Taylor<S>, D>]) {
-        let mut path = [Taylor::fixed(S::zero()); ON_STACK];
+        let mut path = [Taylor::fixed(S::zero()); MOST_COORDINATES];
         let path = &mut path[..q.len()];
         coordinate_path(|q, v, rate| BodyKernel::rate(self, q, v, rate), (q, v, vdot), path);
-        self.frames(path, out);
+        let body = self.frame(path);
+        out.iter_mut().zip(self.markers()).for_each(|(frame, marker)| *frame = body.at(marker));
     }
 
     fn pull_back(&self, _marker: usize, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]) {
@@ -25,6 +29,28 @@ impl<K: BodyKernel<D>, S: Scalar, const D: usize> BodyOver<S, D> for K {
 
     fn energy(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S> {
         BodyKernel::energy(self, q, v, gravity)
+    }
+}
+
+/// f += J^T w by the velocities of the body's frame, J e_j, at v = e_j.
+pub(super) fn pull_back<K: BodyKernel<D>, S: Scalar, const D: usize>(
+    body: &K,
+    q: &[S],
+    frame: &Frame<S, D>,
+    wrench: &Wrench<S, D>,
+    f: &mut [S],
+) {
+    let n = f.len();
+    for (j, f) in f.iter_mut().enumerate() {
+        let mut unit = [S::zero(); MOST_COORDINATES];
+        unit[j] = S::one();
+        let mut path = [Taylor::fixed(S::zero()); MOST_COORDINATES];
+        let path = &mut path[..q.len()];
+        coordinate_path(|q, v, rate| BodyKernel::rate(body, q, v, rate), (q, &unit[..n], None), path);
+        let own = body.frame(path);
+        let lever = cross(&sub(&frame.r, &own.r.map(|x| x.x)), &wrench.force);
+        let moment: [S; 3] = from_fn(|i| wrench.torque[i] + lever[i]);
+        *f += dot(&own.velocity(), &wrench.force) + dot(&own.angular_velocity(), &moment);
     }
 }
 
@@ -41,12 +67,12 @@ pub(super) fn coordinate_path<S: Scalar>(
         }
         return;
     }
-    let mut rates = [[S::zero(); ON_STACK]; 4];
+    let mut rates = [[S::zero(); MOST_COORDINATES]; 4];
     let [first, second, constant, applied] = &mut rates;
     let n = q.len();
     rate(q, v, &mut first[..n]);
     rate(&first[..n], v, &mut second[..n]);
-    rate(&[S::zero(); ON_STACK][..n], v, &mut constant[..n]);
+    rate(&[S::zero(); MOST_COORDINATES][..n], v, &mut constant[..n]);
     if let Some(vdot) = vdot {
         rate(q, vdot, &mut applied[..n]);
     }
@@ -90,10 +116,10 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
     fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]) {
         let (q, v, n) = (lift(at.q), lift(at.v), at.v.len());
         for first in (0..n).step_by(6) {
-            let mut directions = [Slope::fixed(0.0); ON_STACK];
+            let mut directions = [Slope::fixed(0.0); MOST_COORDINATES];
             let seeded = directions[first..n].iter_mut().take(6).enumerate();
             seeded.for_each(|(j, direction)| *direction = Slope::seeded(0.0, j));
-            let mut moved = [Slope::fixed(0.0); ON_STACK];
+            let mut moved = [Slope::fixed(0.0); MOST_COORDINATES];
             BodyKernel::rate(self, &q[..at.q.len()], &directions[..n], &mut moved[..at.q.len()]);
             moved.iter_mut().zip(&q).for_each(|(moved, &q)| *moved += q);
             self.subtract_slopes((&moved[..at.q.len()], &v[..n]), at.gravity, first, k);
@@ -125,6 +151,9 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
     fn elastic_count(&self) -> usize {
         0
     }
+    fn most_coordinates(&self) -> usize {
+        MOST_COORDINATES
+    }
     fn shapes(&self) -> &[PointShape<D>] {
         &[]
     }
@@ -133,7 +162,7 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
     }
 }
 
-fn lift(values: &[f64]) -> [Slope; ON_STACK] {
+fn lift(values: &[f64]) -> [Slope; MOST_COORDINATES] {
     std::array::from_fn(|i| Slope::fixed(values.get(i).copied().unwrap_or(0.0)))
 }
 
@@ -141,7 +170,7 @@ fn lift(values: &[f64]) -> [Slope; ON_STACK] {
 trait Slopes<const D: usize>: BodyKernel<D> {
     /// Takes the slopes of the own forces from columns `first..` of a square matrix.
     fn subtract_slopes(&self, (q, v): (&[Slope], &[Slope]), gravity: &[f64; D], first: usize, matrix: &mut [f64]) {
-        let mut forces = [Slope::fixed(0.0); ON_STACK];
+        let mut forces = [Slope::fixed(0.0); MOST_COORDINATES];
         self.own_forces(q, v, gravity, &mut forces[..v.len()]);
         for (row, force) in matrix.chunks_exact_mut(v.len()).zip(&forces) {
             row[first..].iter_mut().zip(&force.eps).for_each(|(entry, slope)| *entry -= slope);

@@ -3,7 +3,8 @@
 //! A body owns coordinates q (with q' = N(q) v) and markers. It answers the frames of its markers as functions of q,
 //! and pulls a wrench at a marker back to its generalized forces, J^T w. Joints and forces see nothing else.
 //!
-//! To add one: a file with a [`BodySpec`] and a [`BodyKernel`], and a line in [`registry`].
+//! To add one: a file with a [`BodySpec`] and a [`BodyKernel`], and a line in [`registry`]; from outside the crate, the same
+//! two and [`Elements::with_body`](crate::scene::Elements::with_body), as in `tests/examples/own_body.rs`.
 
 mod attitude;
 mod build;
@@ -12,6 +13,7 @@ pub mod floating;
 mod frame;
 mod guided;
 mod kernel;
+mod kind;
 mod parse;
 mod point_mass;
 mod probe;
@@ -23,6 +25,9 @@ mod turning;
 pub use attitude::{Attitude, Carried};
 pub use build::{Build, MarkerId, MarkerTable, Switches};
 pub use frame::{Frame, Marker, Wrench, cross, dot, in_space, norm, scale, sub, twist_len, unit_axes};
+pub use kernel::MOST_COORDINATES;
+pub use kind::ElementKind;
+pub(crate) use kind::mistaken;
 pub use parse::{parse, parse_among, show};
 pub use probe::{Probe, Quantity, Signal, small_rotation, small_rotation_torque};
 pub use rigid::Initial;
@@ -33,13 +38,13 @@ pub use turning::{Turned, Turning};
 
 use crate::error::Result;
 use crate::math::{Dual, Scalar, Taylor};
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
 /// Values with their derivatives along six coordinates: the second number every element is evaluated over.
 pub type Slope = Dual<f64, 6>;
 
-/// So many markers a joint or force may have: their frames are kept on the stack.
+/// The largest number of markers of a joint or force: their frames are kept on the stack.
 pub const MOST_MARKERS: usize = 8;
 
 /// Energy of a body or of a whole mechanism, J.
@@ -49,12 +54,14 @@ pub struct Energy<S = f64> {
     pub potential: S,
 }
 
-/// The equations of a body of a few coordinates that all move all of its markers, written once over any scalar.
+/// The equations of a rigid body of a few coordinates, at most [`MOST_COORDINATES`], with a constant M, written once over any
+/// scalar. Bodies beyond that implement [`Body`] and [`BodyOver`] themselves.
 pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
     /// Coordinate names without the body's, such as `x` or `qw`.
     fn coordinate_names(&self) -> Vec<&'static str>;
     /// Velocity names without the body's, such as `x'` or `wx`.
     fn velocity_names(&self) -> Vec<&'static str>;
+    /// The markers that it was made with, in their order.
     fn markers(&self) -> &[Marker<D>];
 
     /// q' = N(q) v, with N affine in q: constant for positions, linear for quaternions. Default: N = I.
@@ -62,14 +69,22 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
         qdot.copy_from_slice(v);
     }
 
-    /// The frames of all markers, in their order.
-    fn frames<S: Scalar>(&self, q: &[S], out: &mut [Frame<S, D>]);
+    /// The frame in which its markers are fixed; in the plane `turn` is the angle of the axes.
+    fn frame<S: Scalar>(&self, q: &[S]) -> Frame<S, D>;
 
-    /// f += J^T w for a wrench at the frame of one of the markers, all of which every coordinate moves.
-    fn pull_back<S: Scalar>(&self, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]);
+    /// f += J^T w for a wrench at the frame of one of the markers. Default: J is the derivative of [`frame`](Self::frame),
+    /// one coordinate at a time.
+    fn pull_back<S: Scalar>(&self, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S])
+    where
+        Self: Sized,
+    {
+        kernel::pull_back(self, q, frame, wrench, f);
+    }
 
-    /// Places of the mass matrix's lower triangle, in the order of the values of [`mass`](Self::mass).
-    fn mass_pattern(&self) -> Vec<(usize, usize)>;
+    /// Places of the mass matrix's lower triangle, in the order of the values of [`mass`](Self::mass). Default: the diagonal.
+    fn mass_pattern(&self) -> Vec<(usize, usize)> {
+        (0..self.velocity_names().len()).map(|i| (i, i)).collect()
+    }
     /// M, which is constant in the coordinates of such a body.
     fn mass(&self, values: &mut [f64]);
 
@@ -93,9 +108,10 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
         (&own[0]).into()
     }
 
-    /// f += weight and velocity-dependent inertia forces.
+    /// f += weight and velocity-dependent inertia forces; `gravity` in m/s^2.
     fn own_forces<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D], f: &mut [S]);
 
+    /// The kinetic energy v^T M v / 2, and the potential of the weight.
     fn energy<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S>;
 
     /// Brings redundant coordinates (a quaternion) back to their normal form.
@@ -166,6 +182,10 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Slope, D> + Send + S
     fn reach(&self) -> f64;
     /// How many of the coordinates are elastic: the last ones.
     fn elastic_count(&self) -> usize;
+    /// More coordinates than this it cannot have. Default: as many as it likes.
+    fn most_coordinates(&self) -> usize {
+        usize::MAX
+    }
     /// Shapes of its markers, where it has elastic coordinates.
     fn shapes(&self) -> &[flexible::PointShape<D>];
     /// Of a beam in a floating frame.
@@ -179,38 +199,61 @@ pub struct Built<const D: usize> {
     pub v: Vec<f64>,
 }
 
-/// What a scene says of a kind of body.
+impl<const D: usize> Built<D> {
+    /// Refuses what the model cannot hold: a mistake in the type's own code, not in a scene.
+    fn checked(self, markers: usize) -> Result<Self> {
+        let Built { body, q, v } = &self;
+        let sizes = [
+            ("coordinates", q.len(), body.coordinate_names().len()),
+            ("velocities", v.len(), body.velocity_names().len()),
+            ("markers", body.marker_count(), markers),
+        ];
+        if let Some((what, found, expected)) = sizes.into_iter().find(|(_, found, expected)| found != expected) {
+            return Err(mistaken(format!("{found} {what} where there should be {expected}")));
+        }
+        if q.len() > body.most_coordinates() {
+            return Err(mistaken(format!("{} coordinates; at most {MOST_COORDINATES} are possible", q.len())));
+        }
+        let is_outside = |&(row, column): &(usize, usize)| column > row || row >= v.len();
+        match body.mass_pattern().iter().find(|place| is_outside(place)) {
+            Some((i, j)) => Err(mistaken(format!("the place ({i}, {j}) outside of the lower triangle of its M"))),
+            None => Ok(self),
+        }
+    }
+}
+
+/// What a scene says of a kind of body beside [`SHARED_KEYS`].
 pub trait BodySpec: DeserializeOwned + JsonSchema {
+    /// The name by which scenes call it.
     const TYPE: &'static str;
+    /// Makes the body with these markers, of which the first is its own frame, and its start by what `initial` says.
+    ///
+    /// # Errors
+    /// What a scene may say wrong: [`Build`] has the checks.
     fn build<const D: usize>(&self, markers: Vec<Marker<D>>, initial: &Initial, build: &Build<D>) -> Result<Built<D>>;
 }
 
-/// One kind of body as the scene format, its schema and its errors know it.
-pub struct Entry<const D: usize> {
-    pub name: &'static str,
-    pub schema: fn(&mut SchemaGenerator) -> Schema,
-    pub build: BuildFromJson<D>,
-}
+/// A kind of body.
+pub type BodyKind<const D: usize> =
+    ElementKind<fn(serde_json::Value, Vec<Marker<D>>, &Initial, &Build<D>) -> Result<Built<D>>>;
 
-type BuildFromJson<const D: usize> = fn(serde_json::Value, Vec<Marker<D>>, &Initial, &Build<D>) -> Result<Built<D>>;
-
-fn entry<T: BodySpec, const D: usize>() -> Entry<D> {
-    Entry {
-        name: T::TYPE,
-        schema: |generator| generator.subschema_for::<T>(),
-        build: |json, markers, initial, build| parse_among::<T>(json, &SHARED_KEYS)?.build(markers, initial, build),
-    }
+/// The kind of body that `T` describes.
+pub fn kind<T: BodySpec, const D: usize>() -> BodyKind<D> {
+    ElementKind::of::<T>(T::TYPE, |json, markers, initial, build| {
+        let count = markers.len();
+        parse_among::<T>(json, &SHARED_KEYS)?.build(markers, initial, build)?.checked(count)
+    })
 }
 
 /// The keys that all bodies have beside those of their kind.
 pub const SHARED_KEYS: [&str; 5] = ["name", "type", "markers", "initial", "origin"];
 
-/// Every kind of body, in the order of the documentation.
-pub fn registry<const D: usize>() -> Vec<Entry<D>> {
+/// Every built-in kind of body, in the order of the documentation.
+pub fn registry<const D: usize>() -> Vec<BodyKind<D>> {
     vec![
-        entry::<rigid::Rigid, D>(),
-        entry::<point_mass::PointMass, D>(),
-        entry::<flexible::FlexibleBeam, D>(),
-        entry::<flexible::modal::ModalBody, D>(),
+        kind::<rigid::Rigid, D>(),
+        kind::<point_mass::PointMass, D>(),
+        kind::<flexible::FlexibleBeam, D>(),
+        kind::<flexible::modal::ModalBody, D>(),
     ]
 }

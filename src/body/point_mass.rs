@@ -7,6 +7,7 @@ use crate::math::Scalar;
 use crate::math::expression::Number;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::array::from_fn;
 
 /// A mass without extension: two coordinates in the plane, three in space. It has no orientation, so joints that hold
 /// one and torques are refused.
@@ -54,17 +55,11 @@ impl<const D: usize> BodyKernel<D> for Particle<D> {
     fn oriented(&self) -> bool {
         false
     }
-    fn frames<S: Scalar>(&self, q: &[S], out: &mut [Frame<S, D>]) {
-        for (frame, marker) in out.iter_mut().zip(&self.markers) {
-            *frame = Frame::world().at(marker);
-            frame.r.copy_from_slice(q);
-        }
+    fn frame<S: Scalar>(&self, q: &[S]) -> Frame<S, D> {
+        Frame { r: from_fn(|i| q[i]), ..Frame::world() }
     }
     fn pull_back<S: Scalar>(&self, _q: &[S], _frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]) {
         f.iter_mut().zip(wrench.force).for_each(|(f, w)| *f += w);
-    }
-    fn mass_pattern(&self) -> Vec<(usize, usize)> {
-        (0..D).map(|i| (i, i)).collect()
     }
     fn mass(&self, values: &mut [f64]) {
         values.fill(self.mass);

@@ -43,15 +43,15 @@ impl<const D: usize> BodyKernel<D> for RigidPlanar<D> {
         &self.markers
     }
 
-    #[inline]
-    fn frames<S: Scalar>(&self, q: &[S], out: &mut [Frame<S, D>]) {
+    #[inline(always)]
+    fn frame<S: Scalar>(&self, q: &[S]) -> Frame<S, D> {
         let [x, y, turn] = self.coordinates(q);
         let (s, c) = (turn.sin(), turn.cos());
         let mut body = Frame::world();
         (body.r[0], body.r[1], body.turn) = (x, y, turn);
         body.axes[0][..2].copy_from_slice(&[c, s]);
         body.axes[1][..2].copy_from_slice(&[-s, c]);
-        out.iter_mut().zip(&self.markers).for_each(|(frame, marker)| *frame = body.at(marker));
+        body
     }
 
     #[inline]
@@ -67,9 +67,6 @@ impl<const D: usize> BodyKernel<D> for RigidPlanar<D> {
         }
     }
 
-    fn mass_pattern(&self) -> Vec<(usize, usize)> {
-        (0..self.free().count()).map(|i| (i, i)).collect()
-    }
     fn mass(&self, values: &mut [f64]) {
         self.free().zip(values).for_each(|(i, value)| *value = self.inertia[i]);
     }

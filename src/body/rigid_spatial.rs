@@ -45,13 +45,13 @@ impl<const D: usize> BodyKernel<D> for RigidSpatial<D> {
         quaternion_rate(&q[3..7], &v[3..6], &mut qdot[3..7]);
     }
 
-    #[inline]
-    fn frames<S: Scalar>(&self, q: &[S], out: &mut [Frame<S, D>]) {
+    #[inline(always)]
+    fn frame<S: Scalar>(&self, q: &[S]) -> Frame<S, D> {
         let axes = axes_from_quaternion(&q[3..7]);
         let mut body = Frame::world();
         body.r.copy_from_slice(&q[..3]);
         body.axes.iter_mut().zip(&axes).for_each(|(axis, column)| axis.copy_from_slice(column));
-        out.iter_mut().zip(&self.markers).for_each(|(frame, marker)| *frame = body.at(marker));
+        body
     }
 
     #[inline]

@@ -9,7 +9,7 @@ use crate::math::expression::{Number, constant};
 use crate::math::memory::refuse_rows;
 use crate::plot::Figure;
 use crate::report::{Folder, Written};
-use crate::scene::Automatic;
+use crate::scene::{Automatic, Elements};
 use crate::simulate::Span;
 use crate::study::{Overrides, Study};
 use crate::system::Dimensions;
@@ -191,8 +191,8 @@ impl MethodOptions {
         let MethodOptions { rtol, atol, step, until, output_step, .. } = *self;
         let [formulation, integrator, projection] =
             [&self.formulation, &self.integrator, &self.projection].map(Clone::clone);
-        let set = scene.set.clone();
-        Overrides { set, method, formulation, integrator, projection, rtol, atol, step, until, output_step }
+        let (elements, set) = (Elements::default(), scene.set.clone());
+        Overrides { elements, set, method, formulation, integrator, projection, rtol, atol, step, until, output_step }
     }
 }
 

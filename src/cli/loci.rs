@@ -125,8 +125,8 @@ fn over(args: &Args, study: &Study, range: &Range, request: &Request) -> Result<
         None if args.equilibrium => At::Equilibrium,
         None => At::Start,
     };
-    let family = Family::load(&args.scene.path, &args.scene.set)?;
     let overrides = args.run.overrides(&args.scene, None);
+    let family = Family::load(&args.scene.path, &overrides)?;
     let variants = Variants { family: &family, overrides: &overrides, range };
     let bar = args.talk.progress(range.count as u64, &range.parameter);
     let loci = loci_over(&variants, at, request, || bar.inc(1)).map_err(|error| error.under("--sweep"))?;

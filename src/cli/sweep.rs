@@ -3,6 +3,7 @@
 use super::common::{Output, SceneOptions, Talk, tell};
 use crate::error::{Error, Result, suggest};
 use crate::report::{SweepLook, SweepSummary, sweep_figure, sweep_table};
+use crate::study::Overrides;
 use crate::sweep::{Family, Range, Sweep};
 use crate::system::Column;
 use std::process::ExitCode;
@@ -34,7 +35,8 @@ fn range(text: &str) -> Result<Range, String> {
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
-    let family = Family::load(&args.scene.path, &args.scene.set)?;
+    let overrides = Overrides { set: args.scene.set.clone(), ..Overrides::default() };
+    let family = Family::load(&args.scene.path, &overrides)?;
     let known = family.outputs()?;
     known_output(&known, &args.outputs).map_err(|error| error.under("--outputs"))?;
     known_output(&known, args.against.as_slice()).map_err(|error| error.under("--against"))?;

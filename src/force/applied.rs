@@ -55,7 +55,6 @@ pub enum OneOrMany {
 
 impl ForceSpec for AppliedForce {
     const TYPE: &'static str = "applied_force";
-    const DRIVEN: bool = true;
 
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
         if self.force.len() != D {
@@ -71,8 +70,6 @@ impl ForceSpec for AppliedForce {
 
 impl ForceSpec for AppliedTorque {
     const TYPE: &'static str = "applied_torque";
-    const DRIVEN: bool = true;
-    const TORQUE: bool = true;
 
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
         let signals = match &self.torque {
@@ -153,6 +150,14 @@ impl Applied {
 }
 
 impl<const D: usize> ForceKernel<D> for Applied {
+    fn takes_inputs(&self) -> bool {
+        true
+    }
+
+    fn is_torque(&self) -> bool {
+        matches!(self.kind, Kind::Torque)
+    }
+
     fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
         self.driven(&[S::zero(); 3], frames, time, out)
     }

@@ -3,7 +3,8 @@
 //! A force is one kernel over moving frames; bodies pull its wrenches back to generalized forces. It also states its
 //! potential: what its wrenches do beyond that is the work that the energy ledger counts.
 //!
-//! To add one: a file with a [`ForceSpec`] and a [`ForceKernel`], and a line in [`registry`].
+//! To add one: a file with a [`ForceSpec`] and a [`ForceKernel`], and a line in [`registry`]; from outside the crate, the
+//! same two and [`Elements::with_force`](crate::scene::Elements::with_force), as in `tests/examples/own_force.rs`.
 
 mod applied;
 mod beam;
@@ -14,13 +15,13 @@ mod tyre;
 
 pub use beam::{Beam, Half, Load, Station};
 
-use crate::body::{Build, Frame, MarkerId, Slope, Wrench, parse_among};
+use crate::body::{Build, ElementKind, Frame, MOST_MARKERS, MarkerId, Slope, Wrench, mistaken, parse_among};
 use crate::error::Result;
 use crate::math::{Rate, Scalar, Taylor, Time};
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
-/// The moving frames of a force's markers.
+/// The moving frames of a force's markers: of each number `x` its value, `d` its rate.
 pub type Motion<S, const D: usize> = [Frame<Taylor<S>, D>];
 /// The time of an evaluation, as it goes on.
 pub type Instant<'a, S> = Time<'a, Taylor<S>>;
@@ -52,9 +53,18 @@ pub struct Wheel {
 
 /// A force's equations, written once over any scalar.
 pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
-    /// One wrench a marker; `out` holds zeros on entry.
+    /// Writes the wrench on each marker's body, in world axes; `out` holds zeros on entry. Its power is what it adds beyond
+    /// the loss of the potential that it returns, so a force that stores energy must state it.
     fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S>;
-    /// The same where inputs drive it: `input` adds to its components, N or N m, in its own axes. Default: none can.
+    /// Whether inputs of a scene can drive it, by [`Self::driven`]. Default: none can.
+    fn takes_inputs(&self) -> bool {
+        false
+    }
+    /// Whether its magnitude, and an input to it, is a torque, N m, and no force. Default: no.
+    fn is_torque(&self) -> bool {
+        false
+    }
+    /// The same as [`Self::act`] where inputs drive it: `input` adds to its components, N or N m, in its own axes.
     fn driven<S: Scalar>(
         &self,
         _input: &[S; 3],
@@ -103,6 +113,8 @@ pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Slope, D> + Send 
     fn wheel(&self, t: f64) -> Option<Wheel>;
     fn beam(&self) -> Option<&Beam>;
     fn takes_small_rotations(&self) -> bool;
+    fn takes_inputs(&self) -> bool;
+    fn is_torque(&self) -> bool;
     fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]);
 }
 
@@ -116,6 +128,12 @@ impl<K: ForceKernel<D>, const D: usize> Force<D> for K {
     fn takes_small_rotations(&self) -> bool {
         ForceKernel::takes_small_rotations(self)
     }
+    fn takes_inputs(&self) -> bool {
+        ForceKernel::takes_inputs(self)
+    }
+    fn is_torque(&self) -> bool {
+        ForceKernel::is_torque(self)
+    }
     fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
         ForceKernel::switching(self, frames, time, out);
     }
@@ -123,53 +141,51 @@ impl<K: ForceKernel<D>, const D: usize> Force<D> for K {
 
 /// A force ready for the model, with the markers it sees.
 pub struct Built<const D: usize> {
+    /// The kernel, boxed.
     pub force: Box<dyn Force<D>>,
+    /// 1 to [`MOST_MARKERS`], as [`Build::between`] or [`Build::marker`] find them.
     pub markers: Vec<MarkerId>,
 }
 
-/// What a scene says of a kind of force.
-pub trait ForceSpec: DeserializeOwned + JsonSchema {
-    const TYPE: &'static str;
-    /// Whether an input of the scene can drive it.
-    const DRIVEN: bool = false;
-    /// Whether what a user watches of it is a torque, N m, and no force.
-    const TORQUE: bool = false;
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>>;
-}
-
-/// One kind of force as the scene format, its schema and its errors know it.
-pub struct Entry<const D: usize> {
-    pub name: &'static str,
-    pub driven: bool,
-    pub torque: bool,
-    pub schema: fn(&mut SchemaGenerator) -> Schema,
-    pub build: fn(serde_json::Value, &Build<D>) -> Result<Built<D>>,
-}
-
-fn entry<T: ForceSpec, const D: usize>() -> Entry<D> {
-    Entry {
-        name: T::TYPE,
-        driven: T::DRIVEN,
-        torque: T::TORQUE,
-        schema: |generator| generator.subschema_for::<T>(),
-        build: |json, build| parse_among::<T>(json, &["name", "type"])?.build(build),
+impl<const D: usize> Built<D> {
+    /// Refuses what the model cannot hold: a mistake in the type's own code, not in a scene.
+    fn checked(self) -> Result<Self> {
+        let markers = self.markers.len();
+        match (1..=MOST_MARKERS).contains(&markers) {
+            true => Ok(self),
+            false => Err(mistaken(format!("{markers} markers; 1 to {MOST_MARKERS} are possible"))),
+        }
     }
 }
 
-/// Every kind of force, in the order of the documentation. Gravity belongs to the scene.
-pub fn registry<const D: usize>() -> Vec<Entry<D>> {
-    vec![
-        entry::<spring_damper::SpringDamper, D>(),
-        entry::<torsion_spring::TorsionSpring, D>(),
-        entry::<bushing::Bushing, D>(),
-        entry::<beam::BeamForce, D>(),
-        entry::<applied::AppliedForce, D>(),
-        entry::<applied::AppliedTorque, D>(),
-        entry::<tyre::Tyre, D>(),
-    ]
+/// What a scene says of a kind of force beside its name and type: see [`JointSpec`](crate::joint::JointSpec).
+pub trait ForceSpec: DeserializeOwned + JsonSchema {
+    /// The name by which scenes call it.
+    const TYPE: &'static str;
+    /// Makes the force in the plane (D = 2) or in space (D = 3).
+    ///
+    /// # Errors
+    /// What a scene may say wrong: [`Build`] has the checks.
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>>;
 }
 
-/// Whether what a user watches of a kind of force is a torque.
-pub fn is_torque<const D: usize>(kind: &str) -> bool {
-    registry::<D>().iter().any(|entry| entry.name == kind && entry.torque)
+/// A kind of force.
+pub type ForceKind<const D: usize> = ElementKind<fn(serde_json::Value, &Build<D>) -> Result<Built<D>>>;
+
+/// The kind of force that `T` describes.
+pub fn kind<T: ForceSpec, const D: usize>() -> ForceKind<D> {
+    ElementKind::of::<T>(T::TYPE, |json, build| parse_among::<T>(json, &["name", "type"])?.build(build)?.checked())
+}
+
+/// Every built-in kind of force, in the order of the documentation. Gravity belongs to the scene.
+pub fn registry<const D: usize>() -> Vec<ForceKind<D>> {
+    vec![
+        kind::<spring_damper::SpringDamper, D>(),
+        kind::<torsion_spring::TorsionSpring, D>(),
+        kind::<bushing::Bushing, D>(),
+        kind::<beam::BeamForce, D>(),
+        kind::<applied::AppliedForce, D>(),
+        kind::<applied::AppliedTorque, D>(),
+        kind::<tyre::Tyre, D>(),
+    ]
 }

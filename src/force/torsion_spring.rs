@@ -30,7 +30,6 @@ pub struct TorsionSpring {
 
 impl ForceSpec for TorsionSpring {
     const TYPE: &'static str = "torsion_spring";
-    const TORQUE: bool = true;
 
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
         let markers = build.between(&self.between)?;
@@ -55,6 +54,10 @@ struct Torsion {
 }
 
 impl<const D: usize> ForceKernel<D> for Torsion {
+    fn is_torque(&self) -> bool {
+        true
+    }
+
     fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
         let [a, b] = [&frames[0], &frames[1]];
         let (twist, axis) = if D == 2 {

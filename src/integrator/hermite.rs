@@ -9,17 +9,17 @@ const NODE: f64 = 0.276_393_202_250_021;
 
 /// The polynomial of Hairer's codes: y + theta (F0 + (1 - theta) (F1 + theta (F2 + (1 - theta) (F3 + ...)))), in which F0
 /// to F2 make the cubic Hermite interpolant of order 3 and further rows are the method's own.
-pub(super) struct Hermite {
+pub struct Hermite {
     rows: Vec<Vec<f64>>,
 }
 
 impl Hermite {
-    /// For states of length `len`, with `beyond` rows beyond the cubic.
+    /// For states of length `len`, with `beyond` rows beyond the cubic: none for the cubic itself, whose error is O(h^4).
     pub fn new(len: usize, beyond: usize) -> Self {
         Hermite { rows: vec![vec![0.0; len]; 3 + beyond] }
     }
 
-    /// F0 to F2 from the states and slopes at both ends.
+    /// Takes a step: F0 to F2 from the states and slopes at both ends.
     pub fn prepare(&mut self, from: From, h: f64, to: &[f64], slope: &[f64]) {
         for i in 0..from.y.len() {
             let change = to[i] - from.y[i];
@@ -30,14 +30,14 @@ impl Hermite {
     }
 
     /// F3 and on, which the method fills.
-    pub fn beyond(&mut self) -> &mut [Vec<f64>] {
+    pub(super) fn beyond(&mut self) -> &mut [Vec<f64>] {
         &mut self.rows[3..]
     }
 
     /// F3 from y' evaluated on the cubic itself at [`NODE`], so that the error over a step is O(h^5).
     ///
     /// Source: Enright, Jackson, Norsett, Thomsen, ACM Trans. Math. Softw. 12 (1986) 193-218. `y` and `slope` are scratch.
-    pub fn raise(
+    pub(super) fn raise(
         &mut self,
         problem: &mut Problem,
         from: From,
@@ -56,6 +56,7 @@ impl Hermite {
         Ok(())
     }
 
+    /// The state at the fraction `theta` of the step, which began at `from`.
     pub fn interpolate(&self, theta: f64, from: &[f64], out: &mut [f64]) {
         out.fill(0.0);
         for (i, row) in self.rows.iter().enumerate().rev() {

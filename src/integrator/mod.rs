@@ -28,6 +28,8 @@ mod takes;
 mod tr_bdf2;
 
 pub use control::{Control, Tightening, Tolerance, first_step};
+pub use explicit::{ErrorEstimate, Explicit, Tableau};
+pub use hermite::Hermite;
 pub use problem::Problem;
 pub use stability::Stability;
 

@@ -4,7 +4,8 @@
 //! evaluated with seeded frames (dual numbers) it gives its gradient with respect to the twists of its markers, which
 //! the bodies pull back to rows of G.
 //!
-//! To add one: a file with a [`JointSpec`] and a [`JointKernel`], and a line in [`registry`].
+//! To add one: a file with a [`JointSpec`] and a [`JointKernel`], and a line in [`registry`]; from outside the crate, the
+//! same two and [`Elements::with_joint`](crate::scene::Elements::with_joint), as in `tests/examples/own_joint.rs`.
 
 mod cylindrical;
 mod distance;
@@ -20,14 +21,14 @@ mod spherical;
 mod universal;
 mod weld;
 
-use crate::body::{Build, Frame, MOST_MARKERS, MarkerId, Slope, parse_among, twist_len};
+use crate::body::{Build, ElementKind, Frame, MOST_MARKERS, MarkerId, Slope, mistaken, parse_among, twist_len};
 use crate::error::Result;
 use crate::math::{Dual, Rate, Scalar, Taylor, Time};
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use std::array::from_fn;
 
-/// So many rows a joint may have.
+/// The largest number of rows of a joint.
 pub const MOST_ROWS: usize = 6;
 
 /// The axis of a joint, a direction in the world.
@@ -41,7 +42,9 @@ pub enum Axis {
 
 /// A joint's equations, written once over any scalar.
 pub trait JointKernel<const D: usize>: Send + Sync + 'static {
-    /// A name for each row: the direction it holds. `x, y, z` rows are in metres, others in radians.
+    /// A name for each row, 1 to [`MOST_ROWS`]: the direction it holds. Rows named `x`, `y`, `z` and `length` are in metres,
+    /// all others in radians: drift is measured in these units. A single row `length` is that of a rod, whose tension
+    /// outputs can read; that of a single row `angle` is a torque.
     fn row_names(&self) -> Vec<&'static str>;
     /// Whether phi depends on t beside the frames.
     fn depends_on_time(&self) -> bool {
@@ -51,7 +54,8 @@ pub trait JointKernel<const D: usize>: Send + Sync + 'static {
     fn joint_axis(&self, _first: &Frame<f64, D>) -> Option<Axis> {
         None
     }
-    /// One value a row at the frames of the joint's markers.
+    /// Writes phi, one value a row, at the frames of the joint's markers, in the order of [`Built::markers`]; zero where the
+    /// joint is closed. Derivatives follow from the scalars that are put in.
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]);
     /// Writes the arguments of its switching functions at their numbers. Default: none.
     fn switching(&self, _frames: &[Frame<Rate, D>], _time: Time<Rate>, _out: &mut [Rate]) {}
@@ -123,45 +127,59 @@ impl<K: JointKernel<D>, const D: usize> Joint<D> for K {
 
 /// A joint ready for the model, with the markers it sees.
 pub struct Built<const D: usize> {
+    /// The kernel, boxed.
     pub joint: Box<dyn Joint<D>>,
+    /// 1 to [`MOST_MARKERS`], as [`Build::between`] or [`Build::marker`] find them.
     pub markers: Vec<MarkerId>,
 }
 
-/// What a scene says of a kind of joint.
-pub trait JointSpec: DeserializeOwned + JsonSchema {
-    const TYPE: &'static str;
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>>;
-}
-
-/// One kind of joint as the scene format, its schema and its errors know it.
-pub struct Entry<const D: usize> {
-    pub name: &'static str,
-    pub schema: fn(&mut SchemaGenerator) -> Schema,
-    pub build: fn(serde_json::Value, &Build<D>) -> Result<Built<D>>,
-}
-
-fn entry<T: JointSpec, const D: usize>() -> Entry<D> {
-    Entry {
-        name: T::TYPE,
-        schema: |generator| generator.subschema_for::<T>(),
-        build: |json, build| parse_among::<T>(json, &["name", "type"])?.build(build),
+impl<const D: usize> Built<D> {
+    /// Refuses what the model cannot hold: a mistake in the type's own code, not in a scene.
+    fn checked(self) -> Result<Self> {
+        let (rows, markers) = (self.joint.row_names().len(), self.markers.len());
+        match ((1..=MOST_ROWS).contains(&rows), (1..=MOST_MARKERS).contains(&markers)) {
+            (false, _) => Err(mistaken(format!("{rows} rows; 1 to {MOST_ROWS} are possible"))),
+            (_, false) => Err(mistaken(format!("{markers} markers; 1 to {MOST_MARKERS} are possible"))),
+            _ => Ok(self),
+        }
     }
 }
 
-/// Every kind of joint, in the order of the documentation.
-pub fn registry<const D: usize>() -> Vec<Entry<D>> {
+/// What a scene says of a kind of joint beside its name and type. Derive `serde::Deserialize`, with `deny_unknown_fields`,
+/// and `schemars::JsonSchema`; doc comments become those of the schema. A field of type
+/// [`Number`](crate::math::expression::Number) may be an expression.
+pub trait JointSpec: DeserializeOwned + JsonSchema {
+    /// The name by which scenes call it.
+    const TYPE: &'static str;
+    /// Makes the joint in the plane (D = 2) or in space (D = 3).
+    ///
+    /// # Errors
+    /// What a scene may say wrong: [`Build`] has the checks.
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>>;
+}
+
+/// A kind of joint.
+pub type JointKind<const D: usize> = ElementKind<fn(serde_json::Value, &Build<D>) -> Result<Built<D>>>;
+
+/// The kind of joint that `T` describes.
+pub fn kind<T: JointSpec, const D: usize>() -> JointKind<D> {
+    ElementKind::of::<T>(T::TYPE, |json, build| parse_among::<T>(json, &["name", "type"])?.build(build)?.checked())
+}
+
+/// Every built-in kind of joint, in the order of the documentation.
+pub fn registry<const D: usize>() -> Vec<JointKind<D>> {
     vec![
-        entry::<revolute::Revolute, D>(),
-        entry::<prismatic::Prismatic, D>(),
-        entry::<cylindrical::Cylindrical, D>(),
-        entry::<universal::Universal, D>(),
-        entry::<spherical::Spherical, D>(),
-        entry::<planar::Planar, D>(),
-        entry::<weld::Weld, D>(),
-        entry::<distance::Distance, D>(),
-        entry::<point_on_line::PointOnLine, D>(),
-        entry::<gear::Gear, D>(),
-        entry::<driver::Driver, D>(),
-        entry::<equation::Equation, D>(),
+        kind::<revolute::Revolute, D>(),
+        kind::<prismatic::Prismatic, D>(),
+        kind::<cylindrical::Cylindrical, D>(),
+        kind::<universal::Universal, D>(),
+        kind::<spherical::Spherical, D>(),
+        kind::<planar::Planar, D>(),
+        kind::<weld::Weld, D>(),
+        kind::<distance::Distance, D>(),
+        kind::<point_on_line::PointOnLine, D>(),
+        kind::<gear::Gear, D>(),
+        kind::<driver::Driver, D>(),
+        kind::<equation::Equation, D>(),
     ]
 }

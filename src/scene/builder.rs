@@ -1,367 +1,125 @@
-//! From the typed file to the checked model.
+//! Scenes written in code.
 
-use super::absolute_beam::{AbsoluteBeam, is_absolute_beam};
-use super::format::{Dimension, SceneFile};
-use super::model::{BeamLine, Connection, Driven, Model, Part, Watched};
-use super::outputs;
-use super::place::Cut;
-use super::{AnyModel, Scene, markers};
-use crate::body::{self, Build, Built, Initial, Marker, MarkerTable, Switches, Turning, parse, show};
-use crate::error::{Error, Result, excerpt, suggest};
-use crate::force::{self, Force};
-use crate::joint::{self, Joint};
-use crate::math::expression::{Number, Parameters};
-use serde_json::{Map, Value};
-use std::collections::HashSet;
-use std::path::Path;
+use super::{Elements, Scene, folder};
+use crate::error::Result;
+use serde_json::{Map, Value, json};
 
-/// Resolves everything; what can be wrong with a scene alone is found here.
-pub fn build(file: SceneFile, overrides: &[(String, Number)], folder: &Path) -> Result<Scene> {
-    check_scene_name(&file.name)?;
-    let parameters = markers::resolve(&file.parameters, overrides)?;
-    let (dimension, (model, q, v)) = match file.dimension {
-        Dimension::Two => {
-            (2, model::<2>(&file, &parameters, folder).map(|(model, q, v)| (AnyModel::Planar(model), q, v))?)
+/// The object that a key holds; none where it holds something else, which the checks then refuse.
+fn object<'k>(keys: &'k mut Map<String, Value>, key: &str) -> Option<&'k mut Map<String, Value>> {
+    keys.entry(key).or_insert_with(|| json!({})).as_object_mut()
+}
+
+/// A scene written in code: the keys of a scene file, with the same checks, and errors that name the same places.
+///
+/// ```
+/// use holonom::scene::{Elements, SceneBuilder, json};
+///
+/// let scene = SceneBuilder::new("pendulum", 2)
+///     .with("gravity", [0.0, -9.81])
+///     .parameter("l", 0.5)
+///     .ground_marker("O", [0.0, 0.0])
+///     .body("bob", "point_mass", json!({ "mass": 1, "initial": { "position": ["l", 0] } }))
+///     .joint("rod", "distance", json!({ "between": ["ground.O", "bob"], "length": "l" }))
+///     .output("height", "position", json!({ "of": "bob", "component": "y" }))
+///     .simulation("t_end", 2.0)
+///     .build(&Elements::default())?;
+/// assert_eq!(scene.q, [0.5, 0.0]);
+/// # Ok::<(), holonom::Error>(())
+/// ```
+///
+/// Values are those of JSON: numbers, or expressions over the parameters as text. A key that is given again replaces what it
+/// was; bodies, joints, forces, inputs and outputs are added in their order.
+#[derive(Clone, Debug)]
+pub struct SceneBuilder {
+    keys: Map<String, Value>,
+}
+
+impl SceneBuilder {
+    /// An empty scene in the plane (2) or in space (3).
+    pub fn new(name: &str, dimension: usize) -> Self {
+        SceneBuilder { keys: Map::new() }.with("name", name).with("dimension", dimension).with("bodies", json!([]))
+    }
+
+    /// Any key of a scene, such as `gravity`.
+    pub fn with(mut self, key: &str, value: impl Into<Value>) -> Self {
+        self.keys.insert(key.to_string(), value.into());
+        self
+    }
+
+    /// A number, or an expression over other parameters.
+    pub fn parameter(self, name: &str, value: impl Into<Value>) -> Self {
+        self.within("parameters", name, value.into())
+    }
+
+    /// A marker of the ground: its position, or an object with an orientation.
+    pub fn ground_marker(mut self, name: &str, marker: impl Into<Value>) -> Self {
+        let ground = object(&mut self.keys, "ground");
+        if let Some(markers) = ground.and_then(|ground| object(ground, "markers")) {
+            markers.insert(name.to_string(), marker.into());
         }
-        Dimension::Three => {
-            (3, model::<3>(&file, &parameters, folder).map(|(model, q, v)| (AnyModel::Spatial(model), q, v))?)
+        self
+    }
+
+    /// A body of type `kind` with its other keys, an object.
+    pub fn body(self, name: &str, kind: &str, keys: Value) -> Self {
+        self.element("bodies", name, Some(("type", kind)), keys)
+    }
+
+    /// A joint of type `kind` with its other keys, an object.
+    pub fn joint(self, name: &str, kind: &str, keys: Value) -> Self {
+        self.element("joints", name, Some(("type", kind)), keys)
+    }
+
+    /// A force of type `kind` with its other keys, an object.
+    pub fn force(self, name: &str, kind: &str, keys: Value) -> Self {
+        self.element("forces", name, Some(("type", kind)), keys)
+    }
+
+    /// An input with its other keys, an object.
+    pub fn input(self, name: &str, keys: Value) -> Self {
+        self.element("inputs", name, None, keys)
+    }
+
+    /// An output of what `measure` names, with its other keys, an object.
+    pub fn output(self, name: &str, measure: &str, keys: Value) -> Self {
+        self.element("outputs", name, Some(("measure", measure)), keys)
+    }
+
+    /// One setting of the simulation, such as `t_end`.
+    pub fn simulation(self, key: &str, value: impl Into<Value>) -> Self {
+        self.within("simulation", key, value.into())
+    }
+
+    /// The scene as a file would have it.
+    pub fn json(&self) -> Value {
+        Value::Object(self.keys.clone())
+    }
+
+    /// The scene, resolved; files that it names are in the current folder.
+    ///
+    /// # Errors
+    /// As [`Scene::parse`].
+    pub fn build(self, elements: &Elements) -> Result<Scene> {
+        elements.resolve(folder(None), Value::Object(self.keys), &[])
+    }
+
+    fn within(mut self, name: &str, key: &str, value: Value) -> Self {
+        if let Some(object) = object(&mut self.keys, name) {
+            object.insert(key.to_string(), value);
         }
-    };
-    Ok(Scene {
-        name: file.name,
-        about: file.about.unwrap_or_default(),
-        references: file.references,
-        dimension,
-        parameters,
-        model,
-        q,
-        v,
-        hold: file.assembly.hold,
-        simulation: file.simulation,
-    })
-}
-
-/// The model with its start: first what has markers, which then all that is between them can name.
-fn model<const D: usize>(
-    file: &SceneFile,
-    parameters: &Parameters,
-    folder: &Path,
-) -> Result<(Model<D>, Vec<f64>, Vec<f64>)> {
-    let (markers, switches, turnings) = Default::default();
-    let (gravity, outputs) = ([0.0; D], &[][..]);
-    let mut build =
-        Build { parameters, markers: &markers, outputs, gravity, folder, switches: &switches, turnings: &turnings };
-    if let Some(gravity) = &file.gravity {
-        build.gravity = build.vector("gravity", gravity)?;
+        self
     }
-    let (gravity, parts) = (build.gravity, Parts::collect(file, &build)?);
-    outputs::check_names(&file.outputs)?;
-    let formulas = outputs::formulas::<D>(&file.outputs);
-    let links = Links::read(file, &parts, &Build { markers: &parts.table, outputs: &formulas, ..build })?;
-    Ok(parts.joined(links, gravity, switches.into_inner(), turnings.into_inner()))
-}
 
-/// What is between markers, and what is watched and driven.
-struct Links<const D: usize> {
-    joints: Vec<Connection<Box<dyn Joint<D>>>>,
-    forces: Vec<Connection<Box<dyn Force<D>>>>,
-    outputs: Vec<Watched>,
-    cuts: Vec<Cut<D>>,
-    inputs: Vec<Driven>,
-}
-
-impl<const D: usize> Links<D> {
-    fn read(file: &SceneFile, parts: &Parts<D>, build: &Build<D>) -> Result<Self> {
-        let joints = joints(&file.joints, build)?;
-        let mut forces = forces(&file.forces, build)?;
-        forces.extend(parts.beams.iter().flat_map(|beam| line_elements(beam, &parts.bodies)));
-        let Parts { bodies, beams, .. } = parts;
-        let elements = outputs::Elements { bodies, beams, joints: &joints, forces: &forces };
-        let (outputs, cuts) = outputs::outputs(&file.outputs, elements, build)?;
-        let inputs = outputs::inputs::<D>(&file.inputs, &forces)?;
-        Ok(Links { joints, forces, outputs, cuts, inputs })
-    }
-}
-
-fn joints<const D: usize>(given: &[Value], build: &Build<D>) -> Result<Vec<Connection<Box<dyn Joint<D>>>>> {
-    let entries = joint::registry::<D>();
-    let kinds: Vec<&str> = entries.iter().map(|entry| entry.name).collect();
-    elements(given, ("joints", "joint"), &kinds, build, |kind, json| {
-        let entry = &entries[kind];
-        let built = (entry.build)(json, build)?;
-        Ok((entry.name, built.joint, built.markers))
-    })
-}
-
-fn forces<const D: usize>(given: &[Value], build: &Build<D>) -> Result<Vec<Connection<Box<dyn Force<D>>>>> {
-    let entries = force::registry::<D>();
-    let kinds: Vec<&str> = entries.iter().map(|entry| entry.name).collect();
-    elements(given, ("forces", "force"), &kinds, build, |kind, json| {
-        let entry = &entries[kind];
-        let built = (entry.build)(json, build)?;
-        Ok((entry.name, built.force, built.markers))
-    })
-}
-
-/// The elements of an absolute beam, between its nodes.
-fn line_elements<const D: usize>(
-    beam: &BeamLine,
-    bodies: &[Part<D>],
-) -> impl Iterator<Item = Connection<Box<dyn Force<D>>>> {
-    beam.elements.iter().enumerate().map(|(i, element)| Connection {
-        name: format!("{}.e{i}", beam.name),
-        kind: "beam",
-        element: Box::new(element.clone()) as _,
-        markers: [0, 1].map(|k| bodies[beam.first_body + i + k].first_marker).to_vec(),
-    })
-}
-
-fn extent<const D: usize>(bodies: &[Part<D>], q: &[f64]) -> f64 {
-    let positions = bodies.iter().flat_map(|part| {
-        let names = part.body.coordinate_names().into_iter().zip(&q[part.first_q..]);
-        names.filter(|(name, _)| ["x", "y", "z"].contains(&name.as_str())).map(|(_, x)| x.abs()).collect::<Vec<_>>()
-    });
-    positions.fold(0.0, f64::max)
-}
-
-/// Bodies as they are collected, with their start.
-struct Parts<const D: usize> {
-    table: MarkerTable,
-    ground: Vec<Marker<D>>,
-    bodies: Vec<Part<D>>,
-    beams: Vec<BeamLine>,
-    q: Vec<f64>,
-    v: Vec<f64>,
-    /// Index among the forces that the first element of the next absolute beam has.
-    next_force: usize,
-}
-
-impl<const D: usize> Parts<D> {
-    fn collect(file: &SceneFile, build: &Build<D>) -> Result<Self> {
-        if file.bodies.is_empty() {
-            return Err(Error::input("the scene has no body")
-                .under("bodies")
-                .hint("give at least one: nothing else can move"));
+    fn element(mut self, list: &str, name: &str, kind: Option<(&str, &str)>, keys: Value) -> Self {
+        let mut element = keys;
+        if let Value::Object(map) = &mut element {
+            map.extend([("name".to_string(), name.into())]);
+            map.extend(kind.map(|(key, kind)| (key.to_string(), kind.into())));
         }
-        let ground = markers::markers(&file.ground.markers, &[0.0; D], build).map_err(|error| error.under("ground"))?;
-        build.switches.borrow_mut().own("the ground");
-        let mut parts = Parts::new(ground, file.forces.len());
-        for (i, json) in file.bodies.iter().enumerate() {
-            parts.add(json.clone(), build).map_err(|error| error.under(format!("bodies[{i}]")))?;
+        // What is no object or no list is refused by the checks.
+        if let Value::Array(all) = self.keys.entry(list).or_insert_with(|| json!([])) {
+            all.push(element);
         }
-        Ok(parts)
-    }
-
-    fn new(ground: Vec<(String, Marker<D>)>, next_force: usize) -> Self {
-        let mut parts = Parts {
-            table: MarkerTable::default(),
-            ground: Vec::new(),
-            bodies: Vec::new(),
-            beams: Vec::new(),
-            q: Vec::new(),
-            v: Vec::new(),
-            next_force,
-        };
-        parts.table.add("ground".to_string(), None, true);
-        parts.ground.push(Marker::point([0.0; D]));
-        for (name, marker) in ground {
-            parts.table.add(format!("ground.{name}"), None, true);
-            parts.ground.push(marker);
-        }
-        parts
-    }
-
-    fn add(&mut self, json: Value, build: &Build<D>) -> Result<()> {
-        let mut json = object(json)?;
-        let name = take_name(&mut json)?;
-        if self.table.has_body(&name) {
-            return Err(Error::input(format!("the name `{name}` is taken"))
-                .under("name")
-                .hint("give each body its own"));
-        }
-        self.read(&name, json, build).map_err(|error| error.element(&name))?;
-        build.own("body", &name);
-        Ok(())
-    }
-
-    fn read(&mut self, name: &str, mut json: Map<String, Value>, build: &Build<D>) -> Result<()> {
-        let entries = body::registry::<D>();
-        let kind = take_type(&mut json, "body", entries.iter().map(|entry| entry.name))?;
-        let entry = entries.iter().find(|entry| entry.name == kind);
-        let entry = entry.ok_or_else(|| unknown(&kind, "body", entries.iter().map(|entry| entry.name)))?;
-        if is_absolute_beam(&kind, &json) {
-            let beam = AbsoluteBeam::read(name, json, build)?;
-            let first_body = self.bodies.len();
-            for (node, (markers, built)) in beam.nodes().into_iter().enumerate() {
-                // The beam's own name is a marker at its left end.
-                let own = (node == 0).then(|| name.to_string());
-                let named = own.into_iter().chain(markers.into_iter().map(|marker| format!("{name}.{marker}")));
-                self.place(format!("{name}.n{node}"), named, built);
-            }
-            let line = beam.line(first_body, self.next_force);
-            self.next_force = line.forces().end;
-            self.beams.push(line);
-            return Ok(());
-        }
-        let origin = match json.remove("origin") {
-            Some(origin) => build.vector::<D>("origin", &parse::<Vec<Number>>(origin)?)?,
-            None => [0.0; D],
-        };
-        let (mut initial, given) = start_and_markers(&mut json)?;
-        initial.origin = origin.to_vec();
-        let mut all = vec![Marker::point(origin)];
-        let named = markers::markers(&given, &origin, build)?;
-        all.extend(named.iter().map(|(_, marker)| *marker));
-        let built = (entry.build)(Value::Object(json), all, &initial, build)?;
-        self.place(name.to_string(), named.iter().map(|(marker, _)| format!("{name}.{marker}")), built);
-        Ok(())
-    }
-
-    /// Adds a body with the full names of its markers beside its own frame.
-    fn place(&mut self, name: String, markers: impl Iterator<Item = String>, built: Built<D>) {
-        let (index, first_marker) = (self.bodies.len(), self.table.names.len());
-        let oriented = built.body.oriented();
-        let all = [name.clone()].into_iter().chain(markers);
-        all.for_each(|marker| self.table.add(marker, Some(index), oriented));
-        self.table.body_names.push(name.clone());
-        let (first_q, first_v) = (self.q.len(), self.v.len());
-        let (nq, nv) = (built.q.len(), built.v.len());
-        self.bodies.push(Part { name, first_marker, first_q, first_v, nq, nv, body: built.body });
-        self.q.extend(built.q);
-        self.v.extend(built.v);
-    }
-
-    /// The model, with the start of all coordinates.
-    fn joined(
-        self,
-        links: Links<D>,
-        gravity: [f64; D],
-        switches: Switches,
-        turnings: Vec<Turning>,
-    ) -> (Model<D>, Vec<f64>, Vec<f64>) {
-        let Parts { table: markers, ground, bodies, beams, mut q, v, .. } = self;
-        let Links { joints, forces, outputs, cuts, inputs } = links;
-        let extent = extent(&bodies, &q);
-        q.extend(turnings.iter().map(|turning| turning.start));
-        let model = Model {
-            gravity,
-            markers,
-            ground,
-            bodies,
-            joints,
-            forces,
-            beams,
-            outputs,
-            cuts,
-            inputs,
-            switches,
-            turnings,
-            extent,
-        };
-        (model, q, v)
-    }
-}
-
-/// Takes off what all bodies have.
-pub(super) fn start_and_markers(json: &mut Map<String, Value>) -> Result<(Initial, Map<String, Value>)> {
-    let initial = json
-        .remove("initial")
-        .map_or_else(|| Ok(Initial::default()), |initial| parse(initial).map_err(|error| error.under("initial")))?;
-    let markers = json
-        .remove("markers")
-        .map_or_else(|| Ok(Map::new()), |given| object(given).map_err(|error| error.under("markers")))?;
-    Ok((initial, markers))
-}
-
-/// Joints or forces: name and type are taken off, the rest is the kind's own, of which `make` hears the place among `kinds`.
-fn elements<E, const D: usize>(
-    given: &[Value],
-    (list, what): (&str, &str),
-    kinds: &[&str],
-    build: &Build<D>,
-    make: impl Fn(usize, Value) -> Result<(&'static str, E, Vec<usize>)>,
-) -> Result<Vec<Connection<E>>> {
-    let mut all: Vec<Connection<E>> = Vec::new();
-    let mut names = HashSet::new();
-    for (i, json) in given.iter().enumerate() {
-        let mut read = || {
-            let mut json = object(json.clone())?;
-            let name = take_name(&mut json)?;
-            if !names.insert(name.clone()) {
-                return Err(Error::input(format!("the name `{name}` is taken"))
-                    .under("name")
-                    .hint(format!("give each {what} its own")));
-            }
-            let kind = take_type(&mut json, what, kinds.iter().copied())?;
-            let place = kinds.iter().position(|known| *known == kind);
-            let made = place
-                .ok_or_else(|| unknown(&kind, what, kinds.iter().copied()))
-                .and_then(|place| make(place, Value::Object(json)));
-            let (kind, element, markers) = made.map_err(|error| error.element(&name))?;
-            build.own(what, &name);
-            all.push(Connection { name, kind, element, markers });
-            Ok(())
-        };
-        read().map_err(|error| error.under(format!("{list}[{i}]")))?;
-    }
-    Ok(all)
-}
-
-fn unknown<'a>(kind: &str, what: &str, known: impl Iterator<Item = &'a str>) -> Error {
-    Error::input(format!("there is no {what} of type `{kind}`")).under("type").hint(suggest(kind, known))
-}
-
-pub(super) fn object(json: Value) -> Result<Map<String, Value>> {
-    match json {
-        Value::Object(map) => Ok(map),
-        other => Err(Error::input(format!("expected an object {{...}}, found {}", show(&other)))),
-    }
-}
-
-fn take_text(json: &mut Map<String, Value>, key: &str) -> Result<String> {
-    match json.remove(key) {
-        Some(Value::String(text)) => Ok(text),
-        Some(other) => Err(Error::input(format!("expected text in quotes, found {}", show(&other))).under(key)),
-        None => Err(Error::input(format!("the key `{key}` is missing")).hint(format!("give a \"{key}\""))),
-    }
-}
-
-fn take_type<'a>(
-    json: &mut Map<String, Value>,
-    what: &str,
-    known: impl Iterator<Item = &'a str> + Clone,
-) -> Result<String> {
-    if !json.contains_key("type") {
-        return Err(Error::input("the key `type` is missing")
-            .hint(format!("give the {what} a type: {}", known.collect::<Vec<_>>().join(", "))));
-    }
-    take_text(json, "type")
-}
-
-fn take_name(json: &mut Map<String, Value>) -> Result<String> {
-    let name = take_text(json, "name")?;
-    check_name(&name).map_err(|error| error.under("name"))?;
-    Ok(name)
-}
-
-/// The name of a scene is that of its folder of results.
-fn check_scene_name(name: &str) -> Result<()> {
-    let fits = |c: char| c.is_alphanumeric() || "_-+ ()".contains(c) || c == '.';
-    match !name.trim().is_empty() && !name.starts_with('.') && name.len() <= 200 && name.chars().all(fits) {
-        true => Ok(()),
-        false => Err(Error::input(format!("`{}` cannot name a scene", excerpt(name)))
-            .under("name")
-            .hint("its results go to a folder of this name: use letters, digits, `_` and `-`")),
-    }
-}
-
-/// Names appear in expressions and columns: a letter, then letters, digits and underscores.
-pub(super) fn check_name(name: &str) -> Result<()> {
-    let mut characters = name.chars();
-    let starts = characters.next().is_some_and(|c| c.is_alphabetic() || c == '_');
-    match starts && characters.all(|c| c.is_alphabetic() || c.is_ascii_digit() || c == '_') {
-        true => Ok(()),
-        false => Err(Error::input(format!("`{}` cannot be a name", excerpt(name)))
-            .hint("use a letter, then letters, digits and underscores")),
+        self
     }
 }

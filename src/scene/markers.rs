@@ -15,7 +15,7 @@ pub fn markers<const D: usize>(
     build: &Build<D>,
 ) -> Result<Vec<(String, Marker<D>)>> {
     let one = |(name, value): (&String, &Value)| {
-        super::builder::check_name(name).map_err(|error| error.under("markers"))?;
+        super::resolve::check_name(name).map_err(|error| error.under("markers"))?;
         let mut marker = marker(value.clone(), build).map_err(|error| error.under(name).under("markers"))?;
         marker.offset = from_fn(|i| marker.offset[i] + origin[i]);
         Ok((name.clone(), marker))

@@ -1,9 +1,13 @@
 //! Scenes: JSON in, a checked model out.
+//!
+//! [`Scene::load`] reads a file, [`SceneBuilder`] makes one in code, and [`Elements`] adds kinds of bodies, joints and forces
+//! from outside the crate.
 
 mod absolute_beam;
 mod beam_mass;
 mod beam_outputs;
 mod builder;
+mod elements;
 mod format;
 pub mod generate;
 mod json;
@@ -13,15 +17,19 @@ mod model;
 mod outputs;
 mod place;
 mod refine;
+mod resolve;
 mod schema;
 pub mod units;
 
+pub use builder::SceneBuilder;
+pub use elements::Elements;
 pub use format::{Assembly, Automatic, Simulation};
 pub use model::{BeamLine, Combination, Connection, Driven, EnergyPart, Measure, Model, Part, Reading, Watched};
 pub use model::{FORCE_SIZE, TORQUE_SIZE};
 pub use place::{Cut, Place};
 pub use refine::refined;
-pub use schema::schema;
+
+pub use serde_json::json;
 
 use crate::error::{Error, Result, excerpt, nearest};
 use crate::math::expression::{Number, Parameters};
@@ -57,8 +65,7 @@ impl Scene {
     /// # Errors
     /// A file that cannot be read or is not a scene; the error says where in it, and what would be right.
     pub fn load(path: &Path, overrides: &[(String, Number)]) -> Result<Scene> {
-        let text = read_text(path)?;
-        Scene::parse_in(folder(Some(path)), &text, overrides).map_err(|error| place(error, path, &text))
+        Elements::default().load(path, overrides)
     }
 
     /// Reads a scene from text; files that it names are in the current folder.
@@ -66,26 +73,7 @@ impl Scene {
     /// # Errors
     /// Text that is not a scene.
     pub fn parse(text: &str, overrides: &[(String, Number)]) -> Result<Scene> {
-        Scene::parse_in(folder(None), text, overrides)
-    }
-
-    /// Reads a scene from text; files that it names are in `folder`.
-    ///
-    /// # Errors
-    /// As [`Scene::parse`].
-    pub fn parse_in(folder: &Path, text: &str, overrides: &[(String, Number)]) -> Result<Scene> {
-        // Some editors begin a file with this mark.
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        if text.trim().is_empty() {
-            return Err(Error::input("the file is empty").hint("a scene is a JSON object; see `holonom schema`"));
-        }
-        let json = json::read(text)?;
-        if !json.is_object() {
-            return Err(Error::input(format!("a scene is a JSON object, found {}", crate::body::show(&json)))
-                .hint("begin with {\"name\": ..., \"dimension\": 2, ...}"));
-        }
-        let file = crate::body::parse::<SceneFile>(json.clone());
-        file.and_then(|file| builder::build(file, overrides, folder)).map_err(|error| name_element(error, &json))
+        Elements::default().parse(text, overrides)
     }
 
     /// When the motion starts, s.
@@ -96,6 +84,48 @@ impl Scene {
         let Some(number) = &self.simulation.t_start else { return Ok(0.0) };
         let start = number.evaluate(&self.parameters);
         start.map_err(|error| Error::from(error).under("t_start").under("simulation"))
+    }
+}
+
+/// Scenes of these elements.
+impl Elements {
+    /// As [`Scene::load`].
+    ///
+    /// # Errors
+    /// As [`Scene::load`].
+    pub fn load(&self, path: &Path, overrides: &[(String, Number)]) -> Result<Scene> {
+        let text = read_text(path)?;
+        self.parse_in(folder(Some(path)), &text, overrides).map_err(|error| place(error, path, &text))
+    }
+
+    /// As [`Scene::parse`].
+    ///
+    /// # Errors
+    /// As [`Scene::parse`].
+    pub fn parse(&self, text: &str, overrides: &[(String, Number)]) -> Result<Scene> {
+        self.parse_in(folder(None), text, overrides)
+    }
+
+    /// Reads a scene from text; files that it names are in `folder`.
+    ///
+    /// # Errors
+    /// As [`Scene::parse`].
+    pub fn parse_in(&self, folder: &Path, text: &str, overrides: &[(String, Number)]) -> Result<Scene> {
+        // Some editors begin a file with this mark.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        if text.trim().is_empty() {
+            return Err(Error::input("the file is empty").hint("a scene is a JSON object; see `holonom schema`"));
+        }
+        self.resolve(folder, json::read(text)?, overrides)
+    }
+
+    fn resolve(&self, folder: &Path, json: Value, overrides: &[(String, Number)]) -> Result<Scene> {
+        if !json.is_object() {
+            return Err(Error::input(format!("a scene is a JSON object, found {}", crate::body::show(&json)))
+                .hint("begin with {\"name\": ..., \"dimension\": 2, ...}"));
+        }
+        let file = crate::body::parse::<SceneFile>(json.clone());
+        file.and_then(|file| resolve::build(file, self, overrides, folder)).map_err(|error| name_element(error, &json))
     }
 }
 

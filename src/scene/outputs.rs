@@ -7,7 +7,7 @@ use super::place::Cut;
 use super::units::{Dimension, Unit};
 use crate::body::{Build, MarkerId, Quantity, Turned};
 use crate::error::{Error, Result, suggest};
-use crate::force::{self, Force};
+use crate::force::Force;
 use crate::joint::Joint;
 
 type Joints<const D: usize> = [Connection<Box<dyn Joint<D>>>];
@@ -54,7 +54,7 @@ pub fn check_names(specs: &[OutputSpec]) -> Result<()> {
         let checked = match name.as_str() {
             "t" => Err(taken(" by time")),
             _ if specs[..i].iter().any(|known| known.name == *name) => Err(taken("")),
-            _ => super::builder::check_name(name),
+            _ => super::resolve::check_name(name),
         };
         checked.map_err(|error| error.under("name").under(format!("outputs[{i}]")))?;
     }
@@ -204,7 +204,10 @@ impl<const D: usize> Reader<'_, D> {
         let Some(name) = self.spec.component.as_deref() else {
             return Ok(match joints[joint].kind {
                 "driver" => Measure::Push { joint },
-                "gear" => Measure::Reaction { joint, component: TORQUE_SIZE, axes },
+                // The size of the force is zero where angles alone are held.
+                _ if joints[joint].element.row_names() == ["angle"] => {
+                    Measure::Reaction { joint, component: TORQUE_SIZE, axes }
+                }
                 _ => Measure::Reaction { joint, component: FORCE_SIZE, axes },
             });
         };
@@ -245,7 +248,7 @@ fn is_torque<const D: usize>(measure: &Measure, Elements { joints, forces, .. }:
     match *measure {
         Measure::Reaction { component, .. } => matches!(component, 3..=5 | TORQUE_SIZE),
         Measure::Push { joint } => joints[joint].element.row_names() == ["angle"],
-        Measure::Force(force) => force::is_torque::<D>(forces[force].kind),
+        Measure::Force(force) => forces[force].element.is_torque(),
         _ => false,
     }
 }
@@ -285,7 +288,7 @@ pub fn inputs<const D: usize>(specs: &[InputSpec], forces: &Forces<D>) -> Result
             let taken = Error::input(format!("the name `{}` is taken", spec.name)).hint("give each input its own");
             return Err(named(taken));
         }
-        super::builder::check_name(&spec.name).map_err(named)?;
+        super::resolve::check_name(&spec.name).map_err(named)?;
         all.push(input::<D>(spec, forces).map_err(place)?);
     }
     Ok(all)
@@ -297,20 +300,20 @@ fn input<const D: usize>(spec: &InputSpec, forces: &Forces<D>) -> Result<Driven>
         input.path = "force".to_string();
         Error::Input(input)
     })?;
-    let kind = forces[force].kind;
-    if !force::registry::<D>().iter().any(|entry| entry.name == kind && entry.driven) {
+    let (kind, element) = (forces[force].kind, &forces[force].element);
+    if !element.takes_inputs() {
         return Err(Error::input(format!("`{}` is a {kind}, which an input cannot drive", spec.force))
             .under("force")
             .hint("name an applied_force or an applied_torque"));
     }
     let axes = &["x", "y", "z"][..D];
     let component = match spec.component.as_deref() {
-        None if D == 2 && kind == "applied_torque" => 2,
+        None if D == 2 && element.is_torque() => 2,
         None => {
             return Err(missing("component", &format!("choose one of {}", axes.join(", "))));
         }
         Some(name) => axes.iter().position(|axis| *axis == name).ok_or_else(|| wrong_component(name, axes))?,
     };
-    let unit = if force::is_torque::<D>(kind) { "N m" } else { "N" };
+    let unit = if element.is_torque() { "N m" } else { "N" };
     Ok(Driven { name: spec.name.clone(), force, component, unit })
 }

@@ -1,30 +1,25 @@
 //! The JSON Schema of the format, generated from the types and the registries.
 
+use super::elements::Elements;
 use super::format::{BodyPlace, ForcePlace, JointPlace, SceneFile};
-use crate::{body, force, joint};
+use crate::body::ElementKind;
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Value, json};
 
-type Generate = fn(&mut SchemaGenerator) -> Schema;
-
-/// The schema, for editors and for tests of the shipped scenes.
-pub fn schema() -> Value {
-    let mut generator = SchemaSettings::draft2020_12().into_generator();
-    let kinds = |registry: Vec<(&'static str, Generate)>, generator: &mut SchemaGenerator| {
-        registry.into_iter().map(|(name, schema)| (name, resolved(schema(generator), generator))).collect::<Vec<_>>()
-    };
-    let bodies = body::registry::<3>().into_iter().map(|entry| (entry.name, entry.schema)).collect();
-    let joints = joint::registry::<3>().into_iter().map(|entry| (entry.name, entry.schema)).collect();
-    let forces = force::registry::<3>().into_iter().map(|entry| (entry.name, entry.schema)).collect();
-    let bodies = one_of::<BodyPlace>(kinds(bodies, &mut generator), &mut generator);
-    let joints = one_of::<JointPlace>(kinds(joints, &mut generator), &mut generator);
-    let forces = one_of::<ForcePlace>(kinds(forces, &mut generator), &mut generator);
-    let mut root = generator.into_root_schema_for::<SceneFile>().to_value();
-    for (key, items) in [("bodies", bodies), ("joints", joints), ("forces", forces)] {
-        root["properties"][key]["items"] = items;
+impl Elements {
+    /// The JSON Schema of scenes of these elements, for editors.
+    pub fn schema(&self) -> Value {
+        let mut generator = SchemaSettings::draft2020_12().into_generator();
+        let bodies = one_of::<BodyPlace, _>(&self.spatial.bodies, &mut generator);
+        let joints = one_of::<JointPlace, _>(&self.spatial.joints, &mut generator);
+        let forces = one_of::<ForcePlace, _>(&self.spatial.forces, &mut generator);
+        let mut root = generator.into_root_schema_for::<SceneFile>().to_value();
+        for (key, items) in [("bodies", bodies), ("joints", joints), ("forces", forces)] {
+            root["properties"][key]["items"] = items;
+        }
+        root
     }
-    root
 }
 
 /// The definition that a reference points to.
@@ -38,10 +33,11 @@ fn resolved(schema: Schema, generator: &SchemaGenerator) -> Value {
 }
 
 /// One alternative a kind: the shared keys with `type` fixed, and the kind's own.
-fn one_of<Place: JsonSchema>(kinds: Vec<(&'static str, Value)>, generator: &mut SchemaGenerator) -> Value {
+fn one_of<Place: JsonSchema, Make>(kinds: &[ElementKind<Make>], generator: &mut SchemaGenerator) -> Value {
     let place = generator.subschema_for::<Place>();
     let place = resolved(place, generator);
-    let alternatives = kinds.into_iter().map(|(name, mut kind)| {
+    let alternatives = kinds.iter().map(|ElementKind { name, schema, .. }| {
+        let mut kind = resolved(schema(generator), generator);
         for (key, value) in place["properties"].as_object().into_iter().flatten() {
             kind["properties"][key] = value.clone();
         }

@@ -9,7 +9,7 @@ use crate::error::{Error, Result, Warning, clock};
 use crate::initial::{self, Assembly};
 use crate::integrator::{self, Steps};
 use crate::math::expression::{Number, Parameters};
-use crate::scene::{self, AnyModel, Automatic, Scene, Simulation};
+use crate::scene::{self, AnyModel, Automatic, Elements, Scene, Simulation};
 use crate::simulate::{
     Checkpoint, Leg, Method, Outcome, Sink, Span, Start, Stiffness, advise, atol_of, simulate_automatic, simulate_from,
     stiffness,
@@ -39,9 +39,11 @@ impl AnyMechanism {
     }
 }
 
-/// What the command line changes of a scene's own settings.
+/// What goes with a scene beside its text: the kinds of elements that it may name, and what changes its own settings.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
+    pub elements: Elements,
+    /// In the place of the values of its parameters.
     pub set: Vec<(String, Number)>,
     /// In the place of what the scene says of formulation, integrator, projection and step.
     pub method: Option<Automatic>,
@@ -87,11 +89,15 @@ impl Study {
     /// Bad input of any kind: see [`Scene::load`], [`initial::assemble`], [`Method::check`].
     pub fn load(path: &Path, overrides: &Overrides) -> Result<Study> {
         let text = scene::read_text(path)?;
-        let study = Scene::parse_in(scene::folder(Some(path)), &text, &overrides.set)
-            .and_then(|scene| Study::new(scene, overrides));
+        let study = overrides.elements.parse_in(scene::folder(Some(path)), &text, &overrides.set);
+        let study = study.and_then(|scene| Study::new(scene, overrides));
         study.map_err(|error| scene::place(error, path, &text))
     }
 
+    /// Assembles a scene and settles how to simulate it; its elements and parameters are those that it was read with.
+    ///
+    /// # Errors
+    /// Bad input of any kind: see [`initial::assemble`], [`Method::check`].
     pub fn new(scene: Scene, overrides: &Overrides) -> Result<Study> {
         let settings = Settings { parameters: &scene.parameters, scene: &scene.simulation, overrides };
         let is_automatic = settings.is_automatic().map_err(|error| settings.place(error))?;

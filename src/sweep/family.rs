@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result, Warning, suggest};
 use crate::math::expression::Number;
-use crate::scene::{self, Scene};
+use crate::scene::{self, Elements, Scene};
 use crate::study::{AnyMechanism, Overrides, Study};
 use crate::system::Column;
 use std::path::{Path, PathBuf};
@@ -11,26 +11,29 @@ use std::path::{Path, PathBuf};
 pub struct Family {
     text: String,
     path: Option<PathBuf>,
+    elements: Elements,
     set: Vec<(String, Number)>,
 }
 
 impl Family {
-    /// Reads a scene file. `set` replaces parameters.
+    /// Reads a scene file, with the elements and parameters of `overrides`.
     ///
     /// # Errors
     /// As [`Scene::load`].
-    pub fn load(path: &Path, set: &[(String, Number)]) -> Result<Family> {
-        let family = Family { text: scene::read_text(path)?, path: Some(path.to_path_buf()), set: set.to_vec() };
-        family.scene()?;
-        Ok(family)
+    pub fn load(path: &Path, overrides: &Overrides) -> Result<Family> {
+        Family::new(scene::read_text(path)?, Some(path.to_path_buf()), overrides)
     }
 
     /// Reads a scene from text.
     ///
     /// # Errors
     /// As [`Scene::parse`].
-    pub fn parse(text: &str, set: &[(String, Number)]) -> Result<Family> {
-        let family = Family { text: text.to_string(), path: None, set: set.to_vec() };
+    pub fn parse(text: &str, overrides: &Overrides) -> Result<Family> {
+        Family::new(text.to_string(), None, overrides)
+    }
+
+    fn new(text: String, path: Option<PathBuf>, Overrides { elements, set, .. }: &Overrides) -> Result<Family> {
+        let family = Family { text, path, elements: elements.clone(), set: set.clone() };
         family.scene()?;
         Ok(family)
     }
@@ -54,7 +57,7 @@ impl Family {
     }
 
     fn with(&self, set: &[(String, Number)]) -> Result<Scene> {
-        Scene::parse_in(scene::folder(self.path.as_deref()), &self.text, set)
+        self.elements.parse_in(scene::folder(self.path.as_deref()), &self.text, set)
     }
 
     /// What is doubtful about its start; nothing where it cannot be assembled, which a sweep says better.

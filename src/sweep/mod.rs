@@ -16,7 +16,7 @@
 //!         { "name": "rod", "type": "distance", "between": ["pin", "piston"], "length": 2 },
 //!         { "name": "guide", "type": "equation", "expression": "piston.y" } ],
 //!     "outputs": [{ "name": "x", "measure": "position", "of": "piston", "component": "x" }]
-//! }"#, &[])?;
+//! }"#, &Default::default())?;
 //! let range: Range = "angle=0..3:31".parse()?;
 //! let sweep = family.sweep(&range, |_| ())?;
 //! assert!(sweep.limits.is_empty());

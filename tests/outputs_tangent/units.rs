@@ -3,7 +3,7 @@
 use crate::outputs_tangent::compare::{outputs, tangent};
 use crate::scenes::dop853;
 use holonom::analysis::Recorder;
-use holonom::scene::Scene;
+use holonom::scene::Elements;
 use holonom::simulate::simulate;
 use holonom::study::Study;
 use holonom::system::Loaded;
@@ -41,7 +41,7 @@ fn both(name: &str) -> (Study, Study, Vec<f64>) {
     }
     let study = |json: &Value| {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
-        Study::new(Scene::parse_in(&folder, &json.to_string(), &[]).unwrap(), &Default::default()).unwrap()
+        Study::new(Elements::default().parse_in(&folder, &json.to_string(), &[]).unwrap(), &Default::default()).unwrap()
     };
     (study(&plain), study(&changed), factors)
 }

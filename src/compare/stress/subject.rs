@@ -3,7 +3,7 @@
 use crate::analysis::Recorder;
 use crate::error::{Result, Warning};
 use crate::math::expression::Number;
-use crate::scene::{self, Scene};
+use crate::scene::{self, Elements};
 use crate::simulate::{Method, Span, Stop, simulate};
 use crate::study::{Overrides, Study};
 use crate::system::{Dimensions, MechanicalSystem};
@@ -47,6 +47,7 @@ pub struct Subject<'a> {
     pub base: Case,
     pub dimensions: Dimensions,
     folder: PathBuf,
+    elements: Elements,
     own: Option<Own<'a>>,
 }
 
@@ -93,6 +94,7 @@ impl Subject<'static> {
             base,
             dimensions: study.system().dimensions(),
             folder: scene::folder(Some(path)).to_path_buf(),
+            elements: overrides.elements.clone(),
             own: None,
         })
     }
@@ -123,6 +125,7 @@ impl<'a> Subject<'a> {
                 start_error: [0.0; 2],
             },
             folder: PathBuf::new(),
+            elements: Elements::default(),
             own: Some(Own { system, start: span.start, q: q.to_vec(), v: v.to_vec() }),
         })
     }
@@ -151,7 +154,7 @@ impl<'a> Subject<'a> {
             return moved(own.system, own.start, &own.q, &own.v);
         }
         let set: Vec<(String, Number)> = case.set.iter().map(|(name, value)| (name.clone(), (*value).into())).collect();
-        let scene = Scene::parse_in(&self.folder, &case.scene.to_string(), &set)?;
+        let scene = self.elements.parse_in(&self.folder, &case.scene.to_string(), &set)?;
         let span = span(scene.start_time()?);
         let method = &case.method;
         let overrides = Overrides {

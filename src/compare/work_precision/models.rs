@@ -4,7 +4,7 @@ use super::sample::{Motion, Sample, sample};
 use super::yardstick::{Watched, Yardstick};
 use crate::error::{Error, Failure, Result};
 use crate::formulation::Statistics;
-use crate::scene::{self, Scene};
+use crate::scene;
 use crate::simulate::{Method, Span};
 use crate::study::{Overrides, Study};
 use crate::system::{Column, Dimensions};
@@ -26,7 +26,7 @@ impl Variant {
     fn finer(&self) -> Option<Study> {
         let (path, overrides) = self.source.as_ref()?;
         let text = scene::refined(&scene::read_text(path).ok()?)?;
-        let scene = Scene::parse_in(scene::folder(Some(path)), &text, &overrides.set).ok()?;
+        let scene = overrides.elements.parse_in(scene::folder(Some(path)), &text, &overrides.set).ok()?;
         Study::new(scene, overrides).and_then(Study::settled).ok()
     }
 }

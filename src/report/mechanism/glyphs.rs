@@ -49,6 +49,9 @@ const FORCES: &[Glyph] = &[
     glyph("tyre", forces::tyre, true),
 ];
 
+/// Of kinds from outside the crate.
+const OWN: Glyph = glyph("", joints::equation, false);
+
 /// Draws all joints and forces of a scene.
 pub fn draw(pen: &mut Pen, scene: &Snapshot, course: &Course) {
     let depths: Vec<f64> = scene.limbs.iter().map(|limb| bodies::depth(pen, limb)).collect();
@@ -58,7 +61,7 @@ pub fn draw(pen: &mut Pen, scene: &Snapshot, course: &Course) {
     let length = |i: usize| course.lengths.get(i).copied().unwrap_or(0.0);
     let forces = scene.forces.iter().enumerate().map(|(i, link)| (link, FORCES, sight(None, length(i))));
     for (link, table, sight) in joints.chain(forces) {
-        let Some(glyph) = table.iter().find(|glyph| glyph.kind == link.kind) else { continue };
+        let glyph = table.iter().find(|glyph| glyph.kind == link.kind).unwrap_or(&OWN);
         if !glyph.in_all && pen.paleness > 0.0 {
             continue;
         }

@@ -1,0 +1,27 @@
+//! Kinds of elements as scenes name them.
+
+use crate::error::Error;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+
+/// One kind of body, joint or force as the scene format, its schema and its errors know it; `build` makes an element from
+/// what a scene says.
+#[derive(Clone, Copy, Debug)]
+pub struct ElementKind<Make> {
+    pub name: &'static str,
+    pub schema: fn(&mut SchemaGenerator) -> Schema,
+    pub build: Make,
+}
+
+impl<Make> ElementKind<Make> {
+    /// The kind of this name, with the schema of what a scene says of it.
+    pub fn of<Spec: JsonSchema>(name: &'static str, build: Make) -> Self {
+        ElementKind { name, schema: |generator| generator.subschema_for::<Spec>(), build }
+    }
+}
+
+/// What its code makes of an element cannot be: it has `what`.
+pub(crate) fn mistaken(what: String) -> Error {
+    Error::input(format!("its type makes an element that has {what}"))
+        .under("type")
+        .hint("this is a mistake in the code of the type, not in the scene")
+}

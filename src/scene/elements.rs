@@ -1,0 +1,81 @@
+//! Which kinds of bodies, joints and forces a scene may name.
+
+use crate::body::{self, BodyKind, BodySpec, ElementKind};
+use crate::error::{Error, Result};
+use crate::force::{self, ForceKind, ForceSpec};
+use crate::joint::{self, JointKind, JointSpec};
+
+/// The kinds of elements that scenes may name: by default the built-in ones, and those of a user beside them.
+///
+/// `Elements::default().with_joint::<PointOnParabola>()?.parse(text, &[])?` is a scene that may say
+/// `"type": "point_on_parabola"`, as in `tests/examples/own_joint.rs`.
+///
+/// A kind is a type that reads what a scene says of it ([`BodySpec`], [`JointSpec`], [`ForceSpec`]) and makes its equations
+/// ([`BodyKernel`](body::BodyKernel), [`JointKernel`](joint::JointKernel), [`ForceKernel`](force::ForceKernel)). It is then
+/// as good as a built-in one: in every formulation, in linear models, outputs and the energy balance.
+#[derive(Clone, Debug)]
+pub struct Elements {
+    pub(super) planar: Kinds<2>,
+    pub(super) spatial: Kinds<3>,
+}
+
+/// The same in one dimension.
+#[derive(Clone, Debug)]
+pub(super) struct Kinds<const D: usize> {
+    pub bodies: Vec<BodyKind<D>>,
+    pub joints: Vec<JointKind<D>>,
+    pub forces: Vec<ForceKind<D>>,
+}
+
+impl<const D: usize> Kinds<D> {
+    fn built_in() -> Self {
+        Kinds { bodies: body::registry(), joints: joint::registry(), forces: force::registry() }
+    }
+}
+
+impl Default for Elements {
+    fn default() -> Self {
+        Elements { planar: Kinds::built_in(), spatial: Kinds::built_in() }
+    }
+}
+
+impl Elements {
+    /// The same with a kind of body more.
+    ///
+    /// # Errors
+    /// A type name that is taken.
+    pub fn with_body<T: BodySpec>(mut self) -> Result<Self> {
+        add("body", &mut self.planar.bodies, body::kind::<T, 2>())?;
+        add("body", &mut self.spatial.bodies, body::kind::<T, 3>())?;
+        Ok(self)
+    }
+
+    /// The same with a kind of joint more.
+    ///
+    /// # Errors
+    /// A type name that is taken.
+    pub fn with_joint<T: JointSpec>(mut self) -> Result<Self> {
+        add("joint", &mut self.planar.joints, joint::kind::<T, 2>())?;
+        add("joint", &mut self.spatial.joints, joint::kind::<T, 3>())?;
+        Ok(self)
+    }
+
+    /// The same with a kind of force more.
+    ///
+    /// # Errors
+    /// A type name that is taken.
+    pub fn with_force<T: ForceSpec>(mut self) -> Result<Self> {
+        add("force", &mut self.planar.forces, force::kind::<T, 2>())?;
+        add("force", &mut self.spatial.forces, force::kind::<T, 3>())?;
+        Ok(self)
+    }
+}
+
+fn add<Make>(what: &str, known: &mut Vec<ElementKind<Make>>, new: ElementKind<Make>) -> Result<()> {
+    if known.iter().any(|kind| kind.name == new.name) {
+        return Err(Error::input(format!("there is a {what} of type `{}` already", new.name))
+            .hint(format!("give your kind of {what} another TYPE")));
+    }
+    known.push(new);
+    Ok(())
+}

@@ -1,0 +1,372 @@
+//! From the typed file to the checked model.
+
+use super::absolute_beam::{AbsoluteBeam, is_absolute_beam};
+use super::elements::{Elements, Kinds};
+use super::format::{Dimension, SceneFile};
+use super::model::{BeamLine, Connection, Driven, Model, Part, Watched};
+use super::outputs;
+use super::place::Cut;
+use super::{AnyModel, Scene, markers};
+use crate::body::{BodyKind, Build, Built, ElementKind, Initial, Marker, MarkerTable, Switches, Turning, parse, show};
+use crate::error::{Error, Result, excerpt, suggest};
+use crate::force::{Force, ForceKind};
+use crate::joint::{Joint, JointKind};
+use crate::math::expression::{Number, Parameters};
+use serde_json::{Map, Value};
+use std::collections::HashSet;
+use std::path::Path;
+
+/// Resolves everything; what can be wrong with a scene alone is found here.
+pub fn build(file: SceneFile, elements: &Elements, overrides: &[(String, Number)], folder: &Path) -> Result<Scene> {
+    check_scene_name(&file.name)?;
+    let parameters = markers::resolve(&file.parameters, overrides)?;
+    let (dimension, (model, q, v)) = match file.dimension {
+        Dimension::Two => {
+            let (model, q, v) = model(&file, &elements.planar, &parameters, folder)?;
+            (2, (AnyModel::Planar(model), q, v))
+        }
+        Dimension::Three => {
+            let (model, q, v) = model(&file, &elements.spatial, &parameters, folder)?;
+            (3, (AnyModel::Spatial(model), q, v))
+        }
+    };
+    Ok(Scene {
+        name: file.name,
+        about: file.about.unwrap_or_default(),
+        references: file.references,
+        dimension,
+        parameters,
+        model,
+        q,
+        v,
+        hold: file.assembly.hold,
+        simulation: file.simulation,
+    })
+}
+
+/// The model with its start: first what has markers, which then all that is between them can name.
+fn model<const D: usize>(
+    file: &SceneFile,
+    kinds: &Kinds<D>,
+    parameters: &Parameters,
+    folder: &Path,
+) -> Result<(Model<D>, Vec<f64>, Vec<f64>)> {
+    let (markers, switches, turnings) = Default::default();
+    let (gravity, outputs) = ([0.0; D], &[][..]);
+    let mut build =
+        Build { parameters, markers: &markers, outputs, gravity, folder, switches: &switches, turnings: &turnings };
+    if let Some(gravity) = &file.gravity {
+        build.gravity = build.vector("gravity", gravity)?;
+    }
+    let (gravity, parts) = (build.gravity, Parts::collect(file, &kinds.bodies, &build)?);
+    outputs::check_names(&file.outputs)?;
+    let formulas = outputs::formulas::<D>(&file.outputs);
+    let links = Links::read(file, kinds, &parts, &Build { markers: &parts.table, outputs: &formulas, ..build })?;
+    Ok(parts.joined(links, gravity, switches.into_inner(), turnings.into_inner()))
+}
+
+/// What is between markers, and what is watched and driven.
+struct Links<const D: usize> {
+    joints: Vec<Connection<Box<dyn Joint<D>>>>,
+    forces: Vec<Connection<Box<dyn Force<D>>>>,
+    outputs: Vec<Watched>,
+    cuts: Vec<Cut<D>>,
+    inputs: Vec<Driven>,
+}
+
+impl<const D: usize> Links<D> {
+    fn read(file: &SceneFile, kinds: &Kinds<D>, parts: &Parts<D>, build: &Build<D>) -> Result<Self> {
+        let joints = joints(&file.joints, &kinds.joints, build)?;
+        let mut forces = forces(&file.forces, &kinds.forces, build)?;
+        forces.extend(parts.beams.iter().flat_map(|beam| line_elements(beam, &parts.bodies)));
+        let Parts { bodies, beams, .. } = parts;
+        let elements = outputs::Elements { bodies, beams, joints: &joints, forces: &forces };
+        let (outputs, cuts) = outputs::outputs(&file.outputs, elements, build)?;
+        let inputs = outputs::inputs::<D>(&file.inputs, &forces)?;
+        Ok(Links { joints, forces, outputs, cuts, inputs })
+    }
+}
+
+fn joints<const D: usize>(
+    given: &[Value],
+    kinds: &[JointKind<D>],
+    build: &Build<D>,
+) -> Result<Vec<Connection<Box<dyn Joint<D>>>>> {
+    elements(given, ("joints", "joint"), kinds, build, |make, json| {
+        make(json, build).map(|built| (built.joint, built.markers))
+    })
+}
+
+fn forces<const D: usize>(
+    given: &[Value],
+    kinds: &[ForceKind<D>],
+    build: &Build<D>,
+) -> Result<Vec<Connection<Box<dyn Force<D>>>>> {
+    elements(given, ("forces", "force"), kinds, build, |make, json| {
+        make(json, build).map(|built| (built.force, built.markers))
+    })
+}
+
+/// The elements of an absolute beam, between its nodes.
+fn line_elements<const D: usize>(
+    beam: &BeamLine,
+    bodies: &[Part<D>],
+) -> impl Iterator<Item = Connection<Box<dyn Force<D>>>> {
+    beam.elements.iter().enumerate().map(|(i, element)| Connection {
+        name: format!("{}.e{i}", beam.name),
+        kind: "beam",
+        element: Box::new(element.clone()) as _,
+        markers: [0, 1].map(|k| bodies[beam.first_body + i + k].first_marker).to_vec(),
+    })
+}
+
+fn extent<const D: usize>(bodies: &[Part<D>], q: &[f64]) -> f64 {
+    let positions = bodies.iter().flat_map(|part| {
+        let names = part.body.coordinate_names().into_iter().zip(&q[part.first_q..]);
+        names.filter(|(name, _)| ["x", "y", "z"].contains(&name.as_str())).map(|(_, x)| x.abs()).collect::<Vec<_>>()
+    });
+    positions.fold(0.0, f64::max)
+}
+
+/// Bodies as they are collected, with their start.
+struct Parts<const D: usize> {
+    table: MarkerTable,
+    ground: Vec<Marker<D>>,
+    bodies: Vec<Part<D>>,
+    beams: Vec<BeamLine>,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    /// Index among the forces that the first element of the next absolute beam has.
+    next_force: usize,
+}
+
+impl<const D: usize> Parts<D> {
+    fn collect(file: &SceneFile, kinds: &[BodyKind<D>], build: &Build<D>) -> Result<Self> {
+        if file.bodies.is_empty() {
+            return Err(Error::input("the scene has no body")
+                .under("bodies")
+                .hint("give at least one: nothing else can move"));
+        }
+        let ground = markers::markers(&file.ground.markers, &[0.0; D], build).map_err(|error| error.under("ground"))?;
+        build.switches.borrow_mut().own("the ground");
+        let mut parts = Parts::new(ground, file.forces.len());
+        for (i, json) in file.bodies.iter().enumerate() {
+            parts.add(json.clone(), kinds, build).map_err(|error| error.under(format!("bodies[{i}]")))?;
+        }
+        Ok(parts)
+    }
+
+    fn new(ground: Vec<(String, Marker<D>)>, next_force: usize) -> Self {
+        let mut parts = Parts {
+            table: MarkerTable::default(),
+            ground: Vec::new(),
+            bodies: Vec::new(),
+            beams: Vec::new(),
+            q: Vec::new(),
+            v: Vec::new(),
+            next_force,
+        };
+        parts.table.add("ground".to_string(), None, true);
+        parts.ground.push(Marker::point([0.0; D]));
+        for (name, marker) in ground {
+            parts.table.add(format!("ground.{name}"), None, true);
+            parts.ground.push(marker);
+        }
+        parts
+    }
+
+    fn add(&mut self, json: Value, kinds: &[BodyKind<D>], build: &Build<D>) -> Result<()> {
+        let mut json = object(json)?;
+        let name = take_name(&mut json)?;
+        if self.table.has_body(&name) {
+            return Err(Error::input(format!("the name `{name}` is taken"))
+                .under("name")
+                .hint("give each body its own"));
+        }
+        self.read(&name, json, kinds, build).map_err(|error| error.element(&name))?;
+        build.own("body", &name);
+        Ok(())
+    }
+
+    fn read(
+        &mut self,
+        name: &str,
+        mut json: Map<String, Value>,
+        kinds: &[BodyKind<D>],
+        build: &Build<D>,
+    ) -> Result<()> {
+        let kind = take_kind(&mut json, "body", kinds)?;
+        if is_absolute_beam(kind.name, &json) {
+            let beam = AbsoluteBeam::read(name, json, build)?;
+            let first_body = self.bodies.len();
+            for (node, (markers, built)) in beam.nodes().into_iter().enumerate() {
+                // The beam's own name is a marker at its left end.
+                let own = (node == 0).then(|| name.to_string());
+                let named = own.into_iter().chain(markers.into_iter().map(|marker| format!("{name}.{marker}")));
+                self.place(format!("{name}.n{node}"), named, built);
+            }
+            let line = beam.line(first_body, self.next_force);
+            self.next_force = line.forces().end;
+            self.beams.push(line);
+            return Ok(());
+        }
+        let origin = match json.remove("origin") {
+            Some(origin) => build.vector::<D>("origin", &parse::<Vec<Number>>(origin)?)?,
+            None => [0.0; D],
+        };
+        let (mut initial, given) = start_and_markers(&mut json)?;
+        initial.origin = origin.to_vec();
+        let mut all = vec![Marker::point(origin)];
+        let named = markers::markers(&given, &origin, build)?;
+        all.extend(named.iter().map(|(_, marker)| *marker));
+        let built = (kind.build)(Value::Object(json), all, &initial, build)?;
+        self.place(name.to_string(), named.iter().map(|(marker, _)| format!("{name}.{marker}")), built);
+        Ok(())
+    }
+
+    /// Adds a body with the full names of its markers beside its own frame.
+    fn place(&mut self, name: String, markers: impl Iterator<Item = String>, built: Built<D>) {
+        let (index, first_marker) = (self.bodies.len(), self.table.names.len());
+        let oriented = built.body.oriented();
+        let all = [name.clone()].into_iter().chain(markers);
+        all.for_each(|marker| self.table.add(marker, Some(index), oriented));
+        self.table.body_names.push(name.clone());
+        let (first_q, first_v) = (self.q.len(), self.v.len());
+        let (nq, nv) = (built.q.len(), built.v.len());
+        self.bodies.push(Part { name, first_marker, first_q, first_v, nq, nv, body: built.body });
+        self.q.extend(built.q);
+        self.v.extend(built.v);
+    }
+
+    /// The model, with the start of all coordinates.
+    fn joined(
+        self,
+        links: Links<D>,
+        gravity: [f64; D],
+        switches: Switches,
+        turnings: Vec<Turning>,
+    ) -> (Model<D>, Vec<f64>, Vec<f64>) {
+        let Parts { table: markers, ground, bodies, beams, mut q, v, .. } = self;
+        let Links { joints, forces, outputs, cuts, inputs } = links;
+        let extent = extent(&bodies, &q);
+        q.extend(turnings.iter().map(|turning| turning.start));
+        let model = Model {
+            gravity,
+            markers,
+            ground,
+            bodies,
+            joints,
+            forces,
+            beams,
+            outputs,
+            cuts,
+            inputs,
+            switches,
+            turnings,
+            extent,
+        };
+        (model, q, v)
+    }
+}
+
+/// Takes off what all bodies have.
+pub(super) fn start_and_markers(json: &mut Map<String, Value>) -> Result<(Initial, Map<String, Value>)> {
+    let initial = json
+        .remove("initial")
+        .map_or_else(|| Ok(Initial::default()), |initial| parse(initial).map_err(|error| error.under("initial")))?;
+    let markers = json
+        .remove("markers")
+        .map_or_else(|| Ok(Map::new()), |given| object(given).map_err(|error| error.under("markers")))?;
+    Ok((initial, markers))
+}
+
+/// Joints or forces: name and type are taken off, the rest is the kind's own.
+fn elements<E, Make, const D: usize>(
+    given: &[Value],
+    (list, what): (&str, &str),
+    kinds: &[ElementKind<Make>],
+    build: &Build<D>,
+    make: impl Fn(&Make, Value) -> Result<(E, Vec<usize>)>,
+) -> Result<Vec<Connection<E>>> {
+    let mut all: Vec<Connection<E>> = Vec::new();
+    let mut names = HashSet::new();
+    for (i, json) in given.iter().enumerate() {
+        let mut read = || {
+            let mut json = object(json.clone())?;
+            let name = take_name(&mut json)?;
+            if !names.insert(name.clone()) {
+                return Err(Error::input(format!("the name `{name}` is taken"))
+                    .under("name")
+                    .hint(format!("give each {what} its own")));
+            }
+            let kind = take_kind(&mut json, what, kinds)?;
+            let made = make(&kind.build, Value::Object(json));
+            let (element, markers) = made.map_err(|error| error.element(&name))?;
+            build.own(what, &name);
+            all.push(Connection { name, kind: kind.name, element, markers });
+            Ok(())
+        };
+        read().map_err(|error| error.under(format!("{list}[{i}]")))?;
+    }
+    Ok(all)
+}
+
+pub(super) fn object(json: Value) -> Result<Map<String, Value>> {
+    match json {
+        Value::Object(map) => Ok(map),
+        other => Err(Error::input(format!("expected an object {{...}}, found {}", show(&other)))),
+    }
+}
+
+fn take_text(json: &mut Map<String, Value>, key: &str) -> Result<String> {
+    match json.remove(key) {
+        Some(Value::String(text)) => Ok(text),
+        Some(other) => Err(Error::input(format!("expected text in quotes, found {}", show(&other))).under(key)),
+        None => Err(Error::input(format!("the key `{key}` is missing")).hint(format!("give a \"{key}\""))),
+    }
+}
+
+/// Takes the type off, and finds what is known of it.
+fn take_kind<'k, Make>(
+    json: &mut Map<String, Value>,
+    what: &str,
+    known: &'k [ElementKind<Make>],
+) -> Result<&'k ElementKind<Make>> {
+    let names = || known.iter().map(|kind| kind.name);
+    if !json.contains_key("type") {
+        return Err(Error::input("the key `type` is missing")
+            .hint(format!("give the {what} a type: {}", names().collect::<Vec<_>>().join(", "))));
+    }
+    let name = take_text(json, "type")?;
+    known.iter().find(|kind| kind.name == name).ok_or_else(|| {
+        Error::input(format!("there is no {what} of type `{name}`")).under("type").hint(suggest(&name, names()))
+    })
+}
+
+fn take_name(json: &mut Map<String, Value>) -> Result<String> {
+    let name = take_text(json, "name")?;
+    check_name(&name).map_err(|error| error.under("name"))?;
+    Ok(name)
+}
+
+/// The name of a scene is that of its folder of results.
+fn check_scene_name(name: &str) -> Result<()> {
+    let fits = |c: char| c.is_alphanumeric() || "_-+ ()".contains(c) || c == '.';
+    match !name.trim().is_empty() && !name.starts_with('.') && name.len() <= 200 && name.chars().all(fits) {
+        true => Ok(()),
+        false => Err(Error::input(format!("`{}` cannot name a scene", excerpt(name)))
+            .under("name")
+            .hint("its results go to a folder of this name: use letters, digits, `_` and `-`")),
+    }
+}
+
+/// Names appear in expressions and columns: a letter, then letters, digits and underscores.
+pub(super) fn check_name(name: &str) -> Result<()> {
+    let mut characters = name.chars();
+    let starts = characters.next().is_some_and(|c| c.is_alphabetic() || c == '_');
+    match starts && characters.all(|c| c.is_alphabetic() || c.is_ascii_digit() || c == '_') {
+        true => Ok(()),
+        false => Err(Error::input(format!("`{}` cannot be a name", excerpt(name)))
+            .hint("use a letter, then letters, digits and underscores")),
+    }
+}
