@@ -1,0 +1,78 @@
+//! An own integrator: one step of y' = F(t, y), with y = (q, v, work).
+
+use holonom::Result;
+use holonom::choice::Listed;
+use holonom::formulation::Halt;
+use holonom::integrator::{Control, Entry, From, Hermite, Integrator, Problem, Steps, Tightening, Tolerance};
+use holonom::simulate::Method;
+
+/// The explicit midpoint rule, y_1 = y + h F(t + h/2, y + h/2 F(t, y)).
+static MIDPOINT: Entry = Entry {
+    name: "midpoint",
+    about: "the explicit midpoint rule",
+    order: 2,
+    steps: Steps::Fixed,
+    tightening: Tightening::NONE,
+    solves: |formulation| formulation.field.is_some(),
+    refuses: |_formulation, _projection| false,
+    options: &[],
+    make: |setup| {
+        let n = setup.len();
+        let control = Control::new(2.0, 0.0, 0.2, 5.0);
+        Ok(Box::new(Midpoint { middle: vec![0.0; n], slope: vec![0.0; n], control, dense: Hermite::new(n, 0) }))
+    },
+};
+
+struct Midpoint {
+    middle: Vec<f64>,
+    slope: Vec<f64>,
+    control: Control,
+    dense: Hermite,
+}
+
+impl Integrator for Midpoint {
+    fn order(&self) -> usize {
+        MIDPOINT.order
+    }
+
+    fn attempt(
+        &mut self,
+        problem: &mut Problem,
+        _: &Tolerance,
+        from: From,
+        h: f64,
+        to: &mut [f64],
+    ) -> Result<Option<f64>, Halt> {
+        let ahead = |out: &mut [f64], h: f64, slope: &[f64]| {
+            out.iter_mut().zip(from.y.iter().zip(slope)).for_each(|(out, (y, slope))| *out = y + h * slope);
+        };
+        ahead(&mut self.middle, 0.5 * h, from.slope);
+        problem.derivative(from.t + 0.5 * h, &self.middle, &mut self.slope)?;
+        ahead(to, h, &self.slope);
+        Ok(None)
+    }
+
+    /// Steps are fixed, but a method with an error estimate is controlled by it.
+    fn control(&mut self) -> &mut Control {
+        &mut self.control
+    }
+
+    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt> {
+        self.dense.prepare(from, h, to, slope);
+        Ok(())
+    }
+
+    fn interpolate(&mut self, _: &mut Problem, from: From, _: f64, theta: f64, out: &mut [f64]) -> Result<(), Halt> {
+        self.dense.interpolate(theta, from.y, out);
+        Ok(())
+    }
+}
+
+#[test]
+fn a_method_takes_it_by_its_entry() -> Result<()> {
+    let method = Method { integrator: MIDPOINT.choice(), step: Some(1e-3), ..Method::default() };
+    assert_eq!(method.triple(), "index1 + midpoint + manifold");
+    // O(h^2) with h = 1e-3 s.
+    assert!(super::swing(&method)? < 1e-5);
+    Ok(())
+}

@@ -1,0 +1,45 @@
+//! A scene built in code: a slider crank, simulated.
+
+use holonom::Result;
+use holonom::measure::Recorder;
+use holonom::scene::{Elements, SceneBuilder, json};
+use holonom::study::Study;
+
+#[test]
+fn a_slider_crank() -> Result<()> {
+    let rod = |length: &str, start: [f64; 2], angle: f64| {
+        json!({ "mass": 1, "inertia": format!("{length}^2/12"),
+            "markers": { "A": [format!("-{length}/2"), 0], "B": [format!("{length}/2"), 0] },
+            "initial": { "position": start, "angle": angle, "angular_velocity": 5 } })
+    };
+    let scene = SceneBuilder::new("slider_crank", 2)
+        .with("gravity", [0.0, -9.81])
+        .parameter("r", 0.2)
+        .parameter("l", "3*r")
+        .ground_marker("O", [0.0, 0.0])
+        .body("crank", "rigid", rod("r", [0.1, 0.0], 0.0))
+        .body("rod", "rigid", rod("l", [0.5, 0.0], 0.0))
+        .body("piston", "point_mass", json!({ "mass": 0.5, "initial": { "position": [0.8, 0] } }))
+        .joint("O", "revolute", json!({ "between": ["ground.O", "crank.A"] }))
+        .joint("B", "revolute", json!({ "between": ["crank.B", "rod.A"] }))
+        .joint("C", "revolute", json!({ "between": ["rod.B", "piston"] }))
+        .joint("guide", "point_on_line", json!({ "between": ["ground.O", "piston"] }))
+        .with("assembly", json!({ "hold": ["crank.angle"] }))
+        .output("x", "position", json!({ "of": "piston" }))
+        .output("angle", "angle", json!({ "of": "crank" }))
+        .simulation("t_end", 1.0)
+        .build(&Elements::default())?;
+
+    let study = Study::new(scene, &Default::default())?;
+    let mut recorder = Recorder::new(study.system());
+    let (outcome, _) = study.simulate(&study.method, study.span()?, &mut recorder)?;
+    assert!(outcome.failure.is_none());
+    let trajectory = recorder.finish().trajectory;
+    let [x, angle] = ["x", "angle"].map(|output| trajectory.column(output).expect("an output of the scene"));
+    for (x, angle) in x.into_iter().zip(angle) {
+        let (sin, cos) = angle.sin_cos();
+        // Projected positions are on the constraints to round-off.
+        assert!((x - (0.2 * cos + (0.36 - 0.04 * sin * sin).sqrt())).abs() < 1e-14, "{x} at {angle}");
+    }
+    Ok(())
+}
