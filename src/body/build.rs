@@ -51,12 +51,16 @@ impl MarkerTable {
     }
 }
 
-/// The names that an element's numbers, functions and marker references are looked up in.
+/// The names that an element's numbers, functions and marker references are looked up in. Each lookup takes the key of the
+/// scene that it reads, which errors then name.
 pub struct Build<'a, const D: usize> {
+    /// Values of the scene's parameters.
     pub parameters: &'a Parameters,
+    /// All markers that joints and forces may name; none yet where a body is made.
     pub markers: &'a MarkerTable,
     /// Named kinematic outputs that forces may use: name and expression.
     pub outputs: &'a [(String, String)],
+    /// m/s^2
     pub gravity: [f64; D],
     /// Where files that the scene names are.
     pub folder: &'a Path,
@@ -99,13 +103,14 @@ impl Switches {
 
 impl<const D: usize> Build<'_, D> {
     /// Says to which element, such as "force" `push`, all belongs that came since the last call.
-    pub fn own(&self, what: &str, name: &str) {
+    pub(crate) fn own(&self, what: &str, name: &str) {
         self.switches.borrow_mut().own(&format!("the {what} `{name}`"));
         let mut turnings = self.turnings.borrow_mut();
         let unnamed = turnings.iter_mut().filter(|turning| turning.name.is_empty());
         unnamed.for_each(|turning| turning.name = format!("{what}.{name}.turn"));
     }
 
+    /// Any finite number.
     pub fn number(&self, field: &str, number: &Number) -> Result<f64> {
         number.evaluate(self.parameters).map_err(|error| Error::from(error).under(field))
     }
@@ -118,7 +123,7 @@ impl<const D: usize> Build<'_, D> {
     }
 
     /// Angles are in radians, and few mean more than a turn at a start.
-    pub fn doubt_turns(&self, field: &str, angle: f64) {
+    pub(crate) fn doubt_turns(&self, field: &str, angle: f64) {
         if angle.abs() > TAU {
             let text =
                 format!("`{field}` is {} rad, {} turns", short(angle), short((10.0 * angle / TAU).round() / 10.0));
@@ -127,6 +132,7 @@ impl<const D: usize> Build<'_, D> {
         }
     }
 
+    /// The same, or `default` where none is given.
     pub fn number_or(&self, field: &str, number: &Option<Number>, default: f64) -> Result<f64> {
         number.as_ref().map_or(Ok(default), |number| self.number(field, number))
     }
@@ -163,6 +169,7 @@ impl<const D: usize> Build<'_, D> {
         Ok(value)
     }
 
+    /// N numbers.
     pub fn vector<const N: usize>(&self, field: &str, numbers: &[Number]) -> Result<[f64; N]> {
         if numbers.len() != N {
             return Err(Error::input(format!("expected {N} numbers, found {}", numbers.len()))
@@ -176,6 +183,7 @@ impl<const D: usize> Build<'_, D> {
         Ok(vector)
     }
 
+    /// A marker by its full name, `body.marker`; `body` alone is the body's own frame.
     pub fn marker(&self, field: &str, name: &str) -> Result<MarkerId> {
         self.markers.find(name).map_err(|error| error.under(field))
     }
@@ -206,7 +214,19 @@ impl<const D: usize> Build<'_, D> {
         }
     }
 
-    /// An expression over t alone, in the equations of motion.
+    /// Refuses an element that makes sense in one kind of scene only: `what` needs the `dimension`; in others take `instead`.
+    pub fn needs_dimension(&self, dimension: usize, what: &str, instead: &str) -> Result<()> {
+        match D == dimension {
+            true => Ok(()),
+            false => Err(Error::input(format!("{what} needs \"dimension\": {dimension}"))
+                .under("type")
+                .hint(format!("in this scene use {instead}"))),
+        }
+    }
+
+    /// An expression over t alone, in the equations of motion: its value is
+    /// [`eval_held`](Expression::eval_held)`(&[time.t], time.regime)`, and `switching` of the kernel has to write its
+    /// [`arguments`](Expression::arguments).
     pub fn function_of_time(&self, field: &str, number: &Number) -> Result<Expression> {
         let signal = self.acting(field, number, false)?;
         signal.function_of_time().map_err(|error| error.under(field))
@@ -219,7 +239,9 @@ impl<const D: usize> Build<'_, D> {
         Ok(signal)
     }
 
-    /// The number of a switching function that an element has beside its expressions; zero is its threshold.
+    /// The number of a switching function that an element has beside its expressions; zero is its threshold. `switching` of
+    /// its kernel writes the argument at this number; [`Regime::piece`](crate::math::Regime::piece) says on which side of
+    /// zero the law is held within a step: 0 below, 2 above.
     pub fn switch(&self) -> usize {
         let all = &mut self.switches.borrow_mut().all;
         all.push(Switch { thresholds: vec![0.0], of_time: None });

@@ -64,6 +64,7 @@ impl<S: Scalar, const D: usize> Frame<S, D> {
         Frame { r, axes, turn: self.turn + marker.turn }
     }
 
+    /// The same over other numbers.
     #[inline]
     pub fn map<T: Scalar>(&self, change: impl Fn(S) -> T) -> Frame<T, D> {
         Frame { r: self.r.map(&change), axes: self.axes.map(|axis| axis.map(&change)), turn: change(self.turn) }
@@ -140,10 +141,12 @@ impl<S: Scalar, const D: usize> Frame<S, D> {
 }
 
 impl<S: Scalar, const D: usize> Wrench<S, D> {
+    /// No force and no torque.
     pub fn zero() -> Self {
         Wrench { force: [S::zero(); D], torque: [S::zero(); 3] }
     }
 
+    /// A force without a torque.
     pub fn force(force: [S; D]) -> Self {
         Wrench { force, torque: [S::zero(); 3] }
     }
@@ -173,10 +176,12 @@ impl<const D: usize> Wrench<f64, D> {
     }
 }
 
+/// The axes of the world.
 pub fn unit_axes<S: Scalar, const D: usize>() -> [[S; D]; D] {
     from_fn(|i| from_fn(|j| if i == j { S::one() } else { S::zero() }))
 }
 
+/// a . b
 #[inline]
 pub fn dot<S: Scalar, const D: usize>(a: &[S; D], b: &[S; D]) -> S {
     let mut sum = a[0] * b[0];
@@ -193,11 +198,13 @@ pub fn norm<S: Scalar, const D: usize>(a: &[S; D]) -> S {
     if square.value() == 0.0 { S::zero() } else { square.sqrt() }
 }
 
+/// a - b
 #[inline]
 pub fn sub<S: Scalar, const D: usize>(a: &[S; D], b: &[S; D]) -> [S; D] {
     from_fn(|i| a[i] - b[i])
 }
 
+/// factor a
 #[inline]
 pub fn scale<S: Scalar, const D: usize>(a: &[S; D], factor: S) -> [S; D] {
     a.map(|x| x * factor)

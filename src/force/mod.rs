@@ -26,10 +26,10 @@ pub type Motion<S, const D: usize> = [Frame<Taylor<S>, D>];
 /// The time of an evaluation, as it goes on.
 pub type Instant<'a, S> = Time<'a, Taylor<S>>;
 
-/// What a force says beside its wrenches.
+/// What a force says beside its wrenches: [`Action::without_potential`] where it stores no energy.
 #[derive(Clone, Copy, Debug)]
 pub struct Action<S> {
-    /// Energy it stores, J, with its rate.
+    /// Energy it stores, J, with its rate: computed from the frames as they are, with `x` and `d`.
     pub potential: Taylor<S>,
     /// The scalar a user watches: tension of a spring (positive when it pulls), torque, tyre load; N or N m.
     pub magnitude: S,
@@ -74,7 +74,8 @@ pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
     ) -> Action<S> {
         ForceKernel::act(self, frames, time, out)
     }
-    /// Writes the arguments of its switching functions at their numbers. Default: none.
+    /// Writes the arguments of its switching functions at the numbers that [`Build::switch`] gave; those of an expression by
+    /// [`Expression::arguments`](crate::math::expression::Expression::arguments). Default: it has none.
     fn switching(&self, _frames: &Motion<Rate, D>, _time: Instant<Rate>, _out: &mut [Rate]) {}
     /// Whether its law takes the rotation between its markers to be small. Default: no.
     fn takes_small_rotations(&self) -> bool {

@@ -1,7 +1,7 @@
 //! What is integrated: ways to turn the constrained equations into something an integrator can step.
 //!
 //! To add one: a file with an [`Entry`], and a line in [`registry`]; from outside the crate, an [`Entry`] and its
-//! [`choice`](Listed::choice).
+//! [`choice`](Listed::choice), as in `tests/examples/own_formulation.rs`.
 
 mod augmented_lagrangian;
 mod baumgarte;

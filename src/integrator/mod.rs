@@ -1,6 +1,7 @@
 //! Integrators: one step of a vector field.
 //!
-//! To add one: a file with its tableau (or a step of its own) and an [`Entry`], and a line in [`registry`].
+//! To add one: a file with its tableau (or a step of its own) and an [`Entry`], and a line in [`registry`]; from outside the
+//! crate, an [`Entry`] and its [`choice`](Listed::choice), as in `tests/examples/own_integrator.rs` and `own_tableau.rs`.
 
 mod ali3p;
 mod bdf;
@@ -88,7 +89,8 @@ pub trait Integrator {
         None
     }
 
-    /// The step control that goes with the method, which may change its constants with its order.
+    /// The step control that goes with the method, which may change its constants with its order; without an error estimate
+    /// it is not asked.
     fn control(&mut self) -> &mut Control;
 
     /// The size of the step just tried, where the method chose one of its own and not the `h` it was given.
@@ -195,17 +197,22 @@ pub enum Steps {
 
 /// One integrator as the command line, the scene format and the table of methods know it.
 pub struct Entry {
+    /// As methods call it.
     pub name: &'static str,
+    /// One line for the table of methods.
     pub about: &'static str,
     /// Proven order in q, v and lambda.
     pub order: usize,
+    /// Who chooses the steps.
     pub steps: Steps,
+    /// How much tighter than asked for the motion steps are controlled.
     pub tightening: Tightening,
-    /// Whether it integrates a formulation.
+    /// Whether it integrates a formulation: one that follows vector fields says `|formulation| formulation.field.is_some()`.
     pub solves: fn(&formulation::Entry) -> bool,
     /// Whether a projection would cost it an order with a formulation.
     pub refuses: fn(&formulation::Entry, projection: &str) -> bool,
     pub options: &'static [OptionDoc],
+    /// Makes it for a system, with memory for states of [`Setup::len`].
     pub make: for<'s> fn(&Setup<'s>) -> Result<Box<dyn Integrator + 's>>,
 }
 

@@ -1,6 +1,6 @@
 //! Cylindrical joint.
 
-use super::lock::{ALL_BUT_Z, Lock, direction, needs_dimension};
+use super::lock::{ALL_BUT_Z, Lock, direction};
 use super::{Built, JointSpec};
 use crate::body::Build;
 use crate::error::Result;
@@ -22,7 +22,7 @@ impl JointSpec for Cylindrical {
     const TYPE: &'static str = "cylindrical";
 
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
-        needs_dimension::<D>("cylindrical", 3, "\"point_on_line\"")?;
+        build.needs_dimension(3, "a cylindrical joint", "\"point_on_line\"")?;
         Lock::new(&[0, 1], ALL_BUT_Z).along(2, direction(build, &self.axis)?).between(&self.between, build)
     }
 }

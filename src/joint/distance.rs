@@ -37,6 +37,10 @@ impl<const D: usize> JointKernel<D> for Rod {
         vec!["length"]
     }
 
+    fn depends_on_time(&self) -> bool {
+        false
+    }
+
     #[inline]
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], _: Time<S>, out: &mut [S]) {
         let gap = sub(&frames[1].r, &frames[0].r);

@@ -65,6 +65,10 @@ impl<const D: usize> JointKernel<D> for Pair {
         vec!["angle"]
     }
 
+    fn depends_on_time(&self) -> bool {
+        false
+    }
+
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]) {
         let [z1, z2] = self.teeth;
         if D == 2 {

@@ -73,6 +73,10 @@ impl<const D: usize> JointKernel<D> for Lock<D> {
         self.translation.iter().map(|&i| TRANSLATIONS[i]).chain(rotations).collect()
     }
 
+    fn depends_on_time(&self) -> bool {
+        false
+    }
+
     fn joint_axis(&self, first: &Frame<f64, D>) -> Option<Axis> {
         match (D, self.translation.len()) {
             // A hinge in the plane has its axis out of it; balls and crosses have none.
@@ -131,15 +135,5 @@ pub fn direction<const D: usize>(build: &Build<D>, axis: &Option<Vec<Number>>) -
     match direction.iter().all(|&x| x == 0.0) {
         true => Err(Error::input("the axis has no direction").under("axis").hint("give a vector that is not zero")),
         false => Ok(Some(direction)),
-    }
-}
-
-/// Refuses a joint that makes sense in one kind of scene only.
-pub fn needs_dimension<const D: usize>(name: &str, dimension: usize, instead: &str) -> Result<()> {
-    match D == dimension {
-        true => Ok(()),
-        false => Err(Error::input(format!("a {name} joint needs \"dimension\": {dimension}"))
-            .under("type")
-            .hint(format!("in this scene use {instead}"))),
     }
 }

@@ -46,10 +46,8 @@ pub trait JointKernel<const D: usize>: Send + Sync + 'static {
     /// all others in radians: drift is measured in these units. A single row `length` is that of a rod, whose tension
     /// outputs can read; that of a single row `angle` is a torque.
     fn row_names(&self) -> Vec<&'static str>;
-    /// Whether phi depends on t beside the frames.
-    fn depends_on_time(&self) -> bool {
-        false
-    }
+    /// Whether phi reads `time`: where it says no, phi_t is zero.
+    fn depends_on_time(&self) -> bool;
     /// Its axis with the first marker at `first`, if it has one.
     fn joint_axis(&self, _first: &Frame<f64, D>) -> Option<Axis> {
         None
@@ -57,7 +55,8 @@ pub trait JointKernel<const D: usize>: Send + Sync + 'static {
     /// Writes phi, one value a row, at the frames of the joint's markers, in the order of [`Built::markers`]; zero where the
     /// joint is closed. Derivatives follow from the scalars that are put in.
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]);
-    /// Writes the arguments of its switching functions at their numbers. Default: none.
+    /// Writes the arguments of its switching functions at the numbers that [`Build::switch`] gave; those of an expression by
+    /// [`Expression::arguments`](crate::math::expression::Expression::arguments). Default: it has none.
     fn switching(&self, _frames: &[Frame<Rate, D>], _time: Time<Rate>, _out: &mut [Rate]) {}
 }
 

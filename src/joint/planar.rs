@@ -1,6 +1,6 @@
 //! Planar joint.
 
-use super::lock::{ALL_BUT_Z, Lock, direction, needs_dimension};
+use super::lock::{ALL_BUT_Z, Lock, direction};
 use super::{Built, JointSpec};
 use crate::body::Build;
 use crate::error::Result;
@@ -22,7 +22,7 @@ impl JointSpec for Planar {
     const TYPE: &'static str = "planar";
 
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
-        needs_dimension::<D>("planar", 3, "no joint: every body moves in the plane")?;
+        build.needs_dimension(3, "a planar joint", "no joint: every body moves in the plane")?;
         Lock::new(&[2], ALL_BUT_Z).along(2, direction(build, &self.axis)?).between(&self.between, build)
     }
 }

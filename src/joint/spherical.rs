@@ -1,6 +1,6 @@
 //! Spherical joint (ball).
 
-use super::lock::{Lock, NONE, needs_dimension};
+use super::lock::{Lock, NONE};
 use super::{Built, JointSpec};
 use crate::body::Build;
 use crate::error::Result;
@@ -19,7 +19,7 @@ impl JointSpec for Spherical {
     const TYPE: &'static str = "spherical";
 
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
-        needs_dimension::<D>("spherical", 3, "\"revolute\"")?;
+        build.needs_dimension(3, "a spherical joint", "\"revolute\"")?;
         Lock::new(&[0, 1, 2], NONE).between(&self.between, build)
     }
 }

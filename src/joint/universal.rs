@@ -1,6 +1,6 @@
 //! Universal joint (Hooke, Cardan).
 
-use super::lock::{Lock, needs_dimension};
+use super::lock::Lock;
 use super::{Built, JointSpec};
 use crate::body::Build;
 use crate::error::Result;
@@ -20,7 +20,7 @@ impl JointSpec for Universal {
     const TYPE: &'static str = "universal";
 
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
-        needs_dimension::<D>("universal", 3, "\"revolute\"")?;
+        build.needs_dimension(3, "a universal joint", "\"revolute\"")?;
         Lock::new(&[0, 1, 2], &[(0, 1)]).between(&self.between, build)
     }
 }

@@ -69,11 +69,13 @@ impl<'a> Regime<'a> {
     }
 }
 
-/// The time of an evaluation, over any scalar, with the pieces that functions are held on.
+/// The time of an evaluation, over any scalar, with the pieces that functions are held on: laws without `if`, `abs`, tables and
+/// the like read `t` alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Time<'a, S> {
     /// s
     pub t: S,
+    /// On which piece each switching function is held within the step.
     pub regime: Regime<'a>,
 }
 

@@ -111,7 +111,7 @@ pub fn shift<S: Scalar>(a: &Vector<S>, p: &Vector<S>) -> Vector<S> {
 }
 
 /// Force and torque at the moved frame, in the axes of the first, that do the work n . du + m . da when the motion
-/// changes: the transposed derivative of the logarithm. With W = 1 + [a]/2 + c [a]^2, du = W dr + (du/da) da and
+/// changes: the transposed derivative of the logarithm. With W = 1 + \[a\]/2 + c \[a\]^2, du = W dr + (du/da) da and
 /// da = W dw, dr and dw being the twist of the moved frame in its own axes.
 pub fn pull_back<S: Scalar>(a: &Vector<S>, p: &Vector<S>, n: &Vector<S>, m: &Vector<S>) -> [Vector<S>; 2] {
     let x = dot3(a, a);

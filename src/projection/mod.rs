@@ -1,6 +1,7 @@
 //! What is done after a step: the state is moved back to the constraints.
 //!
-//! To add one: a line in [`registry`], with a file where it is more than a choice of F.
+//! To add one: a line in [`registry`], with a file where it is more than a choice of F; from outside the crate, an [`Entry`]
+//! and its [`choice`](Listed::choice), as in `tests/examples/own_projection.rs`.
 
 mod exact;
 mod post_stabilization;

@@ -9,12 +9,13 @@ use crate::error::{Error, Result, Warning, clock};
 use crate::initial::{self, Assembly};
 use crate::integrator::{self, Steps};
 use crate::math::expression::{Number, Parameters};
+use crate::math::{Rate, Scalar};
 use crate::scene::{self, AnyModel, Automatic, Elements, Scene, Simulation};
 use crate::simulate::{
     Checkpoint, Leg, Method, Outcome, Sink, Span, Start, Stiffness, advise, atol_of, simulate_automatic, simulate_from,
     stiffness,
 };
-use crate::system::{Loaded, MechanicalSystem, Mechanism};
+use crate::system::{Loaded, MechanicalSystem, Mechanism, Scratch};
 use std::path::Path;
 
 /// A mechanism in the plane or in space.
@@ -109,6 +110,7 @@ impl Study {
         method.check_options(mechanism.system()).map_err(|error| settings.place(error))?;
         let assembly = initial::assemble(mechanism.system(), start, (&scene.q, &scene.v), &scene.hold);
         let assembly = assembly.map_err(|error| explained(error, of_scene(&mechanism)))?;
+        check_switches(mechanism.system(), start, (&assembly.q, &assembly.v))?;
         let doubts = doubts(&mechanism, &scene.q, &assembly);
         Ok(Study {
             doubts,
@@ -168,7 +170,7 @@ impl Study {
     /// Returns these in their order, none where the method was named.
     ///
     /// # Errors
-    /// Bad input only: see [`simulate`].
+    /// Bad input only: see [`simulate`](crate::simulate::simulate).
     pub fn simulate(&self, method: &Method, span: Span, sink: &mut dyn Sink) -> Result<(Outcome, Vec<Leg>)> {
         let (q, v) = self.start();
         self.simulate_from(method, span, Start::State(q, v), sink).map(|(outcome, legs, _)| (outcome, legs))
@@ -204,6 +206,24 @@ impl Study {
     /// The consistent start (q, v).
     pub fn start(&self) -> (&[f64], &[f64]) {
         (&self.assembly.q, &self.assembly.v)
+    }
+}
+
+/// Refuses an element that has a switching function and never writes its argument, so that its law would be held on any piece.
+fn check_switches(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Result<()> {
+    let (vdot, count) = (vec![0.0; v.len()], system.switches().len());
+    let [zeros, ones] = [0.0, 1.0].map(|x| {
+        let mut out = vec![Rate::constant(x); count];
+        system.switching(Loaded { t, q, v, vdot: &vdot, lambda: &[] }, &mut out, &mut Scratch::default());
+        out
+    });
+    match zeros.iter().zip(&ones).position(|(zero, one)| zero.value() == 0.0 && one.value() == 1.0) {
+        None => Ok(()),
+        Some(switch) => Err(Error::input(format!(
+            "the type of {} has a switching function whose argument it never writes",
+            system.owner_of_switch(switch)
+        ))
+        .hint("this is a mistake in the code of the type: its kernel has to implement `switching`")),
     }
 }
 

@@ -36,6 +36,10 @@ impl<const D: usize> JointKernel<D> for Parabola {
         vec!["y"]
     }
 
+    fn depends_on_time(&self) -> bool {
+        false
+    }
+
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], _: Time<S>, out: &mut [S]) {
         let gap = sub(&frames[1].r, &frames[0].r);
         let [x, y] = [0, 1].map(|axis| dot(&frames[0].axes[axis], &gap));

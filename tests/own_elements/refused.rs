@@ -3,10 +3,12 @@
 use crate::examples::own_body::BallInFluid;
 use crate::examples::own_force::HardeningSpring;
 use crate::examples::own_joint::PointOnParabola;
-use holonom::body::{Build, Frame};
+use holonom::body::{Build, Frame, Wrench};
+use holonom::force::{self, Action, ForceKernel, ForceSpec, Instant, Motion};
 use holonom::joint::{Built, JointKernel, JointSpec};
 use holonom::math::{Scalar, Time};
 use holonom::scene::{Elements, SceneBuilder, json};
+use holonom::study::Study;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -89,6 +91,9 @@ impl<const D: usize> JointKernel<D> for Seven {
     fn row_names(&self) -> Vec<&'static str> {
         vec!["x"; 7]
     }
+    fn depends_on_time(&self) -> bool {
+        false
+    }
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], _: Time<S>, out: &mut [S]) {
         out.fill(frames[0].r[0]);
     }
@@ -99,4 +104,40 @@ fn what_a_type_makes_wrong_is_its_own_mistake() {
     let elements = Elements::default().with_joint::<Overdone>().unwrap();
     let found = refusal(bead().joint("j", "overdone", json!({})), &elements);
     assert!(found.contains("joints[0].type (`j`)") && found.contains("7 rows; 1 to 6 are possible"), "{found}");
+}
+
+/// A force in the plane alone that has a switching function, and says nothing of its argument.
+#[derive(Deserialize, JsonSchema)]
+struct Forgetful {}
+
+impl ForceSpec for Forgetful {
+    const TYPE: &'static str = "forgetful";
+
+    fn build<const D: usize>(&self, build: &Build<D>) -> holonom::Result<force::Built<D>> {
+        build.needs_dimension(2, "a forgetful force", "\"spring_damper\"")?;
+        build.switch();
+        Ok(force::Built { force: Box::new(Still), markers: vec![build.marker("at", "bead")?] })
+    }
+}
+
+struct Still;
+
+impl<const D: usize> ForceKernel<D> for Still {
+    fn act<S: Scalar>(&self, _: &Motion<S, D>, _: Instant<S>, _: &mut [Wrench<S, D>]) -> Action<S> {
+        Action::without_potential(S::zero())
+    }
+}
+
+#[test]
+fn a_switching_function_without_an_argument_is_refused() {
+    let elements = Elements::default().with_force::<Forgetful>().unwrap();
+    let scene = bead().force("f", "forgetful", json!({})).build(&elements).unwrap();
+    let found = Study::new(scene, &Default::default()).map(|_| ()).unwrap_err().to_string();
+    assert!(
+        found.contains("the type of the force `f` has a switching function whose argument it never writes"),
+        "{found}"
+    );
+    let spatial = SceneBuilder::new("s", 3).body("bead", "point_mass", json!({ "mass": 1 }));
+    let found = refusal(spatial.force("f", "forgetful", json!({})), &elements);
+    assert!(found.contains("a forgetful force needs \"dimension\": 2"), "{found}");
 }

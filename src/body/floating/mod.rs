@@ -11,8 +11,8 @@
 //! ```
 //!
 //! less the work of gravity and of the elastic forces K q + D q' and those of geometric stiffening. The whole coupling of
-//! rigid and elastic motion is kept; integrals are taken once, piece by piece ([`Piece`]), so that work and memory grow
-//! with the number of elements. The sections of a beam turn as rigid [`discs`] beside that. Shabana, Dynamics of Multibody Systems, chapter 5.
+//! rigid and elastic motion is kept; integrals are taken once, piece by piece, so that work and memory grow
+//! with the number of elements. The sections of a beam turn as rigid discs beside that. Shabana, Dynamics of Multibody Systems, chapter 5.
 
 mod algebra;
 mod discs;
