@@ -2,6 +2,7 @@
 
 use super::{BodyKernel, Energy, Frame, Marker, Wrench, cross, sub};
 use crate::math::Scalar;
+use std::array::from_fn;
 
 /// M = diag(m, m, I): constant, so there are no velocity-dependent forces.
 pub struct RigidPlanar<const D: usize> {
@@ -24,7 +25,7 @@ impl<const D: usize> RigidPlanar<D> {
 
     #[inline]
     fn coordinates<S: Scalar>(&self, q: &[S]) -> [S; 3] {
-        std::array::from_fn(|i| self.slots[i].map_or(S::constant(self.rest[i]), |slot| q[slot]))
+        from_fn(|i| self.slots[i].map_or(S::constant(self.rest[i]), |slot| q[slot]))
     }
 
     fn free(&self) -> impl Iterator<Item = usize> + '_ {
@@ -43,15 +44,12 @@ impl<const D: usize> BodyKernel<D> for RigidPlanar<D> {
         &self.markers
     }
 
-    #[inline(always)]
+    #[inline]
     fn frame<S: Scalar>(&self, q: &[S]) -> Frame<S, D> {
         let [x, y, turn] = self.coordinates(q);
         let (s, c) = (turn.sin(), turn.cos());
-        let mut body = Frame::world();
-        (body.r[0], body.r[1], body.turn) = (x, y, turn);
-        body.axes[0][..2].copy_from_slice(&[c, s]);
-        body.axes[1][..2].copy_from_slice(&[-s, c]);
-        body
+        let axes = [[c, s], [-s, c]];
+        Frame { r: from_fn(|i| [x, y][i]), axes: from_fn(|i| from_fn(|k| axes[i][k])), turn }
     }
 
     #[inline]

@@ -45,13 +45,10 @@ impl<const D: usize> BodyKernel<D> for RigidSpatial<D> {
         quaternion_rate(&q[3..7], &v[3..6], &mut qdot[3..7]);
     }
 
-    #[inline(always)]
+    #[inline]
     fn frame<S: Scalar>(&self, q: &[S]) -> Frame<S, D> {
         let axes = axes_from_quaternion(&q[3..7]);
-        let mut body = Frame::world();
-        body.r.copy_from_slice(&q[..3]);
-        body.axes.iter_mut().zip(&axes).for_each(|(axis, column)| axis.copy_from_slice(column));
-        body
+        Frame { r: from_fn(|i| q[i]), axes: from_fn(|i| from_fn(|k| axes[i][k])), turn: S::zero() }
     }
 
     #[inline]

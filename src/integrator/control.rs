@@ -111,6 +111,8 @@ pub struct Control {
 }
 
 impl Control {
+    /// With the exponent 1/order - 0.75 beta: `order` of the solution where the estimate is of one less, and `beta` zero or about
+    /// 0.04, which damps its swings.
     pub fn new(order: f64, beta: f64, shrink: f64, grow: f64) -> Self {
         Control {
             exponent: 1.0 / order - 0.75 * beta,

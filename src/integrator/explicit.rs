@@ -6,15 +6,19 @@ use crate::formulation::Halt;
 
 /// The constants of an explicit method.
 pub struct Tableau {
+    /// Order p of the solution.
     pub order: usize,
-    /// Nodes, one a stage, then those of the stages for interpolation.
+    /// Nodes, one a stage, then those of the stages for interpolation. The first stage is y' at the start of the step.
     pub c: &'static [f64],
-    /// Row i has i entries.
+    /// One row a node; row i has i entries.
     pub a: &'static [&'static [f64]],
+    /// Weights, one a stage.
     pub b: &'static [f64],
+    /// How the error of a step is estimated.
     pub error: ErrorEstimate,
     /// Weights of all stages in the interpolation polynomial beyond the cubic Hermite part, row by row.
     pub dense: &'static [&'static [f64]],
+    /// The step control.
     pub control: fn() -> Control,
 }
 
@@ -30,14 +34,13 @@ impl Tableau {
 
 /// How a tableau estimates the error of a step.
 pub enum ErrorEstimate {
+    /// It does not: steps are fixed.
     None,
-    /// |h sum e_i k_i|; the last weight belongs to y' at the new state.
+    /// |h sum e_i k_i| with e = b less the weights of the solution it is compared with; a weight more than there are stages
+    /// belongs to y' at the new state.
     Embedded(&'static [f64]),
     /// Combination of a fifth- and a third-order estimate (DOP853).
-    Pair {
-        fifth: &'static [f64],
-        third: &'static [f64],
-    },
+    Pair { fifth: &'static [f64], third: &'static [f64] },
 }
 
 /// k_i = F(t + c_i h, y + h sum_j a_ij k_j), y_1 = y + h sum b_i k_i.
@@ -51,6 +54,7 @@ pub struct Explicit {
 }
 
 impl Explicit {
+    /// For states of length `len`, see [`Setup::len`](super::Setup::len).
     pub fn new(tableau: &'static Tableau, len: usize) -> Self {
         let zeros = |n: usize| vec![vec![0.0; len]; n];
         Explicit {

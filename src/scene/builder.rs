@@ -99,8 +99,8 @@ impl SceneBuilder {
     ///
     /// # Errors
     /// As [`Scene::parse`].
-    pub fn build(self, elements: &Elements) -> Result<Scene> {
-        elements.resolve(folder(None), Value::Object(self.keys), &[])
+    pub fn build(&self, elements: &Elements) -> Result<Scene> {
+        elements.resolve(folder(None), self.json(), &[])
     }
 
     fn within(mut self, name: &str, key: &str, value: Value) -> Self {
