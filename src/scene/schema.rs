@@ -34,10 +34,11 @@ fn resolved(schema: Schema, generator: &SchemaGenerator) -> Value {
 
 /// One alternative a kind: the shared keys with `type` fixed, and the kind's own.
 fn one_of<Place: JsonSchema, Make>(kinds: &[ElementKind<Make>], generator: &mut SchemaGenerator) -> Value {
+    let own = |ElementKind { name, schema, .. }: &ElementKind<Make>| (*name, resolved(schema(generator), generator));
+    let kinds: Vec<_> = kinds.iter().map(own).collect();
     let place = generator.subschema_for::<Place>();
     let place = resolved(place, generator);
-    let alternatives = kinds.iter().map(|ElementKind { name, schema, .. }| {
-        let mut kind = resolved(schema(generator), generator);
+    let alternatives = kinds.into_iter().map(|(name, mut kind)| {
         for (key, value) in place["properties"].as_object().into_iter().flatten() {
             kind["properties"][key] = value.clone();
         }
