@@ -53,6 +53,9 @@
 //! | [`tolerances`] | every threshold, with what it decides, its unit, reason and test | |
 //! | [`plot`], [`report`], [`cli`] | figures, files and text, the command line | one file a subcommand |
 //!
+//! Features, both on by default: `cli`, the module of that name and the program; `figures`, PNG and GIF beside SVG. `cli`
+//! includes `npz`, NumPy's archives.
+//!
 //! # Own parts
 //!
 //! All that has a registry may come from outside the crate. Examples to copy, run by the tests, are in `tests/examples`:
@@ -100,6 +103,7 @@
 pub mod analysis;
 pub mod body;
 pub mod choice;
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod compare;
 pub mod error;

@@ -3,6 +3,7 @@
 mod array;
 pub mod mat;
 pub mod npy;
+#[cfg(feature = "npz")]
 pub mod npz;
 mod read;
 mod staging;

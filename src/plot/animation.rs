@@ -1,9 +1,8 @@
 //! Pictures one after another, as an animated SVG or GIF.
 
-use super::bitmap::Sheet;
 use super::figure::Figure;
 use super::shape::{Drawing, Shape};
-use super::{draw, gif, svg};
+use super::{draw, raster, svg};
 use rayon::prelude::*;
 
 /// Pictures of which only the items of one panel differ. Their axes have fixed ranges, so that nothing else moves.
@@ -19,33 +18,22 @@ pub struct Animation<F: Fn(usize) -> Figure + Sync> {
 impl<F: Fn(usize) -> Figure + Sync> Animation<F> {
     /// As SVG text.
     pub fn to_svg(&self) -> String {
-        let (still, _) = self.parts();
-        let frames: Vec<Vec<Shape>> = (0..self.count).into_par_iter().map(|k| self.moving(k)).collect();
-        svg::animate(&still, &frames, 1.0 / self.per_second)
+        let frames: Vec<Vec<Shape>> = (0..self.count).into_par_iter().map(|k| self.parts(k).1).collect();
+        svg::animate(&self.parts(0).0, &frames, 1.0 / self.per_second)
     }
 
     /// As the bytes of a GIF file; calls `done` with the number of frames that are drawn.
     ///
     /// # Errors
-    /// When the frames are larger than a GIF can be.
+    /// When the frames are larger than a GIF can be, and without the feature `figures`.
     pub fn to_gif(&self, done: impl FnMut(usize)) -> Result<Vec<u8>, String> {
-        let (still, first) = self.parts();
-        let sheet = Sheet::of_frames(&still);
-        let paper = sheet.draw(sheet.blank(), &still.shapes)?;
-        let picture = |moving: &[Shape]| sheet.draw(paper.clone(), moving).map(|pixels| sheet.output(&pixels));
-        let draw = |k: usize| if k == 0 { picture(&first) } else { picture(&self.moving(k)) };
-        gif::encode(sheet.size, self.count, self.per_second, &draw, done)
+        raster::gif(&self.parts(0).0, self.count, self.per_second, &|k| self.parts(k).1, done)
     }
 
-    /// What stays, and what moves of the first frame.
-    fn parts(&self) -> (Drawing, Vec<Shape>) {
-        let mut still = draw::figure(&(self.frame)(0));
+    /// What stays, and what moves, of a frame.
+    fn parts(&self, k: usize) -> (Drawing, Vec<Shape>) {
+        let mut still = draw::figure(&(self.frame)(k));
         let moving = still.shapes.drain(still.items.clone()).collect();
         (still, moving)
-    }
-
-    fn moving(&self, k: usize) -> Vec<Shape> {
-        let mut drawing = draw::figure(&(self.frame)(k));
-        drawing.shapes.drain(drawing.items.clone()).collect()
     }
 }

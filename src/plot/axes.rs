@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::layout::Placed;
 use super::palette::{FRAME, GRID_LINE, INK, LABEL_SIZE, NOTE_INK, NOTE_SIZE, TICK_LENGTH, TICK_SIZE};
-use super::shape::{Anchor, Drawing, Pt, Text};
+use super::shape::{Align, Drawing, Pt, Text};
 use super::text::{self, HALF_DIGIT, LINE_HEIGHT, Rich};
 use super::ticks::decimal::power_of_ten;
 
@@ -35,11 +35,11 @@ pub(super) fn axes(drawing: &mut Drawing, placed: &Placed) {
     x_axis(drawing, placed);
     let frame = placed.frame;
     let strip = frame.top - STRIP_GAP;
-    drawing.text(text((frame.left, strip), &placed.y_ticks.factor, NOTE_SIZE, Anchor::Start));
-    let note = text((frame.right, strip), &placed.note(), NOTE_SIZE, Anchor::End);
+    drawing.text(text((frame.left, strip), &placed.y_ticks.factor, NOTE_SIZE, Align::Start));
+    let note = text((frame.right, strip), &placed.note(), NOTE_SIZE, Align::End);
     drawing.text(Text { color: NOTE_INK, ..note });
     let title = text::shorten(&placed.panel.title, TICK_SIZE, frame.width());
-    drawing.text(text((frame.center().0, strip - placed.strip()), &title, TICK_SIZE, Anchor::Middle));
+    drawing.text(text((frame.center().0, strip - placed.strip()), &title, TICK_SIZE, Align::Middle));
 }
 
 fn y_axis(drawing: &mut Drawing, placed: &Placed) {
@@ -49,7 +49,7 @@ fn y_axis(drawing: &mut Drawing, placed: &Placed) {
         let y = place(tick.at);
         drawing.line((frame.left - TICK_LENGTH, y), (frame.left, y), FRAME);
         let at = (frame.left - TICK_LENGTH - 4.0, y + HALF_DIGIT * TICK_SIZE);
-        drawing.text(text(at, &tick.label, TICK_SIZE, Anchor::End));
+        drawing.text(text(at, &tick.label, TICK_SIZE, Align::End));
     }
     for at in &placed.y_ticks.minor {
         let y = place(*at);
@@ -84,12 +84,12 @@ fn x_texts(drawing: &mut Drawing, placed: &Placed) {
     let mut y = frame.bottom + TICK_LENGTH + 1.05 * TICK_SIZE;
     for tick in &placed.x_ticks.major {
         let x = frame.left + tick.at * frame.width();
-        drawing.text(text((x, y), &tick.label, TICK_SIZE, Anchor::Middle));
+        drawing.text(text((x, y), &tick.label, TICK_SIZE, Align::Middle));
     }
     y += 0.3 * TICK_SIZE + LABEL_SIZE;
-    drawing.text(text((frame.right, y), &placed.x_ticks.factor, NOTE_SIZE, Anchor::End));
+    drawing.text(text((frame.right, y), &placed.x_ticks.factor, NOTE_SIZE, Align::End));
     for line in &placed.x_label.lines {
-        drawing.text(text((frame.center().0, y), line, placed.x_label.size, Anchor::Middle));
+        drawing.text(text((frame.center().0, y), line, placed.x_label.size, Align::Middle));
         y += LINE_HEIGHT * placed.x_label.size;
     }
 }
@@ -107,11 +107,11 @@ pub(super) fn floor_note(axis: &Axis, name: &str, drawn: &str) -> Option<String>
 }
 
 /// A level line of text.
-pub(super) fn text(at: Pt, line: &str, size: f64, anchor: Anchor) -> Text {
-    Text { at, rich: Rich::new(line), size, color: INK, anchor, turned: false }
+pub(super) fn text(at: Pt, line: &str, size: f64, align: Align) -> Text {
+    Text { at, rich: Rich::new(line), size, color: INK, align, turned: false }
 }
 
 /// A centred line of text that reads upwards.
 pub(super) fn turned(at: Pt, line: &str, size: f64) -> Text {
-    Text { turned: true, ..text(at, line, size, Anchor::Middle) }
+    Text { turned: true, ..text(at, line, size, Align::Middle) }
 }

@@ -6,7 +6,7 @@ use super::palette::{
     COLOR_STEPS, EDGE, FRAME, LABEL_SIZE, NOTE_SIZE, TICK_LENGTH, TICK_SIZE, color_step, scale_color,
 };
 use super::panel::{AxisSpec, Panel};
-use super::shape::{Anchor, Color, Drawing, Rect, Shape};
+use super::shape::{Align, Color, Drawing, Rect, Shape};
 use super::text::{self, HALF_DIGIT, LINE_HEIGHT, Label};
 use super::ticks::{Room, Ticks};
 
@@ -87,10 +87,10 @@ impl ColorBar {
         for tick in &self.ticks.major {
             let y = bar.bottom - tick.at * bar.height();
             drawing.line((bar.right, y), (bar.right + TICK_LENGTH, y), FRAME);
-            drawing.text(axes::text((labels, y + HALF_DIGIT * TICK_SIZE), &tick.label, TICK_SIZE, Anchor::Start));
+            drawing.text(axes::text((labels, y + HALF_DIGIT * TICK_SIZE), &tick.label, TICK_SIZE, Align::Start));
         }
         let factor = (bar.left, bar.top - STRIP_GAP);
-        drawing.text(axes::text(factor, &self.ticks.factor, NOTE_SIZE, Anchor::Start));
+        drawing.text(axes::text(factor, &self.ticks.factor, NOTE_SIZE, Align::Start));
         let size = self.label.size;
         let mut x = labels + self.ticks.widest(TICK_SIZE) + 5.0 + 0.85 * size;
         for line in &self.label.lines {

@@ -8,7 +8,7 @@ use super::legend::{self, Block, Entry, Taken};
 use super::marks::{self, Budget};
 use super::notes;
 use super::palette::{EDGE, FRAME, LABEL_SIZE, NOTE_INK, TITLE_SIZE};
-use super::shape::{Anchor, Drawing, Rect, Shape, Text};
+use super::shape::{Align, Drawing, Rect, Shape, Text};
 use super::text::{self, LINE_HEIGHT};
 
 const PANEL_GAP: f64 = 16.0;
@@ -43,7 +43,7 @@ fn heading(drawing: &mut Drawing, title: &str) -> f64 {
     let lines = text::wrap(title, TITLE_SIZE, drawing.width - 2.0 * EDGE, 3);
     for (row, line) in lines.iter().enumerate() {
         let y = EDGE + TITLE_SIZE * (0.85 + LINE_HEIGHT * row as f64);
-        drawing.text(axes::text((0.5 * drawing.width, y), line, TITLE_SIZE, Anchor::Middle));
+        drawing.text(axes::text((0.5 * drawing.width, y), line, TITLE_SIZE, Align::Middle));
     }
     if lines.is_empty() { 0.0 } else { LINE_HEIGHT * TITLE_SIZE * lines.len() as f64 + 5.0 }
 }
@@ -82,7 +82,7 @@ fn panel(drawing: &mut Drawing, placed: &mut Placed, top: f64, entries: &[Entry]
     notes::texts(drawing, placed, &mut taken);
     if empty {
         drawing
-            .text(Text { color: NOTE_INK, ..axes::text(placed.frame.center(), "no data", LABEL_SIZE, Anchor::Middle) });
+            .text(Text { color: NOTE_INK, ..axes::text(placed.frame.center(), "no data", LABEL_SIZE, Align::Middle) });
     }
     explain(drawing, placed, entries, &taken)
 }

@@ -2,13 +2,12 @@
 
 use std::path::Path;
 
+use crate::error::{Error, Result};
 use crate::files::write_whole;
 
-use super::error::PlotError;
 use super::panel::Panel;
-use super::save::Format;
 use super::shape::Drawing;
-use super::{bitmap, draw, svg};
+use super::{draw, raster, svg};
 
 /// Width of one journal column in nominal pixels.
 const COLUMN_WIDTH: f64 = 640.0;
@@ -66,15 +65,17 @@ impl Figure {
     /// Writes the figure as SVG or PNG, by the extension of the path. The file is replaced in one step.
     ///
     /// # Errors
-    /// When the extension is another one, the path is a folder or cannot be written, or the figure has more pixels
-    /// than a PNG may have here.
-    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), PlotError> {
+    /// When the extension is another one, the path is a folder or cannot be written, or there is no PNG of it: see
+    /// [`Figure::to_png`].
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
-        let bytes = match Format::of(path)? {
-            Format::Svg => self.to_svg().into_bytes(),
-            Format::Png => self.to_png().map_err(|reason| PlotError::Draw { path: path.to_path_buf(), reason })?,
+        let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+        let bytes = match extension.to_str() {
+            Some("svg") => self.to_svg().into_bytes(),
+            Some("png") => self.to_png().map_err(|reason| Error::file(path, reason))?,
+            _ => return Err(Error::file(path, "the name of a figure must end in .svg or .png")),
         };
-        write_whole(path, &bytes).map_err(|source| PlotError::Write { path: path.to_path_buf(), source })
+        write_whole(path, &bytes).map_err(|error| Error::file(path, error))
     }
 
     /// The figure as SVG text.
@@ -85,9 +86,9 @@ impl Figure {
     /// The figure as the bytes of a PNG file.
     ///
     /// # Errors
-    /// When it has more pixels than a PNG may have here.
+    /// When it has more pixels than a PNG may have here, and without the feature `figures`.
     pub fn to_png(&self) -> Result<Vec<u8>, String> {
-        bitmap::render(&self.drawing())
+        raster::png(&self.drawing())
     }
 
     pub(super) fn drawing(&self) -> Drawing {

@@ -4,7 +4,7 @@ use super::axes;
 use super::layout::Placed;
 use super::legend::Taken;
 use super::palette::{DASHED, NOTE_SIZE, tint};
-use super::shape::{Anchor, Drawing, Marker, Pt, Rect, Shape, Stroke};
+use super::shape::{Align, Drawing, Marker, Pt, Rect, Shape, Stroke};
 
 /// Where a point is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,17 +45,6 @@ pub enum Tint {
     Body(usize, f64),
     /// White.
     Paper,
-}
-
-/// Which point of a text its place is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Align {
-    /// Where it starts.
-    Start,
-    /// Its middle.
-    Middle,
-    /// Where it ends.
-    End,
 }
 
 /// One thing to draw.
@@ -133,18 +122,8 @@ impl Item {
             Self::Disc { spot, radius, tint: color } => {
                 Shape::Marks { at: vec![put(spot)?], marker: Marker::Circle, radius: *radius, color: tint(*color) }
             }
-            Self::Text { spot, text, align } => Shape::Text(axes::text(put(spot)?, text, NOTE_SIZE, align.anchor())),
+            Self::Text { spot, text, align } => Shape::Text(axes::text(put(spot)?, text, NOTE_SIZE, *align)),
         })
-    }
-}
-
-impl Align {
-    fn anchor(self) -> Anchor {
-        match self {
-            Self::Start => Anchor::Start,
-            Self::Middle => Anchor::Middle,
-            Self::End => Anchor::End,
-        }
     }
 }
 

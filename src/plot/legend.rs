@@ -3,7 +3,7 @@
 use super::layout::Placed;
 use super::marks;
 use super::palette::{INK, Look, MARKER_RADIUS, PAPER, tint};
-use super::shape::{Anchor, Color, Drawing, Marker, Rect, Shape, Stroke, Text};
+use super::shape::{Align, Color, Drawing, Marker, Rect, Shape, Stroke, Text};
 use super::text::{self, Rich};
 
 /// Width of the samples when some have a line, and when all are markers.
@@ -101,7 +101,7 @@ impl Block {
         }
         let at = (left + self.sample + SAMPLE_GAP, middle + 0.34 * self.size);
         let rich = Rich::new(&entry.label);
-        drawing.text(Text { at, rich, size: self.size, color: INK, anchor: Anchor::Start, turned: false });
+        drawing.text(Text { at, rich, size: self.size, color: INK, align: Align::Start, turned: false });
     }
 
     /// Draws the block with its upper left corner at a point; boxed when it lies upon a panel.

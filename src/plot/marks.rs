@@ -7,7 +7,7 @@ use super::color_bar::ColorBar;
 use super::layout::Placed;
 use super::palette::{Look, MARKER_RADIUS, NO_VALUE, TICK_SIZE, ink_on, scale_color};
 use super::series::{Series, Style};
-use super::shape::{Anchor, Color, Drawing, Marker, Pt, Rect, Shape, Text};
+use super::shape::{Align, Color, Drawing, Marker, Pt, Rect, Shape, Text};
 use super::text::{self, Rich};
 use super::thin;
 
@@ -183,7 +183,7 @@ fn word_shape(placed: &Placed, word: &str, rect: &Rect, color: Color) -> Shape {
         rich: Rich::new(word),
         size,
         color,
-        anchor: Anchor::Middle,
+        align: Align::Middle,
         turned: false,
     })
 }

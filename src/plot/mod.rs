@@ -1,7 +1,7 @@
 //! Figures: data in, an SVG or PNG file out. Nothing here knows any mechanics.
 //!
 //! A [`Figure`] stacks one or several [`Panel`]s. [`Figure::save`] lays them out into a flat list of shapes,
-//! then writes that list as SVG or rasterizes it to PNG, so that both show the same picture. Text is
+//! then writes that list as SVG or has plotters draw it as PNG, so that both show the same picture. Text is
 //! measured with the embedded DejaVu Sans; no font or library of the system is needed.
 //!
 //! Sizes are in nominal pixels. A figure is 640 of them wide by default and meant to be printed 85 mm wide
@@ -10,14 +10,11 @@
 mod animation;
 mod axes;
 mod axis;
-mod bitmap;
 mod clip;
 mod color_bar;
 mod draw;
-mod error;
 mod figure;
 mod font;
-mod gif;
 mod heat;
 mod item;
 mod layout;
@@ -26,7 +23,8 @@ mod marks;
 mod notes;
 mod palette;
 mod panel;
-mod save;
+#[cfg(feature = "figures")]
+mod raster;
 mod series;
 mod shape;
 mod svg;
@@ -35,12 +33,38 @@ mod thin;
 mod ticks;
 
 pub use animation::Animation;
-pub use error::PlotError;
 pub use figure::Figure;
 pub use heat::HeatMap;
-pub use item::{Align, Item, Place, Spot, Tint};
+pub use item::{Item, Place, Spot, Tint};
 pub use panel::{Annotation, AxisSpec, Panel, ReferenceLine, Scale};
 pub use series::{ColorSeries, Series, Style};
+pub use shape::Align;
 
-#[cfg(test)]
+#[cfg(all(test, feature = "figures"))]
 mod tests;
+
+/// What stands for pictures as pixels where the libraries that draw them are left out.
+#[cfg(not(feature = "figures"))]
+mod raster {
+    use super::shape::{Drawing, Shape};
+
+    type Picture = Result<Vec<u8>, String>;
+
+    fn none(what: &str) -> Picture {
+        Err(format!("holonom is built without {what}: the feature `figures`"))
+    }
+
+    pub(super) fn png(_: &Drawing) -> Picture {
+        none("PNG")
+    }
+
+    pub(super) fn gif(
+        _: &Drawing,
+        _: usize,
+        _: f64,
+        _: &impl Fn(usize) -> Vec<Shape>,
+        _: impl FnMut(usize),
+    ) -> Picture {
+        none("GIF")
+    }
+}

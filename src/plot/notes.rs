@@ -4,7 +4,7 @@ use super::axes;
 use super::layout::Placed;
 use super::legend::Taken;
 use super::palette::{NOTE_INK, NOTE_SIZE, PAPER, REFERENCE, tint};
-use super::shape::{Anchor, Color, Drawing, Pt, Rect, Shape, Text};
+use super::shape::{Align, Color, Drawing, Pt, Rect, Shape, Text};
 use super::text::{self, HALF_DIGIT};
 
 /// Draws the reference lines and returns them.
@@ -60,30 +60,30 @@ fn beside_line(frame: &Rect, (x, y): Pt, label: &str, horizontal: bool) -> Vec<T
     let place = |k: usize| {
         if horizontal {
             let x = frame.left + 8.0 + part(k) * (frame.width() - width - 16.0);
-            return [(x, y - 0.35 * NOTE_SIZE, Anchor::Start), (x, y + 0.95 * NOTE_SIZE, Anchor::Start)];
+            return [(x, y - 0.35 * NOTE_SIZE, Align::Start), (x, y + 0.95 * NOTE_SIZE, Align::Start)];
         }
         let y = frame.bottom - 0.5 * NOTE_SIZE - part(k) * (frame.height() - 1.6 * NOTE_SIZE);
-        [(x + 6.0, y, Anchor::Start), (x - 6.0, y, Anchor::End)]
+        [(x + 6.0, y, Align::Start), (x - 6.0, y, Align::End)]
     };
-    (0..9).flat_map(place).map(|(x, y, anchor)| axes::text((x, y), label, NOTE_SIZE, anchor)).collect()
+    (0..9).flat_map(place).map(|(x, y, align)| axes::text((x, y), label, NOTE_SIZE, align)).collect()
 }
 
 /// Places around a point, near ones first.
 fn around((x, y): Pt, label: &str) -> Vec<Text> {
-    const SIDES: [(f64, f64, Anchor); 8] = [
-        (1.0, 0.0, Anchor::Start),
-        (-1.0, 0.0, Anchor::End),
-        (0.0, -1.0, Anchor::Middle),
-        (0.0, 1.0, Anchor::Middle),
-        (0.8, -0.8, Anchor::Start),
-        (-0.8, -0.8, Anchor::End),
-        (0.8, 0.8, Anchor::Start),
-        (-0.8, 0.8, Anchor::End),
+    const SIDES: [(f64, f64, Align); 8] = [
+        (1.0, 0.0, Align::Start),
+        (-1.0, 0.0, Align::End),
+        (0.0, -1.0, Align::Middle),
+        (0.0, 1.0, Align::Middle),
+        (0.8, -0.8, Align::Start),
+        (-0.8, -0.8, Align::End),
+        (0.8, 0.8, Align::Start),
+        (-0.8, 0.8, Align::End),
     ];
-    let place = |distance: f64, (right, down, anchor): (f64, f64, Anchor)| {
+    let place = |distance: f64, (right, down, align): (f64, f64, Align)| {
         // Down, the text hangs below the point by its height; up, it stands on its baseline.
         let y = y + distance * down + HALF_DIGIT * NOTE_SIZE * (1.0 + down);
-        axes::text((x + distance * right, y), label, NOTE_SIZE, anchor)
+        axes::text((x + distance * right, y), label, NOTE_SIZE, align)
     };
     [9.0, 18.0].into_iter().flat_map(|distance| SIDES.map(|side| place(distance, side))).collect()
 }

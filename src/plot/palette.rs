@@ -1,7 +1,5 @@
 //! Colours, dashes and markers, and the sizes that everything is drawn with.
 
-use plotters::style::colors::colormaps::ViridisRGB;
-
 use super::item::Tint;
 use super::series::{Series, Style};
 use super::shape::{Color, Marker, Stroke};
@@ -79,19 +77,34 @@ pub(super) fn tint(tint: Tint) -> Color {
         Tint::Body(place, paleness) => (COLORS[place % COLORS.len()], paleness),
         Tint::Paper => (PAPER, 0.0),
     };
-    let share = paleness.clamp(0.0, 1.0);
-    let mix = |ink: u8, paper: u8| (f64::from(ink) * (1.0 - share) + f64::from(paper) * share).round() as u8;
-    Color(mix(full.0, PAPER.0), mix(full.1, PAPER.1), mix(full.2, PAPER.2))
+    mix(full, PAPER, paleness.clamp(0.0, 1.0))
+}
+
+/// The colour at `share` of the way from one to another.
+fn mix(from: Color, to: Color, share: f64) -> Color {
+    let part = |from: u8, to: u8| (f64::from(from) * (1.0 - share) + f64::from(to) * share).round() as u8;
+    Color(part(from.0, to.0), part(from.1, to.1), part(from.2, to.2))
 }
 
 /// Number of colours that a colour scale is drawn with: enough to look continuous, few enough to group by.
 pub(super) const COLOR_STEPS: usize = 128;
 
+/// Evenly spaced colours of Viridis (van der Walt and Smith).
+const VIRIDIS: [Color; 8] = [
+    Color(68, 1, 84),
+    Color(70, 50, 127),
+    Color(54, 92, 141),
+    Color(39, 127, 143),
+    Color(31, 162, 136),
+    Color(74, 194, 110),
+    Color(160, 219, 57),
+    Color(254, 232, 37),
+];
+
 /// Viridis at `step` of [`COLOR_STEPS`]. Its last yellow is cut off, being hard to see on white.
 pub(super) fn scale_color(step: usize) -> Color {
-    let at = 0.96 * step.min(COLOR_STEPS - 1) as f64 / (COLOR_STEPS - 1) as f64;
-    let color = ViridisRGB::get_color_normalized(at, 0.0, 1.0);
-    Color(color.0, color.1, color.2)
+    let at = 0.96 * 7.0 * step.min(COLOR_STEPS - 1) as f64 / (COLOR_STEPS - 1) as f64;
+    mix(VIRIDIS[at as usize], VIRIDIS[at as usize + 1], at.fract())
 }
 
 /// The step of a position between 0 and 1 on a colour scale.

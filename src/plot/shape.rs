@@ -69,12 +69,6 @@ pub(super) struct Stroke {
     pub dash: &'static [f64],
 }
 
-impl Stroke {
-    pub fn solid(color: Color, width: f64) -> Self {
-        Self { color, width, dash: &[] }
-    }
-}
-
 /// Shape of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Marker {
@@ -89,9 +83,12 @@ pub(super) enum Marker {
 
 /// Which point of a text its position is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Anchor {
+pub enum Align {
+    /// Where it starts.
     Start,
+    /// Its middle.
     Middle,
+    /// Where it ends.
     End,
 }
 
@@ -102,20 +99,25 @@ pub(super) struct Text {
     pub rich: Rich,
     pub size: f64,
     pub color: Color,
-    pub anchor: Anchor,
+    pub align: Align,
     /// Turned a quarter, read upwards.
     pub turned: bool,
 }
 
 impl Text {
+    /// Where the text begins along its baseline, seen from its position.
+    pub fn start(&self) -> f64 {
+        let part = match self.align {
+            Align::Start => 0.0,
+            Align::Middle => -0.5,
+            Align::End => -1.0,
+        };
+        part * self.rich.width(self.size)
+    }
+
     /// The box around the text, as measured with the embedded font.
     pub fn bounds(&self) -> Rect {
-        let width = self.rich.width(self.size);
-        let start = match self.anchor {
-            Anchor::Start => 0.0,
-            Anchor::Middle => -0.5 * width,
-            Anchor::End => -width,
-        };
+        let (start, width) = (self.start(), self.rich.width(self.size));
         let (above, below) = (0.78 * self.size, 0.22 * self.size);
         let (x, y) = self.at;
         if self.turned {

@@ -7,7 +7,7 @@
 use std::fmt::Write;
 
 use super::font;
-use super::shape::{Anchor, Color, Drawing, Marker, Pt, Rect, Shape, Stroke, Text};
+use super::shape::{Align, Color, Drawing, Marker, Pt, Rect, Shape, Stroke, Text};
 
 const FONTS: &str = "DejaVu Sans, Bitstream Vera Sans, Verdana, Geneva, sans-serif";
 
@@ -124,10 +124,10 @@ fn marks(out: &mut String, at: &[Pt], marker: Marker, radius: f64, color: Color)
 }
 
 fn text(out: &mut String, text: &Text) {
-    let anchor = match text.anchor {
-        Anchor::Start => "start",
-        Anchor::Middle => "middle",
-        Anchor::End => "end",
+    let anchor = match text.align {
+        Align::Start => "start",
+        Align::Middle => "middle",
+        Align::End => "end",
     };
     let (x, y) = (number(text.at.0), number(text.at.1));
     let place = if text.turned {

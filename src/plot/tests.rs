@@ -181,7 +181,7 @@ fn odd_data_never_panic() {
         let svg = figure.to_svg();
         assert!(svg.len() < 300_000 && !svg.contains("NaN") && !svg.contains("inf"), "round {round}");
         if round % 40 == 0 {
-            assert!(bitmap::render(&figure.drawing()).is_ok());
+            assert!(raster::png(&figure.drawing()).is_ok());
         }
     }
 }
@@ -245,7 +245,7 @@ fn files_are_what_their_names_say_and_always_the_same() {
     let mut reader = png::Decoder::new(std::io::Cursor::new(&bytes)).read_info().expect("a PNG");
     let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
     let info = reader.next_frame(&mut pixels).expect("pixels");
-    assert_eq!((info.width, bytes), (1280, bitmap::render(&figure.drawing()).expect("the same")));
+    assert_eq!((info.width, bytes), (1280, raster::png(&figure.drawing()).expect("the same")));
     assert!(pixels.iter().any(|value| *value < 60) && pixels.contains(&255));
     assert_eq!(folder.names().len(), 2, "no temporary file is left");
 }
@@ -255,9 +255,9 @@ fn bad_paths_are_clear_errors() {
     let folder = Folder::new("errors");
     let figure = Figure::new().panel(panel("x", "y"));
     let message = |path: PathBuf| figure.save(path).expect_err("an error").to_string();
-    assert!(message(folder.0.join("f.pdf")).ends_with("f.pdf: its name must end in .svg or .png"));
+    assert!(message(folder.0.join("f.pdf")).ends_with("f.pdf: the name of a figure must end in .svg or .png"));
     fs::create_dir(folder.0.join("d.svg")).expect("a folder");
-    assert!(message(folder.0.join("d.svg")).ends_with("d.svg: this is a folder, not a file"));
+    assert!(message(folder.0.join("d.svg")).contains("d.svg: is a directory"));
     assert!(message(folder.0.join("none/f.svg")).contains("none/f.svg: "));
     assert_eq!(folder.names(), ["d.svg"]);
 }

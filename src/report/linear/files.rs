@@ -97,7 +97,8 @@ impl Linear<'_> {
     pub fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
         folder.write_json(&format!("{stem}.json"), &self.file())?;
         let arrays = self.arrays();
-        folder.write(&format!("{stem}.npz"), &npz::write(&arrays)?)?;
+        #[cfg(feature = "npz")]
+        folder.write(&format!("{stem}.npz"), &crate::files::npz::write(&arrays)?)?;
         folder.write(&format!("{stem}.mat"), &mat::write(&arrays)?)
     }
 

@@ -2,6 +2,7 @@
 
 mod array;
 mod inertia;
+#[cfg(feature = "npz")]
 mod npz;
 mod spec;
 
@@ -45,11 +46,19 @@ impl ModalBody {
 
 fn read<const D: usize>(path: &Path, build: &Build<D>) -> Result<ModalData<Array>> {
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("npz")) {
-        return npz::read(path);
+        return read_npz(path);
     }
     let text = crate::files::read_text(path).map_err(|problem| Error::input(problem.to_string()))?;
     let json = serde_json::from_str(&text).map_err(|problem| Error::input(format!("not JSON: {problem}")))?;
     resolve(&parse::<ModalData<Table>>(json)?, build)
+}
+
+#[cfg(feature = "npz")]
+use npz::read as read_npz;
+
+#[cfg(not(feature = "npz"))]
+fn read_npz(_: &Path) -> Result<ModalData<Array>> {
+    Err(Error::input("this program is built without NumPy's files").hint("give JSON, or build with the feature `npz`"))
 }
 
 /// The scene's key is at fault, and within its file a key of its own.

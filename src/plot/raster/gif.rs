@@ -1,6 +1,7 @@
 //! Pictures as a GIF file: one palette for all, and of each frame only what differs from the one before.
 
-use super::shape::Rect;
+use super::Sheet;
+use crate::plot::shape::{Drawing, Rect, Shape};
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -17,17 +18,26 @@ const NEAR: i32 = 14;
 /// Frames that are drawn at once.
 const BATCH: usize = 8;
 
-/// The whole file of `count` frames; `draw` gives the pixels of one (red, green, blue), `done` hears how many are drawn.
-pub(super) fn encode(
-    (width, height): (usize, usize),
+/// Output pixels per nominal one, and subpixels in each direction.
+const DENSITY: usize = 1;
+const FINENESS: usize = 3;
+
+/// The whole file of `count` frames; `moving` gives what a frame has upon what is `still`, `done` hears how many are
+/// drawn.
+pub(in crate::plot) fn gif(
+    still: &Drawing,
     count: usize,
     per_second: f64,
-    draw: &(impl Fn(usize) -> Result<Vec<u8>, String> + Sync),
+    moving: &(impl Fn(usize) -> Vec<Shape> + Sync),
     mut done: impl FnMut(usize),
 ) -> Result<Vec<u8>, String> {
+    let sheet = Sheet::new(still, DENSITY, FINENESS);
+    let (width, height) = sheet.size;
+    let paper = sheet.draw(sheet.blank(), &still.shapes)?;
+    let draw = |k: usize| sheet.draw(paper.clone(), &moving(k)).map(|pixels| sheet.average(&pixels));
     let side = |pixels: usize| u16::try_from(pixels).map_err(|_| format!("{pixels} pixels are too many for a GIF"));
     let samples: Vec<usize> = (0..SAMPLES.min(count)).map(|k| k * (count - 1) / (SAMPLES - 1).max(1)).collect();
-    let palette = Palette::new(&samples.into_par_iter().map(draw).collect::<Result<Vec<_>, _>>()?);
+    let palette = Palette::new(&samples.into_par_iter().map(&draw).collect::<Result<Vec<_>, _>>()?);
     let mut file = Vec::new();
     let mut encoder = Encoder::new(&mut file, side(width)?, side(height)?, &palette.bytes()).map_err(text)?;
     encoder.set_repeat(Repeat::Infinite).map_err(text)?;
