@@ -37,75 +37,28 @@ fn group_extremes(group: &[Pt]) -> impl Iterator<Item = Pt> {
     (0..4).filter(move |k| !repeated(*k)).map(move |k| group[places[k]])
 }
 
-/// Drops points that lie within `tolerance` of the line from the last point kept to a later one, as long as
-/// the line only moves away from that point: what turns back is kept.
+/// Drops points that lie within `tolerance` of the line between two kept ones (Ramer; Douglas and Peucker).
 fn straighten(points: &[Pt], tolerance: f64) -> Vec<Pt> {
-    let Some((first, rest)) = points.split_first() else {
-        return Vec::new();
-    };
-    let mut kept = vec![*first];
-    let mut cone = Cone::new(*first);
-    let mut last = *first;
-    for point in rest {
-        if !cone.admits(*point) {
-            kept.push(last);
-            cone = Cone::new(last);
+    let mut is_kept = vec![false; points.len()];
+    let mut open = vec![(0, points.len().saturating_sub(1))];
+    while let Some((first, last)) = open.pop() {
+        is_kept[first..=last].iter_mut().step_by((last - first).max(1)).for_each(|end| *end = true);
+        let far = |i: usize| (distance(points[i], points[first], points[last]), i);
+        match (first + 1..last).map(far).max_by(|a, b| a.0.total_cmp(&b.0)) {
+            Some((distance, i)) if distance > tolerance => open.extend([(first, i), (i, last)]),
+            _ => {}
         }
-        cone.narrow(*point, tolerance);
-        last = *point;
     }
-    if rest.is_empty() {
-        return kept;
-    }
-    kept.push(last);
-    kept
+    points.iter().zip(is_kept).filter(|(_, is_kept)| *is_kept).map(|(point, _)| *point).collect()
 }
 
-/// The directions from a point in which a line passes all points seen since within the tolerance.
-struct Cone {
-    apex: Pt,
-    /// The two border directions, once there is a point outside the tolerance.
-    borders: Option<(Pt, Pt)>,
-    reach: f64,
-}
-
-impl Cone {
-    fn new(apex: Pt) -> Self {
-        Self { apex, borders: None, reach: 0.0 }
-    }
-
-    fn seen(&self, point: Pt) -> (Pt, f64) {
-        let direction = (point.0 - self.apex.0, point.1 - self.apex.1);
-        (direction, direction.0.hypot(direction.1))
-    }
-
-    fn admits(&self, point: Pt) -> bool {
-        let (direction, distance) = self.seen(point);
-        let between = |(left, right): &(Pt, Pt)| cross(*right, direction) >= 0.0 && cross(direction, *left) >= 0.0;
-        distance >= self.reach && self.borders.as_ref().is_none_or(between)
-    }
-
-    fn narrow(&mut self, point: Pt, tolerance: f64) {
-        let (direction, distance) = self.seen(point);
-        self.reach = self.reach.max(distance);
-        if distance <= tolerance {
-            return;
-        }
-        // The half-angle under which the tolerance is seen from the apex.
-        let sine = tolerance / distance;
-        let cosine = (1.0 - sine * sine).max(0.0).sqrt();
-        let turned = |s: f64| (cosine * direction.0 - s * direction.1, s * direction.0 + cosine * direction.1);
-        let (left, right) = (turned(sine), turned(-sine));
-        let tighter = |new: Pt, old: Pt, inner: bool| if inner { new } else { old };
-        self.borders = Some(match self.borders {
-            None => (left, right),
-            Some((l, r)) => (tighter(left, l, cross(left, l) > 0.0), tighter(right, r, cross(r, right) > 0.0)),
-        });
-    }
-}
-
-fn cross(a: Pt, b: Pt) -> f64 {
-    a.0 * b.1 - a.1 * b.0
+/// From a point to the nearest one between two others.
+fn distance(point: Pt, from: Pt, to: Pt) -> f64 {
+    let (along, away) = ((to.0 - from.0, to.1 - from.1), (point.0 - from.0, point.1 - from.1));
+    let part = (along.0 * away.0 + along.1 * away.1) / (along.0 * along.0 + along.1 * along.1);
+    // Of two ends at the same place the part is no number, which `max` makes zero.
+    let part = part.max(0.0).min(1.0);
+    (away.0 - part * along.0).hypot(away.1 - part * along.1)
 }
 
 /// Points without those hidden by another one, with at most `most` left: indices of the kept ones, in order. One
