@@ -5,6 +5,7 @@ use super::layout::Placed;
 use super::palette::{FRAME, GRID_LINE, INK, LABEL_SIZE, NOTE_INK, NOTE_SIZE, TICK_LENGTH, TICK_SIZE};
 use super::shape::{Align, Drawing, Pt, Text};
 use super::text::{self, HALF_DIGIT, LINE_HEIGHT, Rich};
+use super::ticks::Ticks;
 use super::ticks::decimal::power_of_ten;
 
 /// Height of the strip above a frame that holds factors and notes, and how far its text is from the frame.
@@ -45,15 +46,11 @@ pub(super) fn axes(drawing: &mut Drawing, placed: &Placed) {
 fn y_axis(drawing: &mut Drawing, placed: &Placed) {
     let frame = placed.frame;
     let place = |at: f64| crisp(frame.bottom - at * frame.height());
+    marks(drawing, &placed.y_ticks, |at| (frame.left, place(at)), (-TICK_LENGTH, 0.0));
     for tick in &placed.y_ticks.major {
         let y = place(tick.at);
-        drawing.line((frame.left - TICK_LENGTH, y), (frame.left, y), FRAME);
         let at = (frame.left - TICK_LENGTH - 4.0, y + HALF_DIGIT * TICK_SIZE);
         drawing.text(text(at, &tick.label, TICK_SIZE, Align::End));
-    }
-    for at in &placed.y_ticks.minor {
-        let y = place(*at);
-        drawing.line((frame.left - 0.55 * TICK_LENGTH, y), (frame.left, y), FRAME);
     }
     let size = placed.y_label.size;
     let mut x = placed.y_label_at - placed.y_label.height() + size;
@@ -65,17 +62,19 @@ fn y_axis(drawing: &mut Drawing, placed: &Placed) {
 
 fn x_axis(drawing: &mut Drawing, placed: &Placed) {
     let frame = placed.frame;
-    let place = |at: f64| crisp(frame.left + at * frame.width());
-    for tick in &placed.x_ticks.major {
-        let x = place(tick.at);
-        drawing.line((x, frame.bottom), (x, frame.bottom + TICK_LENGTH), FRAME);
-    }
-    for at in &placed.x_ticks.minor {
-        let x = place(*at);
-        drawing.line((x, frame.bottom), (x, frame.bottom + 0.55 * TICK_LENGTH), FRAME);
-    }
+    let place = |at: f64| (crisp(frame.left + at * frame.width()), frame.bottom);
+    marks(drawing, &placed.x_ticks, place, (0.0, TICK_LENGTH));
     if placed.shows_x {
         x_texts(drawing, placed);
+    }
+}
+
+/// Marks that begin at their places, minor ones shorter.
+fn marks(drawing: &mut Drawing, ticks: &Ticks, place: impl Fn(f64) -> Pt, (right, down): Pt) {
+    let minor = ticks.minor.iter().map(|at| (*at, 0.55));
+    for (at, part) in ticks.major.iter().map(|tick| (tick.at, 1.0)).chain(minor) {
+        let (x, y) = place(at);
+        drawing.line((x, y), (x + part * right, y + part * down), FRAME);
     }
 }
 

@@ -67,8 +67,8 @@ fn panel(drawing: &mut Drawing, placed: &mut Placed, top: f64, entries: &[Entry]
         axes::grid(drawing, placed);
     }
     marks::cells(drawing, placed);
-    let references = notes::references(drawing, placed);
-    taken.add(&references);
+    let lines = notes::verticals(drawing, placed);
+    taken.add(&lines);
     let items = item::shapes(placed);
     taken.add(&items);
     let empty = data.is_empty() && items.is_empty() && placed.panel.heat_map.is_none();

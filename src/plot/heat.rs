@@ -4,7 +4,7 @@ use super::axis::{Axis, Extent};
 use super::panel::Scale;
 use super::shape::Rect;
 
-/// Cells coloured by a value, each around one x and one y. More than 160 columns or 120 rows are thinned.
+/// Cells coloured by a value, each around one x and one y.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HeatMap {
     /// Title of the colour bar, with the unit.
@@ -15,17 +15,13 @@ pub struct HeatMap {
     pub y: Vec<f64>,
     /// Rows of cells; a cell without a value is grey.
     pub values: Vec<Vec<Option<f64>>>,
-    /// (column, row, word): short texts upon cells, like "fail". Where they do not fit, the cells get a symbol that
-    /// the legend explains.
+    /// (column, row, word): short texts upon cells, like "fail", as small as it needs.
     pub words: Vec<(usize, usize, String)>,
     /// Scale of the colour.
     pub scale: Scale,
     /// Fixed limits of the colours, so that several maps share them; values beyond have the colour of the limit.
     pub range: Option<(f64, f64)>,
 }
-
-const MOST_COLUMNS: usize = 160;
-const MOST_ROWS: usize = 120;
 
 impl HeatMap {
     /// Cells without values at these places.
@@ -71,8 +67,8 @@ impl HeatMap {
 
     /// The cells to draw: column, row and where between the axes (0 to 1, y up).
     pub(super) fn cells(&self, x: &Axis, y: &Axis) -> Vec<(usize, usize, Rect)> {
-        let columns = bands(&self.x, x, MOST_COLUMNS);
-        let rows = bands(&self.y, y, MOST_ROWS);
+        let columns = bands(&self.x, x);
+        let rows = bands(&self.y, y);
         let cell = |row: (usize, f64, f64), column: (usize, f64, f64)| {
             (column.0, row.0, Rect { left: column.1, right: column.2, top: row.1, bottom: row.2 })
         };
@@ -80,17 +76,15 @@ impl HeatMap {
     }
 }
 
-/// (index, begin, end) along an axis, clipped to it, of at most `most` cells.
-fn bands(middles: &[f64], axis: &Axis, most: usize) -> Vec<(usize, f64, f64)> {
-    let edges = edges(middles, axis.scale);
-    let stride = middles.len().div_ceil(most).max(1);
-    let band = |first: usize| {
-        let last = (first + stride).min(middles.len());
-        let (begin, end) = (axis.place(*edges.get(first)?)?, axis.place(*edges.get(last)?)?);
+/// (index, begin, end) along an axis, clipped to it.
+fn bands(middles: &[f64], axis: &Axis) -> Vec<(usize, f64, f64)> {
+    let places: Vec<Option<f64>> = edges(middles, axis.scale).into_iter().map(|edge| axis.place(edge)).collect();
+    let band = |(index, pair): (usize, &[Option<f64>])| {
+        let (begin, end) = (pair[0]?, pair[1]?);
         let (begin, end) = (begin.min(end).max(0.0), begin.max(end).min(1.0));
-        (end > begin).then_some(((first + last) / 2, begin, end))
+        (end > begin).then_some((index, begin, end))
     };
-    (0..middles.len()).step_by(stride).filter_map(band).collect()
+    places.windows(2).enumerate().filter_map(band).collect()
 }
 
 /// Borders halfway between the middles, by the scale; one more than there are middles.

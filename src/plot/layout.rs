@@ -34,8 +34,7 @@ pub(super) struct Placed<'a> {
     pub frame: Rect,
     /// Whether the x axis is labelled here, not at a panel below.
     pub shows_x: bool,
-    /// Words upon cells that are drawn as symbols, and the size of the others.
-    pub symbols: Vec<String>,
+    /// Of words upon cells.
     pub word_size: f64,
 }
 
@@ -129,7 +128,7 @@ pub(super) fn place(figure: &Figure) -> (f64, Vec<Placed<'_>>) {
         placed.frame.left = begin + left + 0.5;
         placed.y_label_at = begin + left - distance - 0.22 * LABEL_SIZE;
         placed.frame.right = begin + (total - right).round() - 0.5;
-        (placed.word_size, placed.symbols) = marks::words(placed);
+        placed.word_size = marks::word_size(placed);
     }
     (whole, all)
 }
@@ -177,7 +176,6 @@ fn one<'a>(panel: &'a Panel, (x, y): &(Extent, Extent), x_slack: Slack, shows_x:
         looks: panel.series.iter().enumerate().map(|(index, series)| look(series, index, count)).collect(),
         frame: Rect::default(),
         shows_x,
-        symbols: Vec::new(),
         word_size: NOTE_SIZE,
     }
 }
@@ -195,12 +193,8 @@ fn extents(panel: &Panel) -> (Extent, Extent) {
         x.add(at_x);
         y.add(at_y);
     }
-    for line in &panel.reference_lines {
-        let (axis, scale) = if line.horizontal { (&mut y, panel.y.scale) } else { (&mut x, panel.x.scale) };
-        if scale == Scale::Linear || line.at > 0.0 {
-            axis.add(line.at);
-        }
-    }
+    let shown = |at: &f64| panel.x.scale == Scale::Linear || *at > 0.0;
+    panel.verticals.iter().map(|line| line.0).filter(shown).for_each(|at| x.add(at));
     if let Some(map) = &panel.heat_map {
         map.extend(&mut x, &mut y, (panel.x.scale, panel.y.scale));
     }

@@ -1,10 +1,10 @@
-//! What the lines, markers and symbols mean.
+//! What the lines and markers mean.
 
+use super::axes;
 use super::layout::Placed;
-use super::marks;
-use super::palette::{INK, Look, MARKER_RADIUS, PAPER, tint};
-use super::shape::{Align, Color, Drawing, Marker, Rect, Shape, Stroke, Text};
-use super::text::{self, Rich};
+use super::palette::{Look, MARKER_RADIUS, PAPER, tint};
+use super::shape::{Align, Color, Drawing, Marker, Rect, Shape, Stroke};
+use super::text;
 
 /// Width of the samples when some have a line, and when all are markers.
 const LINE_SAMPLE: f64 = 34.0;
@@ -43,15 +43,11 @@ pub(super) fn entries(placed: &Placed) -> Vec<Entry> {
     let series = placed.panel.series.iter().zip(&placed.looks);
     let listed = series.filter(|(series, _)| !series.label.trim().is_empty());
     let lines = listed.map(|(series, look)| Entry { label: series.label.clone(), look: *look });
-    let symbols = placed.symbols.iter().enumerate().map(|(place, word)| Entry {
-        label: word.clone(),
-        look: Look { line: None, marker: Some(marks::symbol(place)), color: INK },
-    });
     let keys = placed.panel.keys.iter().map(|(label, color)| Entry {
         label: label.clone(),
         look: Look { line: None, marker: Some(Marker::Square), color: tint(*color) },
     });
-    lines.chain(symbols).chain(keys).collect()
+    lines.chain(keys).collect()
 }
 
 impl Block {
@@ -100,8 +96,7 @@ impl Block {
             drawing.shapes.push(Shape::Marks { at, marker, radius: MARKER_RADIUS, color: entry.look.color });
         }
         let at = (left + self.sample + SAMPLE_GAP, middle + 0.34 * self.size);
-        let rich = Rich::new(&entry.label);
-        drawing.text(Text { at, rich, size: self.size, color: INK, align: Align::Start, turned: false });
+        drawing.text(axes::text(at, &entry.label, self.size, Align::Start));
     }
 
     /// Draws the block with its upper left corner at a point; boxed when it lies upon a panel.

@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use super::axes;
 use super::clip;
 use super::color_bar::ColorBar;
 use super::layout::Placed;
 use super::palette::{Look, MARKER_RADIUS, NO_VALUE, TICK_SIZE, ink_on, scale_color};
 use super::series::{Series, Style};
 use super::shape::{Align, Color, Drawing, Marker, Pt, Rect, Shape, Text};
-use super::text::{self, Rich};
+use super::text;
 use super::thin;
 
 /// Points that one figure may have, so that its file stays small.
@@ -21,9 +22,6 @@ const MARKER_DISTANCE: f64 = 16.0;
 const DOT_RADIUS: f64 = 2.7;
 /// A line that turns up or down more often than once in so many pixels is restless, if it moves as far between.
 const RESTLESS: f64 = 4.0;
-/// Size below which words upon cells become symbols.
-const LEAST_WORD: f64 = 10.0;
-const SYMBOLS: [Marker; 5] = [Marker::Cross, Marker::Plus, Marker::Diamond, Marker::Triangle, Marker::Square];
 
 /// Share of one series when a figure has `count` of them.
 #[derive(Clone, Copy, Debug)]
@@ -146,66 +144,21 @@ pub(super) fn cells(drawing: &mut Drawing, placed: &Placed) {
         drawing.shapes.push(Shape::Rects { rects, fill: Color(red, green, blue) });
     }
     let places: BTreeMap<(usize, usize), Rect> = cells.iter().map(|cell| ((cell.0, cell.1), cell.2)).collect();
-    let mut symbols: Vec<Shape> = Vec::new();
     for (column, row, word) in &map.words {
-        let Some(rect) = places.get(&(*column, *row)) else { continue };
-        let shape = word_shape(placed, word, rect, ink_on(color(*column, *row)));
-        if !join(&mut symbols, &shape) {
-            symbols.push(shape);
-        }
-    }
-    drawing.shapes.extend(symbols);
-}
-
-/// Adds markers to those of the same kind, if there are any.
-fn join(shapes: &mut [Shape], new: &Shape) -> bool {
-    let Shape::Marks { at: more, marker, radius, color } = new else { return false };
-    let same = |shape: &&mut Shape| matches!(shape, Shape::Marks { marker: m, radius: r, color: c, .. } if (m, r, c) == (marker, radius, color));
-    match shapes.iter_mut().find(same) {
-        Some(Shape::Marks { at, .. }) => {
-            at.extend(more);
-            true
-        }
-        _ => false,
+        let Some((x, y)) = places.get(&(*column, *row)).map(Rect::center) else { continue };
+        let at = (x, y + 0.36 * placed.word_size);
+        let ink = ink_on(color(*column, *row));
+        drawing.text(Text { color: ink, ..axes::text(at, word, placed.word_size, Align::Middle) });
     }
 }
 
-/// A word in the middle of its cell, or its symbol.
-fn word_shape(placed: &Placed, word: &str, rect: &Rect, color: Color) -> Shape {
-    let (x, y) = rect.center();
-    if let Some(place) = placed.symbols.iter().position(|known| known == word) {
-        let radius = (0.32 * rect.width().min(rect.height())).clamp(1.0, 5.0);
-        return Shape::Marks { at: vec![(x, y)], marker: symbol(place), radius, color };
-    }
-    let size = placed.word_size;
-    Shape::Text(Text {
-        at: (x, y + 0.36 * size),
-        rich: Rich::new(word),
-        size,
-        color,
-        align: Align::Middle,
-        turned: false,
-    })
-}
-
-/// The symbol of word number `place`.
-pub(super) fn symbol(place: usize) -> Marker {
-    SYMBOLS[place % SYMBOLS.len()]
-}
-
-/// Size of the words upon cells; when they do not fit, the distinct words that symbols stand for.
-pub(super) fn words(placed: &Placed) -> (f64, Vec<String>) {
-    let Some(map) = &placed.panel.heat_map else {
-        return (TICK_SIZE, Vec::new());
-    };
+/// Size at which all words fit upon their cells.
+pub(super) fn word_size(placed: &Placed) -> f64 {
+    let Some(map) = &placed.panel.heat_map else { return TICK_SIZE };
     let cells = map.cells(&placed.x, &placed.y);
     let rects = cells.iter().map(|cell| placed.rect(&cell.2));
     let (width, height) = rects
         .fold((f64::INFINITY, f64::INFINITY), |least, rect| (least.0.min(rect.width()), least.1.min(rect.height())));
-    let mut distinct: Vec<String> = map.words.iter().map(|(_, _, word)| word.clone()).collect();
-    distinct.sort();
-    distinct.dedup();
-    let widest = distinct.iter().map(|word| text::width(word, 1.0)).fold(0.1, f64::max);
-    let size = TICK_SIZE.min(0.88 * width / widest).min(0.8 * height);
-    if size >= LEAST_WORD { (size, Vec::new()) } else { (size, distinct) }
+    let widest = map.words.iter().map(|(_, _, word)| text::width(word, 1.0)).fold(0.1, f64::max);
+    TICK_SIZE.min(0.88 * width / widest).min(0.8 * height)
 }

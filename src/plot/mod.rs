@@ -36,7 +36,7 @@ pub use animation::Animation;
 pub use figure::Figure;
 pub use heat::HeatMap;
 pub use item::{Item, Place, Spot, Tint};
-pub use panel::{Annotation, AxisSpec, Panel, ReferenceLine, Scale};
+pub use panel::{Annotation, AxisSpec, Panel, Scale};
 pub use series::{ColorSeries, Series, Style};
 pub use shape::Align;
 

@@ -1,38 +1,30 @@
-//! Reference lines, their labels, and annotations.
+//! Upright lines, their labels, and annotations.
 
 use super::axes;
 use super::layout::Placed;
 use super::legend::Taken;
 use super::palette::{NOTE_INK, NOTE_SIZE, PAPER, REFERENCE, tint};
 use super::shape::{Align, Color, Drawing, Pt, Rect, Shape, Text};
-use super::text::{self, HALF_DIGIT};
+use super::text::HALF_DIGIT;
 
-/// Draws the reference lines and returns them.
-pub(super) fn references(drawing: &mut Drawing, placed: &Placed) -> Vec<Shape> {
+/// Draws the upright lines and returns them.
+pub(super) fn verticals(drawing: &mut Drawing, placed: &Placed) -> Vec<Shape> {
     let frame = placed.frame;
-    let line = |horizontal: bool, at: f64| {
-        let points = if horizontal {
-            let y = frame.bottom - placed.y.place(at)? * frame.height();
-            vec![(frame.left, y), (frame.right, y)]
-        } else {
-            let x = frame.left + placed.x.place(at)? * frame.width();
-            vec![(x, frame.top), (x, frame.bottom)]
-        };
-        let visible = points.iter().all(|point| frame.contains(*point));
-        visible.then_some(Shape::Path { points, stroke: REFERENCE })
+    let line = |at: f64| {
+        let x = placed.at(at, placed.y.middle())?.0;
+        let points = vec![(x, frame.top), (x, frame.bottom)];
+        frame.contains(points[0]).then_some(Shape::Path { points, stroke: REFERENCE })
     };
-    let lines = placed.panel.reference_lines.iter().filter_map(|reference| line(reference.horizontal, reference.at));
-    let lines: Vec<Shape> = lines.collect();
+    let lines: Vec<Shape> = placed.panel.verticals.iter().filter_map(|(at, _)| line(*at)).collect();
     drawing.shapes.extend(lines.iter().cloned());
     lines
 }
 
-/// Labels of reference lines and annotations, each where it hides least.
+/// Labels of upright lines and annotations, each where it hides least.
 pub(super) fn texts(drawing: &mut Drawing, placed: &Placed, taken: &mut Taken) {
-    for line in placed.panel.reference_lines.iter().filter(|line| !line.label.trim().is_empty()) {
-        let middle = if line.horizontal { (placed.x.middle(), line.at) } else { (line.at, placed.y.middle()) };
-        if let Some(at) = placed.at(middle.0, middle.1).filter(|at| placed.frame.contains(*at)) {
-            let choices = beside_line(&placed.frame, at, &line.label, line.horizontal);
+    for (x, label) in placed.panel.verticals.iter().filter(|line| !line.1.trim().is_empty()) {
+        if let Some(at) = placed.at(*x, placed.y.middle()).filter(|at| placed.frame.contains(*at)) {
+            let choices = beside_line(&placed.frame, at.0, label);
             settle(drawing, placed, choices, taken, NOTE_INK);
         }
     }
@@ -53,19 +45,13 @@ fn settle(drawing: &mut Drawing, placed: &Placed, choices: Vec<Text>, taken: &mu
     drawing.text(Text { color, ..text.clone() });
 }
 
-/// Places along a line, ends first, on both sides of it.
-fn beside_line(frame: &Rect, (x, y): Pt, label: &str, horizontal: bool) -> Vec<Text> {
-    let part = |k: usize| [1.0, 0.0, 0.5, 0.85, 0.15, 0.7, 0.3, 0.6, 0.4][k];
-    let width = text::width(label, NOTE_SIZE);
-    let place = |k: usize| {
-        if horizontal {
-            let x = frame.left + 8.0 + part(k) * (frame.width() - width - 16.0);
-            return [(x, y - 0.35 * NOTE_SIZE, Align::Start), (x, y + 0.95 * NOTE_SIZE, Align::Start)];
-        }
-        let y = frame.bottom - 0.5 * NOTE_SIZE - part(k) * (frame.height() - 1.6 * NOTE_SIZE);
-        [(x + 6.0, y, Align::Start), (x - 6.0, y, Align::End)]
+/// Places along an upright line, ends first, on both sides of it.
+fn beside_line(frame: &Rect, x: f64, label: &str) -> Vec<Text> {
+    let place = |part: f64| {
+        let y = frame.bottom - 0.5 * NOTE_SIZE - part * (frame.height() - 1.6 * NOTE_SIZE);
+        [(x + 6.0, Align::Start), (x - 6.0, Align::End)].map(|(x, align)| axes::text((x, y), label, NOTE_SIZE, align))
     };
-    (0..9).flat_map(place).map(|(x, y, align)| axes::text((x, y), label, NOTE_SIZE, align)).collect()
+    [1.0, 0.0, 0.5, 0.85, 0.15, 0.7, 0.3, 0.6, 0.4].into_iter().flat_map(place).collect()
 }
 
 /// Places around a point, near ones first.

@@ -67,17 +67,6 @@ impl AxisSpec {
     }
 }
 
-/// A dashed line across the panel at one value.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ReferenceLine {
-    /// True: at one y; false: at one x.
-    pub horizontal: bool,
-    /// Where.
-    pub at: f64,
-    /// Small text beside it; may be empty.
-    pub label: String,
-}
-
 /// A text beside a point given in data coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Annotation {
@@ -106,8 +95,8 @@ pub struct Panel {
     pub color_series: Vec<ColorSeries>,
     /// A map of cells below everything else; it shares the colour bar.
     pub heat_map: Option<HeatMap>,
-    /// Lines across the panel.
-    pub reference_lines: Vec<ReferenceLine>,
+    /// Dashed upright lines: where, and what they are called; the name may be empty.
+    pub verticals: Vec<(f64, String)>,
     /// Texts at points.
     pub annotations: Vec<Annotation>,
     /// Things drawn upon the series, in this order.
@@ -152,15 +141,9 @@ impl Panel {
         self
     }
 
-    /// Adds a horizontal line at `y`.
-    pub fn horizontal(mut self, y: f64, label: impl Into<String>) -> Self {
-        self.reference_lines.push(ReferenceLine { horizontal: true, at: y, label: label.into() });
-        self
-    }
-
-    /// Adds a vertical line at `x`.
+    /// Adds a dashed upright line at `x`.
     pub fn vertical(mut self, x: f64, label: impl Into<String>) -> Self {
-        self.reference_lines.push(ReferenceLine { horizontal: false, at: x, label: label.into() });
+        self.verticals.push((x, label.into()));
         self
     }
 

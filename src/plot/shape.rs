@@ -78,7 +78,6 @@ pub(super) enum Marker {
     Diamond,
     TriangleDown,
     Cross,
-    Plus,
 }
 
 /// Which point of a text its position is.
@@ -183,9 +182,9 @@ impl Drawing {
 }
 
 impl Marker {
-    /// Line width of markers made of strokes; the others are filled.
+    /// Line width of the marker made of strokes; the others are filled.
     pub fn stroke_width(self, radius: f64) -> Option<f64> {
-        matches!(self, Self::Cross | Self::Plus).then_some(0.42 * radius)
+        (self == Self::Cross).then_some(0.42 * radius)
     }
 
     /// Its lines or filled outlines around a point. Areas are about equal; the circle is drawn as such.
@@ -198,7 +197,6 @@ impl Marker {
             Self::TriangleDown => vec![at(&[(0.0, 1.3), (1.2, -0.85), (-1.2, -0.85), (0.0, 1.3)])],
             Self::Diamond => vec![at(&[(0.0, -1.35), (1.15, 0.0), (0.0, 1.35), (-1.15, 0.0), (0.0, -1.35)])],
             Self::Cross => vec![at(&[(-0.9, -0.9), (0.9, 0.9)]), at(&[(-0.9, 0.9), (0.9, -0.9)])],
-            Self::Plus => vec![at(&[(-1.1, 0.0), (1.1, 0.0)]), at(&[(0.0, -1.1), (0.0, 1.1)])],
         }
     }
 }

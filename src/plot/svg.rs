@@ -4,10 +4,8 @@
 //! dashes nor raised text. Text stays text, so it can be searched and edited; fonts of nearly the same widths
 //! are named for viewers without DejaVu Sans.
 
-use std::fmt::Write;
-
 use super::font;
-use super::shape::{Align, Color, Drawing, Marker, Pt, Rect, Shape, Stroke, Text};
+use super::shape::{Align, Color, Drawing, Marker, Pt, Shape, Text};
 
 const FONTS: &str = "DejaVu Sans, Bitstream Vera Sans, Verdana, Geneva, sans-serif";
 
@@ -27,23 +25,49 @@ fn opening(drawing: &Drawing) -> String {
          viewBox=\"0 0 {width} {height}\" role=\"img\" font-family=\"{FONTS}\">\n"
     );
     if !drawing.title.is_empty() {
-        push(&mut out, format_args!("<title>{}</title>\n", escape(&drawing.title)));
+        out += &format!("<title>{}</title>\n", escape(&drawing.title));
     }
-    push(&mut out, format_args!("<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n"));
-    out
+    out + &format!("<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n")
 }
 
 fn shape(out: &mut String, shape: &Shape) {
     match shape {
-        Shape::Path { points, stroke } => path(out, points, stroke),
-        Shape::Area { points, fill, opacity } => {
-            let (color, opacity, data) = (hex(*fill), number(*opacity), outline(points));
-            push(out, format_args!("<path fill=\"{color}\" fill-opacity=\"{opacity}\" d=\"{data}\"/>\n"));
+        Shape::Path { points, stroke } => {
+            let dash: Vec<String> = stroke.dash.iter().map(|length| number(*length)).collect();
+            let dash =
+                if dash.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{}\"", dash.join(" ")) };
+            let joined = if points.len() > 2 { " stroke-linejoin=\"round\"" } else { "" };
+            path(out, &format!("{}{dash}{joined}", line(stroke.color, stroke.width)), &outline(points));
         }
-        Shape::Rects { rects, fill } => rectangles(out, rects, *fill),
-        Shape::Marks { at, marker, radius, color } => marks(out, at, *marker, *radius, *color),
+        Shape::Area { points, fill, opacity } => {
+            let opacity = number(*opacity);
+            path(out, &format!("fill=\"{}\" fill-opacity=\"{opacity}\"", hex(*fill)), &outline(points));
+        }
+        Shape::Rects { rects, fill } => {
+            let (data, color): (String, _) = (rects.iter().map(|rect| outline(&rect.outline())).collect(), hex(*fill));
+            // A thin border of the same colour: without it, viewers show bright seams between cells.
+            path(out, &format!("fill=\"{color}\" stroke=\"{color}\" stroke-width=\".4\""), &data);
+        }
+        Shape::Marks { at, marker: Marker::Circle, radius, color } => {
+            path(out, &format!("{} stroke-linecap=\"round\"", line(*color, 2.0 * radius)), &dots(at));
+        }
+        Shape::Marks { at, marker, radius, color } => {
+            let lines = at.iter().flat_map(|center| marker.outlines(*center, *radius));
+            let width = marker.stroke_width(*radius);
+            let paint = width.map_or_else(|| format!("fill=\"{}\"", hex(*color)), |width| line(*color, width));
+            path(out, &paint, &lines.map(|line| outline(&line)).collect::<String>());
+        }
         Shape::Text(line) => text(out, line),
     }
+}
+
+fn path(out: &mut String, paint: &str, data: &str) {
+    *out += &format!("<path {paint} d=\"{data}\"/>\n");
+}
+
+/// How a line is painted.
+fn line(color: Color, width: f64) -> String {
+    format!("fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"", hex(color), number(width))
 }
 
 /// A picture of which `frames` are shown one after another, again and again, each for `delay` seconds.
@@ -59,14 +83,11 @@ pub(super) fn animate(still: &Drawing, frames: &[Vec<Shape>], delay: f64) -> Str
             _ if k + 1 == count => ("none", "none;inline".to_string(), format!("0;{from:.6}")),
             _ => ("none", "none;inline;none".to_string(), format!("0;{from:.6};{to:.6}")),
         };
-        push(&mut out, format_args!("<g display=\"{first}\">\n"));
+        out += &format!("<g display=\"{first}\">\n");
         if count > 1 {
-            push(
-                &mut out,
-                format_args!(
-                    "<animate attributeName=\"display\" calcMode=\"discrete\" values=\"{values}\" \
-                     keyTimes=\"{times}\" dur=\"{whole:.4}s\" repeatCount=\"indefinite\"/>\n"
-                ),
+            out += &format!(
+                "<animate attributeName=\"display\" calcMode=\"discrete\" values=\"{values}\" keyTimes=\"{times}\" \
+                 dur=\"{whole:.4}s\" repeatCount=\"indefinite\"/>\n"
             );
         }
         frame.iter().for_each(|one| shape(&mut out, one));
@@ -74,53 +95,6 @@ pub(super) fn animate(still: &Drawing, frames: &[Vec<Shape>], delay: f64) -> Str
     }
     out.push_str("</svg>\n");
     out
-}
-
-/// Writing to a string cannot fail.
-fn push(out: &mut String, arguments: std::fmt::Arguments) {
-    let _ = out.write_fmt(arguments);
-}
-
-fn path(out: &mut String, points: &[Pt], stroke: &Stroke) {
-    let (color, width) = (hex(stroke.color), number(stroke.width));
-    let dash: Vec<String> = stroke.dash.iter().map(|length| number(*length)).collect();
-    let dash = if dash.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{}\"", dash.join(" ")) };
-    let joined = if points.len() > 2 { " stroke-linejoin=\"round\"" } else { "" };
-    let data = outline(points);
-    push(
-        out,
-        format_args!("<path fill=\"none\" stroke=\"{color}\" stroke-width=\"{width}\"{dash}{joined} d=\"{data}\"/>\n"),
-    );
-}
-
-/// Cells get a thin border of their own colour: without it, viewers show bright seams between them.
-fn rectangles(out: &mut String, rects: &[Rect], fill: Color) {
-    let data: String = rects.iter().map(|rect| outline(&rect.outline())).collect();
-    let color = hex(fill);
-    push(out, format_args!("<path fill=\"{color}\" stroke=\"{color}\" stroke-width=\".4\" d=\"{data}\"/>\n"));
-}
-
-fn marks(out: &mut String, at: &[Pt], marker: Marker, radius: f64, color: Color) {
-    let color = hex(color);
-    if marker == Marker::Circle {
-        let width = number(2.0 * radius);
-        let cap = "stroke-linecap=\"round\"";
-        let data = dots(at);
-        push(
-            out,
-            format_args!("<path fill=\"none\" stroke=\"{color}\" stroke-width=\"{width}\" {cap} d=\"{data}\"/>\n"),
-        );
-        return;
-    }
-    let paths = |center: &Pt| -> String { marker.outlines(*center, radius).iter().map(|line| outline(line)).collect() };
-    let data: String = at.iter().map(paths).collect();
-    match marker.stroke_width(radius) {
-        Some(width) => push(
-            out,
-            format_args!("<path fill=\"none\" stroke=\"{color}\" stroke-width=\"{}\" d=\"{data}\"/>\n", number(width)),
-        ),
-        None => push(out, format_args!("<path fill=\"{color}\" d=\"{data}\"/>\n")),
-    }
 }
 
 fn text(out: &mut String, text: &Text) {
@@ -136,7 +110,7 @@ fn text(out: &mut String, text: &Text) {
         format!("x=\"{x}\" y=\"{y}\"")
     };
     let (size, color) = (number(text.size), hex(text.color));
-    push(out, format_args!("<text {place} font-size=\"{size}\" fill=\"{color}\" text-anchor=\"{anchor}\">"));
+    *out += &format!("<text {place} font-size=\"{size}\" fill=\"{color}\" text-anchor=\"{anchor}\">");
     let (mut level, mut gap) = (0.0, 0.0);
     for run in &text.rich.runs {
         let (size, down) = run.level.metrics(text.size);
@@ -145,13 +119,10 @@ fn text(out: &mut String, text: &Text) {
         gap += spaces(run.text.len() - inner.len(), size);
         let word = inner.trim_end_matches(' ');
         if size == text.size && down == level && gap == 0.0 {
-            out.push_str(&escape(word));
+            *out += &escape(word);
         } else {
             let (right, step, size) = (number(gap), number(down - level), number(size));
-            push(
-                out,
-                format_args!("<tspan dx=\"{right}\" dy=\"{step}\" font-size=\"{size}\">{}</tspan>", escape(word)),
-            );
+            *out += &format!("<tspan dx=\"{right}\" dy=\"{step}\" font-size=\"{size}\">{}</tspan>", escape(word));
         }
         (level, gap) = (down, spaces(inner.len() - word.len(), size));
     }
@@ -229,20 +200,14 @@ fn hex(color: Color) -> String {
     format!("#{:02x}{:02x}{:02x}", color.0, color.1, color.2)
 }
 
-/// Text that is safe in XML; characters that XML forbids become the replacement character.
+/// Text that is safe in XML; characters that XML forbids become spaces or the replacement character.
 fn escape(text: &str) -> String {
-    let mut safe = String::with_capacity(text.len());
-    for character in text.chars() {
-        match character {
-            '&' => safe.push_str("&amp;"),
-            '<' => safe.push_str("&lt;"),
-            '>' => safe.push_str("&gt;"),
-            '\u{fffe}' | '\u{ffff}' => safe.push('\u{fffd}'),
-            _ if character.is_control() => safe.push(' '),
-            _ => safe.push(character),
-        }
-    }
-    safe
+    let plain = |character: char| match character {
+        '\u{fffe}' | '\u{ffff}' => '\u{fffd}',
+        _ if character.is_control() => ' ',
+        _ => character,
+    };
+    text.chars().map(plain).collect::<String>().replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 #[cfg(test)]

@@ -81,8 +81,7 @@ fn samples() -> Vec<(&'static str, Figure)> {
         ("shared map", Figure::new().panel(named_map()).panel(named_map())),
         (
             "lines",
-            Figure::new()
-                .panel(panel("x", "y").horizontal(0.5, "limit").vertical(2.0, "impact").annotate(1.0, 0.0, "A")),
+            Figure::new().panel(panel("x", "y").vertical(0.5, "limit").vertical(2.0, "impact").annotate(1.0, 0.0, "A")),
         ),
         (
             "narrow",
@@ -143,7 +142,7 @@ fn odd_panel(seed: &mut u64) -> Panel {
     }
     let colored = (0..4).map(|_| (odd_number(seed), odd_number(seed), odd_number(seed))).collect();
     panel = panel.color_series(ColorSeries::new("c", colored));
-    panel = panel.horizontal(odd_number(seed), "h").vertical(odd_number(seed), "v");
+    panel = panel.vertical(odd_number(seed), "h").vertical(odd_number(seed), "v");
     panel = panel.annotate(odd_number(seed), odd_number(seed), "note");
     panel.equal_aspect = *seed & (1 << 50) == 0;
     panel.height = (*seed & (1 << 51) == 0).then(|| odd_number(seed)).filter(|height| *height < 1e3);

@@ -11,7 +11,7 @@ pub(super) fn line(points: &[Pt], most: usize) -> Vec<Pt> {
     let mut width = 0.5;
     // Each round doubles the column; eight of them reach 64 pixels, beyond which nothing is left to see.
     for _ in 0..8 {
-        kept = straighten(&columns(&kept, width), 0.1 * width);
+        kept = straighten(&columns(&kept, width), 0.15 * width);
         if kept.len() <= most {
             break;
         }
@@ -40,9 +40,9 @@ fn group_extremes(group: &[Pt]) -> impl Iterator<Item = Pt> {
 /// Drops points that lie within `tolerance` of the line between two kept ones (Ramer; Douglas and Peucker).
 fn straighten(points: &[Pt], tolerance: f64) -> Vec<Pt> {
     let mut is_kept = vec![false; points.len()];
-    let mut open = vec![(0, points.len().saturating_sub(1))];
+    let mut open: Vec<(usize, usize)> = points.len().checked_sub(1).map(|last| (0, last)).into_iter().collect();
     while let Some((first, last)) = open.pop() {
-        is_kept[first..=last].iter_mut().step_by((last - first).max(1)).for_each(|end| *end = true);
+        (is_kept[first], is_kept[last]) = (true, true);
         let far = |i: usize| (distance(points[i], points[first], points[last]), i);
         match (first + 1..last).map(far).max_by(|a, b| a.0.total_cmp(&b.0)) {
             Some((distance, i)) if distance > tolerance => open.extend([(first, i), (i, last)]),

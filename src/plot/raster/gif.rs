@@ -1,10 +1,9 @@
 //! Pictures as a GIF file: one palette for all, and of each frame only what differs from the one before.
 
 use super::Sheet;
-use crate::plot::shape::{Drawing, Rect, Shape};
+use crate::plot::shape::{Drawing, Shape};
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use rayon::prelude::*;
-use std::borrow::Cow;
 
 /// Frames that the palette is taken from.
 const SAMPLES: usize = 6;
@@ -67,37 +66,23 @@ fn delay(k: usize, per_second: f64) -> u16 {
     (end(k + 1) - end(k)).clamp(1.0, f64::from(u16::MAX)) as u16
 }
 
-/// The least rectangle that holds all changes, unchanged pixels in it left as they are.
+/// The least rectangle that holds all changes, unchanged pixels in it left as they are. Without a change, one pixel.
 fn difference(before: &[u8], now: &[u8], width: usize) -> Frame<'static> {
-    let height = now.len() / width.max(1);
-    if before.len() != now.len() {
-        return frame(Rect::new(0.0, 0.0, width as f64, height as f64), now.to_vec());
-    }
-    let changed = |i: &usize| before[*i] != now[*i];
-    let (mut left, mut right, mut top, mut bottom) = (width, 0, height, 0);
-    for i in (0..now.len()).filter(changed) {
-        let (x, y) = (i % width, i / width);
-        (left, right, top, bottom) = (left.min(x), right.max(x + 1), top.min(y), bottom.max(y + 1));
-    }
-    if left >= right {
-        // Nothing moved: a frame needs a pixel all the same.
-        (left, right, top, bottom) = (0, 1, 0, 1);
-    }
-    let pixel = |i: usize| if before[i] == now[i] { SAME } else { now[i] };
-    let rows = (top..bottom).flat_map(|y| (left..right).map(move |x| y * width + x));
-    let pixels = rows.map(pixel).collect();
-    frame(Rect { left: left as f64, right: right as f64, top: top as f64, bottom: bottom as f64 }, pixels)
-}
-
-fn frame(rect: Rect, pixels: Vec<u8>) -> Frame<'static> {
+    let is_same = |i: usize| before.get(i) == Some(&now[i]);
+    let changed: Vec<usize> = (0..now.len()).filter(|i| !is_same(*i)).collect();
+    let columns = || changed.iter().map(|i| i % width);
+    let (left, right) = (columns().min().unwrap_or(0), columns().max().unwrap_or(0));
+    let row = |i: Option<&usize>| i.map_or(0, |i| i / width);
+    let (top, bottom) = (row(changed.first()), row(changed.last()));
+    let places = (top..=bottom).flat_map(|y| (left..=right).map(move |x| y * width + x));
     Frame {
-        left: rect.left as u16,
-        top: rect.top as u16,
-        width: rect.width() as u16,
-        height: rect.height() as u16,
+        left: left as u16,
+        top: top as u16,
+        width: (right - left + 1) as u16,
+        height: (bottom - top + 1) as u16,
         dispose: DisposalMethod::Keep,
         transparent: Some(SAME),
-        buffer: Cow::Owned(pixels),
+        buffer: places.map(|i| if is_same(i) { SAME } else { now[i] }).collect(),
         ..Frame::default()
     }
 }

@@ -2,23 +2,7 @@
 
 /// `digits * 10^power` as people write it, with a true minus sign and `places` digits after the point.
 pub(super) fn plain(digits: i64, power: i32, places: usize) -> String {
-    let mut text = digits.unsigned_abs().to_string();
-    if power >= 0 && digits != 0 {
-        text.push_str(&"0".repeat(power as usize));
-    }
-    let mut fraction = if power < 0 { power.unsigned_abs() as usize } else { 0 };
-    while text.len() <= fraction {
-        text.insert(0, '0');
-    }
-    // Trailing zeros beyond the places asked for.
-    while fraction > places && text.ends_with('0') {
-        text.pop();
-        fraction -= 1;
-    }
-    if fraction > 0 {
-        text.insert(text.len() - fraction, '.');
-    }
-    if digits < 0 { format!("−{text}") } else { text }
+    format!("{:.places$}", value(digits, power)).replace('-', "−")
 }
 
 /// Digits after the point that `digits * 10^power` needs.
@@ -39,14 +23,9 @@ pub(in crate::plot) fn power_of_ten(exponent: i32) -> String {
     if exponent < 0 { format!("10⁻{raised}") } else { format!("10{raised}") }
 }
 
-/// 10^power.
-pub(super) fn ten(power: i32) -> f64 {
-    10f64.powi(power)
-}
-
 /// `digits * 10^power`, rounded once for the common powers.
 pub(super) fn value(digits: i64, power: i32) -> f64 {
-    if (-22..0).contains(&power) { digits as f64 / ten(-power) } else { digits as f64 * ten(power) }
+    if (-22..0).contains(&power) { digits as f64 / 10f64.powi(-power) } else { digits as f64 * 10f64.powi(power) }
 }
 
 #[cfg(test)]
