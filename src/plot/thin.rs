@@ -55,9 +55,8 @@ fn straighten(points: &[Pt], tolerance: f64) -> Vec<Pt> {
 /// From a point to the nearest one between two others.
 fn distance(point: Pt, from: Pt, to: Pt) -> f64 {
     let (along, away) = ((to.0 - from.0, to.1 - from.1), (point.0 - from.0, point.1 - from.1));
-    let part = (along.0 * away.0 + along.1 * away.1) / (along.0 * along.0 + along.1 * along.1);
-    // Of two ends at the same place the part is no number, which `max` makes zero.
-    let part = part.max(0.0).min(1.0);
+    let length = along.0 * along.0 + along.1 * along.1;
+    let part = if length > 0.0 { ((along.0 * away.0 + along.1 * away.1) / length).clamp(0.0, 1.0) } else { 0.0 };
     (away.0 - part * along.0).hypot(away.1 - part * along.1)
 }
 
