@@ -11,7 +11,7 @@ mod own_projection;
 mod own_tableau;
 mod scene_in_code;
 
-use holonom::measure::Recorder;
+use holonom::analysis::Recorder;
 use holonom::simulate::{Method, Span, simulate};
 
 /// What a method makes of a swing of the pendulum in `own_equations.rs`: the error of its energy, as part of that turned over.

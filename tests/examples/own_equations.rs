@@ -2,7 +2,7 @@
 
 use holonom::Result;
 use holonom::math::Scalar;
-use holonom::measure::Recorder;
+use holonom::analysis::Recorder;
 use holonom::simulate::{Method, Span, simulate};
 use holonom::system::Equations;
 

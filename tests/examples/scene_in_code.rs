@@ -1,7 +1,7 @@
 //! A scene built in code: a slider crank, simulated.
 
 use holonom::Result;
-use holonom::measure::Recorder;
+use holonom::analysis::Recorder;
 use holonom::scene::{Elements, SceneBuilder, json};
 use holonom::study::Study;
 

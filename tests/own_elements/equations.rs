@@ -15,7 +15,7 @@ use holonom::study::{Overrides, Study};
 use holonom::sweep::{Family, Range};
 use holonom::system::{Equations, MechanicalSystem};
 use holonom::validate::{Settings, validate};
-use holonom::{formulation, measure};
+use holonom::{compare, formulation};
 
 const MASS: f64 = 1.3;
 const CURVATURE: f64 = 2.0;
@@ -174,7 +174,7 @@ fn files_sweeps_and_maps_know_them() {
     let family = Family::load(&path, &overrides).unwrap();
     let sweep = family.sweep(&Range::new("k", (0.0, 10.0), 3).unwrap(), |_| ()).unwrap();
     assert_eq!(sweep.points.len(), 3);
-    let subject = measure::stress::Subject::load(&path, &overrides).unwrap();
+    let subject = compare::stress::Subject::load(&path, &overrides).unwrap();
     let end = |_: &dyn MechanicalSystem, span: Span, _: (&[f64], &[f64])| Ok(span.end);
     assert_eq!(subject.with(&subject.base, end).unwrap(), 1.0);
 }

@@ -2,7 +2,7 @@
 
 use super::Linear;
 use crate::error::Result;
-use crate::files::{Array, mat, npz};
+use crate::files::{Array, mat};
 use crate::linearize::{Complex, Cost, Kind, LinearModel, Matrix, Mode};
 use crate::report::{Folder, cell};
 use crate::tolerances::report as tolerances;
