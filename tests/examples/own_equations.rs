@@ -1,8 +1,8 @@
 //! Own equations: M, f and phi, from which all derivatives follow.
 
 use holonom::Result;
-use holonom::math::Scalar;
 use holonom::analysis::Recorder;
+use holonom::math::Scalar;
 use holonom::simulate::{Method, Span, simulate};
 use holonom::system::Equations;
 
