@@ -6,7 +6,7 @@ use crate::common::{adaptive, fixed};
 use holonom::math::Scalar;
 use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate};
 use holonom::study::{Overrides, Study};
-use holonom::system::{Equations, Loaded, MechanicalSystem, Scratch};
+use holonom::system::{Equations, MechanicalSystem, OperatingPoint, Scratch};
 use std::path::Path;
 
 /// Methods that between them use every vector field, projection, field and kind of explicit integrator.
@@ -163,7 +163,7 @@ fn outputs() {
         let mut out = vec![0.0; system.columns().len()];
         let mut row = || {
             let before = count();
-            let at = Loaded { t: 0.0, q, v, vdot: &study.assembly.vdot, lambda: &study.assembly.lambda };
+            let at = OperatingPoint { t: 0.0, q, v, vdot: &study.assembly.vdot, lambda: &study.assembly.lambda };
             system.outputs(at, &mut out, &mut scratch);
             system.energy(0.0, q, v, &mut scratch);
             count() - before

@@ -4,7 +4,7 @@ use crate::scenes::{Ready, parse, shipped};
 use holonom::error::Error;
 use holonom::initial::{Equilibrium, Stability, Way, equilibrium};
 use holonom::scene::generate;
-use holonom::system::{Loaded, MechanicalSystem, Need, Scratch, Terms};
+use holonom::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Terms};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The equilibrium at the start time from the start.
@@ -34,7 +34,7 @@ fn left(system: &dyn MechanicalSystem, at: &Equilibrium) -> (f64, f64) {
 fn output(scene: &Ready, at: &Equilibrium, name: &str) -> f64 {
     let columns = scene.system().columns();
     let (mut out, still) = (vec![0.0; columns.len()], vec![0.0; scene.system().dimensions().v]);
-    let at = Loaded { t: at.t, q: &at.q, v: &still, vdot: &still, lambda: &at.lambda };
+    let at = OperatingPoint { t: at.t, q: &at.q, v: &still, vdot: &still, lambda: &at.lambda };
     scene.system().outputs(at, &mut out, &mut Scratch::default());
     out[columns.iter().position(|column| column.name == name).unwrap()]
 }

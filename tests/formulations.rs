@@ -3,7 +3,7 @@
 use crate::common::driven_pendulum::{DrivenPendulum, start};
 use crate::common::{distance, fixed, run, until};
 use crate::scenes::shipped;
-use holonom::formulation::{Choice, Dynamics, Halt, make};
+use holonom::formulation::{Choice, Dynamics, StepError, make};
 use holonom::initial::assemble;
 use holonom::math::Scalar;
 use holonom::simulate::Span;
@@ -231,7 +231,7 @@ fn a_singular_mass_matrix_is_named_where_its_inverse_is_needed() {
     let mut formulation = make(&Choice::named("udwadia_kalaba"), &Massless).unwrap();
     let (mut qdot, mut vdot) = ([0.0; 2], [0.0; 2]);
     let halt = formulation.derivative(0.0, &zeros, &zeros, &mut dynamics, &mut qdot, &mut vdot).unwrap_err();
-    assert!(matches!(halt, Halt::Massless(_)) && halt.to_string().contains("no mass"), "{halt}");
+    assert!(matches!(halt, StepError::Massless(_)) && halt.to_string().contains("no mass"), "{halt}");
     // The others need mass along the motions that G allows only.
     for formulation in ["null_space", "augmented_lagrangian"] {
         let (vdot, _) = solve(&Massless, formulation, 0.0, &zeros, &zeros);

@@ -2,8 +2,8 @@
 
 use holonom::choice::Choice;
 use holonom::linearize::{
-    Along, At, Branch, Complex, Kind, LinearModel, Loci, Matrix, Mode, Request, Sample, State, Variants, at_rest,
-    frequency_response, linearize, loci_along, loci_over, track,
+    At, Branch, Complex, Kind, LinearModel, Loci, LociVariable, Matrix, Mode, Request, LociPoint, State, Variants,
+    at_rest, frequency_response, linearize, loci_along, loci_over, track,
 };
 use holonom::study::{Overrides, Study};
 use holonom::sweep::{Family, Range};
@@ -20,7 +20,7 @@ fn mode(value: Complex<f64>, shape: &[f64]) -> Mode {
 }
 
 /// Modes with their conjugates, in the order that a linear model has them.
-fn sample(at: f64, upper: &[(Complex<f64>, [f64; 2])]) -> Sample {
+fn sample(at: f64, upper: &[(Complex<f64>, [f64; 2])]) -> LociPoint {
     let both = |(value, shape): &(Complex<f64>, [f64; 2])| {
         let lower = (value.im != 0.0).then(|| mode(value.conj(), shape));
         lower.into_iter().chain([mode(*value, shape)]).collect::<Vec<Mode>>()
@@ -28,7 +28,7 @@ fn sample(at: f64, upper: &[(Complex<f64>, [f64; 2])]) -> Sample {
     let mut modes: Vec<Vec<Mode>> = upper.iter().map(both).collect();
     modes.sort_by(|a, b| a[0].value.norm().total_cmp(&b[0].value.norm()));
     let mass = Matrix::from_diagonal(&nalgebra::DVector::from_vec(vec![1.0, 4.0]));
-    Sample { at, modes: modes.concat(), mass }
+    LociPoint { at, modes: modes.concat(), mass }
 }
 
 fn grid(n: usize) -> impl Iterator<Item = f64> {
@@ -46,7 +46,7 @@ fn are_conjugate(a: &Branch, b: &Branch) -> bool {
 #[test]
 fn modes_that_cross_keep_their_shapes() {
     // At one of the samples they are equal.
-    let samples: Vec<Sample> =
+    let samples: Vec<LociPoint> =
         grid(10).map(|t| sample(t, &[(c(-0.1, 1.0 + t), [1.0, 0.1]), (c(-0.1, 2.0 - t), [-0.4, 1.0])])).collect();
     let branches = track(&samples);
     assert_eq!(branches.len(), 4);
@@ -58,7 +58,7 @@ fn modes_that_cross_keep_their_shapes() {
 #[test]
 fn modes_of_one_shape_that_cross_go_straight_on() {
     let shape = [1.0, 1.0];
-    let samples: Vec<Sample> =
+    let samples: Vec<LociPoint> =
         grid(9).map(|t| sample(t, &[(c(0.0, 1.0 + t), shape), (c(0.0, 2.0 - t), shape)])).collect();
     assert_eq!([0, 2].map(|i| last(&track(&samples)[i]).im), [2.0, 1.0]);
 }
@@ -74,19 +74,19 @@ fn modes_that_veer_do_not_cross() {
             (c(0.0, square.sqrt()), [e, square - a])
         })
     };
-    let mut samples: Vec<Sample> = grid(100).map(|t| sample(t, &veering(t))).collect();
+    let mut samples: Vec<LociPoint> = grid(100).map(|t| sample(t, &veering(t))).collect();
     samples.iter_mut().for_each(|sample| sample.mass = Matrix::identity(2, 2));
     let branches = track(&samples);
     assert!(branches[0].points.iter().zip(&branches[2].points).all(|(low, high)| low.1.im < high.1.im));
     // Three states in all say another thing: each shape is found again on the other side.
-    let coarse: Vec<Sample> = samples.iter().step_by(50).cloned().collect();
+    let coarse: Vec<LociPoint> = samples.iter().step_by(50).cloned().collect();
     assert!(!coarse[0].leads_clearly_to(&coarse[1]) && samples[0].leads_clearly_to(&samples[1]));
 }
 
 #[test]
 fn a_pair_becomes_two_real_ones_and_a_pair_again() {
     // s^2 + 2 s + k with k from 2 to 1/4 and back, beside another mode.
-    let samples: Vec<Sample> = grid(40)
+    let samples: Vec<LociPoint> = grid(40)
         .map(|t| {
             let k = 0.25 + 1.75 * (1.0 - 2.0 * t).powi(2);
             let other = (c(-0.1, 1.5), [-0.4, 1.0]);
@@ -124,7 +124,7 @@ fn branches_start_end_and_go_on_behind_gaps() {
     let [a, b] = [[1.0, 0.0], [0.0, 1.0]];
     let one = |t: f64| sample(t, &[(c(0.0, 1.0), a)]);
     let two = |t: f64| sample(t, &[(c(0.0, 1.0), a), (c(0.0, 0.9), b)]);
-    let mut samples = vec![one(0.0), two(1.0), Sample::gap(2.0), two(3.0), one(4.0)];
+    let mut samples = vec![one(0.0), two(1.0), LociPoint::gap(2.0), two(3.0), one(4.0)];
     samples[3].modes[0].kind = Kind::Spurious;
     samples[3].modes[1].kind = Kind::Spurious;
     let branches = track(&samples);
@@ -134,7 +134,7 @@ fn branches_start_end_and_go_on_behind_gaps() {
     let spurious = (Kind::Spurious, 3.0, 1);
     assert_eq!(counts, [physical(0.0, 5), physical(0.0, 5), physical(1.0, 2), physical(1.0, 2), spurious, spurious]);
     assert!(branches[0].points[2].1.re.is_nan() && branches[0].points[3].1 == c(0.0, 1.0));
-    assert!(track(&[]).is_empty() && track(&[Sample::gap(0.0)]).is_empty());
+    assert!(track(&[]).is_empty() && track(&[LociPoint::gap(0.0)]).is_empty());
 }
 
 fn path(scene: &str) -> PathBuf {
@@ -164,7 +164,7 @@ fn over(scene: &str, range: &str, at: At) -> Loci {
 #[test]
 fn two_masses_swing_at_five_radians_a_second() {
     let loci = loci_along(&study("two_mass", &[]), &request("mcs"), &[0.0, 0.3, 1.0], || ());
-    assert_eq!((loci.along, loci.places.len(), loci.gaps.len(), loci.branches.len()), (Along::Time, 3, 0, 2));
+    assert_eq!((loci.along, loci.places.len(), loci.gaps.len(), loci.branches.len()), (LociVariable::Time, 3, 0, 2));
     let off = loci.branches[0].points.iter().map(|(_, value)| (value - c(0.0, 5.0)).norm());
     assert!(off.fold(0.0, f64::max) < 1e-12);
 }

@@ -3,13 +3,13 @@
 
 use crate::common::{adaptive, fixed, run, until};
 use holonom::integrator::{Steps, registry};
-use holonom::system::{Dimensions, Loaded, MechanicalSystem, Need, Scratch, Structure, Tangent, Terms};
+use holonom::system::{Dimensions, MechanicalSystem, Need, OperatingPoint, Scratch, Structure, Tangent, Terms};
 
 /// A skate on an inclined plane, (x, y, angle): no motion across its blade, -sin(angle) x' + cos(angle) y' = 0. Unit mass and
 /// moment of inertia.
 struct Skate;
 
-/// Along x, m/s^2.
+/// LociVariable x, m/s^2.
 const GRAVITY: f64 = 3.0;
 /// Turning, rad/s, which nothing changes.
 const OMEGA: f64 = 2.0;
@@ -34,7 +34,7 @@ impl MechanicalSystem for Skate {
         terms.l.copy_from_slice(&[0.0, 0.0, turning]);
     }
 
-    fn tangent(&self, at: Loaded, tangent: &mut Tangent, _: &mut Scratch) -> bool {
+    fn tangent(&self, at: OperatingPoint, tangent: &mut Tangent, _: &mut Scratch) -> bool {
         let ((sin, cos), Structure { tangent: pattern, .. }) = (at.q[2].sin_cos(), self.structure());
         let by_angle = [-cos * at.lambda[0], -sin * at.lambda[0], 0.0];
         let places = pattern.entries.iter().zip(&mut tangent.k);

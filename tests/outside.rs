@@ -5,7 +5,7 @@ use crate::common::orders::{self, END, Rows};
 use crate::common::{fixed, run, until};
 use holonom::analysis::Recorder;
 use holonom::choice::{Choice, Listed, OptionDoc};
-use holonom::formulation::{self, Dae, Dynamics, Formulation, Halt, Row};
+use holonom::formulation::{self, Dae, Dynamics, Formulation, Row, StepError};
 use holonom::integrator::{self, Control, From, Integrator, Problem, Steps, Tightening, Tolerance};
 use holonom::projection;
 use holonom::simulate::{Method, Span, simulate};
@@ -39,7 +39,7 @@ impl Formulation for Braked {
         dynamics: &mut Dynamics,
         qdot: &mut [f64],
         vdot: &mut [f64],
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         dynamics.solve(t, q, v, |_, phi_dot| -self.0 * phi_dot)?;
         dynamics.system.rate(q, v, qdot);
         vdot.copy_from_slice(&dynamics.vdot);
@@ -81,7 +81,7 @@ impl Integrator for Midpoint {
         from: From,
         h: f64,
         to: &mut [f64],
-    ) -> Result<Option<f64>, Halt> {
+    ) -> Result<Option<f64>, StepError> {
         let ahead = |out: &mut [f64], h: f64, slope: &[f64]| {
             out.iter_mut().zip(from.y.iter().zip(slope)).for_each(|(out, (y, slope))| *out = y + h * slope);
         };
@@ -95,12 +95,19 @@ impl Integrator for Midpoint {
         &mut self.control
     }
 
-    fn prepare(&mut self, _: &mut Problem, _: From, _: f64, _: &[f64], _: &[f64]) -> Result<(), Halt> {
+    fn prepare(&mut self, _: &mut Problem, _: From, _: f64, _: &[f64], _: &[f64]) -> Result<(), StepError> {
         Ok(())
     }
 
     /// The parabola that leaves with y' and comes to the end.
-    fn interpolate(&mut self, _: &mut Problem, from: From, h: f64, theta: f64, out: &mut [f64]) -> Result<(), Halt> {
+    fn interpolate(
+        &mut self,
+        _: &mut Problem,
+        from: From,
+        h: f64,
+        theta: f64,
+        out: &mut [f64],
+    ) -> Result<(), StepError> {
         let slopes = from.slope.iter().zip(&self.slope);
         out.iter_mut()
             .zip(from.y.iter().zip(slopes))

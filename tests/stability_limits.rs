@@ -70,9 +70,9 @@ fn stated_limits_are_the_measured_ones() {
 }
 
 fn warning(scene: &Ready, method: &Method, end: f64) -> Option<holonom::simulate::Stiffness> {
-    use holonom::system::Loaded;
+    use holonom::system::OperatingPoint;
     let at = scene.start();
-    let state = Loaded { t: 0.0, q: &at.q, v: &at.v, vdot: &at.vdot, lambda: &at.lambda };
+    let state = OperatingPoint { t: 0.0, q: &at.q, v: &at.v, vdot: &at.vdot, lambda: &at.lambda };
     holonom::simulate::stiffness(scene.system(), method, state, Span { start: 0.0, end, output_step: end })
 }
 

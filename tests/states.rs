@@ -9,7 +9,7 @@ use holonom::initial::{assemble, equilibrium};
 use holonom::integrator::{Entry, Steps, registry};
 use holonom::linearize::Variation;
 use holonom::simulate::{Method, Span, simulate};
-use holonom::system::{Dimensions, Loaded, MechanicalSystem, Need, Scratch, Tangent, Terms};
+use holonom::system::{Dimensions, MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
 use std::ops::Range;
 
 const LEVELS: [(&str, Range<usize>); 4] = [("q", 1..3), ("v", 3..5), ("xi", 5..6), ("lambda", 6..7)];
@@ -132,7 +132,7 @@ impl MechanicalSystem for Unread {
         terms.mass.copy_from_slice(&[1.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
         terms.f.copy_from_slice(&[0.0, SWING * v[2], -SWING * v[1]]);
     }
-    fn tangent(&self, _: Loaded, tangent: &mut Tangent, _: &mut Scratch) -> bool {
+    fn tangent(&self, _: OperatingPoint, tangent: &mut Tangent, _: &mut Scratch) -> bool {
         tangent.k.fill(0.0);
         tangent.c.copy_from_slice(&[0.0, 0.0, 0.0, 0.0, 0.0, -SWING, 0.0, SWING, 0.0]);
         true
@@ -172,7 +172,7 @@ impl MechanicalSystem for Rotor {
         terms.mass.copy_from_slice(&[1.0, 0.0, 1.0]);
         terms.f.copy_from_slice(&[v[1], 1.0 - v[1] - v[0]]);
     }
-    fn tangent(&self, _: Loaded, tangent: &mut Tangent, _: &mut Scratch) -> bool {
+    fn tangent(&self, _: OperatingPoint, tangent: &mut Tangent, _: &mut Scratch) -> bool {
         tangent.k.fill(0.0);
         tangent.c.copy_from_slice(&[0.0, -1.0, 1.0, 1.0]);
         true

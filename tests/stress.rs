@@ -4,8 +4,8 @@ use crate::common::equations::robot_arm::{RobotArm, START};
 use crate::common::{fixed, until};
 use holonom::choice::Choice;
 use holonom::compare::stress::{
-    Axis, Cell, Change, Entry, Level, Limits, Map, Quantity, Status, StepVerdict, StressParameter, Stressed, Subject,
-    find, maps, pair, stress,
+    Axis, AxisPlace, Cell, Change, Level, Limits, Map, Quantity, Status, StepVerdict, StressParameter, Stressed,
+    Subject, find, maps, pair, stress,
 };
 use holonom::study::Overrides;
 use std::path::Path;
@@ -39,16 +39,16 @@ fn the_verdict_on_baumgarte_in_numbers() {
     let subject = Subject::of_equations("arm", &RobotArm, method, until(10.0), START.motion()).unwrap();
     let row = |formulation: &str, projection: &str| {
         let [formulation, projection] = [formulation, projection].map(|text| Choice::parse(text).unwrap());
-        Entry::named("", vec![Change::Stabilization(formulation, projection)])
+        AxisPlace::named("", vec![Change::Stabilization(formulation, projection)])
     };
     let rows = vec![
         row("baumgarte:alpha=6,beta=8.366600265340756", "none"),
-        Entry::named("", vec![Change::OwnGains]),
+        AxisPlace::named("", vec![Change::OwnGains]),
         row("index1", "manifold"),
     ];
     let y = Axis { name: "method".into(), unit: String::new(), entries: rows };
     let x = Axis::of(parameter("step"), vec![0.01, 0.005, 0.001]);
-    let integrator = |name: &str| Entry::named(name, vec![Change::Integrator(Choice::named(name))]);
+    let integrator = |name: &str| AxisPlace::named(name, vec![Change::Integrator(Choice::named(name))]);
     let methods = ["heun", "rk4"].map(integrator).to_vec();
     let map = Map { methods, ..pair(&subject, x, y, Quantity::Velocity) };
     let stressed = stress(&subject, map, limits(20.0), &|| {});
@@ -128,7 +128,7 @@ fn ends_are_told_apart() {
     let mut refused = own(axis("step=1e-3..1e-2:2"), axis("height=1..2:2"));
     let [formulation, none] = ["ggl", "none"].map(Choice::named);
     let bdf = vec![Change::Integrator(Choice::named("bdf")), Change::Stabilization(formulation, none)];
-    refused.methods = vec![Entry::named("bdf", bdf)];
+    refused.methods = vec![AxisPlace::named("bdf", bdf)];
     let refused = stress(&subject, refused, limits(20.0), &|| {});
     assert!(all(&refused, |cell| cell.status == Status::Refused && cell.steps == 0), "{:?}", refused.cells);
 }

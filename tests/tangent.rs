@@ -3,7 +3,7 @@
 use crate::scenes::differences::stirred;
 use holonom::formulation::Dynamics;
 use holonom::study::Study;
-use holonom::system::Loaded;
+use holonom::system::OperatingPoint;
 use std::path::Path;
 
 fn check(study: &Study) {
@@ -15,7 +15,7 @@ fn check(study: &Study) {
     let v = stirred(v, 0.5);
     let mut dynamics = Dynamics::new(system);
     dynamics.solve(t, &q, &v, |_, _| 0.0).unwrap();
-    let at = Loaded { t, q: &q, v: &v, vdot: &dynamics.vdot, lambda: &dynamics.lambda };
+    let at = OperatingPoint { t, q: &q, v: &v, vdot: &dynamics.vdot, lambda: &dynamics.lambda };
     crate::scenes::differences::check(system, at, &study.name);
 }
 

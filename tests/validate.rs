@@ -3,8 +3,8 @@
 use holonom::linearize::{Chart, State, states};
 use holonom::study::{Overrides, Study};
 use holonom::system::{
-    Column, Dimensions, LeviCivita, Loaded, MechanicalSystem, Names, Need, OutputTangent, Scratch, Structure, Tangent,
-    Terms,
+    Column, Dimensions, LeviCivita, MechanicalSystem, Names, Need, OperatingPoint, OutputTangent, Scratch, Structure,
+    Tangent, Terms,
 };
 use holonom::validate::{Settings, Validation, validate};
 use std::path::{Path, PathBuf};
@@ -41,12 +41,12 @@ fn check(study: &Study, state: &State) -> Validation {
     let horizon = folds.iter().any(|name| study.name.starts_with(name)).then_some(0.05);
     let found = validate(study.system(), state, &Settings { horizon, ..Settings::default() }).unwrap();
     let name = format!("{} at {} s", study.name, state.t);
-    let orders = found.ladders.iter().map(|ladder| &ladder.order_ltv);
+    let orders = found.sequences.iter().map(|sequence| &sequence.order_ltv);
     for decay in orders.chain(found.inputs.iter().map(|input| &input.order_ltv)) {
-        // Along directions of symmetry the error falls faster, and not at all where the equations are linear.
+        // LociVariable directions of symmetry the error falls faster, and not at all where the equations are linear.
         // Errors of third order are rounding after two decades.
         let is_right = decay.order.is_some_and(|order| order > 1.9 && decay.decades * order > 5.7);
-        assert!(decay.is_exact || is_right, "{name}: {decay:?} {:?}", found.ladders);
+        assert!(decay.is_exact || is_right, "{name}: {decay:?} {:?}", found.sequences);
     }
     assert!(found.verdict.ltv && found.verdict.lti, "{name}: {:?} {:?}", found.verdict, found.frozen);
     found
@@ -93,10 +93,10 @@ fn every_scene_follows_its_linear_model_at_three_states() {
                 "{} {:.4} s: order {} in eps, {} in h; inputs {:?}; horizons {:?}; {:.2} s of work",
                 study.name,
                 state.t,
-                found.ladders.iter().map(|ladder| order(&ladder.order_ltv)).collect::<Vec<_>>().join(", "),
+                found.sequences.iter().map(|sequence| order(&sequence.order_ltv)).collect::<Vec<_>>().join(", "),
                 order(&found.frozen.decay),
                 found.inputs.iter().map(|input| order(&input.order_ltv)).collect::<Vec<_>>(),
-                found.ladders.first().map(|ladder| ladder.horizons),
+                found.sequences.first().map(|sequence| sequence.horizons),
                 clock.elapsed().as_secs_f64(),
             );
         }
@@ -120,12 +120,12 @@ impl MechanicalSystem for Wrong<'_> {
         self.inner.structure()
     }
     /// K without d(G^T lambda)/dq: at lambda = 0.
-    fn tangent(&self, at: Loaded, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
+    fn tangent(&self, at: OperatingPoint, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
         let none = vec![0.0; at.lambda.len()];
         let lambda = if self.without_geometric { &none } else { at.lambda };
-        self.inner.tangent(Loaded { lambda, ..at }, tangent, scratch)
+        self.inner.tangent(OperatingPoint { lambda, ..at }, tangent, scratch)
     }
-    fn acceleration_gradient(&self, at: Loaded, values: &mut [f64], scratch: &mut Scratch) -> bool {
+    fn acceleration_gradient(&self, at: OperatingPoint, values: &mut [f64], scratch: &mut Scratch) -> bool {
         self.inner.acceleration_gradient(at, values, scratch);
         if !self.without_geometric {
             values.fill(0.0);
@@ -135,7 +135,7 @@ impl MechanicalSystem for Wrong<'_> {
     fn bracket(&self, v: &[f64], x: &[f64], out: &mut [f64]) {
         self.inner.bracket(v, x, out);
     }
-    fn levi_civita(&self, at: Loaded, connection: &mut LeviCivita, scratch: &mut Scratch) -> bool {
+    fn levi_civita(&self, at: OperatingPoint, connection: &mut LeviCivita, scratch: &mut Scratch) -> bool {
         self.inner.levi_civita(at, connection, scratch)
     }
     fn names(&self) -> Names {
@@ -153,7 +153,7 @@ impl MechanicalSystem for Wrong<'_> {
     fn input_forces(&self, t: f64, q: &[f64], v: &[f64], f: &mut nalgebra::DMatrix<f64>, scratch: &mut Scratch) {
         self.inner.input_forces(t, q, v, f, scratch);
     }
-    fn output_tangent(&self, _: Loaded, _: &mut OutputTangent, _: &mut Scratch) -> bool {
+    fn output_tangent(&self, _: OperatingPoint, _: &mut OutputTangent, _: &mut Scratch) -> bool {
         true
     }
 }
@@ -168,7 +168,7 @@ fn wrong_derivatives_are_refused() {
             let wrong = Wrong { inner: study.system(), without_geometric };
             let constant = Settings { chart: Some(Chart::MassOrthogonal), inputs: false, ..Settings::default() };
             let found = validate(&wrong, state, &constant).unwrap();
-            let order = found.ladders[0].order_ltv.order;
+            let order = found.sequences[0].order_ltv.order;
             assert!(!found.verdict.ltv, "{name} {without_geometric}: {:?}", found.verdict);
             // The error that is missing in K grows as eps, and rules at once.
             assert!(order.is_none_or(|order| order < 1.2), "{name} {without_geometric}: {order:?}");

@@ -11,7 +11,7 @@ mod singularity;
 
 pub use drift::{Drift, DriftLevel};
 pub use energy::{EnergyBalance, EnergyMeter, Ledger};
-pub use range::{Extreme, Range};
+pub use range::{LargestDeformation, Range};
 pub use rank::{Rank, Redundant, dependent_nearby};
 pub use recorder::{Record, Recorder};
 pub use scale::{Sizes, scales};

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 /// The largest deformation of each part that holds up to some only, and the largest turn between evaluations.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Range {
-    pub parts: Vec<Extreme>,
+    pub parts: Vec<LargestDeformation>,
     /// In fixed steps: by how much a body turned between evaluations of the equations, rad; its number; and when, s.
     pub leap: Option<(f64, usize, f64)>,
     now: Vec<f64>,
@@ -18,7 +18,7 @@ pub struct Range {
 
 /// The largest deformation of a part.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Extreme {
+pub struct LargestDeformation {
     pub limited: Limited,
     /// In the unit of the limit: displacement by length, load by critical load, or rad.
     pub deformation: f64,
@@ -28,8 +28,8 @@ pub struct Extreme {
 
 impl Range {
     pub fn new(system: &dyn MechanicalSystem) -> Self {
-        let start = |limited: &Limited| Extreme { limited: limited.clone(), deformation: 0.0, t: 0.0 };
-        let parts: Vec<Extreme> = system.limited().iter().map(start).collect();
+        let start = |limited: &Limited| LargestDeformation { limited: limited.clone(), deformation: 0.0, t: 0.0 };
+        let parts: Vec<LargestDeformation> = system.limited().iter().map(start).collect();
         let bodies = system.turning_bodies();
         Range { now: vec![0.0; parts.len()], spins: vec![0.0; bodies.len()], parts, bodies, leap: None }
     }
@@ -62,7 +62,7 @@ impl Range {
     /// One for each part that went too far, and one for steps that are too long to see how bodies turn.
     pub fn warnings(&self) -> Vec<Warning> {
         let beyond = self.parts.iter().filter(|part| part.deformation > part.limited.theory.most());
-        beyond.map(Extreme::warning).chain(self.leaping()).collect()
+        beyond.map(LargestDeformation::warning).chain(self.leaping()).collect()
     }
 
     /// From half a turn on another way round would do as well.
@@ -78,7 +78,7 @@ impl Range {
     }
 }
 
-impl Extreme {
+impl LargestDeformation {
     fn warning(&self) -> Warning {
         let Limited { part, theory } = &self.limited;
         let [t, deformation, most] = [self.t, self.deformation, theory.most()].map(|x| short(two_digits(x)));

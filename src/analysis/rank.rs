@@ -3,8 +3,8 @@
 use crate::formulation::Dynamics;
 use crate::math::kkt::{Dependence, Pattern, condition_number, dependent_rows};
 use crate::math::largest;
-use crate::simulate::{Mode, Spectrum};
-use crate::system::{Group, Loaded, MechanicalSystem, Need, Structure, Terms};
+use crate::simulate::{SpectralMode, Spectrum};
+use crate::system::{Group, MechanicalSystem, Need, OperatingPoint, Structure, Terms};
 use crate::tolerances::math::RANK;
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
@@ -26,7 +26,7 @@ pub struct Rank {
     /// Largest and smallest entry on the diagonal of M, kg or kg m^2.
     pub mass_range: [f64; 2],
     /// The fastest mode, 1/s; none where nothing is free to move.
-    pub fastest_mode: Option<Mode>,
+    pub fastest_mode: Option<SpectralMode>,
 }
 
 /// A redundant row.
@@ -40,8 +40,8 @@ pub struct Redundant {
 
 impl Rank {
     /// At a consistent state.
-    pub fn at(system: &dyn MechanicalSystem, state: Loaded) -> Self {
-        let Loaded { t, q, v, .. } = state;
+    pub fn at(system: &dyn MechanicalSystem, state: OperatingPoint) -> Self {
+        let OperatingPoint { t, q, v, .. } = state;
         let mut dynamics = Dynamics::new(system);
         dynamics.evaluate(t, q, v, Need::DYNAMICS);
         let (rows, _) = dynamics.dependent_rows(t, q, v);

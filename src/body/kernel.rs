@@ -2,7 +2,7 @@
 
 use super::flexible::PointShape;
 use super::{
-    Attitude, Bent, Body, BodyKernel, BodyOver, BodyState, Energy, Frame, Marker, Slope, Wrench, cross, dot, sub,
+    Attitude, Bent, Body, BodyKernel, BodyOver, BodyState, Dual6, Energy, Frame, Marker, Wrench, cross, dot, sub,
 };
 use crate::math::{Scalar, Taylor};
 use std::array::from_fn;
@@ -116,10 +116,10 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
     fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]) {
         let (q, v, n) = (lift(at.q), lift(at.v), at.v.len());
         for first in (0..n).step_by(6) {
-            let mut directions = [Slope::fixed(0.0); MOST_COORDINATES];
+            let mut directions = [Dual6::fixed(0.0); MOST_COORDINATES];
             let seeded = directions[first..n].iter_mut().take(6).enumerate();
-            seeded.for_each(|(j, direction)| *direction = Slope::seeded(0.0, j));
-            let mut moved = [Slope::fixed(0.0); MOST_COORDINATES];
+            seeded.for_each(|(j, direction)| *direction = Dual6::seeded(0.0, j));
+            let mut moved = [Dual6::fixed(0.0); MOST_COORDINATES];
             BodyKernel::rate(self, &q[..at.q.len()], &directions[..n], &mut moved[..at.q.len()]);
             moved.iter_mut().zip(&q).for_each(|(moved, &q)| *moved += q);
             self.subtract_slopes((&moved[..at.q.len()], &v[..n]), at.gravity, first, k);
@@ -162,15 +162,15 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
     }
 }
 
-fn lift(values: &[f64]) -> [Slope; MOST_COORDINATES] {
-    std::array::from_fn(|i| Slope::fixed(values.get(i).copied().unwrap_or(0.0)))
+fn lift(values: &[f64]) -> [Dual6; MOST_COORDINATES] {
+    std::array::from_fn(|i| Dual6::fixed(values.get(i).copied().unwrap_or(0.0)))
 }
 
 /// What the tangent of a kernel repeats.
 trait Slopes<const D: usize>: BodyKernel<D> {
     /// Takes the slopes of the own forces from columns `first..` of a square matrix.
-    fn subtract_slopes(&self, (q, v): (&[Slope], &[Slope]), gravity: &[f64; D], first: usize, matrix: &mut [f64]) {
-        let mut forces = [Slope::fixed(0.0); MOST_COORDINATES];
+    fn subtract_slopes(&self, (q, v): (&[Dual6], &[Dual6]), gravity: &[f64; D], first: usize, matrix: &mut [f64]) {
+        let mut forces = [Dual6::fixed(0.0); MOST_COORDINATES];
         self.own_forces(q, v, gravity, &mut forces[..v.len()]);
         for (row, force) in matrix.chunks_exact_mut(v.len()).zip(&forces) {
             row[first..].iter_mut().zip(&force.eps).for_each(|(entry, slope)| *entry -= slope);

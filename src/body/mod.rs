@@ -42,7 +42,7 @@ use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
 /// Values with their derivatives along six coordinates: the second number every element is evaluated over.
-pub type Slope = Dual<f64, 6>;
+pub type Dual6 = Dual<f64, 6>;
 
 /// The largest number of markers of a joint or force: their frames are kept on the stack.
 pub const MOST_MARKERS: usize = 8;
@@ -148,7 +148,7 @@ pub struct Bent<'a, const D: usize> {
 }
 
 /// The object-safe form of a body; implemented for every [`BodyKernel`].
-pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Slope, D> + Send + Sync {
+pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Dual6, D> + Send + Sync {
     fn coordinate_names(&self) -> Vec<String>;
     fn velocity_names(&self) -> Vec<String>;
     fn marker_count(&self) -> usize;

@@ -26,14 +26,14 @@ pub fn run(args: Args) -> Result<ExitCode> {
     // Bad input is an error; a search in vain is a result.
     let failure = match sought.transpose() {
         Ok(found) => {
-            check.equilibrium = found.map(|found| report::Rest::of(&study, found));
+            check.equilibrium = found.map(|found| report::EquilibriumFile::of(&study, found));
             None
         }
         Err(error) if error.exit_code() == 1 => Some(error),
         Err(error) => return Err(error.in_file(&args.common.scene.path)),
     };
     if failure.is_some() {
-        check.equilibrium = Some(report::Rest::none(t));
+        check.equilibrium = Some(report::EquilibriumFile::none(t));
     }
     args.common.talk.warn(check.equilibrium.iter().flat_map(|rest| &rest.warnings));
     args.common.talk.print(&check, || check.text())?;

@@ -4,7 +4,7 @@ use super::common::{MethodOptions, Output, SceneOptions, Talk, positive, print, 
 use super::linear::{ChartOptions, StateOptions};
 use crate::error::{Error, Result};
 use crate::report::cell;
-use crate::report::linear::{ValidationFile, ladder_figure};
+use crate::report::linear::{ValidationFile, sequence_figure};
 use crate::validate::{Direction, Settings, validate};
 use std::process::ExitCode;
 
@@ -50,15 +50,15 @@ pub fn run(args: Args) -> Result<ExitCode> {
         let file = ValidationFile::new(&study.name, &names, &found);
         let stem = format!("validation-{}", cell(place.state.t));
         folder.write_json(&format!("{stem}.json"), &file)?;
-        for (i, ladder) in found.ladders.iter().enumerate() {
+        for (i, sequence) in found.sequences.iter().enumerate() {
             let title = format!(
                 "{}, perturbed at t = {} s ({})",
                 study.name,
                 crate::error::significant(place.state.t, 6),
-                ladder.direction
+                sequence.direction
             );
             let name = if i == 0 { stem.clone() } else { format!("{stem}-{}", i + 1) };
-            args.output.figure(&mut folder, &name, ladder_figure(&title, &names, ladder))?;
+            args.output.figure(&mut folder, &name, sequence_figure(&title, &names, sequence))?;
         }
         if !args.talk.json && !args.talk.quiet {
             print(&file.text(&found))?;

@@ -15,7 +15,7 @@ mod tyre;
 
 pub use beam::{Beam, Half, Load, Station};
 
-use crate::body::{Build, ElementKind, Frame, MOST_MARKERS, MarkerId, Slope, Wrench, mistaken, parse_among};
+use crate::body::{Build, Dual6, ElementKind, Frame, MOST_MARKERS, MarkerId, Wrench, mistaken, parse_among};
 use crate::error::Result;
 use crate::math::{Rate, Scalar, Taylor, Time};
 use schemars::JsonSchema;
@@ -110,7 +110,7 @@ impl<K: ForceKernel<D>, S: Scalar, const D: usize> ForceOver<S, D> for K {
 }
 
 /// The object-safe form of a force; implemented for every [`ForceKernel`].
-pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Slope, D> + Send + Sync {
+pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Dual6, D> + Send + Sync {
     fn wheel(&self, t: f64) -> Option<Wheel>;
     fn beam(&self) -> Option<&Beam>;
     fn takes_small_rotations(&self) -> bool;

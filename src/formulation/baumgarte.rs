@@ -1,7 +1,7 @@
 //! Baumgarte stabilization.
 
 use super::index1::{RANK, rank_tolerance};
-use super::{Choice, Dae, Dynamics, Entry, Formulation, Halt, OptionDoc, Row};
+use super::{Choice, Dae, Dynamics, Entry, Formulation, OptionDoc, Row, StepError};
 use crate::error::Result;
 
 /// ```text
@@ -51,7 +51,7 @@ impl Formulation for Baumgarte {
         dynamics: &mut Dynamics,
         qdot: &mut [f64],
         vdot: &mut [f64],
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         let (alpha, beta) = (self.alpha, self.beta);
         dynamics.rank_tolerance = self.rank_tolerance;
         dynamics.solve(t, q, v, |phi, phi_dot| -2.0 * alpha * phi_dot - beta * beta * phi)?;

@@ -1,6 +1,6 @@
 //! Index 1 with another solver of the saddle-point system.
 
-use super::{Dynamics, Formulation, Halt};
+use super::{Dynamics, Formulation, StepError};
 use crate::math::kkt::Solver;
 
 /// The field of index 1, whose accelerations and multipliers come from `S`.
@@ -15,7 +15,7 @@ impl<S: Solver + Send> Formulation for Dense<S> {
         dynamics: &mut Dynamics,
         qdot: &mut [f64],
         vdot: &mut [f64],
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         dynamics.right_sides(t, q, v, |_, _| 0.0);
         dynamics.statistics.factorizations += 1;
         self.0.drop_rows(&dynamics.dropped);

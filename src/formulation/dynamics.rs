@@ -9,7 +9,7 @@ use std::fmt;
 
 /// Why a state cannot be evaluated.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Halt {
+pub enum StepError {
     /// The state or a solution is infinite or not a number: the motion diverged.
     NotFinite,
     /// A term of the equations is, and which: an expression left its domain, or two points coincide.
@@ -30,51 +30,51 @@ pub enum Halt {
     Unsuitable { reason: &'static str, hint: &'static str },
 }
 
-impl Halt {
+impl StepError {
     /// What to do about it, where that does not depend on the run.
     pub fn hint(&self) -> Option<&'static str> {
         match self {
-            Halt::Term(_) => Some(
+            StepError::Term(_) => Some(
                 "the motion diverged (try a smaller step or a projection such as `manifold`), an expression left its \
                  domain, or two points met: look at the motion just before the end",
             ),
-            Halt::Unsuitable { hint, .. } => Some(hint),
+            StepError::Unsuitable { hint, .. } => Some(hint),
             _ => None,
         }
     }
 
     /// Whether no smaller step can help.
-    pub fn is_final(&self) -> bool {
-        matches!(self, Halt::Unsuitable { .. })
+    pub fn is_fatal(&self) -> bool {
+        matches!(self, StepError::Unsuitable { .. })
     }
 }
 
-impl fmt::Display for Halt {
+impl fmt::Display for StepError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Halt::NotFinite => write!(out, "the motion is no longer finite"),
-            Halt::Term(term) => write!(out, "{term} is infinite or not a number"),
-            Halt::Undetermined(coordinate) => write!(
+            StepError::NotFinite => write!(out, "the motion is no longer finite"),
+            StepError::Term(term) => write!(out, "{term} is infinite or not a number"),
+            StepError::Undetermined(coordinate) => write!(
                 out,
                 "the motion is not determined: `{coordinate}` has neither mass nor constraint in a direction"
             ),
-            Halt::Massless(coordinate) => {
+            StepError::Massless(coordinate) => {
                 write!(out, "`{coordinate}` has no mass in a direction, and the formulation needs the inverse of M")
             }
-            Halt::Singular(singular) => write!(out, "{singular}"),
-            Halt::NotConverged => write!(out, "Newton's method does not converge"),
-            Halt::Open => write!(out, "the projection does not close the joints: its residual no longer falls"),
-            Halt::TooInaccurate => write!(out, "the error of a step stays above the tolerance"),
-            Halt::Unsuitable { reason, .. } => write!(out, "{reason}"),
+            StepError::Singular(singular) => write!(out, "{singular}"),
+            StepError::NotConverged => write!(out, "Newton's method does not converge"),
+            StepError::Open => write!(out, "the projection does not close the joints: its residual no longer falls"),
+            StepError::TooInaccurate => write!(out, "the error of a step stays above the tolerance"),
+            StepError::Unsuitable { reason, .. } => write!(out, "{reason}"),
         }
     }
 }
 
-impl From<Singular> for Halt {
+impl From<Singular> for StepError {
     fn from(singular: Singular) -> Self {
         match singular {
-            Singular::NotFinite => Halt::NotFinite,
-            other => Halt::Singular(other),
+            Singular::NotFinite => StepError::NotFinite,
+            other => StepError::Singular(other),
         }
     }
 }
@@ -141,14 +141,14 @@ impl<'a> Dynamics<'a> {
     }
 
     /// Factors the saddle-point matrix of the terms.
-    pub fn factor(&mut self) -> Result<(), Halt> {
+    pub fn factor(&mut self) -> Result<(), StepError> {
         self.statistics.factorizations += 1;
         let factored = self.kkt.factor(&self.terms.mass, &self.terms.g);
         factored.map_err(|singular| self.halt(singular))
     }
 
     /// The same, truncated near singular states: see [`SaddlePoint::factor_truncated`].
-    pub fn factor_truncated(&mut self) -> Result<(), Halt> {
+    pub fn factor_truncated(&mut self) -> Result<(), StepError> {
         self.statistics.factorizations += 1;
         let factored = self.kkt.factor_truncated(&self.terms.mass, &self.terms.g, self.rank_tolerance);
         factored.map_err(|singular| self.halt(singular))
@@ -202,12 +202,12 @@ impl<'a> Dynamics<'a> {
     }
 
     /// Why the terms have no solution, with names.
-    pub(super) fn halt(&self, singular: Singular) -> Halt {
+    pub(super) fn halt(&self, singular: Singular) -> StepError {
         match singular {
-            Singular::Undetermined { coordinate } => Halt::Undetermined(self.coordinate(coordinate)),
-            Singular::Massless { coordinate } => Halt::Massless(self.coordinate(coordinate)),
-            Singular::NotFinite => self.infinite_term().map_or(Halt::NotFinite, Halt::Term),
-            other => Halt::Singular(other),
+            Singular::Undetermined { coordinate } => StepError::Undetermined(self.coordinate(coordinate)),
+            Singular::Massless { coordinate } => StepError::Massless(self.coordinate(coordinate)),
+            Singular::NotFinite => self.infinite_term().map_or(StepError::NotFinite, StepError::Term),
+            other => StepError::Singular(other),
         }
     }
 
@@ -236,19 +236,19 @@ impl<'a> Dynamics<'a> {
         q: &[f64],
         v: &[f64],
         acceleration_level: impl Fn(f64, f64) -> f64,
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         self.right_sides(t, q, v, acceleration_level);
         self.factor_truncated()?;
         self.solve_factored()
     }
 
     /// The same for the plain equations at another velocity of the state whose matrix is factored.
-    pub fn solve_at_velocity(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), Halt> {
+    pub fn solve_at_velocity(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), StepError> {
         self.right_sides(t, q, v, |_, _| 0.0);
         self.solve_factored()
     }
 
-    fn solve_factored(&mut self) -> Result<(), Halt> {
+    fn solve_factored(&mut self) -> Result<(), StepError> {
         self.is_rank_deficient = self.kkt.is_rank_deficient();
         let solved = match self.wants_least {
             true => self.kkt.solve(&mut self.vdot, &mut self.lambda),
@@ -269,10 +269,10 @@ impl<'a> Dynamics<'a> {
     }
 
     /// Halts where v' or lambda is infinite or not a number.
-    pub fn finite(&self) -> Result<(), Halt> {
+    pub fn finite(&self) -> Result<(), StepError> {
         match self.vdot.iter().chain(&self.lambda).all(|x| x.is_finite()) {
             true => Ok(()),
-            false => Err(Halt::NotFinite),
+            false => Err(StepError::NotFinite),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Force projection.
 
 use super::invariant_manifold::InvariantManifold;
-use super::{Entry, Field, OptionDoc, Stabilizer};
+use super::{Entry, OptionDoc, Stabilizer, StabilizingField};
 
 /// ```text
 /// q' = N (v - p M^-1 G^T (G M^-1 G^T)^-1 phi)
@@ -24,6 +24,6 @@ pub const ENTRY: Entry = Entry {
     field: Some(|choice, system| {
         let position = choice.not_negative("position", 10.0)?;
         let gains = [position, choice.not_negative("velocity", position)?];
-        Ok(Box::new(InvariantManifold::new(gains, Stabilizer::new(Field::Both, system), system)))
+        Ok(Box::new(InvariantManifold::new(gains, Stabilizer::new(StabilizingField::Both, system), system)))
     }),
 };

@@ -1,6 +1,6 @@
 //! Index 1: the constraints differentiated twice, lambda eliminated.
 
-use super::{Choice, Dae, Dynamics, Entry, Formulation, Halt, OptionDoc, Row};
+use super::{Choice, Dae, Dynamics, Entry, Formulation, OptionDoc, Row, StepError};
 use crate::error::Result;
 use crate::tolerances::math::TRUNCATED_RANK;
 
@@ -47,7 +47,7 @@ impl Formulation for Index1 {
         dynamics: &mut Dynamics,
         qdot: &mut [f64],
         vdot: &mut [f64],
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         dynamics.rank_tolerance = self.rank_tolerance;
         dynamics.solve(t, q, v, |_, _| 0.0)?;
         dynamics.system.rate(q, v, qdot);

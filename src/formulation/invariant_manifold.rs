@@ -1,6 +1,6 @@
 //! Vector fields with a stabilized invariant manifold.
 
-use super::{Dynamics, Entry, Field, Formulation, Halt, OptionDoc, Stabilizer};
+use super::{Dynamics, Entry, Formulation, OptionDoc, Stabilizer, StabilizingField, StepError};
 use crate::error::Result;
 use crate::system::{MechanicalSystem, Need};
 
@@ -24,7 +24,7 @@ pub const ENTRY: Entry = Entry {
     dae: None,
     field: Some(|choice, system| {
         let gamma = choice.not_negative("gamma", 10.0)?;
-        let stabilizer = Stabilizer::new(Field::from_choice(choice)?, system);
+        let stabilizer = Stabilizer::new(StabilizingField::from_choice(choice)?, system);
         Ok(Box::new(InvariantManifold::new([gamma; 2], stabilizer, system)))
     }),
 };
@@ -51,7 +51,7 @@ impl Formulation for InvariantManifold {
         dynamics: &mut Dynamics,
         qdot: &mut [f64],
         vdot: &mut [f64],
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         let [position, velocity] = self.gains;
         dynamics.solve(t, q, v, |_, _| 0.0)?;
         dynamics.system.rate(q, v, qdot);

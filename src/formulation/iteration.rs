@@ -1,7 +1,7 @@
 //! The matrices with which implicit methods solve their equations.
 
 use super::linearized::Linearized;
-use super::{Dae, Dynamics, Halt, Residual, Row};
+use super::{Dae, Dynamics, Residual, Row, StepError};
 use crate::math::kkt::{Field, Pattern, SaddlePoint, Singular, Unsymmetric};
 use crate::system::{MechanicalSystem, Structure};
 use faer::c64;
@@ -36,7 +36,7 @@ pub struct Slopes<T> {
 /// Source: Hairer, Wanner, Solving Ordinary Differential Equations II, IV.8, with the second-order structure used.
 pub struct Iteration<T> {
     pub matrix: Unsymmetric<T>,
-    rows: Rows<T>,
+    rows: RowSlopes<T>,
     slopes: Slopes<T>,
     pub change: Change<T>,
     part: [Vec<f64>; 2],
@@ -100,41 +100,41 @@ impl Number for c64 {
 
 /// What multiplies G and L in the change of a row by a, w and u.
 #[derive(Clone, Copy)]
-struct Slope<T> {
+struct RowSlope<T> {
     a: [T; 2],
     w: [T; 2],
     u: [T; 2],
 }
 
-impl<T: Number> Slope<T> {
+impl<T: Number> RowSlope<T> {
     fn of(row: Row, s: &Slopes<T>) -> Self {
         let by = |q: T, v: T, a: T| {
             let g = q * row.position + v * row.velocity + a * row.acceleration;
             [g, q * row.velocity + v * (2.0 * row.acceleration)]
         };
         let (zero, one) = (T::ZERO, T::real(1.0));
-        Slope { a: by(s.q, s.v, one), w: by(s.w_q, s.w, zero), u: by(s.u, zero, zero) }
+        RowSlope { a: by(s.q, s.v, one), w: by(s.w_q, s.w, zero), u: by(s.u, zero, zero) }
     }
 }
 
 /// The slopes of the rows of all multipliers, of holonomic constraints and of the others behind them.
-struct Rows<T> {
+struct RowSlopes<T> {
     dae: Dae,
     holonomic: usize,
-    lambda: [Slope<T>; 2],
-    eta: [Option<Slope<T>>; 2],
-    mu: [Option<Slope<T>>; 2],
+    lambda: [RowSlope<T>; 2],
+    eta: [Option<RowSlope<T>>; 2],
+    mu: [Option<RowSlope<T>>; 2],
 }
 
-impl<T: Number> Rows<T> {
+impl<T: Number> RowSlopes<T> {
     fn new(dae: Dae, holonomic: usize, s: &Slopes<T>) -> Self {
         let both = [dae, dae.nonholonomic()];
-        Rows {
+        RowSlopes {
             dae,
             holonomic,
-            lambda: both.map(|dae| Slope::of(dae.lambda, s)),
-            eta: both.map(|dae| dae.eta.map(|row| Slope::of(row, s))),
-            mu: both.map(|dae| dae.mu.map(|row| Slope::of(row, s))),
+            lambda: both.map(|dae| RowSlope::of(dae.lambda, s)),
+            eta: both.map(|dae| dae.eta.map(|row| RowSlope::of(row, s))),
+            mu: both.map(|dae| dae.mu.map(|row| RowSlope::of(row, s))),
         }
     }
 
@@ -153,7 +153,7 @@ impl<T: Number> Iteration<T> {
         let none = Slopes { v: T::ZERO, q: T::ZERO, w: T::ZERO, w_q: T::ZERO, u: T::ZERO };
         Some(Iteration {
             matrix: Unsymmetric::new(&structure.mass, &structure.tangent, &structure.g)?,
-            rows: Rows::new(dae, n.holonomic(), &none),
+            rows: RowSlopes::new(dae, n.holonomic(), &none),
             slopes: none,
             change: Change { a: zeros(n.v), lambda: zeros(n.lambda), w, u, eta, mu },
             part: [vec![0.0; n.v], vec![0.0; n.lambda]],
@@ -176,7 +176,7 @@ impl<T: Number> Iteration<T> {
         self.matrix.add(&structure.tangent, &at.tangent.k, slopes.q, false);
         if at.dae.needs_l() {
             let rows = &self.rows;
-            let ratio = rows.lambda.map(|Slope { a: [g, l], .. }| l / g);
+            let ratio = rows.lambda.map(|RowSlope { a: [g, l], .. }| l / g);
             self.matrix.couple(&at.l, |row| ratio[rows.kind(row)]);
         }
         self.matrix.factor(&structure.g, &at.g)
@@ -184,7 +184,7 @@ impl<T: Number> Iteration<T> {
 
     /// Takes these slopes for the rows, and for the rest those that the matrix is factored for: they should be near.
     pub fn rescale(&mut self, slopes: Slopes<T>) {
-        self.rows = Rows::new(self.rows.dae, self.rows.holonomic, &slopes);
+        self.rows = RowSlopes::new(self.rows.dae, self.rows.holonomic, &slopes);
         self.slopes = slopes;
     }
 
@@ -203,7 +203,7 @@ impl<T: Number> Iteration<T> {
 
     /// Turns the residual into the changes of the unknowns, in `change`. One back-substitution, and for each shift one of
     /// its own matrix (two where numbers are complex).
-    pub fn solve(&mut self, at: &mut Linearized, structure: &Structure) -> Result<(), Halt> {
+    pub fn solve(&mut self, at: &mut Linearized, structure: &Structure) -> Result<(), StepError> {
         let Iteration { matrix, rows, slopes, change, part, moved: [gw, gu] } = self;
         let Change { a, lambda, w, u, eta, mu } = change;
         for (i, row) in lambda.iter_mut().enumerate() {
@@ -221,7 +221,7 @@ impl<T: Number> Iteration<T> {
         }
         if !mu.is_empty() {
             for (i, row) in mu.iter_mut().enumerate() {
-                let moved = |slope: Slope<T>| (*row - slope.a[0] * lambda[i] - slope.w[0] * gw[i]) / slope.u[0];
+                let moved = |slope: RowSlope<T>| (*row - slope.a[0] * lambda[i] - slope.w[0] * gw[i]) / slope.u[0];
                 *row = rows.mu[rows.kind(i)].map_or(T::ZERO, moved);
             }
             gu.copy_from_slice(mu);
@@ -233,13 +233,13 @@ impl<T: Number> Iteration<T> {
     }
 }
 
-impl<T: Number> Rows<T> {
+impl<T: Number> RowSlopes<T> {
     /// lambda -= (g G x + l L x)/g_a, with G x in `gx`: what a shift changes in the rows of lambda.
     fn subtract(
         &self,
         pattern: &Pattern,
         l: &[f64],
-        by: impl Fn(&Slope<T>) -> [T; 2],
+        by: impl Fn(&RowSlope<T>) -> [T; 2],
         (x, gx): (&[T], &[T]),
         lambda: &mut [T],
     ) {
@@ -261,7 +261,7 @@ fn shift<T: Number>(
     x: &mut [T],
     multipliers: &mut [T],
     part: &mut [Vec<f64>; 2],
-) -> Result<(), Halt> {
+) -> Result<(), StepError> {
     let Some(solver) = solver else { return Ok(()) };
     let [top, bottom] = part;
     for k in 0..T::PARTS {
@@ -301,7 +301,7 @@ impl Iteration<f64> {
         x: &mut [f64],
         v: &mut [f64],
         dynamics: &Dynamics,
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         let (structure, tau, row) = (&dynamics.structure, self.slopes.v, self.rows.dae.lambda);
         let [free, rows] = &mut self.part;
         let Change { a: top, lambda: bottom, .. } = &mut self.change;

@@ -1,11 +1,11 @@
 //! What implicit methods linearize about.
 
-use super::{Dae, Dynamics, Halt};
+use super::{Dae, Dynamics, StepError};
 use crate::math::kkt::{Pattern, SaddlePoint, Singular};
-use crate::system::{Loaded, MechanicalSystem, Need, Tangent};
+use crate::system::{MechanicalSystem, Need, OperatingPoint, Tangent};
 
 /// Why an implicit method has no matrix.
-pub const NO_TANGENT: Halt = Halt::Unsuitable {
+pub const NO_TANGENT: StepError = StepError::Unsuitable {
     reason: "implicit methods need K and C, which these equations do not give",
     hint: "implement MechanicalSystem::tangent, or use a method that needs none, such as phem56 with index2",
 };
@@ -54,7 +54,7 @@ impl Linearized {
     ///
     /// # Errors
     /// As [`update`](Self::update).
-    pub fn recall(&mut self, point: &[f64], dynamics: &mut Dynamics) -> Result<(), Halt> {
+    pub fn recall(&mut self, point: &[f64], dynamics: &mut Dynamics) -> Result<(), StepError> {
         let (n, counted) = (dynamics.system.dimensions(), dynamics.statistics);
         let Some((&t, rest)) = point.split_first().filter(|(_, rest)| rest.len() == n.q + 2 * n.v + n.lambda) else {
             return Ok(());
@@ -62,7 +62,7 @@ impl Linearized {
         let (q, rest) = rest.split_at(n.q);
         let (v, rest) = rest.split_at(n.v);
         let (vdot, lambda) = rest.split_at(n.v);
-        self.update(Loaded { t, q, v, vdot, lambda }, dynamics)?;
+        self.update(OperatingPoint { t, q, v, vdot, lambda }, dynamics)?;
         dynamics.statistics = counted;
         Ok(())
     }
@@ -71,7 +71,7 @@ impl Linearized {
     ///
     /// # Errors
     /// [`NO_TANGENT`].
-    pub fn update(&mut self, at: Loaded, dynamics: &mut Dynamics) -> Result<(), Halt> {
+    pub fn update(&mut self, at: OperatingPoint, dynamics: &mut Dynamics) -> Result<(), StepError> {
         let need = if self.dae.needs_l() { Need::DYNAMICS | Need::L } else { Need::DYNAMICS };
         dynamics.evaluate(at.t, at.q, at.v, need);
         if !dynamics.system.tangent(at, &mut self.tangent, &mut dynamics.scratch) {

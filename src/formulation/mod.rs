@@ -29,12 +29,12 @@ mod udwadia_kalaba;
 pub use crate::choice::{Choice, OptionDoc};
 pub use dae::{Dae, Row};
 pub use directions::{degrees_of_freedom, free_directions, reduce};
-pub use dynamics::{Dynamics, Halt};
+pub use dynamics::{Dynamics, StepError};
 pub use iteration::{Change, Iteration, Number, Slopes};
 pub use linearized::{Linearized, NO_TANGENT};
 pub use penalty::{OMEGA, PENALTY, XI, mean_compliance};
 pub use residual::{Residual, Unknowns};
-pub use stabilizer::{Field, Stabilizer};
+pub use stabilizer::{Stabilizer, StabilizingField};
 pub use statistics::{Statistics, Work};
 pub use turn::turn;
 
@@ -53,7 +53,7 @@ pub trait Formulation: Send {
         dynamics: &mut Dynamics,
         qdot: &mut [f64],
         vdot: &mut [f64],
-    ) -> Result<(), Halt>;
+    ) -> Result<(), StepError>;
 
     /// Settles by the first state of a run what holds in all of it.
     fn settle(&mut self, _t: f64, _q: &[f64], _v: &[f64], _dynamics: &mut Dynamics) {}
@@ -67,7 +67,7 @@ pub trait Formulation: Send {
     fn recall(&mut self, _settled: &[f64]) {}
 
     /// A step begins at a state of the motion: what follows are states within that step, until it ends.
-    fn begin_step(&mut self, _t: f64, _q: &[f64], _v: &[f64], _dynamics: &mut Dynamics) -> Result<(), Halt> {
+    fn begin_step(&mut self, _t: f64, _q: &[f64], _v: &[f64], _dynamics: &mut Dynamics) -> Result<(), StepError> {
         Ok(())
     }
 
@@ -78,7 +78,7 @@ pub trait Formulation: Send {
 
     /// The step ends, or is left for a row of output, at what the integrator made of (q, v): writes the state of the
     /// motion that this stands for.
-    fn end_step(&mut self, _t: f64, _q: &mut [f64], _v: &mut [f64], _dynamics: &mut Dynamics) -> Result<(), Halt> {
+    fn end_step(&mut self, _t: f64, _q: &mut [f64], _v: &mut [f64], _dynamics: &mut Dynamics) -> Result<(), StepError> {
         Ok(())
     }
 }

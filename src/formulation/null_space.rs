@@ -1,7 +1,7 @@
 //! Minimal coordinates: the equations on the tangent space of the constraints.
 
 use super::dense::Dense;
-use super::{Dynamics, Entry, Formulation, Halt, SPARSE};
+use super::{Dynamics, Entry, Formulation, SPARSE, StepError};
 use crate::error::Error;
 use crate::math::Piece;
 use crate::math::kkt::{Chart, Reduced};
@@ -91,7 +91,7 @@ impl TangentSpace {
     }
 
     /// The state on the manifold with the u and u' of (q, v).
-    fn lift(&mut self, t: f64, q: &[f64], v: &[f64], dynamics: &mut Dynamics) -> Result<(), Halt> {
+    fn lift(&mut self, t: f64, q: &[f64], v: &[f64], dynamics: &mut Dynamics) -> Result<(), StepError> {
         self.q.copy_from_slice(q);
         self.v.copy_from_slice(v);
         dynamics.system.normalize(&mut self.q);
@@ -100,7 +100,7 @@ impl TangentSpace {
     }
 
     /// Newton's method, by the matrix of the guess while that does.
-    fn lift_position(&mut self, t: f64, dynamics: &mut Dynamics) -> Result<(), Halt> {
+    fn lift_position(&mut self, t: f64, dynamics: &mut Dynamics) -> Result<(), StepError> {
         let mut is_factored = false;
         converge(|renews| {
             dynamics.evaluate(t, &self.q, &self.v, Need::CONSTRAINTS | Need::G);
@@ -116,7 +116,7 @@ impl TangentSpace {
     }
 
     /// The matrix is that of a position close by, which a few iterations make up for.
-    fn lift_velocity(&mut self, dynamics: &Dynamics) -> Result<(), Halt> {
+    fn lift_velocity(&mut self, dynamics: &Dynamics) -> Result<(), StepError> {
         converge(|_| {
             self.rows.copy_from_slice(&dynamics.terms.phi_t);
             dynamics.structure.g.multiply(&dynamics.terms.g, &self.v, &mut self.rows);
@@ -127,12 +127,12 @@ impl TangentSpace {
     }
 }
 
-fn converge(correct: impl FnMut(bool) -> Result<f64, Halt>) -> Result<(), Halt> {
-    if Monitor::default().solve(LIMITS, correct)? { Ok(()) } else { Err(Halt::NotConverged) }
+fn converge(correct: impl FnMut(bool) -> Result<f64, StepError>) -> Result<(), StepError> {
+    if Monitor::default().solve(LIMITS, correct)? { Ok(()) } else { Err(StepError::NotConverged) }
 }
 
-fn change(step: &[f64], x: &[f64]) -> Result<f64, Halt> {
-    if step.iter().all(|step| step.is_finite()) { Ok(relative(step, x)) } else { Err(Halt::NotFinite) }
+fn change(step: &[f64], x: &[f64]) -> Result<f64, StepError> {
+    if step.iter().all(|step| step.is_finite()) { Ok(relative(step, x)) } else { Err(StepError::NotFinite) }
 }
 
 impl Formulation for TangentSpace {
@@ -144,7 +144,7 @@ impl Formulation for TangentSpace {
         dynamics: &mut Dynamics,
         qdot: &mut [f64],
         vdot: &mut [f64],
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         if !self.is_within {
             return self.field.derivative(t, q, v, dynamics, qdot, vdot);
         }
@@ -152,7 +152,7 @@ impl Formulation for TangentSpace {
         self.field.derivative(t, &self.q, &self.v, dynamics, qdot, vdot)
     }
 
-    fn begin_step(&mut self, t: f64, q: &[f64], v: &[f64], dynamics: &mut Dynamics) -> Result<(), Halt> {
+    fn begin_step(&mut self, t: f64, q: &[f64], v: &[f64], dynamics: &mut Dynamics) -> Result<(), StepError> {
         self.is_within = true;
         if self.base.0 != t || self.base.1 != q || self.base.2 != dynamics.scratch.pieces {
             dynamics.evaluate(t, q, v, Need::MASS | Need::G);
@@ -168,7 +168,7 @@ impl Formulation for TangentSpace {
         true
     }
 
-    fn end_step(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), Halt> {
+    fn end_step(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), StepError> {
         self.is_within = false;
         self.lift(t, q, v, dynamics)?;
         q.copy_from_slice(&self.q);

@@ -1,6 +1,6 @@
 //! Penalty on the constraints, with or without updates of the multipliers.
 
-use super::{Choice, Dynamics, Entry, Formulation, Halt, OptionDoc};
+use super::{Choice, Dynamics, Entry, Formulation, OptionDoc, StepError};
 use crate::error::Result;
 use crate::math::kkt::{Pattern, SaddlePoint};
 use crate::system::{MechanicalSystem, Need, Structure, Terms};
@@ -74,7 +74,7 @@ impl Penalty {
         })
     }
 
-    fn factor(&mut self, dynamics: &mut Dynamics) -> Result<(), Halt> {
+    fn factor(&mut self, dynamics: &mut Dynamics) -> Result<(), StepError> {
         let Dynamics { terms, structure, .. } = &*dynamics;
         let weight = self.weight.unwrap_or_else(|| self.penalty / mean_compliance(structure, terms));
         let (mass, slack) = self.mass.split_at_mut(terms.mass.len());
@@ -108,7 +108,7 @@ impl Formulation for Penalty {
         dynamics: &mut Dynamics,
         qdot: &mut [f64],
         vdot: &mut [f64],
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         let (omega, xi) = (self.omega, self.xi);
         dynamics.right_sides(t, q, v, |phi, phi_dot| -2.0 * xi * omega * phi_dot - omega * omega * phi);
         self.factor(dynamics)?;

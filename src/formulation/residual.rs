@@ -1,6 +1,6 @@
 //! What the equations leave at a state.
 
-use super::{Dae, Dynamics, Halt, Row};
+use super::{Dae, Dynamics, Row, StepError};
 use crate::system::{Dimensions, Need};
 
 /// The unknowns of [`Dae`] beside q and v: n_v and n_c numbers in turn; of shifts that it does not have, or whose own equations
@@ -52,9 +52,9 @@ impl Residual {
         (t, q, v): (f64, &[f64], &[f64]),
         unknowns: Unknowns,
         dynamics: &mut Dynamics,
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         if q.iter().chain(v).any(|x| !x.is_finite()) {
-            return Err(Halt::NotFinite);
+            return Err(StepError::NotFinite);
         }
         dynamics.statistics.rhs_evaluations += 1;
         dynamics.evaluate(t, q, v, Need::DYNAMICS);

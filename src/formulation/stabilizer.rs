@@ -4,14 +4,14 @@
 //! [G 0; L G] and B = M^-1 G^T. Source: Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; Ascher, Chin, Petzold,
 //! Reich, Mech. Struct. Mach. 23 (1995) 135-157.
 
-use super::{Choice, Dynamics, Halt};
+use super::{Choice, Dynamics, StepError};
 use crate::error::{Error, Result, suggest};
 use crate::math::kkt::{Pattern, SaddlePoint};
 use crate::system::{MechanicalSystem, Need};
 
 /// Choices of F.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Field {
+pub enum StabilizingField {
     /// Position rows only: dq = B (G B)^-1 phi.
     Position,
     /// Velocity rows only: dv = B (G B)^-1 (G v + phi_t).
@@ -28,20 +28,20 @@ pub enum Field {
     Gradient,
 }
 
-const FIELDS: [(&str, Field); 7] = [
-    ("both", Field::Both),
-    ("full", Field::Full),
-    ("mass_weighted", Field::MassWeighted),
-    ("triangular", Field::Triangular),
-    ("position", Field::Position),
-    ("velocity", Field::Velocity),
-    ("gradient", Field::Gradient),
+const FIELDS: [(&str, StabilizingField); 7] = [
+    ("both", StabilizingField::Both),
+    ("full", StabilizingField::Full),
+    ("mass_weighted", StabilizingField::MassWeighted),
+    ("triangular", StabilizingField::Triangular),
+    ("position", StabilizingField::Position),
+    ("velocity", StabilizingField::Velocity),
+    ("gradient", StabilizingField::Gradient),
 ];
 
-impl Field {
+impl StabilizingField {
     /// The option `field` of a method; S-both where it is not given.
-    pub fn from_choice(choice: &Choice) -> Result<Field> {
-        let Some(text) = choice.text("field") else { return Ok(Field::Both) };
+    pub fn from_choice(choice: &Choice) -> Result<StabilizingField> {
+        let Some(text) = choice.text("field") else { return Ok(StabilizingField::Both) };
         let found = FIELDS.iter().find(|(name, _)| *name == text.replace('-', "_")).map(|(_, field)| *field);
         found.ok_or_else(|| {
             Error::input(format!("{}: there is no field `{text}`", choice.name))
@@ -52,7 +52,7 @@ impl Field {
     pub fn needs(self) -> Need {
         let first = Need::MASS | Need::CONSTRAINTS | Need::G;
         match self {
-            Field::Position | Field::Velocity | Field::Both => first,
+            StabilizingField::Position | StabilizingField::Velocity | StabilizingField::Both => first,
             _ => first | Need::L,
         }
     }
@@ -60,7 +60,7 @@ impl Field {
 
 /// One choice of F with the memory to apply it.
 pub struct Stabilizer {
-    pub field: Field,
+    pub field: StabilizingField,
     /// F h, position part, along the directions of v.
     pub dq: Vec<f64>,
     /// F h, velocity part.
@@ -79,31 +79,32 @@ struct Full {
 }
 
 impl Stabilizer {
-    pub fn new(field: Field, system: &dyn MechanicalSystem) -> Self {
+    pub fn new(field: StabilizingField, system: &dyn MechanicalSystem) -> Self {
         let n = system.dimensions();
-        let full = matches!(field, Field::Full | Field::MassWeighted).then(|| Full::new(field, system));
+        let full =
+            matches!(field, StabilizingField::Full | StabilizingField::MassWeighted).then(|| Full::new(field, system));
         Stabilizer { field, dq: vec![0.0; n.v], dv: vec![0.0; n.v], full, row: vec![0.0; n.lambda] }
     }
 
     /// Computes F h from the terms in `dynamics`, whose saddle-point matrix must be factored.
-    pub fn correction(&mut self, dynamics: &mut Dynamics) -> Result<(), Halt> {
+    pub fn correction(&mut self, dynamics: &mut Dynamics) -> Result<(), StepError> {
         self.dq.fill(0.0);
         self.dv.fill(0.0);
         match self.field {
-            Field::Position => dynamics.kkt.solve_projection(&dynamics.terms.phi, &mut self.dq)?,
-            Field::Velocity => dynamics.kkt.solve_projection(&dynamics.terms.phi_dot, &mut self.dv)?,
-            Field::Both => {
+            StabilizingField::Position => dynamics.kkt.solve_projection(&dynamics.terms.phi, &mut self.dq)?,
+            StabilizingField::Velocity => dynamics.kkt.solve_projection(&dynamics.terms.phi_dot, &mut self.dv)?,
+            StabilizingField::Both => {
                 dynamics.kkt.solve_projection(&dynamics.terms.phi, &mut self.dq)?;
                 dynamics.kkt.solve_projection(&dynamics.terms.phi_dot, &mut self.dv)?;
             }
-            Field::Triangular => self.triangular(dynamics)?,
-            Field::Gradient => self.gradient(dynamics),
-            Field::Full | Field::MassWeighted => self.full(dynamics)?,
+            StabilizingField::Triangular => self.triangular(dynamics)?,
+            StabilizingField::Gradient => self.gradient(dynamics),
+            StabilizingField::Full | StabilizingField::MassWeighted => self.full(dynamics)?,
         }
         Ok(())
     }
 
-    fn triangular(&mut self, dynamics: &mut Dynamics) -> Result<(), Halt> {
+    fn triangular(&mut self, dynamics: &mut Dynamics) -> Result<(), StepError> {
         dynamics.kkt.solve_projection(&dynamics.terms.phi, &mut self.dq)?;
         self.row.fill(0.0);
         dynamics.structure.g.multiply(&dynamics.terms.l, &self.dq, &mut self.row);
@@ -118,10 +119,10 @@ impl Stabilizer {
         g.multiply_transposed(&terms.g, &terms.phi_dot, &mut self.dv);
     }
 
-    fn full(&mut self, dynamics: &mut Dynamics) -> Result<(), Halt> {
+    fn full(&mut self, dynamics: &mut Dynamics) -> Result<(), StepError> {
         let Some(full) = &mut self.full else { return Ok(()) };
         let (n, m, terms) = (self.dq.len(), self.row.len(), &dynamics.terms);
-        if self.field == Field::MassWeighted {
+        if self.field == StabilizingField::MassWeighted {
             let (first, second) = full.mass.split_at_mut(terms.mass.len());
             first.copy_from_slice(&terms.mass);
             second.copy_from_slice(&terms.mass);
@@ -145,14 +146,16 @@ impl Stabilizer {
 }
 
 impl Full {
-    fn new(field: Field, system: &dyn MechanicalSystem) -> Self {
+    fn new(field: StabilizingField, system: &dyn MechanicalSystem) -> Self {
         let (dimensions, structure) = (system.dimensions(), system.structure());
         let (n, m) = (dimensions.v, dimensions.lambda);
         let shifted = |pattern: &Pattern, i0: usize, j0: usize| -> Vec<(usize, usize)> {
             pattern.entries.iter().map(|&(i, j)| (i + i0, j + j0)).collect()
         };
         let mass = match field {
-            Field::Full => Pattern { rows: 2 * n, cols: 2 * n, entries: (0..2 * n).map(|i| (i, i)).collect() },
+            StabilizingField::Full => {
+                Pattern { rows: 2 * n, cols: 2 * n, entries: (0..2 * n).map(|i| (i, i)).collect() }
+            }
             _ => {
                 let entries = [shifted(&structure.mass, 0, 0), shifted(&structure.mass, n, n)].concat();
                 Pattern { rows: 2 * n, cols: 2 * n, entries }

@@ -12,7 +12,7 @@ pub use follow::{Followed, follow};
 pub use report::{Assembly, Level, Move};
 
 use crate::error::{Error, Result, short};
-use crate::formulation::{Dynamics, Halt};
+use crate::formulation::{Dynamics, StepError};
 use crate::math::kkt::{Pattern, SaddlePoint};
 use crate::math::largest_in;
 use crate::system::{MechanicalSystem, Need, Scratch, Terms};
@@ -39,13 +39,15 @@ pub fn assemble(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64]),
 }
 
 /// The start is consistent, but has no acceleration.
-fn stuck(halt: &Halt) -> Error {
+fn stuck(halt: &StepError) -> Error {
     let error = Error::input(format!("at the start, {halt}"));
     match halt {
-        Halt::Term(term) => error
+        StepError::Term(term) => error
             .under(if term.starts_with("the force") { "forces" } else { "joints" })
             .hint("look for roots and quotients in expressions, and for springs of length zero"),
-        Halt::Undetermined(_) => error.under("bodies").hint("give the body mass and inertia, or hold it by joints"),
+        StepError::Undetermined(_) => {
+            error.under("bodies").hint("give the body mass and inertia, or hold it by joints")
+        }
         _ => error.under("bodies").hint("masses, inertias or forces are too large or too small to compute with"),
     }
 }

@@ -1,7 +1,7 @@
 //! Step sizes: the norm of the error and the controller.
 
 use super::Problem;
-use crate::formulation::Halt;
+use crate::formulation::StepError;
 use crate::system::MechanicalSystem;
 use crate::tolerances::integrator as tolerances;
 use std::ops::Range;
@@ -174,7 +174,7 @@ pub fn first_step(
     y: &[f64],
     slope: &[f64],
     order: usize,
-) -> Result<f64, Halt> {
+) -> Result<f64, StepError> {
     let (d0, d1) = (tolerance.norm(y, y), tolerance.norm(y, slope));
     let guess = if d0 < 1e-10 || d1 < 1e-10 { 1e-6 } else { 0.01 * d0 / d1 };
     let mut guess = guess.min(tolerances::FIRST_STEP_OF_SPAN * span);
@@ -183,7 +183,7 @@ pub fn first_step(
         let ahead: Vec<f64> = y.iter().zip(slope).map(|(y, slope)| y + guess * slope).collect();
         match problem.derivative(t + guess, &ahead, &mut next) {
             Ok(()) => break,
-            Err(halt) if halt.is_final() || shorter == tolerances::FIRST_STEP_SHORTER => return Err(halt),
+            Err(halt) if halt.is_fatal() || shorter == tolerances::FIRST_STEP_SHORTER => return Err(halt),
             Err(_) => guess *= 0.1,
         }
     }

@@ -2,7 +2,7 @@
 
 use super::hermite::Hermite;
 use super::{Control, From, Integrator, Problem, Stability, Tolerance};
-use crate::formulation::Halt;
+use crate::formulation::StepError;
 
 /// The constants of an explicit method.
 pub struct Tableau {
@@ -85,7 +85,7 @@ impl Explicit {
         range: std::ops::Range<usize>,
         from: From,
         h: f64,
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         for i in range {
             combine(&mut self.stage, from.y, h, self.tableau.a[i], &self.k);
             let t = from.t + self.tableau.c[i] * h;
@@ -156,7 +156,7 @@ impl Integrator for Explicit {
         from: From,
         h: f64,
         to: &mut [f64],
-    ) -> Result<Option<f64>, Halt> {
+    ) -> Result<Option<f64>, StepError> {
         self.k[0].copy_from_slice(from.slope);
         self.evaluate(problem, 1..self.stages(), from, h)?;
         combine(to, from.y, h, self.tableau.b, &self.k);
@@ -191,7 +191,14 @@ impl Integrator for Explicit {
     }
 
     /// Cubic Hermite interpolation, and beyond it what comes from the stages.
-    fn prepare(&mut self, problem: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt> {
+    fn prepare(
+        &mut self,
+        problem: &mut Problem,
+        from: From,
+        h: f64,
+        to: &[f64],
+        slope: &[f64],
+    ) -> Result<(), StepError> {
         let stages = self.stages();
         if self.k.len() > stages {
             self.k[stages].copy_from_slice(slope);
@@ -207,7 +214,14 @@ impl Integrator for Explicit {
         Ok(())
     }
 
-    fn interpolate(&mut self, _: &mut Problem, from: From, _: f64, theta: f64, out: &mut [f64]) -> Result<(), Halt> {
+    fn interpolate(
+        &mut self,
+        _: &mut Problem,
+        from: From,
+        _: f64,
+        theta: f64,
+        out: &mut [f64],
+    ) -> Result<(), StepError> {
         self.polynomial.interpolate(theta, from.y, out);
         Ok(())
     }

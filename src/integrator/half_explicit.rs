@@ -3,8 +3,8 @@
 use super::explicit::{Tableau as Explicit, combine};
 use super::hermite::Hermite;
 use super::{Control, From, Integrator, Problem, Setup, Stability, Tolerance};
-use crate::formulation::Halt;
-use crate::math::kkt::TwoPlaces;
+use crate::formulation::StepError;
+use crate::math::kkt::TwoJacobianGmres;
 use crate::system::Need;
 
 /// The cubic has an error of h^4 over a step, and so rows of order 4.
@@ -61,7 +61,7 @@ pub struct HalfExplicit {
     /// Error of q, v and w, and of v off the manifold.
     error: Vec<f64>,
     off: Vec<f64>,
-    solver: TwoPlaces,
+    solver: TwoJacobianGmres,
     control: Control,
     polynomial: Hermite,
 }
@@ -81,13 +81,13 @@ impl HalfExplicit {
             rate: zeros(n.lambda),
             error: zeros(len),
             off: zeros(n.v),
-            solver: TwoPlaces::new(n.v, n.lambda),
+            solver: TwoJacobianGmres::new(n.v, n.lambda),
             polynomial: Hermite::new(len, usize::from(tableau.order > CUBIC)),
         }
     }
 
     /// k_i = (N V, V', power) of stage `i`.
-    fn evaluate(&mut self, problem: &mut Problem, i: usize, from: From, h: f64) -> Result<(), Halt> {
+    fn evaluate(&mut self, problem: &mut Problem, i: usize, from: From, h: f64) -> Result<(), StepError> {
         let (row, node) = self.tableau.stage(i);
         combine(&mut self.stage, from.y, h, row, &self.k);
         is_finite(&self.stage)?;
@@ -112,7 +112,7 @@ impl HalfExplicit {
     }
 
     /// V'_i and lambda_i; k_i holds N V and zeros, `force` f and `lambda` the guess gamma.
-    fn solve(&mut self, problem: &mut Problem, i: usize, from: From, h: f64) -> Result<(), Halt> {
+    fn solve(&mut self, problem: &mut Problem, i: usize, from: From, h: f64) -> Result<(), StepError> {
         let row = self.tableau.constraint[i];
         let n = problem.dynamics.system.dimensions();
         combine(&mut self.stage, from.y, h, row, &self.k);
@@ -132,7 +132,7 @@ impl HalfExplicit {
 
     /// h sum_i e_i k_i, with its velocities moved to the tangent space at the new state: the multipliers of stages are
     /// less accurate than their motion. The problem holds the factors of the new state.
-    fn estimate(&mut self, problem: &mut Problem, weights: &[f64], h: f64) -> Result<(), Halt> {
+    fn estimate(&mut self, problem: &mut Problem, weights: &[f64], h: f64) -> Result<(), StepError> {
         let n = problem.dynamics.system.dimensions();
         self.stage.fill(0.0);
         combine(&mut self.error, &self.stage, h, weights, &self.k);
@@ -146,8 +146,8 @@ impl HalfExplicit {
     }
 }
 
-fn is_finite(y: &[f64]) -> Result<(), Halt> {
-    if y.iter().all(|x| x.is_finite()) { Ok(()) } else { Err(Halt::NotFinite) }
+fn is_finite(y: &[f64]) -> Result<(), StepError> {
+    if y.iter().all(|x| x.is_finite()) { Ok(()) } else { Err(StepError::NotFinite) }
 }
 
 impl Integrator for HalfExplicit {
@@ -179,7 +179,7 @@ impl Integrator for HalfExplicit {
         from: From,
         h: f64,
         to: &mut [f64],
-    ) -> Result<Option<f64>, Halt> {
+    ) -> Result<Option<f64>, StepError> {
         self.k[0].copy_from_slice(from.slope);
         let first = usize::from(self.tableau.explicit.is_some());
         for i in first..self.tableau.constraint.len() {
@@ -197,7 +197,14 @@ impl Integrator for HalfExplicit {
         self.tableau.explicit.map(|_| &self.k[self.tableau.constraint.len()][..])
     }
 
-    fn prepare(&mut self, problem: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt> {
+    fn prepare(
+        &mut self,
+        problem: &mut Problem,
+        from: From,
+        h: f64,
+        to: &[f64],
+        slope: &[f64],
+    ) -> Result<(), StepError> {
         let HalfExplicit { polynomial, stage, error, .. } = self;
         polynomial.prepare(from, h, to, slope);
         match self.tableau.order > CUBIC {
@@ -206,7 +213,14 @@ impl Integrator for HalfExplicit {
         }
     }
 
-    fn interpolate(&mut self, _: &mut Problem, from: From, _: f64, theta: f64, out: &mut [f64]) -> Result<(), Halt> {
+    fn interpolate(
+        &mut self,
+        _: &mut Problem,
+        from: From,
+        _: f64,
+        theta: f64,
+        out: &mut [f64],
+    ) -> Result<(), StepError> {
         self.polynomial.interpolate(theta, from.y, out);
         Ok(())
     }

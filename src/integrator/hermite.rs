@@ -1,7 +1,7 @@
 //! Interpolation over a step.
 
 use super::{From, Problem};
-use crate::formulation::Halt;
+use crate::formulation::StepError;
 
 /// (1 - 1/sqrt 5)/2, a node of Lobatto's rule: the largest error of the quartic, of theta^2 (1 - theta)^2 (theta - 1/2), is
 /// the smallest here.
@@ -43,7 +43,7 @@ impl Hermite {
         from: From,
         h: f64,
         [y, slope]: [&mut [f64]; 2],
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         self.rows[3].fill(0.0);
         self.interpolate(NODE, from.y, y);
         problem.derivative(from.t + NODE * h, y, slope)?;

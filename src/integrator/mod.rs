@@ -36,14 +36,14 @@ pub use stability::Stability;
 
 use crate::choice::Listed;
 use crate::error::Result;
-use crate::formulation::{self, Choice, Halt, OptionDoc};
+use crate::formulation::{self, Choice, OptionDoc, StepError};
 use crate::math::kkt::Singular;
 use crate::system::MechanicalSystem;
 use crate::tolerances::integrator as tolerances;
 
 /// Why the matrix of a step is singular: with all rows in it, of which some depend on others at its start and ahead, and
 /// yet ask for another position there, these contradict each other.
-fn collapsed(singular: Singular, problem: &mut Problem, from: From, h: f64) -> Halt {
+fn collapsed(singular: Singular, problem: &mut Problem, from: From, h: f64) -> StepError {
     if singular != Singular::Collapsed || !problem.dynamics.dropped.is_empty() {
         return singular.into();
     }
@@ -57,7 +57,7 @@ fn collapsed(singular: Singular, problem: &mut Problem, from: From, h: f64) -> H
     if is_torn { CONTRADICTION } else { singular.into() }
 }
 
-const CONTRADICTION: Halt = Halt::Unsuitable {
+const CONTRADICTION: StepError = StepError::Unsuitable {
     reason: "redundant constraints contradict each other during the motion",
     hint: "`holonom check` names the redundant joints; take one away, or make them say the same at all times",
 };
@@ -81,7 +81,7 @@ pub trait Integrator {
         from: From,
         h: f64,
         to: &mut [f64],
-    ) -> Result<Option<f64>, Halt>;
+    ) -> Result<Option<f64>, StepError>;
 
     /// y' at the new state, where the last attempt evaluated it there, and last of all: the problem then holds the terms
     /// of the new state, and the next step needs no evaluation of its own (first same as last).
@@ -138,7 +138,14 @@ pub trait Integrator {
     }
 
     /// Prepares interpolation over the step just accepted; `slope` is y' at its end `to`.
-    fn prepare(&mut self, problem: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt>;
+    fn prepare(
+        &mut self,
+        problem: &mut Problem,
+        from: From,
+        h: f64,
+        to: &[f64],
+        slope: &[f64],
+    ) -> Result<(), StepError>;
 
     /// The state at the fraction `theta` of the prepared step of size `h`.
     fn interpolate(
@@ -148,7 +155,7 @@ pub trait Integrator {
         h: f64,
         theta: f64,
         out: &mut [f64],
-    ) -> Result<(), Halt>;
+    ) -> Result<(), StepError>;
 }
 
 /// Where a step starts.

@@ -1,6 +1,6 @@
 //! What an integrator integrates: a formulation of a system, as y' = F(t, y).
 
-use crate::formulation::{Dynamics, Formulation, Halt};
+use crate::formulation::{Dynamics, Formulation, StepError};
 use crate::system::Dimensions;
 
 /// y = (q, v, w) with w the work of forces without a potential and of moving constraints, J, which is carried along so
@@ -37,9 +37,9 @@ impl<'a> Problem<'a> {
     }
 
     /// y' at (t, y).
-    pub fn derivative(&mut self, t: f64, y: &[f64], slope: &mut [f64]) -> Result<(), Halt> {
+    pub fn derivative(&mut self, t: f64, y: &[f64], slope: &mut [f64]) -> Result<(), StepError> {
         if y.iter().any(|x| !x.is_finite()) {
-            return Err(Halt::NotFinite);
+            return Err(StepError::NotFinite);
         }
         let (q, v) = self.split(y);
         let (qdot, rest) = slope.split_at_mut(self.dimensions.q);
@@ -50,13 +50,13 @@ impl<'a> Problem<'a> {
     }
 
     /// A step begins at (t, y).
-    pub fn begin_step(&mut self, t: f64, y: &[f64]) -> Result<(), Halt> {
+    pub fn begin_step(&mut self, t: f64, y: &[f64]) -> Result<(), StepError> {
         let (q, v) = self.split(y);
         self.formulation.begin_step(t, q, v, &mut self.dynamics)
     }
 
     /// A step ends at (t, y), which becomes a state of the motion.
-    pub fn end_step(&mut self, t: f64, y: &mut [f64]) -> Result<(), Halt> {
+    pub fn end_step(&mut self, t: f64, y: &mut [f64]) -> Result<(), StepError> {
         let (q, rest) = y.split_at_mut(self.dimensions.q);
         self.formulation.end_step(t, q, &mut rest[..self.dimensions.v], &mut self.dynamics)
     }

@@ -5,7 +5,7 @@ use super::{
     Control, Entry, From, Integrator, Problem, Setup, Stability, Steps, Tightening, Tolerance, refuses, takes,
 };
 use crate::error::{Error, Result};
-use crate::formulation::Halt;
+use crate::formulation::StepError;
 use crate::math::kkt::Singular;
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor, relative};
@@ -89,7 +89,7 @@ const LIMITS: Limits = Limits {
 
 impl Rattle {
     /// M, G and f at the start, with factors; they may be there from the step before.
-    fn start(&mut self, problem: &mut Problem, from: From) -> Result<(), Halt> {
+    fn start(&mut self, problem: &mut Problem, from: From) -> Result<(), StepError> {
         let (q, v) = problem.split(from.y);
         let dynamics = &mut problem.dynamics;
         self.is_ahead = false;
@@ -103,18 +103,18 @@ impl Rattle {
     }
 
     /// Refuses a mass matrix that moved by more than round-off.
-    fn compare(&mut self, mass: &[f64]) -> Result<(), Halt> {
+    fn compare(&mut self, mass: &[f64]) -> Result<(), StepError> {
         let known = self.mass.get_or_insert_with(|| mass.to_vec());
         let largest = known.iter().fold(0.0, |largest: f64, m| largest.max(m.abs()));
         let same = known.iter().zip(mass).all(|(known, m)| (known - m).abs() <= 1e-12 * largest);
         let reason = "rattle needs a constant mass matrix, and it changed";
         let hint = "use generalized_alpha, or phem56 with index2: they take any mass matrix";
-        if same { Ok(()) } else { Err(Halt::Unsuitable { reason, hint }) }
+        if same { Ok(()) } else { Err(StepError::Unsuitable { reason, hint }) }
     }
 
     /// v_h and q_1, from the accelerations of the equations of motion at the start: v_h differs from v + h/2 v' by
     /// reactions, and by what f changes with v.
-    fn first_half(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<(), Halt> {
+    fn first_half(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<(), StepError> {
         let (q, v) = problem.split(from.y);
         let (_, vdot) = problem.split(from.slope);
         for i in 0..v.len() {
@@ -124,10 +124,10 @@ impl Rattle {
         let converged = newton.solve(LIMITS, |_| {
             problem.dynamics.statistics.newton_iterations += 1;
             let change = self.iterate(problem, (from, q), h)?;
-            Ok::<_, Halt>(change / self.still(h))
+            Ok::<_, StepError>(change / self.still(h))
         })?;
         problem.dynamics.statistics.stagnated += u64::from(converged && newton.has_stagnated);
-        if converged { Ok(()) } else { Err(Halt::Singular(Singular::Apart)) }
+        if converged { Ok(()) } else { Err(StepError::Singular(Singular::Apart)) }
     }
 
     /// Relative change of v_h that may be round-off: that of phi over h stands against all else in tiny steps.
@@ -137,7 +137,7 @@ impl Rattle {
     }
 
     /// One correction of v_h for the forces and for phi(q_1); its size relative to v_h.
-    fn iterate(&mut self, problem: &mut Problem, (from, q): (From, &[f64]), h: f64) -> Result<f64, Halt> {
+    fn iterate(&mut self, problem: &mut Problem, (from, q): (From, &[f64]), h: f64) -> Result<f64, StepError> {
         let dynamics = &mut problem.dynamics;
         dynamics.evaluate(from.t, q, &self.half, Need::FORCE);
         for (i, f) in dynamics.terms.f.iter().enumerate() {
@@ -163,7 +163,7 @@ impl Rattle {
     }
 
     /// v_1, and y' there, by the factors at q_1.
-    fn second_half(&mut self, problem: &mut Problem, t: f64, h: f64, to: &mut [f64]) -> Result<(), Halt> {
+    fn second_half(&mut self, problem: &mut Problem, t: f64, h: f64, to: &mut [f64]) -> Result<(), StepError> {
         let (q, v) = problem.split_mut(to);
         q.copy_from_slice(&self.q);
         let dynamics = &mut problem.dynamics;
@@ -212,7 +212,7 @@ impl Integrator for Rattle {
         from: From,
         h: f64,
         to: &mut [f64],
-    ) -> Result<Option<f64>, Halt> {
+    ) -> Result<Option<f64>, StepError> {
         self.start(problem, from)?;
         self.first_half(problem, from, h)?;
         self.second_half(problem, from.end, h, to)?;
@@ -250,12 +250,19 @@ impl Integrator for Rattle {
         }
     }
 
-    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt> {
+    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), StepError> {
         self.polynomial.prepare(from, h, to, slope);
         Ok(())
     }
 
-    fn interpolate(&mut self, _: &mut Problem, from: From, _: f64, theta: f64, out: &mut [f64]) -> Result<(), Halt> {
+    fn interpolate(
+        &mut self,
+        _: &mut Problem,
+        from: From,
+        _: f64,
+        theta: f64,
+        out: &mut [f64],
+    ) -> Result<(), StepError> {
         self.polynomial.interpolate(theta, from.y, out);
         Ok(())
     }

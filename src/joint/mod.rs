@@ -21,7 +21,7 @@ mod spherical;
 mod universal;
 mod weld;
 
-use crate::body::{Build, ElementKind, Frame, MOST_MARKERS, MarkerId, Slope, mistaken, parse_among, twist_len};
+use crate::body::{Build, Dual6, ElementKind, Frame, MOST_MARKERS, MarkerId, mistaken, parse_among, twist_len};
 use crate::error::Result;
 use crate::math::{Dual, Rate, Scalar, Taylor, Time};
 use schemars::JsonSchema;
@@ -70,7 +70,7 @@ pub trait JointOver<S: Scalar, const D: usize> {
 }
 
 /// The object-safe form of a joint; implemented for every [`JointKernel`].
-pub trait Joint<const D: usize>: JointOver<f64, D> + JointOver<Slope, D> + Send + Sync {
+pub trait Joint<const D: usize>: JointOver<f64, D> + JointOver<Dual6, D> + Send + Sync {
     fn row_names(&self) -> Vec<&'static str>;
     fn depends_on_time(&self) -> bool;
     fn joint_axis(&self, first: &Frame<f64, D>) -> Option<Axis>;

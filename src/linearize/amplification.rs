@@ -5,7 +5,7 @@ use super::{Chart, Matrix, State, Variation};
 use crate::error::{Error, Result};
 use crate::simulate::{Method, Span, stiffness};
 use crate::study::Study;
-use crate::system::{Loaded, MechanicalSystem};
+use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::linearize as tolerances;
 
 /// The growth of that small change of the start which grows most up to any of `times` (increasing, after the start): the norm
@@ -51,8 +51,13 @@ pub fn amplification(
 /// As [`amplification`]; modes that are too fast for the explicit method that carries small changes.
 pub fn amplified(study: &Study, span: Span, goes_on: impl FnMut(f64) -> bool) -> Result<f64> {
     let start = State::start(study);
-    let state =
-        Loaded { t: start.t, q: &start.q, v: &start.v, vdot: &study.assembly.vdot, lambda: &study.assembly.lambda };
+    let state = OperatingPoint {
+        t: start.t,
+        q: &start.q,
+        v: &start.v,
+        vdot: &study.assembly.vdot,
+        lambda: &study.assembly.lambda,
+    };
     if let Some(stiffness) = stiffness(study.system(), &Method::default(), state, span) {
         return Err(Error::input(stiffness.to_string()));
     }

@@ -6,7 +6,7 @@ use crate::system::MechanicalSystem;
 /// Changes of the state, a column each.
 #[derive(Clone, Debug)]
 pub struct Changes {
-    /// Along the velocity directions.
+    /// LociVariable the velocity directions.
     pub q: Matrix,
     pub v: Matrix,
 }

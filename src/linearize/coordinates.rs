@@ -3,7 +3,7 @@
 use super::changes::beside;
 use super::{Changes, Matrix, Variation};
 use crate::error::{Error, Result};
-use crate::system::{LeviCivita, Loaded};
+use crate::system::{LeviCivita, OperatingPoint};
 
 /// The chart at a state.
 ///
@@ -107,7 +107,7 @@ pub fn parallel(variation: &mut Variation, n: Matrix) -> Result<Coordinates> {
 
 pub(super) fn levi_civita(variation: &mut Variation, connection: &mut LeviCivita) -> bool {
     let Variation { dynamics, point, .. } = variation;
-    let at = Loaded { t: point.t, q: &point.q, v: &point.v, vdot: &point.vdot, lambda: &point.lambda };
+    let at = OperatingPoint { t: point.t, q: &point.q, v: &point.v, vdot: &point.vdot, lambda: &point.lambda };
     dynamics.system.levi_civita(at, connection, &mut dynamics.scratch)
 }
 

@@ -1,6 +1,6 @@
 //! What every method of linearization returns.
 
-use super::OperatingPoint;
+use super::LinearizationPoint;
 use crate::tolerances::linearize as tolerances;
 pub use nalgebra::Complex;
 use nalgebra::DMatrix;
@@ -33,7 +33,7 @@ pub struct LinearModel {
     pub e: Option<Matrix>,
     /// All eigenvalues: physical ones first, then spurious, then infinite ones; each kind from the slowest.
     pub modes: Vec<Mode>,
-    pub point: OperatingPoint,
+    pub point: LinearizationPoint,
     pub cost: Cost,
 }
 

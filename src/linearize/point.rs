@@ -7,7 +7,7 @@ use crate::tolerances::linearize as tolerances;
 
 /// A state with its accelerations and multipliers.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct OperatingPoint {
+pub struct LinearizationPoint {
     pub t: f64,
     pub q: Vec<f64>,
     pub v: Vec<f64>,
@@ -24,12 +24,12 @@ pub struct OperatingPoint {
     pub driven: Option<Spin>,
 }
 
-impl OperatingPoint {
+impl LinearizationPoint {
     /// The state whose terms and solution `dynamics` holds, with its K.
     pub(super) fn new(dynamics: &Dynamics, k: &[f64], t: f64, q: &[f64], v: &[f64]) -> Self {
         let (terms, scales) = (&dynamics.terms, dynamics.system.scales());
         let worst = |rows: &[f64]| rows.iter().zip(&scales).fold(0.0f64, |worst, (row, s)| worst.max((row / s).abs()));
-        OperatingPoint {
+        LinearizationPoint {
             t,
             q: q.to_vec(),
             v: v.to_vec(),

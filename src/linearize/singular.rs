@@ -1,6 +1,6 @@
 //! States at which constraints that are independent nearby depend on each other.
 
-use super::{Matrix, OperatingPoint};
+use super::{LinearizationPoint, Matrix};
 use crate::error::{Error, Result, short};
 use crate::formulation::Dynamics;
 use crate::initial::assemble;
@@ -21,7 +21,7 @@ pub(super) fn is_suspect(dynamics: &Dynamics) -> bool {
 ///
 /// # Errors
 /// The state is singular.
-pub(super) fn refuse(dynamics: &Dynamics, point: &OperatingPoint, directions: &Matrix) -> Result<()> {
+pub(super) fn refuse(dynamics: &Dynamics, point: &LinearizationPoint, directions: &Matrix) -> Result<()> {
     let here = Rank::of(dynamics);
     let Some(beside) = rank_nearby(dynamics.system, point, directions) else { return Ok(()) };
     let t = short(point.t);
@@ -53,7 +53,7 @@ impl Rank {
 }
 
 /// The rank of G at a nearby state, along all free directions at a time; none where there is no such state.
-fn rank_nearby(system: &dyn MechanicalSystem, point: &OperatingPoint, directions: &Matrix) -> Option<Rank> {
+fn rank_nearby(system: &dyn MechanicalSystem, point: &LinearizationPoint, directions: &Matrix) -> Option<Rank> {
     let mut direction = vec![0.0; directions.nrows()];
     for (k, column) in directions.column_iter().enumerate() {
         // No two alike, so that no symmetry of a mechanism keeps it singular.

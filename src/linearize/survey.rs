@@ -1,7 +1,7 @@
 //! Linear models at many states: along a motion, or over a parameter.
 
 use super::along::{Walk, follow};
-use super::{Branch, Matrix, Operating, Request, Sample, State, at_rest, linearize, tighten, track};
+use super::{Branch, LociPoint, Matrix, Operating, Request, State, at_rest, linearize, tighten, track};
 use crate::error::{Error, Result, Warning};
 use crate::study::{Overrides, Study};
 use crate::sweep::{Family, Range};
@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 /// Eigenvalues at many states, as branches.
 #[derive(Clone, Debug)]
 pub struct Loci {
-    pub along: Along,
+    pub along: LociVariable,
     /// As in [`LinearModel`](super::LinearModel), of the first state that has one; empty where none has.
     pub method: String,
     pub chart: String,
@@ -28,7 +28,7 @@ pub struct Loci {
 
 /// What the eigenvalues are functions of.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Along {
+pub enum LociVariable {
     /// s
     Time,
     Parameter(Range),
@@ -70,7 +70,7 @@ pub enum At {
 /// What one state gives.
 struct Found {
     state: State,
-    sample: Sample,
+    sample: LociPoint,
     method: String,
     chart: String,
     is_equilibrium: bool,
@@ -92,7 +92,7 @@ pub fn loci_along(study: &Study, request: &Request, times: &[f64], progress: imp
     let outcome = |(t, state): (f64, Result<State>)| (t, state.and_then(|state| moving(state, t)));
     let outcomes: Vec<Outcome> = states.into_par_iter().map(outcome).collect();
     let between = |before: &Found, t: f64| moving(follow(study, &before.state, t)?, t);
-    collect(Along::Time, outcomes, between)
+    collect(LociVariable::Time, outcomes, between)
 }
 
 /// Eigenvalues of a scene for each value of a parameter; `progress` hears of each. Values without a state or a model are
@@ -125,7 +125,7 @@ pub fn loci_over(variants: &Variants, at: At, request: &Request, progress: impl 
         }
         _ => variants.found(value, at, request),
     };
-    Ok(collect(Along::Parameter(variants.range.clone()), outcomes, between))
+    Ok(collect(LociVariable::Parameter(variants.range.clone()), outcomes, between))
 }
 
 /// Equilibria from value to value, the first from that of the scene at the value `behind`.
@@ -186,7 +186,7 @@ fn found(operating: &Operating, at: f64, request: &Request) -> Result<Found> {
     let model = linearize(&mut variation, request)?;
     let mass: Matrix = variation.mass();
     let is_equilibrium = model.point.is_equilibrium;
-    let sample = Sample { at, modes: model.modes, mass };
+    let sample = LociPoint { at, modes: model.modes, mass };
     let (state, doubt) = (operating.state.clone(), operating.doubt.clone());
     Ok(Found { state, sample, method: model.method, chart: model.chart, is_equilibrium, doubt })
 }
@@ -197,7 +197,7 @@ fn refined(
     after: &Found,
     halvings: usize,
     between: &impl Fn(&Found, f64) -> Result<Found>,
-) -> Vec<Sample> {
+) -> Vec<LociPoint> {
     if halvings == 0 || before.sample.leads_clearly_to(&after.sample) {
         return Vec::new();
     }
@@ -211,7 +211,7 @@ fn refined(
 }
 
 /// Branches and gaps of what was found at the places; `between` gives the state behind one at another place.
-fn collect(along: Along, outcomes: Vec<Outcome>, between: impl Fn(&Found, f64) -> Result<Found> + Sync) -> Loci {
+fn collect(along: LociVariable, outcomes: Vec<Outcome>, between: impl Fn(&Found, f64) -> Result<Found> + Sync) -> Loci {
     let places: Vec<f64> = outcomes.iter().map(|(at, _)| *at).collect();
     let behind = |pair: &[Outcome]| match (&pair[0].1, &pair[1].1) {
         (Ok(before), Ok(after)) => {
@@ -224,7 +224,7 @@ fn collect(along: Along, outcomes: Vec<Outcome>, between: impl Fn(&Found, f64) -
         }
         _ => Vec::new(),
     };
-    let more: Vec<Vec<Sample>> = outcomes.par_windows(2).map(behind).collect();
+    let more: Vec<Vec<LociPoint>> = outcomes.par_windows(2).map(behind).collect();
     let first = outcomes.iter().find_map(|(_, outcome)| outcome.as_ref().ok());
     let (method, chart) = first.map(|found| (found.method.clone(), found.chart.clone())).unwrap_or_default();
     let (mut reached, mut gaps, mut samples, mut doubts) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -237,7 +237,7 @@ fn collect(along: Along, outcomes: Vec<Outcome>, between: impl Fn(&Found, f64) -
             }
             Err(error) => {
                 gaps.push(Gap { at, error });
-                samples.push(Sample::gap(at));
+                samples.push(LociPoint::gap(at));
             }
         }
         samples.extend(more);

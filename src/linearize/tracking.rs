@@ -13,7 +13,7 @@ pub struct Branch {
 
 /// The eigenvalues at a time or at a value of a parameter.
 #[derive(Clone, Debug)]
-pub struct Sample {
+pub struct LociPoint {
     pub at: f64,
     /// None where there is no linear model: branches go on behind this gap.
     pub modes: Vec<Mode>,
@@ -21,20 +21,20 @@ pub struct Sample {
     pub mass: Matrix,
 }
 
-impl Sample {
+impl LociPoint {
     /// A place without a linear model.
     pub fn gap(at: f64) -> Self {
-        Sample { at, modes: Vec::new(), mass: Matrix::zeros(0, 0) }
+        LociPoint { at, modes: Vec::new(), mass: Matrix::zeros(0, 0) }
     }
 }
 
-impl Sample {
+impl LociPoint {
     fn nodes(&self, kind: Kind) -> Vec<Node> {
         self.modes.iter().filter(|mode| mode.kind == kind).map(Node::new).collect()
     }
 
     /// Whether it is clear which physical mode of `next` belongs to which of these.
-    pub fn leads_clearly_to(&self, next: &Sample) -> bool {
+    pub fn leads_clearly_to(&self, next: &LociPoint) -> bool {
         let (starts, ends) = (self.nodes(Kind::Physical), next.nodes(Kind::Physical));
         is_clear(&starts.iter().collect::<Vec<_>>(), &ends, &next.mass)
     }
@@ -64,7 +64,7 @@ struct Thread {
 /// Analysis Conf. (1982) 110-116. A conjugate pair is followed by a pair, or by two real eigenvalues, of which the larger
 /// belongs to the branch with im > 0. Where modes become more or fewer, branches start or end. In a gap every branch has
 /// a point that is not a number.
-pub fn track(samples: &[Sample]) -> Vec<Branch> {
+pub fn track(samples: &[LociPoint]) -> Vec<Branch> {
     let (mut branches, mut threads) = (Vec::new(), Vec::new());
     for sample in samples {
         if sample.modes.is_empty() {
@@ -96,7 +96,7 @@ fn push(branches: &mut [Branch], place: usize, point: (f64, Complex<f64>)) {
 }
 
 /// The branches of a kind at one more sample; those that it has first, then new ones.
-fn go_on(threads: Vec<Thread>, sample: &Sample, kind: Kind, branches: &mut Vec<Branch>) -> Vec<Thread> {
+fn go_on(threads: Vec<Thread>, sample: &LociPoint, kind: Kind, branches: &mut Vec<Branch>) -> Vec<Thread> {
     let ends = sample.nodes(kind);
     let predicted: Vec<Complex<f64>> = threads.iter().map(|thread| thread.predicted(sample.at)).collect();
     let rows: Vec<&Node> = threads.iter().map(|thread| &thread.last).collect();

@@ -1,11 +1,11 @@
 //! The variational equations at a state: every matrix of a linear model.
 
-use super::{Changes, Matrix, OperatingPoint, singular};
+use super::{Changes, LinearizationPoint, Matrix, singular};
 use crate::error::{Error, Result, clock};
-use crate::formulation::{Dynamics, Halt, free_directions};
+use crate::formulation::{Dynamics, StepError, free_directions};
 use crate::math::kkt::Pattern;
 use crate::math::memory::refuse_dense;
-use crate::system::{Column, Loaded, MechanicalSystem, Need, OutputTangent, Tangent, refuse_states};
+use crate::system::{Column, MechanicalSystem, Need, OperatingPoint, OutputTangent, Tangent, refuse_states};
 
 /// Small changes (dq, dv) of a state, dq along the velocity directions, with those of v' and lambda:
 ///
@@ -20,7 +20,7 @@ use crate::system::{Column, Loaded, MechanicalSystem, Need, OutputTangent, Tange
 /// G dv + Gd dq = 0. The saddle-point matrix is factored once: a direction costs a back-substitution.
 pub struct Variation<'a> {
     pub dynamics: Dynamics<'a>,
-    pub point: OperatingPoint,
+    pub point: LinearizationPoint,
     pub tangent: Tangent,
     /// Values of Gdd at the places of G.
     gdd: Vec<f64>,
@@ -42,13 +42,13 @@ impl<'a> Variation<'a> {
         let dynamics = Dynamics::new(system);
         let tangent = Tangent::new(&dynamics.structure.tangent);
         let (gdd, own) = (vec![0.0; dynamics.structure.g.entries.len()], v.to_vec());
-        let mut variation = Variation { dynamics, point: OperatingPoint::default(), tangent, gdd, v: own };
+        let mut variation = Variation { dynamics, point: LinearizationPoint::default(), tangent, gdd, v: own };
         let known = variation.move_to(t, q, v).map_err(|halt| at_state(t, &halt))?;
         if !known {
             return Err(Error::input(NO_TANGENT).hint(GIVE_THEM));
         }
         variation.refine_solution().map_err(|halt| at_state(t, &halt))?;
-        variation.point = OperatingPoint::new(&variation.dynamics, &variation.tangent.k, t, q, v);
+        variation.point = LinearizationPoint::new(&variation.dynamics, &variation.tangent.k, t, q, v);
         if variation.point.is_equilibrium {
             // Rounding would leave traces of Gdd that no scale tells from small terms.
             variation.point.vdot.fill(0.0);
@@ -62,17 +62,17 @@ impl<'a> Variation<'a> {
     }
 
     /// Evaluates and factors at another state; the operating point stays. Returns whether the equations give derivatives.
-    pub fn move_to(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<bool, Halt> {
+    pub fn move_to(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<bool, StepError> {
         self.v.copy_from_slice(v);
         self.dynamics.solve(t, q, v, |_, _| 0.0)?;
         self.dynamics.evaluate(t, q, v, Need::L);
         let (vdot, lambda) = (self.dynamics.vdot.clone(), self.dynamics.lambda.clone());
-        self.load(Loaded { t, q, v, vdot: &vdot, lambda: &lambda })
+        self.load(OperatingPoint { t, q, v, vdot: &vdot, lambda: &lambda })
     }
 
     /// v' and lambda to rounding. Near singular states the error of a plain solution would come back in K and Gdd, over
     /// the fourth power of the rank indicator.
-    fn refine_solution(&mut self) -> Result<(), Halt> {
+    fn refine_solution(&mut self) -> Result<(), StepError> {
         let Dynamics { kkt, terms, vdot, lambda, .. } = &mut self.dynamics;
         vdot.copy_from_slice(&terms.f);
         lambda.copy_from_slice(&terms.gamma);
@@ -80,13 +80,13 @@ impl<'a> Variation<'a> {
     }
 
     /// K, C and Gdd at other v' and lambda of the state that is factored.
-    pub fn load(&mut self, at: Loaded) -> Result<bool, Halt> {
+    pub fn load(&mut self, at: OperatingPoint) -> Result<bool, StepError> {
         let Dynamics { system, scratch, .. } = &mut self.dynamics;
         let known = system.tangent(at, &mut self.tangent, scratch);
         let known = known && system.acceleration_gradient(at, &mut self.gdd, scratch);
         let values = self.tangent.k.iter().chain(&self.tangent.c).chain(&self.gdd);
         if known && !values.into_iter().all(|x| x.is_finite()) {
-            return Err(Halt::Term("a derivative of the equations".to_string()));
+            return Err(StepError::Term("a derivative of the equations".to_string()));
         }
         Ok(known)
     }
@@ -94,7 +94,7 @@ impl<'a> Variation<'a> {
     /// K, C and Gdd at the operating point again.
     pub(super) fn load_point(&mut self) -> Result<()> {
         let point = self.point.clone();
-        let at = Loaded { t: point.t, q: &point.q, v: &point.v, vdot: &point.vdot, lambda: &point.lambda };
+        let at = OperatingPoint { t: point.t, q: &point.q, v: &point.v, vdot: &point.vdot, lambda: &point.lambda };
         self.load(at).map(|_| ()).map_err(|halt| at_state(point.t, &halt))
     }
 
@@ -156,7 +156,7 @@ impl<'a> Variation<'a> {
     }
 
     /// [`push`](Self::push) for each column.
-    pub fn push_all(&mut self, force: &mut Matrix, rows: &mut Matrix) -> Result<(), Halt> {
+    pub fn push_all(&mut self, force: &mut Matrix, rows: &mut Matrix) -> Result<(), StepError> {
         let columns = force.column_iter_mut().zip(rows.column_iter_mut());
         for (mut force, mut rows) in columns {
             self.push(force.as_mut_slice(), rows.as_mut_slice())?;
@@ -165,7 +165,7 @@ impl<'a> Variation<'a> {
     }
 
     /// (f, rows) -> (dv', dlambda) of M dv' + G^T dlambda = f, G dv' = rows; in place.
-    pub fn push(&mut self, force: &mut [f64], rows: &mut [f64]) -> Result<(), Halt> {
+    pub fn push(&mut self, force: &mut [f64], rows: &mut [f64]) -> Result<(), StepError> {
         let Dynamics { kkt, terms, .. } = &mut self.dynamics;
         Ok(kkt.solve_refined(&terms.mass, &terms.g, force, rows)?)
     }
@@ -179,7 +179,7 @@ impl<'a> Variation<'a> {
 
     /// Z with G Z = 0 and Z^T M Z = I.
     pub(super) fn free_directions(&mut self) -> Result<Matrix> {
-        let z = free_directions(&mut self.dynamics).ok_or_else(|| at_state(self.point.t, &Halt::NotFinite))?;
+        let z = free_directions(&mut self.dynamics).ok_or_else(|| at_state(self.point.t, &StepError::NotFinite))?;
         let correction = self.correct(&(self.g() * &z))?;
         Ok(z - correction)
     }
@@ -206,8 +206,8 @@ impl<'a> Variation<'a> {
         let system = self.system();
         let (n, inputs, outputs) = (system.dimensions(), system.inputs().len(), system.columns().len());
         let mut tangent = OutputTangent::new(outputs, n.v, n.lambda, inputs);
-        let OperatingPoint { t, q, v, vdot, lambda, .. } = &self.point;
-        let at = Loaded { t: *t, q, v, vdot, lambda };
+        let LinearizationPoint { t, q, v, vdot, lambda, .. } = &self.point;
+        let at = OperatingPoint { t: *t, q, v, vdot, lambda };
         match system.output_tangent(at, &mut tangent, &mut self.dynamics.scratch) {
             true => Ok(tangent),
             false => Err(Error::input("these equations give no derivatives of their outputs")
@@ -286,7 +286,7 @@ fn dense(pattern: &Pattern, values: &[f64]) -> Matrix {
 }
 
 /// Why there is no linear model at a state.
-pub(super) fn at_state(t: f64, halt: &Halt) -> Error {
+pub(super) fn at_state(t: f64, halt: &StepError) -> Error {
     let hint = halt.hint().unwrap_or("choose another time, a little before or after");
     Error::input(format!("at t = {} s there is no linear model: {halt}", clock(t))).hint(hint)
 }

@@ -4,7 +4,7 @@ use super::axes;
 use super::figure::Figure;
 use super::item;
 use super::layout::{self, Placed};
-use super::legend::{self, Block, Entry, Taken};
+use super::legend::{self, Block, LegendEntry, Taken};
 use super::marks::{self, Budget};
 use super::notes;
 use super::palette::{EDGE, FRAME, LABEL_SIZE, NOTE_INK, TITLE_SIZE};
@@ -49,14 +49,14 @@ fn heading(drawing: &mut Drawing, title: &str) -> f64 {
 }
 
 /// The entries of the panels' legends if all of several panels have the same.
-fn shared_legend(panels: &[Placed]) -> Option<Vec<Entry>> {
+fn shared_legend(panels: &[Placed]) -> Option<Vec<LegendEntry>> {
     let mut all = panels.iter().map(legend::entries);
     let first = all.next().filter(|entries| !entries.is_empty() && panels.len() > 1)?;
     all.all(|entries| entries == first).then_some(first)
 }
 
 /// Draws a panel from `top` on and returns where it ends.
-fn panel(drawing: &mut Drawing, placed: &mut Placed, top: f64, entries: &[Entry], budget: Budget) -> f64 {
+fn panel(drawing: &mut Drawing, placed: &mut Placed, top: f64, entries: &[LegendEntry], budget: Budget) -> f64 {
     let height = placed.frame.height();
     placed.frame.top = (top + placed.above()).round() + 0.5;
     placed.frame.bottom = placed.frame.top + height;
@@ -88,7 +88,7 @@ fn panel(drawing: &mut Drawing, placed: &mut Placed, top: f64, entries: &[Entry]
 }
 
 /// Draws legend and colour bar and returns where the panel ends.
-fn explain(drawing: &mut Drawing, placed: &Placed, entries: &[Entry], taken: &Taken) -> f64 {
+fn explain(drawing: &mut Drawing, placed: &Placed, entries: &[LegendEntry], taken: &Taken) -> f64 {
     if let Some(bar) = &placed.bar {
         bar.draw(drawing, &placed.frame);
     }
@@ -107,7 +107,7 @@ fn explain(drawing: &mut Drawing, placed: &Placed, entries: &[Entry], taken: &Ta
 }
 
 /// Draws a legend below a panel and returns where it ends.
-fn below(drawing: &mut Drawing, entries: &[Entry], frame: &Rect, top: f64) -> f64 {
+fn below(drawing: &mut Drawing, entries: &[LegendEntry], frame: &Rect, top: f64) -> f64 {
     let block = Block::wide(entries, drawing.width - 2.0 * EDGE);
     let most = (drawing.width - EDGE - block.width()).max(EDGE);
     let left = (frame.center().0 - 0.5 * block.width()).clamp(EDGE, most);

@@ -24,7 +24,7 @@ const BORDER: Stroke = Stroke { color: Color(190, 190, 190), width: 1.0, dash: &
 
 /// One line of a legend.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Entry {
+pub(super) struct LegendEntry {
     label: String,
     look: Look,
 }
@@ -32,18 +32,18 @@ pub(super) struct Entry {
 /// Entries in columns.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Block {
-    columns: Vec<Vec<Entry>>,
+    columns: Vec<Vec<LegendEntry>>,
     widths: Vec<f64>,
     size: f64,
     sample: f64,
 }
 
 /// What a panel's legend has to list.
-pub(super) fn entries(placed: &Placed) -> Vec<Entry> {
+pub(super) fn entries(placed: &Placed) -> Vec<LegendEntry> {
     let series = placed.panel.series.iter().zip(&placed.looks);
     let listed = series.filter(|(series, _)| !series.label.trim().is_empty());
-    let lines = listed.map(|(series, look)| Entry { label: series.label.clone(), look: *look });
-    let keys = placed.panel.keys.iter().map(|(label, color)| Entry {
+    let lines = listed.map(|(series, look)| LegendEntry { label: series.label.clone(), look: *look });
+    let keys = placed.panel.keys.iter().map(|(label, color)| LegendEntry {
         label: label.clone(),
         look: Look { line: None, marker: Some(Marker::Square), color: tint(*color) },
     });
@@ -51,20 +51,23 @@ pub(super) fn entries(placed: &Placed) -> Vec<Entry> {
 }
 
 impl Block {
-    fn new(entries: &[Entry], columns: usize, room: f64, size: f64) -> Self {
+    fn new(entries: &[LegendEntry], columns: usize, room: f64, size: f64) -> Self {
         let rows = entries.len().div_ceil(columns.max(1)).max(1);
         let sample = if entries.iter().any(|entry| entry.look.line.is_some()) { LINE_SAMPLE } else { MARKER_SAMPLE };
         let label_room = (room - sample - SAMPLE_GAP - 2.0 * PADDING).max(20.0);
-        let shortened =
-            |entry: &Entry| Entry { label: text::shorten(&entry.label, size, label_room), look: entry.look };
-        let columns: Vec<Vec<Entry>> = entries.chunks(rows).map(|part| part.iter().map(shortened).collect()).collect();
-        let width = |entry: &Entry| sample + SAMPLE_GAP + text::width(&entry.label, size);
+        let shortened = |entry: &LegendEntry| LegendEntry {
+            label: text::shorten(&entry.label, size, label_room),
+            look: entry.look,
+        };
+        let columns: Vec<Vec<LegendEntry>> =
+            entries.chunks(rows).map(|part| part.iter().map(shortened).collect()).collect();
+        let width = |entry: &LegendEntry| sample + SAMPLE_GAP + text::width(&entry.label, size);
         let widths = columns.iter().map(|column| column.iter().map(width).fold(0.0, f64::max)).collect();
         Self { columns, widths, size, sample }
     }
 
     /// As many columns as fit into a width; smaller text if that makes a long column two.
-    pub fn wide(entries: &[Entry], room: f64) -> Self {
+    pub fn wide(entries: &[LegendEntry], room: f64) -> Self {
         let most = entries.len().clamp(1, 6);
         let fitting = |least: usize, size: f64| {
             let blocks = (least..=most).rev().map(|columns| Self::new(entries, columns, room, size));
@@ -87,7 +90,7 @@ impl Block {
     }
 
     /// Draws sample and label of one entry around the height `middle`.
-    fn entry(&self, drawing: &mut Drawing, entry: &Entry, left: f64, middle: f64) {
+    fn entry(&self, drawing: &mut Drawing, entry: &LegendEntry, left: f64, middle: f64) {
         if let Some(stroke) = entry.look.line {
             drawing.line((left, middle), (left + self.sample, middle), stroke);
         }
@@ -117,7 +120,7 @@ impl Block {
 }
 
 /// A place inside the frame where the legend hides nothing: the block and its corner.
-pub(super) fn inside(entries: &[Entry], frame: &Rect, taken: &Taken) -> Option<(Block, f64, f64)> {
+pub(super) fn inside(entries: &[LegendEntry], frame: &Rect, taken: &Taken) -> Option<(Block, f64, f64)> {
     for columns in 1..=entries.len().min(4) {
         let block = Block::new(entries, columns, 0.8 * frame.width(), SIZE);
         let (width, height) = (block.width(), block.height());

@@ -2,7 +2,7 @@
 
 use super::{Entry, Projection, move_back};
 use crate::error::Result;
-use crate::formulation::{Dynamics, Halt, OptionDoc};
+use crate::formulation::{Dynamics, OptionDoc, StepError};
 use crate::math::largest_in;
 use crate::math::newton::{Limits, Monitor};
 use crate::system::Need;
@@ -43,7 +43,7 @@ struct Exact {
 }
 
 impl Projection for Exact {
-    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), Halt> {
+    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), StepError> {
         let need = Need::MASS | Need::CONSTRAINTS | Need::G;
         let (mut newton, mut is_evaluated) = (Monitor::default(), false);
         // As many corrections, and the residual that they leave.
@@ -56,11 +56,11 @@ impl Projection for Exact {
             dynamics.statistics.projections += 1;
             dynamics.evaluate(t, q, v, need);
             dynamics.factor_truncated()?;
-            Ok::<_, Halt>(largest_in(&self.scales, &dynamics.terms.phi) / tolerances::SAME)
+            Ok::<_, StepError>(largest_in(&self.scales, &dynamics.terms.phi) / tolerances::SAME)
         })?;
         let is_limited = newton.iterations > self.most && self.most < tolerances::PROJECTIONS;
         if !closed && !is_limited {
-            return Err(Halt::Open);
+            return Err(StepError::Open);
         }
         dynamics.kkt.solve_projection(&dynamics.terms.phi_dot, &mut self.step)?;
         v.iter_mut().zip(&self.step).for_each(|(v, dv)| *v -= dv);

@@ -8,13 +8,13 @@ mod post_stabilization;
 
 use crate::choice::Listed;
 use crate::error::Result;
-use crate::formulation::{Choice, Dynamics, Halt, OptionDoc};
+use crate::formulation::{Choice, Dynamics, OptionDoc, StepError};
 use crate::system::MechanicalSystem;
 
 /// A correction of the state after an accepted step.
 pub trait Projection: Send {
     /// Moves q and v in place.
-    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), Halt>;
+    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), StepError>;
 }
 
 /// One projection as the command line, the scene format and the table of methods know it.

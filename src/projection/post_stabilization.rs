@@ -2,7 +2,7 @@
 
 use super::{Entry, Projection, move_back};
 use crate::error::Result;
-use crate::formulation::{Choice, Dynamics, Field, Halt, OptionDoc, Stabilizer};
+use crate::formulation::{Choice, Dynamics, OptionDoc, Stabilizer, StabilizingField, StepError};
 use crate::system::MechanicalSystem;
 
 const SWEEPS: OptionDoc = OptionDoc { name: "sweeps", about: "how often F h is evaluated and taken off (default 1)" };
@@ -12,7 +12,7 @@ pub const POSITION: Entry = Entry {
     name: "position",
     about: "S-pos: only phi is held, drift of the velocities remains",
     options: &[SWEEPS],
-    make: |choice, system| sweeps(Field::Position, choice, system),
+    make: |choice, system| sweeps(StabilizingField::Position, choice, system),
 };
 
 /// S-vel: holds G v + phi_t only; phi drifts slowly.
@@ -20,7 +20,7 @@ pub const VELOCITY: Entry = Entry {
     name: "velocity",
     about: "S-vel: only G v + phi_t is held, drift of the positions remains",
     options: &[SWEEPS],
-    make: |choice, system| sweeps(Field::Velocity, choice, system),
+    make: |choice, system| sweeps(StabilizingField::Velocity, choice, system),
 };
 
 /// S-both, the method of choice: one factorization and two back-substitutions. Drift of phi O(h^{2(p+1)}), of
@@ -30,7 +30,7 @@ pub const MANIFOLD: Entry = Entry {
     name: "manifold",
     about: "S-both: one factorization, two back-substitutions; drift O(h^2(p+1)), O(h^(p+1))",
     options: &[OptionDoc { name: "sweeps", about: "1 (default) or 2: with 2 both levels reach O(h^2(p+1))" }],
-    make: |choice, system| sweeps(Field::Both, choice, system),
+    make: |choice, system| sweeps(StabilizingField::Both, choice, system),
 };
 
 /// S-full: least change of (q, v) onto both levels, with L = d(G v)/dq; drift O(h^{2(p+1)}) on both.
@@ -40,8 +40,8 @@ pub const FULL: Entry = Entry {
     options: &[SWEEPS, OptionDoc { name: "metric", about: "identity (default) or mass" }],
     make: |choice, system| {
         let field = match choice.text("metric") {
-            None | Some("identity") => Field::Full,
-            Some("mass") => Field::MassWeighted,
+            None | Some("identity") => StabilizingField::Full,
+            Some("mass") => StabilizingField::MassWeighted,
             Some(other) => {
                 return Err(crate::error::Error::input(format!("full: there is no metric `{other}`"))
                     .hint("choose identity or mass"));
@@ -51,7 +51,11 @@ pub const FULL: Entry = Entry {
     },
 };
 
-fn sweeps(field: Field, choice: &Choice, system: &dyn MechanicalSystem) -> Result<Option<Box<dyn Projection>>> {
+fn sweeps(
+    field: StabilizingField,
+    choice: &Choice,
+    system: &dyn MechanicalSystem,
+) -> Result<Option<Box<dyn Projection>>> {
     let sweeps = choice.whole("sweeps", 1, 1..=10)?;
     let rate = vec![0.0; system.dimensions().q];
     Ok(Some(Box::new(PostStabilization { sweeps, stabilizer: Stabilizer::new(field, system), rate })))
@@ -64,7 +68,7 @@ struct PostStabilization {
 }
 
 impl Projection for PostStabilization {
-    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), Halt> {
+    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), StepError> {
         for _ in 0..self.sweeps {
             dynamics.statistics.projections += 1;
             dynamics.evaluate(t, q, v, self.stabilizer.field.needs());

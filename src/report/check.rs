@@ -1,16 +1,16 @@
 //! What `check` finds.
 
 use super::Table;
-use super::rest::Rest;
+use super::equilibrium::EquilibriumFile;
 use super::summary::AssemblySummary;
 use crate::analysis::{Rank, Redundant};
 use crate::error::significant;
 use crate::initial::Assembly;
 use crate::math::largest;
 use crate::scene::{BeamLine, Connection, Model};
-use crate::simulate::Mode;
+use crate::simulate::SpectralMode;
 use crate::study::{AnyMechanism, Study};
-use crate::system::{Group, Loaded, Scratch};
+use crate::system::{Group, OperatingPoint, Scratch};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -39,7 +39,7 @@ pub struct Check {
     /// Largest and smallest entry on the diagonal of M, kg or kg m^2.
     pub mass_range: [f64; 2],
     /// The fastest mode at the start, 1/s; none where nothing is free to move.
-    pub fastest_mode: Option<Mode>,
+    pub fastest_mode: Option<SpectralMode>,
     /// Length that drift is measured against, m.
     pub length_scale: f64,
     pub bodies: Vec<Item>,
@@ -49,7 +49,7 @@ pub struct Check {
     pub left_out: Vec<String>,
     /// The static equilibrium where it is asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub equilibrium: Option<Rest>,
+    pub equilibrium: Option<EquilibriumFile>,
 }
 
 /// Rates and outputs at the assembled start.
@@ -84,7 +84,7 @@ pub fn check(study: &Study) -> Check {
 
 fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
     let (system, Assembly { q, v, vdot, lambda, .. }) = (study.system(), &study.assembly);
-    let found = Rank::at(system, Loaded { t: study.start_time(), q, v, vdot, lambda });
+    let found = Rank::at(system, OperatingPoint { t: study.start_time(), q, v, vdot, lambda });
     let (n, names) = (system.dimensions(), system.names().lambda);
     Check {
         scene: study.name.clone(),
@@ -205,7 +205,7 @@ impl Check {
                 text += &format!("{table}\n");
             }
         }
-        let rest = self.equilibrium.as_ref().map_or(String::new(), Rest::text);
+        let rest = self.equilibrium.as_ref().map_or(String::new(), EquilibriumFile::text);
         text + &self.redundancy_text() + &self.start_text() + &self.scales_text() + &rest
     }
 
@@ -264,7 +264,7 @@ impl Start {
         let Assembly { q, v, vdot, lambda, .. } = &study.assembly;
         let columns = study.system().columns();
         let mut values = vec![0.0; columns.len()];
-        let at = Loaded { t: study.start_time(), q, v, vdot, lambda };
+        let at = OperatingPoint { t: study.start_time(), q, v, vdot, lambda };
         study.system().outputs(at, &mut values, &mut Scratch::default());
         let (velocity, acceleration) = (largest(v), largest(vdot));
         Start {

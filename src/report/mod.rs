@@ -3,11 +3,11 @@
 mod check;
 mod check_error;
 mod drift;
+mod equilibrium;
 mod figures;
 mod files;
 pub mod linear;
 pub mod mechanism;
-mod rest;
 pub mod stress;
 mod summary;
 mod sweep;
@@ -19,9 +19,9 @@ mod warnings;
 
 pub use check::{Check, check};
 pub use drift::{drift_text, stabilizations_figure, stabilizations_table};
+pub use equilibrium::EquilibriumFile;
 pub use figures::{drift_figure, energy_figure, outputs_figure};
 pub use files::{Folder, Written, write_whole};
-pub use rest::Rest;
 pub use summary::{Summary, summarize};
 pub use sweep::SweepSummary;
 pub use sweep_figure::{SweepLook, sweep_figure};

@@ -24,7 +24,7 @@ pub mod units;
 pub use builder::SceneBuilder;
 pub use elements::Elements;
 pub use format::{Assembly, Automatic, Simulation};
-pub use model::{BeamLine, Combination, Connection, Driven, EnergyPart, Measure, Model, Part, Reading, Watched};
+pub use model::{BeamLine, Combination, Connection, EnergyPart, ForceInput, Measure, Model, Part, Reading, Watched};
 pub use model::{FORCE_SIZE, TORQUE_SIZE};
 pub use place::{Cut, Place};
 pub use refine::refined;

@@ -23,7 +23,7 @@ pub struct Model<const D: usize> {
     pub outputs: Vec<Watched>,
     /// Sections of beams in floating frames that outputs watch.
     pub cuts: Vec<Cut<D>>,
-    pub inputs: Vec<Driven>,
+    pub inputs: Vec<ForceInput>,
     pub switches: Switches,
     /// Angles in space that q carries after the coordinates of the bodies.
     pub turnings: Vec<Turning>,
@@ -240,7 +240,7 @@ impl EnergyPart {
 }
 
 /// A named input: it adds to a component of an applied force or torque.
-pub struct Driven {
+pub struct ForceInput {
     pub name: String,
     pub force: usize,
     /// In the axes of the force.

@@ -2,7 +2,7 @@
 
 use super::beam_outputs;
 use super::format::{InputSpec, MeasureKind, OutputSpec};
-use super::model::{BeamLine, Connection, Driven, EnergyPart, FORCE_SIZE, Measure, Part, TORQUE_SIZE, Watched};
+use super::model::{BeamLine, Connection, EnergyPart, FORCE_SIZE, ForceInput, Measure, Part, TORQUE_SIZE, Watched};
 use super::place::Cut;
 use super::units::{Dimension, Unit};
 use crate::body::{Build, MarkerId, Quantity, Turned};
@@ -279,8 +279,8 @@ pub(super) fn find<'a>(what: &str, name: &str, mut known: impl Iterator<Item = &
 }
 
 /// The inputs with the components that they drive.
-pub fn inputs<const D: usize>(specs: &[InputSpec], forces: &Forces<D>) -> Result<Vec<Driven>> {
-    let mut all: Vec<Driven> = Vec::new();
+pub fn inputs<const D: usize>(specs: &[InputSpec], forces: &Forces<D>) -> Result<Vec<ForceInput>> {
+    let mut all: Vec<ForceInput> = Vec::new();
     for (i, spec) in specs.iter().enumerate() {
         let place = |error: Error| error.element(&spec.name).under(format!("inputs[{i}]"));
         let named = |error: Error| error.under("name").under(format!("inputs[{i}]"));
@@ -294,7 +294,7 @@ pub fn inputs<const D: usize>(specs: &[InputSpec], forces: &Forces<D>) -> Result
     Ok(all)
 }
 
-fn input<const D: usize>(spec: &InputSpec, forces: &Forces<D>) -> Result<Driven> {
+fn input<const D: usize>(spec: &InputSpec, forces: &Forces<D>) -> Result<ForceInput> {
     let force = find("force", &spec.force, forces.iter().map(|force| force.name.as_str())).map_err(|error| {
         let Error::Input(mut input) = error else { return error };
         input.path = "force".to_string();
@@ -315,5 +315,5 @@ fn input<const D: usize>(spec: &InputSpec, forces: &Forces<D>) -> Result<Driven>
         Some(name) => axes.iter().position(|axis| *axis == name).ok_or_else(|| wrong_component(name, axes))?,
     };
     let unit = if element.is_torque() { "N m" } else { "N" };
-    Ok(Driven { name: spec.name.clone(), force, component, unit })
+    Ok(ForceInput { name: spec.name.clone(), force, component, unit })
 }

@@ -3,7 +3,7 @@
 use super::absolute_beam::{AbsoluteBeam, is_absolute_beam};
 use super::elements::{Elements, Kinds};
 use super::format::{Dimension, SceneFile};
-use super::model::{BeamLine, Connection, Driven, Model, Part, Watched};
+use super::model::{BeamLine, Connection, ForceInput, Model, Part, Watched};
 use super::outputs;
 use super::place::Cut;
 use super::{AnyModel, Scene, markers};
@@ -71,7 +71,7 @@ struct Links<const D: usize> {
     forces: Vec<Connection<Box<dyn Force<D>>>>,
     outputs: Vec<Watched>,
     cuts: Vec<Cut<D>>,
-    inputs: Vec<Driven>,
+    inputs: Vec<ForceInput>,
 }
 
 impl<const D: usize> Links<D> {

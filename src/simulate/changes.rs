@@ -3,10 +3,10 @@
 use super::Run;
 use super::events::{Passage, Turn};
 use crate::error::{Failure, short};
-use crate::formulation::Halt;
+use crate::formulation::StepError;
 use crate::integrator::{From, first_step};
 use crate::math::largest;
-use crate::system::{Loaded, Need, Scratch};
+use crate::system::{Need, OperatingPoint, Scratch};
 use crate::tolerances::simulate as tolerances;
 
 const CONTINUOUS: &str = "write a law that passes through zero steadily, such as `tanh(x/width)` in the place of \
@@ -15,7 +15,7 @@ const CONTINUOUS: &str = "write a law that passes through zero steadily, such as
 impl Run<'_> {
     /// The first threshold that the step just tried goes over. A method that chooses its own steps ends there on its dense
     /// output, since it would not find back to that place.
-    pub fn end_at_passage(&mut self, h: &mut f64, end: &mut Option<f64>) -> Result<Option<Passage>, Halt> {
+    pub fn end_at_passage(&mut self, h: &mut f64, end: &mut Option<f64>) -> Result<Option<Passage>, StepError> {
         let mut passage = self.passage(*h, self.end_of(*h, *end))?;
         for _ in 0..tolerances::CUTS {
             let own = passage.filter(|_| self.integrator.own_step().is_some());
@@ -32,7 +32,7 @@ impl Run<'_> {
     }
 
     /// The first threshold in the step of size `h` to `end`.
-    fn passage(&mut self, h: f64, end: f64) -> Result<Option<Passage>, Halt> {
+    fn passage(&mut self, h: f64, end: f64) -> Result<Option<Passage>, StepError> {
         if !self.events.watches_state() {
             return Ok(None);
         }
@@ -42,15 +42,15 @@ impl Run<'_> {
         let (next, next_slope) = (&self.next, &self.next_slope);
         let (q, v) = problem.split(next);
         let (_, vdot) = problem.split(next_slope);
-        events.passage(h, Loaded { t: end, q, v, vdot, lambda: &[] }, |theta, see| {
+        events.passage(h, OperatingPoint { t: end, q, v, vdot, lambda: &[] }, |theta, see| {
             if !std::mem::replace(&mut prepared, true) {
                 rows.problem.begin_step(from.t, from.y)?;
                 integrator.prepare(&mut rows.problem, from, h, next, next_slope)?;
             }
             integrator.interpolate(&mut rows.problem, from, h, theta, &mut rows.y)?;
             let (q, v) = rows.problem.split(&rows.y);
-            see(Loaded { t: from.t + theta * h, q, v, vdot: &[], lambda: &[] });
-            Ok::<(), Halt>(())
+            see(OperatingPoint { t: from.t + theta * h, q, v, vdot: &[], lambda: &[] });
+            Ok::<(), StepError>(())
         })
     }
 
@@ -60,7 +60,7 @@ impl Run<'_> {
             return Ok(());
         }
         let (q, v) = self.problem.split(&self.y);
-        self.events.begin(Loaded { t: self.t, q, v, vdot: &vec![0.0; v.len()], lambda: &[] });
+        self.events.begin(OperatingPoint { t: self.t, q, v, vdot: &vec![0.0; v.len()], lambda: &[] });
         self.enter_form()
     }
 
@@ -122,7 +122,7 @@ impl Run<'_> {
         self.meet_constraints(old)?;
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
         let ((q, v), (_, vdot)) = (self.problem.split(&self.y), self.problem.split(&self.slope));
-        self.events.start_at(Loaded { t: self.t, q, v, vdot, lambda: &[] });
+        self.events.start_at(OperatingPoint { t: self.t, q, v, vdot, lambda: &[] });
         Ok(())
     }
 
@@ -157,7 +157,7 @@ impl Run<'_> {
     }
 
     /// Changes v by G dv = - `kink`, and counts the work.
-    fn kick(&mut self, kink: &[f64]) -> Result<(), Halt> {
+    fn kick(&mut self, kink: &[f64]) -> Result<(), StepError> {
         let mut scratch = Scratch::default();
         let (system, t) = (self.problem.dynamics.system, self.t);
         let mut kinetic = |y: &[f64], run: &Self| {

@@ -1,12 +1,12 @@
 //! A run saved between two of its steps, and one that goes on from there.
 
-use super::approach::Approach;
 use super::crowd::Crowd;
+use super::passage::SingularPassage;
 use super::{Method, Outcome, Run, Sink, Span};
 use crate::error::{Error, Failure, Result};
 use crate::formulation::Statistics;
 use crate::math::Piece;
-use crate::system::{Loaded, MechanicalSystem};
+use crate::system::{MechanicalSystem, OperatingPoint};
 use serde::{Deserialize, Serialize};
 
 /// All that a run carries from one accepted step to the next: the state, and what adapts. A run of the same method and span
@@ -18,7 +18,7 @@ pub struct Checkpoint {
     t: f64,
     /// q, v, and the work since the start.
     y: Vec<f64>,
-    /// Rows of G that are dropped.
+    /// OutputRows of G that are dropped.
     dropped: Vec<usize>,
     /// The pieces on which functions are held, their next change by the clock, up to where the clock is watched, and which
     /// functions of time have no useful enclosures.
@@ -29,7 +29,7 @@ pub struct Checkpoint {
     turned_at: Vec<f64>,
     crowd: Crowd,
     /// The rank indicator at the last states with its reference value, and that of a dense solver.
-    approach: Approach,
+    approach: SingularPassage,
     dense_reference: f64,
     formulation: Vec<f64>,
     integrator: Vec<f64>,
@@ -161,7 +161,7 @@ impl Run<'_> {
             true => self.recall(saved)?,
             false => self.go_on(&saved.dropped)?,
         }
-        self.show((self.approach != Approach::default()).then_some(self.approach.rank_indicator), sink);
+        self.show((self.approach != SingularPassage::default()).then_some(self.approach.rank_indicator), sink);
         self.rows.y.copy_from_slice(&self.y);
         self.rows.emit(self.t, sink).map_err(|halt| self.halted(&halt))?;
         if saved.method == *method {
@@ -192,7 +192,7 @@ impl Run<'_> {
         self.recall_events(saved);
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
         let ((q, v), (_, vdot)) = (self.problem.split(&self.y), self.problem.split(&self.slope));
-        self.events.start_at(Loaded { t: self.t, q, v, vdot, lambda: &[] });
+        self.events.start_at(OperatingPoint { t: self.t, q, v, vdot, lambda: &[] });
         // The work of the saved run holds that of this evaluation.
         self.problem.dynamics.statistics = saved.statistics;
         Ok(())

@@ -4,11 +4,11 @@
 //! steps as short as stability holds explicit ones. What settles it is a trial: which method comes farther for the same work.
 //! The spectrum only tells when to try: where the fastest mode of the state has to do with the steps that are taken.
 
-use super::spectrum::{Mode, fastest};
+use super::spectrum::{SpectralMode, fastest};
 use super::{Method, Observation, Run, Sink};
 use crate::error::{Failure, Result};
 use crate::formulation::{Dynamics, Statistics};
-use crate::system::{Loaded, MechanicalSystem};
+use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::simulate as tolerances;
 
 /// How far a run has come, s, after how much work in evaluations, of which so much was for rows, and how many steps.
@@ -33,7 +33,7 @@ pub struct Contest {
     /// Where it begins, s.
     pub t: f64,
     /// The fastest mode there.
-    pub mode: Mode,
+    pub mode: SpectralMode,
     /// Mean step of the method that carries the motion, s.
     pub step: f64,
     /// How much farther the other method comes for the same work.
@@ -98,7 +98,7 @@ impl Run<'_> {
 
     /// The fastest mode of the state, where steps since `mark` were so long that it matters to which kind of method goes
     /// on, and enough is left to do; with their mean.
-    pub fn hindered(&self, mark: Mark) -> Option<(Mode, f64)> {
+    pub fn hindered(&self, mark: Mark) -> Option<(SpectralMode, f64)> {
         if tolerances::TRIAL_SHARE * self.left(mark) < tolerances::TRIAL_WORK {
             return None;
         }
@@ -106,7 +106,7 @@ impl Run<'_> {
         let (system, (q, v)) = (self.problem.dynamics.system, self.problem.split(&self.y));
         let mut dynamics = Dynamics::new(system);
         dynamics.solve(self.t, q, v, |_, _| 0.0).ok()?;
-        let mode = fastest(system, Loaded { t: self.t, q, v, vdot: &dynamics.vdot, lambda: &dynamics.lambda })?;
+        let mode = fastest(system, OperatingPoint { t: self.t, q, v, vdot: &dynamics.vdot, lambda: &dynamics.lambda })?;
         let stability = self.integrator.stability();
         let limit =
             stability.as_ref().map_or(tolerances::STABLE_STEP, |stability| stability.limit(mode.decay, mode.swing));
@@ -121,7 +121,7 @@ impl Run<'_> {
     pub fn contest(
         &self,
         mark: Mark,
-        (mode, step): (Mode, f64),
+        (mode, step): (SpectralMode, f64),
         other: &Method,
         system: &dyn MechanicalSystem,
     ) -> Result<(Contest, Statistics)> {

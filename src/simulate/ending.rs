@@ -2,7 +2,7 @@
 
 use super::{Run, Sink};
 use crate::error::Failure;
-use crate::formulation::Halt;
+use crate::formulation::StepError;
 use crate::math::largest_in;
 use crate::tolerances::simulate as tolerances;
 
@@ -81,7 +81,7 @@ impl Run<'_> {
         }
     }
 
-    pub fn halted(&self, halt: &Halt) -> Failure {
+    pub fn halted(&self, halt: &StepError) -> Failure {
         self.failure(halt.to_string(), halt.hint())
     }
 

@@ -1,6 +1,5 @@
 //! The only time loop: steps, step control, projection and output.
 
-mod approach;
 mod automatic;
 mod changes;
 mod checkpoint;
@@ -11,6 +10,7 @@ mod events;
 mod method;
 mod observation;
 mod output;
+mod passage;
 mod plan;
 mod rows;
 mod segments;
@@ -24,14 +24,14 @@ pub use checkpoint::{Checkpoint, Start, simulate_from};
 pub use method::{Method, atol_of, check_pair};
 pub use observation::{Observation, Sink, Span, Stop};
 pub(crate) use segments::Segments;
-pub use spectrum::{Mode, Spectrum};
+pub use spectrum::{SpectralMode, Spectrum};
 pub use stiffness::{Stiffness, explicit, stiffness};
 
-use approach::Approach;
 use crowd::Crowd;
 use events::{Events, Passage};
+use passage::SingularPassage;
 use plan::NextStop;
-use rows::{Rows, observation};
+use rows::{OutputRows, observation};
 use step::is_too_large;
 
 use crate::error::{Failure, Result};
@@ -71,8 +71,8 @@ struct Run<'a> {
     problem: Problem<'a>,
     integrator: Box<dyn Integrator + 'a>,
     projection: Option<Box<dyn Projection + 'a>>,
-    rows: Rows<'a>,
-    approach: Approach,
+    rows: OutputRows<'a>,
+    approach: SingularPassage,
     events: Events<'a>,
     crowd: Crowd,
     /// The state at the last turn.
@@ -142,7 +142,7 @@ impl<'a> Run<'a> {
         };
         let entry = integrator::find(&method.integrator)?;
         let mut own = problem()?;
-        // Rows show reactions; steps need the motion alone.
+        // OutputRows show reactions; steps need the motion alone.
         own.dynamics.wants_least = false;
         let parts = Parts {
             problem: own,
@@ -164,8 +164,8 @@ impl<'a> Run<'a> {
             problem: parts.problem,
             integrator: parts.integrator,
             projection: parts.projection,
-            rows: Rows::new(parts.rows.0, parts.rows.1),
-            approach: Approach::default(),
+            rows: OutputRows::new(parts.rows.0, parts.rows.1),
+            approach: SingularPassage::default(),
             events: Events::new(system, (span.start, span.end)),
             crowd: Crowd::default(),
             turned_at: zeros(),
@@ -274,7 +274,7 @@ impl<'a> Run<'a> {
         self.h = match self.step(size, end) {
             Ok(error) if !error.is_some_and(is_too_large) => return Ok(Some(error)),
             Ok(error) => self.retry(*size, error, self.refusal, None)?,
-            Err(halt) if halt.is_final() => return Err(self.halted(&halt)),
+            Err(halt) if halt.is_fatal() => return Err(self.halted(&halt)),
             Err(halt) => self.retry(*size, None, &halt.to_string(), halt.hint())?,
         };
         (self.growing, self.cut) = (false, None);

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result, short};
 use crate::math::largest;
-use crate::system::Loaded;
+use crate::system::OperatingPoint;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
@@ -53,14 +53,14 @@ pub struct Observation<'a> {
     /// The smallest sine between a row of G and those before it (metric M^-1), zero at a singular state; `None` where
     /// the method does not factor the saddle-point matrix there.
     pub rank_indicator: Option<f64>,
-    /// Rows of G that depend on the others everywhere, and are dropped.
+    /// OutputRows of G that depend on the others everywhere, and are dropped.
     pub dropped: &'a [usize],
 }
 
 impl Observation<'_> {
     /// The state with its accelerations and multipliers.
-    pub fn loaded(&self) -> Loaded<'_> {
-        Loaded { t: self.t, q: self.q, v: self.v, vdot: self.vdot, lambda: self.lambda }
+    pub fn loaded(&self) -> OperatingPoint<'_> {
+        OperatingPoint { t: self.t, q: self.q, v: self.v, vdot: self.vdot, lambda: self.lambda }
     }
 }
 

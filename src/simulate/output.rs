@@ -1,15 +1,15 @@
-//! Rows within a step.
+//! OutputRows within a step.
 
 use super::rows::project;
 use super::{Run, Sink};
-use crate::formulation::Halt;
+use crate::formulation::StepError;
 use crate::integrator::From;
 use crate::tolerances::simulate as tolerances;
 
 impl Run<'_> {
     /// Emits the rows within the step from `t` to `t + h`; the fraction of the step at which a row contradicts it, if one
     /// does: at that row something acts that the step has not seen.
-    pub fn output(&mut self, h: f64, end: Option<f64>, sink: &mut dyn Sink) -> Result<Option<f64>, Halt> {
+    pub fn output(&mut self, h: f64, end: Option<f64>, sink: &mut dyn Sink) -> Result<Option<f64>, StepError> {
         let end = self.end_of(h, end);
         let slack = tolerances::SAME * h;
         let mut prepared = false;
@@ -38,7 +38,7 @@ impl Run<'_> {
         }
     }
 
-    fn prepare(&mut self, h: f64, end: f64) -> Result<(), Halt> {
+    fn prepare(&mut self, h: f64, end: f64) -> Result<(), StepError> {
         let from = From { t: self.t, y: &self.y, slope: &self.slope, end };
         self.rows.problem.begin_step(self.t, &self.y)?;
         self.integrator.prepare(&mut self.rows.problem, from, h, &self.next, &self.next_slope)
@@ -46,7 +46,7 @@ impl Run<'_> {
 
     /// Evaluates the row at `t`; its fraction of the step where it contradicts that, or is so far off the constraints that it
     /// cannot be projected.
-    fn row_within(&mut self, t: f64, h: f64, end: f64) -> Result<Option<f64>, Halt> {
+    fn row_within(&mut self, t: f64, h: f64, end: f64) -> Result<Option<f64>, StepError> {
         let sweeps = self.sweeps(h);
         let theta = (t - self.t) / h;
         let (rows, from) = (&mut self.rows, From { t: self.t, y: &self.y, slope: &self.slope, end });
@@ -63,7 +63,7 @@ impl Run<'_> {
             rows.differentiate(h * apart);
         }
         match project(t, &mut rows.y, &mut rows.problem, &mut rows.projection, sweeps) {
-            Err(halt) if self.fixed.is_none() && !halt.is_final() => return Ok(Some(theta)),
+            Err(halt) if self.fixed.is_none() && !halt.is_fatal() => return Ok(Some(theta)),
             projected => projected?,
         }
         rows.evaluate(t)?;

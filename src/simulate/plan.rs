@@ -2,7 +2,7 @@
 
 use super::Run;
 use super::events::Events;
-use crate::formulation::Halt;
+use crate::formulation::StepError;
 use crate::integrator::first_step;
 use crate::tolerances::simulate as tolerances;
 
@@ -15,7 +15,7 @@ pub struct NextStop {
 }
 
 impl Run<'_> {
-    pub fn first_step(&mut self) -> Result<f64, Halt> {
+    pub fn first_step(&mut self) -> Result<f64, StepError> {
         match self.fixed {
             Some(step) => Ok(step),
             None => {

@@ -1,12 +1,12 @@
 //! Output rows, and what is shown of a state.
 
 use super::Observation;
-use crate::formulation::{Halt, Statistics};
+use crate::formulation::{Statistics, StepError};
 use crate::integrator::Problem;
 use crate::projection::Projection;
 
 /// Output rows have a problem of their own: their work is counted beside that of the steps.
-pub struct Rows<'a> {
+pub struct OutputRows<'a> {
     pub problem: Problem<'a>,
     pub projection: Option<Box<dyn Projection + 'a>>,
     /// The number of the next row.
@@ -20,23 +20,23 @@ pub struct Rows<'a> {
     phi_ddot: Vec<f64>,
 }
 
-impl<'a> Rows<'a> {
+impl<'a> OutputRows<'a> {
     pub fn new(problem: Problem<'a>, projection: Option<Box<dyn Projection + 'a>>) -> Self {
         let zeros = || vec![0.0; problem.len()];
         let (y, slope, ahead) = (zeros(), zeros(), zeros());
         let vdot = vec![0.0; problem.dynamics.vdot.len()];
         let phi_ddot = vec![0.0; problem.dynamics.lambda.len()];
-        Rows { problem, projection, next: 0, y, slope, vdot, ahead, phi_ddot }
+        OutputRows { problem, projection, next: 0, y, slope, vdot, ahead, phi_ddot }
     }
 
     /// Evaluates the state in `y` and shows it.
-    pub fn emit(&mut self, t: f64, sink: &mut dyn super::Sink) -> Result<(), Halt> {
+    pub fn emit(&mut self, t: f64, sink: &mut dyn super::Sink) -> Result<(), StepError> {
         self.evaluate(t)?;
         self.show(t, sink);
         Ok(())
     }
 
-    pub fn evaluate(&mut self, t: f64) -> Result<(), Halt> {
+    pub fn evaluate(&mut self, t: f64) -> Result<(), StepError> {
         self.problem.derivative(t, &self.y, &mut self.slope)
     }
 
@@ -59,10 +59,10 @@ pub fn project(
     problem: &mut Problem,
     projection: &mut Option<Box<dyn Projection + '_>>,
     sweeps: usize,
-) -> Result<(), Halt> {
+) -> Result<(), StepError> {
     for _ in 0..sweeps {
         if y.iter().any(|x| !x.is_finite()) {
-            return Err(Halt::NotFinite);
+            return Err(StepError::NotFinite);
         }
         problem.dynamics.system.normalize(problem.split_mut(y).0);
         problem.end_step(t, y)?;

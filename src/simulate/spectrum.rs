@@ -2,7 +2,7 @@
 
 use crate::error::short;
 use crate::formulation::{Dynamics, free_directions, reduce};
-use crate::system::{Loaded, MechanicalSystem, Tangent};
+use crate::system::{MechanicalSystem, OperatingPoint, Tangent};
 use crate::tolerances::initial::DENSE_EIGENVALUES;
 use crate::tolerances::simulate as tolerances;
 use serde::Serialize;
@@ -10,19 +10,19 @@ use std::fmt;
 
 /// exp(-decay t) cos(swing t): an eigenvalue -decay + i swing and its conjugate, 1/s.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Mode {
+pub struct SpectralMode {
     pub decay: f64,
     pub swing: f64,
 }
 
-impl Mode {
+impl SpectralMode {
     /// |lambda|, 1/s.
     pub fn rate(&self) -> f64 {
         self.decay.hypot(self.swing)
     }
 }
 
-impl fmt::Display for Mode {
+impl fmt::Display for SpectralMode {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let two = |value: f64| short(format!("{value:.1e}").parse().unwrap_or(value));
         match (self.decay, self.swing) {
@@ -45,14 +45,14 @@ impl fmt::Display for Mode {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
     /// From the slowest to the fastest.
-    pub modes: Vec<Mode>,
+    pub modes: Vec<SpectralMode>,
     /// Whether there are too many coordinates for all modes: only the fastest are then known, and roughly.
     pub is_estimate: bool,
 }
 
 impl Spectrum {
     /// At a state with the v' and lambda of the equations. None where these give no K and C or are not finite.
-    pub fn at(system: &dyn MechanicalSystem, state: Loaded) -> Option<Self> {
+    pub fn at(system: &dyn MechanicalSystem, state: OperatingPoint) -> Option<Self> {
         let mut frozen = Frozen::new(system, state)?;
         if system.dimensions().v > DENSE_EIGENVALUES {
             return Some(Spectrum { modes: frozen.fastest()?, is_estimate: true });
@@ -64,7 +64,7 @@ impl Spectrum {
 }
 
 /// The fastest mode alone, roughly and cheaply whatever the size; none as for [`Spectrum::at`].
-pub fn fastest(system: &dyn MechanicalSystem, state: Loaded) -> Option<Mode> {
+pub fn fastest(system: &dyn MechanicalSystem, state: OperatingPoint) -> Option<SpectralMode> {
     Frozen::new(system, state)?.fastest()?.last().copied()
 }
 
@@ -77,7 +77,7 @@ struct Frozen<'a> {
 }
 
 impl<'a> Frozen<'a> {
-    fn new(system: &'a dyn MechanicalSystem, state: Loaded) -> Option<Self> {
+    fn new(system: &'a dyn MechanicalSystem, state: OperatingPoint) -> Option<Self> {
         let mut dynamics = Dynamics::new(system);
         dynamics.solve(state.t, state.q, state.v, |_, _| 0.0).ok()?;
         let tangent = Tangent::new(&dynamics.structure.tangent);
@@ -86,7 +86,7 @@ impl<'a> Frozen<'a> {
         Some(frozen)
     }
 
-    fn fill(&mut self, state: Loaded) -> Option<()> {
+    fn fill(&mut self, state: OperatingPoint) -> Option<()> {
         let Frozen { dynamics, tangent } = self;
         let known = dynamics.system.tangent(state, tangent, &mut dynamics.scratch);
         (known && tangent.k.iter().chain(&tangent.c).all(|x| x.is_finite())).then_some(())
@@ -113,7 +113,7 @@ impl<'a> Frozen<'a> {
     }
 
     /// The fastest modes, by powers of (x, v) -> (v, -Z Z^T (K x + C v)).
-    fn fastest(&mut self) -> Option<Vec<Mode>> {
+    fn fastest(&mut self) -> Option<Vec<SpectralMode>> {
         let n = self.dynamics.vdot.len();
         // Any vector will do; this one has all directions in it and no symmetry.
         let mut x = self.accelerate((0..n).map(|i| (1.0 + i as f64).sqrt().fract() - 0.5).collect())?;
@@ -122,7 +122,7 @@ impl<'a> Frozen<'a> {
             let a = self.follow(&x, &v)?;
             let size = norm(&a) + norm(&v);
             if size == 0.0 {
-                return Some(vec![Mode { decay: 0.0, swing: 0.0 }]);
+                return Some(vec![SpectralMode { decay: 0.0, swing: 0.0 }]);
             }
             (x, v) = (v, a);
             x.iter_mut().chain(&mut v).for_each(|x| *x /= size);
@@ -143,19 +143,19 @@ impl<'a> Frozen<'a> {
 }
 
 /// The roots of s^2 + p s + r for which y2 + p y1 + r y0 is least, the faster one last.
-fn fit(y0: &[f64], y1: &[f64], y2: &[f64]) -> Vec<Mode> {
+fn fit(y0: &[f64], y1: &[f64], y2: &[f64]) -> Vec<SpectralMode> {
     let [a, b, d] = [dot(y1, y1), dot(y1, y0), dot(y0, y0)];
     let [f, g] = [-dot(y1, y2), -dot(y0, y2)];
     let determinant = a * d - b * b;
     if determinant <= 1e-8 * a * d {
-        return vec![Mode { decay: if d > 0.0 { -b / d } else { 0.0 }, swing: 0.0 }];
+        return vec![SpectralMode { decay: if d > 0.0 { -b / d } else { 0.0 }, swing: 0.0 }];
     }
     let (p, r) = ((f * d - b * g) / determinant, (a * g - b * f) / determinant);
     let square = r - 0.25 * p * p;
     let root = square.abs().sqrt();
     match square > 0.0 {
-        true => vec![Mode { decay: 0.5 * p, swing: root }],
-        false => [-1.0, 1.0].map(|sign| Mode { decay: 0.5 * p + sign * root.copysign(p), swing: 0.0 }).to_vec(),
+        true => vec![SpectralMode { decay: 0.5 * p, swing: root }],
+        false => [-1.0, 1.0].map(|sign| SpectralMode { decay: 0.5 * p + sign * root.copysign(p), swing: 0.0 }).to_vec(),
     }
 }
 
@@ -168,7 +168,7 @@ fn dot(x: &[f64], y: &[f64]) -> f64 {
 }
 
 /// Eigenvalues of [0 s; -K/s -C], s the size of the frequencies, so that all entries are of one kind.
-fn modes(k: &Matrix, c: &Matrix) -> Option<Vec<Mode>> {
+fn modes(k: &Matrix, c: &Matrix) -> Option<Vec<SpectralMode>> {
     let n = k.nrows();
     let s = k.amax().sqrt();
     let s = if s > 0.0 { s } else { 1.0 };
@@ -181,16 +181,16 @@ fn modes(k: &Matrix, c: &Matrix) -> Option<Vec<Mode>> {
     faer::set_global_parallelism(faer::Par::Seq);
     let values = if n == 0 { Vec::new() } else { companion.eigenvalues().ok()? };
     let upper = values.iter().filter(|value| value.im >= 0.0);
-    let mut modes: Vec<Mode> = upper.map(|value| Mode { decay: -value.re, swing: value.im }).collect();
+    let mut modes: Vec<SpectralMode> = upper.map(|value| SpectralMode { decay: -value.re, swing: value.im }).collect();
     modes.sort_by(|a, b| a.rate().total_cmp(&b.rate()));
     Some(modes)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Frozen, Mode, Spectrum};
+    use super::{Frozen, SpectralMode, Spectrum};
     use crate::math::Scalar;
-    use crate::system::{Equations, Loaded};
+    use crate::system::{Equations, OperatingPoint};
 
     /// Two masses, 1 and 3 kg, that a joint holds together, on a spring and a damper.
     struct TwoMass {
@@ -213,9 +213,10 @@ mod tests {
         }
     }
 
-    const STATE: Loaded = Loaded { t: 0.0, q: &[0.0; 2], v: &[0.0; 2], vdot: &[0.0; 2], lambda: &[0.0] };
+    const STATE: OperatingPoint =
+        OperatingPoint { t: 0.0, q: &[0.0; 2], v: &[0.0; 2], vdot: &[0.0; 2], lambda: &[0.0] };
 
-    fn modes(stiffness: f64, damping: f64) -> [Option<Vec<Mode>>; 2] {
+    fn modes(stiffness: f64, damping: f64) -> [Option<Vec<SpectralMode>>; 2] {
         let system = TwoMass { stiffness, damping };
         let all = Spectrum::at(&system, STATE).map(|spectrum| spectrum.modes);
         [all, Frozen::new(&system, STATE).and_then(|mut frozen| frozen.fastest())]
@@ -232,7 +233,7 @@ mod tests {
         ] {
             for modes in modes(stiffness, damping) {
                 let modes = modes.unwrap_or_default();
-                let last = modes.last().copied().unwrap_or(Mode { decay: f64::NAN, swing: f64::NAN });
+                let last = modes.last().copied().unwrap_or(SpectralMode { decay: f64::NAN, swing: f64::NAN });
                 let off = (last.decay.abs() - fast[0]).abs() + (last.swing - fast[1]).abs();
                 assert!(off < 1e-9, "{stiffness} {damping}: {modes:?}");
             }

@@ -2,7 +2,7 @@
 
 use super::Run;
 use super::rows::project;
-use crate::formulation::Halt;
+use crate::formulation::StepError;
 use crate::integrator::From;
 use crate::math::largest;
 use crate::tolerances::simulate as tolerances;
@@ -15,7 +15,7 @@ pub fn is_too_large(error: f64) -> bool {
 impl Run<'_> {
     /// Tries one step of size `h` (or one that the method chose) with its projection, and leaves y' at the new state in
     /// `next_slope`. Returns the error in units of the tolerance, where there is an estimate.
-    pub fn step(&mut self, h: &mut f64, end: &mut Option<f64>) -> Result<Option<f64>, Halt> {
+    pub fn step(&mut self, h: &mut f64, end: &mut Option<f64>) -> Result<Option<f64>, StepError> {
         let error = self.attempt(h, end)?;
         let is_singular = self.is_singular(*h);
         if error.is_some_and(is_too_large) && !is_singular {
@@ -39,7 +39,7 @@ impl Run<'_> {
     }
 
     /// Counts all constraints from the last state on, which is brought back to those that were dropped up to there.
-    fn release_rows(&mut self) -> Result<(), Halt> {
+    fn release_rows(&mut self) -> Result<(), StepError> {
         self.drop_rows(&[]);
         project(self.t, &mut self.y, &mut self.problem, &mut self.projection, tolerances::SINGULAR_SWEEPS)?;
         self.problem.derivative(self.t, &self.y, &mut self.slope)
@@ -60,7 +60,7 @@ impl Run<'_> {
         self.projection.is_some() || self.problem.formulation.keeps_constraints()
     }
 
-    fn attempt(&mut self, h: &mut f64, end: &mut Option<f64>) -> Result<Option<f64>, Halt> {
+    fn attempt(&mut self, h: &mut f64, end: &mut Option<f64>) -> Result<Option<f64>, StepError> {
         let from = From { t: self.t, y: &self.y, slope: &self.slope, end: self.end_of(*h, *end) };
         self.problem.begin_step(self.t, &self.y)?;
         let error = self.integrator.attempt(&mut self.problem, &self.tolerance, from, *h, &mut self.next)?;
@@ -76,7 +76,7 @@ impl Run<'_> {
         (h, end): (f64, Option<f64>),
         error: Option<f64>,
         is_singular: bool,
-    ) -> Result<Option<f64>, Halt> {
+    ) -> Result<Option<f64>, StepError> {
         self.change.copy_from_slice(&self.next);
         let (t, sweeps) = (self.end_of(h, end), self.sweeps(h));
         // A method that chooses its steps comes to a stop on the dense output of one that ends behind it.
@@ -99,7 +99,7 @@ impl Run<'_> {
     }
 
     /// Projects a state that is on the dense output of a step.
-    pub fn project_within(&mut self, t: f64, h: f64) -> Result<(), Halt> {
+    pub fn project_within(&mut self, t: f64, h: f64) -> Result<(), StepError> {
         let sweeps = self.sweeps(h);
         project(t, &mut self.next, &mut self.problem, &mut self.rows.projection, sweeps)
     }
@@ -131,7 +131,7 @@ impl Run<'_> {
     /// The error of the projected step, in units of the tolerance: how far the projected solution of lower order is from
     /// it. Near a singular state the stages are far off along the nearly dependent rows, which the projection takes away
     /// from both, so that the error before it says nothing.
-    fn error_within_constraints(&mut self, t: f64, h: f64) -> Result<Option<f64>, Halt> {
+    fn error_within_constraints(&mut self, t: f64, h: f64) -> Result<Option<f64>, StepError> {
         let from = From { t: self.t, y: &self.y, slope: &self.slope, end: t };
         if !self.integrator.lower_order(from, h, &mut self.change) {
             return Ok(Some(f64::NAN));

@@ -1,11 +1,11 @@
 //! Whether an explicit method is the wrong one for a motion, said before it runs.
 
 use super::automatic::rival;
-use super::spectrum::{Mode, Spectrum, fastest};
+use super::spectrum::{SpectralMode, Spectrum, fastest};
 use super::{Method, Span};
 use crate::error::{Warning, short};
 use crate::integrator::Stability;
-use crate::system::{Loaded, MechanicalSystem};
+use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::simulate as tolerances;
 use serde::Serialize;
 use std::fmt;
@@ -15,7 +15,7 @@ use std::fmt;
 pub struct Stiffness {
     pub integrator: String,
     /// The mode that limits the steps, 1/s.
-    pub mode: Mode,
+    pub mode: SpectralMode,
     /// |lambda| h from which the method lets it grow.
     pub limit: f64,
     /// The fixed step, s; none where the method chooses its steps.
@@ -31,7 +31,12 @@ pub struct Stiffness {
 
 /// Warns of a method that is explicit, for a motion from `state`, which has the v' and lambda of the equations, over
 /// `span`. None where nothing is wrong or known.
-pub fn stiffness(system: &dyn MechanicalSystem, method: &Method, state: Loaded, span: Span) -> Option<Stiffness> {
+pub fn stiffness(
+    system: &dyn MechanicalSystem,
+    method: &Method,
+    state: OperatingPoint,
+    span: Span,
+) -> Option<Stiffness> {
     let stability = explicit(system, method)?;
     let duration = span.end - span.start;
     let rough = fastest(system, state)?;
@@ -65,20 +70,25 @@ pub fn stiffness(system: &dyn MechanicalSystem, method: &Method, state: Loaded, 
 /// The mode that a fixed step makes grow. What grows little over the whole run is an error of accuracy.
 fn too_long(
     system: &dyn MechanicalSystem,
-    state: Loaded,
+    state: OperatingPoint,
     step: f64,
     duration: f64,
     stability: &Stability,
-) -> Option<(Mode, Option<f64>)> {
+) -> Option<(SpectralMode, Option<f64>)> {
     let spectrum = Spectrum::at(system, state)?;
-    let stable = |mode: &Mode| stability.limit(mode.decay, mode.swing) / mode.rate().max(f64::MIN_POSITIVE);
+    let stable = |mode: &SpectralMode| stability.limit(mode.decay, mode.swing) / mode.rate().max(f64::MIN_POSITIVE);
     let &mode = spectrum.modes.iter().min_by(|a, b| stable(a).total_cmp(&stable(b)))?;
     let grows = duration / step * stability.growth(mode.decay, mode.swing, step) > tolerances::UNSTABLE_MODE;
     (step > stable(&mode) && grows).then_some((mode, None))
 }
 
 /// The mode for whose sake alone an adaptive method takes its steps.
-fn too_many(system: &dyn MechanicalSystem, method: &Method, state: Loaded, span: Span) -> Option<(Mode, Option<f64>)> {
+fn too_many(
+    system: &dyn MechanicalSystem,
+    method: &Method,
+    state: OperatingPoint,
+    span: Span,
+) -> Option<(SpectralMode, Option<f64>)> {
     let contest = rival(system, method, span, (state.q, state.v))?;
     (contest.gain > tolerances::ANOTHER_METHOD).then_some((contest.mode, Some(contest.gain)))
 }

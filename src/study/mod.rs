@@ -15,7 +15,7 @@ use crate::simulate::{
     Checkpoint, Leg, Method, Outcome, Sink, Span, Start, Stiffness, advise, atol_of, simulate_automatic, simulate_from,
     stiffness,
 };
-use crate::system::{Loaded, MechanicalSystem, Mechanism, Scratch};
+use crate::system::{MechanicalSystem, Mechanism, OperatingPoint, Scratch};
 use std::path::Path;
 
 /// A mechanism in the plane or in space.
@@ -162,7 +162,7 @@ impl Study {
     /// What is wrong with the method for this motion, if it is explicit and was not left to the program.
     pub fn stiffness(&self, span: Span) -> Option<Stiffness> {
         let Assembly { q, v, vdot, lambda, .. } = &self.assembly;
-        let state = Loaded { t: span.start, q, v, vdot, lambda };
+        let state = OperatingPoint { t: span.start, q, v, vdot, lambda };
         (!self.is_automatic).then(|| stiffness(self.system(), &self.method, state, span))?
     }
 
@@ -214,7 +214,7 @@ fn check_switches(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64]
     let (vdot, count) = (vec![0.0; v.len()], system.switches().len());
     let [zeros, ones] = [0.0, 1.0].map(|x| {
         let mut out = vec![Rate::constant(x); count];
-        system.switching(Loaded { t, q, v, vdot: &vdot, lambda: &[] }, &mut out, &mut Scratch::default());
+        system.switching(OperatingPoint { t, q, v, vdot: &vdot, lambda: &[] }, &mut out, &mut Scratch::default());
         out
     });
     match zeros.iter().zip(&ones).position(|(zero, one)| zero.value() == 0.0 && one.value() == 1.0) {

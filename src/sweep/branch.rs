@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::initial::{self, Assembly, Followed};
 use crate::scene::Scene;
 use crate::study::AnyMechanism;
-use crate::system::{Column, Loaded, Names, Scratch};
+use crate::system::{Column, Names, OperatingPoint, Scratch};
 use crate::tolerances::report as tolerances;
 use std::sync::Arc;
 
@@ -47,7 +47,7 @@ impl Ready {
         let mut outputs = vec![0.0; system.columns().len()];
         let Followed { dependent, rank_indicator, .. } = followed;
         let Assembly { q, v, vdot, lambda, .. } = assembly;
-        let at = Loaded { t: self.t, q: &q, v: &v, vdot: &vdot, lambda: &lambda };
+        let at = OperatingPoint { t: self.t, q: &q, v: &v, vdot: &vdot, lambda: &lambda };
         system.outputs(at, &mut outputs, &mut Scratch::default());
         let point = Point { value, q, v, lambda, outputs, rank_indicator };
         Ok(State { mechanism: Arc::new(self.mechanism), guess, dependent, point })

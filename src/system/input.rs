@@ -3,9 +3,9 @@
 use super::mechanism::{Mechanism, Workspace, of};
 use super::variation::fixed;
 use super::view::gathered;
-use crate::body::{MOST_MARKERS, Slope, Wrench};
+use crate::body::{Dual6, MOST_MARKERS, Wrench};
 use crate::math::{Taylor, Time};
-use crate::scene::Driven;
+use crate::scene::ForceInput;
 use nalgebra::DMatrix;
 use std::array::from_fn;
 
@@ -26,13 +26,18 @@ impl<const D: usize> Mechanism<D> {
     }
 
     /// The wrenches that a unit of an input adds at the markers of its force.
-    fn input_wrenches(&self, time: Time<f64>, input: &Driven, work: &Workspace<D>) -> [Wrench<f64, D>; MOST_MARKERS] {
+    fn input_wrenches(
+        &self,
+        time: Time<f64>,
+        input: &ForceInput,
+        work: &Workspace<D>,
+    ) -> [Wrench<f64, D>; MOST_MARKERS] {
         let force = &self.model().forces[input.force];
-        let mut unit = [Slope::fixed(0.0); 3];
-        unit[input.component] = Slope::seeded(0.0, 0);
+        let mut unit = [Dual6::fixed(0.0); 3];
+        unit[input.component] = Dual6::seeded(0.0, 0);
         let mut wrenches = [Wrench::zero(); MOST_MARKERS];
         let out = &mut wrenches[..force.markers.len()];
-        let drive = |frames: &[_]| force.element.driven(&unit, frames, time.map(Taylor::<Slope>::time), out);
+        let drive = |frames: &[_]| force.element.driven(&unit, frames, time.map(Taylor::<Dual6>::time), out);
         gathered(&force.markers, |marker| fixed(&work.motion[marker]), drive);
         from_fn(|i| Wrench { force: wrenches[i].force.map(|x| x.eps[0]), torque: wrenches[i].torque.map(|x| x.eps[0]) })
     }

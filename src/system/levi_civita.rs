@@ -1,7 +1,7 @@
 //! The mass metric along a motion.
 
 use super::mechanism::of;
-use super::tangent::Loaded;
+use super::tangent::OperatingPoint;
 use crate::body::{BodyState, cross};
 use crate::scene::Part;
 use nalgebra::DMatrix;
@@ -35,7 +35,7 @@ impl LeviCivita {
     }
 
     /// A body with constant M: h depends on v alone, and dh/dv is linear in it.
-    pub(super) fn add_constant_mass<const D: usize>(&mut self, part: &Part<D>, at: &Loaded) {
+    pub(super) fn add_constant_mass<const D: usize>(&mut self, part: &Part<D>, at: &OperatingPoint) {
         let q = of(at.q, part, true);
         let mass = own_mass(part, q);
         for (target, v) in [(&mut self.w, at.v), (&mut self.w_dot, at.vdot)] {

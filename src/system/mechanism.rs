@@ -4,19 +4,19 @@ use super::coupling::Couplings;
 use super::levi_civita::LeviCivita;
 use super::limits::{Extent, limits};
 use super::output_tangent::{OutputTangent, Slopes};
-use super::rows::{PlacedJoint, Rows};
+use super::rows::{JointRows, PlacedJoint};
 use super::scale::{length_scale, row_scales};
 use super::spin::{Placement, Spin};
 use super::support::Support;
-use super::tangent::{Evaluation, Loaded, Tangent};
-use super::variation::Varied;
+use super::tangent::{Evaluation, OperatingPoint, Tangent};
+use super::variation::SeededBody;
 use super::view::{Plain, along_motion, gathered};
 use super::{Column, Dimensions, Energy, Group, Limited, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
 use crate::body::{Frame, MOST_MARKERS, Wrench, cross};
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
 use crate::math::{Rate, Regime, Taylor, Time};
-use crate::scene::{Connection, Driven, Model, Part, Watched};
+use crate::scene::{Connection, ForceInput, Model, Part, Watched};
 use nalgebra::DMatrix;
 use std::array::from_fn;
 use std::ops::Range;
@@ -26,7 +26,7 @@ pub struct Mechanism<const D: usize> {
     model: Model<D>,
     dimensions: Dimensions,
     structure: Structure,
-    pub(super) joints: Vec<Rows>,
+    pub(super) joints: Vec<JointRows>,
     pub(super) couplings: Couplings,
     /// Places of each body's values of M.
     masses: Vec<Range<usize>>,
@@ -41,7 +41,7 @@ pub struct Mechanism<const D: usize> {
 pub(super) struct Workspace<const D: usize> {
     /// Frames of all markers with their velocities, and accelerations at v' = 0.
     pub motion: Vec<Frame<Taylor<f64>, D>>,
-    pub varied: Varied<D>,
+    pub varied: SeededBody<D>,
     /// Generalized forces on the support of one marker.
     pub pulled: Vec<f64>,
 }
@@ -60,7 +60,7 @@ impl<const D: usize> Mechanism<D> {
         }
         let mut g = Pattern { rows: 0, cols: v, entries: Vec::new() };
         let supports: Vec<Support> = (0..model.marker_count()).map(|marker| Support::of(&model, marker)).collect();
-        let joints = model.joints.iter().map(|joint| Rows::new(&supports, joint, &mut g)).collect();
+        let joints = model.joints.iter().map(|joint| JointRows::new(&supports, joint, &mut g)).collect();
         let dimensions = Dimensions { q: q + model.turnings.len(), v, lambda: g.rows, nonholonomic: 0, states: 0 };
         let length = length_scale(&model);
         let mut tangent = Pattern { rows: v, cols: v, entries: Vec::new() };
@@ -74,7 +74,7 @@ impl<const D: usize> Mechanism<D> {
         &self.model
     }
 
-    /// Rows of phi that joint `joint` has.
+    /// JointRows of phi that joint `joint` has.
     pub fn rows_of_joint(&self, joint: usize) -> Range<usize> {
         self.joints[joint].range()
     }
@@ -94,7 +94,7 @@ impl<const D: usize> Mechanism<D> {
     ) -> R {
         let make = || Workspace {
             motion: self.model.ground_frames().map(|frame| frame.map(Taylor::fixed)).collect(),
-            varied: Varied::default(),
+            varied: SeededBody::default(),
             pulled: Vec::new(),
         };
         scratch.with(make, |work, regime| {
@@ -237,19 +237,19 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
             }
             self.constraints(time, q, need, work, terms);
             if need.includes(Need::L) {
-                let (Workspace { motion, varied, .. }, at) = (work, Loaded { t, q, v, vdot: &[], lambda: &[] });
+                let (Workspace { motion, varied, .. }, at) = (work, OperatingPoint { t, q, v, vdot: &[], lambda: &[] });
                 let mut write = |place: usize, slope: Taylor<f64>| terms.l[place] = slope.d;
                 self.placed_joints().for_each(|joint| joint.curvature((&at, regime), motion, varied, &mut write));
             }
         });
     }
 
-    fn tangent(&self, at: Loaded, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
+    fn tangent(&self, at: OperatingPoint, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
         self.at(at.q, at.v, scratch, |work, regime| Evaluation { mechanism: self, at, regime, work, tangent }.run());
         true
     }
 
-    fn acceleration_gradient(&self, at: Loaded, values: &mut [f64], scratch: &mut Scratch) -> bool {
+    fn acceleration_gradient(&self, at: OperatingPoint, values: &mut [f64], scratch: &mut Scratch) -> bool {
         self.at(at.q, at.v, scratch, |work, regime| {
             self.place(at.q, at.v, at.vdot, work);
             let Workspace { motion, varied, .. } = work;
@@ -269,7 +269,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         }
     }
 
-    fn levi_civita(&self, at: Loaded, connection: &mut LeviCivita, _scratch: &mut Scratch) -> bool {
+    fn levi_civita(&self, at: OperatingPoint, connection: &mut LeviCivita, _scratch: &mut Scratch) -> bool {
         let is_constant = self.model.bodies.iter().all(|part| part.body.has_constant_mass());
         if is_constant {
             connection.clear();
@@ -303,7 +303,11 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
 
     fn energy(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<Energy> {
         Some(self.at(q, v, scratch, |work, regime| {
-            self.energies(&Plain { at: Loaded { t, q, v, vdot: &[], lambda: &[] }, regime, motion: &work.motion })
+            self.energies(&Plain {
+                at: OperatingPoint { t, q, v, vdot: &[], lambda: &[] },
+                regime,
+                motion: &work.motion,
+            })
         }))
     }
 
@@ -314,7 +318,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
 
     fn groups(&self) -> Vec<Group> {
         let joints = self.model.joints.iter().zip(&self.joints);
-        let group = |(joint, rows): (&Connection<_>, &Rows)| Group {
+        let group = |(joint, rows): (&Connection<_>, &JointRows)| Group {
             name: joint.name.clone(),
             kind: joint.kind.to_string(),
             rows: rows.range(),
@@ -322,19 +326,19 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         joints.map(group).collect()
     }
 
-    fn outputs(&self, at: Loaded, out: &mut [f64], scratch: &mut Scratch) {
+    fn outputs(&self, at: OperatingPoint, out: &mut [f64], scratch: &mut Scratch) {
         self.observed(at, scratch, |at, regime, work| {
             self.write_outputs(&Plain { at, regime, motion: &work.motion }, out);
         });
     }
 
-    fn output_tangent(&self, at: Loaded, tangent: &mut OutputTangent, scratch: &mut Scratch) -> bool {
+    fn output_tangent(&self, at: OperatingPoint, tangent: &mut OutputTangent, scratch: &mut Scratch) -> bool {
         self.observed(at, scratch, |at, regime, work| Slopes { mechanism: self, at, regime, work, tangent }.run());
         true
     }
 
     fn inputs(&self) -> Vec<Column> {
-        let column = |input: &Driven| Column { name: input.name.clone(), unit: input.unit.to_string() };
+        let column = |input: &ForceInput| Column { name: input.name.clone(), unit: input.unit.to_string() };
         self.model.inputs.iter().map(column).collect()
     }
 
@@ -354,7 +358,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         &self.model.switches.time_functions
     }
 
-    fn switching(&self, at: Loaded, out: &mut [Rate], scratch: &mut Scratch) {
+    fn switching(&self, at: OperatingPoint, out: &mut [Rate], scratch: &mut Scratch) {
         self.at(at.q, at.v, scratch, |work, regime| {
             self.place(at.q, at.v, at.vdot, work);
             let time = Time { t: Rate::seeded(at.t, 0), regime };

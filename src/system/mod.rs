@@ -35,7 +35,7 @@ pub use output_tangent::OutputTangent;
 pub use rotating::Rotating;
 pub use spin::{Placement, Spin};
 pub use states::refuse_states;
-pub use tangent::{Loaded, Tangent};
+pub use tangent::{OperatingPoint, Tangent};
 pub use terms::{Need, Scratch, Structure, Terms};
 
 pub use crate::body::Energy;
@@ -83,7 +83,7 @@ pub struct Names {
     pub lambda: Vec<String>,
 }
 
-/// Rows of phi that belong together: a joint.
+/// JointRows of phi that belong together: a joint.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Group {
     pub name: String,
@@ -121,13 +121,13 @@ pub trait MechanicalSystem: Send + Sync {
 
     /// K and C of r = M v' + G^T lambda - f at a state with its v' and lambda, for implicit methods and linear models.
     /// Returns false where the author of the equations gave none, which is the default.
-    fn tangent(&self, _at: Loaded, _tangent: &mut Tangent, _scratch: &mut Scratch) -> bool {
+    fn tangent(&self, _at: OperatingPoint, _tangent: &mut Tangent, _scratch: &mut Scratch) -> bool {
         false
     }
 
     /// d(phi'')/dq along the directions of v at fixed v and v', values at the places of G, for linear models. Returns
     /// false where the author of the equations gave none, which is the default.
-    fn acceleration_gradient(&self, _at: Loaded, _values: &mut [f64], _scratch: &mut Scratch) -> bool {
+    fn acceleration_gradient(&self, _at: OperatingPoint, _values: &mut [f64], _scratch: &mut Scratch) -> bool {
         false
     }
 
@@ -139,7 +139,7 @@ pub trait MechanicalSystem: Send + Sync {
 
     /// How the mass metric carries directions along the motion. Returns false where the equations do not say, which is
     /// the default.
-    fn levi_civita(&self, _at: Loaded, _connection: &mut LeviCivita, _scratch: &mut Scratch) -> bool {
+    fn levi_civita(&self, _at: OperatingPoint, _connection: &mut LeviCivita, _scratch: &mut Scratch) -> bool {
         false
     }
 
@@ -206,11 +206,11 @@ pub trait MechanicalSystem: Send + Sync {
     }
 
     /// The outputs at a state with its v' and lambda.
-    fn outputs(&self, _at: Loaded, _out: &mut [f64], _scratch: &mut Scratch) {}
+    fn outputs(&self, _at: OperatingPoint, _out: &mut [f64], _scratch: &mut Scratch) {}
 
     /// Derivatives of all outputs at a state with its v' and lambda. Returns false where there are outputs and the author of
     /// the equations gave no derivatives.
-    fn output_tangent(&self, _at: Loaded, _tangent: &mut OutputTangent, _scratch: &mut Scratch) -> bool {
+    fn output_tangent(&self, _at: OperatingPoint, _tangent: &mut OutputTangent, _scratch: &mut Scratch) -> bool {
         self.columns().is_empty()
     }
 
@@ -233,7 +233,7 @@ pub trait MechanicalSystem: Send + Sync {
     }
 
     /// Writes the arguments of all switching functions with their rates along the motion, at a state with its v'.
-    fn switching(&self, _at: Loaded, _out: &mut [Rate], _scratch: &mut Scratch) {}
+    fn switching(&self, _at: OperatingPoint, _out: &mut [Rate], _scratch: &mut Scratch) {}
 
     /// What in the equations depends on t alone: the time loop looks that no step misses any of it. Default: nothing.
     fn time_functions(&self) -> &[TimeFunction] {

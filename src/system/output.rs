@@ -2,7 +2,7 @@
 
 use super::Scratch;
 use super::mechanism::{Mechanism, Workspace};
-use super::tangent::Loaded;
+use super::tangent::OperatingPoint;
 use super::view::{Plain, View, gathered};
 use crate::body::{Energy, Frame, MOST_MARKERS, MarkerId, Quantity, Wrench, dot, norm, sub, twist_len};
 use crate::force::{Action, Force, ForceOver};
@@ -14,9 +14,9 @@ impl<const D: usize> Mechanism<D> {
     /// Lends the memory with all frames moved to a state; with its v' only where an output reads it.
     pub(super) fn observed<R>(
         &self,
-        at: Loaded,
+        at: OperatingPoint,
         scratch: &mut Scratch,
-        see: impl FnOnce(Loaded, Regime, &mut Workspace<D>) -> R,
+        see: impl FnOnce(OperatingPoint, Regime, &mut Workspace<D>) -> R,
     ) -> R {
         let is_accelerated = self.model().outputs.iter().any(|output| output.measure.feels_acceleration());
         let vdot = if is_accelerated { at.vdot } else { &[] };
@@ -24,7 +24,7 @@ impl<const D: usize> Mechanism<D> {
             if is_accelerated {
                 self.place(at.q, at.v, vdot, work);
             }
-            see(Loaded { vdot, ..at }, regime, work)
+            see(OperatingPoint { vdot, ..at }, regime, work)
         })
     }
 

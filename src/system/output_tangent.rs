@@ -2,10 +2,10 @@
 
 use super::coupling::Carrier;
 use super::mechanism::{Mechanism, Workspace};
-use super::tangent::Loaded;
-use super::variation::Along;
-use super::view::{Moved, Seed, View};
-use crate::body::Slope;
+use super::tangent::OperatingPoint;
+use super::variation::SeedDirection;
+use super::view::{Seed, SeededView, View};
+use crate::body::Dual6;
 use crate::math::Regime;
 use crate::scene::{EnergyPart, Measure, Part};
 use nalgebra::DMatrix;
@@ -42,7 +42,7 @@ impl OutputTangent {
 /// One evaluation.
 pub(super) struct Slopes<'a, const D: usize> {
     pub mechanism: &'a Mechanism<D>,
-    pub at: Loaded<'a>,
+    pub at: OperatingPoint<'a>,
     pub regime: Regime<'a>,
     pub work: &'a mut Workspace<D>,
     pub tangent: &'a mut OutputTangent,
@@ -84,9 +84,9 @@ impl<const D: usize> Slopes<'_, D> {
         }
     }
 
-    fn along_bodies(&mut self, row: usize, carriers: &[Carrier], read: impl Fn(&Moved<D>) -> Slope) {
-        self.along(Along::Coordinates, row, carriers, &read);
-        self.along(Along::Velocities, row, carriers, &read);
+    fn along_bodies(&mut self, row: usize, carriers: &[Carrier], read: impl Fn(&SeededView<D>) -> Dual6) {
+        self.along(SeedDirection::Coordinates, row, carriers, &read);
+        self.along(SeedDirection::Velocities, row, carriers, &read);
     }
 
     /// The bodies whose own inertia is read.
@@ -99,10 +99,16 @@ impl<const D: usize> Slopes<'_, D> {
             }
             measure => mechanism.carriers(measure),
         };
-        self.along(Along::Accelerations, row, &carriers, |view| mechanism.read(measure, view) * scale);
+        self.along(SeedDirection::Accelerations, row, &carriers, |view| mechanism.read(measure, view) * scale);
     }
 
-    fn along(&mut self, along: Along, row: usize, carriers: &[Carrier], read: impl Fn(&Moved<D>) -> Slope) {
+    fn along(
+        &mut self,
+        along: SeedDirection,
+        row: usize,
+        carriers: &[Carrier],
+        read: impl Fn(&SeededView<D>) -> Dual6,
+    ) {
         let bodies = &self.mechanism.model().bodies;
         for carrier in carriers {
             let part = &bodies[carrier.body];
@@ -110,9 +116,9 @@ impl<const D: usize> Slopes<'_, D> {
                 self.work.varied.vary(along, part, &self.at, directions);
                 let value = self.seen(Seed::Body(part), &read);
                 let target = match along {
-                    Along::Coordinates => &mut self.tangent.q,
-                    Along::Velocities => &mut self.tangent.v,
-                    Along::Accelerations => &mut self.tangent.vdot,
+                    SeedDirection::Coordinates => &mut self.tangent.q,
+                    SeedDirection::Velocities => &mut self.tangent.v,
+                    SeedDirection::Accelerations => &mut self.tangent.vdot,
                 };
                 let slopes = directions.iter().zip(value.eps);
                 slopes.for_each(|(&direction, slope)| target[(row, direction)] += known(slope));
@@ -137,8 +143,14 @@ impl<const D: usize> Slopes<'_, D> {
         }
     }
 
-    fn seen(&self, seed: Seed<D>, read: impl Fn(&Moved<D>) -> Slope) -> Slope {
-        read(&Moved { at: self.at, regime: self.regime, motion: &self.work.motion, varied: &self.work.varied, seed })
+    fn seen(&self, seed: Seed<D>, read: impl Fn(&SeededView<D>) -> Dual6) -> Dual6 {
+        read(&SeededView {
+            at: self.at,
+            regime: self.regime,
+            motion: &self.work.motion,
+            varied: &self.work.varied,
+            seed,
+        })
     }
 }
 

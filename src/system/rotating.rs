@@ -2,8 +2,8 @@
 
 use super::spin::{Block, Placement, Spin};
 use super::{
-    Column, Dimensions, Energy, Group, LeviCivita, Limited, Loaded, MechanicalSystem, Names, Need, OutputTangent,
-    Scratch, Structure, Tangent, Terms,
+    Column, Dimensions, Energy, Group, LeviCivita, Limited, MechanicalSystem, Names, Need, OperatingPoint,
+    OutputTangent, Scratch, Structure, Tangent, Terms,
 };
 use crate::math::Rate;
 use crate::math::expression::Switch;
@@ -208,10 +208,10 @@ impl MechanicalSystem for Rotating<'_> {
         }
     }
 
-    fn tangent(&self, at: Loaded, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
+    fn tangent(&self, at: OperatingPoint, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
         let (v, vdot) = (self.velocity(at.q, at.v), self.acceleration(at.q, at.v, at.vdot));
         let mut inner = Tangent::new(&self.inner_tangent);
-        if !self.inner.tangent(Loaded { t: self.t, v: &v, vdot: &vdot, ..at }, &mut inner, scratch) {
+        if !self.inner.tangent(OperatingPoint { t: self.t, v: &v, vdot: &vdot, ..at }, &mut inner, scratch) {
             return false;
         }
         let count = inner.k.len();
@@ -226,9 +226,9 @@ impl MechanicalSystem for Rotating<'_> {
         true
     }
 
-    fn acceleration_gradient(&self, at: Loaded, values: &mut [f64], scratch: &mut Scratch) -> bool {
+    fn acceleration_gradient(&self, at: OperatingPoint, values: &mut [f64], scratch: &mut Scratch) -> bool {
         let (v, vdot) = (self.velocity(at.q, at.v), self.acceleration(at.q, at.v, at.vdot));
-        if !self.inner.acceleration_gradient(Loaded { t: self.t, v: &v, vdot: &vdot, ..at }, values, scratch) {
+        if !self.inner.acceleration_gradient(OperatingPoint { t: self.t, v: &v, vdot: &vdot, ..at }, values, scratch) {
             return false;
         }
         // d(phi'')/dv = 2 L + G [v, .]
@@ -245,7 +245,7 @@ impl MechanicalSystem for Rotating<'_> {
         self.inner.bracket(v, x, out);
     }
 
-    fn levi_civita(&self, at: Loaded, connection: &mut LeviCivita, scratch: &mut Scratch) -> bool {
+    fn levi_civita(&self, at: OperatingPoint, connection: &mut LeviCivita, scratch: &mut Scratch) -> bool {
         self.inner.levi_civita(at, connection, scratch)
     }
 
@@ -289,14 +289,14 @@ impl MechanicalSystem for Rotating<'_> {
         self.inner.columns()
     }
 
-    fn outputs(&self, at: Loaded, out: &mut [f64], scratch: &mut Scratch) {
+    fn outputs(&self, at: OperatingPoint, out: &mut [f64], scratch: &mut Scratch) {
         let (v, vdot) = (self.velocity(at.q, at.v), self.acceleration(at.q, at.v, at.vdot));
-        self.inner.outputs(Loaded { t: self.t, v: &v, vdot: &vdot, ..at }, out, scratch);
+        self.inner.outputs(OperatingPoint { t: self.t, v: &v, vdot: &vdot, ..at }, out, scratch);
     }
 
-    fn output_tangent(&self, at: Loaded, tangent: &mut OutputTangent, scratch: &mut Scratch) -> bool {
+    fn output_tangent(&self, at: OperatingPoint, tangent: &mut OutputTangent, scratch: &mut Scratch) -> bool {
         let (v, vdot) = (self.velocity(at.q, at.v), self.acceleration(at.q, at.v, at.vdot));
-        if !self.inner.output_tangent(Loaded { t: self.t, v: &v, vdot: &vdot, ..at }, tangent, scratch) {
+        if !self.inner.output_tangent(OperatingPoint { t: self.t, v: &v, vdot: &vdot, ..at }, tangent, scratch) {
             return false;
         }
         let slopes = self.slopes(at.q, at.v);
@@ -327,9 +327,9 @@ impl MechanicalSystem for Rotating<'_> {
         self.inner.owner_of_switch(switch)
     }
 
-    fn switching(&self, at: Loaded, out: &mut [Rate], scratch: &mut Scratch) {
+    fn switching(&self, at: OperatingPoint, out: &mut [Rate], scratch: &mut Scratch) {
         let (v, vdot) = (self.velocity(at.q, at.v), self.acceleration(at.q, at.v, at.vdot));
-        self.inner.switching(Loaded { t: self.t, v: &v, vdot: &vdot, ..at }, out, scratch);
+        self.inner.switching(OperatingPoint { t: self.t, v: &v, vdot: &vdot, ..at }, out, scratch);
     }
 
     fn limited(&self) -> &[Limited] {

@@ -2,10 +2,10 @@
 
 use super::mechanism::{Mechanism, of};
 use super::support::Support;
-use super::variation::{Along, Varied, fixed};
+use super::variation::{SeedDirection, SeededBody, fixed};
 use super::view::mapped;
-use super::{Loaded, Terms};
-use crate::body::{Frame, MOST_MARKERS, Slope, Wrench, twist_len};
+use super::{OperatingPoint, Terms};
+use crate::body::{Dual6, Frame, MOST_MARKERS, Wrench, twist_len};
 use crate::joint::{Joint, MOST_ROWS, markers_per_pass};
 use crate::math::kkt::Pattern;
 use crate::math::{Rate, Regime, Scalar, Taylor, Time};
@@ -14,7 +14,7 @@ use std::array::from_fn;
 use std::ops::Range;
 
 /// Where a joint stands in phi and G.
-pub(super) struct Rows {
+pub(super) struct JointRows {
     pub first: usize,
     pub count: usize,
     /// Whether phi depends on t itself.
@@ -34,12 +34,12 @@ struct Block {
 pub(super) struct PlacedJoint<'a, const D: usize> {
     pub mechanism: &'a Mechanism<D>,
     pub joint: &'a Connection<Box<dyn Joint<D>>>,
-    pub rows: &'a Rows,
+    pub rows: &'a JointRows,
 }
 
 type Motion<S, const D: usize> = [Frame<Taylor<S>, D>];
 
-impl Rows {
+impl JointRows {
     /// Adds the joint's entries to the pattern of G, and its rows.
     pub fn new<const D: usize>(supports: &[Support], joint: &Connection<Box<dyn Joint<D>>>, g: &mut Pattern) -> Self {
         let count = joint.element.row_names().len();
@@ -54,7 +54,7 @@ impl Rows {
         }
         let first = g.rows;
         g.rows += count;
-        Rows { first, count, rheonomic: joint.element.depends_on_time(), blocks }
+        JointRows { first, count, rheonomic: joint.element.depends_on_time(), blocks }
     }
 
     pub fn range(&self) -> Range<usize> {
@@ -80,7 +80,7 @@ impl<const D: usize> PlacedJoint<'_, D> {
         }
     }
 
-    /// Rows of G: the gradient with respect to each marker's twist, pulled back like a wrench.
+    /// JointRows of G: the gradient with respect to each marker's twist, pulled back like a wrench.
     pub fn gradient(&self, time: Time<f64>, q: &[f64], frames: &Motion<f64, D>, terms: &mut Terms) {
         let mut slopes = [[0.0; 6]; MOST_ROWS];
         let slopes = &mut slopes[..self.rows.count];
@@ -129,9 +129,9 @@ impl<const D: usize> PlacedJoint<'_, D> {
     /// with each of its markers varied, one after the other.
     pub fn curvature(
         &self,
-        (at, regime): (&Loaded, Regime),
+        (at, regime): (&OperatingPoint, Regime),
         motion: &Motion<f64, D>,
-        varied: &mut Varied<D>,
+        varied: &mut SeededBody<D>,
         mut write: impl FnMut(usize, Taylor<f64>),
     ) {
         for block in &self.rows.blocks {
@@ -141,12 +141,12 @@ impl<const D: usize> PlacedJoint<'_, D> {
             let width = velocities.len();
             for first in (0..width).step_by(6) {
                 let directions = &velocities[first..width.min(first + 6)];
-                varied.vary(Along::Coordinates, part, at, directions);
-                let frames: [Frame<Taylor<Slope>, D>; MOST_MARKERS] = from_fn(|i| match i == block.slot {
+                varied.vary(SeedDirection::Coordinates, part, at, directions);
+                let frames: [Frame<Taylor<Dual6>, D>; MOST_MARKERS] = from_fn(|i| match i == block.slot {
                     true => varied.frames[marker - part.first_marker],
                     false => fixed(&motion[self.joint.markers[i.min(self.joint.markers.len() - 1)]]),
                 });
-                let mut levels = [Taylor::fixed(Slope::constant(0.0)); MOST_ROWS];
+                let mut levels = [Taylor::fixed(Dual6::constant(0.0)); MOST_ROWS];
                 let levels = &mut levels[..self.rows.count];
                 let time = Time { t: Taylor::time(at.t), regime };
                 self.joint.element.levels(&frames[..self.joint.markers.len()], time, levels);

@@ -15,7 +15,7 @@ use std::array::from_fn;
 /// A turn at a constant speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spin {
-    /// W, rad/s; a vector along the axis. Along z in the plane.
+    /// W, rad/s; a vector along the axis. SeedDirection z in the plane.
     pub velocity: [f64; 3],
     /// Of the axis, m.
     pub point: [f64; 3],

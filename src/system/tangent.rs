@@ -2,8 +2,8 @@
 
 use super::coupling::{Block, Carrier, Coupling};
 use super::mechanism::{Mechanism, Workspace, of};
-use super::variation::{Along, fixed};
-use crate::body::{BodyState, Frame, MOST_MARKERS, Slope, Wrench, twist_len};
+use super::variation::{SeedDirection, fixed};
+use crate::body::{BodyState, Dual6, Frame, MOST_MARKERS, Wrench, twist_len};
 use crate::joint::{MOST_ROWS, markers_per_pass};
 use crate::math::kkt::Pattern;
 use crate::math::{Regime, Scalar, Taylor, Time};
@@ -11,7 +11,7 @@ use std::array::from_fn;
 
 /// A state with its accelerations and multipliers.
 #[derive(Clone, Copy, Debug)]
-pub struct Loaded<'a> {
+pub struct OperatingPoint<'a> {
     pub t: f64,
     pub q: &'a [f64],
     pub v: &'a [f64],
@@ -37,21 +37,21 @@ impl Tangent {
 /// One evaluation of K and C.
 pub(super) struct Evaluation<'a, const D: usize> {
     pub mechanism: &'a Mechanism<D>,
-    pub at: Loaded<'a>,
+    pub at: OperatingPoint<'a>,
     pub regime: Regime<'a>,
     pub work: &'a mut Workspace<D>,
     pub tangent: &'a mut Tangent,
 }
 
-type Wrenches<const D: usize> = [Wrench<Slope, D>; MOST_MARKERS];
-type Frames<const D: usize> = [Frame<Taylor<Slope>, D>];
+type Wrenches<const D: usize> = [Wrench<Dual6, D>; MOST_MARKERS];
+type Frames<const D: usize> = [Frame<Taylor<Dual6>, D>];
 
 impl<const D: usize> Evaluation<'_, D> {
     /// Every element is evaluated with each of its bodies varied, along q and along v.
     pub fn run(&mut self) {
         self.tangent.k.fill(0.0);
         self.tangent.c.fill(0.0);
-        let (mechanism, time) = (self.mechanism, Time { t: Slope::fixed(self.at.t), regime: self.regime });
+        let (mechanism, time) = (self.mechanism, Time { t: Dual6::fixed(self.at.t), regime: self.regime });
         let couplings = &mechanism.couplings;
         for (part, places) in mechanism.model().bodies.iter().zip(&couplings.bodies) {
             let own = BodyState {
@@ -66,20 +66,20 @@ impl<const D: usize> Evaluation<'_, D> {
             let lambda = &self.at.lambda[rows.range()];
             let reaction = |frames: &Frames<D>, out: &mut Wrenches<D>| {
                 for pass in 0..frames.len().div_ceil(markers_per_pass(D)) {
-                    let mut slopes = [[Slope::constant(0.0); 6]; MOST_ROWS];
+                    let mut slopes = [[Dual6::constant(0.0); 6]; MOST_ROWS];
                     joint.element.gradient(frames, time, pass, &mut slopes[..lambda.len()]);
                     let slots = pass * markers_per_pass(D)..frames.len().min((pass + 1) * markers_per_pass(D));
                     slots.for_each(|slot| out[slot] = reaction_wrench(lambda, &slopes, slot));
                 }
             };
-            self.element(coupling, &joint.markers, Along::Coordinates, 1.0, reaction);
+            self.element(coupling, &joint.markers, SeedDirection::Coordinates, 1.0, reaction);
         }
         for (force, coupling) in mechanism.model().forces.iter().zip(&couplings.forces) {
             let act = |frames: &Frames<D>, out: &mut Wrenches<D>| {
                 force.element.act(frames, time.map(Taylor::running), &mut out[..frames.len()]);
             };
-            self.element(coupling, &force.markers, Along::Coordinates, -1.0, act);
-            self.element(coupling, &force.markers, Along::Velocities, -1.0, act);
+            self.element(coupling, &force.markers, SeedDirection::Coordinates, -1.0, act);
+            self.element(coupling, &force.markers, SeedDirection::Velocities, -1.0, act);
         }
     }
 
@@ -88,7 +88,7 @@ impl<const D: usize> Evaluation<'_, D> {
         &mut self,
         coupling: &Coupling,
         markers: &[usize],
-        along: Along,
+        along: SeedDirection,
         sign: f64,
         wrenches: impl Fn(&Frames<D>, &mut Wrenches<D>),
     ) {
@@ -96,7 +96,7 @@ impl<const D: usize> Evaluation<'_, D> {
         for (column, carrier) in coupling.carriers.iter().enumerate() {
             let part = &model.bodies[carrier.body];
             for (pass, directions) in carrier.velocities.chunks(6).enumerate() {
-                let at = Loaded { vdot: &[], ..self.at };
+                let at = OperatingPoint { vdot: &[], ..self.at };
                 self.work.varied.vary(along, part, &at, directions);
                 let frames: [_; MOST_MARKERS] = from_fn(|i| {
                     let marker = markers[i.min(markers.len() - 1)];
@@ -128,10 +128,10 @@ impl<const D: usize> Evaluation<'_, D> {
         let part = &self.mechanism.model().bodies[row.body];
         let varied = &mut self.work.varied;
         varied.f.clear();
-        varied.f.resize(row.velocities.len(), Slope::fixed(0.0));
+        varied.f.resize(row.velocities.len(), Dual6::fixed(0.0));
         if !is_varied {
             varied.rest.clear();
-            varied.rest.extend(of(self.at.q, part, true).iter().map(|&q| Slope::fixed(q)));
+            varied.rest.extend(of(self.at.q, part, true).iter().map(|&q| Dual6::fixed(q)));
         }
         let q = if is_varied { &varied.moved } else { &varied.rest };
         for held in &row.markers {
@@ -141,15 +141,15 @@ impl<const D: usize> Evaluation<'_, D> {
                 continue;
             }
             varied.pulled.clear();
-            varied.pulled.resize(held.places.len(), Slope::fixed(0.0));
+            varied.pulled.resize(held.places.len(), Dual6::fixed(0.0));
             part.body.pull_back(index, q, &frame, &wrenches[held.slot], &mut varied.pulled);
             held.places.iter().zip(&varied.pulled).for_each(|(&place, &f)| varied.f[place] += f);
         }
     }
 
     /// Adds the slopes of `varied.f` to columns `first..` of a block.
-    fn add(&mut self, along: Along, block: &Block, first: usize, sign: f64) {
-        let values = if along == Along::Coordinates { &mut self.tangent.k } else { &mut self.tangent.c };
+    fn add(&mut self, along: SeedDirection, block: &Block, first: usize, sign: f64) {
+        let values = if along == SeedDirection::Coordinates { &mut self.tangent.k } else { &mut self.tangent.c };
         let rows = values[block.first_entry..].chunks_exact_mut(block.width);
         for (row, f) in rows.zip(&self.work.varied.f) {
             row[first..].iter_mut().zip(&f.eps).for_each(|(value, slope)| *value += sign * slope);
@@ -158,9 +158,9 @@ impl<const D: usize> Evaluation<'_, D> {
 }
 
 /// G^T lambda at one marker of a joint, as a wrench.
-fn reaction_wrench<const D: usize>(lambda: &[f64], slopes: &[[Slope; 6]; MOST_ROWS], slot: usize) -> Wrench<Slope, D> {
+fn reaction_wrench<const D: usize>(lambda: &[f64], slopes: &[[Dual6; 6]; MOST_ROWS], slot: usize) -> Wrench<Dual6, D> {
     let first = slot % markers_per_pass(D) * twist_len(D);
-    let mut sum = [Slope::constant(0.0); 6];
+    let mut sum = [Dual6::constant(0.0); 6];
     for (&lambda, slope) in lambda.iter().zip(slopes) {
         sum.iter_mut().zip(&slope[first..]).for_each(|(sum, &entry)| *sum += entry * lambda);
     }

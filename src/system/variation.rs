@@ -1,14 +1,14 @@
 //! Bodies as functions of their velocity directions.
 
 use super::mechanism::of;
-use super::tangent::Loaded;
-use crate::body::{Frame, Slope};
+use super::tangent::OperatingPoint;
+use crate::body::{Dual6, Frame};
 use crate::math::Taylor;
 use crate::scene::Part;
 
 /// What is varied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Along {
+pub(super) enum SeedDirection {
     /// q + N(q) e_j, v held.
     Coordinates,
     /// v + e_j, q held.
@@ -19,43 +19,43 @@ pub(super) enum Along {
 
 /// One body as a function of six of its velocity directions, with memory for what follows from it.
 #[derive(Default)]
-pub(super) struct Varied<const D: usize> {
-    pub frames: Vec<Frame<Taylor<Slope>, D>>,
+pub(super) struct SeededBody<const D: usize> {
+    pub frames: Vec<Frame<Taylor<Dual6>, D>>,
     /// The body's q.
-    pub moved: Vec<Slope>,
+    pub moved: Vec<Dual6>,
     /// The body's v.
-    pub moved_v: Vec<Slope>,
+    pub moved_v: Vec<Dual6>,
     /// Generalized forces of a body, and those at one of its markers.
-    pub f: Vec<Slope>,
-    pub pulled: Vec<Slope>,
+    pub f: Vec<Dual6>,
+    pub pulled: Vec<Dual6>,
     /// q of a body that is not varied.
-    pub rest: Vec<Slope>,
+    pub rest: Vec<Dual6>,
     /// The body's v', where it is given.
-    pub moved_vdot: Vec<Slope>,
-    directions: Vec<Slope>,
+    pub moved_vdot: Vec<Dual6>,
+    directions: Vec<Dual6>,
 }
 
-impl<const D: usize> Varied<D> {
+impl<const D: usize> SeededBody<D> {
     /// Frames of a body's markers as functions of up to six of the system's velocity directions, which are the body's.
     /// Their accelerations are those at v' = 0 where `at.vdot` is empty.
-    pub fn vary(&mut self, along: Along, part: &Part<D>, at: &Loaded, directions: &[usize]) {
+    pub fn vary(&mut self, along: SeedDirection, part: &Part<D>, at: &OperatingPoint, directions: &[usize]) {
         let (q, v) = (of(at.q, part, true), of(at.v, part, false));
         self.directions.clear();
-        self.directions.resize(part.nv, Slope::fixed(0.0));
+        self.directions.resize(part.nv, Dual6::fixed(0.0));
         for (j, &direction) in directions.iter().enumerate() {
-            self.directions[direction - part.first_v] = Slope::seeded(0.0, j);
+            self.directions[direction - part.first_v] = Dual6::seeded(0.0, j);
         }
         lift(v, &mut self.moved_v);
         lift(q, &mut self.rest);
         lift(q, &mut self.moved);
         lift(if at.vdot.is_empty() { at.vdot } else { of(at.vdot, part, false) }, &mut self.moved_vdot);
         match along {
-            Along::Coordinates => {
+            SeedDirection::Coordinates => {
                 part.body.rate(&self.rest, &self.directions, &mut self.moved);
                 self.moved.iter_mut().zip(&self.rest).for_each(|(moved, &q)| *moved += q);
             }
-            Along::Velocities => add(&mut self.moved_v, &self.directions),
-            Along::Accelerations => add(&mut self.moved_vdot, &self.directions),
+            SeedDirection::Velocities => add(&mut self.moved_v, &self.directions),
+            SeedDirection::Accelerations => add(&mut self.moved_vdot, &self.directions),
         }
         self.frames.resize(part.body.marker_count(), Frame::world());
         let vdot = (!at.vdot.is_empty()).then_some(self.moved_vdot.as_slice());
@@ -63,16 +63,16 @@ impl<const D: usize> Varied<D> {
     }
 }
 
-fn lift(from: &[f64], to: &mut Vec<Slope>) {
+fn lift(from: &[f64], to: &mut Vec<Dual6>) {
     to.clear();
-    to.extend(from.iter().map(|&x| Slope::fixed(x)));
+    to.extend(from.iter().map(|&x| Dual6::fixed(x)));
 }
 
-fn add(to: &mut [Slope], directions: &[Slope]) {
+fn add(to: &mut [Dual6], directions: &[Dual6]) {
     to.iter_mut().zip(directions).for_each(|(to, &direction)| *to += direction);
 }
 
 /// A frame that does not vary.
-pub(super) fn fixed<const D: usize>(frame: &Frame<Taylor<f64>, D>) -> Frame<Taylor<Slope>, D> {
-    frame.map(|x| Taylor::new(Slope::fixed(x.x), Slope::fixed(x.d), Slope::fixed(x.dd)))
+pub(super) fn fixed<const D: usize>(frame: &Frame<Taylor<f64>, D>) -> Frame<Taylor<Dual6>, D> {
+    frame.map(|x| Taylor::new(Dual6::fixed(x.x), Dual6::fixed(x.d), Dual6::fixed(x.dd)))
 }

@@ -1,9 +1,9 @@
 //! A state as outputs and energies read it, over one scalar: the number decides what comes out, values or derivatives.
 
 use super::mechanism::of;
-use super::tangent::Loaded;
-use super::variation::{Varied, fixed};
-use crate::body::{Energy, Frame, MOST_MARKERS, MarkerId, Slope};
+use super::tangent::OperatingPoint;
+use super::variation::{SeededBody, fixed};
+use crate::body::{Dual6, Energy, Frame, MOST_MARKERS, MarkerId};
 use crate::math::{Rate, Regime, Scalar, Taylor, Time};
 use crate::scene::Part;
 use std::array::from_fn;
@@ -27,7 +27,7 @@ pub(super) trait View<S: Scalar, const D: usize> {
 
 /// The state as it is.
 pub(super) struct Plain<'a, const D: usize> {
-    pub at: Loaded<'a>,
+    pub at: OperatingPoint<'a>,
     pub regime: Regime<'a>,
     pub motion: &'a [Frame<Taylor<f64>, D>],
 }
@@ -62,7 +62,7 @@ impl<const D: usize> View<f64, D> for Plain<'_, D> {
 /// What varies, along six directions.
 #[derive(Clone, Copy)]
 pub(super) enum Seed<'a, const D: usize> {
-    /// A body, as [`Varied`] holds it.
+    /// A body, as [`SeededBody`] holds it.
     Body(&'a Part<D>),
     /// The multipliers from this row on.
     Multipliers(usize),
@@ -71,39 +71,39 @@ pub(super) enum Seed<'a, const D: usize> {
 }
 
 /// The state as a function of six directions.
-pub(super) struct Moved<'a, const D: usize> {
-    pub at: Loaded<'a>,
+pub(super) struct SeededView<'a, const D: usize> {
+    pub at: OperatingPoint<'a>,
     pub regime: Regime<'a>,
     pub motion: &'a [Frame<Taylor<f64>, D>],
-    pub varied: &'a Varied<D>,
+    pub varied: &'a SeededBody<D>,
     pub seed: Seed<'a, D>,
 }
 
-impl<const D: usize> Moved<'_, D> {
+impl<const D: usize> SeededView<'_, D> {
     /// What `varied` has of the body that moves, beginning where `first` says, and `fixed` of the others.
-    fn value(&self, varied: &[Slope], first: impl Fn(&Part<D>) -> usize, fixed: &[f64], index: usize) -> Slope {
+    fn value(&self, varied: &[Dual6], first: impl Fn(&Part<D>) -> usize, fixed: &[f64], index: usize) -> Dual6 {
         let own = match self.seed {
             Seed::Body(part) => index.checked_sub(first(part)).and_then(|i| varied.get(i)),
             _ => None,
         };
-        own.copied().unwrap_or_else(|| Slope::fixed(fixed[index]))
+        own.copied().unwrap_or_else(|| Dual6::fixed(fixed[index]))
     }
 }
 
-impl<const D: usize> View<Slope, D> for Moved<'_, D> {
+impl<const D: usize> View<Dual6, D> for SeededView<'_, D> {
     fn time(&self) -> Time<'_, f64> {
         Time { t: self.at.t, regime: self.regime }
     }
-    fn q(&self, coordinate: usize) -> Slope {
+    fn q(&self, coordinate: usize) -> Dual6 {
         self.value(&self.varied.moved, |part| part.first_q, self.at.q, coordinate)
     }
-    fn v(&self, direction: usize) -> Slope {
+    fn v(&self, direction: usize) -> Dual6 {
         self.value(&self.varied.moved_v, |part| part.first_v, self.at.v, direction)
     }
-    fn vdot(&self, direction: usize) -> Slope {
+    fn vdot(&self, direction: usize) -> Dual6 {
         self.value(&self.varied.moved_vdot, |part| part.first_v, self.at.vdot, direction)
     }
-    fn frame(&self, marker: MarkerId) -> Frame<Taylor<Slope>, D> {
+    fn frame(&self, marker: MarkerId) -> Frame<Taylor<Dual6>, D> {
         match self.seed {
             Seed::Body(part) if (part.first_marker..part.first_marker + part.body.marker_count()).contains(&marker) => {
                 self.varied.frames[marker - part.first_marker]
@@ -111,7 +111,7 @@ impl<const D: usize> View<Slope, D> for Moved<'_, D> {
             _ => fixed(&self.motion[marker]),
         }
     }
-    fn energy(&self, part: &Part<D>, gravity: &[f64; D]) -> Energy<Slope> {
+    fn energy(&self, part: &Part<D>, gravity: &[f64; D]) -> Energy<Dual6> {
         match self.seed {
             Seed::Body(moved) if moved.first_v == part.first_v => {
                 part.body.energy(&self.varied.moved, &self.varied.moved_v, gravity)
@@ -119,22 +119,22 @@ impl<const D: usize> View<Slope, D> for Moved<'_, D> {
             _ => {
                 let plain = Plain { at: self.at, regime: self.regime, motion: self.motion };
                 let Energy { kinetic, potential } = plain.energy(part, gravity);
-                Energy { kinetic: Slope::fixed(kinetic), potential: Slope::fixed(potential) }
+                Energy { kinetic: Dual6::fixed(kinetic), potential: Dual6::fixed(potential) }
             }
         }
     }
-    fn lambda(&self, row: usize) -> Slope {
+    fn lambda(&self, row: usize) -> Dual6 {
         match self.seed {
             Seed::Multipliers(first) if (first..first + 6).contains(&row) => {
-                Slope::seeded(self.at.lambda[row], row - first)
+                Dual6::seeded(self.at.lambda[row], row - first)
             }
-            _ => Slope::fixed(self.at.lambda[row]),
+            _ => Dual6::fixed(self.at.lambda[row]),
         }
     }
-    fn input(&self, force: usize) -> [Slope; 3] {
+    fn input(&self, force: usize) -> [Dual6; 3] {
         match self.seed {
-            Seed::Inputs(driven) if driven == force => from_fn(|component| Slope::seeded(0.0, component)),
-            _ => [Slope::fixed(0.0); 3],
+            Seed::Inputs(driven) if driven == force => from_fn(|component| Dual6::seeded(0.0, component)),
+            _ => [Dual6::fixed(0.0); 3],
         }
     }
 }

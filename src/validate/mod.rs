@@ -10,17 +10,17 @@ mod carried;
 mod direction;
 mod frozen;
 mod input;
-mod ladder;
 mod order;
 mod perturb;
 mod run;
+mod sequence;
 
 pub use direction::Direction;
 pub use frozen::{Frozen, horizon};
 pub use input::InputCheck;
-pub use ladder::{Curve, Ladder};
 pub use order::{Decay, decay};
 pub use run::{Validation, Verdict, validate};
+pub use sequence::{Curve, PerturbationSequence};
 
 use crate::linearize::Chart;
 

@@ -6,7 +6,7 @@ use serde::Serialize;
 /// How errors fall with what they depend on.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Decay {
-    /// Slope of log error over log size; none where fewer than four points are above rounding.
+    /// Dual6 of log error over log size; none where fewer than four points are above rounding.
     pub order: Option<f64>,
     /// Decades of the size that the slope was taken over.
     pub decades: f64,

@@ -2,9 +2,9 @@
 
 use super::carried::Carried;
 use super::frozen::frozen;
-use super::ladder::ladder;
 use super::perturb::{Norm, Speed};
-use super::{Decay, Frozen, InputCheck, Ladder, Settings, input};
+use super::sequence::sequence;
+use super::{Decay, Frozen, InputCheck, PerturbationSequence, Settings, input};
 use crate::error::Result;
 use crate::linearize::{Chart, State, Variation, minimal, refuse_large};
 use crate::system::MechanicalSystem;
@@ -21,7 +21,7 @@ pub struct Validation {
     /// What velocities are divided by to compare with positions, 1/s.
     pub rate: f64,
     /// One for each direction.
-    pub ladders: Vec<Ladder>,
+    pub sequences: Vec<PerturbationSequence>,
     /// exp(A h) against the state-transition matrix.
     pub frozen: Frozen,
     pub inputs: Vec<InputCheck>,
@@ -55,11 +55,11 @@ pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Setting
     let speed = Speed::of(&model)?;
     let norm = Norm { rate: speed.usual };
     let followed = settings.horizon.unwrap_or(speed.period());
-    let mut ladders = Vec::new();
+    let mut sequences = Vec::new();
     for direction in &settings.directions {
         let x0 = direction.state(&model.coordinates, norm.rate)?;
         if model.a.nrows() > 0 {
-            ladders.push(ladder(system, start, (&model, &carried, &norm), &x0, (direction.name(), followed))?);
+            sequences.push(sequence(system, start, (&model, &carried, &norm), &x0, (direction.name(), followed))?);
         }
     }
     let longest = followed.min(1.0 / speed.fastest.max(f64::MIN_POSITIVE));
@@ -68,12 +68,13 @@ pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Setting
     for (index, column) in system.inputs().into_iter().enumerate().filter(|_| settings.inputs) {
         inputs.extend(input::check(system, start, (&model, &carried, &norm), (index, column.name), 0.1 * followed)?);
     }
-    let verdict = judge(&ladders, &frozen, &inputs);
-    Ok(Validation { t: start.t, chart: name, followed, rate: norm.rate, ladders, frozen, inputs, verdict })
+    let verdict = judge(&sequences, &frozen, &inputs);
+    Ok(Validation { t: start.t, chart: name, followed, rate: norm.rate, sequences, frozen, inputs, verdict })
 }
 
-fn judge(ladders: &[Ladder], frozen: &Frozen, inputs: &[InputCheck]) -> Verdict {
-    let orders = ladders.iter().map(|ladder| &ladder.order_ltv).chain(inputs.iter().map(|input| &input.order_ltv));
+fn judge(sequences: &[PerturbationSequence], frozen: &Frozen, inputs: &[InputCheck]) -> Verdict {
+    let orders =
+        sequences.iter().map(|sequence| &sequence.order_ltv).chain(inputs.iter().map(|input| &input.order_ltv));
     let passes =
         |decay: &Decay| decay.is_exact || decay.order.is_some_and(|order| order > 2.0 - tolerances::ORDER_SLACK);
     let steep = |decay: &Decay| decay.is_exact || decay.order.is_some_and(|order| order > tolerances::STEEP_ENOUGH);

@@ -1,7 +1,7 @@
 //! Natural frequencies against closed forms, with observed orders.
 
 use crate::scenes::{Ready, parse};
-use holonom::system::{Loaded, Need, Scratch, Tangent, Terms};
+use holonom::system::{Need, OperatingPoint, Scratch, Tangent, Terms};
 use nalgebra::{Cholesky, DMatrix, SymmetricEigen};
 use std::f64::consts::PI;
 
@@ -19,7 +19,7 @@ pub fn squares(ready: &Ready, t: f64, q: &[f64]) -> Vec<f64> {
     let mut tangent = Tangent::new(&structure.tangent);
     system.evaluate(t, q, v, Need::DYNAMICS, &mut terms, &mut scratch);
     let lambda = vec![0.0; n.lambda];
-    assert!(system.tangent(Loaded { t, q, v, vdot: v, lambda: &lambda }, &mut tangent, &mut scratch));
+    assert!(system.tangent(OperatingPoint { t, q, v, vdot: v, lambda: &lambda }, &mut tangent, &mut scratch));
     let (mut k, mut m) = (DMatrix::<f64>::zeros(n.v, n.v), DMatrix::<f64>::zeros(n.v, n.v));
     structure.tangent.entries.iter().zip(&tangent.k).for_each(|(&place, k_ij)| k[place] += k_ij);
     structure.mass.entries.iter().zip(&terms.mass).for_each(|(&place, m_ij)| m[place] += m_ij);

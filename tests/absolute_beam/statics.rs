@@ -2,7 +2,7 @@
 
 use crate::scenes::{Ready, parse};
 use holonom::study::AnyMechanism;
-use holonom::system::{Loaded, MechanicalSystem, Need, Scratch, Tangent, Terms};
+use holonom::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
 use nalgebra::{DMatrix, DVector};
 
 /// q in equilibrium with the loads at t = 1, reached in `steps` equal steps of t, which the loads of the scene grow with.
@@ -22,7 +22,7 @@ pub fn balance(system: &dyn MechanicalSystem, t: f64, q: &mut [f64], lambda: &mu
     let rest = vec![0.0; n.v];
     for _ in 0..40 {
         system.evaluate(t, q, &rest, Need::DYNAMICS, &mut terms, &mut scratch);
-        let at = Loaded { t, q, v: &rest, vdot: &rest, lambda };
+        let at = OperatingPoint { t, q, v: &rest, vdot: &rest, lambda };
         assert!(system.tangent(at, &mut tangent, &mut scratch));
         let mut matrix = DMatrix::<f64>::zeros(n.v + n.lambda, n.v + n.lambda);
         structure.tangent.entries.iter().zip(&tangent.k).for_each(|(&place, k)| matrix[place] += k);

@@ -6,7 +6,7 @@
 //! i' = (U sin 2 t - R i - S i^3 - K w)/L,   w = x y' - y x'
 //! ```
 
-use holonom::system::{Dimensions, Loaded, MechanicalSystem, Need, Scratch, Tangent, Terms};
+use holonom::system::{Dimensions, MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
 
 /// Its state is counted in so many A.
 pub struct Motor {
@@ -48,7 +48,7 @@ impl MechanicalSystem for Motor {
         terms.l.copy_from_slice(&[vx, vy, 0.0]);
     }
 
-    fn tangent(&self, at: Loaded, tangent: &mut Tangent, _: &mut Scratch) -> bool {
+    fn tangent(&self, at: OperatingPoint, tangent: &mut Tangent, _: &mut Scratch) -> bool {
         let (&[x, y], &[vx, vy, xi], &[lambda]) = (at.q, at.v, at.lambda) else { return false };
         let i = self.unit * xi;
         let k = [[lambda, K * i, 0.0], [-K * i, lambda, 0.0], [K * vy / L, -K * vx / L, 0.0]];

@@ -2,7 +2,7 @@
 
 use holonom::Result;
 use holonom::choice::{Listed, OptionDoc};
-use holonom::formulation::{Dynamics, Entry, Formulation, Halt};
+use holonom::formulation::{Dynamics, Entry, Formulation, StepError};
 use holonom::simulate::Method;
 
 /// phi'' + rate phi' = 0
@@ -27,7 +27,7 @@ impl Formulation for Braked {
         dynamics: &mut Dynamics,
         qdot: &mut [f64],
         vdot: &mut [f64],
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         // M v' + G^T lambda = f and G v' = gamma + what the closure says, of each row.
         dynamics.solve(t, q, v, |_phi, phi_dot| -self.rate * phi_dot)?;
         dynamics.system.rate(q, v, qdot);

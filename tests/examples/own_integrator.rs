@@ -2,7 +2,7 @@
 
 use holonom::Result;
 use holonom::choice::Listed;
-use holonom::formulation::Halt;
+use holonom::formulation::StepError;
 use holonom::integrator::{Control, Entry, From, Hermite, Integrator, Problem, Steps, Tightening, Tolerance};
 use holonom::simulate::Method;
 
@@ -42,7 +42,7 @@ impl Integrator for Midpoint {
         from: From,
         h: f64,
         to: &mut [f64],
-    ) -> Result<Option<f64>, Halt> {
+    ) -> Result<Option<f64>, StepError> {
         let ahead = |out: &mut [f64], h: f64, slope: &[f64]| {
             out.iter_mut().zip(from.y.iter().zip(slope)).for_each(|(out, (y, slope))| *out = y + h * slope);
         };
@@ -57,12 +57,19 @@ impl Integrator for Midpoint {
         &mut self.control
     }
 
-    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt> {
+    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), StepError> {
         self.dense.prepare(from, h, to, slope);
         Ok(())
     }
 
-    fn interpolate(&mut self, _: &mut Problem, from: From, _: f64, theta: f64, out: &mut [f64]) -> Result<(), Halt> {
+    fn interpolate(
+        &mut self,
+        _: &mut Problem,
+        from: From,
+        _: f64,
+        theta: f64,
+        out: &mut [f64],
+    ) -> Result<(), StepError> {
         self.dense.interpolate(theta, from.y, out);
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use holonom::Result;
 use holonom::choice::Listed;
-use holonom::formulation::{Dynamics, Halt};
+use holonom::formulation::{Dynamics, StepError};
 use holonom::projection::{Entry, Projection};
 use holonom::simulate::Method;
 use holonom::system::Need;
@@ -20,7 +20,7 @@ struct Velocities {
 }
 
 impl Projection for Velocities {
-    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), Halt> {
+    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), StepError> {
         dynamics.evaluate(t, q, v, Need::MASS | Need::CONSTRAINTS | Need::G);
         dynamics.factor_truncated()?;
         // M dv + G^T mu = 0, G dv = phi'

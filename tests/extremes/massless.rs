@@ -19,7 +19,7 @@ impl Pendulum {
         if self.dimension == 2 { format!("[{x:e}, {y:e}]") } else { format!("[{x:e}, {y:e}, 0]") }
     }
 
-    /// Along the pendulum from its hinge.
+    /// LociVariable the pendulum from its hinge.
     fn along(&self, distance: f64) -> String {
         self.vector(distance * self.turned.cos(), distance * self.turned.sin())
     }

@@ -3,13 +3,13 @@
 
 use crate::scenes::Ready;
 use holonom::initial::equilibrium;
-use holonom::system::{Loaded, Scratch};
+use holonom::system::{OperatingPoint, Scratch};
 
 pub const LENGTH: f64 = 2.0;
 pub const EA: f64 = 1e4;
 /// About y and z.
 pub const EI: [f64; 2] = [100.0, 300.0];
-/// Along y and z.
+/// LociVariable y and z.
 pub const GA: [f64; 2] = [4e3, 3e3];
 
 pub const THEORIES: [&str; 2] = ["euler_bernoulli", "timoshenko"];
@@ -76,7 +76,7 @@ pub fn at_rest(ready: &Ready, names: &[&str]) -> Vec<f64> {
     let found = equilibrium(system, 0.0, &ready.start().q).unwrap_or_else(|error| panic!("{error}"));
     let columns = system.columns();
     let (mut out, still) = (vec![0.0; columns.len()], vec![0.0; system.dimensions().v]);
-    let at = Loaded { t: found.t, q: &found.q, v: &still, vdot: &still, lambda: &found.lambda };
+    let at = OperatingPoint { t: found.t, q: &found.q, v: &still, vdot: &still, lambda: &found.lambda };
     system.outputs(at, &mut out, &mut Scratch::default());
     names.iter().map(|name| out[columns.iter().position(|column| column.name == *name).unwrap()]).collect()
 }

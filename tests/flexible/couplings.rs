@@ -7,7 +7,7 @@ use holonom::formulation::Choice;
 use holonom::scene::{AnyModel, Scene};
 use holonom::simulate::{Method, Span};
 use holonom::study::AnyMechanism;
-use holonom::system::{Loaded, MechanicalSystem, Mechanism, Need, Scratch, Terms};
+use holonom::system::{MechanicalSystem, Mechanism, Need, OperatingPoint, Scratch, Terms};
 
 /// Beams of every make, in the plane and in space.
 const MAKES: [&str; 6] = [
@@ -142,7 +142,11 @@ fn joints_on_beams_have_true_derivatives() {
         system.structure().g.multiply(&here.g, &v, &mut along);
         close(&slope(frozen), &along, &format!("G of {what}"));
         let (vdot, lambda) = (random.list(n.v), random.list(n.lambda));
-        crate::scenes::differences::check(system, Loaded { t, q: &q, v: &v, vdot: &vdot, lambda: &lambda }, what);
+        crate::scenes::differences::check(
+            system,
+            OperatingPoint { t, q: &q, v: &v, vdot: &vdot, lambda: &lambda },
+            what,
+        );
     });
 }
 
@@ -159,7 +163,11 @@ fn forces_on_beams_have_true_derivatives_and_potentials() {
             let n = system.dimensions();
             let (t, q, v) = (0.4, place(system, &mut random), random.list(n.v));
             let (vdot, lambda) = (random.list(n.v), random.list(n.lambda));
-            crate::scenes::differences::check(system, Loaded { t, q: &q, v: &v, vdot: &vdot, lambda: &lambda }, what);
+            crate::scenes::differences::check(
+                system,
+                OperatingPoint { t, q: &q, v: &v, vdot: &vdot, lambda: &lambda },
+                what,
+            );
             if !of_nature {
                 return;
             }

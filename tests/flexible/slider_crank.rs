@@ -4,7 +4,7 @@ use crate::flexible::brief;
 use crate::scenes::{Ready, Run, shipped};
 use holonom::formulation::Choice;
 use holonom::simulate::{Method, Span};
-use holonom::system::{Loaded, MechanicalSystem, Need, Scratch, Tangent, Terms};
+use holonom::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
@@ -145,7 +145,7 @@ fn frequencies(ready: &Ready, part: &str) -> Vec<f64> {
     let mut terms = Terms::new(system);
     system.evaluate(0.0, &straight, &rest, Need::DYNAMICS, &mut terms, &mut Scratch::default());
     let mut tangent = Tangent::new(&structure.tangent);
-    let at = Loaded { t: 0.0, q: &straight, v: &rest, vdot: &rest, lambda: &lambda };
+    let at = OperatingPoint { t: 0.0, q: &straight, v: &rest, vdot: &rest, lambda: &lambda };
     assert!(system.tangent(at, &mut tangent, &mut Scratch::default()));
     let full = |multiply: &dyn Fn(&[f64], &mut [f64])| {
         let mut matrix = DMatrix::<f64>::zeros(kept.len(), kept.len());

@@ -1,8 +1,8 @@
 //! Models to write and draw.
 
-use holonom::linearize::{Complex, Cost, Kind, LinearModel, Matrix, Mode, OperatingPoint};
+use holonom::linearize::{Complex, Cost, Kind, LinearModel, LinearizationPoint, Matrix, Mode};
 use holonom::study::{Overrides, Study};
-use holonom::system::{Loaded, Need, Scratch, Tangent, Terms};
+use holonom::system::{Need, OperatingPoint, Scratch, Tangent, Terms};
 use nalgebra::{DMatrix, DVector};
 use std::path::Path;
 
@@ -23,7 +23,7 @@ pub fn plain(study: &Study) -> LinearModel {
     let t = study.start_time();
     system.evaluate(t, q, v, Need::DYNAMICS, &mut terms, &mut scratch);
     let mut tangent = Tangent::new(&structure.tangent);
-    assert!(system.tangent(Loaded { t, q, v, vdot, lambda }, &mut tangent, &mut scratch));
+    assert!(system.tangent(OperatingPoint { t, q, v, vdot, lambda }, &mut tangent, &mut scratch));
     let dense = |rows: usize, entries: &[(usize, usize)], values: &[f64]| {
         let mut matrix = Matrix::zeros(rows, n.v);
         entries.iter().zip(values).for_each(|((i, j), value)| matrix[(*i, *j)] += value);
@@ -58,7 +58,7 @@ pub fn plain(study: &Study) -> LinearModel {
         a,
         e: None,
         modes,
-        point: OperatingPoint {
+        point: LinearizationPoint {
             t,
             q: q.to_vec(),
             v: v.to_vec(),

@@ -16,7 +16,7 @@ fn study(name: &str, set: &[(&str, f64)]) -> Study {
     Study::load(&path, &Overrides { set, ..Overrides::default() }).unwrap()
 }
 
-/// Along gravity.
+/// LociVariable gravity.
 fn hanging_chain(links: usize) -> Study {
     let mut scene = generate::flexible_chain(links);
     scene["gravity"] = serde_json::json!([9.81, 0]);

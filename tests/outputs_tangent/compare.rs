@@ -1,16 +1,16 @@
 //! Derivatives of outputs against differences.
 
 use crate::scenes::differences::moved;
-use holonom::system::{Loaded, MechanicalSystem, OutputTangent, Scratch};
+use holonom::system::{MechanicalSystem, OperatingPoint, OutputTangent, Scratch};
 use nalgebra::DMatrix;
 
-pub fn outputs(system: &dyn MechanicalSystem, at: Loaded) -> Vec<f64> {
+pub fn outputs(system: &dyn MechanicalSystem, at: OperatingPoint) -> Vec<f64> {
     let mut out = vec![0.0; system.columns().len()];
     system.outputs(at, &mut out, &mut Scratch::default());
     out
 }
 
-pub fn tangent(system: &dyn MechanicalSystem, at: Loaded) -> OutputTangent {
+pub fn tangent(system: &dyn MechanicalSystem, at: OperatingPoint) -> OutputTangent {
     let n = system.dimensions();
     // What was there before does not count.
     let mut tangent = OutputTangent::new(system.columns().len(), n.v, n.lambda, system.inputs().len());
@@ -51,7 +51,7 @@ fn ahead(x: &[f64], direction: &[f64], s: f64) -> Vec<f64> {
 
 /// The derivatives along q, v, v' and lambda at a state agree with differences to `near` of the largest derivative of the
 /// output or of its value.
-pub fn check(system: &dyn MechanicalSystem, at: Loaded, near: f64, what: &str) {
+pub fn check(system: &dyn MechanicalSystem, at: OperatingPoint, near: f64, what: &str) {
     let (n, exact, values) = (system.dimensions(), tangent(system, at), outputs(system, at));
     let names: Vec<String> = system.columns().into_iter().map(|column| column.name).collect();
     let compare = |kind: &str, matrix: &DMatrix<f64>, column: usize, slopes: Vec<f64>| {
@@ -64,9 +64,14 @@ pub fn check(system: &dyn MechanicalSystem, at: Loaded, near: f64, what: &str) {
     };
     for j in 0..n.v {
         let e = unit(n.v, j);
-        compare("q", &exact.q, j, slope(|s| outputs(system, Loaded { q: &moved(system, at.q, &e, s), ..at })));
-        compare("v", &exact.v, j, slope(|s| outputs(system, Loaded { v: &ahead(at.v, &e, s), ..at })));
-        compare("v'", &exact.vdot, j, slope(|s| outputs(system, Loaded { vdot: &ahead(at.vdot, &e, s), ..at })));
+        compare("q", &exact.q, j, slope(|s| outputs(system, OperatingPoint { q: &moved(system, at.q, &e, s), ..at })));
+        compare("v", &exact.v, j, slope(|s| outputs(system, OperatingPoint { v: &ahead(at.v, &e, s), ..at })));
+        compare(
+            "v'",
+            &exact.vdot,
+            j,
+            slope(|s| outputs(system, OperatingPoint { vdot: &ahead(at.vdot, &e, s), ..at })),
+        );
     }
     for j in 0..n.lambda {
         let e = unit(n.lambda, j);
@@ -74,7 +79,7 @@ pub fn check(system: &dyn MechanicalSystem, at: Loaded, near: f64, what: &str) {
             "lambda",
             &exact.lambda,
             j,
-            slope(|s| outputs(system, Loaded { lambda: &ahead(at.lambda, &e, s), ..at })),
+            slope(|s| outputs(system, OperatingPoint { lambda: &ahead(at.lambda, &e, s), ..at })),
         );
     }
     // What is no number would agree with nothing, and nothing would fail.

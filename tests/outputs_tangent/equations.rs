@@ -2,7 +2,7 @@
 
 use crate::outputs_tangent::compare::check;
 use holonom::math::Scalar;
-use holonom::system::{Equations, Loaded, MechanicalSystem, OutputTangent, Scratch};
+use holonom::system::{Equations, OperatingPoint, MechanicalSystem, OutputTangent, Scratch};
 use nalgebra::DMatrix;
 
 /// A chain of point masses on a line, the last one pushed; more coordinates than one pass of derivatives has.
@@ -60,7 +60,7 @@ fn own_outputs_and_inputs() {
     let system: &dyn MechanicalSystem = &Chain;
     let q: Vec<f64> = (0..COUNT).map(|i| (1.0 + i as f64).sin()).collect();
     let v: Vec<f64> = (0..COUNT).map(|i| (3.0 + 2.0 * i as f64).cos()).collect();
-    let at = Loaded { t: 0.7, q: &q, v: &v, vdot: &v, lambda: &[0.3] };
+    let at = OperatingPoint { t: 0.7, q: &q, v: &v, vdot: &v, lambda: &[0.3] };
     // Sums of a few numbers near one.
     check(system, at, 1e-11, "chain");
     assert_eq!(system.columns()[1].name, "power");
@@ -74,7 +74,7 @@ fn own_outputs_and_inputs() {
 #[test]
 fn without_outputs_there_is_nothing_to_derive() {
     let system: &dyn MechanicalSystem = &Silent;
-    let at = Loaded { t: 0.0, q: &[0.0], v: &[0.0], vdot: &[0.0], lambda: &[] };
+    let at = OperatingPoint { t: 0.0, q: &[0.0], v: &[0.0], vdot: &[0.0], lambda: &[] };
     assert!(system.output_tangent(at, &mut OutputTangent::new(0, 1, 0, 0), &mut Scratch::default()));
     assert!(system.inputs().is_empty());
 }

@@ -1,7 +1,7 @@
 //! The forces of inputs against what the forces of a scene do when a constant is added to the component that is driven.
 
 use crate::outputs_tangent::measures::{mechanism, random};
-use holonom::system::{Loaded, MechanicalSystem, Need, Scratch, Terms};
+use holonom::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Terms};
 use nalgebra::DMatrix;
 
 /// A scene whose force `force` has `extra` added to component `component`, which input `u` drives.
@@ -106,7 +106,7 @@ fn forces(system: &dyn MechanicalSystem) -> (Vec<f64>, Vec<f64>) {
     let (q, v) = state(system);
     let (mut terms, mut scratch, mut y) = (Terms::new(system), Scratch::default(), vec![0.0; 2]);
     system.evaluate(T, &q, &v, Need::FORCE, &mut terms, &mut scratch);
-    let at = Loaded { t: T, q: &q, v: &v, vdot: &v, lambda: &[] };
+    let at = OperatingPoint { t: T, q: &q, v: &v, vdot: &v, lambda: &[] };
     system.outputs(at, &mut y, &mut scratch);
     (terms.f, y)
 }
@@ -124,7 +124,7 @@ fn inputs_add_to_components() {
         let (q, v) = state(system);
         let mut found = DMatrix::from_element(v.len(), 2, 7.0);
         system.input_forces(T, &q, &v, &mut found, &mut Scratch::default());
-        let at = Loaded { t: T, q: &q, v: &v, vdot: &v, lambda: &[] };
+        let at = OperatingPoint { t: T, q: &q, v: &v, vdot: &v, lambda: &[] };
         let direct = crate::outputs_tangent::compare::tangent(system, at).u;
         let slopes = crate::outputs_tangent::compare::slope(|s| {
             let moved = crate::outputs_tangent::measures::mechanism(&case.json(s));
@@ -156,7 +156,7 @@ fn inputs_of_one_force() {
     let mut found = DMatrix::zeros(2, 3);
     system.input_forces(0.0, &[0.5, 0.6], &[0.0; 2], &mut found, &mut Scratch::default());
     assert_eq!(found, DMatrix::from_row_slice(2, 3, &[1.0, 0.0, 0.0, 0.0, 1.0, 1.0]));
-    let at = Loaded { t: 0.0, q: &[0.5, 0.6], v: &[0.0; 2], vdot: &[0.0; 2], lambda: &[] };
+    let at = OperatingPoint { t: 0.0, q: &[0.5, 0.6], v: &[0.0; 2], vdot: &[0.0; 2], lambda: &[] };
     let direct = crate::outputs_tangent::compare::tangent(system, at).u;
     [0.6, 0.8, 0.8].iter().zip(direct.iter()).for_each(|(expected, found)| assert!((expected - found).abs() < 1e-15));
 }

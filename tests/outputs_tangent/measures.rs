@@ -5,7 +5,7 @@ use crate::outputs_tangent::compare::check;
 use crate::scenes::examples::{FORCES, JOINTS};
 use holonom::scene::Scene;
 use holonom::study::AnyMechanism;
-use holonom::system::{Loaded, MechanicalSystem};
+use holonom::system::{MechanicalSystem, OperatingPoint};
 
 const BODIES: [&str; 2] = [
     r#""dimension": 2, "gravity": [0.3, -9.81],
@@ -65,7 +65,7 @@ fn at_states(system: &dyn MechanicalSystem, size: f64, near: f64, what: &str) {
         let (mut q, v, lambda) = (some(n.q, size), some(n.v, 1.0), some(n.lambda, 3.0));
         system.normalize(&mut q);
         let vdot = some(n.v, 2.0);
-        let at = Loaded { t: 0.4, q: &q, v: &v, vdot: &vdot, lambda: &lambda };
+        let at = OperatingPoint { t: 0.4, q: &q, v: &v, vdot: &vdot, lambda: &lambda };
         check(system, at, near, &format!("{what}, state {seed}"));
     }
 }

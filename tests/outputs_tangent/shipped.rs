@@ -4,7 +4,7 @@ use crate::outputs_tangent::compare::check;
 use crate::scenes::differences::stirred;
 use crate::scenes::{load, models};
 use holonom::formulation::Dynamics;
-use holonom::system::{Loaded, MechanicalSystem};
+use holonom::system::{MechanicalSystem, OperatingPoint};
 
 /// All agree to 2e-10 but the energy of the stiffest beam (EA = 1e7 N) at rest: it is a square of 1e7 about zero, and its
 /// differences have errors of 3e-9.
@@ -23,11 +23,11 @@ fn outputs_of_shipped_scenes() {
         let still = vec![0.0; start.v.len()];
         // A reaction that symmetry makes zero would put its size on the tip of a cone, where there is no slope.
         let lambda = stirred(&start.lambda, 0.5);
-        let at = Loaded { t: 0.0, q: &start.q, v: &start.v, vdot: &still, lambda: &lambda };
+        let at = OperatingPoint { t: 0.0, q: &start.q, v: &start.v, vdot: &still, lambda: &lambda };
         check(system, at, NEAR, &format!("{what} at its start"));
         // Elastic coordinates that are zero, but move.
         let v = stirred(&start.v, 0.5);
-        check(system, Loaded { v: &v, ..at }, NEAR, &format!("{what} started off"));
+        check(system, OperatingPoint { v: &v, ..at }, NEAR, &format!("{what} started off"));
         check_moved(system, &start.q, &start.v, &what);
         found.push(what);
     }
@@ -41,6 +41,6 @@ fn check_moved(system: &dyn MechanicalSystem, q: &[f64], v: &[f64], what: &str) 
     let v = stirred(v, 0.5);
     let mut dynamics = Dynamics::new(system);
     dynamics.solve(0.1, &q, &v, |_, _| 0.0).unwrap();
-    let at = Loaded { t: 0.1, q: &q, v: &v, vdot: &dynamics.vdot, lambda: &dynamics.lambda };
+    let at = OperatingPoint { t: 0.1, q: &q, v: &v, vdot: &dynamics.vdot, lambda: &dynamics.lambda };
     check(system, at, NEAR, &format!("{what} stirred"));
 }

@@ -2,7 +2,7 @@
 
 use crate::outputs_tangent::compare::tangent;
 use crate::outputs_tangent::measures::mechanism;
-use holonom::system::{Loaded, MechanicalSystem, OutputTangent};
+use holonom::system::{MechanicalSystem, OperatingPoint, OutputTangent};
 
 /// All coordinates, velocities and multipliers zero, quaternions at rest.
 fn at_zero(system: &dyn MechanicalSystem) -> OutputTangent {
@@ -10,7 +10,7 @@ fn at_zero(system: &dyn MechanicalSystem) -> OutputTangent {
     let names = system.names().q;
     let q: Vec<f64> = names.iter().map(|name| if name.ends_with(".qw") { 1.0 } else { 0.0 }).collect();
     let (v, lambda) = (vec![0.0; n.v], vec![0.0; n.lambda]);
-    tangent(system, Loaded { t: 0.0, q: &q, v: &v, vdot: &v, lambda: &lambda })
+    tangent(system, OperatingPoint { t: 0.0, q: &q, v: &v, vdot: &v, lambda: &lambda })
 }
 
 fn scene(dimension: usize) -> String {

@@ -6,7 +6,7 @@ use holonom::analysis::Recorder;
 use holonom::scene::Elements;
 use holonom::simulate::simulate;
 use holonom::study::Study;
-use holonom::system::Loaded;
+use holonom::system::OperatingPoint;
 use serde_json::Value;
 use std::path::Path;
 
@@ -59,7 +59,7 @@ fn values_and_derivatives_are_in_the_unit() {
         assert!(factors.iter().any(|factor| *factor != 1.0), "{name}");
         let state = |study: &Study| study.assembly.clone();
         let a = state(&plain);
-        let at = Loaded { t: plain.start_time(), q: &a.q, v: &a.v, vdot: &a.vdot, lambda: &a.lambda };
+        let at = OperatingPoint { t: plain.start_time(), q: &a.q, v: &a.v, vdot: &a.vdot, lambda: &a.lambda };
         let [values, others] = [&plain, &changed].map(|study| outputs(study.system(), at));
         let [slopes, scaled] = [&plain, &changed].map(|study| tangent(study.system(), at));
         for (i, factor) in factors.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Differences of what a system computes; K and C against those of the residual r = M v' + G^T lambda - f.
 #![allow(dead_code)]
 
-use holonom::system::{Loaded, MechanicalSystem, Need, Scratch, Tangent, Terms};
+use holonom::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
 
 /// r at (q, v) with v' and lambda held.
 fn residual(system: &dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64], vdot: &[f64], lambda: &[f64]) -> Vec<f64> {
@@ -37,8 +37,8 @@ pub fn stirred(values: &[f64], size: f64) -> Vec<f64> {
 }
 
 /// The derivatives of r at a state agree with differences.
-pub fn check(system: &dyn MechanicalSystem, at: Loaded, what: &str) {
-    let Loaded { t, q, v, vdot, lambda } = at;
+pub fn check(system: &dyn MechanicalSystem, at: OperatingPoint, what: &str) {
+    let OperatingPoint { t, q, v, vdot, lambda } = at;
     let pattern = system.structure().tangent;
     let mut tangent = Tangent::new(&pattern);
     assert!(system.tangent(at, &mut tangent, &mut Scratch::default()));

@@ -7,7 +7,7 @@ mod statics;
 
 use crate::scenes::Ready;
 use holonom::initial::equilibrium;
-use holonom::system::{Loaded, Scratch};
+use holonom::system::{OperatingPoint, Scratch};
 
 /// The six components of a section, or the three in the plane, with their names in a scene.
 fn components(dimension: usize) -> &'static [(&'static str, &'static str)] {
@@ -53,7 +53,7 @@ fn at_rest(ready: &Ready, t: f64) -> (Vec<f64>, Vec<f64>) {
     let system = ready.system();
     let found = equilibrium(system, t, &ready.start().q).unwrap_or_else(|error| panic!("{error}"));
     let (mut out, still) = (vec![0.0; system.columns().len()], vec![0.0; system.dimensions().v]);
-    let at = Loaded { t, q: &found.q, v: &still, vdot: &still, lambda: &found.lambda };
+    let at = OperatingPoint { t, q: &found.q, v: &still, vdot: &still, lambda: &found.lambda };
     system.outputs(at, &mut out, &mut Scratch::default());
     (found.q, out)
 }

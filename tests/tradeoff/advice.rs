@@ -29,7 +29,7 @@ fn a_short_budget_gives_something() {
     assert!(result.recommend(3).is_some(), "{:?}", result.reference);
 }
 
-/// Every method has every rung of the ladder in the table, with its result or its reason.
+/// Every method has every term of the sequence in the table, with its result or its reason.
 #[test]
 fn what_is_left_out_has_its_reason() {
     let scene = shipped("flexible_slider_crank", &[]);

@@ -8,7 +8,7 @@ mod scale;
 use crate::common::method;
 use crate::scenes::{Ready, shipped};
 use holonom::compare::work_precision::{
-    Cell, Filter, Motion, Outcome, Plan, Runner, Sample, Watched, WorkPrecision, cheapest_by_method, grid, sample,
+    Cell, Filter, Motion, Outcome, Plan, RunSample, Runner, Watched, WorkPrecision, cheapest_by_method, grid, sample,
 };
 use holonom::simulate::{Method, Span};
 use holonom::tolerances::report::TIED_COSTS;
@@ -52,7 +52,7 @@ pub fn measured(motion: Motion, plan: &Plan, outputs: &[&str]) -> WorkPrecision 
     result
 }
 
-pub fn run(motion: &Motion, outputs: &[&str], method: &Method) -> Sample {
+pub fn run(motion: &Motion, outputs: &[&str], method: &Method) -> RunSample {
     let outputs: Vec<String> = outputs.iter().map(|name| name.to_string()).collect();
     let watched = Watched::new(motion.system, &outputs).unwrap();
     let (start, end) = motion.between;

@@ -4,7 +4,7 @@ use super::{ROWS, filter, fresh, measured, motion, plan};
 use crate::common::unconstrained::Exponential;
 use crate::scenes::shipped;
 use holonom::analysis::Sizes;
-use holonom::compare::work_precision::{Given, Motion, Plan, Runner, Watched, Yardstick};
+use holonom::compare::work_precision::{ErrorMetric, Given, Motion, Plan, Runner, Watched};
 use holonom::system::Column;
 
 fn column(name: &str, unit: &str) -> Column {
@@ -14,7 +14,7 @@ fn column(name: &str, unit: &str) -> Column {
 #[test]
 fn differences_are_relative_to_the_largest_value() {
     let columns = [column("x", "m"), column("zero", "m"), column("angle", "rad")];
-    let own = Yardstick::new(&columns, vec![vec![2.0, 0.0, 0.1], vec![-4.0, 0.0, 3.0]], &Sizes::default());
+    let own = ErrorMetric::new(&columns, vec![vec![2.0, 0.0, 0.1], vec![-4.0, 0.0, 3.0]], &Sizes::default());
     let rows = vec![vec![2.0, 0.0, 0.1], vec![-4.1, 0.0, 3.0]];
     let (error, worst) = own.error(&rows);
     assert!((error - 0.1 / 4.0).abs() < 1e-15 && worst == "x", "{error} {worst}");

@@ -3,7 +3,7 @@
 use super::{ROWS, filter, measured, motion, plan};
 use crate::scenes::shipped;
 use holonom::analysis::Sizes;
-use holonom::compare::work_precision::{Watched, Yardstick, sample};
+use holonom::compare::work_precision::{ErrorMetric, Watched, sample};
 use holonom::simulate::{Method, Span};
 use holonom::system::Column;
 use std::time::Duration;
@@ -30,7 +30,7 @@ fn energies_are_compared_with_the_kinetic_and_forces_with_the_reactions() {
     let columns =
         [column("energy", "kJ"), column("force", "N"), column("x", "m"), column("y", "mm"), column("one", "")];
     let rows = vec![vec![5.0, 0.0, 2.0, 0.0, 1e-7], vec![5.0, 1.0, -4.0, 0.0, 0.0]];
-    let still = Yardstick::new(&columns, rows.clone(), &Sizes::default());
+    let still = ErrorMetric::new(&columns, rows.clone(), &Sizes::default());
     // Without a motion a quantity has its own size, but what is zero beside others of its kind: a thousandth of these.
     let off = vec![vec![5.5, 0.1, 2.4, 0.4, 2e-7], rows[1].clone()];
     let errors = still.errors(&off);
@@ -47,7 +47,7 @@ fn energies_are_compared_with_the_kinetic_and_forces_with_the_reactions() {
         Duration::from_secs(60),
     );
     let (kinetic, reaction) = (9.81, 3.0 * 9.81);
-    let moving = Yardstick::new(&columns, rows.clone(), &run.unwrap().sizes);
+    let moving = ErrorMetric::new(&columns, rows.clone(), &run.unwrap().sizes);
     let errors = moving.errors(&off);
     // 1 kg and 1 m; 200 rows miss the lowest point by little.
     assert!((errors[0] - 500.0 / kinetic).abs() < 1e-3 * errors[0], "{errors:?}");
@@ -73,7 +73,7 @@ fn recommended_runs_have_their_digits_between_the_rows() {
     // Rows that are none of those compared.
     let run = |method: &Method| sample(&motion, &watched, method, span(2.5, 1777), Duration::from_secs(60)).unwrap();
     let exact = run(&tight());
-    let exact = Yardstick::new(&watched.columns, exact.rows, &exact.sizes);
+    let exact = ErrorMetric::new(&watched.columns, exact.rows, &exact.sizes);
     for digits in [3, 6, 9] {
         let best = &result.cells[result.recommend(digits).unwrap().best];
         let (error, worst) = exact.error(&run(&best.method).rows);

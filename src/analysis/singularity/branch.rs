@@ -6,7 +6,7 @@
 //! differ by order one from what smooth accelerations make of them where the motion left its branch.
 
 use super::Branch;
-use super::path::Sample;
+use super::path::PathPoint;
 use super::survey::Survey;
 use crate::tolerances::report as tolerances;
 
@@ -19,8 +19,8 @@ pub fn reach([position, velocity]: [f64; 2]) -> f64 {
 #[derive(Default)]
 pub struct Turning {
     /// The last two accepted states.
-    last: [Sample; 2],
-    way: Vec<Sample>,
+    last: [PathPoint; 2],
+    way: Vec<PathPoint>,
     open: Option<Open>,
 }
 
@@ -28,8 +28,8 @@ pub struct Turning {
 struct Open {
     passing: usize,
     /// One or two states before it, and up to two after it.
-    before: Vec<Sample>,
-    after: Vec<Sample>,
+    before: Vec<PathPoint>,
+    after: Vec<PathPoint>,
     rank_indicator: f64,
     may_turn: bool,
 }
@@ -52,7 +52,7 @@ impl Turning {
     }
 
     /// Takes an accepted state, and judges the singular state before it once it is far enough behind.
-    pub fn add(&mut self, now: &Sample, largest: f64, survey: &mut Survey) -> Option<(usize, Branch)> {
+    pub fn add(&mut self, now: &PathPoint, largest: f64, survey: &mut Survey) -> Option<(usize, Branch)> {
         let falls = now.rank_indicator < self.last[1].rank_indicator;
         if now.rank_indicator > tolerances::WAY_BEGINS * largest {
             self.way.clear();
@@ -81,7 +81,7 @@ impl Turning {
 
 impl Open {
     /// Takes a state after the singular one; returns whether there are enough.
-    fn is_seen(&mut self, now: &Sample) -> bool {
+    fn is_seen(&mut self, now: &PathPoint) -> bool {
         let Some(from) = self.before.last() else { return false };
         let is_next = match self.after.first() {
             None => {
@@ -100,7 +100,7 @@ impl Open {
     /// v_1 - v_0 against the integral of v', in the metric of M, by the polynomial through v' at up to four states.
     fn judge(&self, survey: &mut Survey) -> Branch {
         let (Some(from), Some(to)) = (self.before.last(), self.after.first()) else { return Branch::Open };
-        let nodes: Vec<&Sample> = self.before.iter().chain(&self.after).collect();
+        let nodes: Vec<&PathPoint> = self.before.iter().chain(&self.after).collect();
         let change = integral(&nodes, (from.t, to.t));
         let lower = integral(&[from, to], (from.t, to.t));
         let jump: Vec<f64> = (0..to.v.len()).map(|i| to.v[i] - from.v[i] - change[i]).collect();
@@ -119,7 +119,7 @@ impl Open {
 
 /// The integral from a to b of the polynomial through v' at up to four `nodes`, by Gauss's rule of two points, which is
 /// exact for it.
-fn integral(nodes: &[&Sample], (a, b): (f64, f64)) -> Vec<f64> {
+fn integral(nodes: &[&PathPoint], (a, b): (f64, f64)) -> Vec<f64> {
     let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
     let points = [-1.0, 1.0].map(|sign| middle + sign * half / 3f64.sqrt());
     let lagrange = |k: usize, t: f64| -> f64 {

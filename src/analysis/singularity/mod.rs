@@ -10,7 +10,7 @@ use crate::simulate::Observation;
 use crate::system::MechanicalSystem;
 use crate::tolerances::report as tolerances;
 use branch::Turning;
-use path::{Path, Sample};
+use path::{Path, PathPoint};
 use serde::Serialize;
 use survey::Survey;
 
@@ -90,7 +90,7 @@ pub struct Watch<'a> {
     /// Velocities that move q.
     moving: usize,
     /// The last three accepted states, the latest last.
-    last: [Sample; 3],
+    last: [PathPoint; 3],
     seen: usize,
     largest: f64,
     turning: Turning,

@@ -4,7 +4,7 @@ use crate::simulate::Observation;
 
 /// An accepted state.
 #[derive(Clone, Debug, Default)]
-pub struct Sample {
+pub struct PathPoint {
     pub t: f64,
     pub rank_indicator: f64,
     pub q: Vec<f64>,
@@ -14,11 +14,11 @@ pub struct Sample {
     pub phi_dot: Vec<f64>,
 }
 
-impl Sample {
+impl PathPoint {
     /// Takes a state, of whose velocities the first ones move: what states xi do is no passage of a singular position.
     pub fn copy(&mut self, state: &Observation, rank_indicator: f64, moving: usize) {
         (self.t, self.rank_indicator) = (state.t, rank_indicator);
-        let Sample { q, v, vdot, phi, phi_dot, .. } = self;
+        let PathPoint { q, v, vdot, phi, phi_dot, .. } = self;
         let all = [(q, state.q), (v, state.v), (vdot, state.vdot), (phi, state.phi), (phi_dot, state.phi_dot)];
         for (own, other) in all {
             own.clear();
@@ -40,7 +40,7 @@ pub struct Path {
 
 impl Path {
     /// `rates`: q' at the samples.
-    pub fn new(samples: &[Sample; 3], rates: &[Vec<f64>; 3]) -> Self {
+    pub fn new(samples: &[PathPoint; 3], rates: &[Vec<f64>; 3]) -> Self {
         let times = [0, 1, 2].map(|i: usize| samples[i].t);
         let doubled = [0, 1, 2, 3, 4, 5].map(|i: usize| times[i / 2]);
         let coordinate = |k: usize| {

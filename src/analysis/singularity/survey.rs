@@ -1,6 +1,6 @@
 //! What the constraints are like at a position.
 
-use super::path::{Path, Sample};
+use super::path::{Path, PathPoint};
 use crate::formulation::Dynamics;
 use crate::math::kkt::{condition_number, dependent_rows};
 use crate::math::largest;
@@ -138,7 +138,7 @@ impl<'a> Survey<'a> {
     }
 
     /// Drift of a state relative to the scene's scale, and to the size of the velocity.
-    pub fn drift(&self, state: &Sample) -> [f64; 2] {
+    pub fn drift(&self, state: &PathPoint) -> [f64; 2] {
         let scale = self.dynamics.system.scales().into_iter().fold(f64::INFINITY, f64::min);
         let speed = largest(&state.v).max(f64::MIN_POSITIVE);
         [largest(&state.phi) / scale, largest(&state.phi_dot) / (scale * speed)]

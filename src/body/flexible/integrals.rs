@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::iter::{once, zip};
 
 /// A point of integration on the line.
-pub struct Sample {
+pub struct IntegrationPoint {
     /// The axes of the section at rest, and where it is, m.
     rest: ([[f64; 3]; 3], [f64; 3]),
     /// m
@@ -23,9 +23,9 @@ pub struct Sample {
     pub shapes: Vec<Cross>,
 }
 
-impl Sample {
+impl IntegrationPoint {
     pub fn new(profile: &Profile, line: &ReferenceLine, (s, weight): (f64, f64), shapes: Vec<Cross>) -> Self {
-        Sample { rest: line.at(s), weight, section: profile.at(s), rotary: profile.rotary, shapes }
+        IntegrationPoint { rest: line.at(s), weight, section: profile.at(s), rotary: profile.rotary, shapes }
     }
 
     /// The turn that moves the mass of a section.
@@ -48,7 +48,7 @@ impl Sample {
 }
 
 /// The mass integrals of the line over all samples.
-pub fn piece<const D: usize>(dofs: Vec<usize>, samples: &[Sample]) -> Piece<D> {
+pub fn piece<const D: usize>(dofs: Vec<usize>, samples: &[IntegrationPoint]) -> Piece<D> {
     let n = dofs.len();
     let mut piece = Piece {
         dofs,
@@ -77,7 +77,7 @@ fn add_point<const D: usize>(piece: &mut Piece<D>, psi: &[[f64; 3]], mass: f64) 
 }
 
 /// The sections at all samples; those that nothing turns are one.
-pub fn discs<const D: usize>(dofs: &[usize], samples: &[Sample]) -> Vec<Disc> {
+pub fn discs<const D: usize>(dofs: &[usize], samples: &[IntegrationPoint]) -> Vec<Disc> {
     let discs = samples.iter().map(|sample| sample.disc::<D>(dofs));
     let (fixed, mut turning): (Vec<_>, Vec<_>) = discs.partition(|disc| disc.dofs.is_empty());
     let whole = fixed
@@ -108,7 +108,7 @@ impl Sum {
 }
 
 /// int strains^T stiffness strains over the samples, added to `sum`.
-pub fn add_stiffness(sum: &mut Sum, dofs: &[usize], samples: &[Sample]) {
+pub fn add_stiffness(sum: &mut Sum, dofs: &[usize], samples: &[IntegrationPoint]) {
     for sample in samples {
         let stiffness = sample.section.stiffness();
         for (a, left) in sample.shapes.iter().enumerate() {
@@ -123,7 +123,7 @@ pub fn add_stiffness(sum: &mut Sum, dofs: &[usize], samples: &[Sample]) {
 }
 
 /// Geometric stiffening from the abscissa `start` on, by the means over samples; only the coordinates that stretch or turn the line there.
-pub fn stretch(quartic: f64, start: f64, dofs: &[usize], samples: &[Sample]) -> Stretch {
+pub fn stretch(quartic: f64, start: f64, dofs: &[usize], samples: &[IntegrationPoint]) -> Stretch {
     let counts = |i: &usize| {
         samples.iter().map(|sample| &sample.shapes[*i]).any(|shape| shape.strain[0] != 0.0 || shape.slope != [0.0; 2])
     };

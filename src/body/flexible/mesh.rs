@@ -2,7 +2,7 @@
 
 use super::element::Element;
 use super::gauss::{gauss_legendre, on_interval};
-use super::integrals::{Sample, discs, piece};
+use super::integrals::{IntegrationPoint, discs, piece};
 use super::line::{Shapes, Station};
 use super::profile::Profile;
 use super::reference::ReferenceLine;
@@ -130,14 +130,16 @@ impl<const D: usize> Mesh<D> {
     }
 
     /// Free coordinates of an element with `points` samples of it.
-    pub fn samples(&self, element: usize, points: usize) -> (Vec<usize>, Vec<Sample>) {
+    pub fn samples(&self, element: usize, points: usize) -> (Vec<usize>, Vec<IntegrationPoint>) {
         self.samples_from(self.nodes[element], element, points)
     }
 
     /// The same of the part of an element from `start` on.
-    fn samples_from(&self, start: f64, element: usize, points: usize) -> (Vec<usize>, Vec<Sample>) {
+    fn samples_from(&self, start: f64, element: usize, points: usize) -> (Vec<usize>, Vec<IntegrationPoint>) {
         let rule = gauss_legendre(points);
-        let sample = |at: (f64, f64)| Sample::new(&self.profile, &self.line, at, self.in_element(element, at.0).shapes);
+        let sample = |at: (f64, f64)| {
+            IntegrationPoint::new(&self.profile, &self.line, at, self.in_element(element, at.0).shapes)
+        };
         let ends = [start, self.nodes[element + 1]];
         (self.in_element(element, start).dofs, on_interval(&rule, ends).map(sample).collect())
     }

@@ -2,7 +2,7 @@
 
 use super::eigen::{dense, first_dependent};
 use super::gauss::{gauss_legendre, on_interval};
-use super::integrals::{Sample, Sum, add_stiffness, discs, mass_matrix, piece, stretch};
+use super::integrals::{IntegrationPoint, Sum, add_stiffness, discs, mass_matrix, piece, stretch};
 use super::line::{Bending, Cross, Shapes, Station};
 use super::profile::Profile;
 use super::reference::ReferenceLine;
@@ -177,14 +177,16 @@ impl Functions {
         (0..self.functions.len()).collect()
     }
 
-    fn sum<const D: usize>(&self, samples: &[Sample]) -> Inertia<D> {
+    fn sum<const D: usize>(&self, samples: &[IntegrationPoint]) -> Inertia<D> {
         let mut piece = piece(self.dofs(), samples);
         self.scale_axial(&mut piece);
         Inertia { pieces: vec![piece], discs: discs::<D>(&self.dofs(), samples) }
     }
 
-    fn samples(&self, ends: [f64; 2], panels: usize) -> Vec<Sample> {
-        places(ends, panels).map(|at| Sample::new(&self.profile, &self.line, at, self.at(at.0).shapes)).collect()
+    fn samples(&self, ends: [f64; 2], panels: usize) -> Vec<IntegrationPoint> {
+        places(ends, panels)
+            .map(|at| IntegrationPoint::new(&self.profile, &self.line, at, self.at(at.0).shapes))
+            .collect()
     }
 
     /// Everything but the damping, with so few points of integration as are exact to rounding.
@@ -193,7 +195,7 @@ impl Functions {
     /// Bad input: functions that depend on one another, or move the beam as its frame does.
     pub fn elastic<const D: usize>(mut self, quartic: Option<f64>) -> Result<Elastic<D>> {
         let dofs = self.dofs();
-        let integrals = |samples: &[Sample]| {
+        let integrals = |samples: &[IntegrationPoint]| {
             let mut stiffness = Sum::default();
             add_stiffness(&mut stiffness, &dofs, samples);
             (self.sum::<D>(samples), stiffness.finish())

@@ -9,7 +9,7 @@ use crate::sweep::Range;
 
 /// A place on an axis, or one of the methods.
 #[derive(Clone)]
-pub struct Entry {
+pub struct AxisPlace {
     pub label: String,
     /// None for a place between, above or below the numbers of its axis, such as another method.
     pub value: Option<f64>,
@@ -22,7 +22,7 @@ pub struct Axis {
     pub name: String,
     /// Empty for a ratio, and where it is not known.
     pub unit: String,
-    pub entries: Vec<Entry>,
+    pub entries: Vec<AxisPlace>,
 }
 
 /// Every entry of x with every entry of y by every method.
@@ -32,19 +32,19 @@ pub struct Map {
     pub about: String,
     pub x: Axis,
     pub y: Axis,
-    pub methods: Vec<Entry>,
+    pub methods: Vec<AxisPlace>,
     /// What is shown of the cells; all else is in the files.
     pub quantity: Quantity,
 }
 
-impl Entry {
+impl AxisPlace {
     /// A value of a stress parameter.
     pub fn of(parameter: &'static StressParameter, value: f64) -> Self {
-        Entry { label: short(value), value: Some(value), changes: vec![Change::StressParameter(parameter, value)] }
+        AxisPlace { label: short(value), value: Some(value), changes: vec![Change::StressParameter(parameter, value)] }
     }
 
     pub fn named(label: &str, changes: Vec<Change>) -> Self {
-        Entry { label: label.to_string(), value: None, changes }
+        AxisPlace { label: label.to_string(), value: None, changes }
     }
 }
 
@@ -56,7 +56,7 @@ impl Axis {
         Axis {
             name: parameter.name.to_string(),
             unit: parameter.unit.to_string(),
-            entries: values.into_iter().map(|value| Entry::of(parameter, value)).collect(),
+            entries: values.into_iter().map(|value| AxisPlace::of(parameter, value)).collect(),
         }
     }
 
@@ -92,7 +92,7 @@ impl Axis {
 
     fn parameter(range: &Range) -> Self {
         let name = &range.parameter;
-        let entry = |value: f64| Entry {
+        let entry = |value: f64| AxisPlace {
             label: short(value),
             value: Some(value),
             changes: vec![Change::Parameter(name.clone(), value)],
@@ -136,13 +136,13 @@ fn range(text: &str, is_log: bool) -> Result<Range> {
     if asks_log || is_log && range.from > 0.0 && range.to > 0.0 { range.log() } else { Ok(range) }
 }
 
-impl Entry {
+impl AxisPlace {
     fn keeps_motion(&self) -> bool {
         self.changes.iter().all(Change::keeps_motion)
     }
 
     /// Of a list, the part of the way from its middle, 0, to its ends, 1; what stands beside the numbers is in the middle.
-    fn eccentricity(entries: &[Entry], at: usize) -> f64 {
+    fn eccentricity(entries: &[AxisPlace], at: usize) -> f64 {
         let ends = entries.len().saturating_sub(1).max(1) as f64;
         entries[at].value.map_or(0.0, |_| (2.0 * at as f64 / ends - 1.0).abs())
     }
@@ -163,7 +163,7 @@ impl Map {
 
     /// How far a cell is from the middle of the map, where scenes are most themselves.
     pub(super) fn eccentricity(&self, [_, row, column]: [usize; 3]) -> f64 {
-        Entry::eccentricity(&self.x.entries, column).hypot(Entry::eccentricity(&self.y.entries, row))
+        AxisPlace::eccentricity(&self.x.entries, column).hypot(AxisPlace::eccentricity(&self.y.entries, row))
     }
 
     /// The method, row and column of a cell by its number.

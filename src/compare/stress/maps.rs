@@ -2,7 +2,7 @@
 
 use super::cell::Quantity;
 use super::change::Change;
-use super::map::{Axis, Entry, Map};
+use super::map::{Axis, AxisPlace, Map};
 use super::parameters::find;
 use super::subject::Subject;
 use crate::choice::Choice;
@@ -15,7 +15,7 @@ pub struct MapEntry {
     x: &'static str,
     y: &'static str,
     quantity: Quantity,
-    methods: fn() -> Vec<Entry>,
+    methods: fn() -> Vec<AxisPlace>,
     /// Changes the axes from the usual values of their stress parameters.
     adapt: fn(&mut Map),
     /// Whether it makes sense where both stress parameters are there.
@@ -114,7 +114,7 @@ pub fn known() -> &'static [MapEntry] {
             x: "time",
             y: "time",
             quantity: Quantity::Energy,
-            methods: || vec![Entry::named("", Vec::new())],
+            methods: || vec![AxisPlace::named("", Vec::new())],
             adapt: by_method,
             suits: |_| true,
         },
@@ -155,7 +155,7 @@ pub fn pair(subject: &Subject, x: Axis, y: Axis, quantity: Quantity) -> Map {
         about: format!("{} x {}", x.name, y.name),
         x,
         y,
-        methods: vec![Entry::named(&label, Vec::new())],
+        methods: vec![AxisPlace::named(&label, Vec::new())],
         quantity,
     }
 }
@@ -184,14 +184,14 @@ impl MapEntry {
     }
 }
 
-/// Rows below and above the gains: the methods that have none.
+/// WatchedRows below and above the gains: the methods that have none.
 fn beside_gains(map: &mut Map) {
     let row = |label: &str, projection: &str| {
         let projection = Choice::parse(projection).unwrap_or_default();
-        Entry::named(label, vec![Change::Stabilization(Choice::named("index1"), projection)])
+        AxisPlace::named(label, vec![Change::Stabilization(Choice::named("index1"), projection)])
     };
     let above = [
-        Entry::named("(2/h, 1/h²)", vec![Change::OwnGains]),
+        AxisPlace::named("(2/h, 1/h²)", vec![Change::OwnGains]),
         row("manifold", "manifold"),
         row("manifold × 2", "manifold:sweeps=2"),
     ];
@@ -213,24 +213,24 @@ fn by_method(map: &mut Map) {
     map.y = Axis { name: "method".to_string(), unit: String::new(), entries: methods.to_vec() };
 }
 
-fn fixed() -> Vec<Entry> {
-    ["rk4", "heun"].map(|name| Entry::named(name, vec![Change::Integrator(Choice::named(name))])).to_vec()
+fn fixed() -> Vec<AxisPlace> {
+    ["rk4", "heun"].map(|name| AxisPlace::named(name, vec![Change::Integrator(Choice::named(name))])).to_vec()
 }
 
-fn adaptive() -> Vec<Entry> {
+fn adaptive() -> Vec<AxisPlace> {
     vec![explicit(), method("ggl", "radau_iia", "none")]
 }
 
-fn explicit() -> Entry {
+fn explicit() -> AxisPlace {
     method("index1", "dop853", "manifold")
 }
 
-fn method(formulation: &str, integrator: &str, projection: &str) -> Entry {
+fn method(formulation: &str, integrator: &str, projection: &str) -> AxisPlace {
     let label = match (formulation, projection) {
         ("index1", projection) => format!("{integrator} {projection}"),
         (formulation, "none") => format!("{integrator} {formulation}"),
         _ => format!("{integrator} {formulation} {projection}"),
     };
     let [formulation, integrator, projection] = [formulation, integrator, projection].map(Choice::named);
-    Entry::named(&label, vec![Change::Integrator(integrator), Change::Stabilization(formulation, projection)])
+    AxisPlace::named(&label, vec![Change::Integrator(integrator), Change::Stabilization(formulation, projection)])
 }

@@ -48,7 +48,7 @@ pub fn registry() -> &'static [StressParameter] {
             suits: |_| true,
             values: |subject| {
                 let step = subject.base.typical.step;
-                ladder(step / 40.0, 6.0 * step)
+                sequence(step / 40.0, 6.0 * step)
             },
             apply: |case, step| {
                 case.method.step = Some(step);
@@ -65,7 +65,7 @@ pub fn registry() -> &'static [StressParameter] {
             suits: |subject| subject.dimensions.lambda > 0,
             values: |subject| {
                 let rate = 1.0 / subject.base.typical.step;
-                ladder(0.02 * rate, 40.0 * rate)
+                sequence(0.02 * rate, 40.0 * rate)
             },
             apply: |case, gain| {
                 (case.method.formulation, case.method.projection) = (baumgarte(gain), Choice::named("none"));
@@ -152,7 +152,7 @@ pub fn registry() -> &'static [StressParameter] {
             about: "number of links or loops of a generated scene (n_four_bar, chain, flexible_chain)",
             keeps_motion: false,
             suits: |subject| kind(&subject.base.scene).is_ok(),
-            values: |_| ladder(1.0, 200.0),
+            values: |_| sequence(1.0, 200.0),
             apply: |case, n| {
                 case.scene = Arc::new(kind(&case.scene)?(n.round().max(1.0) as usize));
                 Ok(())
@@ -290,7 +290,7 @@ fn quicken(scene: &mut Value, factor: f64) {
 }
 
 /// 1, 2, 5, 10, 20 ... from `low` to `high`.
-pub fn ladder(low: f64, high: f64) -> Vec<f64> {
+pub fn sequence(low: f64, high: f64) -> Vec<f64> {
     let decades = low.log10().floor() as i32..=high.log10().ceil() as i32;
     let rungs = decades.flat_map(|exponent| [1, 2, 5].map(|digit| decimal(digit, exponent)));
     rungs.filter(|rung| (low * (1.0 - 1e-9)..=high * (1.0 + 1e-9)).contains(rung)).collect()
@@ -312,8 +312,8 @@ mod tests {
 
     #[test]
     fn ladders_have_round_rungs() {
-        assert_eq!(ladder(4e-3, 0.11), [5e-3, 0.01, 0.02, 0.05, 0.1]);
-        assert_eq!(ladder(1.0, 1.0), [1.0]);
+        assert_eq!(sequence(4e-3, 0.11), [5e-3, 0.01, 0.02, 0.05, 0.1]);
+        assert_eq!(sequence(1.0, 1.0), [1.0]);
         assert_eq!(decades(-4, 4, 4), [1e-4, 1.0, 1e4]);
     }
 

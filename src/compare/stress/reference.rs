@@ -11,13 +11,13 @@ use crate::tolerances::report as tolerances;
 use crate::trajectory::Trajectory;
 use std::time::Duration;
 
-/// Rows of the watched quantities: outputs, or coordinates where the scene names none.
-pub(super) type Rows = Vec<Vec<f64>>;
+/// WatchedRows of the watched quantities: outputs, or coordinates where the scene names none.
+pub(super) type WatchedRows = Vec<Vec<f64>>;
 
 /// The watched quantities along a tight solution.
 pub(super) struct Reference {
     pub names: Vec<String>,
-    rows: Rows,
+    rows: WatchedRows,
     /// What each is measured by.
     scales: Vec<f64>,
 }
@@ -91,7 +91,7 @@ impl Reference {
     }
 
     /// The largest difference of each quantity in its scale; infinite where rows are missing.
-    pub fn errors(&self, rows: &Rows) -> Vec<f64> {
+    pub fn errors(&self, rows: &WatchedRows) -> Vec<f64> {
         let error = |i: usize| {
             let pairs = rows.iter().zip(&self.rows).map(|(found, exact)| (found[i], exact[i]));
             // Where the output is not defined, there is nothing to compare.
@@ -103,7 +103,7 @@ impl Reference {
     }
 }
 
-pub(super) fn watched(record: &Record) -> Rows {
+pub(super) fn watched(record: &Record) -> WatchedRows {
     let trajectory: &Trajectory = &record.trajectory;
     let row = |row: &Vec<f64>| match trajectory.outputs.is_empty() {
         true => trajectory.row_state(row).0.to_vec(),

@@ -4,7 +4,7 @@ use super::cell::{Cell, Status};
 use super::deadline::Limits;
 use super::map::Map;
 use super::queue::{Job, Queues, What};
-use super::reference::{Reference, Rows, Search};
+use super::reference::{Reference, Search, WatchedRows};
 use super::simulation::{blank, run};
 use super::subject::Subject;
 use crate::math::memory::at_once;
@@ -68,7 +68,7 @@ struct Work {
 struct Slot {
     at: [usize; 3],
     motion: usize,
-    came: Mutex<(Cell, Rows)>,
+    came: Mutex<(Cell, WatchedRows)>,
 }
 
 impl Work {
@@ -91,7 +91,7 @@ impl Work {
             });
             let blank = blank(subject, map, at);
             queues.add(&format!("{} {}", at[0], blank.method.integrator), Job::new(rank, What::Cell(index)));
-            cells.push(Slot { at, motion, came: Mutex::new((blank, Rows::new())) });
+            cells.push(Slot { at, motion, came: Mutex::new((blank, WatchedRows::new())) });
         }
         Work { cells, motions, queues: Mutex::new(queues) }
     }

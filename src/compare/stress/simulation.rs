@@ -3,12 +3,12 @@
 use super::cell::{Cell, Status};
 use super::deadline::{Deadline, Limits};
 use super::map::Map;
-use super::reference::{Rows, watched};
+use super::reference::{WatchedRows, watched};
 use super::subject::Case;
 use super::subject::Subject;
 use crate::analysis::{Record, Recorder};
 use crate::error::{Error, Result, short};
-use crate::formulation::Halt;
+use crate::formulation::StepError;
 use crate::simulate::{Outcome, Stop, simulate};
 use crate::tolerances::report as tolerances;
 use serde_json::Value;
@@ -50,7 +50,7 @@ pub(super) fn run(
     map: &Map,
     at: [usize; 3],
     (limits, share): (Limits, Duration),
-) -> (Cell, Rows, f64) {
+) -> (Cell, WatchedRows, f64) {
     let clock = Instant::now();
     let mut case = subject.base.clone();
     let changed = map.changes(at).try_for_each(|change| change.apply(&mut case));
@@ -58,7 +58,9 @@ pub(super) fn run(
     let seconds = clock.elapsed().as_secs_f64();
     let blank = Cell { seconds, reason: None, method: case.method, ..blank(subject, map, at) };
     match run {
-        Err(error) => (Cell { status: Status::Refused, reason: Some(message(&error)), ..blank }, Rows::new(), 1.0),
+        Err(error) => {
+            (Cell { status: Status::Refused, reason: Some(message(&error)), ..blank }, WatchedRows::new(), 1.0)
+        }
         Ok(run) => {
             let (rows, part) = (watched(&run.record), run.part);
             (run.cell(blank), rows, part)
@@ -136,7 +138,9 @@ impl Run {
             .is_some_and(|part| part.is_nan() || part > tolerances::BLOWN_UP);
         match self.stopped {
             Some(status) => status,
-            None if is_open || is_blown || failure.reason.contains(&Halt::NotFinite.to_string()) => Status::Diverged,
+            None if is_open || is_blown || failure.reason.contains(&StepError::NotFinite.to_string()) => {
+                Status::Diverged
+            }
             None => Status::Failed,
         }
     }

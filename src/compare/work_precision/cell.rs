@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Cell {
     pub method: Method,
-    /// The rung of the ladder: rtol = 10^-decades, or the step that asks for as much.
+    /// The term of the sequence: rtol = 10^-decades, or the step that asks for as much.
     pub decades: u32,
     /// Whether stability limits its steps.
     pub is_explicit: bool,

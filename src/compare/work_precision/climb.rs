@@ -1,8 +1,8 @@
 //! Runs of a few methods of other families, ever tighter, cheap ones first.
 
+use super::error_metric::{ErrorMetric, Watched};
 use super::grid::Triple;
-use super::sample::{Allowed, Motion, Sample, sample};
-use super::yardstick::{Watched, Yardstick};
+use super::sample::{Allowed, Motion, RunSample, sample};
 use crate::choice::Choice;
 use crate::error::{Failure, Result};
 use crate::formulation;
@@ -36,16 +36,16 @@ const QUICK: f64 = 3.0;
 #[derive(Default)]
 pub struct Line {
     pub rungs: Vec<Rung>,
-    /// The place of the next one in the ladder.
+    /// The place of the next one in the sequence.
     next: usize,
     /// Where and why the last one tried did not.
-    failure: Option<(Method, Sample)>,
+    failure: Option<(Method, RunSample)>,
 }
 
 /// A run that came through.
 pub struct Rung {
     pub method: Method,
-    pub run: Sample,
+    pub run: RunSample,
 }
 
 impl Rung {
@@ -149,7 +149,7 @@ pub struct Checked<'l> {
     pub best: &'l Rung,
     pub by: Option<&'l Rung>,
     pub error: (f64, String),
-    pub values: Yardstick,
+    pub values: ErrorMetric,
 }
 
 /// The tightest run, of those as tight the method that is named first, against the run that agrees best: two methods do not
@@ -161,7 +161,7 @@ pub fn check<'l>(lines: &'l [Line], watched: &Watched) -> Option<Checked<'l>> {
     let looser = rest.last();
     let is_alone = looser.is_some_and(|looser| others.clone().all(|rung| rung.method.rtol > looser.method.rtol));
     let candidates = others.chain(looser.filter(|_| is_alone));
-    let values = Yardstick::new(&watched.columns, best.run.rows.clone(), &best.run.sizes);
+    let values = ErrorMetric::new(&watched.columns, best.run.rows.clone(), &best.run.sizes);
     let checked = candidates.map(|rung| (values.error(&rung.run.rows), rung));
     let nearest = checked.min_by(|a, b| a.0.0.total_cmp(&b.0.0));
     let (error, by) = nearest.map_or(((1.0, String::new()), None), |(error, by)| (error, Some(by)));

@@ -1,6 +1,6 @@
 //! Tables of values to compare with.
 
-use super::yardstick::Watched;
+use super::error_metric::Watched;
 use crate::error::{Error, Result, suggest};
 use crate::simulate::Span;
 use std::path::Path;

@@ -2,7 +2,7 @@
 //!
 //! 1. A reference ([`Reference`]): the motion as good as the digits that are asked for need it, or better where that is
 //!    cheap, its error told by a second method of another family.
-//! 2. A grid ([`grid`]): formulation x integrator x projection, each at a ladder of tolerances or steps. Methods that have
+//! 2. A grid ([`grid`]): formulation x integrator x projection, each at a sequence of tolerances or steps. Methods that have
 //!    fallen far behind are not tried at tighter ones, and the result says so.
 //! 3. Costs ([`WorkPrecision::price`]): counted work times the CPU time of a unit of its kind, so that what else the machine
 //!    does favours none.
@@ -15,24 +15,24 @@
 mod advice;
 mod cell;
 mod climb;
+mod error_metric;
 mod given;
 mod grid;
-mod ladder;
 pub mod models;
 mod reference;
 mod runner;
 mod sample;
+mod sequence;
 mod work;
-mod yardstick;
 
 pub use advice::{Lack, Recommendation, cheapest_by_method};
 pub use cell::{Cell, Held, Outcome};
+pub use error_metric::{ErrorMetric, Watched};
 pub use given::Given;
 pub use grid::{Filter, Triple, grid};
 pub use reference::{Pace, Reference};
 pub use runner::{Plan, Runner};
-pub use sample::{Allowed, Motion, Sample, cpu_seconds, sample};
-pub use yardstick::{Watched, Yardstick};
+pub use sample::{Allowed, Motion, RunSample, cpu_seconds, sample};
 
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,7 @@
 //! What a model costs: models of one mechanism, from poor to rich, on the same motion.
 
-use super::sample::{Motion, Sample, sample};
-use super::yardstick::{Watched, Yardstick};
+use super::error_metric::{ErrorMetric, Watched};
+use super::sample::{Motion, RunSample, sample};
 use crate::error::{Error, Failure, Result};
 use crate::formulation::Statistics;
 use crate::scene;
@@ -85,7 +85,7 @@ pub struct ModelCost {
     pub failure: Option<Failure>,
 }
 
-/// Relative to the size of the quantity in the motion of the richest model: see [`Yardstick`].
+/// Relative to the size of the quantity in the motion of the richest model: see [`ErrorMetric`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OutputError {
     pub name: String,
@@ -135,7 +135,7 @@ pub fn compare(
         }
     }
     let rich = runs[richest].tight.as_ref().filter(|sample| sample.failure.is_none());
-    let rich = rich.map(|sample| Yardstick::new(&columns, sample.rows.clone(), &sample.sizes));
+    let rich = rich.map(|sample| ErrorMetric::new(&columns, sample.rows.clone(), &sample.sizes));
     let rich = rich.ok_or_else(|| runs[richest].failure(span.start))?;
     watch("the richest with a finer mesh", (repeats + 1) * variants.len());
     let finer = finer(&variants[richest], &columns, span, allowed, &rich)?;
@@ -144,7 +144,7 @@ pub fn compare(
 }
 
 /// The richest model against itself with twice the mesh.
-fn finer(richest: &Variant, columns: &[Column], span: Span, allowed: Duration, rich: &Yardstick) -> Result<Finer> {
+fn finer(richest: &Variant, columns: &[Column], span: Span, allowed: Duration, rich: &ErrorMetric) -> Result<Finer> {
     let Some(study) = richest.finer() else { return Ok(Finer::default()) };
     let velocities = Some(study.system().dimensions().v);
     let variant = Variant { name: String::new(), study, source: None };
@@ -159,9 +159,9 @@ struct Run<'a> {
     variant: &'a Variant,
     watched: Watched,
     seconds: Vec<f64>,
-    usual: Option<Sample>,
+    usual: Option<RunSample>,
     /// The same at a tighter tolerance.
-    tight: Option<Sample>,
+    tight: Option<RunSample>,
 }
 
 impl<'a> Run<'a> {
@@ -211,11 +211,11 @@ impl<'a> Run<'a> {
         Failure { reason: format!("the richest model, `{}`: {}", self.variant.name, failure.reason), ..failure }.into()
     }
 
-    fn cost(&self, rich: &Yardstick) -> ModelCost {
+    fn cost(&self, rich: &ErrorMetric) -> ModelCost {
         let Dimensions { q, v, lambda, .. } = self.variant.study.system().dimensions();
         let failure = [&self.tight, &self.usual].into_iter().flatten().find_map(|sample| sample.failure.clone());
         let tight = self.tight.as_ref().filter(|_| failure.is_none());
-        let own = tight.map(|tight| Yardstick::new(&self.watched.columns, tight.rows.clone(), &tight.sizes));
+        let own = tight.map(|tight| ErrorMetric::new(&self.watched.columns, tight.rows.clone(), &tight.sizes));
         let usual = self.usual.as_ref().filter(|_| failure.is_none());
         let of = |column: &Column, place: usize, rows: &[Vec<f64>]| {
             let values: Vec<f64> = rows.iter().map(|row| row[place]).collect();

@@ -1,9 +1,9 @@
 //! What accuracy is measured against.
 
 use super::climb::{Checked, Line, Rung, check, climb, nothing, same};
+use super::error_metric::{ErrorMetric, Watched};
 use super::given::Given;
 use super::sample::Motion;
-use super::yardstick::{Watched, Yardstick};
 use crate::error::Result;
 use crate::simulate::Span;
 use crate::tolerances::report as tolerances;
@@ -24,7 +24,7 @@ pub struct Reference {
     /// The quantity that has it.
     pub worst: String,
     pub pace: Pace,
-    pub values: Yardstick,
+    pub values: ErrorMetric,
 }
 
 /// The steps with which methods of high order would err by as much as the motion moves, s: of those whose steps stability
@@ -54,7 +54,7 @@ impl Reference {
         let mut checked = check(&lines, watched).ok_or_else(|| nothing(&lines, motion, budget))?;
         if let Some(given) = given {
             let own = checked.best;
-            let values = Yardstick::new(&watched.columns, given.rows_at(watched, span)?, &own.run.sizes);
+            let values = ErrorMetric::new(&watched.columns, given.rows_at(watched, span)?, &own.run.sizes);
             checked = Checked { by: Some(own), error: values.error(&own.run.rows), values, ..checked };
         }
         let from = given.map_or_else(|| checked.best.name(), |given| given.name.clone());

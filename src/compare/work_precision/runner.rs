@@ -2,11 +2,11 @@
 
 use super::WorkPrecision;
 use super::cell::Cell;
+use super::error_metric::Watched;
 use super::given::Given;
 use super::grid::Triple;
 use super::reference::Reference;
-use super::sample::{Allowed, Motion, Sample, sample};
-use super::yardstick::Watched;
+use super::sample::{Allowed, Motion, RunSample, sample};
 use crate::error::Result;
 use crate::simulate::{Method, Span};
 use crate::tolerances::report as tolerances;
@@ -123,7 +123,7 @@ impl<'a> Runner<'a> {
         result: &WorkPrecision,
         method: &Method,
         allowed: Duration,
-    ) -> Result<(Sample, Vec<f64>)> {
+    ) -> Result<(RunSample, Vec<f64>)> {
         let allowed = Allowed { wall: self.left(), cpu: allowed };
         let run = || sample(&self.motion, &self.watched, method, self.span(result), allowed);
         let first = run()?;

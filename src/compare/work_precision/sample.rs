@@ -1,6 +1,6 @@
 //! One run, with as little beside it as can be.
 
-use super::yardstick::Watched;
+use super::error_metric::Watched;
 use crate::analysis::{Drift, Sizes};
 use crate::error::{Failure, Result};
 use crate::formulation::Statistics;
@@ -25,7 +25,7 @@ pub struct Motion<'a> {
 
 /// What one run gave.
 #[derive(Clone, Debug)]
-pub struct Sample {
+pub struct RunSample {
     /// Of the quantities watched, one row an output time after the start, where all motions are alike.
     pub rows: Vec<Vec<f64>>,
     /// Over the same rows and the start.
@@ -39,7 +39,7 @@ pub struct Sample {
     pub seconds: f64,
 }
 
-impl Sample {
+impl RunSample {
     /// So long the run would have taken to its end by how far it came, s; none where it failed.
     pub fn whole(&self, motion: &Motion) -> Option<f64> {
         let (start, end) = motion.between;
@@ -80,7 +80,7 @@ pub fn sample(
     method: &Method,
     span: Span,
     allowed: impl Into<Allowed>,
-) -> Result<Sample> {
+) -> Result<RunSample> {
     let allowed = allowed.into();
     // On one thread, so that its time is the method's.
     faer::set_global_parallelism(faer::Par::Seq);
@@ -102,7 +102,7 @@ pub fn sample(
     let is_too_slow =
         outcome.failure.as_ref().is_some_and(|failure| failure.reason == Stop::deadline(allowed.cpu).reason);
     let Sampler { rows, sizes, drift, .. } = sink;
-    Ok(Sample { rows, sizes, drift, statistics: outcome.statistics, failure: outcome.failure, is_too_slow, seconds })
+    Ok(RunSample { rows, sizes, drift, statistics: outcome.statistics, failure: outcome.failure, is_too_slow, seconds })
 }
 
 /// CPU time that `work` takes on this thread, s.

@@ -1,7 +1,7 @@
 //! A way down along the forces.
 
 use super::newton::{Policy, newton};
-use super::rest::{Balance, Change, Place, Rest};
+use super::system::{Balance, Change, EquilibriumSystem, Place};
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor};
 use crate::tolerances::initial as tolerances;
@@ -17,7 +17,7 @@ const CLOSING: Limits = Limits {
 
 /// Where a descent leads.
 pub(super) enum End {
-    Rest(Place),
+    EquilibriumSystem(Place),
     /// The coordinate moves on and on.
     Away(usize),
     /// It takes too long, or no step goes down.
@@ -35,7 +35,7 @@ pub(super) enum End {
 /// and back to phi = 0. A step is judged as in trust-region methods, by the work of the forces over it against what K
 /// predicts; so no potential is needed. Source: Kelley, Keyes, SIAM J. Numer. Anal. 35 (1998) 508-523; Conn, Gould,
 /// Toint, Trust-Region Methods, 2000, chapter 6. Where it leads, and the steps taken.
-pub(super) fn descend(rest: &mut Rest, q: &[f64]) -> (End, usize) {
+pub(super) fn descend(rest: &mut EquilibriumSystem, q: &[f64]) -> (End, usize) {
     let Some(mut at) = rest.balance(q) else { return (End::Stuck, 0) };
     let mut shift = largest(&at.force) / tolerances::DESCENT_FIRST;
     let (most, mut tried) = (tolerances::DESCENT_STIFFEST * shift, length(&at.force));
@@ -43,13 +43,13 @@ pub(super) fn descend(rest: &mut Rest, q: &[f64]) -> (End, usize) {
         if length(&at.force) <= tolerances::DESCENT_FALL * tried {
             tried = length(&at.force);
             if let Some((place, true)) = newton(rest, at.place.clone(), None, Policy::NEAR) {
-                return (End::Rest(place), step);
+                return (End::EquilibriumSystem(place), step);
             }
         }
         rest.evaluate(&at.place.q);
         let factored = rest.factor(&at.place, shift);
         if rest.is_round_off(&at.place, &at.force) {
-            return (End::Rest(at.place), step);
+            return (End::EquilibriumSystem(at.place), step);
         }
         match if factored { advance(rest, &at, shift) } else { None } {
             Some((next, gain)) => {
@@ -80,7 +80,7 @@ pub(super) fn gone(now: &[f64], start: &[f64]) -> Option<usize> {
 }
 
 /// One step by the factors; none where it goes up or does not come back to phi = 0.
-fn advance(rest: &mut Rest, at: &Balance, shift: f64) -> Option<(Balance, f64)> {
+fn advance(rest: &mut EquilibriumSystem, at: &Balance, shift: f64) -> Option<(Balance, f64)> {
     let change = rest.solve(&at.force)?;
     let size = length(&change.q);
     let before = dot(&at.force, &change.q);
@@ -96,7 +96,7 @@ fn advance(rest: &mut Rest, at: &Balance, shift: f64) -> Option<(Balance, f64)> 
 }
 
 /// Where a change leads, on phi = 0.
-fn onward(rest: &mut Rest, from: &Place, change: &Change, size: f64) -> Option<Balance> {
+fn onward(rest: &mut EquilibriumSystem, from: &Place, change: &Change, size: f64) -> Option<Balance> {
     let there = rest.moved(from, change, 1.0);
     let q = close(rest, there, size)?;
     rest.balance(&q)
@@ -104,7 +104,7 @@ fn onward(rest: &mut Rest, from: &Place, change: &Change, size: f64) -> Option<B
 
 /// force = dq/dtau to the size of the force before the step: a stiff beam that turns goes along a circle, and one iteration
 /// along the tangent, which stretches it.
-fn relax(rest: &mut Rest, at: &mut Balance, way: &mut [f64], shift: f64, enough: f64) -> Option<()> {
+fn relax(rest: &mut EquilibriumSystem, at: &mut Balance, way: &mut [f64], shift: f64, enough: f64) -> Option<()> {
     let mut last = f64::INFINITY;
     for _ in 0..tolerances::RELAXATIONS {
         let left: Vec<f64> = at.force.iter().zip(&*way).map(|(force, way)| force - shift * way).collect();
@@ -125,7 +125,7 @@ fn relax(rest: &mut Rest, at: &mut Balance, way: &mut [f64], shift: f64, enough:
 }
 
 /// Back to phi = 0 by least changes, which together are shorter than the step.
-fn close(rest: &mut Rest, place: Place, size: f64) -> Option<Vec<f64>> {
+fn close(rest: &mut EquilibriumSystem, place: Place, size: f64) -> Option<Vec<f64>> {
     let (mut at, mut way, mut is_evaluated) = (place, 0.0, false);
     let closed: Result<bool, ()> = Monitor::default().solve(CLOSING, |_| {
         if std::mem::replace(&mut is_evaluated, true) {

@@ -1,7 +1,7 @@
 //! Why there is no equilibrium, in words.
 
-use super::rest::{Place, Rest};
 use super::stability::{named, soft};
+use super::system::{EquilibriumSystem, Place};
 use crate::error::{Error, Failure, short};
 use crate::math::largest;
 use crate::system::Limited;
@@ -42,7 +42,7 @@ const BEGIN_NEARER: &str = "begin nearer to it, or look at the motion with `holo
                             rest where there is an equilibrium";
 
 /// What keeps the mechanism moving, seen from the start; `away` is what a descent would move on and on.
-pub(super) fn none_found(rest: &mut Rest, start: &Place, away: Option<usize>) -> Error {
+pub(super) fn none_found(rest: &mut EquilibriumSystem, start: &Place, away: Option<usize>) -> Error {
     let t = rest.t;
     let failure = |reason: String, hint: &str| Failure { t, reason, hint: hint.to_string() }.into();
     let Some(balance) = rest.balance(&start.q) else { return not_finite() };

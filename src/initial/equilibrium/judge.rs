@@ -1,7 +1,7 @@
 //! Whether a place that Newton's method came to is one where a mechanism stays at rest.
 
 use super::descent::gone;
-use super::rest::{Place, Rest};
+use super::system::{EquilibriumSystem, Place};
 use crate::math::largest;
 use crate::system::{Limited, Theory};
 use crate::tolerances::initial as tolerances;
@@ -15,14 +15,14 @@ pub(super) struct Judge {
 
 impl Judge {
     /// With the terms at the start.
-    pub fn at(rest: &mut Rest, start: &Place) -> Self {
+    pub fn at(rest: &mut EquilibriumSystem, start: &Place) -> Self {
         rest.evaluate(&start.q);
         rest.factor(start, 0.0);
         Judge { q: start.q.clone(), loads: largest(&rest.sizes(start)), stiffness: rest.stiffness() }
     }
 
     /// Whether the forces balance there: a matrix without bounds makes any step small, and any force round-off.
-    pub fn accepts(&self, rest: &mut Rest, place: &Place) -> bool {
+    pub fn accepts(&self, rest: &mut EquilibriumSystem, place: &Place) -> bool {
         if gone(&place.q, &self.q).is_some() {
             return false;
         }
@@ -35,7 +35,7 @@ impl Judge {
     }
 
     /// The beam with an element that turns farther than it can follow, and how far, rad.
-    pub fn bent(rest: &Rest, q: &[f64]) -> Option<(Limited, f64)> {
+    pub fn bent(rest: &EquilibriumSystem, q: &[f64]) -> Option<(Limited, f64)> {
         let system = rest.dynamics.system;
         let mut deformations = vec![0.0; system.limited().len()];
         system.deformations(q, &mut deformations);

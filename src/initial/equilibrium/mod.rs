@@ -9,8 +9,8 @@ mod failure;
 mod homotopy;
 mod judge;
 mod newton;
-mod rest;
 mod stability;
+mod system;
 
 pub use stability::Stability;
 
@@ -22,8 +22,8 @@ use crate::tolerances::initial as tolerances;
 use descent::End;
 use judge::Judge;
 use newton::{Policy, newton};
-use rest::{Place, Rest};
 use serde::Serialize;
+use system::{EquilibriumSystem, Place};
 
 /// A state at rest that stays at rest.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,7 +80,7 @@ pub fn equilibrium(system: &dyn MechanicalSystem, t: f64, guess: &[f64]) -> Resu
     let mut q = guess.to_vec();
     system.normalize(&mut q);
     position::close(&mut Metric::new(system, Vec::new()), t, &mut q)?;
-    let mut rest = Rest::new(system, t, &q)?;
+    let mut rest = EquilibriumSystem::new(system, t, &q)?;
     let start = rest.balance(&q).ok_or_else(failure::not_finite)?.place;
     let mut search = Search { best: None, steps: 0, away: None, bent: None, judge: Judge::at(&mut rest, &start) };
     if !search.contracts(&mut rest, &start) && !search.grows(&mut rest, &start) {
@@ -107,7 +107,7 @@ struct Search {
 
 impl Search {
     /// Newton's method from the start; whether its result is the one to take.
-    fn contracts(&mut self, rest: &mut Rest, start: &Place) -> bool {
+    fn contracts(&mut self, rest: &mut EquilibriumSystem, start: &Place) -> bool {
         match newton(rest, start.clone(), None, Policy::FULL) {
             Some((place, contracts)) => self.offer(rest, Some(place), Way::Newton) || contracts,
             None => false,
@@ -115,7 +115,7 @@ impl Search {
     }
 
     /// Damped steps, then the load in steps; whether one of their results is good enough.
-    fn grows(&mut self, rest: &mut Rest, start: &Place) -> bool {
+    fn grows(&mut self, rest: &mut EquilibriumSystem, start: &Place) -> bool {
         let damped = newton(rest, start.clone(), None, Policy::DAMPED).map(|(place, _)| place);
         if self.offer(rest, damped, Way::DampedNewton) {
             return true;
@@ -131,18 +131,18 @@ impl Search {
         self.offer(rest, Some(reached), Way::Homotopy)
     }
 
-    fn descends(&mut self, rest: &mut Rest, start: &Place) {
+    fn descends(&mut self, rest: &mut EquilibriumSystem, start: &Place) {
         let (end, steps) = descent::descend(rest, &start.q);
         self.steps += steps;
         match end {
-            End::Rest(place) => _ = self.offer(rest, Some(place), Way::Descent),
+            End::EquilibriumSystem(place) => _ = self.offer(rest, Some(place), Way::Descent),
             End::Away(coordinate) => self.away = Some(coordinate),
             End::Stuck => {}
         }
     }
 
     /// Keeps what is better than before; whether it is good enough to stop.
-    fn offer(&mut self, rest: &mut Rest, place: Option<Place>, way: Way) -> bool {
+    fn offer(&mut self, rest: &mut EquilibriumSystem, place: Option<Place>, way: Way) -> bool {
         let Some(place) = place else { return false };
         if let Some(bent) = Judge::bent(rest, &place.q) {
             self.bent = Some(bent);
@@ -160,7 +160,7 @@ impl Search {
 }
 
 /// Multipliers of least norm, and what is left of the equations.
-fn finish(mut rest: Rest, found: Found, steps: usize) -> Result<Equilibrium> {
+fn finish(mut rest: EquilibriumSystem, found: Found, steps: usize) -> Result<Equilibrium> {
     let Found { mut place, way, stability, free } = found;
     rest.release();
     if let Some(balance) = rest.balance(&place.q) {

@@ -1,6 +1,6 @@
 //! Newton's method on the equations of rest.
 
-use super::rest::{Change, Place, Rest};
+use super::system::{Change, EquilibriumSystem, Place};
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor};
 use crate::tolerances::initial as tolerances;
@@ -27,7 +27,12 @@ impl Policy {
 
 /// Solves f - G^T lambda = `goal` (zero where none) with phi = 0; the place, and whether all steps contracted. None where
 /// Newton's method fails.
-pub(super) fn newton(rest: &mut Rest, start: Place, goal: Option<&[f64]>, policy: Policy) -> Option<(Place, bool)> {
+pub(super) fn newton(
+    rest: &mut EquilibriumSystem,
+    start: Place,
+    goal: Option<&[f64]>,
+    policy: Policy,
+) -> Option<(Place, bool)> {
     let (mut at, mut newton) = (start, Monitor::default());
     let (mut was_still, mut was_small) = (false, false);
     let converged: Result<bool, ()> = newton.solve(policy.limits, |_| {
@@ -55,7 +60,7 @@ pub(super) fn newton(rest: &mut Rest, start: Place, goal: Option<&[f64]>, policy
 }
 
 /// f - G^T lambda - goal of the terms.
-fn left(rest: &Rest, at: &Place, goal: Option<&[f64]>) -> Vec<f64> {
+fn left(rest: &EquilibriumSystem, at: &Place, goal: Option<&[f64]>) -> Vec<f64> {
     let mut force = rest.force(&at.lambda);
     force.iter_mut().zip(goal.unwrap_or_default()).for_each(|(force, goal)| *force -= goal);
     force
@@ -63,7 +68,7 @@ fn left(rest: &Rest, at: &Place, goal: Option<&[f64]>) -> Vec<f64> {
 
 /// The longest step, halved, after which the same matrix would ask for a shorter one: the natural monotonicity test,
 /// which does not depend on the units of forces and constraints (Deuflhard, section 3.3).
-fn damped(rest: &mut Rest, at: &Place, change: &Change, size: f64) -> Option<Place> {
+fn damped(rest: &mut EquilibriumSystem, at: &Place, change: &Change, size: f64) -> Option<Place> {
     let mut part = 1.0;
     while part > tolerances::SHORTEST_DAMPED {
         let next = rest.moved(at, change, part);

@@ -1,6 +1,6 @@
 //! Whether an equilibrium comes back when it is disturbed.
 
-use super::rest::{Place, Rest};
+use super::system::{EquilibriumSystem, Place};
 use crate::formulation::{free_directions, reduce};
 use crate::tolerances::initial as tolerances;
 use nalgebra::{DVector, SymmetricEigen};
@@ -31,7 +31,7 @@ pub(super) struct Soft {
 }
 
 /// Z^T K Z at a place, as far as it can be looked at.
-pub(super) fn soft(rest: &mut Rest, place: &Place) -> Option<Soft> {
+pub(super) fn soft(rest: &mut EquilibriumSystem, place: &Place) -> Option<Soft> {
     if rest.dynamics.vdot.len() > tolerances::DENSE_EIGENVALUES {
         return None;
     }
@@ -56,7 +56,7 @@ pub(super) fn soft(rest: &mut Rest, place: &Place) -> Option<Soft> {
 }
 
 /// Stability at an equilibrium, and the coordinates that nothing holds there.
-pub(super) fn judge(rest: &mut Rest, place: &Place) -> (Stability, Vec<String>) {
+pub(super) fn judge(rest: &mut EquilibriumSystem, place: &Place) -> (Stability, Vec<String>) {
     let Some(soft) = soft(rest, place) else { return (Stability::Unknown, Vec::new()) };
     let free = named(rest, &soft.directions);
     let stability = match soft.directions.is_empty() {
@@ -69,7 +69,7 @@ pub(super) fn judge(rest: &mut Rest, place: &Place) -> (Stability, Vec<String>) 
 }
 
 /// The coordinates that take most part in the directions.
-pub(super) fn named(rest: &Rest, directions: &[DVector<f64>]) -> Vec<String> {
+pub(super) fn named(rest: &EquilibriumSystem, directions: &[DVector<f64>]) -> Vec<String> {
     let names = rest.dynamics.system.names().v;
     let mut found = Vec::new();
     for direction in directions {

@@ -1,10 +1,10 @@
 //! The tangent matrix with the penalty in it.
 
 use super::super::Problem;
-use crate::formulation::Halt;
 use crate::formulation::NO_TANGENT;
+use crate::formulation::StepError;
 use crate::math::kkt::{Pattern, Unsymmetric};
-use crate::system::{Loaded, MechanicalSystem, Tangent};
+use crate::system::{MechanicalSystem, OperatingPoint, Tangent};
 use std::collections::BTreeSet;
 
 /// M + h/2 C + h^2/4 (K + G^T alpha G), for which `weight` holds h^2/4 alpha.
@@ -51,7 +51,7 @@ impl Penalized {
     }
 
     /// Factors at a state whose terms the problem holds.
-    pub fn factor(&mut self, problem: &mut Problem, at: Loaded, h: f64) -> Result<(), Halt> {
+    pub fn factor(&mut self, problem: &mut Problem, at: OperatingPoint, h: f64) -> Result<(), StepError> {
         let dynamics = &mut problem.dynamics;
         if !dynamics.system.tangent(at, &mut self.tangent, &mut dynamics.scratch) {
             return Err(NO_TANGENT);
@@ -91,7 +91,7 @@ impl Penalized {
 
     /// W x = right - h^2/4 G^T alpha rows, in place; leaves h^2/4 alpha (rows + G x) in `rows`. By the G of W: another
     /// would leave a part along the motion, which alpha makes large.
-    pub fn solve(&mut self, g: &Pattern, rows: &mut [f64], right: &mut [f64]) -> Result<(), Halt> {
+    pub fn solve(&mut self, g: &Pattern, rows: &mut [f64], right: &mut [f64]) -> Result<(), StepError> {
         self.rest.copy_from_slice(rows);
         rows.iter_mut().zip(&self.weight).for_each(|(row, weight)| *row *= -weight);
         g.multiply_transposed(&self.g, rows, right);

@@ -7,10 +7,10 @@ use super::memory::Reader;
 use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, refuses, takes};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
-use crate::formulation::{Halt, turn};
+use crate::formulation::{StepError, turn};
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor, relative};
-use crate::system::{Loaded, Need};
+use crate::system::{Need, OperatingPoint};
 use crate::tolerances::integrator as tolerances;
 use matrix::Penalized;
 
@@ -141,7 +141,7 @@ impl Ali3p {
         turn(problem.dynamics.system, &mut self.stages, &self.predicted, &self.step, q);
     }
 
-    fn converge(&mut self, problem: &mut Problem, from: From, h: f64, to: &mut [f64]) -> Result<(), Halt> {
+    fn converge(&mut self, problem: &mut Problem, from: From, h: f64, to: &mut [f64]) -> Result<(), StepError> {
         let t = from.t + h;
         self.predict(problem, from, h);
         let mut is_factored = false;
@@ -151,24 +151,24 @@ impl Ali3p {
             let (q, v) = problem.split(to);
             problem.dynamics.evaluate(t, q, v, Need::DYNAMICS);
             if renews || !is_factored {
-                let at = Loaded { t, q, v, vdot: &self.a_new, lambda: &self.lambda };
+                let at = OperatingPoint { t, q, v, vdot: &self.a_new, lambda: &self.lambda };
                 self.matrix.factor(problem, at, h)?;
                 is_factored = true;
             }
             let change = self.iterate(problem, h)?;
             let still =
                 4.0 * tolerances::ROUND_OFF_OF_SUMS * largest(problem.dynamics.system.own(q)).max(1.0) / (h * h);
-            Ok::<_, Halt>(
+            Ok::<_, StepError>(
                 change / (tolerances::NEWTON_STAGNATION * largest(&self.a_new).max(largest(v) / h)).max(still),
             )
         })?;
         problem.dynamics.statistics.stagnated += u64::from(converged && newton.has_stagnated);
         self.advance(problem, from, h, to);
-        if converged { Ok(()) } else { Err(Halt::NotConverged) }
+        if converged { Ok(()) } else { Err(StepError::NotConverged) }
     }
 
     /// One iteration from the terms at q_1, v_1; the largest change of a_1.
-    fn iterate(&mut self, problem: &mut Problem, h: f64) -> Result<f64, Halt> {
+    fn iterate(&mut self, problem: &mut Problem, h: f64) -> Result<f64, StepError> {
         let dynamics = &mut problem.dynamics;
         dynamics.statistics.newton_iterations += 1;
         let (terms, structure) = (&dynamics.terms, &dynamics.structure);
@@ -185,7 +185,7 @@ impl Ali3p {
     }
 
     /// v_1 and a_1 that meet the constraints at q_1.
-    fn project(&mut self, problem: &mut Problem, t: f64, to: &mut [f64]) -> Result<(), Halt> {
+    fn project(&mut self, problem: &mut Problem, t: f64, to: &mut [f64]) -> Result<(), StepError> {
         let (q, v) = problem.split_mut(to);
         let need = Need::CONSTRAINTS | Need::G;
         problem.dynamics.evaluate(t, q, v, need);
@@ -197,7 +197,7 @@ impl Ali3p {
             .zip(&self.scales)
             .any(|(phi, scale)| phi.abs() > tolerances::REDUNDANT_ROWS_CLOSED * scale);
         if off {
-            return Err(Halt::NotConverged);
+            return Err(StepError::NotConverged);
         }
         self.meet(problem, v, |problem, j| problem.dynamics.terms.phi_t[j])?;
         problem.dynamics.evaluate(t, q, v, need);
@@ -208,7 +208,7 @@ impl Ali3p {
     }
 
     /// G x + b = 0 with least change of x.
-    fn meet(&mut self, problem: &Problem, x: &mut [f64], b: impl Fn(&Problem, usize) -> f64) -> Result<(), Halt> {
+    fn meet(&mut self, problem: &Problem, x: &mut [f64], b: impl Fn(&Problem, usize) -> f64) -> Result<(), StepError> {
         let (g, values) = (&problem.dynamics.structure.g, &problem.dynamics.terms.g);
         let met = Monitor::default().solve(PROJECTED, |_| {
             self.rows.iter_mut().enumerate().for_each(|(j, row)| *row = b(problem, j));
@@ -216,9 +216,9 @@ impl Ali3p {
             self.step.fill(0.0);
             self.matrix.solve(g, &mut self.rows, &mut self.step)?;
             x.iter_mut().zip(&self.step).for_each(|(x, step)| *x += step);
-            Ok::<_, Halt>(relative(&self.step, x))
+            Ok::<_, StepError>(relative(&self.step, x))
         })?;
-        if met { Ok(()) } else { Err(Halt::NotConverged) }
+        if met { Ok(()) } else { Err(StepError::NotConverged) }
     }
 }
 
@@ -238,7 +238,7 @@ impl Integrator for Ali3p {
         from: From,
         h: f64,
         to: &mut [f64],
-    ) -> Result<Option<f64>, Halt> {
+    ) -> Result<Option<f64>, StepError> {
         let (t, work) = (from.t + h, to.len() - 1);
         self.begin(problem, from);
         self.converge(problem, from, h, to)?;
@@ -274,12 +274,19 @@ impl Integrator for Ali3p {
         self.is_started = false;
     }
 
-    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt> {
+    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), StepError> {
         self.polynomial.prepare(from, h, to, slope);
         Ok(())
     }
 
-    fn interpolate(&mut self, _: &mut Problem, from: From, _: f64, theta: f64, out: &mut [f64]) -> Result<(), Halt> {
+    fn interpolate(
+        &mut self,
+        _: &mut Problem,
+        from: From,
+        _: f64,
+        theta: f64,
+        out: &mut [f64],
+    ) -> Result<(), StepError> {
         self.polynomial.interpolate(theta, from.y, out);
         Ok(())
     }

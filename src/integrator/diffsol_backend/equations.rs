@@ -1,8 +1,8 @@
 //! The rows of a formulation as diffsol sees it.
 
 use super::kinematics::Dense;
-use super::rows::Rows;
-use crate::formulation::{Halt, Statistics};
+use super::rows::FirstOrderRows;
+use crate::formulation::{Statistics, StepError};
 use diffsol::{
     ConstantOp, LinearOp, Matrix, NalgebraContext, NalgebraMat, NalgebraVec, NonLinearOp, NonLinearOpJacobian,
     OdeEquations, OdeEquationsRef, Op, UnitCallable, Vector, VectorCommon,
@@ -17,8 +17,8 @@ type Entries = NalgebraMat<f64>;
 /// here, while the numbers are NaN, which makes diffsol try a smaller step. Clones share both.
 #[derive(Clone)]
 pub struct Equations<'s> {
-    rows: Rc<RefCell<Rows<'s>>>,
-    halt: Rc<RefCell<Option<Halt>>>,
+    rows: Rc<RefCell<FirstOrderRows<'s>>>,
+    halt: Rc<RefCell<Option<StepError>>>,
     /// Unknowns, and how many of them have a rate.
     pub len: usize,
     pub rates: usize,
@@ -26,7 +26,7 @@ pub struct Equations<'s> {
 }
 
 impl<'s> Equations<'s> {
-    pub fn new(rows: Rows<'s>, rates: usize) -> Self {
+    pub fn new(rows: FirstOrderRows<'s>, rates: usize) -> Self {
         let len = rows.len();
         Equations {
             rows: Rc::new(RefCell::new(rows)),
@@ -38,12 +38,12 @@ impl<'s> Equations<'s> {
     }
 
     /// Uses the rows.
-    pub fn with<R>(&self, see: impl FnOnce(&mut Rows<'s>) -> R) -> R {
+    pub fn with<R>(&self, see: impl FnOnce(&mut FirstOrderRows<'s>) -> R) -> R {
         see(&mut self.rows.borrow_mut())
     }
 
     /// What stopped the rows first since the last call.
-    pub fn take_halt(&self) -> Option<Halt> {
+    pub fn take_halt(&self) -> Option<StepError> {
         self.halt.take()
     }
 
@@ -52,7 +52,7 @@ impl<'s> Equations<'s> {
         self.with(|rows| std::mem::take(rows.statistics()))
     }
 
-    fn fill(&self, values: &mut [f64], see: impl FnOnce(&mut Rows<'s>, &mut [f64]) -> Result<(), Halt>) {
+    fn fill(&self, values: &mut [f64], see: impl FnOnce(&mut FirstOrderRows<'s>, &mut [f64]) -> Result<(), StepError>) {
         if let Err(halt) = self.with(|rows| see(rows, values)) {
             values.fill(f64::NAN);
             // The first one is the cause: NaN makes others follow.

@@ -9,7 +9,7 @@ mod solver;
 
 use super::{Control, From, Integrator, Problem, Setup, Tolerance};
 use crate::error::Result;
-use crate::formulation::{self, Dae, Halt};
+use crate::formulation::{self, Dae, StepError};
 use crate::math::kkt::Singular;
 use crate::math::memory::refuse_dense;
 use diffsol::error::OdeSolverError;
@@ -58,7 +58,7 @@ pub fn make<'s>(setup: &Setup<'s>, traits: Traits, start: Start<'s>) -> Result<B
     let unknowns = rows::unknowns(&dae, setup.system.dimensions());
     refuse_dense(&setup.integrator.name, [unknowns; 2], COPIES).map_err(|error| error.hint(SPARSE))?;
     Ok(Box::new(Implicit {
-        equations: Equations::new(rows::Rows::new(dae, setup), setup.len()),
+        equations: Equations::new(rows::FirstOrderRows::new(dae, setup), setup.len()),
         start,
         traits,
         solver: None,
@@ -79,7 +79,7 @@ const SPARSE: &str = "choose a sparse implicit integrator, such as radau_iia or 
 
 impl<'s> Implicit<'s> {
     /// A solver at `from` whose first step is at most `h`.
-    fn begin(&mut self, tolerance: &Tolerance, from: From, h: f64) -> Result<Solver<'s>, Halt> {
+    fn begin(&mut self, tolerance: &Tolerance, from: From, h: f64) -> Result<Solver<'s>, StepError> {
         let eqn = &self.equations;
         let (mut x, mut rate) = (Values::zeros(eqn.len, eqn.context), Values::zeros(eqn.len, eqn.context));
         eqn.with(|rows| rows.start(from, x.inner_mut().as_mut_slice(), rate.inner_mut().as_mut_slice()))?;
@@ -89,7 +89,7 @@ impl<'s> Implicit<'s> {
     }
 
     /// The solver as it goes on from `from`.
-    fn resume(&mut self, tolerance: &Tolerance, from: From, h: f64) -> Result<Solver<'s>, Halt> {
+    fn resume(&mut self, tolerance: &Tolerance, from: From, h: f64) -> Result<Solver<'s>, StepError> {
         match self.solver.take() {
             Some(solver) if self.reached == from.t && self.y == from.y => Ok(solver),
             Some(mut solver) if self.traits.follows && self.reached == from.t && !self.is_ahead => {
@@ -101,7 +101,7 @@ impl<'s> Implicit<'s> {
     }
 
     /// Takes a step, unless the solver is ahead, and writes the state at its end, or after `h` if that comes first.
-    fn advance(&mut self, solver: &mut Solver, (began, h): (f64, f64), to: &mut [f64]) -> Result<(), Halt> {
+    fn advance(&mut self, solver: &mut Solver, (began, h): (f64, f64), to: &mut [f64]) -> Result<(), StepError> {
         let end = began + h;
         if !self.is_ahead {
             // Smaller steps are lost in the rounding of t; without a least one diffsol tries for ever.
@@ -114,7 +114,7 @@ impl<'s> Implicit<'s> {
         self.is_ahead = t > end;
         self.own_step = if t < end { t - began } else { h };
         if self.own_step <= 0.0 {
-            return Err(Halt::TooInaccurate);
+            return Err(StepError::TooInaccurate);
         }
         solver
             .request(if self.is_ahead { Request::At(end) } else { Request::State })
@@ -124,13 +124,13 @@ impl<'s> Implicit<'s> {
     }
 
     /// Why the solver gave up.
-    fn halt(&self, error: DiffsolError) -> Halt {
+    fn halt(&self, error: DiffsolError) -> StepError {
         self.equations.take_halt().unwrap_or(match error {
-            DiffsolError::OdeSolverError(OdeSolverError::TooManyErrorTestFailures { .. }) => Halt::TooInaccurate,
+            DiffsolError::OdeSolverError(OdeSolverError::TooManyErrorTestFailures { .. }) => StepError::TooInaccurate,
             DiffsolError::OdeSolverError(
                 OdeSolverError::StepSizeTooSmall { .. } | OdeSolverError::TooManyNonlinearSolverFailures { .. },
-            ) => Halt::NotConverged,
-            _ => Halt::Singular(Singular::NotFactored),
+            ) => StepError::NotConverged,
+            _ => StepError::Singular(Singular::NotFactored),
         })
     }
 
@@ -175,7 +175,7 @@ impl Integrator for Implicit<'_> {
         from: From,
         h: f64,
         to: &mut [f64],
-    ) -> Result<Option<f64>, Halt> {
+    ) -> Result<Option<f64>, StepError> {
         self.equations.with(|rows| rows.follow(&problem.dynamics));
         let mut solver = self.resume(tolerance, from, h)?;
         let result = self.advance(&mut solver, (from.t, h), to);
@@ -192,11 +192,18 @@ impl Integrator for Implicit<'_> {
         Ok(Some(0.0))
     }
 
-    fn prepare(&mut self, _: &mut Problem, _: From, _: f64, _: &[f64], _: &[f64]) -> Result<(), Halt> {
+    fn prepare(&mut self, _: &mut Problem, _: From, _: f64, _: &[f64], _: &[f64]) -> Result<(), StepError> {
         Ok(())
     }
 
-    fn interpolate(&mut self, _: &mut Problem, from: From, h: f64, theta: f64, out: &mut [f64]) -> Result<(), Halt> {
+    fn interpolate(
+        &mut self,
+        _: &mut Problem,
+        from: From,
+        h: f64,
+        theta: f64,
+        out: &mut [f64],
+    ) -> Result<(), StepError> {
         let Some(mut solver) = self.solver.take() else {
             out.fill(f64::NAN);
             return Ok(());

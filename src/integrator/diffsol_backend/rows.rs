@@ -2,8 +2,8 @@
 
 use super::super::{From, Setup};
 use super::kinematics::{Dense, Kinematics};
-use crate::formulation::{Dae, Dynamics, Halt, NO_TANGENT, Residual, Row, Statistics, Unknowns};
-use crate::system::{Dimensions, Loaded, Need, Tangent};
+use crate::formulation::{Dae, Dynamics, NO_TANGENT, Residual, Row, Statistics, StepError, Unknowns};
+use crate::system::{Dimensions, Need, OperatingPoint, Tangent};
 use std::ops::Range;
 
 /// ```text
@@ -14,7 +14,7 @@ use std::ops::Range;
 /// in q, v, the work, a and lambda, then w and eta, u and mu where the [`Dae`] has them: with rates as unknowns no M stands
 /// before a derivative, where diffsol wants a constant. The Jacobian is exact but for the change of phi'' with q, from which
 /// no stiffness comes, and at mu = eta = 0, which holds for the exact motion. Multipliers of dropped rows are zero.
-pub struct Rows<'s> {
+pub struct FirstOrderRows<'s> {
     dae: Dae,
     dynamics: Dynamics<'s>,
     residual: Residual,
@@ -57,10 +57,10 @@ pub fn unknowns(dae: &Dae, n: Dimensions) -> usize {
     Places::new(dae, n).end
 }
 
-impl<'s> Rows<'s> {
+impl<'s> FirstOrderRows<'s> {
     pub fn new(dae: Dae, setup: &Setup<'s>) -> Self {
         let n = setup.system.dimensions();
-        Rows {
+        FirstOrderRows {
             dae,
             dynamics: Dynamics::new(setup.system),
             residual: Residual::new(n),
@@ -132,20 +132,20 @@ impl<'s> Rows<'s> {
 }
 
 /// As diffsol takes them: x' = F(t, x) in the first unknowns, which are q, v and the work, and 0 = F(t, x) in the rest.
-impl Rows<'_> {
+impl FirstOrderRows<'_> {
     /// How many unknowns x has.
     pub fn len(&self) -> usize {
         self.places.end
     }
 
     /// x and x' where a run starts, from q, v and the work with their rates.
-    pub fn start(&mut self, from: From, x: &mut [f64], rate: &mut [f64]) -> Result<(), Halt> {
+    pub fn start(&mut self, from: From, x: &mut [f64], rate: &mut [f64]) -> Result<(), StepError> {
         let Places { v, work, a, lambda, .. } = &self.places;
         let (q, speed) = (&from.y[..v.start], &from.y[v.clone()]);
         self.dynamics.solve(from.t, q, speed, |_, _| 0.0)?;
         let is_dropped = |row: &usize| self.dynamics.dropped.contains(row);
         if !self.dynamics.kkt.left_out().iter().all(is_dropped) {
-            return Err(Halt::Unsuitable {
+            return Err(StepError::Unsuitable {
                 reason: "redundant constraints cannot be solved by this integrator",
                 hint: "`holonom check` names them; radau_iia and generalized_alpha solve them",
             });
@@ -159,7 +159,7 @@ impl Rows<'_> {
         Ok(())
     }
 
-    pub fn evaluate(&mut self, t: f64, x: &[f64], out: &mut [f64]) -> Result<(), Halt> {
+    pub fn evaluate(&mut self, t: f64, x: &[f64], out: &mut [f64]) -> Result<(), StepError> {
         self.moves(x);
         let Places { v, work, a, lambda, w, u, .. } = &self.places;
         let (dynamics, q) = (&mut self.dynamics, &x[..v.start]);
@@ -198,12 +198,12 @@ impl Rows<'_> {
     }
 
     /// Adds dF/dx, or what is close enough to it for Newton's method, to a matrix of zeros.
-    pub fn jacobian(&mut self, t: f64, x: &[f64], out: &mut Dense) -> Result<(), Halt> {
+    pub fn jacobian(&mut self, t: f64, x: &[f64], out: &mut Dense) -> Result<(), StepError> {
         let Places { v, a, lambda, w, u, .. } = &self.places;
         let (dynamics, q, v) = (&mut self.dynamics, &x[..v.start], &x[v.clone()]);
         dynamics.statistics.jacobian_evaluations += 1;
         dynamics.evaluate(t, q, v, Need::DYNAMICS | Need::L);
-        let at = Loaded { t, q, v, vdot: &x[a.clone()], lambda: &x[lambda.clone()] };
+        let at = OperatingPoint { t, q, v, vdot: &x[a.clone()], lambda: &x[lambda.clone()] };
         if !dynamics.system.tangent(at, &mut self.tangent, &mut dynamics.scratch) {
             return Err(NO_TANGENT);
         }

@@ -8,7 +8,7 @@ use super::memory::Reader;
 use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, refuses, takes};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
-use crate::formulation::{self, Halt};
+use crate::formulation::{self, StepError};
 use crate::system::refuse_states;
 use crate::tolerances::integrator as tolerances;
 use motion::{Motion, Scheme};
@@ -120,10 +120,10 @@ impl Integrator for GeneralizedAlpha {
         from: From,
         h: f64,
         to: &mut [f64],
-    ) -> Result<Option<f64>, Halt> {
+    ) -> Result<Option<f64>, StepError> {
         self.motion.begin(problem, from, h, to)?;
         let mut found = self.newton.converge(problem, &mut self.motion, from, h, to);
-        if self.newton.is_stale && found.as_ref().is_err_and(|halt| !halt.is_final()) {
+        if self.newton.is_stale && found.as_ref().is_err_and(|halt| !halt.is_fatal()) {
             self.newton.restart();
             self.motion.begin(problem, from, h, to)?;
             found = self.newton.converge(problem, &mut self.motion, from, h, to);
@@ -158,12 +158,19 @@ impl Integrator for GeneralizedAlpha {
         self.newton.restart();
     }
 
-    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), Halt> {
+    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), StepError> {
         self.polynomial.prepare(from, h, to, slope);
         Ok(())
     }
 
-    fn interpolate(&mut self, _: &mut Problem, from: From, _: f64, theta: f64, out: &mut [f64]) -> Result<(), Halt> {
+    fn interpolate(
+        &mut self,
+        _: &mut Problem,
+        from: From,
+        _: f64,
+        theta: f64,
+        out: &mut [f64],
+    ) -> Result<(), StepError> {
         self.polynomial.interpolate(theta, from.y, out);
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use super::super::memory::Reader;
 use super::super::{From, Problem};
-use crate::formulation::{Change, Dae, Halt, Slopes, Unknowns, turn};
+use crate::formulation::{Change, Dae, Slopes, StepError, Unknowns, turn};
 use crate::math::largest;
 use crate::system::Dimensions;
 
@@ -94,7 +94,7 @@ impl Motion {
 
     /// Takes over what the step before reached (or starts), for a step of size `h`; a step tried before from here is
     /// forgotten. `ahead` is scratch. Leaves v' and lambda of the start as a prediction of those at the end.
-    pub fn begin(&mut self, problem: &mut Problem, from: From, h: f64, ahead: &mut [f64]) -> Result<(), Halt> {
+    pub fn begin(&mut self, problem: &mut Problem, from: From, h: f64, ahead: &mut [f64]) -> Result<(), StepError> {
         if !self.is_started {
             self.start(problem, from, h, ahead)?;
         }
@@ -111,7 +111,7 @@ impl Motion {
     }
 
     /// a = v'(t + (alpha_m - alpha_f) h) + O(h^2), against transients of first order in lambda.
-    fn start(&mut self, problem: &mut Problem, from: From, h: f64, ahead: &mut [f64]) -> Result<(), Halt> {
+    fn start(&mut self, problem: &mut Problem, from: From, h: f64, ahead: &mut [f64]) -> Result<(), StepError> {
         let (_, vdot) = problem.split(from.slope);
         self.start.vdot.copy_from_slice(vdot);
         for (i, ahead) in ahead.iter_mut().enumerate() {

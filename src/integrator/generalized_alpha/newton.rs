@@ -3,10 +3,10 @@
 use super::super::memory::Reader;
 use super::super::{From, Problem, collapsed};
 use super::motion::Motion;
-use crate::formulation::{Dae, Halt, Iteration, Linearized, Residual, Slopes};
+use crate::formulation::{Dae, Iteration, Linearized, Residual, Slopes, StepError};
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor};
-use crate::system::{Loaded, MechanicalSystem};
+use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::integrator as tolerances;
 
 /// The metric of shifts is M alone: sums of corrections in the metrics of several states would depend on how they were found.
@@ -85,7 +85,7 @@ impl Newton {
     }
 
     /// Makes the matrix again that a saved run had.
-    fn renew(&mut self, problem: &mut Problem, motion: &Motion) -> Result<(), Halt> {
+    fn renew(&mut self, problem: &mut Problem, motion: &Motion) -> Result<(), StepError> {
         let Some((h, point)) = self.recalled.take().filter(|(h, _)| *h > 0.0) else { return Ok(()) };
         let counted = problem.dynamics.statistics;
         self.at.recall(&point, &mut problem.dynamics)?;
@@ -110,7 +110,7 @@ impl Newton {
         from: From,
         h: f64,
         to: &mut [f64],
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         self.renew(problem, motion)?;
         self.is_stale = self.is_linearized;
         let mut monitor = std::mem::take(&mut self.monitor);
@@ -125,12 +125,12 @@ impl Newton {
             let moving = problem.dynamics.system.dimensions().moving();
             let [change, of_states] = motion.correct(&self.iteration.change, moving, h, round_off);
             let [small, small_state] = self.small(problem, motion, h, to);
-            Ok::<_, Halt>(change / small + of_states / small_state)
+            Ok::<_, StepError>(change / small + of_states / small_state)
         });
         self.monitor = monitor;
         if !converged? {
             self.is_linearized = false;
-            return Err(Halt::NotConverged);
+            return Err(StepError::NotConverged);
         }
         problem.dynamics.statistics.stagnated += u64::from(self.monitor.has_stagnated);
         motion.advance(problem, from, h, to);
@@ -144,7 +144,7 @@ impl Newton {
         motion: &Motion,
         (from, h): (From, f64),
         to: &[f64],
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         let ((q, v), t) = (problem.split(to), from.t + h);
         let (vdot, lambda) = (&motion.end.vdot, &motion.end.lambda);
         let dynamics = &mut problem.dynamics;
@@ -152,9 +152,9 @@ impl Newton {
             self.residual.evaluate(&self.dae, (t, q, v), motion.unknowns(), dynamics)?;
         } else {
             if to.iter().any(|x| !x.is_finite()) {
-                return Err(Halt::NotFinite);
+                return Err(StepError::NotFinite);
             }
-            self.at.update(Loaded { t, q, v, vdot, lambda }, dynamics)?;
+            self.at.update(OperatingPoint { t, q, v, vdot, lambda }, dynamics)?;
             self.at.weigh(MASS, dynamics)?;
             dynamics.statistics.rhs_evaluations += 1;
             self.residual.of_terms(&self.dae, motion.unknowns(), dynamics);

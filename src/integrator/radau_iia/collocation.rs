@@ -10,9 +10,9 @@ pub struct Collocation {
     /// A, row by row; the last row is b.
     pub a: Vec<Vec<f64>>,
     /// The real eigenvalue of A.
-    pub real: Mode<f64>,
+    pub real: StageMode<f64>,
     /// One of each conjugate pair of the others.
-    pub pairs: Vec<Mode<c64>>,
+    pub pairs: Vec<StageMode<c64>>,
     /// d_i of the error estimate h (gamma_0 y'_0 + sum d_i Y'_i), the difference to a formula of order s that also uses
     /// y'_0; gamma_0 is the real eigenvalue. Source: the same, (8.17).
     pub error: Vec<f64>,
@@ -23,7 +23,7 @@ pub struct Collocation {
 }
 
 /// An eigenvalue of A with its vectors: A u = value u, l A = value l, l u = 1.
-pub struct Mode<T> {
+pub struct StageMode<T> {
     pub value: T,
     pub right: Vec<T>,
     pub left: Vec<T>,
@@ -109,7 +109,7 @@ impl Collocation {
 }
 
 /// The eigenvalues of A in the upper half-plane, with their vectors.
-fn modes(a: &DMatrix<f64>) -> (Mode<f64>, Vec<Mode<c64>>) {
+fn modes(a: &DMatrix<f64>) -> (StageMode<f64>, Vec<StageMode<c64>>) {
     let s = a.nrows();
     let mut values: Vec<c64> = a.complex_eigenvalues().iter().map(|value| c64::new(value.re, value.im)).collect();
     // The real one first, then pairs from the nearest to it outwards: an order of its own for each A.
@@ -121,14 +121,14 @@ fn modes(a: &DMatrix<f64>) -> (Mode<f64>, Vec<Mode<c64>>) {
     let all: Vec<DVector<c64>> = vectors.iter().cloned().chain(conjugates).collect();
     let right = DMatrix::from_columns(&all);
     let left = right.clone().try_inverse().unwrap_or_else(|| DMatrix::zeros(s, s));
-    let mode = |k: usize| Mode {
+    let mode = |k: usize| StageMode {
         value: values[k],
         right: right.column(k).iter().copied().collect(),
         left: left.row(k).iter().copied().collect(),
     };
     let real = mode(0);
     let parts = |x: &[c64]| x.iter().map(|x| x.re).collect();
-    let real = Mode { value: real.value.re, right: parts(&real.right), left: parts(&real.left) };
+    let real = StageMode { value: real.value.re, right: parts(&real.right), left: parts(&real.left) };
     (real, (1..values.len()).map(mode).collect())
 }
 

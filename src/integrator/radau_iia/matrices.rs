@@ -1,9 +1,9 @@
 //! The simplified Newton iteration: one saddle-point system for each eigenvalue of A.
 
-use super::collocation::{Collocation, Mode};
+use super::collocation::{Collocation, StageMode};
 use super::stages::Unknowns;
 use crate::error::{Error, Result};
-use crate::formulation::{Dae, Dynamics, Halt, Iteration, Linearized, Number, Residual, Slopes};
+use crate::formulation::{Dae, Dynamics, Iteration, Linearized, Number, Residual, Slopes, StepError};
 use crate::integrator::Setup;
 use crate::math::kkt::Singular;
 use faer::c64;
@@ -103,7 +103,7 @@ impl Matrices {
         at: &mut Linearized,
         unknowns: &mut Unknowns,
         dynamics: &mut Dynamics,
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         dynamics.statistics.newton_iterations += 1;
         correct(&mut self.real, &method.real, residuals, at, unknowns, dynamics)?;
         let mut pairs = self.pairs.iter_mut().zip(&method.pairs);
@@ -114,12 +114,12 @@ impl Matrices {
 /// The part of all stages along one eigenvector.
 fn correct<T: Number>(
     iteration: &mut Iteration<T>,
-    mode: &Mode<T>,
+    mode: &StageMode<T>,
     residuals: &[Residual],
     at: &mut Linearized,
     unknowns: &mut Unknowns,
     dynamics: &Dynamics,
-) -> Result<(), Halt> {
+) -> Result<(), StepError> {
     iteration.load(mode.left.iter().copied().zip(residuals));
     iteration.solve(at, &dynamics.structure)?;
     let (change, Unknowns { a, lambda, w, eta, u, mu }) = (&iteration.change, unknowns);
@@ -133,7 +133,7 @@ fn correct<T: Number>(
 }
 
 /// Adds a part along a mode, and along its conjugate, to the stages.
-fn spread<T: Number>(mode: &Mode<T>, change: &[T], out: &mut [Vec<f64>]) {
+fn spread<T: Number>(mode: &StageMode<T>, change: &[T], out: &mut [Vec<f64>]) {
     for (&right, out) in mode.right.iter().zip(out) {
         out.iter_mut().zip(change).for_each(|(out, &change)| *out += (right * change).total());
     }

@@ -12,10 +12,10 @@ use super::memory::Reader;
 use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, collapsed, refuses};
 use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
-use crate::formulation::{self, Dae, Halt, Linearized};
+use crate::formulation::{self, Dae, Linearized, StepError};
 use crate::math::largest;
 use crate::math::newton::Monitor;
-use crate::system::{Loaded, MechanicalSystem};
+use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::integrator as tolerances;
 use matrices::Matrices;
 use order::{Order, Seen, internal};
@@ -136,19 +136,19 @@ struct Step {
 
 impl RadauIIA {
     /// M, G, K and C at the start of a step.
-    fn linearize(&mut self, problem: &mut Problem, from: From) -> Result<(), Halt> {
+    fn linearize(&mut self, problem: &mut Problem, from: From) -> Result<(), StepError> {
         self.matrices.forget();
         self.row_matrices.forget();
         self.is_linearized = false;
         let ((q, v), (_, vdot)) = (problem.split(from.y), problem.split(from.slope));
-        let at = Loaded { t: from.t, q, v, vdot, lambda: &self.lambda };
+        let at = OperatingPoint { t: from.t, q, v, vdot, lambda: &self.lambda };
         self.at.update(at, &mut problem.dynamics)?;
         (self.is_linearized, self.is_fresh) = (true, true);
         Ok(())
     }
 
     /// Makes the matrices again that a saved run had.
-    fn renew(&mut self, problem: &mut Problem) -> Result<(), Halt> {
+    fn renew(&mut self, problem: &mut Problem) -> Result<(), StepError> {
         let Some((h, index, point)) = self.recalled.take() else { return Ok(()) };
         let counted = problem.dynamics.statistics;
         self.at.recall(&point, &mut problem.dynamics)?;
@@ -160,7 +160,7 @@ impl RadauIIA {
         Ok(())
     }
 
-    fn factor(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<(), Halt> {
+    fn factor(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<(), StepError> {
         let method = (self.order.method(), self.order.current());
         let factored = self.matrices.weigh(method, h, &mut self.at, &mut problem.dynamics);
         let factored = factored.and_then(|()| self.matrices.factor(method, h, &self.at, &mut problem.dynamics));
@@ -181,7 +181,7 @@ impl RadauIIA {
     }
 
     /// Solves the equations of all stages for a step `h`, with the matrices that are there or new ones.
-    fn solve(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<bool, Halt> {
+    fn solve(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<bool, StepError> {
         self.factor(problem, from, h)?;
         self.predict(problem, from, h);
         let RadauIIA { dae, order, at, matrices, stages, newton, is_fixed, tolerance, .. } = self;
@@ -197,7 +197,7 @@ impl RadauIIA {
         from: From,
         h: f64,
         to: &[f64],
-    ) -> Result<f64, Halt> {
+    ) -> Result<f64, StepError> {
         let method = self.order.method();
         let (x, v) = (&mut self.error_x, &mut self.error_v);
         let ((q0, v0), (_, vdot0)) = (problem.split(from.y), problem.split(from.slope));
@@ -240,7 +240,7 @@ impl Integrator for RadauIIA {
         from: From,
         h: f64,
         to: &mut [f64],
-    ) -> Result<Option<f64>, Halt> {
+    ) -> Result<Option<f64>, StepError> {
         let method = self.order.current();
         self.tried = Some(Step { h, method });
         self.tolerance = match self.is_fixed {
@@ -255,8 +255,8 @@ impl Integrator for RadauIIA {
             self.linearize(problem, from)?;
         }
         let mut solved = self.solve(problem, from, h);
-        let is_solved = |solved: &std::result::Result<bool, Halt>| {
-            solved.as_ref().map_or_else(Halt::is_final, |converged| *converged)
+        let is_solved = |solved: &std::result::Result<bool, StepError>| {
+            solved.as_ref().map_or_else(StepError::is_fatal, |converged| *converged)
         };
         if !self.is_fresh && !is_solved(&solved) {
             self.newton.reset();
@@ -264,7 +264,7 @@ impl Integrator for RadauIIA {
             solved = self.solve(problem, from, h);
         }
         if !solved? {
-            return Err(Halt::NotConverged);
+            return Err(StepError::NotConverged);
         }
         let s = self.order.method().stages();
         self.order.limit(&self.newton, most(s, self.is_fixed));
@@ -335,7 +335,7 @@ impl Integrator for RadauIIA {
         (self.dae.velocity_index() == 2).then_some(&self.slope)
     }
 
-    fn prepare(&mut self, _: &mut Problem, _: From, _: f64, _: &[f64], _: &[f64]) -> Result<(), Halt> {
+    fn prepare(&mut self, _: &mut Problem, _: From, _: f64, _: &[f64], _: &[f64]) -> Result<(), StepError> {
         Ok(())
     }
 
@@ -347,7 +347,7 @@ impl Integrator for RadauIIA {
         h: f64,
         theta: f64,
         out: &mut [f64],
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         let RadauIIA { dae, order, at, row_matrices, stages, row, tolerance, is_fixed, .. } = self;
         let (method, h) = (order.method(), theta * h);
         row_matrices.factor((method, order.current()), h, at, &mut problem.dynamics)?;

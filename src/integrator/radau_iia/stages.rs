@@ -1,7 +1,7 @@
 //! The stages of a step and what their equations leave.
 
 use super::collocation::Collocation;
-use crate::formulation::{self, Dae, Dynamics, Halt, Residual};
+use crate::formulation::{self, Dae, Dynamics, Residual, StepError};
 use crate::integrator::{From, Problem, Tolerance};
 use crate::math::largest;
 use crate::system::Dimensions;
@@ -182,7 +182,7 @@ impl Stages {
         (t, h): (f64, f64),
         stiffness: &[f64],
         dynamics: &mut Dynamics,
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         for (i, residual) in self.residuals.iter_mut().enumerate().take(method.stages()) {
             let (q, v) = self.y[i].split_at(self.n.q);
             let Unknowns { a, lambda, w, eta, u, mu } = &self.unknowns;

@@ -3,7 +3,7 @@
 use super::collocation::Collocation;
 use super::matrices::Matrices;
 use super::stages::Stages;
-use crate::formulation::{Dae, Halt, Linearized};
+use crate::formulation::{Dae, Linearized, StepError};
 use crate::integrator::{From, Problem, Tolerance};
 use crate::math::newton::{Limits, Monitor};
 use crate::tolerances::integrator as tolerances;
@@ -32,7 +32,7 @@ impl System<'_> {
         tolerance: &Tolerance,
         from: From,
         h: f64,
-    ) -> Result<bool, Halt> {
+    ) -> Result<bool, StepError> {
         let System { dae, method, at, matrices, stages, is_fixed } = self;
         stages.reset(from);
         stages.advance(problem, method, from, h);
@@ -52,7 +52,7 @@ impl System<'_> {
             let Stages { residuals, unknowns, .. } = &mut **stages;
             matrices.correct(method, residuals, at, unknowns, &mut problem.dynamics)?;
             stages.advance(problem, method, from, h);
-            Ok::<_, Halt>(stages.change(tolerance, from, method.stages()))
+            Ok::<_, StepError>(stages.change(tolerance, from, method.stages()))
         })?;
         problem.dynamics.statistics.stagnated += u64::from(converged && newton.has_stagnated);
         stages.work(method, from, h);

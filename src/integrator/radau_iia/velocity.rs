@@ -1,6 +1,6 @@
 //! The velocity of a state that was found from phi = 0 alone.
 
-use crate::formulation::Halt;
+use crate::formulation::StepError;
 use crate::integrator::Problem;
 use crate::system::Need;
 
@@ -13,7 +13,7 @@ use crate::system::Need;
 ///
 /// A step of index 3 finds v from phi = 0 by a division by h: that part of v has order s only, and the state would go on
 /// from it. Source: Hairer, Wanner, Solving Ordinary Differential Equations II, VII.2, projection of the velocities.
-pub fn project(problem: &mut Problem, t: f64, y: &mut [f64]) -> Result<(), Halt> {
+pub fn project(problem: &mut Problem, t: f64, y: &mut [f64]) -> Result<(), StepError> {
     let (q, v) = problem.split_mut(y);
     let dynamics = &mut problem.dynamics;
     dynamics.system.normalize(q);
@@ -27,7 +27,7 @@ pub fn project(problem: &mut Problem, t: f64, y: &mut [f64]) -> Result<(), Halt>
 }
 
 /// y' of a state whose matrix is factored.
-pub fn slope(problem: &mut Problem, t: f64, y: &[f64], slope: &mut [f64]) -> Result<(), Halt> {
+pub fn slope(problem: &mut Problem, t: f64, y: &[f64], slope: &mut [f64]) -> Result<(), StepError> {
     let (q, v) = problem.split(y);
     let dynamics = &mut problem.dynamics;
     dynamics.solve_at_velocity(t, q, v)?;

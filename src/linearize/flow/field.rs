@@ -2,12 +2,12 @@
 
 use super::bundle::{Bundle, Pulse, Shape};
 use crate::error::Result;
-use crate::formulation::{Dynamics, Formulation, Halt};
+use crate::formulation::{Dynamics, Formulation, StepError};
 use crate::linearize::{Changes, Matrix, Variation};
 use crate::system::MechanicalSystem;
 
 /// The equations of index 1 for the motion and its members, the variational equations for the columns.
-pub struct Field<'a> {
+pub struct VariationalField<'a> {
     shape: Shape,
     variation: Variation<'a>,
     /// Of the members.
@@ -19,7 +19,7 @@ pub struct Field<'a> {
     force: Matrix,
 }
 
-impl<'a> Field<'a> {
+impl<'a> VariationalField<'a> {
     /// Leaves out the rows `dependent`, which depend on others everywhere.
     pub fn new(system: &'a dyn MechanicalSystem, shape: &Shape, bundle: &Bundle, dependent: &[usize]) -> Result<Self> {
         let start = &bundle.start;
@@ -27,7 +27,7 @@ impl<'a> Field<'a> {
         let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
         let mut plain = Dynamics::new(system);
         [&mut plain, &mut variation.dynamics].into_iter().for_each(|dynamics| dynamics.drop_rows(dependent));
-        Ok(Field {
+        Ok(VariationalField {
             shape: *shape,
             variation,
             plain,
@@ -51,7 +51,13 @@ impl<'a> Field<'a> {
         Some(self.force.column(pulse.input).iter().map(|f| u * f).collect())
     }
 
-    fn motion(&mut self, t: f64, (q, v): (&[f64], &[f64]), qdot: &mut [f64], vdot: &mut [f64]) -> Result<(), Halt> {
+    fn motion(
+        &mut self,
+        t: f64,
+        (q, v): (&[f64], &[f64]),
+        qdot: &mut [f64],
+        vdot: &mut [f64],
+    ) -> Result<(), StepError> {
         if self.shape.columns > 0 {
             self.variation.move_to(t, q, v)?;
         } else {
@@ -69,7 +75,7 @@ impl<'a> Field<'a> {
         (dq, dv): (&[f64], &[f64]),
         dq_dot: &mut [f64],
         dv_dot: &mut [f64],
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         self.changes.q.copy_from_slice(dq);
         self.changes.v.copy_from_slice(dv);
         let turned = self.variation.bracket_with(&self.changes.q);
@@ -92,7 +98,7 @@ impl<'a> Field<'a> {
         (q, v, amplitude): (&[f64], &[f64], f64),
         qdot: &mut [f64],
         vdot: &mut [f64],
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         let push = if amplitude == 0.0 { None } else { self.push(t, q, v) };
         let plain = &mut self.plain;
         plain.system.rate(q, v, qdot);
@@ -107,8 +113,8 @@ impl<'a> Field<'a> {
     }
 }
 
-impl Formulation for Field<'_> {
-    fn begin_step(&mut self, _: f64, _: &[f64], _: &[f64], carrier: &mut Dynamics) -> Result<(), Halt> {
+impl Formulation for VariationalField<'_> {
+    fn begin_step(&mut self, _: f64, _: &[f64], _: &[f64], carrier: &mut Dynamics) -> Result<(), StepError> {
         self.plain.kkt.rank_reference = carrier.kkt.rank_reference;
         self.variation.dynamics.kkt.rank_reference = carrier.kkt.rank_reference;
         Ok(())
@@ -122,7 +128,7 @@ impl Formulation for Field<'_> {
         carrier: &mut Dynamics,
         qdot: &mut [f64],
         vdot: &mut [f64],
-    ) -> Result<(), Halt> {
+    ) -> Result<(), StepError> {
         let Shape { q: nq, v: nv, columns, members } = self.shape;
         let ([q0, dq, qs], [v0, dv, vs]) = (self.shape.parts(q), self.shape.rates(v));
         let (qdot0, qdot) = qdot.split_at_mut(nq);

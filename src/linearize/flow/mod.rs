@@ -14,7 +14,7 @@ use crate::simulate::{Observation, Parts, Segments, Sink, Stop};
 use crate::system::MechanicalSystem;
 use crate::tolerances::linearize as tolerances;
 use bundle::Shape;
-use field::Field;
+use field::VariationalField;
 use projection::Straightening;
 
 const SHORTER: &str = "choose a shorter time";
@@ -39,7 +39,7 @@ pub fn flow(
     // Rows that depend on others everywhere need not be found again at each state.
     let (dependent, _) = Dynamics::new(system).dependent_rows(start.t, &start.q, &start.v);
     let problem = || -> Result<Problem> {
-        let field = Field::new(system, &shape, bundle, &dependent)?;
+        let field = VariationalField::new(system, &shape, bundle, &dependent)?;
         Ok(Problem::new(Dynamics::new(&carrier), Box::new(field)))
     };
     let projection = || -> Result<Option<Box<dyn Projection>>> {

@@ -2,7 +2,7 @@
 
 use super::bundle::Shape;
 use crate::error::Result;
-use crate::formulation::{Choice, Dynamics, Halt};
+use crate::formulation::{Choice, Dynamics, StepError};
 use crate::projection::{self, Projection};
 use crate::system::{MechanicalSystem, Need};
 
@@ -23,7 +23,7 @@ impl<'a> Straightening<'a> {
         Ok(Straightening { shape: *shape, dynamics, manifold, correction: vec![0.0; n.v], rows: vec![0.0; n.lambda] })
     }
 
-    fn close(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Halt> {
+    fn close(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), StepError> {
         self.dynamics.system.normalize(q);
         match &mut self.manifold {
             Some(manifold) => manifold.project(t, q, v, &mut self.dynamics),
@@ -32,7 +32,13 @@ impl<'a> Straightening<'a> {
     }
 
     /// Takes from each column what leaves the constraints at the state (q, v): G dq = 0, G dv + Gd dq = 0.
-    fn straighten(&mut self, t: f64, (q, v): (&[f64], &[f64]), dq: &mut [f64], dv: &mut [f64]) -> Result<(), Halt> {
+    fn straighten(
+        &mut self,
+        t: f64,
+        (q, v): (&[f64], &[f64]),
+        dq: &mut [f64],
+        dv: &mut [f64],
+    ) -> Result<(), StepError> {
         let Straightening { shape, dynamics, correction, rows, .. } = self;
         dynamics.evaluate(t, q, v, Need::MASS | Need::CONSTRAINTS | Need::G | Need::L);
         dynamics.factor_truncated()?;
@@ -53,7 +59,7 @@ impl<'a> Straightening<'a> {
 }
 
 impl Projection for Straightening<'_> {
-    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], carrier: &mut Dynamics) -> Result<(), Halt> {
+    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], carrier: &mut Dynamics) -> Result<(), StepError> {
         self.dynamics.kkt.rank_reference = carrier.kkt.rank_reference;
         let Shape { q: nq, v: nv, columns, members } = self.shape;
         let (q0, q) = q.split_at_mut(nq);

@@ -84,7 +84,7 @@ impl Quadratic {
 fn turn(variation: &Variation) -> Sparse {
     let (n, system, v) = (variation.len(), variation.system(), &variation.point.v);
     let mut turn = Sparse { pattern: Pattern { rows: n, cols: n, entries: Vec::new() }, values: Vec::new() };
-    // Along no axis, so that every turn shows.
+    // LociVariable no axis, so that every turn shows.
     let (any, mut out): (Vec<f64>, _) = ((0..n).map(|i| (i as f64 + 1.0).sqrt()).collect(), vec![0.0; n]);
     system.bracket(v, &any, &mut out);
     if out.iter().all(|x| *x == 0.0) {

@@ -7,7 +7,7 @@ use crate::formulation::{self, mean_compliance};
 use crate::linearize::entry::Entry;
 use crate::linearize::variation::at_state;
 use crate::linearize::{Changes, Matrix, Response, Variation};
-use crate::system::Loaded;
+use crate::system::OperatingPoint;
 
 const KIND: OptionDoc = OptionDoc {
     name: "kind",
@@ -101,7 +101,13 @@ impl Penalty {
         for _ in 0..self.iterations {
             let vdot = solve(&(&f - g.transpose() * &lambda + g.transpose() * &wanted * self.weight))?;
             lambda += (&g * &vdot - &wanted) * self.weight;
-            let at = Loaded { t: point.t, q: &point.q, v: &point.v, vdot: vdot.as_slice(), lambda: lambda.as_slice() };
+            let at = OperatingPoint {
+                t: point.t,
+                q: &point.q,
+                v: &point.v,
+                vdot: vdot.as_slice(),
+                lambda: lambda.as_slice(),
+            };
             variation.load(at).map_err(|halt| at_state(point.t, &halt))?;
             let rows = variation.rows(changes, self.held);
             let push = variation.force(changes) - g.transpose() * (&response.lambda - &rows * self.weight);

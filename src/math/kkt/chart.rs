@@ -2,7 +2,7 @@
 
 use super::Pattern;
 use super::null_space::scaled_rows;
-use super::reflect::Reflected;
+use super::pivoted::PivotedQr;
 use super::system::{add_scaled, dot};
 use crate::tolerances::math as tolerances;
 
@@ -16,14 +16,14 @@ pub struct Chart {
     scale: Vec<f64>,
     /// Sizes of the rows of G S at the base.
     norms: Vec<f64>,
-    base: Reflected,
+    base: PivotedQr,
     /// Rows that were independent at the base. Others have no say elsewhere either: a choice that changed from place to
     /// place would take what contradicts now from one row, now from another.
     has_say: Vec<bool>,
     /// Y by rows.
     normal: Vec<f64>,
     /// (G Y)^T
-    place: Reflected,
+    place: PivotedQr,
     x: Vec<f64>,
     c: Vec<f64>,
 }
@@ -38,10 +38,10 @@ impl Chart {
             g: g.clone(),
             scale: vec![1.0; n],
             norms: vec![1.0; m],
-            base: Reflected::new(n, m),
+            base: PivotedQr::new(n, m),
             has_say: vec![false; m],
             normal: vec![0.0; n * most],
-            place: Reflected::new(most, m),
+            place: PivotedQr::new(most, m),
             x: vec![0.0; n],
             c: vec![0.0; m],
         }

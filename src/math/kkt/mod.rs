@@ -21,29 +21,29 @@
 //! sparse factorization more, however many they are.
 
 mod alike;
-mod blocked;
 mod chart;
-mod compiled;
 mod condition;
 mod dependence;
-mod fast;
 mod kept;
+mod ldlt;
 mod least;
 mod nearly;
 mod null_space;
 mod order;
 mod pattern;
 mod pivot;
+mod pivoted;
 mod pseudo_inverse;
 mod reduced;
-mod reflect;
+mod redundant_rows;
 mod saddle;
-mod skipping;
+mod simplicial;
+mod supernodal;
 mod symbolic;
 mod system;
 #[cfg(test)]
 mod tests;
-mod two_places;
+mod two_jacobian;
 mod unsymmetric;
 
 pub use chart::Chart;
@@ -53,7 +53,7 @@ pub use pattern::Pattern;
 pub use pseudo_inverse::PseudoInverse;
 pub use reduced::Reduced;
 pub use saddle::SaddlePoint;
-pub use two_places::TwoPlaces;
+pub use two_jacobian::TwoJacobianGmres;
 pub use unsymmetric::{Field, Unsymmetric};
 
 /// A way to solve the system: factor once, then solve any number of times.

@@ -12,13 +12,13 @@
 //! the multipliers for coordinates and, for delta D, a coordinate more in each row, and is factored in the same way.
 
 use super::Pattern;
-use super::fast::Fast;
+use super::ldlt::Ldlt;
 use super::pivot::Rule;
 use super::system::System;
 use crate::tolerances::math as tolerances;
 
 pub(super) struct Nearly {
-    factor: Fast,
+    factor: Ldlt,
     /// 1 for the multipliers, 1 / (delta D) for the coordinates beside them.
     mass: Vec<f64>,
     /// G^T, then the identity.
@@ -39,7 +39,7 @@ impl Nearly {
         g[..system.g_values.len()].fill(0.0);
         let (mass, transposed) = (Pattern::diagonal(m + n), Pattern { rows: *n, cols: m + n, entries });
         Nearly {
-            factor: Fast::new(&mass, &transposed, &vec![false; m + n]),
+            factor: Ldlt::new(&mass, &transposed, &vec![false; m + n]),
             mass: vec![1.0; m + n],
             g,
             skipped: Vec::with_capacity(*n),

@@ -1,6 +1,6 @@
 //! The rank-revealing solve, dense: coordinates split by a pivoted QR of G^T into range and null space.
 
-use super::reflect::{Reflected, Squared};
+use super::pivoted::{PivotedCholesky, PivotedQr};
 use super::system::{System, add, add_scaled, dot, index_of_largest};
 use super::{Pattern, Singular};
 use crate::tolerances::math as tolerances;
@@ -16,8 +16,8 @@ use crate::tolerances::math as tolerances;
 /// squares) and lambda after (least norm), both in the units of the given rows.
 /// Costs 3 n m^2 + 4 n^2 (n - r) to factor, about 8 n m to solve.
 pub(super) struct NullSpace {
-    qr: Reflected,
-    reduced: Squared,
+    qr: PivotedQr,
+    reduced: PivotedCholesky,
     scale: Vec<f64>,
     norms: Vec<f64>,
     /// N by columns, m x (m - r). Grows when the rank falls below any before.
@@ -35,8 +35,8 @@ impl NullSpace {
     pub fn new(mass: &Pattern, g: &Pattern) -> Self {
         let (n, m) = (mass.rows, g.rows);
         NullSpace {
-            qr: Reflected::new(n, m),
-            reduced: Squared::new(n),
+            qr: PivotedQr::new(n, m),
+            reduced: PivotedCholesky::new(n),
             scale: vec![1.0; n],
             norms: vec![1.0; m],
             null: Vec::new(),
@@ -74,7 +74,7 @@ impl NullSpace {
         self.finish(system)
     }
 
-    /// See [`Reflected::factor_truncated`].
+    /// See [`PivotedQr::factor_truncated`].
     pub fn factor_truncated(&mut self, system: &System, tolerance: f64, reference: f64) -> Result<(), Singular> {
         self.scale_rows(system);
         self.qr.factor_truncated(tolerance, reference);

@@ -1,6 +1,6 @@
 //! The saddle-point system by a pseudo-inverse, dense.
 
-use super::reflect::Squared;
+use super::pivoted::PivotedCholesky;
 use super::system::{add_scaled, dot, index_of_largest};
 use super::{Pattern, Singular, Solver};
 use crate::tolerances::math as tolerances;
@@ -23,7 +23,7 @@ pub struct PseudoInverse {
     pub tolerance: f64,
     mass: Pattern,
     g: Pattern,
-    root: Squared,
+    root: PivotedCholesky,
     scale: Vec<f64>,
     /// A by rows, then U and W by columns.
     a: Vec<f64>,
@@ -50,7 +50,7 @@ impl PseudoInverse {
             tolerance,
             mass: mass.clone(),
             g: g.clone(),
-            root: Squared::new(n),
+            root: PivotedCholesky::new(n),
             scale: vec![1.0; n],
             a: vec![0.0; n * m],
             u: vec![0.0; n * size],

@@ -1,7 +1,7 @@
 //! The matrix itself, for residuals.
 
 use super::Pattern;
-use super::fast::Fast;
+use super::ldlt::Ldlt;
 use crate::math::largest;
 
 /// A copy of the patterns and of the values of the last factorization.
@@ -39,7 +39,7 @@ impl System {
 /// Solves [M G^T; G 0] [a; lambda] = [top; bottom] with a factor that may be of a matrix nearby, in so many `sweeps` at most,
 /// until a correction is round-off. `residual` is scratch.
 pub(super) fn iterate(
-    factor: &mut Fast,
+    factor: &mut Ldlt,
     system: &System,
     (top, bottom): (&[f64], &[f64]),
     (a, lambda): (&mut [f64], &mut [f64]),

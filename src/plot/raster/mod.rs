@@ -1,7 +1,7 @@
 //! Pictures as pixels: drawn by plotters several times as large, then averaged down, since its lines have jagged edges.
 
+mod canvas;
 mod gif;
-mod pen;
 
 pub(super) use gif::gif;
 
@@ -47,7 +47,7 @@ impl Sheet {
     /// Draws upon a large picture.
     fn draw(&self, mut pixels: Vec<u8>, shapes: &[Shape]) -> Result<Vec<u8>, String> {
         let size = (self.size.0 * self.fineness, self.size.1 * self.fineness);
-        let mut pen = pen::Pen::new(&mut pixels, size, self.scale);
+        let mut pen = canvas::RasterCanvas::new(&mut pixels, size, self.scale);
         shapes.iter().try_for_each(|shape| pen.draw(shape))?;
         drop(pen);
         Ok(pixels)

@@ -1,7 +1,7 @@
 //! `loci.csv`, `loci.json`, and eigenvalues at many states as a person reads them in a terminal.
 
 use crate::error::{Error, Failure, Result, Warning, significant};
-use crate::linearize::{Along, Branch, Complex, Kind, Loci, Reached, damping, frequency};
+use crate::linearize::{Branch, Complex, Kind, Loci, LociVariable, Reached, damping, frequency};
 use crate::plot::AxisSpec;
 use crate::report::{Table, cell, table};
 use crate::tolerances::linearize as tolerances;
@@ -99,8 +99,10 @@ impl LociSummary {
     pub fn new(scene: &str, loci: &Loci) -> Self {
         let ends = [loci.places.first(), loci.places.last()].map(|place| place.copied().unwrap_or(0.0));
         let (name, unit, log, least) = match &loci.along {
-            Along::Time => ("t".to_string(), "s", false, LITTLE / (ends[1] - ends[0])),
-            Along::Parameter(range) => (range.parameter.clone(), "", range.is_log, tolerances::EIGENVALUES_AGREE),
+            LociVariable::Time => ("t".to_string(), "s", false, LITTLE / (ends[1] - ends[0])),
+            LociVariable::Parameter(range) => {
+                (range.parameter.clone(), "", range.is_log, tolerances::EIGENVALUES_AGREE)
+            }
         };
         LociSummary {
             scene: scene.to_string(),
@@ -136,8 +138,8 @@ impl LociFile {
 /// A table that cannot be written.
 pub fn loci_table(loci: &Loci) -> Result<Vec<u8>> {
     let along = match &loci.along {
-        Along::Time => "t".to_string(),
-        Along::Parameter(range) => range.parameter.clone(),
+        LociVariable::Time => "t".to_string(),
+        LociVariable::Parameter(range) => range.parameter.clone(),
     };
     let modes: Vec<(String, &Branch)> = upper(loci).collect();
     let names = modes

@@ -12,7 +12,7 @@ pub use loci::{LociFile, LociSummary, loci_table};
 pub use loci_figures::{frequency_figure, loci_figure};
 pub use response::{FrequencyResponse, Response, ResponseFile, bode_figure};
 pub use text::comparison_text;
-pub use validation::{Deviation, ErrorOrder, ValidationFile, ladder_figure, validation_figure};
+pub use validation::{Deviation, ErrorOrder, ValidationFile, sequence_figure, validation_figure};
 
 use crate::linearize::LinearModel;
 use crate::system::Names;

@@ -2,7 +2,7 @@
 
 use super::Linear;
 use crate::error::{short, significant};
-use crate::linearize::{Comparison, Kind, LinearModel, OperatingPoint, Pair, pairs};
+use crate::linearize::{Comparison, Kind, LinearModel, LinearizationPoint, Pair, pairs};
 use crate::report::Table;
 
 /// Lines of a kind of eigenvalues; the files have all.
@@ -66,7 +66,7 @@ fn joined(numbers: &[f64]) -> String {
 }
 
 /// What the chart means for the eigenvalues.
-fn chart(name: &str, point: &OperatingPoint) -> String {
+fn chart(name: &str, point: &LinearizationPoint) -> String {
     if point.is_equilibrium && point.axes.is_some() {
         return format!(
             "chart {name}, in axes that turn along, in which this is an equilibrium: all charts have the same \

@@ -5,7 +5,7 @@ use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 use crate::report::Table;
 use crate::report::figures::quantity;
 use crate::system::Names;
-use crate::validate::{Decay, InputCheck, Ladder, Validation, Verdict};
+use crate::validate::{Decay, InputCheck, PerturbationSequence, Validation, Verdict};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -32,25 +32,25 @@ pub struct ValidationFile {
     pub inputs: Vec<InputCheck>,
 }
 
-/// What the shares of [`Ladder::horizons`] are called.
+/// What the shares of [`PerturbationSequence::horizons`] are called.
 const SHARES: [&str; 2] = ["1%", "10%"];
 
 impl ValidationFile {
     pub fn new(scene: &str, names: &Names, found: &Validation) -> Self {
-        let first = found.ladders.first();
+        let first = found.sequences.first();
         ValidationFile {
             scene: scene.to_string(),
             t: found.t,
             chart: found.chart.clone(),
             followed: found.followed,
-            epsilons: first.map_or(Vec::new(), |ladder| ladder.epsilons.clone()),
+            epsilons: first.map_or(Vec::new(), |sequence| sequence.epsilons.clone()),
             rate: found.rate,
-            errors_ltv: first.map_or(Vec::new(), |ladder| ladder.errors_ltv.clone()),
-            order_ltv: first.and_then(|ladder| ladder.order_ltv.order),
-            errors_lti: first.map_or(Vec::new(), |ladder| ladder.errors_lti.clone()),
+            errors_ltv: first.map_or(Vec::new(), |sequence| sequence.errors_ltv.clone()),
+            order_ltv: first.and_then(|sequence| sequence.order_ltv.order),
+            errors_lti: first.map_or(Vec::new(), |sequence| sequence.errors_lti.clone()),
             horizons: first.map_or(Map::new(), horizons),
             verdict: found.verdict.clone(),
-            directions: found.ladders.iter().map(|ladder| direction(names, ladder)).collect(),
+            directions: found.sequences.iter().map(|sequence| direction(names, sequence)).collect(),
             frozen: json!({ "steps": found.frozen.steps, "errors": found.frozen.errors, "decay": found.frozen.decay }),
             inputs: found.inputs.clone(),
         }
@@ -75,11 +75,11 @@ impl ValidationFile {
     /// Orders, horizons and the verdict.
     pub fn text(&self, found: &Validation) -> String {
         let mut table = Table::new(&["perturbation", "order in eps", "decades", "1 % after (s)", "10 % after (s)"]);
-        for ladder in &found.ladders {
-            let [one, ten] = ladder
+        for sequence in &found.sequences {
+            let [one, ten] = sequence
                 .horizons
                 .map(|time| time.map_or(format!("> {}", significant(found.followed, 3)), |time| significant(time, 4)));
-            table.row([ladder.direction.clone(), order(&ladder.order_ltv), decades(&ladder.order_ltv), one, ten]);
+            table.row([sequence.direction.clone(), order(&sequence.order_ltv), decades(&sequence.order_ltv), one, ten]);
         }
         for input in &found.inputs {
             let lti = format!("{:.1e} (frozen)", input.error_lti);
@@ -110,34 +110,34 @@ fn decades(decay: &Decay) -> String {
     if decay.order.is_some() { format!("{:.1}", decay.decades) } else { "-".to_string() }
 }
 
-fn horizons(ladder: &Ladder) -> Map<String, Value> {
-    SHARES.iter().zip(ladder.horizons).map(|(share, time)| (share.to_string(), json!(time))).collect()
+fn horizons(sequence: &PerturbationSequence) -> Map<String, Value> {
+    SHARES.iter().zip(sequence.horizons).map(|(share, time)| (share.to_string(), json!(time))).collect()
 }
 
-fn direction(names: &Names, ladder: &Ladder) -> Value {
-    let curves = ladder.curves.iter().map(|curve| {
+fn direction(names: &Names, sequence: &PerturbationSequence) -> Value {
+    let curves = sequence.curves.iter().map(|curve| {
         json!({ "velocity": names.v[curve.direction], "simulated": curve.simulated, "ltv": curve.ltv, "lti": curve.lti })
     });
     json!({
-        "direction": ladder.direction,
-        "epsilons": ladder.epsilons,
-        "errors_ltv": ladder.errors_ltv,
-        "order_ltv": ladder.order_ltv,
-        "errors_lti": ladder.errors_lti,
-        "times": ladder.times,
-        "relative_error_lti": ladder.drift_lti,
-        "horizons": horizons(ladder),
-        "curve_epsilon": ladder.curve_epsilon,
+        "direction": sequence.direction,
+        "epsilons": sequence.epsilons,
+        "errors_ltv": sequence.errors_ltv,
+        "order_ltv": sequence.order_ltv,
+        "errors_lti": sequence.errors_lti,
+        "times": sequence.times,
+        "relative_error_lti": sequence.drift_lti,
+        "horizons": horizons(sequence),
+        "curve_epsilon": sequence.curve_epsilon,
         "curves": curves.collect::<Vec<Value>>(),
     })
 }
 
 /// Errors against eps, and what moves most, of one direction.
-pub fn ladder_figure(title: &str, names: &Names, ladder: &Ladder) -> Option<Figure> {
+pub fn sequence_figure(title: &str, names: &Names, sequence: &PerturbationSequence) -> Option<Figure> {
     let order = ErrorOrder {
-        epsilons: ladder.epsilons.clone(),
-        ltv: ladder.errors_ltv.clone(),
-        lti: ladder.errors_lti.clone(),
+        epsilons: sequence.epsilons.clone(),
+        ltv: sequence.errors_ltv.clone(),
+        lti: sequence.errors_lti.clone(),
         what: "error of the change at the end".to_string(),
     };
     let deviation = |curve: &crate::validate::Curve| {
@@ -159,8 +159,8 @@ pub fn ladder_figure(title: &str, names: &Names, ladder: &Ladder) -> Option<Figu
             lti: curve.lti.clone(),
         }
     };
-    let deviations: Vec<Deviation> = ladder.curves.iter().map(deviation).collect();
-    validation_figure(title, &order, &ladder.times, &deviations)
+    let deviations: Vec<Deviation> = sequence.curves.iter().map(deviation).collect();
+    validation_figure(title, &order, &sequence.times, &deviations)
 }
 
 /// Errors of a prediction over the size of the perturbation, of the model that varies along the motion (LTV) and of the

@@ -1,7 +1,7 @@
 //! Bodies: rounded hulls of the places where others hold them.
 
+use super::canvas::{BOLD, Canvas, Layer, THIN};
 use super::hull::{hull, rounded};
-use super::pen::{BOLD, Layer, Pen, THIN};
 use super::snapshot::{Limb, Pose};
 use super::view::{along, dot, length, less, straight};
 use crate::plot::{Spot, Tint};
@@ -20,12 +20,12 @@ const PAPER: f64 = 0.55;
 const CENTRE: f64 = 4.6;
 
 /// How near a body is to the viewer.
-pub fn depth(pen: &Pen, limb: &Limb) -> f64 {
+pub fn depth(pen: &Canvas, limb: &Limb) -> f64 {
     let sum: f64 = limb.points.iter().map(|point| pen.view.depth(*point)).sum();
     sum / limb.points.len().max(1) as f64
 }
 
-pub fn draw(pen: &mut Pen, limb: &Limb, color: usize) {
+pub fn draw(pen: &mut Canvas, limb: &Limb, color: usize) {
     pen.layer = Layer::Body;
     match limb.points.as_slice() {
         [] => {}
@@ -43,7 +43,7 @@ pub fn draw(pen: &mut Pen, limb: &Limb, color: usize) {
     }
 }
 
-fn outline(pen: &mut Pen, points: &[[f64; 3]], color: usize) {
+fn outline(pen: &mut Canvas, points: &[[f64; 3]], color: usize) {
     let flat: Vec<(f64, f64)> = points.iter().map(|point| pen.view.flat(*point)).collect();
     let around = rounded(&hull(&flat)).into_iter();
     let spots = around.map(|(at, way)| Spot::data(at.0, at.1).moved(RADIUS * way.0, RADIUS * way.1)).collect();
@@ -54,7 +54,7 @@ fn outline(pen: &mut Pen, points: &[[f64; 3]], color: usize) {
 const BEAM: f64 = 3.4;
 
 /// A band along a line.
-fn ribbon(pen: &mut Pen, line: &[[f64; 3]], color: usize) {
+fn ribbon(pen: &mut Canvas, line: &[[f64; 3]], color: usize) {
     let flat: Vec<(f64, f64)> = line.iter().map(|point| pen.view.flat(*point)).collect();
     let normal = |i: usize| {
         let (a, b) = (flat[i.saturating_sub(1)], flat[(i + 1).min(flat.len() - 1)]);
@@ -71,7 +71,7 @@ fn ribbon(pen: &mut Pen, line: &[[f64; 3]], color: usize) {
     fill(pen, left.chain(right).collect(), color);
 }
 
-fn fill(pen: &mut Pen, spots: Vec<Spot>, color: usize) {
+fn fill(pen: &mut Canvas, spots: Vec<Spot>, color: usize) {
     let (edge, inner) = (pen.color(color, 0.0), Tint::Body(color, 0.0));
     if pen.paleness > 0.0 {
         pen.shape(spots, edge, THIN, (inner, FAINT));
@@ -82,14 +82,14 @@ fn fill(pen: &mut Pen, spots: Vec<Spot>, color: usize) {
     pen.shape(spots, edge, BOLD, (inner, OPACITY));
 }
 
-fn point_mass(pen: &mut Pen, r: [f64; 3], color: usize) {
+fn point_mass(pen: &mut Canvas, r: [f64; 3], color: usize) {
     let (edge, inner) = (pen.color(color, 0.0), pen.color(color, 0.35));
     pen.disc(pen.spot(r), MASS, edge);
     pen.disc(pen.spot(r), MASS - BOLD, inner);
 }
 
 /// A square in the plane, a cube in space: a body of which nothing is known but where it is and how it is turned.
-fn block(pen: &mut Pen, pose: &Pose, color: usize) {
+fn block(pen: &mut Canvas, pose: &Pose, color: usize) {
     let sides = pose.axes.map(|axis| axis.map(|x| BLOCK * x));
     let corner = |signs: [f64; 3]| (0..3).fold([0.0; 3], |sum, i| along(sum, sides[i], signs[i]));
     let signs = |k: usize| [0, 1, 2].map(|bit| if k >> bit & 1 == 1 { 1.0 } else { -1.0 });
@@ -110,7 +110,7 @@ fn block(pen: &mut Pen, pose: &Pose, color: usize) {
 }
 
 /// A ring with a spoke around a straight body in space, which would not show how it turns about itself.
-fn spin(pen: &mut Pen, limb: &Limb, color: usize) {
+fn spin(pen: &mut Canvas, limb: &Limb, color: usize) {
     let Some(axis) = straight(&limb.points) else { return };
     let hint = limb.centre.axes.iter().copied().min_by(|a, b| dot(*a, axis).abs().total_cmp(&dot(*b, axis).abs()));
     let plane = [axis, hint.unwrap_or(axis)];
@@ -122,7 +122,7 @@ fn spin(pen: &mut Pen, limb: &Limb, color: usize) {
 }
 
 /// A circle with two dark quarters at the centre of mass, and a stalk to the body's middle where it lies outside.
-pub fn centre(pen: &mut Pen, limb: &Limb, color: usize) {
+pub fn centre(pen: &mut Canvas, limb: &Limb, color: usize) {
     if !limb.oriented || limb.points.len() < 2 || !limb.line.is_empty() {
         return;
     }

@@ -1,8 +1,8 @@
 //! Figures of the mechanism, from what is where.
 
+use super::canvas::Canvas;
 use super::glyphs::Course;
 use super::motion::{Motion, State};
-use super::pen::Pen;
 use super::snapshot::{Link, Snapshot, snapshot, up};
 use super::traces::{Trace, curves};
 use super::view::{View, direction, dot, length, less, unit};
@@ -139,7 +139,7 @@ fn every(times: &[f64], most: usize) -> impl Iterator<Item = f64> + '_ {
 }
 
 pub(super) fn supports(look: &Look, scenes: &[Snapshot]) -> Vec<Item> {
-    let mut pen = Pen::new(&look.view, 0.0);
+    let mut pen = Canvas::new(&look.view, 0.0);
     ground::draw(&mut pen, scenes);
     pen.finish().collect()
 }
@@ -151,7 +151,7 @@ pub(super) fn picture(
     course: &Course,
     paleness: f64,
 ) -> impl Iterator<Item = Item> + use<> {
-    let mut pen = Pen::new(&look.view, paleness);
+    let mut pen = Canvas::new(&look.view, paleness);
     for (color, limb) in scene.limbs.iter().enumerate() {
         pen.depth = bodies::depth(&pen, limb);
         bodies::draw(&mut pen, limb, color);
@@ -191,14 +191,14 @@ const ROOM: f64 = 0.085;
 const TRIAD: f64 = 27.0;
 
 fn triad(view: &View) -> Vec<Item> {
-    let mut pen = Pen::new(view, 0.0);
+    let mut pen = Canvas::new(view, 0.0);
     for (i, name) in ["x", "y", "z"].into_iter().enumerate() {
         let (right, up) = view.flat(unit(i));
         let foot = corner(0.0, 0.0);
         pen.depth = view.depth(unit(i));
         if right.hypot(up) > 1e-6 {
             let ink = pen.ink(0.3);
-            pen.arrow(vec![foot, foot.moved(TRIAD * right, TRIAD * up)], ink, super::pen::THIN);
+            pen.arrow(vec![foot, foot.moved(TRIAD * right, TRIAD * up)], ink, super::canvas::THIN);
             // The letter stands beyond the head, its middle on the arrow's line.
             let far = TRIAD + 12.0 / right.hypot(up).max(0.5);
             pen.text(foot.moved(far * right, far * up - 5.0), name);

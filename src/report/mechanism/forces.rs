@@ -1,7 +1,7 @@
 //! Glyphs of forces.
 
+use super::canvas::{BOLD, Canvas, Layer, THIN};
 use super::joints::turn;
-use super::pen::{BOLD, Layer, Pen, THIN};
 use super::snapshot::{Link, Sight};
 use super::view::{along, cross, direction, dot, less, unit};
 use crate::plot::{Spot, Tint};
@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 const ARROW: f64 = 44.0;
 
 /// A zigzag between its ends.
-pub fn spring_damper(pen: &mut Pen, link: &Link, sight: &Sight) {
+pub fn spring_damper(pen: &mut Canvas, link: &Link, sight: &Sight) {
     zigzag(pen, [link.ends[0].r, link.ends[1].r], sight.length);
 }
 
@@ -19,7 +19,7 @@ const COILS: usize = 16;
 /// Half the width of a spring: so many pixels, and this part of its length at the start.
 const WIDTH: (f64, f64) = (3.0, 0.018);
 
-fn zigzag(pen: &mut Pen, [a, b]: [[f64; 3]; 2], start: f64) {
+fn zigzag(pen: &mut Canvas, [a, b]: [[f64; 3]; 2], start: f64) {
     let (x, y) = pen.view.flat(less(b, a));
     let size = x.hypot(y);
     let (nx, ny) = if size > 1e-12 { (-y / size, x / size) } else { (0.0, 1.0) };
@@ -42,7 +42,7 @@ fn zigzag(pen: &mut Pen, [a, b]: [[f64; 3]; 2], start: f64) {
 }
 
 /// A spiral about the axis of the first marker.
-pub fn torsion_spring(pen: &mut Pen, link: &Link, _: &Sight) {
+pub fn torsion_spring(pen: &mut Canvas, link: &Link, _: &Sight) {
     let first = &link.ends[0];
     let steps = 60;
     let spot = |i: usize| {
@@ -57,7 +57,7 @@ pub fn torsion_spring(pen: &mut Pen, link: &Link, _: &Sight) {
 }
 
 /// A bold line between its ends.
-pub fn beam(pen: &mut Pen, link: &Link, _: &Sight) {
+pub fn beam(pen: &mut Canvas, link: &Link, _: &Sight) {
     let spots = [0, 1].map(|end| pen.view.flat(link.ends[end].r)).map(|(x, y)| Spot::data(x, y)).to_vec();
     let ink = pen.ink(0.25);
     pen.layer = Layer::Rod;
@@ -65,7 +65,7 @@ pub fn beam(pen: &mut Pen, link: &Link, _: &Sight) {
 }
 
 /// A cushion between its ends.
-pub fn bushing(pen: &mut Pen, link: &Link, _: &Sight) {
+pub fn bushing(pen: &mut Canvas, link: &Link, _: &Sight) {
     let [a, b] = [pen.spot(link.ends[0].r), pen.spot(link.ends[1].r)];
     pen.layer = Layer::Rod;
     let (rubber, ink) = (pen.ink(0.7), pen.ink(0.3));
@@ -76,7 +76,7 @@ pub fn bushing(pen: &mut Pen, link: &Link, _: &Sight) {
 }
 
 /// An arrow from the point at which it acts.
-pub fn applied_force(pen: &mut Pen, link: &Link, _: &Sight) {
+pub fn applied_force(pen: &mut Canvas, link: &Link, _: &Sight) {
     let Some(way) = direction(link.force) else { return };
     let at = link.ends[0].r;
     pen.layer = Layer::Arrow;
@@ -86,14 +86,14 @@ pub fn applied_force(pen: &mut Pen, link: &Link, _: &Sight) {
 }
 
 /// An arrow around the point at which it acts.
-pub fn applied_torque(pen: &mut Pen, link: &Link, _: &Sight) {
+pub fn applied_torque(pen: &mut Canvas, link: &Link, _: &Sight) {
     pen.layer = Layer::Arrow;
     let ink = pen.ink(0.0);
     turn(pen, link.ends[0].r, link.torque, 15.0, ink);
 }
 
 /// The tyre as a circle, upon the road.
-pub fn tyre(pen: &mut Pen, link: &Link, sight: &Sight) {
+pub fn tyre(pen: &mut Canvas, link: &Link, sight: &Sight) {
     let Some(wheel) = link.wheel else { return };
     let (hub, up) = (&link.ends[0], unit(if sight.is_planar { 1 } else { 2 }));
     // In space its axle is the marker's y axis, as far as that is level.

@@ -1,6 +1,6 @@
 //! Which sign stands for which kind of joint or force: the only place that knows.
 
-use super::pen::{Layer, Pen};
+use super::canvas::{Canvas, Layer};
 use super::snapshot::{Link, Sight, Snapshot};
 use super::{bodies, forces, joints};
 
@@ -15,12 +15,12 @@ pub struct Course {
 
 struct Glyph {
     kind: &'static str,
-    draw: fn(&mut Pen, &Link, &Sight),
+    draw: fn(&mut Canvas, &Link, &Sight),
     /// Whether earlier pictures of a stroboscope have it too.
     in_all: bool,
 }
 
-const fn glyph(kind: &'static str, draw: fn(&mut Pen, &Link, &Sight), in_all: bool) -> Glyph {
+const fn glyph(kind: &'static str, draw: fn(&mut Canvas, &Link, &Sight), in_all: bool) -> Glyph {
     Glyph { kind, draw, in_all }
 }
 
@@ -53,7 +53,7 @@ const FORCES: &[Glyph] = &[
 const OWN: Glyph = glyph("", joints::equation, false);
 
 /// Draws all joints and forces of a scene.
-pub fn draw(pen: &mut Pen, scene: &Snapshot, course: &Course) {
+pub fn draw(pen: &mut Canvas, scene: &Snapshot, course: &Course) {
     let depths: Vec<f64> = scene.limbs.iter().map(|limb| bodies::depth(pen, limb)).collect();
     let sight = |travel, length| Sight { is_planar: scene.is_planar, travel, length };
     let travel = |i: usize| course.travels.get(i).copied().flatten();
@@ -72,7 +72,7 @@ pub fn draw(pen: &mut Pen, scene: &Snapshot, course: &Course) {
 }
 
 /// Signs at a point lie upon the bodies that they join; long ones between two points are as far as their middle.
-fn depth(pen: &Pen, link: &Link, bodies: &[f64], is_long: bool) -> f64 {
+fn depth(pen: &Canvas, link: &Link, bodies: &[f64], is_long: bool) -> f64 {
     let own = link.ends.iter().map(|end| pen.view.depth(end.r));
     if is_long {
         return own.sum::<f64>() / link.ends.len().max(1) as f64;

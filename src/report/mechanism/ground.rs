@@ -1,6 +1,6 @@
 //! The sign of what does not move.
 
-use super::pen::{Layer, Pen, THIN};
+use super::canvas::{Canvas, Layer, THIN};
 use super::snapshot::{Link, Snapshot};
 use super::view::{along, direction, length, less};
 use crate::plot::Spot;
@@ -14,7 +14,7 @@ const BARE: [&str; 5] = ["prismatic", "cylindrical", "point_on_line", "equation"
 
 /// A hatched support at every marker of the ground that holds something. It stands on the side away from the bodies,
 /// as they are in all of the pictures, so that it hides none of them.
-pub fn draw(pen: &mut Pen, pictures: &[Snapshot]) {
+pub fn draw(pen: &mut Canvas, pictures: &[Snapshot]) {
     let Some(first) = pictures.first() else { return };
     let all = |scene: &Snapshot| scene.joints.iter().chain(&scene.forces).cloned().collect::<Vec<Link>>();
     let mut done: Vec<[f64; 3]> = Vec::new();
@@ -54,7 +54,7 @@ fn mean(pictures: &[Snapshot], at: [f64; 3]) -> Option<[f64; 3]> {
     (count > 0.0).then(|| sum.map(|x| x / count))
 }
 
-fn support(pen: &mut Pen, at: [f64; 3], (x, y): (f64, f64), is_wall: bool) {
+fn support(pen: &mut Canvas, at: [f64; 3], (x, y): (f64, f64), is_wall: bool) {
     let size = x.hypot(y);
     // Away from the bodies: exactly for a wall, upwards or downwards for a bearing.
     let out = match is_wall && size > 1e-9 {

@@ -1,6 +1,6 @@
 //! Glyphs of joints.
 
-use super::pen::{BOLD, Layer, Pen, THIN};
+use super::canvas::{BOLD, Canvas, Layer, THIN};
 use super::snapshot::{Link, Pose, Sight};
 use super::view::{along, cross, direction, dot, length, less};
 use crate::joint::Axis;
@@ -19,7 +19,7 @@ fn axis(link: &Link) -> Option<[f64; 3]> {
 }
 
 /// A circle, in space with its axis.
-pub fn revolute(pen: &mut Pen, link: &Link, _: &Sight) {
+pub fn revolute(pen: &mut Canvas, link: &Link, _: &Sight) {
     let at = link.ends[1].r;
     let ink = pen.ink(0.0);
     if let Some(axis) = axis(link) {
@@ -32,7 +32,7 @@ pub fn revolute(pen: &mut Pen, link: &Link, _: &Sight) {
 }
 
 /// Two rails along the way that the slide takes, hatched where the ground holds them.
-fn slot(pen: &mut Pen, link: &Link, sight: &Sight) {
+fn slot(pen: &mut Canvas, link: &Link, sight: &Sight) {
     let Some(axis) = axis(link) else { return };
     let (foot, point) = (link.ends[0].r, link.ends[1].r);
     let place = dot(axis, less(point, foot));
@@ -59,33 +59,33 @@ fn slot(pen: &mut Pen, link: &Link, sight: &Sight) {
     pen.layer = Layer::Joint;
 }
 
-pub fn prismatic(pen: &mut Pen, link: &Link, sight: &Sight) {
+pub fn prismatic(pen: &mut Canvas, link: &Link, sight: &Sight) {
     slot(pen, link, sight);
 }
 
 /// Rails and a hinge's circle.
-pub fn cylindrical(pen: &mut Pen, link: &Link, sight: &Sight) {
+pub fn cylindrical(pen: &mut Canvas, link: &Link, sight: &Sight) {
     slot(pen, link, sight);
     let (spot, ink) = (pen.spot(link.ends[1].r), pen.ink(0.0));
     pen.ring(spot, HINGE, ink);
 }
 
 /// Rails and a dot.
-pub fn point_on_line(pen: &mut Pen, link: &Link, sight: &Sight) {
+pub fn point_on_line(pen: &mut Canvas, link: &Link, sight: &Sight) {
     slot(pen, link, sight);
     let (spot, ink) = (pen.spot(link.ends[1].r), pen.ink(0.0));
     pen.disc(spot, 3.6, ink);
 }
 
 /// A ball in its socket.
-pub fn spherical(pen: &mut Pen, link: &Link, _: &Sight) {
+pub fn spherical(pen: &mut Canvas, link: &Link, _: &Sight) {
     let (spot, ink) = (pen.spot(link.ends[1].r), pen.ink(0.0));
     pen.ring(spot, 6.0, ink);
     pen.disc(spot, 3.8, ink);
 }
 
 /// A circle with the two pins of the cross.
-pub fn universal(pen: &mut Pen, link: &Link, _: &Sight) {
+pub fn universal(pen: &mut Canvas, link: &Link, _: &Sight) {
     let (at, ink) = (link.ends[1].r, pen.ink(0.0));
     let spot = pen.spot(at);
     pen.ring(spot, 9.5, ink);
@@ -97,7 +97,7 @@ pub fn universal(pen: &mut Pen, link: &Link, _: &Sight) {
 }
 
 /// A patch of the plane.
-pub fn planar(pen: &mut Pen, link: &Link, _: &Sight) {
+pub fn planar(pen: &mut Canvas, link: &Link, _: &Sight) {
     let (at, ink) = (link.ends[1].r, pen.ink(0.3));
     let Some(normal) = axis(link) else { return };
     let [first, second] = super::view::square_to(normal, link.ends[0].axes[0]);
@@ -109,7 +109,7 @@ pub fn planar(pen: &mut Pen, link: &Link, _: &Sight) {
 }
 
 /// A square.
-pub fn weld(pen: &mut Pen, link: &Link, _: &Sight) {
+pub fn weld(pen: &mut Canvas, link: &Link, _: &Sight) {
     let (spot, ink) = (pen.spot(link.ends[1].r), pen.ink(0.0));
     let side = 4.4;
     let corners = [(-side, -side), (side, -side), (side, side), (-side, side)];
@@ -117,7 +117,7 @@ pub fn weld(pen: &mut Pen, link: &Link, _: &Sight) {
 }
 
 /// A thin rod between two balls.
-pub fn distance(pen: &mut Pen, link: &Link, _: &Sight) {
+pub fn distance(pen: &mut Canvas, link: &Link, _: &Sight) {
     let ink = pen.ink(0.2);
     let ends = [pen.spot(link.ends[0].r), pen.spot(link.ends[1].r)];
     pen.layer = Layer::Rod;
@@ -126,7 +126,7 @@ pub fn distance(pen: &mut Pen, link: &Link, _: &Sight) {
 }
 
 /// An arrow along or about what is driven.
-pub fn driver(pen: &mut Pen, link: &Link, _: &Sight) {
+pub fn driver(pen: &mut Canvas, link: &Link, _: &Sight) {
     let (at, ink) = (link.ends[1].r, pen.ink(0.1));
     pen.layer = Layer::Arrow;
     match link.axis {
@@ -148,7 +148,7 @@ pub fn driver(pen: &mut Pen, link: &Link, _: &Sight) {
 }
 
 /// Three quarters of a turn about an axis, with a head.
-pub fn turn(pen: &mut Pen, at: [f64; 3], axis: [f64; 3], radius: f64, ink: Tint) {
+pub fn turn(pen: &mut Canvas, at: [f64; 3], axis: [f64; 3], radius: f64, ink: Tint) {
     let Some(axis) = direction(axis) else { return };
     let hint = cross(axis, [0.3, -0.4, 0.8]);
     let spots = pen.arc(at, [axis, hint], (0.15 * PI, 1.6 * PI), (0.0, radius));
@@ -156,7 +156,7 @@ pub fn turn(pen: &mut Pen, at: [f64; 3], axis: [f64; 3], radius: f64, ink: Tint)
 }
 
 /// The pitch circles of two wheels, each with a spoke that turns with it.
-pub fn gear(pen: &mut Pen, link: &Link, _: &Sight) {
+pub fn gear(pen: &mut Canvas, link: &Link, _: &Sight) {
     // As the numbers of teeth.
     let [turn_a, turn_b, ..] = link.turns[..] else { return };
     let [a, b] = [&link.ends[0], &link.ends[1]];
@@ -176,7 +176,7 @@ pub fn gear(pen: &mut Pen, link: &Link, _: &Sight) {
     }
 }
 
-fn pitch_circle(pen: &mut Pen, wheel: &Pose, radius: f64, body: Option<usize>) {
+fn pitch_circle(pen: &mut Canvas, wheel: &Pose, radius: f64, body: Option<usize>) {
     let tint = body.map_or(pen.ink(0.2), |body| pen.color(body, 0.0));
     let circle = pen.arc(wheel.r, [wheel.axes[2], wheel.axes[0]], (0.0, TAU), (radius, 0.0));
     let spoke = vec![pen.spot(wheel.r), circle[0]];
@@ -186,7 +186,7 @@ fn pitch_circle(pen: &mut Pen, wheel: &Pose, radius: f64, body: Option<usize>) {
 }
 
 /// A small rhomb at the bodies whose coordinates an equation binds.
-pub fn equation(pen: &mut Pen, link: &Link, _: &Sight) {
+pub fn equation(pen: &mut Canvas, link: &Link, _: &Sight) {
     let ink = pen.ink(0.0);
     for (end, _) in link.ends.iter().zip(&link.carriers).filter(|(_, body)| body.is_some()) {
         let spot = pen.spot(end.r);

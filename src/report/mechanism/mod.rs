@@ -1,12 +1,13 @@
 //! The mechanism itself as a figure or an animation.
 //!
 //! ```text
-//! trajectory -> Motion -> State -> Snapshot -> Pen: bodies, glyphs of joints and forces, ground -> plot items
+//! trajectory -> Motion -> State -> Snapshot -> Canvas: bodies, glyphs of joints and forces, ground -> plot items
 //! ```
 //!
 //! To give a new kind of joint or force its sign: a function in `joints` or `forces` and a line in `glyphs`.
 
 mod bodies;
+mod canvas;
 mod figures;
 mod forces;
 mod glyphs;
@@ -15,7 +16,6 @@ mod hull;
 mod joints;
 mod modes;
 mod motion;
-mod pen;
 mod snapshot;
 mod traces;
 mod view;

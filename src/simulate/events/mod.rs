@@ -12,7 +12,7 @@ pub use timetable::Timetable;
 
 use crate::math::expression::Switch;
 use crate::math::{Piece, Rate, piece_of};
-use crate::system::{Loaded, MechanicalSystem, Scratch};
+use crate::system::{MechanicalSystem, OperatingPoint, Scratch};
 use crate::tolerances::simulate as tolerances;
 use range::{Range, first_out};
 
@@ -88,7 +88,7 @@ impl<'a> Events<'a> {
     }
 
     /// Puts every function on the piece of its argument, at the start of a run.
-    pub fn begin(&mut self, at: Loaded) {
+    pub fn begin(&mut self, at: OperatingPoint) {
         self.timetable.place(at.t, &mut self.pieces);
         // An argument may depend on other pieces.
         for _ in 0..tolerances::NESTED_SWITCHES {
@@ -106,7 +106,7 @@ impl<'a> Events<'a> {
     }
 
     /// Takes the state at which the next step starts.
-    pub fn start_at(&mut self, at: Loaded) {
+    pub fn start_at(&mut self, at: OperatingPoint) {
         read(self.system, &mut self.scratch, &self.pieces, at, &mut self.start);
     }
 
@@ -121,8 +121,8 @@ impl<'a> Events<'a> {
     pub fn passage<E>(
         &mut self,
         h: f64,
-        end: Loaded,
-        mut between: impl FnMut(f64, &mut dyn FnMut(Loaded)) -> Result<(), E>,
+        end: OperatingPoint,
+        mut between: impl FnMut(f64, &mut dyn FnMut(OperatingPoint)) -> Result<(), E>,
     ) -> Result<Option<Passage>, E> {
         let Events { system, switches, of_state, pieces, scratch, start, within, at, turned, shortest, .. } = self;
         read(*system, scratch, pieces, end, &mut self.end);
@@ -226,7 +226,7 @@ impl<'a> Events<'a> {
 }
 
 /// Writes the arguments of all switching functions at a state.
-fn read(system: &dyn MechanicalSystem, scratch: &mut Scratch, pieces: &[Piece], at: Loaded, out: &mut [Rate]) {
+fn read(system: &dyn MechanicalSystem, scratch: &mut Scratch, pieces: &[Piece], at: OperatingPoint, out: &mut [Rate]) {
     scratch.pieces.clear();
     scratch.pieces.extend_from_slice(pieces);
     system.switching(at, out, scratch);

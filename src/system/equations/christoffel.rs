@@ -2,13 +2,13 @@
 
 use super::Equations;
 use crate::math::Dual;
-use crate::system::{LeviCivita, Loaded};
+use crate::system::{LeviCivita, OperatingPoint};
 
 /// A number with its rate along the motion, as a function of six coordinates.
 type Rated = Dual<Dual<f64, 1>, 6>;
 
 /// W by its definition out of dM/dq with rates along the motion, six columns a pass.
-pub(super) fn christoffel<E: Equations>(system: &E, at: Loaded, connection: &mut LeviCivita) {
+pub(super) fn christoffel<E: Equations>(system: &E, at: OperatingPoint, connection: &mut LeviCivita) {
     let n = at.q.len();
     let rated = |value: f64, rate: f64| Dual { re: value, eps: [rate] };
     let mut q: Vec<Rated> = at.q.iter().zip(at.v).map(|(&q, &v)| Dual::fixed(rated(q, v))).collect();

@@ -4,12 +4,13 @@ mod christoffel;
 mod passes;
 
 use super::{
-    Column, Dimensions, Energy, LeviCivita, Loaded, MechanicalSystem, Need, OutputTangent, Scratch, Tangent, Terms,
+    Column, Dimensions, Energy, LeviCivita, MechanicalSystem, Need, OperatingPoint, OutputTangent, Scratch, Tangent,
+    Terms,
 };
 use crate::math::{Dual, Regime, Scalar};
 use christoffel::christoffel;
 use nalgebra::DMatrix;
-use passes::{Memory, Varied, curvature, fixed, gradient, levels, output_slopes, tangent_of};
+use passes::{Memory, SeededEquations, curvature, fixed, gradient, levels, output_slopes, tangent_of};
 
 /// A mechanism by its M, f and phi. G, phi', gamma and L follow by dual and Taylor numbers, so nothing is derived by
 /// hand; the cost is about (6 + n)/6 evaluations of phi for G.
@@ -88,23 +89,23 @@ impl<E: Equations> MechanicalSystem for E {
                 gradient(self, t, q, memory, terms);
             }
             if need.includes(Need::L) {
-                let at = Loaded { t, q, v, vdot: &[], lambda: &[] };
+                let at = OperatingPoint { t, q, v, vdot: &[], lambda: &[] };
                 curvature(self, at, memory, |place, slope| terms.l[place] = slope.d);
             }
         };
         scratch.with(|| Memory::new(n, m), fill);
     }
 
-    fn tangent(&self, at: Loaded, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
+    fn tangent(&self, at: OperatingPoint, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
         let (n, m) = self.size();
         scratch.with(
             || Memory::new(n, m),
-            |memory, _| tangent_of(self, at, memory.varied.get_or_insert_with(|| Varied::new(n, m)), tangent),
+            |memory, _| tangent_of(self, at, memory.varied.get_or_insert_with(|| SeededEquations::new(n, m)), tangent),
         );
         true
     }
 
-    fn acceleration_gradient(&self, at: Loaded, values: &mut [f64], scratch: &mut Scratch) -> bool {
+    fn acceleration_gradient(&self, at: OperatingPoint, values: &mut [f64], scratch: &mut Scratch) -> bool {
         let (n, m) = self.size();
         let write =
             |memory: &mut Memory, _: Regime| curvature(self, at, memory, |place, slope| values[place] = slope.dd);
@@ -112,7 +113,7 @@ impl<E: Equations> MechanicalSystem for E {
         true
     }
 
-    fn levi_civita(&self, at: Loaded, connection: &mut LeviCivita, _scratch: &mut Scratch) -> bool {
+    fn levi_civita(&self, at: OperatingPoint, connection: &mut LeviCivita, _scratch: &mut Scratch) -> bool {
         christoffel(self, at, connection);
         true
     }
@@ -132,11 +133,11 @@ impl<E: Equations> MechanicalSystem for E {
         named(self.output_names())
     }
 
-    fn outputs(&self, at: Loaded, out: &mut [f64], _scratch: &mut Scratch) {
+    fn outputs(&self, at: OperatingPoint, out: &mut [f64], _scratch: &mut Scratch) {
         Equations::outputs(self, at.t, at.q, at.v, out);
     }
 
-    fn output_tangent(&self, at: Loaded, tangent: &mut OutputTangent, _scratch: &mut Scratch) -> bool {
+    fn output_tangent(&self, at: OperatingPoint, tangent: &mut OutputTangent, _scratch: &mut Scratch) -> bool {
         tangent.clear();
         let (t, q, v) = (Dual::fixed(at.t), fixed(at.q), fixed(at.v));
         output_slopes(at.q, |q, out| Equations::outputs(self, t, q, &v, out), &mut tangent.q);

@@ -2,41 +2,41 @@
 
 use super::Equations;
 use crate::math::{Dual, Taylor};
-use crate::system::{Loaded, Tangent, Terms};
+use crate::system::{OperatingPoint, Tangent, Terms};
 use nalgebra::DMatrix;
 
-type Slope = Dual<f64, 6>;
-type Along = Dual<Taylor<f64>, 6>;
-type Twice = Dual<Slope, 6>;
+type Dual6 = Dual<f64, 6>;
+type TaylorDual6 = Dual<Taylor<f64>, 6>;
+type Twice = Dual<Dual6, 6>;
 
 pub(super) struct Memory {
     pub mass: Vec<f64>,
     path: Vec<Taylor<f64>>,
     levels: Vec<Taylor<f64>>,
-    seeded: Vec<Slope>,
-    slopes: Vec<Slope>,
-    moving: Vec<Along>,
-    curvatures: Vec<Along>,
+    seeded: Vec<Dual6>,
+    slopes: Vec<Dual6>,
+    moving: Vec<TaylorDual6>,
+    curvatures: Vec<TaylorDual6>,
     /// For K and C, from their first use.
-    pub varied: Option<Varied>,
+    pub varied: Option<SeededEquations>,
 }
 
 /// The equations as functions of six directions.
-pub(super) struct Varied {
-    q: Vec<Slope>,
-    v: Vec<Slope>,
-    f: Vec<Slope>,
-    mass: Vec<Slope>,
-    reaction: Vec<Slope>,
+pub(super) struct SeededEquations {
+    q: Vec<Dual6>,
+    v: Vec<Dual6>,
+    f: Vec<Dual6>,
+    mass: Vec<Dual6>,
+    reaction: Vec<Dual6>,
     nested: Vec<Twice>,
     phi: Vec<Twice>,
 }
 
-impl Varied {
+impl SeededEquations {
     pub fn new(n: usize, m: usize) -> Self {
         let zeros = |n: usize| vec![Dual::fixed(0.0); n];
         let nested = |n: usize| vec![Dual::fixed(Dual::fixed(0.0)); n];
-        Varied {
+        SeededEquations {
             q: zeros(n),
             v: zeros(n),
             f: zeros(n),
@@ -64,12 +64,12 @@ impl Memory {
     }
 }
 
-pub(super) fn fixed(values: &[f64]) -> Vec<Slope> {
+pub(super) fn fixed(values: &[f64]) -> Vec<Dual6> {
     values.iter().map(|&x| Dual::fixed(x)).collect()
 }
 
 /// d(outputs)/dx, six columns a pass.
-pub(super) fn output_slopes(x: &[f64], outputs: impl Fn(&[Slope], &mut [Slope]), matrix: &mut DMatrix<f64>) {
+pub(super) fn output_slopes(x: &[f64], outputs: impl Fn(&[Dual6], &mut [Dual6]), matrix: &mut DMatrix<f64>) {
     let mut values = vec![Dual::fixed(0.0); matrix.nrows()];
     for first in (0..x.len()).step_by(6) {
         let columns = first..x.len().min(first + 6);
@@ -115,7 +115,7 @@ pub(super) fn gradient<E: Equations>(system: &E, t: f64, q: &[f64], memory: &mut
 /// d(phi, phi', phi'')/dq, six columns a pass; with v' = 0 where it is empty.
 pub(super) fn curvature<E: Equations>(
     system: &E,
-    at: Loaded,
+    at: OperatingPoint,
     memory: &mut Memory,
     mut write: impl FnMut(usize, Taylor<f64>),
 ) {
@@ -134,7 +134,12 @@ pub(super) fn curvature<E: Equations>(
 }
 
 /// K by nested dual numbers, C by dual numbers, six columns a pass.
-pub(super) fn tangent_of<E: Equations>(system: &E, at: Loaded, varied: &mut Varied, tangent: &mut Tangent) {
+pub(super) fn tangent_of<E: Equations>(
+    system: &E,
+    at: OperatingPoint,
+    varied: &mut SeededEquations,
+    tangent: &mut Tangent,
+) {
     let n = at.q.len();
     let t = Dual::fixed(at.t);
     for first in (0..n).step_by(6) {
@@ -159,14 +164,14 @@ pub(super) fn tangent_of<E: Equations>(system: &E, at: Loaded, varied: &mut Vari
     }
 }
 
-fn lift(from: &[f64], to: &mut [Slope]) {
+fn lift(from: &[f64], to: &mut [Dual6]) {
     to.iter_mut().zip(from).for_each(|(to, &x)| *to = Dual::fixed(x));
 }
 
 /// G^T lambda over dual numbers: the gradient of lambda . phi.
-fn reaction<E: Equations>(system: &E, at: Loaded, varied: &mut Varied) {
+fn reaction<E: Equations>(system: &E, at: OperatingPoint, varied: &mut SeededEquations) {
     let n = at.q.len();
-    let Varied { q, reaction, nested, phi, .. } = varied;
+    let SeededEquations { q, reaction, nested, phi, .. } = varied;
     reaction.fill(Dual::fixed(0.0));
     for first in (0..n).step_by(6) {
         let columns = first..n.min(first + 6);

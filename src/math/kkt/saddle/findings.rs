@@ -17,7 +17,7 @@ impl SaddlePoint {
     pub fn left_out(&self) -> &[usize] {
         match (self.way, &self.kept, &self.skipping, &self.dense) {
             (Way::Kept, Some(kept), ..) => kept.left_out(),
-            (Way::Skipping, _, Some(skipping), _) => skipping.left_out(),
+            (Way::RedundantRowSolve, _, Some(skipping), _) => skipping.left_out(),
             (Way::Dense, .., Some(dense)) => dense.left_out(),
             _ => &[],
         }
@@ -38,13 +38,13 @@ impl SaddlePoint {
 
     /// Whether the last factorization needed no rank-revealing one.
     pub fn is_fast(&self) -> bool {
-        matches!(self.way, Way::Fast { .. })
+        matches!(self.way, Way::Ldlt { .. })
     }
 
     /// Whether the last factors are those of a factorization that is truncated below this part, too.
     pub fn is_regular(&self, part: f64) -> bool {
         match (self.way, &self.kept) {
-            (Way::Fast { refine }, _) => !refine || self.rank_indicator() >= part * self.rank_reference,
+            (Way::Ldlt { refine }, _) => !refine || self.rank_indicator() >= part * self.rank_reference,
             (Way::Kept, Some(kept)) => kept.inner.is_regular(part),
             _ => false,
         }
@@ -59,7 +59,7 @@ impl SaddlePoint {
     pub fn inconsistency(&self) -> f64 {
         match (self.way, &self.kept, &self.skipping, &self.dense) {
             (Way::Kept, Some(kept), ..) => kept.inconsistency(),
-            (Way::Skipping, _, Some(skipping), _) => skipping.inconsistency(),
+            (Way::RedundantRowSolve, _, Some(skipping), _) => skipping.inconsistency(),
             (Way::Dense, .., Some(dense)) => dense.inconsistency(),
             _ => 0.0,
         }
@@ -70,9 +70,9 @@ impl SaddlePoint {
     /// In [0, 1], zero where other rows are dependent, and without a factorization.
     pub fn rank_indicator(&self) -> f64 {
         let ratio: f64 = match (self.way, &self.fast, &self.kept, &self.skipping, &self.dense) {
-            (Way::Fast { .. }, Some(orders), ..) => orders.smallest_ratio(),
+            (Way::Ldlt { .. }, Some(orders), ..) => orders.smallest_ratio(),
             (Way::Kept, _, Some(kept), ..) if self.drops_rows => return kept.inner.rank_indicator(),
-            (Way::Skipping, .., Some(skipping), _) => skipping.smallest_ratio(),
+            (Way::RedundantRowSolve, .., Some(skipping), _) => skipping.smallest_ratio(),
             (Way::Dense, .., Some(dense)) if dense.left_out().is_empty() => dense.smallest_ratio(),
             _ => 0.0,
         };

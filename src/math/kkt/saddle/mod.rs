@@ -4,10 +4,10 @@ mod findings;
 mod orders;
 
 use super::alike::Alike;
-use super::fast::Fast;
 use super::kept::Kept;
+use super::ldlt::Ldlt;
 use super::null_space::NullSpace;
-use super::skipping::Skipping;
+use super::redundant_rows::RedundantRowSolve;
 use super::system::{System, add};
 use super::{Pattern, Singular};
 use crate::tolerances::math as tolerances;
@@ -16,9 +16,9 @@ use orders::Orders;
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Way {
     None,
-    Fast { refine: bool },
+    Ldlt { refine: bool },
     Kept,
-    Skipping,
+    RedundantRowSolve,
     Dense,
 }
 
@@ -36,7 +36,7 @@ pub struct SaddlePoint {
     /// None where rows always depend on others.
     fast: Option<Orders>,
     kept: Option<Box<Kept>>,
-    skipping: Option<Box<Skipping>>,
+    skipping: Option<Box<RedundantRowSolve>>,
     dense: Option<Box<NullSpace>>,
     way: Way,
     /// Reference value of the rank indicator, [`Self::rank_indicator`] where nothing is singular, against which a
@@ -121,13 +121,13 @@ impl SaddlePoint {
             return if is_fast { Ok(()) } else { self.finish_rank_revealing() };
         }
         let System { mass, g, .. } = &self.system;
-        let skipping = self.skipping.get_or_insert_with(|| Box::new(Skipping::new(mass, g)));
+        let skipping = self.skipping.get_or_insert_with(|| Box::new(RedundantRowSolve::new(mass, g)));
         let quality = skipping.factor(&self.system, least * least)?;
         // Coordinates with little mass of their own would look as rows that are nearly dependent do.
         if quality.replaced {
             return if is_fast { Ok(()) } else { self.finish_rank_revealing() };
         }
-        (self.way, self.is_truncated) = (Way::Skipping, quality.doubtful);
+        (self.way, self.is_truncated) = (Way::RedundantRowSolve, quality.doubtful);
         Ok(())
     }
 
@@ -170,20 +170,20 @@ impl SaddlePoint {
         if quality.weak {
             self.system.store(mass, g);
         }
-        self.way = Way::Fast { refine: quality.weak };
+        self.way = Way::Ldlt { refine: quality.weak };
         true
     }
 
     fn factor_rank_revealing(&mut self) -> Result<Way, Singular> {
         let System { mass, g, .. } = &self.system;
         let total = self.n + self.m;
-        let skipping = self.skipping.get_or_insert_with(|| Box::new(Skipping::new(mass, g)));
+        let skipping = self.skipping.get_or_insert_with(|| Box::new(RedundantRowSolve::new(mass, g)));
         let mut quality = skipping.factor(&self.system, tolerances::COLLAPSED)?;
         if total > tolerances::DENSE_EQUATIONS && quality.doubtful && !quality.replaced {
             // Round-off in pivots of dependent rows grows with the condition of the others. Null vectors tell them.
             skipping.factor(&self.system, tolerances::DOUBTED)?;
             if skipping.rank_indicator(&self.system) < self.rank_tolerance {
-                return Ok(Way::Skipping);
+                return Ok(Way::RedundantRowSolve);
             }
             quality = skipping.factor(&self.system, tolerances::COLLAPSED)?;
         }
@@ -201,7 +201,7 @@ impl SaddlePoint {
             true
         };
         if is_accepted {
-            return Ok(Way::Skipping);
+            return Ok(Way::RedundantRowSolve);
         }
         let dense = self.dense.get_or_insert_with(|| Box::new(NullSpace::new(mass, g)));
         dense.factor(&self.system, self.rank_tolerance)?;
@@ -231,14 +231,14 @@ impl SaddlePoint {
             &mut self.skipping,
             &mut self.dense,
         ) {
-            (Way::Fast { refine: false }, Some(fast), ..) => fast.solve(top, bottom),
-            (Way::Fast { refine: true }, Some(fast), ..) => {
+            (Way::Ldlt { refine: false }, Some(fast), ..) => fast.solve(top, bottom),
+            (Way::Ldlt { refine: true }, Some(fast), ..) => {
                 refine(fast, (top, bottom), (&mut self.top, &mut self.bottom), |a, lambda, top, bottom| {
                     system.residual(a, lambda, top, bottom)
                 })
             }
             (Way::Kept, _, Some(kept), ..) => kept.solve(system, (top, bottom), counts_all, is_least)?,
-            (Way::Skipping, .., Some(skipping), _) => skipping.solve(system, top, bottom, is_least),
+            (Way::RedundantRowSolve, .., Some(skipping), _) => skipping.solve(system, top, bottom, is_least),
             (Way::Dense, .., Some(dense)) => dense.solve(system, top, bottom),
             _ => return Err(Singular::NotFactored),
         }
@@ -253,7 +253,7 @@ impl SaddlePoint {
         top: &mut [f64],
         bottom: &mut [f64],
     ) -> Result<(), Singular> {
-        let Way::Fast { .. } = self.way else { return self.solve(top, bottom) };
+        let Way::Ldlt { .. } = self.way else { return self.solve(top, bottom) };
         let fits = mass.len() == self.system.mass.entries.len() && g.len() == self.system.g.entries.len();
         if !fits || top.len() != self.n || bottom.len() != self.m {
             return Err(Singular::Shape);
@@ -284,7 +284,7 @@ impl SaddlePoint {
 
 /// Solves, and once more for the residual. `matrix(a, lambda, top, bottom)` subtracts the product from (top, bottom).
 fn refine(
-    fast: &mut Fast,
+    fast: &mut Ldlt,
     (top, bottom): (&mut [f64], &mut [f64]),
     (a, lambda): (&mut [f64], &mut [f64]),
     matrix: impl Fn(&[f64], &[f64], &mut [f64], &mut [f64]),

@@ -1,7 +1,7 @@
 //! The orders of elimination of the fast way, by the masses at hand and nothing else.
 
 use super::super::Pattern;
-use super::super::fast::Fast;
+use super::super::ldlt::Ldlt;
 use super::super::pivot::{Quality, Rule};
 use super::super::system::System;
 
@@ -17,7 +17,7 @@ pub(super) struct Orders {
     hubs: Vec<bool>,
     /// With hubs behind their multipliers, and ahead of them where a multiplier's pivot collapses without them. Coordinates
     /// without mass are always behind.
-    factors: [Option<Fast>; 2],
+    factors: [Option<Ldlt>; 2],
     taken: usize,
 }
 
@@ -45,7 +45,7 @@ impl Orders {
         for (order, factors) in self.factors.iter_mut().enumerate() {
             let late = |(massless, hub): (&bool, &bool)| *massless || *hub && order == 0;
             let fast = factors.get_or_insert_with(|| {
-                Fast::new(m, j, &self.massless.iter().zip(&self.hubs).map(late).collect::<Vec<_>>())
+                Ldlt::new(m, j, &self.massless.iter().zip(&self.hubs).map(late).collect::<Vec<_>>())
             });
             match fast.factor(mass, g, Rule::STRICT, skipped) {
                 Ok(quality) => {
@@ -70,11 +70,11 @@ impl Orders {
     }
 
     /// The factors of the last success.
-    pub fn taken(&mut self) -> Option<&mut Fast> {
+    pub fn taken(&mut self) -> Option<&mut Ldlt> {
         self.factors[self.taken].as_mut()
     }
 
-    /// See [`Fast::smallest_ratio`].
+    /// See [`Ldlt::smallest_ratio`].
     pub fn smallest_ratio(&self) -> f64 {
         self.factors[self.taken].as_ref().map_or(0.0, |fast| fast.smallest_ratio(0.0).0)
     }

@@ -2,11 +2,11 @@
 
 use super::samples::{Random, Sample, distance};
 use super::{agrees_with_lu, reachable, right_side, solved};
-use crate::math::kkt::fast::Fast;
+use crate::math::kkt::ldlt::Ldlt;
 use crate::math::kkt::pivot::Rule;
 use crate::math::kkt::symbolic::Symbolic;
 use crate::math::kkt::system::System;
-use crate::math::kkt::{Pattern, SaddlePoint, compiled, symbolic};
+use crate::math::kkt::{Pattern, SaddlePoint, simplicial, symbolic};
 
 #[test]
 fn agrees_with_a_pivoted_lu() {
@@ -129,8 +129,12 @@ fn both_ways_of_elimination_agree() {
         let (r1, r2) = right_side(&sample, &mut random);
         let mut results = vec![];
         for mut fast in [
-            Fast::Compiled(Box::new(compiled::Compiled::new(symbolic::Symbolic::new(&sample.mass, &sample.g, &late)))),
-            Fast::blocked(Symbolic::new(&sample.mass, &sample.g, &late), &sample.mass, &sample.g, &late),
+            Ldlt::Simplicial(Box::new(simplicial::Simplicial::new(symbolic::Symbolic::new(
+                &sample.mass,
+                &sample.g,
+                &late,
+            )))),
+            Ldlt::blocked(Symbolic::new(&sample.mass, &sample.g, &late), &sample.mass, &sample.g, &late),
         ] {
             let mut skipped = vec![];
             fast.factor(&sample.mass_values, &sample.g_values, Rule::STRICT, &mut skipped).ok().unwrap();

@@ -2,8 +2,8 @@
 
 use crate::tolerances::math as tolerances;
 
-mod border;
 mod dense;
+mod dense_rows;
 mod field;
 mod matrix;
 mod redundancy;
@@ -14,8 +14,8 @@ mod tests;
 pub use field::Field;
 
 use super::{Pattern, Singular};
-use border::Border;
 use dense::Dense;
+use dense_rows::DenseRows;
 use faer::sparse::SymbolicSparseColMat;
 use matrix::Matrix;
 use redundancy::Redundancy;
@@ -83,7 +83,7 @@ impl<T: Field> Unsymmetric<T> {
     fn at(places: SymbolicSparseColMat<usize>, g: &Pattern, is_dense: bool) -> Option<Self> {
         let matrix = Matrix::new(places, is_dense)?;
         let size = matrix.size();
-        let border = if is_dense { None } else { Border::of(&matrix, g.cols) };
+        let border = if is_dense { None } else { DenseRows::of(&matrix, g.cols) };
         Some(Unsymmetric {
             n: g.cols,
             scaled: vec![T::ZERO; matrix.values.len()],

@@ -1,21 +1,21 @@
 //! Which rows of G are left out because they repeat what others say.
 
 use super::super::Pattern;
-use super::super::fast::Fast;
+use super::super::ldlt::Ldlt;
 use super::super::pivot::Rule;
 use crate::tolerances::math as tolerances;
 
 /// The rows whose pivots collapse in the L D L^T of G diag(weight)^-1 G^T, which stays sparse where G is. The order of
 /// elimination is frozen, so that the same mechanism leaves out the same rows from state to state.
 pub(super) struct Redundancy {
-    fast: Fast,
+    fast: Ldlt,
     skipped: Vec<usize>,
 }
 
 impl Redundancy {
     pub fn new(g: &Pattern) -> Self {
         Redundancy {
-            fast: Fast::new(&Pattern::diagonal(g.cols), g, &vec![false; g.cols]),
+            fast: Ldlt::new(&Pattern::diagonal(g.cols), g, &vec![false; g.cols]),
             skipped: Vec::with_capacity(g.rows),
         }
     }

@@ -6,16 +6,16 @@ use crate::tolerances::math as tolerances;
 
 /// What is eliminated last. A pivot in a long row, taken early, fills all columns that follow; so does the column of a
 /// multiplier that has nothing but a long row to take its pivot from.
-pub(super) struct Border {
+pub(super) struct DenseRows {
     /// What each row is multiplied by, and so what its claim to be a pivot is worth.
     pub rank: Vec<f64>,
     pub columns: Vec<bool>,
 }
 
-impl Border {
+impl DenseRows {
     /// None where there is no long row, or so many that they would fill more than they save. Columns from `n` on are
     /// those of multipliers.
-    pub fn of<T: Field>(matrix: &Matrix<T>, n: usize) -> Option<Border> {
+    pub fn of<T: Field>(matrix: &Matrix<T>, n: usize) -> Option<DenseRows> {
         let size = matrix.size();
         let mut counts = vec![0_usize; size];
         matrix.entries().for_each(|(row, ..)| counts[row] += 1);
@@ -26,6 +26,6 @@ impl Border {
         let width = columns.iter().filter(|column| **column).count();
         let rank = |row: usize| if is_long(row) { tolerances::LAST_CHOICE } else { 1.0 };
         let is_worth_it = width > 0 && width * width <= matrix.values.len();
-        is_worth_it.then(|| Border { rank: (0..size).map(rank).collect(), columns })
+        is_worth_it.then(|| DenseRows { rank: (0..size).map(rank).collect(), columns })
     }
 }

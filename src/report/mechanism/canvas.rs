@@ -17,7 +17,7 @@ pub enum Layer {
 /// A point of an outline: a place in space, m, and a step from it in pixels as directions in space.
 pub type Step = ([f64; 3], [f64; 3]);
 
-pub struct Pen<'a> {
+pub struct Canvas<'a> {
     pub view: &'a View,
     /// 0 draws in full colours, 1 in those of paper.
     pub paleness: f64,
@@ -30,9 +30,9 @@ pub struct Pen<'a> {
 pub const THIN: f64 = 1.4;
 pub const BOLD: f64 = 2.2;
 
-impl<'a> Pen<'a> {
+impl<'a> Canvas<'a> {
     pub fn new(view: &'a View, paleness: f64) -> Self {
-        Pen { view, paleness, depth: 0.0, layer: Layer::Ground, items: Vec::new() }
+        Canvas { view, paleness, depth: 0.0, layer: Layer::Ground, items: Vec::new() }
     }
 
     /// All items, far ones first.

@@ -1,36 +1,36 @@
 //! A factor L D L^T without pivoting, by the better of two ways.
 
 use super::Pattern;
-use super::blocked::Blocked;
-use super::compiled::Compiled;
 use super::pivot::{Quality, Rule};
+use super::simplicial::Simplicial;
+use super::supernodal::Supernodal;
 use super::symbolic::Symbolic;
 
 /// Multiplications per nonzero of L from which dense blocks win over a list of destinations, and the length of that list
-/// from which its memory counts. Measured: see `Compiled`.
+/// from which its memory counts. Measured: see `Simplicial`.
 const FILL_FOR_BLOCKS: usize = 40;
 const LONGEST_LIST: usize = 30_000_000;
 
-pub(super) enum Fast {
-    Compiled(Box<Compiled>),
-    Blocked(Box<Blocked>),
+pub(super) enum Ldlt {
+    Simplicial(Box<Simplicial>),
+    Supernodal(Box<Supernodal>),
 }
 
-impl Fast {
+impl Ldlt {
     pub fn new(mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
         let symbolic = Symbolic::new(mass, g, late);
         let operations = symbolic.operations();
         if operations > FILL_FOR_BLOCKS * (symbolic.rows.len() + symbolic.size()) || operations > LONGEST_LIST {
             Self::blocked(symbolic, mass, g, late)
         } else {
-            Fast::Compiled(Box::new(Compiled::new(symbolic)))
+            Ldlt::Simplicial(Box::new(Simplicial::new(symbolic)))
         }
     }
 
     pub fn blocked(symbolic: Symbolic, mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
-        match Blocked::new(symbolic, mass, g, late) {
-            Some(blocked) => Fast::Blocked(Box::new(blocked)),
-            None => Fast::Compiled(Box::new(Compiled::new(Symbolic::new(mass, g, late)))),
+        match Supernodal::new(symbolic, mass, g, late) {
+            Some(blocked) => Ldlt::Supernodal(Box::new(blocked)),
+            None => Ldlt::Simplicial(Box::new(Simplicial::new(Symbolic::new(mass, g, late)))),
         }
     }
 
@@ -38,24 +38,24 @@ impl Fast {
     pub fn factor(&mut self, mass: &[f64], g: &[f64], rule: Rule, skipped: &mut Vec<usize>) -> Result<Quality, usize> {
         skipped.clear();
         match self {
-            Fast::Compiled(f) => f.factor(mass, g, rule, skipped),
-            Fast::Blocked(f) => f.factor(mass, g, rule, skipped),
+            Ldlt::Simplicial(f) => f.factor(mass, g, rule, skipped),
+            Ldlt::Supernodal(f) => f.factor(mass, g, rule, skipped),
         }
     }
 
     /// Solves in place; a multiplier that was left out comes out as zero.
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
         match self {
-            Fast::Compiled(f) => f.solve(top, bottom),
-            Fast::Blocked(f) => f.solve(top, bottom),
+            Ldlt::Simplicial(f) => f.solve(top, bottom),
+            Ldlt::Supernodal(f) => f.solve(top, bottom),
         }
     }
 
     /// The smallest ratio of a pivot to its size, of those above `collapsed`, and how many multipliers' are not.
     pub fn smallest_ratio(&self, collapsed: f64) -> (f64, usize) {
         match self {
-            Fast::Compiled(f) => f.smallest_ratio(collapsed),
-            Fast::Blocked(f) => f.smallest_ratio(collapsed),
+            Ldlt::Simplicial(f) => f.smallest_ratio(collapsed),
+            Ldlt::Supernodal(f) => f.smallest_ratio(collapsed),
         }
     }
 }

@@ -10,7 +10,7 @@ use super::symbolic::Symbolic;
 
 /// Right-looking: column j, once final, subtracts its outer product from what stands right of it. `targets` lists where
 /// each product goes, in the order in which they arise, so that no index is computed and nothing is searched for.
-pub(super) struct Compiled {
+pub(super) struct Simplicial {
     symbolic: Symbolic,
     /// Per position: where its list begins in `targets`.
     target_starts: Vec<usize>,
@@ -21,12 +21,12 @@ pub(super) struct Compiled {
     work: Vec<f64>,
     lower: Vec<f64>,
     inverse: Vec<f64>,
-    /// What each pivot is compared with: see `Compiled::factor`.
+    /// What each pivot is compared with: see `Simplicial::factor`.
     sizes: Vec<f64>,
     x: Vec<f64>,
 }
 
-impl Compiled {
+impl Simplicial {
     pub fn new(symbolic: Symbolic) -> Self {
         let (size, nonzeros) = (symbolic.size(), symbolic.rows.len());
         let mut targets = Vec::with_capacity(symbolic.operations() - nonzeros);
@@ -35,7 +35,7 @@ impl Compiled {
             list_targets(&symbolic, j, &mut targets);
             target_starts.push(targets.len());
         }
-        Compiled {
+        Simplicial {
             signs: symbolic.signs().map(f64::from).collect(),
             target_starts,
             targets,
@@ -113,7 +113,7 @@ impl Compiled {
 
     /// Solves in place; a skipped multiplier comes out as zero. 2 nonzeros(L) multiplications.
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
-        let Compiled { symbolic, lower, inverse, x, .. } = self;
+        let Simplicial { symbolic, lower, inverse, x, .. } = self;
         let (nodes, n) = (&symbolic.order.nodes, symbolic.n);
         for (x, &node) in x.iter_mut().zip(nodes) {
             *x = if node < n { top[node] } else { bottom[node - n] };

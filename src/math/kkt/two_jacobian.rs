@@ -15,7 +15,7 @@ use crate::tolerances::math as tolerances;
 /// O(h), so some five back-substitutions gain ten digits, and a far away G2 costs more of them but does not diverge.
 /// Restarts measure the true residual, as iterative refinement does. Against a dense LU, it keeps the sparse factors,
 /// and what they do about dependent rows and massless coordinates.
-pub struct TwoPlaces {
+pub struct TwoJacobianGmres {
     /// GMRES basis, by scaled rows.
     basis: Vec<Vec<f64>>,
     /// Columns of the triangular factor of the Hessenberg matrix.
@@ -39,11 +39,11 @@ struct Pair<'p> {
     g2: &'p [f64],
 }
 
-impl TwoPlaces {
+impl TwoJacobianGmres {
     /// For `n` coordinates and `m` constraints.
     pub fn new(n: usize, m: usize) -> Self {
         let most = tolerances::GMRES_VECTORS.min(m);
-        TwoPlaces {
+        TwoJacobianGmres {
             basis: vec![vec![0.0; m]; most + 1],
             triangle: vec![[0.0; tolerances::GMRES_VECTORS + 1]; most],
             rotations: vec![(1.0, 0.0); most],

@@ -13,7 +13,7 @@ use serde::Serialize;
 
 /// Perturbations along one direction.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Ladder {
+pub struct PerturbationSequence {
     pub direction: String,
     /// Sizes of (dq, dv/rate), m or rad.
     pub epsilons: Vec<f64>,
@@ -64,13 +64,13 @@ struct Followed<'a> {
 }
 
 /// Perturbs `start` along x0 and follows all sizes for a time.
-pub(super) fn ladder(
+pub(super) fn sequence(
     system: &dyn MechanicalSystem,
     start: &State,
     (model, carried, norm): (&Minimal, &Carried, &Norm),
     x0: &Matrix,
     (direction, duration): (String, f64),
-) -> Result<Ladder> {
+) -> Result<PerturbationSequence> {
     let followed = follow(system, start, (model, carried, norm), x0, duration)?;
     let ends = followed.snapshots.last().zip(followed.charts.last());
     let Some((end, chart)) = ends else { return Err(Error::input("nothing to follow")) };
@@ -85,7 +85,7 @@ pub(super) fn ladder(
     let horizons = [0.01, 0.1].map(|share| horizon(&followed.times, &drift_lti, share));
     let (curves, curve_epsilon) = followed.curves();
     let Followed { epsilons, times, .. } = followed;
-    Ok(Ladder {
+    Ok(PerturbationSequence {
         direction,
         epsilons,
         errors_ltv,

@@ -4,7 +4,7 @@ use super::system::{add_scaled, dot};
 use crate::tolerances::math as tolerances;
 
 /// A Pi = Q R of a tall or wide `rows` x `cols` matrix, in place: R above, the reflectors (leading 1 not stored) below.
-pub(super) struct Reflected {
+pub(super) struct PivotedQr {
     pub rows: usize,
     pub values: Vec<f64>,
     pub permutation: Vec<usize>,
@@ -15,9 +15,9 @@ pub(super) struct Reflected {
     squares: Vec<f64>,
 }
 
-impl Reflected {
+impl PivotedQr {
     pub fn new(rows: usize, cols: usize) -> Self {
-        Reflected {
+        PivotedQr {
             rows,
             values: vec![0.0; rows * cols],
             permutation: (0..cols).collect(),
@@ -156,16 +156,21 @@ fn reflect(factor: f64, below: &[f64], x: &mut [f64]) -> bool {
 }
 
 /// P^T H P = L L^T of a symmetric positive semidefinite H (lower triangle given), in place.
-pub(super) struct Squared {
+pub(super) struct PivotedCholesky {
     pub size: usize,
     pub values: Vec<f64>,
     permutation: Vec<usize>,
     x: Vec<f64>,
 }
 
-impl Squared {
+impl PivotedCholesky {
     pub fn new(largest: usize) -> Self {
-        Squared { size: 0, values: vec![0.0; largest * largest], permutation: vec![0; largest], x: vec![0.0; largest] }
+        PivotedCholesky {
+            size: 0,
+            values: vec![0.0; largest * largest],
+            permutation: vec![0; largest],
+            x: vec![0.0; largest],
+        }
     }
 
     /// Factors the leading size x size part. At a pivot <= tolerance times the largest diagonal entry it stops and leaves

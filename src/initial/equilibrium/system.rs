@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::formulation::{Dynamics, turn};
 use crate::math::kkt::{Pattern, SaddlePoint, Unsymmetric};
 use crate::math::{largest, largest_in};
-use crate::system::{Loaded, MechanicalSystem, Need, Tangent};
+use crate::system::{MechanicalSystem, Need, OperatingPoint, Tangent};
 use crate::tolerances::initial as tolerances;
 
 /// Coordinates with multipliers.
@@ -33,7 +33,7 @@ pub(super) struct Change {
 /// ```
 ///
 /// without the rows of phi that depend on others.
-pub(super) struct Rest<'a> {
+pub(super) struct EquilibriumSystem<'a> {
     pub dynamics: Dynamics<'a>,
     pub t: f64,
     pub tangent: Tangent,
@@ -54,13 +54,13 @@ pub(super) struct Rest<'a> {
     stages: [Vec<f64>; 3],
 }
 
-impl<'a> Rest<'a> {
+impl<'a> EquilibriumSystem<'a> {
     /// At a place where phi = 0, which shows the rows that depend on others.
     pub fn new(system: &'a dyn MechanicalSystem, t: f64, q: &[f64]) -> Result<Self> {
         let (n, mut dynamics) = (system.dimensions(), Dynamics::new(system));
         let still = vec![0.0; n.v];
         let mut tangent = Tangent::new(&dynamics.structure.tangent);
-        let at = Loaded { t, q, v: &still, vdot: &still, lambda: &vec![0.0; n.lambda] };
+        let at = OperatingPoint { t, q, v: &still, vdot: &still, lambda: &vec![0.0; n.lambda] };
         if !system.tangent(at, &mut tangent, &mut dynamics.scratch) {
             return Err(failure::no_tangent());
         }
@@ -75,7 +75,7 @@ impl<'a> Rest<'a> {
         let matrix = Unsymmetric::new(&structure.mass, &structure.tangent, &g);
         let mut level = SaddlePoint::new(&Pattern::diagonal(n.v), &structure.g);
         level.drop_rows(&dropped);
-        Ok(Rest {
+        Ok(EquilibriumSystem {
             level,
             ones: vec![1.0; n.v],
             tangent,
@@ -140,7 +140,7 @@ impl<'a> Rest<'a> {
 
     /// Factors at a place whose terms are there; false where the matrix is singular.
     pub fn factor(&mut self, place: &Place, shift: f64) -> bool {
-        let at = Loaded { t: self.t, q: &place.q, v: &self.still, vdot: &self.still, lambda: &place.lambda };
+        let at = OperatingPoint { t: self.t, q: &place.q, v: &self.still, vdot: &self.still, lambda: &place.lambda };
         let Dynamics { system, structure, terms, scratch, .. } = &mut self.dynamics;
         system.tangent(at, &mut self.tangent, scratch);
         self.matrix.clear();

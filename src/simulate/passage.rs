@@ -11,7 +11,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 /// smaller, again and again, ends ever nearer to the singular state until round-off over the rank indicator is the
 /// error. A step well over it is good.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Approach {
+pub struct SingularPassage {
     #[serde(deserialize_with = "never")]
     t: f64,
     pub rank_indicator: f64,
@@ -39,9 +39,9 @@ fn never<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(from)?.unwrap_or(f64::NEG_INFINITY))
 }
 
-impl Default for Approach {
+impl Default for SingularPassage {
     fn default() -> Self {
-        Approach {
+        SingularPassage {
             t: f64::NEG_INFINITY,
             rank_indicator: 1.0,
             rate: 0.0,
@@ -54,7 +54,7 @@ impl Default for Approach {
     }
 }
 
-impl Approach {
+impl SingularPassage {
     /// Takes the rank indicator at an accepted state.
     pub fn add(&mut self, t: f64, rank_indicator: f64) {
         let step = t - self.t;
@@ -63,7 +63,7 @@ impl Approach {
         let regular = if is_regular { step } else { self.regular };
         let rate = (rank_indicator - self.rank_indicator) / step;
         let bend = if self.step.is_finite() { 2.0 * (rate - self.rate) / (step + self.step) } else { f64::INFINITY };
-        *self = Approach { t, rank_indicator, rate, step, bend, largest, regular, is_tried: false };
+        *self = SingularPassage { t, rank_indicator, rate, step, bend, largest, regular, is_tried: false };
     }
 
     /// Whether a step of size `h` comes near a singular state.
@@ -134,10 +134,10 @@ impl Approach {
 
 #[cfg(test)]
 mod tests {
-    use super::Approach;
+    use super::SingularPassage;
 
-    fn near(rank_indicator: f64) -> Approach {
-        let mut approach = Approach::default();
+    fn near(rank_indicator: f64) -> SingularPassage {
+        let mut approach = SingularPassage::default();
         [(0.9, 1.0), (1.0, rank_indicator + 0.1), (1.1, rank_indicator)]
             .into_iter()
             .for_each(|(t, rank_indicator)| approach.add(t, rank_indicator));
@@ -156,7 +156,7 @@ mod tests {
 
     #[test]
     fn short_steps_stop_before_the_singular_state_until_one_as_long_as_before_goes_over_it() {
-        let mut approach = Approach::default();
+        let mut approach = SingularPassage::default();
         [(0.8, 1.0), (0.9, 0.5), (1.0, 0.4), (1.1, 0.2)]
             .into_iter()
             .for_each(|(t, rank_indicator)| approach.add(t, rank_indicator));
@@ -167,7 +167,7 @@ mod tests {
 
     #[test]
     fn far_from_singular_states_nothing_changes() {
-        assert_eq!(Approach::default().place(1.0, 0.5), 1.0);
+        assert_eq!(SingularPassage::default().place(1.0, 0.5), 1.0);
         let mut leaving = near(0.2);
         leaving.add(1.2, 0.25);
         assert_eq!(leaving.place(1.0, 0.5), 1.0);

@@ -50,17 +50,17 @@ impl Watched {
 
 /// Values that others are compared with, and the size of each quantity that errors are relative to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Yardstick {
+pub struct ErrorMetric {
     pub names: Vec<String>,
     /// One row a time.
     pub rows: Vec<Vec<f64>>,
     scales: Vec<f64>,
 }
 
-impl Yardstick {
-    pub fn new(columns: &[Column], rows: Vec<Vec<f64>>, sizes: &Sizes) -> Yardstick {
+impl ErrorMetric {
+    pub fn new(columns: &[Column], rows: Vec<Vec<f64>>, sizes: &Sizes) -> ErrorMetric {
         let names = columns.iter().map(|column| column.name.clone()).collect();
-        Yardstick { names, scales: scales(columns, &rows, sizes), rows }
+        ErrorMetric { names, scales: scales(columns, &rows, sizes), rows }
     }
 
     /// The largest relative difference, and the quantity that has it. Rows that are missing make it infinite.

@@ -7,7 +7,7 @@ use plotters::backend::{BitMapBackend, DrawingBackend};
 use plotters::style::{Color as _, RGBAColor, RGBColor};
 
 /// plotters with nominal coordinates.
-pub(super) struct Pen<'a> {
+pub(super) struct RasterCanvas<'a> {
     backend: BitMapBackend<'a>,
     /// Subpixels per nominal pixel.
     scale: f64,
@@ -19,7 +19,7 @@ fn reason(error: impl ToString) -> String {
     error.to_string()
 }
 
-impl<'a> Pen<'a> {
+impl<'a> RasterCanvas<'a> {
     pub fn new(pixels: &'a mut [u8], size: (usize, usize), scale: usize) -> Self {
         let backend = BitMapBackend::with_buffer(pixels, (size.0 as u32, size.1 as u32));
         Self { backend, scale: scale as f64 }

@@ -4,7 +4,7 @@ use super::cell::{Cell, Outcome};
 use super::climb::Rung;
 use super::grid::Triple;
 use super::runner::{Pause, Runner};
-use super::sample::Sample;
+use super::sample::RunSample;
 use super::{WorkPrecision, advice};
 use crate::error::{Error, Failure, Result, short};
 use crate::integrator::{self, Steps};
@@ -38,8 +38,9 @@ impl<'a> Runner<'a> {
                 self.settle(result)?;
             }
             let allowed = self.plan.budget.mul_f64(part);
-            let ladder = COARSE.map(|decades| (decades, false)).into_iter().chain(FINE.map(|decades| (decades, true)));
-            for (decades, is_fine) in ladder {
+            let sequence =
+                COARSE.map(|decades| (decades, false)).into_iter().chain(FINE.map(|decades| (decades, true)));
+            for (decades, is_fine) in sequence {
                 result.price();
                 if let Some(paused) = self.rung(result, (decades, is_fine), allowed)? {
                     return Ok(Some(paused));
@@ -273,7 +274,7 @@ impl<'a> Runner<'a> {
         Ok(self.outcome(result, run, cpu_seconds))
     }
 
-    fn outcome(&self, result: &WorkPrecision, run: Sample, cpu_seconds: Vec<f64>) -> Outcome {
+    fn outcome(&self, result: &WorkPrecision, run: RunSample, cpu_seconds: Vec<f64>) -> Outcome {
         if let Some(Failure { t, .. }) = run.failure.as_ref().filter(|_| run.is_too_slow) {
             let (start, end) = self.motion.between;
             let all = two(run.seconds * (end - start) / (t - start));

@@ -16,7 +16,7 @@ use faer::{MatMut, Par, Side, Spec};
 
 /// Factors S K S, where S scales the coordinates to unit mass and the rows of G to (G diag(M)^-1 G^T)_jj = 1, so that
 /// the thresholds of the pivots, which faer takes absolute, are relative ones.
-pub(super) struct Blocked {
+pub(super) struct Supernodal {
     symbolic: Symbolic,
     /// The upper triangle of S K S in the order of elimination.
     matrix: SymbolicSparseColMat<usize>,
@@ -36,7 +36,7 @@ pub(super) struct Blocked {
     x: Vec<f64>,
 }
 
-impl Blocked {
+impl Supernodal {
     /// None where faer cannot allocate.
     pub fn new(symbolic: Symbolic, mass: &Pattern, g: &Pattern, late: &[bool]) -> Option<Self> {
         let size = symbolic.size();
@@ -54,7 +54,7 @@ impl Blocked {
             cholesky.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Spec::default()),
             cholesky.solve_in_place_scratch::<f64>(1, Par::Seq),
         );
-        Some(Blocked {
+        Some(Supernodal {
             signs: symbolic.signs().collect(),
             matrix,
             entries: vec![0.0; entries.len()],

@@ -6,14 +6,14 @@ use crate::error::significant;
 use crate::error::{Warning, clock};
 use crate::initial::{Equilibrium, Stability, Way};
 use crate::study::Study;
-use crate::system::{Loaded, Scratch};
+use crate::system::{OperatingPoint, Scratch};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
 /// The static equilibrium, or that there is none.
 #[derive(Clone, Debug, Serialize)]
-pub struct Rest {
+pub struct EquilibriumFile {
     pub converged: bool,
     /// Time that expressions of t are held at, s.
     pub t: f64,
@@ -42,10 +42,10 @@ pub struct Rest {
 
 const MOST_MOVES: usize = 10;
 
-impl Rest {
+impl EquilibriumFile {
     /// That there is none.
-    pub fn none(t: f64) -> Rest {
-        Rest {
+    pub fn none(t: f64) -> EquilibriumFile {
+        EquilibriumFile {
             converged: false,
             t,
             method: None,
@@ -65,17 +65,17 @@ impl Rest {
         }
     }
 
-    pub fn of(study: &Study, found: Equilibrium) -> Rest {
+    pub fn of(study: &Study, found: Equilibrium) -> EquilibriumFile {
         let (system, names) = (study.system(), study.system().names());
         let columns = system.columns();
         let (mut outputs, still) = (vec![0.0; columns.len()], vec![0.0; names.v.len()]);
-        let at = Loaded { t: found.t, q: &found.q, v: &still, vdot: &still, lambda: &found.lambda };
+        let at = OperatingPoint { t: found.t, q: &found.q, v: &still, vdot: &still, lambda: &found.lambda };
         system.outputs(at, &mut outputs, &mut Scratch::default());
         let pairs = names.q.iter().zip(study.start().0.iter().zip(&found.q));
         let moved = pairs.filter(|(_, (from, to))| (*to - *from).abs() > tolerances::SAME * (1.0 + from.abs()));
         let mut moves: Vec<_> = moved.map(|(name, (&from, &to))| (name.clone(), from, to)).collect();
         moves.sort_by(|a, b| (b.2 - b.1).abs().total_cmp(&(a.2 - a.1).abs()));
-        Rest {
+        EquilibriumFile {
             converged: true,
             t: found.t,
             method: Some(found.way),

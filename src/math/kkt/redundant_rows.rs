@@ -6,14 +6,14 @@
 
 use super::Pattern;
 use super::Singular;
-use super::fast::Fast;
+use super::ldlt::Ldlt;
 use super::least::Least;
 use super::pivot::{Quality, Rule};
 use super::system::{System, add, index_of_largest, iterate};
 use crate::tolerances::math as tolerances;
 
-pub(super) struct Skipping {
-    factor: Fast,
+pub(super) struct RedundantRowSolve {
+    factor: Ldlt,
     skipped: Vec<usize>,
     replaced: bool,
     /// The ratio of pivots below which rows were left out.
@@ -31,12 +31,12 @@ pub(super) struct Skipping {
     probe: (Vec<f64>, Vec<f64>),
 }
 
-impl Skipping {
+impl RedundantRowSolve {
     pub fn new(mass: &Pattern, g: &Pattern) -> Self {
         let (n, m) = (g.cols, g.rows);
         let zeros = || vec![0.0; m];
-        Skipping {
-            factor: Fast::new(mass, g, &vec![false; n]),
+        RedundantRowSolve {
+            factor: Ldlt::new(mass, g, &vec![false; n]),
             skipped: Vec::with_capacity(m),
             replaced: false,
             collapsed: 0.0,
@@ -128,7 +128,7 @@ impl Skipping {
     /// those of least norm where it `is_least`.
     pub fn solve(&mut self, system: &System, top: &mut [f64], bottom: &mut [f64], is_least: bool) {
         self.inconsistency = self.project(system, bottom);
-        let Skipping { factor, a, lambda, top: r1, bottom: r2, .. } = self;
+        let RedundantRowSolve { factor, a, lambda, top: r1, bottom: r2, .. } = self;
         iterate(
             factor,
             system,
@@ -146,14 +146,16 @@ impl Skipping {
 
     /// v := P v; returns the norm of what was taken away.
     fn project(&mut self, system: &System, v: &mut [f64]) -> f64 {
-        let Skipping { factor, least, skipped, collapsed, .. } = self;
+        let RedundantRowSolve { factor, least, skipped, collapsed, .. } = self;
         let rank_indicator = factor.smallest_ratio(collapsed.max(tolerances::ROUND_OFF_OF_FACTORS)).0.sqrt();
         least.project(system, skipped, rank_indicator, &mut |top, bottom| factor.solve(top, bottom), v)
     }
 
     /// image = N direction, where `direction` is zero but on the left-out rows.
     fn refine_null(&mut self, system: &System) {
-        let Skipping { factor, a, lambda, top: r1, bottom: r2, direction, image, probe: (top, bottom), .. } = self;
+        let RedundantRowSolve {
+            factor, a, lambda, top: r1, bottom: r2, direction, image, probe: (top, bottom), ..
+        } = self;
         top.fill(0.0);
         bottom.fill(0.0);
         system.g.subtract_transposed(&system.g_values, direction, top);
