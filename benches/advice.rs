@@ -16,11 +16,11 @@ use holonom::compare::work_precision::{
     Cell, Filter, Motion, Outcome, Plan, Runner, Triple, Watched, WorkPrecision, cpu_seconds, grid,
 };
 use holonom::error::Result;
-use holonom::formulation::{Choice, Statistics};
+use holonom::formulation::{MethodSpec, Statistics};
 use holonom::linearize::amplified;
+use holonom::prepared::{Overrides, PreparedScene};
 use holonom::report::Table;
 use holonom::simulate::{Leg, Method, Observation, Sink, Span, Stop, atol_of, simulate_automatic};
-use holonom::study::{Overrides, Study};
 use holonom::system::{MechanicalSystem, Scratch};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -81,23 +81,24 @@ fn triple(method: &Method) -> Triple {
 
 fn measure(path: &Path) -> Result<Measured> {
     let clock = Instant::now();
-    let study = Study::load(path, &Overrides::default())?;
-    let (own, default) = (triple(&study.method), triple(&Method::default()));
+    let prepared = PreparedScene::load(path, &Overrides::default())?;
+    let (own, default) = (triple(&prepared.method), triple(&Method::default()));
     let mut triples = grid(&Filter::default())?;
     for asked in [&own, &default] {
         if !triples.contains(asked) {
             triples.push(asked.clone());
         }
     }
-    let (span, rows) = (study.span()?, 200);
-    let ratio = study.method.atol / study.method.rtol;
+    let (span, rows) = (prepared.span()?, 200);
+    let ratio = prepared.method.atol / prepared.method.rtol;
     let between = (span.start, span.end);
-    let watched = Watched::new(study.system(), &[])?;
+    let watched = Watched::new(prepared.system(), &[])?;
     let within = |budget: Duration| -> Result<WorkPrecision> {
-        let motion = Motion { system: study.system(), start: study.start(), between, ratio, is_stopped: &|| false };
+        let motion =
+            Motion { system: prepared.system(), start: prepared.start(), between, ratio, is_stopped: &|| false };
         let triples = triples.clone();
         let plan = Plan { triples, budget, repeats: 3, rows, digits: DIGITS[1], is_exhaustive: false, given: None };
-        let mut result = WorkPrecision::fresh(&study.name, between, rows);
+        let mut result = WorkPrecision::fresh(&prepared.name, between, rows);
         Runner::new(motion, &plan, watched.clone(), |_, _| ()).run(&mut result)?;
         Ok(result)
     };
@@ -111,33 +112,33 @@ fn measure(path: &Path) -> Result<Measured> {
     let span = Span { output_step: (span.end - span.start) / rows as f64, ..span };
     let mut auto = Vec::new();
     for decades in 3..=12 {
-        auto.extend(automatic(&study, (&result, &watched), span, decades)?);
+        auto.extend(automatic(&prepared, (&result, &watched), span, decades)?);
         if auto.last().is_some_and(|run| run.digits >= DIGITS[2]) {
             break;
         }
     }
-    let (name, began) = (study.name.clone(), Instant::now());
-    let amplification = amplified(&study, span, |_| began.elapsed() < PATIENCE).ok();
+    let (name, began) = (prepared.name.clone(), Instant::now());
+    let amplification = amplified(&prepared, span, |_| began.elapsed() < PATIENCE).ok();
     Ok(Measured { name, result, budget, own, default, auto, amplification, wall: clock.elapsed().as_secs_f64() })
 }
 
 /// Auto at rtol 10^-decades; none where it did not come to its end.
 fn automatic(
-    study: &Study,
+    prepared: &PreparedScene,
     (result, watched): (&WorkPrecision, &Watched),
     span: Span,
     decades: u32,
 ) -> Result<Option<Automatic>> {
     let rtol = 0.1f64.powi(decades as i32);
-    let tolerances = (rtol, atol_of(rtol, study.method.atol / study.method.rtol));
-    let system = study.system();
+    let tolerances = (rtol, atol_of(rtol, prepared.method.atol / prepared.method.rtol));
+    let system = prepared.system();
     let (rows, drift, scratch) = (Vec::new(), Drift::default(), Scratch::default());
     let mut seen = Seen { system, watched, scales: system.scales(), scratch, rows, drift, begun: ThreadTime::now() };
-    let (run, seconds) = cpu_seconds(|| simulate_automatic(system, tolerances, span, study.start(), &mut seen));
+    let (run, seconds) = cpu_seconds(|| simulate_automatic(system, tolerances, span, prepared.start(), &mut seen));
     let (outcome, legs, _) = run?;
     let told: Vec<String> =
         legs.iter().map(|leg| format!("{} from {:.2e} s", leg.method.integrator.name, leg.from)).collect();
-    let told = format!("{}: auto at 1e-{decades}, {}", study.name, told.join(", "));
+    let told = format!("{}: auto at 1e-{decades}, {}", prepared.name, told.join(", "));
     let Some(reference) = result.reference.as_ref().filter(|_| outcome.failure.is_none()) else {
         println!("{told}: {}", outcome.failure.map_or(String::new(), |failure| failure.reason));
         return Ok(None);
@@ -156,7 +157,7 @@ fn cost(result: &WorkPrecision, legs: &[Leg]) -> Option<f64> {
     for Leg { method, statistics, trials, .. } in legs {
         let is_explicit = method.integrator.name == "dop853";
         let (formulation, integrator) = if is_explicit { ("ggl", "radau_iia") } else { ("index1", "dop853") };
-        let (formulation, integrator) = (Choice::named(formulation), Choice::named(integrator));
+        let (formulation, integrator) = (MethodSpec::named(formulation), MethodSpec::named(integrator));
         priced.cells.push(unpriced(method.clone(), is_explicit, *statistics));
         priced.cells.push(unpriced(Method { formulation, integrator, ..method.clone() }, !is_explicit, *trials));
     }

@@ -4,10 +4,10 @@
 //! index1 and one of `generalized_alpha` on ggl, in microseconds for each element, with the memory that the run holds at
 //! most for each. Both columns are level where cost is linear; a matrix of global size would show as growth with N.
 
-use holonom::formulation::Choice;
+use holonom::formulation::MethodSpec;
+use holonom::prepared::{Overrides, PreparedScene};
 use holonom::scene::Scene;
 use holonom::simulate::{Method, Observation, Sink, Span, simulate};
-use holonom::study::{Overrides, Study};
 use serde_json::json;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -43,7 +43,7 @@ impl Sink for Nothing {
 }
 
 /// A beam that is clamped at one end and falls at the other.
-fn cantilever(dimension: usize, frame: &str, elements: usize) -> Study {
+fn cantilever(dimension: usize, frame: &str, elements: usize) -> PreparedScene {
     let zeros = vec![json!(0); dimension];
     let at = |s: String| [vec![json!(s)], zeros[1..].to_vec()].concat();
     let (stiffness, inertia, gravity) = match dimension {
@@ -62,16 +62,17 @@ fn cantilever(dimension: usize, frame: &str, elements: usize) -> Study {
             "markers": { "root": zeros, "tip": at(format!("0.1*{elements}")) } }],
         "joints": [{ "name": "wall", "type": "weld", "between": ["ground.wall", "beam.root"] }],
     });
-    let study = Scene::parse(&scene.to_string(), &[]).and_then(|scene| Study::new(scene, &Overrides::default()));
-    study.unwrap_or_else(|error| panic!("{error}"))
+    let prepared =
+        Scene::parse(&scene.to_string(), &[]).and_then(|scene| PreparedScene::new(scene, &Overrides::default()));
+    prepared.unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Seconds of a step, from the difference of a long and a short run, and the most bytes held.
-fn cost(study: &Study, method: &Method, step: f64, steps: usize) -> (f64, usize) {
+fn cost(prepared: &PreparedScene, method: &Method, step: f64, steps: usize) -> (f64, usize) {
     let run = |steps: usize| {
         let span = Span { start: 0.0, end: step * steps as f64, output_step: step * steps as f64 };
         let begin = Instant::now();
-        let outcome = simulate(study.system(), method, span, study.start(), &mut Nothing);
+        let outcome = simulate(prepared.system(), method, span, prepared.start(), &mut Nothing);
         let failure = outcome.unwrap_or_else(|error| panic!("{error}")).failure;
         assert!(failure.is_none(), "{failure:?}");
         begin.elapsed().as_secs_f64()
@@ -83,9 +84,9 @@ fn cost(study: &Study, method: &Method, step: f64, steps: usize) -> (f64, usize)
 }
 
 fn method(formulation: &str, integrator: &str, step: f64) -> Method {
-    let choice = |name: &str| Choice::parse(name).unwrap_or_else(|error| panic!("{error}"));
-    let (formulation, integrator) = (choice(formulation), choice(integrator));
-    Method { formulation, integrator, projection: choice("none"), step: Some(step), ..Method::default() }
+    let spec = |name: &str| MethodSpec::parse(name).unwrap_or_else(|error| panic!("{error}"));
+    let (formulation, integrator) = (spec(formulation), spec(integrator));
+    Method { formulation, integrator, projection: spec("none"), step: Some(step), ..Method::default() }
 }
 
 fn main() {
@@ -96,10 +97,10 @@ fn main() {
     println!("{:<22} {:>7} {:>11} {:>10} {:>14} {:>10} {:>12}", "", "N", "us/step", "us/N", "us/step", "us/N", "kB/N");
     for (dimension, frame) in [(2, "floating"), (2, "absolute"), (3, "floating"), (3, "absolute")] {
         for elements in [10, 100, 1000, 10_000] {
-            let study = cantilever(dimension, frame, elements);
+            let prepared = cantilever(dimension, frame, elements);
             let steps = (20_000 / elements).clamp(3, 200);
-            let (explicit, _) = cost(&study, &method("index1", "rk4", 1e-6), 1e-6, steps);
-            let (implicit, bytes) = cost(&study, &method("ggl", "generalized_alpha", 1e-3), 1e-3, steps.min(50));
+            let (explicit, _) = cost(&prepared, &method("index1", "rk4", 1e-6), 1e-6, steps);
+            let (implicit, bytes) = cost(&prepared, &method("ggl", "generalized_alpha", 1e-3), 1e-3, steps.min(50));
             let per = |seconds: f64| 1e6 * seconds / elements as f64;
             println!(
                 "{:<22} {elements:>7} {:>11.1} {:>10.2} {:>14.1} {:>10.2} {:>12.2}",

@@ -6,15 +6,15 @@ mod equations;
 mod common;
 
 use equations::andrews::Andrews;
-use holonom::choice::Choice;
 use holonom::formulation::Dynamics;
 use holonom::linearize::{
     Chart, Complex, LinearModel, Matrix, Request, State, Variation, at_rest, linearize, minimal, modal, registry,
     states,
 };
 use holonom::math::eigen::eigen;
+use holonom::method_spec::MethodSpec;
+use holonom::prepared::{Overrides, PreparedScene};
 use holonom::scene::{Scene, generate};
-use holonom::study::{Overrides, Study};
 use holonom::system::{MechanicalSystem, Need};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -27,13 +27,13 @@ fn seconds(call: impl FnMut()) -> f64 {
     common::least_times(&mut [(String::new(), Box::new(call))])[0]
 }
 
-fn shipped(name: &str) -> Study {
+fn shipped(name: &str) -> PreparedScene {
     let path = Path::new(ROOT).join("models").join(format!("{name}.json"));
-    Study::load(&path, &Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
+    PreparedScene::load(&path, &Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn at(study: &Study, t: f64) -> State {
-    states(study, &[t], |_| ()).unwrap_or_else(|error| panic!("{error}")).remove(0)
+fn at(prepared: &PreparedScene, t: f64) -> State {
+    states(prepared, &[t], |_| ()).unwrap_or_else(|error| panic!("{error}")).remove(0)
 }
 
 /// The state of a reference with 7 angles, and its eigenvalues in the chart of beta.
@@ -51,10 +51,10 @@ fn seven_angles() -> (State, Vec<Complex<f64>>) {
 /// Andrews' mechanism at t = 0.01 s: evaluation, K, C, Gd, Gdd, the chart and (A, B, C, D), in memory used again.
 fn andrews() {
     println!("Andrews' mechanism at 0.01 s (us)       matrices   with eigenvalues");
-    let study = shipped("andrews");
-    let (state, (angles, _)) = (at(&study, 0.01), seven_angles());
+    let prepared = shipped("andrews");
+    let (state, (angles, _)) = (at(&prepared, 0.01), seven_angles());
     let cases: [(&str, &dyn MechanicalSystem, &State, &str); 2] =
-        [("scene, 21 coordinates", study.system(), &state, "K1.angle"), ("7 angles", &Andrews, &angles, "q1")];
+        [("scene, 21 coordinates", prepared.system(), &state, "K1.angle"), ("7 angles", &Andrews, &angles, "q1")];
     for (name, system, state, coordinate) in cases {
         let mut variation = Variation::new(system, state.t, &state.q, &state.v).unwrap();
         let charts = [Chart::Intrinsic, Chart::MassOrthogonal, Chart::Frozen, Chart::parse(coordinate)];
@@ -140,22 +140,22 @@ fn differences() {
 }
 
 /// A chain of elastic beams that hangs along gravity.
-fn hanging(links: usize) -> Study {
+fn hanging(links: usize) -> PreparedScene {
     let mut scene = generate::flexible_chain(links);
     scene["gravity"] = json!([9.81, 0]);
     let scene = Scene::parse(&scene.to_string(), &[]);
-    scene.and_then(|scene| Study::new(scene, &Overrides::default())).unwrap_or_else(|error| panic!("{error}"))
+    scene.and_then(|scene| PreparedScene::new(scene, &Overrides::default())).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Twenty modes of chains, against all modes by minimal coordinates, and against the number of links.
 fn chains() {
     println!("\nhanging chain, velocities       20 modes (ms)   all by mcs (ms)   largest difference");
     for (links, with_all) in [(7, true), (13, true), (27, true), (67, false), (267, false), (667, false)] {
-        let study = hanging(links);
-        let (q, v) = study.start();
-        let rest = at_rest(&study, &State { t: 0.0, q: q.to_vec(), v: v.to_vec() });
+        let prepared = hanging(links);
+        let (q, v) = prepared.start();
+        let rest = at_rest(&prepared, &State { t: 0.0, q: q.to_vec(), v: v.to_vec() });
         let mut variation =
-            rest.and_then(|rest| rest.state.variation(&study)).unwrap_or_else(|error| panic!("{error}"));
+            rest.and_then(|rest| rest.state.variation(&prepared)).unwrap_or_else(|error| panic!("{error}"));
         let few = || Complex::new(0.0, 0.0);
         let mut found: Option<LinearModel> = None;
         let time = 1e3 * seconds(|| found = Some(modal(&mut variation, 20, few()).unwrap_or_else(|e| panic!("{e}"))));
@@ -166,7 +166,7 @@ fn chains() {
             println!("   {} modes from {:.4} to {:.4} rad/s", values.len() / 2, values[0].norm(), values[39].norm());
             continue;
         }
-        let request = Request { method: Choice::named("mcs"), chart: Some(Chart::MassOrthogonal) };
+        let request = Request { method: MethodSpec::named("mcs"), chart: Some(Chart::MassOrthogonal) };
         let clock = Instant::now();
         let all = linearize(&mut variation, &request).unwrap();
         let dense = 1e3 * clock.elapsed().as_secs_f64();
@@ -183,10 +183,10 @@ fn chains() {
 fn methods() {
     println!("\nall methods, matrices + eigenvalues (us)");
     for (name, t) in [("four_bar_spring", 0.1), ("andrews", 0.01), ("five_link_suspension_rods", 0.0)] {
-        let study = shipped(name);
-        let mut variation = at(&study, t).variation(&study).unwrap();
+        let prepared = shipped(name);
+        let mut variation = at(&prepared, t).variation(&prepared).unwrap();
         for entry in registry() {
-            let request = Request { method: Choice::named(entry.name), chart: None };
+            let request = Request { method: MethodSpec::named(entry.name), chart: None };
             let Ok(model) = linearize(&mut variation, &request) else { continue };
             let costs = (0..20).filter_map(|_| linearize(&mut variation, &request).ok()).map(|model| model.cost);
             let least = costs.fold([f64::INFINITY; 2], |[a, b], c| [a.min(c.assembly_seconds), b.min(c.eigen_seconds)]);

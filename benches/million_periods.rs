@@ -5,7 +5,7 @@
 #[path = "../tests/long_runs/pendulum.rs"]
 mod pendulum;
 
-use holonom::formulation::Choice;
+use holonom::formulation::MethodSpec;
 use holonom::plot::{AxisSpec, Figure, Panel, Series, Style};
 use holonom::simulate::Method;
 use pendulum::{Mark, period, run};
@@ -33,7 +33,7 @@ struct Line {
 
 fn lines() -> Vec<Line> {
     let line = |name, [formulation, integrator, projection]: [&str; 3], tolerance: f64, step: Option<f64>| {
-        let [formulation, integrator, projection] = [formulation, integrator, projection].map(Choice::named);
+        let [formulation, integrator, projection] = [formulation, integrator, projection].map(MethodSpec::named);
         let count = PERIODS.len() - usize::from(integrator.name == "radau_iia");
         let method = Method { formulation, integrator, projection, rtol: tolerance, atol: tolerance, step };
         Line { name, method, count }

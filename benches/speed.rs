@@ -5,10 +5,10 @@ mod common;
 
 use common::{Case, compare};
 use holonom::analysis::Recorder;
-use holonom::formulation::{Choice, Dynamics};
+use holonom::formulation::{Dynamics, MethodSpec};
+use holonom::prepared::{Overrides, PreparedScene};
 use holonom::scene::{Scene, generate};
 use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate};
-use holonom::study::{Overrides, Study};
 use holonom::system::Need;
 use std::cell::RefCell;
 use std::path::Path;
@@ -21,18 +21,19 @@ impl Sink for Nothing {
     fn row(&mut self, _: &Observation) {}
 }
 
-fn shipped(name: &str, overrides: &Overrides) -> Study {
+fn shipped(name: &str, overrides: &Overrides) -> PreparedScene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(format!("{name}.json"));
-    Study::load(&path, overrides).unwrap_or_else(|error| panic!("{error}"))
+    PreparedScene::load(&path, overrides).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn generated(scene: &serde_json::Value) -> Study {
-    let study = Scene::parse(&scene.to_string(), &[]).and_then(|scene| Study::new(scene, &Default::default()));
-    study.unwrap_or_else(|error| panic!("{error}"))
+fn generated(scene: &serde_json::Value) -> PreparedScene {
+    let prepared =
+        Scene::parse(&scene.to_string(), &[]).and_then(|scene| PreparedScene::new(scene, &Default::default()));
+    prepared.unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn fixed(names: [&str; 3], step: f64) -> Method {
-    let [formulation, integrator, projection] = names.map(Choice::named);
+    let [formulation, integrator, projection] = names.map(MethodSpec::named);
     Method { formulation, integrator, projection, step: Some(step), ..Method::default() }
 }
 
@@ -44,9 +45,9 @@ fn case<'a>(name: impl Into<String>, call: impl FnMut() + 'a) -> Case<'a> {
     (name.into(), Box::new(call))
 }
 
-fn run(study: &Study, method: &Method, end: f64) -> Outcome {
+fn run(prepared: &PreparedScene, method: &Method, end: f64) -> Outcome {
     let span = Span { start: 0.0, end, output_step: end };
-    let outcome = simulate(study.system(), method, span, study.start(), &mut Nothing);
+    let outcome = simulate(prepared.system(), method, span, prepared.start(), &mut Nothing);
     let outcome = outcome.unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(outcome.failure, None, "a run that fails early costs little");
     outcome
@@ -55,9 +56,9 @@ fn run(study: &Study, method: &Method, end: f64) -> Outcome {
 /// M, f, phi, phi', gamma and G, and the saddle-point solution, at the start.
 fn evaluation() {
     for name in ["andrews", "spinning_top"] {
-        let study = shipped(name, &Default::default());
-        let (q, v) = study.start();
-        let dynamics = RefCell::new(Dynamics::new(study.system()));
+        let prepared = shipped(name, &Default::default());
+        let (q, v) = prepared.start();
+        let dynamics = RefCell::new(Dynamics::new(prepared.system()));
         let evaluate = || dynamics.borrow_mut().evaluate(0.0, q, v, Need::DYNAMICS);
         let saddle_point = || {
             let dynamics = &mut *dynamics.borrow_mut();
@@ -84,10 +85,10 @@ const ANDREWS: [f64; 7] = [
 ];
 
 /// Correct digits in the worst of the seven angles.
-fn digits(study: &Study, method: &Method) -> f64 {
-    let mut recorder = Recorder::new(study.system());
+fn digits(prepared: &PreparedScene, method: &Method) -> f64 {
+    let mut recorder = Recorder::new(prepared.system());
     let span = Span { start: 0.0, end: 0.03, output_step: 0.03 };
-    let run = simulate(study.system(), method, span, study.start(), &mut recorder);
+    let run = simulate(prepared.system(), method, span, prepared.start(), &mut recorder);
     run.unwrap_or_else(|error| panic!("{error}"));
     let trajectory = recorder.finish().trajectory;
     let row = trajectory.rows.last().map_or(&[][..], Vec::as_slice);
@@ -117,7 +118,7 @@ fn end_to_end() {
 fn growth() {
     let method = fixed(["index1", "rk4", "manifold"], 1e-4);
     let studies = [1, 10, 100, 1000].map(|n| (n, generated(&generate::n_four_bar(n))));
-    let cases = studies.iter().map(|(n, study)| case(format!("N = {n}"), || drop(run(study, &method, 20e-4))));
+    let cases = studies.iter().map(|(n, prepared)| case(format!("N = {n}"), || drop(run(prepared, &method, 20e-4))));
     compare("n_four_bar, 20 steps of rk4", cases.collect());
 }
 
@@ -125,13 +126,13 @@ fn growth() {
 fn stiff() {
     let strut = Overrides { set: vec![("c_strut".to_string(), 2e5.into())], ..Overrides::default() };
     for (name, end, overrides) in [("flyball_governor", 1.0, Overrides::default()), ("quarter_car", 2.0, strut)] {
-        let study = shipped(name, &overrides);
+        let prepared = shipped(name, &overrides);
         let methods = [["index1", "dop853", "manifold"], ["ggl", "radau_iia", "none"], ["ggl", "bdf", "none"]];
         let cases = methods.map(|names| {
-            let (method, study) = (adaptive(names, 1e-6), &study);
-            let work = run(study, &method, end).statistics;
+            let (method, prepared) = (adaptive(names, 1e-6), &prepared);
+            let work = run(prepared, &method, end).statistics;
             let name = format!("{}, {} steps, {} evaluations", names[1], work.steps, work.rhs_evaluations);
-            case(name, move || drop(run(study, &method, end)))
+            case(name, move || drop(run(prepared, &method, end)))
         });
         compare(&format!("{name}, {end} s"), cases.into());
     }
@@ -142,7 +143,7 @@ fn implicit_growth() {
     let studies = [20, 200, 2000].map(|n| (n, generated(&generate::chain(n))));
     for integrator in ["radau_iia", "generalized_alpha"] {
         let method = fixed(["ggl", integrator, "none"], 1e-4);
-        let cases = studies.iter().map(|(n, study)| case(format!("N = {n}"), || drop(run(study, &method, 5e-4))));
+        let cases = studies.iter().map(|(n, prepared)| case(format!("N = {n}"), || drop(run(prepared, &method, 5e-4))));
         compare(&format!("chain, five steps of {integrator}"), cases.collect());
     }
 }

@@ -6,9 +6,9 @@
 //! the time that 99 % of the steps keep stands beside their median.
 
 use holonom::analysis::Recorder;
-use holonom::formulation::Choice;
+use holonom::formulation::MethodSpec;
+use holonom::prepared::{Overrides, PreparedScene};
 use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate};
-use holonom::study::{Overrides, Study};
 use std::path::Path;
 use std::time::Instant;
 
@@ -62,15 +62,15 @@ impl Sink for Clock {
     fn row(&mut self, _: &Observation) {}
 }
 
-fn shipped(name: &str, set: &[(&str, f64)]) -> Study {
+fn shipped(name: &str, set: &[(&str, f64)]) -> PreparedScene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(name);
     let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
-    Study::load(&path, &Overrides { set, ..Overrides::default() }).unwrap_or_else(|error| panic!("{error}"))
+    PreparedScene::load(&path, &Overrides { set, ..Overrides::default() }).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn method([formulation, integrator, projection]: [&str; 3], knob: Knob, value: f64) -> Method {
-    let [formulation, integrator, projection] =
-        [formulation, integrator, projection].map(|text| Choice::parse(text).unwrap_or_else(|error| panic!("{error}")));
+    let [formulation, integrator, projection] = [formulation, integrator, projection]
+        .map(|text| MethodSpec::parse(text).unwrap_or_else(|error| panic!("{error}")));
     let method = Method { formulation, integrator, projection, ..Method::default() };
     match knob {
         Step => Method { step: Some(value), ..method },
@@ -79,10 +79,10 @@ fn method([formulation, integrator, projection]: [&str; 3], knob: Knob, value: f
 }
 
 /// Height of the chassis and position of the carrier, m, every hundredth of a second; `None` if the run fails.
-fn positions(study: &Study, method: &Method) -> Option<Vec<[f64; 4]>> {
-    let mut recorder = Recorder::new(study.system());
+fn positions(prepared: &PreparedScene, method: &Method) -> Option<Vec<[f64; 4]>> {
+    let mut recorder = Recorder::new(prepared.system());
     let span = Span { start: 0.0, end: END, output_step: 0.01 };
-    let outcome = simulate(study.system(), method, span, study.start(), &mut recorder);
+    let outcome = simulate(prepared.system(), method, span, prepared.start(), &mut recorder);
     let completed = outcome.unwrap_or_else(|error| panic!("{error}")).failure.is_none();
     let trajectory = recorder.finish().trajectory;
     let place = |row: &Vec<f64>| -> [f64; 4] { std::array::from_fn(|i| trajectory.row_state(row).0[i]) };
@@ -106,12 +106,12 @@ struct Cost {
 }
 
 /// The fastest of some runs.
-fn time(study: &Study, method: &Method) -> Cost {
+fn time(prepared: &PreparedScene, method: &Method) -> Cost {
     let span = Span { start: 0.0, end: END, output_step: END };
     let run = || {
         let begin = Instant::now();
         let mut clock = Clock { last: begin, steps: Vec::with_capacity(100_000) };
-        let outcome = simulate(study.system(), method, span, study.start(), &mut clock);
+        let outcome = simulate(prepared.system(), method, span, prepared.start(), &mut clock);
         let wall = begin.elapsed().as_secs_f64();
         clock.steps.sort_by(f64::total_cmp);
         let steps = [50, 99].map(|part| clock.steps[clock.steps.len() * part / 100]);
@@ -121,14 +121,14 @@ fn time(study: &Study, method: &Method) -> Cost {
 }
 
 /// The line of a method, with the first of its steps or tolerances that is close enough; its wall time.
-fn line(study: &Study, names: [&str; 3], knob: Knob, exact: &[[f64; 4]]) -> Option<(f64, String)> {
+fn line(prepared: &PreparedScene, names: [&str; 3], knob: Knob, exact: &[[f64; 4]]) -> Option<(f64, String)> {
     let values: &[f64] = match knob {
         Step => &STEPS,
         Tolerance => &TOLERANCES,
     };
-    let off = |value: f64| positions(study, &method(names, knob, value)).map(|found| error(&found, exact));
+    let off = |value: f64| positions(prepared, &method(names, knob, value)).map(|found| error(&found, exact));
     let (value, off) = values.iter().find_map(|&value| Some((value, off(value).filter(|off| *off < CLOSE)?)))?;
-    let Cost { outcome, wall, steps: [half, most] } = time(study, &method(names, knob, value));
+    let Cost { outcome, wall, steps: [half, most] } = time(prepared, &method(names, knob, value));
     let steps = outcome.statistics.steps + outcome.statistics.rejected;
     let knob = match knob {
         Step => format!("h = {:.1} ms", 1e3 * value),
@@ -139,9 +139,9 @@ fn line(study: &Study, names: [&str; 3], knob: Knob, exact: &[[f64; 4]]) -> Opti
 }
 
 /// All methods on one scene, the fastest first.
-fn table(title: &str, study: &Study) {
+fn table(title: &str, prepared: &PreparedScene) {
     let exact = method(["index1", "dop853", "exact"], Tolerance, 1e-11);
-    let exact = positions(study, &exact).unwrap_or_else(|| panic!("{title}: the tight run failed"));
+    let exact = positions(prepared, &exact).unwrap_or_else(|| panic!("{title}: the tight run failed"));
     println!("\n{title}");
     let names = ["steps", "error/m", "ms", "us/step", "99 %", "x real"];
     println!(
@@ -150,7 +150,7 @@ fn table(title: &str, study: &Study) {
     );
     let mut reached: Vec<(f64, String)> = Vec::new();
     for (names, knob) in METHODS {
-        match line(study, names, knob, &exact) {
+        match line(prepared, names, knob, &exact) {
             Some(line) => reached.push(line),
             None => println!("{:<46} fails, or does not come so close", names.join(" + ")),
         }
@@ -165,8 +165,8 @@ fn main() {
         [("bump and dip", &[]), ("wavy road", &[("bump", 0.0), ("dip", 0.0), ("swell", 0.02), ("ripple", 0.004)])];
     for (name, level) in [("five_link_suspension", "massless rods"), ("five_link_suspension_rods", "rods as bodies")] {
         for (road, set) in roads {
-            let study = shipped(&format!("{name}.json"), set);
-            table(&format!("{level}, {road}, {END} s within {CLOSE} m"), &study);
+            let prepared = shipped(&format!("{name}.json"), set);
+            table(&format!("{level}, {road}, {END} s within {CLOSE} m"), &prepared);
         }
     }
 }

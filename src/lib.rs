@@ -44,7 +44,7 @@
 //! | [`projection`] | what is done after a step: post-stabilization, coordinate projection | a file and a line |
 //! | [`initial`] | consistent q, v, then v' and lambda; static equilibrium | |
 //! | [`integrator`] | one file a method | a file and a line |
-//! | [`simulate`], [`trajectory`], [`study`] | the only time loop; its rows; a scene made ready | |
+//! | [`simulate`], [`trajectory`], [`prepared`] | the only time loop; its rows; a scene made ready | |
 //! | [`sweep`] | a scene assembled at many values of a parameter | |
 //! | [`analysis`] | what is seen of a state or of one run: rank and redundancy, singular states, drift, energy | |
 //! | [`linearize`] | linear models at a state, by every method; state-transition matrix, loci | a file and a line in [`linearize::registry`] |
@@ -66,7 +66,7 @@
 //! | joint | [`joint::JointSpec`], [`joint::JointKernel`], [`scene::Elements::with_joint`] | `own_joint.rs` |
 //! | force | [`force::ForceSpec`], [`force::ForceKernel`], [`scene::Elements::with_force`] | `own_force.rs` |
 //! | body | [`body::BodySpec`], [`body::BodyKernel`], [`scene::Elements::with_body`] | `own_body.rs` |
-//! | integrator | [`integrator::Entry`] and its [`choice`](choice::Listed::choice) in a [`simulate::Method`] | `own_integrator.rs`, `own_tableau.rs` |
+//! | integrator | [`integrator::Entry`] and its [`spec`](method_spec::Listed::spec) in a [`simulate::Method`] | `own_integrator.rs`, `own_tableau.rs` |
 //! | formulation | [`formulation::Entry`] likewise | `own_formulation.rs` |
 //! | projection | [`projection::Entry`] likewise | `own_projection.rs` |
 //!
@@ -78,7 +78,7 @@
 //! use holonom::analysis::Recorder;
 //! use holonom::scene::Scene;
 //! use holonom::simulate::simulate;
-//! use holonom::study::Study;
+//! use holonom::prepared::PreparedScene;
 //!
 //! let scene = Scene::parse(r#"{
 //!     "name": "pendulum", "dimension": 2, "gravity": [0, -9.81],
@@ -87,9 +87,9 @@
 //!     "joints": [{ "name": "rod", "type": "distance", "between": ["ground.O", "bob"], "length": 1 }],
 //!     "simulation": { "t_end": 1, "integrator": "dop853", "rtol": 1e-10, "atol": 1e-10 }
 //! }"#, &[])?;
-//! let study = Study::new(scene, &Default::default())?;
-//! let mut recorder = Recorder::new(study.system());
-//! let outcome = simulate(study.system(), &study.method, study.span()?, study.start(), &mut recorder)?;
+//! let prepared = PreparedScene::new(scene, &Default::default())?;
+//! let mut recorder = Recorder::new(prepared.system());
+//! let outcome = simulate(prepared.system(), &prepared.method, prepared.span()?, prepared.start(), &mut recorder)?;
 //! let record = recorder.finish();
 //! assert!(outcome.failure.is_none());
 //! assert!(record.drift.position.max < 1e-14);
@@ -102,7 +102,6 @@
 
 pub mod analysis;
 pub mod body;
-pub mod choice;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod compare;
@@ -115,12 +114,13 @@ pub mod integrator;
 pub mod joint;
 pub mod linearize;
 pub mod math;
+pub mod method_spec;
 pub mod plot;
+pub mod prepared;
 pub mod projection;
 pub mod report;
 pub mod scene;
 pub mod simulate;
-pub mod study;
 pub mod sweep;
 pub mod system;
 pub mod tolerances;

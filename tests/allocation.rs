@@ -4,8 +4,8 @@ use crate::common::counting::count;
 use crate::common::driven_pendulum::{self, DrivenPendulum};
 use crate::common::{adaptive, fixed};
 use holonom::math::Scalar;
+use holonom::prepared::{Overrides, PreparedScene};
 use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate};
-use holonom::study::{Overrides, Study};
 use holonom::system::{Equations, MechanicalSystem, OperatingPoint, Scratch};
 use std::path::Path;
 
@@ -123,8 +123,8 @@ fn methods_for_the_constraints_themselves() {
     let (q, v) = driven_pendulum::start();
     check_methods("driven pendulum", &DIRECT, &DrivenPendulum, (&q, &v), 0.01);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/andrews.json");
-    let study = Study::load(&path, &Overrides::default()).unwrap();
-    check_methods("andrews", &DIRECT, study.system(), study.start(), 1e-5);
+    let prepared = PreparedScene::load(&path, &Overrides::default()).unwrap();
+    check_methods("andrews", &DIRECT, prepared.system(), prepared.start(), 1e-5);
 }
 
 /// Planar, redundant, and spatial with quaternions and a driver.
@@ -132,8 +132,8 @@ fn methods_for_the_constraints_themselves() {
 fn scenes() {
     for name in ["andrews", "parallelogram_redundant", "universal_shaft", "spinning_top"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"));
-        let study = Study::load(&path, &Overrides::default()).unwrap();
-        check(name, study.system(), study.start(), 1e-5);
+        let prepared = PreparedScene::load(&path, &Overrides::default()).unwrap();
+        check(name, prepared.system(), prepared.start(), 1e-5);
     }
 }
 
@@ -148,8 +148,8 @@ fn flexible_beams() {
     ];
     for name in ["flexible_slider_crank_fe", "flexible_four_bar", "flexible_pendulum", "right_angle_cantilever"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"));
-        let study = Study::load(&path, &Overrides::default()).unwrap();
-        check_methods(name, &methods, study.system(), study.start(), 1e-8);
+        let prepared = PreparedScene::load(&path, &Overrides::default()).unwrap();
+        check_methods(name, &methods, prepared.system(), prepared.start(), 1e-8);
     }
 }
 
@@ -158,12 +158,12 @@ fn flexible_beams() {
 fn outputs() {
     for name in ["andrews", "spinning_top", "flexible_slider_crank", "flexible_pendulum", "five_link_suspension"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"));
-        let study = Study::load(&path, &Overrides::default()).unwrap();
-        let (system, (q, v), mut scratch) = (study.system(), study.start(), Scratch::default());
+        let prepared = PreparedScene::load(&path, &Overrides::default()).unwrap();
+        let (system, (q, v), mut scratch) = (prepared.system(), prepared.start(), Scratch::default());
         let mut out = vec![0.0; system.columns().len()];
         let mut row = || {
             let before = count();
-            let at = OperatingPoint { t: 0.0, q, v, vdot: &study.assembly.vdot, lambda: &study.assembly.lambda };
+            let at = OperatingPoint { t: 0.0, q, v, vdot: &prepared.assembly.vdot, lambda: &prepared.assembly.lambda };
             system.outputs(at, &mut out, &mut scratch);
             system.energy(0.0, q, v, &mut scratch);
             count() - before

@@ -2,9 +2,9 @@
 
 use crate::scenes::{Ready, parse, shipped};
 use holonom::analysis::{Record, Recorder};
-use holonom::formulation::{Choice, Statistics};
+use holonom::formulation::{MethodSpec, Statistics};
+use holonom::prepared::{Overrides, PreparedScene};
 use holonom::simulate::{Leg, Method, Outcome, Span, simulate, simulate_automatic};
-use holonom::study::{Overrides, Study};
 use std::path::Path;
 
 fn automatic(scene: &Ready, rtol: f64, span: Span) -> (Outcome, Vec<Leg>, Record) {
@@ -16,7 +16,7 @@ fn automatic(scene: &Ready, rtol: f64, span: Span) -> (Outcome, Vec<Leg>, Record
 }
 
 fn alone(scene: &Ready, names: [&str; 3], rtol: f64, span: Span) -> Outcome {
-    let [formulation, integrator, projection] = names.map(Choice::named);
+    let [formulation, integrator, projection] = names.map(MethodSpec::named);
     let method = Method { formulation, integrator, projection, rtol, atol: 1e-2 * rtol, step: None };
     simulate(scene.system(), &method, span, scene.0.start(), &mut Recorder::new(scene.system())).unwrap()
 }
@@ -107,7 +107,7 @@ fn short_runs_try_nothing() {
 fn a_looser_rtol_takes_atol_along() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/andrews.json");
     let atol = |rtol, atol| {
-        Study::load(&path, &Overrides { rtol: Some(rtol), atol, ..Overrides::default() }).unwrap().method.atol
+        PreparedScene::load(&path, &Overrides { rtol: Some(rtol), atol, ..Overrides::default() }).unwrap().method.atol
     };
     assert_eq!([atol(1e-3, None), atol(1e-12, None), atol(1e-3, Some(1e-7))], [1e-5, 1e-11, 1e-7]);
 }

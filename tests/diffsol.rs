@@ -5,10 +5,10 @@ use crate::common::stiff::{STIFF, slow_position};
 use crate::common::{adaptive, distance, fixed, run, stepwise, until};
 use crate::scenes::{Ready, parse, shipped};
 use holonom::integrator::{Entry, Steps, registry};
+use holonom::prepared::PreparedScene;
 use holonom::projection::registry as projections;
 use holonom::scene::Scene;
 use holonom::simulate::{Method, Span};
-use holonom::study::Study;
 use holonom::system::{Dimensions, MechanicalSystem, Need, Scratch, Terms};
 use std::time::Instant;
 
@@ -148,7 +148,7 @@ fn a_stiff_motion_is_stepped_over() {
 #[test]
 fn a_damped_stiff_motion_is_stepped_over_at_any_tolerance() {
     let scene = Scene::parse(STIFF, &[("damping".to_string(), 1e3.into())]).unwrap();
-    let ready = Ready(Study::new(scene, &Default::default()).unwrap());
+    let ready = Ready(PreparedScene::new(scene, &Default::default()).unwrap());
     for (tolerance, most) in [(1e-4, 100), (1e-6, 200), (1e-8, 500), (1e-10, 1500)] {
         for formulation in ["index1", "ggl"] {
             let run = ready.run(&stepwise(formulation, "bdf", "none", tolerance), ready.span());

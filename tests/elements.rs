@@ -5,8 +5,8 @@
 
 use crate::scenes::differences::{moved, slope};
 use crate::scenes::examples::{BETWEEN, FORCES, JOINTS, Nature};
+use holonom::prepared::AnyMechanism;
 use holonom::scene::Scene;
-use holonom::study::AnyMechanism;
 use holonom::system::{MechanicalSystem, Mechanism, Need, Scratch, Terms};
 use holonom::{force, joint, scene::AnyModel};
 

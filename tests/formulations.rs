@@ -3,7 +3,7 @@
 use crate::common::driven_pendulum::{DrivenPendulum, start};
 use crate::common::{distance, fixed, run, until};
 use crate::scenes::shipped;
-use holonom::formulation::{Choice, Dynamics, StepError, make};
+use holonom::formulation::{Dynamics, MethodSpec, StepError, make};
 use holonom::initial::assemble;
 use holonom::math::Scalar;
 use holonom::simulate::Span;
@@ -12,7 +12,7 @@ use holonom::system::{Equations, MechanicalSystem};
 /// v' and lambda of `formulation` at a state.
 fn solve(system: &dyn MechanicalSystem, formulation: &str, t: f64, q: &[f64], v: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let mut dynamics = Dynamics::new(system);
-    let mut formulation = make(&Choice::parse(formulation).unwrap(), system).unwrap();
+    let mut formulation = make(&MethodSpec::parse(formulation).unwrap(), system).unwrap();
     let (mut qdot, mut vdot) = (vec![0.0; q.len()], vec![0.0; v.len()]);
     formulation.derivative(t, q, v, &mut dynamics, &mut qdot, &mut vdot).unwrap();
     (dynamics.vdot, dynamics.lambda)
@@ -174,9 +174,9 @@ fn force_projection_pulls_back_at_its_rates() {
     let (mut q, v) = start();
     q[0] += 0.01;
     let mut dynamics = Dynamics::new(&DrivenPendulum);
-    let choice = Choice::parse("force_projection:position=2,velocity=7").unwrap();
+    let spec = MethodSpec::parse("force_projection:position=2,velocity=7").unwrap();
     let (mut qdot, mut vdot) = ([0.0; 4], [0.0; 4]);
-    let mut formulation = make(&choice, &DrivenPendulum).unwrap();
+    let mut formulation = make(&spec, &DrivenPendulum).unwrap();
     formulation.derivative(0.0, &q, &v, &mut dynamics, &mut qdot, &mut vdot).unwrap();
     let terms = &dynamics.terms;
     let mut position = terms.phi_t.clone();
@@ -228,7 +228,7 @@ impl Equations for Massless {
 #[test]
 fn a_singular_mass_matrix_is_named_where_its_inverse_is_needed() {
     let (mut dynamics, zeros) = (Dynamics::new(&Massless), [0.0; 2]);
-    let mut formulation = make(&Choice::named("udwadia_kalaba"), &Massless).unwrap();
+    let mut formulation = make(&MethodSpec::named("udwadia_kalaba"), &Massless).unwrap();
     let (mut qdot, mut vdot) = ([0.0; 2], [0.0; 2]);
     let halt = formulation.derivative(0.0, &zeros, &zeros, &mut dynamics, &mut qdot, &mut vdot).unwrap_err();
     assert!(matches!(halt, StepError::Massless(_)) && halt.to_string().contains("no mass"), "{halt}");
@@ -242,6 +242,6 @@ fn a_singular_mass_matrix_is_named_where_its_inverse_is_needed() {
 #[test]
 fn options_out_of_range_are_refused() {
     for wrong in ["penalty:penalty=0", "augmented_lagrangian:iterations=0", "udwadia_kalaba:tolerance=-1"] {
-        assert!(make(&Choice::parse(wrong).unwrap(), &DrivenPendulum).is_err(), "{wrong}");
+        assert!(make(&MethodSpec::parse(wrong).unwrap(), &DrivenPendulum).is_err(), "{wrong}");
     }
 }

@@ -5,26 +5,27 @@ use crate::common::driven_pendulum::{DrivenPendulum, start};
 use crate::common::stiff::{STIFF, slow_position};
 use crate::common::{adaptive, distance, fixed, stepwise, until};
 use holonom::analysis::Recorder;
-use holonom::formulation::Choice;
+use holonom::formulation::MethodSpec;
 use holonom::math::Scalar;
+use holonom::prepared::PreparedScene;
 use holonom::scene::Scene;
 use holonom::scene::generate;
 use holonom::simulate::Span;
 use holonom::simulate::{Method, Outcome, simulate};
-use holonom::study::Study;
 use holonom::system::Equations;
 use std::path::Path;
 
-fn run(study: &Study, integrator: &str, step: f64) -> (Outcome, f64) {
+fn run(prepared: &PreparedScene, integrator: &str, step: f64) -> (Outcome, f64) {
     let method = Method {
-        formulation: Choice::named("index3"),
-        integrator: Choice::parse(integrator).unwrap(),
-        projection: Choice::named("none"),
+        formulation: MethodSpec::named("index3"),
+        integrator: MethodSpec::parse(integrator).unwrap(),
+        projection: MethodSpec::named("none"),
         step: Some(step),
         ..Method::default()
     };
-    let mut recorder = Recorder::new(study.system());
-    let outcome = simulate(study.system(), &method, study.span().unwrap(), study.start(), &mut recorder).unwrap();
+    let mut recorder = Recorder::new(prepared.system());
+    let outcome =
+        simulate(prepared.system(), &method, prepared.span().unwrap(), prepared.start(), &mut recorder).unwrap();
     let trajectory = recorder.finish().trajectory;
     let last = *trajectory.column("x").unwrap().last().unwrap();
     (outcome, last)
@@ -34,8 +35,8 @@ fn run(study: &Study, integrator: &str, step: f64) -> (Outcome, f64) {
 /// on the soft spring.
 #[test]
 fn a_stiff_motion_is_stepped_over() {
-    let study = Study::new(Scene::parse(STIFF, &[]).unwrap(), &Default::default()).unwrap();
-    let (outcome, x) = run(&study, "generalized_alpha:rho_inf=0.5", 0.01);
+    let prepared = PreparedScene::new(Scene::parse(STIFF, &[]).unwrap(), &Default::default()).unwrap();
+    let (outcome, x) = run(&prepared, "generalized_alpha:rho_inf=0.5", 0.01);
     assert!(outcome.failure.is_none(), "{:?}", outcome.failure);
     let slow = slow_position();
     // Errors of order 2 after ten radians: some h^2.
@@ -44,15 +45,16 @@ fn a_stiff_motion_is_stepped_over() {
     assert!(outcome.statistics.newton_iterations < 6000, "{:?}", outcome.statistics);
 }
 
-fn shipped(name: &str) -> Study {
+fn shipped(name: &str) -> PreparedScene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"));
-    Study::load(&path, &Default::default()).unwrap()
+    PreparedScene::load(&path, &Default::default()).unwrap()
 }
 
 /// Turn of the top about the vertical after a second.
-fn precession(study: &Study, method: &Method) -> f64 {
-    let mut recorder = Recorder::new(study.system());
-    let outcome = simulate(study.system(), method, study.span().unwrap(), study.start(), &mut recorder).unwrap();
+fn precession(prepared: &PreparedScene, method: &Method) -> f64 {
+    let mut recorder = Recorder::new(prepared.system());
+    let outcome =
+        simulate(prepared.system(), method, prepared.span().unwrap(), prepared.start(), &mut recorder).unwrap();
     assert_eq!(outcome.failure, None, "{method:?}");
     *recorder.finish().trajectory.column("precession").unwrap().last().unwrap()
 }
@@ -61,15 +63,15 @@ fn precession(study: &Study, method: &Method) -> f64 {
 /// steps of a radian about its axis converge too.
 #[test]
 fn rotations_converge_with_order_two() {
-    let study = shipped("spinning_top");
-    let exact = precession(&study, &adaptive("index1", "dop853", "none", 1e-12));
+    let prepared = shipped("spinning_top");
+    let exact = precession(&prepared, &adaptive("index1", "dop853", "none", 1e-12));
     for (formulation, coarse) in [("index3", 1e-3), ("ggl", 1e-3), ("ggl", 5e-4)] {
         let error =
-            |step: f64| (precession(&study, &fixed(formulation, "generalized_alpha", "none", step)) - exact).abs();
+            |step: f64| (precession(&prepared, &fixed(formulation, "generalized_alpha", "none", step)) - exact).abs();
         let order = (error(coarse) / error(0.5 * coarse)).log2();
         assert!((order - 2.0).abs() < 0.15, "{formulation}: order {order}");
     }
-    let large = precession(&study, &fixed("ggl", "generalized_alpha", "none", 5e-3));
+    let large = precession(&prepared, &fixed("ggl", "generalized_alpha", "none", 5e-3));
     assert!((large - exact).abs() < 0.5, "{large} against {exact}");
 }
 
@@ -104,11 +106,11 @@ fn steps_of_its_own_keep_order_two() {
 /// A hundred swings of a pendulum: without damping the energy stays, with it what is lost has the order of the method.
 #[test]
 fn long_runs_keep_their_energy() {
-    let study = shipped("pendulum");
+    let prepared = shipped("pendulum");
     let loss = |formulation: &str, integrator: &str, step: f64| {
-        let mut recorder = Recorder::new(study.system());
+        let mut recorder = Recorder::new(prepared.system());
         let (span, method) = (until(100.0), fixed(formulation, integrator, "none", step));
-        let outcome = simulate(study.system(), &method, span, study.start(), &mut recorder).unwrap();
+        let outcome = simulate(prepared.system(), &method, span, prepared.start(), &mut recorder).unwrap();
         assert_eq!(outcome.failure, None);
         let record = recorder.finish();
         assert!(record.drift.position.max < 1e-14);
@@ -122,19 +124,23 @@ fn long_runs_keep_their_energy() {
         assert!(damped[0] < 0.05 && damped[0] > 3.5 * damped[1], "{damped:?}");
     }
     let (method, span) = (fixed("index3", "generalized_alpha:rho_inf=0.98", "none", 0.01), until(1.0));
-    let refused = simulate(study.system(), &method, span, study.start(), &mut Recorder::new(study.system()));
+    let refused = simulate(prepared.system(), &method, span, prepared.start(), &mut Recorder::new(prepared.system()));
     assert!(refused.unwrap_err().to_string().contains("index3"));
 }
 
 /// Two of the three cranks would do.
 #[test]
 fn redundant_constraints_are_solved() {
-    let study = shipped("parallelogram_redundant");
-    let exact =
-        crate::common::run(study.system(), &adaptive("index1", "dop853", "exact", 1e-12), until(2.0), study.start());
+    let prepared = shipped("parallelogram_redundant");
+    let exact = crate::common::run(
+        prepared.system(),
+        &adaptive("index1", "dop853", "exact", 1e-12),
+        until(2.0),
+        prepared.start(),
+    );
     for formulation in ["index3", "ggl"] {
         let method = fixed(formulation, "generalized_alpha", "none", 1e-3);
-        let run = crate::common::run(study.system(), &method, until(2.0), study.start()).completed();
+        let run = crate::common::run(prepared.system(), &method, until(2.0), prepared.start()).completed();
         let ((q, v, lambda), (q1, v1, lambda1)) = (run.last(), exact.last());
         let errors = [distance(q, q1), distance(v, v1), distance(lambda, lambda1)];
         // Some h^2, of values of 2, 7 and 30.
@@ -181,11 +187,11 @@ fn redundant_constraints_that_contradict_each_other_end_the_run() {
 #[test]
 fn a_chain_of_two_hundred_links() {
     let (_, make) = generate::registry().iter().find(|(name, _)| *name == "chain").unwrap();
-    let study = Study::new(Scene::parse(&make(200).to_string(), &[]).unwrap(), &Default::default()).unwrap();
+    let prepared = PreparedScene::new(Scene::parse(&make(200).to_string(), &[]).unwrap(), &Default::default()).unwrap();
     for formulation in ["index3", "ggl"] {
         let method = fixed(formulation, "generalized_alpha", "none", 1e-3);
         let span = Span { start: 0.0, end: 0.1, output_step: 0.1 };
-        let run = crate::common::run(study.system(), &method, span, study.start()).completed();
+        let run = crate::common::run(prepared.system(), &method, span, prepared.start()).completed();
         assert!(run.drift().0 < 1e-13 && (formulation == "index3" || run.drift().1 < 1e-10), "{:?}", run.drift());
         // Of 0.24 J that turn from potential to kinetic energy.
         let error = run.record.energy.unwrap().max_error;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// From the lowest to the highest; a module uses those of its own layer and of lower ones. The same order as DESIGN.md, section 3.
 const LAYERS: &[&[&str]] = &[
     &["tolerances"],
-    &["error", "files", "choice", "math"],
+    &["error", "files", "method_spec", "math"],
     &["state"],
     &["body"],
     &["joint", "force"],
@@ -15,7 +15,7 @@ const LAYERS: &[&[&str]] = &[
     &["system"],
     &["formulation", "projection", "initial"],
     &["integrator"],
-    &["simulate", "trajectory", "study", "sweep"],
+    &["simulate", "trajectory", "prepared", "sweep"],
     &["analysis"],
     &["linearize", "validate"],
     &["compare"],
@@ -434,6 +434,6 @@ fn paths_are_read_as_the_compiler_does() {
     assert_eq!(paths(deep, "let x = crate::scene::load(crate::math::one());"), ["scene::load", "math::one"]);
     assert_eq!(paths(deep, "use super::{Built, joint};"), ["body::Built", "body::joint"]);
     assert_eq!(paths(deep, "use super::super::joint::Joint;"), ["joint::Joint"]);
-    assert_eq!(paths(&["study"], "use super::cli;"), ["cli"]);
+    assert_eq!(paths(&["prepared"], "use super::cli;"), ["cli"]);
     assert_eq!(without_comment("let x = \"a//b\"; // crate::cli"), "let x = \"a//b\"; ");
 }

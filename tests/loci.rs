@@ -1,11 +1,11 @@
 //! Eigenvalues followed along a motion and over a parameter, and frequency responses.
 
-use holonom::choice::Choice;
 use holonom::linearize::{
-    At, Branch, Complex, Kind, LinearModel, Loci, LociVariable, Matrix, Mode, Request, LociPoint, State, Variants,
+    At, Branch, Complex, Kind, LinearModel, Loci, LociPoint, LociVariable, Matrix, Mode, Request, State, Variants,
     at_rest, frequency_response, linearize, loci_along, loci_over, track,
 };
-use holonom::study::{Overrides, Study};
+use holonom::method_spec::MethodSpec;
+use holonom::prepared::{Overrides, PreparedScene};
 use holonom::sweep::{Family, Range};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -141,17 +141,17 @@ fn path(scene: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{scene}.json"))
 }
 
-fn study(scene: &str, set: &[(&str, f64)]) -> Study {
+fn prepared(scene: &str, set: &[(&str, f64)]) -> PreparedScene {
     let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
-    Study::load(&path(scene), &Overrides { set, ..Overrides::default() }).unwrap()
+    PreparedScene::load(&path(scene), &Overrides { set, ..Overrides::default() }).unwrap()
 }
 
 fn request(method: &str) -> Request {
-    Request { method: Choice::parse(method).unwrap(), chart: None }
+    Request { method: MethodSpec::parse(method).unwrap(), chart: None }
 }
 
-fn model(study: &Study, state: &State, method: &str) -> LinearModel {
-    linearize(&mut state.variation(study).unwrap(), &request(method)).unwrap()
+fn model(prepared: &PreparedScene, state: &State, method: &str) -> LinearModel {
+    linearize(&mut state.variation(prepared).unwrap(), &request(method)).unwrap()
 }
 
 fn over(scene: &str, range: &str, at: At) -> Loci {
@@ -163,7 +163,7 @@ fn over(scene: &str, range: &str, at: At) -> Loci {
 
 #[test]
 fn two_masses_swing_at_five_radians_a_second() {
-    let loci = loci_along(&study("two_mass", &[]), &request("mcs"), &[0.0, 0.3, 1.0], || ());
+    let loci = loci_along(&prepared("two_mass", &[]), &request("mcs"), &[0.0, 0.3, 1.0], || ());
     assert_eq!((loci.along, loci.places.len(), loci.gaps.len(), loci.branches.len()), (LociVariable::Time, 3, 0, 2));
     let off = loci.branches[0].points.iter().map(|(_, value)| (value - c(0.0, 5.0)).norm());
     assert!(off.fold(0.0, f64::max) < 1e-12);
@@ -191,9 +191,9 @@ fn values_without_a_scene_are_gaps() {
 
 #[test]
 fn coarse_states_do_not_exchange_the_modes_of_a_double_pendulum() {
-    let study = study("double_pendulum", &[]);
+    let prepared = prepared("double_pendulum", &[]);
     let times: Vec<f64> = (0..=60).map(|k| f64::from(k) / 6.0).collect();
-    let loci = loci_along(&study, &request("mcs"), &times, || ());
+    let loci = loci_along(&prepared, &request("mcs"), &times, || ());
     let fastest = |branch: &Branch| branch.points.iter().map(|(_, value)| value.norm() / TAU).fold(0.0, f64::max);
     let (slow, fast) = (fastest(&loci.branches[0]), fastest(&loci.branches[2]));
     assert!(slow < 0.5 && fast > 1.3, "{slow} {fast}");
@@ -207,10 +207,10 @@ fn frequencies() -> Vec<f64> {
 
 #[test]
 fn two_masses_answer_as_the_formula_says() {
-    let study = study("two_mass", &[("c1", 2.0)]);
-    let state = at_rest(&study, &State::start(&study)).unwrap().state;
+    let prepared = prepared("two_mass", &[("c1", 2.0)]);
+    let state = at_rest(&prepared, &State::start(&prepared)).unwrap().state;
     for method in ["mcs", "rcs", "rcs:form=index2", "rcs:form=index1", "rcs:form=ggl", "baumgarte"] {
-        let found = frequency_response(&model(&study, &state, method), &frequencies());
+        let found = frequency_response(&model(&prepared, &state, method), &frequencies());
         for (f, response) in frequencies().iter().zip(found) {
             let s = c(0.0, TAU * f);
             let known = (s * s * 4.0 + s * 2.0 + 100.0).inv();
@@ -227,10 +227,10 @@ fn two_masses_answer_as_the_formula_says() {
 #[test]
 fn descriptor_and_minimal_models_answer_alike() {
     for (scene, inputs) in [("four_bar_spring", 1), ("quarter_car", 1), ("andrews", 1)] {
-        let study = study(scene, &[]);
-        let state = at_rest(&study, &State::start(&study)).unwrap().state;
+        let prepared = prepared(scene, &[]);
+        let state = at_rest(&prepared, &State::start(&prepared)).unwrap().state;
         let [minimal, descriptor] =
-            ["mcs", "rcs"].map(|method| frequency_response(&model(&study, &state, method), &frequencies()));
+            ["mcs", "rcs"].map(|method| frequency_response(&model(&prepared, &state, method), &frequencies()));
         let largest = minimal.iter().flatten().map(|response| response.camax()).fold(0.0, f64::max);
         for (a, b) in minimal.iter().zip(&descriptor) {
             let (a, b) = (a.as_ref().unwrap(), b.as_ref().unwrap());
@@ -243,9 +243,9 @@ fn descriptor_and_minimal_models_answer_alike() {
 
 #[test]
 fn a_response_at_a_pole_is_none() {
-    let study = study("two_mass", &[]);
-    let state = at_rest(&study, &State::start(&study)).unwrap().state;
-    let mut model = model(&study, &state, "mcs");
+    let prepared = prepared("two_mass", &[]);
+    let state = at_rest(&prepared, &State::start(&prepared)).unwrap().state;
+    let mut model = model(&prepared, &state, "mcs");
     model.a = Matrix::from_row_slice(2, 2, &[0.0, 1.0, -1.0, 0.0]);
     let found = frequency_response(&model, &[0.0, 1.0 / TAU, 1.0]);
     assert!(found[0].is_some() && found[2].is_some());

@@ -1,7 +1,7 @@
 //! Shipped mechanisms against references computed with 34 digits, closed loops and balances of power and force.
 
 use crate::scenes::{Run, dop853, shipped};
-use holonom::formulation::Choice;
+use holonom::formulation::MethodSpec;
 use holonom::math::{Dual, Scalar, Taylor};
 use holonom::report::check;
 use holonom::simulate::{Method, Span};
@@ -24,7 +24,7 @@ const ROBOT_ARM: [[f64; 5]; 10] = [
 
 #[test]
 fn robot_arm_follows_the_reference() {
-    let method = Method { projection: Choice::named("exact"), ..dop853(1e-13) };
+    let method = Method { projection: MethodSpec::named("exact"), ..dop853(1e-13) };
     let run = shipped("robot_arm", &[]).run(&method, Span { start: 0.0, end: 10.0, output_step: 1.0 });
     // A perturbation grows about 1e4 times over the 10 s; omega changes by up to 15 1/s^2, the force by 1e3 N s.
     let bounds = [("theta1", 2e-10), ("theta2", 2e-10), ("omega1", 1e-9), ("omega2", 1e-9), ("drive_force", 3e-7)];
@@ -145,7 +145,7 @@ fn bricard_agrees_until(end: f64, method: &Method, bound: f64) {
 #[test]
 fn bricard_follows_the_reference_in_minimal_coordinates() {
     let method =
-        Method { formulation: Choice::named("null_space"), projection: Choice::named("none"), ..dop853(1e-12) };
+        Method { formulation: MethodSpec::named("null_space"), projection: MethodSpec::named("none"), ..dop853(1e-12) };
     bricard_agrees(&method, 2e-11);
 }
 
@@ -153,7 +153,7 @@ fn bricard_follows_the_reference_in_minimal_coordinates() {
 #[test]
 fn bricard_follows_the_reference_with_multipliers() {
     bricard_agrees(&dop853(1e-12), 2e-11);
-    bricard_agrees(&Method { formulation: Choice::named("udwadia_kalaba"), ..dop853(1e-12) }, 2e-11);
+    bricard_agrees(&Method { formulation: MethodSpec::named("udwadia_kalaba"), ..dop853(1e-12) }, 2e-11);
     bricard_agrees(&shipped("bricard", &[]).0.method, 1e-7);
 }
 
@@ -161,9 +161,9 @@ fn bricard_follows_the_reference_with_multipliers() {
 #[test]
 fn bricard_follows_the_reference_with_every_kind_of_method() {
     let method = |formulation: &str, integrator: &str, projection: &str| Method {
-        formulation: Choice::parse(formulation).unwrap(),
-        integrator: Choice::parse(integrator).unwrap(),
-        projection: Choice::named(projection),
+        formulation: MethodSpec::parse(formulation).unwrap(),
+        integrator: MethodSpec::parse(integrator).unwrap(),
+        projection: MethodSpec::named(projection),
         ..dop853(1e-8)
     };
     let fixed = |formulation: &str, integrator: &str, projection: &str, step: f64| Method {

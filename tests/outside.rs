@@ -4,9 +4,9 @@ use crate::common::driven_pendulum::{DrivenPendulum, start};
 use crate::common::orders::{self, END, Rows};
 use crate::common::{fixed, run, until};
 use holonom::analysis::Recorder;
-use holonom::choice::{Choice, Listed, OptionDoc};
 use holonom::formulation::{self, Dae, Dynamics, Formulation, Row, StepError};
 use holonom::integrator::{self, Control, From, Integrator, Problem, Steps, Tightening, Tolerance};
+use holonom::method_spec::{Listed, MethodSpec, OptionDoc};
 use holonom::projection;
 use holonom::simulate::{Method, Span, simulate};
 
@@ -25,7 +25,7 @@ static FIELD: formulation::Entry = formulation::Entry {
     about: "phi'' + rate phi' = 0",
     options: &[OptionDoc { name: "rate", about: "at which phi' decays, 1/s (default 1)" }],
     dae: None,
-    field: Some(|choice, _| Ok(Box::new(Braked(choice.not_negative("rate", 1.0)?)))),
+    field: Some(|spec, _| Ok(Box::new(Braked(spec.not_negative("rate", 1.0)?)))),
 };
 
 struct Braked(f64);
@@ -121,7 +121,7 @@ static PROJECTION: projection::Entry = projection::Entry {
     name: "closed",
     about: "positions and velocities to round-off",
     options: &[],
-    make: |_, system| projection::make(&Choice::named("exact"), system),
+    make: |_, system| projection::make(&MethodSpec::named("exact"), system),
 };
 
 fn solution(method: &Method) -> (Rows, (f64, f64)) {
@@ -149,7 +149,7 @@ fn check(order: f64, [coarse, fine]: [usize; 2], method: impl Fn(f64) -> Method)
 #[test]
 fn implicit_integrators_solve_the_rows_of_a_formulation_from_outside() {
     for (integrator, order, steps) in [("radau_iia", 5.0, [64, 128]), ("generalized_alpha", 2.0, [128, 256])] {
-        let of = |step: f64| Method { formulation: ROWS.choice(), ..fixed("", integrator, "none", step) };
+        let of = |step: f64| Method { formulation: ROWS.spec(), ..fixed("", integrator, "none", step) };
         let (position, velocity) = check(order, steps, of);
         // phi is solved, to a few units in the last place of squared lengths; phi' is not, and drifts.
         assert!(position < 8.0 * f64::EPSILON && velocity > 1e-12, "{integrator}: {position:e} {velocity:e}");
@@ -158,16 +158,16 @@ fn implicit_integrators_solve_the_rows_of_a_formulation_from_outside() {
 
 #[test]
 fn explicit_integrators_follow_a_field_from_outside() {
-    let formulation = FIELD.choice().with("rate", "2");
+    let formulation = FIELD.spec().with("rate", "2");
     check(4.0, [128, 256], |step| Method { formulation: formulation.clone(), ..fixed("", "rk4", "none", step) });
 }
 
 #[test]
 fn all_three_parts_may_come_from_outside() {
     let of = |step: f64| Method {
-        formulation: FIELD.choice(),
-        integrator: MIDPOINT.choice(),
-        projection: PROJECTION.choice(),
+        formulation: FIELD.spec(),
+        integrator: MIDPOINT.spec(),
+        projection: PROJECTION.spec(),
         ..fixed("", "", "", step)
     };
     let (position, velocity) = check(2.0, [128, 256], of);
@@ -184,11 +184,11 @@ fn what_does_not_go_together_is_refused() {
         let run = simulate(&DrivenPendulum, method, until(END), (&q, &v), &mut recorder);
         run.map(|_| ()).unwrap_err().to_string()
     };
-    let pair = refused(&Method { formulation: ROWS.choice(), ..fixed("", "rk4", "none", 0.1) });
+    let pair = refused(&Method { formulation: ROWS.spec(), ..fixed("", "rk4", "none", 0.1) });
     assert!(pair.contains("rk4 cannot integrate ggl_of_accelerations"), "{pair}");
-    let option = refused(&Method { formulation: FIELD.choice().with("rat", "2"), ..fixed("", "rk4", "none", 0.1) });
+    let option = refused(&Method { formulation: FIELD.spec().with("rat", "2"), ..fixed("", "rk4", "none", 0.1) });
     assert!(option.contains("formulation braked has no option `rat`"), "{option}");
-    let unknown = refused(&Method { formulation: Choice::named("braked"), ..fixed("", "rk4", "none", 0.1) });
+    let unknown = refused(&Method { formulation: MethodSpec::named("braked"), ..fixed("", "rk4", "none", 0.1) });
     assert!(unknown.contains("there is no formulation `braked`"), "{unknown}");
 }
 
@@ -196,7 +196,7 @@ fn what_does_not_go_together_is_refused() {
 #[test]
 fn a_saved_run_goes_on_with_it() {
     let (q, v) = start();
-    let method = Method { formulation: ROWS.choice(), ..fixed("", "radau_iia", "none", END / 40.0) };
+    let method = Method { formulation: ROWS.spec(), ..fixed("", "radau_iia", "none", END / 40.0) };
     let span = Span { output_step: END / 7.0, ..until(END) };
     assert!(!crate::common::saved::differs(&DrivenPendulum, &method, span, (&q, &v)));
 }

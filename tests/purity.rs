@@ -3,7 +3,7 @@
 
 use crate::scenes::{load, models};
 use holonom::analysis::Recorder;
-use holonom::formulation::{self, Choice, Dynamics};
+use holonom::formulation::{self, Dynamics, MethodSpec};
 use holonom::integrator::Problem;
 use holonom::simulate::{Method, Span, simulate};
 use holonom::system::MechanicalSystem;
@@ -45,7 +45,7 @@ fn states(path: &std::path::Path) -> (crate::scenes::Ready, Vec<State>) {
     (ready, all)
 }
 
-fn problem<'s>(system: &'s dyn MechanicalSystem, formulation: &Choice, settled: &[f64]) -> Problem<'s> {
+fn problem<'s>(system: &'s dyn MechanicalSystem, formulation: &MethodSpec, settled: &[f64]) -> Problem<'s> {
     let mut problem = Problem::new(Dynamics::new(system), formulation::make(formulation, system).unwrap());
     problem.formulation.recall(settled);
     problem.dynamics.refer_to(0.4, 0.2);
@@ -69,11 +69,11 @@ fn evaluated(problem: &mut Problem, State { t, y }: &State) -> Vec<Result<Vec<u6
     found.into_iter().chain([ended.map_err(|halt| halt.to_string())]).collect()
 }
 
-fn fields(system: &dyn MechanicalSystem) -> impl Iterator<Item = Choice> {
+fn fields(system: &dyn MechanicalSystem) -> impl Iterator<Item = MethodSpec> {
     let is_small = system.dimensions().v <= DENSE;
     let all = formulation::registry().iter();
     all.filter(move |entry| is_small || entry.dae.is_some() || entry.name == "penalty")
-        .map(|entry| Choice::named(entry.name))
+        .map(|entry| MethodSpec::named(entry.name))
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn two_threads_find_the_same() {
         let system = ready.system();
         let method = Method { rtol: 1e-6, atol: 1e-8, ..ready.0.method.clone() };
         let all = || {
-            let mut problem = problem(system, &Choice::named("index1"), &[]);
+            let mut problem = problem(system, &MethodSpec::named("index1"), &[]);
             let found: Vec<_> = states.iter().map(|state| evaluated(&mut problem, state)).collect();
             let mut recorder = Recorder::new(system);
             let Span { start, end, .. } = ready.span();

@@ -1,7 +1,7 @@
 //! A run that was saved at an accepted step and goes on from there is, bit by bit, the run that went on by itself.
 
 use crate::scenes::{Ready, parse, shipped};
-use holonom::formulation::Choice;
+use holonom::formulation::MethodSpec;
 use holonom::integrator::{self, Steps};
 use holonom::projection;
 use holonom::simulate::{Checkpoint, Method, Observation, Outcome, Sink, Span, Start, Stop, simulate_from};
@@ -47,7 +47,7 @@ fn methods(ready: &Ready, span: Span) -> Vec<Method> {
         for formulation in entry.accepts() {
             for projection in projection::registry() {
                 let step = (entry.steps == Steps::Fixed).then_some((span.end - span.start) / STEPS);
-                let named = Choice::named;
+                let named = MethodSpec::named;
                 let (formulation, integrator, projection) =
                     (named(formulation), named(entry.name), named(projection.name));
                 let method = Method { formulation, integrator, projection, rtol: 1e-5, atol: 1e-7, step };

@@ -1,8 +1,8 @@
 //! Whatever stands in a scene, reading and assembling it ends with a study or with a message, soon and without a panic.
 
 use holonom::Error;
+use holonom::prepared::{Overrides, PreparedScene};
 use holonom::scene::Scene;
-use holonom::study::{Overrides, Study};
 use std::panic::catch_unwind;
 use std::time::{Duration, Instant};
 
@@ -200,9 +200,10 @@ fn survive(text: &str) -> bool {
     let clock = Instant::now();
     let text_of_it = text.to_string();
     let result = catch_unwind(move || {
-        let study = Scene::parse(&text_of_it, &[]).and_then(|scene| Study::new(scene, &Overrides::default()));
-        study.map(|study| {
-            let (q, v) = study.start();
+        let prepared =
+            Scene::parse(&text_of_it, &[]).and_then(|scene| PreparedScene::new(scene, &Overrides::default()));
+        prepared.map(|prepared| {
+            let (q, v) = prepared.start();
             assert!(q.iter().chain(v).all(|x| x.is_finite()), "the start is not finite");
         })
     });

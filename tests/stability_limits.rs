@@ -4,7 +4,7 @@
 use crate::common::{fixed, method};
 use crate::scenes::{Ready, parse};
 use holonom::analysis::Recorder;
-use holonom::formulation::Choice;
+use holonom::formulation::MethodSpec;
 use holonom::integrator::{self, Setup, Stability};
 use holonom::simulate::{Method, Span, simulate};
 
@@ -25,8 +25,8 @@ fn oscillator(k: f64, c: f64) -> Ready {
 fn limits(system: &Ready) -> Vec<(&'static str, &'static str, Stability)> {
     let of = |entry: &'static integrator::Entry| {
         let [name, formulation] = [entry.name, entry.accepts().next()?];
-        let (integrator, choice) = (Choice::named(name), Choice::named(formulation));
-        let setup = Setup { integrator: &integrator, formulation: &choice, system: system.system(), is_fixed: true };
+        let (integrator, spec) = (MethodSpec::named(name), MethodSpec::named(formulation));
+        let setup = Setup { integrator: &integrator, formulation: &spec, system: system.system(), is_fixed: true };
         Some((name, formulation, (entry.make)(&setup).ok()?.stability()?))
     };
     integrator::registry().iter().filter_map(of).collect()

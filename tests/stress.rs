@@ -2,12 +2,12 @@
 
 use crate::common::equations::robot_arm::{RobotArm, START};
 use crate::common::{fixed, until};
-use holonom::choice::Choice;
 use holonom::compare::stress::{
     Axis, AxisPlace, Cell, Change, Level, Limits, Map, Quantity, Status, StepVerdict, StressParameter, Stressed,
     Subject, find, maps, pair, stress,
 };
-use holonom::study::Overrides;
+use holonom::method_spec::MethodSpec;
+use holonom::prepared::Overrides;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -38,7 +38,7 @@ fn the_verdict_on_baumgarte_in_numbers() {
     let method = fixed("index1", "rk4", "none", 0.01);
     let subject = Subject::of_equations("arm", &RobotArm, method, until(10.0), START.motion()).unwrap();
     let row = |formulation: &str, projection: &str| {
-        let [formulation, projection] = [formulation, projection].map(|text| Choice::parse(text).unwrap());
+        let [formulation, projection] = [formulation, projection].map(|text| MethodSpec::parse(text).unwrap());
         AxisPlace::named("", vec![Change::Stabilization(formulation, projection)])
     };
     let rows = vec![
@@ -48,7 +48,7 @@ fn the_verdict_on_baumgarte_in_numbers() {
     ];
     let y = Axis { name: "method".into(), unit: String::new(), entries: rows };
     let x = Axis::of(parameter("step"), vec![0.01, 0.005, 0.001]);
-    let integrator = |name: &str| AxisPlace::named(name, vec![Change::Integrator(Choice::named(name))]);
+    let integrator = |name: &str| AxisPlace::named(name, vec![Change::Integrator(MethodSpec::named(name))]);
     let methods = ["heun", "rk4"].map(integrator).to_vec();
     let map = Map { methods, ..pair(&subject, x, y, Quantity::Velocity) };
     let stressed = stress(&subject, map, limits(20.0), &|| {});
@@ -126,8 +126,8 @@ fn ends_are_told_apart() {
     assert!(all(&none, |cell| cell.status == Status::LeftOut && cell.drift.is_none()));
     // An adaptive method has no fixed step in implicit codes of other libraries.
     let mut refused = own(axis("step=1e-3..1e-2:2"), axis("height=1..2:2"));
-    let [formulation, none] = ["ggl", "none"].map(Choice::named);
-    let bdf = vec![Change::Integrator(Choice::named("bdf")), Change::Stabilization(formulation, none)];
+    let [formulation, none] = ["ggl", "none"].map(MethodSpec::named);
+    let bdf = vec![Change::Integrator(MethodSpec::named("bdf")), Change::Stabilization(formulation, none)];
     refused.methods = vec![AxisPlace::named("bdf", bdf)];
     let refused = stress(&subject, refused, limits(20.0), &|| {});
     assert!(all(&refused, |cell| cell.status == Status::Refused && cell.steps == 0), "{:?}", refused.cells);
@@ -174,9 +174,13 @@ fn every_stress_parameter_changes_some_scene() {
         ("tolerance", "pendulum", [1e-9, 1e-3]),
     ] {
         let until = (name != "time").then_some(0.1);
-        let dopri5 = Some(Choice::named("dopri5"));
-        let overrides =
-            Overrides { until, integrator: dopri5, projection: Some(Choice::named("none")), ..Overrides::default() };
+        let dopri5 = Some(MethodSpec::named("dopri5"));
+        let overrides = Overrides {
+            until,
+            integrator: dopri5,
+            projection: Some(MethodSpec::named("none")),
+            ..Overrides::default()
+        };
         let subject = scene(model, overrides);
         assert!((parameter(name).suits)(&subject), "{name} {model}");
         let y = Axis::of(parameter("tolerance"), vec![1e-7]);

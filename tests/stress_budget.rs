@@ -1,7 +1,7 @@
 //! What a budget is spent on. Alone in its file, since other tests would take its time.
 
 use holonom::compare::stress::{Limits, Status, Subject, maps, stress};
-use holonom::study::Overrides;
+use holonom::prepared::Overrides;
 use std::path::Path;
 use std::time::{Duration, Instant};
 

@@ -1,11 +1,11 @@
 //! What maps over extremes say is so: what was left out is not called failed, and what completes is not called right.
 
-use holonom::choice::Choice;
 use holonom::compare::stress::{
     Axis, Cell, Limits, Map, Quantity, Status, Stressed, Subject, find, maps, pair, stress,
 };
+use holonom::method_spec::MethodSpec;
+use holonom::prepared::Overrides;
 use holonom::report::stress::{sentences, stress_figure};
-use holonom::study::Overrides;
 use holonom::tolerances::report::WRONG_MOTION;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -136,7 +136,7 @@ fn drifting_least_is_not_being_nearest() {
 #[test]
 fn what_is_zero_by_physics_spoils_no_errors() {
     for (name, time) in [("pendulum", 1.0), ("parallelogram", 0.2), ("bricard", 0.05)] {
-        let dopri5 = Some(Choice::named("dopri5"));
+        let dopri5 = Some(MethodSpec::named("dopri5"));
         let subject = scene(name, Overrides { integrator: dopri5, step: None, ..Overrides::default() });
         let [x, y] = [("tolerance", 1e-6), ("time", time)].map(|(name, at)| Axis::of(find(name).unwrap(), vec![at]));
         let stressed = stress(&subject, pair(&subject, x, y, Quantity::Error), within(60.0), &|| {});

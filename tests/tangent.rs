@@ -2,13 +2,13 @@
 
 use crate::scenes::differences::stirred;
 use holonom::formulation::Dynamics;
-use holonom::study::Study;
+use holonom::prepared::PreparedScene;
 use holonom::system::OperatingPoint;
 use std::path::Path;
 
-fn check(study: &Study) {
-    let system = study.system();
-    let (q, v) = study.start();
+fn check(prepared: &PreparedScene) {
+    let system = prepared.system();
+    let (q, v) = prepared.start();
     let t = 0.1;
     let mut q = stirred(q, 0.01);
     system.normalize(&mut q);
@@ -16,7 +16,7 @@ fn check(study: &Study) {
     let mut dynamics = Dynamics::new(system);
     dynamics.solve(t, &q, &v, |_, _| 0.0).unwrap();
     let at = OperatingPoint { t, q: &q, v: &v, vdot: &dynamics.vdot, lambda: &dynamics.lambda };
-    crate::scenes::differences::check(system, at, &study.name);
+    crate::scenes::differences::check(system, at, &prepared.name);
 }
 
 #[test]
@@ -27,6 +27,6 @@ fn exact_derivatives_agree_with_differences() {
     names.sort();
     assert!(names.len() >= 10);
     for path in names {
-        check(&Study::load(&path, &Default::default()).unwrap());
+        check(&PreparedScene::load(&path, &Default::default()).unwrap());
     }
 }

@@ -1,7 +1,7 @@
 //! Linear models of the shipped scenes against perturbed simulations, and wrong models that must be refused.
 
 use holonom::linearize::{Chart, State, states};
-use holonom::study::{Overrides, Study};
+use holonom::prepared::{Overrides, PreparedScene};
 use holonom::system::{
     Column, Dimensions, LeviCivita, MechanicalSystem, Names, Need, OperatingPoint, OutputTangent, Scratch, Structure,
     Tangent, Terms,
@@ -17,30 +17,30 @@ fn scenes() -> Vec<PathBuf> {
     paths
 }
 
-fn load(path: &Path) -> Study {
-    let mut study = Study::load(path, &Default::default()).unwrap();
-    if study.method.step.is_none() {
-        study.method.rtol = study.method.rtol.min(1e-10);
-        study.method.atol = study.method.atol.min(1e-10);
+fn load(path: &Path) -> PreparedScene {
+    let mut prepared = PreparedScene::load(path, &Default::default()).unwrap();
+    if prepared.method.step.is_none() {
+        prepared.method.rtol = prepared.method.rtol.min(1e-10);
+        prepared.method.atol = prepared.method.atol.min(1e-10);
     }
-    study
+    prepared
 }
 
 /// The start and two states of the run.
-fn three(study: &Study) -> Vec<State> {
-    let start = study.start_time();
-    let (length, row) = study.span().map_or((0.0, 1.0), |span| (span.end - start, span.output_step));
+fn three(prepared: &PreparedScene) -> Vec<State> {
+    let start = prepared.start_time();
+    let (length, row) = prepared.span().map_or((0.0, 1.0), |span| (span.end - start, span.output_step));
     // At rows of output, which fixed steps meet.
     let times = [0.0, 0.17, 0.43].map(|part| start + (part * length / row).round() * row);
-    states(study, if length > 0.0 { &times } else { &times[..1] }, |_| {}).unwrap()
+    states(prepared, if length > 0.0 { &times } else { &times[..1] }, |_| {}).unwrap()
 }
 
-fn check(study: &Study, state: &State) -> Validation {
+fn check(prepared: &PreparedScene, state: &State) -> Validation {
     // These motions come to a singular state, where the variational equations have no solution.
     let folds = ["parallelogram", "slider_crank_singular", "slider_crank_singular_2", "n_four_bar"];
-    let horizon = folds.iter().any(|name| study.name.starts_with(name)).then_some(0.05);
-    let found = validate(study.system(), state, &Settings { horizon, ..Settings::default() }).unwrap();
-    let name = format!("{} at {} s", study.name, state.t);
+    let horizon = folds.iter().any(|name| prepared.name.starts_with(name)).then_some(0.05);
+    let found = validate(prepared.system(), state, &Settings { horizon, ..Settings::default() }).unwrap();
+    let name = format!("{} at {} s", prepared.name, state.t);
     let orders = found.sequences.iter().map(|sequence| &sequence.order_ltv);
     for decay in orders.chain(found.inputs.iter().map(|input| &input.order_ltv)) {
         // LociVariable directions of symmetry the error falls faster, and not at all where the equations are linear.
@@ -71,8 +71,8 @@ fn quick_scenes_follow_their_linear_models() {
         "universal_shaft",
         "flyball_governor",
     ] {
-        let study = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json")));
-        three(&study).iter().for_each(|state| _ = check(&study, state));
+        let prepared = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json")));
+        three(&prepared).iter().for_each(|state| _ = check(&prepared, state));
     }
 }
 
@@ -81,17 +81,17 @@ fn quick_scenes_follow_their_linear_models() {
 #[ignore = "takes minutes"]
 fn every_scene_follows_its_linear_model_at_three_states() {
     for path in scenes() {
-        let study = load(&path);
-        for state in three(&study) {
+        let prepared = load(&path);
+        for state in three(&prepared) {
             let clock = std::time::Instant::now();
-            let found = check(&study, &state);
+            let found = check(&prepared, &state);
             let order = |decay: &holonom::validate::Decay| match decay.order {
                 Some(order) => format!("{order:.3} over {:.1}", decay.decades),
                 None => format!("exact {}", decay.is_exact),
             };
             println!(
                 "{} {:.4} s: order {} in eps, {} in h; inputs {:?}; horizons {:?}; {:.2} s of work",
-                study.name,
+                prepared.name,
                 state.t,
                 found.sequences.iter().map(|sequence| order(&sequence.order_ltv)).collect::<Vec<_>>().join(", "),
                 order(&found.frozen.decay),
@@ -162,10 +162,10 @@ impl MechanicalSystem for Wrong<'_> {
 #[test]
 fn wrong_derivatives_are_refused() {
     for name in ["four_bar_spring", "double_pendulum", "andrews"] {
-        let study = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json")));
-        let state = &three(&study)[1];
+        let prepared = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json")));
+        let state = &three(&prepared)[1];
         for without_geometric in [true, false] {
-            let wrong = Wrong { inner: study.system(), without_geometric };
+            let wrong = Wrong { inner: prepared.system(), without_geometric };
             let constant = Settings { chart: Some(Chart::MassOrthogonal), inputs: false, ..Settings::default() };
             let found = validate(&wrong, state, &constant).unwrap();
             let order = found.sequences[0].order_ltv.order;
@@ -181,10 +181,11 @@ fn wrong_derivatives_are_refused() {
 #[test]
 fn the_plain_projection_is_refused_off_equilibrium() {
     let set = Overrides { set: vec![("c1".to_string(), 5.0.into())], ..Overrides::default() };
-    let study = Study::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/four_bar_spring.json"), &set).unwrap();
-    let state = &three(&study)[1];
+    let prepared =
+        PreparedScene::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/four_bar_spring.json"), &set).unwrap();
+    let state = &three(&prepared)[1];
     let settings = Settings { chart: Some(Chart::Frozen), ..Settings::default() };
-    let found = validate(study.system(), state, &settings).unwrap();
+    let found = validate(prepared.system(), state, &settings).unwrap();
     assert!(found.verdict.ltv && !found.verdict.lti, "{:?} {:?}", found.verdict, found.frozen);
     let order = found.frozen.decay.order.unwrap();
     // The next power of h is seen at the longest steps.
@@ -193,19 +194,19 @@ fn the_plain_projection_is_refused_off_equilibrium() {
 
 #[test]
 fn independent_coordinates_and_named_directions() {
-    let study = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/four_bar_spring.json"));
-    let state = &three(&study)[1];
-    let name = study.system().names().q.into_iter().find(|name| name.ends_with(".angle")).unwrap();
+    let prepared = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/four_bar_spring.json"));
+    let state = &three(&prepared)[1];
+    let name = prepared.system().names().q.into_iter().find(|name| name.ends_with(".angle")).unwrap();
     let settings = Settings {
         chart: Some(Chart::Independent(vec![name.clone()])),
         directions: vec![holonom::validate::Direction::Named(name)],
         ..Settings::default()
     };
-    let found = validate(study.system(), state, &settings).unwrap();
+    let found = validate(prepared.system(), state, &settings).unwrap();
     assert!(found.verdict.ltv && found.verdict.lti, "{:?}", found.verdict);
     let unknown =
         Settings { directions: vec![holonom::validate::Direction::Named("u7".into())], ..Settings::default() };
-    let error = validate(study.system(), state, &unknown).unwrap_err().to_string();
+    let error = validate(prepared.system(), state, &unknown).unwrap_err().to_string();
     assert!(error.contains("no state `u7`"), "{error}");
 }
 
@@ -214,12 +215,12 @@ fn independent_coordinates_and_named_directions() {
 #[test]
 fn the_intrinsic_chart_is_followed() {
     for name in ["four_bar_spring", "double_pendulum", "spatial_slider_crank", "spinning_top", "universal_shaft"] {
-        let study = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json")));
-        let state = &three(&study)[1];
+        let prepared = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json")));
+        let state = &three(&prepared)[1];
         let settings = Settings { chart: Some(Chart::Intrinsic), inputs: false, ..Settings::default() };
-        let found = validate(study.system(), state, &settings).unwrap();
+        let found = validate(prepared.system(), state, &settings).unwrap();
         assert!(found.verdict.ltv && found.verdict.lti, "{name}: {:?} {:?}", found.verdict, found.frozen);
-        let default = validate(study.system(), state, &Settings { inputs: false, ..Settings::default() }).unwrap();
+        let default = validate(prepared.system(), state, &Settings { inputs: false, ..Settings::default() }).unwrap();
         assert_eq!(default.chart, "intrinsic", "{name}");
     }
 }

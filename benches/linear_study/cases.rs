@@ -1,8 +1,8 @@
 //! Mechanisms, states, and what their eigenvalues are.
 
 use crate::systems::{FourBar, system};
-use holonom::choice::Choice;
 use holonom::linearize::{Chart, Complex, Kind, LinearModel, Request, Variation, linearize};
+use holonom::method_spec::MethodSpec;
 use holonom::system::MechanicalSystem;
 use serde_json::Value;
 
@@ -77,7 +77,7 @@ impl Case {
 
     /// In the intrinsic chart, where the method has one; none where it breaks down.
     pub fn model(&self, variation: &mut Variation, method: &str) -> Option<LinearModel> {
-        let method = Choice::parse(method).unwrap_or_else(|error| panic!("{error}"));
+        let method = MethodSpec::parse(method).unwrap_or_else(|error| panic!("{error}"));
         linearize(variation, &Request { method, chart: Some(Chart::Intrinsic) }).ok()
     }
 

@@ -4,9 +4,9 @@ use super::common::{MethodOptions, Output, SceneOptions, Talk, positive, print};
 use super::linear::{ModelOptions, StateOptions};
 use crate::error::{Error, Result, short, suggest};
 use crate::linearize::{self, Complex, LinearModel, Resonances, frequency_response};
+use crate::prepared::PreparedScene;
 use crate::report::linear::{FrequencyResponse, Response, ResponseFile, bode_figure};
 use crate::report::{Folder, cell};
-use crate::study::Study;
 use crate::system::Column;
 use std::process::ExitCode;
 
@@ -53,19 +53,19 @@ struct Chosen {
 pub fn run(args: Args) -> Result<ExitCode> {
     let in_file = |error: Error| error.in_file(&args.scene.path);
     let request = args.model.request()?;
-    let study = args.run.load_tight(&args.scene, &args.talk)?;
-    let (inputs, outputs) = (study.system().inputs(), study.system().columns());
+    let prepared = args.run.load_tight(&args.scene, &args.talk)?;
+    let (inputs, outputs) = (prepared.system().inputs(), prepared.system().columns());
     let chosen = Chosen {
         inputs: choose("input", &args.inputs, &inputs).map_err(in_file)?,
         outputs: choose("output", &args.outputs, &outputs).map_err(in_file)?,
     };
-    let places = args.states.states(&study, &args.talk).map_err(in_file)?;
-    let mut folder = args.files.folder(&study.name)?;
+    let places = args.states.states(&prepared, &args.talk).map_err(in_file)?;
+    let mut folder = args.files.folder(&prepared.name)?;
     let mut files: Vec<ResponseFile> = Vec::new();
     for state in &places {
         let model = linearize::linearize(&mut state.variation().map_err(in_file)?, &request).map_err(in_file)?;
         let frequencies = frequencies(&args, &model)?;
-        let response = respond(&study, &model, &chosen, frequencies);
+        let response = respond(&prepared, &model, &chosen, frequencies);
         write(&args, &response, &mut folder)?;
         if !args.talk.json && !args.talk.quiet {
             print(&response.text())?;
@@ -118,8 +118,8 @@ fn frequencies(args: &Args, model: &LinearModel) -> Result<Vec<f64>> {
     })
 }
 
-fn respond(study: &Study, model: &LinearModel, chosen: &Chosen, frequencies: Vec<f64>) -> FrequencyResponse {
-    let (inputs, outputs) = (study.system().inputs(), study.system().columns());
+fn respond(prepared: &PreparedScene, model: &LinearModel, chosen: &Chosen, frequencies: Vec<f64>) -> FrequencyResponse {
+    let (inputs, outputs) = (prepared.system().inputs(), prepared.system().columns());
     let found = frequency_response(model, &frequencies);
     let pole = Complex::new(f64::NAN, f64::NAN);
     let pair = |i: usize, j: usize| Response {
@@ -131,7 +131,7 @@ fn respond(study: &Study, model: &LinearModel, chosen: &Chosen, frequencies: Vec
     };
     let pairs = chosen.inputs.iter().flat_map(|&j| chosen.outputs.iter().map(move |&i| (i, j)));
     FrequencyResponse {
-        scene: study.name.clone(),
+        scene: prepared.name.clone(),
         t: model.point.t,
         equilibrium: model.point.is_equilibrium,
         method: model.method.clone(),

@@ -19,14 +19,14 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
-    let study = args.common.load()?;
-    let mut check = report::check(&study);
-    let t = args.at.unwrap_or(study.start_time());
-    let sought = args.is_static.then(|| equilibrium(study.system(), t, study.start().0));
+    let prepared = args.common.load()?;
+    let mut check = report::check(&prepared);
+    let t = args.at.unwrap_or(prepared.start_time());
+    let sought = args.is_static.then(|| equilibrium(prepared.system(), t, prepared.start().0));
     // Bad input is an error; a search in vain is a result.
     let failure = match sought.transpose() {
         Ok(found) => {
-            check.equilibrium = found.map(|found| report::EquilibriumFile::of(&study, found));
+            check.equilibrium = found.map(|found| report::EquilibriumFile::of(&prepared, found));
             None
         }
         Err(error) if error.exit_code() == 1 => Some(error),

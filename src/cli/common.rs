@@ -3,15 +3,15 @@
 pub use super::terminal::{print, tell};
 
 use super::terminal::visible;
-use crate::choice::Choice;
 use crate::error::{Error, Result, Warning, suggest};
 use crate::math::expression::{Number, constant};
 use crate::math::memory::refuse_rows;
+use crate::method_spec::MethodSpec;
 use crate::plot::Figure;
+use crate::prepared::{Overrides, PreparedScene};
 use crate::report::{Folder, Written};
 use crate::scene::{Automatic, Elements};
 use crate::simulate::Span;
-use crate::study::{Overrides, Study};
 use crate::system::Dimensions;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -24,7 +24,7 @@ pub struct Common {
     #[command(flatten)]
     pub scene: SceneOptions,
     #[command(flatten)]
-    pub choice: AutoOption,
+    pub spec: AutoOption,
     #[command(flatten)]
     pub method: MethodOptions,
     #[command(flatten)]
@@ -58,14 +58,14 @@ pub struct AutoOption {
 #[derive(Args)]
 pub struct MethodOptions {
     /// Formulation, such as index1 or baumgarte:alpha=5,beta=5
-    #[arg(long, help_heading = OWN, value_parser = choice)]
-    pub formulation: Option<Choice>,
+    #[arg(long, help_heading = OWN, value_parser = spec)]
+    pub formulation: Option<MethodSpec>,
     /// Integrator, such as dop853
-    #[arg(long, help_heading = OWN, value_parser = choice)]
-    pub integrator: Option<Choice>,
+    #[arg(long, help_heading = OWN, value_parser = spec)]
+    pub integrator: Option<MethodSpec>,
     /// Projection after each step, such as manifold:sweeps=2
-    #[arg(long, help_heading = OWN, value_parser = choice)]
-    pub projection: Option<Choice>,
+    #[arg(long, help_heading = OWN, value_parser = spec)]
+    pub projection: Option<MethodSpec>,
     /// Relative tolerance, asked of the motion: steps are controlled by tighter ones
     #[arg(long, help_heading = OWN, value_parser = positive, allow_negative_numbers = true)]
     pub rtol: Option<f64>,
@@ -123,8 +123,8 @@ impl Format {
     }
 }
 
-pub fn choice(text: &str) -> Result<Choice, String> {
-    Choice::parse(text).map_err(|error| error.to_string())
+pub fn spec(text: &str) -> Result<MethodSpec, String> {
+    MethodSpec::parse(text).map_err(|error| error.to_string())
 }
 
 fn automatic(text: &str) -> Result<Automatic, String> {
@@ -170,15 +170,15 @@ pub fn assignment(text: &str) -> Result<(String, Number), String> {
 
 impl Common {
     /// The scene with its method.
-    pub fn load(&self) -> Result<Study> {
-        self.talk.load(&self.scene.path, &self.method.overrides(&self.scene, self.choice.method))
+    pub fn load(&self) -> Result<PreparedScene> {
+        self.talk.load(&self.scene.path, &self.method.overrides(&self.scene, self.spec.method))
     }
 
     /// When to simulate, with as many rows as fit into memory.
-    pub fn span(&self, study: &Study) -> Result<Span> {
-        let span = study.span().map_err(|error| error.in_file(&self.scene.path))?;
-        let Dimensions { q, v, lambda, .. } = study.system().dimensions();
-        let columns = 1 + q + v + lambda + study.system().columns().len();
+    pub fn span(&self, prepared: &PreparedScene) -> Result<Span> {
+        let span = prepared.span().map_err(|error| error.in_file(&self.scene.path))?;
+        let Dimensions { q, v, lambda, .. } = prepared.system().dimensions();
+        let columns = 1 + q + v + lambda + prepared.system().columns().len();
         refuse_rows((span.end - span.start) / span.output_step + 1.0, columns)
             .map_err(|error| error.under("--output-step").hint("give a larger one, or an earlier end with --until"))?;
         Ok(span)
@@ -198,10 +198,10 @@ impl MethodOptions {
 
 impl Talk {
     /// The scene; what is doubtful about its start is said.
-    pub fn load(&self, path: &Path, overrides: &Overrides) -> Result<Study> {
-        let study = Study::load(path, overrides)?;
-        self.warn(&study.doubts);
-        Ok(study)
+    pub fn load(&self, path: &Path, overrides: &Overrides) -> Result<PreparedScene> {
+        let prepared = PreparedScene::load(path, overrides)?;
+        self.warn(&prepared.doubts);
+        Ok(prepared)
     }
 
     /// Prints the result: JSON where asked, else text unless quiet.

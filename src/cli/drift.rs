@@ -4,10 +4,10 @@ use super::common::{Common, MethodOptions, Output};
 use super::interrupt;
 use crate::compare::{StabilizedRun, drift_under_stabilizations, stabilizations};
 use crate::error::{Error, Failure, Result};
-use crate::formulation::Choice;
+use crate::formulation::MethodSpec;
 use crate::integrator;
+use crate::prepared::PreparedScene;
 use crate::report::{drift_text, stabilizations_figure, stabilizations_table};
-use crate::study::Study;
 use std::process::ExitCode;
 
 #[derive(clap::Args)]
@@ -21,18 +21,18 @@ pub struct Args {
 
 pub fn run(args: Args) -> Result<ExitCode> {
     refuse_stabilization(&args.common.method)?;
-    let study = load(&args.common)?;
-    args.common.span(&study)?;
-    let count = stabilizations(&study, 1.0)?.len();
-    let mut folder = args.output.folder(&study.name)?;
+    let prepared = load(&args.common)?;
+    args.common.span(&prepared)?;
+    let count = stabilizations(&prepared, 1.0)?.len();
+    let mut folder = args.output.folder(&prepared.name)?;
     let bar = args.common.talk.progress(count as u64, "drift");
-    let rows = drift_under_stabilizations(&study, || interrupt::stop(&folder), || bar.inc(1))?;
+    let rows = drift_under_stabilizations(&prepared, || interrupt::stop(&folder), || bar.inc(1))?;
     bar.finish_and_clear();
     folder.write("drift.csv", &stabilizations_table(&rows)?)?;
-    args.output.figure(&mut folder, "drift", stabilizations_figure(&study.name, &rows))?;
+    args.output.figure(&mut folder, "drift", stabilizations_figure(&prepared.name, &rows))?;
     folder.write_json("drift.json", &rows)?;
     let written = folder.finish()?;
-    args.common.talk.print(&rows, || drift_text(&study, &rows))?;
+    args.common.talk.print(&rows, || drift_text(&prepared, &rows))?;
     args.common.talk.tell_files(&written)?;
     match fatal(&rows) {
         Some(failure) => Err(failure.clone().into()),
@@ -43,7 +43,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
 /// All of them are compared.
 fn refuse_stabilization(method: &MethodOptions) -> Result<()> {
     let given = [("--formulation", &method.formulation), ("--projection", &method.projection)];
-    match given.into_iter().find(|(_, choice)| choice.is_some()) {
+    match given.into_iter().find(|(_, spec)| spec.is_some()) {
         None => Ok(()),
         Some((option, _)) => {
             Err(Error::input("`drift` compares every formulation and projection that the integrator goes with")
@@ -55,11 +55,11 @@ fn refuse_stabilization(method: &MethodOptions) -> Result<()> {
 
 /// The scene; with an integrator of the command line on the first formulation that goes with it, since all do not depend on
 /// the scene's own.
-fn load(common: &Common) -> Result<Study> {
-    let mut overrides = common.method.overrides(&common.scene, common.choice.method);
-    if let Some(entry) = overrides.integrator.as_ref().and_then(|choice| integrator::find(choice).ok()) {
-        overrides.formulation = entry.accepts().next().map(Choice::named);
-        overrides.projection = Some(Choice::named("none"));
+fn load(common: &Common) -> Result<PreparedScene> {
+    let mut overrides = common.method.overrides(&common.scene, common.spec.method);
+    if let Some(entry) = overrides.integrator.as_ref().and_then(|spec| integrator::find(spec).ok()) {
+        overrides.formulation = entry.accepts().next().map(MethodSpec::named);
+        overrides.projection = Some(MethodSpec::named("none"));
     }
     common.talk.load(&common.scene.path, &overrides)?.settled()
 }

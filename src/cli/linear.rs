@@ -2,10 +2,10 @@
 
 use super::common::{MethodOptions, SceneOptions, Talk, number};
 use crate::analysis::Range;
-use crate::choice::Choice;
 use crate::error::Result;
 use crate::linearize::{Chart, Operating, Request, State, at_rest, registry, states, tighten};
-use crate::study::Study;
+use crate::method_spec::MethodSpec;
+use crate::prepared::PreparedScene;
 
 /// Which linear model.
 #[derive(clap::Args)]
@@ -52,7 +52,7 @@ impl ModelOptions {
     /// # Errors
     /// An unknown method or option.
     pub fn request(&self) -> Result<Request> {
-        let method = Choice::parse(&self.method).and_then(|method| {
+        let method = MethodSpec::parse(&self.method).and_then(|method| {
             method.entry(registry())?;
             Ok(method)
         });
@@ -62,32 +62,32 @@ impl ModelOptions {
 
 impl MethodOptions {
     /// The scene with these settings, its states computed to what a linear model needs.
-    pub fn load_tight(&self, scene: &SceneOptions, talk: &Talk) -> Result<Study> {
+    pub fn load_tight(&self, scene: &SceneOptions, talk: &Talk) -> Result<PreparedScene> {
         let overrides = self.overrides(scene, None);
-        let mut study = talk.load(&scene.path, &overrides)?;
-        tighten(&mut study, &overrides);
-        Ok(study)
+        let mut prepared = talk.load(&scene.path, &overrides)?;
+        tighten(&mut prepared, &overrides);
+        Ok(prepared)
     }
 }
 
 impl StateOptions {
-    pub fn states<'a>(&self, study: &'a Study, talk: &Talk) -> Result<Vec<Operating<'a>>> {
-        let found = self.operating(study, talk)?;
+    pub fn states<'a>(&self, prepared: &'a PreparedScene, talk: &Talk) -> Result<Vec<Operating<'a>>> {
+        let found = self.operating(prepared, talk)?;
         for Operating { state, doubt, .. } in &found {
             talk.warn(doubt);
-            talk.warn(&Range::warnings_at(study.system(), state.t, &state.q));
+            talk.warn(&Range::warnings_at(prepared.system(), state.t, &state.q));
         }
         Ok(found)
     }
 
-    fn operating<'a>(&self, study: &'a Study, talk: &Talk) -> Result<Vec<Operating<'a>>> {
-        let times = if self.at.is_empty() { vec![study.start_time()] } else { self.at.clone() };
+    fn operating<'a>(&self, prepared: &'a PreparedScene, talk: &Talk) -> Result<Vec<Operating<'a>>> {
+        let times = if self.at.is_empty() { vec![prepared.start_time()] } else { self.at.clone() };
         if !self.equilibrium {
-            let bar = talk.progress(times.len() as u64, &study.name);
-            let found = states(study, &times, |_| bar.inc(1));
+            let bar = talk.progress(times.len() as u64, &prepared.name);
+            let found = states(prepared, &times, |_| bar.inc(1));
             bar.finish_and_clear();
-            return Ok(found?.into_iter().map(|state| Operating::moving(study, state)).collect());
+            return Ok(found?.into_iter().map(|state| Operating::moving(prepared, state)).collect());
         }
-        times.into_iter().map(|t| at_rest(study, &State { t, ..State::start(study) })).collect()
+        times.into_iter().map(|t| at_rest(prepared, &State { t, ..State::start(prepared) })).collect()
     }
 }

@@ -2,13 +2,13 @@
 
 use super::common::{MethodOptions, Output, SceneOptions, Talk, number, print};
 use super::linear::{ChartOptions, StateOptions};
-use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::linearize::{self, Chart, Comparison, Complex, Kind, LinearModel, Request, Variation, compare};
+use crate::method_spec::MethodSpec;
+use crate::prepared::PreparedScene;
 use crate::report::linear::{Linear, comparison_text, linear_stem};
 use crate::report::mechanism::{Look, mode_figure};
 use crate::report::{self, Folder};
-use crate::study::Study;
 use serde::Serialize;
 use std::process::ExitCode;
 
@@ -41,16 +41,16 @@ pub struct Args {
 
 pub fn run(args: Args) -> Result<ExitCode> {
     let in_file = |error: Error| error.in_file(&args.scene.path);
-    let study = args.run.load_tight(&args.scene, &args.talk)?;
+    let prepared = args.run.load_tight(&args.scene, &args.talk)?;
     let requests = requests(&args).map_err(|error| error.under("--method"))?;
-    let places = args.states.states(&study, &args.talk).map_err(in_file)?;
-    let mut folder = args.output.folder(&study.name)?;
+    let places = args.states.states(&prepared, &args.talk).map_err(in_file)?;
+    let mut folder = args.output.folder(&prepared.name)?;
     let (mut results, mut uncertain) = (Vec::new(), Vec::new());
     for state in &places {
         let mut variation = state.variation().map_err(in_file)?;
         let models = models(&args, &requests, &mut variation).map_err(in_file)?;
         uncertain.extend(models.iter().filter(|model| model.has_uncertain_kinds()).map(|model| model.method.clone()));
-        results.push(report(&args, &study, &models, &mut folder)?);
+        results.push(report(&args, &prepared, &models, &mut folder)?);
     }
     let written = folder.finish()?;
     args.talk.warn(&report::uncertain_kinds(uncertain.iter().map(String::as_str)));
@@ -78,18 +78,18 @@ fn requests(args: &Args) -> Result<Vec<Request>> {
     if args.modes.is_some() && args.method != "mcs" {
         return Err(Error::input("--modes has a method of its own").hint("leave out --method, or --modes"));
     }
-    let request = |method: Choice| Request { method, chart: chart.clone() };
+    let request = |method: MethodSpec| Request { method, chart: chart.clone() };
     if args.method != "all" {
-        return Ok(vec![request(Choice::parse(&args.method)?)]);
+        return Ok(vec![request(MethodSpec::parse(&args.method)?)]);
     }
     let charts = if args.chart.chart().is_none() { vec![Chart::MassOrthogonal, Chart::Frozen] } else { Vec::new() };
-    let charts = charts.into_iter().map(|chart| Ok(Request { method: Choice::named("mcs"), chart: Some(chart) }));
+    let charts = charts.into_iter().map(|chart| Ok(Request { method: MethodSpec::named("mcs"), chart: Some(chart) }));
     let all = ["rcs", "rcs:form=index2", "rcs:form=index1", "rcs:form=ggl", "rcs:solver=gsvd", "rcs:solver=qz"];
     let rest = linearize::registry().iter().map(|entry| entry.name).filter(|name| !["mcs", "rcs"].contains(name));
     let projected = ["baumgarte:projected=yes", "penalty:projected=yes", "augmented_lagrangian:projected=yes"];
     let names = all.into_iter().chain(rest).chain(["penalty:kind=elastic"]).chain(projected);
-    let first = std::iter::once(Ok(request(Choice::named("mcs"))));
-    first.chain(charts).chain(names.map(|name| Choice::parse(name).map(request))).collect()
+    let first = std::iter::once(Ok(request(MethodSpec::named("mcs"))));
+    first.chain(charts).chain(names.map(|name| MethodSpec::parse(name).map(request))).collect()
 }
 
 /// What `--json` prints for one state.
@@ -100,14 +100,14 @@ enum Result_ {
     All { t: f64, methods: Vec<Comparison> },
 }
 
-fn report(args: &Args, study: &Study, models: &[LinearModel], folder: &mut Folder) -> Result<Result_> {
-    let names = study.system().names();
-    let linear = |model| Linear { scene: &study.name, names: &names, model };
+fn report(args: &Args, prepared: &PreparedScene, models: &[LinearModel], folder: &mut Folder) -> Result<Result_> {
+    let names = prepared.system().names();
+    let linear = |model| Linear { scene: &prepared.name, names: &names, model };
     let is_alone = models.len() == 1;
     let first = &models[0];
     let stem = linear_stem(first.point.t, None);
     linear(first).write(folder, &stem)?;
-    let figure = mode_figure(study, &Look::plain(&study.mechanism), first);
+    let figure = mode_figure(prepared, &Look::plain(&prepared.mechanism), first);
     args.output.figure(folder, &stem.replace("linear", "modes"), figure)?;
     let is_silent = args.talk.json || args.talk.quiet;
     if !is_silent {

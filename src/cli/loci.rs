@@ -4,9 +4,9 @@ use super::common::{MethodOptions, Output, SceneOptions, Talk, number, positive,
 use super::linear::ModelOptions;
 use crate::error::{Error, Result, short};
 use crate::linearize::{At, Kind, Loci, Request, Variants, loci_along, loci_over, refuse_large};
+use crate::prepared::PreparedScene;
 use crate::report::linear::{LociFile, LociSummary, frequency_figure, loci_figure, loci_table};
 use crate::report::uncertain_kinds;
-use crate::study::Study;
 use crate::sweep::{Family, Range};
 use std::process::ExitCode;
 
@@ -52,22 +52,22 @@ fn range(text: &str) -> Result<Range, String> {
 pub fn run(args: Args) -> Result<ExitCode> {
     let in_file = |error: Error| error.in_file(&args.scene.path);
     let request = args.model.request()?;
-    let study = args.run.load_tight(&args.scene, &args.talk)?;
-    refuse_large(study.system().dimensions().v).map_err(in_file)?;
-    let mut folder = args.output.folder(&study.name)?;
+    let prepared = args.run.load_tight(&args.scene, &args.talk)?;
+    refuse_large(prepared.system().dimensions().v).map_err(in_file)?;
+    let mut folder = args.output.folder(&prepared.name)?;
     let loci = match &args.sweep {
-        Some(range) => over(&args, &study, range, &request).map_err(in_file)?,
-        None => along(&args, &study, &request).map_err(in_file)?,
+        Some(range) => over(&args, &prepared, range, &request).map_err(in_file)?,
+        None => along(&args, &prepared, &request).map_err(in_file)?,
     };
     if loci.reached.is_empty() {
         return none(&args, &loci);
     }
     args.talk.warn(&loci.doubts);
-    let summary = LociSummary::new(&study.name, &loci);
+    let summary = LociSummary::new(&prepared.name, &loci);
     folder.write("loci.csv", &loci_table(&loci)?)?;
     let title = match &args.sweep {
-        Some(range) => format!("{}: eigenvalues over {}", study.name, range.parameter),
-        None => format!("{}: eigenvalues along the motion", study.name),
+        Some(range) => format!("{}: eigenvalues over {}", prepared.name, range.parameter),
+        None => format!("{}: eigenvalues along the motion", prepared.name),
     };
     args.output.figure(&mut folder, "loci", loci_figure(&title, summary.axis(), &loci.branches))?;
     args.output.figure(&mut folder, "loci_modes", frequency_figure(&title, summary.axis(), &loci.branches))?;
@@ -86,16 +86,16 @@ pub fn run(args: Args) -> Result<ExitCode> {
     }
 }
 
-fn along(args: &Args, study: &Study, request: &Request) -> Result<Loci> {
-    let times = times(args, study)?;
-    let bar = args.talk.progress(times.len() as u64, &study.name);
-    let loci = loci_along(study, request, &times, || bar.inc(1));
+fn along(args: &Args, prepared: &PreparedScene, request: &Request) -> Result<Loci> {
+    let times = times(args, prepared)?;
+    let bar = args.talk.progress(times.len() as u64, &prepared.name);
+    let loci = loci_along(prepared, request, &times, || bar.inc(1));
     bar.finish_and_clear();
     Ok(loci)
 }
 
-fn times(args: &Args, study: &Study) -> Result<Vec<f64>> {
-    let (start, end) = (study.start_time(), study.span()?.end);
+fn times(args: &Args, prepared: &PreparedScene) -> Result<Vec<f64>> {
+    let (start, end) = (prepared.start_time(), prepared.span()?.end);
     let from = args.from.unwrap_or(start);
     if !(start..end).contains(&from) {
         let message =
@@ -119,9 +119,9 @@ fn times(args: &Args, study: &Study) -> Result<Vec<f64>> {
     }
 }
 
-fn over(args: &Args, study: &Study, range: &Range, request: &Request) -> Result<Loci> {
+fn over(args: &Args, prepared: &PreparedScene, range: &Range, request: &Request) -> Result<Loci> {
     let at = match args.at {
-        Some(t) => within(study, t)?,
+        Some(t) => within(prepared, t)?,
         None if args.equilibrium => At::Equilibrium,
         None => At::Start,
     };
@@ -134,8 +134,8 @@ fn over(args: &Args, study: &Study, range: &Range, request: &Request) -> Result<
     Ok(loci)
 }
 
-fn within(study: &Study, t: f64) -> Result<At> {
-    let (start, end) = (study.start_time(), study.span().map_or(f64::INFINITY, |span| span.end));
+fn within(prepared: &PreparedScene, t: f64) -> Result<At> {
+    let (start, end) = (prepared.start_time(), prepared.span().map_or(f64::INFINITY, |span| span.end));
     match (start..=end).contains(&t) {
         true => Ok(At::Time(t)),
         false => {

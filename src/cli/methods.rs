@@ -1,10 +1,10 @@
 //! `holonom methods`
 
 use super::common::{print, to_json};
-use crate::choice::Choice;
 use crate::error::Result;
 use crate::formulation::OptionDoc;
 use crate::integrator::{self, Entry};
+use crate::method_spec::MethodSpec;
 use crate::report::Table;
 use crate::simulate::check_pair;
 use crate::{formulation, projection};
@@ -71,16 +71,16 @@ type Pair = (&'static Entry, &'static str);
 
 /// Integrators with the formulations that they take, of those that are asked for.
 fn pairs(args: &Args) -> Result<Vec<Pair>> {
-    let wanted = |name: &Option<String>| name.as_deref().map(Choice::parse).transpose();
+    let wanted = |name: &Option<String>| name.as_deref().map(MethodSpec::parse).transpose();
     let (formulation, integrator) = (wanted(&args.formulation)?, wanted(&args.integrator)?);
-    if let Some(choice) = &formulation {
-        choice.entry(formulation::registry()).map_err(|error| error.under("--formulation"))?;
+    if let Some(spec) = &formulation {
+        spec.entry(formulation::registry()).map_err(|error| error.under("--formulation"))?;
     }
-    if let Some(choice) = &integrator {
-        let entry = integrator::find(choice).map_err(|error| error.under("--integrator"))?;
+    if let Some(spec) = &integrator {
+        let entry = integrator::find(spec).map_err(|error| error.under("--integrator"))?;
         formulation.iter().try_for_each(|formulation| check_pair(entry, formulation))?;
     }
-    let is_wanted = |choice: &Option<Choice>, name: &str| choice.as_ref().is_none_or(|choice| choice.name == name);
+    let is_wanted = |spec: &Option<MethodSpec>, name: &str| spec.as_ref().is_none_or(|spec| spec.name == name);
     let entries = integrator::registry().iter().filter(|entry| is_wanted(&integrator, entry.name));
     let pairs = entries.flat_map(|entry| entry.accepts().map(move |name| (entry, name)));
     Ok(pairs.filter(|(_, name)| is_wanted(&formulation, name)).collect())

@@ -5,12 +5,12 @@ use super::interrupt;
 use crate::analysis::Recorder;
 use crate::error::significant;
 use crate::error::{Error, Failure, Result};
+use crate::prepared::{AnyMechanism, PreparedScene};
 use crate::report::mechanism::{
     Look, Motion, State, Trace, View, animation, find_trace, mechanism_figure, output_traces, stroboscope_figure, up,
 };
 use crate::report::{Folder, Written};
 use crate::simulate::Span;
-use crate::study::{AnyMechanism, Study};
 use crate::trajectory::Trajectory;
 use serde::Serialize;
 use std::process::ExitCode;
@@ -94,26 +94,26 @@ struct Film {
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
-    let study = args.common.load()?;
-    let look = args.look(&study)?;
+    let prepared = args.common.load()?;
+    let look = args.look(&prepared)?;
     let is_moving = args.stroboscope || args.animate.is_some() || !args.at.is_empty();
     // The start alone needs no run, and no end of it.
-    let span = if is_moving { Some(args.common.span(&study)?) } else { None };
-    args.check(&study, span)?;
-    let mut folder = args.output.folder(&study.name)?;
+    let span = if is_moving { Some(args.common.span(&prepared)?) } else { None };
+    args.check(&prepared, span)?;
+    let mut folder = args.output.folder(&prepared.name)?;
     let (trajectory, failure) = match span {
-        Some(span) => args.simulate(&study, span, &folder)?,
-        None => (Trajectory::new(study.system()), None),
+        Some(span) => args.simulate(&prepared, span, &folder)?,
+        None => (Trajectory::new(prepared.system()), None),
     };
     let mut drawn = Drawn {
-        scene: study.name.clone(),
+        scene: prepared.name.clone(),
         status: if failure.is_some() { "failed" } else { "completed" },
         failure,
         times: Vec::new(),
         animation: None,
         files: Vec::new(),
     };
-    args.draw(&Motion::new(&study, &trajectory), &look, &mut folder, &mut drawn)?;
+    args.draw(&Motion::new(&prepared, &trajectory), &look, &mut folder, &mut drawn)?;
     let written = folder.finish()?;
     drawn.files = written.paths();
     args.common.talk.print(&drawn, || drawn.text(&written))?;
@@ -128,13 +128,13 @@ pub fn run(args: Args) -> Result<ExitCode> {
 
 impl Args {
     /// How to show the scene.
-    fn look(&self, study: &Study) -> Result<Look> {
-        let is_planar = matches!(study.mechanism, AnyMechanism::Planar(_));
-        let plain = Look::plain(&study.mechanism);
+    fn look(&self, prepared: &PreparedScene) -> Result<Look> {
+        let is_planar = matches!(prepared.mechanism, AnyMechanism::Planar(_));
+        let plain = Look::plain(&prepared.mechanism);
         let view = match &self.view {
             None => plain.view,
             Some(name) => {
-                let view = View::parse(name, up(&study.mechanism)).map_err(|error| error.under("--view"))?;
+                let view = View::parse(name, up(&prepared.mechanism)).map_err(|error| error.under("--view"))?;
                 if is_planar && view != View::planar() {
                     let error = Error::input(format!("the scene is planar and cannot be seen from `{name}`"));
                     return Err(error.under("--view").hint("leave it out, or give xy"));
@@ -143,10 +143,10 @@ impl Args {
             }
         };
         let traces = match self.trace.as_slice() {
-            [] => output_traces(&study.mechanism),
+            [] => output_traces(&prepared.mechanism),
             [none] if none == "none" => Vec::new(),
             names => {
-                let find = |name: &String| find_trace(&study.mechanism, name.trim());
+                let find = |name: &String| find_trace(&prepared.mechanism, name.trim());
                 names.iter().map(find).collect::<Result<Vec<Trace>>>().map_err(|error| error.under("--trace"))?
             }
         };
@@ -154,7 +154,7 @@ impl Args {
     }
 
     /// Refuses what cannot be drawn, before anything is computed.
-    fn check(&self, study: &Study, span: Option<Span>) -> Result<()> {
+    fn check(&self, prepared: &PreparedScene, span: Option<Span>) -> Result<()> {
         if self.output.figures == Format::None && (self.stroboscope || self.animate.is_none()) {
             return Err(Error::input("there is nothing to draw").under("--figures").hint("choose svg or png"));
         }
@@ -168,41 +168,41 @@ impl Args {
             return Err(Error::input(format!("{t} s is outside the run")).under("--at").hint(range));
         }
         if self.animate.is_some() {
-            self.film(span.start, span.end).map_err(|error| error.element(&study.name))?;
+            self.film(span.start, span.end).map_err(|error| error.element(&prepared.name))?;
         }
         Ok(())
     }
 
     /// Runs the scene, with rows so near to each other that the states between them are known.
-    fn simulate(&self, study: &Study, span: Span, folder: &Folder) -> Result<(Trajectory, Option<Failure>)> {
+    fn simulate(&self, prepared: &PreparedScene, span: Span, folder: &Folder) -> Result<(Trajectory, Option<Failure>)> {
         let length = span.end - span.start;
         let wanted = (length / span.output_step).clamp(ROWS.0, ROWS.1);
         // Evenly chosen times are times of rows.
         let gaps = f64::from(self.frames) - 1.0;
         let output_step = length / ((wanted / gaps).ceil() * gaps);
-        let bar = self.common.talk.progress(1000, &study.name);
+        let bar = self.common.talk.progress(1000, &prepared.name);
         let fraction = |t: f64| (1000.0 * (t - span.start) / length) as u64;
-        let mut recorder = Recorder::new(study.system())
+        let mut recorder = Recorder::new(prepared.system())
             .with_progress(|t| bar.set_position(fraction(t)))
             .with_stop(|| interrupt::stop(folder));
-        let (outcome, _) = study.simulate(&study.method, Span { output_step, ..span }, &mut recorder)?;
+        let (outcome, _) = prepared.simulate(&prepared.method, Span { output_step, ..span }, &mut recorder)?;
         let record = recorder.finish();
         bar.finish_and_clear();
         Ok((record.trajectory, outcome.failure))
     }
 
     fn draw(&self, motion: &Motion, look: &Look, folder: &mut Folder, drawn: &mut Drawn) -> Result<()> {
-        let study = motion.study;
+        let prepared = motion.prepared;
         if self.stroboscope {
             drawn.times = self.times(motion);
             let figure = stroboscope_figure(motion, look, &drawn.times);
             self.output.figure(folder, "stroboscope", Some(figure))?;
         } else if self.animate.is_none() || !self.at.is_empty() {
-            let t = self.at.first().map_or(study.start_time(), |t| t.min(motion.reach().1));
-            let (q, v) = study.start();
+            let t = self.at.first().map_or(prepared.start_time(), |t| t.min(motion.reach().1));
+            let (q, v) = prepared.start();
             let state = if self.at.is_empty() { State { t, q: q.to_vec(), v: v.to_vec() } } else { motion.state(t) };
             drawn.times = vec![t];
-            self.output.figure(folder, "mechanism", Some(mechanism_figure(study, look, &state)))?;
+            self.output.figure(folder, "mechanism", Some(mechanism_figure(prepared, look, &state)))?;
         }
         match self.animate {
             Some(format) => self.animation(format, motion, look, folder, drawn),

@@ -1,8 +1,8 @@
 //! `--start FILE`: the end of another run of the same scene.
 
 use crate::error::{Error, Result, Warning};
+use crate::prepared::PreparedScene;
 use crate::simulate::Checkpoint;
-use crate::study::Study;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 use std::path::Path;
@@ -22,9 +22,9 @@ struct State {
 }
 
 /// Where the run of this summary can go on.
-pub fn read(path: &Path, study: &Study) -> Result<Checkpoint> {
+pub fn read(path: &Path, prepared: &PreparedScene) -> Result<Checkpoint> {
     let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
-    let saved = parse(&text).and_then(|saved| checked(saved, study));
+    let saved = parse(&text).and_then(|saved| checked(saved, prepared));
     saved.map_err(|error| error.under("--start").in_file(path))
 }
 
@@ -36,18 +36,24 @@ fn parse(text: &str) -> Result<Saved> {
 }
 
 /// Refuses a run of another scene.
-fn checked(Saved { parameters, r#final: State { q, v }, restart }: Saved, study: &Study) -> Result<Checkpoint> {
-    let names = study.system().names();
+fn checked(
+    Saved { parameters, r#final: State { q, v }, restart }: Saved,
+    prepared: &PreparedScene,
+) -> Result<Checkpoint> {
+    let names = prepared.system().names();
     let other = |found: &Map<String, Value>, known: &[String]| {
         let is_known = |name: &&String| known.contains(name);
         let new = found.keys().find(|name| !is_known(name)).or(known.iter().find(|name| !found.contains_key(*name)));
         new.cloned().or_else(|| found.keys().zip(known).find(|(a, b)| a != b).map(|(a, _)| a.clone()))
     };
     if let Some(name) = other(&q, &names.q).or_else(|| other(&v, &names.v)) {
-        return Err(Error::input(format!("it is of another scene than `{}`: they do not share `{name}`", study.name))
-            .hint("a run goes on with the scene, and the parameters, that it began with"));
+        return Err(Error::input(format!(
+            "it is of another scene than `{}`: they do not share `{name}`",
+            prepared.name
+        ))
+        .hint("a run goes on with the scene, and the parameters, that it began with"));
     }
-    for (name, value) in study.parameters.iter() {
+    for (name, value) in prepared.parameters.iter() {
         let saved = parameters.get(name).and_then(Value::as_f64);
         if saved != Some(value) {
             let was = saved.map_or("missing".to_string(), |saved| saved.to_string());
@@ -59,9 +65,9 @@ fn checked(Saved { parameters, r#final: State { q, v }, restart }: Saved, study:
 }
 
 /// What is said of a run that does not go on as it was.
-pub fn doubt(saved: &Checkpoint, study: &Study) -> Option<Warning> {
+pub fn doubt(saved: &Checkpoint, prepared: &PreparedScene) -> Option<Warning> {
     let (t, method) = (saved.t(), saved.method());
-    if !study.is_automatic && *method != study.method {
+    if !prepared.is_automatic && *method != prepared.method {
         return Some(Warning::new(
             format!("the method is another one than up to t = {t} s, and begins anew from the state there"),
             format!("with {} at the same tolerances or step the run would go on as it was", method.triple()),

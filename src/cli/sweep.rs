@@ -2,8 +2,8 @@
 
 use super::common::{Output, SceneOptions, Talk, tell};
 use crate::error::{Error, Result, suggest};
+use crate::prepared::Overrides;
 use crate::report::{SweepLook, SweepSummary, sweep_figure, sweep_table};
-use crate::study::Overrides;
 use crate::sweep::{Family, Range, Sweep};
 use crate::system::Column;
 use std::process::ExitCode;

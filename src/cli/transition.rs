@@ -6,8 +6,8 @@ use crate::error::significant;
 use crate::error::{Error, Result};
 use crate::linearize::{Defect, Floquet, Lyapunov, Operating, State, floquet, lyapunov};
 use crate::plot::{Figure, Panel, Series};
+use crate::prepared::PreparedScene;
 use crate::report::{Table, Written, cell};
-use crate::study::Study;
 use crate::tolerances::report as tolerances;
 use serde_json::{Value, json};
 use std::process::ExitCode;
@@ -38,23 +38,23 @@ const RENEWALS: f64 = 500.0;
 
 pub fn run(args: Args) -> Result<ExitCode> {
     let in_file = |error: Error| error.in_file(&args.scene.path);
-    let study = args.run.load_tight(&args.scene, &args.talk)?;
-    let places = args.states.states(&study, &args.talk).map_err(in_file)?;
-    let mut folder = args.output.folder(&study.name)?;
+    let prepared = args.run.load_tight(&args.scene, &args.talk)?;
+    let places = args.states.states(&prepared, &args.talk).map_err(in_file)?;
+    let mut folder = args.output.folder(&prepared.name)?;
     let mut results = Vec::new();
     for place in &places {
         let state = &place.state;
-        let mut result = json!({ "scene": study.name, "t": state.t });
+        let mut result = json!({ "scene": prepared.name, "t": state.t });
         if let Some(period) = args.period {
             let found = floquet(place.system(), state, period).map_err(in_file)?;
             let defects = found.defects(tolerances::MULTIPLIER_OUTSIDE)?;
-            show(&args, &floquet_text(&study, state, &found, &defects))?;
+            show(&args, &floquet_text(&prepared, state, &found, &defects))?;
             result["floquet"] = floquet_json(&found, &defects);
         }
         if let Some(duration) = args.lyapunov {
-            let found = exponents(&args, &study.name, place, duration).map_err(in_file)?;
-            show(&args, &lyapunov_text(&study, state, &found))?;
-            args.output.figure(&mut folder, &format!("lyapunov-{}", cell(state.t)), figure(&study, &found))?;
+            let found = exponents(&args, &prepared.name, place, duration).map_err(in_file)?;
+            show(&args, &lyapunov_text(&prepared, state, &found))?;
+            args.output.figure(&mut folder, &format!("lyapunov-{}", cell(state.t)), figure(&prepared, &found))?;
             result["lyapunov"] = json!({ "times": found.times, "exponents": found.exponents });
         }
         folder.write_json(&format!("transition-{}.json", cell(state.t)), &result)?;
@@ -99,7 +99,7 @@ fn floquet_json(found: &Floquet, defects: &[Defect]) -> Value {
     })
 }
 
-fn floquet_text(study: &Study, state: &State, found: &Floquet, defects: &[Defect]) -> String {
+fn floquet_text(prepared: &PreparedScene, state: &State, found: &Floquet, defects: &[Defect]) -> String {
     let mut table = Table::new(&["multiplier re", "im", "size", "grows by (1/s)"]);
     for (value, exponent) in found.multipliers.iter().zip(found.exponents()) {
         let cells = [value.re, value.im, value.norm(), exponent.re];
@@ -115,20 +115,20 @@ fn floquet_text(study: &Study, state: &State, found: &Floquet, defects: &[Defect
     };
     format!(
         "{} from t = {} s over the period {} s (returns to {:.1e}): {verdict}\n\n{table}",
-        study.name,
+        prepared.name,
         significant(state.t, 6),
         significant(found.period, 9),
         found.gap
     )
 }
 
-fn lyapunov_text(study: &Study, state: &State, found: &Lyapunov) -> String {
+fn lyapunov_text(prepared: &PreparedScene, state: &State, found: &Lyapunov) -> String {
     let list = |values: &[f64]| values.iter().map(|x| significant(*x, 4)).collect::<Vec<String>>().join(", ");
     let half = found.exponents.get(found.exponents.len() / 2).map_or(&[][..], Vec::as_slice);
     let duration = found.times.last().copied().unwrap_or(0.0);
     format!(
         "{} from t = {} s: Lyapunov exponents over {} s, 1/s\n  {}\n  over half of it: {}\n",
-        study.name,
+        prepared.name,
         significant(state.t, 6),
         significant(duration, 6),
         list(found.last()),
@@ -136,12 +136,12 @@ fn lyapunov_text(study: &Study, state: &State, found: &Lyapunov) -> String {
     )
 }
 
-fn figure(study: &Study, found: &Lyapunov) -> Option<Figure> {
+fn figure(prepared: &PreparedScene, found: &Lyapunov) -> Option<Figure> {
     let count = found.last().len();
     let line = |i: usize| {
         let points = found.times.iter().zip(&found.exponents).map(|(t, now)| (*t, now[i])).collect();
         Series::line(format!("exponent {}", i + 1), points)
     };
     let panel = (0..count).map(line).fold(Panel::new("time (s)", "average growth (1/s)"), Panel::series);
-    (count > 0).then(|| Figure::new().title(format!("{}: Lyapunov exponents", study.name)).panel(panel))
+    (count > 0).then(|| Figure::new().title(format!("{}: Lyapunov exponents", prepared.name)).panel(panel))
 }

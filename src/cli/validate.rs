@@ -35,25 +35,25 @@ pub struct Args {
 
 pub fn run(args: Args) -> Result<ExitCode> {
     let in_file = |error: Error| error.in_file(&args.scene.path);
-    let study = args.run.load_tight(&args.scene, &args.talk)?;
+    let prepared = args.run.load_tight(&args.scene, &args.talk)?;
     let default = Settings::default();
     let directions = match args.along.as_slice() {
         [] => default.directions,
         names => names.iter().map(|name| Direction::parse(name)).collect(),
     };
     let settings = Settings { chart: args.chart.chart(), directions, horizon: args.horizon, inputs: !args.no_inputs };
-    let places = args.states.states(&study, &args.talk).map_err(in_file)?;
-    let mut folder = args.output.folder(&study.name)?;
-    let (names, mut files) = (study.system().names(), Vec::new());
+    let places = args.states.states(&prepared, &args.talk).map_err(in_file)?;
+    let mut folder = args.output.folder(&prepared.name)?;
+    let (names, mut files) = (prepared.system().names(), Vec::new());
     for place in &places {
         let found = validate(place.system(), &place.state, &settings).map_err(in_file)?;
-        let file = ValidationFile::new(&study.name, &names, &found);
+        let file = ValidationFile::new(&prepared.name, &names, &found);
         let stem = format!("validation-{}", cell(place.state.t));
         folder.write_json(&format!("{stem}.json"), &file)?;
         for (i, sequence) in found.sequences.iter().enumerate() {
             let title = format!(
                 "{}, perturbed at t = {} s ({})",
-                study.name,
+                prepared.name,
                 crate::error::significant(place.state.t, 6),
                 sequence.direction
             );

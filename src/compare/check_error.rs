@@ -3,8 +3,8 @@
 use crate::analysis::Recorder;
 use crate::error::Failure;
 use crate::linearize::amplified;
+use crate::prepared::PreparedScene;
 use crate::simulate::{Method, Span, Stop};
-use crate::study::Study;
 use crate::trajectory::Trajectory;
 use serde::{Serialize, Serializer};
 
@@ -34,23 +34,23 @@ pub struct Difference {
     pub unit: String,
 }
 
-/// Runs the study again with closer steps, and compares the `first` run with that. `show` is told the times, `stop` asked
+/// Runs the scene again with closer steps, and compares the `first` run with that. `show` is told the times, `stop` asked
 /// whether to end.
 pub fn check_error(
-    study: &Study,
+    prepared: &PreparedScene,
     span: Span,
     first: &Trajectory,
     (show, stop): (impl Fn(f64), impl Fn() -> Option<Stop>),
 ) -> CheckError {
-    let method = closer(&study.method);
-    let mut recorder = Recorder::new(study.system()).with_progress(&show).with_stop(&stop);
-    let outcome = study.simulate(&method, span, &mut recorder);
+    let method = closer(&prepared.method);
+    let mut recorder = Recorder::new(prepared.system()).with_progress(&show).with_stop(&stop);
+    let outcome = prepared.simulate(&method, span, &mut recorder);
     let second = recorder.finish();
     let failure = match outcome {
         Ok((outcome, _)) => second.singularity.failure().or(outcome.failure),
         Err(error) => Some(Failure { t: span.start, reason: error.to_string(), hint: String::new() }),
     };
-    let amplification = amplified(study, span, |t| {
+    let amplification = amplified(prepared, span, |t| {
         show(t);
         stop().is_none()
     });

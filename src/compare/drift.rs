@@ -1,10 +1,10 @@
 //! Drift of one scene under every stabilization that its integrator goes with.
 
 use crate::analysis::{Drift, EnergyBalance, Record, Recorder, Singularity};
-use crate::choice::Choice;
 use crate::error::{Error, Failure, Result, significant};
+use crate::method_spec::MethodSpec;
+use crate::prepared::PreparedScene;
 use crate::simulate::{Method, Outcome, Stop, simulate};
-use crate::study::Study;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::time::Instant;
@@ -14,8 +14,8 @@ use std::time::Instant;
 pub struct StabilizedRun {
     /// Its name in tables: the formulation, or the projection after index 1.
     pub method: String,
-    pub formulation: Choice,
-    pub projection: Choice,
+    pub formulation: MethodSpec,
+    pub projection: MethodSpec,
     /// `completed` or `failed`.
     pub status: &'static str,
     pub failure: Option<Failure>,
@@ -31,71 +31,73 @@ pub struct StabilizedRun {
     pub record: Record,
 }
 
-/// Runs the study under every stabilization. Gains go with the mean step of the run without one, which comes first; `stop`
+/// Runs the scene under every stabilization. Gains go with the mean step of the run without one, which comes first; `stop`
 /// is asked whether to end a run, `done` told of each that has.
 ///
 /// # Errors
 /// Where there is nothing to compare, and bad input of any kind: see [`simulate`].
 pub fn drift_under_stabilizations(
-    study: &Study,
+    prepared: &PreparedScene,
     stop: impl Fn() -> Option<Stop> + Sync,
     done: impl Fn() + Sync,
 ) -> Result<Vec<StabilizedRun>> {
-    let run = |(formulation, projection): &(Choice, Choice)| {
-        let run = one(study, formulation, projection, &stop);
+    let run = |(formulation, projection): &(MethodSpec, MethodSpec)| {
+        let run = one(prepared, formulation, projection, &stop);
         done();
         run
     };
-    let plain = run(&stabilizations(study, 1.0)?[0])?;
-    let span = study.span()?;
-    let step = study.method.step.unwrap_or((span.end - span.start) / plain.steps.max(1) as f64);
-    let others: Vec<StabilizedRun> = stabilizations(study, step)?.par_iter().skip(1).map(run).collect::<Result<_>>()?;
+    let plain = run(&stabilizations(prepared, 1.0)?[0])?;
+    let span = prepared.span()?;
+    let step = prepared.method.step.unwrap_or((span.end - span.start) / plain.steps.max(1) as f64);
+    let others: Vec<StabilizedRun> =
+        stabilizations(prepared, step)?.par_iter().skip(1).map(run).collect::<Result<_>>()?;
     Ok([plain].into_iter().chain(others).collect())
 }
 
-/// The pairs of formulation and projection that the integrator of the study goes with, the least stabilization first, with
+/// The pairs of formulation and projection that the integrator of the scene goes with, the least stabilization first, with
 /// gains for steps of size `step`.
 ///
 /// # Errors
 /// Where there is one alone.
-pub fn stabilizations(study: &Study, step: f64) -> Result<Vec<(Choice, Choice)>> {
-    let accepted = |(formulation, projection): &(Choice, Choice)| of(study, formulation, projection).check().is_ok();
+pub fn stabilizations(prepared: &PreparedScene, step: f64) -> Result<Vec<(MethodSpec, MethodSpec)>> {
+    let accepted =
+        |(formulation, projection): &(MethodSpec, MethodSpec)| of(prepared, formulation, projection).check().is_ok();
     let all: Vec<_> = all(step).into_iter().filter(accepted).collect();
     if all.len() > 1 {
         return Ok(all);
     }
-    let Method { integrator, formulation, .. } = &study.method;
-    let because = study.chosen_because.as_ref().map_or(String::new(), |because| format!("; auto: {because}"));
+    let Method { integrator, formulation, .. } = &prepared.method;
+    let because = prepared.chosen_because.as_ref().map_or(String::new(), |because| format!("; auto: {because}"));
     let message = format!("{integrator} goes with {formulation} alone: there is nothing to compare{because}");
-    let path = if study.chosen_because.is_some() { "--method" } else { "simulation.integrator" };
+    let path = if prepared.chosen_because.is_some() { "--method" } else { "simulation.integrator" };
     Err(Error::input(message).under(path).hint("name another, as in --integrator dop853 or --integrator radau_iia"))
 }
 
-fn of(study: &Study, formulation: &Choice, projection: &Choice) -> Method {
-    Method { formulation: formulation.clone(), projection: projection.clone(), ..study.method.clone() }
+fn of(prepared: &PreparedScene, formulation: &MethodSpec, projection: &MethodSpec) -> Method {
+    Method { formulation: formulation.clone(), projection: projection.clone(), ..prepared.method.clone() }
 }
 
 /// Every stabilization, the least first, with gains that go with steps of size `step`: alpha = beta = 1/step is the pair
 /// (2/h, 1/h^2).
-fn all(step: f64) -> Vec<(Choice, Choice)> {
+fn all(step: f64) -> Vec<(MethodSpec, MethodSpec)> {
     let gain = significant(1.0 / step, 3);
     let gained =
-        |name: &str, keys: &[&str]| keys.iter().fold(Choice::named(name), |choice, key| choice.with(key, &gain));
-    let sweeps = Choice::named("manifold").with("sweeps", "2");
-    let index1 = || Choice::named("index1");
-    let none = || Choice::named("none");
-    let other = |formulation: &str, projection: &str| (Choice::named(formulation), Choice::named(projection));
+        |name: &str, keys: &[&str]| keys.iter().fold(MethodSpec::named(name), |spec, key| spec.with(key, &gain));
+    let sweeps = MethodSpec::named("manifold").with("sweeps", "2");
+    let index1 = || MethodSpec::named("index1");
+    let none = || MethodSpec::named("none");
+    let other = |formulation: &str, projection: &str| (MethodSpec::named(formulation), MethodSpec::named(projection));
     vec![
         (index1(), none()),
-        (Choice::named("baumgarte"), none()),
+        (MethodSpec::named("baumgarte"), none()),
         (gained("baumgarte", &["alpha", "beta"]), none()),
         (gained("invariant_manifold", &["gamma"]), none()),
-        (index1(), Choice::named("position")),
-        (index1(), Choice::named("velocity")),
-        (index1(), Choice::named("manifold")),
+        (index1(), MethodSpec::named("position")),
+        (index1(), MethodSpec::named("velocity")),
+        (index1(), MethodSpec::named("manifold")),
         (index1(), sweeps),
-        (index1(), Choice::named("full")),
-        (index1(), Choice::named("exact")),
+        (index1(), MethodSpec::named("full")),
+        (index1(), MethodSpec::named("exact")),
         other("index2", "none"),
         other("index2", "position"),
         other("index3", "none"),
@@ -106,16 +108,16 @@ fn all(step: f64) -> Vec<(Choice, Choice)> {
 }
 
 fn one(
-    study: &Study,
-    formulation: &Choice,
-    projection: &Choice,
+    prepared: &PreparedScene,
+    formulation: &MethodSpec,
+    projection: &MethodSpec,
     stop: impl Fn() -> Option<Stop>,
 ) -> Result<StabilizedRun> {
-    let method = of(study, formulation, projection);
-    let mut recorder = Recorder::new(study.system()).with_stop(stop);
+    let method = of(prepared, formulation, projection);
+    let mut recorder = Recorder::new(prepared.system()).with_stop(stop);
     let clock = Instant::now();
     let Outcome { statistics, failure, .. } =
-        simulate(study.system(), &method, study.span()?, study.start(), &mut recorder)?;
+        simulate(prepared.system(), &method, prepared.span()?, prepared.start(), &mut recorder)?;
     let wall_seconds = clock.elapsed().as_secs_f64();
     let mut record = recorder.finish();
     // Of the motion only the times are shown, and there are many records.

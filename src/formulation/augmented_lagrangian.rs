@@ -22,5 +22,5 @@ pub const ENTRY: Entry = Entry {
         XI,
     ],
     dae: None,
-    field: Some(|choice, system| Ok(Box::new(Penalty::new(choice.whole("iterations", 3, 1..=100)?, choice, system)?))),
+    field: Some(|spec, system| Ok(Box::new(Penalty::new(spec.whole("iterations", 3, 1..=100)?, spec, system)?))),
 };

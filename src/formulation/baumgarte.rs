@@ -1,7 +1,7 @@
 //! Baumgarte stabilization.
 
 use super::index1::{RANK, rank_tolerance};
-use super::{Choice, Dae, Dynamics, Entry, Formulation, OptionDoc, Row, StepError};
+use super::{Dae, Dynamics, Entry, Formulation, MethodSpec, OptionDoc, Row, StepError};
 use crate::error::Result;
 
 /// ```text
@@ -20,20 +20,20 @@ pub const ENTRY: Entry = Entry {
         OptionDoc { name: "beta", about: "frequency of phi, 1/s (default alpha)" },
         RANK,
     ],
-    dae: Some(|choice| {
-        let [alpha, beta] = gains(choice)?;
+    dae: Some(|spec| {
+        let [alpha, beta] = gains(spec)?;
         Ok(Dae::with(Row { position: beta * beta, velocity: 2.0 * alpha, acceleration: 1.0 }))
     }),
-    field: Some(|choice, _| {
-        let [alpha, beta] = gains(choice)?;
-        Ok(Box::new(Baumgarte { alpha, beta, rank_tolerance: rank_tolerance(choice)? }))
+    field: Some(|spec, _| {
+        let [alpha, beta] = gains(spec)?;
+        Ok(Box::new(Baumgarte { alpha, beta, rank_tolerance: rank_tolerance(spec)? }))
     }),
 };
 
 /// alpha and beta
-fn gains(choice: &Choice) -> Result<[f64; 2]> {
-    let alpha = choice.not_negative("alpha", 5.0)?;
-    Ok([alpha, choice.not_negative("beta", alpha)?])
+fn gains(spec: &MethodSpec) -> Result<[f64; 2]> {
+    let alpha = spec.not_negative("alpha", 5.0)?;
+    Ok([alpha, spec.not_negative("beta", alpha)?])
 }
 
 struct Baumgarte {

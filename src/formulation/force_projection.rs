@@ -21,9 +21,9 @@ pub const ENTRY: Entry = Entry {
         OptionDoc { name: "velocity", about: "rate r at which phi' decays, 1/s (default position)" },
     ],
     dae: None,
-    field: Some(|choice, system| {
-        let position = choice.not_negative("position", 10.0)?;
-        let gains = [position, choice.not_negative("velocity", position)?];
+    field: Some(|spec, system| {
+        let position = spec.not_negative("position", 10.0)?;
+        let gains = [position, spec.not_negative("velocity", position)?];
         Ok(Box::new(InvariantManifold::new(gains, Stabilizer::new(StabilizingField::Both, system), system)))
     }),
 };

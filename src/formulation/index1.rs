@@ -1,6 +1,6 @@
 //! Index 1: the constraints differentiated twice, lambda eliminated.
 
-use super::{Choice, Dae, Dynamics, Entry, Formulation, OptionDoc, Row, StepError};
+use super::{Dae, Dynamics, Entry, Formulation, MethodSpec, OptionDoc, Row, StepError};
 use crate::error::Result;
 use crate::tolerances::math::TRUNCATED_RANK;
 
@@ -15,7 +15,7 @@ pub const ENTRY: Entry = Entry {
     about: "phi'' = 0, lambda eliminated; drifts unless projected",
     options: &[RANK],
     dae: Some(|_| Ok(Dae::with(Row::ACCELERATION))),
-    field: Some(|choice, _| Ok(Box::new(Index1 { rank_tolerance: rank_tolerance(choice)? }))),
+    field: Some(|spec, _| Ok(Box::new(Index1 { rank_tolerance: rank_tolerance(spec)? }))),
 };
 
 /// Constraints nearer than this to depending on others are dropped from v' and lambda.
@@ -24,8 +24,8 @@ pub(super) const RANK: OptionDoc = OptionDoc {
     about: "part of the reference value of the rank indicator below which constraints count as dependent (default 1e-4; 0 for the plain equations)",
 };
 
-pub(super) fn rank_tolerance(choice: &Choice) -> Result<f64> {
-    choice.not_negative(RANK.name, TRUNCATED_RANK)
+pub(super) fn rank_tolerance(spec: &MethodSpec) -> Result<f64> {
+    spec.not_negative(RANK.name, TRUNCATED_RANK)
 }
 
 pub(super) struct Index1 {

@@ -22,9 +22,9 @@ pub const ENTRY: Entry = Entry {
         },
     ],
     dae: None,
-    field: Some(|choice, system| {
-        let gamma = choice.not_negative("gamma", 10.0)?;
-        let stabilizer = Stabilizer::new(StabilizingField::from_choice(choice)?, system);
+    field: Some(|spec, system| {
+        let gamma = spec.not_negative("gamma", 10.0)?;
+        let stabilizer = Stabilizer::new(StabilizingField::from_spec(spec)?, system);
         Ok(Box::new(InvariantManifold::new([gamma; 2], stabilizer, system)))
     }),
 };

@@ -1,7 +1,7 @@
 //! What is integrated: ways to turn the constrained equations into something an integrator can step.
 //!
 //! To add one: a file with an [`Entry`], and a line in [`registry`]; from outside the crate, an [`Entry`] and its
-//! [`choice`](Listed::choice), as in `tests/examples/own_formulation.rs`.
+//! [`spec`](Listed::spec), as in `tests/examples/own_formulation.rs`.
 
 mod augmented_lagrangian;
 mod baumgarte;
@@ -26,7 +26,7 @@ mod statistics;
 mod turn;
 mod udwadia_kalaba;
 
-pub use crate::choice::{Choice, OptionDoc};
+pub use crate::method_spec::{MethodSpec, OptionDoc};
 pub use dae::{Dae, Row};
 pub use directions::{degrees_of_freedom, free_directions, reduce};
 pub use dynamics::{Dynamics, StepError};
@@ -38,8 +38,8 @@ pub use stabilizer::{Stabilizer, StabilizingField};
 pub use statistics::{Statistics, Work};
 pub use turn::turn;
 
-use crate::choice::Listed;
 use crate::error::Result;
+use crate::method_spec::Listed;
 use crate::system::MechanicalSystem;
 
 /// A vector field (q', v') = F(t, q, v) whose solutions are the motions of the mechanism.
@@ -92,18 +92,18 @@ pub struct Entry {
     pub about: &'static str,
     pub options: &'static [OptionDoc],
     /// The equations with multipliers, for methods that solve them; none where lambda is no unknown.
-    pub dae: Option<fn(&Choice) -> Result<Dae>>,
+    pub dae: Option<fn(&MethodSpec) -> Result<Dae>>,
     /// The vector field, for methods that follow one; none where the constraints themselves are solved.
     pub field: Option<MakeField>,
 }
 
 /// Makes a vector field for a system.
-pub type MakeField = fn(&Choice, &dyn MechanicalSystem) -> Result<Box<dyn Formulation>>;
+pub type MakeField = fn(&MethodSpec, &dyn MechanicalSystem) -> Result<Box<dyn Formulation>>;
 
 impl Entry {
     /// The equations with the default options.
     pub fn default_dae(&self) -> Option<Dae> {
-        self.dae.and_then(|dae| dae(&Choice::named(self.name)).ok())
+        self.dae.and_then(|dae| dae(&MethodSpec::named(self.name)).ok())
     }
 }
 
@@ -142,21 +142,21 @@ pub fn named(name: &str) -> Option<&'static Entry> {
     registry().iter().find(|entry| entry.name == name)
 }
 
-/// The entry that `choice` stands for, with whatever options.
-pub fn lookup(choice: &Choice) -> Option<&'static Entry> {
-    choice.lookup(registry())
+/// The entry that `spec` stands for, with whatever options.
+pub fn lookup(spec: &MethodSpec) -> Option<&'static Entry> {
+    spec.lookup(registry())
 }
 
-/// The equations with multipliers of the formulation that `choice` names, where it has them.
+/// The equations with multipliers of the formulation that `spec` names, where it has them.
 ///
 /// # Errors
 /// Bad options.
-pub fn dae(choice: &Choice) -> Result<Option<Dae>> {
-    lookup(choice).and_then(|entry| entry.dae).map(|dae| dae(choice)).transpose()
+pub fn dae(spec: &MethodSpec) -> Result<Option<Dae>> {
+    lookup(spec).and_then(|entry| entry.dae).map(|dae| dae(spec)).transpose()
 }
 
-/// The vector field of the formulation that `choice` names, for `system`. Where the constraints themselves are solved, it is
+/// The vector field of the formulation that `spec` names, for `system`. Where the constraints themselves are solved, it is
 /// the one that observes: v' and lambda are those of the equations of motion at (q, v), and so of the order of q and v.
-pub fn make(choice: &Choice, system: &dyn MechanicalSystem) -> Result<Box<dyn Formulation>> {
-    choice.entry(registry())?.field.unwrap_or(|_, _| Ok(Box::new(index1::Index1::default())))(choice, system)
+pub fn make(spec: &MethodSpec, system: &dyn MechanicalSystem) -> Result<Box<dyn Formulation>> {
+    spec.entry(registry())?.field.unwrap_or(|_, _| Ok(Box::new(index1::Index1::default())))(spec, system)
 }

@@ -1,6 +1,6 @@
 //! Penalty on the constraints, with or without updates of the multipliers.
 
-use super::{Choice, Dynamics, Entry, Formulation, OptionDoc, StepError};
+use super::{Dynamics, Entry, Formulation, MethodSpec, OptionDoc, StepError};
 use crate::error::Result;
 use crate::math::kkt::{Pattern, SaddlePoint};
 use crate::system::{MechanicalSystem, Need, Structure, Terms};
@@ -24,7 +24,7 @@ pub const ENTRY: Entry = Entry {
     about: "(M + G^T a G) v' = f + G^T a c: error O(1/penalty), redundant rows and singular positions allowed",
     options: &[PENALTY, OMEGA, XI],
     dae: None,
-    field: Some(|choice, system| Ok(Box::new(Penalty::new(1, choice, system)?))),
+    field: Some(|spec, system| Ok(Box::new(Penalty::new(1, spec, system)?))),
 };
 
 pub const PENALTY: OptionDoc =
@@ -55,16 +55,16 @@ pub(super) struct Penalty {
 }
 
 impl Penalty {
-    pub fn new(iterations: usize, choice: &Choice, system: &dyn MechanicalSystem) -> Result<Self> {
+    pub fn new(iterations: usize, spec: &MethodSpec, system: &dyn MechanicalSystem) -> Result<Self> {
         let (n, Structure { mut mass, mut g, .. }) = (system.dimensions(), system.structure());
         mass.entries.extend((n.v..n.v + n.lambda).map(|i| (i, i)));
         g.entries.extend((0..n.lambda).map(|row| (row, n.v + row)));
         (mass.rows, mass.cols, g.cols) = (n.v + n.lambda, n.v + n.lambda, n.v + n.lambda);
         Ok(Penalty {
             iterations,
-            penalty: choice.positive("penalty", 1e7)?,
-            omega: choice.not_negative("omega", 10.0)?,
-            xi: choice.not_negative("xi", 1.0)?,
+            penalty: spec.positive("penalty", 1e7)?,
+            omega: spec.not_negative("omega", 10.0)?,
+            xi: spec.not_negative("xi", 1.0)?,
             weight: None,
             kkt: SaddlePoint::new(&mass, &g),
             mass: vec![0.0; mass.entries.len()],

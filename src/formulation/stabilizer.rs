@@ -4,7 +4,7 @@
 //! [G 0; L G] and B = M^-1 G^T. Source: Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; Ascher, Chin, Petzold,
 //! Reich, Mech. Struct. Mach. 23 (1995) 135-157.
 
-use super::{Choice, Dynamics, StepError};
+use super::{Dynamics, MethodSpec, StepError};
 use crate::error::{Error, Result, suggest};
 use crate::math::kkt::{Pattern, SaddlePoint};
 use crate::system::{MechanicalSystem, Need};
@@ -40,11 +40,11 @@ const FIELDS: [(&str, StabilizingField); 7] = [
 
 impl StabilizingField {
     /// The option `field` of a method; S-both where it is not given.
-    pub fn from_choice(choice: &Choice) -> Result<StabilizingField> {
-        let Some(text) = choice.text("field") else { return Ok(StabilizingField::Both) };
+    pub fn from_spec(spec: &MethodSpec) -> Result<StabilizingField> {
+        let Some(text) = spec.text("field") else { return Ok(StabilizingField::Both) };
         let found = FIELDS.iter().find(|(name, _)| *name == text.replace('-', "_")).map(|(_, field)| *field);
         found.ok_or_else(|| {
-            Error::input(format!("{}: there is no field `{text}`", choice.name))
+            Error::input(format!("{}: there is no field `{text}`", spec.name))
                 .hint(suggest(text, FIELDS.iter().map(|(name, _)| *name)))
         })
     }

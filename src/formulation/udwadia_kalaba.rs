@@ -24,8 +24,8 @@ pub const ENTRY: Entry = Entry {
         about: "singular values up to this part of the largest count as zero (default 1e-10)",
     }],
     dae: None,
-    field: Some(|choice, system| {
-        let (structure, tolerance) = (system.structure(), choice.not_negative("tolerance", 1e-10)?);
+    field: Some(|spec, system| {
+        let (structure, tolerance) = (system.structure(), spec.not_negative("tolerance", 1e-10)?);
         let n = system.dimensions();
         refuse_dense("udwadia_kalaba", [n.v, n.v.max(n.lambda)], COPIES).map_err(|error| error.hint(SPARSE))?;
         let inverse = PseudoInverse::new(&structure.mass, &structure.g, tolerance);

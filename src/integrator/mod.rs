@@ -1,7 +1,7 @@
 //! Integrators: one step of a vector field.
 //!
 //! To add one: a file with its tableau (or a step of its own) and an [`Entry`], and a line in [`registry`]; from outside the
-//! crate, an [`Entry`] and its [`choice`](Listed::choice), as in `tests/examples/own_integrator.rs` and `own_tableau.rs`.
+//! crate, an [`Entry`] and its [`spec`](Listed::spec), as in `tests/examples/own_integrator.rs` and `own_tableau.rs`.
 
 mod ali3p;
 mod bdf;
@@ -34,10 +34,10 @@ pub use hermite::Hermite;
 pub use problem::Problem;
 pub use stability::Stability;
 
-use crate::choice::Listed;
 use crate::error::Result;
-use crate::formulation::{self, Choice, OptionDoc, StepError};
+use crate::formulation::{self, MethodSpec, OptionDoc, StepError};
 use crate::math::kkt::Singular;
+use crate::method_spec::Listed;
 use crate::system::MechanicalSystem;
 use crate::tolerances::integrator as tolerances;
 
@@ -172,8 +172,8 @@ pub struct From<'a> {
 /// What an integrator is made for.
 pub struct Setup<'s> {
     /// Its own name and options.
-    pub integrator: &'s Choice,
-    pub formulation: &'s Choice,
+    pub integrator: &'s MethodSpec,
+    pub formulation: &'s MethodSpec,
     pub system: &'s dyn MechanicalSystem,
     /// Whether the steps are fixed.
     pub is_fixed: bool,
@@ -280,7 +280,7 @@ pub fn registry() -> &'static [Entry] {
     ]
 }
 
-/// The entry that `choice` stands for.
-pub fn find(choice: &Choice) -> Result<&'static Entry> {
-    choice.entry(registry())
+/// The entry that `spec` stands for.
+pub fn find(spec: &MethodSpec) -> Result<&'static Entry> {
+    spec.entry(registry())
 }

@@ -3,8 +3,8 @@
 use super::Variation;
 use crate::error::{Error, Result, short};
 use crate::initial::assemble;
+use crate::prepared::{Overrides, PreparedScene};
 use crate::simulate::{Method, Observation, Sink, Span, Start};
-use crate::study::{Overrides, Study};
 use crate::tolerances::linearize as tolerances;
 
 /// A state on the constraints.
@@ -16,24 +16,24 @@ pub struct State {
 }
 
 impl State {
-    /// The consistent start of a study.
-    pub fn start(study: &Study) -> Self {
-        let (q, v) = study.start();
-        State { t: study.start_time(), q: q.to_vec(), v: v.to_vec() }
+    /// The consistent start of a scene.
+    pub fn start(prepared: &PreparedScene) -> Self {
+        let (q, v) = prepared.start();
+        State { t: prepared.start_time(), q: q.to_vec(), v: v.to_vec() }
     }
 
     /// The variational equations there.
     ///
     /// # Errors
     /// See [`Variation::new`].
-    pub fn variation<'a>(&self, study: &'a Study) -> Result<Variation<'a>> {
-        Variation::new(study.system(), self.t, &self.q, &self.v)
+    pub fn variation<'a>(&self, prepared: &'a PreparedScene) -> Result<Variation<'a>> {
+        Variation::new(prepared.system(), self.t, &self.q, &self.v)
     }
 }
 
 /// Tightens the tolerances that the command line leaves open, so that states are known better than what is read off them.
-pub fn tighten(study: &mut Study, given: &Overrides) {
-    let Method { rtol, atol, step, .. } = &mut study.method;
+pub fn tighten(prepared: &mut PreparedScene, given: &Overrides) {
+    let Method { rtol, atol, step, .. } = &mut prepared.method;
     if step.is_some() {
         return;
     }
@@ -41,15 +41,15 @@ pub fn tighten(study: &mut Study, given: &Overrides) {
     *atol = given.atol.unwrap_or(atol.min(tolerances::RUN_TOLERANCE.max(*rtol)));
 }
 
-/// The states of the study's motion at `times`, in their order, each brought back to the constraints.
+/// The states of the scene's motion at `times`, in their order, each brought back to the constraints.
 ///
 /// # Errors
 /// A time before the start or after the end of the run; a run that stops before.
-pub fn states(study: &Study, times: &[f64], progress: impl FnMut(f64)) -> Result<Vec<State>> {
-    check(study, times)?;
+pub fn states(prepared: &PreparedScene, times: &[f64], progress: impl FnMut(f64)) -> Result<Vec<State>> {
+    check(prepared, times)?;
     let mut order: Vec<usize> = (0..times.len()).collect();
     order.sort_by(|&i, &j| times[i].total_cmp(&times[j]));
-    let mut walk = Walk::new(study);
+    let mut walk = Walk::new(prepared);
     let (mut found, mut progress) = (vec![walk.last.clone(); times.len()], progress);
     for place in order {
         found[place] = walk.to(times[place])?;
@@ -58,30 +58,30 @@ pub fn states(study: &Study, times: &[f64], progress: impl FnMut(f64)) -> Result
     Ok(found)
 }
 
-/// The study's motion, followed from time to time.
+/// The scene's motion, followed from time to time.
 pub(super) struct Walk<'a> {
-    study: &'a Study,
+    prepared: &'a PreparedScene,
     last: State,
 }
 
 impl<'a> Walk<'a> {
-    pub fn new(study: &'a Study) -> Self {
-        Walk { study, last: State::start(study) }
+    pub fn new(prepared: &'a PreparedScene) -> Self {
+        Walk { prepared, last: State::start(prepared) }
     }
 
     /// The state at a time that is not before the last one.
     pub fn to(&mut self, t: f64) -> Result<State> {
         if t > self.last.t {
             // Fixed steps carry a history of their own, such as accelerations: a new start would be another motion.
-            let from = if self.study.method.step.is_some() { &State::start(self.study) } else { &self.last };
-            self.last = follow(self.study, from, t)?;
+            let from = if self.prepared.method.step.is_some() { &State::start(self.prepared) } else { &self.last };
+            self.last = follow(self.prepared, from, t)?;
         }
         Ok(self.last.clone())
     }
 }
 
-fn check(study: &Study, times: &[f64]) -> Result<()> {
-    let (start, end) = (study.start_time(), study.span().map(|span| span.end).unwrap_or(f64::INFINITY));
+fn check(prepared: &PreparedScene, times: &[f64]) -> Result<()> {
+    let (start, end) = (prepared.start_time(), prepared.span().map(|span| span.end).unwrap_or(f64::INFINITY));
     match times.iter().find(|t| !(**t >= start && **t <= end)) {
         None => Ok(()),
         Some(t) => {
@@ -105,13 +105,13 @@ impl Sink for Nothing {
 }
 
 /// Integrates to `end` and closes what drift has opened.
-pub(super) fn follow(study: &Study, from: &State, end: f64) -> Result<State> {
+pub(super) fn follow(prepared: &PreparedScene, from: &State, end: f64) -> Result<State> {
     let span = Span { start: from.t, end, output_step: end - from.t };
     let start = Start::State(&from.q, &from.v);
-    let (outcome, _, _) = study.simulate_from(&study.method, span, start, &mut Nothing)?;
+    let (outcome, _, _) = prepared.simulate_from(&prepared.method, span, start, &mut Nothing)?;
     if let Some(failure) = outcome.failure {
         return Err(failure.into());
     }
-    let closed = assemble(study.system(), end, (&outcome.q, &outcome.v), &[])?;
+    let closed = assemble(prepared.system(), end, (&outcome.q, &outcome.v), &[])?;
     Ok(State { t: end, q: closed.q, v: closed.v })
 }

@@ -3,8 +3,8 @@
 use super::flow::{Bundle, flow};
 use super::{Chart, Matrix, State, Variation};
 use crate::error::{Error, Result};
+use crate::prepared::PreparedScene;
 use crate::simulate::{Method, Span, stiffness};
-use crate::study::Study;
 use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::linearize as tolerances;
 
@@ -45,24 +45,29 @@ pub fn amplification(
     Ok(least_norm(&found.into_iter().collect::<Result<Vec<Matrix>>>()?))
 }
 
-/// The [`amplification`] of a study's motion.
+/// The [`amplification`] of a scene's motion.
 ///
 /// # Errors
 /// As [`amplification`]; modes that are too fast for the explicit method that carries small changes.
-pub fn amplified(study: &Study, span: Span, goes_on: impl FnMut(f64) -> bool) -> Result<f64> {
-    let start = State::start(study);
+pub fn amplified(prepared: &PreparedScene, span: Span, goes_on: impl FnMut(f64) -> bool) -> Result<f64> {
+    let start = State::start(prepared);
     let state = OperatingPoint {
         t: start.t,
         q: &start.q,
         v: &start.v,
-        vdot: &study.assembly.vdot,
-        lambda: &study.assembly.lambda,
+        vdot: &prepared.assembly.vdot,
+        lambda: &prepared.assembly.lambda,
     };
-    if let Some(stiffness) = stiffness(study.system(), &Method::default(), state, span) {
+    if let Some(stiffness) = stiffness(prepared.system(), &Method::default(), state, span) {
         return Err(Error::input(stiffness.to_string()));
     }
     let time = |i: u32| span.start + (span.end - span.start) * f64::from(i) / f64::from(tolerances::AMPLIFIED_TIMES);
-    amplification(study.system(), &start, &(1..=tolerances::AMPLIFIED_TIMES).map(time).collect::<Vec<f64>>(), goes_on)
+    amplification(
+        prepared.system(),
+        &start,
+        &(1..=tolerances::AMPLIFIED_TIMES).map(time).collect::<Vec<f64>>(),
+        goes_on,
+    )
 }
 
 /// min over s of the largest norm of diag(1, 1/s) X diag(1, s), and that of the start, 1. It is convex in log s: Sezginer,

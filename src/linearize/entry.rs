@@ -1,13 +1,13 @@
 //! What a method of linearization is asked for, and what it makes.
 
 use super::{Changes, Chart, Matrix, Variation};
-use crate::choice::{Choice, Listed, OptionDoc};
 use crate::error::Result;
+use crate::method_spec::{Listed, MethodSpec, OptionDoc};
 
 /// What is asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
-    pub method: Choice,
+    pub method: MethodSpec,
     /// Of minimal coordinates; none: `intrinsic` where the equations allow it, else `mass_orthogonal`.
     pub chart: Option<Chart>,
 }

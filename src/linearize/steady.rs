@@ -4,14 +4,14 @@ use super::point::rounding;
 use super::{Changes, Matrix, State, Variation};
 use crate::error::{Error, Result, Warning, short};
 use crate::initial::{assemble, equilibrium};
-use crate::study::Study;
+use crate::prepared::PreparedScene;
 use crate::system::{MechanicalSystem, Rotating};
 use crate::tolerances::linearize as tolerances;
 
 /// A state with the equations that it is a state of.
 pub struct Operating<'a> {
     pub state: State,
-    study: &'a Study,
+    prepared: &'a PreparedScene,
     /// Where it is a steady rotation: v is counted in these axes.
     axes: Option<Rotating<'a>>,
     pub doubt: Option<Warning>,
@@ -19,14 +19,14 @@ pub struct Operating<'a> {
 
 impl<'a> Operating<'a> {
     /// A state of the motion.
-    pub fn moving(study: &'a Study, state: State) -> Self {
-        Operating { state, study, axes: None, doubt: None }
+    pub fn moving(prepared: &'a PreparedScene, state: State) -> Self {
+        Operating { state, prepared, axes: None, doubt: None }
     }
 
     pub fn system(&self) -> &dyn MechanicalSystem {
         match &self.axes {
             Some(axes) => axes,
-            None => self.study.system(),
+            None => self.prepared.system(),
         }
     }
 
@@ -44,13 +44,13 @@ impl<'a> Operating<'a> {
 ///
 /// # Errors
 /// None found: what moves, or where force is left. Drives that accelerate.
-pub fn at_rest<'a>(study: &'a Study, state: &State) -> Result<Operating<'a>> {
-    let Some(spin) = study.system().prescribed_spin(state.t) else { return still(study, state) };
-    match Rotating::new(study.system(), state.t, spin) {
-        Some(axes) if is_same_all_around(&axes, study, state)? => {
+pub fn at_rest<'a>(prepared: &'a PreparedScene, state: &State) -> Result<Operating<'a>> {
+    let Some(spin) = prepared.system().prescribed_spin(state.t) else { return still(prepared, state) };
+    match Rotating::new(prepared.system(), state.t, spin) {
+        Some(axes) if is_same_all_around(&axes, prepared, state)? => {
             let found = equilibrium(&axes, state.t, &state.q)?;
             let rest = State { t: state.t, v: vec![0.0; state.v.len()], q: found.q };
-            Ok(Operating { state: rest, study, axes: Some(axes), doubt: None })
+            Ok(Operating { state: rest, prepared, axes: Some(axes), doubt: None })
         }
         _ => {
             let text = format!(
@@ -61,15 +61,15 @@ pub fn at_rest<'a>(study: &'a Study, state: &State) -> Result<Operating<'a>> {
             );
             let hint =
                 "leave --equilibrium out to linearize the motion; `holonom transition` says whether it is stable";
-            Ok(Operating { doubt: Some(Warning::new(text, hint)), ..still(study, state)? })
+            Ok(Operating { doubt: Some(Warning::new(text, hint)), ..still(prepared, state)? })
         }
     }
 }
 
-fn still<'a>(study: &'a Study, state: &State) -> Result<Operating<'a>> {
-    let found = equilibrium(study.system(), state.t, &state.q)?;
+fn still<'a>(prepared: &'a PreparedScene, state: &State) -> Result<Operating<'a>> {
+    let found = equilibrium(prepared.system(), state.t, &state.q)?;
     let rest = State { t: state.t, v: vec![0.0; state.v.len()], q: found.q };
-    let operating = Operating::moving(study, rest);
+    let operating = Operating::moving(prepared, rest);
     match operating.variation()?.point.is_equilibrium {
         true => Ok(operating),
         false => Err(Error::input(format!("at t = {} s moving constraints accelerate the mechanism", short(state.t)))
@@ -80,9 +80,9 @@ fn still<'a>(study: &'a Study, state: &State) -> Result<Operating<'a>> {
 
 /// Whether a turn of everything that moves, at the time when drives have turned it so far, changes nothing: the
 /// inertia forces, the directions that constraints leave, and M, K and C along these.
-fn is_same_all_around(axes: &Rotating, study: &Study, state: &State) -> Result<bool> {
+fn is_same_all_around(axes: &Rotating, prepared: &PreparedScene, state: &State) -> Result<bool> {
     let still = vec![0.0; state.v.len()];
-    let closed = assemble(study.system(), state.t, (&state.q, &state.v), &[])?;
+    let closed = assemble(prepared.system(), state.t, (&state.q, &state.v), &[])?;
     let other = axes.turned(tolerances::ODD_ANGLE);
     let mut turned = closed.q.clone();
     other.turn(tolerances::ODD_ANGLE, &mut turned);

@@ -3,7 +3,7 @@
 use super::along::{Walk, follow};
 use super::{Branch, LociPoint, Matrix, Operating, Request, State, at_rest, linearize, tighten, track};
 use crate::error::{Error, Result, Warning};
-use crate::study::{Overrides, Study};
+use crate::prepared::{Overrides, PreparedScene};
 use crate::sweep::{Family, Range};
 use crate::tolerances::linearize as tolerances;
 use rayon::prelude::*;
@@ -79,19 +79,19 @@ struct Found {
 
 type Outcome = (f64, Result<Found>);
 
-/// Eigenvalues at `times` (increasing) of the study's motion; `progress` hears of each. Where the motion cannot go on, the
+/// Eigenvalues at `times` (increasing) of the scene's motion; `progress` hears of each. Where the motion cannot go on, the
 /// later times are gaps. Where it is not clear which mode is which, states between the times are looked at as well.
-pub fn loci_along(study: &Study, request: &Request, times: &[f64], progress: impl Fn() + Sync) -> Loci {
-    let (mut walk, mut stopped) = (Walk::new(study), None);
+pub fn loci_along(prepared: &PreparedScene, request: &Request, times: &[f64], progress: impl Fn() + Sync) -> Loci {
+    let (mut walk, mut stopped) = (Walk::new(prepared), None);
     let mut go_to = |t: f64| match &stopped {
         Some(error) => Err(Error::clone(error)),
         None => walk.to(t).inspect_err(|error| stopped = Some(error.clone())),
     };
     let states: Vec<(f64, Result<State>)> = times.iter().map(|&t| (t, go_to(t))).inspect(|_| progress()).collect();
-    let moving = |state, t| found(&Operating::moving(study, state), t, request);
+    let moving = |state, t| found(&Operating::moving(prepared, state), t, request);
     let outcome = |(t, state): (f64, Result<State>)| (t, state.and_then(|state| moving(state, t)));
     let outcomes: Vec<Outcome> = states.into_par_iter().map(outcome).collect();
-    let between = |before: &Found, t: f64| moving(follow(study, &before.state, t)?, t);
+    let between = |before: &Found, t: f64| moving(follow(prepared, &before.state, t)?, t);
     collect(LociVariable::Time, outcomes, between)
 }
 
@@ -120,8 +120,8 @@ pub fn loci_over(variants: &Variants, at: At, request: &Request, progress: impl 
     };
     let between = |before: &Found, value: f64| match at {
         At::Equilibrium => {
-            let study = variants.study(value)?;
-            found(&rest(&study, Some(&before.state.q))?, value, request)
+            let prepared = variants.prepared(value)?;
+            found(&rest(&prepared, Some(&before.state.q))?, value, request)
         }
         _ => variants.found(value, at, request),
     };
@@ -136,11 +136,11 @@ fn at_rest_along<'v>(
     request: &Request,
     progress: &(impl Fn() + Sync),
 ) -> Vec<Outcome> {
-    let first = |value: f64| rest(&variants.study(value)?, None).map(|rest| rest.state.q);
+    let first = |value: f64| rest(&variants.prepared(value)?, None).map(|rest| rest.state.q);
     let mut guess = behind.and_then(|&value| first(value).ok());
     let mut next = |value: f64| {
-        let study = variants.study(value)?;
-        let rest = rest(&study, guess.as_deref())?;
+        let prepared = variants.prepared(value)?;
+        let rest = rest(&prepared, guess.as_deref())?;
         guess = Some(rest.state.q.clone());
         found(&rest, value, request)
     };
@@ -153,31 +153,31 @@ fn at_rest_along<'v>(
 }
 
 /// The equilibrium that belongs to a guess; where there is none, that of the scene's own start.
-fn rest<'a>(study: &'a Study, guess: Option<&[f64]>) -> Result<Operating<'a>> {
-    let start = State::start(study);
+fn rest<'a>(prepared: &'a PreparedScene, guess: Option<&[f64]>) -> Result<Operating<'a>> {
+    let start = State::start(prepared);
     let near = guess.filter(|q| q.len() == start.q.len()).map(|q| State { q: q.to_vec(), ..start.clone() });
-    match near.map(|near| at_rest(study, &near)) {
+    match near.map(|near| at_rest(prepared, &near)) {
         Some(Ok(rest)) => Ok(rest),
-        _ => at_rest(study, &start),
+        _ => at_rest(prepared, &start),
     }
 }
 
 impl Variants<'_> {
-    fn study(&self, value: f64) -> Result<Study> {
+    fn prepared(&self, value: f64) -> Result<PreparedScene> {
         let scene = self.family.scene_at(&self.range.parameter, value)?;
-        let mut study = Study::new(scene, self.overrides)?;
-        tighten(&mut study, self.overrides);
-        Ok(study)
+        let mut prepared = PreparedScene::new(scene, self.overrides)?;
+        tighten(&mut prepared, self.overrides);
+        Ok(prepared)
     }
 
     fn found(&self, value: f64, at: At, request: &Request) -> Result<Found> {
-        let study = self.study(value)?;
+        let prepared = self.prepared(value)?;
         let state = match at {
-            At::Time(t) => super::states(&study, &[t], |_| ())?.into_iter().next(),
+            At::Time(t) => super::states(&prepared, &[t], |_| ())?.into_iter().next(),
             _ => None,
         };
-        let state = state.unwrap_or_else(|| State::start(&study));
-        found(&Operating::moving(&study, state), value, request)
+        let state = state.unwrap_or_else(|| State::start(&prepared));
+        found(&Operating::moving(&prepared, state), value, request)
     }
 }
 

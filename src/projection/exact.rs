@@ -20,11 +20,11 @@ pub const ENTRY: Entry = Entry {
     name: "exact",
     about: "positions by Newton's method to round-off, then velocities",
     options: &[OptionDoc { name: "iterations", about: "most Newton iterations (default 10)" }],
-    make: |choice, system| {
+    make: |spec, system| {
         let n = system.dimensions();
         Ok(Some(Box::new(Exact {
             scales: system.scales(),
-            most: choice.whole("iterations", tolerances::PROJECTIONS, 1..=1000)?,
+            most: spec.whole("iterations", tolerances::PROJECTIONS, 1..=1000)?,
             rate: vec![0.0; n.q],
             step: vec![0.0; n.v],
         })))

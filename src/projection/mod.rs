@@ -1,14 +1,14 @@
 //! What is done after a step: the state is moved back to the constraints.
 //!
 //! To add one: a line in [`registry`], with a file where it is more than a choice of F; from outside the crate, an [`Entry`]
-//! and its [`choice`](Listed::choice), as in `tests/examples/own_projection.rs`.
+//! and its [`spec`](Listed::spec), as in `tests/examples/own_projection.rs`.
 
 mod exact;
 mod post_stabilization;
 
-use crate::choice::Listed;
 use crate::error::Result;
-use crate::formulation::{Choice, Dynamics, OptionDoc, StepError};
+use crate::formulation::{Dynamics, MethodSpec, OptionDoc, StepError};
+use crate::method_spec::Listed;
 use crate::system::MechanicalSystem;
 
 /// A correction of the state after an accepted step.
@@ -25,7 +25,7 @@ pub struct Entry {
     pub make: Make,
 }
 
-type Make = fn(&Choice, &dyn MechanicalSystem) -> Result<Option<Box<dyn Projection>>>;
+type Make = fn(&MethodSpec, &dyn MechanicalSystem) -> Result<Option<Box<dyn Projection>>>;
 
 impl Listed for Entry {
     const KIND: &'static str = "projection";
@@ -54,9 +54,9 @@ pub fn registry() -> &'static [Entry] {
 const NONE: Entry =
     Entry { name: "none", about: "the state as the integrator left it", options: &[], make: |_, _| Ok(None) };
 
-/// The projection that `choice` names, for `system`; none where there is nothing to project onto.
-pub fn make(choice: &Choice, system: &dyn MechanicalSystem) -> Result<Option<Box<dyn Projection>>> {
-    let made = (choice.entry(registry())?.make)(choice, system)?;
+/// The projection that `spec` names, for `system`; none where there is nothing to project onto.
+pub fn make(spec: &MethodSpec, system: &dyn MechanicalSystem) -> Result<Option<Box<dyn Projection>>> {
+    let made = (spec.entry(registry())?.make)(spec, system)?;
     Ok(made.filter(|_| system.dimensions().lambda > 0))
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Entry, Projection, move_back};
 use crate::error::Result;
-use crate::formulation::{Choice, Dynamics, OptionDoc, Stabilizer, StabilizingField, StepError};
+use crate::formulation::{Dynamics, MethodSpec, OptionDoc, Stabilizer, StabilizingField, StepError};
 use crate::system::MechanicalSystem;
 
 const SWEEPS: OptionDoc = OptionDoc { name: "sweeps", about: "how often F h is evaluated and taken off (default 1)" };
@@ -12,7 +12,7 @@ pub const POSITION: Entry = Entry {
     name: "position",
     about: "S-pos: only phi is held, drift of the velocities remains",
     options: &[SWEEPS],
-    make: |choice, system| sweeps(StabilizingField::Position, choice, system),
+    make: |spec, system| sweeps(StabilizingField::Position, spec, system),
 };
 
 /// S-vel: holds G v + phi_t only; phi drifts slowly.
@@ -20,7 +20,7 @@ pub const VELOCITY: Entry = Entry {
     name: "velocity",
     about: "S-vel: only G v + phi_t is held, drift of the positions remains",
     options: &[SWEEPS],
-    make: |choice, system| sweeps(StabilizingField::Velocity, choice, system),
+    make: |spec, system| sweeps(StabilizingField::Velocity, spec, system),
 };
 
 /// S-both, the method of choice: one factorization and two back-substitutions. Drift of phi O(h^{2(p+1)}), of
@@ -30,7 +30,7 @@ pub const MANIFOLD: Entry = Entry {
     name: "manifold",
     about: "S-both: one factorization, two back-substitutions; drift O(h^2(p+1)), O(h^(p+1))",
     options: &[OptionDoc { name: "sweeps", about: "1 (default) or 2: with 2 both levels reach O(h^2(p+1))" }],
-    make: |choice, system| sweeps(StabilizingField::Both, choice, system),
+    make: |spec, system| sweeps(StabilizingField::Both, spec, system),
 };
 
 /// S-full: least change of (q, v) onto both levels, with L = d(G v)/dq; drift O(h^{2(p+1)}) on both.
@@ -38,8 +38,8 @@ pub const FULL: Entry = Entry {
     name: "full",
     about: "S-full: F = H^T (H H^T)^-1 with second derivatives; drift O(h^2(p+1)) on both levels",
     options: &[SWEEPS, OptionDoc { name: "metric", about: "identity (default) or mass" }],
-    make: |choice, system| {
-        let field = match choice.text("metric") {
+    make: |spec, system| {
+        let field = match spec.text("metric") {
             None | Some("identity") => StabilizingField::Full,
             Some("mass") => StabilizingField::MassWeighted,
             Some(other) => {
@@ -47,16 +47,16 @@ pub const FULL: Entry = Entry {
                     .hint("choose identity or mass"));
             }
         };
-        sweeps(field, choice, system)
+        sweeps(field, spec, system)
     },
 };
 
 fn sweeps(
     field: StabilizingField,
-    choice: &Choice,
+    spec: &MethodSpec,
     system: &dyn MechanicalSystem,
 ) -> Result<Option<Box<dyn Projection>>> {
-    let sweeps = choice.whole("sweeps", 1, 1..=10)?;
+    let sweeps = spec.whole("sweeps", 1, 1..=10)?;
     let rate = vec![0.0; system.dimensions().q];
     Ok(Some(Box::new(PostStabilization { sweeps, stabilizer: Stabilizer::new(field, system), rate })))
 }

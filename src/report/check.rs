@@ -7,9 +7,9 @@ use crate::analysis::{Rank, Redundant};
 use crate::error::significant;
 use crate::initial::Assembly;
 use crate::math::largest;
+use crate::prepared::{AnyMechanism, PreparedScene};
 use crate::scene::{BeamLine, Connection, Model};
 use crate::simulate::SpectralMode;
-use crate::study::{AnyMechanism, Study};
 use crate::system::{Group, OperatingPoint, Scratch};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
@@ -75,19 +75,19 @@ pub struct Item {
 }
 
 /// Looks at the assembled start of a scene.
-pub fn check(study: &Study) -> Check {
-    match &study.mechanism {
-        AnyMechanism::Planar(mechanism) => inspect(study, mechanism.model()),
-        AnyMechanism::Spatial(mechanism) => inspect(study, mechanism.model()),
+pub fn check(prepared: &PreparedScene) -> Check {
+    match &prepared.mechanism {
+        AnyMechanism::Planar(mechanism) => inspect(prepared, mechanism.model()),
+        AnyMechanism::Spatial(mechanism) => inspect(prepared, mechanism.model()),
     }
 }
 
-fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
-    let (system, Assembly { q, v, vdot, lambda, .. }) = (study.system(), &study.assembly);
-    let found = Rank::at(system, OperatingPoint { t: study.start_time(), q, v, vdot, lambda });
+fn inspect<const D: usize>(prepared: &PreparedScene, model: &Model<D>) -> Check {
+    let (system, Assembly { q, v, vdot, lambda, .. }) = (prepared.system(), &prepared.assembly);
+    let found = Rank::at(system, OperatingPoint { t: prepared.start_time(), q, v, vdot, lambda });
     let (n, names) = (system.dimensions(), system.names().lambda);
     Check {
-        scene: study.name.clone(),
+        scene: prepared.name.clone(),
         dimension: D,
         coordinates: n.q,
         velocities: n.v,
@@ -96,8 +96,8 @@ fn inspect<const D: usize>(study: &Study, model: &Model<D>) -> Check {
         rank_beside: found.nearby,
         degrees_of_freedom: n.v - found.rank,
         redundant: found.redundant,
-        assembly: (&study.assembly).into(),
-        start: Start::of(study),
+        assembly: (&prepared.assembly).into(),
+        start: Start::of(prepared),
         condition: found.condition,
         distance_to_singularity: found.distance_to_singularity,
         mass_range: found.mass_range,
@@ -260,12 +260,12 @@ impl Check {
 }
 
 impl Start {
-    pub fn of(study: &Study) -> Start {
-        let Assembly { q, v, vdot, lambda, .. } = &study.assembly;
-        let columns = study.system().columns();
+    pub fn of(prepared: &PreparedScene) -> Start {
+        let Assembly { q, v, vdot, lambda, .. } = &prepared.assembly;
+        let columns = prepared.system().columns();
         let mut values = vec![0.0; columns.len()];
-        let at = OperatingPoint { t: study.start_time(), q, v, vdot, lambda };
-        study.system().outputs(at, &mut values, &mut Scratch::default());
+        let at = OperatingPoint { t: prepared.start_time(), q, v, vdot, lambda };
+        prepared.system().outputs(at, &mut values, &mut Scratch::default());
         let (velocity, acceleration) = (largest(v), largest(vdot));
         Start {
             velocity,

@@ -6,12 +6,12 @@ use crate::analysis::Drift;
 use crate::compare::StabilizedRun;
 use crate::error::{Result, clock};
 use crate::plot::{AxisSpec, Figure, Panel, Series};
+use crate::prepared::PreparedScene;
 use crate::simulate::Method;
-use crate::study::Study;
 
 /// One row a stabilization, and what failed.
-pub fn drift_text(study: &Study, rows: &[StabilizedRun]) -> String {
-    let Method { integrator, rtol, atol, step, .. } = &study.method;
+pub fn drift_text(prepared: &PreparedScene, rows: &[StabilizedRun]) -> String {
+    let Method { integrator, rtol, atol, step, .. } = &prepared.method;
     let accuracy = match step {
         Some(step) => format!("step {} s", clock(*step)),
         None => format!("rtol {rtol:e}, atol {atol:e}"),
@@ -25,8 +25,8 @@ pub fn drift_text(study: &Study, rows: &[StabilizedRun]) -> String {
         let work = [row.steps.to_string(), row.rhs_evaluations.to_string(), format!("{:.2}", 1e3 * row.wall_seconds)];
         table.row([row.method.clone()].into_iter().chain(drift).chain([energy]).chain(work));
     }
-    let because = study.chosen_because.as_ref().map_or(String::new(), |because| format!("  auto: {because}\n"));
-    let text = format!("{}: drift with {integrator}, {accuracy}\n{because}\n{table}", study.name);
+    let because = prepared.chosen_because.as_ref().map_or(String::new(), |because| format!("  auto: {because}\n"));
+    let text = format!("{}: drift with {integrator}, {accuracy}\n{because}\n{table}", prepared.name);
     let failures = rows.iter().filter_map(|row| Some((&row.method, row.failure.as_ref()?)));
     let lines =
         failures.map(|(method, failure)| format!("\n  {method} FAILED at t = {:.4e} s: {}", failure.t, failure.reason));

@@ -5,7 +5,7 @@ use crate::analysis::Range;
 use crate::error::significant;
 use crate::error::{Warning, clock};
 use crate::initial::{Equilibrium, Stability, Way};
-use crate::study::Study;
+use crate::prepared::PreparedScene;
 use crate::system::{OperatingPoint, Scratch};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
@@ -65,13 +65,13 @@ impl EquilibriumFile {
         }
     }
 
-    pub fn of(study: &Study, found: Equilibrium) -> EquilibriumFile {
-        let (system, names) = (study.system(), study.system().names());
+    pub fn of(prepared: &PreparedScene, found: Equilibrium) -> EquilibriumFile {
+        let (system, names) = (prepared.system(), prepared.system().names());
         let columns = system.columns();
         let (mut outputs, still) = (vec![0.0; columns.len()], vec![0.0; names.v.len()]);
         let at = OperatingPoint { t: found.t, q: &found.q, v: &still, vdot: &still, lambda: &found.lambda };
         system.outputs(at, &mut outputs, &mut Scratch::default());
-        let pairs = names.q.iter().zip(study.start().0.iter().zip(&found.q));
+        let pairs = names.q.iter().zip(prepared.start().0.iter().zip(&found.q));
         let moved = pairs.filter(|(_, (from, to))| (*to - *from).abs() > tolerances::SAME * (1.0 + from.abs()));
         let mut moves: Vec<_> = moved.map(|(name, (&from, &to))| (name.clone(), from, to)).collect();
         moves.sort_by(|a, b| (b.2 - b.1).abs().total_cmp(&(a.2 - a.1).abs()));

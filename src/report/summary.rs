@@ -7,8 +7,8 @@ use crate::compare::CheckError;
 use crate::error::{Failure, Warning, clock, short_list, significant};
 use crate::formulation::Statistics;
 use crate::initial::{Assembly, Level, Move};
+use crate::prepared::PreparedScene;
 use crate::simulate::{Checkpoint, Leg, Method, Outcome, Stiffness};
-use crate::study::Study;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -58,12 +58,12 @@ pub struct Chosen {
 }
 
 impl Chosen {
-    fn of(study: &Study, legs: &[Leg], end: f64) -> Self {
+    fn of(prepared: &PreparedScene, legs: &[Leg], end: f64) -> Self {
         let ends = legs.iter().skip(1).map(|leg| leg.from).chain([end]);
         let longest =
             legs.iter().zip(ends).max_by(|(a, a_end), (b, b_end)| (a_end - a.from).total_cmp(&(b_end - b.from)));
         Chosen {
-            method: longest.map_or(&study.method, |(leg, _)| &leg.method).clone(),
+            method: longest.map_or(&prepared.method, |(leg, _)| &leg.method).clone(),
             chosen_because: longest.map(|(leg, _)| leg.because.clone()),
             legs: if legs.len() > 1 { legs.to_vec() } else { Vec::new() },
             trials: legs.iter().map(|leg| leg.trials).reduce(|sum, trials| sum + trials),
@@ -109,21 +109,21 @@ const SHOWN: f64 = 0.1;
 
 /// Collects the summary of a run, with warnings from before it.
 pub fn summarize(
-    (study, stiffness, early): (&Study, Option<Stiffness>, &[Warning]),
+    (prepared, stiffness, early): (&PreparedScene, Option<Stiffness>, &[Warning]),
     (outcome, legs): (&Outcome, &[Leg]),
     record: &Record,
     wall_seconds: f64,
 ) -> Summary {
     // What ended a run may be no more than what came of leaving the branch.
     let failure = record.singularity.failure().or(outcome.failure.clone());
-    let parameters = study.parameters.iter().map(|(name, value)| (name.to_string(), Value::from(value))).collect();
+    let parameters = prepared.parameters.iter().map(|(name, value)| (name.to_string(), Value::from(value))).collect();
     Summary {
         holonom: env!("CARGO_PKG_VERSION"),
         command: Vec::new(),
         parameters,
         warnings: early.iter().cloned().chain(warnings(record)).collect(),
-        scene: study.name.clone(),
-        method: Chosen::of(study, legs, outcome.t),
+        scene: prepared.name.clone(),
+        method: Chosen::of(prepared, legs, outcome.t),
         status: if failure.is_some() { "failed" } else { "completed" },
         failure,
         t_end: outcome.t,
@@ -133,7 +133,7 @@ pub fn summarize(
         energy: record.energy,
         singularity: record.singularity.clone(),
         stiffness,
-        assembly: (&study.assembly).into(),
+        assembly: (&prepared.assembly).into(),
         check_error: None,
         r#final: final_state(record),
         restart: None,

@@ -1,7 +1,7 @@
 //! The scene file as it is typed: what a user may write, before anything is resolved.
 
-use crate::choice::Choice;
 use crate::math::expression::Number;
+use crate::method_spec::MethodSpec;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value};
@@ -207,9 +207,9 @@ pub struct Simulation {
     pub output_step: Option<Number>,
     /// Formulation, integrator and projection by trials along the motion, in the place of the three.
     pub method: Option<Automatic>,
-    pub formulation: Option<Choice>,
-    pub integrator: Option<Choice>,
-    pub projection: Option<Choice>,
+    pub formulation: Option<MethodSpec>,
+    pub integrator: Option<MethodSpec>,
+    pub projection: Option<MethodSpec>,
     pub rtol: Option<Number>,
     pub atol: Option<Number>,
     /// Fixed step, s. Default: chosen by the integrator.

@@ -7,7 +7,7 @@
 use super::contest::{Contest, Mark, Quiet};
 use super::{Checkpoint, Method, Outcome, Run, Sink, Span};
 use crate::error::{Failure, Result, clock, short};
-use crate::formulation::{Choice, Statistics};
+use crate::formulation::{MethodSpec, Statistics};
 use crate::system::MechanicalSystem;
 use crate::tolerances::simulate as tolerances;
 use serde::Serialize;
@@ -28,7 +28,7 @@ const CALM: &str = "not stiff: accuracy, not stability, limits explicit steps";
 
 /// Formulation, integrator and projection.
 fn method([formulation, integrator, projection]: [&str; 3], (rtol, atol): (f64, f64)) -> Method {
-    let [formulation, integrator, projection] = [formulation, integrator, projection].map(Choice::named);
+    let [formulation, integrator, projection] = [formulation, integrator, projection].map(MethodSpec::named);
     Method { formulation, integrator, projection, rtol, atol, step: None }
 }
 

@@ -1,7 +1,7 @@
 //! Which method a run uses.
 
 use crate::error::{Error, Result, Warning, short};
-use crate::formulation::{self, Choice};
+use crate::formulation::{self, MethodSpec};
 use crate::integrator::{self, Integrator, Setup, Steps, Tolerance};
 use crate::projection;
 use crate::system::MechanicalSystem;
@@ -11,9 +11,9 @@ use serde::{Deserialize, Serialize};
 /// A method: formulation x integrator x projection, with its accuracy.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Method {
-    pub formulation: Choice,
-    pub integrator: Choice,
-    pub projection: Choice,
+    pub formulation: MethodSpec,
+    pub integrator: MethodSpec,
+    pub projection: MethodSpec,
     pub rtol: f64,
     pub atol: f64,
     /// Fixed step, s; `None` lets the integrator choose.
@@ -25,9 +25,9 @@ pub struct Method {
 impl Default for Method {
     fn default() -> Self {
         Method {
-            formulation: Choice::named("index1"),
-            integrator: Choice::named("dop853"),
-            projection: Choice::named("manifold"),
+            formulation: MethodSpec::named("index1"),
+            integrator: MethodSpec::named("dop853"),
+            projection: MethodSpec::named("manifold"),
             rtol: 1e-8,
             atol: 1e-10,
             step: None,
@@ -123,7 +123,7 @@ impl Method {
 }
 
 /// Refuses a formulation that the integrator does not take, naming what goes together.
-pub fn check_pair(entry: &integrator::Entry, formulation: &Choice) -> Result<()> {
+pub fn check_pair(entry: &integrator::Entry, formulation: &MethodSpec) -> Result<()> {
     let name = formulation.name.as_str();
     // An unknown formulation is refused by its own registry, with names to choose from.
     let Some(solved) = formulation::lookup(formulation).filter(|known| !(entry.solves)(known)) else { return Ok(()) };

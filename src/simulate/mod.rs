@@ -35,7 +35,7 @@ use rows::{OutputRows, observation};
 use step::is_too_large;
 
 use crate::error::{Failure, Result};
-use crate::formulation::{self, Choice, Dynamics, Statistics};
+use crate::formulation::{self, Dynamics, MethodSpec, Statistics};
 use crate::integrator::{self, Integrator, Problem, Tolerance};
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
@@ -118,7 +118,7 @@ struct Run<'a> {
 /// the dense output near them, least of all where a driver leaves no free direction.
 fn within(method: &Method, system: &dyn MechanicalSystem) -> Result<Option<Box<dyn Projection>>> {
     match formulation::dae(&method.formulation)? {
-        Some(dae) if dae.holds(0) && dae.holds(1) => projection::make(&Choice::named("exact"), system),
+        Some(dae) if dae.holds(0) && dae.holds(1) => projection::make(&MethodSpec::named("exact"), system),
         _ => projection::make(&method.projection, system),
     }
 }

@@ -3,8 +3,8 @@
 use super::{Family, Limit, Nearest, Point, Range};
 use crate::error::{Error, Result};
 use crate::initial::{self, Assembly, Followed};
+use crate::prepared::AnyMechanism;
 use crate::scene::Scene;
-use crate::study::AnyMechanism;
 use crate::system::{Column, Names, OperatingPoint, Scratch};
 use crate::tolerances::report as tolerances;
 use std::sync::Arc;

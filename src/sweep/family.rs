@@ -2,8 +2,8 @@
 
 use crate::error::{Error, Result, Warning, suggest};
 use crate::math::expression::Number;
+use crate::prepared::{AnyMechanism, Overrides, PreparedScene};
 use crate::scene::{self, Elements, Scene};
-use crate::study::{AnyMechanism, Overrides, Study};
 use crate::system::Column;
 use std::path::{Path, PathBuf};
 
@@ -62,8 +62,8 @@ impl Family {
 
     /// What is doubtful about its start; nothing where it cannot be assembled, which a sweep says better.
     pub fn doubts(&self) -> Vec<Warning> {
-        let study = self.scene().and_then(|scene| Study::new(scene, &Overrides::default()));
-        study.map_or(Vec::new(), |study| study.doubts)
+        let prepared = self.scene().and_then(|scene| PreparedScene::new(scene, &Overrides::default()));
+        prepared.map_or(Vec::new(), |prepared| prepared.doubts)
     }
 
     /// The outputs of the scene.

@@ -1,7 +1,7 @@
 //! Branches against closed forms.
 
 use super::*;
-use crate::study::Overrides;
+use crate::prepared::Overrides;
 use std::f64::consts::TAU;
 
 /// Crank `a` at the origin, coupler `b`, rocker `c` at (g, 0); the crank is held at `angle`. The guess is that of

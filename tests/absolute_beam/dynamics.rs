@@ -1,7 +1,7 @@
 //! Motions: energy and momentum in free flight, and the rigid body as the limit.
 
 use crate::scenes::{Ready, parse, shipped};
-use holonom::formulation::Choice;
+use holonom::formulation::MethodSpec;
 use holonom::simulate::{Method, Span};
 
 /// From t = 2.5 on nothing acts: energy stays, the centre of mass goes on at the 2 m/s of the impulse.
@@ -26,9 +26,9 @@ fn flying_spaghetti_keeps_energy_and_momentum() {
 fn generalized_alpha_keeps_the_energy_in_bounds() {
     let beam = shipped("flying_spaghetti", &[]);
     let method = Method {
-        formulation: Choice::named("ggl"),
-        integrator: Choice::parse("generalized_alpha:rho_inf=1").unwrap(),
-        projection: Choice::named("none"),
+        formulation: MethodSpec::named("ggl"),
+        integrator: MethodSpec::parse("generalized_alpha:rho_inf=1").unwrap(),
+        projection: MethodSpec::named("none"),
         step: Some(0.01),
         ..Method::default()
     };

@@ -1,7 +1,7 @@
 //! Equilibria by Newton's method with the exact tangent, and linear statics against beam theory.
 
 use crate::scenes::{Ready, parse};
-use holonom::study::AnyMechanism;
+use holonom::prepared::AnyMechanism;
 use holonom::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
 use nalgebra::{DMatrix, DVector};
 

@@ -13,18 +13,18 @@ pub mod stiff;
 pub mod unconstrained;
 
 use holonom::analysis::{Record, Recorder};
-use holonom::formulation::Choice;
+use holonom::formulation::MethodSpec;
 use holonom::integrator::{self, Tightening};
 use holonom::simulate::{Method, Outcome, Span, simulate};
 use holonom::system::MechanicalSystem;
 
 /// A method by its names as on the command line.
 pub fn method(formulation: &str, integrator: &str, projection: &str) -> Method {
-    let choice = |text: &str| Choice::parse(text).unwrap();
+    let spec = |text: &str| MethodSpec::parse(text).unwrap();
     Method {
-        formulation: choice(formulation),
-        integrator: choice(integrator),
-        projection: choice(projection),
+        formulation: spec(formulation),
+        integrator: spec(integrator),
+        projection: spec(projection),
         ..Method::default()
     }
 }

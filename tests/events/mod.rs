@@ -6,7 +6,7 @@ mod sliding;
 
 use crate::scenes::Ready;
 use holonom::analysis::{Record, Recorder};
-use holonom::formulation::Choice;
+use holonom::formulation::MethodSpec;
 use holonom::simulate::{Method, Outcome, Span, simulate};
 
 /// A method of every family that adapts its steps.
@@ -25,11 +25,11 @@ const ADAPTIVE: [[&str; 3]; 11] = [
 ];
 
 fn method([formulation, integrator, projection]: [&str; 3], tolerance: f64) -> Method {
-    let choice = |text: &str| Choice::parse(text).unwrap();
+    let spec = |text: &str| MethodSpec::parse(text).unwrap();
     Method {
-        formulation: choice(formulation),
-        integrator: choice(integrator),
-        projection: choice(projection),
+        formulation: spec(formulation),
+        integrator: spec(integrator),
+        projection: spec(projection),
         rtol: tolerance,
         atol: tolerance,
         step: None,

@@ -1,10 +1,10 @@
 //! A linear model at an equilibrium: eigenvalues of a pendulum that hangs at rest.
 
 use holonom::Result;
-use holonom::choice::Choice;
 use holonom::linearize::{Request, State, at_rest, linearize};
+use holonom::method_spec::MethodSpec;
+use holonom::prepared::PreparedScene;
 use holonom::scene::Scene;
-use holonom::study::Study;
 
 #[test]
 fn a_pendulum_swings_at_its_frequency() -> Result<()> {
@@ -18,10 +18,10 @@ fn a_pendulum_swings_at_its_frequency() -> Result<()> {
             "outputs": [{ "name": "angle", "measure": "angle", "of": "rod" }] }"#,
         &[],
     )?;
-    let study = Study::new(scene, &Default::default())?;
+    let prepared = PreparedScene::new(scene, &Default::default())?;
     // Of a state of motion in its place: `State::start(&study).variation(&study)`.
-    let rest = at_rest(&study, &State::start(&study))?;
-    let model = linearize(&mut rest.variation()?, &Request { method: Choice::named("mcs"), chart: None })?;
+    let rest = at_rest(&prepared, &State::start(&prepared))?;
+    let model = linearize(&mut rest.variation()?, &Request { method: MethodSpec::named("mcs"), chart: None })?;
 
     // (J + m l^2) theta'' + m g l theta = torque
     let (inertia, stiffness): (f64, f64) = (0.3 + 2.0 * 0.25, 2.0 * 9.81 * 0.5);

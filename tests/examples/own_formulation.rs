@@ -1,8 +1,8 @@
 //! An own formulation: a vector field q', v' for explicit integrators.
 
 use holonom::Result;
-use holonom::choice::{Listed, OptionDoc};
 use holonom::formulation::{Dynamics, Entry, Formulation, StepError};
+use holonom::method_spec::{Listed, OptionDoc};
 use holonom::simulate::Method;
 
 /// phi'' + rate phi' = 0
@@ -11,7 +11,7 @@ static BRAKED: Entry = Entry {
     about: "phi'' + rate phi' = 0",
     options: &[OptionDoc { name: "rate", about: "at which phi' decays, 1/s (default 1)" }],
     dae: None,
-    field: Some(|choice, _system| Ok(Box::new(Braked { rate: choice.not_negative("rate", 1.0)? }))),
+    field: Some(|spec, _system| Ok(Box::new(Braked { rate: spec.not_negative("rate", 1.0)? }))),
 };
 
 struct Braked {
@@ -38,7 +38,7 @@ impl Formulation for Braked {
 
 #[test]
 fn a_method_takes_it_by_its_entry() -> Result<()> {
-    let method = Method { formulation: BRAKED.choice().with("rate", "2"), ..Method::default() };
+    let method = Method { formulation: BRAKED.spec().with("rate", "2"), ..Method::default() };
     assert_eq!(method.triple(), "braked:rate=2 + dop853 + manifold");
     // Tolerances are 1e-8.
     assert!(super::swing(&method)? < 1e-7);

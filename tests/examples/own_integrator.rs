@@ -1,9 +1,9 @@
 //! An own integrator: one step of y' = F(t, y), with y = (q, v, work).
 
 use holonom::Result;
-use holonom::choice::Listed;
 use holonom::formulation::StepError;
 use holonom::integrator::{Control, Entry, From, Hermite, Integrator, Problem, Steps, Tightening, Tolerance};
+use holonom::method_spec::Listed;
 use holonom::simulate::Method;
 
 /// The explicit midpoint rule, y_1 = y + h F(t + h/2, y + h/2 F(t, y)).
@@ -77,7 +77,7 @@ impl Integrator for Midpoint {
 
 #[test]
 fn a_method_takes_it_by_its_entry() -> Result<()> {
-    let method = Method { integrator: MIDPOINT.choice(), step: Some(1e-3), ..Method::default() };
+    let method = Method { integrator: MIDPOINT.spec(), step: Some(1e-3), ..Method::default() };
     assert_eq!(method.triple(), "index1 + midpoint + manifold");
     // O(h^2) with h = 1e-3 s.
     assert!(super::swing(&method)? < 1e-5);

@@ -1,8 +1,8 @@
 //! An own projection: what is done to q and v after each step.
 
 use holonom::Result;
-use holonom::choice::Listed;
 use holonom::formulation::{Dynamics, StepError};
+use holonom::method_spec::Listed;
 use holonom::projection::{Entry, Projection};
 use holonom::simulate::Method;
 use holonom::system::Need;
@@ -32,7 +32,7 @@ impl Projection for Velocities {
 
 #[test]
 fn a_method_takes_it_by_its_entry() -> Result<()> {
-    let method = Method { projection: VELOCITIES.choice(), ..Method::default() };
+    let method = Method { projection: VELOCITIES.spec(), ..Method::default() };
     assert_eq!(method.triple(), "index1 + dop853 + velocities");
     // Tolerances are 1e-8.
     assert!(super::swing(&method)? < 1e-7);

@@ -1,8 +1,8 @@
 //! An own explicit Runge-Kutta method: its tableau.
 
 use holonom::Result;
-use holonom::choice::Listed;
 use holonom::integrator::{Control, Entry, ErrorEstimate, Explicit, Steps, Tableau, Tightening};
+use holonom::method_spec::Listed;
 use holonom::simulate::Method;
 
 /// Bogacki and Shampine, Appl. Math. Lett. 2 (1989) 321-325: order 3 with an error estimate of order 2, adaptive steps.
@@ -31,7 +31,7 @@ static TABLEAU: Tableau = Tableau {
 
 #[test]
 fn a_method_takes_it_by_its_entry() -> Result<()> {
-    let method = Method { integrator: BS23.choice(), rtol: 1e-6, atol: 1e-6, ..Method::default() };
+    let method = Method { integrator: BS23.spec(), rtol: 1e-6, atol: 1e-6, ..Method::default() };
     assert_eq!(method.triple(), "index1 + bs23 + manifold");
     // Tolerances are 1e-6.
     assert!(super::swing(&method)? < 1e-4);

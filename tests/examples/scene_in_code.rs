@@ -2,8 +2,8 @@
 
 use holonom::Result;
 use holonom::analysis::Recorder;
+use holonom::prepared::PreparedScene;
 use holonom::scene::{Elements, SceneBuilder, json};
-use holonom::study::Study;
 
 #[test]
 fn a_slider_crank() -> Result<()> {
@@ -30,9 +30,9 @@ fn a_slider_crank() -> Result<()> {
         .simulation("t_end", 1.0)
         .build(&Elements::default())?;
 
-    let study = Study::new(scene, &Default::default())?;
-    let mut recorder = Recorder::new(study.system());
-    let (outcome, _) = study.simulate(&study.method, study.span()?, &mut recorder)?;
+    let prepared = PreparedScene::new(scene, &Default::default())?;
+    let mut recorder = Recorder::new(prepared.system());
+    let (outcome, _) = prepared.simulate(&prepared.method, prepared.span()?, &mut recorder)?;
     assert!(outcome.failure.is_none());
     let trajectory = recorder.finish().trajectory;
     let [x, angle] = ["x", "angle"].map(|output| trajectory.column(output).expect("an output of the scene"));

@@ -3,10 +3,10 @@
 use crate::scenes::differences::{moved, slope};
 use crate::scenes::examples::{FORCES, JOINTS, Nature};
 use crate::scenes::{dop853, parse, shipped};
-use holonom::formulation::Choice;
+use holonom::formulation::MethodSpec;
+use holonom::prepared::AnyMechanism;
 use holonom::scene::{AnyModel, Scene};
 use holonom::simulate::{Method, Span};
-use holonom::study::AnyMechanism;
 use holonom::system::{MechanicalSystem, Mechanism, Need, OperatingPoint, Scratch, Terms};
 
 /// Beams of every make, in the plane and in space.
@@ -234,7 +234,7 @@ fn constraints_on_beams_stay_closed() {
             joints[1],
             LENGTHS[dimension - 2],
         ));
-        let method = Method { projection: Choice::named("exact"), ..dop853(1e-9) };
+        let method = Method { projection: MethodSpec::named("exact"), ..dop853(1e-9) };
         let run = ready.run(&method, Span { start: 0.0, end: 0.5, output_step: 0.05 });
         let (drift, energy) = (&run.record.drift, run.record.energy.as_ref().unwrap());
         let found = [drift.position.max, drift.velocity.max, energy.relative_max_error.unwrap()];

@@ -3,7 +3,7 @@
 use crate::flexible::beams::{FLOATING, FRAMES, Rod, largest, scene};
 use crate::flexible::brief;
 use crate::scenes::{Ready, parse};
-use holonom::formulation::Choice;
+use holonom::formulation::MethodSpec;
 use holonom::simulate::{Method, Span};
 use holonom::system::{Need, Scratch, Terms};
 use nalgebra::DMatrix;
@@ -109,9 +109,9 @@ fn generalized_alpha_keeps_the_energy_in_bounds() {
             let beam = free(dimension, frame, stiffening, 0.1);
             let bounds = [1e-3, 5e-4].map(|step| {
                 let method = Method {
-                    formulation: Choice::named("ggl"),
-                    integrator: Choice::parse("generalized_alpha:rho_inf=1").unwrap(),
-                    projection: Choice::named("none"),
+                    formulation: MethodSpec::named("ggl"),
+                    integrator: MethodSpec::parse("generalized_alpha:rho_inf=1").unwrap(),
+                    projection: MethodSpec::named("none"),
                     step: Some(step),
                     ..Method::default()
                 };

@@ -3,7 +3,7 @@
 use crate::flexible::beams::{FLOATING, FRAMES, Rod, THEORIES, largest, place_outputs, scene};
 use crate::flexible::brief;
 use crate::scenes::{Ready, parse};
-use holonom::formulation::Choice;
+use holonom::formulation::MethodSpec;
 use holonom::simulate::{Method, Span};
 
 /// A beam that is thrown without spin, from a place and with a turn of its own.
@@ -31,9 +31,9 @@ fn thrown(dimension: usize, frame: &str, theory: &str, stiffening: bool) -> Read
 /// An explicit method would step to the edge of its stability, where round-off of the fastest modes grows to the tolerance.
 fn implicit(tolerance: f64) -> Method {
     Method {
-        formulation: Choice::named("ggl"),
-        integrator: Choice::named("radau_iia"),
-        projection: Choice::named("none"),
+        formulation: MethodSpec::named("ggl"),
+        integrator: MethodSpec::named("radau_iia"),
+        projection: MethodSpec::named("none"),
         rtol: tolerance,
         atol: tolerance,
         ..Method::default()

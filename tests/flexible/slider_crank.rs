@@ -2,7 +2,7 @@
 
 use crate::flexible::brief;
 use crate::scenes::{Ready, Run, shipped};
-use holonom::formulation::Choice;
+use holonom::formulation::MethodSpec;
 use holonom::simulate::{Method, Span};
 use holonom::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
 use nalgebra::DMatrix;
@@ -107,9 +107,9 @@ fn quarter(end: f64) -> Span {
 
 fn named(formulation: &str, integrator: &str, rtol: f64, atol: f64) -> Method {
     Method {
-        formulation: Choice::named(formulation),
-        integrator: Choice::named(integrator),
-        projection: Choice::named("none"),
+        formulation: MethodSpec::named(formulation),
+        integrator: MethodSpec::named(integrator),
+        projection: MethodSpec::named("none"),
         rtol,
         atol,
         ..Method::default()

@@ -3,9 +3,9 @@
 use holonom::analysis::{Record, Recorder};
 use holonom::error::{Error, Result};
 use holonom::linearize::{Request, State, linearize};
+use holonom::prepared::{Overrides, PreparedScene};
 use holonom::report::{check, summarize, trajectory_table};
 use holonom::simulate::{Stop, simulate};
-use holonom::study::{Overrides, Study};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -46,25 +46,25 @@ pub fn survive(path: &Path) -> Result<Ending, String> {
 }
 
 fn try_all(path: &Path) -> Result<Ending, String> {
-    let study = match Study::load(path, &Overrides::default()) {
-        Ok(study) => study,
+    let prepared = match PreparedScene::load(path, &Overrides::default()) {
+        Ok(prepared) => prepared,
         Err(error) => return refused(&error),
     };
-    let (q, v) = study.start();
+    let (q, v) = prepared.start();
     sound(q.iter().chain(v).all(|x| x.is_finite()), "the start is not finite")?;
     // Names may be anything, that too.
     let has_name = std::fs::read_to_string(path).is_ok_and(|text| text.contains("NaN"));
-    sound(has_name || !check(&study).text().contains("NaN"), "the check prints NaN")?;
-    let dimensions = study.system().dimensions();
+    sound(has_name || !check(&prepared).text().contains("NaN"), "the check prints NaN")?;
+    let dimensions = prepared.system().dimensions();
     if dimensions.v + dimensions.lambda > LARGE {
         return Ok(Ending::Large);
     }
-    let ending = run(&study)?;
+    let ending = run(&prepared)?;
     if dimensions.v > MEDIUM {
         return Ok(ending);
     }
-    let model = State::start(&study).variation(&study).and_then(|mut variation| {
-        linearize(&mut variation, &Request { method: holonom::choice::Choice::named("mcs"), chart: None })
+    let model = State::start(&prepared).variation(&prepared).and_then(|mut variation| {
+        linearize(&mut variation, &Request { method: holonom::method_spec::MethodSpec::named("mcs"), chart: None })
     });
     match model {
         Ok(model) => sound(model.a.iter().chain(model.b.iter()).all(|x| x.is_finite()), "the model is not finite")?,
@@ -73,19 +73,19 @@ fn try_all(path: &Path) -> Result<Ending, String> {
     Ok(ending)
 }
 
-fn run(study: &Study) -> Result<Ending, String> {
-    let Ok(span) = study.span() else { return Ok(Ending::Completed) };
-    study.stiffness(span);
+fn run(prepared: &PreparedScene) -> Result<Ending, String> {
+    let Ok(span) = prepared.span() else { return Ok(Ending::Completed) };
+    prepared.stiffness(span);
     let clock = Instant::now();
     let stop = || (clock.elapsed() > ALLOWED).then(|| Stop::deadline(ALLOWED));
-    let mut recorder = Recorder::new(study.system()).with_stop(stop);
-    let outcome = match simulate(study.system(), &study.method, span, study.start(), &mut recorder) {
+    let mut recorder = Recorder::new(prepared.system()).with_stop(stop);
+    let outcome = match simulate(prepared.system(), &prepared.method, span, prepared.start(), &mut recorder) {
         Ok(outcome) => outcome,
         Err(error) => return refused(&error),
     };
     let record = recorder.finish();
     rows_are_sound(&record)?;
-    let summary = summarize((study, None, &[]), (&outcome, &[]), &record, 0.0);
+    let summary = summarize((prepared, None, &[]), (&outcome, &[]), &record, 0.0);
     sound(serde_json::to_string(&summary).is_ok(), "the summary is no JSON")?;
     match &outcome.failure {
         None => Ok(Ending::Completed),

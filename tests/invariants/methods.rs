@@ -1,7 +1,7 @@
 //! Every method that goes together, and what it promises.
 
-use holonom::choice::Choice;
 use holonom::integrator::{self, Entry, Steps};
+use holonom::method_spec::MethodSpec;
 use holonom::projection;
 use holonom::simulate::Method;
 
@@ -28,9 +28,9 @@ pub fn all() -> Vec<Tried> {
 }
 
 fn tried(entry: &'static Entry, formulation: &str, projection: &str) -> Tried {
-    let [formulation, projection] = [formulation, projection].map(Choice::named);
+    let [formulation, projection] = [formulation, projection].map(MethodSpec::named);
     let step = (entry.steps == Steps::Fixed).then_some(STEP);
-    let integrator = Choice::named(entry.name);
+    let integrator = MethodSpec::named(entry.name);
     Tried { entry, method: Method { formulation, integrator, projection, rtol: TOLERANCE, atol: TOLERANCE, step } }
 }
 

@@ -7,7 +7,7 @@ mod recipes;
 
 use crate::scenes::{Ready, Run, dop853, parse};
 use holonom::analysis::{Record, Recorder};
-use holonom::choice::Choice;
+use holonom::method_spec::MethodSpec;
 use holonom::simulate::{Method, Span, simulate};
 use methods::{Tried, all};
 use momentum::momentum;
@@ -103,7 +103,7 @@ fn every_method_keeps_its_promises_on_more_mechanisms() {
 
 /// Exact on the constraints, and so accurate that the other way to see a scene shows.
 fn tight(tolerance: f64) -> Method {
-    Method { projection: Choice::named("exact"), ..dop853(tolerance) }
+    Method { projection: MethodSpec::named("exact"), ..dop853(tolerance) }
 }
 
 #[test]
@@ -131,9 +131,9 @@ fn what_floats_keeps_its_momenta() {
 
 fn named(formulation: &str, integrator: &str) -> Method {
     Method {
-        formulation: Choice::named(formulation),
-        integrator: Choice::named(integrator),
-        projection: Choice::named("none"),
+        formulation: MethodSpec::named(formulation),
+        integrator: MethodSpec::named(integrator),
+        projection: MethodSpec::named("none"),
         ..Method::default()
     }
 }

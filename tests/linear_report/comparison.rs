@@ -1,13 +1,13 @@
 //! `--method all`.
 
-use super::sample::{complex, descriptor, plain, study};
+use super::sample::{complex, descriptor, plain, prepared};
 use holonom::linearize::compare;
 use holonom::report::linear::comparison_text;
 
 #[test]
 fn methods_are_compared_with_a_reference() {
-    let study = study("four_bar_spring");
-    let (mut one, mut two) = (plain(&study), descriptor(&study));
+    let prepared = prepared("four_bar_spring");
+    let (mut one, mut two) = (plain(&prepared), descriptor(&prepared));
     for model in [&mut one, &mut two] {
         model.modes[0].value = complex(0.0, 4.0);
         model.modes[1].value = complex(0.0, -4.0);
@@ -25,16 +25,16 @@ fn methods_are_compared_with_a_reference() {
 
 #[test]
 fn another_number_of_eigenvalues_has_no_error() {
-    let study = study("four_bar_spring");
-    let model = plain(&study);
+    let prepared = prepared("four_bar_spring");
+    let model = plain(&prepared);
     assert_eq!(compare([&model], &[])[0].error, None);
     assert_eq!(compare([&model], &[complex(0.0, 1.0)])[0].error, None);
 }
 
 #[test]
 fn zeros_are_measured_against_the_largest() {
-    let study = study("four_bar_spring");
-    let mut model = plain(&study);
+    let prepared = prepared("four_bar_spring");
+    let mut model = plain(&prepared);
     model.modes[0].value = complex(1e-8, 0.0);
     model.modes[1].value = complex(-100.0, 0.0);
     let error = compare([&model], &[complex(0.0, 0.0), complex(-100.0, 0.0)])[0].error.unwrap();

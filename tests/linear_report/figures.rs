@@ -1,6 +1,6 @@
 //! Figures of linear models: what they say, and that they take any data.
 
-use super::sample::{complex, descriptor, empty, plain, study};
+use super::sample::{complex, descriptor, empty, plain, prepared};
 use holonom::linearize::{Branch, Complex, Kind};
 use holonom::plot::Figure;
 use holonom::report::linear::{
@@ -143,27 +143,27 @@ fn look() -> Look {
 
 #[test]
 fn modes_are_drawn_one_panel_each() {
-    let study = study("flexible_slider_crank");
-    let model = plain(&study);
-    let svg = svg(mode_figure(&study, &look(), &model));
+    let prepared = prepared("flexible_slider_crank");
+    let model = plain(&prepared);
+    let svg = svg(mode_figure(&prepared, &look(), &model));
     says(&svg, &["flexible_slider_crank, modes at t = 0 s", "mode 1: 202.8 Hz, ζ = 0<", "mode 4: ", "x (m)"]);
     assert!(!svg.contains("mode 5"));
 }
 
 #[test]
 fn modes_without_shapes_are_not_drawn() {
-    let study = study("four_bar_spring");
-    says(&svg(mode_figure(&study, &look(), &descriptor(&study))), &["mode 1: −0.7984 1/s, no swing"]);
-    assert!(mode_figure(&study, &look(), &empty(&study)).is_none());
-    assert!(mode_animation(&study, &look(), &empty(&study), 1).is_none());
-    assert!(mode_animation(&study, &look(), &plain(&study), 3).is_none());
+    let prepared = prepared("four_bar_spring");
+    says(&svg(mode_figure(&prepared, &look(), &descriptor(&prepared))), &["mode 1: −0.7984 1/s, no swing"]);
+    assert!(mode_figure(&prepared, &look(), &empty(&prepared)).is_none());
+    assert!(mode_animation(&prepared, &look(), &empty(&prepared), 1).is_none());
+    assert!(mode_animation(&prepared, &look(), &plain(&prepared), 3).is_none());
 }
 
 #[test]
 fn a_mode_moves() {
-    let study = study("double_pendulum");
-    let model = plain(&study);
-    let animation = mode_animation(&study, &look(), &model, 1).unwrap();
+    let prepared = prepared("double_pendulum");
+    let model = plain(&prepared);
+    let animation = mode_animation(&prepared, &look(), &model, 1).unwrap();
     let frame = |k: usize| (animation.frame)(k).to_svg();
     assert_ne!(frame(0), frame(10));
     says(&frame(0), &["double_pendulum, mode 1: ", "not in real time"]);

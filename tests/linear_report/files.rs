@@ -1,21 +1,21 @@
 //! `linear-T.json`, `.npz` and `.mat`.
 
-use super::sample::{descriptor, empty, plain, study};
+use super::sample::{descriptor, empty, plain, prepared};
 use holonom::files::Array;
 use holonom::linearize::LinearModel;
+use holonom::prepared::PreparedScene;
 use holonom::report::Folder;
 use holonom::report::linear::{Linear, linear_stem};
-use holonom::study::Study;
 use serde_json::Value;
 
-fn linear<'a>(study: &'a Study, model: &'a LinearModel, names: &'a holonom::system::Names) -> Linear<'a> {
-    Linear { scene: &study.name, names, model }
+fn linear<'a>(prepared: &'a PreparedScene, model: &'a LinearModel, names: &'a holonom::system::Names) -> Linear<'a> {
+    Linear { scene: &prepared.name, names, model }
 }
 
 fn json(model: &LinearModel) -> Value {
-    let study = study("four_bar_spring");
-    let names = study.system().names();
-    serde_json::to_value(linear(&study, model, &names).file()).unwrap()
+    let prepared = prepared("four_bar_spring");
+    let names = prepared.system().names();
+    serde_json::to_value(linear(&prepared, model, &names).file()).unwrap()
 }
 
 fn keys(value: &Value) -> Vec<&str> {
@@ -24,8 +24,8 @@ fn keys(value: &Value) -> Vec<&str> {
 
 #[test]
 fn keys_are_those_of_the_contract() {
-    let study = study("four_bar_spring");
-    let file = json(&descriptor(&study));
+    let prepared = prepared("four_bar_spring");
+    let file = json(&descriptor(&prepared));
     let all = [
         "scene",
         "t",
@@ -52,14 +52,14 @@ fn keys_are_those_of_the_contract() {
     assert_eq!(keys(&file["operating_point"]["q"])[..3], ["crank.x", "crank.y", "crank.angle"]);
     assert_eq!(file["operating_point"]["v"]["crank.angle'"], 1.0);
     assert_eq!(file["operating_point"]["norms"]["v"], 1.0);
-    let without = json(&plain(&study));
+    let without = json(&plain(&prepared));
     assert!(without.get("E").is_none());
 }
 
 #[test]
 fn matrices_are_rows_of_numbers() {
-    let study = study("four_bar_spring");
-    let mut model = plain(&study);
+    let prepared = prepared("four_bar_spring");
+    let mut model = plain(&prepared);
     model.a[(1, 0)] = -25.0;
     let file = json(&model);
     assert_eq!((&file["A"][0][0], &file["A"][0][1], &file["A"][1][0]), (&0.0.into(), &1.0.into(), &(-25.0).into()));
@@ -69,13 +69,13 @@ fn matrices_are_rows_of_numbers() {
 
 #[test]
 fn eigenvalues_have_kinds_and_parts() {
-    let file = json(&descriptor(&study("four_bar_spring")));
+    let file = json(&descriptor(&prepared("four_bar_spring")));
     let kinds: Vec<&str> =
         file["eigenvalues"].as_array().unwrap().iter().map(|value| value["kind"].as_str().unwrap()).collect();
     assert_eq!(kinds, [vec!["physical"; 2], vec!["spurious"; 3], vec!["infinite"; 4]].concat());
     // From the largest part; what is below a thousandth is left out.
     assert_eq!(file["eigenvalues"][0]["participation"].to_string(), r#"{"z1'":0.5995,"z1":0.4}"#);
-    let mut small = plain(&study("four_bar_spring"));
+    let mut small = plain(&prepared("four_bar_spring"));
     small.modes[0].participation = vec![0.9995, 0.0005];
     assert_eq!(json(&small)["eigenvalues"][0]["participation"].to_string(), r#"{"z1":0.9995}"#);
     assert_eq!(file["eigenvalues"][4]["re"], -7.0);
@@ -85,7 +85,7 @@ fn eigenvalues_have_kinds_and_parts() {
 
 #[test]
 fn no_file_holds_what_is_no_number() {
-    let file = json(&descriptor(&study("four_bar_spring")));
+    let file = json(&descriptor(&prepared("four_bar_spring")));
     for key in ["re", "im", "frequency_hz", "damping_ratio"] {
         assert_eq!(file["eigenvalues"][8][key], Value::Null);
     }
@@ -96,9 +96,9 @@ fn no_file_holds_what_is_no_number() {
 
 #[test]
 fn arrays_fit_each_other() {
-    let study = study("four_bar_spring");
-    let (model, names) = (descriptor(&study), study.system().names());
-    let arrays = linear(&study, &model, &names).arrays();
+    let prepared = prepared("four_bar_spring");
+    let (model, names) = (descriptor(&prepared), prepared.system().names());
+    let arrays = linear(&prepared, &model, &names).arrays();
     let find = |name: &str| &arrays.iter().find(|(known, _)| *known == name).unwrap().1;
     let shape = |name: &str| match find(name) {
         Array::Real { shape, values } => {
@@ -124,12 +124,12 @@ fn arrays_fit_each_other() {
 
 #[test]
 fn three_files_a_model_also_where_nothing_moves() {
-    let study = study("four_bar_spring");
-    let names = study.system().names();
-    for model in [descriptor(&study), empty(&study)] {
+    let prepared = prepared("four_bar_spring");
+    let names = prepared.system().names();
+    for model in [descriptor(&prepared), empty(&prepared)] {
         let place = tempfile::tempdir().unwrap();
         let mut folder = Folder::create(place.path()).unwrap();
-        linear(&study, &model, &names).write(&mut folder, &linear_stem(0.01, None)).unwrap();
+        linear(&prepared, &model, &names).write(&mut folder, &linear_stem(0.01, None)).unwrap();
         folder.finish().unwrap();
         let mut found: Vec<String> =
             std::fs::read_dir(place.path()).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();

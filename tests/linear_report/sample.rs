@@ -1,13 +1,13 @@
 //! Models to write and draw.
 
 use holonom::linearize::{Complex, Cost, Kind, LinearModel, LinearizationPoint, Matrix, Mode};
-use holonom::study::{Overrides, Study};
+use holonom::prepared::{Overrides, PreparedScene};
 use holonom::system::{Need, OperatingPoint, Scratch, Tangent, Terms};
 use nalgebra::{DMatrix, DVector};
 use std::path::Path;
 
-pub fn study(name: &str) -> Study {
-    Study::load(&Path::new("models").join(format!("{name}.json")), &Overrides::default()).unwrap()
+pub fn prepared(name: &str) -> PreparedScene {
+    PreparedScene::load(&Path::new("models").join(format!("{name}.json")), &Overrides::default()).unwrap()
 }
 
 pub fn complex(re: f64, im: f64) -> Complex<f64> {
@@ -15,12 +15,12 @@ pub fn complex(re: f64, im: f64) -> Complex<f64> {
 }
 
 /// The start of a scene with M, K and C on the directions that the constraints allow, held as they are.
-pub fn plain(study: &Study) -> LinearModel {
-    let (system, n) = (study.system(), study.system().dimensions());
+pub fn plain(prepared: &PreparedScene) -> LinearModel {
+    let (system, n) = (prepared.system(), prepared.system().dimensions());
     let (structure, mut terms, mut scratch) = (system.structure(), Terms::new(system), Scratch::default());
-    let (q, v) = study.start();
-    let (vdot, lambda) = (&study.assembly.vdot, &study.assembly.lambda);
-    let t = study.start_time();
+    let (q, v) = prepared.start();
+    let (vdot, lambda) = (&prepared.assembly.vdot, &prepared.assembly.lambda);
+    let t = prepared.start_time();
     system.evaluate(t, q, v, Need::DYNAMICS, &mut terms, &mut scratch);
     let mut tangent = Tangent::new(&structure.tangent);
     assert!(system.tangent(OperatingPoint { t, q, v, vdot, lambda }, &mut tangent, &mut scratch));
@@ -109,8 +109,8 @@ fn mode(a: &Matrix, z: &Matrix, value: Complex<f64>) -> Mode {
 }
 
 /// A model of the four bar with an eigenvalue of each kind and E.
-pub fn descriptor(study: &Study) -> LinearModel {
-    let mut model = plain(study);
+pub fn descriptor(prepared: &PreparedScene) -> LinearModel {
+    let mut model = plain(prepared);
     let mode = |value, kind, participation: Vec<f64>| Mode {
         value,
         kind,
@@ -129,8 +129,8 @@ pub fn descriptor(study: &Study) -> LinearModel {
 }
 
 /// Nothing moves.
-pub fn empty(study: &Study) -> LinearModel {
-    let mut model = plain(study);
+pub fn empty(prepared: &PreparedScene) -> LinearModel {
+    let mut model = plain(prepared);
     (model.states, model.modes) = (Vec::new(), Vec::new());
     (model.a, model.b) = (Matrix::zeros(0, 0), Matrix::zeros(0, 1));
     model.c = Matrix::zeros(2, 0);

@@ -1,13 +1,13 @@
 //! A linear model in a terminal.
 
-use super::sample::{complex, descriptor, empty, plain, study};
+use super::sample::{complex, descriptor, empty, plain, prepared};
 use holonom::linearize::{Kind, LinearModel, Mode};
 use holonom::report::linear::Linear;
 
 fn text(model: &LinearModel) -> String {
-    let study = study("four_bar_spring");
-    let names = study.system().names();
-    Linear { scene: &study.name, names: &names, model }.text()
+    let prepared = prepared("four_bar_spring");
+    let names = prepared.system().names();
+    Linear { scene: &prepared.name, names: &names, model }.text()
 }
 
 fn mode(re: f64, im: f64, kind: Kind) -> Mode {
@@ -16,7 +16,7 @@ fn mode(re: f64, im: f64, kind: Kind) -> Mode {
 
 #[test]
 fn pairs_stand_on_one_line_and_infinite_ones_are_counted() {
-    let mut model = descriptor(&study("four_bar_spring"));
+    let mut model = descriptor(&prepared("four_bar_spring"));
     model.modes[0].value = complex(-0.25, 4.99375);
     model.modes[1].value = complex(-0.25, -4.99375);
     (0..2).for_each(|i| model.modes[i].energy = vec![1.0]);
@@ -38,7 +38,7 @@ fn pairs_stand_on_one_line_and_infinite_ones_are_counted() {
 
 #[test]
 fn charts_are_explained_off_equilibrium() {
-    let mut model = plain(&study("four_bar_spring"));
+    let mut model = plain(&prepared("four_bar_spring"));
     let mut says = |chart: &str, is_equilibrium: bool, part: &str| {
         (model.chart, model.point.is_equilibrium) = (chart.to_string(), is_equilibrium);
         let text = text(&model);
@@ -56,7 +56,7 @@ fn charts_are_explained_off_equilibrium() {
 
 #[test]
 fn many_modes_are_cut_and_none_is_said() {
-    let mut model = plain(&study("four_bar_spring"));
+    let mut model = plain(&prepared("four_bar_spring"));
     model.modes = (0..50).map(|k| mode(-1.0 - f64::from(k), 0.0, Kind::Physical)).collect();
     model.modes.extend((0..15).map(|k| mode(-100.0 - f64::from(k), 0.0, Kind::Spurious)));
     let long = text(&model);
@@ -66,13 +66,13 @@ fn many_modes_are_cut_and_none_is_said() {
     );
     // Numbers count all modes.
     assert!(long.lines().any(|line| line.trim_start().starts_with("51 ") && line.contains("-100")), "{long}");
-    let none = text(&empty(&study("four_bar_spring")));
+    let none = text(&empty(&prepared("four_bar_spring")));
     assert!(none.contains("0 states, 1 input, 2 outputs") && none.contains("no finite eigenvalues"), "{none}");
 }
 
 #[test]
 fn bodies_move_with_all_their_directions() {
-    let mut model = plain(&study("four_bar_spring"));
+    let mut model = plain(&prepared("four_bar_spring"));
     model.modes[0].energy = vec![0.2, 0.3, 0.0, 0.24, 0.0, 0.0, 0.15, 0.0, 0.11];
     assert!(text(&model).contains("crank 50, rocker 26, coupler 24\n"), "{}", text(&model));
 }

@@ -1,39 +1,39 @@
 //! A few modes by sparse methods against all modes of dense ones.
 
 use crate::linearize::reference::distance;
-use holonom::choice::Choice;
 use holonom::linearize::{Chart, Complex, LinearModel, Matrix, Request, State, Variation, at_rest, linearize, modal};
+use holonom::method_spec::MethodSpec;
+use holonom::prepared::{Overrides, PreparedScene};
 use holonom::scene::{Scene, generate};
-use holonom::study::{Overrides, Study};
 use nalgebra::DMatrix;
 use std::path::Path;
 
 type C = Complex<f64>;
 
-fn study(name: &str, set: &[(&str, f64)]) -> Study {
+fn prepared(name: &str, set: &[(&str, f64)]) -> PreparedScene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(format!("{name}.json"));
     let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
-    Study::load(&path, &Overrides { set, ..Overrides::default() }).unwrap()
+    PreparedScene::load(&path, &Overrides { set, ..Overrides::default() }).unwrap()
 }
 
 /// LociVariable gravity.
-fn hanging_chain(links: usize) -> Study {
+fn hanging_chain(links: usize) -> PreparedScene {
     let mut scene = generate::flexible_chain(links);
     scene["gravity"] = serde_json::json!([9.81, 0]);
-    Study::new(Scene::parse(&scene.to_string(), &[]).unwrap(), &Overrides::default()).unwrap()
+    PreparedScene::new(Scene::parse(&scene.to_string(), &[]).unwrap(), &Overrides::default()).unwrap()
 }
 
-fn start(study: &Study) -> State {
-    let (q, v) = study.start();
-    State { t: study.start_time(), q: q.to_vec(), v: v.to_vec() }
+fn start(prepared: &PreparedScene) -> State {
+    let (q, v) = prepared.start();
+    State { t: prepared.start_time(), q: q.to_vec(), v: v.to_vec() }
 }
 
-fn rest(study: &Study) -> State {
-    at_rest(study, &start(study)).unwrap().state
+fn rest(prepared: &PreparedScene) -> State {
+    at_rest(prepared, &start(prepared)).unwrap().state
 }
 
 fn dense(variation: &mut Variation) -> LinearModel {
-    linearize(variation, &Request { method: Choice::named("mcs"), chart: Some(Chart::Frozen) }).unwrap()
+    linearize(variation, &Request { method: MethodSpec::named("mcs"), chart: Some(Chart::Frozen) }).unwrap()
 }
 
 /// Those with im >= 0, the double zeros of rigid bodies left out, which are known to the root of rounding.
@@ -62,16 +62,17 @@ fn gap(a: &LinearModel, b: &LinearModel, s: C) -> f64 {
 }
 
 /// The `count` modes at `shift` are the nearest of all.
-fn check(study: &Study, state: &State, count: usize, shift: f64) {
-    let mut variation = state.variation(study).unwrap();
+fn check(prepared: &PreparedScene, state: &State, count: usize, shift: f64) {
+    let mut variation = state.variation(prepared).unwrap();
     let shift = C::new(0.0, shift);
-    let model = modal(&mut variation, count, shift).unwrap_or_else(|error| panic!("{} {count}: {error}", study.name));
+    let model =
+        modal(&mut variation, count, shift).unwrap_or_else(|error| panic!("{} {count}: {error}", prepared.name));
     let full = dense(&mut variation);
     let largest = full.modes.iter().map(|mode| mode.value.norm()).fold(0.0, f64::max);
     let (found, all) = (upper(&model, largest), upper(&full, largest));
     let off = if found.is_empty() { 0.0 } else { distance(&found, &nearest(all.clone(), shift, found.len())) };
-    println!("{} {count} modes at {shift}: {off:e}", study.name);
-    assert!(off < 1e-8, "{} {count} modes at {shift}: {off:e} {found:?} {all:?}", study.name);
+    println!("{} {count} modes at {shift}: {off:e}", prepared.name);
+    assert!(off < 1e-8, "{} {count} modes at {shift}: {off:e} {found:?} {all:?}", prepared.name);
     let (a, pairs) = (&model.a, model.modes.iter().filter(|mode| mode.value.im != 0.0).count());
     assert!(model.modes.len() == a.nrows() && model.states.len() == a.nrows() && pairs % 2 == 0);
     assert!(model.modes.iter().all(|mode| (mode.energy.iter().sum::<f64>() - 1.0).abs() < 1e-9));
@@ -81,17 +82,17 @@ fn check(study: &Study, state: &State, count: usize, shift: f64) {
 fn the_modes_are_the_nearest_of_all() {
     let at_rest = ["five_link_suspension_rods", "quarter_car", "parallelogram_redundant", "bricard", "andrews"];
     for name in at_rest.into_iter().chain(["right_angle_cantilever", "flexible_four_bar", "full_axle"]) {
-        let study = study(name, &[]);
-        let at = rest(&study);
+        let prepared = prepared(name, &[]);
+        let at = rest(&prepared);
         for (count, shift) in [(1, 0.0), (3, 0.0), (3, 50.0), (12, 0.0)] {
-            check(&study, &at, count, shift);
+            check(&prepared, &at, count, shift);
         }
     }
     for count in [1, 5, 20] {
-        let study = hanging_chain(10);
-        let at = rest(&study);
-        check(&study, &at, count, 0.0);
-        check(&study, &at, count, 300.0);
+        let prepared = hanging_chain(10);
+        let at = rest(&prepared);
+        check(&prepared, &at, count, 0.0);
+        check(&prepared, &at, count, 300.0);
     }
 }
 
@@ -101,21 +102,21 @@ fn the_frozen_modes_of_moving_states() {
     for name in
         ["spinning_top", "flexible_slider_crank_fe", "flexible_four_bar", "double_pendulum", "andrews", "bricard"]
     {
-        let study = study(name, &[]);
-        let at = holonom::linearize::states(&study, &[study.start_time() + 0.003], |_| ()).unwrap().remove(0);
-        check(&study, &at, 3, 40.0);
-        check(&study, &at, 200, 0.0);
+        let prepared = prepared(name, &[]);
+        let at = holonom::linearize::states(&prepared, &[prepared.start_time() + 0.003], |_| ()).unwrap().remove(0);
+        check(&prepared, &at, 3, 40.0);
+        check(&prepared, &at, 200, 0.0);
     }
 }
 
 /// Three double zeros without vectors of their own.
 #[test]
 fn a_free_beam_has_rigid_modes() {
-    let study = study("flying_spaghetti", &[("force", 0.0), ("torque", 0.0)]);
+    let prepared = prepared("flying_spaghetti", &[("force", 0.0), ("torque", 0.0)]);
     for count in [2, 3, 5, 30] {
-        check(&study, &start(&study), count, 0.0);
+        check(&prepared, &start(&prepared), count, 0.0);
     }
-    let mut variation = start(&study).variation(&study).unwrap();
+    let mut variation = start(&prepared).variation(&prepared).unwrap();
     let model = modal(&mut variation, 3, C::ZERO).unwrap();
     assert_eq!(model.states, ["shared1", "shared2", "shared3", "shared4", "shared5", "shared6"]);
     assert!((&model.a * &model.a).amax() < 1e-10, "{}", model.a);
@@ -125,9 +126,9 @@ fn a_free_beam_has_rigid_modes() {
 #[test]
 fn the_response_is_that_of_all_modes() {
     for (name, moving) in [("quarter_car", false), ("andrews", true), ("five_link_suspension_rods", false)] {
-        let study = study(name, &[]);
-        let at = if moving { start(&study) } else { rest(&study) };
-        let mut variation = at.variation(&study).unwrap();
+        let prepared = prepared(name, &[]);
+        let at = if moving { start(&prepared) } else { rest(&prepared) };
+        let mut variation = at.variation(&prepared).unwrap();
         let full = dense(&mut variation);
         let (all, one) = (modal(&mut variation, 1000, C::ZERO).unwrap(), modal(&mut variation, 1, C::ZERO).unwrap());
         let slow = one.modes[0].value.norm();
@@ -145,14 +146,14 @@ fn the_response_is_that_of_all_modes() {
 
 #[test]
 fn what_cannot_be_had_is_told() {
-    let study = study("quarter_car", &[]);
-    let mut variation = start(&study).variation(&study).unwrap();
+    let prepared = prepared("quarter_car", &[]);
+    let mut variation = start(&prepared).variation(&prepared).unwrap();
     let error =
         |count: usize, shift: C, variation: &mut Variation| modal(variation, count, shift).unwrap_err().to_string();
     assert!(error(0, C::ZERO, &mut variation).contains("--modes"));
     assert!(error(1, C::new(f64::NAN, 0.0), &mut variation).contains("--shift"));
     assert_eq!(modal(&mut variation, usize::MAX / 4, C::ZERO).unwrap().modes.len(), 4);
-    let shaft = self::study("universal_shaft", &[]);
+    let shaft = self::prepared("universal_shaft", &[]);
     let mut variation = start(&shaft).variation(&shaft).unwrap();
     assert!(error(1, C::ZERO, &mut variation).contains("no degree of freedom"));
 }

@@ -2,12 +2,12 @@
 
 use crate::linearize::reference::Reference;
 use crate::linearize::systems::system;
-use holonom::choice::Choice;
 use holonom::linearize::{Chart, Complex, Kind, LinearModel, Request, Variation, linearize};
+use holonom::method_spec::MethodSpec;
 
 /// A method as on the command line, in a chart.
 pub fn request(method: &str, chart: Option<Chart>) -> Request {
-    Request { method: Choice::parse(method).unwrap(), chart }
+    Request { method: MethodSpec::parse(method).unwrap(), chart }
 }
 
 pub fn model(variation: &mut Variation, method: &str, chart: Option<Chart>) -> LinearModel {

@@ -1,9 +1,9 @@
 //! A pendulum swinging with an amplitude of 1 rad for very long, against its closed form.
 
 use holonom::Result;
+use holonom::prepared::{Overrides, PreparedScene};
 use holonom::scene::Scene;
 use holonom::simulate::{Method, Observation, Sink, Span, simulate};
-use holonom::study::{Overrides, Study};
 use std::f64::consts::{PI, TAU};
 use std::time::Instant;
 
@@ -21,7 +21,7 @@ fn mean(a: f64, b: f64) -> f64 {
 }
 
 /// A point of 1 kg on a rod of 1 m.
-pub fn pendulum() -> Result<Study> {
+pub fn pendulum() -> Result<PreparedScene> {
     let (sin, cos) = AMPLITUDE.sin_cos();
     let scene = format!(
         r#"{{ "name": "pendulum", "dimension": 2, "gravity": [0, -{GRAVITY}],
@@ -31,7 +31,7 @@ pub fn pendulum() -> Result<Study> {
              "joints": [{{ "name": "rod", "type": "distance", "between": ["ground.O", "bob"], "length": 1 }}] }}"#,
         -cos
     );
-    Study::new(Scene::parse(&scene, &[])?, &Overrides::default())
+    PreparedScene::new(Scene::parse(&scene, &[])?, &Overrides::default())
 }
 
 /// The part of a period since the last passage of the lowest point to the right, in [0, 1): with sin(theta/2) = k sin a,
@@ -95,15 +95,15 @@ impl Sink for Watch {
 
 /// Runs to each of the given numbers of periods, in order, and tells what it has come to.
 pub fn run(method: &Method, periods: &[f64], told: impl Fn(&Mark)) -> Result<Vec<Mark>> {
-    let study = pendulum()?;
-    let (q, v) = study.start();
+    let prepared = pendulum()?;
+    let (q, v) = prepared.start();
     let (mut q, mut v) = (q.to_vec(), v.to_vec());
     let mut watch = Watch { last_x: q[0], ..Watch::default() };
     let (clock, mut t, mut steps) = (Instant::now(), 0.0, 0);
     let mut marks = Vec::new();
     for &periods in periods {
         let span = Span { start: t, end: periods * period(), output_step: periods * period() };
-        let outcome = simulate(study.system(), method, span, (&q, &v), &mut watch)?;
+        let outcome = simulate(prepared.system(), method, span, (&q, &v), &mut watch)?;
         if let Some(failure) = outcome.failure {
             return Err(holonom::Error::input(failure.reason));
         }

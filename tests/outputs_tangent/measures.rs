@@ -3,8 +3,8 @@
 
 use crate::outputs_tangent::compare::check;
 use crate::scenes::examples::{FORCES, JOINTS};
+use holonom::prepared::AnyMechanism;
 use holonom::scene::Scene;
-use holonom::study::AnyMechanism;
 use holonom::system::{MechanicalSystem, OperatingPoint};
 
 const BODIES: [&str; 2] = [

@@ -3,9 +3,9 @@
 use crate::outputs_tangent::compare::{outputs, tangent};
 use crate::scenes::dop853;
 use holonom::analysis::Recorder;
+use holonom::prepared::PreparedScene;
 use holonom::scene::Elements;
 use holonom::simulate::simulate;
-use holonom::study::Study;
 use holonom::system::OperatingPoint;
 use serde_json::Value;
 use std::path::Path;
@@ -26,7 +26,7 @@ fn other(measure: &str, component: &str) -> Option<(&'static str, f64)> {
 }
 
 /// A shipped scene as it is, the same in other units, and the factor of each output.
-fn both(name: &str) -> (Study, Study, Vec<f64>) {
+fn both(name: &str) -> (PreparedScene, PreparedScene, Vec<f64>) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"));
     let plain: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     let mut changed = plain.clone();
@@ -39,11 +39,12 @@ fn both(name: &str) -> (Study, Study, Vec<f64>) {
             output["unit"] = unit.into();
         }
     }
-    let study = |json: &Value| {
+    let prepared = |json: &Value| {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
-        Study::new(Elements::default().parse_in(&folder, &json.to_string(), &[]).unwrap(), &Default::default()).unwrap()
+        PreparedScene::new(Elements::default().parse_in(&folder, &json.to_string(), &[]).unwrap(), &Default::default())
+            .unwrap()
     };
-    (study(&plain), study(&changed), factors)
+    (prepared(&plain), prepared(&changed), factors)
 }
 
 fn near(found: f64, expected: f64, what: &str) {
@@ -57,11 +58,11 @@ fn values_and_derivatives_are_in_the_unit() {
     {
         let (plain, changed, factors) = both(name);
         assert!(factors.iter().any(|factor| *factor != 1.0), "{name}");
-        let state = |study: &Study| study.assembly.clone();
+        let state = |prepared: &PreparedScene| prepared.assembly.clone();
         let a = state(&plain);
         let at = OperatingPoint { t: plain.start_time(), q: &a.q, v: &a.v, vdot: &a.vdot, lambda: &a.lambda };
-        let [values, others] = [&plain, &changed].map(|study| outputs(study.system(), at));
-        let [slopes, scaled] = [&plain, &changed].map(|study| tangent(study.system(), at));
+        let [values, others] = [&plain, &changed].map(|prepared| outputs(prepared.system(), at));
+        let [slopes, scaled] = [&plain, &changed].map(|prepared| tangent(prepared.system(), at));
         for (i, factor) in factors.iter().enumerate() {
             near(others[i], factor * values[i], name);
             let pairs = [
@@ -81,9 +82,9 @@ fn values_and_derivatives_are_in_the_unit() {
 #[test]
 fn turns_are_joined_in_the_unit() {
     let (plain, changed, factors) = both("spinning_top");
-    let run = |study: &Study| {
-        let mut recorder = Recorder::new(study.system());
-        simulate(study.system(), &dop853(1e-9), study.span().unwrap(), study.start(), &mut recorder).unwrap();
+    let run = |prepared: &PreparedScene| {
+        let mut recorder = Recorder::new(prepared.system());
+        simulate(prepared.system(), &dop853(1e-9), prepared.span().unwrap(), prepared.start(), &mut recorder).unwrap();
         recorder.finish().trajectory
     };
     let (plain, changed) = (run(&plain), run(&changed));

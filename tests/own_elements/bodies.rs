@@ -3,15 +3,15 @@
 
 use crate::common::{Run, adaptive, fixed, run};
 use holonom::body::{BodyKernel, BodySpec, Build, Built, Energy, Frame, Initial, Marker, cross, dot, sub};
-use holonom::choice::Choice;
 use holonom::joint::{self, JointKernel, JointSpec};
 use holonom::linearize::{Request, State, linearize};
 use holonom::math::expression::Number;
 use holonom::math::rotation::{axes_from_quaternion, quaternion_rate};
 use holonom::math::{Scalar, Time};
+use holonom::method_spec::MethodSpec;
+use holonom::prepared::PreparedScene;
 use holonom::scene::Elements;
 use holonom::simulate::{Method, Span};
-use holonom::study::Study;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::array::from_fn;
@@ -168,16 +168,16 @@ const SPATIAL: &str = r#"{ "name": "spatial", "dimension": 3, "gravity": [0, 0, 
     "outputs": [{ "name": "pull", "measure": "reaction", "of": "rod", "component": "axial" }] }"#;
 
 /// The scene, and the same of own elements.
-fn pair(text: &str) -> [Study; 2] {
+fn pair(text: &str) -> [PreparedScene; 2] {
     let elements = Elements::default().with_body::<OwnRigid>().and_then(Elements::with_joint::<OwnDistance>).unwrap();
     let own = text.replace("\"rigid\"", "\"own_rigid\"").replace("\"distance\"", "\"own_distance\"");
     let built_in = text.replace("[0.3],", "0.3,").replace("[0.1],", "0.1,");
-    [built_in, own].map(|text| Study::new(elements.parse(&text, &[]).unwrap(), &Default::default()).unwrap())
+    [built_in, own].map(|text| PreparedScene::new(elements.parse(&text, &[]).unwrap(), &Default::default()).unwrap())
 }
 
-fn motion(study: &Study, method: &Method) -> Run {
+fn motion(prepared: &PreparedScene, method: &Method) -> Run {
     let span = Span { start: 0.0, end: 1.0, output_step: 0.05 };
-    run(study.system(), method, span, study.start()).completed()
+    run(prepared.system(), method, span, prepared.start()).completed()
 }
 
 /// The same equations, to the rounding of J^T w, of which the accelerations of generalized-alpha have 1/h as much.
@@ -190,7 +190,7 @@ fn they_move_as_the_built_in_ones() {
             adaptive("ggl", "radau_iia", "none", 1e-9),
             fixed("index3", "generalized_alpha", "none", 1e-3),
         ] {
-            let [expected, found] = [&built_in, &own].map(|study| motion(study, &method));
+            let [expected, found] = [&built_in, &own].map(|prepared| motion(prepared, &method));
             for (a, b) in expected.record.trajectory.rows.iter().zip(&found.record.trajectory.rows) {
                 let off = a.iter().zip(b).fold(0.0f64, |off, (a, b)| off.max((a - b).abs() / (1.0 + a.abs())));
                 assert!(off < 1e-10, "{} {}: {off:e} at {}", own.name, method.triple(), a[0]);
@@ -204,9 +204,9 @@ fn they_move_as_the_built_in_ones() {
 #[test]
 fn their_linear_models_are_those_of_the_built_in_ones() {
     for text in [PLANAR, SPATIAL] {
-        let models = pair(text).map(|study| {
-            let request = Request { method: Choice::named("mcs"), chart: None };
-            linearize(&mut State::start(&study).variation(&study).unwrap(), &request).unwrap()
+        let models = pair(text).map(|prepared| {
+            let request = Request { method: MethodSpec::named("mcs"), chart: None };
+            linearize(&mut State::start(&prepared).variation(&prepared).unwrap(), &request).unwrap()
         });
         let [expected, found] = models.map(|model| (model.a, model.c));
         let off = (&expected.0 - &found.0).amax() / expected.0.amax() + (&expected.1 - &found.1).amax();

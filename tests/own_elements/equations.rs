@@ -3,15 +3,15 @@
 use crate::common::{Run, run};
 use crate::examples::own_force::HardeningSpring;
 use crate::examples::own_joint::PointOnParabola;
-use holonom::choice::{Choice, Listed};
 use holonom::integrator::{self, Steps};
 use holonom::linearize::{self, LinearModel, Request, State, Variation, at_rest, linearize};
 use holonom::math::Scalar;
 use holonom::math::expression::Number;
+use holonom::method_spec::{Listed, MethodSpec};
+use holonom::prepared::{Overrides, PreparedScene};
 use holonom::report::mechanism;
 use holonom::scene::{Elements, SceneBuilder, json};
 use holonom::simulate::{Method, Span};
-use holonom::study::{Overrides, Study};
 use holonom::sweep::{Family, Range};
 use holonom::system::{Equations, MechanicalSystem};
 use holonom::validate::{Settings, validate};
@@ -69,8 +69,8 @@ fn scene() -> SceneBuilder {
         .simulation("t_end", 1.0)
 }
 
-fn study() -> Study {
-    Study::new(scene().build(&elements()).unwrap(), &Default::default()).unwrap()
+fn prepared() -> PreparedScene {
+    PreparedScene::new(scene().build(&elements()).unwrap(), &Default::default()).unwrap()
 }
 
 fn motion(system: &dyn MechanicalSystem, method: &Method) -> Run {
@@ -84,9 +84,9 @@ fn methods() -> impl Iterator<Item = Method> {
         let taker = takers.find(|entry| entry.steps != Steps::Own).expect("each is integrated");
         let projection = if taker.refuses(formulation.name, "manifold") { "none" } else { "manifold" };
         Method {
-            formulation: formulation.choice(),
-            integrator: Choice::named(taker.name),
-            projection: Choice::named(projection),
+            formulation: formulation.spec(),
+            integrator: MethodSpec::named(taker.name),
+            projection: MethodSpec::named(projection),
             step: Some(1e-3),
             ..Method::default()
         }
@@ -95,9 +95,9 @@ fn methods() -> impl Iterator<Item = Method> {
 
 #[test]
 fn every_formulation_moves_them_as_the_equations_say() {
-    let study = study();
+    let prepared = prepared();
     for method in methods() {
-        let (found, expected) = (motion(study.system(), &method), motion(&Bead, &method));
+        let (found, expected) = (motion(prepared.system(), &method), motion(&Bead, &method));
         for (found, expected) in found.record.trajectory.rows.iter().zip(&expected.record.trajectory.rows) {
             // t, q, v, lambda; sums of the same terms in another order, over a thousand steps.
             let off = found.iter().zip(expected).map(|(a, b)| (a - b).abs() / (1.0 + b.abs()));
@@ -110,8 +110,8 @@ fn every_formulation_moves_them_as_the_equations_say() {
 /// The energy of the bead stays what the kernels' potentials say, and outputs are what lambda and q make of them.
 #[test]
 fn outputs_and_energy_are_theirs() {
-    let (study, method) = (study(), Method { rtol: 1e-12, atol: 1e-12, ..Method::default() });
-    let run = motion(study.system(), &method);
+    let (prepared, method) = (prepared(), Method { rtol: 1e-12, atol: 1e-12, ..Method::default() });
+    let run = motion(prepared.system(), &method);
     let energy = run.record.energy.expect("a scene has an energy");
     let start = Bead.potential(0.0, &START).unwrap();
     assert!((energy.initial - start).abs() < 1e-14 * start, "{energy:?}");
@@ -130,22 +130,22 @@ fn outputs_and_energy_are_theirs() {
 }
 
 fn model(variation: &mut Variation, method: &str) -> LinearModel {
-    linearize(variation, &Request { method: Choice::named(method), chart: None }).unwrap()
+    linearize(variation, &Request { method: MethodSpec::named(method), chart: None }).unwrap()
 }
 
 /// At rest at the vertex the frequency has a formula, omega^2 = g c + k/m; beside it all methods have the eigenvalues of the
 /// equations.
 #[test]
 fn linear_models_are_those_of_the_equations() {
-    let study = study();
-    let rest = at_rest(&study, &State { q: vec![0.1, 0.01], ..State::start(&study) }).unwrap();
+    let prepared = prepared();
+    let rest = at_rest(&prepared, &State { q: vec![0.1, 0.01], ..State::start(&prepared) }).unwrap();
     let frequency = (GRAVITY * CURVATURE + STIFFNESS / MASS).sqrt();
     let found = model(&mut rest.variation().unwrap(), "mcs").modes[0].value;
     assert!((found.im.abs() - frequency).abs() < 1e-13 * frequency && found.re.abs() < 1e-13, "{found}");
 
     let v = [0.4, 0.4 * CURVATURE * START[0]];
     let mut own = Variation::new(&Bead, 0.0, &START, &v).unwrap();
-    let mut scene = Variation::new(study.system(), 0.0, &START, &v).unwrap();
+    let mut scene = Variation::new(prepared.system(), 0.0, &START, &v).unwrap();
     for method in linearize::registry() {
         let [expected, found] = [&mut own, &mut scene].map(|variation| model(variation, method.name).modes);
         let off =
@@ -157,9 +157,9 @@ fn linear_models_are_those_of_the_equations() {
 /// A term missing in K, C or phi'' would show as order 1.
 #[test]
 fn their_linear_models_pass_validation() {
-    let study = study();
-    let state = State { v: vec![0.4, 0.4 * CURVATURE * START[0]], ..State::start(&study) };
-    let found = validate(study.system(), &state, &Settings::default()).unwrap();
+    let prepared = prepared();
+    let state = State { v: vec![0.4, 0.4 * CURVATURE * START[0]], ..State::start(&prepared) };
+    let found = validate(prepared.system(), &state, &Settings::default()).unwrap();
     assert!(found.verdict.ltv && found.verdict.lti, "{}", found.verdict.text);
 }
 
@@ -170,7 +170,7 @@ fn files_sweeps_and_maps_know_them() {
     std::fs::write(&path, scene().json().to_string()).unwrap();
     let overrides =
         Overrides { elements: elements(), set: vec![("k".into(), Number::Value(7.0))], ..Overrides::default() };
-    assert_eq!(Study::load(&path, &overrides).unwrap().parameters.get("k"), Some(7.0));
+    assert_eq!(PreparedScene::load(&path, &overrides).unwrap().parameters.get("k"), Some(7.0));
     let family = Family::load(&path, &overrides).unwrap();
     let sweep = family.sweep(&Range::new("k", (0.0, 10.0), 3).unwrap(), |_| ()).unwrap();
     assert_eq!(sweep.points.len(), 3);
@@ -182,14 +182,14 @@ fn files_sweeps_and_maps_know_them() {
 /// Kinds without a sign of their own are drawn by a common one.
 #[test]
 fn figures_show_them() {
-    let study = study();
+    let prepared = prepared();
     let bare =
         SceneBuilder::new("bead", 2).body("bead", "point_mass", json!({ "initial": { "position": START }, "mass": 1 }));
-    let bare = Study::new(bare.build(&Elements::default()).unwrap(), &Default::default()).unwrap();
-    let areas = |study: &Study| {
-        let (q, v) = study.start();
+    let bare = PreparedScene::new(bare.build(&Elements::default()).unwrap(), &Default::default()).unwrap();
+    let areas = |prepared: &PreparedScene| {
+        let (q, v) = prepared.start();
         let state = mechanism::State { t: 0.0, q: q.to_vec(), v: v.to_vec() };
-        mechanism::mechanism_figure(study, &mechanism::Look::plain(&study.mechanism), &state).to_svg().len()
+        mechanism::mechanism_figure(prepared, &mechanism::Look::plain(&prepared.mechanism), &state).to_svg().len()
     };
-    assert!(areas(&study) > areas(&bare) + 100, "{} {}", areas(&study), areas(&bare));
+    assert!(areas(&prepared) > areas(&bare) + 100, "{} {}", areas(&prepared), areas(&bare));
 }

@@ -6,11 +6,11 @@ pub mod examples;
 pub mod random;
 
 use holonom::analysis::{Record, Recorder};
-use holonom::formulation::Choice;
+use holonom::formulation::MethodSpec;
 use holonom::initial::Assembly;
+use holonom::prepared::{Overrides, PreparedScene};
 use holonom::scene::Scene;
 use holonom::simulate::{Method, Outcome, Span, simulate};
-use holonom::study::{Overrides, Study};
 use holonom::system::MechanicalSystem;
 use std::path::{Path, PathBuf};
 
@@ -35,7 +35,7 @@ pub fn model(name: &str) -> PathBuf {
 }
 
 /// A scene with its consistent start.
-pub struct Ready(pub Study);
+pub struct Ready(pub PreparedScene);
 
 /// A run that came to its end.
 pub struct Run {
@@ -50,18 +50,18 @@ pub fn shipped(name: &str, parameters: &[(&str, f64)]) -> Ready {
 
 pub fn load(path: &Path, parameters: &[(&str, f64)]) -> Ready {
     let set = parameters.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
-    let study = Study::load(path, &Overrides { set, ..Overrides::default() });
-    Ready(study.unwrap_or_else(|error| panic!("{error}")))
+    let prepared = PreparedScene::load(path, &Overrides { set, ..Overrides::default() });
+    Ready(prepared.unwrap_or_else(|error| panic!("{error}")))
 }
 
 pub fn parse(json: &str) -> Ready {
     let scene = Scene::parse(json, &[]).unwrap_or_else(|error| panic!("{error}\n{json}"));
-    Ready(Study::new(scene, &Overrides::default()).unwrap_or_else(|error| panic!("{error}")))
+    Ready(PreparedScene::new(scene, &Overrides::default()).unwrap_or_else(|error| panic!("{error}")))
 }
 
 /// dop853 on index 1 with manifold projection at one tolerance, relative and absolute.
 pub fn dop853(tolerance: f64) -> Method {
-    Method { integrator: Choice::named("dop853"), rtol: tolerance, atol: tolerance, ..Method::default() }
+    Method { integrator: MethodSpec::named("dop853"), rtol: tolerance, atol: tolerance, ..Method::default() }
 }
 
 impl Ready {

@@ -2,7 +2,7 @@
 
 use crate::scenes::{Ready, parse};
 use crate::section_forces::{FRAMES, THEORIES, frame_keys, reactions, sections};
-use holonom::formulation::Choice;
+use holonom::formulation::MethodSpec;
 use holonom::simulate::{Method, Span};
 
 /// A beam on a hub that turns, with loads that change, and its sections at the root, beside the middle and at the tip.
@@ -38,7 +38,7 @@ fn hub(dimension: usize, body: &str) -> Ready {
 }
 
 fn method(formulation: &str, integrator: &str) -> Method {
-    let named = Choice::named;
+    let named = MethodSpec::named;
     Method {
         formulation: named(formulation),
         integrator: named(integrator),

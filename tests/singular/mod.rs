@@ -7,16 +7,16 @@ mod reference;
 mod slider_crank;
 
 use crate::scenes::Run;
-use holonom::formulation::Choice;
+use holonom::formulation::MethodSpec;
 use holonom::simulate::Method;
 
 /// A method with fixed steps by its names as on the command line.
 fn fixed(formulation: &str, integrator: &str, projection: &str, step: f64) -> Method {
-    let choice = |text: &str| Choice::parse(text).unwrap();
+    let spec = |text: &str| MethodSpec::parse(text).unwrap();
     Method {
-        formulation: choice(formulation),
-        integrator: choice(integrator),
-        projection: choice(projection),
+        formulation: spec(formulation),
+        integrator: spec(integrator),
+        projection: spec(projection),
         step: Some(step),
         ..Method::default()
     }

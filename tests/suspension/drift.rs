@@ -19,8 +19,8 @@ fn squared_rods() -> Ready {
 }
 
 fn method(formulation: &str, projection: &str) -> Method {
-    let [formulation, projection] = [formulation, projection].map(|text| Choice::parse(text).unwrap());
-    Method { formulation, projection, integrator: Choice::named("rk4"), step: Some(0.01), ..Method::default() }
+    let [formulation, projection] = [formulation, projection].map(|text| MethodSpec::parse(text).unwrap());
+    Method { formulation, projection, integrator: MethodSpec::named("rk4"), step: Some(0.01), ..Method::default() }
 }
 
 /// Largest |phi|, |phi'| and error of the heights and positions, at the steps.

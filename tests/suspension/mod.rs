@@ -5,7 +5,7 @@ mod full_axle;
 mod reference;
 
 use crate::scenes::{Ready, Run, dop853, model, parse, shipped};
-use holonom::formulation::Choice;
+use holonom::formulation::MethodSpec;
 use holonom::simulate::{Method, Span};
 use reference::STATES;
 use serde_json::{Value, json};
@@ -69,7 +69,7 @@ fn check(run: &Run, bounds: [f64; 4]) {
 fn massless_rods_follow_the_reference() {
     let suspension = shipped("five_link_suspension", &[]);
     for projection in ["manifold", "exact"] {
-        let method = Method { projection: Choice::named(projection), ..dop853(1e-12) };
+        let method = Method { projection: MethodSpec::named(projection), ..dop853(1e-12) };
         check(&suspension.run(&method, until(2.5, 0.25)), [2e-12, 2e-10, 5e-10, 5e-7]);
     }
 }
@@ -81,7 +81,7 @@ fn massless_rods_follow_the_reference() {
 fn an_implicit_method_agrees() {
     let suspension = shipped("five_link_suspension", &[]);
     for (tolerance, bounds) in [(1e-8, [2e-7, 4e-6, 2e-5, 4e-2]), (1e-13, [5e-12, 1e-10, 1e-9, 1e-6])] {
-        let [formulation, integrator, projection] = ["ggl", "radau_iia", "none"].map(Choice::named);
+        let [formulation, integrator, projection] = ["ggl", "radau_iia", "none"].map(MethodSpec::named);
         let method = Method { formulation, integrator, projection, rtol: tolerance, atol: tolerance, step: None };
         check(&suspension.run(&method, until(2.5, 0.25)), bounds);
     }
@@ -93,7 +93,7 @@ fn a_loose_tolerance_sees_the_bump() {
     let suspension = shipped("five_link_suspension", &[]);
     let exact = suspension.tight(1e-10, 2.5, 0.25).column("chassis_height");
     for formulation in ["ggl", "index3", "index2"] {
-        let [formulation, integrator, projection] = [formulation, "radau_iia", "none"].map(Choice::named);
+        let [formulation, integrator, projection] = [formulation, "radau_iia", "none"].map(MethodSpec::named);
         let method = Method { formulation, integrator, projection, rtol: 1e-6, atol: 1e-6, step: None };
         let found = suspension.run(&method, until(2.5, 0.25)).column("chassis_height");
         assert!(apart(&found, &exact) < 1e-4, "{}: {:e}", method.triple(), apart(&found, &exact));

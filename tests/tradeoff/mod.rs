@@ -23,7 +23,8 @@ pub fn motion(scene: &Ready, end: f64) -> Motion<'_> {
 }
 
 pub fn filter(formulations: &[&str], integrators: &[&str], projections: &[&str]) -> Filter {
-    let choices = |names: &[&str]| names.iter().map(|name| holonom::choice::Choice::parse(name).unwrap()).collect();
+    let choices =
+        |names: &[&str]| names.iter().map(|name| holonom::method_spec::MethodSpec::parse(name).unwrap()).collect();
     let (formulations, integrators) = (choices(formulations), choices(integrators));
     Filter { formulations, integrators, projections: choices(projections) }
 }

@@ -2,7 +2,7 @@
 
 use crate::scenes::model;
 use holonom::compare::work_precision::models::{ModelCosts, Variant, compare};
-use holonom::study::{Overrides, Study};
+use holonom::prepared::{Overrides, PreparedScene};
 use std::time::Duration;
 
 fn variant(name: &str, set: &[(&str, f64)], until: f64) -> Variant {
@@ -10,7 +10,7 @@ fn variant(name: &str, set: &[(&str, f64)], until: f64) -> Variant {
     let overrides = Overrides { set, until: Some(until), ..Overrides::default() };
     Variant {
         name: name.to_string(),
-        study: Study::load(&model(name), &overrides).unwrap(),
+        prepared: PreparedScene::load(&model(name), &overrides).unwrap(),
         source: Some((model(name), overrides)),
     }
 }

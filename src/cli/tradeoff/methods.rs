@@ -6,10 +6,10 @@ use crate::cli::interrupt;
 use crate::compare::work_precision::{Filter, Given, Lack, Motion, Plan, Runner, Watched, WorkPrecision, grid};
 use crate::error::{Error, Result};
 use crate::files;
+use crate::prepared::PreparedScene;
 use crate::report::tradeoff::{Summary, tradeoff_figure, tradeoff_table};
 use crate::report::{Folder, write_whole};
 use crate::scene;
-use crate::study::Study;
 use crate::system::MechanicalSystem;
 use crate::{formulation, projection};
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -20,12 +20,12 @@ use std::time::{Duration, Instant};
 /// Results so far are written so often.
 const SAVED: Duration = Duration::from_secs(5);
 
-pub fn run(args: &Args, study: &Study) -> Result<ExitCode> {
-    let question = Question::new(args, study)?;
-    let folder = args.output.folder(&study.name)?;
-    let place = args.output.path(&study.name).join("tradeoff.json");
-    let mut measured = question.begin(args, study, &place)?;
-    question.measure(args, study, &place, &mut measured)?;
+pub fn run(args: &Args, prepared: &PreparedScene) -> Result<ExitCode> {
+    let question = Question::new(args, prepared)?;
+    let folder = args.output.folder(&prepared.name)?;
+    let place = args.output.path(&prepared.name).join("tradeoff.json");
+    let mut measured = question.begin(args, prepared, &place)?;
+    question.measure(args, prepared, &place, &mut measured)?;
     report(args, &measured, folder)
 }
 
@@ -36,11 +36,11 @@ struct Question {
 }
 
 impl Question {
-    fn new(args: &Args, study: &Study) -> Result<Self> {
-        let span = study.span()?;
-        let given = args.reference(study).as_deref().map(Given::read).transpose()?;
-        let outputs = args.outputs(study, given.as_ref());
-        let watched = Watched::new(study.system(), &outputs).map_err(|error| error.under("--outputs"))?;
+    fn new(args: &Args, prepared: &PreparedScene) -> Result<Self> {
+        let span = prepared.span()?;
+        let given = args.reference(prepared).as_deref().map(Given::read).transpose()?;
+        let outputs = args.outputs(prepared, given.as_ref());
+        let watched = Watched::new(prepared.system(), &outputs).map_err(|error| error.under("--outputs"))?;
         let rows = usize::from(args.rows);
         let rows = given.as_ref().map_or(Ok(rows), |given| given.parts((span.start, span.end), rows))?;
         let filter = Filter {
@@ -48,7 +48,7 @@ impl Question {
             integrators: args.integrator.clone(),
             projections: args.projection.clone(),
         };
-        args.check_choices(study.system())?;
+        args.check_choices(prepared.system())?;
         let plan = Plan {
             triples: grid(&filter)?,
             budget: args.budget,
@@ -62,18 +62,18 @@ impl Question {
     }
 
     /// What is known before: nothing, or what `--resume` finds.
-    fn begin(&self, args: &Args, study: &Study, place: &Path) -> Result<WorkPrecision> {
-        let (span, rows) = (study.span()?, self.plan.rows);
+    fn begin(&self, args: &Args, prepared: &PreparedScene, place: &Path) -> Result<WorkPrecision> {
+        let (span, rows) = (prepared.span()?, self.plan.rows);
         let fresh = WorkPrecision {
             fingerprint: fingerprint(args, rows)?,
-            ..WorkPrecision::fresh(&study.name, (span.start, span.end), rows)
+            ..WorkPrecision::fresh(&prepared.name, (span.start, span.end), rows)
         };
         if args.resume { resumed(place, fresh) } else { Ok(fresh) }
     }
 
-    fn measure(self, args: &Args, study: &Study, place: &Path, measured: &mut WorkPrecision) -> Result<()> {
-        let span = study.span()?;
-        let bar = args.talk.progress(1000, &study.name);
+    fn measure(self, args: &Args, prepared: &PreparedScene, place: &Path, measured: &mut WorkPrecision) -> Result<()> {
+        let span = prepared.span()?;
+        let bar = args.talk.progress(1000, &prepared.name);
         let (clock, mut saved) = (Instant::now(), Instant::now());
         let watch = |measured: &WorkPrecision, next: &str| {
             bar.set_position((1e3 * clock.elapsed().as_secs_f64() / args.budget.as_secs_f64()) as u64);
@@ -85,10 +85,10 @@ impl Question {
             }
         };
         let motion = Motion {
-            system: study.system(),
-            start: study.start(),
+            system: prepared.system(),
+            start: prepared.start(),
             between: (span.start, span.end),
-            ratio: study.method.atol / study.method.rtol,
+            ratio: prepared.method.atol / prepared.method.rtol,
             is_stopped: &interrupt::is_asked,
         };
         let result = Runner::new(motion, &self.plan, self.watched, watch).run(measured);
@@ -115,14 +115,14 @@ fn report(args: &Args, measured: &WorkPrecision, mut folder: Folder) -> Result<E
 
 impl Args {
     /// The table to measure against: that of the command line, or that which the scene brings.
-    fn reference(&self, study: &Study) -> Option<PathBuf> {
-        let own = || Some(scene::folder(Some(&self.scene.path)).join(study.reference.as_ref()?));
+    fn reference(&self, prepared: &PreparedScene) -> Option<PathBuf> {
+        let own = || Some(scene::folder(Some(&self.scene.path)).join(prepared.reference.as_ref()?));
         self.reference.clone().or_else(own)
     }
 
     /// What to compare; by default all that a table has.
-    fn outputs(&self, study: &Study, given: Option<&Given>) -> Vec<String> {
-        let known = study.system().columns();
+    fn outputs(&self, prepared: &PreparedScene, given: Option<&Given>) -> Vec<String> {
+        let known = prepared.system().columns();
         let has = |name: &&str| known.iter().any(|column| column.name == **name);
         match given {
             Some(given) if self.outputs.is_empty() => given.names().filter(has).map(str::to_string).collect(),
@@ -132,11 +132,11 @@ impl Args {
 
     /// Refuses unknown options of what is named, before anything is run.
     fn check_choices(&self, system: &dyn MechanicalSystem) -> Result<()> {
-        for choice in &self.formulation {
-            formulation::make(choice, system).map_err(|error| error.under("--formulation"))?;
+        for spec in &self.formulation {
+            formulation::make(spec, system).map_err(|error| error.under("--formulation"))?;
         }
-        for choice in &self.projection {
-            projection::make(choice, system).map_err(|error| error.under("--projection"))?;
+        for spec in &self.projection {
+            projection::make(spec, system).map_err(|error| error.under("--projection"))?;
         }
         Ok(())
     }

@@ -3,10 +3,10 @@
 mod methods;
 mod models;
 
-use super::common::{Output, SceneOptions, Talk, choice, duration, number};
-use crate::choice::Choice;
+use super::common::{Output, SceneOptions, Talk, duration, number, spec};
 use crate::error::Result;
-use crate::study::Overrides;
+use crate::method_spec::MethodSpec;
+use crate::prepared::Overrides;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
@@ -16,14 +16,14 @@ pub struct Args {
     #[command(flatten)]
     scene: SceneOptions,
     /// Formulations to compare, such as index1; repeat for several (default: all)
-    #[arg(long, value_parser = choice)]
-    formulation: Vec<Choice>,
+    #[arg(long, value_parser = spec)]
+    formulation: Vec<MethodSpec>,
     /// Integrators to compare; repeat for several (default: all)
-    #[arg(long, value_parser = choice)]
-    integrator: Vec<Choice>,
+    #[arg(long, value_parser = spec)]
+    integrator: Vec<MethodSpec>,
     /// Projections to compare; repeat for several (default: those that are usual with each formulation)
-    #[arg(long, value_parser = choice)]
-    projection: Vec<Choice>,
+    #[arg(long, value_parser = spec)]
+    projection: Vec<MethodSpec>,
     /// End time, s
     #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
     until: Option<f64>,
@@ -62,9 +62,9 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
-    let study = args.talk.load(&args.scene.path, &args.overrides())?;
-    study.span().map_err(|error| error.in_file(&args.scene.path))?;
-    if args.variants.is_empty() { methods::run(&args, &study) } else { models::run(&args, study.settled()?) }
+    let prepared = args.talk.load(&args.scene.path, &args.overrides())?;
+    prepared.span().map_err(|error| error.in_file(&args.scene.path))?;
+    if args.variants.is_empty() { methods::run(&args, &prepared) } else { models::run(&args, prepared.settled()?) }
 }
 
 impl Args {

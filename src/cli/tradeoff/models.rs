@@ -5,20 +5,20 @@ use crate::cli::common::assignment;
 use crate::compare::work_precision::models::{Variant, compare};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
+use crate::prepared::{Overrides, PreparedScene};
 use crate::report::tradeoff::{ModelsSummary, models_figure, models_table};
-use crate::study::{Overrides, Study};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-pub fn run(args: &Args, study: Study) -> Result<ExitCode> {
+pub fn run(args: &Args, prepared: PreparedScene) -> Result<ExitCode> {
     let mut others = Vec::new();
     for text in &args.variants {
-        others.push(variant(text, args, &study)?);
+        others.push(variant(text, args, &prepared)?);
     }
-    let (name, title) = (study.name.clone(), format!("{}: what models cost", study.name));
+    let (name, title) = (prepared.name.clone(), format!("{}: what models cost", prepared.name));
     let set = args.scene.set.iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>().join(",");
     let source = Some((args.scene.path.clone(), args.overrides()));
-    let own = Variant { name: named(&args.scene.path, &set), study, source };
+    let own = Variant { name: named(&args.scene.path, &set), prepared, source };
     let variants: Vec<Variant> = [own].into_iter().chain(others).collect();
     let mut folder = args.output.folder(&name)?;
     let repeats = usize::from(args.repeats);
@@ -41,7 +41,7 @@ pub fn run(args: &Args, study: Study) -> Result<ExitCode> {
 }
 
 /// A scene with parameters of its own.
-fn variant(text: &str, args: &Args, like: &Study) -> Result<Variant> {
+fn variant(text: &str, args: &Args, like: &PreparedScene) -> Result<Variant> {
     let (path, set) = match text.rsplit_once(':') {
         Some((path, rest)) if rest.contains('=') => (path, rest),
         _ => (text, ""),
@@ -54,9 +54,9 @@ fn variant(text: &str, args: &Args, like: &Study) -> Result<Variant> {
     let own: Vec<(String, Number)> = own.collect::<Result<_>>().map_err(|error| error.under("--variants"))?;
     let span = like.span()?;
     let overrides = Overrides { set: own, until: Some(span.end), ..args.overrides() };
-    let study = args.talk.load(Path::new(path), &overrides).and_then(Study::settled).map_err(of_variants)?;
+    let prepared = args.talk.load(Path::new(path), &overrides).and_then(PreparedScene::settled).map_err(of_variants)?;
     let source = Some((PathBuf::from(path), overrides));
-    Ok(Variant { name: named(Path::new(path), set), study, source })
+    Ok(Variant { name: named(Path::new(path), set), prepared, source })
 }
 
 /// A parameter at fault was given by `--variants`, not by `--set`.

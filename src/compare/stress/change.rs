@@ -2,9 +2,9 @@
 
 use super::parameters::{StressParameter, baumgarte};
 use super::subject::Case;
-use crate::choice::Choice;
 use crate::error::Result;
 use crate::integrator::{Steps, find};
+use crate::method_spec::MethodSpec;
 
 /// One thing that a place in a map changes.
 #[derive(Clone)]
@@ -12,9 +12,9 @@ pub enum Change {
     StressParameter(&'static StressParameter, f64),
     /// A parameter of the scene.
     Parameter(String, f64),
-    Integrator(Choice),
+    Integrator(MethodSpec),
     /// Formulation and projection.
-    Stabilization(Choice, Choice),
+    Stabilization(MethodSpec, MethodSpec),
     /// Baumgarte's pair (2/h, 1/h^2), which follows the step.
     OwnGains,
 }
@@ -40,7 +40,7 @@ impl Change {
             }
             Change::OwnGains => {
                 (method.formulation, method.projection) =
-                    (baumgarte(1.0 / method.step.unwrap_or(typical_step)), Choice::named("none"));
+                    (baumgarte(1.0 / method.step.unwrap_or(typical_step)), MethodSpec::named("none"));
             }
         }
         Ok(())

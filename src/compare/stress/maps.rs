@@ -5,8 +5,8 @@ use super::change::Change;
 use super::map::{Axis, AxisPlace, Map};
 use super::parameters::find;
 use super::subject::Subject;
-use crate::choice::Choice;
 use crate::error::{Error, Result, suggest};
+use crate::method_spec::MethodSpec;
 
 /// A map as the command line knows it.
 pub struct MapEntry {
@@ -187,8 +187,8 @@ impl MapEntry {
 /// WatchedRows below and above the gains: the methods that have none.
 fn beside_gains(map: &mut Map) {
     let row = |label: &str, projection: &str| {
-        let projection = Choice::parse(projection).unwrap_or_default();
-        AxisPlace::named(label, vec![Change::Stabilization(Choice::named("index1"), projection)])
+        let projection = MethodSpec::parse(projection).unwrap_or_default();
+        AxisPlace::named(label, vec![Change::Stabilization(MethodSpec::named("index1"), projection)])
     };
     let above = [
         AxisPlace::named("(2/h, 1/h²)", vec![Change::OwnGains]),
@@ -214,7 +214,7 @@ fn by_method(map: &mut Map) {
 }
 
 fn fixed() -> Vec<AxisPlace> {
-    ["rk4", "heun"].map(|name| AxisPlace::named(name, vec![Change::Integrator(Choice::named(name))])).to_vec()
+    ["rk4", "heun"].map(|name| AxisPlace::named(name, vec![Change::Integrator(MethodSpec::named(name))])).to_vec()
 }
 
 fn adaptive() -> Vec<AxisPlace> {
@@ -231,6 +231,6 @@ fn method(formulation: &str, integrator: &str, projection: &str) -> AxisPlace {
         (formulation, "none") => format!("{integrator} {formulation}"),
         _ => format!("{integrator} {formulation} {projection}"),
     };
-    let [formulation, integrator, projection] = [formulation, integrator, projection].map(Choice::named);
+    let [formulation, integrator, projection] = [formulation, integrator, projection].map(MethodSpec::named);
     AxisPlace::named(&label, vec![Change::Integrator(integrator), Change::Stabilization(formulation, projection)])
 }

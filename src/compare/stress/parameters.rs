@@ -3,8 +3,8 @@
 use super::json::{elements, faster, has, multiply, replace};
 use super::subject::Case;
 use super::subject::Subject;
-use crate::choice::Choice;
 use crate::error::{Error, Result, suggest};
+use crate::method_spec::MethodSpec;
 use crate::scene::generate;
 use serde_json::Value;
 use std::sync::Arc;
@@ -68,7 +68,7 @@ pub fn registry() -> &'static [StressParameter] {
                 sequence(0.02 * rate, 40.0 * rate)
             },
             apply: |case, gain| {
-                (case.method.formulation, case.method.projection) = (baumgarte(gain), Choice::named("none"));
+                (case.method.formulation, case.method.projection) = (baumgarte(gain), MethodSpec::named("none"));
                 Ok(())
             },
         },
@@ -213,10 +213,10 @@ const START: StressParameter = StressParameter {
 };
 
 /// Baumgarte's stabilization with alpha = beta = `gain`: phi'' + 2 gain phi' + gain^2 phi = 0.
-pub(super) fn baumgarte(gain: f64) -> Choice {
+pub(super) fn baumgarte(gain: f64) -> MethodSpec {
     let gain = gain.to_string();
     let options = ["alpha", "beta"].map(|key| (key.to_string(), gain.clone()));
-    options.iter().fold(Choice::named("baumgarte"), |choice, (key, value)| choice.with(key, value))
+    options.iter().fold(MethodSpec::named("baumgarte"), |spec, (key, value)| spec.with(key, value))
 }
 
 /// Of the rod, and the offset.

@@ -4,7 +4,7 @@ use super::deadline::{Deadline, Limits};
 use super::subject::Case;
 use super::subject::Subject;
 use crate::analysis::{Record, Recorder, Sizes, scales};
-use crate::choice::Choice;
+use crate::method_spec::MethodSpec;
 use crate::simulate::{Method, Observation, Sink, Stop, simulate};
 use crate::system::{Column, MechanicalSystem, Scratch};
 use crate::tolerances::report as tolerances;
@@ -39,7 +39,7 @@ impl Search {
     pub fn run(subject: &Subject, case: &Case, allowed: Duration, limits: Limits) -> Self {
         let mut search = Search::Hopeless;
         for names in METHODS {
-            let [formulation, integrator, projection] = names.map(Choice::named);
+            let [formulation, integrator, projection] = names.map(MethodSpec::named);
             let method = Method {
                 formulation,
                 integrator,

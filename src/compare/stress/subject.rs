@@ -3,9 +3,9 @@
 use crate::analysis::Recorder;
 use crate::error::{Result, Warning};
 use crate::math::expression::Number;
+use crate::prepared::{Overrides, PreparedScene};
 use crate::scene::{self, Elements};
 use crate::simulate::{Method, Span, Stop, simulate};
-use crate::study::{Overrides, Study};
 use crate::system::{Dimensions, MechanicalSystem};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -70,10 +70,10 @@ impl Subject<'static> {
     /// Reads a scene.
     ///
     /// # Errors
-    /// As [`Study::load`]; a scene without an end time.
+    /// As [`PreparedScene::load`]; a scene without an end time.
     pub fn load(path: &Path, overrides: &Overrides) -> Result<Self> {
-        let study = Study::load(path, overrides)?.settled()?;
-        let span = study.span().map_err(|error| error.in_file(path))?;
+        let prepared = PreparedScene::load(path, overrides)?.settled()?;
+        let span = prepared.span().map_err(|error| error.in_file(path))?;
         let text = scene::read_text(path)?;
         let json = serde_json::from_str(text.trim_start_matches('\u{feff}')).unwrap_or(Value::Null);
         let base = Case {
@@ -81,18 +81,18 @@ impl Subject<'static> {
             set: overrides
                 .set
                 .iter()
-                .filter_map(|(name, _)| Some((name.clone(), study.parameters.get(name)?)))
+                .filter_map(|(name, _)| Some((name.clone(), prepared.parameters.get(name)?)))
                 .collect(),
-            method: study.method.clone(),
+            method: prepared.method.clone(),
             duration: span.end - span.start,
-            typical: Typical::of(study.system(), &study.method, span, study.start())?,
+            typical: Typical::of(prepared.system(), &prepared.method, span, prepared.start())?,
             start_error: [0.0; 2],
         };
         Ok(Subject {
-            doubts: study.doubts.clone(),
-            name: study.name.clone(),
+            doubts: prepared.doubts.clone(),
+            name: prepared.name.clone(),
             base,
-            dimensions: study.system().dimensions(),
+            dimensions: prepared.system().dimensions(),
             folder: scene::folder(Some(path)).to_path_buf(),
             elements: overrides.elements.clone(),
             own: None,
@@ -166,8 +166,8 @@ impl<'a> Subject<'a> {
             output_step: Some(span.output_step),
             ..Overrides::default()
         };
-        let study = Study::new(scene, &overrides)?;
-        moved(study.system(), span.start, study.start().0, study.start().1)
+        let prepared = PreparedScene::new(scene, &overrides)?;
+        moved(prepared.system(), span.start, prepared.start().0, prepared.start().1)
     }
 }
 

@@ -134,7 +134,7 @@ impl WorkPrecision {
 fn merit(cell: &Cell) -> (i32, [usize; 3], u32) {
     let drift = cell.drift().map_or(1.0, Held::largest).max(tolerances::DRIFT_ROUND_OFF);
     let Method { integrator, formulation, projection, .. } = &cell.method;
-    let names = [integrator, formulation, projection].map(|choice| choice.name.as_str());
+    let names = [integrator, formulation, projection].map(|spec| spec.name.as_str());
     let mut known = [0; 3];
     for ((place, list), name) in known.iter_mut().zip(KNOWN).zip(names) {
         *place = list.iter().position(|known| *known == name).unwrap_or(list.len());

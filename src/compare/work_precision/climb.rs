@@ -3,10 +3,10 @@
 use super::error_metric::{ErrorMetric, Watched};
 use super::grid::Triple;
 use super::sample::{Allowed, Motion, RunSample, sample};
-use crate::choice::Choice;
 use crate::error::{Failure, Result};
 use crate::formulation;
 use crate::integrator;
+use crate::method_spec::MethodSpec;
 use crate::simulate::{Method, Span, atol_of};
 use std::panic::resume_unwind;
 use std::time::{Duration, Instant};
@@ -113,7 +113,7 @@ impl Line {
         if allowed.wall.is_zero() || self.forecast(motion) > allowed.cpu.as_secs_f64() {
             return Ok((false, 0.0));
         }
-        let [formulation, integrator, projection] = names.map(Choice::named);
+        let [formulation, integrator, projection] = names.map(MethodSpec::named);
         let triple = Triple { formulation, integrator, projection };
         // Minimal coordinates of large systems do not fit into memory.
         if formulation::make(&triple.formulation, motion.system).is_err() {

@@ -1,26 +1,26 @@
 //! Which methods are measured.
 
-use crate::choice::Choice;
 use crate::error::Result;
 use crate::formulation;
 use crate::integrator::{self, Entry};
+use crate::method_spec::MethodSpec;
 use crate::projection;
 use crate::simulate::Method;
 
 /// Formulation x integrator x projection, without an accuracy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Triple {
-    pub formulation: Choice,
-    pub integrator: Choice,
-    pub projection: Choice,
+    pub formulation: MethodSpec,
+    pub integrator: MethodSpec,
+    pub projection: MethodSpec,
 }
 
 /// What a user wants of the grid; what is not named is taken as is usual.
 #[derive(Clone, Debug, Default)]
 pub struct Filter {
-    pub formulations: Vec<Choice>,
-    pub integrators: Vec<Choice>,
-    pub projections: Vec<Choice>,
+    pub formulations: Vec<MethodSpec>,
+    pub integrators: Vec<MethodSpec>,
+    pub projections: Vec<MethodSpec>,
 }
 
 impl Triple {
@@ -43,7 +43,7 @@ pub fn grid(filter: &Filter) -> Result<Vec<Triple>> {
     let mut triples = Vec::new();
     for integrator in &integrators {
         let entry = integrator::find(integrator).map_err(|error| error.under("--integrator"))?;
-        for formulation in formulations.iter().filter(|choice| entry.takes(&choice.name)) {
+        for formulation in formulations.iter().filter(|spec| entry.takes(&spec.name)) {
             let with =
                 |projection| Triple { formulation: formulation.clone(), integrator: integrator.clone(), projection };
             triples.extend(projections(entry, formulation, filter).into_iter().map(with));
@@ -56,8 +56,8 @@ pub fn grid(filter: &Filter) -> Result<Vec<Triple>> {
 }
 
 /// Why nothing goes together, said of the first that was named.
-fn refused(integrators: &[Choice], formulations: &[Choice], filter: &Filter) -> Result<Vec<Triple>> {
-    let none = [Choice::named("none")];
+fn refused(integrators: &[MethodSpec], formulations: &[MethodSpec], filter: &Filter) -> Result<Vec<Triple>> {
+    let none = [MethodSpec::named("none")];
     let projections = if filter.projections.is_empty() { &none[..] } else { &filter.projections };
     for ((formulation, integrator), projection) in formulations.iter().zip(integrators).zip(projections) {
         let (formulation, integrator) = (formulation.clone(), integrator.clone());
@@ -68,18 +68,18 @@ fn refused(integrators: &[Choice], formulations: &[Choice], filter: &Filter) -> 
     Ok(Vec::new())
 }
 
-fn named<'n>(given: &[Choice], known: impl Iterator<Item = &'n str>) -> Vec<Choice> {
-    if given.is_empty() { known.map(Choice::named).collect() } else { given.to_vec() }
+fn named<'n>(given: &[MethodSpec], known: impl Iterator<Item = &'n str>) -> Vec<MethodSpec> {
+    if given.is_empty() { known.map(MethodSpec::named).collect() } else { given.to_vec() }
 }
 
-fn projections(entry: &Entry, formulation: &Choice, filter: &Filter) -> Vec<Choice> {
+fn projections(entry: &Entry, formulation: &MethodSpec, filter: &Filter) -> Vec<MethodSpec> {
     let usual: &[&str] = match formulation.name.as_str() {
         "index1" => &["none", "manifold", "exact"],
         "index2" if entry.accepts().eq(["index2"]) => &["none", "manifold"],
         _ => &["none"],
     };
     let wanted = named(&filter.projections, usual.iter().copied());
-    let goes = |projection: &Choice| {
+    let goes = |projection: &MethodSpec| {
         let is_known = projection::registry().iter().any(|entry| entry.name == projection.name);
         is_known && !entry.refuses(&formulation.name, &projection.name)
     };

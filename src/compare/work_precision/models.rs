@@ -4,9 +4,9 @@ use super::error_metric::{ErrorMetric, Watched};
 use super::sample::{Motion, RunSample, sample};
 use crate::error::{Error, Failure, Result};
 use crate::formulation::Statistics;
+use crate::prepared::{Overrides, PreparedScene};
 use crate::scene;
 use crate::simulate::{Method, Span};
-use crate::study::{Overrides, Study};
 use crate::system::{Column, Dimensions};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
@@ -16,18 +16,18 @@ use std::time::Duration;
 /// A model with its name, such as `rod.json:modes=2`.
 pub struct Variant {
     pub name: String,
-    pub study: Study,
+    pub prepared: PreparedScene,
     /// Where it comes from, so that a finer mesh can be made of it.
     pub source: Option<(PathBuf, Overrides)>,
 }
 
 impl Variant {
     /// The model with twice the elements and modes of its beams; none where it has none, or that cannot be built.
-    fn finer(&self) -> Option<Study> {
+    fn finer(&self) -> Option<PreparedScene> {
         let (path, overrides) = self.source.as_ref()?;
         let text = scene::refined(&scene::read_text(path).ok()?)?;
         let scene = overrides.elements.parse_in(scene::folder(Some(path)), &text, &overrides.set).ok()?;
-        Study::new(scene, overrides).and_then(Study::settled).ok()
+        PreparedScene::new(scene, overrides).and_then(PreparedScene::settled).ok()
     }
 }
 
@@ -119,13 +119,13 @@ pub fn compare(
     (repeats, allowed): (usize, Duration),
     mut watch: impl FnMut(&str, usize),
 ) -> Result<ModelCosts> {
-    let velocities = |variant: &Variant| variant.study.system().dimensions().v;
+    let velocities = |variant: &Variant| variant.prepared.system().dimensions().v;
     let richest = (0..variants.len()).max_by_key(|place| (velocities(&variants[*place]), variants.len() - place));
     let (Some(richest), [first, _, ..]) = (richest, variants) else {
         return Err(Error::input("there is only one model").under("--variants").hint("name others to compare it with"));
     };
-    let columns = Watched::new(variants[richest].study.system(), outputs)?.columns;
-    let span = first.study.span()?;
+    let columns = Watched::new(variants[richest].prepared.system(), outputs)?.columns;
+    let span = first.prepared.span()?;
     let span = Span { output_step: (span.end - span.start) / ROWS as f64, ..span };
     let mut runs: Vec<Run> = variants.iter().map(|variant| Run::new(variant, &columns)).collect::<Result<_>>()?;
     for round in 0..=repeats {
@@ -145,9 +145,9 @@ pub fn compare(
 
 /// The richest model against itself with twice the mesh.
 fn finer(richest: &Variant, columns: &[Column], span: Span, allowed: Duration, rich: &ErrorMetric) -> Result<Finer> {
-    let Some(study) = richest.finer() else { return Ok(Finer::default()) };
-    let velocities = Some(study.system().dimensions().v);
-    let variant = Variant { name: String::new(), study, source: None };
+    let Some(prepared) = richest.finer() else { return Ok(Finer::default()) };
+    let velocities = Some(prepared.system().dimensions().v);
+    let variant = Variant { name: String::new(), prepared, source: None };
     let mut run = Run::new(&variant, columns)?;
     run.repeat(span, 0, allowed)?;
     let cost = run.cost(rich);
@@ -166,7 +166,7 @@ struct Run<'a> {
 
 impl<'a> Run<'a> {
     fn new(variant: &'a Variant, columns: &[Column]) -> Result<Self> {
-        let system = variant.study.system();
+        let system = variant.prepared.system();
         let own = system.columns();
         let shared = columns.iter().filter(|column| own.iter().any(|own| own.name == column.name));
         let shared: Vec<String> = shared.map(|column| column.name.clone()).collect();
@@ -180,11 +180,11 @@ impl<'a> Run<'a> {
 
     /// Once with a tighter tolerance, then for the time.
     fn repeat(&mut self, span: Span, round: usize, allowed: Duration) -> Result<()> {
-        let study = &self.variant.study;
-        let method = match (round, study.method.step) {
-            (0, None) => tighter(&study.method),
-            (0, Some(step)) => Method { step: Some(0.1 * step), ..study.method.clone() },
-            _ => study.method.clone(),
+        let prepared = &self.variant.prepared;
+        let method = match (round, prepared.method.step) {
+            (0, None) => tighter(&prepared.method),
+            (0, Some(step)) => Method { step: Some(0.1 * step), ..prepared.method.clone() },
+            _ => prepared.method.clone(),
         };
         let failed = [&self.usual, &self.tight].into_iter().flatten().any(|sample| sample.failure.is_some());
         if failed {
@@ -192,7 +192,8 @@ impl<'a> Run<'a> {
         }
         let between = (span.start, span.end);
         let ratio = method.atol / method.rtol;
-        let motion = Motion { system: study.system(), start: study.start(), between, ratio, is_stopped: &|| false };
+        let motion =
+            Motion { system: prepared.system(), start: prepared.start(), between, ratio, is_stopped: &|| false };
         let run = sample(&motion, &self.watched, &method, span, allowed)?;
         if round == 0 {
             self.tight = Some(run);
@@ -212,7 +213,7 @@ impl<'a> Run<'a> {
     }
 
     fn cost(&self, rich: &ErrorMetric) -> ModelCost {
-        let Dimensions { q, v, lambda, .. } = self.variant.study.system().dimensions();
+        let Dimensions { q, v, lambda, .. } = self.variant.prepared.system().dimensions();
         let failure = [&self.tight, &self.usual].into_iter().flatten().find_map(|sample| sample.failure.clone());
         let tight = self.tight.as_ref().filter(|_| failure.is_none());
         let own = tight.map(|tight| ErrorMetric::new(&self.watched.columns, tight.rows.clone(), &tight.sizes));
@@ -231,7 +232,7 @@ impl<'a> Run<'a> {
             coordinates: q,
             velocities: v,
             constraints: lambda,
-            method: self.variant.study.method.clone(),
+            method: self.variant.prepared.method.clone(),
             cpu_seconds: self.seconds.clone(),
             statistics: usual.map_or_else(Statistics::default, |sample| sample.statistics),
             numerical_error: own.zip(usual).map(|(own, usual)| own.error(&usual.rows).0),

@@ -1,11 +1,11 @@
 //! The number of stages, chosen as the integration goes.
 
 use super::collocation::Collocation;
-use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::integrator::memory::Reader;
 use crate::integrator::{Control, Tolerance};
 use crate::math::newton::Monitor;
+use crate::method_spec::MethodSpec;
 use crate::tolerances::integrator as tolerances;
 
 /// The methods to choose from and the one in use.
@@ -34,8 +34,8 @@ pub struct Seen {
 const STAGES: [usize; 3] = [3, 5, 7];
 
 impl Order {
-    pub fn new(choice: &Choice, is_fixed: bool) -> Result<Self> {
-        let stages = match choice.text("order") {
+    pub fn new(spec: &MethodSpec, is_fixed: bool) -> Result<Self> {
+        let stages = match spec.text("order") {
             None if is_fixed => vec![3],
             None => STAGES.to_vec(),
             Some(text) => {

@@ -7,7 +7,7 @@ mod projection;
 pub use bundle::{Bundle, Pulse, Snapshot};
 
 use crate::error::{Error, Failure, Result};
-use crate::formulation::{Choice, Dynamics};
+use crate::formulation::{Dynamics, MethodSpec};
 use crate::integrator::{self, Problem, Setup, Tolerance};
 use crate::projection::Projection;
 use crate::simulate::{Observation, Parts, Segments, Sink, Stop};
@@ -45,7 +45,7 @@ pub fn flow(
     let projection = || -> Result<Option<Box<dyn Projection>>> {
         Ok(Some(Box::new(Straightening::new(system, &shape, &dependent)?)))
     };
-    let (integrator, formulation) = (Choice::named("dop853"), Choice::named("index1"));
+    let (integrator, formulation) = (MethodSpec::named("dop853"), MethodSpec::named("index1"));
     let setup = Setup { integrator: &integrator, formulation: &formulation, system: &carrier, is_fixed: false };
     let parts = Parts {
         problem: problem()?,

@@ -2,7 +2,7 @@
 
 use super::bundle::Shape;
 use crate::error::Result;
-use crate::formulation::{Choice, Dynamics, StepError};
+use crate::formulation::{Dynamics, MethodSpec, StepError};
 use crate::projection::{self, Projection};
 use crate::system::{MechanicalSystem, Need};
 
@@ -19,7 +19,7 @@ impl<'a> Straightening<'a> {
     pub fn new(system: &'a dyn MechanicalSystem, shape: &Shape, dependent: &[usize]) -> Result<Self> {
         let (n, mut dynamics) = (system.dimensions(), Dynamics::new(system));
         dynamics.drop_rows(dependent);
-        let manifold = projection::make(&Choice::named("manifold"), system)?;
+        let manifold = projection::make(&MethodSpec::named("manifold"), system)?;
         Ok(Straightening { shape: *shape, dynamics, manifold, correction: vec![0.0; n.v], rows: vec![0.0; n.lambda] })
     }
 

@@ -4,9 +4,9 @@ mod pencil;
 mod rounding;
 
 use super::entry::{Built, Entry};
-use crate::choice::{Choice, OptionDoc};
 use crate::error::{Error, Result};
 use crate::formulation::{self, Dae};
+use crate::method_spec::{MethodSpec, OptionDoc};
 
 /// The pencil (E, A) of the equations with multipliers, in all coordinates, its state frozen:
 ///
@@ -44,9 +44,9 @@ pub const RCS: Entry = Entry {
 };
 
 /// The equations of the formulation that the option `form` names, index 3 where it is not given.
-fn dae(method: &Choice) -> Result<Dae> {
+fn dae(method: &MethodSpec) -> Result<Dae> {
     let others = formulation::registry().iter().filter(|entry| entry.dae.is_some()).map(|entry| entry.name);
     let known: Vec<&str> = std::iter::once("index3").chain(others.filter(|name| *name != "index3")).collect();
-    let form = Choice::named(method.one_of("form", &known)?);
+    let form = MethodSpec::named(method.one_of("form", &known)?);
     formulation::dae(&form)?.ok_or_else(|| Error::input(format!("{form} has no rows")))
 }

@@ -1,9 +1,9 @@
 //! Baumgarte's equations, linearized.
 
 use super::{PROJECTED, build};
-use crate::choice::OptionDoc;
 use crate::linearize::Response;
 use crate::linearize::entry::Entry;
+use crate::method_spec::OptionDoc;
 
 /// ```text
 /// [M G^T; G 0] [dv'; dlambda] = -[K dq + C dv; (Gdd + c1 Gd + c0 G) dq + (G1 + c1 G) dv],   c1 = 2 alpha, c0 = beta^2

@@ -1,11 +1,11 @@
 //! Force projection, linearized.
 
 use super::{PROJECTED, build};
-use crate::choice::OptionDoc;
 use crate::error::{Error, Result};
 use crate::linearize::entry::Entry;
 use crate::linearize::{Changes, Matrix, Response, Variation};
 use crate::math::eigen::pseudo_inverse;
+use crate::method_spec::OptionDoc;
 
 /// With P = I - G^+ G, which projects forces on the directions that are free,
 ///

@@ -15,8 +15,8 @@ use super::entry::{Built, Request};
 use super::minimal::restrict;
 use super::response::observe;
 use super::{Changes, Matrix, Response, Variation};
-use crate::choice::OptionDoc;
 use crate::error::Result;
+use crate::method_spec::OptionDoc;
 
 /// What all of them take.
 const PROJECTED: OptionDoc = OptionDoc {

@@ -1,12 +1,12 @@
 //! Penalty methods, with and without updates of the multipliers, linearized.
 
 use super::{PROJECTED, build};
-use crate::choice::{Choice, OptionDoc};
 use crate::error::{Error, Result};
 use crate::formulation::{self, mean_compliance};
 use crate::linearize::entry::Entry;
 use crate::linearize::variation::at_state;
 use crate::linearize::{Changes, Matrix, Response, Variation};
+use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::system::OperatingPoint;
 
 const KIND: OptionDoc = OptionDoc {
@@ -76,10 +76,10 @@ struct Penalty {
 }
 
 impl Penalty {
-    fn new(choice: &Choice, iterations: usize, variation: &Variation) -> Result<Self> {
-        let (omega, xi) = (choice.not_negative("omega", 10.0)?, choice.not_negative("xi", 1.0)?);
+    fn new(spec: &MethodSpec, iterations: usize, variation: &Variation) -> Result<Self> {
+        let (omega, xi) = (spec.not_negative("omega", 10.0)?, spec.not_negative("xi", 1.0)?);
         let compliance = mean_compliance(&variation.dynamics.structure, &variation.dynamics.terms);
-        let weight = choice.positive("penalty", 1e7)? / compliance;
+        let weight = spec.positive("penalty", 1e7)? / compliance;
         Ok(Penalty { iterations, weight, held: [2.0 * xi * omega, omega * omega] })
     }
 

@@ -10,7 +10,7 @@ use super::{bodies, glyphs, ground};
 use crate::error::significant;
 use crate::joint::Axis;
 use crate::plot::{Align, Animation, Figure, Item, Panel, Place, Series, Spot, Tint};
-use crate::study::{AnyMechanism, Study};
+use crate::prepared::{AnyMechanism, PreparedScene};
 
 /// How to show a scene.
 #[derive(Clone, Debug)]
@@ -33,12 +33,12 @@ impl Look {
 }
 
 /// The mechanism at one time.
-pub fn mechanism_figure(study: &Study, look: &Look, state: &State) -> Figure {
-    let scene = snapshot(&study.mechanism, state);
+pub fn mechanism_figure(prepared: &PreparedScene, look: &Look, state: &State) -> Figure {
+    let scene = snapshot(&prepared.mechanism, state);
     let mut items = supports(look, std::slice::from_ref(&scene));
     items.extend(picture(look, &scene, &Course { travels: Vec::new(), lengths: lengths(&scene) }, 0.0));
     let panel = panel(look, &scene, [items.as_slice()].into_iter(), &[]).items(items);
-    let title = format!("{}, t = {} s", study.name, significant(state.t, 4));
+    let title = format!("{}, t = {} s", prepared.name, significant(state.t, 4));
     Figure::new().title(title).panel(labelled(look, &scene, panel))
 }
 
@@ -47,8 +47,8 @@ const PALE: (f64, f64) = (0.8, 0.45);
 
 /// The mechanism at several times in one figure, earlier ones paler.
 pub fn stroboscope_figure(motion: &Motion, look: &Look, times: &[f64]) -> Figure {
-    let study = motion.study;
-    let scenes: Vec<Snapshot> = times.iter().map(|t| snapshot(&study.mechanism, &motion.state(*t))).collect();
+    let prepared = motion.prepared;
+    let scenes: Vec<Snapshot> = times.iter().map(|t| snapshot(&prepared.mechanism, &motion.state(*t))).collect();
     let course = course(motion);
     let mut items = supports(look, &scenes);
     let last = scenes.len().saturating_sub(1);
@@ -65,7 +65,7 @@ pub fn stroboscope_figure(motion: &Motion, look: &Look, times: &[f64]) -> Figure
     let mut panel = panel(look, full, [items.as_slice()].into_iter(), &series).items(items);
     panel.series = series;
     panel.keys = keys(times, paleness);
-    Figure::new().title(study.name.clone()).panel(labelled(look, full, panel))
+    Figure::new().title(prepared.name.clone()).panel(labelled(look, full, panel))
 }
 
 /// More times than this are told by the first and the last ones.
@@ -93,11 +93,11 @@ pub fn animation(
     per_second: f64,
     speed: String,
 ) -> Animation<impl Fn(usize) -> Figure + Sync> {
-    let (study, course) = (motion.study, course(motion));
-    let few: Vec<Snapshot> = every(&times, 40).map(|t| snapshot(&study.mechanism, &motion.state(t))).collect();
+    let (prepared, course) = (motion.prepared, course(motion));
+    let few: Vec<Snapshot> = every(&times, 40).map(|t| snapshot(&prepared.mechanism, &motion.state(t))).collect();
     let fixed = supports(look, &few);
     let moving: Vec<Vec<Item>> = every(&times, 400)
-        .map(|t| picture(look, &snapshot(&study.mechanism, &motion.state(t)), &course, 0.0).collect())
+        .map(|t| picture(look, &snapshot(&prepared.mechanism, &motion.state(t)), &course, 0.0).collect())
         .collect();
     let series: Vec<Series> = curves(motion, &look.view, &look.traces)
         .into_iter()
@@ -105,7 +105,7 @@ pub fn animation(
         .collect();
     let all = moving.iter().map(Vec::as_slice).chain([fixed.as_slice()]);
     let empty = few.first().map(|scene| panel(look, scene, all, &series)).unwrap_or_default();
-    let (count, look, mechanism, name) = (times.len(), look.clone(), &study.mechanism, study.name.clone());
+    let (count, look, mechanism, name) = (times.len(), look.clone(), &prepared.mechanism, prepared.name.clone());
     let states: Vec<State> = times.iter().map(|t| motion.state(*t)).collect();
     let step = times.windows(2).map(|pair| pair[1] - pair[0]).next().unwrap_or(1.0);
     let decimals = (-step.log10()).ceil().clamp(0.0, 9.0) as usize;
@@ -224,7 +224,7 @@ pub(super) fn labelled(look: &Look, scene: &Snapshot, mut panel: Panel) -> Panel
 const SAMPLES: usize = 300;
 
 fn course(motion: &Motion) -> Course {
-    let mechanism = &motion.study.mechanism;
+    let mechanism = &motion.prepared.mechanism;
     let slides = |link: &Link| ["prismatic", "cylindrical", "point_on_line"].contains(&link.kind);
     let place = |link: &Link| match link.axis {
         Some(Axis::Along(axis)) if slides(link) => Some(dot(direction(axis)?, less(link.ends[1].r, link.ends[0].r))),

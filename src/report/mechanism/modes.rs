@@ -11,7 +11,7 @@ use crate::formulation::turn;
 use crate::linearize::{Complex, Kind, LinearModel, Mode, Pair, pairs};
 use crate::plot::{Animation, Figure, Item, Tint};
 
-use crate::study::Study;
+use crate::prepared::PreparedScene;
 use std::f64::consts::TAU;
 
 /// Modes in one figure.
@@ -33,7 +33,7 @@ const FAR: f64 = 0.5;
 
 /// A motion about the operating point that can be seen.
 struct Swing<'a> {
-    study: &'a Study,
+    prepared: &'a PreparedScene,
     model: &'a LinearModel,
     mode: &'a Mode,
     /// At its widest: so many units of the shape, turned by this angle.
@@ -43,20 +43,20 @@ struct Swing<'a> {
 
 /// The slowest physical modes, one panel each: the operating point in grey, the mechanism at both ends of its motion.
 /// `None` where no mode has a shape.
-pub fn mode_figure(study: &Study, look: &Look, model: &LinearModel) -> Option<Figure> {
+pub fn mode_figure(prepared: &PreparedScene, look: &Look, model: &LinearModel) -> Option<Figure> {
     let found = shaped(model);
     let drawn = &found[..found.len().min(MOST)];
-    let rest = at_rest(study, model);
+    let rest = at_rest(prepared, model);
     let ground = supports(look, std::slice::from_ref(&rest));
     let pictures: Vec<Vec<Item>> =
-        drawn.iter().map(|(_, pair)| picture_of(study, look, model, pair.mode, &rest)).collect();
+        drawn.iter().map(|(_, pair)| picture_of(prepared, look, model, pair.mode, &rest)).collect();
     // The same axes for all, so that they can be compared.
     let empty = panel(look, &rest, pictures.iter().map(Vec::as_slice).chain([ground.as_slice()]), &[]);
     let panels = drawn.iter().zip(pictures).map(|((number, pair), items)| {
         let panel = empty.clone().title(format!("mode {number}: {}", title(pair)));
         labelled(look, &rest, panel.items(ground.iter().cloned().chain(items)))
     });
-    let name = format!("{}, modes at t = {} s", study.name, significant(model.point.t, 4));
+    let name = format!("{}, modes at t = {} s", prepared.name, significant(model.point.t, 4));
     let figure = panels.fold(Figure::new().title(name), Figure::panel);
     match figure.panels.len() {
         0 => None,
@@ -68,15 +68,15 @@ pub fn mode_figure(study: &Study, look: &Look, model: &LinearModel) -> Option<Fi
 /// One mode in motion: `number` counts the physical modes from one, each conjugate pair once, as in the text. `None` where
 /// there is no such mode with a shape.
 pub fn mode_animation<'a>(
-    study: &'a Study,
+    prepared: &'a PreparedScene,
     look: &Look,
     model: &'a LinearModel,
     number: usize,
 ) -> Option<Animation<impl Fn(usize) -> Figure + Sync + use<'a>>> {
     const FRAMES: usize = 50;
     let (_, pair) = shaped(model).into_iter().find(|(known, _)| *known == number)?;
-    let rest = at_rest(study, model);
-    let swing = Swing::new(study, model, pair.mode, &rest);
+    let rest = at_rest(prepared, model);
+    let swing = Swing::new(prepared, model, pair.mode, &rest);
     let course = course(&rest);
     let ground = supports(look, std::slice::from_ref(&rest));
     let ends: Vec<Item> = [0.0, 0.25, 0.5, 0.75]
@@ -84,7 +84,7 @@ pub fn mode_animation<'a>(
         .flat_map(|part| picture(look, &swing.snapshot(TAU * part), &course, 0.0))
         .collect();
     let empty = panel(look, &rest, [ends.as_slice(), ground.as_slice()].into_iter(), &[]).title("not in real time");
-    let (look, name) = (look.clone(), format!("{}, mode {number}: {}", study.name, title(&pair)));
+    let (look, name) = (look.clone(), format!("{}, mode {number}: {}", prepared.name, title(&pair)));
     let pale: Vec<Item> = picture(&look, &rest, &course, REST).map(grey).collect();
     let frame = move |k: usize| {
         let scene = swing.snapshot(TAU * k as f64 / FRAMES as f64);
@@ -111,17 +111,17 @@ fn title(pair: &Pair) -> String {
     text.replace('-', "−")
 }
 
-fn at_rest(study: &Study, model: &LinearModel) -> Snapshot {
+fn at_rest(prepared: &PreparedScene, model: &LinearModel) -> Snapshot {
     let point = &model.point;
-    snapshot(&study.mechanism, &State { t: point.t, q: point.q.clone(), v: point.v.clone() })
+    snapshot(&prepared.mechanism, &State { t: point.t, q: point.q.clone(), v: point.v.clone() })
 }
 
 fn course(rest: &Snapshot) -> Course {
     Course { travels: Vec::new(), lengths: lengths(rest) }
 }
 
-fn picture_of(study: &Study, look: &Look, model: &LinearModel, mode: &Mode, rest: &Snapshot) -> Vec<Item> {
-    let swing = Swing::new(study, model, mode, rest);
+fn picture_of(prepared: &PreparedScene, look: &Look, model: &LinearModel, mode: &Mode, rest: &Snapshot) -> Vec<Item> {
+    let swing = Swing::new(prepared, model, mode, rest);
     let course = course(rest);
     let still = picture(look, rest, &course, REST).map(grey);
     let ends = [(0.5 * TAU, FAR), (0.0, 0.0)];
@@ -141,10 +141,10 @@ fn grey(item: Item) -> Item {
 }
 
 impl<'a> Swing<'a> {
-    fn new(study: &'a Study, model: &'a LinearModel, mode: &'a Mode, rest: &Snapshot) -> Self {
+    fn new(prepared: &'a PreparedScene, model: &'a LinearModel, mode: &'a Mode, rest: &Snapshot) -> Self {
         // Where the squares add up to a real number, the real part of the shape is largest.
         let squares: Complex<f64> = mode.shape.iter().map(|part| part * part).sum();
-        let swing = Swing { study, model, mode, amplitude: 1.0, phase: -0.5 * squares.arg() };
+        let swing = Swing { prepared, model, mode, amplitude: 1.0, phase: -0.5 * squares.arg() };
         let largest = swing.change(0.0).iter().fold(0.0, |most: f64, part| most.max(part.abs()));
         let size = size(rest);
         let step = 1e-4 / largest.max(f64::MIN_POSITIVE);
@@ -177,11 +177,11 @@ impl<'a> Swing<'a> {
     }
 
     fn snapshot(&self, angle: f64) -> Snapshot {
-        let (point, system) = (&self.model.point, self.study.system());
+        let (point, system) = (&self.model.point, self.prepared.system());
         let mut q = point.q.clone();
         let mut stages = [q.clone(), q.clone(), q.clone()];
         turn(system, &mut stages, &point.q, &self.change(angle), &mut q);
-        snapshot(&self.study.mechanism, &State { t: point.t, q, v: point.v.clone() })
+        snapshot(&self.prepared.mechanism, &State { t: point.t, q, v: point.v.clone() })
     }
 }
 

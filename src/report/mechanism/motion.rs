@@ -1,6 +1,6 @@
 //! States between the rows of a trajectory.
 
-use crate::study::Study;
+use crate::prepared::PreparedScene;
 use crate::system::MechanicalSystem;
 use crate::trajectory::Trajectory;
 
@@ -14,19 +14,19 @@ pub struct State {
 
 /// A computed motion.
 pub struct Motion<'a> {
-    pub study: &'a Study,
+    pub prepared: &'a PreparedScene,
     trajectory: &'a Trajectory,
 }
 
 impl<'a> Motion<'a> {
     /// The motion of a trajectory, which has at least a row.
-    pub fn new(study: &'a Study, trajectory: &'a Trajectory) -> Self {
-        Motion { study, trajectory }
+    pub fn new(prepared: &'a PreparedScene, trajectory: &'a Trajectory) -> Self {
+        Motion { prepared, trajectory }
     }
 
     /// When it begins and how far it was computed.
     pub fn reach(&self) -> (f64, f64) {
-        let start = self.study.start_time();
+        let start = self.prepared.start_time();
         let rows = &self.trajectory.rows;
         (rows.first().map_or(start, |row| row[0]), rows.last().map_or(start, |row| row[0]))
     }
@@ -47,7 +47,7 @@ impl<'a> Motion<'a> {
         let rows = &self.trajectory.rows;
         let after = rows.partition_point(|row| row[0] < t);
         let (Some(b), a) = (rows.get(after).or(rows.last()), rows.get(after.wrapping_sub(1))) else {
-            let (q, v) = self.study.start();
+            let (q, v) = self.prepared.start();
             return State { t, q: q.to_vec(), v: v.to_vec() };
         };
         let (q, v, _) = self.trajectory.row_state(b);
@@ -58,7 +58,7 @@ impl<'a> Motion<'a> {
     }
 
     fn between(&self, a: &[f64], b: &[f64], t: f64) -> State {
-        let system = self.study.system();
+        let system = self.prepared.system();
         let (h, s) = (b[0] - a[0], (t - a[0]) / (b[0] - a[0]));
         let ((qa, va, _), (qb, vb, _)) = (self.trajectory.row_state(a), self.trajectory.row_state(b));
         let (ra, rb) = (rate(system, qa, va), rate(system, qb, vb));

@@ -6,8 +6,8 @@ use crate::body::{Bent, Frame, Marker, Wrench, in_space, twist_len};
 use crate::force::Wheel;
 use crate::joint::{Axis, Joint, JointOver, MOST_ROWS, markers_per_pass};
 use crate::math::{Regime, Taylor, Time};
+use crate::prepared::AnyMechanism;
 use crate::scene::{BeamLine, Connection, Model, Part};
-use crate::study::AnyMechanism;
 use crate::system::{Mechanism, Scratch};
 
 /// A marker in space.

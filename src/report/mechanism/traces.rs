@@ -6,8 +6,8 @@ use super::view::View;
 use crate::body::{MarkerId, MarkerTable, Quantity};
 use crate::error::Result;
 use crate::plot::{Series, Style};
+use crate::prepared::AnyMechanism;
 use crate::scene::{Measure, Watched};
-use crate::study::AnyMechanism;
 
 /// A marker whose path is drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,7 +66,7 @@ pub fn curves(motion: &Motion, view: &View, traces: &[Trace]) -> Vec<Series> {
         return curves;
     }
     for t in motion.times(MOST) {
-        let poses = markers(&motion.study.mechanism, &motion.state(t));
+        let poses = markers(&motion.prepared.mechanism, &motion.state(t));
         for (curve, trace) in curves.iter_mut().zip(traces) {
             curve.points.push(view.flat(poses[trace.marker].r));
         }

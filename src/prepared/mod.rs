@@ -4,12 +4,12 @@ mod doubts;
 
 use doubts::{doubts, explained, of_scene};
 
-use crate::choice::Choice;
 use crate::error::{Error, Result, Warning, clock};
 use crate::initial::{self, Assembly};
 use crate::integrator::{self, Steps};
 use crate::math::expression::{Number, Parameters};
 use crate::math::{Rate, Scalar};
+use crate::method_spec::MethodSpec;
 use crate::scene::{self, AnyModel, Automatic, Elements, Scene, Simulation};
 use crate::simulate::{
     Checkpoint, Leg, Method, Outcome, Sink, Span, Start, Stiffness, advise, atol_of, simulate_automatic, simulate_from,
@@ -48,9 +48,9 @@ pub struct Overrides {
     pub set: Vec<(String, Number)>,
     /// In the place of what the scene says of formulation, integrator, projection and step.
     pub method: Option<Automatic>,
-    pub formulation: Option<Choice>,
-    pub integrator: Option<Choice>,
-    pub projection: Option<Choice>,
+    pub formulation: Option<MethodSpec>,
+    pub integrator: Option<MethodSpec>,
+    pub projection: Option<MethodSpec>,
     pub rtol: Option<f64>,
     pub atol: Option<f64>,
     pub step: Option<f64>,
@@ -59,7 +59,7 @@ pub struct Overrides {
 }
 
 /// A scene ready to run.
-pub struct Study {
+pub struct PreparedScene {
     pub name: String,
     pub about: String,
     pub references: Vec<String>,
@@ -68,7 +68,7 @@ pub struct Study {
     pub method: Method,
     /// Whether methods are left to the program, with the tolerances of `method`.
     pub is_automatic: bool,
-    /// Why this one method, where it was left to the program: see [`Study::settled`].
+    /// Why this one method, where it was left to the program: see [`PreparedScene::settled`].
     pub chosen_because: Option<String>,
     pub assembly: Assembly,
     /// What is doubtful about the start.
@@ -83,23 +83,23 @@ pub struct Study {
 /// How a run ended, the methods that carried it where these were left to the program, and where it can go on.
 pub type Simulated = (Outcome, Vec<Leg>, Option<Checkpoint>);
 
-impl Study {
+impl PreparedScene {
     /// Reads a scene, assembles it and settles how to simulate it.
     ///
     /// # Errors
     /// Bad input of any kind: see [`Scene::load`], [`initial::assemble`], [`Method::check`].
-    pub fn load(path: &Path, overrides: &Overrides) -> Result<Study> {
+    pub fn load(path: &Path, overrides: &Overrides) -> Result<PreparedScene> {
         let text = scene::read_text(path)?;
-        let study = overrides.elements.parse_in(scene::folder(Some(path)), &text, &overrides.set);
-        let study = study.and_then(|scene| Study::new(scene, overrides));
-        study.map_err(|error| scene::place(error, path, &text))
+        let prepared = overrides.elements.parse_in(scene::folder(Some(path)), &text, &overrides.set);
+        let prepared = prepared.and_then(|scene| PreparedScene::new(scene, overrides));
+        prepared.map_err(|error| scene::place(error, path, &text))
     }
 
     /// Assembles a scene and settles how to simulate it; its elements and parameters are those that it was read with.
     ///
     /// # Errors
     /// Bad input of any kind: see [`initial::assemble`], [`Method::check`].
-    pub fn new(scene: Scene, overrides: &Overrides) -> Result<Study> {
+    pub fn new(scene: Scene, overrides: &Overrides) -> Result<PreparedScene> {
         let settings = Settings { parameters: &scene.parameters, scene: &scene.simulation, overrides };
         let is_automatic = settings.is_automatic().map_err(|error| settings.place(error))?;
         let start = scene.start_time()?;
@@ -112,7 +112,7 @@ impl Study {
         let assembly = assembly.map_err(|error| explained(error, of_scene(&mechanism)))?;
         check_switches(mechanism.system(), start, (&assembly.q, &assembly.v))?;
         let doubts = doubts(&mechanism, &scene.q, &assembly);
-        Ok(Study {
+        Ok(PreparedScene {
             doubts,
             name: scene.name,
             about: scene.about,
@@ -137,7 +137,7 @@ impl Study {
     ///
     /// # Errors
     /// Bad input only: see [`advise`].
-    pub fn settled(mut self) -> Result<Study> {
+    pub fn settled(mut self) -> Result<PreparedScene> {
         if std::mem::take(&mut self.is_automatic) {
             // Where no end is said, a method is chosen for a second of motion.
             let start = self.start_time;
@@ -269,9 +269,9 @@ impl Settings<'_> {
     /// Whether the method is left to the program: what is named on the command line goes before that of the scene.
     fn is_automatic(&self) -> Result<bool> {
         let (scene, given) = (self.scene, self.overrides);
-        let named = |choices: [&Option<Choice>; 3], has_step: bool| {
+        let named = |choices: [&Option<MethodSpec>; 3], has_step: bool| {
             let names = ["formulation", "integrator", "projection"].into_iter().zip(choices);
-            let found = names.filter(|(_, choice)| choice.is_some()).map(|(name, _)| name).next();
+            let found = names.filter(|(_, spec)| spec.is_some()).map(|(name, _)| name).next();
             found.or(has_step.then_some("step"))
         };
         let in_scene = named([&scene.formulation, &scene.integrator, &scene.projection], scene.step.is_some());
@@ -292,7 +292,7 @@ impl Settings<'_> {
         let (own, given, default) = (self.scene, self.overrides, Method::of_length(length));
         let unnamed = Simulation { formulation: None, integrator: None, projection: None, step: None, ..own.clone() };
         let scene = if is_automatic { &unnamed } else { own };
-        let pick = |given: &Option<Choice>, scene: &Option<Choice>, default: Choice| {
+        let pick = |given: &Option<MethodSpec>, scene: &Option<MethodSpec>, default: MethodSpec| {
             given.clone().or_else(|| scene.clone()).unwrap_or(default)
         };
         let integrator = pick(&given.integrator, &scene.integrator, default.integrator);

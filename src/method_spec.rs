@@ -10,7 +10,7 @@ use std::fmt;
 
 /// A name with options in the order they were given.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct Choice {
+pub struct MethodSpec {
     pub name: String,
     pub options: Vec<(String, String)>,
     own: Own,
@@ -36,8 +36,8 @@ pub trait Listed: Send + Sync + Sized + 'static {
     fn options(&self) -> &'static [OptionDoc];
 
     /// The choice of an entry that comes from outside the crate: [`Method`](crate::simulate::Method) takes it as any other.
-    fn choice(&'static self) -> Choice {
-        Choice { own: Own(Some(self)), ..Choice::named(self.name()) }
+    fn spec(&'static self) -> MethodSpec {
+        MethodSpec { own: Own(Some(self)), ..MethodSpec::named(self.name()) }
     }
 }
 
@@ -49,9 +49,9 @@ pub struct OptionDoc {
     pub about: &'static str,
 }
 
-impl Choice {
+impl MethodSpec {
     pub fn named(name: &str) -> Self {
-        Choice { name: name.to_string(), ..Choice::default() }
+        MethodSpec { name: name.to_string(), ..MethodSpec::default() }
     }
 
     /// The same with an option more.
@@ -72,7 +72,7 @@ impl Choice {
                 pair.trim()
             ))),
         });
-        Ok(Choice { name: canonical(name), options: options.collect::<Result<_>>()?, own: Own::default() })
+        Ok(MethodSpec { name: canonical(name), options: options.collect::<Result<_>>()?, own: Own::default() })
     }
 
     /// The entry that it stands for; an error that names the possible ones, also for unknown options.
@@ -161,7 +161,7 @@ fn canonical(name: &str) -> String {
     name.trim().replace('-', "_").to_lowercase()
 }
 
-impl fmt::Display for Choice {
+impl fmt::Display for MethodSpec {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(out, "{}", self.name)?;
         let options: Vec<String> = self.options.iter().map(|(key, value)| format!("{key}={value}")).collect();
@@ -169,19 +169,19 @@ impl fmt::Display for Choice {
     }
 }
 
-impl Serialize for Choice {
+impl Serialize for MethodSpec {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
     }
 }
 
-impl<'de> Deserialize<'de> for Choice {
+impl<'de> Deserialize<'de> for MethodSpec {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         from_json(&Value::deserialize(deserializer)?).map_err(serde::de::Error::custom)
     }
 }
 
-fn from_json(value: &Value) -> Result<Choice> {
+fn from_json(value: &Value) -> Result<MethodSpec> {
     let wrong = || {
         Error::input(format!(
             "expected the name of a method or an object with its options, found {}",
@@ -190,22 +190,22 @@ fn from_json(value: &Value) -> Result<Choice> {
         .hint("write \"baumgarte\" or {\"baumgarte\": {\"alpha\": 5, \"beta\": 5}}")
     };
     match value {
-        Value::String(text) => Choice::parse(text),
+        Value::String(text) => MethodSpec::parse(text),
         Value::Object(map) if map.len() == 1 => {
             let (name, options) = map.iter().next().ok_or_else(wrong)?;
             let options = options.as_object().ok_or_else(wrong)?.iter().map(|(key, value)| {
                 let value = value.as_str().map_or_else(|| value.to_string(), str::to_string);
                 (canonical(key), value)
             });
-            Ok(Choice { name: canonical(name), options: options.collect(), own: Own::default() })
+            Ok(MethodSpec { name: canonical(name), options: options.collect(), own: Own::default() })
         }
         _ => Err(wrong()),
     }
 }
 
-impl JsonSchema for Choice {
+impl JsonSchema for MethodSpec {
     fn schema_name() -> Cow<'static, str> {
-        "Choice".into()
+        "MethodSpec".into()
     }
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
