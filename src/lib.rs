@@ -35,7 +35,7 @@
 //!
 //! | module | what is there | add one |
 //! |---|---|---|
-//! | [`error`], [`math`] | errors with place and remedy; dual and Taylor numbers, expressions, saddle-point solver | |
+//! | [`error`], [`math`], [`method_spec`] | errors with place and remedy; dual and Taylor numbers, expressions, saddle-point solver; methods by name | |
 //! | [`body`] | rigid bodies and point masses, their frames at markers | a file and a line in [`body::registry`], or from outside |
 //! | [`joint`], [`force`] | constraints and wrenches over frames | a file and a line in the registry, or from outside |
 //! | [`scene`] | the JSON format, its checks and its schema; scenes built in code | |
@@ -75,10 +75,7 @@
 //! # Example
 //!
 //! ```
-//! use holonom::analysis::Recorder;
-//! use holonom::scene::Scene;
-//! use holonom::simulate::simulate;
-//! use holonom::prepared::PreparedScene;
+//! use holonom::prelude::*;
 //!
 //! let scene = Scene::parse(r#"{
 //!     "name": "pendulum", "dimension": 2, "gravity": [0, -9.81],
@@ -100,12 +97,15 @@
 // Derivatives of products and quotients are sums of products: that is no slip.
 #![allow(clippy::suspicious_arithmetic_impl)]
 
+// Modules and items hidden from the documentation are no part of the interface: the program and the crate's own tests see them.
 pub mod analysis;
 pub mod body;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
 pub mod compare;
 pub mod error;
+#[doc(hidden)]
 pub mod files;
 pub mod force;
 pub mod formulation;
@@ -115,19 +115,36 @@ pub mod joint;
 pub mod linearize;
 pub mod math;
 pub mod method_spec;
+#[doc(hidden)]
 pub mod plot;
 pub mod prepared;
 pub mod projection;
+#[doc(hidden)]
 pub mod report;
 pub mod scene;
 pub mod simulate;
 pub mod sweep;
 pub mod system;
+#[doc(hidden)]
 pub mod tolerances;
 pub mod trajectory;
 pub mod validate;
 
 pub use error::{Error, Result};
+
+/// What most programs need: `use holonom::prelude::*`.
+pub mod prelude {
+    pub use crate::analysis::{Record, Recorder};
+    pub use crate::linearize::{Chart, LinearModel, Request, State, linearize};
+    pub use crate::math::Scalar;
+    pub use crate::method_spec::{Listed, MethodSpec};
+    pub use crate::prepared::{Overrides, PreparedScene};
+    pub use crate::scene::{Elements, Scene, SceneBuilder};
+    pub use crate::simulate::{Method, Outcome, Span, simulate};
+    pub use crate::system::{Equations, MechanicalSystem};
+    pub use crate::validate::{Settings, validate};
+    pub use crate::{Error, Result};
+}
 
 /// The README's example, compiled and run by the tests.
 #[cfg(doctest)]

@@ -7,6 +7,7 @@ use serde_json::Value;
 use std::any::Any;
 use std::borrow::Cow;
 use std::fmt;
+use std::str::FromStr;
 
 /// A name with options in the order they were given.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -159,6 +160,15 @@ impl MethodSpec {
 
 fn canonical(name: &str) -> String {
     name.trim().replace('-', "_").to_lowercase()
+}
+
+/// As [`MethodSpec::parse`].
+impl FromStr for MethodSpec {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        MethodSpec::parse(text)
+    }
 }
 
 impl fmt::Display for MethodSpec {

@@ -10,9 +10,17 @@ mod scale;
 mod singularity;
 
 pub use drift::{Drift, DriftLevel};
-pub use energy::{EnergyBalance, EnergyMeter, Ledger};
+pub use energy::EnergyBalance;
+#[doc(hidden)]
+pub use energy::{EnergyMeter, Ledger};
+#[doc(hidden)]
 pub use range::{LargestDeformation, Range};
-pub use rank::{Rank, Redundant, dependent_nearby};
+pub use rank::Rank;
+#[doc(hidden)]
+pub use rank::{Redundant, dependent_nearby};
 pub use recorder::{Record, Recorder};
+#[doc(hidden)]
 pub use scale::{Sizes, scales};
-pub use singularity::{Branch, Nearest, Passing, Singularity};
+#[doc(hidden)]
+pub use singularity::{Branch, Nearest};
+pub use singularity::{Passing, Singularity};

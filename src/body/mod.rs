@@ -8,7 +8,9 @@
 
 mod attitude;
 mod build;
+#[doc(hidden)]
 pub mod flexible;
+#[doc(hidden)]
 pub mod floating;
 mod frame;
 mod guided;
@@ -22,18 +24,26 @@ mod rigid_planar;
 mod rigid_spatial;
 mod turning;
 
+#[doc(hidden)]
 pub use attitude::{Attitude, Carried};
 pub use build::{Build, MarkerId, MarkerTable, Switches};
-pub use frame::{Frame, Marker, Wrench, cross, dot, in_space, norm, scale, sub, twist_len, unit_axes};
+pub use frame::{Frame, Marker, Wrench, cross, dot, norm, scale, sub};
+#[doc(hidden)]
+pub use frame::{in_space, twist_len, unit_axes};
+#[doc(hidden)]
 pub use kernel::MOST_COORDINATES;
 pub use kind::ElementKind;
 pub(crate) use kind::mistaken;
+#[doc(hidden)]
 pub use parse::{parse, parse_among, show};
-pub use probe::{Probe, Quantity, Signal, small_rotation, small_rotation_torque};
+pub use probe::{Probe, Quantity, Signal};
+#[doc(hidden)]
+pub use probe::{small_rotation, small_rotation_torque};
 pub use rigid::Initial;
 pub(crate) use rigid::quaternion;
 pub(crate) use rigid_planar::RigidPlanar;
 pub(crate) use rigid_spatial::RigidSpatial;
+#[doc(hidden)]
 pub use turning::{Turned, Turning};
 
 use crate::error::Result;
@@ -45,6 +55,7 @@ use serde::de::DeserializeOwned;
 pub type Dual6 = Dual<f64, 6>;
 
 /// The largest number of markers of a joint or force: their frames are kept on the stack.
+#[doc(hidden)]
 pub const MOST_MARKERS: usize = 8;
 
 /// Energy of a body or of a whole mechanism, J.
@@ -139,6 +150,7 @@ pub struct BodyState<'a, const D: usize> {
 
 /// A line that bends with the elastic coordinates q of its body.
 #[derive(Clone, Copy)]
+#[doc(hidden)]
 pub struct Bent<'a, const D: usize> {
     pub line: &'a dyn flexible::Line<D>,
     /// Of geometric stiffening, along the line.
@@ -238,6 +250,7 @@ pub type BodyKind<const D: usize> =
     ElementKind<fn(serde_json::Value, Vec<Marker<D>>, &Initial, &Build<D>) -> Result<Built<D>>>;
 
 /// The kind of body that `T` describes.
+#[doc(hidden)]
 pub fn kind<T: BodySpec, const D: usize>() -> BodyKind<D> {
     ElementKind::of::<T>(T::TYPE, |json, markers, initial, build| {
         let count = markers.len();
@@ -246,6 +259,7 @@ pub fn kind<T: BodySpec, const D: usize>() -> BodyKind<D> {
 }
 
 /// The keys that all bodies have beside those of their kind.
+#[doc(hidden)]
 pub const SHARED_KEYS: [&str; 5] = ["name", "type", "markers", "initial", "origin"];
 
 /// Every built-in kind of body, in the order of the documentation.

@@ -6,4 +6,7 @@ pub mod stress;
 pub mod work_precision;
 
 pub use check_error::{CheckError, Difference, check_error};
-pub use drift::{StabilizedRun, drift_under_stabilizations, stabilizations};
+#[doc(hidden)]
+#[doc(hidden)]
+pub use drift::stabilizations;
+pub use drift::{StabilizedRun, drift_under_stabilizations};

@@ -13,6 +13,7 @@ mod spring_damper;
 mod torsion_spring;
 mod tyre;
 
+#[doc(hidden)]
 pub use beam::{Beam, Half, Load, Station};
 
 use crate::body::{Build, Dual6, ElementKind, Frame, MOST_MARKERS, MarkerId, Wrench, mistaken, parse_among};
@@ -44,6 +45,7 @@ impl<S: Scalar> Action<S> {
 
 /// A wheel as a drawing shows it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(hidden)]
 pub struct Wheel {
     /// m
     pub radius: f64,
@@ -174,6 +176,7 @@ pub trait ForceSpec: DeserializeOwned + JsonSchema {
 pub type ForceKind<const D: usize> = ElementKind<fn(serde_json::Value, &Build<D>) -> Result<Built<D>>>;
 
 /// The kind of force that `T` describes.
+#[doc(hidden)]
 pub fn kind<T: ForceSpec, const D: usize>() -> ForceKind<D> {
     ElementKind::of::<T>(T::TYPE, |json, build| parse_among::<T>(json, &["name", "type"])?.build(build)?.checked())
 }

@@ -26,16 +26,26 @@ mod statistics;
 mod turn;
 mod udwadia_kalaba;
 
+#[doc(hidden)]
 pub use crate::method_spec::{MethodSpec, OptionDoc};
 pub use dae::{Dae, Row};
+#[doc(hidden)]
 pub use directions::{degrees_of_freedom, free_directions, reduce};
 pub use dynamics::{Dynamics, StepError};
+#[doc(hidden)]
 pub use iteration::{Change, Iteration, Number, Slopes};
+#[doc(hidden)]
 pub use linearized::{Linearized, NO_TANGENT};
+#[doc(hidden)]
 pub use penalty::{OMEGA, PENALTY, XI, mean_compliance};
-pub use residual::{Residual, Unknowns};
+pub use residual::Residual;
+#[doc(hidden)]
+#[doc(hidden)]
+pub use residual::Unknowns;
+#[doc(hidden)]
 pub use stabilizer::{Stabilizer, StabilizingField};
 pub use statistics::{Statistics, Work};
+#[doc(hidden)]
 pub use turn::turn;
 
 use crate::error::Result;
@@ -138,11 +148,13 @@ pub fn registry() -> &'static [Entry] {
 }
 
 /// The entry of this name.
+#[doc(hidden)]
 pub fn named(name: &str) -> Option<&'static Entry> {
     registry().iter().find(|entry| entry.name == name)
 }
 
 /// The entry that `spec` stands for, with whatever options.
+#[doc(hidden)]
 pub fn lookup(spec: &MethodSpec) -> Option<&'static Entry> {
     spec.lookup(registry())
 }
@@ -151,6 +163,7 @@ pub fn lookup(spec: &MethodSpec) -> Option<&'static Entry> {
 ///
 /// # Errors
 /// Bad options.
+#[doc(hidden)]
 pub fn dae(spec: &MethodSpec) -> Result<Option<Dae>> {
     lookup(spec).and_then(|entry| entry.dae).map(|dae| dae(spec)).transpose()
 }

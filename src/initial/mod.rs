@@ -8,6 +8,7 @@ mod report;
 mod velocity;
 
 pub use equilibrium::{Equilibrium, Stability, Way, equilibrium};
+#[doc(hidden)]
 pub use follow::{Followed, follow};
 pub use report::{Assembly, Level, Move};
 

@@ -78,6 +78,7 @@ pub trait Joint<const D: usize>: JointOver<f64, D> + JointOver<Dual6, D> + Send 
 }
 
 /// Markers that one pass of [`JointOver::gradient`] covers.
+#[doc(hidden)]
 pub const fn markers_per_pass(dimension: usize) -> usize {
     6 / twist_len(dimension)
 }
@@ -161,6 +162,7 @@ pub trait JointSpec: DeserializeOwned + JsonSchema {
 pub type JointKind<const D: usize> = ElementKind<fn(serde_json::Value, &Build<D>) -> Result<Built<D>>>;
 
 /// The kind of joint that `T` describes.
+#[doc(hidden)]
 pub fn kind<T: JointSpec, const D: usize>() -> JointKind<D> {
     ElementKind::of::<T>(T::TYPE, |json, build| parse_among::<T>(json, &["name", "type"])?.build(build)?.checked())
 }

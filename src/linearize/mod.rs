@@ -8,6 +8,7 @@ mod comparison;
 mod coordinates;
 mod entry;
 mod floquet;
+#[doc(hidden)]
 pub mod flow;
 mod frequency;
 mod independent;
@@ -29,24 +30,51 @@ mod transition;
 mod unconstrained;
 mod variation;
 
-pub use along::{State, states, tighten};
+#[doc(hidden)]
+#[doc(hidden)]
+pub use along::tighten;
+pub use along::{State, states};
+#[doc(hidden)]
 pub use amplification::{amplification, amplified};
+#[doc(hidden)]
 pub use changes::Changes;
 pub use chart::Chart;
+#[doc(hidden)]
 pub use comparison::{Comparison, compare};
+#[doc(hidden)]
 pub use coordinates::{Coordinates, parallel};
-pub use entry::{Built, Entry, Request};
-pub use floquet::{Defect, Floquet, floquet};
-pub use frequency::{Resonances, frequency_response};
+#[doc(hidden)]
+#[doc(hidden)]
+pub use entry::Built;
+pub use entry::{Entry, Request};
+#[doc(hidden)]
+#[doc(hidden)]
+pub use floquet::Defect;
+pub use floquet::{Floquet, floquet};
+#[doc(hidden)]
+#[doc(hidden)]
+pub use frequency::Resonances;
+pub use frequency::frequency_response;
 pub use lyapunov::{Lyapunov, lyapunov};
-pub use method::{linearize, refuse_large, registry};
+#[doc(hidden)]
+#[doc(hidden)]
+pub use method::refuse_large;
+pub use method::{linearize, registry};
+#[doc(hidden)]
 pub use minimal::{Minimal, minimal};
-pub use model::{Complex, Cost, Kind, LinearModel, Matrix, Mode, Pair, are_conjugate, damping, frequency, pairs};
+pub use model::{Complex, Cost, Kind, LinearModel, Matrix, Mode};
+#[doc(hidden)]
+pub use model::{Pair, are_conjugate, damping, frequency, pairs};
 pub use point::LinearizationPoint;
 pub use response::Response;
 pub use sparse::modal;
 pub use steady::{Operating, at_rest};
-pub use survey::{At, Gap, Loci, LociVariable, Reached, Variants, loci_along, loci_over};
-pub use tracking::{Branch, LociPoint, track};
+pub use survey::{At, Loci, LociVariable, loci_along, loci_over};
+#[doc(hidden)]
+pub use survey::{Gap, Reached, Variants};
+#[doc(hidden)]
+#[doc(hidden)]
+pub use tracking::track;
+pub use tracking::{Branch, LociPoint};
 pub use transition::{Transition, transition};
 pub use variation::Variation;

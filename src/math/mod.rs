@@ -1,30 +1,47 @@
 //! Numbers and linear algebra below the mechanics.
 
 mod dual;
+#[doc(hidden)]
 pub mod eigen;
 pub mod expression;
 mod interval;
+#[doc(hidden)]
 pub mod kkt;
+#[doc(hidden)]
 pub mod memory;
+#[doc(hidden)]
 pub mod newton;
 mod regime;
+#[doc(hidden)]
 pub mod rotation;
 mod scalar;
+#[doc(hidden)]
 pub mod screw;
 mod taylor;
 
-pub use dual::{Dual, Rate};
+pub use dual::Dual;
+#[doc(hidden)]
+#[doc(hidden)]
+pub use dual::Rate;
+#[doc(hidden)]
 pub use interval::Interval;
-pub use regime::{Piece, Regime, Time, piece_of};
-pub use scalar::{Scalar, Unary};
+#[doc(hidden)]
+pub use regime::{Piece, piece_of};
+pub use regime::{Regime, Time};
+pub use scalar::Scalar;
+#[doc(hidden)]
+#[doc(hidden)]
+pub use scalar::Unary;
 pub use taylor::Taylor;
 
 /// max |x_i|, zero for none; what is not a number does not count.
+#[doc(hidden)]
 pub fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |largest, x| f64::max(largest, x.abs()))
 }
 
 /// max |x_i / units_i|, as [`largest`].
+#[doc(hidden)]
 pub fn largest_in(units: &[f64], x: &[f64]) -> f64 {
     x.iter().zip(units).fold(0.0, |largest, (x, unit)| f64::max(largest, (x / unit).abs()))
 }

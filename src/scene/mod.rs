@@ -9,6 +9,7 @@ mod beam_outputs;
 mod builder;
 mod elements;
 mod format;
+#[doc(hidden)]
 pub mod generate;
 mod json;
 mod locate;
@@ -19,16 +20,26 @@ mod place;
 mod refine;
 mod resolve;
 mod schema;
+#[doc(hidden)]
 pub mod units;
 
 pub use builder::SceneBuilder;
 pub use elements::Elements;
-pub use format::{Assembly, Automatic, Simulation};
-pub use model::{BeamLine, Combination, Connection, EnergyPart, ForceInput, Measure, Model, Part, Reading, Watched};
+#[doc(hidden)]
+#[doc(hidden)]
+pub use format::Assembly;
+pub use format::{Automatic, Simulation};
+pub use model::Model;
+#[doc(hidden)]
+pub use model::{BeamLine, Combination, Connection, EnergyPart, ForceInput, Measure, Part, Reading, Watched};
+#[doc(hidden)]
 pub use model::{FORCE_SIZE, TORQUE_SIZE};
+#[doc(hidden)]
 pub use place::{Cut, Place};
+#[doc(hidden)]
 pub use refine::refined;
 
+#[doc(hidden)]
 pub use serde_json::json;
 
 use crate::error::{Error, Result, excerpt, nearest};

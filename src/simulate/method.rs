@@ -7,6 +7,7 @@ use crate::projection;
 use crate::system::MechanicalSystem;
 use crate::tolerances::simulate as tolerances;
 use serde::{Deserialize, Serialize};
+use std::str::FromStr;
 
 /// A method: formulation x integrator x projection, with its accuracy.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,6 +33,26 @@ impl Default for Method {
             atol: 1e-10,
             step: None,
         }
+    }
+}
+
+/// Formulation, integrator and projection as [`Method::triple`] writes them, `ggl + radau_iia` or `index1 + dop853 +
+/// manifold`, with options as [`MethodSpec::parse`] takes them and the default tolerances.
+impl FromStr for Method {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        let parts: Vec<&str> = text.split(" + ").collect();
+        let names = match parts[..] {
+            [formulation, integrator] => [formulation, integrator, "none"],
+            [formulation, integrator, projection] => [formulation, integrator, projection],
+            _ => {
+                return Err(Error::input(format!("`{text}` is no method"))
+                    .hint("write formulation + integrator + projection, as in index1 + dop853 + manifold"));
+            }
+        };
+        let [formulation, integrator, projection] = names.map(MethodSpec::parse);
+        Ok(Method { formulation: formulation?, integrator: integrator?, projection: projection?, ..Method::default() })
     }
 }
 
@@ -136,4 +157,19 @@ pub fn check_pair(entry: &integrator::Entry, formulation: &MethodSpec) -> Result
         entry.name,
         accepted.join(", ")
     )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_method_is_read_as_it_is_written() {
+        for text in ["ggl + radau_iia", "baumgarte:alpha=5,beta=5 + dop853", "index1 + dop853 + manifold"] {
+            assert_eq!(text.parse::<Method>().unwrap().triple(), text);
+        }
+        for text in ["", "ggl", "a + b + c + d", "baumgarte:alpha + dop853"] {
+            assert!(text.parse::<Method>().is_err(), "{text}");
+        }
+    }
 }

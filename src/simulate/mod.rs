@@ -21,11 +21,17 @@ mod stiffness;
 
 pub use automatic::{Leg, advise, simulate_automatic};
 pub use checkpoint::{Checkpoint, Start, simulate_from};
-pub use method::{Method, atol_of, check_pair};
+pub use method::Method;
+#[doc(hidden)]
+pub use method::{atol_of, check_pair};
 pub use observation::{Observation, Sink, Span, Stop};
 pub(crate) use segments::Segments;
+#[doc(hidden)]
 pub use spectrum::{SpectralMode, Spectrum};
-pub use stiffness::{Stiffness, explicit, stiffness};
+#[doc(hidden)]
+#[doc(hidden)]
+pub use stiffness::explicit;
+pub use stiffness::{Stiffness, stiffness};
 
 use crowd::Crowd;
 use events::{Events, Passage};

@@ -100,6 +100,7 @@ pub struct Point {
 
 /// An end of the branch.
 #[derive(Clone, Debug, PartialEq)]
+#[doc(hidden)]
 pub struct Limit {
     /// The last state.
     pub point: Point,
@@ -113,6 +114,7 @@ pub struct Limit {
 
 /// A state by its distance to a singular one.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[doc(hidden)]
 pub struct Nearest {
     pub value: f64,
     pub rank_indicator: f64,

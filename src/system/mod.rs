@@ -28,16 +28,22 @@ mod variation;
 mod view;
 
 pub use equations::Equations;
+#[doc(hidden)]
 pub use levi_civita::LeviCivita;
+#[doc(hidden)]
 pub use limits::{Limited, Theory};
 pub use mechanism::Mechanism;
 pub use output_tangent::OutputTangent;
+#[doc(hidden)]
 pub use rotating::Rotating;
+#[doc(hidden)]
 pub use spin::{Placement, Spin};
+#[doc(hidden)]
 pub use states::refuse_states;
 pub use tangent::{OperatingPoint, Tangent};
 pub use terms::{Need, Scratch, Structure, Terms};
 
+#[doc(hidden)]
 pub use crate::body::Energy;
 use crate::math::Rate;
 use crate::math::expression::{Switch, TimeFunction};
@@ -85,6 +91,7 @@ pub struct Names {
 
 /// JointRows of phi that belong together: a joint.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[doc(hidden)]
 pub struct Group {
     pub name: String,
     /// Such as `revolute`.

@@ -16,8 +16,11 @@ mod run;
 mod sequence;
 
 pub use direction::Direction;
+#[doc(hidden)]
 pub use frozen::{Frozen, horizon};
+#[doc(hidden)]
 pub use input::InputCheck;
+#[doc(hidden)]
 pub use order::{Decay, decay};
 pub use run::{Validation, Verdict, validate};
 pub use sequence::{Curve, PerturbationSequence};

@@ -22,13 +22,25 @@ mod simulation;
 mod subject;
 mod verdict;
 
-pub use cell::{Cell, Quantity, Status};
+pub use cell::Cell;
+#[doc(hidden)]
+pub use cell::{Quantity, Status};
+#[doc(hidden)]
 pub use change::Change;
 pub use deadline::Limits;
+#[doc(hidden)]
 pub use gains::{Best, Farther, GainVerdict, Level, Steady, StepVerdict};
-pub use map::{Axis, AxisPlace, Map};
+pub use map::Map;
+#[doc(hidden)]
+pub use map::{Axis, AxisPlace};
+#[doc(hidden)]
 pub use maps::{MapEntry, known, maps, pair};
-pub use parameters::{StressParameter, find, registry, sequence};
+pub use parameters::{StressParameter, registry};
+#[doc(hidden)]
+pub use parameters::{find, sequence};
 pub use run::{Stressed, stress};
-pub use subject::{Case, Subject, Typical};
+pub use subject::Subject;
+#[doc(hidden)]
+pub use subject::{Case, Typical};
+#[doc(hidden)]
 pub use verdict::{Bound, Reason, Side, Verdict};

@@ -25,14 +25,26 @@ mod sample;
 mod sequence;
 mod work;
 
-pub use advice::{Lack, Recommendation, cheapest_by_method};
-pub use cell::{Cell, Held, Outcome};
-pub use error_metric::{ErrorMetric, Watched};
+pub use advice::Recommendation;
+#[doc(hidden)]
+pub use advice::{Lack, cheapest_by_method};
+#[doc(hidden)]
+#[doc(hidden)]
+pub use cell::Held;
+pub use cell::{Cell, Outcome};
+#[doc(hidden)]
+#[doc(hidden)]
+pub use error_metric::ErrorMetric;
+pub use error_metric::Watched;
+#[doc(hidden)]
 pub use given::Given;
 pub use grid::{Filter, Triple, grid};
+#[doc(hidden)]
 pub use reference::{Pace, Reference};
 pub use runner::{Plan, Runner};
-pub use sample::{Allowed, Motion, RunSample, cpu_seconds, sample};
+pub use sample::Motion;
+#[doc(hidden)]
+pub use sample::{Allowed, RunSample, cpu_seconds, sample};
 
 use serde::{Deserialize, Serialize};
 

@@ -37,7 +37,7 @@ pub struct Split {
 /// All eigenvalues, finite and infinite, by QZ on the balanced pencil; about 70 n^3 operations.
 ///
 /// Rounding moves an infinite eigenvalue in a Jordan block of size k to about 1/eps^(1/k): [`Generalized::split`].
-/// A pencil with det(A - s E) = 0 for every s is not always detected: [`super::deflate`] does.
+/// A pencil with det(A - s E) = 0 for every s is not always detected: `deflate` does.
 ///
 /// # Errors
 /// Matrices that are not square, alike and finite; no convergence; a singular pencil where it shows.

@@ -63,10 +63,18 @@ mod switch;
 #[cfg(test)]
 mod tests;
 
+#[doc(hidden)]
 pub use error::ExpressionError;
-pub use number::{Number, constant};
-pub use parameters::{ParameterError, ParameterSource, Parameters};
+pub use number::Number;
+#[doc(hidden)]
+#[doc(hidden)]
+pub use number::constant;
+pub use parameters::Parameters;
+#[doc(hidden)]
+pub use parameters::{ParameterError, ParameterSource};
+#[doc(hidden)]
 pub use scope::Scope;
+#[doc(hidden)]
 pub use switch::{Switch, TimeFunction};
 
 use super::{Regime, Scalar};
@@ -76,6 +84,7 @@ use std::fmt;
 
 /// What a name stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(hidden)]
 pub enum Name {
     /// A number known when the expression is parsed.
     Constant(f64),
@@ -84,6 +93,7 @@ pub enum Name {
 }
 
 /// The names that an expression may use beside functions and `pi`.
+#[doc(hidden)]
 pub trait Names {
     /// `None` for a name that is not known here.
     fn resolve(&self, name: &str) -> Option<Name>;
