@@ -16,8 +16,9 @@ use holonom::compare::work_precision::{
     Cell, Filter, Motion, Outcome, Plan, Runner, Triple, Watched, WorkPrecision, cpu_seconds, grid,
 };
 use holonom::error::Result;
-use holonom::formulation::{MethodSpec, Statistics};
+use holonom::formulation::Statistics;
 use holonom::linearize::amplified;
+use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Overrides, PreparedScene};
 use holonom::report::Table;
 use holonom::simulate::{Leg, Method, Observation, Sink, Span, Stop, atol_of, simulate_automatic};

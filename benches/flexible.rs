@@ -4,7 +4,7 @@
 //! index1 and one of `generalized_alpha` on ggl, in microseconds for each element, with the memory that the run holds at
 //! most for each. Both columns are level where cost is linear; a matrix of global size would show as growth with N.
 
-use holonom::formulation::MethodSpec;
+use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Overrides, PreparedScene};
 use holonom::scene::Scene;
 use holonom::simulate::{Method, Observation, Sink, Span, simulate};

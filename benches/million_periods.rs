@@ -5,7 +5,7 @@
 #[path = "../tests/long_runs/pendulum.rs"]
 mod pendulum;
 
-use holonom::formulation::MethodSpec;
+use holonom::method_spec::MethodSpec;
 use holonom::plot::{AxisSpec, Figure, Panel, Series, Style};
 use holonom::simulate::Method;
 use pendulum::{Mark, period, run};

@@ -5,7 +5,8 @@ mod common;
 
 use common::{Case, compare};
 use holonom::analysis::Recorder;
-use holonom::formulation::{Dynamics, MethodSpec};
+use holonom::formulation::Dynamics;
+use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Overrides, PreparedScene};
 use holonom::scene::{Scene, generate};
 use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate};

@@ -6,7 +6,7 @@
 //! the time that 99 % of the steps keep stands beside their median.
 
 use holonom::analysis::Recorder;
-use holonom::formulation::MethodSpec;
+use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Overrides, PreparedScene};
 use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate};
 use std::path::Path;

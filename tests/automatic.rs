@@ -2,7 +2,8 @@
 
 use crate::scenes::{Ready, parse, shipped};
 use holonom::analysis::{Record, Recorder};
-use holonom::formulation::{MethodSpec, Statistics};
+use holonom::formulation::Statistics;
+use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Overrides, PreparedScene};
 use holonom::simulate::{Leg, Method, Outcome, Span, simulate, simulate_automatic};
 use std::path::Path;

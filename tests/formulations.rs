@@ -3,9 +3,10 @@
 use crate::common::driven_pendulum::{DrivenPendulum, start};
 use crate::common::{distance, fixed, run, until};
 use crate::scenes::shipped;
-use holonom::formulation::{Dynamics, MethodSpec, StepError, make};
+use holonom::formulation::{Dynamics, StepError, make};
 use holonom::initial::assemble;
 use holonom::math::Scalar;
+use holonom::method_spec::MethodSpec;
 use holonom::simulate::Span;
 use holonom::system::{Equations, MechanicalSystem};
 

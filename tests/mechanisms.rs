@@ -1,8 +1,8 @@
 //! Shipped mechanisms against references computed with 34 digits, closed loops and balances of power and force.
 
 use crate::scenes::{Run, dop853, shipped};
-use holonom::formulation::MethodSpec;
 use holonom::math::{Dual, Scalar, Taylor};
+use holonom::method_spec::MethodSpec;
 use holonom::report::check;
 use holonom::simulate::{Method, Span};
 use std::f64::consts::{PI, TAU};

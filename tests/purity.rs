@@ -3,8 +3,9 @@
 
 use crate::scenes::{load, models};
 use holonom::analysis::Recorder;
-use holonom::formulation::{self, Dynamics, MethodSpec};
+use holonom::formulation::{self, Dynamics};
 use holonom::integrator::Problem;
+use holonom::method_spec::MethodSpec;
 use holonom::simulate::{Method, Span, simulate};
 use holonom::system::MechanicalSystem;
 use rayon::prelude::*;

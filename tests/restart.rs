@@ -1,8 +1,8 @@
 //! A run that was saved at an accepted step and goes on from there is, bit by bit, the run that went on by itself.
 
 use crate::scenes::{Ready, parse, shipped};
-use holonom::formulation::MethodSpec;
 use holonom::integrator::{self, Steps};
+use holonom::method_spec::MethodSpec;
 use holonom::projection;
 use holonom::simulate::{Checkpoint, Method, Observation, Outcome, Sink, Span, Start, Stop, simulate_from};
 use rayon::prelude::*;

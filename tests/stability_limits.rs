@@ -4,8 +4,8 @@
 use crate::common::{fixed, method};
 use crate::scenes::{Ready, parse};
 use holonom::analysis::Recorder;
-use holonom::formulation::MethodSpec;
 use holonom::integrator::{self, Setup, Stability};
+use holonom::method_spec::MethodSpec;
 use holonom::simulate::{Method, Span, simulate};
 
 /// x'' + c x' + k x = 0 on a rail.

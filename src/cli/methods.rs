@@ -2,9 +2,9 @@
 
 use super::common::{print, to_json};
 use crate::error::Result;
-use crate::formulation::OptionDoc;
 use crate::integrator::{self, Entry};
 use crate::method_spec::MethodSpec;
+use crate::method_spec::OptionDoc;
 use crate::report::Table;
 use crate::simulate::check_pair;
 use crate::{formulation, projection};

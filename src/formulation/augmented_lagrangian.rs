@@ -1,7 +1,8 @@
 //! Index-1 augmented Lagrangian.
 
+use super::Entry;
 use super::penalty::{OMEGA, PENALTY, Penalty, XI};
-use super::{Entry, OptionDoc};
+use crate::method_spec::OptionDoc;
 
 /// ```text
 /// (M + G^T a G) v'_{i+1} = M v'_i + G^T a c,   M v'_0 = f,   lambda_{i+1} = lambda_i + a (G v'_{i+1} - c)

@@ -1,8 +1,9 @@
 //! Baumgarte stabilization.
 
 use super::index1::{RANK, rank_tolerance};
-use super::{Dae, Dynamics, Entry, Formulation, MethodSpec, OptionDoc, Row, StepError};
+use super::{Dae, Dynamics, Entry, Formulation, Row, StepError};
 use crate::error::Result;
+use crate::method_spec::{MethodSpec, OptionDoc};
 
 /// ```text
 /// phi'' + 2 alpha phi' + beta^2 phi = 0

@@ -1,7 +1,8 @@
 //! Force projection.
 
 use super::invariant_manifold::InvariantManifold;
-use super::{Entry, OptionDoc, Stabilizer, StabilizingField};
+use super::{Entry, Stabilizer, StabilizingField};
+use crate::method_spec::OptionDoc;
 
 /// ```text
 /// q' = N (v - p M^-1 G^T (G M^-1 G^T)^-1 phi)

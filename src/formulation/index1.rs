@@ -1,7 +1,8 @@
 //! Index 1: the constraints differentiated twice, lambda eliminated.
 
-use super::{Dae, Dynamics, Entry, Formulation, MethodSpec, OptionDoc, Row, StepError};
+use super::{Dae, Dynamics, Entry, Formulation, Row, StepError};
 use crate::error::Result;
+use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::tolerances::math::TRUNCATED_RANK;
 
 /// ```text

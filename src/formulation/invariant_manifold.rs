@@ -1,7 +1,8 @@
 //! Vector fields with a stabilized invariant manifold.
 
-use super::{Dynamics, Entry, Formulation, OptionDoc, Stabilizer, StabilizingField, StepError};
+use super::{Dynamics, Entry, Formulation, Stabilizer, StabilizingField, StepError};
 use crate::error::Result;
+use crate::method_spec::OptionDoc;
 use crate::system::{MechanicalSystem, Need};
 
 /// ```text

@@ -27,7 +27,7 @@ mod turn;
 mod udwadia_kalaba;
 
 #[doc(hidden)]
-pub use crate::method_spec::{MethodSpec, OptionDoc};
+use crate::method_spec::{MethodSpec, OptionDoc};
 pub use dae::{Dae, Row};
 #[doc(hidden)]
 pub use directions::{degrees_of_freedom, free_directions, reduce};

@@ -1,8 +1,9 @@
 //! Penalty on the constraints, with or without updates of the multipliers.
 
-use super::{Dynamics, Entry, Formulation, MethodSpec, OptionDoc, StepError};
+use super::{Dynamics, Entry, Formulation, StepError};
 use crate::error::Result;
 use crate::math::kkt::{Pattern, SaddlePoint};
+use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::system::{MechanicalSystem, Need, Structure, Terms};
 
 /// ```text

@@ -4,9 +4,10 @@
 //! [G 0; L G] and B = M^-1 G^T. Source: Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; Ascher, Chin, Petzold,
 //! Reich, Mech. Struct. Mach. 23 (1995) 135-157.
 
-use super::{Dynamics, MethodSpec, StepError};
+use super::{Dynamics, StepError};
 use crate::error::{Error, Result, suggest};
 use crate::math::kkt::{Pattern, SaddlePoint};
+use crate::method_spec::MethodSpec;
 use crate::system::{MechanicalSystem, Need};
 
 /// Choices of F.

@@ -1,10 +1,11 @@
 //! The equations of Udwadia and Kalaba.
 
 use super::dense::Dense;
-use super::{Entry, OptionDoc, SPARSE};
+use super::{Entry, SPARSE};
 use crate::error::Error;
 use crate::math::kkt::PseudoInverse;
 use crate::math::memory::refuse_dense;
+use crate::method_spec::OptionDoc;
 
 /// ```text
 /// v' = a + M^-1/2 (G M^-1/2)^+ (gamma - G a),   a = M^-1 f

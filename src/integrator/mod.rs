@@ -35,9 +35,10 @@ pub use problem::Problem;
 pub use stability::Stability;
 
 use crate::error::Result;
-use crate::formulation::{self, MethodSpec, OptionDoc, StepError};
+use crate::formulation::{self, StepError};
 use crate::math::kkt::Singular;
 use crate::method_spec::Listed;
+use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::system::MechanicalSystem;
 use crate::tolerances::integrator as tolerances;
 

@@ -2,9 +2,10 @@
 
 use super::{Entry, Projection, move_back};
 use crate::error::Result;
-use crate::formulation::{Dynamics, OptionDoc, StepError};
+use crate::formulation::{Dynamics, StepError};
 use crate::math::largest_in;
 use crate::math::newton::{Limits, Monitor};
+use crate::method_spec::OptionDoc;
 use crate::system::Need;
 use crate::tolerances::initial as tolerances;
 

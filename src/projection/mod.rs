@@ -7,8 +7,9 @@ mod exact;
 mod post_stabilization;
 
 use crate::error::Result;
-use crate::formulation::{Dynamics, MethodSpec, OptionDoc, StepError};
+use crate::formulation::{Dynamics, StepError};
 use crate::method_spec::Listed;
+use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::system::MechanicalSystem;
 
 /// A correction of the state after an accepted step.

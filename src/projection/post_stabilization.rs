@@ -2,7 +2,8 @@
 
 use super::{Entry, Projection, move_back};
 use crate::error::Result;
-use crate::formulation::{Dynamics, MethodSpec, OptionDoc, Stabilizer, StabilizingField, StepError};
+use crate::formulation::{Dynamics, Stabilizer, StabilizingField, StepError};
+use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::system::MechanicalSystem;
 
 const SWEEPS: OptionDoc = OptionDoc { name: "sweeps", about: "how often F h is evaluated and taken off (default 1)" };

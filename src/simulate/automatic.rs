@@ -7,7 +7,8 @@
 use super::contest::{Contest, Mark, Quiet};
 use super::{Checkpoint, Method, Outcome, Run, Sink, Span};
 use crate::error::{Failure, Result, clock, short};
-use crate::formulation::{MethodSpec, Statistics};
+use crate::formulation::Statistics;
+use crate::method_spec::MethodSpec;
 use crate::system::MechanicalSystem;
 use crate::tolerances::simulate as tolerances;
 use serde::Serialize;

@@ -1,8 +1,9 @@
 //! Which method a run uses.
 
 use crate::error::{Error, Result, Warning, short};
-use crate::formulation::{self, MethodSpec};
+use crate::formulation::{self};
 use crate::integrator::{self, Integrator, Setup, Steps, Tolerance};
+use crate::method_spec::MethodSpec;
 use crate::projection;
 use crate::system::MechanicalSystem;
 use crate::tolerances::simulate as tolerances;

@@ -41,8 +41,9 @@ use rows::{OutputRows, observation};
 use step::is_too_large;
 
 use crate::error::{Failure, Result};
-use crate::formulation::{self, Dynamics, MethodSpec, Statistics};
+use crate::formulation::{self, Dynamics, Statistics};
 use crate::integrator::{self, Integrator, Problem, Tolerance};
+use crate::method_spec::MethodSpec;
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
 use crate::tolerances::simulate as tolerances;

@@ -1,7 +1,7 @@
 //! Motions: energy and momentum in free flight, and the rigid body as the limit.
 
 use crate::scenes::{Ready, parse, shipped};
-use holonom::formulation::MethodSpec;
+use holonom::method_spec::MethodSpec;
 use holonom::simulate::{Method, Span};
 
 /// From t = 2.5 on nothing acts: energy stays, the centre of mass goes on at the 2 m/s of the impulse.

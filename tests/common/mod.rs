@@ -13,8 +13,8 @@ pub mod stiff;
 pub mod unconstrained;
 
 use holonom::analysis::{Record, Recorder};
-use holonom::formulation::MethodSpec;
 use holonom::integrator::{self, Tightening};
+use holonom::method_spec::MethodSpec;
 use holonom::simulate::{Method, Outcome, Span, simulate};
 use holonom::system::MechanicalSystem;
 

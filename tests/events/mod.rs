@@ -6,7 +6,7 @@ mod sliding;
 
 use crate::scenes::Ready;
 use holonom::analysis::{Record, Recorder};
-use holonom::formulation::MethodSpec;
+use holonom::method_spec::MethodSpec;
 use holonom::simulate::{Method, Outcome, Span, simulate};
 
 /// A method of every family that adapts its steps.

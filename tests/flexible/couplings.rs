@@ -3,7 +3,7 @@
 use crate::scenes::differences::{moved, slope};
 use crate::scenes::examples::{FORCES, JOINTS, Nature};
 use crate::scenes::{dop853, parse, shipped};
-use holonom::formulation::MethodSpec;
+use holonom::method_spec::MethodSpec;
 use holonom::prepared::AnyMechanism;
 use holonom::scene::{AnyModel, Scene};
 use holonom::simulate::{Method, Span};

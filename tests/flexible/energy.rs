@@ -3,7 +3,7 @@
 use crate::flexible::beams::{FLOATING, FRAMES, Rod, largest, scene};
 use crate::flexible::brief;
 use crate::scenes::{Ready, parse};
-use holonom::formulation::MethodSpec;
+use holonom::method_spec::MethodSpec;
 use holonom::simulate::{Method, Span};
 use holonom::system::{Need, Scratch, Terms};
 use nalgebra::DMatrix;

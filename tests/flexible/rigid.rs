@@ -3,7 +3,7 @@
 use crate::flexible::beams::{FLOATING, FRAMES, Rod, THEORIES, largest, place_outputs, scene};
 use crate::flexible::brief;
 use crate::scenes::{Ready, parse};
-use holonom::formulation::MethodSpec;
+use holonom::method_spec::MethodSpec;
 use holonom::simulate::{Method, Span};
 
 /// A beam that is thrown without spin, from a place and with a turn of its own.

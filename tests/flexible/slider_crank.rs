@@ -2,7 +2,7 @@
 
 use crate::flexible::brief;
 use crate::scenes::{Ready, Run, shipped};
-use holonom::formulation::MethodSpec;
+use holonom::method_spec::MethodSpec;
 use holonom::simulate::{Method, Span};
 use holonom::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
 use nalgebra::DMatrix;

@@ -6,8 +6,8 @@ pub mod examples;
 pub mod random;
 
 use holonom::analysis::{Record, Recorder};
-use holonom::formulation::MethodSpec;
 use holonom::initial::Assembly;
+use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Overrides, PreparedScene};
 use holonom::scene::Scene;
 use holonom::simulate::{Method, Outcome, Span, simulate};

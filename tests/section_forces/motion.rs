@@ -2,7 +2,7 @@
 
 use crate::scenes::{Ready, parse};
 use crate::section_forces::{FRAMES, THEORIES, frame_keys, reactions, sections};
-use holonom::formulation::MethodSpec;
+use holonom::method_spec::MethodSpec;
 use holonom::simulate::{Method, Span};
 
 /// A beam on a hub that turns, with loads that change, and its sections at the root, beside the middle and at the tip.

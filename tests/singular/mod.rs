@@ -7,7 +7,7 @@ mod reference;
 mod slider_crank;
 
 use crate::scenes::Run;
-use holonom::formulation::MethodSpec;
+use holonom::method_spec::MethodSpec;
 use holonom::simulate::Method;
 
 /// A method with fixed steps by its names as on the command line.

@@ -5,7 +5,7 @@ mod full_axle;
 mod reference;
 
 use crate::scenes::{Ready, Run, dop853, model, parse, shipped};
-use holonom::formulation::MethodSpec;
+use holonom::method_spec::MethodSpec;
 use holonom::simulate::{Method, Span};
 use reference::STATES;
 use serde_json::{Value, json};

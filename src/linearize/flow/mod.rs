@@ -7,8 +7,9 @@ mod projection;
 pub use bundle::{Bundle, Pulse, Snapshot};
 
 use crate::error::{Error, Failure, Result};
-use crate::formulation::{Dynamics, MethodSpec};
+use crate::formulation::Dynamics;
 use crate::integrator::{self, Problem, Setup, Tolerance};
+use crate::method_spec::MethodSpec;
 use crate::projection::Projection;
 use crate::simulate::{Observation, Parts, Segments, Sink, Stop};
 use crate::system::MechanicalSystem;

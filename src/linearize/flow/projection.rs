@@ -2,7 +2,8 @@
 
 use super::bundle::Shape;
 use crate::error::Result;
-use crate::formulation::{Dynamics, MethodSpec, StepError};
+use crate::formulation::{Dynamics, StepError};
+use crate::method_spec::MethodSpec;
 use crate::projection::{self, Projection};
 use crate::system::{MechanicalSystem, Need};
 
