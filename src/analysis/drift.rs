@@ -3,26 +3,34 @@
 use crate::simulate::Observation;
 use serde::Serialize;
 
-/// Drift at the three levels: phi, phi' = G v + phi_t and phi'' = G v' - gamma.
+/// Constraint drift at the three levels: phi, phi' = G v + phi_t and phi'' = G v' - gamma.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Drift {
+    /// Drift of phi, m or rad.
     pub position: DriftLevel,
+    /// Drift of phi', m/s or rad/s.
     pub velocity: DriftLevel,
+    /// Drift of phi'', m/s^2 or rad/s^2.
     pub acceleration: DriftLevel,
 }
 
-/// Largest component over the accepted steps and the rows, and at the end. Relative values are against the scene's scale (a length
-/// for rows in metres, 1 rad for angles) over powers of the time unit.
+/// Largest component of a residual. Relative values are divided by the scale of the row (a length for rows in metres, 1
+/// rad for angles) over powers of the time unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct DriftLevel {
+    /// Largest over the accepted steps and the rows.
     pub max: f64,
     #[serde(rename = "final")]
+    /// Largest component at the end.
     pub last: f64,
+    /// Largest over the run, relative.
     pub relative_max: f64,
+    /// Largest component at the end, relative.
     pub relative_final: f64,
 }
 
 impl Drift {
+    /// Adds a state; `scales` are those of the rows of phi.
     pub fn add(&mut self, state: &Observation, scales: &[f64]) {
         self.position.add(state.phi, scales);
         self.velocity.add(state.phi_dot, scales);

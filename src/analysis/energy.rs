@@ -14,14 +14,14 @@ pub struct EnergyBalance {
     /// Kinetic + potential at the end, J.
     #[serde(rename = "final")]
     pub last: f64,
-    /// Work put in since the start, J.
+    /// Work of non-conservative forces since the start, J.
     pub work: f64,
     /// max |kinetic + potential - initial - work|, J.
     pub max_error: f64,
-    /// The same as part of the energy turned over: the largest of kinetic energy, change of potential and work. None where
-    /// that is nothing beside the round-off of the energies, or beside what is tolerated.
+    /// The same relative to the energy converted: the largest of kinetic energy, change of potential and work. None
+    /// where that is negligible against the round-off of the energies, or against the tolerated error.
     pub relative_max_error: Option<f64>,
-    /// What the tolerated errors of all steps add up to at most, J; none for fixed steps.
+    /// Upper estimate of the sum of the tolerated errors of all steps, J; none for fixed steps.
     pub tolerated: Option<f64>,
 }
 
@@ -30,11 +30,11 @@ pub struct EnergyBalance {
 struct Sizes {
     kinetic: f64,
     potential: f64,
-    /// Of the change of potential, and the work.
+    /// Largest change of potential, and work.
     change: f64,
 }
 
-/// Follows the balance along a motion.
+/// Accumulates the energy balance along a motion.
 #[derive(Clone, Debug, Default)]
 pub struct EnergyMeter {
     balance: Option<EnergyBalance>,
@@ -42,17 +42,21 @@ pub struct EnergyMeter {
     sizes: Sizes,
 }
 
-/// One row of the ledger.
+/// Energies at one state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ledger {
+    /// Kinetic energy, J.
     pub kinetic: f64,
+    /// Potential energy, J.
     pub potential: f64,
+    /// Work of non-conservative forces since the start, J.
     pub work: f64,
+    /// kinetic + potential - initial - work, J.
     pub error: f64,
 }
 
 impl EnergyBalance {
-    /// Whether a balance is open by more than the tolerance, or the order of a method, leads to expect.
+    /// True if the balance has an error larger than the tolerance, or the order of a method, makes likely.
     pub fn is_open(&self) -> bool {
         let Some(part) =
             self.relative_max_error.filter(|part| part.is_nan() || *part > tolerances::ENERGY_ROUND_OFF.sqrt())
@@ -85,7 +89,7 @@ impl EnergyMeter {
         *change = change.max((row.potential - self.potential).abs()).max(state.work.abs());
     }
 
-    /// The balance at a state; `None` where the system states no potential.
+    /// Returns the balance at a state; `None` where the system defines no potential.
     pub fn ledger(&self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) -> Option<Ledger> {
         let energy = system.energy(state.t, state.q, state.v, scratch)?;
         let total = energy.kinetic + energy.potential;
@@ -94,6 +98,7 @@ impl EnergyMeter {
         Some(Ledger { kinetic: energy.kinetic, potential: energy.potential, work: state.work, error })
     }
 
+    /// Returns the balance up to the last state; `None` before the first state or without a potential.
     pub fn balance(&self) -> Option<EnergyBalance> {
         let Sizes { kinetic, potential, change } = self.sizes;
         let turned_over = kinetic.max(change);

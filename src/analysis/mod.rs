@@ -1,5 +1,5 @@
-//! What is seen of a state or of one run: rank and redundancy, drift, energy balance,
-//! singular states, range of the model.
+//! Analysis of a state or of one run: rank and redundancy, drift, energy balance, singular states, range of validity of
+//! the models.
 
 mod drift;
 mod energy;

@@ -1,15 +1,18 @@
-//! How far the motion went out of the range of what is modelled, and of what the steps of its method can see.
+//! Range of validity of the models, and rotation between evaluations in fixed steps.
 
 use crate::error::{Warning, short};
 use crate::simulate::Observation;
 use crate::system::{Limited, MechanicalSystem, Theory};
 use std::f64::consts::PI;
 
-/// The largest deformation of each part that holds up to some only, and the largest turn between evaluations.
+/// The largest deformation of each part whose theory is valid for small ones only, and the largest rotation between
+/// evaluations.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Range {
+    /// The largest deformation of each such part.
     pub parts: Vec<LargestDeformation>,
-    /// In fixed steps: by how much a body turned between evaluations of the equations, rad; its number; and when, s.
+    /// In fixed steps: the largest rotation of a body between evaluations of the equations, rad; index of the body;
+    /// time, s.
     pub leap: Option<(f64, usize, f64)>,
     now: Vec<f64>,
     bodies: Vec<String>,
@@ -19,14 +22,16 @@ pub struct Range {
 /// The largest deformation of a part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LargestDeformation {
+    /// The part with its theory.
     pub limited: Limited,
-    /// In the unit of the limit: displacement by length, load by critical load, or rad.
+    /// Deformation in the unit of the limit: displacement by length, load by critical load, or rad.
     pub deformation: f64,
-    /// s
+    /// Time, s.
     pub t: f64,
 }
 
 impl Range {
+    /// A range without states.
     pub fn new(system: &dyn MechanicalSystem) -> Self {
         let start = |limited: &Limited| LargestDeformation { limited: limited.clone(), deformation: 0.0, t: 0.0 };
         let parts: Vec<LargestDeformation> = system.limited().iter().map(start).collect();
@@ -52,20 +57,20 @@ impl Range {
         }
     }
 
-    /// What one state is beyond.
+    /// Returns the warnings for one state.
     pub fn warnings_at(system: &dyn MechanicalSystem, t: f64, q: &[f64]) -> Vec<Warning> {
         let mut range = Range::new(system);
         range.see(system, t, q);
         range.warnings()
     }
 
-    /// One for each part that went too far, and one for steps that are too long to see how bodies turn.
+    /// Returns a warning for each part beyond its limit, and one for steps too long to resolve the rotation of bodies.
     pub fn warnings(&self) -> Vec<Warning> {
         let beyond = self.parts.iter().filter(|part| part.deformation > part.limited.theory.most());
         beyond.map(LargestDeformation::warning).chain(self.leaping()).collect()
     }
 
-    /// From half a turn on another way round would do as well.
+    /// From half a revolution on, a rotation the other way round would fit as well.
     fn leaping(&self) -> Option<Warning> {
         let (turn, body, t) = self.leap.filter(|(turn, ..)| *turn >= PI)?;
         let [turn, t] = [turn, t].map(|x| short(two_digits(x)));
@@ -131,7 +136,7 @@ impl LargestDeformation {
     }
 }
 
-/// Rounded for a message.
+/// Rounds to two digits, for a message.
 fn two_digits(x: f64) -> f64 {
     format!("{x:.1e}").parse().unwrap_or(x)
 }

@@ -9,14 +9,14 @@ use crate::tolerances::math::RANK;
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
 
-/// How well posed a state is.
+/// Rank of the constraints and conditioning at a state.
 #[derive(Clone, Debug)]
 pub struct Rank {
     /// Rank of G.
     pub rank: usize,
     /// Rank of G at a nearby state: higher where this one is singular.
     pub nearby: usize,
-    /// Rows that follow from others, by joint.
+    /// Dependent rows of G, with their joints.
     pub redundant: Vec<Redundant>,
     /// Condition number of the equilibrated saddle-point matrix without the redundant rows.
     pub condition: f64,
@@ -25,31 +25,33 @@ pub struct Rank {
     pub distance_to_singularity: f64,
     /// Largest and smallest entry on the diagonal of M, kg or kg m^2.
     pub mass_range: [f64; 2],
-    /// The fastest mode, 1/s; none where nothing is free to move.
+    /// The fastest mode, 1/s; none without degrees of freedom.
     pub fastest_mode: Option<SpectralMode>,
 }
 
-/// A redundant row.
+/// A redundant row of G.
 #[derive(Clone, Debug, Serialize)]
 pub struct Redundant {
+    /// Name of its joint.
     pub joint: String,
+    /// Name of the row.
     pub row: String,
-    /// The joints whose rows it follows from.
+    /// The joints on whose rows it depends.
     pub follows_from: Vec<String>,
 }
 
 impl Rank {
-    /// At a consistent state.
+    /// Rank at a consistent state.
     pub fn at(system: &dyn MechanicalSystem, state: OperatingPoint) -> Self {
         let OperatingPoint { t, q, v, .. } = state;
         let mut dynamics = Dynamics::new(system);
         dynamics.evaluate(t, q, v, Need::DYNAMICS);
         let (rows, _) = dynamics.dependent_rows(t, q, v);
         dynamics.drop_rows(&rows);
-        // A consistent state can be factored; the distance is zero where it could not.
+        // A consistent state can be factored; the indicator is zero where it could not.
         let distance = dynamics.factor().map_or(0.0, |()| dynamics.kkt.rank_indicator());
         let (terms, structure, all) = (&dynamics.terms, &dynamics.structure, system.dimensions().lambda);
-        // The search for what depends on what is dense: it runs only where something does.
+        // The search for the rows that a row depends on is dense: it runs only where some are dependent.
         let (nearby, dependence) = match rows.is_empty() {
             true => (all, Dependence { rank: all, rows: Vec::new() }),
             false => (all - dependent_nearby(system, t, q).len(), dependent_rows(&structure.g, &terms.g, RANK)),
@@ -109,8 +111,8 @@ fn mass_range(structure: &Structure, terms: &Terms) -> [f64; 2] {
     if range[0].is_finite() { range } else { [0.0, 0.0] }
 }
 
-/// The rows of G that depend on others at a state near the given one, in a direction that the constraints allow and that
-/// has nothing special.
+/// Returns the rows of G that depend on others at a state near the given one, in a generic direction that the
+/// constraints allow.
 pub fn dependent_nearby(system: &dyn MechanicalSystem, t: f64, q: &[f64]) -> Vec<usize> {
     let mut dynamics = Dynamics::new(system);
     let n = system.dimensions();
@@ -118,7 +120,7 @@ pub fn dependent_nearby(system: &dyn MechanicalSystem, t: f64, q: &[f64]) -> Vec
     let mut aside = q.to_vec();
     step.iter_mut().enumerate().for_each(|(i, x)| *x = (1.0 + 0.7 * i as f64 * (i as f64 + 3.0)).sin());
     dynamics.evaluate(t, q, &rest, Need::MASS | Need::CONSTRAINTS | Need::G);
-    // [M G^T; G 0] [d; .] = [r; 0]: an arbitrary force moves the mechanism as it can.
+    // [M G^T; G 0] [d; .] = [r; 0]: an arbitrary force gives a displacement d that the constraints allow.
     if dynamics.factor().is_err() || dynamics.kkt.solve(&mut step, &mut vec![0.0; n.lambda]).is_err() {
         return Vec::new();
     }

@@ -1,4 +1,4 @@
-//! A sink that keeps what a user wants of a run.
+//! A sink that records a run.
 
 use super::drift::{Drift, largest};
 use super::energy::{EnergyBalance, EnergyMeter, Ledger};
@@ -10,19 +10,23 @@ use crate::trajectory::Trajectory;
 
 /// Trajectory, drift and energy of a run.
 pub struct Record {
+    /// Output rows.
     pub trajectory: Trajectory,
+    /// Constraint drift.
     pub drift: Drift,
-    /// `None` where the system states no potential.
+    /// `None` where the system defines no potential.
     pub energy: Option<EnergyBalance>,
+    /// Singular states on the way.
     pub singularity: Singularity,
-    /// How far parts were deformed that hold up to some deformation only.
+    /// Deformations of parts whose theory is valid for small ones only.
     pub range: Range,
     /// Largest |phi|, |phi'|, |phi''| at each output row.
     pub drift_rows: Vec<[f64; 3]>,
+    /// Energies at each output row; empty where the system defines no potential.
     pub ledger_rows: Vec<Ledger>,
 }
 
-/// Collects a [`Record`] while the run goes on.
+/// Collects a [`Record`] during a run.
 pub struct Recorder<'a> {
     system: &'a dyn MechanicalSystem,
     scratch: Scratch,
@@ -35,6 +39,7 @@ pub struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
+    /// A recorder for a run of `system`.
     pub fn new(system: &'a dyn MechanicalSystem) -> Self {
         Recorder {
             system,
@@ -56,18 +61,19 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Calls `progress` with the time of every accepted step.
+    /// Sets a callback with the time of every accepted step.
     pub fn with_progress(mut self, progress: impl FnMut(f64) + 'a) -> Self {
         self.progress = Box::new(progress);
         self
     }
 
-    /// Asks `stop` before every step whether the run should end.
+    /// Sets a callback that is asked before every step if the run should end.
     pub fn with_stop(mut self, stop: impl Fn() -> Option<Stop> + 'a) -> Self {
         self.stop = Box::new(stop);
         self
     }
 
+    /// Returns the record.
     pub fn finish(mut self) -> Record {
         self.record.energy = self.meter.balance();
         self.record.singularity = self.watch.finish();

@@ -1,11 +1,11 @@
-//! The sizes that errors are relative to.
+//! Reference sizes of errors.
 
 use crate::scene::units::{Dimension, dimension_of};
 use crate::simulate::Observation;
 use crate::system::{Column, MechanicalSystem, Scratch};
 use crate::tolerances::report as tolerances;
 
-/// Sizes of a motion, over its rows. Coordinates in metres and in radians are not told apart.
+/// Sizes of a motion, over its rows. Coordinates in metres and in radians are not distinguished.
 #[derive(Clone, Debug, Default)]
 pub struct Sizes {
     start: Vec<f64>,
@@ -38,9 +38,10 @@ impl Sizes {
         }
     }
 
-    /// The size of quantities of this kind in SI units: what they are made of, whatever the value of one of them.
+    /// Returns the size of quantities of a dimension in SI units, from the sizes of the motion, independent of one
+    /// quantity's value.
     fn of(&self, dimension: Dimension) -> f64 {
-        // Of angles in a small mechanism no length is made.
+        // Angles in a small mechanism do not make lengths larger.
         let length = self.length.min(1.0);
         let (least, most) = self.kinetic.unwrap_or_default();
         let energy = (most - least).max(tolerances::ZERO_BY_SYMMETRY * most);
@@ -57,17 +58,18 @@ impl Sizes {
     }
 }
 
-/// What an error of each quantity is relative to, in its unit.
+/// Returns the reference size of the errors of each quantity, in its unit.
 ///
-/// - Energies: the swing of the kinetic energy, or the quantity's own. Their zero is arbitrary.
-/// - Forces and torques: the largest of their kind, of the reactions and of the inertia that these balance.
-/// - Lengths, angles and speeds: the quantity's own largest value, unless that is a thousandth of those of the motion.
+/// - Energies: the range of the kinetic energy, or of the quantity itself. Their zero is arbitrary.
+/// - Forces and torques: the largest of their kind, of the reactions and of the inertia forces that these balance.
+/// - Lengths, angles and speeds: the quantity's own largest value, unless that is below a thousandth of those of the
+/// motion.
 /// - Others: the quantity's own largest value.
 pub fn scales(columns: &[Column], rows: &[Vec<f64>], sizes: &Sizes) -> Vec<f64> {
     let value = |i: usize| rows.iter().map(move |row| row[i]);
     let largest = |i: usize| value(i).fold(0.0f64, |most, value| most.max(value.abs()));
     let swing = |i: usize| value(i).fold(f64::MIN, f64::max) - value(i).fold(f64::MAX, f64::min);
-    // So many of its unit are one of the SI.
+    // Number of the unit in one SI unit.
     let per_si = |unit: &str, dimension: Dimension| dimension.unit(unit).map_or(1.0, |unit| unit.per_si);
     let of_kind = |unit: &str, dimension: Dimension| {
         let same = (0..columns.len()).filter(|i| dimension_of(&columns[*i].unit) == Some(dimension));

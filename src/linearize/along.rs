@@ -10,8 +10,11 @@ use crate::tolerances::linearize as tolerances;
 /// A state on the constraints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
+    /// Time, s.
     pub t: f64,
+    /// Coordinates, n_q.
     pub q: Vec<f64>,
+    /// Velocities, n_v.
     pub v: Vec<f64>,
 }
 
@@ -22,7 +25,7 @@ impl State {
         State { t: prepared.start_time(), q: q.to_vec(), v: v.to_vec() }
     }
 
-    /// The variational equations there.
+    /// Returns the variational equations at this state.
     ///
     /// # Errors
     /// See [`Variation::new`].
@@ -31,7 +34,8 @@ impl State {
     }
 }
 
-/// Tightens the tolerances that the command line leaves open, so that states are known better than what is read off them.
+/// Tightens the tolerances that the command line does not give, so that states are more accurate than what is derived
+/// from them.
 pub fn tighten(prepared: &mut PreparedScene, given: &Overrides) {
     let Method { rtol, atol, step, .. } = &mut prepared.method;
     if step.is_some() {
@@ -41,10 +45,10 @@ pub fn tighten(prepared: &mut PreparedScene, given: &Overrides) {
     *atol = given.atol.unwrap_or(atol.min(tolerances::RUN_TOLERANCE.max(*rtol)));
 }
 
-/// The states of the scene's motion at `times`, in their order, each brought back to the constraints.
+/// Returns the states of the scene's motion at `times`, in their order, each projected onto the constraints.
 ///
 /// # Errors
-/// A time before the start or after the end of the run; a run that stops before.
+/// A time before the start or after the end of the run; a run that stops before it.
 pub fn states(prepared: &PreparedScene, times: &[f64], progress: impl FnMut(f64)) -> Result<Vec<State>> {
     check(prepared, times)?;
     let mut order: Vec<usize> = (0..times.len()).collect();
@@ -58,7 +62,7 @@ pub fn states(prepared: &PreparedScene, times: &[f64], progress: impl FnMut(f64)
     Ok(found)
 }
 
-/// The scene's motion, followed from time to time.
+/// The scene's motion, integrated from one time to the next.
 pub(super) struct Walk<'a> {
     prepared: &'a PreparedScene,
     last: State,
@@ -69,10 +73,10 @@ impl<'a> Walk<'a> {
         Walk { prepared, last: State::start(prepared) }
     }
 
-    /// The state at a time that is not before the last one.
+    /// Returns the state at a time that is not before the last one.
     pub fn to(&mut self, t: f64) -> Result<State> {
         if t > self.last.t {
-            // Fixed steps carry a history of their own, such as accelerations: a new start would be another motion.
+            // Methods with fixed steps carry a history, such as accelerations: a new start would give another motion.
             let from = if self.prepared.method.step.is_some() { &State::start(self.prepared) } else { &self.last };
             self.last = follow(self.prepared, from, t)?;
         }
@@ -96,7 +100,7 @@ fn check(prepared: &PreparedScene, times: &[f64]) -> Result<()> {
     }
 }
 
-/// Keeps nothing.
+/// A sink that stores nothing.
 struct Nothing;
 
 impl Sink for Nothing {
@@ -104,7 +108,7 @@ impl Sink for Nothing {
     fn row(&mut self, _: &Observation) {}
 }
 
-/// Integrates to `end` and closes what drift has opened.
+/// Integrates to `end` and projects the state onto the constraints.
 pub(super) fn follow(prepared: &PreparedScene, from: &State, end: f64) -> Result<State> {
     let span = Span { start: from.t, end, output_step: end - from.t };
     let start = Start::State(&from.q, &from.v);

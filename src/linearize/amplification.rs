@@ -1,4 +1,4 @@
-//! How much a motion amplifies small changes.
+//! Amplification of small changes by a motion.
 
 use super::flow::{Bundle, flow};
 use super::{Chart, Matrix, State, Variation};
@@ -8,9 +8,10 @@ use crate::simulate::{Method, Span, stiffness};
 use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::linearize as tolerances;
 
-/// The growth of that small change of the start which grows most up to any of `times` (increasing, after the start): the norm
-/// of the transition matrices in mass-orthonormal states (z, y/s). With the rate s that makes it least an oscillation at one
-/// frequency counts 1, and free flight, too: only what makes small errors large counts. `goes_on` is told the times.
+/// Returns the largest growth of any small change of the start up to any of `times` (increasing, after the start): the
+/// norm of the transition matrices in mass-orthonormal states (z, y/s). The rate s is the one that makes the norm
+/// least, so that an oscillation at one frequency counts 1, and so does free flight. `goes_on` is called with the
+/// times.
 ///
 /// # Errors
 /// Too many degrees of freedom, a motion that cannot go on, or one that `goes_on` ends.
@@ -45,10 +46,10 @@ pub fn amplification(
     Ok(least_norm(&found.into_iter().collect::<Result<Vec<Matrix>>>()?))
 }
 
-/// The [`amplification`] of a scene's motion.
+/// Returns the [`amplification`] of a scene's motion.
 ///
 /// # Errors
-/// As [`amplification`]; modes that are too fast for the explicit method that carries small changes.
+/// As [`amplification`]; modes that are too fast for the explicit method that integrates small changes.
 pub fn amplified(prepared: &PreparedScene, span: Span, goes_on: impl FnMut(f64) -> bool) -> Result<f64> {
     let start = State::start(prepared);
     let state = OperatingPoint {
@@ -70,8 +71,8 @@ pub fn amplified(prepared: &PreparedScene, span: Span, goes_on: impl FnMut(f64) 
     )
 }
 
-/// min over s of the largest norm of diag(1, 1/s) X diag(1, s), and that of the start, 1. It is convex in log s: Sezginer,
-/// Overton, IEEE Trans. Automatic Control 35 (1990) 229-230.
+/// min over s of the largest norm of diag(1, 1/s) X diag(1, s), and of that of the start, 1. It is convex in log s:
+/// Sezginer, Overton, IEEE Trans. Automatic Control 35 (1990) 229-230.
 fn least_norm(matrices: &[Matrix]) -> f64 {
     let largest = |power: f64| {
         let norms = matrices.iter().map(|matrix| scaled(matrix, 10f64.powf(power)).singular_values().max());
@@ -112,7 +113,7 @@ mod tests {
         // An oscillation at 300 rad/s: 1; a saddle: e^(w t).
         assert!((least_norm(&along(-9e4)) - 1.0).abs() < 1e-2);
         assert!((least_norm(&along(9.0)) / f64::exp(6.0) - 1.0).abs() < 1e-2);
-        // Free flight: what it leaves of s is the range that is sought.
+        // Free flight: the error that remains comes from the finite range in which s is sought.
         assert!((least_norm(&[Matrix::from_row_slice(2, 2, &[1.0, 2.0, 0.0, 1.0])]) - 1.0).abs() < 1e-2);
     }
 }

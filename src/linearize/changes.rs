@@ -3,42 +3,43 @@
 use super::Matrix;
 use crate::system::MechanicalSystem;
 
-/// Changes of the state, a column each.
+/// Small changes of the state, one per column.
 #[derive(Clone, Debug)]
 pub struct Changes {
-    /// LociVariable the velocity directions.
+    /// Changes dq along the velocity directions, n_v x columns.
     pub q: Matrix,
+    /// Changes dv of the velocities, n_v x columns.
     pub v: Matrix,
 }
 
 impl Changes {
-    /// Of no column.
+    /// Changes without columns, for n velocities.
     pub fn none(n: usize) -> Self {
         Changes { q: Matrix::zeros(n, 0), v: Matrix::zeros(n, 0) }
     }
 
-    /// Each direction of q, then each of v.
+    /// A unit change of each direction of q, then of each of v: 2 n columns.
     pub fn all(n: usize) -> Self {
         let (unit, none) = (Matrix::identity(n, n), Matrix::zeros(n, n));
         Changes { q: beside([&unit, &none]), v: beside([&none, &unit]) }
     }
 }
 
-/// [left right]
+/// Returns [left right].
 pub(super) fn beside([left, right]: [&Matrix; 2]) -> Matrix {
     let mut both = left.clone().resize_horizontally(left.ncols() + right.ncols(), 0.0);
     both.columns_mut(left.ncols(), right.ncols()).copy_from(right);
     both
 }
 
-/// Names of changes of q along each velocity direction, and of changes of v.
+/// Names of the changes of q along each velocity direction, and of those of v.
 pub(super) struct Directions {
     pub q: Vec<String>,
     pub v: Vec<String>,
 }
 
-/// A direction is a coordinate where q' is that velocity; a turn about an axis of the body, such as `rotor.rx`, where the
-/// velocity is an angular one, `rotor.wx`.
+/// Names the directions of a state. The change of q along a velocity is named after the coordinate whose rate it is;
+/// where the velocity is an angular one, `rotor.wx`, after the rotation about that axis of the body, `rotor.rx`.
 pub(super) fn directions(system: &dyn MechanicalSystem, q: &[f64]) -> Directions {
     let names = system.names();
     let (mut unit, mut rate) = (vec![0.0; names.v.len()], vec![0.0; names.q.len()]);
@@ -64,7 +65,7 @@ fn turn(velocity: &str) -> String {
 }
 
 impl Directions {
-    /// Those of q, then those of v.
+    /// Returns the names of q, then those of v.
     pub fn states(self) -> Vec<String> {
         self.q.into_iter().chain(self.v).collect()
     }

@@ -1,4 +1,4 @@
-//! Charts of minimal coordinates: where a moving state's spectrum gets its meaning.
+//! Charts of minimal coordinates, which give the spectrum of a moving state its meaning.
 
 use super::coordinates::{Coordinates, constant, frozen, levi_civita, numbered, parallel};
 use super::variation::refuse_all_modes;
@@ -6,27 +6,27 @@ use super::{Variation, independent};
 use crate::error::Result;
 use crate::system::LeviCivita;
 
-/// Which coordinates z, with dq = R z, describe the changes that the constraints allow. At an equilibrium all give the
-/// same eigenvalues. Elsewhere z' = dq's rate contains how the coordinates themselves move, and each chart has a
-/// spectrum of its own.
+/// Coordinates z, with dq = R z, of the changes that the constraints allow. At an equilibrium all charts give the same
+/// eigenvalues. Elsewhere z' includes the motion of the coordinates themselves, and each chart has a spectrum of its
+/// own.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Chart {
-    /// A mass-orthonormal basis carried parallel along the motion, in the metric of the kinetic energy. Its spectrum does
-    /// not depend on coordinates or on how the constraints are written; for one degree of freedom it is that of the arc
-    /// length. Needs M with known derivatives along the motion.
+    /// A mass-orthonormal basis transported parallel along the motion, in the metric of the kinetic energy. Its
+    /// spectrum does not depend on coordinates or on how the constraints are written; for one degree of freedom it is
+    /// that of the arc length. Needs M with known derivatives along the motion.
     Intrinsic,
-    /// z = Z^T M dq with Z of the state held: an exact model in a constant chart.
+    /// z = Z^T M dq with Z of this state and constant: an exact model in a constant chart.
     MassOrthogonal,
     /// Independent coordinates by name: an exact model in a constant chart. Rotations in space are named by their angular
     /// velocities, such as `rotor.wx`.
     Independent(Vec<String>),
-    /// The plain projection Z^T (M, C, K) Z, which forgets that the basis moves: exact at an equilibrium only. The finite
-    /// spectrum of the frozen index-3 pencil.
+    /// The plain projection Z^T (M, C, K) Z, which neglects the motion of the basis: exact at an equilibrium only. It
+    /// has the finite spectrum of the frozen index-3 pencil.
     Frozen,
 }
 
 impl Chart {
-    /// `intrinsic`, `mass_orthogonal`, `frozen`, or names of coordinates with commas between.
+    /// Reads `intrinsic`, `mass_orthogonal`, `frozen`, or names of coordinates separated by commas.
     pub fn parse(text: &str) -> Self {
         match text.trim().replace('-', "_").as_str() {
             "intrinsic" => Chart::Intrinsic,
@@ -36,7 +36,7 @@ impl Chart {
         }
     }
 
-    /// The chart at the state of `variation`.
+    /// Returns the chart at the state of `variation`.
     ///
     /// # Errors
     /// Names that do not exist, too many or too few, or not independent at this state; `intrinsic` for equations that do
@@ -55,12 +55,12 @@ impl Chart {
         }
     }
 
-    /// The chart that says most, of those the equations allow.
+    /// Returns `Intrinsic` where the equations allow it, else `MassOrthogonal`.
     pub fn preferred(variation: &mut Variation) -> Self {
         let mut connection = LeviCivita::new(variation.len());
         if levi_civita(variation, &mut connection) { Chart::Intrinsic } else { Chart::MassOrthogonal }
     }
 }
 
-/// Matrices of the size of the velocities: directions, masses, and how both change.
+/// Number of dense n_v x n_v matrices needed: directions, masses, and their rates.
 const COPIES: f64 = 12.0;

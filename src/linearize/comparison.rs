@@ -1,31 +1,39 @@
-//! Several methods at one state.
+//! Comparison of several methods at one state.
 
 use super::{Complex, Kind, LinearModel};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
 
-/// How a method did.
+/// Accuracy and cost of one method at a state.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
+    /// Method with its options, as on the command line.
     pub method: String,
+    /// Chart of its coordinates.
     pub chart: String,
     /// Largest relative distance of the physical eigenvalues from those of the reference; none without a reference, or
     /// where their number is another.
     pub error: Option<f64>,
+    /// Number of physical eigenvalues.
     pub physical: usize,
+    /// Number of spurious eigenvalues.
     pub spurious: usize,
+    /// Number of infinite eigenvalues.
     pub infinite: usize,
-    /// How far off the allowed directions the worst physical and the best spurious mode are, in [0, 1].
+    /// Part of the motion off the directions that the constraints allow, in [0, 1]: largest of the physical modes,
+    /// least of the spurious ones.
     pub off_constraints: Option<[f64; 2]>,
-    /// Condition number of the eigenvectors; none where they are dependent.
+    /// Condition number of the eigenvector matrix; none where the eigenvectors are dependent.
     pub conditioning: Option<f64>,
     /// Rows and columns of A.
     pub size: usize,
+    /// Time to assemble the matrices, microseconds.
     pub assembly_microseconds: f64,
+    /// Time to compute the eigenvalues, microseconds.
     pub eigen_microseconds: f64,
 }
 
-/// Models of one state, their physical eigenvalues against known ones.
+/// Compares the physical eigenvalues of models of one state with known ones.
 pub fn compare<'a>(models: impl IntoIterator<Item = &'a LinearModel>, reference: &[Complex<f64>]) -> Vec<Comparison> {
     models.into_iter().map(|model| one(model, reference)).collect()
 }
@@ -50,7 +58,7 @@ fn one(model: &LinearModel, reference: &[Complex<f64>]) -> Comparison {
     }
 }
 
-/// Each reference value is compared with the nearest of those that are left.
+/// Each reference value is compared with the nearest of the eigenvalues not yet used.
 fn largest_error(found: &[Complex<f64>], reference: &[Complex<f64>]) -> Option<f64> {
     if reference.is_empty() || found.len() != reference.len() {
         return None;

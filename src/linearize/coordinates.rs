@@ -5,31 +5,37 @@ use super::{Changes, Matrix, Variation};
 use crate::error::{Error, Result};
 use crate::system::{LeviCivita, OperatingPoint};
 
-/// The chart at a state.
+/// The chart at a state, with n directions of v and k degrees of freedom:
 ///
 /// ```text
 /// dq = R z,   dv = R y + T z,   z' = y + turn z,   y' = B dv' - drift_z z - drift_y y,   B R = I
 /// ```
 #[derive(Clone, Debug)]
+/// Name of the chart, as on the command line.
 pub struct Coordinates {
     pub name: String,
     /// Names of z, then of y.
     pub states: Vec<String>,
+    /// R: dq of a unit of each z, n x k.
     pub r: Matrix,
+    /// T: dv of a unit of each z at y = 0, n x k, 1/s.
     pub tilt: Matrix,
+    /// B: z = B dq, k x n, with B R = I.
     pub b: Matrix,
+    /// Coefficient of z in z', k x k, 1/s.
     pub turn: Matrix,
+    /// Coefficients of z and y in -y', k x k each.
     pub drift: [Matrix; 2],
 }
 
 impl Coordinates {
-    /// (dq, dv) of a unit of each state.
+    /// Returns (dq, dv) of a unit of each state.
     pub fn changes(&self) -> Changes {
         let none = Matrix::zeros(self.r.nrows(), self.r.ncols());
         Changes { q: beside([&self.r, &none]), v: beside([&self.tilt, &self.r]) }
     }
 
-    /// (z, y) of changes that the constraints allow.
+    /// Returns (z, y) of changes that the constraints allow.
     pub fn states_of(&self, changes: &Changes) -> Matrix {
         let z = &self.b * &changes.q;
         let y = &self.b * (&changes.v - &self.tilt * &z);
@@ -41,7 +47,7 @@ impl Coordinates {
     }
 }
 
-/// z = B dq with a constant B, R given:
+/// The chart z = B dq with constant B and given R:
 ///
 /// ```text
 /// dv = R y - S Gd R z,   z' = y + B Q R z,   Q = -[v, .],   G S = I, B S = 0
@@ -53,14 +59,14 @@ pub(super) fn constant(
     (r, b): (Matrix, Matrix),
 ) -> Result<Coordinates> {
     let correction = variation.correct(&(variation.gd() * &r))?;
-    // Of the smallest correction in the mass metric what B does not see.
+    // The component of the least correction in the mass metric that B does not measure.
     let tilt = &r * (&b * &correction) - correction;
     let turn = -&b * variation.bracket(&variation.point.v) * &r;
     let none = Matrix::zeros(r.ncols(), r.ncols());
     Ok(Coordinates { name: name.to_string(), states, r, tilt, b, turn, drift: [none.clone(), none] })
 }
 
-/// dq = Z z with Z held and nothing else: z' = y.
+/// The chart dq = Z z with constant Z and no other terms: z' = y.
 pub(super) fn frozen(variation: &Variation, z: Matrix) -> Coordinates {
     let turned = variation.bracket(&variation.point.v) * &z;
     let b = z.transpose() * variation.mass();
@@ -69,7 +75,8 @@ pub(super) fn frozen(variation: &Variation, z: Matrix) -> Coordinates {
     Coordinates { name: "frozen".to_string(), states: numbered(z.ncols()), tilt: turned, r: z, b, turn: none, drift }
 }
 
-/// dq = N u with N parallel in the mass metric, N^T (M N' + W N) = 0. With Q = -[v, .] and S the least corrections,
+/// The chart dq = N u with N parallel in the mass metric, N^T (M N' + W N) = 0. With Q = -[v, .] and S the least
+/// corrections,
 ///
 /// ```text
 /// G'  = Gd - G Q                      G'' = Gdd - 2 Gd Q + G Q^2 - G Q'
@@ -111,7 +118,7 @@ pub(super) fn levi_civita(variation: &mut Variation, connection: &mut LeviCivita
     dynamics.system.levi_civita(at, connection, &mut dynamics.scratch)
 }
 
-/// u1 .. uk, u1' .. uk'
+/// Returns the names u1 .. uk, u1' .. uk'.
 pub(super) fn numbered(k: usize) -> Vec<String> {
     let names = (1..=k).map(|i| format!("u{i}"));
     names.clone().chain(names.map(|name| format!("{name}'"))).collect()

@@ -6,44 +6,47 @@ use crate::math::eigen::{eigen, singular_values};
 use crate::system::MechanicalSystem;
 use crate::tolerances::linearize as tolerances;
 
-/// How small changes grow over a period of a motion.
+/// Growth of small changes over a period of a motion.
 #[derive(Clone, Debug)]
 pub struct Floquet {
-    /// s
+    /// Period, s.
     pub period: f64,
     /// The state-transition matrix over the period in the states of the chart at the start, 2 k x 2 k.
     pub monodromy: Matrix,
-    /// Its eigenvalues, largest first. Free changes along the motion and, without damping, of its energy have 1.
+    /// Its eigenvalues, largest first. A change along the motion has the multiplier 1 and, without damping, so has one
+    /// of its energy.
     pub multipliers: Vec<Complex<f64>>,
-    /// Largest difference of (q, v) at the end from the start.
+    /// Largest difference of (q, v) between the end and the start.
     pub gap: f64,
 }
 
 impl Floquet {
-    /// log(multiplier) / period: growth rate and, up to multiples of the motion's own, frequency, 1/s.
+    /// log(multiplier) / period, 1/s: growth rate and frequency, the latter up to multiples of that of the motion.
     pub fn exponents(&self) -> Vec<Complex<f64>> {
         self.multipliers.iter().map(|multiplier| multiplier.ln() / self.period).collect()
     }
 
-    /// Whether no multiplier is outside the unit circle by more than `slack`. A double multiplier 1 comes out with an error
-    /// of the square root of rounding.
+    /// True if no multiplier is outside the unit circle by more than `slack`. A double multiplier 1 is computed with an
+    /// error of the square root of rounding.
     pub fn is_stable(&self, slack: f64) -> bool {
         self.multipliers.iter().all(|multiplier| multiplier.norm() <= 1.0 + slack)
     }
 }
 
-/// A multiplier on the unit circle with fewer vectors than it counts: small changes grow like t.
+/// A defective multiplier on the unit circle, with fewer eigenvectors than its multiplicity: small changes grow like t.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Defect {
+    /// The multiplier.
     pub multiplier: Complex<f64>,
-    /// How often it counts, and how many vectors it has.
+    /// Algebraic multiplicity.
     pub count: usize,
+    /// Number of independent eigenvectors.
     pub vectors: usize,
 }
 
 impl Floquet {
-    /// The multipliers on the unit circle, up to `slack`, that are defective: of each kind one. Multipliers that rounding has
-    /// parted by the root of `slack` or less count as one.
+    /// Returns the multipliers on the unit circle, up to `slack`, that are defective, each once. Multipliers that
+    /// rounding has parted by the root of `slack` or less count as one.
     ///
     /// # Errors
     /// Singular values that do not converge.
@@ -73,8 +76,8 @@ impl Floquet {
     }
 }
 
-/// The monodromy matrix of the motion from `start`, which returns after `period`: the same in every chart but for a change
-/// of basis, so that its multipliers are a property of the motion.
+/// Returns the monodromy matrix of the motion from `start`, which returns after `period`. It is the same in every chart
+/// but for a change of basis, so its multipliers are a property of the motion.
 ///
 /// # Errors
 /// A motion that is not back after the period, or that cannot go on.

@@ -7,8 +7,7 @@ use nalgebra::linalg::Hessenberg;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
-/// H(i w) = C (i w E - A)^-1 B + D at frequencies in Hz, each n_y x n_u; none exactly at a pole, where there is no
-/// response.
+/// Returns H(i w) = C (i w E - A)^-1 B + D at frequencies in Hz, each n_y x n_u; none at a pole.
 ///
 /// Without E, A is brought to Hessenberg form once, and a frequency takes n^2 operations for each input (Laub, IEEE Trans.
 /// Autom. Control 26, 1981); descriptor forms take an LU decomposition each.
@@ -17,10 +16,10 @@ pub fn frequency_response(model: &LinearModel, frequencies: &[f64]) -> Vec<Optio
     frequencies.par_iter().map(|f| reduced.at(Complex::new(0.0, TAU * f))).collect()
 }
 
-/// (E, A), B and C in coordinates in which i w E - A is solved easily.
+/// (E, A), B and C in coordinates in which i w E - A is solved cheaply.
 struct Reduced {
     a: Matrix,
-    /// None: I.
+    /// E; none: I.
     e: Option<Matrix>,
     b: Matrix,
     c: ComplexMatrix,
@@ -32,7 +31,7 @@ impl Reduced {
         let complex = |matrix: &Matrix| matrix.map(Complex::from);
         let d = complex(&model.d);
         if let Some(e) = &model.e {
-            // Rows of equations in different units are brought to one size, which decides on pivots.
+            // Rows of equations in different units are scaled to one size, since sizes decide on pivots.
             let scale: Vec<f64> = (0..e.nrows()).map(|i| e.row(i).amax().max(model.a.row(i).amax())).collect();
             let scaled = |matrix: &Matrix| {
                 Matrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] / scale[i].max(f64::MIN_POSITIVE))
@@ -55,7 +54,7 @@ impl Reduced {
         response.iter().all(|x| x.re.is_finite() && x.im.is_finite()).then_some(response)
     }
 
-    /// (s I - H)^-1 B by elimination with a choice between two neighbouring rows.
+    /// (s I - H)^-1 B by elimination with pivoting between neighbouring rows.
     fn hessenberg(&self, s: Complex<f64>) -> Option<ComplexMatrix> {
         let n = self.a.nrows();
         let mut matrix =
@@ -87,19 +86,20 @@ impl Reduced {
     }
 }
 
-/// Frequencies at which a response is looked at.
+/// Range of frequencies of a response.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Resonances {
-    /// Hz
+    /// Lowest frequency, Hz.
     pub from: f64,
+    /// Highest frequency, Hz.
     pub to: f64,
 }
 
-/// Points of a peak, in half widths from its top.
+/// Points across a resonance peak, in half widths from its top.
 const ACROSS: [f64; 11] = [-10.0, -5.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 5.0, 10.0];
 
 impl Resonances {
-    /// A decade below the slowest physical mode to one above the fastest; 0.01 to 100 Hz where nothing swings.
+    /// A decade below the slowest physical mode to one above the fastest; 0.01 to 100 Hz where no mode has a frequency.
     pub fn around(model: &LinearModel) -> Self {
         let sizes = || model.modes.iter().filter(|mode| mode.kind == Kind::Physical).map(|mode| mode.frequency());
         let fastest = sizes().fold(0.0, f64::max);
@@ -110,14 +110,14 @@ impl Resonances {
         }
     }
 
-    /// `count` frequencies with a constant factor between them, Hz.
+    /// Returns `count` frequencies in geometric progression, Hz.
     pub fn frequencies(&self, count: usize) -> Vec<f64> {
         let last = count.saturating_sub(1).max(1) as f64;
         let between = |k: usize| self.from * (self.to / self.from).powf(k as f64 / last);
         (0..count).map(|k| if k + 1 == count { self.to } else { between(k) }).collect()
     }
 
-    /// The same with more points at each lightly damped mode, so that no peak falls between two.
+    /// Returns the same with more points at each lightly damped mode, so that no peak falls between two points.
     pub fn with_peaks(&self, count: usize, model: &LinearModel) -> Vec<f64> {
         let mut all = self.frequencies(count);
         for mode in model.modes.iter().filter(|mode| mode.kind == Kind::Physical && mode.value.im > 0.0) {

@@ -6,14 +6,14 @@ use super::{Coordinates, Matrix, Variation};
 use crate::error::{Error, Result, clock, suggest};
 use crate::tolerances::linearize as tolerances;
 
-/// A coordinate that can be chosen: its name, that of its rate, and the direction of v that it is.
+/// A coordinate that can be chosen: its name, that of its rate, and its direction of v.
 struct Candidate {
     name: String,
     rate: String,
     direction: usize,
 }
 
-/// z = the named coordinates: R = Z (B Z)^-1.
+/// The chart whose z are the named coordinates: R = Z (B Z)^-1.
 pub(super) fn coordinates(variation: &mut Variation, z: &Matrix, names: &[String]) -> Result<Coordinates> {
     let candidates = candidates(variation);
     let chosen = names.iter().map(|name| find(&candidates, name)).collect::<Result<Vec<&Candidate>>>()?;
@@ -38,7 +38,7 @@ pub(super) fn coordinates(variation: &mut Variation, z: &Matrix, names: &[String
     constant(variation, &names.join(","), states, (z * inverse, b))
 }
 
-/// Every direction of v by the name of its coordinate, or of its turn.
+/// Returns every direction of v with the name of its coordinate, or of its rotation.
 fn candidates(variation: &Variation) -> Vec<Candidate> {
     let Directions { q, v } = directions(variation.system(), &variation.point.q);
     q.into_iter().zip(v).enumerate().map(|(direction, (name, rate))| Candidate { name, rate, direction }).collect()
@@ -52,13 +52,14 @@ fn find<'c>(candidates: &'c [Candidate], name: &str) -> Result<&'c Candidate> {
     })
 }
 
-/// Z with each row times the root of its mass, so that rows of any unit compare: no row is longer than 1.
+/// Returns Z with each row times the square root of its mass, so that rows of any unit are comparable: no row is longer
+/// than 1.
 fn weighed(variation: &Variation, z: &Matrix) -> Matrix {
     let mass = variation.mass();
     Matrix::from_fn(z.nrows(), z.ncols(), |i, j| z[(i, j)] * mass[(i, i)].max(0.0).sqrt())
 }
 
-/// The coordinates that move most, each with what those before it move taken away.
+/// Returns the coordinates that move most, by pivoted orthogonalization of the rows.
 fn best<'c>(candidates: &'c [Candidate], weighed: &Matrix) -> Vec<&'c str> {
     let mut rest = weighed.clone();
     let mut names = Vec::new();

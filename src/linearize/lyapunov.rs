@@ -1,4 +1,4 @@
-//! Lyapunov exponents: how fast small changes grow on average.
+//! Lyapunov exponents: average growth rates of small changes.
 
 use super::flow::{Bundle, flow};
 use super::{Changes, Chart, Matrix, State, Variation};
@@ -8,21 +8,20 @@ use crate::system::MechanicalSystem;
 /// Average growth rates along a motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lyapunov {
-    /// After the start, s.
+    /// Times after the start, s.
     pub times: Vec<f64>,
-    /// At each time the exponents up to it, largest first, 1/s. Their sum is the average of the divergence: 0 without
-    /// damping.
+    /// At each time the exponents up to it, largest first, 1/s. Their sum is the average divergence: 0 without damping.
     pub exponents: Vec<Vec<f64>>,
 }
 
 impl Lyapunov {
-    /// At the end.
+    /// Exponents at the end, 1/s.
     pub fn last(&self) -> &[f64] {
         self.exponents.last().map_or(&[], Vec::as_slice)
     }
 }
 
-/// All exponents over `duration`, the columns made orthonormal again every `renewal` s: Benettin, Galgani, Giorgilli,
+/// Returns all exponents over `duration`, the columns made orthonormal every `renewal` s: Benettin, Galgani, Giorgilli,
 /// Strelcyn, Meccanica 15 (1980) 9-20. They converge as 1/t at best; the finite-time values are returned, so that this
 /// shows.
 ///

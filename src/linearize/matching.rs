@@ -1,4 +1,4 @@
-//! Which eigenvalue of a state belongs to which of another.
+//! Matching of the eigenvalues of two states.
 
 use super::{Complex, Matrix, Mode};
 use crate::math::eigen::{ComplexMatrix, assign};
@@ -25,7 +25,7 @@ impl Node {
     }
 }
 
-/// Where an eigenvalue is.
+/// Half plane of an eigenvalue, or the real axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Side {
     Upper,
@@ -33,15 +33,15 @@ enum Side {
     Lower,
 }
 
-/// The eigenvalues on one side of a step.
+/// The eigenvalues at one end of a step.
 struct Set {
     sides: Vec<Side>,
-    /// The other one of a conjugate pair.
+    /// Index of the other one of a conjugate pair.
     partner: Vec<Option<usize>>,
     values: Vec<Complex<f64>>,
 }
 
-/// The place in `ends` of each of `starts`, whose values are `predicted`; none where a branch ends.
+/// Returns the index in `ends` of each of `starts`, whose values are `predicted`; none where a branch ends.
 pub(super) fn matching(
     starts: &[&Node],
     predicted: &[Complex<f64>],
@@ -62,7 +62,7 @@ pub(super) fn matching(
     found
 }
 
-/// Nothing passes through the real axis.
+/// True unless a branch would cross the real axis from one half plane to the other.
 fn is_allowed(from: Side, to: Side) -> bool {
     !matches!((from, to), (Side::Upper, Side::Lower) | (Side::Lower, Side::Upper))
 }
@@ -71,7 +71,8 @@ fn are_equal(a: Complex<f64>, b: Complex<f64>) -> bool {
     (a - b).norm() <= tolerances::EQUAL_MODES * a.norm().max(b.norm())
 }
 
-/// Whether it is clear which mode is which: they change little, and the best way to go on is much better than any in which two of them are exchanged.
+/// True if it is clear which mode is which: they change little, and the best assignment is much better than any in
+/// which two of them are exchanged.
 pub(super) fn is_clear(starts: &[&Node], ends: &[Node], mass: &Matrix) -> bool {
     let values: Vec<Complex<f64>> = starts.iter().map(|start| start.value).collect();
     let (from, to) = (Set::new(starts.iter().copied()), Set::new(ends.iter()));
@@ -84,13 +85,13 @@ pub(super) fn is_clear(starts: &[&Node], ends: &[Node], mass: &Matrix) -> bool {
         let is_one = are_equal(values[i], values[k]) && are_equal(to.values[j], to.values[l]);
         !is_possible || is_one || cost[(i, l)] + cost[(k, j)] - cost[(i, j)] - cost[(k, l)] >= tolerances::CLEAR_MATCH
     };
-    // Where modes become more or fewer, states between do not help.
+    // Where the number of modes changes, states between do not help.
     starts.len() != ends.len()
         || matched.iter().all(|place| cost[*place] <= tolerances::CHANGED_MODE)
             && matched.iter().enumerate().all(|(n, a)| matched[..n].iter().all(|b| exchange(a, b)))
 }
 
-/// What [`assign`] says, without places that are none or forbidden.
+/// Returns the columns found by [`assign`], without those that are outside or forbidden.
 fn places(cost: &Matrix, assigned: Vec<usize>) -> Vec<Option<usize>> {
     let allowed = |(i, j): (usize, usize)| cost.get((i, j)).filter(|cost| cost.is_finite()).map(|_| j);
     assigned.into_iter().enumerate().map(allowed).collect()
@@ -137,14 +138,14 @@ impl Set {
         Set { sides, partner, values }
     }
 
-    /// Upper ones of pairs with their lower ones.
+    /// Returns each pair as (index with im > 0, index with im < 0).
     fn pairs(&self) -> Vec<(usize, usize)> {
         let upper = (0..self.sides.len()).filter(|&i| self.sides[i] == Side::Upper);
         upper.filter_map(|i| Some((i, self.partner[i]?))).collect()
     }
 }
 
-/// Whether every pair goes to a pair or leaves the plane as a whole, and every pair is reached as a whole.
+/// True if every pair is matched to a pair or becomes real as a whole, and every pair is reached as a whole.
 fn is_symmetric(found: &[Option<usize>], from: &Set, to: &Set) -> bool {
     from.pairs().into_iter().all(|(upper, lower)| match (found[upper], found[lower]) {
         (Some(a), Some(b)) if to.sides[a] == Side::Real => to.sides[b] == Side::Real,
@@ -154,7 +155,7 @@ fn is_symmetric(found: &[Option<usize>], from: &Set, to: &Set) -> bool {
     })
 }
 
-/// Pairs to pairs; what is left over of them becomes real or comes from real ones.
+/// Matches pairs to pairs first; the remaining ones become real or come from real ones.
 fn pairs_first(cost: &Matrix, from: &Set, to: &Set) -> Vec<Option<usize>> {
     let (starts, ends) = (from.pairs(), to.pairs());
     let pairs = Matrix::from_fn(starts.len(), ends.len(), |i, j| cost[(starts[i].0, ends[j].0)]);

@@ -1,4 +1,4 @@
-//! Every method of linearization, and the linear model by one of them.
+//! The registry of methods of linearization, and the linear model by one of them.
 
 use super::entry::{Built, Entry, Request};
 use super::minimal::MCS;
@@ -9,24 +9,25 @@ use super::{Cost, LinearModel, Variation, redundant};
 use crate::error::Result;
 use std::time::Instant;
 
-/// Every method, in the order of the documentation.
+/// Returns every method, in the order of the documentation.
 pub fn registry() -> &'static [Entry] {
     &[MCS, redundant::RCS, BAUMGARTE, PENALTY, AUGMENTED_LAGRANGIAN, FORCE_PROJECTION]
 }
 
-/// Matrices of the size of the velocities, states being twice as many: the model, its directions, and eigenvectors that
-/// are complex.
+/// Number of dense n_v x n_v matrices needed, the states being twice as many: the model, its directions, and
+/// eigenvectors that are complex.
 const COPIES: f64 = 40.0;
 
-/// Refuses all modes of so many velocities where their matrices would not fit: before a motion is followed for them.
+/// Refuses a model with all modes of `velocities` velocities where its matrices would not fit, before a motion is
+/// simulated for it.
 ///
 /// # Errors
-/// Bad input with what to use instead.
+/// Bad input, with the alternative.
 pub fn refuse_large(velocities: usize) -> Result<()> {
     refuse_all_modes(velocities, COPIES)
 }
 
-/// The linear model at the state of `variation`.
+/// Returns the linear model at the state of `variation`.
 ///
 /// # Errors
 /// An unknown method or option; a chart that does not exist there; eigenvalues that cannot be computed.

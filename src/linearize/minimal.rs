@@ -6,15 +6,20 @@ use super::response::observe;
 use super::{Changes, Chart, Coordinates, Matrix, Response, Variation};
 use crate::error::Result;
 
-/// (A, B, C, D) in the states (z, y) of a chart.
+/// The model x' = A x + B u, y = C x + D u in the states x = (z, y) of a chart with k degrees of freedom.
 #[derive(Clone, Debug)]
 pub struct Minimal {
+    /// The chart.
     pub coordinates: Coordinates,
-    /// (dq, dv) of each state.
+    /// (dq, dv) of a unit of each state.
     pub changes: Changes,
+    /// A, 2 k x 2 k.
     pub a: Matrix,
+    /// B, 2 k x n_u.
     pub b: Matrix,
+    /// C, n_y x 2 k.
     pub c: Matrix,
+    /// D, n_y x n_u.
     pub d: Matrix,
 }
 
@@ -48,8 +53,8 @@ pub fn minimal(variation: &mut Variation, chart: &Chart) -> Result<Minimal> {
     restrict(variation, coordinates, Response::exact)
 }
 
-/// What any formulation's `response` says of the changes that the constraints allow: A = diag(B, B) A_u X0 and its terms
-/// of a moving basis.
+/// Restricts the `response` of any formulation to the changes that the constraints allow: A = diag(B, B) A_u X0 and the
+/// terms of a moving basis.
 pub(super) fn restrict(
     variation: &mut Variation,
     coordinates: Coordinates,

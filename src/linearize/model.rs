@@ -1,4 +1,4 @@
-//! What every method of linearization returns.
+//! The linear model that every method of linearization returns.
 
 use super::LinearizationPoint;
 use crate::tolerances::linearize as tolerances;
@@ -6,6 +6,7 @@ pub use nalgebra::Complex;
 use nalgebra::DMatrix;
 use std::f64::consts::TAU;
 
+/// A dense real matrix.
 pub type Matrix = DMatrix<f64>;
 
 /// A linear model of a mechanism at a state of its motion,
@@ -17,42 +18,51 @@ pub type Matrix = DMatrix<f64>;
 /// with x, u and y small changes from the operating point.
 #[derive(Clone, Debug)]
 pub struct LinearModel {
-    /// As on the command line: `mcs`, `rcs:form=index2`, `baumgarte:alpha=5,beta=5`.
+    /// Method as on the command line: `mcs`, `rcs:form=index2`, `baumgarte:alpha=5,beta=5`.
     pub method: String,
     /// The coordinates of the perturbation, on which the spectrum depends off equilibrium: `intrinsic`,
     /// `mass_orthogonal`, `crank.angle`, `frozen`.
     pub chart: String,
+    /// Names of the states x.
     pub states: Vec<String>,
+    /// Names of the inputs u.
     pub inputs: Vec<String>,
+    /// Names of the outputs y.
     pub outputs: Vec<String>,
+    /// A, n_x x n_x.
     pub a: Matrix,
+    /// B, n_x x n_u.
     pub b: Matrix,
+    /// C, n_y x n_x.
     pub c: Matrix,
+    /// D, n_y x n_u.
     pub d: Matrix,
-    /// Of descriptor forms.
+    /// E of a descriptor form, n_x x n_x, singular; none: I.
     pub e: Option<Matrix>,
-    /// All eigenvalues: physical ones first, then spurious, then infinite ones; each kind from the slowest.
+    /// All eigenvalues: physical ones first, then uncertain, spurious and infinite ones; each kind from the slowest.
     pub modes: Vec<Mode>,
+    /// The state that is perturbed.
     pub point: LinearizationPoint,
+    /// Time, size and conditioning.
     pub cost: Cost,
 }
 
-/// What an eigenvalue belongs to.
+/// Class of an eigenvalue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// A motion that the constraints allow.
     Physical,
-    /// One of the two, but the parts of the motions off the constraints do not tell which.
+    /// Physical or spurious: the parts of the motions off the constraints do not tell which.
     Uncertain,
-    /// A motion off the constraints, which a formulation lets decay or swing.
+    /// A motion off the constraints, which a formulation damps or lets oscillate.
     Spurious,
-    /// An algebraic equation of a descriptor form.
+    /// An infinite eigenvalue, from an algebraic equation of a descriptor form.
     Infinite,
 }
 
 impl Kind {
-    /// The word in files and text.
+    /// Name in files and text.
     pub fn name(self) -> &'static str {
         match self {
             Kind::Physical => "physical",
@@ -64,7 +74,7 @@ impl Kind {
 }
 
 impl LinearModel {
-    /// Whether some eigenvalues are [`Kind::Uncertain`].
+    /// True if some eigenvalues are [`Kind::Uncertain`].
     pub fn has_uncertain_kinds(&self) -> bool {
         self.modes.iter().any(|mode| mode.kind == Kind::Uncertain)
     }
@@ -75,10 +85,11 @@ impl LinearModel {
 pub struct Mode {
     /// 1/s; infinite (with imaginary part 0) for [`Kind::Infinite`].
     pub value: Complex<f64>,
+    /// Physical, uncertain, spurious or infinite.
     pub kind: Kind,
     /// Change of q along the velocity directions of the whole mechanism, largest component 1; empty for infinite ones.
     pub shape: Vec<Complex<f64>>,
-    /// Part of each state in the mode, |y_i x_i| of the left and right eigenvectors, sum 1; empty where it is not known.
+    /// Participation |y_i x_i| of each state, by the left and right eigenvectors, sum 1; empty where it is not known.
     pub participation: Vec<f64>,
     /// Part of each velocity direction in the kinetic energy of the mode, sum 1; empty for infinite ones.
     pub energy: Vec<f64>,
@@ -90,12 +101,12 @@ impl Mode {
         frequency(self.value)
     }
 
-    /// -Re(lambda) / |lambda|; 0 for lambda = 0.
+    /// Damping ratio -Re(lambda) / |lambda|; 0 for lambda = 0.
     pub fn damping(&self) -> f64 {
         damping(self.value)
     }
 
-    /// The same without what rounding leaves in place of zero.
+    /// The damping ratio, 0 where it is rounding.
     pub fn clean_damping(&self) -> f64 {
         Some(self.damping()).filter(|ratio| ratio.abs() > tolerances::SAME).unwrap_or(0.0)
     }
@@ -106,20 +117,22 @@ pub fn frequency(value: Complex<f64>) -> f64 {
     value.norm() / TAU
 }
 
-/// -Re(lambda) / |lambda|; 0 for lambda = 0.
+/// Damping ratio -Re(lambda) / |lambda|; 0 for lambda = 0 and for infinite lambda.
 pub fn damping(value: Complex<f64>) -> f64 {
     let size = value.norm();
     if size > 0.0 && size.is_finite() { 0.0 - value.re / size } else { 0.0 }
 }
 
-/// An eigenvalue alone, or the one with the positive imaginary part of a pair.
+/// A real eigenvalue, or the one with the positive imaginary part of a conjugate pair.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair<'a> {
+    /// The mode.
     pub mode: &'a Mode,
+    /// True for a conjugate pair.
     pub is_pair: bool,
 }
 
-/// The finite eigenvalues of a kind in their order, each pair once.
+/// Returns the finite eigenvalues of a kind in their order, each pair once.
 pub fn pairs(model: &LinearModel, kind: Kind) -> Vec<Pair<'_>> {
     let modes: Vec<&Mode> = model.modes.iter().filter(|mode| mode.kind == kind).collect();
     let mut is_taken = vec![false; modes.len()];
@@ -138,24 +151,24 @@ pub fn pairs(model: &LinearModel, kind: Kind) -> Vec<Pair<'_>> {
     found
 }
 
-/// Whether two values that are not real are conjugate to each other.
+/// True if two values are not real and conjugate to each other.
 pub fn are_conjugate(a: Complex<f64>, b: Complex<f64>) -> bool {
     let near = tolerances::EIGENVALUES_AGREE * a.norm();
     a.im != 0.0 && a.im * b.im < 0.0 && (a - b.conj()).norm() <= near
 }
 
-/// What a model took.
+/// Cost and conditioning of a model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Cost {
-    /// Of making the matrices, s.
+    /// Time to assemble the matrices, s.
     pub assembly_seconds: f64,
-    /// Of its eigenvalues, s.
+    /// Time to compute the eigenvalues, s.
     pub eigen_seconds: f64,
-    /// Condition number of the eigenvector matrix (columns of length 1) in the states as they are.
+    /// Condition number of the eigenvector matrix (columns of length 1) in the states as they are, not scaled.
     pub conditioning: f64,
     /// Rows and columns of A.
     pub size: usize,
-    /// How far off the directions that the constraints allow the worst physical and the best spurious mode are, in
-    /// \[0, 1\] in the metric of the kinetic energy: what tells them apart. None without spurious ones.
+    /// Part of the motion off the directions that the constraints allow, in \[0, 1\] in the metric of the kinetic
+    /// energy: the largest of the physical modes and the least of the spurious ones. None without spurious ones.
     pub off_constraints: Option<[f64; 2]>,
 }

@@ -8,24 +8,30 @@ use crate::tolerances::linearize as tolerances;
 /// A state with its accelerations and multipliers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LinearizationPoint {
+    /// Time, s.
     pub t: f64,
+    /// Coordinates, n_q.
     pub q: Vec<f64>,
+    /// Velocities, n_v.
     pub v: Vec<f64>,
+    /// Accelerations v', n_v.
     pub vdot: Vec<f64>,
+    /// Multipliers, n_c.
     pub lambda: Vec<f64>,
-    /// Largest |phi| and |phi'|, each over its scale.
+    /// Largest |phi|, each row over its scale.
     pub phi: f64,
+    /// Largest |phi'|, each row over its scale, 1/s.
     pub phi_dot: f64,
-    /// v = 0 and v' = 0, to rounding.
+    /// True if v = 0 and v' = 0, to rounding.
     pub is_equilibrium: bool,
-    /// The turn of the axes that q and v are counted in; none in the world's.
+    /// Rotation of the axes in which q and v are expressed; none in the inertial frame.
     pub axes: Option<Spin>,
-    /// The turn that drives prescribe, where they do.
+    /// Rotation that drives prescribe, if any.
     pub driven: Option<Spin>,
 }
 
 impl LinearizationPoint {
-    /// The state whose terms and solution `dynamics` holds, with its K.
+    /// The state whose terms and solution `dynamics` contains, with its K.
     pub(super) fn new(dynamics: &Dynamics, k: &[f64], t: f64, q: &[f64], v: &[f64]) -> Self {
         let (terms, scales) = (&dynamics.terms, dynamics.system.scales());
         let worst = |rows: &[f64]| rows.iter().zip(&scales).fold(0.0f64, |worst, (row, s)| worst.max((row / s).abs()));
@@ -44,7 +50,7 @@ impl LinearizationPoint {
     }
 }
 
-/// What coordinates rounded by some ulps make of each force.
+/// Returns the change of each force by coordinates rounded by some ulps.
 pub(super) fn rounding(dynamics: &Dynamics, k: &[f64], q: &[f64]) -> Vec<f64> {
     let mut rounding = vec![0.0; dynamics.vdot.len()];
     let reach = tolerances::ROUND_OFF_OF_SUMS * largest(q).max(1.0);
@@ -54,7 +60,8 @@ pub(super) fn rounding(dynamics: &Dynamics, k: &[f64], q: &[f64]) -> Vec<f64> {
     rounding
 }
 
-/// Whether nothing moves and M v' is nothing beside the forces and reactions that make it up, or their rounding.
+/// True if nothing moves and M v' is negligible against the forces and reactions that it is the sum of, or their
+/// rounding.
 fn is_at_rest(dynamics: &Dynamics, rounding: &[f64], v: &[f64]) -> bool {
     let (structure, terms) = (&dynamics.structure, &dynamics.terms);
     let mut inertia = vec![0.0; v.len()];
@@ -66,7 +73,7 @@ fn is_at_rest(dynamics: &Dynamics, rounding: &[f64], v: &[f64]) -> bool {
     let heaviness = structure.mass.entries.iter().zip(&terms.mass).filter(|((i, j), _)| i == j);
     let accelerations = heaviness.map(|((i, _), mass)| if *mass > 0.0 { usual[*i] / mass } else { 0.0 });
     let speed = (accelerations.fold(0.0, f64::max) * dynamics.system.length().min(1.0)).sqrt();
-    // Without loads rounding is all there is: an acceleration of 1 m/s^2 or rad/s^2 is the measure then.
+    // Without loads there is only rounding: an acceleration of 1 m/s^2 or rad/s^2 is the reference then.
     let heaviest = structure.mass.entries.iter().zip(&terms.mass).filter(|((i, j), _)| i == j);
     let heaviest = heaviest.fold(0.0f64, |most, (_, mass)| most.max(*mass));
     let least = tolerances::SAME * largest(&usual).max(heaviest);

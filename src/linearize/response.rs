@@ -1,27 +1,31 @@
-//! How v' and lambda of a formulation answer to changes of the state and to inputs.
+//! Response of v' and lambda of a formulation to changes of the state and to inputs.
 
 use super::variation::at_state;
 use super::{Changes, Matrix, Variation};
 use crate::error::Result;
 use crate::system::OutputTangent;
 
-/// dv' = `vdot` x + `driven_vdot` u and dlambda = `lambda` x + `driven_lambda` u, a column each for the changes of the
-/// state that were asked for and for the inputs.
+/// dv' = `vdot` x + `driven_vdot` u and dlambda = `lambda` x + `driven_lambda` u, one column for each requested change
+/// of the state and for each input.
 #[derive(Clone, Debug)]
 pub struct Response {
+    /// dv' of each change, n_v rows.
     pub vdot: Matrix,
+    /// dlambda of each change, n_c rows.
     pub lambda: Matrix,
+    /// dv' of each input, n_v x n_u.
     pub driven_vdot: Matrix,
+    /// dlambda of each input, n_c x n_u.
     pub driven_lambda: Matrix,
 }
 
 impl Response {
-    /// Of the equations themselves, phi'' = 0: a back-substitution for each column.
+    /// Response of the equations with phi'' = 0: one back-substitution per column.
     pub fn exact(variation: &mut Variation, changes: &Changes) -> Result<Self> {
         Self::held(variation, changes, [0.0; 2])
     }
 
-    /// Of phi'' + c1 phi' + c0 phi = 0.
+    /// Response of the equations with phi'' + c1 phi' + c0 phi = 0, c = [c1, c0].
     pub fn held(variation: &mut Variation, changes: &Changes, c: [f64; 2]) -> Result<Self> {
         let t = variation.point.t;
         let (mut vdot, mut lambda) = (variation.force(changes), variation.rows(changes, c));
@@ -33,7 +37,7 @@ impl Response {
     }
 }
 
-/// C and D of what answers to changes of the state.
+/// Returns C and D for a response to changes of the state.
 pub(super) fn observe(outputs: &OutputTangent, changes: &Changes, response: &Response) -> [Matrix; 2] {
     let OutputTangent { q, v, vdot, lambda, u } = outputs;
     let c = q * &changes.q + v * &changes.v + vdot * &response.vdot + lambda * &response.lambda;

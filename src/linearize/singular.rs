@@ -8,7 +8,7 @@ use crate::math::largest;
 use crate::system::{MechanicalSystem, Need};
 use crate::tolerances::linearize as tolerances;
 
-/// True if rows of G depend on others, or nearly: at a singular state, and where constraints are redundant.
+/// True if rows of G are dependent, or nearly so: at a singular state, and where constraints are redundant.
 pub(super) fn is_suspect(dynamics: &Dynamics) -> bool {
     let here = Rank::of(dynamics);
     here.rank < dynamics.lambda.len() || here.rank_indicator < tolerances::SINGULAR_MODEL
@@ -39,7 +39,7 @@ pub(super) fn refuse(dynamics: &Dynamics, point: &LinearizationPoint, directions
     .hint("choose another time, a little before or after, or change the state"))
 }
 
-/// Of G.
+/// Rank of G.
 struct Rank {
     rank: usize,
     /// See [`SaddlePoint::rank_indicator`](crate::math::kkt::SaddlePoint::rank_indicator).
@@ -52,18 +52,18 @@ impl Rank {
     }
 }
 
-/// The rank of G at a nearby state, along all free directions at a time; none where there is no such state.
+/// Returns the rank of G at a nearby state, along all free directions at a time; none where there is no such state.
 fn rank_nearby(system: &dyn MechanicalSystem, point: &LinearizationPoint, directions: &Matrix) -> Option<Rank> {
     let mut direction = vec![0.0; directions.nrows()];
     for (k, column) in directions.column_iter().enumerate() {
-        // No two alike, so that no symmetry of a mechanism keeps it singular.
+        // Weights differ, so that no symmetry of a mechanism keeps it singular.
         let part = 1.0 + (1.0 + k as f64).sin() / 2.0;
         direction.iter_mut().zip(column.iter()).for_each(|(sum, x)| *sum += part * x);
     }
     let mut dynamics = Dynamics::new(system);
     dynamics.solve(point.t, &point.q, &direction, |_, _| 0.0).ok()?;
     dynamics.evaluate(point.t, &point.q, &direction, Need::L);
-    // Gd = d(G v + phi_t)/dq is how fast G changes along v.
+    // Gd = d(G v + phi_t)/dq is the rate of G along v.
     let [slope, size] = [&dynamics.terms.l, &dynamics.terms.g].map(|values| largest(values));
     if slope <= 0.0 {
         return None;

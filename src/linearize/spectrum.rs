@@ -1,4 +1,4 @@
-//! Eigenvalues of a model: physical, spurious and infinite ones told apart.
+//! Eigenvalues of a model, classed as physical, spurious and infinite.
 
 use super::entry::{Built, Request};
 use super::{Complex, Kind, Matrix, Mode, Variation};
@@ -6,24 +6,24 @@ use crate::error::{Error, Result, clock};
 use crate::math::eigen::{ComplexMatrix, Deflation, Unsolved, eigen, finite_by, generalized};
 use crate::tolerances::linearize as tolerances;
 
-/// Eigenvalues with vectors.
+/// Eigenvalues with eigenvectors.
 struct Solved {
     values: Vec<Complex<f64>>,
     right: ComplexMatrix,
-    /// Parts of the states in each mode; none where left vectors are not known.
+    /// Participation of the states in each mode; none where left vectors are not known.
     participation: Option<Matrix>,
     conditioning: f64,
 }
 
-/// The modes of a model, and what telling their kinds rests on.
+/// The modes of a model, with the measures on which their classes are based.
 pub(super) struct Spectrum {
     pub modes: Vec<Mode>,
-    /// Of the eigenvectors.
+    /// Condition number of the eigenvectors.
     pub conditioning: f64,
     pub off_constraints: Option<[f64; 2]>,
 }
 
-/// All modes of a model.
+/// Returns all modes of a model.
 pub(super) fn spectrum(variation: &mut Variation, built: &Built, request: &Request) -> Result<Spectrum> {
     let t = variation.point.t;
     let solved = solve(built, request).map_err(|unsolved| refused(t, &unsolved))?;
@@ -49,8 +49,8 @@ pub(super) fn spectrum(variation: &mut Variation, built: &Built, request: &Reque
     Ok(Spectrum { modes, conditioning: solved.conditioning, off_constraints })
 }
 
-/// The modes of a model without E of which all are physical, their vectors in its states, and the condition of these. The
-/// mass is used as it is stored.
+/// Returns the modes of a model without E all of which are physical, their vectors in its states, and the condition
+/// number of these. The mass is used as it is stored.
 pub(super) fn modes_of(variation: &Variation, built: &Built) -> Result<(Vec<Mode>, ComplexMatrix, f64), Unsolved> {
     let found = eigen(&built.a)?;
     let parts = parts(&found.left, &found.right);
@@ -73,7 +73,7 @@ pub(super) fn modes_of(variation: &Variation, built: &Built) -> Result<(Vec<Mode
     Ok((modes, found.right, found.conditioning))
 }
 
-/// Values over their sum.
+/// Returns values over their sum.
 fn shares(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let values: Vec<f64> = values.collect();
     let sum: f64 = values.iter().sum();
@@ -120,9 +120,9 @@ fn parts(left: &ComplexMatrix, right: &ComplexMatrix) -> Matrix {
     parts
 }
 
-/// As many physical modes as there are states of minimal coordinates: those of which the least part is off the directions
-/// that the constraints allow, in the metric of the kinetic energy. Where no gap lies between them and the others, those
-/// that are not well apart are uncertain.
+/// Classes eigenvalues: as many are physical as there are states of minimal coordinates, those with the least part off
+/// the directions that the constraints allow, in the metric of the kinetic energy. Where no gap lies between them and
+/// the others, those that are not well apart are uncertain.
 fn kinds(
     variation: &mut Variation,
     values: &[Complex<f64>],
@@ -154,7 +154,8 @@ fn kinds(
     Ok((kinds, Some([worst, least])))
 }
 
-/// A defective eigenvalue has fewer vectors than it counts: the rest go with those it has.
+/// Fills in defective eigenvalues, which have fewer vectors than their multiplicity, with the value of the nearest that
+/// has one.
 fn completed(values: &[Complex<f64>], parts: Vec<Option<f64>>) -> Vec<f64> {
     let known: Vec<(Complex<f64>, f64)> =
         values.iter().zip(&parts).filter_map(|(s, part)| Some((*s, (*part)?))).collect();
@@ -164,7 +165,7 @@ fn completed(values: &[Complex<f64>], parts: Vec<Option<f64>>) -> Vec<f64> {
     values.iter().zip(parts).map(|(value, part)| part.unwrap_or_else(|| nearest(value))).collect()
 }
 
-/// Largest component 1.
+/// Scales the largest component to 1.
 fn normalized(mut shape: Vec<Complex<f64>>) -> Vec<Complex<f64>> {
     let largest = shape.iter().copied().fold(Complex::ZERO, |a, b| if b.norm() > a.norm() { b } else { a });
     if largest.norm() > 0.0 {

@@ -1,4 +1,4 @@
-//! Rest, in the world or in axes that turn with the mechanism.
+//! Static equilibrium, in the inertial frame or in axes that rotate with the mechanism.
 
 use super::point::rounding;
 use super::{Changes, Matrix, State, Variation};
@@ -8,12 +8,14 @@ use crate::prepared::PreparedScene;
 use crate::system::{MechanicalSystem, Rotating};
 use crate::tolerances::linearize as tolerances;
 
-/// A state with the equations that it is a state of.
+/// An operating state with the equations it satisfies.
 pub struct Operating<'a> {
+    /// The state.
     pub state: State,
     prepared: &'a PreparedScene,
-    /// Where it is a steady rotation: v is counted in these axes.
+    /// Rotating axes in which v is expressed; only for a steady rotation.
     axes: Option<Rotating<'a>>,
+    /// Warning where the state may not be what was asked for.
     pub doubt: Option<Warning>,
 }
 
@@ -23,6 +25,7 @@ impl<'a> Operating<'a> {
         Operating { state, prepared, axes: None, doubt: None }
     }
 
+    /// Returns the system, in rotating axes for a steady rotation.
     pub fn system(&self) -> &dyn MechanicalSystem {
         match &self.axes {
             Some(axes) => axes,
@@ -30,7 +33,7 @@ impl<'a> Operating<'a> {
         }
     }
 
-    /// The variational equations there.
+    /// Returns the variational equations at the state.
     ///
     /// # Errors
     /// See [`Variation::new`].
@@ -39,11 +42,11 @@ impl<'a> Operating<'a> {
     }
 }
 
-/// The equilibrium that belongs to a state, with all that depends on time held: of a mechanism that drives turn about a
-/// fixed axis at a constant speed, and that is the same all around it, in axes that turn along.
+/// Returns the equilibrium near a state, with all functions of time constant. If drives rotate the mechanism about a
+/// fixed axis at constant speed and it is rotationally symmetric, the equilibrium is in axes that rotate with it.
 ///
 /// # Errors
-/// None found: what moves, or where force is left. Drives that accelerate.
+/// No equilibrium is found: the state moves, or force remains. Drives that accelerate.
 pub fn at_rest<'a>(prepared: &'a PreparedScene, state: &State) -> Result<Operating<'a>> {
     let Some(spin) = prepared.system().prescribed_spin(state.t) else { return still(prepared, state) };
     match Rotating::new(prepared.system(), state.t, spin) {
@@ -78,8 +81,8 @@ fn still<'a>(prepared: &'a PreparedScene, state: &State) -> Result<Operating<'a>
     }
 }
 
-/// Whether a turn of everything that moves, at the time when drives have turned it so far, changes nothing: the
-/// inertia forces, the directions that constraints leave, and M, K and C along these.
+/// True if a rotation of everything that moves, at the time when drives have turned it so far, changes nothing: the
+/// inertia forces, the directions that constraints allow, and M, K and C along these.
 fn is_same_all_around(axes: &Rotating, prepared: &PreparedScene, state: &State) -> Result<bool> {
     let still = vec![0.0; state.v.len()];
     let closed = assemble(prepared.system(), state.t, (&state.q, &state.v), &[])?;
@@ -105,7 +108,7 @@ fn is_same_all_around(axes: &Rotating, prepared: &PreparedScene, state: &State) 
         ))
 }
 
-/// M v'
+/// Returns M v'.
 fn inertia(variation: &Variation) -> Vec<f64> {
     let (structure, terms) = (&variation.dynamics.structure, &variation.dynamics.terms);
     let mut inertia = vec![0.0; variation.len()];
@@ -113,16 +116,16 @@ fn inertia(variation: &Variation) -> Vec<f64> {
     inertia
 }
 
-/// Some directions that the constraints leave, all of it in each.
+/// Returns some directions that the constraints allow, each with components along all of them.
 fn directions(variation: &mut Variation) -> Result<Matrix> {
-    // Multiples of the golden ratio and of others like it spread evenly (Weyl).
+    // Multiples of the golden ratio and of similar numbers are evenly spread (Weyl).
     let spread = |i: usize, j: usize| ((i + 1) as f64 * (0.618_033_988_75 + 0.1 * j as f64)).fract() - 0.5;
     let any = Matrix::from_fn(variation.len(), tolerances::STEADY_DIRECTIONS, spread);
     let correction = variation.correct(&variation.g_times(&any))?;
     Ok(any - correction)
 }
 
-/// x.K x and x.C x of each two columns.
+/// Returns x.K x and x.C x for each two columns.
 fn products(variation: &Variation, x: &Matrix) -> Vec<f64> {
     let none = Matrix::zeros(x.nrows(), x.ncols());
     let stiff = variation.force(&Changes { q: x.clone(), v: none.clone() });

@@ -12,62 +12,74 @@ use std::collections::BTreeSet;
 /// Eigenvalues at many states, as branches.
 #[derive(Clone, Debug)]
 pub struct Loci {
+    /// Time or parameter.
     pub along: LociVariable,
-    /// As in [`LinearModel`](super::LinearModel), of the first state that has one; empty where none has.
+    /// Method of the first state that has a model, as in [`LinearModel`](super::LinearModel); empty where none has.
     pub method: String,
+    /// Chart of the same state.
     pub chart: String,
-    /// All places in their order.
+    /// All times or values of the parameter, in their order.
     pub places: Vec<f64>,
+    /// Those with a linear model.
     pub reached: Vec<Reached>,
+    /// Those without one.
     pub gaps: Vec<Gap>,
-    /// Physical ones first.
+    /// Branches, physical ones first.
     pub branches: Vec<Branch>,
-    /// What the states may not be, each once.
+    /// Warnings about the states, each once.
     pub doubts: Vec<Warning>,
 }
 
-/// What the eigenvalues are functions of.
+/// Variable that the eigenvalues are functions of.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LociVariable {
-    /// s
+    /// Time, s.
     Time,
+    /// A parameter of the scene, with its range.
     Parameter(Range),
 }
 
-/// A place with a linear model.
+/// A time or value with a linear model.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Reached {
+    /// Time, s, or value of the parameter.
     pub at: f64,
+    /// True if the state is an equilibrium.
     pub equilibrium: bool,
 }
 
-/// A place without one, and why.
+/// A time or value without a linear model, and the reason.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gap {
+    /// Time, s, or value of the parameter.
     pub at: f64,
+    /// Reason.
     pub error: Error,
 }
 
-/// One scene a value of a parameter.
+/// One scene for each value of a parameter.
 pub struct Variants<'a> {
+    /// The scene as a function of its parameters.
     pub family: &'a Family,
-    /// How each is simulated.
+    /// Simulation options of each scene.
     pub overrides: &'a Overrides,
+    /// The parameter and its values.
     pub range: &'a Range,
 }
 
-/// Which state of each scene.
+/// State of each scene at which the model is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum At {
+    /// The consistent start.
     Start,
-    /// Of its motion.
+    /// The state of the motion at a time, s.
     Time(f64),
-    /// At rest at the scene's start time. Each search begins at the equilibrium of the neighbour, outwards from the value
-    /// that is nearest to the scene's own, so that a branch of equilibria is followed.
+    /// The equilibrium at the scene's start time. Each search begins at the equilibrium of the neighbour, outwards from
+    /// the value nearest to the scene's own, so that a branch of equilibria is followed.
     Equilibrium,
 }
 
-/// What one state gives.
+/// Result at one state.
 struct Found {
     state: State,
     sample: LociPoint,
@@ -79,8 +91,9 @@ struct Found {
 
 type Outcome = (f64, Result<Found>);
 
-/// Eigenvalues at `times` (increasing) of the scene's motion; `progress` hears of each. Where the motion cannot go on, the
-/// later times are gaps. Where it is not clear which mode is which, states between the times are looked at as well.
+/// Returns the eigenvalues at `times` (increasing) of the scene's motion; `progress` is called for each. Where the
+/// motion cannot go on, the later times are gaps. Where the matching of modes is not clear, states between the times
+/// are added for it.
 pub fn loci_along(prepared: &PreparedScene, request: &Request, times: &[f64], progress: impl Fn() + Sync) -> Loci {
     let (mut walk, mut stopped) = (Walk::new(prepared), None);
     let mut go_to = |t: f64| match &stopped {
@@ -95,8 +108,8 @@ pub fn loci_along(prepared: &PreparedScene, request: &Request, times: &[f64], pr
     collect(LociVariable::Time, outcomes, between)
 }
 
-/// Eigenvalues of a scene for each value of a parameter; `progress` hears of each. Values without a state or a model are
-/// gaps.
+/// Returns the eigenvalues of a scene for each value of a parameter; `progress` is called for each. Values without a
+/// state or a model are gaps.
 ///
 /// # Errors
 /// A parameter that the scene does not have.
@@ -152,7 +165,7 @@ fn at_rest_along<'v>(
     outcomes
 }
 
-/// The equilibrium that belongs to a guess; where there is none, that of the scene's own start.
+/// Returns the equilibrium near a guess; where there is none, that near the scene's own start.
 fn rest<'a>(prepared: &'a PreparedScene, guess: Option<&[f64]>) -> Result<Operating<'a>> {
     let start = State::start(prepared);
     let near = guess.filter(|q| q.len() == start.q.len()).map(|q| State { q: q.to_vec(), ..start.clone() });
@@ -191,7 +204,7 @@ fn found(operating: &Operating, at: f64, request: &Request) -> Result<Found> {
     Ok(Found { state, sample, method: model.method, chart: model.chart, is_equilibrium, doubt })
 }
 
-/// What lies between two states, as far as it takes to tell the modes apart.
+/// Returns states between two, as many as it takes to match the modes.
 fn refined(
     before: &Found,
     after: &Found,
@@ -201,7 +214,7 @@ fn refined(
     if halvings == 0 || before.sample.leads_clearly_to(&after.sample) {
         return Vec::new();
     }
-    // Where there is no model between, modes are told apart as well as may be.
+    // Where there is no model between, the modes are matched as they are.
     let Ok(middle) = between(before, 0.5 * (before.sample.at + after.sample.at)) else { return Vec::new() };
     let mut samples = refined(before, &middle, halvings - 1, between);
     let rest = refined(&middle, after, halvings - 1, between);
@@ -210,7 +223,7 @@ fn refined(
     samples
 }
 
-/// Branches and gaps of what was found at the places; `between` gives the state behind one at another place.
+/// Returns branches and gaps of the outcomes; `between` gives the state that follows one, at another time or value.
 fn collect(along: LociVariable, outcomes: Vec<Outcome>, between: impl Fn(&Found, f64) -> Result<Found> + Sync) -> Loci {
     let places: Vec<f64> = outcomes.iter().map(|(at, _)| *at).collect();
     let behind = |pair: &[Outcome]| match (&pair[0].1, &pair[1].1) {
@@ -246,7 +259,7 @@ fn collect(along: LociVariable, outcomes: Vec<Outcome>, between: impl Fn(&Found,
     Loci { along, method, chart, places, reached, gaps, branches, doubts }
 }
 
-/// The branches at these places only.
+/// Restricts branches to the requested times or values.
 fn asked(branches: Vec<Branch>, places: &[f64]) -> Vec<Branch> {
     let places: BTreeSet<u64> = places.iter().map(|place| place.to_bits()).collect();
     let at_places = |mut branch: Branch| {

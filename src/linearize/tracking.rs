@@ -6,6 +6,7 @@ use super::{Complex, Kind, Matrix, Mode};
 /// One eigenvalue followed through time or a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Branch {
+    /// Class of the eigenvalue.
     pub kind: Kind,
     /// Time or parameter, and the eigenvalue there, 1/s.
     pub points: Vec<(f64, Complex<f64>)>,
@@ -14,10 +15,11 @@ pub struct Branch {
 /// The eigenvalues at a time or at a value of a parameter.
 #[derive(Clone, Debug)]
 pub struct LociPoint {
+    /// Time, s, or value of the parameter.
     pub at: f64,
-    /// None where there is no linear model: branches go on behind this gap.
+    /// Modes; empty where there is no linear model: branches go on after this gap.
     pub modes: Vec<Mode>,
-    /// M there, in which shapes are compared.
+    /// M there, the metric in which shapes are compared.
     pub mass: Matrix,
 }
 
@@ -33,24 +35,24 @@ impl LociPoint {
         self.modes.iter().filter(|mode| mode.kind == kind).map(Node::new).collect()
     }
 
-    /// Whether it is clear which physical mode of `next` belongs to which of these.
+    /// True if it is clear which physical mode of `next` belongs to which of these.
     pub fn leads_clearly_to(&self, next: &LociPoint) -> bool {
         let (starts, ends) = (self.nodes(Kind::Physical), next.nodes(Kind::Physical));
         is_clear(&starts.iter().collect::<Vec<_>>(), &ends, &next.mass)
     }
 }
 
-/// Where a branch has come.
+/// The end of a branch.
 struct Thread {
     place: usize,
     at: f64,
     last: Node,
-    /// The point before, if it was as real or as complex as the last.
+    /// The point before, if it was real or complex like the last.
     before: Option<(f64, Complex<f64>)>,
 }
 
-/// The finite eigenvalues of `samples` as branches, in the order of their start: physical ones first, then uncertain ones, and of a conjugate
-/// pair first the one with im > 0. Infinite eigenvalues are left out.
+/// Returns the finite eigenvalues of `samples` as branches, in the order of their start: physical ones first, then
+/// uncertain ones, and of a conjugate pair first the one with im > 0. Infinite eigenvalues are dropped.
 ///
 /// From one sample to the next the modes of a kind are matched by the least sum of
 ///
@@ -58,12 +60,12 @@ struct Thread {
 /// (1 - MAC) + |lambda - p| / (|lambda| + |p|),   MAC = |x^H M y|^2 / ((x^H M x)(y^H M y))
 /// ```
 ///
-/// with p the last two values of the branch continued, of a pair its real part and the square of its imaginary part. The shapes x and y are changes along the
-/// velocity directions of the whole mechanism, so those of neighbouring states compare: modes that cross keep their
-/// shapes, modes that veer exchange them slowly. Modal assurance criterion: Allemang and Brown, Proc. 1st Int. Modal
-/// Analysis Conf. (1982) 110-116. A conjugate pair is followed by a pair, or by two real eigenvalues, of which the larger
-/// belongs to the branch with im > 0. Where modes become more or fewer, branches start or end. In a gap every branch has
-/// a point that is not a number.
+/// with p the extrapolation of the last two values of the branch, of a pair that of its real part and of the square of
+/// its imaginary part. The shapes x and y are changes along the velocity directions of the whole mechanism, so those of
+/// neighbouring states compare: modes that cross keep their shapes, modes that veer exchange them slowly. Modal
+/// assurance criterion: Allemang and Brown, Proc. 1st Int. Modal Analysis Conf. (1982) 110-116. A conjugate pair is
+/// followed by a pair, or by two real eigenvalues, of which the larger belongs to the branch with im > 0. Where the
+/// number of modes changes, branches start or end. In a gap every branch has a point that is not a number.
 pub fn track(samples: &[LociPoint]) -> Vec<Branch> {
     let (mut branches, mut threads) = (Vec::new(), Vec::new());
     for sample in samples {
@@ -80,7 +82,7 @@ pub fn track(samples: &[LociPoint]) -> Vec<Branch> {
             rest = others;
         }
     }
-    // A branch that starts late comes behind the others of its kind.
+    // A branch that starts late comes after the others of its kind.
     branches.sort_by_key(|branch| branch.kind);
     branches
 }
@@ -95,7 +97,7 @@ fn push(branches: &mut [Branch], place: usize, point: (f64, Complex<f64>)) {
     }
 }
 
-/// The branches of a kind at one more sample; those that it has first, then new ones.
+/// Continues the branches of a kind to one more sample, then starts new ones.
 fn go_on(threads: Vec<Thread>, sample: &LociPoint, kind: Kind, branches: &mut Vec<Branch>) -> Vec<Thread> {
     let ends = sample.nodes(kind);
     let predicted: Vec<Complex<f64>> = threads.iter().map(|thread| thread.predicted(sample.at)).collect();

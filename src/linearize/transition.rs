@@ -5,19 +5,19 @@ use super::{Changes, Chart, Coordinates, Matrix, State, Variation};
 use crate::error::Result;
 use crate::system::MechanicalSystem;
 
-/// Where a basis of small changes at the start has come at a time.
+/// A basis of small changes of the start, carried to a later time.
 #[derive(Clone, Debug)]
 pub struct Transition {
     /// The motion at the end.
     pub state: State,
-    /// The chart at the start, whose states (z, y) number the columns.
+    /// The chart at the start, whose states (z, y) are the columns.
     pub start: Coordinates,
     /// (dq, dv) at the end of a unit of each state at the start.
     pub changes: Changes,
 }
 
 impl Transition {
-    /// The same in the states of a chart at the end, 2 k x 2 k: z = B dq, y = B (dv - T z).
+    /// Returns the same in the states of a chart at the end, 2 k x 2 k: z = B dq, y = B (dv - T z).
     ///
     /// # Errors
     /// A chart that does not exist there.
@@ -27,7 +27,8 @@ impl Transition {
     }
 }
 
-/// X' = A_u X along the motion from `start`, X(0) the states of `chart` there, at each of `times` (increasing).
+/// Integrates X' = A_u X along the motion from `start`, X(0) the states of `chart` there, and returns X at each of
+/// `times` (increasing).
 ///
 /// # Errors
 /// A chart that does not exist at the start; a motion that cannot go on.

@@ -19,10 +19,13 @@ use crate::system::{Column, MechanicalSystem, Need, OperatingPoint, OutputTangen
 /// Gdd = d(phi'')/dq; G1 = d(phi'')/dv = 2 Gd + G [v, .]. Changes that stay on the constraints have G dq = 0 and
 /// G dv + Gd dq = 0. The saddle-point matrix is factored once: a direction costs a back-substitution.
 pub struct Variation<'a> {
+    /// The terms of the equations and the factored saddle-point matrix.
     pub dynamics: Dynamics<'a>,
+    /// The operating point.
     pub point: LinearizationPoint,
+    /// K and C.
     pub tangent: Tangent,
-    /// Values of Gdd at the places of G.
+    /// Values of Gdd on the sparsity pattern of G.
     gdd: Vec<f64>,
     /// Velocity of the state that is evaluated.
     v: Vec<f64>,
@@ -33,7 +36,7 @@ const LATER: &str = "simulate a small change of the start, and compare";
 const GIVE_THEM: &str = "implement MechanicalSystem::tangent and acceleration_gradient, or write them as Equations";
 
 impl<'a> Variation<'a> {
-    /// At a state, which should be on the constraints.
+    /// The equations at a state, which should be on the constraints.
     ///
     /// # Errors
     /// A state without determined accelerations; a singular one; equations without derivatives.
@@ -50,7 +53,7 @@ impl<'a> Variation<'a> {
         variation.refine_solution().map_err(|halt| at_state(t, &halt))?;
         variation.point = LinearizationPoint::new(&variation.dynamics, &variation.tangent.k, t, q, v);
         if variation.point.is_equilibrium {
-            // Rounding would leave traces of Gdd that no scale tells from small terms.
+            // Rounding would give entries of Gdd that no scale tells from small terms.
             variation.point.vdot.fill(0.0);
         }
         variation.load_point()?;
@@ -70,8 +73,8 @@ impl<'a> Variation<'a> {
         self.load(OperatingPoint { t, q, v, vdot: &vdot, lambda: &lambda })
     }
 
-    /// v' and lambda to rounding. Near singular states the error of a plain solution would come back in K and Gdd, over
-    /// the fourth power of the rank indicator.
+    /// Solves for v' and lambda to rounding. Near singular states the error of a plain solution would reappear in K and
+    /// Gdd, over the fourth power of the rank indicator.
     fn refine_solution(&mut self) -> Result<(), StepError> {
         let Dynamics { kkt, terms, vdot, lambda, .. } = &mut self.dynamics;
         vdot.copy_from_slice(&terms.f);
@@ -79,7 +82,8 @@ impl<'a> Variation<'a> {
         Ok(kkt.solve_refined(&terms.mass, &terms.g, vdot, lambda)?)
     }
 
-    /// K, C and Gdd at other v' and lambda of the state that is factored.
+    /// Evaluates K, C and Gdd at other v' and lambda of the state that is factored; returns true if the equations give
+    /// them.
     pub fn load(&mut self, at: OperatingPoint) -> Result<bool, StepError> {
         let Dynamics { system, scratch, .. } = &mut self.dynamics;
         let known = system.tangent(at, &mut self.tangent, scratch);
@@ -91,27 +95,29 @@ impl<'a> Variation<'a> {
         Ok(known)
     }
 
-    /// K, C and Gdd at the operating point again.
+    /// Evaluates K, C and Gdd at the operating point again.
     pub(super) fn load_point(&mut self) -> Result<()> {
         let point = self.point.clone();
         let at = OperatingPoint { t: point.t, q: &point.q, v: &point.v, vdot: &point.vdot, lambda: &point.lambda };
         self.load(at).map(|_| ()).map_err(|halt| at_state(point.t, &halt))
     }
 
+    /// Returns the mechanical system.
     pub fn system(&self) -> &'a dyn MechanicalSystem {
         self.dynamics.system
     }
 
-    /// n_v
+    /// Returns n_v.
     pub fn len(&self) -> usize {
         self.dynamics.vdot.len()
     }
 
+    /// True if the system has no velocities.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// -K dq - C dv, a column each.
+    /// Returns -K dq - C dv, a column each.
     pub fn force(&self, changes: &Changes) -> Matrix {
         let (pattern, mut force) = (&self.dynamics.structure.tangent, Matrix::zeros(self.len(), changes.q.ncols()));
         add_product(pattern, &self.tangent.k, &changes.q, -1.0, &mut force);
@@ -119,7 +125,7 @@ impl<'a> Variation<'a> {
         force
     }
 
-    /// G x, a column each.
+    /// Returns G x, a column each.
     pub fn g_times(&self, x: &Matrix) -> Matrix {
         let Dynamics { structure, terms, .. } = &self.dynamics;
         let mut rows = Matrix::zeros(structure.g.rows, x.ncols());
@@ -127,8 +133,7 @@ impl<'a> Variation<'a> {
         rows
     }
 
-    /// What G dv' must be for phi'' + c1 phi' + c0 phi = 0, a column each:
-    /// -(Gdd + c1 Gd + c0 G) dq - (G1 + c1 G) dv.
+    /// Returns G dv' for phi'' + c1 phi' + c0 phi = 0, a column each: -(Gdd + c1 Gd + c0 G) dq - (G1 + c1 G) dv.
     pub fn rows(&self, changes: &Changes, [c1, c0]: [f64; 2]) -> Matrix {
         let Dynamics { structure, terms, .. } = &self.dynamics;
         let mut rows = Matrix::zeros(structure.g.rows, changes.q.ncols());
@@ -146,7 +151,7 @@ impl<'a> Variation<'a> {
         rows
     }
 
-    /// [v, x] at the velocity of the state, a column each.
+    /// Returns [v, x] at the velocity of the state, a column each.
     pub fn bracket_with(&self, x: &Matrix) -> Matrix {
         let mut turned = x.clone();
         for (from, mut to) in x.column_iter().zip(turned.column_iter_mut()) {
@@ -155,7 +160,7 @@ impl<'a> Variation<'a> {
         turned
     }
 
-    /// [`push`](Self::push) for each column.
+    /// Applies [`push`](Self::push) to each column.
     pub fn push_all(&mut self, force: &mut Matrix, rows: &mut Matrix) -> Result<(), StepError> {
         let columns = force.column_iter_mut().zip(rows.column_iter_mut());
         for (mut force, mut rows) in columns {
@@ -164,33 +169,33 @@ impl<'a> Variation<'a> {
         Ok(())
     }
 
-    /// (f, rows) -> (dv', dlambda) of M dv' + G^T dlambda = f, G dv' = rows; in place.
+    /// Solves M dv' + G^T dlambda = f, G dv' = rows in place: (f, rows) -> (dv', dlambda).
     pub fn push(&mut self, force: &mut [f64], rows: &mut [f64]) -> Result<(), StepError> {
         let Dynamics { kkt, terms, .. } = &mut self.dynamics;
         Ok(kkt.solve_refined(&terms.mass, &terms.g, force, rows)?)
     }
 
-    /// The smallest change in the mass metric with G d = `rows`, for each column.
+    /// Returns the smallest change d in the mass metric with G d = `rows`, for each column.
     pub fn correct(&mut self, rows: &Matrix) -> Result<Matrix> {
         let (mut corrections, mut rows) = (Matrix::zeros(self.len(), rows.ncols()), rows.clone());
         self.push_all(&mut corrections, &mut rows).map_err(|halt| at_state(self.point.t, &halt))?;
         Ok(corrections)
     }
 
-    /// Z with G Z = 0 and Z^T M Z = I.
+    /// Returns Z with G Z = 0 and Z^T M Z = I, n_v x k.
     pub(super) fn free_directions(&mut self) -> Result<Matrix> {
         let z = free_directions(&mut self.dynamics).ok_or_else(|| at_state(self.point.t, &StepError::NotFinite))?;
         let correction = self.correct(&(self.g() * &z))?;
         Ok(z - correction)
     }
 
-    /// Names of the inputs and of the outputs.
+    /// Returns the names of the inputs and of the outputs.
     pub fn names(&self) -> (Vec<String>, Vec<String>) {
         let names = |columns: Vec<Column>| columns.into_iter().map(|column| column.name).collect();
         (names(self.system().inputs()), names(self.system().columns()))
     }
 
-    /// df/du, n_v x n_u
+    /// Returns df/du, n_v x n_u.
     pub fn inputs(&mut self) -> Matrix {
         let Dynamics { system, scratch, .. } = &mut self.dynamics;
         let mut forces = Matrix::zeros(self.point.vdot.len(), system.inputs().len());
@@ -198,10 +203,10 @@ impl<'a> Variation<'a> {
         forces
     }
 
-    /// Derivatives of the outputs at the operating point.
+    /// Returns the derivatives of the outputs at the operating point.
     ///
     /// # Errors
-    /// Equations with outputs of which they give no derivatives.
+    /// Equations with outputs but without their derivatives.
     pub fn outputs(&mut self) -> Result<OutputTangent> {
         let system = self.system();
         let (n, inputs, outputs) = (system.dimensions(), system.inputs().len(), system.columns().len());
@@ -215,7 +220,7 @@ impl<'a> Variation<'a> {
         }
     }
 
-    /// M
+    /// Returns M, n_v x n_v.
     pub fn mass(&self) -> Matrix {
         let Dynamics { structure, terms, .. } = &self.dynamics;
         let mut mass = Matrix::zeros(self.len(), self.len());
@@ -228,35 +233,38 @@ impl<'a> Variation<'a> {
         mass
     }
 
+    /// Returns K = dr/dq, n_v x n_v.
     pub fn k(&self) -> Matrix {
         dense(&self.dynamics.structure.tangent, &self.tangent.k)
     }
 
+    /// Returns C = dr/dv, n_v x n_v.
     pub fn c(&self) -> Matrix {
         dense(&self.dynamics.structure.tangent, &self.tangent.c)
     }
 
+    /// Returns G, n_c x n_v.
     pub fn g(&self) -> Matrix {
         dense(&self.dynamics.structure.g, &self.dynamics.terms.g)
     }
 
-    /// Gd = d(G v + phi_t)/dq
+    /// Returns Gd = d(G v + phi_t)/dq.
     pub fn gd(&self) -> Matrix {
         dense(&self.dynamics.structure.g, &self.dynamics.terms.l)
     }
 
-    /// Gdd = d(phi'')/dq
+    /// Returns Gdd = d(phi'')/dq.
     pub fn gdd(&self) -> Matrix {
         dense(&self.dynamics.structure.g, &self.gdd)
     }
 
-    /// Rows of G that do not depend on others at the state.
+    /// Returns the rows of G that do not depend on others at the state.
     pub fn independent_rows(&self) -> Vec<usize> {
         let left_out = self.dynamics.kkt.left_out();
         (0..self.point.lambda.len()).filter(|row| !left_out.contains(row)).collect()
     }
 
-    /// The matrix of [v, .] at a velocity.
+    /// Returns the matrix of [v, .] at a velocity.
     pub fn bracket(&self, v: &[f64]) -> Matrix {
         let n = self.len();
         let (mut matrix, mut unit) = (Matrix::zeros(n, n), vec![0.0; n]);
@@ -278,23 +286,23 @@ fn add_product(pattern: &Pattern, values: &[f64], x: &Matrix, factor: f64, sum: 
     }
 }
 
-/// A dense matrix out of its entries.
+/// Returns a dense matrix from its entries.
 fn dense(pattern: &Pattern, values: &[f64]) -> Matrix {
     let mut matrix = Matrix::zeros(pattern.rows, pattern.cols);
     pattern.entries.iter().zip(values).for_each(|(&place, value)| matrix[place] += value);
     matrix
 }
 
-/// Why there is no linear model at a state.
+/// Error: there is no linear model at a state.
 pub(super) fn at_state(t: f64, halt: &StepError) -> Error {
     let hint = halt.hint().unwrap_or("choose another time, a little before or after");
     Error::input(format!("at t = {} s there is no linear model: {halt}", clock(t))).hint(hint)
 }
 
-/// Refuses as many dense matrices of all velocities as would not fit.
+/// Refuses `copies` dense matrices of all velocities where they would not fit.
 ///
 /// # Errors
-/// Bad input with what to use instead.
+/// Bad input, with the alternative.
 pub(crate) fn refuse_all_modes(velocities: usize, copies: f64) -> Result<()> {
     let hint = "`holonom linearize --modes N` finds some of the modes by sparse methods";
     refuse_dense("a linear model with all its modes", [velocities; 2], copies).map_err(|error| error.hint(hint))

@@ -5,13 +5,13 @@ use crate::linearize::{Chart, Coordinates, Matrix, State, Variation, parallel};
 use crate::system::MechanicalSystem;
 use crate::tolerances::linearize as tolerances;
 
-/// A chart at the start, and how it goes on from there: a constant one stays, as all do at an equilibrium; the basis of the
-/// intrinsic one is carried parallel, N' = f(N) (classical Runge-Kutta method).
+/// A chart at the start and its continuation along the motion: constant charts stay, as all do at an equilibrium; the
+/// basis of the intrinsic one is transported parallel, N' = f(N) (classical Runge-Kutta method).
 pub struct Carried<'a> {
     system: &'a dyn MechanicalSystem,
     pub start: Coordinates,
     from: State,
-    /// How fast the basis turns, 1/s; none: the chart is constant.
+    /// Rate of rotation of the basis, 1/s; none: the chart is constant.
     rate: Option<f64>,
 }
 
@@ -19,7 +19,7 @@ impl<'a> Carried<'a> {
     /// The chart at a state.
     ///
     /// # Errors
-    /// A chart that does not exist there.
+    /// A chart that does not exist at the state.
     pub fn new(variation: &mut Variation<'a>, chart: &Chart, from: &State) -> Result<Self> {
         let start = chart.at(variation)?;
         let moves = *chart == Chart::Intrinsic && start.r.ncols() > 0 && !variation.point.is_equilibrium;
@@ -30,10 +30,11 @@ impl<'a> Carried<'a> {
         Ok(Carried { system: variation.system(), start, from: from.clone(), rate })
     }
 
-    /// The times (increasing, after the start) with those between that the chart needs, and how many belong to each.
+    /// Returns the times (increasing, after the start) with the intermediate ones that the transport of the chart
+    /// needs; true marks the requested times.
     ///
     /// # Errors
-    /// A motion that turns too fast.
+    /// A basis that rotates too fast.
     pub fn times(&self, times: &[f64]) -> Result<Vec<(f64, bool)>> {
         let Some(rate) = self.rate else { return Ok(times.iter().map(|t| (*t, true)).collect()) };
         let before = [self.from.t].into_iter().chain(times.iter().copied());
@@ -54,10 +55,10 @@ impl<'a> Carried<'a> {
         Ok(between.collect())
     }
 
-    /// The chart at the states of all [`times`](Self::times) that were asked for.
+    /// Returns the chart at all requested times, from the states at the [`times`](Self::times).
     ///
     /// # Errors
-    /// A state at which it does not exist.
+    /// A state at which the chart does not exist.
     pub fn along(&self, states: &[(&State, bool)]) -> Result<Vec<Coordinates>> {
         if self.rate.is_none() {
             return Ok(states.iter().map(|_| self.start.clone()).collect());
@@ -73,7 +74,7 @@ impl<'a> Carried<'a> {
     }
 }
 
-/// A basis at a state with its rate.
+/// A basis at a state, with its rate.
 struct Basis {
     t: f64,
     chart: Coordinates,
@@ -81,7 +82,7 @@ struct Basis {
 }
 
 impl Basis {
-    /// The one nearest to `n`.
+    /// Returns the basis nearest to `n`, with its rate.
     fn at(system: &dyn MechanicalSystem, state: &State, n: &Matrix) -> Result<Basis> {
         Basis::of(&mut Variation::new(system, state.t, &state.q, &state.v)?, n)
     }
@@ -92,7 +93,7 @@ impl Basis {
         Ok(Basis { t: variation.point.t, rate: moving(variation, &chart), chart })
     }
 
-    /// The basis at the last of two states, the first half-way.
+    /// Integrates the basis to the last of two states, the first half-way.
     fn step(&self, system: &dyn MechanicalSystem, [middle, end]: [&State; 2]) -> Result<Basis> {
         let h = end.t - self.t;
         let n = &self.chart.r;
@@ -106,12 +107,12 @@ impl Basis {
     }
 }
 
-/// N' of an intrinsic chart, whose tilt is N' + [v, N].
+/// Returns N' of an intrinsic chart, whose tilt is N' + [v, N].
 fn moving(variation: &Variation, chart: &Coordinates) -> Matrix {
     &chart.tilt - variation.bracket(&variation.point.v) * &chart.r
 }
 
-/// X (X^T M X)^(-1/2): of all orthonormal bases the nearest.
+/// Returns X (X^T M X)^(-1/2), the orthonormal basis nearest to X.
 fn orthonormal(x: Matrix, mass: &Matrix) -> Matrix {
     let square = (x.transpose() * mass * &x).symmetric_eigen();
     let scaled = &square.eigenvectors

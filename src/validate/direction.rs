@@ -1,19 +1,19 @@
-//! Which way a state is perturbed.
+//! Directions in which a state is perturbed.
 
 use crate::error::{Error, Result, suggest};
 use crate::linearize::{Coordinates, Matrix};
 
-/// A direction among the states (z, y) of a chart.
+/// A direction in the states (z, y) of a chart.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Direction {
-    /// All states at once, by a seed.
+    /// All states at once, with pseudo-random components from a seed.
     Random(u64),
-    /// One state by its name.
+    /// One state, by its name.
     Named(String),
 }
 
 impl Direction {
-    /// `random`, `random:SEED` or the name of a state.
+    /// Reads `random`, `random:SEED` or the name of a state.
     pub fn parse(text: &str) -> Self {
         let seed = text.strip_prefix("random").map(|rest| rest.strip_prefix(':').unwrap_or(rest));
         match seed.map(|seed| if seed.is_empty() { Ok(1) } else { seed.parse() }) {
@@ -22,6 +22,7 @@ impl Direction {
         }
     }
 
+    /// Returns the text that [`parse`](Self::parse) reads.
     pub fn name(&self) -> String {
         match self {
             Direction::Random(seed) => format!("random:{seed}"),
@@ -29,10 +30,11 @@ impl Direction {
         }
     }
 
-    /// The direction x0 with velocities in proportion to `rate`, 1/s; the largest component of its (dq, dv/rate) is 1.
+    /// Returns the direction x0 with velocities in proportion to `rate`, 1/s; the largest component of its (dq,
+    /// dv/rate) is 1.
     ///
     /// # Errors
-    /// A name that no state has.
+    /// The name is not one of the states.
     pub(super) fn state(&self, coordinates: &Coordinates, rate: f64) -> Result<Matrix> {
         let k = coordinates.r.ncols();
         let mut x = match self {

@@ -11,18 +11,19 @@ use crate::system::MechanicalSystem;
 use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
 
-/// How the frozen model leaves the motion.
+/// Deviation of the frozen model from the variational equations.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Frozen {
-    /// s
+    /// Steps h, s.
     pub steps: Vec<f64>,
-    /// |X(h) - exp(A h)| / |X(h)|, in units in which positions and velocities are alike.
+    /// |X(h) - exp(A h)| / |X(h)|, velocities divided by a rate of the model.
     pub errors: Vec<f64>,
+    /// Order of the errors in h.
     pub decay: Decay,
 }
 
-/// exp(A h) against the state-transition matrix X(h) over halved steps from `longest`. Its error is -A' h^2/2 and falls as
-/// h^2, or faster where A does not change; a term missing in A shows as order 1.
+/// Compares exp(A h) with the state-transition matrix X(h) over halved steps from `longest`. The error is -A' h^2/2 and
+/// falls as h^2, or faster where A does not change; a term missing in A shows as order 1.
 ///
 /// # Errors
 /// A motion that cannot go on.
@@ -52,14 +53,15 @@ pub fn frozen(
         let predicted = alike(expm(&(a * *h)).map_err(|unsolved| Error::input(unsolved.to_string()))?, rate);
         errors.push((&exact - predicted).norm() / exact.norm());
     }
-    // Fast modes are as exact as they are, in units of slow ones; and what the shortest step leaves is rounding at most.
+    // Fast modes are accurate relative to the fastest rate, not the slow one; and the error of the shortest step counts
+    // as rounding.
     let floor =
         (tolerances::COLUMN_ROUND_OFF * (speed.fastest / rate).max(1.0)).max(errors.first().copied().unwrap_or(0.0));
     let decay = decay(&steps, &errors, |_| tolerances::LOWEST_POWER, floor);
     Ok(Frozen { steps, errors, decay })
 }
 
-/// Blocks of a state-transition matrix in units of the same kind.
+/// Scales the blocks of a state-transition matrix to one unit.
 fn alike(mut x: Matrix, rate: f64) -> Matrix {
     let k = x.nrows() / 2;
     x.rows_mut(k, k).unscale_mut(rate);
@@ -67,7 +69,7 @@ fn alike(mut x: Matrix, rate: f64) -> Matrix {
     x
 }
 
-/// The first time at which an error leaves `share`; none where it stays below.
+/// Returns the first time at which an error exceeds `share`; none where it stays below.
 pub fn horizon(times: &[f64], errors: &[f64], share: f64) -> Option<f64> {
     let first = errors.iter().position(|error| *error > share)?;
     if first == 0 {

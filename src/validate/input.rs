@@ -10,22 +10,24 @@ use crate::system::MechanicalSystem;
 use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
 
-/// How one input was checked.
+/// Check of one input.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+/// Name of the input.
 pub struct InputCheck {
     pub input: String,
     /// Width of the pulse, s.
     pub width: f64,
     /// Sizes of the pulse, N or N m.
     pub amplitudes: Vec<f64>,
-    /// Of the variational equations with the input, at the end of the pulse.
+    /// Errors of the variational equations with the input, at the end of the pulse.
     pub errors_ltv: Vec<f64>,
+    /// Order of these errors in the size of the pulse.
     pub order_ltv: Decay,
     /// Relative error of x' = A x + B u at the end of the pulse.
     pub error_lti: f64,
 }
 
-/// A smooth pulse of each size, and the model with its B beside.
+/// Compares a smooth pulse of each size with the model and its B.
 pub(super) fn check(
     system: &dyn MechanicalSystem,
     start: &State,
@@ -35,7 +37,7 @@ pub(super) fn check(
 ) -> Result<Option<InputCheck>> {
     let pulse = Pulse { input, start: start.t, width };
     let lti = response(model, &pulse);
-    // A unit pulse may move the mechanism by very much or little: sizes are by what they do.
+    // A unit pulse may move the mechanism by very much or little: sizes are chosen by its effect.
     let k = model.coordinates.r.ncols();
     let dq = &model.coordinates.r * lti.rows(0, k);
     let dv = &model.coordinates.tilt * lti.rows(0, k) + &model.coordinates.r * lti.rows(k, k);
@@ -77,7 +79,7 @@ pub(super) fn check(
     Ok(Some(InputCheck { input: name, width, amplitudes, errors_ltv, order_ltv: scaled, error_lti }))
 }
 
-/// The state of x' = A x + B u at the end of a unit pulse from rest (classical Runge-Kutta method).
+/// Returns the state of x' = A x + B u at the end of a unit pulse from x = 0 (classical Runge-Kutta method).
 fn response(model: &Minimal, pulse: &Pulse) -> Matrix {
     let b = model.b.columns(pulse.input, 1).clone_owned();
     let mut x = Matrix::zeros(model.a.nrows(), 1);

@@ -27,16 +27,16 @@ pub use sequence::{Curve, PerturbationSequence};
 
 use crate::linearize::Chart;
 
-/// What to check.
+/// Settings of a validation.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// None: the one that a linear model has by default.
+    /// Chart; none: the default of a linear model.
     pub chart: Option<Chart>,
     /// Directions of the perturbation.
     pub directions: Vec<Direction>,
-    /// How long the perturbed motion is followed, s; none: about a period of the model.
+    /// Time over which the perturbed motion is followed, s; none: about a period of the model.
     pub horizon: Option<f64>,
-    /// Whether inputs are checked too.
+    /// True if inputs are checked too.
     pub inputs: bool,
 }
 

@@ -1,23 +1,23 @@
-//! Observed orders.
+//! Observed orders of convergence.
 
 use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
 
-/// How errors fall with what they depend on.
+/// Observed order of errors as a power of a size.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Decay {
-    /// Dual6 of log error over log size; none where fewer than four points are above rounding.
+    /// Slope of log error over log size; none where fewer than four points are above rounding.
     pub order: Option<f64>,
-    /// Decades of the size that the slope was taken over.
+    /// Decades of the size over which the slope was taken.
     pub decades: f64,
-    /// The sizes it was taken over, largest and smallest.
+    /// Range of sizes over which it was taken, largest and smallest.
     pub range: [f64; 2],
-    /// Whether all errors are rounding: the model is exact along this direction.
+    /// True if all errors are rounding: the model is exact along this direction.
     pub is_exact: bool,
 }
 
-/// The slope by least squares over the points whose error is at most `largest` and above rounding, `floor` (both for the
-/// errors as they are).
+/// Fits the slope by least squares over the points whose error is at most `largest` of their size and above the
+/// rounding error `floor`; both in the unit of the errors.
 pub fn decay(sizes: &[f64], errors: &[f64], largest: impl Fn(f64) -> f64, floor: f64) -> Decay {
     let points = sizes.iter().zip(errors).filter(|(size, error)| {
         error.is_finite() && **error > tolerances::ABOVE_ROUNDING * floor && **error <= largest(**size)
@@ -52,7 +52,7 @@ mod tests {
         let sizes: Vec<f64> = (0..12).map(|i| 10f64.powf(-0.5 * i as f64)).collect();
         let errors: Vec<f64> = sizes.iter().map(|x| 3.0 * x * x + 1e-9).collect();
         let found = decay(&sizes, &errors, |_| 1.0, 1e-9);
-        // Rounding of a thirtieth at the smallest point shifts the slope by less than a hundredth.
+        // A rounding error of a thirtieth at the smallest point changes the slope by less than a hundredth.
         assert!((found.order.unwrap() - 2.0).abs() < 0.01, "{found:?}");
         assert!(found.decades > 2.9 && !found.is_exact);
         assert!(decay(&sizes, &[1e-10; 12], |_| 1.0, 1e-9).is_exact);

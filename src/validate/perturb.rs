@@ -1,4 +1,4 @@
-//! Perturbations: their sizes and rates, and the states they lead to.
+//! Sizes and rates of perturbations, and perturbed states.
 
 use crate::error::{Error, Result};
 use crate::initial::assemble;
@@ -10,7 +10,8 @@ use crate::tolerances::linearize as tolerances;
 /// Sizes of the perturbation, of (dq, dv/rate) in m or rad; the last one is so small that its error is rounding.
 pub const EPSILONS: [f64; 8] = [1e-1, 3e-2, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-9];
 
-/// `start` moved by eps x0 and back to the constraints of position and velocity; none where they cannot be closed.
+/// Returns `start` perturbed by eps x0 and projected onto the constraints of position and velocity; none where that
+/// fails.
 pub fn moved(
     system: &dyn MechanicalSystem,
     start: &State,
@@ -29,8 +30,8 @@ pub fn moved(
     Some(State { t: start.t, q: closed.q, v: closed.v })
 }
 
-/// (dq, dv) from one state to another: dq along the velocity directions by least squares, N dq = q - q0. For quaternions
-/// this is right to first order, which changes errors of second order by such.
+/// Returns (dq, dv) from one state to another: dq along the velocity directions by least squares, N dq = q - q0. For
+/// quaternions this is right to first order, which changes errors of second order by terms of second order.
 pub fn difference(system: &dyn MechanicalSystem, from: &State, to: &State) -> [Vec<f64>; 2] {
     let change: Vec<f64> = to.q.iter().zip(&from.q).map(|(to, from)| to - from).collect();
     let dv = to.v.iter().zip(&from.v).map(|(to, from)| to - from).collect();
@@ -43,14 +44,14 @@ pub fn difference(system: &dyn MechanicalSystem, from: &State, to: &State) -> [V
         unit[j] = 1.0;
         system.rate(&from.q, &unit, &mut rate);
         unit[j] = 0.0;
-        // Columns of N are square to each other, but for angles that are counted through turns.
+        // Columns of N are orthogonal to each other, but for angles that are counted over revolutions.
         let size: f64 = rate[..own].iter().map(|x| x * x).sum();
         rate[..own].iter().zip(&change).map(|(x, change)| x * change).sum::<f64>() / size
     });
     [dq.collect(), dv]
 }
 
-/// Rates of a model, 1/s.
+/// Typical and fastest rate of a model, 1/s.
 pub struct Speed {
     pub usual: f64,
     pub fastest: f64,
@@ -68,13 +69,13 @@ impl Speed {
         })
     }
 
-    /// Of a usual mode, with not too many of the fastest in it.
+    /// Returns the period of a typical mode, s, limited to a number of periods of the fastest.
     pub fn period(&self) -> f64 {
         std::f64::consts::TAU * (1.0 / self.usual).min(tolerances::FASTEST_PERIODS / self.fastest)
     }
 }
 
-/// Sizes of changes, velocities over `rate`.
+/// Norm of changes (dq, dv) in which velocities are divided by `rate`, 1/s.
 pub struct Norm {
     pub rate: f64,
 }
@@ -85,20 +86,20 @@ impl Norm {
         (square(dq) + square(dv) / self.rate.powi(2)).sqrt()
     }
 
-    /// |change - eps column|
+    /// Returns |change - eps column|.
     pub fn off(&self, (dq, dv): (&[f64], &[f64]), (cq, cv): (&[f64], &[f64]), eps: f64) -> f64 {
         let rest = |x: &[f64], c: &[f64]| x.iter().zip(c).map(|(x, c)| x - eps * c).collect::<Vec<f64>>();
         self.size((&rest(dq, cq), &rest(dv, cv)))
     }
 
-    /// Of states (z, y).
+    /// Returns the norm of states (z, y).
     pub fn states(&self, x: &Matrix) -> f64 {
         let k = x.nrows() / 2;
         self.size((x.rows(0, k).clone_owned().as_slice(), x.rows(k, k).clone_owned().as_slice()))
     }
 }
 
-/// The error of the smallest perturbation is rounding.
+/// Returns the rounding error, for which the error of the smallest perturbation is taken.
 pub fn floor(errors: &[f64]) -> f64 {
     errors.last().copied().filter(|error| error.is_finite()).unwrap_or(0.0).max(1e-15)
 }

@@ -1,4 +1,4 @@
-//! The whole check at one state.
+//! The validation at one state.
 
 use super::carried::Carried;
 use super::frozen::frozen;
@@ -11,44 +11,49 @@ use crate::system::MechanicalSystem;
 use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
 
-/// The linear model at a state against simulations.
+/// Comparison of the linear model at a state with simulations.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Validation {
+    /// Time of the state, s.
     pub t: f64,
+    /// Name of the chart.
     pub chart: String,
-    /// How long the perturbed motions were followed, s.
+    /// Time over which the perturbed motions were followed, s.
     pub followed: f64,
-    /// What velocities are divided by to compare with positions, 1/s.
+    /// Rate by which velocities are divided to compare them with positions, 1/s.
     pub rate: f64,
-    /// One for each direction.
+    /// Result for each direction.
     pub sequences: Vec<PerturbationSequence>,
-    /// exp(A h) against the state-transition matrix.
+    /// Comparison of exp(A h) with the state-transition matrix.
     pub frozen: Frozen,
+    /// Result for each input; empty if inputs are not checked.
     pub inputs: Vec<InputCheck>,
+    /// Conclusion from the orders.
     pub verdict: Verdict,
 }
 
-/// Whether the model may be trusted.
+/// Conclusion of a validation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Verdict {
-    /// The variational equations: order 2 (or exact) for each direction and input.
+    /// True if the variational equations have order 2 (or are exact) for each direction and input.
     pub ltv: bool,
-    /// A in its chart: order 2 or more in h (or exact).
+    /// True if A in its chart has order 2 or more in h (or is exact).
     pub lti: bool,
+    /// The conclusion in words.
     pub text: String,
 }
 
 /// Compares the model at a state with perturbed simulations.
 ///
 /// # Errors
-/// A chart that does not exist there; a motion that cannot go on.
+/// A chart that does not exist at the state; a motion that cannot go on.
 pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Settings) -> Result<Validation> {
     refuse_large(system.dimensions().v)?;
     let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
     let chart = settings.chart.clone().unwrap_or_else(|| Chart::preferred(&mut variation));
     let mut model = minimal(&mut variation, &chart)?;
     let name = model.coordinates.name.clone();
-    // The plain projection means the states of a chart that it does not follow.
+    // The plain projection has no chart that follows the motion; its states are those of the mass-orthogonal one.
     let chart = if chart == Chart::Frozen { Chart::MassOrthogonal } else { chart };
     let carried = Carried::new(&mut variation, &chart, start)?;
     model.coordinates = carried.start.clone();

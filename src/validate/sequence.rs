@@ -1,4 +1,4 @@
-//! One direction: perturbations of many sizes, followed and predicted.
+//! Perturbations of many sizes along one direction, simulated and predicted.
 
 use super::carried::Carried;
 use super::perturb::{EPSILONS, Norm, difference, floor, moved};
@@ -14,40 +14,47 @@ use serde::Serialize;
 /// Perturbations along one direction.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PerturbationSequence {
+    /// Direction, as [`Direction::parse`](super::Direction::parse) reads it.
     pub direction: String,
     /// Sizes of (dq, dv/rate), m or rad.
     pub epsilons: Vec<f64>,
-    /// Size of the difference of both motions at the end less its prediction; none (NaN is not written) where the
-    /// perturbed state does not exist.
+    /// Norm of the difference of both motions at the end less its prediction by the variational equations; none (NaN is
+    /// not written) where the perturbed state does not exist.
     pub errors_ltv: Vec<f64>,
+    /// Order of these errors in epsilon.
     pub order_ltv: Decay,
+    /// Norm of the same difference less the prediction by exp(A t).
     pub errors_lti: Vec<f64>,
     /// Times after the state, s.
     pub times: Vec<f64>,
-    /// Relative error of exp(A t) against the variational equations.
+    /// Relative error of exp(A t) against the variational equations, at each time.
     pub drift_lti: Vec<f64>,
-    /// Times at which the frozen model is off by 1 % and 10 %, s; none: beyond what was followed.
+    /// Times at which the frozen model is off by 1 % and 10 %, s; none: not within the time followed.
     pub horizons: [Option<f64>; 2],
-    /// What moves most, at `curve_epsilon`.
+    /// Changes of the velocity directions that move most, at `curve_epsilon`.
     pub curves: Vec<Curve>,
+    /// Size of the perturbation of the curves, m or rad.
     pub curve_epsilon: f64,
 }
 
-/// A velocity direction's change over time, simulated and predicted.
+/// Change along one velocity direction over time, simulated and predicted.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Curve {
-    /// Index of the direction of v.
+    /// Index of the direction in v.
     pub direction: usize,
+    /// Difference of the two simulated motions, m or rad.
     pub simulated: Vec<f64>,
+    /// Prediction by the variational equations.
     pub ltv: Vec<f64>,
+    /// Prediction by exp(A t).
     pub lti: Vec<f64>,
 }
 
-/// Rows over time.
+/// Number of rows over time.
 const ROWS: usize = 60;
-/// Curves that are kept.
+/// Number of curves.
 const CURVES: usize = 3;
-/// About the perturbation whose curves are kept.
+/// The curves are those of the largest perturbation not above this.
 const SHOWN: f64 = 1.1e-2;
 
 /// The perturbed motions and their predictions.
@@ -57,13 +64,13 @@ struct Followed<'a> {
     epsilons: Vec<f64>,
     times: Vec<f64>,
     snapshots: Vec<Snapshot>,
-    /// The chart at each of them.
+    /// The chart at each time.
     charts: Vec<Coordinates>,
-    /// exp(A t) x0
+    /// exp(A t) x0 at each time.
     predicted: Vec<Matrix>,
 }
 
-/// Perturbs `start` along x0 and follows all sizes for a time.
+/// Perturbs `start` along x0 and follows perturbations of all sizes for a time.
 pub(super) fn sequence(
     system: &dyn MechanicalSystem,
     start: &State,
@@ -130,7 +137,7 @@ fn follow<'a>(
 }
 
 impl Followed<'_> {
-    /// |difference of the motions - eps changes| for each size.
+    /// Returns |difference of the motions - eps changes| for each size.
     fn errors(&self, end: &Snapshot, changes: &Changes) -> Vec<f64> {
         let error = |(member, eps): (&State, &f64)| {
             let [dq, dv] = difference(self.system, &end.motion, member);
@@ -139,7 +146,7 @@ impl Followed<'_> {
         end.members.iter().zip(&self.epsilons).map(error).collect()
     }
 
-    /// Relative error of the frozen model at each time.
+    /// Returns the relative error of the frozen model at each time.
     fn drift(&self) -> Vec<f64> {
         let error = |((snapshot, chart), lti): ((&Snapshot, &Coordinates), &Matrix)| {
             let ltv = chart.states_of(&snapshot.columns);
@@ -148,7 +155,7 @@ impl Followed<'_> {
         self.snapshots.iter().zip(&self.charts).zip(&self.predicted).map(error).collect()
     }
 
-    /// What moves most, and the perturbation that it belongs to.
+    /// Returns the curves that move most, and the size of their perturbation.
     fn curves(&self) -> (Vec<Curve>, f64) {
         let member = self.epsilons.iter().position(|eps| *eps <= SHOWN).unwrap_or(0);
         let Some(&eps) = self.epsilons.get(member) else { return (Vec::new(), 0.0) };

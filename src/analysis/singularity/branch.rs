@@ -1,21 +1,22 @@
-//! Whether a motion goes on smoothly through a singular state.
+//! Test if a motion passes a singular state smoothly.
 //!
-//! Branches of the motion cross at a singular state at angles of order one. Constraints with a drift d have no crossing
-//! there, but curves like hyperbolas at a distance of sqrt(d), which turn from one branch into another within the time
-//! that the motion takes for that distance. So velocities before and after, at a small multiple of the least distance,
-//! differ by order one from what smooth accelerations make of them where the motion left its branch.
+//! Branches of the motion cross at a singular state at angles of order one. With a constraint drift d they do not cross
+//! but form curves like hyperbolas at a distance of sqrt(d), which lead from one branch to another within the time that
+//! the motion takes for that distance. So if the motion left its branch, the velocities before and after, at a small
+//! multiple of the least distance, differ by order one from the integral of smooth accelerations.
 
 use super::Branch;
 use super::path::PathPoint;
 use super::survey::Survey;
 use crate::tolerances::report as tolerances;
 
-/// The rank indicator below which drift of the positions and velocities, relative to their scales, can turn a motion.
+/// Returns the rank indicator below which drift of the positions and velocities, relative to their scales, can change
+/// the branch of a motion.
 pub fn reach([position, velocity]: [f64; 2]) -> f64 {
     (position / tolerances::DRIFT_TURNS).sqrt().max(velocity / tolerances::DRIFT_TURNS)
 }
 
-/// The way to a singular state, and from it.
+/// States before and after a singular state.
 #[derive(Default)]
 pub struct Turning {
     /// The last two accepted states.
@@ -24,7 +25,7 @@ pub struct Turning {
     open: Option<Open>,
 }
 
-/// A singular state whose other side is not yet seen.
+/// A singular state passed, for which states after it are still to come.
 struct Open {
     passing: usize,
     /// One or two states before it, and up to two after it.
@@ -35,8 +36,8 @@ struct Open {
 }
 
 impl Turning {
-    /// A singular or nearly singular state was passed at `t`. It is no wonder that a motion turns sharply where
-    /// geometry makes it: only at a singular state, or where drift reaches, it `may_turn` from its branch.
+    /// Begins with a singular or nearly singular state passed at `t`. A sharp change of velocity can be due to
+    /// geometry: the motion may leave its branch (`may_turn`) only at a singular state, or within reach of the drift.
     pub fn begin(&mut self, passing: usize, t: f64, rank_indicator: f64, may_turn: bool) {
         let aside = self
             .way
@@ -51,7 +52,7 @@ impl Turning {
         self.way.clear();
     }
 
-    /// Takes an accepted state, and judges the singular state before it once it is far enough behind.
+    /// Adds an accepted state, and judges the singular state before it once it is far enough behind.
     pub fn add(&mut self, now: &PathPoint, largest: f64, survey: &mut Survey) -> Option<(usize, Branch)> {
         let falls = now.rank_indicator < self.last[1].rank_indicator;
         if now.rank_indicator > tolerances::WAY_BEGINS * largest {
@@ -72,7 +73,7 @@ impl Turning {
         }
     }
 
-    /// Judges the last singular state by what was seen after it, if anything was.
+    /// Judges the last singular state by the states after it, if there are any.
     pub fn judge(&mut self, survey: &mut Survey) -> Option<(usize, Branch)> {
         let open = self.open.take_if(|open| !open.after.is_empty())?;
         Some((open.passing, open.judge(survey)))
@@ -80,7 +81,7 @@ impl Turning {
 }
 
 impl Open {
-    /// Takes a state after the singular one; returns whether there are enough.
+    /// Adds a state after the singular one; returns true if there are enough.
     fn is_seen(&mut self, now: &PathPoint) -> bool {
         let Some(from) = self.before.last() else { return false };
         let is_next = match self.after.first() {
@@ -97,7 +98,8 @@ impl Open {
         self.after.len() == 2
     }
 
-    /// v_1 - v_0 against the integral of v', in the metric of M, by the polynomial through v' at up to four states.
+    /// Compares v_1 - v_0 with the integral of v', in the metric of M, by the polynomial through v' at up to four
+    /// states.
     fn judge(&self, survey: &mut Survey) -> Branch {
         let (Some(from), Some(to)) = (self.before.last(), self.after.first()) else { return Branch::Open };
         let nodes: Vec<&PathPoint> = self.before.iter().chain(&self.after).collect();
@@ -117,8 +119,8 @@ impl Open {
     }
 }
 
-/// The integral from a to b of the polynomial through v' at up to four `nodes`, by Gauss's rule of two points, which is
-/// exact for it.
+/// Returns the integral from a to b of the polynomial through v' at up to four `nodes`, by Gauss's rule of two points,
+/// which is exact for it.
 fn integral(nodes: &[&PathPoint], (a, b): (f64, f64)) -> Vec<f64> {
     let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
     let points = [-1.0, 1.0].map(|sign| middle + sign * half / 3f64.sqrt());

@@ -1,4 +1,4 @@
-//! Singular states on the way: where G loses rank, so that the motion could go on along several branches.
+//! Singular states along a motion: where G loses rank, so that the motion could go on along several branches.
 
 mod branch;
 mod path;
@@ -14,13 +14,13 @@ use path::{Path, PathPoint};
 use serde::Serialize;
 use survey::Survey;
 
-/// How near a motion came to singular states. Nearness is the smallest sine of the angle between a row of G and those
-/// before it, in the metric of M^-1; rows that depend on others everywhere are left out.
+/// Distance of a motion from singular states, by the rank indicator: the smallest sine of the angle between a row of G
+/// and those before it, in the metric of M^-1, without rows that depend on others everywhere.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Singularity {
     /// The state of the motion that was nearest to a singular one; `None` without constraints.
     pub nearest: Option<Nearest>,
-    /// How many singular states were passed or come near to.
+    /// Number of singular or nearly singular states passed.
     pub count: usize,
     /// The first thousand of them, in order.
     pub passed: Vec<Passing>,
@@ -29,48 +29,53 @@ pub struct Singularity {
 /// The state nearest to a singular one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Nearest {
+    /// Time, s.
     pub t: f64,
+    /// Rank indicator: 1 far from a singular state, 0 at one.
     pub rank_indicator: f64,
     /// Condition number of the equilibrated saddle-point matrix there; `None` where it is infinite, or the system
     /// large.
     pub condition: Option<f64>,
 }
 
-/// A singular state, or one near to it.
+/// A singular or nearly singular state that was passed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Passing {
+    /// Time, s.
     pub t: f64,
-    /// The rank indicator there: round-off and the error of interpolation at a singular state.
+    /// The rank indicator there; at a singular state it is round-off and error of interpolation.
     pub rank_indicator: f64,
-    /// Whether it counts as singular, or as near to it.
+    /// True if it counts as singular, false if as nearly singular.
     pub is_singular: bool,
-    /// Rank of G there (`None` for large systems), and beside it.
+    /// Rank of G there; `None` for large systems.
     pub rank: Option<usize>,
+    /// Rank of G at regular states nearby.
     pub regular_rank: usize,
     /// Joints with rows that depend, or nearly depend, on each other there; empty for large systems.
     pub joints: Vec<String>,
+    /// Behaviour of the motion.
     pub branch: Branch,
 }
 
-/// What a motion did at a singular state.
+/// Behaviour of a motion at a singular state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Branch {
-    /// It went on as smoothly as it came.
+    /// It went on smoothly.
     Kept,
     /// Its velocity jumped: errors turned it to another branch.
     Left,
-    /// It rested there, or the run ended before it could be seen.
+    /// It came to rest there, or the run ended too early to decide.
     Open,
 }
 
 impl Singularity {
-    /// The first state at which the motion left its branch.
+    /// Returns the first state at which the motion left its branch.
     pub fn left(&self) -> Option<&Passing> {
         self.passed.iter().find(|passing| passing.branch == Branch::Left)
     }
 
-    /// Why what was computed is not the motion of the scene, where that left its branch.
+    /// Returns the failure of a run whose motion left its branch, so that the result is not the motion of the scene.
     pub fn failure(&self) -> Option<Failure> {
         let Passing { t, joints, .. } = self.left()?;
         let named = if joints.is_empty() { String::new() } else { format!(" of {}", short_list(joints)) };
@@ -84,10 +89,10 @@ impl Singularity {
 
 const MOST_PASSED: usize = 1000;
 
-/// Follows a motion.
+/// Detects singular states along a motion.
 pub struct Watch<'a> {
     survey: Survey<'a>,
-    /// Velocities that move q.
+    /// Number of velocities that move q.
     moving: usize,
     /// The last three accepted states, the latest last.
     last: [PathPoint; 3],
@@ -110,7 +115,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Takes an accepted state.
+    /// Adds an accepted state.
     pub fn add(&mut self, state: &Observation) {
         if state.phi.is_empty() {
             return;
@@ -129,7 +134,7 @@ impl<'a> Watch<'a> {
         self.settle(judged);
     }
 
-    /// Writes down what the motion did at a singular state.
+    /// Records the behaviour of the motion at a singular state.
     fn settle(&mut self, judged: Option<(usize, Branch)>) {
         if let Some((passing, branch)) = judged
             && let Some(passed) = self.found.passed.get_mut(passing)
@@ -139,9 +144,9 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// The result.
+    /// Returns the result.
     pub fn finish(mut self) -> Singularity {
-        // A run that ends just behind a singular state sees no rise after it.
+        // A run that ends just after a singular state does not reach the rise after it.
         if self.seen >= 3 && self.last[2].rank_indicator <= self.last[1].rank_indicator {
             self.look_at_dip();
         }
@@ -154,7 +159,7 @@ impl<'a> Watch<'a> {
         self.found
     }
 
-    /// Forgets a state that was looked at only because drift might have turned the motion there.
+    /// Removes a state that was examined only because drift might have changed the branch there.
     fn drop_if_far(&mut self, passing: usize) {
         let passed = &mut self.found.passed;
         if passed.get(passing).is_some_and(|p| {
@@ -172,7 +177,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Whether the rank indicator has a minimum about the middle state.
+    /// True if the rank indicator has a minimum near the middle state.
     fn dips(&self) -> bool {
         let [a, b, c] = &self.last;
         b.rank_indicator <= a.rank_indicator

@@ -1,4 +1,4 @@
-//! The motion between accepted states.
+//! Interpolation of the motion between accepted states.
 
 use crate::simulate::Observation;
 
@@ -15,7 +15,7 @@ pub struct PathPoint {
 }
 
 impl PathPoint {
-    /// Takes a state, of whose velocities the first ones move: what states xi do is no passage of a singular position.
+    /// Copies a state; only its first `moving` velocities, since states xi have no singular positions.
     pub fn copy(&mut self, state: &Observation, rank_indicator: f64, moving: usize) {
         (self.t, self.rank_indicator) = (state.t, rank_indicator);
         let PathPoint { q, v, vdot, phi, phi_dot, .. } = self;
@@ -32,14 +32,14 @@ impl PathPoint {
 /// doubled times.
 pub struct Path {
     pub times: [f64; 3],
-    /// Six coefficients a coordinate.
+    /// Six coefficients for each coordinate.
     coefficients: Vec<[f64; 6]>,
     /// phi of the middle state.
     pub phi: Vec<f64>,
 }
 
 impl Path {
-    /// `rates`: q' at the samples.
+    /// Interpolates; `rates` are q' at the samples.
     pub fn new(samples: &[PathPoint; 3], rates: &[Vec<f64>; 3]) -> Self {
         let times = [0, 1, 2].map(|i: usize| samples[i].t);
         let doubled = [0, 1, 2, 3, 4, 5].map(|i: usize| times[i / 2]);

@@ -1,4 +1,4 @@
-//! What the constraints are like at a position.
+//! Rank and drift of the constraints at a position.
 
 use super::path::{Path, PathPoint};
 use crate::formulation::Dynamics;
@@ -10,7 +10,7 @@ use crate::tolerances::report as tolerances;
 
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// A system with the memory to look at its constraints anywhere.
+/// A system with the workspace to evaluate its constraints anywhere.
 pub struct Survey<'a> {
     dynamics: Dynamics<'a>,
     rest: Vec<f64>,
@@ -23,7 +23,7 @@ impl<'a> Survey<'a> {
         Survey { dynamics, rest, nearest: (0.0, Vec::new()) }
     }
 
-    /// Leaves out rows that depend on others everywhere.
+    /// Drops rows that depend on others everywhere.
     pub fn drop_rows(&mut self, rows: &[usize]) {
         self.dynamics.drop_rows(rows);
     }
@@ -44,14 +44,14 @@ impl<'a> Survey<'a> {
         self.dynamics.evaluate(t, q, &self.rest, Need::MASS | Need::CONSTRAINTS | Need::G);
     }
 
-    /// q' at a state.
+    /// Returns q' at a state.
     pub fn rate(&self, q: &[f64], v: &[f64]) -> Vec<f64> {
         let mut rate = vec![0.0; q.len()];
         self.dynamics.system.rate(q, v, &mut rate);
         rate
     }
 
-    /// The rank indicator at a position; zero where the matrix is singular.
+    /// Returns the rank indicator at a position; zero where the matrix is singular.
     pub fn rank_indicator(&mut self, t: f64, q: &[f64]) -> f64 {
         self.evaluate(t, q);
         self.dynamics.factor().map_or(0.0, |()| self.dynamics.kkt.rank_indicator())
@@ -62,7 +62,8 @@ impl<'a> Survey<'a> {
         self.rank_indicator(t, &q)
     }
 
-    /// The position near a place on a path that has the drift of its middle state, which interpolation does not keep.
+    /// Returns the position near an interpolated one that has the drift of the middle state, which interpolation does
+    /// not preserve.
     pub fn position(&mut self, path: &Path, t: f64) -> Vec<f64> {
         let mut q = path.at(t);
         let (mut step, mut rate) = (vec![0.0; self.rest.len()], vec![0.0; q.len()]);
@@ -80,17 +81,18 @@ impl<'a> Survey<'a> {
         q
     }
 
-    /// Where the rank indicator is least on a path from and to states with `indicators`, and how small, if it comes
-    /// near to `bound`: by golden sections, as long as the minimum can be below with twice the steepest slope seen; and
-    /// then, since the rank indicator falls to a singular state and rises from it linearly, by where two lines meet.
+    /// Returns the time of the least rank indicator on a path between states with `indicators`, and its value, if it
+    /// comes near to `bound`: by golden sections, while the minimum can be below `bound` with twice the steepest slope
+    /// seen; and then, since the rank indicator is linear on both sides of a singular state, by the intersection of two
+    /// lines.
     pub fn least_rank_indicator(&mut self, path: &Path, indicators: [f64; 2], bound: f64) -> Option<(f64, f64)> {
         let [mut from, _, mut to] = path.times;
         let width = to - from;
-        // Times of steps near round-off do not come any closer.
+        // Steps near round-off of the time do not come closer.
         let shortest = (tolerances::GOLDEN_SHORTEST * width).max(8.0 * f64::EPSILON * from.abs().max(to.abs()));
         let mut inner = [to - GOLDEN * (to - from), from + GOLDEN * (to - from)];
         let mut values = inner.map(|t| self.rank_indicator_on(path, t));
-        // Of a dip that is alike on both sides the inner values tell no slope.
+        // The inner values of a symmetric minimum give no slope.
         let outer = [(indicators[0] - values[0]) / (inner[0] - from), (indicators[1] - values[1]) / (to - inner[1])];
         let mut steepest = 2.0 * outer[0].abs().max(outer[1].abs());
         while to - from > shortest && values[0].min(values[1]) > tolerances::GOLDEN_NEAR * bound {
@@ -115,14 +117,14 @@ impl<'a> Survey<'a> {
         let [before, after] = sides(aside);
         aside = (tolerances::LINES_ASIDE * bound * aside / before.max(after)).min(0.1 * width);
         let [before, after] = sides(aside);
-        // The lines of a minimum that is round do not meet near zero.
+        // The lines of a round minimum do not meet near zero.
         match least < 0.5 * before.min(after) {
             true => Some((t + aside * (before - after) / (before + after), least)),
             false => Some((t, least)),
         }
     }
 
-    /// The rank at a position, and the joints whose rows depend on each other there.
+    /// Returns the rank at a position, and the joints whose rows depend on each other there.
     pub fn dependence(&mut self, t: f64, q: &[f64], tolerance: f64) -> (Option<usize>, Vec<String>) {
         if self.unknowns() > tolerances::NAMED_DEPENDENT_JOINTS {
             return (None, Vec::new());
@@ -137,14 +139,15 @@ impl<'a> Survey<'a> {
         (Some(found.rank), named.map(|group| group.name.clone()).collect())
     }
 
-    /// Drift of a state relative to the scene's scale, and to the size of the velocity.
+    /// Returns the drift of positions and velocities relative to the scene's scale, the latter also to the size of the
+    /// velocity.
     pub fn drift(&self, state: &PathPoint) -> [f64; 2] {
         let scale = self.dynamics.system.scales().into_iter().fold(f64::INFINITY, f64::min);
         let speed = largest(&state.v).max(f64::MIN_POSITIVE);
         [largest(&state.phi) / scale, largest(&state.phi_dot) / (scale * speed)]
     }
 
-    /// The square root of v^T M v with the masses of the last position.
+    /// Returns sqrt(v^T M v) with the masses of the last position.
     pub fn size(&self, v: &[f64]) -> f64 {
         let mut momentum = vec![0.0; v.len()];
         let mass = &self.dynamics.structure.mass;
@@ -152,7 +155,7 @@ impl<'a> Survey<'a> {
         v.iter().zip(&momentum).map(|(v, p)| v * p).sum::<f64>().max(0.0).sqrt()
     }
 
-    /// Takes the masses of a position.
+    /// Evaluates the masses at a position.
     pub fn weigh(&mut self, t: f64, q: &[f64]) {
         self.dynamics.evaluate(t, q, &self.rest, Need::MASS);
     }

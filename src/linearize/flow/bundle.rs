@@ -1,28 +1,29 @@
-//! What is carried along a motion, and how it lies in one flat state.
+//! A motion with small and finite perturbations, and its layout in one flat state vector.
 
 use crate::linearize::{Changes, Matrix, State};
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
 use crate::system::{Dimensions, MechanicalSystem, Need, Scratch, Structure, Terms};
 
-/// A motion, columns of its variational equations, and motions beside it.
+/// A motion, columns of its variational equations, and perturbed motions.
 #[derive(Clone, Debug)]
 pub struct Bundle {
-    /// Where the motion starts, on the constraints.
+    /// Start of the motion, on the constraints.
     pub start: State,
-    /// Changes that the constraints allow, carried by the variational equations.
+    /// Changes that the constraints allow, integrated by the variational equations.
     pub columns: Changes,
-    /// Amplitude of the pulse that drives each column; none: no column is driven.
+    /// Amplitude of the pulse applied to each column; none: no column has an input.
     pub driven: Vec<f64>,
-    /// Other starts, on the constraints, carried by the full equations.
+    /// Perturbed starts, on the constraints, integrated by the full equations.
     pub members: Vec<State>,
-    /// Amplitude of the pulse that drives each member; none: no member is driven.
+    /// Amplitude of the pulse applied to each member; none: no member has an input.
     pub pushes: Vec<f64>,
+    /// The input pulse of columns and members, if any.
     pub pulse: Option<Pulse>,
 }
 
 impl Bundle {
-    /// The motion from a state alone.
+    /// The motion from a state, without perturbations.
     pub fn of(start: &State) -> Self {
         let columns = Changes::none(start.v.len());
         Bundle {
@@ -36,17 +37,20 @@ impl Bundle {
     }
 }
 
-/// An input u(t) = amplitude (4 s (1 - s))^8 for s = (t - start)/width in [0, 1]: smooth to the seventh derivative.
+/// An input u(t) = amplitude (4 s (1 - s))^8 for s = (t - start)/width in [0, 1]: smooth to the seventh derivative,
+/// largest value `amplitude`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pulse {
+    /// Index of the input.
     pub input: usize,
-    /// s
+    /// Start, s.
     pub start: f64,
-    /// s
+    /// Width, s.
     pub width: f64,
 }
 
 impl Pulse {
+    /// Returns the pulse of amplitude 1 at time t.
     pub fn at(&self, t: f64) -> f64 {
         let s = (t - self.start) / self.width;
         if s > 0.0 && s < 1.0 { (4.0 * s * (1.0 - s)).powi(8) } else { 0.0 }
@@ -56,12 +60,15 @@ impl Pulse {
 /// The bundle at a time.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
+    /// The motion.
     pub motion: State,
+    /// Its columns (dq, dv).
     pub columns: Changes,
+    /// The perturbed motions.
     pub members: Vec<State>,
 }
 
-/// y = (q_0, dq_1 .. dq_k, q_1 .. q_p; v_0, dv_1 .. dv_k, v_1 .. v_p; work)
+/// Sizes of the flat state y = (q_0, dq_1 .. dq_k, q_1 .. q_p; v_0, dv_1 .. dv_k, v_1 .. v_p; work).
 #[derive(Clone, Copy, Debug)]
 pub struct Shape {
     pub q: usize,
@@ -70,7 +77,7 @@ pub struct Shape {
     pub members: usize,
 }
 
-/// A system of that size, and what acts on it by the clock: what the integrator sees.
+/// A system of that size, as the integrator sees it, with the switches and time functions of the original.
 pub struct Carrier<'a> {
     system: &'a dyn MechanicalSystem,
     dimensions: Dimensions,
@@ -96,14 +103,14 @@ impl Shape {
         self.v * (1 + self.members + self.columns)
     }
 
-    /// Of a flat q: that of the motion, the columns', the members'.
+    /// Splits a flat q into that of the motion, the columns' and the members'.
     pub fn parts<'y>(&self, q: &'y [f64]) -> [&'y [f64]; 3] {
         let (motion, rest) = q.split_at(self.q);
         let (columns, members) = rest.split_at(self.v * self.columns);
         [motion, columns, members]
     }
 
-    /// The same of a flat v.
+    /// Splits a flat v in the same way.
     pub fn rates<'y>(&self, v: &'y [f64]) -> [&'y [f64]; 3] {
         let (motion, rest) = v.split_at(self.v);
         let (columns, members) = rest.split_at(self.v * self.columns);

@@ -1,4 +1,4 @@
-//! The slope of a bundle.
+//! Right-hand side of the equations of a bundle.
 
 use super::bundle::{Bundle, Pulse, Shape};
 use crate::error::Result;
@@ -10,7 +10,7 @@ use crate::system::MechanicalSystem;
 pub struct VariationalField<'a> {
     shape: Shape,
     variation: Variation<'a>,
-    /// Of the members.
+    /// Equations of the members.
     plain: Dynamics<'a>,
     pulse: Option<Pulse>,
     driven: Vec<f64>,
@@ -20,7 +20,7 @@ pub struct VariationalField<'a> {
 }
 
 impl<'a> VariationalField<'a> {
-    /// Leaves out the rows `dependent`, which depend on others everywhere.
+    /// The equations without the rows `dependent`, which depend on others everywhere.
     pub fn new(system: &'a dyn MechanicalSystem, shape: &Shape, bundle: &Bundle, dependent: &[usize]) -> Result<Self> {
         let start = &bundle.start;
         let zeros = Matrix::zeros(shape.v, shape.columns);
@@ -39,7 +39,7 @@ impl<'a> VariationalField<'a> {
         })
     }
 
-    /// The force of a unit of the pulse at a state, if it acts.
+    /// Returns the force of a unit of the pulse at a state; none where it is zero.
     fn push(&mut self, t: f64, q: &[f64], v: &[f64]) -> Option<Vec<f64>> {
         let pulse = self.pulse?;
         let u = pulse.at(t);
@@ -68,7 +68,7 @@ impl<'a> VariationalField<'a> {
         Ok(())
     }
 
-    /// The columns, at the state of the last `motion`.
+    /// Rates of the columns, at the state of the last `motion`.
     fn columns(
         &mut self,
         push: Option<Vec<f64>>,

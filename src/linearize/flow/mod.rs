@@ -20,14 +20,15 @@ use projection::Straightening;
 
 const SHORTER: &str = "choose a shorter time";
 
-/// Carries a bundle along its motion and shows it at `times` (increasing, after the start) by dop853 on the equations of
-/// index 1 at a tolerance of 1e-12. After each step every state returns to the constraints and every column to their
-/// tangent space. Since all take the same steps, differences between members are more accurate than the members.
+/// Integrates a bundle and passes it to `see` at `times` (increasing, after the start), by dop853 on the equations of
+/// index 1 at a tolerance of 1e-12. After each step every state is projected onto the constraints and every column onto
+/// their tangent space. Since all take the same steps, differences between members are more accurate than the members.
 ///
-/// `see` returns whether to go on, and may change what is carried (as a chart that is renewed does).
+/// `see` returns true to continue, and may change the columns (to renew a chart, for example).
 ///
 /// # Errors
-/// A motion that cannot go on, with its last time: so it is where members pass a singular state at different times.
+/// A motion that cannot go on, with its last time; members that pass a singular state at different times are such a
+/// case.
 pub fn flow(
     system: &dyn MechanicalSystem,
     bundle: &Bundle,
@@ -91,7 +92,7 @@ impl Sink for Counter {
     }
 }
 
-/// The tolerance is not the user's, so that what else a failure advises does not help.
+/// The tolerance is not the user's, so the other hints of a failure do not apply.
 fn stopped(failure: Failure) -> Error {
     Failure { hint: SHORTER.to_string(), ..failure }.into()
 }

@@ -1,4 +1,4 @@
-//! What is done with a bundle after each step.
+//! Projection of a bundle after each step.
 
 use super::bundle::Shape;
 use crate::error::Result;
@@ -7,7 +7,7 @@ use crate::method_spec::MethodSpec;
 use crate::projection::{self, Projection};
 use crate::system::{MechanicalSystem, Need};
 
-/// Brings the motion and its members back to the constraints, and the columns to their tangent space there.
+/// Projects the motion and its members onto the constraints, and the columns onto their tangent space there.
 pub struct Straightening<'a> {
     shape: Shape,
     dynamics: Dynamics<'a>,
@@ -32,7 +32,8 @@ impl<'a> Straightening<'a> {
         }
     }
 
-    /// Takes from each column what leaves the constraints at the state (q, v): G dq = 0, G dv + Gd dq = 0.
+    /// Removes from each column the part off the constraints at the state (q, v), so that G dq = 0 and G dv + Gd dq =
+    /// 0.
     fn straighten(
         &mut self,
         t: f64,

@@ -20,8 +20,8 @@ use crate::method_spec::{MethodSpec, OptionDoc};
 /// ```
 ///
 /// (counts at an equilibrium). Exact there. At a moving state the frozen pencil of index 3 has the spectrum of the plain
-/// projection (`frozen`), those of index 2 and 1 others: no chart stands behind them. Rows of G that depend on others are
-/// left out first, since they make the pencil singular: their multipliers stay as they are. Source: Masarati, "Direct
+/// projection (`frozen`), those of index 2 and 1 others: they belong to no chart. Rows of G that depend on others are
+/// dropped first, since they make the pencil singular: their multipliers stay as they are. Source: Masarati, "Direct
 /// eigenanalysis of constrained system dynamics", Proc. Inst. Mech. Eng. K 223 (2009) 335-342.
 pub const RCS: Entry = Entry {
     name: "rcs",
@@ -43,7 +43,7 @@ pub const RCS: Entry = Entry {
     },
 };
 
-/// The equations of the formulation that the option `form` names, index 3 where it is not given.
+/// Returns the equations of the formulation that the option `form` names, index 3 by default.
 fn dae(method: &MethodSpec) -> Result<Dae> {
     let others = formulation::registry().iter().filter(|entry| entry.dae.is_some()).map(|entry| entry.name);
     let known: Vec<&str> = std::iter::once("index3").chain(others.filter(|name| *name != "index3")).collect();

@@ -1,4 +1,4 @@
-//! The pencils.
+//! The pencils (E, A) of the formulations with multipliers.
 
 use super::Built;
 use super::rounding::Parts;
@@ -7,21 +7,21 @@ use crate::formulation::{Dae, Row};
 use crate::linearize::changes::directions;
 use crate::linearize::{Changes, Matrix, Variation};
 
-/// Infinite eigenvalues with `m` independent constraints: those of index 1 for a row of phi'' beside M v', one more a
-/// multiplier for each time that the row is differentiated less, and for mu, which stands beside q', one less.
+/// Returns the number of infinite eigenvalues with `m` independent constraints: m for a row of phi'' whose multiplier
+/// acts in M v', m more for each time that the row is differentiated less; m less for mu, which acts in q'.
 fn infinite(dae: &Dae, m: usize) -> usize {
     let of = |row: Option<Row>, most: usize| row.map_or(0, |row| m * (most - row.level()));
     of(Some(dae.lambda), 3) + of(dae.eta, 3) + of(dae.mu, 2)
 }
 
-/// The multipliers of one kind: their rows and the place of the first.
+/// The multipliers of one kind: their rows and the index of the first.
 #[derive(Clone, Copy)]
 struct Kind {
     row: Row,
     at: usize,
 }
 
-/// (E, A), B, C and D in x = (dq, dv, dlambda), with deta and dmu behind where the equations have them.
+/// Returns (E, A), B, C and D in x = (dq, dv, dlambda), followed by deta and dmu where the equations have them.
 pub fn build(dae: &Dae, variation: &mut Variation) -> Result<Built> {
     let kept = variation.independent_rows();
     let (n, m) = (variation.len(), kept.len());
@@ -49,7 +49,7 @@ pub fn build(dae: &Dae, variation: &mut Variation) -> Result<Built> {
     put(&mut a, (n, 0), &-k);
     put(&mut a, (n, n), &-c);
     put(&mut a, (n, lambda.at), &-g.transpose());
-    // G M^-1, transposed: what multipliers of their own change of v' and q'.
+    // G M^-1, transposed: the change of v' and q' by the additional multipliers.
     let shift = if dae.has_shifts() { over_mass(g.clone(), variation.mass()) } else { None };
     if let (Some(eta), Some(shift)) = (eta, &shift) {
         put(&mut a, (n, eta.at), &-g.transpose());
@@ -65,7 +65,7 @@ pub fn build(dae: &Dae, variation: &mut Variation) -> Result<Built> {
     observe(dae, variation, &kept, (e, a))
 }
 
-/// With the inputs and outputs.
+/// Adds the inputs and outputs.
 fn observe(dae: &Dae, variation: &mut Variation, kept: &[usize], (e, a): (Matrix, Matrix)) -> Result<Built> {
     let (n, size) = (variation.len(), a.nrows());
     let (inputs, outputs) = (variation.inputs(), variation.outputs()?);
@@ -98,12 +98,12 @@ fn states(dae: &Dae, variation: &Variation, kept: &[usize]) -> Vec<String> {
     states
 }
 
-/// What outputs W dv' are of M dv', if any are.
+/// Returns W M^-1 for outputs W dv'; none where W = 0.
 fn of_outputs(outputs: Matrix, mass: Matrix) -> Option<Matrix> {
     if outputs.iter().all(|slope| *slope == 0.0) { None } else { over_mass(outputs, mass) }
 }
 
-/// W M^-1; directions without mass stay as they are, and no output feels them.
+/// Returns W M^-1; directions without mass stay as they are, since no output depends on them.
 fn over_mass(outputs: Matrix, mut mass: Matrix) -> Option<Matrix> {
     for i in 0..mass.nrows() {
         if mass[(i, i)] == 0.0 {

@@ -1,4 +1,4 @@
-//! Matrices of a pencil without what rounding leaves in place of zeros.
+//! Matrices of a pencil with entries below rounding set to zero.
 
 use crate::formulation::Row;
 use crate::linearize::changes::beside;
@@ -15,24 +15,24 @@ pub struct Parts {
 }
 
 impl Parts {
-    /// What a row is of (dq, dv): 0 = c_2 (G dv' + ...) + c_1 (Gd dq + G dv) + c_0 G dq.
+    /// Returns the coefficients of (dq, dv) in the row 0 = c_2 (G dv' + ...) + c_1 (Gd dq + G dv) + c_0 G dq.
     pub fn row(&self, row: Row) -> Matrix {
         let Parts { g, gd, rows, .. } = self;
         let still = Matrix::zeros(g.nrows(), g.ncols());
         rows * row.acceleration - beside([gd, g]) * row.velocity - beside([g, &still]) * row.position
     }
 
-    /// Drops what is smaller than rounding of the largest entries. Scaling a pencil by the size of its entries would take
-    /// 1e-30 in the place of a zero as seriously as the rest, and ranks would be found wrong.
+    /// Sets entries to zero that are smaller than rounding of the largest. Scaling a pencil by the size of its entries
+    /// would weight 1e-30 in the place of a zero like any other entry, and ranks would be wrong.
     pub fn clean(&mut self, variation: &Variation) {
         let mass = variation.mass();
-        // Directions without mass of their own compare with nothing.
+        // Directions without mass of their own give no finite ratio.
         let root = |j: usize| mass[(j, j)].max(0.0).sqrt();
         let scaled = |matrix: &Matrix| {
             Matrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| over(matrix[(i, j)], root(i) * root(j)))
         };
         let [k, c] = [&self.k, &self.c].map(scaled);
-        // 1/s: the highest frequency that springs or dampers give.
+        // The highest frequency, 1/s, that springs or dampers give.
         let rate = largest(k.iter()).sqrt().max(largest(c.iter()));
         drop_small(&mut self.k, &k, |_| rate * rate);
         drop_small(&mut self.c, &c, |_| rate);
@@ -52,7 +52,7 @@ impl Parts {
     }
 }
 
-/// Of those that compare.
+/// Returns the largest finite value.
 fn largest<'m>(sizes: impl Iterator<Item = &'m f64>) -> f64 {
     sizes.filter(|size| size.is_finite()).fold(0.0, |largest, size| largest.max(*size))
 }
@@ -61,7 +61,7 @@ fn over(entry: f64, scale: f64) -> f64 {
     if scale > 0.0 { entry.abs() / scale } else { f64::INFINITY }
 }
 
-/// Entries whose size is below rounding of what is usual in their row become zero.
+/// Sets entries to zero whose size is below rounding of what is usual in their row.
 fn drop_small(matrix: &mut Matrix, sizes: &Matrix, usual: impl Fn(usize) -> f64) {
     for ((i, j), size) in (0..sizes.ncols()).flat_map(|j| (0..sizes.nrows()).map(move |i| (i, j))).zip(sizes.iter()) {
         if *size < tolerances::FROZEN_ZERO * usual(i) {

@@ -20,8 +20,9 @@ use std::time::Instant;
 
 type C = Complex<f64>;
 
-/// The `count` modes nearest to `shift`, in 1/s (0: the slowest ones), as a model in modal coordinates. A conjugate pair
-/// is one mode. All modes come where there are not so many, and more where one has no vector of its own.
+/// Returns the `count` modes nearest to `shift`, in 1/s (0: the slowest ones), as a model in modal coordinates. A
+/// conjugate pair is one mode. Fewer come where the mechanism has fewer, and more where one has no eigenvector of its
+/// own.
 ///
 /// The frozen index-3 pencil, exact at an equilibrium:
 ///
@@ -32,12 +33,12 @@ type C = Complex<f64>;
 /// A is block diagonal: [re im; -im re] for a pair, re for a real eigenvalue, states `mode1.re`, `mode1.im`, the largest
 /// change of a coordinate of a unit of which is 1. Eigenvalues without independent vectors, such as the double zeros of a
 /// free body, have a common block of states `shared1` ... B follows from left vectors. D has the gain at s = 0 of the modes
-/// left out, so that the model's static gain is right (mode acceleration); where rigid bodies make that infinite, their gain
+/// truncated, so that the model's static gain is right (mode acceleration); where rigid bodies make that infinite, their gain
 /// at the real shift of the search, a fiftieth of the fastest rate found, and nothing for a complex shift.
 ///
-/// Krylov-Schur on (A - sigma E)^-1 E and on its adjoint, with dv eliminated: a sparse complex factorization of
-/// [sigma^2 M + sigma C + K, G^T; G, 0] each and a solution an application, so cost is linear in the number of links of a
-/// chain. sigma lies a little beside `shift`. Source of the elimination: Tisseur, Meerbergen, "The quadratic eigenvalue
+/// Krylov-Schur on (A - sigma E)^-1 E and on its adjoint, with dv eliminated: each takes one sparse complex factorization
+/// of [sigma^2 M + sigma C + K, G^T; G, 0] and a solution per application, so cost is linear in the number of links of a
+/// chain. sigma lies close to `shift`. Source of the elimination: Tisseur, Meerbergen, "The quadratic eigenvalue
 /// problem", SIAM Review 43 (2001) 235-286.
 ///
 /// # Errors
@@ -79,7 +80,7 @@ fn check(equations: &Quadratic, count: usize, shift: C) -> Result<()> {
     }
 }
 
-/// Takes out what rounding, and infinite eigenvalues with it, leave off the constraints.
+/// Removes the components off the constraints that rounding and infinite eigenvalues cause.
 fn hold(variation: &mut Variation, equations: &Quadratic, space: &mut Space) -> Result<()> {
     for part in [&mut space.p, &mut space.u] {
         *part -= variation.correct(&equations.g.product(part))?;
@@ -92,7 +93,7 @@ fn changes(equations: &Quadratic, space: &Space) -> Changes {
     Changes { q: space.p.clone(), v: &space.u + equations.turn.product(&space.p) }
 }
 
-/// With inputs and outputs.
+/// Adds inputs and outputs.
 fn build(variation: &mut Variation, equations: &Quadratic, modal: Modal) -> Result<Built> {
     let changes = changes(equations, &modal.space);
     let response = Response::exact(variation, &changes)?;
@@ -102,7 +103,7 @@ fn build(variation: &mut Variation, equations: &Quadratic, modal: Modal) -> Resu
     Ok(Built { chart, states, a: modal.a, b, c, d, e: None, changes, infinite: 0 })
 }
 
-/// With modes, each checked.
+/// Adds the modes, the residual of each checked.
 fn finish(
     variation: &mut Variation,
     found: &mut Found,
@@ -128,7 +129,7 @@ fn finish(
     Ok(LinearModel { method, chart, states, inputs, outputs, a, b, c, d, e, modes, point, cost })
 }
 
-/// s dq = dv - [v, dq] of each state.
+/// Returns s dq = dv - [v, dq] of each state.
 fn free_rates(variation: &Variation, built: &Built) -> Matrix {
     &built.changes.v - variation.bracket_with(&built.changes.q)
 }

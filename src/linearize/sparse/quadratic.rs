@@ -25,7 +25,7 @@ pub struct Quadratic {
     pub finite: usize,
 }
 
-/// A square or other matrix by its entries; those at one place add.
+/// A sparse matrix by its entries; entries at one place add up.
 #[derive(Clone)]
 pub struct Sparse {
     pub pattern: Pattern,
@@ -33,7 +33,8 @@ pub struct Sparse {
 }
 
 impl Quadratic {
-    /// At the state of `variation`. Cost: linear in the entries of the matrices, and with moving rotations in space a
+    /// The equations at the state of `variation`. Cost: linear in the entries of the matrices, and with moving
+    /// rotations in space a bracket for each direction.
     /// bracket for each direction.
     pub fn new(variation: &Variation) -> Self {
         let (structure, terms) = (&variation.dynamics.structure, &variation.dynamics.terms);
@@ -50,12 +51,12 @@ impl Quadratic {
         }
     }
 
-    /// n
+    /// Returns n, the number of directions.
     pub fn len(&self) -> usize {
         self.mass.pattern.rows
     }
 
-    /// The adjoint equations, whose p are the left vectors.
+    /// Returns the adjoint equations, whose p are the left vectors.
     pub fn transposed(&self) -> Self {
         Quadratic {
             mass: self.mass.clone(),
@@ -67,7 +68,8 @@ impl Quadratic {
         }
     }
 
-    /// An upper estimate of the fastest rate, 1/s: sqrt(K / M) of the rows, or C / M where there is no K; 1 where all is zero.
+    /// Returns an upper estimate of the fastest rate, 1/s: sqrt(K / M) of the rows, or C / M where there is no K; 1
+    /// where all is zero.
     pub fn fastest(&self) -> f64 {
         let (mass, k, c) = (self.mass.row_sizes(), self.stiffness.row_sizes(), self.damping.row_sizes());
         let over = |top: &[f64]| {
@@ -80,11 +82,11 @@ impl Quadratic {
     }
 }
 
-/// W, column by column, where the velocity of the state turns anything.
+/// Returns W, column by column, where the velocity of the state rotates anything.
 fn turn(variation: &Variation) -> Sparse {
     let (n, system, v) = (variation.len(), variation.system(), &variation.point.v);
     let mut turn = Sparse { pattern: Pattern { rows: n, cols: n, entries: Vec::new() }, values: Vec::new() };
-    // LociVariable no axis, so that every turn shows.
+    // Along no axis, so that every rotation shows.
     let (any, mut out): (Vec<f64>, _) = ((0..n).map(|i| (i as f64 + 1.0).sqrt()).collect(), vec![0.0; n]);
     system.bracket(v, &any, &mut out);
     if out.iter().all(|x| *x == 0.0) {
@@ -104,7 +106,7 @@ fn turn(variation: &Variation) -> Sparse {
 }
 
 impl Sparse {
-    /// From one triangle.
+    /// Makes a symmetric matrix from one triangle.
     fn symmetric(lower: &Pattern, values: &[f64]) -> Self {
         let mut full = Sparse { pattern: lower.clone(), values: values.to_vec() };
         for (&(i, j), value) in lower.entries.iter().zip(values).filter(|((i, j), _)| i != j) {
@@ -156,7 +158,7 @@ impl Sparse {
         }
     }
 
-    /// A X
+    /// Returns A X.
     pub fn product(&self, x: &Matrix) -> Matrix {
         let mut product = Matrix::zeros(self.pattern.rows, x.ncols());
         for (from, mut to) in x.column_iter().zip(product.column_iter_mut()) {

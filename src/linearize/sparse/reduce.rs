@@ -17,7 +17,7 @@ pub struct Modal {
     pub states: Vec<String>,
 }
 
-/// The pencil between the spaces. For the adjoint vectors (b, w = s b)
+/// Reduces the pencil to the invariant spaces. For the adjoint vectors (b, w = s b)
 ///
 /// ```text
 /// E: w^T M p + b^T C p + b^T M u      A: w^T M u - b^T K p
@@ -75,7 +75,7 @@ fn units(solved: &Eigen) -> Vec<Unit> {
     all.map(unit).collect()
 }
 
-/// The nearest ones, from the slowest. Defective real ones come from pairs, and two are one mode.
+/// Returns the nearest ones, from the slowest. Defective real ones come from pairs, and two are one mode.
 fn chosen(units: &[Unit], count: usize, shift: C) -> Vec<Unit> {
     let mut order: Vec<usize> = (0..units.len()).collect();
     let far = |k: usize| (units[k].value - shift).norm();
@@ -97,14 +97,14 @@ type Row = nalgebra::RowDVector<f64>;
 struct Blocks {
     columns: Vec<Column>,
     rows: Vec<Row>,
-    /// Of the diagonal of A.
+    /// Diagonal blocks of A.
     a: Vec<Matrix>,
     states: Vec<String>,
 }
 
 impl Blocks {
-    /// A mode whose largest change of a coordinate is 1: x = 2 Re(c v) has the coordinates 2 Re(c), -2 Im(c) along Re(v)
-    /// and Im(v).
+    /// Adds a mode whose largest change of a coordinate is 1: x = 2 Re(c v) has the coordinates 2 Re(c), -2 Im(c) along
+    /// Re(v) and Im(v).
     fn add(&mut self, number: usize, unit: &Unit, solved: &Eigen, p: &Matrix) {
         let shape = p.map(C::from) * solved.right.column(unit.column);
         let largest = shape.iter().copied().fold(C::ZERO, |a, b| if b.norm() > a.norm() { b } else { a });
@@ -126,7 +126,7 @@ impl Blocks {
         self.states.extend(["re", "im"].map(|part| format!("mode{number}.{part}")));
     }
 
-    /// One block for all defective eigenvalues: what all other vectors are orthogonal to.
+    /// Adds one block for all defective eigenvalues: the complement to which all other vectors are orthogonal.
     fn share(&mut self, units: &[Unit], solved: &Eigen, a: &Matrix) -> Result<(), Unsolved> {
         let rest: Vec<&Unit> = units.iter().filter(|unit| !unit.is_defective).collect();
         let real = |vectors: &crate::math::eigen::ComplexMatrix| -> Vec<Column> {
@@ -159,7 +159,7 @@ impl Blocks {
     }
 }
 
-/// An orthonormal basis of what is orthogonal to independent columns.
+/// Returns an orthonormal basis of the orthogonal complement of independent columns.
 fn complement(columns: &[Column], n: usize) -> Matrix {
     let mut all = Matrix::zeros(n, n);
     all.column_iter_mut().zip(columns).for_each(|(mut to, from)| to.copy_from(&from.normalize()));

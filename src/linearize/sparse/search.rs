@@ -1,4 +1,4 @@
-//! The spaces of the eigenvalues nearest to a shift.
+//! Invariant spaces of the eigenvalues nearest to a shift.
 
 use super::quadratic::Quadratic;
 use super::shifted::Shifted;
@@ -15,14 +15,14 @@ pub struct Space {
     pub u: Matrix,
 }
 
-/// Both spaces of the same eigenvalues, and the operator that they were found with.
+/// The right and left spaces of the same eigenvalues, and the operator they were found with.
 pub struct Found<'a> {
     pub right: Space,
     pub left: Space,
     pub operator: Shifted<'a>,
 }
 
-/// All eigenvalues of which `count` modes nearest to `shift` (im >= 0) are some.
+/// Finds eigenvalues that include the `count` modes nearest to `shift` (im >= 0).
 pub fn find<'a>([equations, adjoint]: [&'a Quadratic; 2], count: usize, shift: C) -> Result<Found<'a>, Unsolved> {
     let total = equations.finite;
     let each = if shift.im > 0.0 { 1 } else { 2 };
@@ -47,7 +47,7 @@ pub fn find<'a>([equations, adjoint]: [&'a Quadratic; 2], count: usize, shift: C
     Ok(Found { right, left, operator })
 }
 
-/// To rounding, with spaces and each eigenvalue as often as it is there; or roughly (`is_first`).
+/// Runs Krylov-Schur to rounding, with spaces and multiple eigenvalues; or roughly (`is_first`).
 fn run(operator: &mut Shifted, count: usize, is_first: bool) -> Result<Partial, Unsolved> {
     let (tolerance, restarts) = if is_first { (1e-2, 5) } else { (1e-12, 300) };
     let subspace = Some(count + count / 3 + 16);
@@ -56,7 +56,7 @@ fn run(operator: &mut Shifted, count: usize, is_first: bool) -> Result<Partial, 
     nearest(n, count, |x, y| operator.apply(x, y), options)
 }
 
-/// The operator at sigma, or a little further off where that is an eigenvalue.
+/// Returns the operator at sigma, or a little further off where sigma is an eigenvalue.
 fn beside(equations: &Quadratic, sigma: C, rate: f64) -> Result<Shifted<'_>, Unsolved> {
     let mut sigma = sigma;
     for _ in 0..8 {
@@ -98,8 +98,8 @@ fn slowest(equations: &Quadratic, count: &mut usize) -> Result<(C, f64), Unsolve
     Ok((C::from(sigma), sigma / tolerances::SHIFT_OF_SLOWEST))
 }
 
-/// How many values to keep: up to the widest gap among the last ones, so that no pair is parted and both sides keep the
-/// same. None without a gap.
+/// Returns the number of values to keep: up to the widest gap among the last ones, so that no pair is parted and both
+/// sides keep the same. None without a gap.
 fn cut(partial: &Partial, is_all: bool) -> Option<usize> {
     let count = partial.values.len();
     if is_all {
@@ -111,8 +111,8 @@ fn cut(partial: &Partial, is_all: bool) -> Option<usize> {
     (gap(last) > 1.0 + tolerances::EIGENVALUES_AGREE).then_some(last)
 }
 
-/// Modes that are nearest to `shift` for certain when all within the radius of the first `cut` values about sigma are known.
-/// A pair is one; so are two real eigenvalues, which may be a double zero.
+/// Returns the number of modes that are certainly nearest to `shift` when all within the radius of the first `cut`
+/// values about sigma are known. A pair is one; so are two real eigenvalues, which may be a double zero.
 fn modes(partial: &Partial, cut: usize, sigma: C, shift: C) -> usize {
     let radius = (1.0 + tolerances::EIGENVALUES_AGREE) / partial.values[cut - 1].norm() - (sigma - shift).norm();
     let values = partial.values.iter().take(cut).map(|theta| (sigma + theta.inv(), theta.norm().recip()));
@@ -125,8 +125,8 @@ fn modes(partial: &Partial, cut: usize, sigma: C, shift: C) -> usize {
     halves.sum::<usize>() / 2
 }
 
-/// A real basis of the space of the first `cut` Schur vectors and of their conjugates, which a real shift (`is_closed`)
-/// finds among them.
+/// Returns a real basis of the space of the first `cut` Schur vectors and of their conjugates, which a real shift
+/// (`is_closed`) finds among them.
 fn real(partial: &Partial, cut: usize, is_closed: bool, scale: &[f64]) -> Space {
     let q = partial.schur.as_ref().map_or(&partial.right, |[vectors, _]| vectors).columns(0, cut);
     let parts = Matrix::from_fn(q.nrows(), 2 * cut, |i, j| if j < cut { q[(i, j)].re } else { q[(i, j - cut)].im });

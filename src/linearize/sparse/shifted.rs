@@ -12,17 +12,17 @@ pub struct Shifted<'a> {
     quadratic: &'a Quadratic,
     pub sigma: C,
     matrix: Unsymmetric<C>,
-    /// What p and s p are multiplied by in vectors: the roots of the masses, and those over a rate.
+    /// Scale of p and s p in vectors: the square roots of the masses, and those over a rate.
     pub scale: Vec<f64>,
     top: Vec<C>,
     bottom: Vec<C>,
 }
 
 impl<'a> Shifted<'a> {
-    /// `rate`, 1/s, is what eigenvalues are measured by.
+    /// Factors the equations at sigma; `rate`, 1/s, is the scale of the eigenvalues.
     ///
     /// # Errors
-    /// sigma an eigenvalue, to rounding.
+    /// sigma is an eigenvalue, to rounding.
     pub fn new(quadratic: &'a Quadratic, sigma: C, rate: f64) -> Result<Self, Unsolved> {
         let n = quadratic.len();
         let none = Pattern { rows: n, cols: n, entries: Vec::new() };
@@ -38,7 +38,7 @@ impl<'a> Shifted<'a> {
         Ok(Shifted { quadratic, sigma, matrix, scale: scale(quadratic, rate), top: vec![C::ZERO; n], bottom })
     }
 
-    /// p of (sigma^2 M + sigma C + K) p + G^T lambda = f, G p = 0; in place.
+    /// Solves (sigma^2 M + sigma C + K) p + G^T lambda = f, G p = 0 for p; in place.
     pub fn solve(&mut self, f: &mut [C]) -> Result<(), Unsolved> {
         self.bottom.fill(C::ZERO);
         Ok(self.matrix.solve(f, &mut self.bottom)?)

@@ -34,7 +34,8 @@ pub const FORCE_PROJECTION: Entry = Entry {
 
 fn response(variation: &mut Variation, changes: &Changes, held: [f64; 2]) -> Result<Response> {
     let (mass, all) = (variation.mass(), variation.g());
-    // Beside the constraints, by 1e-9 say, rows that depend on others there do not quite: they would count as more.
+    // Close to the constraints, at a distance of 1e-9 say, dependent rows are not exactly dependent: they would raise
+    // the rank.
     let kept = variation.independent_rows();
     let g = all.select_rows(&kept);
     let rows = variation.rows(changes, held).select_rows(&kept);

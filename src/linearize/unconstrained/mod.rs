@@ -1,6 +1,6 @@
 //! Unconstrained coordinates (UCS): formulations without constraints, v' = a(q, v), linearized in all 2 n states.
 //!
-//! Beside the 2 (n - m) physical eigenvalues each has 2 m spurious ones, of motions off the constraints.
+//! In addition to the 2 (n - m) physical eigenvalues each has 2 m spurious ones, of motions off the constraints.
 
 mod baumgarte;
 mod force_projection;
@@ -18,7 +18,7 @@ use super::{Changes, Matrix, Response, Variation};
 use crate::error::Result;
 use crate::method_spec::OptionDoc;
 
-/// What all of them take.
+/// The option that all of them take.
 const PROJECTED: OptionDoc = OptionDoc {
     name: "projected",
     about: "yes: only the changes that the constraints allow, in the chart, without spurious eigenvalues (default no)",

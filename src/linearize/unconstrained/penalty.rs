@@ -42,7 +42,7 @@ pub const PENALTY: Entry = Entry {
     },
 };
 
-/// N times, from lambda_0 = 0, K and Gdd at v'_i and lambda_i:
+/// N iterations from lambda_0 = 0, K and Gdd at v'_i and lambda_i:
 ///
 /// ```text
 /// (M + s G^T G) dv'_i = -[K dq + C dv] - G^T dlambda_{i-1} - s G^T [(Gdd + c1 Gd + c0 G) dq + (G1 + c1 G) dv]
