@@ -1,4 +1,4 @@
-//! The error that a run has reached, by one that is more accurate.
+//! Error of a run, by comparison with a more accurate one.
 
 use crate::analysis::Recorder;
 use crate::error::Failure;
@@ -8,34 +8,39 @@ use crate::simulate::{Method, Span, Stop};
 use crate::trajectory::Trajectory;
 use serde::{Serialize, Serializer};
 
-/// How a run differs from the same one with closer steps.
+/// Difference of a run from the same one with smaller steps.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CheckError {
-    /// Of the second run.
+    /// Relative tolerance of the second run.
     pub rtol: f64,
+    /// Absolute tolerance of the second run.
     pub atol: f64,
+    /// Fixed step of the second run, s; none with an error estimate.
     pub step: Option<f64>,
-    /// Over the rows that both have. Coordinates where the scene has no outputs.
+    /// Differences over the common rows; of coordinates where the scene has no outputs.
     #[serde(serialize_with = "by_name")]
     pub outputs: Vec<(String, Difference)>,
-    /// How much the motion amplifies small changes of its start, or why that is not known.
+    /// Factor by which the motion amplifies small changes of its start, or the reason why it is not known.
     #[serde(serialize_with = "if_known")]
     pub amplification: Result<f64, String>,
-    /// Why the second run ended early.
+    /// Reason why the second run ended early.
     pub failure: Option<Failure>,
 }
 
-/// Of a quantity in two runs, in its unit, which is empty where it is not known.
+/// Difference of a quantity in two runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Difference {
+    /// Largest difference over the rows, in `unit`.
     pub max: f64,
+    /// Difference at the last row, in `unit`.
     #[serde(rename = "final")]
     pub last: f64,
+    /// Unit; empty where it is not known.
     pub unit: String,
 }
 
-/// Runs the scene again with closer steps, and compares the `first` run with that. `show` is told the times, `stop` asked
-/// whether to end.
+/// Runs the scene again with smaller steps, and compares the `first` run with that. `show` is called with the times,
+/// `stop` asked if the run should end.
 pub fn check_error(
     prepared: &PreparedScene,
     span: Span,
@@ -65,7 +70,7 @@ pub fn check_error(
     }
 }
 
-/// The same method at a tenth of the tolerance, or half the step.
+/// Returns the same method with a tenth of the tolerance, or half the step.
 fn closer(method: &Method) -> Method {
     let mut closer = method.clone();
     match &mut closer.step {

@@ -1,4 +1,4 @@
-//! Drift of one scene under every stabilization that its integrator goes with.
+//! Drift of one scene under every stabilization that its integrator can be combined with.
 
 use crate::analysis::{Drift, EnergyBalance, Record, Recorder, Singularity};
 use crate::error::{Error, Failure, Result, significant};
@@ -12,30 +12,40 @@ use std::time::Instant;
 /// A run under one stabilization.
 #[derive(Serialize)]
 pub struct StabilizedRun {
-    /// Its name in tables: the formulation, or the projection after index 1.
+    /// Name in tables: the formulation, or the projection after index 1.
     pub method: String,
+    /// Formulation with its gains.
     pub formulation: MethodSpec,
+    /// Projection after each step.
     pub projection: MethodSpec,
     /// `completed` or `failed`.
     pub status: &'static str,
+    /// Reason of a failed run.
     pub failure: Option<Failure>,
+    /// Constraint drift.
     pub drift: Drift,
+    /// Energy balance; none where the system defines no potential.
     pub energy: Option<EnergyBalance>,
+    /// Singular states on the way.
     pub singularity: Singularity,
+    /// Accepted steps.
     pub steps: u64,
+    /// Evaluations of the right-hand side.
     pub rhs_evaluations: u64,
+    /// Factorizations of matrices.
     pub factorizations: u64,
+    /// Wall-clock time, s.
     pub wall_seconds: f64,
     #[serde(skip)]
-    /// What was recorded; of the trajectory the times alone.
+    /// Record of the run; of its trajectory the times only.
     pub record: Record,
 }
 
-/// Runs the scene under every stabilization. Gains go with the mean step of the run without one, which comes first; `stop`
-/// is asked whether to end a run, `done` told of each that has.
+/// Runs the scene under every stabilization. Gains follow from the mean step of the run without one, which comes first;
+/// `stop` is asked if a run should end, `done` is called after each run.
 ///
 /// # Errors
-/// Where there is nothing to compare, and bad input of any kind: see [`simulate`].
+/// Only one stabilization; bad input of any kind: see [`simulate`].
 pub fn drift_under_stabilizations(
     prepared: &PreparedScene,
     stop: impl Fn() -> Option<Stop> + Sync,
@@ -54,11 +64,11 @@ pub fn drift_under_stabilizations(
     Ok([plain].into_iter().chain(others).collect())
 }
 
-/// The pairs of formulation and projection that the integrator of the scene goes with, the least stabilization first, with
-/// gains for steps of size `step`.
+/// Returns the pairs of formulation and projection that the integrator of the scene can be combined with, the least
+/// stabilization first, with gains for steps of size `step`, s.
 ///
 /// # Errors
-/// Where there is one alone.
+/// There is only one pair.
 pub fn stabilizations(prepared: &PreparedScene, step: f64) -> Result<Vec<(MethodSpec, MethodSpec)>> {
     let accepted =
         |(formulation, projection): &(MethodSpec, MethodSpec)| of(prepared, formulation, projection).check().is_ok();
@@ -77,7 +87,7 @@ fn of(prepared: &PreparedScene, formulation: &MethodSpec, projection: &MethodSpe
     Method { formulation: formulation.clone(), projection: projection.clone(), ..prepared.method.clone() }
 }
 
-/// Every stabilization, the least first, with gains that go with steps of size `step`: alpha = beta = 1/step is the pair
+/// Returns every stabilization, the least first, with gains for steps of size `step`: alpha = beta = 1/step is the pair
 /// (2/h, 1/h^2).
 fn all(step: f64) -> Vec<(MethodSpec, MethodSpec)> {
     let gain = significant(1.0 / step, 3);
@@ -120,7 +130,7 @@ fn one(
         simulate(prepared.system(), &method, prepared.span()?, prepared.start(), &mut recorder)?;
     let wall_seconds = clock.elapsed().as_secs_f64();
     let mut record = recorder.finish();
-    // Of the motion only the times are shown, and there are many records.
+    // Only the times of the motion are shown, and there are many records.
     record.trajectory.rows.iter_mut().for_each(|row| *row = vec![row[0]]);
     Ok(StabilizedRun {
         method: match (formulation.name.as_str(), projection.name.as_str()) {

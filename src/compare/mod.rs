@@ -1,4 +1,5 @@
-//! Many simulations of one scene: with closer steps, under every stabilization, by every method, over stress parameters.
+//! Many simulations of one scene: with smaller steps, under every stabilization, by every method, over stress
+//! parameters.
 
 mod check_error;
 mod drift;

@@ -1,4 +1,4 @@
-//! What `check` finds.
+//! The report of `check`.
 
 use super::Table;
 use super::equilibrium::EquilibriumFile;
@@ -15,39 +15,51 @@ use crate::tolerances::report as tolerances;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-/// What is modelled, and how well posed it is at the start.
+/// Size of a model, and its rank and conditioning at the start.
 #[derive(Clone, Debug, Serialize)]
 pub struct Check {
+    /// Name of the scene.
     pub scene: String,
+    /// 2 in the plane, 3 in space.
     pub dimension: usize,
+    /// n_q.
     pub coordinates: usize,
+    /// n_v.
     pub velocities: usize,
+    /// n_c.
     pub constraints: usize,
+    /// Rank of G at the start.
     pub rank: usize,
-    /// Rank of G at a state beside the start: higher where the start is a singular state.
+    /// Rank of G at a nearby state: higher where the start is a singular state.
     pub rank_beside: usize,
+    /// n_v less the rank.
     pub degrees_of_freedom: usize,
-    /// Rows that follow from others, by joint.
+    /// Dependent rows of G, with their joints.
     pub redundant: Vec<Redundant>,
+    /// Changes of the start by assembly.
     pub assembly: AssemblySummary,
+    /// Rates and outputs at the start.
     pub start: Start,
     /// Condition number of the equilibrated saddle-point matrix without the redundant rows.
     pub condition: f64,
-    /// How near G is to losing rank: the smallest sine between one of its rows and those before it, in the metric of M^-1,
-    /// redundant rows left aside; 1 is far, 0 a singular state.
+    /// Rank indicator of G: the smallest sine between one of its rows and those before it, in the metric of M^-1,
+    /// without redundant rows; 1 is far from a singular state, 0 is one.
     pub distance_to_singularity: f64,
     /// Largest and smallest entry on the diagonal of M, kg or kg m^2.
     pub mass_range: [f64; 2],
-    /// The fastest mode at the start, 1/s; none where nothing is free to move.
+    /// The fastest mode at the start, 1/s; none without degrees of freedom.
     pub fastest_mode: Option<SpectralMode>,
-    /// Length that drift is measured against, m.
+    /// Length that drift is relative to, m.
     pub length_scale: f64,
+    /// Bodies, with their coordinates.
     pub bodies: Vec<Item>,
+    /// Joints, with their rows.
     pub joints: Vec<Item>,
+    /// Forces.
     pub forces: Vec<Item>,
-    /// What the scene does not ask for, so that nothing of it is computed.
+    /// Quantities that the scene does not ask for and that are not computed.
     pub left_out: Vec<String>,
-    /// The static equilibrium where it is asked for.
+    /// The static equilibrium, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub equilibrium: Option<EquilibriumFile>,
 }
@@ -55,10 +67,10 @@ pub struct Check {
 /// Rates and outputs at the assembled start.
 #[derive(Clone, Debug, Serialize)]
 pub struct Start {
-    /// max |v| and max |v'|, m and rad per s and s^2.
+    /// max |v|, m/s and rad/s.
     pub velocity: f64,
     pub acceleration: f64,
-    /// Whether nothing moves, and nothing will.
+    /// True if nothing moves or accelerates.
     pub is_equilibrium: bool,
     pub outputs: Map<String, Value>,
     #[serde(skip)]
@@ -74,7 +86,7 @@ pub struct Item {
     pub detail: String,
 }
 
-/// Looks at the assembled start of a scene.
+/// Analyses the assembled start of a scene.
 pub fn check(prepared: &PreparedScene) -> Check {
     match &prepared.mechanism {
         AnyMechanism::Planar(mechanism) => inspect(prepared, mechanism.model()),
@@ -111,10 +123,10 @@ fn inspect<const D: usize>(prepared: &PreparedScene, model: &Model<D>) -> Check 
     }
 }
 
-/// So many names of coordinates a person reads.
+/// Largest number of coordinate names shown.
 const SHOWN_NAMES: usize = 14;
 
-/// The bodies of the scene; nodes of a flexible beam are listed as the one body that they are there.
+/// Returns the bodies of the scene; the nodes of a flexible beam are listed as one body.
 fn bodies<const D: usize>(model: &Model<D>) -> Vec<Item> {
     let item = |(i, part): (usize, &crate::scene::Part<D>)| match model.beams.iter().find(|b| b.bodies().contains(&i)) {
         None => Some(body_item(part)),
@@ -129,7 +141,7 @@ fn beam_item<const D: usize>(beam: &BeamLine, node: &crate::scene::Part<D>) -> I
     Item { name: beam.name.clone(), kind: "flexible beam, absolute".to_string(), detail }
 }
 
-/// The forces of the scene.
+/// Returns the forces of the scene.
 fn forces<const D: usize>(model: &Model<D>) -> Vec<Item> {
     let item =
         |force: &Connection<_>| Item { name: force.name.clone(), kind: force.kind.to_string(), detail: String::new() };
@@ -185,7 +197,7 @@ fn count(n: usize, one: &str, many: &str) -> String {
 }
 
 impl Check {
-    /// The report as a person reads it.
+    /// Returns the report as text.
     pub fn text(&self) -> String {
         let mut text = format!(
             "{}: {}, {}, {} of rank {}, {} of freedom\n\n",

@@ -1,4 +1,4 @@
-//! What a run says of its own error.
+//! Text on the error of a run.
 
 use super::Table;
 use crate::compare::CheckError;
@@ -11,7 +11,7 @@ const UNCHECKED_STEP: &str = "nothing estimates the errors of fixed steps: --che
 const PENALIZED: &str =
     "the limit is the penalty, whose error O(1/penalty) no tolerance or step takes away: compare with a larger one";
 
-/// The error as a person reads it: the differences to a second run, or that nobody knows it.
+/// Returns the differences to a second run, or a note that the error is not known.
 pub fn text(method: &Method, check: Option<&CheckError>) -> String {
     let found = match (check, method.step) {
         (Some(check), _) => differences(check),
@@ -44,7 +44,7 @@ fn with(check: &CheckError) -> String {
     }
 }
 
-/// A second run that ended early says nothing about what came after.
+/// Returns a warning if the second run ended early.
 pub fn cut_short(check: &CheckError) -> Option<Warning> {
     let failure = check.failure.as_ref()?;
     let text = format!(

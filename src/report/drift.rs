@@ -1,4 +1,4 @@
-//! What `drift` says, its table and its figure.
+//! Text, table and figure of `drift`.
 
 use super::figures::envelope;
 use super::{Table, cell, table};
@@ -9,7 +9,7 @@ use crate::plot::{AxisSpec, Figure, Panel, Series};
 use crate::prepared::PreparedScene;
 use crate::simulate::Method;
 
-/// One row a stabilization, and what failed.
+/// Returns one row for each stabilization, and the failures.
 pub fn drift_text(prepared: &PreparedScene, rows: &[StabilizedRun]) -> String {
     let Method { integrator, rtol, atol, step, .. } = &prepared.method;
     let accuracy = match step {
@@ -39,7 +39,7 @@ pub fn drift_text(prepared: &PreparedScene, rows: &[StabilizedRun]) -> String {
     text + &lines + if lines.is_empty() { "" } else { "\n" }
 }
 
-/// `t`, then |phi| and |phi'| of every method; empty where a run had ended.
+/// Returns `t`, then |phi| and |phi'| of every method; empty where a run had ended.
 pub fn stabilizations_table(rows: &[StabilizedRun]) -> Result<Vec<u8>> {
     let names = rows.iter().flat_map(|row| [format!("position {}", row.method), format!("velocity {}", row.method)]);
     let longest = rows.iter().map(|row| row.record.drift_rows.len()).max().unwrap_or(0);
@@ -54,15 +54,15 @@ pub fn stabilizations_table(rows: &[StabilizedRun]) -> Result<Vec<u8>> {
     table(["t".to_string()].into_iter().chain(names), (0..longest).map(line))
 }
 
-/// Points of a curve, each the largest drift of its window.
+/// Number of points of a curve, each the largest drift of its window.
 const WINDOWS: usize = 60;
 
-/// The method, short enough for a legend.
+/// Returns the method, short enough for a legend.
 fn legend(method: &str) -> String {
     method.replace("alpha", "α").replace("beta", "β").replace("gamma", "γ").replace(':', " ").replace(',', ", ")
 }
 
-/// Drift of positions and of velocities over time, a curve for each stabilization.
+/// Draws the drift of positions and of velocities over time, a curve for each stabilization.
 pub fn stabilizations_figure(name: &str, rows: &[StabilizedRun]) -> Option<Figure> {
     let panel = |level: usize, label: &str| {
         rows.iter().fold(Panel::new("time (s)", AxisSpec::from(label).log()), |panel, row| {

@@ -1,4 +1,4 @@
-//! What `check --static` says of the equilibrium.
+//! The report of `check --static`.
 
 use super::Table;
 use crate::analysis::Range;
@@ -11,29 +11,38 @@ use crate::tolerances::report as tolerances;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-/// The static equilibrium, or that there is none.
+/// The static equilibrium, or the fact that none was found.
 #[derive(Clone, Debug, Serialize)]
 pub struct EquilibriumFile {
+    /// True if an equilibrium was found.
     pub converged: bool,
-    /// Time that expressions of t are held at, s.
+    /// Time for expressions of t, s.
     pub t: f64,
+    /// Method that found it; none without an equilibrium.
     pub method: Option<Way>,
-    /// Linear systems solved, and steps of the load or of the descent, over all ways tried.
+    /// Linear systems solved, over all methods tried.
     pub iterations: usize,
+    /// Steps of the load or of the descent, over all methods tried.
     pub steps: usize,
-    /// max |f - G^T lambda|, N or N m; max |phi| in units of the scene's scale.
+    /// max |f - G^T lambda|, N or N m.
     pub residual: Option<f64>,
+    /// max |phi| over the scene's scale.
     pub gap: Option<f64>,
+    /// Coordinates by name.
     pub q: Map<String, Value>,
+    /// Multipliers by name.
     pub lambda: Map<String, Value>,
+    /// Outputs by name.
     pub outputs: Map<String, Value>,
-    /// None where that is not known, or where nothing holds the coordinates in `free`.
+    /// True if stable. None where that is not known, or where no force acts on the coordinates in `free`.
     pub stable: Option<bool>,
+    /// Class of the stability.
     pub stability: Option<Stability>,
-    /// Coordinates that can move without any force against them.
+    /// Coordinates that can move without a restoring force.
     pub free: Vec<String>,
+    /// Warnings of the search.
     pub warnings: Vec<Warning>,
-    /// Coordinates that are elsewhere than at the start: name, from, to.
+    /// Coordinates that differ from the start: name, from, to.
     #[serde(skip)]
     moves: Vec<(String, f64, f64)>,
     #[serde(skip)]
@@ -43,7 +52,7 @@ pub struct EquilibriumFile {
 const MOST_MOVES: usize = 10;
 
 impl EquilibriumFile {
-    /// That there is none.
+    /// The report that none was found.
     pub fn none(t: f64) -> EquilibriumFile {
         EquilibriumFile {
             converged: false,
@@ -65,6 +74,7 @@ impl EquilibriumFile {
         }
     }
 
+    /// The report of an equilibrium.
     pub fn of(prepared: &PreparedScene, found: Equilibrium) -> EquilibriumFile {
         let (system, names) = (prepared.system(), prepared.system().names());
         let columns = system.columns();
@@ -99,6 +109,7 @@ impl EquilibriumFile {
         }
     }
 
+    /// Returns the report as text.
     pub fn text(&self) -> String {
         let (Some(way), Some(stability)) = (self.method, self.stability) else {
             return format!("\nno static equilibrium at t = {} s\n", clock(self.t));
@@ -140,7 +151,7 @@ impl EquilibriumFile {
         }
     }
 
-    /// At most so many rows as a person reads.
+    /// Returns at most `MOST` rows of values.
     fn table(&self, heading: &str, values: &Map<String, Value>, units: &[String]) -> String {
         const MOST: usize = 40;
         if values.is_empty() {

@@ -4,7 +4,7 @@ use crate::analysis::Record;
 use crate::plot::{Figure, Panel, Series};
 use crate::scene::units::{Dimension, dimension_of};
 
-/// Outputs over time, one panel a unit; coordinates where the scene names no outputs. `None` without rows.
+/// Draws outputs over time, one panel for each unit; coordinates where the scene names no outputs. `None` without rows.
 pub fn outputs_figure(title: &str, record: &Record) -> Option<Figure> {
     let trajectory = &record.trajectory;
     if trajectory.rows.len() < 2 {
@@ -39,19 +39,19 @@ pub fn outputs_figure(title: &str, record: &Record) -> Option<Figure> {
     Some(figure)
 }
 
-/// More curves than this tell nothing.
+/// Largest number of coordinates drawn.
 pub(super) const MOST_COORDINATES: usize = 12;
 
-/// What is measured in a unit, for an axis; a percentage may be one of anything.
+/// Returns the quantity of a unit, for an axis; a percentage may be one of any quantity.
 pub(super) fn quantity(unit: &str) -> &'static str {
     let dimension = dimension_of(unit).filter(|dimension| *dimension != Dimension::Strain);
     dimension.map_or("value", Dimension::word)
 }
 
-/// Points of a drift curve, each the largest value of its window.
+/// Number of points of a drift curve, each the largest value of its window.
 const WINDOWS: usize = 100;
 
-/// Drift of positions, velocities and accelerations over time, on logarithmic axes.
+/// Draws the drift of positions, velocities and accelerations over time, on logarithmic axes.
 pub fn drift_figure(title: &str, record: &Record) -> Option<Figure> {
     let times: Vec<f64> = record.trajectory.times().collect();
     if times.len() < 2 || record.trajectory.names.lambda.is_empty() {
@@ -67,7 +67,7 @@ pub fn drift_figure(title: &str, record: &Record) -> Option<Figure> {
     Some(Figure::new().title(title).panel(panel))
 }
 
-/// Kinetic and potential energy and work, and the error of their balance.
+/// Draws kinetic and potential energy and work, and the error of their balance.
 pub fn energy_figure(title: &str, record: &Record) -> Option<Figure> {
     let times: Vec<f64> = record.trajectory.times().collect();
     if times.len() < 2 || record.ledger_rows.len() != times.len() {
@@ -88,8 +88,8 @@ pub fn energy_figure(title: &str, record: &Record) -> Option<Figure> {
     Some(Figure::new().title(title).panel(energies.series(total)).panel(errors))
 }
 
-/// The largest value within each of `windows` windows: drift at round-off jumps between zero and 1e-16 from row to
-/// row, and a curve through all of it hides the others. Windows without a positive value are left out.
+/// Returns the largest value within each of `windows` windows: drift at round-off jumps between zero and 1e-16 from row
+/// to row, and a curve through all of it hides the others. Windows without a positive value are dropped.
 pub fn envelope(points: impl Iterator<Item = (f64, f64)>, rows: usize, windows: usize) -> Vec<(f64, f64)> {
     let points: Vec<(f64, f64)> = points.collect();
     let width = rows.div_ceil(windows).max(1);

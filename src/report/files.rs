@@ -1,16 +1,16 @@
-//! The folder that results go to.
+//! The folder of the results.
 
 use crate::error::{Error, Result};
 use crate::files::{self, Staging};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Writes a file whole, or says why it cannot be.
+/// Writes a whole file, or returns the reason why that fails.
 pub fn write_whole(path: &Path, contents: &[u8]) -> Result<()> {
     files::write_whole(path, contents).map_err(|error| failed(path, "cannot write", &error))
 }
 
-/// Bad input where a file cannot be at its place; where there is room for none, a failure.
+/// Returns bad input where the path is wrong; a failure where the disk is full or the like.
 fn failed(path: &Path, what: &str, error: &io::Error) -> Error {
     use io::ErrorKind::*;
     let problem = format!("{what}: {}", reason(error));
@@ -44,8 +44,8 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// A folder that the results of one command go to, all together: [`finish`](Self::finish) gives them their places, and
-/// without it none appears. What was there before is whole until then. [`Staging`] says how.
+/// A folder of the results of one command, which appear all together: [`finish`](Self::finish) moves them into place.
+/// Without it none appears, and earlier results stay complete until then. [`Staging`] describes how.
 pub struct Folder {
     path: PathBuf,
     written: Vec<String>,
@@ -53,18 +53,20 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// Makes the folder and tries that it can be written to, before anything is computed.
+    /// Makes the folder and tests that it can be written to, before anything is computed.
     pub fn create(path: &Path) -> Result<Folder> {
         std::fs::create_dir_all(path).map_err(|error| failed(path, "cannot make this folder", &error))?;
         Staging::create(path).map_err(|error| failed(path, "cannot write here", &error))?;
         Ok(Folder { path: path.to_path_buf(), written: Vec::new(), staging: None })
     }
 
+    /// Returns the path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Writes a file that is seen after [`finish`](Self::finish). The last one vouches for the others.
+    /// Writes a file that appears after [`finish`](Self::finish). The presence of the last one shows that all are
+    /// complete.
     pub fn write(&mut self, name: &str, contents: &[u8]) -> Result<()> {
         let unwritten = |error: io::Error| failed(&self.path.join(name), "nothing was written", &error);
         let staging = match &mut self.staging {
@@ -84,11 +86,10 @@ impl Folder {
         self.write(name, format!("{text}\n").as_bytes())
     }
 
-    /// Gives all files their places.
+    /// Moves all files into place.
     ///
     /// # Errors
-    /// When the system does not let them be there. Then the last file is missing, so that nobody takes what is there for
-    /// whole.
+    /// A file cannot be moved. Then the last file is missing, which shows that the results are incomplete.
     pub fn finish(self) -> Result<Written> {
         let Folder { path, written, staging } = self;
         staging
@@ -98,18 +99,19 @@ impl Folder {
     }
 }
 
-/// The files that are in place.
+/// The files in place.
 pub struct Written {
     folder: PathBuf,
     names: Vec<String>,
 }
 
 impl Written {
+    /// Returns their paths.
     pub fn paths(&self) -> Vec<String> {
         self.names.iter().map(|name| self.folder.join(name).display().to_string()).collect()
     }
 
-    /// For a person.
+    /// Returns the folder with the names of the files.
     pub fn listing(&self) -> String {
         format!("{}: {}", self.folder.display(), self.names.join(", "))
     }

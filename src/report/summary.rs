@@ -12,36 +12,50 @@ use crate::simulate::{Checkpoint, Leg, Method, Outcome, Stiffness};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-/// A run in numbers.
+/// Summary of a run.
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
-    /// Version of the program, and how it was called; nothing from the library.
+    /// Version of the program.
     pub holonom: &'static str,
+    /// Command line; empty from the library.
     pub command: Vec<String>,
+    /// Parameters of the scene.
     pub parameters: Map<String, Value>,
-    /// What makes the result doubtful; nothing known does where it is empty.
+    /// Reasons to doubt the result; empty where none is known.
     pub warnings: Vec<Warning>,
+    /// Name of the scene.
     pub scene: String,
+    /// Method.
     pub method: Chosen,
+    /// `completed` or `failed`.
     pub status: &'static str,
+    /// Reason of a failed run.
     pub failure: Option<Failure>,
+    /// Time reached, s.
     pub t_end: f64,
+    /// Wall-clock time, s.
     pub wall_seconds: f64,
+    /// Counted work.
     pub statistics: Statistics,
+    /// Constraint drift.
     pub drift: Drift,
+    /// Energy balance; none where the system defines no potential.
     pub energy: Option<EnergyBalance>,
+    /// Singular states on the way.
     pub singularity: Singularity,
-    /// Modes that the method cannot step over; none where it can, or is implicit.
+    /// Fast modes that the method cannot step over; none where it can, or is implicit.
     pub stiffness: Option<Stiffness>,
+    /// Changes of the start by assembly.
     pub assembly: AssemblySummary,
-    /// The error by a second run, where that was asked for.
+    /// Error by a second run, if requested.
     pub check_error: Option<CheckError>,
+    /// Values of the last row.
     pub r#final: FinalState,
-    /// From where `--start` goes on; none where the run could not begin.
+    /// State from which `--start` continues; none where the run could not begin.
     pub restart: Option<Checkpoint>,
 }
 
-/// The method, and why where it was left to the program.
+/// The method, and the reason where the program chose it.
 #[derive(Clone, Debug, Serialize)]
 pub struct Chosen {
     /// That of the longest leg.
@@ -49,10 +63,10 @@ pub struct Chosen {
     pub method: Method,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chosen_because: Option<String>,
-    /// Where the method changed on the way, all in their order.
+    /// The legs in their order, where the method changed during the run.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub legs: Vec<Leg>,
-    /// Work of the methods that tried, beside that of those that carried the motion.
+    /// Work of the methods tried, besides that of the methods of the legs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trials: Option<Statistics>,
 }
@@ -80,7 +94,7 @@ impl Chosen {
     }
 }
 
-/// What assembly did.
+/// Changes by assembly.
 #[derive(Clone, Debug, Serialize)]
 pub struct AssemblySummary {
     pub before: Level,
@@ -104,7 +118,7 @@ pub struct FinalState {
     pub outputs: Map<String, Value>,
 }
 
-/// Work of rows is told where it is more than this part of that of the steps.
+/// Work of rows is reported where it is more than this part of that of the steps.
 const SHOWN: f64 = 0.1;
 
 /// Collects the summary of a run, with warnings from before it.
@@ -114,7 +128,7 @@ pub fn summarize(
     record: &Record,
     wall_seconds: f64,
 ) -> Summary {
-    // What ended a run may be no more than what came of leaving the branch.
+    // The error that ended a run may be a consequence of leaving the branch, which is reported first.
     let failure = record.singularity.failure().or(outcome.failure.clone());
     let parameters = prepared.parameters.iter().map(|(name, value)| (name.to_string(), Value::from(value))).collect();
     Summary {
@@ -160,7 +174,7 @@ fn final_state(record: &Record) -> FinalState {
 }
 
 impl Summary {
-    /// The summary as a person reads it.
+    /// Returns the summary as text.
     pub fn text(&self, units: &[(String, String)]) -> String {
         let Method { formulation, integrator, projection, rtol, atol, step } = &self.method.method;
         let accuracy = match step {
@@ -217,14 +231,14 @@ impl Summary {
         text + &check_error::text(&self.method.method, self.check_error.as_ref())
     }
 
-    /// The same with the error by a second run.
+    /// Returns the summary with the error by a second run.
     pub fn checked(mut self, check: CheckError) -> Self {
         self.warnings.extend(check_error::cut_short(&check));
         self.check_error = Some(check);
         self
     }
 
-    /// A line that says how far the start was moved, where it was.
+    /// Returns a line on the changes of the start by assembly, if any.
     fn assembly_text(&self) -> String {
         let Some(largest) = self.assembly.moves.first() else { return String::new() };
         format!(
@@ -249,7 +263,7 @@ impl Summary {
     }
 }
 
-/// A wall time as a person reads it.
+/// Returns a wall-clock time as text.
 fn elapsed(seconds: f64) -> String {
     match seconds {
         short if short < 1.0 => format!("{} ms", significant(1e3 * seconds, 3)),
@@ -258,10 +272,10 @@ fn elapsed(seconds: f64) -> String {
     }
 }
 
-/// Times of singular states that are named.
+/// Largest number of singular states whose times are given.
 const NAMED: usize = 5;
 
-/// What a person reads of singular states.
+/// Returns the text on singular states.
 fn singular_text(found: &Singularity) -> String {
     let Some(nearest) = found.nearest else { return String::new() };
     if found.passed.is_empty() {

@@ -1,4 +1,4 @@
-//! `sweep.json`, and a sweep as a person reads it.
+//! `sweep.json`, and the text on a sweep.
 
 use super::Table;
 use super::figures::MOST_COORDINATES;
@@ -8,21 +8,30 @@ use crate::tolerances::report as tolerances;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-/// A sweep in numbers.
+/// Summary of a sweep.
 #[derive(Clone, Debug, Serialize)]
 pub struct SweepSummary {
+    /// Name of the scene.
     pub scene: String,
+    /// Name of the parameter.
     pub parameter: String,
+    /// Range of the parameter.
     pub range: Ends,
+    /// Number of values.
     pub count: usize,
-    /// Values that were reached.
+    /// Number of values that were reached.
     pub reached: usize,
+    /// `completed` or `failed`.
     pub status: &'static str,
+    /// The first value that was not reached.
     pub failure: Option<Unreached>,
     /// The scene's own value of the parameter.
     pub own_value: f64,
+    /// Ends of the branch within the range.
     pub limits: Vec<LimitSummary>,
+    /// State nearest to a singular one.
     pub nearest_singular: Nearest,
+    /// Outputs at the ends, and their extremes.
     pub outputs: Vec<Extremes>,
 }
 
@@ -51,8 +60,8 @@ pub struct LimitSummary {
     pub outputs: Map<String, Value>,
 }
 
-/// What an output is at the ends of its curve (the ends of the branch, where those lie in the range) and at the scene's own
-/// value, and where of the values it is least and largest.
+/// An output at the ends of its curve (the ends of the branch, where those lie in the range) and at the scene's own
+/// value, and its least and largest value.
 #[derive(Clone, Debug, Serialize)]
 pub struct Extremes {
     pub name: String,
@@ -64,14 +73,14 @@ pub struct Extremes {
     pub max: Place,
 }
 
-/// A value of an output and that of the parameter.
+/// A value of an output with that of the parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Place {
     pub at: f64,
     pub value: f64,
 }
 
-/// What is shown of a sweep: the outputs, or the first coordinates where the scene names none.
+/// Returns name and unit of what is shown: the outputs, or the first coordinates where the scene names none.
 pub(super) fn watched(sweep: &Sweep) -> Vec<(&str, &str)> {
     match sweep.outputs.as_slice() {
         [] => sweep.names.q.iter().take(MOST_COORDINATES).map(|name| (name.as_str(), "m, rad")).collect(),
@@ -79,12 +88,13 @@ pub(super) fn watched(sweep: &Sweep) -> Vec<(&str, &str)> {
     }
 }
 
-/// The values of what is shown at a state.
+/// Returns the values of these at a state.
 pub(super) fn shown<'a>(sweep: &Sweep, point: &'a Point) -> &'a [f64] {
     if sweep.outputs.is_empty() { &point.q } else { &point.outputs }
 }
 
 impl SweepSummary {
+    /// The summary of a sweep.
     pub fn new(sweep: &Sweep) -> Self {
         let range = &sweep.range;
         SweepSummary {
@@ -106,7 +116,7 @@ impl SweepSummary {
         }
     }
 
-    /// The summary as a person reads it.
+    /// Returns the summary as text.
     pub fn text(&self) -> String {
         let Ends { from, to } = self.range;
         let mut text = format!(
@@ -128,7 +138,7 @@ impl SweepSummary {
         }
     }
 
-    /// Where the branch ends and why.
+    /// Returns the ends of the branch with the reasons.
     pub fn ends(&self) -> Vec<String> {
         let end = |limit: &LimitSummary| {
             format!(
@@ -162,14 +172,14 @@ impl SweepSummary {
 }
 
 impl Extremes {
-    /// The ends and the scene's own value between them.
+    /// Returns the ends and the scene's own value between them.
     fn places(&self) -> impl Iterator<Item = &Place> {
         let own = self.own.iter().filter(|own| own.at != self.first.at && own.at != self.last.at);
         [&self.first].into_iter().chain(own).chain([&self.last])
     }
 }
 
-/// A value of a curve of this size, with degrees beside radians; round-off is zero.
+/// Returns a value of a curve of this size, with degrees in parentheses for radians; round-off is zero.
 fn reading(value: f64, unit: &str, size: f64) -> String {
     let size = if unit == "rad" { size.max(1.0) } else { size };
     let value = if value.abs() < 1e-12 * size { 0.0 } else { value };

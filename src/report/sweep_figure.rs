@@ -1,30 +1,30 @@
-//! Outputs over a parameter, or over one of them.
+//! Figure of outputs over a parameter or over one of them.
 
 use super::figures::quantity;
 use super::sweep::{shown, watched};
 use crate::plot::{Figure, Panel, Series};
 use crate::sweep::{Point, Sweep};
 
-/// What is drawn along an axis.
+/// A curve, with the name of its quantity.
 struct Curve<'a> {
     name: &'a str,
     unit: &'a str,
     values: Vec<f64>,
 }
 
-/// What to draw of a sweep.
+/// Options of the figure of a sweep.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SweepLook<'a> {
     /// Outputs; all where none is named.
     pub outputs: &'a [String],
-    /// Output along the horizontal axis, in the place of the parameter.
+    /// Output along the horizontal axis, instead of the parameter.
     pub against: Option<&'a str>,
-    /// One panel an output, not a unit.
+    /// True for one panel per output, false for one per unit.
     pub separate: bool,
 }
 
-/// Outputs over the parameter or one of them, angles in degrees; the scene's own position and the ends of the branch are
-/// marked. `None` without a curve.
+/// Draws outputs over the parameter or one of them, angles in degrees; the scene's own position and the ends of the
+/// branch are marked. `None` without a curve.
 pub fn sweep_figure(sweep: &Sweep, look: SweepLook) -> Option<Figure> {
     let SweepLook { outputs: names, against, separate } = look;
     let curves = curves(sweep);
@@ -68,8 +68,7 @@ fn curves<'a>(sweep: &'a Sweep) -> Vec<Curve<'a>> {
     watched(sweep).into_iter().enumerate().map(curve).collect()
 }
 
-/// Forces and speeds may grow without bounds towards an end of the branch: what is there out of all proportion is no part
-/// of the curve.
+/// Removes extreme values at an end of the branch, where forces and speeds may grow without bounds.
 fn cut(sweep: &Sweep, points: &[&Point], values: &mut [f64]) {
     let is_end = |point: &Point| sweep.limits.iter().any(|limit| limit.point.value == point.value);
     let others = || points.iter().zip(values.iter()).filter(|(point, _)| !is_end(point)).map(|(_, value)| *value);
@@ -83,7 +82,7 @@ fn label(name: &str, unit: &str) -> String {
     if unit.is_empty() { name.to_string() } else { format!("{name} ({unit})") }
 }
 
-/// Where the scene's own position and the ends of the branch lie on the abscissa.
+/// Returns the positions of the scene's own value and of the ends of the branch on the abscissa.
 fn marks(sweep: &Sweep, curve: &[&Point], abscissa: &[f64]) -> Vec<(f64, &'static str)> {
     let place = |point: &Point| curve.iter().position(|known| known.value == point.value).map(|i| abscissa[i]);
     let own = sweep.own.iter().map(|point| (place(point), "design"));

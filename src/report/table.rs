@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Columns under headings; the first and those of words are aligned left, the others right unless all are aligned left.
+/// Columns under headings; the first and those of text are aligned left, the others right unless all are aligned left.
 pub struct Table {
     rows: Vec<Vec<String>>,
     left: bool,
@@ -10,6 +10,7 @@ pub struct Table {
 }
 
 impl Table {
+    /// A table of numbers.
     pub fn new(headings: &[&str]) -> Self {
         Table {
             rows: vec![headings.iter().map(|heading| heading.to_string()).collect()],
@@ -18,17 +19,18 @@ impl Table {
         }
     }
 
-    /// A table of words.
+    /// A table of text.
     pub fn left(headings: &[&str]) -> Self {
         Table { left: true, ..Table::new(headings) }
     }
 
-    /// The same table with words in a column.
+    /// Aligns a column left, as text.
     pub fn words(mut self, column: usize) -> Self {
         self.words.push(column);
         self
     }
 
+    /// Adds a row.
     pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
         self.rows.push(cells.into_iter().collect());
     }

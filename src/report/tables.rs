@@ -1,4 +1,4 @@
-//! Comma-separated tables that open in Python, MATLAB and a spreadsheet.
+//! Comma-separated tables for Python, MATLAB and spreadsheets.
 
 use crate::analysis::Record;
 use crate::error::{Error, Result};
@@ -8,12 +8,12 @@ use crate::trajectory::Trajectory;
 use std::fmt;
 use std::io::Write;
 
-/// `t`, coordinates, velocities, multipliers, outputs: one row an output time, at full precision.
+/// Returns `t`, coordinates, velocities, multipliers, outputs: one row per output time, at full precision.
 pub fn trajectory_table(trajectory: &Trajectory) -> Result<Vec<u8>> {
     write(trajectory.headings(), trajectory.rows.iter().map(Vec::as_slice))
 }
 
-/// The parameter by its name, coordinates, multipliers, outputs: one row a value that was reached.
+/// Returns the parameter by its name, coordinates, multipliers, outputs: one row per value that was reached.
 pub fn sweep_table(sweep: &Sweep) -> Result<Vec<u8>> {
     let Names { q, lambda, .. } = &sweep.names;
     let outputs = sweep.outputs.iter().map(|output| output.name.as_str());
@@ -27,19 +27,19 @@ pub fn sweep_table(sweep: &Sweep) -> Result<Vec<u8>> {
     write(own.chain(outputs).collect(), rows.iter().map(Vec::as_slice))
 }
 
-/// A parameter above a column beside others: where an output has its name, `parameters.NAME`.
+/// Returns the heading of a parameter: `parameters.NAME` where another column has its name.
 pub fn heading<'a>(parameter: &str, mut others: impl Iterator<Item = &'a str>) -> String {
     if others.any(|other| other == parameter) { format!("parameters.{parameter}") } else { parameter.to_string() }
 }
 
-/// `t` and the largest |phi|, |phi'| and |phi''| at the output times.
+/// Returns `t` and the largest |phi|, |phi'| and |phi''| at the output times.
 pub fn drift_table(record: &Record) -> Result<Vec<u8>> {
     let times = record.trajectory.times();
     let rows: Vec<[f64; 4]> = times.zip(&record.drift_rows).map(|(t, [p, v, a])| [t, *p, *v, *a]).collect();
     write(vec!["t", "position", "velocity", "acceleration"], rows.iter().map(<[f64; 4]>::as_slice))
 }
 
-/// `t`, kinetic and potential energy, work put in and the error of the balance at the output times, J.
+/// Returns `t`, kinetic and potential energy, work and the error of the balance at the output times, J.
 pub fn energy_table(record: &Record) -> Result<Vec<u8>> {
     let times = record.trajectory.times();
     let rows: Vec<[f64; 5]> = times
@@ -49,8 +49,8 @@ pub fn energy_table(record: &Record) -> Result<Vec<u8>> {
     write(vec!["t", "kinetic", "potential", "work", "error"], rows.iter().map(<[f64; 5]>::as_slice))
 }
 
-/// A number at full precision, with an exponent where zeros alone would fill the cell; empty where there is no value, as
-/// of an output outside what it is defined for.
+/// Returns a number at full precision, with an exponent where zeros alone would fill the cell; empty where there is no
+/// value, such as of an output outside its domain.
 pub fn cell(value: f64) -> String {
     Cell(value).to_string()
 }
@@ -68,7 +68,7 @@ impl fmt::Display for Cell {
     }
 }
 
-/// Numbers under headings: cells that need no quotation.
+/// Writes numbers under headings, which need no quotation.
 fn write<'a>(headings: Vec<&str>, rows: impl Iterator<Item = &'a [f64]>) -> Result<Vec<u8>> {
     let mut all = table(headings.into_iter().map(String::from), std::iter::empty())?;
     for row in rows {
@@ -85,7 +85,7 @@ fn failed(error: &dyn fmt::Display) -> Error {
     Error::input(format!("cannot write the table: {error}"))
 }
 
-/// Rows of cells under headings.
+/// Writes rows of cells under headings.
 pub fn table(headings: impl Iterator<Item = String>, rows: impl Iterator<Item = Vec<String>>) -> Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(headings).map_err(|error| failed(&error))?;

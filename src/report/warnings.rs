@@ -1,4 +1,4 @@
-//! What makes a result doubtful although it was computed to the end.
+//! Reasons to doubt a result although it was computed to the end.
 
 use crate::analysis::{Drift, EnergyBalance, Record};
 use crate::error::Warning;
@@ -6,7 +6,7 @@ use crate::error::significant;
 use crate::tolerances::report as tolerances;
 use crate::trajectory::{Gap, Trajectory};
 
-/// All that the record of a run has against the run.
+/// Returns all warnings from the record of a run.
 pub fn warnings(record: &Record) -> Vec<Warning> {
     let energy = record.energy.as_ref().filter(|energy| energy.is_open()).map(open_balance);
     open_joints(&record.drift)
@@ -17,7 +17,7 @@ pub fn warnings(record: &Record) -> Vec<Warning> {
         .collect()
 }
 
-/// Kinds of eigenvalues that are not known, by these methods, each of which may be named more than once.
+/// Returns a warning of uncertain classes of eigenvalues, by these methods, each of which may be named more than once.
 pub fn uncertain_kinds<'m>(methods: impl Iterator<Item = &'m str>) -> Option<Warning> {
     let mut names: Vec<&str> = Vec::new();
     methods.for_each(|method| {

@@ -1,14 +1,15 @@
-//! What became of one simulation.
+//! Result of one simulation of a map.
 
 use crate::analysis::Drift;
 use crate::simulate::Method;
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
 
-/// How a cell ended.
+/// How a simulation ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
+    /// The run reached its end time.
     Completed,
     /// The joints came apart by more than a tenth of the scene's size, or numbers became infinite.
     Diverged,
@@ -18,12 +19,12 @@ pub enum Status {
     Refused,
     /// The deadline of a cell passed.
     TooSlow,
-    /// The time for all cells was over: nothing is known of how it ends.
+    /// The time for all cells was over: the result is not known.
     LeftOut,
 }
 
 impl Status {
-    /// As it stands in a table.
+    /// Returns the name in a table.
     pub fn word(self) -> &'static str {
         match self {
             Status::Completed => "completed",
@@ -35,49 +36,55 @@ impl Status {
         }
     }
 
-    /// Whether the simulation came to an end of its own, good or bad.
+    /// True if the simulation ended by itself, with or without success.
     pub fn is_ended(self) -> bool {
         !matches!(self, Status::TooSlow | Status::LeftOut)
     }
 }
 
-/// One simulation and what was measured of it.
+/// One simulation and its measures.
 #[derive(Clone, Debug, Serialize)]
 pub struct Cell {
-    /// Places on the axes, and which of the compared methods.
+    /// Index of the compared method.
     pub panel: usize,
+    /// Index of the value of the first parameter (x).
     pub column: usize,
+    /// Index of the value of the second parameter (y).
     pub row: usize,
+    /// Method of the simulation.
     pub method: Method,
+    /// How it ended.
     pub status: Status,
-    /// Why it did not complete.
+    /// Reason why it did not complete.
     pub reason: Option<String>,
-    /// Until when it was simulated, s.
+    /// Time reached, s.
     pub t: f64,
-    /// None where nothing was simulated.
+    /// Constraint drift; none where nothing was simulated.
     pub drift: Option<Drift>,
     /// max |kinetic + potential - initial - work|, J.
     pub energy_error: Option<f64>,
-    /// The same as part of the energy turned over: see [`EnergyBalance`](crate::analysis::EnergyBalance).
+    /// The same relative to the energy converted: see [`EnergyBalance`](crate::analysis::EnergyBalance).
     pub relative_energy_error: Option<f64>,
-    /// Largest difference of an output from an accurate run of the same motion, in scales of the output; of coordinates where
-    /// the scene names no outputs. None where no accurate run came through, or the cell did not complete.
+    /// Largest difference of an output from an accurate run of the same motion, relative to the scale of the output; of
+    /// coordinates where the scene names no outputs. None where no accurate run completed, or the cell did not.
     pub error: Option<f64>,
-    /// The output that has it.
+    /// The output with the largest difference.
     pub worst: Option<String>,
-    /// The differences of all outputs.
+    /// The differences of all outputs, relative to their scales.
     #[serde(skip)]
     pub errors: Vec<f64>,
-    /// Whether it completed with outputs and energy within `tolerances::WRONG_MOTION`. None where that is not known.
+    /// True if it completed with outputs and energy within `tolerances::WRONG_MOTION`. None where that is not known.
     pub holds: Option<bool>,
+    /// Accepted steps.
     pub steps: u64,
-    /// Of steps and rows.
+    /// Evaluations of the right-hand side, of steps and rows.
     pub rhs_evaluations: u64,
+    /// CPU time, s.
     pub seconds: f64,
 }
 
 impl Cell {
-    /// The same cell with its errors, and whether it holds.
+    /// Returns the same cell with its errors, and with `holds`.
     pub(super) fn judged(mut self, names: &[String], errors: Vec<f64>) -> Self {
         let largest = errors.iter().enumerate().max_by(|a, b| magnitude(*a.1).total_cmp(&magnitude(*b.1)));
         self.error = largest.map(|(_, error)| *error);
@@ -94,27 +101,31 @@ impl Cell {
     }
 }
 
-/// What is no number is the largest.
+/// NaN counts as the largest.
 fn magnitude(error: f64) -> f64 {
     if error.is_nan() { f64::INFINITY } else { error }
 }
 
-/// What a map shows of its cells.
+/// Quantity that a map shows of its cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
-    /// max |phi|
+    /// Largest |phi|, m or rad.
     Position,
-    /// max |G v + phi_t|
+    /// Largest |G v + phi_t|, m/s or rad/s.
     Velocity,
-    /// |phi| at the end.
+    /// |phi| at the end, m or rad.
     FinalPosition,
+    /// Relative error of the energy balance.
     Energy,
+    /// Relative error of the outputs.
     Error,
+    /// CPU time, s.
     Seconds,
 }
 
 impl Quantity {
+    /// All quantities.
     pub const ALL: [Quantity; 6] = [
         Quantity::Position,
         Quantity::Velocity,
@@ -124,6 +135,7 @@ impl Quantity {
         Quantity::Seconds,
     ];
 
+    /// Returns the name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Quantity::Position => "position",
@@ -135,7 +147,7 @@ impl Quantity {
         }
     }
 
-    /// With its unit.
+    /// Returns the name with its unit.
     pub fn label(self) -> &'static str {
         match self {
             Quantity::Position => "position drift (m, rad)",
@@ -147,7 +159,7 @@ impl Quantity {
         }
     }
 
-    /// Its value in a completed cell.
+    /// Returns the value in a completed cell; none in others.
     pub fn of(self, cell: &Cell) -> Option<f64> {
         let drift = || cell.drift.as_ref().filter(|_| cell.status == Status::Completed);
         let done = cell.status == Status::Completed;

@@ -1,4 +1,4 @@
-//! What sets a cell apart from the scene as it is.
+//! Differences of a cell from the scene as it is.
 
 use super::parameters::{StressParameter, baumgarte};
 use super::subject::Case;
@@ -6,16 +6,18 @@ use crate::error::Result;
 use crate::integrator::{Steps, find};
 use crate::method_spec::MethodSpec;
 
-/// One thing that a place in a map changes.
+/// One change that a cell of a map makes.
 #[derive(Clone)]
 pub enum Change {
+    /// A stress parameter and its value.
     StressParameter(&'static StressParameter, f64),
     /// A parameter of the scene.
     Parameter(String, f64),
+    /// Another integrator.
     Integrator(MethodSpec),
     /// Formulation and projection.
     Stabilization(MethodSpec, MethodSpec),
-    /// Baumgarte's pair (2/h, 1/h^2), which follows the step.
+    /// Baumgarte's pair (2/h, 1/h^2), which depends on the step h.
     OwnGains,
 }
 
@@ -23,7 +25,7 @@ impl Change {
     /// Makes the change.
     ///
     /// # Errors
-    /// A scene that has nothing of the kind to change.
+    /// The scene has nothing of the kind to change.
     pub fn apply(&self, case: &mut Case) -> Result<()> {
         let typical_step = case.typical.step;
         let method = &mut case.method;
@@ -46,7 +48,7 @@ impl Change {
         Ok(())
     }
 
-    /// Whether the motion that is to be computed stays the same.
+    /// True if the exact motion stays the same.
     pub fn keeps_motion(&self) -> bool {
         match self {
             Change::StressParameter(parameter, _) => parameter.keeps_motion,

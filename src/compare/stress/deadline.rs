@@ -1,18 +1,18 @@
-//! When runs end.
+//! Deadlines of runs.
 
 use cpu_time::ThreadTime;
 use std::time::{Duration, Instant};
 
-/// How long cells may take.
+/// Limits of the computation time.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
-    /// CPU time of each of them.
+    /// CPU time of each cell.
     pub cell: Duration,
-    /// All of them: what has not begun then is left out, and what runs ends.
+    /// End of all cells: those not begun by then are skipped, and runs end.
     pub end: Instant,
 }
 
-/// The end of a run that has begun.
+/// Deadline of a run that has begun.
 pub(super) struct Deadline {
     begun: (Instant, ThreadTime),
     share: Duration,
@@ -20,7 +20,7 @@ pub(super) struct Deadline {
 }
 
 impl Deadline {
-    /// After the CPU time `share`, or at the end of all.
+    /// The deadline after the CPU time `share`, or at the end of all.
     pub fn new(share: Duration, limits: Limits) -> Self {
         Deadline { begun: (Instant::now(), ThreadTime::now()), share, end: limits.end }
     }
@@ -29,7 +29,7 @@ impl Deadline {
         self.is_used_up() || Instant::now() > self.end
     }
 
-    /// Whether its own time is over. The clock of CPU time is slow to read.
+    /// True if the run has used its own share. The clock of CPU time is slow to read.
     pub fn is_used_up(&self) -> bool {
         self.begun.0.elapsed() > self.share && self.begun.1.elapsed() > self.share
     }

@@ -1,4 +1,4 @@
-//! Why Baumgarte's gains are no easy choice, in numbers.
+//! Measures of how well one pair of Baumgarte's gains fits many steps.
 
 use super::cell::{Cell, Quantity, Status};
 use super::run::Stressed;
@@ -8,73 +8,94 @@ use serde::Serialize;
 /// One integrator on the map of gains, judged by the drift of velocities or positions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GainVerdict {
+    /// Name of the integrator.
     pub method: String,
+    /// Level of the drift.
     pub quantity: Quantity,
+    /// Result for each step.
     pub steps: Vec<StepVerdict>,
-    /// The one gain that is nearest to the best of each step, of those that complete at all steps that were run up to the
-    /// first at which none does.
+    /// The gain whose drift is nearest to the best of each step, of those that complete at all steps that were run up to
+    /// the first at which none does.
     pub steady: Option<Steady>,
-    /// Where the gain that drifts least is farthest off beside no gain.
+    /// The step at which the gain of least drift increases the error most against no stabilization.
     pub farther: Option<Farther>,
-    /// Of all simulations with this integrator, those of which nothing is known.
+    /// Number of simulations with this integrator that were skipped.
     pub left_out: usize,
+    /// Number of those that reached their deadline.
     pub too_slow: usize,
 }
 
-/// The simulations at one step.
+/// The simulations with one step.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StepVerdict {
+    /// Step h, s.
     pub step: f64,
+    /// Without stabilization.
     pub none: Level,
-    /// The gain that drifts least of those that complete, and what it leaves.
+    /// The completed gain of least drift.
     pub best: Option<Best>,
-    /// How many gains came to an end, good or bad, and how many did not.
+    /// Number of gains whose runs ended by themselves, with or without success.
     pub gains_ended: usize,
+    /// Number of the other gains.
     pub gains_left_out: usize,
     /// With the pair (2/h, 1/h^2).
     pub own_gains: Level,
-    /// After one and two sweeps of post-stabilization.
+    /// With one sweep of post-stabilization.
     pub manifold: Level,
+    /// With two sweeps of post-stabilization.
     pub manifold_twice: Level,
 }
 
 /// One simulation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Level {
+    /// How it ended.
     pub status: Status,
-    /// None where it did not complete.
+    /// Drift in the unit of the quantity; none where it did not complete.
     pub drift: Option<f64>,
-    /// See [`Cell`].
+    /// Relative error of the outputs: see [`Cell`].
     pub error: Option<f64>,
+    /// Relative error of the energy balance.
     pub energy: Option<f64>,
+    /// True if the errors are within the tolerance: see [`Cell`].
     pub holds: Option<bool>,
 }
 
+/// The gain of least drift at one step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Best {
+    /// Gain alpha = beta, 1/s.
     pub gain: f64,
+    /// Drift in the unit of the quantity.
     pub value: f64,
+    /// Relative error of the outputs.
     pub error: Option<f64>,
 }
 
-/// A gain and how many times the best of a step it leaves, at the worst of the steps.
+/// One gain for all steps, and its drift relative to that of the best gain of a step, at the worst step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Steady {
+    /// Gain alpha = beta, 1/s.
     pub gain: f64,
+    /// Drift over that of the best gain, largest over the steps.
     pub ratio: f64,
 }
 
-/// How many times the error of an output without gains a gain leaves, though it drifts less than others.
+/// A gain of least drift whose output error is larger than without stabilization.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Farther {
+    /// Step h, s.
     pub step: f64,
+    /// Gain alpha = beta, 1/s.
     pub gain: f64,
+    /// Name of the output.
     pub output: String,
+    /// Error of the output over that without stabilization.
     pub ratio: f64,
 }
 
 impl Stressed {
-    /// The verdicts by integrator, each by velocities and by positions; empty for other maps.
+    /// Returns the verdicts by integrator, each by velocities and by positions; empty for other maps.
     pub fn gains(&self) -> Vec<GainVerdict> {
         let methods = if self.map.name == "gain" { self.map.methods.len() } else { 0 };
         let levels = [Quantity::Velocity, Quantity::Position];
@@ -99,7 +120,7 @@ impl Stressed {
     }
 }
 
-/// The drift of one integrator at one level.
+/// Access to the drift of one integrator at one level.
 struct Levels<'a> {
     stressed: &'a Stressed,
     method: usize,
@@ -115,7 +136,7 @@ impl<'a> Levels<'a> {
         self.quantity.of(self.cell(row, column)?)
     }
 
-    /// The rows of gains.
+    /// Returns the rows of gains as (row, gain).
     fn gains(&self) -> impl Iterator<Item = (usize, f64)> {
         let rows = self.stressed.map.y.entries.iter().enumerate();
         rows.filter_map(|(row, entry)| Some((row, entry.value?)))

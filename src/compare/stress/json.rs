@@ -1,4 +1,4 @@
-//! Changes of a scene's text, by expressions around what stands there.
+//! Changes of a scene's JSON by expressions around its values.
 
 use serde_json::Value;
 
@@ -22,7 +22,7 @@ pub fn replace(value: &mut Value, by: f64) {
     }
 }
 
-/// The expression with the time `t` run through `factor` times as fast.
+/// Replaces the time `t` in an expression by `factor` times `t`.
 pub fn faster(value: &mut Value, factor: f64) {
     match value {
         Value::Array(entries) => entries.iter_mut().for_each(|entry| faster(entry, factor)),
@@ -55,12 +55,12 @@ fn with_time(text: &str, factor: f64) -> String {
     out
 }
 
-/// The elements of a list of the scene.
+/// Returns the elements of a list of the scene.
 pub fn elements<'a>(scene: &'a mut Value, list: &str) -> impl Iterator<Item = &'a mut Value> {
     scene.get_mut(list).and_then(Value::as_array_mut).into_iter().flatten()
 }
 
-/// Whether some element of a list has one of these keys.
+/// True if some element of a list has one of these keys.
 pub fn has(scene: &Value, list: &str, keys: &[&str]) -> bool {
     let elements = scene.get(list).and_then(Value::as_array).into_iter().flatten();
     elements.into_iter().any(|element| keys.iter().any(|key| element.get(key).is_some()))

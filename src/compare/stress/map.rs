@@ -1,4 +1,4 @@
-//! Two stress parameters at a time, and the methods that are compared on them.
+//! Maps of two parameters, and the methods that are compared on them.
 
 use super::cell::Quantity;
 use super::change::Change;
@@ -7,51 +7,62 @@ use super::subject::Subject;
 use crate::error::{Error, Result, short, suggest};
 use crate::sweep::Range;
 
-/// A place on an axis, or one of the methods.
+/// A value on an axis, or one of the methods.
 #[derive(Clone)]
 pub struct AxisPlace {
+    /// Text at the axis.
     pub label: String,
-    /// None for a place between, above or below the numbers of its axis, such as another method.
+    /// Value; none for an entry that is not a number, such as another method.
     pub value: Option<f64>,
+    /// Changes that it makes to the scene or the method.
     pub changes: Vec<Change>,
 }
 
-/// What is varied along one side of a map.
+/// The parameter varied along one side of a map.
 #[derive(Clone)]
 pub struct Axis {
+    /// Name of the parameter.
     pub name: String,
-    /// Empty for a ratio, and where it is not known.
+    /// Unit; empty for a ratio, and where it is not known.
     pub unit: String,
+    /// Its values, in order.
     pub entries: Vec<AxisPlace>,
 }
 
 /// Every entry of x with every entry of y by every method.
 #[derive(Clone)]
 pub struct Map {
+    /// Name on the command line.
     pub name: String,
+    /// One line of description.
     pub about: String,
+    /// First axis, the columns.
     pub x: Axis,
+    /// Second axis, the rows.
     pub y: Axis,
+    /// Compared methods, one panel each.
     pub methods: Vec<AxisPlace>,
-    /// What is shown of the cells; all else is in the files.
+    /// Quantity that figures and tables show; files contain all.
     pub quantity: Quantity,
 }
 
 impl AxisPlace {
-    /// A value of a stress parameter.
+    /// An entry with a value of a stress parameter.
     pub fn of(parameter: &'static StressParameter, value: f64) -> Self {
         AxisPlace { label: short(value), value: Some(value), changes: vec![Change::StressParameter(parameter, value)] }
     }
 
+    /// An entry without a value.
     pub fn named(label: &str, changes: Vec<Change>) -> Self {
         AxisPlace { label: label.to_string(), value: None, changes }
     }
 }
 
-/// Values of an axis for which none are given.
+/// Number of values of an axis for which none are given.
 const COUNT: usize = 9;
 
 impl Axis {
+    /// An axis of a stress parameter with given values.
     pub fn of(parameter: &'static StressParameter, values: Vec<f64>) -> Self {
         Axis {
             name: parameter.name.to_string(),
@@ -60,16 +71,17 @@ impl Axis {
         }
     }
 
-    /// The stress parameter with the values that suit the subject.
+    /// An axis of a stress parameter with its default values for the subject.
     pub fn usual(parameter: &'static StressParameter, subject: &Subject) -> Self {
         Axis::of(parameter, (parameter.values)(subject))
     }
 
-    /// `EXTREME`, `EXTREME=A..B[:N][:log]` or `PARAMETER=A..B[:N][:log]`; without N nine values, of stress parameters with a constant
-    /// factor.
+    /// Reads `EXTREME`, `EXTREME=A..B[:N][:log]` or `PARAMETER=A..B[:N][:log]`; without N nine values, those of stress
+    /// parameters in geometric progression.
     ///
     /// # Errors
-    /// A name that is neither a stress parameter nor one of the scene, a bad range, a stress parameter that the scene does not have.
+    /// A name that is neither a stress parameter nor a parameter of the scene, a bad range, a stress parameter that
+    /// does not apply to the scene.
     pub fn parse(text: &str, subject: &Subject) -> Result<Self> {
         let name = text.split('=').next().unwrap_or_default().trim();
         let found = find(name).ok();
@@ -100,18 +112,18 @@ impl Axis {
         Axis { name: name.clone(), unit: String::new(), entries: range.values().into_iter().map(entry).collect() }
     }
 
-    /// Name and unit.
+    /// Returns name and unit.
     pub fn label(&self) -> String {
         let name = self.name.replace('_', " ");
         if self.unit.is_empty() { name } else { format!("{name} ({})", self.unit) }
     }
 
-    /// The values in order, where all entries have one.
+    /// Returns the values in order, if all entries have one.
     pub fn values(&self) -> Option<Vec<f64>> {
         self.entries.iter().map(|entry| entry.value).collect()
     }
 
-    /// Whether each value is about the same factor of the one before.
+    /// True if the ratio of neighbouring values is about constant.
     pub fn is_log(&self) -> bool {
         let values = self.values().unwrap_or_default();
         let is_positive = values.iter().all(|value| *value > 0.0);
@@ -123,7 +135,7 @@ impl Axis {
     }
 }
 
-/// A range as `sweep` reads it, with fewer values where none are said.
+/// Reads a range like `sweep`, with fewer values by default.
 fn range(text: &str, is_log: bool) -> Result<Range> {
     let mut parts = text.split(':');
     let has_count = parts.nth(1).is_some_and(|part| part.trim() != "log");
@@ -141,7 +153,8 @@ impl AxisPlace {
         self.changes.iter().all(Change::keeps_motion)
     }
 
-    /// Of a list, the part of the way from its middle, 0, to its ends, 1; what stands beside the numbers is in the middle.
+    /// Returns the distance of an entry from the middle of its list, 0, to its ends, 1; an entry without a value counts
+    /// as in the middle.
     fn eccentricity(entries: &[AxisPlace], at: usize) -> f64 {
         let ends = entries.len().saturating_sub(1).max(1) as f64;
         entries[at].value.map_or(0.0, |_| (2.0 * at as f64 / ends - 1.0).abs())
@@ -149,30 +162,30 @@ impl AxisPlace {
 }
 
 impl Map {
-    /// What the cell of a method, row and column changes, in this order: method, x, y.
+    /// Returns the changes of the cell of a method, row and column, in this order: method, x, y.
     pub(super) fn changes(&self, [panel, row, column]: [usize; 3]) -> impl Iterator<Item = &Change> {
         let entries = [&self.methods[panel], &self.x.entries[column], &self.y.entries[row]];
         entries.into_iter().flat_map(|entry| &entry.changes)
     }
 
-    /// Tells the motions of cells apart, by the places that have a say in them.
+    /// Returns the indices of the entries that change the motion; cells where these are equal have the same motion.
     pub(super) fn motion(&self, [panel, row, column]: [usize; 3]) -> [Option<usize>; 3] {
         let entries = [(&self.methods, panel), (&self.y.entries, row), (&self.x.entries, column)];
         entries.map(|(entries, at)| (!entries[at].keeps_motion()).then_some(at))
     }
 
-    /// How far a cell is from the middle of the map, where scenes are most themselves.
+    /// Returns the distance of a cell from the middle of the map, where parameters are closest to those of the scene.
     pub(super) fn eccentricity(&self, [_, row, column]: [usize; 3]) -> f64 {
         AxisPlace::eccentricity(&self.x.entries, column).hypot(AxisPlace::eccentricity(&self.y.entries, row))
     }
 
-    /// The method, row and column of a cell by its number.
+    /// Returns the method, row and column of a cell by its number.
     pub(super) fn place(&self, index: usize) -> [usize; 3] {
         let (columns, rows) = (self.x.entries.len(), self.y.entries.len());
         [index / (rows * columns), index / columns % rows, index % columns]
     }
 
-    /// The numbers of the cells beside one, by the same method.
+    /// Returns the numbers of the neighbouring cells with the same method.
     pub(super) fn beside(&self, [panel, row, column]: [usize; 3]) -> impl Iterator<Item = usize> {
         let (columns, rows) = (self.x.entries.len(), self.y.entries.len());
         let beside = |at: usize, count: usize| [at.checked_sub(1), Some(at + 1).filter(|at| *at < count)];
@@ -181,10 +194,12 @@ impl Map {
         lines.chain(along).map(move |(row, column)| (panel * rows + row) * columns + column)
     }
 
+    /// Number of cells.
     pub fn len(&self) -> usize {
         self.x.entries.len() * self.y.entries.len() * self.methods.len()
     }
 
+    /// True if the map has no cells.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

@@ -1,4 +1,4 @@
-//! The maps that make sense for a scene.
+//! The maps offered for a scene.
 
 use super::cell::Quantity;
 use super::change::Change;
@@ -8,21 +8,23 @@ use super::subject::Subject;
 use crate::error::{Error, Result, suggest};
 use crate::method_spec::MethodSpec;
 
-/// A map as the command line knows it.
+/// A map as the command line lists it.
 pub struct MapEntry {
+    /// Name on the command line.
     pub name: &'static str,
+    /// One line of description.
     pub about: &'static str,
     x: &'static str,
     y: &'static str,
     quantity: Quantity,
     methods: fn() -> Vec<AxisPlace>,
-    /// Changes the axes from the usual values of their stress parameters.
+    /// Changes the axes from the default values of their stress parameters.
     adapt: fn(&mut Map),
-    /// Whether it makes sense where both stress parameters are there.
+    /// True if the map makes sense for a subject that has both stress parameters.
     suits: fn(&Subject) -> bool,
 }
 
-/// Every map, the most important first.
+/// Returns every map, the most important first.
 pub fn known() -> &'static [MapEntry] {
     &[
         MapEntry {
@@ -121,10 +123,10 @@ pub fn known() -> &'static [MapEntry] {
     ]
 }
 
-/// The maps of these names, or all that make sense for the subject.
+/// Returns the maps of these names, or all that make sense for the subject.
 ///
 /// # Errors
-/// An unknown name, or a map of stress parameters that the scene does not have.
+/// An unknown name, or a map of stress parameters that do not apply to the scene.
 pub fn maps(subject: &Subject, names: &[String]) -> Result<Vec<Map>> {
     if names.is_empty() {
         return known().iter().filter(|entry| entry.suits(subject)).map(|entry| entry.map(subject)).collect();
@@ -144,7 +146,7 @@ pub fn maps(subject: &Subject, names: &[String]) -> Result<Vec<Map>> {
     names.iter().map(named).collect()
 }
 
-/// A map of two axes of one's own, by the subject's own method and by it without stabilization.
+/// Returns a map of two given axes, for the subject's own method and for it without stabilization.
 pub fn pair(subject: &Subject, x: Axis, y: Axis, quantity: Quantity) -> Map {
     let label = {
         let method = &subject.base.method;
@@ -184,7 +186,7 @@ impl MapEntry {
     }
 }
 
-/// WatchedRows below and above the gains: the methods that have none.
+/// Adds rows below and above the gains: the methods without gains.
 fn beside_gains(map: &mut Map) {
     let row = |label: &str, projection: &str| {
         let projection = MethodSpec::parse(projection).unwrap_or_default();
@@ -199,7 +201,7 @@ fn beside_gains(map: &mut Map) {
     map.y.entries.extend(above);
 }
 
-/// Methods in the place of the second axis, and times that are over within seconds.
+/// Replaces the second axis by methods, and shortens the times to what takes seconds.
 fn by_method(map: &mut Map) {
     let first = map.x.entries.iter().take(5).cloned().collect();
     map.x.entries = first;

@@ -1,9 +1,9 @@
-//! Maps over stress parameters: what becomes of a simulation where steps, gains, masses, stiffness, tolerances, speeds, sizes or
-//! times are far from what is usual.
+//! Maps over stress parameters: results of simulations with unusual steps, gains, masses, stiffness, tolerances,
+//! speeds, sizes or times.
 //!
 //! A [`Map`] is two axes and the methods that are compared on them. Each of its cells is one simulation of a [`Case`],
-//! the scene with the [`Change`]s of its place, run under a deadline. What fails is a result, what is left out is none: see
-//! [`Status`]. What completes is compared with an accurate run of the same motion.
+//! the scene with the [`Change`]s of its entries, run under a deadline. A failure is a result, a skipped cell is none:
+//! see [`Status`]. What completes is compared with an accurate run of the same motion.
 //!
 //! To add a stress parameter: an entry in [`registry`].
 

@@ -1,4 +1,4 @@
-//! The stress parameters: what a map can vary over many powers of ten.
+//! The stress parameters: quantities that a map can vary over many powers of ten.
 
 use super::json::{elements, faster, has, multiply, replace};
 use super::subject::Case;
@@ -9,26 +9,28 @@ use crate::scene::generate;
 use serde_json::Value;
 use std::sync::Arc;
 
-/// Something of a simulation that a map can vary over many powers of ten.
+/// A quantity of a simulation that a map can vary over many powers of ten.
 pub struct StressParameter {
+    /// Name on the command line.
     pub name: &'static str,
-    /// Empty for a ratio.
+    /// Unit; empty for a ratio.
     pub unit: &'static str,
+    /// One line of description.
     pub about: &'static str,
-    /// Whether the motion that is to be computed stays the same, so that one reference serves all values.
+    /// True if the exact motion stays the same, so that one reference serves all values.
     pub keeps_motion: bool,
-    /// Whether the subject has it.
+    /// True if the subject has this quantity.
     pub suits: fn(&Subject) -> bool,
-    /// Values where none are given.
+    /// Default values for the subject.
     pub values: fn(&Subject) -> Vec<f64>,
-    /// Gives the case this value.
+    /// Sets the value in a case.
     pub apply: fn(&mut Case, f64) -> Result<()>,
 }
 
-/// The stress parameter of this name.
+/// Returns the stress parameter of this name.
 ///
 /// # Errors
-/// An unknown name, with the one that was meant.
+/// An unknown name, with the most similar one.
 pub fn find(name: &str) -> Result<&'static StressParameter> {
     let canonical = name.replace('-', "_");
     registry().iter().find(|parameter| parameter.name == canonical).ok_or_else(|| {
@@ -37,7 +39,7 @@ pub fn find(name: &str) -> Result<&'static StressParameter> {
     })
 }
 
-/// Every stress parameter, in the order of the documentation.
+/// Returns every stress parameter, in the order of the documentation.
 pub fn registry() -> &'static [StressParameter] {
     &[
         StressParameter {
@@ -55,8 +57,8 @@ pub fn registry() -> &'static [StressParameter] {
                 Ok(())
             },
         },
-        // alpha = beta, the critical damping of phi'' + 2 alpha phi' + beta^2 phi = 0. From gains that do nothing within a step to
-        // those at which explicit methods are unstable.
+        // alpha = beta is the critical damping of phi'' + 2 alpha phi' + beta^2 phi = 0. The range is from gains
+        // without effect within a step to those at which explicit methods are unstable.
         StressParameter {
             name: "gain",
             unit: "1/s",
@@ -84,7 +86,7 @@ pub fn registry() -> &'static [StressParameter] {
                 Ok(())
             },
         },
-        // Mass and inertia of the last body of the list that has a mass, which in chains is the end.
+        // Mass and inertia of the last body with a mass in the list, which in chains is the end.
         StressParameter {
             name: "mass_ratio",
             unit: "",
@@ -112,8 +114,8 @@ pub fn registry() -> &'static [StressParameter] {
             values: |_| decades(-2, 12, 2),
             apply: |case, value| set(Arc::make_mut(&mut case.scene), "damping", value),
         },
-        // Velocities of the start and the time of drivers times the factor, and the simulated time divided by it: as much motion
-        // in each case.
+        // Initial velocities and the time of drivers are multiplied by the factor, the simulated time divided by it, so
+        // that the amount of motion is about the same.
         StressParameter {
             name: "speed",
             unit: "",
@@ -145,7 +147,7 @@ pub fn registry() -> &'static [StressParameter] {
                 Ok(())
             },
         },
-        // The scene generated again with so many links or loops.
+        // The scene generated again with this number of links or loops.
         StressParameter {
             name: "links",
             unit: "",
@@ -201,7 +203,7 @@ pub fn registry() -> &'static [StressParameter] {
     ]
 }
 
-/// Errors of a start that is not consistent.
+/// Errors of an inconsistent start.
 const START: StressParameter = StressParameter {
     name: "",
     unit: "",
@@ -219,7 +221,7 @@ pub(super) fn baumgarte(gain: f64) -> MethodSpec {
     options.iter().fold(MethodSpec::named("baumgarte"), |spec, (key, value)| spec.with(key, value))
 }
 
-/// Of the rod, and the offset.
+/// Returns the length of the rod, and the offset.
 fn lengths(scene: &Value) -> Result<[f64; 2]> {
     let parameter = |name: &str| scene.get("parameters")?.get(name)?.as_f64();
     let is_planar = scene.get("dimension").and_then(Value::as_i64) == Some(2);
@@ -230,7 +232,7 @@ fn lengths(scene: &Value) -> Result<[f64; 2]> {
     })
 }
 
-/// What generates scenes of this name: `chain_10` is a `chain`.
+/// Returns the generator of scenes of this name: `chain_10` is a `chain`.
 fn kind(scene: &Value) -> Result<fn(usize) -> Value> {
     let name = scene.get("name").and_then(Value::as_str).unwrap_or_default();
     let kind = name.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end_matches('_');
@@ -247,7 +249,7 @@ fn scale(scene: &mut Value, factor: f64) -> Result<()> {
     Ok(())
 }
 
-/// Gives every force that has this coefficient the same.
+/// Sets this coefficient of every force that has it.
 fn set(scene: &mut Value, key: &str, value: f64) -> Result<()> {
     let mut found = false;
     for coefficient in elements(scene, "forces").filter_map(|force| force.get_mut(key)) {
@@ -289,19 +291,19 @@ fn quicken(scene: &mut Value, factor: f64) {
     }
 }
 
-/// 1, 2, 5, 10, 20 ... from `low` to `high`.
+/// Returns 1, 2, 5, 10, 20 ... from `low` to `high`.
 pub fn sequence(low: f64, high: f64) -> Vec<f64> {
     let decades = low.log10().floor() as i32..=high.log10().ceil() as i32;
     let rungs = decades.flat_map(|exponent| [1, 2, 5].map(|digit| decimal(digit, exponent)));
     rungs.filter(|rung| (low * (1.0 - 1e-9)..=high * (1.0 + 1e-9)).contains(rung)).collect()
 }
 
-/// Powers of ten, every `stride`-th.
+/// Returns every `stride`-th power of ten.
 fn decades(from: i32, to: i32, stride: usize) -> Vec<f64> {
     (from..=to).step_by(stride).map(|exponent| decimal(1, exponent)).collect()
 }
 
-/// The number nearest to digit 10^exponent.
+/// Returns the number nearest to digit 10^exponent.
 fn decimal(digit: u32, exponent: i32) -> f64 {
     format!("{digit}e{exponent}").parse().unwrap_or(f64::NAN)
 }

@@ -1,18 +1,18 @@
-//! In which order cells are run, and for how long, while nobody knows what they cost.
+//! Order and duration of the runs of cells while their cost is not known.
 
 use std::collections::{BTreeSet, HashMap};
 use std::time::Duration;
 
-/// The first attempt at a job has so much, each later one so many times as much as the one before: what all attempts before
-/// the last have taken is a third of it. Less than what a scene costs to read were no saving.
+/// CPU time of the first attempt at a job; each later one has GROWTH times that of the one before, so that all attempts
+/// before the last take a third of it. Less than the time to read a scene would save nothing.
 const FIRST: Duration = Duration::from_millis(4);
 const GROWTH: u32 = 4;
 
-/// A simulation to make, before others if it is expected to be cheaper, or nearer to the middle of the map.
+/// A simulation to run, before others if it is expected to be cheaper, or nearer to the middle of the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Job {
     is_unknown: bool,
-    /// Of [`GROWTH`] in its share.
+    /// Exponent of [`GROWTH`] in its share.
     level: u32,
     rank: usize,
     is_tried: bool,
@@ -31,13 +31,13 @@ impl Job {
         Job { is_unknown: true, level: 0, rank, is_tried: false, what }
     }
 
-    /// The time it may take, up to the limit.
+    /// Returns its CPU time, up to the limit.
     pub fn share(&self, limit: Duration) -> Duration {
         share(self.level, limit)
     }
 
-    /// The next attempt, without those that come to nothing even if the motion goes on [`GROWTH`] times as fast as the part
-    /// did that came through.
+    /// Returns the next attempt, without those that would be too short even if the motion took [`GROWTH`] times less
+    /// than the completed `part` of it suggests.
     pub fn again(self, part: f64, limit: Duration) -> Self {
         let part = if part > 1e-6 { part.min(1.0) } else { 1e-6 };
         let wanted = self.share(limit).div_f64(part).min(limit) / GROWTH;
@@ -49,7 +49,7 @@ fn share(level: u32, limit: Duration) -> Duration {
     FIRST.saturating_mul(GROWTH.saturating_pow(level)).min(limit)
 }
 
-/// The first whose share is no less than `wanted`.
+/// Returns the first level whose share is at least `wanted`.
 fn level_for(wanted: Duration, limit: Duration) -> u32 {
     let mut level = 0;
     while share(level, limit) < wanted.min(limit) {
@@ -58,7 +58,7 @@ fn level_for(wanted: Duration, limit: Duration) -> u32 {
     level
 }
 
-/// Jobs by method. Whichever has taken least has its turn, so that none takes the time of another.
+/// Queues of jobs by method. The one that has used the least time is next, so that each has equal time.
 #[derive(Default)]
 pub(super) struct Queues {
     names: Vec<String>,
@@ -68,7 +68,7 @@ pub(super) struct Queues {
 #[derive(Default)]
 struct Queue {
     waiting: BTreeSet<Job>,
-    /// The same by what they are.
+    /// The same jobs by what they run.
     jobs: HashMap<What, Job>,
     spent: Duration,
 }
@@ -84,7 +84,7 @@ impl Queue {
         self.jobs.remove(&job.what)
     }
 
-    /// Expects this level of a job that was not tried yet, if its other neighbours tell of none that is lower.
+    /// Sets the expected level of a job of unknown cost, or lowers that of one not tried yet.
     fn foresee(&mut self, what: What, level: u32) {
         let Some(job) = self.jobs.get(&what).copied() else { return };
         if job.is_unknown || !job.is_tried && level < job.level {
@@ -105,7 +105,7 @@ impl Queues {
         self.queues[queue].add(job);
     }
 
-    /// What comes next, with its queue. It counts with its share until it is back.
+    /// Returns the next job, with its queue. Its share counts as used until it is given back.
     pub fn take(&mut self, limit: Duration) -> Option<(usize, Job)> {
         let waiting = self.queues.iter_mut().enumerate().filter(|(_, queue)| !queue.waiting.is_empty());
         let (index, queue) = waiting.min_by_key(|(_, queue)| queue.spent)?;
@@ -114,7 +114,7 @@ impl Queues {
         Some((index, job))
     }
 
-    /// Notes what a job took, and after which part of its motion it was cut short; none where it needs no more attempts. Its
+    /// Records the time of a job, and the part of its motion completed; none where it needs no more attempts. Its
     /// neighbours are expected to cost up to twice as much.
     pub fn give_back(
         &mut self,
@@ -164,8 +164,8 @@ mod tests {
         assert_eq!([0.0, f64::NAN].map(|part| job.again(part, LIMIT).share(LIMIT)), [64 * FIRST; 2]);
     }
 
-    /// Jobs in a row that cost the more the farther right, where the middle is dear: in order of their costs, and little
-    /// time is lost in attempts.
+    /// Jobs in a row whose cost increases to the right, while the queue starts in the middle: they run in the order of
+    /// their costs, and little time is lost in attempts.
     #[test]
     fn cheap_jobs_come_first_and_neighbours_tell_what_is_cheap() {
         let needs = |k: usize| Duration::from_secs_f64(1e-3 * 2f64.powi(k as i32));

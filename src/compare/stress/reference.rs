@@ -11,31 +11,31 @@ use crate::tolerances::report as tolerances;
 use crate::trajectory::Trajectory;
 use std::time::Duration;
 
-/// WatchedRows of the watched quantities: outputs, or coordinates where the scene names none.
+/// Rows of the watched quantities: outputs, or coordinates where the scene names none.
 pub(super) type WatchedRows = Vec<Vec<f64>>;
 
-/// The watched quantities along a tight solution.
+/// The watched quantities along an accurate solution.
 pub(super) struct Reference {
     pub names: Vec<String>,
     rows: WatchedRows,
-    /// What each is measured by.
+    /// Scale of each quantity.
     scales: Vec<f64>,
 }
 
-/// What the search for a reference came to.
+/// Result of the search for a reference.
 pub(super) enum Search {
-    /// It takes more time: this part of the motion came through.
+    /// It takes more time; the part of the motion completed.
     Pending(f64),
     Found(Reference),
-    /// No method gets there.
+    /// No method completes the motion.
     Hopeless,
 }
 
-/// An explicit and an implicit method: one of them suits.
+/// An explicit and an implicit method, one of which suits.
 const METHODS: [[&str; 3]; 2] = [["index1", "dop853", "manifold"], ["ggl", "radau_iia", "none"]];
 
 impl Search {
-    /// The motion of the case, by the first method that gets there in the CPU time that each is allowed.
+    /// Simulates the motion of the case, by the first method that completes it within the CPU time allowed to each.
     pub fn run(subject: &Subject, case: &Case, allowed: Duration, limits: Limits) -> Self {
         let mut search = Search::Hopeless;
         for names in METHODS {
@@ -90,7 +90,7 @@ impl Reference {
         Reference { names: columns.into_iter().map(|column| column.name).collect(), rows, scales }
     }
 
-    /// The largest difference of each quantity in its scale; infinite where rows are missing.
+    /// Returns the largest difference of each quantity over its scale; infinite where rows are missing.
     pub fn errors(&self, rows: &WatchedRows) -> Vec<f64> {
         let error = |i: usize| {
             let pairs = rows.iter().zip(&self.rows).map(|(found, exact)| (found[i], exact[i]));

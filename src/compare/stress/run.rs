@@ -12,39 +12,41 @@ use cpu_time::ThreadTime;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Memory of a cell, over what the process took at most until now, which has run the subject once: implicit methods take
-/// more.
+/// Memory of a cell relative to the peak of the process after one run of the subject; implicit methods take more.
 const MEMORY: f64 = 2.0;
-/// A reference, which serves many cells, may take so many times their limit.
+/// CPU time of a reference, which serves many cells, in limits of a cell.
 const REFERENCE: u32 = 3;
 
 /// A map with its cells, by method, then row, then column.
 pub struct Stressed {
+    /// The map.
     pub map: Map,
-    /// The quantities whose errors the cells tell.
+    /// Names of the quantities whose errors the cells give.
     pub watched: Vec<String>,
+    /// Cells, columns fastest.
     pub cells: Vec<Cell>,
 }
 
 impl Stressed {
+    /// Returns the cell of a method, row and column; none outside the map.
     pub fn cell(&self, method: usize, row: usize, column: usize) -> Option<&Cell> {
         let (columns, rows) = (self.map.x.entries.len(), self.map.y.entries.len());
         self.cells.get((method * rows + row) * columns + column).filter(|_| column < columns && row < rows)
     }
 
-    /// Whether no cell has a value to show.
+    /// True if no cell has a value of the map's quantity.
     pub fn is_empty(&self) -> bool {
         self.cells.iter().all(|cell| self.map.quantity.of(cell).is_none())
     }
 }
 
-/// Simulates every cell, and every motion of them once more as a reference; `progress` hears of each cell that is done.
+/// Simulates every cell, and every motion once more as a reference; `progress` is called for each cell that is done.
 ///
-/// What a cell costs is known only when it is run. So each has a short time first, and what does not come through waits until
-/// others have had as much, those beside it that are cheaper first: from the middle of the map on, where cells are cheap.
-/// The methods, and the references beside them, have equal times. Which cells are done depends on deadlines, what they hold does not.
+/// The cost of a cell is known only after its run. So each has a short time first, and those that do not complete wait
+/// until others have had as much, cheaper neighbours first, from the middle of the map on, where cells are cheap. The
+/// methods, and their references, have equal times. Deadlines decide which cells are done, but not their values.
 pub fn stress(subject: &Subject, map: Map, limits: Limits, progress: &(impl Fn() + Sync)) -> Stressed {
-    // Cells are what runs in parallel: matrices on other threads would wait for them.
+    // Cells run in parallel: matrix operations on other threads would wait for them.
     faer::set_global_parallelism(faer::Par::Seq);
     let work = Work::new(subject, &map);
     let one = || work.run(subject, &map, limits, progress);
@@ -56,15 +58,15 @@ pub fn stress(subject: &Subject, map: Map, limits: Limits, progress: &(impl Fn()
     work.finish(map)
 }
 
-/// What is to be run, and what came of it.
+/// The runs to make, and their results.
 struct Work {
     cells: Vec<Slot>,
-    /// The place of one of its cells, and the reference.
+    /// Indices of one of its cells, and the reference.
     motions: Vec<([usize; 3], Mutex<Search>)>,
     queues: Mutex<Queues>,
 }
 
-/// A cell and what is known of it.
+/// A cell with its result.
 struct Slot {
     at: [usize; 3],
     motion: usize,
@@ -96,7 +98,7 @@ impl Work {
         Work { cells, motions, queues: Mutex::new(queues) }
     }
 
-    /// Works at what comes next until all is done or the time is over.
+    /// Runs jobs until all are done or the time is over.
     fn run(&self, subject: &Subject, map: &Map, limits: Limits, progress: &(impl Fn() + Sync)) {
         loop {
             let next = locked(&self.queues).take(limits.cell);
@@ -111,7 +113,7 @@ impl Work {
         }
     }
 
-    /// Makes an attempt; the part of the motion after which it was cut short.
+    /// Makes an attempt; returns the part of the motion completed if it was stopped.
     fn attempt(&self, subject: &Subject, map: &Map, job: Job, limits: Limits) -> Option<f64> {
         let share = job.share(limits.cell);
         match job.what {
@@ -135,7 +137,7 @@ impl Work {
         }
     }
 
-    /// The jobs beside one on its map, or their references beside one of them.
+    /// Returns the neighbouring jobs on the map, or their references for a reference.
     fn neighbours(&self, map: &Map, what: What) -> impl Iterator<Item = What> {
         let at = match what {
             What::Motion(index) => self.motions[index].0,
@@ -167,7 +169,7 @@ impl Work {
     }
 }
 
-/// What a mutex guards; a thread that ended badly left it whole.
+/// Returns the content of a mutex; a thread that panicked has not changed it.
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -176,7 +178,7 @@ fn into_inner<T>(mutex: Mutex<T>) -> T {
     mutex.into_inner().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Looks for the reference of a place.
+/// Searches for the reference of a cell.
 fn search(subject: &Subject, map: &Map, at: [usize; 3], (limits, share): (Limits, Duration)) -> Search {
     let mut case = subject.base.clone();
     let mut changes = map.changes(at).filter(|change| !change.keeps_motion());

@@ -16,11 +16,11 @@ use std::cell::Cell as Flag;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// The cell of which nothing is known. Its scene, of which there would be many, is left aside.
+/// Returns the cell without a result. Its scene is not copied, since there would be many.
 pub(super) fn blank(subject: &Subject, map: &Map, [panel, row, column]: [usize; 3]) -> Cell {
     let mut case = Case { scene: Arc::new(Value::Null), ..subject.base.clone() };
     for change in map.changes([panel, row, column]) {
-        // What changes the scene has no say in the method.
+        // Changes of the scene do not affect the method.
         let _ = change.apply(&mut case);
     }
     Cell {
@@ -44,7 +44,8 @@ pub(super) fn blank(subject: &Subject, map: &Map, [panel, row, column]: [usize; 
     }
 }
 
-/// Runs a cell for its share of the time: with the rows that tell its errors, and the part of the motion that came through.
+/// Runs a cell for its share of the time; returns it with the rows for its errors, and the part of the motion
+/// completed.
 pub(super) fn run(
     subject: &Subject,
     map: &Map,
@@ -68,7 +69,7 @@ pub(super) fn run(
     }
 }
 
-/// The first line of an error, which says what is wrong.
+/// Returns the first line of an error.
 fn message(error: &Error) -> String {
     error.to_string().lines().next().unwrap_or_default().to_string()
 }
@@ -76,7 +77,7 @@ fn message(error: &Error) -> String {
 struct Run {
     outcome: Outcome,
     record: Record,
-    /// How a run that was stopped from outside is called.
+    /// Status of a run that was stopped from outside.
     stopped: Option<Status>,
     part: f64,
 }

@@ -1,4 +1,4 @@
-//! What a map varies: a scene, or own equations.
+//! The subject of a map: a scene, or own equations.
 
 use crate::analysis::Recorder;
 use crate::error::{Result, Warning};
@@ -12,24 +12,25 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// What a cell simulates: the scene as text, and how.
+/// The scene of a cell as JSON, with its method.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// The scene, shared with other cases until it is changed; null for own equations.
     pub scene: Arc<Value>,
-    /// Replaced parameters.
+    /// Parameters with new values.
     pub set: Vec<(String, f64)>,
+    /// Method of the simulation.
     pub method: Method,
-    /// How long, s.
+    /// Simulated time, s.
     pub duration: f64,
-    /// What is usual for the motion, whose values do not follow changes.
+    /// Typical sizes of the motion, which do not follow changes.
     pub typical: Typical,
-    /// Errors of the start along a fixed random direction: of the positions, as a part of the scene's size, and of the
-    /// velocities, as a part of that over the period.
+    /// Errors of the start along a fixed pseudo-random direction: of the positions, relative to the scene's size, and
+    /// of the velocities, relative to that size over the period.
     pub start_error: [f64; 2],
 }
 
-/// Scales that values are chosen by.
+/// Typical times by which default values are chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Typical {
     /// Mean step of the scene's own method, s.
@@ -39,12 +40,15 @@ pub struct Typical {
     pub period: f64,
 }
 
-/// A scene or own equations, with what is usual for them.
+/// A scene or own equations, with typical times.
 pub struct Subject<'a> {
+    /// Name of the scene or of the equations.
     pub name: String,
-    /// What is doubtful about the scene's start.
+    /// Warnings about the scene's start.
     pub doubts: Vec<Warning>,
+    /// The case without changes.
     pub base: Case,
+    /// Numbers of coordinates, velocities and constraints.
     pub dimensions: Dimensions,
     folder: PathBuf,
     elements: Elements,
@@ -58,12 +62,12 @@ struct Own<'a> {
     v: Vec<f64>,
 }
 
-/// Output rows of a cell, and of the run that tells what is typical.
+/// Output rows of a cell, and of the run from which typical times are taken.
 const ROWS: f64 = 100.0;
 const TYPICAL_ROWS: f64 = 2000.0;
-/// Most numbers that its rows hold.
+/// Largest number of values in its rows.
 const TYPICAL_NUMBERS: f64 = 1e7;
-/// The run that tells what is typical ends here.
+/// Time limit of the run from which typical times are taken.
 const PATIENCE: Duration = Duration::from_secs(3);
 
 impl Subject<'static> {
@@ -101,7 +105,7 @@ impl Subject<'static> {
 }
 
 impl<'a> Subject<'a> {
-    /// Own equations from a consistent (q, v). Stress parameters of scenes do not suit them.
+    /// A subject of own equations from a consistent (q, v). Stress parameters of scenes do not apply.
     ///
     /// # Errors
     /// As [`simulate`].
@@ -130,16 +134,16 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// Names of the scene's parameters.
+    /// Returns the names of the scene's parameters.
     pub fn parameters(&self) -> impl Iterator<Item = &str> {
         let parameters = self.base.scene.get("parameters").and_then(Value::as_object);
         parameters.into_iter().flat_map(|map| map.keys().map(String::as_str))
     }
 
-    /// Makes a case ready and hands it over: the system, when, and the start.
+    /// Prepares a case and passes the system, the time span and the start to `run`.
     ///
     /// # Errors
-    /// A scene that is no longer one with these values.
+    /// The changed scene is not valid.
     pub fn with<T>(
         &self,
         case: &Case,
@@ -171,8 +175,8 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// The start moved along a random direction that is always the same, each component by the error times a number between
-/// -1 and 1.
+/// Returns the start perturbed along a fixed pseudo-random direction, each component by the error times a number
+/// between -1 and 1.
 fn perturbed(
     system: &dyn MechanicalSystem,
     (q, v): (&[f64], &[f64]),
@@ -197,7 +201,7 @@ fn perturbed(
 struct Random(u64);
 
 impl Random {
-    /// Between -1 and 1.
+    /// Returns the next number between -1 and 1.
     fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
@@ -229,7 +233,7 @@ impl Typical {
     }
 }
 
-/// Mean time between upward crossings of the mean; none with fewer than two.
+/// Returns the mean time between upward crossings of the mean; none with fewer than two.
 fn period(times: &[f64], values: &[f64]) -> Option<f64> {
     let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
     let range = values.iter().fold(0.0, |range: f64, value| range.max((value - mean).abs()));

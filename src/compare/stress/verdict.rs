@@ -1,57 +1,73 @@
-//! What the cells of a map come to, in numbers.
+//! Summary of the cells of a map.
 
 use super::cell::{Cell, Status};
 use super::map::Axis;
 use super::run::Stressed;
 use serde::Serialize;
 
-/// One method on a map.
+/// Summary of one method on a map.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Verdict {
+    /// Name of the method.
     pub method: String,
+    /// Number of cells.
     pub cells: usize,
+    /// Number of completed cells.
     pub completed: usize,
-    /// Of these, how many hold, and how many do not: see [`Cell`]. Of the others it is not known.
+    /// Number of these within the tolerance: see [`Cell`]. Of some it is not known.
     pub held: usize,
+    /// Number of these outside the tolerance.
     pub off: usize,
-    /// How many did not complete, by how they ended.
+    /// Number of cells that did not complete, by status.
     pub others: Vec<(Status, usize)>,
     /// Least and largest of the map's quantity in completed cells.
     pub range: Option<[f64; 2]>,
     /// Least and largest error of completed cells.
     pub errors: Option<[f64; 2]>,
-    /// Where all that ended badly lies.
+    /// Sides of the axes on which all unsuccessful cells lie.
     pub bounds: Vec<Bound>,
-    /// Why cells ended badly or were too slow, how many for the same reason, and where the first of them lies.
+    /// Reasons of unsuccessful cells, each with the number of cells and the first of them.
     pub reasons: Vec<Reason>,
 }
 
-/// All cells that ended badly lie on this side of an axis.
+/// All unsuccessful cells lie on this side of an axis.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Bound {
+    /// Name of the axis.
     pub axis: String,
+    /// Side of the value.
     pub side: Side,
+    /// Value that bounds them, which belongs to the side.
     pub value: f64,
 }
 
+/// Side of a value on an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
+    /// The value and larger ones.
     From,
+    /// The value and smaller ones.
     UpTo,
 }
 
+/// A reason of unsuccessful cells.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reason {
+    /// How they ended.
     pub status: Status,
+    /// The reason, as the first cell gives it.
     pub reason: String,
+    /// Number of cells.
     pub count: usize,
+    /// Label of the first cell on the x axis.
     pub x: String,
+    /// Label of the first cell on the y axis.
     pub y: String,
 }
 
 impl Stressed {
-    /// The verdict on each method.
+    /// Returns the summary of each method.
     pub fn verdicts(&self) -> Vec<Verdict> {
         (0..self.map.methods.len()).map(|method| self.verdict(method)).collect()
     }
@@ -77,7 +93,7 @@ impl Stressed {
         }
     }
 
-    /// Reasons that differ by numbers only are one.
+    /// Counts reasons that differ by numbers only as one.
     fn reasons(&self, cells: &[&Cell]) -> Vec<Reason> {
         let kind =
             |reason: &str| reason.chars().filter(|c| !c.is_ascii_digit() && !"+-.e".contains(*c)).collect::<String>();
@@ -100,14 +116,14 @@ impl Stressed {
     }
 }
 
-/// Least and largest.
+/// Returns the least and the largest value.
 fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     values.fold(None, |range, value| {
         Some(range.map_or([value; 2], |[low, high]: [f64; 2]| [low.min(value), high.max(value)]))
     })
 }
 
-/// The side of an axis on which all cells lie that ended badly, if there is one and it is not all of the axis.
+/// Returns the side of an axis on which all unsuccessful cells lie, if there is one and it is not all of the axis.
 fn bound(axis: &Axis, cells: &[&Cell], place: impl Fn(&Cell) -> usize) -> Option<Bound> {
     let values = axis.values()?;
     let is_bad = |at: usize| {

@@ -1,4 +1,4 @@
-//! What to choose.
+//! Recommendation of a method from measured runs.
 
 use super::WorkPrecision;
 use super::cell::{Cell, Held};
@@ -6,42 +6,46 @@ use crate::simulate::Method;
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
 
-/// Digits that are asked for.
+/// Largest number of digits recommended for.
 const MOST_DIGITS: u32 = 14;
 
-/// Of runs that cost and drift alike that is chosen which is best known, in this order; others come after.
+/// Order of preference for runs of equal cost and drift: the best-known methods first, others after them.
 const KNOWN: [&[&str]; 3] = [
     &["dop853", "radau_iia", "dopri5", "rk4", "phem56", "generalized_alpha", "bdf"],
     &["index1", "ggl", "index2", "index3", "null_space", "baumgarte"],
     &["manifold", "exact", "none"],
 ];
 
-/// The run to choose for so many digits, and what else there is.
+/// The run to choose for a number of digits, and alternatives.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Recommendation {
+    /// Number of correct digits.
     pub digits: u32,
     /// Places in the list of cells. The cheapest; of a tie the one that drifts least, then the one that is known best.
     pub best: usize,
-    /// Other methods that cost as little within `tolerances::TIED_COSTS`.
+    /// Indices of other methods that cost as little within `tolerances::TIED_COSTS`.
     pub ties: Vec<usize>,
-    /// The best with another integrator.
+    /// Index of the best run with another integrator.
     pub next: Option<usize>,
-    /// The best whose steps stability limits, and that whose steps may be as long as they like.
+    /// Index of the best explicit run, whose steps stability limits.
     pub explicit: Option<usize>,
+    /// Index of the best implicit run.
     pub implicit: Option<usize>,
 }
 
-/// Why there is no recommendation for so many digits.
+/// Reason why there is no recommendation for a number of digits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lack {
+    /// The reason.
     pub why: String,
+    /// Advice.
     pub hint: String,
-    /// Whether there is none for any.
+    /// True if there is none for any number of digits.
     pub is_all: bool,
 }
 
 impl WorkPrecision {
-    /// Why no run is known to have so many digits; none where one is.
+    /// Returns the reason why no run is known to have this many digits; none where one is.
     pub fn lacks(&self, digits: u32) -> Option<Lack> {
         if self.recommend(digits).is_some() {
             return None;
@@ -71,7 +75,7 @@ impl WorkPrecision {
         Some(Lack { why, hint: hint.to_string(), is_all })
     }
 
-    /// The run to choose for at least so many digits; none where no run is known to have them.
+    /// Returns the run to choose for at least this many digits; none where no run is known to have them.
     pub fn recommend(&self, digits: u32) -> Option<Recommendation> {
         let tied = self.cheapest(digits, &|_| true);
         let first = |is_meant: &dyn Fn(&Cell) -> bool| self.cheapest(digits, is_meant).first().copied();
@@ -92,9 +96,10 @@ impl WorkPrecision {
         })
     }
 
-    /// Runs with at least so many digits, whose joints are closed to as many, that cost as little as the cheapest of them, the one to choose first.
+    /// Returns the runs with at least this many digits, whose constraints are satisfied to as many, that cost as little
+    /// as the cheapest of them; the one to choose first.
     fn cheapest(&self, digits: u32, is_meant: &dyn Fn(&Cell) -> bool) -> Vec<usize> {
-        // Outputs at rest do not show that joints come apart.
+        // Outputs that do not move do not show open constraints.
         let gap = 0.1f64.powi(digits as i32).max(tolerances::DRIFT_ROUND_OFF);
         let is_closed = |cell: &Cell| cell.drift().is_some_and(|drift| drift.position <= gap);
         let good = |cell: &Cell| cell.digits() >= Some(f64::from(digits)) && is_closed(cell) && is_meant(cell);
@@ -110,12 +115,13 @@ impl WorkPrecision {
         tied
     }
 
-    /// One for each number of digits that is reached.
+    /// Returns a recommendation for each number of digits that is reached.
     pub fn recommendations(&self) -> Vec<Recommendation> {
         (1..=MOST_DIGITS).filter_map(|digits| self.recommend(digits)).collect()
     }
 
-    /// The places of runs than which none is both cheaper and more accurate, from cheap to dear.
+    /// Returns the Pareto front: the indices of runs than which none is both cheaper and more accurate, from cheap to
+    /// expensive.
     pub fn front(&self) -> Vec<usize> {
         let known = |i: usize| Some((i, self.cells[i].cost?, self.cells[i].error()?));
         let mut all: Vec<(usize, f64, f64)> = (0..self.cells.len()).filter_map(known).collect();
@@ -130,7 +136,7 @@ impl WorkPrecision {
     }
 }
 
-/// Less is better: decades of drift, then how well the method is known.
+/// Returns the order of preference, less is better: decades of drift, then how well the method is known.
 fn merit(cell: &Cell) -> (i32, [usize; 3], u32) {
     let drift = cell.drift().map_or(1.0, Held::largest).max(tolerances::DRIFT_ROUND_OFF);
     let Method { integrator, formulation, projection, .. } = &cell.method;
@@ -146,19 +152,19 @@ fn cost(cell: &Cell) -> f64 {
     cell.cost.unwrap_or(f64::INFINITY)
 }
 
-/// The cheapest run with at most this error.
+/// Returns the cheapest run with at most this error.
 pub(super) fn cheapest(cells: &[Cell], error: f64) -> Option<&Cell> {
     let good = cells.iter().filter(|cell| cell.error().is_some_and(|own| own <= error));
     good.min_by(|a, b| cost(a).total_cmp(&cost(b)))
 }
 
-/// How many times the cheapest that is as accurate each run costs; none where it has no result.
+/// Returns the cost of each run over that of the cheapest that is as accurate; none where it has no result.
 pub(super) fn behind(cells: &[Cell]) -> Vec<Option<f64>> {
     cells.iter().map(|cell| Some(cell.cost? / cheapest(cells, cell.error()?)?.cost?)).collect()
 }
 
-/// Of each method the place of its cheapest run with so many digits, else of its most accurate, else of its last; the
-/// first kind by cost, the others by accuracy.
+/// Returns for each method the index of its cheapest run with this many digits, else of its most accurate, else of its
+/// last; the first list by cost, the second, of the others, by accuracy.
 pub fn cheapest_by_method(cells: &[Cell], digits: u32) -> (Vec<usize>, Vec<usize>) {
     let (mut reached, mut others): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
     for group in cells.chunk_by(|a, b| a.is_of(&b.method)) {

@@ -6,56 +6,69 @@ use crate::formulation::Statistics;
 use crate::simulate::Method;
 use serde::{Deserialize, Serialize};
 
-/// A run of the grid, with its repeats.
+/// A run of the grid, with its repetitions.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Cell {
+    /// Method with its tolerances or step.
     pub method: Method,
-    /// The term of the sequence: rtol = 10^-decades, or the step that asks for as much.
+    /// Term of the sequence: rtol = 10^-decades, or the fixed step expected to give that error.
     pub decades: u32,
-    /// Whether stability limits its steps.
+    /// True if stability limits its steps.
     pub is_explicit: bool,
     /// CPU time by counted work, s: see [`WorkPrecision::price`](super::WorkPrecision::price).
     pub cost: Option<f64>,
+    /// Result.
     #[serde(flatten)]
     pub outcome: Outcome,
 }
 
-/// What became of it.
+/// Result of a run.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(tag = "status", rename_all = "snake_case")]
 pub enum Outcome {
+    /// It reached the end.
     Completed {
-        /// Largest difference from the reference over the times compared, relative to the size of each quantity, and what the
-        /// reference itself may be off.
+        /// Largest difference from the reference over the times compared, relative to the size of each quantity, plus
+        /// the error of the reference itself.
         error: f64,
-        /// The quantity that is farthest off.
+        /// The quantity with the largest difference.
         worst: String,
+        /// Largest relative constraint drift.
         drift: Held,
-        /// CPU time of each repeat, s; the fastest counts.
+        /// CPU time of each repetition, s; the least counts.
         cpu_seconds: Vec<f64>,
+        /// Counted work.
         statistics: Statistics,
     },
+    /// It stopped with an error.
     Failed {
+        /// The error.
         failure: Failure,
+        /// CPU time, s.
         cpu_seconds: f64,
     },
-    /// Stopped at `t`, since it took longer than it may.
+    /// It was stopped at `t`, since it exceeded its time limit.
     TooSlow {
-        /// s
+        /// Time reached, s.
         t: f64,
+        /// CPU time, s.
         cpu_seconds: f64,
+        /// The limit.
         reason: String,
     },
-    /// Not tried, and why.
+    /// It was not run.
     Skipped {
+        /// The reason.
         reason: String,
     },
 }
 
-/// Largest drift over the steps, relative to the scene's scale.
+/// Largest constraint drift over the steps, relative to the scene's scale.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Held {
+    /// Relative drift of phi.
     pub position: f64,
+    /// Relative drift of phi'.
     pub velocity: f64,
 }
 
@@ -66,19 +79,20 @@ impl From<&Drift> for Held {
 }
 
 impl Held {
-    /// Of both levels.
+    /// Returns the larger of both.
     pub fn largest(self) -> f64 {
         self.position.max(self.velocity)
     }
 }
 
 impl Cell {
-    /// CPU time measured of a completed run, s.
+    /// Returns the CPU time of a completed run, s: the least of its repetitions.
     pub fn seconds(&self) -> Option<f64> {
         let Outcome::Completed { cpu_seconds, .. } = &self.outcome else { return None };
         cpu_seconds.iter().copied().reduce(f64::min)
     }
 
+    /// Returns the relative error of a completed run.
     pub fn error(&self) -> Option<f64> {
         match self.outcome {
             Outcome::Completed { error, .. } => Some(error),
@@ -86,11 +100,12 @@ impl Cell {
         }
     }
 
-    /// Correct digits: -log10 of the error, sixteen at most.
+    /// Returns the correct digits, -log10 of the error, sixteen at most.
     pub fn digits(&self) -> Option<f64> {
         self.error().map(digits)
     }
 
+    /// Returns the drift of a completed run.
     pub fn drift(&self) -> Option<Held> {
         match self.outcome {
             Outcome::Completed { drift, .. } => Some(drift),
@@ -98,6 +113,7 @@ impl Cell {
         }
     }
 
+    /// Returns the counted work of a completed run.
     pub fn statistics(&self) -> Option<Statistics> {
         match self.outcome {
             Outcome::Completed { statistics, .. } => Some(statistics),
@@ -105,7 +121,7 @@ impl Cell {
         }
     }
 
-    /// Why there is no result.
+    /// Returns the reason why there is no result.
     pub fn reason(&self) -> Option<&str> {
         match &self.outcome {
             Outcome::Completed { .. } => None,
@@ -114,19 +130,19 @@ impl Cell {
         }
     }
 
-    /// Whether both are of one formulation, integrator and projection.
+    /// True if both have the same formulation, integrator and projection.
     pub fn is_of(&self, other: &Method) -> bool {
         let Method { formulation, integrator, projection, .. } = &self.method;
         (formulation, integrator, projection) == (&other.formulation, &other.integrator, &other.projection)
     }
 }
 
-/// Correct digits of a relative error; those of a double number at most.
+/// Returns the correct digits of a relative error, sixteen at most.
 pub(super) fn digits(error: f64) -> f64 {
     -error.max(1e-16).log10()
 }
 
-/// The middle one, or the mean of the middle two.
+/// Returns the median.
 pub(super) fn median(values: &[f64]) -> Option<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);

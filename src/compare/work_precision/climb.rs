@@ -1,4 +1,4 @@
-//! Runs of a few methods of other families, ever tighter, cheap ones first.
+//! Reference runs: a few methods of different families at ever tighter tolerances, cheap ones first.
 
 use super::error_metric::{ErrorMetric, Watched};
 use super::grid::Triple;
@@ -11,9 +11,9 @@ use crate::simulate::{Method, Span, atol_of};
 use std::panic::resume_unwind;
 use std::time::{Duration, Instant};
 
-/// rtol, from loose to tight.
+/// Sequence of rtol, from loose to tight.
 const LADDER: [f64; 6] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13];
-/// Explicit and implicit methods, one in minimal coordinates, a half-explicit one.
+/// Explicit and implicit methods, one in minimal coordinates, one half-explicit.
 const FAMILIES: [[&str; 3]; 6] = [
     ["index1", "dop853", "exact"],
     ["ggl", "radau_iia", "none"],
@@ -22,27 +22,27 @@ const FAMILIES: [[&str; 3]; 6] = [
     ["index1", "dopri5", "exact"],
     ["index2", "radau_iia", "none"],
 ];
-/// Parts of the budget in CPU time for each method, one after the other: quick runs show which methods bring the motion to its end, and
-/// longer ones are made where these are not good enough;
+/// Parts of the budget in CPU time for each method, one after the other: short runs show which methods complete the
+/// motion, and longer ones follow where these are not accurate enough.
 const PARTS: [f64; 3] = [0.02, 0.06, 0.2];
-/// the last where two do not agree in anything yet.
+/// Last part, used where no two methods agree in any digit yet.
 const LAST: f64 = 0.4;
-/// Parts of the budget that all of them may take on a busy machine, without the last and with it.
+/// Parts of the budget in wall-clock time for all of them on a busy machine, without the last part and with it.
 const WAITED: [f64; 2] = [0.45, 0.8];
-/// In the last those methods run that need so many times what the quickest needs.
+/// In the last part only methods run that need at most this many times the time of the quickest.
 const QUICK: f64 = 3.0;
 
-/// Runs of one method that came through, from loose to tight.
+/// Completed runs of one method, from loose to tight.
 #[derive(Default)]
 pub struct Line {
     pub rungs: Vec<Rung>,
-    /// The place of the next one in the sequence.
+    /// Index of the next one in the sequence.
     next: usize,
-    /// Where and why the last one tried did not.
+    /// The last run that failed.
     failure: Option<(Method, RunSample)>,
 }
 
-/// A run that came through.
+/// A completed run.
 pub struct Rung {
     pub method: Method,
     pub run: RunSample,
@@ -53,14 +53,14 @@ impl Rung {
         format!("{}, rtol {:e}", self.method.triple(), self.method.rtol)
     }
 
-    /// The mean step, made longer by what the tolerance made it shorter.
+    /// Returns the mean step without the effect of the tolerance: h rtol^(-1/p).
     pub fn pace(&self, span: Span) -> f64 {
         let order = integrator::find(&self.method.integrator).map_or(5, |entry| entry.order.max(5));
         (span.end - span.start) / self.run.statistics.steps.max(1) as f64 * self.method.rtol.powf(-1.0 / order as f64)
     }
 }
 
-/// Quick runs of all families, then longer ones until two agree to `wanted`.
+/// Makes short runs of all families, then longer ones until two agree to `wanted`.
 ///
 /// # Errors
 /// Bad input.
@@ -91,7 +91,7 @@ pub fn climb(motion: &Motion, watched: &Watched, span: Span, (wanted, budget): (
             }
             Ok(())
         };
-        // Threads of their own: the pool may be busy with other measurements.
+        // Own threads, since the pool may be busy with other measurements.
         std::thread::scope(|scope| {
             let threads: Vec<_> = lines.iter_mut().zip(&FAMILIES).map(|pair| scope.spawn(move || up(pair))).collect();
             threads.into_iter().try_for_each(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic)))
@@ -101,7 +101,8 @@ pub fn climb(motion: &Motion, watched: &Watched, span: Span, (wanted, budget): (
 }
 
 impl Line {
-    /// Makes the next run where it can be expected to fit into the time allowed; whether there may be another, and the CPU time spent, s.
+    /// Makes the next run if it can be expected to fit into the time allowed; returns if there may be another, and the
+    /// CPU time used, s.
     fn step(
         &mut self,
         motion: &Motion,
@@ -126,7 +127,7 @@ impl Line {
             self.failure = Some((method, run));
             return Ok((false, seconds));
         }
-        // What fails at one tolerance may come through at a tighter one.
+        // A method that fails at one tolerance may complete at a tighter one.
         self.next += 1;
         if run.failure.is_some() {
             self.failure = Some((method, run));
@@ -137,14 +138,14 @@ impl Line {
         Ok((true, seconds))
     }
 
-    /// At least so long the next run takes, s.
+    /// Returns a lower estimate of the time of the next run, s.
     fn forecast(&self, motion: &Motion) -> f64 {
         let stopped = self.failure.as_ref().and_then(|(_, run)| run.whole(motion));
         stopped.or_else(|| self.rungs.last().map(|rung| rung.run.seconds)).unwrap_or(0.0)
     }
 }
 
-/// The best run so far, how far it can be believed, and by which other run.
+/// The best run so far, and its error by comparison with another run.
 pub struct Checked<'l> {
     pub best: &'l Rung,
     pub by: Option<&'l Rung>,
@@ -152,8 +153,8 @@ pub struct Checked<'l> {
     pub values: ErrorMetric,
 }
 
-/// The tightest run, of those as tight the method that is named first, against the run that agrees best: two methods do not
-/// come by chance to the same wrong digits. Its own looser run counts where no other is as tight as that.
+/// Compares the tightest run, at equal tolerances that of the first method, with the run that agrees best: two methods
+/// do not agree in wrong digits by chance. Its own looser run is used where no other is as tight as that.
 pub fn check<'l>(lines: &'l [Line], watched: &Watched) -> Option<Checked<'l>> {
     let own = lines.iter().min_by(|a, b| tightest(a).total_cmp(&tightest(b)))?;
     let (best, rest) = own.rungs.split_last()?;
@@ -168,7 +169,7 @@ pub fn check<'l>(lines: &'l [Line], watched: &Watched) -> Option<Checked<'l>> {
     Some(Checked { best, by, error, values })
 }
 
-/// Whether both are runs of one method.
+/// True if both are runs of one method.
 pub fn same(a: &Rung, b: &Rung) -> bool {
     a.method.triple() == b.method.triple()
 }
@@ -177,7 +178,8 @@ fn tightest(line: &Line) -> f64 {
     line.rungs.last().map_or(f64::INFINITY, |rung| rung.method.rtol)
 }
 
-/// What to do where no method came through: the time that the quickest needs, by how far it came.
+/// Returns the failure where no method completed, with the time that the quickest needs, extrapolated from the part it
+/// completed.
 pub fn nothing(lines: &[Line], motion: &Motion, budget: Duration) -> Failure {
     let stopped = lines.iter().filter_map(|line| line.failure.as_ref());
     let forecasts =

@@ -1,4 +1,4 @@
-//! What of a motion is compared, and how.
+//! Quantities of a motion that are compared, and their error metric.
 
 use crate::analysis::{Sizes, scales};
 use crate::error::{Error, Result, suggest};
@@ -6,11 +6,12 @@ use crate::simulate::Observation;
 use crate::system::{Column, MechanicalSystem, Scratch};
 use serde::{Deserialize, Serialize};
 
-/// The quantities that are compared: outputs, or all coordinates of a system without any.
+/// The quantities that are compared: outputs, or all coordinates of a system without outputs.
 #[derive(Clone, Debug)]
 pub struct Watched {
+    /// Names and units.
     pub columns: Vec<Column>,
-    /// How many outputs there are, and the places of these; coordinates where there is none.
+    /// Number of outputs of the system, and indices of the compared ones; none for coordinates.
     outputs: Option<(usize, Vec<usize>)>,
 }
 
@@ -18,7 +19,7 @@ impl Watched {
     /// The outputs with these names, all where none is named.
     ///
     /// # Errors
-    /// A name that is none of the system's outputs.
+    /// A name that is not an output of the system.
     pub fn new(system: &dyn MechanicalSystem, names: &[String]) -> Result<Watched> {
         let known = system.columns();
         if known.is_empty() && names.is_empty() {
@@ -39,7 +40,7 @@ impl Watched {
         Ok(Watched { columns, outputs: Some((known.len(), places)) })
     }
 
-    /// Their values at a state.
+    /// Returns their values at a state.
     pub fn read(&self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) -> Vec<f64> {
         let Some((count, places)) = &self.outputs else { return state.q.to_vec() };
         let mut all = vec![0.0; *count];
@@ -48,22 +49,24 @@ impl Watched {
     }
 }
 
-/// Values that others are compared with, and the size of each quantity that errors are relative to.
+/// Reference values, and the size of each quantity that errors are relative to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorMetric {
+    /// Names of the quantities.
     pub names: Vec<String>,
-    /// One row a time.
+    /// Reference values, one row for each time.
     pub rows: Vec<Vec<f64>>,
     scales: Vec<f64>,
 }
 
 impl ErrorMetric {
+    /// A metric with scales from the rows and the sizes of the motion.
     pub fn new(columns: &[Column], rows: Vec<Vec<f64>>, sizes: &Sizes) -> ErrorMetric {
         let names = columns.iter().map(|column| column.name.clone()).collect();
         ErrorMetric { names, scales: scales(columns, &rows, sizes), rows }
     }
 
-    /// The largest relative difference, and the quantity that has it. Rows that are missing make it infinite.
+    /// Returns the largest relative difference, and the name of its quantity. Missing rows make it infinite.
     pub fn error(&self, rows: &[Vec<f64>]) -> (f64, String) {
         if rows.len() != self.rows.len() {
             return (f64::INFINITY, String::new());
@@ -73,7 +76,7 @@ impl ErrorMetric {
         worst.map_or((0.0, String::new()), |(error, name)| (error, name.clone()))
     }
 
-    /// The largest relative difference of each quantity.
+    /// Returns the largest relative difference of each quantity.
     pub fn errors(&self, rows: &[Vec<f64>]) -> Vec<f64> {
         let of = |i: usize| {
             let pairs = self.rows.iter().zip(rows);
@@ -85,7 +88,7 @@ impl ErrorMetric {
         (0..self.names.len()).map(of).collect()
     }
 
-    /// The largest and the root mean square relative difference of a quantity by its name.
+    /// Returns the largest and the root mean square relative difference of a quantity by its name.
     pub fn spread(&self, name: &str, values: &[f64]) -> Option<(f64, f64)> {
         let i = self.names.iter().position(|known| known == name)?;
         let own = self.rows.iter().map(|row| row[i]);

@@ -1,4 +1,4 @@
-//! Tables of values to compare with.
+//! Tables of reference values from files.
 
 use super::error_metric::Watched;
 use crate::error::{Error, Result, suggest};
@@ -8,13 +8,14 @@ use std::path::Path;
 /// Values from a file: columns by name, one of them `t`.
 #[derive(Clone, Debug)]
 pub struct Given {
+    /// File name.
     pub name: String,
     headings: Vec<String>,
     rows: Vec<Vec<f64>>,
 }
 
 impl Given {
-    /// Reads a table with headings, as `trajectory.csv` is one: `t` and quantities by name.
+    /// Reads a table with headings like `trajectory.csv`: `t` and quantities by name.
     ///
     /// # Errors
     /// A file that cannot be read or is no such table.
@@ -49,12 +50,13 @@ impl Given {
         Ok(Given { name: name.to_string(), headings, rows })
     }
 
-    /// The quantities it has.
+    /// Returns the names of its quantities.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.headings.iter().map(String::as_str).filter(|heading| *heading != "t")
     }
 
-    /// So many equal parts of the time, at most `most`, that the file has a row at the end of each of them.
+    /// Returns the largest number of equal parts of the time, at most `most`, for which the file has a row at the end
+    /// of each part.
     ///
     /// # Errors
     /// A file without a row at the end.
@@ -75,7 +77,7 @@ impl Given {
         Some(row)
     }
 
-    /// The quantities watched at the times of `span` after its start.
+    /// Returns the watched quantities at the output times of `span` after its start.
     pub(super) fn rows_at(&self, watched: &Watched, span: Span) -> Result<Vec<Vec<f64>>> {
         let place = |name: &String| {
             self.headings.iter().position(|heading| heading == name).ok_or_else(|| {

@@ -1,4 +1,4 @@
-//! Which methods are measured.
+//! The methods that are measured.
 
 use crate::error::Result;
 use crate::formulation;
@@ -7,35 +7,42 @@ use crate::method_spec::MethodSpec;
 use crate::projection;
 use crate::simulate::Method;
 
-/// Formulation x integrator x projection, without an accuracy.
+/// Formulation, integrator and projection, without an accuracy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Triple {
+    /// Formulation with its options.
     pub formulation: MethodSpec,
+    /// Integrator with its options.
     pub integrator: MethodSpec,
+    /// Projection with its options.
     pub projection: MethodSpec,
 }
 
-/// What a user wants of the grid; what is not named is taken as is usual.
+/// Methods chosen by a user; an empty list means the default.
 #[derive(Clone, Debug, Default)]
 pub struct Filter {
+    /// Formulations; empty: all.
     pub formulations: Vec<MethodSpec>,
+    /// Integrators; empty: all.
     pub integrators: Vec<MethodSpec>,
+    /// Projections; empty: those that suit each formulation.
     pub projections: Vec<MethodSpec>,
 }
 
 impl Triple {
-    /// At an accuracy: `step` for integrators that have no error estimate.
+    /// Returns the method at an accuracy: `step` for integrators without an error estimate.
     pub fn at(&self, (rtol, atol): (f64, f64), step: Option<f64>) -> Method {
         let Triple { formulation, integrator, projection } = self.clone();
         Method { formulation, integrator, projection, rtol, atol, step }
     }
 }
 
-/// All methods of the registries that go together and through `filter`. Where no projection is named: what leaves the
-/// constraints without one (index 1, half-explicit methods) has one sweep as well, and index 1 the exact one too.
+/// Returns all methods of the registries that can be combined and pass `filter`. Where no projection is named: those
+/// that drift without one (index 1, half-explicit methods) have one sweep as well, and index 1 the exact projection
+/// too.
 ///
 /// # Errors
-/// Unknown names and options; a filter that nothing goes through.
+/// Unknown names and options; a filter that no method passes.
 pub fn grid(filter: &Filter) -> Result<Vec<Triple>> {
     let Filter { formulations, integrators, .. } = filter;
     let integrators = named(integrators, integrator::registry().iter().map(|entry| entry.name));
@@ -55,7 +62,7 @@ pub fn grid(filter: &Filter) -> Result<Vec<Triple>> {
     }
 }
 
-/// Why nothing goes together, said of the first that was named.
+/// Returns the error of the first named combination where none is possible.
 fn refused(integrators: &[MethodSpec], formulations: &[MethodSpec], filter: &Filter) -> Result<Vec<Triple>> {
     let none = [MethodSpec::named("none")];
     let projections = if filter.projections.is_empty() { &none[..] } else { &filter.projections };

@@ -1,14 +1,14 @@
-//! Speed for accuracy: what every method costs for the digits it gives, on one motion.
+//! Work-precision measurements: the cost of every method for the digits it gives, on one motion.
 //!
-//! 1. A reference ([`Reference`]): the motion as good as the digits that are asked for need it, or better where that is
-//!    cheap, its error told by a second method of another family.
-//! 2. A grid ([`grid`]): formulation x integrator x projection, each at a sequence of tolerances or steps. Methods that have
-//!    fallen far behind are not tried at tighter ones, and the result says so.
-//! 3. Costs ([`WorkPrecision::price`]): counted work times the CPU time of a unit of its kind, so that what else the machine
-//!    does favours none.
-//! 4. What to choose ([`WorkPrecision::recommend`]): the cheapest run for so many digits, and the next best.
+//! 1. A reference ([`Reference`]): the motion at least as accurate as the requested digits need, its error estimated by
+//! a second method of another family.
+//! 2. A grid ([`grid`]): formulation x integrator x projection, each at a sequence of tolerances or steps. Methods that
+//!    are far behind are not run at tighter ones, and the result says so.
+//! 3. Costs ([`WorkPrecision::price`]): counted work times the CPU time of a unit of its kind, so that other load of the machine
+//!    favours none.
+//! 4. Recommendation ([`WorkPrecision::recommend`]): the cheapest run for a number of digits, and the next best.
 //!
-//! What a richer model of the same mechanism costs and gives is measured by [`models::compare`].
+//! The cost and accuracy of richer models of the same mechanism are measured by [`models::compare`].
 //!
 //! Source of the diagrams: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.10.
 
@@ -48,28 +48,31 @@ pub use sample::{Allowed, RunSample, cpu_seconds, sample};
 
 use serde::{Deserialize, Serialize};
 
-/// What was measured so far; it can be written, read again and continued.
+/// Results so far; they can be written, read again and continued.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct WorkPrecision {
+    /// Name of the scene.
     pub scene: String,
-    /// Tells the same motion from another one when a measurement is continued.
+    /// Identifies the motion when a measurement is continued.
     pub fingerprint: String,
-    /// s
+    /// Start time, s.
     pub t_start: f64,
+    /// End time, s.
     pub t_end: f64,
-    /// Times at which motions are compared, between start and end and there.
+    /// Number of times at which motions are compared, after the start up to the end.
     pub rows: usize,
+    /// Reference values; none before they are computed.
     pub reference: Option<Reference>,
-    /// By method, from loose to tight.
+    /// Runs by method, from loose to tight.
     pub cells: Vec<Cell>,
-    /// Time spent so far, s.
+    /// Wall-clock time so far, s.
     pub seconds: f64,
-    /// What the budget left out, if anything.
+    /// Runs skipped for lack of budget, if any.
     pub left_out: Option<String>,
 }
 
 impl WorkPrecision {
-    /// Nothing measured yet.
+    /// A measurement without results.
     pub fn fresh(scene: &str, (t_start, t_end): (f64, f64), rows: usize) -> WorkPrecision {
         WorkPrecision {
             scene: scene.to_string(),

@@ -1,4 +1,4 @@
-//! What a model costs: models of one mechanism, from poor to rich, on the same motion.
+//! Cost of a model: models of one mechanism, from coarse to rich, on the same motion.
 
 use super::error_metric::{ErrorMetric, Watched};
 use super::sample::{Motion, RunSample, sample};
@@ -15,14 +15,17 @@ use std::time::Duration;
 
 /// A model with its name, such as `rod.json:modes=2`.
 pub struct Variant {
+    /// Name.
     pub name: String,
+    /// The prepared scene.
     pub prepared: PreparedScene,
-    /// Where it comes from, so that a finer mesh can be made of it.
+    /// File and options of the scene, from which a finer mesh can be made.
     pub source: Option<(PathBuf, Overrides)>,
 }
 
 impl Variant {
-    /// The model with twice the elements and modes of its beams; none where it has none, or that cannot be built.
+    /// Returns the model with twice the elements and modes of its beams; none without beams, or where it cannot be
+    /// built.
     fn finer(&self) -> Option<PreparedScene> {
         let (path, overrides) = self.source.as_ref()?;
         let text = scene::refined(&scene::read_text(path).ok()?)?;
@@ -31,32 +34,36 @@ impl Variant {
     }
 }
 
-/// Models against the richest of them.
+/// Models compared with the richest of them.
 #[derive(Clone, Debug, Serialize)]
 pub struct ModelCosts {
-    /// Its outputs, which the others are compared in.
+    /// Outputs of the richest model, in which the others are compared.
     #[serde(skip)]
     pub columns: Vec<Column>,
-    /// Place of the model with the most velocities.
+    /// Index of the model with the most velocities.
     pub richest: usize,
+    /// Number of times at which they are compared.
     pub rows: usize,
+    /// Result for each model.
     pub models: Vec<ModelCost>,
+    /// Comparison of the richest with a finer mesh.
     pub finer: Finer,
 }
 
-/// Whether the richest model is good enough to compare with: itself against a finer one.
+/// Comparison of the richest model with a finer one.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Finer {
-    /// Of the model with twice the elements and modes; none where the richest has no beams to refine.
+    /// Number of velocities with twice the elements and modes; none where the richest has no beams to refine.
     pub velocities: Option<usize>,
-    /// How far it is from the richest.
+    /// Differences from the richest.
     pub outputs: Vec<OutputError>,
+    /// Reason why the finer one did not complete.
     pub failure: Option<Failure>,
 }
 
 impl ModelCosts {
-    /// How far the richest model itself may be off, and in what: the most that twice the mesh, or a hundredth of the
-    /// tolerance, changes of it. None where it has a mesh and the finer one was not run.
+    /// Returns the estimated error of the richest model and its output: the larger of the changes by twice the mesh and
+    /// by a hundredth of the tolerance. None where it has a mesh and the finer one was not run.
     pub fn uncertainty(&self) -> Option<(f64, &str)> {
         let numerical = (self.models[self.richest].numerical_error?, "the worst output");
         let Finer { velocities, outputs, failure } = &self.finer;
@@ -66,53 +73,64 @@ impl ModelCosts {
     }
 }
 
-/// What a model costs, and gives.
+/// Cost and accuracy of a model.
 #[derive(Clone, Debug, Serialize)]
 pub struct ModelCost {
+    /// Name.
     pub name: String,
+    /// n_q.
     pub coordinates: usize,
+    /// n_v.
     pub velocities: usize,
+    /// n_c.
     pub constraints: usize,
+    /// Method of its runs.
     pub method: Method,
-    /// CPU time of each repeat, s.
+    /// CPU time of each repetition, s.
     pub cpu_seconds: Vec<f64>,
+    /// Counted work.
     #[serde(flatten)]
     pub statistics: Statistics,
-    /// How much a tolerance a hundredth as large changes the model's own outputs: the largest relative change.
+    /// Largest relative change of the model's own outputs with a hundredth of the tolerance.
     pub numerical_error: Option<f64>,
-    /// Of each output that the model has: how far it is from the richest model's.
+    /// Difference of each output that the model has from that of the richest model.
     pub outputs: Vec<OutputError>,
+    /// Reason why it did not complete.
     pub failure: Option<Failure>,
 }
 
-/// Relative to the size of the quantity in the motion of the richest model: see [`ErrorMetric`].
+/// Difference of an output relative to its size in the motion of the richest model: see [`ErrorMetric`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OutputError {
+    /// Name of the output.
     pub name: String,
+    /// Largest relative difference.
     pub max: f64,
+    /// Root mean square of the relative difference.
     pub rms: f64,
 }
 
 impl ModelCost {
-    /// Median CPU time, s.
+    /// Returns the median CPU time, s.
     pub fn seconds(&self) -> Option<f64> {
         super::cell::median(&self.cpu_seconds)
     }
 
-    /// The largest difference of all outputs it has; none where it has none or failed.
+    /// Returns the largest difference of all its outputs; none where it has none or failed.
     pub fn error(&self) -> Option<f64> {
         self.outputs.iter().map(|output| output.max).reduce(f64::max)
     }
 }
 
-/// Times at which models are compared.
+/// Number of times at which models are compared.
 const ROWS: usize = 200;
 
-/// Runs all models over the span of the first, each with its own method, `repeats` times in turn; `watch` hears which comes
-/// next and how many runs are done. `outputs` names what to compare, all of the richest model where it is empty.
+/// Runs all models over the span of the first, each with its own method, `repeats` times in turn; `watch` is called
+/// with the next one and the number of runs done. `outputs` names the outputs to compare, all of the richest model
+/// where it is empty.
 ///
 /// # Errors
-/// Fewer than two models; unknown outputs; a model whose start is not that of the first.
+/// Fewer than two models; unknown outputs; a model that starts at another time or state than the first.
 pub fn compare(
     variants: &[Variant],
     outputs: &[String],
@@ -143,7 +161,7 @@ pub fn compare(
     Ok(ModelCosts { richest, rows: ROWS, models, columns, finer })
 }
 
-/// The richest model against itself with twice the mesh.
+/// Compares the richest model with itself on twice the mesh.
 fn finer(richest: &Variant, columns: &[Column], span: Span, allowed: Duration, rich: &ErrorMetric) -> Result<Finer> {
     let Some(prepared) = richest.finer() else { return Ok(Finer::default()) };
     let velocities = Some(prepared.system().dimensions().v);
@@ -154,13 +172,13 @@ fn finer(richest: &Variant, columns: &[Column], span: Span, allowed: Duration, r
     Ok(Finer { velocities, outputs: cost.outputs, failure: cost.failure })
 }
 
-/// A model on its way.
+/// The runs of one model.
 struct Run<'a> {
     variant: &'a Variant,
     watched: Watched,
     seconds: Vec<f64>,
     usual: Option<RunSample>,
-    /// The same at a tighter tolerance.
+    /// The run at a tighter tolerance.
     tight: Option<RunSample>,
 }
 
@@ -178,7 +196,7 @@ impl<'a> Run<'a> {
         Ok(Run { variant, watched: Watched::new(system, &shared)?, seconds: Vec::new(), usual: None, tight: None })
     }
 
-    /// Once with a tighter tolerance, then for the time.
+    /// Runs once with a tighter tolerance, then for the time.
     fn repeat(&mut self, span: Span, round: usize, allowed: Duration) -> Result<()> {
         let prepared = &self.variant.prepared;
         let method = match (round, prepared.method.step) {
@@ -243,7 +261,7 @@ impl<'a> Run<'a> {
 }
 
 fn tighter(method: &Method) -> Method {
-    // Below, round-off is all that is left.
+    // Below this, only round-off remains.
     let rtol = (tolerances::MODEL_TIGHTER * method.rtol).max(1e-13).min(method.rtol);
     Method { rtol, atol: method.atol * rtol / method.rtol, ..method.clone() }
 }

@@ -1,4 +1,4 @@
-//! What accuracy is measured against.
+//! The reference of accuracy.
 
 use super::climb::{Checked, Line, Rung, check, climb, nothing, same};
 use super::error_metric::{ErrorMetric, Watched};
@@ -10,38 +10,41 @@ use crate::tolerances::report as tolerances;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
-/// Values to compare with, and how far they can be believed.
+/// Reference values with their error.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Reference {
     /// The method or the file.
     pub from: String,
     /// What it was compared with.
     pub checked_by: String,
-    /// Whether that is another method than the reference's own at a looser tolerance.
+    /// True if that is another method, false if the reference's own at a looser tolerance.
     pub is_independent: bool,
-    /// The largest relative difference between the two: no run can be told to be better.
+    /// The largest relative difference between the two: smaller errors of runs cannot be measured.
     pub error: f64,
-    /// The quantity that has it.
+    /// The quantity with this difference.
     pub worst: String,
+    /// Steps from which those of fixed-step methods are chosen.
     pub pace: Pace,
+    /// The values, with the sizes of the quantities.
     pub values: ErrorMetric,
 }
 
-/// The steps with which methods of high order would err by as much as the motion moves, s: of those whose steps stability
-/// limits, and of the others.
+/// Steps, extrapolated to rtol = 1, by the relation h = pace rtol^(1/p).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pace {
+    /// Of an explicit method, s.
     pub explicit: f64,
+    /// Of an implicit method, s.
     pub implicit: f64,
 }
 
 impl Reference {
-    /// The motion by the tightest of runs that come through in the time allowed, and its error by another method, or by its
-    /// own change with the tolerance; against values of a file where they are `given`. It is made as good as `digits` need,
-    /// and better where that costs little. With it come all runs that it was found by.
+    /// Computes the motion by the tightest runs that complete in the time allowed, and its error by another method, or
+    /// by its own change with the tolerance; against values of a file where they are `given`. It is as accurate as
+    /// `digits` need, and more where that costs little. All runs that it was found by are returned with it.
     ///
     /// # Errors
-    /// A run error where no method comes through; a file that lacks a quantity or the times.
+    /// A run error where no method completes; a file that lacks a quantity or the times.
     pub(super) fn find(
         motion: &Motion,
         watched: &Watched,
@@ -65,13 +68,13 @@ impl Reference {
         Ok((reference, lines.into_iter().flat_map(|line| line.rungs).collect()))
     }
 
-    /// Digits that it can vouch for.
+    /// Returns the digits up to which errors can be measured.
     pub fn digits(&self) -> f64 {
         super::cell::digits(self.error)
     }
 }
 
-/// By the loosest runs of the first two families; where one of them has none, by the other.
+/// Takes the loosest runs of the first two families; where one of them has none, that of the other.
 fn pace(lines: &[Line], span: Span) -> Pace {
     let of = |line: usize| lines.get(line).and_then(|line| line.rungs.first()).map(|rung| rung.pace(span));
     let any = (0..lines.len()).find_map(of).unwrap_or(1e-3 * (span.end - span.start));

@@ -1,4 +1,4 @@
-//! The order in which runs are made, and for how long.
+//! Order and duration of the runs.
 
 use super::WorkPrecision;
 use super::cell::Cell;
@@ -12,21 +12,23 @@ use crate::simulate::{Method, Span};
 use crate::tolerances::report as tolerances;
 use std::time::{Duration, Instant};
 
-/// What to measure.
+/// Plan of a measurement.
 #[derive(Clone, Debug)]
 pub struct Plan {
+    /// Methods.
     pub triples: Vec<Triple>,
-    /// For all of it.
+    /// Total time.
     pub budget: Duration,
-    /// Runs of a method that is quick; the fastest counts.
+    /// Repetitions of a short run; the least time counts.
     pub repeats: usize,
-    /// Times at which motions are compared.
+    /// Number of times at which motions are compared.
     pub rows: usize,
-    /// That the reference must be good for, and for which explicit and implicit methods are compared, however slow one kind is.
+    /// Digits that the reference must have, and for which explicit and implicit methods are compared, however slow one
+    /// kind is.
     pub digits: u32,
-    /// Whether methods are tried on that have fallen behind.
+    /// True if methods far behind are tried at tighter tolerances too.
     pub is_exhaustive: bool,
-    /// Values to compare with, in the place of a computed reference.
+    /// Reference values that replace a computed reference.
     pub given: Option<Given>,
 }
 
@@ -36,20 +38,21 @@ pub struct Runner<'a> {
     pub(super) plan: &'a Plan,
     watched: Watched,
     pub(super) clock: Instant,
-    /// Called before every run with what it will be.
+    /// Called before every run with its description.
     watch: Box<Watch<'a>>,
 }
 
-/// Hears what is measured so far, and what comes next.
+/// Called with the results so far, and the next run.
 type Watch<'a> = dyn FnMut(&WorkPrecision, &str) + 'a;
 
-/// Why no more runs are made.
+/// Reason why no more runs are made.
 pub(super) enum Pause {
     Budget,
     Asked,
 }
 
 impl<'a> Runner<'a> {
+    /// A runner for a plan; `watch` is called before every run.
     pub fn new(
         motion: Motion<'a>,
         plan: &'a Plan,
@@ -59,10 +62,10 @@ impl<'a> Runner<'a> {
         Runner { motion, plan, watched, clock: Instant::now(), watch: Box::new(watch) }
     }
 
-    /// Goes on from what `result` holds until all is measured, the budget is spent, or the user wants it to end.
+    /// Continues from `result` until all is measured, the budget is spent, or the user stops it.
     ///
     /// # Errors
-    /// A motion that no method brings to its end; bad input.
+    /// A motion that no method completes; bad input.
     pub fn run(mut self, result: &mut WorkPrecision) -> Result<()> {
         let before = result.seconds;
         (result.left_out, self.clock) = (None, Instant::now());
@@ -71,7 +74,7 @@ impl<'a> Runner<'a> {
             let plan = (self.plan.digits, self.plan.budget);
             let given = self.plan.given.as_ref();
             let reference = Reference::find(&self.motion, &self.watched, (self.span(result), given), plan);
-            // One that was cut short is none.
+            // An interrupted search gives no reference.
             if (self.motion.is_stopped)() {
                 result.left_out = Some("all: the measurement was interrupted".to_string());
                 return Ok(());
@@ -110,14 +113,14 @@ impl<'a> Runner<'a> {
         self.plan.budget.saturating_sub(self.clock.elapsed())
     }
 
-    /// Whether to go on, with what comes next.
+    /// Announces the next run; returns a reason to stop, if any.
     pub(super) fn pauses(&mut self, result: &WorkPrecision, next: &str) -> Option<Pause> {
         (self.watch)(result, next);
         let is_over = self.left() == Duration::ZERO;
         if (self.motion.is_stopped)() { Some(Pause::Asked) } else { is_over.then_some(Pause::Budget) }
     }
 
-    /// A run, several times where it is quick.
+    /// Makes a run, several times if it is short.
     pub(super) fn sample(
         &self,
         result: &WorkPrecision,

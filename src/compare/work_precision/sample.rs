@@ -1,4 +1,4 @@
-//! One run, with as little beside it as can be.
+//! One run, with as little overhead as possible.
 
 use super::error_metric::Watched;
 use crate::analysis::{Drift, Sizes};
@@ -9,45 +9,50 @@ use crate::system::{MechanicalSystem, Scratch};
 use cpu_time::ThreadTime;
 use std::time::{Duration, Instant};
 
-/// What is measured on.
+/// The motion that is measured.
 #[derive(Clone, Copy)]
 pub struct Motion<'a> {
+    /// The mechanical system.
     pub system: &'a dyn MechanicalSystem,
     /// Consistent q and v.
     pub start: (&'a [f64], &'a [f64]),
-    /// From when to when, s.
+    /// Start and end time, s.
     pub between: (f64, f64),
-    /// atol over rtol.
+    /// Ratio atol / rtol.
     pub ratio: f64,
-    /// Whether the user wants it to end.
+    /// Returns true if the user stops the measurement.
     pub is_stopped: &'a (dyn Fn() -> bool + Sync),
 }
 
-/// What one run gave.
+/// Result of one run.
 #[derive(Clone, Debug)]
 pub struct RunSample {
-    /// Of the quantities watched, one row an output time after the start, where all motions are alike.
+    /// Values of the watched quantities, one row per output time after the start, where all motions agree.
     pub rows: Vec<Vec<f64>>,
-    /// Over the same rows and the start.
+    /// Sizes of the motion over the same rows and the start.
     pub sizes: Sizes,
+    /// Constraint drift.
     pub drift: Drift,
+    /// Counted work.
     pub statistics: Statistics,
+    /// Reason why it did not complete.
     pub failure: Option<Failure>,
-    /// Whether it was stopped because it took too long.
+    /// True if it was stopped at its time limit.
     pub is_too_slow: bool,
     /// CPU time, s.
     pub seconds: f64,
 }
 
 impl RunSample {
-    /// So long the run would have taken to its end by how far it came, s; none where it failed.
+    /// Returns the time of the whole run, s, extrapolated from the part completed; 0 if it was stopped at once, none
+    /// where it failed.
     pub fn whole(&self, motion: &Motion) -> Option<f64> {
         let (start, end) = motion.between;
         match &self.failure {
             Some(failure) if self.is_too_slow && failure.t > start => {
                 Some(self.seconds * (end - start) / (failure.t - start))
             }
-            // One that was stopped at once says nothing.
+            // A run that was stopped at once gives no estimate.
             Some(_) if self.is_too_slow => Some(0.0),
             Some(_) => None,
             None => Some(self.seconds),
@@ -55,12 +60,12 @@ impl RunSample {
     }
 }
 
-/// How long a run may take.
+/// Time limits of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Allowed {
-    /// CPU time, so that what else the machine does ends no run;
+    /// CPU time, which does not depend on other load of the machine.
     pub cpu: Duration,
-    /// up to a time that somebody waits.
+    /// Wall-clock time.
     pub wall: Duration,
 }
 
@@ -70,7 +75,7 @@ impl From<Duration> for Allowed {
     }
 }
 
-/// Runs `method` until it ends or the time `allowed` is over.
+/// Runs `method` until it ends or the `allowed` time is over.
 ///
 /// # Errors
 /// Bad input only, as [`simulate`].
@@ -82,7 +87,7 @@ pub fn sample(
     allowed: impl Into<Allowed>,
 ) -> Result<RunSample> {
     let allowed = allowed.into();
-    // On one thread, so that its time is the method's.
+    // One thread, so that the time is that of the method.
     faer::set_global_parallelism(faer::Par::Seq);
     let system = motion.system;
     let mut sink = Sampler {
@@ -105,7 +110,7 @@ pub fn sample(
     Ok(RunSample { rows, sizes, drift, statistics: outcome.statistics, failure: outcome.failure, is_too_slow, seconds })
 }
 
-/// CPU time that `work` takes on this thread, s.
+/// Returns the CPU time of `work` on this thread, s.
 pub fn cpu_seconds<T>(work: impl FnOnce() -> T) -> (T, f64) {
     let clock = ThreadTime::now();
     let result = work();
@@ -125,7 +130,7 @@ struct Sampler<'a> {
     clocks: (ThreadTime, Instant),
 }
 
-/// On a busy machine a run may take so many times its CPU time.
+/// Limit of the wall-clock time of a run on a busy machine, in CPU time limits.
 const BUSY: u32 = 3;
 
 impl Sink for Sampler<'_> {

@@ -1,4 +1,4 @@
-//! Which run comes next, and which are not worth making.
+//! Order of the runs of the grid, and the runs that are skipped.
 
 use super::cell::{Cell, Outcome};
 use super::climb::Rung;
@@ -11,27 +11,27 @@ use crate::integrator::{self, Steps};
 use crate::simulate::{Method, atol_of, explicit};
 use std::time::Duration;
 
-/// rtol = 10^-decades: first these, of all methods,
+/// rtol = 10^-decades: first these, of all methods.
 const COARSE: [u32; 4] = [3, 6, 9, 12];
-/// then these, of methods that are near the best somewhere; first those about the digits that are usually asked for.
+/// Then these, of methods that are near the best at some accuracy; first the digits most often requested.
 const FINE: [u32; 6] = [7, 5, 8, 4, 10, 11];
-/// Parts of the budget that one run may take: quick runs of all methods come before slow ones of any.
+/// Parts of the budget that one run may take: short runs of all methods come before long ones of any.
 const RUN: [f64; 4] = [0.001, 0.005, 0.02, 0.1];
-/// A run is not tried that is forecast to take so many times as long as it may.
+/// A run is skipped if its forecast is longer than this many times its limit.
 const SURE: f64 = 1.2;
 /// Part of the budget after which no more runs are begun.
 const GRID: f64 = 0.95;
 /// Part of the budget for the comparison of explicit and implicit methods.
 const SETTLED: f64 = 0.15;
-/// Times as dear as the best for its digits: a method is tried on below,
+/// Cost relative to the best with as many digits below which a method is tried at tighter tolerances.
 const WORTH_TRYING: f64 = 5.0;
-/// and at all tolerances.
+/// Cost relative to the best below which a method is run at all tolerances.
 const NEAR: f64 = 3.0;
-/// A fixed step errs by 10^-decades where it is this part of the pace times 10^-(decades/p).
+/// Fixed steps are this part of pace 10^-(decades/p), which gives an error of about 10^-decades.
 const FIXED: f64 = 0.3;
 
 impl<'a> Runner<'a> {
-    /// The grid: quick runs of all methods, then longer ones.
+    /// Runs the grid: short runs of all methods, then longer ones.
     pub(super) fn climb(&mut self, result: &mut WorkPrecision) -> Result<Option<Pause>> {
         for part in RUN {
             if part == RUN[RUN.len() - 1] {
@@ -50,7 +50,7 @@ impl<'a> Runner<'a> {
         Ok(None)
     }
 
-    /// All methods at one accuracy that are worth it and not done.
+    /// Makes the runs of all methods at one accuracy that are worth it and not done.
     fn rung(
         &mut self,
         result: &mut WorkPrecision,
@@ -70,7 +70,7 @@ impl<'a> Runner<'a> {
                 Some(reason) => skipped(result, triple, decades, reason),
                 None => self.first(result, &method, self.limit(result, decades, allowed))?,
             };
-            // What was cut short is no result.
+            // An interrupted run gives no result.
             if !(self.motion.is_stopped)() {
                 self.put(result, triple, decades, outcome);
             }
@@ -78,7 +78,7 @@ impl<'a> Runner<'a> {
         Ok(None)
     }
 
-    /// No run takes longer than it may, and than many times what the cheapest takes that has as many digits.
+    /// Returns the time limit of a run: its own, and a multiple of that of the cheapest with as many digits.
     fn limit(&self, result: &WorkPrecision, decades: u32, allowed: Duration) -> Duration {
         let best = advice::cheapest(&result.cells, 0.1f64.powf(f64::from(decades))).and_then(|best| best.cost);
         let allowed = allowed.min(self.left());
@@ -88,7 +88,8 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// Gives every run of the grid that was not made its reason; returns how many `paused` kept from being made.
+    /// Gives every run of the grid that was not made its reason; returns the number of runs not made because of
+    /// `paused`.
     pub(super) fn leave_out(&self, result: &mut WorkPrecision, paused: Option<&Pause>) -> usize {
         let behind = advice::behind(&result.cells);
         let mut left_out = 0;
@@ -119,7 +120,7 @@ impl<'a> Runner<'a> {
         left_out
     }
 
-    /// The runs that the reference was found by are runs of the grid.
+    /// Adds the runs that the reference was found by, where they belong to the grid.
     pub(super) fn keep(&self, result: &mut WorkPrecision, runs: Vec<Rung>) {
         for Rung { method, run } in runs {
             let own = self.plan.triples.iter().find(|triple| triple.at((method.rtol, method.atol), None) == method);
@@ -131,7 +132,7 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// In the place of what was there.
+    /// Replaces the cell of this run.
     fn put(&self, result: &mut WorkPrecision, triple: &Triple, decades: u32, outcome: Outcome) {
         let method = self.method(result, triple, decades);
         result.cells.retain(|cell| !(cell.decades == decades && cell.is_of(&method)));
@@ -140,7 +141,7 @@ impl<'a> Runner<'a> {
         result.price();
     }
 
-    /// Those that will be quick come first: what they take is what the others are judged by.
+    /// Returns the methods still to run, those expected to be short first: later ones are judged by their times.
     fn pending(&self, result: &WorkPrecision, (decades, is_fine): (u32, bool), allowed: Duration) -> Vec<&'a Triple> {
         let near = advice::behind(&result.cells);
         let near: Vec<&Cell> =
@@ -164,20 +165,20 @@ impl<'a> Runner<'a> {
         pending.into_iter().map(|(_, triple)| triple).collect()
     }
 
-    /// The most that one run may take.
+    /// Returns the longest time that one run may take.
     fn longest(&self) -> Duration {
         self.plan.budget.mul_f64(RUN[RUN.len() - 1])
     }
 
-    /// Where no explicit method came to the digits asked for, or no implicit one, the run is made that will be the quickest
-    /// of its kind, so that it is known by how much the other kind wins.
+    /// If no explicit method, or no implicit one, reached the digits asked for, runs the method of this kind that is
+    /// expected to be the quickest, so that both kinds can be compared.
     fn settle(&mut self, result: &mut WorkPrecision) -> Result<()> {
         for kind in [true, false] {
             let has = |cell: &Cell| cell.is_explicit == kind && cell.digits() >= Some(f64::from(self.plan.digits));
             if result.cells.iter().any(has) {
                 continue;
             }
-            // By the runs so far: what is slow for its stability is no slower for more digits.
+            // By the runs so far: where stability limits the steps, more digits cost no more.
             let forecast = |triple: &'a Triple| {
                 let tightest = cells_of(result, triple).max_by_key(|cell| cell.decades)?;
                 let seconds = self.forecast(result, triple, tightest.decades)?.seconds;
@@ -194,7 +195,7 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    /// The rung at which the method of a run will have the digits asked for.
+    /// Returns the decades at which the method of a run is expected to have the digits asked for.
     fn needed(&self, run: &Cell) -> u32 {
         let more = run.digits().map_or(0.0, |digits| (f64::from(self.plan.digits) - digits).ceil());
         (run.decades + more.max(0.0) as u32).max(self.plan.digits)
@@ -219,14 +220,14 @@ impl<'a> Runner<'a> {
         triple.at((rtol, atol_of(rtol, self.motion.ratio)), step)
     }
 
-    /// Why a run is not worth making.
+    /// Returns the reason why a run is not worth making; none if it is.
     fn skips(&self, result: &WorkPrecision, triple: &Triple, decades: u32, allowed: Duration) -> Option<String> {
         if self.plan.is_exhaustive {
             return None;
         }
         let own = result.reference.as_ref()?.error;
         let last = last(result, triple, decades);
-        // An error is what was told and that of the reference.
+        // An error includes that of the reference.
         if last.and_then(Cell::error).is_some_and(|error| error <= 2.0 * own) {
             return Some("as accurate as the reference at a looser tolerance already".to_string());
         }
@@ -244,8 +245,8 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// By the run itself where it was stopped, else by the tightest run of the method so far: each decade costs the p-th
-    /// root of ten, or as much as it did between the tightest two where that is less.
+    /// Forecasts a run from itself where it was stopped, else from the tightest run of the method so far: each decade
+    /// costs the p-th root of ten, or the ratio of the tightest two where that is less.
     fn forecast(&self, result: &WorkPrecision, triple: &Triple, decades: u32) -> Option<Forecast> {
         let (start, end) = self.motion.between;
         let own = cells_of(result, triple).find(|cell| cell.decades == decades);
@@ -253,7 +254,7 @@ impl<'a> Runner<'a> {
         let more = f64::from(decades - last.decades);
         let decade = 10f64.powf(1.0 / integrator::find(&triple.integrator).ok()?.order as f64);
         let (seconds, error) = match &last.outcome {
-            // One that was stopped at once says nothing.
+            // A run that was stopped at once gives no estimate.
             Outcome::TooSlow { t, cpu_seconds, .. } if *t > start => {
                 (cpu_seconds * (end - start) / (t - start), 0.1f64.powf(f64::from(last.decades)))
             }
@@ -267,7 +268,7 @@ impl<'a> Runner<'a> {
 
     fn first(&self, result: &WorkPrecision, method: &Method, allowed: Duration) -> Result<Outcome> {
         let (run, cpu_seconds) = match self.sample(result, method, allowed) {
-            // What a method cannot do for this mechanism is a result, since all were asked for.
+            // Methods that cannot be applied to this mechanism are a result, since all were asked for.
             Err(Error::Input(input)) => return Ok(Outcome::Skipped { reason: input.message }),
             run => run?,
         };
@@ -301,7 +302,7 @@ impl<'a> Runner<'a> {
     }
 }
 
-/// Not worth making; how far a run came that was stopped stays known.
+/// Returns a skipped run; the part completed by a run that was stopped is kept.
 fn skipped(result: &WorkPrecision, triple: &Triple, decades: u32, reason: String) -> Outcome {
     let own = cells_of(result, triple).find(|cell| cell.decades == decades);
     match own.map(|cell| &cell.outcome) {
@@ -310,7 +311,7 @@ fn skipped(result: &WorkPrecision, triple: &Triple, decades: u32, reason: String
     }
 }
 
-/// What a run will take and give.
+/// Expected time, s, and error of a run.
 struct Forecast {
     seconds: f64,
     error: f64,
@@ -321,7 +322,7 @@ fn cells_of<'r>(result: &'r WorkPrecision, triple: &Triple) -> impl Iterator<Ite
     result.cells.iter().filter(move |cell| cell.is_of(&key))
 }
 
-/// The tightest run below.
+/// Returns the tightest run looser than `decades`.
 fn last<'r>(result: &'r WorkPrecision, triple: &Triple, decades: u32) -> Option<&'r Cell> {
     cells_of(result, triple).filter(|cell| cell.decades < decades).max_by_key(|cell| cell.decades)
 }

@@ -1,11 +1,12 @@
-//! What runs cost, by what they count: the same on a busy machine and on an idle one.
+//! Cost of runs by counted work: the same on a busy machine and on an idle one.
 
 use super::WorkPrecision;
 use super::cell::{Cell, median};
 use crate::formulation::{Statistics, Work};
 use std::collections::BTreeMap;
 
-/// In solutions of the equations of motion. Over 1672 runs on nine scenes the times of a class are proportional to this
+/// Work in solutions of the equations of motion. Over 1672 runs on nine scenes the times of a class are proportional to
+/// this
 /// within 30 %, which is as much as one run's time varies on a busy machine. Rows are counted in: over 204 runs of Andrews'
 /// mechanism with 200 rows the spread of a class is 5 to 17 %, without them 10 to 30 %.
 const STEP: f64 = 0.3;
@@ -13,15 +14,15 @@ const SWEEP: f64 = 0.9;
 const JACOBIAN: f64 = 2.0;
 const FACTORIZATION: f64 = 2.0;
 const ITERATION: f64 = 1.0;
-/// Formulations that solve the matrix of `index1`, with what they compute beside it.
+/// Formulations that solve the matrix of `index1`, with their cost relative to it.
 const LIKE_INDEX1: [(&str, f64); 3] = [("baumgarte", 1.0), ("force_projection", 1.2), ("invariant_manifold", 1.2)];
 
-/// Runs whose work is of one kind, and takes the same time a unit: explicit methods on one formulation; an implicit method
-/// on one formulation.
+/// Runs with the same kind of work, whose time per unit is the same: explicit methods on one formulation; an implicit
+/// method on one formulation.
 type Class<'c> = (&'c str, &'c str);
 
 impl Cell {
-    /// Units of work; none where the run did not come to its end.
+    /// Returns the units of work; none where the run did not complete.
     fn work(&self) -> Option<f64> {
         let statistics = self.statistics()?;
         let Statistics { steps, rejected, .. } = statistics;
@@ -41,7 +42,7 @@ impl Cell {
         (formulation, if self.is_explicit { "" } else { &self.method.integrator.name })
     }
 
-    /// The price of its evaluations over those of `index1`, where they are known to be alike.
+    /// Returns the price of its evaluations over those of `index1`, where it is known.
     fn like_index1(&self) -> Option<f64> {
         let like = LIKE_INDEX1.iter().find(|(name, _)| self.is_explicit && *name == self.method.formulation.name);
         like.map(|(_, price)| *price)
@@ -49,8 +50,8 @@ impl Cell {
 }
 
 impl WorkPrecision {
-    /// Sets the cost of every run: its work times the time of a unit, the median over all runs of its class. So the cost of
-    /// two runs of a class does not depend on the clock, and that of others on many runs.
+    /// Sets the cost of every run: its work times the time of a unit, the median over all runs of its class. So the
+    /// cost of two runs of a class does not depend on the clock, and that of others on the median of many runs.
     pub fn price(&mut self) {
         let mut units: BTreeMap<Class, Vec<f64>> = BTreeMap::new();
         for cell in &self.cells {

@@ -9,34 +9,49 @@ use crate::tolerances::report as tolerances;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-/// A linear model as it stands in the file; matrices by rows.
+/// A linear model as in the file; matrices by rows.
 #[derive(Clone, Debug, Serialize)]
+/// Name of the scene.
 pub struct LinearFile {
+    /// Time of the state, s.
     pub scene: String,
+    /// Method with its options.
     pub t: f64,
+    /// Chart of the coordinates.
     pub method: String,
+    /// Names of the states x.
     pub chart: String,
+    /// Names of the inputs u.
     pub states: Vec<String>,
+    /// Names of the outputs y.
     pub inputs: Vec<String>,
     pub outputs: Vec<String>,
+    /// A, n_x x n_x.
     #[serde(rename = "A")]
     pub a: Vec<Vec<f64>>,
+    /// B, n_x x n_u.
     #[serde(rename = "B")]
     pub b: Vec<Vec<f64>>,
+    /// C, n_y x n_x.
     #[serde(rename = "C")]
     pub c: Vec<Vec<f64>>,
+    /// D, n_y x n_u.
     #[serde(rename = "D")]
     pub d: Vec<Vec<f64>>,
-    /// Of descriptor forms.
+    /// E of descriptor forms, n_x x n_x.
     #[serde(rename = "E", skip_serializing_if = "Option::is_none")]
     pub e: Option<Vec<Vec<f64>>>,
+    /// Eigenvalues in the order of [`LinearModel::modes`].
     pub eigenvalues: Vec<Eigenvalue>,
+    /// True if the state is an equilibrium.
     pub equilibrium: bool,
+    /// The state that is perturbed.
     pub operating_point: OperatingPointFile,
+    /// Time, size and conditioning.
     pub cost: Cost,
 }
 
-/// An eigenvalue; without numbers where it is infinite.
+/// An eigenvalue; its numbers are none where it is infinite.
 #[derive(Clone, Debug, Serialize)]
 pub struct Eigenvalue {
     pub re: Option<f64>,
@@ -44,31 +59,36 @@ pub struct Eigenvalue {
     pub frequency_hz: Option<f64>,
     pub damping_ratio: Option<f64>,
     pub kind: Kind,
-    /// Part of each state, from the largest.
+    /// Participation of each state, from the largest.
     pub participation: Map<String, Value>,
 }
 
 /// The state that is perturbed, by names.
 #[derive(Clone, Debug, Serialize)]
+/// Coordinates.
 pub struct OperatingPointFile {
+    /// Velocities.
     pub q: Map<String, Value>,
+    /// Accelerations.
     pub v: Map<String, Value>,
+    /// Multipliers.
     pub vdot: Map<String, Value>,
+    /// Largest components.
     pub lambda: Map<String, Value>,
     pub norms: Norms,
-    /// Where q and v are counted in axes that turn along.
+    /// The axes of a steady rotation, in which q and v are expressed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steady_rotation: Option<Turn>,
 }
 
-/// Axes that turn at a constant speed.
+/// Axes that rotate at a constant speed.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Turn {
-    /// rad/s
+    /// Angular velocity, rad/s.
     pub speed: f64,
-    /// Its direction.
+    /// Direction of the axis of rotation.
     pub axis: [f64; 3],
-    /// A point on it, m.
+    /// A point on the axis, m.
     pub point: [f64; 3],
 }
 
@@ -81,8 +101,8 @@ pub struct Norms {
     pub vdot: f64,
 }
 
-/// The name of a model's files without their ends: `linear-0.01`, and `linear-0.01-rcs-form-index2` where several methods
-/// are asked for at a time.
+/// Returns the name of a model's files without extension: `linear-0.01`, and `linear-0.01-rcs-form-index2` where
+/// several methods are requested together.
 pub fn linear_stem(t: f64, method: Option<&str>) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() || ['_', '.', '-'].contains(&c) { c } else { '-' };
     let end = method.map(|method| format!("-{}", method.chars().map(plain).collect::<String>()));
@@ -90,7 +110,7 @@ pub fn linear_stem(t: f64, method: Option<&str>) -> String {
 }
 
 impl Linear<'_> {
-    /// Writes the model as JSON, for NumPy and for MATLAB; `stem` is the name of the files without their ends.
+    /// Writes the model as JSON, for NumPy and for MATLAB; `stem` is the name of the files without extension.
     ///
     /// # Errors
     /// Files that cannot be written.
@@ -102,7 +122,7 @@ impl Linear<'_> {
         folder.write(&format!("{stem}.mat"), &mat::write(&arrays)?)
     }
 
-    /// The model as it stands in `linear-T.json`.
+    /// Returns the model as in `linear-T.json`.
     pub fn file(&self) -> LinearFile {
         let model = self.model;
         LinearFile {
@@ -171,7 +191,7 @@ fn eigenvalue(model: &LinearModel, mode: &Mode) -> Eigenvalue {
     }
 }
 
-/// States with their parts, from the largest; equal ones in their order.
+/// Returns states with their participation, from the largest; equal ones in their order.
 fn largest_parts<'a>(states: &'a [String], parts: &[f64]) -> Vec<(&'a str, f64)> {
     let mut named: Vec<(&str, f64)> = states.iter().map(String::as_str).zip(parts.iter().copied()).collect();
     named.sort_by(|a, b| b.1.total_cmp(&a.1));
@@ -179,8 +199,8 @@ fn largest_parts<'a>(states: &'a [String], parts: &[f64]) -> Vec<(&'a str, f64)>
 }
 
 impl Linear<'_> {
-    /// Everything with names that Python and MATLAB both allow. Columns of `mode_shapes` (along `v`) and `participation`
-    /// (along `states`) belong to the `eigenvalues`; they are zero where nothing is known.
+    /// Returns all arrays, with names that Python and MATLAB both allow. Columns of `mode_shapes` (along `v`) and
+    /// `participation` (along `states`) belong to the `eigenvalues`; they are zero where nothing is known.
     pub fn arrays(&self) -> Vec<(&'static str, Array)> {
         let (model, point) = (self.model, &self.model.point);
         let mut arrays = vec![
@@ -247,7 +267,7 @@ fn matrix(matrix: &Matrix) -> Array {
     Array::Real { shape: vec![matrix.nrows(), matrix.ncols()], values }
 }
 
-/// One row a component, one column a mode.
+/// Returns a table with one row per component, one column per mode.
 fn table<T>(modes: &[Mode], rows: usize, value: impl Fn(&Mode, usize) -> T) -> Vec<T> {
     let value = &value;
     (0..rows).flat_map(|i| modes.iter().map(move |mode| value(mode, i))).collect()

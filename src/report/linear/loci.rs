@@ -1,4 +1,4 @@
-//! `loci.csv`, `loci.json`, and eigenvalues at many states as a person reads them in a terminal.
+//! `loci.csv`, `loci.json`, and text on eigenvalues at many states.
 
 use crate::error::{Error, Failure, Result, Warning, significant};
 use crate::linearize::{Branch, Complex, Kind, Loci, LociVariable, Reached, damping, frequency};
@@ -8,23 +8,30 @@ use crate::tolerances::linearize as tolerances;
 use crate::tolerances::report::SAME;
 use serde::Serialize;
 
-/// Eigenvalues at many states in numbers.
+/// Summary of eigenvalues at many states.
 #[derive(Clone, Debug, Serialize)]
+/// Name of the scene.
 pub struct LociSummary {
+    /// Method with its options.
     pub scene: String,
+    /// Chart of the coordinates.
     pub method: String,
     pub chart: String,
+    /// Time or parameter.
     pub along: AlongFile,
-    /// States with eigenvalues, and how many of them are equilibria.
+    /// Number of states with eigenvalues.
     pub reached: usize,
+    /// Number of these that are equilibria.
     pub equilibria: usize,
-    /// States without.
+    /// States without eigenvalues.
     pub failures: Vec<FailureFile>,
+    /// Ranges of the modes.
     pub modes: Vec<ModeSummary>,
+    /// Warnings about the states and the method.
     pub warnings: Vec<Warning>,
 }
 
-/// What the eigenvalues are functions of: time in s, or a parameter of the scene.
+/// Variable that the eigenvalues are functions of: time in s, or a parameter of the scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct AlongFile {
     pub name: String,
@@ -42,14 +49,14 @@ pub struct FailureFile {
     pub hint: Option<String>,
 }
 
-/// Where a mode goes.
+/// Range of a mode.
 #[derive(Clone, Debug, Serialize)]
 pub struct ModeSummary {
     pub mode: String,
     pub kind: Kind,
     pub frequency_hz: Extent,
     pub damping_ratio: Extent,
-    /// First and last state of each stretch with a real part above zero.
+    /// Ranges of time or parameter with a real part above zero.
     pub growing: Vec<Stretch>,
 }
 
@@ -65,12 +72,15 @@ pub struct Stretch {
     pub to: f64,
 }
 
-/// `loci.json`: the summary, which states are equilibria, and the branches.
+/// `loci.json`: the summary, the states that are equilibria, and the branches.
 #[derive(Clone, Debug, Serialize)]
 pub struct LociFile {
+    /// Summary.
     #[serde(flatten)]
     pub summary: LociSummary,
+    /// Times or values with a model.
     pub states: Vec<Reached>,
+    /// Branches, of conjugate pairs one.
     pub branches: Vec<BranchFile>,
 }
 
@@ -78,7 +88,7 @@ pub struct LociFile {
 pub struct BranchFile {
     pub mode: String,
     pub kind: Kind,
-    /// Whether the conjugates are eigenvalues too, a branch that is left out.
+    /// True if the conjugates are eigenvalues too; their branch is dropped.
     pub pair: bool,
     pub points: Vec<PointFile>,
 }
@@ -92,10 +102,11 @@ pub struct PointFile {
     pub damping_ratio: f64,
 }
 
-/// Growth by this part over the whole of the motion is not worth telling.
+/// Growth by less than this part over the whole motion is not reported.
 const LITTLE: f64 = 0.01;
 
 impl LociSummary {
+    /// The summary of loci.
     pub fn new(scene: &str, loci: &Loci) -> Self {
         let ends = [loci.places.first(), loci.places.last()].map(|place| place.copied().unwrap_or(0.0));
         let (name, unit, log, least) = match &loci.along {
@@ -117,7 +128,7 @@ impl LociSummary {
         }
     }
 
-    /// The axis of time or parameter.
+    /// Returns the axis of time or parameter.
     pub fn axis(&self) -> AxisSpec {
         let axis = AxisSpec::from(if self.along.unit.is_empty() { self.along.name.as_str() } else { "time (s)" });
         if self.along.log { axis.log() } else { axis }
@@ -125,14 +136,15 @@ impl LociSummary {
 }
 
 impl LociFile {
+    /// The file of loci.
     pub fn new(summary: LociSummary, loci: &Loci) -> Self {
         let branches = upper(loci).map(|(mode, branch)| branch_file(mode, branch)).collect();
         LociFile { summary, states: loci.reached.clone(), branches }
     }
 }
 
-/// Time or parameter, then real and imaginary part, frequency and damping ratio of each mode; empty cells where there are
-/// none.
+/// Returns time or parameter, then real and imaginary part, frequency and damping ratio of each mode; empty cells where
+/// there are none.
 ///
 /// # Errors
 /// A table that cannot be written.
@@ -156,7 +168,7 @@ pub fn loci_table(loci: &Loci) -> Result<Vec<u8>> {
     table([along].into_iter().chain(names), rows)
 }
 
-/// The row in which a branch begins.
+/// Returns the row in which a branch begins.
 fn start(loci: &Loci, branch: &Branch) -> usize {
     let first = branch.points.first().map_or(f64::NAN, |point| point.0);
     loci.places.iter().position(|place| *place == first).unwrap_or(usize::MAX)
@@ -169,14 +181,14 @@ fn cells(value: Option<Complex<f64>>) -> [String; 4] {
     }
 }
 
-/// The branches by the names of their modes, without those that are conjugate to others everywhere.
+/// Returns the branches by the names of their modes, without those that are conjugate to others everywhere.
 fn upper(loci: &Loci) -> impl Iterator<Item = (String, &Branch)> {
     let is_upper = |branch: &&Branch| branch.points.iter().any(|(_, value)| value.im >= 0.0);
     let named = |(i, branch)| (format!("mode{}", i + 1), branch);
     loci.branches.iter().filter(is_upper).enumerate().map(named)
 }
 
-/// The points that are numbers.
+/// Returns the finite points.
 fn finite(branch: &Branch) -> impl Iterator<Item = (f64, Complex<f64>)> + Clone {
     branch.points.iter().copied().filter(|(_, value)| value.re.is_finite() && value.im.is_finite())
 }
@@ -221,13 +233,13 @@ fn branch_file(mode: String, branch: &Branch) -> BranchFile {
     BranchFile { mode, kind: branch.kind, pair, points: finite(branch).map(point).collect() }
 }
 
-/// Lines of the table; the files have all modes.
+/// Largest number of lines of the table; the files have all modes.
 const MOST_LINES: usize = 30;
-/// Stretches of a mode that are listed.
+/// Largest number of stretches listed for a mode.
 const MOST_STRETCHES: usize = 4;
 
 impl LociSummary {
-    /// Method, chart and states, then the modes.
+    /// Returns method, chart and states, then the modes.
     pub fn text(&self) -> String {
         let along = &self.along;
         let unit = if along.unit.is_empty() { String::new() } else { format!(" {}", along.unit) };
@@ -251,7 +263,7 @@ impl LociSummary {
         text + "\n" + &self.table(&unit)
     }
 
-    /// What the real parts say.
+    /// Returns the meaning of the real parts.
     fn meaning(&self) -> &'static str {
         match self.equilibria {
             all if all == self.reached => "all are equilibria: one with a growing mode is unstable",
@@ -263,7 +275,7 @@ impl LociSummary {
         }
     }
 
-    /// Neighbouring states without eigenvalues for the same reason.
+    /// Groups neighbouring states without eigenvalues for the same reason: first, last, count.
     fn gaps(&self) -> Vec<(&FailureFile, &FailureFile, usize)> {
         let mut found: Vec<(&FailureFile, &FailureFile, usize)> = Vec::new();
         for failure in &self.failures {

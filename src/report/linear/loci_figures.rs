@@ -7,14 +7,14 @@ use crate::tolerances::linearize as tolerances;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-/// Free part of an axis at both ends.
+/// Margin of an axis at both ends, as a part of its length.
 const FREE: f64 = 0.06;
-/// An axis is at least this part of the other one long, so that round-off does not fill it.
+/// Least length of an axis relative to the other one, so that round-off does not fill it.
 const LEAST: f64 = 0.02;
-/// Places in the palette.
+/// Colours, as indices in the palette.
 const VERMILION: usize = 1;
 const BLACK: usize = 6;
-/// About the pixels between the axes, across and up.
+/// Approximate size of the plane in pixels.
 const PIXELS: (f64, f64) = (440.0, 400.0);
 
 /// Ranges of real and imaginary parts.
@@ -24,9 +24,9 @@ struct Window {
     im: (f64, f64),
 }
 
-/// The eigenvalues with time or a parameter as colour, which `along` names with its unit. Only the upper half is drawn
-/// where the lower one is its mirror image; the axes follow the physical eigenvalues and those
-/// that may be. `None` without finite eigenvalues.
+/// Draws the eigenvalues in the complex plane, coloured by time or a parameter, which `along` names with its unit. Only
+/// the upper half is drawn where the lower one is its mirror image; the axes fit the physical and uncertain
+/// eigenvalues. `None` without finite eigenvalues.
 pub fn loci_figure(title: &str, along: impl Into<AxisSpec>, branches: &[Branch]) -> Option<Figure> {
     let along = along.into();
     let (drawn, left_out) = drawn(branches);
@@ -58,7 +58,7 @@ pub fn loci_figure(title: &str, along: impl Into<AxisSpec>, branches: &[Branch])
     Some(Figure::new().title(title).panel(panel))
 }
 
-/// The finite points of a branch; those below the real axis become gaps where only the upper half is drawn.
+/// Returns the finite points of a branch; those below the real axis become gaps where only the upper half is drawn.
 fn finite(branch: &Branch, is_upper: bool) -> Branch {
     let is_shown = |value: Complex<f64>| {
         value.re.is_finite() && value.im.is_finite() && !(is_upper && value.im < 0.0) && branch.kind != Kind::Infinite
@@ -72,7 +72,8 @@ fn points<'a>(branches: impl Iterator<Item = &'a Branch>) -> impl Iterator<Item 
     branches.flat_map(|branch| &branch.points).copied().filter(|(_, value)| value.re.is_finite())
 }
 
-/// The branches as one line with gaps. Between two states a pair becomes real at the axis, not on the way to it.
+/// Returns the branches as one line with gaps. Between two states a pair becomes real at the axis, not on the way to
+/// it.
 fn joined<'a>(branches: impl Iterator<Item = &'a Branch>) -> Vec<(f64, f64)> {
     let mut line = Vec::new();
     for branch in branches {
@@ -88,7 +89,7 @@ fn joined<'a>(branches: impl Iterator<Item = &'a Branch>) -> Vec<(f64, f64)> {
     line
 }
 
-/// Whether every eigenvalue below the real axis has its conjugate at the same place of time or parameter.
+/// True if every eigenvalue below the real axis has its conjugate at the same time or value of the parameter.
 fn are_mirrored(branches: &[Branch]) -> bool {
     let mut upper: BTreeMap<u64, Vec<Complex<f64>>> = BTreeMap::new();
     let all = || branches.iter().flat_map(|branch| &branch.points);
@@ -103,7 +104,7 @@ fn are_mirrored(branches: &[Branch]) -> bool {
 
 fn window<'a>(branches: impl Iterator<Item = &'a Branch>, is_upper: bool) -> Option<Window> {
     let mut values: Vec<Complex<f64>> = points(branches).map(|(_, value)| value).collect();
-    // Far off is what is large: a real part that is rare may still be small beside the others' imaginary parts.
+    // Outliers are large in modulus: a rare real part may still be small compared to the others' imaginary parts.
     let (_, largest) = robust(values.iter().map(|value| value.norm()))?;
     values.retain(|value| value.norm() <= largest);
     let extent = |part: fn(&Complex<f64>) -> f64| {
@@ -118,7 +119,7 @@ fn window<'a>(branches: impl Iterator<Item = &'a Branch>, is_upper: bool) -> Opt
     Some(Window { re: padded(re, FREE, 2.0 * least), im: padded(im, FREE, 2.0 * least) })
 }
 
-/// The range with zero in it, unless it is far away.
+/// Extends a range to zero, unless that is far away.
 fn with_zero((low, high): (f64, f64), least: f64) -> (f64, f64) {
     let near = 2.0 * (high - low).max(least);
     match () {
@@ -148,7 +149,7 @@ fn frame_lines(panel: Panel, window: &Window, is_upper: bool) -> Panel {
     })
 }
 
-/// How many points lie outside the axes.
+/// Returns a note on the number of points outside the axes.
 fn outside_note(shown: &[Branch], window: &Window) -> String {
     let inside = |value: Complex<f64>| {
         (window.re.0..=window.re.1).contains(&value.re) && (window.im.0..=window.im.1).contains(&value.im)
@@ -170,15 +171,15 @@ fn outside_note(shown: &[Branch], window: &Window) -> String {
     }
 }
 
-/// More lines than this have no names.
+/// Largest number of lines with names.
 const MOST_NAMED: usize = 7;
-/// Values further apart than this factor have a logarithmic axis.
+/// Ratio of values above which an axis is logarithmic.
 const WIDE: f64 = 100.0;
-/// An axis of damping ratios is at least so long where they differ by round-off only.
+/// Least length of an axis of damping ratios, for values that differ by round-off only.
 const LEAST_DAMPING: f64 = 0.02;
 
-/// |lambda| / 2 pi and -Re(lambda) / |lambda| of the physical eigenvalues, each conjugate pair once; `along` names time or
-/// parameter with its unit. `None` without physical eigenvalues.
+/// Draws |lambda| / 2 pi and -Re(lambda) / |lambda| of the physical eigenvalues, each conjugate pair once; `along`
+/// names time or parameter with its unit. `None` without physical eigenvalues.
 pub fn frequency_figure(title: &str, along: impl Into<AxisSpec>, branches: &[Branch]) -> Option<Figure> {
     let along = along.into();
     let (drawn, left_out) = drawn(branches);
@@ -195,7 +196,7 @@ pub fn frequency_figure(title: &str, along: impl Into<AxisSpec>, branches: &[Bra
     Some(Figure::new().title(title).panel(frequencies).panel(dampings))
 }
 
-/// Finite, and not the lower one of a pair.
+/// True if finite, and not the lower one of a pair.
 fn is_shown(value: Complex<f64>) -> bool {
     value.re.is_finite() && value.im.is_finite() && value.im >= 0.0
 }
@@ -205,7 +206,7 @@ fn lines(branches: &[&Branch], value: impl Fn(Complex<f64>) -> f64) -> Vec<Serie
     let point = |(at, there): &(f64, Complex<f64>)| (*at, if is_shown(*there) { value(*there) } else { f64::NAN });
     let line = |(i, branch): (usize, &&Branch)| {
         let name = if is_named { format!("mode {}", i + 1) } else { String::new() };
-        // Real now, elsewhere the lower one of a pair: it must not hide the other one, which may be as large.
+        // Real here, elsewhere the lower one of a pair: it must not hide the other one, which may be as large.
         let is_partner = branch.points.iter().any(|(_, value)| value.im < 0.0);
         let style = if is_partner { Style::Thin } else { Style::Line };
         Series::line(name, branch.points.iter().map(point).collect()).style(style)
@@ -218,7 +219,7 @@ fn values(lines: &[Series]) -> Vec<f64> {
     points.map(|point| point.1).filter(|value| value.is_finite()).collect()
 }
 
-/// Whether values are all above zero and of different sizes.
+/// True if values are all above zero and of different sizes.
 fn are_wide(values: &[f64]) -> bool {
     let (low, high) = bounds(values);
     low > 0.0 && high > WIDE * low
@@ -228,7 +229,7 @@ fn bounds(values: &[f64]) -> (f64, f64) {
     values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(*value), high.max(*value)))
 }
 
-/// The axis and what is said of values outside it.
+/// Returns the axis and a note on values outside it.
 fn frequency_axis(values: Vec<f64>) -> Option<(AxisSpec, String)> {
     let axis = AxisSpec::from("frequency |λ|/2π (Hz)");
     if are_wide(&values) {
@@ -257,22 +258,22 @@ fn damping_axis(values: Vec<f64>) -> AxisSpec {
     }
 }
 
-/// Damping ratios that a line may have.
+/// Damping ratios of the lines.
 const RATIOS: [f64; 13] = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9, 0.97];
-/// Angles of the lines from the imaginary axis as they look, degrees: the first and last, and between two.
+/// Angles of the lines from the imaginary axis in the figure, degrees: the first and last, and the least between two.
 const FIRST: f64 = 9.0;
 const LAST: f64 = 80.0;
 const BETWEEN: f64 = 14.0;
 
-/// A ray from the origin to where it leaves the axes.
+/// A ray of constant damping from the origin to the border of the axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     pub ratio: f64,
     pub end: (f64, f64),
 }
 
-/// Rays that look well apart between the axes: real parts from `low` (below zero), imaginary ones up to `high`, with so
-/// many pixels a unit along both.
+/// Returns rays that are well apart in the figure: real parts from `low` (below zero), imaginary ones up to `high`,
+/// with `pixels` per unit along both.
 pub fn rays(low: f64, high: f64, pixels: (f64, f64)) -> Vec<Ray> {
     if !(low < 0.0 && high > 0.0) {
         return Vec::new();
@@ -291,12 +292,12 @@ pub fn rays(low: f64, high: f64, pixels: (f64, f64)) -> Vec<Ray> {
     found
 }
 
-/// Part of the values at each end that the core of a range leaves out.
+/// Part of the values at each end that is outside the core of a range.
 const TAIL: f64 = 0.1;
-/// So many lengths of the core beyond it still belong to the range.
+/// Values within this many lengths of the core beyond it still belong to the range.
 const REACH: f64 = 2.0;
 
-/// The range of all values, or of most where the others lie far off. None without values.
+/// Returns the range of all values, or of most where the others are far off. None without values.
 pub fn robust(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let mut sorted: Vec<f64> = values.filter(|value| value.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
@@ -307,17 +308,18 @@ pub fn robust(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     Some((at(0.0).max(low - reach), at(1.0).min(high + reach)))
 }
 
-/// A range with free parts at both ends, at least so long.
+/// Returns a range with margins at both ends, of at least the length `least`.
 pub fn padded((low, high): (f64, f64), part: f64, least: f64) -> (f64, f64) {
     let missing = (0.5 * (least - (high - low))).max(0.0);
     let pad = part * (high - low).max(least) + missing;
     (low - pad, high + pad)
 }
 
-/// More physical branches than this, of pairs one, hide one another.
+/// Largest number of physical branches drawn, of pairs one.
 const MOST_DRAWN: usize = 12;
 
-/// The branches that a figure shows, the slowest of the physical ones and all others, and what is said of those left out.
+/// Returns the branches that a figure shows, the slowest of the physical ones and all others, and a note on the dropped
+/// ones.
 pub fn drawn(branches: &[Branch]) -> (Vec<Branch>, String) {
     let slowest = |branch: &Branch| {
         let sizes = branch.points.iter().map(|(_, value)| value.norm()).filter(|size| size.is_finite());
@@ -330,7 +332,7 @@ pub fn drawn(branches: &[Branch]) -> (Vec<Branch>, String) {
         return (branches.to_vec(), String::new());
     }
     sizes.sort_by(f64::total_cmp);
-    // Both of a pair are as slow but for rounding.
+    // Both of a pair are equally slow but for rounding.
     let bound = sizes[MOST_DRAWN - 1] * (1.0 + 1e-9);
     let is_drawn = |branch: &&Branch| branch.kind != Kind::Physical || slowest(branch) <= bound;
     let note = format!("the {MOST_DRAWN} slowest of {} modes; all are in the files", sizes.len());

@@ -17,11 +17,13 @@ pub use validation::{Deviation, ErrorOrder, ValidationFile, sequence_figure, val
 use crate::linearize::LinearModel;
 use crate::system::Names;
 
-/// A linear model with what it is a model of.
+/// A linear model with the names of its scene.
 #[derive(Clone, Copy)]
 pub struct Linear<'a> {
+    /// Name of the scene.
     pub scene: &'a str,
-    /// Of the coordinates, velocities and multipliers of the operating point.
+    /// Names of the coordinates, velocities and multipliers of the operating point.
     pub names: &'a Names,
+    /// The model.
     pub model: &'a LinearModel,
 }

@@ -6,36 +6,47 @@ use crate::plot::{AxisSpec, Figure, Panel, Series};
 use crate::report::{Table, cell, table};
 use serde::Serialize;
 
-/// Responses of a model at frequencies.
+/// Frequency responses of a model.
 #[derive(Clone, Debug)]
 pub struct FrequencyResponse {
+    /// Name of the scene.
     pub scene: String,
-    /// Of the state, s.
+    /// Time of the state, s.
     pub t: f64,
+    /// True if the state is an equilibrium.
     pub equilibrium: bool,
+    /// Method with its options.
     pub method: String,
+    /// Chart of the coordinates.
     pub chart: String,
-    /// Hz
+    /// Frequencies, Hz.
     pub frequencies: Vec<f64>,
-    /// Not a number at a pole.
+    /// Responses of each output to each input; NaN at a pole.
     pub responses: Vec<Response>,
 }
 
-/// `bode-T.json`.
+/// Contents of `bode-T.json`.
 #[derive(Clone, Debug, Serialize)]
 pub struct ResponseFile {
+    /// Name of the scene.
     pub scene: String,
+    /// Time of the state, s.
     pub t: f64,
+    /// True if the state is an equilibrium.
     pub equilibrium: bool,
+    /// Method with its options.
     pub method: String,
+    /// Chart of the coordinates.
     pub chart: String,
+    /// Frequencies, Hz.
     pub frequency_hz: Vec<f64>,
-    /// Frequencies at which the model has a pole and no response.
+    /// Frequencies of poles, at which there is no response, Hz.
     pub poles_hz: Vec<f64>,
+    /// Responses of each output to each input.
     pub responses: Vec<PairFile>,
 }
 
-/// From an input to an output, at each frequency; nothing at a pole.
+/// Response of an output to an input, at each frequency; none at a pole.
 #[derive(Clone, Debug, Serialize)]
 pub struct PairFile {
     pub input: String,
@@ -59,7 +70,7 @@ const PARTS: [(&str, Part); 4] = [
 ];
 
 impl FrequencyResponse {
-    /// `frequency_hz`, then real and imaginary part, magnitude and phase from each input to each output.
+    /// Returns `frequency_hz`, then real and imaginary part, magnitude and phase from each input to each output.
     ///
     /// # Errors
     /// A table that cannot be written.
@@ -76,6 +87,7 @@ impl FrequencyResponse {
         table(["frequency_hz".to_string()].into_iter().chain(names), rows)
     }
 
+    /// Returns the contents of `bode-T.json`.
     pub fn file(&self) -> ResponseFile {
         let is_pole = |i: &usize| self.responses.iter().any(|x| x.values.get(*i).is_some_and(|x| !is_finite(x)));
         let poles = (0..self.frequencies.len()).filter(is_pole).map(|i| self.frequencies[i]);
@@ -91,7 +103,7 @@ impl FrequencyResponse {
         }
     }
 
-    /// Each pair with its response at the lowest frequency and at its largest.
+    /// Returns each pair with its response at the lowest frequency and at its largest.
     pub fn text(&self) -> String {
         let ends = [self.frequencies.first(), self.frequencies.last()];
         let [from, to] = ends.map(|end| significant(end.copied().unwrap_or(0.0), 4));
@@ -146,14 +158,18 @@ fn pair(response: &Response) -> PairFile {
     }
 }
 
-/// How an output follows an input, at each frequency.
+/// Response of an output to an input, at each frequency.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
+    /// Name of the input.
     pub input: String,
+    /// Name of the output.
     pub output: String,
+    /// Unit of the input.
     pub input_unit: String,
+    /// Unit of the output.
     pub output_unit: String,
-    /// In output unit per input unit.
+    /// Values, in output unit per input unit.
     pub values: Vec<Complex<f64>>,
 }
 
@@ -170,7 +186,7 @@ impl Response {
     }
 }
 
-/// Magnitude and phase over frequencies in Hz. `None` without a response.
+/// Draws magnitude and phase over frequencies in Hz. `None` without a response.
 pub fn bode_figure(title: &str, frequencies: &[f64], responses: &[Response]) -> Option<Figure> {
     let first = responses.first().filter(|_| !frequencies.is_empty())?;
     let has_one_unit = responses.iter().all(|response| response.unit() == first.unit());
@@ -199,12 +215,12 @@ pub fn bode_figure(title: &str, frequencies: &[f64], responses: &[Response]) -> 
     Some(Figure::new().title(title).panel(sizes).panel(phases))
 }
 
-/// A response of zero has no place on a logarithmic axis.
+/// Returns magnitudes; zero has no place on a logarithmic axis and becomes NaN.
 fn sizes(values: &[Complex<f64>]) -> Vec<f64> {
     values.iter().map(|value| value.norm()).map(|size| if size > 0.0 { size } else { f64::NAN }).collect()
 }
 
-/// Phases in degrees without jumps of full turns, the first one above -180 and up to 180.
+/// Returns phases in degrees without jumps of 360, the first one above -180 and up to 180.
 fn phases(values: &[Complex<f64>]) -> Vec<f64> {
     let mut before: Option<f64> = None;
     let phase = |value: &Complex<f64>| {

@@ -1,19 +1,19 @@
-//! A linear model, and several, as a person reads them in a terminal.
+//! Text on a linear model, and on several.
 
 use super::Linear;
 use crate::error::{short, significant};
 use crate::linearize::{Comparison, Kind, LinearModel, LinearizationPoint, Pair, pairs};
 use crate::report::Table;
 
-/// Lines of a kind of eigenvalues; the files have all.
+/// Largest number of lines of physical eigenvalues, and of spurious ones; the files have all.
 const MOST_LINES: usize = 30;
 const MOST_SPURIOUS: usize = 10;
-/// Bodies with at least this part of a mode are named, and so many at most.
+/// Bodies with at least this part of a mode's energy are named, at most MOST_NAMED.
 const PART: f64 = 0.05;
 const MOST_NAMED: usize = 3;
 
 impl Linear<'_> {
-    /// Method, chart and state, then the modes.
+    /// Returns method, chart and state, then the modes.
     pub fn text(&self) -> String {
         let model = self.model;
         let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
@@ -31,7 +31,7 @@ impl Linear<'_> {
         )
     }
 
-    /// The body that each velocity direction belongs to.
+    /// Returns the body of each velocity direction.
     fn bodies(&self) -> Vec<&str> {
         self.names.v.iter().map(|name| name.rsplit_once('.').map_or(name.as_str(), |(body, _)| body)).collect()
     }
@@ -65,7 +65,7 @@ fn joined(numbers: &[f64]) -> String {
     numbers.iter().map(|x| short(*x)).collect::<Vec<_>>().join(", ")
 }
 
-/// What the chart means for the eigenvalues.
+/// Returns the meaning of the chart for the eigenvalues.
 fn chart(name: &str, point: &LinearizationPoint) -> String {
     if point.is_equilibrium && point.axes.is_some() {
         return format!(
@@ -146,7 +146,7 @@ fn cells(bodies: &[&str], number: usize, pair: &Pair) -> [String; 7] {
     ]
 }
 
-/// The bodies with the largest parts of the energy: `crank 62, rocker 38`.
+/// Returns the bodies with the largest parts of the energy, in percent: `crank 62, rocker 38`.
 fn movers(bodies: &[&str], energy: &[f64]) -> String {
     let mut sums: Vec<(&str, f64)> = Vec::new();
     for (&body, part) in bodies.iter().zip(energy) {
@@ -163,7 +163,7 @@ fn movers(bodies: &[&str], energy: &[f64]) -> String {
     words.join(", ") + more
 }
 
-/// One line a method, the reference first.
+/// Returns one line for each method, the reference first.
 pub fn comparison_text(rows: &[Comparison], is_equilibrium: bool) -> String {
     let headings = [
         "method",

@@ -9,33 +9,44 @@ use crate::validate::{Decay, InputCheck, PerturbationSequence, Validation, Verdi
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-/// A validation as it stands in the file: the first direction at the top, all of them below.
+/// A validation as in the file: the first direction at the top level, all of them in `directions`.
 #[derive(Clone, Debug, Serialize)]
 pub struct ValidationFile {
+    /// Name of the scene.
     pub scene: String,
+    /// Time of the state, s.
     pub t: f64,
+    /// Chart of the coordinates.
     pub chart: String,
-    /// How long perturbed motions were followed, s.
+    /// Time over which perturbed motions were followed, s.
     pub followed: f64,
     /// Sizes of (dq, dv / rate), m or rad.
     pub epsilons: Vec<f64>,
+    /// Rate by which velocities are divided, 1/s.
     pub rate: f64,
+    /// Errors of the variational equations for each size.
     pub errors_ltv: Vec<f64>,
+    /// Their order in epsilon; none if not measured.
     pub order_ltv: Option<f64>,
+    /// Errors of exp(A t) for each size.
     pub errors_lti: Vec<f64>,
-    /// Times at which the frozen model is off by a share, s; null: not within what was followed.
+    /// Times at which the frozen model is off by a share, s; null: not within the time followed.
     pub horizons: Map<String, Value>,
+    /// Conclusion.
     pub verdict: Verdict,
+    /// Results of all directions.
     pub directions: Vec<Value>,
-    /// exp(A h) against the state-transition matrix.
+    /// Comparison of exp(A h) with the state-transition matrix.
     pub frozen: Value,
+    /// Results of the inputs.
     pub inputs: Vec<InputCheck>,
 }
 
-/// What the shares of [`PerturbationSequence::horizons`] are called.
+/// Names of the shares of [`PerturbationSequence::horizons`].
 const SHARES: [&str; 2] = ["1%", "10%"];
 
 impl ValidationFile {
+    /// The file of a validation.
     pub fn new(scene: &str, names: &Names, found: &Validation) -> Self {
         let first = found.sequences.first();
         ValidationFile {
@@ -56,12 +67,12 @@ impl ValidationFile {
         }
     }
 
-    /// Whether perturbed motions follow the model.
+    /// True if perturbed motions agree with the model.
     pub fn is_right(&self) -> bool {
         self.verdict.ltv && self.verdict.lti
     }
 
-    /// What a negative verdict says, and what may help.
+    /// Returns the meaning of a negative verdict, with advice.
     pub fn complaint(&self) -> String {
         let ValidationFile { scene, chart, verdict, .. } = self;
         let t = significant(self.t, 9);
@@ -72,7 +83,7 @@ impl ValidationFile {
         format!("{scene} at t = {t} s, chart {chart}: {}\n  help: {help}", verdict.text)
     }
 
-    /// Orders, horizons and the verdict.
+    /// Returns orders, horizons and the verdict.
     pub fn text(&self, found: &Validation) -> String {
         let mut table = Table::new(&["perturbation", "order in eps", "decades", "1 % after (s)", "10 % after (s)"]);
         for sequence in &found.sequences {
@@ -132,7 +143,7 @@ fn direction(names: &Names, sequence: &PerturbationSequence) -> Value {
     })
 }
 
-/// Errors against eps, and what moves most, of one direction.
+/// Draws the errors over eps, and the curves that move most, of one direction.
 pub fn sequence_figure(title: &str, names: &Names, sequence: &PerturbationSequence) -> Option<Figure> {
     let order = ErrorOrder {
         epsilons: sequence.epsilons.clone(),
@@ -163,30 +174,37 @@ pub fn sequence_figure(title: &str, names: &Names, sequence: &PerturbationSequen
     validation_figure(title, &order, &sequence.times, &deviations)
 }
 
-/// Errors of a prediction over the size of the perturbation, of the model that varies along the motion (LTV) and of the
-/// frozen one (LTI).
+/// Errors of a prediction over the size of the perturbation, by the variational equations along the motion (LTV) and by
+/// the frozen model (LTI).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ErrorOrder {
-    /// In the unit of `norm`.
+    /// Sizes of the perturbation, m or rad.
     pub epsilons: Vec<f64>,
+    /// Errors of the variational equations.
     pub ltv: Vec<f64>,
+    /// Errors of the frozen model.
     pub lti: Vec<f64>,
-    /// What is measured, such as `error of the final state`.
+    /// Label of the errors, such as `error of the final state`.
     pub what: String,
 }
 
-/// How far a quantity of the perturbed motion is from that of the nominal one, and as predicted.
+/// Deviation of a quantity of the perturbed motion from the nominal one, simulated and predicted, at each time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Deviation {
+    /// Name of the quantity.
     pub name: String,
+    /// Its unit.
     pub unit: String,
+    /// Difference of the two simulations.
     pub simulated: Vec<f64>,
+    /// Prediction by the variational equations.
     pub ltv: Vec<f64>,
+    /// Prediction by the frozen model.
     pub lti: Vec<f64>,
 }
 
-/// Errors over epsilon with a line of slope 2; then, for each unit, deviations over time with both predictions. `None`
-/// where there is neither.
+/// Draws errors over epsilon with a line of slope 2; then, for each unit, deviations over time with both predictions.
+/// `None` where there is neither.
 pub fn validation_figure(title: &str, order: &ErrorOrder, times: &[f64], deviations: &[Deviation]) -> Option<Figure> {
     let mut panels: Vec<Panel> = order_panel(order).into_iter().collect();
     let mut units: Vec<(&str, Vec<&Deviation>)> = Vec::new();
@@ -209,7 +227,7 @@ fn order_panel(order: &ErrorOrder) -> Option<Panel> {
     };
     let (ltv, lti) = (pairs(&order.ltv), pairs(&order.lti));
     let mut panel = Panel::new(AxisSpec::from("perturbation ε").log(), AxisSpec::from(what).log());
-    // Below the errors, through the largest perturbation.
+    // The line of slope 2 is below the errors, through the largest perturbation.
     let largest = ltv.iter().chain(&lti).map(|point| point.0).fold(0.0, f64::max);
     let smallest = ltv.iter().chain(&lti).map(|point| point.0).fold(largest, f64::min);
     let anchor = ltv.iter().chain(&lti).filter(|point| point.0 == largest).map(|point| point.1).reduce(f64::min)?;
@@ -235,7 +253,7 @@ fn deviation_panel(unit: &str, members: &[&Deviation], times: &[f64]) -> Panel {
         panel = panel.series(line(name, &member.simulated).color(i));
     }
     for (i, member) in members.iter().enumerate() {
-        // The styles mean the same for all members: one entry for each is enough.
+        // The styles mean the same for all members: one legend entry for each is enough.
         let once = |name: &str| if i == 0 { name.to_string() } else { String::new() };
         let colors = if is_alone { [1, 2] } else { [i, i] };
         panel = panel

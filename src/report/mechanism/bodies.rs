@@ -1,4 +1,4 @@
-//! Bodies: rounded hulls of the places where others hold them.
+//! Bodies as rounded hulls of the markers of their joints and forces.
 
 use super::canvas::{BOLD, Canvas, Layer, THIN};
 use super::hull::{hull, rounded};
@@ -6,20 +6,20 @@ use super::snapshot::{Limb, Pose};
 use super::view::{along, dot, length, less, straight};
 use crate::plot::{Spot, Tint};
 
-/// From the markers to the outline of a body, pixels.
+/// Distance of the outline of a body from its markers, pixels.
 const RADIUS: f64 = 6.5;
-/// Radius of a point mass, half the side of a body without extent, radius of the ring that shows a spin, pixels.
+/// Radius of a point mass, half the side of a body without extent, radius of the ring that shows rotation, pixels.
 const MASS: f64 = 7.5;
 const BLOCK: f64 = 11.0;
 const SPIN: f64 = 13.0;
 const OPACITY: f64 = 0.25;
-/// Of earlier pictures, which shall not add up to a blot.
+/// Opacity of earlier pictures, which must not add up to a blot.
 const FAINT: f64 = 0.05;
 const PAPER: f64 = 0.55;
-/// Radius of the sign of a centre of mass, pixels.
+/// Radius of the symbol of a centre of mass, pixels.
 const CENTRE: f64 = 4.6;
 
-/// How near a body is to the viewer.
+/// Returns the mean depth of a body, larger is nearer to the viewer.
 pub fn depth(pen: &Canvas, limb: &Limb) -> f64 {
     let sum: f64 = limb.points.iter().map(|point| pen.view.depth(*point)).sum();
     sum / limb.points.len().max(1) as f64
@@ -53,7 +53,7 @@ fn outline(pen: &mut Canvas, points: &[[f64; 3]], color: usize) {
 /// Half the width of a beam, pixels.
 const BEAM: f64 = 3.4;
 
-/// A band along a line.
+/// Draws a band along a line.
 fn ribbon(pen: &mut Canvas, line: &[[f64; 3]], color: usize) {
     let flat: Vec<(f64, f64)> = line.iter().map(|point| pen.view.flat(*point)).collect();
     let normal = |i: usize| {
@@ -77,7 +77,7 @@ fn fill(pen: &mut Canvas, spots: Vec<Spot>, color: usize) {
         pen.shape(spots, edge, THIN, (inner, FAINT));
         return;
     }
-    // A little paper below, so that this picture stands out from earlier ones.
+    // A layer of paper colour below, so that this picture stands out from earlier ones.
     pen.area(spots.clone(), Tint::Paper, PAPER);
     pen.shape(spots, edge, BOLD, (inner, OPACITY));
 }
@@ -88,7 +88,7 @@ fn point_mass(pen: &mut Canvas, r: [f64; 3], color: usize) {
     pen.disc(pen.spot(r), MASS - BOLD, inner);
 }
 
-/// A square in the plane, a cube in space: a body of which nothing is known but where it is and how it is turned.
+/// Draws a square in the plane, a cube in space, for a body of which only position and orientation are known.
 fn block(pen: &mut Canvas, pose: &Pose, color: usize) {
     let sides = pose.axes.map(|axis| axis.map(|x| BLOCK * x));
     let corner = |signs: [f64; 3]| (0..3).fold([0.0; 3], |sum, i| along(sum, sides[i], signs[i]));
@@ -109,7 +109,7 @@ fn block(pen: &mut Canvas, pose: &Pose, color: usize) {
     }
 }
 
-/// A ring with a spoke around a straight body in space, which would not show how it turns about itself.
+/// Draws a ring with a spoke around a straight body in space, to show its rotation about its own axis.
 fn spin(pen: &mut Canvas, limb: &Limb, color: usize) {
     let Some(axis) = straight(&limb.points) else { return };
     let hint = limb.centre.axes.iter().copied().min_by(|a, b| dot(*a, axis).abs().total_cmp(&dot(*b, axis).abs()));
@@ -121,7 +121,7 @@ fn spin(pen: &mut Canvas, limb: &Limb, color: usize) {
     pen.line(spoke, tint, THIN);
 }
 
-/// A circle with two dark quarters at the centre of mass, and a stalk to the body's middle where it lies outside.
+/// Draws a circle with two dark quarters at the centre of mass, and a line to the body's middle where it lies outside.
 pub fn centre(pen: &mut Canvas, limb: &Limb, color: usize) {
     if !limb.oriented || limb.points.len() < 2 || !limb.line.is_empty() {
         return;
@@ -144,7 +144,7 @@ pub fn centre(pen: &mut Canvas, limb: &Limb, color: usize) {
     }
 }
 
-/// The nearest point of a bar to a point beside it.
+/// Returns the point of a bar nearest to a point.
 fn foot(points: &[[f64; 3]], r: [f64; 3]) -> Option<[f64; 3]> {
     let axis = straight(points)?;
     let place = |point: [f64; 3]| dot(axis, less(point, points[0]));

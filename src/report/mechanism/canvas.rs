@@ -1,9 +1,9 @@
-//! Draws in space, seen from a view: collects items with how near they are to the viewer.
+//! A canvas in space, seen from a view: collects items with their depths.
 
 use super::view::{View, along, square_to};
 use crate::plot::{Align, Item, Spot, Tint};
 
-/// What lies upon what where nothing is nearer.
+/// Order of items of equal depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Layer {
     Ground,
@@ -14,14 +14,14 @@ pub enum Layer {
     Arrow,
 }
 
-/// A point of an outline: a place in space, m, and a step from it in pixels as directions in space.
+/// A point of an outline: a point in space, m, and an offset in pixels along directions in space.
 pub type Step = ([f64; 3], [f64; 3]);
 
 pub struct Canvas<'a> {
     pub view: &'a View,
     /// 0 draws in full colours, 1 in those of paper.
     pub paleness: f64,
-    /// How near to the viewer the next items are.
+    /// Depth of the next items, larger is nearer to the viewer.
     pub depth: f64,
     pub layer: Layer,
     items: Vec<(f64, Layer, Item)>,
@@ -35,18 +35,18 @@ impl<'a> Canvas<'a> {
         Canvas { view, paleness, depth: 0.0, layer: Layer::Ground, items: Vec::new() }
     }
 
-    /// All items, far ones first.
+    /// Returns all items, far ones first.
     pub fn finish(mut self) -> impl Iterator<Item = Item> {
         self.items.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         self.items.into_iter().map(|(_, _, item)| item)
     }
 
-    /// The colour of lines that belong to no body; `paleness` is that of full pictures.
+    /// Returns the colour of lines that belong to no body; `paleness` is that of full pictures.
     pub fn ink(&self, paleness: f64) -> Tint {
         Tint::Ink(paleness + (1.0 - paleness) * self.paleness)
     }
 
-    /// The colour of a body.
+    /// Returns the colour of a body.
     pub fn color(&self, body: usize, paleness: f64) -> Tint {
         Tint::Body(body, paleness + (1.0 - paleness) * self.paleness)
     }
@@ -56,7 +56,7 @@ impl<'a> Canvas<'a> {
         Spot::data(x, y)
     }
 
-    /// A place, and a step of some pixels along a direction in space.
+    /// Returns a point with an offset of some pixels along a direction in space.
     pub fn beside(&self, (r, step): Step) -> Spot {
         let (right, up) = self.view.flat(step);
         self.spot(r).moved(right, up)
@@ -82,7 +82,7 @@ impl<'a> Canvas<'a> {
         self.push(Item::Disc { spot, radius, tint });
     }
 
-    /// A small text, its middle at a point.
+    /// Draws a small text centred at a point.
     pub fn text(&mut self, spot: Spot, text: &str) {
         self.push(Item::Text { spot, text: text.to_string(), align: Align::Middle });
     }
@@ -92,14 +92,14 @@ impl<'a> Canvas<'a> {
         self.disc(spot, radius - 0.5 * THIN, Tint::Paper);
     }
 
-    /// A filled outline.
+    /// Draws a filled outline.
     pub fn shape(&mut self, spots: Vec<Spot>, edge: Tint, width: f64, fill: (Tint, f64)) {
         let closed = spots.iter().chain(spots.first()).copied().collect();
         self.area(spots, fill.0, fill.1);
         self.line(closed, edge, width);
     }
 
-    /// A line with a head at its end; the head turns with the last piece, which steps from one place.
+    /// Draws a line with a head at its end; the head follows the last piece, both of whose ends belong to one point.
     pub fn arrow(&mut self, spots: Vec<Spot>, tint: Tint, width: f64) {
         if let [.., before, tip] = spots.as_slice() {
             let (dx, dy) = (tip.step.0 - before.step.0, tip.step.1 - before.step.1);
@@ -114,8 +114,8 @@ impl<'a> Canvas<'a> {
         self.line(spots, tint, width);
     }
 
-    /// Points around `r` in the plane square to `axis`, from the angle `from` to `to`, rad, against `hint`; at a distance
-    /// of `metres` and so many pixels more.
+    /// Returns points around `r` in the plane perpendicular to `axis`, from the angle `from` to `to`, rad, counted from
+    /// `hint`; at a distance of `metres` and `pixels` more.
     pub fn arc(
         &self,
         r: [f64; 3],
@@ -134,7 +134,7 @@ impl<'a> Canvas<'a> {
         (0..=count).map(|i| spot(way(i))).collect()
     }
 
-    /// A pair of lines on both sides of a line in space, so many pixels from it, with ends that reach further.
+    /// Draws a pair of lines on both sides of a line in space, at a distance of `gap` pixels, extended at the ends.
     pub fn rails(
         &mut self,
         [a, b]: [[f64; 3]; 2],

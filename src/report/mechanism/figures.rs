@@ -1,4 +1,4 @@
-//! Figures of the mechanism, from what is where.
+//! Figures of the mechanism, from snapshots.
 
 use super::canvas::Canvas;
 use super::glyphs::Course;
@@ -12,17 +12,19 @@ use crate::joint::Axis;
 use crate::plot::{Align, Animation, Figure, Item, Panel, Place, Series, Spot, Tint};
 use crate::prepared::{AnyMechanism, PreparedScene};
 
-/// How to show a scene.
+/// Options of a figure of the mechanism.
 #[derive(Clone, Debug)]
 pub struct Look {
+    /// View.
     pub view: View,
-    /// Whether the bodies have their names beside them.
+    /// True if bodies are labelled with their names.
     pub labels: bool,
+    /// Markers whose paths are drawn.
     pub traces: Vec<Trace>,
 }
 
 impl Look {
-    /// From the front, or from above and aside in space; nothing beside.
+    /// The front view, or the isometric view in space; without labels and traces.
     pub fn plain(mechanism: &AnyMechanism) -> Self {
         let view = match mechanism {
             AnyMechanism::Planar(_) => View::planar(),
@@ -32,7 +34,7 @@ impl Look {
     }
 }
 
-/// The mechanism at one time.
+/// Draws the mechanism at one time.
 pub fn mechanism_figure(prepared: &PreparedScene, look: &Look, state: &State) -> Figure {
     let scene = snapshot(&prepared.mechanism, state);
     let mut items = supports(look, std::slice::from_ref(&scene));
@@ -45,7 +47,7 @@ pub fn mechanism_figure(prepared: &PreparedScene, look: &Look, state: &State) ->
 /// Paleness of the earliest picture and of the last but one.
 const PALE: (f64, f64) = (0.8, 0.45);
 
-/// The mechanism at several times in one figure, earlier ones paler.
+/// Draws the mechanism at several times in one figure, earlier ones paler.
 pub fn stroboscope_figure(motion: &Motion, look: &Look, times: &[f64]) -> Figure {
     let prepared = motion.prepared;
     let scenes: Vec<Snapshot> = times.iter().map(|t| snapshot(&prepared.mechanism, &motion.state(*t))).collect();
@@ -68,10 +70,10 @@ pub fn stroboscope_figure(motion: &Motion, look: &Look, times: &[f64]) -> Figure
     Figure::new().title(prepared.name.clone()).panel(labelled(look, full, panel))
 }
 
-/// More times than this are told by the first and the last ones.
+/// Largest number of times in the legend.
 const MOST_KEYS: usize = 12;
 
-/// The times in the shades of their pictures.
+/// Returns the times in the shades of their pictures.
 fn keys(times: &[f64], paleness: impl Fn(usize) -> f64) -> Vec<(String, Tint)> {
     let stride = times.len().div_ceil(MOST_KEYS).max(1);
     let last = times.len().saturating_sub(1);
@@ -85,7 +87,7 @@ fn dot_on_path(look: &Look, scene: &Snapshot, trace: &Trace, paleness: f64) -> I
     Item::Disc { spot: Spot::data(x, y), radius: 3.4, tint }
 }
 
-/// The mechanism in motion, shown at `times`, `per_second` of them in a second.
+/// Draws the mechanism in motion at `times`, `per_second` of them in a second.
 pub fn animation(
     motion: &Motion,
     look: &Look,
@@ -133,7 +135,7 @@ fn corner(x: f64, y: f64) -> Spot {
     Spot { at: Place::Frame(x, y), step: (0.0, 0.0) }
 }
 
-/// About `most` of the times, evenly chosen.
+/// Returns about `most` of the times, evenly chosen.
 fn every(times: &[f64], most: usize) -> impl Iterator<Item = f64> + '_ {
     times.iter().copied().step_by(times.len().div_ceil(most).max(1))
 }
@@ -144,7 +146,7 @@ pub(super) fn supports(look: &Look, scenes: &[Snapshot]) -> Vec<Item> {
     pen.finish().collect()
 }
 
-/// Bodies, joints and forces.
+/// Draws bodies, joints and forces.
 pub(super) fn picture(
     look: &Look,
     scene: &Snapshot,
@@ -163,7 +165,7 @@ pub(super) fn picture(
     pen.finish().collect::<Vec<_>>().into_iter()
 }
 
-/// An empty panel whose axes show all items and curves, with room for signs of fixed size at the border.
+/// Returns an empty panel whose axes contain all items and curves, with a margin for symbols of fixed size.
 pub(super) fn panel<'a>(
     look: &Look,
     scene: &Snapshot,
@@ -184,7 +186,7 @@ pub(super) fn panel<'a>(
     if scene.is_planar { panel } else { Panel { inset: triad(&look.view), ..panel } }
 }
 
-/// Free part of the longer side at both ends.
+/// Margin at both ends, as a part of the longer side.
 const ROOM: f64 = 0.085;
 
 /// Length of the arrows that show the axes of space, pixels.
@@ -199,7 +201,7 @@ fn triad(view: &View) -> Vec<Item> {
         if right.hypot(up) > 1e-6 {
             let ink = pen.ink(0.3);
             pen.arrow(vec![foot, foot.moved(TRIAD * right, TRIAD * up)], ink, super::canvas::THIN);
-            // The letter stands beyond the head, its middle on the arrow's line.
+            // The letter is beyond the head, centred on the arrow's line.
             let far = TRIAD + 12.0 / right.hypot(up).max(0.5);
             pen.text(foot.moved(far * right, far * up - 5.0), name);
         }
@@ -207,7 +209,7 @@ fn triad(view: &View) -> Vec<Item> {
     pen.finish().collect()
 }
 
-/// Names beside the bodies, where the figure has room for them.
+/// Adds names at the bodies.
 pub(super) fn labelled(look: &Look, scene: &Snapshot, mut panel: Panel) -> Panel {
     if look.labels {
         for (color, limb) in scene.limbs.iter().enumerate() {
@@ -220,7 +222,7 @@ pub(super) fn labelled(look: &Look, scene: &Snapshot, mut panel: Panel) -> Panel
     panel
 }
 
-/// States from which the ways of slides are taken.
+/// Number of states from which the travel of slides is taken.
 const SAMPLES: usize = 300;
 
 fn course(motion: &Motion) -> Course {

@@ -1,4 +1,4 @@
-//! Glyphs of forces.
+//! Symbols of forces.
 
 use super::canvas::{BOLD, Canvas, Layer, THIN};
 use super::joints::turn;
@@ -10,13 +10,13 @@ use std::f64::consts::TAU;
 /// Length of the arrow of a force, pixels.
 const ARROW: f64 = 44.0;
 
-/// A zigzag between its ends.
+/// Draws a zigzag between its ends.
 pub fn spring_damper(pen: &mut Canvas, link: &Link, sight: &Sight) {
     zigzag(pen, [link.ends[0].r, link.ends[1].r], sight.length);
 }
 
 const COILS: usize = 16;
-/// Half the width of a spring: so many pixels, and this part of its length at the start.
+/// Half the width of a spring: pixels, and part of its length at the start.
 const WIDTH: (f64, f64) = (3.0, 0.018);
 
 fn zigzag(pen: &mut Canvas, [a, b]: [[f64; 3]; 2], start: f64) {
@@ -41,7 +41,7 @@ fn zigzag(pen: &mut Canvas, [a, b]: [[f64; 3]; 2], start: f64) {
     ends.into_iter().for_each(|end| pen.disc(end, 2.8, ink));
 }
 
-/// A spiral about the axis of the first marker.
+/// Draws a spiral about the axis of the first marker.
 pub fn torsion_spring(pen: &mut Canvas, link: &Link, _: &Sight) {
     let first = &link.ends[0];
     let steps = 60;
@@ -56,7 +56,7 @@ pub fn torsion_spring(pen: &mut Canvas, link: &Link, _: &Sight) {
     pen.line(spots, ink, THIN);
 }
 
-/// A bold line between its ends.
+/// Draws a bold line between its ends.
 pub fn beam(pen: &mut Canvas, link: &Link, _: &Sight) {
     let spots = [0, 1].map(|end| pen.view.flat(link.ends[end].r)).map(|(x, y)| Spot::data(x, y)).to_vec();
     let ink = pen.ink(0.25);
@@ -64,7 +64,7 @@ pub fn beam(pen: &mut Canvas, link: &Link, _: &Sight) {
     pen.line(spots, ink, BOLD);
 }
 
-/// A cushion between its ends.
+/// Draws a cushion between its ends.
 pub fn bushing(pen: &mut Canvas, link: &Link, _: &Sight) {
     let [a, b] = [pen.spot(link.ends[0].r), pen.spot(link.ends[1].r)];
     pen.layer = Layer::Rod;
@@ -75,7 +75,7 @@ pub fn bushing(pen: &mut Canvas, link: &Link, _: &Sight) {
     pen.disc(a, 2.8, ink);
 }
 
-/// An arrow from the point at which it acts.
+/// Draws an arrow from the point of application.
 pub fn applied_force(pen: &mut Canvas, link: &Link, _: &Sight) {
     let Some(way) = direction(link.force) else { return };
     let at = link.ends[0].r;
@@ -85,18 +85,18 @@ pub fn applied_force(pen: &mut Canvas, link: &Link, _: &Sight) {
     pen.arrow(spots, ink, BOLD);
 }
 
-/// An arrow around the point at which it acts.
+/// Draws an arrow around the point of application.
 pub fn applied_torque(pen: &mut Canvas, link: &Link, _: &Sight) {
     pen.layer = Layer::Arrow;
     let ink = pen.ink(0.0);
     turn(pen, link.ends[0].r, link.torque, 15.0, ink);
 }
 
-/// The tyre as a circle, upon the road.
+/// Draws the tyre as a circle, and the road.
 pub fn tyre(pen: &mut Canvas, link: &Link, sight: &Sight) {
     let Some(wheel) = link.wheel else { return };
     let (hub, up) = (&link.ends[0], unit(if sight.is_planar { 1 } else { 2 }));
-    // In space its axle is the marker's y axis, as far as that is level.
+    // In space its axle is the horizontal part of the marker's y axis.
     let level = |axis: [f64; 3]| direction(along(axis, up, -dot(axis, up)));
     let axle = if sight.is_planar { unit(2) } else { level(hub.axes[1]).unwrap_or(unit(1)) };
     let circle = pen.arc(hub.r, [axle, up], (0.0, TAU), (wheel.radius, 0.0));

@@ -1,22 +1,22 @@
-//! Which sign stands for which kind of joint or force: the only place that knows.
+//! Table of the symbols of all kinds of joints and forces.
 
 use super::canvas::{Canvas, Layer};
 use super::snapshot::{Link, Sight, Snapshot};
 use super::{bodies, forces, joints};
 
-/// What the whole motion says of the joints and forces, in their order.
+/// Properties of the joints and forces over the whole motion, in their order.
 #[derive(Clone, Debug, Default)]
 pub struct Course {
-    /// From where to where each joint slides along its axis.
+    /// Range of each joint's position along its axis, m.
     pub travels: Vec<Option<(f64, f64)>>,
-    /// Distance of the ends of each force at the start.
+    /// Distance of the ends of each force at the start, m.
     pub lengths: Vec<f64>,
 }
 
 struct Glyph {
     kind: &'static str,
     draw: fn(&mut Canvas, &Link, &Sight),
-    /// Whether earlier pictures of a stroboscope have it too.
+    /// True if earlier pictures of a stroboscope show it too.
     in_all: bool,
 }
 
@@ -49,7 +49,7 @@ const FORCES: &[Glyph] = &[
     glyph("tyre", forces::tyre, true),
 ];
 
-/// Of kinds from outside the crate.
+/// Symbol of kinds from outside the crate.
 const OWN: Glyph = glyph("", joints::equation, false);
 
 /// Draws all joints and forces of a scene.
@@ -71,7 +71,8 @@ pub fn draw(pen: &mut Canvas, scene: &Snapshot, course: &Course) {
     }
 }
 
-/// Signs at a point lie upon the bodies that they join; long ones between two points are as far as their middle.
+/// Returns the depth of a symbol: one at a point is in front of the bodies that it joins; a long one between two points
+/// has the depth of its middle.
 fn depth(pen: &Canvas, link: &Link, bodies: &[f64], is_long: bool) -> f64 {
     let own = link.ends.iter().map(|end| pen.view.depth(end.r));
     if is_long {

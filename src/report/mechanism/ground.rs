@@ -1,19 +1,19 @@
-//! The sign of what does not move.
+//! Symbol of the ground.
 
 use super::canvas::{Canvas, Layer, THIN};
 use super::snapshot::{Link, Snapshot};
 use super::view::{along, direction, length, less};
 use crate::plot::Spot;
 
-/// Kinds that pull at the ground along a line: their wall is square to it, unless the line swings.
+/// Kinds that pull at the ground along a line: their wall is perpendicular to it, unless its direction changes.
 const PULLING: [&str; 1] = ["spring_damper"];
-/// A line swings if its mean direction is shorter than this.
+/// A line counts as of changing direction if its mean direction is shorter than this.
 const STEADY: f64 = 0.95;
-/// Kinds whose own sign shows how the ground holds them.
+/// Kinds whose own symbol shows the ground.
 const BARE: [&str; 5] = ["prismatic", "cylindrical", "point_on_line", "equation", "driver"];
 
-/// A hatched support at every marker of the ground that holds something. It stands on the side away from the bodies,
-/// as they are in all of the pictures, so that it hides none of them.
+/// Draws a hatched support at every marker of the ground that has a joint or force. It is on the side away from the
+/// bodies, in all of the pictures, so that it hides none of them.
 pub fn draw(pen: &mut Canvas, pictures: &[Snapshot]) {
     let Some(first) = pictures.first() else { return };
     let all = |scene: &Snapshot| scene.joints.iter().chain(&scene.forces).cloned().collect::<Vec<Link>>();
@@ -33,8 +33,8 @@ pub fn draw(pen: &mut Canvas, pictures: &[Snapshot]) {
     }
 }
 
-/// The direction from a place of the ground to the bodies that are held there, on average; shorter than one where
-/// it changes.
+/// Returns the mean direction from a point of the ground to the bodies connected there; shorter than one where it
+/// changes.
 fn mean(pictures: &[Snapshot], at: [f64; 3]) -> Option<[f64; 3]> {
     let (mut sum, mut count) = ([0.0; 3], 0.0);
     for scene in pictures {

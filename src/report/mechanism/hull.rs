@@ -2,7 +2,8 @@
 
 type Point = (f64, f64);
 
-/// Corners of the convex hull, counter-clockwise; two where all points lie on a line, one where they coincide.
+/// Returns the corners of the convex hull, counter-clockwise; two where all points lie on a line, one where they
+/// coincide.
 pub fn hull(points: &[Point]) -> Vec<Point> {
     let mut sorted: Vec<Point> = points.to_vec();
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
@@ -18,7 +19,7 @@ pub fn hull(points: &[Point]) -> Vec<Point> {
     [ends(&lower), ends(&upper)].concat()
 }
 
-/// The points at which a line around the others turns left.
+/// Returns the points at which a line around the others turns left.
 fn chain(points: impl Iterator<Item = Point>, tiny: f64) -> Vec<Point> {
     let mut kept: Vec<Point> = Vec::new();
     for point in points {
@@ -30,12 +31,12 @@ fn chain(points: impl Iterator<Item = Point>, tiny: f64) -> Vec<Point> {
     kept
 }
 
-/// Twice the area of a triangle, above zero where it turns left.
+/// Returns twice the area of a triangle, positive where it turns left.
 fn turn(a: Point, b: Point, c: Point) -> f64 {
     (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)
 }
 
-/// An outline around the corners of a hull at the distance of one: each corner with a direction to step from it.
+/// Returns an outline around the corners of a hull at distance one: each corner with directions to step from it.
 pub fn rounded(corners: &[Point]) -> Vec<(Point, Point)> {
     let count = corners.len();
     let heading = |k: usize| {
@@ -44,7 +45,7 @@ pub fn rounded(corners: &[Point]) -> Vec<(Point, Point)> {
     };
     let mut outline = Vec::new();
     for (k, corner) in corners.iter().enumerate() {
-        // Outwards is right of the way around.
+        // The outside is right of the direction of travel.
         let (from, turn) = match count {
             1 => (0.0, std::f64::consts::TAU),
             _ => {

@@ -1,4 +1,4 @@
-//! Glyphs of joints.
+//! Symbols of joints.
 
 use super::canvas::{BOLD, Canvas, Layer, THIN};
 use super::snapshot::{Link, Pose, Sight};
@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 
 /// Radius of a hinge, pixels.
 const HINGE: f64 = 4.2;
-/// From the line of a slide to its rails, and how far they reach beyond the slide, pixels.
+/// Distance of the rails from the line of a slide, and their extension beyond its travel, pixels.
 const RAIL: f64 = 9.0;
 const REACH: f64 = 16.0;
 
@@ -18,7 +18,7 @@ fn axis(link: &Link) -> Option<[f64; 3]> {
     direction(axis)
 }
 
-/// A circle, in space with its axis.
+/// Draws a circle, in space with its axis.
 pub fn revolute(pen: &mut Canvas, link: &Link, _: &Sight) {
     let at = link.ends[1].r;
     let ink = pen.ink(0.0);
@@ -31,13 +31,13 @@ pub fn revolute(pen: &mut Canvas, link: &Link, _: &Sight) {
     pen.ring(spot, HINGE, ink);
 }
 
-/// Two rails along the way that the slide takes, hatched where the ground holds them.
+/// Draws two rails along the travel of the slide, hatched where they belong to the ground.
 fn slot(pen: &mut Canvas, link: &Link, sight: &Sight) {
     let Some(axis) = axis(link) else { return };
     let (foot, point) = (link.ends[0].r, link.ends[1].r);
     let place = dot(axis, less(point, foot));
     let (low, high) = sight.travel.unwrap_or((place, place));
-    // The rails lie where the point is, also where the joint has drifted open.
+    // The rails pass through the point even if the joint has drifted.
     let at = |s: f64| along(point, axis, s - place);
     let ink = pen.ink(0.25);
     pen.layer = Layer::Rod;
@@ -63,28 +63,28 @@ pub fn prismatic(pen: &mut Canvas, link: &Link, sight: &Sight) {
     slot(pen, link, sight);
 }
 
-/// Rails and a hinge's circle.
+/// Draws rails and a hinge's circle.
 pub fn cylindrical(pen: &mut Canvas, link: &Link, sight: &Sight) {
     slot(pen, link, sight);
     let (spot, ink) = (pen.spot(link.ends[1].r), pen.ink(0.0));
     pen.ring(spot, HINGE, ink);
 }
 
-/// Rails and a dot.
+/// Draws rails and a dot.
 pub fn point_on_line(pen: &mut Canvas, link: &Link, sight: &Sight) {
     slot(pen, link, sight);
     let (spot, ink) = (pen.spot(link.ends[1].r), pen.ink(0.0));
     pen.disc(spot, 3.6, ink);
 }
 
-/// A ball in its socket.
+/// Draws a ball in its socket.
 pub fn spherical(pen: &mut Canvas, link: &Link, _: &Sight) {
     let (spot, ink) = (pen.spot(link.ends[1].r), pen.ink(0.0));
     pen.ring(spot, 6.0, ink);
     pen.disc(spot, 3.8, ink);
 }
 
-/// A circle with the two pins of the cross.
+/// Draws a circle with the two pins of the cross.
 pub fn universal(pen: &mut Canvas, link: &Link, _: &Sight) {
     let (at, ink) = (link.ends[1].r, pen.ink(0.0));
     let spot = pen.spot(at);
@@ -96,7 +96,7 @@ pub fn universal(pen: &mut Canvas, link: &Link, _: &Sight) {
     }
 }
 
-/// A patch of the plane.
+/// Draws a patch of the plane.
 pub fn planar(pen: &mut Canvas, link: &Link, _: &Sight) {
     let (at, ink) = (link.ends[1].r, pen.ink(0.3));
     let Some(normal) = axis(link) else { return };
@@ -108,7 +108,7 @@ pub fn planar(pen: &mut Canvas, link: &Link, _: &Sight) {
     pen.disc(spot, 2.6, ink);
 }
 
-/// A square.
+/// Draws a square.
 pub fn weld(pen: &mut Canvas, link: &Link, _: &Sight) {
     let (spot, ink) = (pen.spot(link.ends[1].r), pen.ink(0.0));
     let side = 4.4;
@@ -116,7 +116,7 @@ pub fn weld(pen: &mut Canvas, link: &Link, _: &Sight) {
     pen.area(corners.iter().map(|(right, up)| spot.moved(*right, *up)).collect(), ink, 1.0);
 }
 
-/// A thin rod between two balls.
+/// Draws a thin rod between two balls.
 pub fn distance(pen: &mut Canvas, link: &Link, _: &Sight) {
     let ink = pen.ink(0.2);
     let ends = [pen.spot(link.ends[0].r), pen.spot(link.ends[1].r)];
@@ -125,7 +125,7 @@ pub fn distance(pen: &mut Canvas, link: &Link, _: &Sight) {
     ends.into_iter().for_each(|end| pen.disc(end, 3.4, ink));
 }
 
-/// An arrow along or about what is driven.
+/// Draws an arrow along or about the driven direction.
 pub fn driver(pen: &mut Canvas, link: &Link, _: &Sight) {
     let (at, ink) = (link.ends[1].r, pen.ink(0.1));
     pen.layer = Layer::Arrow;
@@ -147,7 +147,7 @@ pub fn driver(pen: &mut Canvas, link: &Link, _: &Sight) {
     }
 }
 
-/// Three quarters of a turn about an axis, with a head.
+/// Draws an arrow of about three quarters of a revolution about an axis.
 pub fn turn(pen: &mut Canvas, at: [f64; 3], axis: [f64; 3], radius: f64, ink: Tint) {
     let Some(axis) = direction(axis) else { return };
     let hint = cross(axis, [0.3, -0.4, 0.8]);
@@ -155,14 +155,14 @@ pub fn turn(pen: &mut Canvas, at: [f64; 3], axis: [f64; 3], radius: f64, ink: Ti
     pen.arrow(spots, ink, BOLD);
 }
 
-/// The pitch circles of two wheels, each with a spoke that turns with it.
+/// Draws the pitch circles of two wheels, each with a spoke that rotates with it.
 pub fn gear(pen: &mut Canvas, link: &Link, _: &Sight) {
-    // As the numbers of teeth.
+    // Proportional to the numbers of teeth.
     let [turn_a, turn_b, ..] = link.turns[..] else { return };
     let [a, b] = [&link.ends[0], &link.ends[1]];
     let [za, zb] = [turn_a.abs(), turn_b.abs()];
     let gap = less(b.r, a.r);
-    // Both circles meet: the gap is made of the two radii, which are as the numbers of teeth.
+    // Both circles meet: the gap is the sum of the two radii, which are proportional to the numbers of teeth.
     let out = |axis: [f64; 3], way: [f64; 3]| direction(along(way, axis, -dot(axis, way))).unwrap_or([0.0; 3]);
     let inner = if turn_a * turn_b < 0.0 { -1.0 } else { 1.0 };
     let towards = less(out(a.axes[2], gap).map(|x| za * x), out(b.axes[2], gap.map(|x| -x)).map(|x| inner * zb * x));
@@ -185,7 +185,7 @@ fn pitch_circle(pen: &mut Canvas, wheel: &Pose, radius: f64, body: Option<usize>
     pen.line(spoke, tint, THIN);
 }
 
-/// A small rhomb at the bodies whose coordinates an equation binds.
+/// Draws a small rhombus at the bodies whose coordinates an equation constrains.
 pub fn equation(pen: &mut Canvas, link: &Link, _: &Sight) {
     let ink = pen.ink(0.0);
     for (end, _) in link.ends.iter().zip(&link.carriers).filter(|(_, body)| body.is_some()) {

@@ -1,10 +1,10 @@
-//! The mechanism itself as a figure or an animation.
+//! Figures and animations of the mechanism.
 //!
 //! ```text
 //! trajectory -> Motion -> State -> Snapshot -> Canvas: bodies, glyphs of joints and forces, ground -> plot items
 //! ```
 //!
-//! To give a new kind of joint or force its sign: a function in `joints` or `forces` and a line in `glyphs`.
+//! To add the symbol of a new kind of joint or force: a function in `joints` or `forces` and a line in `glyphs`.
 
 mod bodies;
 mod canvas;

@@ -1,4 +1,4 @@
-//! The mechanism in its modes of motion.
+//! Figures of the mode shapes.
 
 use super::figures::{Look, labelled, lengths, panel, picture, supports};
 use super::glyphs::Course;
@@ -14,35 +14,36 @@ use crate::plot::{Animation, Figure, Item, Tint};
 use crate::prepared::PreparedScene;
 use std::f64::consts::TAU;
 
-/// Modes in one figure.
+/// Largest number of modes in one figure.
 const MOST: usize = 6;
 /// Width with two columns, nominal pixels.
 const WIDE: f64 = 1000.0;
-/// The place that moves most moves by this part of the mechanism's size.
+/// Amplitude of the point that moves most, as a part of the mechanism's size.
 const TRAVEL: f64 = 0.08;
-/// A mode that moves no place by more than this part of the size per unit, as a wheel that spins, moves by so much.
+/// A mode that moves no point by more than STILL of the size per unit, such as the rotation of a wheel, has the
+/// amplitude SPIN.
 const STILL: f64 = 1e-3;
 const SPIN: f64 = 0.35;
-/// A swing is halved until its ends lie on a line through the operating point to this part of its length: turns by large
-/// angles would tear the joints open, which hold to first order only.
+/// The amplitude is halved until the two extreme positions lie on a line through the operating point to this part of
+/// its length: large rotations would open the joints, since shapes satisfy the constraints to first order only.
 const BEND: f64 = 0.3;
 const HALVINGS: usize = 12;
 /// Paleness of the operating point and of the far end of a motion.
 const REST: f64 = 0.6;
 const FAR: f64 = 0.5;
 
-/// A motion about the operating point that can be seen.
+/// A mode shape with an amplitude that can be seen.
 struct Swing<'a> {
     prepared: &'a PreparedScene,
     model: &'a LinearModel,
     mode: &'a Mode,
-    /// At its widest: so many units of the shape, turned by this angle.
+    /// Largest amplitude, in units of the shape, and phase of the shape, rad.
     amplitude: f64,
     phase: f64,
 }
 
-/// The slowest physical modes, one panel each: the operating point in grey, the mechanism at both ends of its motion.
-/// `None` where no mode has a shape.
+/// Draws the slowest physical modes, one panel each: the operating point in grey, the mechanism at both ends of its
+/// motion. `None` where no mode has a shape.
 pub fn mode_figure(prepared: &PreparedScene, look: &Look, model: &LinearModel) -> Option<Figure> {
     let found = shaped(model);
     let drawn = &found[..found.len().min(MOST)];
@@ -65,8 +66,8 @@ pub fn mode_figure(prepared: &PreparedScene, look: &Look, model: &LinearModel) -
     }
 }
 
-/// One mode in motion: `number` counts the physical modes from one, each conjugate pair once, as in the text. `None` where
-/// there is no such mode with a shape.
+/// Draws one mode in motion: `number` counts the physical modes from one, each conjugate pair once, as in the text.
+/// `None` where there is no such mode with a shape.
 pub fn mode_animation<'a>(
     prepared: &'a PreparedScene,
     look: &Look,
@@ -95,13 +96,13 @@ pub fn mode_animation<'a>(
     Some(Animation { frame, count: FRAMES, per_second: 25.0 })
 }
 
-/// Physical modes with a shape, with their numbers.
+/// Returns the physical modes with a shape, with their numbers.
 fn shaped(model: &LinearModel) -> Vec<(usize, Pair<'_>)> {
     let numbered = pairs(model, Kind::Physical).into_iter().enumerate().map(|(i, pair)| (i + 1, pair));
     numbered.filter(|(_, pair)| pair.mode.shape.iter().any(|part| part.norm() > 0.0)).collect()
 }
 
-/// Frequency and damping of what swings, the rate of what does not.
+/// Returns frequency and damping ratio of an oscillating mode, the rate of another.
 fn title(pair: &Pair) -> String {
     let mode = pair.mode;
     let text = match mode.value.im != 0.0 {
@@ -129,7 +130,7 @@ fn picture_of(prepared: &PreparedScene, look: &Look, model: &LinearModel, mode: 
     still.chain(ends).collect()
 }
 
-/// The same without the colours of bodies.
+/// Returns an item without the colours of bodies.
 fn grey(item: Item) -> Item {
     let grey = |tint: Tint| if let Tint::Body(_, paleness) = tint { Tint::Ink(paleness) } else { tint };
     match item {
@@ -142,7 +143,7 @@ fn grey(item: Item) -> Item {
 
 impl<'a> Swing<'a> {
     fn new(prepared: &'a PreparedScene, model: &'a LinearModel, mode: &'a Mode, rest: &Snapshot) -> Self {
-        // Where the squares add up to a real number, the real part of the shape is largest.
+        // At this phase the real part of the shape is largest: the sum of squares is real.
         let squares: Complex<f64> = mode.shape.iter().map(|part| part * part).sum();
         let swing = Swing { prepared, model, mode, amplitude: 1.0, phase: -0.5 * squares.arg() };
         let largest = swing.change(0.0).iter().fold(0.0, |most: f64, part| most.max(part.abs()));
@@ -161,7 +162,7 @@ impl<'a> Swing<'a> {
         swing
     }
 
-    /// How far the middle of both ends is from the operating point, as a part of their distance.
+    /// Returns the distance of the middle of both ends from the operating point, as a part of their distance.
     fn bend(&self, rest: &Snapshot) -> f64 {
         let (one, other) = (self.snapshot(0.0), self.snapshot(0.5 * TAU));
         let ends = || places(&one).zip(places(&other));
@@ -170,7 +171,7 @@ impl<'a> Swing<'a> {
         2.0 * middle.fold(0.0, f64::max) / apart
     }
 
-    /// The change of q along the velocity directions at an angle of the motion.
+    /// Returns the change of q along the velocity directions at a phase angle, rad.
     fn change(&self, angle: f64) -> Vec<f64> {
         let turn = Complex::from_polar(self.amplitude, self.phase + angle);
         self.mode.shape.iter().map(|part| (part * turn).re).collect()
@@ -185,7 +186,7 @@ impl<'a> Swing<'a> {
     }
 }
 
-/// Places that can be followed from picture to picture.
+/// Returns points that can be followed from picture to picture.
 fn places(scene: &Snapshot) -> impl Iterator<Item = [f64; 3]> + '_ {
     let lines = scene.limbs.iter().flat_map(|limb| limb.line.iter().copied().chain([limb.centre.r]));
     scene.markers.iter().map(|marker| marker.r).chain(lines)
@@ -195,7 +196,7 @@ fn travel(from: &Snapshot, to: &Snapshot) -> f64 {
     places(from).zip(places(to)).map(|(a, b)| length(less(b, a))).fold(0.0, f64::max)
 }
 
-/// The longest side of a box around all places; 1 m where they coincide.
+/// Returns the longest side of a box around all points; 1 m where they coincide.
 fn size(scene: &Snapshot) -> f64 {
     let side = |i: usize| {
         let (low, high) = places(scene)

@@ -1,4 +1,4 @@
-//! States between the rows of a trajectory.
+//! Interpolation between the rows of a trajectory.
 
 use crate::prepared::PreparedScene;
 use crate::system::MechanicalSystem;
@@ -7,31 +7,35 @@ use crate::trajectory::Trajectory;
 /// Coordinates and velocities at a time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
+    /// Time, s.
     pub t: f64,
+    /// Coordinates, n_q.
     pub q: Vec<f64>,
+    /// Velocities, n_v.
     pub v: Vec<f64>,
 }
 
 /// A computed motion.
 pub struct Motion<'a> {
+    /// The scene.
     pub prepared: &'a PreparedScene,
     trajectory: &'a Trajectory,
 }
 
 impl<'a> Motion<'a> {
-    /// The motion of a trajectory, which has at least a row.
+    /// The motion of a trajectory with at least one row.
     pub fn new(prepared: &'a PreparedScene, trajectory: &'a Trajectory) -> Self {
         Motion { prepared, trajectory }
     }
 
-    /// When it begins and how far it was computed.
+    /// Returns its start and end time, s.
     pub fn reach(&self) -> (f64, f64) {
         let start = self.prepared.start_time();
         let rows = &self.trajectory.rows;
         (rows.first().map_or(start, |row| row[0]), rows.last().map_or(start, |row| row[0]))
     }
 
-    /// At most `most` times of rows, evenly chosen, first and last among them.
+    /// Returns at most `most` times of rows, evenly chosen, with the first and the last.
     pub fn times(&self, most: usize) -> Vec<f64> {
         let count = self.trajectory.rows.len();
         let stride = count.div_ceil(most.max(1)).max(1);
@@ -42,7 +46,8 @@ impl<'a> Motion<'a> {
         times
     }
 
-    /// The state at a time: that of a row, or one between two rows on the cubic through their coordinates and rates.
+    /// Returns the state at a time: that of a row, or one between two rows on the cubic through their coordinates and
+    /// rates.
     pub fn state(&self, t: f64) -> State {
         let rows = &self.trajectory.rows;
         let after = rows.partition_point(|row| row[0] < t);

@@ -1,4 +1,4 @@
-//! What is where at one time: bodies, joints and forces of a planar or spatial scene alike, all in space.
+//! Positions of bodies, joints and forces at one time, in space for planar and spatial scenes alike.
 
 use super::motion::State;
 use super::view::{along, cross, direction, dot, length, less, straight};
@@ -13,9 +13,9 @@ use crate::system::{Mechanism, Scratch};
 /// A marker in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
-    /// m
+    /// Position, m.
     pub r: [f64; 3],
-    /// Its unit axes.
+    /// Unit axes.
     pub axes: [[f64; 3]; 3],
 }
 
@@ -23,7 +23,7 @@ pub struct Pose {
 #[derive(Clone, Debug)]
 pub struct Limb {
     pub name: String,
-    /// Where others hold it, each place once.
+    /// Markers of its joints and forces, each position once.
     pub points: Vec<[f64; 3]>,
     /// The deformed line of a beam; empty for other bodies.
     pub line: Vec<[f64; 3]>,
@@ -31,7 +31,7 @@ pub struct Limb {
     pub centre: Pose,
     /// False for point masses.
     pub oriented: bool,
-    /// Whether it may turn about itself in a way that its outline does not show.
+    /// True if it may rotate about its own axis, which its outline does not show.
     pub may_spin: bool,
 }
 
@@ -39,26 +39,26 @@ pub struct Limb {
 #[derive(Clone, Debug)]
 pub struct Link {
     pub kind: &'static str,
-    /// Its markers, and the bodies that carry them; `None` is the ground.
+    /// Its markers.
     pub ends: Vec<Pose>,
     pub carriers: Vec<Option<usize>>,
-    /// Of a joint.
+    /// Axis of a joint.
     pub axis: Option<Axis>,
-    /// How much the first row of a joint grows with a turn of each marker about its z axis.
+    /// Derivative of the first row of a joint with respect to a rotation of each marker about its z axis.
     pub turns: Vec<f64>,
-    /// Of a tyre.
+    /// Wheel of a tyre.
     pub wheel: Option<Wheel>,
-    /// What a force does at its first marker, N and N m.
+    /// Force at its first marker, N.
     pub force: [f64; 3],
     pub torque: [f64; 3],
 }
 
-/// What a sign has to know of the whole.
+/// Properties of the whole motion that a symbol needs.
 pub struct Sight {
     pub is_planar: bool,
-    /// From where to where a slide goes along its axis during the motion, m.
+    /// Range of a slide along its axis during the motion, m.
     pub travel: Option<(f64, f64)>,
-    /// Between the first two markers at the start, m.
+    /// Distance of the first two markers at the start, m.
     pub length: f64,
 }
 
@@ -73,7 +73,7 @@ pub struct Snapshot {
     pub markers: Vec<Pose>,
 }
 
-/// The axis against gravity, number 0 to 2: the third one in space without gravity.
+/// Returns the index of the axis against gravity, 0 to 2; in space without gravity the third one.
 pub fn up(mechanism: &AnyMechanism) -> usize {
     match mechanism {
         AnyMechanism::Planar(_) => 1,
@@ -85,7 +85,7 @@ pub fn up(mechanism: &AnyMechanism) -> usize {
     }
 }
 
-/// The scene at a state.
+/// Returns the scene at a state.
 pub fn snapshot(mechanism: &AnyMechanism, state: &State) -> Snapshot {
     match mechanism {
         AnyMechanism::Planar(mechanism) => of(mechanism, state),
@@ -93,7 +93,7 @@ pub fn snapshot(mechanism: &AnyMechanism, state: &State) -> Snapshot {
     }
 }
 
-/// Where all markers are.
+/// Returns the positions of all markers.
 pub fn markers(mechanism: &AnyMechanism, state: &State) -> Vec<Pose> {
     match mechanism {
         AnyMechanism::Planar(mechanism) => frames(mechanism, state).iter().map(pose).collect(),
@@ -138,7 +138,7 @@ fn of<const D: usize>(mechanism: &Mechanism<D>, state: &State) -> Snapshot {
     Snapshot { is_planar: D == 2, limbs, joints, forces: forces.collect(), markers: poses }
 }
 
-/// See [`Link::turns`].
+/// Returns [`Link::turns`].
 fn turns<const D: usize>(joint: &dyn Joint<D>, frames: &[Frame<Taylor<f64>, D>], time: Time<f64>) -> Vec<f64> {
     let mut rows = [[0.0; 6]; MOST_ROWS];
     let rows = &mut rows[..joint.row_names().len()];
@@ -154,7 +154,7 @@ fn turns<const D: usize>(joint: &dyn Joint<D>, frames: &[Frame<Taylor<f64>, D>],
     frames.iter().enumerate().map(turn).collect()
 }
 
-/// Which markers a joint or force holds.
+/// Returns true for each marker that a joint or force uses.
 fn used<const D: usize>(model: &Model<D>) -> Vec<bool> {
     let mut used = vec![false; model.marker_count()];
     let joints = model.joints.iter().flat_map(|joint| &joint.markers);
@@ -176,7 +176,7 @@ fn link<E, const D: usize>(model: &Model<D>, connection: &Connection<E>, poses: 
     }
 }
 
-/// Whether no joint holds a straight body against turns about its own line: a hinge aside of it would.
+/// True if no joint prevents the rotation of a straight body about its own line, as a hinge away from the line would.
 fn may_spin(limb: &Limb, body: usize, joints: &[Link]) -> bool {
     let Some(line) = straight(&limb.points) else { return false };
     let mut own = joints.iter().filter(|joint| joint.carriers.contains(&Some(body)));
@@ -186,7 +186,7 @@ fn may_spin(limb: &Limb, body: usize, joints: &[Link]) -> bool {
     })
 }
 
-/// A centre of mass so far from the markers, as a part of their distance, belongs to the outline of a body.
+/// A centre of mass at this distance from the markers, relative to theirs, belongs to the outline of a body.
 const FAR: f64 = 0.25;
 
 fn limb<const D: usize>(part: &Part<D>, poses: &[Pose], used: &[bool]) -> Limb {
@@ -197,7 +197,7 @@ fn limb<const D: usize>(part: &Part<D>, poses: &[Pose], used: &[bool]) -> Limb {
     let mut points: Vec<[f64; 3]> = Vec::new();
     for k in 0..part.body.marker_count() {
         let id = part.first_marker + k;
-        // The body's own frame is a place of its own only where something holds it.
+        // The body's own frame is drawn only if a joint or force uses it.
         if k > 0 || used[id] {
             add(&mut points, poses[id].r);
         }
@@ -209,7 +209,7 @@ fn limb<const D: usize>(part: &Part<D>, poses: &[Pose], used: &[bool]) -> Limb {
     Limb { name: part.name.clone(), points, line: Vec::new(), centre, oriented: part.body.oriented(), may_spin: false }
 }
 
-/// The first node of an absolute beam is drawn as the whole of it, the others not at all.
+/// Draws the first node of an absolute beam as the whole beam, and drops the others.
 fn join<const D: usize>(beam: &BeamLine, limbs: &mut [Limb], node: impl Fn(usize) -> Frame<Taylor<f64>, D> + Copy) {
     let ends = beam
         .abscissae
@@ -223,10 +223,10 @@ fn join<const D: usize>(beam: &BeamLine, limbs: &mut [Limb], node: impl Fn(usize
     (whole.name, whole.line, whole.points) = (beam.name.clone(), line, points);
 }
 
-/// Pieces that the line of a beam is drawn in.
+/// Number of pieces of the line of a beam.
 const LINE_PIECES: usize = 64;
 
-/// The deformed line of a beam in a floating frame, which is its own marker.
+/// Returns the deformed line of a beam in a floating frame, which is its own marker.
 fn line<const D: usize>(part: &Part<D>, own: &Frame<Taylor<f64>, D>, q: &[f64]) -> Vec<[f64; 3]> {
     let Some(Bent { line, first, .. }) = part.body.bent() else { return Vec::new() };
     let own = own.map(|x| x.x);
@@ -247,7 +247,7 @@ fn add(points: &mut Vec<[f64; 3]>, point: [f64; 3]) {
     }
 }
 
-/// From a point to the nearest line between two of the others.
+/// Returns the distance of a point from the nearest line between two of the others.
 fn distance(points: &[[f64; 3]], r: [f64; 3]) -> f64 {
     let to_segment = |a: [f64; 3], b: [f64; 3]| {
         let way = direction(less(b, a)).unwrap_or([0.0; 3]);

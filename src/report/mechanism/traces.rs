@@ -12,7 +12,9 @@ use crate::scene::{Measure, Watched};
 /// A marker whose path is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trace {
+    /// Name, such as `crank.tip`.
     pub name: String,
+    /// The marker.
     pub marker: MarkerId,
     /// The body that carries it; `None` is the ground.
     pub body: Option<usize>,
@@ -31,16 +33,16 @@ fn parts(mechanism: &AnyMechanism) -> (&MarkerTable, &[Watched]) {
     }
 }
 
-/// The marker of a name.
+/// Returns the marker of a name.
 ///
 /// # Errors
-/// When there is none, with the nearest ones.
+/// There is none; the error names the most similar ones.
 pub fn find_trace(mechanism: &AnyMechanism, name: &str) -> Result<Trace> {
     let (table, _) = parts(mechanism);
     Ok(Trace::new(table, table.find(name)?))
 }
 
-/// The markers whose positions against the ground the scene watches.
+/// Returns the markers whose positions relative to the ground are outputs of the scene.
 pub fn output_traces(mechanism: &AnyMechanism) -> Vec<Trace> {
     let (table, outputs) = parts(mechanism);
     let mut traces: Vec<Trace> = Vec::new();
@@ -56,10 +58,10 @@ pub fn output_traces(mechanism: &AnyMechanism) -> Vec<Trace> {
     traces
 }
 
-/// Places of a path: a motion longer than this is drawn coarser.
+/// Largest number of points of a path.
 const MOST: usize = 4000;
 
-/// The paths as curves in the colours of their bodies.
+/// Draws the paths in the colours of their bodies.
 pub fn curves(motion: &Motion, view: &View, traces: &[Trace]) -> Vec<Series> {
     let mut curves: Vec<Series> = traces.iter().map(curve).collect();
     if traces.is_empty() {

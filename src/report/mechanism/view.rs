@@ -1,33 +1,33 @@
-//! From space to the plane of a figure.
+//! Projection from space to the plane of a figure.
 
 use crate::error::{Error, Result, suggest};
 
-/// Where a scene is seen from: without perspective, so that parallel lines stay parallel and lengths comparable.
+/// A parallel projection, in which parallel lines stay parallel and lengths comparable.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// What points right and up in the figure and towards the viewer, by rows.
+    /// Directions to the right, up, and towards the viewer, by rows.
     axes: [[f64; 3]; 3],
     /// Names of the figure's axes where they are those of the scene.
     names: Option<[&'static str; 2]>,
 }
 
-/// What may be asked for by a name.
+/// Names of views.
 const NAMES: [&str; 7] = ["iso", "xy", "xz", "yz", "front", "side", "top"];
-/// Elevation of the isometric view, degrees: all three axes look equally long.
+/// Elevation of the isometric view, degrees: all three axes appear equally long.
 const ISOMETRIC: f64 = 35.264_389_682_754_654;
 
 impl View {
-    /// The plane of a planar scene.
+    /// The view of a planar scene.
     pub fn planar() -> Self {
         View { axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], names: Some(["x", "y"]) }
     }
 
-    /// From above and aside, for a scene in which axis number `up` points up.
+    /// The isometric view of a scene in which axis number `up` points up.
     pub fn isometric(up: usize) -> Self {
         Self::from_angles(-45.0, ISOMETRIC, up)
     }
 
-    /// A view as asked for: a name or `azimuth=..,elevation=..` in degrees. Axis number `up` of the scene points up.
+    /// Reads a view: a name or `azimuth=..,elevation=..` in degrees. Axis number `up` of the scene points up.
     pub fn parse(text: &str, up: usize) -> Result<Self> {
         let name = text.trim().to_lowercase();
         let plane = |i: usize, j: usize| View {
@@ -69,7 +69,8 @@ impl View {
         Ok(Self::from_angles(azimuth, elevation, up))
     }
 
-    /// From where the viewer stands: `azimuth` is counted from the first axis beside `up` to the second one.
+    /// The view from a viewer's position, degrees: `azimuth` is counted from the first axis after `up` to the second
+    /// one.
     fn from_angles(azimuth: f64, elevation: f64, up: usize) -> Self {
         let ((sa, ca), (se, ce)) = (azimuth.to_radians().sin_cos(), elevation.to_radians().sin_cos());
         let rows = [[-sa, ca, 0.0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]];
@@ -78,17 +79,17 @@ impl View {
         View { axes: rows.map(turned), names: None }
     }
 
-    /// Right and up in the figure.
+    /// Returns the components to the right and up in the figure.
     pub fn flat(&self, vector: [f64; 3]) -> (f64, f64) {
         (dot(self.axes[0], vector), dot(self.axes[1], vector))
     }
 
-    /// How near to the viewer.
+    /// Returns the component towards the viewer.
     pub fn depth(&self, vector: [f64; 3]) -> f64 {
         dot(self.axes[2], vector)
     }
 
-    /// Labels of the figure's axes.
+    /// Returns the labels of the figure's axes.
     pub fn labels(&self) -> [String; 2] {
         match self.names {
             Some(names) => names.map(|name| format!("{name} (m)")),
@@ -109,7 +110,7 @@ pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// a + factor b
+/// Returns a + factor b.
 pub fn along(a: [f64; 3], b: [f64; 3], factor: f64) -> [f64; 3] {
     std::array::from_fn(|i| a[i] + factor * b[i])
 }
@@ -122,13 +123,13 @@ pub fn length(a: [f64; 3]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// The direction of a vector, unless it has none.
+/// Returns the unit vector along a vector; none for zero.
 pub fn direction(a: [f64; 3]) -> Option<[f64; 3]> {
     let size = length(a);
     (size > 1e-12).then(|| a.map(|x| x / size))
 }
 
-/// Two directions square to `axis` and to each other; the first as near to `hint` as that allows.
+/// Returns two unit vectors perpendicular to `axis` and to each other, the first as near to `hint` as possible.
 pub fn square_to(axis: [f64; 3], hint: [f64; 3]) -> [[f64; 3]; 2] {
     let least = (0..3).min_by(|i, j| axis[*i].abs().total_cmp(&axis[*j].abs())).unwrap_or(0);
     let upright = |vector: [f64; 3]| along(vector, axis, -dot(axis, vector));
@@ -136,7 +137,7 @@ pub fn square_to(axis: [f64; 3], hint: [f64; 3]) -> [[f64; 3]; 2] {
     [first, cross(axis, first)]
 }
 
-/// The direction of points on a line.
+/// Returns the direction of points if they lie on a line.
 pub fn straight(points: &[[f64; 3]]) -> Option<[f64; 3]> {
     let from = *points.first()?;
     let far = points.iter().copied().max_by(|a, b| length(less(*a, from)).total_cmp(&length(less(*b, from))))?;

@@ -1,4 +1,4 @@
-//! A map as a figure.
+//! Figure of a map.
 
 use crate::compare::stress::{Axis, Cell, Status, Stressed};
 use crate::plot::{AxisSpec, Figure, HeatMap, Panel};
@@ -9,8 +9,8 @@ const ROW: f64 = 21.0;
 /// Smaller values have the colour of this one: they are round-off.
 const ROUND_OFF: f64 = 1e-16;
 
-/// One panel a method, one above another, on the same colours; words upon cells that did not complete or are far off. None
-/// where there is nothing to colour.
+/// Draws one panel for each method, with a common colour scale; symbols mark cells that did not complete or are far
+/// off. None where there is nothing to colour.
 pub fn stress_figure(scene: &str, stressed: &Stressed) -> Option<Figure> {
     if stressed.is_empty() {
         return None;
@@ -41,7 +41,7 @@ fn panel(stressed: &Stressed, method: usize, (low, high): (f64, f64)) -> Panel {
     Panel::new(x, y).title(map.methods[method].label.clone()).heat_map(cells).height(ROW * rows.len().max(4) as f64)
 }
 
-/// What the symbols mean that stand upon cells; `slow` speaks for itself.
+/// Returns the meaning of the symbols on cells; `slow` needs none.
 fn legend(stressed: &Stressed) -> String {
     let mut found: Vec<&Cell> = stressed.cells.iter().filter(|cell| cell.status != Status::TooSlow).collect();
     found.sort_by_key(|cell| cell.status);
@@ -51,7 +51,7 @@ fn legend(stressed: &Stressed) -> String {
     if all.is_empty() { String::new() } else { format!(" ({})", all.join(", ")) }
 }
 
-/// What stands upon a cell, and what it means.
+/// Returns the symbol on a cell and its meaning.
 fn symbol(cell: &Cell) -> Option<(&'static str, String)> {
     let symbol = match cell.status {
         Status::Completed if cell.holds == Some(false) => {
@@ -67,7 +67,7 @@ fn symbol(cell: &Cell) -> Option<(&'static str, String)> {
     Some((symbol, cell.status.word().to_string()))
 }
 
-/// The entries of an axis in ascending order with where they stand, and the axis.
+/// Returns the entries of an axis in ascending order with their positions, and the axis.
 fn places(axis: &Axis) -> (Vec<(usize, f64)>, AxisSpec) {
     let label = AxisSpec::from(axis.label());
     let Some(values) = axis.values() else {

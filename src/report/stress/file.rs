@@ -10,30 +10,44 @@ use serde::Serialize;
 /// All maps of a scene.
 #[derive(Serialize)]
 pub struct StressFile {
+    /// Name of the scene.
     pub scene: String,
+    /// Method without the changes of the maps.
     pub method: Method,
-    /// What steps and times are chosen by, s.
+    /// Mean step of this method, s.
     pub typical_step: f64,
+    /// Typical period of the motion, s.
     pub typical_period: f64,
+    /// Wall-clock time of all maps, s.
     pub wall_seconds: f64,
+    /// The maps.
     pub maps: Vec<MapFile>,
 }
 
 /// A map with its verdicts and cells.
 #[derive(Serialize)]
 pub struct MapFile {
+    /// Name.
     pub name: String,
+    /// One line of description.
     pub about: String,
+    /// Quantity shown.
     pub quantity: Quantity,
+    /// Columns.
     pub x: AxisFile,
+    /// Rows.
     pub y: AxisFile,
+    /// Names of the methods.
     pub methods: Vec<String>,
-    /// Whether there is nothing to draw.
+    /// True if no cell has a value of the quantity.
     pub is_empty: bool,
+    /// Verdicts in sentences.
     pub words: Vec<String>,
+    /// Summary of each method.
     pub verdicts: Vec<Verdict>,
+    /// Results of Baumgarte's gains; empty for other maps.
     pub gains: Vec<GainVerdict>,
-    /// By method, then row, then column.
+    /// Cells by method, then row, then column.
     pub cells: Vec<Cell>,
 }
 
@@ -42,7 +56,7 @@ pub struct AxisFile {
     pub name: String,
     pub unit: String,
     pub labels: Vec<String>,
-    /// Null where the place is no number, such as another method.
+    /// Values; null for an entry that is not a number, such as another method.
     pub values: Vec<Option<f64>>,
 }
 
@@ -105,7 +119,7 @@ const HEADINGS: [&str; 26] = [
     "seconds",
 ];
 
-/// One row a cell, over all scenes; empty where a value is not known.
+/// Returns one row for each cell, over all scenes; empty where a value is not known.
 pub fn stress_table(files: &[StressFile]) -> Result<Vec<u8>> {
     let maps = files.iter().flat_map(|file| file.maps.iter().map(move |map| (file, map)));
     let rows = maps.flat_map(|(file, map)| map.cells.iter().map(move |cell| row(&file.scene, map, cell)));
@@ -151,7 +165,8 @@ const LEGEND: &str = "Cells of the figures: ∞ diverged (joints open by a tenth
      which says nothing of how it ends. !: completed, but outputs or energy are off by more than 10 % of their size, \
      against an accurate run of the same motion.";
 
-/// The verdicts of all maps in words, with the names of their figures; and what could not be run.
+/// Returns the verdicts of all maps in sentences, with the names of their figures; and the scenes that could not be
+/// run.
 pub fn stress_page(
     files: &[StressFile],
     unread: &[(String, String)],

@@ -1,4 +1,4 @@
-//! Maps over extremes as figures, files and words.
+//! Maps over stress parameters as figures, files and text.
 
 mod figure;
 mod file;

@@ -1,4 +1,4 @@
-//! Verdicts in words that a person can act on.
+//! Verdicts in sentences.
 
 use crate::compare::stress::{
     Axis, Best, Bound, GainVerdict, Level, Reason, Side, Status, StepVerdict, Stressed, Verdict,
@@ -7,7 +7,7 @@ use crate::error::short;
 use crate::report::Table;
 use crate::tolerances::report::WRONG_MOTION;
 
-/// The verdict on a map: a sentence or two for each method.
+/// Returns the verdict on a map: a sentence or two for each method.
 pub fn sentences(stressed: &Stressed) -> Vec<String> {
     let gains = stressed.gains();
     let mut all: Vec<String> = match gains.is_empty() {
@@ -34,7 +34,7 @@ fn span(values: impl Iterator<Item = f64> + Clone) -> Option<String> {
     }
 }
 
-/// Which gain is best where, how far off it is, and what post-stabilization leaves on the same steps.
+/// Returns the best gains, their errors, and the drift with post-stabilization on the same steps.
 fn gain(verdict: &GainVerdict) -> String {
     let GainVerdict { method, quantity, steps, left_out, too_slow, .. } = verdict;
     let held = [("manifold", (|step| &step.manifold) as Run), ("the integrator alone", |step| &step.none)];
@@ -53,7 +53,7 @@ fn gain(verdict: &GainVerdict) -> String {
     )
 }
 
-/// What Baumgarte's gains come to, and the methods without gains beside them.
+/// Returns the result of Baumgarte's gains, and of the methods without gains.
 fn best(verdict: &GainVerdict) -> String {
     let GainVerdict { steps, left_out, too_slow, .. } = verdict;
     let is_whole = left_out + too_slow == 0;
@@ -88,10 +88,10 @@ fn best(verdict: &GainVerdict) -> String {
     )
 }
 
-/// A gain that leaves so many times the best is not good.
+/// A gain whose drift exceeds the best by this factor is not good.
 const EVEN: f64 = 10.0;
 
-/// How good one gain for all steps is.
+/// Returns a sentence on one gain for all steps.
 fn even(verdict: &GainVerdict, is_whole: bool) -> String {
     match verdict.steady {
         Some(steady) if steady.ratio < EVEN => {
@@ -109,7 +109,7 @@ fn even(verdict: &GainVerdict, is_whole: bool) -> String {
 
 type Run = fn(&StepVerdict) -> &Level;
 
-/// What the methods without gains leave.
+/// Returns the drift of the methods without gains.
 fn beside(steps: &[StepVerdict]) -> String {
     let methods: [(&str, Run); 3] = [
         ("(2/h, 1/h²)", |step| &step.own_gains),
@@ -129,7 +129,7 @@ fn beside(steps: &[StepVerdict]) -> String {
     left.join(", ")
 }
 
-/// Up to which of the steps that came to an end a method is right, how far off it is, and what is the matter then.
+/// Returns the largest step up to which a method is right, its error there, and the reason of the failure beyond.
 fn holds(name: &str, steps: &[StepVerdict], level: Run) -> String {
     let ended: Vec<(f64, &Level)> =
         steps.iter().map(|step| (step.step, level(step))).filter(|(_, level)| level.status.is_ended()).collect();
@@ -146,12 +146,12 @@ fn holds(name: &str, steps: &[StepVerdict], level: Run) -> String {
     format!("{name} {until}{then}")
 }
 
-/// A part of its size, for a person.
+/// Returns a ratio in percent.
 fn percent(part: f64) -> String {
     format!("{} %", two(100.0 * part))
 }
 
-/// What is the matter with a simulation that does not hold.
+/// Returns the defect of a simulation outside the tolerance.
 fn what(level: &Level) -> String {
     match (level.status, level.error, level.energy) {
         (Status::Completed, Some(error), _) if error > WRONG_MOTION => {
@@ -166,7 +166,7 @@ fn what(level: &Level) -> String {
     }
 }
 
-/// How many cells completed, what they left, and where and why the others did not.
+/// Returns the number of completed cells, their range, and the place and reason of the others.
 fn general(stressed: &Stressed, verdict: &Verdict) -> String {
     let Verdict { method, cells, completed, others, range, bounds, reasons, .. } = verdict;
     let name = if method.is_empty() { String::new() } else { format!("{method}: ") };
@@ -194,7 +194,7 @@ fn general(stressed: &Stressed, verdict: &Verdict) -> String {
     }
 }
 
-/// How far off the completed cells are.
+/// Returns the errors of the completed cells.
 fn judged(verdict: &Verdict) -> String {
     let Verdict { completed, held, off, errors, .. } = verdict;
     let Some([low, high]) = errors else {
@@ -230,7 +230,7 @@ fn because(stressed: &Stressed, reason: &Reason) -> String {
     format!(". {} of them say, as at {}: {}.", reason.count, at.join(", "), reason.reason)
 }
 
-/// What each step leaves, by gain and by projection.
+/// Returns the drift at each step, by gain and by projection.
 pub fn gain_table(verdict: &GainVerdict) -> Table {
     let headings =
         ["h (s)", "none", "best gain (1/s)", "leaves", "error", "(2/h, 1/h²)", "manifold", "error", "manifold × 2"];
@@ -252,7 +252,7 @@ fn number(value: f64) -> String {
     format!("{value:.2e}")
 }
 
-/// The drift, or how it ended.
+/// Returns the drift, or the status.
 fn shown(level: &Level) -> String {
     level.drift.map_or(level.status.word().to_string(), number)
 }

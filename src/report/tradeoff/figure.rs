@@ -1,13 +1,13 @@
-//! Error and drift against CPU time.
+//! Error and drift over CPU time.
 
 use crate::compare::work_precision::{Cell, Held, WorkPrecision, cheapest_by_method};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 
-/// Methods that have a colour; the others stand back as crosses.
+/// Number of methods in colour; the others are crosses.
 const NAMED: usize = 6;
 
-/// Work-precision diagrams, each with its Pareto front: errors against CPU time, evaluations and factorizations, and drift
-/// against CPU time. `None` where no run was completed.
+/// Draws work-precision diagrams, each with its Pareto front: errors over CPU time, evaluations and factorizations, and
+/// drift over CPU time. `None` where no run was completed.
 pub fn tradeoff_figure(measured: &WorkPrecision, digits: u32) -> Option<Figure> {
     let named = named(measured, digits);
     if named.is_empty() {
@@ -29,14 +29,14 @@ pub fn tradeoff_figure(measured: &WorkPrecision, digits: u32) -> Option<Figure> 
     )
 }
 
-/// Across a page.
+/// Width of the figure, nominal pixels.
 const WIDTH: f64 = 1280.0;
 
 /// The label of an axis, and its value for a run.
 #[derive(Clone, Copy)]
 struct Quantity<'q>(&'q str, &'q dyn Fn(&Cell) -> Option<f64>);
 
-/// The best method of each integrator for so many digits, those first that are quickest.
+/// Returns the best method of each integrator for this many digits, the quickest first.
 fn named(measured: &WorkPrecision, digits: u32) -> Vec<usize> {
     let (reached, others) = cheapest_by_method(&measured.cells, digits);
     let mut named: Vec<usize> = Vec::new();
@@ -65,7 +65,7 @@ fn panel(measured: &WorkPrecision, named: &[usize], x: Quantity, y: Quantity) ->
     })
 }
 
-/// The points that no other beats in both.
+/// Returns the Pareto front of points, less is better in both.
 fn front(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     let mut front: Vec<(f64, f64)> = points.collect();
     front.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));

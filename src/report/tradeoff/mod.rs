@@ -1,4 +1,4 @@
-//! Speed for accuracy, as text, tables and figures.
+//! Work-precision measurements as text, tables and figures.
 
 mod figure;
 mod models;
@@ -13,28 +13,29 @@ use crate::compare::work_precision::{Cell, Held, Recommendation, WorkPrecision};
 use crate::simulate::Method;
 use serde::Serialize;
 
-/// What `tradeoff.json` holds.
+/// Contents of `tradeoff.json`.
 #[derive(Serialize)]
 pub struct Summary<'a> {
     #[serde(flatten)]
     measured: &'a WorkPrecision,
-    /// Places in `cells` of runs than which none is both cheaper and more accurate.
+    /// Pareto front: indices in `cells` of runs than which none is both cheaper and more accurate.
     front: Vec<usize>,
     recommendations: Vec<Advice>,
 }
 
-/// A recommendation in words, and how to follow it.
+/// A recommendation in words, with the command to run it.
 #[derive(Serialize)]
 pub struct Advice {
     #[serde(flatten)]
     places: Recommendation,
-    /// Of a range of digits, `for 3 to 5 digits: ` before it.
+    /// Sentence; of a range of digits it follows `for 3 to 5 digits: `.
     pub sentence: String,
+    /// Command line that runs the method on the scene.
     pub command: String,
 }
 
 impl<'a> Summary<'a> {
-    /// `scene` is how the command line names the scene and what it sets.
+    /// The summary of a measurement; `scene` is the scene with its settings as on the command line.
     pub fn new(measured: &'a WorkPrecision, scene: &str) -> Summary<'a> {
         let all = measured.recommendations().into_iter();
         let recommendations = all.map(|places| advice(measured, places, scene)).collect();
@@ -71,7 +72,7 @@ fn accuracy(method: &Method) -> String {
     }
 }
 
-/// What runs a method on the scene.
+/// Returns the command line that runs a method on the scene.
 fn command(method: &Method, scene: &str) -> String {
     let Method { formulation, integrator, projection, rtol, atol, step } = method;
     let accuracy = match step {

@@ -1,4 +1,4 @@
-//! What models cost and give: for a person, as a table and as a figure.
+//! Cost and accuracy of models: text, table and figure.
 
 use super::milliseconds;
 use crate::compare::work_precision::models::{Finer, ModelCost, ModelCosts};
@@ -7,7 +7,7 @@ use crate::plot::{AxisSpec, Figure, Panel, Series};
 use crate::report::{Table, cell, table};
 use serde::Serialize;
 
-/// What `models.json` holds.
+/// Contents of `models.json`.
 #[derive(Serialize)]
 pub struct ModelsSummary<'a> {
     #[serde(flatten)]
@@ -15,7 +15,7 @@ pub struct ModelsSummary<'a> {
     recommendations: Vec<ModelAdvice>,
 }
 
-/// The cheapest model within a part of the richest.
+/// The cheapest model within a tolerance of the richest.
 #[derive(Serialize)]
 struct ModelAdvice {
     within: f64,
@@ -23,22 +23,24 @@ struct ModelAdvice {
     sentence: String,
 }
 
-/// A model is converged that a finer one changes by less.
+/// A model counts as converged if a finer one changes it by less than this.
 const CONVERGED: f64 = 0.01;
-/// Parts of the size of an output.
+/// Tolerances of the recommendations, as parts of the size of an output.
 const WITHIN: [f64; 4] = [0.1, 0.01, 1e-3, 1e-4];
 
 impl<'a> ModelsSummary<'a> {
+    /// The summary of the costs of models.
     pub fn new(costs: &'a ModelCosts) -> ModelsSummary<'a> {
-        // Nothing can be told that is nearer than the richest model is to itself.
+        // Differences below the error of the richest model itself mean nothing.
         let told = costs.uncertainty().map_or(0.0, |(error, _)| error);
         let mut recommendations: Vec<ModelAdvice> =
             WITHIN.iter().filter(|within| **within >= told).filter_map(|within| advice(costs, *within)).collect();
-        // Once it is the richest, it stays so.
+        // Only the first recommendation of the richest model is kept.
         recommendations.dedup_by(|a, b| a.model == b.model && b.model == costs.models[costs.richest].name);
         ModelsSummary { costs, recommendations }
     }
 
+    /// Returns the summary as text.
     pub fn text(&self) -> String {
         let ModelCosts { models, richest, rows, .. } = self.costs;
         let rich = &models[*richest];
@@ -69,7 +71,7 @@ impl<'a> ModelsSummary<'a> {
     }
 }
 
-/// How far the richest model itself can be believed.
+/// Returns the convergence of the richest model itself.
 fn convergence(costs: &ModelCosts) -> String {
     let Finer { velocities, failure, .. } = &costs.finer;
     let mesh = match velocities {
@@ -108,7 +110,7 @@ fn cost(model: &ModelCost) -> Vec<String> {
     [model.name.clone()].into_iter().chain(counts).chain([time, numerics, method]).collect()
 }
 
-/// The cheapest model that has all outputs within so much of the richest's; none where that is the richest alone.
+/// Returns the cheapest model that has all outputs within this of the richest's; none where only the richest has.
 fn advice(costs: &ModelCosts, within: f64) -> Option<ModelAdvice> {
     let rich = &costs.models[costs.richest];
     let is_good = |model: &&ModelCost| {
@@ -129,10 +131,10 @@ fn advice(costs: &ModelCosts, within: f64) -> Option<ModelAdvice> {
     Some(ModelAdvice { within, model: best.name.clone(), sentence })
 }
 
-/// One row a model: size, time and the differences of each output.
+/// Returns one row for each model: size, time and the differences of each output.
 ///
 /// # Errors
-/// None but those of the table's writer.
+/// Only those of the table's writer.
 pub fn models_table(costs: &ModelCosts) -> Result<Vec<u8>> {
     let own = ["model", "coordinates", "velocities", "constraints", "method", "cpu_seconds", "numerical_error"];
     let outputs =
@@ -152,10 +154,10 @@ pub fn models_table(costs: &ModelCosts) -> Result<Vec<u8>> {
     table(headings.into_iter(), costs.models.iter().map(row))
 }
 
-/// Of the axis of time, on both sides.
+/// Factor of the axis of time, on both sides.
 const MARGIN: f64 = 1.5;
 
-/// A dot an output of each model, whose name stands at the largest. `None` where nothing differs.
+/// Draws a dot for each output of each model, whose name stands at the largest. `None` where nothing differs.
 pub fn models_figure(title: &str, costs: &ModelCosts) -> Option<Figure> {
     let mut poorer: Vec<&ModelCost> = costs.models.iter().filter(|model| model.seconds().is_some()).collect();
     poorer.sort_by(|a, b| a.seconds().unwrap_or(0.0).total_cmp(&b.seconds().unwrap_or(0.0)));
@@ -178,7 +180,7 @@ pub fn models_figure(title: &str, costs: &ModelCosts) -> Option<Figure> {
     }
     for model in &poorer {
         if let (Some(seconds), Some(error)) = (model.seconds(), model.error().filter(|error| *error > 0.0)) {
-            // What differs is enough.
+            // The part of the name that differs is enough.
             let name = model.name.rsplit_once(':').map_or(model.name.as_str(), |(_, set)| set);
             panel = panel.annotate(seconds, error, name);
         }

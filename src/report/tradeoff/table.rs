@@ -1,4 +1,4 @@
-//! Every run as a row.
+//! Table of all runs.
 
 use crate::compare::work_precision::{Cell, Outcome, WorkPrecision};
 use crate::error::Result;
@@ -33,10 +33,10 @@ const HEADINGS: [&str; 26] = [
     "reason",
 ];
 
-/// One row a run, failures with their reason.
+/// Returns one row for each run, failures with their reason.
 ///
 /// # Errors
-/// None but those of the table's writer.
+/// Only those of the table's writer.
 pub fn tradeoff_table(measured: &WorkPrecision) -> Result<Vec<u8>> {
     table(HEADINGS.map(String::from).into_iter(), measured.cells.iter().map(row))
 }

@@ -1,4 +1,4 @@
-//! What a person reads.
+//! Text of a work-precision measurement.
 
 use super::{Summary, accuracy, milliseconds};
 use crate::compare::work_precision::{Cell, Lack, Outcome, Reference, WorkPrecision, cheapest_by_method};
@@ -7,7 +7,8 @@ use crate::report::Table;
 use std::fmt::Write;
 
 impl Summary<'_> {
-    /// The sentences, the cheapest run of each method for so many digits, and what did not come so far.
+    /// Returns the recommendations, the cheapest run of each method for this many digits, and the methods that did not
+    /// reach them.
     pub fn text(&self, digits: u32) -> String {
         let measured = self.measured;
         let mut text = head(measured);
@@ -57,7 +58,7 @@ fn head(measured: &WorkPrecision) -> String {
     text + "\n"
 }
 
-/// How much the implicit methods save, or cost.
+/// Returns the saving or the additional cost of implicit methods.
 fn families(measured: &WorkPrecision, advice: &super::Advice) -> String {
     let pair = |place: Option<usize>| {
         let cell = &measured.cells[place?];
@@ -81,7 +82,7 @@ fn families(measured: &WorkPrecision, advice: &super::Advice) -> String {
     )
 }
 
-/// The cheapest run of each method that has the digits; the others by what they have.
+/// Returns the cheapest run of each method that has the digits; the others by their digits.
 fn tables(measured: &WorkPrecision, digits: u32) -> String {
     let (reached, others) = cheapest_by_method(&measured.cells, digits);
     let first = format!("{digits} digits or more");
