@@ -20,8 +20,8 @@ pub struct Drift {
 pub struct DriftLevel {
     /// Largest over the accepted steps and the rows.
     pub max: f64,
-    #[serde(rename = "final")]
     /// Largest component at the end.
+    #[serde(rename = "final")]
     pub last: f64,
     /// Largest over the run, relative.
     pub relative_max: f64,

@@ -41,10 +41,10 @@ pub struct Args {
     files: Output,
 }
 
-/// Frequencies where no number is given.
+/// Default number of frequencies.
 const POINTS: usize = 400;
 
-/// Indices of what is looked at.
+/// Indices of the chosen inputs and outputs.
 struct Chosen {
     inputs: Vec<usize>,
     outputs: Vec<usize>,
@@ -81,7 +81,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The columns that are named, or all of them.
+/// Returns the indices of the named columns, or of all.
 fn choose(what: &str, named: &[String], known: &[Column]) -> Result<Vec<usize>> {
     if known.is_empty() {
         let example = match what {

@@ -23,7 +23,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let mut check = report::check(&prepared);
     let t = args.at.unwrap_or(prepared.start_time());
     let sought = args.is_static.then(|| equilibrium(prepared.system(), t, prepared.start().0));
-    // Bad input is an error; a search in vain is a result.
+    // Bad input is an error; a search without success is a result.
     let failure = match sought.transpose() {
         Ok(found) => {
             check.equilibrium = found.map(|found| report::EquilibriumFile::of(&prepared, found));

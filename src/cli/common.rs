@@ -1,4 +1,4 @@
-//! Options and habits that the subcommands share.
+//! Options and functions that the subcommands share.
 
 pub use super::terminal::{print, tell};
 
@@ -42,7 +42,7 @@ pub struct SceneOptions {
     pub set: Vec<(String, Number)>,
 }
 
-/// Heads the options that change the scene's settings.
+/// Heading of the options that change the scene's settings.
 const OWN: &str = "In the place of the scene's own settings";
 
 /// Leaves the method to the program.
@@ -113,7 +113,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// Of the files' names; none without figures.
+    /// Returns the extension of the files; none without figures.
     pub fn extension(self) -> Option<&'static str> {
         match self {
             Format::Svg => Some("svg"),
@@ -143,7 +143,7 @@ pub fn positive(text: &str) -> Result<f64, String> {
     number(text).and_then(|value| if value > 0.0 { Ok(value) } else { Err("it must be above zero".to_string()) })
 }
 
-/// A time with its unit, s where it has none.
+/// Reads a time with its unit, s by default.
 pub fn duration(text: &str) -> Result<Duration, String> {
     let split = text.find(|c: char| c.is_alphabetic()).unwrap_or(text.len());
     let (value, unit) = text.split_at(split);
@@ -169,12 +169,12 @@ pub fn assignment(text: &str) -> Result<(String, Number), String> {
 }
 
 impl Common {
-    /// The scene with its method.
+    /// Returns the scene with its method.
     pub fn load(&self) -> Result<PreparedScene> {
         self.talk.load(&self.scene.path, &self.method.overrides(&self.scene, self.spec.method))
     }
 
-    /// When to simulate, with as many rows as fit into memory.
+    /// Returns the time span, with as many rows as fit into memory.
     pub fn span(&self, prepared: &PreparedScene) -> Result<Span> {
         let span = prepared.span().map_err(|error| error.in_file(&self.scene.path))?;
         let Dimensions { q, v, lambda, .. } = prepared.system().dimensions();
@@ -186,7 +186,7 @@ impl Common {
 }
 
 impl MethodOptions {
-    /// What these settings change of a scene's own; `method` where it is left to the program.
+    /// Returns the changes of the scene's settings; `method` is given if the program chooses it.
     pub fn overrides(&self, scene: &SceneOptions, method: Option<Automatic>) -> Overrides {
         let MethodOptions { rtol, atol, step, until, output_step, .. } = *self;
         let [formulation, integrator, projection] =
@@ -197,14 +197,14 @@ impl MethodOptions {
 }
 
 impl Talk {
-    /// The scene; what is doubtful about its start is said.
+    /// Loads the scene, with warnings about its start.
     pub fn load(&self, path: &Path, overrides: &Overrides) -> Result<PreparedScene> {
         let prepared = PreparedScene::load(path, overrides)?;
         self.warn(&prepared.doubts);
         Ok(prepared)
     }
 
-    /// Prints the result: JSON where asked, else text unless quiet.
+    /// Prints the result: JSON if requested, else text unless quiet.
     pub fn print(&self, json: &impl serde::Serialize, text: impl FnOnce() -> String) -> Result<()> {
         match (self.json, self.quiet) {
             (true, _) => print(&(to_json(json)? + "\n")),
@@ -213,24 +213,24 @@ impl Talk {
         }
     }
 
-    /// Says where the results are, where text is wanted.
+    /// Prints the folder and the names of the files, if text is printed.
     pub fn tell_files(&self, written: &Written) -> Result<()> {
         if self.json || self.quiet { Ok(()) } else { print(&format!("\nwritten to {}\n", written.listing())) }
     }
 
-    /// Says on standard error what is doubtful.
+    /// Prints warnings on standard error.
     pub fn warn<'w>(&self, warnings: impl IntoIterator<Item = &'w Warning>) {
         warnings.into_iter().filter(|_| !self.quiet).for_each(|warning| tell(warning.to_string()));
     }
 
-    /// A progress bar in `unit`s on a terminal; nothing in a pipe.
+    /// Returns a progress bar of `length` steps on a terminal; a hidden one in a pipe.
     pub fn progress(&self, length: u64, what: &str) -> ProgressBar {
         if self.quiet {
             return ProgressBar::hidden();
         }
         let template = "{msg} {wide_bar:.cyan/dim} {percent}% {eta}";
         let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-        // A run that is over at once shows no bar.
+        // A run that ends at once shows no bar.
         let bar = ProgressBar::new(length).with_style(style).with_message(visible(what).into_owned());
         bar.set_draw_target(indicatif::ProgressDrawTarget::stderr_with_hz(5));
         bar
@@ -242,12 +242,12 @@ impl Output {
         Folder::create(&self.path(name))
     }
 
-    /// Where the results of the scene `name` go.
+    /// Returns the folder of the results of the scene `name`.
     pub fn path(&self, name: &str) -> PathBuf {
         self.output.clone().unwrap_or_else(|| Path::new("out").join(name))
     }
 
-    /// Writes a figure where figures are wanted.
+    /// Writes a figure in the chosen format, if any.
     pub fn figure(&self, folder: &mut Folder, name: &str, figure: Option<Figure>) -> Result<()> {
         let Some(figure) = figure else { return Ok(()) };
         let refused = |reason| Error::input(format!("cannot draw {name}.png: {reason}")).hint("choose --figures svg");
@@ -263,7 +263,7 @@ pub fn to_json(value: &impl serde::Serialize) -> Result<String> {
     serde_json::to_string_pretty(value).map_err(|error| Error::input(format!("cannot print as JSON: {error}")))
 }
 
-/// One of `names`, or an error that suggests the nearest.
+/// Returns one of `names`, or an error that suggests the most similar.
 pub fn pick<'a>(what: &str, found: &str, names: &[&'a str]) -> Result<&'a str> {
     let canonical = found.replace('-', "_");
     names.iter().find(|name| **name == canonical).copied().ok_or_else(|| {

@@ -40,7 +40,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     }
 }
 
-/// All of them are compared.
+/// Refuses a formulation or a projection, since all of them are compared.
 fn refuse_stabilization(method: &MethodOptions) -> Result<()> {
     let given = [("--formulation", &method.formulation), ("--projection", &method.projection)];
     match given.into_iter().find(|(_, spec)| spec.is_some()) {
@@ -53,8 +53,8 @@ fn refuse_stabilization(method: &MethodOptions) -> Result<()> {
     }
 }
 
-/// The scene; with an integrator of the command line on the first formulation that goes with it, since all do not depend on
-/// the scene's own.
+/// Loads the scene; with an integrator of the command line and the first formulation it accepts, since the comparison
+/// does not depend on the scene's own.
 fn load(common: &Common) -> Result<PreparedScene> {
     let mut overrides = common.method.overrides(&common.scene, common.spec.method);
     if let Some(entry) = overrides.integrator.as_ref().and_then(|spec| integrator::find(spec).ok()) {
@@ -64,7 +64,8 @@ fn load(common: &Common) -> Result<PreparedScene> {
     common.talk.load(&common.scene.path, &overrides)?.settled()
 }
 
-/// One stabilization that fails is a result; all of them, or one that was interrupted, are a failed run.
+/// Returns the failure of the command: one failed stabilization is a result; all of them, or an interrupted one, are a
+/// failed run.
 fn fatal(rows: &[StabilizedRun]) -> Option<&Failure> {
     let failures: Vec<&Failure> = rows.iter().filter_map(|row| row.failure.as_ref()).collect();
     let interrupted = failures.iter().find(|failure| failure.reason == interrupt::REASON);

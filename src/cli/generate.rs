@@ -19,7 +19,7 @@ pub struct Args {
     output: Option<PathBuf>,
 }
 
-/// Larger scenes than this are a slip of the hand.
+/// Larger scenes are probably a mistake.
 const MOST: usize = 1_000_000;
 
 fn count(text: &str) -> Result<usize, String> {

@@ -1,22 +1,22 @@
-//! Ctrl-C and its like.
+//! Interruption by Ctrl-C and similar signals.
 
 use super::terminal::tell;
 use crate::report::Folder;
 use crate::simulate::Stop;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Whether somebody asks, so that a command ends by itself.
+/// IS_HEARD: a command polls for interruption. IS_ASKED_FOR: a signal has arrived.
 static IS_HEARD: AtomicBool = AtomicBool::new(false);
 static IS_ASKED_FOR: AtomicBool = AtomicBool::new(false);
 
-/// Of the failure of a run.
+/// Reason in the failure of an interrupted run.
 pub const REASON: &str = "interrupted";
 
-/// What shells give a process that Ctrl-C ended.
+/// Exit code of shells for a process ended by Ctrl-C.
 const ENDED: i32 = 130;
 
-/// From now on Ctrl-C, and what ends processes in an orderly way, asks a command to end by itself if it can, and the
-/// second time ends it at once.
+/// Installs the signal handlers: the first signal asks the command to end by itself if it polls, the second ends it at
+/// once.
 pub fn listen() {
     // Without a handler the process just ends.
     let _ = handle(|| {
@@ -30,8 +30,8 @@ pub fn listen() {
     });
 }
 
-/// Calls `then` at each signal. INT and TERM are heard even where the starter of the process has them ignored, as the
-/// background of a script has INT: who sends one means it. HUP is not, since that is what nohup is for.
+/// Calls `then` at each signal. INT and TERM are handled even if the parent process has them ignored, as the background
+/// of a script has INT: who sends one means it. HUP is not, since that is the purpose of nohup.
 #[cfg(unix)]
 fn handle(then: impl Fn() + Send + 'static) -> std::io::Result<()> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -43,7 +43,7 @@ fn handle(then: impl Fn() + Send + 'static) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Whether the process was started with a signal ignored, where the system tells.
+/// Returns true if the process was started with a signal ignored; none where the system does not tell.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> Option<bool> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
@@ -56,8 +56,8 @@ fn handle(then: impl Fn() + Send + 'static) -> Result<(), ctrlc::Error> {
     ctrlc::set_handler(then)
 }
 
-/// Why a run should end, whose results go to `folder`: for [`Recorder::with_stop`](crate::analysis::Recorder::with_stop).
-/// A command that asks also writes what it has.
+/// Returns a reason to end a run whose results go to `folder`, for
+/// [`Recorder::with_stop`](crate::analysis::Recorder::with_stop). A command that polls also writes its results so far.
 pub fn stop(folder: &Folder) -> Option<Stop> {
     is_asked().then(|| Stop {
         reason: REASON.to_string(),
@@ -65,7 +65,7 @@ pub fn stop(folder: &Folder) -> Option<Stop> {
     })
 }
 
-/// Whether the command should end, which then also writes what it has.
+/// True if the command should end, after writing its results so far.
 pub fn is_asked() -> bool {
     IS_HEARD.store(true, Ordering::Relaxed);
     IS_ASKED_FOR.load(Ordering::Relaxed)

@@ -1,4 +1,4 @@
-//! Options and habits of the commands that make linear models.
+//! Options and functions of the commands that make linear models.
 
 use super::common::{MethodOptions, SceneOptions, Talk, number};
 use crate::analysis::Range;
@@ -47,7 +47,7 @@ impl ChartOptions {
 }
 
 impl ModelOptions {
-    /// What is asked for.
+    /// Returns the requested method and chart.
     ///
     /// # Errors
     /// An unknown method or option.
@@ -61,7 +61,7 @@ impl ModelOptions {
 }
 
 impl MethodOptions {
-    /// The scene with these settings, its states computed to what a linear model needs.
+    /// Loads the scene with these settings, its tolerances tightened for linear models.
     pub fn load_tight(&self, scene: &SceneOptions, talk: &Talk) -> Result<PreparedScene> {
         let overrides = self.overrides(scene, None);
         let mut prepared = talk.load(&scene.path, &overrides)?;

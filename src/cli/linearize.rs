@@ -62,7 +62,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// By each method, or the modes that are asked for.
+/// Returns the models by each method, or the requested modes.
 fn models(args: &Args, requests: &[Request], variation: &mut Variation) -> Result<Vec<LinearModel>> {
     match args.modes {
         Some(count) => {
@@ -92,7 +92,7 @@ fn requests(args: &Args) -> Result<Vec<Request>> {
     first.chain(charts).chain(names.map(|name| MethodSpec::parse(name).map(request))).collect()
 }
 
-/// What `--json` prints for one state.
+/// JSON output for one state.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Result_ {

@@ -40,9 +40,9 @@ pub struct Args {
     output: Output,
 }
 
-/// States of a run where their distance is not given.
+/// Default number of states of a run.
 const STATES: f64 = 60.0;
-/// More states are a slip of the hand.
+/// More states are probably a mistake.
 const MOST: f64 = 1e5;
 
 fn range(text: &str) -> Result<Range, String> {
@@ -150,7 +150,7 @@ fn within(prepared: &PreparedScene, t: f64) -> Result<At> {
     }
 }
 
-/// No state has eigenvalues: what was asked for is wrong, or cannot be computed anywhere.
+/// Handles the case that no state has eigenvalues: wrong input, or a failure everywhere.
 fn none(args: &Args, loci: &Loci) -> Result<ExitCode> {
     let Some(gap) = loci.gaps.first() else { return Ok(ExitCode::from(1)) };
     match &gap.error {

@@ -24,7 +24,7 @@ pub struct Args {
     json: bool,
 }
 
-/// What goes together.
+/// Methods that can be combined.
 #[derive(Serialize)]
 struct Methods {
     formulations: Vec<Item>,
@@ -69,7 +69,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
 
 type Pair = (&'static Entry, &'static str);
 
-/// Integrators with the formulations that they take, of those that are asked for.
+/// Returns integrators with the formulations that they accept, of the requested ones.
 fn pairs(args: &Args) -> Result<Vec<Pair>> {
     let wanted = |name: &Option<String>| name.as_deref().map(MethodSpec::parse).transpose();
     let (formulation, integrator) = (wanted(&args.formulation)?, wanted(&args.integrator)?);
@@ -126,12 +126,12 @@ fn text(pairs: &[Pair]) -> String {
     text + "\nWrite options as baumgarte:alpha=5,beta=5. `--method auto` chooses on the way and says why.\n"
 }
 
-/// The formulations that explicit methods follow.
+/// Returns the formulations that explicit methods can integrate.
 fn fields() -> Vec<&'static str> {
     formulation::registry().iter().filter(|entry| entry.field.is_some()).map(|entry| entry.name).collect()
 }
 
-/// One row for the formulations of an integrator that have the same orders with every projection.
+/// Returns one row for the formulations of an integrator that have the same orders with every projection.
 fn orders(pairs: &[Pair]) -> String {
     let names = projection::registry().iter().map(|entry| entry.name);
     let headings: Vec<&str> = ["integrator", "formulation"].into_iter().chain(names).collect();
@@ -162,7 +162,7 @@ fn cells(entry: &Entry, formulation: &str) -> Vec<String> {
     projection::registry().iter().map(|entry| cell(entry.name)).collect()
 }
 
-/// What each is and what it is for, with its options as they are written.
+/// Returns description and purpose of each, with its options as they are written.
 fn list(heading: &str, items: &[Item]) -> String {
     let mut text = format!("{heading}\n");
     for Item { name, about, r#for, options } in items {
@@ -173,7 +173,8 @@ fn list(heading: &str, items: &[Item]) -> String {
     text
 }
 
-/// The name of a formulation, an integrator or a projection. Empty for a name that is none, which a test refuses.
+/// Returns the purpose of a formulation, an integrator or a projection by its name. Empty for an unknown name, which a
+/// test refuses.
 fn purpose(name: &str) -> &'static str {
     match name {
         "index1" => "almost every motion: the cheapest step; give it a projection",

@@ -1,4 +1,4 @@
-//! The command line: one file a subcommand.
+//! The command line: one file for each subcommand.
 
 mod bode;
 mod check;
@@ -83,7 +83,7 @@ enum Command {
     Schema,
 }
 
-/// Runs the command line and says how to exit: 0 done, 1 the run failed, 2 bad input.
+/// Runs the command line and returns the exit code: 0 done, 1 the run failed, 2 bad input.
 pub fn run() -> ExitCode {
     let command = Cli::parse().command;
     interrupt::listen();

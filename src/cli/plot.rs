@@ -60,18 +60,18 @@ enum Moving {
     Svg,
 }
 
-/// Viewers show a GIF no faster than this.
+/// Reads frames per second; viewers show a GIF no faster than 50.
 fn rate(text: &str) -> Result<f64, String> {
     positive(text)
         .and_then(|fps| if fps <= 50.0 { Ok(fps) } else { Err("at most 50 frames a second can be shown".to_string()) })
 }
 
-/// Rows of the trajectory that pictures are taken from: at least and at most.
+/// Least and largest number of rows of the trajectory.
 const ROWS: (f64, f64) = (600.0, 20_000.0);
-/// A longer animation is a slip of the hand.
+/// Longer animations are probably a mistake.
 const MOST_FRAMES: f64 = 1000.0;
 
-/// What was drawn.
+/// JSON output.
 #[derive(Serialize)]
 struct Drawn {
     scene: String,
@@ -97,7 +97,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let prepared = args.common.load()?;
     let look = args.look(&prepared)?;
     let is_moving = args.stroboscope || args.animate.is_some() || !args.at.is_empty();
-    // The start alone needs no run, and no end of it.
+    // The start alone needs no run, and no end time.
     let span = if is_moving { Some(args.common.span(&prepared)?) } else { None };
     args.check(&prepared, span)?;
     let mut folder = args.output.folder(&prepared.name)?;
@@ -127,7 +127,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
 }
 
 impl Args {
-    /// How to show the scene.
+    /// Returns the options of the figures.
     fn look(&self, prepared: &PreparedScene) -> Result<Look> {
         let is_planar = matches!(prepared.mechanism, AnyMechanism::Planar(_));
         let plain = Look::plain(&prepared.mechanism);
@@ -173,7 +173,7 @@ impl Args {
         Ok(())
     }
 
-    /// Runs the scene, with rows so near to each other that the states between them are known.
+    /// Runs the scene, with rows close enough to interpolate the states between them.
     fn simulate(&self, prepared: &PreparedScene, span: Span, folder: &Folder) -> Result<(Trajectory, Option<Failure>)> {
         let length = span.end - span.start;
         let wanted = (length / span.output_step).clamp(ROWS.0, ROWS.1);
@@ -210,7 +210,7 @@ impl Args {
         }
     }
 
-    /// The chosen times as far as the run came; else even ones.
+    /// Returns the chosen times up to the end of the run; else evenly spaced ones.
     fn times(&self, motion: &Motion) -> Vec<f64> {
         let (start, end) = motion.reach();
         if !self.at.is_empty() {
@@ -224,7 +224,7 @@ impl Args {
         (0..self.frames).map(|k| if f64::from(k) == last { end } else { start + part(k) * (end - start) }).collect()
     }
 
-    /// How the time from `start` to `end` is shown.
+    /// Returns speed, start and end of the animation.
     fn film(&self, start: f64, end: f64) -> Result<Film> {
         let speed = self.speed.unwrap_or_else(|| suitable_speed(end - start));
         let frames = ((end - start) / speed * self.fps).round().max(1.0) + 1.0;
@@ -266,7 +266,7 @@ impl Args {
     }
 }
 
-/// Real time where an animation of it takes 2 to 20 s; else 1, 2 or 5 times a power of ten that makes it 4 to 10 s.
+/// Returns real time where the animation takes 2 to 20 s; else 1, 2 or 5 times a power of ten that makes it 4 to 10 s.
 fn suitable_speed(length: f64) -> f64 {
     if (2.0..=20.0).contains(&length) {
         return 1.0;
@@ -276,7 +276,7 @@ fn suitable_speed(length: f64) -> f64 {
     [1.0, 2.0, 5.0, 10.0].map(|digit| digit * power).into_iter().find(|speed| *speed >= 0.999 * exact).unwrap_or(exact)
 }
 
-/// What a viewer is told of the speed.
+/// Returns the text on the speed.
 fn speed_text(speed: f64) -> String {
     match speed {
         1.0 => String::new(),

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use serde_json::{Map, Value};
 use std::path::Path;
 
-/// What is read of a `summary.json`.
+/// The part of a `summary.json` that is read.
 #[derive(Deserialize)]
 struct Saved {
     parameters: Map<String, Value>,
@@ -21,7 +21,7 @@ struct State {
     v: Map<String, Value>,
 }
 
-/// Where the run of this summary can go on.
+/// Reads the state from which the run of this summary can continue.
 pub fn read(path: &Path, prepared: &PreparedScene) -> Result<Checkpoint> {
     let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
     let saved = parse(&text).and_then(|saved| checked(saved, prepared));
@@ -64,7 +64,7 @@ fn checked(
     restart.ok_or_else(|| Error::input("that run could not begin, so that there is nothing to go on from"))
 }
 
-/// What is said of a run that does not go on as it was.
+/// Returns a warning if the run does not continue as it was.
 pub fn doubt(saved: &Checkpoint, prepared: &PreparedScene) -> Option<Warning> {
     let (t, method) = (saved.t(), saved.method());
     if !prepared.is_automatic && *method != prepared.method {

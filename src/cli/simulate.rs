@@ -33,7 +33,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let doubt = saved.as_ref().and_then(|saved| restart::doubt(saved, &prepared));
     let mut folder = args.output.folder(&prepared.name)?;
     let stiffness = prepared.stiffness(span);
-    // Said before a run that may take long, and not again.
+    // Printed before a run that may take long, and not again.
     let of_method =
         stiffness.as_ref().map(Warning::from).into_iter().chain(prepared.method.beyond_reach(prepared.system()));
     let early: Vec<Warning> = prepared.doubts.iter().cloned().chain(of_method).chain(doubt).collect();

@@ -95,7 +95,7 @@ fn run_all(args: &Args, path: &Path) -> Result<ExitCode> {
     Ok(ExitCode::from(u8::from(files.is_empty())))
 }
 
-/// The scenes of a folder, by name.
+/// Returns the scenes of a folder, by name.
 fn scenes(path: &Path) -> Result<Vec<PathBuf>> {
     let entries =
         std::fs::read_dir(path).map_err(|error| Error::file(path, format!("no folder of scenes: {error}")))?;
@@ -138,16 +138,16 @@ impl Args {
     }
 }
 
-/// Longer times are no end that a clock can tell.
+/// Limit of times, so that deadlines do not overflow.
 const LONGEST: Duration = Duration::from_secs(1_000_000_000);
 
-/// Simulates the maps, each with its share of the time that is left.
+/// Simulates the maps, each with its share of the remaining time.
 fn simulate(args: &Args, subject: &Subject, maps: Vec<Map>, begin: Instant) -> (StressFile, Vec<Stressed>) {
     let (budget, cell, count) = (args.budget(), args.limit.min(LONGEST), maps.len());
     let bar = args.talk.progress(maps.iter().map(|map| map.len() as u64).sum(), &subject.name);
     let one = |(k, map): (usize, Map)| {
         let left = budget.saturating_sub(begin.elapsed());
-        // The first maps tell most.
+        // The first maps are the most informative and have the largest share.
         let end = Instant::now() + 2 * left / (count - k + 1) as u32;
         stress(subject, map, Limits { cell, end }, &|| bar.inc(1))
     };
@@ -190,7 +190,7 @@ fn tell_folder(args: &Args, folder: Folder) -> Result<()> {
     args.talk.tell_files(&folder)
 }
 
-/// The verdicts, and the table of the gains.
+/// Returns the verdicts, and the table of the gains.
 fn text(file: &StressFile, stressed: &[Stressed]) -> String {
     let mut text = format!("{}: extremes, {:.0} s\n", file.scene, file.wall_seconds);
     for stressed in stressed {

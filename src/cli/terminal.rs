@@ -1,16 +1,16 @@
-//! What people read: text on standard output and standard error.
+//! Text on standard output and standard error.
 //!
-//! Names, units and quotations come from scenes. Characters that a terminal obeys instead of showing are escaped here,
-//! where all text passes.
+//! Names, units and quotations come from scenes. Characters that control a terminal are escaped here, through which all
+//! text passes.
 
 use crate::error::{Error, Result};
 use std::borrow::Cow;
 use std::io::{ErrorKind, Write};
 
-/// Writes to standard output; a reader that went away (`| head`) is no error.
+/// Writes to standard output; a closed pipe (`| head`) is no error.
 ///
 /// # Errors
-/// What else the system says, such as a full disk.
+/// Other errors of the system, such as a full disk.
 pub fn print(text: &str) -> Result<()> {
     match std::io::stdout().write_all(visible(text).as_bytes()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -20,13 +20,13 @@ pub fn print(text: &str) -> Result<()> {
     }
 }
 
-/// Writes a line to standard error, where nobody may be there to read it.
+/// Writes a line to standard error, without an error if that is closed.
 pub fn tell(text: impl AsRef<str>) {
     let _ = writeln!(std::io::stderr(), "{}", visible(text.as_ref()));
 }
 
-/// The same text with what would steer a terminal, or turn the direction of writing, as `\u001b`: JSON stays the JSON that
-/// it was.
+/// Returns the text with characters that control a terminal, or change the direction of writing, as `\u001b`; JSON
+/// keeps its meaning.
 pub fn visible(text: &str) -> Cow<'_, str> {
     if !text.contains(steers) {
         return Cow::Borrowed(text);
@@ -35,8 +35,8 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.chars().map(shown).collect())
 }
 
-/// Control characters but line breaks and tabs; marks, embeddings, overrides and isolates of bidirectional text; breaks
-/// of lines and paragraphs.
+/// True for control characters except line breaks and tabs; marks, embeddings, overrides and isolates of bidirectional
+/// text; line and paragraph separators.
 fn steers(c: char) -> bool {
     let is_control = c.is_control() && !matches!(c, '\n' | '\t');
     is_control || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')

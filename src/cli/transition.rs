@@ -33,7 +33,7 @@ pub struct Args {
     output: Output,
 }
 
-/// Columns are made orthonormal so often.
+/// Number of times that columns are made orthonormal.
 const RENEWALS: f64 = 500.0;
 
 pub fn run(args: Args) -> Result<ExitCode> {

@@ -36,8 +36,8 @@ pub struct StabilizedRun {
     pub factorizations: u64,
     /// Wall-clock time, s.
     pub wall_seconds: f64,
-    #[serde(skip)]
     /// Record of the run; of its trajectory the times only.
+    #[serde(skip)]
     pub record: Record,
 }
 

@@ -11,8 +11,8 @@ use crate::system::{LeviCivita, OperatingPoint};
 /// dq = R z,   dv = R y + T z,   z' = y + turn z,   y' = B dv' - drift_z z - drift_y y,   B R = I
 /// ```
 #[derive(Clone, Debug)]
-/// Name of the chart, as on the command line.
 pub struct Coordinates {
+    /// Name of the chart, as on the command line.
     pub name: String,
     /// Names of z, then of y.
     pub states: Vec<String>,

@@ -1,4 +1,4 @@
-//! Grid, marks and labels around a panel.
+//! Grid, tick marks and labels around a panel.
 
 use super::axis::Axis;
 use super::layout::Placed;
@@ -8,11 +8,11 @@ use super::text::{self, HALF_DIGIT, LINE_HEIGHT, Rich};
 use super::ticks::Ticks;
 use super::ticks::decimal::power_of_ten;
 
-/// Height of the strip above a frame that holds factors and notes, and how far its text is from the frame.
+/// Height of the strip above a frame with factors and notes, and distance of its text from the frame.
 pub(super) const STRIP: f64 = 22.0;
 pub(super) const STRIP_GAP: f64 = 6.0;
 
-/// Light lines at the labelled marks.
+/// Draws thin lines at the labelled marks.
 pub(super) fn grid(drawing: &mut Drawing, placed: &Placed) {
     let frame = placed.frame;
     for tick in &placed.x_ticks.major {
@@ -25,12 +25,12 @@ pub(super) fn grid(drawing: &mut Drawing, placed: &Placed) {
     }
 }
 
-/// The middle of the nearest pixel, where a thin line is sharp.
+/// Returns the middle of the nearest pixel, where a thin line is sharp.
 fn crisp(value: f64) -> f64 {
     value.floor() + 0.5
 }
 
-/// Marks, labels, factors and notes.
+/// Draws marks, labels, factors and notes.
 pub(super) fn axes(drawing: &mut Drawing, placed: &Placed) {
     y_axis(drawing, placed);
     x_axis(drawing, placed);
@@ -69,7 +69,7 @@ fn x_axis(drawing: &mut Drawing, placed: &Placed) {
     }
 }
 
-/// Marks that begin at their places, minor ones shorter.
+/// Draws marks that begin at their positions, minor ones shorter.
 fn marks(drawing: &mut Drawing, ticks: &Ticks, place: impl Fn(f64) -> Pt, (right, down): Pt) {
     let minor = ticks.minor.iter().map(|at| (*at, 0.55));
     for (at, part) in ticks.major.iter().map(|tick| (tick.at, 1.0)).chain(minor) {
@@ -93,7 +93,7 @@ fn x_texts(drawing: &mut Drawing, placed: &Placed) {
     }
 }
 
-/// What is stated about values that a logarithmic axis draws at its floor.
+/// Returns a note on the values that a logarithmic axis draws at its floor.
 pub(super) fn floor_note(axis: &Axis, name: &str, drawn: &str) -> Option<String> {
     let floor = axis.floor?;
     let values = match (name, floor.negative) {
@@ -105,12 +105,12 @@ pub(super) fn floor_note(axis: &Axis, name: &str, drawn: &str) -> Option<String>
     Some(format!("{values} {drawn} {}", power_of_ten(floor.exponent)))
 }
 
-/// A level line of text.
+/// Returns a horizontal line of text.
 pub(super) fn text(at: Pt, line: &str, size: f64, align: Align) -> Text {
     Text { at, rich: Rich::new(line), size, color: INK, align, turned: false }
 }
 
-/// A centred line of text that reads upwards.
+/// Returns a centred line of text that reads upwards.
 pub(super) fn turned(at: Pt, line: &str, size: f64) -> Text {
     Text { turned: true, ..text(at, line, size, Align::Middle) }
 }

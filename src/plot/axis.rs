@@ -1,17 +1,17 @@
-//! From values to places along an axis.
+//! Map from values to positions along an axis.
 
 use super::panel::{AxisSpec, Scale};
 
 /// Values beyond this are drawn at it, so that differences of values stay finite.
 const LARGEST: f64 = 1e300;
-/// Places beyond so many lengths of the axis are all the same: far outside.
+/// Limit of positions outside the axis, in lengths of the axis.
 const FAR: f64 = 1e6;
-/// Differences below this are none.
+/// Smaller differences count as zero.
 const SMALLEST: f64 = 1e-290;
 /// Differences below this part of the values themselves are rounding noise.
 const NOISE: f64 = 1e-13;
 
-/// What is known of the values along one axis.
+/// Range of the values along one axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Extent {
     low: f64,
@@ -56,12 +56,12 @@ impl Extent {
     }
 }
 
-/// Room between the data and the ends of an axis.
+/// Margin between the data and the ends of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Slack {
-    /// None.
+    /// No margin.
     Exact,
-    /// None, but limits very near to round numbers go there.
+    /// No margin, but limits very near to round numbers are moved there.
     Round,
     /// This part of the length on both sides.
     Part(f64),
@@ -80,15 +80,15 @@ pub(super) struct Axis {
     pub low: f64,
     pub high: f64,
     pub floor: Option<Floor>,
-    /// Of angles in degrees.
+    /// True for angles in degrees.
     pub is_angle: bool,
 }
 
-/// Where a logarithmic axis draws what has no logarithm.
+/// The floor of a logarithmic axis, at which zero and negative values are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Floor {
     pub exponent: i32,
-    /// Whether some of these values are negative, not just zero.
+    /// True if some of these values are negative, not only zero.
     pub negative: bool,
 }
 
@@ -121,7 +121,7 @@ impl Axis {
         Self { scale: Scale::Log, low: low - margin, high: high + margin, floor, is_angle: false }
     }
 
-    /// Where a value lies: 0 at the lower limit, 1 at the upper one; none for NaN and infinities.
+    /// Returns the position of a value: 0 at the lower limit, 1 at the upper one; none for NaN and infinities.
     pub fn place(&self, value: f64) -> Option<f64> {
         if !value.is_finite() {
             return None;
@@ -134,7 +134,7 @@ impl Axis {
         Some(((value - self.low) / (self.high - self.low)).clamp(-FAR, FAR))
     }
 
-    /// The value in the middle.
+    /// Returns the value in the middle.
     pub fn middle(&self) -> f64 {
         let middle = 0.5 * self.low + 0.5 * self.high;
         if self.scale == Scale::Log { 10f64.powf(middle) } else { middle }
@@ -159,7 +159,7 @@ fn linear_limits(extent: &Extent, slack: Slack) -> (f64, f64) {
     (middle - half, middle + half)
 }
 
-/// Limits moved outwards to round numbers that are very near: data up to 9.995 get an axis up to 10.
+/// Moves limits outwards to round numbers that are very near: data up to 9.995 get an axis up to 10.
 fn near_round(low: f64, high: f64) -> (f64, f64) {
     let step = 10f64.powf((high - low).log10().floor()) / 2.0;
     let near = 0.012 * (high - low);
@@ -167,7 +167,7 @@ fn near_round(low: f64, high: f64) -> (f64, f64) {
     (if low - down < near { down } else { low }, if up - high < near { up } else { high })
 }
 
-/// A floor one decade below the smallest positive value, if there is anything to draw at it.
+/// Returns a floor one decade below the smallest positive value, if there is anything to draw at it.
 fn floor_below(extent: &Extent) -> Option<Floor> {
     // Without a positive value any floor will do; this one is near the rounding of numbers of size one.
     let least = if extent.least_positive.is_finite() { extent.least_positive } else { 1e-15 };
@@ -175,7 +175,7 @@ fn floor_below(extent: &Extent) -> Option<Floor> {
     extent.not_positive.then_some(Floor { exponent, negative: extent.negative })
 }
 
-/// Decimal logarithms of the limits; at least two labelled decades.
+/// Returns the decimal logarithms of the limits, with at least two labelled decades.
 fn log_limits(extent: &Extent, floor: Option<Floor>) -> (f64, f64) {
     let (low, high) = match floor {
         _ if extent.is_empty() => (0.0, 1.0),

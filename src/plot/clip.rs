@@ -1,8 +1,8 @@
-//! Parts of lines inside a rectangle.
+//! Clipping of lines to a rectangle.
 
 use super::shape::{Pt, Rect};
 
-/// The parts of a polyline inside a rectangle, each a polyline.
+/// Returns the parts of a polyline inside a rectangle, each a polyline.
 pub(super) fn polyline(points: &[Pt], inside: &Rect) -> Vec<Vec<Pt>> {
     let mut parts: Vec<Vec<Pt>> = Vec::new();
     for pair in points.windows(2) {
@@ -17,7 +17,7 @@ pub(super) fn polyline(points: &[Pt], inside: &Rect) -> Vec<Vec<Pt>> {
     parts
 }
 
-/// The part of a segment inside a rectangle (Liang and Barsky).
+/// Returns the part of a segment inside a rectangle (Liang and Barsky).
 fn segment(from: Pt, to: Pt, inside: &Rect) -> Option<(Pt, Pt)> {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let sides = [

@@ -1,4 +1,4 @@
-//! The scale beside a panel that explains its colours.
+//! The colour bar of a panel.
 
 use super::axes::{self, STRIP_GAP};
 use super::axis::{Axis, Extent, Slack};
@@ -46,33 +46,33 @@ impl ColorBar {
         self.label = Label::new(&self.title, LABEL_SIZE, 1.05 * height, 2);
     }
 
-    /// Width needed right of the panel.
+    /// Returns the width needed to the right of the panel.
     pub fn width(&self) -> f64 {
         let factor = text::width(&self.ticks.factor, NOTE_SIZE) - WIDTH - EDGE;
         GAP + WIDTH + (TICK_LENGTH + 4.0 + self.ticks.widest(TICK_SIZE) + 5.0 + self.label.height()).max(factor)
     }
 
-    /// Whether something stands above the bar.
+    /// True if there is a factor above the bar.
     pub fn has_factor(&self) -> bool {
         !self.ticks.factor.is_empty()
     }
 
-    /// What is drawn at the floor instead of values without a logarithm.
+    /// Returns a note on values without a logarithm, which are drawn at the floor.
     pub fn note(&self) -> Option<String> {
         axes::floor_note(&self.axis, "", "coloured as")
     }
 
-    /// The colour of a value; none for NaN and infinities.
+    /// Returns the colour of a value; none for NaN and infinities.
     pub fn color(&self, value: f64) -> Option<Color> {
         self.step(value).map(scale_color)
     }
 
-    /// The step of a value on the colour scale.
+    /// Returns the step of a value on the colour scale.
     pub fn step(&self, value: f64) -> Option<usize> {
         self.axis.place(value).map(color_step)
     }
 
-    /// Draws the bar beside a frame.
+    /// Draws the bar at the right of a frame.
     pub fn draw(&self, drawing: &mut Drawing, frame: &Rect) {
         let bar = Rect { left: frame.right + GAP, right: frame.right + GAP + WIDTH, ..*frame };
         let step = bar.height() / COLOR_STEPS as f64;

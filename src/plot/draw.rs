@@ -1,4 +1,4 @@
-//! From a figure to shapes.
+//! Drawing of a figure as shapes.
 
 use super::axes;
 use super::figure::Figure;
@@ -14,7 +14,7 @@ use super::text::{self, LINE_HEIGHT};
 const PANEL_GAP: f64 = 16.0;
 const LEGEND_GAP: f64 = 2.0;
 
-/// The whole figure.
+/// Draws the whole figure.
 pub(super) fn figure(figure: &Figure) -> Drawing {
     let (width, mut panels) = layout::place(figure);
     let title = figure.title.clone().unwrap_or_default();
@@ -48,14 +48,14 @@ fn heading(drawing: &mut Drawing, title: &str) -> f64 {
     if lines.is_empty() { 0.0 } else { LINE_HEIGHT * TITLE_SIZE * lines.len() as f64 + 5.0 }
 }
 
-/// The entries of the panels' legends if all of several panels have the same.
+/// Returns the entries of the panels' legends if there are several panels and all have the same.
 fn shared_legend(panels: &[Placed]) -> Option<Vec<LegendEntry>> {
     let mut all = panels.iter().map(legend::entries);
     let first = all.next().filter(|entries| !entries.is_empty() && panels.len() > 1)?;
     all.all(|entries| entries == first).then_some(first)
 }
 
-/// Draws a panel from `top` on and returns where it ends.
+/// Draws a panel from `top` on and returns its lower end.
 fn panel(drawing: &mut Drawing, placed: &mut Placed, top: f64, entries: &[LegendEntry], budget: Budget) -> f64 {
     let height = placed.frame.height();
     placed.frame.top = (top + placed.above()).round() + 0.5;
@@ -87,7 +87,7 @@ fn panel(drawing: &mut Drawing, placed: &mut Placed, top: f64, entries: &[Legend
     explain(drawing, placed, entries, &taken)
 }
 
-/// Draws legend and colour bar and returns where the panel ends.
+/// Draws legend and colour bar and returns the lower end of the panel.
 fn explain(drawing: &mut Drawing, placed: &Placed, entries: &[LegendEntry], taken: &Taken) -> f64 {
     if let Some(bar) = &placed.bar {
         bar.draw(drawing, &placed.frame);
@@ -106,7 +106,7 @@ fn explain(drawing: &mut Drawing, placed: &Placed, entries: &[LegendEntry], take
     }
 }
 
-/// Draws a legend below a panel and returns where it ends.
+/// Draws a legend below a panel and returns its lower end.
 fn below(drawing: &mut Drawing, entries: &[LegendEntry], frame: &Rect, top: f64) -> f64 {
     let block = Block::wide(entries, drawing.width - 2.0 * EDGE);
     let most = (drawing.width - EDGE - block.width()).max(EDGE);

@@ -1,4 +1,4 @@
-//! A whole figure, and how it becomes a file.
+//! A whole figure, and its file formats.
 
 use std::path::Path;
 
@@ -16,13 +16,13 @@ const COLUMN_WIDTH: f64 = 640.0;
 /// last one is labelled. A legend that is the same in all panels is drawn once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// Drawn above the panels.
+    /// Title above the panels.
     pub title: Option<String>,
-    /// From top to bottom, or row by row.
+    /// Panels from top to bottom, or row by row.
     pub panels: Vec<Panel>,
-    /// So many panels stand side by side.
+    /// Number of panels side by side.
     pub columns: usize,
-    /// Nominal pixels; 640 is one journal column (85 mm). The height follows from the panels.
+    /// Width in nominal pixels; 640 is one journal column (85 mm). The height follows from the panels.
     pub width: f64,
 }
 
@@ -50,7 +50,7 @@ impl Figure {
         self
     }
 
-    /// Sets how many panels stand side by side.
+    /// Sets the number of panels side by side.
     pub fn columns(mut self, columns: usize) -> Self {
         self.columns = columns;
         self
@@ -65,7 +65,7 @@ impl Figure {
     /// Writes the figure as SVG or PNG, by the extension of the path. The file is replaced in one step.
     ///
     /// # Errors
-    /// When the extension is another one, the path is a folder or cannot be written, or there is no PNG of it: see
+    /// The extension is another one; the path is a folder or cannot be written; there is no PNG of the figure: see
     /// [`Figure::to_png`].
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
@@ -78,15 +78,15 @@ impl Figure {
         write_whole(path, &bytes).map_err(|error| Error::file(path, error))
     }
 
-    /// The figure as SVG text.
+    /// Returns the figure as SVG text.
     pub fn to_svg(&self) -> String {
         svg::render(&self.drawing())
     }
 
-    /// The figure as the bytes of a PNG file.
+    /// Returns the bytes of a PNG file.
     ///
     /// # Errors
-    /// When it has more pixels than a PNG may have here, and without the feature `figures`.
+    /// It has more pixels than the limit; the feature `figures` is off.
     pub fn to_png(&self) -> Result<Vec<u8>, String> {
         raster::png(&self.drawing())
     }

@@ -1,16 +1,16 @@
-//! The embedded font: which glyphs a text has and where they are, so that its width is known without drawing it.
+//! The embedded font: glyphs of a text and their positions, from which its width is known without drawing it.
 
 use ab_glyph::{Font, FontRef, GlyphId};
 use std::sync::LazyLock;
 
-/// None would be a broken build: a test reads it.
+/// The font; none would be a broken build, which a test checks.
 pub(super) static DEJAVU: LazyLock<Option<FontRef>> =
     LazyLock::new(|| FontRef::try_from_slice(include_bytes!("fonts/DejaVuSans.ttf")).ok());
 
 /// Units of the font in an em.
 pub(super) const EM: f64 = 2048.0;
 
-/// The glyphs of a text, each with where it begins, and where the text ends; in em, with kerning.
+/// Returns the glyphs of a text, each with its start, and the end of the text; in em, with kerning.
 pub(super) fn glyphs(font: &FontRef, text: &str) -> (Vec<(GlyphId, f64)>, f64) {
     let (mut end, mut before) = (0.0, None);
     let mut place = |character| {
@@ -24,7 +24,7 @@ pub(super) fn glyphs(font: &FontRef, text: &str) -> (Vec<(GlyphId, f64)>, f64) {
     (placed, f64::from(end) / EM)
 }
 
-/// Width of a text in em.
+/// Returns the width of a text in em.
 pub(super) fn width(text: &str) -> f64 {
     DEJAVU.as_ref().map_or(0.0, |font| glyphs(font, text).1)
 }
@@ -37,7 +37,7 @@ mod tests {
     fn widths_are_those_of_the_font() {
         let font = DEJAVU.as_ref().expect("the font");
         assert_eq!(font.units_per_em().map(f64::from), Some(EM));
-        // Read from the same file with fontTools: advances of A and V, and what brings them nearer to each other.
+        // Read from the same file with fontTools: advances of A and V, and the kerning of their pair.
         assert_eq!([width("A"), width("V")], [1401.0 / EM, 1401.0 / EM]);
         assert!(width("AV") < width("A") + width("V") && width("mm") > width("ll"));
     }

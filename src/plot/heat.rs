@@ -1,4 +1,4 @@
-//! Maps of cells.
+//! Maps of coloured cells.
 
 use super::axis::{Axis, Extent};
 use super::panel::Scale;
@@ -9,52 +9,52 @@ use super::shape::Rect;
 pub struct HeatMap {
     /// Title of the colour bar, with the unit.
     pub label: String,
-    /// Middles of the columns, ascending.
+    /// Centres of the columns, ascending.
     pub x: Vec<f64>,
     /// Middles of the rows, ascending.
     pub y: Vec<f64>,
     /// Rows of cells; a cell without a value is grey.
     pub values: Vec<Vec<Option<f64>>>,
-    /// (column, row, word): short texts upon cells, like "fail", as small as it needs.
+    /// (column, row, text): short texts on cells, like "fail", in a size that fits.
     pub words: Vec<(usize, usize, String)>,
     /// Scale of the colour.
     pub scale: Scale,
-    /// Fixed limits of the colours, so that several maps share them; values beyond have the colour of the limit.
+    /// Fixed limits of the colours, shared by several maps; values beyond have the colour of the limit.
     pub range: Option<(f64, f64)>,
 }
 
 impl HeatMap {
-    /// Cells without values at these places.
+    /// A map without values at these positions.
     pub fn new(label: impl Into<String>, x: Vec<f64>, y: Vec<f64>) -> Self {
         let values = vec![vec![None; x.len()]; y.len()];
         Self { label: label.into(), x, y, values, ..Self::default() }
     }
 
-    /// The same map on a logarithmic colour scale.
+    /// Sets a logarithmic colour scale.
     pub fn log(mut self) -> Self {
         self.scale = Scale::Log;
         self
     }
 
-    /// The same map with fixed limits of the colours.
+    /// Sets fixed limits of the colours.
     pub fn range(mut self, low: f64, high: f64) -> Self {
         self.range = Some((low, high));
         self
     }
 
-    /// Gives a cell its value; cells outside the map are ignored.
+    /// Sets the value of a cell; cells outside the map are ignored.
     pub fn set(&mut self, column: usize, row: usize, value: f64) {
         if let Some(cell) = self.values.get_mut(row).and_then(|cells| cells.get_mut(column)) {
             *cell = Some(value);
         }
     }
 
-    /// Writes a word upon a cell.
+    /// Writes a text on a cell.
     pub fn mark(&mut self, column: usize, row: usize, word: impl Into<String>) {
         self.words.push((column, row, word.into()));
     }
 
-    /// The value of a cell, if it is a number.
+    /// Returns the value of a cell, if it is a finite number.
     pub(super) fn value(&self, column: usize, row: usize) -> Option<f64> {
         self.values.get(row)?.get(column)?.filter(|value| value.is_finite())
     }
@@ -65,7 +65,7 @@ impl HeatMap {
         edges(&self.y, scales.1).into_iter().for_each(|edge| y.add(edge));
     }
 
-    /// The cells to draw: column, row and where between the axes (0 to 1, y up).
+    /// Returns the cells to draw: column, row and rectangle between the axes (0 to 1, y up).
     pub(super) fn cells(&self, x: &Axis, y: &Axis) -> Vec<(usize, usize, Rect)> {
         let columns = bands(&self.x, x);
         let rows = bands(&self.y, y);
@@ -76,7 +76,7 @@ impl HeatMap {
     }
 }
 
-/// (index, begin, end) along an axis, clipped to it.
+/// Returns (index, begin, end) along an axis, clipped to it.
 fn bands(middles: &[f64], axis: &Axis) -> Vec<(usize, f64, f64)> {
     let places: Vec<Option<f64>> = edges(middles, axis.scale).into_iter().map(|edge| axis.place(edge)).collect();
     let band = |(index, pair): (usize, &[Option<f64>])| {
@@ -87,7 +87,7 @@ fn bands(middles: &[f64], axis: &Axis) -> Vec<(usize, f64, f64)> {
     places.windows(2).enumerate().filter_map(band).collect()
 }
 
-/// Borders halfway between the middles, by the scale; one more than there are middles.
+/// Returns the borders halfway between the centres on the scale; one more than there are centres.
 fn edges(middles: &[f64], scale: Scale) -> Vec<f64> {
     let by_ratio = scale == Scale::Log && middles.iter().all(|middle| *middle > 0.0);
     let to = |value: f64| if by_ratio { value.log10() } else { value };

@@ -1,4 +1,4 @@
-//! Things drawn freely in a panel: at places of the data, with sizes in pixels.
+//! Items drawn freely in a panel, at positions in data coordinates with sizes in pixels.
 
 use super::axes;
 use super::layout::Placed;
@@ -6,48 +6,48 @@ use super::legend::Taken;
 use super::palette::{DASHED, NOTE_SIZE, tint};
 use super::shape::{Align, Drawing, Marker, Pt, Rect, Shape, Stroke};
 
-/// Where a point is.
+/// Position of a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Place {
-    /// In data coordinates.
+    /// A position in data coordinates.
     Data(f64, f64),
-    /// In the frame: (0, 0) is its lower left corner, (1, 1) its upper right one.
+    /// A position in the frame: (0, 0) is its lower left corner, (1, 1) its upper right one.
     Frame(f64, f64),
 }
 
-/// A point beside a place: so many nominal pixels right of and above it, whatever the scale.
+/// A point at an offset in nominal pixels from a position, independent of the scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
-    /// The place.
+    /// The position.
     pub at: Place,
-    /// Pixels right and up from there.
+    /// Offset to the right and up, nominal pixels.
     pub step: (f64, f64),
 }
 
 impl Spot {
-    /// A place itself, in data coordinates.
+    /// The point at a position in data coordinates.
     pub fn data(x: f64, y: f64) -> Self {
         Self { at: Place::Data(x, y), step: (0.0, 0.0) }
     }
 
-    /// A point so many pixels further right and up.
+    /// Returns the point moved to the right and up by these nominal pixels.
     pub fn moved(self, right: f64, up: f64) -> Self {
         Self { step: (self.step.0 + right, self.step.1 + up), ..self }
     }
 }
 
-/// A colour of the palette, and how pale it is: 0 is full, 1 is paper.
+/// A colour of the palette with its paleness: 0 is full, 1 is paper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tint {
     /// Black to grey.
     Ink(f64),
-    /// The colour that series of this place in a panel have.
+    /// The colour that series of this index in a panel have.
     Body(usize, f64),
     /// White.
     Paper,
 }
 
-/// One thing to draw.
+/// An item to draw.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Item {
     /// A line through points.
@@ -58,7 +58,7 @@ pub enum Item {
         tint: Tint,
         /// Its width in pixels.
         width: f64,
-        /// Broken into dashes.
+        /// True if it is dashed.
         dashed: bool,
     },
     /// A convex polygon without an outline.
@@ -67,14 +67,14 @@ pub enum Item {
         spots: Vec<Spot>,
         /// Its colour.
         tint: Tint,
-        /// 1 hides what is below.
+        /// 1 hides the items below.
         opacity: f64,
     },
     /// A disc.
     Disc {
         /// Its centre.
         spot: Spot,
-        /// In pixels.
+        /// Its radius in pixels.
         radius: f64,
         /// Its colour.
         tint: Tint,
@@ -83,9 +83,9 @@ pub enum Item {
     Text {
         /// The point.
         spot: Spot,
-        /// What to read.
+        /// The text.
         text: String,
-        /// Which part of it is at the point.
+        /// Alignment of the text at the point.
         align: Align,
     },
 }
@@ -98,7 +98,7 @@ impl Item {
         }
     }
 
-    /// Its places in data coordinates.
+    /// Returns its positions in data coordinates.
     pub fn data(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.spots().iter().filter_map(|spot| match spot.at {
             Place::Data(x, y) => Some((x, y)),
@@ -106,7 +106,7 @@ impl Item {
         })
     }
 
-    /// Its shape, given where each point is; none if one of them is nowhere.
+    /// Returns its shape, by a function that gives the position of each point; none if one has none.
     fn shape(&self, put: &impl Fn(&Spot) -> Option<Pt>) -> Option<Shape> {
         let all = |spots: &[Spot]| spots.iter().map(put).collect::<Option<Vec<Pt>>>();
         Some(match self {
@@ -127,7 +127,7 @@ impl Item {
     }
 }
 
-/// The items of a panel as shapes.
+/// Returns the items of a panel as shapes.
 pub(super) fn shapes(placed: &Placed) -> Vec<Shape> {
     let frame = placed.frame;
     let put = |spot: &Spot| {

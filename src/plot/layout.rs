@@ -1,4 +1,4 @@
-//! Where everything goes: limits, marks, and the rectangle of each panel.
+//! Layout: limits, tick marks, and the rectangle of each panel.
 
 use super::axes::{STRIP, floor_note};
 use super::axis::{Axis, Extent, Slack};
@@ -13,11 +13,11 @@ use super::text::{self, LINE_HEIGHT, Label};
 use super::ticks::{Room, Ticks};
 
 const LABEL_GAP: f64 = 6.0;
-/// Bounds of what may be asked for.
+/// Limits of the width and the height that can be set.
 const WIDTHS: (f64, f64) = (240.0, 4000.0);
 const HEIGHTS: (f64, f64) = (60.0, 4000.0);
 
-/// A panel with its axes, marks and place.
+/// A panel with its axes, marks and position.
 #[derive(Clone, Debug)]
 pub(super) struct Placed<'a> {
     pub panel: &'a Panel,
@@ -32,20 +32,20 @@ pub(super) struct Placed<'a> {
     pub bar: Option<ColorBar>,
     pub looks: Vec<Look>,
     pub frame: Rect,
-    /// Whether the x axis is labelled here, not at a panel below.
+    /// True if the x axis is labelled here, not at a panel below.
     pub shows_x: bool,
-    /// Of words upon cells.
+    /// Font size of texts on cells.
     pub word_size: f64,
 }
 
 impl Placed<'_> {
-    /// Where a point lies on the picture; none if it is no number.
+    /// Returns the position of a point in the picture; none if it is not a number.
     pub fn at(&self, x: f64, y: f64) -> Option<Pt> {
         let (x, y) = (self.x.place(x)?, self.y.place(y)?);
         Some((self.frame.left + x * self.frame.width(), self.frame.bottom - y * self.frame.height()))
     }
 
-    /// A rectangle between the axes (0 to 1, y up) on the picture.
+    /// Returns a rectangle between the axes (0 to 1, y up) in the picture.
     pub fn rect(&self, unit: &Rect) -> Rect {
         let (x, y) = (self.frame.left, self.frame.bottom);
         let (width, height) = (self.frame.width(), self.frame.height());
@@ -53,7 +53,7 @@ impl Placed<'_> {
         Rect { left, right, top: y - unit.bottom * height, bottom: y - unit.top * height }
     }
 
-    /// What is stated about values drawn at the floor.
+    /// Returns the notes on values drawn at the floor.
     pub fn note(&self) -> String {
         let notes = [
             floor_note(&self.x, "x", "drawn at"),
@@ -63,7 +63,7 @@ impl Placed<'_> {
         notes.into_iter().flatten().collect::<Vec<_>>().join("; ")
     }
 
-    /// Height of the strip above the frame for factors and notes.
+    /// Returns the height of the strip above the frame for factors and notes.
     pub fn strip(&self) -> f64 {
         let needed = !self.y_ticks.factor.is_empty()
             || !self.note().is_empty()
@@ -71,13 +71,13 @@ impl Placed<'_> {
         if needed { STRIP } else { 0.0 }
     }
 
-    /// Height of the strip and the panel's title above it.
+    /// Returns the height of the strip and the panel's title above it.
     pub fn above(&self) -> f64 {
         let title = if self.panel.title.trim().is_empty() { 0.0 } else { LINE_HEIGHT * TICK_SIZE + 2.0 };
         self.strip() + title
     }
 
-    /// Height of the marks and labels below the frame.
+    /// Returns the height of the marks and labels below the frame.
     pub fn below(&self) -> f64 {
         if !self.shows_x {
             return 0.0;
@@ -86,7 +86,7 @@ impl Placed<'_> {
         TICK_LENGTH + 1.35 * TICK_SIZE + self.x_label.height().max(factor) + 2.0
     }
 
-    /// From the y label to the frame.
+    /// Returns the distance from the y label to the frame.
     fn label_distance(&self) -> f64 {
         LABEL_GAP + self.y_ticks.widest(TICK_SIZE) + 4.0 + TICK_LENGTH
     }
@@ -104,7 +104,7 @@ impl Placed<'_> {
     }
 }
 
-/// All panels with frames of the same left and right border; tops and bottoms are set one by one when drawing.
+/// Lays out all panels with frames of the same left and right border; tops and bottoms are set one by one when drawing.
 pub(super) fn place(figure: &Figure) -> (f64, Vec<Placed<'_>>) {
     let whole = if figure.width.is_finite() { figure.width.clamp(WIDTHS.0, WIDTHS.1) } else { WIDTHS.0 };
     let columns = columns(figure);
@@ -112,7 +112,7 @@ pub(super) fn place(figure: &Figure) -> (f64, Vec<Placed<'_>>) {
     let shared = columns == 1 && shares_x(&figure.panels);
     let mut all = prepare(figure, shared);
     let (mut left, mut right, mut distance) = (80.0, 20.0, 0.0);
-    // Marks depend on the room for them and the room on their labels; three rounds settle it.
+    // Marks depend on the space for them, and the space on their labels; three rounds settle it.
     for _ in 0..3 {
         let width = (total - left - right).max(60.0);
         for placed in &mut all {
@@ -133,12 +133,12 @@ pub(super) fn place(figure: &Figure) -> (f64, Vec<Placed<'_>>) {
     (whole, all)
 }
 
-/// Panels side by side.
+/// Returns the number of panels side by side.
 pub(super) fn columns(figure: &Figure) -> usize {
     figure.columns.clamp(1, figure.panels.len().max(1))
 }
 
-/// Whether the panels have the same x axis.
+/// True if the panels have the same x axis.
 fn shares_x(panels: &[Panel]) -> bool {
     let same = |a: &Panel, b: &Panel| a.x.scale == b.x.scale && a.x.range == b.x.range && a.x.label == b.x.label;
     panels.windows(2).all(|pair| same(&pair[0], &pair[1])) && !panels.iter().any(|panel| panel.equal_aspect)
@@ -180,7 +180,7 @@ fn one<'a>(panel: &'a Panel, (x, y): &(Extent, Extent), x_slack: Slack, shows_x:
     }
 }
 
-/// The values that the axes must show. A point counts only if both of its coordinates are numbers.
+/// Returns the ranges that the axes must show. A point counts only if both of its coordinates are numbers.
 fn extents(panel: &Panel) -> (Extent, Extent) {
     let (mut x, mut y) = (Extent::default(), Extent::default());
     let points = panel.series.iter().flat_map(|series| series.points.iter().copied());
@@ -201,7 +201,7 @@ fn extents(panel: &Panel) -> (Extent, Extent) {
     (x, y)
 }
 
-/// Free parts of the axes on both sides of the data. Functions of x fill the width, as time series do.
+/// Returns the margins of the axes. Functions of x fill the width, as time series do.
 fn slack(panel: &Panel) -> (Slack, Slack) {
     if panel.heat_map.is_some() {
         return (Slack::Exact, Slack::Exact);
@@ -249,8 +249,8 @@ fn ticks(axis: &Axis, spec: &AxisSpec, room: Room) -> Ticks {
     if spec.names.is_empty() { Ticks::new(axis, room) } else { Ticks::named(axis, &spec.names, room) }
 }
 
-/// Makes units equally long: by the height of the frame if that is asked for nowhere and stays moderate, and by wider
-/// limits otherwise.
+/// Makes units equally long: by the height of the frame if none is set and it stays moderate, and by wider limits
+/// otherwise.
 fn equalize(placed: &mut Placed) {
     let (x, y) = (placed.x.high - placed.x.low, placed.y.high - placed.y.low);
     let (width, height) = (placed.frame.width(), placed.frame.height());

@@ -1,4 +1,4 @@
-//! What the lines and markers mean.
+//! Legends.
 
 use super::axes;
 use super::layout::Placed;
@@ -14,11 +14,11 @@ const ROW: f64 = 20.5;
 const COLUMN_GAP: f64 = 18.0;
 const PADDING: f64 = 7.0;
 const SIZE: f64 = 15.5;
-/// More entries than this should not stand in one column below a panel.
+/// Longer legends should not be one column below a panel.
 const LONG: usize = 5;
 /// Distance from the frame.
 const INSET: f64 = 8.0;
-/// A legend inside covers at most this part of its panel.
+/// Largest part of its panel that a legend inside covers.
 const MOST_AREA: f64 = 0.35;
 const BORDER: Stroke = Stroke { color: Color(190, 190, 190), width: 1.0, dash: &[] };
 
@@ -38,7 +38,7 @@ pub(super) struct Block {
     sample: f64,
 }
 
-/// What a panel's legend has to list.
+/// Returns the entries of a panel's legend.
 pub(super) fn entries(placed: &Placed) -> Vec<LegendEntry> {
     let series = placed.panel.series.iter().zip(&placed.looks);
     let listed = series.filter(|(series, _)| !series.label.trim().is_empty());
@@ -66,7 +66,7 @@ impl Block {
         Self { columns, widths, size, sample }
     }
 
-    /// As many columns as fit into a width; smaller text if that makes a long column two.
+    /// A block of as many columns as fit into a width, with smaller text if that splits a long column in two.
     pub fn wide(entries: &[LegendEntry], room: f64) -> Self {
         let most = entries.len().clamp(1, 6);
         let fitting = |least: usize, size: f64| {
@@ -102,7 +102,7 @@ impl Block {
         drawing.text(axes::text(at, &entry.label, self.size, Align::Start));
     }
 
-    /// Draws the block with its upper left corner at a point; boxed when it lies upon a panel.
+    /// Draws the block with its upper left corner at a point; with a box when it is inside a panel.
     pub fn draw(&self, drawing: &mut Drawing, left: f64, top: f64, boxed: bool) {
         if boxed {
             let rect = Rect::new(left, top, self.width(), self.height());
@@ -119,7 +119,7 @@ impl Block {
     }
 }
 
-/// A place inside the frame where the legend hides nothing: the block and its corner.
+/// Returns a block inside the frame that hides nothing, and its corner; none if there is no space.
 pub(super) fn inside(entries: &[LegendEntry], frame: &Rect, taken: &Taken) -> Option<(Block, f64, f64)> {
     for columns in 1..=entries.len().min(4) {
         let block = Block::new(entries, columns, 0.8 * frame.width(), SIZE);
@@ -136,7 +136,7 @@ pub(super) fn inside(entries: &[LegendEntry], frame: &Rect, taken: &Taken) -> Op
     None
 }
 
-/// Corners first, then the middles of the sides.
+/// Returns the corners first, then the middles of the sides.
 fn corners(frame: &Rect, width: f64, height: f64) -> [(f64, f64); 8] {
     let (left, right) = (frame.left + INSET, frame.right - INSET - width);
     let (top, bottom) = (frame.top + INSET, frame.bottom - INSET - height);
@@ -146,7 +146,7 @@ fn corners(frame: &Rect, width: f64, height: f64) -> [(f64, f64); 8] {
     std::array::from_fn(|k| if k < 4 { corners[k] } else { middles[k - 4] })
 }
 
-/// What must not be hidden in a panel.
+/// Parts of a panel that must not be hidden.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Taken {
     points: Vec<(f64, f64)>,
@@ -154,7 +154,7 @@ pub(super) struct Taken {
 }
 
 impl Taken {
-    /// Takes the places of lines and markers.
+    /// Adds the positions of lines and markers.
     pub fn add(&mut self, shapes: &[Shape]) {
         for shape in shapes {
             match shape {
@@ -176,7 +176,7 @@ impl Taken {
         }
     }
 
-    /// How much of it a rectangle would hide, or come as near as `border`.
+    /// Returns a measure of the parts that a rectangle would hide, or that are within `border` of it.
     pub fn cover(&self, rect: &Rect, border: f64) -> usize {
         let near = rect.grown(border);
         let points = self.points.iter().filter(|point| near.contains(**point)).count();

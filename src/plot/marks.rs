@@ -12,18 +12,19 @@ use super::shape::{Align, Color, Drawing, Marker, Pt, Rect, Shape, Text};
 use super::text;
 use super::thin;
 
-/// Points that one figure may have, so that its file stays small.
+/// Largest number of points of one figure, so that its file stays small.
 const LINE_POINTS: usize = 16_000;
 const DOTS: usize = 12_000;
-/// Coloured points cost more, each colour being a shape of its own.
+/// Coloured points need more space, each colour being a shape of its own.
 const COLORED: usize = 4_000;
 /// Least distance of markers along a line.
 const MARKER_DISTANCE: f64 = 16.0;
 const DOT_RADIUS: f64 = 2.7;
-/// A line that turns up or down more often than once in so many pixels is restless, if it moves as far between.
+/// A line that changes its vertical direction by more than this, in pixels, more often than once in this many pixels,
+/// is restless.
 const RESTLESS: f64 = 4.0;
 
-/// Share of one series when a figure has `count` of them.
+/// Points of one series when a figure has `count` of them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Budget {
     line: usize,
@@ -37,7 +38,8 @@ impl Budget {
     }
 }
 
-/// Lines and points of a panel, in drawing order: restless lines below calm ones, then markers, then coloured points.
+/// Returns lines and points of a panel, in drawing order: restless lines below calm ones, then markers, then coloured
+/// points.
 pub(super) fn shapes(placed: &Placed, budget: Budget) -> Vec<Shape> {
     let (mut drawn, mut marks) = (Vec::new(), Vec::new());
     for (series, look) in placed.panel.series.iter().zip(&placed.looks) {
@@ -53,13 +55,14 @@ pub(super) fn shapes(placed: &Placed, budget: Budget) -> Vec<Shape> {
     shapes
 }
 
-/// The points on the picture, broken where one of them is not a number.
+/// Returns the points in the picture, split where one of them is not a number.
 fn runs(placed: &Placed, series: &Series) -> Vec<Vec<Pt>> {
     let places: Vec<Option<Pt>> = series.points.iter().map(|point| placed.at(point.0, point.1)).collect();
     places.split(Option::is_none).map(|run| run.iter().flatten().copied().collect::<Vec<Pt>>()).collect()
 }
 
-/// The lines of a series, and whether they are restless: at full width they would be one blot, so they are thin.
+/// Returns the lines of a series, and true if they are restless: these are thin, since at full width they would be one
+/// blot.
 fn lines(placed: &Placed, look: &Look, runs: &[Vec<Pt>], budget: Budget) -> (bool, Vec<Shape>) {
     let Some(mut stroke) = look.line else { return (false, Vec::new()) };
     let full = runs.iter().map(Vec::len).sum::<usize>().max(1);
@@ -71,7 +74,7 @@ fn lines(placed: &Placed, look: &Look, runs: &[Vec<Pt>], budget: Budget) -> (boo
         stroke.width *= 0.5;
     }
     let mut shapes: Vec<Shape> = parts.into_iter().map(|points| Shape::Path { points, stroke }).collect();
-    // A point alone between two gaps has no line; a dot of the line's width would be missed.
+    // A single point between two gaps has no line; a dot of the line's width would be missed.
     let alone = runs.iter().filter(|run| run.len() == 1 && look.marker.is_none()).map(|run| run[0]);
     let at: Vec<Pt> = alone.filter(|point| placed.frame.contains(*point)).collect();
     if !at.is_empty() {
@@ -80,7 +83,7 @@ fn lines(placed: &Placed, look: &Look, runs: &[Vec<Pt>], budget: Budget) -> (boo
     (dense, shapes)
 }
 
-/// How often a line turns up or down, small ripples aside.
+/// Returns the number of times a line changes its vertical direction, without small ripples.
 fn turns(points: &[Pt]) -> usize {
     let steps = points.windows(2).map(|pair| pair[1].1 - pair[0].1).filter(|step| step.abs() > RESTLESS);
     let signs: Vec<bool> = steps.map(|step| step > 0.0).collect();
@@ -98,7 +101,7 @@ fn markers(placed: &Placed, series: &Series, look: &Look, runs: &[Vec<Pt>], budg
     (!at.is_empty()).then_some(Shape::Marks { at, marker, radius, color: look.color })
 }
 
-/// Points at least [`MARKER_DISTANCE`] from the one before.
+/// Returns points at least [`MARKER_DISTANCE`] from the one before.
 fn spaced(points: &[Pt]) -> Vec<Pt> {
     let mut kept: Vec<Pt> = Vec::new();
     for point in points {
@@ -110,7 +113,7 @@ fn spaced(points: &[Pt]) -> Vec<Pt> {
     kept
 }
 
-/// Points coloured by value, grouped by runs of one colour so that later points stay on top.
+/// Draws points coloured by value, grouped by runs of one colour so that later points stay on top.
 fn colored(shapes: &mut Vec<Shape>, placed: &Placed, bar: &ColorBar) {
     let points = placed.panel.color_series.iter().flat_map(|series| &series.points);
     let known = points.filter_map(|point| Some((placed.at(point.0, point.1)?, bar.step(point.2)?)));
@@ -118,7 +121,7 @@ fn colored(shapes: &mut Vec<Shape>, placed: &Placed, bar: &ColorBar) {
     let places: Vec<Pt> = visible.iter().map(|(point, _)| *point).collect();
     let mut kept: Vec<(Pt, usize)> = thin::dots(&places, COLORED).into_iter().map(|i| visible[i]).collect();
     if kept.chunk_by(|a, b| a.1 == b.1).count() > COLORED / 4 {
-        // Colours without order: grouping them all keeps the file small, and what lies on top is arbitrary anyway.
+        // Colours without order: grouping them all keeps the file small, and which is on top is arbitrary anyway.
         kept.sort_by_key(|point| point.1);
     }
     for group in kept.chunk_by(|a, b| a.1 == b.1) {
@@ -127,7 +130,7 @@ fn colored(shapes: &mut Vec<Shape>, placed: &Placed, bar: &ColorBar) {
     }
 }
 
-/// Cells of the map and the words upon them.
+/// Draws the cells of the map and the texts on them.
 pub(super) fn cells(drawing: &mut Drawing, placed: &Placed) {
     let (Some(map), Some(bar)) = (&placed.panel.heat_map, &placed.bar) else {
         return;
@@ -152,7 +155,7 @@ pub(super) fn cells(drawing: &mut Drawing, placed: &Placed) {
     }
 }
 
-/// Size at which all words fit upon their cells.
+/// Returns the size at which all texts fit on their cells.
 pub(super) fn word_size(placed: &Placed) -> f64 {
     let Some(map) = &placed.panel.heat_map else { return TICK_SIZE };
     let cells = map.cells(&placed.x, &placed.y);

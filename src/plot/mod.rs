@@ -1,4 +1,4 @@
-//! Figures: data in, an SVG or PNG file out. Nothing here knows any mechanics.
+//! Figures from data, as SVG or PNG files. This module does not depend on mechanics.
 //!
 //! A [`Figure`] stacks one or several [`Panel`]s. [`Figure::save`] lays them out into a flat list of shapes,
 //! then writes that list as SVG or has plotters draw it as PNG, so that both show the same picture. Text is
@@ -43,7 +43,7 @@ pub use shape::Align;
 #[cfg(all(test, feature = "figures"))]
 mod tests;
 
-/// What stands for pictures as pixels where the libraries that draw them are left out.
+/// Replaces the raster formats where the libraries that draw them are not compiled in.
 #[cfg(not(feature = "figures"))]
 mod raster {
     use super::shape::{Drawing, Shape};

@@ -1,4 +1,4 @@
-//! Upright lines, their labels, and annotations.
+//! Vertical lines, their labels, and annotations.
 
 use super::axes;
 use super::layout::Placed;
@@ -7,7 +7,7 @@ use super::palette::{NOTE_INK, NOTE_SIZE, PAPER, REFERENCE, tint};
 use super::shape::{Align, Color, Drawing, Pt, Rect, Shape, Text};
 use super::text::HALF_DIGIT;
 
-/// Draws the upright lines and returns them.
+/// Draws the vertical lines and returns them.
 pub(super) fn verticals(drawing: &mut Drawing, placed: &Placed) -> Vec<Shape> {
     let frame = placed.frame;
     let line = |at: f64| {
@@ -20,7 +20,7 @@ pub(super) fn verticals(drawing: &mut Drawing, placed: &Placed) -> Vec<Shape> {
     lines
 }
 
-/// Labels of upright lines and annotations, each where it hides least.
+/// Draws the labels of vertical lines and annotations, each where it hides least.
 pub(super) fn texts(drawing: &mut Drawing, placed: &Placed, taken: &mut Taken) {
     for (x, label) in placed.panel.verticals.iter().filter(|line| !line.1.trim().is_empty()) {
         if let Some(at) = placed.at(*x, placed.y.middle()).filter(|at| placed.frame.contains(*at)) {
@@ -35,7 +35,7 @@ pub(super) fn texts(drawing: &mut Drawing, placed: &Placed, taken: &mut Taken) {
     }
 }
 
-/// Draws the first of the texts that hides least; upon a map, in a box of paper.
+/// Draws the text that hides least, the first of equals; on a map, in a box of paper colour.
 fn settle(drawing: &mut Drawing, placed: &Placed, choices: Vec<Text>, taken: &mut Taken, color: Color) {
     let inside = |text: &&Text| placed.frame.holds(&text.bounds());
     let best = choices.iter().filter(inside).min_by_key(|text| taken.cover(&text.bounds(), 2.0)).or(choices.first());
@@ -45,7 +45,7 @@ fn settle(drawing: &mut Drawing, placed: &Placed, choices: Vec<Text>, taken: &mu
     drawing.text(Text { color, ..text.clone() });
 }
 
-/// Places along an upright line, ends first, on both sides of it.
+/// Returns positions along a vertical line, ends first, on both sides of it.
 fn beside_line(frame: &Rect, x: f64, label: &str) -> Vec<Text> {
     let place = |part: f64| {
         let y = frame.bottom - 0.5 * NOTE_SIZE - part * (frame.height() - 1.6 * NOTE_SIZE);
@@ -54,7 +54,7 @@ fn beside_line(frame: &Rect, x: f64, label: &str) -> Vec<Text> {
     [1.0, 0.0, 0.5, 0.85, 0.15, 0.7, 0.3, 0.6, 0.4].into_iter().flat_map(place).collect()
 }
 
-/// Places around a point, near ones first.
+/// Returns positions around a point, near ones first.
 fn around((x, y): Pt, label: &str) -> Vec<Text> {
     const SIDES: [(f64, f64, Align); 8] = [
         (1.0, 0.0, Align::Start),
@@ -67,7 +67,7 @@ fn around((x, y): Pt, label: &str) -> Vec<Text> {
         (-0.8, 0.8, Align::End),
     ];
     let place = |distance: f64, (right, down, align): (f64, f64, Align)| {
-        // Down, the text hangs below the point by its height; up, it stands on its baseline.
+        // Below a point the text is lower by its height; above, its baseline is at the point.
         let y = y + distance * down + HALF_DIGIT * NOTE_SIZE * (1.0 + down);
         axes::text((x + distance * right, y), label, NOTE_SIZE, align)
     };

@@ -1,4 +1,4 @@
-//! Colours, dashes and markers, and the sizes that everything is drawn with.
+//! Colours, dashes, markers and sizes.
 
 use super::item::Tint;
 use super::series::{Series, Style};
@@ -27,8 +27,8 @@ pub(super) const DASHED: &[f64] = &[5.0, 4.0];
 const LINE_WIDTH: f64 = 2.3;
 const THIN_WIDTH: f64 = 1.2;
 
-/// Okabe and Ito's colours, those with the most contrast on white first, black last. Their yellow is left
-/// out: a thin yellow line on white cannot be seen.
+/// Okabe and Ito's colours, those with the most contrast on white first, black last. Their yellow is omitted: a thin
+/// yellow line on white cannot be seen.
 const COLORS: [Color; 7] = [
     Color(0, 114, 178),
     Color(213, 94, 0),
@@ -41,7 +41,7 @@ const COLORS: [Color; 7] = [
 const DASHES: [&[f64]; 4] = [&[], &[9.0, 4.0], &[2.4, 3.2], &[10.0, 3.5, 2.4, 3.5]];
 const MARKERS: [Marker; 5] = [Marker::Circle, Marker::Square, Marker::Triangle, Marker::Diamond, Marker::TriangleDown];
 
-/// How one series looks, in the panel and in the legend.
+/// Appearance of one series, in the panel and in the legend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Look {
     pub line: Option<Stroke>,
@@ -49,7 +49,7 @@ pub(super) struct Look {
     pub color: Color,
 }
 
-/// The look of series `index` of `count`. From eight on, dashes alternate too: four patterns and seven
+/// Returns the appearance of series `index` of `count`. From eight on, dashes alternate too: four patterns and seven
 /// colours give 28 different lines, neighbours differing in both.
 pub(super) fn look(series: &Series, index: usize, count: usize) -> Look {
     let place = series.color.unwrap_or(index);
@@ -70,7 +70,7 @@ pub(super) fn look(series: &Series, index: usize, count: usize) -> Look {
     Look { line, marker, color }
 }
 
-/// The colour of a thing, mixed with paper as far as it is pale.
+/// Returns a colour mixed with paper by its paleness.
 pub(super) fn tint(tint: Tint) -> Color {
     let (full, paleness) = match tint {
         Tint::Ink(paleness) => (INK, paleness),
@@ -80,13 +80,13 @@ pub(super) fn tint(tint: Tint) -> Color {
     mix(full, PAPER, paleness.clamp(0.0, 1.0))
 }
 
-/// The colour at `share` of the way from one to another.
+/// Returns the colour at `share` of the way from one to another.
 fn mix(from: Color, to: Color, share: f64) -> Color {
     let part = |from: u8, to: u8| (f64::from(from) * (1.0 - share) + f64::from(to) * share).round() as u8;
     Color(part(from.0, to.0), part(from.1, to.1), part(from.2, to.2))
 }
 
-/// Number of colours that a colour scale is drawn with: enough to look continuous, few enough to group by.
+/// Number of colours of a colour scale: enough to look continuous, few enough to group by.
 pub(super) const COLOR_STEPS: usize = 128;
 
 /// Evenly spaced colours of Viridis (van der Walt and Smith).
@@ -101,18 +101,18 @@ const VIRIDIS: [Color; 8] = [
     Color(254, 232, 37),
 ];
 
-/// Viridis at `step` of [`COLOR_STEPS`]. Its last yellow is cut off, being hard to see on white.
+/// Returns Viridis at `step` of [`COLOR_STEPS`]. Its last yellow is cut off, being hard to see on white.
 pub(super) fn scale_color(step: usize) -> Color {
     let at = 0.96 * 7.0 * step.min(COLOR_STEPS - 1) as f64 / (COLOR_STEPS - 1) as f64;
     mix(VIRIDIS[at as usize], VIRIDIS[at as usize + 1], at.fract())
 }
 
-/// The step of a position between 0 and 1 on a colour scale.
+/// Returns the step of a position between 0 and 1 on a colour scale.
 pub(super) fn color_step(unit: f64) -> usize {
     ((unit.clamp(0.0, 1.0) * COLOR_STEPS as f64) as usize).min(COLOR_STEPS - 1)
 }
 
-/// Black or white, whichever can be read on `fill`.
+/// Returns black or white, whichever is legible on `fill`.
 pub(super) fn ink_on(fill: Color) -> Color {
     let luminance = 0.299 * f64::from(fill.0) + 0.587 * f64::from(fill.1) + 0.114 * f64::from(fill.2);
     if luminance > 125.0 { INK } else { PAPER }

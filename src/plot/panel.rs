@@ -1,10 +1,10 @@
-//! One panel: axes, and what is drawn between them.
+//! One panel: axes, and the data drawn between them.
 
 use super::heat::HeatMap;
 use super::item::{Item, Tint};
 use super::series::{ColorSeries, Series};
 
-/// How values map to a length.
+/// Map from values to lengths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
     /// Equal lengths for equal differences.
@@ -14,7 +14,7 @@ pub enum Scale {
     Log,
 }
 
-/// What an axis shows. Build it from its label: `"time (s)".into()`.
+/// Label, scale and limits of an axis. Made from its label: `"time (s)".into()`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AxisSpec {
     /// Quantity and unit, like `"position drift (m)"`. Superscript characters (`m/s²`) are set as superscripts.
@@ -23,9 +23,9 @@ pub struct AxisSpec {
     pub scale: Scale,
     /// Fixed limits; taken from the data when absent or unusable.
     pub range: Option<(f64, f64)>,
-    /// Whether values are angles in degrees, which are marked at multiples of 15, 45, 90 ...
+    /// True if values are angles in degrees, with marks at multiples of 15, 45, 90 ...
     pub is_angle: bool,
-    /// What is at 0, 1, 2 ...: words in the place of numbers.
+    /// Texts at 0, 1, 2 ... that replace numbers.
     pub names: Vec<String>,
 }
 
@@ -42,37 +42,37 @@ impl From<String> for AxisSpec {
 }
 
 impl AxisSpec {
-    /// The same axis, logarithmic.
+    /// Makes the axis logarithmic.
     pub fn log(mut self) -> Self {
         self.scale = Scale::Log;
         self
     }
 
-    /// The same axis for angles in degrees.
+    /// Makes the axis one of angles in degrees.
     pub fn degrees(mut self) -> Self {
         self.is_angle = true;
         self
     }
 
-    /// The same axis with words at 0, 1, 2 ... in the place of numbers.
+    /// Sets texts at 0, 1, 2 ... that replace numbers.
     pub fn names(mut self, names: impl IntoIterator<Item = String>) -> Self {
         self.names = names.into_iter().collect();
         self
     }
 
-    /// The same axis with fixed limits.
+    /// Sets fixed limits.
     pub fn range(mut self, low: f64, high: f64) -> Self {
         self.range = Some((low, high));
         self
     }
 }
 
-/// A text beside a point given in data coordinates.
+/// A text near a point in data coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Annotation {
-    /// The point.
+    /// x of the point.
     pub x: f64,
-    /// The point.
+    /// y of the point.
     pub y: f64,
     /// The text.
     pub text: String,
@@ -80,10 +80,10 @@ pub struct Annotation {
     pub tint: Tint,
 }
 
-/// Axes and what is drawn between them.
+/// Axes and the data drawn between them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Panel {
-    /// Drawn above the axes; may be empty.
+    /// Title above the axes; may be empty.
     pub title: String,
     /// The horizontal axis.
     pub x: AxisSpec,
@@ -95,19 +95,19 @@ pub struct Panel {
     pub color_series: Vec<ColorSeries>,
     /// A map of cells below everything else; it shares the colour bar.
     pub heat_map: Option<HeatMap>,
-    /// Dashed upright lines: where, and what they are called; the name may be empty.
+    /// Dashed vertical lines: x and label, which may be empty.
     pub verticals: Vec<(f64, String)>,
     /// Texts at points.
     pub annotations: Vec<Annotation>,
-    /// Things drawn upon the series, in this order.
+    /// Items drawn on top of the series, in this order.
     pub items: Vec<Item>,
-    /// A small drawing around the place (0, 0) that goes to the corner where it hides least.
+    /// A small drawing around (0, 0), placed in the corner where it hides least.
     pub inset: Vec<Item>,
-    /// Colours that the legend explains beside the series.
+    /// Colours that the legend explains in addition to the series.
     pub keys: Vec<(String, Tint)>,
-    /// One unit of x is as long as one unit of y (both linear).
+    /// True if one unit of x is as long as one unit of y (both linear).
     pub equal_aspect: bool,
-    /// Height between the axes in nominal pixels; chosen when absent.
+    /// Height between the axes in nominal pixels; chosen if none.
     pub height: Option<f64>,
 }
 
@@ -141,7 +141,7 @@ impl Panel {
         self
     }
 
-    /// Adds a dashed upright line at `x`.
+    /// Adds a dashed vertical line at `x`.
     pub fn vertical(mut self, x: f64, label: impl Into<String>) -> Self {
         self.verticals.push((x, label.into()));
         self
@@ -152,7 +152,7 @@ impl Panel {
         self.annotate_in(Tint::Ink(0.0), x, y, text)
     }
 
-    /// Adds things to draw.
+    /// Adds items to draw.
     pub fn items(mut self, items: impl IntoIterator<Item = Item>) -> Self {
         self.items.extend(items);
         self

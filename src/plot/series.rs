@@ -2,7 +2,7 @@
 
 use super::panel::Scale;
 
-/// How a series is drawn.
+/// Style of a series.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Style {
     /// A line; one of eight or more lines in a panel gets dashes as well, to be told apart in grey.
@@ -20,17 +20,17 @@ pub enum Style {
     Dots,
     /// A line with markers, not at every point when they would touch.
     LineDots,
-    /// A small grey cross at every point: what stands back behind the others.
+    /// A small grey cross at every point, for data in the background.
     Crosses,
 }
 
 impl Style {
-    /// Whether the points are joined.
+    /// True if the points are joined.
     pub(super) fn has_line(self) -> bool {
         !matches!(self, Self::Dots | Self::Crosses)
     }
 
-    /// Whether the points carry markers.
+    /// True if the points have markers.
     pub(super) fn has_markers(self) -> bool {
         matches!(self, Self::Dots | Self::LineDots | Self::Crosses)
     }
@@ -45,7 +45,7 @@ pub struct Series {
     pub points: Vec<(f64, f64)>,
     /// Line, dashes, dots.
     pub style: Style,
-    /// Place in the palette (seven colours, repeated); the place in the panel when absent.
+    /// Index in the palette (seven colours, repeated); the index in the panel if none.
     pub color: Option<usize>,
 }
 
@@ -60,24 +60,24 @@ impl Series {
         Self::line(label, points).style(Style::Dots)
     }
 
-    /// The same data in another style.
+    /// Sets the style.
     pub fn style(mut self, style: Style) -> Self {
         self.style = style;
         self
     }
 
-    /// The same data in a colour of the palette.
+    /// Sets the colour by its index in the palette.
     pub fn color(mut self, color: usize) -> Self {
         self.color = Some(color);
         self
     }
 
-    /// Whether it is one of the lines that are told apart by colours and, where they are many, by dashes.
+    /// True if it is one of the lines that are distinguished by colours and, where they are many, by dashes.
     pub(super) fn is_counted(&self) -> bool {
         !matches!(self.style, Style::Dashed | Style::Dotted | Style::Guide | Style::Crosses)
     }
 
-    /// Whether x never goes back, as in a function of time.
+    /// True if x never decreases, as in a function of time.
     pub(super) fn is_function(&self) -> bool {
         self.points.windows(2).all(|pair| pair[1].0 >= pair[0].0)
     }
@@ -100,7 +100,7 @@ impl ColorSeries {
         Self { label: label.into(), points, scale: Scale::Linear }
     }
 
-    /// The same points on a logarithmic colour scale.
+    /// Sets a logarithmic colour scale.
     pub fn log(mut self) -> Self {
         self.scale = Scale::Log;
         self

@@ -1,4 +1,4 @@
-//! The flat list of shapes between layout and file formats. Coordinates are nominal pixels, y down.
+//! The flat list of shapes from which files are written. Coordinates are nominal pixels, y down.
 
 use super::text::Rich;
 use std::ops::Range;
@@ -10,7 +10,7 @@ pub(super) type Pt = (f64, f64);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Color(pub u8, pub u8, pub u8);
 
-/// An upright rectangle.
+/// A rectangle parallel to the axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Rect {
     pub left: f64,
@@ -40,7 +40,7 @@ impl Rect {
         x >= self.left && x <= self.right && y >= self.top && y <= self.bottom
     }
 
-    /// This one, larger on every side.
+    /// Returns this rectangle, larger on every side.
     pub fn grown(&self, by: f64) -> Self {
         Self { left: self.left - by, top: self.top - by, right: self.right + by, bottom: self.bottom + by }
     }
@@ -53,14 +53,14 @@ impl Rect {
         self.contains((other.left, other.top)) && self.contains((other.right, other.bottom))
     }
 
-    /// The outline, closed.
+    /// Returns the outline, closed.
     pub fn outline(&self) -> Vec<Pt> {
         let corners = [(self.left, self.top), (self.right, self.top), (self.right, self.bottom)];
         corners.into_iter().chain([(self.left, self.bottom), (self.left, self.top)]).collect()
     }
 }
 
-/// How a line is drawn.
+/// Colour, width and dashes of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stroke {
     pub color: Color,
@@ -80,18 +80,18 @@ pub(super) enum Marker {
     Cross,
 }
 
-/// Which point of a text its position is.
+/// Alignment of a text at its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
-    /// Where it starts.
+    /// The text starts there.
     Start,
-    /// Its middle.
+    /// Its middle is there.
     Middle,
-    /// Where it ends.
+    /// The text ends there.
     End,
 }
 
-/// A line of text; `at` lies on its baseline.
+/// A line of text; `at` is on its baseline.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Text {
     pub at: Pt,
@@ -99,12 +99,12 @@ pub(super) struct Text {
     pub size: f64,
     pub color: Color,
     pub align: Align,
-    /// Turned a quarter, read upwards.
+    /// True if rotated by 90 degrees, to be read upwards.
     pub turned: bool,
 }
 
 impl Text {
-    /// Where the text begins along its baseline, seen from its position.
+    /// Returns the start of the text along its baseline, relative to its position.
     pub fn start(&self) -> f64 {
         let part = match self.align {
             Align::Start => 0.0,
@@ -114,7 +114,7 @@ impl Text {
         part * self.rich.width(self.size)
     }
 
-    /// The box around the text, as measured with the embedded font.
+    /// Returns the box around the text, as measured with the embedded font.
     pub fn bounds(&self) -> Rect {
         let (start, width) = (self.start(), self.rich.width(self.size));
         let (above, below) = (0.78 * self.size, 0.22 * self.size);
@@ -126,14 +126,14 @@ impl Text {
     }
 }
 
-/// One thing to draw.
+/// A shape to draw.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Shape {
     Path {
         points: Vec<Pt>,
         stroke: Stroke,
     },
-    /// A convex polygon through which things below shine.
+    /// A convex polygon, transparent by its opacity.
     Area {
         points: Vec<Pt>,
         fill: Color,
@@ -157,10 +157,10 @@ pub(super) enum Shape {
 pub(super) struct Drawing {
     pub width: f64,
     pub height: f64,
-    /// For screen readers and file browsers.
+    /// Title for screen readers and file browsers.
     pub title: String,
     pub shapes: Vec<Shape>,
-    /// Which of them are the panels' items: what moves in an animation.
+    /// Range of the panels' items among the shapes: the moving part of an animation.
     pub items: Range<usize>,
 }
 
@@ -173,7 +173,7 @@ impl Drawing {
         self.shapes.push(Shape::Rects { rects: vec![rect], fill });
     }
 
-    /// Adds a text, unless there is nothing to read.
+    /// Adds a text, unless it is empty.
     pub fn text(&mut self, text: Text) {
         if !text.rich.runs.is_empty() {
             self.shapes.push(Shape::Text(text));
@@ -182,12 +182,12 @@ impl Drawing {
 }
 
 impl Marker {
-    /// Line width of the marker made of strokes; the others are filled.
+    /// Returns the line width of the marker made of strokes; the others are filled.
     pub fn stroke_width(self, radius: f64) -> Option<f64> {
         (self == Self::Cross).then_some(0.42 * radius)
     }
 
-    /// Its lines or filled outlines around a point. Areas are about equal; the circle is drawn as such.
+    /// Returns its lines or filled outlines around a point. Areas are about equal; the circle is drawn as such.
     pub fn outlines(self, (x, y): Pt, radius: f64) -> Vec<Vec<Pt>> {
         let at = |points: &[Pt]| points.iter().map(|p| (x + radius * p.0, y + radius * p.1)).collect::<Vec<Pt>>();
         match self {

@@ -1,4 +1,4 @@
-//! A picture as SVG text.
+//! SVG files.
 //!
 //! Written here rather than with plotters' backend, whose coordinates are whole numbers and which has neither
 //! dashes nor raised text. Text stays text, so it can be searched and edited; fonts of nearly the same widths
@@ -9,7 +9,7 @@ use super::shape::{Align, Color, Drawing, Marker, Pt, Shape, Text};
 
 const FONTS: &str = "DejaVu Sans, Bitstream Vera Sans, Verdana, Geneva, sans-serif";
 
-/// The whole file.
+/// Returns the whole file.
 pub(super) fn render(drawing: &Drawing) -> String {
     let mut out = opening(drawing);
     drawing.shapes.iter().for_each(|one| shape(&mut out, one));
@@ -17,7 +17,7 @@ pub(super) fn render(drawing: &Drawing) -> String {
     out
 }
 
-/// The root element with title and paper.
+/// Returns the root element with title and paper.
 fn opening(drawing: &Drawing) -> String {
     let (width, height) = (number(drawing.width), number(drawing.height));
     let mut out = format!(
@@ -65,12 +65,12 @@ fn path(out: &mut String, paint: &str, data: &str) {
     *out += &format!("<path {paint} d=\"{data}\"/>\n");
 }
 
-/// How a line is painted.
+/// Returns the attributes of a line.
 fn line(color: Color, width: f64) -> String {
     format!("fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"", hex(color), number(width))
 }
 
-/// A picture of which `frames` are shown one after another, again and again, each for `delay` seconds.
+/// Returns an animation of which `frames` are shown in a loop, each for `delay` seconds.
 pub(super) fn animate(still: &Drawing, frames: &[Vec<Shape>], delay: f64) -> String {
     let mut out = opening(still);
     still.shapes.iter().for_each(|one| shape(&mut out, one));
@@ -114,7 +114,7 @@ fn text(out: &mut String, text: &Text) {
     let (mut level, mut gap) = (0.0, 0.0);
     for run in &text.rich.runs {
         let (size, down) = run.level.metrics(text.size);
-        // Viewers drop spaces beside a raised part, so these become steps.
+        // Viewers drop spaces next to a superscript, so these become offsets.
         let inner = run.text.trim_start_matches(' ');
         gap += spaces(run.text.len() - inner.len(), size);
         let word = inner.trim_end_matches(' ');
@@ -129,12 +129,12 @@ fn text(out: &mut String, text: &Text) {
     out.push_str("</text>\n");
 }
 
-/// Width of so many spaces.
+/// Returns the width of `count` spaces.
 fn spaces(count: usize, size: f64) -> f64 {
     count as f64 * font::width(" ") * size
 }
 
-/// Path data: absolute start, then steps in tenths of a pixel that add up without drift.
+/// Returns path data: absolute start, then steps in tenths of a pixel that add up without drift.
 fn outline(points: &[Pt]) -> String {
     let grid = |point: &Pt| (tenths(point.0), tenths(point.1));
     let Some(first) = points.first() else {
@@ -155,7 +155,7 @@ fn outline(points: &[Pt]) -> String {
     data
 }
 
-/// Discs as strokes a tenth of a pixel long with round ends: a quarter of the bytes of circles.
+/// Returns discs as strokes a tenth of a pixel long with round ends: a quarter of the bytes of circles.
 fn dots(at: &[Pt]) -> String {
     let mut data = String::new();
     let mut pen = (0, 0);
@@ -172,7 +172,7 @@ fn tenths(value: f64) -> i64 {
     (10.0 * value).round() as i64
 }
 
-/// A number of tenths, after a space if it needs one to be told from the number before.
+/// Returns a number of tenths, after a space if it is needed as a separator.
 fn tenths_text(value: i64, follows: bool) -> String {
     let sign = if value < 0 {
         "-"
@@ -189,7 +189,7 @@ fn tenths_text(value: i64, follows: bool) -> String {
     }
 }
 
-/// At most two digits after the point, none when they are zero.
+/// Returns a number with at most two digits after the point, none when they are zero.
 fn number(value: f64) -> String {
     let text = format!("{value:.2}");
     let short = text.trim_end_matches('0').trim_end_matches('.');
@@ -200,7 +200,7 @@ fn hex(color: Color) -> String {
     format!("#{:02x}{:02x}{:02x}", color.0, color.1, color.2)
 }
 
-/// Text that is safe in XML; characters that XML forbids become spaces or the replacement character.
+/// Returns text that is safe in XML; characters that XML forbids become spaces or the replacement character.
 fn escape(text: &str) -> String {
     let plain = |character: char| match character {
         '\u{fffe}' | '\u{ffff}' => '\u{fffd}',

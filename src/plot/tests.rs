@@ -1,4 +1,4 @@
-//! Whole figures: what is drawn fits and can be read, whatever the data.
+//! Whole figures: shapes fit and texts are legible for any data.
 
 use std::fs;
 use std::path::PathBuf;
@@ -40,7 +40,7 @@ fn map() -> HeatMap {
     map
 }
 
-/// Words along y, and colours from 1e-12 to 1.
+/// A panel with texts along y, and colours from 1e-12 to 1.
 fn named_map() -> Panel {
     let mut map = HeatMap::new("drift (m)", vec![1.0, 2.0, 3.0], vec![0.0, 1.0]).log().range(1e-12, 1.0);
     map.set(0, 0, 1e-20);
@@ -103,7 +103,7 @@ fn texts_neither_overlap_nor_leave_the_page() {
     }
 }
 
-/// Numbers that break naive plots, in an order that a seed decides.
+/// Returns numbers that break naive plots, in an order that a seed decides.
 fn odd_number(seed: &mut u64) -> f64 {
     const ODD: [f64; 17] = [
         0.0,
@@ -205,7 +205,7 @@ fn long_data_make_small_files() {
     assert!(dots.to_svg().len() < 300_000, "{}", dots.to_svg().len());
 }
 
-/// An own folder below the system's one for temporary files, removed when dropped.
+/// A folder in the system's one for temporary files, removed when dropped.
 struct Folder(PathBuf);
 
 impl Folder {

@@ -1,12 +1,12 @@
-//! Lines of text with raised and lowered parts: measuring, breaking, shortening.
+//! Lines of text with superscripts and subscripts: measuring, breaking, shortening.
 
 use super::font;
 
-/// Size of a raised or lowered part relative to its line.
+/// Size of a superscript or subscript relative to its line.
 pub(super) const SCRIPT: f64 = 0.72;
-/// How far a raised part goes up, in em of the line.
+/// Rise of a superscript, in em of the line.
 pub(super) const RAISE: f64 = 0.40;
-/// How far a lowered part goes down, in em of the line.
+/// Drop of a subscript, in em of the line.
 pub(super) const LOWER: f64 = 0.16;
 
 /// Distance of lines of text in em.
@@ -21,7 +21,7 @@ pub(super) struct Run {
     pub level: Level,
 }
 
-/// Height of a part.
+/// Vertical level of a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Level {
     Base,
@@ -30,7 +30,7 @@ pub(super) enum Level {
 }
 
 impl Level {
-    /// Size and downward shift of this level in a line of the given size.
+    /// Returns size and downward shift of this level in a line of the given size.
     pub fn metrics(self, size: f64) -> (f64, f64) {
         match self {
             Self::Base => (size, 0.0),
@@ -47,8 +47,8 @@ pub(super) struct Rich {
 }
 
 impl Rich {
-    /// Reads a text; superscript and subscript characters become raised and lowered ones, which look the same
-    /// in every font, and control characters become spaces.
+    /// Reads a text; superscript and subscript characters become raised and lowered parts, which look the same in every
+    /// font, and control characters become spaces.
     pub fn new(text: &str) -> Self {
         let mut rich = Self::default();
         text.chars().for_each(|character| {
@@ -65,7 +65,7 @@ impl Rich {
         }
     }
 
-    /// Width at a font size.
+    /// Returns the width at a font size.
     pub fn width(&self, size: f64) -> f64 {
         self.runs.iter().map(|run| font::width(&run.text) * run.level.metrics(size).0).sum()
     }
@@ -85,12 +85,12 @@ fn classify(character: char) -> (Level, char) {
     (Level::Base, if character.is_control() { ' ' } else { character })
 }
 
-/// Width of a text at a font size.
+/// Returns the width of a text at a font size.
 pub(super) fn width(text: &str, size: f64) -> f64 {
     Rich::new(text).width(size)
 }
 
-/// Breaks a text at spaces into lines of at most `room`, at most `most` of them; what does not fit ends in "…".
+/// Breaks a text at spaces into at most `most` lines of width `room`; a text that does not fit ends in "…".
 pub(super) fn wrap(text: &str, size: f64, room: f64, most: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
@@ -104,7 +104,7 @@ pub(super) fn wrap(text: &str, size: f64, room: f64, most: usize) -> Vec<String>
     lines.iter().map(|line| shorten(line, size, room)).collect()
 }
 
-/// A text broken into lines, smaller when it would not fit otherwise.
+/// A text broken into lines, smaller if it would not fit otherwise.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Label {
     pub lines: Vec<String>,
@@ -125,7 +125,7 @@ impl Label {
     }
 }
 
-/// The text, or as much of its beginning as fits, followed by "…".
+/// Returns the text, or the beginning that fits, followed by "…".
 pub(super) fn shorten(text: &str, size: f64, room: f64) -> String {
     // No letter is narrower than this part of an em, so a longer text need not be measured.
     let most = (room / (0.2 * size)).clamp(0.0, 1e4) as usize;

@@ -1,15 +1,15 @@
-//! Fewer points for the same picture.
+//! Reduction of the number of points without visible change.
 
 use super::shape::Pt;
 
-/// A line whose picture does not differ visibly, with no more points than `most` if that is possible.
+/// Returns a line without visible difference, with at most `most` points if possible.
 ///
-/// Of points in a row within one pixel column the first, lowest, highest and last are kept, so no extreme is
-/// lost; then points on straight stretches go.
+/// Of consecutive points within one pixel column the first, lowest, highest and last are kept, so no extreme is lost;
+/// then points on straight stretches are dropped.
 pub(super) fn line(points: &[Pt], most: usize) -> Vec<Pt> {
     let mut kept = points.to_vec();
     let mut width = 0.5;
-    // Each round doubles the column; eight of them reach 64 pixels, beyond which nothing is left to see.
+    // Each round doubles the column; eight of them reach 64 pixels, beyond which no detail is visible.
     for _ in 0..8 {
         kept = straighten(&columns(&kept, width), 0.15 * width);
         if kept.len() <= most {
@@ -20,7 +20,7 @@ pub(super) fn line(points: &[Pt], most: usize) -> Vec<Pt> {
     kept
 }
 
-/// First, lowest, highest and last of each group of consecutive points in the same column.
+/// Returns first, lowest, highest and last of each group of consecutive points in the same column.
 fn columns(points: &[Pt], width: f64) -> Vec<Pt> {
     let column = |point: &Pt| (point.0 / width).floor();
     let groups = points.chunk_by(|a, b| column(a) == column(b));
@@ -52,7 +52,7 @@ fn straighten(points: &[Pt], tolerance: f64) -> Vec<Pt> {
     points.iter().zip(is_kept).filter(|(_, is_kept)| *is_kept).map(|(point, _)| *point).collect()
 }
 
-/// From a point to the nearest one between two others.
+/// Returns the distance of a point from the segment between two others.
 fn distance(point: Pt, from: Pt, to: Pt) -> f64 {
     let (along, away) = ((to.0 - from.0, to.1 - from.1), (point.0 - from.0, point.1 - from.1));
     let length = along.0 * along.0 + along.1 * along.1;
@@ -60,8 +60,8 @@ fn distance(point: Pt, from: Pt, to: Pt) -> f64 {
     (away.0 - part * along.0).hypot(away.1 - part * along.1)
 }
 
-/// Points without those hidden by another one, with at most `most` left: indices of the kept ones, in order. One
-/// stays of those in the same small cell.
+/// Returns points without those hidden by another one, at most `most`: indices of the kept ones, in order. One is kept
+/// of those in the same small cell.
 pub(super) fn dots(points: &[Pt], most: usize) -> Vec<usize> {
     let mut kept: Vec<usize> = (0..points.len()).collect();
     let mut cell = 0.7;
@@ -77,14 +77,14 @@ pub(super) fn dots(points: &[Pt], most: usize) -> Vec<usize> {
 
 fn one_per_cell(points: &[Pt], mut kept: Vec<usize>, cell: f64) -> Vec<usize> {
     let key = |i: &usize| ((points[*i].0 / cell).floor() as i64, (points[*i].1 / cell).floor() as i64);
-    // By order of data the winners would all lie on one side of their cells and form stripes.
+    // By order of data the kept points would all be on one side of their cells and form stripes.
     kept.sort_by_key(|i| (key(i), scattered(*i)));
     kept.dedup_by_key(|i| key(i));
     kept.sort_unstable();
     kept
 }
 
-/// A number without visible relation to `i`, but always the same for it.
+/// Returns a pseudo-random number that depends on `i` only.
 fn scattered(i: usize) -> u64 {
     let mixed = (i as u64).wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     (mixed ^ (mixed >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9)

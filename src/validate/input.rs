@@ -12,8 +12,8 @@ use serde::Serialize;
 
 /// Check of one input.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-/// Name of the input.
 pub struct InputCheck {
+    /// Name of the input.
     pub input: String,
     /// Width of the pulse, s.
     pub width: f64,

@@ -1,4 +1,4 @@
-//! Every method at many tolerances, and which to choose.
+//! Work-precision measurements of all methods, and recommendations.
 
 use super::Args;
 use crate::cli::common::tell;
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-/// Results so far are written so often.
+/// Interval at which results so far are written.
 const SAVED: Duration = Duration::from_secs(5);
 
 pub fn run(args: &Args, prepared: &PreparedScene) -> Result<ExitCode> {
@@ -29,7 +29,7 @@ pub fn run(args: &Args, prepared: &PreparedScene) -> Result<ExitCode> {
     report(args, &measured, folder)
 }
 
-/// What is to be measured: which quantities, by which methods, for how long.
+/// The measurement: quantities, methods and times.
 struct Question {
     watched: Watched,
     plan: Plan,
@@ -61,7 +61,7 @@ impl Question {
         Ok(Question { watched, plan })
     }
 
-    /// What is known before: nothing, or what `--resume` finds.
+    /// Returns the results so far: none, or those that `--resume` finds.
     fn begin(&self, args: &Args, prepared: &PreparedScene, place: &Path) -> Result<WorkPrecision> {
         let (span, rows) = (prepared.span()?, self.plan.rows);
         let fresh = WorkPrecision {
@@ -80,7 +80,7 @@ impl Question {
             bar.set_message(next.to_string());
             if saved.elapsed() > SAVED {
                 saved = Instant::now();
-                // What cannot be saved now will be told at the end.
+                // A failure to save is reported at the end.
                 let _ = save(place, measured);
             }
         };
@@ -114,13 +114,13 @@ fn report(args: &Args, measured: &WorkPrecision, mut folder: Folder) -> Result<E
 }
 
 impl Args {
-    /// The table to measure against: that of the command line, or that which the scene brings.
+    /// Returns the table of reference values: that of the command line, or that of the scene.
     fn reference(&self, prepared: &PreparedScene) -> Option<PathBuf> {
         let own = || Some(scene::folder(Some(&self.scene.path)).join(prepared.reference.as_ref()?));
         self.reference.clone().or_else(own)
     }
 
-    /// What to compare; by default all that a table has.
+    /// Returns the outputs to compare; by default all that a table has.
     fn outputs(&self, prepared: &PreparedScene, given: Option<&Given>) -> Vec<String> {
         let known = prepared.system().columns();
         let has = |name: &&str| known.iter().any(|column| column.name == **name);
@@ -130,7 +130,7 @@ impl Args {
         }
     }
 
-    /// Refuses unknown options of what is named, before anything is run.
+    /// Refuses unknown options of the named methods, before anything is run.
     fn check_choices(&self, system: &dyn MechanicalSystem) -> Result<()> {
         for spec in &self.formulation {
             formulation::make(spec, system).map_err(|error| error.under("--formulation"))?;
@@ -141,7 +141,7 @@ impl Args {
         Ok(())
     }
 
-    /// The scene as the command line names it, with what it changes.
+    /// Returns the scene as on the command line, with its changes.
     fn named(&self) -> String {
         let set = self.scene.set.iter().map(|(name, value)| format!(" --set {name}={value}"));
         let until = self.until.iter().map(|until| format!(" --until {until}"));
@@ -154,7 +154,7 @@ fn save(place: &Path, measured: &WorkPrecision) -> Result<()> {
     write_whole(place, text.as_bytes())
 }
 
-/// Of all that makes measurements comparable: the scene, what is changed of it, what is compared and when.
+/// Returns a hash of all that makes measurements comparable: the scene, its changes, the compared quantities and times.
 fn fingerprint(args: &Args, rows: usize) -> Result<String> {
     let mut hasher = DefaultHasher::new();
     scene::read_text(&args.scene.path)?.hash(&mut hasher);
@@ -164,7 +164,7 @@ fn fingerprint(args: &Args, rows: usize) -> Result<String> {
     Ok(format!("{:016x}", hasher.finish()))
 }
 
-/// What was measured before.
+/// Returns the results of an earlier measurement.
 fn resumed(place: &Path, fresh: WorkPrecision) -> Result<WorkPrecision> {
     let wrong = |problem: &str| Error::file(place, format!("{problem}; leave out --resume to begin anew"));
     let text = files::read_text(place).map_err(|_| wrong("there is no measurement to go on with"))?;

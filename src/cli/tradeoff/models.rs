@@ -1,4 +1,4 @@
-//! What a richer model costs and gives.
+//! Cost and accuracy of richer models.
 
 use super::Args;
 use crate::cli::common::assignment;
@@ -40,7 +40,7 @@ pub fn run(args: &Args, prepared: PreparedScene) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// A scene with parameters of its own.
+/// Reads a scene with parameters of its own.
 fn variant(text: &str, args: &Args, like: &PreparedScene) -> Result<Variant> {
     let (path, set) = match text.rsplit_once(':') {
         Some((path, rest)) if rest.contains('=') => (path, rest),
@@ -59,7 +59,7 @@ fn variant(text: &str, args: &Args, like: &PreparedScene) -> Result<Variant> {
     Ok(Variant { name: named(Path::new(path), set), prepared, source })
 }
 
-/// A parameter at fault was given by `--variants`, not by `--set`.
+/// Attributes an error in a parameter to `--variants` instead of `--set`.
 fn of_variants(error: Error) -> Error {
     let Error::Input(mut input) = error else { return error };
     if input.path == "--set" {
@@ -68,7 +68,7 @@ fn of_variants(error: Error) -> Error {
     Error::Input(input)
 }
 
-/// The file's name and the parameters.
+/// Returns the file's name and the parameters.
 fn named(path: &Path, set: &str) -> String {
     let stem = path.file_stem().map_or(String::new(), |stem| stem.to_string_lossy().into_owned());
     if set.is_empty() { stem } else { format!("{stem}:{set}") }

@@ -21,7 +21,7 @@ const KNOWN: [&[&str]; 3] = [
 pub struct Recommendation {
     /// Number of correct digits.
     pub digits: u32,
-    /// Places in the list of cells. The cheapest; of a tie the one that drifts least, then the one that is known best.
+    /// Index of the best cell: the cheapest; of a tie the one with the least drift, then the best-known method.
     pub best: usize,
     /// Indices of other methods that cost as little within `tolerances::TIED_COSTS`.
     pub ties: Vec<usize>,

@@ -15,7 +15,7 @@ use std::time::Duration;
 pub struct Reference {
     /// The method or the file.
     pub from: String,
-    /// What it was compared with.
+    /// The method or the tolerance that it was compared with.
     pub checked_by: String,
     /// True if that is another method, false if the reference's own at a looser tolerance.
     pub is_independent: bool,

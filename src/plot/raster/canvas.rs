@@ -1,4 +1,4 @@
-//! Shapes drawn by plotters upon the large picture.
+//! Shapes drawn by plotters on the large picture.
 
 use crate::plot::font::{self, DEJAVU, EM};
 use crate::plot::shape::{Color, Marker, Pt, Rect, Shape, Stroke, Text};
@@ -6,7 +6,7 @@ use ab_glyph::{Font, FontRef, GlyphId};
 use plotters::backend::{BitMapBackend, DrawingBackend};
 use plotters::style::{Color as _, RGBAColor, RGBColor};
 
-/// plotters with nominal coordinates.
+/// The drawing backend of plotters with nominal coordinates.
 pub(super) struct RasterCanvas<'a> {
     backend: BitMapBackend<'a>,
     /// Subpixels per nominal pixel.
@@ -80,7 +80,7 @@ impl<'a> RasterCanvas<'a> {
         Ok(())
     }
 
-    /// A segment with its width, ending square at its ends.
+    /// Draws a segment with its width and square ends.
     fn segment(&mut self, from: Pt, to: Pt, stroke: &Stroke) -> Drawn {
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
         let length = dx.hypot(dy);
@@ -113,7 +113,7 @@ impl<'a> RasterCanvas<'a> {
         Ok(())
     }
 
-    /// A glyph whose baseline begins so far along the text and below its baseline.
+    /// Draws a glyph; its origin is at an offset along the text and below its baseline.
     fn glyph(&mut self, font: &FontRef, glyph: GlyphId, size: f64, (along, down): Pt, text: &Text) -> Drawn {
         let height = f64::from(font.height_unscaled()) / EM * size * self.scale;
         let Some(outline) = font.outline_glyph(glyph.with_scale(height as f32)) else { return Ok(()) };
@@ -137,7 +137,7 @@ fn style(color: Color) -> RGBColor {
     RGBColor(color.0, color.1, color.2)
 }
 
-/// The drawn parts of a dashed line.
+/// Returns the drawn parts of a dashed line.
 fn dashes(points: &[Pt], pattern: &[f64]) -> Vec<Vec<Pt>> {
     if pattern.is_empty() || pattern.iter().any(|length| *length <= 0.0) {
         return vec![points.to_vec()];

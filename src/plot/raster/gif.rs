@@ -1,28 +1,28 @@
-//! Pictures as a GIF file: one palette for all, and of each frame only what differs from the one before.
+//! GIF files: one palette for all frames, and of each frame only the difference from the one before.
 
 use super::Sheet;
 use crate::plot::shape::{Drawing, Shape};
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use rayon::prelude::*;
 
-/// Frames that the palette is taken from.
+/// Number of frames from which the palette is taken.
 const SAMPLES: usize = 6;
-/// Colours, and the index of a pixel that stays as it was.
+/// Number of colours, and the index of an unchanged pixel.
 const COLORS: usize = 255;
 const SAME: u8 = 255;
-/// So many of the most frequent colours have a place in any case, such as those of areas.
+/// Number of the most frequent colours that are always in the palette, such as those of areas.
 const FREQUENT: usize = 64;
-/// Colours nearer than this to a more frequent one wait until all others have a place.
+/// Colours nearer than this to a more frequent one are added only after all others.
 const NEAR: i32 = 14;
-/// Frames that are drawn at once.
+/// Number of frames drawn at once.
 const BATCH: usize = 8;
 
 /// Output pixels per nominal one, and subpixels in each direction.
 const DENSITY: usize = 1;
 const FINENESS: usize = 3;
 
-/// The whole file of `count` frames; `moving` gives what a frame has upon what is `still`, `done` hears how many are
-/// drawn.
+/// Returns the file of `count` frames; `moving` gives the items of a frame, drawn on the constant `still`, and `done`
+/// is called with the number of frames drawn.
 pub(in crate::plot) fn gif(
     still: &Drawing,
     count: usize,
@@ -60,13 +60,14 @@ fn text(error: impl ToString) -> String {
     error.to_string()
 }
 
-/// Hundredths of a second that frame `k` is shown; rounded so that the sum stays right.
+/// Returns the hundredths of a second that frame `k` is shown; rounded so that the sum stays right.
 fn delay(k: usize, per_second: f64) -> u16 {
     let end = |k: usize| (100.0 * k as f64 / per_second).round();
     (end(k + 1) - end(k)).clamp(1.0, f64::from(u16::MAX)) as u16
 }
 
-/// The least rectangle that holds all changes, unchanged pixels in it left as they are. Without a change, one pixel.
+/// Returns the least rectangle with all changes, in which unchanged pixels are transparent. Without a change, one
+/// pixel.
 fn difference(before: &[u8], now: &[u8], width: usize) -> Frame<'static> {
     let is_same = |i: usize| before.get(i) == Some(&now[i]);
     let changed: Vec<usize> = (0..now.len()).filter(|i| !is_same(*i)).collect();
@@ -89,7 +90,7 @@ fn difference(before: &[u8], now: &[u8], width: usize) -> Frame<'static> {
 
 type Rgb = [u8; 3];
 
-/// At most [`COLORS`] colours, and which of them stands for each colour of five bits a channel.
+/// At most [`COLORS`] colours, with the index of the nearest for each colour of five bits per channel.
 struct Palette {
     colors: Vec<Rgb>,
     nearest: Vec<u8>,
@@ -130,7 +131,7 @@ impl Palette {
         pixels.chunks_exact(3).map(|color| self.nearest[bin(color)]).collect()
     }
 
-    /// With black for what has no colour, [`SAME`] among it.
+    /// Returns the palette padded with black, with an entry for [`SAME`].
     fn bytes(&self) -> Vec<u8> {
         let mut bytes = self.colors.concat();
         bytes.resize(3 * (COLORS + 1), 0);

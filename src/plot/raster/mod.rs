@@ -1,4 +1,4 @@
-//! Pictures as pixels: drawn by plotters several times as large, then averaged down, since its lines have jagged edges.
+//! Raster pictures: drawn by plotters several times as large, then averaged down, since its lines have jagged edges.
 
 mod canvas;
 mod gif;
@@ -7,16 +7,16 @@ pub(super) use gif::gif;
 
 use super::shape::{Drawing, Shape};
 
-/// Output pixels per nominal pixel, so that 85 mm hold 1280 pixels.
+/// Output pixels per nominal pixel: 1280 pixels in 85 mm.
 const DENSITY: usize = 2;
 /// Subpixels per output pixel and direction.
 const FINENESS: usize = 4;
-/// The large picture has at most this many pixels; beyond, it is drawn coarser.
+/// Largest number of pixels of the large picture; beyond, it is drawn coarser.
 const MOST_PIXELS: f64 = 5.0e7;
 /// Printed width of 640 nominal pixels.
 const COLUMN_METRES: f64 = 0.085;
 
-/// The whole file, or why there is none.
+/// Returns the bytes of a PNG file, or the reason why there is none.
 pub(super) fn png(drawing: &Drawing) -> Result<Vec<u8>, String> {
     let (density, fineness) = resolution(drawing)?;
     let sheet = Sheet::new(drawing, density, fineness);
@@ -24,7 +24,7 @@ pub(super) fn png(drawing: &Drawing) -> Result<Vec<u8>, String> {
     encode(&sheet.average(&pixels), sheet.size, density).map_err(|error| error.to_string())
 }
 
-/// What pictures of the same size are drawn on.
+/// Format of pictures of the same size.
 struct Sheet {
     /// Subpixels per nominal pixel.
     scale: usize,
@@ -39,12 +39,12 @@ impl Sheet {
         Self { scale: density * fineness, fineness, size }
     }
 
-    /// The large picture, empty.
+    /// Returns the large picture, empty.
     fn blank(&self) -> Vec<u8> {
         vec![255; 3 * self.size.0 * self.size.1 * self.fineness * self.fineness]
     }
 
-    /// Draws upon a large picture.
+    /// Draws on a large picture.
     fn draw(&self, mut pixels: Vec<u8>, shapes: &[Shape]) -> Result<Vec<u8>, String> {
         let size = (self.size.0 * self.fineness, self.size.1 * self.fineness);
         let mut pen = canvas::RasterCanvas::new(&mut pixels, size, self.scale);
@@ -53,7 +53,7 @@ impl Sheet {
         Ok(pixels)
     }
 
-    /// The output pixels (red, green, blue) of a large picture: means of `fineness` by `fineness` blocks.
+    /// Returns the output pixels (red, green, blue) of a large picture: means of `fineness` by `fineness` blocks.
     fn average(&self, pixels: &[u8]) -> Vec<u8> {
         let (stride, fineness) = (3 * self.size.0 * self.fineness, self.fineness);
         let count = (fineness * fineness) as u32;
@@ -72,7 +72,7 @@ impl Sheet {
     }
 }
 
-/// Density and fineness, reduced for pictures of unusual size.
+/// Returns density and fineness, reduced for pictures of unusual size.
 fn resolution(drawing: &Drawing) -> Result<(usize, usize), String> {
     let area = drawing.width.ceil() * drawing.height.ceil();
     let mut choices = [(DENSITY, FINENESS), (DENSITY, 3), (DENSITY, 2), (1, 2), (1, 1)].into_iter();

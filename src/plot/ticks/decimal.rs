@@ -1,11 +1,11 @@
 //! Exact decimal numbers for labels: n * 10^power, so that 0.1 + 0.2 reads 0.3.
 
-/// `digits * 10^power` as people write it, with a true minus sign and `places` digits after the point.
+/// Returns `digits * 10^power` in plain notation, with a true minus sign and `places` digits after the point.
 pub(super) fn plain(digits: i64, power: i32, places: usize) -> String {
     format!("{:.places$}", value(digits, power)).replace('-', "−")
 }
 
-/// Digits after the point that `digits * 10^power` needs.
+/// Returns the number of digits after the point that `digits * 10^power` needs.
 pub(super) fn places(digits: i64, power: i32) -> usize {
     let (mut digits, mut power) = (digits, power);
     while digits != 0 && digits % 10 == 0 {
@@ -15,7 +15,7 @@ pub(super) fn places(digits: i64, power: i32) -> usize {
     if digits == 0 || power >= 0 { 0 } else { power.unsigned_abs() as usize }
 }
 
-/// "10" with a raised exponent.
+/// Returns "10" with a superscript exponent.
 pub(in crate::plot) fn power_of_ten(exponent: i32) -> String {
     const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let digits = exponent.unsigned_abs().to_string();
@@ -23,7 +23,7 @@ pub(in crate::plot) fn power_of_ten(exponent: i32) -> String {
     if exponent < 0 { format!("10⁻{raised}") } else { format!("10{raised}") }
 }
 
-/// `digits * 10^power`, rounded once for the common powers.
+/// Returns `digits * 10^power`, rounded once for the common powers.
 pub(super) fn value(digits: i64, power: i32) -> f64 {
     if (-22..0).contains(&power) { digits as f64 / 10f64.powi(-power) } else { digits as f64 * 10f64.powi(power) }
 }

@@ -5,7 +5,7 @@ use super::{Room, Tick, Ticks};
 
 /// Steps in tenths.
 const STEPS: [i64; 4] = [10, 20, 25, 50];
-/// Labels with more significant digits than this are written relative to an offset.
+/// Largest number of significant digits; longer labels are written relative to an offset.
 const MOST_DIGITS: i32 = 6;
 
 /// Marks first * step, (first + 1) * step, ... last * step with step = tenths * 10^(power - 1).
@@ -17,7 +17,7 @@ struct Grid {
     last: i64,
 }
 
-/// The finest marks whose labels have room.
+/// Returns the finest marks whose labels have space.
 pub(super) fn ticks(low: f64, high: f64, room: Room, is_angle: bool) -> Ticks {
     let most = if room.along { 8.0 } else { 7.0 };
     let mut best = None;
@@ -39,14 +39,14 @@ pub(super) fn ticks(low: f64, high: f64, room: Room, is_angle: bool) -> Ticks {
 /// Steps of angles, degrees.
 const ANGLES: [i64; 8] = [5, 15, 30, 45, 90, 180, 360, 720];
 
-/// Grids for angles from fine to coarse, where one has at most `most` steps and more than one.
+/// Returns grids for angles from fine to coarse, where one has at most `most` steps and more than one.
 fn angle_grids(low: f64, high: f64, most: f64) -> impl Iterator<Item = Grid> {
     let (finest, coarsest) = ((high - low) / most, 0.5 * (high - low));
     let steps = ANGLES.into_iter().filter(move |step| (finest..=coarsest).contains(&(*step as f64)));
     steps.map(move |step| Grid::new(step, 0, low, high))
 }
 
-/// Grids from fine to coarse, beginning with at most `most` steps.
+/// Returns grids from fine to coarse, beginning with at most `most` steps.
 fn grids(low: f64, high: f64, most: f64) -> impl Iterator<Item = Grid> {
     let finest = (high - low) / most;
     let power = finest.log10().floor() as i32;
@@ -59,7 +59,7 @@ impl Grid {
     /// Marks at multiples of tenths * 10^power.
     fn new(tenths: i64, power: i32, low: f64, high: f64) -> Self {
         let step = value(tenths, power);
-        // A mark on the very limit must not be lost to rounding.
+        // A mark exactly at the limit must not be lost to rounding.
         let (first, last) = ((low / step - 1e-6).ceil() as i64, (high / step + 1e-6).floor() as i64);
         Grid { tenths, power, first, last }
     }
@@ -81,7 +81,7 @@ impl Grid {
         Ticks { major: major.collect(), minor: Vec::new(), factor: factor_text(factor, offset, self.power) }
     }
 
-    /// What to subtract from all labels because they would be too long, and the largest that is left.
+    /// Returns the number to subtract from all labels because they would be too long, and the largest remainder.
     fn offset(&self, numbers: &[i64], largest: f64) -> (i64, f64) {
         let digits = largest.max(f64::MIN_POSITIVE).log10().floor() as i32 - self.step().log10().floor() as i32;
         let (Some(first), Some(last)) = (numbers.first(), numbers.last()) else { return (0, largest) };
@@ -94,14 +94,14 @@ impl Grid {
     }
 }
 
-/// The number from `first` to `last` with the most zeros at its end.
+/// Returns the number from `first` to `last` with the most zeros at its end.
 fn roundest(first: i64, last: i64) -> i64 {
     let units = (0..=18).rev().map(|zeros| 10i64.pow(zeros));
     let multiples = units.map(|unit| last.div_euclid(unit).saturating_mul(unit));
     multiples.into_iter().find(|multiple| *multiple >= first).unwrap_or(first)
 }
 
-/// The power of a thousand to take out of the labels when they would have too many digits.
+/// Returns the power of a thousand to take out of the labels when they would have too many digits.
 fn common_factor(largest: f64, numbers: &[i64], power: i32) -> i32 {
     if largest <= 0.0 {
         return 0;
@@ -124,7 +124,7 @@ fn factor_text(factor: i32, offset: i64, power: i32) -> String {
     text
 }
 
-/// An offset in plain digits when these are few, else as a number times a power of ten.
+/// Returns an offset in plain digits when these are few, else as a number times a power of ten.
 fn offset_text(offset: i64, power: i32) -> String {
     let digits = offset.unsigned_abs() as i64;
     let size = value(digits, power).log10().floor() as i32;

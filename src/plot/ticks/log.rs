@@ -4,11 +4,11 @@ use super::decimal::power_of_ten;
 use super::{Room, Tick, Ticks};
 
 const STRIDES: [i64; 13] = [1, 2, 3, 4, 5, 10, 15, 20, 25, 50, 100, 200, 500];
-/// Pixels that a decade needs for marks within it, and decades for marks between labels.
+/// Least length of a decade, in pixels, for marks within it and for marks between labels.
 const ROOM_FOR_MINOR: f64 = 30.0;
 const ROOM_FOR_DECADE: f64 = 4.0;
 
-/// Powers of ten between 10^low and 10^high.
+/// Returns marks at powers of ten between 10^low and 10^high.
 pub(super) fn ticks(low: f64, high: f64, room: Room) -> Ticks {
     let decade = room.length / (high - low);
     let exponents = (low - 1e-9).ceil() as i64..=(high + 1e-9).floor() as i64;
@@ -29,7 +29,7 @@ pub(super) fn ticks(low: f64, high: f64, room: Room) -> Ticks {
     Ticks { major, minor, factor: String::new() }
 }
 
-/// Logarithms of 2 to 9 times the powers of ten, where a decade has room for them.
+/// Returns logarithms of 2 to 9 times the powers of ten, where a decade has space for them.
 fn within(low: f64, high: f64, decade: f64) -> Vec<f64> {
     if decade < ROOM_FOR_MINOR {
         return Vec::new();

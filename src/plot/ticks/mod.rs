@@ -1,4 +1,4 @@
-//! Where an axis is marked, and with what.
+//! Tick marks and labels of an axis.
 
 pub(super) mod decimal;
 mod linear;
@@ -11,9 +11,9 @@ use super::text;
 /// A mark on an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tick {
-    /// Between 0 and 1 along the axis.
+    /// Position between 0 and 1 along the axis.
     pub at: f64,
-    /// Empty for a minor mark.
+    /// Label; empty for a minor mark.
     pub label: String,
 }
 
@@ -22,21 +22,21 @@ pub(super) struct Tick {
 pub(super) struct Ticks {
     pub major: Vec<Tick>,
     pub minor: Vec<f64>,
-    /// What all labels are multiplied with or added to, like "×10⁻⁶"; may be empty.
+    /// Factor or offset of all labels, like "×10⁻⁶"; may be empty.
     pub factor: String,
 }
 
-/// How much room labels have.
+/// Space for labels.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Room {
     pub length: f64,
     pub size: f64,
-    /// Labels lie one after another along the axis (as on x), not one above another (as on y).
+    /// True if labels are in a row along the axis (as on x), not one above another (as on y).
     pub along: bool,
 }
 
 impl Room {
-    /// The least distance of marks at which these labels do not touch.
+    /// Returns the least distance of marks at which these labels do not touch.
     fn spacing<'a>(&self, labels: impl Iterator<Item = &'a str>) -> f64 {
         if !self.along {
             return 2.2 * self.size;
@@ -46,7 +46,7 @@ impl Room {
 }
 
 impl Ticks {
-    /// The marks that suit an axis.
+    /// Chooses the marks of an axis.
     pub fn new(axis: &Axis, room: Room) -> Self {
         match axis.scale {
             Scale::Linear => linear::ticks(axis.low, axis.high, room, axis.is_angle),
@@ -54,7 +54,7 @@ impl Ticks {
         }
     }
 
-    /// Words at 0, 1, 2 ..., thinned where they have no room.
+    /// Sets texts at 0, 1, 2 ..., thinned where there is no space.
     pub fn named(axis: &Axis, names: &[String], room: Room) -> Self {
         let unit = axis.place(1.0).unwrap_or(1.0) - axis.place(0.0).unwrap_or(0.0);
         let least = if room.along { room.spacing(names.iter().map(String::as_str)) } else { 1.05 * room.size };
@@ -64,7 +64,7 @@ impl Ticks {
         Ticks { major: major.filter(|tick| (0.0..=1.0).contains(&tick.at)).collect(), ..Ticks::default() }
     }
 
-    /// Width of the widest label.
+    /// Returns the width of the widest label.
     pub fn widest(&self, size: f64) -> f64 {
         self.major.iter().map(|tick| text::width(&tick.label, size)).fold(0.0, f64::max)
     }

@@ -11,20 +11,20 @@ use serde_json::{Map, Value};
 
 /// A linear model as in the file; matrices by rows.
 #[derive(Clone, Debug, Serialize)]
-/// Name of the scene.
 pub struct LinearFile {
-    /// Time of the state, s.
+    /// Name of the scene.
     pub scene: String,
-    /// Method with its options.
+    /// Time of the state, s.
     pub t: f64,
-    /// Chart of the coordinates.
+    /// Method with its options.
     pub method: String,
-    /// Names of the states x.
+    /// Chart of the coordinates.
     pub chart: String,
-    /// Names of the inputs u.
+    /// Names of the states x.
     pub states: Vec<String>,
-    /// Names of the outputs y.
+    /// Names of the inputs u.
     pub inputs: Vec<String>,
+    /// Names of the outputs y.
     pub outputs: Vec<String>,
     /// A, n_x x n_x.
     #[serde(rename = "A")]
@@ -65,16 +65,16 @@ pub struct Eigenvalue {
 
 /// The state that is perturbed, by names.
 #[derive(Clone, Debug, Serialize)]
-/// Coordinates.
 pub struct OperatingPointFile {
-    /// Velocities.
+    /// Coordinates.
     pub q: Map<String, Value>,
-    /// Accelerations.
+    /// Velocities.
     pub v: Map<String, Value>,
-    /// Multipliers.
+    /// Accelerations.
     pub vdot: Map<String, Value>,
-    /// Largest components.
+    /// Multipliers.
     pub lambda: Map<String, Value>,
+    /// Largest components.
     pub norms: Norms,
     /// The axes of a steady rotation, in which q and v are expressed.
     #[serde(skip_serializing_if = "Option::is_none")]

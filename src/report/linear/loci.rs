@@ -10,12 +10,12 @@ use serde::Serialize;
 
 /// Summary of eigenvalues at many states.
 #[derive(Clone, Debug, Serialize)]
-/// Name of the scene.
 pub struct LociSummary {
-    /// Method with its options.
+    /// Name of the scene.
     pub scene: String,
-    /// Chart of the coordinates.
+    /// Method with its options.
     pub method: String,
+    /// Chart of the coordinates.
     pub chart: String,
     /// Time or parameter.
     pub along: AlongFile,
