@@ -1,4 +1,4 @@
-//! Drift off the constraints.
+//! Drift of the constraints.
 
 use crate::simulate::Observation;
 use serde::Serialize;

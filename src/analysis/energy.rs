@@ -14,7 +14,7 @@ pub struct EnergyBalance {
     /// Kinetic + potential at the end, J.
     #[serde(rename = "final")]
     pub last: f64,
-    /// Work of non-conservative forces since the start, J.
+    /// Work of non-conservative forces and moving constraints since the start, J.
     pub work: f64,
     /// max |kinetic + potential - initial - work|, J.
     pub max_error: f64,
@@ -49,7 +49,7 @@ pub struct Ledger {
     pub kinetic: f64,
     /// Potential energy, J.
     pub potential: f64,
-    /// Work of non-conservative forces since the start, J.
+    /// Work of non-conservative forces and moving constraints since the start, J.
     pub work: f64,
     /// kinetic + potential - initial - work, J.
     pub error: f64,

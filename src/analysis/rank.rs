@@ -20,8 +20,8 @@ pub struct Rank {
     pub redundant: Vec<Redundant>,
     /// Condition number of the equilibrated saddle-point matrix without the redundant rows.
     pub condition: f64,
-    /// The smallest sine between a row of G and those before it, in the metric of M^-1, without the redundant rows: 1 is far
-    /// from losing rank, 0 a singular state.
+    /// The smallest sine between a row of G and those before it, in the metric of M^-1, without the redundant rows: 1
+    /// is far from losing rank, 0 a singular state.
     pub distance_to_singularity: f64,
     /// Largest and smallest entry on the diagonal of M, kg or kg m^2.
     pub mass_range: [f64; 2],

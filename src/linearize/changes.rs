@@ -56,7 +56,7 @@ pub(super) fn directions(system: &dyn MechanicalSystem, q: &[f64]) -> Directions
     Directions { q: own.collect(), v: names.v }
 }
 
-/// `rotor.wx` -> `rotor.rx`
+/// Returns the name of a rotation: `rotor.wx` -> `rotor.rx`; of another velocity: `NAME dt`.
 fn turn(velocity: &str) -> String {
     match velocity.rsplit_once(".w") {
         Some((body, axis)) => format!("{body}.r{axis}"),

@@ -17,8 +17,8 @@ pub enum Chart {
     Intrinsic,
     /// z = Z^T M dq with Z of this state and constant: an exact model in a constant chart.
     MassOrthogonal,
-    /// Independent coordinates by name: an exact model in a constant chart. Rotations in space are named by their angular
-    /// velocities, such as `rotor.wx`.
+    /// Independent coordinates by name: an exact model in a constant chart. Rotations in space are named by their
+    /// angular velocities, such as `rotor.wx`.
     Independent(Vec<String>),
     /// The plain projection Z^T (M, C, K) Z, which neglects the motion of the basis: exact at an equilibrium only. It
     /// has the finite spectrum of the frozen index-3 pencil.
@@ -39,8 +39,8 @@ impl Chart {
     /// Returns the chart at the state of `variation`.
     ///
     /// # Errors
-    /// Names that do not exist, too many or too few, or not independent at this state; `intrinsic` for equations that do
-    /// not say how M changes.
+    /// Names that do not exist, too many or too few, or not independent at this state; `intrinsic` for equations that
+    /// do not say how M changes.
     pub fn at(&self, variation: &mut Variation) -> Result<Coordinates> {
         refuse_all_modes(variation.len(), COPIES)?;
         let z = variation.free_directions()?;

@@ -12,7 +12,7 @@ pub struct Comparison {
     /// Chart of its coordinates.
     pub chart: String,
     /// Largest relative distance of the physical eigenvalues from those of the reference; none without a reference, or
-    /// where their number is another.
+    /// where their numbers differ.
     pub error: Option<f64>,
     /// Number of physical eigenvalues.
     pub physical: usize,

@@ -9,8 +9,8 @@ use std::f64::consts::TAU;
 
 /// Returns H(i w) = C (i w E - A)^-1 B + D at frequencies in Hz, each n_y x n_u; none at a pole.
 ///
-/// Without E, A is brought to Hessenberg form once, and a frequency takes n^2 operations for each input (Laub, IEEE Trans.
-/// Autom. Control 26, 1981); descriptor forms take an LU decomposition each.
+/// Without E, A is brought to Hessenberg form once, and a frequency takes n^2 operations for each input (Laub, IEEE
+/// Trans. Autom. Control 26, 1981); descriptor forms take an LU decomposition each.
 pub fn frequency_response(model: &LinearModel, frequencies: &[f64]) -> Vec<Option<ComplexMatrix>> {
     let reduced = Reduced::new(model);
     frequencies.par_iter().map(|f| reduced.at(Complex::new(0.0, TAU * f))).collect()

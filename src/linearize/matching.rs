@@ -97,7 +97,7 @@ fn places(cost: &Matrix, assigned: Vec<usize>) -> Vec<Option<usize>> {
     assigned.into_iter().enumerate().map(allowed).collect()
 }
 
-/// (1 - MAC) + |lambda - p| / (|lambda| + |p|)
+/// Returns the cost (1 - MAC) + |lambda - p| / (|lambda| + |p|) of each pair.
 fn cost(starts: &[&Node], predicted: &[Complex<f64>], ends: &[Node], mass: &Matrix) -> Matrix {
     let n = mass.nrows();
     let x = shapes(n, starts.iter().copied());
@@ -175,7 +175,7 @@ fn pairs_first(cost: &Matrix, from: &Set, to: &Set) -> Vec<Option<usize>> {
     found
 }
 
-/// Of two real eigenvalues that a pair becomes, or that become a pair, the larger belongs to the one with im > 0.
+/// Orders two real eigenvalues that become a pair, or the reverse: the larger belongs to the one with im > 0.
 fn order(found: &mut [Option<usize>], from: &Set, to: &Set) {
     for (upper, lower) in from.pairs() {
         if let (Some(a), Some(b)) = (found[upper], found[lower])

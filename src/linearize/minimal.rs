@@ -41,8 +41,8 @@ pub(super) const MCS: Entry = Entry {
     },
 };
 
-/// The model in a chart: each state is a change (dq, dv) that the constraints allow, and a back-substitution gives its dv'
-/// and dlambda. Exact in constant charts and in the intrinsic one. Gonzalez, Masarati, Cuadrado, Naya, J. Comput.
+/// The model in a chart: each state is a change (dq, dv) that the constraints allow, and a back-substitution gives its
+/// dv' and dlambda. Exact in constant charts and in the intrinsic one. Gonzalez, Masarati, Cuadrado, Naya, J. Comput.
 /// Nonlinear Dyn. 12 (2017), with the terms of a moving basis. Order: exact; cost: K, C, Gdd and 2 (n - m) + n_u
 /// back-substitutions.
 ///

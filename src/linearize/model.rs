@@ -83,7 +83,7 @@ impl LinearModel {
 /// An eigenvalue with its motion exp(value t) shape.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
-    /// 1/s; infinite (with imaginary part 0) for [`Kind::Infinite`].
+    /// Eigenvalue, 1/s; infinite (with imaginary part 0) for [`Kind::Infinite`].
     pub value: Complex<f64>,
     /// Physical, uncertain, spurious or infinite.
     pub kind: Kind,

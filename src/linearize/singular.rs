@@ -16,8 +16,8 @@ pub(super) fn is_suspect(dynamics: &Dynamics) -> bool {
 
 /// Refuses a singular state, and states so near to one that their accelerations are uncertain: with fewer independent
 /// constraints than a nearby state, or rows that are much closer to being dependent. There the motions that the
-/// constraints allow cross, and the spectrum along all directions of both belongs to no motion. Redundant constraints are
-/// dependent at the nearby state as well, and pass.
+/// constraints allow cross, and the spectrum along all directions of both belongs to no motion. Redundant constraints
+/// are dependent at the nearby state as well, and pass.
 ///
 /// # Errors
 /// The state is singular.

@@ -108,7 +108,7 @@ fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {
     Ok(Solved { values: found.values, right: found.right, participation, conditioning: found.conditioning })
 }
 
-/// |y_i x_i|, each column with sum 1.
+/// Returns the participation |y_i x_i|, each column with sum 1.
 fn parts(left: &ComplexMatrix, right: &ComplexMatrix) -> Matrix {
     let mut parts = Matrix::from_fn(right.nrows(), right.ncols(), |i, j| (left[(i, j)].conj() * right[(i, j)]).norm());
     for mut column in parts.column_iter_mut() {

@@ -15,7 +15,7 @@ pub struct Operating<'a> {
     prepared: &'a PreparedScene,
     /// Rotating axes in which v is expressed; only for a steady rotation.
     axes: Option<Rotating<'a>>,
-    /// Warning where the state may not be what was asked for.
+    /// Warning where the state may not be the requested one.
     pub doubt: Option<Warning>,
 }
 

@@ -24,7 +24,7 @@ pub struct LociPoint {
 }
 
 impl LociPoint {
-    /// A place without a linear model.
+    /// A time or value without a linear model.
     pub fn gap(at: f64) -> Self {
         LociPoint { at, modes: Vec::new(), mass: Matrix::zeros(0, 0) }
     }
@@ -118,8 +118,8 @@ fn go_on(threads: Vec<Thread>, sample: &LociPoint, kind: Kind, branches: &mut Ve
     going
 }
 
-/// Places in their order, but of neighbours that are conjugate first the one with im > 0, and real ones from the largest, as
-/// [`matching`] orders those that become a pair.
+/// Places in their order, but of neighbours that are conjugate first the one with im > 0, and real ones from the
+/// largest, as [`matching`] orders those that become a pair.
 fn upper_first(nodes: &[Node]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..nodes.len()).collect();
     let mut i = 0;
@@ -138,8 +138,8 @@ fn upper_first(nodes: &[Node]) -> Vec<usize> {
 }
 
 impl Thread {
-    /// The eigenvalue at a place, by a straight line through the last two: of the value where it is real; else of its real
-    /// part and of the square of its imaginary part, which is smooth also where a pair comes from the real axis.
+    /// The eigenvalue at a place, by a straight line through the last two: of the value where it is real; else of its
+    /// real part and of the square of its imaginary part, which is smooth also where a pair comes from the real axis.
     fn predicted(&self, at: f64) -> Complex<f64> {
         let value = self.last.value;
         let Some((place, before)) = self.before else { return value };

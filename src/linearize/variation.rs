@@ -64,7 +64,8 @@ impl<'a> Variation<'a> {
         Ok(variation)
     }
 
-    /// Evaluates and factors at another state; the operating point stays. Returns whether the equations give derivatives.
+    /// Evaluates and factors at another state; the operating point stays. Returns whether the equations give
+    /// derivatives.
     pub fn move_to(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<bool, StepError> {
         self.v.copy_from_slice(v);
         self.dynamics.solve(t, q, v, |_, _| 0.0)?;
@@ -277,7 +278,7 @@ impl<'a> Variation<'a> {
     }
 }
 
-/// sum += factor A x
+/// Computes sum += factor A x.
 fn add_product(pattern: &Pattern, values: &[f64], x: &Matrix, factor: f64, sum: &mut Matrix) {
     for (&(i, j), value) in pattern.entries.iter().zip(values) {
         for column in 0..x.ncols() {

@@ -11,7 +11,7 @@ pub struct HeatMap {
     pub label: String,
     /// Centres of the columns, ascending.
     pub x: Vec<f64>,
-    /// Middles of the rows, ascending.
+    /// Centres of the rows, ascending.
     pub y: Vec<f64>,
     /// Rows of cells; a cell without a value is grey.
     pub values: Vec<Vec<Option<f64>>>,

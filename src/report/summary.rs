@@ -58,7 +58,7 @@ pub struct Summary {
 /// The method, and the reason where the program chose it.
 #[derive(Clone, Debug, Serialize)]
 pub struct Chosen {
-    /// That of the longest leg.
+    /// Method of the longest leg.
     #[serde(flatten)]
     pub method: Method,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -60,7 +60,7 @@ fn unit(name: &str, states: &[String]) -> Result<Matrix> {
     Ok(Matrix::from_fn(states.len(), 1, |i, _| f64::from(u8::from(i == place))))
 }
 
-/// Components in [-1, 1], none of them small (splitmix64, Steele, Lea, Flood 2014).
+/// Returns pseudo-random components in [-1, 1], none of them small (splitmix64, Steele, Lea, Flood 2014).
 fn random(seed: u64, n: usize) -> Matrix {
     let mut state = seed;
     Matrix::from_fn(n, 1, |_, _| {

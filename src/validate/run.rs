@@ -39,7 +39,7 @@ pub struct Verdict {
     pub ltv: bool,
     /// True if A in its chart has order 2 or more in h (or is exact).
     pub lti: bool,
-    /// The conclusion in words.
+    /// The conclusion as a sentence.
     pub text: String,
 }
 

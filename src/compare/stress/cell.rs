@@ -79,7 +79,7 @@ pub struct Cell {
     pub steps: u64,
     /// Evaluations of the right-hand side, of steps and rows.
     pub rhs_evaluations: u64,
-    /// CPU time, s.
+    /// Wall-clock time, s.
     pub seconds: f64,
 }
 
@@ -120,7 +120,7 @@ pub enum Quantity {
     Energy,
     /// Relative error of the outputs.
     Error,
-    /// CPU time, s.
+    /// Wall-clock time, s.
     Seconds,
 }
 

@@ -14,8 +14,8 @@ pub struct GainVerdict {
     pub quantity: Quantity,
     /// Result for each step.
     pub steps: Vec<StepVerdict>,
-    /// The gain whose drift is nearest to the best of each step, of those that complete at all steps that were run up to
-    /// the first at which none does.
+    /// The gain whose drift is nearest to the best of each step, of those that complete at all steps that were run up
+    /// to the first at which none does.
     pub steady: Option<Steady>,
     /// The step at which the gain of least drift increases the error most against no stabilization.
     pub farther: Option<Farther>,

@@ -24,7 +24,7 @@ impl Given {
         Given::parse(&path.display().to_string(), &text).map_err(|error| error.in_file(path))
     }
 
-    /// The same from text.
+    /// Reads the same from text.
     ///
     /// # Errors
     /// Text that is no table with a column `t`.

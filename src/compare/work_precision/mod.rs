@@ -4,8 +4,8 @@
 //!    a second method of another family.
 //! 2. A grid ([`grid`]): formulation x integrator x projection, each at a sequence of tolerances or steps. Methods that
 //!    are far behind are not run at tighter ones, and the result says so.
-//! 3. Costs ([`WorkPrecision::price`]): counted work times the CPU time of a unit of its kind, so that other load of the
-//!    machine favours none.
+//! 3. Costs ([`WorkPrecision::price`]): counted work times the CPU time of a unit of its kind, so that other load of
+//!    the machine favours none.
 //! 4. Recommendation ([`WorkPrecision::recommend`]): the cheapest run for a number of digits, and the next best.
 //!
 //! The cost and accuracy of richer models of the same mechanism are measured by [`models::compare`].

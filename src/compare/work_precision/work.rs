@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 
 /// Work in solutions of the equations of motion. Over 1672 runs on nine scenes the times of a class are proportional to
 /// this
-/// within 30 %, which is as much as one run's time varies on a busy machine. Rows are counted in: over 204 runs of Andrews'
-/// mechanism with 200 rows the spread of a class is 5 to 17 %, without them 10 to 30 %.
+/// within 30 %, which is as much as one run's time varies on a busy machine. Rows are counted in: over 204 runs of
+/// Andrews' mechanism with 200 rows the spread of a class is 5 to 17 %, without them 10 to 30 %.
 const STEP: f64 = 0.3;
 const SWEEP: f64 = 0.9;
 const JACOBIAN: f64 = 2.0;

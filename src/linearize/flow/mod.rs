@@ -55,7 +55,7 @@ pub fn flow(
         projection: projection()?,
         rows: (problem()?, projection()?),
         tests_velocities: true,
-        // Perturbed starts are on the constraints up to less than that.
+        // Perturbed starts are on the constraints with smaller residuals.
         limits_projection: false,
     };
     let horizon = times.last().map_or(start.t, |last| last.max(start.t));

@@ -19,10 +19,10 @@ use crate::method_spec::{MethodSpec, OptionDoc};
 /// GGL:     rows of index 3 and 2        2 (n - m), 4 m infinite
 /// ```
 ///
-/// (counts at an equilibrium). Exact there. At a moving state the frozen pencil of index 3 has the spectrum of the plain
-/// projection (`frozen`), those of index 2 and 1 others: they belong to no chart. Rows of G that depend on others are
-/// dropped first, since they make the pencil singular: their multipliers stay as they are. Source: Masarati, "Direct
-/// eigenanalysis of constrained system dynamics", Proc. Inst. Mech. Eng. K 223 (2009) 335-342.
+/// (counts at an equilibrium). Exact there. At a moving state the frozen pencil of index 3 has the spectrum of the
+/// plain projection (`frozen`), those of index 2 and 1 others: they belong to no chart. Rows of G that depend on others
+/// are dropped first, since they make the pencil singular: their multipliers stay as they are. Source: Masarati,
+/// "Direct eigenanalysis of constrained system dynamics", Proc. Inst. Mech. Eng. K 223 (2009) 335-342.
 pub const RCS: Entry = Entry {
     name: "rcs",
     about: "descriptor form (E, A) in all coordinates and multipliers: exact at an equilibrium",

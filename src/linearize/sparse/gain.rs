@@ -47,7 +47,7 @@ pub fn add_residual<'a>(
     Ok(())
 }
 
-/// Returns the equations at s = 0 if K is definite beyond rounding along the softest direction; none otherwise.
+/// Returns the equations at s = 0 if they have a stiffness above rounding along the softest direction; none otherwise.
 fn held(equations: &Quadratic) -> Option<Shifted<'_>> {
     let mut operator = Shifted::new(equations, C::ZERO, 1.0).ok()?;
     let mut p: Vec<C> = (0..equations.len()).map(|i| C::from(1.0 + (i as f64).sin())).collect();

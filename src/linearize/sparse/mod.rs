@@ -30,16 +30,17 @@ type C = Complex<f64>;
 /// dq' = dv - [v, dq],   M dv' = -K dq - C dv - G^T dlambda + f_u du,   G dq = 0
 /// ```
 ///
-/// A is block diagonal: [re im; -im re] for a pair, re for a real eigenvalue, states `mode1.re`, `mode1.im`, the largest
-/// change of a coordinate of a unit of which is 1. Eigenvalues without independent vectors, such as the double zeros of a
-/// free body, have a common block of states `shared1` ... B follows from left vectors. D has the gain at s = 0 of the modes
-/// truncated, so that the model's static gain is right (mode acceleration); where rigid bodies make that infinite, their gain
-/// at the real shift of the search, a fiftieth of the fastest rate found, and nothing for a complex shift.
+/// A is block diagonal: [re im; -im re] for a pair, re for a real eigenvalue, states `mode1.re`, `mode1.im`, the
+/// largest change of a coordinate of a unit of which is 1. Eigenvalues without independent vectors, such as the double
+/// zeros of a free body, have a common block of states `shared1` ... B follows from left vectors. D has the gain at s =
+/// 0 of the modes truncated, so that the model's static gain is right (mode acceleration); where rigid bodies make that
+/// infinite, their gain at the real shift of the search, a fiftieth of the fastest rate found, and nothing for a
+/// complex shift.
 ///
-/// Krylov-Schur on (A - sigma E)^-1 E and on its adjoint, with dv eliminated: each takes one sparse complex factorization
-/// of [sigma^2 M + sigma C + K, G^T; G, 0] and a solution per application, so cost is linear in the number of links of a
-/// chain. sigma lies close to `shift`. Source of the elimination: Tisseur, Meerbergen, "The quadratic eigenvalue
-/// problem", SIAM Review 43 (2001) 235-286.
+/// Krylov-Schur on (A - sigma E)^-1 E and on its adjoint, with dv eliminated: each takes one sparse complex
+/// factorization of [sigma^2 M + sigma C + K, G^T; G, 0] and a solution per application, so cost is linear in the
+/// number of links of a chain. sigma lies close to `shift`. Source of the elimination: Tisseur, Meerbergen, "The
+/// quadratic eigenvalue problem", SIAM Review 43 (2001) 235-286.
 ///
 /// # Errors
 /// No mode asked for or none there; eigenvalues that do not converge; outputs without derivatives.
@@ -88,7 +89,7 @@ fn hold(variation: &mut Variation, equations: &Quadratic, space: &mut Space) -> 
     Ok(())
 }
 
-/// dq = p, dv = s p + [v, p]
+/// Returns dq = p, dv = s p + [v, p].
 fn changes(equations: &Quadratic, space: &Space) -> Changes {
     Changes { q: space.p.clone(), v: &space.u + equations.turn.product(&space.p) }
 }
@@ -134,7 +135,7 @@ fn free_rates(variation: &Variation, built: &Built) -> Matrix {
     &built.changes.v - variation.bracket_with(&built.changes.q)
 }
 
-/// |op x - theta x| / |theta x|
+/// Returns the relative residual |op x - theta x| / |theta x|.
 fn residual(found: &mut Found, value: C, x: impl Iterator<Item = C>) -> Result<f64, Unsolved> {
     let operator = &mut found.operator;
     let x: Vec<C> = x.zip(&operator.scale).map(|(x, scale)| x * *scale).collect();

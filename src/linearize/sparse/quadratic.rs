@@ -19,7 +19,7 @@ pub struct Quadratic {
     pub damping: Sparse,
     pub stiffness: Sparse,
     pub g: Sparse,
-    /// W
+    /// W = [v, .].
     pub turn: Sparse,
     /// Eigenvalues that are finite: 2 (n - m) with m independent rows of G.
     pub finite: usize,
@@ -142,7 +142,7 @@ impl Sparse {
         product
     }
 
-    /// Largest magnitude of an entry in each row.
+    /// Returns the largest magnitude of an entry in each row.
     pub fn row_sizes(&self) -> Vec<f64> {
         let mut sizes = vec![0.0f64; self.pattern.rows];
         for (&(i, _), value) in self.pattern.entries.iter().zip(&self.values) {

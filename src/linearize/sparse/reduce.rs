@@ -1,4 +1,4 @@
-//! From invariant spaces to modal coordinates.
+//! Reduction of invariant spaces to modal coordinates.
 
 use super::quadratic::Quadratic;
 use super::search::{Found, Space};
@@ -12,7 +12,7 @@ type C = Complex<f64>;
 pub struct Modal {
     pub a: Matrix,
     pub space: Space,
-    /// s x n
+    /// Coefficients of forces f along the directions, s x n.
     pub inputs: Matrix,
     pub states: Vec<String>,
 }

@@ -68,8 +68,8 @@ fn beside(equations: &Quadratic, sigma: C, rate: f64) -> Result<Shifted<'_>, Uns
     Err(Unsolved::Operator(Singular::Collapsed))
 }
 
-/// A shift a little above zero and the rate of the last of the `count` slowest eigenvalues, from a search that starts far
-/// below the fastest. `count` grows until they are not all zero.
+/// A shift a little above zero and the rate of the last of the `count` slowest eigenvalues, from a search that starts
+/// far below the fastest. `count` grows until they are not all zero.
 fn slowest(equations: &Quadratic, count: &mut usize) -> Result<(C, f64), Unsolved> {
     let fastest = equations.fastest();
     let mut sigma = 1e-5 * fastest;

@@ -44,7 +44,7 @@ impl<'a> Shifted<'a> {
         Ok(self.matrix.solve(f, &mut self.bottom)?)
     }
 
-    /// y = (A - sigma E)^-1 E x of scaled vectors:
+    /// Computes y = (A - sigma E)^-1 E x of scaled vectors:
     ///
     /// ```text
     /// (sigma^2 M + sigma C + K) p + G^T lambda = -(M (u0 + sigma p0) + C p0),   u = p0 + sigma p

@@ -10,8 +10,8 @@ use crate::method_spec::OptionDoc;
 /// ```
 ///
 /// Exact on the changes that the constraints allow. At an equilibrium the spurious eigenvalues are the roots of
-/// s^2 + c1 s + c0, each m times; elsewhere they are not, and mix with the physical ones: use `projected=yes` there. Cost:
-/// 2 n back-substitutions and the eigenvalues of a 2 n matrix.
+/// s^2 + c1 s + c0, each m times; elsewhere they differ, and mix with the physical ones: use `projected=yes` there.
+/// Cost: 2 n back-substitutions and the eigenvalues of a 2 n matrix.
 pub const BAUMGARTE: Entry = Entry {
     name: "baumgarte",
     about: "phi'' + 2 alpha phi' + beta^2 phi = 0: exact, with 2 m spurious eigenvalues",

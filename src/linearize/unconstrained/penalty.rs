@@ -69,9 +69,9 @@ pub const AUGMENTED_LAGRANGIAN: Entry = Entry {
 
 struct Penalty {
     iterations: usize,
-    /// s
+    /// Weight s of the constraints in M + s G^T G.
     weight: f64,
-    /// (c1, c0)
+    /// (c1, c0) of phi'' + c1 phi' + c0 phi, 1/s and 1/s^2.
     held: [f64; 2],
 }
 

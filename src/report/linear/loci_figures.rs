@@ -129,7 +129,7 @@ fn with_zero((low, high): (f64, f64), least: f64) -> (f64, f64) {
     }
 }
 
-/// The axes of the plane and lines of constant damping.
+/// Adds the axes of the plane and lines of constant damping.
 fn frame_lines(panel: Panel, window: &Window, is_upper: bool) -> Panel {
     let Window { re, im } = *window;
     let across = Series::line("", vec![(re.0, 0.0), (re.1, 0.0)]).style(Style::Thin).color(BLACK);

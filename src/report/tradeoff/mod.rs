@@ -23,7 +23,7 @@ pub struct Summary<'a> {
     recommendations: Vec<Advice>,
 }
 
-/// A recommendation in words, with the command to run it.
+/// A recommendation as a sentence, with the command to run it.
 #[derive(Serialize)]
 pub struct Advice {
     #[serde(flatten)]
