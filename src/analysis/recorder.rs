@@ -67,7 +67,7 @@ impl<'a> Recorder<'a> {
         self
     }
 
-    /// Sets a callback that is asked before every step if the run should end.
+    /// Sets a callback that is asked before every step whether the run should end.
     pub fn with_stop(mut self, stop: impl Fn() -> Option<Stop> + 'a) -> Self {
         self.stop = Box::new(stop);
         self

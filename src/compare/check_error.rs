@@ -40,7 +40,7 @@ pub struct Difference {
 }
 
 /// Runs the scene again with smaller steps, and compares the `first` run with that. `show` is called with the times,
-/// `stop` asked if the run should end.
+/// `stop` asked whether the run should end.
 pub fn check_error(
     prepared: &PreparedScene,
     span: Span,

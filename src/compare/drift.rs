@@ -42,7 +42,7 @@ pub struct StabilizedRun {
 }
 
 /// Runs the scene under every stabilization. Gains follow from the mean step of the run without one, which comes first;
-/// `stop` is asked if a run should end, `done` is called after each run.
+/// `stop` is asked whether a run should end, `done` is called after each run.
 ///
 /// # Errors
 /// Only one stabilization; bad input of any kind: see [`simulate`].

@@ -138,8 +138,9 @@ fn upper_first(nodes: &[Node]) -> Vec<usize> {
 }
 
 impl Thread {
-    /// The eigenvalue at a place, by a straight line through the last two: of the value where it is real; else of its
-    /// real part and of the square of its imaginary part, which is smooth also where a pair comes from the real axis.
+    /// Returns the eigenvalue at a time or value, by a straight line through the last two: of the value where it is
+    /// real; else of its real part and of the square of its imaginary part, which is smooth also where a pair comes
+    /// from the real axis.
     fn predicted(&self, at: f64) -> Complex<f64> {
         let value = self.last.value;
         let Some((place, before)) = self.before else { return value };

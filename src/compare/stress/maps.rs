@@ -201,7 +201,7 @@ fn beside_gains(map: &mut Map) {
     map.y.entries.extend(above);
 }
 
-/// Replaces the second axis by methods, and shortens the times to what takes seconds.
+/// Replaces the second axis by methods, and keeps the first five times, which take seconds.
 fn by_method(map: &mut Map) {
     let first = map.x.entries.iter().take(5).cloned().collect();
     map.x.entries = first;

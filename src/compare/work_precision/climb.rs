@@ -101,8 +101,8 @@ pub fn climb(motion: &Motion, watched: &Watched, span: Span, (wanted, budget): (
 }
 
 impl Line {
-    /// Makes the next run if it can be expected to fit into the time allowed; returns if there may be another, and the
-    /// CPU time used, s.
+    /// Makes the next run if it can be expected to fit into the time allowed; returns whether there may be another, and
+    /// the CPU time used, s.
     fn step(
         &mut self,
         motion: &Motion,

@@ -61,7 +61,7 @@ fn over(entry: f64, scale: f64) -> f64 {
     if scale > 0.0 { entry.abs() / scale } else { f64::INFINITY }
 }
 
-/// Sets entries to zero whose size is below rounding of what is usual in their row.
+/// Sets entries to zero whose size is below rounding of the `usual` size in their row.
 fn drop_small(matrix: &mut Matrix, sizes: &Matrix, usual: impl Fn(usize) -> f64) {
     for ((i, j), size) in (0..sizes.ncols()).flat_map(|j| (0..sizes.nrows()).map(move |i| (i, j))).zip(sizes.iter()) {
         if *size < tolerances::FROZEN_ZERO * usual(i) {
