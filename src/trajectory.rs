@@ -6,7 +6,9 @@ use crate::system::{Column, MechanicalSystem, Names, Scratch};
 /// Rows of t, q, v, lambda and outputs, in memory as they will stand in the file.
 #[derive(Clone, Debug)]
 pub struct Trajectory {
+    /// Names of q, v and lambda.
     pub names: Names,
+    /// Names and units of the outputs.
     pub outputs: Vec<Column>,
     /// One row an output time: t, q, v, lambda, outputs.
     pub rows: Vec<Vec<f64>>,
@@ -15,14 +17,16 @@ pub struct Trajectory {
 /// An output outside what it is defined for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gap {
+    /// Name of the output.
     pub name: String,
     /// Time of the first row without a value, s.
     pub first: f64,
-    /// So many rows have none.
+    /// Number of rows without a value.
     pub count: usize,
 }
 
 impl Trajectory {
+    /// No rows, with the columns of a system.
     pub fn new(system: &dyn MechanicalSystem) -> Self {
         Trajectory { names: system.names(), outputs: system.columns(), rows: Vec::new() }
     }

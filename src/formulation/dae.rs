@@ -1,12 +1,13 @@
-//! Dae with multipliers as unknowns, stated once for all methods that solve them.
+//! The differential-algebraic equations with multipliers as unknowns, stated once for all methods that solve them.
 
-/// What a multiplier holds at zero: c_0 phi + c_1 phi' + c_2 phi''.
+/// The constraint that a multiplier enforces: 0 = c_0 phi + c_1 phi' + c_2 phi''.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
-    /// 1/s^2 beside `acceleration`, 1/s beside `velocity`.
+    /// c_0: 1/s^2 if `acceleration` is nonzero, else 1/s if `velocity` is.
     pub position: f64,
-    /// 1/s beside `acceleration`.
+    /// c_1: 1/s if `acceleration` is nonzero.
     pub velocity: f64,
+    /// c_2, dimensionless.
     pub acceleration: f64,
 }
 
@@ -18,7 +19,7 @@ impl Row {
     /// phi'' = G v' - gamma
     pub const ACCELERATION: Row = Row { position: 0.0, velocity: 0.0, acceleration: 1.0 };
 
-    /// How often phi is differentiated in the row: 0, 1 or 2.
+    /// Highest derivative of phi in the row: 0, 1 or 2.
     pub fn level(self) -> usize {
         match self {
             Row { acceleration, .. } if acceleration != 0.0 => 2,
@@ -27,12 +28,12 @@ impl Row {
         }
     }
 
-    /// What stands for it where a constraint has no position, A v + a = 0.
+    /// The row for a constraint without a position, A v + a = 0.
     fn without_position(self) -> Row {
         if self.level() == 0 { Row::VELOCITY } else { Row { position: 0.0, ..self } }
     }
 
-    /// Its value for one constraint.
+    /// Value of the row for one constraint.
     pub fn value(self, phi: f64, phi_dot: f64, phi_ddot: f64) -> f64 {
         self.position * phi + self.velocity * phi_dot + self.acceleration * phi_ddot
     }
@@ -45,18 +46,21 @@ impl Row {
 /// 0 = the rows of lambda, eta and mu, with phi'' = G a - gamma
 /// ```
 ///
-/// A nonholonomic constraint, A v + a = 0, has no position: its phi' and phi'' stand in the rows of lambda and eta, and
-/// nothing in that of mu. The exact motion has mu = eta = 0. What a method makes of them: a [`Residual`](super::Residual), an
-/// [`Iteration`](super::Iteration) and [`velocity_index`](Self::velocity_index).
+/// A nonholonomic constraint, A v + a = 0, has no position: phi' and phi'' take the rows of lambda and eta, and mu has
+/// none. The exact motion has mu = eta = 0. Methods use the equations by a [`Residual`](super::Residual), an
+/// [`Iteration`](super::Iteration) and the [`velocity_index`](Self::velocity_index).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dae {
+    /// Row that lambda enforces.
     pub lambda: Row,
+    /// Row that eta enforces by the velocity shift w; usually phi'.
     pub eta: Option<Row>,
+    /// Row that mu enforces by the position shift u; usually phi.
     pub mu: Option<Row>,
 }
 
 impl Dae {
-    /// One row a constraint.
+    /// Equations without shifts: lambda enforces `lambda`.
     pub const fn with(lambda: Row) -> Self {
         Dae { lambda, eta: None, mu: None }
     }
@@ -65,12 +69,12 @@ impl Dae {
         [Some(self.lambda), self.eta, self.mu].into_iter().flatten()
     }
 
-    /// Whether the constraints of this level, 0 to 2, hold.
+    /// True if some row enforces the constraints at this level, 0 to 2.
     pub fn holds(&self, level: usize) -> bool {
         self.rows().any(|row| row.level() == level)
     }
 
-    /// The same for nonholonomic constraints.
+    /// The rows of the nonholonomic constraints.
     pub fn nonholonomic(&self) -> Dae {
         let eta = self.eta.filter(|row| row.level() > 0).map(Row::without_position);
         Dae { lambda: self.lambda.without_position(), eta, mu: None }
@@ -82,12 +86,12 @@ impl Dae {
         if self.rows().all(|row| row.level() == 0) { 2 } else { 1 }
     }
 
-    /// Whether q or v is moved by multipliers of its own.
+    /// True if q or v is shifted by multipliers of its own, mu or eta.
     pub fn has_shifts(&self) -> bool {
         self.eta.is_some() || self.mu.is_some()
     }
 
-    /// Whether the rows change with L = d(G v + phi_t)/dq, to first order.
+    /// True if the derivatives of the rows with respect to q contain L = d(G v + phi_t)/dq.
     pub fn needs_l(&self) -> bool {
         self.rows().any(|row| row.level() > 0)
     }

@@ -3,7 +3,7 @@
 use super::{Dynamics, Formulation, StepError};
 use crate::math::kkt::Solver;
 
-/// The field of index 1, whose accelerations and multipliers come from `S`.
+/// The vector field of index 1, with accelerations and multipliers from the solver `S`.
 pub(super) struct Dense<S>(pub S);
 
 impl<S: Solver + Send> Formulation for Dense<S> {

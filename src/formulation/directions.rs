@@ -5,7 +5,7 @@ use crate::math::kkt::Pattern;
 use crate::tolerances::initial as tolerances;
 use nalgebra::DMatrix;
 
-/// Velocities less independent rows of G, at the state whose factors `dynamics` holds.
+/// Number of velocities minus number of independent rows of G, at the state whose factors are in `dynamics`.
 pub fn degrees_of_freedom(dynamics: &Dynamics) -> usize {
     let left_out = dynamics.kkt.left_out();
     let is_out = |row: &usize| left_out.contains(row) || dynamics.dropped.contains(row);
@@ -13,8 +13,8 @@ pub fn degrees_of_freedom(dynamics: &Dynamics) -> usize {
     dynamics.vdot.len().saturating_sub(rank)
 }
 
-/// Z with G Z = 0 and Z^T M Z = I at the state whose terms and factors `dynamics` holds. Its rank shows by itself, at most
-/// that of the factors. None where a solution is not finite.
+/// Z with G Z = 0 and Z^T M Z = I at the state whose terms and factors `dynamics` holds. Its rank shows by itself, at
+/// most that of the factors. None where a solution is not finite.
 ///
 /// The pivoted Cholesky factor of Z Z^T. Where coordinates are nearly dependent, as powers of one variable are, that is
 /// known to few digits: then the factor in the metric of the diagonal of M, made orthonormal in M's own.

@@ -7,12 +7,12 @@ use crate::system::{MechanicalSystem, Need, Scratch, Structure, Terms};
 use crate::tolerances::math::TRUNCATED_RANK;
 use std::fmt;
 
-/// Why a state cannot be evaluated.
+/// The reason why a state cannot be evaluated or a step not be made.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StepError {
     /// The state or a solution is infinite or not a number: the motion diverged.
     NotFinite,
-    /// A term of the equations is, and which: an expression left its domain, or two points coincide.
+    /// A term of the equations is not finite: an expression left its domain, or two points coincide. Names the term.
     Term(String),
     /// The coordinate has neither mass nor constraint along some direction of motion.
     Undetermined(String),
@@ -22,16 +22,21 @@ pub enum StepError {
     Singular(Singular),
     /// Newton's method does not find the end of a step.
     NotConverged,
-    /// A projection does not close the joints.
+    /// A projection does not satisfy the constraints.
     Open,
     /// The error of a step stays above the tolerance.
     TooInaccurate,
-    /// The method does not fit these equations, whatever the step: why, and what does.
-    Unsuitable { reason: &'static str, hint: &'static str },
+    /// The method does not fit these equations, whatever the step.
+    Unsuitable {
+        /// The reason, for the message.
+        reason: &'static str,
+        /// A method that fits, for the message.
+        hint: &'static str,
+    },
 }
 
 impl StepError {
-    /// What to do about it, where that does not depend on the run.
+    /// Remedy, where it does not depend on the run.
     pub fn hint(&self) -> Option<&'static str> {
         match self {
             StepError::Term(_) => Some(
@@ -43,7 +48,7 @@ impl StepError {
         }
     }
 
-    /// Whether no smaller step can help.
+    /// True if no smaller step can help.
     pub fn is_fatal(&self) -> bool {
         matches!(self, StepError::Unsuitable { .. })
     }
@@ -86,34 +91,41 @@ impl From<Singular> for StepError {
 /// [ G   0  ] [ lambda ] = [ gamma ]
 /// ```
 pub struct Dynamics<'a> {
+    /// The mechanism.
     pub system: &'a dyn MechanicalSystem,
+    /// Patterns of its matrices.
     pub structure: Structure,
+    /// Terms at the last state.
     pub terms: Terms,
+    /// The saddle-point matrix above and its factors.
     pub kkt: SaddlePoint,
     /// Constraints that depend on the others wherever phi = 0, and are dropped.
     pub dropped: Vec<usize>,
-    /// Rows count as dependent below this part of the reference value: see [`SaddlePoint::factor_truncated`].
+    /// Rows count as dependent below this fraction of the reference value: see [`SaddlePoint::factor_truncated`].
     pub rank_tolerance: f64,
-    /// Of a dense solver other than `kkt`: the rank indicator at the last solution, and its reference value, settled at the
-    /// start of a step as that of `kkt` is.
+    /// Rank indicator of a dense solver other than `kkt` at the last solution.
     pub dense_indicator: f64,
+    /// Reference value of `dense_indicator`, set at the start of a step as that of `kkt` is.
     pub dense_reference: f64,
-    /// How near G is to losing rank at the last solution, where that came from another solver than `kkt`: see
+    /// Rank indicator of G at the last solution where that came from another solver than `kkt`: see
     /// [`SaddlePoint::rank_indicator`].
     pub rank_indicator: Option<f64>,
-    /// Whether multipliers of redundant rows are those of least norm, which people see; for v' any will do.
+    /// True if multipliers of redundant rows are to be those of least norm, as for output; v' does not depend on it.
     pub wants_least: bool,
     /// v' of the last solution.
     pub vdot: Vec<f64>,
     /// lambda of the last solution.
     pub lambda: Vec<f64>,
-    /// Whether G was rank deficient at the last solution; false with a formulation that does not ask for the rank.
+    /// True if G was rank deficient at the last solution; false with a formulation that does not ask for the rank.
     pub is_rank_deficient: bool,
+    /// Counters of the work.
     pub statistics: Statistics,
+    /// Memory of the system.
     pub scratch: Scratch,
 }
 
 impl<'a> Dynamics<'a> {
+    /// Patterns and memory for a system; nothing is evaluated.
     pub fn new(system: &'a dyn MechanicalSystem) -> Self {
         let (n, structure) = (system.dimensions(), system.structure());
         Dynamics {
@@ -155,7 +167,8 @@ impl<'a> Dynamics<'a> {
     }
 
     /// Rows of constraints that depend on the others at a state, which should be on the constraints; none where that
-    /// state has no solution. Then the norms of the part of gamma that no acceleration can meet, and of what makes it up.
+    /// state has no solution. Then the norms of the part of gamma that no acceleration can meet, and of what makes it
+    /// up.
     pub fn dependent_rows(&mut self, t: f64, q: &[f64], v: &[f64]) -> (Vec<usize>, (f64, f64)) {
         self.right_sides(t, q, v, |_, _| 0.0);
         let solved = match self.kkt.factor(&self.terms.mass, &self.terms.g) {

@@ -7,13 +7,18 @@ use crate::system::{MechanicalSystem, Structure};
 use faer::c64;
 use std::ops::{Add, Div, DivAssign, Mul, Sub, SubAssign};
 
-/// How q and v of a method change with its unknowns: dv = v da + w dw, dq = q da + w_q dw + u du.
+/// Derivatives of q and v with respect to a method's unknowns: dv = v da + w dw, dq = q da + w_q dw + u du.
 #[derive(Clone, Copy, Debug)]
 pub struct Slopes<T> {
+    /// dv/da, s.
     pub v: T,
+    /// dq/da, s^2.
     pub q: T,
+    /// dv/dw, s.
     pub w: T,
+    /// dq/dw, s^2.
     pub w_q: T,
+    /// dq/du, s.
     pub u: T,
 }
 
@@ -24,8 +29,8 @@ pub struct Slopes<T> {
 /// [ G + (l/g) L         0   ] [ dlambda ] = [ -(row of lambda)/g   ]    g = c_0 s_q + c_1 s_v + c_2,  l = c_1 s_q + 2 c_2 s_v
 /// ```
 ///
-/// less what the shifts dw and du change there, which come before it from the rows of eta and mu with G da as the row of
-/// lambda asks for it:
+/// less what the shifts dw and du change there, which come before it from the rows of eta and mu with G da as the row
+/// of lambda asks for it:
 ///
 /// ```text
 /// [ M  G^T ] [ dw   ]   [ -M w - G^T eta                   ]
@@ -35,26 +40,34 @@ pub struct Slopes<T> {
 /// The rows are of the size of accelerations however small the step. Of phi'', its change with q by h^2 is left out.
 /// Source: Hairer, Wanner, Solving Ordinary Differential Equations II, IV.8, with the second-order structure used.
 pub struct Iteration<T> {
+    /// The matrix above with its factors.
     pub matrix: Unsymmetric<T>,
     rows: RowSlopes<T>,
     slopes: Slopes<T>,
+    /// On entry of a solution the residual, afterwards the change.
     pub change: Change<T>,
     part: [Vec<f64>; 2],
     /// G dw and G du.
     moved: [Vec<T>; 2],
 }
 
-/// Changes of the unknowns. On the way in the residual is here.
+/// Changes of the unknowns; on entry of a solution the residual.
 pub struct Change<T> {
+    /// Of the accelerations, n_v.
     pub a: Vec<T>,
+    /// Of the multipliers, n_c.
     pub lambda: Vec<T>,
+    /// Of the velocity shift, n_v.
     pub w: Vec<T>,
+    /// Of the position shift, n_v.
     pub u: Vec<T>,
+    /// Of the multipliers of the velocity shift, n_c.
     pub eta: Vec<T>,
+    /// Of the multipliers of the position shift, n_c.
     pub mu: Vec<T>,
 }
 
-/// A real number, or a complex one that stands for itself and its conjugate.
+/// A real number, or a complex one that represents itself and its conjugate.
 pub trait Number:
     Field
     + PartialEq
@@ -65,10 +78,13 @@ pub trait Number:
     + SubAssign
     + DivAssign
 {
+    /// Number of real parts: 1 or 2.
     const PARTS: usize;
+    /// Real (k = 0) or imaginary (k = 1) part.
     fn part(self, k: usize) -> f64;
+    /// Sets the real (k = 0) or imaginary (k = 1) part.
     fn set_part(&mut self, part: f64, k: usize);
-    /// Sum with its conjugate.
+    /// Sum of the number and its conjugate; a real number itself.
     fn total(self) -> f64;
 }
 
@@ -201,8 +217,8 @@ impl<T: Number> Iteration<T> {
         }
     }
 
-    /// Turns the residual into the changes of the unknowns, in `change`. One back-substitution, and for each shift one of
-    /// its own matrix (two where numbers are complex).
+    /// Turns the residual into the changes of the unknowns, in `change`. One back-substitution, and for each shift one
+    /// of its own matrix (two where numbers are complex).
     pub fn solve(&mut self, at: &mut Linearized, structure: &Structure) -> Result<(), StepError> {
         let Iteration { matrix, rows, slopes, change, part, moved: [gw, gu] } = self;
         let Change { a, lambda, w, u, eta, mu } = change;

@@ -25,6 +25,7 @@ pub struct Linearized {
 }
 
 impl Linearized {
+    /// Memory for the Jacobian of `dae` on a system.
     pub fn new(dae: Dae, system: &dyn MechanicalSystem) -> Self {
         let structure = system.structure();
         let zeros = |pattern: &Pattern| vec![0.0; pattern.entries.len()];
@@ -111,9 +112,9 @@ impl Linearized {
     }
 }
 
-/// M + S with S_i = s K_ii of the coordinates with s K_ii > M_ii, else 0. By M alone the light and stiff ones would move most,
-/// and ring ever after. M + s K would move all as forces of the constraints do within the step, but K has reactions in
-/// it, too, of either sign.
+/// M + S with S_i = s K_ii of the coordinates with s K_ii > M_ii, else 0. By M alone the light and stiff ones would
+/// move most, and ring ever after. M + s K would move all as forces of the constraints do within the step, but K has
+/// reactions in it, too, of either sign.
 struct Metric {
     /// That of M with the diagonal behind it.
     pattern: Pattern,

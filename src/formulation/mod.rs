@@ -98,8 +98,11 @@ const SPARSE: &str = "choose a sparse formulation, such as index1 with the proje
 
 /// One formulation as the command line, the scene format and the table of methods know it.
 pub struct Entry {
+    /// Name in the scene format and on the command line.
     pub name: &'static str,
+    /// One line for the table of methods.
     pub about: &'static str,
+    /// The options of its specification.
     pub options: &'static [OptionDoc],
     /// The equations with multipliers, for methods that solve them; none where lambda is no unknown.
     pub dae: Option<fn(&MethodSpec) -> Result<Dae>>,
@@ -168,8 +171,9 @@ pub fn dae(spec: &MethodSpec) -> Result<Option<Dae>> {
     lookup(spec).and_then(|entry| entry.dae).map(|dae| dae(spec)).transpose()
 }
 
-/// The vector field of the formulation that `spec` names, for `system`. Where the constraints themselves are solved, it is
-/// the one that observes: v' and lambda are those of the equations of motion at (q, v), and so of the order of q and v.
+/// The vector field of the formulation that `spec` names, for `system`. Where the constraints themselves are solved, it
+/// is the one that observes: v' and lambda are those of the equations of motion at (q, v), and so of the order of q and
+/// v.
 pub fn make(spec: &MethodSpec, system: &dyn MechanicalSystem) -> Result<Box<dyn Formulation>> {
     spec.entry(registry())?.field.unwrap_or(|_, _| Ok(Box::new(index1::Index1::default())))(spec, system)
 }

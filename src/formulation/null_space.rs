@@ -64,8 +64,8 @@ struct TangentSpace {
     rows: Vec<f64>,
 }
 
-/// Changes in parts of the largest component: they halve at least until round-off, or else the state is not in the chart,
-/// or on another branch of the constraints.
+/// Changes in parts of the largest component: they halve at least until round-off, or else the state is not in the
+/// chart, or on another branch of the constraints.
 const LIMITS: Limits = Limits {
     round_off: f64::EPSILON,
     stagnation: tolerances::CHART_STAGNATION,

@@ -13,7 +13,8 @@ use crate::system::{MechanicalSystem, Need, Structure, Terms};
 /// with a = penalty / mean over the rows of (G diag(M)^-1 G^T)_jj, settled at the state where a run starts, so that the
 /// field is smooth. (The whole M^-1 would cost a solution a row.) Source: Bayo, Garcia de Jalon, Serna, Comput. Methods
 /// Appl. Mech. Eng. 71 (1988) 183-195. Error of v' and lambda against `baumgarte:alpha=xi omega,beta=omega`:
-/// O(1/penalty), whatever the step. Order in q, v, lambda: that of the integrator, to the motion that the penalty leaves.
+/// O(1/penalty), whatever the step. Order in q, v, lambda: that of the integrator, to the motion that the penalty
+/// leaves.
 ///
 /// G may be rank deficient, by redundant rows or at a singular position: the matrix stays regular. There, what the
 /// redundant rows contradict each other by is multiplied by a in lambda (1e-9 of the reactions with the default). Cost:
@@ -28,10 +29,13 @@ pub const ENTRY: Entry = Entry {
     field: Some(|spec, system| Ok(Box::new(Penalty::new(1, spec, system)?))),
 };
 
+/// Option `penalty` of penalty and augmented-Lagrangian formulations.
 pub const PENALTY: OptionDoc =
     OptionDoc { name: "penalty", about: "mass on the constraints over that of the mechanism (default 1e7)" };
+/// Option `omega` of penalty and augmented-Lagrangian formulations.
 pub const OMEGA: OptionDoc =
     OptionDoc { name: "omega", about: "frequency at which phi is pulled back, 1/s (default 10)" };
+/// Option `xi` of penalty and augmented-Lagrangian formulations.
 pub const XI: OptionDoc = OptionDoc { name: "xi", about: "damping ratio of phi (default 1)" };
 
 /// With a slack s = (lambda_i - lambda)/a, `iterations` times from lambda_0 = 0,

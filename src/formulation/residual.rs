@@ -3,31 +3,40 @@
 use super::{Dae, Dynamics, Row, StepError};
 use crate::system::{Dimensions, Need};
 
-/// The unknowns of [`Dae`] beside q and v: n_v and n_c numbers in turn; of shifts that it does not have, or whose own equations
-/// are met, none.
+/// The unknowns of [`Dae`] other than q and v: n_v and n_c numbers in turn. Empty for shifts that the equations do not
+/// have, or whose own equations are met exactly.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Unknowns<'u> {
+    /// Accelerations without the shift, n_v.
     pub a: &'u [f64],
+    /// Multipliers of the reactions, n_c.
     pub lambda: &'u [f64],
+    /// Velocity shift, v' = a + w, n_v.
     pub w: &'u [f64],
+    /// Multipliers of the velocity shift, n_c.
     pub eta: &'u [f64],
+    /// Position shift, q' = N (v + u), n_v.
     pub u: &'u [f64],
+    /// Multipliers of the position shift, n_c.
     pub mu: &'u [f64],
     /// S of the metric M + S of shifts, a diagonal; empty for none.
     pub stiffness: &'u [f64],
 }
 
-/// The residual of [`Dae`], with its sign turned.
+/// The negative residual of [`Dae`].
 #[derive(Clone, Debug)]
 pub struct Residual {
     /// f - M a - G^T lambda, n_v
     pub motion: Vec<f64>,
-    /// -M w - G^T eta and -(M + S) u - G^T mu, where there are shifts.
+    /// -M w - G^T eta, n_v, where there is a velocity shift.
     pub w: Vec<f64>,
+    /// -(M + S) u - G^T mu, n_v, where there is a position shift.
     pub u: Vec<f64>,
-    /// The rows, n_c each.
+    /// Row of lambda, n_c.
     pub lambda: Vec<f64>,
+    /// Row of eta, n_c.
     pub eta: Vec<f64>,
+    /// Row of mu, n_c.
     pub mu: Vec<f64>,
     phi_ddot: Vec<f64>,
     /// Power of the forces without a potential and of moving constraints, W.
@@ -35,6 +44,7 @@ pub struct Residual {
 }
 
 impl Residual {
+    /// All zero, for these dimensions.
     pub fn new(n: Dimensions) -> Self {
         let rows = || vec![0.0; n.lambda];
         let (lambda, eta, mu, phi_ddot) = (rows(), rows(), rows(), rows());
@@ -62,7 +72,7 @@ impl Residual {
         Ok(())
     }
 
-    /// The same by terms that are there.
+    /// The residual from terms that are already evaluated at (t, q, v).
     pub fn of_terms(&mut self, dae: &Dae, unknowns: Unknowns, dynamics: &Dynamics) {
         let (terms, structure) = (&dynamics.terms, &dynamics.structure);
         let Unknowns { a, lambda, w, eta, u, mu, stiffness } = unknowns;

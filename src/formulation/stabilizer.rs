@@ -50,6 +50,7 @@ impl StabilizingField {
         })
     }
 
+    /// Terms that F h needs.
     pub fn needs(self) -> Need {
         let first = Need::MASS | Need::CONSTRAINTS | Need::G;
         match self {
@@ -59,8 +60,9 @@ impl StabilizingField {
     }
 }
 
-/// One choice of F with the memory to apply it.
+/// One F with the memory to apply it.
 pub struct Stabilizer {
+    /// The choice of F.
     pub field: StabilizingField,
     /// F h, position part, along the directions of v.
     pub dq: Vec<f64>,
@@ -70,7 +72,7 @@ pub struct Stabilizer {
     row: Vec<f64>,
 }
 
-/// The system for (dq, dv) together: [W^-1 H^T; H 0] [dz; .] = [0; h].
+/// The system for dq and dv together: [W^-1 H^T; H 0] [dz; .] = [0; h].
 struct Full {
     kkt: SaddlePoint,
     dropped: Vec<usize>,
@@ -80,6 +82,7 @@ struct Full {
 }
 
 impl Stabilizer {
+    /// Memory for `field` on a system.
     pub fn new(field: StabilizingField, system: &dyn MechanicalSystem) -> Self {
         let n = system.dimensions();
         let full =
@@ -174,7 +177,7 @@ impl Full {
         }
     }
 
-    /// Leaves out the rows of both levels that `rows` names, of `m`.
+    /// Drops the rows `rows` of both levels, of `m` rows per level.
     fn drop_rows(&mut self, rows: &[usize], m: usize) {
         let both = || rows.iter().copied().chain(rows.iter().map(|row| row + m));
         if !self.dropped.iter().copied().eq(both()) {

@@ -1,4 +1,4 @@
-//! Counted work.
+//! Counters of work.
 
 use serde::{Deserialize, Serialize};
 use std::ops::Add;
@@ -6,26 +6,30 @@ use std::ops::Add;
 /// Work done in a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Statistics {
+    /// Accepted steps.
     pub steps: u64,
+    /// Rejected steps.
     pub rejected: u64,
-    /// Solutions of the equations of motion.
+    /// Evaluations of the equations of motion.
     pub rhs_evaluations: u64,
+    /// Evaluations of the Jacobian K, C of implicit methods.
     pub jacobian_evaluations: u64,
     /// Factorizations of the saddle-point matrix.
     pub factorizations: u64,
+    /// Iterations of Newton's method.
     pub newton_iterations: u64,
-    /// Sets of equations that Newton's method solved as far as round-off let it, and not to the tolerance.
+    /// Newton solutions that ended at the round-off floor instead of the tolerance.
     pub stagnated: u64,
     /// Sweeps of the projection.
     pub projections: u64,
     /// Accepted states at which G was rank deficient.
     pub rank_deficient: u64,
-    /// Work beside that of the steps: a look at the start, output rows, and the search for thresholds within steps.
+    /// Work outside the steps: a first look at the start, output rows, and the search for thresholds within steps.
     pub rows: Work,
 }
 
 impl Statistics {
-    /// Work of the steps alone.
+    /// Work of the steps alone, without `rows`.
     pub fn of_steps(&self) -> Work {
         let Statistics {
             rhs_evaluations, jacobian_evaluations, factorizations, newton_iterations, projections, ..
@@ -33,7 +37,7 @@ impl Statistics {
         Work { rhs_evaluations, jacobian_evaluations, factorizations, newton_iterations, projections }
     }
 
-    /// Work of steps and rows.
+    /// Work of steps and `rows`.
     pub fn whole(&self) -> Work {
         self.of_steps() + self.rows
     }
@@ -53,18 +57,23 @@ impl Add for Statistics {
     }
 }
 
-/// Counts of what takes time, as in [`Statistics`].
+/// Counters of the operations that take time, as in [`Statistics`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Work {
+    /// Evaluations of the equations of motion.
     pub rhs_evaluations: u64,
+    /// Evaluations of the Jacobian K, C of implicit methods.
     pub jacobian_evaluations: u64,
+    /// Factorizations of the saddle-point matrix.
     pub factorizations: u64,
+    /// Iterations of Newton's method.
     pub newton_iterations: u64,
+    /// Sweeps of the projection.
     pub projections: u64,
 }
 
 impl From<Work> for Statistics {
-    /// As that of steps.
+    /// Counts the work as that of the steps.
     fn from(work: Work) -> Self {
         let Work { rhs_evaluations, jacobian_evaluations, factorizations, newton_iterations, projections } = work;
         let none = Statistics::default();

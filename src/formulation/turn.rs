@@ -1,4 +1,4 @@
-//! Changes of q along the group.
+//! The exponential map of the coordinates.
 
 use crate::system::MechanicalSystem;
 

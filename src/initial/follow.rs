@@ -11,6 +11,7 @@ use crate::tolerances::initial as tolerances;
 /// Positions on the constraints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Followed {
+    /// Coordinates, n_q.
     pub q: Vec<f64>,
     /// How near the constraints and what is held are to losing rank: 0 at a singular state.
     pub rank_indicator: f64,
@@ -18,10 +19,10 @@ pub struct Followed {
     pub dependent: Vec<usize>,
 }
 
-/// Newton's method, in parts of 1 m or rad and the largest coordinate, to round-off, also near a singular state. Where its
-/// changes contract so from the second on, there is one solution around the guess, and it is the continuation of the state
-/// from which the guess was taken; other solutions are attracted to less steeply (P. Deuflhard, Newton Methods for
-/// Nonlinear Problems, 2011, section 5.1).
+/// Newton's method, in parts of 1 m or rad and the largest coordinate, to round-off, also near a singular state. Where
+/// its changes contract so from the second on, there is one solution around the guess, and it is the continuation of
+/// the state from which the guess was taken; other solutions are attracted to less steeply (P. Deuflhard, Newton
+/// Methods for Nonlinear Problems, 2011, section 5.1).
 const LIMITS: Limits = Limits {
     most: tolerances::FOLLOWING_ITERATIONS,
     round_off: tolerances::FOLLOWED,
@@ -29,8 +30,8 @@ const LIMITS: Limits = Limits {
     ..Limits::NONE
 };
 
-/// Closes the joints from a guess near by; `None` where Newton's method does not contract from its first step on, so that
-/// it may lead to another branch or nowhere. Rows named in `dependent` are left out and checked at the end.
+/// Closes the joints from a guess near by; `None` where Newton's method does not contract from its first step on, so
+/// that it may lead to another branch or nowhere. Rows named in `dependent` are left out and checked at the end.
 ///
 /// # Errors
 /// Constraints that are infinite at the guess or on the way, names in `hold` that do not exist.

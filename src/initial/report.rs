@@ -6,9 +6,13 @@ use serde::Serialize;
 /// A consistent start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assembly {
+    /// Coordinates, n_q.
     pub q: Vec<f64>,
+    /// Velocities, n_v.
     pub v: Vec<f64>,
+    /// Accelerations, n_v.
     pub vdot: Vec<f64>,
+    /// Multipliers, n_c.
     pub lambda: Vec<f64>,
     /// Residuals of the guess.
     pub before: Level,
@@ -21,15 +25,20 @@ pub struct Assembly {
 /// Largest residuals, in units of the scene's scale.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Level {
+    /// max |phi|
     pub phi: f64,
+    /// max |phi'|, per second.
     pub phi_dot: f64,
 }
 
 /// A coordinate or velocity that assembly changed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Move {
+    /// Name of the coordinate or velocity.
     pub name: String,
+    /// Value in the guess.
     pub from: f64,
+    /// Value in the consistent start.
     pub to: f64,
 }
 

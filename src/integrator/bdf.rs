@@ -16,8 +16,8 @@ use crate::error::Result;
 /// For smooth stiff motions: two or three evaluations a step, and about every tenth step a dense matrix (n_q + n_v
 /// unknowns, with `ggl` 2 (n_v + n_c) more: hundreds at most) from exact K, C, G and L. It allocates. Orders 3 to 5 are
 /// not stable for fast swings that nothing damps, which are then followed in tiny steps: take `esdirk34` or
-/// `generalized_alpha` there. Projections are refused: a moved state has no past, and the order would fall to 1 at every
-/// step. Interpolation by the polynomial of the step.
+/// `generalized_alpha` there. Projections are refused: a moved state has no past, and the order would fall to 1 at
+/// every step. Interpolation by the polynomial of the step.
 pub const ENTRY: Entry = Entry {
     name: "bdf",
     about: "implicit, order 1 to 5 by itself, for stiff motions that are smooth; chooses its steps",

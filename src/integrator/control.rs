@@ -6,19 +6,22 @@ use crate::system::MechanicalSystem;
 use crate::tolerances::integrator as tolerances;
 use std::ops::Range;
 
-/// Tolerated local error of component y: atol + rtol |y|, with one atol for metres, radians and their rates, and y counted
-/// from the origin: a mechanism of micrometres needs an atol as much smaller, one far from the origin stands better there.
-/// Angles that count turns are not tested: they are brought back to what the other coordinates say, and what only watches a
-/// motion must not change its steps.
+/// Tolerated local error of component y: atol + rtol |y|, with one atol for metres, radians and their rates, and y
+/// counted from the origin: a mechanism of micrometres needs an atol as much smaller, one far from the origin stands
+/// better there. Angles that count turns are not tested: they are brought back to what the other coordinates say, and
+/// what only watches a motion must not change its steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
+    /// Relative tolerance.
     pub rtol: f64,
+    /// Absolute tolerance.
     pub atol: f64,
     /// The place in y of the first such angle, and that behind the last.
     turning: [usize; 2],
 }
 
 impl Tolerance {
+    /// Tolerances for the states of a system.
     pub fn new(rtol: f64, atol: f64, system: &dyn MechanicalSystem) -> Self {
         let q = system.dimensions().q;
         Tolerance { rtol, atol, turning: [q - system.turning_angles(), q] }
@@ -56,7 +59,8 @@ impl Tolerance {
         n - self.untested().len()
     }
 
-    /// Sum of the squares of `error` over the tolerated ones in a step, of the tested ones among the first n components.
+    /// Sum of the squares of `error` over the tolerated ones in a step, of the tested ones among the first n
+    /// components.
     #[inline]
     pub fn squares(&self, n: usize, from: &[f64], to: &[f64], error: impl Fn(usize) -> f64) -> f64 {
         let add = |sum: f64, i: usize| sum + (error(i) / self.weight(from[i], to[i])).powi(2);
@@ -65,13 +69,15 @@ impl Tolerance {
     }
 }
 
-/// How the tolerance of a method's steps follows from what is asked of the motion: factor asked^power. Where the error of a
-/// step is that of the solution, O(h^(p+1)), errors add up to its power p/(p+1), which the power (p + 1)/p makes up for;
-/// with local extrapolation they add up to a multiple of it. Source: Shampine, SIAM J. Numer. Anal. 12 (1975) on error per
-/// step and per unit step. The factors are measured: medians over the shipped scenes.
+/// How the tolerance of a method's steps follows from what is asked of the motion: factor asked^power. Where the error
+/// of a step is that of the solution, O(h^(p+1)), errors add up to its power p/(p+1), which the power (p + 1)/p makes
+/// up for; with local extrapolation they add up to a multiple of it. Source: Shampine, SIAM J. Numer. Anal. 12 (1975)
+/// on error per step and per unit step. The factors are measured: medians over the shipped scenes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tightening {
+    /// Factor c in c rtol^power.
     pub factor: f64,
+    /// Exponent of the tolerance.
     pub power: f64,
 }
 
@@ -85,8 +91,8 @@ impl Tightening {
         asked.with(rtol, asked.atol * rtol / asked.rtol)
     }
 
-    /// The rtol of the motion that steps stand for which are controlled as tightly as this one lets them: above `asked` where
-    /// they would have to be tighter.
+    /// The rtol of the motion that steps stand for which are controlled as tightly as this one lets them: above `asked`
+    /// where they would have to be tighter.
     pub fn reached(self, asked: &Tolerance) -> f64 {
         (self.of_steps(asked).rtol / self.factor).powf(1.0 / self.power)
     }
@@ -97,9 +103,13 @@ impl Tightening {
 /// h_new = h safety (h/h_old) (err_old/err^2)^expo. Source: Hairer, Wanner II, IV.8 (8.25), after Gustafsson.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
+    /// expo, on the error of the step.
     pub exponent: f64,
+    /// beta, on the error of the last accepted step.
     pub beta: f64,
+    /// Least h_new/h.
     pub shrink: f64,
+    /// Greatest h_new/h.
     pub grow: f64,
     /// Factor on the optimal step.
     pub safety: f64,
@@ -111,8 +121,8 @@ pub struct Control {
 }
 
 impl Control {
-    /// With the exponent 1/order - 0.75 beta: `order` of the solution where the estimate is of one less, and `beta` zero or about
-    /// 0.04, which damps its swings.
+    /// With the exponent 1/order - 0.75 beta: `order` of the solution where the estimate is of one less, and `beta`
+    /// zero or about 0.04, which damps its swings.
     pub fn new(order: f64, beta: f64, shrink: f64, grow: f64) -> Self {
         Control {
             exponent: 1.0 / order - 0.75 * beta,

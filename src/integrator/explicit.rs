@@ -40,7 +40,12 @@ pub enum ErrorEstimate {
     /// belongs to y' at the new state.
     Embedded(&'static [f64]),
     /// Combination of a fifth- and a third-order estimate (DOP853).
-    Pair { fifth: &'static [f64], third: &'static [f64] },
+    Pair {
+        /// Weights e of the estimate of order 5, as in `Embedded`.
+        fifth: &'static [f64],
+        /// Weights e of the estimate of order 3.
+        third: &'static [f64],
+    },
 }
 
 /// k_i = F(t + c_i h, y + h sum_j a_ij k_j), y_1 = y + h sum b_i k_i.

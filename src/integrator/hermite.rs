@@ -3,18 +3,19 @@
 use super::{From, Problem};
 use crate::formulation::StepError;
 
-/// (1 - 1/sqrt 5)/2, a node of Lobatto's rule: the largest error of the quartic, of theta^2 (1 - theta)^2 (theta - 1/2), is
-/// the smallest here.
+/// (1 - 1/sqrt 5)/2, a node of Lobatto's rule: the largest error of the quartic, of theta^2 (1 - theta)^2 (theta -
+/// 1/2), is the smallest here.
 const NODE: f64 = 0.276_393_202_250_021;
 
-/// The polynomial of Hairer's codes: y + theta (F0 + (1 - theta) (F1 + theta (F2 + (1 - theta) (F3 + ...)))), in which F0
-/// to F2 make the cubic Hermite interpolant of order 3 and further rows are the method's own.
+/// The polynomial of Hairer's codes: y + theta (F0 + (1 - theta) (F1 + theta (F2 + (1 - theta) (F3 + ...)))), in which
+/// F0 to F2 make the cubic Hermite interpolant of order 3 and further rows are the method's own.
 pub struct Hermite {
     rows: Vec<Vec<f64>>,
 }
 
 impl Hermite {
-    /// For states of length `len`, with `beyond` rows beyond the cubic: none for the cubic itself, whose error is O(h^4).
+    /// For states of length `len`, with `beyond` rows beyond the cubic: none for the cubic itself, whose error is
+    /// O(h^4).
     pub fn new(len: usize, beyond: usize) -> Self {
         Hermite { rows: vec![vec![0.0; len]; 3 + beyond] }
     }
@@ -36,7 +37,8 @@ impl Hermite {
 
     /// F3 from y' evaluated on the cubic itself at [`NODE`], so that the error over a step is O(h^5).
     ///
-    /// Source: Enright, Jackson, Norsett, Thomsen, ACM Trans. Math. Softw. 12 (1986) 193-218. `y` and `slope` are scratch.
+    /// Source: Enright, Jackson, Norsett, Thomsen, ACM Trans. Math. Softw. 12 (1986) 193-218. `y` and `slope` are
+    /// scratch.
     pub(super) fn raise(
         &mut self,
         problem: &mut Problem,

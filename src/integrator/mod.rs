@@ -1,7 +1,8 @@
 //! Integrators: one step of a vector field.
 //!
-//! To add one: a file with its tableau (or a step of its own) and an [`Entry`], and a line in [`registry`]; from outside the
-//! crate, an [`Entry`] and its [`spec`](Listed::spec), as in `tests/examples/own_integrator.rs` and `own_tableau.rs`.
+//! To add one: a file with its tableau (or a step of its own) and an [`Entry`], and a line in [`registry`]; from
+//! outside the crate, an [`Entry`] and its [`spec`](Listed::spec), as in `tests/examples/own_integrator.rs` and
+//! `own_tableau.rs`.
 
 mod ali3p;
 mod bdf;
@@ -42,8 +43,8 @@ use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::system::MechanicalSystem;
 use crate::tolerances::integrator as tolerances;
 
-/// Why the matrix of a step is singular: with all rows in it, of which some depend on others at its start and ahead, and
-/// yet ask for another position there, these contradict each other.
+/// Why the matrix of a step is singular: with all rows in it, of which some depend on others at its start and ahead,
+/// and yet ask for another position there, these contradict each other.
 fn collapsed(singular: Singular, problem: &mut Problem, from: From, h: f64) -> StepError {
     if singular != Singular::Collapsed || !problem.dynamics.dropped.is_empty() {
         return singular.into();
@@ -84,14 +85,14 @@ pub trait Integrator {
         to: &mut [f64],
     ) -> Result<Option<f64>, StepError>;
 
-    /// y' at the new state, where the last attempt evaluated it there, and last of all: the problem then holds the terms
-    /// of the new state, and the next step needs no evaluation of its own (first same as last).
+    /// y' at the new state, where the last attempt evaluated it there, and last of all: the problem then holds the
+    /// terms of the new state, and the next step needs no evaluation of its own (first same as last).
     fn last_slope(&self) -> Option<&[f64]> {
         None
     }
 
-    /// The step control that goes with the method, which may change its constants with its order; without an error estimate
-    /// it is not asked.
+    /// The step control that goes with the method, which may change its constants with its order; without an error
+    /// estimate it is not asked.
     fn control(&mut self) -> &mut Control;
 
     /// The size of the step just tried, where the method chose one of its own and not the `h` it was given.
@@ -127,8 +128,8 @@ pub trait Integrator {
         false
     }
 
-    /// The fraction of a step that is farthest from the places at which the equations are evaluated off the constraints;
-    /// `None` for a method without such places, or that wants steps of one size.
+    /// The fraction of a step that is farthest from the places at which the equations are evaluated off the
+    /// constraints; `None` for a method without such places, or that wants steps of one size.
     fn widest_gap(&self) -> Option<f64> {
         None
     }
@@ -162,7 +163,9 @@ pub trait Integrator {
 /// Where a step starts.
 #[derive(Clone, Copy, Debug)]
 pub struct From<'a> {
+    /// Time, s.
     pub t: f64,
+    /// State y = (q, v, w).
     pub y: &'a [f64],
     /// y' at (t, y).
     pub slope: &'a [f64],
@@ -174,7 +177,9 @@ pub struct From<'a> {
 pub struct Setup<'s> {
     /// Its own name and options.
     pub integrator: &'s MethodSpec,
+    /// Formulation with its options.
     pub formulation: &'s MethodSpec,
+    /// The mechanism.
     pub system: &'s dyn MechanicalSystem,
     /// Whether the steps are fixed.
     pub is_fixed: bool,
@@ -187,6 +192,7 @@ impl Setup<'_> {
         n.q + n.v + 1
     }
 
+    /// True for a system without velocities.
     pub fn is_empty(&self) -> bool {
         self.system.dimensions().v == 0
     }
@@ -215,10 +221,12 @@ pub struct Entry {
     pub steps: Steps,
     /// How much tighter than asked for the motion steps are controlled.
     pub tightening: Tightening,
-    /// Whether it integrates a formulation: one that follows vector fields says `|formulation| formulation.field.is_some()`.
+    /// Whether it integrates a formulation: one that follows vector fields says `|formulation|
+    /// formulation.field.is_some()`.
     pub solves: fn(&formulation::Entry) -> bool,
     /// Whether a projection would cost it an order with a formulation.
     pub refuses: fn(&formulation::Entry, projection: &str) -> bool,
+    /// The options of its specification.
     pub options: &'static [OptionDoc],
     /// Makes it for a system, with memory for states of [`Setup::len`].
     pub make: for<'s> fn(&Setup<'s>) -> Result<Box<dyn Integrator + 's>>,

@@ -6,12 +6,15 @@ use crate::system::Dimensions;
 /// y = (q, v, w) with w the work of forces without a potential and of moving constraints, J, which is carried along so
 /// that the energy balance has the accuracy of the method. States xi are the last of v.
 pub struct Problem<'a> {
+    /// The equations with their memory.
     pub dynamics: Dynamics<'a>,
+    /// The vector field.
     pub formulation: Box<dyn Formulation + 'a>,
     dimensions: Dimensions,
 }
 
 impl<'a> Problem<'a> {
+    /// A formulation on its equations.
     pub fn new(dynamics: Dynamics<'a>, formulation: Box<dyn Formulation + 'a>) -> Self {
         Problem { dimensions: dynamics.system.dimensions(), dynamics, formulation }
     }
@@ -21,6 +24,7 @@ impl<'a> Problem<'a> {
         self.dimensions.q + self.dimensions.v + 1
     }
 
+    /// True for a system without velocities.
     pub fn is_empty(&self) -> bool {
         self.dimensions.v == 0
     }
@@ -31,6 +35,7 @@ impl<'a> Problem<'a> {
         (q, &rest[..self.dimensions.v])
     }
 
+    /// (q, v) of y, mutable.
     pub fn split_mut<'y>(&self, y: &'y mut [f64]) -> (&'y mut [f64], &'y mut [f64]) {
         let (q, rest) = y.split_at_mut(self.dimensions.q);
         (q, &mut rest[..self.dimensions.v])

@@ -18,10 +18,10 @@ use crate::tolerances::integrator as tolerances;
 /// ```
 ///
 /// Source: Andersen, J. Comput. Phys. 52 (1983) 24-34; Jay, SIAM J. Numer. Anal. 33 (1996) 368-387, for forces that
-/// depend on v, which the first half takes implicitly and the second explicitly, so that the step stays symmetric. Order
-/// 2 in q, v and lambda; symmetric, and symplectic without such forces. For constant M and q' = v. One factorization a
-/// step; the first half is iterated to round-off, one evaluation of f and one of phi an iteration. The work is the
-/// trapezoidal rule. Fixed steps; cubic Hermite interpolation.
+/// depend on v, which the first half takes implicitly and the second explicitly, so that the step stays symmetric.
+/// Order 2 in q, v and lambda; symmetric, and symplectic without such forces. For constant M and q' = v. One
+/// factorization a step; the first half is iterated to round-off, one evaluation of f and one of phi an iteration. The
+/// work is the trapezoidal rule. Fixed steps; cubic Hermite interpolation.
 pub const ENTRY: Entry = Entry {
     name: "rattle",
     about: "symmetric, symplectic, for constant M; holds phi and phi', fixed steps",
@@ -61,8 +61,8 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
 struct Rattle {
     /// M at the first state, which all others are compared with.
     mass: Option<Vec<f64>>,
-    /// Whether the problem holds the terms and factors of the state that the last attempt ended at, and whether that is the
-    /// state from which the next step starts.
+    /// Whether the problem holds the terms and factors of the state that the last attempt ended at, and whether that is
+    /// the state from which the next step starts.
     is_ahead: bool,
     is_ready: bool,
     /// v_h

@@ -32,8 +32,8 @@ pub const ENTRY: Entry = Entry {
     },
 };
 
-/// In units of what the scene's size makes no round-off, nor what redundant rows may contradict each other by. A residual
-/// below that falls by half at least, until another step would only stir its round-off.
+/// In units of what the scene's size makes no round-off, nor what redundant rows may contradict each other by. A
+/// residual below that falls by half at least, until another step would only stir its round-off.
 const LIMITS: Limits = Limits { stagnation: 1.0, contraction: tolerances::NEWTON_HALVES, ..Limits::NONE };
 
 struct Exact {

@@ -1,7 +1,7 @@
 //! What is done after a step: the state is moved back to the constraints.
 //!
-//! To add one: a line in [`registry`], with a file where it is more than a choice of F; from outside the crate, an [`Entry`]
-//! and its [`spec`](Listed::spec), as in `tests/examples/own_projection.rs`.
+//! To add one: a line in [`registry`], with a file where it is more than a choice of F; from outside the crate, an
+//! [`Entry`] and its [`spec`](Listed::spec), as in `tests/examples/own_projection.rs`.
 
 mod exact;
 mod post_stabilization;
@@ -20,9 +20,13 @@ pub trait Projection: Send {
 
 /// One projection as the command line, the scene format and the table of methods know it.
 pub struct Entry {
+    /// Name in the scene format and on the command line.
     pub name: &'static str,
+    /// One line for the table of methods.
     pub about: &'static str,
+    /// The options of its specification.
     pub options: &'static [OptionDoc],
+    /// Makes it for a system; `None` where states are not projected.
     pub make: Make,
 }
 

@@ -1,8 +1,9 @@
 //! `--method auto`: the method that carries a motion farthest for its work, found out on the way.
 //!
-//! An explicit method begins. Whenever the work since the last look has doubled, and wherever a run stops, the other one of
-//! two may try from there ([`Contest`]); the better one goes on. So the whole costs no more than a few times what the better
-//! one of both would, wherever along the motion that changes. All is counted in evaluations: a run is repeatable bit by bit.
+//! An explicit method begins. Whenever the work since the last look has doubled, and wherever a run stops, the other
+//! one of two may try from there ([`Contest`]); the better one goes on. So the whole costs no more than a few times
+//! what the better one of both would, wherever along the motion that changes. All is counted in evaluations: a run is
+//! repeatable bit by bit.
 
 use super::contest::{Contest, Mark, Quiet};
 use super::{Checkpoint, Method, Outcome, Run, Sink, Span};
@@ -13,15 +14,19 @@ use crate::system::MechanicalSystem;
 use crate::tolerances::simulate as tolerances;
 use serde::Serialize;
 
-/// A method with the reason for it, in one or two sentences, and the time from which on it carries the motion, s.
+/// A part of a run with one method, and the reason for that method in one or two sentences.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Leg {
+    /// Time from which on the method is used, s.
     pub from: f64,
+    /// The method.
     #[serde(flatten)]
     pub method: Method,
+    /// The reason for it.
     pub because: String,
-    /// Its own work, and that of the other method, which tried.
+    /// Work of the method itself.
     pub statistics: Statistics,
+    /// Work of the other method, which was tried.
     pub trials: Statistics,
 }
 
@@ -46,8 +51,8 @@ fn candidates(tolerances: (f64, f64)) -> [Method; 2] {
     [method(["index1", "dop853", "manifold"], tolerances), implicit(tolerances)]
 }
 
-/// What a method that was named has against it at the beginning of a motion: how much farther an implicit one comes. `None`
-/// where stability does not hold its steps, or nothing is known.
+/// What a method that was named has against it at the beginning of a motion: how much farther an implicit one comes.
+/// `None` where stability does not hold its steps, or nothing is known.
 pub fn rival(system: &dyn MechanicalSystem, method: &Method, span: Span, start: (&[f64], &[f64])) -> Option<Contest> {
     let methods = [method.clone(), implicit((method.rtol, method.atol))];
     let mut drive = Drive::new(system, &methods, unseen(span), start).ok()?;
@@ -79,9 +84,9 @@ pub fn advise(
     Ok((method, because))
 }
 
-/// Integrates `system` from (q, v), which should be consistent, over `span`, with these `tolerances`: an explicit method
-/// begins, and others go on where they come farther. Returns the methods in their order, and where a run by the last of them
-/// can go on.
+/// Integrates `system` from (q, v), which should be consistent, over `span`, with these `tolerances`: an explicit
+/// method begins, and others go on where they come farther. Returns the methods in their order, and where a run by the
+/// last of them can go on.
 ///
 /// # Errors
 /// Bad input only, as in [`simulate`](super::simulate).

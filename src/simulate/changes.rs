@@ -13,8 +13,8 @@ const CONTINUOUS: &str = "write a law that passes through zero steadily, such as
      `sign(x)`, or `smoothstep` in the place of `step` and `if`";
 
 impl Run<'_> {
-    /// The first threshold that the step just tried goes over. A method that chooses its own steps ends there on its dense
-    /// output, since it would not find back to that place.
+    /// The first threshold that the step just tried goes over. A method that chooses its own steps ends there on its
+    /// dense output, since it would not find back to that place.
     pub fn end_at_passage(&mut self, h: &mut f64, end: &mut Option<f64>) -> Result<Option<Passage>, StepError> {
         let mut passage = self.passage(*h, self.end_of(*h, *end))?;
         for _ in 0..tolerances::CUTS {
@@ -64,8 +64,8 @@ impl Run<'_> {
         self.enter_form()
     }
 
-    /// Changes the form at the state that the run has come to: by the clock, and where a step ended at a threshold or cannot
-    /// begin. The next step is small where the motion jumps.
+    /// Changes the form at the state that the run has come to: by the clock, and where a step ended at a threshold or
+    /// cannot begin. The next step is small where the motion jumps.
     pub fn change_form(&mut self, at_start: Option<usize>) -> Result<(), Failure> {
         let before = self.slope.clone();
         let turns = self.events.turn(at_start);
@@ -134,8 +134,8 @@ impl Run<'_> {
         [dynamics.terms.phi.clone(), dynamics.terms.phi_dot.clone()]
     }
 
-    /// Where what is prescribed has a kink, the velocities jump with it: M (v_1 - v_0) + G^T p = 0 with G v_1 + phi_t as before,
-    /// p the impulses of the joints, whose work is that of the drive. What is prescribed cannot jump itself.
+    /// Where what is prescribed has a kink, the velocities jump with it: M (v_1 - v_0) + G^T p = 0 with G v_1 + phi_t
+    /// as before, p the impulses of the joints, whose work is that of the drive. What is prescribed cannot jump itself.
     fn meet_constraints(&mut self, [phi, phi_dot]: [Vec<f64>; 2]) -> Result<(), Failure> {
         let [now, rate] = self.constraints();
         let jumps = |new: &[f64], old: &[f64]| new.iter().zip(old).map(|(new, old)| new - old).collect::<Vec<f64>>();

@@ -9,8 +9,8 @@ use crate::math::Piece;
 use crate::system::{MechanicalSystem, OperatingPoint};
 use serde::{Deserialize, Serialize};
 
-/// All that a run carries from one accepted step to the next: the state, and what adapts. A run of the same method and span
-/// that goes on from here is bit by bit the one that went on by itself. JSON keeps it exactly.
+/// All that a run carries from one accepted step to the next: the state, and what adapts. A run of the same method and
+/// span that goes on from here is bit by bit the one that went on by itself. JSON keeps it exactly.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
     method: Method,
@@ -20,8 +20,8 @@ pub struct Checkpoint {
     y: Vec<f64>,
     /// OutputRows of G that are dropped.
     dropped: Vec<usize>,
-    /// The pieces on which functions are held, their next change by the clock, up to where the clock is watched, and which
-    /// functions of time have no useful enclosures.
+    /// The pieces on which functions are held, their next change by the clock, up to where the clock is watched, and
+    /// which functions of time have no useful enclosures.
     pieces: Vec<Piece>,
     next_change: Option<f64>,
     watched: (Option<f64>, Vec<bool>),
@@ -48,12 +48,13 @@ pub struct Checkpoint {
 pub enum Start<'a> {
     /// At (q, v), which should be consistent.
     State(&'a [f64], &'a [f64]),
-    /// Where another one was saved: going on with all that it carried if the method is the same, else anew from its state.
+    /// Where another one was saved: going on with all that it carried if the method is the same, else anew from its
+    /// state.
     Saved(&'a Checkpoint),
 }
 
-/// Integrates `system` over `span`, or what is left of it. A run that cannot go on is no error: its outcome says where and
-/// why, and the sink holds what came before. Returns where a run can go on, too; none where it could not begin.
+/// Integrates `system` over `span`, or what is left of it. A run that cannot go on is no error: its outcome says where
+/// and why, and the sink holds what came before. Returns where a run can go on, too; none where it could not begin.
 ///
 /// # Errors
 /// Bad input only: an unknown or impossible method, a bad span, a saved run of another system or beyond the span.
@@ -92,8 +93,8 @@ impl Checkpoint {
         &self.method
     }
 
-    /// Whether the method goes on with what it carried; else it begins anew, and the run is the same within the tolerance
-    /// only.
+    /// Whether the method goes on with what it carried; else it begins anew, and the run is the same within the
+    /// tolerance only.
     pub fn is_exact(&self) -> bool {
         !self.integrator.is_empty()
     }

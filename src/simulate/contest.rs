@@ -1,8 +1,9 @@
 //! Two methods against each other on the same stretch of a motion.
 //!
-//! No spectrum tells what a method will cost: a mesh has modes of all speeds, some asleep, and directions that turn hold implicit
-//! steps as short as stability holds explicit ones. What settles it is a trial: which method comes farther for the same work.
-//! The spectrum only tells when to try: where the fastest mode of the state has to do with the steps that are taken.
+//! No spectrum tells what a method will cost: a mesh has modes of all speeds, some asleep, and directions that turn
+//! hold implicit steps as short as stability holds explicit ones. What settles it is a trial: which method comes
+//! farther for the same work. The spectrum only tells when to try: where the fastest mode of the state has to do with
+//! the steps that are taken.
 
 use super::spectrum::{SpectralMode, fastest};
 use super::{Method, Observation, Run, Sink};
@@ -56,8 +57,8 @@ impl Run<'_> {
         Mark { t: self.t, work: own + rows, rows, steps }
     }
 
-    /// Goes on for so much work, of which the first half is no measure: steps that begin small grow. While they do, it goes on,
-    /// up to the `most` work. Returns where the measure begins, and the failure of the run.
+    /// Goes on for so much work, of which the first half is no measure: steps that begin small grow. While they do, it
+    /// goes on, up to the `most` work. Returns where the measure begins, and the failure of the run.
     pub fn window(&mut self, work: f64, most: f64, sink: &mut dyn Sink) -> (Mark, Option<Failure>) {
         let mut mark = self.mark();
         let most = mark.work + most;
@@ -96,8 +97,8 @@ impl Run<'_> {
         (self.t - mark.t) / (self.mark().steps - mark.steps).max(1) as f64
     }
 
-    /// The fastest mode of the state, where steps since `mark` were so long that it matters to which kind of method goes
-    /// on, and enough is left to do; with their mean.
+    /// The fastest mode of the state, where steps since `mark` were so long that it matters to which kind of method
+    /// goes on, and enough is left to do; with their mean.
     pub fn hindered(&self, mark: Mark) -> Option<(SpectralMode, f64)> {
         if tolerances::TRIAL_SHARE * self.left(mark) < tolerances::TRIAL_WORK {
             return None;
@@ -116,8 +117,8 @@ impl Run<'_> {
         matters.then_some((mode, step))
     }
 
-    /// Lets `other` try from the state of this run, whose pace since `mark` is known, with the same rows, which nobody sees;
-    /// with the work of the trial.
+    /// Lets `other` try from the state of this run, whose pace since `mark` is known, with the same rows, which nobody
+    /// sees; with the work of the trial.
     pub fn contest(
         &self,
         mark: Mark,

@@ -24,7 +24,8 @@ struct Window {
 }
 
 impl Crowd {
-    /// Counts a turn at `t`, at which the argument had this rate; `moves`: the state is another than at the turn before.
+    /// Counts a turn at `t`, at which the argument had this rate; `moves`: the state is another than at the turn
+    /// before.
     pub fn add(&mut self, t: f64, rate: f64, moves: bool) {
         let Window { start, count, rates, moves: moved, .. } = &mut self.window;
         (*count, *rates, *moved) = (*count + 1, *rates + rate.abs(), *moved || moves);

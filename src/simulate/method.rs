@@ -13,17 +13,22 @@ use std::str::FromStr;
 /// A method: formulation x integrator x projection, with its accuracy.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Method {
+    /// Formulation with its options.
     pub formulation: MethodSpec,
+    /// Integrator with its options.
     pub integrator: MethodSpec,
+    /// Projection with its options.
     pub projection: MethodSpec,
+    /// Relative tolerance.
     pub rtol: f64,
+    /// Absolute tolerance.
     pub atol: f64,
     /// Fixed step, s; `None` lets the integrator choose.
     pub step: Option<f64>,
 }
 
-/// What costs least most often: at equal errors dop853 takes fewer evaluations than dopri5 on 18 of 29 shipped scenes at three
-/// digits, on 23 of 28 at six and on 19 of 23 at eight, where it is 2.3 times as fast in the median.
+/// What costs least most often: at equal errors dop853 takes fewer evaluations than dopri5 on 18 of 29 shipped scenes
+/// at three digits, on 23 of 28 at six and on 19 of 23 at eight, where it is 2.3 times as fast in the median.
 impl Default for Method {
     fn default() -> Self {
         Method {
@@ -129,8 +134,8 @@ impl Method {
         }
     }
 
-    /// Refuses options that the formulation, the integrator or the projection does not take, and a system that is too large
-    /// for one of them.
+    /// Refuses options that the formulation, the integrator or the projection does not take, and a system that is too
+    /// large for one of them.
     pub fn check_options(&self, system: &dyn MechanicalSystem) -> Result<()> {
         formulation::make(&self.formulation, system).map_err(|error| error.under("formulation"))?;
         self.make_integrator(system).map_err(|error| error.under("integrator"))?;

@@ -51,11 +51,15 @@ use crate::tolerances::simulate as tolerances;
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
+    /// Counters of the work.
     pub statistics: Statistics,
+    /// Time reached, s.
     pub t: f64,
-    /// The last good state.
+    /// Coordinates of the last accepted state.
     pub q: Vec<f64>,
+    /// Velocities of the last accepted state.
     pub v: Vec<f64>,
+    /// The reason why the run ended early; none where it reached the end.
     pub failure: Option<Failure>,
 }
 
@@ -120,9 +124,9 @@ struct Run<'a> {
     allowance: f64,
 }
 
-/// What is done to states on the dense output: the projection of the method, but where both levels are integrated, these hold
-/// at the ends of steps to round-off, and the error of a step is measured along them. Between the ends nothing else keeps
-/// the dense output near them, least of all where a driver leaves no free direction.
+/// What is done to states on the dense output: the projection of the method, but where both levels are integrated,
+/// these hold at the ends of steps to round-off, and the error of a step is measured along them. Between the ends
+/// nothing else keeps the dense output near them, least of all where a driver leaves no free direction.
 fn within(method: &Method, system: &dyn MechanicalSystem) -> Result<Option<Box<dyn Projection>>> {
     match formulation::dae(&method.formulation)? {
         Some(dae) if dae.holds(0) && dae.holds(1) => projection::make(&MethodSpec::named("exact"), system),
@@ -288,8 +292,8 @@ impl<'a> Run<'a> {
         Ok(None)
     }
 
-    /// Whether the step just tried missed nothing that acts by the clock, and passed no threshold; else what is to be done
-    /// in its place.
+    /// Whether the step just tried missed nothing that acts by the clock, and passed no threshold; else what is to be
+    /// done in its place.
     fn meets_all(&mut self, size: &mut f64, end: &mut Option<f64>, stop: NextStop) -> Result<bool, Failure> {
         if let Some(resolved) = self.unresolved(stop.t) {
             self.integrator.restart();

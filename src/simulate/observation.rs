@@ -8,7 +8,9 @@ use std::time::Duration;
 
 /// The interval to simulate and where the output rows lie.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// First time, s.
 pub struct Span {
+    /// Last time, s.
     pub start: f64,
     pub end: f64,
     /// Distance of the output rows, s.
@@ -36,13 +38,21 @@ impl Span {
 
 /// All that is known at a state of the motion.
 pub struct Observation<'a> {
+    /// Time, s.
     pub t: f64,
+    /// Coordinates, n_q.
     pub q: &'a [f64],
+    /// Velocities, n_v.
     pub v: &'a [f64],
+    /// Accelerations, n_v.
     pub vdot: &'a [f64],
+    /// Multipliers, n_c.
     pub lambda: &'a [f64],
+    /// Constraints, n_c, m or rad.
     pub phi: &'a [f64],
+    /// G v + phi_t, n_c.
     pub phi_dot: &'a [f64],
+    /// G v' - gamma, n_c.
     pub phi_ddot: &'a [f64],
     /// Work of forces without potential and of moving constraints since the start, J.
     pub work: f64,
@@ -79,7 +89,9 @@ pub trait Sink {
 /// Why a run is ended from outside, and what to do about it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stop {
+    /// The reason, for the message.
     pub reason: String,
+    /// The remedy, for the message.
     pub hint: String,
 }
 
@@ -95,8 +107,8 @@ impl Stop {
 }
 
 impl super::Run<'_> {
-    /// To first order what tolerated errors of q and v do to the energy of the state, J: sum |M v|_i w(v_i) + |f_i| w(q), with
-    /// the tolerance w of the largest coordinate.
+    /// To first order what tolerated errors of q and v do to the energy of the state, J: sum |M v|_i w(v_i) + |f_i|
+    /// w(q), with the tolerance w of the largest coordinate.
     pub fn tolerated_energy(&mut self) -> f64 {
         let dynamics = &self.problem.dynamics;
         let (q, v) = self.problem.split(&self.y);

@@ -87,8 +87,9 @@ impl SingularPassage {
         -self.rank_indicator / self.rate
     }
 
-    /// The step to try where control proposes `h`: once from each state one that goes well over the singular state, which
-    /// lies in its `gap`, the fraction of a step that is farthest from all stages; then one that stops well before it.
+    /// The step to try where control proposes `h`: once from each state one that goes well over the singular state,
+    /// which lies in its `gap`, the fraction of a step that is farthest from all stages; then one that stops well
+    /// before it.
     pub fn place(&mut self, h: f64, gap: f64) -> f64 {
         let (ahead, across) = (self.ahead(), self.ahead() / gap);
         // At a singular state there is nothing ahead.
@@ -105,8 +106,9 @@ impl SingularPassage {
         }
     }
 
-    /// The step to take in a run with fixed steps of size `h`, where `left` is the time to the next state of the grid and
-    /// `end` that to the end of the run. A singular state is met in the `gap` of one step, from an extra state before it.
+    /// The step to take in a run with fixed steps of size `h`, where `left` is the time to the next state of the grid
+    /// and `end` that to the end of the run. A singular state is met in the `gap` of one step, from an extra state
+    /// before it.
     ///
     /// Round-off of positions leaves eps/s^2 in the velocities and eps/s^3 in the accelerations of a stage where the
     /// rank indicator is s, about a tenth of the step over `scale`, the time in which the motion changes: this bounds

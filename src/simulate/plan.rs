@@ -1,4 +1,5 @@
-//! Which step to try: what is proposed, placed about singular states, and cut where it must end or would miss something.
+//! Which step to try: what is proposed, placed about singular states, and cut where it must end or would miss
+//! something.
 
 use super::Run;
 use super::events::Events;
@@ -51,8 +52,8 @@ impl Run<'_> {
         }
     }
 
-    /// The step to try, placed and stretched or cut so that the stop, or a time of the grid of fixed steps, is met and nothing
-    /// that acts by the clock is missed; and that time, where it ends there.
+    /// The step to try, placed and stretched or cut so that the stop, or a time of the grid of fixed steps, is met and
+    /// nothing that acts by the clock is missed; and that time, where it ends there.
     pub fn fit(&mut self, stop: NextStop) -> (f64, Option<f64>) {
         if let Some(size) = self.cut {
             return (size, None);
@@ -72,8 +73,8 @@ impl Run<'_> {
         (resolved, end.filter(|_| resolved == size))
     }
 
-    /// The step that misses nothing of what acts by the clock: `size` or less. Of a fixed step, whose error nobody estimates,
-    /// all parts are then so small that little of it is left to see.
+    /// The step that misses nothing of what acts by the clock: `size` or less. Of a fixed step, whose error nobody
+    /// estimates, all parts are then so small that little of it is left to see.
     fn resolved(&mut self, size: f64, stop: f64) -> f64 {
         let (t, Events { timetable, pieces, .. }) = (self.t, &mut self.events);
         let Some(step) = self.fixed else { return timetable.resolved(t, size, stop, pieces) };

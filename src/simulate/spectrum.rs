@@ -8,10 +8,12 @@ use crate::tolerances::simulate as tolerances;
 use serde::Serialize;
 use std::fmt;
 
-/// exp(-decay t) cos(swing t): an eigenvalue -decay + i swing and its conjugate, 1/s.
+/// The mode exp(-decay t) cos(swing t) of an eigenvalue -decay + i swing and its conjugate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SpectralMode {
+    /// Damping rate, 1/s; negative for a growing mode.
     pub decay: f64,
+    /// Oscillation frequency, rad/s.
     pub swing: f64,
 }
 

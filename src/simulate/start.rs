@@ -14,7 +14,8 @@ const BRANCHES: &str = "give velocities along one of the motions that meet there
 impl Run<'_> {
     /// Finds the rows that depend on others at the start, and drops them until they do not hold any more. Refuses
     /// velocities that no motion has, and a state of rest that the accelerations leave along no motion: bounded
-    /// multipliers push along none of the dependent rows, so that a motion from rest begins along v', as along a velocity.
+    /// multipliers push along none of the dependent rows, so that a motion from rest begins along v', as along a
+    /// velocity.
     pub fn check_start(&mut self) -> Result<(), Failure> {
         let (q, v) = self.problem.split(&self.y);
         let dynamics = &mut self.rows.problem.dynamics;
@@ -38,8 +39,8 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Whether dependent rows ask for accelerations that differ by more than round-off of what is `usual` there, and that
-    /// open joints during the run.
+    /// Whether dependent rows ask for accelerations that differ by more than round-off of what is `usual` there, and
+    /// that open joints during the run.
     fn is_contradiction(&self, (contradiction, usual): (f64, f64)) -> bool {
         let opened = contradiction * (self.span.end - self.span.start).powi(2);
         contradiction > tolerances::CONTRADICTING_START * usual

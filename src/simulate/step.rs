@@ -128,9 +128,9 @@ impl Run<'_> {
         self.tolerance.norm(&self.next, &self.change)
     }
 
-    /// The error of the projected step, in units of the tolerance: how far the projected solution of lower order is from
-    /// it. Near a singular state the stages are far off along the nearly dependent rows, which the projection takes away
-    /// from both, so that the error before it says nothing.
+    /// The error of the projected step, in units of the tolerance: how far the projected solution of lower order is
+    /// from it. Near a singular state the stages are far off along the nearly dependent rows, which the projection
+    /// takes away from both, so that the error before it says nothing.
     fn error_within_constraints(&mut self, t: f64, h: f64) -> Result<Option<f64>, StepError> {
         let from = From { t: self.t, y: &self.y, slope: &self.slope, end: t };
         if !self.integrator.lower_order(from, h, &mut self.change) {
@@ -141,8 +141,9 @@ impl Run<'_> {
         Ok(Some(self.tolerance.norm_between(&self.y, &self.next, &self.change) / self.allowed()))
     }
 
-    /// The error to be put up with, in units of the tolerance. Round-off of the largest coordinate moves all that nearly
-    /// dependent rows join by eps over the rank indicator, and velocities by eps over its square: no step can be better.
+    /// The error to be put up with, in units of the tolerance. Round-off of the largest coordinate moves all that
+    /// nearly dependent rows join by eps over the rank indicator, and velocities by eps over its square: no step can be
+    /// better.
     fn allowed(&mut self) -> f64 {
         let dynamics = &self.problem.dynamics;
         let rank_indicator =

@@ -13,6 +13,7 @@ use std::fmt;
 /// Modes of the start that an explicit method cannot step over, or only in far more steps than accuracy asks for.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Stiffness {
+    /// Name of the integrator.
     pub integrator: String,
     /// The mode that limits the steps, 1/s.
     pub mode: SpectralMode,
@@ -20,8 +21,9 @@ pub struct Stiffness {
     pub limit: f64,
     /// The fixed step, s; none where the method chooses its steps.
     pub step: Option<f64>,
-    /// The longest stable step, s, and how many of them the run takes.
+    /// The longest stable step, s.
     pub stable_step: f64,
+    /// Number of the longest stable steps in the run.
     pub steps_for_stability: f64,
     /// How much farther an implicit method comes for the same work, where the method chooses its steps.
     pub implicit_gain: Option<f64>,

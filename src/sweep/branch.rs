@@ -167,8 +167,8 @@ impl<'a> Branch<'a> {
         Ok(None)
     }
 
-    /// The state before moved as the scene's guess moves, which keeps to what is held; then, where nothing is held, that
-    /// state alone, for a guess may jump; then the line through the last two, which leads over singular states.
+    /// The state before moved as the scene's guess moves, which keeps to what is held; then, where nothing is held,
+    /// that state alone, for a guess may jump; then the line through the last two, which leads over singular states.
     fn guesses(&self, value: f64, ready: &Ready) -> Vec<Vec<f64>> {
         let (last, (guess, _, hold)) = (&self.last.point, &ready.scene);
         let moved = last.q.iter().zip(guess).zip(&self.last.guess).map(|((q, to), from)| q + to - from);
@@ -183,8 +183,8 @@ impl<'a> Branch<'a> {
         guesses
     }
 
-    /// The state at the end itself, where that is the target: Newton's method does not contract there, but assembly finds
-    /// it all the same.
+    /// The state at the end itself, where that is the target: Newton's method does not contract there, but assembly
+    /// finds it all the same.
     fn at_the_end(&self, target: f64) -> Option<State> {
         let ready = Ready::at(self.family, self.parameter, target).ok()?;
         let (last, (_, v, hold)) = (&self.last.point.q, &ready.scene);

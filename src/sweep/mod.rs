@@ -28,14 +28,14 @@
 //! ```
 //!
 //! The sweep begins at the scene's own value of the parameter, which is the design position, and goes outwards on both
-//! sides. Each assembly begins at the state before it, moved as far as the scene's own guess moves, and is accepted where
-//! Newton's method contracts from its first step on; else the step of the parameter is halved. So the branch is followed,
-//! and where it ends, the end is found to about a ten-millionth of the range.
+//! sides. Each assembly begins at the state before it, moved as far as the scene's own guess moves, and is accepted
+//! where Newton's method contracts from its first step on; else the step of the parameter is halved. So the branch is
+//! followed, and where it ends, the end is found to about a ten-millionth of the range.
 //!
 //! Positions hang on the parameter alone. Velocities are those that the scene gives, made consistent. Multipliers, and
 //! outputs that read them, are those of the equations of motion at that state, `M v' + G^T lambda = f`, with the
-//! accelerations that the forces there ask for. They are those of statics only where nothing is free to move and nothing
-//! moves.
+//! accelerations that the forces there ask for. They are those of statics only where nothing is free to move and
+//! nothing moves.
 
 mod branch;
 mod family;
@@ -52,12 +52,17 @@ use crate::system::{Column, Names};
 /// The states of a sweep.
 #[derive(Clone, Debug)]
 pub struct Sweep {
+    /// Name of the scene.
     pub scene: String,
+    /// The values of the parameter.
     pub range: Range,
+    /// Names of q, v and lambda.
     pub names: Names,
+    /// Names and units of the outputs.
     pub outputs: Vec<Column>,
     /// The scene's own value of the parameter, and the state there where it is in the range.
     pub own_value: f64,
+    /// The state at `own_value`; none where that is not in the range.
     pub own: Option<Point>,
     /// One a value that was reached, in the order of the range.
     pub points: Vec<Point>,
@@ -88,11 +93,15 @@ impl Sweep {
 /// An assembled state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// Of the parameter.
+    /// Value of the parameter.
     pub value: f64,
+    /// Coordinates, n_q.
     pub q: Vec<f64>,
+    /// Velocities, n_v.
     pub v: Vec<f64>,
+    /// Multipliers, n_c.
     pub lambda: Vec<f64>,
+    /// Outputs, in the order of [`Sweep::outputs`].
     pub outputs: Vec<f64>,
     /// How near the constraints and what is held are to losing rank: 1 is far, 0 singular.
     pub rank_indicator: f64,
@@ -116,6 +125,8 @@ pub struct Limit {
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[doc(hidden)]
 pub struct Nearest {
+    /// Value of the parameter.
     pub value: f64,
+    /// Rank indicator of the constraints there: 1 is far from singular, 0 singular.
     pub rank_indicator: f64,
 }

@@ -8,9 +8,13 @@ use std::str::FromStr;
 /// Values of a parameter, evenly spaced, or their logarithms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Range {
+    /// Name of the parameter.
     pub parameter: String,
+    /// First value.
     pub from: f64,
+    /// Last value; may be less than the first.
     pub to: f64,
+    /// Number of values, ends included.
     pub count: usize,
     /// Each value is the same factor of the one before.
     pub is_log: bool,
@@ -77,10 +81,12 @@ impl Range {
             .collect()
     }
 
+    /// |to - from|
     pub fn length(&self) -> f64 {
         (self.to - self.from).abs()
     }
 
+    /// True if `value` lies between the ends, ends included.
     pub fn contains(&self, value: f64) -> bool {
         (self.from.min(self.to)..=self.from.max(self.to)).contains(&value)
     }

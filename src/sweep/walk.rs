@@ -8,8 +8,8 @@ impl Family {
     /// Assembles the scene at the values of a range; `progress` hears how many of them are done.
     ///
     /// # Errors
-    /// A parameter that the scene does not have; a scene that cannot be assembled where the sweep begins, or not be moved
-    /// from its own value into the range. A branch that ends in the range is no error: see [`Sweep::limits`].
+    /// A parameter that the scene does not have; a scene that cannot be assembled where the sweep begins, or not be
+    /// moved from its own value into the range. A branch that ends in the range is no error: see [`Sweep::limits`].
     pub fn sweep(&self, range: &Range, progress: impl FnMut(usize)) -> Result<Sweep> {
         let own = snapped(self.own_value(&range.parameter)?, range);
         let walk = Walk { family: self, range, values: range.values(), progress, done: 0 };
@@ -66,8 +66,8 @@ impl<P: FnMut(usize)> Walk<'_, P> {
         })
     }
 
-    /// The scene at its own value, or moved from there to the near end of the range; where it cannot be assembled there,
-    /// the nearest value of the range. Returns whether the value is the scene's own.
+    /// The scene at its own value, or moved from there to the near end of the range; where it cannot be assembled
+    /// there, the nearest value of the range. Returns whether the value is the scene's own.
     fn start(&self, own: f64) -> Result<(State, bool)> {
         let parameter = &self.range.parameter;
         let distance = |value: &f64| (value - own).abs();

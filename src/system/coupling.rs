@@ -1,24 +1,24 @@
-//! Where the entries of K and C stand: those of each body, and a block a pair of bodies that an element joins.
+//! Places of the entries of K and C: a block for each body, and one for each pair of bodies that an element joins.
 
 use super::support::Support;
 use crate::math::kkt::Pattern;
 use crate::scene::Model;
 use std::ops::Range;
 
-/// The places of all.
+/// Places of the blocks of all bodies, joints and forces.
 pub(super) struct Couplings {
     pub bodies: Vec<Range<usize>>,
     pub joints: Vec<Coupling>,
     pub forces: Vec<Coupling>,
 }
 
-/// One joint or force: the bodies that carry its markers, and the blocks of their pairs, column by column.
+/// Blocks of one joint or force: the bodies that carry its markers, and the blocks of their pairs, column by column.
 pub(super) struct Coupling {
     pub carriers: Vec<Carrier>,
     blocks: Vec<Block>,
 }
 
-/// A body as one element sees it.
+/// A body that carries markers of an element.
 pub(super) struct Carrier {
     pub body: usize,
     /// The velocities of the system that move any of the element's markers on this body.
@@ -26,15 +26,15 @@ pub(super) struct Carrier {
     pub markers: Vec<Held>,
 }
 
-/// A marker of an element.
+/// One marker of an element on its carrier.
 pub(super) struct Held {
-    /// Which of the element's markers.
+    /// Index of the marker in the element.
     pub slot: usize,
-    /// The places of its own velocities among those of the carrier.
+    /// Places of the marker's velocities among those of the carrier.
     pub places: Vec<usize>,
 }
 
-/// d(forces on the velocities of a row's carrier)/d(those of a column's), row by row.
+/// d(forces on the velocities of a row's carrier)/d(velocity directions of a column's carrier), row by row.
 pub(super) struct Block {
     pub first_entry: usize,
     pub width: usize,
@@ -70,7 +70,7 @@ impl Coupling {
         Coupling { carriers, blocks }
     }
 
-    /// The blocks of one column, a row each.
+    /// The blocks of one column, one for each row.
     pub fn column(&self, column: usize) -> &[Block] {
         let n = self.carriers.len();
         &self.blocks[column * n..(column + 1) * n]

@@ -1,15 +1,15 @@
-//! What the linear elasticity of a beam in a floating frame leaves out: loads by those at which it would buckle.
+//! Buckling loads that the linear elasticity of a beam in a floating frame neglects: section loads over critical loads.
 //!
 //! ```text
 //! Euler:    N = pi^2 EI/L^2
 //! sideways: M = pi/L sqrt(EI GJ/((1 - EI/EJ)(1 - GJ/EJ)))
 //! ```
 //!
-//! with the weak bending stiffness EI and the strong one EJ, in which the moment bends (Trahair, Flexural-Torsional Buckling
-//! of Structures, 1993, chapters 3 and 7). The force is that of the part between the outermost joints, hinged there, or of twice
-//! what is beyond them. The moment is that of the whole beam, hinged at both ends, the same all along: a
-//! cantilever buckles at half of it, or at 1.3 times where a force at the tip makes it. A beam that is as stiff one way as the
-//! other never buckles sideways.
+//! with the weak bending stiffness EI and the strong one EJ, in which the moment bends (Trahair, Flexural-Torsional
+//! Buckling of Structures, 1993, chapters 3 and 7). The force is that of the part between the outermost joints, hinged
+//! there, or of twice what is beyond them. The moment is that of the whole beam, hinged at both ends, the same all
+//! along: a cantilever buckles at half of it, or at 1.3 times where a force at the tip makes it. A beam that is as
+//! stiff one way as the other never buckles sideways.
 
 use super::limits::{Extent, POINTS, Theory};
 use crate::body::Bent;
@@ -19,11 +19,11 @@ use std::array::from_fn;
 use std::f64::consts::PI;
 use std::iter::zip;
 
-/// A load of a section by its critical one, as factors of coordinates.
+/// Ratio of a section load to its critical value, linear in the coordinates: pairs of a coordinate and its factor.
 pub(super) struct Load(Vec<(usize, f64)>);
 
 impl Load {
-    /// Such a multiple of strain number `strain` of the section at `s`, with the first elastic coordinate.
+    /// `factor` times strain number `strain` of the section at `s`; `first_q` is the first elastic coordinate.
     fn new<const D: usize>(line: &dyn Line<D>, first_q: usize, s: f64, (strain, factor): (usize, f64)) -> Self {
         let section = line.section(s);
         let terms =
@@ -36,7 +36,7 @@ impl Load {
     }
 }
 
-/// What is left out of a beam in a floating frame, and where it shows.
+/// Buckling limits of a beam in a floating frame, each with the load ratios along the beam.
 pub(super) fn loads<const D: usize>(model: &Model<D>, part: &Part<D>) -> Vec<(Theory, Extent<D>)> {
     let Some(Bent { line, stretches, first }) = part.body.bent() else { return Vec::new() };
     let (length, free) = (line.length(), free_length(model, part, line.length()));
@@ -53,8 +53,8 @@ pub(super) fn loads<const D: usize>(model: &Model<D>, part: &Part<D>) -> Vec<(Th
     all.into_iter().filter(|(_, loads)| !loads.is_empty()).map(|(theory, all)| (theory, Extent::Loads(all))).collect()
 }
 
-/// The length of a beam hinged at both ends that buckles under the same axial force: between the outermost joints, or twice
-/// an end beyond them.
+/// The length of a beam hinged at both ends that buckles under the same axial force: between the outermost joints, or
+/// twice an end beyond them.
 fn free_length<const D: usize>(model: &Model<D>, part: &Part<D>, length: f64) -> f64 {
     let own = part.first_marker..part.first_marker + part.body.marker_count();
     let held = model.joints.iter().flat_map(|joint| &joint.markers).filter(|marker| own.contains(marker));
@@ -72,7 +72,7 @@ fn axial_force<const D: usize>(section: &Section, length: f64) -> (usize, f64) {
     (0, section.ea * length * length / (PI * PI * weak))
 }
 
-/// The same of the bending moment, about the axis in which the section is strong.
+/// Number and factor of the strain whose stress is the bending moment about the stronger axis.
 fn moment(section: &Section, length: f64) -> (usize, f64) {
     let ([about_y, about_z], gj) = (section.ei, section.gj);
     let (strain, weak, strong) = if about_y > about_z { (4, about_z, about_y) } else { (5, about_y, about_z) };

@@ -1,4 +1,4 @@
-//! What a unit of each input does.
+//! Generalized forces per unit of each input.
 
 use super::mechanism::{Mechanism, Workspace, of};
 use super::variation::fixed;
@@ -25,7 +25,7 @@ impl<const D: usize> Mechanism<D> {
         }
     }
 
-    /// The wrenches that a unit of an input adds at the markers of its force.
+    /// Wrenches that one unit of an input adds at the markers of its force.
     fn input_wrenches(
         &self,
         time: Time<f64>,

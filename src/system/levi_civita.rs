@@ -7,8 +7,8 @@ use crate::scene::Part;
 use nalgebra::DMatrix;
 use std::array::from_fn;
 
-/// The Levi-Civita connection of the kinetic energy along a motion, dense n_v x n_v: the covariant derivative of a field of
-/// directions x is x' + M^-1 W x, where in coordinates (N = I)
+/// The Levi-Civita connection of the kinetic energy along a motion, dense n_v x n_v: the covariant derivative of a
+/// field of directions x is x' + M^-1 W x, where in coordinates (N = I)
 ///
 /// ```text
 /// W_ij = 1/2 (v^k d_k M_ij + v^k d_j M_ik - v^k d_i M_jk)
@@ -17,6 +17,7 @@ use std::array::from_fn;
 /// and in general W = 1/2 dh/dv + 1/2 M [v, .] with h(q, v) the inertia forces at v' = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeviCivita {
+    /// W, n_v x n_v.
     pub w: DMatrix<f64>,
     /// dW/dt along the motion.
     pub w_dot: DMatrix<f64>,
@@ -25,11 +26,13 @@ pub struct LeviCivita {
 }
 
 impl LeviCivita {
+    /// All zero, for n velocities.
     pub fn new(n: usize) -> Self {
         let zero = DMatrix::zeros(n, n);
         LeviCivita { w: zero.clone(), w_dot: zero.clone(), mass_dot: zero }
     }
 
+    /// Sets all matrices to zero.
     pub fn clear(&mut self) {
         [&mut self.w, &mut self.w_dot, &mut self.mass_dot].into_iter().for_each(|matrix| matrix.fill(0.0));
     }

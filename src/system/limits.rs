@@ -1,4 +1,4 @@
-//! Parts that hold up to some deformation only, and how far they are deformed.
+//! Parts whose theory is valid up to some deformation only, and the deformation that they have.
 
 use super::critical::{Load, loads};
 use super::mechanism::Mechanism;
@@ -9,53 +9,63 @@ use crate::tolerances::body as tolerances;
 use std::array::from_fn;
 use std::f64::consts::PI;
 
-/// What a part assumes of its deformation.
+/// Assumption of a part about its deformation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Theory {
-    /// Displacements in a floating frame are small beside the length: they enter the elastic forces linearly.
+    /// Displacements in a floating frame are small against the length: they enter the elastic forces linearly.
     SmallDisplacements,
-    /// Bending moments in a floating frame in space are small beside those at which the beam buckles sideways: how they
-    /// soften lateral bending and twist together is left out.
+    /// Bending moments in a floating frame in space are small against those at which the beam buckles sideways: the
+    /// softening of lateral bending and twist together is neglected.
     SmallMoments,
-    /// Axial forces in a floating frame are small beside the Euler load, where nothing counts how they stiffen bending.
+    /// Axial forces in a floating frame are small against the Euler load, where their stiffening of bending is
+    /// neglected.
     SmallAxialForces,
-    /// What a bushing turns by in space is small beside a radian.
+    /// The rotation of a bushing in space is small against a radian.
     SmallRotations,
-    /// The ends of an element turn against each other by less than half a turn in space, a full one in the plane.
-    Helix { dimension: usize, elements: usize },
-    /// The curvature of a beam changes little from element to element, each of which has one of its own.
-    Mesh { elements: usize },
+    /// The ends of an element rotate relative to each other by less than pi in space, 2 pi in the plane.
+    Helix {
+        /// 2 or 3.
+        dimension: usize,
+        /// Number of elements of the beam.
+        elements: usize,
+    },
+    /// The curvature of a beam changes little between neighbouring elements, each of which has a constant one.
+    Mesh {
+        /// Number of elements of the beam.
+        elements: usize,
+    },
 }
 
-/// A part with such a theory.
+/// A part whose theory has a limit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limited {
-    /// Of the scene, such as `rod`.
+    /// Name in the scene, such as `rod`.
     pub part: String,
+    /// The assumption that limits it.
     pub theory: Theory,
 }
 
 impl Theory {
-    /// The deformation up to which it holds: displacement by length, load by critical load, or rad. A cantilever that bends by a tenth of its
-    /// length under a load at its tip is off by 1 % of that.
+    /// The deformation up to which the theory is valid: displacement over length, load over critical load, or rad. A
+    /// cantilever that bends by a tenth of its length under a load at its tip is off by 1 % of that.
     pub fn most(self) -> f64 {
         match self {
             Theory::SmallDisplacements => 0.1,
-            // Of the critical loads. Lateral stiffness falls with the square of the moment, bending stiffness with the force
-            // itself: 0.22 is left out of the IVP test set's crank.
+            // Part of the critical loads. Lateral stiffness falls with the square of the moment, bending stiffness with
+            // the force itself: the crank of the IVP test set reaches 0.22 and is simulated without the effect.
             Theory::SmallMoments | Theory::SmallAxialForces => 0.3,
-            // Where the sine is 4 % less than the angle.
+            // The sine is 4 % less than the angle.
             Theory::SmallRotations => 0.5,
-            // From half a turn on another turn would do as well; the states that are looked at may be a bit apart.
+            // Beyond pi an element could as well be rotated by 2 pi more; the states observed may be some way apart.
             Theory::Helix { dimension: 2, .. } => 1.5 * PI,
             Theory::Helix { .. } => 0.75 * PI,
-            // A rubber pendulum of 12 elements, 6 % off in places, misses 18 %.
+            // A rubber pendulum of 12 elements whose error is 6 % in places misses 18 %.
             Theory::Mesh { .. } => 0.1,
         }
     }
 
-    /// The elements of which none turns by more than a quarter turn, where one of those that there are turns by `turn`; or with
-    /// an error that is allowed, where it is `turn`.
+    /// Number of elements needed. Helix: none rotates by more than pi/2 where one of the present elements rotates by
+    /// `turn`, rad. Mesh: the error falls to the aim where it is `turn` now. Otherwise 0.
     pub fn elements_for(self, turn: f64) -> usize {
         match self {
             Theory::Helix { elements, .. } => {
@@ -67,22 +77,22 @@ impl Theory {
     }
 }
 
-/// Where a part is looked at.
+/// The places of a part at which its deformation is evaluated.
 pub(super) enum Extent<const D: usize> {
     /// Points of a body, with its first elastic coordinate and its length, m.
     Points { first_q: usize, length: f64, points: Vec<PointShape<D>> },
-    /// Loads of sections by critical ones, as combinations of elastic coordinates.
+    /// Section loads over critical loads, as combinations of elastic coordinates.
     Loads(Vec<Load>),
     /// Both ends of each element.
     Ends(Vec<[MarkerId; 2]>),
-    /// The same of a line of elements of one length.
+    /// Both ends of each element of a line of elements of equal length.
     Line(Vec<[MarkerId; 2]>),
 }
 
-/// Equal parts of the line of a beam at whose ends it is looked at, beside its markers.
+/// Number of equal parts of a beam's line at whose ends the deformation is evaluated, besides at its markers.
 pub(super) const POINTS: usize = 8;
 
-/// The parts of a model with a limit, and where they are looked at.
+/// The parts of a model whose theory has a limit, and the places at which their deformation is evaluated.
 pub(super) fn limits<const D: usize>(model: &Model<D>) -> (Vec<Limited>, Vec<Extent<D>>) {
     let bodies = model.bodies.iter().flat_map(|part| {
         let moved = bending(part).map(|extent| (Theory::SmallDisplacements, extent));
@@ -107,7 +117,7 @@ pub(super) fn limits<const D: usize>(model: &Model<D>) -> (Vec<Limited>, Vec<Ext
     bodies.chain(lines).chain(forces).map(|(part, theory, extent)| (Limited { part, theory }, extent)).unzip()
 }
 
-/// Of a body with elastic coordinates, the last ones.
+/// Places of a body with elastic coordinates, which are the last ones of its q.
 fn bending<const D: usize>(part: &Part<D>) -> Option<Extent<D>> {
     let first_q = part.first_q + part.nq - part.body.elastic_count();
     let mut points = part.body.shapes().to_vec();
@@ -121,7 +131,7 @@ fn bending<const D: usize>(part: &Part<D>) -> Option<Extent<D>> {
 }
 
 impl<const D: usize> Mechanism<D> {
-    /// How far a part is deformed at q, in the unit of its limit.
+    /// Deformation of a part at q, in the unit of its limit.
     pub(super) fn deformation(&self, extent: &Extent<D>, q: &[f64]) -> f64 {
         match extent {
             Extent::Points { first_q, length, points } => points
@@ -136,9 +146,9 @@ impl<const D: usize> Mechanism<D> {
         }
     }
 
-    /// int (kappa - kappa*)^2 / int kappa^2 of the curvatures kappa of the elements and kappa*, which is linear in each and goes
-    /// on from one to the next: what Zienkiewicz and Zhu (Int. J. Numer. Meth. Engng. 24, 1987) take for the error in
-    /// energy. Zero where the line is as good as straight.
+    /// int (kappa - kappa*)^2 / int kappa^2 with kappa the curvatures of the elements and kappa* linear in each and
+    /// continuous: the error estimate in energy of Zienkiewicz and Zhu (Int. J. Numer. Meth. Engng. 24, 1987). Zero
+    /// where the line is straight up to round-off.
     fn roughness(&self, elements: &[[MarkerId; 2]], q: &[f64]) -> f64 {
         let last = elements.len() - 1;
         let mut around = [0, 0, 1].map(|i| self.turn_between(elements[i], q));
@@ -155,15 +165,15 @@ impl<const D: usize> Mechanism<D> {
         if bend > tolerances::STRAIGHT { change / whole } else { 0.0 }
     }
 
-    /// The rotation vector of the second marker against the first.
+    /// Rotation vector of the second marker relative to the first, rad.
     fn turn_between(&self, ends: [MarkerId; 2], q: &[f64]) -> [f64; 3] {
-        // How they stand does not depend on how fast they move.
+        // The orientation does not depend on the velocities: q stands in for v.
         let [a, b] = ends.map(|marker| self.carried(marker, q, q));
         if D == 2 {
             return [0.0, 0.0, b.turn() - a.turn()];
         }
         let part = |i: usize, j: usize| dot(&a.axis(i), &b.axis(j));
-        // Twice the sine and the cosine of its angle, the first along its axis.
+        // `sine` is 2 sin(angle) times the axis; `cosine` is 2 cos(angle).
         let sine = [part(2, 1) - part(1, 2), part(0, 2) - part(2, 0), part(1, 0) - part(0, 1)];
         let (size, cosine) = (norm(&sine), part(0, 0) + part(1, 1) + part(2, 2) - 1.0);
         let angle = size.atan2(cosine);

@@ -28,25 +28,24 @@ pub struct Mechanism<const D: usize> {
     structure: Structure,
     pub(super) joints: Vec<JointRows>,
     pub(super) couplings: Couplings,
-    /// Places of each body's values of M.
+    /// Range of each body's values in those of M.
     masses: Vec<Range<usize>>,
-    /// For every marker the velocities that move it; none on the ground.
+    /// The velocities that move each marker; none for markers on the ground.
     pub(super) supports: Vec<Support>,
     pub(super) length: f64,
     limited: Vec<Limited>,
     extents: Vec<Extent<D>>,
 }
 
-/// Memory of one evaluation.
 pub(super) struct Workspace<const D: usize> {
-    /// Frames of all markers with their velocities, and accelerations at v' = 0.
+    /// Frames of all markers with their velocities, and their accelerations at v' = 0.
     pub motion: Vec<Frame<Taylor<f64>, D>>,
     pub varied: SeededBody<D>,
-    /// Generalized forces on the support of one marker.
     pub pulled: Vec<f64>,
 }
 
 impl<const D: usize> Mechanism<D> {
+    /// Assigns rows of phi and entries of M, G, K and C to the parts of a model.
     pub fn new(model: Model<D>) -> Self {
         let last = model.bodies.last();
         let (q, v) = last.map_or((0, 0), |part| (part.first_q + part.nq, part.first_v + part.nv));
@@ -70,21 +69,22 @@ impl<const D: usize> Mechanism<D> {
         Mechanism { model, dimensions, structure, joints, couplings, masses, supports, length, limited, extents }
     }
 
+    /// The model that the equations belong to.
     pub fn model(&self) -> &Model<D> {
         &self.model
     }
 
-    /// JointRows of phi that joint `joint` has.
+    /// Range of the rows of phi of joint `joint`.
     pub fn rows_of_joint(&self, joint: usize) -> Range<usize> {
         self.joints[joint].range()
     }
 
-    /// Frames of all markers at (q, v), with their velocities.
+    /// Frames of all markers at (q, v), in the world, with their velocities.
     pub fn frames(&self, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Vec<Frame<Taylor<f64>, D>> {
         self.at(q, v, scratch, |work, _| work.motion.clone())
     }
 
-    /// Lends the memory with all frames moved to (q, v).
+    /// Calls `see` with the workspace, whose frames are evaluated at (q, v).
     pub(super) fn at<R>(
         &self,
         q: &[f64],
@@ -103,7 +103,7 @@ impl<const D: usize> Mechanism<D> {
         })
     }
 
-    /// Moves all frames to (q, v), with the accelerations `vdot` or, where it is empty, those at v' = 0.
+    /// Evaluates all frames at (q, v), with the accelerations `vdot` or, where it is empty, those at v' = 0.
     pub(super) fn place(&self, q: &[f64], v: &[f64], vdot: &[f64], work: &mut Workspace<D>) {
         work.motion.resize(self.model.marker_count(), Frame::world());
         for part in &self.model.bodies {
@@ -169,7 +169,7 @@ impl<const D: usize> Mechanism<D> {
     }
 }
 
-/// The part of q or v that belongs to a body.
+/// The coordinates (`coordinates`) or else the velocities of one body.
 pub(super) fn of<'a, const D: usize>(all: &'a [f64], part: &Part<D>, coordinates: bool) -> &'a [f64] {
     match coordinates {
         true => &all[part.first_q..part.first_q + part.nq],
@@ -177,7 +177,6 @@ pub(super) fn of<'a, const D: usize>(all: &'a [f64], part: &Part<D>, coordinates
     }
 }
 
-/// Puts the frames of an element's markers side by side for `see`.
 pub(super) fn with_frames<R, const D: usize>(
     all: &[Frame<Taylor<f64>, D>],
     markers: &[usize],

@@ -1,4 +1,4 @@
-//! The equations that everything above solves, whoever wrote them.
+//! The equations of motion as solvers see them, from a scene or from a user.
 //!
 //! [`MechanicalSystem`] is what solvers see: M, f, phi, phi', gamma and G at a state. A scene becomes one through
 //! [`Mechanism`]; a researcher implements it directly, or writes M, f and phi once over any scalar as [`Equations`]
@@ -59,65 +59,71 @@ pub struct Dimensions {
     pub v: usize,
     /// n_c
     pub lambda: usize,
-    /// How many constraints, the last ones, are nonholonomic: A v + a = 0, with A in the rows of G and A v + a in those of
+    /// Number of nonholonomic constraints, the last ones: A v + a = 0, with A in the rows of G and A v + a in those of
     /// phi'. They have no position, so phi is zero there.
     pub nonholonomic: usize,
-    /// How many velocities, the last ones, are states xi of controllers, filters and actuators: xi' = r(t, q, v, xi), with r
-    /// in their rows of f and ones on those of M. They have no position and no constraint: N and G are zero there. Their
-    /// errors are tested as those of velocities.
+    /// Number of velocities, the last ones, that are states xi of controllers, filters and actuators: xi' = r(t, q, v,
+    /// xi), with r in their rows of f and the identity in those of M. They have no position and no constraint: N and G
+    /// are zero there. Their errors are tested as those of velocities.
     pub states: usize,
 }
 
 impl Dimensions {
-    /// Constraints that have a position, which come first.
+    /// Number of constraints that have a position, which come first.
     pub fn holonomic(self) -> usize {
         self.lambda - self.nonholonomic
     }
 
-    /// Velocities that move q, which come first.
+    /// Number of velocities that move q, which come first.
     pub fn moving(self) -> usize {
         self.v - self.states
     }
 }
 
-/// Names of the columns that a user reads.
+/// Names of the columns of a trajectory.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Names {
+    /// Coordinates, n_q.
     pub q: Vec<String>,
-    /// Of states xi, too, which come last.
+    /// Velocities, n_v; the states xi come last.
     pub v: Vec<String>,
+    /// Multipliers, n_c.
     pub lambda: Vec<String>,
 }
 
-/// JointRows of phi that belong together: a joint.
+/// The rows of phi that belong to one joint.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[doc(hidden)]
 pub struct Group {
+    /// Name of the joint in the scene.
     pub name: String,
-    /// Such as `revolute`.
+    /// Type of the joint, such as `revolute`.
     pub kind: String,
+    /// Range of the rows in phi.
     pub rows: std::ops::Range<usize>,
 }
 
-/// The name of an output or input and how to show it.
+/// Name and unit of an output or input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
+    /// Name in the scene and in the header of files.
     pub name: String,
-    /// Such as `rad`; empty where it is not known.
+    /// Unit, such as `rad`; empty where it is not known.
     pub unit: String,
 }
 
 /// M(q) v' + G(q,t)^T lambda = f(t,q,v), phi(q,t) = 0, q' = N(q) v.
 ///
-/// The last velocities may be states xi, see [`Dimensions::states`]: f, K and C then hold r and how it changes, so that every
-/// formulation and integrator has them without knowing.
+/// The last velocities may be states xi, see [`Dimensions::states`]: f, K and C then contain r and its derivatives, so
+/// that formulations and integrators need not tell them apart.
 ///
-/// Immutable while it is solved, so threads share it; scratch memory comes from the caller.
+/// Immutable while it is solved, so that threads can share it; scratch memory comes from the caller.
 pub trait MechanicalSystem: Send + Sync {
+    /// n_q, n_v and n_c, and how many of the last ones are states or nonholonomic.
     fn dimensions(&self) -> Dimensions;
 
-    /// Fills what `need` names of `terms` at (t, q, v); filling more is allowed. Where the entries of M and G stand is
-    /// said by [`structure`](Self::structure). All values there may be stale on entry.
+    /// Fills the terms named by `need` at (t, q, v); filling more is allowed. The places of the values of M and G are
+    /// those of [`structure`](Self::structure). All values may be stale on entry.
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch);
 
     /// Places of the values of M (lower triangle) and G. Default: dense, row by row.
@@ -127,30 +133,30 @@ pub trait MechanicalSystem: Send + Sync {
     }
 
     /// K and C of r = M v' + G^T lambda - f at a state with its v' and lambda, for implicit methods and linear models.
-    /// Returns false where the author of the equations gave none, which is the default.
+    /// Returns false where they are not provided, which is the default.
     fn tangent(&self, _at: OperatingPoint, _tangent: &mut Tangent, _scratch: &mut Scratch) -> bool {
         false
     }
 
     /// d(phi'')/dq along the directions of v at fixed v and v', values at the places of G, for linear models. Returns
-    /// false where the author of the equations gave none, which is the default.
+    /// false where it is not provided, which is the default.
     fn acceleration_gradient(&self, _at: OperatingPoint, _values: &mut [f64], _scratch: &mut Scratch) -> bool {
         false
     }
 
-    /// out = \[v, x\], by which a change of q along the directions x, at a change dv of v, moves: x' = dv - \[v, x\]. For
-    /// angular velocities in the body's axes w x (dtheta). Default: zero, for N = I.
+    /// out = \[v, x\], in the rate of a variation of q along the directions x with dv that of v: x' = dv - \[v, x\].
+    /// For angular velocities in the body's axes w x (dtheta). Default: zero, for N = I.
     fn bracket(&self, _v: &[f64], _x: &[f64], out: &mut [f64]) {
         out.fill(0.0);
     }
 
-    /// How the mass metric carries directions along the motion. Returns false where the equations do not say, which is
-    /// the default.
+    /// Levi-Civita connection of the mass metric along the motion. Returns false where it is not provided, which is the
+    /// default.
     fn levi_civita(&self, _at: OperatingPoint, _connection: &mut LeviCivita, _scratch: &mut Scratch) -> bool {
         false
     }
 
-    /// Default: `q1, q2 ...`, `v1 ...` and `xi1 ...`, `lambda1 ...`.
+    /// Names of q, v and lambda. Default: `q1, q2 ...`, `v1 ...` and `xi1 ...`, `lambda1 ...`.
     fn names(&self) -> Names {
         let n = self.dimensions();
         let numbered = |prefix: &str, n: usize| (1..=n).map(|i| format!("{prefix}{i}")).collect::<Vec<String>>();
@@ -158,12 +164,13 @@ pub trait MechanicalSystem: Send + Sync {
         Names { q: numbered("q", n.q), v, lambda: numbered("lambda", n.lambda) }
     }
 
-    /// So many of the last coordinates count the full turns of angles that the others give up to those. Default: none.
+    /// Number of coordinates, the last ones, that count full turns of angles which the others give modulo 2 pi.
+    /// Default: 0.
     fn turning_angles(&self) -> usize {
         0
     }
 
-    /// The coordinates but for those.
+    /// The coordinates without the turning angles.
     fn own<'q>(&self, q: &'q [f64]) -> &'q [f64] {
         &q[..q.len() - self.turning_angles()]
     }
@@ -173,68 +180,68 @@ pub trait MechanicalSystem: Send + Sync {
         qdot.copy_from_slice(&v[..qdot.len()]);
     }
 
-    /// The same without the rates of turning angles, which are left as they are.
+    /// q' = N(q) v without the rates of turning angles, whose entries are not written.
     fn own_rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
         self.rate(q, v, qdot);
     }
 
-    /// The constant turn about a fixed axis that drives prescribe at `t`; none where nothing is driven, or more than that,
-    /// which is the default.
+    /// The constant rotation about a fixed axis that drives prescribe at `t`; `None`, the default, where nothing is
+    /// driven or the drives prescribe anything else.
     fn prescribed_spin(&self, _t: f64) -> Option<Spin> {
         None
     }
 
-    /// The turn of the axes that q and v are counted in. Default: none, the world's.
+    /// Rotation of the axes in which q and v are measured. Default: none, the axes of the world.
     fn axes(&self) -> Option<Spin> {
         None
     }
 
-    /// The coordinates that turn with the world; all others are the same from all sides. None, which is the default, where
-    /// bodies are held to directions of the world.
+    /// The coordinates that change when the world is rotated; all others are invariant. `None`, the default, where
+    /// bodies have coordinates along fixed directions of the world.
     fn placements(&self) -> Option<Vec<Placement>> {
         None
     }
 
-    /// mass += s^2 times the stiffness of bodies against their own deformation, at the places of M: assembly then closes
-    /// loops by moving bodies before it bends them. Default: nothing.
+    /// mass += s^2 times the stiffness of bodies against their own deformation, at the places of M: assembly then
+    /// closes loops by moving bodies rather than by bending them. Default: nothing.
     fn add_stiffness(&self, _mass: &mut [f64]) {}
 
     /// Brings redundant coordinates (quaternions) back to their normal form.
     fn normalize(&self, _q: &mut [f64]) {}
 
-    /// Kinetic and potential energy; `None` where the author of the equations gave no potential.
+    /// Kinetic and potential energy, J; `None` where the equations come without a potential.
     fn energy(&self, _t: f64, _q: &[f64], _v: &[f64], _scratch: &mut Scratch) -> Option<Energy> {
         None
     }
 
-    /// The outputs. Default: none.
+    /// Names and units of the outputs. Default: none.
     fn columns(&self) -> Vec<Column> {
         Vec::new()
     }
 
-    /// The outputs at a state with its v' and lambda.
+    /// Writes the outputs at a state with its v' and lambda.
     fn outputs(&self, _at: OperatingPoint, _out: &mut [f64], _scratch: &mut Scratch) {}
 
-    /// Derivatives of all outputs at a state with its v' and lambda. Returns false where there are outputs and the author of
-    /// the equations gave no derivatives.
+    /// Derivatives of all outputs at a state with its v' and lambda. Returns false where there are outputs without
+    /// derivatives.
     fn output_tangent(&self, _at: OperatingPoint, _tangent: &mut OutputTangent, _scratch: &mut Scratch) -> bool {
         self.columns().is_empty()
     }
 
-    /// The inputs u, which the motion of the system itself leaves at zero. Default: none.
+    /// The inputs u, zero in a simulation. Default: none.
     fn inputs(&self) -> Vec<Column> {
         Vec::new()
     }
 
-    /// df/du, n_v x n_u: the generalized forces of a unit of each input.
+    /// df/du, n_v x n_u: the generalized forces per unit of each input.
     fn input_forces(&self, _t: f64, _q: &[f64], _v: &[f64], _f: &mut DMatrix<f64>, _scratch: &mut Scratch) {}
 
-    /// Where the equations change their form: see [`Regime`](crate::math::Regime). Default: nowhere.
+    /// Switching functions, at whose zeros the equations change: see [`Regime`](crate::math::Regime). Default: none.
     fn switches(&self) -> &[Switch] {
         &[]
     }
 
-    /// Whose a switching function is, such as "the force `push`".
+    /// Owner of a switching function, such as "the force `push`".
     fn owner_of_switch(&self, _switch: usize) -> &str {
         "the equations"
     }
@@ -242,38 +249,38 @@ pub trait MechanicalSystem: Send + Sync {
     /// Writes the arguments of all switching functions with their rates along the motion, at a state with its v'.
     fn switching(&self, _at: OperatingPoint, _out: &mut [Rate], _scratch: &mut Scratch) {}
 
-    /// What in the equations depends on t alone: the time loop looks that no step misses any of it. Default: nothing.
+    /// Functions of t alone in the equations: the time loop limits its steps so as to miss none. Default: none.
     fn time_functions(&self) -> &[TimeFunction] {
         &[]
     }
 
-    /// Parts that hold up to some deformation only. Default: none.
+    /// Parts whose theory is valid up to some deformation only. Default: none.
     fn limited(&self) -> &[Limited] {
         &[]
     }
 
-    /// Writes how far each of them is deformed, in the unit of its limit.
+    /// Writes the deformation of each part of [`limited`](Self::limited), in the unit of its limit.
     fn deformations(&self, _q: &[f64], _out: &mut [f64]) {}
 
-    /// Names of the bodies that turn. Default: none.
+    /// Names of the bodies that have an orientation. Default: none.
     fn turning_bodies(&self) -> Vec<String> {
         Vec::new()
     }
 
-    /// Writes the size of the angular velocity of each of them, rad/s.
+    /// Writes the magnitude of the angular velocity of each of [`turning_bodies`](Self::turning_bodies), rad/s.
     fn spins(&self, _q: &[f64], _v: &[f64], _out: &mut [f64]) {}
 
-    /// A length typical of the mechanism, m. Default: 1.
+    /// Typical length of the mechanism, m. Default: 1.
     fn length(&self) -> f64 {
         1.0
     }
 
-    /// Units of phi by row that drift is measured against: a length for rows in metres, 1 rad for angles. Default: 1.
+    /// Reference values of the rows of phi for drift: a length for rows in metres, 1 rad for angles. Default: 1.
     fn scales(&self) -> Vec<f64> {
         vec![1.0; self.dimensions().lambda]
     }
 
-    /// The rows of phi by joint. Default: each row for itself.
+    /// The rows of phi by joint. Default: each row is a group of its own.
     fn groups(&self) -> Vec<Group> {
         let names = self.names().lambda.into_iter().enumerate();
         names.map(|(i, name)| Group { name, kind: "constraint".to_string(), rows: i..i + 1 }).collect()

@@ -1,4 +1,4 @@
-//! What a user watches: the outputs of a scene, written once over any scalar, so that values and derivatives agree.
+//! Outputs of a scene, written once over any scalar, so that values and derivatives agree.
 
 use super::Scratch;
 use super::mechanism::{Mechanism, Workspace};
@@ -11,7 +11,7 @@ use crate::math::{Regime, Scalar, Taylor};
 use crate::scene::{FORCE_SIZE, Measure, TORQUE_SIZE};
 
 impl<const D: usize> Mechanism<D> {
-    /// Lends the memory with all frames moved to a state; with its v' only where an output reads it.
+    /// Calls `see` with the workspace evaluated at a state; with its v' only where an output reads accelerations.
     pub(super) fn observed<R>(
         &self,
         at: OperatingPoint,
@@ -34,7 +34,7 @@ impl<const D: usize> Mechanism<D> {
         for (out, output) in out.iter_mut().zip(&self.model().outputs) {
             let value = match output.measure {
                 Measure::Energy(part) => part.of(*energies.get_or_insert_with(|| self.energies(view))),
-                // Outputs of one section mostly stand side by side.
+                // Outputs of one section are mostly consecutive.
                 Measure::Section { cut, component } => {
                     let known = section.filter(|(known, _)| *known == cut);
                     let (_, forces) = known.unwrap_or_else(|| (cut, self.section(&self.model().cuts[cut], view)));
@@ -47,7 +47,7 @@ impl<const D: usize> Mechanism<D> {
         }
     }
 
-    /// What an output reads, in SI units.
+    /// Value of an output, in SI units.
     pub(super) fn read<S: Scalar>(&self, measure: &Measure, view: &impl View<S, D>) -> S
     where
         dyn Force<D>: ForceOver<S, D>,
@@ -80,7 +80,7 @@ impl<const D: usize> Mechanism<D> {
         }
     }
 
-    /// Of the whole mechanism.
+    /// Kinetic and potential energy of the whole mechanism.
     pub(super) fn energies<S: Scalar>(&self, view: &impl View<S, D>) -> Energy<S>
     where
         dyn Force<D>: ForceOver<S, D>,
@@ -96,7 +96,7 @@ impl<const D: usize> Mechanism<D> {
         total
     }
 
-    /// What a force says beside its wrenches.
+    /// Magnitude, potential and other scalars of a force.
     pub(super) fn action<S: Scalar>(&self, force: usize, view: &impl View<S, D>) -> Action<S>
     where
         dyn Force<D>: ForceOver<S, D>,
@@ -104,7 +104,7 @@ impl<const D: usize> Mechanism<D> {
         self.act(force, view, &mut [Wrench::zero(); MOST_MARKERS])
     }
 
-    /// The same with its wrenches, which are zero on entry.
+    /// The scalars of a force, and its wrenches, which must be zero on entry.
     pub(super) fn act<S: Scalar>(
         &self,
         force: usize,
@@ -173,7 +173,7 @@ fn separation_rate<S: Scalar, const D: usize>(gap: &[Taylor<S>; D]) -> S {
     dot(&gap.map(|x| x.x), &gap.map(|x| x.d)) / length
 }
 
-/// Position or velocity of a marker seen from another one and in its axes.
+/// Relative position, velocity, angle or angular velocity of two markers, in the axes of `to`.
 fn relative<S: Scalar, const D: usize>(of: &Frame<Taylor<S>, D>, to: &Frame<Taylor<S>, D>, quantity: Quantity) -> S {
     let gap = sub(&of.r, &to.r);
     match quantity {
@@ -190,13 +190,13 @@ fn relative<S: Scalar, const D: usize>(of: &Frame<Taylor<S>, D>, to: &Frame<Tayl
     }
 }
 
-/// Angle of one marker against another; in space about the other's third axis, in (-pi, pi].
+/// Angle of `of` relative to `to`; in space about the third axis of `to`, in (-pi, pi].
 fn turn<S: Scalar, const D: usize>(of: &Frame<Taylor<S>, D>, to: &Frame<Taylor<S>, D>) -> S {
     if D == 2 {
         return of.turn.x - to.turn.x;
     }
     let (s, c) = (dot(&to.axes[1], &of.axes[0]).x, dot(&to.axes[0], &of.axes[0]).x);
-    // Where the first axis of one is along the third of the other there is no angle, nor a slope of it.
+    // The first axis of one is along the third of the other: the angle and its derivative are undefined.
     if s.value() == 0.0 && c.value() == 0.0 {
         return S::zero();
     }

@@ -1,4 +1,4 @@
-//! How the outputs change with q, v, lambda and u.
+//! Derivatives of the outputs with respect to q, v, v', lambda and u.
 
 use super::coupling::Carrier;
 use super::mechanism::{Mechanism, Workspace};
@@ -13,33 +13,33 @@ use nalgebra::DMatrix;
 /// Derivatives of the outputs y(t, q, v, v', lambda, u), a row each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutputTangent {
-    /// n_y x n_v: along the directions of v, q + N(q) e_j, with v, v', lambda and u held.
+    /// n_y x n_v: along the directions of v, q + N(q) e_j, at fixed v, v', lambda and u.
     pub q: DMatrix<f64>,
-    /// n_y x n_v
+    /// dy/dv, n_y x n_v
     pub v: DMatrix<f64>,
-    /// n_y x n_v
+    /// dy/dv', n_y x n_v
     pub vdot: DMatrix<f64>,
-    /// n_y x n_c
+    /// dy/dlambda, n_y x n_c
     pub lambda: DMatrix<f64>,
-    /// n_y x n_u: direct, such as that of the size of a driven force.
+    /// dy/du, n_y x n_u: the direct part, such as that of the magnitude of a force with an input.
     pub u: DMatrix<f64>,
 }
 
 impl OutputTangent {
-    /// All zero.
+    /// All zero, for these dimensions.
     pub fn new(n_y: usize, n_v: usize, n_c: usize, n_u: usize) -> Self {
         let zeros = |columns| DMatrix::zeros(n_y, columns);
         OutputTangent { q: zeros(n_v), v: zeros(n_v), vdot: zeros(n_v), lambda: zeros(n_c), u: zeros(n_u) }
     }
 
-    /// Sets all to zero.
+    /// Sets all matrices to zero.
     pub fn clear(&mut self) {
         let all = [&mut self.q, &mut self.v, &mut self.vdot, &mut self.lambda, &mut self.u];
         all.into_iter().for_each(|matrix| matrix.fill(0.0));
     }
 }
 
-/// One evaluation.
+/// One evaluation of [`OutputTangent`].
 pub(super) struct Slopes<'a, const D: usize> {
     pub mechanism: &'a Mechanism<D>,
     pub at: OperatingPoint<'a>,
@@ -49,7 +49,7 @@ pub(super) struct Slopes<'a, const D: usize> {
 }
 
 impl<const D: usize> Slopes<'_, D> {
-    /// Each output with everything that it reads varied in turn.
+    /// Differentiates each output along all that it reads.
     pub fn run(&mut self) {
         self.tangent.clear();
         let mechanism = self.mechanism;
@@ -70,7 +70,7 @@ impl<const D: usize> Slopes<'_, D> {
         }
     }
 
-    /// The energy is a sum over bodies and forces, each of which few bodies change.
+    /// The energy is a sum over bodies and forces, each of which depends on few bodies.
     fn energy(&mut self, row: usize, part: EnergyPart, scale: f64) {
         let (mechanism, model) = (self.mechanism, self.mechanism.model());
         for (index, body) in model.bodies.iter().enumerate() {
@@ -89,7 +89,7 @@ impl<const D: usize> Slopes<'_, D> {
         self.along(SeedDirection::Velocities, row, carriers, &read);
     }
 
-    /// The bodies whose own inertia is read.
+    /// Derivatives along v' of the bodies whose accelerations are read.
     fn along_accelerations(&mut self, row: usize, measure: &Measure, scale: f64) {
         let mechanism = self.mechanism;
         let carriers = match measure {
@@ -154,12 +154,12 @@ impl<const D: usize> Slopes<'_, D> {
     }
 }
 
-/// A size that an expression takes, such as sqrt(x^2 + y^2), has no slope at zero; it counts as zero there.
+/// A magnitude such as sqrt(x^2 + y^2) has no derivative at zero: NaN counts as zero.
 fn known(slope: f64) -> f64 {
     if slope.is_nan() { 0.0 } else { slope }
 }
 
-/// A body that moves in all its directions.
+/// A carrier that moves along all velocities of its body.
 fn whole<const D: usize>(body: usize, part: &Part<D>) -> Carrier {
     Carrier { body, velocities: (part.first_v..part.first_v + part.nv).collect(), markers: Vec::new() }
 }
@@ -200,7 +200,7 @@ impl<const D: usize> Mechanism<D> {
         }
     }
 
-    /// The forces that an output reads and inputs may drive.
+    /// The forces that an output reads, whose inputs it depends on.
     fn forces_of(&self, measure: &Measure) -> Vec<usize> {
         match measure {
             Measure::Force(force) => vec![*force],

@@ -1,4 +1,4 @@
-//! A mechanism seen from axes that turn with it.
+//! Equations of motion in axes that rotate with the mechanism.
 
 use super::spin::{Block, Placement, Spin};
 use super::{
@@ -11,41 +11,42 @@ use crate::math::kkt::Pattern;
 use nalgebra::DMatrix;
 use std::collections::BTreeMap;
 
-/// The equations of a system in axes that turn at a constant speed, at an instant at which these are the world's: rest in
-/// them is a steady rotation. With v and v' counted in the axes,
+/// The equations of a system in axes that rotate at a constant speed, at an instant at which these coincide with the
+/// world's: an equilibrium in them is a steady rotation. With v and v' measured in the axes,
 ///
 /// ```text
 /// M v' + G^T lambda = f(t, q, v + W xi) - M b(q, v),   phi(q, t) = 0,   q' = N(q) v,   t fixed
 /// ```
 ///
-/// These are the equations of the motion at all times where the turn changes nothing: where what is fixed in the world,
-/// joints to the ground, forces and gravity, is the same all around the axis. Components in the world are at each instant
-/// those in the axes.
+/// These are the equations of the motion at all times if they are invariant under the rotation: if joints to the
+/// ground, forces and gravity are symmetric about the axis. Components in the world are at each instant those in the
+/// axes.
 pub struct Rotating<'a> {
     inner: &'a dyn MechanicalSystem,
     t: f64,
+    /// The rotation of the axes.
     pub spin: Spin,
     placements: Vec<Placement>,
     structure: Structure,
-    /// Places in the pattern of K and C: those of the inner one, and by row and column.
+    /// Pattern of K and C of the inner system, and places in our own by row and column.
     inner_tangent: Pattern,
     places: Places,
-    /// Places in that of G.
+    /// Places in the pattern of G, by row and column.
     g_places: Places,
 }
 
-/// Of entries, by row and column.
+/// Places of entries by row and column.
 type Places = BTreeMap<(usize, usize), usize>;
 
-/// How the motion of the axes changes from place to place.
+/// Derivatives of the motion of the axes with respect to q and v.
 struct Slopes {
-    /// d(W xi)/dq, d(b)/dq and d(b)/dv by the first velocity of their block.
+    /// d(W xi)/dq, d(b)/dq and d(b)/dv, sorted by the first velocity of their block.
     blocks: Vec<[Block; 3]>,
 }
 
 impl<'a> Rotating<'a> {
-    /// The system with all that depends on time held at t, in axes that turn by `spin`. None where a body is held to
-    /// directions of the world, so that it cannot turn.
+    /// The system at fixed t in axes that rotate by `spin`. `None` where a body has coordinates along fixed directions
+    /// of the world, so that it cannot rotate.
     pub fn new(inner: &'a dyn MechanicalSystem, t: f64, spin: Spin) -> Option<Self> {
         let placements = inner.placements()?;
         let mut structure = inner.structure();
@@ -66,7 +67,7 @@ impl<'a> Rotating<'a> {
         Some(Rotating { inner, t, spin, placements, structure, inner_tangent, places, g_places })
     }
 
-    /// The same with everything turned by `angle` about the axis, when that is so.
+    /// The same system after a rotation by `angle` about the axis, at the time at which that is reached.
     pub fn turned(&self, angle: f64) -> Self {
         Rotating {
             inner: self.inner,
@@ -80,13 +81,13 @@ impl<'a> Rotating<'a> {
         }
     }
 
-    /// Turns q by `angle` about the axis.
+    /// Rotates q by `angle` about the axis.
     pub fn turn(&self, angle: f64, q: &mut [f64]) {
         self.placements.iter().for_each(|placement| self.spin.turn(*placement, angle, q));
         self.inner.normalize(q);
     }
 
-    /// Turns changes along the velocity directions by `angle` about the axis.
+    /// Rotates a change along the velocity directions by `angle` about the axis.
     pub fn turn_directions(&self, angle: f64, x: &mut [f64]) {
         self.placements.iter().for_each(|placement| self.spin.turn_directions(*placement, angle, x));
     }
@@ -114,21 +115,22 @@ impl<'a> Rotating<'a> {
         Slopes { blocks: self.placements.iter().map(|&placement| self.spin.slopes(placement, q, v)).collect() }
     }
 
-    /// G, L and M of the inner system at a state.
+    /// Terms of the inner system at a state; v is measured in the world.
     fn terms(&self, q: &[f64], v: &[f64], need: Need, scratch: &mut Scratch) -> Terms {
         let mut terms = Terms::new(self.inner);
         self.inner.evaluate(self.t, q, v, need, &mut terms, scratch);
         terms
     }
 
-    /// target += factor A X with A's values at `pattern`, X the `which` of the slopes, both in the pattern of K and C.
+    /// target += A X with the values of A at `pattern`, X number `which` of the slopes, target in the pattern of K and
+    /// C.
     fn add_product(&self, pattern: &Pattern, values: &[f64], slopes: &Slopes, which: usize, target: &mut [f64]) {
         for (&(i, j), value) in pattern.entries.iter().zip(values) {
             slopes.each(which, j, |column, x| target[self.places[&(i, column)]] += value * x);
         }
     }
 
-    /// The same with M, whose lower triangle is at its pattern.
+    /// target += M X, with M given by its lower triangle.
     fn add_mass_product(&self, mass: &[f64], slopes: &Slopes, which: usize, target: &mut [f64]) {
         for (&(i, j), value) in self.structure.mass.entries.iter().zip(mass) {
             slopes.each(which, j, |column, x| target[self.places[&(i, column)]] += value * x);
@@ -138,7 +140,7 @@ impl<'a> Rotating<'a> {
         }
     }
 
-    /// target += A X at the places of G, A one of G's own.
+    /// target += factor A X at the places of G, for A with the pattern of G.
     fn add_gradient(&self, values: &[f64], slopes: &Slopes, which: usize, factor: f64, target: &mut [f64]) {
         for (&(i, j), value) in self.structure.g.entries.iter().zip(values) {
             slopes.each(which, j, |column, x| {
@@ -151,7 +153,7 @@ impl<'a> Rotating<'a> {
 }
 
 impl Slopes {
-    /// See the entries of row `row`, by column.
+    /// Calls `see` with column and value of each entry of row `row`.
     fn each(&self, which: usize, row: usize, mut see: impl FnMut(usize, f64)) {
         let own = |blocks: &&[Block; 3]| (blocks[0].first..blocks[0].first + blocks[0].size).contains(&row);
         let place = self.blocks.partition_point(|blocks| blocks[0].first <= row);
@@ -166,7 +168,7 @@ fn placed(pattern: &Pattern) -> Places {
     pattern.entries.iter().enumerate().map(|(k, &entry)| (entry, k)).collect()
 }
 
-/// The block that velocity `j` is in: its first one and how many.
+/// First velocity and size of the block that velocity `j` belongs to.
 fn block_of(placements: &[Placement], j: usize) -> Option<(usize, usize)> {
     let place = placements.partition_point(|placement| Spin::velocities(*placement).0 <= j);
     let block = Spin::velocities(*placements[..place].last()?);

@@ -1,4 +1,4 @@
-//! The rows of phi and G that one joint has.
+//! The rows of phi and G that belong to one joint.
 
 use super::mechanism::{Mechanism, of};
 use super::support::Support;
@@ -13,24 +13,24 @@ use crate::scene::Connection;
 use std::array::from_fn;
 use std::ops::Range;
 
-/// Where a joint stands in phi and G.
+/// Rows of a joint in phi, and the places of its entries in G.
 pub(super) struct JointRows {
     pub first: usize,
     pub count: usize,
-    /// Whether phi depends on t itself.
+    /// True if phi depends explicitly on t.
     rheonomic: bool,
     blocks: Vec<Block>,
 }
 
 /// Entries of G for one joint and one of its markers: rows x the velocities that move the marker, row by row.
 struct Block {
-    /// Which of the joint's markers.
+    /// Index of the marker in the joint.
     slot: usize,
     body: usize,
     first_entry: usize,
 }
 
-/// A joint in its place.
+/// A joint with its mechanism and its rows.
 pub(super) struct PlacedJoint<'a, const D: usize> {
     pub mechanism: &'a Mechanism<D>,
     pub joint: &'a Connection<Box<dyn Joint<D>>>,
@@ -63,7 +63,7 @@ impl JointRows {
 }
 
 impl<const D: usize> PlacedJoint<'_, D> {
-    /// phi, phi' and gamma, and phi_t: the rate with all frames held.
+    /// phi, phi' and gamma, and phi_t: the rate at fixed frames.
     pub fn levels(&self, time: Time<f64>, frames: &Motion<f64, D>, terms: &mut Terms) {
         let mut levels = [Taylor::fixed(0.0); MOST_ROWS];
         let levels = &mut levels[..self.rows.count];
@@ -80,7 +80,7 @@ impl<const D: usize> PlacedJoint<'_, D> {
         }
     }
 
-    /// JointRows of G: the gradient with respect to each marker's twist, pulled back like a wrench.
+    /// Rows of G: the gradient with respect to each marker's twist, pulled back like a wrench.
     pub fn gradient(&self, time: Time<f64>, q: &[f64], frames: &Motion<f64, D>, terms: &mut Terms) {
         let mut slopes = [[0.0; 6]; MOST_ROWS];
         let slopes = &mut slopes[..self.rows.count];
@@ -94,7 +94,7 @@ impl<const D: usize> PlacedJoint<'_, D> {
         }
     }
 
-    /// Writes the arguments of its switching functions at their numbers.
+    /// Writes the arguments of the joint's switching functions with their rates.
     pub fn switching(&self, time: Time<Rate>, frames: &Motion<f64, D>, out: &mut [Rate]) {
         let rates = |frame: &Frame<Taylor<f64>, D>| frame.map(|x| Rate { re: x.x, eps: [x.d] });
         mapped(frames, rates, |rates| self.joint.element.switching(rates, time, out));
@@ -120,13 +120,13 @@ impl<const D: usize> PlacedJoint<'_, D> {
         }
     }
 
-    /// Velocities that move the marker of a block.
+    /// Number of velocities that move the marker of a block.
     fn width(&self, block: &Block) -> usize {
         self.mechanism.supports[self.joint.markers[block.slot]].velocities.len()
     }
 
-    /// d(phi, phi', phi'')/dq at the places of G, with the accelerations that `motion` and `at` have: the joint is evaluated
-    /// with each of its markers varied, one after the other.
+    /// d(phi, phi', phi'')/dq at the places of G, with the accelerations of `motion` and `at`: the joint is
+    /// differentiated with respect to one marker after the other.
     pub fn curvature(
         &self,
         (at, regime): (&OperatingPoint, Regime),

@@ -1,4 +1,4 @@
-//! What sizes in a scene are large and small beside.
+//! Reference values for lengths and for the rows of phi.
 
 use crate::body::norm;
 use crate::scene::Model;

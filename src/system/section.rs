@@ -1,9 +1,9 @@
-//! What a section of a beam in a floating frame carries: all that acts on the body beyond it.
+//! Section forces of a beam in a floating frame: the sum of all that acts on the body beyond the section.
 //!
-//! The method of sections: with the joints, forces, weight and inertia of that part the section is in equilibrium, whatever
-//! coordinates the displacements have and however few: these describe where its mass is, and no more. A section beside a
-//! joint carries the reaction of that joint to round-off. Arms and axes are those of the displaced beam, so that the
-//! forces do not depend on the choice of the floating frame but by the terms that its theory leaves out.
+//! The method of sections: with the joints, forces, weight and inertia of that part the section is in equilibrium,
+//! whatever coordinates describe the displacements and however few: they determine only where the mass is. A section
+//! next to a joint carries the reaction of that joint to round-off. Arms and axes are those of the displaced beam, so
+//! that the forces depend on the choice of the floating frame only by the terms that its theory neglects.
 
 use super::mechanism::Mechanism;
 use super::view::View;
@@ -29,7 +29,7 @@ impl<S: Scalar, const D: usize> Sum<S, D> {
 }
 
 impl<const D: usize> Mechanism<D> {
-    /// Axial force, shear forces, torque and bending moments, about the section and in its axes where it is displaced.
+    /// Axial force, shear forces, torque and bending moments about the section, in the axes of the displaced section.
     pub(super) fn section<S: Scalar>(&self, cut: &Cut<D>, view: &impl View<S, D>) -> [S; 6]
     where
         dyn Force<D>: ForceOver<S, D>,
@@ -61,7 +61,7 @@ impl<const D: usize> Mechanism<D> {
         in_axes(&at, &sum.wrench)
     }
 
-    /// The markers of the joints and forces that a section carries.
+    /// The markers of the joints and forces beyond a section.
     pub(super) fn markers_beyond(&self, cut: &Cut<D>) -> Vec<usize> {
         let joints = cut.joints.iter().flat_map(|&(joint, _)| &self.model().joints[joint].markers);
         joints.chain(cut.forces.iter().flat_map(|&(force, _)| &self.model().forces[force].markers)).copied().collect()
@@ -74,7 +74,7 @@ fn elastic<const D: usize>(part: &Part<D>) -> [usize; 2] {
     [part.first_q + part.nq - count, part.first_v + part.nv - count]
 }
 
-/// In the order of [`Station`](crate::force::Station).
+/// Components of a wrench in the axes of a frame, in the order of [`Station`](crate::force::Station).
 fn in_axes<S: Scalar, const D: usize>(at: &Frame<S, D>, wrench: &Wrench<S, D>) -> [S; 6] {
     let along = |axis: usize, v: &[S]| at.axes[axis].iter().zip(v).fold(S::zero(), |sum, (&e, &v)| sum + e * v);
     from_fn(|i| match (i, D) {

@@ -1,7 +1,7 @@
-//! A constant turn of everything that moves about a fixed axis, and what it does to the coordinates of bodies.
+//! A constant rotation of everything that moves about a fixed axis, and its effect on the coordinates of bodies.
 //!
-//! Seen from axes that turn with W, a body at rest has the velocity and the acceleration of the axes. With v counted in
-//! the axes, the components of its velocity in space are v + W xi(q), and those of its acceleration v' + b(q, v):
+//! Seen from axes that rotate with W, a body at rest has the velocity and the acceleration of the axes. With v measured
+//! in the axes, the components of its velocity in space are v + W xi(q), and those of its acceleration v' + b(q, v):
 //!
 //! ```text
 //! places          W xi = W x (r - p)       b = 2 W x v + W x (W x (r - p))
@@ -12,27 +12,44 @@ use crate::body::cross;
 use crate::math::rotation::{axes_from_quaternion, quaternion_from_vector, quaternion_product};
 use std::array::from_fn;
 
-/// A turn at a constant speed.
+/// A rotation about a fixed axis at a constant speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spin {
-    /// W, rad/s; a vector along the axis. SeedDirection z in the plane.
+    /// Angular velocity W, rad/s, along the axis; (0, 0, w) in the plane.
     pub velocity: [f64; 3],
-    /// Of the axis, m.
+    /// A point of the axis, m.
     pub point: [f64; 3],
 }
 
-/// Coordinates of a body that turn with the world, by their first places in q and v.
+/// Coordinates of a body that change when the world is rotated, by their first places in q and v.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Placement {
-    /// x, y(, z) in the world: so many.
-    Place { q: usize, v: usize, count: usize },
-    /// An angle in the plane.
-    Angle { q: usize, v: usize },
-    /// A unit quaternion with the angular velocity in the body's own axes.
-    Axes { q: usize, v: usize },
+    /// A position x, y(, z) in the world, m.
+    Place {
+        /// First place in q.
+        q: usize,
+        /// First place in v.
+        v: usize,
+        /// 2 in the plane, 3 in space.
+        count: usize,
+    },
+    /// An angle in the plane, rad.
+    Angle {
+        /// Place in q.
+        q: usize,
+        /// Place in v.
+        v: usize,
+    },
+    /// A unit quaternion with the angular velocity in the body's own axes, rad/s.
+    Axes {
+        /// First of four places in q.
+        q: usize,
+        /// First of three places in v.
+        v: usize,
+    },
 }
 
-/// A 3 x 3 matrix among the velocities from `first` on; of a place in the plane its first two rows and columns.
+/// A 3 x 3 matrix among the velocities from `first` on; only the first `size` rows and columns count.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Block {
     pub first: usize,
@@ -41,12 +58,12 @@ pub(super) struct Block {
 }
 
 impl Spin {
-    /// rad/s
+    /// |W|, rad/s.
     pub fn speed(&self) -> f64 {
         self.velocity.iter().map(|w| w * w).sum::<f64>().sqrt()
     }
 
-    /// The first of the velocities of a placement, and how many they are.
+    /// First velocity of a placement, and their number.
     pub(super) fn velocities(placement: Placement) -> (usize, usize) {
         match placement {
             Placement::Place { v, count, .. } => (v, count),
@@ -82,7 +99,7 @@ impl Spin {
         }
     }
 
-    /// d(W xi)/dq, d(b)/dq and d(b)/dv, along the directions of v.
+    /// d(W xi)/dq, d(b)/dq and d(b)/dv along the directions of v.
     pub(super) fn slopes(&self, placement: Placement, q: &[f64], v: &[f64]) -> [Block; 3] {
         let (first, size) = Self::velocities(placement);
         let block = |rows| Block { first, size, rows };
@@ -94,7 +111,7 @@ impl Spin {
             }
             Placement::Angle { .. } => [none; 3],
             Placement::Axes { .. } => {
-                // A turn of the body by d turns w by w x d in its axes.
+                // A rotation of the body by d changes w by w x d in its axes.
                 let (spin, own) = (skew(&self.carried(placement, q)), skew(&from_fn(|k| v[first + k])));
                 let bent = product(&own, &spin).map(|row| row.map(|x| -x));
                 [block(spin), block(bent), block(spin)]
@@ -102,7 +119,7 @@ impl Spin {
         }
     }
 
-    /// Turns q by `angle` about the axis.
+    /// Rotates q by `angle` about the axis.
     pub(super) fn turn(&self, placement: Placement, angle: f64, q: &mut [f64]) {
         let whole: [f64; 3] = self.velocity.map(|w| w / self.speed() * angle);
         let turn = quaternion_from_vector(&whole);
@@ -120,7 +137,7 @@ impl Spin {
         }
     }
 
-    /// Turns changes along the velocity directions by `angle`: body axes take theirs along.
+    /// Rotates a change along the velocity directions by `angle`; components in body axes do not change.
     pub(super) fn turn_directions(&self, placement: Placement, angle: f64, x: &mut [f64]) {
         if let Placement::Place { v, count, .. } = placement {
             let turn = quaternion_from_vector(&self.velocity.map(|w| w / self.speed() * angle));
@@ -135,7 +152,7 @@ fn rotated(turn: &[f64; 4], x: &[f64; 3]) -> [f64; 3] {
     from_fn(|k| (0..3).map(|j| axes[j][k] * x[j]).sum())
 }
 
-/// The matrix of a x.
+/// The matrix of the cross product: skew(a) x = a x x.
 pub(super) fn skew([x, y, z]: &[f64; 3]) -> [[f64; 3]; 3] {
     [[0.0, -z, *y], [*z, 0.0, -x], [-y, *x, 0.0]]
 }

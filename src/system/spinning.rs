@@ -1,4 +1,4 @@
-//! How a mechanism is driven round, and what of it turns.
+//! The steady rotation that drives prescribe, and the coordinates that take part in it.
 
 use super::mechanism::Mechanism;
 use super::spin::{Placement, Spin};
@@ -9,7 +9,7 @@ use crate::scene::{Connection, Part};
 use crate::tolerances::body as tolerances;
 
 impl<const D: usize> Mechanism<D> {
-    /// What all drives that move at `t` prescribe together.
+    /// The rotation that all drives active at `t` prescribe in common; `None` where they differ or accelerate.
     pub(super) fn driven_spin(&self, t: f64) -> Option<Spin> {
         let mut common: Option<Spin> = None;
         for joint in self.model().joints.iter().filter(|joint| joint.element.depends_on_time()) {
@@ -29,8 +29,8 @@ impl<const D: usize> Mechanism<D> {
         common
     }
 
-    /// -phi_t and -phi_tt of a joint of one row; none of other joints. What drives prescribe does not depend on where they
-    /// are.
+    /// -phi_t and -phi_tt of a joint of one row; `None` for other joints. They do not depend on the positions of the
+    /// markers.
     fn prescribed(&self, joint: &Connection<Box<dyn Joint<D>>>, t: f64) -> Option<[f64; 2]> {
         if joint.element.row_names().len() != 1 {
             return None;
@@ -42,12 +42,13 @@ impl<const D: usize> Mechanism<D> {
         Some([-row[0].d, -row[0].dd])
     }
 
-    /// The frame of a marker of the ground; of others any.
+    /// Frame of a marker of the ground; for other markers any frame.
     fn fixed(&self, marker: MarkerId) -> Frame<f64, D> {
         self.model().ground.get(marker).map_or_else(Frame::world, |own| Frame::world().at(own))
     }
 
-    /// The turn of the second marker at `rate`, where the first is on the ground, or against it the other way round.
+    /// Rotation of the second marker at `rate` where the first is on the ground, or of the first at -`rate` where the
+    /// second is.
     fn turn_about_ground(&self, joint: &Connection<Box<dyn Joint<D>>>, rate: f64) -> Option<Spin> {
         let [first, second] = joint.markers[..] else { return None };
         let (ground, speed) = match (self.model().carrier(first), self.model().carrier(second)) {
@@ -62,13 +63,13 @@ impl<const D: usize> Mechanism<D> {
         }
     }
 
-    /// All coordinates that turn, in the order of the bodies.
+    /// All coordinates that change when the world is rotated, in the order of the bodies.
     pub(super) fn placed_coordinates(&self) -> Option<Vec<Placement>> {
         self.model().bodies.iter().map(placements).collect::<Option<Vec<_>>>().map(|all| all.concat())
     }
 }
 
-/// Of one body: x, y(, z) first, then an angle or a quaternion where it has an orientation.
+/// Placements of one body: x, y(, z) first, then an angle or a quaternion where it has an orientation.
 fn placements<const D: usize>(part: &Part<D>) -> Option<Vec<Placement>> {
     let (body, names) = (&part.body, part.body.coordinate_names());
     let own: Vec<&str> = names.iter().map(String::as_str).collect();
@@ -83,7 +84,7 @@ fn placements<const D: usize>(part: &Part<D>) -> Option<Vec<Placement>> {
 }
 
 impl Spin {
-    /// About the same axis at the same speed.
+    /// True if both have the same axis and speed, within round-off.
     fn is_same(&self, other: &Spin) -> bool {
         let turn = |i: usize| (self.velocity[i] - other.velocity[i]).abs();
         let speed = self.speed();

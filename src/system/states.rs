@@ -1,4 +1,4 @@
-//! Where states xi have no place.
+//! Refusal of states xi where a solver has no use for them.
 
 use super::MechanicalSystem;
 use crate::error::{Error, Result};
@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 /// Refuses a system with states xi.
 ///
 /// # Errors
-/// It has some: what cannot take them, and what to do.
+/// The system has states; the error names `what` refuses them and gives the hint.
 pub fn refuse_states(system: &dyn MechanicalSystem, what: &str, hint: &str) -> Result<()> {
     match system.dimensions().states {
         0 => Ok(()),

@@ -1,4 +1,4 @@
-//! Which velocities move a marker.
+//! The velocities that move a marker.
 
 use crate::body::MarkerId;
 use crate::scene::Model;
@@ -21,7 +21,7 @@ impl Support {
         Support { body: Some(body), velocities, is_contiguous }
     }
 
-    /// target += what `pull` adds to forces on these velocities alone; `pulled` is memory.
+    /// target += the forces that `pull` writes on these velocities; `pulled` is scratch.
     #[inline]
     pub fn add_to(&self, target: &mut [f64], pulled: &mut Vec<f64>, pull: impl FnOnce(&mut [f64])) {
         let Some(&first) = self.velocities.first() else { return };

@@ -1,4 +1,4 @@
-//! K and C: how the residual of the equations of motion changes with q and v.
+//! K and C: derivatives of the residual of the equations of motion with respect to q and v.
 
 use super::coupling::{Block, Carrier, Coupling};
 use super::mechanism::{Mechanism, Workspace, of};
@@ -12,10 +12,15 @@ use std::array::from_fn;
 /// A state with its accelerations and multipliers.
 #[derive(Clone, Copy, Debug)]
 pub struct OperatingPoint<'a> {
+    /// Time, s.
     pub t: f64,
+    /// Coordinates, n_q.
     pub q: &'a [f64],
+    /// Velocities, n_v.
     pub v: &'a [f64],
+    /// Accelerations, n_v.
     pub vdot: &'a [f64],
+    /// Multipliers, n_c.
     pub lambda: &'a [f64],
 }
 
@@ -29,6 +34,7 @@ pub struct Tangent {
 }
 
 impl Tangent {
+    /// All zero, for the places of `pattern`.
     pub fn new(pattern: &Pattern) -> Self {
         Tangent { k: vec![0.0; pattern.entries.len()], c: vec![0.0; pattern.entries.len()] }
     }
@@ -47,7 +53,7 @@ type Wrenches<const D: usize> = [Wrench<Dual6, D>; MOST_MARKERS];
 type Frames<const D: usize> = [Frame<Taylor<Dual6>, D>];
 
 impl<const D: usize> Evaluation<'_, D> {
-    /// Every element is evaluated with each of its bodies varied, along q and along v.
+    /// Differentiates every element with respect to each of its bodies, along q and along v.
     pub fn run(&mut self) {
         self.tangent.k.fill(0.0);
         self.tangent.c.fill(0.0);
@@ -83,7 +89,7 @@ impl<const D: usize> Evaluation<'_, D> {
         }
     }
 
-    /// The wrenches of one element with each of its bodies varied in turn.
+    /// The wrenches of one element, differentiated with respect to one of its bodies after the other.
     fn element(
         &mut self,
         coupling: &Coupling,
@@ -116,7 +122,7 @@ impl<const D: usize> Evaluation<'_, D> {
         }
     }
 
-    /// Generalized forces on the velocities of a carrier, into `varied.f`.
+    /// Pulls the wrenches back to generalized forces on the velocities of a carrier, into `varied.f`.
     fn pull_back(
         &mut self,
         row: &Carrier,
@@ -147,7 +153,7 @@ impl<const D: usize> Evaluation<'_, D> {
         }
     }
 
-    /// Adds the slopes of `varied.f` to columns `first..` of a block.
+    /// Adds the derivatives of `varied.f` to columns `first..` of a block.
     fn add(&mut self, along: SeedDirection, block: &Block, first: usize, sign: f64) {
         let values = if along == SeedDirection::Coordinates { &mut self.tangent.k } else { &mut self.tangent.c };
         let rows = values[block.first_entry..].chunks_exact_mut(block.width);

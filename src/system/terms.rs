@@ -6,14 +6,14 @@ use crate::math::{Piece, Regime};
 use std::any::Any;
 use std::ops::BitOr;
 
-/// Which terms a caller needs.
+/// The set of terms that a caller needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Need(u8);
 
 impl Need {
     /// M
     pub const MASS: Need = Need(1);
-    /// f, and the power of the forces that have no potential.
+    /// f, and the power of the forces without a potential.
     pub const FORCE: Need = Need(2);
     /// phi, phi', gamma and phi_t
     pub const CONSTRAINTS: Need = Need(4);
@@ -21,9 +21,10 @@ impl Need {
     pub const G: Need = Need(8);
     /// L = d(G v + phi_t)/dq
     pub const L: Need = Need(16);
-    /// All that v' and lambda need.
+    /// M, f, constraints and G: all that v' and lambda need.
     pub const DYNAMICS: Need = Need(1 | 2 | 4 | 8);
 
+    /// True if every term of `other` is in the set.
     pub fn includes(self, other: Need) -> bool {
         self.0 & other.0 == other.0
     }
@@ -36,7 +37,7 @@ impl BitOr for Need {
     }
 }
 
-/// Places of the values of M and G.
+/// Sparsity patterns of M, G, K and C.
 #[derive(Clone, Debug)]
 pub struct Structure {
     /// Lower triangle of M, n_v x n_v.
@@ -47,18 +48,18 @@ pub struct Structure {
     pub tangent: Pattern,
 }
 
-/// The terms at one state; the meaning of each is in the crate's documentation.
+/// The terms of the equations at one state, as named in the crate's documentation.
 #[derive(Clone, Debug)]
 pub struct Terms {
     /// Values of M at the places of [`Structure::mass`].
     pub mass: Vec<f64>,
-    /// n_v
+    /// Generalized forces without the reactions, n_v.
     pub f: Vec<f64>,
-    /// n_c, m or rad
+    /// Constraints, n_c, m or rad.
     pub phi: Vec<f64>,
     /// phi' = G v + phi_t
     pub phi_dot: Vec<f64>,
-    /// phi_t
+    /// Partial derivative of phi with respect to t, n_c.
     pub phi_t: Vec<f64>,
     /// -phi'' at v' = 0
     pub gamma: Vec<f64>,
@@ -66,11 +67,12 @@ pub struct Terms {
     pub g: Vec<f64>,
     /// Values of L = d(G v + phi_t)/dq along the directions of v, at the places of G; empty until needed.
     pub l: Vec<f64>,
-    /// Power of the forces beyond what their potentials account for, W.
+    /// Power of the forces that is not the rate of a potential, W.
     pub power: f64,
 }
 
 impl Terms {
+    /// All zero, for the dimensions and patterns of a system.
     pub fn new(system: &dyn MechanicalSystem) -> Self {
         let (n, structure) = (system.dimensions(), system.structure());
         let zeros = |n: usize| vec![0.0; n];
@@ -88,16 +90,17 @@ impl Terms {
     }
 }
 
-/// Memory that a system keeps between evaluations, of whatever type it likes; and the pieces that its functions are held on
-/// in an evaluation, by the number of their switching function: empty where each takes the piece of its argument.
+/// Memory that a system keeps between evaluations, of any type.
 #[derive(Default)]
 pub struct Scratch {
     memory: Option<Box<dyn Any + Send>>,
+    /// Fixed pieces of the piecewise functions, by the number of their switching function; empty where each function
+    /// takes the piece of its argument.
     pub pieces: Vec<Piece>,
 }
 
 impl Scratch {
-    /// Lends the memory of type `T`, made the first time or where it held another type.
+    /// Calls `see` with the memory of type `T`, made the first time or where the memory was of another type.
     pub fn with<T: Any + Send, R>(&mut self, make: impl FnOnce() -> T, see: impl FnOnce(&mut T, Regime) -> R) -> R {
         let kept = self.memory.take().and_then(|memory| memory.downcast().ok());
         let mut memory: Box<T> = kept.unwrap_or_else(|| Box::new(make()));

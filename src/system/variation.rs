@@ -1,4 +1,4 @@
-//! Bodies as functions of their velocity directions.
+//! Frames of bodies differentiated along velocity directions.
 
 use super::mechanism::of;
 use super::tangent::OperatingPoint;
@@ -6,38 +6,39 @@ use crate::body::{Dual6, Frame};
 use crate::math::Taylor;
 use crate::scene::Part;
 
-/// What is varied.
+/// The quantity that is differentiated with respect to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SeedDirection {
-    /// q + N(q) e_j, v held.
+    /// q + N(q) e_j at fixed v.
     Coordinates,
-    /// v + e_j, q held.
+    /// v + e_j at fixed q.
     Velocities,
-    /// v' + e_j, q and v held.
+    /// v' + e_j at fixed q and v.
     Accelerations,
 }
 
-/// One body as a function of six of its velocity directions, with memory for what follows from it.
+/// One body over dual numbers of six of its velocity directions, with memory for the forces that follow.
 #[derive(Default)]
 pub(super) struct SeededBody<const D: usize> {
     pub frames: Vec<Frame<Taylor<Dual6>, D>>,
-    /// The body's q.
+    /// The body's q, seeded.
     pub moved: Vec<Dual6>,
-    /// The body's v.
+    /// The body's v, seeded.
     pub moved_v: Vec<Dual6>,
-    /// Generalized forces of a body, and those at one of its markers.
+    /// Generalized forces of a body.
     pub f: Vec<Dual6>,
+    /// Generalized forces at one of its markers.
     pub pulled: Vec<Dual6>,
-    /// q of a body that is not varied.
+    /// q of a body that is not seeded.
     pub rest: Vec<Dual6>,
-    /// The body's v', where it is given.
+    /// The body's v', seeded, where it is given.
     pub moved_vdot: Vec<Dual6>,
     directions: Vec<Dual6>,
 }
 
 impl<const D: usize> SeededBody<D> {
-    /// Frames of a body's markers as functions of up to six of the system's velocity directions, which are the body's.
-    /// Their accelerations are those at v' = 0 where `at.vdot` is empty.
+    /// Frames of a body's markers as functions of up to six of the system's velocity directions, which belong to the
+    /// body. Their accelerations are those at v' = 0 where `at.vdot` is empty.
     pub fn vary(&mut self, along: SeedDirection, part: &Part<D>, at: &OperatingPoint, directions: &[usize]) {
         let (q, v) = (of(at.q, part, true), of(at.v, part, false));
         self.directions.clear();
@@ -72,7 +73,7 @@ fn add(to: &mut [Dual6], directions: &[Dual6]) {
     to.iter_mut().zip(directions).for_each(|(to, &direction)| *to += direction);
 }
 
-/// A frame that does not vary.
+/// A frame whose derivatives are zero.
 pub(super) fn fixed<const D: usize>(frame: &Frame<Taylor<f64>, D>) -> Frame<Taylor<Dual6>, D> {
     frame.map(|x| Taylor::new(Dual6::fixed(x.x), Dual6::fixed(x.d), Dual6::fixed(x.dd)))
 }

@@ -1,4 +1,4 @@
-//! A state as outputs and energies read it, over one scalar: the number decides what comes out, values or derivatives.
+//! A state as outputs and energies read it, over one scalar type: floats give values, dual numbers derivatives.
 
 use super::mechanism::of;
 use super::tangent::OperatingPoint;
@@ -8,24 +8,24 @@ use crate::math::{Rate, Regime, Scalar, Taylor, Time};
 use crate::scene::Part;
 use std::array::from_fn;
 
-/// What there is to read of a state.
+/// Access to the quantities of a state.
 pub(super) trait View<S: Scalar, const D: usize> {
     fn time(&self) -> Time<'_, f64>;
     /// A coordinate of the system.
     fn q(&self, coordinate: usize) -> S;
     /// A velocity.
     fn v(&self, direction: usize) -> S;
-    /// Its rate.
+    /// The rate of a velocity.
     fn vdot(&self, direction: usize) -> S;
     fn frame(&self, marker: MarkerId) -> Frame<Taylor<S>, D>;
-    /// Of a body itself, without forces.
+    /// Energy of a body by itself, without forces.
     fn energy(&self, part: &Part<D>, gravity: &[f64; D]) -> Energy<S>;
     fn lambda(&self, row: usize) -> S;
-    /// What inputs add to the components of a force, if they drive it.
+    /// Sum of the inputs on the three components of a force; zero for a force without inputs.
     fn input(&self, force: usize) -> [S; 3];
 }
 
-/// The state as it is.
+/// The state over floats.
 pub(super) struct Plain<'a, const D: usize> {
     pub at: OperatingPoint<'a>,
     pub regime: Regime<'a>,
@@ -59,14 +59,14 @@ impl<const D: usize> View<f64, D> for Plain<'_, D> {
     }
 }
 
-/// What varies, along six directions.
+/// The quantities that are seeded along six directions.
 #[derive(Clone, Copy)]
 pub(super) enum Seed<'a, const D: usize> {
-    /// A body, as [`SeededBody`] holds it.
+    /// A body, with its values in [`SeededBody`].
     Body(&'a Part<D>),
-    /// The multipliers from this row on.
+    /// Six multipliers from this row on.
     Multipliers(usize),
-    /// The inputs' parts of the three components of a force.
+    /// The inputs on the three components of a force.
     Inputs(usize),
 }
 
@@ -80,7 +80,7 @@ pub(super) struct SeededView<'a, const D: usize> {
 }
 
 impl<const D: usize> SeededView<'_, D> {
-    /// What `varied` has of the body that moves, beginning where `first` says, and `fixed` of the others.
+    /// Entry `index` from `varied` if it belongs to the seeded body, whose entries begin at `first`; else from `fixed`.
     fn value(&self, varied: &[Dual6], first: impl Fn(&Part<D>) -> usize, fixed: &[f64], index: usize) -> Dual6 {
         let own = match self.seed {
             Seed::Body(part) => index.checked_sub(first(part)).and_then(|i| varied.get(i)),
@@ -139,7 +139,7 @@ impl<const D: usize> View<Dual6, D> for SeededView<'_, D> {
     }
 }
 
-/// Puts what `item` gives for each marker of an element side by side for `see`; most elements have one or two.
+/// Calls `see` with `item` of each marker of an element in one slice; most elements have one or two markers.
 #[inline]
 pub(super) fn gathered<T: Copy, R>(
     markers: &[MarkerId],
@@ -149,7 +149,7 @@ pub(super) fn gathered<T: Copy, R>(
     mapped(markers, |marker| item(*marker), see)
 }
 
-/// The same of anything that there is of each marker.
+/// Calls `see` with `item` of each entry in one slice.
 #[inline]
 pub(super) fn mapped<S, T: Copy, R>(all: &[S], item: impl Fn(&S) -> T, see: impl FnOnce(&[T]) -> R) -> R {
     match all {

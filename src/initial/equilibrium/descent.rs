@@ -24,8 +24,8 @@ pub(super) enum End {
     Stuck,
 }
 
-/// Pseudo-transient continuation: dq/dtau = f - G^T lambda on phi = 0, by implicit Euler steps of one iteration each where
-/// that does,
+/// Pseudo-transient continuation: dq/dtau = f - G^T lambda on phi = 0, by implicit Euler steps of one iteration each
+/// where that does,
 ///
 /// ```text
 /// [ K + I/dtau  G^T ] [ dq      ]   [ f - G^T lambda ]
@@ -102,8 +102,8 @@ fn onward(rest: &mut EquilibriumSystem, from: &Place, change: &Change, size: f64
     rest.balance(&q)
 }
 
-/// force = dq/dtau to the size of the force before the step: a stiff beam that turns goes along a circle, and one iteration
-/// along the tangent, which stretches it.
+/// force = dq/dtau to the size of the force before the step: a stiff beam that turns goes along a circle, and one
+/// iteration along the tangent, which stretches it.
 fn relax(rest: &mut EquilibriumSystem, at: &mut Balance, way: &mut [f64], shift: f64, enough: f64) -> Option<()> {
     let mut last = f64::INFINITY;
     for _ in 0..tolerances::RELAXATIONS {

@@ -4,10 +4,9 @@ use super::newton::{Policy, newton};
 use super::system::{EquilibriumSystem, Place};
 use crate::tolerances::initial as tolerances;
 
-/// f - G^T lambda = (1 - s) (f - G^T lambda)(start), s from 0 to 1: the force that is missing at the start is taken away
-/// in parts, each solved by Newton's method from the solution before. Where the start is an unloaded equilibrium that is
-/// load stepping. The place that it came to, the part s of the
-/// way that this is, and the steps taken.
+/// f - G^T lambda = (1 - s) (f - G^T lambda)(start), s from 0 to 1: the force that is missing at the start is taken
+/// away in parts, each solved by Newton's method from the solution before. Where the start is an unloaded equilibrium
+/// that is load stepping. The place that it came to, the part s of the way that this is, and the steps taken.
 pub(super) fn homotopy(rest: &mut EquilibriumSystem, start: &Place) -> (Place, f64, usize) {
     rest.evaluate(&start.q);
     let missing = rest.force(&start.lambda);

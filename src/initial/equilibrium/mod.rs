@@ -30,9 +30,11 @@ use system::{EquilibriumSystem, Place};
 pub struct Equilibrium {
     /// Time that expressions of t are held at, s.
     pub t: f64,
+    /// Coordinates, n_q.
     pub q: Vec<f64>,
     /// Of least norm where constraints are redundant.
     pub lambda: Vec<f64>,
+    /// The method that found it.
     pub way: Way,
     /// Linear systems solved, over all ways that were tried.
     pub iterations: usize,
@@ -42,18 +44,23 @@ pub struct Equilibrium {
     pub residual: f64,
     /// max |phi|, in units of the scene's scale.
     pub gap: f64,
+    /// Stability of the equilibrium.
     pub stability: Stability,
     /// Coordinates that can move without any force against them.
     pub free: Vec<String>,
 }
 
-/// How it was found.
+/// The method by which an equilibrium was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Way {
+    /// Newton's method from the start.
     Newton,
+    /// Newton's method with shortened steps.
     DampedNewton,
+    /// Continuation in the load.
     Homotopy,
+    /// Descent along the forces, which leads to stable equilibria.
     Descent,
 }
 
@@ -67,14 +74,15 @@ struct Found {
 
 /// The equilibrium at time `t` that belongs to a guess:
 ///
-/// 1. that of Newton's method, if its steps contract from the first: then it is the one around the guess, stable or not;
-/// 2. else the first that is not unstable of Newton's method, plain and damped; of the load grown in steps; of a descent
-///    along the forces, which leads to stable ones;
+/// 1. that of Newton's method, if its steps contract from the first: then it is the one around the guess, stable or
+///    not;
+/// 2. else the first that is not unstable of Newton's method, plain and damped; of the load grown in steps; of a
+///    descent along the forces, which leads to stable ones;
 /// 3. else an unstable one that was met on these ways.
 ///
 /// # Errors
-/// Joints that cannot be closed at `t`, a state that cannot be evaluated, equations without K: bad input. No equilibrium
-/// found: a failure that says what moves or where the largest force is left.
+/// Joints that cannot be closed at `t`, a state that cannot be evaluated, equations without K: bad input. No
+/// equilibrium found: a failure that says what moves or where the largest force is left.
 pub fn equilibrium(system: &dyn MechanicalSystem, t: f64, guess: &[f64]) -> Result<Equilibrium> {
     refuse_states(system, "the static equilibrium", "simulate with damping until the motion ends")?;
     let mut q = guess.to_vec();

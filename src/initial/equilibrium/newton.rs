@@ -25,8 +25,8 @@ impl Policy {
     };
 }
 
-/// Solves f - G^T lambda = `goal` (zero where none) with phi = 0; the place, and whether all steps contracted. None where
-/// Newton's method fails.
+/// Solves f - G^T lambda = `goal` (zero where none) with phi = 0; the place, and whether all steps contracted. None
+/// where Newton's method fails.
 pub(super) fn newton(
     rest: &mut EquilibriumSystem,
     start: Place,

@@ -29,8 +29,8 @@ use matrix::Penalized;
 ///
 /// alpha_j = (4/h^2) penalty / (G diag(M)^-1 G^T)_jj for row j: an iteration leaves some 1/penalty of it, in whatever
 /// units. (The usual alpha of 1e7 to 1e9 is a penalty of 250 to 25,000 at unit masses and h = 0.01 s.) W is regular
-/// where rows of G depend on others, always or at one position: redundant constraints are met, singular positions passed.
-/// Rotations advance along the group, the change predicted and the rest one after the other.
+/// where rows of G depend on others, always or at one position: redundant constraints are met, singular positions
+/// passed. Rotations advance along the group, the change predicted and the rest one after the other.
 ///
 /// Order 2 in q, v and lambda. A step costs W from exact K and C, two or three iterations with an evaluation each, some
 /// more back-substitutions, and the evaluation of lambda. W is symmetric only where K and C are: an LU, dense or sparse

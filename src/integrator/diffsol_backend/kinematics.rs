@@ -4,8 +4,8 @@ use crate::math::kkt::Pattern;
 use crate::system::MechanicalSystem;
 
 /// N and N^+ column by column of N, places and values. A derivative along the directions of v, which is what K, G and L
-/// are, becomes one by q with N^+ = (N^T N)^-1 N^T from the right; N^T N is diagonal for unit quaternions. Angles that are counted
-/// through turns are left out there: no force changes with those.
+/// are, becomes one by q with N^+ = (N^T N)^-1 N^T from the right; N^T N is diagonal for unit quaternions. Angles that
+/// are counted through turns are left out there: no force changes with those.
 pub struct Kinematics {
     columns: Vec<Vec<(usize, f64)>>,
     inverse: Vec<Vec<(usize, f64)>>,
@@ -52,8 +52,8 @@ impl Kinematics {
         }
     }
 
-    /// Adds d(N v)/dq: exact where N is affine in q, as with quaternions; without the rows of angles that are counted through
-    /// turns, on which nothing else depends.
+    /// Adds d(N v)/dq: exact where N is affine in q, as with quaternions; without the rows of angles that are counted
+    /// through turns, on which nothing else depends.
     pub fn by_q(&mut self, system: &dyn MechanicalSystem, q: &[f64], v: &[f64], out: &mut Dense) {
         if self.is_identity {
             return;

@@ -18,8 +18,8 @@ use equations::{Equations, Values};
 use solver::{Counted, Request, Solver};
 pub use solver::{Start, serve, start_state};
 
-/// Where lambda follows from accelerations, or q is moved to phi = 0 by multipliers of its own: with phi' = 0 or phi = 0 alone
-/// diffsol's steps lose orders.
+/// Where lambda follows from accelerations, or q is moved to phi = 0 by multipliers of its own: with phi' = 0 or phi =
+/// 0 alone diffsol's steps lose orders.
 pub fn solves(formulation: &formulation::Entry) -> bool {
     formulation.default_dae().is_some_and(|dae| dae.holds(2) || dae.mu.is_some())
 }

@@ -11,9 +11,10 @@ use std::ops::Range;
 /// 0 = M a + G^T lambda - f,   0 = M w + G^T eta,   0 = M u + G^T mu,   and the rows of lambda, eta and mu
 /// ```
 ///
-/// in q, v, the work, a and lambda, then w and eta, u and mu where the [`Dae`] has them: with rates as unknowns no M stands
-/// before a derivative, where diffsol wants a constant. The Jacobian is exact but for the change of phi'' with q, from which
-/// no stiffness comes, and at mu = eta = 0, which holds for the exact motion. Multipliers of dropped rows are zero.
+/// in q, v, the work, a and lambda, then w and eta, u and mu where the [`Dae`] has them: with rates as unknowns no M
+/// stands before a derivative, where diffsol wants a constant. The Jacobian is exact but for the change of phi'' with
+/// q, from which no stiffness comes, and at mu = eta = 0, which holds for the exact motion. Multipliers of dropped rows
+/// are zero.
 pub struct FirstOrderRows<'s> {
     dae: Dae,
     dynamics: Dynamics<'s>,

@@ -20,12 +20,13 @@ use newton::Newton;
 /// alpha_m = (2 r - 1)/(r + 1),  alpha_f = r/(r + 1),  gamma = 1/2 + alpha_f - alpha_m,  beta = (gamma + 1/2)^2/4
 /// ```
 ///
-/// with the rows and the shifts u and w of the formulation's `Dae`, r = rho_inf, the damping at infinite frequency. Source: Chung, Hulbert,
-/// J. Appl. Mech. 60 (1993) 371-375; Arnold, Bruels, Multibody Syst. Dyn. 18 (2007) 185-202; stabilized index 2:
-/// Arnold, Bruels, Cardona, Numer. Math. 129 (2015) 149-179. Rotations advance along the group, q exp(Dq) by four Runge-Kutta stages of
-/// q' = N(q) Dq; with ggl in two factors, one for the change that was predicted and one for the rest, so that Newton's
-/// method sees small rotations only and steps of a radian converge. (That moves q by O(h^4), which the phi of index3
-/// would amplify by h^-2.) Order 2 in q, v and lambda; implicit, for stiff motions.
+/// with the rows and the shifts u and w of the formulation's `Dae`, r = rho_inf, the damping at infinite frequency.
+/// Source: Chung, Hulbert, J. Appl. Mech. 60 (1993) 371-375; Arnold, Bruels, Multibody Syst. Dyn. 18 (2007) 185-202;
+/// stabilized index 2: Arnold, Bruels, Cardona, Numer. Math. 129 (2015) 149-179. Rotations advance along the group, q
+/// exp(Dq) by four Runge-Kutta stages of q' = N(q) Dq; with ggl in two factors, one for the change that was predicted
+/// and one for the rest, so that Newton's method sees small rotations only and steps of a radian converge. (That moves
+/// q by O(h^4), which the phi of index3 would amplify by h^-2.) Order 2 in q, v and lambda; implicit, for stiff
+/// motions.
 ///
 /// With rho_inf = 1 nothing is damped, which ggl allows. With index3 the multipliers have the eigenvalue -rho_inf
 /// three times, which a turning G drives apart, the more the larger the step: with too little damping errors grow

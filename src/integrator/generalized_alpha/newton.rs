@@ -9,7 +9,8 @@ use crate::math::newton::{Limits, Monitor};
 use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::integrator as tolerances;
 
-/// The metric of shifts is M alone: sums of corrections in the metrics of several states would depend on how they were found.
+/// The metric of shifts is M alone: sums of corrections in the metrics of several states would depend on how they were
+/// found.
 const MASS: f64 = 0.0;
 
 /// In units of what may stop falling.
@@ -70,8 +71,8 @@ impl Newton {
         self.is_linearized = false;
     }
 
-    /// What the next step takes over of the iteration: how it contracted, and for which step and state the matrix is, if it
-    /// stays.
+    /// What the next step takes over of the iteration: how it contracted, and for which step and state the matrix is,
+    /// if it stays.
     pub fn memory(&self) -> Vec<f64> {
         let h = self.factored.filter(|_| self.is_linearized).unwrap_or(0.0);
         let point = if self.is_linearized { self.at.point() } else { &[] };

@@ -38,8 +38,8 @@ impl Matrices {
         self.factored == Some((h, index)) && self.dropped == dynamics.dropped
     }
 
-    /// Takes the metric of shifts for a step `h` of `method`, of that index, before the matrices are factored for it. A row
-    /// within the step keeps the step's.
+    /// Takes the metric of shifts for a step `h` of `method`, of that index, before the matrices are factored for it. A
+    /// row within the step keeps the step's.
     pub fn weigh(
         &self,
         (method, index): (&Collocation, usize),

@@ -26,21 +26,21 @@ use system::{System, most};
 /// V_i = v + h sum a_ij (A_j + W_j),   Q_i = q + h sum a_ij N (V_j + U_j),   M A_i + G^T lambda_i = f
 /// ```
 ///
-/// with the rows of the formulation's [`Dae`] at every stage, and its shifts U and W; s = 3, 5 or 7 stages. Source: Hairer, Wanner, Solving Ordinary Differential
-/// Equations II, IV.5, IV.8, VII.6 and the codes RADAU5 and RADAU; constants are computed from their definition. L-stable.
-/// Order 2 s - 1 in q, v and lambda. Where phi = 0 alone is solved the v of the last stage, and so lambda, would have order s: Hairer,
-/// Lubich, Roche, Lecture Notes in Mathematics 1409 (1989). So such a step, and a row, ends with v moved to
-/// G v + phi_t = 0, by the matrix that the new state's v' and lambda need in any case.
+/// with the rows of the formulation's [`Dae`] at every stage, and its shifts U and W; s = 3, 5 or 7 stages. Source:
+/// Hairer, Wanner, Solving Ordinary Differential Equations II, IV.5, IV.8, VII.6 and the codes RADAU5 and RADAU;
+/// constants are computed from their definition. L-stable. Order 2 s - 1 in q, v and lambda. Where phi = 0 alone is
+/// solved the v of the last stage, and so lambda, would have order s: Hairer, Lubich, Roche, Lecture Notes in
+/// Mathematics 1409 (1989). So such a step, and a row, ends with v moved to G v + phi_t = 0, by the matrix that the new
+/// state's v' and lambda need in any case.
 ///
-/// One matrix of n_v + n_c unknowns for the real eigenvalue of A and (s - 1)/2 complex ones, dense or sparse, from exact K,
-/// C, G and L: q and v are eliminated. The matrices stay for the next step as long as Newton's method contracts
-/// thirty thousand times with them. s evaluations and (s + 1)/2 back-substitutions an
-/// iteration, s more of the saddle-point matrix for each shift. Constantly redundant constraints are dropped from the
-/// matrices. Error: the difference to a
-/// formula of order s, damped along stiff directions; velocities that phi = 0 determines, of index 2, are weighted by h,
-/// lambda is left out. Steps and stages follow from it, from the decay of the Legendre coefficients over the step and from
-/// the contraction of Newton's method, which large rotations in a step slow down. An output row inside a step is a step
-/// of its own, since the collocation polynomial has order s only.
+/// One matrix of n_v + n_c unknowns for the real eigenvalue of A and (s - 1)/2 complex ones, dense or sparse, from
+/// exact K, C, G and L: q and v are eliminated. The matrices stay for the next step as long as Newton's method
+/// contracts thirty thousand times with them. s evaluations and (s + 1)/2 back-substitutions an iteration, s more of
+/// the saddle-point matrix for each shift. Constantly redundant constraints are dropped from the matrices. Error: the
+/// difference to a formula of order s, damped along stiff directions; velocities that phi = 0 determines, of index 2,
+/// are weighted by h, lambda is left out. Steps and stages follow from it, from the decay of the Legendre coefficients
+/// over the step and from the contraction of Newton's method, which large rotations in a step slow down. An output row
+/// inside a step is a step of its own, since the collocation polynomial has order s only.
 ///
 /// Limits: with index3 round-off of phi over h is an error of v, and with index3 and ggl round-off along nearly
 /// dependent rows is that over their rank indicator (1e-4 between masses 1 : 1e8 in line), so that steps of less than

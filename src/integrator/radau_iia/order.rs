@@ -132,8 +132,8 @@ impl Order {
         ratio * old as f64 / new as f64
     }
 
-    /// The next step: shorter where Newton's method took many of its corrections, of which there are `most`, and no longer than
-    /// where it would contract too slowly, as theta grows like h.
+    /// The next step: shorter where Newton's method took many of its corrections, of which there are `most`, and no
+    /// longer than where it would contract too slowly, as theta grows like h.
     pub fn limit(&mut self, newton: &Monitor, most: usize) {
         let (most, iterations) = (most as f64, newton.iterations as f64);
         self.control.safety = 0.9 * (2.0 * most + 1.0) / (2.0 * most + iterations);

@@ -7,8 +7,8 @@ use crate::math::largest;
 use crate::system::Dimensions;
 use crate::tolerances::integrator as tolerances;
 
-/// V_i = v + h sum a_ij (A_j + W_j),  Q_i = q + h sum a_ij N(Q_j) (V_j + U_j), with the accelerations A, lambda and, where
-/// positions or velocities have multipliers of their own, the shifts U and W as unknowns.
+/// V_i = v + h sum a_ij (A_j + W_j),  Q_i = q + h sum a_ij N(Q_j) (V_j + U_j), with the accelerations A, lambda and,
+/// where positions or velocities have multipliers of their own, the shifts U and W as unknowns.
 pub struct Stages {
     pub unknowns: Unknowns,
     /// Q_i, V_i and the work at each stage, flat.
@@ -51,8 +51,8 @@ impl Unknowns {
         [&mut self.w, &mut self.eta, &mut self.u, &mut self.mu].into_iter().flatten().for_each(|stage| stage.fill(0.0));
     }
 
-    /// All but eta and mu from the polynomials over the stages of another step by `method`, at the places `at` of that step, none
-    /// of them its start.
+    /// All but eta and mu from the polynomials over the stages of another step by `method`, at the places `at` of that
+    /// step, none of them its start.
     pub fn predict(&mut self, before: &Unknowns, method: &Collocation, at: impl Iterator<Item = f64> + Clone) {
         let Unknowns { a, lambda, w, eta, u, mu } = self;
         for (stages, before) in [(a, &before.a), (lambda, &before.lambda), (w, &before.w), (u, &before.u)] {
@@ -64,7 +64,8 @@ impl Unknowns {
                 }
             }
         }
-        // They are linear in their equations, and what rows that depend on others have of them would grow by extrapolation.
+        // They are linear in their equations, and what rows that depend on others have of them would grow by
+        // extrapolation.
         eta.iter_mut().chain(mu).for_each(|stage| stage.fill(0.0));
     }
 
@@ -95,8 +96,8 @@ impl Stages {
         self.y.iter_mut().for_each(|y| y.copy_from_slice(from.y));
     }
 
-    /// Q_i and V_i that go with the unknowns. Where N depends on q, Q_i is found by sweeps from what it was, each of which
-    /// leaves about h |omega|/8 of its error.
+    /// Q_i and V_i that go with the unknowns. Where N depends on q, Q_i is found by sweeps from what it was, each of
+    /// which leaves about h |omega|/8 of its error.
     pub fn advance(&mut self, problem: &Problem, method: &Collocation, from: From, h: f64) {
         let (nq, nv, s) = (self.n.q, self.n.v, method.stages());
         let system = problem.dynamics.system;
@@ -162,8 +163,8 @@ impl Stages {
         tolerance.norm(from.y, change)
     }
 
-    /// Ratio of successive Legendre coefficients of V' over the step, the last two to the two before so that even and odd
-    /// parts count: how fast the polynomials of more stages converge.
+    /// Ratio of successive Legendre coefficients of V' over the step, the last two to the two before so that even and
+    /// odd parts count: how fast the polynomials of more stages converge.
     pub fn decay(&mut self, method: &Collocation, tolerance: &Tolerance, from: From) -> f64 {
         let [last, before, first] = [0, 1, 2].map(|k| {
             let sum = &mut self.next[0];

@@ -11,8 +11,8 @@ use crate::system::Need;
 /// [G  0  ] [. ] = [-phi' ]
 /// ```
 ///
-/// A step of index 3 finds v from phi = 0 by a division by h: that part of v has order s only, and the state would go on
-/// from it. Source: Hairer, Wanner, Solving Ordinary Differential Equations II, VII.2, projection of the velocities.
+/// A step of index 3 finds v from phi = 0 by a division by h: that part of v has order s only, and the state would go
+/// on from it. Source: Hairer, Wanner, Solving Ordinary Differential Equations II, VII.2, projection of the velocities.
 pub fn project(problem: &mut Problem, t: f64, y: &mut [f64]) -> Result<(), StepError> {
     let (q, v) = problem.split_mut(y);
     let dynamics = &mut problem.dynamics;

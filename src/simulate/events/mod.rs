@@ -116,8 +116,8 @@ impl<'a> Events<'a> {
         std::mem::swap(&mut self.start, &mut self.end);
     }
 
-    /// The first passage of a threshold in a step of size `h` to the state `end`; `between` shows the state at a fraction of
-    /// the step.
+    /// The first passage of a threshold in a step of size `h` to the state `end`; `between` shows the state at a
+    /// fraction of the step.
     pub fn passage<E>(
         &mut self,
         h: f64,
@@ -166,7 +166,8 @@ impl<'a> Events<'a> {
         Ok((first < 1.0).then_some(Passage::Within(first)))
     }
 
-    /// Moves the functions that are at a threshold, or the one that is at the start of a refused step, to their next pieces.
+    /// Moves the functions that are at a threshold, or the one that is at the start of a refused step, to their next
+    /// pieces.
     pub fn turn(&mut self, at_start: Option<usize>) -> Vec<Turn> {
         let numbers = at_start.map_or_else(|| std::mem::take(&mut self.at), |number| vec![number]);
         match at_start {
@@ -209,8 +210,8 @@ impl<'a> Events<'a> {
         turns.iter().find(is_driven_back).copied()
     }
 
-    /// Puts a function that was at a threshold on the other side of it than [`turn`](Self::turn) did; false where it came
-    /// from there.
+    /// Puts a function that was at a threshold on the other side of it than [`turn`](Self::turn) did; false where it
+    /// came from there.
     pub fn try_other_side(&mut self, turn: Turn) -> bool {
         let is_from_threshold = turn.from % 2 == 1;
         if is_from_threshold {
@@ -262,7 +263,8 @@ impl Argument {
         self.range.beyond(low - margin) >= 0.0 || self.range.beyond(high + margin) >= 0.0
     }
 
-    /// The first fraction of the step, before `limit`, at which the argument goes out of its range; `limit` where it does not.
+    /// The first fraction of the step, before `limit`, at which the argument goes out of its range; `limit` where it
+    /// does not.
     fn first_passage<E>(&self, limit: f64, beyond: &mut impl FnMut(f64) -> Result<f64, E>) -> Result<f64, E> {
         let mut inside = 0.0;
         for theta in Self::looks().chain([1.0]).map(|part| part * limit) {

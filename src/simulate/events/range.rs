@@ -39,8 +39,8 @@ impl Range {
     }
 }
 
-/// The first number, up to rounding, at which `beyond` is not below zero, where it passes zero once between `from`, where it
-/// is not above, and `to`, where it is not below. Regula falsi, and a half each third time.
+/// The first number, up to rounding, at which `beyond` is not below zero, where it passes zero once between `from`,
+/// where it is not above, and `to`, where it is not below. Regula falsi, and a half each third time.
 pub fn first_out(mut beyond: impl FnMut(f64) -> f64, mut from: f64, mut to: f64) -> f64 {
     let (mut inside, mut outside) = (beyond(from).min(0.0), beyond(to));
     for round in 1.. {

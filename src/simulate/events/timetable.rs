@@ -95,8 +95,8 @@ struct Search<'s> {
 }
 
 impl Search<'_> {
-    /// The first time in (from, to] at which the argument is out of the range: intervals are halved until their enclosures
-    /// say that it stays inside, or rises or falls all the time.
+    /// The first time in (from, to] at which the argument is out of the range: intervals are halved until their
+    /// enclosures say that it stays inside, or rises or falls all the time.
     fn first_exit(&self, from: f64, to: f64, looks: &mut usize) -> Option<f64> {
         *looks = looks.saturating_sub(1);
         let x = self.argument.at(Taylor::running(Interval::new(from, to)), self.regime);

@@ -1,9 +1,10 @@
 //! Looks that no step misses what functions of t do between the stages.
 //!
-//! A window of time is resolved where four pieces of cubics, through values and rates of a function at five nodes, show all
-//! of it: each agrees with the function in its middle, and neither the function nor its rate goes beyond the two nodes on
-//! its sides by more than the nodes bend there. The last is known of every instant, by enclosures of the function and its
-//! rate over whole intervals; where these are too wide it is seen at samples as close as the promise says.
+//! A window of time is resolved where four pieces of cubics, through values and rates of a function at five nodes, show
+//! all of it: each agrees with the function in its middle, and neither the function nor its rate goes beyond the two
+//! nodes on its sides by more than the nodes bend there. The last is known of every instant, by enclosures of the
+//! function and its rate over whole intervals; where these are too wide it is seen at samples as close as the promise
+//! says.
 
 use crate::math::expression::TimeFunction;
 use crate::math::{Interval, Regime, Scalar, Taylor};
@@ -54,7 +55,8 @@ impl<'a> Watch<'a> {
         self.seen = f64::NEG_INFINITY;
     }
 
-    /// The step from `t` that misses nothing, `h` or less, with cubics that show the functions but for this part; the functions are those of the regime up to `stop`.
+    /// The step from `t` that misses nothing, `h` or less, with cubics that show the functions but for this part; the
+    /// functions are those of the regime up to `stop`.
     pub fn resolved(&mut self, (t, h, stop): (f64, f64, f64), beside: f64, regime: Regime) -> f64 {
         if self.functions.is_empty() || t + h <= self.seen {
             return h;
@@ -85,8 +87,8 @@ impl Watched<'_> {
         Taylor { x: found.x, d: finite(found.d), dd: finite(found.dd) }
     }
 
-    /// From where on the window that starts at `t` does not show all of the function; none where it does, or where that is
-    /// not finite.
+    /// From where on the window that starts at `t` does not show all of the function; none where it does, or where that
+    /// is not finite.
     fn unseen(&mut self, regime: Regime, (t, window): (f64, f64), (shortest, beside): (f64, f64)) -> Option<f64> {
         let times = [0.0, 0.25, 0.5, 0.75, 1.0].map(|part| t + part * window);
         let nodes = times.map(|t| self.at(t, regime));

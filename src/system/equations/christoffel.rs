@@ -4,10 +4,10 @@ use super::Equations;
 use crate::math::Dual;
 use crate::system::{LeviCivita, OperatingPoint};
 
-/// A number with its rate along the motion, as a function of six coordinates.
+/// A number and its rate along the motion, differentiated with respect to six coordinates.
 type Rated = Dual<Dual<f64, 1>, 6>;
 
-/// W by its definition out of dM/dq with rates along the motion, six columns a pass.
+/// W by its definition, from dM/dq with rates along the motion, six columns per pass.
 pub(super) fn christoffel<E: Equations>(system: &E, at: OperatingPoint, connection: &mut LeviCivita) {
     let n = at.q.len();
     let rated = |value: f64, rate: f64| Dual { re: value, eps: [rate] };

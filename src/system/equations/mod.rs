@@ -1,4 +1,4 @@
-//! Own equations, written once over any scalar.
+//! Equations of a user, written once over any scalar.
 
 mod christoffel;
 mod passes;
@@ -46,7 +46,7 @@ pub trait Equations: Send + Sync + 'static {
     fn force<S: Scalar>(&self, t: S, q: &[S], v: &[S], f: &mut [S]);
     /// phi, n_c.
     fn phi<S: Scalar>(&self, t: S, q: &[S], phi: &mut [S]);
-    /// Potential energy, J, of forces that have one; with it the energy is watched.
+    /// Potential energy, J, of the forces that have one. Where it is given, the energy balance is reported.
     fn potential(&self, _t: f64, _q: &[f64]) -> Option<f64> {
         None
     }
@@ -54,7 +54,7 @@ pub trait Equations: Send + Sync + 'static {
     fn output_names(&self) -> Vec<String> {
         Vec::new()
     }
-    /// The outputs, one a name.
+    /// The outputs, in the order of their names.
     fn outputs<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], _out: &mut [S]) {}
     /// Names of the inputs, which change the forces. Default: none.
     fn input_names(&self) -> Vec<String> {

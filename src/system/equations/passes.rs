@@ -1,4 +1,4 @@
-//! Derivatives of own equations: they are evaluated over dual and Taylor numbers, six directions a pass.
+//! Derivatives of a user's equations by dual and Taylor numbers, six directions per pass.
 
 use super::Equations;
 use crate::math::{Dual, Taylor};
@@ -17,11 +17,11 @@ pub(super) struct Memory {
     slopes: Vec<Dual6>,
     moving: Vec<TaylorDual6>,
     curvatures: Vec<TaylorDual6>,
-    /// For K and C, from their first use.
+    /// Memory for K and C, made at their first use.
     pub varied: Option<SeededEquations>,
 }
 
-/// The equations as functions of six directions.
+/// The equations over dual numbers of six directions.
 pub(super) struct SeededEquations {
     q: Vec<Dual6>,
     v: Vec<Dual6>,
@@ -68,7 +68,7 @@ pub(super) fn fixed(values: &[f64]) -> Vec<Dual6> {
     values.iter().map(|&x| Dual::fixed(x)).collect()
 }
 
-/// d(outputs)/dx, six columns a pass.
+/// d(outputs)/dx, six columns per pass.
 pub(super) fn output_slopes(x: &[f64], outputs: impl Fn(&[Dual6], &mut [Dual6]), matrix: &mut DMatrix<f64>) {
     let mut values = vec![Dual::fixed(0.0); matrix.nrows()];
     for first in (0..x.len()).step_by(6) {
@@ -82,7 +82,7 @@ pub(super) fn output_slopes(x: &[f64], outputs: impl Fn(&[Dual6], &mut [Dual6]),
     }
 }
 
-/// phi, phi' and -gamma along q + v s; phi_t with q held.
+/// phi, phi' and -gamma along q + v s; phi_t at fixed q.
 pub(super) fn levels<E: Equations>(system: &E, t: f64, q: &[f64], v: &[f64], memory: &mut Memory, terms: &mut Terms) {
     for (i, place) in memory.path.iter_mut().enumerate() {
         *place = Taylor::new(q[i], 0.0, 0.0);
@@ -98,7 +98,7 @@ pub(super) fn levels<E: Equations>(system: &E, t: f64, q: &[f64], v: &[f64], mem
     }
 }
 
-/// G, six columns a pass.
+/// G, six columns per pass.
 pub(super) fn gradient<E: Equations>(system: &E, t: f64, q: &[f64], memory: &mut Memory, terms: &mut Terms) {
     let n = q.len();
     for first in (0..n).step_by(6) {
@@ -112,7 +112,7 @@ pub(super) fn gradient<E: Equations>(system: &E, t: f64, q: &[f64], memory: &mut
     }
 }
 
-/// d(phi, phi', phi'')/dq, six columns a pass; with v' = 0 where it is empty.
+/// d(phi, phi', phi'')/dq, six columns per pass; at v' = 0 where `at.vdot` is empty.
 pub(super) fn curvature<E: Equations>(
     system: &E,
     at: OperatingPoint,
@@ -133,7 +133,7 @@ pub(super) fn curvature<E: Equations>(
     }
 }
 
-/// K by nested dual numbers, C by dual numbers, six columns a pass.
+/// K by nested dual numbers, C by dual numbers, six columns per pass.
 pub(super) fn tangent_of<E: Equations>(
     system: &E,
     at: OperatingPoint,
