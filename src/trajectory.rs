@@ -3,18 +3,18 @@
 use crate::simulate::Observation;
 use crate::system::{Column, MechanicalSystem, Names, Scratch};
 
-/// Rows of t, q, v, lambda and outputs, in memory as they will stand in the file.
+/// Rows of t, q, v, lambda and outputs, as they will be written to a file.
 #[derive(Clone, Debug)]
 pub struct Trajectory {
     /// Names of q, v and lambda.
     pub names: Names,
     /// Names and units of the outputs.
     pub outputs: Vec<Column>,
-    /// One row an output time: t, q, v, lambda, outputs.
+    /// One row per output time: t, q, v, lambda, outputs.
     pub rows: Vec<Vec<f64>>,
 }
 
-/// An output outside what it is defined for.
+/// An output that is undefined at some rows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gap {
     /// Name of the output.
@@ -38,7 +38,7 @@ impl Trajectory {
         own.chain(self.outputs.iter().map(|output| output.name.as_str())).collect()
     }
 
-    /// Adds a row.
+    /// Appends a row with the outputs at a state.
     pub fn push(&mut self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) {
         let mut outputs = vec![0.0; self.outputs.len()];
         system.outputs(state.loaded(), &mut outputs, scratch);

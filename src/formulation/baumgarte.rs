@@ -10,7 +10,7 @@ use crate::method_spec::{MethodSpec, OptionDoc};
 /// ```
 ///
 /// Source: Baumgarte, Comput. Methods Appl. Mech. Eng. 1 (1972) 1-16. Critically damped for alpha = beta. Small gains
-/// do not hold the drift, large ones make the equations stiff (explicit methods need 2 alpha h and beta h of order
+/// do not bound the drift, large ones make the equations stiff (explicit methods need 2 alpha h and beta h of order
 /// one), and the best gains depend on the step and the method. Order in q, v, lambda: that of the integrator; cost as
 /// index 1.
 pub const ENTRY: Entry = Entry {

@@ -1,4 +1,4 @@
-//! The directions in which a mechanism is free to move, for matrices of a few hundred rows.
+//! Basis of the directions in which a mechanism is free to move, for matrices of a few hundred rows.
 
 use super::Dynamics;
 use crate::math::kkt::Pattern;

@@ -147,7 +147,7 @@ impl<'a> Dynamics<'a> {
         }
     }
 
-    /// Evaluates terms at a state.
+    /// Evaluates the terms `need` at a state.
     pub fn evaluate(&mut self, t: f64, q: &[f64], v: &[f64], need: Need) {
         self.system.evaluate(t, q, v, need, &mut self.terms, &mut self.scratch);
     }
@@ -159,16 +159,15 @@ impl<'a> Dynamics<'a> {
         factored.map_err(|singular| self.halt(singular))
     }
 
-    /// The same, truncated near singular states: see [`SaddlePoint::factor_truncated`].
+    /// Factors the matrix truncated near singular states: see [`SaddlePoint::factor_truncated`].
     pub fn factor_truncated(&mut self) -> Result<(), StepError> {
         self.statistics.factorizations += 1;
         let factored = self.kkt.factor_truncated(&self.terms.mass, &self.terms.g, self.rank_tolerance);
         factored.map_err(|singular| self.halt(singular))
     }
 
-    /// Rows of constraints that depend on the others at a state, which should be on the constraints; none where that
-    /// state has no solution. Then the norms of the part of gamma that no acceleration can meet, and of what makes it
-    /// up.
+    /// Dependent rows of G at a state, which should satisfy the constraints; none where that state has no solution.
+    /// Also the norms of the part of gamma that no acceleration can satisfy, and of the terms that it is made of.
     pub fn dependent_rows(&mut self, t: f64, q: &[f64], v: &[f64]) -> (Vec<usize>, (f64, f64)) {
         self.right_sides(t, q, v, |_, _| 0.0);
         let solved = match self.kkt.factor(&self.terms.mass, &self.terms.g) {
@@ -184,7 +183,7 @@ impl<'a> Dynamics<'a> {
         (rows, (self.kkt.inconsistency(), usual))
     }
 
-    /// The part of phi, over its scale, that no change of q takes away; none where no rows of G depend on others.
+    /// The part of phi, over its scale, that no change of q removes; `None` where the rows of G are independent.
     pub fn dependent_rows_open(&mut self, t: f64, q: &[f64], v: &[f64]) -> Option<f64> {
         self.evaluate(t, q, v, Need::DYNAMICS);
         self.vdot.fill(0.0);
@@ -203,18 +202,18 @@ impl<'a> Dynamics<'a> {
         }
     }
 
-    /// Drops the rows, and takes the pieces of functions, that another one does.
+    /// Takes over the dropped rows and the pieces of functions of another one.
     pub fn follow(&mut self, other: &Dynamics) {
         self.drop_rows(&other.dropped);
         self.scratch.pieces.clone_from(&other.scratch.pieces);
     }
 
-    /// Settles the reference values of the rank indicators.
+    /// Sets the reference values of the rank indicators.
     pub fn refer_to(&mut self, saddle: f64, dense: f64) {
         (self.kkt.rank_reference, self.dense_reference) = (saddle, dense);
     }
 
-    /// Why the terms have no solution, with names.
+    /// The reason why the terms have no solution, with names.
     pub(super) fn halt(&self, singular: Singular) -> StepError {
         match singular {
             Singular::Undetermined { coordinate } => StepError::Undetermined(self.coordinate(coordinate)),
@@ -242,7 +241,7 @@ impl<'a> Dynamics<'a> {
         Some(format!("the constraint of `{}`", self.system.names().lambda.get(row)?))
     }
 
-    /// v' and lambda at a state: phi'' = `acceleration_level` of phi and phi', which is zero for the plain equations.
+    /// v' and lambda at a state with phi'' = `acceleration_level`(phi, phi'), which is zero for the plain equations.
     pub fn solve(
         &mut self,
         t: f64,
@@ -255,7 +254,7 @@ impl<'a> Dynamics<'a> {
         self.solve_factored()
     }
 
-    /// The same for the plain equations at another velocity of the state whose matrix is factored.
+    /// v' and lambda of the plain equations at another velocity of the state whose matrix is factored.
     pub fn solve_at_velocity(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), StepError> {
         self.right_sides(t, q, v, |_, _| 0.0);
         self.solve_factored()
@@ -271,7 +270,7 @@ impl<'a> Dynamics<'a> {
         self.finite()
     }
 
-    /// Evaluates the terms at a state and leaves f in `vdot`, gamma + `acceleration_level` in `lambda`.
+    /// Evaluates the terms at a state and writes f to `vdot`, gamma + `acceleration_level` to `lambda`.
     pub fn right_sides(&mut self, t: f64, q: &[f64], v: &[f64], acceleration_level: impl Fn(f64, f64) -> f64) {
         self.statistics.rhs_evaluations += 1;
         self.evaluate(t, q, v, Need::DYNAMICS);
@@ -281,7 +280,7 @@ impl<'a> Dynamics<'a> {
         }
     }
 
-    /// Halts where v' or lambda is infinite or not a number.
+    /// An error if v' or lambda is infinite or not a number.
     pub fn finite(&self) -> Result<(), StepError> {
         match self.vdot.iter().chain(&self.lambda).all(|x| x.is_finite()) {
             true => Ok(()),
@@ -289,7 +288,7 @@ impl<'a> Dynamics<'a> {
         }
     }
 
-    /// Power that does not come from potentials: forces without one, and moving constraints, W.
+    /// Power of the forces without a potential and of moving constraints, lambda^T phi_t, W.
     pub fn power(&self) -> f64 {
         self.terms.power + self.lambda.iter().zip(&self.terms.phi_t).map(|(l, p)| l * p).sum::<f64>()
     }

@@ -10,10 +10,11 @@ use crate::method_spec::OptionDoc;
 /// ```
 ///
 /// The forces are projected on the motions that the constraints allow, and the state is pulled back on both levels:
-/// with y = G v + phi_t, phi' = y - p phi and y' = -r y - p L d, where L = dy/dq and d, the correction of phi, is small
-/// as phi is. The same field as `invariant_manifold` with F = S-both, with a rate for each level. Source: Masarati,
-/// Proc. Inst. Mech. Eng. K 225 (2011) 12-33. Order in q, v, lambda: that of the integrator; an explicit one needs p h
-/// and r h of order one. lambda is that of index 1. Cost of index 1 and two back-substitutions a stage.
+/// with y = G v + phi_t, phi' = y - p phi and y' = -r y - p L d, where L = dy/dq and d, the correction of phi, is of
+/// the order of phi. The same field as `invariant_manifold` with F = S-both, with a rate for each level. Source:
+/// Masarati, Proc. Inst. Mech. Eng. K 225 (2011) 12-33. Order in q, v, lambda: that of the integrator; an explicit one
+/// needs p h and r h of order one. lambda is that of index 1. Cost: that of index 1 and two back-substitutions per
+/// stage.
 pub const ENTRY: Entry = Entry {
     name: "force_projection",
     about: "forces projected by P, phi and phi' pulled back at rates of their own",

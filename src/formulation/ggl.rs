@@ -7,9 +7,9 @@ use super::{Dae, Entry, Row};
 /// ```
 ///
 /// Source: Gear, Gupta, Leimkuhler, J. Comput. Appl. Math. 12 (1985) 77-90, with G^T mu weighted by M^-1 so that unlike
-/// units do not meet; radau_iia takes M + S there, with S = h^2 K_ii of what is stiff. mu = 0 for the exact motion.
-/// Index 2, for integrators that solve it: both constraints hold at every step as far as their iteration goes, and in
-/// rows between steps to round-off, by a projection.
+/// units are not added; radau_iia uses M + S there, with S = h^2 K_ii for stiff coordinates. mu = 0 for the exact
+/// motion. Index 2, for integrators that solve it: both constraints are satisfied at every step to the tolerance of the
+/// iteration, and in output rows between steps to round-off, by a projection.
 pub const ENTRY: Entry = Entry {
     name: "ggl",
     about: "phi = 0 and G v + phi_t = 0 together, stabilized index 2, for integrators that solve both",

@@ -9,8 +9,8 @@ use crate::tolerances::math::TRUNCATED_RANK;
 /// q' = N v,   [M G^T; G 0] [v'; lambda] = [f; gamma]
 /// ```
 ///
-/// The underlying ODE. phi'' = 0 is kept, so an error eps of phi grows like eps (1 + t): use it with a projection.
-/// Order in q, v and lambda: that of the integrator. One evaluation, factorization and solution a stage.
+/// The underlying ODE. It preserves phi'' = 0 only, so an error eps of phi grows like eps (1 + t): use it with a
+/// projection. Order in q, v and lambda: that of the integrator. One evaluation, factorization and solution per stage.
 pub const ENTRY: Entry = Entry {
     name: "index1",
     about: "phi'' = 0, lambda eliminated; drifts unless projected",
@@ -19,7 +19,7 @@ pub const ENTRY: Entry = Entry {
     field: Some(|spec, _| Ok(Box::new(Index1 { rank_tolerance: rank_tolerance(spec)? }))),
 };
 
-/// Constraints nearer than this to depending on others are dropped from v' and lambda.
+/// Option of the rank indicator below which constraints are dropped as dependent when v' and lambda are solved for.
 pub(super) const RANK: OptionDoc = OptionDoc {
     name: "rank_tolerance",
     about: "part of the reference value of the rank indicator below which constraints count as dependent (default 1e-4; 0 for the plain equations)",

@@ -6,8 +6,8 @@ use super::{Dae, Entry, Row};
 /// q' = N v,   M v' + G^T lambda = f,   G v + phi_t = 0
 /// ```
 ///
-/// For integrators that discretize the constraint itself: it holds at every step to round-off, while an error eps of
-/// phi stays eps.
+/// For integrators that discretize the constraint itself: it is satisfied at every step to round-off, while an error
+/// eps of phi stays eps.
 pub const ENTRY: Entry = Entry {
     name: "index2",
     about: "G v + phi_t = 0 itself, for integrators that solve it; phi drifts as h^p",

@@ -6,7 +6,7 @@ use super::{Dae, Entry, Row};
 /// q' = N v,   M v' + G^T lambda = f,   phi = 0
 /// ```
 ///
-/// For integrators that discretize the constraint itself: it holds at every step to round-off.
+/// For integrators that discretize the constraint itself: it is satisfied at every step to round-off.
 pub const ENTRY: Entry = Entry {
     name: "index3",
     about: "phi = 0 itself, for integrators that solve it",

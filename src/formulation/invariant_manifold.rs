@@ -31,7 +31,7 @@ pub const ENTRY: Entry = Entry {
 };
 
 pub(super) struct InvariantManifold {
-    /// Rates of attraction by which the position and the velocity part of F h count, 1/s.
+    /// Rates of attraction of the position and the velocity part of F h, 1/s.
     gains: [f64; 2],
     stabilizer: Stabilizer,
     rate: Vec<f64>,

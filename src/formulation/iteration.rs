@@ -1,4 +1,4 @@
-//! The matrices with which implicit methods solve their equations.
+//! The Newton matrices of implicit methods.
 
 use super::linearized::Linearized;
 use super::{Dae, Dynamics, Residual, Row, StepError};
@@ -26,19 +26,22 @@ pub struct Slopes<T> {
 ///
 /// ```text
 /// [ M + s_v C + s_q K   G^T ] [ da      ]   [ f - M a - G^T lambda ]
-/// [ G + (l/g) L         0   ] [ dlambda ] = [ -(row of lambda)/g   ]    g = c_0 s_q + c_1 s_v + c_2,  l = c_1 s_q + 2 c_2 s_v
+/// [ G + (l/g) L         0   ] [ dlambda ] = [ -(row of lambda)/g   ]
+///
+/// g = c_0 s_q + c_1 s_v + c_2,   l = c_1 s_q + 2 c_2 s_v
 /// ```
 ///
-/// less what the shifts dw and du change there, which come before it from the rows of eta and mu with G da as the row
-/// of lambda asks for it:
+/// minus the effect of the shifts dw and du on these rows. The shifts are solved for first, from the rows of eta and mu
+/// with the G da that the row of lambda prescribes:
 ///
 /// ```text
 /// [ M  G^T ] [ dw   ]   [ -M w - G^T eta                   ]
 /// [ G  0   ] [ deta ] = [ -(row of eta + its g G da) / ... ]    and du likewise, with the M of [`Linearized::weigh`]
 /// ```
 ///
-/// The rows are of the size of accelerations however small the step. Of phi'', its change with q by h^2 is left out.
-/// Source: Hairer, Wanner, Solving Ordinary Differential Equations II, IV.8, with the second-order structure used.
+/// The rows have the size of accelerations for any step h. The derivative of phi'' with respect to q by h^2 is
+/// neglected. Source: Hairer, Wanner, Solving Ordinary Differential Equations II, IV.8, with the second-order structure
+/// used.
 pub struct Iteration<T> {
     /// The matrix above with its factors.
     pub matrix: Unsymmetric<T>,
@@ -114,7 +117,7 @@ impl Number for c64 {
     }
 }
 
-/// What multiplies G and L in the change of a row by a, w and u.
+/// Factors of G and L in the change of a row by a, w and u.
 #[derive(Clone, Copy)]
 struct RowSlope<T> {
     a: [T; 2],
@@ -133,7 +136,7 @@ impl<T: Number> RowSlope<T> {
     }
 }
 
-/// The slopes of the rows of all multipliers, of holonomic constraints and of the others behind them.
+/// The slopes of the rows of all multipliers, for holonomic constraints first, then for nonholonomic ones.
 struct RowSlopes<T> {
     dae: Dae,
     holonomic: usize,
@@ -160,7 +163,7 @@ impl<T: Number> RowSlopes<T> {
 }
 
 impl<T: Number> Iteration<T> {
-    /// None where there is not enough memory.
+    /// Memory for `dae` on a system; `None` if there is not enough.
     pub fn new(dae: Dae, system: &dyn MechanicalSystem) -> Option<Self> {
         let (n, structure) = (system.dimensions(), system.structure());
         let zeros = |n: usize| vec![T::ZERO; n];
@@ -177,7 +180,7 @@ impl<T: Number> Iteration<T> {
         })
     }
 
-    /// The matrix for these slopes. One factorization.
+    /// Factors the matrix for these slopes. One factorization.
     ///
     /// # Errors
     /// A singular matrix.
@@ -198,13 +201,13 @@ impl<T: Number> Iteration<T> {
         self.matrix.factor(&structure.g, &at.g)
     }
 
-    /// Takes these slopes for the rows, and for the rest those that the matrix is factored for: they should be near.
+    /// Uses these slopes for the rows, and the present factors for the matrix, whose slopes should be near.
     pub fn rescale(&mut self, slopes: Slopes<T>) {
         self.rows = RowSlopes::new(self.rows.dae, self.rows.holonomic, &slopes);
         self.slopes = slopes;
     }
 
-    /// Takes the sum of weighted residuals for the next [`solve`](Self::solve).
+    /// Sets the right side of the next [`solve`](Self::solve) to a weighted sum of residuals.
     pub fn load<'r>(&mut self, residuals: impl Iterator<Item = (T, &'r Residual)>) {
         let Change { a, lambda, w, eta, u, mu } = &mut self.change;
         [&mut *a, lambda, w, eta, u, mu].into_iter().for_each(|sum| sum.fill(T::ZERO));
@@ -217,8 +220,8 @@ impl<T: Number> Iteration<T> {
         }
     }
 
-    /// Turns the residual into the changes of the unknowns, in `change`. One back-substitution, and for each shift one
-    /// of its own matrix (two where numbers are complex).
+    /// Solves for the changes of the unknowns, in `change`, which contains the residual on entry. One
+    /// back-substitution, and for each shift one of its own matrix (two for complex numbers).
     pub fn solve(&mut self, at: &mut Linearized, structure: &Structure) -> Result<(), StepError> {
         let Iteration { matrix, rows, slopes, change, part, moved: [gw, gu] } = self;
         let Change { a, lambda, w, u, eta, mu } = change;
@@ -250,7 +253,7 @@ impl<T: Number> Iteration<T> {
 }
 
 impl<T: Number> RowSlopes<T> {
-    /// lambda -= (g G x + l L x)/g_a, with G x in `gx`: what a shift changes in the rows of lambda.
+    /// lambda -= (g G x + l L x)/g_a, with G x in `gx`: the effect of a shift x on the rows of lambda.
     fn subtract(
         &self,
         pattern: &Pattern,
@@ -271,7 +274,7 @@ impl<T: Number> RowSlopes<T> {
     }
 }
 
-/// [M G^T; G 0] (x, multipliers) = (x, multipliers), in place, a real part at a time.
+/// Solves [M G^T; G 0] (x, multipliers) = (x, multipliers) in place, the real and imaginary parts in turn.
 fn shift<T: Number>(
     solver: &mut Option<SaddlePoint>,
     x: &mut [T],
@@ -308,8 +311,8 @@ impl Iteration<f64> {
     /// 0 = c_0 G e_x + c_1 (L e_x + G e_v) + c_2 (2 L e_v + G (e_v - raw_v)/tau)
     /// ```
     ///
-    /// Source: Hairer, Wanner II, (8.20), by the row of lambda. What phi = 0 alone determines of v has index 2, and its
-    /// error is weighted by the step `h`.
+    /// Source: Hairer, Wanner II, (8.20), with the row of lambda. The part of v that phi = 0 alone determines has index
+    /// 2, and its error is weighted by the step `h`.
     pub fn damp(
         &mut self,
         at: &Linearized,

@@ -1,16 +1,16 @@
-//! What implicit methods linearize about.
+//! The state about which implicit methods linearize, with its matrices.
 
 use super::{Dae, Dynamics, StepError};
 use crate::math::kkt::{Pattern, SaddlePoint, Singular};
 use crate::system::{MechanicalSystem, Need, OperatingPoint, Tangent};
 
-/// Why an implicit method has no matrix.
+/// Error of an implicit method on equations without K and C.
 pub const NO_TANGENT: StepError = StepError::Unsuitable {
     reason: "implicit methods need K and C, which these equations do not give",
     hint: "implement MechanicalSystem::tangent, or use a method that needs none, such as phem56 with index2",
 };
 
-/// M, G, L, K and C at one state, with the factors of [M + S  G^T; G  0] where shifts are solved for.
+/// M, G, L, K and C at one state, with the factors of [M + S  G^T; G  0] for the equations of the shifts.
 pub struct Linearized {
     pub(super) dae: Dae,
     pub(super) mass: Vec<f64>,
@@ -46,12 +46,12 @@ impl Linearized {
         }
     }
 
-    /// t, q, v, v' and lambda of the state, from which [`recall`](Self::recall) takes them again.
+    /// t, q, v, v' and lambda of the state, from which [`recall`](Self::recall) evaluates the matrices again.
     pub fn point(&self) -> &[f64] {
         &self.point
     }
 
-    /// Takes them at the state of a [`point`](Self::point), which was counted before.
+    /// Evaluates the matrices at the state of a [`point`](Self::point) without counting the work.
     ///
     /// # Errors
     /// As [`update`](Self::update).
@@ -68,7 +68,7 @@ impl Linearized {
         Ok(())
     }
 
-    /// Takes them at a state. One evaluation of K and C.
+    /// Evaluates the matrices at a state. One evaluation of K and C.
     ///
     /// # Errors
     /// [`NO_TANGENT`].
@@ -89,12 +89,12 @@ impl Linearized {
         Ok(())
     }
 
-    /// S of the last [`weigh`](Self::weigh), n_v
+    /// S of the last [`weigh`](Self::weigh), n_v.
     pub fn stiffness(&self) -> &[f64] {
         &self.metric.stiffness
     }
 
-    /// Takes M + S for the metric of the shifts of a step with s = dq/da; M alone where velocities are shifted, too.
+    /// Sets the metric of the shifts to M + S for a step with s = dq/da; to M where velocities are shifted, too.
     /// One factorization.
     ///
     /// # Errors
@@ -112,14 +112,14 @@ impl Linearized {
     }
 }
 
-/// M + S with S_i = s K_ii of the coordinates with s K_ii > M_ii, else 0. By M alone the light and stiff ones would
-/// move most, and ring ever after. M + s K would move all as forces of the constraints do within the step, but K has
-/// reactions in it, too, of either sign.
+/// M + S with S_i = s K_ii of the coordinates with s K_ii > M_ii, else 0. With M alone the light and stiff ones would
+/// be shifted most, and oscillate from then on. M + s K would shift all as constraint forces do within the step, but K
+/// contains reactions, too, of either sign.
 struct Metric {
-    /// That of M with the diagonal behind it.
+    /// The pattern of M, followed by the diagonal.
     pattern: Pattern,
     values: Vec<f64>,
-    /// Coordinates with mass; states are none.
+    /// Coordinates with mass, without states xi.
     diagonal: Vec<usize>,
     moving: usize,
     masses: Vec<f64>,

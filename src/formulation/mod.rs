@@ -1,4 +1,4 @@
-//! What is integrated: ways to turn the constrained equations into something an integrator can step.
+//! Formulations: forms of the constrained equations that an integrator can step.
 //!
 //! To add one: a file with an [`Entry`], and a line in [`registry`]; from outside the crate, an [`Entry`] and its
 //! [`spec`](Listed::spec), as in `tests/examples/own_formulation.rs`.
@@ -54,7 +54,7 @@ use crate::system::MechanicalSystem;
 
 /// A vector field (q', v') = F(t, q, v) whose solutions are the motions of the mechanism.
 pub trait Formulation: Send {
-    /// Writes q' and v'; leaves v' of the equations of motion and lambda in `dynamics`.
+    /// Writes q' and v', and v' and lambda of the equations of motion to `dynamics`.
     fn derivative(
         &mut self,
         t: f64,
@@ -65,35 +65,36 @@ pub trait Formulation: Send {
         vdot: &mut [f64],
     ) -> Result<(), StepError>;
 
-    /// Settles by the first state of a run what holds in all of it.
+    /// Sets, from the first state of a run, the constants that the formulation uses in all of it.
     fn settle(&mut self, _t: f64, _q: &[f64], _v: &[f64], _dynamics: &mut Dynamics) {}
 
-    /// What is settled, as numbers that [`Self::recall`] takes.
+    /// These constants as numbers, for [`Self::recall`].
     fn settled(&self) -> Vec<f64> {
         Vec::new()
     }
 
-    /// Settles what was settled before.
+    /// Restores the constants from [`Self::settled`].
     fn recall(&mut self, _settled: &[f64]) {}
 
-    /// A step begins at a state of the motion: what follows are states within that step, until it ends.
+    /// Announces a step that begins at a state of the motion: all states that follow are within the step, until it
+    /// ends.
     fn begin_step(&mut self, _t: f64, _q: &[f64], _v: &[f64], _dynamics: &mut Dynamics) -> Result<(), StepError> {
         Ok(())
     }
 
-    /// Whether the end of a step is on the constraints without a projection.
+    /// True if the end of a step satisfies the constraints without a projection.
     fn keeps_constraints(&self) -> bool {
         false
     }
 
-    /// The step ends, or is left for a row of output, at what the integrator made of (q, v): writes the state of the
-    /// motion that this stands for.
+    /// Replaces (q, v), as computed by the integrator at the end of a step or for an output row, by the state of the
+    /// motion that it represents.
     fn end_step(&mut self, _t: f64, _q: &mut [f64], _v: &mut [f64], _dynamics: &mut Dynamics) -> Result<(), StepError> {
         Ok(())
     }
 }
 
-/// What to take where a dense formulation is too large.
+/// Hint for systems that are too large for a dense formulation.
 const SPARSE: &str = "choose a sparse formulation, such as index1 with the projection manifold";
 
 /// One formulation as the command line, the scene format and the table of methods know it.
@@ -156,7 +157,7 @@ pub fn named(name: &str) -> Option<&'static Entry> {
     registry().iter().find(|entry| entry.name == name)
 }
 
-/// The entry that `spec` stands for, with whatever options.
+/// The entry that `spec` names, whatever its options.
 #[doc(hidden)]
 pub fn lookup(spec: &MethodSpec) -> Option<&'static Entry> {
     spec.lookup(registry())
@@ -171,9 +172,9 @@ pub fn dae(spec: &MethodSpec) -> Result<Option<Dae>> {
     lookup(spec).and_then(|entry| entry.dae).map(|dae| dae(spec)).transpose()
 }
 
-/// The vector field of the formulation that `spec` names, for `system`. Where the constraints themselves are solved, it
-/// is the one that observes: v' and lambda are those of the equations of motion at (q, v), and so of the order of q and
-/// v.
+/// The vector field of the formulation that `spec` names, for `system`. For a formulation that solves the constraints
+/// themselves it serves observation only: v' and lambda are those of the equations of motion at (q, v), and so of the
+/// order of q and v.
 pub fn make(spec: &MethodSpec, system: &dyn MechanicalSystem) -> Result<Box<dyn Formulation>> {
     spec.entry(registry())?.field.unwrap_or(|_, _| Ok(Box::new(index1::Index1::default())))(spec, system)
 }

@@ -19,18 +19,19 @@ use crate::tolerances::initial as tolerances;
 ///
 /// The first line is a chart of the manifold: c by Newton's method, d from one linear system. The second, from a
 /// pivoted QR of G^T at the state itself, gives u'' = the part of v' along Z. So 2 (n - m) states are integrated, and
-/// the constraints hold to round-off on both levels at every stage and every step, with no projection. Source: Potra,
-/// Rheinboldt, Mech. Struct. Mach. 19 (1991) 1-18; Kim, Vanderploeg, J. Mech. Transm. Autom. Des. 108 (1986) 183-188.
+/// the constraints are satisfied to round-off on both levels at every stage and step without a projection. Source:
+/// Potra, Rheinboldt, Mech. Struct. Mach. 19 (1991) 1-18; Kim, Vanderploeg, J. Mech. Transm. Autom. Des. 108 (1986)
+/// 183-188.
 ///
 /// An integrator sees (q, v) and (q', v') in all n directions. Since c and d follow from u, u' and t, the chart ignores
-/// what it makes of the parts along Y; these, of the method's order too, are the guess of Newton's method. Every
-/// accepted step has a base of its own, whose QR is a small part of the work of the stages, so that a chart is never
-/// used far from its base; slopes at the end of a step are those at the start of the next. A step within which Newton's
-/// method does not converge is too long for its chart, and refused. With quaternions, q' = N v, the chart is not
-/// affine: q = (q_b + N Z u)/|.|, then corrections N Y c; all else holds.
+/// the parts along Y that the integrator computes; these, of the method's order too, are the guess of Newton's method.
+/// Every accepted step has a base of its own, whose QR is a small part of the work of the stages, so that a chart is
+/// never used far from its base; slopes at the end of a step are those at the start of the next. A step within which
+/// Newton's method does not converge is too long for its chart, and rejected. With quaternions, q' = N v, the chart is
+/// not affine: q = (q_b + N Z u)/|.|, then corrections N Y c; all else is the same.
 ///
 /// G may be rank deficient: lambda is then the one of least norm. Order in q, v, lambda: that of the integrator. Dense,
-/// about 3 n m^2 + 4 n^2 (n - m) + 3 m^3 operations a stage, and some three evaluations of phi and G: for small
+/// about 3 n m^2 + 4 n^2 (n - m) + 3 m^3 operations per stage, and about three evaluations of phi and G: for small
 /// systems.
 pub const ENTRY: Entry = Entry {
     name: "null_space",
@@ -45,27 +46,27 @@ pub const ENTRY: Entry = Entry {
     }),
 };
 
-/// G^T, Z^T M Z and the three matrices of the chart, for the steps and for the rows of output.
+/// Number of matrices: G^T, Z^T M Z and three of the chart, for the steps and again for output rows.
 const COPIES: f64 = 10.0;
 
 struct TangentSpace {
     field: Dense<Reduced>,
     chart: Chart,
-    /// Whether states are within a step, and so of the chart; others stand for themselves.
+    /// True while states belong to a step, and so to the chart; other states are used as they are.
     is_within: bool,
-    /// t, q and the pieces of functions of the base.
+    /// t, q and the pieces of functions at the base.
     base: (f64, Vec<f64>, Vec<Piece>),
-    /// The state on the manifold.
+    /// The state on the manifold, q and v.
     q: Vec<f64>,
     v: Vec<f64>,
-    /// A correction, along v and as a change of q; G v + phi_t.
+    /// A correction along v, the same as a change of q, and G v + phi_t.
     step: Vec<f64>,
     rate: Vec<f64>,
     rows: Vec<f64>,
 }
 
-/// Changes in parts of the largest component: they halve at least until round-off, or else the state is not in the
-/// chart, or on another branch of the constraints.
+/// Limits on changes relative to the largest component: they halve at least until round-off, or else the state is not
+/// in the chart, or on another branch of the constraints.
 const LIMITS: Limits = Limits {
     round_off: f64::EPSILON,
     stagnation: tolerances::CHART_STAGNATION,
@@ -99,7 +100,7 @@ impl TangentSpace {
         self.lift_velocity(dynamics)
     }
 
-    /// Newton's method, by the matrix of the guess while that does.
+    /// Newton's method with the matrix of the guess, which is renewed where that converges too slowly.
     fn lift_position(&mut self, t: f64, dynamics: &mut Dynamics) -> Result<(), StepError> {
         let mut is_factored = false;
         converge(|renews| {
@@ -115,7 +116,7 @@ impl TangentSpace {
         })
     }
 
-    /// The matrix is that of a position close by, which a few iterations make up for.
+    /// Solves for d with the matrix of a nearby position, by a few iterations.
     fn lift_velocity(&mut self, dynamics: &Dynamics) -> Result<(), StepError> {
         converge(|_| {
             self.rows.copy_from_slice(&dynamics.terms.phi_t);

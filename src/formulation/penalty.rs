@@ -10,15 +10,15 @@ use crate::system::{MechanicalSystem, Need, Structure, Terms};
 /// (M + G^T a G) v' = f + G^T a c,   c = gamma - 2 xi omega phi' - omega^2 phi,   lambda = a (G v' - c)
 /// ```
 ///
-/// with a = penalty / mean over the rows of (G diag(M)^-1 G^T)_jj, settled at the state where a run starts, so that the
-/// field is smooth. (The whole M^-1 would cost a solution a row.) Source: Bayo, Garcia de Jalon, Serna, Comput. Methods
-/// Appl. Mech. Eng. 71 (1988) 183-195. Error of v' and lambda against `baumgarte:alpha=xi omega,beta=omega`:
-/// O(1/penalty), whatever the step. Order in q, v, lambda: that of the integrator, to the motion that the penalty
-/// leaves.
+/// with a = penalty / mean over the rows of (G diag(M)^-1 G^T)_jj, fixed at the state where a run starts, so that the
+/// field is smooth. (The whole M^-1 would cost one solution per row.) Source: Bayo, Garcia de Jalon, Serna, Comput.
+/// Methods Appl. Mech. Eng. 71 (1988) 183-195. Error of v' and lambda against `baumgarte:alpha=xi omega,beta=omega`:
+/// O(1/penalty), whatever the step. Order in q, v, lambda: that of the integrator, to the motion of the penalty
+/// equations.
 ///
-/// G may be rank deficient, by redundant rows or at a singular position: the matrix stays regular. There, what the
-/// redundant rows contradict each other by is multiplied by a in lambda (1e-9 of the reactions with the default). Cost:
-/// solved as a saddle-point system with a slack a row, which has no M + G^T a G to be ill-conditioned; about that of
+/// G may be rank deficient, by redundant rows or at a singular position: the matrix stays regular. There, the
+/// contradiction of redundant rows is multiplied by a in lambda (1e-9 of the reactions with the default). Cost: solved
+/// as a saddle-point system with a slack for each row, which contains no ill-conditioned M + G^T a G; about that of
 /// index 1. The rank of G is not reported. An adaptive integrator with a projection takes very small steps where the
 /// tolerance is below the error of the penalty, since each step leaves the manifold by that: raise the penalty.
 pub const ENTRY: Entry = Entry {
@@ -38,7 +38,7 @@ pub const OMEGA: OptionDoc =
 /// Option `xi` of penalty and augmented-Lagrangian formulations.
 pub const XI: OptionDoc = OptionDoc { name: "xi", about: "damping ratio of phi (default 1)" };
 
-/// With a slack s = (lambda_i - lambda)/a, `iterations` times from lambda_0 = 0,
+/// Saddle-point form with a slack s = (lambda_i - lambda)/a, solved `iterations` times from lambda_0 = 0:
 ///
 /// ```text
 /// [ M  0  G^T ] [ v'     ]   [ f        ]
@@ -50,7 +50,7 @@ pub(super) struct Penalty {
     penalty: f64,
     omega: f64,
     xi: f64,
-    /// a of the run; outside of one that of the state at hand.
+    /// a of the run; before it is fixed, that of each state.
     weight: Option<f64>,
     kkt: SaddlePoint,
     mass: Vec<f64>,

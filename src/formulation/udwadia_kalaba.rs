@@ -36,5 +36,5 @@ pub const ENTRY: Entry = Entry {
     }),
 };
 
-/// M, G and the parts of the decomposition with its scratch, for the steps and for the rows of output.
+/// Number of matrices: M, G and the decomposition with its scratch, for the steps and again for output rows.
 const COPIES: f64 = 14.0;

@@ -1,4 +1,4 @@
-//! From a state to one beside it, on the same branch.
+//! Continuation of an assembled state to a nearby one on the same branch.
 
 use super::position::step;
 use super::{Metric, holds};
@@ -8,21 +8,21 @@ use crate::math::newton::{Limits, Monitor};
 use crate::system::MechanicalSystem;
 use crate::tolerances::initial as tolerances;
 
-/// Positions on the constraints.
+/// Positions that satisfy the constraints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Followed {
     /// Coordinates, n_q.
     pub q: Vec<f64>,
-    /// How near the constraints and what is held are to losing rank: 0 at a singular state.
+    /// Rank indicator of the constraints with the held directions: 0 at a singular state.
     pub rank_indicator: f64,
     /// Constraints that depend on the others.
     pub dependent: Vec<usize>,
 }
 
-/// Newton's method, in parts of 1 m or rad and the largest coordinate, to round-off, also near a singular state. Where
-/// its changes contract so from the second on, there is one solution around the guess, and it is the continuation of
-/// the state from which the guess was taken; other solutions are attracted to less steeply (P. Deuflhard, Newton
-/// Methods for Nonlinear Problems, 2011, section 5.1).
+/// Limits of Newton's method, relative to 1 m or rad or the largest coordinate, to round-off, also near a singular
+/// state. Where its changes contract at this rate from the second on, there is one solution around the guess, and it is
+/// the continuation of the state from which the guess was taken; convergence to other solutions is slower (P.
+/// Deuflhard, Newton Methods for Nonlinear Problems, 2011, section 5.1).
 const LIMITS: Limits = Limits {
     most: tolerances::FOLLOWING_ITERATIONS,
     round_off: tolerances::FOLLOWED,
@@ -30,8 +30,8 @@ const LIMITS: Limits = Limits {
     ..Limits::NONE
 };
 
-/// Closes the joints from a guess near by; `None` where Newton's method does not contract from its first step on, so
-/// that it may lead to another branch or nowhere. Rows named in `dependent` are left out and checked at the end.
+/// Closes the joints from a nearby guess; `None` where Newton's method does not contract from its first step on, so
+/// that it may lead to another branch or nowhere. Rows named in `dependent` are dropped and checked at the end.
 ///
 /// # Errors
 /// Constraints that are infinite at the guess or on the way, names in `hold` that do not exist.
@@ -58,7 +58,7 @@ pub fn follow(
     if contracts { end(metric, t, q, &still) } else { Ok(None) }
 }
 
-/// What is known of a state, if all its joints are closed.
+/// Rank indicator and dependent rows of a state; `None` if a joint is open.
 fn end(mut metric: Metric, t: f64, q: Vec<f64>, still: &[f64]) -> Result<Option<Followed>> {
     metric.at(t, &q, still)?;
     if metric.worst(&metric.terms.phi) > tolerances::CLOSED {
@@ -66,7 +66,7 @@ fn end(mut metric: Metric, t: f64, q: Vec<f64>, still: &[f64]) -> Result<Option<
     }
     let rows = metric.kkt.left_out().iter().copied();
     let dependent: Vec<usize> = rows.filter(|row| *row < metric.terms.phi.len()).collect();
-    // How near the others are.
+    // The rank indicator of the other rows.
     metric.kkt.drop_rows(&dependent);
     metric.at(t, &q, still)?;
     Ok(Some(Followed { q, rank_indicator: metric.kkt.rank_indicator(), dependent }))

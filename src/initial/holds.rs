@@ -1,4 +1,4 @@
-//! The directions of motion that assembly must leave alone.
+//! The directions of motion that assembly must not change.
 
 use crate::error::{Error, Result, suggest};
 use crate::system::MechanicalSystem;

@@ -19,8 +19,8 @@ use crate::math::largest_in;
 use crate::system::{MechanicalSystem, Need, Scratch, Terms};
 use crate::tolerances::initial as tolerances;
 
-/// Makes a guess consistent at time `t`, moving least in the mass metric and keeping what `hold` names. Flexible bodies
-/// in floating frames resist deformation with their stiffness besides.
+/// Makes a guess consistent at time `t` by the least change in the mass metric that keeps the coordinates named by
+/// `hold`. Flexible bodies in floating frames add their stiffness to the metric.
 ///
 /// # Errors
 /// Bad input: a name in `hold` that does not exist, joints that cannot all be closed, velocities that contradict the
@@ -39,7 +39,7 @@ pub fn assemble(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64]),
     Ok(Assembly { q: assembled, v: rates, vdot: dynamics.vdot, lambda: dynamics.lambda, before, after, moves })
 }
 
-/// The start is consistent, but has no acceleration.
+/// Error for a start that is consistent, but has no acceleration.
 fn stuck(halt: &StepError) -> Error {
     let error = Error::input(format!("at the start, {halt}"));
     match halt {
@@ -89,7 +89,7 @@ impl<'a> Metric<'a> {
         }
     }
 
-    /// Evaluates and factors at a state.
+    /// Evaluates the terms and factors the matrix at a state.
     fn at(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<()> {
         let need = Need::MASS | Need::CONSTRAINTS | Need::G;
         self.system.evaluate(t, q, v, need, &mut self.terms, &mut self.scratch);
@@ -116,7 +116,7 @@ impl<'a> Metric<'a> {
     /// The first constraint that is not finite, or whose rate or gradient is not.
     fn infinite_row(&self) -> Option<usize> {
         let Terms { phi, phi_dot, g, .. } = &self.terms;
-        // At the edge of a root a slope is huge and not infinite.
+        // At the branch point of a root a derivative is huge, not infinite.
         let position = |values: &[f64]| values.iter().position(|x| x.is_nan() || x.abs() >= 1e150);
         position(phi).or_else(|| position(phi_dot)).or_else(|| Some(self.rows.entries[position(g)?].0))
     }

@@ -5,8 +5,8 @@ use crate::error::{Error, Result, short};
 use crate::tolerances::initial as tolerances;
 
 /// Sequential quadratic programming: [W G^T; G 0] [d; .] = [-W (q - q_0); -phi]. The first part pulls back towards the
-/// guess within the tangent space, the second is Newton's step; where the pull does not help, Newton's step alone is
-/// taken, halved until the residual falls.
+/// guess within the tangent space, the second is Newton's step; where the first part does not help, Newton's step alone
+/// is taken, halved until the residual falls.
 pub fn close(metric: &mut Metric, t: f64, q: &mut [f64]) -> Result<()> {
     let n = metric.system.dimensions();
     let still = vec![0.0; n.v];
@@ -45,7 +45,7 @@ pub fn close(metric: &mut Metric, t: f64, q: &mut [f64]) -> Result<()> {
     Err(open(metric))
 }
 
-/// Held coordinates that contradict the joints meet them half way, step by step; that is no hold.
+/// An error if a held coordinate moved: one that contradicts the joints is met half way, step by step.
 fn kept(metric: &Metric, moved: &[f64]) -> Result<()> {
     let most = moved.iter().fold(1.0f64, |most, d| most.max(d.abs()));
     let Some(&held) = metric.held.iter().find(|&&held| moved[held].abs() > tolerances::SAME * most) else {

@@ -1,4 +1,4 @@
-//! What assembly did, for a person.
+//! The result of an assembly, for the user.
 
 use crate::system::MechanicalSystem;
 use serde::Serialize;
@@ -42,7 +42,7 @@ pub struct Move {
     pub to: f64,
 }
 
-/// Changes beyond rounding, but for angles that are counted through turns.
+/// Changes beyond round-off, without the angles that count full turns.
 pub(super) fn moves(system: &dyn MechanicalSystem, (q0, v0): (&[f64], &[f64]), (q, v): (&[f64], &[f64])) -> Vec<Move> {
     let names = system.names();
     let own = names.q.len() - system.turning_angles();

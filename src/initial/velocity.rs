@@ -6,7 +6,7 @@ use crate::tolerances::initial as tolerances;
 
 pub fn fit(metric: &mut Metric, t: f64, q: &[f64], v: &mut [f64]) -> Result<()> {
     let given = v.to_vec();
-    // Twice: the second time takes off the round-off of the first.
+    // The second iteration removes the round-off of the first.
     for _ in 0..2 {
         metric.at(t, q, v)?;
         let bottom: Vec<f64> = metric.terms.phi_dot.iter().map(|rate| -rate).collect();

@@ -14,9 +14,9 @@ use crate::tolerances::initial as tolerances;
 /// ```
 ///
 /// Source: Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482. Newton's method with the mass matrix as metric, until the
-/// residual no longer falls; order of the integrator kept; a residual that stops
-/// falling before is refused. One evaluation and factorization an iteration, and one more,
-/// which the velocities share with the test of the residual.
+/// residual no longer falls. Order of the integrator kept; a residual that stagnates above its tolerance is an error.
+/// One evaluation and factorization per iteration, and one more, which the velocities share with the test of the
+/// residual.
 pub const ENTRY: Entry = Entry {
     name: "exact",
     about: "positions by Newton's method to round-off, then velocities",
@@ -32,8 +32,8 @@ pub const ENTRY: Entry = Entry {
     },
 };
 
-/// In units of what the scene's size makes no round-off, nor what redundant rows may contradict each other by. A
-/// residual below that falls by half at least, until another step would only stir its round-off.
+/// Limits on the residual over its stagnation tolerance: round-off at the scene's size, and the contradiction allowed
+/// between redundant rows. A residual below that at least halves in each iteration, until only its round-off changes.
 const LIMITS: Limits = Limits { stagnation: 1.0, contraction: tolerances::NEWTON_HALVES, ..Limits::NONE };
 
 struct Exact {
@@ -47,7 +47,7 @@ impl Projection for Exact {
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), StepError> {
         let need = Need::MASS | Need::CONSTRAINTS | Need::G;
         let (mut newton, mut is_evaluated) = (Monitor::default(), false);
-        // As many corrections, and the residual that they leave.
+        // `most` corrections, and the residual after the last one.
         let limits = Limits { most: self.most + 1, ..LIMITS };
         let closed = newton.solve(limits, |_| {
             if std::mem::replace(&mut is_evaluated, true) {

@@ -1,4 +1,4 @@
-//! What is done after a step: the state is moved back to the constraints.
+//! Projections: corrections after a step that move the state back to the constraints.
 //!
 //! To add one: a line in [`registry`], with a file where it is more than a choice of F; from outside the crate, an
 //! [`Entry`] and its [`spec`](Listed::spec), as in `tests/examples/own_projection.rs`.
@@ -14,7 +14,7 @@ use crate::system::MechanicalSystem;
 
 /// A correction of the state after an accepted step.
 pub trait Projection: Send {
-    /// Moves q and v in place.
+    /// Corrects q and v in place.
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), StepError>;
 }
 
@@ -59,13 +59,13 @@ pub fn registry() -> &'static [Entry] {
 const NONE: Entry =
     Entry { name: "none", about: "the state as the integrator left it", options: &[], make: |_, _| Ok(None) };
 
-/// The projection that `spec` names, for `system`; none where there is nothing to project onto.
+/// The projection that `spec` names, for `system`; `None` where there are no constraints.
 pub fn make(spec: &MethodSpec, system: &dyn MechanicalSystem) -> Result<Option<Box<dyn Projection>>> {
     let made = (spec.entry(registry())?.make)(spec, system)?;
     Ok(made.filter(|_| system.dimensions().lambda > 0))
 }
 
-/// q moves by -dq (directions of v) and returns to its normal form.
+/// q -= N dq, with dq along the directions of v, then normalizes q.
 fn move_back(q: &mut [f64], dq: &[f64], rate: &mut [f64], system: &dyn MechanicalSystem) {
     system.rate(q, dq, rate);
     q.iter_mut().zip(rate.iter()).for_each(|(q, rate)| *q -= rate);

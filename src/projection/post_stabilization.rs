@@ -8,7 +8,7 @@ use crate::system::MechanicalSystem;
 
 const SWEEPS: OptionDoc = OptionDoc { name: "sweeps", about: "how often F h is evaluated and taken off (default 1)" };
 
-/// S-pos: holds phi only; G v + phi_t drifts, faster than without.
+/// S-pos: corrects phi only; G v + phi_t drifts, faster than without.
 pub const POSITION: Entry = Entry {
     name: "position",
     about: "S-pos: only phi is held, drift of the velocities remains",
@@ -16,7 +16,7 @@ pub const POSITION: Entry = Entry {
     make: |spec, system| sweeps(StabilizingField::Position, spec, system),
 };
 
-/// S-vel: holds G v + phi_t only; phi drifts slowly.
+/// S-vel: corrects G v + phi_t only; phi drifts slowly.
 pub const VELOCITY: Entry = Entry {
     name: "velocity",
     about: "S-vel: only G v + phi_t is held, drift of the positions remains",

@@ -8,10 +8,10 @@ use std::time::Duration;
 
 /// The interval to simulate and where the output rows lie.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-/// First time, s.
 pub struct Span {
-    /// Last time, s.
+    /// First time, s.
     pub start: f64,
+    /// Last time, s.
     pub end: f64,
     /// Distance of the output rows, s.
     pub output_step: f64,

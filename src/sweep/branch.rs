@@ -9,7 +9,7 @@ use crate::system::{Column, Names, OperatingPoint, Scratch};
 use crate::tolerances::report as tolerances;
 use std::sync::Arc;
 
-/// An assembled state with the scene that it is one of.
+/// An assembled state with the scene that it belongs to.
 #[derive(Clone)]
 pub struct State {
     mechanism: Arc<AnyMechanism>,
@@ -34,12 +34,12 @@ impl Ready {
         Ok(Ready { mechanism: AnyMechanism::new(model), t, scene: (q, v, hold) })
     }
 
-    /// Newton's method from a guess that is near to the state.
+    /// Newton's method from a nearby guess.
     fn follow(&self, guess: &[f64], dependent: &[usize]) -> Result<Option<Followed>> {
         initial::follow(self.mechanism.system(), self.t, guess, &self.scene.2, dependent)
     }
 
-    /// Velocities, accelerations, multipliers and outputs beside the positions.
+    /// The state with velocities, accelerations, multipliers and outputs.
     fn complete(self, value: f64, followed: Followed) -> Result<State> {
         let (guess, v, hold) = self.scene;
         let system = self.mechanism.system();
@@ -55,12 +55,12 @@ impl Ready {
 }
 
 impl State {
-    /// From the scene's own guess.
+    /// The state assembled from the scene's own guess.
     pub fn assembled(family: &Family, parameter: &str, value: f64) -> Result<State> {
         let ready = Ready::at(family, parameter, value)?;
         let (q, v, hold) = &ready.scene;
         let q = initial::assemble(ready.mechanism.system(), ready.t, (q, v), hold)?.q;
-        // A state on the constraints is followed to itself; a singular one need not be.
+        // Following a state on the constraints gives the same state, except where it is singular.
         let followed = ready.follow(&q, &[])?.unwrap_or(Followed { q, rank_indicator: 0.0, dependent: Vec::new() });
         ready.complete(value, followed)
     }
@@ -74,7 +74,7 @@ impl State {
     }
 }
 
-/// The way from a state outwards.
+/// A branch followed from a state in one direction.
 pub struct Branch<'a> {
     family: &'a Family,
     parameter: &'a str,
@@ -82,7 +82,7 @@ pub struct Branch<'a> {
     last: State,
     before: Option<State>,
     nearest: Nearest,
-    /// Constraints that depend on the others at the start, and so everywhere.
+    /// Number of constraints that depend on the others at the start, and so everywhere.
     redundant: usize,
 }
 
@@ -105,7 +105,7 @@ impl<'a> Branch<'a> {
         self.nearest
     }
 
-    /// Goes on to a value in steps that are halved until the branch is kept; says where it ends, if it does before.
+    /// Continues to a value in steps that are halved until the branch is kept; returns its end if that comes before.
     pub fn go(&mut self, target: f64) -> Option<Limit> {
         let mut step = target - self.last.point.value;
         let mut problem = None;
@@ -141,7 +141,8 @@ impl<'a> Branch<'a> {
     }
 
     fn accept(&mut self, mut state: State) {
-        // The rank indicator is that of the others; where more of them depend, it is zero.
+        // The rank indicator ignores the dependent rows; where more rows depend on others than at the start, it is
+        // zero.
         if state.dependent.len() > self.redundant {
             state.point.rank_indicator = 0.0;
         }
@@ -167,8 +168,9 @@ impl<'a> Branch<'a> {
         Ok(None)
     }
 
-    /// The state before moved as the scene's guess moves, which keeps to what is held; then, where nothing is held,
-    /// that state alone, for a guess may jump; then the line through the last two, which leads over singular states.
+    /// Guesses: the last state moved as the scene's guess moves, which follows the held coordinates; then, where none
+    /// is held, the last state itself, for a guess may jump; then the line through the last two, which passes singular
+    /// states.
     fn guesses(&self, value: f64, ready: &Ready) -> Vec<Vec<f64>> {
         let (last, (guess, _, hold)) = (&self.last.point, &ready.scene);
         let moved = last.q.iter().zip(guess).zip(&self.last.guess).map(|((q, to), from)| q + to - from);
@@ -183,8 +185,8 @@ impl<'a> Branch<'a> {
         guesses
     }
 
-    /// The state at the end itself, where that is the target: Newton's method does not contract there, but assembly
-    /// finds it all the same.
+    /// The state at the end of the branch, where that is the target: Newton's method does not contract there, but
+    /// assembly finds it.
     fn at_the_end(&self, target: f64) -> Option<State> {
         let ready = Ready::at(self.family, self.parameter, target).ok()?;
         let (last, (_, v, hold)) = (&self.last.point.q, &ready.scene);
@@ -206,7 +208,7 @@ impl<'a> Branch<'a> {
         }
     }
 
-    /// What assembly says beyond the end.
+    /// The error of an assembly beyond the end.
     fn obstacle(&self, target: f64) -> Result<()> {
         let ready = Ready::at(self.family, self.parameter, target)?;
         let (_, v, hold) = &ready.scene;
@@ -214,7 +216,7 @@ impl<'a> Branch<'a> {
     }
 }
 
-/// What is the matter, without where in the file and what to do.
+/// The message of an error without its place in the file and its hint.
 fn message(error: Error) -> String {
     match error {
         Error::Input(input) => input.message,

@@ -46,7 +46,7 @@ impl Family {
         self.with(&self.set).map_err(|error| self.place(error))
     }
 
-    /// The scene with another one.
+    /// The scene with another value of a parameter.
     ///
     /// # Errors
     /// As [`Scene::parse`]: the value may be outside of what the scene's expressions are defined for.
@@ -60,7 +60,7 @@ impl Family {
         self.elements.parse_in(scene::folder(self.path.as_deref()), &self.text, set)
     }
 
-    /// What is doubtful about its start; nothing where it cannot be assembled, which a sweep says better.
+    /// Warnings about the start; none where it cannot be assembled, which a sweep reports better.
     pub fn doubts(&self) -> Vec<Warning> {
         let prepared = self.scene().and_then(|scene| PreparedScene::new(scene, &Overrides::default()));
         prepared.map_or(Vec::new(), |prepared| prepared.doubts)

@@ -28,14 +28,14 @@
 //! ```
 //!
 //! The sweep begins at the scene's own value of the parameter, which is the design position, and goes outwards on both
-//! sides. Each assembly begins at the state before it, moved as far as the scene's own guess moves, and is accepted
-//! where Newton's method contracts from its first step on; else the step of the parameter is halved. So the branch is
-//! followed, and where it ends, the end is found to about a ten-millionth of the range.
+//! sides. Each assembly begins at the state before it, moved as the scene's own guess moves, and is accepted where
+//! Newton's method contracts from its first step on; else the step of the parameter is halved. So the branch is
+//! followed, and its end is found to about a ten-millionth of the range.
 //!
-//! Positions hang on the parameter alone. Velocities are those that the scene gives, made consistent. Multipliers, and
+//! Positions depend on the parameter alone. Velocities are those of the scene, made consistent. Multipliers, and
 //! outputs that read them, are those of the equations of motion at that state, `M v' + G^T lambda = f`, with the
-//! accelerations that the forces there ask for. They are those of statics only where nothing is free to move and
-//! nothing moves.
+//! accelerations due to the forces there. They are those of statics only where the mechanism has no degrees of freedom
+//! and nothing moves.
 
 mod branch;
 mod family;
@@ -60,15 +60,15 @@ pub struct Sweep {
     pub names: Names,
     /// Names and units of the outputs.
     pub outputs: Vec<Column>,
-    /// The scene's own value of the parameter, and the state there where it is in the range.
+    /// The scene's own value of the parameter.
     pub own_value: f64,
     /// The state at `own_value`; none where that is not in the range.
     pub own: Option<Point>,
-    /// One a value that was reached, in the order of the range.
+    /// The states at the values that were reached, in the order of the range.
     pub points: Vec<Point>,
     /// The ends of the branch that lie in the range.
     pub limits: Vec<Limit>,
-    /// Of all states that were assembled, also between the values: the one nearest to a singular one.
+    /// The state nearest to a singular one, among all that were assembled, also between the values.
     pub nearest_singular: Nearest,
 }
 
@@ -103,7 +103,7 @@ pub struct Point {
     pub lambda: Vec<f64>,
     /// Outputs, in the order of [`Sweep::outputs`].
     pub outputs: Vec<f64>,
-    /// How near the constraints and what is held are to losing rank: 1 is far, 0 singular.
+    /// Rank indicator of the constraints with the held directions: 1 is far from singular, 0 singular.
     pub rank_indicator: f64,
 }
 
@@ -111,17 +111,17 @@ pub struct Point {
 #[derive(Clone, Debug, PartialEq)]
 #[doc(hidden)]
 pub struct Limit {
-    /// The last state.
+    /// The last state that was reached.
     pub point: Point,
-    /// No state was found so much further on.
+    /// Distance in the parameter beyond which no state was found.
     pub within: f64,
-    /// The next value of the range, which is out of reach.
+    /// The next value of the range, which was not reached.
     pub unreached: f64,
-    /// Why.
+    /// The reason, from the assembly beyond the end.
     pub reason: String,
 }
 
-/// A state by its distance to a singular one.
+/// The state with the least rank indicator.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[doc(hidden)]
 pub struct Nearest {

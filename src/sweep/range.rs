@@ -1,11 +1,11 @@
-//! `NAME=A..B:N`, `NAME=A..B:N:log`
+//! Ranges of a parameter, written `NAME=A..B:N` or `NAME=A..B:N:log`.
 
 use crate::error::{Error, Result};
 use crate::math::expression::constant;
 use std::fmt;
 use std::str::FromStr;
 
-/// Values of a parameter, evenly spaced, or their logarithms.
+/// Values of a parameter with equal differences or equal ratios.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Range {
     /// Name of the parameter.
@@ -16,13 +16,13 @@ pub struct Range {
     pub to: f64,
     /// Number of values, ends included.
     pub count: usize,
-    /// Each value is the same factor of the one before.
+    /// True for a constant ratio from value to value.
     pub is_log: bool,
 }
 
-/// Values where no number is given.
+/// Number of values where none is given.
 const COUNT: usize = 81;
-/// More values are a slip of the hand.
+/// More values than this are taken for a mistake.
 const MOST: usize = 100_000;
 const FORM: &str = "write NAME=A..B:N, as in travel=-0.08..0.08:81, or NAME=A..B:N:log for a constant factor";
 
@@ -43,7 +43,7 @@ impl Range {
         Ok(Range { parameter: parameter.into(), from, to, count, is_log: false })
     }
 
-    /// The same range with a constant factor from value to value.
+    /// The same range with a constant ratio from value to value.
     ///
     /// # Errors
     /// Ends that are not both above zero.
@@ -55,7 +55,7 @@ impl Range {
         }
     }
 
-    /// From A to B, rounded to the decimals that count, so that 0.3 is not 0.30000000000000004.
+    /// The values from first to last, rounded to the significant decimals, so that 0.3 is not 0.30000000000000004.
     pub fn values(&self) -> Vec<f64> {
         let last = self.count - 1;
         let digits = 14 - self.from.abs().max(self.to.abs()).log10().floor() as i32;

@@ -1,11 +1,11 @@
-//! The way along a branch over the values of a range.
+//! A sweep along a branch over the values of a range.
 
 use super::branch::{Branch, State};
 use super::{Family, Limit, Nearest, Point, Range, Sweep};
 use crate::error::{Error, Result};
 
 impl Family {
-    /// Assembles the scene at the values of a range; `progress` hears how many of them are done.
+    /// Assembles the scene at the values of a range; `progress` is called with the number of values done.
     ///
     /// # Errors
     /// A parameter that the scene does not have; a scene that cannot be assembled where the sweep begins, or not be
@@ -17,13 +17,13 @@ impl Family {
     }
 }
 
-/// A value of the range that differs by rounding is meant.
+/// The value of the range that equals `own` up to round-off, else `own`.
 fn snapped(own: f64, range: &Range) -> f64 {
     let near = |value: &f64| (value - own).abs() <= 1e-12 * range.length();
     range.values().into_iter().find(near).unwrap_or(own)
 }
 
-/// A sweep on its way.
+/// A sweep in progress.
 struct Walk<'a, P: FnMut(usize)> {
     family: &'a Family,
     range: &'a Range,
@@ -32,7 +32,7 @@ struct Walk<'a, P: FnMut(usize)> {
     done: usize,
 }
 
-/// What one side of the start gives.
+/// The results on one side of the start.
 #[derive(Default)]
 struct Side {
     points: Vec<Point>,
@@ -44,7 +44,7 @@ impl<P: FnMut(usize)> Walk<'_, P> {
         let (start, is_own) = self.start(own)?;
         let (names, outputs) = start.columns();
         let (mut nearest, begin) = (start.nearest(), start.point.value);
-        // The range may be turned round: `below` is what comes before the start in it.
+        // The range may run downwards: `before` has the values that come before the start in it.
         let forward = self.range.to > self.range.from;
         let is_before = |value: f64| if forward { value < begin } else { value > begin };
         let all = self.values.clone();
@@ -67,7 +67,7 @@ impl<P: FnMut(usize)> Walk<'_, P> {
     }
 
     /// The scene at its own value, or moved from there to the near end of the range; where it cannot be assembled
-    /// there, the nearest value of the range. Returns whether the value is the scene's own.
+    /// there, at the nearest value of the range. Returns true if the value is the scene's own.
     fn start(&self, own: f64) -> Result<(State, bool)> {
         let parameter = &self.range.parameter;
         let distance = |value: &f64| (value - own).abs();
@@ -92,7 +92,7 @@ impl<P: FnMut(usize)> Walk<'_, P> {
         }
     }
 
-    /// The values on one side of the start, from the nearest on.
+    /// The states on one side of the start, from the nearest value on.
     fn side(&mut self, start: &State, values: &[f64], nearest: &mut Nearest) -> Side {
         let mut branch = Branch::new(self.family, self.range, start.clone());
         let mut side = Side::default();

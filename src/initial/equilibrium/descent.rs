@@ -1,4 +1,4 @@
-//! A way down along the forces.
+//! Descent along the forces to an equilibrium.
 
 use super::newton::{Policy, newton};
 use super::system::{Balance, Change, EquilibriumSystem, Place};
@@ -6,7 +6,7 @@ use crate::math::largest;
 use crate::math::newton::{Limits, Monitor};
 use crate::tolerances::initial as tolerances;
 
-/// Of the way back to phi = 0, in units of the scene's scale: round-off, also of nearly dependent rows.
+/// Limits of the return to phi = 0, in units of the scene's scale: round-off, also of nearly dependent rows.
 const CLOSING: Limits = Limits {
     most: tolerances::CLOSING_ITERATIONS,
     round_off: tolerances::ROUND_OFF_OF_SUMS,
@@ -15,17 +15,17 @@ const CLOSING: Limits = Limits {
     ..Limits::NONE
 };
 
-/// Where a descent leads.
+/// Result of a descent.
 pub(super) enum End {
     EquilibriumSystem(Place),
-    /// The coordinate moves on and on.
+    /// The coordinate moves without bound.
     Away(usize),
-    /// It takes too long, or no step goes down.
+    /// The steps are used up, or none goes down.
     Stuck,
 }
 
 /// Pseudo-transient continuation: dq/dtau = f - G^T lambda on phi = 0, by implicit Euler steps of one iteration each
-/// where that does,
+/// where that suffices,
 ///
 /// ```text
 /// [ K + I/dtau  G^T ] [ dq      ]   [ f - G^T lambda ]
@@ -34,7 +34,7 @@ pub(super) enum End {
 ///
 /// and back to phi = 0. A step is judged as in trust-region methods, by the work of the forces over it against what K
 /// predicts; so no potential is needed. Source: Kelley, Keyes, SIAM J. Numer. Anal. 35 (1998) 508-523; Conn, Gould,
-/// Toint, Trust-Region Methods, 2000, chapter 6. Where it leads, and the steps taken.
+/// Toint, Trust-Region Methods, 2000, chapter 6. Returns the result and the number of steps.
 pub(super) fn descend(rest: &mut EquilibriumSystem, q: &[f64]) -> (End, usize) {
     let Some(mut at) = rest.balance(q) else { return (End::Stuck, 0) };
     let mut shift = largest(&at.force) / tolerances::DESCENT_FIRST;
@@ -72,19 +72,19 @@ pub(super) fn descend(rest: &mut EquilibriumSystem, q: &[f64]) -> (End, usize) {
     (End::Stuck, tolerances::DESCENT_STEPS)
 }
 
-/// The coordinate that is farthest from the start, if that is too far.
+/// The coordinate farthest from the start, if its distance is beyond the limit.
 pub(super) fn gone(now: &[f64], start: &[f64]) -> Option<usize> {
     let way = |i: usize| (now[i] - start[i]).abs();
     let farthest = (0..now.len()).max_by(|&i, &j| way(i).total_cmp(&way(j)))?;
     (way(farthest) > tolerances::AWAY * (1.0 + largest(start))).then_some(farthest)
 }
 
-/// One step by the factors; none where it goes up or does not come back to phi = 0.
+/// One step with the present factors; `None` where it goes up or does not return to phi = 0.
 fn advance(rest: &mut EquilibriumSystem, at: &Balance, shift: f64) -> Option<(Balance, f64)> {
     let change = rest.solve(&at.force)?;
     let size = length(&change.q);
     let before = dot(&at.force, &change.q);
-    // The work that a force along dq does while K takes it away: force . dq - dq K dq / 2.
+    // Work of a force along dq that decreases by K dq: force . dq - dq K dq / 2.
     let predicted = 0.5 * (before + shift * size * size);
     if !(before > 0.0 && predicted.is_finite()) {
         return None;
@@ -95,15 +95,15 @@ fn advance(rest: &mut EquilibriumSystem, at: &Balance, shift: f64) -> Option<(Ba
     (gain > tolerances::DESCENT_TAKEN_BACK).then_some((next, gain))
 }
 
-/// Where a change leads, on phi = 0.
+/// The place after a change, returned to phi = 0 and balanced.
 fn onward(rest: &mut EquilibriumSystem, from: &Place, change: &Change, size: f64) -> Option<Balance> {
     let there = rest.moved(from, change, 1.0);
     let q = close(rest, there, size)?;
     rest.balance(&q)
 }
 
-/// force = dq/dtau to the size of the force before the step: a stiff beam that turns goes along a circle, and one
-/// iteration along the tangent, which stretches it.
+/// Iterates force = dq/dtau until the residual is at most the force before the step: a stiff beam that rotates moves
+/// on a circle, and one iteration moves along the tangent, which stretches it.
 fn relax(rest: &mut EquilibriumSystem, at: &mut Balance, way: &mut [f64], shift: f64, enough: f64) -> Option<()> {
     let mut last = f64::INFINITY;
     for _ in 0..tolerances::RELAXATIONS {
@@ -124,7 +124,7 @@ fn relax(rest: &mut EquilibriumSystem, at: &mut Balance, way: &mut [f64], shift:
     None
 }
 
-/// Back to phi = 0 by least changes, which together are shorter than the step.
+/// Returns to phi = 0 by least changes; `None` where these together are not shorter than the step.
 fn close(rest: &mut EquilibriumSystem, place: Place, size: f64) -> Option<Vec<f64>> {
     let (mut at, mut way, mut is_evaluated) = (place, 0.0, false);
     let closed: Result<bool, ()> = Monitor::default().solve(CLOSING, |_| {

@@ -1,4 +1,4 @@
-//! Why there is no equilibrium, in words.
+//! Messages for a search without an equilibrium.
 
 use super::stability::{named, soft};
 use super::system::{EquilibriumSystem, Place};
@@ -26,7 +26,7 @@ pub(super) fn contradiction(t: f64) -> Error {
     Failure { t, reason, hint: hint.to_string() }.into()
 }
 
-/// A beam that would have to be cut finer.
+/// Error of a beam that needs more elements.
 pub(super) fn too_bent(t: f64, beam: &Limited, turn: f64) -> Error {
     let reason =
         format!("the ends of an element of the beam `{}` would turn against each other by {turn:.2} rad", beam.part);
@@ -41,7 +41,7 @@ const HOLD: &str = "hold it by a joint or a spring, or take the force away";
 const BEGIN_NEARER: &str = "begin nearer to it, or look at the motion with `holonom simulate`: with some damping it comes to \
                             rest where there is an equilibrium";
 
-/// What keeps the mechanism moving, seen from the start; `away` is what a descent would move on and on.
+/// Error that names what keeps the mechanism moving from the start; `away` is the coordinate of an unbounded descent.
 pub(super) fn none_found(rest: &mut EquilibriumSystem, start: &Place, away: Option<usize>) -> Error {
     let t = rest.t;
     let failure = |reason: String, hint: &str| Failure { t, reason, hint: hint.to_string() }.into();
@@ -54,7 +54,8 @@ pub(super) fn none_found(rest: &mut EquilibriumSystem, start: &Place, away: Opti
         if !loaded.is_empty() {
             let names = named(rest, &loaded).join("`, `");
             let holds = format!("nothing holds `{names}` against the forces that move it");
-            // What a force moves at the start may be held elsewhere, as a pendulum is that begins level.
+            // A coordinate without stiffness at the start may have some elsewhere, as that of a pendulum which starts
+            // level.
             return match away {
                 Some(_) => failure(format!("there is no static equilibrium: {holds}"), HOLD),
                 None => failure(format!("no static equilibrium was found; at the start {holds}"), BEGIN_NEARER),

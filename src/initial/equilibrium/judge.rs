@@ -1,4 +1,4 @@
-//! Whether a place that Newton's method came to is one where a mechanism stays at rest.
+//! Acceptance of a result of Newton's method as an equilibrium.
 
 use super::descent::gone;
 use super::system::{EquilibriumSystem, Place};
@@ -6,7 +6,7 @@ use crate::math::largest;
 use crate::system::{Limited, Theory};
 use crate::tolerances::initial as tolerances;
 
-/// What the start says of the forces that are to be balanced.
+/// Reference values of forces and stiffness from the start.
 pub(super) struct Judge {
     q: Vec<f64>,
     loads: f64,
@@ -14,14 +14,14 @@ pub(super) struct Judge {
 }
 
 impl Judge {
-    /// With the terms at the start.
+    /// Evaluates and factors at the start.
     pub fn at(rest: &mut EquilibriumSystem, start: &Place) -> Self {
         rest.evaluate(&start.q);
         rest.factor(start, 0.0);
         Judge { q: start.q.clone(), loads: largest(&rest.sizes(start)), stiffness: rest.stiffness() }
     }
 
-    /// Whether the forces balance there: a matrix without bounds makes any step small, and any force round-off.
+    /// True if the forces balance there: an unbounded matrix makes any step small, and any force round-off.
     pub fn accepts(&self, rest: &mut EquilibriumSystem, place: &Place) -> bool {
         if gone(&place.q, &self.q).is_some() {
             return false;
@@ -34,7 +34,7 @@ impl Judge {
         balance.force.iter().zip(allowed).all(|(force, allowed)| force.abs() <= allowed)
     }
 
-    /// The beam with an element that turns farther than it can follow, and how far, rad.
+    /// The beam with an element that rotates beyond its theory, and the rotation, rad.
     pub fn bent(rest: &EquilibriumSystem, q: &[f64]) -> Option<(Limited, f64)> {
         let system = rest.dynamics.system;
         let mut deformations = vec![0.0; system.limited().len()];

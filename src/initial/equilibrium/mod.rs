@@ -1,4 +1,4 @@
-//! Static equilibrium: where a mechanism stays at rest.
+//! Static equilibrium: positions at which the forces balance.
 //!
 //! ```text
 //! f(t, q, 0) - G^T lambda = 0,   phi(q, t) = 0,   t fixed
@@ -25,20 +25,20 @@ use newton::{Policy, newton};
 use serde::Serialize;
 use system::{EquilibriumSystem, Place};
 
-/// A state at rest that stays at rest.
+/// A static equilibrium.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equilibrium {
-    /// Time that expressions of t are held at, s.
+    /// Time at which expressions of t are evaluated, s.
     pub t: f64,
     /// Coordinates, n_q.
     pub q: Vec<f64>,
-    /// Of least norm where constraints are redundant.
+    /// Multipliers, n_c; of least norm where constraints are redundant.
     pub lambda: Vec<f64>,
     /// The method that found it.
     pub way: Way,
-    /// Linear systems solved, over all ways that were tried.
+    /// Number of linear systems solved, over all methods tried.
     pub iterations: usize,
-    /// Steps of the load or of the descent, over all ways.
+    /// Number of steps of the load or of the descent, over all methods tried.
     pub steps: usize,
     /// max |f - G^T lambda|, N or N m.
     pub residual: f64,
@@ -46,7 +46,7 @@ pub struct Equilibrium {
     pub gap: f64,
     /// Stability of the equilibrium.
     pub stability: Stability,
-    /// Coordinates that can move without any force against them.
+    /// Coordinates that can move without any restoring force.
     pub free: Vec<String>,
 }
 
@@ -64,7 +64,7 @@ pub enum Way {
     Descent,
 }
 
-/// A place found on one of the ways.
+/// An equilibrium found by one of the methods.
 struct Found {
     place: Place,
     way: Way,
@@ -72,13 +72,13 @@ struct Found {
     free: Vec<String>,
 }
 
-/// The equilibrium at time `t` that belongs to a guess:
+/// The equilibrium at time `t` nearest to a guess:
 ///
 /// 1. that of Newton's method, if its steps contract from the first: then it is the one around the guess, stable or
 ///    not;
-/// 2. else the first that is not unstable of Newton's method, plain and damped; of the load grown in steps; of a
-///    descent along the forces, which leads to stable ones;
-/// 3. else an unstable one that was met on these ways.
+/// 2. else the first that is not unstable of: Newton's method, plain and damped; load stepping; a descent along the
+///    forces, which leads to stable ones;
+/// 3. else an unstable one that one of these methods found.
 ///
 /// # Errors
 /// Joints that cannot be closed at `t`, a state that cannot be evaluated, equations without K: bad input. No
@@ -106,15 +106,15 @@ pub fn equilibrium(system: &dyn MechanicalSystem, t: f64, guess: &[f64]) -> Resu
 struct Search {
     best: Option<Found>,
     steps: usize,
-    /// The coordinate that a descent would move on and on.
+    /// The coordinate that moves without bound in a descent.
     away: Option<usize>,
-    /// The element of a beam that had to turn too far.
+    /// The beam with an element that rotates beyond its theory, and the rotation, rad.
     bent: Option<(Limited, f64)>,
     judge: Judge,
 }
 
 impl Search {
-    /// Newton's method from the start; whether its result is the one to take.
+    /// Newton's method from the start; true if its result is final.
     fn contracts(&mut self, rest: &mut EquilibriumSystem, start: &Place) -> bool {
         match newton(rest, start.clone(), None, Policy::FULL) {
             Some((place, contracts)) => self.offer(rest, Some(place), Way::Newton) || contracts,
@@ -122,7 +122,7 @@ impl Search {
         }
     }
 
-    /// Damped steps, then the load in steps; whether one of their results is good enough.
+    /// Damped steps, then load stepping; true if one of their results is good enough.
     fn grows(&mut self, rest: &mut EquilibriumSystem, start: &Place) -> bool {
         let damped = newton(rest, start.clone(), None, Policy::DAMPED).map(|(place, _)| place);
         if self.offer(rest, damped, Way::DampedNewton) {
@@ -131,7 +131,7 @@ impl Search {
         let (reached, part, steps) = homotopy::homotopy(rest, start);
         self.steps += steps;
         if part < 1.0 {
-            // All of the load would turn it in proportion.
+            // Extrapolates the rotation to the whole load.
             let bent = Judge::bent(rest, &reached.q).map(|(beam, turn)| (beam, turn / part));
             self.bent = self.bent.take().or(bent);
             return false;
@@ -149,7 +149,7 @@ impl Search {
         }
     }
 
-    /// Keeps what is better than before; whether it is good enough to stop.
+    /// Records a place if it is better than the present one; true if it is good enough to stop.
     fn offer(&mut self, rest: &mut EquilibriumSystem, place: Option<Place>, way: Way) -> bool {
         let Some(place) = place else { return false };
         if let Some(bent) = Judge::bent(rest, &place.q) {
@@ -167,7 +167,7 @@ impl Search {
     }
 }
 
-/// Multipliers of least norm, and what is left of the equations.
+/// The equilibrium with multipliers of least norm, and the residuals of its equations.
 fn finish(mut rest: EquilibriumSystem, found: Found, steps: usize) -> Result<Equilibrium> {
     let Found { mut place, way, stability, free } = found;
     rest.release();

@@ -1,11 +1,11 @@
-//! Newton's method on the equations of rest.
+//! Newton's method on the equations of equilibrium.
 
 use super::system::{Change, EquilibriumSystem, Place};
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor};
 use crate::tolerances::initial as tolerances;
 
-/// How Newton's method is kept from going astray.
+/// Safeguards of Newton's method.
 #[derive(Clone, Copy)]
 pub(super) struct Policy {
     limits: Limits,
@@ -13,20 +13,20 @@ pub(super) struct Policy {
 }
 
 impl Policy {
-    /// Bent beams need steps that grow before they shrink.
+    /// Undamped, without a limit on contraction: the steps of bent beams grow before they shrink.
     pub const FULL: Policy =
         Policy { limits: Limits { most: tolerances::FULL_ITERATIONS, ..Limits::NONE }, is_damped: false };
     pub const DAMPED: Policy =
         Policy { limits: Limits { most: tolerances::DAMPED_ITERATIONS, ..Limits::NONE }, is_damped: true };
-    /// Near a solution.
+    /// Near a solution: every step contracts.
     pub const NEAR: Policy = Policy {
         limits: Limits { most: tolerances::CLOSING_ITERATIONS, contraction: tolerances::NEWTON_HALVES, ..Limits::NONE },
         is_damped: false,
     };
 }
 
-/// Solves f - G^T lambda = `goal` (zero where none) with phi = 0; the place, and whether all steps contracted. None
-/// where Newton's method fails.
+/// Solves f - G^T lambda = `goal` (zero where none) with phi = 0. Returns the place, and true if all steps contracted;
+/// `None` where Newton's method fails.
 pub(super) fn newton(
     rest: &mut EquilibriumSystem,
     start: Place,
@@ -37,7 +37,7 @@ pub(super) fn newton(
     let (mut was_still, mut was_small) = (false, false);
     let converged: Result<bool, ()> = newton.solve(policy.limits, |_| {
         rest.evaluate(&at.q);
-        let force = left(rest, &at, goal);
+        let force = residual(rest, &at, goal);
         let factored = rest.factor(&at, 0.0);
         let is_still = rest.is_round_off(&at, &force);
         if is_still && (was_still || !factored) {
@@ -59,14 +59,14 @@ pub(super) fn newton(
     (converged == Ok(true)).then_some((at, newton.slowest <= tolerances::UNIQUE_CONTRACTION))
 }
 
-/// f - G^T lambda - goal of the terms.
-fn left(rest: &EquilibriumSystem, at: &Place, goal: Option<&[f64]>) -> Vec<f64> {
+/// Residual f - G^T lambda - goal of the present terms.
+fn residual(rest: &EquilibriumSystem, at: &Place, goal: Option<&[f64]>) -> Vec<f64> {
     let mut force = rest.force(&at.lambda);
     force.iter_mut().zip(goal.unwrap_or_default()).for_each(|(force, goal)| *force -= goal);
     force
 }
 
-/// The longest step, halved, after which the same matrix would ask for a shorter one: the natural monotonicity test,
+/// The longest step, by halving, after which the same matrix gives a shorter next one: the natural monotonicity test,
 /// which does not depend on the units of forces and constraints (Deuflhard, section 3.3).
 fn damped(rest: &mut EquilibriumSystem, at: &Place, change: &Change, size: f64) -> Option<Place> {
     let mut part = 1.0;

@@ -1,4 +1,4 @@
-//! Whether an equilibrium comes back when it is disturbed.
+//! Stability of an equilibrium.
 
 use super::system::{EquilibriumSystem, Place};
 use crate::formulation::{free_directions, reduce};
@@ -6,13 +6,13 @@ use crate::tolerances::initial as tolerances;
 use nalgebra::{DVector, SymmetricEigen};
 use serde::Serialize;
 
-/// From the least to the most welcome.
+/// Stability of an equilibrium, in increasing order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stability {
     /// K is negative along a direction that the constraints allow.
     Unstable,
-    /// Too many coordinates for all directions, or forces without a potential.
+    /// There are too many coordinates for the eigenvalues, or forces without a potential.
     Unknown,
     /// K is zero along a direction, and nowhere negative.
     Neutral,
@@ -25,12 +25,12 @@ const MOST_NAMED: usize = 6;
 /// Directions without stiffness among those that the constraints allow.
 pub(super) struct Soft {
     pub smallest: f64,
-    /// Along q, each with unit mass.
+    /// Directions along q, each of unit kinetic mass.
     pub directions: Vec<DVector<f64>>,
     is_symmetric: bool,
 }
 
-/// Z^T K Z at a place, as far as it can be looked at.
+/// Zero and smallest eigenvalues of Z^T K Z at a place; `None` where it is too large or cannot be evaluated.
 pub(super) fn soft(rest: &mut EquilibriumSystem, place: &Place) -> Option<Soft> {
     if rest.dynamics.vdot.len() > tolerances::DENSE_EIGENVALUES {
         return None;
@@ -55,7 +55,7 @@ pub(super) fn soft(rest: &mut EquilibriumSystem, place: &Place) -> Option<Soft> 
     })
 }
 
-/// Stability at an equilibrium, and the coordinates that nothing holds there.
+/// Stability of an equilibrium, and the names of the coordinates without stiffness.
 pub(super) fn judge(rest: &mut EquilibriumSystem, place: &Place) -> (Stability, Vec<String>) {
     let Some(soft) = soft(rest, place) else { return (Stability::Unknown, Vec::new()) };
     let free = named(rest, &soft.directions);
@@ -68,7 +68,7 @@ pub(super) fn judge(rest: &mut EquilibriumSystem, place: &Place) -> (Stability, 
     (stability, free)
 }
 
-/// The coordinates that take most part in the directions.
+/// Names of the coordinates with the largest components in the directions.
 pub(super) fn named(rest: &EquilibriumSystem, directions: &[DVector<f64>]) -> Vec<String> {
     let names = rest.dynamics.system.names().v;
     let mut found = Vec::new();

@@ -1,4 +1,4 @@
-//! The equations of rest at one place, and their Newton matrix.
+//! The equations of equilibrium at one place, and their Newton matrix.
 
 use super::failure;
 use crate::error::Result;
@@ -8,14 +8,14 @@ use crate::math::{largest, largest_in};
 use crate::system::{MechanicalSystem, Need, OperatingPoint, Tangent};
 use crate::tolerances::initial as tolerances;
 
-/// Coordinates with multipliers.
+/// Coordinates and multipliers.
 #[derive(Clone, Debug)]
 pub(super) struct Place {
     pub q: Vec<f64>,
     pub lambda: Vec<f64>,
 }
 
-/// A place with the multipliers that balance it best, and what force they leave.
+/// A place with the multipliers that balance it best, and the residual force.
 pub(super) struct Balance {
     pub place: Place,
     pub force: Vec<f64>,
@@ -41,11 +41,11 @@ pub(super) struct EquilibriumSystem<'a> {
     /// Linear systems solved.
     pub iterations: usize,
     matrix: Unsymmetric<f64>,
-    /// [I G^T; G 0]: with a metric that takes 1 rad for 1 m. In that of M, which turns a short link more easily than it
+    /// [I G^T; G 0], a metric in which 1 rad equals 1 m. In that of M, which rotates a short link more easily than it
     /// moves it, chains would kink.
     level: SaddlePoint,
     ones: Vec<f64>,
-    /// Rows of phi that are kept, and their part of G: where its values stand among all of them.
+    /// Independent rows of phi, and their part of G with the places of its values in the whole.
     rows: Vec<usize>,
     g: Pattern,
     entries: Vec<usize>,
@@ -55,7 +55,7 @@ pub(super) struct EquilibriumSystem<'a> {
 }
 
 impl<'a> EquilibriumSystem<'a> {
-    /// At a place where phi = 0, which shows the rows that depend on others.
+    /// Memory, and the independent rows of phi, found at a place where phi = 0.
     pub fn new(system: &'a dyn MechanicalSystem, t: f64, q: &[f64]) -> Result<Self> {
         let (n, mut dynamics) = (system.dimensions(), Dynamics::new(system));
         let still = vec![0.0; n.v];
@@ -98,7 +98,7 @@ impl<'a> EquilibriumSystem<'a> {
         self.dynamics.evaluate(self.t, q, &self.still, Need::DYNAMICS);
     }
 
-    /// f - G^T lambda of the terms.
+    /// f - G^T lambda from the present terms.
     pub fn force(&self, lambda: &[f64]) -> Vec<f64> {
         let (terms, g) = (&self.dynamics.terms, &self.dynamics.structure.g);
         let mut reaction = vec![0.0; terms.f.len()];
@@ -106,12 +106,12 @@ impl<'a> EquilibriumSystem<'a> {
         terms.f.iter().zip(reaction).map(|(f, reaction)| f - reaction).collect()
     }
 
-    /// max |phi| of the terms, in units of the scene's scale.
+    /// max |phi| from the present terms, in units of the scene's scale.
     pub fn gap(&self) -> f64 {
         largest_in(&self.scales, &self.dynamics.terms.phi)
     }
 
-    /// Multipliers that leave the least force. The terms are then those at q.
+    /// Evaluates the terms at q and finds the multipliers of least residual force.
     pub fn balance(&mut self, q: &[f64]) -> Option<Balance> {
         self.evaluate(q);
         let terms = &self.dynamics.terms;
@@ -122,7 +122,7 @@ impl<'a> EquilibriumSystem<'a> {
         force.iter().all(|x| x.is_finite()).then_some(Balance { place: Place { q: q.to_vec(), lambda }, force })
     }
 
-    /// The least change of q that closes the joints, to first order, by the terms.
+    /// The least change of q that closes the joints, to first order, from the present terms.
     pub fn closing(&mut self) -> Option<Change> {
         let terms = &self.dynamics.terms;
         self.level.factor(&self.ones, &terms.g).ok()?;
@@ -132,13 +132,13 @@ impl<'a> EquilibriumSystem<'a> {
         Some(Change { q, lambda: Vec::new() })
     }
 
-    /// Multipliers are those of least norm from now on.
+    /// Keeps all rows from now on, so that multipliers are those of least norm.
     pub fn release(&mut self) {
         self.dynamics.drop_rows(&[]);
         self.level.drop_rows(&[]);
     }
 
-    /// Factors at a place whose terms are there; false where the matrix is singular.
+    /// Factors the matrix at a place whose terms are evaluated; false where it is singular.
     pub fn factor(&mut self, place: &Place, shift: f64) -> bool {
         let at = OperatingPoint { t: self.t, q: &place.q, v: &self.still, vdot: &self.still, lambda: &place.lambda };
         let Dynamics { system, structure, terms, scratch, .. } = &mut self.dynamics;
@@ -150,7 +150,7 @@ impl<'a> EquilibriumSystem<'a> {
         self.matrix.factor(&self.g, &self.values).is_ok()
     }
 
-    /// With the phi of the terms.
+    /// Solves with `force` and the phi of the present terms.
     pub fn solve(&mut self, force: &[f64]) -> Option<Change> {
         self.iterations += 1;
         let mut q = force.to_vec();
@@ -161,7 +161,7 @@ impl<'a> EquilibriumSystem<'a> {
         Some(Change { q, lambda })
     }
 
-    /// The place that lies `part` of a change ahead.
+    /// The place after `part` of a change.
     pub fn moved(&mut self, from: &Place, change: &Change, part: f64) -> Place {
         let dq: Vec<f64> = change.q.iter().map(|dq| part * dq).collect();
         let mut q = from.q.clone();
@@ -170,14 +170,14 @@ impl<'a> EquilibriumSystem<'a> {
         Place { q, lambda }
     }
 
-    /// |dq| in the metric of the terms' M: of one unit, whatever the coordinates.
+    /// |dq| in the metric of the present M: one unit for all coordinates.
     pub fn size(&self, dq: &[f64]) -> f64 {
         let mut product = vec![0.0; dq.len()];
         self.dynamics.structure.mass.multiply_symmetric(&self.dynamics.terms.mass, dq, &mut product);
         dq.iter().zip(product).map(|(dq, p)| dq * p).sum::<f64>().max(0.0).sqrt()
     }
 
-    /// The forces and reactions that make up what is left, by the terms.
+    /// Sum of the magnitudes of the forces and reactions on each velocity, from the present terms.
     pub fn sizes(&self, place: &Place) -> Vec<f64> {
         let (terms, structure) = (&self.dynamics.terms, &self.dynamics.structure);
         let mut sizes: Vec<f64> = terms.f.iter().map(|f| f.abs()).collect();
@@ -187,7 +187,7 @@ impl<'a> EquilibriumSystem<'a> {
         sizes
     }
 
-    /// What each force gains by unit changes of all coordinates, by K of the last factorization.
+    /// Sum of |K_ij| over j for each i, by K of the last factorization.
     pub fn stiffness(&self) -> Vec<f64> {
         let mut sums = vec![0.0; self.still.len()];
         for (&(i, _), k) in self.dynamics.structure.tangent.entries.iter().zip(&self.tangent.k) {
@@ -196,8 +196,8 @@ impl<'a> EquilibriumSystem<'a> {
         sums
     }
 
-    /// Whether a force is as small as round-off leaves it: of the forces and reactions that make it up, and of
-    /// coordinates rounded by an ulp where K is that of the last factorization.
+    /// True if a force is within round-off: of the forces and reactions that it is the sum of, and of coordinates
+    /// rounded by an ulp where K is that of the last factorization.
     pub fn is_round_off(&self, place: &Place, force: &[f64]) -> bool {
         let reach = 1.0f64.max(largest(&place.q));
         let sizes = self.sizes(place).into_iter().zip(self.stiffness());
