@@ -10,20 +10,20 @@ use crate::error::Result;
 ///
 /// with backward differences nabla^j and the prediction x_0 from the last k steps: the NDF of order k = 1 to 5, k and h
 /// chosen by the error. Source: Shampine, Reichelt, SIAM J. Sci. Comput. 18 (1997) 1-22; by diffsol. Order in q, v and
-/// lambda: 5 where tolerances are tight. With `ggl` phi and G v + phi_t hold to the end of Newton's iteration, a
-/// hundredth of the tolerance, and the motion is one or two digits better than with `index1`.
+/// lambda: 5 where tolerances are tight. With `ggl` phi and G v + phi_t vanish to the tolerance of Newton's iteration,
+/// a hundredth of the error tolerance, and the motion is one or two digits better than with `index1`.
 ///
 /// For smooth stiff motions: two or three evaluations a step, and about every tenth step a dense matrix (n_q + n_v
 /// unknowns, with `ggl` 2 (n_v + n_c) more: hundreds at most) from exact K, C, G and L. It allocates. Orders 3 to 5 are
-/// not stable for fast swings that nothing damps, which are then followed in tiny steps: take `esdirk34` or
-/// `generalized_alpha` there. Projections are refused: a moved state has no past, and the order would fall to 1 at
-/// every step. Interpolation by the polynomial of the step.
+/// not stable for fast undamped oscillations, which are then followed in tiny steps: use `esdirk34` or
+/// `generalized_alpha` there. Projections are refused: after a projection the past states do not fit, and the order
+/// would fall to 1 at every step. Interpolation by the polynomial of the step.
 pub const ENTRY: Entry = Entry {
     name: "bdf",
     about: "implicit, order 1 to 5 by itself, for stiff motions that are smooth; chooses its steps",
     order: 5,
     steps: Steps::Own,
-    // At order 5, which tight tolerances lead to; errors over a motion were 1 to 4 rtol^(5/6).
+    // At order 5, which tight tolerances select; errors over a motion were 1 to 4 rtol^(5/6).
     tightening: Tightening { factor: 0.3, power: 1.2 },
     solves: diffsol_backend::solves,
     refuses: refuses::all,
@@ -32,7 +32,7 @@ pub const ENTRY: Entry = Entry {
 };
 
 fn make<'s>(setup: &Setup<'s>) -> Result<Box<dyn Integrator + 's>> {
-    // A run starts with order 1, whose error is O(h^2): the power of h that the first step is chosen by.
+    // A run starts with order 1, whose error is O(h^2): the power of h by which the first step is chosen.
     let traits = Traits { order: 2, follows: false };
     diffsol_backend::make(setup, traits, |problem, exchange| {
         Box::pin(async move { serve(problem.bdf_solver::<Newton>(start_state(&exchange)), &exchange).await })

@@ -7,16 +7,16 @@ use crate::tolerances::integrator as tolerances;
 use std::ops::Range;
 
 /// Tolerated local error of component y: atol + rtol |y|, with one atol for metres, radians and their rates, and y
-/// counted from the origin: a mechanism of micrometres needs an atol as much smaller, one far from the origin stands
-/// better there. Angles that count turns are not tested: they are brought back to what the other coordinates say, and
-/// what only watches a motion must not change its steps.
+/// measured from the origin: a mechanism of micrometres needs a smaller atol in proportion, one far from the origin
+/// should be moved nearer. Angles that count full turns are not tested: they are reset to the angles of the other
+/// coordinates, and a mere observation must not change the steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// Relative tolerance.
     pub rtol: f64,
     /// Absolute tolerance.
     pub atol: f64,
-    /// The place in y of the first such angle, and that behind the last.
+    /// First place in y of the angles that count full turns, and the one after the last.
     turning: [usize; 2],
 }
 
@@ -33,33 +33,33 @@ impl Tolerance {
         self.atol + self.rtol * from.abs().max(to.abs())
     }
 
-    /// Root mean square of `change` over the tolerated errors of `y`. The last component, the work, is not tested.
+    /// Root mean square of `change` over the tolerated errors at `y`. The last component, the work, is not tested.
     pub fn norm(&self, y: &[f64], change: &[f64]) -> f64 {
         self.norm_between(y, y, change)
     }
 
-    /// The same over a step.
+    /// Root mean square of `change` over the tolerated errors of a step.
     pub fn norm_between(&self, from: &[f64], to: &[f64], change: &[f64]) -> f64 {
         let n = from.len() - 1;
         (self.squares(n, from, to, |i| change[i]) / self.tested(n) as f64).sqrt()
     }
 
-    /// Other numbers for the same components.
+    /// Other tolerances for the same components.
     pub fn with(&self, rtol: f64, atol: f64) -> Self {
         Tolerance { rtol, atol, ..*self }
     }
 
-    /// The places in y of the angles that count turns.
+    /// Range in y of the angles that count full turns.
     pub fn untested(&self) -> Range<usize> {
         self.turning[0]..self.turning[1]
     }
 
-    /// How many of the first n components are tested.
+    /// Number of tested components among the first n.
     pub fn tested(&self, n: usize) -> usize {
         n - self.untested().len()
     }
 
-    /// Sum of the squares of `error` over the tolerated ones in a step, of the tested ones among the first n
+    /// Sum of the squares of `error` over the tolerated errors of a step, for the tested ones among the first n
     /// components.
     #[inline]
     pub fn squares(&self, n: usize, from: &[f64], to: &[f64], error: impl Fn(usize) -> f64) -> f64 {
@@ -69,10 +69,10 @@ impl Tolerance {
     }
 }
 
-/// How the tolerance of a method's steps follows from what is asked of the motion: factor asked^power. Where the error
-/// of a step is that of the solution, O(h^(p+1)), errors add up to its power p/(p+1), which the power (p + 1)/p makes
-/// up for; with local extrapolation they add up to a multiple of it. Source: Shampine, SIAM J. Numer. Anal. 12 (1975)
-/// on error per step and per unit step. The factors are measured: medians over the shipped scenes.
+/// Tolerance of the steps as a function of that asked of the motion: factor asked^power. Where the error of a step is
+/// that of the solution, O(h^(p+1)), the error of the motion has its power p/(p+1), which the power (p + 1)/p
+/// compensates; with local extrapolation it is a multiple of it. Source: Shampine, SIAM J. Numer. Anal. 12 (1975) on
+/// error per step and per unit step. The factors are measured: medians over the shipped scenes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tightening {
     /// Factor c in c rtol^power.
@@ -82,17 +82,17 @@ pub struct Tightening {
 }
 
 impl Tightening {
-    /// Steps are given, or their errors add up to no more than one is allowed.
+    /// The tolerance as it is: steps are fixed, or the error of the motion is no more than that of one step.
     pub const NONE: Self = Tightening { factor: 1.0, power: 1.0 };
 
-    /// The tolerance of steps: never looser than what is `asked`, nor tighter than Newton's methods can follow.
+    /// The tolerance of steps: at most `asked`, and not below the accuracy of Newton's method.
     pub fn of_steps(self, asked: &Tolerance) -> Tolerance {
         let rtol = (self.factor * asked.rtol.powf(self.power)).max(tolerances::CONTROLLED_RTOL).min(asked.rtol);
         asked.with(rtol, asked.atol * rtol / asked.rtol)
     }
 
-    /// The rtol of the motion that steps stand for which are controlled as tightly as this one lets them: above `asked`
-    /// where they would have to be tighter.
+    /// The rtol of the motion that the tolerance of the steps achieves: above `asked` where that of the steps is at its
+    /// lower bound.
     pub fn reached(self, asked: &Tolerance) -> f64 {
         (self.of_steps(asked).rtol / self.factor).powf(1.0 / self.power)
     }
@@ -111,18 +111,18 @@ pub struct Control {
     pub shrink: f64,
     /// Greatest h_new/h.
     pub grow: f64,
-    /// Factor on the optimal step.
+    /// Safety factor on the optimal step.
     pub safety: f64,
     /// max(err, 1e-4) of the last accepted step.
     last: f64,
-    /// Size and error of the last accepted step, of a predictive control.
+    /// Size and error of the last accepted step, for the predictive control.
     before: Option<(f64, f64)>,
     is_predictive: bool,
 }
 
 impl Control {
-    /// With the exponent 1/order - 0.75 beta: `order` of the solution where the estimate is of one less, and `beta`
-    /// zero or about 0.04, which damps its swings.
+    /// The exponent is 1/order - 0.75 beta: `order` of the solution where the estimate is of one less, and `beta` zero
+    /// or about 0.04, which damps oscillations of the step size.
     pub fn new(order: f64, beta: f64, shrink: f64, grow: f64) -> Self {
         Control {
             exponent: 1.0 / order - 0.75 * beta,
@@ -136,7 +136,7 @@ impl Control {
         }
     }
 
-    /// For an error estimate of this order.
+    /// Predictive control for an error estimate of this order.
     pub fn predictive(order: f64, shrink: f64, grow: f64) -> Self {
         Control { is_predictive: true, ..Control::new(order, 0.0, shrink, grow) }
     }
@@ -146,7 +146,7 @@ impl Control {
         let mut factor = self.safety * error.max(1e-16).powf(-self.exponent) * self.last.powf(self.beta);
         self.last = error.max(1e-4);
         if self.is_predictive {
-            // An error below 1e-2 says little about its trend.
+            // An error below 1e-2 is a poor measure of its trend.
             let error = error.max(1e-2);
             if let Some((size, old)) = self.before {
                 factor = factor.min(self.safety * h / size * (old / (error * error)).powf(self.exponent));
@@ -156,13 +156,13 @@ impl Control {
         h * factor.clamp(self.shrink, if growing { self.grow } else { 1.0 })
     }
 
-    /// What it carries from step to step.
+    /// The values carried from step to step, for [`Self::recall`].
     pub fn memory(&self) -> Vec<f64> {
         let (size, error) = self.before.unzip();
         [Some(self.last), size, error].into_iter().flatten().collect()
     }
 
-    /// Goes on with what [`Self::memory`] said.
+    /// Restores the values of [`Self::memory`].
     pub fn recall(&mut self, memory: &[f64]) {
         if let Some((last, before)) = memory.split_first() {
             self.last = *last;

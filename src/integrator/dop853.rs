@@ -5,7 +5,7 @@ use super::explicit::{ErrorEstimate, Explicit, Tableau};
 use super::{Control, Entry, Steps, Tightening, refuses, takes};
 
 /// Source: Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.5 (code DOP853); interpolation of
-/// order 7. Order 8 in q and v (and lambda); twelve evaluations a step, three more where outputs fall into the step.
+/// order 7. Order 8 in q and v (and lambda); twelve evaluations a step, three more where output rows are in the step.
 pub const ENTRY: Entry = Entry {
     name: "dop853",
     about: "Dormand-Prince 8(5,3), 12 evaluations a step, adaptive; the choice for high accuracy",

@@ -5,7 +5,7 @@ use super::{Control, Entry, Steps, Tightening, refuses, takes};
 
 /// Source: Dormand, Prince, J. Comput. Appl. Math. 6 (1980) 19-26; interpolation of order 4 and step control as in
 /// Hairer's DOPRI5. Order 5 in q and v (and lambda); six evaluations a step, and one more after a projection, which
-/// moves the state that the last stage was evaluated at.
+/// moves the state at which the last stage was evaluated.
 pub const ENTRY: Entry = Entry {
     name: "dopri5",
     about: "Dormand-Prince 5(4), 6 or (projected) 7 evaluations a step, adaptive",
@@ -53,7 +53,7 @@ pub(super) static TABLEAU: Tableau = Tableau {
     control,
 };
 
-/// As in Hairer's DOPRI5.
+/// Step control of Hairer's DOPRI5.
 pub(super) fn control() -> Control {
     Control::new(5.0, 0.04, 0.2, 10.0)
 }

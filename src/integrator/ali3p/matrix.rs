@@ -1,4 +1,4 @@
-//! The tangent matrix with the penalty in it.
+//! The tangent matrix with the penalty of the constraints.
 
 use super::super::Problem;
 use crate::formulation::NO_TANGENT;
@@ -7,16 +7,16 @@ use crate::math::kkt::{Pattern, Unsymmetric};
 use crate::system::{MechanicalSystem, OperatingPoint, Tangent};
 use std::collections::BTreeSet;
 
-/// M + h/2 C + h^2/4 (K + G^T alpha G), for which `weight` holds h^2/4 alpha.
+/// M + h/2 C + h^2/4 (K + G^T alpha G), with h^2/4 alpha in `weight`.
 pub(super) struct Penalized {
     penalty: f64,
     tangent: Tangent,
     matrix: Unsymmetric<f64>,
-    /// No rows beside those in the penalty.
+    /// An empty pattern: the constraints are in the penalty, not in rows of their own.
     none: Pattern,
-    /// Entries of G, row by row.
+    /// Places of the values of G by row.
     rows: Vec<Vec<usize>>,
-    /// G in the matrix.
+    /// G at the last factorization.
     g: Vec<f64>,
     diagonal: Vec<f64>,
     weight: Vec<f64>,
@@ -24,7 +24,7 @@ pub(super) struct Penalized {
 }
 
 impl Penalized {
-    /// None where there is not enough memory.
+    /// Memory for a system; `None` if there is not enough.
     pub fn new(penalty: f64, system: &dyn MechanicalSystem) -> Option<Self> {
         let structure = system.structure();
         let g = &structure.g;
@@ -50,7 +50,7 @@ impl Penalized {
         })
     }
 
-    /// Factors at a state whose terms the problem holds.
+    /// Factors at a state whose terms are in the problem.
     pub fn factor(&mut self, problem: &mut Problem, at: OperatingPoint, h: f64) -> Result<(), StepError> {
         let dynamics = &mut problem.dynamics;
         if !dynamics.system.tangent(at, &mut self.tangent, &mut dynamics.scratch) {
@@ -74,7 +74,7 @@ impl Penalized {
         Ok(self.matrix.factor(&self.none, &[])?)
     }
 
-    /// penalty / (G diag(M)^-1 G^T)_jj, over coordinates with mass; rows without any count as of unit size.
+    /// Sets alpha: penalty / (G diag(M)^-1 G^T)_jj, over coordinates with mass; 1 in place of a zero diagonal.
     fn weigh(&mut self, problem: &Problem) {
         let (structure, terms) = (&problem.dynamics.structure, &problem.dynamics.terms);
         self.diagonal.fill(0.0);
@@ -89,8 +89,8 @@ impl Penalized {
         self.weight.iter_mut().for_each(|size| *size = if *size > 0.0 { penalty / *size } else { penalty });
     }
 
-    /// W x = right - h^2/4 G^T alpha rows, in place; leaves h^2/4 alpha (rows + G x) in `rows`. By the G of W: another
-    /// would leave a part along the motion, which alpha makes large.
+    /// Solves W x = right - h^2/4 G^T alpha rows in place, and writes h^2/4 alpha (rows + G x) to `rows`. Uses the G of
+    /// W: another one would add a part along the motion, which alpha makes large.
     pub fn solve(&mut self, g: &Pattern, rows: &mut [f64], right: &mut [f64]) -> Result<(), StepError> {
         self.rest.copy_from_slice(rows);
         rows.iter_mut().zip(&self.weight).for_each(|(row, weight)| *row *= -weight);

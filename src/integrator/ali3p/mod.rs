@@ -20,22 +20,23 @@ use matrix::Penalized;
 /// W dv = -h^2/4 G^T alpha (G v_1 + phi_t),  W da = -h^2/4 G^T alpha (G a_1 - gamma)                then projections
 /// ```
 ///
-/// Each line is iterated to round-off by the factors of one W, which is of the size of M: phi, G v + phi_t and
-/// G a - gamma hold at every step, whatever the penalty. lambda* is moved by the phi that the iteration predicts, and W
+/// Each line is iterated to round-off by the factors of one W, which has the size of M: phi, G v + phi_t and G a -
+/// gamma vanish at every step, whatever the penalty. lambda* is changed by the phi that the iteration predicts, and W
 /// and alpha phi share their G: so iterations converge as Newton's do, however large alpha is. Source: Bayo, Ledesma,
 /// Nonlinear Dyn. 9 (1996) 113-130; Cuadrado, Cardenal, Morer, Bayo, Multibody Syst. Dyn. 4 (2000) 55-73. The rule by
-/// itself would leave lambda of order 1, and undamped; what is carried on is a after its projection (least change in
-/// the metric of M + h/2 C + h^2/4 K), and lambda is that of the equations of motion at (q, v).
+/// itself would give lambda order 1, undamped; the next step starts with a after its projection (least change in the
+/// metric of M + h/2 C + h^2/4 K), and lambda is that of the equations of motion at (q, v).
 ///
-/// alpha_j = (4/h^2) penalty / (G diag(M)^-1 G^T)_jj for row j: an iteration leaves some 1/penalty of it, in whatever
-/// units. (The usual alpha of 1e7 to 1e9 is a penalty of 250 to 25,000 at unit masses and h = 0.01 s.) W is regular
-/// where rows of G depend on others, always or at one position: redundant constraints are met, singular positions
-/// passed. Rotations advance along the group, the change predicted and the rest one after the other.
+/// alpha_j = (4/h^2) penalty / (G diag(M)^-1 G^T)_jj for row j: an iteration reduces the residual of phi to about
+/// 1/penalty of it, in any units. (The usual alpha of 1e7 to 1e9 is a penalty of 250 to 25,000 at unit masses and
+/// h = 0.01 s.) W is regular where rows of G depend on others, always or at one position: redundant constraints are
+/// satisfied, singular positions passed. Rotations advance along the group, first by the predicted change, then by the
+/// remaining one.
 ///
-/// Order 2 in q, v and lambda. A step costs W from exact K and C, two or three iterations with an evaluation each, some
-/// more back-substitutions, and the evaluation of lambda. W is symmetric only where K and C are: an LU, dense or sparse
-/// by its pattern, in which bodies meet that share an element. The work is the trapezoidal rule. Fixed steps; cubic
-/// Hermite interpolation.
+/// Order 2 in q, v and lambda. Cost of a step: W from exact K and C, two or three iterations with an evaluation each, a
+/// few more back-substitutions, and the evaluation of lambda. W is symmetric only where K and C are: an LU, dense or
+/// sparse by its pattern, in which bodies that share an element are coupled. The work is integrated by the trapezoidal
+/// rule. Fixed steps; cubic Hermite interpolation.
 pub const ENTRY: Entry = Entry {
     name: "ali3p",
     about: "index-3 augmented Lagrangian, projected: holds phi, phi'; redundant and singular G allowed; fixed steps",
@@ -76,18 +77,18 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
 
 struct Ali3p {
     matrix: Penalized,
-    /// Whether `a` and lambda* are those of the step before.
+    /// True if `a` and lambda* come from the step before.
     is_started: bool,
     a: Vec<f64>,
     a_new: Vec<f64>,
     predicted: Vec<f64>,
-    /// lambda*, and at the start of the step.
+    /// lambda*, and its value at the start of the step.
     lambda: Vec<f64>,
     lambda_start: Vec<f64>,
     /// A change of q, v or a.
     step: Vec<f64>,
     rows: Vec<f64>,
-    /// Units of phi.
+    /// Reference values of phi.
     scales: Vec<f64>,
     stages: [Vec<f64>; 3],
     /// y' at the new state.
@@ -96,7 +97,7 @@ struct Ali3p {
     polynomial: Hermite,
 }
 
-/// In units of what may stop falling.
+/// Limits on changes over their stagnation tolerance.
 const LIMITS: Limits = Limits {
     most: tolerances::FIXED_STEP_ITERATIONS,
     tolerance: tolerances::ROUND_OFF_OF_STAGNATION,
@@ -104,12 +105,12 @@ const LIMITS: Limits = Limits {
     stagnation: 1.0,
     ..Limits::NONE
 };
-/// Relative to what is projected: each solution gains what the penalty leaves.
+/// Limits on changes relative to the projected quantity: each solution reduces them by the factor 1/penalty.
 const PROJECTED: Limits =
     Limits { tolerance: 0.0, round_off: tolerances::ROUNDED_ZERO, stagnation: f64::INFINITY, ..LIMITS };
 
 impl Ali3p {
-    /// a and lambda* of the step before, or where there is none those of the state.
+    /// Starts from a and lambda* of the step before, or else from those of the state.
     fn begin(&mut self, problem: &Problem, from: From) {
         if self.is_started {
             self.a_new.copy_from_slice(&self.a);
@@ -121,7 +122,7 @@ impl Ali3p {
         self.lambda.copy_from_slice(&problem.dynamics.lambda);
     }
 
-    /// q where a stays as it is.
+    /// q_1 for constant a.
     fn predict(&mut self, problem: &Problem, from: From, h: f64) {
         let (q0, v0) = problem.split(from.y);
         for (i, v0) in v0.iter().enumerate() {
@@ -130,7 +131,7 @@ impl Ali3p {
         turn(problem.dynamics.system, &mut self.stages, q0, &self.step, &mut self.predicted);
     }
 
-    /// v_1 and q_1 that go with a_1.
+    /// v_1 and q_1 for the present a_1.
     fn advance(&mut self, problem: &Problem, from: From, h: f64, to: &mut [f64]) {
         let (_, v0) = problem.split(from.y);
         let (q, v) = problem.split_mut(to);
@@ -167,12 +168,12 @@ impl Ali3p {
         if converged { Ok(()) } else { Err(StepError::NotConverged) }
     }
 
-    /// One iteration from the terms at q_1, v_1; the largest change of a_1.
+    /// One iteration from the terms at q_1, v_1. Returns the largest change of a_1.
     fn iterate(&mut self, problem: &mut Problem, h: f64) -> Result<f64, StepError> {
         let dynamics = &mut problem.dynamics;
         dynamics.statistics.newton_iterations += 1;
         let (terms, structure) = (&dynamics.terms, &dynamics.structure);
-        // What is left of the equations of motion, and phi as that of an acceleration.
+        // Residual of the equations of motion, and phi in units of an acceleration.
         self.step.fill(0.0);
         structure.mass.multiply_symmetric(&terms.mass, &self.a_new, &mut self.step);
         structure.g.multiply_transposed(&terms.g, &self.lambda, &mut self.step);
@@ -184,7 +185,7 @@ impl Ali3p {
         Ok(largest(&self.step))
     }
 
-    /// v_1 and a_1 that meet the constraints at q_1.
+    /// Projects v_1 and a_1 to satisfy the constraints at q_1.
     fn project(&mut self, problem: &mut Problem, t: f64, to: &mut [f64]) -> Result<(), StepError> {
         let (q, v) = problem.split_mut(to);
         let need = Need::CONSTRAINTS | Need::G;
@@ -207,7 +208,7 @@ impl Ali3p {
         met
     }
 
-    /// G x + b = 0 with least change of x.
+    /// Solves G x + b = 0 by the least change of x.
     fn meet(&mut self, problem: &Problem, x: &mut [f64], b: impl Fn(&Problem, usize) -> f64) -> Result<(), StepError> {
         let (g, values) = (&problem.dynamics.structure.g, &problem.dynamics.terms.g);
         let met = Monitor::default().solve(PROJECTED, |_| {

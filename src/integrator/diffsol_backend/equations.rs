@@ -1,4 +1,4 @@
-//! The rows of a formulation as diffsol sees it.
+//! The equations of a formulation as diffsol needs them.
 
 use super::kinematics::Dense;
 use super::rows::FirstOrderRows;
@@ -13,13 +13,13 @@ use std::rc::Rc;
 pub type Values = NalgebraVec<f64>;
 type Entries = NalgebraMat<f64>;
 
-/// diffsol calls with shared references and takes numbers only: the rows are behind a cell, and what stops it is kept
+/// diffsol calls with shared references and takes numbers only: the rows are behind a cell, and their error is kept
 /// here, while the numbers are NaN, which makes diffsol try a smaller step. Clones share both.
 #[derive(Clone)]
 pub struct Equations<'s> {
     rows: Rc<RefCell<FirstOrderRows<'s>>>,
     halt: Rc<RefCell<Option<StepError>>>,
-    /// Unknowns, and how many of them have a rate.
+    /// Number of unknowns, and how many of them have a rate.
     pub len: usize,
     pub rates: usize,
     pub context: NalgebraContext,
@@ -37,12 +37,12 @@ impl<'s> Equations<'s> {
         }
     }
 
-    /// Uses the rows.
+    /// Calls `see` with the rows.
     pub fn with<R>(&self, see: impl FnOnce(&mut FirstOrderRows<'s>) -> R) -> R {
         see(&mut self.rows.borrow_mut())
     }
 
-    /// What stopped the rows first since the last call.
+    /// The first error of the rows since the last call.
     pub fn take_halt(&self) -> Option<StepError> {
         self.halt.take()
     }
@@ -55,13 +55,13 @@ impl<'s> Equations<'s> {
     fn fill(&self, values: &mut [f64], see: impl FnOnce(&mut FirstOrderRows<'s>, &mut [f64]) -> Result<(), StepError>) {
         if let Err(halt) = self.with(|rows| see(rows, values)) {
             values.fill(f64::NAN);
-            // The first one is the cause: NaN makes others follow.
+            // The first error is the cause: its NaN leads to others.
             self.halt.borrow_mut().get_or_insert(halt);
         }
     }
 }
 
-/// The right-hand side, the mass matrix and the initial values of the equations, as diffsol asks for each of them.
+/// The right-hand side, the mass matrix and the initial values of the equations, in the form of diffsol's operators.
 pub struct View<'r, 's>(&'r Equations<'s>);
 
 impl NonLinearOp for View<'_, '_> {
@@ -95,7 +95,7 @@ impl LinearOp for View<'_, '_> {
     }
 }
 
-/// Never asked for: runs start from states of their own.
+/// Not called: runs start from states of their own.
 impl ConstantOp for View<'_, '_> {
     fn call_inplace(&self, _t: f64, y: &mut Values) {
         y.inner_mut().fill(0.0);
@@ -129,7 +129,7 @@ impl<'s> OdeEquations for Equations<'s> {
     fn get_params(&self, _: &mut Values) {}
 }
 
-/// The sizes and types that diffsol asks of every operator.
+/// Sizes and types that diffsol requires of every operator.
 macro_rules! operator {
     ($type:ty, $of:ident => $equations:expr) => {
         impl Op for $type {

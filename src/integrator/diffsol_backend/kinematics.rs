@@ -3,9 +3,9 @@
 use crate::math::kkt::Pattern;
 use crate::system::MechanicalSystem;
 
-/// N and N^+ column by column of N, places and values. A derivative along the directions of v, which is what K, G and L
-/// are, becomes one by q with N^+ = (N^T N)^-1 N^T from the right; N^T N is diagonal for unit quaternions. Angles that
-/// are counted through turns are left out there: no force changes with those.
+/// N and N^+ column by column of N, places and values. A derivative along the directions of v, as K, G and L are,
+/// becomes one with respect to q by N^+ = (N^T N)^-1 N^T from the right; N^T N is diagonal for unit quaternions. The
+/// angles that count full turns are omitted: no force depends on them.
 pub struct Kinematics {
     columns: Vec<Vec<(usize, f64)>>,
     inverse: Vec<Vec<(usize, f64)>>,
@@ -45,15 +45,15 @@ impl Kinematics {
         }
     }
 
-    /// Adds N with its first entry at `at`.
+    /// Adds N, its first entry at `at`.
     pub fn by_v(&self, at: (usize, usize), out: &mut Dense) {
         for (j, column) in self.columns.iter().enumerate() {
             column.iter().for_each(|&(i, value)| out.add(at.0 + i, at.1 + j, value));
         }
     }
 
-    /// Adds d(N v)/dq: exact where N is affine in q, as with quaternions; without the rows of angles that are counted
-    /// through turns, on which nothing else depends.
+    /// Adds d(N v)/dq: exact where N is affine in q, as with quaternions; without the rows of the angles that count
+    /// full turns, on which nothing else depends.
     pub fn by_q(&mut self, system: &dyn MechanicalSystem, q: &[f64], v: &[f64], out: &mut Dense) {
         if self.is_identity {
             return;
@@ -72,12 +72,12 @@ impl Kinematics {
         }
     }
 
-    /// Adds a derivative along the directions of v as one by q, its first entry in row `row`.
+    /// Adds a derivative along the directions of v as one with respect to q, its first entry in row `row`.
     pub fn along(&self, row: usize, pattern: &Pattern, values: &[f64], out: &mut Dense) {
         pattern.entries.iter().zip(values).for_each(|(&(i, j), value)| self.add_along(row + i, j, *value, out));
     }
 
-    /// The same for one entry in column `j`.
+    /// Adds one entry in column `j` of such a derivative.
     pub fn add_along(&self, row: usize, j: usize, value: f64, out: &mut Dense) {
         self.inverse[j].iter().for_each(|&(k, weight)| out.add(row, k, value * weight));
     }
@@ -94,17 +94,17 @@ impl Dense<'_> {
         self.values[column * self.n + row] += value;
     }
 
-    /// Adds a matrix with its first entry at `at`.
+    /// Adds a matrix, its first entry at `at`.
     pub fn block(&mut self, at: (usize, usize), pattern: &Pattern, values: &[f64]) {
         pattern.entries.iter().zip(values).for_each(|(&(i, j), value)| self.add(at.0 + i, at.1 + j, *value));
     }
 
-    /// Adds the transposed matrix.
+    /// Adds the transpose of a matrix, its first entry at `at`.
     pub fn transposed(&mut self, at: (usize, usize), pattern: &Pattern, values: &[f64]) {
         pattern.entries.iter().zip(values).for_each(|(&(i, j), value)| self.add(at.0 + j, at.1 + i, *value));
     }
 
-    /// Adds `factor` times a symmetric matrix of which the entries give one triangle.
+    /// Adds `factor` times a symmetric matrix given by one triangle.
     pub fn symmetric(&mut self, at: (usize, usize), pattern: &Pattern, values: &[f64], factor: f64) {
         for (&(i, j), value) in pattern.entries.iter().zip(values) {
             self.add(at.0 + i, at.1 + j, factor * value);

@@ -1,4 +1,4 @@
-//! Implicit integrators of diffsol: their steps behind our trait.
+//! Implicit integrators of diffsol behind the trait [`Integrator`].
 //!
 //! To add one: a file like `bdf.rs` that names the solver.
 
@@ -18,34 +18,35 @@ use equations::{Equations, Values};
 use solver::{Counted, Request, Solver};
 pub use solver::{Start, serve, start_state};
 
-/// Where lambda follows from accelerations, or q is moved to phi = 0 by multipliers of its own: with phi' = 0 or phi =
-/// 0 alone diffsol's steps lose orders.
+/// True for formulations in which lambda follows from accelerations, or q is moved to phi = 0 by multipliers of its
+/// own: with phi' = 0 or phi = 0 alone diffsol's steps lose orders.
 pub fn solves(formulation: &formulation::Entry) -> bool {
     formulation.default_dae().is_some_and(|dae| dae.holds(2) || dae.mu.is_some())
 }
 
-/// Solves the linear systems of Newton's method, dense.
+/// Dense solver of the linear systems of Newton's method.
 pub type Newton = NalgebraLU<f64>;
 
-/// What our time loop must know of a method.
+/// Properties of a method that the time loop depends on.
 #[derive(Clone, Copy)]
 pub struct Traits {
     pub order: usize,
-    /// Whether steps go on at no cost from a state that was moved: so with one-step methods.
+    /// True for one-step methods, which continue from a moved state at no cost.
     pub follows: bool,
 }
 
-/// Steps of a solver, which keeps its state between attempts.
+/// Steps of a diffsol solver, which keeps its state between attempts.
 struct Implicit<'s> {
     equations: Equations<'s>,
     start: Start<'s>,
     traits: Traits,
     solver: Option<Solver<'s>>,
-    /// Where the last attempt started and ended, and whether the solver is ahead of that.
+    /// Times at which the last attempt started and ended.
     began: f64,
     reached: f64,
-    /// The state that the last attempt ended with.
+    /// The state at the end of the last attempt.
     y: Vec<f64>,
+    /// True if the solver is beyond that end.
     is_ahead: bool,
     own_step: f64,
     counted: Counted,
@@ -68,12 +69,12 @@ pub fn make<'s>(setup: &Setup<'s>, traits: Traits, start: Start<'s>) -> Result<B
         is_ahead: false,
         own_step: 0.0,
         counted: Counted::default(),
-        // The solver controls its error: what it is offered is all that is left.
+        // The solver controls its error: this control only passes on the steps.
         control: Control::new(1.0, 0.0, 0.1, f64::INFINITY),
     }))
 }
 
-/// Jacobian, mass matrix, the matrix of Newton's method and its factors, some of them twice.
+/// Number of matrices: Jacobian, mass matrix, the matrix of Newton's method and its factors, some of them twice.
 const COPIES: f64 = 10.0;
 const SPARSE: &str = "choose a sparse implicit integrator, such as radau_iia or generalized_alpha";
 
@@ -88,7 +89,7 @@ impl<'s> Implicit<'s> {
         begun.map_err(|error| self.halt(error))
     }
 
-    /// The solver as it goes on from `from`.
+    /// The solver continued from `from`, or a new one.
     fn resume(&mut self, tolerance: &Tolerance, from: From, h: f64) -> Result<Solver<'s>, StepError> {
         match self.solver.take() {
             Some(solver) if self.reached == from.t && self.y == from.y => Ok(solver),
@@ -104,10 +105,10 @@ impl<'s> Implicit<'s> {
     fn advance(&mut self, solver: &mut Solver, (began, h): (f64, f64), to: &mut [f64]) -> Result<(), StepError> {
         let end = began + h;
         if !self.is_ahead {
-            // Smaller steps are lost in the rounding of t; without a least one diffsol tries for ever.
+            // Smaller steps are lost in the rounding of t; without a lower bound diffsol retries without end.
             let least = f64::EPSILON * began.abs().max(1e-3 * h);
             solver.request(Request::Step(least.max(f64::MIN_POSITIVE))).map_err(|error| self.halt(error))?;
-            // What stopped an evaluation on the way was overcome.
+            // Errors of evaluations before a successful step do not count.
             self.equations.take_halt();
         }
         let t = solver.t();
@@ -123,7 +124,7 @@ impl<'s> Implicit<'s> {
         Ok(())
     }
 
-    /// Why the solver gave up.
+    /// The error of a failed solver.
     fn halt(&self, error: DiffsolError) -> StepError {
         self.equations.take_halt().unwrap_or(match error {
             DiffsolError::OdeSolverError(OdeSolverError::TooManyErrorTestFailures { .. }) => StepError::TooInaccurate,
@@ -184,7 +185,7 @@ impl Integrator for Implicit<'_> {
         (self.began, self.reached) = (from.t, from.t + self.own_step);
         self.y.copy_from_slice(to);
         if !self.traits.follows {
-            // The time loop brings quaternions back to unit length, which is no reason to start anew.
+            // The time loop normalizes quaternions, which is no reason to restart.
             let (q, _) = problem.split_mut(&mut self.y);
             problem.dynamics.system.normalize(q);
         }

@@ -12,9 +12,9 @@ use std::ops::Range;
 /// ```
 ///
 /// in q, v, the work, a and lambda, then w and eta, u and mu where the [`Dae`] has them: with rates as unknowns no M
-/// stands before a derivative, where diffsol wants a constant. The Jacobian is exact but for the change of phi'' with
-/// q, from which no stiffness comes, and at mu = eta = 0, which holds for the exact motion. Multipliers of dropped rows
-/// are zero.
+/// multiplies a derivative, where diffsol requires a constant. The Jacobian is exact but for the derivative of phi''
+/// with respect to q, which contains no stiffness, and for terms that vanish with mu = eta = 0, as in the exact motion.
+/// Multipliers of dropped rows are zero.
 pub struct FirstOrderRows<'s> {
     dae: Dae,
     dynamics: Dynamics<'s>,
@@ -26,13 +26,13 @@ pub struct FirstOrderRows<'s> {
     places: Places,
 }
 
-/// Where the unknowns stand; the equations of motion are in the rows of a, those of the shifts in theirs.
+/// Ranges of the unknowns; the equations of motion are in the rows of a, those of the shifts in the rows of the shifts.
 struct Places {
     v: Range<usize>,
     work: usize,
     a: Range<usize>,
     lambda: Range<usize>,
-    /// A shift with its multipliers: of v, and of q.
+    /// Shift of v with its multipliers, then shift of q with its multipliers.
     w: Option<[Range<usize>; 2]>,
     u: Option<[Range<usize>; 2]>,
     end: usize,
@@ -53,7 +53,7 @@ impl Places {
     }
 }
 
-/// Unknowns of a system of these dimensions.
+/// Number of unknowns for a system of these dimensions.
 pub fn unknowns(dae: &Dae, n: Dimensions) -> usize {
     Places::new(dae, n).end
 }
@@ -72,7 +72,7 @@ impl<'s> FirstOrderRows<'s> {
         }
     }
 
-    /// v + u
+    /// Sets `velocity` to v + u.
     fn moves(&mut self, x: &[f64]) {
         self.velocity.copy_from_slice(&x[self.places.v.clone()]);
         if let Some([u, _]) = &self.places.u {
@@ -80,7 +80,7 @@ impl<'s> FirstOrderRows<'s> {
         }
     }
 
-    /// The rows of q' and v' of the Jacobian.
+    /// Writes the rows of q' and v' of the Jacobian.
     fn rates(&mut self, x: &[f64], out: &mut Dense) {
         self.moves(x);
         let Places { v, a, w, u, .. } = &self.places;
@@ -95,7 +95,7 @@ impl<'s> FirstOrderRows<'s> {
         }
     }
 
-    /// The equations of motion, and of the shifts.
+    /// Writes the rows of the equations of motion and of the shifts.
     fn balances(&self, out: &mut Dense) {
         let Places { v, a, lambda, w, u, .. } = &self.places;
         let (terms, structure) = (&self.dynamics.terms, &self.dynamics.structure);
@@ -109,7 +109,7 @@ impl<'s> FirstOrderRows<'s> {
         }
     }
 
-    /// The rows of one kind of multipliers, which begin at `at`.
+    /// Writes the rows of one kind of multipliers, which begin at `at`.
     fn constraints(&self, dae: impl Fn(&Dae) -> Option<Row>, at: usize, out: &mut Dense) {
         let Places { v, a, .. } = &self.places;
         let (terms, g) = (&self.dynamics.terms, &self.dynamics.structure.g);
@@ -132,14 +132,14 @@ impl<'s> FirstOrderRows<'s> {
     }
 }
 
-/// As diffsol takes them: x' = F(t, x) in the first unknowns, which are q, v and the work, and 0 = F(t, x) in the rest.
+/// In the form of diffsol: x' = F(t, x) in the first unknowns, which are q, v and the work; 0 = F(t, x) in the others.
 impl FirstOrderRows<'_> {
-    /// How many unknowns x has.
+    /// Number of unknowns.
     pub fn len(&self) -> usize {
         self.places.end
     }
 
-    /// x and x' where a run starts, from q, v and the work with their rates.
+    /// x and x' at the start of a run, from q, v and the work with their rates.
     pub fn start(&mut self, from: From, x: &mut [f64], rate: &mut [f64]) -> Result<(), StepError> {
         let Places { v, work, a, lambda, .. } = &self.places;
         let (q, speed) = (&from.y[..v.start], &from.y[v.clone()]);
@@ -198,7 +198,7 @@ impl FirstOrderRows<'_> {
         Ok(())
     }
 
-    /// Adds dF/dx, or what is close enough to it for Newton's method, to a matrix of zeros.
+    /// Adds dF/dx, or a sufficient approximation for Newton's method, to a matrix of zeros.
     pub fn jacobian(&mut self, t: f64, x: &[f64], out: &mut Dense) -> Result<(), StepError> {
         let Places { v, a, lambda, w, u, .. } = &self.places;
         let (dynamics, q, v) = (&mut self.dynamics, &x[..v.start], &x[v.clone()]);
@@ -218,12 +218,12 @@ impl FirstOrderRows<'_> {
         Ok(())
     }
 
-    /// Leaves out the rows of constraints, and takes the pieces of functions, that the run does.
+    /// Takes over the dropped rows and the pieces of functions of the run.
     pub fn follow(&mut self, run: &Dynamics) {
         self.dynamics.follow(run);
     }
 
-    /// The work done here.
+    /// The counters of the work done here.
     pub fn statistics(&mut self) -> &mut Statistics {
         &mut self.dynamics.statistics
     }

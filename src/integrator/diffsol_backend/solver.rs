@@ -1,4 +1,4 @@
-//! A solver of diffsol together with the problem that it borrows.
+//! A diffsol solver together with the problem that it borrows.
 
 use super::super::Tolerance;
 use super::equations::{Equations, Values};
@@ -14,29 +14,30 @@ use std::pin::Pin;
 use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
 
-/// Starts a solver on a problem and lets it [`serve`].
+/// Starts a solver on a problem and calls [`serve`].
 pub type Start<'s> = fn(OdeSolverProblem<Equations<'s>>, SharedExchange) -> Task<'s>;
 
-/// The future in which a solver lives beside its problem, which safe code allows nowhere else: polled once a request.
+/// The future that owns a solver and the problem it borrows, which safe code allows nowhere else: polled once a
+/// request.
 pub type Task<'s> = Pin<Box<dyn Future<Output = ()> + 's>>;
 
-/// Where requests and answers are left.
+/// Place of requests and answers.
 pub type SharedExchange = Rc<RefCell<Exchange>>;
 
-/// A solver that is asked for a step or a state.
+/// A running solver that answers requests.
 pub struct Solver<'s> {
     task: Task<'s>,
     exchange: SharedExchange,
 }
 
-/// What is asked, and the answer.
+/// A request and its answer.
 pub struct Exchange {
     request: Request,
     result: Result<(), DiffsolError>,
-    /// Of the solver's state, after every request; and the step that a start is to try.
+    /// Time of the solver's state, after every request; and the step that a start is to try.
     t: f64,
     h: f64,
-    /// Unknowns with their rates: where to start, or to go on from; then those that were asked for.
+    /// On entry the unknowns and rates to start or continue from; on return those requested.
     x: Values,
     rate: Values,
     counted: Counted,
@@ -44,17 +45,17 @@ pub struct Exchange {
 
 #[derive(Clone, Copy)]
 pub enum Request {
-    /// What the state is.
+    /// Returns the present state.
     State,
-    /// Goes on from so many first unknowns of the exchange and their rates; the others stay.
+    /// Continues from this number of first unknowns of the exchange and their rates; the others stay.
     Move(usize),
-    /// A step of at least this size.
+    /// Takes a step of at least this size.
     Step(f64),
-    /// x at a time within the last step; NaN where the solver has none.
+    /// Returns x at a time within the last step; NaN where the solver has none.
     At(f64),
 }
 
-/// What a solver counts.
+/// The counters of a solver.
 #[derive(Clone, Copy, Default)]
 pub struct Counted {
     pub iterations: usize,
@@ -79,12 +80,12 @@ impl<'s> Solver<'s> {
 
     pub fn request(&mut self, request: Request) -> Result<(), DiffsolError> {
         self.exchange.borrow_mut().request = request;
-        // A solver that could not be started has ended, and is not kept.
+        // A solver that failed to start has ended, and is not kept.
         let _ = self.task.as_mut().poll(&mut Context::from_waker(Waker::noop()));
         std::mem::replace(&mut self.exchange.borrow_mut().result, Ok(()))
     }
 
-    /// Goes on from another state and its rate.
+    /// Continues from another state and its rate.
     pub fn go_on_from(&mut self, y: &[f64], slope: &[f64]) -> Result<(), DiffsolError> {
         {
             let Exchange { x, rate, .. } = &mut *self.exchange.borrow_mut();
@@ -167,11 +168,11 @@ pub async fn serve<'p, 's: 'p, S: OdeSolverMethod<'p, Equations<'s>>>(
     }
 }
 
-/// Equations and tolerances for diffsol. Its limit of Newton failures counts those of the whole run; where Newton's
-/// method stops at a fifth of the tolerance, which is its default, what is left shows in lambda and as drift.
+/// Equations and tolerances for diffsol. Its limit of Newton failures counts those of the whole run; if Newton's method
+/// stopped at a fifth of the tolerance, its default, the residual would appear in lambda and as drift.
 fn problem_of<'s>(eqn: Equations<'s>, tolerance: &Tolerance) -> OdeSolverProblem<Equations<'s>> {
     let rates = eqn.rates;
-    // diffsol takes the mean over all unknowns, our norm that over the tested ones.
+    // diffsol averages over all unknowns, our norm over the tested ones.
     let tested = (tolerance.tested(rates - 1) as f64 / eqn.len as f64).sqrt();
     let mut atol = Values::from_element(eqn.len, tolerances::NOT_TESTED, eqn.context);
     let places = atol.inner_mut().as_mut_slice();
