@@ -8,17 +8,17 @@ use crate::formulation::StepError;
 pub struct Tableau {
     /// Order p of the solution.
     pub order: usize,
-    /// Nodes, one a stage, then those of the stages for interpolation. The first stage is y' at the start of the step.
+    /// Nodes of the stages, then of those for interpolation. The first stage is y' at the start of the step.
     pub c: &'static [f64],
-    /// One row a node; row i has i entries.
+    /// Coefficients a_ij, one row per node; row i has i entries.
     pub a: &'static [&'static [f64]],
-    /// Weights, one a stage.
+    /// Weights b_i, one per stage.
     pub b: &'static [f64],
-    /// How the error of a step is estimated.
+    /// Error estimate of a step.
     pub error: ErrorEstimate,
     /// Weights of all stages in the interpolation polynomial beyond the cubic Hermite part, row by row.
     pub dense: &'static [&'static [f64]],
-    /// The step control.
+    /// Makes the step control.
     pub control: fn() -> Control,
 }
 
@@ -32,11 +32,11 @@ impl Tableau {
     }
 }
 
-/// How a tableau estimates the error of a step.
+/// Error estimate of a tableau.
 pub enum ErrorEstimate {
-    /// It does not: steps are fixed.
+    /// No estimate: steps are fixed.
     None,
-    /// |h sum e_i k_i| with e = b less the weights of the solution it is compared with; a weight more than there are stages
+    /// The error h sum e_i k_i, with e = b minus the weights of the compared solution. A weight more than stages
     /// belongs to y' at the new state.
     Embedded(&'static [f64]),
     /// Combination of a fifth- and a third-order estimate (DOP853).
@@ -48,10 +48,10 @@ pub enum ErrorEstimate {
     },
 }
 
-/// k_i = F(t + c_i h, y + h sum_j a_ij k_j), y_1 = y + h sum b_i k_i.
+/// The step k_i = F(t + c_i h, y + h sum_j a_ij k_j), y_1 = y + h sum b_i k_i.
 pub struct Explicit {
     tableau: &'static Tableau,
-    /// Slopes of all stages; the first is given, so it stays empty.
+    /// k_i of all stages; the first is given, so its vector is unused.
     k: Vec<Vec<f64>>,
     stage: Vec<f64>,
     control: Control,
@@ -59,7 +59,7 @@ pub struct Explicit {
 }
 
 impl Explicit {
-    /// For states of length `len`, see [`Setup::len`](super::Setup::len).
+    /// Memory for states of length `len`, see [`Setup::len`](super::Setup::len).
     pub fn new(tableau: &'static Tableau, len: usize) -> Self {
         let zeros = |n: usize| vec![vec![0.0; len]; n];
         Explicit {
@@ -75,7 +75,7 @@ impl Explicit {
         self.tableau.b.len()
     }
 
-    /// The stage at the new state that an embedded error estimate needs, if it does.
+    /// Index of the stage at the new state, if the embedded error estimate needs one.
     fn end_stage(&self) -> Option<usize> {
         match self.tableau.error {
             ErrorEstimate::Embedded(weights) if weights.len() > self.stages() => Some(weights.len() - 1),
@@ -109,7 +109,7 @@ impl Explicit {
             ErrorEstimate::Embedded(weights) => Some((square(weights) / n as f64).sqrt()),
             ErrorEstimate::Pair { fifth, third } => {
                 let (fifth, third) = (square(fifth), square(third));
-                // err5^2 / sqrt(err5^2 + 0.01 err3^2); no change at all leaves no error.
+                // err5^2 / sqrt(err5^2 + 0.01 err3^2); zero for a step without any change.
                 let both = fifth + 0.01 * third;
                 Some(if both == 0.0 { 0.0 } else { fifth / (both * n as f64).sqrt() })
             }
@@ -126,7 +126,7 @@ pub(super) fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[
     }
 }
 
-/// The length and the middle of the widest interval of [0, 1] without a node; 0 is one.
+/// Length and middle of the widest interval of [0, 1] between nodes; 0 counts as a node.
 pub(super) fn widest_gap(nodes: &[f64]) -> (f64, f64) {
     let next = |node: f64| nodes.iter().copied().filter(|other| *other > node).fold(1.0, f64::min);
     let gap = |node: f64| (next(node) - node, 0.5 * (next(node) + node));
@@ -195,7 +195,7 @@ impl Integrator for Explicit {
         widest_gap(&self.tableau.c[..self.stages()]).0
     }
 
-    /// Cubic Hermite interpolation, and beyond it what comes from the stages.
+    /// Cubic Hermite interpolation, raised by the stages of the tableau.
     fn prepare(
         &mut self,
         problem: &mut Problem,

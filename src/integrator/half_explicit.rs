@@ -7,16 +7,16 @@ use crate::formulation::StepError;
 use crate::math::kkt::TwoJacobianGmres;
 use crate::system::Need;
 
-/// The cubic has an error of h^4 over a step, and so rows of order 4.
+/// Order of the rows of the cubic, whose error over a step is O(h^4).
 const CUBIC: usize = 4;
 
 /// The constants of a half-explicit method.
 pub struct Tableau {
     pub order: usize,
     /// The explicit tableau of partitioned methods, whose first stage is y' at the start and whose error estimate is
-    /// used; without it stage i + 1 is where the constraint of stage i holds.
+    /// used; without it stage i + 1 is the point at which the constraint of stage i is satisfied.
     pub explicit: Option<&'static Explicit>,
-    /// Row i, with i + 1 entries, is where the constraint of stage i holds; the last row is b.
+    /// Row i, with i + 1 entries, gives the point at which the constraint of stage i is satisfied; the last row is b.
     pub constraint: &'static [&'static [f64]],
     /// Nodes of those rows.
     pub nodes: &'static [f64],
@@ -55,10 +55,10 @@ pub struct HalfExplicit {
     lambda: Vec<f64>,
     /// f of the stage
     force: Vec<f64>,
-    /// phi_t of the stage, and the rate that the acceleration must give the constraint.
+    /// phi_t of the stage, and the rate of the constraint that the acceleration must produce.
     phi_t: Vec<f64>,
     rate: Vec<f64>,
-    /// Error of q, v and w, and of v off the manifold.
+    /// Error of q, v and w, and its part in v normal to the manifold.
     error: Vec<f64>,
     off: Vec<f64>,
     solver: TwoJacobianGmres,
@@ -102,7 +102,7 @@ impl HalfExplicit {
         self.lambda.copy_from_slice(&dynamics.terms.gamma);
         let (qdot, rest) = self.k[i].split_at_mut(n.q);
         dynamics.system.rate(q, v, qdot);
-        // Without V'_i yet, the row of the constraint sums the accelerations before it.
+        // The row of the constraint sums the accelerations before V'_i.
         rest.fill(0.0);
         self.force.copy_from_slice(&dynamics.terms.f);
         self.solve(problem, i, from, h)?;
@@ -111,7 +111,7 @@ impl HalfExplicit {
         Ok(())
     }
 
-    /// V'_i and lambda_i; k_i holds N V and zeros, `force` f and `lambda` the guess gamma.
+    /// Solves for V'_i and lambda_i; on entry k_i is N V and zeros, `force` f and `lambda` the guess gamma.
     fn solve(&mut self, problem: &mut Problem, i: usize, from: From, h: f64) -> Result<(), StepError> {
         let row = self.tableau.constraint[i];
         let n = problem.dynamics.system.dimensions();
@@ -130,8 +130,8 @@ impl HalfExplicit {
         is_finite(vdot)
     }
 
-    /// h sum_i e_i k_i, with its velocities moved to the tangent space at the new state: the multipliers of stages are
-    /// less accurate than their motion. The problem holds the factors of the new state.
+    /// Sets the error to h sum_i e_i k_i, its velocities projected on the tangent space at the new state: the
+    /// multipliers of stages are less accurate than their motion. The factors of the new state are in the problem.
     fn estimate(&mut self, problem: &mut Problem, weights: &[f64], h: f64) -> Result<(), StepError> {
         let n = problem.dynamics.system.dimensions();
         self.stage.fill(0.0);
@@ -167,7 +167,7 @@ impl Integrator for HalfExplicit {
         self.control.recall(memory);
     }
 
-    /// Along the directions that the constraints allow the stages are those of an explicit method.
+    /// Along the free directions the stages are those of an explicit method.
     fn stability(&self) -> Option<Stability> {
         Some(Stability::of(|i| self.tableau.stage(i).0, self.tableau.last()))
     }

@@ -8,19 +8,19 @@ use crate::formulation::StepError;
 const NODE: f64 = 0.276_393_202_250_021;
 
 /// The polynomial of Hairer's codes: y + theta (F0 + (1 - theta) (F1 + theta (F2 + (1 - theta) (F3 + ...)))), in which
-/// F0 to F2 make the cubic Hermite interpolant of order 3 and further rows are the method's own.
+/// F0 to F2 are the cubic Hermite interpolant of order 3 and further rows are the method's own.
 pub struct Hermite {
     rows: Vec<Vec<f64>>,
 }
 
 impl Hermite {
-    /// For states of length `len`, with `beyond` rows beyond the cubic: none for the cubic itself, whose error is
-    /// O(h^4).
+    /// Memory for states of length `len`, with `beyond` rows after the cubic ones: none for the cubic itself, whose
+    /// error is O(h^4).
     pub fn new(len: usize, beyond: usize) -> Self {
         Hermite { rows: vec![vec![0.0; len]; 3 + beyond] }
     }
 
-    /// Takes a step: F0 to F2 from the states and slopes at both ends.
+    /// Sets F0 to F2 from the states and slopes at both ends of a step.
     pub fn prepare(&mut self, from: From, h: f64, to: &[f64], slope: &[f64]) {
         for i in 0..from.y.len() {
             let change = to[i] - from.y[i];
@@ -30,7 +30,7 @@ impl Hermite {
         }
     }
 
-    /// F3 and on, which the method fills.
+    /// F3 and further rows, which the method fills.
     pub(super) fn beyond(&mut self) -> &mut [Vec<f64>] {
         &mut self.rows[3..]
     }

@@ -1,6 +1,6 @@
-//! What methods carry from step to step, as numbers in a row.
+//! The values that methods carry from step to step, as a sequence of numbers.
 
-/// Reads them in the order in which they were written; zeros where there are no more.
+/// Reads the numbers in the order of writing; zeros after the last.
 pub(super) struct Reader<'m>(pub &'m [f64]);
 
 impl<'m> Reader<'m> {

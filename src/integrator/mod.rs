@@ -43,8 +43,8 @@ use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::system::MechanicalSystem;
 use crate::tolerances::integrator as tolerances;
 
-/// Why the matrix of a step is singular: with all rows in it, of which some depend on others at its start and ahead,
-/// and yet ask for another position there, these contradict each other.
+/// The cause of a singular matrix. If all rows are in it, some depend on others at the start of the step and ahead, and
+/// they prescribe different positions there, the rows contradict each other.
 fn collapsed(singular: Singular, problem: &mut Problem, from: From, h: f64) -> StepError {
     if singular != Singular::Collapsed || !problem.dynamics.dropped.is_empty() {
         return singular.into();
@@ -64,12 +64,12 @@ const CONTRADICTION: StepError = StepError::Unsuitable {
     hint: "`holonom check` names the redundant joints; take one away, or make them say the same at all times",
 };
 
-/// A one-step method. States are flat: q, v, and the work done by forces without a potential.
+/// A one-step method. States are flat: q, v, and the work of forces without a potential.
 pub trait Integrator {
     /// Order of the solution, p: the error of a step is O(h^{p+1}).
     fn order(&self) -> usize;
 
-    /// How long its steps may be for a fast mode; none where they may be as long as they like.
+    /// Stability limit of the steps; `None` for a method without a limit.
     fn stability(&self) -> Option<Stability> {
         None
     }
@@ -85,22 +85,22 @@ pub trait Integrator {
         to: &mut [f64],
     ) -> Result<Option<f64>, StepError>;
 
-    /// y' at the new state, where the last attempt evaluated it there, and last of all: the problem then holds the
-    /// terms of the new state, and the next step needs no evaluation of its own (first same as last).
+    /// y' at the new state, if the last attempt evaluated it there as its last evaluation: the terms of the new state
+    /// are then in the problem, and the next step needs no evaluation of its own (first same as last).
     fn last_slope(&self) -> Option<&[f64]> {
         None
     }
 
-    /// The step control that goes with the method, which may change its constants with its order; without an error
-    /// estimate it is not asked.
+    /// The step control of the method, which may change its constants with its order; not used without an error
+    /// estimate.
     fn control(&mut self) -> &mut Control;
 
-    /// The size of the step just tried, where the method chose one of its own and not the `h` it was given.
+    /// The size of the step just tried, if the method chose it instead of the `h` it was given.
     fn own_step(&self) -> Option<f64> {
         None
     }
 
-    /// How far from the start of the step just tried a method that chose its own has evaluated the equations.
+    /// Time from the start of the step just tried to the last evaluation of a method that chose its step, s.
     fn seen(&self) -> Option<f64> {
         None
     }
@@ -108,33 +108,33 @@ pub trait Integrator {
     /// The last attempt was accepted and the next step proposed; `tolerance` is that of the run's steps.
     fn accepted(&mut self, _tolerance: &Tolerance) {}
 
-    /// Forgets the steps so far: the equations change their form here.
+    /// Discards the history of the steps: the equations change their form here.
     fn restart(&mut self) {}
 
-    /// The state that the last attempt left was moved, as by a projection.
+    /// Notes that the state of the last attempt was moved, as by a projection.
     fn moved(&mut self) {}
 
-    /// What the method carries from step to step beside y and y', as numbers that [`Self::recall`] takes: the control's
-    /// last error, say. None for a method that begins anew after a restart, which a user is told.
+    /// The values that the method carries from step to step besides y and y', as numbers for [`Self::recall`], such as
+    /// the last error of the control. Empty for a method that starts anew when a run is continued, which is reported.
     fn memory(&self) -> Vec<f64> {
         Vec::new()
     }
 
-    /// Goes on with what it carried then, from a state at which the problem is evaluated before the next step.
+    /// Restores the values of [`Self::memory`], at a state at which the problem is evaluated before the next step.
     fn recall(&mut self, _memory: &[f64]) {}
 
-    /// Writes the solution of lower order that the last attempt was compared with; false where there is none.
+    /// Writes the solution of lower order to which the last attempt was compared; false where there is none.
     fn lower_order(&self, _from: From, _h: f64, _out: &mut [f64]) -> bool {
         false
     }
 
-    /// The fraction of a step that is farthest from the places at which the equations are evaluated off the
-    /// constraints; `None` for a method without such places, or that wants steps of one size.
+    /// Fraction of a step at the middle of the widest gap between the points at which the equations are evaluated off
+    /// the constraints; `None` for a method without such points, or one that needs steps of equal size.
     fn widest_gap(&self) -> Option<f64> {
         None
     }
 
-    /// The longest part of a step between evaluations of the equations.
+    /// The longest part of a step between two evaluations of the equations.
     fn spacing(&self) -> f64 {
         1.0
     }
@@ -160,7 +160,7 @@ pub trait Integrator {
     ) -> Result<(), StepError>;
 }
 
-/// Where a step starts.
+/// The start of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct From<'a> {
     /// Time, s.
@@ -169,11 +169,11 @@ pub struct From<'a> {
     pub y: &'a [f64],
     /// y' at (t, y).
     pub slope: &'a [f64],
-    /// When a step of the size that is asked for ends: t + h, but for the rounding of a grid or a stop that it meets.
+    /// End of a step of the requested size: t + h, but for the rounding of a grid or a stop that it meets.
     pub end: f64,
 }
 
-/// What an integrator is made for.
+/// The system and the specifications for which an integrator is made.
 pub struct Setup<'s> {
     /// Its own name and options.
     pub integrator: &'s MethodSpec,
@@ -181,7 +181,7 @@ pub struct Setup<'s> {
     pub formulation: &'s MethodSpec,
     /// The mechanism.
     pub system: &'s dyn MechanicalSystem,
-    /// Whether the steps are fixed.
+    /// True for fixed steps.
     pub is_fixed: bool,
 }
 
@@ -198,33 +198,33 @@ impl Setup<'_> {
     }
 }
 
-/// Who chooses the steps.
+/// The origin of the step size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Steps {
-    /// There is no error estimate: a step must be given.
+    /// A step must be given: there is no error estimate.
     Fixed,
-    /// An error estimate, where no fixed step is given.
+    /// An error estimate, unless a fixed step is given.
     Either,
-    /// The method itself, always.
+    /// Always the method itself.
     Own,
 }
 
 /// One integrator as the command line, the scene format and the table of methods know it.
 pub struct Entry {
-    /// As methods call it.
+    /// Name in the scene format and on the command line.
     pub name: &'static str,
     /// One line for the table of methods.
     pub about: &'static str,
     /// Proven order in q, v and lambda.
     pub order: usize,
-    /// Who chooses the steps.
+    /// The origin of the step size.
     pub steps: Steps,
-    /// How much tighter than asked for the motion steps are controlled.
+    /// Tolerance of the steps relative to that of the motion.
     pub tightening: Tightening,
-    /// Whether it integrates a formulation: one that follows vector fields says `|formulation|
+    /// True if it integrates a formulation: for a method that integrates vector fields `|formulation|
     /// formulation.field.is_some()`.
     pub solves: fn(&formulation::Entry) -> bool,
-    /// Whether a projection would cost it an order with a formulation.
+    /// True if a projection would cost it an order with a formulation.
     pub refuses: fn(&formulation::Entry, projection: &str) -> bool,
     /// The options of its specification.
     pub options: &'static [OptionDoc],
@@ -239,17 +239,17 @@ impl Entry {
         formulation::registry().iter().filter(move |entry| solves(entry)).map(|entry| entry.name)
     }
 
-    /// Whether it integrates the formulation of this name.
+    /// True if it integrates the formulation of this name.
     pub fn takes(&self, formulation: &str) -> bool {
         formulation::named(formulation).is_some_and(self.solves)
     }
 
-    /// Whether the projection would cost it an order with the formulation.
+    /// True if the projection would cost it an order with the formulation.
     pub fn refuses(&self, formulation: &str, projection: &str) -> bool {
         formulation::named(formulation).is_some_and(|entry| (self.refuses)(entry, projection))
     }
 
-    /// Whether it follows a vector field, as explicit methods do.
+    /// True if it integrates vector fields, as explicit methods do.
     pub fn follows_fields(&self) -> bool {
         let fields = || formulation::registry().iter().filter(|entry| entry.field.is_some());
         fields().all(self.solves)
@@ -289,7 +289,7 @@ pub fn registry() -> &'static [Entry] {
     ]
 }
 
-/// The entry that `spec` stands for.
+/// The entry that `spec` names.
 pub fn find(spec: &MethodSpec) -> Result<&'static Entry> {
     spec.entry(registry())
 }

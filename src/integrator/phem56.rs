@@ -5,9 +5,9 @@ use super::half_explicit::{HalfExplicit, Tableau};
 use super::{Entry, Steps, Tightening, refuses, takes};
 
 /// Source: Murua, BIT 37 (1997) 641-662 (PHEM56): the stages of DOPRI5, each with a constraint of its own. Order 5 in
-/// q, v and lambda; six solutions a step: the first stage, which is also the end of the step before, takes the
-/// accelerations of the equations of motion where Murua's seventh row approximates them (lambda is observed there
-/// anyway). One evaluation more after a projection that moves the state. Interpolation of order 4, with an evaluation
+/// q, v and lambda; six solutions a step: the first stage, which is also the end of the step before, uses the
+/// accelerations of the equations of motion where Murua's seventh row approximates them (lambda is evaluated there
+/// anyway). One more evaluation after a projection that moves the state. Interpolation of order 4, with an evaluation
 /// of its own.
 pub const ENTRY: Entry = Entry {
     name: "phem56",

@@ -1,10 +1,10 @@
-//! What an integrator integrates: a formulation of a system, as y' = F(t, y).
+//! The problem of an integrator: a formulation of a system, as y' = F(t, y).
 
 use crate::formulation::{Dynamics, Formulation, StepError};
 use crate::system::Dimensions;
 
-/// y = (q, v, w) with w the work of forces without a potential and of moving constraints, J, which is carried along so
-/// that the energy balance has the accuracy of the method. States xi are the last of v.
+/// y = (q, v, w) with w the work of forces without a potential and of moving constraints, J, which is integrated, too,
+/// so that the energy balance has the accuracy of the method. States xi are the last of v.
 pub struct Problem<'a> {
     /// The equations with their memory.
     pub dynamics: Dynamics<'a>,
@@ -54,13 +54,13 @@ impl<'a> Problem<'a> {
         Ok(())
     }
 
-    /// A step begins at (t, y).
+    /// Announces a step that begins at (t, y).
     pub fn begin_step(&mut self, t: f64, y: &[f64]) -> Result<(), StepError> {
         let (q, v) = self.split(y);
         self.formulation.begin_step(t, q, v, &mut self.dynamics)
     }
 
-    /// A step ends at (t, y), which becomes a state of the motion.
+    /// Ends a step at (t, y), which becomes a state of the motion.
     pub fn end_step(&mut self, t: f64, y: &mut [f64]) -> Result<(), StepError> {
         let (q, rest) = y.split_at_mut(self.dimensions.q);
         self.formulation.end_step(t, q, &mut rest[..self.dimensions.v], &mut self.dynamics)

@@ -18,10 +18,10 @@ use crate::tolerances::integrator as tolerances;
 /// ```
 ///
 /// Source: Andersen, J. Comput. Phys. 52 (1983) 24-34; Jay, SIAM J. Numer. Anal. 33 (1996) 368-387, for forces that
-/// depend on v, which the first half takes implicitly and the second explicitly, so that the step stays symmetric.
+/// depend on v, which are implicit in the first half and explicit in the second, so that the step stays symmetric.
 /// Order 2 in q, v and lambda; symmetric, and symplectic without such forces. For constant M and q' = v. One
 /// factorization a step; the first half is iterated to round-off, one evaluation of f and one of phi an iteration. The
-/// work is the trapezoidal rule. Fixed steps; cubic Hermite interpolation.
+/// work is integrated by the trapezoidal rule. Fixed steps; cubic Hermite interpolation.
 pub const ENTRY: Entry = Entry {
     name: "rattle",
     about: "symmetric, symplectic, for constant M; holds phi and phi', fixed steps",
@@ -59,10 +59,10 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
 }
 
 struct Rattle {
-    /// M at the first state, which all others are compared with.
+    /// M at the first state, to which all others are compared.
     mass: Option<Vec<f64>>,
-    /// Whether the problem holds the terms and factors of the state that the last attempt ended at, and whether that is
-    /// the state from which the next step starts.
+    /// True if the terms and factors of the state at the end of the last attempt are in the problem, and true if that
+    /// is the state from which the next step starts.
     is_ahead: bool,
     is_ready: bool,
     /// v_h
@@ -78,7 +78,7 @@ struct Rattle {
     polynomial: Hermite,
 }
 
-/// In units of what may stop falling.
+/// Limits on changes over their stagnation tolerance.
 const LIMITS: Limits = Limits {
     most: tolerances::RATTLE_ITERATIONS,
     tolerance: tolerances::ROUND_OFF_OF_STAGNATION,
@@ -88,7 +88,7 @@ const LIMITS: Limits = Limits {
 };
 
 impl Rattle {
-    /// M, G and f at the start, with factors; they may be there from the step before.
+    /// Evaluates and factors M, G and f at the start, unless that was done at the end of the step before.
     fn start(&mut self, problem: &mut Problem, from: From) -> Result<(), StepError> {
         let (q, v) = problem.split(from.y);
         let dynamics = &mut problem.dynamics;
@@ -102,7 +102,7 @@ impl Rattle {
         Ok(())
     }
 
-    /// Refuses a mass matrix that moved by more than round-off.
+    /// Refuses a mass matrix that changed by more than round-off.
     fn compare(&mut self, mass: &[f64]) -> Result<(), StepError> {
         let known = self.mass.get_or_insert_with(|| mass.to_vec());
         let largest = known.iter().fold(0.0, |largest: f64, m| largest.max(m.abs()));
@@ -112,8 +112,8 @@ impl Rattle {
         if same { Ok(()) } else { Err(StepError::Unsuitable { reason, hint }) }
     }
 
-    /// v_h and q_1, from the accelerations of the equations of motion at the start: v_h differs from v + h/2 v' by
-    /// reactions, and by what f changes with v.
+    /// v_h and q_1, starting with v + h/2 v' of the equations of motion: v_h differs from it by reactions, and by the
+    /// dependence of f on v.
     fn first_half(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<(), StepError> {
         let (q, v) = problem.split(from.y);
         let (_, vdot) = problem.split(from.slope);
@@ -130,13 +130,13 @@ impl Rattle {
         if converged { Ok(()) } else { Err(StepError::Singular(Singular::Apart)) }
     }
 
-    /// Relative change of v_h that may be round-off: that of phi over h stands against all else in tiny steps.
+    /// Stagnation tolerance of the relative change of v_h: in tiny steps the round-off of phi over h dominates.
     fn still(&self, h: f64) -> f64 {
         let of_phi = 16.0 * f64::EPSILON * largest(&self.q) / h;
         tolerances::STAGNATION_OF_VELOCITY.max(of_phi / largest(&self.half))
     }
 
-    /// One correction of v_h for the forces and for phi(q_1); its size relative to v_h.
+    /// One correction of v_h for the forces and for phi(q_1). Returns its size relative to v_h.
     fn iterate(&mut self, problem: &mut Problem, (from, q): (From, &[f64]), h: f64) -> Result<f64, StepError> {
         let dynamics = &mut problem.dynamics;
         dynamics.evaluate(from.t, q, &self.half, Need::FORCE);
@@ -153,7 +153,7 @@ impl Rattle {
         Ok(relative(&self.dv, &self.half))
     }
 
-    /// q_1 = q + h v_h, and angles in space by the rate that v_h gives them.
+    /// q_1 = q + h v_h; angles in space at the rate that follows from v_h.
     fn advance(&mut self, system: &dyn MechanicalSystem, q: &[f64], h: f64) {
         let rate = &mut self.slope[..q.len()];
         system.rate(q, &self.half, rate);
@@ -162,7 +162,7 @@ impl Rattle {
         }
     }
 
-    /// v_1, and y' there, by the factors at q_1.
+    /// v_1, and y' there, with the factors at q_1.
     fn second_half(&mut self, problem: &mut Problem, t: f64, h: f64, to: &mut [f64]) -> Result<(), StepError> {
         let (q, v) = problem.split_mut(to);
         q.copy_from_slice(&self.q);
@@ -178,7 +178,7 @@ impl Rattle {
         for (v, (half, dv)) in v.iter_mut().zip(self.half.iter().zip(&self.dv)) {
             *v = half + dv;
         }
-        // Beside a singular state y' is truncated, and these factors are not.
+        // Near a singular state y' is truncated, and these factors are not.
         self.is_ahead = dynamics.kkt.is_regular(dynamics.rank_tolerance);
         if !self.is_ahead {
             return problem.derivative(t, to, &mut self.slope);
@@ -242,7 +242,7 @@ impl Integrator for Rattle {
         std::iter::once(f64::from(self.is_ready)).chain(mass).collect()
     }
 
-    /// The problem is evaluated where the run goes on, as at the end of a step.
+    /// The problem is evaluated at the state from which a run continues, as at the end of a step.
     fn recall(&mut self, memory: &[f64]) {
         if let Some((is_ready, mass)) = memory.split_first() {
             self.is_ready = *is_ready != 0.0;

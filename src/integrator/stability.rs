@@ -1,18 +1,18 @@
-//! How long the steps of an explicit method may be.
+//! Stability limits of the steps of explicit methods.
 
 use crate::tolerances::integrator as tolerances;
 
-/// Where steps keep a mode x' = lambda x from growing.
+/// Stability region of a method for a mode x' = lambda x.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stability {
-    /// A step multiplies x by R(h lambda), these the coefficients of 1, z, z^2 ...
+    /// A step multiplies x by the polynomial R(h lambda), given by its coefficients of 1, z, z^2 ...
     Polynomial(Vec<f64>),
-    /// |h lambda| < 2, and damping h c/2 < 0.8 of a first half that is iterated.
+    /// |h lambda| < 2, and h c/2 < 0.8 for the damping c, so that the iteration of the first half converges.
     Leapfrog,
 }
 
 impl Stability {
-    /// Of an explicit Runge-Kutta method, row i with i entries at most: R(z) = 1 + sum_k z^k b^T A^(k-1) 1.
+    /// Region of an explicit Runge-Kutta method, row i with i entries at most: R(z) = 1 + sum_k z^k b^T A^(k-1) 1.
     pub fn of<'a>(row: impl Fn(usize) -> &'a [f64], b: &[f64]) -> Self {
         let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
         let mut powers = vec![1.0; b.len()];
@@ -24,12 +24,12 @@ impl Stability {
         Stability::Polynomial(coefficients)
     }
 
-    /// The largest |h lambda| for lambda along -decay + i swing up to which nothing grows that should not.
+    /// The largest |h lambda| for lambda along -decay + i swing up to which no mode grows faster than the exact one.
     pub fn limit(&self, decay: f64, swing: f64) -> f64 {
         let rate = decay.hypot(swing);
         let direction = if rate > 0.0 { [-decay / rate, swing / rate] } else { [-1.0, 0.0] };
         let Stability::Polynomial(coefficients) = self else {
-            // c is twice the decay of a swing, and that of the fast one of two decays.
+            // c is twice the damping rate of an oscillation, and the faster rate of an overdamped mode.
             let damping = if swing > 0.0 { 2.0 } else { 1.0 } * direction[0].abs();
             return f64::min(2.0, 2.0 * tolerances::ITERABLE / damping);
         };
@@ -47,7 +47,7 @@ impl Stability {
         low
     }
 
-    /// By what power of e a step of size `h` makes the mode grow beyond its own growth; below zero where it does not.
+    /// Exponent by which a step of size `h` makes the mode grow beyond its own growth; below zero where it does not.
     pub fn growth(&self, decay: f64, swing: f64, h: f64) -> f64 {
         match self {
             Stability::Polynomial(coefficients) => excess(coefficients, [-decay * h, swing * h]),
@@ -57,7 +57,7 @@ impl Stability {
     }
 }
 
-/// ln |R(z)| beyond that of exp(z) where that grows, by Horner's rule.
+/// ln |R(z)|, minus Re z where that is positive, by Horner's rule.
 fn excess(coefficients: &[f64], z: [f64; 2]) -> f64 {
     let [re, im] = coefficients
         .iter()

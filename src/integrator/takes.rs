@@ -1,4 +1,4 @@
-//! Which formulations a family of methods integrates.
+//! The formulations that a family of methods integrates.
 
 use crate::formulation::{Dae, Entry, Row};
 
@@ -17,7 +17,7 @@ pub(super) fn velocity_rows(formulation: &Entry) -> bool {
     formulation.default_dae() == Some(Dae::with(Row::VELOCITY))
 }
 
-/// Whatever holds phi = 0.
+/// All formulations that enforce phi = 0.
 pub(super) fn positions(formulation: &Entry) -> bool {
     formulation.default_dae().is_some_and(|dae| dae.holds(0))
 }

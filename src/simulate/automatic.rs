@@ -1,9 +1,9 @@
-//! `--method auto`: the method that carries a motion farthest for its work, found out on the way.
+//! `--method auto`: choice between an explicit and an implicit method during the run, by the time simulated per work.
 //!
-//! An explicit method begins. Whenever the work since the last look has doubled, and wherever a run stops, the other
-//! one of two may try from there ([`Contest`]); the better one goes on. So the whole costs no more than a few times
-//! what the better one of both would, wherever along the motion that changes. All is counted in evaluations: a run is
-//! repeatable bit by bit.
+//! An explicit method begins. Whenever the work since the last comparison has doubled, and wherever a run stops, the
+//! other method may try from there ([`Contest`]); the better one continues. So the total cost is at most a few times
+//! that of the better method on each part of the motion. Work is counted in evaluations: a run is repeatable bit by
+//! bit.
 
 use super::contest::{Contest, Mark, Quiet};
 use super::{Checkpoint, Method, Outcome, Run, Sink, Span};
@@ -32,18 +32,18 @@ pub struct Leg {
 
 const CALM: &str = "not stiff: accuracy, not stability, limits explicit steps";
 
-/// Formulation, integrator and projection.
+/// Method of a formulation, an integrator and a projection.
 fn method([formulation, integrator, projection]: [&str; 3], (rtol, atol): (f64, f64)) -> Method {
     let [formulation, integrator, projection] = [formulation, integrator, projection].map(MethodSpec::named);
     Method { formulation, integrator, projection, rtol, atol, step: None }
 }
 
-/// The one without a limit of stability.
+/// The implicit method, without a stability limit.
 fn implicit(tolerances: (f64, f64)) -> Method {
     method(["ggl", "radau_iia", "none"], tolerances)
 }
 
-/// Its place among the candidates.
+/// Index of the explicit method among the candidates.
 const EXPLICIT: usize = 0;
 
 /// The explicit method that every run begins with, and the one that may take over.
@@ -51,8 +51,8 @@ fn candidates(tolerances: (f64, f64)) -> [Method; 2] {
     [method(["index1", "dop853", "manifold"], tolerances), implicit(tolerances)]
 }
 
-/// What a method that was named has against it at the beginning of a motion: how much farther an implicit one comes.
-/// `None` where stability does not hold its steps, or nothing is known.
+/// Compares a given method with an implicit one at the beginning of a motion. `None` where stability does not limit its
+/// steps, or nothing is known.
 pub fn rival(system: &dyn MechanicalSystem, method: &Method, span: Span, start: (&[f64], &[f64])) -> Option<Contest> {
     let methods = [method.clone(), implicit((method.rtol, method.atol))];
     let mut drive = Drive::new(system, &methods, unseen(span), start).ok()?;
@@ -62,10 +62,10 @@ pub fn rival(system: &dyn MechanicalSystem, method: &Method, span: Span, start: 
     drive.contest
 }
 
-/// The one method for a motion from (q, v) over `span` that carries its beginning.
+/// The one method for a motion from (q, v) over `span`, chosen at its beginning, and the reason.
 ///
 /// # Errors
-/// Bad input only: tolerances that are none.
+/// Bad input only: tolerances that are not positive.
 pub fn advise(
     system: &dyn MechanicalSystem,
     tolerances: (f64, f64),
@@ -84,9 +84,9 @@ pub fn advise(
     Ok((method, because))
 }
 
-/// Integrates `system` from (q, v), which should be consistent, over `span`, with these `tolerances`: an explicit
-/// method begins, and others go on where they come farther. Returns the methods in their order, and where a run by the
-/// last of them can go on.
+/// Integrates `system` from (q, v), which should be consistent, over `span`, with these `tolerances`: begins with an
+/// explicit method, and changes the method where the other is faster. Returns the methods in their order, and a
+/// checkpoint from which a run of the last one can be continued.
 ///
 /// # Errors
 /// Bad input only, as in [`simulate`](super::simulate).
@@ -112,7 +112,7 @@ pub fn simulate_automatic(
     Ok((outcome, legs, saved))
 }
 
-/// Without rows.
+/// The span without output rows.
 fn unseen(span: Span) -> Span {
     Span { output_step: f64::INFINITY, ..span }
 }
@@ -124,13 +124,13 @@ struct Drive<'a> {
     span: Span,
     run: Run<'a>,
     carrier: usize,
-    /// How many methods stopped here.
+    /// Number of methods that failed at the present state.
     stopped: usize,
-    /// Work until the next look, in evaluations.
+    /// Work until the next comparison, in evaluations.
     window: f64,
-    /// The last trial.
+    /// Result of the last trial.
     contest: Option<Contest>,
-    /// Those before, and that of the carrier.
+    /// The legs before, and that of the present method.
     legs: Vec<Leg>,
     leg: Leg,
 }
@@ -148,8 +148,8 @@ impl<'a> Drive<'a> {
         Ok(Drive { system, methods, span, run, carrier, stopped, window, contest, legs, leg })
     }
 
-    /// Goes on to the end, to a failure that both methods have, or until a look `is_enough`: after the work since a
-    /// mark, and whether the method should change.
+    /// Continues to the end, to a failure that both methods have, or until `is_enough`, which is called after each
+    /// comparison with the mark from which the work is measured, and true if the method should change.
     fn go(&mut self, sink: &mut dyn Sink, is_enough: impl Fn(&Self, Mark, bool) -> bool) -> Result<Option<Failure>> {
         let (mut mark, mut failure) = (self.run.mark(), None);
         loop {
@@ -178,12 +178,12 @@ impl<'a> Drive<'a> {
         sink.stops().is_some() || self.stopped == self.methods.len()
     }
 
-    /// Whether its work says enough of the motion.
+    /// True if the work since `mark` is representative of the motion.
     fn is_known(&self, mark: Mark) -> bool {
         self.window > tolerances::ADVICE_WORK || self.run.has_shown_itself(mark)
     }
 
-    /// Which other method should go on and why, if one should: after the work since `mark`, or after a failure.
+    /// The other method and the reason, if it should continue: after the work since `mark`, or after a failure.
     fn look(&mut self, mark: Mark, failure: Option<&Failure>) -> Result<Option<(usize, String)>> {
         let place = 1 - self.carrier;
         let [own, other] = [self.carrier, place].map(|place| &self.methods[place]);
@@ -205,7 +205,7 @@ impl<'a> Drive<'a> {
         Ok(wins.then_some((place, because)))
     }
 
-    /// Hands the motion on to another method.
+    /// Continues the motion with another method.
     fn change(&mut self, carrier: usize, because: String) -> Result<Option<Failure>> {
         self.carrier = carrier;
         let method = &self.methods[carrier];
@@ -226,12 +226,12 @@ impl<'a> Drive<'a> {
 }
 
 impl Leg {
-    /// Of a run that goes on where another was saved.
+    /// The leg of a run that is continued from a checkpoint.
     pub fn going_on(from: f64, method: &Method, statistics: Statistics) -> Self {
         Leg { statistics, ..Leg::of(from, method, "the method of the run that goes on".to_string()) }
     }
 
-    /// Before any work.
+    /// A leg before any work.
     fn of(from: f64, method: &Method, because: String) -> Self {
         let none = Statistics::default();
         Leg { from, method: method.clone(), because, statistics: none, trials: none }

@@ -1,4 +1,4 @@
-//! Goes over to the form that the equations have from a state on.
+//! Change of the form of the equations at a state.
 
 use super::Run;
 use super::events::{Passage, Turn};
@@ -13,8 +13,8 @@ const CONTINUOUS: &str = "write a law that passes through zero steadily, such as
      `sign(x)`, or `smoothstep` in the place of `step` and `if`";
 
 impl Run<'_> {
-    /// The first threshold that the step just tried goes over. A method that chooses its own steps ends there on its
-    /// dense output, since it would not find back to that place.
+    /// The first threshold passed in the step just tried. A method that chooses its own steps ends there on its
+    /// dense output, since it would not find the same state again.
     pub fn end_at_passage(&mut self, h: &mut f64, end: &mut Option<f64>) -> Result<Option<Passage>, StepError> {
         let mut passage = self.passage(*h, self.end_of(*h, *end))?;
         for _ in 0..tolerances::CUTS {
@@ -54,7 +54,7 @@ impl Run<'_> {
         })
     }
 
-    /// Starts the run on the pieces of its start.
+    /// Starts the run with the pieces of its start.
     pub fn begin_form(&mut self) -> Result<(), Failure> {
         if self.events.pieces.is_empty() {
             return Ok(());
@@ -64,8 +64,8 @@ impl Run<'_> {
         self.enter_form()
     }
 
-    /// Changes the form at the state that the run has come to: by the clock, and where a step ended at a threshold or
-    /// cannot begin. The next step is small where the motion jumps.
+    /// Changes the form at the present state: at a given time, and where a step ended at a threshold or
+    /// cannot begin. The next step is small where y' jumps.
     pub fn change_form(&mut self, at_start: Option<usize>) -> Result<(), Failure> {
         let before = self.slope.clone();
         let turns = self.events.turn(at_start);
@@ -86,7 +86,7 @@ impl Run<'_> {
         self.integrator.restart();
         self.cut = None;
         let jump: Vec<f64> = self.slope.iter().zip(&before).map(|(after, before)| self.h * (after - before)).collect();
-        // A method that chooses its own steps knows nothing of the steps before.
+        // A method that chooses its own steps has no history here.
         let is_own = self.integrator.own_step().is_some();
         if self.fixed.is_none() && (is_own || self.tolerance.norm(&self.y, &jump) > tolerances::SMALL_JUMP) {
             self.start_small()?;
@@ -94,7 +94,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Changes the form where a run goes on from the time at which functions of time do so.
+    /// Changes the form where a run is continued from a time at which functions of time change theirs.
     pub fn meet_change(&mut self) -> Result<(), Failure> {
         match self.events.timetable.next_change() {
             Some(t) if t <= self.t => self.change_form(None),
@@ -107,13 +107,13 @@ impl Run<'_> {
         let span = (self.t, self.span.end - self.t);
         let order = self.integrator.order();
         let first = first_step(&mut self.problem, &self.tolerance, span, &self.y, &self.slope, order);
-        // The first step of a run is to make a hundredth of that.
+        // `first_step` aims at a hundredth of the tolerance.
         let step = 100f64.powf(1.0 / order as f64) * first.map_err(|halt| self.halted(&halt))?;
         self.h = self.h.min(step.max(2.0 * self.smallest()));
         Ok(())
     }
 
-    /// Evaluates the state on the pieces of the events.
+    /// Evaluates the present state with the pieces of the events.
     fn enter_form(&mut self) -> Result<(), Failure> {
         let old = self.constraints();
         for dynamics in [&mut self.problem.dynamics, &mut self.rows.problem.dynamics] {
@@ -126,7 +126,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// phi and phi' here.
+    /// phi and phi' at the present state.
     fn constraints(&mut self) -> [Vec<f64>; 2] {
         let (q, v) = self.problem.split(&self.y);
         let dynamics = &mut self.problem.dynamics;
@@ -134,8 +134,9 @@ impl Run<'_> {
         [dynamics.terms.phi.clone(), dynamics.terms.phi_dot.clone()]
     }
 
-    /// Where what is prescribed has a kink, the velocities jump with it: M (v_1 - v_0) + G^T p = 0 with G v_1 + phi_t
-    /// as before, p the impulses of the joints, whose work is that of the drive. What is prescribed cannot jump itself.
+    /// Where a prescribed motion has a kink, the velocities jump with it: M (v_1 - v_0) + G^T p = 0 with G v_1 + phi_t
+    /// as before, p the impulses of the joints, whose work is that of the drive. A prescribed motion itself must not
+    /// jump.
     fn meet_constraints(&mut self, [phi, phi_dot]: [Vec<f64>; 2]) -> Result<(), Failure> {
         let [now, rate] = self.constraints();
         let jumps = |new: &[f64], old: &[f64]| new.iter().zip(old).map(|(new, old)| new - old).collect::<Vec<f64>>();
@@ -177,7 +178,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// A law that drives the motion to where it jumps, from both sides.
+    /// Failure of a law that drives the motion from both sides to the threshold at which it jumps.
     fn sliding(&self, turn: Turn) -> Failure {
         let owner = self.events.owner(turn.number);
         let reason = format!("{owner} jumps where it holds the motion: on each side it drives back to the other");

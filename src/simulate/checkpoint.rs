@@ -1,4 +1,4 @@
-//! A run saved between two of its steps, and one that goes on from there.
+//! Checkpoints: a run saved between two of its steps, and continued from there.
 
 use super::crowd::Crowd;
 use super::passage::SingularPassage;
@@ -9,8 +9,8 @@ use crate::math::Piece;
 use crate::system::{MechanicalSystem, OperatingPoint};
 use serde::{Deserialize, Serialize};
 
-/// All that a run carries from one accepted step to the next: the state, and what adapts. A run of the same method and
-/// span that goes on from here is bit by bit the one that went on by itself. JSON keeps it exactly.
+/// The values that a run carries from one accepted step to the next: the state, and the adaptive quantities. A run of
+/// the same method and span that continues from here is bit by bit the uninterrupted one. JSON preserves it exactly.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
     method: Method,
@@ -18,17 +18,17 @@ pub struct Checkpoint {
     t: f64,
     /// q, v, and the work since the start.
     y: Vec<f64>,
-    /// OutputRows of G that are dropped.
+    /// Rows of G that are dropped.
     dropped: Vec<usize>,
-    /// The pieces on which functions are held, their next change by the clock, up to where the clock is watched, and
-    /// which functions of time have no useful enclosures.
+    /// The pieces on which functions are fixed, their next change at a given time, the time up to which functions of
+    /// time are resolved, and which of these have no useful enclosures.
     pieces: Vec<Piece>,
     next_change: Option<f64>,
     watched: (Option<f64>, Vec<bool>),
     turned: Vec<u8>,
     turned_at: Vec<f64>,
     crowd: Crowd,
-    /// The rank indicator at the last states with its reference value, and that of a dense solver.
+    /// The rank indicator at the last states with its reference value, and the reference value of a dense solver.
     approach: SingularPassage,
     dense_reference: f64,
     formulation: Vec<f64>,
@@ -43,18 +43,17 @@ pub struct Checkpoint {
     statistics: Statistics,
 }
 
-/// Where a run starts.
+/// The start of a run.
 #[derive(Clone, Copy, Debug)]
 pub enum Start<'a> {
     /// At (q, v), which should be consistent.
     State(&'a [f64], &'a [f64]),
-    /// Where another one was saved: going on with all that it carried if the method is the same, else anew from its
-    /// state.
+    /// At a checkpoint: with all that it carries if the method is the same, else anew from its state.
     Saved(&'a Checkpoint),
 }
 
-/// Integrates `system` over `span`, or what is left of it. A run that cannot go on is no error: its outcome says where
-/// and why, and the sink holds what came before. Returns where a run can go on, too; none where it could not begin.
+/// Integrates `system` over `span`, or the rest of it. A run that fails is no error: its outcome says where
+/// and why, and the sink has what came before. Returns a checkpoint, too; none if the run could not begin.
 ///
 /// # Errors
 /// Bad input only: an unknown or impossible method, a bad span, a saved run of another system or beyond the span.
@@ -93,13 +92,13 @@ impl Checkpoint {
         &self.method
     }
 
-    /// Whether the method goes on with what it carried; else it begins anew, and the run is the same within the
+    /// True if the method continues with the values it carried; else it begins anew, and the run is the same within the
     /// tolerance only.
     pub fn is_exact(&self) -> bool {
         !self.integrator.is_empty()
     }
 
-    /// Whether all that is saved has a place in the system.
+    /// True if the dimensions agree with those of the system.
     fn fits(&self, system: &dyn MechanicalSystem) -> bool {
         let (n, switches) = (system.dimensions(), system.switches());
         let are_pieces = self.pieces.iter().zip(switches).all(|(piece, s)| *piece as usize <= 2 * s.thresholds.len());
@@ -111,7 +110,7 @@ impl Checkpoint {
             && self.h > 0.0
     }
 
-    /// Refuses a run of another system, and one that has come to the end of the span or farther.
+    /// Refuses a checkpoint of another system, and one at or beyond the end of the span.
     fn checked(&self, system: &dyn MechanicalSystem, span: Span) -> Result<&Self> {
         if !self.fits(system) {
             return Err(Error::input("the saved run is one of another system"));
@@ -125,7 +124,7 @@ impl Checkpoint {
 }
 
 impl Run<'_> {
-    /// Saves what the next steps depend on.
+    /// Saves the values on which the next steps depend.
     pub fn checkpoint(&self, method: &Method) -> Checkpoint {
         let (dynamics, timetable) = (&self.problem.dynamics, &self.events.timetable);
         Checkpoint {
@@ -155,7 +154,7 @@ impl Run<'_> {
         }
     }
 
-    /// Goes on where another run was saved, and shows the state there, as at any start.
+    /// Continues from a checkpoint, and shows its state, as at any start.
     fn go_on_from(&mut self, saved: &Checkpoint, method: &Method, sink: &mut dyn Sink) -> Result<(), Failure> {
         self.t = saved.t;
         match saved.method == *method {
@@ -166,7 +165,7 @@ impl Run<'_> {
         self.rows.y.copy_from_slice(&self.y);
         self.rows.emit(self.t, sink).map_err(|halt| self.halted(&halt))?;
         if saved.method == *method {
-            // The work of the saved run holds that of this row.
+            // The work of the saved run includes that of this row.
             self.rows.problem.dynamics.statistics = saved.statistics.rows.into();
         }
         let is_same = self.span.start == saved.span.start && self.span.output_step == saved.span.output_step;
@@ -174,7 +173,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// The first row behind the state.
+    /// The first row after the state.
     fn next_row(&self) -> u64 {
         let Span { start, output_step, .. } = self.span;
         1 + ((self.t - start) / output_step * (1.0 + 4.0 * f64::EPSILON)) as u64
@@ -194,7 +193,7 @@ impl Run<'_> {
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
         let ((q, v), (_, vdot)) = (self.problem.split(&self.y), self.problem.split(&self.slope));
         self.events.start_at(OperatingPoint { t: self.t, q, v, vdot, lambda: &[] });
-        // The work of the saved run holds that of this evaluation.
+        // The work of the saved run includes that of this evaluation.
         self.problem.dynamics.statistics = saved.statistics;
         Ok(())
     }

@@ -1,9 +1,9 @@
-//! Two methods against each other on the same stretch of a motion.
+//! Comparison of two methods on the same part of a motion.
 //!
-//! No spectrum tells what a method will cost: a mesh has modes of all speeds, some asleep, and directions that turn
-//! hold implicit steps as short as stability holds explicit ones. What settles it is a trial: which method comes
-//! farther for the same work. The spectrum only tells when to try: where the fastest mode of the state has to do with
-//! the steps that are taken.
+//! A spectrum does not predict the cost of a method: a mesh has modes of all speeds, some not excited, and rotating
+//! directions can limit implicit steps as much as stability limits explicit ones. A trial decides: the method that
+//! simulates more time for the same work. The spectrum only decides when to try: where the fastest mode of the state is
+//! related to the size of the steps.
 
 use super::spectrum::{SpectralMode, fastest};
 use super::{Method, Observation, Run, Sink};
@@ -12,7 +12,7 @@ use crate::formulation::{Dynamics, Statistics};
 use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::simulate as tolerances;
 
-/// How far a run has come, s, after how much work in evaluations, of which so much was for rows, and how many steps.
+/// Time reached by a run, s, its work in evaluations, the part of it for output rows, and the number of steps.
 #[derive(Clone, Copy, Debug)]
 pub struct Mark {
     pub t: f64,
@@ -22,26 +22,26 @@ pub struct Mark {
 }
 
 impl Mark {
-    /// How far the run has come since another mark for a unit of work.
+    /// Time simulated since another mark per unit of work.
     fn pace(&self, since: Mark) -> f64 {
         (self.t - since.t) / (self.work - since.work).max(1.0)
     }
 }
 
-/// What a trial shows.
+/// Result of a trial.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contest {
-    /// Where it begins, s.
+    /// Its start, s.
     pub t: f64,
-    /// The fastest mode there.
+    /// The fastest mode there, 1/s.
     pub mode: SpectralMode,
-    /// Mean step of the method that carries the motion, s.
+    /// Mean step of the present method, s.
     pub step: f64,
-    /// How much farther the other method comes for the same work.
+    /// Time simulated by the other method over that of the present one, for the same work.
     pub gain: f64,
 }
 
-/// Sees nothing.
+/// Ignores all states.
 pub struct Quiet;
 
 impl Sink for Quiet {
@@ -57,8 +57,9 @@ impl Run<'_> {
         Mark { t: self.t, work: own + rows, rows, steps }
     }
 
-    /// Goes on for so much work, of which the first half is no measure: steps that begin small grow. While they do, it
-    /// goes on, up to the `most` work. Returns where the measure begins, and the failure of the run.
+    /// Continues for this `work`, of which the first half is not measured, since the first steps may be small and grow.
+    /// While they grow, it continues, up to `most` work. Returns the mark at which the measurement begins, and the
+    /// failure of the run.
     pub fn window(&mut self, work: f64, most: f64, sink: &mut dyn Sink) -> (Mark, Option<Failure>) {
         let mut mark = self.mark();
         let most = mark.work + most;
@@ -81,24 +82,24 @@ impl Run<'_> {
         (mark, None)
     }
 
-    /// Whether the work so far is a good part of what the motion will take at the pace since `mark`.
+    /// True if the work so far is a good part of the estimated total at the pace since `mark`.
     pub fn has_shown_itself(&self, mark: Mark) -> bool {
         self.mark().work > tolerances::TRIAL_SHOWS * self.left(mark)
     }
 
-    /// Work of steps to the end at the pace since `mark`: rows are due whatever the method.
+    /// Work of the steps to the end at the pace since `mark`, without that of output rows, which any method has.
     fn left(&self, mark: Mark) -> f64 {
         let now = self.mark();
         (self.span.end - now.t) * (now.work - now.rows - mark.work + mark.rows) / (now.t - mark.t)
     }
 
-    /// Mean step since then.
+    /// Mean step since `mark`, s.
     fn step_since(&self, mark: Mark) -> f64 {
         (self.t - mark.t) / (self.mark().steps - mark.steps).max(1) as f64
     }
 
-    /// The fastest mode of the state, where steps since `mark` were so long that it matters to which kind of method
-    /// goes on, and enough is left to do; with their mean.
+    /// The fastest mode of the state and the mean step since `mark`, if the steps are long enough for the kind of
+    /// method to matter, and enough work remains.
     pub fn hindered(&self, mark: Mark) -> Option<(SpectralMode, f64)> {
         if tolerances::TRIAL_SHARE * self.left(mark) < tolerances::TRIAL_WORK {
             return None;
@@ -117,8 +118,8 @@ impl Run<'_> {
         matters.then_some((mode, step))
     }
 
-    /// Lets `other` try from the state of this run, whose pace since `mark` is known, with the same rows, which nobody
-    /// sees; with the work of the trial.
+    /// Lets `other` try from the state of this run, whose pace since `mark` is known, with the same output rows, which
+    /// are ignored. Returns the result and the work of the trial.
     pub fn contest(
         &self,
         mark: Mark,

@@ -1,15 +1,16 @@
-//! Turns at thresholds that crowd without end.
+//! Detection of threshold passages that accumulate without end (Zeno behaviour).
 
 use crate::tolerances::simulate as tolerances;
 use serde::{Deserialize, Serialize};
 
-/// The turns of a run.
+/// Statistics of the threshold passages of a run, in windows of a fixed number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Crowd {
     window: Window,
     last: Option<Window>,
-    /// Windows up to here that were each shorter and slower than the one before, and that moved nothing.
+    /// Number of successive windows that were each shorter and slower than the one before.
     decaying: usize,
+    /// Number of successive windows in which no passage moved the state.
     unseen: usize,
 }
 
@@ -18,14 +19,14 @@ struct Window {
     start: f64,
     count: usize,
     duration: f64,
-    /// The sum of the rates at which arguments came to thresholds.
+    /// Sum of the rates with which arguments reached thresholds.
     rates: f64,
     moves: bool,
 }
 
 impl Crowd {
-    /// Counts a turn at `t`, at which the argument had this rate; `moves`: the state is another than at the turn
-    /// before.
+    /// Counts a passage at `t` with this rate of the argument; `moves` is true if the state differs from that of the
+    /// passage before.
     pub fn add(&mut self, t: f64, rate: f64, moves: bool) {
         let Window { start, count, rates, moves: moved, .. } = &mut self.window;
         (*count, *rates, *moved) = (*count + 1, *rates + rate.abs(), *moved || moves);
@@ -40,7 +41,7 @@ impl Crowd {
         self.window = Window { start: t, ..Window::default() };
     }
 
-    /// How many turns took how long, where a run of the span `left` would not come to an end.
+    /// Number and duration of the passages in the last window, if the remaining time `left` would not be completed.
     pub fn endless(&self, left: f64) -> Option<(usize, f64)> {
         let duration = self.last?.duration;
         let ahead = tolerances::TURNS_IN_WINDOW as f64 * left / duration;

@@ -1,4 +1,4 @@
-//! How a run ends before its end.
+//! Failures that end a run early.
 
 use super::{Run, Sink};
 use crate::error::Failure;
@@ -12,7 +12,7 @@ const SINGULAR: &str = "this tolerance is too near to round-off there: try a loo
 const PASSES: &str = "`index1` with `dop853` and `manifold` goes over it";
 
 impl Run<'_> {
-    /// Ends a run that would never come to its end.
+    /// Ends a run that makes no progress.
     pub fn check_progress(&mut self) -> Result<(), Failure> {
         let (since, tries) = self.progress;
         let advanced = self.t - since;
@@ -30,7 +30,7 @@ impl Run<'_> {
         }
     }
 
-    /// Ends a motion that is no longer one of this mechanism.
+    /// Ends a run whose joints have come apart.
     pub fn check_joints(&self) -> Result<(), Failure> {
         let open = largest_in(&self.scales, &self.problem.dynamics.terms.phi);
         match open > tolerances::JOINTS_APART {
@@ -39,7 +39,7 @@ impl Run<'_> {
         }
     }
 
-    /// The step to try after a failed one, or the end of the run where no smaller step makes sense.
+    /// The step to try after a failed one, or the failure of the run where no smaller step makes sense.
     pub fn retry(&mut self, h: f64, error: Option<f64>, reason: &str, hint: Option<&str>) -> Result<f64, Failure> {
         self.problem.dynamics.statistics.rejected += 1;
         if self.fixed.is_some() {
@@ -56,7 +56,7 @@ impl Run<'_> {
         }
     }
 
-    /// Steps have become too small; a singular state nearby is reason enough.
+    /// Failure of steps that have become too small, whose reason may be a singular state nearby.
     pub fn too_small(&self, reason: String, hint: Option<&str>) -> Failure {
         match self.approach.is_near() {
             true => {
@@ -67,15 +67,15 @@ impl Run<'_> {
         }
     }
 
-    /// Steps below make no sense.
+    /// The smallest step that makes sense, s.
     pub fn smallest(&self) -> f64 {
         1e-15 * self.t.abs().max(1e-3 * (self.span.end - self.span.start))
     }
 
-    /// Where a run ends early, its last good state shows how it came to that.
+    /// Shows the last good state of a run that ends early.
     pub fn last_good_row(&mut self, sink: &mut dyn Sink) {
         if self.rows.next > 0 && self.span.row(self.rows.next - 1) < self.t {
-            // A state that cannot be evaluated is none to show.
+            // A state that cannot be evaluated is not shown.
             self.rows.y.copy_from_slice(&self.y);
             let _ = self.rows.emit(self.t, sink);
         }
@@ -85,7 +85,7 @@ impl Run<'_> {
         self.failure(halt.to_string(), halt.hint())
     }
 
-    /// With what usually helps where there is no `hint`.
+    /// A failure at the present time; without a `hint`, with the usual one.
     pub fn failure(&self, reason: String, hint: Option<&str>) -> Failure {
         let usual = match self.fixed {
             Some(_) => "try a smaller --step, a projection such as `manifold`, or an adaptive integrator",

@@ -1,4 +1,4 @@
-//! Which method a run uses.
+//! The method of a run.
 
 use crate::error::{Error, Result, Warning, short};
 use crate::formulation::{self};
@@ -27,8 +27,9 @@ pub struct Method {
     pub step: Option<f64>,
 }
 
-/// What costs least most often: at equal errors dop853 takes fewer evaluations than dopri5 on 18 of 29 shipped scenes
-/// at three digits, on 23 of 28 at six and on 19 of 23 at eight, where it is 2.3 times as fast in the median.
+/// The method of least cost in most cases: at equal errors dop853 takes fewer evaluations than dopri5 on 18 of 29
+/// shipped scenes at three digits, on 23 of 28 at six and on 19 of 23 at eight, where it is 2.3 times as fast in the
+/// median.
 impl Default for Method {
     fn default() -> Self {
         Method {
@@ -62,7 +63,7 @@ impl FromStr for Method {
     }
 }
 
-/// The atol that goes with `rtol` in this `ratio`, as a command line can give it.
+/// atol = ratio rtol, rounded to the digits of a command line.
 pub fn atol_of(rtol: f64, ratio: f64) -> f64 {
     let atol = rtol * ratio;
     format!("{atol:.3e}").parse().unwrap_or(atol)
@@ -87,7 +88,8 @@ impl Method {
         }
     }
 
-    /// What steps cannot be controlled tightly enough for, where that is asked: of methods of low order rtol 1e-9, say.
+    /// Warning that the steps cannot be controlled tightly enough for rtol: with methods of low order at rtol 1e-9,
+    /// say.
     pub fn beyond_reach(&self, system: &dyn MechanicalSystem) -> Option<Warning> {
         let (entry, asked) = (integrator::find(&self.integrator).ok()?, Tolerance::new(self.rtol, self.atol, system));
         let reached = entry.tightening.reached(&asked);
@@ -99,7 +101,7 @@ impl Method {
         })
     }
 
-    /// Refuses combinations that make no sense, naming those that do.
+    /// Refuses invalid combinations, and names the valid ones.
     pub fn check(&self) -> Result<()> {
         let entry = integrator::find(&self.integrator).map_err(|error| error.under("integrator"))?;
         check_pair(entry, &self.formulation).map_err(|error| error.under("formulation"))?;
@@ -149,7 +151,7 @@ impl Method {
     }
 }
 
-/// Refuses a formulation that the integrator does not take, naming what goes together.
+/// Refuses a formulation that the integrator does not take, and names the valid pairs.
 pub fn check_pair(entry: &integrator::Entry, formulation: &MethodSpec) -> Result<()> {
     let name = formulation.name.as_str();
     // An unknown formulation is refused by its own registry, with names to choose from.

@@ -48,7 +48,7 @@ use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
 use crate::tolerances::simulate as tolerances;
 
-/// How a run ended.
+/// The end of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     /// Counters of the work.
@@ -63,8 +63,8 @@ pub struct Outcome {
     pub failure: Option<Failure>,
 }
 
-/// Integrates `system` from (q, v), which should be consistent, over `span`. A run that cannot go on is no error: its
-/// outcome says where and why, and the sink holds what came before.
+/// Integrates `system` from (q, v), which should be consistent, over `span`. A run that fails is no error: its
+/// outcome says where and why, and the sink has what came before.
 ///
 /// # Errors
 /// Bad input only: an unknown or impossible method, a bad span.
@@ -86,11 +86,11 @@ struct Run<'a> {
     approach: SingularPassage,
     events: Events<'a>,
     crowd: Crowd,
-    /// The state at the last turn.
+    /// The state at the last threshold passage.
     turned_at: Vec<f64>,
-    /// Until when a fixed step is divided.
+    /// Time up to which a fixed step is divided, s.
     divided: f64,
-    /// Factorizations up to the last accepted state.
+    /// Number of factorizations up to the last accepted state.
     factored: u64,
     scales: Vec<f64>,
     tolerance: Tolerance,
@@ -102,31 +102,31 @@ struct Run<'a> {
     next: Vec<f64>,
     next_slope: Vec<f64>,
     change: Vec<f64>,
-    /// Whether the projection, or another end of a step, moved the last state.
+    /// True if the projection, or another end of a step, moved the last state.
     is_moved: bool,
     phi_ddot: Vec<f64>,
     /// M v
     momentum: Vec<f64>,
-    /// Velocities that follow from phi = 0 alone are of lower order and not tested.
+    /// False for velocities that follow from phi = 0 alone: they are of lower order and not tested.
     tests_velocities: bool,
     limits_projection: bool,
     is_explicit: bool,
-    /// Why the last step was refused.
+    /// The reason why the last step was refused.
     refusal: &'static str,
-    /// The step to try next, and whether it may grow after that.
+    /// The step to try next, and true if it may grow after that.
     h: f64,
     growing: bool,
-    /// The step that ends at a passage of the last one, which went over it.
+    /// The step that ends at the threshold which the last one passed.
     cut: Option<f64>,
-    /// Since when the steps tried are counted, and how many they are.
+    /// Time since which the steps tried are counted, and their number.
     progress: (f64, usize),
     /// Work after which the run pauses, in evaluations: see [`Run::mark`].
     allowance: f64,
 }
 
-/// What is done to states on the dense output: the projection of the method, but where both levels are integrated,
-/// these hold at the ends of steps to round-off, and the error of a step is measured along them. Between the ends
-/// nothing else keeps the dense output near them, least of all where a driver leaves no free direction.
+/// The projection of states on the dense output: that of the method; but where both levels are integrated, these are
+/// satisfied at the ends of steps to round-off, and the error of a step is measured along them, so that the dense
+/// output needs an exact projection between the ends, most of all where a driver removes the last degree of freedom.
 fn within(method: &Method, system: &dyn MechanicalSystem) -> Result<Option<Box<dyn Projection>>> {
     match formulation::dae(&method.formulation)? {
         Some(dae) if dae.holds(0) && dae.holds(1) => projection::make(&MethodSpec::named("exact"), system),
@@ -134,15 +134,15 @@ fn within(method: &Method, system: &dyn MechanicalSystem) -> Result<Option<Box<d
     }
 }
 
-/// What a run is made of.
+/// The parts of a run.
 pub(crate) struct Parts<'a> {
     pub problem: Problem<'a>,
     pub integrator: Box<dyn Integrator + 'a>,
     pub projection: Option<Box<dyn Projection + 'a>>,
-    /// The same again for rows, whose work is counted beside that of steps.
+    /// A second problem and projection for output rows, whose work is counted separately from that of the steps.
     pub rows: (Problem<'a>, Option<Box<dyn Projection + 'a>>),
     pub tests_velocities: bool,
-    /// Whether a projection that moves the state by far more than the tolerance refuses a step.
+    /// True if a step is refused whose projection moves the state by far more than the tolerance.
     pub limits_projection: bool,
 }
 
@@ -153,7 +153,7 @@ impl<'a> Run<'a> {
         };
         let entry = integrator::find(&method.integrator)?;
         let mut own = problem()?;
-        // OutputRows show reactions; steps need the motion alone.
+        // Output rows show reactions; steps need the motion alone.
         own.dynamics.wants_least = false;
         let parts = Parts {
             problem: own,
@@ -219,7 +219,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Begins at the state it has, which another run has come to and shown, with the rows that it dropped.
+    /// Begins at the present state, which another run has reached and shown, with the rows that it dropped.
     fn go_on(&mut self, dropped: &[usize]) -> Result<(), Failure> {
         (self.progress, self.divided) = ((self.t, 0), self.t);
         self.begin_form()?;
@@ -230,7 +230,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Settles what holds in the whole run.
+    /// Sets the constants of the formulation for the whole run.
     fn settle(&mut self) {
         let (q, v) = self.problem.split(&self.y);
         self.problem.formulation.settle(self.t, q, v, &mut self.problem.dynamics);
@@ -238,7 +238,7 @@ impl<'a> Run<'a> {
         self.rows.problem.formulation.recall(&settled);
     }
 
-    /// What has become of it.
+    /// The outcome at the present state.
     fn finish(&mut self, failure: Option<Failure>, sink: &mut dyn Sink) -> Outcome {
         if failure.is_some() {
             self.last_good_row(sink);
@@ -247,7 +247,7 @@ impl<'a> Run<'a> {
         Outcome { statistics: self.statistics(), t: self.t, q: q.to_vec(), v: v.to_vec(), failure }
     }
 
-    /// Steps to the end of the span, or until the work comes to what is allowed.
+    /// Steps to the end of the span, or until the work exceeds the allowance.
     fn advance(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
         while self.t < self.span.end && self.mark().work < self.allowance {
             self.ask(sink)?;
@@ -280,7 +280,8 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Tries a step. Its error in units of the tolerance, if it has an estimate; nothing where the step was refused.
+    /// Tries a step. Returns its error in units of the tolerance, if there is an estimate; `None` if the step was
+    /// refused.
     fn try_step(&mut self, size: &mut f64, end: &mut Option<f64>) -> Result<Option<Option<f64>>, Failure> {
         self.h = match self.step(size, end) {
             Ok(error) if !error.is_some_and(is_too_large) => return Ok(Some(error)),
@@ -292,8 +293,8 @@ impl<'a> Run<'a> {
         Ok(None)
     }
 
-    /// Whether the step just tried missed nothing that acts by the clock, and passed no threshold; else what is to be
-    /// done in its place.
+    /// True if the step just tried resolved all functions of time and passed no threshold; else it prepares the next
+    /// attempt.
     fn meets_all(&mut self, size: &mut f64, end: &mut Option<f64>, stop: NextStop) -> Result<bool, Failure> {
         if let Some(resolved) = self.unresolved(stop.t) {
             self.integrator.restart();
@@ -305,7 +306,7 @@ impl<'a> Run<'a> {
             None => return Ok(true),
             Some(Passage::AtStart(number)) => {
                 self.change_form(Some(number))?;
-                // A step that leaves on neither side is longer than the way to the threshold.
+                // A step after which the function is on neither side is longer than the time to the threshold.
                 if self.fixed.is_none()
                     && 0.1 * self.h > tolerances::UNDECIDED_STEP * self.smallest()
                     && self.events.is_undecided(number)
@@ -321,7 +322,7 @@ impl<'a> Run<'a> {
         Ok(false)
     }
 
-    /// Proposes the next step. One that was cut to hit a time says nothing against the size before it.
+    /// Proposes the next step. One that was cut to end at a given time does not reduce the size before it.
     fn propose(&mut self, size: f64, error: Option<f64>, is_cut: bool) -> Result<(), Failure> {
         let Some(error) = error else { return Ok(()) };
         let proposed = self.integrator.control().accept(size, error, self.growing);
@@ -332,7 +333,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Ends the run where the sink wants that.
+    /// Ends the run if the sink asks for it.
     fn ask(&self, sink: &dyn Sink) -> Result<(), Failure> {
         sink.stops().map_or(Ok(()), |Stop { reason, hint }| Err(Failure { t: self.t, reason, hint }))
     }
@@ -348,12 +349,12 @@ impl<'a> Run<'a> {
         self.observe(sink);
     }
 
-    /// Settles at an accepted state what the next step judges the rank by, and shows the state.
+    /// Updates the reference values of the rank at an accepted state, and shows the state.
     fn observe(&mut self, sink: &mut dyn Sink) {
         let deficient = self.problem.dynamics.is_rank_deficient;
         self.problem.dynamics.statistics.rank_deficient += u64::from(deficient);
         let dynamics = &self.problem.dynamics;
-        // Without a new factorization, as in `penalty`, what the last one says is of another state.
+        // Without a new factorization, as in `penalty`, the rank indicator belongs to another state.
         let is_factored = dynamics.statistics.factorizations > self.factored;
         self.factored = dynamics.statistics.factorizations;
         let own = || (is_factored && dynamics.kkt.is_factored()).then(|| dynamics.kkt.rank_indicator());
@@ -366,7 +367,7 @@ impl<'a> Run<'a> {
         self.show(rank_indicator, sink);
     }
 
-    /// Settles the reference values of the rank indicators, that of a dense solver by this one.
+    /// Sets the reference values of the rank indicators, that of a dense solver to `dense`.
     fn refer_to(&mut self, dense: f64) {
         let Run { problem, rows, approach, .. } = self;
         [problem, &mut rows.problem].into_iter().for_each(|p| p.dynamics.refer_to(approach.largest, dense));

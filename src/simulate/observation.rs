@@ -1,4 +1,4 @@
-//! What a run shows of the motion, and to whom.
+//! The states of a run and their receiver.
 
 use crate::error::{Error, Result, short};
 use crate::math::largest;
@@ -6,7 +6,7 @@ use crate::system::OperatingPoint;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
-/// The interval to simulate and where the output rows lie.
+/// The interval to simulate and the distance of the output rows.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Span {
     /// First time, s.
@@ -19,7 +19,7 @@ pub struct Span {
 
 impl Span {
     /// # Errors
-    /// An end before the start, or rows that lead nowhere.
+    /// An end before the start, or an output step that is not positive.
     pub(crate) fn check(&self) -> Result<()> {
         if self.end > self.start && self.output_step > 0.0 {
             return Ok(());
@@ -31,12 +31,12 @@ impl Span {
     /// Time of output row `row`: multiples of the output step, and the end.
     pub(crate) fn row(&self, row: u64) -> f64 {
         let t = self.start + row as f64 * self.output_step;
-        // The last multiple and the end are one row when they differ by rounding only.
+        // The last multiple and the end are one row when they differ only by round-off.
         if t > self.end - 1e-9 * self.output_step { self.end } else { t }
     }
 }
 
-/// All that is known at a state of the motion.
+/// The known quantities at a state of the motion.
 pub struct Observation<'a> {
     /// Time, s.
     pub t: f64,
@@ -54,16 +54,16 @@ pub struct Observation<'a> {
     pub phi_dot: &'a [f64],
     /// G v' - gamma, n_c.
     pub phi_ddot: &'a [f64],
-    /// Work of forces without potential and of moving constraints since the start, J.
+    /// Work of forces without a potential and of moving constraints since the start, J.
     pub work: f64,
-    /// The change of energy that the tolerated errors of this step make, J; none for fixed steps and rows.
+    /// Change of energy due to the tolerated errors of this step, J; `None` for fixed steps and output rows.
     pub tolerated: Option<f64>,
-    /// The longest time between evaluations of the equations in a fixed step, s; none for others.
+    /// The longest time between evaluations of the equations in a fixed step, s; `None` otherwise.
     pub apart: Option<f64>,
     /// The smallest sine between a row of G and those before it (metric M^-1), zero at a singular state; `None` where
     /// the method does not factor the saddle-point matrix there.
     pub rank_indicator: Option<f64>,
-    /// OutputRows of G that depend on the others everywhere, and are dropped.
+    /// Rows of G that depend on the others everywhere, and are dropped.
     pub dropped: &'a [usize],
 }
 
@@ -76,17 +76,17 @@ impl Observation<'_> {
 
 /// Receives the motion while it is computed.
 pub trait Sink {
-    /// Every accepted step, the start included.
+    /// Called with every accepted step, the start included.
     fn accepted(&mut self, state: &Observation);
-    /// Every output row, in order.
+    /// Called with every output row, in order.
     fn row(&mut self, state: &Observation);
-    /// Asked before every step, and after every row: why the run should end here, if it should.
+    /// Called before every step and after every row: returns the reason if the run should end here.
     fn stops(&self) -> Option<Stop> {
         None
     }
 }
 
-/// Why a run is ended from outside, and what to do about it.
+/// The reason to end a run from outside, and the remedy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stop {
     /// The reason, for the message.
@@ -96,7 +96,7 @@ pub struct Stop {
 }
 
 impl Stop {
-    /// A run that may take no longer.
+    /// Stop of a run that exceeds its time.
     pub fn deadline(allowed: Duration) -> Stop {
         let seconds = short((1e3 * allowed.as_secs_f64()).round() / 1e3);
         Stop {
@@ -107,8 +107,8 @@ impl Stop {
 }
 
 impl super::Run<'_> {
-    /// To first order what tolerated errors of q and v do to the energy of the state, J: sum |M v|_i w(v_i) + |f_i|
-    /// w(q), with the tolerance w of the largest coordinate.
+    /// Change of the energy at the state by the tolerated errors of q and v, to first order, J: sum |M v|_i w(v_i) +
+    /// |f_i| w(q), with the tolerance w of the largest coordinate.
     pub fn tolerated_energy(&mut self) -> f64 {
         let dynamics = &self.problem.dynamics;
         let (q, v) = self.problem.split(&self.y);

@@ -1,4 +1,4 @@
-//! OutputRows within a step.
+//! Output rows within a step.
 
 use super::rows::project;
 use super::{Run, Sink};
@@ -7,8 +7,8 @@ use crate::integrator::From;
 use crate::tolerances::simulate as tolerances;
 
 impl Run<'_> {
-    /// Emits the rows within the step from `t` to `t + h`; the fraction of the step at which a row contradicts it, if
-    /// one does: at that row something acts that the step has not seen.
+    /// Writes the output rows within the step from `t` to `t + h`. Returns the fraction of the step of a row that
+    /// contradicts it, if there is one: something acts there that the stages of the step did not evaluate.
     pub fn output(&mut self, h: f64, end: Option<f64>, sink: &mut dyn Sink) -> Result<Option<f64>, StepError> {
         let end = self.end_of(h, end);
         let slack = tolerances::SAME * h;
@@ -44,8 +44,8 @@ impl Run<'_> {
         self.integrator.prepare(&mut self.rows.problem, from, h, &self.next, &self.next_slope)
     }
 
-    /// Evaluates the row at `t`; its fraction of the step where it contradicts that, or is so far off the constraints
-    /// that it cannot be projected.
+    /// Evaluates the row at `t`. Returns its fraction of the step if it contradicts the step, or is too far off the
+    /// constraints to be projected.
     fn row_within(&mut self, t: f64, h: f64, end: f64) -> Result<Option<f64>, StepError> {
         let sweeps = self.sweeps(h);
         let theta = (t - self.t) / h;
@@ -70,9 +70,9 @@ impl Run<'_> {
         Ok((is_checked && self.row_contradicts(h)).then_some(theta))
     }
 
-    /// Whether v' of the row is not that of the dense output. This is not asked of implicit methods, in whose long
-    /// steps a small error of q is much for v' of a stiff mechanism, nor beside singular states, where v' is less
-    /// exact.
+    /// True if v' of the row differs from that of the dense output. This is not tested for implicit methods, in whose
+    /// long steps a small error of q is a large one in v' of a stiff mechanism, nor near singular states, where v' is
+    /// less exact.
     fn row_contradicts(&self, h: f64) -> bool {
         let v = |y| self.problem.split(y).1.iter();
         let (row, ends) = (v(&self.rows.slope), v(&self.slope).zip(v(&self.next_slope)));

@@ -1,31 +1,32 @@
-//! Steps over singular states.
+//! Steps across singular states.
 
 use crate::tolerances::simulate as tolerances;
 use serde::{Deserialize, Deserializer, Serialize};
 
-/// How the motion comes near a singular state, where G loses rank: by the rank indicator of a constraint row at the
-/// last accepted states, which falls to zero there linearly in time.
+/// The approach to a singular state, where G loses rank, by the rank indicator of a constraint row at the last accepted
+/// states, which falls to zero there linearly in time.
 ///
-/// On a branch of the motion v' is smooth through a singular state, but the stages of a step lie off the constraints by
-/// some delta, and there v' is wrong by delta over the rank indicator. A step that is refused for this and made
-/// smaller, again and again, ends ever nearer to the singular state until round-off over the rank indicator is the
-/// error. A step well over it is good.
+/// On a branch of the motion v' is smooth through a singular state, but the stages of a step are off the constraints by
+/// some delta, and there v' is wrong by delta over the rank indicator. A step that is refused for this and reduced
+/// again and again ends nearer and nearer to the singular state, until round-off over the rank indicator is the error.
+/// A step well across it is accurate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SingularPassage {
     #[serde(deserialize_with = "never")]
     t: f64,
     pub rank_indicator: f64,
     rate: f64,
-    /// The last step, and how fast `rate` changes; infinite as long as it is not known.
+    /// The last step, and the rate of `rate`; infinite as long as they are not known.
     #[serde(deserialize_with = "endless")]
     step: f64,
     #[serde(deserialize_with = "endless")]
     bend: f64,
-    /// The largest rank indicator so far: unlike masses and lengths make it small where nothing is singular.
+    /// The largest rank indicator so far, its reference: unequal masses and lengths make it small without a
+    /// singularity.
     pub largest: f64,
-    /// The last step that did not come near a singular state.
+    /// The last step that was not near a singular state.
     regular: f64,
-    /// Whether a step over the singular state was tried from here.
+    /// True if a step across the singular state was tried from here.
     is_tried: bool,
 }
 
@@ -34,7 +35,7 @@ fn endless<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
 }
 
-/// The time before the first state.
+/// The time before the first state, null in JSON.
 fn never<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(from)?.unwrap_or(f64::NEG_INFINITY))
 }
@@ -55,7 +56,7 @@ impl Default for SingularPassage {
 }
 
 impl SingularPassage {
-    /// Takes the rank indicator at an accepted state.
+    /// Adds the rank indicator at an accepted state.
     pub fn add(&mut self, t: f64, rank_indicator: f64) {
         let step = t - self.t;
         let largest = self.largest.max(rank_indicator);
@@ -66,33 +67,33 @@ impl SingularPassage {
         *self = SingularPassage { t, rank_indicator, rate, step, bend, largest, regular, is_tried: false };
     }
 
-    /// Whether a step of size `h` comes near a singular state.
+    /// True if a step of size `h` comes near a singular state.
     pub fn reaches(&self, h: f64) -> bool {
         self.is_near() || self.rate < 0.0 && h > 0.5 * self.ahead()
     }
 
-    /// Whether the last state is near a singular one.
+    /// True if the last state is near a singular one.
     pub fn is_near(&self) -> bool {
         self.rank_indicator < tolerances::NEAR_SINGULAR * self.largest
     }
 
-    /// Whether steps that small will not come over a singular state.
+    /// True if steps of size `h` are too small to pass a singular state.
     pub fn is_stuck(&self, h: f64) -> bool {
         self.rank_indicator < tolerances::PLACED_STEPS * self.largest
             && h < tolerances::STUCK_AT_SINGULAR * self.regular
     }
 
-    /// The time to the singular state, at the last rate.
+    /// Time to the singular state at the last rate, s.
     fn ahead(&self) -> f64 {
         -self.rank_indicator / self.rate
     }
 
-    /// The step to try where control proposes `h`: once from each state one that goes well over the singular state,
-    /// which lies in its `gap`, the fraction of a step that is farthest from all stages; then one that stops well
-    /// before it.
+    /// The step to try where the control proposes `h`: once from each state one that goes well across the singular
+    /// state, which is then at its `gap`, the fraction of a step that is farthest from all stages; after that one that
+    /// ends well before it.
     pub fn place(&mut self, h: f64, gap: f64) -> f64 {
         let (ahead, across) = (self.ahead(), self.ahead() / gap);
-        // At a singular state there is nothing ahead.
+        // At a singular state there is none ahead.
         if !(self.rank_indicator < tolerances::PLACED_STEPS * self.largest
             && self.rank_indicator > tolerances::AT_SINGULAR * self.largest
             && self.rate < 0.0)
@@ -106,14 +107,14 @@ impl SingularPassage {
         }
     }
 
-    /// The step to take in a run with fixed steps of size `h`, where `left` is the time to the next state of the grid
-    /// and `end` that to the end of the run. A singular state is met in the `gap` of one step, from an extra state
+    /// The step to take in a run with fixed steps of size `h`, where `left` is the time to the next point of the grid
+    /// and `end` that to the end of the run. A singular state is passed at the `gap` of one step, from an extra state
     /// before it.
     ///
-    /// Round-off of positions leaves eps/s^2 in the velocities and eps/s^3 in the accelerations of a stage where the
-    /// rank indicator is s, about a tenth of the step over `scale`, the time in which the motion changes: this bounds
-    /// what a short step over a singular state can reach. So that step is as long as a method of this `order` may take
-    /// it: its local error, (step/scale)^(order + 1), is still round-off.
+    /// Round-off of positions gives errors eps/s^2 in the velocities and eps/s^3 in the accelerations of a stage where
+    /// the rank indicator is s, about a tenth of the step over `scale`, the time in which the motion changes: this
+    /// bounds the accuracy of a short step across a singular state. So that step is as long as possible for a method of
+    /// this `order`: its local error, (step/scale)^(order + 1), is still round-off.
     pub fn place_fixed(&self, h: f64, (left, end): (f64, f64), (gap, order): (f64, usize)) -> f64 {
         let ahead = self.ahead();
         if !(self.rate < 0.0 && ahead < end) {

@@ -1,5 +1,5 @@
-//! Which step to try: what is proposed, placed about singular states, and cut where it must end or would miss
-//! something.
+//! Choice of the step to try: the proposed one, adjusted near singular states, and cut where it must end or would miss
+//! a function of time.
 
 use super::Run;
 use super::events::Events;
@@ -11,7 +11,7 @@ use crate::tolerances::simulate as tolerances;
 #[derive(Clone, Copy)]
 pub struct NextStop {
     pub t: f64,
-    /// Whether a function of time changes its form there.
+    /// True if a function of time changes its form there.
     pub changes_form: bool,
 }
 
@@ -24,15 +24,15 @@ impl Run<'_> {
                 let order = self.integrator.order();
                 let lambda = self.problem.dynamics.lambda.clone();
                 let step = first_step(&mut self.problem, &self.tolerance, span, &self.y, &self.slope, order)?;
-                // It looks ahead; lambda is that of the start.
+                // `first_step` evaluates ahead; lambda is that of the start.
                 self.problem.dynamics.lambda = lambda;
-                // The control lets it grow, or says why it cannot.
+                // The control increases it, or reports why it cannot.
                 Ok(step.max(2.0 * self.smallest()))
             }
         }
     }
 
-    /// The step of size `h`, if a singular state does not suggest another.
+    /// The step of size `h`, unless a singular state suggests another.
     fn place(&mut self, h: f64) -> f64 {
         match (self.fixed, self.integrator.widest_gap()) {
             (None, gap) => self.approach.place(h, gap.unwrap_or(0.5)),
@@ -44,7 +44,7 @@ impl Run<'_> {
         }
     }
 
-    /// The next time at which a step must end: a change of form by the clock, or the end.
+    /// The next time at which a step must end: a change of form, or the end of the run.
     pub fn next_stop(&self) -> NextStop {
         match self.events.timetable.next_change() {
             Some(t) if t < self.span.end => NextStop { t, changes_form: true },
@@ -52,14 +52,14 @@ impl Run<'_> {
         }
     }
 
-    /// The step to try, placed and stretched or cut so that the stop, or a time of the grid of fixed steps, is met and
-    /// nothing that acts by the clock is missed; and that time, where it ends there.
+    /// The step to try, adjusted and stretched or cut so that it meets the stop, or a point of the grid of fixed steps,
+    /// and resolves all functions of time; and the time at which it ends, if that is given.
     pub fn fit(&mut self, stop: NextStop) -> (f64, Option<f64>) {
         if let Some(size) = self.cut {
             return (size, None);
         }
         let (placed, left) = (self.place(self.h), stop.t - self.t);
-        // A fixed step is met up to rounding, of the step and of the time.
+        // A fixed step meets the grid up to the rounding of the step and of the time.
         let stretched = match self.fixed {
             Some(_) => placed * (1.0 + 1e-9) + 4.0 * f64::EPSILON * stop.t.abs(),
             None => 1.01 * placed,
@@ -73,8 +73,8 @@ impl Run<'_> {
         (resolved, end.filter(|_| resolved == size))
     }
 
-    /// The step that misses nothing of what acts by the clock: `size` or less. Of a fixed step, whose error nobody
-    /// estimates, all parts are then so small that little of it is left to see.
+    /// The step, at most `size`, that resolves all functions of time. A fixed step, whose error is not estimated, is
+    /// divided into parts so small that the rest is negligible.
     fn resolved(&mut self, size: f64, stop: f64) -> f64 {
         let (t, Events { timetable, pieces, .. }) = (self.t, &mut self.events);
         let Some(step) = self.fixed else { return timetable.resolved(t, size, stop, pieces) };
@@ -89,31 +89,31 @@ impl Run<'_> {
         parts.min(size)
     }
 
-    /// A smaller step than that of a method which chose its own and missed what acts by the clock.
+    /// A smaller step, if a method that chose its own step missed a function of time.
     pub fn unresolved(&mut self, stop: f64) -> Option<f64> {
         let seen = self.integrator.seen()?.min(stop - self.t);
         let resolved = self.events.timetable.resolved(self.t, seen, stop, &self.events.pieces);
         (resolved < seen).then_some(resolved)
     }
 
-    /// Where a step of size `h` ends, if not at the time `end`.
+    /// End of a step of size `h`, unless it is the time `end`.
     pub fn end_of(&self, h: f64, end: Option<f64>) -> f64 {
         end.unwrap_or(self.t + h)
     }
 
-    /// The next time start + k h. Times are counted, not added up, so that rounding does not gather.
+    /// The next time start + k h. Times are counted, not added up, so that round-off does not accumulate.
     fn next_of_grid(&self, h: f64) -> f64 {
         let passed = ((self.t - self.span.start) / h + tolerances::PASSED_GRID_TIME).floor();
         self.span.start + (passed + 1.0) * h
     }
 
-    /// From here to the next time of the grid of steps `h`: `h` itself from a time of the grid.
+    /// Time to the next point of the grid of steps `h`: `h` itself from a point of the grid.
     fn to_grid(&self, h: f64) -> f64 {
         let left = self.next_of_grid(h) - self.t;
         if (left - h).abs() < tolerances::SAME * h + 4.0 * f64::EPSILON * self.t.abs() { h } else { left }
     }
 
-    /// The time of the grid at which a step of size `size` ends, if it does, in a run with fixed steps `h`.
+    /// The point of the grid at which a step of size `size` ends, if it does, in a run with fixed steps `h`.
     fn end_of_fixed(&self, h: f64, size: f64) -> Option<f64> {
         (size == self.to_grid(h)).then(|| self.next_of_grid(h))
     }

@@ -1,20 +1,20 @@
-//! Output rows, and what is shown of a state.
+//! Output rows, and the observation of a state.
 
 use super::Observation;
 use crate::formulation::{Statistics, StepError};
 use crate::integrator::Problem;
 use crate::projection::Projection;
 
-/// Output rows have a problem of their own: their work is counted beside that of the steps.
+/// Output rows with a problem of their own: their work is counted separately from that of the steps.
 pub struct OutputRows<'a> {
     pub problem: Problem<'a>,
     pub projection: Option<Box<dyn Projection + 'a>>,
-    /// The number of the next row.
+    /// Index of the next row.
     pub next: u64,
     pub y: Vec<f64>,
-    /// y' of it.
+    /// y' at `y`.
     pub slope: Vec<f64>,
-    /// What the dense output says of v' there.
+    /// v' of the dense output there.
     pub vdot: Vec<f64>,
     pub ahead: Vec<f64>,
     phi_ddot: Vec<f64>,
@@ -29,7 +29,7 @@ impl<'a> OutputRows<'a> {
         OutputRows { problem, projection, next: 0, y, slope, vdot, ahead, phi_ddot }
     }
 
-    /// Evaluates the state in `y` and shows it.
+    /// Evaluates the state in `y` and passes it to the sink.
     pub fn emit(&mut self, t: f64, sink: &mut dyn super::Sink) -> Result<(), StepError> {
         self.evaluate(t)?;
         self.show(t, sink);
@@ -40,7 +40,7 @@ impl<'a> OutputRows<'a> {
         self.problem.derivative(t, &self.y, &mut self.slope)
     }
 
-    /// Sets `vdot` from `y` and the state `dt` ahead, or behind.
+    /// Sets `vdot` to the difference quotient of `y` and the state `ahead`, which is `dt` later.
     pub fn differentiate(&mut self, dt: f64) {
         let (before, after) = (self.problem.split(&self.y).1, self.problem.split(&self.ahead).1);
         let rates = before.iter().zip(after).map(|(before, after)| (after - before) / dt);
@@ -52,7 +52,7 @@ impl<'a> OutputRows<'a> {
     }
 }
 
-/// Ends a step or makes a row of it, and projects the state, so many `sweeps`.
+/// Ends a step or makes an output row of it, and projects the state in `sweeps` sweeps.
 pub fn project(
     t: f64,
     y: &mut [f64],
@@ -75,7 +75,7 @@ pub fn project(
 }
 
 impl super::Run<'_> {
-    /// Work of steps, and of rows beside it.
+    /// Work of steps, and separately that of output rows.
     pub fn statistics(&self) -> Statistics {
         let rows = self.rows.problem.dynamics.statistics.of_steps();
         Statistics { rows, ..self.problem.dynamics.statistics }

@@ -1,29 +1,29 @@
-//! A motion whose steps end at given times, where it may be changed.
+//! A simulation in segments that end at given times, between which the state may be changed.
 
 use super::{Parts, Run, Sink, Span};
 use crate::error::Failure;
 use crate::integrator::Tolerance;
 
-/// A run of the one time loop, a segment at a time, without rows.
+/// A run of the time loop, one segment at a time, without output rows.
 pub(crate) struct Segments<'a> {
     run: Run<'a>,
     is_begun: bool,
 }
 
 impl<'a> Segments<'a> {
-    /// From the flat state `y` at a time, up to `end` at the latest.
+    /// Starts from the flat state `y` at `start`; `end` is the last time.
     pub fn new(parts: Parts<'a>, tolerance: Tolerance, (start, end): (f64, f64), y: Vec<f64>) -> Self {
         let span = Span { start, end, output_step: f64::INFINITY };
         Segments { run: Run::of(parts, (tolerance, None), span, y), is_begun: false }
     }
 
-    /// Goes on to `end`.
+    /// Continues to `end`.
     pub fn advance(&mut self, end: f64, sink: &mut dyn Sink) -> Result<(), Failure> {
         self.run.span.end = end;
         if !self.is_begun {
             self.is_begun = true;
             self.run.begin(sink)?;
-            // The only row of the span, its end, counts as shown.
+            // The only row of the span, its end, counts as written.
             self.run.rows.next = 2;
         }
         self.run.meet_change()?;
@@ -35,7 +35,7 @@ impl<'a> Segments<'a> {
         &self.run.y
     }
 
-    /// Goes on from another state than that at which the last segment ended.
+    /// Changes the state from which the next segment starts.
     pub fn change(&mut self, change: impl FnOnce(&mut [f64])) -> Result<(), Failure> {
         let run = &mut self.run;
         change(&mut run.y);

@@ -36,24 +36,24 @@ impl fmt::Display for SpectralMode {
     }
 }
 
-/// Small perturbations of the motion, its state frozen:
+/// Modes of small perturbations of the motion with its coefficients frozen at one state:
 ///
 /// ```text
 /// Z^T M Z z'' + Z^T C Z z' + Z^T K Z z = 0,   G Z = 0
 /// ```
 ///
-/// With K and C at the v' and lambda of the state. At an equilibrium these are the modes; elsewhere one chart's answer,
-/// good for how fast things are and not for whether they are stable.
+/// with K and C at the v' and lambda of the state. At an equilibrium these are the modes; elsewhere they depend on the
+/// coordinates, and tell the time scales but not the stability.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
-    /// From the slowest to the fastest.
+    /// The modes, from the slowest to the fastest.
     pub modes: Vec<SpectralMode>,
-    /// Whether there are too many coordinates for all modes: only the fastest are then known, and roughly.
+    /// True if there are too many coordinates for all modes: then only the fastest are known, approximately.
     pub is_estimate: bool,
 }
 
 impl Spectrum {
-    /// At a state with the v' and lambda of the equations. None where these give no K and C or are not finite.
+    /// Modes at a state with the v' and lambda of the equations. `None` without K and C, or where they are not finite.
     pub fn at(system: &dyn MechanicalSystem, state: OperatingPoint) -> Option<Self> {
         let mut frozen = Frozen::new(system, state)?;
         if system.dimensions().v > DENSE_EIGENVALUES {
@@ -65,7 +65,7 @@ impl Spectrum {
     }
 }
 
-/// The fastest mode alone, roughly and cheaply whatever the size; none as for [`Spectrum::at`].
+/// The fastest mode alone, by an approximation that is cheap at any size; `None` as for [`Spectrum::at`].
 pub fn fastest(system: &dyn MechanicalSystem, state: OperatingPoint) -> Option<SpectralMode> {
     Frozen::new(system, state)?.fastest()?.last().copied()
 }
@@ -94,7 +94,7 @@ impl<'a> Frozen<'a> {
         (known && tangent.k.iter().chain(&tangent.c).all(|x| x.is_finite())).then_some(())
     }
 
-    /// Z Z^T `force`: the accelerations that a force alone gives.
+    /// Z Z^T `force`: the accelerations due to a force alone.
     fn accelerate(&mut self, mut force: Vec<f64>) -> Option<Vec<f64>> {
         let mut rows = vec![0.0; self.dynamics.lambda.len()];
         self.dynamics.kkt.solve_motion(&mut force, &mut rows).ok()?;
@@ -114,10 +114,10 @@ impl<'a> Frozen<'a> {
         sum
     }
 
-    /// The fastest modes, by powers of (x, v) -> (v, -Z Z^T (K x + C v)).
+    /// The fastest modes, by power iteration of (x, v) -> (v, -Z Z^T (K x + C v)).
     fn fastest(&mut self) -> Option<Vec<SpectralMode>> {
         let n = self.dynamics.vdot.len();
-        // Any vector will do; this one has all directions in it and no symmetry.
+        // An arbitrary vector with components in all directions and no symmetry.
         let mut x = self.accelerate((0..n).map(|i| (1.0 + i as f64).sqrt().fract() - 0.5).collect())?;
         let mut v = vec![0.0; n];
         for _ in 0..tolerances::POWER_ITERATIONS {
@@ -131,7 +131,7 @@ impl<'a> Frozen<'a> {
         }
         let a = self.follow(&x, &v)?;
         let jerk = self.follow(&v, &a)?;
-        // Positions in units in which they are as large as velocities.
+        // Positions are scaled to the size of velocities.
         let unit = ((norm(&v) + norm(&a)) / (norm(&x) + norm(&v))).max(f64::MIN_POSITIVE);
         let state = |x: &[f64], v: &[f64]| x.iter().map(|x| unit * x).chain(v.iter().copied()).collect::<Vec<f64>>();
         Some(fit(&state(&x, &v), &state(&v, &a), &state(&a, &jerk)))
@@ -144,7 +144,7 @@ impl<'a> Frozen<'a> {
     }
 }
 
-/// The roots of s^2 + p s + r for which y2 + p y1 + r y0 is least, the faster one last.
+/// The roots of s^2 + p s + r with the least |y2 + p y1 + r y0|, the faster one last.
 fn fit(y0: &[f64], y1: &[f64], y2: &[f64]) -> Vec<SpectralMode> {
     let [a, b, d] = [dot(y1, y1), dot(y1, y0), dot(y0, y0)];
     let [f, g] = [-dot(y1, y2), -dot(y0, y2)];
@@ -169,7 +169,7 @@ fn dot(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).map(|(x, y)| x * y).sum()
 }
 
-/// Eigenvalues of [0 s; -K/s -C], s the size of the frequencies, so that all entries are of one kind.
+/// Eigenvalues of [0 s; -K/s -C], with s the size of the frequencies, so that all entries have one unit.
 fn modes(k: &Matrix, c: &Matrix) -> Option<Vec<SpectralMode>> {
     let n = k.nrows();
     let s = k.amax().sqrt();

@@ -1,4 +1,4 @@
-//! Whether a singular state is one that a motion can start from.
+//! Check of a singular start: whether a motion can begin there.
 
 use super::Run;
 use crate::error::Failure;
@@ -12,9 +12,9 @@ const UNDETERMINED: &str = "the start is a singular state at rest, and the motio
 const BRANCHES: &str = "give velocities along one of the motions that meet there, or start beside it";
 
 impl Run<'_> {
-    /// Finds the rows that depend on others at the start, and drops them until they do not hold any more. Refuses
-    /// velocities that no motion has, and a state of rest that the accelerations leave along no motion: bounded
-    /// multipliers push along none of the dependent rows, so that a motion from rest begins along v', as along a
+    /// Finds the rows that depend on others at the start, and drops them until they are violated. Refuses
+    /// velocities that no motion has, and a state at rest with accelerations that no motion has: bounded
+    /// multipliers act along none of the dependent rows, so that a motion from rest begins along v', as along a
     /// velocity.
     pub fn check_start(&mut self) -> Result<(), Failure> {
         let (q, v) = self.problem.split(&self.y);
@@ -39,8 +39,8 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Whether dependent rows ask for accelerations that differ by more than round-off of what is `usual` there, and
-    /// that open joints during the run.
+    /// True if dependent rows prescribe accelerations that differ by more than round-off of the `usual` terms there,
+    /// and that would open joints during the run.
     fn is_contradiction(&self, (contradiction, usual): (f64, f64)) -> bool {
         let opened = contradiction * (self.span.end - self.span.start).powi(2);
         contradiction > tolerances::CONTRADICTING_START * usual

@@ -1,4 +1,4 @@
-//! One step: attempt, projection, and whether it is good enough.
+//! One step: attempt, projection and error test.
 
 use super::Run;
 use super::rows::project;
@@ -7,14 +7,14 @@ use crate::integrator::From;
 use crate::math::largest;
 use crate::tolerances::simulate as tolerances;
 
-/// Whether an error in units of the tolerance refuses a step.
+/// True if an error in units of the tolerance refuses a step.
 pub fn is_too_large(error: f64) -> bool {
     error > 1.0 || error.is_nan()
 }
 
 impl Run<'_> {
-    /// Tries one step of size `h` (or one that the method chose) with its projection, and leaves y' at the new state in
-    /// `next_slope`. Returns the error in units of the tolerance, where there is an estimate.
+    /// Tries one step of size `h` (or one that the method chose) with its projection, and writes y' at the new state to
+    /// `next_slope`. Returns the error in units of the tolerance, if there is an estimate.
     pub fn step(&mut self, h: &mut f64, end: &mut Option<f64>) -> Result<Option<f64>, StepError> {
         let error = self.attempt(h, end)?;
         let is_singular = self.is_singular(*h);
@@ -38,24 +38,24 @@ impl Run<'_> {
         Ok(error)
     }
 
-    /// Counts all constraints from the last state on, which is brought back to those that were dropped up to there.
+    /// Restores all dropped constraints from the last state on, which is projected on them first.
     fn release_rows(&mut self) -> Result<(), StepError> {
         self.drop_rows(&[]);
         project(self.t, &mut self.y, &mut self.problem, &mut self.projection, tolerances::SINGULAR_SWEEPS)?;
         self.problem.derivative(self.t, &self.y, &mut self.slope)
     }
 
-    /// Whether a step of size `h` comes near a singular state, about which it is projected.
+    /// True if a step of size `h` comes near a singular state, where it is projected with more sweeps.
     fn is_singular(&self, h: f64) -> bool {
         self.projection.is_some() && self.approach.reaches(h)
     }
 
-    /// Sweeps of the projection in a step of size `h`.
+    /// Number of sweeps of the projection in a step of size `h`.
     pub fn sweeps(&self, h: f64) -> usize {
         if self.is_singular(h) { tolerances::SINGULAR_SWEEPS } else { 1 }
     }
 
-    /// Whether states at the ends of steps are on the constraints, by a projection or by what is integrated.
+    /// True if states at the ends of steps satisfy the constraints, by a projection or by the formulation.
     pub fn keeps_constraints(&self) -> bool {
         self.projection.is_some() || self.problem.formulation.keeps_constraints()
     }
@@ -70,7 +70,7 @@ impl Run<'_> {
         Ok(if self.fixed.is_some() { None } else { error })
     }
 
-    /// Projects the new state, and refuses it where that moves it too far.
+    /// Projects the new state, and refuses it if that moves it too far.
     fn project_step(
         &mut self,
         (h, end): (f64, Option<f64>),
@@ -79,7 +79,7 @@ impl Run<'_> {
     ) -> Result<Option<f64>, StepError> {
         self.change.copy_from_slice(&self.next);
         let (t, sweeps) = (self.end_of(h, end), self.sweeps(h));
-        // A method that chooses its steps comes to a stop on the dense output of one that ends behind it.
+        // A method that chooses its steps reaches a stop on the dense output of a step that ends after it.
         match end.is_some() && self.integrator.seen().is_some_and(|seen| seen > h) {
             true => self.project_within(t, h)?,
             false => project(t, &mut self.next, &mut self.problem, &mut self.projection, sweeps)?,
@@ -98,7 +98,7 @@ impl Run<'_> {
         Ok(if is_far { Some(correction) } else { error })
     }
 
-    /// Projects a state that is on the dense output of a step.
+    /// Projects a state on the dense output of a step.
     pub fn project_within(&mut self, t: f64, h: f64) -> Result<(), StepError> {
         let sweeps = self.sweeps(h);
         project(t, &mut self.next, &mut self.problem, &mut self.rows.projection, sweeps)
@@ -109,8 +109,8 @@ impl Run<'_> {
         self.rows.problem.dynamics.drop_rows(rows);
     }
 
-    /// Whether constraints that depended on the others at the start, and were dropped, do not hold any more: then the
-    /// start was a singular state, and they count elsewhere.
+    /// True if constraints that depended on the others at the start, and were dropped, are violated now: then the
+    /// start was a singular state, and they are independent elsewhere.
     fn dropped_rows_open(&self) -> bool {
         let dynamics = &self.problem.dynamics;
         let relative = |row: usize| dynamics.terms.phi[row].abs() / self.scales[row];
@@ -119,7 +119,7 @@ impl Run<'_> {
         dynamics.dropped.iter().any(|row| relative(*row) > most)
     }
 
-    /// How far the projection moved the state, in units of the tolerance; `change` holds the state before.
+    /// Distance by which the projection moved the state, in units of the tolerance; `change` contains the state before.
     fn correction(&mut self) -> f64 {
         self.change.iter_mut().zip(&self.next).for_each(|(change, next)| *change -= next);
         if !self.tests_velocities {
@@ -128,9 +128,9 @@ impl Run<'_> {
         self.tolerance.norm(&self.next, &self.change)
     }
 
-    /// The error of the projected step, in units of the tolerance: how far the projected solution of lower order is
-    /// from it. Near a singular state the stages are far off along the nearly dependent rows, which the projection
-    /// takes away from both, so that the error before it says nothing.
+    /// Error of the projected step, in units of the tolerance: its difference to the projected solution of lower order.
+    /// Near a singular state the stages are far off along the nearly dependent rows, and the projection removes that
+    /// from both, so that the error before it is no measure.
     fn error_within_constraints(&mut self, t: f64, h: f64) -> Result<Option<f64>, StepError> {
         let from = From { t: self.t, y: &self.y, slope: &self.slope, end: t };
         if !self.integrator.lower_order(from, h, &mut self.change) {
@@ -141,9 +141,9 @@ impl Run<'_> {
         Ok(Some(self.tolerance.norm_between(&self.y, &self.next, &self.change) / self.allowed()))
     }
 
-    /// The error to be put up with, in units of the tolerance. Round-off of the largest coordinate moves all that
-    /// nearly dependent rows join by eps over the rank indicator, and velocities by eps over its square: no step can be
-    /// better.
+    /// The error to be accepted, in units of the tolerance. Round-off of the largest coordinate moves all parts that
+    /// nearly dependent rows connect by eps over the rank indicator, and velocities by eps over its square: no step can
+    /// be more accurate.
     fn allowed(&mut self) -> f64 {
         let dynamics = &self.problem.dynamics;
         let rank_indicator =

@@ -1,4 +1,4 @@
-//! Whether an explicit method is the wrong one for a motion, said before it runs.
+//! Test before a run whether stability limits the steps of an explicit method.
 
 use super::automatic::rival;
 use super::spectrum::{SpectralMode, Spectrum, fastest};
@@ -10,29 +10,30 @@ use crate::tolerances::simulate as tolerances;
 use serde::Serialize;
 use std::fmt;
 
-/// Modes of the start that an explicit method cannot step over, or only in far more steps than accuracy asks for.
+/// Modes of the start for which an explicit method is unstable, or needs far more steps than accuracy requires.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Stiffness {
     /// Name of the integrator.
     pub integrator: String,
-    /// The mode that limits the steps, 1/s.
+    /// The mode that limits the steps.
     pub mode: SpectralMode,
-    /// |lambda| h from which the method lets it grow.
+    /// The largest stable |lambda| h of the method for this mode.
     pub limit: f64,
-    /// The fixed step, s; none where the method chooses its steps.
+    /// The fixed step, s; `None` where the method chooses its steps.
     pub step: Option<f64>,
     /// The longest stable step, s.
     pub stable_step: f64,
     /// Number of the longest stable steps in the run.
     pub steps_for_stability: f64,
-    /// How much farther an implicit method comes for the same work, where the method chooses its steps.
+    /// Time simulated by an implicit method over that of this one for the same work, where the method chooses its
+    /// steps.
     pub implicit_gain: Option<f64>,
-    /// A method that can, in words.
+    /// Another method or step, as a sentence.
     pub advice: String,
 }
 
-/// Warns of a method that is explicit, for a motion from `state`, which has the v' and lambda of the equations, over
-/// `span`. None where nothing is wrong or known.
+/// Warning about an explicit method for a motion from `state`, which has the v' and lambda of the equations, over
+/// `span`. `None` where there is nothing to warn of, or nothing is known.
 pub fn stiffness(
     system: &dyn MechanicalSystem,
     method: &Method,
@@ -42,7 +43,7 @@ pub fn stiffness(
     let stability = explicit(system, method)?;
     let duration = span.end - span.start;
     let rough = fastest(system, state)?;
-    // Below the limits along its own direction and both axes by far, no mode needs a closer look.
+    // Far below the limits along its own direction and both axes no mode is critical.
     let least =
         [(rough.decay, rough.swing), (1.0, 0.0), (0.0, 1.0)].map(|(decay, swing)| stability.limit(decay, swing));
     let longest = method.step.unwrap_or(duration / tolerances::STEPS_FOR_STABILITY);
@@ -69,7 +70,7 @@ pub fn stiffness(
     })
 }
 
-/// The mode that a fixed step makes grow. What grows little over the whole run is an error of accuracy.
+/// The mode that a fixed step makes grow. Growth that is small over the whole run is an error of accuracy.
 fn too_long(
     system: &dyn MechanicalSystem,
     state: OperatingPoint,
@@ -84,7 +85,7 @@ fn too_long(
     (step > stable(&mode) && grows).then_some((mode, None))
 }
 
-/// The mode for whose sake alone an adaptive method takes its steps.
+/// The mode that limits the steps of an adaptive method by stability alone.
 fn too_many(
     system: &dyn MechanicalSystem,
     method: &Method,
@@ -95,7 +96,7 @@ fn too_many(
     (contest.gain > tolerances::ANOTHER_METHOD).then_some((contest.mode, Some(contest.gain)))
 }
 
-/// Stability of the method; none where its steps may be as long as they like.
+/// Stability region of the method; `None` for a method without a limit.
 pub fn explicit(system: &dyn MechanicalSystem, method: &Method) -> Option<Stability> {
     method.make_integrator(system).ok()?.stability()
 }
@@ -111,7 +112,7 @@ fn advice(method: &Method, step: f64) -> String {
     }
 }
 
-/// With two digits.
+/// The number with two digits.
 fn two(value: f64) -> String {
     short(format!("{value:.1e}").parse().unwrap_or(value))
 }

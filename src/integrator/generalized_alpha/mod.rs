@@ -29,24 +29,24 @@ use newton::Newton;
 /// motions.
 ///
 /// With rho_inf = 1 nothing is damped, which ggl allows. With index3 the multipliers have the eigenvalue -rho_inf
-/// three times, which a turning G drives apart, the more the larger the step: with too little damping errors grow
-/// (Cardona, Geradin, Comput. Struct. 33 (1989) 801-820), so rho_inf above 0.9 is refused there. phi holds to
-/// round-off. With index3 G v + phi_t holds to order 2 (project it where that matters: `velocity`, `manifold`,
-/// `exact`; `full` would share that error out between v and q at every step, which costs q an order, so it is
+/// three times, which a rotating G separates, the more the larger the step: with too little damping errors grow
+/// (Cardona, Geradin, Comput. Struct. 33 (1989) 801-820), so rho_inf above 0.9 is refused there. phi vanishes to
+/// round-off. With index3 G v + phi_t vanishes to order 2 (project it where that matters: `velocity`, `manifold`,
+/// `exact`; `full` would distribute that error between v and q at every step, which costs q an order, so it is
 /// refused); with ggl to round-off too.
 ///
 /// Error of a step: (1/6 - beta - (alpha_m - alpha_f)/2) h^2 (a_1 - a) in q, the leading term; v and lambda, index 2
-/// and 3, are left out. Source: Geradin, Cardona, Flexible Multibody Dynamics (2001), chapter 7. When the step
+/// and 3, are not tested. Source: Geradin, Cardona, Flexible Multibody Dynamics (2001), chapter 7. When the step
 /// changes, a = v'(t + (alpha_m - alpha_f) h) is moved with it: Jay, Negrut, ECCOMAS Multibody Dynamics (2009)
-/// 143-158. One matrix, from exact K and C, for as many steps as it serves; an evaluation and a back-substitution (with
-/// ggl two) an iteration.
-/// The work is the trapezoidal rule. Cubic Hermite interpolation.
+/// 143-158. One matrix, from exact K and C, is kept while Newton's method converges with it; an evaluation and a
+/// back-substitution (with ggl two) per iteration. The work is integrated by the trapezoidal rule. Cubic Hermite
+/// interpolation.
 pub const ENTRY: Entry = Entry {
     name: "generalized_alpha",
     about: "implicit, damped at high frequencies by rho_inf, for stiff motions; holds phi, with ggl phi' too",
     order: 2,
     steps: Steps::Either,
-    // Errors over a motion were 10 rtol^(2/3), 70 of swings that last, whose v the estimate leaves out.
+    // Errors over a motion were 10 rtol^(2/3), 70 for lasting oscillations, whose v is not in the estimate.
     tightening: Tightening { factor: 0.01, power: 1.5 },
     solves: takes::positions,
     refuses: refuses::shared_error,
@@ -131,7 +131,7 @@ impl Integrator for GeneralizedAlpha {
         }
         found?;
         let work = to.len() - 1;
-        // By the power at the new state, of which the work needs order 2 only.
+        // Uses the power at the new state as computed, since the work needs order 2 only.
         to[work] = from.y[work] + 0.5 * h * (from.slope[work] + self.newton.power());
         Ok(Some(self.error(problem, tolerance, from, h, to)))
     }

@@ -1,4 +1,4 @@
-//! Accelerations carried from step to step, and where they lead.
+//! The accelerations carried from step to step, and q and v that follow from them.
 
 use super::super::memory::Reader;
 use super::super::{From, Problem};
@@ -15,7 +15,7 @@ pub(super) struct Scheme {
 }
 
 impl Scheme {
-    /// From rho_inf.
+    /// Coefficients for rho_inf = r.
     pub fn new(r: f64) -> Self {
         let (alpha_m, alpha_f) = ((2.0 * r - 1.0) / (r + 1.0), r / (r + 1.0));
         let gamma = 0.5 + alpha_f - alpha_m;
@@ -27,20 +27,20 @@ impl Scheme {
         (1.0 - self.alpha_f) / (1.0 - self.alpha_m)
     }
 
-    /// a is v' this part of a step after its own time.
+    /// Part of a step from the time of the state to that of a: a = v'(t + lead h).
     fn lead(&self) -> f64 {
         self.alpha_m - self.alpha_f
     }
 
-    /// Of the local error of q, per h^3 v''.
+    /// Coefficient of h^3 v'' in the local error of q.
     fn error(&self) -> f64 {
         1.0 / 6.0 - self.beta - 0.5 * self.lead()
     }
 }
 
-/// What one step hands to the next.
+/// The quantities that one step passes on to the next.
 pub(super) struct Carried {
-    /// Step that `a` goes with.
+    /// Step size for which `a` is valid.
     h: f64,
     pub a: Vec<f64>,
     pub vdot: Vec<f64>,
@@ -55,20 +55,20 @@ impl Carried {
 
 pub(super) struct Motion {
     scheme: Scheme,
-    /// What the start hands over is known.
+    /// True if `start` is known.
     is_started: bool,
     start: Carried,
     pub end: Carried,
-    /// a at the start, for the step that is made.
+    /// a at the start, adapted to the present step size.
     a: Vec<f64>,
-    /// The shifts of v and q, each correction of which meets its own equation, as does their sum.
+    /// The shifts of v and q. Each correction satisfies the equation of the shift, and so does their sum.
     w: Vec<f64>,
     u: Vec<f64>,
-    /// Change of q along the directions of v: with a_1 as predicted, and by what it then differs.
+    /// Change of q along the directions of v: with the predicted a_1, and the remaining one.
     predicted: Vec<f64>,
     change: Vec<f64>,
     a_predicted: Vec<f64>,
-    /// Where the second change starts, if the changes are made one after the other.
+    /// q after the first change, if the two changes are applied in succession.
     between: Option<Vec<f64>>,
     stages: [Vec<f64>; 3],
 }
@@ -92,8 +92,8 @@ impl Motion {
         }
     }
 
-    /// Takes over what the step before reached (or starts), for a step of size `h`; a step tried before from here is
-    /// forgotten. `ahead` is scratch. Leaves v' and lambda of the start as a prediction of those at the end.
+    /// Prepares a step of size `h` from the step before (or from the start), and discards one tried before from here.
+    /// `ahead` is scratch. v' and lambda at the end are predicted by those of the start.
     pub fn begin(&mut self, problem: &mut Problem, from: From, h: f64, ahead: &mut [f64]) -> Result<(), StepError> {
         if !self.is_started {
             self.start(problem, from, h, ahead)?;
@@ -110,7 +110,7 @@ impl Motion {
         Ok(())
     }
 
-    /// a = v'(t + (alpha_m - alpha_f) h) + O(h^2), against transients of first order in lambda.
+    /// Sets a = v'(t + (alpha_m - alpha_f) h) + O(h^2), which avoids transients of first order in lambda.
     fn start(&mut self, problem: &mut Problem, from: From, h: f64, ahead: &mut [f64]) -> Result<(), StepError> {
         let (_, vdot) = problem.split(from.slope);
         self.start.vdot.copy_from_slice(vdot);
@@ -129,18 +129,18 @@ impl Motion {
         Ok(())
     }
 
-    /// Forgets the last step.
+    /// Discards the last step.
     pub fn restart(&mut self) {
         self.is_started = false;
     }
 
-    /// What the start hands over, as numbers.
+    /// `start` as numbers, for [`Self::recall`].
     pub fn memory(&self) -> Vec<f64> {
         let Carried { h, a, vdot, lambda } = &self.start;
         [&[f64::from(self.is_started), *h], &a[..], vdot, lambda].concat()
     }
 
-    /// Goes on with a [`memory`](Self::memory).
+    /// Restores a [`memory`](Self::memory).
     pub fn recall(&mut self, memory: &mut Reader) {
         self.is_started = memory.number() != 0.0;
         let Carried { h, a, vdot, lambda } = &mut self.start;
@@ -148,24 +148,25 @@ impl Motion {
         [a, vdot, lambda].into_iter().for_each(|values| memory.fill(values));
     }
 
-    /// The step is taken.
+    /// Accepts the step: its end becomes the start.
     pub fn accepted(&mut self) {
         std::mem::swap(&mut self.start, &mut self.end);
     }
 
-    /// The unknowns at the end, but for the shifts.
+    /// The unknowns at the end, without the shifts.
     pub fn unknowns(&self) -> Unknowns<'_> {
         Unknowns { a: &self.end.vdot, lambda: &self.end.lambda, ..Unknowns::default() }
     }
 
-    /// How q_1 and v_1 change with v'_1 and the shifts.
+    /// Derivatives of q_1 and v_1 with respect to v'_1 and the shifts.
     pub fn slopes(&self, h: f64) -> Slopes<f64> {
         let (Scheme { gamma, beta, .. }, slope) = (&self.scheme, self.scheme.slope());
         Slopes { v: h * gamma * slope, q: h * h * beta * slope, w: 1.0, w_q: 0.0, u: 1.0 }
     }
 
-    /// Changes the unknowns; the largest change of the first `moving` v'_1, or of a shift as such, and that of xi'_1.
-    /// `round_off` is that of q: what a row of phi makes of it is no change, since over h^2 it would hide all others.
+    /// Adds the changes to the unknowns. Returns the largest change of the first `moving` v'_1 or of a shift in their
+    /// unit, and that of xi'_1. Shifts of q below `round_off` count as zero, since over h^2 they would exceed all other
+    /// changes.
     pub fn correct(&mut self, change: &Change<f64>, moving: usize, h: f64, round_off: f64) -> [f64; 2] {
         let add = |sum: &mut [f64], change: &[f64]| sum.iter_mut().zip(change).for_each(|(sum, change)| *sum += change);
         add(&mut self.end.vdot, &change.a);
@@ -187,7 +188,7 @@ impl Motion {
         &self.change
     }
 
-    /// a_1 that goes with v'_1.
+    /// a_1 for the present v'_1.
     fn a_end(&self, i: usize) -> f64 {
         let Scheme { alpha_m, alpha_f, .. } = self.scheme;
         let mean = (1.0 - alpha_f) * self.end.vdot[i] + alpha_f * self.start.vdot[i];
@@ -207,7 +208,7 @@ impl Motion {
         }
     }
 
-    /// a_1, v_1 and q_1 that go with v'_1 and the shifts.
+    /// a_1, v_1 and q_1 for the present v'_1 and shifts.
     pub fn advance(&mut self, problem: &Problem, from: From, h: f64, to: &mut [f64]) {
         let (q0, v0) = problem.split(from.y);
         let (q, v) = problem.split_mut(to);

@@ -1,4 +1,4 @@
-//! Newton's method for the end of a step.
+//! Newton's method for the state at the end of a step.
 
 use super::super::memory::Reader;
 use super::super::{From, Problem, collapsed};
@@ -9,11 +9,11 @@ use crate::math::newton::{Limits, Monitor};
 use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::integrator as tolerances;
 
-/// The metric of shifts is M alone: sums of corrections in the metrics of several states would depend on how they were
-/// found.
+/// Stiffness added to the metric of shifts: none, since sums of corrections in the metrics of several states would
+/// depend on the iteration.
 const MASS: f64 = 0.0;
 
-/// In units of what may stop falling.
+/// Limits on changes over their stagnation tolerance.
 fn limits(is_fixed: bool) -> Limits {
     Limits {
         most: tolerances::GENERALIZED_ALPHA_ITERATIONS,
@@ -34,17 +34,17 @@ pub(super) struct Newton {
     residual: Residual,
     monitor: Monitor,
     is_linearized: bool,
-    /// Whether the last iteration began with the matrix of a step before.
+    /// True if the last iteration began with the matrix of a step before.
     pub is_stale: bool,
-    /// The step and the dropped rows for which the matrix is factored.
+    /// The step size and the dropped rows for which the matrix is factored.
     factored: Option<f64>,
     dropped: Vec<usize>,
-    /// The step and the state of the matrix that a saved run had.
+    /// Step size and state of the matrix of a saved run.
     recalled: Option<(f64, Vec<f64>)>,
 }
 
 impl Newton {
-    /// None where there is not enough memory.
+    /// Memory for `dae` on a system; `None` if there is not enough.
     pub fn new(dae: Dae, is_fixed: bool, system: &dyn MechanicalSystem) -> Option<Self> {
         Some(Newton {
             dae,
@@ -61,31 +61,30 @@ impl Newton {
         })
     }
 
-    /// The matrix stays for the next step where it serves.
+    /// Keeps the matrix for the next step if the iteration contracted well.
     pub fn accepted(&mut self) {
         self.is_linearized &= self.monitor.keeps_matrix();
     }
 
-    /// The equations change their form.
+    /// Discards the matrix where the equations change their form.
     pub fn restart(&mut self) {
         self.is_linearized = false;
     }
 
-    /// What the next step takes over of the iteration: how it contracted, and for which step and state the matrix is,
-    /// if it stays.
+    /// Contraction of the iteration, and step size and state of the matrix if it is kept, for [`Self::recall`].
     pub fn memory(&self) -> Vec<f64> {
         let h = self.factored.filter(|_| self.is_linearized).unwrap_or(0.0);
         let point = if self.is_linearized { self.at.point() } else { &[] };
         [&self.monitor.memory()[..], &[h], point].concat()
     }
 
-    /// Goes on with a [`memory`](Self::memory) from the next step on.
+    /// Restores a [`memory`](Self::memory) at the next step.
     pub fn recall(&mut self, mut memory: Reader) {
         self.monitor.recall([memory.number(), memory.number()]);
         self.recalled = Some((memory.number(), memory.rest().to_vec()));
     }
 
-    /// Makes the matrix again that a saved run had.
+    /// Computes the matrix of a saved run again.
     fn renew(&mut self, problem: &mut Problem, motion: &Motion) -> Result<(), StepError> {
         let Some((h, point)) = self.recalled.take().filter(|(h, _)| *h > 0.0) else { return Ok(()) };
         let counted = problem.dynamics.statistics;
@@ -103,7 +102,7 @@ impl Newton {
         self.residual.power
     }
 
-    /// Leaves q_1 and v_1 in `to`, and v'_1 and lambda_1 at the end of `motion`.
+    /// Writes q_1 and v_1 to `to`, v'_1 and lambda_1 to the end of `motion`.
     pub fn converge(
         &mut self,
         problem: &mut Problem,
@@ -138,7 +137,7 @@ impl Newton {
         Ok(())
     }
 
-    /// The residual at q_1, v_1, and the matrix where there is none for this step.
+    /// The residual at q_1, v_1, and the matrix if there is none for this step.
     fn evaluate(
         &mut self,
         problem: &mut Problem,
@@ -173,7 +172,7 @@ impl Newton {
         Ok(())
     }
 
-    /// The changes of v'_1 and of xi'_1, in whatever unit, that may stop falling: of the largest a_1 and v_1/h of each.
+    /// Stagnation tolerances of the changes of v'_1 and of xi'_1, from the largest a_1 and v_1/h of each.
     fn small(&self, problem: &Problem, motion: &Motion, h: f64, to: &[f64]) -> [f64; 2] {
         let (q, v) = problem.split(to);
         let moving = problem.dynamics.system.dimensions().moving();

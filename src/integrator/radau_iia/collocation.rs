@@ -11,7 +11,7 @@ pub struct Collocation {
     pub a: Vec<Vec<f64>>,
     /// The real eigenvalue of A.
     pub real: StageMode<f64>,
-    /// One of each conjugate pair of the others.
+    /// One eigenvalue of each conjugate pair.
     pub pairs: Vec<StageMode<c64>>,
     /// d_i of the error estimate h (gamma_0 y'_0 + sum d_i Y'_i), the difference to a formula of order s that also uses
     /// y'_0; gamma_0 is the real eigenvalue. Source: the same, (8.17).
@@ -102,7 +102,7 @@ impl Collocation {
         (0..=self.stages()).filter(|j| *j != i).fold(self.barycentric[i], |product, j| product * (x - point(j)))
     }
 
-    /// The same over c_1 ... c_s, at x other than 0.
+    /// The same polynomial over c_1 ... c_s only, at x other than 0.
     pub fn stage_lagrange(&self, i: usize, x: f64) -> f64 {
         self.lagrange(i + 1, x) * self.nodes[i] / x
     }
@@ -112,7 +112,7 @@ impl Collocation {
 fn modes(a: &DMatrix<f64>) -> (StageMode<f64>, Vec<StageMode<c64>>) {
     let s = a.nrows();
     let mut values: Vec<c64> = a.complex_eigenvalues().iter().map(|value| c64::new(value.re, value.im)).collect();
-    // The real one first, then pairs from the nearest to it outwards: an order of its own for each A.
+    // The real one first, then the pairs by increasing imaginary part.
     values.retain(|value| value.im > -1e-9);
     values.sort_by(|x, y| x.im.total_cmp(&y.im));
     let complex = a.map(|entry| c64::new(entry, 0.0));
@@ -132,7 +132,7 @@ fn modes(a: &DMatrix<f64>) -> (StageMode<f64>, Vec<StageMode<c64>>) {
     (real, (1..values.len()).map(mode).collect())
 }
 
-/// By inverse iteration. A real eigenvalue gets a real vector.
+/// Eigenvector by inverse iteration. A real eigenvalue gets a real vector.
 fn eigenvector(a: &DMatrix<c64>, value: c64) -> DVector<c64> {
     let s = a.nrows();
     let shift = value + c64::new(1e-10, 0.0);
@@ -193,7 +193,7 @@ mod tests {
         }
     }
 
-    /// Interpolation gives back what it was made of.
+    /// Interpolation reproduces a polynomial.
     #[test]
     fn lagrange_polynomials_are_one_at_their_points() {
         let method = Collocation::new(5);

@@ -8,16 +8,16 @@ use crate::integrator::Setup;
 use crate::math::kkt::Singular;
 use faer::c64;
 
-/// The matrices of all eigenvalues at one state, for one step and method.
+/// The matrices of all eigenvalues at one state, for one step size and method.
 pub struct Matrices {
     pub real: Iteration<f64>,
     pairs: Vec<Iteration<c64>>,
-    /// The step and the method that they are factored for, and the rows that are dropped there.
+    /// Step size and method for which they are factored, and the rows that are dropped there.
     factored: Option<(f64, usize)>,
     dropped: Vec<usize>,
 }
 
-/// V changes by h a W and Q by (h a)^2 W where W is the change of V' along an eigenvector of A with the eigenvalue a.
+/// With W the change of V' along an eigenvector of A with the eigenvalue a, V changes by h a W and Q by (h a)^2 W.
 fn slopes<T: Number>(ha: T) -> Slopes<T> {
     Slopes { v: ha, q: ha * ha, w: ha, w_q: ha * ha, u: ha }
 }
@@ -38,8 +38,8 @@ impl Matrices {
         self.factored == Some((h, index)) && self.dropped == dynamics.dropped
     }
 
-    /// Takes the metric of shifts for a step `h` of `method`, of that index, before the matrices are factored for it. A
-    /// row within the step keeps the step's.
+    /// Sets the metric of shifts for a step `h` of `method`, whose index is `index`, before the matrices are factored
+    /// for it. An output row within the step keeps the metric of the step.
     pub fn weigh(
         &self,
         (method, index): (&Collocation, usize),
@@ -53,7 +53,7 @@ impl Matrices {
         }
     }
 
-    /// Factors for a step `h` of `method`, of that index, unless that is done.
+    /// Factors for a step `h` of `method`, whose index is `index`, unless that is done.
     pub fn factor(
         &mut self,
         (method, index): (&Collocation, usize),
@@ -74,22 +74,22 @@ impl Matrices {
         Ok(())
     }
 
-    /// The step and the method that they are factored for.
+    /// Step size and method for which they are factored.
     pub fn factored(&self) -> Option<(f64, usize)> {
         self.factored
     }
 
-    /// Whether they are without these rows, as far as they are factored at all.
+    /// True if exactly the rows `dropped` are dropped from the factors, or there are no factors.
     pub fn serves(&self, dropped: &[usize]) -> bool {
         self.factored.is_none() || self.dropped == dropped
     }
 
-    /// They belong to another state from now on.
+    /// Discards the factors: the state is another from now on.
     pub fn forget(&mut self) {
         self.factored = None;
     }
 
-    /// Sets the multipliers that no correction reaches to zero.
+    /// Sets the multipliers of dropped rows to zero, since no correction reaches them.
     pub fn leave_out(&self, unknowns: &mut Unknowns) {
         unknowns.leave_out(self.real.matrix.left_out());
         self.pairs.iter().for_each(|pair| unknowns.leave_out(pair.matrix.left_out()));
@@ -111,7 +111,7 @@ impl Matrices {
     }
 }
 
-/// The part of all stages along one eigenvector.
+/// Correction of all stages along one eigenvector.
 fn correct<T: Number>(
     iteration: &mut Iteration<T>,
     mode: &StageMode<T>,

@@ -34,23 +34,23 @@ use system::{System, most};
 /// state's v' and lambda need in any case.
 ///
 /// One matrix of n_v + n_c unknowns for the real eigenvalue of A and (s - 1)/2 complex ones, dense or sparse, from
-/// exact K, C, G and L: q and v are eliminated. The matrices stay for the next step as long as Newton's method
-/// contracts thirty thousand times with them. s evaluations and (s + 1)/2 back-substitutions an iteration, s more of
-/// the saddle-point matrix for each shift. Constantly redundant constraints are dropped from the matrices. Error: the
+/// exact K, C, G and L: q and v are eliminated. The matrices are kept for the next step as long as Newton's method
+/// contracts by thirty thousand with them. s evaluations and (s + 1)/2 back-substitutions per iteration, s more of the
+/// saddle-point matrix for each shift. Constantly redundant constraints are dropped from the matrices. Error: the
 /// difference to a formula of order s, damped along stiff directions; velocities that phi = 0 determines, of index 2,
-/// are weighted by h, lambda is left out. Steps and stages follow from it, from the decay of the Legendre coefficients
-/// over the step and from the contraction of Newton's method, which large rotations in a step slow down. An output row
-/// inside a step is a step of its own, since the collocation polynomial has order s only.
+/// are weighted by h, lambda is not tested. Steps and stages are chosen by it, by the decay of the Legendre
+/// coefficients over the step and by the contraction of Newton's method, which is slower for large rotations in a step.
+/// An output row inside a step is a step of its own, since the collocation polynomial has order s only.
 ///
 /// Limits: with index3 round-off of phi over h is an error of v, and with index3 and ggl round-off along nearly
-/// dependent rows is that over their rank indicator (1e-4 between masses 1 : 1e8 in line), so that steps of less than
-/// 1e-7 s there may end a run: index2 goes on.
+/// dependent rows is divided by their rank indicator (1e-4 between masses 1 : 1e8 in line), so that steps below 1e-7 s
+/// may end a run there; index2 continues.
 pub const ENTRY: Entry = Entry {
     name: "radau_iia",
     about: "implicit collocation of variable order 5, 9, 13, L-stable: stiff motions, and high accuracy",
     order: 5,
     steps: Steps::Either,
-    // Errors over a motion were 0.1 rtol^0.8, with what `internal` makes of rtol: index 3 and fast modes lose order.
+    // Errors over a motion were 0.1 rtol^0.8, with the rtol of `internal`: index 3 and fast modes lose order.
     tightening: Tightening { factor: 10.0, power: 1.25 },
     solves: |formulation| formulation.dae.is_some(),
     refuses: refuses::shared_error,
@@ -96,14 +96,14 @@ struct RadauIIA {
     dae: Dae,
     order: Order,
     is_fixed: bool,
-    /// M, G, L, K and C, and whether they are there.
+    /// M, G, L, K and C, and whether they are evaluated.
     at: Linearized,
     is_linearized: bool,
-    /// Whether that is at the start of the step.
+    /// True if that was at the start of the present step.
     is_fresh: bool,
     matrices: Matrices,
     stages: Stages,
-    /// Those of a step to an output row, and the internal tolerance.
+    /// Matrices and stages of a step to an output row, and the internal tolerance.
     row_matrices: Matrices,
     row: Stages,
     tolerance: Tolerance,
@@ -113,17 +113,17 @@ struct RadauIIA {
     /// The last accepted step and its stages, whose polynomials predict those of the next.
     accepted: Option<Step>,
     before: Unknowns,
-    /// lambda at the start of the step, and whether one was tried from there.
+    /// lambda at the start of the step, and whether a step was tried from there.
     lambda: Vec<f64>,
     is_begun: bool,
     error_x: Vec<f64>,
     error_v: Vec<f64>,
     error: Vec<f64>,
-    /// The step, the method and the state of the matrices that a saved run had.
+    /// Step size, method and state of the matrices of a saved run.
     recalled: Option<(f64, usize, Vec<f64>)>,
-    /// y' at the end of the last attempt, where v was moved.
+    /// y' at the end of the last attempt, if v was projected there.
     slope: Vec<f64>,
-    /// Of the last attempt.
+    /// Measures of the last attempt.
     seen: Seen,
 }
 
@@ -147,7 +147,7 @@ impl RadauIIA {
         Ok(())
     }
 
-    /// Makes the matrices again that a saved run had.
+    /// Computes the matrices of a saved run again.
     fn renew(&mut self, problem: &mut Problem) -> Result<(), StepError> {
         let Some((h, index, point)) = self.recalled.take() else { return Ok(()) };
         let counted = problem.dynamics.statistics;
@@ -167,7 +167,7 @@ impl RadauIIA {
         factored.map_err(|singular| collapsed(singular, problem, from, h))
     }
 
-    /// A first guess of the accelerations and lambda: constant at the very start, else by the step before.
+    /// First guess of the accelerations and lambda: constant at the first step, else extrapolated from the step before.
     fn predict(&mut self, problem: &Problem, from: From, h: f64) {
         let unknowns = &mut self.stages.unknowns;
         match self.accepted {
@@ -180,7 +180,7 @@ impl RadauIIA {
         self.matrices.leave_out(unknowns);
     }
 
-    /// Solves the equations of all stages for a step `h`, with the matrices that are there or new ones.
+    /// Solves the equations of all stages for a step `h`, with the present matrices or new ones.
     fn solve(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<bool, StepError> {
         self.factor(problem, from, h)?;
         self.predict(problem, from, h);
@@ -280,7 +280,7 @@ impl Integrator for RadauIIA {
         Ok(Some(error))
     }
 
-    /// The stages predict those of the next step, and M, G, K and C stay as long as they serve.
+    /// Keeps the stages for the prediction of the next, and M, G, K and C as long as Newton's method contracts well.
     fn accepted(&mut self, tolerance: &Tolerance) {
         let Some(step) = self.tried.take() else { return };
         std::mem::swap(&mut self.before, &mut self.stages.unknowns);
@@ -339,7 +339,8 @@ impl Integrator for RadauIIA {
         Ok(())
     }
 
-    /// By a step of that length, or by the collocation polynomial, which has order s only, where that finds no end.
+    /// Solves a step of that length; where it does not converge, uses the collocation polynomial, which has order s
+    /// only.
     fn interpolate(
         &mut self,
         problem: &mut Problem,

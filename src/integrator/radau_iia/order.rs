@@ -1,4 +1,4 @@
-//! The number of stages, chosen as the integration goes.
+//! Choice of the number of stages during the integration.
 
 use super::collocation::Collocation;
 use crate::error::{Error, Result};
@@ -8,10 +8,10 @@ use crate::math::newton::Monitor;
 use crate::method_spec::MethodSpec;
 use crate::tolerances::integrator as tolerances;
 
-/// The methods to choose from and the one in use.
+/// The methods with 3, 5 and 7 stages, and the one in use.
 ///
 /// The error of s + 2 stages is estimated by that of s times the square of the ratio of the last two Legendre
-/// coefficients; from it follows the step that each method could take, and that with the least work a second is taken.
+/// coefficients; from it follows the step size of each method, and the method with the least work per second is chosen.
 pub struct Order {
     methods: Vec<Collocation>,
     current: usize,
@@ -21,9 +21,9 @@ pub struct Order {
     last_decay: Option<f64>,
 }
 
-/// What an accepted step tells.
+/// Measures of an accepted step.
 pub struct Seen {
-    /// In units of the internal tolerance.
+    /// Error in units of the internal tolerance.
     pub error: f64,
     /// Ratio of the last two Legendre coefficients.
     pub decay: f64,
@@ -56,7 +56,7 @@ impl Order {
         self.methods.len()
     }
 
-    /// What the choice and the control of steps carry on, as numbers.
+    /// The state of the choice and of the step control as numbers, for [`Self::recall`].
     pub fn memory(&self) -> Vec<f64> {
         let Control { safety, grow, .. } = self.control;
         let control = self.control.memory();
@@ -64,7 +64,7 @@ impl Order {
         [&own[..], &[control.len() as f64], &control].concat()
     }
 
-    /// Goes on with a [`memory`](Self::memory).
+    /// Restores a [`memory`](Self::memory).
     pub fn recall(&mut self, memory: &mut Reader) {
         self.set((memory.number() as usize).min(self.methods.len() - 1));
         self.steady = memory.number() as usize;
@@ -82,7 +82,7 @@ impl Order {
         &self.methods[self.current]
     }
 
-    /// Which of the methods is in use.
+    /// Index of the method in use.
     pub fn current(&self) -> usize {
         self.current
     }
@@ -98,7 +98,7 @@ impl Order {
         self.control.exponent = 1.0 / (self.method().stages() as f64 + 1.0);
     }
 
-    /// The method of the next step, at the user's tolerance.
+    /// Chooses the method of the next step, for the user's tolerance.
     pub fn accepted(&mut self, tolerance: &Tolerance, seen: &Seen) {
         self.steady += 1;
         let decay = seen.decay * self.last_decay.unwrap_or(seen.decay);
@@ -120,7 +120,7 @@ impl Order {
         [current.checked_sub(1), Some(current + 1)].into_iter().flatten().filter(move |index| *index < count)
     }
 
-    /// Time stepped over for a unit of work, relative to the method in use.
+    /// Time stepped over per unit of work, relative to the method in use.
     fn gain(&self, index: usize, tolerance: &Tolerance, seen: &Seen, decay: f64) -> f64 {
         let (old, new) = (self.method().stages(), self.methods[index].stages());
         let scale = internal(tolerance, old).rtol / internal(tolerance, new).rtol;
@@ -132,8 +132,8 @@ impl Order {
         ratio * old as f64 / new as f64
     }
 
-    /// The next step: shorter where Newton's method took many of its corrections, of which there are `most`, and no
-    /// longer than where it would contract too slowly, as theta grows like h.
+    /// Limits the next step: shorter where Newton's method took many of its `most` corrections, and no longer than
+    /// where it would contract too slowly, as theta grows like h.
     pub fn limit(&mut self, newton: &Monitor, most: usize) {
         let (most, iterations) = (most as f64, newton.iterations as f64);
         self.control.safety = 0.9 * (2.0 * most + 1.0) / (2.0 * most + iterations);
@@ -141,7 +141,7 @@ impl Order {
     }
 }
 
-/// The error estimate is of order s + 1, the solution of order 2 s: with this tolerance the second meets the given one.
+/// Tolerance for the error estimate of order s + 1 at which the solution, of order 2 s, meets the given one.
 /// Source: the code RADAU5 of Hairer and Wanner.
 pub fn internal(tolerance: &Tolerance, s: usize) -> Tolerance {
     let s = s as f64;

@@ -1,4 +1,4 @@
-//! The stages of a step and what their equations leave.
+//! The stages of a step and the residuals of their equations.
 
 use super::collocation::Collocation;
 use crate::formulation::{self, Dae, Dynamics, Residual, StepError};
@@ -20,7 +20,7 @@ pub struct Stages {
     velocity: Vec<f64>,
 }
 
-/// What is solved for, stage by stage.
+/// The unknowns, stage by stage: see [`formulation::Unknowns`].
 pub struct Unknowns {
     pub a: Vec<Vec<f64>>,
     pub lambda: Vec<Vec<f64>>,
@@ -44,15 +44,15 @@ impl Unknowns {
         }
     }
 
-    /// All stages alike, without shifts.
+    /// Sets all stages to the same a and lambda, without shifts.
     pub fn reset(&mut self, a: &[f64], lambda: &[f64]) {
         self.a.iter_mut().for_each(|stage| stage.copy_from_slice(a));
         self.lambda.iter_mut().for_each(|stage| stage.copy_from_slice(lambda));
         [&mut self.w, &mut self.eta, &mut self.u, &mut self.mu].into_iter().flatten().for_each(|stage| stage.fill(0.0));
     }
 
-    /// All but eta and mu from the polynomials over the stages of another step by `method`, at the places `at` of that
-    /// step, none of them its start.
+    /// Extrapolates all but eta and mu from the polynomials over the stages of another step by `method`, to the places
+    /// `at` of that step, none of them its start.
     pub fn predict(&mut self, before: &Unknowns, method: &Collocation, at: impl Iterator<Item = f64> + Clone) {
         let Unknowns { a, lambda, w, eta, u, mu } = self;
         for (stages, before) in [(a, &before.a), (lambda, &before.lambda), (w, &before.w), (u, &before.u)] {
@@ -64,12 +64,11 @@ impl Unknowns {
                 }
             }
         }
-        // They are linear in their equations, and what rows that depend on others have of them would grow by
-        // extrapolation.
+        // Their equations are linear, and components along dependent rows would grow by extrapolation.
         eta.iter_mut().chain(mu).for_each(|stage| stage.fill(0.0));
     }
 
-    /// Multipliers of rows that are dropped from the matrices: no correction reaches them.
+    /// Sets the multipliers of rows that are dropped from the matrices to zero, since no correction reaches them.
     pub fn leave_out(&mut self, rows: &[bool]) {
         for lambda in &mut self.lambda {
             lambda.iter_mut().zip(rows).filter(|(_, out)| **out).for_each(|(lambda, _)| *lambda = 0.0);
@@ -91,13 +90,13 @@ impl Stages {
         }
     }
 
-    /// All stages at the start, from where Q_i is found.
+    /// Sets all stages to the start, from which Q_i is iterated.
     pub fn reset(&mut self, from: From) {
         self.y.iter_mut().for_each(|y| y.copy_from_slice(from.y));
     }
 
-    /// Q_i and V_i that go with the unknowns. Where N depends on q, Q_i is found by sweeps from what it was, each of
-    /// which leaves about h |omega|/8 of its error.
+    /// Q_i and V_i for the present unknowns. Where N depends on q, Q_i is found by sweeps from its last value, each of
+    /// which reduces its error by about h |omega|/8.
     pub fn advance(&mut self, problem: &Problem, method: &Collocation, from: From, h: f64) {
         let (nq, nv, s) = (self.n.q, self.n.v, method.stages());
         let system = problem.dynamics.system;
@@ -115,7 +114,7 @@ impl Stages {
                 let (q, v) = self.next[i].split_at(nq);
                 let sum = v.iter().zip(&self.unknowns.u[i]).map(|(v, shift)| v + shift);
                 self.velocity.iter_mut().zip(sum).for_each(|(place, sum)| *place = sum);
-                // Nothing turns with the angles that count turns: they follow once.
+                // N does not depend on the angles that count full turns: they follow in the last sweep.
                 match sweep == sweeps {
                     true => system.rate(q, &self.velocity, &mut self.qdot[i]),
                     false => system.own_rate(q, &self.velocity, &mut self.qdot[i]),
@@ -129,7 +128,7 @@ impl Stages {
         std::mem::swap(&mut self.y, &mut self.next);
     }
 
-    /// Root mean square of the last change over the tolerated errors at the start.
+    /// Root mean square over the stages of the last change, over the tolerated errors at the start.
     pub fn change(&mut self, tolerance: &Tolerance, from: From, s: usize) -> f64 {
         let mut sum = 0.0;
         for (y, before) in self.y.iter().zip(&mut self.next).take(s) {
@@ -149,10 +148,10 @@ impl Stages {
         }
     }
 
-    /// Changes that are but round-off, over the tolerated errors: v is found from phi = 0 by a division by h.
+    /// Round-off of the changes, over the tolerated errors; v is found from phi = 0 by a division by h.
     pub fn round_off(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64, dae: &Dae) -> f64 {
         let (q, v) = problem.split(from.y);
-        // Angles that are counted through turns grow, and nothing is rounded to their size but they.
+        // Angles that count full turns grow, and only they are rounded to that size.
         let (moving, states) = v.split_at(self.n.moving());
         let own = problem.dynamics.system.own(q);
         let [of_q, of_v, of_states] = [own, moving, states].map(|x| tolerances::ROUND_OFF * largest(x));
@@ -164,7 +163,7 @@ impl Stages {
     }
 
     /// Ratio of successive Legendre coefficients of V' over the step, the last two to the two before so that even and
-    /// odd parts count: how fast the polynomials of more stages converge.
+    /// odd parts count: the rate at which the polynomials of more stages converge.
     pub fn decay(&mut self, method: &Collocation, tolerance: &Tolerance, from: From) -> f64 {
         let [last, before, first] = [0, 1, 2].map(|k| {
             let sum = &mut self.next[0];
@@ -175,7 +174,7 @@ impl Stages {
         if before + first > 0.0 { last.hypot(before) / before.hypot(first) } else { 0.0 }
     }
 
-    /// The residuals of all stages of a step from (t, y) by `h`. An evaluation a stage.
+    /// The residuals of all stages of a step from (t, y) by `h`. One evaluation per stage.
     pub fn evaluate(
         &mut self,
         dae: &Dae,
@@ -194,7 +193,7 @@ impl Stages {
         Ok(())
     }
 
-    /// The work at each stage, by the power of the last evaluations.
+    /// The work at each stage, from the power of the last evaluations.
     pub fn work(&mut self, method: &Collocation, from: From, h: f64) {
         let last = from.y.len() - 1;
         for (y, a) in self.y.iter_mut().zip(&method.a) {

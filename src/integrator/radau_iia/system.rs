@@ -1,4 +1,4 @@
-//! The equations of a step and how they are solved.
+//! The equations of a step and their solution.
 
 use super::collocation::Collocation;
 use super::matrices::Matrices;
@@ -18,13 +18,13 @@ pub struct System<'a> {
     pub is_fixed: bool,
 }
 
-/// Corrections of a step with `s` stages. Source: the code RADAU.
+/// Most corrections of a step with `s` stages. Source: the code RADAU.
 pub fn most(s: usize, is_fixed: bool) -> usize {
     if is_fixed { tolerances::FIXED_STEP_ITERATIONS } else { 7 + 5 * (s - 3) / 2 }
 }
 
 impl System<'_> {
-    /// From their first guess.
+    /// Solves the equations by Newton's method from the first guess in `stages`.
     pub fn solve(
         &mut self,
         newton: &mut Monitor,

@@ -4,15 +4,16 @@ use crate::formulation::StepError;
 use crate::integrator::Problem;
 use crate::system::Need;
 
-/// Moves v to G v + phi_t = 0, nearest in the mass metric, and leaves the matrix of the state factored:
+/// Projects v on G v + phi_t = 0, nearest in the mass metric, and factors the matrix of the state:
 ///
 /// ```text
 /// [M  G^T] [dv]   [ 0    ]
 /// [G  0  ] [. ] = [-phi' ]
 /// ```
 ///
-/// A step of index 3 finds v from phi = 0 by a division by h: that part of v has order s only, and the state would go
-/// on from it. Source: Hairer, Wanner, Solving Ordinary Differential Equations II, VII.2, projection of the velocities.
+/// A step of index 3 finds v from phi = 0 by a division by h: that part of v has order s only, and would be the start
+/// of the next step. Source: Hairer, Wanner, Solving Ordinary Differential Equations II, VII.2, projection of the
+/// velocities.
 pub fn project(problem: &mut Problem, t: f64, y: &mut [f64]) -> Result<(), StepError> {
     let (q, v) = problem.split_mut(y);
     let dynamics = &mut problem.dynamics;

@@ -1,8 +1,9 @@
-//! Where the equations change their form: by the clock, or where a switching function of the state passes a threshold.
+//! Events: the equations change their form at given times, or where a switching function of the state passes a
+//! threshold.
 //!
-//! Within a step every function is held on one piece, so that what is integrated is smooth. A passage by the clock is
-//! known before: a step ends there. One of the state is found on the dense output of a step that went over it; the step
-//! is taken again so that it ends there, and the next one starts on the other piece.
+//! Within a step every function is fixed on one piece, so that the integrated equations are smooth. A passage at a
+//! given time is known before: a step ends there. One of the state is found on the dense output of a step that passed
+//! it; the step is taken again so that it ends there, and the next one starts on the other piece.
 
 mod range;
 mod timetable;
@@ -16,22 +17,22 @@ use crate::system::{MechanicalSystem, OperatingPoint, Scratch};
 use crate::tolerances::simulate as tolerances;
 use range::{Range, first_out};
 
-/// Where a step goes over a threshold.
+/// The place of a threshold in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Passage {
-    /// At the very start: the piece is not the right one from there on.
+    /// At the start: the piece is not valid from there on.
     AtStart(usize),
     /// At this fraction of the step.
     Within(f64),
 }
 
-/// A function that came to a threshold.
+/// A function that reached a threshold and changed its piece.
 #[derive(Clone, Copy, Debug)]
 pub struct Turn {
     pub number: usize,
-    /// The piece that it comes from.
+    /// The piece before.
     from: Piece,
-    /// How fast its argument went out of it.
+    /// Rate at which the argument left that piece.
     pub rate: f64,
 }
 
@@ -42,18 +43,18 @@ pub struct Events<'a> {
     /// Numbers of the switching functions that depend on the state.
     of_state: Vec<usize>,
     pub timetable: Timetable<'a>,
-    /// The pieces on which all functions are held.
+    /// The pieces on which all functions are fixed.
     pub pieces: Vec<Piece>,
     scratch: Scratch,
-    /// Arguments at both ends of a step, and within.
+    /// Arguments at both ends of a step, and within it.
     start: Vec<Rate>,
     end: Vec<Rate>,
     within: Vec<Rate>,
-    /// Numbers of those that are at a threshold at the end of the step.
+    /// Numbers of the functions that are at a threshold at the end of the step.
     at: Vec<usize>,
-    /// How often each has turned at the start of the step.
+    /// Number of changes of each function at the start of the step.
     pub turned: Vec<u8>,
-    /// Times that are shorter are none, s.
+    /// Shorter times count as zero, s.
     shortest: f64,
 }
 
@@ -77,17 +78,17 @@ impl<'a> Events<'a> {
         }
     }
 
-    /// Whether any function of the state changes its form.
+    /// True if any function of the state changes its form.
     pub fn watches_state(&self) -> bool {
         !self.of_state.is_empty()
     }
 
-    /// Whether the last step ended at a threshold.
+    /// True if the last step ended at a threshold.
     pub fn is_at_threshold(&self) -> bool {
         !self.at.is_empty()
     }
 
-    /// Puts every function on the piece of its argument, at the start of a run.
+    /// Sets every function to the piece of its argument, at the start of a run.
     pub fn begin(&mut self, at: OperatingPoint) {
         self.timetable.place(at.t, &mut self.pieces);
         // An argument may depend on other pieces.
@@ -105,19 +106,19 @@ impl<'a> Events<'a> {
         }
     }
 
-    /// Takes the state at which the next step starts.
+    /// Reads the arguments at the state at which the next step starts.
     pub fn start_at(&mut self, at: OperatingPoint) {
         read(self.system, &mut self.scratch, &self.pieces, at, &mut self.start);
     }
 
-    /// The same where that is the end of the last one.
+    /// Continues from the end of the last step.
     pub fn go_on(&mut self) {
         self.turned.fill(0);
         std::mem::swap(&mut self.start, &mut self.end);
     }
 
-    /// The first passage of a threshold in a step of size `h` to the state `end`; `between` shows the state at a
-    /// fraction of the step.
+    /// The first passage of a threshold in a step of size `h` to the state `end`; `between` calls its argument with the
+    /// state at a fraction of the step.
     pub fn passage<E>(
         &mut self,
         h: f64,
@@ -128,7 +129,7 @@ impl<'a> Events<'a> {
         read(*system, scratch, pieces, end, &mut self.end);
         at.clear();
         let mut first = 1.0;
-        // One that is found on neither side of a threshold is at it, up to round-off.
+        // A function that is fixed on a threshold is within round-off of it.
         for &number in of_state.iter().filter(|&&number| turned[number] < 2) {
             let (a, b) = (start[number], self.end[number]);
             let Some(range) = Range::of(pieces[number], &switches[number].thresholds) else {
@@ -139,7 +140,7 @@ impl<'a> Events<'a> {
             };
             let swing = (b.re - a.re).abs().max(h * b.eps[0].abs()).max(h * a.eps[0].abs());
             let argument = Argument { range, a, b, h };
-            // What takes no time has come.
+            // A threshold that is reached within the shortest time counts as reached.
             let is_at = |x: Rate, part: f64| {
                 let soon = shortest.max(4.0 * f64::EPSILON * end.t.abs()) * x.eps[0].abs();
                 range.beyond(x.re).abs() <= soon.max(part * swing) && range.outward(x) > 0.0
@@ -190,7 +191,7 @@ impl<'a> Events<'a> {
         numbers.into_iter().map(turn).collect()
     }
 
-    /// Whether a function has turned to and fro at the start of this step; it may do so again.
+    /// True if a function has changed its piece more than once at the start of this step; resets its counter.
     pub fn is_undecided(&mut self, number: usize) -> bool {
         let is_undecided = self.turned[number] > 1;
         if is_undecided {
@@ -199,7 +200,7 @@ impl<'a> Events<'a> {
         is_undecided
     }
 
-    /// A function that its new piece drives back over the threshold from where the old one drove it.
+    /// A function whose argument the new piece drives back over the threshold to which the old piece drove it.
     pub fn driven_back(&self, turns: &[Turn]) -> Option<Turn> {
         let is_driven_back = |turn: &&Turn| {
             let x = self.start[turn.number];
@@ -210,8 +211,8 @@ impl<'a> Events<'a> {
         turns.iter().find(is_driven_back).copied()
     }
 
-    /// Puts a function that was at a threshold on the other side of it than [`turn`](Self::turn) did; false where it
-    /// came from there.
+    /// Moves a function that was on a threshold to the other side than [`turn`](Self::turn) did; false if it was not on
+    /// a threshold.
     pub fn try_other_side(&mut self, turn: Turn) -> bool {
         let is_from_threshold = turn.from % 2 == 1;
         if is_from_threshold {
@@ -220,7 +221,7 @@ impl<'a> Events<'a> {
         is_from_threshold
     }
 
-    /// The element of a switching function.
+    /// Name of the element of a switching function.
     pub fn owner(&self, number: usize) -> &str {
         self.system.owner_of_switch(number)
     }
@@ -233,7 +234,7 @@ fn read(system: &dyn MechanicalSystem, scratch: &mut Scratch, pieces: &[Piece], 
     system.switching(at, out, scratch);
 }
 
-/// An argument over a step of size `h`, from its values and rates at both ends.
+/// An argument over a step of size `h`, given by its values and rates at both ends.
 struct Argument {
     range: Range,
     a: Rate,
@@ -242,7 +243,7 @@ struct Argument {
 }
 
 impl Argument {
-    /// The cubic through both ends.
+    /// The cubic Hermite interpolant.
     fn cubic(&self, theta: f64) -> f64 {
         let (x, y) = (self.a.re, self.b.re);
         let [u, v] = [self.a, self.b].map(|end| self.h * end.eps[0]);
@@ -254,7 +255,7 @@ impl Argument {
         (1..tolerances::LOOKS_AT_STEP).map(|k| k as f64 / tolerances::LOOKS_AT_STEP as f64)
     }
 
-    /// Whether the cubic comes near to a threshold.
+    /// True if the cubic comes near a threshold.
     fn may_come_near(&self) -> bool {
         let ends = [self.a.re, self.b.re];
         let all = || Self::looks().map(|theta| self.cubic(theta)).chain(ends);
@@ -263,8 +264,8 @@ impl Argument {
         self.range.beyond(low - margin) >= 0.0 || self.range.beyond(high + margin) >= 0.0
     }
 
-    /// The first fraction of the step, before `limit`, at which the argument goes out of its range; `limit` where it
-    /// does not.
+    /// The first fraction of the step, before `limit`, at which the argument leaves its range; `limit` where it does
+    /// not.
     fn first_passage<E>(&self, limit: f64, beyond: &mut impl FnMut(f64) -> Result<f64, E>) -> Result<f64, E> {
         let mut inside = 0.0;
         for theta in Self::looks().chain([1.0]).map(|part| part * limit) {

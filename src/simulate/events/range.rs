@@ -1,4 +1,4 @@
-//! The range of an argument on one piece of a function, and where it leaves it.
+//! The range of an argument on one piece of a function, and the point at which it is left.
 
 use crate::math::{Piece, Rate};
 
@@ -10,7 +10,7 @@ pub struct Range {
 }
 
 impl Range {
-    /// Of a piece; none for that of a threshold itself.
+    /// Range of a piece; `None` for the piece that is a threshold itself.
     pub fn of(piece: Piece, thresholds: &[f64]) -> Option<Self> {
         let next = (piece / 2) as usize;
         let low = next.checked_sub(1).and_then(|k| thresholds.get(k)).copied();
@@ -23,24 +23,24 @@ impl Range {
         self.low < x && x < self.high
     }
 
-    /// How far an argument is out; negative inside.
+    /// Distance of an argument from the range; negative inside.
     pub fn beyond(&self, x: f64) -> f64 {
         (self.low - x).max(x - self.high)
     }
 
-    /// How fast an argument goes towards its nearest threshold, and beyond.
+    /// Rate at which an argument moves towards its nearest threshold, and beyond.
     pub fn outward(&self, x: Rate) -> f64 {
         if self.nearest(x.re) == self.low { -x.eps[0] } else { x.eps[0] }
     }
 
-    /// The threshold that is nearest to an argument.
+    /// The threshold nearest to an argument.
     pub fn nearest(&self, x: f64) -> f64 {
         if self.low - x > x - self.high { self.low } else { self.high }
     }
 }
 
-/// The first number, up to rounding, at which `beyond` is not below zero, where it passes zero once between `from`,
-/// where it is not above, and `to`, where it is not below. Regula falsi, and a half each third time.
+/// The first number, up to round-off, at which `beyond` is not negative, if it has one zero between `from`, where it is
+/// not positive, and `to`, where it is not negative. Regula falsi with bisection in every third iteration.
 pub fn first_out(mut beyond: impl FnMut(f64) -> f64, mut from: f64, mut to: f64) -> f64 {
     let (mut inside, mut outside) = (beyond(from).min(0.0), beyond(to));
     for round in 1.. {

@@ -1,4 +1,4 @@
-//! When functions of t change their form.
+//! Times at which functions of t change their form.
 
 use super::range::{Range, first_out};
 use super::watch::Watch;
@@ -6,7 +6,7 @@ use crate::math::expression::{Switch, TimeFunction};
 use crate::math::{Interval, Piece, Regime, Taylor, piece_of};
 use crate::tolerances::simulate as tolerances;
 
-/// What the equations do by the clock.
+/// The functions of time of a run: their changes of form, and the steps that resolve them.
 pub struct Timetable<'a> {
     switches: &'a [Switch],
     pub watch: Watch<'a>,
@@ -21,7 +21,7 @@ impl<'a> Timetable<'a> {
         Timetable { switches, watch: Watch::new(functions, end - start), start, end, next: None }
     }
 
-    /// Sets the pieces of all functions of time to those from `t` on.
+    /// Sets all functions of time to their pieces from `t` on.
     pub fn place(&mut self, t: f64, pieces: &mut [Piece]) {
         for (number, switch) in self.switches.iter().enumerate() {
             if let Some(argument) = &switch.of_time {
@@ -32,30 +32,30 @@ impl<'a> Timetable<'a> {
         self.watch.forget();
     }
 
-    /// Goes on at `t` with this next change, of a run that was watched up to `end`.
+    /// Continues at `t` with this next change, from a run whose changes were known up to `end`.
     pub fn recall(&mut self, t: f64, next: Option<f64>, end: f64, pieces: &[Piece]) {
         let is_farther = next.is_none() && self.end > end;
         self.next = if is_farther { self.find_next(t, pieces) } else { next.filter(|next| *next < self.end) };
     }
 
-    /// The next time at which a function of time changes its form; none up to the end.
+    /// The next time at which a function of time changes its form; `None` if there is none before the end.
     pub fn next_change(&self) -> Option<f64> {
         self.next
     }
 
-    /// The step from `t` that misses nothing of the functions of time: `h` or less. They are held on these pieces up to
+    /// The step from `t`, at most `h`, that resolves the functions of time. They are fixed on these pieces up to
     /// `stop`.
     pub fn resolved(&mut self, t: f64, h: f64, stop: f64, pieces: &[Piece]) -> f64 {
         self.watch.resolved((t, h, stop), tolerances::RESOLVED_ROUGHLY, Regime::held(pieces))
     }
 
-    /// A step that not only misses nothing, but on which the functions are almost cubics.
+    /// The step, at most `h`, on which the functions of time are almost cubics.
     pub fn finely_resolved(&mut self, t: f64, h: f64, pieces: &[Piece]) -> f64 {
         self.watch.forget();
         self.watch.resolved((t, h, f64::INFINITY), tolerances::RESOLVED_FINELY, Regime::held(pieces))
     }
 
-    /// The piece on which an argument is right after `t`: at a threshold its slope decides.
+    /// The piece of an argument right after `t`: at a threshold its rate decides.
     fn piece_from(&self, t: f64, argument: &TimeFunction, thresholds: &[f64], pieces: &[Piece]) -> Piece {
         let regime = Regime::held(pieces);
         let x: Taylor<f64> = argument.at(Taylor::time(t), regime);
@@ -87,7 +87,7 @@ impl<'a> Timetable<'a> {
     }
 }
 
-/// Where an argument leaves a range, held on the pieces of a regime.
+/// Search for the time at which an argument leaves a range, with the pieces of a regime.
 struct Search<'s> {
     argument: &'s TimeFunction,
     range: Range,
@@ -96,7 +96,7 @@ struct Search<'s> {
 
 impl Search<'_> {
     /// The first time in (from, to] at which the argument is out of the range: intervals are halved until their
-    /// enclosures say that it stays inside, or rises or falls all the time.
+    /// enclosures prove that it stays inside, or that it is monotone.
     fn first_exit(&self, from: f64, to: f64, looks: &mut usize) -> Option<f64> {
         *looks = looks.saturating_sub(1);
         let x = self.argument.at(Taylor::running(Interval::new(from, to)), self.regime);
@@ -114,7 +114,7 @@ impl Search<'_> {
         self.argument.at(t, self.regime)
     }
 
-    /// Where an argument that is inside right after `from`, and monotone, leaves before `to`.
+    /// The time before `to` at which an argument that is inside right after `from`, and monotone, leaves the range.
     fn passage(&self, from: f64, to: f64) -> f64 {
         first_out(|t| self.range.beyond(self.value(t)), from, to)
     }

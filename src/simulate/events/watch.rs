@@ -1,31 +1,30 @@
-//! Looks that no step misses what functions of t do between the stages.
+//! Step sizes that resolve the functions of t between the stages.
 //!
-//! A window of time is resolved where four pieces of cubics, through values and rates of a function at five nodes, show
-//! all of it: each agrees with the function in its middle, and neither the function nor its rate goes beyond the two
-//! nodes on its sides by more than the nodes bend there. The last is known of every instant, by enclosures of the
-//! function and its rate over whole intervals; where these are too wide it is seen at samples as close as the promise
-//! says.
+//! A window of time is resolved where four cubics, through values and rates of a function at five nodes, represent
+//! the function: each agrees with it in the middle, and neither the function nor its rate exceeds the hull of the two
+//! adjacent nodes by more than the second differences there. The last is proved for every instant, by enclosures of the
+//! function and its rate over whole intervals; where these are too wide it is tested at samples as close as documented.
 
 use crate::math::expression::TimeFunction;
 use crate::math::{Interval, Regime, Scalar, Taylor};
 use crate::tolerances::simulate as tolerances;
 
-/// The functions of time of a run.
+/// The functions of time of a run, and the time up to which they are resolved.
 pub struct Watch<'a> {
     functions: Vec<Watched<'a>>,
-    /// The distance of samples, s.
+    /// Distance of samples, s.
     shortest: f64,
-    /// Steps up to here are resolved.
+    /// Time up to which steps are resolved, s.
     seen: f64,
 }
 
 struct Watched<'a> {
     function: &'a TimeFunction,
-    /// Whether its enclosures are too wide.
+    /// True if its enclosures are too wide.
     is_loose: bool,
 }
 
-/// The quarter of a window, with what its function and rate may be there.
+/// A quarter of a window, with the bounds of the function and its rate there.
 struct Quarter {
     from: f64,
     to: f64,
@@ -38,25 +37,25 @@ impl<'a> Watch<'a> {
         Watch { functions, shortest: 0.5 * tolerances::NEVER_MISSED * span, seen: f64::NEG_INFINITY }
     }
 
-    /// Up to where steps are resolved, if anywhere, and whether the enclosures of each function are too wide.
+    /// Time up to which steps are resolved, if known, and true for each function whose enclosures are too wide.
     pub fn memory(&self) -> (Option<f64>, Vec<bool>) {
         let seen = Some(self.seen).filter(|seen| seen.is_finite());
         (seen, self.functions.iter().map(|watched| watched.is_loose).collect())
     }
 
-    /// Goes on with what [`Self::memory`] said.
+    /// Restores the values of [`Self::memory`].
     pub fn recall(&mut self, seen: Option<f64>, loose: &[bool]) {
         self.seen = seen.unwrap_or(f64::NEG_INFINITY);
         self.functions.iter_mut().zip(loose).for_each(|(watched, loose)| watched.is_loose = *loose);
     }
 
-    /// The functions are others from here on.
+    /// Discards the resolved time: the functions change here.
     pub fn forget(&mut self) {
         self.seen = f64::NEG_INFINITY;
     }
 
-    /// The step from `t` that misses nothing, `h` or less, with cubics that show the functions but for this part; the
-    /// functions are those of the regime up to `stop`.
+    /// The step from `t`, at most `h`, that resolves the functions with cubics whose relative error is at most
+    /// `beside`; the functions are those of the regime up to `stop`.
     pub fn resolved(&mut self, (t, h, stop): (f64, f64, f64), beside: f64, regime: Regime) -> f64 {
         if self.functions.is_empty() || t + h <= self.seen {
             return h;
@@ -69,26 +68,26 @@ impl<'a> Watch<'a> {
                 self.functions.iter_mut().filter_map(|watched| watched.unseen(regime, (t, window), (shortest, beside)));
             match unseen.reduce(f64::min) {
                 None => break,
-                // Up to where something begins that the nodes do not show there may be nothing else.
+                // Before the first feature that the nodes do not resolve all may be resolved.
                 Some(from) => window = if from > t + 0.125 * window { from - t } else { 0.5 * window },
             }
         }
         self.seen = t + window;
-        // What rounding makes of a step that ends at the stop is that step still.
+        // A step that differs by rounding from one that ends at the stop keeps its size.
         if window == whole { h } else { h.min(window) }
     }
 }
 
 impl Watched<'_> {
-    /// The function and its rates; without rates where an overflow makes nothing of them, as in 1/cosh(t).
+    /// The function and its rates; zero rates where an overflow makes them not finite, as in 1/cosh(t).
     fn at(&self, t: f64, regime: Regime) -> Taylor<f64> {
         let found = self.function.at(Taylor::time(t), regime);
         let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
         Taylor { x: found.x, d: finite(found.d), dd: finite(found.dd) }
     }
 
-    /// From where on the window that starts at `t` does not show all of the function; none where it does, or where that
-    /// is not finite.
+    /// The time from which on the window that starts at `t` does not resolve the function; `None` where it does, or
+    /// where the function is not finite.
     fn unseen(&mut self, regime: Regime, (t, window): (f64, f64), (shortest, beside): (f64, f64)) -> Option<f64> {
         let times = [0.0, 0.25, 0.5, 0.75, 1.0].map(|part| t + part * window);
         let nodes = times.map(|t| self.at(t, regime));
@@ -112,7 +111,7 @@ impl Watched<'_> {
         None
     }
 
-    /// Where in a quarter the function or its rate goes beyond what is allowed.
+    /// The first time in a quarter at which the function or its rate exceeds the bounds.
     fn first_beyond(&mut self, quarter: &Quarter, regime: Regime, shortest: f64, looks: &mut usize) -> Option<f64> {
         if !self.is_loose {
             let found = self.enclosed(quarter, (quarter.from, quarter.to), regime, looks);
@@ -142,7 +141,7 @@ impl Watched<'_> {
         }
         let middle = 0.5 * (from + to);
         let there = self.at(middle, regime);
-        // By the theorem of the mean, often much narrower.
+        // Mean value form, often much narrower.
         let half = Interval::new(from - middle, to - middle);
         if fits([half * x.d + there.x, half * x.dd + there.d]) {
             return None;
@@ -158,7 +157,7 @@ impl Watched<'_> {
     }
 }
 
-/// What is allowed in each quarter: the hull of its ends, widened by the smaller of the second differences at them.
+/// Bounds in each quarter: the hull of its ends, widened by the smaller of the second differences at them.
 fn quarters(times: &[f64; 5], nodes: &[Taylor<f64>; 5]) -> [Quarter; 4] {
     let levels = nodes.map(|node| [node.x, node.d]);
     let size = nodes.iter().fold(0.0, |size: f64, node| size.max(node.x.abs()));
