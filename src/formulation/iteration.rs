@@ -56,17 +56,17 @@ pub struct Iteration<T> {
 
 /// Changes of the unknowns; on entry of a solution the residual.
 pub struct Change<T> {
-    /// Of the accelerations, n_v.
+    /// Change of a, n_v.
     pub a: Vec<T>,
-    /// Of the multipliers, n_c.
+    /// Change of lambda, n_c.
     pub lambda: Vec<T>,
-    /// Of the velocity shift, n_v.
+    /// Change of the velocity shift w, n_v.
     pub w: Vec<T>,
-    /// Of the position shift, n_v.
+    /// Change of the position shift u, n_v.
     pub u: Vec<T>,
-    /// Of the multipliers of the velocity shift, n_c.
+    /// Change of eta, the multipliers of w, n_c.
     pub eta: Vec<T>,
-    /// Of the multipliers of the position shift, n_c.
+    /// Change of mu, the multipliers of u, n_c.
     pub mu: Vec<T>,
 }
 

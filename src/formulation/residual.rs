@@ -1,4 +1,4 @@
-//! What the equations leave at a state.
+//! Residual of the equations at a state.
 
 use super::{Dae, Dynamics, Row, StepError};
 use crate::system::{Dimensions, Need};

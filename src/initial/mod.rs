@@ -121,7 +121,7 @@ impl<'a> Metric<'a> {
         position(phi).or_else(|| position(phi_dot)).or_else(|| Some(self.rows.entries[position(g)?].0))
     }
 
-    /// Solves [W G^T; G 0] [d; .] = [top; bottom], with the held directions kept, for d in place of `top`.
+    /// Solves [W G^T; G 0] [d; .] = [top; bottom], with d = 0 along the held directions, and writes d to `top`.
     fn solve(&mut self, top: &mut [f64], bottom: &[f64]) -> Result<()> {
         let mut rows = bottom.to_vec();
         rows.resize(self.rows.rows, 0.0);

@@ -67,7 +67,7 @@ pub(super) fn step(metric: &mut Metric, moved: Option<&[f64]>) -> Result<Vec<f64
     Ok(top)
 }
 
-/// Moves q along `step`, halved until the residual does not grow; `None` leaves q as it was.
+/// Moves q along `step`, halved until the residual does not grow; `None` if it does, with q unchanged.
 fn advance(metric: &mut Metric, t: f64, q: &mut [f64], step: &[f64], residual: f64) -> Result<Option<f64>> {
     let start = q.to_vec();
     let mut rate = vec![0.0; q.len()];

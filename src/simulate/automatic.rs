@@ -76,7 +76,7 @@ pub fn advise(
     methods[EXPLICIT].check()?;
     let mut drive = Drive::new(system, &methods, unseen(span), start)?;
     if let Err(Failure { reason, .. }) = drive.run.begin(&mut Quiet) {
-        // Whatever the method, the run will say so at its start.
+        // Any method fails so: the run will report it at its start.
         return Ok((methods[EXPLICIT].clone(), format!("nothing was tried: {reason}")));
     }
     drive.go(&mut Quiet, |drive, mark, changes| !changes && drive.is_known(mark))?;

@@ -113,7 +113,7 @@ pub struct Point {
 pub struct Limit {
     /// The last state that was reached.
     pub point: Point,
-    /// Distance in the parameter beyond which no state was found.
+    /// No state was found at this distance in the parameter beyond `point`.
     pub within: f64,
     /// The next value of the range, which was not reached.
     pub unreached: f64,

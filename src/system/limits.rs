@@ -59,7 +59,7 @@ impl Theory {
             // Beyond pi an element could as well be rotated by 2 pi more; the states observed may be some way apart.
             Theory::Helix { dimension: 2, .. } => 1.5 * PI,
             Theory::Helix { .. } => 0.75 * PI,
-            // A rubber pendulum of 12 elements whose error is 6 % in places misses 18 %.
+            // A rubber pendulum of 12 elements, off by 6 % in places, reaches 18 %.
             Theory::Mesh { .. } => 0.1,
         }
     }

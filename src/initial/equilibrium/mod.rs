@@ -82,7 +82,7 @@ struct Found {
 ///
 /// # Errors
 /// Joints that cannot be closed at `t`, a state that cannot be evaluated, equations without K: bad input. No
-/// equilibrium found: a failure that says what moves or where the largest force is left.
+/// equilibrium found: a failure that names what moves or the largest residual force.
 pub fn equilibrium(system: &dyn MechanicalSystem, t: f64, guess: &[f64]) -> Result<Equilibrium> {
     refuse_states(system, "the static equilibrium", "simulate with damping until the motion ends")?;
     let mut q = guess.to_vec();

@@ -66,7 +66,7 @@ fn nodes(s: usize) -> Vec<f64> {
 }
 
 impl Collocation {
-    /// For an odd number of stages s, of order 2 s - 1.
+    /// The method with an odd number of stages s, of order 2 s - 1.
     pub fn new(s: usize) -> Self {
         let nodes = nodes(s);
         // Legendre polynomials as the basis, so that the systems are well conditioned.
