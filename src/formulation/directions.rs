@@ -13,11 +13,12 @@ pub fn degrees_of_freedom(dynamics: &Dynamics) -> usize {
     dynamics.vdot.len().saturating_sub(rank)
 }
 
-/// Z with G Z = 0 and Z^T M Z = I at the state whose terms and factors `dynamics` holds. Its rank shows by itself, at
-/// most that of the factors. None where a solution is not finite.
+/// Z with G Z = 0 and Z^T M Z = I at the state whose terms and factors are in `dynamics`. Its rank is found by
+/// pivoting, and is at most that of the factors. `None` where a solution is not finite.
 ///
-/// The pivoted Cholesky factor of Z Z^T. Where coordinates are nearly dependent, as powers of one variable are, that is
-/// known to few digits: then the factor in the metric of the diagonal of M, made orthonormal in M's own.
+/// Z is the pivoted Cholesky factor of Z Z^T. Where coordinates are nearly dependent, as powers of one variable are,
+/// that has few correct digits: then the factor is computed in the metric of the diagonal of M, and made orthonormal in
+/// the metric of M.
 pub fn free_directions(dynamics: &mut Dynamics) -> Option<DMatrix<f64>> {
     let z = factor_of_solutions(dynamics, &diagonal(dynamics))?;
     if is_identity(&reduced_mass(dynamics, &z)) {
@@ -29,7 +30,7 @@ pub fn free_directions(dynamics: &mut Dynamics) -> Option<DMatrix<f64>> {
     dynamics.kkt.factor(&alone, &dynamics.terms.g).ok()?;
     let found = factor_of_solutions(dynamics, &metric);
     dynamics.kkt.factor(&dynamics.terms.mass, &dynamics.terms.g).ok()?;
-    // The second time for the round-off of the first.
+    // The second iteration removes the round-off of the first.
     (0..2).try_fold(found?, |z, _| {
         let l = reduced_mass(dynamics, &z).cholesky()?;
         l.l_dirty().solve_lower_triangular(&z.transpose()).map(|rows| rows.transpose())
@@ -50,21 +51,21 @@ fn diagonal(dynamics: &Dynamics) -> Vec<f64> {
     diagonal
 }
 
-/// The pivoted Cholesky factor of Z Z^T in the metric that is factored, whose diagonal is `masses`.
+/// The pivoted Cholesky factor of Z Z^T in the metric of the present factors, whose diagonal is `masses`.
 fn factor_of_solutions(dynamics: &mut Dynamics, masses: &[f64]) -> Option<DMatrix<f64>> {
     let n = dynamics.vdot.len();
     let mut rest = DMatrix::zeros(n, n);
     for j in 0..n {
         let mut unit: Vec<f64> = (0..n).map(|i| if i == j { 1.0 } else { 0.0 }).collect();
-        // Z Z^T e_j: the accelerations that a force along coordinate j alone gives.
+        // Z Z^T e_j: the accelerations due to a unit force along coordinate j.
         dynamics.kkt.solve_motion(&mut unit, &mut vec![0.0; dynamics.lambda.len()]).ok()?;
         rest.column_mut(j).copy_from_slice(&unit);
     }
-    // Over 1 / m, so that units do not count; a direction without mass has itself for a measure.
+    // Pivots are relative to 1 / m, independent of units; a direction without mass is relative to itself.
     let whole = masses.iter().enumerate().map(|(i, m)| if *m > 0.0 { 1.0 / *m } else { rest[(i, i)] });
     let whole: Vec<f64> = whole.collect();
     let mut columns = Vec::new();
-    // Where masses differ much, rounding alone can look like one direction more.
+    // Where masses differ much, round-off alone can look like one more direction.
     let most = degrees_of_freedom(dynamics);
     while columns.len() < most {
         let left = |i: usize| if whole[i] > 0.0 { rest[(i, i)] / whole[i] } else { 0.0 };

@@ -10,7 +10,7 @@ use super::{Dae, Entry, Row};
 /// The equations of Gear, Gupta and Leimkuhler extended to the accelerations: Fuehrer, Leimkuhler, Numer. Math. 59
 /// (1991) 55-69. mu = eta = 0 for the exact motion. lambda belongs to a, and so is free of the discretization error
 /// along the constraints; the largest of the systems. All three levels are satisfied at every step to the tolerance of
-/// the iteration. goes.
+/// the iteration.
 pub const ENTRY: Entry = Entry {
     name: "stabilized_index1",
     about: "phi = 0, G v + phi_t = 0 and phi'' = 0 together, for integrators that solve all three",

@@ -14,10 +14,10 @@ use crate::method_spec::OptionDoc;
 /// The accelerations nearest to the free ones in the mass metric, after Gauss; lambda is the one of least norm. Source:
 /// Udwadia, Kalaba, Proc. R. Soc. Lond. A 439 (1992) 407-410. The same field as index 1, so it drifts as that does: use
 /// it with a projection. G may be rank deficient. M may not be singular: a coordinate without mass ends the run.
-/// Singular values up to `tolerance` times the largest are left out, and near a singular position those that have
-/// fallen below 1e-4 of the largest that the smallest has been; rows are not scaled first, so units count. Order in q,
-/// v, lambda: that of the integrator. Dense Cholesky and singular-value decomposition a stage, n^3/3 + 12 n m^2
-/// operations: meant for small systems.
+/// Singular values up to `tolerance` times the largest are dropped, and near a singular position those below 1e-4 of
+/// the largest value that the smallest one has had; rows are not scaled first, so units count. Order in q, v, lambda:
+/// that of the integrator. Dense Cholesky and singular-value decomposition per stage, n^3/3 + 12 n m^2 operations:
+/// meant for small systems.
 pub const ENTRY: Entry = Entry {
     name: "udwadia_kalaba",
     about: "v' by the pseudo-inverse of G M^-1/2, dense; drifts as index1 does",

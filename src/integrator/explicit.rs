@@ -51,7 +51,7 @@ pub enum ErrorEstimate {
 /// The step k_i = F(t + c_i h, y + h sum_j a_ij k_j), y_1 = y + h sum b_i k_i.
 pub struct Explicit {
     tableau: &'static Tableau,
-    /// k_i of all stages; the first is given, so its vector is unused.
+    /// k_i of all stages; the first is a copy of y' at the start.
     k: Vec<Vec<f64>>,
     stage: Vec<f64>,
     control: Control,

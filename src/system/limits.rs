@@ -56,7 +56,7 @@ impl Theory {
             Theory::SmallMoments | Theory::SmallAxialForces => 0.3,
             // The sine is 4 % less than the angle.
             Theory::SmallRotations => 0.5,
-            // Beyond pi an element could as well be rotated by 2 pi more; the states observed may be some way apart.
+            // Below the limits of 2 pi and pi, with a margin since the observed states may be some way apart.
             Theory::Helix { dimension: 2, .. } => 1.5 * PI,
             Theory::Helix { .. } => 0.75 * PI,
             // A rubber pendulum of 12 elements, off by 6 % in places, reaches 18 %.

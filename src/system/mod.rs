@@ -236,7 +236,8 @@ pub trait MechanicalSystem: Send + Sync {
     /// df/du, n_v x n_u: the generalized forces per unit of each input.
     fn input_forces(&self, _t: f64, _q: &[f64], _v: &[f64], _f: &mut DMatrix<f64>, _scratch: &mut Scratch) {}
 
-    /// Switching functions, at whose zeros the equations change: see [`Regime`](crate::math::Regime). Default: none.
+    /// Switching functions, at whose thresholds the equations change: see [`Regime`](crate::math::Regime). Default:
+    /// none.
     fn switches(&self) -> &[Switch] {
         &[]
     }

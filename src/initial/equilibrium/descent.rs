@@ -124,7 +124,7 @@ fn relax(rest: &mut EquilibriumSystem, at: &mut Balance, way: &mut [f64], shift:
     None
 }
 
-/// Returns to phi = 0 by least changes; `None` where these together are not shorter than the step.
+/// Returns to phi = 0 by least changes; `None` where these together exceed half the step.
 fn close(rest: &mut EquilibriumSystem, place: Place, size: f64) -> Option<Vec<f64>> {
     let (mut at, mut way, mut is_evaluated) = (place, 0.0, false);
     let closed: Result<bool, ()> = Monitor::default().solve(CLOSING, |_| {

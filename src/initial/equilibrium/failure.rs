@@ -54,8 +54,7 @@ pub(super) fn none_found(rest: &mut EquilibriumSystem, start: &Place, away: Opti
         if !loaded.is_empty() {
             let names = named(rest, &loaded).join("`, `");
             let holds = format!("nothing holds `{names}` against the forces that move it");
-            // A coordinate without stiffness at the start may have some elsewhere, as that of a pendulum which starts
-            // level.
+            // A coordinate without stiffness at the start may have some elsewhere, as in a pendulum that starts level.
             return match away {
                 Some(_) => failure(format!("there is no static equilibrium: {holds}"), HOLD),
                 None => failure(format!("no static equilibrium was found; at the start {holds}"), BEGIN_NEARER),
