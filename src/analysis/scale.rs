@@ -63,7 +63,7 @@ impl Sizes {
 /// - Energies: the range of the kinetic energy, or of the quantity itself. Their zero is arbitrary.
 /// - Forces and torques: the largest of their kind, of the reactions and of the inertia forces that these balance.
 /// - Lengths, angles and speeds: the quantity's own largest value, unless that is below a thousandth of those of the
-/// motion.
+///   motion.
 /// - Others: the quantity's own largest value.
 pub fn scales(columns: &[Column], rows: &[Vec<f64>], sizes: &Sizes) -> Vec<f64> {
     let value = |i: usize| rows.iter().map(move |row| row[i]);

@@ -1,7 +1,7 @@
 //! The method of a run.
 
 use crate::error::{Error, Result, Warning, short};
-use crate::formulation::{self};
+use crate::formulation;
 use crate::integrator::{self, Integrator, Setup, Steps, Tolerance};
 use crate::method_spec::MethodSpec;
 use crate::projection;

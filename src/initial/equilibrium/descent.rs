@@ -17,7 +17,7 @@ const CLOSING: Limits = Limits {
 
 /// Result of a descent.
 pub(super) enum End {
-    EquilibriumSystem(Place),
+    Equilibrium(Place),
     /// The coordinate moves without bound.
     Away(usize),
     /// The steps are used up, or none goes down.
@@ -43,13 +43,13 @@ pub(super) fn descend(rest: &mut EquilibriumSystem, q: &[f64]) -> (End, usize) {
         if length(&at.force) <= tolerances::DESCENT_FALL * tried {
             tried = length(&at.force);
             if let Some((place, true)) = newton(rest, at.place.clone(), None, Policy::NEAR) {
-                return (End::EquilibriumSystem(place), step);
+                return (End::Equilibrium(place), step);
             }
         }
         rest.evaluate(&at.place.q);
         let factored = rest.factor(&at.place, shift);
         if rest.is_round_off(&at.place, &at.force) {
-            return (End::EquilibriumSystem(at.place), step);
+            return (End::Equilibrium(at.place), step);
         }
         match if factored { advance(rest, &at, shift) } else { None } {
             Some((next, gain)) => {

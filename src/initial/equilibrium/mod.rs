@@ -143,7 +143,7 @@ impl Search {
         let (end, steps) = descent::descend(rest, &start.q);
         self.steps += steps;
         match end {
-            End::EquilibriumSystem(place) => _ = self.offer(rest, Some(place), Way::Descent),
+            End::Equilibrium(place) => _ = self.offer(rest, Some(place), Way::Descent),
             End::Away(coordinate) => self.away = Some(coordinate),
             End::Stuck => {}
         }
