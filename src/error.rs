@@ -3,6 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
+/// Result with the library's [`Error`].
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
 /// An error of the library. [`Error::exit_code`] is what the command line ends with.
@@ -11,9 +12,19 @@ pub enum Error {
     /// The input cannot be meant as it stands.
     Input(Box<Input>),
     /// A file cannot be read, or be where it is wanted.
-    File { path: PathBuf, problem: String },
+    File {
+        /// Path of the file.
+        path: PathBuf,
+        /// Cause, in words.
+        problem: String,
+    },
     /// A file could not be written for want of room, or because a device failed.
-    Unwritten { path: PathBuf, problem: String },
+    Unwritten {
+        /// Path of the file.
+        path: PathBuf,
+        /// Cause, in words.
+        problem: String,
+    },
     /// The computation could not go on; what was computed until then is kept.
     Run(Failure),
 }
@@ -25,11 +36,13 @@ pub struct Input {
     pub path: String,
     /// Name of the element that is concerned.
     pub element: Option<String>,
+    /// What is wrong, without path and remedy.
     pub message: String,
     /// What to do about it.
     pub hint: Option<String>,
     /// Line and column in the file, from one.
     pub place: Option<(usize, usize)>,
+    /// File that the input was read from.
     pub file: Option<PathBuf>,
 }
 
@@ -38,18 +51,23 @@ pub struct Input {
 pub struct Failure {
     /// Time of the last good state, s.
     pub t: f64,
+    /// Cause of the end.
     pub reason: String,
+    /// What to change.
     pub hint: String,
 }
 
 /// What makes a result doubtful, and what to do about it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Warning {
+    /// What is doubtful.
     pub text: String,
+    /// What to do about it.
     pub hint: String,
 }
 
 impl Warning {
+    /// A warning from its text and its remedy.
     pub fn new(text: impl Into<String>, hint: impl Into<String>) -> Self {
         Warning { text: text.into(), hint: hint.into() }
     }
@@ -74,10 +92,12 @@ impl Error {
         Error::Input(Box::new(Input { message: message.into(), ..Input::default() }))
     }
 
+    /// An error of a file that cannot be read or used.
     pub fn file(path: impl Into<PathBuf>, problem: impl ToString) -> Self {
         Error::File { path: path.into(), problem: problem.to_string() }
     }
 
+    /// An error of a file that could not be written.
     pub fn unwritten(path: impl Into<PathBuf>, problem: impl ToString) -> Self {
         Error::Unwritten { path: path.into(), problem: problem.to_string() }
     }
@@ -129,6 +149,7 @@ impl Error {
         self
     }
 
+    /// Exit code of the program: 2 for bad input or a file that cannot be read, 1 for all else.
     pub fn exit_code(&self) -> u8 {
         if matches!(self, Error::Input(_) | Error::File { .. }) { 2 } else { 1 }
     }

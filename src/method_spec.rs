@@ -12,7 +12,9 @@ use std::str::FromStr;
 /// A name with options in the order they were given.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct MethodSpec {
+    /// Name of the method in its registry.
     pub name: String,
+    /// Options as (key, value) texts; the last of a key counts.
     pub options: Vec<(String, String)>,
     own: Own,
 }
@@ -32,8 +34,10 @@ pub trait Listed: Send + Sync + Sized + 'static {
     /// Such as `formulation`.
     const KIND: &'static str;
 
+    /// Name by which scenes and the command line choose the entry.
     fn name(&self) -> &'static str;
 
+    /// Options that the entry takes.
     fn options(&self) -> &'static [OptionDoc];
 
     /// The choice of an entry that comes from outside the crate: [`Method`](crate::simulate::Method) takes it as any other.
@@ -45,12 +49,14 @@ pub trait Listed: Send + Sync + Sized + 'static {
 /// An option of a method.
 #[derive(Clone, Copy, Debug)]
 pub struct OptionDoc {
+    /// Key of the option.
     pub name: &'static str,
     /// What it is, with its unit and default.
     pub about: &'static str,
 }
 
 impl MethodSpec {
+    /// A method by its name, without options.
     pub fn named(name: &str) -> Self {
         MethodSpec { name: name.to_string(), ..MethodSpec::default() }
     }
@@ -101,6 +107,7 @@ impl MethodSpec {
         own.or_else(|| registry.iter().find(|entry| entry.name() == self.name))
     }
 
+    /// Value of an option, the last one given.
     pub fn text(&self, key: &str) -> Option<&str> {
         self.options.iter().rev().find(|(known, _)| known == key).map(|(_, value)| value.as_str())
     }

@@ -35,7 +35,9 @@ impl<const D: usize> From<&Frame<Taylor<f64>, D>> for Attitude<D> {
 
 /// A marker as its body's own frame carries it, or the ground.
 pub struct Carried<'a, const D: usize> {
+    /// Attitude of the body's own frame; `None` is the ground.
     pub body: Option<Attitude<D>>,
+    /// Marker in the body's axes.
     pub marker: &'a Marker<D>,
 }
 

@@ -18,6 +18,7 @@ pub struct MarkerTable {
     pub names: Vec<String>,
     /// Index of the body that carries it; `None` is the ground.
     pub bodies: Vec<Option<usize>>,
+    /// Names of the bodies, nodes of absolute beams among them.
     pub body_names: Vec<String>,
     /// False for point masses, whose markers have no orientation.
     pub oriented: Vec<bool>,
@@ -38,6 +39,7 @@ impl MarkerTable {
         self.places.contains_key(name)
     }
 
+    /// Index of the marker with this full name.
     pub fn find(&self, name: &str) -> Result<MarkerId> {
         self.places.get(name).copied().ok_or_else(|| {
             let names = || self.names.iter().map(String::as_str);
@@ -66,6 +68,7 @@ pub struct Build<'a, const D: usize> {
     pub folder: &'a Path,
     /// What its elements have of it so far.
     pub switches: &'a RefCell<Switches>,
+    /// Angles to be counted through full turns that elements have asked for so far.
     pub turnings: &'a RefCell<Vec<Turning>>,
 }
 
@@ -76,6 +79,7 @@ pub struct Switches {
     pub all: Vec<Switch>,
     /// The element of each, such as "the force `push`".
     pub owners: Vec<String>,
+    /// Functions of t alone in the scene's elements.
     pub time_functions: Vec<TimeFunction>,
     /// What of the scene is doubtful.
     pub doubts: Vec<Warning>,

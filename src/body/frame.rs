@@ -33,6 +33,7 @@ pub struct Wrench<S, const D: usize> {
 pub struct Marker<const D: usize> {
     /// m
     pub offset: [f64; D],
+    /// Unit axes in the body's axes: `axes[i]` is the i-th.
     pub axes: [[f64; D]; D],
     /// rad, in the plane.
     pub turn: f64,

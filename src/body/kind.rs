@@ -7,8 +7,11 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 /// what a scene says.
 #[derive(Clone, Copy, Debug)]
 pub struct ElementKind<Make> {
+    /// Value of `type` in a scene.
     pub name: &'static str,
+    /// JSON Schema of the kind's own keys.
     pub schema: fn(&mut SchemaGenerator) -> Schema,
+    /// Makes the element from its JSON.
     pub build: Make,
 }
 

@@ -61,7 +61,9 @@ pub const MOST_MARKERS: usize = 8;
 /// Energy of a body or of a whole mechanism, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy<S = f64> {
+    /// Kinetic energy, J.
     pub kinetic: S,
+    /// Potential energy, J.
     pub potential: S,
 }
 
@@ -131,20 +133,26 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
 
 /// A body over one scalar: the kinematics that joints and forces need, and its energy.
 pub trait BodyOver<S: Scalar, const D: usize> {
+    /// `qdot` = N(q) v.
     fn rate(&self, q: &[S], v: &[S], qdot: &mut [S]);
     /// Frames with their velocities, and their accelerations at v' = `vdot` (zero where it is not given).
     fn motion(&self, q: &[S], v: &[S], vdot: Option<&[S]>, out: &mut [Frame<Taylor<S>, D>]);
     /// f += J^T w for a wrench at the frame of marker `marker`; f has the velocities of its [`support`](Body::support).
     fn pull_back(&self, marker: usize, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]);
+    /// Kinetic energy, and potential energy of weight and of the body's own deformation, J.
     fn energy(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S>;
 }
 
 /// A body's state with its accelerations, and the scene's gravity.
 #[derive(Clone, Copy, Debug)]
 pub struct BodyState<'a, const D: usize> {
+    /// Coordinates of the body.
     pub q: &'a [f64],
+    /// Velocities of the body.
     pub v: &'a [f64],
+    /// Accelerations v' of the body.
     pub vdot: &'a [f64],
+    /// Acceleration of gravity in world axes, m/s^2.
     pub gravity: &'a [f64; D],
 }
 
@@ -152,6 +160,7 @@ pub struct BodyState<'a, const D: usize> {
 #[derive(Clone, Copy)]
 #[doc(hidden)]
 pub struct Bent<'a, const D: usize> {
+    /// Undeformed line with the displacement functions of its points.
     pub line: &'a dyn flexible::Line<D>,
     /// Of geometric stiffening, along the line.
     pub stretches: &'a [flexible::Stretch],
@@ -161,8 +170,11 @@ pub struct Bent<'a, const D: usize> {
 
 /// The object-safe form of a body; implemented for every [`BodyKernel`].
 pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Dual6, D> + Send + Sync {
+    /// Names of the coordinates, such as `x` or `angle`.
     fn coordinate_names(&self) -> Vec<String>;
+    /// Names of the velocities, in the order of v.
     fn velocity_names(&self) -> Vec<String>;
+    /// Number of markers on the body, its own frame among them.
     fn marker_count(&self) -> usize;
     /// Where a marker is on the body.
     fn marker(&self, index: usize) -> &Marker<D>;
@@ -170,6 +182,7 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Dual6, D> + Send + S
     fn support(&self, marker: usize) -> Vec<usize>;
     /// Places of the mass matrix's lower triangle, each once.
     fn mass_pattern(&self) -> Vec<(usize, usize)>;
+    /// Mass matrix M(q): `values` at the places of [`mass_pattern`](Body::mass_pattern).
     fn mass(&self, q: &[f64], values: &mut [f64]);
     /// values += stiffness of the body against its own deformation, at the places of M: what assembly spares.
     fn add_stiffness(&self, values: &mut [f64]);
@@ -181,6 +194,7 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Dual6, D> + Send + S
     fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]);
     /// Power that its damping takes, W.
     fn dissipation(&self, v: &[f64]) -> f64;
+    /// Brings redundant coordinates (a quaternion) back to their normal form.
     fn normalize(&self, q: &mut [f64]);
     /// Whether its markers have an orientation.
     fn oriented(&self) -> bool;
@@ -206,8 +220,11 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Dual6, D> + Send + S
 
 /// A body ready for the model, with the start its scene gives.
 pub struct Built<const D: usize> {
+    /// The body with its markers.
     pub body: Box<dyn Body<D>>,
+    /// Coordinates at the start.
     pub q: Vec<f64>,
+    /// Velocities at the start.
     pub v: Vec<f64>,
 }
 

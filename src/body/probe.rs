@@ -9,7 +9,9 @@ use crate::math::{Scalar, Taylor, Time};
 /// One scalar of one marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Probe {
+    /// Index of the marker.
     pub marker: MarkerId,
+    /// Component that is read.
     pub quantity: Quantity,
 }
 
@@ -44,6 +46,7 @@ impl Probe {
         Some(Probe { marker, quantity })
     }
 
+    /// True if the quantity is a velocity or an angular velocity.
     pub fn is_rate(&self) -> bool {
         matches!(self.quantity, Quantity::Velocity(_) | Quantity::Spin(_))
     }
@@ -70,7 +73,9 @@ impl Probe {
 /// An expression over t and probes; variable 0 is t, variable i + 1 is probe i.
 #[derive(Clone, Debug)]
 pub struct Signal {
+    /// The expression, its variables numbered as above.
     pub expression: Expression,
+    /// Marker quantities in the order of the variables.
     pub probes: Vec<Probe>,
 }
 
@@ -93,6 +98,7 @@ impl Signal {
         Ok(Signal { expression, probes })
     }
 
+    /// The expression as a function of t alone; an error if it reads a marker.
     pub fn function_of_time(self) -> Result<Expression> {
         match self.probes.is_empty() {
             true => Ok(self.expression),

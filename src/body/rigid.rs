@@ -63,6 +63,7 @@ impl Initial {
         self.origin.get(i).copied().unwrap_or(0.0)
     }
 
+    /// Refuses initial elastic coordinates, for bodies that have none.
     pub fn refuse_elastic(&self) -> Result<()> {
         let given = [("elastic", &self.elastic), ("elastic_velocity", &self.elastic_velocity)];
         match given.iter().find(|(_, given)| given.is_some()) {
@@ -115,6 +116,7 @@ impl Initial {
         Ok((position, start_vector::<D>("initial.velocity", &self.velocity, build)?))
     }
 
+    /// Refuses an initial rotation, for point masses.
     pub fn refuse_rotation(&self) -> Result<()> {
         match self.angle.is_some() || self.rotation.is_some() || self.angular_velocity.is_some() {
             true => Err(Error::input("a point mass has no rotation")

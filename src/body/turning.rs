@@ -12,7 +12,9 @@ use std::array::from_fn;
 /// z times the angle of marker `of` about the z axis of marker `to`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turned {
+    /// Marker whose angle is counted.
     pub of: MarkerId,
+    /// Marker about whose z axis it is counted.
     pub to: MarkerId,
     /// A whole number, so that the sum is known up to full turns too.
     pub factor: f64,
@@ -23,6 +25,7 @@ pub struct Turned {
 pub struct Turning {
     /// Of the coordinate.
     pub name: String,
+    /// Terms of the sum.
     pub terms: Vec<Turned>,
     /// It begins within half a turn of this, rad.
     pub start: f64,

@@ -6,6 +6,7 @@ const MAGIC: &[u8] = b"\x93NUMPY";
 
 /// One array, as yet in bytes.
 pub struct Npy<'a> {
+    /// Lengths of the dimensions; empty for a single number.
     pub shape: Vec<usize>,
     /// NumPy's name of the type, such as `<f8`.
     descr: String,

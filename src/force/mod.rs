@@ -113,11 +113,17 @@ impl<K: ForceKernel<D>, S: Scalar, const D: usize> ForceOver<S, D> for K {
 
 /// The object-safe form of a force; implemented for every [`ForceKernel`].
 pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Dual6, D> + Send + Sync {
+    /// Wheel of a tyre at time `t`, for the linearization of rolling contact.
     fn wheel(&self, t: f64) -> Option<Wheel>;
+    /// The beam element, if the force is one.
     fn beam(&self) -> Option<&Beam>;
+    /// True if the force is valid for small relative rotations alone.
     fn takes_small_rotations(&self) -> bool;
+    /// True if inputs u may drive its components.
     fn takes_inputs(&self) -> bool;
+    /// True if its magnitude is a torque, N m, in place of a force, N.
     fn is_torque(&self) -> bool;
+    /// Event functions with their rates: the force changes its form where one changes sign.
     fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]);
 }
 

@@ -71,9 +71,13 @@ pub trait JointOver<S: Scalar, const D: usize> {
 
 /// The object-safe form of a joint; implemented for every [`JointKernel`].
 pub trait Joint<const D: usize>: JointOver<f64, D> + JointOver<Dual6, D> + Send + Sync {
+    /// Names of the rows of phi.
     fn row_names(&self) -> Vec<&'static str>;
+    /// True if phi depends on t explicitly.
     fn depends_on_time(&self) -> bool;
+    /// Axis along or about which the joint is free, from the frame of its first marker.
     fn joint_axis(&self, first: &Frame<f64, D>) -> Option<Axis>;
+    /// Event functions with their rates: the joint changes its form where one changes sign.
     fn switching(&self, frames: &[Frame<Rate, D>], time: Time<Rate>, out: &mut [Rate]);
 }
 

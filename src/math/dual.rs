@@ -7,7 +7,9 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 /// re + sum_i eps_i e_i with e_i e_j = 0: `eps[i]` is the derivative of `re` along direction i.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<S, const N: usize> {
+    /// Value.
     pub re: S,
+    /// Derivatives along the N directions.
     pub eps: [S; N],
 }
 

@@ -8,7 +8,9 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 /// that has no bounds gives all numbers. Source: Moore, Kearfott, Cloud, Introduction to Interval Analysis, 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
+    /// Lower bound.
     pub low: f64,
+    /// Upper bound.
     pub high: f64,
 }
 
@@ -21,10 +23,12 @@ impl Interval {
         if a.is_nan() || b.is_nan() { Self::WHOLE } else { Interval { low: a.min(b), high: a.max(b) } }
     }
 
+    /// `high` - `low`.
     pub fn width(&self) -> f64 {
         self.high - self.low
     }
 
+    /// True if low <= x <= high.
     pub fn contains(&self, x: f64) -> bool {
         self.low <= x && x <= self.high
     }

@@ -41,8 +41,11 @@ impl Limits {
 /// What is to be done after a correction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
+    /// Correct again.
     Continue,
+    /// The error left is within the tolerance.
     Converged,
+    /// The corrections grow, or would take too many iterations.
     Diverged,
 }
 
@@ -56,6 +59,7 @@ pub struct Monitor {
     pub rate: f64,
     /// The largest ratio of successive changes above the stagnation tolerance; zero where there is none.
     pub slowest: f64,
+    /// Number of corrections so far.
     pub iterations: usize,
     /// Whether the last iteration ended where its changes no longer fell.
     pub has_stagnated: bool,

@@ -38,6 +38,7 @@ impl<'a> Regime<'a> {
     /// Every function on the piece of its argument.
     pub const FREE: Regime<'static> = Regime { pieces: None, turned: &[] };
 
+    /// Every function on the given piece, whatever its argument.
     pub fn held(pieces: &'a [Piece]) -> Self {
         Regime { pieces: Some(pieces), turned: &[] }
     }

@@ -41,42 +41,55 @@ pub trait Scalar:
     /// f(self) by the chain rule over the number that stands inside this one.
     fn unary(self, function: Unary) -> Self;
 
+    /// The constant 0.
     fn zero() -> Self {
         Self::constant(0.0)
     }
+    /// The constant 1.
     fn one() -> Self {
         Self::constant(1.0)
     }
+    /// x^2.
     fn square(self) -> Self {
         self * self
     }
+    /// 1/x.
     fn recip(self) -> Self {
         Self::one() / self
     }
+    /// Square root.
     fn sqrt(self) -> Self {
         self.unary(Unary::Sqrt)
     }
+    /// Sine; x in rad.
     fn sin(self) -> Self {
         self.unary(Unary::Sin)
     }
+    /// Cosine; x in rad.
     fn cos(self) -> Self {
         self.unary(Unary::Cos)
     }
+    /// e^x.
     fn exp(self) -> Self {
         self.unary(Unary::Exp)
     }
+    /// Natural logarithm.
     fn ln(self) -> Self {
         self.unary(Unary::Ln)
     }
+    /// Arc tangent, rad, in (-pi/2, pi/2).
     fn atan(self) -> Self {
         self.unary(Unary::Atan)
     }
+    /// Tangent, as sin/cos.
     fn tan(self) -> Self {
         self.sin() / self.cos()
     }
+    /// Hyperbolic sine.
     fn sinh(self) -> Self {
         self.unary(Unary::Sinh)
     }
+    /// Hyperbolic cosine.
     fn cosh(self) -> Self {
         self.unary(Unary::Cosh)
     }
@@ -88,12 +101,15 @@ pub trait Scalar:
         let decay = (self * -2.0).exp();
         (Self::one() - decay) / (decay + 1.0)
     }
+    /// Arc sine, rad, as atan2(x, sqrt(1 - x^2)).
     fn asin(self) -> Self {
         Self::atan2(self, ((Self::one() - self) * (self + 1.0)).sqrt())
     }
+    /// Arc cosine, rad, as atan2(sqrt(1 - x^2), x).
     fn acos(self) -> Self {
         Self::atan2(((Self::one() - self) * (self + 1.0)).sqrt(), self)
     }
+    /// |x|; its derivative at 0 is that of x.
     fn abs(self) -> Self {
         if self.value() < 0.0 { -self } else { self }
     }
@@ -133,13 +149,21 @@ pub trait Scalar:
 /// The functions that are not built from others: each with its first two derivatives in terms of other scalars.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unary {
+    /// Square root.
     Sqrt,
+    /// Sine.
     Sin,
+    /// Cosine.
     Cos,
+    /// Exponential.
     Exp,
+    /// Natural logarithm.
     Ln,
+    /// Arc tangent.
     Atan,
+    /// Hyperbolic sine.
     Sinh,
+    /// Hyperbolic cosine.
     Cosh,
 }
 

@@ -11,11 +11,13 @@ use std::array::from_fn;
 /// A vector of space over any scalar.
 pub type Vector<S> = [S; 3];
 
+/// a.b
 #[inline]
 pub fn dot3<S: Scalar>(a: &Vector<S>, b: &Vector<S>) -> S {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// a x b
 #[inline]
 pub fn cross3<S: Scalar>(a: &Vector<S>, b: &Vector<S>) -> Vector<S> {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]

@@ -6,16 +6,21 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 /// x, x' and x'' at one instant. Put in q, q' and q'' (with v' = 0) and phi comes out with phi' and -gamma.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Taylor<S> {
+    /// Value x.
     pub x: S,
+    /// First time derivative x'.
     pub d: S,
+    /// Second time derivative x''.
     pub dd: S,
 }
 
 impl<S: Scalar> Taylor<S> {
+    /// The value `x` with x' = `d` and x'' = `dd`.
     #[inline]
     pub fn new(x: S, d: S, dd: S) -> Self {
         Taylor { x, d, dd }
     }
+    /// A constant: x' = x'' = 0.
     #[inline]
     pub fn fixed(x: S) -> Self {
         Taylor { x, d: S::zero(), dd: S::zero() }

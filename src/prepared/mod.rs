@@ -20,11 +20,14 @@ use std::path::Path;
 
 /// A mechanism in the plane or in space.
 pub enum AnyMechanism {
+    /// A mechanism in the plane.
     Planar(Mechanism<2>),
+    /// A mechanism in space.
     Spatial(Mechanism<3>),
 }
 
 impl AnyMechanism {
+    /// Mechanism of a model.
     pub fn new(model: AnyModel) -> Self {
         match model {
             AnyModel::Planar(model) => AnyMechanism::Planar(Mechanism::new(model)),
@@ -32,6 +35,7 @@ impl AnyMechanism {
         }
     }
 
+    /// The mechanism as the solvers see it.
     pub fn system(&self) -> &dyn MechanicalSystem {
         match self {
             AnyMechanism::Planar(mechanism) => mechanism,
@@ -43,33 +47,49 @@ impl AnyMechanism {
 /// What goes with a scene beside its text: the kinds of elements that it may name, and what changes its own settings.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
+    /// Kinds of bodies, joints and forces that the scene may name.
     pub elements: Elements,
     /// In the place of the values of its parameters.
     pub set: Vec<(String, Number)>,
     /// In the place of what the scene says of formulation, integrator, projection and step.
     pub method: Option<Automatic>,
+    /// Formulation in place of the scene's.
     pub formulation: Option<MethodSpec>,
+    /// Integrator in place of the scene's.
     pub integrator: Option<MethodSpec>,
+    /// Projection in place of the scene's.
     pub projection: Option<MethodSpec>,
+    /// Relative tolerance in place of the scene's.
     pub rtol: Option<f64>,
+    /// Absolute tolerance in place of the scene's.
     pub atol: Option<f64>,
+    /// Fixed step in place of the scene's, s.
     pub step: Option<f64>,
+    /// End of the simulation in place of the scene's `t_end`, s.
     pub until: Option<f64>,
+    /// Interval of the trajectory's rows in place of the scene's, s.
     pub output_step: Option<f64>,
 }
 
 /// A scene ready to run.
 pub struct PreparedScene {
+    /// Name of the scene.
     pub name: String,
+    /// Free text about the mechanism; empty if not given.
     pub about: String,
+    /// Sources of its data and known results.
     pub references: Vec<String>,
+    /// Values of the named parameters, overrides applied.
     pub parameters: Parameters,
+    /// The equations of motion.
     pub mechanism: AnyMechanism,
+    /// Formulation, integrator, projection, tolerances and step.
     pub method: Method,
     /// Whether methods are left to the program, with the tolerances of `method`.
     pub is_automatic: bool,
     /// Why this one method, where it was left to the program: see [`PreparedScene::settled`].
     pub chosen_because: Option<String>,
+    /// Consistent start, with what assembly found about it.
     pub assembly: Assembly,
     /// What is doubtful about the start.
     pub doubts: Vec<Warning>,
@@ -129,6 +149,7 @@ impl PreparedScene {
         })
     }
 
+    /// The equations of motion as the solvers see them.
     pub fn system(&self) -> &dyn MechanicalSystem {
         self.mechanism.system()
     }

@@ -7,7 +7,7 @@
 //! or its own weight are exact; frequencies of bending converge with the fourth power of its length (the third where an
 //! end turns freely), those of extension and torsion with the second.
 //!
-//! A tapered element has the mean compliance of its part of the beam. What it leaves out is how the compliance leans from
+//! A tapered element has the mean compliance of its part of the beam. It neglects the slope of the compliance from
 //! one end to the other: bending under shear forces then converges with the second power of the length.
 
 use super::beam_mass::NodeMass;
@@ -25,7 +25,7 @@ use crate::tolerances::body as tolerances;
 use serde_json::{Map, Value};
 use std::array::from_fn;
 
-/// Whether a body is such a beam.
+/// True for the type and keys of a beam in absolute coordinates.
 pub fn is_absolute_beam(kind: &str, json: &Map<String, Value>) -> bool {
     kind == "flexible_beam" && json.get("frame").and_then(Value::as_str) == Some("absolute")
 }
@@ -35,22 +35,22 @@ pub struct AbsoluteBeam<const D: usize> {
     name: String,
     profile: Profile,
     line: ReferenceLine,
-    /// s
+    /// Damping proportional to stiffness: beta in C = beta K, s.
     damping: f64,
     abscissae: Vec<f64>,
-    /// Node, name and place in the node's axes.
+    /// Index of the node, name, and the marker in the node's axes.
     markers: Vec<(usize, String, Marker<D>)>,
     start: Start<D>,
 }
 
-/// Keys that mean something to a beam in a floating frame alone.
+/// Keys of a beam in a floating frame, refused here.
 const FLOATING: [&str; 6] = ["frame_conditions", "axial", "rotary_inertia", "geometric_stiffening", "modes", "ritz"];
 
-/// More elements than this are a slip of the hand.
+/// A larger number of elements is taken for a mistake.
 const MOST_ELEMENTS: u32 = 10_000;
 
 impl<const D: usize> AbsoluteBeam<D> {
-    /// Takes the rest of the body's JSON.
+    /// Reads the body's JSON without `name` and `type`.
     pub fn read(name: &str, mut json: Map<String, Value>, build: &Build<D>) -> Result<Self> {
         refuse_floating(&json)?;
         let (initial, given) = start_and_markers(&mut json)?;
@@ -87,7 +87,7 @@ impl<const D: usize> AbsoluteBeam<D> {
                 marker
             };
             let own = Marker::point([0.0; D]);
-            // The left end has the frame of the beam as a whole beside its own.
+            // The left end has two frames: that of the node and that of the beam as a whole.
             let frames = [own].into_iter().chain((node == 0).then_some(own));
             let markers = frames.chain(here().map(|(_, _, marker)| *marker)).map(from_centre).collect();
             let names = here().map(|(_, name, _)| name.clone()).collect();
@@ -97,7 +97,7 @@ impl<const D: usize> AbsoluteBeam<D> {
         (0..self.abscissae.len()).map(node).collect()
     }
 
-    /// The record for the model, with the places of its first node among the bodies and its first element among the forces.
+    /// The beam for the model: its first node is body `first_body`, its first element force `first_force`.
     pub fn line(self, first_body: usize, first_force: usize) -> BeamLine {
         let beam = |ends: &[f64]| {
             let (ends, length) = ([ends[0], ends[1]], ends[1] - ends[0]);
@@ -167,7 +167,7 @@ fn damping<const D: usize>(given: Option<&Damping>, build: &Build<D>) -> Result<
     }
 }
 
-/// Abscissae of the nodes: both ends, every marker, and equal elements between these, none longer than the length
+/// Abscissae of the nodes, m: both ends, every marker, and equal elements between these, none longer than the length
 /// divided by `wanted`.
 fn mesh(length: f64, wanted: u32, markers: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut stops: Vec<f64> =
@@ -187,7 +187,7 @@ fn mesh(length: f64, wanted: u32, markers: impl Iterator<Item = f64>) -> Vec<f64
     abscissae
 }
 
-/// The node at `s`.
+/// Index of the node at the marker `name`, which is at `s`.
 fn check_marker(name: &str, s: f64, abscissae: &[f64]) -> Result<usize> {
     if name.strip_prefix('n').is_some_and(|digits| !digits.is_empty() && digits.bytes().all(|c| c.is_ascii_digit())) {
         return Err(Error::input(format!("`{name}` is the name of a node")).hint("choose another one"));
@@ -201,15 +201,15 @@ fn check_marker(name: &str, s: f64, abscissae: &[f64]) -> Result<usize> {
     Ok(abscissae.partition_point(|abscissa| *abscissa < s - slack).min(abscissae.len() - 1))
 }
 
-/// How the beam starts, as a rigid body with its origin at the left end.
+/// Position and velocity of the beam at the start, as of a rigid body with its origin at the left end.
 struct Start<const D: usize> {
     position: [f64; D],
     velocity: [f64; D],
-    /// In the plane.
+    /// Rotation in the plane, rad.
     angle: f64,
-    /// In space.
+    /// Rotation in space: unit quaternion [w, x, y, z].
     quaternion: [f64; 4],
-    /// In the axes of the left end.
+    /// Angular velocity in the axes of the left end, rad/s.
     spin: [f64; 3],
 }
 

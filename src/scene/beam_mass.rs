@@ -1,6 +1,6 @@
 //! The mass of an absolute beam, lumped at its nodes.
 //!
-//! What half an element brings to its node are the consistent loads of its mass with Hermite's cubics: N_1 = 1 - 3 x^2 + 2 x^3
+//! Half an element adds to its node the consistent loads of its mass with Hermite's cubics: N_1 = 1 - 3 x^2 + 2 x^3
 //! and, times the length h of the element, N_2 = x - 2 x^2 + x^3, x being the part of h from the node. Mass and centre of
 //! mass of the element are then exact, whatever its taper; of a uniform one it is half the mass, put h/6 from the node.
 
@@ -12,23 +12,23 @@ use std::array::from_fn;
 /// Gauss points on an element.
 const POINTS: usize = 6;
 
-/// What half an element brings to the node beside it.
+/// Mass of half an element, lumped at its node.
 #[derive(Clone, Copy, Debug)]
 struct Lump {
     /// kg
     mass: f64,
     /// Mass times its distance from the node along the beam, kg m.
     moment: f64,
-    /// About y and z, kg m^2.
+    /// Rotary inertia of the sections about y and z, kg m^2.
     rotary: [f64; 2],
-    /// Of the element, m.
+    /// Length of the element, m.
     length: f64,
-    /// At the node.
+    /// Section at the node.
     section: Section,
 }
 
 impl Lump {
-    /// Of the element between `ends` at its first or second node.
+    /// The half of the element between the abscissae `ends` at its first or second node.
     fn of(profile: &Profile, ends: [f64; 2], second: bool) -> Self {
         let length = ends[1] - ends[0];
         let (node, sign) = if second { (ends[1], -1.0) } else { (ends[0], 1.0) };
@@ -52,7 +52,7 @@ pub struct NodeMass {
 }
 
 impl NodeMass {
-    /// Of node `node` among those at the `abscissae`.
+    /// The mass of node `node` of a beam with nodes at the `abscissae`.
     pub fn of(profile: &Profile, abscissae: &[f64], node: usize) -> Self {
         let lump = |first: usize, second| {
             let ends = [*abscissae.get(first)?, *abscissae.get(first + 1)?];
@@ -65,12 +65,12 @@ impl NodeMass {
         self.before.iter().chain(&self.after).map(of).sum()
     }
 
-    /// kg
+    /// Mass of the node, kg.
     pub fn mass(&self) -> f64 {
         self.sum(|lump| lump.mass)
     }
 
-    /// How far the centre of mass of the node is from it along the beam, m.
+    /// Distance of the node's centre of mass from the node along the beam, m; positive towards the right end.
     pub fn shift(&self) -> f64 {
         self.sum(|lump| lump.moment) / self.mass()
     }
@@ -87,7 +87,7 @@ impl NodeMass {
         self.before.iter().chain(&self.after).map(|lump| lump.length).fold(0.0, f64::max)
     }
 
-    /// The half of an element beside it.
+    /// The half of the element after (or before) the node.
     pub fn half(&self, after: bool) -> Half {
         let Some(lump) = (if after { self.after } else { self.before }) else { return Half::default() };
         let (share, about) = (lump.mass / self.mass(), self.about());

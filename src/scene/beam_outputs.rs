@@ -9,7 +9,7 @@ use crate::body::{Bent, Build, Marker, MarkerId};
 use crate::error::{Error, Result, short};
 use crate::force::{Beam, Force, Half};
 
-/// What is read of the beam `of`: a body, or a massless one among the forces.
+/// The quantity that an output reads of the beam `of`: a body, or a massless beam among the forces.
 pub fn measure<const D: usize>(
     spec: &OutputSpec,
     of: &str,
@@ -80,8 +80,8 @@ fn reading(wanted: Wanted, relaxed: [f64; 3], compliance: &[f64; 6]) -> Reading 
     }
 }
 
-/// The section of a floating beam at an abscissa, among those that there are already or behind them. What acts there is
-/// beyond it, but at the left end.
+/// Index in `cuts` of the section of a floating beam at abscissa `at`, added if it is not there. A marker at the section
+/// itself counts as beyond it, except at the left end.
 fn cut<const D: usize>(
     body: usize,
     at: f64,
@@ -134,7 +134,7 @@ fn on_the_frame(beam: &str, element: &str) -> Error {
         .hint(format!("give `{beam}` a marker where `{element}` acts"))
 }
 
-/// Of a beam in a floating frame whose elastic coordinates are those from `first` on.
+/// Deflection or strain of a beam in a floating frame whose elastic coordinates are those of q from `first` on.
 fn combination<const D: usize>(
     spec: &OutputSpec,
     wanted: Wanted,
@@ -166,7 +166,7 @@ fn combination<const D: usize>(
     Ok(sum.combination)
 }
 
-/// A combination of the coordinates from `first` on.
+/// Builds a [`Combination`] of the coordinates of q from `first` on.
 struct Sum {
     first: usize,
     combination: Combination,
@@ -178,13 +178,13 @@ impl Sum {
         self.combination.linear.extend(terms.map(|(dof, factor)| (self.first + dof, factor)));
     }
 
-    /// The extension where it stiffens: a.q + q.S q/2.
+    /// Adds `factor` (a.q + q.S q/2), the extension with geometric stiffening.
     fn add_extension(&mut self, stretch: &Stretch, factor: f64) {
         self.add(&stretch.dofs, stretch.axial.iter().map(|a| factor * a));
         self.add_squares(&stretch.dofs, &stretch.slopes, 0.5 * factor);
     }
 
-    /// factor q.A q with a matrix by rows, which may be empty.
+    /// Adds `factor` q.A q, with A by rows; an empty A is zero.
     fn add_squares(&mut self, dofs: &[usize], matrix: &[f64], factor: f64) {
         let places: Vec<usize> = dofs.iter().map(|dof| self.first + dof).collect();
         let pairs = places.iter().flat_map(|&i| places.iter().map(move |&j| [i, j]));
@@ -193,7 +193,7 @@ impl Sum {
     }
 }
 
-/// Where on the beam, m from its left end.
+/// Abscissa of the output, m from the left end.
 fn place<const D: usize>(spec: &OutputSpec, length: f64, build: &Build<D>) -> Result<f64> {
     let at = spec.at.as_ref().ok_or_else(|| missing("at", "say where on the beam: m from its left end"))?;
     let at = build.number("at", at)?;
@@ -210,13 +210,13 @@ fn component(spec: &OutputSpec, default: &str, known: &[&str]) -> Result<usize> 
     known.iter().position(|known| *known == name).ok_or_else(|| wrong_component(name, known))
 }
 
-/// What a measure wants of a section.
+/// Quantity of a section that an output asks for.
 enum Wanted {
-    /// Along an axis.
+    /// Deflection along this axis.
     Deflection(usize),
-    /// Strains in the order of [`Station`](crate::force::Station) times these.
+    /// Sum of the strains, in the order of [`Station`](crate::force::Station), times these.
     Strain([f64; 6]),
-    /// A component in the same order.
+    /// Component of force or moment in the same order.
     Force(usize),
 }
 

@@ -4,7 +4,7 @@ use super::{Elements, Scene, folder};
 use crate::error::Result;
 use serde_json::{Map, Value, json};
 
-/// The object that a key holds; none where it holds something else, which the checks then refuse.
+/// The object at `key`, made if it is missing; `None` if another type of value is there, which the checks then refuse.
 fn object<'k>(keys: &'k mut Map<String, Value>, key: &str) -> Option<&'k mut Map<String, Value>> {
     keys.entry(key).or_insert_with(|| json!({})).as_object_mut()
 }
@@ -80,7 +80,7 @@ impl SceneBuilder {
         self.element("inputs", name, None, keys)
     }
 
-    /// An output of what `measure` names, with its other keys, an object.
+    /// An output of the quantity `measure`, such as `position`, with its other keys, an object.
     pub fn output(self, name: &str, measure: &str, keys: Value) -> Self {
         self.element("outputs", name, Some(("measure", measure)), keys)
     }
@@ -116,7 +116,7 @@ impl SceneBuilder {
             map.extend([("name".to_string(), name.into())]);
             map.extend(kind.map(|(key, kind)| (key.to_string(), kind.into())));
         }
-        // What is no object or no list is refused by the checks.
+        // The checks refuse `keys` that are no object and a list that is no list.
         if let Value::Array(all) = self.keys.entry(list).or_insert_with(|| json!([])) {
             all.push(element);
         }

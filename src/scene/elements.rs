@@ -1,25 +1,25 @@
-//! Which kinds of bodies, joints and forces a scene may name.
+//! The kinds of bodies, joints and forces that a scene may name.
 
 use crate::body::{self, BodyKind, BodySpec, ElementKind};
 use crate::error::{Error, Result};
 use crate::force::{self, ForceKind, ForceSpec};
 use crate::joint::{self, JointKind, JointSpec};
 
-/// The kinds of elements that scenes may name: by default the built-in ones, and those of a user beside them.
+/// The kinds of elements that scenes may name: the built-in ones, and those that a user adds.
 ///
 /// `Elements::default().with_joint::<PointOnParabola>()?.parse(text, &[])?` is a scene that may say
 /// `"type": "point_on_parabola"`, as in `tests/examples/own_joint.rs`.
 ///
 /// A kind is a type that reads what a scene says of it ([`BodySpec`], [`JointSpec`], [`ForceSpec`]) and makes its equations
 /// ([`BodyKernel`](body::BodyKernel), [`JointKernel`](joint::JointKernel), [`ForceKernel`](force::ForceKernel)). It is then
-/// as good as a built-in one: in every formulation, in linear models, outputs and the energy balance.
+/// used like a built-in one in every formulation, in linear models, outputs and the energy balance.
 #[derive(Clone, Debug)]
 pub struct Elements {
     pub(super) planar: Kinds<2>,
     pub(super) spatial: Kinds<3>,
 }
 
-/// The same in one dimension.
+/// The kinds for scenes in D dimensions.
 #[derive(Clone, Debug)]
 pub(super) struct Kinds<const D: usize> {
     pub bodies: Vec<BodyKind<D>>,

@@ -207,10 +207,15 @@ pub struct Simulation {
     pub output_step: Option<Number>,
     /// Formulation, integrator and projection by trials along the motion, in the place of the three.
     pub method: Option<Automatic>,
+    /// Form of the equations that is integrated. Default: index 1.
     pub formulation: Option<MethodSpec>,
+    /// Time integration method.
     pub integrator: Option<MethodSpec>,
+    /// Correction of q and v after a step. Default: none.
     pub projection: Option<MethodSpec>,
+    /// Relative tolerance of the local error.
     pub rtol: Option<Number>,
+    /// Absolute tolerance of the local error.
     pub atol: Option<Number>,
     /// Fixed step, s. Default: chosen by the integrator.
     pub step: Option<Number>,
@@ -222,6 +227,7 @@ pub struct Simulation {
 #[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Automatic {
+    /// Choose by trials along the motion.
     Auto,
 }
 

@@ -1,4 +1,4 @@
-//! JSON text to a value: every fault with its place and its remedy, and no key given twice.
+//! Parses JSON text: an error has its line, column and remedy, and a repeated key is an error.
 
 use super::locate::line_and_column;
 use crate::error::{Error, Result};
@@ -11,7 +11,7 @@ pub fn read(text: &str) -> Result<Value> {
     serde_json::from_str::<Strict>(text).map(|strict| strict.0).map_err(|error| explain(text, &error))
 }
 
-/// A value without repeated keys, of which one would silently win.
+/// A value in which a repeated key is an error; serde_json would silently take the last one.
 struct Strict(Value);
 
 struct StrictVisitor;
@@ -89,7 +89,7 @@ fn explain(text: &str, error: &serde_json::Error) -> Error {
     error.placed(line_and_column(text, offset))
 }
 
-/// Another format that the text is in, by how it begins.
+/// Name of another format (XML, YAML, TOML) that the first line of the text suggests.
 fn other_format(text: &str) -> Option<&'static str> {
     let first = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'))?;
     let is_word = |word: &str| !word.is_empty() && word.chars().all(|c| c.is_alphanumeric() || "_-. ".contains(c));
@@ -115,7 +115,7 @@ fn offset(text: &str, line: usize, column: usize) -> usize {
     offset
 }
 
-/// What people write in place of JSON, by how it begins.
+/// Text that people write in place of JSON: its beginning, its name and the remedy.
 const FOREIGN: [(&str, &str, &str); 16] = [
     ("NaN", "`NaN`", "every number of a scene must be finite; remove the key where the default is meant"),
     ("nan", "`nan`", "every number of a scene must be finite; remove the key where the default is meant"),
@@ -135,7 +135,7 @@ const FOREIGN: [(&str, &str, &str); 16] = [
     ("=", "`=`", "a key and its value are joined by a colon"),
 ];
 
-/// What is wrong at the border of `before` and `after`, and what would be right.
+/// The fault at the border of `before` and `after`, and its remedy.
 fn fault(message: &str, before: &str, after: &str) -> (String, &'static str) {
     let told = |found: &str, hint| (found.to_string(), hint);
     if message.starts_with("EOF") {

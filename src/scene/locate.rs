@@ -57,7 +57,7 @@ impl Scanner<'_> {
         }
     }
 
-    /// Moves from a value to its part; false where there is none.
+    /// Moves from a value to its part; returns false if there is none.
     fn enter(&mut self, segment: &Segment) -> bool {
         let wanted = match (segment, self.peek()) {
             (Segment::Key(_), b'{') | (Segment::Index(_), b'[') => segment,
@@ -89,7 +89,7 @@ impl Scanner<'_> {
         false
     }
 
-    /// The raw text of a string, past which it moves.
+    /// Returns the raw text of the string here and moves past it.
     fn string(&mut self) -> &[u8] {
         let start = self.at + 1;
         self.at = start;

@@ -80,7 +80,7 @@ fn turn<const D: usize>(marker: &mut Marker<D>, angle: f64) {
     (marker.axes[1][0], marker.axes[1][1]) = (-s, c);
 }
 
-/// Right-handed axes with the given z, and x as near to the given one as z allows.
+/// Right-handed unit axes [x, y, z] with the given z, and x the given one made orthogonal to z.
 fn triad(z: Option<[f64; 3]>, x: Option<[f64; 3]>) -> Result<[[f64; 3]; 3]> {
     let unit = |v: [f64; 3], name: &str| -> Result<[f64; 3]> {
         let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
@@ -105,13 +105,13 @@ fn triad(z: Option<[f64; 3]>, x: Option<[f64; 3]>) -> Result<[[f64; 3]; 3]> {
     Ok([x, cross(&z, &x), z])
 }
 
-/// `v` less its part along the unit vector `along`.
+/// The part of `v` orthogonal to the unit vector `along`.
 fn without(v: [f64; 3], along: [f64; 3]) -> [f64; 3] {
     let part = v[0] * along[0] + v[1] * along[1] + v[2] * along[2];
     from_fn(|i| v[i] - part * along[i])
 }
 
-/// The given parameters in order.
+/// Names and values of the parameters, in the order of the scene.
 pub fn parameters(given: &Map<String, Value>) -> Result<Vec<(String, Number)>> {
     let one = |(name, value): (&String, &Value)| {
         let number = parse::<Number>(value.clone()).map_err(|error| error.under(name).under("parameters"))?;
@@ -120,7 +120,7 @@ pub fn parameters(given: &Map<String, Value>) -> Result<Vec<(String, Number)>> {
     given.iter().map(one).collect()
 }
 
-/// Parameters with overrides.
+/// Values of the parameters, with overrides in place of those of the scene.
 pub fn resolve(given: &Map<String, Value>, overrides: &[(String, Number)]) -> Result<Parameters> {
     Ok(Parameters::resolve(&parameters(given)?, overrides)?)
 }

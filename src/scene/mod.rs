@@ -48,25 +48,35 @@ use format::SceneFile;
 use serde_json::Value;
 use std::path::Path;
 
-/// A scene with everything resolved but its start.
+/// A checked scene: all names and expressions are resolved; the start is not yet consistent with the joints.
 pub struct Scene {
+    /// Name of the scene and of its folder of results.
     pub name: String,
+    /// Free text about the mechanism; empty if not given.
     pub about: String,
+    /// Sources of its data and known results.
     pub references: Vec<String>,
+    /// 2 for a planar scene, 3 for a spatial one.
     pub dimension: usize,
+    /// Values of the named parameters, overrides applied.
     pub parameters: Parameters,
+    /// Bodies, joints, forces, outputs and inputs.
     pub model: AnyModel,
-    /// The guess for q and v that assembly starts from.
+    /// Initial guess of q for assembly, in the order of the bodies.
     pub q: Vec<f64>,
+    /// Initial guess of v, in the order of the bodies.
     pub v: Vec<f64>,
-    /// Coordinates or bodies that assembly leaves alone.
+    /// Coordinates, or bodies, whose values and rates assembly does not change.
     pub hold: Vec<String>,
+    /// Settings of the simulation, as they are given.
     pub simulation: Simulation,
 }
 
 /// A model in the plane or in space.
 pub enum AnyModel {
+    /// A model in the plane: three coordinates a rigid body.
     Planar(Model<2>),
+    /// A model in space: seven coordinates a rigid body, a unit quaternion among them.
     Spatial(Model<3>),
 }
 
@@ -87,10 +97,10 @@ impl Scene {
         Elements::default().parse(text, overrides)
     }
 
-    /// When the motion starts, s.
+    /// Time at the start of the motion, s.
     ///
     /// # Errors
-    /// Where "t_start" is no number.
+    /// A `t_start` that cannot be evaluated.
     pub fn start_time(&self) -> Result<f64> {
         let Some(number) = &self.simulation.t_start else { return Ok(0.0) };
         let start = number.evaluate(&self.parameters);
@@ -98,7 +108,7 @@ impl Scene {
     }
 }
 
-/// Scenes of these elements.
+/// Reads scenes with these kinds of elements.
 impl Elements {
     /// As [`Scene::load`].
     ///
@@ -122,7 +132,7 @@ impl Elements {
     /// # Errors
     /// As [`Scene::parse`].
     pub fn parse_in(&self, folder: &Path, text: &str, overrides: &[(String, Number)]) -> Result<Scene> {
-        // Some editors begin a file with this mark.
+        // Byte order mark.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         if text.trim().is_empty() {
             return Err(Error::input("the file is empty").hint("a scene is a JSON object; see `holonom schema`"));
@@ -140,7 +150,7 @@ impl Elements {
     }
 }
 
-/// Where files that a scene names are: beside it.
+/// Folder of the scene file, from which the files that it names are found.
 pub(crate) fn folder(scene: Option<&Path>) -> &Path {
     scene.and_then(Path::parent).unwrap_or(Path::new(""))
 }
@@ -151,7 +161,7 @@ fn name_element(error: Error, json: &Value) -> Error {
     let lists = ["bodies", "joints", "forces", "inputs", "outputs"];
     let name = input.path.split_once('[').filter(|(list, _)| lists.contains(list)).and_then(|(list, rest)| {
         let (index, rest) = rest.split_once(']')?;
-        // A name that is itself at fault is in the message.
+        // An error in the name itself quotes it already.
         let element = json.get(list)?.get(index.parse::<usize>().ok()?).filter(|_| rest != ".name")?;
         element.get("name")?.as_str().map(str::to_string)
     });

@@ -9,43 +9,57 @@ use crate::joint::Joint;
 use crate::math::{Scalar, Taylor};
 use std::ops::Range;
 
-/// Bodies, joints and forces with everything resolved; nothing in it can be wrong any more but the start.
+/// Bodies, joints and forces with all names and expressions resolved and checked.
 pub struct Model<const D: usize> {
+    /// Acceleration of gravity in world axes, m/s^2.
     pub gravity: [f64; D],
     /// All markers: the ground's first, then each body's.
     pub markers: MarkerTable,
+    /// Markers of the ground; the first is the world frame.
     pub ground: Vec<Marker<D>>,
+    /// Bodies in the order of the scene; each node of an absolute beam is one.
     pub bodies: Vec<Part<D>>,
+    /// Joints in the order of the scene.
     pub joints: Vec<Connection<Box<dyn Joint<D>>>>,
-    /// Those of the scene, then the elements of absolute beams.
+    /// Forces of the scene, then the elements of absolute beams.
     pub forces: Vec<Connection<Box<dyn Force<D>>>>,
+    /// Flexible beams in absolute coordinates.
     pub beams: Vec<BeamLine>,
+    /// Outputs in the order of the scene.
     pub outputs: Vec<Watched>,
     /// Sections of beams in floating frames that outputs watch.
     pub cuts: Vec<Cut<D>>,
+    /// Inputs u in the order of the scene.
     pub inputs: Vec<ForceInput>,
+    /// Events at which elements change their form.
     pub switches: Switches,
-    /// Angles in space that q carries after the coordinates of the bodies.
+    /// Angles in space counted through full turns, which stand in q after the coordinates of the bodies.
     pub turnings: Vec<Turning>,
     /// The largest coordinate of position at the start, m.
     pub extent: f64,
 }
 
-/// A body in its place.
+/// A body with the places of its coordinates, velocities and markers in the model.
 pub struct Part<const D: usize> {
+    /// Name in the scene, or `beam.n3` for a node of an absolute beam.
     pub name: String,
+    /// Kinematics, inertia and energy of the body.
     pub body: Box<dyn Body<D>>,
     /// Index of its first marker in the table.
     pub first_marker: MarkerId,
-    /// Places of its first coordinate and velocity.
+    /// Index of its first coordinate in q.
     pub first_q: usize,
+    /// Index of its first velocity in v.
     pub first_v: usize,
+    /// Number of its coordinates.
     pub nq: usize,
+    /// Number of its velocities.
     pub nv: usize,
 }
 
 /// A flexible beam in absolute coordinates: bodies as nodes, and elements as forces between them.
 pub struct BeamLine {
+    /// Name of the beam in the scene.
     pub name: String,
     /// Index of its first node among the bodies; the others follow.
     pub first_body: usize,
@@ -53,9 +67,11 @@ pub struct BeamLine {
     pub first_force: usize,
     /// Abscissae of the nodes from the left end, m; one more than there are elements.
     pub abscissae: Vec<f64>,
+    /// Beam elements from left to right, without mass.
     pub elements: Vec<Beam>,
+    /// Stiffness and mass of the sections along the beam.
     pub profile: Profile,
-    /// Of each element the halves that its nodes carry.
+    /// Mass of each element: the halves lumped at its two nodes.
     pub halves: Vec<[Half; 2]>,
 }
 
@@ -70,24 +86,25 @@ impl BeamLine {
         self.first_force..self.first_force + self.elements.len()
     }
 
-    /// m, relaxed.
+    /// Length of the undeformed beam, m.
     pub fn length(&self) -> f64 {
         self.abscissae.last().copied().unwrap_or(0.0)
     }
 
-    /// Where the relaxed beam is at `s`, in the axes of its left end, m.
+    /// Point of the relaxed beam's line at `s`, in the axes of its left end, m.
     pub fn relaxed(&self, s: f64) -> [f64; 3] {
         self.elements.first().map_or([0.0; 3], |element| element.relaxed(s))
     }
 
-    /// The section at `s`; at a node that to the left of it.
+    /// The section at `s`; at a node, that of the element to the left of it.
     pub fn section(&self, s: f64) -> Section {
         let element = self.element_at(s);
         self.profile.within([self.abscissae[element], self.abscissae[element + 1]], s)
     }
 
-    /// What the section at `s` from the left end, 0 <= s <= length, carries of the beam without mass; `node` gives the frame of a body of
-    /// the model. At a node it is that of the element to the left of it.
+    /// Position and internal forces of the section at `s` from the left end, 0 <= s <= length, without the inertia and
+    /// weight of the element itself; `node` gives the frame of a body of the model. At a node it is that of the element to
+    /// the left of it.
     pub fn station<S: Scalar, const D: usize>(
         &self,
         s: f64,
@@ -106,73 +123,96 @@ impl BeamLine {
 
 /// A joint or force with its name, its kind in the scene and the markers it sees.
 pub struct Connection<E> {
+    /// Name in the scene, or `beam.e3` for an element of an absolute beam.
     pub name: String,
+    /// Name of its type in the scene, such as `revolute`.
     pub kind: &'static str,
+    /// Equations of the joint or force.
     pub element: E,
+    /// Indices of its markers, in the order in which the element takes their frames.
     pub markers: Vec<MarkerId>,
 }
 
 /// A named output.
 pub struct Watched {
+    /// Name of the output: a column of the trajectory and a row of C.
     pub name: String,
     /// The unit that its values are in.
     pub unit: Unit,
+    /// Quantity that the output reads.
     pub measure: Measure,
 }
 
-/// What an output reads.
+/// Quantity that an output reads.
 pub enum Measure {
     /// An expression over t and marker quantities.
     Signal(Signal),
-    /// A component of a marker's position or velocity against another marker, in that one's axes.
+    /// A component of a marker's position or velocity relative to another marker, in the axes of the latter.
     Relative {
+        /// Marker that is measured.
         of: MarkerId,
+        /// Marker against which and in whose axes it is measured.
         to: MarkerId,
+        /// Component of position, velocity or angular velocity.
         quantity: Quantity,
     },
-    /// Angle about the third axis of `to`, counted through full turns; in space as the one next to a turning angle.
+    /// Angle about the third axis of `to`, rad, counted through full turns.
     Turn {
+        /// Marker whose angle is measured.
         of: MarkerId,
+        /// Marker against which it is measured.
         to: MarkerId,
+        /// Index of the counted angle, as [`Build::turning`](crate::body::Build::turning) gives it.
         turning: usize,
     },
-    /// Distance between two markers and its rate.
+    /// Distance between two markers, or its rate.
     Distance {
+        /// First marker.
         from: MarkerId,
+        /// Second marker.
         to: MarkerId,
+        /// True for the rate of the distance, m/s, in place of the distance, m.
         rate: bool,
     },
     /// Force (components 0 to 2), torque (3 to 5), [`FORCE_SIZE`] or [`TORQUE_SIZE`] on the second body of a joint, in the
     /// axes of a marker.
     Reaction {
+        /// Index of the joint in the model.
         joint: usize,
+        /// 0 to 5, [`FORCE_SIZE`] or [`TORQUE_SIZE`].
         component: usize,
+        /// Marker in whose axes the components are.
         axes: MarkerId,
     },
     /// Force or torque of a driver on the second body along its coordinate.
     Push {
+        /// Index of the driver among the joints.
         joint: usize,
     },
-    /// Force in a joint that holds a length, tension positive.
+    /// Force in a joint that fixes a length, N, tension positive.
     Tension {
+        /// Index of the joint in the model.
         joint: usize,
     },
     /// Deflection or strain of a beam in a floating frame.
     Elastic(Combination),
-    /// Of an absolute beam, or of a massless one.
+    /// Deflection, strain or internal force at a place of an absolute or massless beam.
     Station(Box<Place>),
     /// A component of force or moment at a [`Cut`].
     Section {
+        /// Index in [`Model::cuts`].
         cut: usize,
+        /// Component in the order of [`Station`]: axial force, shear y, z, torque, bending y, z.
         component: usize,
     },
-    /// The magnitude of a force.
+    /// Magnitude of the force, or of the torque, with this index.
     Force(usize),
+    /// Energy of the whole mechanism, J.
     Energy(EnergyPart),
 }
 
 impl Measure {
-    /// Whether inertia is in what it reads.
+    /// True if the value depends on accelerations.
     pub fn feels_acceleration(&self) -> bool {
         match self {
             Measure::Station(place) => place.feels_acceleration(),
@@ -187,32 +227,39 @@ pub const FORCE_SIZE: usize = 6;
 /// Component of a reaction: the size of its torque.
 pub const TORQUE_SIZE: usize = 7;
 
-/// What is read of a section of an absolute or massless beam.
+/// Quantity of a section of an absolute or massless beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reading {
-    /// Along an axis of the beam's left end, from the relaxed beam there.
-    Deflection { axis: usize, rest: f64 },
-    /// Elastic forces of the section times these: strains with factors.
+    /// Displacement from the relaxed beam along an axis of the beam's left end, m.
+    Deflection {
+        /// Axis of the left end.
+        axis: usize,
+        /// Position of the relaxed beam along it, m.
+        rest: f64,
+    },
+    /// Sum of the elastic forces of the section times these: compliances times weights of the strains.
     Strain([f64; 6]),
     /// A component of force or moment.
     Force(usize),
 }
 
-/// Coordinates, and products of two of them, with factors.
+/// A quadratic function of the coordinates: sum a_i q_i + sum b_ij q_i q_j.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Combination {
+    /// Pairs (i, a): terms a q_i.
     pub linear: Vec<(usize, f64)>,
+    /// Pairs ([i, j], a): terms a q_i q_j.
     pub squares: Vec<([usize; 2], f64)>,
 }
 
 impl Combination {
-    /// Its value; `q` gives a coordinate of the system.
+    /// Value of the function; `q(i)` is coordinate i of the system.
     pub fn at<S: Scalar>(&self, q: impl Fn(usize) -> S) -> S {
         let linear = self.linear.iter().fold(S::zero(), |sum, &(i, factor)| sum + q(i) * factor);
         self.squares.iter().fold(linear, |sum, &([i, j], factor)| sum + q(i) * q(j) * factor)
     }
 
-    /// The coordinates that it reads, in increasing order.
+    /// Indices of the coordinates that the function depends on, in increasing order.
     pub fn coordinates(&self) -> Vec<usize> {
         let linear = self.linear.iter().map(|&(i, _)| i);
         let mut all: Vec<usize> = linear.chain(self.squares.iter().flat_map(|&(pair, _)| pair)).collect();
@@ -222,14 +269,19 @@ impl Combination {
     }
 }
 
+/// Part of the mechanical energy that an output reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EnergyPart {
+    /// Kinetic energy, v.M v/2 where N = I.
     Kinetic,
+    /// Potential energy of weight, springs and elastic deformation.
     Potential,
+    /// Sum of kinetic and potential energy.
     Total,
 }
 
 impl EnergyPart {
+    /// Returns this part of `energy`, J.
     pub fn of<S: Scalar>(self, energy: Energy<S>) -> S {
         match self {
             EnergyPart::Kinetic => energy.kinetic,
@@ -241,15 +293,18 @@ impl EnergyPart {
 
 /// A named input: it adds to a component of an applied force or torque.
 pub struct ForceInput {
+    /// Name of the input in the scene.
     pub name: String,
+    /// Index of the applied force or torque in the model.
     pub force: usize,
-    /// In the axes of the force.
+    /// Component in the axes of the force: 0 to 2 for x to z.
     pub component: usize,
     /// `N` or `N m`.
     pub unit: &'static str,
 }
 
 impl<const D: usize> Model<D> {
+    /// Number of all markers, those of the ground among them.
     pub fn marker_count(&self) -> usize {
         self.markers.names.len()
     }

@@ -13,7 +13,7 @@ use crate::joint::Joint;
 type Joints<const D: usize> = [Connection<Box<dyn Joint<D>>>];
 type Forces<const D: usize> = [Connection<Box<dyn Force<D>>>];
 
-/// Kinematic outputs as expressions, by which forces may use them.
+/// (name, expression) of the kinematic outputs, by which forces may use them.
 pub fn formulas<const D: usize>(specs: &[OutputSpec]) -> Vec<(String, String)> {
     let formula = |spec: &OutputSpec| {
         let of = spec.of.as_deref()?;
@@ -47,7 +47,7 @@ pub fn formulas<const D: usize>(specs: &[OutputSpec]) -> Vec<(String, String)> {
     all.collect()
 }
 
-/// Names of outputs are columns beside `t`.
+/// Refuses names of outputs that are `t`, taken or not valid: they are columns of the trajectory.
 pub fn check_names(specs: &[OutputSpec]) -> Result<()> {
     for (i, OutputSpec { name, .. }) in specs.iter().enumerate() {
         let taken = |by: &str| Error::input(format!("the name `{name}` is taken{by}")).hint("give each output its own");
@@ -115,7 +115,7 @@ pub fn outputs<const D: usize>(
     Ok((all, cuts))
 }
 
-/// What outputs may be of.
+/// The elements of the model that outputs may read.
 #[derive(Clone, Copy)]
 pub struct Elements<'a, const D: usize> {
     pub bodies: &'a [Part<D>],
@@ -204,7 +204,7 @@ impl<const D: usize> Reader<'_, D> {
         let Some(name) = self.spec.component.as_deref() else {
             return Ok(match joints[joint].kind {
                 "driver" => Measure::Push { joint },
-                // The size of the force is zero where angles alone are held.
+                // A joint that fixes an angle alone has a torque and no force.
                 _ if joints[joint].element.row_names() == ["angle"] => {
                     Measure::Reaction { joint, component: TORQUE_SIZE, axes }
                 }
@@ -227,7 +227,7 @@ impl<const D: usize> Reader<'_, D> {
     }
 }
 
-/// What the values of a measure are; an expression has what its author says.
+/// Physical dimension of an output; none for an expression, whose unit its author gives.
 fn dimension<const D: usize>(kind: MeasureKind, measure: &Measure, elements: Elements<D>) -> Option<Dimension> {
     Some(match kind {
         MeasureKind::Angle => Dimension::Angle,
@@ -278,7 +278,7 @@ pub(super) fn find<'a>(what: &str, name: &str, mut known: impl Iterator<Item = &
         .ok_or_else(|| Error::input(format!("there is no {what} `{name}`")).under("of").hint(suggest(name, names)))
 }
 
-/// The inputs with the components that they drive.
+/// The inputs with the force components that they add to.
 pub fn inputs<const D: usize>(specs: &[InputSpec], forces: &Forces<D>) -> Result<Vec<ForceInput>> {
     let mut all: Vec<ForceInput> = Vec::new();
     for (i, spec) in specs.iter().enumerate() {

@@ -8,28 +8,32 @@ use crate::math::{Scalar, Taylor};
 
 /// A place on an element of an absolute beam, or on a massless one.
 pub struct Place {
+    /// Beam element that the place is on.
     pub element: Beam,
+    /// Markers at the element's ends.
     pub ends: [MarkerId; 2],
-    /// The mass beside the ends.
+    /// Mass of the element, lumped at its ends; zero for a massless beam.
     pub halves: [Half; 2],
     /// Deflections are in the axes of this frame and from its origin.
     pub own: MarkerId,
-    /// From the first end, m.
+    /// Abscissa from the element's first end, m.
     pub x: f64,
+    /// Quantity that is read.
     pub reading: Reading,
 }
 
 impl Place {
-    /// Whether inertia is in what is read.
+    /// True if the value depends on accelerations.
     pub fn feels_acceleration(&self) -> bool {
         !matches!(self.reading, Reading::Deflection { .. }) && self.halves.iter().any(|half| half.mass > 0.0)
     }
 
-    /// The markers that are read.
+    /// Markers whose frames the value depends on.
     pub fn markers(&self) -> [MarkerId; 3] {
         [self.ends[0], self.ends[1], self.own]
     }
 
+    /// Value of the reading; `frame` gives the position, velocity and acceleration of a marker.
     pub fn read<S: Scalar, const D: usize>(
         &self,
         gravity: &[f64; D],
@@ -57,12 +61,14 @@ pub struct Cut<const D: usize> {
     pub body: usize,
     /// Abscissa, m.
     pub at: f64,
-    /// How the section moves with the elastic coordinates, and its axes at rest.
+    /// Displacement and rotation of the section under the elastic coordinates.
     pub section: PointShape<D>,
+    /// Axes of the undeformed section in the body's frame.
     pub axes: Marker<D>,
-    /// The mass beyond.
+    /// The body's mass beyond the section.
     pub beyond: Inertia<D>,
-    /// Joints and forces with the slot of each of their markers beyond.
+    /// Pairs (joint, slot): `slot` is the place, among the joint's markers, of one that is beyond the section.
     pub joints: Vec<(usize, usize)>,
+    /// Pairs (force, slot) of the markers beyond, likewise.
     pub forces: Vec<(usize, usize)>,
 }

@@ -2,10 +2,10 @@
 
 use serde_json::{Value, json};
 
-/// What doubles the mesh of a beam.
+/// Keys of a beam whose values are doubled.
 const KEYS: [&str; 2] = ["elements", "modes"];
 
-/// The text of a scene with twice the elements and modes of every beam; none where it has no beam with elements.
+/// The text of a scene with twice the elements and modes of every beam; `None` if no beam has either key.
 pub fn refined(text: &str) -> Option<String> {
     let mut scene: Value = serde_json::from_str(text.trim_start_matches('\u{feff}')).ok()?;
     let bodies = scene.get_mut("bodies")?.as_array_mut()?;

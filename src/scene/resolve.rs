@@ -16,7 +16,7 @@ use serde_json::{Map, Value};
 use std::collections::HashSet;
 use std::path::Path;
 
-/// Resolves everything; what can be wrong with a scene alone is found here.
+/// Resolves all names and expressions of a scene and checks them.
 pub fn build(file: SceneFile, elements: &Elements, overrides: &[(String, Number)], folder: &Path) -> Result<Scene> {
     check_scene_name(&file.name)?;
     let parameters = markers::resolve(&file.parameters, overrides)?;
@@ -44,7 +44,7 @@ pub fn build(file: SceneFile, elements: &Elements, overrides: &[(String, Number)
     })
 }
 
-/// The model with its start: first what has markers, which then all that is between them can name.
+/// The model with its initial q and v. Bodies are read first, so that joints, forces and outputs can name their markers.
 fn model<const D: usize>(
     file: &SceneFile,
     kinds: &Kinds<D>,
@@ -65,7 +65,7 @@ fn model<const D: usize>(
     Ok(parts.joined(links, gravity, switches.into_inner(), turnings.into_inner()))
 }
 
-/// What is between markers, and what is watched and driven.
+/// Joints, forces, outputs and inputs: all that names markers.
 struct Links<const D: usize> {
     joints: Vec<Connection<Box<dyn Joint<D>>>>,
     forces: Vec<Connection<Box<dyn Force<D>>>>,
@@ -128,7 +128,7 @@ fn extent<const D: usize>(bodies: &[Part<D>], q: &[f64]) -> f64 {
     positions.fold(0.0, f64::max)
 }
 
-/// Bodies as they are collected, with their start.
+/// Bodies read so far, with their initial q and v.
 struct Parts<const D: usize> {
     table: MarkerTable,
     ground: Vec<Marker<D>>,
@@ -136,7 +136,7 @@ struct Parts<const D: usize> {
     beams: Vec<BeamLine>,
     q: Vec<f64>,
     v: Vec<f64>,
-    /// Index among the forces that the first element of the next absolute beam has.
+    /// Index of the next absolute beam's first element among the forces.
     next_force: usize,
 }
 
@@ -224,7 +224,7 @@ impl<const D: usize> Parts<D> {
         Ok(())
     }
 
-    /// Adds a body with the full names of its markers beside its own frame.
+    /// Adds a body; `markers` are the full names of its markers after its own frame.
     fn place(&mut self, name: String, markers: impl Iterator<Item = String>, built: Built<D>) {
         let (index, first_marker) = (self.bodies.len(), self.table.names.len());
         let oriented = built.body.oriented();
@@ -238,7 +238,7 @@ impl<const D: usize> Parts<D> {
         self.v.extend(built.v);
     }
 
-    /// The model, with the start of all coordinates.
+    /// The model, with the initial q and v.
     fn joined(
         self,
         links: Links<D>,
@@ -269,7 +269,7 @@ impl<const D: usize> Parts<D> {
     }
 }
 
-/// Takes off what all bodies have.
+/// Removes `initial` and `markers`, which all bodies share, and parses them.
 pub(super) fn start_and_markers(json: &mut Map<String, Value>) -> Result<(Initial, Map<String, Value>)> {
     let initial = json
         .remove("initial")
@@ -280,7 +280,7 @@ pub(super) fn start_and_markers(json: &mut Map<String, Value>) -> Result<(Initia
     Ok((initial, markers))
 }
 
-/// Joints or forces: name and type are taken off, the rest is the kind's own.
+/// Reads joints or forces: `make` gets the JSON without `name` and `type`.
 fn elements<E, Make, const D: usize>(
     given: &[Value],
     (list, what): (&str, &str),
@@ -326,7 +326,7 @@ fn take_text(json: &mut Map<String, Value>, key: &str) -> Result<String> {
     }
 }
 
-/// Takes the type off, and finds what is known of it.
+/// Removes `type` and finds the kind of that name.
 fn take_kind<'k, Make>(
     json: &mut Map<String, Value>,
     what: &str,

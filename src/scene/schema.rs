@@ -32,7 +32,7 @@ fn resolved(schema: Schema, generator: &SchemaGenerator) -> Value {
     }
 }
 
-/// One alternative a kind: the shared keys with `type` fixed, and the kind's own.
+/// One alternative for each kind: the shared keys with `type` fixed, and the kind's own keys.
 fn one_of<Place: JsonSchema, Make>(kinds: &[ElementKind<Make>], generator: &mut SchemaGenerator) -> Value {
     let own = |ElementKind { name, schema, .. }: &ElementKind<Make>| (*name, resolved(schema(generator), generator));
     let kinds: Vec<_> = kinds.iter().map(own).collect();

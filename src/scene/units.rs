@@ -3,24 +3,33 @@
 use crate::error::{Error, Result, nearest};
 use std::f64::consts::{PI, TAU};
 
-/// What an output measures; its first unit is that of the SI.
+/// Physical dimension of an output, with the units known for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dimension {
+    /// rad
     Angle,
+    /// rad/s
     AngularVelocity,
+    /// m
     Length,
+    /// m/s
     Velocity,
+    /// N
     Force,
+    /// N m
     Torque,
+    /// J
     Energy,
+    /// No unit.
     Strain,
 }
 
-/// A unit by its name.
+/// A unit with its conversion from the SI.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unit {
+    /// Name as it is shown, such as `deg`.
     pub name: String,
-    /// So many of it are one SI unit.
+    /// Factor from the SI unit to this one: 180/pi for `deg`.
     pub per_si: f64,
 }
 
@@ -28,7 +37,7 @@ const POUND: f64 = 4.4482216152605;
 const INCH: f64 = 0.0254;
 const MILE: f64 = 1609.344;
 
-/// Names with their size in SI units.
+/// Names of units with their size in SI units; the first is the SI unit.
 type Sizes = &'static [(&'static str, f64)];
 
 const DIMENSIONS: [(Dimension, &str, Sizes); 8] = [
@@ -88,12 +97,12 @@ const DIMENSIONS: [(Dimension, &str, Sizes); 8] = [
 ];
 
 impl Dimension {
-    /// What a person calls it.
+    /// Name of the dimension in messages, such as `angular velocity`.
     pub fn word(self) -> &'static str {
         self.entry().1
     }
 
-    /// The unit of the SI.
+    /// The SI unit.
     pub fn si(self) -> Unit {
         Unit { name: self.entry().2[0].0.to_string(), per_si: 1.0 }
     }
@@ -124,13 +133,13 @@ impl Dimension {
     }
 }
 
-/// What is measured in a unit.
+/// Physical dimension that the unit of this name belongs to.
 pub fn dimension_of(unit: &str) -> Option<Dimension> {
     let has = |sizes: Sizes| sizes.iter().any(|(known, _)| !known.is_empty() && plain(known) == plain(unit));
     DIMENSIONS.iter().find(|(_, _, sizes)| has(sizes)).map(|(dimension, ..)| *dimension)
 }
 
-/// A name without the ways of writing a product, and with letters that every keyboard has.
+/// The name in ASCII (`deg`, `u`) and without signs of products (space, `*`, dots).
 fn plain(name: &str) -> String {
     let name = name.replace('°', "deg").replace(['µ', 'μ'], "u");
     name.replace([' ', '*', '·', '⋅', '.', '\u{a0}'], "")

@@ -35,14 +35,17 @@ impl Profile {
         Ok(Profile { form, rotary })
     }
 
+    /// The same section along the whole beam; `rotary` keeps its rotary inertia.
     pub fn uniform(section: Section, rotary: bool) -> Self {
         Profile { form: Form::Uniform(section), rotary }
     }
 
+    /// True if the section does not depend on s.
     pub fn is_uniform(&self) -> bool {
         matches!(self.form, Form::Uniform(_))
     }
 
+    /// Section at `s`, m from the left end.
     pub fn at(&self, s: f64) -> Section {
         match &self.form {
             Form::Uniform(section) => *section,

@@ -17,10 +17,12 @@ pub struct ReferenceLine {
 }
 
 impl ReferenceLine {
+    /// A straight line of the given length, m.
     pub fn straight(length: f64) -> Self {
         ReferenceLine { length, curvature: [0.0; 3] }
     }
 
+    /// True if twist and curvatures are zero.
     pub fn is_straight(&self) -> bool {
         self.curvature == [0.0; 3]
     }

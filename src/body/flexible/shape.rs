@@ -19,6 +19,7 @@ use crate::math::Scalar;
 /// All the mass of a body.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Inertia<const D: usize> {
+    /// Mass points and rigid parts, with the motion of each under the elastic coordinates.
     pub pieces: Vec<Piece<D>>,
     /// Rotary inertia of the sections of a beam, whose mass is on its line.
     pub discs: Vec<Disc>,
@@ -123,6 +124,7 @@ impl<const D: usize> PointShape<D> {
 /// How a section deforms with the elastic coordinates: extension, shear along y and z, twist, curvature about y and z.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SectionShape {
+    /// Indices of the elastic coordinates that deform the section.
     pub dofs: Vec<usize>,
     /// Strains a coordinate.
     pub strains: Vec<[f64; 6]>,
@@ -135,6 +137,7 @@ pub struct SectionShape {
 pub struct Stretch {
     /// Where it begins and ends on the line, m.
     pub ends: [f64; 2],
+    /// Indices of the elastic coordinates that stretch this part.
     pub dofs: Vec<usize>,
     /// EA times the length, N m.
     pub weight: f64,
@@ -157,6 +160,7 @@ pub trait Line<const D: usize>: Send + Sync {
     fn at_rest(&self, s: f64) -> Frame<f64, D>;
     /// The point at `place` = [s, y(, z)], 0 <= s <= length, which turns with its section.
     fn point(&self, place: [f64; D]) -> PointShape<D>;
+    /// Strains of the section at `s` per unit of each elastic coordinate.
     fn section(&self, s: f64) -> SectionShape;
     /// Stiffness and mass of the section at `s`.
     fn material(&self, s: f64) -> Section;
@@ -168,8 +172,11 @@ pub trait Line<const D: usize>: Send + Sync {
 pub struct Elastic<const D: usize> {
     /// Of the elastic coordinates, such as `n3_y` or `mode2`.
     pub names: Vec<String>,
+    /// Distributed mass with its displacement functions.
     pub inertia: Inertia<D>,
+    /// Stiffness matrix K of the elastic coordinates.
     pub stiffness: Symmetric,
+    /// Damping matrix of the elastic coordinates.
     pub damping: Symmetric,
     /// Empty without geometric stiffening.
     pub stretches: Vec<Stretch>,

@@ -22,6 +22,7 @@ pub struct FlexibleBeam {
     pub theory: Theory,
     /// With `section`; or give `stiffness` and `inertia`.
     pub material: Option<Material>,
+    /// Form and size of the section.
     pub section: Option<SectionShape>,
     /// Instead of `material` and `section`.
     pub stiffness: Option<Stiffness>,
@@ -51,13 +52,17 @@ pub struct FlexibleBeam {
     pub ritz: Option<Ritz>,
 }
 
+/// Coordinates of the beam.
 #[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum FrameKind {
+    /// Small elastic displacements in a frame that moves with the beam.
     Floating,
+    /// Nodes in absolute coordinates with geometrically exact elements between them.
     Absolute,
 }
 
+/// Beam theory of the finite elements.
 #[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq, Default)]
 #[serde(rename_all = "snake_case")]
 pub enum Theory {
@@ -68,6 +73,7 @@ pub enum Theory {
     Timoshenko,
 }
 
+/// Conditions that fix the floating frame to the beam.
 #[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq, Default)]
 #[serde(rename_all = "snake_case")]
 pub enum FrameConditions {
@@ -81,9 +87,11 @@ pub enum FrameConditions {
     Mean,
 }
 
+/// Interpolation of the axial displacement.
 #[derive(Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq, Default)]
 #[serde(rename_all = "snake_case")]
 pub enum Axial {
+    /// Two nodes in each element: constant extension.
     #[default]
     Linear,
     /// A middle node in each element.
@@ -124,7 +132,9 @@ impl Stiffening {
 #[derive(Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "expected a number, an expression such as \"E*b*h\", or a list of these")]
 pub enum OneOrMany {
+    /// One number.
     One(Number),
+    /// A list of numbers.
     Many(Vec<Number>),
 }
 
@@ -162,9 +172,19 @@ pub struct Elasticity {
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum SectionShape {
     /// `height` along y, `width` along z, m.
-    Rectangle { height: Number, width: Number },
+    Rectangle {
+        /// Along y, m.
+        height: Number,
+        /// Along z, m.
+        width: Number,
+    },
     /// A full circle, or a tube with `inner_radius`, m.
-    Circle { radius: Number, inner_radius: Option<Number> },
+    Circle {
+        /// Outer radius, m.
+        radius: Number,
+        /// Inner radius, m. Default: zero.
+        inner_radius: Option<Number>,
+    },
 }
 
 /// Stiffness of a section. Two numbers where a scene in space has two directions; of a `flexible_beam` they may depend on

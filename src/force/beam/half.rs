@@ -36,11 +36,13 @@ pub struct Load<S> {
 }
 
 impl<S: Scalar> Load<S> {
+    /// No load.
     pub fn none() -> Self {
         let zero = [S::zero(); 3];
         Load { force: zero, torque: zero, force_per_length: zero, torque_per_length: zero }
     }
 
+    /// The load with `change` applied to each of its four vectors.
     pub fn map(&self, change: impl Fn(&Vector<S>) -> Vector<S>) -> Self {
         let Load { force, torque, force_per_length, torque_per_length } = self;
         let [force, torque] = [change(force), change(torque)];

@@ -31,5 +31,7 @@ pub use unsolved::Unsolved;
 pub use nalgebra::Complex;
 use nalgebra::DMatrix;
 
+/// Dense real matrix.
 pub type Matrix = DMatrix<f64>;
+/// Dense complex matrix.
 pub type ComplexMatrix = DMatrix<Complex<f64>>;

@@ -2,6 +2,7 @@
 
 use crate::math::kkt::Singular;
 
+/// Reason why a problem of linear algebra has no answer.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Unsolved {
     /// Matrices are not square or do not fit each other.
@@ -12,19 +13,30 @@ pub enum Unsolved {
     NotFinite,
     /// Of `wanted` eigenvalues (or singular values) only `converged` were found.
     #[error("eigenvalues do not converge: {converged} of {wanted} found")]
-    NotConverged { converged: usize, wanted: usize },
+    NotConverged {
+        /// Number found.
+        converged: usize,
+        /// Number asked for.
+        wanted: usize,
+    },
     /// det(A - s E) = 0 for every s, by `dependent` equations that follow from others.
     #[error(
         "A x = s E x has a solution for every s, so no eigenvalues: {dependent} equations depend on others, as those of \
          redundant constraints do"
     )]
-    SingularPencil { dependent: usize },
+    SingularPencil {
+        /// Number of dependent equations.
+        dependent: usize,
+    },
     /// What has to be told from zero (or infinity) is only `gap` times away from what does not.
     #[error(
         "finite and infinite eigenvalues cannot be told apart: only a factor of {gap:.1} lies between them; the equations \
          are badly scaled or nearly redundant"
     )]
-    Doubtful { gap: f64 },
+    Doubtful {
+        /// Ratio of the smallest value taken for nonzero to the largest taken for zero.
+        gap: f64,
+    },
     /// The solution is too large for floating-point numbers.
     #[error("the solution is too large for a floating-point number")]
     Overflow,

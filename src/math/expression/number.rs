@@ -12,7 +12,9 @@ const EXPECTED: &str = "a number or an expression such as \"sqrt(2)*l\"";
 /// A JSON number, or a JSON string with an expression.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Number {
+    /// A finite number.
     Value(f64),
+    /// An expression, as written.
     Text(String),
 }
 

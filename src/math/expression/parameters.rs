@@ -25,8 +25,11 @@ pub enum ParameterSource {
 /// A parameter that cannot be used, with the reason.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParameterError {
+    /// Name of the parameter.
     pub name: String,
+    /// Scene or override that its value comes from.
     pub source: ParameterSource,
+    /// Reason why it cannot be evaluated.
     pub problem: ExpressionError,
 }
 

@@ -5,6 +5,7 @@ use super::{Name, Names, Parameters};
 /// Parameters as constants, and variables by their place in a list: `&["t"]` for fields that may depend on time.
 #[derive(Clone, Copy, Debug)]
 pub struct Scope<'a, T = &'a str> {
+    /// Names that stand for constants.
     pub parameters: &'a Parameters,
     /// Their indices are those of the numbers given to [`Expression::eval`](super::Expression::eval).
     pub variables: &'a [T],

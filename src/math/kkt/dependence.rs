@@ -7,7 +7,9 @@ use crate::tolerances::math as tolerances;
 /// The rank of a matrix, and its dependent rows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Dependence {
+    /// Number of independent rows.
     pub rank: usize,
+    /// Dependent rows, in increasing order.
     pub rows: Vec<DependentRow>,
 }
 
@@ -15,7 +17,9 @@ pub struct Dependence {
 /// Empty for a row of zeros.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DependentRow {
+    /// Index of the dependent row.
     pub row: usize,
+    /// Pairs (row, coefficient).
     pub combination: Vec<(usize, f64)>,
 }
 

@@ -86,10 +86,16 @@ pub trait Solver {
 pub enum Singular {
     /// A direction of motion has neither mass nor constraint; `coordinate` moves most along it.
     #[error("the motion is not determined: coordinate {coordinate} has neither mass nor constraint along a direction")]
-    Undetermined { coordinate: usize },
+    Undetermined {
+        /// Index of the velocity.
+        coordinate: usize,
+    },
     /// M is singular where a method needs its inverse; `coordinate` moves most along the direction without mass.
     #[error("the mass matrix is singular: coordinate {coordinate} has no mass along a direction")]
-    Massless { coordinate: usize },
+    Massless {
+        /// Index of the velocity.
+        coordinate: usize,
+    },
     /// The matrix or a solution is not finite.
     #[error("the saddle-point system or its solution is not finite")]
     NotFinite,

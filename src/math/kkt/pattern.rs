@@ -4,8 +4,11 @@
 /// entries that name the same place add. Every entry lies inside the matrix.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Pattern {
+    /// Number of rows.
     pub rows: usize,
+    /// Number of columns.
     pub cols: usize,
+    /// (row, column) of each entry, in the order of the values.
     pub entries: Vec<(usize, usize)>,
 }
 

@@ -10,14 +10,18 @@ use serde::{Deserialize, Serialize, Serializer};
 #[derive(Serialize, Deserialize, JsonSchema, Clone, Debug, PartialEq)]
 #[serde(untagged, expecting = "expected a number, an expression such as \"E*b*h\", or lists of these")]
 pub enum Table {
+    /// A number, or an expression over the parameters.
     Number(Number),
+    /// A list of numbers or of lists.
     List(Vec<Table>),
 }
 
 /// Numbers with the lengths of their nested lists; the last index runs fastest.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Array {
+    /// Lengths of the nested lists, outermost first; empty for a single number.
     pub shape: Vec<usize>,
+    /// Entries in row-major order.
     pub values: Vec<f64>,
 }
 
@@ -48,6 +52,7 @@ impl Table {
 }
 
 impl Array {
+    /// Array of a single number, of empty shape.
     pub fn number(value: f64) -> Self {
         Array { shape: Vec::new(), values: vec![value] }
     }

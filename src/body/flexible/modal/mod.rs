@@ -20,7 +20,9 @@ use std::path::Path;
 
 /// A body in modal coordinates with the nodes that its markers may name.
 pub struct ModalShapes<const D: usize> {
+    /// Mass, stiffness and damping in modal coordinates.
     pub elastic: Elastic<D>,
+    /// Nodes by name, with the motion of each under the modes.
     pub nodes: Vec<(String, PointShape<D>)>,
 }
 

@@ -45,6 +45,7 @@ pub struct Deflated {
 }
 
 impl Deflated {
+    /// Number of infinite eigenvalues.
     pub fn infinite(&self) -> usize {
         self.levels.iter().sum()
     }
@@ -119,6 +120,7 @@ pub struct Finite {
     pub left: ComplexMatrix,
     /// Condition number of `right`; infinite if its columns are dependent to rounding.
     pub conditioning: f64,
+    /// Numbers of finite and infinite eigenvalues, with the gap that tells them apart.
     pub deflated: Deflated,
 }
 

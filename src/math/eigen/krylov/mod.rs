@@ -19,6 +19,7 @@ pub struct Options {
     pub subspace: Option<usize>,
     /// |apply(x) - theta x| of a converged pair, over the largest |theta|.
     pub tolerance: f64,
+    /// Largest number of restarts.
     pub restarts: usize,
     /// Applications to a start vector before it is used. As many as the largest Jordan block of theta = 0 has rows less one
     /// take out what belongs to infinite eigenvalues of a pencil.

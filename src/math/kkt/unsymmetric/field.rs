@@ -6,8 +6,10 @@ use std::ops::{AddAssign, Mul};
 
 /// `f64` or `c64`.
 pub trait Field: ComplexField + Copy + Send + AddAssign + Mul<f64, Output = Self> {
+    /// Zero of the field.
     const ZERO: Self;
 
+    /// `x` as a number of the field.
     fn real(x: f64) -> Self;
 
     /// The magnitude, up to a factor of two.
