@@ -1,23 +1,23 @@
-//! How a body stands and turns: what angles need of its motion, without the places of its markers.
+//! Orientation and angular velocity of a body: enough for angles, without the positions of its markers.
 
 use super::{Frame, Marker};
 use crate::math::Taylor;
 use crate::math::rotation::axes_from_quaternion;
 use std::array::from_fn;
 
-/// Of a body's own frame, the first one: small rotations by deformation do not change a turn.
+/// Orientation and angular velocity of a body's own frame, marker 0; deformation does not change a counted angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attitude<const D: usize> {
     /// `axes[i]` is its i-th unit axis in the world.
     pub axes: [[f64; D]; D],
-    /// rad, in the plane.
+    /// Angle in the plane, rad; zero in space.
     pub turn: f64,
     /// Angular velocity in the world, rad/s.
     pub spin: [f64; 3],
 }
 
 impl<const D: usize> Attitude<D> {
-    /// In space, of a quaternion and the angular velocity in the body's own axes.
+    /// Attitude in space from a unit quaternion and the angular velocity in the body's own axes, rad/s.
     #[inline]
     pub fn of_quaternion(p: &[f64], w: &[f64]) -> Self {
         let own = axes_from_quaternion(p);
@@ -33,7 +33,7 @@ impl<const D: usize> From<&Frame<Taylor<f64>, D>> for Attitude<D> {
     }
 }
 
-/// A marker as its body's own frame carries it, or the ground.
+/// A marker as if fixed to its body's own frame, or to the ground.
 pub struct Carried<'a, const D: usize> {
     /// Attitude of the body's own frame; `None` is the ground.
     pub body: Option<Attitude<D>>,
@@ -60,7 +60,7 @@ impl<const D: usize> Carried<'_, D> {
         self.body.map_or([0.0; 3], |body| body.spin)
     }
 
-    /// rad, in the plane.
+    /// Angle of the marker in the plane, rad.
     pub fn turn(&self) -> f64 {
         self.body.map_or(0.0, |body| body.turn) + self.marker.turn
     }

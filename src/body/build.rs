@@ -1,4 +1,4 @@
-//! What elements resolve their parts of a scene with.
+//! Names, parameters and checks with which an element reads its part of a scene.
 
 use super::{Probe, Signal, Turned, Turning};
 use crate::error::{Error, Result, Warning, nearest, short, suggest};
@@ -26,7 +26,7 @@ pub struct MarkerTable {
 }
 
 impl MarkerTable {
-    /// Adds a marker; its body's own comes first.
+    /// Adds a marker; that of the body's own frame has to be its first.
     pub fn add(&mut self, name: String, body: Option<usize>, oriented: bool) {
         self.places.insert(name.clone(), self.names.len());
         self.names.push(name);
@@ -34,7 +34,7 @@ impl MarkerTable {
         self.oriented.push(oriented);
     }
 
-    /// Whether a body, or the ground, has this name.
+    /// True if a marker has this name; that of a body or `ground` names its own frame.
     pub fn has_body(&self, name: &str) -> bool {
         self.places.contains_key(name)
     }
@@ -62,40 +62,40 @@ pub struct Build<'a, const D: usize> {
     pub markers: &'a MarkerTable,
     /// Named kinematic outputs that forces may use: name and expression.
     pub outputs: &'a [(String, String)],
-    /// m/s^2
+    /// Acceleration of gravity in world axes, m/s^2.
     pub gravity: [f64; D],
-    /// Where files that the scene names are.
+    /// Folder from which the files that the scene names are found.
     pub folder: &'a Path,
-    /// What its elements have of it so far.
+    /// Switching functions, functions of t and warnings of the elements read so far.
     pub switches: &'a RefCell<Switches>,
     /// Angles to be counted through full turns that elements have asked for so far.
     pub turnings: &'a RefCell<Vec<Turning>>,
 }
 
-/// Where the elements of a scene change their form, and what depends on t alone.
+/// Switching functions of a scene's elements, where their laws change, and functions of t alone.
 #[derive(Clone, Debug, Default)]
 pub struct Switches {
-    /// By number.
+    /// Thresholds of each switching function, by its number.
     pub all: Vec<Switch>,
     /// The element of each, such as "the force `push`".
     pub owners: Vec<String>,
     /// Functions of t alone in the scene's elements.
     pub time_functions: Vec<TimeFunction>,
-    /// What of the scene is doubtful.
+    /// Warnings about values of the scene that are doubtful.
     pub doubts: Vec<Warning>,
-    /// How many of the doubts have the name of their element.
+    /// Number of the doubts whose text already names the element.
     named: usize,
 }
 
 impl Switches {
-    /// Takes those of an expression, and numbers them.
+    /// Adds the switching functions of an expression and numbers them in it.
     fn add(&mut self, expression: &mut Expression) {
         let switches = expression.number_switches(self.all.len());
         self.all.extend(switches);
         self.time_functions.extend(expression.time_functions());
     }
 
-    /// Says to whom all belong that came since the last call.
+    /// Names the owner of all that was added since the last call.
     pub fn own(&mut self, owner: &str) {
         self.owners.resize(self.all.len(), owner.to_string());
         for doubt in &mut self.doubts[self.named..] {
@@ -106,7 +106,7 @@ impl Switches {
 }
 
 impl<const D: usize> Build<'_, D> {
-    /// Says to which element, such as "force" `push`, all belongs that came since the last call.
+    /// Names the element, such as "force" `push`, that all that was added since the last call belongs to.
     pub(crate) fn own(&self, what: &str, name: &str) {
         self.switches.borrow_mut().own(&format!("the {what} `{name}`"));
         let mut turnings = self.turnings.borrow_mut();
@@ -114,19 +114,19 @@ impl<const D: usize> Build<'_, D> {
         unnamed.for_each(|turning| turning.name = format!("{what}.{name}.turn"));
     }
 
-    /// Any finite number.
+    /// Value of a number or expression.
     pub fn number(&self, field: &str, number: &Number) -> Result<f64> {
         number.evaluate(self.parameters).map_err(|error| Error::from(error).under(field))
     }
 
-    /// An angle, rad; more than a turn of it is doubtful.
+    /// An angle, rad, with a warning if it is more than a full turn.
     pub fn angle(&self, field: &str, number: &Number) -> Result<f64> {
         let angle = self.number(field, number)?;
         self.doubt_turns(field, angle);
         Ok(angle)
     }
 
-    /// Angles are in radians, and few mean more than a turn at a start.
+    /// Warns of an angle of more than a full turn, which is probably in degrees.
     pub(crate) fn doubt_turns(&self, field: &str, angle: f64) {
         if angle.abs() > TAU {
             let text =
@@ -136,7 +136,7 @@ impl<const D: usize> Build<'_, D> {
         }
     }
 
-    /// The same, or `default` where none is given.
+    /// Value of a number, or `default` if it is not given.
     pub fn number_or(&self, field: &str, number: &Option<Number>, default: f64) -> Result<f64> {
         number.as_ref().map_or(Ok(default), |number| self.number(field, number))
     }
@@ -173,7 +173,7 @@ impl<const D: usize> Build<'_, D> {
         Ok(value)
     }
 
-    /// N numbers.
+    /// Values of exactly N numbers.
     pub fn vector<const N: usize>(&self, field: &str, numbers: &[Number]) -> Result<[f64; N]> {
         if numbers.len() != N {
             return Err(Error::input(format!("expected {N} numbers, found {}", numbers.len()))
@@ -236,23 +236,23 @@ impl<const D: usize> Build<'_, D> {
         signal.function_of_time().map_err(|error| error.under(field))
     }
 
-    /// The same as [`signal`](Self::signal) in the equations of motion: its switching functions are those of the scene.
+    /// A [`signal`](Self::signal) in the equations of motion: its switching functions are added to those of the scene.
     pub fn acting(&self, field: &str, number: &Number, rates: bool) -> Result<Signal> {
         let mut signal = self.signal(field, number, rates)?;
         self.switches.borrow_mut().add(&mut signal.expression);
         Ok(signal)
     }
 
-    /// The number of a switching function that an element has beside its expressions; zero is its threshold. `switching` of
-    /// its kernel writes the argument at this number; [`Regime::piece`](crate::math::Regime::piece) says on which side of
-    /// zero the law is held within a step: 0 below, 2 above.
+    /// Number of a switching function that an element has in addition to its expressions; its threshold is zero. `switching` of
+    /// its kernel writes the argument at this number; [`Regime::piece`](crate::math::Regime::piece) gives the side of
+    /// zero whose law applies within a step: 0 below, 2 above.
     pub fn switch(&self) -> usize {
         let all = &mut self.switches.borrow_mut().all;
         all.push(Switch { thresholds: vec![0.0], of_time: None });
         all.len() - 1
     }
 
-    /// The number of an angle in space that an element needs counted through full turns; it begins within half a turn of
+    /// Index of an angle in space that an element needs counted through full turns; it begins within half a turn of
     /// `start`. In the plane angles are coordinates.
     pub fn turning(&self, terms: Vec<Turned>, start: f64) -> usize {
         let mut all = self.turnings.borrow_mut();
@@ -262,7 +262,7 @@ impl<const D: usize> Build<'_, D> {
         all.len().saturating_sub(1)
     }
 
-    /// An expression over t and marker quantities; with their rates where `rates` says so.
+    /// An expression over t and marker quantities, and their rates if `rates` is true.
     pub fn signal(&self, field: &str, number: &Number, rates: bool) -> Result<Signal> {
         Signal::parse(&number.to_string(), self, rates).map_err(|error| error.under(field))
     }

@@ -1,4 +1,4 @@
-//! Frames: all that a joint or a force ever sees of a body.
+//! Frames: the position and orientation of a marker, through which joints and forces see a body.
 
 use crate::math::{Dual, Scalar, Taylor};
 use std::array::from_fn;
@@ -22,20 +22,20 @@ pub struct Frame<S, const D: usize> {
 /// Force and torque that act at a marker, in world components. In the plane only `torque[2]` counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wrench<S, const D: usize> {
-    /// N
+    /// Force, N.
     pub force: [S; D],
-    /// N m
+    /// Torque about the marker's origin, N m.
     pub torque: [S; 3],
 }
 
 /// A frame fixed to a rigid body, in the body's axes and from its centre of mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Marker<const D: usize> {
-    /// m
+    /// Position in the body's frame, m.
     pub offset: [f64; D],
     /// Unit axes in the body's axes: `axes[i]` is the i-th.
     pub axes: [[f64; D]; D],
-    /// rad, in the plane.
+    /// Angle against the body in the plane, rad; zero in space.
     pub turn: f64,
 }
 
@@ -65,7 +65,7 @@ impl<S: Scalar, const D: usize> Frame<S, D> {
         Frame { r, axes, turn: self.turn + marker.turn }
     }
 
-    /// The same over other numbers.
+    /// The frame with `change` applied to each number.
     #[inline]
     pub fn map<T: Scalar>(&self, change: impl Fn(S) -> T) -> Frame<T, D> {
         Frame { r: self.r.map(&change), axes: self.axes.map(|axis| axis.map(&change)), turn: change(self.turn) }
@@ -85,7 +85,7 @@ fn add_rotated<S: Scalar, const D: usize>(target: &mut [S; D], axes: &[[S; D]; D
 }
 
 impl<const D: usize> Frame<f64, D> {
-    /// A marker whose axes are given in those of this frame, with axes in those that this frame is given in.
+    /// The marker with its axes, given in those of this frame, in the axes that this frame itself is given in.
     pub fn carry(&self, marker: Marker<D>) -> Marker<D> {
         let Frame { axes, turn, .. } = self.at(&marker);
         Marker { axes, turn, ..marker }
@@ -113,8 +113,8 @@ impl<S: Scalar, const D: usize> Frame<Taylor<S>, D> {
 }
 
 impl<S: Scalar, const D: usize> Frame<S, D> {
-    /// The frame as a function of its own twist: `first` is the direction that moves it along x; rotations are about
-    /// the world's axes through its origin, so de = w x e.
+    /// The frame with its derivatives along its own twist: direction `first` moves it along x; rotations are about the
+    /// world's axes through its origin, so de = w x e.
     #[inline]
     pub fn seeded(&self, first: usize) -> Frame<Dual<S, 6>, D> {
         let mut frame = self.map(Dual::fixed);
@@ -167,7 +167,7 @@ impl<S: Scalar, const D: usize> Wrench<S, D> {
 }
 
 impl<const D: usize> Wrench<f64, D> {
-    /// Its power at a moving frame, W.
+    /// Power of the wrench at a moving frame, f.v + m.w, W.
     pub fn power(&self, frame: &Frame<Taylor<f64>, D>) -> f64 {
         let force: f64 = frame.r.iter().zip(self.force).map(|(r, f)| r.d * f).sum();
         match self.torque == [0.0; 3] {
@@ -192,7 +192,7 @@ pub fn dot<S: Scalar, const D: usize>(a: &[S; D], b: &[S; D]) -> S {
     sum
 }
 
-/// Length of a vector. Where it is zero it has no slope; there the derivatives are zero.
+/// Length of a vector; at zero, where it is not differentiable, the derivatives are zero.
 #[inline]
 pub fn norm<S: Scalar, const D: usize>(a: &[S; D]) -> S {
     let square = dot(a, a);
@@ -211,7 +211,7 @@ pub fn scale<S: Scalar, const D: usize>(a: &[S; D], factor: S) -> [S; D] {
     a.map(|x| x * factor)
 }
 
-/// A vector of a planar scene among those of space.
+/// A vector of the plane as one of space, with z = 0.
 pub fn in_space<const D: usize>(vector: &[f64; D]) -> [f64; 3] {
     from_fn(|i| if i < D { vector[i] } else { 0.0 })
 }

@@ -7,7 +7,7 @@ use super::{
 use crate::math::{Scalar, Taylor};
 use std::array::from_fn;
 
-/// More coordinates than this no [`BodyKernel`] has: they are kept on the stack.
+/// The largest number of coordinates of a [`BodyKernel`]: they are kept on the stack.
 pub const MOST_COORDINATES: usize = 8;
 
 impl<K: BodyKernel<D>, S: Scalar, const D: usize> BodyOver<S, D> for K {
@@ -166,9 +166,9 @@ fn lift(values: &[f64]) -> [Dual6; MOST_COORDINATES] {
     std::array::from_fn(|i| Dual6::fixed(values.get(i).copied().unwrap_or(0.0)))
 }
 
-/// What the tangent of a kernel repeats.
+/// Derivatives of a kernel's own forces, for K and C alike.
 trait Slopes<const D: usize>: BodyKernel<D> {
-    /// Takes the slopes of the own forces from columns `first..` of a square matrix.
+    /// Subtracts the derivatives of the own forces from columns `first..` of a square matrix.
     fn subtract_slopes(&self, (q, v): (&[Dual6], &[Dual6]), gravity: &[f64; D], first: usize, matrix: &mut [f64]) {
         let mut forces = [Dual6::fixed(0.0); MOST_COORDINATES];
         self.own_forces(q, v, gravity, &mut forces[..v.len()]);

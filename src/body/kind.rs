@@ -3,8 +3,7 @@
 use crate::error::Error;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 
-/// One kind of body, joint or force as the scene format, its schema and its errors know it; `build` makes an element from
-/// what a scene says.
+/// A kind of body, joint or force: its type name, its part of the schema, and the function that makes an element from JSON.
 #[derive(Clone, Copy, Debug)]
 pub struct ElementKind<Make> {
     /// Value of `type` in a scene.
@@ -16,13 +15,13 @@ pub struct ElementKind<Make> {
 }
 
 impl<Make> ElementKind<Make> {
-    /// The kind of this name, with the schema of what a scene says of it.
+    /// The kind of this name, with the schema of `Spec`.
     pub fn of<Spec: JsonSchema>(name: &'static str, build: Make) -> Self {
         ElementKind { name, schema: |generator| generator.subschema_for::<Spec>(), build }
     }
 }
 
-/// What its code makes of an element cannot be: it has `what`.
+/// Error for an element that the code of its type has made wrongly: it has `what`.
 pub(crate) fn mistaken(what: String) -> Error {
     Error::input(format!("its type makes an element that has {what}"))
         .under("type")

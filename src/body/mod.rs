@@ -1,6 +1,6 @@
-//! Bodies: what moves, and what it answers at its markers.
+//! Bodies: coordinates, inertia, and the frames of their markers.
 //!
-//! A body owns coordinates q (with q' = N(q) v) and markers. It answers the frames of its markers as functions of q,
+//! A body owns coordinates q (with q' = N(q) v) and markers. It gives the frames of its markers as functions of q,
 //! and pulls a wrench at a marker back to its generalized forces, J^T w. Joints and forces see nothing else.
 //!
 //! To add one: a file with a [`BodySpec`] and a [`BodyKernel`], and a line in [`registry`]; from outside the crate, the same
@@ -51,7 +51,7 @@ use crate::math::{Dual, Scalar, Taylor};
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
-/// Values with their derivatives along six coordinates: the second number every element is evaluated over.
+/// Values with their derivatives along six directions: the second scalar that every element is evaluated over.
 pub type Dual6 = Dual<f64, 6>;
 
 /// The largest number of markers of a joint or force: their frames are kept on the stack.
@@ -70,11 +70,11 @@ pub struct Energy<S = f64> {
 /// The equations of a rigid body of a few coordinates, at most [`MOST_COORDINATES`], with a constant M, written once over any
 /// scalar. Bodies beyond that implement [`Body`] and [`BodyOver`] themselves.
 pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
-    /// Coordinate names without the body's, such as `x` or `qw`.
+    /// Coordinate names without that of the body, such as `x` or `qw`.
     fn coordinate_names(&self) -> Vec<&'static str>;
-    /// Velocity names without the body's, such as `x'` or `wx`.
+    /// Velocity names without that of the body, such as `x'` or `wx`.
     fn velocity_names(&self) -> Vec<&'static str>;
-    /// The markers that it was made with, in their order.
+    /// The markers given to [`BodySpec::build`], in their order.
     fn markers(&self) -> &[Marker<D>];
 
     /// q' = N(q) v, with N affine in q: constant for positions, linear for quaternions. Default: N = I.
@@ -98,10 +98,10 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
     fn mass_pattern(&self) -> Vec<(usize, usize)> {
         (0..self.velocity_names().len()).map(|i| (i, i)).collect()
     }
-    /// M, which is constant in the coordinates of such a body.
+    /// Mass matrix M, constant for such a body: `values` at the places of [`mass_pattern`](Self::mass_pattern).
     fn mass(&self, values: &mut [f64]);
 
-    /// Whether its markers have an orientation.
+    /// True if its markers have an orientation; false for a point mass.
     fn oriented(&self) -> bool {
         true
     }
@@ -135,9 +135,9 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
 pub trait BodyOver<S: Scalar, const D: usize> {
     /// `qdot` = N(q) v.
     fn rate(&self, q: &[S], v: &[S], qdot: &mut [S]);
-    /// Frames with their velocities, and their accelerations at v' = `vdot` (zero where it is not given).
+    /// Frames of the markers with their velocities, and their accelerations at v' = `vdot` (zero if not given).
     fn motion(&self, q: &[S], v: &[S], vdot: Option<&[S]>, out: &mut [Frame<Taylor<S>, D>]);
-    /// f += J^T w for a wrench at the frame of marker `marker`; f has the velocities of its [`support`](Body::support).
+    /// f += J^T w for a wrench at the frame of marker `marker`; f is indexed as its [`support`](Body::support).
     fn pull_back(&self, marker: usize, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]);
     /// Kinetic energy, and potential energy of weight and of the body's own deformation, J.
     fn energy(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S>;
@@ -156,15 +156,15 @@ pub struct BodyState<'a, const D: usize> {
     pub gravity: &'a [f64; D],
 }
 
-/// A line that bends with the elastic coordinates q of its body.
+/// Centre line of a beam in a floating frame, which deforms with the elastic coordinates of its body.
 #[derive(Clone, Copy)]
 #[doc(hidden)]
 pub struct Bent<'a, const D: usize> {
     /// Undeformed line with the displacement functions of its points.
     pub line: &'a dyn flexible::Line<D>,
-    /// Of geometric stiffening, along the line.
+    /// Parts of the line with geometric stiffening; empty without it.
     pub stretches: &'a [flexible::Stretch],
-    /// Place of the first elastic coordinate among those of the body.
+    /// Index of the first elastic coordinate among those of the body.
     pub first: usize,
 }
 
@@ -176,49 +176,49 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Dual6, D> + Send + S
     fn velocity_names(&self) -> Vec<String>;
     /// Number of markers on the body, its own frame among them.
     fn marker_count(&self) -> usize;
-    /// Where a marker is on the body.
+    /// Position and axes of a marker on the body.
     fn marker(&self, index: usize) -> &Marker<D>;
-    /// The velocities that move a marker, in increasing order.
+    /// Indices of the velocities that move a marker, in increasing order.
     fn support(&self, marker: usize) -> Vec<usize>;
     /// Places of the mass matrix's lower triangle, each once.
     fn mass_pattern(&self) -> Vec<(usize, usize)>;
     /// Mass matrix M(q): `values` at the places of [`mass_pattern`](Body::mass_pattern).
     fn mass(&self, q: &[f64], values: &mut [f64]);
-    /// values += stiffness of the body against its own deformation, at the places of M: what assembly spares.
+    /// values += stiffness of the body against its own deformation, at the places of M, for the weights of assembly.
     fn add_stiffness(&self, values: &mut [f64]);
-    /// f += weight, velocity-dependent inertia forces, and what deforming the body itself takes.
+    /// f += weight, velocity-dependent inertia forces, and the body's own elastic and damping forces.
     fn own_forces(&self, q: &[f64], v: &[f64], gravity: &[f64; D], f: &mut [f64]);
-    /// Places of K and C of the body itself.
+    /// Places of the values of K and C of the body itself.
     fn tangent_pattern(&self) -> Vec<(usize, usize)>;
     /// k += d(M v' - f)/dq along the directions of v, c += d(M v' - f)/dv, with f the own forces.
     fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]);
-    /// Power that its damping takes, W.
+    /// Power dissipated by its damping, W.
     fn dissipation(&self, v: &[f64]) -> f64;
     /// Brings redundant coordinates (a quaternion) back to their normal form.
     fn normalize(&self, q: &mut [f64]);
-    /// Whether its markers have an orientation.
+    /// True if its markers have an orientation; false for a point mass.
     fn oriented(&self) -> bool;
-    /// The first of three velocities that are an angular velocity in the body's own axes; none where N = I.
+    /// Index of the first of three velocities that are an angular velocity in the body's own axes; `None` if N = I.
     fn turning(&self) -> Option<usize>;
-    /// How its own frame stands and turns.
+    /// Orientation and angular velocity of its own frame.
     fn attitude(&self, q: &[f64], v: &[f64]) -> Attitude<D>;
-    /// Whether M does not depend on q.
+    /// True if M does not depend on q.
     fn has_constant_mass(&self) -> bool;
     /// Largest distance of a marker from the origin of the coordinates, m.
     fn reach(&self) -> f64;
-    /// How many of the coordinates are elastic: the last ones.
+    /// Number of elastic coordinates, which are the last ones.
     fn elastic_count(&self) -> usize;
-    /// More coordinates than this it cannot have. Default: as many as it likes.
+    /// Largest number of coordinates it may have. Default: no limit.
     fn most_coordinates(&self) -> usize {
         usize::MAX
     }
-    /// Shapes of its markers, where it has elastic coordinates.
+    /// Displacement functions of its markers; empty for a rigid body.
     fn shapes(&self) -> &[flexible::PointShape<D>];
-    /// Of a beam in a floating frame.
+    /// Centre line, if it is a beam in a floating frame.
     fn bent(&self) -> Option<Bent<'_, D>>;
 }
 
-/// A body ready for the model, with the start its scene gives.
+/// A body ready for the model, with the initial q and v that its scene gives.
 pub struct Built<const D: usize> {
     /// The body with its markers.
     pub body: Box<dyn Body<D>>,
@@ -229,7 +229,7 @@ pub struct Built<const D: usize> {
 }
 
 impl<const D: usize> Built<D> {
-    /// Refuses what the model cannot hold: a mistake in the type's own code, not in a scene.
+    /// Refuses a body of inconsistent sizes: a mistake in the code of its type, not in a scene.
     fn checked(self, markers: usize) -> Result<Self> {
         let Built { body, q, v } = &self;
         let sizes = [
@@ -251,14 +251,14 @@ impl<const D: usize> Built<D> {
     }
 }
 
-/// What a scene says of a kind of body beside [`SHARED_KEYS`].
+/// The keys of a kind of body in a scene, without [`SHARED_KEYS`], and the body they make.
 pub trait BodySpec: DeserializeOwned + JsonSchema {
-    /// The name by which scenes call it.
+    /// Its `type` in scenes.
     const TYPE: &'static str;
-    /// Makes the body with these markers, of which the first is its own frame, and its start by what `initial` says.
+    /// Makes the body with these markers, of which the first is its own frame, and its initial q and v from `initial`.
     ///
     /// # Errors
-    /// What a scene may say wrong: [`Build`] has the checks.
+    /// Keys with values that are not valid; [`Build`] has the checks.
     fn build<const D: usize>(&self, markers: Vec<Marker<D>>, initial: &Initial, build: &Build<D>) -> Result<Built<D>>;
 }
 
@@ -275,7 +275,7 @@ pub fn kind<T: BodySpec, const D: usize>() -> BodyKind<D> {
     })
 }
 
-/// The keys that all bodies have beside those of their kind.
+/// The keys that all kinds of bodies share.
 #[doc(hidden)]
 pub const SHARED_KEYS: [&str; 5] = ["name", "type", "markers", "initial", "origin"];
 

@@ -1,4 +1,4 @@
-//! Types out of JSON, with errors in a user's words.
+//! Types parsed from JSON, with errors that a user understands.
 
 use crate::error::{Error, Result, excerpt, suggest};
 use serde::de::DeserializeOwned;
@@ -10,7 +10,7 @@ pub fn parse<T: DeserializeOwned>(json: Value) -> Result<T> {
     parse_among(json, &[])
 }
 
-/// The same for a part of an element whose other keys, `shared`, have been taken off: a misspelled key may be meant as
+/// Reads a type from an element whose other keys, `shared`, have been removed: a misspelled key may be meant as
 /// one of them.
 pub fn parse_among<T: DeserializeOwned>(json: Value, shared: &[&str]) -> Result<T> {
     serde_path_to_error::deserialize(&json).map_err(|error| {
@@ -32,7 +32,7 @@ fn at<'a>(json: &'a Value, path: &Path) -> &'a Value {
     path.iter().try_fold(json, |value, segment| enter(value, segment).ok_or(value)).unwrap_or_else(|deepest| deepest)
 }
 
-/// serde's words in those of a user: what is wanted, what was found, which name was meant.
+/// Rewrites serde's message: what is expected, what was found, and the nearest known name.
 fn explain(message: &str, found: &Value, shared: &[&str]) -> Error {
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     let (name, known) = quoted.split_first().unwrap_or((&"?", &[]));
@@ -63,7 +63,7 @@ fn explain(message: &str, found: &Value, shared: &[&str]) -> Error {
     }
 }
 
-/// What serde expects.
+/// Plain name of what serde expects, such as `a whole number` for `u32`.
 fn in_words(expected: &str) -> String {
     match expected {
         "u8" | "u32" | "u64" | "usize" | "i32" | "i64" => "a whole number".to_string(),

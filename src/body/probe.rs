@@ -15,12 +15,12 @@ pub struct Probe {
     pub quantity: Quantity,
 }
 
-/// What a probe reads.
+/// Quantity of a marker that a probe reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// World coordinate of the marker's origin, m.
     Position(usize),
-    /// Its rate, m/s.
+    /// World component of the velocity of the marker's origin, m/s.
     Velocity(usize),
     /// Angle of turn in the plane, rad.
     Angle,
@@ -51,7 +51,7 @@ impl Probe {
         matches!(self.quantity, Quantity::Velocity(_) | Quantity::Spin(_))
     }
 
-    /// A position-level quantity off a frame; rates need [`Probe::read`].
+    /// Value of a position or angle at a frame; rates need [`Probe::read`].
     pub fn position<S: Scalar, const D: usize>(&self, frame: &Frame<S, D>) -> S {
         match self.quantity {
             Quantity::Position(axis) => frame.r[axis],
@@ -59,7 +59,7 @@ impl Probe {
         }
     }
 
-    /// Any quantity off a frame that moves.
+    /// Value of the quantity at a moving frame.
     pub fn read<S: Scalar, const D: usize>(&self, frame: &Frame<Taylor<S>, D>) -> S {
         match self.quantity {
             Quantity::Position(axis) => frame.r[axis].x,
@@ -79,11 +79,11 @@ pub struct Signal {
     pub probes: Vec<Probe>,
 }
 
-/// So many probes a signal may read: they are evaluated on the stack.
+/// The largest number of probes of a signal: they are evaluated on the stack.
 pub const MOST_PROBES: usize = 24;
 
 impl Signal {
-    /// Parses `text`; named outputs are put in as their own expressions.
+    /// Parses `text`; names of outputs are replaced by their expressions.
     pub fn parse<const D: usize>(text: &str, build: &Build<D>, rates: bool) -> Result<Signal> {
         let names = Scope { build, rates, probes: Default::default() };
         let expression = Expression::parse(&expand(text, build)?, &names)?;
@@ -107,7 +107,7 @@ impl Signal {
         }
     }
 
-    /// The markers it reads, in the order of its probes, each once.
+    /// The markers that it reads, each once, in the order of its probes.
     pub fn markers(&self) -> Vec<MarkerId> {
         let mut markers = Vec::new();
         for probe in &self.probes {
@@ -118,7 +118,7 @@ impl Signal {
         markers
     }
 
-    /// Value with `read` for the probes.
+    /// Value of the expression, with `read` for the values of the probes.
     pub fn evaluate<S: Scalar>(&self, time: Time<S>, read: impl Fn(&Probe) -> S) -> S {
         self.with(time, read, |variables| self.expression.eval_held(variables, time.regime))
     }
@@ -137,7 +137,7 @@ impl Signal {
     }
 }
 
-/// Expressions never need more bytes than this.
+/// Largest length of an expression with its outputs replaced, bytes.
 const LONGEST: usize = 1_000_000;
 
 /// Replaces names of outputs by their expressions in brackets, as deep as outputs use outputs.

@@ -1,4 +1,4 @@
-//! What a scene says of a rigid body, and which kind of coordinates it needs.
+//! Rigid body: its keys in a scene, and the choice of its coordinates.
 
 use super::guided::Guided;
 use super::rigid_planar::RigidPlanar;
@@ -110,7 +110,7 @@ impl Initial {
         Ok((quaternion, spin))
     }
 
-    /// Position and velocity of the body's origin.
+    /// Position, m, and velocity, m/s, of the body's origin in the world.
     pub fn translation<const D: usize>(&self, build: &Build<D>) -> Result<([f64; D], [f64; D])> {
         let position = start_vector::<D>("initial.position", &self.position, build)?;
         Ok((position, start_vector::<D>("initial.velocity", &self.velocity, build)?))
@@ -250,13 +250,13 @@ impl Rigid {
     }
 }
 
-/// Refuses a tensor that no distribution of mass has: principal moments must be >= 0 and each at most the sum of the
+/// Refuses an inertia tensor that no mass distribution has: principal moments must be >= 0 and each at most the sum of the
 /// other two.
 fn physical(tensor: &Matrix3) -> Result<()> {
     let mut moments: Vec<f64> =
         SymmetricEigen::new(Tensor::from_fn(|i, j| tensor[i][j])).eigenvalues.iter().copied().collect();
     moments.sort_by(f64::total_cmp);
-    // Data come rounded to a few digits, so a thin rod may miss the bound by rounding.
+    // Data are rounded to a few digits, so a thin rod may miss the bound by rounding.
     let slack = 1e-6 * moments[2].abs();
     if moments[0] < -slack {
         return Err(Error::input(format!(

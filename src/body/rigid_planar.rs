@@ -7,7 +7,7 @@ use std::array::from_fn;
 /// M = diag(m, m, I): constant, so there are no velocity-dependent forces.
 pub struct RigidPlanar<const D: usize> {
     inertia: [f64; 3],
-    /// Where (x, y, angle) stand among the coordinates; `None` is held at `rest`.
+    /// Index of x, y and angle among the coordinates; `None` is fixed at its value in `rest`.
     slots: [Option<usize>; 3],
     rest: [f64; 3],
     markers: Vec<Marker<D>>,

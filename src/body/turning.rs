@@ -1,8 +1,8 @@
 //! Angles in space that are counted through full turns.
 //!
-//! Quaternions give an angle up to full turns, so that the state carries it beside them, as it carries four numbers for a
-//! rotation: a = sum_i z_i atan2(s_i, c_i), s_i = e_y . b_x and c_i = e_x . b_x, brought back to what the quaternions say at
-//! every accepted state. Between those a' is integrated, which tells the turn however far a step goes.
+//! Quaternions give an angle up to full turns, so the state has it as a further coordinate, as it has four numbers for a
+//! rotation: a = sum_i z_i atan2(s_i, c_i), s_i = e_y . b_x and c_i = e_x . b_x, corrected to the value of the quaternions at
+//! every accepted state. In between a' is integrated, which gives the number of full turns for steps of any size.
 
 use super::{Carried, MarkerId, cross, dot, sub};
 use crate::math::Regime;
@@ -20,19 +20,19 @@ pub struct Turned {
     pub factor: f64,
 }
 
-/// A sum of angles that some element needs counted through full turns.
+/// A sum of angles that an element needs counted through full turns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Turning {
-    /// Of the coordinate.
+    /// Name of its coordinate in q.
     pub name: String,
     /// Terms of the sum.
     pub terms: Vec<Turned>,
-    /// It begins within half a turn of this, rad.
+    /// The angle at the start is within half a turn of this, rad.
     pub start: f64,
 }
 
 impl Turned {
-    /// c, s and the rate of the angle, rad/s, but for steep axes: (w_b - w_e) . b_x x (c e_y - s e_x)/(c^2 + s^2).
+    /// c, s and the rate of the angle, rad/s: (w_b - w_e) . b_x x (c e_y - s e_x)/(c^2 + s^2); zero if b_x is nearly along e_z.
     #[inline]
     fn at<'m, const D: usize>(&self, marker: impl Fn(MarkerId) -> Carried<'m, D>) -> [f64; 3] {
         let (of, to) = (marker(self.of), marker(self.to));
@@ -45,13 +45,13 @@ impl Turned {
 }
 
 impl Turning {
-    /// Its rate, rad/s, but for steep axes.
+    /// Rate of the sum, rad/s; a term whose x axis is nearly along the z axis of `to` counts as zero.
     #[inline]
     pub fn rate<'m, const D: usize>(&self, marker: impl Fn(MarkerId) -> Carried<'m, D>) -> f64 {
         self.terms.iter().map(|term| term.factor * term.at(&marker)[2]).sum()
     }
 
-    /// The angle next to `before`, or that itself where there is none.
+    /// The value of the angle, known up to full turns, that is nearest to `before`; `before` itself if the angle is undefined.
     pub fn next_to<'m, const D: usize>(&self, before: f64, marker: impl Fn(MarkerId) -> Carried<'m, D>) -> f64 {
         let mut sum = 0.0;
         for term in &self.terms {

@@ -110,7 +110,7 @@ impl<const D: usize> JointKernel<D> for Drive<D> {
     }
 }
 
-/// Cosine and sine of the angle of B against A about A's joint axis.
+/// Cosine and sine of the angle of B relative to A about A's joint axis.
 pub fn relative_turn<S: Scalar, const D: usize>(axes: &Lock<D>, a: &Frame<S, D>, b: &Frame<S, D>) -> (S, S) {
     let x = axes.axis(b, 0);
     (dot(&axes.axis(a, 0), &x), dot(&axes.axis(a, 1), &x))

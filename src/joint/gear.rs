@@ -56,7 +56,7 @@ impl JointSpec for Gear {
 struct Pair {
     teeth: [f64; 2],
     offset: f64,
-    /// Number of z1 angle1 + z2 angle2 in space.
+    /// Index of the counted angle z1 angle1 + z2 angle2, in space.
     turning: usize,
 }
 

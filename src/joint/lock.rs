@@ -7,17 +7,17 @@ use crate::math::expression::Number;
 use crate::math::{Scalar, Time};
 use std::array::from_fn;
 
-/// What stays of the relative motion of marker B against marker A.
+/// Locks some relative translations and rotations of marker B against marker A.
 ///
 /// Translation rows: e_i . (r_B - r_A), along world axes when all are locked (then G is constant in r), else along the
 /// axes of A. Rotation rows: in the plane turn_B - turn_A; in space e_i(A) . e_j(B) for pairs of different axes. The
-/// pairs of a joint share one axis, so that no row loses its slope at a quarter turn about the free axis, as cyclic
-/// pairs would.
+/// pairs of a joint share one axis, so that no row of G vanishes at a quarter turn about the free axis, as with cyclic
+/// pairs.
 #[derive(Clone)]
 pub struct Lock<const D: usize> {
-    /// Axes of A along which B is held.
+    /// Axes of A along which B is locked.
     pub translation: &'static [usize],
-    /// Pairs of axes (of A, of B) held at right angles; in the plane any pair stands for the angle.
+    /// Pairs of axes (of A, of B) kept at right angles; in the plane any pair stands for the angle.
     pub rotation: &'static [(usize, usize)],
     /// The joint's axes in both markers, by rows.
     pub triad: Option<[[f64; D]; D]>,
@@ -36,13 +36,13 @@ impl<const D: usize> Lock<D> {
         Lock { translation, rotation, triad: None }
     }
 
-    /// The same with the `principal` joint axis along `direction` in both markers instead of along the marker's own.
+    /// The joint with its axis number `principal` along `direction` in both markers instead of along the marker's own axis.
     pub fn along(mut self, principal: usize, direction: Option<[f64; D]>) -> Self {
         self.triad = direction.map(|direction| triad(principal, direction));
         self
     }
 
-    /// Checks that the markers can be held so, and names them.
+    /// The joint between two markers, which must be on different bodies and have an orientation if a rotation is locked.
     pub fn between(self, names: &[String; 2], build: &Build<D>) -> Result<Built<D>> {
         let markers = build.between(names)?;
         if !self.rotation.is_empty() {
@@ -79,7 +79,7 @@ impl<const D: usize> JointKernel<D> for Lock<D> {
 
     fn joint_axis(&self, first: &Frame<f64, D>) -> Option<Axis> {
         match (D, self.translation.len()) {
-            // A hinge in the plane has its axis out of it; balls and crosses have none.
+            // A hinge in the plane has its axis normal to it; spherical and universal joints have none.
             (2, 2) => None,
             (3, 3) if self.rotation.len() < 2 => None,
             (2, _) => Some(Axis::Along(in_space(&self.axis(first, 0)))),
@@ -105,7 +105,7 @@ impl<const D: usize> JointKernel<D> for Lock<D> {
     }
 }
 
-/// Right-handed orthonormal axes, by rows, of which number `principal` is `direction`.
+/// Right-handed orthonormal axes, by rows; number `principal` is along `direction`.
 fn triad<const D: usize>(principal: usize, direction: [f64; D]) -> [[f64; D]; D] {
     let mut axes = unit_axes::<f64, D>();
     let length = dot(&direction, &direction).sqrt();

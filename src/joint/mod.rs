@@ -34,19 +34,19 @@ pub const MOST_ROWS: usize = 6;
 /// The axis of a joint, a direction in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Axis {
-    /// The second marker slides along it through the first, or turns freely about it.
+    /// The second marker translates along it through the first, or rotates freely about it.
     Along([f64; 3]),
-    /// The joint says how far the second marker is turned about it.
+    /// The joint prescribes the rotation of the second marker about it.
     Turn([f64; 3]),
 }
 
 /// A joint's equations, written once over any scalar.
 pub trait JointKernel<const D: usize>: Send + Sync + 'static {
-    /// A name for each row, 1 to [`MOST_ROWS`]: the direction it holds. Rows named `x`, `y`, `z` and `length` are in metres,
+    /// A name for each row, 1 to [`MOST_ROWS`]: the direction it constrains. Rows named `x`, `y`, `z` and `length` are in metres,
     /// all others in radians: drift is measured in these units. A single row `length` is that of a rod, whose tension
     /// outputs can read; that of a single row `angle` is a torque.
     fn row_names(&self) -> Vec<&'static str>;
-    /// Whether phi reads `time`: where it says no, phi_t is zero.
+    /// True if phi depends on t explicitly; phi_t is taken as zero if not.
     fn depends_on_time(&self) -> bool;
     /// Its axis with the first marker at `first`, if it has one.
     fn joint_axis(&self, _first: &Frame<f64, D>) -> Option<Axis> {
@@ -60,12 +60,12 @@ pub trait JointKernel<const D: usize>: Send + Sync + 'static {
     fn switching(&self, _frames: &[Frame<Rate, D>], _time: Time<Rate>, _out: &mut [Rate]) {}
 }
 
-/// A joint over one scalar: what the model calls.
+/// A joint over one scalar, as the model calls it.
 pub trait JointOver<S: Scalar, const D: usize> {
     /// phi, phi' and phi'' along the motion of the frames.
     fn levels(&self, frames: &[Frame<Taylor<S>, D>], time: Time<Taylor<S>>, out: &mut [Taylor<S>]);
     /// d(phi)/d(twist) for the markers of pass `pass`: markers 2 pass and 2 pass + 1 in the plane (three components
-    /// each), marker `pass` in space (six components). One array a row.
+    /// each), marker `pass` in space (six components). `out` has one array for each row of phi.
     fn gradient(&self, frames: &[Frame<Taylor<S>, D>], time: Time<S>, pass: usize, out: &mut [[S; 6]]);
 }
 
@@ -75,9 +75,9 @@ pub trait Joint<const D: usize>: JointOver<f64, D> + JointOver<Dual6, D> + Send 
     fn row_names(&self) -> Vec<&'static str>;
     /// True if phi depends on t explicitly.
     fn depends_on_time(&self) -> bool;
-    /// Axis along or about which the joint is free, from the frame of its first marker.
+    /// Axis of the joint with its first marker at `first`, if it has one.
     fn joint_axis(&self, first: &Frame<f64, D>) -> Option<Axis>;
-    /// Event functions with their rates: the joint changes its form where one changes sign.
+    /// Writes the arguments of its switching functions, with their rates, at their numbers.
     fn switching(&self, frames: &[Frame<Rate, D>], time: Time<Rate>, out: &mut [Rate]);
 }
 
@@ -129,7 +129,7 @@ impl<K: JointKernel<D>, const D: usize> Joint<D> for K {
     }
 }
 
-/// A joint ready for the model, with the markers it sees.
+/// A joint ready for the model, with its markers.
 pub struct Built<const D: usize> {
     /// The kernel, boxed.
     pub joint: Box<dyn Joint<D>>,
@@ -138,7 +138,7 @@ pub struct Built<const D: usize> {
 }
 
 impl<const D: usize> Built<D> {
-    /// Refuses what the model cannot hold: a mistake in the type's own code, not in a scene.
+    /// Refuses too few or too many rows or markers: a mistake in the code of the type, not in a scene.
     fn checked(self) -> Result<Self> {
         let (rows, markers) = (self.joint.row_names().len(), self.markers.len());
         match ((1..=MOST_ROWS).contains(&rows), (1..=MOST_MARKERS).contains(&markers)) {
@@ -149,16 +149,16 @@ impl<const D: usize> Built<D> {
     }
 }
 
-/// What a scene says of a kind of joint beside its name and type. Derive `serde::Deserialize`, with `deny_unknown_fields`,
+/// The keys of a kind of joint in a scene, without name and type. Derive `serde::Deserialize`, with `deny_unknown_fields`,
 /// and `schemars::JsonSchema`; doc comments become those of the schema. A field of type
 /// [`Number`](crate::math::expression::Number) may be an expression.
 pub trait JointSpec: DeserializeOwned + JsonSchema {
-    /// The name by which scenes call it.
+    /// Its `type` in scenes.
     const TYPE: &'static str;
     /// Makes the joint in the plane (D = 2) or in space (D = 3).
     ///
     /// # Errors
-    /// What a scene may say wrong: [`Build`] has the checks.
+    /// Keys with values that are not valid; [`Build`] has the checks.
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>>;
 }
 

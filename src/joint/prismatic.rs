@@ -31,5 +31,5 @@ impl JointSpec for Prismatic {
     }
 }
 
-/// In the plane one row holds the angle.
+/// In the plane one row locks the angle.
 pub const ALL_IN_PLANE: &[(usize, usize)] = &[(0, 1)];

@@ -1,4 +1,4 @@
-//! Vectors and matrices of the plane or of space alike; angular quantities have three components in both.
+//! Vectors and matrices of the plane or of space; angular quantities have three components in both.
 
 use crate::math::Scalar;
 use std::array::from_fn;
@@ -16,7 +16,7 @@ pub(super) fn spin<S: Scalar, const D: usize>(w: &[S; 3], u: &[S; D]) -> [S; D] 
     })
 }
 
-/// int u x v out of int u v^T.
+/// int u x v from m = int u v^T.
 #[inline]
 pub(super) fn axial<S: Scalar, const D: usize>(m: &Matrix<S, D>) -> [S; 3] {
     match D {
@@ -48,7 +48,7 @@ pub(super) fn swung<S: Scalar, const D: usize>(m: &Matrix<S, D>, w: &[S; 3]) -> 
     from_fn(|k| trace * w[k] - along[k])
 }
 
-/// (w x u) . (w x v) summed, out of int u v^T: w.w tr(m) - w.m w.
+/// int (w x u) . (w x v) from m = int u v^T: w.w tr(m) - w.m w.
 #[inline]
 pub(super) fn whirled<S: Scalar, const D: usize>(m: &Matrix<S, D>, w: &[S; 3]) -> S {
     dot3(w, &swung(m, w))
@@ -82,7 +82,7 @@ where
     sum.iter_mut().zip(matrix).for_each(|(sum, row)| add_scaled(sum, factor, row));
 }
 
-/// Unit vector.
+/// Unit vector along axis k.
 #[inline]
 pub(super) fn unit(k: usize) -> [f64; 3] {
     from_fn(|i| if i == k { 1.0 } else { 0.0 })

@@ -8,7 +8,7 @@
 //! moment = J w_s' + w_s x J w_s
 //! ```
 //!
-//! and resists the frame's turn by R moment, q_i by r_i . T^T moment. Its energy is a square at any a, so that the mass matrix
+//! Its reaction to the frame's rotation is R moment, to q_i it is r_i . T^T moment. Its energy is a square at any a, so that the mass matrix
 //! of the body stays positive at any deformation; integrals to a finite order in q would not keep it so. In the plane
 //! w_s = w + a': a constant mass, and nothing else.
 
@@ -22,7 +22,7 @@ use std::array::from_fn;
 
 type Matrix3 = [[f64; 3]; 3];
 
-/// What turns a disc in space: the frame, and a in it.
+/// Rotation of a disc in space: that of the frame, and a in it.
 struct Turning<S> {
     /// w and w'
     frame: [[S; 3]; 2],
@@ -30,7 +30,7 @@ struct Turning<S> {
     own: [[S; 3]; 3],
 }
 
-/// What a disc resists: the turn of the frame, and a.
+/// Inertia moments of a disc against the rotation of the frame and against a.
 struct Resistance<S> {
     frame: [S; 3],
     own: [S; 3],
@@ -66,7 +66,7 @@ impl<S: Scalar> Turning<S> {
     }
 }
 
-/// The three blocks of a disc's mass: of the frame's turn, of a against it, of a.
+/// The three blocks of a disc's mass matrix: frame rotation, coupling of a with it, and a.
 struct Mass {
     frame: Matrix3,
     mixed: Matrix3,
@@ -90,7 +90,7 @@ impl Mass {
 }
 
 impl<const D: usize> Floating<D> {
-    /// Values of M that the discs have in the plane.
+    /// Contributions (place, value) of the discs to M in the plane, where they are constant.
     pub(super) fn constant_mass(&self) -> Vec<(usize, f64)> {
         if D == 3 {
             return Vec::new();
@@ -126,7 +126,7 @@ impl<const D: usize> Floating<D> {
         }
     }
 
-    /// f -= what of the resistance the velocities make.
+    /// f -= velocity-dependent part of the discs' inertia forces.
     pub(super) fn add_disc_forces(&self, q: &[f64], v: &[f64], f: &mut [f64]) {
         for disc in self.elastic.inertia.discs.iter().filter(|_| D == 3) {
             let resistance = Turning::of::<D>(disc, q, v, &[]).resistance(&disc.inertia);
@@ -151,7 +151,7 @@ impl<const D: usize> Floating<D> {
         self.elastic.inertia.discs.iter().fold(S::zero(), |sum, disc| sum + energy(disc))
     }
 
-    /// K and C of the resistance.
+    /// Adds the discs' inertia forces to K and C.
     pub(super) fn add_disc_tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]) {
         let discs = self.elastic.inertia.discs.iter().zip(&self.layout.discs);
         for (disc, places) in discs.filter(|_| D == 3) {
@@ -176,11 +176,11 @@ impl<const D: usize> Floating<D> {
     }
 }
 
-/// Slopes of a resistance by a, a' and w.
+/// Derivatives of the inertia moments by a, a' and w.
 struct Slopes(Resistance<Dual<f64, 9>>);
 
 impl Slopes {
-    /// Along a direction of the vector `by`: 0 a, 1 a', 2 w.
+    /// Derivative along a direction of a (`by` = 0), a' (1) or w (2).
     fn along(&self, by: usize, direction: &[f64; 3]) -> ([f64; 3], [f64; 3]) {
         let slope = |x: &Dual<f64, 9>| (0..3).map(|k| x.eps[3 * by + k] * direction[k]).sum();
         (from_fn(|i| slope(&self.0.frame[i])), from_fn(|i| slope(&self.0.own[i])))

@@ -4,7 +4,7 @@ use super::{Floating, frame_coordinates, frame_velocities};
 use crate::body::flexible::{Stretch, Symmetric};
 use crate::math::Scalar;
 
-/// The mean extension a.q and squared slope q.S q of a stretch.
+/// The mean extension a.q and mean squared slope q.S q of a stretch.
 struct Means<S> {
     axial: S,
     squared: S,
@@ -28,7 +28,7 @@ fn steepness<S: Scalar>(stretch: &Stretch, i: usize, q: &[S]) -> S {
 }
 
 impl<const D: usize> Floating<D> {
-    /// f -= K q + D q' + dV/dq with V = sum weight (a.q q.S q + quartic (q.S q)^2/4)/2 of stiffening.
+    /// f -= K q + D q' + dV/dq, with V = sum weight (a.q q.S q + quartic (q.S q)^2/4)/2 of geometric stiffening.
     pub(super) fn add_elastic_forces(&self, q: &[f64], v: &[f64], f: &mut [f64]) {
         let (q, v) = (&q[frame_coordinates(D)..], &v[frame_velocities(D)..]);
         let f = &mut f[frame_velocities(D)..];
@@ -86,7 +86,7 @@ pub(super) fn half_square<S: Scalar>(matrix: &Symmetric, x: &[S]) -> S {
     matrix.iter().fold(S::zero(), |sum, &(i, j, value)| sum + x[i] * x[j] * (factor(i, j) * value))
 }
 
-/// Both triangles of a symmetric matrix.
+/// Adds an entry to both triangles of a symmetric matrix.
 fn add(&(i, j, value): &(usize, usize, f64), &[lower, upper]: &[usize; 2], matrix: &mut [f64]) {
     matrix[lower] += value;
     if i != j {

@@ -1,6 +1,6 @@
-//! Mass matrix, inertia forces and energies, out of the shape integrals of the pieces.
+//! Mass matrix, inertia forces and energies from the shape integrals of the pieces.
 //!
-//! Those of the kinetic energy to second order in the deformation, with the integrals s, mu_i, W_i and P of [`Moving`],
+//! The kinetic energy is exact to second order in the deformation. With the integrals s, mu_i, W_i and P of [`Moving`],
 //! V_i = int rho u' psi_i^T = sum_j q_j' P_ji, Q = int rho u u'^T = sum_i q_i' W_i, J = tr(P) - P, and
 //! ax(X) = int u x v of X = int u v^T:
 //!
@@ -17,13 +17,13 @@ use crate::body::{Energy, Frame, dot};
 use crate::math::Scalar;
 use std::array::from_fn;
 
-/// A world vector in the frame's axes.
+/// Components of a world vector in the frame's axes.
 #[inline]
 pub(super) fn local<S: Scalar, const D: usize>(own: &Frame<S, D>, vector: &[S; D]) -> [S; D] {
     from_fn(|k| dot(&own.axes[k], vector))
 }
 
-/// A vector in the frame's axes in the world.
+/// World components of a vector given in the frame's axes.
 #[inline]
 pub(super) fn world<const D: usize>(own: &Frame<f64, D>, vector: &[f64; D]) -> [f64; D] {
     from_fn(|k| (0..D).map(|i| own.axes[i][k] * vector[i]).sum())
@@ -43,7 +43,7 @@ impl<const D: usize> Floating<D> {
         self.elastic.inertia.pieces.iter().zip(&self.curves).map(move |(piece, curves)| Moving { piece, q, v, curves })
     }
 
-    /// Values of M.
+    /// Writes the values of M.
     pub(super) fn write_mass(&self, q: &[f64], values: &mut [f64]) {
         values.fill(0.0);
         let own = frame::<f64, D>(q);

@@ -1,24 +1,24 @@
-//! Where each value of M, K and C of a flexible body stands: the pattern is fixed when the body is made.
+//! Places of the values of M, K and C of a flexible body: the pattern is fixed when the body is made.
 
 use crate::body::flexible::{Elastic, Inertia};
 use std::collections::BTreeMap;
 
-/// Places of the values.
+/// Patterns of M, K and C, and the entry of each contribution.
 pub(super) struct Layout {
-    /// Lower triangle of M: the frame's block row by row, the rows of the elastic coordinates against the frame, the rest.
+    /// Lower triangle of M: the frame's block row by row, the rows coupling elastic coordinates to the frame, then the others.
     pub mass: Vec<(usize, usize)>,
-    /// Of K and C: the frame's block row by row, for each elastic coordinate its row and its column against the frame, the
-    /// rest.
+    /// Places of K and C: the frame's block row by row, for each elastic coordinate its row and its column coupling it to
+    /// the frame, then the others.
     pub tangent: Vec<(usize, usize)>,
     nv: usize,
     pub pieces: Vec<PieceLayout>,
     pub discs: Vec<PieceLayout>,
-    /// Entries of K (both triangles) at which each entry of the stiffness and damping stands.
+    /// Entries of K, in both triangles, for each entry of the stiffness matrix; `damping` likewise for C.
     pub stiffness: Vec<[usize; 2]>,
     pub damping: Vec<[usize; 2]>,
-    /// Entry of M at the place of each entry of the stiffness, where M has one.
+    /// Entry of M at the place of each entry of the stiffness matrix, if M has one there.
     pub sparing: Vec<Option<usize>>,
-    /// Entries of K at which those of each point of stretch stand, row by row.
+    /// Entries of K for the coordinates of each stretch, row by row.
     pub stretches: Vec<Vec<usize>>,
 }
 

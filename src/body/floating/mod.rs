@@ -11,8 +11,9 @@
 //! ```
 //!
 //! less the work of gravity and of the elastic forces K q + D q' and those of geometric stiffening. The whole coupling of
-//! rigid and elastic motion is kept; integrals are taken once, piece by piece, so that work and memory grow
-//! with the number of elements. The sections of a beam turn as rigid discs beside that. Shabana, Dynamics of Multibody Systems, chapter 5.
+//! rigid and elastic motion is kept; integrals are computed once, piece by piece, so that work and memory grow linearly
+//! with the number of elements. The sections of a beam add the rotary inertia of rigid discs. Source: Shabana, Dynamics
+//! of Multibody Systems, chapter 5.
 
 mod algebra;
 mod discs;
@@ -37,40 +38,40 @@ use moving::Curves;
 pub use part::{load, resistance};
 pub use point::place;
 
-/// The body: what its shapes say, and where each value of its matrices stands.
+/// A flexible body: its displacement functions with their integrals, and the patterns of its matrices.
 pub struct Floating<const D: usize> {
     elastic: Elastic<D>,
-    /// The frame itself first; of a beam at [s, y(, z)], with axes in those of the frame.
+    /// The floating frame first; markers of a beam are at [s, y(, z)], with axes in those of the frame.
     markers: Vec<Marker<D>>,
     shapes: Vec<PointShape<D>>,
     layout: Layout,
     curves: Vec<Curves<D>>,
-    /// Values of M.
+    /// Constant contributions (place, value) of the discs to M, in the plane.
     discs_in_plane: Vec<(usize, f64)>,
 }
 
-/// Coordinates of the frame.
+/// Number of coordinates of the floating frame.
 pub const fn frame_coordinates(dimension: usize) -> usize {
     if dimension == 2 { 3 } else { 7 }
 }
 
-/// Velocities of the frame.
+/// Number of velocities of the floating frame.
 pub const fn frame_velocities(dimension: usize) -> usize {
     if dimension == 2 { 3 } else { 6 }
 }
 
-/// The axes that the frame may turn about.
+/// The axes that the frame may rotate about.
 const fn turns(dimension: usize) -> std::ops::Range<usize> {
     if dimension == 2 { 2..3 } else { 0..3 }
 }
 
-/// The velocity of the frame that turns it about axis `k`.
+/// Index of the frame's angular velocity about axis `k`.
 const fn turn_velocity(dimension: usize, k: usize) -> usize {
     if dimension == 2 { k } else { 3 + k }
 }
 
 impl<const D: usize> Floating<D> {
-    /// `markers` and where they are on the body, one shape each; the first is the frame itself.
+    /// A body with these markers and the displacement functions of each; the first marker is the floating frame.
     pub fn new(elastic: Elastic<D>, markers: Vec<Marker<D>>, shapes: Vec<PointShape<D>>) -> Self {
         let layout = Layout::new(&elastic, frame_velocities(D));
         let curves = elastic.inertia.pieces.iter().map(Curves::of).collect();
@@ -80,7 +81,7 @@ impl<const D: usize> Floating<D> {
     }
 }
 
-/// The frame at coordinates q.
+/// The floating frame at coordinates q.
 #[inline]
 fn frame<S: Scalar, const D: usize>(q: &[S]) -> Frame<S, D> {
     let mut frame = Frame::world();

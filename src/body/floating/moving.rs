@@ -23,11 +23,11 @@ pub(super) struct Moving<'a, S, const D: usize> {
     pub curves: &'a Curves<D>,
 }
 
-/// What of second order a piece has, ready for use.
+/// Second-order integrals of a piece, in the form in which they are used.
 pub(super) struct Curves<const D: usize> {
-    /// P_ji + P_0ij at `[j * n + i]`; empty where no P_0ij is there.
+    /// P_ji + P_0ij at `[j * n + i]`; empty if all P_0ij are zero.
     bent: Vec<Matrix<f64, D>>,
-    /// Whether there are m_ij, and whether sum_ij q_i' q_j' P_0ij turns the frame.
+    /// True if there are m_ij; `swerves`: if ax(sum_ij q_i' q_j' P_0ij) is not zero.
     drifts: bool,
     swerves: bool,
 }
@@ -73,7 +73,7 @@ impl<S: Scalar, const D: usize> Moving<'_, S, D> {
         mu
     }
 
-    /// sum_i x_i mu_i: with velocities s'.
+    /// sum_i x_i mu_i; s' if x are the velocities.
     pub fn momentum(&self, x: &[S]) -> [S; D] {
         let mut sum = [S::zero(); D];
         for (i, &dof) in self.piece.dofs.iter().enumerate() {
@@ -96,7 +96,7 @@ impl<S: Scalar, const D: usize> Moving<'_, S, D> {
         sum
     }
 
-    /// sum_i x_i W_i: with velocities int rho u u'^T.
+    /// sum_i x_i W_i; int rho u u'^T if x are the velocities.
     pub fn flow(&self, x: &[S]) -> Matrix<S, D> {
         let mut sum = [[S::zero(); D]; D];
         for (i, &dof) in self.piece.dofs.iter().enumerate() {
@@ -107,7 +107,7 @@ impl<S: Scalar, const D: usize> Moving<'_, S, D> {
         sum
     }
 
-    /// sum_j x_j P_ji: with velocities int rho u' psi_i^T.
+    /// sum_j x_j P_ji; int rho u' psi_i^T if x are the velocities.
     #[inline]
     pub fn rated(&self, x: &[S], i: usize) -> Matrix<S, D> {
         self.sum_of_products(x, i + 1)

@@ -1,4 +1,4 @@
-//! What the mass of a part of the body does to the rest of it.
+//! Weight and inertia forces of a part of the body, for internal forces at a section.
 
 use super::point::turn;
 use crate::body::flexible::{Disc, Piece};
@@ -35,7 +35,7 @@ pub fn load<S: Scalar, const D: usize>(
     Wrench { force: from_fn(|i| lift[i] * piece.mass - moving[i]), torque }
 }
 
-/// What the sections about a point resist, a torque: with the axes e_k of the frame turned as they are and
+/// Inertia torque of a disc: with its axes e_k, those of the frame rotated with the section, and
 /// P = tr(J)/2 - J, the integral of the products of two coordinates,
 ///
 /// ```text
@@ -92,7 +92,7 @@ impl<S: Scalar, const D: usize> Sums<S, D> {
         sums
     }
 
-    /// Those of psi_ij q_i q_j/2, against psi_0.
+    /// Adds the integrals of psi_ij q_i q_j/2, with psi_0 as the other factor.
     fn add_second(&mut self, piece: &Piece<D>, coordinate: impl Fn(usize) -> Taylor<S>) {
         for (i, second) in
             piece.second.iter().enumerate().flat_map(|(i, row)| row.iter().map(move |second| (i, second)))

@@ -1,4 +1,4 @@
-//! Points of the body: where they are, and what a wrench there does to each coordinate.
+//! Points of a flexible body: their frames, and the generalized forces of a wrench there.
 
 use super::algebra::spin;
 use super::small_turn::SmallTurn;
@@ -8,8 +8,8 @@ use crate::body::{Frame, Marker, Wrench, cross, dot, sub};
 use crate::math::Scalar;
 use std::array::from_fn;
 
-/// The frame of a marker: at rest + sum_i t_i q_i + (R - 1 - a~) arm, with axes turned by R of a = sum_i r_i q_i. The line
-/// moves by its displacements; what is beside it turns with the section by more than the a x arm that is in t_i.
+/// The frame of a marker: at rest + sum_i t_i q_i + (R - 1 - a~) arm, with axes rotated by R of a = sum_i r_i q_i. t_i has
+/// a x arm, the rotation of a point off the line to first order; (R - 1 - a~) arm completes it.
 #[inline]
 pub fn place<S: Scalar, const D: usize>(
     own: &Frame<S, D>,
@@ -32,13 +32,13 @@ pub fn place<S: Scalar, const D: usize>(
     turned.at(&Marker { offset: [0.0; D], ..*marker })
 }
 
-/// A vector in the axes of a frame in the world.
+/// World components of a vector given in the axes of a frame.
 #[inline]
 fn along<S: Scalar, const D: usize>(frame: &Frame<S, D>, vector: &[S; D]) -> [S; D] {
     from_fn(|k| (0..D).fold(S::zero(), |sum, i| sum + frame.axes[i][k] * vector[i]))
 }
 
-/// The small rotation at a point.
+/// The small rotation a = sum_i r_i q_i at a point.
 #[inline]
 fn angles<S: Scalar, const D: usize>(shape: &PointShape<D>, coordinate: impl Fn(usize) -> S) -> [S; 3] {
     let mut sum = [S::zero(); 3];
@@ -49,7 +49,7 @@ fn angles<S: Scalar, const D: usize>(shape: &PointShape<D>, coordinate: impl Fn(
     sum
 }
 
-/// A frame turned by an angle in the plane, in space by the small turn a.
+/// The frame rotated by R of a: by the angle a_z in the plane, by [`SmallTurn`] in space.
 #[inline]
 pub(super) fn turn<S: Scalar, const D: usize>(frame: Frame<S, D>, a: &[S; 3]) -> Frame<S, D> {
     if D == 2 {
@@ -82,7 +82,7 @@ pub(super) fn pull_back_rigid<S: Scalar, const D: usize>(
     f[3..].iter_mut().zip(&own.axes).for_each(|(f, axis)| *f += dot(axis, &from_fn(|k| moment[k])));
 }
 
-/// The same on the elastic velocities that move the point.
+/// f += J^T w on the elastic velocities that move the point.
 #[inline]
 pub(super) fn pull_back_elastic<S: Scalar, const D: usize>(
     own: &Frame<S, D>,
@@ -114,7 +114,7 @@ pub(super) fn pull_back_elastic<S: Scalar, const D: usize>(
     }
 }
 
-/// What the rates of the small turn a feel of a torque.
+/// Generalized force of a torque on a': T^T R^T A^T torque.
 fn local_torque<S: Scalar, const D: usize>(own: &Frame<S, D>, a: &[S; 3], torque: &[S; 3]) -> [S; 3] {
     let moment: [S; 3] = from_fn(|k| (0..D).fold(S::zero(), |sum, i| sum + own.axes[k % D][i] * torque[i]));
     let small = SmallTurn::of(*a);

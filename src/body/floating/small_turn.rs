@@ -1,10 +1,10 @@
-//! The small rotations of sections, of any size.
+//! The rotation of a section by its small rotation vector, orthogonal for any size of it.
 
 use crate::body::cross;
 use crate::math::Scalar;
 use std::array::from_fn;
 
-/// Cayley's rotation of a vector a, which is that of the small rotation a to second order and orthogonal for any:
+/// Cayley's rotation by a vector a: it agrees with the rotation by a to second order and is orthogonal for any a,
 ///
 /// ```text
 /// R = 1 + (a~ + a~ a~/2)/(1 + a.a/4),   T = (1 - a~/2)/(1 + a.a/4),

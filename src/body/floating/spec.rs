@@ -1,4 +1,4 @@
-//! Flexible bodies in floating frames, from what a scene says of them.
+//! Flexible bodies in floating frames made from their keys in a scene.
 
 use super::Floating;
 use crate::body::flexible::modal::{ModalBody, ModalShapes};
@@ -71,7 +71,7 @@ fn refuse_origin<const D: usize>(markers: &[Marker<D>], truth: &str) -> Result<(
     }
 }
 
-/// The shape of a marker that is the floating frame.
+/// Displacement functions of a marker at the floating frame: none.
 pub(super) fn frame_itself<const D: usize>() -> PointShape<D> {
     PointShape {
         rest: [0.0; D],
@@ -83,7 +83,7 @@ pub(super) fn frame_itself<const D: usize>() -> PointShape<D> {
     }
 }
 
-/// Coordinates and velocities at the start, the elastic ones by their names.
+/// Initial q and v; elastic ones are given by name.
 pub(super) fn start<const D: usize>(
     initial: &Initial,
     names: &[String],

@@ -20,7 +20,7 @@ use super::{Floating, frame, frame_velocities, turn_velocity, turns};
 use crate::body::{BodyState, Frame, cross, dot};
 use std::array::from_fn;
 
-/// What the frame does at a state.
+/// Motion of the floating frame at a state.
 struct Motion<'a, const D: usize> {
     own: Frame<f64, D>,
     w: [f64; 3],
@@ -92,7 +92,7 @@ impl<const D: usize> Floating<D> {
         }
     }
 
-    /// d(r_r, r_t)/dq_j and its rate's, d(r_j)/dtheta and d(r_j)/dw.
+    /// d(r_r, r_t)/dq_j and d(r_r, r_t)/dq_j', d(r_j)/dtheta and d(r_j)/dw.
     fn add_mixed(&self, motion: &Motion<D>, moving: &Moving<f64, D>, j: usize, k: &mut [f64], c: &mut [f64]) {
         let (dof, mu, w) = (moving.piece.dofs[j], moving.mu(j), &motion.w);
         let (drift, pushed_on) = (moving.drift(moving.v, j), moving.drift(motion.vdot, j));
@@ -123,7 +123,7 @@ impl<const D: usize> Floating<D> {
         }
     }
 
-    /// d(r_i)/dq_j and its rate's, for all i of the piece.
+    /// d(r_i)/dq_j and d(r_i)/dq_j', for all i of the piece.
     fn add_elastic(
         &self,
         motion: &Motion<D>,
