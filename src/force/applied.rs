@@ -104,7 +104,7 @@ fn targets<const D: usize>(at: &str, reaction: &Option<String>, build: &Build<D>
     Ok(markers)
 }
 
-/// The acting and the reacting marker come first, then those that the expressions read.
+/// A force whose first markers are the acting and the reacting one, followed by those that the expressions read.
 fn assemble<const D: usize>(kind: Kind, signals: Vec<Signal>, axes: Axes, targets: Vec<MarkerId>) -> Result<Built<D>> {
     let mut markers = targets.clone();
     for marker in signals.iter().flat_map(Signal::markers) {
@@ -127,7 +127,7 @@ enum Kind {
 
 struct Applied {
     kind: Kind,
-    /// One a component; a planar torque has the third only.
+    /// One expression for each component; a planar torque has the third only.
     signals: Vec<Signal>,
     axes: Axes,
     reacts: bool,
@@ -189,7 +189,7 @@ impl<const D: usize> ForceKernel<D> for Applied {
             Kind::Torque => out[0].torque = vector,
         }
         if self.reacts {
-            // The reaction acts along the same line: at the other marker it has the moment of the gap.
+            // The reaction acts along the same line, so at the other marker it has the moment of the gap.
             let gap: [S; D] = std::array::from_fn(|i| frames[0].r[i].x - frames[1].r[i].x);
             let lever = cross(&gap, &out[0].force);
             out[1].force = out[0].force.map(|x| -x);

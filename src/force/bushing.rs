@@ -55,7 +55,7 @@ struct Cushion {
 }
 
 impl Cushion {
-    /// Force along coordinate i, and the energy it stores.
+    /// Force along coordinate i, -(k x + c x'), and the stored energy k x^2/2.
     fn law<S: Scalar>(&self, i: usize, displacement: Taylor<S>) -> (S, Taylor<S>) {
         let force = -(displacement.x * self.k[i] + displacement.d * self.c[i]);
         (force, displacement.square() * (0.5 * self.k[i]))
@@ -93,7 +93,7 @@ impl<const D: usize> ForceKernel<D> for Cushion {
             }
             torque = small_rotation_torque(&a.map(|x| x.x), &b.map(|x| x.x), &moment);
         }
-        // The reaction acts at the second marker too; at the first it has the moment of the gap.
+        // The reaction acts at the second marker too, so at the first it has the moment of the gap.
         let lever = cross(&gap.map(|x| x.x), &force);
         out[1] = Wrench { force, torque };
         out[0] = Wrench { force: force.map(|x| -x), torque: from_fn(|k| -(torque[k] + lever[k])) };

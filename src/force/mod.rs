@@ -1,7 +1,7 @@
 //! Forces: wrenches at markers as functions of their motion and of time.
 //!
-//! A force is one kernel over moving frames; bodies pull its wrenches back to generalized forces. It also states its
-//! potential: what its wrenches do beyond that is the work that the energy ledger counts.
+//! A force is one kernel over moving frames; bodies pull its wrenches back to generalized forces. It also returns its
+//! potential: the power of its wrenches beyond minus the potential's rate is the work in the energy balance.
 //!
 //! To add one: a file with a [`ForceSpec`] and a [`ForceKernel`], and a line in [`registry`]; from outside the crate, the
 //! same two and [`Elements::with_force`](crate::scene::Elements::with_force), as in `tests/examples/own_force.rs`.
@@ -22,17 +22,17 @@ use crate::math::{Rate, Scalar, Taylor, Time};
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
-/// The moving frames of a force's markers: of each number `x` its value, `d` its rate.
+/// The moving frames of a force's markers: each number has its value in `x` and its rate in `d`.
 pub type Motion<S, const D: usize> = [Frame<Taylor<S>, D>];
-/// The time of an evaluation, as it goes on.
+/// The time of an evaluation, with its rate t' = 1.
 pub type Instant<'a, S> = Time<'a, Taylor<S>>;
 
-/// What a force says beside its wrenches: [`Action::without_potential`] where it stores no energy.
+/// Potential and magnitude of a force; [`Action::without_potential`] if it stores no energy.
 #[derive(Clone, Copy, Debug)]
 pub struct Action<S> {
-    /// Energy it stores, J, with its rate: computed from the frames as they are, with `x` and `d`.
+    /// Stored energy, J, with its rate: computed from the frames with their `x` and `d`.
     pub potential: Taylor<S>,
-    /// The scalar a user watches: tension of a spring (positive when it pulls), torque, tyre load; N or N m.
+    /// Scalar for outputs: tension of a spring (positive when it pulls), torque, tyre load; N or N m.
     pub magnitude: S,
 }
 
@@ -43,11 +43,11 @@ impl<S: Scalar> Action<S> {
     }
 }
 
-/// A wheel as a drawing shows it.
+/// A wheel for drawings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[doc(hidden)]
 pub struct Wheel {
-    /// m
+    /// Radius, m.
     pub radius: f64,
     /// Height of the road under it, m.
     pub road: f64,
@@ -55,18 +55,18 @@ pub struct Wheel {
 
 /// A force's equations, written once over any scalar.
 pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
-    /// Writes the wrench on each marker's body, in world axes; `out` holds zeros on entry. Its power is what it adds beyond
-    /// the loss of the potential that it returns, so a force that stores energy must state it.
+    /// Writes the wrench on each marker's body, in world axes; `out` is zero on entry. The energy balance counts its power
+    /// plus the rate of the returned potential as work, so a force that stores energy must return it.
     fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S>;
-    /// Whether inputs of a scene can drive it, by [`Self::driven`]. Default: none can.
+    /// True if inputs of a scene can add to its components, by [`Self::driven`]. Default: false.
     fn takes_inputs(&self) -> bool {
         false
     }
-    /// Whether its magnitude, and an input to it, is a torque, N m, and no force. Default: no.
+    /// True if its magnitude, and an input to it, is a torque, N m, and not a force. Default: false.
     fn is_torque(&self) -> bool {
         false
     }
-    /// The same as [`Self::act`] where inputs drive it: `input` adds to its components, N or N m, in its own axes.
+    /// [`Self::act`] with inputs: `input` adds to its components, N or N m, in its own axes.
     fn driven<S: Scalar>(
         &self,
         _input: &[S; 3],
@@ -79,25 +79,25 @@ pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
     /// Writes the arguments of its switching functions at the numbers that [`Build::switch`] gave; those of an expression by
     /// [`Expression::arguments`](crate::math::expression::Expression::arguments). Default: it has none.
     fn switching(&self, _frames: &Motion<Rate, D>, _time: Instant<Rate>, _out: &mut [Rate]) {}
-    /// Whether its law takes the rotation between its markers to be small. Default: no.
+    /// True if its law assumes a small rotation between its markers. Default: false.
     fn takes_small_rotations(&self) -> bool {
         false
     }
-    /// The wheel that a drawing shows, if it is one.
+    /// The wheel to be drawn, if it is one.
     fn wheel(&self, _t: f64) -> Option<Wheel> {
         None
     }
-    /// The element whose sections an output may watch, if it is one.
+    /// The beam element whose sections outputs may read, if it is one.
     fn beam(&self) -> Option<&Beam> {
         None
     }
 }
 
-/// A force over one scalar: what the model calls.
+/// A force over one scalar, as the model calls it.
 pub trait ForceOver<S: Scalar, const D: usize> {
-    /// All inputs zero; `out` holds zeros on entry.
+    /// Wrenches with all inputs zero; `out` is zero on entry.
     fn act(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S>;
-    /// With inputs that add to its components.
+    /// Wrenches with inputs that add to its components.
     fn driven(&self, input: &[S; 3], frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S>;
 }
 
@@ -113,7 +113,7 @@ impl<K: ForceKernel<D>, S: Scalar, const D: usize> ForceOver<S, D> for K {
 
 /// The object-safe form of a force; implemented for every [`ForceKernel`].
 pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Dual6, D> + Send + Sync {
-    /// Wheel of a tyre at time `t`, for the linearization of rolling contact.
+    /// The wheel at time `t` to be drawn, if it is one.
     fn wheel(&self, t: f64) -> Option<Wheel>;
     /// The beam element, if the force is one.
     fn beam(&self) -> Option<&Beam>;
@@ -123,7 +123,7 @@ pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Dual6, D> + Send 
     fn takes_inputs(&self) -> bool;
     /// True if its magnitude is a torque, N m, in place of a force, N.
     fn is_torque(&self) -> bool;
-    /// Event functions with their rates: the force changes its form where one changes sign.
+    /// Writes the arguments of its switching functions, with their rates, at their numbers.
     fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]);
 }
 
@@ -148,7 +148,7 @@ impl<K: ForceKernel<D>, const D: usize> Force<D> for K {
     }
 }
 
-/// A force ready for the model, with the markers it sees.
+/// A force ready for the model, with its markers.
 pub struct Built<const D: usize> {
     /// The kernel, boxed.
     pub force: Box<dyn Force<D>>,
@@ -157,7 +157,7 @@ pub struct Built<const D: usize> {
 }
 
 impl<const D: usize> Built<D> {
-    /// Refuses what the model cannot hold: a mistake in the type's own code, not in a scene.
+    /// Refuses too few or too many markers: a mistake in the code of the type, not in a scene.
     fn checked(self) -> Result<Self> {
         let markers = self.markers.len();
         match (1..=MOST_MARKERS).contains(&markers) {
@@ -167,14 +167,14 @@ impl<const D: usize> Built<D> {
     }
 }
 
-/// What a scene says of a kind of force beside its name and type: see [`JointSpec`](crate::joint::JointSpec).
+/// The keys of a kind of force in a scene, without name and type: see [`JointSpec`](crate::joint::JointSpec).
 pub trait ForceSpec: DeserializeOwned + JsonSchema {
-    /// The name by which scenes call it.
+    /// Its `type` in scenes.
     const TYPE: &'static str;
     /// Makes the force in the plane (D = 2) or in space (D = 3).
     ///
     /// # Errors
-    /// What a scene may say wrong: [`Build`] has the checks.
+    /// Keys with values that are not valid; [`Build`] has the checks.
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>>;
 }
 

@@ -49,7 +49,7 @@ struct Torsion {
     k: f64,
     c: f64,
     free: f64,
-    /// Number of the angle in space.
+    /// Index of the counted angle, in space.
     turning: usize,
 }
 

@@ -48,7 +48,7 @@ struct Spring {
     c: f64,
     radius: f64,
     road: Expression,
-    /// Where the wheel may leave the road: the numbers of the switching functions, which are the squeeze and the load.
+    /// Numbers of the two switching functions, compression and load, if the wheel may leave the road.
     lift_off: Option<[usize; 2]>,
 }
 
@@ -82,7 +82,7 @@ impl<const D: usize> ForceKernel<D> for Spring {
             return Action::without_potential(S::zero());
         }
         let mut load = self.load(squeeze);
-        // A damper that would pull lets the squeezed tyre go without force; what it stores is then lost as it relaxes.
+        // Where the damper would pull the road, the load is zero; the energy of the compressed tyre is then lost.
         if self.lift_off.is_some_and(|[_, pull]| is_below(pull, load.value())) {
             load = S::zero();
         }

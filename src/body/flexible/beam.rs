@@ -1,4 +1,4 @@
-//! From what a scene says of a beam in a floating frame to the numbers that its equations of motion need.
+//! Builds the equations of motion of a beam in a floating frame from its keys in a scene.
 
 use super::damping::{Basis, damping};
 use super::integrals::{Sum, add_stiffness, stretch};
@@ -16,12 +16,12 @@ use std::f64::consts::PI;
 
 /// Gauss points that integrate w'^2 exactly.
 const STRETCH_POINTS: usize = 3;
-/// Most finite elements of a beam.
+/// Largest number of finite elements of a beam.
 const MOST_ELEMENTS: u32 = 10_000;
-/// What an element of a curved beam may turn by, rad, of which it is a chord.
+/// Largest rotation of the line over an element of a curved beam, rad, whose axis is parallel to the chord.
 const MOST_TURN: f64 = 0.5 * PI;
 
-/// The shapes of a beam whose markers are at the abscissae `markers`, and its length in m.
+/// Inertia, stiffness, damping and displacement functions of a beam with markers at the abscissae `markers`, and its length, m.
 ///
 /// # Errors
 /// Bad input, with the path from the body on.
@@ -54,7 +54,7 @@ fn check_markers(markers: &[f64], length: f64) -> Result<()> {
     }
 }
 
-/// What is there for straight beams alone.
+/// Refuses keys that only straight beams may have.
 fn check_curved(beam: &FlexibleBeam) -> Result<()> {
     let refuse = |key: &str, what: &str, instead: &str| {
         let hint = format!("{instead}, or \"frame\": \"absolute\"");
@@ -129,7 +129,7 @@ fn elements<const D: usize>(
     check_turn(&line, count)?;
     let mesh = Mesh::<D>::new(line, count, markers, profile, beam.axial.unwrap_or_default()).fix(conditions);
     let law = beam.geometric_stiffening.quartic();
-    // Few modes cannot follow the shortening of a bent line by axial strain: it keeps its length.
+    // Few modes cannot represent the axial strain of a bent line, so the line keeps its length instead.
     let shortens = beam.modes.is_some() && law == Some(1.0);
     let nodal = nodal(&mesh, law.filter(|_| !shortens));
     if beam.modes.is_none() && conditions != FrameConditions::Mean {
@@ -160,7 +160,7 @@ fn check_turn(line: &ReferenceLine, elements: usize) -> Result<()> {
     }
 }
 
-/// The stretches of an element. Its u' cannot follow w'^2, which would lock it: both count by their means over the
+/// The stretches of an element. Its u' cannot represent w'^2, so it would lock: both enter by their means over the
 /// element, or at the two points at which a quadratic displacement has its best slopes.
 fn stiffened<const D: usize>(mesh: &Mesh<D>, element: usize, quartic: f64) -> Vec<Stretch> {
     let start = mesh.start(element);
@@ -178,7 +178,7 @@ fn stiffened<const D: usize>(mesh: &Mesh<D>, element: usize, quartic: f64) -> Ve
     }
 }
 
-/// In the coordinates of the nodes; without damping, and without the line, which is the mesh itself.
+/// The beam in the coordinates of its nodes; without damping, and without the line, which is the mesh itself.
 fn nodal<const D: usize>(mesh: &Mesh<D>, quartic: Option<f64>) -> Elastic<D> {
     let mut stiffness = Sum::default();
     let mut stretches = Vec::new();

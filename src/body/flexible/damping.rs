@@ -1,4 +1,4 @@
-//! The damping matrix that a scene asks for.
+//! Damping matrix of a flexible body: Rayleigh or modal.
 
 use super::eigen::{Modes, dense, entries};
 use super::integrals::{Sum, mass_matrix};
@@ -9,18 +9,18 @@ use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use faer::Mat;
 
-/// What the elastic coordinates of a beam are.
+/// Meaning of the elastic coordinates of a beam.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Basis {
     /// Displacements and rotations of nodes.
     Nodal,
     /// Mass-normalised modes.
     Modal,
-    /// Amplitudes of functions.
+    /// Amplitudes of displacement functions (Ritz).
     Functions,
 }
 
-/// D for the mass, stiffness and coordinates of `elastic`.
+/// Damping matrix D for the mass and stiffness of `elastic`, in its coordinates.
 pub fn damping<const D: usize>(
     asked: &Option<Damping>,
     elastic: &Elastic<D>,
@@ -77,7 +77,7 @@ fn modal<const D: usize>(
     Ok(entries((&damped * momenta.transpose()).as_ref()))
 }
 
-/// One for each of `n` modes.
+/// Damping ratio of each of `n` modes.
 fn damping_ratios<const D: usize>(ratios: &OneOrMany, n: usize, build: &Build<D>) -> Result<Vec<f64>> {
     match ratios {
         OneOrMany::One(ratio) => Ok(vec![build.not_negative("modal", ratio)?; n]),

@@ -4,18 +4,18 @@ use super::shape::Symmetric;
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::{Mat, MatRef, Par, Side};
 
-/// K phi = omega^2 M phi.
+/// Natural modes: K phi = omega^2 M phi.
 pub struct Modes {
     /// omega^2, ascending, 1/s^2.
     pub squares: Vec<f64>,
-    /// In columns, with phi^T M phi = 1.
+    /// Modes phi in columns, with phi^T M phi = 1.
     pub vectors: Mat<f64>,
 }
 
 impl Modes {
-    /// With K = L L^T from the eigenvalues 1/omega^2 of L^-1 M L^-T, the largest of which are the most accurate: those of
-    /// the lowest modes, which the usual way round drown in the round-off of the highest one. `None` where K is not
-    /// positive definite, or M not to rounding.
+    /// Modes by the eigenvalues 1/omega^2 of L^-1 M L^-T with K = L L^T. The largest are the most accurate, which are those
+    /// of the lowest modes; with M = L L^T these would have the round-off of the highest mode. `None` if K is not positive
+    /// definite, or M not to rounding.
     pub fn of(stiffness: MatRef<f64>, mass: MatRef<f64>) -> Option<Modes> {
         let n = stiffness.nrows();
         faer::set_global_parallelism(Par::Seq);
@@ -36,7 +36,7 @@ impl Modes {
         Some(Modes { squares: inverse.iter().map(|value| value.recip()).collect(), vectors })
     }
 
-    /// The lowest `count` of them.
+    /// The lowest `count` modes.
     #[must_use]
     pub fn truncated(mut self, count: usize) -> Modes {
         self.squares.truncate(count);
@@ -46,11 +46,11 @@ impl Modes {
     }
 }
 
-/// Of both signs of a mode the one whose largest component is positive: a choice that does not hang on round-off.
+/// Makes the largest component of a mode positive, so that its sign does not depend on round-off.
 fn point_up(vectors: &mut Mat<f64>, column: usize) {
     let mut largest: f64 = 0.0;
     for i in 0..vectors.nrows() {
-        // Of equal ones the first.
+        // The first of components that are equal to 1e-6.
         if vectors[(i, column)].abs() > largest.abs() * (1.0 + 1e-6) {
             largest = vectors[(i, column)];
         }
@@ -60,7 +60,7 @@ fn point_up(vectors: &mut Mat<f64>, column: usize) {
     }
 }
 
-/// Both triangles.
+/// The symmetric matrix as a dense one, with both triangles.
 pub fn dense(n: usize, matrix: &Symmetric) -> Mat<f64> {
     let mut dense = Mat::zeros(n, n);
     for &(i, j, value) in matrix {
@@ -70,7 +70,7 @@ pub fn dense(n: usize, matrix: &Symmetric) -> Mat<f64> {
     dense
 }
 
-/// The entries of a symmetric dense matrix.
+/// The nonzero entries of a symmetric dense matrix.
 pub fn entries(matrix: MatRef<f64>) -> Symmetric {
     let lower = (0..matrix.nrows()).flat_map(|i| (0..=i).map(move |j| (i, j)));
     lower.map(|(i, j)| (i, j, (matrix[(i, j)] + matrix[(j, i)]) / 2.0)).filter(|entry| entry.2 != 0.0).collect()

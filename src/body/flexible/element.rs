@@ -1,9 +1,9 @@
 //! Shape functions of a straight beam element between two sections of the reference line.
 //!
-//! Its axis x is parallel to the chord, at the mean distance of the line from it, where the nodes hold it by rigid arms; y is
-//! that of the section in its middle. The line itself, where the mass is, lies beside the axis and turns with the sections of
-//! the element. Strains are a length of the line. On an arc a rigid motion is exact, bending in its plane of fourth order in
-//! the length of the element, and across it, where bending turns into torsion along the element, of second.
+//! Its axis x is parallel to the chord, at the mean distance of the line from it, and rigid arms join it to the nodes; y is
+//! that of the section in its middle. The line itself, where the mass is, is off the axis and rotates with the sections of
+//! the element. Strains are per length of the line. On an arc rigid motions are exact, bending in its plane is of fourth
+//! order in the length of the element, and bending out of it, which is coupled to torsion, of second order.
 
 use super::line::{Bending, Cross};
 use super::reference::ReferenceLine;
@@ -12,24 +12,24 @@ use super::spec::Axial;
 use crate::body::{cross, dot, norm, scale, sub};
 use std::array::from_fn;
 
-/// One element, with what shear does to its bending along y and z.
+/// One element, with the shear parameters of its bending along y and z.
 #[derive(Clone, Copy, Debug)]
 pub struct Element {
-    /// The left end of its axis, m, and its own axes, both in those of the floating frame.
+    /// Left end of its axis, m; `axes` are the element's own. Both are in the axes of the floating frame.
     start: [f64; 3],
     axes: [[f64; 3]; 3],
-    /// From a node to the end of its axis, in its own axes, m.
+    /// Vector from a node to the end of its axis, in its own axes, m.
     arm: [f64; 3],
-    /// m
+    /// Length of the axis, m.
     length: f64,
-    /// By the length of the line between its ends.
+    /// Ratio of `length` to the length of the line between its ends.
     shortness: f64,
     /// 12 EI/(GA length^2) of bending along y and z: zero without shear.
     shear: [f64; 2],
 }
 
 impl Element {
-    /// Between two abscissae, from one to the other of which the line turns by less than half a turn.
+    /// The element between two abscissae; the line must rotate by less than half a turn between them.
     pub fn new(line: &ReferenceLine, [from, to]: [f64; 2], section: &Section) -> Self {
         let [start, end] = [from, to].map(|s| line.at(s).1);
         let ([_, side, _], middle) = line.at(0.5 * (from + to));
@@ -39,7 +39,7 @@ impl Element {
         let y = sub(&side, &scale(&x, dot(&x, &side)));
         let y = y.map(|c| c / norm(&y));
         let axes = [x, y, cross(&x, &y)];
-        // Two thirds of its sagitta are the mean of an arc but for the fourth power of its length.
+        // The mean of an arc is two thirds of its sagitta, up to the fourth power of its length.
         let sagitta: [f64; 3] = from_fn(|k| middle[k] - 0.5 * (start[k] + end[k]));
         let arm = [0.0, dot(&y, &sagitta), dot(&axes[2], &sagitta)].map(|part| part * 2.0 / 3.0);
         let start = from_fn(|k| start[k] + arm[1] * y[k] + arm[2] * axes[2][k]);
@@ -48,15 +48,16 @@ impl Element {
         Element { start, axes, arm, length, shortness: length / (to - from), shear }
     }
 
-    /// What the coordinates of both nodes, then the middle one, do at the place r of the line: x, y, r each node in the
-    /// plane; x, y, z, rx, ry, rz in space, along the axes of the floating frame; the middle one along the element.
+    /// Displacement functions, at point r of the line, of the coordinates of both nodes and of the middle: x, y, r of each
+    /// node in the plane; x, y, z, rx, ry, rz in space, along the axes of the floating frame; the middle one along the
+    /// element.
     pub fn shapes<const D: usize>(&self, r: &[f64; 3], axial: Axial) -> Vec<Cross> {
         let beside = sub(r, &self.start);
         let [x, y, z] = self.axes.map(|axis| dot(&axis, &beside));
         let mut own = self.own_shapes::<D>((x / self.length).clamp(0.0, 1.0), axial);
         self.add_arms::<D>(&mut own);
         own.iter_mut().for_each(|shape| self.carry(shape, [y, z]));
-        // Displacements, then rotations of a node, as many as there are of them.
+        // Displacements of a node, then its rotations.
         for group in own.chunks_exact_mut(Self::per_node::<D>()).flat_map(|node| node.chunks_exact_mut(D)) {
             let given = group.to_vec();
             for (j, shape) in group.iter_mut().enumerate() {
@@ -71,7 +72,7 @@ impl Element {
         if D == 2 { 3 } else { 6 }
     }
 
-    /// Turns of the nodes move the ends of the axis.
+    /// Adds the displacement of the ends of the axis by rotations of the nodes.
     fn add_arms<const D: usize>(&self, own: &mut [Cross]) {
         for node in own.chunks_exact_mut(Self::per_node::<D>()) {
             let (moves, turns) = node.split_at_mut(D);
@@ -82,24 +83,24 @@ impl Element {
         }
     }
 
-    /// A shape of the axis as that of the line at [y, z] beside it, its vectors in the axes of the floating frame.
+    /// Turns a function of the axis into that of the line at [y, z] from it, with vectors in the axes of the floating frame.
     fn carry(&self, shape: &mut Cross, [y, z]: [f64; 2]) {
         let turned = cross(&shape.rotation, &[0.0, y, z]);
         let moved: [f64; 3] = from_fn(|k| shape.displacement[k] + turned[k]);
         let in_frame = |v: &[f64; 3]| from_fn(|j| (0..3).map(|k| self.axes[k][j] * v[k]).sum());
         (shape.displacement, shape.rotation) = (in_frame(&moved), in_frame(&shape.rotation));
         shape.strain.iter_mut().for_each(|strain| *strain *= self.shortness);
-        // Half their squares are strains.
+        // Half the squares of slopes are strains, so slopes take the square root.
         shape.slope.iter_mut().for_each(|slope| *slope *= self.shortness.sqrt());
     }
 
-    /// The middle of its axis, m, and the direction in which its coordinate moves it.
+    /// The middle of its axis, m, and the direction of the middle coordinate.
     pub fn middle(&self) -> ([f64; 3], [f64; 3]) {
         let x = self.axes[0];
         (from_fn(|k| self.start[k] + 0.5 * self.length * x[k]), x)
     }
 
-    /// The same of the ends of its axis, at xi of it, all in the element's own axes.
+    /// Displacement functions of the ends of its axis at 0 <= xi <= 1, all in the element's own axes.
     fn own_shapes<const D: usize>(&self, xi: f64, axial: Axial) -> Vec<Cross> {
         let stretch = self.axial(xi, axial);
         let along_y = self.bending(xi, self.shear[0]).map(Cross::bending_y);
@@ -123,7 +124,7 @@ impl Element {
         shapes
     }
 
-    /// Of both ends and the middle, which is there for quadratic displacement only.
+    /// Axial functions of both ends and of the middle; the last is zero for linear displacement.
     fn axial(&self, xi: f64, axial: Axial) -> [Cross; 3] {
         let [values, slopes] = match axial {
             Axial::Linear => [[1.0 - xi, xi, 0.0], [-1.0, 1.0, 0.0]],

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-/// Places in (-1, 1) with their weights: exact for polynomials up to degree 2 n - 1.
+/// Points in (-1, 1) with their weights: exact for polynomials up to degree 2 n - 1.
 pub fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
     (0..n).rev().map(|i| node(n, i)).collect()
 }
@@ -30,7 +30,7 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     (value, lower)
 }
 
-/// The same places on [from, to].
+/// Points and weights of `rule` on [from, to].
 pub fn on_interval(rule: &[(f64, f64)], [from, to]: [f64; 2]) -> impl Iterator<Item = (f64, f64)> {
     let half = (to - from) / 2.0;
     rule.iter().map(move |(x, weight)| (from + half * (1.0 + x), weight * half))

@@ -1,4 +1,4 @@
-//! The integrals over a beam that the equations of motion need, from its shapes at points of integration.
+//! Integrals over a beam from its displacement functions at points of integration.
 
 use super::line::Cross;
 use super::profile::Profile;
@@ -12,14 +12,14 @@ use std::iter::{once, zip};
 
 /// A point of integration on the line.
 pub struct IntegrationPoint {
-    /// The axes of the section at rest, and where it is, m.
+    /// Axes of the undeformed section, and its position, m.
     rest: ([[f64; 3]; 3], [f64; 3]),
-    /// m
+    /// Weight of integration, m.
     pub weight: f64,
     pub section: Section,
-    /// Whether sections that bending turns have inertia (Rayleigh); those that twist always have.
+    /// True for rotary inertia of sections in bending (Rayleigh); that in torsion is always included.
     rotary: bool,
-    /// What the coordinates do here, in the order of the piece's.
+    /// Displacement functions here, in the order of the piece's coordinates.
     pub shapes: Vec<Cross>,
 }
 
@@ -28,7 +28,7 @@ impl IntegrationPoint {
         IntegrationPoint { rest: line.at(s), weight, section: profile.at(s), rotary: profile.rotary, shapes }
     }
 
-    /// The turn that moves the mass of a section.
+    /// The rotation that the rotary inertia of a section takes part in.
     fn turn(&self, shape: &Cross) -> [f64; 3] {
         let ([x, ..], _) = &self.rest;
         if self.rotary { shape.rotation } else { scale(x, dot(x, &shape.rotation)) }
@@ -76,7 +76,7 @@ fn add_point<const D: usize>(piece: &mut Piece<D>, psi: &[[f64; 3]], mass: f64) 
     }
 }
 
-/// The sections at all samples; those that nothing turns are one.
+/// Discs of the sections at all samples; those that do not rotate are summed to one.
 pub fn discs<const D: usize>(dofs: &[usize], samples: &[IntegrationPoint]) -> Vec<Disc> {
     let discs = samples.iter().map(|sample| sample.disc::<D>(dofs));
     let (fixed, mut turning): (Vec<_>, Vec<_>) = discs.partition(|disc| disc.dofs.is_empty());
@@ -88,7 +88,7 @@ pub fn discs<const D: usize>(dofs: &[usize], samples: &[IntegrationPoint]) -> Ve
     turning
 }
 
-/// Entries of a symmetric matrix, added up in their places; in the order of the places.
+/// A symmetric sparse matrix under assembly, ordered by place.
 #[derive(Default)]
 pub struct Sum(BTreeMap<(usize, usize), f64>);
 
@@ -122,7 +122,8 @@ pub fn add_stiffness(sum: &mut Sum, dofs: &[usize], samples: &[IntegrationPoint]
     }
 }
 
-/// Geometric stiffening from the abscissa `start` on, by the means over samples; only the coordinates that stretch or turn the line there.
+/// Geometric stiffening of the part of the line from the abscissa `start` on, by means over samples; it has only the
+/// coordinates that stretch or rotate the line there.
 pub fn stretch(quartic: f64, start: f64, dofs: &[usize], samples: &[IntegrationPoint]) -> Stretch {
     let counts = |i: &usize| {
         samples.iter().map(|sample| &sample.shapes[*i]).any(|shape| shape.strain[0] != 0.0 || shape.slope != [0.0; 2])
@@ -143,7 +144,7 @@ pub fn stretch(quartic: f64, start: f64, dofs: &[usize], samples: &[IntegrationP
     }
 }
 
-/// The elastic mass matrix where nothing is deformed: M_ij = tr P_ij + sum r_i.J r_j of the discs.
+/// The elastic mass matrix of the undeformed body: M_ij = tr P_ij + sum r_i.J r_j of the discs.
 pub fn mass_matrix<const D: usize>(inertia: &Inertia<D>) -> Symmetric {
     let mut sum = Sum::default();
     for piece in &inertia.pieces {

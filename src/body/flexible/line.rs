@@ -1,4 +1,4 @@
-//! The line of a beam: what every way to describe its displacements (elements, functions, modes) has in common.
+//! The line of a beam: what descriptions of its displacements by elements, functions and modes share.
 //!
 //! Displacements (u, w_y, w_z) of the line and rotations (r_x, r_y, r_z) of its sections are small. With ' = d/ds:
 //!
@@ -18,31 +18,31 @@ use super::shorten::{shorten, shortening};
 use crate::body::{Frame, Marker, cross, in_space};
 use std::array::from_fn;
 
-/// What one coordinate does to one section.
+/// Displacement, rotation and strain of one section per unit of one coordinate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cross {
-    /// Of the line: u, w_y, w_z where it is straight.
+    /// Displacement of the line: u, w_y, w_z if it is straight.
     pub displacement: [f64; 3],
-    /// r_x, r_y, r_z
+    /// Small rotation r_x, r_y, r_z.
     pub rotation: [f64; 3],
-    /// In the order of [`SectionShape::strains`].
+    /// Strains in the order of [`SectionShape::strains`].
     pub strain: [f64; 6],
-    /// w_y', w_z'
+    /// Slopes w_y', w_z'.
     pub slope: [f64; 2],
 }
 
 impl Cross {
-    /// Extension by u with slope u'.
+    /// Axial displacement u with slope u'.
     pub fn axial(u: f64, slope: f64) -> Self {
         Cross { displacement: [u, 0.0, 0.0], strain: [slope, 0.0, 0.0, 0.0, 0.0, 0.0], ..Self::default() }
     }
 
-    /// Twist by an angle with slope.
+    /// Rotation about the line by an angle with slope r_x'.
     pub fn torsion(angle: f64, slope: f64) -> Self {
         Cross { rotation: [angle, 0.0, 0.0], strain: [0.0, 0.0, 0.0, slope, 0.0, 0.0], ..Self::default() }
     }
 
-    /// Bending along y: deflection w, its slope, the section's turn from w towards the line's slope, and its rate.
+    /// Bending along y: r_z is the section's rotation.
     pub fn bending_y(Bending { w, slope, turn, turn_rate }: Bending) -> Self {
         Cross {
             displacement: [0.0, w, 0.0],
@@ -52,7 +52,7 @@ impl Cross {
         }
     }
 
-    /// Bending along z: the section's turn about y is against the slope.
+    /// Bending along z: r_y is minus the section's rotation.
     pub fn bending_z(Bending { w, slope, turn, turn_rate }: Bending) -> Self {
         Cross {
             displacement: [0.0, 0.0, w],
@@ -78,7 +78,7 @@ impl Cross {
     }
 }
 
-/// Bending in one plane: the deflection, its slope, the turn of the section (the slope without shear) and its rate.
+/// Bending in one plane: deflection w, its slope w', rotation of the section (the slope if there is no shear) and its derivative.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bending {
     pub w: f64,
@@ -87,26 +87,26 @@ pub struct Bending {
     pub turn_rate: f64,
 }
 
-/// What the coordinates that reach a place do there.
+/// Displacement functions at a section, with the coordinates that they belong to.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Station {
     pub dofs: Vec<usize>,
     pub shapes: Vec<Cross>,
 }
 
-/// Displacements of the line of a beam as functions of the place.
+/// Displacement functions of the line of a beam.
 pub trait Shapes: Send + Sync {
     fn reference(&self) -> &ReferenceLine;
-    /// At 0 <= s <= length.
+    /// Displacement functions at 0 <= s <= length.
     fn at(&self, s: f64) -> Station;
-    /// Places between which the shapes are smooth, both ends among them.
+    /// Abscissae between which the functions are smooth, both ends included.
     fn breaks(&self) -> Vec<f64>;
     fn profile(&self) -> &Profile;
-    /// Whether the line keeps its length as it bends. Default: no.
+    /// True if the line keeps its length as it bends. Default: false.
     fn shortens(&self) -> bool {
         false
     }
-    /// The mass from `s` on, without what the line shortens by; one piece of all coordinates where it does.
+    /// The mass from `s` on, without second-order terms of shortening; one piece of all coordinates if the line shortens.
     fn inertia<const D: usize>(&self, s: f64) -> Inertia<D>;
 }
 

@@ -12,16 +12,16 @@ use crate::body::{cross, dot, sub};
 use crate::tolerances::body as tolerances;
 use std::array::from_fn;
 
-/// Gauss points on an element that integrate squares of cubics exactly ...
+/// Gauss points on an element of a uniform straight beam: exact for squares of cubics.
 const POINTS: usize = 4;
-/// ... and those that do so with a mass or a stiffness up to the fifth power of s, or on an arc to 1e-10.
+/// Gauss points on other elements: exact for squares of cubics times a fifth power of s, and on an arc to 1e-10.
 const TAPERED: usize = 6;
 
-/// Gauss points that integrate squares of turns exactly, quadratics at most.
+/// Gauss points that integrate squares of rotations, which are at most quadratic, exactly.
 const TURNS: usize = 3;
 
 /// Elements from node to node; node k has x, y, r in the plane and x, y, z, rx, ry, rz in space, an element with quadratic
-/// axial displacement x of its middle too. Some of these coordinates the floating frame fixes.
+/// axial displacement also x of its middle. The floating frame fixes some of these coordinates.
 #[derive(Clone, Debug)]
 pub struct Mesh<const D: usize> {
     /// Abscissae of the nodes, m.
@@ -30,7 +30,7 @@ pub struct Mesh<const D: usize> {
     elements: Vec<Element>,
     axial: Axial,
     profile: Profile,
-    /// Coordinates by their number among those of all nodes; `None` where the frame fixes them.
+    /// Index of each nodal coordinate among the free ones; `None` if the frame fixes it.
     free: Vec<Option<usize>>,
 }
 
@@ -42,12 +42,12 @@ impl<const D: usize> Mesh<D> {
         self.axial
     }
 
-    /// Where an element begins, m.
+    /// Abscissa of an element's left end, m.
     pub fn start(&self, element: usize) -> f64 {
         self.nodes[element]
     }
 
-    /// At least `elements` elements with nodes at both ends and all `markers`.
+    /// A mesh of at least `elements` elements with nodes at both ends and at all `markers`.
     pub fn new(line: ReferenceLine, elements: usize, markers: &[f64], profile: Profile, axial: Axial) -> Self {
         let nodes = subdivide(&breaks(line.length, markers), elements);
         let elements = nodes
@@ -117,7 +117,7 @@ impl<const D: usize> Mesh<D> {
         (0..self.total()).filter(|&i| self.free[i].is_some()).map(name).collect()
     }
 
-    /// Free coordinates of an element in increasing order, and what they do at `s` of it.
+    /// Displacement functions of an element at `s`, with their free coordinates in increasing order.
     fn in_element(&self, element: usize, s: f64) -> Station {
         let ends = self.node(element).chain(self.node(element + 1));
         let middle = (self.axial == Axial::Quadratic).then(|| self.first(element) + Self::PER_NODE);
@@ -129,12 +129,12 @@ impl<const D: usize> Mesh<D> {
         Station { dofs, shapes }
     }
 
-    /// Free coordinates of an element with `points` samples of it.
+    /// Free coordinates of an element, and its displacement functions at `points` Gauss points.
     pub fn samples(&self, element: usize, points: usize) -> (Vec<usize>, Vec<IntegrationPoint>) {
         self.samples_from(self.nodes[element], element, points)
     }
 
-    /// The same of the part of an element from `start` on.
+    /// Free coordinates of an element, and samples of its part from `start` on.
     fn samples_from(&self, start: f64, element: usize, points: usize) -> (Vec<usize>, Vec<IntegrationPoint>) {
         let rule = gauss_legendre(points);
         let sample = |at: (f64, f64)| {
@@ -149,7 +149,7 @@ impl<const D: usize> Mesh<D> {
         if self.profile.is_uniform() && self.line.is_straight() { POINTS } else { TAPERED }
     }
 
-    /// Motions of all nodes that deform nothing: translations, then rotations about the middle of the beam.
+    /// Rigid motions in nodal coordinates: translations, then rotations about the middle of the beam.
     pub fn rigid_motions(&self) -> Vec<Vec<f64>> {
         (0..Self::PER_NODE).map(|part| self.rigid_motion(part)).collect()
     }
@@ -181,7 +181,7 @@ impl<const D: usize> Shapes for Mesh<D> {
         &self.line
     }
 
-    /// At a node the element before it counts: only strains differ between the two.
+    /// At a node, the functions of the element to its left; only strains differ between the two.
     fn at(&self, s: f64) -> Station {
         let element = self.nodes.partition_point(|node| *node < s).saturating_sub(1).min(self.count() - 1);
         self.in_element(element, s)
@@ -195,7 +195,7 @@ impl<const D: usize> Shapes for Mesh<D> {
         &self.profile
     }
 
-    /// An element a piece.
+    /// One piece for each element.
     fn inertia<const E: usize>(&self, s: f64) -> Inertia<E> {
         let mut inertia = Inertia::default();
         for element in (0..self.count()).filter(|element| self.nodes[element + 1] > s) {
@@ -220,7 +220,7 @@ fn breaks(length: f64, markers: &[f64]) -> Vec<f64> {
     places
 }
 
-/// One element between each two places, then further ones where elements are longest.
+/// One element between each two places, then further ones where the elements are longest.
 fn subdivide(places: &[f64], elements: usize) -> Vec<f64> {
     let stretches: Vec<f64> = places.windows(2).map(|ends| ends[1] - ends[0]).collect();
     let mut counts = vec![1_usize; stretches.len()];

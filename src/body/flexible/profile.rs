@@ -8,16 +8,16 @@ use crate::math::expression::Expression;
 use crate::tolerances::body as tolerances;
 use std::array::from_fn;
 
-/// The section is looked at in so many equal parts of the beam.
+/// Number of equal parts of the beam at whose ends the section is checked.
 const LOOKED_AT: u32 = 2000;
 /// Gauss points for means over an element.
 const POINTS: usize = 6;
 
-/// The section of a beam at each of its places.
+/// The section of a beam as a function of s.
 #[derive(Clone, Debug)]
 pub struct Profile {
     form: Form,
-    /// Whether sections that bending turns have inertia (Rayleigh); those that twist always have.
+    /// True for rotary inertia of sections in bending (Rayleigh); that in torsion is always included.
     pub rotary: bool,
 }
 
@@ -28,7 +28,7 @@ enum Form {
 }
 
 impl Profile {
-    /// The section that the laws give, which must do so on the whole length.
+    /// The profile of these laws, which must give valid values on the whole length.
     pub(super) fn new(laws: Laws, length: f64, rotary: bool) -> Result<Self> {
         laws.check(length)?;
         let form = if laws.vary() { Form::Tapered(laws) } else { Form::Uniform(laws.at(0.0)) };
@@ -53,14 +53,14 @@ impl Profile {
         }
     }
 
-    /// At `s` of an element, on its side of a jump.
+    /// Section at `s` of the element between two abscissae; at its ends, the limit from within the element.
     pub fn within(&self, [from, to]: [f64; 2], s: f64) -> Section {
         let gap = tolerances::SAME * (to - from);
         self.at(s.clamp(from + gap, to - gap))
     }
 
-    /// The section with the mean compliance of a part of the beam: what its extension, its twist and its bending under
-    /// equal moments take is exact.
+    /// The section with the mean compliance of a part of the beam, exact for its extension, its twist and its bending under
+    /// a constant moment.
     pub fn mean(&self, ends: [f64; 2]) -> Section {
         let Form::Tapered(laws) = &self.form else { return self.at(ends[0]) };
         let mean = |of: &dyn Fn(&Section) -> f64| {
@@ -79,13 +79,13 @@ impl Profile {
     }
 }
 
-/// Numbers along the beam, and what section they make.
+/// Functions of s, and the form of the section that they describe.
 #[derive(Clone, Debug)]
 pub(super) struct Laws {
     pub make: Make,
     pub laws: Vec<Law>,
     pub theory: Theory,
-    /// Of the scene.
+    /// Dimension of the scene.
     pub dimension: usize,
 }
 
@@ -145,10 +145,10 @@ impl Laws {
 pub(super) struct Law {
     /// JSON path from the body on.
     pub path: String,
-    /// Its last part.
+    /// Last segment of the path.
     pub field: String,
     pub value: Expression,
-    /// Whether it may be zero.
+    /// True if it may be zero.
     pub may_vanish: bool,
 }
 
@@ -165,7 +165,7 @@ impl Law {
         !self.value.is_constant()
     }
 
-    /// A constant was looked at when it was read.
+    /// Checks the value at `s`; constants are checked when they are read.
     fn check(&self, s: f64) -> Result<()> {
         let (value, field, place) = (self.at(s), &self.field, short(s));
         let error = |what: String| Err(Error::input(what).under(&self.path));

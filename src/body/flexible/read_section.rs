@@ -1,4 +1,4 @@
-//! From what a scene says of a beam's section to its profile.
+//! Reads a beam's section from a scene.
 
 use super::profile::{Law, Laws, Make, Profile};
 use super::section::{Matter, Section};
@@ -10,7 +10,7 @@ use crate::math::expression::{Number, Scope};
 const FORMS: &str = "give \"material\" and \"section\", or \"stiffness\" and \"inertia\"";
 
 impl Profile {
-    /// Resolves what the scene says of a beam, of which `length` is known already.
+    /// The profile of a beam of the given length, m.
     ///
     /// # Errors
     /// Bad input: a stiffness or mass that is not above zero somewhere on the beam, or both forms given, or neither.
@@ -37,7 +37,7 @@ impl Profile {
 }
 
 impl Section {
-    /// The stiffness alone, constant along the beam; the inertia is zero.
+    /// The section of a massless beam: stiffness constant along the beam, no inertia.
     ///
     /// # Errors
     /// Bad input: a stiffness that is zero or negative, or both forms given, or neither.
@@ -66,12 +66,12 @@ impl Section {
 
 struct Reader<'a, const D: usize> {
     build: &'a Build<'a, D>,
-    /// What the numbers may depend on beside parameters.
+    /// Variables that the numbers may depend on in addition to parameters.
     variables: &'a [&'a str],
 }
 
 impl<const D: usize> Reader<'_, D> {
-    /// From (E, nu, G) and the density; without one the inertia is zero.
+    /// Laws of a section given by its form, (E, nu, G) and density; without density the inertia is zero.
     fn shape(
         &self,
         (e, nu, g): (&Number, Option<&Number>, Option<&Number>),
@@ -110,7 +110,7 @@ impl<const D: usize> Reader<'_, D> {
         }
     }
 
-    /// In the order of [`Make::Numbers`].
+    /// Laws of a section given by its stiffness and inertia, in the order of [`Make::Numbers`].
     fn numbers(
         &self,
         stiffness: &Stiffness,
@@ -150,7 +150,7 @@ impl<const D: usize> Reader<'_, D> {
         Ok([rho_a, y, z])
     }
 
-    /// [about y, about z], or along them.
+    /// Laws for two directions, [about y, about z] or [along y, along z].
     fn pair(&self, under: &str, field: &str, numbers: &OneOrMany) -> Result<[Law; 2]> {
         match numbers {
             OneOrMany::One(number) => self.positive(under, field, number).map(|law| [law.clone(), law]),

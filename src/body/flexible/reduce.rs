@@ -1,7 +1,7 @@
 //! Fewer coordinates: natural modes of a beam instead of the displacements of its nodes.
 //!
-//! Craig and Bampton (Coupling of Substructures for Dynamic Analyses, AIAA Journal 6, 1968): the static shapes that unit
-//! displacements of the boundary coordinates b cause, and some natural modes Phi of the interior i with the boundary held,
+//! Craig and Bampton (Coupling of Substructures for Dynamic Analyses, AIAA Journal 6, 1968): the static deflections that unit
+//! displacements of the boundary coordinates b cause, and some natural modes Phi of the interior i with the boundary fixed,
 //!
 //! ```text
 //! q = T p,   T = [ I                 0   ]  of b
@@ -9,8 +9,8 @@
 //! ```
 //!
 //! Here the reduced system is diagonalised, so that mass is the identity and stiffness diag(omega^2). Under `mean` frame
-//! conditions the mesh is free, and what is orthogonal to its rigid motions R in the mass metric has no momentum and no
-//! moment of momentum: the rest of the modes.
+//! conditions the mesh is free, and vectors orthogonal to its rigid motions R in the mass metric have no momentum and no
+//! moment of momentum: these are the elastic modes.
 
 use super::eigen::{Modes, dense};
 use super::integrals::mass_matrix;
@@ -62,11 +62,11 @@ pub fn beam<const D: usize>(
     Ok(project(mesh, nodal, modes, shortens))
 }
 
-/// Dense matrices of a beam, with the rigid motions that the frame leaves it.
+/// Dense matrices of a beam, with the rigid motions that its frame does not remove.
 struct System {
     stiffness: Mat<f64>,
     mass: Mat<f64>,
-    /// In columns; they deform nothing.
+    /// Rigid motions in columns: K R = 0.
     rigid: Mat<f64>,
 }
 
@@ -79,7 +79,7 @@ fn modes<const D: usize>(full: &System, mesh: &Mesh<D>, markers: &[f64], count: 
     };
     let Some(count) = count else { return full.elastic_modes().ok_or_else(failed) };
     let interior: Vec<usize> = (0..mesh.coordinates()).filter(|i| !boundary.contains(i)).collect();
-    // A free mesh without markers has no boundary that could hold it.
+    // A free mesh without markers has no boundary to fix.
     let direct = boundary.is_empty();
     let most = if direct { interior.len() - full.rigid.ncols() } else { interior.len() };
     if count > most {
@@ -138,8 +138,8 @@ impl System {
         Some(basis)
     }
 
-    /// The natural modes but the rigid motions. The first coordinates, as many as there are rigid motions, are those of
-    /// one node: with it held the stiffness is definite, and shapes that are freed of their rigid part,
+    /// The natural modes without the rigid motions. The first coordinates, as many as there are rigid motions, are those of
+    /// one node: with it fixed the stiffness is definite, and vectors without their rigid part,
     /// S = (I - R R^T M) [0; I], have that same stiffness and the mass S^T M S = M - M R R^T M.
     fn elastic_modes(&self) -> Option<Modes> {
         let (n, held) = (self.mass.nrows(), self.rigid.ncols());
@@ -157,7 +157,7 @@ impl System {
         Some(Modes { vectors: self.without_rigid_part(vectors), ..modes })
     }
 
-    /// (I - R R^T M) applied to `vectors`, twice: the second time for the round-off of the first.
+    /// (I - R R^T M) applied to `vectors` twice: the second time removes the round-off of the first.
     fn without_rigid_part(&self, mut vectors: Mat<f64>) -> Mat<f64> {
         let rigid = orthonormal(&self.rigid, &self.mass);
         for _ in 0..2 {
@@ -261,7 +261,7 @@ fn project_stretch(stretch: &Stretch, basis: &Mat<f64>) -> Stretch {
     }
 }
 
-/// The mesh seen through its modes.
+/// Displacement functions of the modes: those of the mesh times the modal matrix.
 struct Reduced<const D: usize> {
     mesh: Mesh<D>,
     basis: Mat<f64>,

@@ -10,9 +10,9 @@ use std::array::from_fn;
 /// R0' = R0 kappa~ from the left end on, in the axes there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReferenceLine {
-    /// m
+    /// Length, m.
     pub length: f64,
-    /// Twist, about y and about z, 1/m.
+    /// Curvature kappa: twist, about y and about z, 1/m.
     pub curvature: [f64; 3],
 }
 
@@ -27,12 +27,12 @@ impl ReferenceLine {
         self.curvature == [0.0; 3]
     }
 
-    /// The axes of the section at `s`, and where it is, m.
+    /// Axes of the section at `s`, and its position, m, both in the axes of the left end.
     pub fn at(&self, s: f64) -> ([[f64; 3]; 3], [f64; 3]) {
         exponential(&[1.0, 0.0, 0.0], &self.curvature, s)
     }
 
-    /// The same as a frame.
+    /// The section at `s` as a frame.
     pub fn section<const D: usize>(&self, s: f64) -> Frame<f64, D> {
         let (axes, r) = self.at(s);
         let turn = if D == 2 { self.curvature[2] * s } else { 0.0 };

@@ -1,4 +1,4 @@
-//! Displacements of a beam as functions of choice (Ritz).
+//! Displacements of a beam by functions that the user gives (Ritz).
 
 use super::eigen::{dense, first_dependent};
 use super::gauss::{gauss_legendre, on_interval};
@@ -15,7 +15,7 @@ use crate::math::Taylor;
 use crate::math::expression::{Expression, Number, Scope};
 use crate::tolerances::body as tolerances;
 
-/// Most functions: their integrals are computed for all pairs.
+/// Largest number of functions: their integrals are computed for all pairs.
 const MOST: usize = 200;
 /// Gauss points on a panel.
 const POINTS: usize = 12;
@@ -29,7 +29,7 @@ enum Kind {
 }
 
 impl Kind {
-    /// Key in the scene, beginning of the coordinates' names.
+    /// Key in the scene, and prefix of the coordinates' names.
     fn words(self) -> [&'static str; 2] {
         match self {
             Kind::Bending => ["bending", "bend"],
@@ -70,12 +70,12 @@ impl Function {
 pub struct Functions {
     line: ReferenceLine,
     functions: Vec<Function>,
-    /// Of the mass of axial functions among one another.
+    /// Factor of the mass block of the axial functions.
     axial_mass_factor: f64,
     profile: Profile,
-    /// As many as their integrals need.
+    /// Number of panels of the integration.
     panels: usize,
-    /// Without axial functions the line cannot stretch: it keeps its length as it bends.
+    /// True without axial functions: the line then cannot stretch, and keeps its length as it bends.
     shortens: bool,
 }
 
@@ -151,7 +151,7 @@ impl Functions {
         Ok(functions)
     }
 
-    /// Functions with their slopes must exist on the whole beam, ends included, where joints may be.
+    /// Checks that functions and slopes are finite on the whole beam, ends included, where joints may be.
     fn check_finite(&self) -> Result<()> {
         let places =
             places([0.0, self.line.length], tolerances::RITZ_PANELS).map(|(s, _)| s).chain([0.0, self.line.length]);
@@ -189,7 +189,7 @@ impl Functions {
             .collect()
     }
 
-    /// Everything but the damping, with so few points of integration as are exact to rounding.
+    /// The beam without its damping; panels are doubled until the integrals no longer change.
     ///
     /// # Errors
     /// Bad input: functions that depend on one another, or move the beam as its frame does.
@@ -241,7 +241,7 @@ impl Functions {
         self.functions.iter().map(name).collect()
     }
 
-    /// Multiplies the mass of axial functions among one another.
+    /// Multiplies the mass block of the axial functions by their factor.
     fn scale_axial<const D: usize>(&self, piece: &mut Piece<D>) {
         let n = 1 + self.functions.len();
         let axial = |a: usize| a > 0 && self.functions[a - 1].kind == Kind::Axial;
@@ -293,7 +293,7 @@ fn function<const D: usize>(kind: Kind, i: usize, number: &Number, build: &Build
     Ok(Function { kind, path, value })
 }
 
-/// Of mass and stiffness.
+/// Diagonals of mass and stiffness matrix, interleaved.
 fn diagonals<const D: usize>(n: usize, (inertia, stiffness): &(Inertia<D>, Symmetric)) -> Vec<f64> {
     let (mass, stiffness) = (dense(n, &mass_matrix(inertia)), dense(n, stiffness));
     (0..n).flat_map(|i| [mass[(i, i)], stiffness[(i, i)]]).collect()

@@ -1,33 +1,33 @@
-//! A beam's section in numbers.
+//! Stiffness and inertia of a beam's section.
 
 use super::spec::Theory;
 use std::f64::consts::PI;
 
-/// Stiffness and inertia of a section with principal axes y and z; in the plane those about z and along y count.
+/// Stiffness and inertia of a section with principal axes y and z; in the plane those about z and along y are used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Section {
-    /// N
+    /// Axial stiffness EA, N.
     pub ea: f64,
-    /// Shear along y and z with the shear factor, N; infinite where sections stay square to the line.
+    /// Shear stiffness GA along y and z with the shear factor, N; infinite if sections stay normal to the line.
     pub ga: [f64; 2],
-    /// Torsion, N m^2; zero in the plane.
+    /// Torsional stiffness GJ, N m^2; zero in the plane.
     pub gj: f64,
-    /// Bending about y and about z, N m^2.
+    /// Bending stiffness EI about y and about z, N m^2.
     pub ei: [f64; 2],
-    /// kg/m
+    /// Mass per length, kg/m.
     pub rho_a: f64,
     /// Moments of inertia per length about y and about z, kg m.
     pub rho_i: [f64; 2],
 }
 
 impl Section {
-    /// Of extension, shear along y and z, twist and bending about y and z; zero for shear that there is none of.
+    /// Stiffness for extension, shear along y and z, twist and bending about y and z; zero for shear that is excluded.
     pub fn stiffness(&self) -> [f64; 6] {
         let [gy, gz] = self.ga.map(|ga| if ga.is_finite() { ga } else { 0.0 });
         [self.ea, gy, gz, self.gj, self.ei[0], self.ei[1]]
     }
 
-    /// One over the stiffness; zero for what a beam of this dimension does not do.
+    /// Compliance in the same order; zero for shear that is excluded and for components that a planar beam does not have.
     pub fn compliance<const D: usize>(&self) -> [f64; 6] {
         let stiffness = [self.ea, self.ga[0], self.ga[1], self.gj, self.ei[0], self.ei[1]];
         let acts = |i: usize| D == 3 || matches!(i, 0 | 1 | 5);
@@ -42,7 +42,7 @@ impl Section {
     }
 }
 
-/// What a section is made of.
+/// Material: E and G, Pa, and density, kg/m^3.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Matter {
     pub e: f64,
@@ -67,7 +67,7 @@ impl Matter {
 /// Geometry of a section.
 pub(super) struct Shape {
     area: f64,
-    /// About y and z.
+    /// Second moments of area about y and z, m^4.
     second: [f64; 2],
     torsion: f64,
     /// Shear factor.
@@ -75,13 +75,13 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    /// `h` along y and `b` along z.
+    /// A rectangle of height `h` along y and width `b` along z, m.
     pub fn rectangle(h: f64, b: f64) -> Self {
         let second = [h * b.powi(3) / 12.0, b * h.powi(3) / 12.0];
         Shape { area: h * b, second, torsion: torsion_of_rectangle(h, b), shear: 5.0 / 6.0 }
     }
 
-    /// A full circle where the inner radius is zero.
+    /// A tube, or a full circle if the inner radius is zero.
     pub fn circle(outer: f64, inner: f64) -> Self {
         let second = PI / 4.0 * (outer.powi(4) - inner.powi(4));
         let area = PI * (outer.powi(2) - inner.powi(2));

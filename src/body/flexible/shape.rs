@@ -1,7 +1,7 @@
 //! A flexible body in a floating frame, by its shape functions.
 //!
-//! A point of the body is at u = psi_0 + sum_i psi_i q_i + sum_ij psi_ij q_i q_j/2 in the floating frame: psi_0 where it is at
-//! rest, psi_i the displacement that elastic coordinate i gives it, psi_ij that of two of them together. All that the
+//! A point of the body is at u = psi_0 + sum_i psi_i q_i + sum_ij psi_ij q_i q_j/2 in the floating frame: psi_0 its position at
+//! rest, psi_i its displacement function of elastic coordinate i, psi_ij its second-order one of two of them. All that the
 //! equations of motion need of the mass to second order in q is in
 //!
 //! ```text
@@ -16,10 +16,10 @@ use super::section::Section;
 use crate::body::Frame;
 use crate::math::Scalar;
 
-/// All the mass of a body.
+/// Mass integrals of a body or of a part of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Inertia<const D: usize> {
-    /// Mass points and rigid parts, with the motion of each under the elastic coordinates.
+    /// Integrals of the distributed mass, one piece for each finite element or one for all.
     pub pieces: Vec<Piece<D>>,
     /// Rotary inertia of the sections of a beam, whose mass is on its line.
     pub discs: Vec<Disc>,
@@ -31,9 +31,9 @@ pub struct Inertia<const D: usize> {
 pub struct Disc {
     /// The elastic coordinates that turn it, each once.
     pub dofs: Vec<usize>,
-    /// r_i
+    /// r_i, in the order of `dofs`.
     pub rotation: Vec<[f64; 3]>,
-    /// At rest about the frame's axes, row by row, kg m^2; in the plane the last counts.
+    /// Inertia tensor of the undeformed disc in the frame's axes, row by row, kg m^2; in the plane only zz is used.
     pub inertia: [[f64; 3]; 3],
 }
 
@@ -42,7 +42,7 @@ pub struct Disc {
 pub struct Piece<const D: usize> {
     /// Its elastic coordinates among those of the body, n of them, each once.
     pub dofs: Vec<usize>,
-    /// kg
+    /// Mass, kg.
     pub mass: f64,
     /// m_a, 1 + n of them.
     pub moments: Vec<[f64; D]>,
@@ -52,7 +52,7 @@ pub struct Piece<const D: usize> {
     pub second: Vec<Vec<Second<D>>>,
 }
 
-/// Integrals of psi_ij, the same for psi_ji.
+/// Integrals of psi_ij, equal to those of psi_ji.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Second<const D: usize> {
     /// Place of j among the piece's coordinates.
@@ -71,31 +71,31 @@ impl<const D: usize> Second<D> {
         into(self.product.as_flattened_mut(), other.product.as_flattened());
     }
 
-    /// Whether anything of it is not zero.
+    /// True if any of the integrals is not zero.
     pub fn counts(&self) -> bool {
         self.moment.iter().chain(self.product.as_flattened()).any(|x| *x != 0.0)
     }
 }
 
-/// How a point of the body and the axes there move with the elastic coordinates.
+/// Displacement and rotation functions of a point of the body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointShape<const D: usize> {
-    /// At rest, from the floating frame's origin and in its axes, m.
+    /// Position at rest, from the floating frame's origin and in its axes, m.
     pub rest: [f64; D],
-    /// From the line of a beam to the point at rest, in the same axes; it turns with the section.
+    /// Vector from the line of a beam to the point at rest, in the same axes, m; it rotates with the section.
     pub arm: [f64; D],
     /// The elastic coordinates that move it.
     pub dofs: Vec<usize>,
-    /// Displacement a coordinate, to first order.
+    /// Displacement per unit of each coordinate, to first order.
     pub translation: Vec<[f64; D]>,
-    /// Small rotation a coordinate; in the plane only the third component is used.
+    /// Small rotation per unit of each coordinate; in the plane only the third component is used.
     pub rotation: Vec<[f64; 3]>,
-    /// Displacement along x of each pair of coordinates, row by row, where the line shortens as it bends; else empty.
+    /// Matrix S of the displacement q.S q/2 along x by which the line shortens as it bends, row by row; else empty.
     pub shortening: Vec<f64>,
 }
 
 impl<const D: usize> PointShape<D> {
-    /// Sum of the displacements that coordinates give it, but for what an arm turns at second order.
+    /// Displacement of the point, without the second-order rotation of its arm.
     #[inline]
     pub fn displacement<S: Scalar>(&self, coordinate: impl Fn(usize) -> S) -> [S; D] {
         let mut u = [S::zero(); D];
@@ -121,56 +121,56 @@ impl<const D: usize> PointShape<D> {
     }
 }
 
-/// How a section deforms with the elastic coordinates: extension, shear along y and z, twist, curvature about y and z.
+/// Strain functions of a section: extension, shear along y and z, twist, curvature about y and z.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SectionShape {
     /// Indices of the elastic coordinates that deform the section.
     pub dofs: Vec<usize>,
-    /// Strains a coordinate.
+    /// Strains per unit of each coordinate.
     pub strains: Vec<[f64; 6]>,
 }
 
-/// A length of a beam whose axial force stiffens its bending (von Karman): with the mean extension a.q of the line and
+/// A part of a beam whose axial force stiffens its bending (von Karman): with the mean extension a.q of the line and
 /// its mean squared slope q.S q, its energy is weight ((a.q)^2 + a.q q.S q + quartic (q.S q)^2/4)/2, of which (a.q)^2 is in
 /// the stiffness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stretch {
-    /// Where it begins and ends on the line, m.
+    /// Abscissae of its ends, m.
     pub ends: [f64; 2],
     /// Indices of the elastic coordinates that stretch this part.
     pub dofs: Vec<usize>,
-    /// EA times the length, N m.
+    /// EA times the length of the part, N m.
     pub weight: f64,
-    /// 1: weight (a.q + q.S q/2)^2/2 in all; 0: without the last term.
+    /// 1: the energy is weight (a.q + q.S q/2)^2/2; 0: without the last term.
     pub quartic: f64,
-    /// a: mean of u' a coordinate.
+    /// a: mean of u' per unit of each coordinate.
     pub axial: Vec<f64>,
-    /// S: mean of w_y' w_y' + w_z' w_z' a pair of coordinates, row by row.
+    /// S: mean of w_y' w_y' + w_z' w_z' for each pair of coordinates, row by row.
     pub slopes: Vec<f64>,
 }
 
 /// A symmetric sparse matrix: entries (i, j, value) with i >= j, each place once.
 pub type Symmetric = Vec<(usize, usize, f64)>;
 
-/// The line of a beam: shapes at any place on it.
+/// The line of a beam with its displacement functions.
 pub trait Line<const D: usize>: Send + Sync {
-    /// m
+    /// Length of the undeformed line, m.
     fn length(&self) -> f64;
-    /// The section at `s` at rest, in the floating frame.
+    /// Frame of the undeformed section at `s`, in the floating frame.
     fn at_rest(&self, s: f64) -> Frame<f64, D>;
-    /// The point at `place` = [s, y(, z)], 0 <= s <= length, which turns with its section.
+    /// Displacement functions of the point `place` = [s, y(, z)], 0 <= s <= length, which rotates with its section.
     fn point(&self, place: [f64; D]) -> PointShape<D>;
     /// Strains of the section at `s` per unit of each elastic coordinate.
     fn section(&self, s: f64) -> SectionShape;
     /// Stiffness and mass of the section at `s`.
     fn material(&self, s: f64) -> Section;
-    /// The mass from `s` to the end.
+    /// Mass integrals from `s` to the right end.
     fn beyond(&self, s: f64) -> Inertia<D>;
 }
 
-/// Everything that the equations of motion of a flexible body in a floating frame need.
+/// Inertia, stiffness and damping of a flexible body in a floating frame.
 pub struct Elastic<const D: usize> {
-    /// Of the elastic coordinates, such as `n3_y` or `mode2`.
+    /// Names of the elastic coordinates, such as `n3_y` or `mode2`.
     pub names: Vec<String>,
     /// Distributed mass with its displacement functions.
     pub inertia: Inertia<D>,
@@ -178,8 +178,8 @@ pub struct Elastic<const D: usize> {
     pub stiffness: Symmetric,
     /// Damping matrix of the elastic coordinates.
     pub damping: Symmetric,
-    /// Empty without geometric stiffening.
+    /// Parts of a beam with geometric stiffening; empty without it.
     pub stretches: Vec<Stretch>,
-    /// Of a beam.
+    /// The line, if the body is a beam.
     pub line: Option<Box<dyn Line<D>>>,
 }

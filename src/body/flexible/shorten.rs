@@ -1,7 +1,7 @@
 //! A line that does not stretch but shortens as it bends.
 //!
-//! Few modes or functions leave nothing that could follow the shortening of a bent line: their axial strain would be the
-//! square of its slopes, and lock it. Where its length is kept instead, points move along it at second order,
+//! Few modes or functions cannot represent the shortening of a bent line: the squares of its slopes would be axial strain
+//! and lock it. If it keeps its length instead, points move along it at second order,
 //!
 //! ```text
 //! u_x = -int_0^s (w_y'^2 + w_z'^2)/2 ds,   psi_ij = -int_0^s w_i'.w_j' ds along x,

@@ -1,4 +1,4 @@
-//! What a scene says of a flexible beam.
+//! Keys of a flexible beam in a scene.
 
 use crate::math::expression::Number;
 use schemars::JsonSchema;

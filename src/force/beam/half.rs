@@ -1,37 +1,37 @@
-//! What the mass of a beam adds to the forces of its massless elements.
+//! Weight and inertia of a beam's mass, added to the forces of its massless elements.
 
 use crate::body::{Frame, cross};
 use crate::math::screw::Vector;
 use crate::math::{Scalar, Taylor};
 use std::array::from_fn;
 
-/// The half of an element beside one of its ends, as the part that it is of the rigid node there; zero without mass.
+/// Mass of half an element, as part of the rigid node at its end; zero for a massless beam.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Half {
-    /// kg
+    /// Mass, kg.
     pub mass: f64,
-    /// Where its mass is from the node along the beam, m.
+    /// Distance of its centre of mass from the node along the beam, m.
     pub arm: f64,
     /// Its part of the mass of the node, times the square of the shift of the node's centre of mass, kg m^2.
     pub shifted: f64,
     /// Its part of the node's moments int rho y^2 and int rho z^2, kg m^2.
     pub moments: [f64; 2],
-    /// The mass a length at the node, kg/m.
+    /// Mass per length at the node, kg/m.
     pub mass_per_length: f64,
-    /// int rho y^2 and int rho z^2 a length at the node, kg m.
+    /// int rho y^2 and int rho z^2 per length at the node, kg m.
     pub moments_per_length: [f64; 2],
 }
 
-/// Weight less inertia of a half element, in the world's axes: in all, about the node, and a length at the node.
+/// Weight minus inertia forces of a half element, in world axes: their sum about the node, and per length at the node.
 #[derive(Clone, Copy, Debug)]
 pub struct Load<S> {
-    /// N
+    /// Force, N.
     pub force: Vector<S>,
-    /// N m
+    /// Torque about the node, N m.
     pub torque: Vector<S>,
-    /// N/m
+    /// Force per length at the node, N/m.
     pub force_per_length: Vector<S>,
-    /// N
+    /// Torque per length at the node, N.
     pub torque_per_length: Vector<S>,
 }
 
@@ -51,8 +51,8 @@ impl<S: Scalar> Load<S> {
 }
 
 impl Half {
-    /// Of the half element at a node that moves with its accelerations. A point of the beam's axis at x has the acceleration
-    /// r'' + x e''. The moments of both halves of a node add up to that of the rigid body that it is.
+    /// Load of the half element for the motion of its node. A point of the beam's axis at x has the acceleration
+    /// r'' + x e''. The loads of both halves of a node add up to those of the rigid node.
     pub fn load<S: Scalar, const D: usize>(&self, node: &Frame<Taylor<S>, D>, gravity: &[f64; D]) -> Load<S> {
         let lift: [S; D] = from_fn(|k| -node.r[k].dd + gravity[k]);
         let along = node.axes[0];

@@ -7,20 +7,20 @@ use crate::math::Scalar;
 use crate::math::screw::{Vector, dot3, exponential};
 use std::array::from_fn;
 
-/// The helix between the ends of an element, with what curvature and shear that change along it do beside the helix: a
-/// turn and a shift that are zero at the ends, cubics with the slopes that the strains there ask for. All in the axes of the
-/// first end.
+/// The line of an element: the helix between its ends, corrected for curvature and shear that change along it by a
+/// rotation and a displacement that are zero at the ends, cubics with the slopes that the strains there require. All in
+/// the axes of the first end.
 pub(super) struct Line<S> {
-    /// m
+    /// Length of the relaxed element, m.
     pub length: f64,
-    /// Where the second end is.
+    /// Position of the second end, m.
     pub gap: Vector<S>,
     /// dr/dx at the second end.
     pub tangent: Vector<S>,
     /// Logarithm of the motion from end to end.
     shift: Vector<S>,
     turn: Vector<S>,
-    /// Slopes of the turn and of the shift beside the helix at both ends, in its axes.
+    /// Slopes, at both ends, of the rotation (`bend`) and displacement (`lean`) from the helix, in its axes.
     bend: [Vector<S>; 2],
     lean: [Vector<S>; 2],
 }
@@ -28,7 +28,7 @@ pub(super) struct Line<S> {
 type Axes<S> = [Vector<S>; 3];
 
 impl<S: Scalar> Line<S> {
-    /// With what the sections at the ends carry by their strains.
+    /// The line for the internal forces of the sections at both ends.
     pub fn new(beam: &Beam, strains: &Strains<S>, ends: &[Carried<S>; 2]) -> Self {
         let [shift, turn, gap] = [&strains.shift, &strains.turn, &strains.gap].map(|v| v.map(|x| x.re));
         let per_length = 1.0 / beam.length;
@@ -45,7 +45,7 @@ impl<S: Scalar> Line<S> {
         Line { length: beam.length, gap, tangent, shift, turn, bend, lean }
     }
 
-    /// Axes and place of the section at a part of the element.
+    /// Axes and position of the section at 0 <= `part` <= 1 of the element.
     pub fn at(&self, part: f64) -> (Axes<S>, Vector<S>) {
         let [_, first, last] = cubic(part).map(|slope| slope * self.length);
         let beside = |slopes: &[Vector<S>; 2]| -> Vector<S> { from_fn(|i| slopes[0][i] * first + slopes[1][i] * last) };

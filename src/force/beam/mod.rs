@@ -35,7 +35,7 @@ impl<const D: usize> ForceKernel<D> for Beam {
         let elastic: [S; 6] = from_fn(|i| (strain[i].re - self.rest[i]) * self.stiffness[i]);
         let damped = from_fn(|i| elastic[i] + strain[i].eps[0] * (self.damping * self.stiffness[i]));
         let [first, last] = self.carried(&strains, &damped);
-        // What the elastic force does is against the growth of the strain.
+        // The elastic forces oppose the strain.
         let [force, torque] = [last.n, last.m].map(|v| in_world(&a, &v.map(|x| -x)));
         out[1] = Wrench { force: from_fn(|i| force[i]), torque };
         out[0] = Wrench { force: from_fn(|i| -force[i]), torque: in_world(&a, &first.m) };
@@ -51,7 +51,7 @@ impl<const D: usize> ForceKernel<D> for Beam {
 }
 
 impl Beam {
-    /// What the sections at both ends carry where these are the stresses, nothing loading the element between them.
+    /// Internal forces of the sections at both ends for these stresses, with no load on the element between them.
     fn carried<S: Scalar>(&self, strains: &Strains<S>, stress: &[S; 6]) -> [Carried<S>; 2] {
         let [n, m] = self.conjugate(strains, stress);
         let [turn, gap] = [&strains.turn, &strains.gap].map(|vector| vector.map(|x| x.re));
@@ -61,7 +61,7 @@ impl Beam {
     }
 }
 
-/// Components along the axes of a frame, put in the world's.
+/// World components of a vector given along the axes of a frame.
 fn in_world<S: Scalar, const D: usize>(frame: &Frame<Moving<S>, D>, v: &Vector<S>) -> Vector<S> {
     match D {
         2 => from_fn(|i| if i < 2 { frame.axes[0][i].re * v[0] + frame.axes[1][i].re * v[1] } else { v[2] }),
@@ -69,7 +69,7 @@ fn in_world<S: Scalar, const D: usize>(frame: &Frame<Moving<S>, D>, v: &Vector<S
     }
 }
 
-/// A vector of the world in the axes of a frame.
+/// Components of a world vector along the axes of a frame.
 fn in_axes<S: Scalar, const D: usize>(frame: &Frame<Moving<S>, D>, v: &Vector<S>) -> Vector<S> {
     let own = from_fn(|k| v[k]);
     from_fn(|i| if i < D { dot(&frame.axes[i].map(|x| x.re), &own) } else { v[i] })

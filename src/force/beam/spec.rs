@@ -1,4 +1,4 @@
-//! What a scene says of a massless beam.
+//! Keys of a massless beam in a scene.
 
 use super::Beam;
 use crate::body::Build;

@@ -1,4 +1,4 @@
-//! What a place between the ends of a beam element is like.
+//! Position and internal forces of a section between the ends of a beam element.
 
 use super::half::Load;
 use super::line::Line;
@@ -9,22 +9,22 @@ use crate::math::screw::{Vector, cross3, dot3};
 use crate::math::{Scalar, Taylor};
 use std::array::from_fn;
 
-/// A section of a beam: where it is, and what it carries.
+/// A section of a beam: its position and its internal forces.
 ///
-/// In the order axial force, shear forces along y and z, torque, bending moments about y and z, in the section's axes.
-/// They act on the section from the side of larger abscissae. The elastic ones times the compliances of the section are its
+/// Forces are in the order axial force, shear forces along y and z, torque, bending moments about y and z, in the section's
+/// axes. They act on the section from the side of larger abscissae. The elastic ones times the compliances of the section are its
 /// strains against the relaxed beam: extension, shear, twist, curvatures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Station<S, const D: usize> {
-    /// m
+    /// Position in the world, m.
     pub r: [S; D],
-    /// Without damping, N and N m.
+    /// Internal forces without damping, N and N m.
     pub elastic: [S; 6],
-    /// N and N m.
+    /// Internal forces with damping, N and N m.
     pub force: [S; 6],
 }
 
-/// Force and moment that a section carries, in the axes of the element's first end.
+/// Internal force, N, and moment, N m, of a section, in the axes of the element's first end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Carried<S> {
     pub n: Vector<S>,
@@ -32,16 +32,16 @@ pub(super) struct Carried<S> {
 }
 
 impl Beam {
-    /// The section at `x` from the first end, 0 <= x <= length, with the ends' frames as given, where nothing loads the
+    /// The section at `x` from the first end, 0 <= x <= length, for the frames of its ends and no load on the
     /// element between them.
     pub fn station<S: Scalar, const D: usize>(&self, ends: [&Frame<Taylor<S>, D>; 2], x: f64) -> Station<S, D> {
         self.loaded_station(ends, &[Load::none(); 2], x)
     }
 
-    /// The same where `loads` act on the halves of the element.
+    /// The section at `x` where `loads` act on the halves of the element.
     ///
-    /// What the element does to its ends is exact in equilibrium, however coarse it is; with the loads of its halves it is
-    /// what the sections there carry. Between them force and moment follow from equilibrium, n' + f = 0 and
+    /// The forces of the element on its ends are exact in equilibrium for any length of it; with the loads of its halves
+    /// they are the internal forces of the end sections. Between these, force and moment follow from equilibrium, n' + f = 0 and
     /// m' + r' x n + l = 0: cubics with the right values and slopes at both ends, but for -(r - r_0) x n_0, which is as exact
     /// as the line. Straight elements under loads at their ends and uniform ones between are exact; others to the fourth
     /// power of the length.
@@ -76,7 +76,7 @@ impl Beam {
     }
 }
 
-/// What the sections at the ends carry, each on the inner side of the half element there.
+/// Internal forces of the end sections with the loads of the halves added.
 fn loaded<S: Scalar>([a, b]: [Carried<S>; 2], loads: &[Load<S>; 2]) -> [Carried<S>; 2] {
     let add = |v: &Vector<S>, w: &Vector<S>, sign: f64| from_fn(|i| v[i] + w[i] * sign);
     let with = |c: &Carried<S>, load: &Load<S>, sign| Carried {
@@ -93,7 +93,7 @@ pub(super) fn cubic(part: f64) -> [f64; 3] {
 }
 
 impl<S: Scalar> Line<S> {
-    /// What the section at a part of the element and at `place` carries, by equilibrium with what the ends do.
+    /// Internal forces of the section at 0 <= `part` <= 1 of the element and at `place`, by equilibrium with the ends.
     fn between(&self, [a, b]: &[Carried<S>; 2], loads: &[Load<S>; 2], part: f64, place: &Vector<S>) -> Carried<S> {
         let [value, first, last] = cubic(part);
         let [first, last] = [first, last].map(|slope| slope * self.length);

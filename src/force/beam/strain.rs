@@ -12,14 +12,14 @@ use std::array::from_fn;
 /// Strains and stresses are in the order extension, shear along y and z, twist, curvature about y and z.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Beam {
-    /// m
+    /// Length of the relaxed element, m.
     pub length: f64,
-    /// EA, GA along y and z, GJ, EI about y and z; N and N m^2. Those of shear make up for the bending that a helix
-    /// does not have.
+    /// EA, GA along y and z, GJ, EI about y and z; N and N m^2. GA includes the residual bending flexibility, since a helix
+    /// cannot bend by a shear force.
     pub(super) stiffness: [f64; 6],
     /// Strains of the relaxed element.
     pub(super) rest: [f64; 6],
-    /// The part of the shear strain, along y and z, that is bending in truth.
+    /// Fraction of the shear strain, along y and z, that represents bending.
     pub(super) bent: [f64; 2],
     /// One over EA, GA along y and z, GJ, EI about y and z of the sections at the ends; zero for what the beam does not do.
     pub(super) compliance: [[f64; 6]; 2],
@@ -27,7 +27,7 @@ pub struct Beam {
     pub(super) damping: f64,
 }
 
-/// What the frames at the ends say: the screw from one to the other, and the gap between them, in the first one's axes.
+/// Relative motion of the end frames: the logarithm of the screw from one to the other, and their gap, in the first's axes.
 pub(super) struct Strains<S> {
     pub gap: Vector<Moving<S>>,
     pub turn: Vector<Moving<S>>,
@@ -71,7 +71,7 @@ impl Beam {
         Beam { length, stiffness, rest, bent, compliance: [section.compliance::<D>(); 2], damping }
     }
 
-    /// An element of a tapered beam, that is to have the mean compliance of it: with its sections at the ends.
+    /// An element of a tapered beam, given the sections at its ends; its own section must have the mean compliance.
     #[must_use]
     pub fn tapered<const D: usize>(self, ends: [Section; 2]) -> Self {
         Beam { compliance: ends.map(|section| section.compliance::<D>()), ..self }
@@ -87,15 +87,15 @@ impl Beam {
         [self.rest[3], self.rest[4], self.rest[5]]
     }
 
-    /// Where the relaxed beam is at `x` from its first end, in the axes there, m.
+    /// Point of the relaxed beam at `x` from its first end, in the axes there, m.
     pub fn relaxed(&self, x: f64) -> [f64; 3] {
         ReferenceLine { length: self.length, curvature: self.curvature() }.at(x).1
     }
 
-    /// Length of the bent line by that of the relaxed one, from the logarithm's shift by the length. A line that leans by
+    /// Ratio of the length of the bent line to that of the relaxed one, from the logarithm's shift per length. A line inclined by
     /// phi(x) is longer than its chord by the mean of phi^2/2, which for the cubic of a shear force is 0.6 of its squared
-    /// mean; sections that shear by g beside it add phi g. Under the root this holds for small shear, and for any shear the
-    /// line is at least as long as its chord: without that, tension above 12 EI/L^2 would turn the sections aside.
+    /// mean; a shear g of the sections adds phi g. Under the root this holds for small shear, and for any shear the
+    /// line is at least as long as its chord: without that, tension above 12 EI/L^2 would rotate the sections away from it.
     fn stretch<S: Scalar>(&self, [x, y, z]: Vector<S>) -> S {
         let [long_y, long_z] = self.lengthening();
         let square = x * x + y * y * long_y + z * z * long_z;
@@ -120,8 +120,8 @@ impl Beam {
         [self.stretch([x, y, z]), y, z, k[0] + gy * k[1] + gz * k[2], k[1] - gy * k[0], k[2] - gz * k[0]]
     }
 
-    /// Force and moment that do on the logarithm of the motion what the stresses do on [`strain`](Beam::strain): its
-    /// transposed derivative.
+    /// Force and moment conjugate to the logarithm of the motion, as the stresses are to [`strain`](Beam::strain): its
+    /// transposed derivative times the stresses.
     #[inline]
     pub(super) fn conjugate<S: Scalar>(&self, strains: &Strains<S>, stress: &[S; 6]) -> [Vector<S>; 2] {
         let per_length = 1.0 / self.length;

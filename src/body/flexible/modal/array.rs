@@ -1,4 +1,4 @@
-//! Arrays of numbers as scenes and files give them.
+//! Arrays of numbers in scenes and files.
 
 use crate::body::Build;
 use crate::error::{Error, Result};
@@ -57,7 +57,7 @@ impl Array {
         Array { shape: Vec::new(), values: vec![value] }
     }
 
-    /// The values, if their number is right for `shape`; ones in either shape do not count.
+    /// The values, if the shape is `shape`; lengths of 1 in either are ignored.
     ///
     /// # Errors
     /// Bad input that says what was found and expected.
@@ -69,7 +69,7 @@ impl Array {
         Err(Error::input(format!("expected {}, found {}", in_words(shape), in_words(&self.shape))).under(field))
     }
 
-    /// One number.
+    /// The value of an array of one number.
     pub fn scalar(&self, field: &str) -> Result<f64> {
         self.fit(field, &[])?.first().copied().ok_or_else(|| Error::input("expected a number").under(field))
     }
@@ -94,7 +94,7 @@ impl Array {
     }
 }
 
-/// `3 x 4 numbers`
+/// The shape in a message, such as `3 x 4 numbers`.
 fn in_words(shape: &[usize]) -> String {
     match shape {
         [] => "one number".to_string(),

@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use faer::Mat;
 use std::array::from_fn;
 
-/// From masses that are known one by one: exact in every term.
+/// Mass integrals of point masses with known motion in the modes: exact in every term.
 pub fn of_lumped<const D: usize>(masses: &[Lumped<Array>], n: usize) -> Result<Piece<D>> {
     let mut piece = empty(n);
     for (i, lumped) in masses.iter().enumerate() {
@@ -47,9 +47,9 @@ fn empty<const D: usize>(n: usize) -> Piece<D> {
     }
 }
 
-/// From the rigid inertia, the modal mass M and the momenta m_i, h_i of the modes. These say of P_0i its antisymmetric
-/// part, h = int rho psi_0 x psi_i, and of P_ij its trace M_ij; what they do not say is taken as if no direction were
-/// preferred: P_0i without a symmetric part, P_ij = M_ij/D times the identity.
+/// Mass integrals from the rigid inertia, the modal mass M and the momenta m_i, h_i of the modes. These determine the
+/// antisymmetric part of P_0i, by h_i = int rho psi_0 x psi_i, and the trace M_ij of P_ij. The rest is assumed isotropic:
+/// P_0i without a symmetric part, P_ij = M_ij/D times the identity.
 pub fn of_couplings<const D: usize>(data: &ModalData<Array>, mass: &Mat<f64>) -> Result<Piece<D>> {
     let n = mass.nrows();
     let mut piece = empty::<D>(n);
@@ -77,7 +77,7 @@ fn antisymmetric<const D: usize>([x, y, z]: [f64; 3]) -> [[f64; D]; D] {
     from_fn(|l| from_fn(|m| twice[l][m] / 2.0))
 }
 
-/// mass, m_0 and P_00, whose trace less itself is the inertia.
+/// Sets mass, m_0 and P_00, of which tr(P_00) - P_00 is the inertia tensor.
 fn rigid<const D: usize>(piece: &mut Piece<D>, data: &ModalData<Array>) -> Result<()> {
     let missing = |key: &str| Error::input(format!("the key `{key}` is missing")).hint("or give \"lumped\" masses");
     piece.mass = data.mass.as_ref().ok_or_else(|| missing("mass"))?.scalar("mass")?;
@@ -130,7 +130,7 @@ pub fn check<const D: usize>(piece: &Piece<D>) -> Result<()> {
     }
 }
 
-/// Of translations, rotations and modes, in undeformed state.
+/// Mass matrix of translations, rotations and modes in the undeformed state.
 fn at_rest<const D: usize>(piece: &Piece<D>) -> Mat<f64> {
     let n = piece.dofs.len();
     let turns: &[usize] = if D == 2 { &[2] } else { &[0, 1, 2] };

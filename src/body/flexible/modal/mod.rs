@@ -1,4 +1,4 @@
-//! Bodies by the modes that another program computed.
+//! Bodies in modal coordinates, from modes that another program has computed.
 
 mod array;
 mod inertia;
@@ -63,7 +63,7 @@ fn read_npz(_: &Path) -> Result<ModalData<Array>> {
     Err(Error::input("this program is built without NumPy's files").hint("give JSON, or build with the feature `npz`"))
 }
 
-/// The scene's key is at fault, and within its file a key of its own.
+/// Error at the scene's key `file`, with the key within that file in its message.
 fn in_file(name: &str, error: Error) -> Error {
     let Error::Input(input) = error else { return error };
     let place = if input.path.is_empty() { String::new() } else { format!("at {}: ", input.path) };
@@ -74,7 +74,7 @@ fn in_file(name: &str, error: Error) -> Error {
     }
 }
 
-/// Expressions to numbers.
+/// Evaluates the expressions of modal data.
 fn resolve<const D: usize>(data: &ModalData<Table>, build: &Build<D>) -> Result<ModalData<Array>> {
     let maybe =
         |field: &str, table: &Option<Table>| table.as_ref().map(|table| table.resolve(field, build)).transpose();
@@ -106,7 +106,7 @@ fn resolve<const D: usize>(data: &ModalData<Table>, build: &Build<D>) -> Result<
     })
 }
 
-/// Stiffness, damping and mass with their eigenvalues, the integrals of the modes, and the blocks of the equations.
+/// Number of n x n matrices in memory: stiffness, damping, mass, eigenvalues, mode integrals and blocks of the equations.
 const COPIES: f64 = 40.0;
 
 fn shapes<const D: usize>(data: &ModalData<Array>) -> Result<ModalShapes<D>> {
@@ -172,7 +172,7 @@ fn shapes<const D: usize>(data: &ModalData<Array>) -> Result<ModalShapes<D>> {
     Ok(ModalShapes { elastic, nodes: nodes.iter().map(point).collect::<Result<_>>()? })
 }
 
-/// What follows from lumped masses cannot be given beside them.
+/// Refuses inertia keys together with lumped masses, from which they follow.
 fn refuse_inertia(data: &ModalData<Array>) -> Result<()> {
     let given = [
         ("mass", &data.mass),
@@ -200,7 +200,7 @@ fn matrix(field: &str, array: &Array, n: usize) -> Result<Mat<f64>> {
     let largest = crate::math::largest(values);
     for (i, j) in (0..n).flat_map(|i| (0..i).map(move |j| (i, j))) {
         let [lower, upper] = [values[i * n + j], values[j * n + i]];
-        // Files have a few digits only.
+        // Files have few digits, so symmetry is checked to 1e-6.
         if (lower - upper).abs() > 1e-6 * largest {
             return Err(Error::input(format!(
                 "the matrix is not symmetric: [{j}][{i}] is {}, [{i}][{j}] is {}",
@@ -213,7 +213,7 @@ fn matrix(field: &str, array: &Array, n: usize) -> Result<Mat<f64>> {
     Ok(Mat::from_fn(n, n, |i, j| (values[i * n + j] + values[j * n + i]) / 2.0))
 }
 
-/// The smallest eigenvalue; zero where it is round-off of the largest.
+/// The smallest eigenvalue; zero if it is within round-off of the largest.
 fn smallest(field: &str, matrix: &Mat<f64>) -> Result<f64> {
     let failed = |_| Error::input("the eigenvalues cannot be computed").under(field);
     let eigenvalues = matrix.self_adjoint_eigenvalues(Side::Lower).map_err(failed)?;

@@ -1,4 +1,4 @@
-//! Modal data in NumPy's `.npz` files: a zip archive with one `.npy` file an array.
+//! Modal data in NumPy's `.npz` files: a zip archive with one `.npy` file for each array.
 
 use super::array::Array;
 use super::spec::{Lumped, ModalData, Node, Nodes};
@@ -8,7 +8,7 @@ use std::io::Cursor;
 use std::path::Path;
 use zip::ZipArchive;
 
-/// Keys of arrays that are as in JSON.
+/// Keys of arrays that have the same meaning as in JSON.
 const PLAIN: [&str; 8] = [
     "mass",
     "center",
@@ -56,7 +56,7 @@ pub fn read(path: &Path) -> Result<ModalData<Array>> {
 
 type Archive = ZipArchive<Cursor<Vec<u8>>>;
 
-/// The file of one array.
+/// Contents of the `.npy` file of one array, if there is one.
 fn bytes(archive: &mut Archive, key: &str) -> Result<Option<Vec<u8>>> {
     let problem = match archive.by_name(&format!("{key}.npy")) {
         Ok(file) => match files::read_limited(file) {
@@ -92,7 +92,7 @@ fn missing(key: &str) -> Error {
     Error::input(format!("the key `{key}` is missing"))
 }
 
-/// Part `i` of an array whose first index counts `count` things.
+/// Entry `i` of an array whose first index runs over `count` nodes or masses.
 fn part(array: &Array, key: &str, i: usize, count: usize) -> Result<Array> {
     match array.shape.split_first() {
         Some((&length, rest)) if length == count => {

@@ -1,4 +1,4 @@
-//! What a scene, or a file of its own, says of a body in modal coordinates.
+//! Keys of a body in modal coordinates, in a scene or in a file of its own.
 
 use super::array::Table;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
