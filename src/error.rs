@@ -1,4 +1,4 @@
-//! What can go wrong, told so that a person can mend it.
+//! Errors and warnings with place and remedy.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -6,35 +6,35 @@ use std::path::PathBuf;
 /// Result with the library's [`Error`].
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
-/// An error of the library. [`Error::exit_code`] is what the command line ends with.
+/// An error of the library. [`Error::exit_code`] is the exit code of the program.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Error {
-    /// The input cannot be meant as it stands.
+    /// The input is not valid.
     Input(Box<Input>),
-    /// A file cannot be read, or be where it is wanted.
+    /// A file cannot be read, or cannot be created at its path.
     File {
         /// Path of the file.
         path: PathBuf,
         /// Cause, in words.
         problem: String,
     },
-    /// A file could not be written for want of room, or because a device failed.
+    /// A file could not be written: the disk is full, or a device failed.
     Unwritten {
         /// Path of the file.
         path: PathBuf,
         /// Cause, in words.
         problem: String,
     },
-    /// The computation could not go on; what was computed until then is kept.
+    /// The computation ended early; results up to then are kept.
     Run(Failure),
 }
 
-/// Bad input: where, what was found, what would be right.
+/// Bad input: its place, what is wrong, and the remedy.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Input {
     /// JSON path such as `joints[2].between[1]`, or an option such as `--at`; empty for the whole file.
     pub path: String,
-    /// Name of the element that is concerned.
+    /// Name of the element in which it is.
     pub element: Option<String>,
     /// What is wrong, without path and remedy.
     pub message: String,
@@ -46,7 +46,7 @@ pub struct Input {
     pub file: Option<PathBuf>,
 }
 
-/// Why and where a run ended early.
+/// Time and cause of the early end of a run.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Failure {
     /// Time of the last good state, s.
@@ -57,7 +57,7 @@ pub struct Failure {
     pub hint: String,
 }
 
-/// What makes a result doubtful, and what to do about it.
+/// A reason to doubt a result, with a remedy.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Warning {
     /// What is doubtful.
@@ -87,7 +87,7 @@ impl serde::Serialize for Warning {
 }
 
 impl Error {
-    /// Bad input at the whole of what is being read; [`under`](Self::under) adds the path from outside.
+    /// Bad input, its path still empty; callers add the path by [`under`](Self::under).
     pub fn input(message: impl Into<String>) -> Self {
         Error::Input(Box::new(Input { message: message.into(), ..Input::default() }))
     }
@@ -102,7 +102,7 @@ impl Error {
         Error::Unwritten { path: path.into(), problem: problem.to_string() }
     }
 
-    /// What would be right.
+    /// Adds the remedy, unless there is one already.
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         if let Error::Input(input) = &mut self {
             input.hint.get_or_insert(hint.into());
@@ -190,8 +190,7 @@ impl fmt::Display for Input {
     }
 }
 
-/// A message repeats what a user wrote, but a name of a hundred letters, or a quotation of three hundred, only by its
-/// beginning.
+/// The message with words of more than 100 bytes and quotations of more than 300 cut to their beginning.
 fn without_long_words(text: &str) -> String {
     let short = |part: &str, most: usize| if part.len() > most { excerpt(part) } else { part.to_string() };
     let words = text.split(' ').map(|word| short(word, 100)).collect::<Vec<_>>().join(" ");
@@ -206,10 +205,10 @@ impl From<Failure> for Error {
     }
 }
 
-/// Longer names are not compared: it would take time, and no slip makes them.
+/// Longer names are not compared: that would take time, and they are no misspellings.
 const LONGEST_NAME: usize = 200;
 
-/// The name in `known` that `found` was meant to be: one or two slips away, or longer and beginning with it.
+/// The name in `known` nearest to `found`: one or two typing errors away, or longer and beginning with it.
 pub fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     if found.len() > LONGEST_NAME {
         return None;
@@ -222,7 +221,7 @@ pub fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Opt
     let begins = |name: &str| length >= 3 && name.to_lowercase().starts_with(&found);
     let alike =
         |name: &str| slips(name) <= 2.min(length / 2) && strsim::jaro_winkler(&found, &name.to_lowercase()) > 0.8;
-    // Of several that are merely alike the first counts, after all that are a slip away.
+    // Names within the allowed distance come first, then the first of those that are merely alike.
     let rank = |name: &&str| if slips(name) <= allowed { slips(name) } else { usize::MAX };
     known.filter(|name| slips(name) <= allowed || begins(name) || alike(name)).min_by_key(rank)
 }
@@ -244,7 +243,7 @@ pub fn suggest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Str
     format!("choose one of {}{tail}", known.join(", "))
 }
 
-/// So many names a message lists.
+/// Largest number of names that a message lists.
 const MOST_NAMES: usize = 12;
 
 /// The beginning of a user's text, short enough for a message.
@@ -256,12 +255,12 @@ pub fn excerpt(text: &str) -> String {
     }
 }
 
-/// A number with at most four digits that count, as a person writes it: 0.5, 1.25e-7.
+/// A number with at most four significant digits, without trailing zeros: 0.5, 1.25e-7.
 pub fn short(value: f64) -> String {
     shown(format!("{value:.3e}").parse().unwrap_or(value))
 }
 
-/// A number with so many significant digits, without an exponent where that is short.
+/// A number with this number of significant digits, without an exponent if that is short.
 pub fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".to_string();
@@ -277,7 +276,7 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// A time with at most nine digits that count: 0.6 where rounding has made it 0.6000000000000001.
+/// A time with at most nine significant digits: 0.6 for 0.6000000000000001.
 pub fn clock(t: f64) -> String {
     shown(format!("{t:.8e}").parse().unwrap_or(t))
 }
@@ -289,10 +288,10 @@ fn shown(rounded: f64) -> String {
     }
 }
 
-/// Names in a list of more are counted.
+/// Number of names that [`short_list`] writes out.
 const NAMED: usize = 5;
 
-/// Names as a person reads them, the first few.
+/// The first few names, and the number of the others.
 pub fn short_list(names: &[String]) -> String {
     match names {
         few if few.len() <= NAMED => few.join(", "),

@@ -9,7 +9,7 @@ use std::borrow::Cow;
 use std::fmt;
 use std::str::FromStr;
 
-/// A name with options in the order they were given.
+/// Name of a method, with options in the order in which they are given.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct MethodSpec {
     /// Name of the method in its registry.
@@ -19,7 +19,7 @@ pub struct MethodSpec {
     own: Own,
 }
 
-/// The entry of a user, which no registry has. The name says which it is: choices of one name are equal.
+/// A user's own entry, which is in no registry. It takes no part in comparison: specifications of one name and options are equal.
 #[derive(Clone, Copy, Debug, Default)]
 struct Own(Option<&'static (dyn Any + Send + Sync)>);
 
@@ -29,9 +29,9 @@ impl PartialEq for Own {
     }
 }
 
-/// What a registry lists.
+/// An entry of a registry of methods.
 pub trait Listed: Send + Sync + Sized + 'static {
-    /// Such as `formulation`.
+    /// Kind of method in messages, such as `formulation`.
     const KIND: &'static str;
 
     /// Name by which scenes and the command line choose the entry.
@@ -40,7 +40,7 @@ pub trait Listed: Send + Sync + Sized + 'static {
     /// Options that the entry takes.
     fn options(&self) -> &'static [OptionDoc];
 
-    /// The choice of an entry that comes from outside the crate: [`Method`](crate::simulate::Method) takes it as any other.
+    /// Specification of an entry from outside the crate, for [`Method`](crate::simulate::Method).
     fn spec(&'static self) -> MethodSpec {
         MethodSpec { own: Own(Some(self)), ..MethodSpec::named(self.name()) }
     }
@@ -51,7 +51,7 @@ pub trait Listed: Send + Sync + Sized + 'static {
 pub struct OptionDoc {
     /// Key of the option.
     pub name: &'static str,
-    /// What it is, with its unit and default.
+    /// Meaning of the option, with its unit and default.
     pub about: &'static str,
 }
 
@@ -61,7 +61,7 @@ impl MethodSpec {
         MethodSpec { name: name.to_string(), ..MethodSpec::default() }
     }
 
-    /// The same with an option more.
+    /// Adds an option.
     pub fn with(mut self, key: &str, value: &str) -> Self {
         self.options.push((key.to_string(), value.to_string()));
         self
@@ -82,7 +82,7 @@ impl MethodSpec {
         Ok(MethodSpec { name: canonical(name), options: options.collect::<Result<_>>()?, own: Own::default() })
     }
 
-    /// The entry that it stands for; an error that names the possible ones, also for unknown options.
+    /// The entry of this name; for unknown names and options an error that lists the known ones.
     pub fn entry<E: Listed>(&self, registry: &'static [E]) -> Result<&'static E> {
         let Some(entry) = self.lookup(registry) else {
             let hint = suggest(&self.name, registry.iter().map(E::name));
@@ -101,7 +101,7 @@ impl MethodSpec {
         Ok(entry)
     }
 
-    /// The entry that it brings along, or the one of its name.
+    /// The user's own entry, if there is one, or the entry of this name in `registry`.
     pub fn lookup<E: Listed>(&self, registry: &'static [E]) -> Option<&'static E> {
         let own = self.own.0.and_then(|own| own.downcast_ref());
         own.or_else(|| registry.iter().find(|entry| entry.name() == self.name))
@@ -112,7 +112,7 @@ impl MethodSpec {
         self.options.iter().rev().find(|(known, _)| known == key).map(|(_, value)| value.as_str())
     }
 
-    /// A number, or `default` where it is not given.
+    /// A finite number, or `default` if it is not given.
     pub fn number(&self, key: &str, default: f64) -> Result<f64> {
         let Some(text) = self.text(key) else { return Ok(default) };
         let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
@@ -141,7 +141,7 @@ impl MethodSpec {
         }
     }
 
-    /// One of `known`, the first where it is not given.
+    /// One of `known`; the first if it is not given.
     pub fn one_of<'k>(&self, key: &str, known: &[&'k str]) -> Result<&'k str> {
         let Some(text) = self.text(key) else { return Ok(known.first().copied().unwrap_or_default()) };
         let text = canonical(text);

@@ -1,4 +1,4 @@
-//! What stands under a name in a file for Python or MATLAB.
+//! A named value in a file for Python or MATLAB.
 
 use nalgebra::Complex;
 

@@ -23,13 +23,13 @@ const BYTES: u32 = 9;
 const IS_LOGICAL: u32 = 0x200;
 const IS_COMPLEX: u32 = 0x800;
 
-/// Most bytes of a variable.
+/// Largest size of a variable, bytes.
 const LARGEST: usize = i32::MAX as usize;
 
 /// The file with these arrays as variables, the same bytes each time. A list is a column.
 ///
 /// # Errors
-/// Names that MATLAB does not allow, and variables larger than this kind of file can hold.
+/// Names that MATLAB does not allow, and variables larger than 2 GiB.
 pub fn write(arrays: &[(&str, Array)]) -> Result<Vec<u8>> {
     let mut file = format!("{:<124}", "MATLAB 5.0 MAT-file, written by holonom").into_bytes();
     file.extend([0x00, 0x01, b'I', b'M']);
@@ -47,7 +47,7 @@ pub fn write(arrays: &[(&str, Array)]) -> Result<Vec<u8>> {
     Ok(file)
 }
 
-/// A letter, then letters, digits and underscores, at most 63 in all.
+/// True for a name of MATLAB: a letter, then letters, digits and underscores, at most 63 in all.
 fn is_name(name: &str) -> bool {
     let is_word = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     name.starts_with(|c: char| c.is_ascii_alphabetic()) && is_word && name.len() <= 63
@@ -77,7 +77,7 @@ fn variable(name: &str, array: &Array) -> Vec<u8> {
     }
 }
 
-/// Rows and columns.
+/// Numbers of rows and columns; further dimensions are merged into the columns.
 fn size(shape: &[usize]) -> [usize; 2] {
     match *shape {
         [] => [1, 1],
@@ -86,7 +86,7 @@ fn size(shape: &[usize]) -> [usize; 2] {
     }
 }
 
-/// Numbers column by column; `value` counts them row by row.
+/// Numbers column by column; `value` takes the row-major index.
 fn doubles([rows, columns]: [usize; 2], value: impl Fn(usize) -> f64) -> Vec<u8> {
     let places = (0..columns).flat_map(|j| (0..rows).map(move |i| i * columns + j));
     element(DOUBLE, &places.flat_map(|place| value(place).to_le_bytes()).collect::<Vec<u8>>())

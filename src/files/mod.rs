@@ -1,4 +1,4 @@
-//! Files appear whole or not at all; the formats of Python and MATLAB.
+//! Reading and writing of files, each whole or not at all; formats of Python and MATLAB.
 
 mod array;
 pub mod mat;
@@ -16,11 +16,11 @@ use std::fs::OpenOptions;
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Writes one file so that nobody ever reads half of it: it is renamed to its place when it is whole. A device, such as
+/// Writes one file atomically: it is renamed to its place when it is complete. A device, such as
 /// a terminal, is written to.
 ///
 /// # Errors
-/// What the system says.
+/// Errors of the file system.
 pub fn write_whole(path: &Path, contents: &[u8]) -> io::Result<()> {
     if path.exists() && !path.is_file() && !path.is_dir() {
         return OpenOptions::new().write(true).open(path)?.write_all(contents);

@@ -1,10 +1,10 @@
-//! NumPy's `.npy` format: a header that says how the bytes after it are numbers or texts.
+//! NumPy's `.npy` format: a header with type and shape, then the bytes of the items.
 
 use crate::error::{Error, Result};
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// One array, as yet in bytes.
+/// One array whose items are still bytes.
 pub struct Npy<'a> {
     /// Lengths of the dimensions; empty for a single number.
     pub shape: Vec<usize>,
@@ -12,7 +12,7 @@ pub struct Npy<'a> {
     descr: String,
     /// Bytes of one item.
     size: usize,
-    /// The first index runs fastest.
+    /// True if the first index runs fastest (Fortran order).
     fortran: bool,
     data: &'a [u8],
 }
@@ -73,7 +73,7 @@ impl<'a> Npy<'a> {
         })
     }
 
-    /// The bits of up to eight bytes in their order.
+    /// Up to eight bytes as an integer, in the byte order of the type.
     fn raw(&self, bytes: &[u8]) -> u64 {
         let append = |raw, byte: &u8| raw << 8 | u64::from(*byte);
         match self.descr.starts_with('>') {
@@ -96,13 +96,13 @@ fn split(bytes: &[u8]) -> Option<(&str, &[u8])> {
     Some((std::str::from_utf8(header).ok()?, data))
 }
 
-/// What follows a key in the header, which is a dictionary as Python writes it.
+/// Text after a key in the header, which is a Python dictionary.
 fn value<'a>(header: &'a str, key: &str) -> Result<&'a str> {
     let found = header.split_once(&format!("'{key}':")).map(|(_, rest)| rest.trim_start());
     found.ok_or_else(|| Error::input(format!("the header of the array does not say `{key}`")))
 }
 
-/// `(3, 4)`, `(3,)` or `()`
+/// Parses a shape such as `(3, 4)`, `(3,)` or `()`.
 fn shape(text: &str) -> Result<Vec<usize>> {
     let inside = text.strip_prefix('(').and_then(|rest| rest.split_once(')')).map(|(inside, _)| inside);
     let lengths = |inside: &str| {
@@ -112,7 +112,7 @@ fn shape(text: &str) -> Result<Vec<usize>> {
     inside.and_then(lengths).ok_or_else(|| Error::input("the header of the array gives no shape"))
 }
 
-/// Bytes of an item; not of objects, dates and what else has no plain size.
+/// Bytes of an item; none for objects, dates and other types without a plain size.
 fn item_size(descr: &str) -> Option<usize> {
     let kind = descr.strip_prefix(['<', '>', '|'])?;
     let size = kind.get(1..)?.parse::<usize>().ok().filter(|size| *size > 0)?;
@@ -120,7 +120,7 @@ fn item_size(descr: &str) -> Option<usize> {
     if kind.starts_with('U') { size.checked_mul(4) } else { Some(size) }
 }
 
-/// Where item `index`, counted with the last index running fastest, is if the first one does.
+/// Place in Fortran order of the item with row-major index `index`.
 fn fortran_place(shape: &[usize], mut index: usize) -> usize {
     let mut place = 0;
     // Digits of the index from the last one on, weighed by what comes before each.

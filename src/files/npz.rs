@@ -1,4 +1,4 @@
-//! NumPy's `.npz` files: a zip archive with one `.npy` file an array, as `numpy.savez` writes it.
+//! NumPy's `.npz` files: a zip archive with one `.npy` file for each array, as `numpy.savez` writes it.
 
 use super::Array;
 use crate::error::{Error, Result};
@@ -9,10 +9,10 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 /// The file with these arrays under their names, the same bytes each time.
 ///
 /// # Errors
-/// Names that an archive cannot hold, such as one twice.
+/// Names that an archive cannot have, such as one twice.
 pub fn write(arrays: &[(&str, Array)]) -> Result<Vec<u8>> {
     let failed = |problem: String| Error::input(format!("cannot write the arrays: {problem}"));
-    // The first date that zip knows: a file depends on its contents alone.
+    // The first date that zip knows, so that the file depends on its contents alone.
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Stored)
         .last_modified_time(DateTime::default());

@@ -1,19 +1,19 @@
-//! Files are read whole, up to a limit.
+//! Reads whole files up to a limit of size.
 
 use crate::math::memory::size;
 use std::fs::{File, metadata};
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Most that is read of one file, bytes.
+/// Largest size of a file, bytes.
 const MOST: u64 = 256_000_000;
 
 /// The contents of a regular file of up to 256 MB. Pipes and devices are refused: they need have no end.
 ///
 /// # Errors
-/// What the system says, and what is refused.
+/// Errors of the file system, files that are too large, pipes and devices.
 pub fn read(path: &Path) -> io::Result<Vec<u8>> {
-    // Before it is opened: that waits for a writer at the other end of a pipe.
+    // Checked before opening, which waits for a writer at the other end of a pipe.
     let found = metadata(path)?;
     match found.is_file() {
         true => read_limited(File::open(path)?),
@@ -25,15 +25,15 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
 /// The text of a regular file, as [`read`].
 ///
 /// # Errors
-/// The same, and what is not UTF-8.
+/// As [`read`], and text that is not UTF-8.
 pub fn read_text(path: &Path) -> io::Result<String> {
     String::from_utf8(read(path)?).map_err(|_| io::Error::other("this is not text in UTF-8"))
 }
 
-/// Everything from a source that may not end: a file that grows, or one that is compressed.
+/// Everything from a source of unknown size: a file that grows, or one that is compressed.
 ///
 /// # Errors
-/// What the system says, and more than 256 MB.
+/// Errors of the source, and more than 256 MB.
 pub fn read_limited(source: impl Read) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     source.take(MOST + 1).read_to_end(&mut bytes)?;

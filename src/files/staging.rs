@@ -1,20 +1,20 @@
-//! Files that belong together appear together.
+//! Publishes a set of result files together.
 
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// How the hidden folders are called; random letters follow.
+/// Prefix of the names of hidden folders; random letters follow.
 const PREFIX: &str = ".holonom-";
-/// Locked for as long as the process lives that writes beside it.
+/// File in a hidden folder, locked as long as the process that writes there is alive.
 const LOCK: &str = ".lock";
 
-/// Results that are not to be seen before all of them are there.
+/// Results that become visible only when all of them are complete.
 ///
 /// They are written to a hidden folder in the one where they will be, and [`publish`](Self::publish) renames them one after
-/// another. What ends before that, by a full disk or a killed process, leaves the results of before as they were. Only
-/// within the renames, some microseconds a file, can old and new ones be mixed. There the last file vouches for the
+/// another. If the process ends before that, by a full disk or a signal, earlier results stay unchanged. Only
+/// during the renames, some microseconds for each file, can old and new ones be mixed. The last file vouches for the
 /// others: its old version goes before the first is renamed, and its new one comes last.
 ///
 /// Hidden folders of processes that were killed are removed by the next one that writes to the same place. The lock in
@@ -28,10 +28,10 @@ pub struct Staging {
 }
 
 impl Staging {
-    /// In the folder `target`, which is there.
+    /// Makes a hidden folder in `target`, which must exist.
     ///
     /// # Errors
-    /// When nothing can be written to it.
+    /// A folder that cannot be written to.
     pub fn create(target: &Path) -> io::Result<Staging> {
         remove_abandoned(target);
         loop {
@@ -45,7 +45,7 @@ impl Staging {
     /// Writes a file that will be called `name`.
     ///
     /// # Errors
-    /// What the system says: a full disk, a place where it must not be.
+    /// Errors of the file system: a full disk, no permission, a folder of this name.
     pub fn write(&mut self, name: &str, contents: &[u8]) -> io::Result<()> {
         if self.target.join(name).is_dir() {
             return Err(io::ErrorKind::IsADirectory.into());
@@ -59,10 +59,10 @@ impl Staging {
         Ok(())
     }
 
-    /// Gives the files their places, in the order in which they were written first.
+    /// Renames the files to their places, in the order in which they were first written.
     ///
     /// # Errors
-    /// What the system says, with the name of the file that it says it of.
+    /// Errors of the file system, with the name of the file.
     pub fn publish(self) -> Result<(), (String, io::Error)> {
         if let [_, .., last] = self.names.as_slice() {
             removed(&self.target.join(last)).map_err(|error| (last.clone(), error))?;
@@ -74,7 +74,7 @@ impl Staging {
     }
 }
 
-/// The lock of a new folder, `Some(None)` where the file system knows no locks; none if another process took the folder
+/// The lock of a new folder, `Some(None)` if the file system has no locks; `None` if another process took the folder
 /// for an abandoned one before it was locked.
 fn lock(hidden: &Path) -> io::Result<Option<Option<File>>> {
     let lock = match File::create_new(hidden.join(LOCK)) {
@@ -95,12 +95,12 @@ fn removed(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Removes what killed processes have left in a folder. That it cannot be removed is no fault of the new results.
+/// Removes hidden folders of killed processes. Failure to remove them is ignored.
 fn remove_abandoned(target: &Path) {
     let Ok(entries) = std::fs::read_dir(target) else { return };
     let hidden = entries.flatten().filter(|entry| entry.file_name().to_string_lossy().starts_with(PREFIX));
     for folder in hidden.map(|entry| entry.path()) {
-        // Only whose lock can be had is abandoned; one without a lock is just being made.
+        // A folder is abandoned if its lock can be taken; one without a lock is just being made.
         if let Ok(lock) = File::open(folder.join(LOCK))
             && lock.try_lock().is_ok()
         {

@@ -1,4 +1,4 @@
-//! What is doubtful about a start, before anything moves.
+//! Warnings about the start of a simulation.
 
 use super::AnyMechanism;
 use crate::body::dot;
@@ -10,7 +10,7 @@ use crate::system::{MechanicalSystem, Mechanism, Scratch};
 use crate::tolerances::report as tolerances;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
-/// What is doubtful about the scene alone.
+/// Warnings about the scene alone.
 pub fn of_scene(mechanism: &AnyMechanism) -> &[Warning] {
     match mechanism {
         AnyMechanism::Planar(mechanism) => &mechanism.model().switches.doubts,
@@ -18,7 +18,7 @@ pub fn of_scene(mechanism: &AnyMechanism) -> &[Warning] {
     }
 }
 
-/// An error of assembly, with the doubt that may be its reason.
+/// An error of assembly, with the first warning as its remedy, since that may be its cause.
 pub fn explained(mut error: Error, doubts: &[Warning]) -> Error {
     if let (Error::Input(input), Some(Warning { text, hint })) = (&mut error, doubts.first()) {
         input.hint = Some(format!("{text}; {hint}"));
@@ -26,7 +26,7 @@ pub fn explained(mut error: Error, doubts: &[Warning]) -> Error {
     error
 }
 
-/// All that a guess and what assembly made of it leave to doubt.
+/// All warnings about an initial guess and its assembly.
 pub fn doubts(mechanism: &AnyMechanism, guess: &[f64], assembly: &Assembly) -> Vec<Warning> {
     let turned = match mechanism {
         AnyMechanism::Planar(_) => Vec::new(),
@@ -53,7 +53,7 @@ fn moved_far(moves: &[Move], length: f64) -> Option<Warning> {
     Some(Warning::new(text, hint))
 }
 
-/// Joints whose axes point against each other at the assembled start, and not in the guess: their rows hold both ways.
+/// Joints whose axes point against each other at the assembled start, and not in the guess: phi = 0 in both directions.
 fn turned_over(mechanism: &Mechanism<3>, guess: &[f64], q: &[f64]) -> Vec<Warning> {
     let still = vec![0.0; mechanism.dimensions().v];
     let cosines = |q: &[f64]| {

@@ -1,4 +1,4 @@
-//! A scene made ready: its mechanism, a consistent start, and how to simulate it.
+//! A scene ready to run: its mechanism, a consistent start, and the method of simulation.
 
 mod doubts;
 
@@ -44,14 +44,14 @@ impl AnyMechanism {
     }
 }
 
-/// What goes with a scene beside its text: the kinds of elements that it may name, and what changes its own settings.
+/// Kinds of elements that a scene may name, and settings that replace those of the scene.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
     /// Kinds of bodies, joints and forces that the scene may name.
     pub elements: Elements,
-    /// In the place of the values of its parameters.
+    /// Values that replace those of the scene's parameters.
     pub set: Vec<(String, Number)>,
-    /// In the place of what the scene says of formulation, integrator, projection and step.
+    /// Automatic choice in place of the scene's formulation, integrator, projection and step.
     pub method: Option<Automatic>,
     /// Formulation in place of the scene's.
     pub formulation: Option<MethodSpec>,
@@ -85,26 +85,26 @@ pub struct PreparedScene {
     pub mechanism: AnyMechanism,
     /// Formulation, integrator, projection, tolerances and step.
     pub method: Method,
-    /// Whether methods are left to the program, with the tolerances of `method`.
+    /// True if methods are chosen automatically, with the tolerances of `method`.
     pub is_automatic: bool,
-    /// Why this one method, where it was left to the program: see [`PreparedScene::settled`].
+    /// Reason for the method, if it was chosen by [`PreparedScene::settled`].
     pub chosen_because: Option<String>,
     /// Consistent start, with what assembly found about it.
     pub assembly: Assembly,
-    /// What is doubtful about the start.
+    /// Warnings about the scene and its start.
     pub doubts: Vec<Warning>,
-    /// The table that the scene brings to measure accuracy against, by its path from the scene.
+    /// Path, from the scene, of the reference table that accuracy is measured against.
     pub reference: Option<String>,
     start_time: f64,
-    /// `None` where neither the scene nor the command line says until when.
+    /// `None` if no end time is given.
     span: Option<Span>,
 }
 
-/// How a run ended, the methods that carried it where these were left to the program, and where it can go on.
+/// Outcome of a run, the methods used if they were chosen automatically, and a checkpoint to continue from.
 pub type Simulated = (Outcome, Vec<Leg>, Option<Checkpoint>);
 
 impl PreparedScene {
-    /// Reads a scene, assembles it and settles how to simulate it.
+    /// Reads a scene, assembles it and resolves its settings.
     ///
     /// # Errors
     /// Bad input of any kind: see [`Scene::load`], [`initial::assemble`], [`Method::check`].
@@ -115,7 +115,7 @@ impl PreparedScene {
         prepared.map_err(|error| scene::place(error, path, &text))
     }
 
-    /// Assembles a scene and settles how to simulate it; its elements and parameters are those that it was read with.
+    /// Assembles a scene and resolves its settings; `elements` and `set` of the overrides are not used.
     ///
     /// # Errors
     /// Bad input of any kind: see [`initial::assemble`], [`Method::check`].
@@ -154,13 +154,13 @@ impl PreparedScene {
         self.mechanism.system()
     }
 
-    /// The same with one method, where methods are left to the program: that which carries the beginning of the motion.
+    /// Replaces automatic choice by one method, the one chosen for the beginning of the motion.
     ///
     /// # Errors
     /// Bad input only: see [`advise`].
     pub fn settled(mut self) -> Result<PreparedScene> {
         if std::mem::take(&mut self.is_automatic) {
-            // Where no end is said, a method is chosen for a second of motion.
+            // Without an end time, a method is chosen for one second of motion.
             let start = self.start_time;
             let span = self.span.unwrap_or(Span { start, end: start + 1.0, output_step: 1.0 });
             let (method, because) = advise(self.system(), (self.method.rtol, self.method.atol), span, self.start())?;
@@ -169,10 +169,10 @@ impl PreparedScene {
         Ok(self)
     }
 
-    /// When to simulate.
+    /// Start, end and output interval of the simulation, s.
     ///
     /// # Errors
-    /// Where neither the scene nor the command line says until when.
+    /// No end time in the scene or on the command line.
     pub fn span(&self) -> Result<Span> {
         self.span.ok_or_else(|| {
             Error::input(format!("the scene `{}` has no end time", self.name))
@@ -180,15 +180,15 @@ impl PreparedScene {
         })
     }
 
-    /// What is wrong with the method for this motion, if it is explicit and was not left to the program.
+    /// Stiffness that makes the method unsuitable for this motion, if it is explicit and was not chosen automatically.
     pub fn stiffness(&self, span: Span) -> Option<Stiffness> {
         let Assembly { q, v, vdot, lambda, .. } = &self.assembly;
         let state = OperatingPoint { t: span.start, q, v, vdot, lambda };
         (!self.is_automatic).then(|| stiffness(self.system(), &self.method, state, span))?
     }
 
-    /// Simulates by `method`, or, where methods are left to the program, by those that come farthest with its tolerances.
-    /// Returns these in their order, none where the method was named.
+    /// Simulates by `method` or, with automatic choice, by the methods that get farthest with its tolerances.
+    /// Returns these in their order; none if the method is named.
     ///
     /// # Errors
     /// Bad input only: see [`simulate`](crate::simulate::simulate).
@@ -197,8 +197,8 @@ impl PreparedScene {
         self.simulate_from(method, span, Start::State(q, v), sink).map(|(outcome, legs, _)| (outcome, legs))
     }
 
-    /// The same from another consistent state, or from where another run was saved, whose method goes on where that is left to
-    /// the program; with where this one can go on.
+    /// Simulates from another consistent state, or from a checkpoint, whose method continues with automatic choice.
+    /// Returns a checkpoint to continue from, too.
     ///
     /// # Errors
     /// Bad input only: see [`simulate_from`].
@@ -219,7 +219,7 @@ impl PreparedScene {
         }
     }
 
-    /// When the motion starts, s.
+    /// Time at the start of the motion, s.
     pub fn start_time(&self) -> f64 {
         self.start_time
     }
@@ -230,7 +230,7 @@ impl PreparedScene {
     }
 }
 
-/// Refuses an element that has a switching function and never writes its argument, so that its law would be held on any piece.
+/// Refuses an element with a switching function whose argument it never writes: its law would never switch.
 fn check_switches(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Result<()> {
     let (vdot, count) = (vec![0.0; v.len()], system.switches().len());
     let [zeros, ones] = [0.0, 1.0].map(|x| {
@@ -248,20 +248,20 @@ fn check_switches(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64]
     }
 }
 
-/// The scene's settings under those of the command line.
+/// Settings of the scene, and the overrides that replace them.
 struct Settings<'a> {
     parameters: &'a Parameters,
     scene: &'a Simulation,
     overrides: &'a Overrides,
 }
 
-/// Rows of a trajectory where nothing is said.
+/// Number of rows of a trajectory by default.
 const ROWS: f64 = 500.0;
-/// More rows than this are a slip of the hand.
+/// A larger number of rows is taken for a mistake.
 const MOST_ROWS: f64 = 1e7;
 
 impl Settings<'_> {
-    /// The same error at the option or key that gave the setting at which it is.
+    /// The error with the path of the option or key that gave the setting.
     fn place(&self, error: Error) -> Error {
         let Error::Input(mut input) = error else { return error };
         let given = self.overrides;
@@ -287,7 +287,7 @@ impl Settings<'_> {
         value.map(Some).map_err(|error| Error::from(error).under(field).under("simulation"))
     }
 
-    /// Whether the method is left to the program: what is named on the command line goes before that of the scene.
+    /// True for automatic choice of methods; the command line has precedence over the scene.
     fn is_automatic(&self) -> Result<bool> {
         let (scene, given) = (self.scene, self.overrides);
         let named = |choices: [&Option<MethodSpec>; 3], has_step: bool| {
@@ -308,7 +308,7 @@ impl Settings<'_> {
         }
     }
 
-    /// The method, with tolerances for a scene of this `length`, m, where none are given.
+    /// The method, with default tolerances for a scene of this `length`, m.
     fn method(&self, is_automatic: bool, length: f64) -> Result<Method> {
         let (own, given, default) = (self.scene, self.overrides, Method::of_length(length));
         let unnamed = Simulation { formulation: None, integrator: None, projection: None, step: None, ..own.clone() };
@@ -323,7 +323,7 @@ impl Settings<'_> {
             if given.integrator.is_some() && steps != Steps::Fixed { None } else { self.number("step", &scene.step)? };
         let own_rtol = self.number("rtol", &scene.rtol)?.unwrap_or(default.rtol);
         let own_atol = self.number("atol", &scene.atol)?.unwrap_or(default.atol);
-        // A looser one takes the other along, which would govern if it were left behind.
+        // A looser rtol loosens atol in proportion, since the tighter one would govern.
         let (rtol, atol) =
             given.rtol.map_or((own_rtol, own_atol), |rtol| (rtol, own_atol.max(atol_of(rtol, own_atol / own_rtol))));
         let method = Method {
