@@ -4,11 +4,11 @@ use super::Pattern;
 use super::system::{add_scaled, dot};
 use std::collections::HashMap;
 
-/// The groups of such rows. Which of a group depend on earlier ones costs rows x coordinates^2 and fills nothing, where a
-/// factorization would couple each with each.
+/// Groups of rows over the same coordinates. Finding dependent rows in a group costs rows x coordinates^2 without fill, while a
+/// sparse factorization would couple all rows of a group.
 pub(super) struct Alike {
     groups: Vec<Group>,
-    /// Whether a group has more rows than coordinates, so that some always depend on others.
+    /// True if a group has more rows than coordinates, so that some always depend on others.
     pub is_crowded: bool,
     /// Scratch: orthonormal rows, one after the other, and a row.
     basis: Vec<f64>,
@@ -23,7 +23,7 @@ struct Group {
 
 struct Row {
     number: usize,
-    /// Entries of G, each with the column of the group in which it stands.
+    /// Entries of G, each with its column within the group.
     entries: Vec<(usize, usize)>,
 }
 
@@ -56,8 +56,8 @@ impl Alike {
         }
     }
 
-    /// Rows, in order, of which, scaled to unit length, less than `tolerance` is left orthogonal to those of their group
-    /// before them.
+    /// Rows, in order, whose part orthogonal to earlier rows of their group is below `tolerance` after scaling to
+    /// unit length.
     pub fn dependent(&mut self, values: &[f64], tolerance: f64) -> &[usize] {
         self.dependent.clear();
         for group in &self.groups {
@@ -82,7 +82,7 @@ impl Alike {
     }
 }
 
-/// Takes the part along a basis away, twice for round-off; returns the length of what is left.
+/// Removes the part along a basis, twice for round-off; returns the length of the orthogonal part.
 fn orthogonalize(row: &mut [f64], basis: &[f64]) -> f64 {
     for _ in 0..2 {
         basis.chunks_exact(row.len().max(1)).for_each(|known| add_scaled(-dot(known, row), known, row));

@@ -1,4 +1,4 @@
-//! Corrections along the normal directions of a base: what makes its tangent space a chart of the manifold around it.
+//! Corrections along the normal directions of a base state: its tangent space is a chart of the manifold around it.
 
 use super::Pattern;
 use super::null_space::scaled_rows;
@@ -6,9 +6,9 @@ use super::pivoted::PivotedQr;
 use super::system::{add_scaled, dot};
 use crate::tolerances::math as tolerances;
 
-/// With S = diag(M)^-1/2 and Y = S Q_1 from the pivoted QR of (G S)^T at the base, d = Y c solves G d = r at another
-/// place: G Y c = r, by a pivoted QR of (G Y)^T. Such a d has no part along the base's null space in the metric of
-/// diag(M). Rows that are dependent at the base have no say. Costs 3 n m^2 for a base, 3 m^3 for a place and
+/// Corrections d = Y c with G d = r at a nearby state, where S = diag(M)^-1/2 and Y = S Q_1 from the pivoted QR of (G S)^T at the
+/// base state: G Y c = r, by a pivoted QR of (G Y)^T. Such a d has no part along the base's null space in the metric of
+/// diag(M). Rows that are dependent at the base are dropped. Costs 3 n m^2 for a base, 3 m^3 for a state and
 /// 2 (n + m) m for a solution.
 pub struct Chart {
     mass: Pattern,
@@ -17,8 +17,8 @@ pub struct Chart {
     /// Sizes of the rows of G S at the base.
     norms: Vec<f64>,
     base: PivotedQr,
-    /// Rows that were independent at the base. Others have no say elsewhere either: a choice that changed from place to
-    /// place would take what contradicts now from one row, now from another.
+    /// Rows that were independent at the base. The others are dropped at other states too: a choice that changed from
+    /// state to state would follow now one, now another of contradicting rows.
     has_say: Vec<bool>,
     /// Y by rows.
     normal: Vec<f64>,
@@ -47,7 +47,7 @@ impl Chart {
         }
     }
 
-    /// Takes the place with these values for its base.
+    /// Makes the state with these values the base.
     pub fn rebase(&mut self, mass: &[f64], g: &[f64]) {
         let values = &mut self.base.values;
         scaled_rows((&self.mass, mass), (&self.g, g), &mut self.scale, &mut self.norms, values);
@@ -65,7 +65,7 @@ impl Chart {
         }
     }
 
-    /// Makes ready to solve with these values of G; `reference`: see [`Solver::factor`](super::Solver::factor).
+    /// Factors (G Y)^T with these values of G; `reference`: see [`Solver::factor`](super::Solver::factor).
     pub fn factor(&mut self, g: &[f64], reference: f64) {
         let rank = self.base.rank;
         self.place.rows = rank;
@@ -74,7 +74,7 @@ impl Chart {
             let row = &mut self.place.values[i * rank..(i + 1) * rank];
             add_scaled(value / self.norms[i], &self.normal[j * rank..(j + 1) * rank], row);
         }
-        // Where a step ends beside a singular state, what round-off would move is left to the next step.
+        // Near a singular state, components below round-off are left to the next step.
         self.place.factor_truncated(tolerances::RANK, reference);
     }
 

@@ -1,4 +1,4 @@
-//! How ill-conditioned a saddle-point matrix is, for reports.
+//! Condition number of the saddle-point matrix, for reports.
 
 use super::system::{System, add, balance, dot};
 use super::{Pattern, SaddlePoint};
@@ -6,7 +6,7 @@ use crate::tolerances::math as tolerances;
 use faer::{Mat, Side};
 
 /// The 2-norm condition number of E K E, where the diagonal E makes the masses one and the rows of G of unit norm in the
-/// mass metric, so that units do not count. By the eigenvalues up to n + m = 600, beyond by power iterations (a lower
+/// mass metric, so that it does not depend on units. By the eigenvalues up to n + m = 600, beyond by power iterations (a lower
 /// bound, close in practice).
 /// Infinite for singular matrices, NaN if the values are not finite or do not fit.
 pub fn condition_number(mass: &Pattern, mass_values: &[f64], g: &Pattern, g_values: &[f64]) -> f64 {
@@ -42,7 +42,7 @@ fn by_eigenvalues(system: &System, scale: &[f64]) -> f64 {
     let Ok(eigenvalues) = matrix.self_adjoint_eigenvalues(Side::Lower) else { return f64::NAN };
     let sizes = eigenvalues.iter().map(|v| v.abs());
     let (smallest, largest) = sizes.fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), v| (a.min(v), b.max(v)));
-    // What is smaller than round-off of the largest is zero.
+    // An eigenvalue below round-off of the largest is zero.
     if smallest <= f64::EPSILON * largest { f64::INFINITY } else { largest / smallest }
 }
 
@@ -72,7 +72,7 @@ fn by_iteration(system: &System, scale: &[f64]) -> f64 {
     largest * smallest
 }
 
-/// The largest |eigenvalue| of E A E, where `apply` is A (up to sign) and tells whether it could.
+/// The largest |eigenvalue| of E A E, where `apply` multiplies by A (up to sign) and returns false on failure.
 fn power(scale: &[f64], e: impl Fn(&f64) -> f64, mut apply: impl FnMut(&[f64], &mut [f64]) -> bool) -> f64 {
     let mut x: Vec<f64> = (0..scale.len()).map(|i| (1.0 + 0.7 * i as f64 * (i as f64 + 3.0)).sin()).collect();
     let mut y = x.clone();

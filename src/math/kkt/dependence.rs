@@ -1,4 +1,4 @@
-//! Which rows of a matrix repeat what earlier rows say.
+//! Linearly dependent rows of a matrix.
 
 use super::Pattern;
 use super::system::{add_scaled, dot};
@@ -13,8 +13,8 @@ pub struct Dependence {
     pub rows: Vec<DependentRow>,
 }
 
-/// `row` = sum of coefficient times row over `combination`, all of them earlier and independent ones.
-/// Empty for a row of zeros.
+/// A dependent row as a sum of coefficient times row over `combination`, all of them earlier and independent rows.
+/// The combination is empty for a row of zeros.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DependentRow {
     /// Index of the dependent row.
@@ -23,9 +23,9 @@ pub struct DependentRow {
     pub combination: Vec<(usize, f64)>,
 }
 
-/// Rows of which, scaled to unit length, less than `tolerance` is left orthogonal to the rows before them.
-/// Gram-Schmidt, done again where it cancels; columns that two rows do not share cost nothing. At most 2 m^2 n.
-/// A row with a value that is not finite counts as independent and takes no part.
+/// Finds rows whose part orthogonal to the rows before them is below `tolerance` after scaling to unit length.
+/// By Gram-Schmidt, repeated where it cancels; columns that two rows do not share cost nothing. At most 2 m^2 n operations.
+/// A row with a value that is not finite counts as independent and is not used.
 pub fn dependent_rows(g: &Pattern, values: &[f64], tolerance: f64) -> Dependence {
     let mut rows = vec![vec![0.0; g.cols]; g.rows];
     for (&(i, j), value) in g.entries.iter().zip(values) {
@@ -56,16 +56,16 @@ struct Basis {
 struct Member {
     row: usize,
     length: f64,
-    /// The direction, between its first and last nonzero.
+    /// Unit direction, from its first to its last nonzero.
     direction: Vec<f64>,
     first: usize,
-    /// The unit row along the directions before, and along its own.
+    /// Components of the unit row along earlier directions; `left` is that along its own.
     along: Vec<f64>,
     left: f64,
 }
 
 impl Basis {
-    /// Takes an independent row in, or returns how a dependent one is combined.
+    /// Adds an independent row to the basis, or returns the combination of a dependent one.
     fn take(&mut self, row: usize, mut v: Vec<f64>, length: f64, tolerance: f64) -> Option<Vec<(usize, f64)>> {
         v.iter_mut().for_each(|x| *x /= length);
         let mut along = vec![0.0; self.members.len()];

@@ -1,13 +1,13 @@
-//! The system without some rows of G.
+//! The saddle-point system without some rows of G.
 
 use super::least::Least;
 use super::system::System;
 use super::{Pattern, SaddlePoint, Singular};
 
-/// A solver of its own over the rows that are kept: what is left out costs nothing.
+/// A separate solver over the rows that are kept, so that dropped rows cost nothing.
 pub(super) struct Kept {
     pub inner: SaddlePoint,
-    /// The rows that are kept, and those that are left out at the last factorization.
+    /// Rows that are kept. `dropped`: rows that are never factored; `left_out`: all rows without a multiplier at the last factorization.
     rows: Vec<usize>,
     dropped: Vec<usize>,
     left_out: Vec<usize>,
@@ -60,7 +60,7 @@ impl Kept {
         Ok(())
     }
 
-    /// All rows of the whole G that were left out.
+    /// All rows of the whole G that are dropped.
     pub fn left_out(&self) -> &[usize] {
         &self.left_out
     }
@@ -70,8 +70,8 @@ impl Kept {
         self.inconsistency.max(self.inner.inconsistency())
     }
 
-    /// Solves in place. Right sides of rows that are left out count, in least squares, where it `counts_all`; multipliers
-    /// are those of least norm where it `is_least`.
+    /// Solves in place. If `counts_all`, right sides of dropped rows enter by least squares; if `is_least`, multipliers
+    /// are those of least norm.
     pub fn solve(
         &mut self,
         system: &System,
@@ -87,8 +87,8 @@ impl Kept {
         Ok(())
     }
 
-    /// v := P v; returns the norm of what was taken away. Where rows are dependent among the others too, the part in their
-    /// null space stays, orthogonal to what is taken away.
+    /// v := P v; returns the norm of the removed part. If further rows are dependent, the part in their
+    /// null space stays, orthogonal to the removed part.
     fn project(&mut self, system: &System, v: &mut [f64]) -> Result<f64, Singular> {
         let Kept { inner, rows, dropped, bottom: short, least, .. } = self;
         let (rank_indicator, mut result) = (inner.rank_indicator(), Ok(()));
@@ -101,7 +101,7 @@ impl Kept {
     }
 }
 
-/// Multipliers of rows that are left out come out as zero. `short` is scratch for the others.
+/// Solves with the kept rows; multipliers of dropped rows are zero. `short` is scratch for the others.
 fn solve(
     inner: &mut SaddlePoint,
     rows: &[usize],

@@ -1,4 +1,4 @@
-//! A factor L D L^T without pivoting, by the better of two ways.
+//! A factor L D L^T without pivoting, simplicial or supernodal.
 
 use super::Pattern;
 use super::pivot::{Quality, Rule};
@@ -34,7 +34,7 @@ impl Ldlt {
         }
     }
 
-    /// `skipped` receives the multipliers that are left out. The error is the node whose pivot collapsed.
+    /// Factors; `skipped` receives the multipliers that are dropped. The error is the node whose pivot collapsed.
     pub fn factor(&mut self, mass: &[f64], g: &[f64], rule: Rule, skipped: &mut Vec<usize>) -> Result<Quality, usize> {
         skipped.clear();
         match self {
@@ -43,7 +43,7 @@ impl Ldlt {
         }
     }
 
-    /// Solves in place; a multiplier that was left out comes out as zero.
+    /// Solves in place; dropped multipliers are zero.
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
         match self {
             Ldlt::Simplicial(f) => f.solve(top, bottom),
@@ -51,7 +51,7 @@ impl Ldlt {
         }
     }
 
-    /// The smallest ratio of a pivot to its size, of those above `collapsed`, and how many multipliers' are not.
+    /// The smallest ratio above `collapsed` of a pivot to its size, and the number of multipliers whose ratio is not above it.
     pub fn smallest_ratio(&self, collapsed: f64) -> (f64, usize) {
         match self {
             Ldlt::Simplicial(f) => f.smallest_ratio(collapsed),

@@ -1,9 +1,9 @@
-//! The part of multipliers that dependent rows leave open, and of right sides that no motion can meet: null vectors of G^T.
+//! Projection onto the null space of G^T: multipliers that dependent rows leave undetermined, and inconsistent right sides.
 //!
-//! Every left-out row j gives one: n_j = e_j - c, where G^T c = G_j^T is solved by whatever solves the system without these
-//! rows. N = [n_j], whose part on the left-out rows is the identity, so that N^T N >= I is well conditioned. Then
+//! Every dropped row j gives a null vector n_j = e_j - c, where G^T c = G_j^T is solved by the solver of the system without these
+//! rows. The part of N = [n_j] on the dropped rows is the identity, so that N^T N >= I is well conditioned. Then
 //! P = I - N (N^T N)^-1 N^T makes right sides consistent (least squares) and multipliers least in norm. A few null vectors
-//! are made orthonormal once for a factorization; of many, P is applied by conjugate gradients from `Nearly`, which has it
+//! are made orthonormal once for a factorization; for many, P is applied by conjugate gradients from `Nearly`, which has it
 //! nearly right and is their preconditioner.
 
 use super::Pattern;
@@ -11,16 +11,16 @@ use super::nearly::Nearly;
 use super::system::{System, add, add_scaled, dot};
 use crate::tolerances::math as tolerances;
 
-/// Solves the system without the left-out rows, whose right sides say nothing and whose multipliers come out as zero.
+/// Solves the system without the dropped rows, whose right sides are ignored and whose multipliers are zero.
 pub(super) type Solve<'s> = &'s mut dyn FnMut(&mut [f64], &mut [f64]);
 
 pub(super) struct Least {
     nearly: Option<Box<Nearly>>,
-    /// Orthonormal null vectors, one after the other, where they are few; and whether these, and `nearly`, belong to the
+    /// Orthonormal null vectors, one after the other, if they are few. `is_current`: these and `nearly` belong to the
     /// last factors.
     basis: Vec<f64>,
     is_current: bool,
-    /// Scratch of n and of m numbers.
+    /// Scratch: n and m numbers.
     a: Vec<f64>,
     lambda: Vec<f64>,
     weights: Vec<f64>,
@@ -45,12 +45,12 @@ impl Least {
         }
     }
 
-    /// Another matrix.
+    /// Forgets the null vectors of the last matrix.
     pub fn clear(&mut self) {
         self.is_current = false;
     }
 
-    /// v := P v; returns the norm of what was taken away. `rank_indicator`: see `Nearly`.
+    /// v := P v; returns the norm of the removed part. `rank_indicator`: see `Nearly`.
     pub fn project(
         &mut self,
         system: &System,
@@ -79,7 +79,7 @@ impl Least {
         square.sqrt()
     }
 
-    /// The basis, by Gram-Schmidt done twice.
+    /// Makes the orthonormal basis of null vectors, by Gram-Schmidt done twice.
     fn span(&mut self, system: &System, rows: &[usize], solve: Solve) {
         self.basis.clear();
         for row in rows {
@@ -98,7 +98,7 @@ impl Least {
         self.is_current = true;
     }
 
-    /// With residual = N^T (v - N w): `nearly` gives w to begin with.
+    /// v := P v by conjugate gradients with residual N^T (v - N w), from w of `nearly`.
     fn project_by_gradients(
         &mut self,
         system: &System,
@@ -134,7 +134,7 @@ impl Least {
             self.null(system, solve);
             let step = next / dot(&self.image, &self.image);
             add_scaled(step, &self.image, &mut self.weights);
-            // r = N^T (v - N w) afresh would cost as much as this update.
+            // Computing r = N^T (v - N w) anew would cost as much as this update.
             std::mem::swap(&mut self.residual, &mut self.image);
             self.null_transposed(system, rows, solve);
             std::mem::swap(&mut self.residual, &mut self.image);
@@ -145,7 +145,7 @@ impl Least {
         dot(&self.weights, &self.weights).sqrt()
     }
 
-    /// The next direction; returns the residual times what the preconditioner makes of it. `last` is that of the last one.
+    /// Sets the next direction; returns r^T z with the preconditioned residual z. `last` is that of the last step.
     fn turn(&mut self, rows: &[usize], last: f64) -> f64 {
         self.image.copy_from_slice(&self.residual);
         self.nearly.iter_mut().for_each(|nearly| nearly.null_part(&mut self.image));
@@ -156,7 +156,7 @@ impl Least {
         next
     }
 
-    /// image = N direction, where `direction` is zero but on the left-out rows.
+    /// image = N direction, where `direction` is zero except on the dropped rows.
     fn null(&mut self, system: &System, solve: Solve) {
         self.a.fill(0.0);
         system.g.subtract_transposed(&system.g_values, &self.direction, &mut self.a);
@@ -165,7 +165,7 @@ impl Least {
         add(&self.direction, &mut self.image);
     }
 
-    /// residual := N^T residual, standing on the left-out rows.
+    /// residual := N^T residual, stored on the dropped rows.
     fn null_transposed(&mut self, system: &System, rows: &[usize], solve: Solve) {
         self.a.fill(0.0);
         self.lambda.copy_from_slice(&self.residual);

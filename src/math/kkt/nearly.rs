@@ -1,4 +1,4 @@
-//! Nearly the part of a vector in the null space of G^T, by one sparse factorization, however many rows are dependent.
+//! Approximate part of a vector in the null space of G^T, by one sparse factorization for any number of dependent rows.
 //!
 //! With D = diag M and a small delta
 //!
@@ -7,9 +7,9 @@
 //! [G^T  -delta D] [y ] = [0]
 //! ```
 //!
-//! nu is delta/(delta + sigma^2) times what v has along an eigenvector of G D^-1 G^T with eigenvalue sigma^2: all of what
-//! lies in the null space, and of the rest the less the smaller delta is. The system has the form of that of the motion, with
-//! the multipliers for coordinates and, for delta D, a coordinate more in each row, and is factored in the same way.
+//! nu is delta/(delta + sigma^2) times the part of v along an eigenvector of G D^-1 G^T with eigenvalue sigma^2: all of the part
+//! in the null space, and the less of the others the smaller delta is. The system has the form of that of the motion, with
+//! the multipliers as coordinates and, for delta D, one more coordinate in each row, and is factored in the same way.
 
 use super::Pattern;
 use super::ldlt::Ldlt;
@@ -19,7 +19,7 @@ use crate::tolerances::math as tolerances;
 
 pub(super) struct Nearly {
     factor: Ldlt,
-    /// 1 for the multipliers, 1 / (delta D) for the coordinates beside them.
+    /// 1 for the multipliers, 1 / (delta D) for the added coordinates.
     mass: Vec<f64>,
     /// G^T, then the identity.
     g: Vec<f64>,
@@ -50,13 +50,13 @@ impl Nearly {
         }
     }
 
-    /// With the values of the system; `rank_indicator` is that of the independent rows of G.
+    /// Factors with the values of the system; `rank_indicator` is that of the independent rows of G.
     pub fn factor(&mut self, system: &System, rank_indicator: f64) {
         let Nearly { factor, mass, g, skipped, diagonal, lengths, .. } = self;
         diagonal.fill(0.0);
         system.mass.add_diagonal(&system.mass_values, diagonal);
         let largest = diagonal.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-        // Coordinates without mass move as those with the most do.
+        // Coordinates without mass get the largest of the others.
         diagonal.iter_mut().filter(|d| **d <= 0.0).for_each(|d| *d = largest);
         lengths.fill(0.0);
         let entries = system.g.entries.iter().zip(&system.g_values);
@@ -66,7 +66,7 @@ impl Nearly {
             * lengths.iter().copied().fold(0.0, f64::max);
         mass[lengths.len()..].iter_mut().zip(&*diagonal).for_each(|(beside, d)| *beside = 1.0 / (delta * d));
         g[..system.g_values.len()].copy_from_slice(&system.g_values);
-        // Pivots of coordinates that no row holds are as small as delta, and none is zero but by round-off.
+        // Pivots of coordinates in no row are as small as delta; none is zero except by round-off.
         let _ = factor.factor(mass, g, Rule::lenient(f64::MIN_POSITIVE, mass), skipped);
     }
 

@@ -23,7 +23,7 @@ pub(super) struct NullSpace {
     /// N by columns, m x (m - r). Grows when the rank falls below any before.
     null: Vec<f64>,
     inconsistency: f64,
-    /// Scratch of n, then of m numbers.
+    /// Scratch: n numbers (`a`, `w`, `top`) and m numbers.
     a: Vec<f64>,
     w: Vec<f64>,
     top: Vec<f64>,
@@ -53,17 +53,17 @@ impl NullSpace {
         self.qr.is_deficient(tolerance)
     }
 
-    /// The rows that depend on the others.
+    /// Dependent rows, which are dropped.
     pub fn left_out(&self) -> &[usize] {
         &self.qr.permutation[self.qr.rank..]
     }
 
-    /// The norm of the part of the last right side that no motion can meet.
+    /// Norm of the inconsistent part of the last right side r2.
     pub fn inconsistency(&self) -> f64 {
         self.inconsistency
     }
 
-    /// |R_rr| / |R_00|, squared so that it compares with ratios of pivots.
+    /// (R_rr / R_00)^2, comparable with ratios of pivots.
     pub fn smallest_ratio(&self) -> f64 {
         self.qr.smallest_ratio().powi(2)
     }
@@ -92,7 +92,7 @@ impl NullSpace {
         Ok(())
     }
 
-    /// Z^T S M S Z by columns: Q^T S M S Q e_k, of which the lower part counts.
+    /// Factors Z^T S M S Z, made by columns: the lower part of Q^T S M S Q e_k.
     fn factor_reduced(&mut self, system: &System) -> Result<(), Singular> {
         let (n, r) = (self.scale.len(), self.qr.rank);
         let size = n - r;
@@ -117,7 +117,7 @@ impl NullSpace {
         Ok(())
     }
 
-    /// N, by Gram-Schmidt done twice.
+    /// Makes N orthonormal, by Gram-Schmidt done twice.
     fn span_null(&mut self) {
         let (m, r) = (self.norms.len(), self.qr.rank);
         self.null.resize(m * (m - r), 0.0);
@@ -144,7 +144,7 @@ impl NullSpace {
         }
     }
 
-    /// v := (I - N N^T) v; returns the norm of what was taken away.
+    /// v := (I - N N^T) v; returns the norm of the removed part.
     fn project(null: &[f64], v: &mut [f64]) -> f64 {
         let mut square = 0.0;
         for column in null.chunks_exact(v.len().max(1)) {

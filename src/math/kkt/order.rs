@@ -1,7 +1,7 @@
 //! The elimination order of the saddle-point matrix.
 //!
-//! The *early* coordinates come first, so that they are eliminated with pivots of the mass matrix alone; what is left
-//! is -G M^-1 G^T on the multipliers, semidefinite, which needs no pivoting either: a pivot vanishes there if and only if
+//! The *early* coordinates come first, so that they are eliminated with pivots of the mass matrix alone; the remaining matrix
+//! is -G M^-1 G^T on the multipliers, semidefinite, and needs no pivoting either: a pivot vanishes there if and only if
 //! its row of G depends on the rows before it. *Late* coordinates come each behind all its multipliers: those without
 //! mass, which have no pivot before, and hubs, whose early elimination would couple all their multipliers.
 
@@ -14,12 +14,12 @@ use faer::sparse::{Pair, SymbolicSparseColMat};
 pub(super) struct Order {
     /// The nodes in the order of elimination.
     pub nodes: Vec<usize>,
-    /// How many of them are early coordinates.
+    /// Number of early coordinates.
     pub early: usize,
 }
 
-/// The order for M (n x n) and G (m x n), where `late[i]` says which coordinates wait for their multipliers.
-/// Fill-reducing (approximate minimum degree) among the early coordinates, and then in what is left of the graph.
+/// The order for M (n x n) and G (m x n); coordinates with `late[i]` come after their multipliers.
+/// Fill-reducing (approximate minimum degree) among the early coordinates, and then in the remaining graph.
 pub(super) fn order(mass: &Pattern, g: &Pattern, late: &[bool]) -> Order {
     let (n, m) = (mass.rows, g.rows);
     let mut nodes: Vec<usize> = (0..n).filter(|&i| !late[i]).collect();
@@ -63,7 +63,7 @@ fn ordered(nodes: &[usize], total: usize, edges: impl Iterator<Item = (usize, us
     upper.sort_unstable();
     upper.dedup();
     let upper: Vec<_> = upper.into_iter().map(|(col, row)| Pair { row, col }).collect();
-    // Without memory for a good order any order is still right.
+    // If there is no memory for a good order, any order is valid.
     minimum_degree(nodes.len(), &upper).map_or(nodes.to_vec(), |order| order.iter().map(|&k| nodes[k]).collect())
 }
 
@@ -122,8 +122,8 @@ pub(super) fn lower_adjacency(mass: &Pattern, g: &Pattern, nodes: &[usize]) -> V
     adjacency
 }
 
-/// The patterns below the diagonal of the first `count` columns of L, sorted: column j holds its own entries and what
-/// its children in the elimination tree hold beyond j.
+/// The patterns below the diagonal of the first `count` columns of L, sorted: column j has its own entries and those that
+/// its children in the elimination tree have beyond j.
 pub(super) fn columns(adjacency: &[Vec<u32>], count: usize) -> Vec<Vec<u32>> {
     let mut children = vec![Vec::new(); adjacency.len()];
     let mut seen = vec![usize::MAX; adjacency.len()];

@@ -1,7 +1,7 @@
-//! Where the entries of a matrix stand, and products with their values.
+//! Sparsity patterns, and products of matrices with vectors.
 
-/// The places of the entries of a `rows` x `cols` matrix. Its values come as a slice in the order of `entries`; two
-/// entries that name the same place add. Every entry lies inside the matrix.
+/// The places of the entries of a `rows` x `cols` matrix. Its values are a slice in the order of `entries`; values at the
+/// same place add. Every entry must lie inside the matrix.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Pattern {
     /// Number of rows.
@@ -42,7 +42,7 @@ impl Pattern {
         }
     }
 
-    /// y += A x for a symmetric A of which the entries give one triangle.
+    /// y += A x for a symmetric A given by one triangle.
     pub fn multiply_symmetric(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
         for (&(i, j), value) in self.entries.iter().zip(values) {
             y[i] += value * x[j];
@@ -66,7 +66,7 @@ impl Pattern {
         }
     }
 
-    /// y -= A x for a symmetric A of which the entries give one triangle.
+    /// y -= A x for a symmetric A given by one triangle.
     pub(super) fn subtract_symmetric(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
         for (&(i, j), value) in self.entries.iter().zip(values) {
             y[i] -= value * x[j];

@@ -1,4 +1,4 @@
-//! Which pivots are good enough, and what becomes of those that are not.
+//! Acceptance of pivots of L D L^T, and replacement of those that collapse.
 
 use crate::tolerances::math as tolerances;
 
@@ -6,19 +6,19 @@ use crate::tolerances::math as tolerances;
 /// its row of G and the rows before it, in the metric of M^-1; round-off of exactly dependent rows leaves 1e-16 to 1e-14.
 #[derive(Clone, Copy)]
 pub(super) struct Rule {
-    /// At or below: collapsed.
+    /// At or below this the pivot has collapsed.
     pub collapsed: f64,
-    /// At or below: kept, but solutions need a refinement.
+    /// At or below this the pivot is kept, but solutions need a refinement.
     pub weak: f64,
-    /// What a collapsed coordinate pivot becomes, at least; without it a collapse stops the factorization.
+    /// Least value that replaces a collapsed coordinate pivot; if `None`, a collapse stops the factorization.
     pub floor: Option<f64>,
 }
 
 impl Rule {
-    /// Stops at a collapse: the fast path.
+    /// Stops at a collapsed pivot: the fast path.
     pub const STRICT: Rule = Rule { collapsed: tolerances::COLLAPSED_FAST, weak: tolerances::WEAK_FAST, floor: None };
 
-    /// Goes on at a collapse: a multiplier is left out, a coordinate gets a small mass.
+    /// Continues at a collapsed pivot: a multiplier is dropped, a coordinate gets a small mass.
     pub fn lenient(collapsed: f64, mass_diagonal: &[f64]) -> Rule {
         let largest = mass_diagonal.iter().fold(0.0, |largest: f64, v| largest.max(v.abs()));
         let floor = tolerances::REPLACED_MASS * if largest > 0.0 { largest } else { 1.0 };
@@ -28,19 +28,19 @@ impl Rule {
 
 #[derive(Clone, Copy)]
 pub(super) struct Quality {
-    /// Solutions need a refinement.
+    /// True if solutions need a refinement.
     pub weak: bool,
-    /// A multiplier was left out, or kept, whose row is neither surely dependent nor surely independent.
+    /// True if a multiplier was dropped, or kept, whose row is neither surely dependent nor surely independent.
     pub doubtful: bool,
-    /// A coordinate pivot was replaced.
+    /// True if a coordinate pivot was replaced.
     pub replaced: bool,
 }
 
 impl Quality {
     pub const GOOD: Quality = Quality { weak: false, doubtful: false, replaced: false };
 
-    /// Judges a pivot (its sign turned so that it should be positive) at node `node` and returns its inverse; that of a
-    /// multiplier that is left out is zero. The error is the node.
+    /// Checks a pivot at node `node`, with its sign changed so that it should be positive, and returns its inverse; that of a
+    /// dropped multiplier is zero. The error is the node.
     pub fn judge(
         &mut self,
         (node, n): (usize, usize),

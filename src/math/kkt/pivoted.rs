@@ -9,7 +9,7 @@ pub(super) struct PivotedQr {
     pub values: Vec<f64>,
     pub permutation: Vec<usize>,
     pub rank: usize,
-    /// What the first column left out had to offer, of the first pivot.
+    /// Norm of the first dropped column's remainder, over the first pivot.
     rest: f64,
     factors: Vec<f64>,
     squares: Vec<f64>,
@@ -28,8 +28,8 @@ impl PivotedQr {
         }
     }
 
-    /// Factors `values` up to the first |R_kk| <= tolerance |R_00|. Column norms are recomputed, not downdated, so that
-    /// small ones mean something. 3 rows cols^2 operations.
+    /// Factors `values` up to the first |R_kk| <= tolerance |R_00|. Column norms are recomputed, not downdated, for the accuracy of
+    /// small ones. 3 rows cols^2 operations.
     pub fn factor(&mut self, tolerance: f64) {
         let (rows, cols) = (self.rows, self.permutation.len());
         self.permutation.iter_mut().enumerate().for_each(|(j, p)| *p = j);
@@ -57,18 +57,18 @@ impl PivotedQr {
         }
     }
 
-    /// The same, but columns also count as dependent below 1e-4 of `reference`, the smallest ratio where nothing is
-    /// singular: see `tolerances::TRUNCATED_RANK`.
+    /// Factors; columns also count as dependent below 1e-4 of `reference`, the smallest ratio at regular states: see
+    /// `tolerances::TRUNCATED_RANK`.
     pub fn factor_truncated(&mut self, tolerance: f64, reference: f64) {
         self.factor(tolerance.max(tolerances::TRUNCATED_RANK * reference));
     }
 
-    /// Whether columns are dependent to `tolerance`.
+    /// True if columns are dependent to `tolerance`.
     pub fn is_deficient(&self, tolerance: f64) -> bool {
         self.rank < self.permutation.len() && (self.rest <= tolerance || self.rest.is_nan())
     }
 
-    /// |R_rr| / |R_00|
+    /// |R_rr| / |R_00|, the last kept pivot over the first.
     pub fn smallest_ratio(&self) -> f64 {
         let last = self.rank.checked_sub(1);
         last.map_or(1.0, |last| (self.r(last)[last] / self.r(0)[0]).abs())
@@ -94,7 +94,7 @@ impl PivotedQr {
         column[0] = beta;
         column[1..].iter_mut().for_each(|v| *v /= alpha - beta);
         for (other, square) in tail.chunks_exact_mut(rows).zip(&mut self.squares[k + 1..]) {
-            // A column that has nothing along the reflector, as many of a sparse matrix, stays as it is.
+            // A column orthogonal to the reflector, as many of a sparse matrix, stays unchanged.
             if reflect(self.factors[k], &column[1..], &mut other[k..]) {
                 *square = dot(&other[k + 1..], &other[k + 1..]);
             }
@@ -143,7 +143,7 @@ impl PivotedQr {
     }
 }
 
-/// x := (I - factor v v^T) x with v = (1, below); false where x starts with zero and stays.
+/// x := (I - factor v v^T) x with v = (1, below); false if x begins with zero and stays unchanged.
 fn reflect(factor: f64, below: &[f64], x: &mut [f64]) -> bool {
     let Some((first, rest)) = x.split_first_mut() else { return false };
     let w = factor * (*first + dot(below, rest));
@@ -221,7 +221,7 @@ impl PivotedCholesky {
         }
     }
 
-    /// With k columns done and the rest zero: (-L11^-T L21^T e, e).
+    /// Null vector after k columns, the others being zero: (-L11^-T L21^T e, e).
     fn null_vector(&mut self, k: usize, null: &mut [f64]) {
         let size = self.size;
         self.x.fill(0.0);

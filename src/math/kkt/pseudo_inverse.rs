@@ -9,17 +9,18 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::svd::{ComputeSvdVectors, svd, svd_scratch};
 use faer::{MatMut, MatRef, Par, Spec};
 
-/// With M = R^-T R^-1 (Cholesky), A = G R and its singular values A = W S U^T above the tolerance:
+/// Solution by the pseudo-inverse, with M = R^-T R^-1 (Cholesky), A = G R and its singular values A = W S U^T above the
+/// tolerance:
 ///
 /// ```text
 /// a = R (p + A^+ b),   p = R^T r1,   b = r2 - A p,   A^+ = U S^-1 W^T,   lambda = -(A A^T)^+ b
 /// ```
 ///
-/// Any R gives the same a as M^-1/2 does, since they differ by a rotation. Contradicting rows are met in least squares,
-/// lambda has the least norm. Costs about n^3/3 + 12 n m^2. Nothing allocates after the first use, in which faer asks for
+/// Any R gives the same a as M^-1/2, since they differ by a rotation. Contradicting rows are solved by least squares,
+/// lambda has the least norm. Costs about n^3/3 + 12 n m^2. Nothing allocates after the first use, in which faer queries
 /// the sizes of the caches.
 pub struct PseudoInverse {
-    /// Singular values up to this part of the largest count as zero, and up to 1e-4 of the reference value.
+    /// Singular values up to this fraction of the largest, and up to 1e-4 of the reference value, count as zero.
     pub tolerance: f64,
     mass: Pattern,
     g: Pattern,
@@ -39,7 +40,7 @@ pub struct PseudoInverse {
 }
 
 impl PseudoInverse {
-    /// None where the patterns do not fit each other or there is not enough memory.
+    /// `None` if the sizes of the patterns do not agree or there is not enough memory.
     pub fn new(mass: &Pattern, g: &Pattern, tolerance: f64) -> Option<Self> {
         let (n, m) = (mass.rows, g.rows);
         if mass.cols != n || g.cols != n || !mass.is_inside() || !g.is_inside() {
@@ -158,7 +159,7 @@ impl Solver for PseudoInverse {
         self.dropped.extend(rows.iter().filter(|row| **row < self.g.rows));
     }
 
-    /// The smallest singular value, of those that count, over the largest.
+    /// The smallest nonzero singular value over the largest.
     fn rank_indicator(&self) -> f64 {
         self.s[..self.rank].last().map_or(0.0, |smallest| smallest / self.s[0])
     }

@@ -1,13 +1,13 @@
-//! The dense null-space solution for its own sake.
+//! The dense null-space solution as a solver of its own.
 
 use super::null_space::NullSpace;
 use super::system::System;
 use super::{Pattern, Singular, Solver};
 
-/// [M G^T; G 0] by a pivoted QR of G^T, always: a = Y y + Z z with G Z = 0, then Z^T M Z z = Z^T (r1 - M Y y), then lambda
-/// from the rest. Dependent rows get multipliers of least norm, contradictions least squares.
+/// [M G^T; G 0] always by a pivoted QR of G^T: a = Y y + Z z with G Z = 0, then Z^T M Z z = Z^T (r1 - M Y y), then lambda
+/// from r1 - M a. Dependent rows get multipliers of least norm, contradictions a least-squares solution.
 pub struct Reduced {
-    /// Rows of G count as dependent when their pivot in the QR falls below this part of the largest,
+    /// Rows of G count as dependent when their pivot in the QR falls below this fraction of the largest,
     /// or below 1e-4 of the reference value.
     pub rank_tolerance: f64,
     system: System,
@@ -16,7 +16,7 @@ pub struct Reduced {
 }
 
 impl Reduced {
-    /// None where the patterns do not fit each other.
+    /// `None` if the sizes of the patterns do not agree.
     pub fn new(mass: &Pattern, g: &Pattern) -> Option<Self> {
         let fits = mass.cols == mass.rows && g.cols == mass.rows && mass.is_inside() && g.is_inside();
         fits.then(|| Reduced {

@@ -1,8 +1,8 @@
-//! Redundant rows in a sparse factor: they are left out.
+//! Sparse factorization that drops redundant rows.
 //!
-//! With all coordinates before all multipliers the rest of the elimination acts on -G M^-1 G^T. A pivot that vanishes
-//! there has a vanishing row, so its multiplier can be left out (zero) and nothing else changes: the others solve the
-//! system exactly if the right side lies in the range of G, which `Least` sees to.
+//! With all coordinates before all multipliers the elimination of the latter acts on -G M^-1 G^T. A pivot that vanishes
+//! there has a vanishing row, so its multiplier can be dropped (zero) and nothing else changes: the others solve the
+//! system exactly if the right side lies in the range of G, which `Least` makes sure of.
 
 use super::Pattern;
 use super::Singular;
@@ -16,11 +16,11 @@ pub(super) struct RedundantRowSolve {
     factor: Ldlt,
     skipped: Vec<usize>,
     replaced: bool,
-    /// The ratio of pivots below which rows were left out.
+    /// Ratio of a pivot to its size below which rows are dropped.
     collapsed: f64,
     inconsistency: f64,
     least: Least,
-    /// Scratch of n and of m numbers.
+    /// Scratch: n and m numbers.
     a: Vec<f64>,
     top: Vec<f64>,
     lambda: Vec<f64>,
@@ -53,7 +53,7 @@ impl RedundantRowSolve {
         }
     }
 
-    /// Leaves out rows with pivots that are `collapsed`. `doubtful` in what is returned: it is not sure which rows are
+    /// Drops rows with pivots at or below `collapsed`. The result is `doubtful` if it is not certain which rows are
     /// dependent.
     pub fn factor(&mut self, system: &System, collapsed: f64) -> Result<Quality, Singular> {
         self.a.fill(0.0);
@@ -66,8 +66,8 @@ impl RedundantRowSolve {
         Ok(quality)
     }
 
-    /// Whether the motion is determined although pivots were replaced: solves with an arbitrary right side and looks
-    /// whether refinement gets rid of what was replaced.
+    /// Checks that the motion is determined although pivots were replaced: solves with an arbitrary right side and tests
+    /// whether refinement corrects for the replaced pivots.
     pub fn probe(&mut self, system: &System) -> Result<(), Singular> {
         let (mut top, mut bottom) = std::mem::take(&mut self.probe);
         bottom.fill(0.0);
@@ -83,8 +83,8 @@ impl RedundantRowSolve {
         if is_solved { Ok(()) } else { Err(Singular::Undetermined { coordinate }) }
     }
 
-    /// Pivots are squares of sines, so that round-off hides sines below 1e-7. Null vectors show them: the length
-    /// (metric M^-1) of G^T N w for a mix w of the left-out rows, all scaled to the same length.
+    /// Rank indicator of the dropped rows. Pivots are squares of sines, so that round-off hides sines below 1e-7. Null vectors show them: the length
+    /// (metric M^-1) of G^T N w for a combination w of the dropped rows, all scaled to the same length.
     pub fn rank_indicator(&mut self, system: &System) -> f64 {
         if self.skipped.is_empty() {
             return 0.0;
@@ -108,24 +108,24 @@ impl RedundantRowSolve {
         self.a.iter().zip(&self.top).map(|(a, mass)| a * a / mass).sum::<f64>().sqrt()
     }
 
-    /// The rows that the last factorization left out.
+    /// Rows that the last factorization dropped.
     pub fn left_out(&self) -> &[usize] {
         &self.skipped
     }
 
-    /// The smallest pivot over its size; zero where rows are surely dependent.
+    /// The smallest ratio of a pivot to its size; zero if rows are surely dependent.
     pub fn smallest_ratio(&self) -> f64 {
         let (ratio, dependent) = self.factor.smallest_ratio(tolerances::ROUND_OFF_OF_FACTORS);
         if dependent > 0 { 0.0 } else { ratio }
     }
 
-    /// The norm of the part of the last right side that no motion can meet.
+    /// Norm of the inconsistent part of the last right side r2.
     pub fn inconsistency(&self) -> f64 {
         self.inconsistency
     }
 
-    /// Solves in place, refined to round-off; right sides that contradict each other in least squares. Multipliers are
-    /// those of least norm where it `is_least`.
+    /// Solves in place, refined to round-off; contradicting right sides by least squares. If `is_least`, multipliers are
+    /// those of least norm.
     pub fn solve(&mut self, system: &System, top: &mut [f64], bottom: &mut [f64], is_least: bool) {
         self.inconsistency = self.project(system, bottom);
         let RedundantRowSolve { factor, a, lambda, top: r1, bottom: r2, .. } = self;
@@ -144,14 +144,14 @@ impl RedundantRowSolve {
         }
     }
 
-    /// v := P v; returns the norm of what was taken away.
+    /// v := P v; returns the norm of the removed part.
     fn project(&mut self, system: &System, v: &mut [f64]) -> f64 {
         let RedundantRowSolve { factor, least, skipped, collapsed, .. } = self;
         let rank_indicator = factor.smallest_ratio(collapsed.max(tolerances::ROUND_OFF_OF_FACTORS)).0.sqrt();
         least.project(system, skipped, rank_indicator, &mut |top, bottom| factor.solve(top, bottom), v)
     }
 
-    /// image = N direction, where `direction` is zero but on the left-out rows.
+    /// image = N direction, where `direction` is zero except on the dropped rows.
     fn refine_null(&mut self, system: &System) {
         let RedundantRowSolve {
             factor, a, lambda, top: r1, bottom: r2, direction, image, probe: (top, bottom), ..

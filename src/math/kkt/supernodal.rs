@@ -14,7 +14,7 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{Pair, SparseColMatRef, SymbolicSparseColMat};
 use faer::{MatMut, Par, Side, Spec};
 
-/// Factors S K S, where S scales the coordinates to unit mass and the rows of G to (G diag(M)^-1 G^T)_jj = 1, so that
+/// Supernodal factors of S K S, where S scales the coordinates to unit mass and the rows of G to (G diag(M)^-1 G^T)_jj = 1, so that
 /// the thresholds of the pivots, which faer takes absolute, are relative ones.
 pub(super) struct Supernodal {
     symbolic: Symbolic,
@@ -37,7 +37,7 @@ pub(super) struct Supernodal {
 }
 
 impl Supernodal {
-    /// None where faer cannot allocate.
+    /// `None` if faer cannot allocate.
     pub fn new(symbolic: Symbolic, mass: &Pattern, g: &Pattern, late: &[bool]) -> Option<Self> {
         let size = symbolic.size();
         let places = places(&symbolic, mass, g);
@@ -98,7 +98,7 @@ impl Supernodal {
         self.judge(rule, skipped, replaced)
     }
 
-    /// Returns whether a coordinate without mass was given some (under a rule that allows it).
+    /// Writes the scaled matrix; returns true if a coordinate without mass was given some (under a rule that allows it).
     fn assemble(&mut self, mass: &[f64], g: &[f64], rule: Rule) -> bool {
         let (n, scale) = (self.symbolic.n, &self.scale);
         self.entries.fill(0.0);
@@ -135,7 +135,7 @@ impl Supernodal {
         Ok(quality)
     }
 
-    /// Solves in place; a multiplier that was left out comes out as zero.
+    /// Solves in place; dropped multipliers are zero.
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
         let (n, nodes) = (self.symbolic.n, &self.symbolic.order.nodes);
         for (x, &node) in self.x.iter_mut().zip(nodes) {
@@ -151,7 +151,7 @@ impl Supernodal {
         }
     }
 
-    /// The smallest pivot of the scaled matrix, of those above `collapsed`, and how many multipliers' are not.
+    /// The smallest pivot of the scaled matrix above `collapsed`, and the number of multipliers not above it.
     pub fn smallest_ratio(&self, collapsed: f64) -> (f64, usize) {
         let mut found = (1.0, 0);
         for (d, &sign) in self.diagonal.iter().zip(&self.signs) {

@@ -6,7 +6,7 @@ use super::order::{Order, columns, lower_adjacency, order};
 /// Positions 0..n+m are places in the order of elimination.
 pub(super) struct Symbolic {
     pub order: Order,
-    /// How many coordinates there are.
+    /// Number of coordinates.
     pub n: usize,
     /// The pattern of L below the diagonal, by columns.
     pub starts: Vec<usize>,

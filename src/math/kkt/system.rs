@@ -1,4 +1,4 @@
-//! The matrix itself, for residuals.
+//! The saddle-point matrix itself, for residuals and scaling.
 
 use super::Pattern;
 use super::ldlt::Ldlt;
@@ -22,7 +22,7 @@ impl System {
         }
     }
 
-    /// The lengths must agree.
+    /// Stores values; lengths must be those of the patterns.
     pub fn store(&mut self, mass: &[f64], g: &[f64]) {
         self.mass_values.copy_from_slice(mass);
         self.g_values.copy_from_slice(g);
@@ -36,7 +36,7 @@ impl System {
     }
 }
 
-/// Solves [M G^T; G 0] [a; lambda] = [top; bottom] with a factor that may be of a matrix nearby, in so many `sweeps` at most,
+/// Solves [M G^T; G 0] [a; lambda] = [top; bottom] with a factor that may be of a nearby matrix, in at most `sweeps` corrections,
 /// until a correction is round-off. `residual` is scratch.
 pub(super) fn iterate(
     factor: &mut Ldlt,
@@ -70,7 +70,7 @@ pub(super) fn iterate(
 }
 
 /// Scales that make the masses one and the rows of G of unit norm in the mass metric, (G diag(M)^-1 G^T)_jj = 1, by node.
-/// Late coordinates (by default those without mass) are scaled by what the rows make of them.
+/// Late coordinates (by default those without mass) are scaled by the entries of the scaled rows.
 pub(super) fn balance(
     (mass, mass_values): (&Pattern, &[f64]),
     (g, g_values): (&Pattern, &[f64]),
@@ -88,7 +88,7 @@ pub(super) fn balance(
         rows[j] += (value * coordinates[i]).powi(2);
     }
     rows.iter_mut().for_each(|s| *s = inverse_root(*s));
-    // Squares of late coordinates gather with their sign turned, which tells them from scales.
+    // Squares of late coordinates are summed with negative sign, which tells them from scales.
     for (&(j, i), value) in g.entries.iter().zip(g_values) {
         if coordinates[i] <= 0.0 {
             coordinates[i] -= (value * rows[j]).powi(2);

@@ -1,4 +1,4 @@
-//! The saddle-point system whose reactions act at one place and whose constraints hold at another.
+//! The saddle-point system with G of one state for the reactions and of another for the constraints.
 
 use super::system::{add_scaled, dot};
 use super::{Pattern, SaddlePoint, Singular};
@@ -10,11 +10,11 @@ use crate::tolerances::math as tolerances;
 /// [G2  0   ] [lambda] = [r]
 /// ```
 ///
-/// by the factors of the symmetric matrix with G1 in both blocks. Every b gives a pair (a, lambda) that meets the upper
+/// by the factors of the symmetric matrix with G1 in both blocks. Every b gives a pair (a, lambda) that satisfies the upper
 /// rows exactly, with G1 a = b; GMRES finds the b with G2 a(b) = r. The map b -> G2 a(b) is the identity up to G2 - G1 =
-/// O(h), so some five back-substitutions gain ten digits, and a far away G2 costs more of them but does not diverge.
-/// Restarts measure the true residual, as iterative refinement does. Against a dense LU, it keeps the sparse factors,
-/// and what they do about dependent rows and massless coordinates.
+/// O(h), so about five back-substitutions gain ten digits, and a distant G2 costs more of them but does not diverge.
+/// Restarts compute the true residual, as in iterative refinement. Unlike a dense LU, it keeps the sparse factors,
+/// and their treatment of dependent rows and massless coordinates.
 pub struct TwoJacobianGmres {
     /// GMRES basis, by scaled rows.
     basis: Vec<Vec<f64>>,
@@ -23,7 +23,7 @@ pub struct TwoJacobianGmres {
     rotations: Vec<(f64, f64)>,
     /// Right side of the least-squares problem, and its solution.
     reduced: [f64; tolerances::GMRES_VECTORS + 1],
-    /// Size of each row, which its residual is measured against.
+    /// Size of each row, the unit of its residual.
     scale: Vec<f64>,
     force: Vec<f64>,
     diagonal: Vec<f64>,
@@ -57,12 +57,12 @@ impl TwoJacobianGmres {
         }
     }
 
-    /// `kkt` holds the factors with M and G1. `top` is f on entry and a on return; `bottom` is a guess of G1 a on entry
+    /// Solves with the factors `kkt` of M and G1. `top` is f on entry and a on return; `bottom` is a guess of G1 a on entry
     /// and lambda on return.
     ///
     /// # Errors
     /// [`Singular::Apart`] when the residual stays above 1e-9 of the rows, or above 1e-5 where rows of G1 are dependent;
-    /// what the factors report.
+    /// errors of the factors.
     pub fn solve(
         &mut self,
         kkt: &mut SaddlePoint,
@@ -101,9 +101,9 @@ impl TwoJacobianGmres {
         Err(Singular::Apart)
     }
 
-    /// Sizes of the rows: |r_i| + sum_j |G2_ij| (max |a| + p_j), where a is that of the guess or what r asks for, if that
-    /// is more: a guess of zero says nothing, and rows without a right side are measured against the others. p_j =
-    /// (|f_j| + sum_k |G2_kj lambda_k|)/M_jj is what forces that balance would do one by one: their round-off is in a.
+    /// Sizes of the rows: |r_i| + sum_j |G2_ij| (max |a| + p_j), where a is that of the guess or the one that r requires, if
+    /// that is larger: a guess of zero gives no size, and rows without a right side take that of the others. p_j =
+    /// (|f_j| + sum_k |G2_kj lambda_k|)/M_jj bounds the accelerations of the single forces, whose round-off is in a.
     fn measure(&mut self, pair: &Pair, (mass, values): (&Pattern, &[f64]), r: &[f64], (a, lambda): (&[f64], &[f64])) {
         let entries = || pair.pattern.entries.iter().zip(pair.g2);
         self.top.iter_mut().zip(&self.force).for_each(|(p, f)| *p = f.abs());
@@ -124,7 +124,7 @@ impl TwoJacobianGmres {
         self.scale.iter_mut().filter(|scale| **scale == 0.0).for_each(|scale| *scale = 1.0);
     }
 
-    /// r - G2 a by scaled rows, into the first basis vector; its norm.
+    /// Writes r - G2 a by scaled rows into the first basis vector and returns its norm.
     fn residual(&mut self, pair: &Pair, r: &[f64], a: &[f64]) -> f64 {
         let residual = &mut self.basis[0];
         residual.copy_from_slice(r);
@@ -134,7 +134,7 @@ impl TwoJacobianGmres {
         dot(residual, residual).sqrt()
     }
 
-    /// One cycle of GMRES from the residual in the first basis vector; moves b.
+    /// One cycle of GMRES from the residual in the first basis vector; updates b.
     fn cycle(&mut self, pair: &mut Pair) -> Result<(), Singular> {
         let norm = dot(&self.basis[0], &self.basis[0]).sqrt();
         self.basis[0].iter_mut().for_each(|x| *x /= norm);
@@ -144,7 +144,7 @@ impl TwoJacobianGmres {
             self.apply(pair, count)?;
             self.orthogonalize(count);
             self.rotate(count);
-            // A direction that moves no constraint: rows that depend on others.
+            // A direction that changes no constraint: dependent rows.
             if self.triangle[count][count].abs() < 1e-12 {
                 break;
             }
@@ -157,7 +157,7 @@ impl TwoJacobianGmres {
         Ok(())
     }
 
-    /// The image of basis vector `k`: G2 a(b) by scaled rows.
+    /// Writes G2 a(b) by scaled rows, for basis vector `k` as b, into basis vector k + 1.
     fn apply(&mut self, pair: &mut Pair, k: usize) -> Result<(), Singular> {
         self.top.fill(0.0);
         let scaled = self.basis[k].iter().zip(&self.scale);
@@ -214,7 +214,7 @@ impl TwoJacobianGmres {
     }
 }
 
-/// Rows that stay left out ask for nothing.
+/// Sets the entries of dropped rows to zero.
 fn leave_out(kkt: &SaddlePoint, rows: &mut [f64]) {
     rows.iter_mut().enumerate().filter(|(row, _)| kkt.is_dropped(*row)).for_each(|(_, value)| *value = 0.0);
 }

@@ -1,19 +1,19 @@
-//! What the last factorization says.
+//! Rank, dropped rows and rank indicator of the last factorization.
 
 use super::{SaddlePoint, Way};
 
 impl SaddlePoint {
-    /// Forgets the last factors: they are of a state that does not count.
+    /// Forgets the last factors.
     pub fn forget(&mut self) {
         self.way = Way::None;
     }
 
-    /// Whether the last factorization succeeded.
+    /// True if the last factorization succeeded.
     pub fn is_factored(&self) -> bool {
         self.way != Way::None
     }
 
-    /// Rows that the last factorization left out as dependent.
+    /// Rows that the last factorization dropped as dependent.
     pub fn left_out(&self) -> &[usize] {
         match (self.way, &self.kept, &self.skipping, &self.dense) {
             (Way::Kept, Some(kept), ..) => kept.left_out(),
@@ -28,7 +28,7 @@ impl SaddlePoint {
         self.dropped[row]
     }
 
-    /// The rank of G: m on the fast way, 0 without a factorization.
+    /// The rank of G: m on the fast path, 0 without a factorization.
     pub fn rank(&self) -> usize {
         match self.way {
             Way::None => 0,
@@ -36,12 +36,12 @@ impl SaddlePoint {
         }
     }
 
-    /// Whether the last factorization needed no rank-revealing one.
+    /// True if the last factorization needed no rank-revealing one.
     pub fn is_fast(&self) -> bool {
         matches!(self.way, Way::Ldlt { .. })
     }
 
-    /// Whether the last factors are those of a factorization that is truncated below this part, too.
+    /// True if a factorization truncated below `part` of the reference value would give the same factors.
     pub fn is_regular(&self, part: f64) -> bool {
         match (self.way, &self.kept) {
             (Way::Ldlt { refine }, _) => !refine || self.rank_indicator() >= part * self.rank_reference,
@@ -50,12 +50,12 @@ impl SaddlePoint {
         }
     }
 
-    /// Whether rows are dependent, to round-off.
+    /// True if rows are dependent, to round-off.
     pub fn is_rank_deficient(&self) -> bool {
         self.drops_rows || !self.is_truncated && self.rank() < self.m
     }
 
-    /// The norm of the part of the last right side r2 that no a can meet; zero unless rows are dependent.
+    /// Norm of the inconsistent part of the last right side r2, for which no a exists; zero unless rows are dependent.
     pub fn inconsistency(&self) -> f64 {
         match (self.way, &self.kept, &self.skipping, &self.dense) {
             (Way::Kept, Some(kept), ..) => kept.inconsistency(),
@@ -65,9 +65,9 @@ impl SaddlePoint {
         }
     }
 
-    /// How near G is to losing rank: about the smallest sine between one of its rows and those before it (metric M^-1),
-    /// rows that are dropped left aside; by the smallest pivot over its size before elimination, which is its square.
-    /// In [0, 1], zero where other rows are dependent, and without a factorization.
+    /// Rank indicator of G: about the smallest sine of the angle between a row and those before it (metric M^-1),
+    /// without dropped rows; by the smallest ratio of a pivot to its size before elimination, which is its square.
+    /// In [0, 1]; zero if other rows are dependent, and without a factorization.
     pub fn rank_indicator(&self) -> f64 {
         let ratio: f64 = match (self.way, &self.fast, &self.kept, &self.skipping, &self.dense) {
             (Way::Ldlt { .. }, Some(orders), ..) => orders.smallest_ratio(),

@@ -1,4 +1,4 @@
-//! Factor and solve: which way is taken, and when another one.
+//! Factorization and solution of the saddle-point system, with the choice among fast, redundant-row and dense solve.
 
 mod findings;
 mod orders;
@@ -22,10 +22,10 @@ enum Way {
     Dense,
 }
 
-/// [M G^T; G 0] with frozen patterns. Nothing allocates after the first use of each way. A solution depends on the
+/// Solver of [M G^T; G 0] with frozen patterns. Nothing allocates after the first use of each path. A solution depends on the
 /// values, the rows that are dropped, and [`Self::rank_reference`], never on what was factored before.
 pub struct SaddlePoint {
-    /// Rows of G count as dependent when their pivot in the QR of G^T (unit rows, mass metric) falls below this part of
+    /// Rows of G count as dependent when their pivot in the QR of G^T (unit rows, mass metric) falls below this fraction of
     /// the largest.
     pub rank_tolerance: f64,
     n: usize,
@@ -33,19 +33,19 @@ pub struct SaddlePoint {
     is_shaped: bool,
     system: System,
     alike: Alike,
-    /// None where rows always depend on others.
+    /// `None` if some rows always depend on others.
     fast: Option<Orders>,
     kept: Option<Box<Kept>>,
     skipping: Option<Box<RedundantRowSolve>>,
     dense: Option<Box<NullSpace>>,
     way: Way,
-    /// Reference value of the rank indicator, [`Self::rank_indicator`] where nothing is singular, against which a
-    /// truncated factorization judges; zero before it is known.
+    /// Reference value of [`Self::rank_indicator`], that of a regular state, against which a
+    /// truncated factorization compares; zero before it is known.
     pub rank_reference: f64,
-    /// Rows that are dropped by [`Self::drop_rows`], and whether there are any.
+    /// Rows that are dropped by [`Self::drop_rows`]; `drops_rows` is true if there are any.
     dropped: Vec<bool>,
     drops_rows: bool,
-    /// Whether rows are left out that are not surely dependent.
+    /// True if rows are dropped that are not surely dependent.
     is_truncated: bool,
     skipped: Vec<usize>,
     top: Vec<f64>,
@@ -54,7 +54,7 @@ pub struct SaddlePoint {
 }
 
 impl SaddlePoint {
-    /// The symbolic work: M by its lower triangle (or any one of the two places of an entry), G by its entries.
+    /// Symbolic factorization: M by its lower triangle (or any one of the two places of an entry), G by its entries.
     /// Coordinates without an entry on the diagonal of M are taken as massless.
     pub fn new(mass: &Pattern, g: &Pattern) -> Self {
         let is_shaped = mass.rows == mass.cols && mass.rows == g.cols && mass.is_inside() && g.is_inside();
@@ -85,13 +85,13 @@ impl SaddlePoint {
         }
     }
 
-    /// Factors the matrix with these values. A pivot collapses on the fast way when elimination leaves it less than 1e-11
+    /// Factors the matrix with these values. A pivot collapses on the fast path when elimination reduces it to less than 1e-11
     /// of its size; below 1e-7 solutions are refined once.
     pub fn factor(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
         if self.goes_fast(mass, g)? || self.drops_rows(None)? { Ok(()) } else { self.finish_rank_revealing() }
     }
 
-    /// Whether the fast way could be taken; the values are stored if not, or if solutions need a refinement.
+    /// True if the fast path succeeds; the values are stored if not, or if solutions need a refinement.
     fn goes_fast(&mut self, mass: &[f64], g: &[f64]) -> Result<bool, Singular> {
         (self.way, self.is_truncated) = (Way::None, false);
         let System { mass: m, g: j, .. } = &self.system;
@@ -108,9 +108,9 @@ impl SaddlePoint {
         Ok(false)
     }
 
-    /// The same, but rows count as dependent below this part of the reference value, 1e-4 say. Between such states and singular ones
-    /// accelerations are more wrong by round-off than they are without these rows, and so are velocities after a
-    /// projection; the next projection farther away takes back what the state moved along them.
+    /// Factors; rows also count as dependent below this fraction of the reference value, such as 1e-4. Nearer to a singular
+    /// state, accelerations have a larger error by round-off with these rows than without them, and so have velocities
+    /// after a projection; the next projection farther away corrects the motion along them.
     pub fn factor_truncated(&mut self, mass: &[f64], g: &[f64], part: f64) -> Result<(), Singular> {
         let is_fast = self.goes_fast(mass, g)?;
         if !is_fast && self.drops_rows(Some(part))? {
@@ -123,7 +123,7 @@ impl SaddlePoint {
         let System { mass, g, .. } = &self.system;
         let skipping = self.skipping.get_or_insert_with(|| Box::new(RedundantRowSolve::new(mass, g)));
         let quality = skipping.factor(&self.system, least * least)?;
-        // Coordinates with little mass of their own would look as rows that are nearly dependent do.
+        // Coordinates with little mass of their own look the same as nearly dependent rows.
         if quality.replaced {
             return if is_fast { Ok(()) } else { self.finish_rank_revealing() };
         }
@@ -131,7 +131,7 @@ impl SaddlePoint {
         Ok(())
     }
 
-    /// Whether there are rows that are dropped, or that depend on others over the same coordinates: then the others are
+    /// True if there are rows that are dropped, or that depend on others over the same coordinates; the others are then
     /// factored.
     fn drops_rows(&mut self, part: Option<f64>) -> Result<bool, Singular> {
         if !self.drops_rows {
@@ -154,8 +154,8 @@ impl SaddlePoint {
         Ok(())
     }
 
-    /// Leaves out these rows, and no others, from now on, whatever their pivots. Rows that depend on the others
-    /// wherever phi = 0 do not where it is not: there their small pivots, taken seriously, would stop the motion.
+    /// Drops these rows, and no others, from now on, whatever their pivots. Rows that depend on the others
+    /// wherever phi = 0 do not where phi != 0: there their small pivots would lock the motion if they were kept.
     pub fn drop_rows(&mut self, rows: &[usize]) {
         self.dropped.fill(false);
         rows.iter().filter(|row| **row < self.m).for_each(|row| self.dropped[*row] = true);
@@ -188,7 +188,7 @@ impl SaddlePoint {
             quality = skipping.factor(&self.system, tolerances::COLLAPSED)?;
         }
         let is_doubtful = quality.replaced || quality.doubtful;
-        // Of a large system it is not asked which nearly dependent rows are so, only whether leaving some out, or giving
+        // In a large system it is not determined which nearly dependent rows are so, only whether dropping some, or giving
         // coordinates a little mass, still gives a solution.
         let is_accepted = if total <= tolerances::DENSE_EQUATIONS {
             !is_doubtful && skipping.rank_indicator(&self.system) < 0.1 * self.rank_tolerance
@@ -208,17 +208,17 @@ impl SaddlePoint {
         Ok(Way::Dense)
     }
 
-    /// (r1, r2) -> (a, lambda), in place.
+    /// Solves in place: (r1, r2) -> (a, lambda).
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) -> Result<(), Singular> {
         self.solve_for(top, bottom, true)
     }
 
-    /// The same where only a matters: multipliers of dependent rows are any that belong to it.
+    /// Solves for a; multipliers of dependent rows are any that are consistent with it.
     pub fn solve_motion(&mut self, top: &mut [f64], bottom: &mut [f64]) -> Result<(), Singular> {
         self.solve_for(top, bottom, false)
     }
 
-    /// Where `is_least` is false, multipliers of dependent rows may be any.
+    /// Solves in place; if `is_least` is false, multipliers of dependent rows need not be those of least norm.
     fn solve_for(&mut self, top: &mut [f64], bottom: &mut [f64], is_least: bool) -> Result<(), Singular> {
         if top.len() != self.n || bottom.len() != self.m {
             return Err(Singular::Shape);
@@ -282,7 +282,7 @@ impl SaddlePoint {
     }
 }
 
-/// Solves, and once more for the residual. `matrix(a, lambda, top, bottom)` subtracts the product from (top, bottom).
+/// Solves with one step of refinement. `matrix(a, lambda, top, bottom)` subtracts the product from (top, bottom).
 fn refine(
     fast: &mut Ldlt,
     (top, bottom): (&mut [f64], &mut [f64]),

@@ -1,4 +1,4 @@
-//! The orders of elimination of the fast way, by the masses at hand and nothing else.
+//! Orders of elimination of the fast path, determined by the values of the mass matrix alone.
 
 use super::super::Pattern;
 use super::super::ldlt::Ldlt;
@@ -9,13 +9,13 @@ use super::super::system::System;
 pub(super) struct Orders {
     /// Entries of M on its diagonal, with their coordinates.
     diagonal: Vec<(usize, usize)>,
-    /// Coordinates without mass, for which the factors are made, and scratch for those of the values at hand.
+    /// Coordinates without mass for which the factors are made; `found` is scratch for those of the current values.
     massless: Vec<bool>,
     found: Vec<bool>,
-    /// Coordinates that very many multipliers touch: eliminated early, one with k multipliers would leave a dense k x k
+    /// Coordinates in the rows of very many multipliers: eliminated early, one with k multipliers would make a dense k x k
     /// block.
     hubs: Vec<bool>,
-    /// With hubs behind their multipliers, and ahead of them where a multiplier's pivot collapses without them. Coordinates
+    /// Factors with hubs behind their multipliers, and with hubs ahead, used if a multiplier's pivot collapses in the first. Coordinates
     /// without mass are always behind.
     factors: [Option<Ldlt>; 2],
     taken: usize,
@@ -34,7 +34,7 @@ impl Orders {
         }
     }
 
-    /// None where a pivot collapses in each order.
+    /// Factors; `None` if a pivot collapses in each order.
     pub fn factor(
         &mut self,
         System { mass: m, g: j, .. }: &System,
@@ -59,7 +59,7 @@ impl Orders {
         None
     }
 
-    /// Forgets the factors where other masses vanish.
+    /// Forgets the factors if other masses vanish.
     fn meet(&mut self, mass: &[f64]) {
         self.found.fill(true);
         self.diagonal.iter().for_each(|&(entry, i)| self.found[i] &= mass[entry] == 0.0);

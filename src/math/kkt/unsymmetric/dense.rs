@@ -16,7 +16,7 @@ pub(super) struct Dense<T> {
 }
 
 impl<T: Field> Dense<T> {
-    /// None where there is not enough memory.
+    /// `None` if there is not enough memory.
     pub fn new(size: usize) -> Option<Self> {
         let request = StackReq::or(
             factor::lu_in_place_scratch::<usize, T>(size, size, Par::Seq, Spec::default()),

@@ -1,19 +1,19 @@
-//! Rows and columns that reach most of the others, such as those of a frame with many elastic coordinates.
+//! Rows and columns that are nearly full, such as those of a frame with many elastic coordinates.
 
 use super::Field;
 use super::matrix::Matrix;
 use crate::tolerances::math as tolerances;
 
-/// What is eliminated last. A pivot in a long row, taken early, fills all columns that follow; so does the column of a
-/// multiplier that has nothing but a long row to take its pivot from.
+/// Columns that are eliminated last. An early pivot in a dense row fills all columns that follow; so does the column of a
+/// multiplier that has only dense rows to take its pivot from.
 pub(super) struct DenseRows {
-    /// What each row is multiplied by, and so what its claim to be a pivot is worth.
+    /// Factor of each row, which lowers the priority of dense rows in the choice of pivots.
     pub rank: Vec<f64>,
     pub columns: Vec<bool>,
 }
 
 impl DenseRows {
-    /// None where there is no long row, or so many that they would fill more than they save. Columns from `n` on are
+    /// `None` if there is no dense row, or so many that they would fill more than they save. Columns from `n` on are
     /// those of multipliers.
     pub fn of<T: Field>(matrix: &Matrix<T>, n: usize) -> Option<DenseRows> {
         let size = matrix.size();

@@ -1,4 +1,4 @@
-//! The matrix before it is factored.
+//! The unsymmetric matrix before it is factored.
 
 use super::super::Pattern;
 use super::Field;
@@ -11,7 +11,7 @@ pub(super) struct Matrix<T> {
     is_full: bool,
 }
 
-/// Entries of A, G, G^T, and the diagonal behind A, where rows of G that are left out get a one. None where there is not
+/// Entries of A, G, G^T, and the diagonal of the multipliers, where dropped rows of G get a one. `None` if there is not
 /// enough memory.
 pub(super) fn places(mass: &Pattern, tangent: &Pattern, g: &Pattern) -> Option<SymbolicSparseColMat<usize>> {
     let (n, size) = (g.cols, g.cols + g.rows);
@@ -23,14 +23,14 @@ pub(super) fn places(mass: &Pattern, tangent: &Pattern, g: &Pattern) -> Option<S
     Some(SymbolicSparseColMat::try_new_from_indices(size, size, &pairs).ok()?.0)
 }
 
-/// All places.
+/// The pattern of a full matrix.
 fn full(size: usize) -> Option<SymbolicSparseColMat<usize>> {
     let pairs: Vec<_> = (0..size).flat_map(|col| (0..size).map(move |row| Pair { row, col })).collect();
     Some(SymbolicSparseColMat::try_new_from_indices(size, size, &pairs).ok()?.0)
 }
 
 impl<T: Field> Matrix<T> {
-    /// None where there is not enough memory.
+    /// A zero matrix; `None` if there is not enough memory.
     pub fn new(places: SymbolicSparseColMat<usize>, is_full: bool) -> Option<Self> {
         let places = if is_full { full(places.nrows())? } else { places };
         Some(Matrix { values: vec![T::ZERO; places.compute_nnz()], places, is_full })
@@ -40,7 +40,7 @@ impl<T: Field> Matrix<T> {
         self.places.nrows()
     }
 
-    /// Where an entry stands among the values.
+    /// Index of an entry among the values.
     pub fn place(&self, row: usize, col: usize) -> Option<usize> {
         let size = self.size();
         if self.is_full {

@@ -21,35 +21,35 @@ use matrix::Matrix;
 use redundancy::Redundancy;
 use sparse::Sparse;
 
-/// Factors and solves
+/// Factors and solves the system of an implicit step,
 ///
 /// ```text
 /// [ A        G^T ] [ a      ]   [ r1 ]
 /// [ G + b L  0   ] [ lambda ] = [ r2 ]
 /// ```
 ///
-/// with A = M + c C + k K a sum of matrices on patterns of their own and L (zero unless given) on that of G, real (`T` = `f64`) or complex (`c64`), and G real.
-/// LU with partial pivoting (faer), dense or sparse by how full the matrix is; nothing allocates once the fill has been
-/// seen. Rows and columns are scaled alike to A of unit size and to rows of G of unit size, so that pivots
-/// are chosen between like and like.
+/// with A = M + c C + k K, each on its own pattern, and L (zero unless given) on that of G, all real (`T` = `f64`) or complex (`c64`); G is real.
+/// LU with partial pivoting (faer), dense or sparse by the density of the matrix; nothing allocates once the fill has been
+/// seen. Rows and columns are scaled alike so that A and the rows of G are of unit size and pivots
+/// are comparable.
 ///
-/// Rows of G that are dropped have lambda zero, and r2 there is not read: those that [`Unsymmetric::drop_rows`] names,
-/// else, where the matrix of all rows is singular, those that are dependent in the values at hand. That solves
+/// Dropped rows of G have lambda zero, and r2 there is not read: those that [`Unsymmetric::drop_rows`] names,
+/// else, if the matrix of all rows is singular, those that are dependent in the current values. That solves
 /// consistent redundant constraints.
 pub struct Unsymmetric<T> {
     n: usize,
     matrix: Matrix<T>,
-    /// With rows and columns scaled, and G in it.
+    /// Values of the whole matrix, with rows and columns scaled and G included.
     scaled: Vec<T>,
     scale: Vec<f64>,
-    /// What each row is multiplied by beside that.
+    /// Further factor of each row, see [`DenseRows`].
     rank: Vec<f64>,
-    /// Sizes of the rows and columns of A, and the coordinates without mass.
+    /// Sizes of the rows and columns of A; `is_massless`: coordinates without mass.
     weight: Vec<f64>,
     is_massless: Vec<bool>,
     factors: Factors<T>,
     g: Pattern,
-    /// b L
+    /// Values of b L at the places of G.
     coupling: Vec<T>,
     redundancy: Option<Redundancy>,
     /// Rows of G that are dropped.
@@ -73,7 +73,7 @@ enum State {
 }
 
 impl<T: Field> Unsymmetric<T> {
-    /// For A with entries of M (one triangle) and of C and K, and for G; none where there is not enough memory.
+    /// For A with entries of M (one triangle) and of C and K, and for G; `None` if there is not enough memory.
     pub fn new(mass: &Pattern, tangent: &Pattern, g: &Pattern) -> Option<Self> {
         let places = matrix::places(mass, tangent, g)?;
         let is_dense = tolerances::DENSE_PART * places.compute_nnz() >= places.nrows() * places.ncols();
@@ -107,7 +107,7 @@ impl<T: Field> Unsymmetric<T> {
         })
     }
 
-    /// Takes all rows of G for independent: a singular matrix is one whose A is singular along the null space of G.
+    /// Assumes that all rows of G are independent: the matrix is then singular only if A is singular on the null space of G.
     pub fn keeping_rows(mut self) -> Self {
         self.keeps_rows = true;
         self
@@ -146,7 +146,7 @@ impl<T: Field> Unsymmetric<T> {
         }
     }
 
-    /// L += B, with the values of B at the places of G, times a factor for each row.
+    /// b L += B, with the values of B at the places of G, times a factor for each row.
     pub fn couple(&mut self, values: &[f64], factor: impl Fn(usize) -> T) {
         let places = self.coupling.iter_mut().zip(&self.g.entries);
         places.zip(values).for_each(|((entry, &(row, _)), &value)| *entry += factor(row) * value);
@@ -160,10 +160,10 @@ impl<T: Field> Unsymmetric<T> {
         }
     }
 
-    /// Puts G in and factors.
+    /// Factors the matrix with these values of G.
     ///
     /// # Errors
-    /// Values that are not finite or not in the pattern; a singular matrix, but for rows of G that are dropped.
+    /// Values that are not finite or not in the pattern; a singular matrix, apart from dropped rows of G.
     pub fn factor(&mut self, g: &Pattern, values: &[f64]) -> Result<(), Singular> {
         if !self.fits || g.entries.len() != self.g.entries.len() || values.len() != g.entries.len() {
             return Err(Singular::Shape);
@@ -182,7 +182,7 @@ impl<T: Field> Unsymmetric<T> {
         Err(Singular::Collapsed)
     }
 
-    /// Scales by A for the coordinates, |A_ij| <= 1, and by what that makes of the rows of G.
+    /// Scales coordinates so that |A_ij| <= 1, and then rows of G to largest entry 1.
     fn balance(&mut self, g: &[f64]) {
         self.weight.fill(0.0);
         for (row, col, place) in self.matrix.entries().filter(|(row, col, _)| *row < self.n && *col < self.n) {
@@ -205,14 +205,14 @@ impl<T: Field> Unsymmetric<T> {
         rows.iter_mut().for_each(|size| *size = if *size > 0.0 { size.recip() } else { 1.0 });
     }
 
-    /// A coordinate without mass moves with others, by its constraints, and weighs what the heaviest would there:
+    /// Weight of coordinates without mass, which move with others by their constraints: that of the heaviest coordinate,
     ///
     /// ```text
     /// w_j = largest max_i (G_ij / max_k |G_ik|)^2
     /// ```
     ///
-    /// Its own entries of A are but h^2 K, of reactions, or round-off of that: scaled to 1 they would make rows of G that
-    /// share it look dependent, by their sine of h.
+    /// Its own entries of A are only h^2 K, of reactions, or their round-off: scaled to 1 they would make rows of G that
+    /// share it look dependent, with a sine of order h.
     fn weigh_massless(&mut self, g: &[f64], largest: f64) {
         let rows = &mut self.scale[self.n..];
         rows.fill(0.0);
@@ -225,13 +225,13 @@ impl<T: Field> Unsymmetric<T> {
         }
     }
 
-    /// Whether there are dependent rows to leave out.
+    /// Drops dependent rows; returns true if there are any.
     fn leave_out(&mut self, g: &[f64]) -> bool {
         let redundancy = self.redundancy.get_or_insert_with(|| Redundancy::new(&self.g));
         redundancy.find(&self.weight, g, &mut self.left_out) > 0
     }
 
-    /// Whether the scaled matrix has all its pivots.
+    /// Factors the scaled matrix; returns false if it is singular.
     fn factor_scaled(&mut self, g: &[f64]) -> bool {
         for (row, col, place) in self.matrix.entries() {
             self.scaled[place] = self.matrix.values[place] * (self.rank[row] * self.scale[row] * self.scale[col]);
@@ -258,7 +258,7 @@ impl<T: Field> Unsymmetric<T> {
         smallest > tolerances::SINGULAR_ITERATION_MATRIX
     }
 
-    /// Whether a row of G is dropped, for all of them.
+    /// True for each row of G that is dropped.
     pub fn left_out(&self) -> &[bool] {
         &self.left_out
     }
@@ -286,7 +286,7 @@ impl<T: Field> Unsymmetric<T> {
     }
 }
 
-/// The smallest magnitude; zero where one is not a number.
+/// The smallest magnitude; zero if one is NaN.
 fn smallest<T: Field>(pivots: impl Iterator<Item = T>) -> f64 {
     pivots.map(T::size).fold(f64::INFINITY, |smallest, pivot| if pivot >= smallest { smallest } else { pivot.max(0.0) })
 }

@@ -1,4 +1,4 @@
-//! Which rows of G are left out because they repeat what others say.
+//! Redundant rows of G in the unsymmetric system.
 
 use super::super::Pattern;
 use super::super::ldlt::Ldlt;
@@ -6,7 +6,7 @@ use super::super::pivot::Rule;
 use crate::tolerances::math as tolerances;
 
 /// The rows whose pivots collapse in the L D L^T of G diag(weight)^-1 G^T, which stays sparse where G is. The order of
-/// elimination is frozen, so that the same mechanism leaves out the same rows from state to state.
+/// elimination is frozen, so that the same rows of a mechanism are dropped from state to state.
 pub(super) struct Redundancy {
     fast: Ldlt,
     skipped: Vec<usize>,
@@ -20,7 +20,7 @@ impl Redundancy {
         }
     }
 
-    /// Marks the rows in `out` and returns how many there are; none where the values are of no use.
+    /// Marks dependent rows in `out` and returns their number; zero if the factorization fails.
     pub fn find(&mut self, weight: &[f64], values: &[f64], out: &mut [bool]) -> usize {
         if self.fast.factor(weight, values, Rule::lenient(tolerances::COLLAPSED, weight), &mut self.skipped).is_err() {
             self.skipped.clear();

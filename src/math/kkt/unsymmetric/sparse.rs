@@ -11,7 +11,7 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par};
 
 /// Gilbert and Peierls's method (faer's simplicial LU), column by column without dense blocks: linear in the number of
-/// bodies of chains and trees. Its memory grows where other pivots make more fill, and never again after that.
+/// bodies of chains and trees. Memory grows only when other pivots make more fill than before.
 pub(super) struct Sparse<T> {
     size: usize,
     factors: SimplicialLu<usize, T>,
@@ -21,7 +21,7 @@ pub(super) struct Sparse<T> {
 }
 
 impl<T: Field> Sparse<T> {
-    /// None where there is not enough memory. Columns of `last` come after all others.
+    /// `None` if there is not enough memory. Columns of `last` come after all others.
     pub fn new(pattern: &SymbolicSparseColMat<usize>, last: Option<&[bool]>) -> Option<Self> {
         let size = pattern.nrows();
         let zeros = || [vec![0; size], vec![0; size]];
@@ -50,7 +50,7 @@ impl<T: Field> Sparse<T> {
         let stack = MemStack::new(&mut self.memory);
         match factorize_simplicial_numeric_lu(rows, places, &mut self.factors, matrix, columns, stack) {
             Ok(()) => super::smallest(self.pivots()),
-            // A column that is left without any place.
+            // A column without any pivot.
             Err(_) => 0.0,
         }
     }
