@@ -23,7 +23,7 @@ impl<S: Scalar, const N: usize> Dual<S, N> {
         Dual { re, eps: [S::zero(); N] }
     }
 
-    /// The number `re` that grows with slope one along direction `direction`.
+    /// The value `re` with derivative one along direction `direction`.
     #[inline]
     pub fn seeded(re: S, direction: usize) -> Self {
         let mut number = Self::fixed(re);

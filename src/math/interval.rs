@@ -1,11 +1,11 @@
-//! Enclosures: all values that a function takes while its argument runs through an interval.
+//! Interval arithmetic: bounds on all values of a function over an interval of its argument.
 
 use super::scalar::{Scalar, Unary};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// The numbers from `low` to `high`. Every operation gives an interval that contains all its results, up to rounding; one
-/// that has no bounds gives all numbers. Source: Moore, Kearfott, Cloud, Introduction to Interval Analysis, 2.
+/// without bounds gives all numbers. Source: Moore, Kearfott, Cloud, Introduction to Interval Analysis, 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     /// Lower bound.
@@ -18,7 +18,7 @@ impl Interval {
     /// All numbers.
     pub const WHOLE: Interval = Interval { low: f64::NEG_INFINITY, high: f64::INFINITY };
 
-    /// From the smaller of two numbers to the larger; all numbers where one is none.
+    /// From the smaller of two numbers to the larger; all numbers if one is NaN.
     pub fn new(a: f64, b: f64) -> Self {
         if a.is_nan() || b.is_nan() { Self::WHOLE } else { Interval { low: a.min(b), high: a.max(b) } }
     }
@@ -41,17 +41,17 @@ impl Interval {
         self.low == self.high
     }
 
-    /// The values of a function that rises everywhere.
+    /// The values of an increasing function.
     fn rising(self, f: impl Fn(f64) -> f64) -> Self {
         Interval::new(f(self.low), f(self.high))
     }
 
-    /// sin(x): whether a crest and a trough lie in the interval decides.
+    /// The values of sin(x), by the crests and troughs in the interval.
     fn sine(self) -> Self {
         if !self.is_bounded() || self.width() >= 2.0 * PI {
             return Interval { low: -1.0, high: 1.0 };
         }
-        // Counts of the crests at pi/2 + 2 pi k, and of the troughs, up to each end.
+        // True if a point phase + 2 pi k (a crest or a trough) lies in the interval.
         let passes = |phase: f64| {
             let count = |x: f64| ((x - phase) / (2.0 * PI)).floor();
             count(self.high) > count(self.low) || (self.low - phase).rem_euclid(2.0 * PI) == 0.0
@@ -66,7 +66,7 @@ impl Scalar for Interval {
         Interval::new(x, x)
     }
 
-    /// The middle.
+    /// The middle of the interval.
     fn value(&self) -> f64 {
         if self.is_point() { self.low } else { 0.5 * self.low + 0.5 * self.high }
     }
@@ -84,7 +84,7 @@ impl Scalar for Interval {
             Unary::Exp => self.rising(f64::exp),
             Unary::Ln if self.low <= 0.0 => Self::WHOLE,
             Unary::Ln => self.rising(f64::ln),
-            // Without bounds it is that of a quotient whose denominator passes zero.
+            // An unbounded argument comes from a quotient whose denominator passes zero.
             Unary::Atan if !self.is_bounded() => Self::WHOLE,
             Unary::Atan => self.rising(f64::atan),
             Unary::Sinh => self.rising(f64::sinh),

@@ -1,18 +1,18 @@
-//! Memory of dense matrices and long tables, compared with what there is before it is asked for.
+//! Memory of dense matrices and long tables, compared with the free memory before allocation.
 
 use crate::error::{Error, Result};
 use std::fs::read_to_string;
 
-/// Most that the dense matrices of one computation may take, bytes.
+/// Largest size of the dense matrices of one computation, bytes.
 const MOST: f64 = 4e9;
-/// Up to this, bytes, nobody is asked what there is.
+/// Up to this size, bytes, the free memory is not queried.
 const SMALL: f64 = 64e6;
 
-/// Refuses `copies` dense matrices of `rows` x `columns` that take more than 4 GB, or than the machine and the limits
+/// Refuses `copies` dense matrices of `rows` x `columns` that take more than 4 GB, or more than the free memory of the machine and
 /// of the process leave.
 ///
 /// # Errors
-/// Bad input with the size and the limit; the caller adds what to use instead.
+/// Bad input with the size and the limit; the caller adds the remedy.
 pub fn refuse_dense(what: &str, [rows, columns]: [usize; 2], copies: f64) -> Result<()> {
     let wanted = 8.0 * copies * rows as f64 * columns as f64;
     let limit = if wanted > SMALL { limit() } else { MOST };
@@ -25,14 +25,14 @@ pub fn refuse_dense(what: &str, [rows, columns]: [usize; 2], copies: f64) -> Res
     )))
 }
 
-/// Memory of a number that is kept to the end and written as text, bytes.
+/// Memory of a number that is kept in memory until it is written as text, bytes.
 const WRITTEN: f64 = 48.0;
 
-/// Refuses so many rows of numbers, kept in memory until they are written, that take more than the machine and the limits
+/// Refuses a table, kept in memory until it is written, that takes more than the free memory of the machine and
 /// of the process leave.
 ///
 /// # Errors
-/// Bad input with the size and the limit; the caller adds what to do.
+/// Bad input with the size and the limit; the caller adds the remedy.
 pub fn refuse_rows(rows: f64, columns: usize) -> Result<()> {
     let wanted = WRITTEN * rows * columns as f64;
     let limit = if wanted > SMALL { free() } else { f64::INFINITY };
@@ -43,13 +43,13 @@ pub fn refuse_rows(rows: f64, columns: usize) -> Result<()> {
     Err(Error::input(format!("{rows:.0} rows of {columns} numbers take {wanted} to write: the limit is {limit}")))
 }
 
-/// How many computations fit at once, at least one, of which each takes `part` of what the process took at most until now.
+/// Number of computations, at least one, that fit in memory at once if each takes `part` of the process's peak memory.
 pub fn at_once(part: f64) -> usize {
     let each = part * kilobytes("/proc/self/status", "VmHWM:").unwrap_or(0.0);
     if each > SMALL { (free() / each).max(1.0) as usize } else { usize::MAX }
 }
 
-/// Bytes for a person.
+/// A size as text, such as `1.2 GB`.
 pub fn size(bytes: f64) -> String {
     match bytes {
         giga if giga >= 0.95e9 => format!("{:.1} GB", giga / 1e9),
@@ -57,22 +57,22 @@ pub fn size(bytes: f64) -> String {
     }
 }
 
-/// Bytes that dense matrices may take now. Where the system does not tell what there is, only the fixed limit counts.
+/// Largest size of dense matrices now, bytes; the fixed limit alone if the free memory is not known.
 fn limit() -> f64 {
     free().min(MOST)
 }
 
-/// Bytes that nobody uses; infinite where the system does not tell.
+/// Free memory of machine and process, bytes; infinite if it is not known.
 fn free() -> f64 {
     [available(), address_space()].into_iter().flatten().fold(f64::INFINITY, f64::min)
 }
 
-/// Memory of the machine that nobody uses.
+/// Free memory of the machine, bytes.
 fn available() -> Option<f64> {
     kilobytes("/proc/meminfo", "MemAvailable:")
 }
 
-/// What is left of the address space that `ulimit -v` grants.
+/// Unused part of the address space that `ulimit -v` grants, bytes.
 fn address_space() -> Option<f64> {
     let limits = read_to_string("/proc/self/limits").ok()?;
     let line = limits.lines().find_map(|line| line.strip_prefix("Max address space"))?;
@@ -80,7 +80,7 @@ fn address_space() -> Option<f64> {
     Some((granted - kilobytes("/proc/self/status", "VmSize:")?).max(0.0))
 }
 
-/// A line such as `MemAvailable:   22961080 kB`, in bytes.
+/// Value of a line such as `MemAvailable:   22961080 kB`, in bytes.
 fn kilobytes(path: &str, key: &str) -> Option<f64> {
     let text = read_to_string(path).ok()?;
     let value = text.lines().find_map(|line| line.strip_prefix(key))?;

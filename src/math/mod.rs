@@ -34,7 +34,7 @@ pub use scalar::Scalar;
 pub use scalar::Unary;
 pub use taylor::Taylor;
 
-/// max |x_i|, zero for none; what is not a number does not count.
+/// max |x_i|; zero for an empty slice; NaN is ignored.
 #[doc(hidden)]
 pub fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |largest, x| f64::max(largest, x.abs()))

@@ -1,12 +1,12 @@
-//! Newton's method: one loop and one judge of its convergence, under all that is solved by iteration.
+//! Newton's method: the loop and the convergence monitor of all iterations.
 
 use super::largest;
 use crate::tolerances::math as tolerances;
 
-/// What an iteration is allowed, in the unit of the sizes of its changes.
+/// Limits of an iteration; sizes are in the unit of its changes.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
-    /// Corrections at most.
+    /// Largest number of corrections.
     pub most: usize,
     /// Tolerated error of the result.
     pub tolerance: f64,
@@ -14,18 +14,18 @@ pub struct Limits {
     pub round_off: f64,
     /// Stagnation tolerance: changes up to this size that no longer fall are round-off too.
     pub stagnation: f64,
-    /// Changes above the stagnation tolerance shrink to this part of the last one at least, from the second on.
+    /// Largest allowed ratio of a change above the stagnation tolerance to the last one, from the second on.
     pub contraction: f64,
-    /// Corrections that may grow before the iteration counts as diverged.
+    /// Number of growing corrections before the iteration counts as diverged.
     pub patience: usize,
-    /// A smaller rate than this is not relied upon.
+    /// Lower bound on the rate used in error estimates.
     pub least_rate: f64,
-    /// With a rate up to this the matrix serves the next system too.
+    /// Largest rate at which the matrix is used for the next system too.
     pub kept_rate: f64,
 }
 
 impl Limits {
-    /// None at all: uses set those that they have.
+    /// No limits, for struct update.
     pub const NONE: Limits = Limits {
         most: usize::MAX,
         tolerance: 0.0,
@@ -38,7 +38,7 @@ impl Limits {
     };
 }
 
-/// What is to be done after a correction.
+/// Decision after a correction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// Correct again.
@@ -49,7 +49,7 @@ pub enum Verdict {
     Diverged,
 }
 
-/// Judges the sizes of successive changes d_k. With the rate theta = |d_k|/|d_(k-1)|, the geometric mean of the last two, the
+/// Convergence monitor on the sizes of successive changes d_k. With the rate theta = |d_k|/|d_(k-1)|, the geometric mean of the last two, the
 /// error left after a correction is theta/(1 - theta) |d_k|. Source: Hairer, Wanner, Solving Ordinary Differential
 /// Equations II, IV.8.
 #[derive(Clone, Debug)]
@@ -57,17 +57,17 @@ pub struct Monitor {
     limits: Limits,
     /// Ratio of successive changes; `tolerances::RATE_AT_ONCE` after a single one.
     pub rate: f64,
-    /// The largest ratio of successive changes above the stagnation tolerance; zero where there is none.
+    /// The largest ratio of successive changes above the stagnation tolerance; zero if there is none.
     pub slowest: f64,
     /// Number of corrections so far.
     pub iterations: usize,
-    /// Whether the last iteration ended where its changes no longer fell.
+    /// True if the last iteration ended by stagnation at round-off.
     pub has_stagnated: bool,
     /// theta/(1 - theta), kept between iterations as a first guess.
     contraction: f64,
     size: f64,
     ratio: f64,
-    /// Size of the change with which the last iteration diverged, or at which changes are known to be round-off; zero once one
+    /// Size of the change at which the last iteration diverged, or at which changes are known to be round-off; zero once one
     /// converged.
     stalled: f64,
 }
@@ -89,8 +89,8 @@ impl Default for Monitor {
 }
 
 impl Monitor {
-    /// Iterates: `correct` takes off one correction, with a new matrix where it is told `true`, and returns the size of the
-    /// change. Returns whether the iteration converged.
+    /// Iterates: `correct` applies one correction, with a new matrix if its argument is true, and returns the size of the
+    /// change. Returns true if the iteration converged.
     pub fn solve<E>(&mut self, limits: Limits, mut correct: impl FnMut(bool) -> Result<f64, E>) -> Result<bool, E> {
         self.begin(limits);
         loop {
@@ -109,17 +109,17 @@ impl Monitor {
         (self.has_stagnated, self.size) = (false, f64::INFINITY);
     }
 
-    /// Whether the corrections so far ask for another matrix.
+    /// True if the corrections so far converge so slowly that the matrix is to be renewed.
     fn wants_matrix(&self) -> bool {
         self.iterations > 1 && self.ratio > tolerances::MATRIX_RENEWED && self.size > self.limits.stagnation
     }
 
-    /// Whether the matrix of the last iteration is good enough for the next one.
+    /// True if the matrix of the last iteration can be used for the next one.
     pub fn keeps_matrix(&self) -> bool {
         self.rate <= self.limits.kept_rate
     }
 
-    /// What is left of the error, in the unit of changes.
+    /// Estimate of the remaining error, in the unit of changes.
     pub fn error(&self) -> f64 {
         self.contraction * self.size
     }
@@ -138,10 +138,10 @@ impl Monitor {
         verdict
     }
 
-    /// Whether changes that no longer fall are round-off: they are below the stagnation tolerance, or tolerable and of the
-    /// size at which the iteration of a longer step stopped too, which would contract less: unlike masses and nearly
-    /// dependent constraints make round-off larger than is known. Later steps meet it at once, or each would have to be shorter
-    /// than the one before.
+    /// True if changes that no longer decrease are round-off: below the stagnation tolerance, or tolerable and of the size
+    /// at which the iteration of a longer step, which contracts less, stopped too. Masses of very different size and nearly
+    /// dependent constraints make round-off larger than the estimate. Later steps accept this size at once; otherwise each
+    /// would have to be shorter than the one before.
     fn is_round_off(&self, change: f64) -> bool {
         let is_met_again = change <= tolerances::ROUND_OFF_ALIKE * self.stalled
             && self.stalled <= tolerances::ROUND_OFF_ALIKE * change;
@@ -183,23 +183,23 @@ impl Monitor {
         }
     }
 
-    /// The next iteration is of the same system with another matrix: where the last one stopped says nothing of round-off.
+    /// Forgets the size of round-off, before an iteration of the same system with another matrix.
     pub fn reset(&mut self) {
         self.stalled = 0.0;
     }
 
-    /// What the next iteration takes from the last one, which converged: see [`recall`](Self::recall).
+    /// State that the next iteration takes from the last one, which converged: see [`recall`](Self::recall).
     pub fn memory(&self) -> [f64; 2] {
         [self.contraction, self.stalled]
     }
 
-    /// Goes on as the monitor whose [`memory`](Self::memory) this was.
+    /// Restores the state of [`memory`](Self::memory).
     pub fn recall(&mut self, [contraction, stalled]: [f64; 2]) {
         (self.contraction, self.stalled) = (contraction, stalled);
     }
 }
 
-/// A change in parts of what changes; nothing is no part of nothing.
+/// max |change| / max |changed|; zero for a change of zero.
 pub fn relative(change: &[f64], changed: &[f64]) -> f64 {
     let change = largest(change);
     if change > 0.0 { change / largest(changed) } else { 0.0 }

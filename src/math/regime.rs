@@ -1,8 +1,8 @@
-//! Piecewise smooth functions: on which of its pieces each is evaluated.
+//! Piecewise smooth functions and the piece on which each is evaluated.
 //!
 //! A function that changes its form does so where an argument, the switching function, passes a threshold. A step of an
-//! integrator keeps every function on the piece of the step's start, beyond its threshold too: what is integrated is then
-//! smooth, and the orders hold. The time loop finds the passage and ends the step there. Source: Hairer, Norsett, Wanner,
+//! integrator keeps every function on the piece of the step's start, beyond its threshold too: the right side is then
+//! smooth, and the methods keep their orders. The time loop finds the passage and ends the step there. Source: Hairer, Norsett, Wanner,
 //! Solving Ordinary Differential Equations I, II.6 (discontinuous equations).
 
 use super::scalar::Scalar;
@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 /// A piece of a function with thresholds c_0 < c_1 < ...: 2k between c_{k-1} and c_k, 2k + 1 at c_k itself.
 pub type Piece = u32;
 
-/// The piece of an argument among `count` thresholds; `None` for what is not a number.
+/// The piece of an argument among `count` thresholds; `None` for NaN.
 pub fn piece_of(argument: f64, count: usize, threshold: impl Fn(usize) -> f64) -> Option<Piece> {
     if argument.is_nan() {
         return None;
@@ -25,9 +25,9 @@ pub fn piece_of(argument: f64, count: usize, threshold: impl Fn(usize) -> f64) -
     Some(2 * low as Piece + Piece::from(is_at))
 }
 
-/// What a state alone does not say of an evaluation: the pieces that the functions of a scene are held on, by the number of
-/// their switching function, or none, and each takes the piece of its argument; and the turns of the angles in space, by the
-/// number of their [`Turning`](crate::body::Turning).
+/// Discrete state of an evaluation: the piece of each function of a scene, by the number of its switching function, or none,
+/// and each takes the piece of its argument; and the values of the counted angles in space, rad, by the number of their
+/// [`Turning`](crate::body::Turning).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Regime<'a> {
     pieces: Option<&'a [Piece]>,
@@ -43,45 +43,45 @@ impl<'a> Regime<'a> {
         Regime { pieces: Some(pieces), turned: &[] }
     }
 
-    /// The same with angles counted through full turns, rad.
+    /// The regime with these values of the counted angles, rad.
     #[inline]
     pub fn turned(self, turned: &'a [f64]) -> Self {
         Regime { turned, ..self }
     }
 
-    /// Whether every function takes the piece of its argument.
+    /// True if every function takes the piece of its argument.
     #[inline]
     pub fn is_free(self) -> bool {
         self.pieces.is_none()
     }
 
-    /// `angle`, which is known up to full turns, as the one next to where turning angle `number` has come to; where that is
-    /// not known, next to `start`.
+    /// `angle`, known up to full turns, shifted to the value nearest to counted angle `number` or, if that is
+    /// not known, to `start`.
     #[inline]
     pub fn angle<S: Scalar>(self, number: usize, angle: S, start: f64) -> S {
         let near = self.turned.get(number).copied().unwrap_or(start);
         angle + ((near - angle.value()) / TAU).round() * TAU
     }
 
-    /// The piece that switching function `number` is held on.
+    /// The piece prescribed for switching function `number`, if there is one.
     #[inline]
     pub fn piece(self, number: usize) -> Option<Piece> {
         self.pieces.and_then(|pieces| pieces.get(number).copied())
     }
 }
 
-/// The time of an evaluation, over any scalar, with the pieces that functions are held on: laws without `if`, `abs`, tables and
+/// The time of an evaluation, over any scalar, with the pieces of the functions: laws without `if`, `abs`, tables and
 /// the like read `t` alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Time<'a, S> {
-    /// s
+    /// Time, s.
     pub t: S,
-    /// On which piece each switching function is held within the step.
+    /// Piece of each switching function within the step.
     pub regime: Regime<'a>,
 }
 
 impl<'a, S: Scalar> Time<'a, S> {
-    /// The same instant as another number.
+    /// The same instant over another scalar.
     #[inline]
     pub fn map<T>(self, change: impl FnOnce(S) -> T) -> Time<'a, T> {
         Time { t: change(self.t), regime: self.regime }

@@ -42,7 +42,7 @@ pub fn quaternion_from_vector(a: &[f64; 3]) -> [f64; 4] {
     [(0.5 * angle).cos(), factor * a[0], factor * a[1], factor * a[2]]
 }
 
-/// The rotation p after the rotation r, r being about axes that p has turned.
+/// Product p r: the rotation r about axes that are rotated by p.
 pub fn quaternion_product(p: &[f64; 4], r: &[f64; 4]) -> [f64; 4] {
     let mut product = [0.0; 4];
     product[0] = p[0] * r[0] - p[1] * r[1] - p[2] * r[2] - p[3] * r[3];

@@ -1,4 +1,4 @@
-//! The numbers an element is written over.
+//! The scalar types that elements are evaluated over.
 //!
 //! An element states its equations once, generic over [`Scalar`]; the number put in decides what comes out: values
 //! (`f64`), derivatives with respect to coordinates ([`Dual`](super::Dual)), or time derivatives along a motion
@@ -33,12 +33,12 @@ pub trait Scalar:
     /// The plain value; branches of an expression are decided on it.
     fn value(&self) -> f64;
 
-    /// The least and the largest plain value that it stands for: the same, but for an [`Interval`](super::Interval).
+    /// The least and the largest plain value; they differ for an [`Interval`](super::Interval) only.
     fn bounds(&self) -> [f64; 2] {
         [self.value(); 2]
     }
 
-    /// f(self) by the chain rule over the number that stands inside this one.
+    /// f(self) by the chain rule over the nested scalar.
     fn unary(self, function: Unary) -> Self;
 
     /// The constant 0.
@@ -124,7 +124,7 @@ pub trait Scalar:
     /// Angle of the vector (x, y) in (-pi, pi]. The branch is a constant; the derivative is that of atan.
     fn atan2(y: Self, x: Self) -> Self {
         let angle = y.value().atan2(x.value());
-        // Rotate the argument by the known angle: what is left is near zero, where atan is smooth and exact.
+        // Rotate the vector by the known angle: the remaining angle is near zero, where atan is smooth and exact.
         let (s, c) = angle.sin_cos();
         ((y * c - x * s) / (x * c + y * s)).atan() + angle
     }
@@ -146,7 +146,7 @@ pub trait Scalar:
     }
 }
 
-/// The functions that are not built from others: each with its first two derivatives in terms of other scalars.
+/// The elementary functions, each with its first two derivatives over any scalar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unary {
     /// Square root.

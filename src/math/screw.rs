@@ -1,6 +1,6 @@
 //! Logarithms of rotations and of rigid motions.
 //!
-//! A motion that turns by the matrix R and shifts by p is that of a screw of constant pitch and axis. Its logarithm is
+//! A rigid motion with rotation matrix R and displacement p is that of a screw of constant pitch and axis. Its logarithm is
 //! (u, a): a the rotation vector of R and u = p - a x p/2 + c a x (a x p), with c = (1 - (|a|/2) cot(|a|/2))/|a|^2
 //! (Sonneville, Cardona and Bruls, Comput. Methods Appl. Mech. Engrg. 268 (2014) 451-474, appendix A).
 
@@ -24,7 +24,7 @@ pub fn cross3<S: Scalar>(a: &Vector<S>, b: &Vector<S>) -> Vector<S> {
 }
 
 /// Rotation vector, rad, of length pi at most, of the rotation with `r[i][j]`: component i of axis j. Smooth below pi;
-/// there its sign turns.
+/// there its sign changes.
 pub fn rotation_vector<S: Scalar>(r: &[[S; 3]; 3]) -> Vector<S> {
     let (w, v) = quaternion(r);
     let square = dot3(&v, &v);
@@ -78,7 +78,7 @@ const COTANGENT: [f64; tolerances::SERIES_TERMS] = [
     43_867.0 / 5_109_094_217_170_944_000.0,
 ];
 
-/// c(x) with x = |a|^2; it has a pole where |a| is a full turn.
+/// c(x) with x = |a|^2; it has a pole at |a| = 2 pi.
 #[inline]
 pub fn cotangent<S: Scalar>(x: S) -> S {
     if x.value() < tolerances::SERIES_OF_ROTATIONS {
@@ -92,7 +92,7 @@ pub fn cotangent<S: Scalar>(x: S) -> S {
 #[inline]
 pub fn cotangent_slope<S: Scalar>(x: S) -> S {
     if x.value() < tolerances::SERIES_OF_ROTATIONS {
-        // One term less than c itself has; it is below 1e-17 of the first all the same.
+        // One term less than c; the missing term is below 1e-17 of the first.
         return series(x, |k| COTANGENT.get(k + 1).map_or(0.0, |c| c * (k + 1) as f64));
     }
     // With h = |a|/2 and b = h cot h: db/dx = (cot h - h/sin^2 h)/(8 h).
@@ -103,7 +103,7 @@ pub fn cotangent_slope<S: Scalar>(x: S) -> S {
     (-slope - (S::one() - half * cot) / x) / x
 }
 
-/// The shift part u of the logarithm of the motion that turns by `a` and shifts by `p`.
+/// The displacement part u of the logarithm of the motion with rotation vector `a` and displacement `p`.
 #[inline]
 pub fn shift<S: Scalar>(a: &Vector<S>, p: &Vector<S>) -> Vector<S> {
     let turned = cross3(a, p);
@@ -132,7 +132,7 @@ pub fn pull_back<S: Scalar>(a: &Vector<S>, p: &Vector<S>, n: &Vector<S>, m: &Vec
     [w(n), w(&from_fn(|i| m[i] + gradient[i]))]
 }
 
-/// 1/(n + 1)! by n.
+/// 1/(n + 1)!, indexed by n.
 const INVERSE_FACTORIALS: [f64; 2 * tolerances::SERIES_TERMS + 1] = {
     let mut all = [1.0; 2 * tolerances::SERIES_TERMS + 1];
     let mut n = 1;

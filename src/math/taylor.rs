@@ -3,7 +3,7 @@
 use super::scalar::{Scalar, Unary};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// x, x' and x'' at one instant. Put in q, q' and q'' (with v' = 0) and phi comes out with phi' and -gamma.
+/// x, x' and x'' at one instant. With q, q' and q'' (at v' = 0) in, phi gives phi, phi' and -gamma.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Taylor<S> {
     /// Value x.
@@ -30,7 +30,7 @@ impl<S: Scalar> Taylor<S> {
     pub fn time(t: f64) -> Self {
         Self::running(S::constant(t))
     }
-    /// Time about the instants that a number stands for.
+    /// Time with value `t`, which may itself have derivatives: t' = 1, t'' = 0.
     #[inline]
     pub fn running(t: S) -> Self {
         Taylor { x: t, d: S::one(), dd: S::zero() }

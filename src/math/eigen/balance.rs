@@ -7,21 +7,21 @@ use crate::tolerances::math as tolerances;
 pub struct Balanced {
     pub a: Matrix,
     pub e: Matrix,
-    /// D1
+    /// Diagonal of D1.
     pub rows: Vec<f64>,
-    /// D2
+    /// Diagonal of D2.
     pub cols: Vec<f64>,
-    /// lambda = time mu
+    /// Unit of time: lambda = time mu, with mu the eigenvalues of the balanced pencil.
     pub time: f64,
 }
 
 /// Chooses the unit of time by the sizes of all entries, then makes rows and columns of |A| / time + |E| sum to about 1 (as
 /// Lemonnier and Van Dooren, "Balancing regular matrix pencils", SIAM J. Matrix Anal. Appl. 28, 2006, with sums for
-/// squares). Entries are at most about 1 then, and what is round-off can be told by its size. A few n^2 operations a sweep.
+/// squares). Entries are at most about 1 then, so round-off is known by its size. A few n^2 operations for each sweep.
 pub fn balance(a: &Matrix, e: &Matrix) -> Balanced {
     let n = a.nrows();
     let time = time(a, e);
-    // Both over the largest entry first, against overflow of sums.
+    // First divide both by the largest entry, against overflow of sums.
     let size = dense::power_of_two((a.amax() / time).max(e.amax()).clamp(f64::MIN_POSITIVE, 1e300));
     let rows = vec![1.0 / size; n];
     let mut balanced = Balanced { a: a / time / size, e: e / size, rows, cols: vec![1.0; n], time };
@@ -35,7 +35,7 @@ pub fn balance(a: &Matrix, e: &Matrix) -> Balanced {
 
 /// The t with which logarithms of all |D1 A D2| / t and |D1 E D2| are nearest to zero by least squares over D1, D2 and t
 /// (Curtis and Reid, "On the automatic scaling of matrices for Gaussian elimination", IMA J. Appl. Math. 10, 1972), so that
-/// it does not hang on the scaling that is given: for M s^2 + K the mean of omega. By alternation.
+/// it does not depend on the given scaling: for M s^2 + K the mean of omega. By alternating minimization.
 fn time(a: &Matrix, e: &Matrix) -> f64 {
     let n = a.nrows();
     let entries = logarithms(a, e);
@@ -83,7 +83,7 @@ fn of_one(matrix: &Matrix, is_of_a: bool) -> Vec<Logarithm> {
         .collect()
 }
 
-/// Of the values that belong to each place; zero where there are none.
+/// Mean of the values of each index; zero if there are none.
 fn means(n: usize, values: impl Iterator<Item = (usize, f64)>) -> Vec<f64> {
     let (mut sums, mut counts) = (vec![0.0; n], vec![0.0; n]);
     for (place, value) in values {
@@ -94,7 +94,7 @@ fn means(n: usize, values: impl Iterator<Item = (usize, f64)>) -> Vec<f64> {
 }
 
 impl Balanced {
-    /// Whether anything changed.
+    /// Scales all rows and columns once; returns true if anything changed.
     fn sweep(&mut self) -> bool {
         let mut moved = false;
         for i in 0..self.rows.len() {
@@ -119,7 +119,7 @@ fn sum<'a>(entries: impl Iterator<Item = &'a f64>) -> f64 {
     entries.map(|x| x.abs()).sum()
 }
 
-/// None where there is nothing to scale.
+/// Factor by which a row or column is scaled; `None` if it needs no scaling.
 fn factor(sum: f64) -> Option<f64> {
     let factor = (sum > 0.0 && sum.is_finite()).then(|| dense::power_of_two(sum).recip())?;
     (factor != 1.0 && factor.is_finite()).then_some(factor)

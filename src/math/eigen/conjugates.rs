@@ -1,4 +1,4 @@
-//! Eigenvalues of real matrices: real ones and conjugate pairs, in an order that does not hang on the algorithm.
+//! Eigenvalues of real matrices: real ones and conjugate pairs, in an order that does not depend on the algorithm.
 
 use super::{Complex, ComplexMatrix};
 use faer::MatRef;
@@ -23,7 +23,7 @@ impl Unit {
     }
 }
 
-/// From values as LAPACK's real routines order them: pairs in neighbouring places, im > 0 first.
+/// Units of eigenvalues in the order of LAPACK's real routines: pairs in neighbouring places, im > 0 first.
 pub fn units(re: impl Fn(usize) -> f64, im: impl Fn(usize) -> f64, n: usize) -> Vec<Unit> {
     let mut found = Vec::new();
     let mut column = 0;
@@ -35,12 +35,12 @@ pub fn units(re: impl Fn(usize) -> f64, im: impl Fn(usize) -> f64, n: usize) -> 
     found
 }
 
-/// By magnitude, then real, then imaginary part.
+/// Order by magnitude, then real, then imaginary part.
 pub fn compare(a: &Complex<f64>, b: &Complex<f64>) -> Ordering {
     a.norm().total_cmp(&b.norm()).then(a.re.total_cmp(&b.re)).then(a.im.total_cmp(&b.im))
 }
 
-/// Values with their conjugates in front of them.
+/// All eigenvalues, the conjugate with im < 0 first.
 pub fn values(units: &[Unit]) -> Vec<Complex<f64>> {
     units.iter().flat_map(|unit| both(unit, unit.value.conj(), unit.value)).collect()
 }

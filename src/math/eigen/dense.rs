@@ -1,4 +1,4 @@
-//! Between the matrices of nalgebra and the decompositions of faer.
+//! Dense decompositions of faer on matrices of nalgebra.
 
 use super::{Complex, ComplexMatrix, Matrix, Unsolved};
 use faer::linalg::matmul::matmul;
@@ -14,7 +14,7 @@ pub fn copy<T: nalgebra::Scalar + Copy>(matrix: MatRef<T>) -> DMatrix<T> {
     DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)])
 }
 
-/// A B
+/// The product A B.
 pub fn product<A: Conjugate<Canonical = Complex<f64>>>(a: MatRef<A>, b: MatRef<Complex<f64>>) -> ComplexMatrix {
     let mut product = ComplexMatrix::zeros(a.nrows(), b.ncols());
     let to = MatMut::from_column_major_slice_mut(product.as_mut_slice(), a.nrows(), b.ncols());
@@ -22,7 +22,7 @@ pub fn product<A: Conjugate<Canonical = Complex<f64>>>(a: MatRef<A>, b: MatRef<C
     product
 }
 
-/// The size of square matrices that are finite and alike.
+/// The size of finite square matrices of equal size; an error for others.
 pub fn square(matrices: &[&Matrix]) -> Result<usize, Unsolved> {
     let n = matrices.first().map_or(0, |first| first.nrows());
     if matrices.iter().any(|matrix| matrix.shape() != (n, n)) {
@@ -38,7 +38,7 @@ pub fn is_finite(matrix: &Matrix) -> bool {
     matrix.iter().all(|x| x.is_finite())
 }
 
-/// U diag(s) V^T with square U and V and descending s.
+/// Singular value decomposition U diag(s) V^T with square U and V and descending s.
 pub struct Svd {
     pub u: Matrix,
     pub s: Vec<f64>,
@@ -57,7 +57,7 @@ pub fn svd(matrix: &Matrix) -> Result<Svd, Unsolved> {
     Ok(Svd { u: copy(svd.U()), s, v: copy(svd.V()) })
 }
 
-/// A^+ of a matrix of known rank, by its largest singular values.
+/// Pseudo-inverse A^+ of a matrix of known rank, by its largest singular values.
 pub fn pseudo_inverse(matrix: &Matrix, rank: usize) -> Result<Matrix, Unsolved> {
     let Svd { u, s, v } = svd(matrix)?;
     let mut scaled = v.columns(0, rank).into_owned();
@@ -67,13 +67,13 @@ pub fn pseudo_inverse(matrix: &Matrix, rank: usize) -> Result<Matrix, Unsolved> 
     Ok(scaled * u.columns(0, rank).transpose())
 }
 
-/// From the largest on.
+/// Singular values in descending order.
 pub fn singular_values(matrix: &ComplexMatrix) -> Result<Vec<f64>, Unsolved> {
     faer::set_global_parallelism(Par::Seq);
     view(matrix).singular_values().map_err(|_| Unsolved::NotConverged { converged: 0, wanted: matrix.ncols() })
 }
 
-/// Largest over smallest singular value; infinite where the smallest is round-off, 1 without columns.
+/// Largest over smallest singular value; infinite if the smallest is round-off, 1 without columns.
 pub fn condition(matrix: &ComplexMatrix) -> Result<f64, Unsolved> {
     if matrix.is_empty() {
         return Ok(1.0);
@@ -88,12 +88,12 @@ pub fn complex(matrix: &Matrix) -> ComplexMatrix {
     matrix.map(|x| Complex::new(x, 0.0))
 }
 
-/// Columns of Euclidean norm 1, without overflow on the way; zero ones stay.
+/// Scales columns to Euclidean norm 1, without overflow; zero columns stay zero.
 pub fn normalize(matrix: &mut ComplexMatrix) {
     for mut column in matrix.column_iter_mut() {
         let largest = column.iter().fold(0.0, |largest: f64, x| largest.max(x.re.abs()).max(x.im.abs()));
         if largest > 0.0 {
-            // Twice, since the reciprocal of a denormal number overflows.
+            // By division, since the reciprocal of a denormal number overflows.
             column.iter_mut().for_each(|x| *x = Complex::new(x.re / largest, x.im / largest));
             let norm = column.norm();
             column.iter_mut().for_each(|x| *x /= norm);
@@ -106,7 +106,7 @@ pub fn power_of_two(x: f64) -> f64 {
     x.log2().round().exp2()
 }
 
-/// Numbers in (-1, 1) that are always the same for the same seed: a direction orthogonal to nothing in particular.
+/// Pseudo-random numbers in (-1, 1), the same for the same seed: a start direction.
 pub fn direction(n: usize, seed: u64) -> impl Iterator<Item = Complex<f64>> {
     let mut state = seed;
     (0..n).map(move |_| {

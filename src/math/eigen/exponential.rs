@@ -8,7 +8,7 @@ use crate::tolerances::math as tolerances;
 /// 2 n^3 for each doubling of |A| above 4.
 ///
 /// # Errors
-/// A matrix that is not square or not finite; exp(A) overflows.
+/// A matrix that is not square or not finite; overflow of exp(A).
 pub fn expm(a: &Matrix) -> Result<Matrix, Unsolved> {
     let n = dense::square(&[a])?;
     if n == 0 {

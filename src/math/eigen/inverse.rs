@@ -1,4 +1,4 @@
-//! Vectors of eigenvalues that are known.
+//! Eigenvectors of known eigenvalues, by inverse iteration.
 
 use super::{Complex, ComplexMatrix, Unsolved, dense};
 use faer::Par;
@@ -6,7 +6,7 @@ use faer::prelude::Solve;
 
 type Vector = Vec<Complex<f64>>;
 
-/// |A x - lambda x| / |A| |x|; not a number where x is not.
+/// |A x - lambda x| / (|A| |x|); NaN if x has one.
 pub fn residual(a: &ComplexMatrix, value: Complex<f64>, x: &[Complex<f64>]) -> f64 {
     let x = ComplexMatrix::from_column_slice(x.len(), 1, x);
     let residual = (a * &x - &x * value).norm();
@@ -14,12 +14,12 @@ pub fn residual(a: &ComplexMatrix, value: Complex<f64>, x: &[Complex<f64>]) -> f
 }
 
 /// Right and left vectors by a step of inverse iteration, from different starts for different seeds, so that equal
-/// eigenvalues get different vectors. Where it overflows, along the long chains of defective eigenvalues, by the smallest
+/// eigenvalues get different vectors. If it overflows, along the long chains of defective eigenvalues, by the smallest
 /// singular value.
 pub fn vectors(a: &ComplexMatrix, value: Complex<f64>, seed: u64, accuracy: f64) -> Result<(Vector, Vector), Unsolved> {
     let n = a.nrows();
     faer::set_global_parallelism(Par::Seq);
-    // Beside the eigenvalue by rounding, so that there is an inverse.
+    // Shifted from the eigenvalue by round-off, so that there is an inverse.
     let near = value + a.norm() * f64::EPSILON;
     let shifted = a - ComplexMatrix::from_diagonal_element(n, n, near);
     let start = ComplexMatrix::from_iterator(n, 1, dense::direction(n, seed));

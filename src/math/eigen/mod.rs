@@ -1,9 +1,9 @@
-//! Eigenvalues and what else linear models need: dense matrices of a few hundred rows, and operators of any size.
+//! Eigenvalues and matrix functions for linear models: dense matrices of a few hundred rows, and operators of any size.
 //!
 //! - [`eigen`]: A x = lambda x with left and right vectors; [`generalized`]: A x = lambda E x with a singular E, by QZ.
-//! - `deflate`, `finite`: the finite part of such a pencil, freed of its infinite eigenvalues first.
-//! - [`nearest`]: a few eigenvalues of an operator that is only applied.
-//! - [`expm`], [`expm_with_input`]: exp(A h) and its integral. [`assign`]: which mode is which.
+//! - `deflate`, `finite`: the finite part of such a pencil, by deflation of its infinite eigenvalues.
+//! - [`nearest`]: a few eigenvalues of an operator that is given by its product with a vector.
+//! - [`expm`], [`expm_with_input`]: exp(A h) and its integral. [`assign`]: the assignment problem, for pairing modes.
 
 mod assignment;
 mod balance;

@@ -13,22 +13,22 @@ use faer::{Mat, Par, Spec};
 /// Eigenvalues alpha / beta of a pencil, see [`generalized`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Generalized {
-    /// By distance from infinity, largest first; exact conjugates are neighbours.
+    /// Numerators in order of descending finiteness; exact conjugates are neighbours.
     pub alpha: Vec<Complex<f64>>,
-    /// Not negative; zero for an infinite eigenvalue, but for rounding.
+    /// Denominators, not negative; zero for an infinite eigenvalue, up to rounding.
     pub beta: Vec<f64>,
-    /// beta A x = alpha E x, in columns of norm 1; zero where it was not found, mostly of infinite eigenvalues.
+    /// Right vectors, beta A x = alpha E x, in columns of norm 1; zero if not found, mostly of infinite eigenvalues.
     pub right: ComplexMatrix,
     /// beta / |(alpha, beta)| in the units of the balanced pencil: 0 for infinite, 1 for zero eigenvalues.
     pub finiteness: Vec<f64>,
 }
 
-/// Which eigenvalues are infinite.
+/// The finite eigenvalues, separated from the infinite ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Split {
-    /// By magnitude, then real, then imaginary part.
+    /// Finite eigenvalues by magnitude, then real, then imaginary part.
     pub values: Vec<Complex<f64>>,
-    /// Their vectors, in columns of norm 1; zero where there is none (defective eigenvalues).
+    /// Right vectors, in columns of norm 1; zero if there is none (defective eigenvalues).
     pub right: ComplexMatrix,
     /// Least finiteness of the finite eigenvalues over the largest of the infinite ones.
     pub gap: f64,
@@ -37,10 +37,10 @@ pub struct Split {
 /// All eigenvalues, finite and infinite, by QZ on the balanced pencil; about 70 n^3 operations.
 ///
 /// Rounding moves an infinite eigenvalue in a Jordan block of size k to about 1/eps^(1/k): [`Generalized::split`].
-/// A pencil with det(A - s E) = 0 for every s is not always detected: `deflate` does.
+/// A pencil with det(A - s E) = 0 for every s is not always detected; `deflate` detects it.
 ///
 /// # Errors
-/// Matrices that are not square, alike and finite; no convergence; a singular pencil where it shows.
+/// Matrices that are not square, of equal size and finite; no convergence; a singular pencil if it is detected.
 pub fn generalized(a: &Matrix, e: &Matrix) -> Result<Generalized, Unsolved> {
     let n = dense::square(&[a, e])?;
     let balanced = balance(a, e);
@@ -66,7 +66,7 @@ pub fn generalized(a: &Matrix, e: &Matrix) -> Result<Generalized, Unsolved> {
 
 type Decomposed = (Vec<(Unit, f64)>, Mat<f64>);
 
-/// Alpha in the units, each with its beta, and the right vectors in the columns of a real matrix.
+/// Returns alpha as units, each with its beta, and the right vectors in the columns of a real matrix.
 fn decompose(pencil: &Balanced) -> Result<Decomposed, Unsolved> {
     let n = pencil.a.nrows();
     let mut re = Diag::<f64>::zeros(n);
@@ -77,7 +77,7 @@ fn decompose(pencil: &Balanced) -> Result<Decomposed, Unsolved> {
     // The blocked algorithm does not get along with many infinite eigenvalues: seconds for a hundred rows.
     options.config.schur.blocking_threshold = 10 * n.max(8);
     let (no, yes) = (ComputeEigenvectors::No, ComputeEigenvectors::Yes);
-    // The library forgets what vectors take: a few columns.
+    // faer's scratch size omits a few columns for the vectors.
     let memory = gevd_scratch::<f64>(n, no, yes, Par::Seq, options).and(temp_mat_scratch::<f64>(n + 8, 16));
     let mut memory = MemBuffer::new(memory);
     gevd_real(
@@ -93,12 +93,12 @@ fn decompose(pencil: &Balanced) -> Result<Decomposed, Unsolved> {
         options,
     )
     .map_err(|_| Unsolved::NotConverged { converged: 0, wanted: n })?;
-    // Of a pair the first: the library gives its second value the beta of the first.
+    // The beta of a pair is that of its first value: faer copies it to the second.
     let units = conjugates::units(|j| re[j], |j| im[j], n);
     Ok((units.into_iter().map(|unit| (unit, beta[unit.column])).collect(), right))
 }
 
-/// An error for values that the library left alone because it gave up, which it does not say otherwise, and for 0/0.
+/// An error if values are NaN, faer's only sign that it did not converge, and for 0/0.
 fn check(pencil: &Balanced, found: &[(Unit, f64)]) -> Result<(), Unsolved> {
     let (size_a, size_e) = (pencil.a.norm(), pencil.e.norm());
     let count = |of: &dyn Fn(&(Unit, f64)) -> bool| {
@@ -117,7 +117,7 @@ fn check(pencil: &Balanced, found: &[(Unit, f64)]) -> Result<(), Unsolved> {
     }
 }
 
-/// The vector of a unit; zero where back substitution failed.
+/// The vector of a unit; zero if back substitution failed.
 fn vector(pencil: &Balanced, (unit, beta): &(Unit, f64), right: &Mat<f64>) -> Vec<Complex<f64>> {
     let n = pencil.a.nrows();
     let x = ComplexMatrix::from_vec(n, 1, unit.vector(right.as_ref()));
@@ -134,10 +134,10 @@ fn vector(pencil: &Balanced, (unit, beta): &(Unit, f64), right: &Mat<f64>) -> Ve
 }
 
 impl Generalized {
-    /// The finite eigenvalues where it is known how many are `infinite`.
+    /// The finite eigenvalues, given the number of `infinite` ones.
     ///
     /// # Errors
-    /// More infinite eigenvalues than there are; the two kinds are too close to each other to be told apart.
+    /// More infinite eigenvalues than there are; finite and infinite ones too close to be separated.
     pub fn split(&self, infinite: usize) -> Result<Split, Unsolved> {
         let finite = self.alpha.len().checked_sub(infinite).ok_or(Unsolved::Shape)?;
         let least = finite.checked_sub(1).map_or(1.0, |last| self.finiteness[last]);

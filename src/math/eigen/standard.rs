@@ -1,4 +1,4 @@
-//! A x = lambda x.
+//! The eigenvalue problem A x = lambda x.
 
 use super::conjugates::{self, Unit};
 use super::inverse::{self, residual};
@@ -13,11 +13,11 @@ use nalgebra::linalg::balancing::balance_parlett_reinsch;
 /// Eigenvalues and eigenvectors of a real matrix, see [`eigen`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Eigen {
-    /// By magnitude, then real, then imaginary part; exact conjugates are neighbours.
+    /// Eigenvalues by magnitude, then real, then imaginary part; exact conjugates are neighbours.
     pub values: Vec<Complex<f64>>,
-    /// A x = lambda x, in columns of norm 1.
+    /// Right vectors, A x = lambda x, in columns of norm 1.
     pub right: ComplexMatrix,
-    /// y^H A = lambda y^H, in columns with y^H x = 1; zero where there is none, x being orthogonal to y to rounding
+    /// Left vectors, y^H A = lambda y^H, in columns with y^H x = 1; zero if x is orthogonal to y to rounding
     /// (a defective eigenvalue).
     pub left: ComplexMatrix,
     /// Condition number of `right`; infinite if it is singular to rounding.
@@ -52,8 +52,8 @@ pub fn eigen(a: &Matrix) -> Result<Eigen, Unsolved> {
     }
 }
 
-/// D^-1 A D / size with the diagonal of D and a power of two `size` that makes the result about 1, as thresholds of the
-/// QR algorithm suppose.
+/// D^-1 A D / size, the diagonal of D, and a power of two `size` that makes the result about 1, as thresholds of the
+/// QR algorithm assume.
 fn balance(a: &Matrix) -> (Matrix, Vec<f64>, f64) {
     let before = magnitude(a);
     let mut balanced = a / before;
@@ -70,7 +70,7 @@ fn magnitude(a: &Matrix) -> f64 {
 
 type Decomposed = (Vec<Unit>, Mat<f64>, Mat<f64>);
 
-/// Eigenvalues, and right and left vectors in the columns of real matrices.
+/// Returns eigenvalues, and right and left vectors in the columns of real matrices.
 fn decompose(a: &Matrix) -> Result<Decomposed, Unsolved> {
     let n = a.nrows();
     let (mut re, mut im) = (Diag::<f64>::zeros(n), Diag::<f64>::zeros(n));
@@ -94,7 +94,7 @@ fn decompose(a: &Matrix) -> Result<Decomposed, Unsolved> {
 
 type Vector = Vec<Complex<f64>>;
 
-/// Right and left vectors of each unit. The library does not say when it gives up, and its back substitution loses the
+/// Right and left vectors of each unit. faer does not report failure to converge, and its back substitution loses the
 /// vectors of defective eigenvalues.
 fn vectors(a: &Matrix, units: &[Unit], right: &Mat<f64>, left: &Mat<f64>) -> Result<Vec<(Vector, Vector)>, Unsolved> {
     let complex = dense::complex(a);
@@ -117,8 +117,8 @@ fn vectors(a: &Matrix, units: &[Unit], right: &Mat<f64>, left: &Mat<f64>) -> Res
     if converged == wanted { Ok(found) } else { Err(Unsolved::NotConverged { converged, wanted }) }
 }
 
-/// Traces of rounding in place of zeros, 1e-30 say, make balancing choose scales that blow up what rounding leaves in a
-/// vector: such ones are found again in the matrix as it is.
+/// Recomputes poor vectors in the unbalanced matrix: round-off in place of zeros, such as 1e-30, makes balancing choose scales that
+/// magnify the round-off in a vector.
 fn mend(a: &Matrix, units: &[Unit], right: &mut [Vector], left: &mut [Vector]) -> Result<(), Unsolved> {
     let complex = dense::complex(a);
     let of_adjoint = complex.adjoint();

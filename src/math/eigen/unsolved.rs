@@ -1,11 +1,11 @@
-//! Why a problem of linear algebra has no answer.
+//! Errors of eigenvalue problems and other linear algebra.
 
 use crate::math::kkt::Singular;
 
 /// Reason why a problem of linear algebra has no answer.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Unsolved {
-    /// Matrices are not square or do not fit each other.
+    /// Matrices are not square or not of equal size.
     #[error("the matrices of an eigenvalue problem do not have the same size")]
     Shape,
     /// Entries are infinite or not a number.
@@ -28,7 +28,7 @@ pub enum Unsolved {
         /// Number of dependent equations.
         dependent: usize,
     },
-    /// What has to be told from zero (or infinity) is only `gap` times away from what does not.
+    /// Finite and infinite eigenvalues, or nonzero and zero singular values, differ only by a factor of `gap`.
     #[error(
         "finite and infinite eigenvalues cannot be told apart: only a factor of {gap:.1} lies between them; the equations \
          are badly scaled or nearly redundant"

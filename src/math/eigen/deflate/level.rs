@@ -1,21 +1,21 @@
-//! One level of a staircase.
+//! One level of the staircase that deflates infinite eigenvalues.
 
 use super::super::{Matrix, Unsolved};
 use crate::tolerances::math as tolerances;
 
-/// With P = [P1 P2] and X = [X1 X2] that have inverses,
+/// One level: with regular P = [P1 P2] and X = [X1 X2],
 ///
 /// ```text
 /// P^T (A - lambda E) X = [A11 - lambda E11   A12 - lambda E12]
 ///                        [A21 - lambda E21   A22             ]
 /// ```
 ///
-/// where A22 has an inverse and either the lower left or the upper right block is zero: A11 - lambda E11 has all
-/// eigenvalues but as many infinite ones as A22 has rows.
+/// where A22 is regular and either the lower left or the upper right block is zero: A11 - lambda E11 has all
+/// eigenvalues except as many infinite ones as A22 has rows.
 pub struct Level {
-    /// A11
+    /// Block A11.
     pub a: Matrix,
-    /// E11
+    /// Block E11.
     pub e: Matrix,
     pub corner: Matrix,
     pub p: [Matrix; 2],
@@ -23,7 +23,7 @@ pub struct Level {
     pub coupling: Coupling,
 }
 
-/// The block that is not zero.
+/// The off-diagonal block that is not zero.
 pub enum Coupling {
     UpperRight { a: Matrix, e: Matrix },
     LowerLeft { a: Matrix, e: Matrix },
@@ -60,7 +60,7 @@ impl Level {
     }
 }
 
-/// Decides ranks and remembers how clear the decisions were.
+/// Decides ranks, with the smallest gap of all decisions.
 pub struct Ranks {
     tolerance: f64,
     gap: f64,
@@ -71,7 +71,7 @@ impl Ranks {
         Ranks { tolerance: tolerance.max(tolerances::ROUNDED_ZERO), gap: f64::INFINITY }
     }
 
-    /// How many of these descending singular values are not zero.
+    /// Number of these descending singular values above the tolerance.
     pub fn rank(&mut self, values: &[f64]) -> usize {
         let rank = values.iter().take_while(|value| **value > self.tolerance).count();
         let kept = rank.checked_sub(1).map_or(1.0, |last| values[last]);

@@ -9,13 +9,13 @@ use super::{Complex, ComplexMatrix, Matrix, Unsolved, dense, eigen};
 use crate::tolerances::math as tolerances;
 use level::{Level, Ranks};
 
-/// How the infinite eigenvalues are found, one level (one for each size of their Jordan blocks) after the other.
+/// Method of removing the infinite eigenvalues, one level (one for each size of their Jordan blocks) after the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Deflation {
     /// Left null space of E: the algebraic equations U^T A x = 0, U^T E = 0, restrict x. Orthogonal transformations only.
     NullSpace,
     /// Generalized singular values of (A, E), infinite ones being the right null space of E: these x follow from the
-    /// others. Ranks do not hang on how rows of A compare with rows of E.
+    /// others. Ranks do not depend on the scale of rows of A against rows of E.
     Gsvd,
 }
 
@@ -25,22 +25,22 @@ pub enum Deflation {
 /// A V = E V F,   W A = F W E,   W E V = I
 /// ```
 ///
-/// so that E x' = A x + B u has the motions x = V z, z = W E x, z' = F z + W B u, beside what u gives without delay.
+/// so that E x' = A x + B u has the motions x = V z, z = W E x, z' = F z + W B u, plus the direct response to u.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Deflated {
-    /// Of the regular pencil A_r - lambda E_r that is left, r x r: W_0 A V and W_0 E V.
+    /// A_r = W_0 A V of the remaining pencil A_r - lambda E_r, r x r.
     pub a: Matrix,
-    /// Has an inverse.
+    /// E_r = W_0 E V, r x r, regular.
     pub e: Matrix,
     /// F = E_r^-1 A_r, r x r.
     pub rate: Matrix,
-    /// V, n x r: where the finite motions are.
+    /// V, n x r: basis of the finite motions.
     pub basis: Matrix,
     /// W = E_r^-1 W_0, r x n.
     pub left: Matrix,
-    /// How many infinite eigenvalues went at each level.
+    /// Number of infinite eigenvalues removed at each level.
     pub levels: Vec<usize>,
-    /// Least ratio of a singular value that was taken for nonzero to one that was taken for zero (or to rounding).
+    /// Least ratio of a singular value taken for nonzero to one taken for zero (or to rounding).
     pub gap: f64,
 }
 
@@ -52,11 +52,11 @@ impl Deflated {
 }
 
 /// Removes the infinite eigenvalues, by a staircase of rank decisions (Van Dooren, "The computation of Kronecker's
-/// canonical form of a singular pencil", Linear Algebra Appl. 27, 1979). For the matrices of index 3, m at each of three
-/// levels. Singular values of the balanced pencil below `tolerance` (see `tolerances::RANK_OF_PENCIL`) are zero. About 30 n^3 operations a level.
+/// canonical form of a singular pencil", Linear Algebra Appl. 27, 1979). For equations of index 3 these are m at each of three
+/// levels. Singular values of the balanced pencil below `tolerance` (see `tolerances::RANK_OF_PENCIL`) are zero. About 30 n^3 operations for each level.
 ///
 /// # Errors
-/// Matrices that are not square, alike and finite; a singular pencil, det(A - s E) = 0 for every s; a rank that cannot be
+/// Matrices that are not square, of equal size and finite; a singular pencil, det(A - s E) = 0 for every s; a rank that cannot be
 /// decided.
 pub fn deflate(a: &Matrix, e: &Matrix, by: Deflation, tolerance: f64) -> Result<Deflated, Unsolved> {
     dense::square(&[a, e])?;
@@ -93,7 +93,7 @@ struct Lifted {
     left: Matrix,
 }
 
-/// From the innermost level out.
+/// Transforms the bases of the innermost pencil back through all levels.
 fn lift(levels: &[Level], a: &Matrix, e: &Matrix) -> Result<Lifted, Unsolved> {
     let r = a.nrows();
     let lu = e.clone().full_piv_lu();
@@ -112,27 +112,27 @@ fn lift(levels: &[Level], a: &Matrix, e: &Matrix) -> Result<Lifted, Unsolved> {
 /// The finite eigenvalues of a pencil, see [`finite`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finite {
-    /// By magnitude, then real, then imaginary part; exact conjugates are neighbours.
+    /// Eigenvalues by magnitude, then real, then imaginary part; exact conjugates are neighbours.
     pub values: Vec<Complex<f64>>,
-    /// A x = lambda E x, in columns of norm 1.
+    /// Right vectors, A x = lambda E x, in columns of norm 1.
     pub right: ComplexMatrix,
-    /// y^H A = lambda y^H E, in columns with y^H E x = 1; zero where there is none (a defective eigenvalue).
+    /// Left vectors, y^H A = lambda y^H E, in columns with y^H E x = 1; zero if there is none (a defective eigenvalue).
     pub left: ComplexMatrix,
     /// Condition number of `right`; infinite if its columns are dependent to rounding.
     pub conditioning: f64,
-    /// Numbers of finite and infinite eigenvalues, with the gap that tells them apart.
+    /// The finite part of the pencil, from which they are computed.
     pub deflated: Deflated,
 }
 
 /// The finite eigenvalues of A x = lambda E x by [`deflate`] (null space) and [`eigen`].
 ///
 /// # Errors
-/// As these.
+/// Those of [`deflate`] and [`eigen`].
 pub fn finite(a: &Matrix, e: &Matrix) -> Result<Finite, Unsolved> {
     finite_by(a, e, Deflation::NullSpace)
 }
 
-/// The same with either deflation.
+/// [`finite`] with either deflation.
 pub fn finite_by(a: &Matrix, e: &Matrix, by: Deflation) -> Result<Finite, Unsolved> {
     let deflated = deflate(a, e, by, tolerances::RANK_OF_PENCIL)?;
     let inner = eigen(&deflated.rate)?;

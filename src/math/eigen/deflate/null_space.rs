@@ -1,11 +1,11 @@
-//! A level by the left null space of E.
+//! A level of deflation by the left null space of E.
 
 use super::super::{Matrix, Unsolved, dense};
 use super::level::{Coupling, Level, Ranks};
 
-/// None where E has an inverse.
+/// The next level; `None` if E has an inverse.
 ///
-/// U2^T E = 0 makes U2^T A x = 0 algebraic: x = X1 z with U2^T A X1 = 0. As many unknowns go as equations, if these are
+/// U2^T E = 0 makes U2^T A x = 0 algebraic: x = X1 z with U2^T A X1 = 0. This removes as many unknowns as equations, if these are
 /// independent; if not, a combination of equations is 0 = 0 and the pencil singular.
 pub fn level(a: &Matrix, e: &Matrix, ranks: &mut Ranks) -> Result<Option<Level>, Unsolved> {
     let n = a.nrows();

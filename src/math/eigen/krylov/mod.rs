@@ -12,7 +12,7 @@ use space::Krylov;
 
 type C = Complex<f64>;
 
-/// How [`nearest`] iterates.
+/// Options of [`nearest`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// Size of the subspace; at least `count` + 2 are taken, at most n.
@@ -21,13 +21,13 @@ pub struct Options {
     pub tolerance: f64,
     /// Largest number of restarts.
     pub restarts: usize,
-    /// Applications to a start vector before it is used. As many as the largest Jordan block of theta = 0 has rows less one
-    /// take out what belongs to infinite eigenvalues of a pencil.
+    /// Applications of the operator to a start vector before it is used. One less than the rows of the largest Jordan block
+    /// of theta = 0 remove the components of infinite eigenvalues of a pencil.
     pub filter: usize,
-    /// Whether to look again from another start vector, until nothing new is found: one alone sees one vector of each
+    /// True to repeat from other start vectors until nothing new is found: one alone gives one vector of each
     /// eigenvalue. Costs the applications of a restart or more.
     pub repeats: bool,
-    /// Whether [`Partial::schur`] is wanted.
+    /// True to compute [`Partial::schur`].
     pub schur: bool,
 }
 
@@ -40,16 +40,16 @@ impl Default for Options {
 /// Some eigenvalues of an operator, see [`nearest`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Partial {
-    /// Of largest magnitude, largest first.
+    /// Eigenvalues theta of largest magnitude, largest first.
     pub values: Vec<C>,
-    /// In columns of norm 1.
+    /// Right vectors in columns of norm 1.
     pub right: ComplexMatrix,
-    /// |apply(x) - theta x| / |theta|
+    /// Residual |apply(x) - theta x| / |theta| of each pair.
     pub residuals: Vec<f64>,
-    /// Q and T with apply(Q) = Q T, orthonormal Q and triangular T, the values on its diagonal: a basis of what the vectors
-    /// span that stays good where eigenvalues are defective. None unless asked for.
+    /// Q and T with apply(Q) = Q T, orthonormal Q and triangular T, the values on its diagonal: a basis of the space of the vectors
+    /// that is well conditioned for defective eigenvalues too. `None` unless [`Options::schur`] is set.
     pub schur: Option<[ComplexMatrix; 2]>,
-    /// How often the operator was applied.
+    /// Number of applications of the operator.
     pub applications: usize,
 }
 
@@ -63,7 +63,7 @@ pub struct Partial {
 /// n m numbers.
 ///
 /// # Errors
-/// What `apply` returns; no convergence within the restarts, with how many did; results that are not finite.
+/// Errors of `apply`; no convergence within the restarts, with the number that converged; results that are not finite.
 pub fn nearest(
     n: usize,
     count: usize,

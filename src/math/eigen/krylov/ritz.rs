@@ -1,4 +1,4 @@
-//! What a Krylov space says about eigenvalues.
+//! Ritz values and vectors of a Krylov space.
 
 use super::super::{ComplexMatrix, Unsolved, conjugates, dense};
 use super::C;
@@ -7,7 +7,7 @@ use super::C;
 pub struct Ritz {
     pub values: Vec<C>,
     pub vectors: ComplexMatrix,
-    /// |apply(x) - theta x|
+    /// Residuals |apply(x) - theta x|.
     residuals: Vec<f64>,
 }
 

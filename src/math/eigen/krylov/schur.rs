@@ -25,7 +25,7 @@ impl Ordered {
         Ok(ordered)
     }
 
-    /// From the eigenvectors, made orthonormal in the order of their values, which takes a sixth of the time; none where
+    /// The Schur form from eigenvectors, made orthonormal in the order of their values, in a sixth of the time; `None` if
     /// they are too dependent for that.
     fn by_vectors(h: &ComplexMatrix) -> Result<Option<Ordered>, Unsolved> {
         let m = h.nrows();
@@ -38,7 +38,7 @@ impl Ordered {
         Ok(is_triangular.then(|| Ordered { q, t: t.upper_triangle() }))
     }
 
-    /// By insertion.
+    /// Sorts the eigenvalues by descending magnitude, by insertion.
     fn sort(&mut self) {
         for end in 1..self.t.nrows() {
             let mut k = end;
@@ -57,7 +57,7 @@ impl Ordered {
         let behind = self.t.ncols() - k - 2;
         rotation.rotate(&mut self.t.view_mut((k, k + 2), (2, behind)));
         let back = rotation.inverse();
-        // The two themselves are set below, with what stands between them as it is by both rotations.
+        // The two eigenvalues are set below; the entry between them is that after both rotations.
         rotation.rotate(&mut self.t.view_mut((k, k), (2, 2)));
         back.rotate_rows(&mut self.t.view_mut((0, k), (k + 2, 2)));
         back.rotate_rows(&mut self.q.columns_mut(k, 2));

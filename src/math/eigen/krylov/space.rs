@@ -9,16 +9,16 @@ use nalgebra::{DVector, DVectorView};
 
 type Vector = DVector<C>;
 
-/// apply(V) = V H + rest e_m^T with orthonormal V, n x m.
+/// Krylov decomposition apply(V) = V H + rest v e_m^T with orthonormal [V v], V n x m.
 pub struct Krylov<F> {
     apply: F,
-    /// m + 1 columns, the last one the direction of the rest.
+    /// [V v]: m + 1 columns, the last one the direction v of the residual.
     v: ComplexMatrix,
     pub h: ComplexMatrix,
     pub rest: f64,
-    /// Columns of V and H that are known.
+    /// Number of columns of V and H computed so far.
     size: usize,
-    /// What the rest of a contracted space is coupled to: its row below H.
+    /// Row below H that couples the residual of a contracted space to V.
     below: Vec<C>,
     starts: u64,
     filter: usize,
@@ -42,7 +42,7 @@ impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
         Ok(space)
     }
 
-    /// Puts a new direction in column k, orthogonal to those before it; zero where these are all.
+    /// Writes a new direction to column k, orthogonal to those before it; zero if these span the whole space.
     fn start(&mut self, k: usize) -> Result<(), Unsolved> {
         self.starts += 1;
         let mut fresh = Vector::from_iterator(self.v.nrows(), dense::direction(self.v.nrows(), self.starts));
@@ -68,7 +68,7 @@ impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
         if image.iter().all(|x| x.is_finite()) { Ok(image) } else { Err(Unsolved::NotFinite) }
     }
 
-    /// Subtracts what lies in the first k columns, twice; returns how much of each that was.
+    /// Makes a vector orthogonal to the first k columns, twice; returns its components along them.
     fn orthogonalize(&self, vector: &mut Vector, k: usize) -> Vector {
         let n = self.v.nrows();
         let known = dense::view(&self.v).subcols(0, k);
@@ -86,7 +86,7 @@ impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
         total
     }
 
-    /// Up to m columns.
+    /// Extends the space to m columns.
     pub fn extend(&mut self) -> Result<(), Unsolved> {
         let m = self.h.ncols();
         while self.size < m {
@@ -113,7 +113,7 @@ impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
         Ok(())
     }
 
-    /// Of the first m columns of V the combinations in the first `count` columns of `by`.
+    /// Combinations of the first m columns of V by the first `count` columns of `by`.
     fn spanned(&self, m: usize, by: &ComplexMatrix, count: usize) -> ComplexMatrix {
         dense::product(dense::view(&self.v).subcols(0, m), dense::view(by).subcols(0, count))
     }
@@ -131,7 +131,7 @@ impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
         self.size = kept;
     }
 
-    /// Keeps the leading `kept` Schur vectors, which have converged, and goes on from a direction that is new.
+    /// Keeps the leading `kept` Schur vectors, which have converged, and continues from a new direction.
     pub fn renew(&mut self, schur: &Ordered, kept: usize) -> Result<(), Unsolved> {
         self.contract(schur, kept);
         self.below.clear();
