@@ -9,7 +9,7 @@ const MOST: f64 = 4e9;
 const SMALL: f64 = 64e6;
 
 /// Refuses `copies` dense matrices of `rows` x `columns` that take more than 4 GB, or more than the free memory of the machine and
-/// of the process leave.
+/// of the process.
 ///
 /// # Errors
 /// Bad input with the size and the limit; the caller adds the remedy.
@@ -29,7 +29,7 @@ pub fn refuse_dense(what: &str, [rows, columns]: [usize; 2], copies: f64) -> Res
 const WRITTEN: f64 = 48.0;
 
 /// Refuses a table, kept in memory until it is written, that takes more than the free memory of the machine and
-/// of the process leave.
+/// of the process.
 ///
 /// # Errors
 /// Bad input with the size and the limit; the caller adds the remedy.

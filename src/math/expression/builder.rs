@@ -1,4 +1,4 @@
-//! Puts a program together, operand by operand, and computes what is constant at once.
+//! Builds a program operand by operand, with constant folding.
 
 use super::operation::{One, Two};
 use super::program::{Op, Program, Table};
@@ -11,7 +11,7 @@ pub(super) struct Builder {
 }
 
 impl Builder {
-    /// Where the next operand will begin.
+    /// Index at which the next operand will begin.
     pub fn here(&self) -> usize {
         self.ops.len()
     }
@@ -40,7 +40,7 @@ impl Builder {
     pub fn two(&mut self, function: Two, left: usize, right: usize) {
         match (self.constant(left, right), self.constant(right, self.here())) {
             (Some(a), Some(b)) => {
-                // The path of a whole exponent is also that of constants, so that (-2)^3 is -8.
+                // Constants take the path of whole exponents too, so that (-2)^3 is -8.
                 let value = by_constant(function, b).map_or_else(|| function.apply(a, b), |one| one.apply(a));
                 self.replace(left, Op::Constant(value));
             }
@@ -65,7 +65,7 @@ impl Builder {
         self.ops.extend(ones.iter().map(|one| Op::One(*one)));
     }
 
-    /// Chooses between the last two operands, which begin at `yes` and `no`, by the one before them.
+    /// Selects one of the last two operands, which begin at `yes` and `no`, by the one before them.
     pub fn select(&mut self, condition: usize, yes: usize, no: usize) {
         match self.constant(condition, yes) {
             Some(value) if !value.is_nan() => {
@@ -77,7 +77,7 @@ impl Builder {
         }
     }
 
-    /// Looks the operand at `start` up in `table`, in the place of the operands from `points` on.
+    /// Evaluates `table` at the operand at `start`, and removes the operands from `points` on.
     pub fn table(&mut self, table: Table, start: usize, points: usize) {
         self.ops.truncate(points);
         match self.constant(start, points) {
@@ -89,7 +89,7 @@ impl Builder {
         }
     }
 
-    /// `None` if the program is too deep.
+    /// The program; `None` if it needs too deep a stack.
     pub fn finish(self) -> Option<Program> {
         Program::new(self.ops, self.tables)
     }
@@ -100,7 +100,7 @@ impl Builder {
     }
 }
 
-/// `function` with the constant `b` on its right, where that is cheaper or more exact.
+/// `function` with the constant `b` as its right operand, if that is cheaper or more exact.
 fn by_constant(function: Two, b: f64) -> Option<One> {
     match function {
         Two::Add => Some(One::Plus(b)),

@@ -1,19 +1,19 @@
-//! What is wrong with an expression, and where.
+//! Errors of expressions, with their position.
 
 use crate::error::Error;
 use std::fmt;
 
-/// Longest piece of a user's text that a message repeats, in characters.
+/// Longest part of a user's text that a message quotes, in characters.
 const EXCERPT: usize = 60;
 
-/// An expression that cannot be meant as it stands, or whose value cannot be used.
+/// An expression that is not valid, or whose value cannot be used.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExpressionError {
-    /// What was found, and at which character.
+    /// The fault, with the character at which it is.
     pub message: String,
-    /// What would be right.
+    /// Remedy.
     pub hint: Option<String>,
-    /// Column of the fault in [`text`](Self::text), in characters from one; `None` where the whole is concerned.
+    /// Column of the fault in [`text`](Self::text), in characters from one; `None` for a fault of the whole.
     pub position: Option<usize>,
     /// The expression.
     pub text: String,
@@ -47,7 +47,7 @@ impl fmt::Display for ExpressionError {
 
 impl std::error::Error for ExpressionError {}
 
-/// Bad input that shows the expression where a character of it is at fault; the caller adds path and element.
+/// Bad input that quotes the expression if a character of it is at fault; the caller adds path and element.
 impl From<ExpressionError> for Error {
     fn from(problem: ExpressionError) -> Self {
         let error = Error::input(match problem.position {

@@ -2,7 +2,7 @@
 
 use super::operation::{One, Two};
 
-/// What the arguments of a function become.
+/// Number and use of the arguments of a function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Form {
     /// f(x)
@@ -49,7 +49,7 @@ pub(super) const FUNCTIONS: [(&str, Form); 25] = [
 /// The constants that every expression knows.
 pub(super) const CONSTANTS: [(&str, f64); 2] = [("pi", std::f64::consts::PI), ("π", std::f64::consts::PI)];
 
-/// Words that parameters must not take: those with a meaning in every expression, and time.
+/// Words that cannot be names of parameters: those with a meaning in every expression, and time.
 const WORDS: [&str; 4] = ["t", "and", "or", "not"];
 
 pub(super) fn function(name: &str) -> Option<Form> {
@@ -60,13 +60,13 @@ pub(super) fn constant(name: &str) -> Option<f64> {
     CONSTANTS.iter().find(|(known, _)| *known == name).map(|(_, value)| *value)
 }
 
-/// Whether `name` has a meaning of its own.
+/// True if `name` has a meaning in every expression.
 pub(super) fn is_reserved(name: &str) -> bool {
     function(name).is_some() || constant(name).is_some() || WORDS.contains(&name)
 }
 
 impl Form {
-    /// Whether the function can take `count` arguments.
+    /// True if the function can take `count` arguments.
     pub fn takes(self, count: usize) -> bool {
         match self {
             Form::One(_) => count == 1,
@@ -77,7 +77,7 @@ impl Form {
         }
     }
 
-    /// What it takes, in words.
+    /// Number of its arguments as text.
     pub fn arity(self) -> &'static str {
         match self {
             Form::One(_) => "1 argument",
@@ -88,7 +88,7 @@ impl Form {
         }
     }
 
-    /// How it is written, where the number of arguments does not say it.
+    /// Form of the call as text, if the number of arguments does not determine it.
     pub fn usage(self) -> Option<&'static str> {
         match self {
             Form::If => Some("write `if(condition, a, b)`"),

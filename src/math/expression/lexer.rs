@@ -1,8 +1,8 @@
-//! From characters to tokens.
+//! Lexer: from characters to tokens.
 
 use super::error::{ExpressionError, excerpt};
 
-/// What a token is; names and numbers keep their text by position.
+/// Kind of a token; the text of names and numbers is found by position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
     Number(f64),
@@ -23,9 +23,9 @@ pub(super) enum Kind {
     Unequal,
     And,
     Or,
-    /// The word `not`, which binds weaker than a comparison.
+    /// The word `not`, which binds less tightly than a comparison.
     Not,
-    /// The sign `!`, which binds as tight as a unary minus.
+    /// The sign `!`, which binds as tightly as a unary minus.
     Bang,
     End,
 }
@@ -62,7 +62,7 @@ const SINGLE: [(&str, Kind); 11] = [
     (",", Kind::Comma),
 ];
 
-/// Signs that people write or paste, with what this language has in their place.
+/// Signs of other languages, with those of this language in their place.
 const FOREIGN: [(&str, &str); 19] = [
     ("**", "a power is written `^`"),
     ("=", "equality is written `==`"),
@@ -85,7 +85,7 @@ const FOREIGN: [(&str, &str); 19] = [
     ("{", "write `(`"),
 ];
 
-/// The tokens of `text`, closed by [`Kind::End`].
+/// The tokens of `text`, the last one [`Kind::End`].
 pub(super) fn tokens(text: &str) -> Result<Vec<Token>, ExpressionError> {
     let mut tokens = Vec::new();
     let mut start = 0;
@@ -107,7 +107,7 @@ pub(super) fn names(text: &str) -> Result<Vec<&str>, ExpressionError> {
     Ok(named.filter_map(|token| text.get(token.start..token.end)).collect())
 }
 
-/// Whether `text` is one name without dots and primes.
+/// True if `text` is one name without dots and primes.
 pub(super) fn is_plain_name(text: &str) -> bool {
     word_length(text) == text.len() && text.starts_with(begins_name)
 }
@@ -165,12 +165,12 @@ fn begins_name(c: char) -> bool {
     c.is_alphabetic() || c == '_'
 }
 
-/// Bytes of the letters, digits and underscores that `text` begins with.
+/// Length in bytes of the letters, digits and underscores that `text` begins with.
 fn word_length(text: &str) -> usize {
     text.find(|c: char| !begins_name(c) && !c.is_ascii_digit()).unwrap_or(text.len())
 }
 
-/// Bytes of `word(.word)*'*`: a dot belongs to the name only where a word follows.
+/// Length in bytes of `word(.word)*'*`: a dot belongs to the name only if a word follows.
 fn name_length(text: &str) -> usize {
     let mut length = word_length(text);
     while let Some(tail) = text[length..].strip_prefix('.') {
@@ -183,7 +183,7 @@ fn name_length(text: &str) -> usize {
     length + tail.len() - tail.trim_start_matches('\'').len()
 }
 
-/// Bytes of the number that `text` begins with: digits with at most one point, and an exponent if it is whole.
+/// Length in bytes of the number that `text` begins with: digits with at most one point, and an exponent if complete.
 fn number_length(text: &str) -> Option<usize> {
     let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
     let whole = digits(0);

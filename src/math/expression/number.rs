@@ -1,4 +1,4 @@
-//! A number as scenes write it: plain, or as an expression over their parameters.
+//! Numbers in scenes: plain, or expressions over the parameters.
 
 use super::{Expression, ExpressionError, Names, Parameters, finite};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -48,7 +48,7 @@ impl Number {
     }
 }
 
-/// The value of a text that depends on nothing, such as `2.5` or `pi/2`.
+/// The value of a text without parameters, such as `2.5` or `pi/2`.
 pub fn constant(text: &str) -> Option<f64> {
     let evaluated = || Number::from(text).evaluate(&Parameters::default()).ok();
     text.trim().parse().ok().or_else(evaluated)
@@ -98,7 +98,7 @@ impl<'de> Deserialize<'de> for Number {
 
 struct NumberVisitor;
 
-/// serde's own message for a wrong type begins with what was found; this one says first what is wanted.
+/// Error for a value of a wrong type, with the expected type first, unlike serde's message.
 fn wrong<E: de::Error>(found: impl fmt::Display) -> Result<Number, E> {
     Err(E::custom(format_args!("expected {EXPECTED}, found {found}")))
 }

@@ -1,12 +1,12 @@
 //! The operations of a program, over any scalar.
 //!
-//! An operation that changes its form is on one piece of it: that of its argument, or one that it is held on, see
+//! A piecewise operation is evaluated on one piece: that of its argument, or a prescribed one, see
 //! [`Regime`](crate::math::Regime).
 //!
-//! Derivatives are those of the branch that the value is on, taken from the right at steps and breakpoints. Where a
-//! factor of the chain rule would be 0 times infinity although the derivative is plain, the operation says so itself:
-//! a function that has underflowed is constant, and a root of a constant zero is constant. Not a number goes through
-//! every operation, comparisons included (but `x^0` is 1 for any x), so that it is noticed where the result is used.
+//! Derivatives are those of the piece of the value, taken from the right at steps and breakpoints. Where a
+//! product in the chain rule would be 0 times infinity although the derivative is known, the operation sets it itself:
+//! a function that has underflowed is constant, and a root of a constant zero is constant. NaN propagates through
+//! every operation, comparisons included (but `x^0` is 1 for any x), so that it is detected where the result is used.
 
 use crate::math::{Piece, Scalar, piece_of};
 
@@ -117,21 +117,21 @@ impl One {
 }
 
 impl Two {
-    /// Whether the form changes where both operands are equal; a - b is then the argument, and zero the threshold.
+    /// True if the form changes where both operands are equal; a - b is then the argument, and zero the threshold.
     #[inline]
     pub fn compares(self) -> bool {
         use Two::{AtLeast, AtMost, Equal, Greater, Less, Max, Min, Unequal};
         matches!(self, Less | AtMost | Greater | AtLeast | Equal | Unequal | Min | Max)
     }
 
-    /// The piece of an operation that compares; `None` where one operand is not a number.
+    /// The piece of a comparing operation; `None` if one operand is NaN.
     #[inline]
     pub fn piece<S: Scalar>(a: S, b: S) -> Option<Piece> {
-        // Not the difference: infinities compare too.
+        // Not by the difference, since infinities compare too.
         a.value().partial_cmp(&b.value()).map(|order| (order as i8 + 1) as Piece)
     }
 
-    /// An operation that compares, on a piece of its form: 0 for a < b, 1 for a = b, 2 for a > b.
+    /// A comparing operation on a given piece: 0 for a < b, 1 for a = b, 2 for a > b.
     #[inline]
     pub fn on<S: Scalar>(self, piece: Piece, a: S, b: S) -> S {
         let truth = |holds: bool| S::constant(f64::from(u8::from(holds)));
@@ -180,18 +180,18 @@ impl Two {
     }
 }
 
-/// One for true and zero for false.
+/// 1 for true and 0 for false; NaN if an operand is NaN.
 fn truth<S: Scalar>(holds: bool, a: S, b: S) -> S {
     let known = !a.value().is_nan() && !b.value().is_nan();
     S::constant(if known { f64::from(u8::from(holds)) } else { f64::NAN })
 }
 
-/// A function whose value has underflowed decays faster than any derivative in its chain can grow.
+/// Makes a value that has underflowed to zero constant: it decreases faster than any derivative in its chain can grow.
 fn settled<S: Scalar>(y: S) -> S {
     if y.bounds() == [0.0; 2] { S::zero() } else { y }
 }
 
-/// a/b. Where b is about to overflow, as in 1/(1 + exp(-100*t)), its derivatives may have done so already.
+/// a/b. If b is about to overflow, as in 1/(1 + exp(-100*t)), its derivatives may have overflowed already.
 fn quotient<S: Scalar>(a: S, b: S) -> S {
     let ([low, high], plain) = (b.bounds(), a.value() / b.value());
     if (low > 1e280 || high < -1e280) && plain.abs() < 1e-200 { S::constant(plain) } else { a / b }
@@ -201,13 +201,13 @@ fn whole_power<S: Scalar>(x: S, n: i32) -> S {
     if n < 0 { quotient(S::one(), x.powi(n.saturating_neg())) } else { x.powi(n) }
 }
 
-/// The square root. Its slope at zero is infinite; the largest number stands for it, so that a constant zero has a
-/// constant root and anything else shows.
+/// The square root. Its infinite slope at zero is replaced by the largest number, so that a constant zero has a constant
+/// root and other derivatives are visibly huge.
 fn root<S: Scalar>(x: S) -> S {
     if x.bounds() == [0.0; 2] { x * f64::MAX } else { x.sqrt() }
 }
 
-/// x^y for x > 0, and for x = 0; not a number for x < 0, where it has no derivative by y.
+/// x^y for x >= 0; NaN for x < 0, where it has no derivative with respect to y.
 fn power<S: Scalar>(x: S, y: S) -> S {
     match x.bounds() {
         [0.0, 0.0] => power_of_zero(x, y.value()),
@@ -216,7 +216,7 @@ fn power<S: Scalar>(x: S, y: S) -> S {
     }
 }
 
-/// Derivatives up to the order of the exponent vanish; those above it are infinite, unless the exponent is whole.
+/// 0^y: derivatives up to the order of the exponent vanish; those above it are infinite, unless the exponent is whole.
 fn power_of_zero<S: Scalar>(x: S, exponent: f64) -> S {
     if exponent > 0.0 {
         let slope = if exponent.fract() == 0.0 { 1.0 } else { f64::MAX };
@@ -230,7 +230,7 @@ fn complement<S: Scalar>(x: S) -> S {
     (S::one() - x) * (x + 1.0)
 }
 
-/// The quotient keeps all digits near zero, the scalar's own form cannot overflow; from 400 on it is constant.
+/// tanh by the quotient near zero, which has all digits; by the scalar's own form, which cannot overflow; constant from 400 on.
 fn tanh<S: Scalar>(x: S) -> S {
     match x.bounds() {
         [low, high] if -1.0 < low && high < 1.0 => x.sinh() / x.cosh(),
@@ -239,7 +239,7 @@ fn tanh<S: Scalar>(x: S) -> S {
     }
 }
 
-/// ln(x)/ln(10), with the value that is exact at powers of ten.
+/// ln(x)/ln(10), with a value that is exact at powers of ten.
 fn log10<S: Scalar>(x: S) -> S {
     let scaled = x.ln() * std::f64::consts::LOG10_E;
     let correction = x.value().log10() - scaled.value();
@@ -253,7 +253,7 @@ fn smoothstep<S: Scalar>(x: S) -> S {
     x.powi(3) * ((x * 6.0 - 15.0) * x + 10.0)
 }
 
-/// sqrt(a^2 + b^2) without overflow on the way. At the origin, its tip, the derivatives are taken as zero.
+/// sqrt(a^2 + b^2) without overflow. At the origin, where it is not differentiable, the derivatives are taken as zero.
 fn hypot<S: Scalar>(a: S, b: S) -> S {
     let sizes = [a.bounds(), b.bounds()];
     if sizes == [[0.0; 2]; 2] {

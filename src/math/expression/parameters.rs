@@ -13,7 +13,7 @@ pub struct Parameters {
     index: HashMap<String, usize>,
 }
 
-/// Where a faulty parameter was given.
+/// Origin of a parameter's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ParameterSource {
     /// In the scene's `parameters`.
@@ -36,12 +36,12 @@ pub struct ParameterError {
 type Result<T> = std::result::Result<T, ParameterError>;
 
 impl Parameters {
-    /// Evaluates `given` after `overrides`, numbers or expressions over the other parameters, have taken the place of what
-    /// it says; the last of several overrides of one parameter counts.
+    /// Evaluates the parameters `given`, with `overrides`, numbers or expressions over the other parameters, in place of
+    /// their values; the last of several overrides of one parameter counts.
     ///
     /// # Errors
     ///
-    /// For names that are no plain names (a letter, then letters, digits and `_`), that have a meaning of their own
+    /// For names that are no plain names (a letter, then letters, digits and `_`), that are reserved
     /// (functions, `pi`, `t`, `and`, `or`, `not`) or come twice; for overrides of unknown parameters; for parameters
     /// that depend on themselves, with the cycle; for expressions that cannot be parsed and values that are not finite.
     pub fn resolve(given: &[(String, Number)], overrides: &[(String, Number)]) -> Result<Self> {
@@ -86,7 +86,7 @@ impl Parameters {
         Ok(parameters)
     }
 
-    /// The parameters such that each comes after those it depends on; otherwise in the order of the scene.
+    /// Indices of the parameters such that each comes after those it depends on; otherwise in the order of the scene.
     fn order(&self, numbers: &[Number], sources: &[ParameterSource]) -> Result<Vec<usize>> {
         let needs = (0..numbers.len()).map(|i| self.needs(i, &numbers[i], sources[i])).collect::<Result<Vec<_>>>()?;
         let mut users = vec![Vec::new(); numbers.len()];
@@ -106,7 +106,7 @@ impl Parameters {
         if order.len() == numbers.len() { Ok(order) } else { Err(self.cycle(numbers, sources, &needs, &open)) }
     }
 
-    /// The parameters that number `i` mentions.
+    /// Indices of the parameters that number `i` depends on.
     fn needs(&self, i: usize, number: &Number, source: ParameterSource) -> Result<Vec<usize>> {
         let Number::Text(text) = number else { return Ok(Vec::new()) };
         let names = lexer::names(text).map_err(|problem| fault(&self.values[i].0, source, problem))?;
@@ -116,7 +116,7 @@ impl Parameters {
         Ok(needs)
     }
 
-    /// The error that shows a cycle among the parameters that are still open: each of them needs another one.
+    /// Error with a cycle among the unresolved parameters, each of which depends on another one.
     fn cycle(
         &self,
         numbers: &[Number],
@@ -126,7 +126,7 @@ impl Parameters {
     ) -> ParameterError {
         let follow = |i: &usize| needs[*i].iter().copied().find(|n| open[*n] > 0);
         let start = open.iter().position(|count| *count > 0);
-        // After as many steps as there are parameters the walk is on the cycle and no longer on the way to it.
+        // After as many steps as there are parameters, the walk is on the cycle.
         let inside = std::iter::successors(start, follow).nth(open.len()).unwrap_or(0);
         let mut path: Vec<usize> =
             std::iter::successors(follow(&inside), follow).take_while(|i| *i != inside).collect();
@@ -149,7 +149,7 @@ impl Parameters {
     }
 }
 
-/// `a -> b -> a`, without the middle of a long one.
+/// Text `a -> b -> a` of a cycle, without the middle of a long one.
 fn chain(names: &[&str]) -> String {
     match names {
         [first @ .., last] if names.len() > 12 => format!("{} -> ... -> {last}", first[..10].join(" -> ")),

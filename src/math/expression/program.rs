@@ -3,10 +3,10 @@
 use super::operation::{One, Two};
 use crate::math::{Piece, Regime, Scalar, piece_of};
 
-/// Numbers that a program may have to hold at once.
+/// Largest depth of the stack.
 pub(super) const MAX_STACK: usize = 64;
 
-/// Programs this shallow, which are nearly all, run on a stack that costs less to lay out.
+/// Programs up to this depth, which are nearly all, run on a smaller stack that costs less to initialize.
 const SHALLOW: usize = 6;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,9 +15,9 @@ pub(super) enum Op {
     Variable(usize),
     One(One),
     Two(Two),
-    /// Of condition, a and b leaves a where the condition is not zero, and b otherwise.
+    /// Replaces condition, a and b by a if the condition is not zero, and by b otherwise.
     Select,
-    /// Looks the top of the stack up in the table of this number.
+    /// Evaluates the table of this number at the top of the stack.
     Table(usize),
 }
 
@@ -37,7 +37,7 @@ pub(super) struct Program {
 }
 
 impl Op {
-    /// How many numbers it takes off the stack, for one that it leaves there.
+    /// Number of operands that it takes off the stack; it pushes one result.
     #[inline]
     pub fn operands(self) -> usize {
         match self {
@@ -50,7 +50,7 @@ impl Op {
 }
 
 impl Table {
-    /// `None` unless x increases strictly and all slopes are finite.
+    /// A table through these points; `None` unless x increases strictly and all slopes are finite.
     pub fn new(points: &[[f64; 2]]) -> Option<Self> {
         let slopes = points.windows(2).map(|pair| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]));
         let rows: Vec<[f64; 3]> =
@@ -59,7 +59,7 @@ impl Table {
         (rows.len() >= 2 && sound).then_some(Table { rows })
     }
 
-    /// The arguments of its points, where its form changes.
+    /// The x of its points, where its slope changes.
     pub fn thresholds(&self) -> Vec<f64> {
         self.rows.iter().map(|row| row[0]).collect()
     }
@@ -68,7 +68,7 @@ impl Table {
         piece_of(x, self.rows.len(), |k| self.rows[k][0])
     }
 
-    /// The line of a piece. At a point itself the slope is that of the piece which begins there.
+    /// Value on the line of a piece. At a point the slope is that of the line to its right.
     #[inline]
     fn on<S: Scalar>(&self, piece: Piece, x: S) -> S {
         let after = piece.div_ceil(2) as usize;
@@ -85,7 +85,7 @@ impl Table {
 }
 
 impl Program {
-    /// `None` if the operations would need more than [`MAX_STACK`] numbers.
+    /// A program of these operations; `None` if they need more than [`MAX_STACK`] numbers at once.
     pub fn new(ops: Vec<Op>, tables: Vec<Table>) -> Option<Self> {
         let heights = ops.iter().scan(0, |height: &mut usize, op| {
             *height = *height + 1 - op.operands();
@@ -105,15 +105,15 @@ impl Program {
         self.run::<S, true>(variables, &mut |_, own, _| own)
     }
 
-    /// The value with every operation that changes its form held on its piece of `regime`; its switching functions there are
-    /// numbered from `first` on. Where a piece has no value so far from where it belongs, as the root of a negative number,
-    /// the pieces are those of the arguments.
+    /// The value with every piecewise operation on its piece of `regime`, where the program's switching functions are
+    /// numbered from `first` on. If the value is then not finite, as for a root extended to negative numbers, the pieces
+    /// are those of the arguments.
     pub fn eval_held<S: Scalar>(&self, variables: &[S], first: usize, regime: Regime) -> S {
         let held = self.run::<S, false>(variables, &mut |number, own, _| regime.piece(first + number).unwrap_or(own));
         if held.value().is_finite() { held } else { self.eval(variables) }
     }
 
-    /// Writes the arguments of its switching functions, with the pieces of `regime`.
+    /// Writes the arguments of its switching functions, evaluated with the pieces of `regime`.
     pub fn arguments<S: Scalar>(&self, variables: &[S], first: usize, regime: Regime, out: &mut [S]) {
         self.run::<S, false>(variables, &mut |number, own, argument| {
             out[number] = argument;
@@ -121,8 +121,8 @@ impl Program {
         });
     }
 
-    /// `choose` gives the piece of each operation that changes its form, from its number, the piece of its argument, and the
-    /// argument; it is not asked where all are `OWN`.
+    /// Runs the program. `choose` gives the piece of each piecewise operation from its number, the piece of its argument, and the
+    /// argument; with `OWN` it is not called, and every piece is that of the argument.
     #[inline]
     fn run<S: Scalar, const OWN: bool>(&self, variables: &[S], choose: &mut impl FnMut(usize, Piece, S) -> Piece) -> S {
         match self.depth <= SHALLOW {

@@ -1,8 +1,8 @@
-//! The names of a field: parameters and what may vary.
+//! Names that an expression may use: parameters and variables.
 
 use super::{Name, Names, Parameters};
 
-/// Parameters as constants, and variables by their place in a list: `&["t"]` for fields that may depend on time.
+/// Parameters as constants, and variables by their index in a list: `&["t"]` for fields that may depend on time.
 #[derive(Clone, Copy, Debug)]
 pub struct Scope<'a, T = &'a str> {
     /// Names that stand for constants.

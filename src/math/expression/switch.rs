@@ -1,4 +1,4 @@
-//! Where an expression changes its form, and what in it depends on time alone.
+//! Switching functions of an expression, and its parts that depend on time alone.
 
 use super::Expression;
 use super::operation::{One, Two};
@@ -15,23 +15,23 @@ pub struct TimeFunction {
 }
 
 impl TimeFunction {
-    /// Its value, with the pieces of `regime`.
+    /// Value at time `t`, s, with the pieces of `regime`.
     pub fn at<S: Scalar>(&self, t: S, regime: Regime) -> S {
         self.program.eval_held(&[t], self.first, regime)
     }
 }
 
-/// A place in an expression, or an element, where the form changes: where a switching function, the argument, passes one of
+/// A switching function of an expression or an element: its form changes where the argument passes one of
 /// the thresholds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Switch {
-    /// Increasing.
+    /// Thresholds, increasing.
     pub thresholds: Vec<f64>,
-    /// The argument, where that depends on t alone.
+    /// The argument, if it depends on t alone.
     pub of_time: Option<TimeFunction>,
 }
 
-/// The operations that make one intermediate result, and what it depends on.
+/// The operations of one intermediate result, and its dependence on time and state.
 #[derive(Clone)]
 struct Operand {
     range: Range<usize>,
@@ -62,12 +62,12 @@ impl Expression {
         switches
     }
 
-    /// The largest parts of it that depend on t alone, but for t itself.
+    /// The largest parts of it that depend on t alone, except t itself.
     pub fn time_functions(&self) -> Vec<TimeFunction> {
         let mut found = Vec::new();
         let mut keep = |program: &Program, operand: &Operand, is_divisor: bool| {
             let first = self.first + program.count_switches(operand.range.start);
-            // What is divided by is large where it does nothing: its inverse is the function.
+            // A divisor is recorded by its inverse, which is small where the divisor is large.
             let inverse = is_divisor.then_some(Op::One(One::Power(-1)));
             let part = Program::new(
                 program.ops[operand.range.clone()].iter().copied().chain(inverse).collect(),
@@ -89,7 +89,7 @@ impl Expression {
         found
     }
 
-    /// Shows every operation with its operands, and how many switching functions come before it; returns the result's.
+    /// Calls `see` for every operation with its operands and the number of switching functions before it; returns the result's operand.
     fn walk(&self, mut see: impl FnMut(&Program, Op, &[Operand], usize)) -> Option<Operand> {
         let (mut stack, mut number) = (Vec::<Operand>::new(), 0);
         for (place, &op) in self.program.ops.iter().enumerate() {
@@ -130,7 +130,7 @@ impl Program {
         self.ops[..end].iter().filter(|op| self.is_switch(**op)).count()
     }
 
-    /// The argument of an operation that changes its form: its operand, or the difference of both.
+    /// The argument of a piecewise operation: its operand, or the difference of both.
     fn argument(&self, op: Op, operands: &[Operand], number: usize) -> Option<TimeFunction> {
         let range = operands.first()?.range.start..operands.last()?.range.end;
         let first = number - self.count_switches(range.end) + self.count_switches(range.start);
@@ -141,7 +141,7 @@ impl Program {
         Some(TimeFunction { program, first })
     }
 
-    /// Some of the operations as a program of their own; several results are left on its stack.
+    /// A range of the operations as a separate program; it may leave several results on its stack.
     fn part(&self, range: Range<usize>) -> Option<Program> {
         Program::new(self.ops[range].to_vec(), self.tables.clone())
     }

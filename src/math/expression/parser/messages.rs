@@ -1,4 +1,4 @@
-//! What the parser says when it cannot go on.
+//! Error messages of the parser.
 
 use super::Parser;
 use crate::error::suggest;
@@ -23,7 +23,7 @@ impl Parser<'_> {
         }
     }
 
-    /// `token` has been taken already.
+    /// Error for a missing operand at `token`, which has been consumed.
     pub(super) fn missing_operand(&self, token: Token) -> ExpressionError {
         let after = match self.next.checked_sub(2).and_then(|i| self.tokens.get(i)) {
             Some(before) => format!(" after {}", self.show(*before)),
@@ -81,7 +81,7 @@ impl Parser<'_> {
     }
 }
 
-/// "did you mean": a name that differs by capitals only comes first.
+/// Suggestion of a known name; one that differs in case only comes first.
 fn nearest(found: &str, known: Vec<String>) -> String {
     match known.iter().find(|name| name.to_lowercase() == found.to_lowercase()) {
         Some(name) => format!("did you mean `{name}`?"),

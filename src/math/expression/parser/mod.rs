@@ -10,15 +10,15 @@ use super::operation::{One, Two};
 use super::program::{MAX_STACK, Op, Program, Table};
 use super::{Name, Names};
 
-/// Operations inside one another; a parenthesis in a sum counts twice.
+/// Largest depth of nested operations; a parenthesis in a sum counts twice.
 const MAX_NESTING: usize = 150;
 
-/// Bytes of an expression, tables of points included.
+/// Largest length of an expression, bytes, tables of points included.
 const MAX_LENGTH: usize = 1_000_000;
 
 type Result<T> = std::result::Result<T, ExpressionError>;
 
-/// How tight an operator binds. A prefix takes an operand of at least its own level.
+/// Binding levels of operators. A prefix takes an operand of at least its own level.
 mod level {
     pub const LOWEST: u8 = 0;
     pub const OR: u8 = 1;
@@ -31,7 +31,7 @@ mod level {
     pub const POWER: u8 = 8;
 }
 
-/// Compiles `text`; the names of the variables come with their indices, in the order of their first mention.
+/// Compiles `text`; returns the program, and indices and names of the variables in the order of first mention.
 pub(super) fn parse(text: &str, names: &dyn Names) -> Result<(Program, Vec<(usize, String)>)> {
     if text.len() > MAX_LENGTH {
         return Err(ExpressionError::whole(text, format!("expression longer than {MAX_LENGTH} bytes")));
@@ -57,7 +57,7 @@ struct Parser<'a> {
     variables: Vec<(usize, String)>,
 }
 
-/// An argument of a call: where it begins in the program and in the text.
+/// An argument of a call: its beginning in the program and in the text.
 #[derive(Clone, Copy)]
 struct Argument {
     operand: usize,
@@ -85,7 +85,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// An operand followed by all operators that bind at least as tight as `minimum`.
+    /// Parses an operand followed by all operators that bind at least as tightly as `minimum`.
     fn operation(&mut self, minimum: u8) -> Result<()> {
         self.nesting += 1;
         if self.nesting > MAX_NESTING {
@@ -96,7 +96,7 @@ impl<'a> Parser<'a> {
         while let Some((two, binding)) = binary(self.peek().kind).filter(|(_, binding)| *binding >= minimum) {
             self.take();
             let right = self.builder.here();
-            // A power takes what stands on its right first; all others what stands on their left.
+            // A power associates to the right, all others to the left.
             self.operation(if two == Two::Pow { binding } else { binding + 1 })?;
             self.builder.two(two, left, right);
             self.refuse_chain(binding)?;
@@ -105,7 +105,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// a < b < c would compare a truth value with c.
+    /// Refuses a < b < c, which would compare a truth value with c.
     fn refuse_chain(&self, binding: u8) -> Result<()> {
         let again = binary(self.peek().kind).is_some_and(|(_, next)| next == binding);
         if binding == level::COMPARISON && again {
@@ -173,7 +173,7 @@ impl<'a> Parser<'a> {
         self.apply(form, &arguments)
     }
 
-    /// All arguments, up to the closing parenthesis.
+    /// Parses all arguments, up to the closing parenthesis.
     fn arguments(&mut self) -> Result<Vec<Argument>> {
         let mut arguments = Vec::new();
         if self.peek().kind == Kind::Close {
@@ -254,7 +254,7 @@ impl<'a> Parser<'a> {
     }
 }
 
-/// The operation that an infix operator stands for, and how tight it binds.
+/// Operation and binding level of an infix operator.
 fn binary(kind: Kind) -> Option<(Two, u8)> {
     Some(match kind {
         Kind::Or => (Two::Or, level::OR),
