@@ -19,7 +19,8 @@ pub struct MethodSpec {
     own: Own,
 }
 
-/// A user's own entry, which is in no registry. It takes no part in comparison: specifications of one name and options are equal.
+/// A user's own entry, which is in no registry. It takes no part in comparison: specifications of one name and options
+/// are equal.
 #[derive(Clone, Copy, Debug, Default)]
 struct Own(Option<&'static (dyn Any + Send + Sync)>);
 

@@ -53,8 +53,8 @@ impl MarkerTable {
     }
 }
 
-/// The names that an element's numbers, functions and marker references are looked up in. Each lookup takes the key of the
-/// scene that it reads, which errors then name.
+/// The names that an element's numbers, functions and marker references are looked up in. Each lookup takes the key of
+/// the scene that it reads, which errors then name.
 pub struct Build<'a, const D: usize> {
     /// Values of the scene's parameters.
     pub parameters: &'a Parameters,
@@ -218,7 +218,8 @@ impl<const D: usize> Build<'_, D> {
         }
     }
 
-    /// Refuses an element that makes sense in one kind of scene only: `what` needs the `dimension`; in others take `instead`.
+    /// Refuses an element that makes sense in one kind of scene only: `what` needs the `dimension`; in others take
+    /// `instead`.
     pub fn needs_dimension(&self, dimension: usize, what: &str, instead: &str) -> Result<()> {
         match D == dimension {
             true => Ok(()),
@@ -243,9 +244,9 @@ impl<const D: usize> Build<'_, D> {
         Ok(signal)
     }
 
-    /// Number of a switching function that an element has in addition to its expressions; its threshold is zero. `switching` of
-    /// its kernel writes the argument at this number; [`Regime::piece`](crate::math::Regime::piece) gives the side of
-    /// zero whose law applies within a step: 0 below, 2 above.
+    /// Number of a switching function that an element has in addition to its expressions; its threshold is zero.
+    /// `switching` of its kernel writes the argument at this number; [`Regime::piece`](crate::math::Regime::piece)
+    /// gives the side of zero whose law applies within a step: 0 below, 2 above.
     pub fn switch(&self) -> usize {
         let all = &mut self.switches.borrow_mut().all;
         all.push(Switch { thresholds: vec![0.0], of_time: None });

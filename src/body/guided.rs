@@ -5,8 +5,8 @@ use crate::error::{Error, Result};
 use crate::math::Scalar;
 use crate::math::rotation::Matrix3;
 
-/// r = rest + the free translations, R = Rot(axis, angle) R_0. The moment of inertia about a fixed axis is constant, so M
-/// is constant and diagonal and no velocity-dependent force does work.
+/// r = rest + the free translations, R = Rot(axis, angle) R_0. The moment of inertia about a fixed axis is constant, so
+/// M is constant and diagonal and no velocity-dependent force does work.
 pub struct Guided<const D: usize> {
     mass: f64,
     /// Moment about the axis of rotation, kg m^2.

@@ -3,8 +3,8 @@
 //! A body owns coordinates q (with q' = N(q) v) and markers. It gives the frames of its markers as functions of q,
 //! and pulls a wrench at a marker back to its generalized forces, J^T w. Joints and forces see nothing else.
 //!
-//! To add one: a file with a [`BodySpec`] and a [`BodyKernel`], and a line in [`registry`]; from outside the crate, the same
-//! two and [`Elements::with_body`](crate::scene::Elements::with_body), as in `tests/examples/own_body.rs`.
+//! To add one: a file with a [`BodySpec`] and a [`BodyKernel`], and a line in [`registry`]; from outside the crate, the
+//! same two and [`Elements::with_body`](crate::scene::Elements::with_body), as in `tests/examples/own_body.rs`.
 
 mod attitude;
 mod build;
@@ -67,8 +67,8 @@ pub struct Energy<S = f64> {
     pub potential: S,
 }
 
-/// The equations of a rigid body of a few coordinates, at most [`MOST_COORDINATES`], with a constant M, written once over any
-/// scalar. Bodies beyond that implement [`Body`] and [`BodyOver`] themselves.
+/// The equations of a rigid body of a few coordinates, at most [`MOST_COORDINATES`], with a constant M, written once
+/// over any scalar. Bodies beyond that implement [`Body`] and [`BodyOver`] themselves.
 pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
     /// Coordinate names without that of the body, such as `x` or `qw`.
     fn coordinate_names(&self) -> Vec<&'static str>;
@@ -85,8 +85,8 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
     /// The frame in which its markers are fixed; in the plane `turn` is the angle of the axes.
     fn frame<S: Scalar>(&self, q: &[S]) -> Frame<S, D>;
 
-    /// f += J^T w for a wrench at the frame of one of the markers. Default: J is the derivative of [`frame`](Self::frame),
-    /// one coordinate at a time.
+    /// f += J^T w for a wrench at the frame of one of the markers. Default: J is the derivative of
+    /// [`frame`](Self::frame), one coordinate at a time.
     fn pull_back<S: Scalar>(&self, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S])
     where
         Self: Sized,
@@ -94,7 +94,8 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
         kernel::pull_back(self, q, frame, wrench, f);
     }
 
-    /// Places of the mass matrix's lower triangle, in the order of the values of [`mass`](Self::mass). Default: the diagonal.
+    /// Places of the mass matrix's lower triangle, in the order of the values of [`mass`](Self::mass). Default: the
+    /// diagonal.
     fn mass_pattern(&self) -> Vec<(usize, usize)> {
         (0..self.velocity_names().len()).map(|i| (i, i)).collect()
     }
@@ -184,7 +185,7 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Dual6, D> + Send + S
     fn mass_pattern(&self) -> Vec<(usize, usize)>;
     /// Mass matrix M(q): `values` at the places of [`mass_pattern`](Body::mass_pattern).
     fn mass(&self, q: &[f64], values: &mut [f64]);
-    /// values += stiffness of the body against its own deformation, at the places of M, for the weights of assembly.
+    /// values += elastic stiffness of the body, at the places of M, for the weights of assembly.
     fn add_stiffness(&self, values: &mut [f64]);
     /// f += weight, velocity-dependent inertia forces, and the body's own elastic and damping forces.
     fn own_forces(&self, q: &[f64], v: &[f64], gravity: &[f64; D], f: &mut [f64]);

@@ -250,8 +250,8 @@ impl Rigid {
     }
 }
 
-/// Refuses an inertia tensor that no mass distribution has: principal moments must be >= 0 and each at most the sum of the
-/// other two.
+/// Refuses an inertia tensor that no mass distribution has: principal moments must be >= 0 and each at most the sum of
+/// the other two.
 fn physical(tensor: &Matrix3) -> Result<()> {
     let mut moments: Vec<f64> =
         SymmetricEigen::new(Tensor::from_fn(|i, j| tensor[i][j])).eigenvalues.iter().copied().collect();

@@ -1,8 +1,9 @@
 //! Angles in space that are counted through full turns.
 //!
-//! Quaternions give an angle up to full turns, so the state has it as a further coordinate, as it has four numbers for a
-//! rotation: a = sum_i z_i atan2(s_i, c_i), s_i = e_y . b_x and c_i = e_x . b_x, corrected to the value of the quaternions at
-//! every accepted state. In between a' is integrated, which gives the number of full turns for steps of any size.
+//! Quaternions give an angle up to full turns, so the state has it as a further coordinate, as it has four numbers for
+//! a rotation: a = sum_i z_i atan2(s_i, c_i), s_i = e_y . b_x and c_i = e_x . b_x, corrected to the value of the
+//! quaternions at every accepted state. In between a' is integrated, which gives the number of full turns for steps of
+//! any size.
 
 use super::{Carried, MarkerId, cross, dot, sub};
 use crate::math::Regime;
@@ -32,7 +33,8 @@ pub struct Turning {
 }
 
 impl Turned {
-    /// c, s and the rate of the angle, rad/s: (w_b - w_e) . b_x x (c e_y - s e_x)/(c^2 + s^2); zero if b_x is nearly along e_z.
+    /// c, s and the rate of the angle, rad/s: (w_b - w_e) . b_x x (c e_y - s e_x)/(c^2 + s^2); zero if b_x is nearly
+    /// along e_z.
     #[inline]
     fn at<'m, const D: usize>(&self, marker: impl Fn(MarkerId) -> Carried<'m, D>) -> [f64; 3] {
         let (of, to) = (marker(self.of), marker(self.to));
@@ -51,7 +53,8 @@ impl Turning {
         self.terms.iter().map(|term| term.factor * term.at(&marker)[2]).sum()
     }
 
-    /// The value of the angle, known up to full turns, that is nearest to `before`; `before` itself if the angle is undefined.
+    /// The value of the angle, known up to full turns, that is nearest to `before`; `before` itself if the angle is
+    /// undefined.
     pub fn next_to<'m, const D: usize>(&self, before: f64, marker: impl Fn(MarkerId) -> Carried<'m, D>) -> f64 {
         let mut sum = 0.0;
         for term in &self.terms {

@@ -1,7 +1,7 @@
 //! MATLAB's MAT files, level 5, without compression.
 //!
-//! A header of 128 bytes, then one element a variable. An element is a type, a length and data up to a multiple of eight
-//! bytes; a variable is an element of elements: flags, dimensions, name, real part, imaginary part.
+//! A header of 128 bytes, then one element a variable. An element is a type, a length and data up to a multiple of
+//! eight bytes; a variable is an element of elements: flags, dimensions, name, real part, imaginary part.
 
 use super::Array;
 use crate::error::{Error, Result};

@@ -3,8 +3,8 @@
 //! A force is one kernel over moving frames; bodies pull its wrenches back to generalized forces. It also returns its
 //! potential: the power of its wrenches beyond minus the potential's rate is the work in the energy balance.
 //!
-//! To add one: a file with a [`ForceSpec`] and a [`ForceKernel`], and a line in [`registry`]; from outside the crate, the
-//! same two and [`Elements::with_force`](crate::scene::Elements::with_force), as in `tests/examples/own_force.rs`.
+//! To add one: a file with a [`ForceSpec`] and a [`ForceKernel`], and a line in [`registry`]; from outside the crate,
+//! the same two and [`Elements::with_force`](crate::scene::Elements::with_force), as in `tests/examples/own_force.rs`.
 
 mod applied;
 mod beam;
@@ -55,8 +55,8 @@ pub struct Wheel {
 
 /// A force's equations, written once over any scalar.
 pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
-    /// Writes the wrench on each marker's body, in world axes; `out` is zero on entry. The energy balance counts its power
-    /// plus the rate of the returned potential as work, so a force that stores energy must return it.
+    /// Writes the wrench on each marker's body, in world axes; `out` is zero on entry. The energy balance counts its
+    /// power plus the rate of the returned potential as work, so a force that stores energy must return it.
     fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S>;
     /// True if inputs of a scene can add to its components, by [`Self::driven`]. Default: false.
     fn takes_inputs(&self) -> bool {
@@ -76,7 +76,8 @@ pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
     ) -> Action<S> {
         ForceKernel::act(self, frames, time, out)
     }
-    /// Writes the arguments of its switching functions at the numbers that [`Build::switch`] gave; those of an expression by
+    /// Writes the arguments of its switching functions at the numbers that [`Build::switch`] gave; those of an
+    /// expression by
     /// [`Expression::arguments`](crate::math::expression::Expression::arguments). Default: it has none.
     fn switching(&self, _frames: &Motion<Rate, D>, _time: Instant<Rate>, _out: &mut [Rate]) {}
     /// True if its law assumes a small rotation between its markers. Default: false.

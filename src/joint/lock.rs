@@ -36,13 +36,15 @@ impl<const D: usize> Lock<D> {
         Lock { translation, rotation, triad: None }
     }
 
-    /// The joint with its axis number `principal` along `direction` in both markers instead of along the marker's own axis.
+    /// The joint with its axis number `principal` along `direction` in both markers instead of along the marker's own
+    /// axis.
     pub fn along(mut self, principal: usize, direction: Option<[f64; D]>) -> Self {
         self.triad = direction.map(|direction| triad(principal, direction));
         self
     }
 
-    /// The joint between two markers, which must be on different bodies and have an orientation if a rotation is locked.
+    /// The joint between two markers, which must be on different bodies and have an orientation if a rotation is
+    /// locked.
     pub fn between(self, names: &[String; 2], build: &Build<D>) -> Result<Built<D>> {
         let markers = build.between(names)?;
         if !self.rotation.is_empty() {

@@ -4,8 +4,8 @@
 //! evaluated with seeded frames (dual numbers) it gives its gradient with respect to the twists of its markers, which
 //! the bodies pull back to rows of G.
 //!
-//! To add one: a file with a [`JointSpec`] and a [`JointKernel`], and a line in [`registry`]; from outside the crate, the
-//! same two and [`Elements::with_joint`](crate::scene::Elements::with_joint), as in `tests/examples/own_joint.rs`.
+//! To add one: a file with a [`JointSpec`] and a [`JointKernel`], and a line in [`registry`]; from outside the crate,
+//! the same two and [`Elements::with_joint`](crate::scene::Elements::with_joint), as in `tests/examples/own_joint.rs`.
 
 mod cylindrical;
 mod distance;
@@ -42,9 +42,9 @@ pub enum Axis {
 
 /// A joint's equations, written once over any scalar.
 pub trait JointKernel<const D: usize>: Send + Sync + 'static {
-    /// A name for each row, 1 to [`MOST_ROWS`]: the direction it constrains. Rows named `x`, `y`, `z` and `length` are in metres,
-    /// all others in radians: drift is measured in these units. A single row `length` is that of a rod, whose tension
-    /// outputs can read; that of a single row `angle` is a torque.
+    /// A name for each row, 1 to [`MOST_ROWS`]: the direction it constrains. Rows named `x`, `y`, `z` and `length` are
+    /// in metres, all others in radians: drift is measured in these units. A single row `length` is that of a rod,
+    /// whose tension outputs can read; that of a single row `angle` is a torque.
     fn row_names(&self) -> Vec<&'static str>;
     /// True if phi depends on t explicitly; phi_t is taken as zero if not.
     fn depends_on_time(&self) -> bool;
@@ -52,10 +52,11 @@ pub trait JointKernel<const D: usize>: Send + Sync + 'static {
     fn joint_axis(&self, _first: &Frame<f64, D>) -> Option<Axis> {
         None
     }
-    /// Writes phi, one value a row, at the frames of the joint's markers, in the order of [`Built::markers`]; zero where the
-    /// joint is closed. Derivatives follow from the scalars that are put in.
+    /// Writes phi, one value a row, at the frames of the joint's markers, in the order of [`Built::markers`]; zero
+    /// where the joint is closed. Derivatives follow from the scalars that are put in.
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]);
-    /// Writes the arguments of its switching functions at the numbers that [`Build::switch`] gave; those of an expression by
+    /// Writes the arguments of its switching functions at the numbers that [`Build::switch`] gave; those of an
+    /// expression by
     /// [`Expression::arguments`](crate::math::expression::Expression::arguments). Default: it has none.
     fn switching(&self, _frames: &[Frame<Rate, D>], _time: Time<Rate>, _out: &mut [Rate]) {}
 }
@@ -149,8 +150,8 @@ impl<const D: usize> Built<D> {
     }
 }
 
-/// The keys of a kind of joint in a scene, without name and type. Derive `serde::Deserialize`, with `deny_unknown_fields`,
-/// and `schemars::JsonSchema`; doc comments become those of the schema. A field of type
+/// The keys of a kind of joint in a scene, without name and type. Derive `serde::Deserialize`, with
+/// `deny_unknown_fields`, and `schemars::JsonSchema`; doc comments become those of the schema. A field of type
 /// [`Number`](crate::math::expression::Number) may be an expression.
 pub trait JointSpec: DeserializeOwned + JsonSchema {
     /// Its `type` in scenes.

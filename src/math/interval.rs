@@ -4,8 +4,8 @@ use super::scalar::{Scalar, Unary};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// The numbers from `low` to `high`. Every operation gives an interval that contains all its results, up to rounding; one
-/// without bounds gives all numbers. Source: Moore, Kearfott, Cloud, Introduction to Interval Analysis, 2.
+/// The numbers from `low` to `high`. Every operation gives an interval that contains all its results, up to rounding;
+/// one without bounds gives all numbers. Source: Moore, Kearfott, Cloud, Introduction to Interval Analysis, 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     /// Lower bound.

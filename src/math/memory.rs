@@ -8,8 +8,8 @@ const MOST: f64 = 4e9;
 /// Up to this size, bytes, the free memory is not queried.
 const SMALL: f64 = 64e6;
 
-/// Refuses `copies` dense matrices of `rows` x `columns` that take more than 4 GB, or more than the free memory of the machine and
-/// of the process.
+/// Refuses `copies` dense matrices of `rows` x `columns` that take more than 4 GB, or more than the free memory of the
+/// machine and of the process.
 ///
 /// # Errors
 /// Bad input with the size and the limit; the caller adds the remedy.

@@ -49,9 +49,9 @@ pub enum Verdict {
     Diverged,
 }
 
-/// Convergence monitor on the sizes of successive changes d_k. With the rate theta = |d_k|/|d_(k-1)|, the geometric mean of the last two, the
-/// error left after a correction is theta/(1 - theta) |d_k|. Source: Hairer, Wanner, Solving Ordinary Differential
-/// Equations II, IV.8.
+/// Convergence monitor on the sizes of successive changes d_k. With the rate theta = |d_k|/|d_(k-1)|, the geometric
+/// mean of the last two, the error left after a correction is theta/(1 - theta) |d_k|. Source: Hairer, Wanner, Solving
+/// Ordinary Differential Equations II, IV.8.
 #[derive(Clone, Debug)]
 pub struct Monitor {
     limits: Limits,
@@ -67,8 +67,8 @@ pub struct Monitor {
     contraction: f64,
     size: f64,
     ratio: f64,
-    /// Size of the change at which the last iteration diverged, or at which changes are known to be round-off; zero once one
-    /// converged.
+    /// Size of the change at which the last iteration diverged, or at which changes are known to be round-off; zero
+    /// once one converged.
     stalled: f64,
 }
 
@@ -89,8 +89,8 @@ impl Default for Monitor {
 }
 
 impl Monitor {
-    /// Iterates: `correct` applies one correction, with a new matrix if its argument is true, and returns the size of the
-    /// change. Returns true if the iteration converged.
+    /// Iterates: `correct` applies one correction, with a new matrix if its argument is true, and returns the size of
+    /// the change. Returns true if the iteration converged.
     pub fn solve<E>(&mut self, limits: Limits, mut correct: impl FnMut(bool) -> Result<f64, E>) -> Result<bool, E> {
         self.begin(limits);
         loop {
@@ -138,10 +138,10 @@ impl Monitor {
         verdict
     }
 
-    /// True if changes that no longer decrease are round-off: below the stagnation tolerance, or tolerable and of the size
-    /// at which the iteration of a longer step, which contracts less, stopped too. Masses of very different size and nearly
-    /// dependent constraints make round-off larger than the estimate. Later steps accept this size at once; otherwise each
-    /// would have to be shorter than the one before.
+    /// True if changes that no longer decrease are round-off: below the stagnation tolerance, or tolerable and of the
+    /// size at which the iteration of a longer step, which contracts less, stopped too. Masses of very different size
+    /// and nearly dependent constraints make round-off larger than the estimate. Later steps accept this size at once;
+    /// otherwise each would have to be shorter than the one before.
     fn is_round_off(&self, change: f64) -> bool {
         let is_met_again = change <= tolerances::ROUND_OFF_ALIKE * self.stalled
             && self.stalled <= tolerances::ROUND_OFF_ALIKE * change;
@@ -252,7 +252,8 @@ mod tests {
         assert!(!run(&mut monitor, exact, 1e-3, 1e-7).0, "above the stagnation tolerance");
     }
 
-    /// A longer step stopped at this size, too: from the second on such changes are round-off, until an iteration converges.
+    /// A longer step stopped at this size, too: from the second on such changes are round-off, until an iteration
+    /// converges.
     #[test]
     fn round_off_that_was_met_twice_is_known() {
         let mut monitor = Monitor::default();

@@ -2,8 +2,8 @@
 //!
 //! A function that changes its form does so where an argument, the switching function, passes a threshold. A step of an
 //! integrator keeps every function on the piece of the step's start, beyond its threshold too: the right side is then
-//! smooth, and the methods keep their orders. The time loop finds the passage and ends the step there. Source: Hairer, Norsett, Wanner,
-//! Solving Ordinary Differential Equations I, II.6 (discontinuous equations).
+//! smooth, and the methods keep their orders. The time loop finds the passage and ends the step there. Source: Hairer,
+//! Norsett, Wanner, Solving Ordinary Differential Equations I, II.6 (discontinuous equations).
 
 use super::scalar::Scalar;
 use std::f64::consts::TAU;
@@ -25,8 +25,9 @@ pub fn piece_of(argument: f64, count: usize, threshold: impl Fn(usize) -> f64) -
     Some(2 * low as Piece + Piece::from(is_at))
 }
 
-/// Discrete state of an evaluation: the piece of each function of a scene, by the number of its switching function, or none,
-/// and each takes the piece of its argument; and the values of the counted angles in space, rad, by the number of their
+/// Discrete state of an evaluation: the piece of each function of a scene, by the number of its switching function, or
+/// none, and each takes the piece of its argument; and the values of the counted angles in space, rad, by the number of
+/// their
 /// [`Turning`](crate::body::Turning).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Regime<'a> {

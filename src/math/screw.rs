@@ -1,8 +1,9 @@
 //! Logarithms of rotations and of rigid motions.
 //!
-//! A rigid motion with rotation matrix R and displacement p is that of a screw of constant pitch and axis. Its logarithm is
-//! (u, a): a the rotation vector of R and u = p - a x p/2 + c a x (a x p), with c = (1 - (|a|/2) cot(|a|/2))/|a|^2
-//! (Sonneville, Cardona and Bruls, Comput. Methods Appl. Mech. Engrg. 268 (2014) 451-474, appendix A).
+//! A rigid motion with rotation matrix R and displacement p is that of a screw of constant pitch and axis. Its
+//! logarithm is (u, a): a the rotation vector of R and u = p - a x p/2 + c a x (a x p), with c = (1 - (|a|/2)
+//! cot(|a|/2))/|a|^2 (Sonneville, Cardona and Bruls, Comput. Methods Appl. Mech. Engrg. 268 (2014) 451-474, appendix
+//! A).
 
 use super::Scalar;
 use crate::tolerances::math as tolerances;

@@ -1,11 +1,11 @@
 //! A flexible beam in absolute coordinates: rigid nodes with the mass, and beam elements as forces between them.
 //!
-//! Each node carries the mass of the half elements beside it and the rotary inertia of their sections. The mass of half an
-//! element of length h is put h/6 from its node: at the end of a beam its weight and its inertia in bending then act with the
-//! moment rho A h^2/12 of a distributed load, and the inertia of the beam as a rigid body is that of its line but for
-//! rho A h^3/36. Between equal elements the two shifts cancel. The statics of a straight element under loads at its nodes
-//! or its own weight are exact; frequencies of bending converge with the fourth power of its length (the third where an
-//! end turns freely), those of extension and torsion with the second.
+//! Each node carries the mass of the half elements beside it and the rotary inertia of their sections. The mass of half
+//! an element of length h is put h/6 from its node: at the end of a beam its weight and its inertia in bending then act
+//! with the moment rho A h^2/12 of a distributed load, and the inertia of the beam as a rigid body is that of its line
+//! but for rho A h^3/36. Between equal elements the two shifts cancel. The statics of a straight element under loads at
+//! its nodes or its own weight are exact; frequencies of bending converge with the fourth power of its length (the
+//! third where an end turns freely), those of extension and torsion with the second.
 //!
 //! A tapered element has the mean compliance of its part of the beam. It neglects the slope of the compliance from
 //! one end to the other: bending under shear forces then converges with the second power of the length.

@@ -1,8 +1,9 @@
 //! The mass of an absolute beam, lumped at its nodes.
 //!
 //! Half an element adds to its node the consistent loads of its mass with Hermite's cubics: N_1 = 1 - 3 x^2 + 2 x^3
-//! and, times the length h of the element, N_2 = x - 2 x^2 + x^3, x being the part of h from the node. Mass and centre of
-//! mass of the element are then exact, whatever its taper; of a uniform one it is half the mass, put h/6 from the node.
+//! and, times the length h of the element, N_2 = x - 2 x^2 + x^3, x being the part of h from the node. Mass and centre
+//! of mass of the element are then exact, whatever its taper; of a uniform one it is half the mass, put h/6 from the
+//! node.
 
 use crate::body::flexible::{Profile, Section, gauss_legendre, on_interval};
 use crate::force::Half;

@@ -80,8 +80,8 @@ fn reading(wanted: Wanted, relaxed: [f64; 3], compliance: &[f64; 6]) -> Reading 
     }
 }
 
-/// Index in `cuts` of the section of a floating beam at abscissa `at`, added if it is not there. A marker at the section
-/// itself counts as beyond it, except at the left end.
+/// Index in `cuts` of the section of a floating beam at abscissa `at`, added if it is not there. A marker at the
+/// section itself counts as beyond it, except at the left end.
 fn cut<const D: usize>(
     body: usize,
     at: f64,

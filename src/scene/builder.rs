@@ -27,8 +27,8 @@ fn object<'k>(keys: &'k mut Map<String, Value>, key: &str) -> Option<&'k mut Map
 /// # Ok::<(), holonom::Error>(())
 /// ```
 ///
-/// Values are those of JSON: numbers, or expressions over the parameters as text. A key that is given again replaces what it
-/// was; bodies, joints, forces, inputs and outputs are added in their order.
+/// Values are those of JSON: numbers, or expressions over the parameters as text. A key that is given again replaces
+/// what it was; bodies, joints, forces, inputs and outputs are added in their order.
 #[derive(Clone, Debug)]
 pub struct SceneBuilder {
     keys: Map<String, Value>,

@@ -10,9 +10,10 @@ use crate::joint::{self, JointKind, JointSpec};
 /// `Elements::default().with_joint::<PointOnParabola>()?.parse(text, &[])?` is a scene that may say
 /// `"type": "point_on_parabola"`, as in `tests/examples/own_joint.rs`.
 ///
-/// A kind is a type that reads what a scene says of it ([`BodySpec`], [`JointSpec`], [`ForceSpec`]) and makes its equations
-/// ([`BodyKernel`](body::BodyKernel), [`JointKernel`](joint::JointKernel), [`ForceKernel`](force::ForceKernel)). It is then
-/// used like a built-in one in every formulation, in linear models, outputs and the energy balance.
+/// A kind is a type that reads what a scene says of it ([`BodySpec`], [`JointSpec`], [`ForceSpec`]) and makes its
+/// equations ([`BodyKernel`](body::BodyKernel), [`JointKernel`](joint::JointKernel),
+/// [`ForceKernel`](force::ForceKernel)). It is then used like a built-in one in every formulation, in linear models,
+/// outputs and the energy balance.
 #[derive(Clone, Debug)]
 pub struct Elements {
     pub(super) planar: Kinds<2>,

@@ -91,8 +91,8 @@ pub fn chain(n: usize) -> Value {
 /// Beam elements in one link of a [`flexible_chain`].
 const ELEMENTS: usize = 4;
 
-/// A chain of n elastic beams on hinges of total length 1 m and mass 1 kg, hanging from one end and released level: each
-/// four geometrically exact elements. 15n coordinates, 2n constraints.
+/// A chain of n elastic beams on hinges of total length 1 m and mass 1 kg, hanging from one end and released level:
+/// each four geometrically exact elements. 15n coordinates, 2n constraints.
 pub fn flexible_chain(n: usize) -> Value {
     let (mut bodies, mut joints) = (Vec::new(), Vec::new());
     for i in 0..n {

@@ -1,7 +1,7 @@
 //! Scenes: JSON in, a checked model out.
 //!
-//! [`Scene::load`] reads a file, [`SceneBuilder`] makes one in code, and [`Elements`] adds kinds of bodies, joints and forces
-//! from outside the crate.
+//! [`Scene::load`] reads a file, [`SceneBuilder`] makes one in code, and [`Elements`] adds kinds of bodies, joints and
+//! forces from outside the crate.
 
 mod absolute_beam;
 mod beam_mass;

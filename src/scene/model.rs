@@ -103,8 +103,8 @@ impl BeamLine {
     }
 
     /// Position and internal forces of the section at `s` from the left end, 0 <= s <= length, without the inertia and
-    /// weight of the element itself; `node` gives the frame of a body of the model. At a node it is that of the element to
-    /// the left of it.
+    /// weight of the element itself; `node` gives the frame of a body of the model. At a node it is that of the element
+    /// to the left of it.
     pub fn station<S: Scalar, const D: usize>(
         &self,
         s: f64,
@@ -174,8 +174,8 @@ pub enum Measure {
         /// True for the rate of the distance, m/s, in place of the distance, m.
         rate: bool,
     },
-    /// Force (components 0 to 2), torque (3 to 5), [`FORCE_SIZE`] or [`TORQUE_SIZE`] on the second body of a joint, in the
-    /// axes of a marker.
+    /// Force (components 0 to 2), torque (3 to 5), [`FORCE_SIZE`] or [`TORQUE_SIZE`] on the second body of a joint, in
+    /// the axes of a marker.
     Reaction {
         /// Index of the joint in the model.
         joint: usize,

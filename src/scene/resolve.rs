@@ -44,7 +44,8 @@ pub fn build(file: SceneFile, elements: &Elements, overrides: &[(String, Number)
     })
 }
 
-/// The model with its initial q and v. Bodies are read first, so that joints, forces and outputs can name their markers.
+/// The model with its initial q and v. Bodies are read first, so that joints, forces and outputs can name their
+/// markers.
 fn model<const D: usize>(
     file: &SceneFile,
     kinds: &Kinds<D>,

@@ -21,7 +21,8 @@ const MOST_ELEMENTS: u32 = 10_000;
 /// Largest rotation of the line over an element of a curved beam, rad, whose axis is parallel to the chord.
 const MOST_TURN: f64 = 0.5 * PI;
 
-/// Inertia, stiffness, damping and displacement functions of a beam with markers at the abscissae `markers`, and its length, m.
+/// Inertia, stiffness, damping and displacement functions of a beam with markers at the abscissae `markers`, and its
+/// length, m.
 ///
 /// # Errors
 /// Bad input, with the path from the body on.

@@ -13,9 +13,9 @@ pub struct Modes {
 }
 
 impl Modes {
-    /// Modes by the eigenvalues 1/omega^2 of L^-1 M L^-T with K = L L^T. The largest are the most accurate, which are those
-    /// of the lowest modes; with M = L L^T these would have the round-off of the highest mode. `None` if K is not positive
-    /// definite, or M not to rounding.
+    /// Modes by the eigenvalues 1/omega^2 of L^-1 M L^-T with K = L L^T. The largest are the most accurate, which are
+    /// those of the lowest modes; with M = L L^T these would have the round-off of the highest mode. `None` if K is not
+    /// positive definite, or M not to rounding.
     pub fn of(stiffness: MatRef<f64>, mass: MatRef<f64>) -> Option<Modes> {
         let n = stiffness.nrows();
         faer::set_global_parallelism(Par::Seq);

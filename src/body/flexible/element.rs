@@ -1,9 +1,10 @@
 //! Shape functions of a straight beam element between two sections of the reference line.
 //!
-//! Its axis x is parallel to the chord, at the mean distance of the line from it, and rigid arms join it to the nodes; y is
-//! that of the section in its middle. The line itself, where the mass is, is off the axis and rotates with the sections of
-//! the element. Strains are per length of the line. On an arc rigid motions are exact, bending in its plane is of fourth
-//! order in the length of the element, and bending out of it, which is coupled to torsion, of second order.
+//! Its axis x is parallel to the chord, at the mean distance of the line from it, and rigid arms join it to the nodes;
+//! y is that of the section in its middle. The line itself, where the mass is, is off the axis and rotates with the
+//! sections of the element. Strains are per length of the line. On an arc rigid motions are exact, bending in its plane
+//! is of fourth order in the length of the element, and bending out of it, which is coupled to torsion, of second
+//! order.
 
 use super::line::{Bending, Cross};
 use super::reference::ReferenceLine;
@@ -48,9 +49,9 @@ impl Element {
         Element { start, axes, arm, length, shortness: length / (to - from), shear }
     }
 
-    /// Displacement functions, at point r of the line, of the coordinates of both nodes and of the middle: x, y, r of each
-    /// node in the plane; x, y, z, rx, ry, rz in space, along the axes of the floating frame; the middle one along the
-    /// element.
+    /// Displacement functions, at point r of the line, of the coordinates of both nodes and of the middle: x, y, r of
+    /// each node in the plane; x, y, z, rx, ry, rz in space, along the axes of the floating frame; the middle one along
+    /// the element.
     pub fn shapes<const D: usize>(&self, r: &[f64; 3], axial: Axial) -> Vec<Cross> {
         let beside = sub(r, &self.start);
         let [x, y, z] = self.axes.map(|axis| dot(&axis, &beside));
@@ -83,7 +84,8 @@ impl Element {
         }
     }
 
-    /// Turns a function of the axis into that of the line at [y, z] from it, with vectors in the axes of the floating frame.
+    /// Turns a function of the axis into that of the line at [y, z] from it, with vectors in the axes of the floating
+    /// frame.
     fn carry(&self, shape: &mut Cross, [y, z]: [f64; 2]) {
         let turned = cross(&shape.rotation, &[0.0, y, z]);
         let moved: [f64; 3] = from_fn(|k| shape.displacement[k] + turned[k]);

@@ -7,8 +7,8 @@
 //! strain of the fibre at (y, z):  u' - y r_z' + z r_y'
 //! ```
 //!
-//! so that where sections stay square to the line r_z = w_y' and r_y = -w_z'. On a line that is curved at rest strains and
-//! slopes are in the axes of its elements, displacements and rotations in those of the floating frame.
+//! so that where sections stay square to the line r_z = w_y' and r_y = -w_z'. On a line that is curved at rest strains
+//! and slopes are in the axes of its elements, displacements and rotations in those of the floating frame.
 
 use super::profile::Profile;
 use super::reference::ReferenceLine;
@@ -78,7 +78,8 @@ impl Cross {
     }
 }
 
-/// Bending in one plane: deflection w, its slope w', rotation of the section (the slope if there is no shear) and its derivative.
+/// Bending in one plane: deflection w, its slope w', rotation of the section (the slope if there is no shear) and its
+/// derivative.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bending {
     pub w: f64,
@@ -106,7 +107,8 @@ pub trait Shapes: Send + Sync {
     fn shortens(&self) -> bool {
         false
     }
-    /// The mass from `s` on, without second-order terms of shortening; one piece of all coordinates if the line shortens.
+    /// The mass from `s` on, without second-order terms of shortening; one piece of all coordinates if the line
+    /// shortens.
     fn inertia<const D: usize>(&self, s: f64) -> Inertia<D>;
 }
 

@@ -20,8 +20,8 @@ const TAPERED: usize = 6;
 /// Gauss points that integrate squares of rotations, which are at most quadratic, exactly.
 const TURNS: usize = 3;
 
-/// Elements from node to node; node k has x, y, r in the plane and x, y, z, rx, ry, rz in space, an element with quadratic
-/// axial displacement also x of its middle. The floating frame fixes some of these coordinates.
+/// Elements from node to node; node k has x, y, r in the plane and x, y, z, rx, ry, rz in space, an element with
+/// quadratic axial displacement also x of its middle. The floating frame fixes some of these coordinates.
 #[derive(Clone, Debug)]
 pub struct Mesh<const D: usize> {
     /// Abscissae of the nodes, m.

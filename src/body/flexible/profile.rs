@@ -59,8 +59,8 @@ impl Profile {
         self.at(s.clamp(from + gap, to - gap))
     }
 
-    /// The section with the mean compliance of a part of the beam, exact for its extension, its twist and its bending under
-    /// a constant moment.
+    /// The section with the mean compliance of a part of the beam, exact for its extension, its twist and its bending
+    /// under a constant moment.
     pub fn mean(&self, ends: [f64; 2]) -> Section {
         let Form::Tapered(laws) = &self.form else { return self.at(ends[0]) };
         let mean = |of: &dyn Fn(&Section) -> f64| {

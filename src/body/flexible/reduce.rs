@@ -1,16 +1,17 @@
 //! Fewer coordinates: natural modes of a beam instead of the displacements of its nodes.
 //!
-//! Craig and Bampton (Coupling of Substructures for Dynamic Analyses, AIAA Journal 6, 1968): the static deflections that unit
-//! displacements of the boundary coordinates b cause, and some natural modes Phi of the interior i with the boundary fixed,
+//! Craig and Bampton (Coupling of Substructures for Dynamic Analyses, AIAA Journal 6, 1968): the static deflections
+//! that unit displacements of the boundary coordinates b cause, and some natural modes Phi of the interior i with the
+//! boundary fixed,
 //!
 //! ```text
 //! q = T p,   T = [ I                 0   ]  of b
 //!                [ -K_ii^-1 K_ib     Phi ]  of i
 //! ```
 //!
-//! Here the reduced system is diagonalised, so that mass is the identity and stiffness diag(omega^2). Under `mean` frame
-//! conditions the mesh is free, and vectors orthogonal to its rigid motions R in the mass metric have no momentum and no
-//! moment of momentum: these are the elastic modes.
+//! Here the reduced system is diagonalised, so that mass is the identity and stiffness diag(omega^2). Under `mean`
+//! frame conditions the mesh is free, and vectors orthogonal to its rigid motions R in the mass metric have no momentum
+//! and no moment of momentum: these are the elastic modes.
 
 use super::eigen::{Modes, dense};
 use super::integrals::mass_matrix;
@@ -28,8 +29,8 @@ use std::array::from_fn;
 /// Largest dense problem, in coordinates.
 const MOST: usize = 4000;
 
-/// The beam `nodal` in its natural modes: all of them, or those of a Craig-Bampton reduction with `count` fixed-interface
-/// modes.
+/// The beam `nodal` in its natural modes: all of them, or those of a Craig-Bampton reduction with `count`
+/// fixed-interface modes.
 ///
 /// # Errors
 /// Bad input: more modes than there are, none at all, or too large a mesh.
@@ -138,8 +139,8 @@ impl System {
         Some(basis)
     }
 
-    /// The natural modes without the rigid motions. The first coordinates, as many as there are rigid motions, are those of
-    /// one node: with it fixed the stiffness is definite, and vectors without their rigid part,
+    /// The natural modes without the rigid motions. The first coordinates, as many as there are rigid motions, are
+    /// those of one node: with it fixed the stiffness is definite, and vectors without their rigid part,
     /// S = (I - R R^T M) [0; I], have that same stiffness and the mass S^T M S = M - M R R^T M.
     fn elastic_modes(&self) -> Option<Modes> {
         let (n, held) = (self.mass.nrows(), self.rigid.ncols());

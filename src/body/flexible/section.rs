@@ -27,7 +27,8 @@ impl Section {
         [self.ea, gy, gz, self.gj, self.ei[0], self.ei[1]]
     }
 
-    /// Compliance in the same order; zero for shear that is excluded and for components that a planar beam does not have.
+    /// Compliance in the same order; zero for shear that is excluded and for components that a planar beam does not
+    /// have.
     pub fn compliance<const D: usize>(&self) -> [f64; 6] {
         let stiffness = [self.ea, self.ga[0], self.ga[1], self.gj, self.ei[0], self.ei[1]];
         let acts = |i: usize| D == 3 || matches!(i, 0 | 1 | 5);

@@ -1,8 +1,8 @@
 //! A flexible body in a floating frame, by its shape functions.
 //!
-//! A point of the body is at u = psi_0 + sum_i psi_i q_i + sum_ij psi_ij q_i q_j/2 in the floating frame: psi_0 its position at
-//! rest, psi_i its displacement function of elastic coordinate i, psi_ij its second-order one of two of them. All that the
-//! equations of motion need of the mass to second order in q is in
+//! A point of the body is at u = psi_0 + sum_i psi_i q_i + sum_ij psi_ij q_i q_j/2 in the floating frame: psi_0 its
+//! position at rest, psi_i its displacement function of elastic coordinate i, psi_ij its second-order one of two of
+//! them. All that the equations of motion need of the mass to second order in q is in
 //!
 //! ```text
 //! m_a = int rho psi_a dV,   P_ab = int rho psi_a psi_b^T dV      (a, b = 0, 1, ...),
@@ -10,7 +10,8 @@
 //! ```
 //!
 //! computed once (Shabana, Dynamics of Multibody Systems, chapter 5: the shape integrals; Wallrapp, Standardization of
-//! Flexible Body Modeling in Multibody System Codes, Mechanics of Structures and Machines 22, 1994: their second order).
+//! Flexible Body Modeling in Multibody System Codes, Mechanics of Structures and Machines 22, 1994: their second
+//! order).
 
 use super::section::Section;
 use crate::body::Frame;
@@ -131,8 +132,8 @@ pub struct SectionShape {
 }
 
 /// A part of a beam whose axial force stiffens its bending (von Karman): with the mean extension a.q of the line and
-/// its mean squared slope q.S q, its energy is weight ((a.q)^2 + a.q q.S q + quartic (q.S q)^2/4)/2, of which (a.q)^2 is in
-/// the stiffness.
+/// its mean squared slope q.S q, its energy is weight ((a.q)^2 + a.q q.S q + quartic (q.S q)^2/4)/2, of which (a.q)^2
+/// is in the stiffness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stretch {
     /// Abscissae of its ends, m.

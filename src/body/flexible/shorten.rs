@@ -1,15 +1,15 @@
 //! A line that does not stretch but shortens as it bends.
 //!
-//! Few modes or functions cannot represent the shortening of a bent line: the squares of its slopes would be axial strain
-//! and lock it. If it keeps its length instead, points move along it at second order,
+//! Few modes or functions cannot represent the shortening of a bent line: the squares of its slopes would be axial
+//! strain and lock it. If it keeps its length instead, points move along it at second order,
 //!
 //! ```text
 //! u_x = -int_0^s (w_y'^2 + w_z'^2)/2 ds,   psi_ij = -int_0^s w_i'.w_j' ds along x,
 //! ```
 //!
-//! and forces along the line do work at the shortening: centrifugal forces stiffen bending, thrust softens it (Wallrapp and
-//! Schwertassek, Representation of Geometric Stiffening in Multibody System Simulation, Int. J. Numer. Meth. Engng. 32,
-//! 1991).
+//! and forces along the line do work at the shortening: centrifugal forces stiffen bending, thrust softens it (Wallrapp
+//! and Schwertassek, Representation of Geometric Stiffening in Multibody System Simulation, Int. J. Numer. Meth. Engng.
+//! 32, 1991).
 
 use super::gauss::{gauss_legendre, on_interval};
 use super::line::Shapes;

@@ -41,7 +41,8 @@ pub(super) fn transposed<S: Scalar, const D: usize>(m: &Matrix<S, D>) -> Matrix<
     from_fn(|i| from_fn(|j| m[j][i]))
 }
 
-/// tr(m) w - m w: with m = int v u^T this is int u x (w x v), and with the symmetric int u u^T the moment of momentum J w.
+/// tr(m) w - m w: with m = int v u^T this is int u x (w x v), and with the symmetric int u u^T the moment of momentum J
+/// w.
 #[inline]
 pub(super) fn swung<S: Scalar, const D: usize>(m: &Matrix<S, D>, w: &[S; 3]) -> [S; 3] {
     let (trace, along) = (trace(m), times(m, w));

@@ -8,9 +8,9 @@
 //! moment = J w_s' + w_s x J w_s
 //! ```
 //!
-//! Its reaction to the frame's rotation is R moment, to q_i it is r_i . T^T moment. Its energy is a square at any a, so that the mass matrix
-//! of the body stays positive at any deformation; integrals to a finite order in q would not keep it so. In the plane
-//! w_s = w + a': a constant mass, and nothing else.
+//! Its reaction to the frame's rotation is R moment, to q_i it is r_i . T^T moment. Its energy is a square at any a, so
+//! that the mass matrix of the body stays positive at any deformation; integrals to a finite order in q would not keep
+//! it so. In the plane w_s = w + a': a constant mass, and nothing else.
 
 use super::inertia::angular_velocity;
 use super::small_turn::SmallTurn;

@@ -5,10 +5,11 @@ use std::collections::BTreeMap;
 
 /// Patterns of M, K and C, and the entry of each contribution.
 pub(super) struct Layout {
-    /// Lower triangle of M: the frame's block row by row, the rows coupling elastic coordinates to the frame, then the others.
+    /// Lower triangle of M: the frame's block row by row, the rows coupling elastic coordinates to the frame, then the
+    /// others.
     pub mass: Vec<(usize, usize)>,
-    /// Places of K and C: the frame's block row by row, for each elastic coordinate its row and its column coupling it to
-    /// the frame, then the others.
+    /// Places of K and C: the frame's block row by row, for each elastic coordinate its row and its column coupling it
+    /// to the frame, then the others.
     pub tangent: Vec<(usize, usize)>,
     nv: usize,
     pub pieces: Vec<PieceLayout>,

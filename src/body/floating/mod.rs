@@ -10,10 +10,10 @@
 //! int rho dx . x'' dV = 0  for dx = dr + A (dtheta x u + sum_i psi_i dq_i),
 //! ```
 //!
-//! less the work of gravity and of the elastic forces K q + D q' and those of geometric stiffening. The whole coupling of
-//! rigid and elastic motion is kept; integrals are computed once, piece by piece, so that work and memory grow linearly
-//! with the number of elements. The sections of a beam add the rotary inertia of rigid discs. Source: Shabana, Dynamics
-//! of Multibody Systems, chapter 5.
+//! less the work of gravity and of the elastic forces K q + D q' and those of geometric stiffening. The whole coupling
+//! of rigid and elastic motion is kept; integrals are computed once, piece by piece, so that work and memory grow
+//! linearly with the number of elements. The sections of a beam add the rotary inertia of rigid discs. Source: Shabana,
+//! Dynamics of Multibody Systems, chapter 5.
 
 mod algebra;
 mod discs;

@@ -6,8 +6,8 @@ use crate::body::{Frame, Wrench, cross};
 use crate::math::{Scalar, Taylor};
 use std::array::from_fn;
 
-/// Weight less inertia of a piece, about the origin of the floating frame; `coordinate` gives an elastic coordinate with
-/// its velocity and acceleration. With the axes e_k of the frame and u_k along them, as functions of time,
+/// Weight less inertia of a piece, about the origin of the floating frame; `coordinate` gives an elastic coordinate
+/// with its velocity and acceleration. With the axes e_k of the frame and u_k along them, as functions of time,
 ///
 /// ```text
 /// force  = m (g - r'') - sum_k (e_k s_k)''                                       s_k = int rho u_k

@@ -10,8 +10,8 @@
 //! r_i = mu_i.a + alpha.ax(W_i) + w.W_i w - w.w tr(W_i) + 2 w.ax(V_i) + sum_j tr(P_ij) q_j''
 //! ```
 //!
-//! A turn dtheta of the frame, in its axes, changes a by a x dtheta and A B by A (dtheta x B); a change of q_j changes s by
-//! mu_j, mu_i by m_ij, W_i by P_ji + P_0ij and P by W_j + W_j^T.
+//! A turn dtheta of the frame, in its axes, changes a by a x dtheta and A B by A (dtheta x B); a change of q_j changes
+//! s by mu_j, mu_i by m_ij, W_i by P_ji + P_0ij and P by W_j + W_j^T.
 
 use super::algebra::*;
 use super::inertia::{angular_velocity, local, world};

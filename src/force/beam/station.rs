@@ -11,9 +11,9 @@ use std::array::from_fn;
 
 /// A section of a beam: its position and its internal forces.
 ///
-/// Forces are in the order axial force, shear forces along y and z, torque, bending moments about y and z, in the section's
-/// axes. They act on the section from the side of larger abscissae. The elastic ones times the compliances of the section are its
-/// strains against the relaxed beam: extension, shear, twist, curvatures.
+/// Forces are in the order axial force, shear forces along y and z, torque, bending moments about y and z, in the
+/// section's axes. They act on the section from the side of larger abscissae. The elastic ones times the compliances of
+/// the section are its strains against the relaxed beam: extension, shear, twist, curvatures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Station<S, const D: usize> {
     /// Position in the world, m.
@@ -40,11 +40,11 @@ impl Beam {
 
     /// The section at `x` where `loads` act on the halves of the element.
     ///
-    /// The forces of the element on its ends are exact in equilibrium for any length of it; with the loads of its halves
-    /// they are the internal forces of the end sections. Between these, force and moment follow from equilibrium, n' + f = 0 and
-    /// m' + r' x n + l = 0: cubics with the right values and slopes at both ends, but for -(r - r_0) x n_0, which is as exact
-    /// as the line. Straight elements under loads at their ends and uniform ones between are exact; others to the fourth
-    /// power of the length.
+    /// The forces of the element on its ends are exact in equilibrium for any length of it; with the loads of its
+    /// halves they are the internal forces of the end sections. Between these, force and moment follow from
+    /// equilibrium, n' + f = 0 and m' + r' x n + l = 0: cubics with the right values and slopes at both ends, but for
+    /// -(r - r_0) x n_0, which is as exact as the line. Straight elements under loads at their ends and uniform ones
+    /// between are exact; others to the fourth power of the length.
     pub fn loaded_station<S: Scalar, const D: usize>(
         &self,
         ends: [&Frame<Taylor<S>, D>; 2],

@@ -14,20 +14,22 @@ use std::array::from_fn;
 pub struct Beam {
     /// Length of the relaxed element, m.
     pub length: f64,
-    /// EA, GA along y and z, GJ, EI about y and z; N and N m^2. GA includes the residual bending flexibility, since a helix
-    /// cannot bend by a shear force.
+    /// EA, GA along y and z, GJ, EI about y and z; N and N m^2. GA includes the residual bending flexibility, since a
+    /// helix cannot bend by a shear force.
     pub(super) stiffness: [f64; 6],
     /// Strains of the relaxed element.
     pub(super) rest: [f64; 6],
     /// Fraction of the shear strain, along y and z, that represents bending.
     pub(super) bent: [f64; 2],
-    /// One over EA, GA along y and z, GJ, EI about y and z of the sections at the ends; zero for what the beam does not do.
+    /// One over EA, GA along y and z, GJ, EI about y and z of the sections at the ends; zero for what the beam does not
+    /// do.
     pub(super) compliance: [[f64; 6]; 2],
     /// Stress is stiffness times (strain + damping times its rate), s.
     pub(super) damping: f64,
 }
 
-/// Relative motion of the end frames: the logarithm of the screw from one to the other, and their gap, in the first's axes.
+/// Relative motion of the end frames: the logarithm of the screw from one to the other, and their gap, in the first's
+/// axes.
 pub(super) struct Strains<S> {
     pub gap: Vector<Moving<S>>,
     pub turn: Vector<Moving<S>>,
@@ -77,7 +79,8 @@ impl Beam {
         Beam { compliance: ends.map(|section| section.compliance::<D>()), ..self }
     }
 
-    /// One over EA, GA along y and z, GJ, EI about y and z of the sections at the ends; zero for what the beam does not do.
+    /// One over EA, GA along y and z, GJ, EI about y and z of the sections at the ends; zero for what the beam does not
+    /// do.
     pub fn compliance(&self) -> &[[f64; 6]; 2] {
         &self.compliance
     }
@@ -92,10 +95,11 @@ impl Beam {
         ReferenceLine { length: self.length, curvature: self.curvature() }.at(x).1
     }
 
-    /// Ratio of the length of the bent line to that of the relaxed one, from the logarithm's shift per length. A line inclined by
-    /// phi(x) is longer than its chord by the mean of phi^2/2, which for the cubic of a shear force is 0.6 of its squared
-    /// mean; a shear g of the sections adds phi g. Under the root this holds for small shear, and for any shear the
-    /// line is at least as long as its chord: without that, tension above 12 EI/L^2 would rotate the sections away from it.
+    /// Ratio of the length of the bent line to that of the relaxed one, from the logarithm's shift per length. A line
+    /// inclined by phi(x) is longer than its chord by the mean of phi^2/2, which for the cubic of a shear force is 0.6
+    /// of its squared mean; a shear g of the sections adds phi g. Under the root this holds for small shear, and for
+    /// any shear the line is at least as long as its chord: without that, tension above 12 EI/L^2 would rotate the
+    /// sections away from it.
     fn stretch<S: Scalar>(&self, [x, y, z]: Vector<S>) -> S {
         let [long_y, long_z] = self.lengthening();
         let square = x * x + y * y * long_y + z * z * long_z;
@@ -107,10 +111,10 @@ impl Beam {
         self.bent.map(|bent| 2.0 * bent * (1.0 - 0.4 * bent))
     }
 
-    /// The strains at the middle of the element, that of extension counted from zero length. A curvature that grows along the
-    /// element by k' L from end to end lets the logarithm of the motion differ from the strain in the middle by
-    /// L^2 [strain, strain']/12 (Magnus): in the shift this is the shear g of [`Beam::new`], with k' L^2/12 = g x e_x;
-    /// in the turn it is taken off here.
+    /// The strains at the middle of the element, that of extension counted from zero length. A curvature that grows
+    /// along the element by k' L from end to end lets the logarithm of the motion differ from the strain in the middle
+    /// by L^2 [strain, strain']/12 (Magnus): in the shift this is the shear g of [`Beam::new`], with k' L^2/12 = g x
+    /// e_x; in the turn it is taken off here.
     #[inline]
     pub(super) fn strain<S: Scalar>(&self, strains: &Strains<S>) -> [Moving<S>; 6] {
         let per_length = 1.0 / self.length;

@@ -5,8 +5,8 @@ use super::Matrix;
 /// The column of each row, all different, with the least sum of costs: shortest augmenting paths (Jonker and Volgenant,
 /// Computing 38, 1987), rows^2 cols operations. Deterministic among solutions of equal cost.
 ///
-/// With more rows than columns some rows get a number from `cost.ncols()` on, which is no column. Costs that are not finite are
-/// avoided if possible.
+/// With more rows than columns some rows get a number from `cost.ncols()` on, which is no column. Costs that are not
+/// finite are avoided if possible.
 pub fn assign(cost: &Matrix) -> Vec<usize> {
     let (rows, cols) = (cost.nrows(), cost.ncols().max(cost.nrows()));
     let finite = cost.iter().filter(|x| x.is_finite()).fold(0.0, |largest: f64, x| largest.max(x.abs()));

@@ -15,8 +15,8 @@ pub struct Balanced {
     pub time: f64,
 }
 
-/// Chooses the unit of time by the sizes of all entries, then makes rows and columns of |A| / time + |E| sum to about 1 (as
-/// Lemonnier and Van Dooren, "Balancing regular matrix pencils", SIAM J. Matrix Anal. Appl. 28, 2006, with sums for
+/// Chooses the unit of time by the sizes of all entries, then makes rows and columns of |A| / time + |E| sum to about 1
+/// (as Lemonnier and Van Dooren, "Balancing regular matrix pencils", SIAM J. Matrix Anal. Appl. 28, 2006, with sums for
 /// squares). Entries are at most about 1 then, so round-off is known by its size. A few n^2 operations for each sweep.
 pub fn balance(a: &Matrix, e: &Matrix) -> Balanced {
     let n = a.nrows();
@@ -33,9 +33,9 @@ pub fn balance(a: &Matrix, e: &Matrix) -> Balanced {
     balanced
 }
 
-/// The t with which logarithms of all |D1 A D2| / t and |D1 E D2| are nearest to zero by least squares over D1, D2 and t
-/// (Curtis and Reid, "On the automatic scaling of matrices for Gaussian elimination", IMA J. Appl. Math. 10, 1972), so that
-/// it does not depend on the given scaling: for M s^2 + K the mean of omega. By alternating minimization.
+/// The t with which logarithms of all |D1 A D2| / t and |D1 E D2| are nearest to zero by least squares over D1, D2 and
+/// t (Curtis and Reid, "On the automatic scaling of matrices for Gaussian elimination", IMA J. Appl. Math. 10, 1972),
+/// so that it does not depend on the given scaling: for M s^2 + K the mean of omega. By alternating minimization.
 fn time(a: &Matrix, e: &Matrix) -> f64 {
     let n = a.nrows();
     let entries = logarithms(a, e);

@@ -117,8 +117,8 @@ fn vectors(a: &Matrix, units: &[Unit], right: &Mat<f64>, left: &Mat<f64>) -> Res
     if converged == wanted { Ok(found) } else { Err(Unsolved::NotConverged { converged, wanted }) }
 }
 
-/// Recomputes poor vectors in the unbalanced matrix: round-off in place of zeros, such as 1e-30, makes balancing choose scales that
-/// magnify the round-off in a vector.
+/// Recomputes poor vectors in the unbalanced matrix: round-off in place of zeros, such as 1e-30, makes balancing choose
+/// scales that magnify the round-off in a vector.
 fn mend(a: &Matrix, units: &[Unit], right: &mut [Vector], left: &mut [Vector]) -> Result<(), Unsolved> {
     let complex = dense::complex(a);
     let of_adjoint = complex.adjoint();

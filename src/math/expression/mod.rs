@@ -43,8 +43,8 @@
 //!
 //! The points of a table are constants with increasing `x`. At a point the slope is that of the line to its right.
 //!
-//! `abs`, `min`, `max`, `sign`, `step`, `smoothstep`, comparisons and tables change their form where an argument passes a
-//! threshold: see [`Switch`].
+//! `abs`, `min`, `max`, `sign`, `step`, `smoothstep`, comparisons and tables change their form where an argument passes
+//! a threshold: see [`Switch`].
 //!
 //! `x^n` with a constant whole n takes any x, and `0^0` is 1. Every other power wants x >= 0 and is not a number for
 //! x < 0. Only the chosen one of `if`'s two values counts: the other may be infinite or not a number.
@@ -82,23 +82,23 @@ use error::excerpt;
 use program::{Op, Program};
 use std::fmt;
 
-/// What a name stands for.
+/// Meaning of a name in an expression.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[doc(hidden)]
 pub enum Name {
     /// A number known when the expression is parsed.
     Constant(f64),
-    /// The number at this index of what [`Expression::eval`] is given.
+    /// The entry at this index of the variables of [`Expression::eval`].
     Variable(usize),
 }
 
-/// The names that an expression may use beside functions and `pi`.
+/// The names that an expression may use in addition to functions and `pi`.
 #[doc(hidden)]
 pub trait Names {
-    /// `None` for a name that is not known here.
+    /// Meaning of a name; `None` if it is not known.
     fn resolve(&self, name: &str) -> Option<Name>;
 
-    /// All known names, for "did you mean".
+    /// All known names, for suggestions in error messages.
     fn known(&self) -> Vec<String>;
 }
 
@@ -113,19 +113,19 @@ pub struct Expression {
 }
 
 impl Expression {
-    /// Compiles `text`, see the grammar above. What is constant is computed at once.
+    /// Compiles `text`, see the grammar in the module's documentation. Constant parts are computed at once.
     ///
     /// # Errors
     ///
     /// For text that is not an expression, unknown names and functions, wrong numbers of arguments, tables that are
     /// not constant and increasing, more than 150 levels of nesting, and more than 64 intermediate results at once.
-    /// A division by zero is none of these: see [`constant`](Self::constant).
+    /// A division by zero is no error here: see [`constant`](Self::constant).
     pub fn parse(text: &str, names: &dyn Names) -> Result<Self, ExpressionError> {
         let (program, variables) = parser::parse(text, names)?;
         Ok(Expression { text: text.to_string(), program, variables, first: 0 })
     }
 
-    /// The value at `variables`, which are indexed as [`Names::resolve`] said.
+    /// The value at `variables`, with the indices that [`Names::resolve`] returned.
     ///
     /// # Panics
     ///
@@ -135,18 +135,18 @@ impl Expression {
         self.program.eval(variables)
     }
 
-    /// The same with the pieces of `regime`, see [`number_switches`](Self::number_switches).
+    /// The value with the pieces of `regime`, see [`number_switches`](Self::number_switches).
     #[inline]
     pub fn eval_held<S: Scalar>(&self, variables: &[S], regime: Regime) -> S {
         if regime.is_free() { self.eval(variables) } else { self.program.eval_held(variables, self.first, regime) }
     }
 
-    /// Writes the arguments of its switching functions, one after the other from the number of its first on.
+    /// Writes the arguments of its switching functions to `out` at their numbers, with the pieces of `regime`.
     pub fn arguments<S: Scalar>(&self, variables: &[S], regime: Regime, out: &mut [S]) {
         self.program.arguments(variables, self.first, regime, &mut out[self.first..]);
     }
 
-    /// What was parsed.
+    /// The text that was parsed.
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -156,12 +156,12 @@ impl Expression {
         self.variables.iter().map(|(index, name)| (*index, name.as_str()))
     }
 
-    /// Whether the value may change with variable `index`.
+    /// True if the value may change with variable `index`.
     pub fn depends_on(&self, index: usize) -> bool {
         self.variables.iter().any(|(known, _)| *known == index)
     }
 
-    /// Whether the value depends on no variable.
+    /// True if the value depends on no variable.
     pub fn is_constant(&self) -> bool {
         self.variables.is_empty()
     }
@@ -185,7 +185,7 @@ impl Expression {
     }
 }
 
-/// A constant, written as the shortest text that stands for it.
+/// A constant expression, with the number as its text.
 impl From<f64> for Expression {
     fn from(value: f64) -> Self {
         let program = Program::constant(value);

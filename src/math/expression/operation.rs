@@ -201,8 +201,8 @@ fn whole_power<S: Scalar>(x: S, n: i32) -> S {
     if n < 0 { quotient(S::one(), x.powi(n.saturating_neg())) } else { x.powi(n) }
 }
 
-/// The square root. Its infinite slope at zero is replaced by the largest number, so that a constant zero has a constant
-/// root and other derivatives are visibly huge.
+/// The square root. Its infinite slope at zero is replaced by the largest number, so that a constant zero has a
+/// constant root and other derivatives are visibly huge.
 fn root<S: Scalar>(x: S) -> S {
     if x.bounds() == [0.0; 2] { x * f64::MAX } else { x.sqrt() }
 }
@@ -230,7 +230,8 @@ fn complement<S: Scalar>(x: S) -> S {
     (S::one() - x) * (x + 1.0)
 }
 
-/// tanh by the quotient near zero, which has all digits; by the scalar's own form, which cannot overflow; constant from 400 on.
+/// tanh by the quotient near zero, which has all digits; by the scalar's own form, which cannot overflow; constant from
+/// 400 on.
 fn tanh<S: Scalar>(x: S) -> S {
     match x.bounds() {
         [low, high] if -1.0 < low && high < 1.0 => x.sinh() / x.cosh(),

@@ -36,8 +36,8 @@ pub struct ParameterError {
 type Result<T> = std::result::Result<T, ParameterError>;
 
 impl Parameters {
-    /// Evaluates the parameters `given`, with `overrides`, numbers or expressions over the other parameters, in place of
-    /// their values; the last of several overrides of one parameter counts.
+    /// Evaluates the parameters `given`, with `overrides`, numbers or expressions over the other parameters, in place
+    /// of their values; the last of several overrides of one parameter counts.
     ///
     /// # Errors
     ///

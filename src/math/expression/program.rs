@@ -106,8 +106,8 @@ impl Program {
     }
 
     /// The value with every piecewise operation on its piece of `regime`, where the program's switching functions are
-    /// numbered from `first` on. If the value is then not finite, as for a root extended to negative numbers, the pieces
-    /// are those of the arguments.
+    /// numbered from `first` on. If the value is then not finite, as for a root extended to negative numbers, the
+    /// pieces are those of the arguments.
     pub fn eval_held<S: Scalar>(&self, variables: &[S], first: usize, regime: Regime) -> S {
         let held = self.run::<S, false>(variables, &mut |number, own, _| regime.piece(first + number).unwrap_or(own));
         if held.value().is_finite() { held } else { self.eval(variables) }
@@ -121,8 +121,8 @@ impl Program {
         });
     }
 
-    /// Runs the program. `choose` gives the piece of each piecewise operation from its number, the piece of its argument, and the
-    /// argument; with `OWN` it is not called, and every piece is that of the argument.
+    /// Runs the program. `choose` gives the piece of each piecewise operation from its number, the piece of its
+    /// argument, and the argument; with `OWN` it is not called, and every piece is that of the argument.
     #[inline]
     fn run<S: Scalar, const OWN: bool>(&self, variables: &[S], choose: &mut impl FnMut(usize, Piece, S) -> Piece) -> S {
         match self.depth <= SHALLOW {

@@ -46,8 +46,8 @@ impl Operand {
 }
 
 impl Expression {
-    /// Numbers its switching functions from `first` on, and returns them in the order of [`arguments`](Self::arguments).
-    /// Variable 0 is t.
+    /// Numbers its switching functions from `first` on, and returns them in the order of
+    /// [`arguments`](Self::arguments). Variable 0 is t.
     pub fn number_switches(&mut self, first: usize) -> Vec<Switch> {
         self.first = first;
         let mut switches = Vec::new();
@@ -89,7 +89,8 @@ impl Expression {
         found
     }
 
-    /// Calls `see` for every operation with its operands and the number of switching functions before it; returns the result's operand.
+    /// Calls `see` for every operation with its operands and the number of switching functions before it; returns the
+    /// result's operand.
     fn walk(&self, mut see: impl FnMut(&Program, Op, &[Operand], usize)) -> Option<Operand> {
         let (mut stack, mut number) = (Vec::<Operand>::new(), 0);
         for (place, &op) in self.program.ops.iter().enumerate() {

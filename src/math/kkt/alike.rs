@@ -4,8 +4,8 @@ use super::Pattern;
 use super::system::{add_scaled, dot};
 use std::collections::HashMap;
 
-/// Groups of rows over the same coordinates. Finding dependent rows in a group costs rows x coordinates^2 without fill, while a
-/// sparse factorization would couple all rows of a group.
+/// Groups of rows over the same coordinates. Finding dependent rows in a group costs rows x coordinates^2 without fill,
+/// while a sparse factorization would couple all rows of a group.
 pub(super) struct Alike {
     groups: Vec<Group>,
     /// True if a group has more rows than coordinates, so that some always depend on others.

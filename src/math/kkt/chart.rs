@@ -6,10 +6,10 @@ use super::pivoted::PivotedQr;
 use super::system::{add_scaled, dot};
 use crate::tolerances::math as tolerances;
 
-/// Corrections d = Y c with G d = r at a nearby state, where S = diag(M)^-1/2 and Y = S Q_1 from the pivoted QR of (G S)^T at the
-/// base state: G Y c = r, by a pivoted QR of (G Y)^T. Such a d has no part along the base's null space in the metric of
-/// diag(M). Rows that are dependent at the base are dropped. Costs 3 n m^2 for a base, 3 m^3 for a state and
-/// 2 (n + m) m for a solution.
+/// Corrections d = Y c with G d = r at a nearby state, where S = diag(M)^-1/2 and Y = S Q_1 from the pivoted QR of (G
+/// S)^T at the base state: G Y c = r, by a pivoted QR of (G Y)^T. Such a d has no part along the base's null space in
+/// the metric of diag(M). Rows that are dependent at the base are dropped. Costs 3 n m^2 for a base, 3 m^3 for a state
+/// and 2 (n + m) m for a solution.
 pub struct Chart {
     mass: Pattern,
     g: Pattern,

@@ -5,9 +5,9 @@ use super::{Pattern, SaddlePoint};
 use crate::tolerances::math as tolerances;
 use faer::{Mat, Side};
 
-/// The 2-norm condition number of E K E, where the diagonal E makes the masses one and the rows of G of unit norm in the
-/// mass metric, so that it does not depend on units. By the eigenvalues up to n + m = 600, beyond by power iterations (a lower
-/// bound, close in practice).
+/// The 2-norm condition number of E K E, where the diagonal E makes the masses one and the rows of G of unit norm in
+/// the mass metric, so that it does not depend on units. By the eigenvalues up to n + m = 600, beyond by power
+/// iterations (a lower bound, close in practice).
 /// Infinite for singular matrices, NaN if the values are not finite or do not fit.
 pub fn condition_number(mass: &Pattern, mass_values: &[f64], g: &Pattern, g_values: &[f64]) -> f64 {
     let fits = mass_values.len() == mass.entries.len() && g_values.len() == g.entries.len();

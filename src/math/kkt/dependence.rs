@@ -24,8 +24,8 @@ pub struct DependentRow {
 }
 
 /// Finds rows whose part orthogonal to the rows before them is below `tolerance` after scaling to unit length.
-/// By Gram-Schmidt, repeated where it cancels; columns that two rows do not share cost nothing. At most 2 m^2 n operations.
-/// A row with a value that is not finite counts as independent and is not used.
+/// By Gram-Schmidt, repeated where it cancels; columns that two rows do not share cost nothing. At most 2 m^2 n
+/// operations. A row with a value that is not finite counts as independent and is not used.
 pub fn dependent_rows(g: &Pattern, values: &[f64], tolerance: f64) -> Dependence {
     let mut rows = vec![vec![0.0; g.cols]; g.rows];
     for (&(i, j), value) in g.entries.iter().zip(values) {

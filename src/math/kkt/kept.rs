@@ -7,7 +7,8 @@ use super::{Pattern, SaddlePoint, Singular};
 /// A separate solver over the rows that are kept, so that dropped rows cost nothing.
 pub(super) struct Kept {
     pub inner: SaddlePoint,
-    /// Rows that are kept. `dropped`: rows that are never factored; `left_out`: all rows without a multiplier at the last factorization.
+    /// Rows that are kept. `dropped`: rows that are never factored; `left_out`: all rows without a multiplier at the
+    /// last factorization.
     rows: Vec<usize>,
     dropped: Vec<usize>,
     left_out: Vec<usize>,

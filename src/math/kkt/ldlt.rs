@@ -6,8 +6,8 @@ use super::simplicial::Simplicial;
 use super::supernodal::Supernodal;
 use super::symbolic::Symbolic;
 
-/// Multiplications per nonzero of L from which dense blocks win over a list of destinations, and the length of that list
-/// from which its memory counts. Measured: see `Simplicial`.
+/// Multiplications per nonzero of L from which dense blocks win over a list of destinations, and the length of that
+/// list from which its memory counts. Measured: see `Simplicial`.
 const FILL_FOR_BLOCKS: usize = 40;
 const LONGEST_LIST: usize = 30_000_000;
 
@@ -51,7 +51,8 @@ impl Ldlt {
         }
     }
 
-    /// The smallest ratio above `collapsed` of a pivot to its size, and the number of multipliers whose ratio is not above it.
+    /// The smallest ratio above `collapsed` of a pivot to its size, and the number of multipliers whose ratio is not
+    /// above it.
     pub fn smallest_ratio(&self, collapsed: f64) -> (f64, usize) {
         match self {
             Ldlt::Simplicial(f) => f.smallest_ratio(collapsed),

@@ -1,10 +1,11 @@
-//! Projection onto the null space of G^T: multipliers that dependent rows leave undetermined, and inconsistent right sides.
+//! Projection onto the null space of G^T: multipliers that dependent rows leave undetermined, and inconsistent right
+//! sides.
 //!
-//! Every dropped row j gives a null vector n_j = e_j - c, where G^T c = G_j^T is solved by the solver of the system without these
-//! rows. The part of N = [n_j] on the dropped rows is the identity, so that N^T N >= I is well conditioned. Then
-//! P = I - N (N^T N)^-1 N^T makes right sides consistent (least squares) and multipliers least in norm. A few null vectors
-//! are made orthonormal once for a factorization; for many, P is applied by conjugate gradients from `Nearly`, which has it
-//! nearly right and is their preconditioner.
+//! Every dropped row j gives a null vector n_j = e_j - c, where G^T c = G_j^T is solved by the solver of the system
+//! without these rows. The part of N = [n_j] on the dropped rows is the identity, so that N^T N >= I is well
+//! conditioned. Then P = I - N (N^T N)^-1 N^T makes right sides consistent (least squares) and multipliers least in
+//! norm. A few null vectors are made orthonormal once for a factorization; for many, P is applied by conjugate
+//! gradients from `Nearly`, which has it nearly right and is their preconditioner.
 
 use super::Pattern;
 use super::nearly::Nearly;

@@ -7,18 +7,20 @@
 //!
 //! [`SaddlePoint`] does the symbolic work once, then factors and solves any number of times:
 //!
-//! 1. L D L^T without pivoting in an order that makes this safe (`order`), over a list of destinations (`simplicial`) or,
-//!    where L fills, over faer's dense blocks (`supernodal`). Each pivot is compared with its size before elimination.
-//! 2. When a pivot collapses: the same with dependent rows dropped (`redundant_rows`), if it is clear which these are. Rows that
-//!    are known to be dependent, or are found so among rows of the same coordinates (`alike`), are not factored (`kept`).
+//! 1. L D L^T without pivoting in an order that makes this safe (`order`), over a list of destinations (`simplicial`)
+//!    or, where L fills, over faer's dense blocks (`supernodal`). Each pivot is compared with its size before
+//!    elimination.
+//! 2. When a pivot collapses: the same with dependent rows dropped (`redundant_rows`), if it is clear which these are.
+//!    Rows that are known to be dependent, or are found so among rows of the same coordinates (`alike`), are not
+//!    factored (`kept`).
 //! 3. Else, and not too large: a dense rank-revealing factorization (`null_space`).
 //!
-//! [`PseudoInverse`] and [`Reduced`] solve the same system densely in other ways, for comparison. [`Chart`] moves states
-//! to the constraints along fixed directions. [`Unsymmetric`] solves the system of implicit methods, which has stiffness
-//! and damping beside M.
+//! [`PseudoInverse`] and [`Reduced`] solve the same system densely in other ways, for comparison. [`Chart`] moves
+//! states to the constraints along fixed directions. [`Unsymmetric`] solves the system of implicit methods, which has
+//! stiffness and damping beside M.
 //!
-//! Redundant rows get multipliers of least norm, and contradicting right sides a least-squares solution (`least`), by one
-//! more sparse factorization for any number of them.
+//! Redundant rows get multipliers of least norm, and contradicting right sides a least-squares solution (`least`), by
+//! one more sparse factorization for any number of them.
 
 mod alike;
 mod chart;

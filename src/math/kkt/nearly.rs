@@ -7,9 +7,10 @@
 //! [G^T  -delta D] [y ] = [0]
 //! ```
 //!
-//! nu is delta/(delta + sigma^2) times the part of v along an eigenvector of G D^-1 G^T with eigenvalue sigma^2: all of the part
-//! in the null space, and the less of the others the smaller delta is. The system has the form of that of the motion, with
-//! the multipliers as coordinates and, for delta D, one more coordinate in each row, and is factored in the same way.
+//! nu is delta/(delta + sigma^2) times the part of v along an eigenvector of G D^-1 G^T with eigenvalue sigma^2: all of
+//! the part in the null space, and the less of the others the smaller delta is. The system has the form of that of the
+//! motion, with the multipliers as coordinates and, for delta D, one more coordinate in each row, and is factored in
+//! the same way.
 
 use super::Pattern;
 use super::ldlt::Ldlt;

@@ -1,9 +1,9 @@
 //! The elimination order of the saddle-point matrix.
 //!
-//! The *early* coordinates come first, so that they are eliminated with pivots of the mass matrix alone; the remaining matrix
-//! is -G M^-1 G^T on the multipliers, semidefinite, and needs no pivoting either: a pivot vanishes there if and only if
-//! its row of G depends on the rows before it. *Late* coordinates come each behind all its multipliers: those without
-//! mass, which have no pivot before, and hubs, whose early elimination would couple all their multipliers.
+//! The *early* coordinates come first, so that they are eliminated with pivots of the mass matrix alone; the remaining
+//! matrix is -G M^-1 G^T on the multipliers, semidefinite, and needs no pivoting either: a pivot vanishes there if and
+//! only if its row of G depends on the rows before it. *Late* coordinates come each behind all its multipliers: those
+//! without mass, which have no pivot before, and hubs, whose early elimination would couple all their multipliers.
 
 use super::Pattern;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -122,8 +122,8 @@ pub(super) fn lower_adjacency(mass: &Pattern, g: &Pattern, nodes: &[usize]) -> V
     adjacency
 }
 
-/// The patterns below the diagonal of the first `count` columns of L, sorted: column j has its own entries and those that
-/// its children in the elimination tree have beyond j.
+/// The patterns below the diagonal of the first `count` columns of L, sorted: column j has its own entries and those
+/// that its children in the elimination tree have beyond j.
 pub(super) fn columns(adjacency: &[Vec<u32>], count: usize) -> Vec<Vec<u32>> {
     let mut children = vec![Vec::new(); adjacency.len()];
     let mut seen = vec![usize::MAX; adjacency.len()];

@@ -1,7 +1,7 @@
 //! Sparsity patterns, and products of matrices with vectors.
 
-/// The places of the entries of a `rows` x `cols` matrix. Its values are a slice in the order of `entries`; values at the
-/// same place add. Every entry must lie inside the matrix.
+/// The places of the entries of a `rows` x `cols` matrix. Its values are a slice in the order of `entries`; values at
+/// the same place add. Every entry must lie inside the matrix.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Pattern {
     /// Number of rows.

@@ -2,8 +2,9 @@
 
 use crate::tolerances::math as tolerances;
 
-/// Ratios of a pivot to its size before elimination. For a multiplier the ratio is the squared sine of the angle between
-/// its row of G and the rows before it, in the metric of M^-1; round-off of exactly dependent rows leaves 1e-16 to 1e-14.
+/// Ratios of a pivot to its size before elimination. For a multiplier the ratio is the squared sine of the angle
+/// between its row of G and the rows before it, in the metric of M^-1; round-off of exactly dependent rows leaves 1e-16
+/// to 1e-14.
 #[derive(Clone, Copy)]
 pub(super) struct Rule {
     /// At or below this the pivot has collapsed.
@@ -39,8 +40,8 @@ pub(super) struct Quality {
 impl Quality {
     pub const GOOD: Quality = Quality { weak: false, doubtful: false, replaced: false };
 
-    /// Checks a pivot at node `node`, with its sign changed so that it should be positive, and returns its inverse; that of a
-    /// dropped multiplier is zero. The error is the node.
+    /// Checks a pivot at node `node`, with its sign changed so that it should be positive, and returns its inverse;
+    /// that of a dropped multiplier is zero. The error is the node.
     pub fn judge(
         &mut self,
         (node, n): (usize, usize),

@@ -28,8 +28,8 @@ impl PivotedQr {
         }
     }
 
-    /// Factors `values` up to the first |R_kk| <= tolerance |R_00|. Column norms are recomputed, not downdated, for the accuracy of
-    /// small ones. 3 rows cols^2 operations.
+    /// Factors `values` up to the first |R_kk| <= tolerance |R_00|. Column norms are recomputed, not downdated, for the
+    /// accuracy of small ones. 3 rows cols^2 operations.
     pub fn factor(&mut self, tolerance: f64) {
         let (rows, cols) = (self.rows, self.permutation.len());
         self.permutation.iter_mut().enumerate().for_each(|(j, p)| *p = j);
@@ -173,8 +173,8 @@ impl PivotedCholesky {
         }
     }
 
-    /// Factors the leading size x size part. At a pivot <= tolerance times the largest diagonal entry it stops and leaves
-    /// a null vector of H in `null`.
+    /// Factors the leading size x size part. At a pivot <= tolerance times the largest diagonal entry it stops and
+    /// leaves a null vector of H in `null`.
     pub fn factor(&mut self, tolerance: f64, null: &mut [f64]) -> Result<(), ()> {
         let size = self.size;
         self.permutation.iter_mut().enumerate().for_each(|(j, p)| *p = j);

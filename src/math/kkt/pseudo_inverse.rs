@@ -17,8 +17,8 @@ use faer::{MatMut, MatRef, Par, Spec};
 /// ```
 ///
 /// Any R gives the same a as M^-1/2, since they differ by a rotation. Contradicting rows are solved by least squares,
-/// lambda has the least norm. Costs about n^3/3 + 12 n m^2. Nothing allocates after the first use, in which faer queries
-/// the sizes of the caches.
+/// lambda has the least norm. Costs about n^3/3 + 12 n m^2. Nothing allocates after the first use, in which faer
+/// queries the sizes of the caches.
 pub struct PseudoInverse {
     /// Singular values up to this fraction of the largest, and up to 1e-4 of the reference value, count as zero.
     pub tolerance: f64,

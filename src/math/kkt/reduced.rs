@@ -4,8 +4,8 @@ use super::null_space::NullSpace;
 use super::system::System;
 use super::{Pattern, Singular, Solver};
 
-/// [M G^T; G 0] always by a pivoted QR of G^T: a = Y y + Z z with G Z = 0, then Z^T M Z z = Z^T (r1 - M Y y), then lambda
-/// from r1 - M a. Dependent rows get multipliers of least norm, contradictions a least-squares solution.
+/// [M G^T; G 0] always by a pivoted QR of G^T: a = Y y + Z z with G Z = 0, then Z^T M Z z = Z^T (r1 - M Y y), then
+/// lambda from r1 - M a. Dependent rows get multipliers of least norm, contradictions a least-squares solution.
 pub struct Reduced {
     /// Rows of G count as dependent when their pivot in the QR falls below this fraction of the largest,
     /// or below 1e-4 of the reference value.

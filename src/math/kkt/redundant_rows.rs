@@ -66,8 +66,8 @@ impl RedundantRowSolve {
         Ok(quality)
     }
 
-    /// Checks that the motion is determined although pivots were replaced: solves with an arbitrary right side and tests
-    /// whether refinement corrects for the replaced pivots.
+    /// Checks that the motion is determined although pivots were replaced: solves with an arbitrary right side and
+    /// tests whether refinement corrects for the replaced pivots.
     pub fn probe(&mut self, system: &System) -> Result<(), Singular> {
         let (mut top, mut bottom) = std::mem::take(&mut self.probe);
         bottom.fill(0.0);
@@ -83,8 +83,9 @@ impl RedundantRowSolve {
         if is_solved { Ok(()) } else { Err(Singular::Undetermined { coordinate }) }
     }
 
-    /// Rank indicator of the dropped rows. Pivots are squares of sines, so that round-off hides sines below 1e-7. Null vectors show them: the length
-    /// (metric M^-1) of G^T N w for a combination w of the dropped rows, all scaled to the same length.
+    /// Rank indicator of the dropped rows. Pivots are squares of sines, so that round-off hides sines below 1e-7. Null
+    /// vectors show them: the length (metric M^-1) of G^T N w for a combination w of the dropped rows, all scaled to
+    /// the same length.
     pub fn rank_indicator(&mut self, system: &System) -> f64 {
         if self.skipped.is_empty() {
             return 0.0;
@@ -124,8 +125,8 @@ impl RedundantRowSolve {
         self.inconsistency
     }
 
-    /// Solves in place, refined to round-off; contradicting right sides by least squares. If `is_least`, multipliers are
-    /// those of least norm.
+    /// Solves in place, refined to round-off; contradicting right sides by least squares. If `is_least`, multipliers
+    /// are those of least norm.
     pub fn solve(&mut self, system: &System, top: &mut [f64], bottom: &mut [f64], is_least: bool) {
         self.inconsistency = self.project(system, bottom);
         let RedundantRowSolve { factor, a, lambda, top: r1, bottom: r2, .. } = self;

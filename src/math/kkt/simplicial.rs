@@ -2,8 +2,9 @@
 //!
 //! Measured (factor + solve, microseconds) against faer's sparse L D L^T over the same order, n + m in brackets:
 //! full M and G (13) 0.58 : 1.10, seven-body mechanism (41) 0.85 : 1.92, chain of 500 links (2500) 50 : 111,
-//! net (992) 45 : 82, net (19460) 2900 : 3890, full M and G (90) 80 : 111, (180) 601 : 158. From about 40 multiplications
-//! per nonzero of L on faer's blocks win. A full matrix on a flat slice without indices: (13) 0.65, (41) 3.1.
+//! net (992) 45 : 82, net (19460) 2900 : 3890, full M and G (90) 80 : 111, (180) 601 : 158. From about 40
+//! multiplications per nonzero of L on faer's blocks win. A full matrix on a flat slice without indices: (13) 0.65,
+//! (41) 3.1.
 
 use super::pivot::{Quality, Rule};
 use super::symbolic::Symbolic;
@@ -48,9 +49,10 @@ impl Simplicial {
         }
     }
 
-    /// Factors. The pivot of an early coordinate is compared with its mass; that of a multiplier with (G M^-1 G^T)_jj, which
-    /// is on its diagonal after elimination of the early coordinates; that of a late coordinate with what the early ones
-    /// subtracted from it. So units of coordinates and rows cancel. The error is the node whose pivot collapsed.
+    /// Factors. The pivot of an early coordinate is compared with its mass; that of a multiplier with (G M^-1 G^T)_jj,
+    /// which is on its diagonal after elimination of the early coordinates; that of a late coordinate with what the
+    /// early ones subtracted from it. So units of coordinates and rows cancel. The error is the node whose pivot
+    /// collapsed.
     pub fn factor(&mut self, mass: &[f64], g: &[f64], rule: Rule, skipped: &mut Vec<usize>) -> Result<Quality, usize> {
         self.assemble(mass, g);
         let (size, early) = (self.symbolic.size(), self.symbolic.order.early);
@@ -138,7 +140,8 @@ impl Simplicial {
         }
     }
 
-    /// The smallest ratio above `collapsed` of a pivot to its size before elimination, and the number of multipliers not above it.
+    /// The smallest ratio above `collapsed` of a pivot to its size before elimination, and the number of multipliers
+    /// not above it.
     pub fn smallest_ratio(&self, collapsed: f64) -> (f64, usize) {
         let mut found = (1.0, 0);
         for (p, &sign) in self.signs.iter().enumerate() {

@@ -14,8 +14,8 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{Pair, SparseColMatRef, SymbolicSparseColMat};
 use faer::{MatMut, Par, Side, Spec};
 
-/// Supernodal factors of S K S, where S scales the coordinates to unit mass and the rows of G to (G diag(M)^-1 G^T)_jj = 1, so that
-/// the thresholds of the pivots, which faer takes absolute, are relative ones.
+/// Supernodal factors of S K S, where S scales the coordinates to unit mass and the rows of G to (G diag(M)^-1 G^T)_jj
+/// = 1, so that the thresholds of the pivots, which faer takes absolute, are relative ones.
 pub(super) struct Supernodal {
     symbolic: Symbolic,
     /// The upper triangle of S K S in the order of elimination.
@@ -98,7 +98,8 @@ impl Supernodal {
         self.judge(rule, skipped, replaced)
     }
 
-    /// Writes the scaled matrix; returns true if a coordinate without mass was given some (under a rule that allows it).
+    /// Writes the scaled matrix; returns true if a coordinate without mass was given some (under a rule that allows
+    /// it).
     fn assemble(&mut self, mass: &[f64], g: &[f64], rule: Rule) -> bool {
         let (n, scale) = (self.symbolic.n, &self.scale);
         self.entries.fill(0.0);

@@ -36,8 +36,8 @@ impl System {
     }
 }
 
-/// Solves [M G^T; G 0] [a; lambda] = [top; bottom] with a factor that may be of a nearby matrix, in at most `sweeps` corrections,
-/// until a correction is round-off. `residual` is scratch.
+/// Solves [M G^T; G 0] [a; lambda] = [top; bottom] with a factor that may be of a nearby matrix, in at most `sweeps`
+/// corrections, until a correction is round-off. `residual` is scratch.
 pub(super) fn iterate(
     factor: &mut Ldlt,
     system: &System,
@@ -69,8 +69,8 @@ pub(super) fn iterate(
     }
 }
 
-/// Scales that make the masses one and the rows of G of unit norm in the mass metric, (G diag(M)^-1 G^T)_jj = 1, by node.
-/// Late coordinates (by default those without mass) are scaled by the entries of the scaled rows.
+/// Scales that make the masses one and the rows of G of unit norm in the mass metric, (G diag(M)^-1 G^T)_jj = 1, by
+/// node. Late coordinates (by default those without mass) are scaled by the entries of the scaled rows.
 pub(super) fn balance(
     (mass, mass_values): (&Pattern, &[f64]),
     (g, g_values): (&Pattern, &[f64]),

@@ -10,9 +10,10 @@ use crate::tolerances::math as tolerances;
 /// [G2  0   ] [lambda] = [r]
 /// ```
 ///
-/// by the factors of the symmetric matrix with G1 in both blocks. Every b gives a pair (a, lambda) that satisfies the upper
-/// rows exactly, with G1 a = b; GMRES finds the b with G2 a(b) = r. The map b -> G2 a(b) is the identity up to G2 - G1 =
-/// O(h), so about five back-substitutions gain ten digits, and a distant G2 costs more of them but does not diverge.
+/// by the factors of the symmetric matrix with G1 in both blocks. Every b gives a pair (a, lambda) that satisfies the
+/// upper rows exactly, with G1 a = b; GMRES finds the b with G2 a(b) = r. The map b -> G2 a(b) is the identity up to G2
+/// - G1 = O(h), so about five back-substitutions gain ten digits, and a distant G2 costs more of them but does not
+///   diverge.
 /// Restarts compute the true residual, as in iterative refinement. Unlike a dense LU, it keeps the sparse factors,
 /// and their treatment of dependent rows and massless coordinates.
 pub struct TwoJacobianGmres {
@@ -57,12 +58,12 @@ impl TwoJacobianGmres {
         }
     }
 
-    /// Solves with the factors `kkt` of M and G1. `top` is f on entry and a on return; `bottom` is a guess of G1 a on entry
-    /// and lambda on return.
+    /// Solves with the factors `kkt` of M and G1. `top` is f on entry and a on return; `bottom` is a guess of G1 a on
+    /// entry and lambda on return.
     ///
     /// # Errors
-    /// [`Singular::Apart`] when the residual stays above 1e-9 of the rows, or above 1e-5 where rows of G1 are dependent;
-    /// errors of the factors.
+    /// [`Singular::Apart`] when the residual stays above 1e-9 of the rows, or above 1e-5 where rows of G1 are
+    /// dependent; errors of the factors.
     pub fn solve(
         &mut self,
         kkt: &mut SaddlePoint,
@@ -101,9 +102,10 @@ impl TwoJacobianGmres {
         Err(Singular::Apart)
     }
 
-    /// Sizes of the rows: |r_i| + sum_j |G2_ij| (max |a| + p_j), where a is that of the guess or the one that r requires, if
-    /// that is larger: a guess of zero gives no size, and rows without a right side take that of the others. p_j =
-    /// (|f_j| + sum_k |G2_kj lambda_k|)/M_jj bounds the accelerations of the single forces, whose round-off is in a.
+    /// Sizes of the rows: |r_i| + sum_j |G2_ij| (max |a| + p_j), where a is that of the guess or the one that r
+    /// requires, if that is larger: a guess of zero gives no size, and rows without a right side take that of the
+    /// others. p_j = (|f_j| + sum_k |G2_kj lambda_k|)/M_jj bounds the accelerations of the single forces, whose
+    /// round-off is in a.
     fn measure(&mut self, pair: &Pair, (mass, values): (&Pattern, &[f64]), r: &[f64], (a, lambda): (&[f64], &[f64])) {
         let entries = || pair.pattern.entries.iter().zip(pair.g2);
         self.top.iter_mut().zip(&self.force).for_each(|(p, f)| *p = f.abs());

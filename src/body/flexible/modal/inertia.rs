@@ -48,8 +48,8 @@ fn empty<const D: usize>(n: usize) -> Piece<D> {
 }
 
 /// Mass integrals from the rigid inertia, the modal mass M and the momenta m_i, h_i of the modes. These determine the
-/// antisymmetric part of P_0i, by h_i = int rho psi_0 x psi_i, and the trace M_ij of P_ij. The rest is assumed isotropic:
-/// P_0i without a symmetric part, P_ij = M_ij/D times the identity.
+/// antisymmetric part of P_0i, by h_i = int rho psi_0 x psi_i, and the trace M_ij of P_ij. The rest is assumed
+/// isotropic: P_0i without a symmetric part, P_ij = M_ij/D times the identity.
 pub fn of_couplings<const D: usize>(data: &ModalData<Array>, mass: &Mat<f64>) -> Result<Piece<D>> {
     let n = mass.nrows();
     let mut piece = empty::<D>(n);
@@ -135,7 +135,8 @@ fn at_rest<const D: usize>(piece: &Piece<D>) -> Mat<f64> {
     let n = piece.dofs.len();
     let turns: &[usize] = if D == 2 { &[2] } else { &[0, 1, 2] };
     let first = D + turns.len();
-    // Velocities of a point: e_k for translations, e_r x psi_0 for rotations, psi_i for modes; their products, integrated.
+    // Velocities of a point: e_k for translations, e_r x psi_0 for rotations, psi_i for modes; their products,
+    // integrated.
     let unit = |r: usize| -> [f64; 3] { from_fn(|k| if k == r { 1.0 } else { 0.0 }) };
     let trace = |p: &[[f64; D]; D]| -> f64 { (0..D).map(|k| p[k][k]).sum() };
     let inertia = |r: usize, s: usize| {

@@ -106,7 +106,8 @@ fn resolve<const D: usize>(data: &ModalData<Table>, build: &Build<D>) -> Result<
     })
 }
 
-/// Number of n x n matrices in memory: stiffness, damping, mass, eigenvalues, mode integrals and blocks of the equations.
+/// Number of n x n matrices in memory: stiffness, damping, mass, eigenvalues, mode integrals and blocks of the
+/// equations.
 const COPIES: f64 = 40.0;
 
 fn shapes<const D: usize>(data: &ModalData<Array>) -> Result<ModalShapes<D>> {

@@ -108,7 +108,8 @@ fn shear_stiffness_is_that_of_przemieniecki() {
 /// velocities of points of the field itself.
 fn energy_of_field(rod: &Elastic<3>, motion: &Motion) -> f64 {
     let line = rod.line.as_ref().unwrap();
-    // Three points across the section have its mass and moments: one on the line, and pairs at distance 1 along y and z.
+    // Three points across the section have its mass and moments: one on the line, and pairs at distance 1 along y and
+    // z.
     let (rho_a, rho_i) = (0.8, [2e-3, 1e-3]);
     let points = [
         ([0.0, 0.0], rho_a - rho_i[0] - rho_i[1]),

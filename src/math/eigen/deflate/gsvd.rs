@@ -6,9 +6,9 @@ use faer::Par;
 
 /// The next level; `None` if E has an inverse.
 ///
-/// A = U C H, E = V S H with C^2 + S^2 = I (Golub and Van Loan, "Matrix Computations", section 6.1.6, by QR of [A; E] and
-/// SVD of a block of Q). The columns X2 of H^-1 with s = 0 have E X2 = 0, and A X2 = U2 is orthonormal; along the others
-/// x = X1 z the equations orthogonal to U2 do not contain X2, which follows from U2.
+/// A = U C H, E = V S H with C^2 + S^2 = I (Golub and Van Loan, "Matrix Computations", section 6.1.6, by QR of [A; E]
+/// and SVD of a block of Q). The columns X2 of H^-1 with s = 0 have E X2 = 0, and A X2 = U2 is orthonormal; along the
+/// others x = X1 z the equations orthogonal to U2 do not contain X2, which follows from U2.
 pub fn level(a: &Matrix, e: &Matrix, ranks: &mut Ranks) -> Result<Option<Level>, Unsolved> {
     let n = a.nrows();
     if n == 0 {

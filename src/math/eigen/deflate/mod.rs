@@ -12,7 +12,8 @@ use level::{Level, Ranks};
 /// Method of removing the infinite eigenvalues, one level (one for each size of their Jordan blocks) after the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Deflation {
-    /// Left null space of E: the algebraic equations U^T A x = 0, U^T E = 0, restrict x. Orthogonal transformations only.
+    /// Left null space of E: the algebraic equations U^T A x = 0, U^T E = 0, restrict x. Orthogonal transformations
+    /// only.
     NullSpace,
     /// Generalized singular values of (A, E), infinite ones being the right null space of E: these x follow from the
     /// others. Ranks do not depend on the scale of rows of A against rows of E.
@@ -52,12 +53,13 @@ impl Deflated {
 }
 
 /// Removes the infinite eigenvalues, by a staircase of rank decisions (Van Dooren, "The computation of Kronecker's
-/// canonical form of a singular pencil", Linear Algebra Appl. 27, 1979). For equations of index 3 these are m at each of three
-/// levels. Singular values of the balanced pencil below `tolerance` (see `tolerances::RANK_OF_PENCIL`) are zero. About 30 n^3 operations for each level.
+/// canonical form of a singular pencil", Linear Algebra Appl. 27, 1979). For equations of index 3 these are m at each
+/// of three levels. Singular values of the balanced pencil below `tolerance` (see `tolerances::RANK_OF_PENCIL`) are
+/// zero. About 30 n^3 operations for each level.
 ///
 /// # Errors
-/// Matrices that are not square, of equal size and finite; a singular pencil, det(A - s E) = 0 for every s; a rank that cannot be
-/// decided.
+/// Matrices that are not square, of equal size and finite; a singular pencil, det(A - s E) = 0 for every s; a rank that
+/// cannot be decided.
 pub fn deflate(a: &Matrix, e: &Matrix, by: Deflation, tolerance: f64) -> Result<Deflated, Unsolved> {
     dense::square(&[a, e])?;
     let pencil = balance(a, e);

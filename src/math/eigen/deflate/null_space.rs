@@ -5,8 +5,8 @@ use super::level::{Coupling, Level, Ranks};
 
 /// The next level; `None` if E has an inverse.
 ///
-/// U2^T E = 0 makes U2^T A x = 0 algebraic: x = X1 z with U2^T A X1 = 0. This removes as many unknowns as equations, if these are
-/// independent; if not, a combination of equations is 0 = 0 and the pencil singular.
+/// U2^T E = 0 makes U2^T A x = 0 algebraic: x = X1 z with U2^T A X1 = 0. This removes as many unknowns as equations, if
+/// these are independent; if not, a combination of equations is 0 = 0 and the pencil singular.
 pub fn level(a: &Matrix, e: &Matrix, ranks: &mut Ranks) -> Result<Option<Level>, Unsolved> {
     let n = a.nrows();
     let of_e = dense::svd(e)?;

@@ -21,8 +21,8 @@ pub struct Options {
     pub tolerance: f64,
     /// Largest number of restarts.
     pub restarts: usize,
-    /// Applications of the operator to a start vector before it is used. One less than the rows of the largest Jordan block
-    /// of theta = 0 remove the components of infinite eigenvalues of a pencil.
+    /// Applications of the operator to a start vector before it is used. One less than the rows of the largest Jordan
+    /// block of theta = 0 remove the components of infinite eigenvalues of a pencil.
     pub filter: usize,
     /// True to repeat from other start vectors until nothing new is found: one alone gives one vector of each
     /// eigenvalue. Costs the applications of a restart or more.
@@ -46,8 +46,8 @@ pub struct Partial {
     pub right: ComplexMatrix,
     /// Residual |apply(x) - theta x| / |theta| of each pair.
     pub residuals: Vec<f64>,
-    /// Q and T with apply(Q) = Q T, orthonormal Q and triangular T, the values on its diagonal: a basis of the space of the vectors
-    /// that is well conditioned for defective eigenvalues too. `None` unless [`Options::schur`] is set.
+    /// Q and T with apply(Q) = Q T, orthonormal Q and triangular T, the values on its diagonal: a basis of the space of
+    /// the vectors that is well conditioned for defective eigenvalues too. `None` unless [`Options::schur`] is set.
     pub schur: Option<[ComplexMatrix; 2]>,
     /// Number of applications of the operator.
     pub applications: usize,
@@ -55,12 +55,12 @@ pub struct Partial {
 
 /// The `count` eigenvalues theta of largest magnitude of the operator y = `apply`(x) of dimension n.
 ///
-/// With `apply` = (A - sigma E)^-1 E these belong to the eigenvalues lambda = sigma + 1/theta of A x = lambda E x nearest
-/// to sigma, with the same vectors. Infinite eigenvalues have theta = 0 and do not disturb.
+/// With `apply` = (A - sigma E)^-1 E these belong to the eigenvalues lambda = sigma + 1/theta of A x = lambda E x
+/// nearest to sigma, with the same vectors. Infinite eigenvalues have theta = 0 and do not disturb.
 ///
-/// Krylov-Schur method (Stewart, "A Krylov-Schur algorithm for large eigenproblems", SIAM J. Matrix Anal. Appl. 23, 2001),
-/// from a fixed start vector. Each step costs an application and 8 n m operations, m the size of the subspace; memory is
-/// n m numbers.
+/// Krylov-Schur method (Stewart, "A Krylov-Schur algorithm for large eigenproblems", SIAM J. Matrix Anal. Appl. 23,
+/// 2001), from a fixed start vector. Each step costs an application and 8 n m operations, m the size of the subspace;
+/// memory is n m numbers.
 ///
 /// # Errors
 /// Errors of `apply`; no convergence within the restarts, with the number that converged; results that are not finite.

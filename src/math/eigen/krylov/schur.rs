@@ -25,8 +25,8 @@ impl Ordered {
         Ok(ordered)
     }
 
-    /// The Schur form from eigenvectors, made orthonormal in the order of their values, in a sixth of the time; `None` if
-    /// they are too dependent for that.
+    /// The Schur form from eigenvectors, made orthonormal in the order of their values, in a sixth of the time; `None`
+    /// if they are too dependent for that.
     fn by_vectors(h: &ComplexMatrix) -> Result<Option<Ordered>, Unsolved> {
         let m = h.nrows();
         let vectors = Ritz::of(h, 0.0, m)?.vectors;

@@ -22,11 +22,11 @@ enum Way {
     Dense,
 }
 
-/// Solver of [M G^T; G 0] with frozen patterns. Nothing allocates after the first use of each path. A solution depends on the
-/// values, the rows that are dropped, and [`Self::rank_reference`], never on what was factored before.
+/// Solver of [M G^T; G 0] with frozen patterns. Nothing allocates after the first use of each path. A solution depends
+/// on the values, the rows that are dropped, and [`Self::rank_reference`], never on what was factored before.
 pub struct SaddlePoint {
-    /// Rows of G count as dependent when their pivot in the QR of G^T (unit rows, mass metric) falls below this fraction of
-    /// the largest.
+    /// Rows of G count as dependent when their pivot in the QR of G^T (unit rows, mass metric) falls below this
+    /// fraction of the largest.
     pub rank_tolerance: f64,
     n: usize,
     m: usize,
@@ -85,8 +85,8 @@ impl SaddlePoint {
         }
     }
 
-    /// Factors the matrix with these values. A pivot collapses on the fast path when elimination reduces it to less than 1e-11
-    /// of its size; below 1e-7 solutions are refined once.
+    /// Factors the matrix with these values. A pivot collapses on the fast path when elimination reduces it to less
+    /// than 1e-11 of its size; below 1e-7 solutions are refined once.
     pub fn factor(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
         if self.goes_fast(mass, g)? || self.drops_rows(None)? { Ok(()) } else { self.finish_rank_revealing() }
     }
@@ -108,9 +108,9 @@ impl SaddlePoint {
         Ok(false)
     }
 
-    /// Factors; rows also count as dependent below this fraction of the reference value, such as 1e-4. Nearer to a singular
-    /// state, accelerations have a larger error by round-off with these rows than without them, and so have velocities
-    /// after a projection; the next projection farther away corrects the motion along them.
+    /// Factors; rows also count as dependent below this fraction of the reference value, such as 1e-4. Nearer to a
+    /// singular state, accelerations have a larger error by round-off with these rows than without them, and so have
+    /// velocities after a projection; the next projection farther away corrects the motion along them.
     pub fn factor_truncated(&mut self, mass: &[f64], g: &[f64], part: f64) -> Result<(), Singular> {
         let is_fast = self.goes_fast(mass, g)?;
         if !is_fast && self.drops_rows(Some(part))? {
@@ -188,8 +188,8 @@ impl SaddlePoint {
             quality = skipping.factor(&self.system, tolerances::COLLAPSED)?;
         }
         let is_doubtful = quality.replaced || quality.doubtful;
-        // In a large system it is not determined which nearly dependent rows are so, only whether dropping some, or giving
-        // coordinates a little mass, still gives a solution.
+        // In a large system it is not determined which nearly dependent rows are so, only whether dropping some, or
+        // giving coordinates a little mass, still gives a solution.
         let is_accepted = if total <= tolerances::DENSE_EQUATIONS {
             !is_doubtful && skipping.rank_indicator(&self.system) < 0.1 * self.rank_tolerance
         } else if is_doubtful {

@@ -12,11 +12,11 @@ pub(super) struct Orders {
     /// Coordinates without mass for which the factors are made; `found` is scratch for those of the current values.
     massless: Vec<bool>,
     found: Vec<bool>,
-    /// Coordinates in the rows of very many multipliers: eliminated early, one with k multipliers would make a dense k x k
-    /// block.
+    /// Coordinates in the rows of very many multipliers: eliminated early, one with k multipliers would make a dense k
+    /// x k block.
     hubs: Vec<bool>,
-    /// Factors with hubs behind their multipliers, and with hubs ahead, used if a multiplier's pivot collapses in the first. Coordinates
-    /// without mass are always behind.
+    /// Factors with hubs behind their multipliers, and with hubs ahead, used if a multiplier's pivot collapses in the
+    /// first. Coordinates without mass are always behind.
     factors: [Option<Ldlt>; 2],
     taken: usize,
 }

@@ -4,8 +4,8 @@ use super::Field;
 use super::matrix::Matrix;
 use crate::tolerances::math as tolerances;
 
-/// Columns that are eliminated last. An early pivot in a dense row fills all columns that follow; so does the column of a
-/// multiplier that has only dense rows to take its pivot from.
+/// Columns that are eliminated last. An early pivot in a dense row fills all columns that follow; so does the column of
+/// a multiplier that has only dense rows to take its pivot from.
 pub(super) struct DenseRows {
     /// Factor of each row, which lowers the priority of dense rows in the choice of pivots.
     pub rank: Vec<f64>,

@@ -28,10 +28,10 @@ use sparse::Sparse;
 /// [ G + b L  0   ] [ lambda ] = [ r2 ]
 /// ```
 ///
-/// with A = M + c C + k K, each on its own pattern, and L (zero unless given) on that of G, all real (`T` = `f64`) or complex (`c64`); G is real.
-/// LU with partial pivoting (faer), dense or sparse by the density of the matrix; nothing allocates once the fill has been
-/// seen. Rows and columns are scaled alike so that A and the rows of G are of unit size and pivots
-/// are comparable.
+/// with A = M + c C + k K, each on its own pattern, and L (zero unless given) on that of G, all real (`T` = `f64`) or
+/// complex (`c64`); G is real. LU with partial pivoting (faer), dense or sparse by the density of the matrix; nothing
+/// allocates once the fill has been seen. Rows and columns are scaled alike so that A and the rows of G are of unit
+/// size and pivots are comparable.
 ///
 /// Dropped rows of G have lambda zero, and r2 there is not read: those that [`Unsymmetric::drop_rows`] names,
 /// else, if the matrix of all rows is singular, those that are dependent in the current values. That solves
@@ -107,7 +107,8 @@ impl<T: Field> Unsymmetric<T> {
         })
     }
 
-    /// Assumes that all rows of G are independent: the matrix is then singular only if A is singular on the null space of G.
+    /// Assumes that all rows of G are independent: the matrix is then singular only if A is singular on the null space
+    /// of G.
     pub fn keeping_rows(mut self) -> Self {
         self.keeps_rows = true;
         self
@@ -205,14 +206,15 @@ impl<T: Field> Unsymmetric<T> {
         rows.iter_mut().for_each(|size| *size = if *size > 0.0 { size.recip() } else { 1.0 });
     }
 
-    /// Weight of coordinates without mass, which move with others by their constraints: that of the heaviest coordinate,
+    /// Weight of coordinates without mass, which move with others by their constraints: that of the heaviest
+    /// coordinate,
     ///
     /// ```text
     /// w_j = largest max_i (G_ij / max_k |G_ik|)^2
     /// ```
     ///
-    /// Its own entries of A are only h^2 K, of reactions, or their round-off: scaled to 1 they would make rows of G that
-    /// share it look dependent, with a sine of order h.
+    /// Its own entries of A are only h^2 K, of reactions, or their round-off: scaled to 1 they would make rows of G
+    /// that share it look dependent, with a sine of order h.
     fn weigh_massless(&mut self, g: &[f64], largest: f64) {
         let rows = &mut self.scale[self.n..];
         rows.fill(0.0);

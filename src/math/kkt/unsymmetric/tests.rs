@@ -1,7 +1,8 @@
 use super::*;
 use faer::c64;
 
-/// A chain of `links` links of three coordinates, each held to the one before by two rows, the last `copies` rows twice.
+/// A chain of `links` links of three coordinates, each held to the one before by two rows, the last `copies` rows
+/// twice.
 struct Chain {
     mass: Pattern,
     tangent: Pattern,
@@ -156,7 +157,8 @@ fn a_coordinate_without_mass_is_held_by_its_rows() {
     }
 }
 
-/// Two rows share a coordinate without mass, whose own entry of A is h^2 K or round-off of that: they are not dependent.
+/// Two rows share a coordinate without mass, whose own entry of A is h^2 K or round-off of that: they are not
+/// dependent.
 #[test]
 fn a_coordinate_without_mass_does_not_make_its_rows_dependent() {
     let mass = Pattern::diagonal(3);
