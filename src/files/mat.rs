@@ -15,7 +15,7 @@ const UINT32: u32 = 6;
 const DOUBLE: u32 = 9;
 const MATRIX: u32 = 14;
 
-/// Classes of variables, and flags beside them.
+/// Classes of variables, and flags.
 const CELL: u32 = 1;
 const CHAR: u32 = 4;
 const NUMBERS: u32 = 6;

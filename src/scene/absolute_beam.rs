@@ -1,6 +1,6 @@
 //! A flexible beam in absolute coordinates: rigid nodes with the mass, and beam elements as forces between them.
 //!
-//! Each node carries the mass of the half elements beside it and the rotary inertia of their sections. The mass of half
+//! Each node carries the mass of the adjacent half elements and the rotary inertia of their sections. The mass of half
 //! an element of length h is put h/6 from its node: at the end of a beam its weight and its inertia in bending then act
 //! with the moment rho A h^2/12 of a distributed load, and the inertia of the beam as a rigid body is that of its line
 //! but for rho A h^3/36. Between equal elements the two shifts cancel. The statics of a straight element under loads at

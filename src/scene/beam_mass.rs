@@ -16,7 +16,7 @@ const POINTS: usize = 6;
 /// Mass of half an element, lumped at its node.
 #[derive(Clone, Copy, Debug)]
 struct Lump {
-    /// kg
+    /// Mass, kg.
     mass: f64,
     /// Mass times its distance from the node along the beam, kg m.
     moment: f64,

@@ -30,7 +30,7 @@ pub(super) fn trace<S: Scalar, const D: usize>(m: &Matrix<S, D>) -> S {
     (1..D).fold(m[0][0], |sum, k| sum + m[k][k])
 }
 
-/// m w
+/// Product m w; in the plane of the x and y components.
 #[inline]
 pub(super) fn times<S: Scalar, const D: usize>(m: &Matrix<S, D>, w: &[S; 3]) -> [S; 3] {
     from_fn(|i| if i < D { (1..D).fold(m[i][0] * w[0], |sum, j| sum + m[i][j] * w[j]) } else { S::zero() })

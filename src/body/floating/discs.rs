@@ -44,7 +44,7 @@ impl<S: Scalar> Turning<S> {
         Turning { frame: [frame(v), frame(vdot)], own: [elastic(q, n), elastic(v, m), elastic(vdot, m)] }
     }
 
-    /// w_s
+    /// Angular velocity w_s of the disc in its own axes.
     fn spin(&self) -> [S; 3] {
         let ([w, _], [a, rate, _]) = (&self.frame, &self.own);
         let small = SmallTurn::of(*a);

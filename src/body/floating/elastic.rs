@@ -20,7 +20,7 @@ impl<S: Scalar> Means<S> {
     }
 }
 
-/// (S q)_i
+/// Component i of S q.
 fn steepness<S: Scalar>(stretch: &Stretch, i: usize, q: &[S]) -> S {
     let n = stretch.dofs.len();
     let row = stretch.slopes[i * n..(i + 1) * n].iter().zip(&stretch.dofs);
@@ -80,7 +80,7 @@ impl<const D: usize> Floating<D> {
     }
 }
 
-/// x.A x/2
+/// Quadratic form x.A x/2.
 pub(super) fn half_square<S: Scalar>(matrix: &Symmetric, x: &[S]) -> S {
     let factor = |i: usize, j: usize| if i == j { 0.5 } else { 1.0 };
     matrix.iter().fold(S::zero(), |sum, &(i, j, value)| sum + x[i] * x[j] * (factor(i, j) * value))

@@ -52,7 +52,7 @@ impl<const D: usize> Curves<D> {
 }
 
 impl<S: Scalar, const D: usize> Moving<'_, S, D> {
-    /// s
+    /// First moment s.
     pub fn s(&self) -> [S; D] {
         let mut s = self.piece.moments[0].map(S::constant);
         for (i, &dof) in self.piece.dofs.iter().enumerate() {
@@ -65,7 +65,7 @@ impl<S: Scalar, const D: usize> Moving<'_, S, D> {
         s
     }
 
-    /// mu_i
+    /// Derivative mu_i of s by q_i.
     #[inline]
     pub fn mu(&self, i: usize) -> [S; D] {
         let mut mu = if self.curves.drifts { self.drift(self.q, i) } else { [S::zero(); D] };
@@ -82,7 +82,7 @@ impl<S: Scalar, const D: usize> Moving<'_, S, D> {
         sum
     }
 
-    /// W_i
+    /// Integral W_i of rho u phi_i^T.
     #[inline]
     pub fn w(&self, i: usize) -> Matrix<S, D> {
         let n = self.piece.dofs.len();

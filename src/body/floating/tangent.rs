@@ -59,7 +59,7 @@ impl<const D: usize> Floating<D> {
         }
     }
 
-    /// d(r_r, r_t)/dtheta.
+    /// k += d(r_r, r_t)/dtheta.
     fn add_frame_stiffness(&self, motion: &Motion<D>, moving: &Moving<f64, D>, k: &mut [f64]) {
         let s = moving.s();
         let (swept, rate) = (motion.swept(&s), moving.momentum(moving.v));
@@ -76,7 +76,7 @@ impl<const D: usize> Floating<D> {
         }
     }
 
-    /// d(r_r, r_t)/dw.
+    /// c += d(r_r, r_t)/dw.
     fn add_frame_damping(&self, motion: &Motion<D>, moving: &Moving<f64, D>, c: &mut [f64]) {
         let (s, rate, w) = (moving.s(), moving.momentum(moving.v), &motion.w);
         let (p, q) = (moving.p(), transposed(&moving.flow(moving.v)));

@@ -11,7 +11,7 @@ pub enum Unsolved {
     /// Entries are infinite or not a number.
     #[error("a matrix has entries that are not finite")]
     NotFinite,
-    /// Of `wanted` eigenvalues (or singular values) only `converged` were found.
+    /// Only `converged` of `wanted` eigenvalues (or singular values) were found.
     #[error("eigenvalues do not converge: {converged} of {wanted} found")]
     NotConverged {
         /// Number found.

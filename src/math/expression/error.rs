@@ -15,7 +15,7 @@ pub struct ExpressionError {
     pub hint: Option<String>,
     /// Column of the fault in [`text`](Self::text), in characters from one; `None` for a fault of the whole.
     pub position: Option<usize>,
-    /// The expression.
+    /// Text of the whole expression.
     pub text: String,
 }
 

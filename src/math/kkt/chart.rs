@@ -22,7 +22,7 @@ pub struct Chart {
     has_say: Vec<bool>,
     /// Y by rows.
     normal: Vec<f64>,
-    /// (G Y)^T
+    /// QR factors of (G Y)^T at the current state.
     place: PivotedQr,
     x: Vec<f64>,
     c: Vec<f64>,

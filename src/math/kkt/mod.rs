@@ -58,32 +58,32 @@ pub use saddle::SaddlePoint;
 pub use two_jacobian::TwoJacobianGmres;
 pub use unsymmetric::{Field, Unsymmetric};
 
-/// A way to solve the system: factor once, then solve any number of times.
+/// A solver of the system: factor once, then solve any number of times.
 pub trait Solver {
-    /// With these values at the places of M and G. Near singular states rows count as dependent below 1e-4 of
-    /// `reference`, the rank indicator where nothing is singular; zero where that is not known.
+    /// Factors with these values at the places of M and G. Near singular states rows count as dependent below 1e-4 of
+    /// `reference`, the rank indicator at regular states; zero if that is not known.
     fn factor(&mut self, mass: &[f64], g: &[f64], reference: f64) -> Result<(), Singular>;
 
-    /// How near G is to losing rank at the last factorization, rows that were dropped aside; in a metric of its own.
+    /// Rank indicator of G at the last factorization, without dropped rows; in a metric of the solver's own.
     fn rank_indicator(&self) -> f64;
 
-    /// (r1, r2) -> (a, lambda), in place.
+    /// Solves in place: (r1, r2) -> (a, lambda).
     fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) -> Result<(), Singular>;
 
-    /// Drops these rows from the next factorization on, where the solver can be misled by them: see
+    /// Drops these rows from the next factorization on, if the solver can be misled by them: see
     /// [`SaddlePoint::drop_rows`].
     fn drop_rows(&mut self, _rows: &[usize]) {}
 
-    /// Whether rows of G were dependent at the last factorization.
+    /// True if rows of G were dependent at the last factorization.
     fn is_rank_deficient(&self) -> bool;
 
-    /// [`SaddlePoint::rank_indicator`]; none where the solver does not say.
+    /// [`SaddlePoint::rank_indicator`]; `None` if the solver does not compute it.
     fn row_indicator(&self) -> Option<f64> {
         None
     }
 }
 
-/// Why a saddle-point system cannot be solved.
+/// Reason why a saddle-point system cannot be solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Singular {
     /// A direction of motion has neither mass nor constraint; `coordinate` moves most along it.
@@ -101,18 +101,18 @@ pub enum Singular {
     /// The matrix or a solution is not finite.
     #[error("the saddle-point system or its solution is not finite")]
     NotFinite,
-    /// The matrix of an implicit step has no inverse: its constraints depend on each other otherwise than at the start.
+    /// The matrix of an implicit step is singular: other constraints are dependent than at the start.
     #[error(
         "the matrix of an implicit step is singular: the rank of the constraints changes, or the motion is not determined"
     )]
     Collapsed,
-    /// Values or right sides do not fit the patterns.
+    /// Lengths of values or right sides are not those of the patterns.
     #[error("the values do not fit the saddle-point system's patterns")]
     Shape,
     /// The last factorization failed, or there was none.
     #[error("the saddle-point system is not factored")]
     NotFactored,
-    /// Iteration between the constraints of two places does not converge.
+    /// The iteration of [`TwoJacobianGmres`], between constraints at two states, does not converge.
     #[error("the constraints at the ends of a stage are too far apart for its equations to be solved")]
     Apart,
 }
