@@ -207,11 +207,11 @@ pub struct Simulation {
     pub output_step: Option<Number>,
     /// Formulation, integrator and projection by trials along the motion, in the place of the three.
     pub method: Option<Automatic>,
-    /// Form of the equations that is integrated. Default: index 1.
+    /// Form of the equations that is integrated. Default: `index1`.
     pub formulation: Option<MethodSpec>,
-    /// Time integration method.
+    /// Time integration method. Default: `dop853`.
     pub integrator: Option<MethodSpec>,
-    /// Correction of q and v after a step. Default: none.
+    /// Correction of q and v after a step. Default: `manifold`.
     pub projection: Option<MethodSpec>,
     /// Relative tolerance of the local error.
     pub rtol: Option<Number>,

@@ -16,8 +16,8 @@
 //! 3. Else, and not too large: a dense rank-revealing factorization (`null_space`).
 //!
 //! [`PseudoInverse`] and [`Reduced`] solve the same system densely in other ways, for comparison. [`Chart`] moves
-//! states to the constraints along fixed directions. [`Unsymmetric`] solves the system of implicit methods, which has
-//! stiffness and damping beside M.
+//! states to the constraints along fixed directions. [`Unsymmetric`] solves the system of implicit methods, which adds
+//! stiffness and damping to M.
 //!
 //! Redundant rows get multipliers of least norm, and contradicting right sides a least-squares solution (`least`), by
 //! one more sparse factorization for any number of them.

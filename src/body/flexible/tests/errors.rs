@@ -1,4 +1,4 @@
-//! Beams that cannot be meant as they stand.
+//! Errors for beams that are not valid.
 
 use super::*;
 

@@ -71,7 +71,7 @@ fn without_elastic_motion_an_arc_is_a_rigid_one() {
 fn the_mass_matrix_is_that_of_textbooks() {
     let rod: Elastic<2> = build(&beam(json!({ "elements": 2, "frame_conditions": "mean" })), &[]).unwrap();
     assert_eq!(rod.names.len(), 6);
-    // One element next to a held node, so that the right half of its matrix is left.
+    // One element with its left node fixed: the right half of its matrix remains.
     let rod: Elastic<2> = build(&beam(json!({ "elements": 1 })), &[]).unwrap();
     let (mass, stiffness) = matrices(&rod, |_| true);
     let (m, l, ei) = (0.8 * L / 420.0, L, 3.0);

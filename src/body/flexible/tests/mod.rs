@@ -35,7 +35,7 @@ fn build<const D: usize>(scene: &Value, markers: &[f64]) -> Result<Elastic<D>> {
     elastic_beam(&beam, markers, &build).map(|(elastic, _)| elastic)
 }
 
-/// The scene's words for a beam of length 1.5 with all different numbers, changed by `more`.
+/// Keys of a beam of length 1.5 with all numbers different, changed by `more`.
 fn beam(more: Value) -> Value {
     let mut beam = json!({
         "frame": "floating", "length": "l", "elements": 4,
@@ -50,7 +50,7 @@ fn beam(more: Value) -> Value {
     beam
 }
 
-/// In space, with two bending stiffnesses.
+/// A beam in space, with two bending stiffnesses.
 fn beam_in_space(more: Value) -> Value {
     let mut space = json!({
         "stiffness": { "EA": 2e4, "EI": [5.0, 3.0], "GA": [900.0, 700.0], "GJ": 2.0 },
@@ -60,7 +60,7 @@ fn beam_in_space(more: Value) -> Value {
     beam(space)
 }
 
-/// All the mass in one piece, the points of the sections moved to first order as those of the line.
+/// All the mass in one piece, with points of the sections displaced to first order.
 fn whole<const D: usize>(elastic: &Elastic<D>) -> Piece<D> {
     let n = 1 + elastic.names.len();
     let mut sum = Piece { dofs: (1..n).map(|i| i - 1).collect(), ..Piece::default() };

@@ -1,4 +1,4 @@
-//! Bodies in modal coordinates: a reduced beam written out and read back is the same body; data that cannot be meant.
+//! Bodies in modal coordinates: a reduced beam written out and read back is the same body; errors of invalid data.
 
 use super::npy::{bytes, npy};
 use super::*;
@@ -10,7 +10,7 @@ use std::path::Path;
 const ELEMENTS: u32 = 6;
 const L: f64 = 1.5;
 
-/// A reduced beam whose sections have inertia, so that masses on and beside its line have exactly its inertia.
+/// A reduced beam whose sections have inertia, so that masses on and off its line have exactly its inertia.
 fn reduced<const D: usize>() -> Elastic<D> {
     let more = json!({
         "elements": ELEMENTS, "theory": "timoshenko", "modes": 3, "frame_conditions": "mean", "damping": { "modal": 0.01 },
@@ -111,7 +111,7 @@ fn assert_same<const D: usize>(rod: &Elastic<D>, found: &ModalShapes<D>) {
     flat(&a.products.concat()).iter().zip(flat(&b.products.concat())).for_each(|(a, b)| assert_close(*a, b, 1e-11));
     assert_eq!((&rod.stiffness, &rod.damping), (&found.elastic.stiffness, &found.elastic.damping));
     assert_eq!(rod.names, found.elastic.names);
-    // The data do not say what turns with a section.
+    // The data do not contain the rotation of sections.
     let node = |name: &str, place| (name.to_string(), PointShape { arm: [0.0; D], ..at(rod, place) });
     assert_eq!(found.nodes, [node("left", [0.0; 3]), node("tip", [L, 0.1, 0.0])]);
 }

@@ -6,7 +6,7 @@ fn total(cost: &Matrix, columns: &[usize]) -> f64 {
     columns.iter().enumerate().map(|(i, &j)| cost[(i, j)]).sum()
 }
 
-/// The least cost of rows from `row` on with the columns that are left.
+/// Least cost of rows from `row` on with the unused columns, by trying all.
 fn least(cost: &Matrix, row: usize, used: &mut Vec<usize>) -> f64 {
     if row == cost.nrows() {
         return 0.0;

@@ -79,7 +79,7 @@ fn lifted_vectors_are_those_of_the_pencil() {
     }
 }
 
-/// With a last row of G that is the sum of the first two.
+/// A mechanism whose last row of G is the sum of the first two.
 fn redundant() -> Mechanism {
     let mut mechanism = random(7, 3, 11);
     let sum = mechanism.g.row(0) + mechanism.g.row(1);

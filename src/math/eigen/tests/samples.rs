@@ -5,7 +5,7 @@ use super::super::{Complex, ComplexMatrix, Matrix, dense, eigen};
 pub struct Random(pub u64);
 
 impl Random {
-    /// In (-1, 1).
+    /// Next number in (-1, 1).
     pub fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         ((self.0 >> 33) as f64) / (1u64 << 30) as f64 - 1.0
@@ -55,7 +55,7 @@ pub fn chain(links: usize) -> Mechanism {
     let mut g = Matrix::zeros(2 * links, n);
     for i in 0..links {
         mass[(3 * i + 2, 3 * i + 2)] = 1.0 / 12.0;
-        // The weight of the links below turns this one back.
+        // Restoring moment by the weight of the links below.
         k[(3 * i + 2, 3 * i + 2)] = 9.81 * (links - i) as f64 - 4.9;
         // End of the link before, and start of this one, x and z: angles act at half a length across.
         (g[(2 * i, 3 * i)], g[(2 * i, 3 * i + 2)], g[(2 * i + 1, 3 * i + 1)]) = (1.0, -0.5, 1.0);
@@ -75,7 +75,7 @@ pub enum Form {
 }
 
 impl Mechanism {
-    /// (A, E, infinite eigenvalues, zeros beside the finite ones).
+    /// Returns A, E, the number of infinite eigenvalues, and the number of zero ones in addition to the finite ones.
     pub fn pencil(&self, form: &Form) -> (Matrix, Matrix, usize, usize) {
         let (m, n) = self.g.shape();
         let size = 2 * n + m * if matches!(form, Form::Ggl) { 2 } else { 1 };
@@ -104,7 +104,7 @@ impl Mechanism {
         }
     }
 
-    /// Of R^T (M s^2 + C s + K) R with G R = 0, by magnitude.
+    /// Eigenvalues of R^T (M s^2 + C s + K) R with G R = 0, by magnitude.
     pub fn values(&self) -> Vec<Complex<f64>> {
         let (m, n) = self.g.shape();
         let r = dense::svd(&self.g).unwrap().v.columns(m, n - m).into_owned();

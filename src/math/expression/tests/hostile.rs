@@ -1,4 +1,4 @@
-//! Whatever is typed, nothing panics and nothing grows without bound.
+//! No text makes the parser or evaluation panic or grow without bound.
 
 use super::*;
 use crate::math::Taylor;

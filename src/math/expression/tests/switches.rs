@@ -1,4 +1,4 @@
-//! Where expressions change their form, and how they go on when they are held on a piece.
+//! Switching functions of expressions, and their values on prescribed pieces.
 
 use super::super::{Expression, Name, Names};
 use crate::math::{Piece, Rate, Regime};
@@ -32,7 +32,7 @@ fn thresholds_and_what_passes_them() {
     assert_eq!([value(0), value(2), value(4)], [Some(3.0), Some(5.0), Some(-9.0)]);
 }
 
-/// A function held on a piece is that piece's smooth continuation.
+/// On a prescribed piece a function is the smooth continuation of that piece.
 #[test]
 fn a_piece_goes_on_beyond_its_threshold() {
     let held = |text: &str, pieces: &[Piece], x: f64| numbered(text, 0).0.eval_held(&[0.0, x], Regime::held(pieces));
@@ -43,7 +43,7 @@ fn a_piece_goes_on_beyond_its_threshold() {
     assert_eq!(held("max(0, x)", &[0], -4.0), -4.0);
     assert_eq!(held("smoothstep(x)", &[0], 0.5), 0.0);
     assert_eq!(held("sign(x)", &[1], 0.5), 0.0);
-    // A piece that has no value there gives way.
+    // If the prescribed piece has no value there, that of the argument is used.
     assert_eq!(held("max(0, x)^1.5", &[0], -4.0), 0.0);
     assert_eq!(held("max(0, x)^1.5", &[0], 4.0), 8.0);
 }
@@ -58,7 +58,7 @@ fn arguments_are_written_at_their_numbers() {
     expression.arguments(&[Rate::fixed(0.0), x], Regime::FREE, &mut out);
     assert_eq!([out[2].re, out[3].re, out[4].re], [7.0, -4.0, -3.0]);
     assert_eq!([out[3].eps[0], out[4].eps[0]], [1.0, 1.0]);
-    // With the inner one held on its other piece.
+    // With the inner one on its other piece.
     expression.arguments(&[Rate::fixed(0.0), x], Regime::held(&[0, 0, 0, 2, 0]), &mut out);
     assert_eq!([out[3].re, out[4].re], [-4.0, 5.0]);
 }

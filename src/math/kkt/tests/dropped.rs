@@ -1,10 +1,10 @@
-//! Rows that are dropped on purpose: by name, or truncated.
+//! Rows that are dropped by name or by truncation.
 
 use super::samples::{Random, Sample, distance};
 use super::{reachable, right_side, solved};
 use crate::math::kkt::{Pattern, SaddlePoint};
 
-/// A mechanism with two rows more: a combination of others, but for a part of size `off` of its own.
+/// A mechanism with two more rows: combinations of others, plus a part of size `off` of their own.
 fn redundant(off: f64, random: &mut Random) -> (Sample, Sample) {
     let reduced = Sample::mechanism(random);
     let mut sample = reduced.clone();
@@ -16,7 +16,7 @@ fn redundant(off: f64, random: &mut Random) -> (Sample, Sample) {
     (reduced, sample)
 }
 
-/// Whatever their pivots are, from 1e-4, where nothing else would leave them out, to round-off.
+/// Named rows are dropped for any pivots, from 1e-4, where nothing else would drop them, to round-off.
 #[test]
 fn dropped_rows_leave_the_motion_of_the_others() {
     let mut random = Random(21);

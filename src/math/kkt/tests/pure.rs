@@ -1,4 +1,4 @@
-//! A solution depends on the values at hand, never on what was factored before.
+//! A solution depends on the current values alone, never on earlier factorizations.
 
 use super::samples::{Random, Sample};
 use crate::math::kkt::{Pattern, PseudoInverse, Reduced, SaddlePoint, Singular, Solver};

@@ -154,7 +154,7 @@ fn least_multipliers_take_few_solutions_however_many_rows_are_redundant() {
             bottom[120..].fill(0.0);
         };
         Least::new(&sample.g).project(&system, &rows, rank_indicator, &mut inverse, &mut v);
-        // N w at first, N^T of what is left, and both again for each of two steps.
+        // First N w, then N^T of the residual, and both again for each of two steps.
         assert!(solutions <= 6, "{count} rows: {solutions}");
         // The same force, and nothing along null vectors: e_j less its combination.
         let force = |v: &[f64]| {
@@ -170,7 +170,7 @@ fn least_multipliers_take_few_solutions_however_many_rows_are_redundant() {
     }
 }
 
-/// Found among themselves, so that no matrix couples each with each.
+/// Copies of rows are found within their group, so that no factor couples all of them.
 #[test]
 fn copies_of_a_joint_share_its_force() {
     let mut random = Random(32);

@@ -149,7 +149,7 @@ fn both_ways_of_elimination_agree() {
 #[test]
 fn a_hub_does_not_couple_everything() {
     let mut random = Random(15);
-    // Body 1 carries 400 others.
+    // Body 1 is joined to 400 others: a hub.
     let joints: Vec<_> = (2..402).map(|k| (k, 1)).collect();
     let sample = Sample::planar(401, &joints, &mut random);
     let symbolic = symbolic::Symbolic::new(&sample.mass, &sample.g, &[vec![true; 3], vec![false; 1200]].concat());
