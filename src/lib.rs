@@ -94,6 +94,7 @@
 //! ```
 
 #![forbid(unsafe_code)]
+#![warn(missing_docs)]
 // Derivatives of products and quotients are sums of products: that is no slip.
 #![allow(clippy::suspicious_arithmetic_impl)]
 

@@ -8,6 +8,5 @@ pub mod work_precision;
 
 pub use check_error::{CheckError, Difference, check_error};
 #[doc(hidden)]
-#[doc(hidden)]
 pub use drift::stabilizations;
 pub use drift::{StabilizedRun, drift_under_stabilizations};

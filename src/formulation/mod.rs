@@ -40,7 +40,6 @@ pub use linearized::{Linearized, NO_TANGENT};
 pub use penalty::{OMEGA, PENALTY, XI, mean_compliance};
 pub use residual::Residual;
 #[doc(hidden)]
-#[doc(hidden)]
 pub use residual::Unknowns;
 #[doc(hidden)]
 pub use stabilizer::{Stabilizer, StabilizingField};

@@ -31,7 +31,6 @@ mod unconstrained;
 mod variation;
 
 #[doc(hidden)]
-#[doc(hidden)]
 pub use along::tighten;
 pub use along::{State, states};
 #[doc(hidden)]
@@ -44,19 +43,15 @@ pub use comparison::{Comparison, compare};
 #[doc(hidden)]
 pub use coordinates::{Coordinates, parallel};
 #[doc(hidden)]
-#[doc(hidden)]
 pub use entry::Built;
 pub use entry::{Entry, Request};
-#[doc(hidden)]
 #[doc(hidden)]
 pub use floquet::Defect;
 pub use floquet::{Floquet, floquet};
 #[doc(hidden)]
-#[doc(hidden)]
 pub use frequency::Resonances;
 pub use frequency::frequency_response;
 pub use lyapunov::{Lyapunov, lyapunov};
-#[doc(hidden)]
 #[doc(hidden)]
 pub use method::refuse_large;
 pub use method::{linearize, registry};
@@ -72,7 +67,6 @@ pub use steady::{Operating, at_rest};
 pub use survey::{At, Loci, LociVariable, loci_along, loci_over};
 #[doc(hidden)]
 pub use survey::{Gap, Reached, Variants};
-#[doc(hidden)]
 #[doc(hidden)]
 pub use tracking::track;
 pub use tracking::{Branch, LociPoint};

@@ -21,7 +21,6 @@ mod taylor;
 
 pub use dual::Dual;
 #[doc(hidden)]
-#[doc(hidden)]
 pub use dual::Rate;
 #[doc(hidden)]
 pub use interval::Interval;
@@ -29,7 +28,6 @@ pub use interval::Interval;
 pub use regime::{Piece, piece_of};
 pub use regime::{Regime, Time};
 pub use scalar::Scalar;
-#[doc(hidden)]
 #[doc(hidden)]
 pub use scalar::Unary;
 pub use taylor::Taylor;

@@ -26,7 +26,6 @@ pub mod units;
 pub use builder::SceneBuilder;
 pub use elements::Elements;
 #[doc(hidden)]
-#[doc(hidden)]
 pub use format::Assembly;
 pub use format::{Automatic, Simulation};
 pub use model::Model;

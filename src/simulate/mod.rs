@@ -29,7 +29,6 @@ pub(crate) use segments::Segments;
 #[doc(hidden)]
 pub use spectrum::{SpectralMode, Spectrum};
 #[doc(hidden)]
-#[doc(hidden)]
 pub use stiffness::explicit;
 pub use stiffness::{Stiffness, stiffness};
 

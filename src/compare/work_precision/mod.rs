@@ -29,10 +29,8 @@ pub use advice::Recommendation;
 #[doc(hidden)]
 pub use advice::{Lack, cheapest_by_method};
 #[doc(hidden)]
-#[doc(hidden)]
 pub use cell::Held;
 pub use cell::{Cell, Outcome};
-#[doc(hidden)]
 #[doc(hidden)]
 pub use error_metric::ErrorMetric;
 pub use error_metric::Watched;

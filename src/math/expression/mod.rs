@@ -67,7 +67,6 @@ mod tests;
 pub use error::ExpressionError;
 pub use number::Number;
 #[doc(hidden)]
-#[doc(hidden)]
 pub use number::constant;
 pub use parameters::Parameters;
 #[doc(hidden)]

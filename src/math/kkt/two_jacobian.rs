@@ -11,9 +11,10 @@ use crate::tolerances::math as tolerances;
 /// ```
 ///
 /// by the factors of the symmetric matrix with G1 in both blocks. Every b gives a pair (a, lambda) that satisfies the
-/// upper rows exactly, with G1 a = b; GMRES finds the b with G2 a(b) = r. The map b -> G2 a(b) is the identity up to G2
-/// - G1 = O(h), so about five back-substitutions gain ten digits, and a distant G2 costs more of them but does not
-///   diverge.
+/// upper rows exactly, with G1 a = b; GMRES finds the b with G2 a(b) = r. The map b -> G2 a(b) is the identity up to
+/// `G2 - G1 = O(h)`, so about five back-substitutions gain ten digits, and a distant G2 costs more of them but does not
+/// diverge.
+///
 /// Restarts compute the true residual, as in iterative refinement. Unlike a dense LU, it keeps the sparse factors,
 /// and their treatment of dependent rows and massless coordinates.
 pub struct TwoJacobianGmres {
