@@ -79,12 +79,12 @@ fn chart(name: &str, point: &LinearizationPoint) -> String {
     match name {
         "intrinsic" => {
             "chart intrinsic: axes carried along with the motion without turning, so the frozen eigenvalues \
-                        depend on no spec of coordinates; they are frozen at this instant, and say of a motion \
+                        depend on no choice of coordinates; they are frozen at this instant, and say of a motion \
                         that is steady in other axes nothing"
                 .to_string()
         }
         "mass_orthogonal" => "chart mass_orthogonal: fixed axes, in the mass metric square to what the constraints \
-                              hold; off equilibrium the frozen eigenvalues belong to this spec"
+                              hold; off equilibrium the frozen eigenvalues belong to this choice"
             .to_string(),
         "frozen" => {
             "chart frozen: all matrices held as they are at this instant; off equilibrium these eigenvalues are \
