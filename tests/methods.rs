@@ -14,7 +14,6 @@ mod long_runs;
 mod nonholonomic;
 mod null_space;
 mod orders;
-mod outside;
 mod passings;
 mod purity;
 mod radau_iia;

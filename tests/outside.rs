@@ -1,12 +1,14 @@
-//! A formulation, an integrator and a projection from outside the crate: each an `Entry` of its own, chosen by `choice()`.
+//! A formulation, an integrator and a projection from outside the crate: each an `Entry` of its own, chosen by `spec()`.
+//! Two of them are those of `examples`: here they keep their orders.
 
 use crate::common::driven_pendulum::{DrivenPendulum, start};
 use crate::common::orders::{self, END, Rows};
 use crate::common::{fixed, run, until};
+use crate::examples::own_formulation::BRAKED;
+use crate::examples::own_integrator::MIDPOINT;
 use holonom::analysis::Recorder;
-use holonom::formulation::{self, Dae, Dynamics, Formulation, Row, StepError};
-use holonom::integrator::{self, Control, From, Integrator, Problem, Steps, Tightening, Tolerance};
-use holonom::method_spec::{Listed, MethodSpec, OptionDoc};
+use holonom::formulation::{self, Dae, Row};
+use holonom::method_spec::{Listed, MethodSpec};
 use holonom::projection;
 use holonom::simulate::{Method, Span, simulate};
 
@@ -18,103 +20,6 @@ static ROWS: formulation::Entry = formulation::Entry {
     dae: Some(|_| Ok(Dae { mu: Some(Row::POSITION), ..Dae::with(Row::ACCELERATION) })),
     field: None,
 };
-
-/// phi'' + rate phi' = 0
-static FIELD: formulation::Entry = formulation::Entry {
-    name: "braked",
-    about: "phi'' + rate phi' = 0",
-    options: &[OptionDoc { name: "rate", about: "at which phi' decays, 1/s (default 1)" }],
-    dae: None,
-    field: Some(|spec, _| Ok(Box::new(Braked(spec.not_negative("rate", 1.0)?)))),
-};
-
-struct Braked(f64);
-
-impl Formulation for Braked {
-    fn derivative(
-        &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        dynamics: &mut Dynamics,
-        qdot: &mut [f64],
-        vdot: &mut [f64],
-    ) -> Result<(), StepError> {
-        dynamics.solve(t, q, v, |_, phi_dot| -self.0 * phi_dot)?;
-        dynamics.system.rate(q, v, qdot);
-        vdot.copy_from_slice(&dynamics.vdot);
-        Ok(())
-    }
-}
-
-/// y_1 = y + h F(t + h/2, y + h/2 F(t, y))
-static MIDPOINT: integrator::Entry = integrator::Entry {
-    name: "midpoint",
-    about: "the explicit midpoint rule",
-    order: 2,
-    steps: Steps::Fixed,
-    tightening: Tightening::NONE,
-    solves: |formulation| formulation.field.is_some(),
-    refuses: |_, _| false,
-    options: &[],
-    make: |setup| {
-        let zeros = || vec![0.0; setup.len()];
-        Ok(Box::new(Midpoint { middle: zeros(), slope: zeros(), control: Control::new(2.0, 0.0, 0.2, 5.0) }))
-    },
-};
-
-struct Midpoint {
-    middle: Vec<f64>,
-    slope: Vec<f64>,
-    control: Control,
-}
-
-impl Integrator for Midpoint {
-    fn order(&self) -> usize {
-        MIDPOINT.order
-    }
-
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        _: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
-        let ahead = |out: &mut [f64], h: f64, slope: &[f64]| {
-            out.iter_mut().zip(from.y.iter().zip(slope)).for_each(|(out, (y, slope))| *out = y + h * slope);
-        };
-        ahead(&mut self.middle, 0.5 * h, from.slope);
-        problem.derivative(from.t + 0.5 * h, &self.middle, &mut self.slope)?;
-        ahead(to, h, &self.slope);
-        Ok(None)
-    }
-
-    fn control(&mut self) -> &mut Control {
-        &mut self.control
-    }
-
-    fn prepare(&mut self, _: &mut Problem, _: From, _: f64, _: &[f64], _: &[f64]) -> Result<(), StepError> {
-        Ok(())
-    }
-
-    /// The parabola that leaves with y' and comes to the end.
-    fn interpolate(
-        &mut self,
-        _: &mut Problem,
-        from: From,
-        h: f64,
-        theta: f64,
-        out: &mut [f64],
-    ) -> Result<(), StepError> {
-        let slopes = from.slope.iter().zip(&self.slope);
-        out.iter_mut()
-            .zip(from.y.iter().zip(slopes))
-            .for_each(|(out, (y, (start, mean)))| *out = y + h * theta * (start + theta * (mean - start)));
-        Ok(())
-    }
-}
 
 /// The one of the crate under another name.
 static PROJECTION: projection::Entry = projection::Entry {
@@ -158,14 +63,14 @@ fn implicit_integrators_solve_the_rows_of_a_formulation_from_outside() {
 
 #[test]
 fn explicit_integrators_follow_a_field_from_outside() {
-    let formulation = FIELD.spec().with("rate", "2");
+    let formulation = BRAKED.spec().with("rate", "2");
     check(4.0, [128, 256], |step| Method { formulation: formulation.clone(), ..fixed("", "rk4", "none", step) });
 }
 
 #[test]
 fn all_three_parts_may_come_from_outside() {
     let of = |step: f64| Method {
-        formulation: FIELD.spec(),
+        formulation: BRAKED.spec(),
         integrator: MIDPOINT.spec(),
         projection: PROJECTION.spec(),
         ..fixed("", "", "", step)
@@ -186,7 +91,7 @@ fn what_does_not_go_together_is_refused() {
     };
     let pair = refused(&Method { formulation: ROWS.spec(), ..fixed("", "rk4", "none", 0.1) });
     assert!(pair.contains("rk4 cannot integrate ggl_of_accelerations"), "{pair}");
-    let option = refused(&Method { formulation: FIELD.spec().with("rat", "2"), ..fixed("", "rk4", "none", 0.1) });
+    let option = refused(&Method { formulation: BRAKED.spec().with("rat", "2"), ..fixed("", "rk4", "none", 0.1) });
     assert!(option.contains("formulation braked has no option `rat`"), "{option}");
     let unknown = refused(&Method { formulation: MethodSpec::named("braked"), ..fixed("", "rk4", "none", 0.1) });
     assert!(unknown.contains("there is no formulation `braked`"), "{unknown}");

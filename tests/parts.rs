@@ -13,6 +13,7 @@ mod flyball_governor;
 mod mechanisms;
 mod modal_body;
 mod models;
+mod outside;
 mod own_elements;
 mod scenes;
 mod section_forces;

@@ -6,7 +6,7 @@ use holonom::method_spec::{Listed, OptionDoc};
 use holonom::simulate::Method;
 
 /// phi'' + rate phi' = 0
-static BRAKED: Entry = Entry {
+pub static BRAKED: Entry = Entry {
     name: "braked",
     about: "phi'' + rate phi' = 0",
     options: &[OptionDoc { name: "rate", about: "at which phi' decays, 1/s (default 1)" }],

@@ -7,7 +7,7 @@ use holonom::method_spec::Listed;
 use holonom::simulate::Method;
 
 /// The explicit midpoint rule, y_1 = y + h F(t + h/2, y + h/2 F(t, y)).
-static MIDPOINT: Entry = Entry {
+pub static MIDPOINT: Entry = Entry {
     name: "midpoint",
     about: "the explicit midpoint rule",
     order: 2,
