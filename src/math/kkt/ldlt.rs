@@ -1,36 +1,28 @@
-//! A factor L D L^T without pivoting, simplicial or supernodal.
+//! A factor L D L^T without pivoting, over small blocks of a frozen pattern or, where it fills, over faer's.
 
 use super::Pattern;
+use super::blocks::{Blocks, Layout};
 use super::pivot::{Quality, Rule};
-use super::simplicial::Simplicial;
 use super::supernodal::Supernodal;
-use super::symbolic::Symbolic;
 
-/// Multiplications per nonzero of L from which dense blocks win over a list of destinations, and the length of that
-/// list from which its memory counts. Measured: see `Simplicial`.
-const FILL_FOR_BLOCKS: usize = 40;
+/// Multiplications per entry of L from which faer's blocks win, and the number of products of blocks from which the
+/// memory of their list counts.
+const FILL_FOR_FAER: usize = 40;
 const LONGEST_LIST: usize = 30_000_000;
 
 pub(super) enum Ldlt {
-    Simplicial(Box<Simplicial>),
+    Blocks(Box<Blocks>),
     Supernodal(Box<Supernodal>),
 }
 
 impl Ldlt {
     pub fn new(mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
-        let symbolic = Symbolic::new(mass, g, late);
-        let operations = symbolic.operations();
-        if operations > FILL_FOR_BLOCKS * (symbolic.rows.len() + symbolic.size()) || operations > LONGEST_LIST {
-            Self::blocked(symbolic, mass, g, late)
-        } else {
-            Ldlt::Simplicial(Box::new(Simplicial::new(symbolic)))
-        }
-    }
-
-    pub fn blocked(symbolic: Symbolic, mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
-        match Supernodal::new(symbolic, mass, g, late) {
-            Some(blocked) => Ldlt::Supernodal(Box::new(blocked)),
-            None => Ldlt::Simplicial(Box::new(Simplicial::new(Symbolic::new(mass, g, late)))),
+        let layout = Layout::new(mass, g, late);
+        let is_filled = layout.operations() > FILL_FOR_FAER * layout.len || layout.targets.len() > LONGEST_LIST;
+        let faer = if is_filled { Supernodal::new(mass, g, late) } else { None };
+        match faer {
+            Some(supernodal) => Ldlt::Supernodal(Box::new(supernodal)),
+            None => Ldlt::Blocks(Box::new(Blocks::new(layout, mass.rows))),
         }
     }
 
@@ -38,7 +30,7 @@ impl Ldlt {
     pub fn factor(&mut self, mass: &[f64], g: &[f64], rule: Rule, skipped: &mut Vec<usize>) -> Result<Quality, usize> {
         skipped.clear();
         match self {
-            Ldlt::Simplicial(f) => f.factor(mass, g, rule, skipped),
+            Ldlt::Blocks(f) => f.factor(mass, g, rule, skipped),
             Ldlt::Supernodal(f) => f.factor(mass, g, rule, skipped),
         }
     }
@@ -46,7 +38,7 @@ impl Ldlt {
     /// Solves in place; dropped multipliers are zero.
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
         match self {
-            Ldlt::Simplicial(f) => f.solve(top, bottom),
+            Ldlt::Blocks(f) => f.solve(top, bottom),
             Ldlt::Supernodal(f) => f.solve(top, bottom),
         }
     }
@@ -55,7 +47,7 @@ impl Ldlt {
     /// above it.
     pub fn smallest_ratio(&self, collapsed: f64) -> (f64, usize) {
         match self {
-            Ldlt::Simplicial(f) => f.smallest_ratio(collapsed),
+            Ldlt::Blocks(f) => f.smallest_ratio(collapsed),
             Ldlt::Supernodal(f) => f.smallest_ratio(collapsed),
         }
     }

@@ -7,8 +7,8 @@
 //!
 //! [`SaddlePoint`] does the symbolic work once, then factors and solves any number of times:
 //!
-//! 1. L D L^T without pivoting in an order that makes this safe (`order`), over a list of destinations (`simplicial`)
-//!    or, where L fills, over faer's dense blocks (`supernodal`). Each pivot is compared with its size before
+//! 1. L D L^T without pivoting in an order that makes this safe (`order`), over the blocks of bodies and joints (`blocks`)
+//!    or, where L fills, over faer's (`supernodal`). Each pivot is compared with its size before
 //!    elimination.
 //! 2. When a pivot collapses: the same with dependent rows dropped (`redundant_rows`), if it is clear which these are.
 //!    Rows that are known to be dependent, or are found so among rows of the same coordinates (`alike`), are not
@@ -23,6 +23,7 @@
 //! one more sparse factorization for any number of them.
 
 mod alike;
+mod blocks;
 mod chart;
 mod condition;
 mod dependence;
@@ -39,7 +40,6 @@ mod pseudo_inverse;
 mod reduced;
 mod redundant_rows;
 mod saddle;
-mod simplicial;
 mod supernodal;
 mod symbolic;
 mod system;

@@ -38,7 +38,8 @@ pub(super) struct Supernodal {
 
 impl Supernodal {
     /// `None` if faer cannot allocate.
-    pub fn new(symbolic: Symbolic, mass: &Pattern, g: &Pattern, late: &[bool]) -> Option<Self> {
+    pub fn new(mass: &Pattern, g: &Pattern, late: &[bool]) -> Option<Self> {
+        let symbolic = Symbolic::new(mass, g, late);
         let size = symbolic.size();
         let places = places(&symbolic, mass, g);
         let mut pairs = places.clone();

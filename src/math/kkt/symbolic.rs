@@ -41,11 +41,6 @@ impl Symbolic {
         self.order.nodes.len()
     }
 
-    /// Multiplications of a factorization beyond those that scale the columns.
-    pub fn operations(&self) -> usize {
-        self.starts.windows(2).map(|w| (w[1] - w[0]) * (w[1] - w[0] + 1) / 2).sum()
-    }
-
     /// +1 for the coordinates, -1 for the multipliers, by position: the signs of the pivots.
     pub fn signs(&self) -> impl Iterator<Item = i8> {
         self.order.nodes.iter().map(|&node| if node < self.n { 1 } else { -1 })

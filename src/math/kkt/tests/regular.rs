@@ -2,11 +2,12 @@
 
 use super::samples::{Random, Sample, distance};
 use super::{agrees_with_lu, reachable, right_side, solved};
+use crate::math::kkt::blocks::{Blocks, Layout};
 use crate::math::kkt::ldlt::Ldlt;
 use crate::math::kkt::pivot::Rule;
-use crate::math::kkt::symbolic::Symbolic;
+use crate::math::kkt::supernodal::Supernodal;
 use crate::math::kkt::system::System;
-use crate::math::kkt::{Pattern, SaddlePoint, simplicial, symbolic};
+use crate::math::kkt::{Pattern, SaddlePoint};
 
 #[test]
 fn agrees_with_a_pivoted_lu() {
@@ -128,13 +129,10 @@ fn both_ways_of_elimination_agree() {
         }
         let (r1, r2) = right_side(&sample, &mut random);
         let mut results = vec![];
+        let layout = Layout::new(&sample.mass, &sample.g, &late);
         for mut fast in [
-            Ldlt::Simplicial(Box::new(simplicial::Simplicial::new(symbolic::Symbolic::new(
-                &sample.mass,
-                &sample.g,
-                &late,
-            )))),
-            Ldlt::blocked(Symbolic::new(&sample.mass, &sample.g, &late), &sample.mass, &sample.g, &late),
+            Ldlt::Blocks(Box::new(Blocks::new(layout, n))),
+            Ldlt::Supernodal(Box::new(Supernodal::new(&sample.mass, &sample.g, &late).unwrap())),
         ] {
             let mut skipped = vec![];
             fast.factor(&sample.mass_values, &sample.g_values, Rule::STRICT, &mut skipped).ok().unwrap();
@@ -152,8 +150,8 @@ fn a_hub_does_not_couple_everything() {
     // Body 1 is joined to 400 others: a hub.
     let joints: Vec<_> = (2..402).map(|k| (k, 1)).collect();
     let sample = Sample::planar(401, &joints, &mut random);
-    let symbolic = symbolic::Symbolic::new(&sample.mass, &sample.g, &[vec![true; 3], vec![false; 1200]].concat());
-    assert!(symbolic.rows.len() < 10 * sample.g.rows);
+    let late = [vec![true; 3], vec![false; 1200]].concat();
+    assert!(Layout::new(&sample.mass, &sample.g, &late).len < 12 * sample.g.rows);
     let mut solver = SaddlePoint::new(&sample.mass, &sample.g);
     solver.factor(&sample.mass_values, &sample.g_values).unwrap();
     let (r1, r2) = right_side(&sample, &mut random);
@@ -179,4 +177,15 @@ fn projections_and_refinement() {
     let (mut a, mut lambda) = (r1.clone(), r2.clone());
     solver.solve_refined(&sample.mass_values, &sample.g_values, &mut a, &mut lambda).unwrap();
     assert!(distance(&a, &sample.by_lu(&r1, &r2).0) < 1e-10);
+}
+#[test]
+fn zz_print() {
+    let text = std::fs::read_to_string("models/andrews.json").unwrap();
+    let scene = crate::scene::Scene::parse(&text, &[]).unwrap();
+    let p = crate::prepared::PreparedScene::new(scene, &Default::default()).unwrap();
+    let s = p.system().structure();
+    println!("{:?}", s.g.entries);
+    let l = Layout::new(&s.mass, &s.g, &vec![false; s.mass.rows]);
+    for c in &l.columns { println!("{} first {} below {} partners {:?} diag {}", c.width, c.first, c.below.len(), c.partners, c.is_diagonal); }
+    println!("targets {} len {} ops {}", l.targets.len(), l.len, l.operations());
 }

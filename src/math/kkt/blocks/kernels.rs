@@ -1,0 +1,239 @@
+//! The arithmetic of columns of blocks, W unknowns wide.
+
+use super::super::pivot::{Quality, Rule};
+use super::groups::LARGEST;
+use super::layout::{Column, Layout};
+use std::array::from_fn;
+use std::ops::Range;
+
+/// How pivots are judged, and what was found so far.
+pub(super) struct Judge<'a> {
+    /// Number of coordinates.
+    pub n: usize,
+    pub rule: Rule,
+    pub skipped: &'a mut Vec<usize>,
+    pub quality: Quality,
+}
+
+/// The factors as they are made.
+pub(super) struct Elimination<'a, 'j> {
+    pub layout: &'a Layout,
+    /// The matrix, then D, L_jj and X.
+    pub work: &'a mut [f64],
+    /// By position: inverses of the pivots, and what these are compared with.
+    pub inverse: &'a mut [f64],
+    pub sizes: &'a [f64],
+    pub judge: &'a mut Judge<'j>,
+}
+
+/// X and the inverse of D of one column, and all later columns.
+type Eliminated<'a, const W: usize> = (&'a [[f64; W]], [f64; W], &'a mut [f64]);
+
+impl Elimination<'_, '_> {
+    /// Eliminates columns whose partners are all R wide.
+    pub fn alike<const W: usize, const R: usize>(&mut self, columns: Range<usize>) -> Result<(), usize> {
+        let layout = self.layout;
+        for column in &layout.columns[columns] {
+            let (xs, inverse, later) = self.divide::<W>(column)?;
+            let xs = xs.as_chunks::<R>().0;
+            let mut targets = layout.targets[column.targets..].iter();
+            for (l, x) in xs.iter().enumerate() {
+                let scaled: [[f64; W]; R] = from_fn(|j| from_fn(|p| x[j][p] * inverse[p]));
+                for (x, target) in xs[l..].iter().zip(targets.by_ref()) {
+                    let target = later[*target as usize..].as_chunks_mut::<R>().0;
+                    if let Some(target) = target.first_chunk_mut::<R>() {
+                        *target = from_fn(|i| from_fn(|j| target[i][j] - dot(&x[i], &scaled[j])));
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Eliminates columns with partners of any width.
+    pub fn mixed<const W: usize>(&mut self, columns: Range<usize>) -> Result<(), usize> {
+        let layout = self.layout;
+        for column in &layout.columns[columns] {
+            let (mut xs, inverse, later) = self.divide::<W>(column)?;
+            let partners = &layout.partners[column.partners.clone()];
+            let mut targets = layout.targets[column.targets..].iter();
+            for (l, &width) in partners.iter().enumerate() {
+                let width = usize::from(width);
+                let mut scaled = [[0.0; W]; LARGEST];
+                let scaled = &mut scaled[..width];
+                scaled.iter_mut().zip(xs).for_each(|(scaled, x)| *scaled = from_fn(|p| x[p] * inverse[p]));
+                let mut below = xs;
+                for (&rows, target) in partners[l..].iter().zip(targets.by_ref()) {
+                    let (x, others) = below.split_at(usize::from(rows));
+                    for (x, target) in x.iter().zip(later[*target as usize..].chunks_exact_mut(width)) {
+                        scaled.iter().zip(target).for_each(|(scaled, target)| *target -= dot(x, scaled));
+                    }
+                    below = others;
+                }
+                xs = &xs[width..];
+            }
+        }
+        Ok(())
+    }
+
+    /// Factors the diagonal block of a column and makes X of the blocks below.
+    #[inline]
+    fn divide<const W: usize>(&mut self, column: &Column) -> Result<Eliminated<'_, W>, usize> {
+        let (own, later) = self.work[column.diagonal..].split_at_mut(column.below.end - column.diagonal);
+        let unknowns = column.first..column.first + W;
+        let (sizes, inverse) = (self.sizes[unknowns.clone()].first_chunk(), self.inverse[unknowns].first_chunk_mut());
+        let (Some((diagonal, below)), Some(sizes), Some(inverse)) =
+            (own.as_chunks_mut::<W>().0.split_first_chunk_mut::<W>(), sizes, inverse)
+        else {
+            return Ok((&[], [0.0; W], later));
+        };
+        let node = |p: usize| self.layout.nodes[column.first + p];
+        let judged = (sizes, column.sign, node);
+        let found = match column.is_diagonal {
+            true => inverse_of_diagonal(diagonal, judged, self.judge)?,
+            false => {
+                let found = factor(diagonal, judged, self.judge)?;
+                below.iter_mut().for_each(|row| *row = forward(diagonal, *row));
+                found
+            }
+        };
+        *inverse = found;
+        Ok((below, found, later))
+    }
+}
+
+/// A right side as it is solved for.
+pub(super) struct Solution<'a> {
+    pub layout: &'a Layout,
+    pub work: &'a [f64],
+    pub inverse: &'a [f64],
+    pub x: &'a mut [f64],
+}
+
+/// L_jj and X of a column, and the inverse of D.
+type Factors<'a, const W: usize> = (&'a [[f64; W]; W], &'a [[f64; W]], &'a [f64; W]);
+
+impl Solution<'_> {
+    #[inline]
+    fn factors<const W: usize>(&self, column: &Column) -> Option<Factors<'_, W>> {
+        let rows = self.work[column.diagonal..column.below.end].as_chunks::<W>().0;
+        let (diagonal, below) = rows.split_first_chunk::<W>()?;
+        Some((diagonal, below, self.inverse[column.first..].first_chunk::<W>()?))
+    }
+
+    /// x := L^-1 x for these columns.
+    pub fn forward<const W: usize>(&mut self, columns: Range<usize>) {
+        for column in &self.layout.columns[columns] {
+            let rows = self.work[column.diagonal..column.below.end].as_chunks::<W>().0;
+            let place = self.x[column.first..].first_chunk_mut::<W>();
+            let inverse = self.inverse[column.first..].first_chunk::<W>();
+            let (Some((diagonal, below)), Some(place), Some(inverse)) =
+                (rows.split_first_chunk::<W>(), place, inverse)
+            else {
+                return;
+            };
+            let mine = if column.is_diagonal { *place } else { forward(diagonal, *place) };
+            *place = mine;
+            let mine: [f64; W] = from_fn(|p| mine[p] * inverse[p]);
+            for (row, &place) in below.iter().zip(&self.layout.rows[column.rows.clone()]) {
+                self.x[place as usize] -= dot(row, &mine);
+            }
+        }
+    }
+
+    /// x := L^-T D^-1 x for these columns, the last first.
+    pub fn backward<const W: usize>(&mut self, columns: Range<usize>) {
+        for column in self.layout.columns[columns].iter().rev() {
+            let Some((diagonal, below, inverse)) = self.factors::<W>(column) else { return };
+            let Some(&place) = self.x[column.first..].first_chunk::<W>() else { return };
+            let mut mine = place;
+            for (row, &place) in below.iter().zip(&self.layout.rows[column.rows.clone()]) {
+                let x = self.x[place as usize];
+                mine = from_fn(|p| mine[p] - row[p] * x);
+            }
+            mine = from_fn(|p| mine[p] * inverse[p]);
+            if !column.is_diagonal {
+                for p in (0..W).rev() {
+                    (p + 1..W).for_each(|q| mine[p] -= diagonal[q][p] * mine[q]);
+                }
+            }
+            self.x[column.first..][..W].copy_from_slice(&mine);
+        }
+    }
+}
+
+/// What the pivots of a block are judged by: their sizes, their sign and their nodes.
+type Judged<'a, N, const W: usize> = (&'a [f64; W], f64, N);
+
+/// L D L^T of a diagonal block in place; returns the inverse of D.
+#[inline]
+fn factor<N: Fn(usize) -> usize, const W: usize>(
+    block: &mut [[f64; W]; W],
+    judged: Judged<N, W>,
+    judge: &mut Judge,
+) -> Result<[f64; W], usize> {
+    let (mut own, mut inverse) = (*block, [0.0; W]);
+    for p in 0..W {
+        inverse[p] = judge.inverse(own[p][p], p, &judged)?;
+        for q in p + 1..W {
+            let factor = own[q][p] * inverse[p];
+            (p + 1..=q).for_each(|r| own[q][r] -= factor * own[r][p]);
+        }
+        (p + 1..W).for_each(|q| own[q][p] *= inverse[p]);
+    }
+    *block = own;
+    Ok(inverse)
+}
+
+#[inline]
+fn inverse_of_diagonal<N: Fn(usize) -> usize, const W: usize>(
+    block: &[[f64; W]; W],
+    judged: Judged<N, W>,
+    judge: &mut Judge,
+) -> Result<[f64; W], usize> {
+    let mut inverse = [0.0; W];
+    for p in 0..W {
+        inverse[p] = judge.inverse(block[p][p], p, &judged)?;
+    }
+    Ok(inverse)
+}
+
+impl Judge<'_> {
+    /// The inverse of a pivot.
+    #[inline]
+    fn inverse<N: Fn(usize) -> usize, const W: usize>(
+        &mut self,
+        pivot: f64,
+        p: usize,
+        (sizes, sign, node): &Judged<N, W>,
+    ) -> Result<f64, usize> {
+        let positive = sign * pivot;
+        // Written so that a NaN is judged too.
+        match positive > self.rule.weak * sizes[p] && positive < f64::INFINITY {
+            true => Ok(1.0 / pivot),
+            false => self.judge(node(p), positive, sizes[p]),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn judge(&mut self, node: usize, pivot: f64, size: f64) -> Result<f64, usize> {
+        self.quality.judge((node, self.n), (pivot, size), self.rule, self.skipped)
+    }
+}
+
+/// L^-1 x with the unit lower triangle of a diagonal block.
+#[inline]
+fn forward<const W: usize>(block: &[[f64; W]; W], mut x: [f64; W]) -> [f64; W] {
+    for p in 0..W {
+        (p + 1..W).for_each(|q| x[q] -= block[q][p] * x[p]);
+    }
+    x
+}
+
+#[inline]
+fn dot<const W: usize>(a: &[f64; W], b: &[f64; W]) -> f64 {
+    let mut sum = a[0] * b[0];
+    (1..W).for_each(|p| sum += a[p] * b[p]);
+    sum
+}
