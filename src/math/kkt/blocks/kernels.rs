@@ -110,46 +110,50 @@ pub(super) struct Solution<'a> {
     pub x: &'a mut [f64],
 }
 
-/// L_jj and X of a column, and the inverse of D.
-type Factors<'a, const W: usize> = (&'a [[f64; W]; W], &'a [[f64; W]], &'a [f64; W]);
+/// L_jj and X of a column, R rows at a time.
+type Factors<'a, const W: usize, const R: usize> = (&'a [[f64; W]; W], &'a [[[f64; W]; R]]);
+
+/// L_jj and X of a column, and the inverse of D; `None` if the column is not W wide.
+#[inline]
+fn factors<'a, const W: usize, const R: usize>(
+    column: &Column,
+    work: &'a [f64],
+    inverse: &'a [f64],
+) -> Option<(Factors<'a, W, R>, &'a [f64; W])> {
+    let rows = work[column.diagonal..column.below.end].as_chunks::<W>().0;
+    let (diagonal, below) = rows.split_first_chunk::<W>()?;
+    Some(((diagonal, below.as_chunks::<R>().0), inverse[column.first..].first_chunk::<W>()?))
+}
 
 impl Solution<'_> {
-    #[inline]
-    fn factors<const W: usize>(&self, column: &Column) -> Option<Factors<'_, W>> {
-        let rows = self.work[column.diagonal..column.below.end].as_chunks::<W>().0;
-        let (diagonal, below) = rows.split_first_chunk::<W>()?;
-        Some((diagonal, below, self.inverse[column.first..].first_chunk::<W>()?))
-    }
-
-    /// x := L^-1 x for these columns.
-    pub fn forward<const W: usize>(&mut self, columns: Range<usize>) {
-        for column in &self.layout.columns[columns] {
-            let rows = self.work[column.diagonal..column.below.end].as_chunks::<W>().0;
-            let place = self.x[column.first..].first_chunk_mut::<W>();
-            let inverse = self.inverse[column.first..].first_chunk::<W>();
-            let (Some((diagonal, below)), Some(place), Some(inverse)) =
-                (rows.split_first_chunk::<W>(), place, inverse)
-            else {
-                return;
-            };
+    /// x := L^-1 x for these columns, whose partners are R wide, or of any width if R is 1.
+    pub fn forward<const W: usize, const R: usize>(&mut self, columns: Range<usize>) {
+        let Solution { layout, work, inverse, x } = self;
+        for column in &layout.columns[columns] {
+            let Some(((diagonal, below), inverse)) = factors::<W, R>(column, work, inverse) else { return };
+            let Some(place) = x[column.first..].first_chunk_mut::<W>() else { return };
             let mine = if column.is_diagonal { *place } else { forward(diagonal, *place) };
             *place = mine;
             let mine: [f64; W] = from_fn(|p| mine[p] * inverse[p]);
-            for (row, &place) in below.iter().zip(&self.layout.rows[column.rows.clone()]) {
-                self.x[place as usize] -= dot(row, &mine);
+            for (rows, places) in below.iter().zip(layout.rows[column.rows.clone()].as_chunks::<R>().0) {
+                if let Some(x) = x[places[0] as usize..].first_chunk_mut::<R>() {
+                    *x = from_fn(|i| x[i] - dot(&rows[i], &mine));
+                }
             }
         }
     }
 
     /// x := L^-T D^-1 x for these columns, the last first.
-    pub fn backward<const W: usize>(&mut self, columns: Range<usize>) {
-        for column in self.layout.columns[columns].iter().rev() {
-            let Some((diagonal, below, inverse)) = self.factors::<W>(column) else { return };
-            let Some(&place) = self.x[column.first..].first_chunk::<W>() else { return };
-            let mut mine = place;
-            for (row, &place) in below.iter().zip(&self.layout.rows[column.rows.clone()]) {
-                let x = self.x[place as usize];
-                mine = from_fn(|p| mine[p] - row[p] * x);
+    pub fn backward<const W: usize, const R: usize>(&mut self, columns: Range<usize>) {
+        let Solution { layout, work, inverse, x } = self;
+        for column in layout.columns[columns].iter().rev() {
+            let Some(((diagonal, below), inverse)) = factors::<W, R>(column, work, inverse) else { return };
+            let Some(place) = x[column.first..].first_chunk::<W>() else { return };
+            let mut mine = *place;
+            for (rows, places) in below.iter().zip(layout.rows[column.rows.clone()].as_chunks::<R>().0) {
+                if let Some(x) = x[places[0] as usize..].first_chunk::<R>() {
+                    rows.iter().zip(x).for_each(|(row, x)| mine = from_fn(|p| mine[p] - row[p] * x));
+                }
             }
             mine = from_fn(|p| mine[p] * inverse[p]);
             if !column.is_diagonal {
@@ -157,7 +161,9 @@ impl Solution<'_> {
                     (p + 1..W).for_each(|q| mine[p] -= diagonal[q][p] * mine[q]);
                 }
             }
-            self.x[column.first..][..W].copy_from_slice(&mine);
+            if let Some(place) = x[column.first..].first_chunk_mut::<W>() {
+                *place = mine;
+            }
         }
     }
 }

@@ -29,6 +29,12 @@ pub struct Column {
     pub sign: f64,
 }
 
+/// Entries in sequence whose places are in sequence, too.
+pub struct Copied {
+    pub place: u32,
+    pub len: u32,
+}
+
 /// Columns in sequence that are alike.
 pub struct Run {
     pub columns: Range<usize>,
@@ -54,8 +60,10 @@ pub struct Layout {
     /// Number of columns, and of unknowns, of the early coordinates.
     pub early: usize,
     pub early_unknowns: usize,
-    /// For each entry of M and of G its place.
-    pub slots: Vec<u32>,
+    /// Where the entries of M and of G go.
+    pub copies: [Vec<Copied>; 2],
+    /// Position of each coordinate and row of G.
+    pub positions: Vec<u32>,
     /// Place of each unknown's diagonal entry.
     pub diagonals: Vec<u32>,
     /// Length of the array.
@@ -78,7 +86,8 @@ impl Layout {
             nodes: Vec::with_capacity(n + g.rows),
             early: order.early,
             early_unknowns: 0,
-            slots: Vec::new(),
+            copies: Default::default(),
+            positions: vec![0; n + g.rows],
             diagonals: Vec::with_capacity(n + g.rows),
             len: 0,
         };
@@ -95,7 +104,11 @@ impl Layout {
         for (j, below) in below.iter().enumerate() {
             layout.aim(j, below);
         }
-        layout.slots = layout.slots(mass, g);
+        layout.nodes.iter().enumerate().for_each(|(p, &node)| layout.positions[node] = p as u32);
+        layout.copies = [
+            layout.copies(mass.entries.iter().copied()),
+            layout.copies(g.entries.iter().map(|&(row, i)| (n + row, i))),
+        ];
         layout.runs = layout.runs();
         layout
     }
@@ -153,15 +166,21 @@ impl Layout {
         column.below.start + column.width * before.get(partner).map_or(0, |&before| before as usize)
     }
 
-    /// Places of the entries of M and G; marks the blocks that are not diagonal.
-    fn slots(&mut self, mass: &Pattern, g: &Pattern) -> Vec<u32> {
+    /// Places of entries (node, node); marks the blocks that are not diagonal.
+    fn copies(&mut self, entries: impl Iterator<Item = (usize, usize)>) -> Vec<Copied> {
         let mut places = vec![(0, 0); self.nodes.len()];
         for (k, column) in self.columns.iter().enumerate() {
             (0..column.width).for_each(|p| places[self.nodes[column.first + p]] = (k, p));
         }
-        let entries = g.entries.iter().map(|&(row, i)| (g.cols + row, i));
-        let pairs = mass.entries.iter().copied().chain(entries);
-        pairs.map(|(a, b)| self.slot(places[a].max(places[b]), places[a].min(places[b])) as u32).collect()
+        let mut copies: Vec<Copied> = Vec::new();
+        for (a, b) in entries {
+            let slot = self.slot(places[a].max(places[b]), places[a].min(places[b])) as u32;
+            match copies.last_mut().filter(|last| last.place + last.len == slot) {
+                Some(last) => last.len += 1,
+                None => copies.push(Copied { place: slot, len: 1 }),
+            }
+        }
+        copies
     }
 
     fn slot(&mut self, (row, p): (usize, usize), (column, q): (usize, usize)) -> usize {

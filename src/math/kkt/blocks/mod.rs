@@ -32,18 +32,26 @@ pub(super) struct Blocks {
     x: Vec<f64>,
 }
 
-/// Calls a method with the width of a run's columns as a constant.
-macro_rules! by_width {
-    ($run:ident, $part:ident.$method:ident) => {
-        match $run.width {
-            1 => $part.$method::<1>($run.columns.clone()),
-            2 => $part.$method::<2>($run.columns.clone()),
-            3 => $part.$method::<3>($run.columns.clone()),
-            4 => $part.$method::<4>($run.columns.clone()),
-            5 => $part.$method::<5>($run.columns.clone()),
-            6 => $part.$method::<6>($run.columns.clone()),
-            7 => $part.$method::<7>($run.columns.clone()),
-            _ => $part.$method::<{ groups::LARGEST }>($run.columns.clone()),
+/// Calls a method with the widths of a run's columns and of their partners as constants: those of usual joints (one row,
+/// hinge and sphere in the plane and in space), or another method for the other runs.
+macro_rules! by_widths {
+    ($run:ident, $part:ident, $alike:ident, $mixed:ident $(::<$rows:literal>)?) => {
+        match ($run.width, $run.partner_width) {
+            (1, 1) => $part.$alike::<1, 1>($run.columns.clone()),
+            (2, 2) => $part.$alike::<2, 2>($run.columns.clone()),
+            (3, 2) => $part.$alike::<3, 2>($run.columns.clone()),
+            (3, 3) => $part.$alike::<3, 3>($run.columns.clone()),
+            (5, 5) => $part.$alike::<5, 5>($run.columns.clone()),
+            (6, 3) => $part.$alike::<6, 3>($run.columns.clone()),
+            (6, 5) => $part.$alike::<6, 5>($run.columns.clone()),
+            (1, _) => $part.$mixed::<1 $(, $rows)?>($run.columns.clone()),
+            (2, _) => $part.$mixed::<2 $(, $rows)?>($run.columns.clone()),
+            (3, _) => $part.$mixed::<3 $(, $rows)?>($run.columns.clone()),
+            (4, _) => $part.$mixed::<4 $(, $rows)?>($run.columns.clone()),
+            (5, _) => $part.$mixed::<5 $(, $rows)?>($run.columns.clone()),
+            (6, _) => $part.$mixed::<6 $(, $rows)?>($run.columns.clone()),
+            (7, _) => $part.$mixed::<7 $(, $rows)?>($run.columns.clone()),
+            _ => $part.$mixed::<{ groups::LARGEST } $(, $rows)?>($run.columns.clone()),
         }
     };
 }
@@ -61,9 +69,13 @@ impl Blocks {
     /// collapsed.
     pub fn factor(&mut self, mass: &[f64], g: &[f64], rule: Rule, skipped: &mut Vec<usize>) -> Result<Quality, usize> {
         self.work.fill(0.0);
-        let (of_mass, of_g) = self.layout.slots.split_at(mass.len());
-        of_mass.iter().zip(mass).for_each(|(&slot, value)| self.work[slot as usize] += value);
-        of_g.iter().zip(g).for_each(|(&slot, value)| self.work[slot as usize] += value);
+        for (values, copies) in [mass, g].into_iter().zip(&self.layout.copies) {
+            let mut values = values.iter();
+            for copy in copies {
+                let places = &mut self.work[copy.place as usize..][..copy.len as usize];
+                places.iter_mut().zip(values.by_ref()).for_each(|(place, value)| *place += value);
+            }
+        }
         let mut judge = Judge { n: self.n, rule, skipped, quality: Quality::GOOD };
         for (size, &place) in self.sizes.iter_mut().zip(&self.layout.diagonals) {
             *size = self.work[place as usize];
@@ -82,39 +94,26 @@ impl Blocks {
         let Blocks { layout, work, inverse, sizes, .. } = self;
         let mut part = Elimination { layout, work, inverse, sizes, judge };
         for run in layout.runs.iter().filter(|run| run.is_early == early) {
-            let columns = run.columns.clone();
-            match (run.width, run.partner_width) {
-                (1, 1) => part.alike::<1, 1>(columns),
-                (2, 2) => part.alike::<2, 2>(columns),
-                (3, 2) => part.alike::<3, 2>(columns),
-                (3, 3) => part.alike::<3, 3>(columns),
-                (5, 5) => part.alike::<5, 5>(columns),
-                (6, 3) => part.alike::<6, 3>(columns),
-                (6, 5) => part.alike::<6, 5>(columns),
-                _ => by_width!(run, part.mixed),
-            }?;
+            by_widths!(run, part, alike, mixed)?;
         }
         Ok(())
     }
 
     /// Solves in place; dropped multipliers are zero. 2 multiplications for each entry of L.
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
-        let (nodes, n) = (&self.layout.nodes, self.n);
-        for (x, &node) in self.x.iter_mut().zip(nodes) {
-            *x = if node < n { top[node] } else { bottom[node - n] };
-        }
         let Blocks { layout, work, inverse, x, .. } = self;
+        let (of_top, of_bottom) = layout.positions.split_at(self.n);
+        of_top.iter().zip(&*top).for_each(|(&p, value)| x[p as usize] = *value);
+        of_bottom.iter().zip(&*bottom).for_each(|(&p, value)| x[p as usize] = *value);
         let mut part = Solution { layout, work, inverse, x };
         for run in &layout.runs {
-            by_width!(run, part.forward);
+            by_widths!(run, part, forward, forward::<1>);
         }
         for run in layout.runs.iter().rev() {
-            by_width!(run, part.backward);
+            by_widths!(run, part, backward, backward::<1>);
         }
-        let (nodes, n) = (&self.layout.nodes, self.n);
-        for (&x, &node) in self.x.iter().zip(nodes) {
-            if node < n { top[node] = x } else { bottom[node - n] = x }
-        }
+        of_top.iter().zip(top).for_each(|(&p, value)| *value = self.x[p as usize]);
+        of_bottom.iter().zip(bottom).for_each(|(&p, value)| *value = self.x[p as usize]);
     }
 
     /// The smallest ratio above `collapsed` of a pivot to its size before elimination, and the number of multipliers
