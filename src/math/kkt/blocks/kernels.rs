@@ -26,17 +26,47 @@ pub(super) struct Elimination<'a, 'j> {
     pub judge: &'a mut Judge<'j>,
 }
 
-/// X and the inverse of D of one column, and all later columns.
-type Eliminated<'a, const W: usize> = (&'a [[f64; W]], [f64; W], &'a mut [f64]);
+/// The products of a column that are still to be subtracted.
+struct Products<'a, const W: usize> {
+    /// X from some partner on, with the widths of these partners.
+    xs: &'a [[f64; W]],
+    partners: &'a [u8],
+    /// Inverse of D.
+    inverse: [f64; W],
+    targets: &'a [u32],
+    later: &'a mut [f64],
+}
+
+impl<const W: usize> Products<'_, W> {
+    /// Subtracts X_k D^-1 X_l^T for the first partner l, R wide, and all partners k from it on.
+    #[inline]
+    fn subtract<const R: usize>(&mut self) {
+        let Some(x) = self.xs.first_chunk::<R>() else { return };
+        // By columns, so that the products of a row of X are those of whole rows.
+        let scaled: [[f64; R]; W] = from_fn(|p| from_fn(|j| x[j][p] * self.inverse[p]));
+        let mut rows = self.xs;
+        for (&width, &target) in self.partners.iter().zip(self.targets) {
+            let (x, others) = rows.split_at(usize::from(width));
+            let target = self.later[target as usize..].as_chunks_mut::<R>().0;
+            for (x, target) in x.iter().zip(target) {
+                let mut row = *target;
+                (0..W).for_each(|p| (0..R).for_each(|j| row[j] -= x[p] * scaled[p][j]));
+                *target = row;
+            }
+            rows = others;
+        }
+        self.targets = &self.targets[self.partners.len()..];
+        (self.xs, self.partners) = (&self.xs[R..], &self.partners[1..]);
+    }
+}
 
 impl Elimination<'_, '_> {
     /// Eliminates columns whose partners are all R wide.
     pub fn alike<const W: usize, const R: usize>(&mut self, columns: Range<usize>) -> Result<(), usize> {
         let layout = self.layout;
         for column in &layout.columns[columns] {
-            let (xs, inverse, later) = self.divide::<W>(column)?;
-            let xs = xs.as_chunks::<R>().0;
-            let mut targets = layout.targets[column.targets..].iter();
+            let Products { xs, inverse, targets, later, .. } = self.divide::<W>(column)?;
+            let (xs, mut targets) = (xs.as_chunks::<R>().0, targets.iter());
             for (l, x) in xs.iter().enumerate() {
                 let scaled: [[f64; W]; R] = from_fn(|j| from_fn(|p| x[j][p] * inverse[p]));
                 for (x, target) in xs[l..].iter().zip(targets.by_ref()) {
@@ -54,23 +84,18 @@ impl Elimination<'_, '_> {
     pub fn mixed<const W: usize>(&mut self, columns: Range<usize>) -> Result<(), usize> {
         let layout = self.layout;
         for column in &layout.columns[columns] {
-            let (mut xs, inverse, later) = self.divide::<W>(column)?;
-            let partners = &layout.partners[column.partners.clone()];
-            let mut targets = layout.targets[column.targets..].iter();
-            for (l, &width) in partners.iter().enumerate() {
-                let width = usize::from(width);
-                let mut scaled = [[0.0; W]; LARGEST];
-                let scaled = &mut scaled[..width];
-                scaled.iter_mut().zip(xs).for_each(|(scaled, x)| *scaled = from_fn(|p| x[p] * inverse[p]));
-                let mut below = xs;
-                for (&rows, target) in partners[l..].iter().zip(targets.by_ref()) {
-                    let (x, others) = below.split_at(usize::from(rows));
-                    for (x, target) in x.iter().zip(later[*target as usize..].chunks_exact_mut(width)) {
-                        scaled.iter().zip(target).for_each(|(scaled, target)| *target -= dot(x, scaled));
-                    }
-                    below = others;
+            let mut products = self.divide::<W>(column)?;
+            for partner in &layout.partners[column.partners.clone()] {
+                match partner {
+                    1 => products.subtract::<1>(),
+                    2 => products.subtract::<2>(),
+                    3 => products.subtract::<3>(),
+                    4 => products.subtract::<4>(),
+                    5 => products.subtract::<5>(),
+                    6 => products.subtract::<6>(),
+                    7 => products.subtract::<7>(),
+                    _ => products.subtract::<LARGEST>(),
                 }
-                xs = &xs[width..];
             }
         }
         Ok(())
@@ -78,27 +103,27 @@ impl Elimination<'_, '_> {
 
     /// Factors the diagonal block of a column and makes X of the blocks below.
     #[inline]
-    fn divide<const W: usize>(&mut self, column: &Column) -> Result<Eliminated<'_, W>, usize> {
+    fn divide<const W: usize>(&mut self, column: &Column) -> Result<Products<'_, W>, usize> {
         let (own, later) = self.work[column.diagonal..].split_at_mut(column.below.end - column.diagonal);
+        let (partners, targets) = (&self.layout.partners[column.partners.clone()], &self.layout.targets[column.targets..]);
         let unknowns = column.first..column.first + W;
-        let (sizes, inverse) = (self.sizes[unknowns.clone()].first_chunk(), self.inverse[unknowns].first_chunk_mut());
-        let (Some((diagonal, below)), Some(sizes), Some(inverse)) =
-            (own.as_chunks_mut::<W>().0.split_first_chunk_mut::<W>(), sizes, inverse)
+        let (sizes, place) = (self.sizes[unknowns.clone()].first_chunk(), self.inverse[unknowns].first_chunk_mut());
+        let (Some((diagonal, below)), Some(sizes), Some(place)) =
+            (own.as_chunks_mut::<W>().0.split_first_chunk_mut::<W>(), sizes, place)
         else {
-            return Ok((&[], [0.0; W], later));
+            return Ok(Products { xs: &[], partners: &[], inverse: [0.0; W], targets, later });
         };
-        let node = |p: usize| self.layout.nodes[column.first + p];
-        let judged = (sizes, column.sign, node);
-        let found = match column.is_diagonal {
+        let judged = (sizes, column.sign, |p: usize| self.layout.nodes[column.first + p]);
+        let inverse = match column.is_diagonal {
             true => inverse_of_diagonal(diagonal, judged, self.judge)?,
             false => {
-                let found = factor(diagonal, judged, self.judge)?;
+                let inverse = factor(diagonal, judged, self.judge)?;
                 below.iter_mut().for_each(|row| *row = forward(diagonal, *row));
-                found
+                inverse
             }
         };
-        *inverse = found;
-        Ok((below, found, later))
+        *place = inverse;
+        Ok(Products { xs: below, partners, inverse, targets, later })
     }
 }
 

@@ -29,12 +29,6 @@ pub struct Column {
     pub sign: f64,
 }
 
-/// Entries in sequence whose places are in sequence, too.
-pub struct Copied {
-    pub place: u32,
-    pub len: u32,
-}
-
 /// Columns in sequence that are alike.
 pub struct Run {
     pub columns: Range<usize>,
@@ -60,8 +54,8 @@ pub struct Layout {
     /// Number of columns, and of unknowns, of the early coordinates.
     pub early: usize,
     pub early_unknowns: usize,
-    /// Where the entries of M and of G go.
-    pub copies: [Vec<Copied>; 2],
+    /// For each entry of M and of G its place.
+    pub slots: Vec<u32>,
     /// Position of each coordinate and row of G.
     pub positions: Vec<u32>,
     /// Place of each unknown's diagonal entry.
@@ -86,7 +80,7 @@ impl Layout {
             nodes: Vec::with_capacity(n + g.rows),
             early: order.early,
             early_unknowns: 0,
-            copies: Default::default(),
+            slots: Vec::new(),
             positions: vec![0; n + g.rows],
             diagonals: Vec::with_capacity(n + g.rows),
             len: 0,
@@ -105,10 +99,7 @@ impl Layout {
             layout.aim(j, below);
         }
         layout.nodes.iter().enumerate().for_each(|(p, &node)| layout.positions[node] = p as u32);
-        layout.copies = [
-            layout.copies(mass.entries.iter().copied()),
-            layout.copies(g.entries.iter().map(|&(row, i)| (n + row, i))),
-        ];
+        layout.slots = layout.slots(mass, g);
         layout.runs = layout.runs();
         layout
     }
@@ -166,21 +157,15 @@ impl Layout {
         column.below.start + column.width * before.get(partner).map_or(0, |&before| before as usize)
     }
 
-    /// Places of entries (node, node); marks the blocks that are not diagonal.
-    fn copies(&mut self, entries: impl Iterator<Item = (usize, usize)>) -> Vec<Copied> {
+    /// Places of the entries of M and G; marks the blocks that are not diagonal.
+    fn slots(&mut self, mass: &Pattern, g: &Pattern) -> Vec<u32> {
         let mut places = vec![(0, 0); self.nodes.len()];
         for (k, column) in self.columns.iter().enumerate() {
             (0..column.width).for_each(|p| places[self.nodes[column.first + p]] = (k, p));
         }
-        let mut copies: Vec<Copied> = Vec::new();
-        for (a, b) in entries {
-            let slot = self.slot(places[a].max(places[b]), places[a].min(places[b])) as u32;
-            match copies.last_mut().filter(|last| last.place + last.len == slot) {
-                Some(last) => last.len += 1,
-                None => copies.push(Copied { place: slot, len: 1 }),
-            }
-        }
-        copies
+        let entries = g.entries.iter().map(|&(row, i)| (g.cols + row, i));
+        let pairs = mass.entries.iter().copied().chain(entries);
+        pairs.map(|(a, b)| self.slot(places[a].max(places[b]), places[a].min(places[b])) as u32).collect()
     }
 
     fn slot(&mut self, (row, p): (usize, usize), (column, q): (usize, usize)) -> usize {

@@ -69,13 +69,9 @@ impl Blocks {
     /// collapsed.
     pub fn factor(&mut self, mass: &[f64], g: &[f64], rule: Rule, skipped: &mut Vec<usize>) -> Result<Quality, usize> {
         self.work.fill(0.0);
-        for (values, copies) in [mass, g].into_iter().zip(&self.layout.copies) {
-            let mut values = values.iter();
-            for copy in copies {
-                let places = &mut self.work[copy.place as usize..][..copy.len as usize];
-                places.iter_mut().zip(values.by_ref()).for_each(|(place, value)| *place += value);
-            }
-        }
+        let (of_mass, of_g) = self.layout.slots.split_at(mass.len());
+        of_mass.iter().zip(mass).for_each(|(&slot, value)| self.work[slot as usize] += value);
+        of_g.iter().zip(g).for_each(|(&slot, value)| self.work[slot as usize] += value);
         let mut judge = Judge { n: self.n, rule, skipped, quality: Quality::GOOD };
         for (size, &place) in self.sizes.iter_mut().zip(&self.layout.diagonals) {
             *size = self.work[place as usize];

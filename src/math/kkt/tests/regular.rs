@@ -178,14 +178,3 @@ fn projections_and_refinement() {
     solver.solve_refined(&sample.mass_values, &sample.g_values, &mut a, &mut lambda).unwrap();
     assert!(distance(&a, &sample.by_lu(&r1, &r2).0) < 1e-10);
 }
-#[test]
-fn zz_print() {
-    let text = std::fs::read_to_string("models/andrews.json").unwrap();
-    let scene = crate::scene::Scene::parse(&text, &[]).unwrap();
-    let p = crate::prepared::PreparedScene::new(scene, &Default::default()).unwrap();
-    let s = p.system().structure();
-    println!("{:?}", s.g.entries);
-    let l = Layout::new(&s.mass, &s.g, &vec![false; s.mass.rows]);
-    for c in &l.columns { println!("{} first {} below {} partners {:?} diag {}", c.width, c.first, c.below.len(), c.partners, c.is_diagonal); }
-    println!("targets {} len {} ops {}", l.targets.len(), l.len, l.operations());
-}
