@@ -25,8 +25,10 @@ impl Groups {
         let columns = neighbours(g.rows, g.entries.iter().copied());
         let rows = alike((0..g.rows).collect(), |row| &columns[row]);
         let (of_coordinate, of_row) = (numbers(&coordinates, g.cols), numbers(&rows, g.rows));
-        let pattern = |rows: usize, entries: Vec<(usize, usize)>| {
-            Pattern { rows, cols: coordinates.len(), entries: sorted(entries) }
+        let pattern = |rows: usize, entries: Vec<(usize, usize)>| Pattern {
+            rows,
+            cols: coordinates.len(),
+            entries: sorted(entries),
         };
         let order = |(a, b): (usize, usize)| (a.max(b), a.min(b));
         let coupled = mass.entries.iter().map(|&(i, j)| order((of_coordinate[i], of_coordinate[j])));
@@ -48,9 +50,8 @@ fn coordinates(mass: &Pattern, g: &Pattern, late: &[bool]) -> Vec<Vec<usize>> {
     let coupled = neighbours(g.cols, mass.entries.iter().flat_map(|&(i, j)| [(i, j), (j, i), (i, i), (j, j)]));
     let entered = by_key((0..g.cols).collect(), |i| (late[i], &rows[i]));
     let class = numbers(&entered, g.cols);
-    let outside: Vec<Vec<usize>> = (0..g.cols)
-        .map(|i| coupled[i].iter().copied().filter(|&j| class[j] != class[i]).collect())
-        .collect();
+    let outside: Vec<Vec<usize>> =
+        (0..g.cols).map(|i| coupled[i].iter().copied().filter(|&j| class[j] != class[i]).collect()).collect();
     let parts = entered.into_iter().flat_map(|members| by_key(members, |i| &outside[i]));
     let mut groups: Vec<Vec<usize>> =
         parts.flat_map(|part| if part.len() > LARGEST { alike(part, |i| &coupled[i]) } else { vec![part] }).collect();

@@ -102,10 +102,11 @@ impl Elimination<'_, '_> {
     }
 
     /// Factors the diagonal block of a column and makes X of the blocks below.
-    #[inline]
+    #[inline(always)]
     fn divide<const W: usize>(&mut self, column: &Column) -> Result<Products<'_, W>, usize> {
         let (own, later) = self.work[column.diagonal..].split_at_mut(column.below.end - column.diagonal);
-        let (partners, targets) = (&self.layout.partners[column.partners.clone()], &self.layout.targets[column.targets..]);
+        let (partners, targets) =
+            (&self.layout.partners[column.partners.clone()], &self.layout.targets[column.targets..]);
         let unknowns = column.first..column.first + W;
         let (sizes, place) = (self.sizes[unknowns.clone()].first_chunk(), self.inverse[unknowns].first_chunk_mut());
         let (Some((diagonal, below)), Some(sizes), Some(place)) =
@@ -197,7 +198,7 @@ impl Solution<'_> {
 type Judged<'a, N, const W: usize> = (&'a [f64; W], f64, N);
 
 /// L D L^T of a diagonal block in place; returns the inverse of D.
-#[inline]
+#[inline(always)]
 fn factor<N: Fn(usize) -> usize, const W: usize>(
     block: &mut [[f64; W]; W],
     judged: Judged<N, W>,
@@ -216,7 +217,7 @@ fn factor<N: Fn(usize) -> usize, const W: usize>(
     Ok(inverse)
 }
 
-#[inline]
+#[inline(always)]
 fn inverse_of_diagonal<N: Fn(usize) -> usize, const W: usize>(
     block: &[[f64; W]; W],
     judged: Judged<N, W>,
@@ -231,7 +232,7 @@ fn inverse_of_diagonal<N: Fn(usize) -> usize, const W: usize>(
 
 impl Judge<'_> {
     /// The inverse of a pivot.
-    #[inline]
+    #[inline(always)]
     fn inverse<N: Fn(usize) -> usize, const W: usize>(
         &mut self,
         pivot: f64,
