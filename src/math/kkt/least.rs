@@ -87,6 +87,7 @@ impl Least {
             self.direction.fill(0.0);
             self.direction[*row] = 1.0;
             self.null(system, solve);
+            self.refine_null(system, solve);
             for _ in 0..2 {
                 for done in self.basis.chunks_exact(self.image.len()) {
                     add_scaled(-dot(done, &self.image), done, &mut self.image);
@@ -164,6 +165,15 @@ impl Least {
         self.image.fill(0.0);
         solve(&mut self.a, &mut self.image);
         add(&self.direction, &mut self.image);
+    }
+
+    /// Corrects `image` by what is left of G^T image, since multipliers of rows in small units multiply its errors.
+    fn refine_null(&mut self, system: &System, solve: Solve) {
+        self.a.fill(0.0);
+        system.g.subtract_transposed(&system.g_values, &self.image, &mut self.a);
+        self.lambda.fill(0.0);
+        solve(&mut self.a, &mut self.lambda);
+        add(&self.lambda, &mut self.image);
     }
 
     /// residual := N^T residual, stored on the dropped rows.
