@@ -1,16 +1,18 @@
 //! What an evaluation, a solution and a run cost: `cargo bench --bench speed`. Single thread; the cases of a table take
 //! turns, so that their ratios hold on a busy machine.
 
+mod classic;
 mod common;
+#[path = "../tests/common/equations/mod.rs"]
+mod equations;
 
 use common::{Case, compare};
-use holonom::analysis::Recorder;
 use holonom::formulation::Dynamics;
 use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Overrides, PreparedScene};
 use holonom::scene::{Scene, generate};
 use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate};
-use holonom::system::Need;
+use holonom::system::{MechanicalSystem, Need};
 use std::cell::RefCell;
 use std::path::Path;
 
@@ -47,8 +49,12 @@ fn case<'a>(name: impl Into<String>, call: impl FnMut() + 'a) -> Case<'a> {
 }
 
 fn run(prepared: &PreparedScene, method: &Method, end: f64) -> Outcome {
+    motion(prepared.system(), prepared.start(), method, end)
+}
+
+fn motion(system: &dyn MechanicalSystem, start: (&[f64], &[f64]), method: &Method, end: f64) -> Outcome {
     let span = Span { start: 0.0, end, output_step: end };
-    let outcome = simulate(prepared.system(), method, span, prepared.start(), &mut Nothing);
+    let outcome = simulate(system, method, span, start, &mut Nothing);
     let outcome = outcome.unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(outcome.failure, None, "a run that fails early costs little");
     outcome
@@ -74,45 +80,10 @@ fn evaluation() {
     }
 }
 
-/// The seven angles of Andrews' mechanism at t = 0.03 s, from a binary128 computation.
-const ANDREWS: [f64; 7] = [
-    15.810771195153707,
-    -15.756371058411839,
-    0.0408222401196458,
-    -0.5347301163420796,
-    0.524409965879954,
-    0.5347301163420796,
-    1.048080741041938,
-];
-
-/// Correct digits in the worst of the seven angles.
-fn digits(prepared: &PreparedScene, method: &Method) -> f64 {
-    let mut recorder = Recorder::new(prepared.system());
-    let span = Span { start: 0.0, end: 0.03, output_step: 0.03 };
-    let run = simulate(prepared.system(), method, span, prepared.start(), &mut recorder);
-    run.unwrap_or_else(|error| panic!("{error}"));
-    let trajectory = recorder.finish().trajectory;
-    let row = trajectory.rows.last().map_or(&[][..], Vec::as_slice);
-    let angles = trajectory.row_outputs(row);
-    let worst = angles.iter().zip(ANDREWS).map(|(a, b)| ((a - b) / b).abs()).fold(0.0, f64::max);
-    -worst.log10()
-}
-
-/// Andrews' mechanism end to end, with digits and evaluations in the names.
+/// Andrews' mechanism end to end against a plain classic code.
 fn end_to_end() {
     let andrews = shipped("andrews", &Default::default());
-    let mut cases = Vec::new();
-    for tolerance in [1e-7, 1e-8, 1e-9, 1e-10] {
-        for integrator in ["dop853", "dopri5"] {
-            let method = adaptive(["index1", integrator, "manifold"], tolerance);
-            let work = run(&andrews, &method, 0.03).statistics;
-            let digits = digits(&andrews, &method);
-            let name = format!("{integrator} {tolerance:e}, {digits:.1} digits, {} evaluations", work.rhs_evaluations);
-            let andrews = &andrews;
-            cases.push(case(name, move || drop(run(andrews, &method, 0.03))));
-        }
-    }
-    compare("andrews, 0.03 s", cases);
+    classic::table::compare((andrews.system(), andrews.start()), adaptive, motion);
 }
 
 /// Twenty steps of rk4 with projection on N four-bar linkages: O(N).
