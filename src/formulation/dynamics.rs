@@ -2,6 +2,7 @@
 
 use super::Statistics;
 use crate::error::Result;
+use crate::math::all_finite;
 use crate::math::kkt::{SaddlePoint, Singular};
 use crate::system::{MechanicalSystem, Need, Scratch, Structure, Terms};
 use crate::tolerances::math::TRUNCATED_RANK;
@@ -266,8 +267,7 @@ impl<'a> Dynamics<'a> {
             true => self.kkt.solve(&mut self.vdot, &mut self.lambda),
             false => self.kkt.solve_motion(&mut self.vdot, &mut self.lambda),
         };
-        solved.map_err(|singular| self.halt(singular))?;
-        self.finite()
+        solved.map_err(|singular| self.halt(singular))
     }
 
     /// Evaluates the terms at a state and writes f to `vdot`, gamma + `acceleration_level` to `lambda`.
@@ -275,14 +275,15 @@ impl<'a> Dynamics<'a> {
         self.statistics.rhs_evaluations += 1;
         self.evaluate(t, q, v, Need::DYNAMICS);
         self.vdot.copy_from_slice(&self.terms.f);
-        for (i, lambda) in self.lambda.iter_mut().enumerate() {
-            *lambda = self.terms.gamma[i] + acceleration_level(self.terms.phi[i], self.terms.phi_dot[i]);
+        let Terms { gamma, phi, phi_dot, .. } = &self.terms;
+        for (((lambda, gamma), &phi), &phi_dot) in self.lambda.iter_mut().zip(gamma).zip(phi).zip(phi_dot) {
+            *lambda = gamma + acceleration_level(phi, phi_dot);
         }
     }
 
     /// An error if v' or lambda is infinite or not a number.
     pub fn finite(&self) -> Result<(), StepError> {
-        match self.vdot.iter().chain(&self.lambda).all(|x| x.is_finite()) {
+        match all_finite(&self.vdot) && all_finite(&self.lambda) {
             true => Ok(()),
             false => Err(StepError::NotFinite),
         }

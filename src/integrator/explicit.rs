@@ -1,6 +1,7 @@
 //! Explicit Runge-Kutta methods: the step of any tableau.
 
 use super::hermite::Hermite;
+use super::sums::{accumulate, combine};
 use super::{Control, From, Integrator, Problem, Stability, Tolerance};
 use crate::formulation::StepError;
 
@@ -53,7 +54,10 @@ pub struct Explicit {
     tableau: &'static Tableau,
     /// k_i of all stages; the first is a copy of y' at the start.
     k: Vec<Vec<f64>>,
+    /// State of a stage, then scratch.
     stage: Vec<f64>,
+    /// [`widest_gap`] of the nodes.
+    gap: (f64, f64),
     control: Control,
     polynomial: Hermite,
 }
@@ -66,6 +70,7 @@ impl Explicit {
             tableau,
             k: zeros(tableau.c.len()),
             stage: vec![0.0; len],
+            gap: widest_gap(&tableau.c[..tableau.b.len()]),
             control: (tableau.control)(),
             polynomial: Hermite::new(len, tableau.dense.len()),
         }
@@ -99,10 +104,13 @@ impl Explicit {
         Ok(())
     }
 
-    fn error(&self, tolerance: &Tolerance, from: &[f64], to: &[f64], h: f64) -> Option<f64> {
+    fn error(&mut self, tolerance: &Tolerance, from: &[f64], to: &[f64], h: f64) -> Option<f64> {
         let last = from.len() - 1;
-        let sum = |weights: &[f64], i: usize| weights.iter().zip(&self.k).map(|(e, k)| e * k[i]).sum::<f64>();
-        let square = |weights: &[f64]| tolerance.squares(last, from, to, |i| h * sum(weights, i));
+        let mut square = |weights: &[f64]| {
+            self.stage.fill(0.0);
+            accumulate(&mut self.stage, h, weights, &self.k);
+            tolerance.squares(last, from, to, |i| self.stage[i])
+        };
         let n = tolerance.tested(last);
         match &self.tableau.error {
             ErrorEstimate::None => None,
@@ -114,15 +122,6 @@ impl Explicit {
                 Some(if both == 0.0 { 0.0 } else { fifth / (both * n as f64).sqrt() })
             }
         }
-    }
-}
-
-/// out = y + h sum_j weights_j k_j
-pub(super) fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[Vec<f64>]) {
-    out.copy_from_slice(y);
-    for (&weight, k) in weights.iter().zip(k).filter(|(weight, _)| **weight != 0.0) {
-        let factor = h * weight;
-        out.iter_mut().zip(k).for_each(|(out, k)| *out += factor * k);
     }
 }
 
@@ -188,11 +187,11 @@ impl Integrator for Explicit {
     }
 
     fn widest_gap(&self) -> Option<f64> {
-        Some(widest_gap(&self.tableau.c[..self.stages()]).1)
+        Some(self.gap.1)
     }
 
     fn spacing(&self) -> f64 {
-        widest_gap(&self.tableau.c[..self.stages()]).0
+        self.gap.0
     }
 
     /// Cubic Hermite interpolation, raised by the stages of the tableau.
@@ -212,9 +211,7 @@ impl Integrator for Explicit {
         self.polynomial.prepare(from, h, to, slope);
         for (row, weights) in self.polynomial.beyond().iter_mut().zip(self.tableau.dense) {
             row.fill(0.0);
-            for (&weight, k) in weights.iter().zip(&self.k) {
-                row.iter_mut().zip(k).for_each(|(row, k)| *row += h * weight * k);
-            }
+            accumulate(row, h, weights, &self.k);
         }
         Ok(())
     }

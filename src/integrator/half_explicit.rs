@@ -1,9 +1,11 @@
 //! Half-explicit Runge-Kutta methods: the step of any tableau.
 
-use super::explicit::{Tableau as Explicit, combine};
+use super::explicit::Tableau as Explicit;
 use super::hermite::Hermite;
+use super::sums::combine;
 use super::{Control, From, Integrator, Problem, Setup, Stability, Tolerance};
 use crate::formulation::StepError;
+use crate::math::all_finite;
 use crate::math::kkt::TwoJacobianGmres;
 use crate::system::Need;
 
@@ -147,7 +149,7 @@ impl HalfExplicit {
 }
 
 fn is_finite(y: &[f64]) -> Result<(), StepError> {
-    if y.iter().all(|x| x.is_finite()) { Ok(()) } else { Err(StepError::NotFinite) }
+    if all_finite(y) { Ok(()) } else { Err(StepError::NotFinite) }
 }
 
 impl Integrator for HalfExplicit {

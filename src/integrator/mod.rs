@@ -26,6 +26,7 @@ mod rattle;
 mod refuses;
 mod rk4;
 mod stability;
+mod sums;
 mod takes;
 mod tr_bdf2;
 

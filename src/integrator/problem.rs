@@ -1,6 +1,7 @@
 //! The problem of an integrator: a formulation of a system, as y' = F(t, y).
 
 use crate::formulation::{Dynamics, Formulation, StepError};
+use crate::math::all_finite;
 use crate::system::Dimensions;
 
 /// y = (q, v, w) with w the work of forces without a potential and of moving constraints, J, which is integrated, too,
@@ -43,7 +44,7 @@ impl<'a> Problem<'a> {
 
     /// y' at (t, y).
     pub fn derivative(&mut self, t: f64, y: &[f64], slope: &mut [f64]) -> Result<(), StepError> {
-        if y.iter().any(|x| !x.is_finite()) {
+        if !all_finite(y) {
             return Err(StepError::NotFinite);
         }
         let (q, v) = self.split(y);

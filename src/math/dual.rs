@@ -49,6 +49,11 @@ impl<S: Scalar, const N: usize> Scalar for Dual<S, N> {
         let [re, slope] = function.slope(self.re);
         Dual { re, eps: self.eps.map(|e| e * slope) }
     }
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        let (sin, cos) = self.re.sin_cos();
+        (Dual { re: sin, eps: self.eps.map(|e| e * cos) }, Dual { re: cos, eps: self.eps.map(|e| -(e * sin)) })
+    }
 }
 
 impl<S: Scalar, const N: usize> Neg for Dual<S, N> {

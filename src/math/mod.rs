@@ -32,6 +32,17 @@ pub use scalar::Scalar;
 pub use scalar::Unary;
 pub use taylor::Taylor;
 
+/// True if no entry is infinite or NaN, of which 0 x is NaN; in four sums so that it vectorizes.
+#[doc(hidden)]
+pub fn all_finite(x: &[f64]) -> bool {
+    let (chunks, rest) = x.as_chunks::<4>();
+    let mut sums = [0.0; 4];
+    for chunk in chunks {
+        (0..4).for_each(|i| sums[i] += 0.0 * chunk[i]);
+    }
+    sums.iter().sum::<f64>() + rest.iter().map(|x| 0.0 * x).sum::<f64>() == 0.0
+}
+
 /// max |x_i|; zero for an empty slice; NaN is ignored.
 #[doc(hidden)]
 pub fn largest(x: &[f64]) -> f64 {

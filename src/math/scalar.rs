@@ -69,6 +69,11 @@ pub trait Scalar:
     fn cos(self) -> Self {
         self.unary(Unary::Cos)
     }
+    /// Sine and cosine; x in rad.
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        (self.sin(), self.cos())
+    }
     /// e^x.
     fn exp(self) -> Self {
         self.unary(Unary::Exp)
@@ -177,8 +182,14 @@ impl Unary {
                 let slope = S::constant(0.5) / root;
                 [root, slope, slope / x * -0.5]
             }
-            Unary::Sin => [x.sin(), x.cos(), -x.sin()],
-            Unary::Cos => [x.cos(), -x.sin(), -x.cos()],
+            Unary::Sin => {
+                let (sin, cos) = x.sin_cos();
+                [sin, cos, -sin]
+            }
+            Unary::Cos => {
+                let (sin, cos) = x.sin_cos();
+                [cos, -sin, -cos]
+            }
             Unary::Exp => [x.exp(); 3],
             Unary::Ln => [x.ln(), x.recip(), -x.square().recip()],
             Unary::Atan => {
@@ -219,6 +230,10 @@ impl Scalar for f64 {
             Unary::Sinh => f64::sinh(self),
             Unary::Cosh => f64::cosh(self),
         }
+    }
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        f64::sin_cos(self)
     }
     fn atan2(y: Self, x: Self) -> Self {
         f64::atan2(y, x)

@@ -54,6 +54,12 @@ impl<S: Scalar> Scalar for Taylor<S> {
         let [x, slope, curvature] = function.jet(self.x);
         Taylor { x, d: slope * self.d, dd: curvature * self.d.square() + slope * self.dd }
     }
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        let ((sin, cos), square) = (self.x.sin_cos(), self.d.square());
+        let dd = (cos * self.dd - sin * square, -(sin * self.dd) - cos * square);
+        (Taylor { x: sin, d: cos * self.d, dd: dd.0 }, Taylor { x: cos, d: -(sin * self.d), dd: dd.1 })
+    }
 }
 
 impl<S: Scalar> Neg for Taylor<S> {

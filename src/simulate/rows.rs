@@ -3,6 +3,7 @@
 use super::Observation;
 use crate::formulation::{Statistics, StepError};
 use crate::integrator::Problem;
+use crate::math::all_finite;
 use crate::projection::Projection;
 
 /// Output rows with a problem of their own: their work is counted separately from that of the steps.
@@ -61,7 +62,7 @@ pub fn project(
     sweeps: usize,
 ) -> Result<(), StepError> {
     for _ in 0..sweeps {
-        if y.iter().any(|x| !x.is_finite()) {
+        if !all_finite(y) {
             return Err(StepError::NotFinite);
         }
         problem.dynamics.system.normalize(problem.split_mut(y).0);

@@ -89,7 +89,10 @@ impl Run<'_> {
             return Ok(error);
         }
         let correction = self.correction();
-        let is_far = self.limits_projection && correction > tolerances::FAR_CORRECTION * self.allowed();
+        // `allowed` is at least one.
+        let is_far = self.limits_projection
+            && correction > tolerances::FAR_CORRECTION
+            && correction > tolerances::FAR_CORRECTION * self.allowed();
         if is_singular && (is_far || error.is_some_and(is_too_large)) {
             self.refusal = "the error of a step over a singular state stays above the tolerance";
             return self.error_within_constraints(t, h);

@@ -25,6 +25,7 @@ impl Need {
     pub const DYNAMICS: Need = Need(1 | 2 | 4 | 8);
 
     /// True if every term of `other` is in the set.
+    #[inline]
     pub fn includes(self, other: Need) -> bool {
         self.0 & other.0 == other.0
     }

@@ -9,6 +9,7 @@ mod velocity;
 
 use super::explicit::widest_gap;
 use super::memory::Reader;
+use super::sums::accumulate;
 use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, collapsed, refuses};
 use crate::error::{Error, Result};
 use crate::formulation::{self, Dae, Linearized, StepError};
@@ -19,7 +20,7 @@ use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::integrator as tolerances;
 use matrices::Matrices;
 use order::{Order, Seen, internal};
-use stages::{Stages, Unknowns, combine};
+use stages::{Stages, Unknowns};
 use system::{System, most};
 
 /// ```text
@@ -207,8 +208,8 @@ impl RadauIIA {
             x[k] = h * (gamma * v0[k] + stages.map(|(y, d)| d * y[nq + k]).sum::<f64>());
         }
         v.iter_mut().zip(vdot0).for_each(|(v, vdot)| *v = h * gamma * vdot);
-        combine(v, h, &method.error, &self.stages.unknowns.a);
-        combine(v, h, &method.error, &self.stages.unknowns.w);
+        accumulate(v, h, &method.error, &self.stages.unknowns.a);
+        accumulate(v, h, &method.error, &self.stages.unknowns.w);
         self.matrices.real.damp(&self.at, h, x, v, &problem.dynamics)?;
         let (dq, dv) = self.error.split_at_mut(nq);
         problem.dynamics.system.rate(q0, x, dq);

@@ -2,6 +2,7 @@
 
 use super::collocation::Collocation;
 use crate::formulation::{self, Dae, Dynamics, Residual, StepError};
+use crate::integrator::sums::accumulate;
 use crate::integrator::{From, Problem, Tolerance};
 use crate::math::largest;
 use crate::system::Dimensions;
@@ -105,8 +106,8 @@ impl Stages {
             q.copy_from_slice(&self.y[i][..nq]);
             v[..nv].copy_from_slice(&from.y[nq..nq + nv]);
             v[nv] = self.y[i][nq + nv];
-            combine(&mut v[..nv], h, &method.a[i], &self.unknowns.a);
-            combine(&mut v[..nv], h, &method.a[i], &self.unknowns.w);
+            accumulate(&mut v[..nv], h, &method.a[i], &self.unknowns.a);
+            accumulate(&mut v[..nv], h, &method.a[i], &self.unknowns.w);
         }
         let sweeps = if nq == self.n.moving() { 1 } else { tolerances::RADAU_SWEEPS };
         for sweep in 1..=sweeps {
@@ -122,7 +123,7 @@ impl Stages {
             }
             for i in 0..s {
                 self.next[i][..nq].copy_from_slice(&from.y[..nq]);
-                combine(&mut self.next[i][..nq], h, &method.a[i], &self.qdot);
+                accumulate(&mut self.next[i][..nq], h, &method.a[i], &self.qdot);
             }
         }
         std::mem::swap(&mut self.y, &mut self.next);
@@ -168,7 +169,7 @@ impl Stages {
         let [last, before, first] = [0, 1, 2].map(|k| {
             let sum = &mut self.next[0];
             sum.fill(0.0);
-            combine(&mut sum[self.n.q..self.n.q + self.n.v], 1.0, &method.tail[k], &self.unknowns.a);
+            accumulate(&mut sum[self.n.q..self.n.q + self.n.v], 1.0, &method.tail[k], &self.unknowns.a);
             tolerance.norm(from.y, sum)
         });
         if before + first > 0.0 { last.hypot(before) / before.hypot(first) } else { 0.0 }
@@ -200,13 +201,5 @@ impl Stages {
             let power = a.iter().zip(&self.residuals).map(|(a, residual)| a * residual.power);
             y[last] = from.y[last] + h * power.sum::<f64>();
         }
-    }
-}
-
-/// y += h sum_j weights_j k_j
-pub fn combine(y: &mut [f64], h: f64, weights: &[f64], k: &[Vec<f64>]) {
-    for (weight, k) in weights.iter().zip(k) {
-        let factor = h * weight;
-        y.iter_mut().zip(k).for_each(|(y, k)| *y += factor * k);
     }
 }

@@ -1,6 +1,7 @@
 //! Equations of a user, written once over any scalar.
 
 mod christoffel;
+mod jet;
 mod passes;
 
 use super::{
@@ -10,10 +11,11 @@ use super::{
 use crate::math::{Dual, Regime, Scalar};
 use christoffel::christoffel;
 use nalgebra::DMatrix;
-use passes::{Memory, SeededEquations, curvature, fixed, gradient, levels, output_slopes, tangent_of};
+use passes::{Memory, SeededEquations, constraints, curvature, fixed, output_slopes, tangent_of};
 
 /// A mechanism by its M, f and phi. G, phi', gamma and L follow by dual and Taylor numbers, so nothing is derived by
-/// hand; the cost is about (6 + n)/6 evaluations of phi for G.
+/// hand: phi is evaluated once over numbers that carry phi', gamma, phi_t and seven columns of G, and again for each
+/// eight columns more. Where both are needed, [`Scalar::sin_cos`] is cheaper than sine and cosine.
 ///
 /// ```
 /// use holonom::math::Scalar;
@@ -75,18 +77,17 @@ impl<E: Equations> MechanicalSystem for E {
         let fill = |memory: &mut Memory, _: Regime| {
             if need.includes(Need::MASS) {
                 self.mass(t, q, &mut memory.mass);
-                let lower = (0..n).flat_map(|i| (0..=i).map(move |j| i * n + j));
-                terms.mass.iter_mut().zip(lower).for_each(|(entry, place)| *entry = memory.mass[place]);
+                for i in 0..n {
+                    let start = i * (i + 1) / 2;
+                    terms.mass[start..=start + i].copy_from_slice(&memory.mass[i * n..=i * n + i]);
+                }
             }
             if need.includes(Need::FORCE) {
                 self.force(t, q, v, &mut terms.f);
                 terms.power = 0.0;
             }
-            if need.includes(Need::CONSTRAINTS) {
-                levels(self, t, q, v, memory, terms);
-            }
-            if need.includes(Need::G) {
-                gradient(self, t, q, memory, terms);
+            if need.includes(Need::CONSTRAINTS) || need.includes(Need::G) {
+                constraints(self, (t, q, v), need, memory, terms);
             }
             if need.includes(Need::L) {
                 let at = OperatingPoint { t, q, v, vdot: &[], lambda: &[] };

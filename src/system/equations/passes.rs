@@ -1,8 +1,9 @@
-//! Derivatives of a user's equations by dual and Taylor numbers, six directions per pass.
+//! Derivatives of a user's equations by dual and Taylor numbers, some directions per pass.
 
 use super::Equations;
+use super::jet::{Jet, WIDTH};
 use crate::math::{Dual, Taylor};
-use crate::system::{OperatingPoint, Tangent, Terms};
+use crate::system::{Need, OperatingPoint, Tangent, Terms};
 use nalgebra::DMatrix;
 
 type Dual6 = Dual<f64, 6>;
@@ -11,10 +12,8 @@ type Twice = Dual<Dual6, 6>;
 
 pub(super) struct Memory {
     pub mass: Vec<f64>,
-    path: Vec<Taylor<f64>>,
-    levels: Vec<Taylor<f64>>,
-    seeded: Vec<Dual6>,
-    slopes: Vec<Dual6>,
+    jets: Vec<Jet>,
+    rows: Vec<Jet>,
     moving: Vec<TaylorDual6>,
     curvatures: Vec<TaylorDual6>,
     /// Memory for K and C, made at their first use.
@@ -53,10 +52,8 @@ impl Memory {
         let zero = Taylor::fixed(0.0);
         Memory {
             mass: vec![0.0; n * n],
-            path: vec![zero; n],
-            levels: vec![zero; m],
-            seeded: vec![Dual::fixed(0.0); n],
-            slopes: vec![Dual::fixed(0.0); m],
+            jets: vec![Jet::fixed(zero); n],
+            rows: vec![Jet::fixed(zero); m],
             moving: vec![Dual::fixed(zero); n],
             curvatures: vec![Dual::fixed(zero); m],
             varied: None,
@@ -82,32 +79,39 @@ pub(super) fn output_slopes(x: &[f64], outputs: impl Fn(&[Dual6], &mut [Dual6]),
     }
 }
 
-/// phi, phi' and -gamma along q + v s; phi_t at fixed q.
-pub(super) fn levels<E: Equations>(system: &E, t: f64, q: &[f64], v: &[f64], memory: &mut Memory, terms: &mut Terms) {
-    for (i, place) in memory.path.iter_mut().enumerate() {
-        *place = Taylor::new(q[i], 0.0, 0.0);
-    }
-    system.phi(Taylor::time(t), &memory.path, &mut memory.levels);
-    terms.phi_t.iter_mut().zip(&memory.levels).for_each(|(phi_t, level)| *phi_t = level.d);
-    for (i, place) in memory.path.iter_mut().enumerate() {
-        *place = Taylor::new(q[i], v[i], 0.0);
-    }
-    system.phi(Taylor::time(t), &memory.path, &mut memory.levels);
-    for (i, level) in memory.levels.iter().enumerate() {
-        (terms.phi[i], terms.phi_dot[i], terms.gamma[i]) = (level.x, level.d, -level.dd);
-    }
-}
-
-/// G, six columns per pass.
-pub(super) fn gradient<E: Equations>(system: &E, t: f64, q: &[f64], memory: &mut Memory, terms: &mut Terms) {
+/// phi, phi', gamma and phi_t, and G, of which those that are needed: along q + v s with t + s, and along each
+/// coordinate and, last, time alone, eight of them per pass.
+#[inline]
+pub(super) fn constraints<E: Equations>(
+    system: &E,
+    (t, q, v): (f64, &[f64], &[f64]),
+    need: Need,
+    Memory { jets, rows, .. }: &mut Memory,
+    terms: &mut Terms,
+) {
     let n = q.len();
-    for first in (0..n).step_by(6) {
-        let columns = first..n.min(first + 6);
-        memory.seeded.iter_mut().zip(q).for_each(|(place, &q)| *place = Dual::fixed(q));
-        columns.clone().for_each(|i| memory.seeded[i] = Dual::seeded(q[i], i - first));
-        system.phi(Dual::fixed(t), &memory.seeded, &mut memory.slopes);
-        for (row, slope) in memory.slopes.iter().enumerate() {
-            columns.clone().for_each(|i| terms.g[row * n + i] = slope.eps[i - first]);
+    for first in (0..=n).step_by(WIDTH) {
+        let columns = first..n.min(first + WIDTH);
+        for ((jet, &q), &v) in jets.iter_mut().zip(q).zip(v) {
+            *jet = Jet::fixed(Taylor::new(q, v, 0.0));
+        }
+        jets[columns.clone()].iter_mut().enumerate().for_each(|(k, jet)| jet.slope[k] = 1.0);
+        let mut time = Jet::fixed(Taylor::time(t));
+        let place_of_time = (n < first + WIDTH).then_some(n - first);
+        place_of_time.into_iter().for_each(|k| time.slope[k] = 1.0);
+        system.phi(time, jets, rows);
+        if need.includes(Need::CONSTRAINTS) {
+            let Terms { phi, phi_dot, gamma, phi_t, .. } = terms;
+            let levels = phi.iter_mut().zip(phi_dot).zip(gamma).zip(phi_t);
+            for ((((phi, phi_dot), gamma), phi_t), row) in levels.zip(&*rows) {
+                (*phi, *phi_dot, *gamma) = (row.path.x, row.path.d, -row.path.dd);
+                place_of_time.into_iter().for_each(|k| *phi_t = row.slope[k]);
+            }
+        }
+        if need.includes(Need::G) {
+            for (g, row) in terms.g.chunks_exact_mut(n.max(1)).zip(&*rows) {
+                g[columns.clone()].iter_mut().zip(&row.slope).for_each(|(g, slope)| *g = *slope);
+            }
         }
     }
 }

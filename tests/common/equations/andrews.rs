@@ -126,7 +126,7 @@ impl Equations for Andrews {
     }
 
     fn force<S: Scalar>(&self, _t: S, q: &[S], v: &[S], f: &mut [S]) {
-        let (sin, cos) = (q[2].sin(), q[2].cos());
+        let (sin, cos) = q[2].sin_cos();
         let arm = [cos * SD + sin * SC, sin * SD - cos * SC];
         let (x, y) = (arm[0] + (B[0] - C[0]), arm[1] + (B[1] - C[1]));
         let tension = (x.square() + y.square()).sqrt().recip() * (STIFFNESS * NATURAL) - STIFFNESS;
@@ -141,7 +141,10 @@ impl Equations for Andrews {
     }
 
     fn phi<S: Scalar>(&self, _t: S, q: &[S], phi: &mut [S]) {
-        let turn = |angle: S, length: f64| [angle.cos() * length, angle.sin() * length];
+        let turn = |angle: S, length: f64| {
+            let (sin, cos) = angle.sin_cos();
+            [cos * length, sin * length]
+        };
         let (crank, rod) = (turn(q[0], RR), turn(q[0] + q[1], D));
         let (x, y) = (crank[0] - rod[0], crank[1] - rod[1]);
         let third = turn(q[2], SS);

@@ -1,0 +1,40 @@
+//! Weighted sums of stages.
+
+/// out = y + h sum_j weights_j k_j
+pub(super) fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[Vec<f64>]) {
+    out.copy_from_slice(y);
+    accumulate(out, h, weights, k);
+}
+
+/// y += h sum_j weights_j k_j, in the order of j, for the entries that both have. Four stages at a time, so that y is
+/// loaded and stored once for them.
+pub(super) fn accumulate(y: &mut [f64], h: f64, weights: &[f64], k: &[Vec<f64>]) {
+    let len = k.first().map_or(0, Vec::len).min(y.len());
+    let y = &mut y[..len];
+    let mut terms = [(0.0, &[][..]); 4];
+    let mut count = 0;
+    for (weight, k) in weights.iter().zip(k).filter(|(weight, _)| **weight != 0.0) {
+        terms[count] = (h * weight, &k[..]);
+        count += 1;
+        if count == 4 {
+            add(y, terms);
+            count = 0;
+        }
+    }
+    match terms[..count] {
+        [first, second, third] => add(y, [first, second, third]),
+        [first, second] => add(y, [first, second]),
+        [first] => add(y, [first]),
+        _ => {}
+    }
+}
+
+#[inline(always)]
+fn add<const N: usize>(y: &mut [f64], mut terms: [(f64, &[f64]); N]) {
+    terms.iter_mut().for_each(|(_, k)| *k = &k[..y.len()]);
+    for (i, y) in y.iter_mut().enumerate() {
+        for (factor, k) in &terms {
+            *y += factor * k[i];
+        }
+    }
+}
