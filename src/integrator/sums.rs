@@ -30,10 +30,10 @@ pub(super) fn accumulate(y: &mut [f64], h: f64, weights: &[f64], k: &[Vec<f64>])
 }
 
 #[inline(always)]
-fn add<const N: usize>(y: &mut [f64], mut terms: [(f64, &[f64]); N]) {
-    terms.iter_mut().for_each(|(_, k)| *k = &k[..y.len()]);
+fn add<const N: usize>(y: &mut [f64], terms: [(f64, &[f64]); N]) {
+    let terms = terms.map(|(factor, k)| (factor, &k[..y.len()]));
     for (i, y) in y.iter_mut().enumerate() {
-        for (factor, k) in &terms {
+        for (factor, k) in terms {
             *y += factor * k[i];
         }
     }

@@ -39,7 +39,7 @@ impl Scalar for Jet {
     #[inline]
     fn unary(self, function: Unary) -> Self {
         let ([x, slope, curvature], Taylor { d, dd, .. }) = (function.jet(self.path.x), self.path);
-        self.chain(Taylor::new(x, slope * d, curvature * d * d + slope * dd), slope)
+        self.chain(Taylor::new(x, slope * d, curvature * (d * d) + slope * dd), slope)
     }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {

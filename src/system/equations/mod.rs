@@ -3,6 +3,8 @@
 mod christoffel;
 mod jet;
 mod passes;
+#[cfg(test)]
+mod tests;
 
 use super::{
     Column, Dimensions, Energy, LeviCivita, MechanicalSystem, Need, OperatingPoint, OutputTangent, Scratch, Tangent,
@@ -77,9 +79,9 @@ impl<E: Equations> MechanicalSystem for E {
         let fill = |memory: &mut Memory, _: Regime| {
             if need.includes(Need::MASS) {
                 self.mass(t, q, &mut memory.mass);
-                for i in 0..n {
-                    let start = i * (i + 1) / 2;
-                    terms.mass[start..=start + i].copy_from_slice(&memory.mass[i * n..=i * n + i]);
+                let mut lower = terms.mass.iter_mut();
+                for (i, row) in memory.mass.chunks_exact(n.max(1)).enumerate() {
+                    row[..=i].iter().zip(&mut lower).for_each(|(value, entry)| *entry = *value);
                 }
             }
             if need.includes(Need::FORCE) {

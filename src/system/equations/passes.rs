@@ -101,11 +101,9 @@ pub(super) fn constraints<E: Equations>(
         place_of_time.into_iter().for_each(|k| time.slope[k] = 1.0);
         system.phi(time, jets, rows);
         if need.includes(Need::CONSTRAINTS) {
-            let Terms { phi, phi_dot, gamma, phi_t, .. } = terms;
-            let levels = phi.iter_mut().zip(phi_dot).zip(gamma).zip(phi_t);
-            for ((((phi, phi_dot), gamma), phi_t), row) in levels.zip(&*rows) {
-                (*phi, *phi_dot, *gamma) = (row.path.x, row.path.d, -row.path.dd);
-                place_of_time.into_iter().for_each(|k| *phi_t = row.slope[k]);
+            for (i, row) in rows.iter().enumerate() {
+                (terms.phi[i], terms.phi_dot[i], terms.gamma[i]) = (row.path.x, row.path.d, -row.path.dd);
+                place_of_time.into_iter().for_each(|k| terms.phi_t[i] = row.slope[k]);
             }
         }
         if need.includes(Need::G) {
