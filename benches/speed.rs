@@ -7,6 +7,7 @@ mod common;
 mod equations;
 
 use common::{Case, compare};
+use equations::andrews::{Andrews, START};
 use holonom::formulation::Dynamics;
 use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Overrides, PreparedScene};
@@ -62,22 +63,25 @@ fn motion(system: &dyn MechanicalSystem, start: (&[f64], &[f64]), method: &Metho
 
 /// M, f, phi, phi', gamma and G, and the saddle-point solution, at the start.
 fn evaluation() {
-    for name in ["andrews", "spinning_top"] {
-        let prepared = shipped(name, &Default::default());
-        let (q, v) = prepared.start();
-        let dynamics = RefCell::new(Dynamics::new(prepared.system()));
-        let evaluate = || dynamics.borrow_mut().evaluate(0.0, q, v, Need::DYNAMICS);
-        let saddle_point = || {
-            let dynamics = &mut *dynamics.borrow_mut();
-            assert!(dynamics.factor().is_ok());
-            dynamics.vdot.copy_from_slice(&dynamics.terms.f);
-            dynamics.lambda.copy_from_slice(&dynamics.terms.gamma);
-            assert!(dynamics.kkt.solve(&mut dynamics.vdot, &mut dynamics.lambda).is_ok());
-        };
-        let solve = || assert!(dynamics.borrow_mut().solve(0.0, q, v, |_, _| 0.0).is_ok());
-        let cases = vec![case("v' and lambda", solve), case("terms", evaluate), case("saddle point", saddle_point)];
-        compare(&format!("{name}, one evaluation"), cases);
-    }
+    let [andrews, top] = ["andrews", "spinning_top"].map(|name| shipped(name, &Default::default()));
+    evaluation_of("andrews", andrews.system(), andrews.start());
+    evaluation_of("andrews as own equations", &Andrews, START.motion());
+    evaluation_of("spinning_top", top.system(), top.start());
+}
+
+fn evaluation_of(name: &str, system: &dyn MechanicalSystem, (q, v): (&[f64], &[f64])) {
+    let dynamics = RefCell::new(Dynamics::new(system));
+    let evaluate = || dynamics.borrow_mut().evaluate(0.0, q, v, Need::DYNAMICS);
+    let saddle_point = || {
+        let dynamics = &mut *dynamics.borrow_mut();
+        assert!(dynamics.factor().is_ok());
+        dynamics.vdot.copy_from_slice(&dynamics.terms.f);
+        dynamics.lambda.copy_from_slice(&dynamics.terms.gamma);
+        assert!(dynamics.kkt.solve(&mut dynamics.vdot, &mut dynamics.lambda).is_ok());
+    };
+    let solve = || assert!(dynamics.borrow_mut().solve(0.0, q, v, |_, _| 0.0).is_ok());
+    let cases = vec![case("v' and lambda", solve), case("terms", evaluate), case("saddle point", saddle_point)];
+    compare(&format!("{name}, one evaluation"), cases);
 }
 
 /// Andrews' mechanism end to end against a plain classic code.
