@@ -45,7 +45,7 @@ pub fn compare(
     let (mut cases, mut points) = (Vec::<Case>::new(), Vec::new());
     for tolerance in TOLERANCES.map(|power| 10f64.powi(-power)) {
         let end = super::andrews(tolerance, END.t);
-        let call = move || drop(black_box(super::andrews(black_box(tolerance), END.t)));
+        let call = move || _ = black_box(super::andrews(black_box(tolerance), END.t));
         points.push(Point { rival: 0, digits: digits(end.q), evaluations: end.evaluations, time: 0.0 });
         cases.push((format!("{tolerance:e}, {}", RIVALS[0]), Box::new(call)));
         for integrator in INTEGRATORS {
