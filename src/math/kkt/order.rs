@@ -10,17 +10,10 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;
 use faer::sparse::{Pair, SymbolicSparseColMat};
 
-/// Node i < n is coordinate i, node n + j is multiplier j.
-pub(super) struct Order {
-    /// The nodes in the order of elimination.
-    pub nodes: Vec<usize>,
-    /// Number of early coordinates.
-    pub early: usize,
-}
-
-/// The order for M (n x n) and G (m x n); coordinates with `late[i]` come after their multipliers.
+/// The order of elimination for M (n x n) and G (m x n), where node i < n is coordinate i and n + j is multiplier j;
+/// coordinates with `late[i]` come after their multipliers.
 /// Fill-reducing (approximate minimum degree) among the early coordinates, and then in the remaining graph.
-pub(super) fn order(mass: &Pattern, g: &Pattern, late: &[bool]) -> Order {
+pub(super) fn order(mass: &Pattern, g: &Pattern, late: &[bool]) -> Vec<usize> {
     let (n, m) = (mass.rows, g.rows);
     let mut nodes: Vec<usize> = (0..n).filter(|&i| !late[i]).collect();
     let early = nodes.len();
@@ -37,7 +30,7 @@ pub(super) fn order(mass: &Pattern, g: &Pattern, late: &[bool]) -> Order {
     edges.extend(edges_of(mass, g));
     rest = ordered(&rest, n + m, edges.into_iter());
     nodes.extend(delayed(&rest, n, g, late));
-    Order { nodes, early }
+    nodes
 }
 
 /// The entries of the saddle-point matrix as pairs of nodes.

@@ -93,7 +93,7 @@ impl Supernodal {
             Spec::default(),
         );
         if let Err(faer::linalg::cholesky::ldlt::factor::LdltError::ZeroPivot { index }) = result {
-            return Err(self.symbolic.order.nodes.get(index.saturating_sub(1)).copied().unwrap_or(0));
+            return Err(self.symbolic.order.get(index.saturating_sub(1)).copied().unwrap_or(0));
         }
         read_diagonal(&self.cholesky, &self.factor, &mut self.diagonal);
         self.judge(rule, skipped, replaced)
@@ -114,7 +114,7 @@ impl Supernodal {
         let Some(floor) = rule.floor else { return false };
         let mut replaced = false;
         let columns = self.matrix.col_ptr().windows(2);
-        for (columns, &node) in columns.zip(&self.symbolic.order.nodes).filter(|(_, node)| **node < n) {
+        for (columns, &node) in columns.zip(&self.symbolic.order).filter(|(_, node)| **node < n) {
             // The diagonal is the last entry of its column in the upper triangle.
             let own = &mut self.entries[columns[1] - 1];
             if *own <= 0.0 {
@@ -127,7 +127,7 @@ impl Supernodal {
 
     fn judge(&self, rule: Rule, skipped: &mut Vec<usize>, replaced: bool) -> Result<Quality, usize> {
         let mut quality = Quality { replaced, ..Quality::GOOD };
-        for ((&d, &node), &sign) in self.diagonal.iter().zip(&self.symbolic.order.nodes).zip(&self.signs) {
+        for ((&d, &node), &sign) in self.diagonal.iter().zip(&self.symbolic.order).zip(&self.signs) {
             let pivot = d * f64::from(sign);
             let left_out = pivot.abs() >= 1e-3 * tolerances::PLACE_OF_A_VANISHED_ROW || pivot.is_nan();
             if left_out || pivot <= rule.weak {
@@ -139,7 +139,7 @@ impl Supernodal {
 
     /// Solves in place; dropped multipliers are zero.
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
-        let (n, nodes) = (self.symbolic.n, &self.symbolic.order.nodes);
+        let (n, nodes) = (self.symbolic.n, &self.symbolic.order);
         for (x, &node) in self.x.iter_mut().zip(nodes) {
             *x = self.scale[node] * if node < n { top[node] } else { bottom[node - n] };
         }
@@ -170,7 +170,7 @@ impl Supernodal {
 /// For each entry of M and G its (column, row) in the upper triangle, by position; and the diagonal behind them.
 fn places(symbolic: &Symbolic, mass: &Pattern, g: &Pattern) -> Vec<(usize, usize)> {
     let mut position = vec![0; symbolic.size()];
-    for (k, &node) in symbolic.order.nodes.iter().enumerate() {
+    for (k, &node) in symbolic.order.iter().enumerate() {
         position[node] = k;
     }
     let place = |a: usize, b: usize| (position[a].max(position[b]), position[a].min(position[b]));

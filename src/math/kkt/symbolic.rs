@@ -1,11 +1,12 @@
 //! The frozen structure of a factor L D L^T of the saddle-point matrix.
 
 use super::Pattern;
-use super::order::{Order, columns, lower_adjacency, order};
+use super::order::{columns, lower_adjacency, order};
 
 /// Positions 0..n+m are places in the order of elimination.
 pub(super) struct Symbolic {
-    pub order: Order,
+    /// Coordinate i, or n + row of G, in the order of elimination.
+    pub order: Vec<usize>,
     /// Number of coordinates.
     pub n: usize,
     /// The pattern of L below the diagonal, by columns.
@@ -19,7 +20,7 @@ pub(super) struct Symbolic {
 impl Symbolic {
     pub fn new(mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
         let order = order(mass, g, late);
-        let columns = columns(&lower_adjacency(mass, g, &order.nodes), order.nodes.len());
+        let columns = columns(&lower_adjacency(mass, g, &order), order.len());
         let mut starts = vec![0];
         let mut rows = Vec::with_capacity(columns.iter().map(Vec::len).sum());
         for column in &columns {
@@ -28,7 +29,7 @@ impl Symbolic {
         }
         let mut symbolic = Symbolic { order, n: mass.rows, starts, rows, mass_slots: vec![], g_slots: vec![] };
         let mut position = vec![0; columns.len()];
-        for (k, &node) in symbolic.order.nodes.iter().enumerate() {
+        for (k, &node) in symbolic.order.iter().enumerate() {
             position[node] = k;
         }
         symbolic.mass_slots = mass.entries.iter().map(|&(i, j)| symbolic.slot(position[i], position[j])).collect();
@@ -38,12 +39,12 @@ impl Symbolic {
     }
 
     pub fn size(&self) -> usize {
-        self.order.nodes.len()
+        self.order.len()
     }
 
     /// +1 for the coordinates, -1 for the multipliers, by position: the signs of the pivots.
     pub fn signs(&self) -> impl Iterator<Item = i8> {
-        self.order.nodes.iter().map(|&node| if node < self.n { 1 } else { -1 })
+        self.order.iter().map(|&node| if node < self.n { 1 } else { -1 })
     }
 
     fn slot(&self, a: usize, b: usize) -> u32 {

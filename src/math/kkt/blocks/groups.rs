@@ -43,6 +43,27 @@ impl Groups {
     }
 }
 
+impl Groups {
+    /// The unknowns of each group (n + row for rows of G) and the groups (those of coordinates first) in an order of
+    /// elimination of single unknowns: where their first unknown is, but those of late coordinates where their last is,
+    /// behind all their multipliers.
+    pub fn in_order(&self, nodes: &[usize]) -> (Vec<Vec<usize>>, Vec<usize>) {
+        let (count, n) = (self.coordinates.len(), self.coordinates.iter().map(Vec::len).sum());
+        let (of_coordinate, of_row) = (numbers(&self.coordinates, n), numbers(&self.rows, nodes.len() - n));
+        let mut members = vec![Vec::new(); count + self.rows.len()];
+        let mut order = Vec::with_capacity(members.len());
+        for &node in nodes {
+            let group = if node < n { of_coordinate[node] } else { count + of_row[node - n] };
+            members[group].push(node);
+            let is_late = group < count && self.late[group];
+            if members[group].len() == if is_late { self.coordinates[group].len() } else { 1 } {
+                order.push(group);
+            }
+        }
+        (members, order)
+    }
+}
+
 /// Coordinates in the same rows of G, coupled by M to the same others outside their group; large groups, such as the
 /// inner nodes of a mesh, only where they are coupled to the same among themselves, too.
 fn coordinates(mass: &Pattern, g: &Pattern, late: &[bool]) -> Vec<Vec<usize>> {

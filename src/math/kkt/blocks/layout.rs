@@ -67,30 +67,27 @@ pub struct Layout {
 impl Layout {
     pub fn new(mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
         let groups = Groups::new(mass, g, late);
-        let order = order(&groups.mass, &groups.g, &groups.late);
-        let below = columns(&lower_adjacency(&groups.mass, &groups.g, &order.nodes), order.nodes.len());
+        let (members, nodes) = groups.in_order(&order(mass, g, late));
+        let below = columns(&lower_adjacency(&groups.mass, &groups.g, &nodes), nodes.len());
         let (count, n) = (groups.coordinates.len(), g.cols);
         let mut layout = Layout {
-            columns: Vec::with_capacity(order.nodes.len()),
+            columns: Vec::with_capacity(nodes.len()),
             runs: Vec::new(),
             partners: Vec::new(),
             before: Vec::new(),
             rows: Vec::new(),
             targets: Vec::new(),
             nodes: Vec::with_capacity(n + g.rows),
-            early: order.early,
+            early: groups.late.iter().filter(|late| !**late).count(),
             early_unknowns: 0,
             slots: Vec::new(),
             positions: vec![0; n + g.rows],
             diagonals: Vec::with_capacity(n + g.rows),
             len: 0,
         };
-        for &group in &order.nodes {
+        for &group in &nodes {
             let first = layout.nodes.len();
-            match group < count {
-                true => layout.nodes.extend(&groups.coordinates[group]),
-                false => layout.nodes.extend(groups.rows[group - count].iter().map(|row| n + row)),
-            }
+            layout.nodes.extend(&members[group]);
             layout.push(first, group < count, group < count && !groups.late[group]);
         }
         layout.early_unknowns = layout.columns.get(layout.early).map_or(layout.nodes.len(), |column| column.first);
