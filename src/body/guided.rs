@@ -1,6 +1,6 @@
 //! A spatial body that may move along some world axes and turn about at most one: coordinates only for those.
 
-use super::{BodyKernel, Energy, Frame, Marker, Wrench, cross, sub};
+use super::{BodyKernel, Energy, Frame, Freedom, Marker, Wrench, cross, sub};
 use crate::error::{Error, Result};
 use crate::math::Scalar;
 use crate::math::rotation::Matrix3;
@@ -80,13 +80,18 @@ impl<const D: usize> BodyKernel<D> for Guided<D> {
         &self.markers
     }
 
+    /// The angular acceleration is zero at v' = 0: the axis is fixed in the world.
+    fn freedom(&self) -> Option<Freedom> {
+        Some(Freedom { components: self.free(), in_own_axes: false })
+    }
+
     fn frame<S: Scalar>(&self, q: &[S]) -> Frame<S, D> {
         let mut body = Frame::world();
         body.r = self.position(q);
         for (axis, start) in body.axes.iter_mut().zip(&self.axes) {
             axis.iter_mut().zip(start).for_each(|(a, &s)| *a = S::constant(s));
             if let Some(turn) = self.turn {
-                let (s, c) = (q[turn.slot].sin(), q[turn.slot].cos());
+                let (s, c) = q[turn.slot].sin_cos();
                 let (i, j) = ((turn.axis + 1) % 3, (turn.axis + 2) % 3);
                 axis[i] = c * start[i] - s * start[j];
                 axis[j] = s * start[i] + c * start[j];

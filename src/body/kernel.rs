@@ -2,7 +2,7 @@
 
 use super::flexible::PointShape;
 use super::{
-    Attitude, Bent, Body, BodyKernel, BodyOver, BodyState, Dual6, Energy, Frame, Marker, Wrench, cross, dot, sub,
+    Bent, Body, BodyKernel, BodyOver, BodyState, Dual6, Energy, Frame, Freedom, Marker, Pose, Wrench, cross, dot, sub,
 };
 use crate::math::{Scalar, Taylor};
 use std::array::from_fn;
@@ -16,10 +16,7 @@ impl<K: BodyKernel<D>, S: Scalar, const D: usize> BodyOver<S, D> for K {
     }
 
     fn motion(&self, q: &[S], v: &[S], vdot: Option<&[S]>, out: &mut [Frame<Taylor<S>, D>]) {
-        let mut path = [Taylor::fixed(S::zero()); MOST_COORDINATES];
-        let path = &mut path[..q.len()];
-        coordinate_path(|q, v, rate| BodyKernel::rate(self, q, v, rate), (q, v, vdot), path);
-        let body = self.frame(path);
+        let body = moving_frame(self, (q, v, vdot));
         out.iter_mut().zip(self.markers()).for_each(|(frame, marker)| *frame = body.at(marker));
     }
 
@@ -30,6 +27,23 @@ impl<K: BodyKernel<D>, S: Scalar, const D: usize> BodyOver<S, D> for K {
     fn energy(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S> {
         BodyKernel::energy(self, q, v, gravity)
     }
+}
+
+/// The frame in which the markers are fixed, along the motion with the accelerations `vdot`, zero if not given.
+#[inline]
+fn moving_frame<K: BodyKernel<D>, S: Scalar, const D: usize>(
+    body: &K,
+    (q, v, vdot): (&[S], &[S], Option<&[S]>),
+) -> Frame<Taylor<S>, D> {
+    let mut path = [Taylor::fixed(S::zero()); MOST_COORDINATES];
+    let path = &mut path[..q.len()];
+    coordinate_path(|q, v, rate| BodyKernel::rate(body, q, v, rate), (q, v, vdot), path);
+    body.frame(path)
+}
+
+/// The pose of the frame in which the markers are fixed.
+pub(super) fn pose<K: BodyKernel<D>, const D: usize>(body: &K, q: &[f64], v: &[f64]) -> Pose<D> {
+    (&moving_frame(body, (q, v, None))).into()
 }
 
 /// f += J^T w by the velocities of the body's frame, J e_j, at v = e_j.
@@ -44,10 +58,7 @@ pub(super) fn pull_back<K: BodyKernel<D>, S: Scalar, const D: usize>(
     for (j, f) in f.iter_mut().enumerate() {
         let mut unit = [S::zero(); MOST_COORDINATES];
         unit[j] = S::one();
-        let mut path = [Taylor::fixed(S::zero()); MOST_COORDINATES];
-        let path = &mut path[..q.len()];
-        coordinate_path(|q, v, rate| BodyKernel::rate(body, q, v, rate), (q, &unit[..n], None), path);
-        let own = body.frame(path);
+        let own = moving_frame(body, (q, &unit[..n], None));
         let lever = cross(&sub(&frame.r, &own.r.map(|x| x.x)), &wrench.force);
         let moment: [S; 3] = from_fn(|i| wrench.torque[i] + lever[i]);
         *f += dot(&own.velocity(), &wrench.force) + dot(&own.angular_velocity(), &moment);
@@ -139,8 +150,11 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
     fn turning(&self) -> Option<usize> {
         BodyKernel::turning(self)
     }
-    fn attitude(&self, q: &[f64], v: &[f64]) -> Attitude<D> {
-        BodyKernel::attitude(self, q, v)
+    fn pose(&self, q: &[f64], v: &[f64]) -> Pose<D> {
+        BodyKernel::pose(self, q, v)
+    }
+    fn freedom(&self) -> Option<Freedom> {
+        BodyKernel::freedom(self)
     }
     fn has_constant_mass(&self) -> bool {
         true

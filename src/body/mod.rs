@@ -6,7 +6,6 @@
 //! To add one: a file with a [`BodySpec`] and a [`BodyKernel`], and a line in [`registry`]; from outside the crate, the
 //! same two and [`Elements::with_body`](crate::scene::Elements::with_body), as in `tests/examples/own_body.rs`.
 
-mod attitude;
 mod build;
 #[doc(hidden)]
 pub mod flexible;
@@ -18,14 +17,13 @@ mod kernel;
 mod kind;
 mod parse;
 mod point_mass;
+mod pose;
 mod probe;
 mod rigid;
 mod rigid_planar;
 mod rigid_spatial;
 mod turning;
 
-#[doc(hidden)]
-pub use attitude::{Attitude, Carried};
 pub use build::{Build, MarkerId, MarkerTable, Switches};
 pub use frame::{Frame, Marker, Wrench, cross, dot, norm, scale, sub};
 #[doc(hidden)]
@@ -36,6 +34,8 @@ pub use kind::ElementKind;
 pub(crate) use kind::mistaken;
 #[doc(hidden)]
 pub use parse::{parse, parse_among, show};
+#[doc(hidden)]
+pub use pose::{Carried, Freedom, Pose};
 pub use probe::{Probe, Quantity, Signal};
 #[doc(hidden)]
 pub use probe::{small_rotation, small_rotation_torque};
@@ -112,14 +112,18 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
         None
     }
 
-    /// See [`Body::attitude`].
-    fn attitude(&self, q: &[f64], v: &[f64]) -> Attitude<D>
+    /// See [`Body::pose`].
+    fn pose(&self, q: &[f64], v: &[f64]) -> Pose<D>
     where
         Self: Sized,
     {
-        let mut own = [Frame::world()];
-        self.motion(q, v, None, &mut own);
-        (&own[0]).into()
+        kernel::pose(self, q, v)
+    }
+
+    /// See [`Body::freedom`]. Default: none, which is correct for every body.
+    #[doc(hidden)]
+    fn freedom(&self) -> Option<Freedom> {
+        None
     }
 
     /// f += weight and velocity-dependent inertia forces; `gravity` in m/s^2.
@@ -201,8 +205,11 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Dual6, D> + Send + S
     fn oriented(&self) -> bool;
     /// Index of the first of three velocities that are an angular velocity in the body's own axes; `None` if N = I.
     fn turning(&self) -> Option<usize>;
-    /// Orientation and angular velocity of its own frame.
-    fn attitude(&self, q: &[f64], v: &[f64]) -> Attitude<D>;
+    /// Position, orientation and twist of the frame in which its markers are fixed when it is not deformed.
+    fn pose(&self, q: &[f64], v: &[f64]) -> Pose<D>;
+    /// Its velocities as components of the twist of [`pose`](Self::pose), for a rigid body; `None` where it is none, or
+    /// gives its markers by [`motion`](BodyOver::motion) alone.
+    fn freedom(&self) -> Option<Freedom>;
     /// True if M does not depend on q.
     fn has_constant_mass(&self) -> bool;
     /// Largest distance of a marker from the origin of the coordinates, m.

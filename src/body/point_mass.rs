@@ -1,7 +1,7 @@
 //! Point mass: position only, no orientation.
 
 use super::rigid::{Initial, start_vector};
-use super::{BodyKernel, BodySpec, Build, Built, Energy, Frame, Marker, Wrench};
+use super::{BodyKernel, BodySpec, Build, Built, Energy, Frame, Freedom, Marker, Wrench};
 use crate::error::{Error, Result};
 use crate::math::Scalar;
 use crate::math::expression::Number;
@@ -54,6 +54,9 @@ impl<const D: usize> BodyKernel<D> for Particle<D> {
     }
     fn oriented(&self) -> bool {
         false
+    }
+    fn freedom(&self) -> Option<Freedom> {
+        Some(Freedom { components: (0..D).collect(), in_own_axes: false })
     }
     fn frame<S: Scalar>(&self, q: &[S]) -> Frame<S, D> {
         Frame { r: from_fn(|i| q[i]), ..Frame::world() }

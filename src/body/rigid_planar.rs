@@ -1,6 +1,6 @@
 //! Rigid body in the plane: x, y of the centre of mass and the angle, or those of them that are free.
 
-use super::{BodyKernel, Energy, Frame, Marker, Wrench, cross, sub};
+use super::{BodyKernel, Energy, Frame, Freedom, Marker, Pose, Wrench, cross, sub};
 use crate::math::Scalar;
 use std::array::from_fn;
 
@@ -47,7 +47,7 @@ impl<const D: usize> BodyKernel<D> for RigidPlanar<D> {
     #[inline]
     fn frame<S: Scalar>(&self, q: &[S]) -> Frame<S, D> {
         let [x, y, turn] = self.coordinates(q);
-        let (s, c) = (turn.sin(), turn.cos());
+        let (s, c) = turn.sin_cos();
         let axes = [[c, s], [-s, c]];
         Frame { r: from_fn(|i| [x, y][i]), axes: from_fn(|i| from_fn(|k| axes[i][k])), turn }
     }
@@ -63,6 +63,13 @@ impl<const D: usize> BodyKernel<D> for RigidPlanar<D> {
                 f[*slot] += force;
             }
         }
+    }
+
+    fn pose(&self, q: &[f64], v: &[f64]) -> Pose<D> {
+        Pose::in_plane(self.coordinates(q), self.slots.map(|slot| slot.map_or(0.0, |slot| v[slot])))
+    }
+    fn freedom(&self) -> Option<Freedom> {
+        Some(Freedom { components: self.free().collect(), in_own_axes: true })
     }
 
     fn mass(&self, values: &mut [f64]) {

@@ -1,6 +1,6 @@
 //! Rigid body in space: centre of mass, unit quaternion [w, x, y, z] and angular velocity in the body's axes.
 
-use super::{Attitude, BodyKernel, Energy, Frame, Marker, Wrench, cross, dot, sub};
+use super::{BodyKernel, Energy, Frame, Freedom, Marker, Pose, Wrench, cross, dot, sub};
 use crate::math::Scalar;
 use crate::math::rotation::{Matrix3, axes_from_quaternion, quaternion_rate};
 use std::array::from_fn;
@@ -35,8 +35,11 @@ impl<const D: usize> BodyKernel<D> for RigidSpatial<D> {
     fn turning(&self) -> Option<usize> {
         Some(3)
     }
-    fn attitude(&self, q: &[f64], v: &[f64]) -> Attitude<D> {
-        Attitude::of_quaternion(&q[3..7], &v[3..6])
+    fn pose(&self, q: &[f64], v: &[f64]) -> Pose<D> {
+        Pose::in_space(q, v)
+    }
+    fn freedom(&self) -> Option<Freedom> {
+        Some(Freedom::all(D))
     }
 
     /// x' = v, and for the quaternion p' = p (0, w) / 2.

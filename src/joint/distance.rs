@@ -1,6 +1,6 @@
 //! Massless rod: a fixed distance between two points.
 
-use super::{Built, JointKernel, JointSpec};
+use super::{Built, ClosedForm, JointKernel, JointSpec};
 use crate::body::{Build, Frame, dot, sub};
 use crate::error::Result;
 use crate::math::expression::Number;
@@ -39,6 +39,10 @@ impl<const D: usize> JointKernel<D> for Rod {
 
     fn depends_on_time(&self) -> bool {
         false
+    }
+
+    fn closed_form(&self) -> Option<ClosedForm<D>> {
+        Some(ClosedForm::Rod(self.length))
     }
 
     #[inline]

@@ -104,7 +104,8 @@ impl<const D: usize> JointKernel<D> for Drive<D> {
             Coordinate::Angle => {
                 // The difference of the angles, not the difference of two atan2: no jump at half a turn.
                 let (c, s) = relative_turn(&self.axes, a, b);
-                S::atan2(s * value.cos() - c * value.sin(), c * value.cos() + s * value.sin())
+                let (sine, cosine) = value.sin_cos();
+                S::atan2(s * cosine - c * sine, c * cosine + s * sine)
             }
         };
     }

@@ -1,6 +1,6 @@
 //! The kernel behind most joints: some relative translations and rotations of two frames are locked.
 
-use super::{Axis, Built, JointKernel};
+use super::{Axis, Built, ClosedForm, JointKernel};
 use crate::body::{Build, Frame, dot, in_space, sub, unit_axes};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
@@ -32,6 +32,7 @@ pub const NONE: &[(usize, usize)] = &[];
 const TRANSLATIONS: [&str; 3] = ["x", "y", "z"];
 
 impl<const D: usize> Lock<D> {
+    /// Locks these translations and rotations, along the axes of the markers.
     pub fn new(translation: &'static [usize], rotation: &'static [(usize, usize)]) -> Self {
         Lock { translation, rotation, triad: None }
     }
@@ -53,7 +54,8 @@ impl<const D: usize> Lock<D> {
         Ok(Built { joint: Box::new(self), markers })
     }
 
-    pub(super) fn axis<S: Scalar>(&self, frame: &Frame<S, D>, i: usize) -> [S; D] {
+    /// Axis `i` of the joint at the frame of one of its markers.
+    pub fn axis<S: Scalar>(&self, frame: &Frame<S, D>, i: usize) -> [S; D] {
         match &self.triad {
             None => frame.axes[i],
             Some(triad) => from_fn(|k| {
@@ -87,6 +89,10 @@ impl<const D: usize> JointKernel<D> for Lock<D> {
             (2, _) => Some(Axis::Along(in_space(&self.axis(first, 0)))),
             _ => Some(Axis::Along(in_space(&self.axis(first, 2)))),
         }
+    }
+
+    fn closed_form(&self) -> Option<ClosedForm<D>> {
+        Some(ClosedForm::Lock(self.clone()))
     }
 
     #[inline]

@@ -28,6 +28,9 @@ use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use std::array::from_fn;
 
+#[doc(hidden)]
+pub use lock::Lock;
+
 /// The largest number of rows of a joint.
 pub const MOST_ROWS: usize = 6;
 
@@ -38,6 +41,16 @@ pub enum Axis {
     Along([f64; 3]),
     /// The joint prescribes the rotation of the second marker about it.
     Turn([f64; 3]),
+}
+
+/// The joints for which closed formulas between rigid bodies are known.
+#[derive(Clone)]
+#[doc(hidden)]
+pub enum ClosedForm<const D: usize> {
+    /// Locked translations and rotations.
+    Lock(Lock<D>),
+    /// A distance of this length, m.
+    Rod(f64),
 }
 
 /// A joint's equations, written once over any scalar.
@@ -55,6 +68,12 @@ pub trait JointKernel<const D: usize>: Send + Sync + 'static {
     /// Writes phi, one value a row, at the frames of the joint's markers, in the order of [`Built::markers`]; zero
     /// where the joint is closed. Derivatives follow from the scalars that are put in.
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]);
+    /// Its form if closed formulas between rigid bodies are known, which must give what [`phi`](Self::phi) gives.
+    /// Default: none.
+    #[doc(hidden)]
+    fn closed_form(&self) -> Option<ClosedForm<D>> {
+        None
+    }
     /// Writes the arguments of its switching functions at the numbers that [`Build::switch`] gave; those of an
     /// expression by
     /// [`Expression::arguments`](crate::math::expression::Expression::arguments). Default: it has none.
@@ -78,6 +97,9 @@ pub trait Joint<const D: usize>: JointOver<f64, D> + JointOver<Dual6, D> + Send 
     fn depends_on_time(&self) -> bool;
     /// Axis of the joint with its first marker at `first`, if it has one.
     fn joint_axis(&self, first: &Frame<f64, D>) -> Option<Axis>;
+    /// Its form, if closed formulas between rigid bodies are known.
+    #[doc(hidden)]
+    fn closed_form(&self) -> Option<ClosedForm<D>>;
     /// Writes the arguments of its switching functions, with their rates, at their numbers.
     fn switching(&self, frames: &[Frame<Rate, D>], time: Time<Rate>, out: &mut [Rate]);
 }
@@ -124,6 +146,9 @@ impl<K: JointKernel<D>, const D: usize> Joint<D> for K {
     }
     fn joint_axis(&self, first: &Frame<f64, D>) -> Option<Axis> {
         JointKernel::joint_axis(self, first)
+    }
+    fn closed_form(&self) -> Option<ClosedForm<D>> {
+        JointKernel::closed_form(self)
     }
     fn switching(&self, frames: &[Frame<Rate, D>], time: Time<Rate>, out: &mut [Rate]) {
         JointKernel::switching(self, frames, time, out);

@@ -88,7 +88,8 @@ pub trait Scalar:
     }
     /// Tangent, as sin/cos.
     fn tan(self) -> Self {
-        self.sin() / self.cos()
+        let (s, c) = self.sin_cos();
+        s / c
     }
     /// Hyperbolic sine.
     fn sinh(self) -> Self {

@@ -4,6 +4,7 @@ use super::coupling::Couplings;
 use super::levi_civita::LeviCivita;
 use super::limits::{Extent, limits};
 use super::output_tangent::{OutputTangent, Slopes};
+use super::rigid_joint::RigidJoint;
 use super::rows::{JointRows, PlacedJoint};
 use super::scale::{length_scale, row_scales};
 use super::spin::{Placement, Spin};
@@ -12,7 +13,7 @@ use super::tangent::{Evaluation, OperatingPoint, Tangent};
 use super::variation::SeededBody;
 use super::view::{Plain, along_motion, gathered};
 use super::{Column, Dimensions, Energy, Group, Limited, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
-use crate::body::{Frame, MOST_MARKERS, Wrench, cross};
+use crate::body::{Frame, Freedom, Pose, cross};
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
 use crate::math::{Rate, Regime, Taylor, Time};
@@ -29,7 +30,15 @@ pub struct Mechanism<const D: usize> {
     pub(super) joints: Vec<JointRows>,
     pub(super) couplings: Couplings,
     /// Range of each body's values in those of M.
-    masses: Vec<Range<usize>>,
+    pub(super) masses: Vec<Range<usize>>,
+    /// Values of M, those of bodies with a constant mass matrix.
+    pub(super) constant_mass: Vec<f64>,
+    /// The velocities of each body as components of its twist, if it is rigid.
+    pub(super) freedoms: Vec<Option<Freedom>>,
+    /// Joints with closed formulas.
+    pub(super) rigid_joints: Vec<RigidJoint<D>>,
+    /// Indices of all other joints.
+    pub(super) general_joints: Vec<usize>,
     /// The velocities that move each marker; none for markers on the ground.
     pub(super) supports: Vec<Support>,
     pub(super) length: f64,
@@ -40,6 +49,8 @@ pub struct Mechanism<const D: usize> {
 pub(super) struct Workspace<const D: usize> {
     /// Frames of all markers with their velocities, and their accelerations at v' = 0.
     pub motion: Vec<Frame<Taylor<f64>, D>>,
+    /// Poses of the rigid bodies by the index of the body, in an evaluation; the last is that of the ground.
+    pub poses: Vec<Pose<D>>,
     pub varied: SeededBody<D>,
     pub pulled: Vec<f64>,
 }
@@ -59,14 +70,40 @@ impl<const D: usize> Mechanism<D> {
         }
         let mut g = Pattern { rows: 0, cols: v, entries: Vec::new() };
         let supports: Vec<Support> = (0..model.marker_count()).map(|marker| Support::of(&model, marker)).collect();
-        let joints = model.joints.iter().map(|joint| JointRows::new(&supports, joint, &mut g)).collect();
+        let joints: Vec<JointRows> =
+            model.joints.iter().map(|joint| JointRows::new(&supports, joint, &mut g)).collect();
+        let constant_mass = constant_mass(&model, &masses);
+        let freedoms = model.bodies.iter().map(|part| part.body.freedom()).collect();
+        let mut general_joints = Vec::new();
+        let mut rigid_joints = Vec::new();
+        for (i, (joint, rows)) in model.joints.iter().zip(&joints).enumerate() {
+            match RigidJoint::new(&model, joint, rows) {
+                Some(joint) => rigid_joints.push(joint),
+                None => general_joints.push(i),
+            }
+        }
         let dimensions = Dimensions { q: q + model.turnings.len(), v, lambda: g.rows, nonholonomic: 0, states: 0 };
         let length = length_scale(&model);
         let mut tangent = Pattern { rows: v, cols: v, entries: Vec::new() };
         let couplings = Couplings::new(&model, &supports, &mut tangent);
         let structure = Structure { mass, g, tangent };
         let (limited, extents) = limits(&model);
-        Mechanism { model, dimensions, structure, joints, couplings, masses, supports, length, limited, extents }
+        Mechanism {
+            model,
+            dimensions,
+            structure,
+            joints,
+            couplings,
+            masses,
+            constant_mass,
+            freedoms,
+            rigid_joints,
+            general_joints,
+            supports,
+            length,
+            limited,
+            extents,
+        }
     }
 
     /// The model that the equations belong to.
@@ -92,81 +129,61 @@ impl<const D: usize> Mechanism<D> {
         scratch: &mut Scratch,
         see: impl FnOnce(&mut Workspace<D>, Regime) -> R,
     ) -> R {
-        let make = || Workspace {
-            motion: self.model.ground_frames().map(|frame| frame.map(Taylor::fixed)).collect(),
-            varied: SeededBody::default(),
-            pulled: Vec::new(),
-        };
-        scratch.with(make, |work, regime| {
+        self.with_workspace(q, scratch, |work, regime| {
             self.place(q, v, &[], work);
-            see(work, regime.turned(self.turned(q)))
+            see(work, regime)
         })
+    }
+
+    /// Calls `see` with the workspace, where only the frames of the ground are valid.
+    fn with_workspace<R>(
+        &self,
+        q: &[f64],
+        scratch: &mut Scratch,
+        see: impl FnOnce(&mut Workspace<D>, Regime) -> R,
+    ) -> R {
+        let make = || {
+            let mut motion: Vec<_> = self.model.ground_frames().map(|frame| frame.map(Taylor::fixed)).collect();
+            motion.resize(self.model.marker_count(), Frame::world());
+            let poses = vec![Pose::ground(); self.model.bodies.len() + 1];
+            Workspace { motion, poses, varied: SeededBody::default(), pulled: Vec::new() }
+        };
+        scratch.with(make, |work, regime| see(work, regime.turned(self.turned(q))))
     }
 
     /// Evaluates all frames at (q, v), with the accelerations `vdot` or, where it is empty, those at v' = 0.
     pub(super) fn place(&self, q: &[f64], v: &[f64], vdot: &[f64], work: &mut Workspace<D>) {
-        work.motion.resize(self.model.marker_count(), Frame::world());
-        for part in &self.model.bodies {
-            let frames = &mut work.motion[part.first_marker..][..part.body.marker_count()];
-            let vdot = (!vdot.is_empty()).then(|| of(vdot, part, false));
-            part.body.motion(of(q, part, true), of(v, part, false), vdot, frames);
-        }
+        self.model.bodies.iter().for_each(|part| self.place_body(part, (q, v, vdot), &mut work.motion));
     }
 
-    fn mass_and_own_forces(&self, q: &[f64], v: &[f64], need: Need, terms: &mut Terms) {
-        for (part, places) in self.model.bodies.iter().zip(&self.masses) {
-            let (q, v) = (of(q, part, true), of(v, part, false));
-            if need.includes(Need::MASS) {
-                part.body.mass(q, &mut terms.mass[places.clone()]);
-            }
-            if need.includes(Need::FORCE) {
-                let f = &mut terms.f[part.first_v..part.first_v + part.nv];
-                f.fill(0.0);
-                part.body.own_forces(q, v, &self.model.gravity, f);
-            }
-        }
+    pub(super) fn place_body(
+        &self,
+        part: &Part<D>,
+        (q, v, vdot): (&[f64], &[f64], &[f64]),
+        motion: &mut [Frame<Taylor<f64>, D>],
+    ) {
+        let frames = &mut motion[part.first_marker..][..part.body.marker_count()];
+        let vdot = (!vdot.is_empty()).then(|| of(vdot, part, false));
+        part.body.motion(of(q, part, true), of(v, part, false), vdot, frames);
     }
 
-    fn forces(&self, time: Time<f64>, (q, v): (&[f64], &[f64]), work: &mut Workspace<D>, terms: &mut Terms) {
-        terms.power = -self.model.bodies.iter().map(|part| part.body.dissipation(of(v, part, false))).sum::<f64>();
-        for force in &self.model.forces {
-            let mut wrenches = [Wrench::zero(); MOST_MARKERS];
-            let wrenches = &mut wrenches[..force.markers.len()];
-            let action = with_frames(&work.motion, &force.markers, |frames| {
-                force.element.act(frames, time.map(Taylor::time), wrenches)
-            });
-            terms.power += action.potential.d;
-            for (wrench, &marker) in wrenches.iter().zip(&force.markers) {
-                let frame = &work.motion[marker];
-                terms.power += wrench.power(frame);
-                if let Some(part) = self.model.carrier(marker) {
-                    let (index, support) = (marker - part.first_marker, &self.supports[marker]);
-                    let frame = frame.map(|x| x.x);
-                    support.add_to(&mut terms.f, &mut work.pulled, |f| {
-                        part.body.pull_back(index, of(q, part, true), &frame, wrench, f);
-                    });
-                }
-            }
-        }
-    }
-
-    fn constraints(&self, time: Time<f64>, q: &[f64], need: Need, work: &Workspace<D>, terms: &mut Terms) {
-        for joint in self.placed_joints() {
-            with_frames(&work.motion, &joint.joint.markers, |frames| {
-                if need.includes(Need::CONSTRAINTS) {
-                    joint.levels(time, frames, terms);
-                }
-                if need.includes(Need::G) {
-                    joint.gradient(time, q, frames, terms);
-                }
-            });
-        }
+    /// A joint with its rows.
+    pub(super) fn placed_joint(&self, joint: usize) -> PlacedJoint<'_, D> {
+        PlacedJoint { mechanism: self, joint: &self.model.joints[joint], rows: &self.joints[joint] }
     }
 
     fn placed_joints(&self) -> impl Iterator<Item = PlacedJoint<'_, D>> {
-        let all = self.model.joints.iter().zip(&self.joints);
-        all.map(|(joint, rows)| PlacedJoint { mechanism: self, joint, rows })
+        (0..self.joints.len()).map(|joint| self.placed_joint(joint))
     }
+}
+
+/// Values of M with those of the bodies whose mass matrix is constant.
+fn constant_mass<const D: usize>(model: &Model<D>, masses: &[Range<usize>]) -> Vec<f64> {
+    let mut values = vec![0.0; masses.last().map_or(0, |last| last.end)];
+    for (part, places) in model.bodies.iter().zip(masses).filter(|(part, _)| part.body.has_constant_mass()) {
+        part.body.mass(&vec![0.0; part.nq], &mut values[places.clone()]);
+    }
+    values
 }
 
 /// The coordinates (`coordinates`) or else the velocities of one body.
@@ -228,14 +245,10 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
-        self.at(q, v, scratch, |work, regime| {
-            let time = Time { t, regime };
-            self.mass_and_own_forces(q, v, need, terms);
-            if need.includes(Need::FORCE) {
-                self.forces(time, (q, v), work, terms);
-            }
-            self.constraints(time, q, need, work, terms);
+        self.with_workspace(q, scratch, |work, regime| {
+            self.write_terms(Time { t, regime }, (q, v), need, work, terms);
             if need.includes(Need::L) {
+                self.place(q, v, &[], work);
                 let (Workspace { motion, varied, .. }, at) = (work, OperatingPoint { t, q, v, vdot: &[], lambda: &[] });
                 let mut write = |place: usize, slope: Taylor<f64>| terms.l[place] = slope.d;
                 self.placed_joints().for_each(|joint| joint.curvature((&at, regime), motion, varied, &mut write));

@@ -7,12 +7,14 @@
 mod coupling;
 mod critical;
 mod equations;
+mod evaluate;
 mod input;
 mod levi_civita;
 mod limits;
 mod mechanism;
 mod output;
 mod output_tangent;
+mod rigid_joint;
 mod rotating;
 mod rows;
 mod scale;

@@ -40,18 +40,18 @@ impl<const D: usize> Mechanism<D> {
     /// Writes the magnitude of the angular velocity of each of [`oriented_bodies`](Self::oriented_bodies), rad/s.
     pub(super) fn write_spins(&self, q: &[f64], v: &[f64], out: &mut [f64]) {
         for (out, part) in out.iter_mut().zip(self.oriented_bodies()) {
-            *out = norm(&part.body.attitude(of(q, part, true), of(v, part, false)).spin);
+            *out = norm(&part.body.pose(of(q, part, true), of(v, part, false)).spin);
         }
     }
 
-    /// A marker with the attitude of the body that carries it.
+    /// A marker with the pose of the body that carries it.
     #[inline]
     pub(super) fn carried(&self, marker: MarkerId, q: &[f64], v: &[f64]) -> Carried<'_, D> {
         let model = self.model();
         match model.carrier(marker) {
             None => Carried { body: None, marker: &model.ground[marker] },
             Some(part) => Carried {
-                body: Some(part.body.attitude(of(q, part, true), of(v, part, false))),
+                body: Some(part.body.pose(of(q, part, true), of(v, part, false))),
                 marker: part.body.marker(marker - part.first_marker),
             },
         }

@@ -29,7 +29,7 @@ mod tangent;
 
 use super::flexible::{Elastic, PointShape};
 use super::kernel::coordinate_path;
-use super::{Attitude, Bent, Body, BodyOver, BodyState, Energy, Frame, Marker, Wrench, norm};
+use super::{Bent, Body, BodyOver, BodyState, Energy, Frame, Freedom, Marker, Pose, Wrench, norm};
 use crate::math::rotation::{axes_from_quaternion, quaternion_rate};
 use crate::math::{Scalar, Taylor};
 use layout::Layout;
@@ -87,7 +87,7 @@ fn frame<S: Scalar, const D: usize>(q: &[S]) -> Frame<S, D> {
     let mut frame = Frame::world();
     frame.r.copy_from_slice(&q[..D]);
     if D == 2 {
-        let (s, c) = (q[2].sin(), q[2].cos());
+        let (s, c) = q[2].sin_cos();
         frame.turn = q[2];
         frame.axes[0].copy_from_slice(&[c, s]);
         frame.axes[1].copy_from_slice(&[-s, c]);
@@ -202,11 +202,14 @@ impl<const D: usize> Body<D> for Floating<D> {
     fn turning(&self) -> Option<usize> {
         (D == 3).then_some(turn_velocity(D, 0))
     }
-    fn attitude(&self, q: &[f64], v: &[f64]) -> Attitude<D> {
+    fn pose(&self, q: &[f64], v: &[f64]) -> Pose<D> {
         match D {
-            2 => Attitude { axes: frame::<f64, D>(q).axes, turn: q[2], spin: [0.0, 0.0, v[2]] },
-            _ => Attitude::of_quaternion(&q[3..7], &v[3..6]),
+            2 => Pose::in_plane([q[0], q[1], q[2]], [v[0], v[1], v[2]]),
+            _ => Pose::in_space(q, v),
         }
+    }
+    fn freedom(&self) -> Option<Freedom> {
+        None
     }
     fn has_constant_mass(&self) -> bool {
         false

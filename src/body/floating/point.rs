@@ -53,7 +53,7 @@ fn angles<S: Scalar, const D: usize>(shape: &PointShape<D>, coordinate: impl Fn(
 #[inline]
 pub(super) fn turn<S: Scalar, const D: usize>(frame: Frame<S, D>, a: &[S; 3]) -> Frame<S, D> {
     if D == 2 {
-        let (s, c) = (a[2].sin(), a[2].cos());
+        let (s, c) = a[2].sin_cos();
         let [x, y] = [frame.axes[0], frame.axes[1]];
         let axes = from_fn(|i| from_fn(|k| if i == 0 { x[k] * c + y[k] * s } else { y[k] * c - x[k] * s }));
         return Frame { axes, turn: frame.turn + a[2], ..frame };
