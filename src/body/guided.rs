@@ -82,7 +82,9 @@ impl<const D: usize> BodyKernel<D> for Guided<D> {
 
     /// The angular acceleration is zero at v' = 0: the axis is fixed in the world.
     fn freedom(&self) -> Option<Freedom> {
-        Some(Freedom { components: self.free(), in_own_axes: false })
+        let translations = (0..3).filter(|&i| self.slots[i].is_some()).collect();
+        let rotations = self.turn.iter().map(|turn| self.axes.map(|own| own[turn.axis])).collect();
+        Some(Freedom { translations, rotations })
     }
 
     fn frame<S: Scalar>(&self, q: &[S]) -> Frame<S, D> {

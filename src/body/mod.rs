@@ -207,8 +207,8 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Dual6, D> + Send + S
     fn turning(&self) -> Option<usize>;
     /// Position, orientation and twist of the frame in which its markers are fixed when it is not deformed.
     fn pose(&self, q: &[f64], v: &[f64]) -> Pose<D>;
-    /// Its velocities as components of the twist of [`pose`](Self::pose), for a rigid body; `None` where it is none, or
-    /// gives its markers by [`motion`](BodyOver::motion) alone.
+    /// What its velocities are, for a rigid body: its markers then move with its [`pose`](Self::pose), and nothing in
+    /// it dissipates. `None` where it is none, or makes no use of that.
     fn freedom(&self) -> Option<Freedom>;
     /// True if M does not depend on q.
     fn has_constant_mass(&self) -> bool;

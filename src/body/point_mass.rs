@@ -56,7 +56,7 @@ impl<const D: usize> BodyKernel<D> for Particle<D> {
         false
     }
     fn freedom(&self) -> Option<Freedom> {
-        Some(Freedom { components: (0..D).collect(), in_own_axes: false })
+        Some(Freedom { translations: (0..D).collect(), rotations: Vec::new() })
     }
     fn frame<S: Scalar>(&self, q: &[S]) -> Frame<S, D> {
         Frame { r: from_fn(|i| q[i]), ..Frame::world() }

@@ -1,6 +1,6 @@
-//! Pose and twist of a body's own frame, and the velocities of a rigid body as components of that twist.
+//! Pose and twist of a body's own frame, and what the velocities of a rigid body are.
 
-use super::{Frame, Marker, Wrench, cross, sub, twist_len};
+use super::{Frame, Marker, Wrench, cross, dot, sub, twist_len, unit_axes};
 use crate::math::rotation::axes_from_quaternion;
 use crate::math::Taylor;
 use std::array::from_fn;
@@ -57,9 +57,17 @@ impl<const D: usize> Pose<D> {
     #[inline]
     pub fn rotated(&self, own: &[f64; D]) -> [f64; D] {
         from_fn(|k| {
-            let rest = (1..D).map(|j| self.axes[j][k] * own[j]);
-            rest.fold(self.axes[0][k] * own[0], |sum, part| sum + part)
+            (1..D).fold(self.axes[0][k] * own[0], |sum, j| sum + self.axes[j][k] * own[j])
         })
+    }
+
+    /// A vector in the world, in the body's axes; in the plane for moments, whose axis is the same.
+    #[inline]
+    fn own(&self, moment: &[f64; 3]) -> [f64; 3] {
+        match D {
+            2 => *moment,
+            _ => from_fn(|i| (1..D).fold(self.axes[i][0] * moment[0], |sum, k| sum + self.axes[i][k] * moment[k])),
+        }
     }
 
     /// A vector a fixed in the body along its motion at v' = 0: a, w x a, w x (w x a). The angular acceleration is zero:
@@ -70,6 +78,24 @@ impl<const D: usize> Pose<D> {
         let rate = self.swept(&a);
         let second = self.swept(&rate);
         from_fn(|k| Taylor::new(a[k], rate[k], second[k]))
+    }
+
+    /// A point fixed in the body along its motion at v' = 0.
+    #[inline]
+    pub fn place(&self, offset: &[f64; D]) -> [Taylor<f64>; D] {
+        let arm = self.carried(offset);
+        from_fn(|k| Taylor::new(self.r[k] + arm[k].x, self.velocity[k] + arm[k].d, arm[k].dd))
+    }
+
+    /// The derivatives of a moving vector x relative to the body, in the axes of the world: x, x' - w x x and
+    /// x'' - 2 w x x' + w x (w x x).
+    #[inline]
+    pub fn seen(&self, path: &[Taylor<f64>; D]) -> [Taylor<f64>; D] {
+        let swept = self.swept(&path.map(|x| x.x));
+        let (coriolis, centripetal) = (self.swept(&path.map(|x| x.d)), self.swept(&swept));
+        from_fn(|k| {
+            Taylor::new(path[k].x, path[k].d - swept[k], path[k].dd - 2.0 * coriolis[k] + centripetal[k])
+        })
     }
 
     /// w x a
@@ -86,18 +112,11 @@ impl<const D: usize> Pose<D> {
         rate
     }
 
-    /// The origin along its motion at v' = 0.
-    #[inline]
-    pub fn origin(&self) -> [Taylor<f64>; D] {
-        from_fn(|k| Taylor::new(self.r[k], self.velocity[k], 0.0))
-    }
-
     /// The frame of a marker fixed to the body, with its velocity and its acceleration at v' = 0.
     #[inline]
     pub fn frame(&self, marker: &Marker<D>) -> Frame<Taylor<f64>, D> {
-        let (origin, arm) = (self.origin(), self.carried(&marker.offset));
         Frame {
-            r: from_fn(|k| origin[k] + arm[k]),
+            r: self.place(&marker.offset),
             axes: marker.axes.map(|axis| self.carried(&axis)),
             turn: Taylor::new(self.turn + marker.turn, if D == 2 { self.spin[2] } else { 0.0 }, 0.0),
         }
@@ -111,45 +130,59 @@ impl<const D: usize> From<&Frame<Taylor<f64>, D>> for Pose<D> {
     }
 }
 
-/// The velocities of a rigid body as components of its twist: the velocity of the origin in the world, then the angular
-/// velocity (in the plane its only component). The acceleration of the origin and the angular acceleration are zero at
-/// v' = 0.
+/// The velocities of a rigid body: components of the velocity of its origin in the world, then angular velocities about
+/// axes fixed in it. At v' = 0 the acceleration of the origin and the angular acceleration are zero.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Freedom {
-    /// Component of the twist that each velocity is: 0 to 2 in the plane, 0 to 5 in space.
-    pub components: Vec<usize>,
-    /// True if the angular velocity is measured in the body's axes and not in the world's.
-    pub in_own_axes: bool,
+    /// World axes of the translations.
+    pub translations: Vec<usize>,
+    /// Axes of the rotations in the body's axes; in the plane the third.
+    pub rotations: Vec<[f64; 3]>,
 }
 
 impl Freedom {
-    /// All components, in their order, with the angular velocity in the body's axes.
+    /// All translations, and rotations about the body's own axes.
     pub fn all(dimension: usize) -> Self {
-        Freedom { components: (0..twist_len(dimension)).collect(), in_own_axes: true }
+        let rotations = unit_axes::<f64, 3>()[first_rotation(dimension)..].to_vec();
+        Freedom { translations: (0..dimension).collect(), rotations }
     }
 
-    /// Generalized forces of a force and a moment about the origin, one for each component of the twist.
+    /// Number of velocities.
     #[inline]
-    pub fn twist_forces<const D: usize>(&self, pose: &Pose<D>, force: &[f64; D], moment: &[f64; 3]) -> [f64; 6] {
-        let mut all = [0.0; 6];
-        all[..D].copy_from_slice(force);
-        if D == 2 {
-            all[2] = moment[2];
-            return all;
+    pub fn count(&self) -> usize {
+        self.translations.len() + self.rotations.len()
+    }
+
+    /// Writes J^T (force, moment) for a force and a moment about the origin.
+    #[inline]
+    pub fn write<const D: usize>(&self, pose: &Pose<D>, force: &[f64; D], moment: &[f64; 3], out: &mut [f64]) {
+        if out.is_empty() {
+            return;
         }
-        for i in 0..3 {
-            all[3 + i] = if self.in_own_axes { (0..D).map(|k| pose.axes[i][k] * moment[k]).sum() } else { moment[i] };
+        let moment = pose.own(moment);
+        if out.len() == twist_len(D) {
+            out[..D].copy_from_slice(force);
+            return out[D..twist_len(D)].copy_from_slice(&moment[first_rotation(D)..]);
         }
-        all
+        let forces = self.translations.iter().map(|&i| force[i]);
+        let moments = self.rotations.iter().map(|axis| dot(axis, &moment));
+        out.iter_mut().zip(forces.chain(moments)).for_each(|(out, component)| *out = component);
     }
 
     /// f += J^T w for a wrench at the place `r`.
     #[inline]
     pub fn pull_back<const D: usize>(&self, pose: &Pose<D>, r: &[f64; D], wrench: &Wrench<f64, D>, f: &mut [f64]) {
         let arm = cross(&sub(r, &pose.r), &wrench.force);
-        let all = self.twist_forces(pose, &wrench.force, &from_fn(|i| wrench.torque[i] + arm[i]));
-        f.iter_mut().zip(&self.components).for_each(|(f, &component)| *f += all[component]);
+        let mut forces = [0.0; 6];
+        let forces = &mut forces[..f.len()];
+        self.write(pose, &wrench.force, &from_fn(|i| wrench.torque[i] + arm[i]), forces);
+        f.iter_mut().zip(forces).for_each(|(f, component)| *f += *component);
     }
+}
+
+/// The first axis about which a body can turn: all three in space, the last in the plane.
+const fn first_rotation(dimension: usize) -> usize {
+    if dimension == 2 { 2 } else { 0 }
 }
 
 /// A marker as if fixed to its body's own frame, or to the ground.

@@ -69,7 +69,9 @@ impl<const D: usize> BodyKernel<D> for RigidPlanar<D> {
         Pose::in_plane(self.coordinates(q), self.slots.map(|slot| slot.map_or(0.0, |slot| v[slot])))
     }
     fn freedom(&self) -> Option<Freedom> {
-        Some(Freedom { components: self.free().collect(), in_own_axes: true })
+        let Freedom { rotations, .. } = Freedom::all(D);
+        let (translations, turns) = (self.free().filter(|&i| i < 2).collect(), self.slots[2].is_some());
+        Some(Freedom { translations, rotations: if turns { rotations } else { Vec::new() } })
     }
 
     fn mass(&self, values: &mut [f64]) {

@@ -58,20 +58,21 @@ impl<const D: usize> Mechanism<D> {
 
     fn write_mass(&self, q: &[f64], terms: &mut Terms) {
         terms.mass.copy_from_slice(&self.constant_mass);
-        for (part, places) in self.model().bodies.iter().zip(&self.masses) {
-            if !part.body.has_constant_mass() {
-                part.body.mass(of(q, part, true), &mut terms.mass[places.clone()]);
-            }
+        for &body in &self.varying_masses {
+            let part = &self.model().bodies[body];
+            part.body.mass(of(q, part, true), &mut terms.mass[self.masses[body].clone()]);
         }
     }
 
     fn own_forces(&self, q: &[f64], v: &[f64], terms: &mut Terms) {
         terms.f.fill(0.0);
         terms.power = 0.0;
-        for part in &self.model().bodies {
+        for (part, freedom) in self.model().bodies.iter().zip(&self.freedoms) {
             let (q, v) = (of(q, part, true), of(v, part, false));
             part.body.own_forces(q, v, &self.model().gravity, &mut terms.f[part.first_v..part.first_v + part.nv]);
-            terms.power -= part.body.dissipation(v);
+            if freedom.is_none() {
+                terms.power -= part.body.dissipation(v);
+            }
         }
     }
 

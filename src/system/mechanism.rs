@@ -33,7 +33,9 @@ pub struct Mechanism<const D: usize> {
     pub(super) masses: Vec<Range<usize>>,
     /// Values of M, those of bodies with a constant mass matrix.
     pub(super) constant_mass: Vec<f64>,
-    /// The velocities of each body as components of its twist, if it is rigid.
+    /// Indices of the bodies whose mass matrix is not constant.
+    pub(super) varying_masses: Vec<usize>,
+    /// What the velocities of each body are, if it is rigid.
     pub(super) freedoms: Vec<Option<Freedom>>,
     /// Joints with closed formulas.
     pub(super) rigid_joints: Vec<RigidJoint<D>>,
@@ -73,6 +75,8 @@ impl<const D: usize> Mechanism<D> {
         let joints: Vec<JointRows> =
             model.joints.iter().map(|joint| JointRows::new(&supports, joint, &mut g)).collect();
         let constant_mass = constant_mass(&model, &masses);
+        let is_varying = |&body: &usize| !model.bodies[body].body.has_constant_mass();
+        let varying_masses = (0..model.bodies.len()).filter(is_varying).collect();
         let freedoms = model.bodies.iter().map(|part| part.body.freedom()).collect();
         let mut general_joints = Vec::new();
         let mut rigid_joints = Vec::new();
@@ -96,6 +100,7 @@ impl<const D: usize> Mechanism<D> {
             couplings,
             masses,
             constant_mass,
+            varying_masses,
             freedoms,
             rigid_joints,
             general_joints,

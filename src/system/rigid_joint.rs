@@ -1,22 +1,24 @@
 //! Joints between rigid bodies by closed formulas: phi, phi', gamma and G as the kernels give them, to round-off.
 //!
-//! With the places of the markers r_A, r_B, the arms a from the bodies' origins to them and axes e, all moving with
-//! their bodies at v' = 0 (e' = w x e, e'' = w x (w x e)):
+//! With the arms a from the origins of the bodies to the markers, r = r_B - r_A between the markers and d = w_B - w_A,
+//! at v' = 0, where w' = 0 and a' = w x a:
 //!
-//! | row | phi | force on B | moment on A | moment on B |
-//! |---|---|---|---|---|
-//! | all translations, world axes | e . (r_B - r_A) | e | -a_A x e | a_B x e |
-//! | translation along an axis of A | e_A . (r_B - r_A) | e_A | -(a_A + r_B - r_A) x e_A | a_B x e_A |
-//! | rod | abs(r_B - r_A) - l | u = (r_B - r_A)/abs(r_B - r_A) | -(a_A + r_B - r_A) x u | a_B x u |
-//! | rotation in the plane | turn_B - turn_A | 0 | -1 | 1 |
-//! | rotation in space | e_A . e_B | 0 | e_A x e_B | -e_A x e_B |
+//! | row | phi | phi' | phi'' |
+//! |---|---|---|---|
+//! | all translations, e_i of the world | e . r | e . r' | e . r'' |
+//! | translation along e of A | e . r | e . (r' - w_A x r) | e . (r'' - 2 w_A x r' + w_A x (w_A x r)) |
+//! | rod | abs(r) - l | u . r' | (r' . r' - phi'^2)/abs(r) + u . r'' |
+//! | rotation in the plane | turn_B - turn_A | d | 0 |
+//! | rotation in space, e of A and b of B | e . b | -d . n | (d . e) (d . b) - d^2 e . b + (w_A x d) . n |
 //!
-//! The force on A is the opposite of that on B. A row of G has the generalized forces of these.
+//! with u = r/abs(r) and n = e x b. Rows of G are the generalized forces of what a unit of lambda does to the bodies: a
+//! force e or u on B at its marker and the opposite on A, at its own marker for e of the world, else at that of B since
+//! e moves with A and u with r; or a moment -n on B and n on A.
 
 use super::rows::JointRows;
 use super::{Need, Terms};
-use crate::body::{Frame, Freedom, MarkerId, Pose, cross, dot, unit_axes};
-use crate::joint::{ClosedForm, Joint};
+use crate::body::{Frame, Freedom, MarkerId, Pose, cross, dot, in_space, sub, unit_axes};
+use crate::joint::{ClosedForm, Joint, Lock};
 use crate::math::{Scalar, Taylor};
 use crate::scene::{Connection, Model};
 use std::array::from_fn;
@@ -44,14 +46,15 @@ struct Side<const D: usize> {
 /// A vector along the motion at v' = 0.
 type Path<const D: usize> = [Taylor<f64>; D];
 
-/// The joint at one state, row by row.
+/// The rows of a joint at one state, written one after the other.
 struct Rows<'a, const D: usize> {
-    joint: &'a RigidJoint<D>,
+    sides: &'a [Side<D>; 2],
     poses: [&'a Pose<D>; 2],
-    /// From the bodies' origins to the markers, m.
+    /// From the origins of the bodies to the markers, m.
     arms: [[f64; D]; 2],
     need: Need,
     terms: &'a mut Terms,
+    first: usize,
     /// Number of rows written.
     count: usize,
 }
@@ -67,21 +70,16 @@ impl<const D: usize> RigidJoint<D> {
 
     /// Writes phi, phi', phi_t and gamma, and the entries of G, as far as needed.
     pub fn evaluate(&self, poses: &[Pose<D>], need: Need, terms: &mut Terms) {
-        let [a, b] = &self.sides;
-        let poses = [&poses[a.body], &poses[b.body]];
-        let arms = [poses[0].carried(&a.offset), poses[1].carried(&b.offset)];
-        let origins = [poses[0].origin(), poses[1].origin()];
-        let gap: Path<D> = from_fn(|k| origins[1][k] + arms[1][k] - (origins[0][k] + arms[0][k]));
-        let arms = arms.map(value);
-        let mut rows = Rows { joint: self, poses, arms, need, terms, count: 0 };
+        let sides = &self.sides;
+        let poses = [&poses[sides[0].body], &poses[sides[1].body]];
+        let [a, b] = [poses[0].place(&sides[0].offset), poses[1].place(&sides[1].offset)];
+        let arms = [sub(&value(&a), &poses[0].r), sub(&value(&b), &poses[1].r)];
+        let mut rows = Rows { sides, poses, arms, need, terms, first: self.first_row, count: 0 };
         match &self.form {
-            ClosedForm::Rod(length) => rows.rod(&gap, *length),
+            ClosedForm::Rod(length) => rows.rod(&sub(&b, &a), *length),
             ClosedForm::Lock(lock) => {
-                match lock.translation.len() == D {
-                    true => (0..D).for_each(|i| rows.along_world(&gap, i)),
-                    false => lock.translation.iter().for_each(|&i| rows.along_axis(&gap, i)),
-                }
-                lock.rotation.iter().for_each(|&pair| rows.rotation(pair));
+                rows.translations(lock, &sub(&b, &a));
+                rows.rotations(lock);
             }
         }
     }
@@ -107,59 +105,75 @@ impl<const D: usize> Side<D> {
 impl<const D: usize> Rows<'_, D> {
     fn rod(&mut self, gap: &Path<D>, length: f64) {
         let distance = dot(gap, gap).sqrt();
-        self.translation(distance - length, gap.map(|x| x.x / distance.x), value(*gap));
+        self.force(distance - length, &gap.map(|x| x.x / distance.x), &value(gap));
     }
 
-    fn along_world(&mut self, gap: &Path<D>, i: usize) {
-        self.translation(gap[i], unit_axes()[i], [0.0; D]);
-    }
-
-    fn along_axis(&mut self, gap: &Path<D>, i: usize) {
-        let axis = self.poses[0].carried(&self.joint.sides[0].axes[i]);
-        self.translation(dot(&axis, gap), value(axis), value(*gap));
-    }
-
-    /// A row with force `e` on B, which acts on A at `ahead` of A's marker.
     #[inline]
-    fn translation(&mut self, level: Taylor<f64>, e: [f64; D], ahead: [f64; D]) {
-        let lever: [f64; D] = from_fn(|k| self.arms[0][k] + ahead[k]);
-        let moments = [cross(&lever, &e).map(|x| -x), cross(&self.arms[1], &e)];
-        self.put(level, e, moments);
-    }
-
-    fn rotation(&mut self, (i, j): (usize, usize)) {
-        let [a, b] = &self.joint.sides;
-        if D == 2 {
-            let turn = |side: usize| self.poses[side].turn + self.joint.sides[side].turn;
-            let level = Taylor::new(turn(1) - turn(0), self.poses[1].spin[2] - self.poses[0].spin[2], 0.0);
-            return self.put(level, [0.0; D], [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]]);
+    fn translations(&mut self, lock: &Lock<D>, gap: &Path<D>) {
+        if lock.translation.len() == D {
+            return (0..D).for_each(|i| self.force(gap[i], &unit_axes()[i], &[0.0; D]));
         }
-        let [x, y] = [self.poses[0].carried(&a.axes[i]), self.poses[1].carried(&b.axes[j])];
-        let normal = cross(&value(x), &value(y));
-        self.put(dot(&x, &y), [0.0; D], [normal, normal.map(|x| -x)]);
+        let (seen, ahead) = (self.poses[0].seen(gap), value(gap));
+        for &i in lock.translation {
+            let e = self.poses[0].rotated(&self.sides[0].axes[i]);
+            let level = (1..D).fold(seen[0] * e[0], |sum, k| sum + seen[k] * e[k]);
+            self.force(level, &e, &ahead);
+        }
     }
 
-    /// The next row, with force `e` on B and the moments on A and B about the origins of their bodies.
     #[inline]
-    fn put(&mut self, level: Taylor<f64>, e: [f64; D], moments: [[f64; 3]; 2]) {
-        let (count, terms) = (self.count, &mut *self.terms);
-        self.count += 1;
+    fn rotations(&mut self, lock: &Lock<D>) {
+        let [a, b] = self.poses;
+        if D == 2 {
+            for _ in lock.rotation {
+                let turn = b.turn + self.sides[1].turn - (a.turn + self.sides[0].turn);
+                self.moment(Taylor::new(turn, b.spin[2] - a.spin[2], 0.0), [0.0, 0.0, -1.0]);
+            }
+            return;
+        }
+        let d = sub(&b.spin, &a.spin);
+        let (square, turned) = (dot(&d, &d), cross(&a.spin, &d));
+        for &(i, j) in lock.rotation {
+            let (e, axis) = (in_space(&a.rotated(&self.sides[0].axes[i])), in_space(&b.rotated(&self.sides[1].axes[j])));
+            let (cosine, n) = (dot(&e, &axis), cross(&e, &axis));
+            let second = dot(&d, &e) * dot(&d, &axis) - square * cosine + dot(&turned, &n);
+            self.moment(Taylor::new(cosine, -dot(&d, &n), second), n);
+        }
+    }
+
+    /// A row with the force `e` on B, and its opposite on A at `ahead` of A's marker.
+    #[inline]
+    fn force(&mut self, level: Taylor<f64>, e: &[f64; D], ahead: &[f64; D]) {
+        let lever: [f64; D] = from_fn(|k| self.arms[0][k] + ahead[k]);
+        let (opposite, moments) = (e.map(|x| -x), [cross(e, &lever), cross(&self.arms[1], e)]);
+        self.row(level, [&opposite, e], moments);
+    }
+
+    /// A row with the moment `n` on A, and its opposite on B.
+    #[inline]
+    fn moment(&mut self, level: Taylor<f64>, n: [f64; 3]) {
+        self.row(level, [&[0.0; D]; 2], [n, n.map(|x| -x)]);
+    }
+
+    /// The next row, with the forces and moments about the origins of both bodies.
+    #[inline]
+    fn row(&mut self, level: Taylor<f64>, forces: [&[f64; D]; 2], moments: [[f64; 3]; 2]) {
+        let row = self.first + self.count;
         if self.need.includes(Need::CONSTRAINTS) {
-            let row = self.joint.first_row + count;
-            (terms.phi[row], terms.phi_dot[row], terms.phi_t[row], terms.gamma[row]) = (level.x, level.d, 0.0, -level.dd);
+            let Terms { phi, phi_dot, phi_t, gamma, .. } = &mut *self.terms;
+            (phi[row], phi_dot[row], phi_t[row], gamma[row]) = (level.x, level.d, 0.0, -level.dd);
         }
         if self.need.includes(Need::G) {
-            for (((side, pose), force), moment) in
-                self.joint.sides.iter().zip(self.poses).zip([e.map(|x| -x), e]).zip(&moments)
-            {
-                let (width, forces) = (side.freedom.components.len(), side.freedom.twist_forces(pose, &force, moment));
-                let entries = &mut terms.g[side.first_entry + count * width..][..width];
-                entries.iter_mut().zip(&side.freedom.components).for_each(|(entry, &i)| *entry = forces[i]);
+            for (i, side) in self.sides.iter().enumerate() {
+                let width = side.freedom.count();
+                let entries = &mut self.terms.g[side.first_entry + self.count * width..][..width];
+                side.freedom.write(self.poses[i], forces[i], &moments[i], entries);
             }
         }
+        self.count += 1;
     }
 }
 
-fn value<const D: usize>(path: Path<D>) -> [f64; D] {
+fn value<const D: usize>(path: &Path<D>) -> [f64; D] {
     path.map(|x| x.x)
 }
