@@ -120,6 +120,9 @@ impl<const D: usize> BodyKernel<D> for Guided<D> {
             values[turn.slot] = self.moment;
         }
     }
+    fn has_constant_forces(&self) -> bool {
+        true
+    }
     fn own_forces<S: Scalar>(&self, _q: &[S], _v: &[S], gravity: &[f64; D], f: &mut [S]) {
         for (slot, g) in self.slots.iter().zip(gravity) {
             if let Some(slot) = slot {

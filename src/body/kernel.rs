@@ -159,6 +159,9 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
     fn has_constant_mass(&self) -> bool {
         true
     }
+    fn has_constant_forces(&self) -> bool {
+        BodyKernel::has_constant_forces(self)
+    }
     fn reach(&self) -> f64 {
         self.markers().iter().map(|marker| dot(&marker.offset, &marker.offset).sqrt()).fold(0.0, f64::max)
     }

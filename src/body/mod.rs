@@ -126,6 +126,11 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
         None
     }
 
+    /// True if [`own_forces`](Self::own_forces) depend neither on q nor on v. Default: false.
+    fn has_constant_forces(&self) -> bool {
+        false
+    }
+
     /// f += weight and velocity-dependent inertia forces; `gravity` in m/s^2.
     fn own_forces<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D], f: &mut [S]);
 
@@ -212,6 +217,8 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Dual6, D> + Send + S
     fn freedom(&self) -> Option<Freedom>;
     /// True if M does not depend on q.
     fn has_constant_mass(&self) -> bool;
+    /// True if its own forces depend neither on q nor on v, and nothing in it dissipates.
+    fn has_constant_forces(&self) -> bool;
     /// Largest distance of a marker from the origin of the coordinates, m.
     fn reach(&self) -> f64;
     /// Number of elastic coordinates, which are the last ones.

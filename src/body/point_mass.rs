@@ -67,6 +67,9 @@ impl<const D: usize> BodyKernel<D> for Particle<D> {
     fn mass(&self, values: &mut [f64]) {
         values.fill(self.mass);
     }
+    fn has_constant_forces(&self) -> bool {
+        true
+    }
     fn own_forces<S: Scalar>(&self, _q: &[S], _v: &[S], gravity: &[f64; D], f: &mut [S]) {
         f.iter_mut().zip(gravity).for_each(|(f, g)| *f += S::constant(self.mass * g));
     }

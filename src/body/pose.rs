@@ -1,6 +1,6 @@
 //! Pose and twist of a body's own frame, and what the velocities of a rigid body are.
 
-use super::{Frame, Marker, Wrench, cross, dot, sub, twist_len, unit_axes};
+use super::{Frame, Marker, Wrench, cross, dot, in_space, sub, twist_len, unit_axes};
 use crate::math::rotation::axes_from_quaternion;
 use crate::math::Taylor;
 use std::array::from_fn;
@@ -61,13 +61,10 @@ impl<const D: usize> Pose<D> {
         })
     }
 
-    /// A vector in the world, in the body's axes; in the plane for moments, whose axis is the same.
+    /// A vector in the world, in the body's axes.
     #[inline]
-    fn own(&self, moment: &[f64; 3]) -> [f64; 3] {
-        match D {
-            2 => *moment,
-            _ => from_fn(|i| (1..D).fold(self.axes[i][0] * moment[0], |sum, k| sum + self.axes[i][k] * moment[k])),
-        }
+    pub fn own(&self, vector: &[f64; D]) -> [f64; D] {
+        from_fn(|i| dot(&self.axes[i], vector))
     }
 
     /// A vector a fixed in the body along its motion at v' = 0: a, w x a, w x (w x a). The angular acceleration is zero:
@@ -113,11 +110,11 @@ impl<const D: usize> Pose<D> {
     }
 
     /// The frame of a marker fixed to the body, with its velocity and its acceleration at v' = 0.
-    #[inline]
+    #[inline(always)]
     pub fn frame(&self, marker: &Marker<D>) -> Frame<Taylor<f64>, D> {
         Frame {
             r: self.place(&marker.offset),
-            axes: marker.axes.map(|axis| self.carried(&axis)),
+            axes: from_fn(|i| self.carried(&marker.axes[i])),
             turn: Taylor::new(self.turn + marker.turn, if D == 2 { self.spin[2] } else { 0.0 }, 0.0),
         }
     }
@@ -153,19 +150,20 @@ impl Freedom {
         self.translations.len() + self.rotations.len()
     }
 
-    /// Writes J^T (force, moment) for a force and a moment about the origin.
-    #[inline]
-    pub fn write<const D: usize>(&self, pose: &Pose<D>, force: &[f64; D], moment: &[f64; 3], out: &mut [f64]) {
-        if out.is_empty() {
-            return;
-        }
-        let moment = pose.own(moment);
+    /// Writes J^T (force, moment) for a force in the world and a moment about the origin in the body's axes.
+    #[inline(always)]
+    pub fn write<const D: usize>(&self, force: &[f64; D], moment: &[f64; 3], out: &mut [f64]) {
         if out.len() == twist_len(D) {
             out[..D].copy_from_slice(force);
-            return out[D..twist_len(D)].copy_from_slice(&moment[first_rotation(D)..]);
+            out[D..twist_len(D)].copy_from_slice(&moment[first_rotation(D)..]);
+        } else if !out.is_empty() {
+            self.write_some(force, moment, out);
         }
+    }
+
+    fn write_some<const D: usize>(&self, force: &[f64; D], moment: &[f64; 3], out: &mut [f64]) {
         let forces = self.translations.iter().map(|&i| force[i]);
-        let moments = self.rotations.iter().map(|axis| dot(axis, &moment));
+        let moments = self.rotations.iter().map(|axis| dot(axis, moment));
         out.iter_mut().zip(forces.chain(moments)).for_each(|(out, component)| *out = component);
     }
 
@@ -173,10 +171,11 @@ impl Freedom {
     #[inline]
     pub fn pull_back<const D: usize>(&self, pose: &Pose<D>, r: &[f64; D], wrench: &Wrench<f64, D>, f: &mut [f64]) {
         let arm = cross(&sub(r, &pose.r), &wrench.force);
+        let moment: [f64; 3] = from_fn(|i| wrench.torque[i] + arm[i]);
+        let moment = if D == 2 { moment } else { in_space(&pose.own(&from_fn(|i| moment[i]))) };
         let mut forces = [0.0; 6];
-        let forces = &mut forces[..f.len()];
-        self.write(pose, &wrench.force, &from_fn(|i| wrench.torque[i] + arm[i]), forces);
-        f.iter_mut().zip(forces).for_each(|(f, component)| *f += *component);
+        self.write(&wrench.force, &moment, &mut forces[..f.len()]);
+        f.iter_mut().zip(forces).for_each(|(f, component)| *f += component);
     }
 }
 

@@ -77,6 +77,9 @@ impl<const D: usize> BodyKernel<D> for RigidPlanar<D> {
     fn mass(&self, values: &mut [f64]) {
         self.free().zip(values).for_each(|(i, value)| *value = self.inertia[i]);
     }
+    fn has_constant_forces(&self) -> bool {
+        true
+    }
     fn own_forces<S: Scalar>(&self, _q: &[S], _v: &[S], gravity: &[f64; D], f: &mut [S]) {
         for (slot, g) in self.slots.iter().zip(&gravity[..2]) {
             if let Some(slot) = slot {

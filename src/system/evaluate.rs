@@ -2,10 +2,62 @@
 //! formulas, all else by moving frames.
 
 use super::mechanism::{Mechanism, Workspace, of};
+use super::rigid_joint::RigidJoint;
+use super::rows::JointRows;
 use super::view::gathered;
 use super::{Need, Terms};
-use crate::body::{Frame, MOST_MARKERS, MarkerId, Pose, Wrench};
+use crate::body::{Frame, Freedom, MOST_MARKERS, MarkerId, Pose, Wrench};
+use crate::force::Force;
 use crate::math::{Taylor, Time};
+use crate::scene::{Connection, Model};
+use std::ops::Range;
+
+/// The rigid bodies of a model, the joints between them, and what is constant.
+pub(super) struct RigidParts<const D: usize> {
+    /// What the velocities of each body are, if it is rigid.
+    pub freedoms: Vec<Option<Freedom>>,
+    /// Joints with closed formulas.
+    pub joints: Vec<RigidJoint<D>>,
+    /// Indices of all other joints.
+    pub general_joints: Vec<usize>,
+    /// Values of M where they are constant, else zero.
+    mass: Vec<f64>,
+    /// Indices of the bodies whose mass matrix varies.
+    varying_masses: Vec<usize>,
+    /// Own forces of the bodies where they are constant, else zero.
+    weight: Vec<f64>,
+    /// Indices of the bodies whose own forces vary.
+    varying_forces: Vec<usize>,
+}
+
+impl<const D: usize> RigidParts<D> {
+    /// Finds them in a model with the places of its joints and of the values of M.
+    pub fn new(model: &Model<D>, rows: &[JointRows], masses: &[Range<usize>]) -> Self {
+        let closed: Vec<Option<RigidJoint<D>>> =
+            model.joints.iter().zip(rows).map(|(joint, rows)| RigidJoint::new(model, joint, rows)).collect();
+        let mut parts = RigidParts {
+            freedoms: model.bodies.iter().map(|part| part.body.freedom()).collect(),
+            general_joints: (0..closed.len()).filter(|&joint| closed[joint].is_none()).collect(),
+            joints: closed.into_iter().flatten().collect(),
+            mass: vec![0.0; masses.last().map_or(0, |last| last.end)],
+            varying_masses: Vec::new(),
+            weight: vec![0.0; model.bodies.last().map_or(0, |last| last.first_v + last.nv)],
+            varying_forces: Vec::new(),
+        };
+        for (i, (part, places)) in model.bodies.iter().zip(masses).enumerate() {
+            let (q, v) = (vec![0.0; part.nq], vec![0.0; part.nv]);
+            match part.body.has_constant_mass() {
+                true => part.body.mass(&q, &mut parts.mass[places.clone()]),
+                false => parts.varying_masses.push(i),
+            }
+            match part.body.has_constant_forces() {
+                true => part.body.own_forces(&q, &v, &model.gravity, &mut parts.weight[part.first_v..][..part.nv]),
+                false => parts.varying_forces.push(i),
+            }
+        }
+        parts
+    }
+}
 
 impl<const D: usize> Mechanism<D> {
     /// Writes the needed terms of M, f, the constraints and G.
@@ -17,30 +69,34 @@ impl<const D: usize> Mechanism<D> {
         work: &mut Workspace<D>,
         terms: &mut Terms,
     ) {
-        self.move_bodies(q, v, work);
         if need.includes(Need::MASS) {
             self.write_mass(q, terms);
         }
+        self.move_bodies((q, v), work);
         if need.includes(Need::FORCE) {
-            self.own_forces(q, v, terms);
+            self.own_forces((q, v), terms);
             self.forces(time, q, work, terms);
         }
-        self.rigid_joints.iter().for_each(|joint| joint.evaluate(&work.poses, need, terms));
-        self.general_joints(time, q, need, work, terms);
+        if need.includes(Need::CONSTRAINTS) || need.includes(Need::G) {
+            terms.phi_t.fill(0.0);
+            self.rigid.joints.iter().for_each(|joint| joint.evaluate(&work.poses, need, terms));
+            self.general_joints(time, q, need, work, terms);
+        }
     }
 
     /// Poses of the rigid bodies, and the frames of the markers of all others.
-    fn move_bodies(&self, q: &[f64], v: &[f64], work: &mut Workspace<D>) {
-        for (body, part) in self.model().bodies.iter().enumerate() {
-            match self.freedoms[body] {
-                Some(_) => work.poses[body] = part.body.pose(of(q, part, true), of(v, part, false)),
-                None => self.place_body(part, (q, v, &[]), &mut work.motion),
+    fn move_bodies(&self, (q, v): (&[f64], &[f64]), work: &mut Workspace<D>) {
+        let Workspace { poses, motion, .. } = work;
+        for ((part, freedom), pose) in self.model().bodies.iter().zip(&self.rigid.freedoms).zip(poses) {
+            match freedom {
+                Some(_) => *pose = part.body.pose(of(q, part, true), of(v, part, false)),
+                None => self.place_body(part, (q, v, &[]), motion),
             }
         }
     }
 
     /// The frame of a marker along the motion, with its acceleration at v' = 0.
-    #[inline]
+    #[inline(always)]
     fn moving_frame(
         &self,
         marker: MarkerId,
@@ -48,7 +104,7 @@ impl<const D: usize> Mechanism<D> {
         poses: &[Pose<D>],
     ) -> Frame<Taylor<f64>, D> {
         match self.model().markers.bodies[marker] {
-            Some(body) if self.freedoms[body].is_some() => {
+            Some(body) if self.rigid.freedoms[body].is_some() => {
                 let part = &self.model().bodies[body];
                 poses[body].frame(part.body.marker(marker - part.first_marker))
             }
@@ -57,42 +113,52 @@ impl<const D: usize> Mechanism<D> {
     }
 
     fn write_mass(&self, q: &[f64], terms: &mut Terms) {
-        terms.mass.copy_from_slice(&self.constant_mass);
-        for &body in &self.varying_masses {
+        terms.mass.copy_from_slice(&self.rigid.mass);
+        for &body in &self.rigid.varying_masses {
             let part = &self.model().bodies[body];
             part.body.mass(of(q, part, true), &mut terms.mass[self.masses[body].clone()]);
         }
     }
 
-    fn own_forces(&self, q: &[f64], v: &[f64], terms: &mut Terms) {
-        terms.f.fill(0.0);
+    fn own_forces(&self, (q, v): (&[f64], &[f64]), terms: &mut Terms) {
+        terms.f.copy_from_slice(&self.rigid.weight);
         terms.power = 0.0;
-        for (part, freedom) in self.model().bodies.iter().zip(&self.freedoms) {
-            let (q, v) = (of(q, part, true), of(v, part, false));
-            part.body.own_forces(q, v, &self.model().gravity, &mut terms.f[part.first_v..part.first_v + part.nv]);
-            if freedom.is_none() {
-                terms.power -= part.body.dissipation(v);
-            }
+        for part in self.rigid.varying_forces.iter().map(|&body| &self.model().bodies[body]) {
+            let (q, v, f) = (of(q, part, true), of(v, part, false), &mut terms.f[part.first_v..part.first_v + part.nv]);
+            part.body.own_forces(q, v, &self.model().gravity, f);
+            terms.power -= part.body.dissipation(v);
         }
     }
 
     fn forces(&self, time: Time<f64>, q: &[f64], work: &mut Workspace<D>, terms: &mut Terms) {
-        let Workspace { motion, poses, pulled, .. } = work;
         for force in &self.model().forces {
-            let mut wrenches = [Wrench::zero(); MOST_MARKERS];
-            let wrenches = &mut wrenches[..force.markers.len()];
-            gathered(
-                &force.markers,
-                |marker| self.moving_frame(marker, motion, poses),
-                |frames| {
-                    let action = force.element.act(frames, time.map(Taylor::time), wrenches);
-                    terms.power += action.potential.d;
-                    for ((wrench, frame), &marker) in wrenches.iter().zip(frames).zip(&force.markers) {
-                        terms.power += wrench.power(frame);
-                        self.pull_back(marker, q, (frame, wrench), poses, pulled, &mut terms.f);
-                    }
-                },
-            );
+            match force.markers.len() {
+                1 => self.force::<1>(force, time, q, work, terms),
+                2 => self.force::<2>(force, time, q, work, terms),
+                _ => self.force::<MOST_MARKERS>(force, time, q, work, terms),
+            }
+        }
+    }
+
+    /// Adds a force with at most N markers to f.
+    fn force<const N: usize>(
+        &self,
+        Connection { element, markers, .. }: &Connection<Box<dyn Force<D>>>,
+        time: Time<f64>,
+        q: &[f64],
+        work: &mut Workspace<D>,
+        terms: &mut Terms,
+    ) {
+        let n = markers.len();
+        let Workspace { motion, poses, pulled, .. } = work;
+        let mut frames = [Frame::world(); N];
+        frames.iter_mut().zip(markers).for_each(|(frame, &marker)| *frame = self.moving_frame(marker, motion, poses));
+        let mut wrenches = [Wrench::zero(); N];
+        let action = element.act(&frames[..n], time.map(Taylor::time), &mut wrenches[..n]);
+        terms.power += action.potential.d;
+        for ((wrench, frame), &marker) in wrenches.iter().zip(&frames).zip(markers) {
+            terms.power += wrench.power(frame);
+            self.pull_back(marker, q, (frame, wrench), poses, pulled, &mut terms.f);
         }
     }
 
@@ -108,7 +174,7 @@ impl<const D: usize> Mechanism<D> {
     ) {
         let Some(body) = self.model().markers.bodies[marker] else { return };
         let part = &self.model().bodies[body];
-        match &self.freedoms[body] {
+        match &self.rigid.freedoms[body] {
             Some(freedom) => {
                 let f = &mut f[part.first_v..part.first_v + part.nv];
                 freedom.pull_back(&poses[body], &frame.r.map(|x| x.x), wrench, f);
@@ -122,7 +188,7 @@ impl<const D: usize> Mechanism<D> {
 
     /// The joints without closed formulas.
     fn general_joints(&self, time: Time<f64>, q: &[f64], need: Need, work: &Workspace<D>, terms: &mut Terms) {
-        for joint in self.general_joints.iter().map(|&joint| self.placed_joint(joint)) {
+        for joint in self.rigid.general_joints.iter().map(|&joint| self.placed_joint(joint)) {
             let moving = |marker| self.moving_frame(marker, &work.motion, &work.poses);
             gathered(&joint.joint.markers, moving, |frames| {
                 if need.includes(Need::CONSTRAINTS) {

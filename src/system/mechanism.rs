@@ -4,7 +4,7 @@ use super::coupling::Couplings;
 use super::levi_civita::LeviCivita;
 use super::limits::{Extent, limits};
 use super::output_tangent::{OutputTangent, Slopes};
-use super::rigid_joint::RigidJoint;
+use super::evaluate::RigidParts;
 use super::rows::{JointRows, PlacedJoint};
 use super::scale::{length_scale, row_scales};
 use super::spin::{Placement, Spin};
@@ -13,7 +13,7 @@ use super::tangent::{Evaluation, OperatingPoint, Tangent};
 use super::variation::SeededBody;
 use super::view::{Plain, along_motion, gathered};
 use super::{Column, Dimensions, Energy, Group, Limited, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
-use crate::body::{Frame, Freedom, Pose, cross};
+use crate::body::{Frame, Pose, cross};
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
 use crate::math::{Rate, Regime, Taylor, Time};
@@ -31,16 +31,8 @@ pub struct Mechanism<const D: usize> {
     pub(super) couplings: Couplings,
     /// Range of each body's values in those of M.
     pub(super) masses: Vec<Range<usize>>,
-    /// Values of M, those of bodies with a constant mass matrix.
-    pub(super) constant_mass: Vec<f64>,
-    /// Indices of the bodies whose mass matrix is not constant.
-    pub(super) varying_masses: Vec<usize>,
-    /// What the velocities of each body are, if it is rigid.
-    pub(super) freedoms: Vec<Option<Freedom>>,
-    /// Joints with closed formulas.
-    pub(super) rigid_joints: Vec<RigidJoint<D>>,
-    /// Indices of all other joints.
-    pub(super) general_joints: Vec<usize>,
+    /// What the terms are evaluated from without frames.
+    pub(super) rigid: RigidParts<D>,
     /// The velocities that move each marker; none for markers on the ground.
     pub(super) supports: Vec<Support>,
     pub(super) length: f64,
@@ -74,41 +66,14 @@ impl<const D: usize> Mechanism<D> {
         let supports: Vec<Support> = (0..model.marker_count()).map(|marker| Support::of(&model, marker)).collect();
         let joints: Vec<JointRows> =
             model.joints.iter().map(|joint| JointRows::new(&supports, joint, &mut g)).collect();
-        let constant_mass = constant_mass(&model, &masses);
-        let is_varying = |&body: &usize| !model.bodies[body].body.has_constant_mass();
-        let varying_masses = (0..model.bodies.len()).filter(is_varying).collect();
-        let freedoms = model.bodies.iter().map(|part| part.body.freedom()).collect();
-        let mut general_joints = Vec::new();
-        let mut rigid_joints = Vec::new();
-        for (i, (joint, rows)) in model.joints.iter().zip(&joints).enumerate() {
-            match RigidJoint::new(&model, joint, rows) {
-                Some(joint) => rigid_joints.push(joint),
-                None => general_joints.push(i),
-            }
-        }
+        let rigid = RigidParts::new(&model, &joints, &masses);
         let dimensions = Dimensions { q: q + model.turnings.len(), v, lambda: g.rows, nonholonomic: 0, states: 0 };
         let length = length_scale(&model);
         let mut tangent = Pattern { rows: v, cols: v, entries: Vec::new() };
         let couplings = Couplings::new(&model, &supports, &mut tangent);
         let structure = Structure { mass, g, tangent };
         let (limited, extents) = limits(&model);
-        Mechanism {
-            model,
-            dimensions,
-            structure,
-            joints,
-            couplings,
-            masses,
-            constant_mass,
-            varying_masses,
-            freedoms,
-            rigid_joints,
-            general_joints,
-            supports,
-            length,
-            limited,
-            extents,
-        }
+        Mechanism { model, dimensions, structure, joints, couplings, masses, rigid, supports, length, limited, extents }
     }
 
     /// The model that the equations belong to.
@@ -180,15 +145,6 @@ impl<const D: usize> Mechanism<D> {
     fn placed_joints(&self) -> impl Iterator<Item = PlacedJoint<'_, D>> {
         (0..self.joints.len()).map(|joint| self.placed_joint(joint))
     }
-}
-
-/// Values of M with those of the bodies whose mass matrix is constant.
-fn constant_mass<const D: usize>(model: &Model<D>, masses: &[Range<usize>]) -> Vec<f64> {
-    let mut values = vec![0.0; masses.last().map_or(0, |last| last.end)];
-    for (part, places) in model.bodies.iter().zip(masses).filter(|(part, _)| part.body.has_constant_mass()) {
-        part.body.mass(&vec![0.0; part.nq], &mut values[places.clone()]);
-    }
-    values
 }
 
 /// The coordinates (`coordinates`) or else the velocities of one body.

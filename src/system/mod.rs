@@ -25,6 +25,8 @@ mod states;
 mod support;
 mod tangent;
 mod terms;
+#[cfg(test)]
+mod tests;
 mod turnings;
 mod variation;
 mod view;

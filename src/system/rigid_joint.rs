@@ -12,22 +12,25 @@
 //! | rotation in space, e of A and b of B | e . b | -d . n | (d . e) (d . b) - d^2 e . b + (w_A x d) . n |
 //!
 //! with u = r/abs(r) and n = e x b. Rows of G are the generalized forces of what a unit of lambda does to the bodies: a
-//! force e or u on B at its marker and the opposite on A, at its own marker for e of the world, else at that of B since
-//! e moves with A and u with r; or a moment -n on B and n on A.
+//! force e or u on B at its marker and the opposite on A, at the marker of A, but of B if e moves with A; or a moment -n
+//! on B and n on A.
 
 use super::rows::JointRows;
 use super::{Need, Terms};
-use crate::body::{Frame, Freedom, MarkerId, Pose, cross, dot, in_space, sub, unit_axes};
+use crate::body::{Frame, Freedom, MarkerId, Pose, cross, dot, in_space, sub};
 use crate::joint::{ClosedForm, Joint, Lock};
 use crate::math::{Scalar, Taylor};
 use crate::scene::{Connection, Model};
 use std::array::from_fn;
+use std::ops::Range;
 
 /// A joint whose markers are on rigid bodies or on the ground.
 pub(super) struct RigidJoint<const D: usize> {
     form: ClosedForm<D>,
-    first_row: usize,
+    rows: Range<usize>,
     sides: [Side<D>; 2],
+    /// Place of its blocks in G, that of A before that of B.
+    first_entry: usize,
 }
 
 /// A marker of the joint on its body.
@@ -39,24 +42,20 @@ struct Side<const D: usize> {
     axes: [[f64; D]; D],
     turn: f64,
     freedom: Freedom,
-    /// Place of its block in G.
-    first_entry: usize,
 }
 
 /// A vector along the motion at v' = 0.
 type Path<const D: usize> = [Taylor<f64>; D];
 
-/// The rows of a joint at one state, written one after the other.
+/// The rows of a joint at one state.
 struct Rows<'a, const D: usize> {
     sides: &'a [Side<D>; 2],
     poses: [&'a Pose<D>; 2],
-    /// From the origins of the bodies to the markers, m.
-    arms: [[f64; D]; 2],
-    need: Need,
-    terms: &'a mut Terms,
-    first: usize,
-    /// Number of rows written.
-    count: usize,
+    phi: &'a mut [f64],
+    phi_dot: &'a mut [f64],
+    gamma: &'a mut [f64],
+    /// Blocks of A and B in G; none where G is not needed.
+    blocks: Option<[&'a mut [f64]; 2]>,
 }
 
 impl<const D: usize> RigidJoint<D> {
@@ -64,21 +63,27 @@ impl<const D: usize> RigidJoint<D> {
     pub fn new(model: &Model<D>, joint: &Connection<Box<dyn Joint<D>>>, rows: &JointRows) -> Option<Self> {
         let form = joint.element.closed_form()?;
         let &[a, b] = joint.markers.as_slice() else { return None };
-        let side = |slot, marker| Side::new(model, &form, marker, rows.first_entry(slot).unwrap_or(0));
-        Some(RigidJoint { sides: [side(0, a)?, side(1, b)?], form, first_row: rows.first })
+        let sides = [Side::new(model, &form, a)?, Side::new(model, &form, b)?];
+        Some(RigidJoint { form, rows: rows.range(), sides, first_entry: rows.first_entry() })
     }
 
-    /// Writes phi, phi', phi_t and gamma, and the entries of G, as far as needed.
+    /// Writes phi, phi' and gamma, and the entries of G if needed.
     pub fn evaluate(&self, poses: &[Pose<D>], need: Need, terms: &mut Terms) {
-        let sides = &self.sides;
-        let poses = [&poses[sides[0].body], &poses[sides[1].body]];
-        let [a, b] = [poses[0].place(&sides[0].offset), poses[1].place(&sides[1].offset)];
-        let arms = [sub(&value(&a), &poses[0].r), sub(&value(&b), &poses[1].r)];
-        let mut rows = Rows { sides, poses, arms, need, terms, first: self.first_row, count: 0 };
+        let Terms { phi, phi_dot, gamma, g, .. } = terms;
+        let [a, b] = &self.sides;
+        let poses = [&poses[a.body], &poses[b.body]];
+        let gap = sub(&poses[1].place(&b.offset), &poses[0].place(&a.offset));
+        let sizes = [a, b].map(|side| self.rows.len() * side.freedom.count());
+        let blocks = need.includes(Need::G).then(|| {
+            let (first, second) = g[self.first_entry..][..sizes[0] + sizes[1]].split_at_mut(sizes[0]);
+            [first, second]
+        });
+        let [phi, phi_dot, gamma] = [phi, phi_dot, gamma].map(|rows| &mut rows[self.rows.clone()]);
+        let mut rows = Rows { sides: &self.sides, poses, phi, phi_dot, gamma, blocks };
         match &self.form {
-            ClosedForm::Rod(length) => rows.rod(&sub(&b, &a), *length),
+            ClosedForm::Rod(length) => rows.rod(&gap, *length),
             ClosedForm::Lock(lock) => {
-                rows.translations(lock, &sub(&b, &a));
+                rows.translations(lock, &gap);
                 rows.rotations(lock);
             }
         }
@@ -86,7 +91,7 @@ impl<const D: usize> RigidJoint<D> {
 }
 
 impl<const D: usize> Side<D> {
-    fn new(model: &Model<D>, form: &ClosedForm<D>, marker: MarkerId, first_entry: usize) -> Option<Self> {
+    fn new(model: &Model<D>, form: &ClosedForm<D>, marker: MarkerId) -> Option<Self> {
         let (body, freedom, place) = match model.markers.bodies[marker] {
             None => (model.bodies.len(), Freedom::default(), &model.ground[marker]),
             Some(body) => {
@@ -98,82 +103,90 @@ impl<const D: usize> Side<D> {
             ClosedForm::Lock(lock) => from_fn(|i| lock.axis(&Frame::world().at(place), i)),
             ClosedForm::Rod(_) => place.axes,
         };
-        Some(Side { body, offset: place.offset, axes, turn: place.turn, freedom, first_entry })
+        Some(Side { body, offset: place.offset, axes, turn: place.turn, freedom })
+    }
+
+    /// Writes a row of the block.
+    #[inline(always)]
+    fn write(&self, row: usize, force: &[f64; D], moment: &[f64; 3], block: &mut [f64]) {
+        let width = self.freedom.count();
+        self.freedom.write(force, moment, &mut block[row * width..][..width]);
     }
 }
 
 impl<const D: usize> Rows<'_, D> {
     fn rod(&mut self, gap: &Path<D>, length: f64) {
         let distance = dot(gap, gap).sqrt();
-        self.force(distance - length, &gap.map(|x| x.x / distance.x), &value(gap));
+        let u = from_fn(|k| gap[k].x / distance.x);
+        let own = [self.poses[0].own(&u), self.poses[1].own(&u)];
+        self.force(0, distance - length, u, own, [0.0; D]);
     }
 
     #[inline]
     fn translations(&mut self, lock: &Lock<D>, gap: &Path<D>) {
+        let [a, b] = self.poses;
         if lock.translation.len() == D {
-            return (0..D).for_each(|i| self.force(gap[i], &unit_axes()[i], &[0.0; D]));
+            // The rows one by one, for the compiler to know the axis.
+            self.along_world(0, gap);
+            self.along_world(1, gap);
+            return if D == 3 { self.along_world(2, gap) };
         }
-        let (seen, ahead) = (self.poses[0].seen(gap), value(gap));
-        for &i in lock.translation {
-            let e = self.poses[0].rotated(&self.sides[0].axes[i]);
+        let (seen, ahead) = (a.seen(gap), a.own(&from_fn(|k| gap[k].x)));
+        for (row, &i) in lock.translation.iter().enumerate() {
+            let axis = self.sides[0].axes[i];
+            let e = a.rotated(&axis);
             let level = (1..D).fold(seen[0] * e[0], |sum, k| sum + seen[k] * e[k]);
-            self.force(level, &e, &ahead);
+            self.force(row, level, e, [axis, b.own(&e)], ahead);
         }
+    }
+
+    #[inline(always)]
+    fn along_world(&mut self, i: usize, gap: &Path<D>) {
+        let [a, b] = self.poses;
+        let e = from_fn(|k| if k == i { 1.0 } else { 0.0 });
+        self.force(i, gap[i], e, [from_fn(|k| a.axes[k][i]), from_fn(|k| b.axes[k][i])], [0.0; D]);
     }
 
     #[inline]
     fn rotations(&mut self, lock: &Lock<D>) {
         let [a, b] = self.poses;
+        let first = lock.translation.len();
         if D == 2 {
-            for _ in lock.rotation {
+            for row in first..first + lock.rotation.len() {
                 let turn = b.turn + self.sides[1].turn - (a.turn + self.sides[0].turn);
-                self.moment(Taylor::new(turn, b.spin[2] - a.spin[2], 0.0), [0.0, 0.0, -1.0]);
+                let level = Taylor::new(turn, b.spin[2] - a.spin[2], 0.0);
+                self.row(row, level, &[0.0; D], &[0.0, 0.0, -1.0], &[0.0, 0.0, 1.0]);
             }
             return;
         }
         let d = sub(&b.spin, &a.spin);
         let (square, turned) = (dot(&d, &d), cross(&a.spin, &d));
-        for &(i, j) in lock.rotation {
-            let (e, axis) = (in_space(&a.rotated(&self.sides[0].axes[i])), in_space(&b.rotated(&self.sides[1].axes[j])));
-            let (cosine, n) = (dot(&e, &axis), cross(&e, &axis));
-            let second = dot(&d, &e) * dot(&d, &axis) - square * cosine + dot(&turned, &n);
-            self.moment(Taylor::new(cosine, -dot(&d, &n), second), n);
+        for (row, &(i, j)) in lock.rotation.iter().enumerate() {
+            let (e, x) = (in_space(&a.rotated(&self.sides[0].axes[i])), in_space(&b.rotated(&self.sides[1].axes[j])));
+            let (cosine, n) = (dot(&e, &x), cross(&e, &x));
+            let second = dot(&d, &e) * dot(&d, &x) - square * cosine + dot(&turned, &n);
+            let n_in = |pose: &Pose<D>, sign: f64| in_space(&pose.own(&from_fn(|k| sign * n[k])));
+            let level = Taylor::new(cosine, -dot(&d, &n), second);
+            self.row(first + row, level, &[0.0; D], &n_in(a, 1.0), &n_in(b, -1.0));
         }
     }
 
-    /// A row with the force `e` on B, and its opposite on A at `ahead` of A's marker.
-    #[inline]
-    fn force(&mut self, level: Taylor<f64>, e: &[f64; D], ahead: &[f64; D]) {
-        let lever: [f64; D] = from_fn(|k| self.arms[0][k] + ahead[k]);
-        let (opposite, moments) = (e.map(|x| -x), [cross(e, &lever), cross(&self.arms[1], e)]);
-        self.row(level, [&opposite, e], moments);
+    /// A row with the force `e` on B, and its opposite on A at `ahead` of A's marker, with `e` and `ahead` in the axes of
+    /// the bodies.
+    #[inline(always)]
+    fn force(&mut self, row: usize, level: Taylor<f64>, e: [f64; D], own: [[f64; D]; 2], ahead: [f64; D]) {
+        let [a, b] = self.sides;
+        let lever = from_fn(|k| a.offset[k] + ahead[k]);
+        self.row(row, level, &e, &cross(&own[0], &lever), &cross(&b.offset, &own[1]));
     }
 
-    /// A row with the moment `n` on A, and its opposite on B.
-    #[inline]
-    fn moment(&mut self, level: Taylor<f64>, n: [f64; 3]) {
-        self.row(level, [&[0.0; D]; 2], [n, n.map(|x| -x)]);
-    }
-
-    /// The next row, with the forces and moments about the origins of both bodies.
-    #[inline]
-    fn row(&mut self, level: Taylor<f64>, forces: [&[f64; D]; 2], moments: [[f64; 3]; 2]) {
-        let row = self.first + self.count;
-        if self.need.includes(Need::CONSTRAINTS) {
-            let Terms { phi, phi_dot, phi_t, gamma, .. } = &mut *self.terms;
-            (phi[row], phi_dot[row], phi_t[row], gamma[row]) = (level.x, level.d, 0.0, -level.dd);
+    /// Writes a row with the force `e` on B and its opposite on A, and the moments about their origins, in their axes.
+    #[inline(always)]
+    fn row(&mut self, row: usize, level: Taylor<f64>, e: &[f64; D], on_a: &[f64; 3], on_b: &[f64; 3]) {
+        (self.phi[row], self.phi_dot[row], self.gamma[row]) = (level.x, level.d, -level.dd);
+        if let Some([a, b]) = &mut self.blocks {
+            self.sides[0].write(row, &from_fn(|k| -e[k]), on_a, a);
+            self.sides[1].write(row, e, on_b, b);
         }
-        if self.need.includes(Need::G) {
-            for (i, side) in self.sides.iter().enumerate() {
-                let width = side.freedom.count();
-                let entries = &mut self.terms.g[side.first_entry + self.count * width..][..width];
-                side.freedom.write(self.poses[i], forces[i], &moments[i], entries);
-            }
-        }
-        self.count += 1;
     }
-}
-
-fn value<const D: usize>(path: &Path<D>) -> [f64; D] {
-    path.map(|x| x.x)
 }

@@ -57,9 +57,9 @@ impl JointRows {
         JointRows { first, count, rheonomic: joint.element.depends_on_time(), blocks }
     }
 
-    /// First entry in G of the marker of index `slot` in the joint; none where no velocity moves it.
-    pub fn first_entry(&self, slot: usize) -> Option<usize> {
-        self.blocks.iter().find(|block| block.slot == slot).map(|block| block.first_entry)
+    /// Place of its entries in G: the blocks of its markers one after the other.
+    pub fn first_entry(&self) -> usize {
+        self.blocks.first().map_or(0, |block| block.first_entry)
     }
 
     pub fn range(&self) -> Range<usize> {

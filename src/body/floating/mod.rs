@@ -214,6 +214,9 @@ impl<const D: usize> Body<D> for Floating<D> {
     fn has_constant_mass(&self) -> bool {
         false
     }
+    fn has_constant_forces(&self) -> bool {
+        false
+    }
     fn reach(&self) -> f64 {
         self.shapes.iter().map(|shape| norm(&shape.rest)).fold(0.0, f64::max)
     }

@@ -1,0 +1,131 @@
+//! Poses and closed formulas against frames and kernels over Taylor and dual numbers, which define the equations.
+
+use super::{MechanicalSystem, Mechanism, Need, Scratch, Terms};
+use crate::scene::{AnyModel, Model, Scene};
+use serde_json::{Map, Value, json};
+
+const AXIS: [f64; 3] = [0.2, -0.5, 0.7];
+
+/// Keys of every joint with a closed formula, beside its markers.
+fn joints(dimension: usize) -> Vec<Value> {
+    let mut all = vec![
+        json!({ "type": "revolute" }),
+        json!({ "type": "prismatic" }),
+        json!({ "type": "prismatic", "axis": AXIS[..dimension] }),
+        json!({ "type": "weld" }),
+        json!({ "type": "point_on_line" }),
+        json!({ "type": "point_on_line", "axis": AXIS[..dimension] }),
+        json!({ "type": "distance", "length": 0.7 }),
+    ];
+    if dimension == 3 {
+        all.push(json!({ "type": "revolute", "axis": AXIS }));
+        for kind in ["cylindrical", "universal", "planar"] {
+            all.extend([json!({ "type": kind }), json!({ "type": kind, "axis": AXIS })]);
+        }
+        all.push(json!({ "type": "spherical" }));
+    }
+    all
+}
+
+/// Three bodies, free and partly free, and a point mass, with forces and a joint without a closed formula between them.
+fn scene(dimension: usize, joint: &Value, between: [&str; 2]) -> Value {
+    let place = |x: f64| json!([0.3 + x, -0.4 * x, 0.5 - x][..dimension]);
+    let marker = |x: f64| match dimension {
+        2 => json!({ "position": place(x), "angle": x }),
+        _ => json!({ "position": place(x), "rotation": [x, 0.4, -0.8] }),
+    };
+    let body = |name: &str, x: f64, free: Option<&[&str]>| {
+        let inertia = if dimension == 2 { json!(0.4) } else { json!([0.4, 0.5, 0.6, 0.02, 0.01, -0.03]) };
+        let mut body = json!({ "name": name, "type": "rigid", "mass": 1.3, "inertia": inertia,
+            "markers": { "p": marker(x), "r": place(-x) } });
+        if let Some(free) = free {
+            body["free"] = json!(free);
+        }
+        if free.is_some() && dimension == 3 {
+            body["initial"] = json!({ "rotation": [0.3, x, -0.2] });
+        }
+        body
+    };
+    let partly: &[&str] = if dimension == 2 { &["y", "angle"] } else { &["x", "z", "ry"] };
+    let torque = if dimension == 2 { json!(0.9) } else { json!([0.1, 0.2, "0.3*t"]) };
+    let mut joint = joint.clone();
+    (joint["name"], joint["between"]) = (json!("joint"), json!(between));
+    json!({
+        "name": "closed_formulas", "dimension": dimension, "gravity": place(1.0),
+        "ground": { "markers": { "p": marker(0.7) } },
+        "bodies": [body("A", 0.2, None), body("B", -0.6, None), body("C", 0.5, Some(partly)),
+            { "name": "D", "type": "point_mass", "mass": 0.7, "markers": { "p": vec![0.0; dimension] } }],
+        "joints": [joint, { "name": "drive", "type": "driver", "between": ["C.r", "A.p"], "coordinate": "y", "value": "t^2" }],
+        "forces": [
+            { "name": "spring", "type": "spring_damper", "between": ["C.p", "B.r"], "stiffness": 3, "damping": 0.2, "free_length": 0.1 },
+            { "name": "push", "type": "applied_force", "at": "B.p", "force": place(0.3), "axes": "marker", "reaction_on": "D.p" },
+            { "name": "motor", "type": "applied_torque", "at": "A.r", "torque": torque, "reaction_on": "C.r" }
+        ],
+        "simulation": { "t_end": 1 }
+    })
+}
+
+/// Numbers in (-2, 2), the same for the same seed.
+fn numbers(count: usize, seed: usize) -> Vec<f64> {
+    (0..count).map(|i| 2.0 * (1.0 + 1.7 * i as f64 + 2.3 * seed as f64).sin()).collect()
+}
+
+fn terms<const D: usize>(mechanism: &Mechanism<D>, q: &[f64], v: &[f64]) -> Map<String, Value> {
+    let mut terms = Terms::new(mechanism);
+    for stale in [&mut terms.mass, &mut terms.f, &mut terms.phi_t, &mut terms.g] {
+        stale.fill(f64::NAN);
+    }
+    mechanism.evaluate(0.3, q, v, Need::DYNAMICS, &mut terms, &mut Scratch::default());
+    let Terms { mass, f, phi, phi_dot, phi_t, gamma, g, power, .. } = terms;
+    let all = json!({ "mass": mass, "f": f, "phi": phi, "phi'": phi_dot, "phi_t": phi_t, "gamma": gamma, "G": g, "power": [power] });
+    all.as_object().cloned().unwrap_or_default()
+}
+
+/// Compares both ways at some states, on the constraints and off.
+fn agree<const D: usize>(model: impl Fn() -> Model<D>, case: &str) {
+    let closed = Mechanism::new(model());
+    assert_eq!(closed.rigid.joints.len(), 1, "{case}");
+    let mut generic = Mechanism::new(model());
+    generic.rigid.joints.clear();
+    generic.rigid.general_joints = vec![0, 1];
+    generic.rigid.freedoms.fill(None);
+    let n = closed.dimensions();
+    for seed in 0..4 {
+        let (q, v) = (numbers(n.q, seed), numbers(n.v, seed + 7));
+        let (found, expected) = (terms(&closed, &q, &v), terms(&generic, &q, &v));
+        for (name, expected) in &expected {
+            let values = |all: &Value| -> Vec<f64> {
+                all.as_array().into_iter().flatten().map(|x| x.as_f64().unwrap_or(f64::NAN)).collect()
+            };
+            let (found, expected) = (values(&found[name]), values(expected));
+            let size = expected.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
+            for (i, (x, y)) in found.iter().zip(&expected).enumerate() {
+                // Sums of at most some twenty products, each rounded.
+                assert!((x - y).abs() <= 20.0 * f64::EPSILON * size, "{case}: {name}[{i}] is {x}, not {y}");
+            }
+        }
+    }
+}
+
+#[test]
+fn closed_formulas_give_what_the_kernels_give() {
+    for dimension in [2, 3] {
+        for joint in joints(dimension) {
+            let has_rotations = !["distance", "spherical", "point_on_line"].contains(&joint["type"].as_str().unwrap_or(""))
+                && !(dimension == 2 && joint["type"] == "revolute");
+            let mut pairs = vec![["A.p", "B.p"], ["A.p", "ground.p"], ["ground.p", "B.p"], ["C.p", "A.p"], ["B.r", "C.p"]];
+            if !has_rotations && joint["type"] != "point_on_line" {
+                pairs.extend([["D.p", "A.p"], ["C.p", "D.p"]]);
+            }
+            for between in pairs {
+                let text = scene(dimension, &joint, between).to_string();
+                let model = || Scene::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}: {text}")).model;
+                let case = format!("{joint} between {between:?}");
+                match dimension {
+                    2 => agree(|| if let AnyModel::Planar(model) = model() { model } else { panic!() }, &case),
+                    _ => agree(|| if let AnyModel::Spatial(model) = model() { model } else { panic!() }, &case),
+                }
+            }
+        }
+    }
+}
