@@ -1,11 +1,12 @@
 //! Pose and twist of a body's own frame, and what the velocities of a rigid body are.
 
 use super::{Frame, Marker, Wrench, cross, dot, in_space, sub, twist_len, unit_axes};
-use crate::math::rotation::axes_from_quaternion;
 use crate::math::Taylor;
+use crate::math::rotation::axes_from_quaternion;
 use std::array::from_fn;
 
-/// Position, orientation and twist of a body's own frame, marker 0; deformation does not change them.
+/// Position, orientation and twist of a body's own frame, in which its markers are fixed; deformation does not change
+/// them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose<const D: usize> {
     /// Origin in the world, m.
@@ -56,9 +57,7 @@ impl<const D: usize> Pose<D> {
     /// A vector given in the body's axes, in the world.
     #[inline]
     pub fn rotated(&self, own: &[f64; D]) -> [f64; D] {
-        from_fn(|k| {
-            (1..D).fold(self.axes[0][k] * own[0], |sum, j| sum + self.axes[j][k] * own[j])
-        })
+        from_fn(|k| (1..D).fold(self.axes[0][k] * own[0], |sum, j| sum + self.axes[j][k] * own[j]))
     }
 
     /// A vector in the world, in the body's axes.
@@ -90,9 +89,7 @@ impl<const D: usize> Pose<D> {
     pub fn seen(&self, path: &[Taylor<f64>; D]) -> [Taylor<f64>; D] {
         let swept = self.swept(&path.map(|x| x.x));
         let (coriolis, centripetal) = (self.swept(&path.map(|x| x.d)), self.swept(&swept));
-        from_fn(|k| {
-            Taylor::new(path[k].x, path[k].d - swept[k], path[k].dd - 2.0 * coriolis[k] + centripetal[k])
-        })
+        from_fn(|k| Taylor::new(path[k].x, path[k].d - swept[k], path[k].dd - 2.0 * coriolis[k] + centripetal[k]))
     }
 
     /// w x a
@@ -128,7 +125,8 @@ impl<const D: usize> From<&Frame<Taylor<f64>, D>> for Pose<D> {
 }
 
 /// The velocities of a rigid body: components of the velocity of its origin in the world, then angular velocities about
-/// axes fixed in it. At v' = 0 the acceleration of the origin and the angular acceleration are zero.
+/// axes fixed in it. At v' = 0 the acceleration of the origin and the angular acceleration are zero. A body with all
+/// velocities has those of [`all`](Self::all).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Freedom {
     /// World axes of the translations.
@@ -186,8 +184,8 @@ const fn first_rotation(dimension: usize) -> usize {
 
 /// A marker as if fixed to its body's own frame, or to the ground.
 pub struct Carried<'a, const D: usize> {
-    /// Pose of the body's own frame; `None` is the ground.
-    pub body: Option<Pose<D>>,
+    /// Pose of the body's own frame, or of the ground.
+    pub body: Pose<D>,
     /// Marker in the body's axes.
     pub marker: &'a Marker<D>,
 }
@@ -196,18 +194,17 @@ impl<const D: usize> Carried<'_, D> {
     /// Its i-th axis in the world.
     #[inline]
     pub fn axis(&self, i: usize) -> [f64; D] {
-        let own = self.marker.axes[i];
-        self.body.as_ref().map_or(own, |pose| pose.rotated(&own))
+        self.body.rotated(&self.marker.axes[i])
     }
 
     /// Its angular velocity in the world, rad/s.
     #[inline]
     pub fn spin(&self) -> [f64; 3] {
-        self.body.map_or([0.0; 3], |body| body.spin)
+        self.body.spin
     }
 
     /// Angle of the marker in the plane, rad.
     pub fn turn(&self) -> f64 {
-        self.body.map_or(0.0, |body| body.turn) + self.marker.turn
+        self.body.turn + self.marker.turn
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! A joint is one kernel over frames. Evaluated along the motion (Taylor numbers) it gives phi, phi' and -gamma;
 //! evaluated with seeded frames (dual numbers) it gives its gradient with respect to the twists of its markers, which
-//! the bodies pull back to rows of G.
+//! the bodies pull back to rows of G. Where closed formulas between rigid bodies are known, [`ClosedForm`], they are
+//! used in their place and must agree to round-off.
 //!
 //! To add one: a file with a [`JointSpec`] and a [`JointKernel`], and a line in [`registry`]; from outside the crate,
 //! the same two and [`Elements::with_joint`](crate::scene::Elements::with_joint), as in `tests/examples/own_joint.rs`.

@@ -1,10 +1,10 @@
 //! The equations of a scene's model.
 
 use super::coupling::Couplings;
+use super::evaluate::RigidParts;
 use super::levi_civita::LeviCivita;
 use super::limits::{Extent, limits};
 use super::output_tangent::{OutputTangent, Slopes};
-use super::evaluate::RigidParts;
 use super::rows::{JointRows, PlacedJoint};
 use super::scale::{length_scale, row_scales};
 use super::spin::{Placement, Spin};

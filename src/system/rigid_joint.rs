@@ -126,10 +126,13 @@ impl<const D: usize> Rows<'_, D> {
     fn translations(&mut self, lock: &Lock<D>, gap: &Path<D>) {
         let [a, b] = self.poses;
         if lock.translation.len() == D {
-            // The rows one by one, for the compiler to know the axis.
+            // One by one, as the compiler then knows the axis.
             self.along_world(0, gap);
             self.along_world(1, gap);
-            return if D == 3 { self.along_world(2, gap) };
+            if D == 3 {
+                self.along_world(2, gap);
+            }
+            return;
         }
         let (seen, ahead) = (a.seen(gap), a.own(&from_fn(|k| gap[k].x)));
         for (row, &i) in lock.translation.iter().enumerate() {

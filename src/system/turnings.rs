@@ -1,7 +1,7 @@
 //! Angles in space that count full turns, the last coordinates of q.
 
 use super::mechanism::{Mechanism, of};
-use crate::body::{Carried, MarkerId, norm};
+use crate::body::{Carried, MarkerId, Pose, norm};
 use crate::scene::Part;
 
 impl<const D: usize> Mechanism<D> {
@@ -49,9 +49,9 @@ impl<const D: usize> Mechanism<D> {
     pub(super) fn carried(&self, marker: MarkerId, q: &[f64], v: &[f64]) -> Carried<'_, D> {
         let model = self.model();
         match model.carrier(marker) {
-            None => Carried { body: None, marker: &model.ground[marker] },
+            None => Carried { body: Pose::ground(), marker: &model.ground[marker] },
             Some(part) => Carried {
-                body: Some(part.body.pose(of(q, part, true), of(v, part, false))),
+                body: part.body.pose(of(q, part, true), of(v, part, false)),
                 marker: part.body.marker(marker - part.first_marker),
             },
         }
