@@ -19,10 +19,10 @@ fn joints(dimension: usize) -> Vec<Value> {
     ];
     if dimension == 3 {
         all.push(json!({ "type": "revolute", "axis": AXIS }));
-        for kind in ["cylindrical", "universal", "planar"] {
+        for kind in ["cylindrical", "planar"] {
             all.extend([json!({ "type": kind }), json!({ "type": kind, "axis": AXIS })]);
         }
-        all.push(json!({ "type": "spherical" }));
+        all.extend([json!({ "type": "universal" }), json!({ "type": "spherical" })]);
     }
     all
 }
