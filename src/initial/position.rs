@@ -11,15 +11,17 @@ pub fn close(metric: &mut Metric, t: f64, q: &mut [f64]) -> Result<()> {
     let n = metric.system.dimensions();
     let still = vec![0.0; n.v];
     let mut moved = vec![0.0; n.v];
-    let (mut best, mut stalled) = (f64::INFINITY, 0);
+    let (mut best, mut smallest, mut stalled) = (f64::INFINITY, f64::INFINITY, 0);
     for _ in 0..tolerances::ASSEMBLY_ITERATIONS {
         metric.at(t, q, &still)?;
         let residual = metric.worst(&metric.terms.phi);
         let pulled = step(metric, Some(&moved))?;
         let size = pulled.iter().fold(0.0f64, |size, d| size.max(d.abs()));
         let settled = size <= 1e-12 * (1.0 + moved.iter().fold(0.0f64, |size, d| size.max(d.abs())));
-        stalled = if residual < 0.9 * best { 0 } else { stalled + 1 };
-        best = best.min(residual);
+        // Once closed, the residual is rounding, and the way to the nearest state counts.
+        let falls = residual < 0.9 * best || (residual < tolerances::CLOSED && size < 0.9 * smallest);
+        stalled = if falls { 0 } else { stalled + 1 };
+        (best, smallest) = (best.min(residual), smallest.min(size));
         if residual < tolerances::CLOSED && (settled || stalled > 8) {
             return kept(metric, &moved);
         }

@@ -77,8 +77,10 @@ impl<const D: usize> Mechanism<D> {
             self.own_forces((q, v), terms);
             self.forces(time, q, work, terms);
         }
-        if need.includes(Need::CONSTRAINTS) || need.includes(Need::G) {
+        if need.includes(Need::CONSTRAINTS) {
             terms.phi_t.fill(0.0);
+        }
+        if need.includes(Need::CONSTRAINTS) || need.includes(Need::G) {
             self.rigid.joints.iter().for_each(|joint| joint.evaluate(&work.poses, need, terms));
             self.general_joints(time, q, need, work, terms);
         }

@@ -51,9 +51,8 @@ type Path<const D: usize> = [Taylor<f64>; D];
 struct Rows<'a, const D: usize> {
     sides: &'a [Side<D>; 2],
     poses: [&'a Pose<D>; 2],
-    phi: &'a mut [f64],
-    phi_dot: &'a mut [f64],
-    gamma: &'a mut [f64],
+    /// phi, phi' and gamma; none where they are not needed.
+    levels: Option<[&'a mut [f64]; 3]>,
     /// Blocks of A and B in G; none where G is not needed.
     blocks: Option<[&'a mut [f64]; 2]>,
 }
@@ -67,7 +66,7 @@ impl<const D: usize> RigidJoint<D> {
         Some(RigidJoint { form, rows: rows.range(), sides, first_entry: rows.first_entry() })
     }
 
-    /// Writes phi, phi' and gamma, and the entries of G if needed.
+    /// Writes phi, phi' and gamma, and the entries of G, as far as needed.
     pub fn evaluate(&self, poses: &[Pose<D>], need: Need, terms: &mut Terms) {
         let Terms { phi, phi_dot, gamma, g, .. } = terms;
         let [a, b] = &self.sides;
@@ -78,8 +77,9 @@ impl<const D: usize> RigidJoint<D> {
             let (first, second) = g[self.first_entry..][..sizes[0] + sizes[1]].split_at_mut(sizes[0]);
             [first, second]
         });
-        let [phi, phi_dot, gamma] = [phi, phi_dot, gamma].map(|rows| &mut rows[self.rows.clone()]);
-        let mut rows = Rows { sides: &self.sides, poses, phi, phi_dot, gamma, blocks };
+        let levels =
+            need.includes(Need::CONSTRAINTS).then(|| [phi, phi_dot, gamma].map(|level| &mut level[self.rows.clone()]));
+        let mut rows = Rows { sides: &self.sides, poses, levels, blocks };
         match &self.form {
             ClosedForm::Rod(length) => rows.rod(&gap, *length),
             ClosedForm::Lock(lock) => {
@@ -186,7 +186,9 @@ impl<const D: usize> Rows<'_, D> {
     /// Writes a row with the force `e` on B and its opposite on A, and the moments about their origins, in their axes.
     #[inline(always)]
     fn row(&mut self, row: usize, level: Taylor<f64>, e: &[f64; D], on_a: &[f64; 3], on_b: &[f64; 3]) {
-        (self.phi[row], self.phi_dot[row], self.gamma[row]) = (level.x, level.d, -level.dd);
+        if let Some([phi, phi_dot, gamma]) = &mut self.levels {
+            (phi[row], phi_dot[row], gamma[row]) = (level.x, level.d, -level.dd);
+        }
         if let Some([a, b]) = &mut self.blocks {
             self.sides[0].write(row, &from_fn(|k| -e[k]), on_a, a);
             self.sides[1].write(row, e, on_b, b);
