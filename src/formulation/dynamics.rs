@@ -229,16 +229,16 @@ impl<'a> Dynamics<'a> {
         names.get(direction).map_or(String::new(), |name| name.trim_end_matches('\'').to_string())
     }
 
-    /// The first term that is not finite.
+    /// The first term that is not finite; `None` where only rates of constraints are not: then velocities are too large.
     fn infinite_term(&self) -> Option<String> {
-        let Terms { f, g, phi, phi_dot, gamma, .. } = &self.terms;
+        let Terms { f, g, phi, .. } = &self.terms;
         if let Some(i) = f.iter().position(|f| !f.is_finite()) {
             let what = if i < self.system.dimensions().moving() { "force on" } else { "rate of" };
             return Some(format!("the {what} `{}`", self.coordinate(i)));
         }
-        let levels = [phi, phi_dot, gamma].into_iter().find_map(|rows| rows.iter().position(|x| !x.is_finite()));
+        let open = phi.iter().position(|x| !x.is_finite());
         let entry = || g.iter().position(|g| !g.is_finite()).map(|entry| self.structure.g.entries[entry].0);
-        let row = levels.or_else(entry)?;
+        let row = open.or_else(entry)?;
         Some(format!("the constraint of `{}`", self.system.names().lambda.get(row)?))
     }
 

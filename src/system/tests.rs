@@ -112,9 +112,9 @@ fn values(all: &Value) -> Vec<f64> {
 fn closed_formulas_give_what_the_kernels_give() {
     for dimension in [2, 3] {
         for joint in joints(dimension) {
-            let has_rotations = !["distance", "spherical", "point_on_line"]
-                .contains(&joint["type"].as_str().unwrap_or(""))
-                && !(dimension == 2 && joint["type"] == "revolute");
+            let kind = joint["type"].as_str().unwrap_or("");
+            let points_only = ["distance", "spherical", "point_on_line"].contains(&kind);
+            let has_rotations = !(points_only || dimension == 2 && kind == "revolute");
             let mut pairs =
                 vec![["A.p", "B.p"], ["A.p", "ground.p"], ["ground.p", "B.p"], ["C.p", "A.p"], ["B.r", "C.p"]];
             if !has_rotations && joint["type"] != "point_on_line" {
