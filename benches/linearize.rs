@@ -60,7 +60,7 @@ fn andrews() {
         let charts = [Chart::Intrinsic, Chart::MassOrthogonal, Chart::Frozen, Chart::parse(coordinate)];
         for chart in charts {
             let mut model = |with_values: bool| {
-                variation.move_to(state.t, &state.q, &state.v).ok().unwrap();
+                variation.operate_at(state.t, &state.q, &state.v).unwrap_or_else(|error| panic!("{error}"));
                 let model = minimal(&mut variation, &chart);
                 if let (true, Ok(model)) = (with_values, &model) {
                     std::hint::black_box(eigen(&model.a).unwrap());
@@ -76,6 +76,26 @@ fn andrews() {
         let mut dynamics = Dynamics::new(system);
         let solve = 1e6 * seconds(|| dynamics.solve(state.t, &state.q, &state.v, |_, _| 0.0).ok().unwrap());
         println!("  {:<36} {solve:>10.1}", format!("{name}, v' and lambda alone"));
+    }
+}
+
+/// Models along motions in memory used again, in the preferred chart.
+fn along_motions() {
+    println!("\n800 models along a motion                    ms");
+    for name in ["andrews", "five_link_suspension", "five_link_suspension_rods", "flexible_slider_crank"] {
+        let prepared = shipped(name);
+        let end = prepared.span().unwrap_or_else(|error| panic!("{error}")).end;
+        let times: Vec<f64> = (1..=800).map(|i| end * f64::from(i) / 800.0).collect();
+        let all = states(&prepared, &times, |_| ()).unwrap_or_else(|error| panic!("{error}"));
+        let mut variation = all[0].variation(&prepared).unwrap();
+        let chart = Chart::preferred(&mut variation);
+        let time = seconds(|| {
+            for state in &all {
+                variation.operate_at(state.t, &state.q, &state.v).unwrap_or_else(|error| panic!("{error}"));
+                std::hint::black_box(minimal(&mut variation, &chart).unwrap());
+            }
+        });
+        println!("  {name:<36} {:>10.1}", 1e3 * time);
     }
 }
 
@@ -198,6 +218,7 @@ fn methods() {
 
 fn main() {
     andrews();
+    along_motions();
     differences();
     chains();
     methods();

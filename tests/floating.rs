@@ -172,7 +172,7 @@ fn motion<const D: usize>(
     vdot: Option<&[f64]>,
 ) -> Vec<Frame<Taylor<f64>, D>> {
     let mut frames = vec![Frame::world(); body.marker_count()];
-    BodyOver::<f64, D>::motion(body, q, v, vdot, &mut frames);
+    BodyOver::<f64, D>::motion(body, q, v, vdot, 0, &mut frames);
     frames
 }
 

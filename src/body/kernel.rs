@@ -15,9 +15,9 @@ impl<K: BodyKernel<D>, S: Scalar, const D: usize> BodyOver<S, D> for K {
         BodyKernel::rate(self, q, v, qdot);
     }
 
-    fn motion(&self, q: &[S], v: &[S], vdot: Option<&[S]>, out: &mut [Frame<Taylor<S>, D>]) {
+    fn motion(&self, q: &[S], v: &[S], vdot: Option<&[S]>, first: usize, out: &mut [Frame<Taylor<S>, D>]) {
         let body = moving_frame(self, (q, v, vdot));
-        out.iter_mut().zip(self.markers()).for_each(|(frame, marker)| *frame = body.at(marker));
+        out.iter_mut().zip(&self.markers()[first..]).for_each(|(frame, marker)| *frame = body.at(marker));
     }
 
     fn pull_back(&self, _marker: usize, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]) {
@@ -123,19 +123,9 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
         (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).collect()
     }
 
-    /// -d(own forces) over dual numbers, six directions at a time: M is constant.
     fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]) {
-        let (q, v, n) = (lift(at.q), lift(at.v), at.v.len());
-        for first in (0..n).step_by(6) {
-            let mut directions = [Dual6::fixed(0.0); MOST_COORDINATES];
-            let seeded = directions[first..n].iter_mut().take(6).enumerate();
-            seeded.for_each(|(j, direction)| *direction = Dual6::seeded(0.0, j));
-            let mut moved = [Dual6::fixed(0.0); MOST_COORDINATES];
-            BodyKernel::rate(self, &q[..at.q.len()], &directions[..n], &mut moved[..at.q.len()]);
-            moved.iter_mut().zip(&q).for_each(|(moved, &q)| *moved += q);
-            self.subtract_slopes((&moved[..at.q.len()], &v[..n]), at.gravity, first, k);
-            directions.iter_mut().zip(&v).for_each(|(direction, &v)| *direction += v);
-            self.subtract_slopes((&q[..at.q.len()], &directions[..n]), at.gravity, first, c);
+        if !BodyKernel::has_constant_forces(self) {
+            BodyKernel::tangent(self, at, k, c);
         }
     }
     fn dissipation(&self, _v: &[f64]) -> f64 {
@@ -183,16 +173,25 @@ fn lift(values: &[f64]) -> [Dual6; MOST_COORDINATES] {
     std::array::from_fn(|i| Dual6::fixed(values.get(i).copied().unwrap_or(0.0)))
 }
 
-/// Derivatives of a kernel's own forces, for K and C alike.
-trait Slopes<const D: usize>: BodyKernel<D> {
-    /// Subtracts the derivatives of the own forces from columns `first..` of a square matrix.
-    fn subtract_slopes(&self, (q, v): (&[Dual6], &[Dual6]), gravity: &[f64; D], first: usize, matrix: &mut [f64]) {
+/// k and c less the derivatives of the own forces, over dual numbers, six directions at a time: M is constant.
+pub(super) fn tangent<K: BodyKernel<D>, const D: usize>(body: &K, at: BodyState<D>, k: &mut [f64], c: &mut [f64]) {
+    let (q, v, n) = (lift(at.q), lift(at.v), at.v.len());
+    let subtract = |q: &[Dual6], v: &[Dual6], first: usize, matrix: &mut [f64]| {
         let mut forces = [Dual6::fixed(0.0); MOST_COORDINATES];
-        self.own_forces(q, v, gravity, &mut forces[..v.len()]);
-        for (row, force) in matrix.chunks_exact_mut(v.len()).zip(&forces) {
+        body.own_forces(q, v, at.gravity, &mut forces[..n]);
+        for (row, force) in matrix.chunks_exact_mut(n).zip(&forces) {
             row[first..].iter_mut().zip(&force.eps).for_each(|(entry, slope)| *entry -= slope);
         }
+    };
+    for first in (0..n).step_by(6) {
+        let mut directions = [Dual6::fixed(0.0); MOST_COORDINATES];
+        let seeded = directions[first..n].iter_mut().take(6).enumerate();
+        seeded.for_each(|(j, direction)| *direction = Dual6::seeded(0.0, j));
+        let mut moved = [Dual6::fixed(0.0); MOST_COORDINATES];
+        BodyKernel::rate(body, &q[..at.q.len()], &directions[..n], &mut moved[..at.q.len()]);
+        moved.iter_mut().zip(&q).for_each(|(moved, &q)| *moved += q);
+        subtract(&moved[..at.q.len()], &v[..n], first, k);
+        directions.iter_mut().zip(&v).for_each(|(direction, &v)| *direction += v);
+        subtract(&q[..at.q.len()], &directions[..n], first, c);
     }
 }
-
-impl<K: BodyKernel<D>, const D: usize> Slopes<D> for K {}

@@ -134,6 +134,14 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
     /// f += weight and velocity-dependent inertia forces; `gravity` in m/s^2.
     fn own_forces<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D], f: &mut [S]);
 
+    /// See [`Body::tangent`]; not called where the own forces are constant. Default: own forces over dual numbers.
+    fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64])
+    where
+        Self: Sized,
+    {
+        kernel::tangent(self, at, k, c);
+    }
+
     /// The kinetic energy v^T M v / 2, and the potential of the weight.
     fn energy<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S>;
 
@@ -145,8 +153,9 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
 pub trait BodyOver<S: Scalar, const D: usize> {
     /// `qdot` = N(q) v.
     fn rate(&self, q: &[S], v: &[S], qdot: &mut [S]);
-    /// Frames of the markers with their velocities, and their accelerations at v' = `vdot` (zero if not given).
-    fn motion(&self, q: &[S], v: &[S], vdot: Option<&[S]>, out: &mut [Frame<Taylor<S>, D>]);
+    /// Frames of the markers from number `first` on with their velocities, and their accelerations at v' = `vdot` (zero
+    /// if not given).
+    fn motion(&self, q: &[S], v: &[S], vdot: Option<&[S]>, first: usize, out: &mut [Frame<Taylor<S>, D>]);
     /// f += J^T w for a wrench at the frame of marker `marker`; f is indexed as its [`support`](Body::support).
     fn pull_back(&self, marker: usize, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]);
     /// Kinetic energy, and potential energy of weight and of the body's own deformation, J.

@@ -1,6 +1,6 @@
 //! Rigid body in space: centre of mass, unit quaternion [w, x, y, z] and angular velocity in the body's axes.
 
-use super::{BodyKernel, Energy, Frame, Freedom, Marker, Pose, Wrench, cross, dot, sub};
+use super::{BodyKernel, BodyState, Energy, Frame, Freedom, Marker, Pose, Wrench, cross, dot, sub};
 use crate::math::Scalar;
 use crate::math::rotation::{Matrix3, axes_from_quaternion, quaternion_rate};
 use std::array::from_fn;
@@ -82,6 +82,16 @@ impl<const D: usize> BodyKernel<D> for RigidSpatial<D> {
         let w = [v[3], v[4], v[5]];
         let gyroscopic = cross(&w, &self.angular_momentum(&w));
         f[3..].iter_mut().zip(gyroscopic).for_each(|(f, g)| *f -= g);
+    }
+    /// C = d(w x J w)/dw
+    fn tangent(&self, at: BodyState<D>, _k: &mut [f64], c: &mut [f64]) {
+        let w = [at.v[3], at.v[4], at.v[5]];
+        let momentum = self.angular_momentum(&w);
+        for j in 0..3 {
+            let unit: [f64; 3] = from_fn(|i| f64::from(u8::from(i == j)));
+            let (turned, changed) = (cross(&unit, &momentum), cross(&w, &self.angular_momentum(&unit)));
+            (0..3).for_each(|i| c[6 * (3 + i) + 3 + j] += turned[i] + changed[i]);
+        }
     }
     fn energy<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S> {
         let w = [v[3], v[4], v[5]];

@@ -53,31 +53,84 @@ fn diagonal(dynamics: &Dynamics) -> Vec<f64> {
 
 /// The pivoted Cholesky factor of Z Z^T in the metric of the present factors, whose diagonal is `masses`.
 fn factor_of_solutions(dynamics: &mut Dynamics, masses: &[f64]) -> Option<DMatrix<f64>> {
-    let n = dynamics.vdot.len();
-    let mut rest = DMatrix::zeros(n, n);
-    for j in 0..n {
-        let mut unit: Vec<f64> = (0..n).map(|i| if i == j { 1.0 } else { 0.0 }).collect();
-        // Z Z^T e_j: the accelerations due to a unit force along coordinate j.
-        dynamics.kkt.solve_motion(&mut unit, &mut vec![0.0; dynamics.lambda.len()]).ok()?;
-        rest.column_mut(j).copy_from_slice(&unit);
-    }
-    // Pivots are relative to 1 / m, independent of units; a direction without mass is relative to itself.
-    let whole = masses.iter().enumerate().map(|(i, m)| if *m > 0.0 { 1.0 / *m } else { rest[(i, i)] });
-    let whole: Vec<f64> = whole.collect();
-    let mut columns = Vec::new();
+    let n = masses.len();
     // Where masses differ much, round-off alone can look like one more direction.
     let most = degrees_of_freedom(dynamics);
-    while columns.len() < most {
-        let left = |i: usize| if whole[i] > 0.0 { rest[(i, i)] / whole[i] } else { 0.0 };
-        let pivot = (0..n).max_by(|&i, &j| left(i).total_cmp(&left(j))).unwrap_or(0);
-        if left(pivot) < tolerances::NO_DIRECTION {
+    let mut rest = Rest { whole: vec![0.0; n], columns: Vec::with_capacity(most * n), dynamics };
+    for (i, &mass) in masses.iter().enumerate() {
+        rest.whole[i] = if mass > 0.0 { 1.0 / mass } else { rest.column(i)?[i].max(0.0) };
+    }
+    for _ in 0..most {
+        let mut pivot = rest.probed()?;
+        let mut column = rest.column(pivot)?;
+        if rest.is_round_off(column[pivot], pivot) {
+            pivot = rest.largest()?;
+            column = rest.column(pivot)?;
+        }
+        if rest.is_round_off(column[pivot], pivot) {
             break;
         }
-        let column = rest.column(pivot) / rest[(pivot, pivot)].sqrt();
-        rest -= &column * column.transpose();
-        columns.push(column);
+        let length = column[pivot].sqrt();
+        rest.columns.extend(column.iter().map(|x| x / length));
     }
-    Some(DMatrix::from_fn(n, columns.len(), |i, j| columns[j][i]))
+    let columns = rest.columns;
+    Some(DMatrix::from_vec(n, columns.len() / n.max(1), columns))
+}
+
+/// Z Z^T less the columns of its factor that are found.
+struct Rest<'d, 'a> {
+    dynamics: &'d mut Dynamics<'a>,
+    /// Pivots are relative to 1 / m, independent of units; a direction without mass is relative to itself.
+    whole: Vec<f64>,
+    columns: Vec<f64>,
+}
+
+impl Rest<'_, '_> {
+    /// Its product with forces: the accelerations that they cause, but along the columns.
+    fn times(&mut self, mut forces: Vec<f64>) -> Option<Vec<f64>> {
+        let columns = self.columns.chunks_exact(forces.len().max(1));
+        let parts: Vec<f64> = columns.clone().map(|column| dot(column, &forces)).collect();
+        self.dynamics.kkt.solve_motion(&mut forces, &mut vec![0.0; self.dynamics.lambda.len()]).ok()?;
+        for (column, part) in columns.zip(parts) {
+            forces.iter_mut().zip(column).for_each(|(x, z)| *x -= part * z);
+        }
+        Some(forces)
+    }
+
+    fn column(&mut self, j: usize) -> Option<Vec<f64>> {
+        self.times((0..self.whole.len()).map(|i| f64::from(u8::from(i == j))).collect())
+    }
+
+    fn is_round_off(&self, pivot: f64, j: usize) -> bool {
+        !(pivot > 0.0 && pivot >= tolerances::NO_DIRECTION * self.whole[j])
+    }
+
+    /// A coordinate with at least the n-th part of the largest pivot: the one that forces without symmetry move most.
+    fn probed(&mut self) -> Option<usize> {
+        let found = self.columns.len() as f64;
+        let force = |(i, whole): (usize, &f64)| match *whole > 0.0 {
+            true => (1.0 + found + 0.7 * i as f64 * (i as f64 + 3.0)).sin() / whole.sqrt(),
+            false => 0.0,
+        };
+        let moved = self.times(self.whole.iter().enumerate().map(force).collect())?;
+        Some(self.pivot(moved.iter().map(|x| x * x)))
+    }
+
+    /// The coordinate with the largest pivot, by all columns.
+    fn largest(&mut self) -> Option<usize> {
+        let pivots: Option<Vec<f64>> = (0..self.whole.len()).map(|j| Some(self.column(j)?[j])).collect();
+        Some(self.pivot(pivots?.into_iter()))
+    }
+
+    /// The place of the largest value in units of `whole`.
+    fn pivot(&self, values: impl Iterator<Item = f64>) -> usize {
+        let shares = values.zip(&self.whole).map(|(x, whole)| if *whole > 0.0 { x / whole } else { 0.0 });
+        shares.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(i, _)| i)
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Z^T M Z

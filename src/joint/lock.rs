@@ -54,7 +54,8 @@ impl<const D: usize> Lock<D> {
         Ok(Built { joint: Box::new(self), markers })
     }
 
-    /// Axis `i` of the joint at the frame of one of its markers.
+    /// Axis `i` of the joint in the world, at the frame of one of its markers.
+    #[inline]
     pub fn axis<S: Scalar>(&self, frame: &Frame<S, D>, i: usize) -> [S; D] {
         match &self.triad {
             None => frame.axes[i],

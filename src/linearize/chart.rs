@@ -47,7 +47,7 @@ impl Chart {
         match self {
             Chart::Intrinsic => parallel(variation, z),
             Chart::MassOrthogonal => {
-                let b = z.transpose() * variation.mass();
+                let b = variation.mass_times(&z).transpose();
                 constant(variation, "mass_orthogonal", numbered(z.ncols()), (z, b))
             }
             Chart::Independent(names) => independent::coordinates(variation, &z, names),

@@ -1,7 +1,7 @@
 //! Minimal coordinates of the perturbation at a state.
 
 use super::changes::beside;
-use super::{Changes, Matrix, Variation};
+use super::{Changes, LinearizationPoint, Matrix, Variation};
 use crate::error::{Error, Result};
 use crate::system::{LeviCivita, OperatingPoint};
 
@@ -58,18 +58,18 @@ pub(super) fn constant(
     states: Vec<String>,
     (r, b): (Matrix, Matrix),
 ) -> Result<Coordinates> {
-    let correction = variation.correct(&(variation.gd() * &r))?;
+    let correction = variation.correct(&variation.gd_times(&r))?;
     // The component of the least correction in the mass metric that B does not measure.
     let tilt = &r * (&b * &correction) - correction;
-    let turn = -&b * variation.bracket(&variation.point.v) * &r;
+    let turn = -&b * variation.bracket_of(&variation.point.v, &r);
     let none = Matrix::zeros(r.ncols(), r.ncols());
     Ok(Coordinates { name: name.to_string(), states, r, tilt, b, turn, drift: [none.clone(), none] })
 }
 
 /// The chart dq = Z z with constant Z and no other terms: z' = y.
 pub(super) fn frozen(variation: &Variation, z: Matrix) -> Coordinates {
-    let turned = variation.bracket(&variation.point.v) * &z;
-    let b = z.transpose() * variation.mass();
+    let turned = variation.bracket_of(&variation.point.v, &z);
+    let b = variation.mass_times(&z).transpose();
     let none = Matrix::zeros(z.ncols(), z.ncols());
     let drift = [none.clone(), &b * &turned];
     Coordinates { name: "frozen".to_string(), states: numbered(z.ncols()), tilt: turned, r: z, b, turn: none, drift }
@@ -97,16 +97,16 @@ pub fn parallel(variation: &mut Variation, n: Matrix) -> Result<Coordinates> {
             ));
     }
     let LeviCivita { w, w_dot, mass_dot } = connection;
-    let (mass, g) = (variation.mass(), variation.g());
-    let q = -variation.bracket(&variation.point.v);
-    let q_dot = -variation.bracket(&variation.point.vdot);
-    let wn = &w * &n;
-    let n_dot = -variation.correct(&((variation.gd() - g * &q) * &n))? - &n * (n.transpose() * &wn);
-    let bent =
-        n_dot.transpose() * (&mass * &n_dot + &wn) + n.transpose() * (mass_dot * &n_dot + w_dot * &n + &w * &n_dot);
-    let b = n.transpose() * mass;
-    let turned = &q * &n;
-    let drift = [-bent - &b * (q_dot * &n + &q * &n_dot), &b * (&n_dot * 2.0 - &turned)];
+    let bracket = |v: &[f64], x: &Matrix| variation.bracket_of(v, x);
+    let LinearizationPoint { v, vdot, .. } = &variation.point;
+    let (turned, turned_later, wn) = (-bracket(v, &n), -bracket(vdot, &n), &w * &n);
+    let corrected = variation.gd_times(&n) - variation.g_times(&turned);
+    let n_dot = -variation.correct(&corrected)? - &n * n.tr_mul(&wn);
+    let momenta = variation.mass_times(&n_dot) + &wn;
+    let bent = n_dot.tr_mul(&momenta) + n.tr_mul(&(mass_dot * &n_dot + w_dot * &n + &w * &n_dot));
+    let b = variation.mass_times(&n).transpose();
+    let turned_rate = -variation.bracket_of(&variation.point.v, &n_dot);
+    let drift = [-bent - &b * (turned_later + turned_rate), &b * (&n_dot * 2.0 - &turned)];
     let none = Matrix::zeros(n.ncols(), n.ncols());
     let states = numbered(n.ncols());
     Ok(Coordinates { name: "intrinsic".to_string(), states, tilt: n_dot - turned, r: n, b, turn: none, drift })

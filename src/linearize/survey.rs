@@ -1,7 +1,7 @@
 //! Linear models at many states: along a motion, or over a parameter.
 
 use super::along::{Walk, follow};
-use super::{Branch, LociPoint, Matrix, Operating, Request, State, at_rest, linearize, tighten, track};
+use super::{Branch, LociPoint, Matrix, Operating, Request, State, Variation, at_rest, linearize, tighten, track};
 use crate::error::{Error, Result, Warning};
 use crate::prepared::{Overrides, PreparedScene};
 use crate::sweep::{Family, Range};
@@ -94,7 +94,12 @@ type Outcome = (f64, Result<Found>);
 /// Returns the eigenvalues at `times` (increasing) of the scene's motion; `progress` is called for each. Where the
 /// motion cannot go on, the later times are gaps. Where the matching of modes is not clear, states between the times
 /// are added for it.
-pub fn loci_along(prepared: &PreparedScene, request: &Request, times: &[f64], progress: impl Fn() + Sync) -> Loci {
+pub fn loci_along<'a>(
+    prepared: &'a PreparedScene,
+    request: &Request,
+    times: &[f64],
+    progress: impl Fn() + Sync,
+) -> Loci {
     let (mut walk, mut stopped) = (Walk::new(prepared), None);
     let mut go_to = |t: f64| match &stopped {
         Some(error) => Err(Error::clone(error)),
@@ -102,8 +107,17 @@ pub fn loci_along(prepared: &PreparedScene, request: &Request, times: &[f64], pr
     };
     let states: Vec<(f64, Result<State>)> = times.iter().map(|&t| (t, go_to(t))).inspect(|_| progress()).collect();
     let moving = |state, t| found(&Operating::moving(prepared, state), t, request);
-    let outcome = |(t, state): (f64, Result<State>)| (t, state.and_then(|state| moving(state, t)));
-    let outcomes: Vec<Outcome> = states.into_par_iter().map(outcome).collect();
+    let next = |kept: &mut Option<Variation<'a>>, state: State, t: f64| {
+        let mut variation = match kept.take() {
+            Some(mut variation) => variation.operate_at(state.t, &state.q, &state.v).map(|()| variation),
+            None => state.variation(prepared),
+        }?;
+        let outcome = found_by(&mut variation, &Operating::moving(prepared, state), t, request);
+        *kept = Some(variation);
+        outcome
+    };
+    let outcome = |kept: &mut Option<_>, (t, state): (f64, Result<State>)| (t, state.and_then(|s| next(kept, s, t)));
+    let outcomes: Vec<Outcome> = states.into_par_iter().map_init(|| None, outcome).collect();
     let between = |before: &Found, t: f64| moving(follow(prepared, &before.state, t)?, t);
     collect(LociVariable::Time, outcomes, between)
 }
@@ -195,8 +209,11 @@ impl Variants<'_> {
 }
 
 fn found(operating: &Operating, at: f64, request: &Request) -> Result<Found> {
-    let mut variation = operating.variation()?;
-    let model = linearize(&mut variation, request)?;
+    found_by(&mut operating.variation()?, operating, at, request)
+}
+
+fn found_by(variation: &mut Variation, operating: &Operating, at: f64, request: &Request) -> Result<Found> {
+    let model = linearize(variation, request)?;
     let mass: Matrix = variation.mass();
     let is_equilibrium = model.point.is_equilibrium;
     let sample = LociPoint { at, modes: model.modes, mass };

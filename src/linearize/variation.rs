@@ -29,6 +29,8 @@ pub struct Variation<'a> {
     gdd: Vec<f64>,
     /// Velocity of the state that is evaluated.
     v: Vec<f64>,
+    /// Number of inputs and of outputs.
+    columns: [usize; 2],
 }
 
 const NO_TANGENT: &str = "these equations give no K, C and gradient of phi''";
@@ -45,33 +47,57 @@ impl<'a> Variation<'a> {
         let dynamics = Dynamics::new(system);
         let tangent = Tangent::new(&dynamics.structure.tangent);
         let (gdd, own) = (vec![0.0; dynamics.structure.g.entries.len()], v.to_vec());
-        let mut variation = Variation { dynamics, point: LinearizationPoint::default(), tangent, gdd, v: own };
-        let known = variation.move_to(t, q, v).map_err(|halt| at_state(t, &halt))?;
+        let columns = [system.inputs().len(), system.columns().len()];
+        let mut variation = Variation { dynamics, point: LinearizationPoint::default(), tangent, gdd, v: own, columns };
+        variation.operate_at(t, q, v)?;
+        Ok(variation)
+    }
+
+    /// Makes another state, which should be on the constraints, the operating point, in the same memory.
+    ///
+    /// # Errors
+    /// Those of [`Variation::new`].
+    pub fn operate_at(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<()> {
+        let refined = self.solve(t, q, v).and_then(|()| self.refine_solution());
+        let known = refined.and_then(|()| self.load_solution(t, q, v)).map_err(|halt| at_state(t, &halt))?;
         if !known {
             return Err(Error::input(NO_TANGENT).hint(GIVE_THEM));
         }
-        variation.refine_solution().map_err(|halt| at_state(t, &halt))?;
-        variation.point = LinearizationPoint::new(&variation.dynamics, &variation.tangent.k, t, q, v);
-        if variation.point.is_equilibrium {
+        self.point = LinearizationPoint::new(&self.dynamics, &self.tangent.k, t, q, v);
+        if self.point.is_equilibrium {
             // Rounding would give entries of Gdd that no scale tells from small terms.
-            variation.point.vdot.fill(0.0);
+            self.point.vdot.fill(0.0);
+            self.load_point()?;
         }
-        variation.load_point()?;
-        if singular::is_suspect(&variation.dynamics) {
-            let directions = variation.free_directions()?;
-            singular::refuse(&variation.dynamics, &variation.point, &directions)?;
+        if singular::is_suspect(&self.dynamics) {
+            let directions = self.free_directions()?;
+            singular::refuse(&self.dynamics, &self.point, &directions)?;
         }
-        Ok(variation)
+        Ok(())
     }
 
     /// Evaluates and factors at another state; the operating point stays. Returns whether the equations give
     /// derivatives.
     pub fn move_to(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<bool, StepError> {
+        self.solve(t, q, v)?;
+        self.load_solution(t, q, v)
+    }
+
+    /// Evaluates and factors at a state; solves for v' and lambda.
+    fn solve(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), StepError> {
         self.v.copy_from_slice(v);
         self.dynamics.solve(t, q, v, |_, _| 0.0)?;
         self.dynamics.evaluate(t, q, v, Need::L);
-        let (vdot, lambda) = (self.dynamics.vdot.clone(), self.dynamics.lambda.clone());
-        self.load(OperatingPoint { t, q, v, vdot: &vdot, lambda: &lambda })
+        Ok(())
+    }
+
+    /// Evaluates K, C and Gdd with the solution; returns true if the equations give them.
+    fn load_solution(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<bool, StepError> {
+        let vdot = std::mem::take(&mut self.dynamics.vdot);
+        let lambda = std::mem::take(&mut self.dynamics.lambda);
+        let known = self.load(OperatingPoint { t, q, v, vdot: &vdot, lambda: &lambda });
+        (self.dynamics.vdot, self.dynamics.lambda) = (vdot, lambda);
+        known
     }
 
     /// Solves for v' and lambda to rounding. Near singular states the error of a plain solution would reappear in K and
@@ -152,11 +178,34 @@ impl<'a> Variation<'a> {
         rows
     }
 
+    /// Returns Gd x, a column each.
+    pub fn gd_times(&self, x: &Matrix) -> Matrix {
+        let Dynamics { structure, terms, .. } = &self.dynamics;
+        let mut rows = Matrix::zeros(structure.g.rows, x.ncols());
+        add_product(&structure.g, &terms.l, x, 1.0, &mut rows);
+        rows
+    }
+
+    /// Returns M x, a column each.
+    pub fn mass_times(&self, x: &Matrix) -> Matrix {
+        let Dynamics { structure, terms, .. } = &self.dynamics;
+        let (n, mut momenta) = (self.len().max(1), Matrix::zeros(x.nrows(), x.ncols()));
+        for (x, momenta) in x.as_slice().chunks_exact(n).zip(momenta.as_mut_slice().chunks_exact_mut(n)) {
+            structure.mass.multiply_symmetric(&terms.mass, x, momenta);
+        }
+        momenta
+    }
+
     /// Returns [v, x] at the velocity of the state, a column each.
     pub fn bracket_with(&self, x: &Matrix) -> Matrix {
-        let mut turned = x.clone();
-        for (from, mut to) in x.column_iter().zip(turned.column_iter_mut()) {
-            self.dynamics.system.bracket(&self.v, from.clone_owned().as_slice(), to.as_mut_slice());
+        self.bracket_of(&self.v, x)
+    }
+
+    /// Returns [v, x], a column each.
+    pub fn bracket_of(&self, v: &[f64], x: &Matrix) -> Matrix {
+        let (n, mut turned) = (self.len().max(1), Matrix::zeros(x.nrows(), x.ncols()));
+        for (from, to) in x.as_slice().chunks_exact(n).zip(turned.as_mut_slice().chunks_exact_mut(n)) {
+            self.dynamics.system.bracket(v, from, to);
         }
         turned
     }
@@ -186,7 +235,7 @@ impl<'a> Variation<'a> {
     /// Returns Z with G Z = 0 and Z^T M Z = I, n_v x k.
     pub(super) fn free_directions(&mut self) -> Result<Matrix> {
         let z = free_directions(&mut self.dynamics).ok_or_else(|| at_state(self.point.t, &StepError::NotFinite))?;
-        let correction = self.correct(&(self.g() * &z))?;
+        let correction = self.correct(&self.g_times(&z))?;
         Ok(z - correction)
     }
 
@@ -199,7 +248,7 @@ impl<'a> Variation<'a> {
     /// Returns df/du, n_v x n_u.
     pub fn inputs(&mut self) -> Matrix {
         let Dynamics { system, scratch, .. } = &mut self.dynamics;
-        let mut forces = Matrix::zeros(self.point.vdot.len(), system.inputs().len());
+        let mut forces = Matrix::zeros(self.point.vdot.len(), self.columns[0]);
         system.input_forces(self.point.t, &self.point.q, &self.point.v, &mut forces, scratch);
         forces
     }
@@ -210,7 +259,7 @@ impl<'a> Variation<'a> {
     /// Equations with outputs but without their derivatives.
     pub fn outputs(&mut self) -> Result<OutputTangent> {
         let system = self.system();
-        let (n, inputs, outputs) = (system.dimensions(), system.inputs().len(), system.columns().len());
+        let (n, [inputs, outputs]) = (system.dimensions(), self.columns);
         let mut tangent = OutputTangent::new(outputs, n.v, n.lambda, inputs);
         let LinearizationPoint { t, q, v, vdot, lambda, .. } = &self.point;
         let at = OperatingPoint { t: *t, q, v, vdot, lambda };
@@ -267,22 +316,17 @@ impl<'a> Variation<'a> {
 
     /// Returns the matrix of [v, .] at a velocity.
     pub fn bracket(&self, v: &[f64]) -> Matrix {
-        let n = self.len();
-        let (mut matrix, mut unit) = (Matrix::zeros(n, n), vec![0.0; n]);
-        for (j, mut column) in matrix.column_iter_mut().enumerate() {
-            unit[j] = 1.0;
-            self.dynamics.system.bracket(v, &unit, column.as_mut_slice());
-            unit[j] = 0.0;
-        }
-        matrix
+        self.bracket_of(v, &Matrix::identity(self.len(), self.len()))
     }
 }
 
 /// Computes sum += factor A x.
 fn add_product(pattern: &Pattern, values: &[f64], x: &Matrix, factor: f64, sum: &mut Matrix) {
-    for (&(i, j), value) in pattern.entries.iter().zip(values) {
-        for column in 0..x.ncols() {
-            sum[(i, column)] += factor * value * x[(j, column)];
+    let (rows, columns) = (pattern.rows.max(1), pattern.cols.max(1));
+    for (x, sum) in x.as_slice().chunks_exact(columns).zip(sum.as_mut_slice().chunks_exact_mut(rows)) {
+        if x.iter().any(|x| *x != 0.0) {
+            let entries = pattern.entries.iter().zip(values).filter(|(_, value)| **value != 0.0);
+            entries.for_each(|(&(i, j), value)| sum[i] += factor * value * x[j]);
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::place::{Cut, Place};
 use super::units::Unit;
 use crate::body::flexible::{Profile, Section};
-use crate::body::{Body, Energy, Frame, Marker, MarkerId, MarkerTable, Quantity, Signal, Switches, Turning};
+use crate::body::{Body, Energy, Frame, Marker, MarkerId, MarkerTable, Probe, Quantity, Signal, Switches, Turning};
 use crate::force::{Beam, Force, Half, Station};
 use crate::joint::Joint;
 use crate::math::{Scalar, Taylor};
@@ -212,6 +212,18 @@ pub enum Measure {
 }
 
 impl Measure {
+    /// True if the value may depend on velocities.
+    pub fn feels_velocity(&self) -> bool {
+        match self {
+            Measure::Signal(signal) => signal.probes.iter().any(Probe::is_rate),
+            Measure::Relative { quantity, .. } => matches!(quantity, Quantity::Velocity(_) | Quantity::Spin(_)),
+            Measure::Distance { rate, .. } => *rate,
+            Measure::Turn { .. } | Measure::Elastic(_) => false,
+            Measure::Reaction { .. } | Measure::Push { .. } | Measure::Tension { .. } => false,
+            _ => true,
+        }
+    }
+
     /// True if the value depends on accelerations.
     pub fn feels_acceleration(&self) -> bool {
         match self {

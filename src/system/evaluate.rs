@@ -1,13 +1,15 @@
 //! M, f, phi, phi', gamma and G at one state: rigid bodies by their poses and the joints between them by closed
 //! formulas, all else by moving frames.
 
-use super::mechanism::{Mechanism, Workspace, of};
+use super::mechanism::{Mechanism, of};
 use super::rigid_joint::RigidJoint;
 use super::rows::JointRows;
 use super::view::gathered;
+use super::workspace::Workspace;
 use super::{Need, Terms};
 use crate::body::{Frame, Freedom, MOST_MARKERS, MarkerId, Pose, Wrench};
 use crate::force::Force;
+use crate::joint::{ClosedForm, Lock};
 use crate::math::{Taylor, Time};
 use crate::scene::{Connection, Model};
 use std::ops::Range;
@@ -16,6 +18,8 @@ use std::ops::Range;
 pub(super) struct RigidParts<const D: usize> {
     /// What the velocities of each body are, if it is rigid.
     pub freedoms: Vec<Option<Freedom>>,
+    /// The translations and rotations that each joint locks, if that is all it does.
+    pub locks: Vec<Option<Lock<D>>>,
     /// Joints with closed formulas.
     pub joints: Vec<RigidJoint<D>>,
     /// Indices of all other joints.
@@ -37,6 +41,7 @@ impl<const D: usize> RigidParts<D> {
             model.joints.iter().zip(rows).map(|(joint, rows)| RigidJoint::new(model, joint, rows)).collect();
         let mut parts = RigidParts {
             freedoms: model.bodies.iter().map(|part| part.body.freedom()).collect(),
+            locks: model.joints.iter().map(|joint| as_lock(joint.element.closed_form())).collect(),
             general_joints: (0..closed.len()).filter(|&joint| closed[joint].is_none()).collect(),
             joints: closed.into_iter().flatten().collect(),
             mass: vec![0.0; masses.last().map_or(0, |last| last.end)],
@@ -88,6 +93,10 @@ impl<const D: usize> Mechanism<D> {
 
     /// Poses of the rigid bodies, and the frames of the markers of all others.
     fn move_bodies(&self, (q, v): (&[f64], &[f64]), work: &mut Workspace<D>) {
+        if !self.rigid.freedoms.iter().all(Option::is_some) && !work.is_at(q, v) {
+            // Only some of the frames are placed.
+            work.remember([&[]; 2]);
+        }
         let Workspace { poses, motion, .. } = work;
         for ((part, freedom), pose) in self.model().bodies.iter().zip(&self.rigid.freedoms).zip(poses) {
             match freedom {
@@ -201,5 +210,12 @@ impl<const D: usize> Mechanism<D> {
                 }
             });
         }
+    }
+}
+
+fn as_lock<const D: usize>(form: Option<ClosedForm<D>>) -> Option<Lock<D>> {
+    match form {
+        Some(ClosedForm::Lock(lock)) => Some(lock),
+        _ => None,
     }
 }

@@ -1,8 +1,9 @@
 //! Generalized forces per unit of each input.
 
-use super::mechanism::{Mechanism, Workspace, of};
+use super::mechanism::{Mechanism, of};
 use super::variation::fixed;
 use super::view::gathered;
+use super::workspace::Workspace;
 use crate::body::{Dual6, MOST_MARKERS, Wrench};
 use crate::math::{Taylor, Time};
 use crate::scene::ForceInput;

@@ -2,7 +2,7 @@
 
 use super::mechanism::of;
 use super::tangent::OperatingPoint;
-use crate::body::{BodyState, cross};
+use crate::body::{cross, dot};
 use crate::scene::Part;
 use nalgebra::DMatrix;
 use std::array::from_fn;
@@ -34,55 +34,38 @@ impl LeviCivita {
 
     /// Sets all matrices to zero.
     pub fn clear(&mut self) {
-        [&mut self.w, &mut self.w_dot, &mut self.mass_dot].into_iter().for_each(|matrix| matrix.fill(0.0));
+        [&mut self.w, &mut self.w_dot, &mut self.mass_dot]
+            .into_iter()
+            .for_each(|matrix| matrix.as_mut_slice().fill(0.0));
     }
 
-    /// A body with constant M: h depends on v alone, and dh/dv is linear in it.
+    /// A body with constant M. Where N = I nothing changes along the motion; else h = w x J w of the angular velocity w
+    /// in the body's axes, and W x = (x x J w + w x J x + J (w x x))/2.
     pub(super) fn add_constant_mass<const D: usize>(&mut self, part: &Part<D>, at: &OperatingPoint) {
-        let q = of(at.q, part, true);
-        let mass = own_mass(part, q);
+        let Some(first) = part.body.turning() else { return };
+        let inertia = inertia(part, of(at.q, part, true), first);
+        let momentum = |w: &[f64; 3]| -> [f64; 3] { from_fn(|i| dot(&inertia[i], w)) };
         for (target, v) in [(&mut self.w, at.v), (&mut self.w_dot, at.vdot)] {
-            let v = of(v, part, false);
-            let slope = velocity_slope(part, q, v) - velocity_slope(part, q, &vec![0.0; v.len()]);
-            let half = (slope + &mass * bracket(part, v)) * 0.5;
-            let mut block = target.view_mut((part.first_v, part.first_v), half.shape());
-            block += half;
+            let w: [f64; 3] = from_fn(|i| v[part.first_v + first + i]);
+            for j in 0..3 {
+                let unit = from_fn(|i| f64::from(u8::from(i == j)));
+                let (turned, changed) = (cross(&unit, &momentum(&w)), cross(&w, &momentum(&unit)));
+                let back = momentum(&cross(&w, &unit));
+                let place = part.first_v + first;
+                (0..3).for_each(|i| target[(place + i, place + j)] += 0.5 * (turned[i] + changed[i] + back[i]));
+            }
         }
     }
 }
 
-fn own_mass<const D: usize>(part: &Part<D>, q: &[f64]) -> DMatrix<f64> {
+/// The block of M that belongs to the angular velocity, whose first component has this index.
+fn inertia<const D: usize>(part: &Part<D>, q: &[f64], first: usize) -> [[f64; 3]; 3] {
     let places = part.body.mass_pattern();
     let mut values = vec![0.0; places.len()];
     part.body.mass(q, &mut values);
-    let mut mass = DMatrix::zeros(part.nv, part.nv);
-    for (&(i, j), value) in places.iter().zip(values) {
-        (mass[(i, j)], mass[(j, i)]) = (value, value);
+    let mut inertia = [[0.0; 3]; 3];
+    for (&(i, j), value) in places.iter().zip(values).filter(|((i, j), _)| *i >= first && *j >= first) {
+        (inertia[i - first][j - first], inertia[j - first][i - first]) = (value, value);
     }
-    mass
-}
-
-/// -df/dv of the body's own forces.
-fn velocity_slope<const D: usize>(part: &Part<D>, q: &[f64], v: &[f64]) -> DMatrix<f64> {
-    let places = part.body.tangent_pattern();
-    let (mut k, mut c) = (vec![0.0; places.len()], vec![0.0; places.len()]);
-    let rest = vec![0.0; v.len()];
-    part.body.tangent(BodyState { q, v, vdot: &rest, gravity: &[0.0; D] }, &mut k, &mut c);
-    let mut slope = DMatrix::zeros(part.nv, part.nv);
-    places.iter().zip(c).for_each(|(&place, value)| slope[place] += value);
-    slope
-}
-
-/// The matrix of [v, .].
-fn bracket<const D: usize>(part: &Part<D>, v: &[f64]) -> DMatrix<f64> {
-    let mut matrix = DMatrix::zeros(part.nv, part.nv);
-    if let Some(first) = part.body.turning() {
-        let w: [f64; 3] = from_fn(|i| v[first + i]);
-        for j in 0..3 {
-            let unit: [f64; 3] = from_fn(|i| f64::from(u8::from(i == j)));
-            let column = cross(&w, &unit);
-            (0..3).for_each(|i| matrix[(first + i, first + j)] = column[i]);
-        }
-    }
-    matrix
+    inertia
 }

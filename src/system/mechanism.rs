@@ -10,10 +10,10 @@ use super::scale::{length_scale, row_scales};
 use super::spin::{Placement, Spin};
 use super::support::Support;
 use super::tangent::{Evaluation, OperatingPoint, Tangent};
-use super::variation::SeededBody;
 use super::view::{Plain, along_motion, gathered};
+use super::workspace::Workspace;
 use super::{Column, Dimensions, Energy, Group, Limited, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
-use crate::body::{Frame, Pose, cross};
+use crate::body::{Frame, cross};
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
 use crate::math::{Rate, Regime, Taylor, Time};
@@ -38,15 +38,6 @@ pub struct Mechanism<const D: usize> {
     pub(super) length: f64,
     limited: Vec<Limited>,
     extents: Vec<Extent<D>>,
-}
-
-pub(super) struct Workspace<const D: usize> {
-    /// Frames of all markers with their velocities, and their accelerations at v' = 0.
-    pub motion: Vec<Frame<Taylor<f64>, D>>,
-    /// Poses of the rigid bodies by the index of the body, in an evaluation; the last is that of the ground.
-    pub poses: Vec<Pose<D>>,
-    pub varied: SeededBody<D>,
-    pub pulled: Vec<f64>,
 }
 
 impl<const D: usize> Mechanism<D> {
@@ -100,30 +91,28 @@ impl<const D: usize> Mechanism<D> {
         see: impl FnOnce(&mut Workspace<D>, Regime) -> R,
     ) -> R {
         self.with_workspace(q, scratch, |work, regime| {
-            self.place(q, v, &[], work);
+            if !work.is_at(q, v) {
+                self.place(q, v, &[], work);
+            }
             see(work, regime)
         })
     }
 
-    /// Calls `see` with the workspace, where only the frames of the ground are valid.
+    /// Calls `see` with the workspace as it was left.
     fn with_workspace<R>(
         &self,
         q: &[f64],
         scratch: &mut Scratch,
         see: impl FnOnce(&mut Workspace<D>, Regime) -> R,
     ) -> R {
-        let make = || {
-            let mut motion: Vec<_> = self.model.ground_frames().map(|frame| frame.map(Taylor::fixed)).collect();
-            motion.resize(self.model.marker_count(), Frame::world());
-            let poses = vec![Pose::ground(); self.model.bodies.len() + 1];
-            Workspace { motion, poses, varied: SeededBody::default(), pulled: Vec::new() }
-        };
+        let make = || Workspace::new(self.model());
         scratch.with(make, |work, regime| see(work, regime.turned(self.turned(q))))
     }
 
     /// Evaluates all frames at (q, v), with the accelerations `vdot` or, where it is empty, those at v' = 0.
     pub(super) fn place(&self, q: &[f64], v: &[f64], vdot: &[f64], work: &mut Workspace<D>) {
         self.model.bodies.iter().for_each(|part| self.place_body(part, (q, v, vdot), &mut work.motion));
+        work.remember(if vdot.is_empty() { [q, v] } else { [&[]; 2] });
     }
 
     pub(super) fn place_body(
@@ -134,12 +123,17 @@ impl<const D: usize> Mechanism<D> {
     ) {
         let frames = &mut motion[part.first_marker..][..part.body.marker_count()];
         let vdot = (!vdot.is_empty()).then(|| of(vdot, part, false));
-        part.body.motion(of(q, part, true), of(v, part, false), vdot, frames);
+        part.body.motion(of(q, part, true), of(v, part, false), vdot, 0, frames);
     }
 
     /// A joint with its rows.
     pub(super) fn placed_joint(&self, joint: usize) -> PlacedJoint<'_, D> {
-        PlacedJoint { mechanism: self, joint: &self.model.joints[joint], rows: &self.joints[joint] }
+        PlacedJoint {
+            mechanism: self,
+            joint: &self.model.joints[joint],
+            lock: self.rigid.locks[joint].as_ref(),
+            rows: &self.joints[joint],
+        }
     }
 
     fn placed_joints(&self) -> impl Iterator<Item = PlacedJoint<'_, D>> {
@@ -209,7 +203,9 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         self.with_workspace(q, scratch, |work, regime| {
             self.write_terms(Time { t, regime }, (q, v), need, work, terms);
             if need.includes(Need::L) {
-                self.place(q, v, &[], work);
+                if !work.is_at(q, v) {
+                    self.place(q, v, &[], work);
+                }
                 let (Workspace { motion, varied, .. }, at) = (work, OperatingPoint { t, q, v, vdot: &[], lambda: &[] });
                 let mut write = |place: usize, slope: Taylor<f64>| terms.l[place] = slope.d;
                 self.placed_joints().for_each(|joint| joint.curvature((&at, regime), motion, varied, &mut write));

@@ -11,6 +11,7 @@ mod evaluate;
 mod input;
 mod levi_civita;
 mod limits;
+mod locked;
 mod mechanism;
 mod output;
 mod output_tangent;
@@ -19,6 +20,7 @@ mod rotating;
 mod rows;
 mod scale;
 mod section;
+mod solid;
 mod spin;
 mod spinning;
 mod states;
@@ -30,6 +32,7 @@ mod tests;
 mod turnings;
 mod variation;
 mod view;
+mod workspace;
 
 pub use equations::Equations;
 #[doc(hidden)]

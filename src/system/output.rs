@@ -1,9 +1,11 @@
 //! Outputs of a scene, written once over any scalar, so that values and derivatives agree.
 
 use super::Scratch;
-use super::mechanism::{Mechanism, Workspace};
+use super::locked::row_gradient;
+use super::mechanism::Mechanism;
 use super::tangent::OperatingPoint;
 use super::view::{Plain, View, gathered};
+use super::workspace::Workspace;
 use crate::body::{Energy, Frame, MOST_MARKERS, MarkerId, Quantity, Wrench, dot, norm, sub, twist_len};
 use crate::force::{Action, Force, ForceOver};
 use crate::joint::{Joint, JointOver, MOST_ROWS, markers_per_pass};
@@ -127,14 +129,25 @@ impl<const D: usize> Mechanism<D> {
         dyn Joint<D>: JointOver<S, D>,
     {
         let rows = self.rows_of_joint(joint);
-        let joint = &self.model().joints[joint];
+        let (joint, lock) = (&self.model().joints[joint], &self.rigid.locks[joint]);
+        let mut wrench = [S::zero(); 6];
+        if let Some(lock) = lock {
+            let frames = [0, 1].map(|slot| view.frame(joint.markers[slot]).map(|x| x.x));
+            let (both, own) = ([&frames[0], &frames[1]], (slot, &frames[slot].r));
+            for (row, multiplier) in rows.enumerate() {
+                let (gradient, lambda) = (row_gradient(lock, both, own, row), view.lambda(multiplier));
+                let torque = &gradient.torque[if D == 2 { 2 } else { 0 }..];
+                let entries = gradient.force.iter().chain(torque);
+                wrench.iter_mut().zip(entries).for_each(|(sum, &entry)| *sum -= lambda * entry);
+            }
+            return wrench;
+        }
         let mut slopes = [[S::zero(); 6]; MOST_ROWS];
         let own = &mut slopes[..rows.len()];
         let (element, time, pass) = (joint.element.as_ref(), view.time().map(S::constant), slot / markers_per_pass(D));
         let gradient = |frames: &[_]| JointOver::<S, D>::gradient(element, frames, time, pass, own);
         gathered(&joint.markers, |marker| view.frame(marker), gradient);
         let first = slot % markers_per_pass(D) * twist_len(D);
-        let mut wrench = [S::zero(); 6];
         for (slope, row) in slopes.iter().zip(rows) {
             let lambda = view.lambda(row);
             let own = wrench.iter_mut().zip(&slope[first..]).take(twist_len(D));

@@ -1,10 +1,11 @@
 //! Derivatives of the outputs with respect to q, v, v', lambda and u.
 
 use super::coupling::Carrier;
-use super::mechanism::{Mechanism, Workspace};
+use super::mechanism::Mechanism;
 use super::tangent::OperatingPoint;
 use super::variation::SeedDirection;
 use super::view::{Seed, SeededView, View};
+use super::workspace::Workspace;
 use crate::body::Dual6;
 use crate::math::Regime;
 use crate::scene::{EnergyPart, Measure, Part};
@@ -35,7 +36,7 @@ impl OutputTangent {
     /// Sets all matrices to zero.
     pub fn clear(&mut self) {
         let all = [&mut self.q, &mut self.v, &mut self.vdot, &mut self.lambda, &mut self.u];
-        all.into_iter().for_each(|matrix| matrix.fill(0.0));
+        all.into_iter().for_each(|matrix| matrix.as_mut_slice().fill(0.0));
     }
 }
 
@@ -52,14 +53,21 @@ impl<const D: usize> Slopes<'_, D> {
     /// Differentiates each output along all that it reads.
     pub fn run(&mut self) {
         self.tangent.clear();
-        let mechanism = self.mechanism;
-        for (row, output) in mechanism.model().outputs.iter().enumerate() {
+        let (mechanism, outputs) = (self.mechanism, &self.mechanism.model().outputs);
+        let mut read = std::mem::take(&mut self.work.read);
+        if read.len() < outputs.len() {
+            read = outputs.iter().map(|output| mechanism.carriers(&output.measure)).collect();
+        }
+        for (row, (output, carriers)) in outputs.iter().zip(&read).enumerate() {
             let scale = output.unit.per_si;
             match &output.measure {
-                Measure::Energy(part) => self.energy(row, *part, scale),
+                Measure::Energy(part) => self.energy(row, *part, carriers, scale),
                 measure => {
-                    let carriers = mechanism.carriers(measure);
-                    self.along_bodies(row, &carriers, |view| mechanism.read(measure, view) * scale);
+                    let value = |view: &SeededView<D>| mechanism.read(measure, view) * scale;
+                    self.along(SeedDirection::Coordinates, row, carriers, value);
+                    if measure.feels_velocity() {
+                        self.along(SeedDirection::Velocities, row, carriers, value);
+                    }
                     if measure.feels_acceleration() {
                         self.along_accelerations(row, measure, scale);
                     }
@@ -68,14 +76,14 @@ impl<const D: usize> Slopes<'_, D> {
                 }
             }
         }
+        self.work.read = read;
     }
 
     /// The energy is a sum over bodies and forces, each of which depends on few bodies.
-    fn energy(&mut self, row: usize, part: EnergyPart, scale: f64) {
+    fn energy(&mut self, row: usize, part: EnergyPart, carriers: &[Carrier], scale: f64) {
         let (mechanism, model) = (self.mechanism, self.mechanism.model());
-        for (index, body) in model.bodies.iter().enumerate() {
-            let own = [whole(index, body)];
-            self.along_bodies(row, &own, |view| part.of(view.energy(body, &model.gravity)) * scale);
+        for (body, own) in model.bodies.iter().zip(carriers.chunks(1)) {
+            self.along_bodies(row, own, |view| part.of(view.energy(body, &model.gravity)) * scale);
         }
         if part != EnergyPart::Kinetic {
             for (force, coupling) in mechanism.couplings.forces.iter().enumerate() {
@@ -113,7 +121,9 @@ impl<const D: usize> Slopes<'_, D> {
         for carrier in carriers {
             let part = &bodies[carrier.body];
             for directions in carrier.velocities.chunks(6) {
-                self.work.varied.vary(along, part, &self.at, directions);
+                let Workspace { varied, motion, .. } = &mut *self.work;
+                varied.vary(along, part, (&self.at, self.mechanism.solid(carrier.body, motion)), directions);
+                varied.vary_state(along, part, &self.at, directions);
                 let value = self.seen(Seed::Body(part), &read);
                 let target = match along {
                     SeedDirection::Coordinates => &mut self.tangent.q,
@@ -165,7 +175,7 @@ fn whole<const D: usize>(body: usize, part: &Part<D>) -> Carrier {
 }
 
 impl<const D: usize> Mechanism<D> {
-    /// The bodies that an output other than an energy reads.
+    /// The bodies that an output reads.
     fn carriers(&self, measure: &Measure) -> Vec<Carrier> {
         let on = |markers: &[usize]| Carrier::all(markers, &self.supports);
         let model = self.model();
@@ -187,7 +197,8 @@ impl<const D: usize> Mechanism<D> {
                 carriers
             }
             Measure::Force(force) => on(&model.forces[*force].markers),
-            Measure::Tension { .. } | Measure::Push { .. } | Measure::Energy(_) => Vec::new(),
+            Measure::Energy(_) => model.bodies.iter().enumerate().map(|(index, part)| whole(index, part)).collect(),
+            Measure::Tension { .. } | Measure::Push { .. } => Vec::new(),
         }
     }
 

@@ -1,16 +1,16 @@
 //! The rows of phi and G that belong to one joint.
 
+use super::locked::write_rates;
 use super::mechanism::{Mechanism, of};
 use super::support::Support;
-use super::variation::{SeedDirection, SeededBody, fixed};
+use super::variation::{SeedDirection, SeededBody};
 use super::view::mapped;
 use super::{OperatingPoint, Terms};
-use crate::body::{Dual6, Frame, MOST_MARKERS, Wrench, twist_len};
-use crate::joint::{Joint, MOST_ROWS, markers_per_pass};
+use crate::body::{Dual6, Frame, Wrench, twist_len};
+use crate::joint::{Joint, Lock, MOST_ROWS, markers_per_pass};
 use crate::math::kkt::Pattern;
 use crate::math::{Rate, Regime, Scalar, Taylor, Time};
 use crate::scene::Connection;
-use std::array::from_fn;
 use std::ops::Range;
 
 /// Rows of a joint in phi, and the places of its entries in G.
@@ -34,6 +34,8 @@ struct Block {
 pub(super) struct PlacedJoint<'a, const D: usize> {
     pub mechanism: &'a Mechanism<D>,
     pub joint: &'a Connection<Box<dyn Joint<D>>>,
+    /// What it locks, if that is all it does.
+    pub lock: Option<&'a Lock<D>>,
     pub rows: &'a JointRows,
 }
 
@@ -141,20 +143,26 @@ impl<const D: usize> PlacedJoint<'_, D> {
     ) {
         for block in &self.rows.blocks {
             let part = &self.mechanism.model().bodies[block.body];
-            let marker = self.joint.markers[block.slot];
-            let velocities = &self.mechanism.supports[marker].velocities;
+            let markers = &self.joint.markers;
+            let velocities = &self.mechanism.supports[markers[block.slot]].velocities;
             let width = velocities.len();
+            if let (Some(lock), Some(solid)) = (self.lock, self.mechanism.solid(block.body, motion)) {
+                let frames = [0, 1].map(|slot| &motion[markers[slot]]);
+                let place = |row: usize, velocity: usize| block.first_entry + row * width + velocity;
+                write_rates(lock, frames, (block.slot, &solid), |row, velocity, rate| {
+                    write(place(row, velocity), rate)
+                });
+                continue;
+            }
             for first in (0..width).step_by(6) {
                 let directions = &velocities[first..width.min(first + 6)];
-                varied.vary(SeedDirection::Coordinates, part, at, directions);
-                let frames: [Frame<Taylor<Dual6>, D>; MOST_MARKERS] = from_fn(|i| match i == block.slot {
-                    true => varied.frames[marker - part.first_marker],
-                    false => fixed(&motion[self.joint.markers[i.min(self.joint.markers.len() - 1)]]),
-                });
+                let solid = self.mechanism.solid(block.body, motion);
+                varied.vary(SeedDirection::Coordinates, part, (at, solid), directions);
+                varied.gather(part, markers, motion, |slot| slot == block.slot);
                 let mut levels = [Taylor::fixed(Dual6::constant(0.0)); MOST_ROWS];
                 let levels = &mut levels[..self.rows.count];
                 let time = Time { t: Taylor::time(at.t), regime };
-                self.joint.element.levels(&frames[..self.joint.markers.len()], time, levels);
+                self.joint.element.levels(&varied.gathered, time, levels);
                 for (row, level) in levels.iter().enumerate() {
                     let place = block.first_entry + row * width + first;
                     for i in 0..directions.len() {

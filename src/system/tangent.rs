@@ -1,13 +1,14 @@
 //! K and C: derivatives of the residual of the equations of motion with respect to q and v.
 
 use super::coupling::{Block, Carrier, Coupling};
-use super::mechanism::{Mechanism, Workspace, of};
-use super::variation::{SeedDirection, fixed};
-use crate::body::{BodyState, Dual6, Frame, MOST_MARKERS, Wrench, twist_len};
-use crate::joint::{MOST_ROWS, markers_per_pass};
+use super::locked::Stiffness;
+use super::mechanism::{Mechanism, of};
+use super::variation::{SeedDirection, SeededBody};
+use super::workspace::Workspace;
+use crate::body::{BodyState, Dual6, Frame, Wrench, twist_len};
+use crate::joint::{Lock, MOST_ROWS, markers_per_pass};
 use crate::math::kkt::Pattern;
 use crate::math::{Regime, Scalar, Taylor, Time};
-use std::array::from_fn;
 
 /// A state with its accelerations and multipliers.
 #[derive(Clone, Copy, Debug)]
@@ -49,7 +50,6 @@ pub(super) struct Evaluation<'a, const D: usize> {
     pub tangent: &'a mut Tangent,
 }
 
-type Wrenches<const D: usize> = [Wrench<Dual6, D>; MOST_MARKERS];
 type Frames<const D: usize> = [Frame<Taylor<Dual6>, D>];
 
 impl<const D: usize> Evaluation<'_, D> {
@@ -68,9 +68,13 @@ impl<const D: usize> Evaluation<'_, D> {
             };
             part.body.tangent(own, &mut self.tangent.k[places.clone()], &mut self.tangent.c[places.clone()]);
         }
-        for ((joint, coupling), rows) in mechanism.model().joints.iter().zip(&couplings.joints).zip(&mechanism.joints) {
+        let joints = mechanism.model().joints.iter().zip(&mechanism.joints).zip(&mechanism.rigid.locks);
+        for (((joint, rows), lock), coupling) in joints.zip(&couplings.joints) {
             let lambda = &self.at.lambda[rows.range()];
-            let reaction = |frames: &Frames<D>, out: &mut Wrenches<D>| {
+            if lock.as_ref().is_some_and(|lock| self.locked(lock, coupling, &joint.markers, lambda)) {
+                continue;
+            }
+            let reaction = |frames: &Frames<D>, out: &mut [Wrench<Dual6, D>]| {
                 for pass in 0..frames.len().div_ceil(markers_per_pass(D)) {
                     let mut slopes = [[Dual6::constant(0.0); 6]; MOST_ROWS];
                     joint.element.gradient(frames, time, pass, &mut slopes[..lambda.len()]);
@@ -81,12 +85,30 @@ impl<const D: usize> Evaluation<'_, D> {
             self.element(coupling, &joint.markers, SeedDirection::Coordinates, 1.0, reaction);
         }
         for (force, coupling) in mechanism.model().forces.iter().zip(&couplings.forces) {
-            let act = |frames: &Frames<D>, out: &mut Wrenches<D>| {
-                force.element.act(frames, time.map(Taylor::running), &mut out[..frames.len()]);
+            let act = |frames: &Frames<D>, out: &mut [Wrench<Dual6, D>]| {
+                force.element.act(frames, time.map(Taylor::running), out);
             };
             self.element(coupling, &force.markers, SeedDirection::Coordinates, -1.0, act);
             self.element(coupling, &force.markers, SeedDirection::Velocities, -1.0, act);
         }
+    }
+
+    /// K of a joint in closed form; returns false where a body of its deforms.
+    fn locked(&mut self, lock: &Lock<D>, coupling: &Coupling, markers: &[usize], lambda: &[f64]) -> bool {
+        let (model, motion) = (self.mechanism.model(), &self.work.motion);
+        let [a, b] = [markers[0], markers[1]].map(|marker| model.markers.bodies[marker]);
+        let solid = |body: Option<usize>| body.and_then(|body| self.mechanism.solid(body, motion));
+        let solids = [solid(a), solid(b)];
+        if solids[0].is_some() != a.is_some() || solids[1].is_some() != b.is_some() {
+            return false;
+        }
+        let number = |body: Option<usize>| coupling.carriers.iter().position(|carrier| Some(carrier.body) == body);
+        let numbers = [number(a), number(b)];
+        let block = |row: usize, column: usize| Some(&coupling.column(numbers[column]?)[numbers[row]?]);
+        let blocks = [[block(0, 0), block(0, 1)], [block(1, 0), block(1, 1)]];
+        let frames = [&motion[markers[0]], &motion[markers[1]]];
+        Stiffness { solids, blocks, k: &mut self.tangent.k }.add(lock, frames, lambda);
+        true
     }
 
     /// The wrenches of one element, differentiated with respect to one of its bodies after the other.
@@ -96,26 +118,22 @@ impl<const D: usize> Evaluation<'_, D> {
         markers: &[usize],
         along: SeedDirection,
         sign: f64,
-        wrenches: impl Fn(&Frames<D>, &mut Wrenches<D>),
+        wrenches: impl Fn(&Frames<D>, &mut [Wrench<Dual6, D>]),
     ) {
         let model = self.mechanism.model();
         for (column, carrier) in coupling.carriers.iter().enumerate() {
             let part = &model.bodies[carrier.body];
             for (pass, directions) in carrier.velocities.chunks(6).enumerate() {
                 let at = OperatingPoint { vdot: &[], ..self.at };
-                self.work.varied.vary(along, part, &at, directions);
-                let frames: [_; MOST_MARKERS] = from_fn(|i| {
-                    let marker = markers[i.min(markers.len() - 1)];
-                    match model.markers.bodies[marker] == Some(carrier.body) {
-                        true => self.work.varied.frames[marker - part.first_marker],
-                        false => fixed(&self.work.motion[marker]),
-                    }
-                });
-                let frames = &frames[..markers.len()];
-                let mut acting = [Wrench::zero(); MOST_MARKERS];
-                wrenches(frames, &mut acting);
+                let Workspace { varied, motion, .. } = &mut *self.work;
+                varied.vary(along, part, (&at, self.mechanism.solid(carrier.body, motion)), directions);
+                varied.gather(part, markers, motion, |slot| model.markers.bodies[markers[slot]] == Some(carrier.body));
+                varied.acting.clear();
+                varied.acting.resize(markers.len(), Wrench::zero());
+                wrenches(&varied.gathered, &mut varied.acting);
                 for (row, block) in coupling.carriers.iter().zip(coupling.column(column)) {
-                    self.pull_back(row, row.body == carrier.body, markers, frames, &acting);
+                    let is_moved = row.body == carrier.body && along == SeedDirection::Coordinates;
+                    self.pull_back(row, (row.body == carrier.body, is_moved), markers);
                     self.add(along, block, 6 * pass, sign);
                 }
             }
@@ -123,33 +141,33 @@ impl<const D: usize> Evaluation<'_, D> {
     }
 
     /// Pulls the wrenches back to generalized forces on the velocities of a carrier, into `varied.f`.
-    fn pull_back(
-        &mut self,
-        row: &Carrier,
-        is_varied: bool,
-        markers: &[usize],
-        frames: &Frames<D>,
-        wrenches: &Wrenches<D>,
-    ) {
+    fn pull_back(&mut self, row: &Carrier, (is_varied, is_moved): (bool, bool), markers: &[usize]) {
         let part = &self.mechanism.model().bodies[row.body];
-        let varied = &mut self.work.varied;
-        varied.f.clear();
-        varied.f.resize(row.velocities.len(), Dual6::fixed(0.0));
-        if !is_varied {
-            varied.rest.clear();
-            varied.rest.extend(of(self.at.q, part, true).iter().map(|&q| Dual6::fixed(q)));
+        let Workspace { varied, motion, .. } = &mut *self.work;
+        let SeededBody { gathered, acting, moved, rest, f, pulled, .. } = varied;
+        f.clear();
+        f.resize(row.velocities.len(), Dual6::fixed(0.0));
+        if let Some(solid) = self.mechanism.solid(row.body, motion) {
+            for held in &row.markers {
+                solid.pull_back(is_moved, &gathered[held.slot].r.map(|x| x.x), &acting[held.slot], f);
+            }
+            return;
         }
-        let q = if is_varied { &varied.moved } else { &varied.rest };
+        if !is_varied {
+            rest.clear();
+            rest.extend(of(self.at.q, part, true).iter().map(|&q| Dual6::fixed(q)));
+        }
+        let q = if is_varied { moved } else { rest };
         for held in &row.markers {
-            let (index, frame) = (markers[held.slot] - part.first_marker, frames[held.slot].map(|x| x.x));
+            let (index, frame) = (markers[held.slot] - part.first_marker, gathered[held.slot].map(|x| x.x));
             if held.places.len() == row.velocities.len() {
-                part.body.pull_back(index, q, &frame, &wrenches[held.slot], &mut varied.f);
+                part.body.pull_back(index, q, &frame, &acting[held.slot], f);
                 continue;
             }
-            varied.pulled.clear();
-            varied.pulled.resize(held.places.len(), Dual6::fixed(0.0));
-            part.body.pull_back(index, q, &frame, &wrenches[held.slot], &mut varied.pulled);
-            held.places.iter().zip(&varied.pulled).for_each(|(&place, &f)| varied.f[place] += f);
+            pulled.clear();
+            pulled.resize(held.places.len(), Dual6::fixed(0.0));
+            part.body.pull_back(index, q, &frame, &acting[held.slot], pulled);
+            held.places.iter().zip(pulled.iter()).for_each(|(&place, &own)| f[place] += own);
         }
     }
 

@@ -1,10 +1,12 @@
 //! Frames of bodies differentiated along velocity directions.
 
 use super::mechanism::of;
+use super::solid::Solid;
 use super::tangent::OperatingPoint;
-use crate::body::{Dual6, Frame};
-use crate::math::Taylor;
+use crate::body::{Dual6, Frame, Wrench};
+use crate::math::{Dual, Taylor};
 use crate::scene::Part;
+use std::slice::from_mut;
 
 /// The quantity that is differentiated with respect to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,10 +19,28 @@ pub(super) enum SeedDirection {
     Accelerations,
 }
 
+impl SeedDirection {
+    /// The derivative of a coordinate that a change along this direction is the first to appear in.
+    #[inline]
+    pub fn level<S>(self, number: &mut Taylor<S>) -> &mut S {
+        match self {
+            SeedDirection::Coordinates => &mut number.x,
+            SeedDirection::Velocities => &mut number.d,
+            SeedDirection::Accelerations => &mut number.dd,
+        }
+    }
+}
+
 /// One body over dual numbers of six of its velocity directions, with memory for the forces that follow.
 #[derive(Default)]
 pub(super) struct SeededBody<const D: usize> {
-    pub frames: Vec<Frame<Taylor<Dual6>, D>>,
+    /// The body, if it is rigid.
+    solid: Option<Solid<D>>,
+    /// Frames of the markers of one element.
+    pub gathered: Vec<Frame<Taylor<Dual6>, D>>,
+    /// Wrenches at these markers.
+    pub acting: Vec<Wrench<Dual6, D>>,
+    along: Option<SeedDirection>,
     /// The body's q, seeded.
     pub moved: Vec<Dual6>,
     /// The body's v, seeded.
@@ -36,10 +56,27 @@ pub(super) struct SeededBody<const D: usize> {
     directions: Vec<Dual6>,
 }
 
+/// Frames of all markers with their motion.
+type Motion<const D: usize> = [Frame<Taylor<f64>, D>];
+
 impl<const D: usize> SeededBody<D> {
-    /// Frames of a body's markers as functions of up to six of the system's velocity directions, which belong to the
-    /// body. Their accelerations are those at v' = 0 where `at.vdot` is empty.
-    pub fn vary(&mut self, along: SeedDirection, part: &Part<D>, at: &OperatingPoint, directions: &[usize]) {
+    /// Seeds a body along up to six of the system's velocity directions, which belong to it; along all if it is `solid`.
+    /// Accelerations are those at v' = 0 where `at.vdot` is empty.
+    pub fn vary(
+        &mut self,
+        along: SeedDirection,
+        part: &Part<D>,
+        (at, solid): (&OperatingPoint, Option<Solid<D>>),
+        directions: &[usize],
+    ) {
+        (self.along, self.solid) = (Some(along), solid);
+        if self.solid.is_none() {
+            self.vary_state(along, part, at, directions);
+        }
+    }
+
+    /// Writes the body's q, v and v' alone, whatever moves with them.
+    pub fn vary_state(&mut self, along: SeedDirection, part: &Part<D>, at: &OperatingPoint, directions: &[usize]) {
         let (q, v) = (of(at.q, part, true), of(at.v, part, false));
         self.directions.clear();
         self.directions.resize(part.nv, Dual6::fixed(0.0));
@@ -58,9 +95,30 @@ impl<const D: usize> SeededBody<D> {
             SeedDirection::Velocities => add(&mut self.moved_v, &self.directions),
             SeedDirection::Accelerations => add(&mut self.moved_vdot, &self.directions),
         }
-        self.frames.resize(part.body.marker_count(), Frame::world());
-        let vdot = (!at.vdot.is_empty()).then_some(self.moved_vdot.as_slice());
-        part.body.motion(&self.moved, &self.moved_v, vdot, &mut self.frames);
+    }
+
+    /// Writes the frame of a marker of the seeded body.
+    pub fn write(&self, part: &Part<D>, marker: usize, motion: &Motion<D>, out: &mut Frame<Taylor<Dual6>, D>) {
+        match (&self.solid, self.along) {
+            (Some(solid), Some(along)) => solid.seed(along, &motion[marker], out),
+            _ => {
+                let (vdot, out) = ((!self.moved_vdot.is_empty()).then_some(&self.moved_vdot[..]), from_mut(out));
+                part.body.motion(&self.moved, &self.moved_v, vdot, marker - part.first_marker, out);
+            }
+        }
+    }
+
+    /// Gathers the frames of an element's markers; those for which `is_seeded` belong to the seeded body.
+    pub fn gather(&mut self, part: &Part<D>, markers: &[usize], motion: &Motion<D>, is_seeded: impl Fn(usize) -> bool) {
+        let mut gathered = std::mem::take(&mut self.gathered);
+        gathered.resize(markers.len(), Frame::world());
+        for (slot, (&marker, out)) in markers.iter().zip(&mut gathered).enumerate() {
+            match is_seeded(slot) {
+                true => self.write(part, marker, motion, out),
+                false => fix(&motion[marker], out),
+            }
+        }
+        self.gathered = gathered;
     }
 }
 
@@ -73,7 +131,21 @@ fn add(to: &mut [Dual6], directions: &[Dual6]) {
     to.iter_mut().zip(directions).for_each(|(to, &direction)| *to += direction);
 }
 
+/// Writes a frame whose derivatives are zero.
+pub(super) fn fix<const D: usize>(frame: &Frame<Taylor<f64>, D>, out: &mut Frame<Taylor<Dual6>, D>) {
+    let fix = |from: &Taylor<f64>, to: &mut Taylor<Dual6>| {
+        for (from, to) in [(from.x, &mut to.x), (from.d, &mut to.d), (from.dd, &mut to.dd)] {
+            *to = Dual { re: from, eps: [0.0; 6] };
+        }
+    };
+    frame.r.iter().zip(&mut out.r).for_each(|(from, to)| fix(from, to));
+    frame.axes.iter().flatten().zip(out.axes.iter_mut().flatten()).for_each(|(from, to)| fix(from, to));
+    fix(&frame.turn, &mut out.turn);
+}
+
 /// A frame whose derivatives are zero.
 pub(super) fn fixed<const D: usize>(frame: &Frame<Taylor<f64>, D>) -> Frame<Taylor<Dual6>, D> {
-    frame.map(|x| Taylor::new(Dual6::fixed(x.x), Dual6::fixed(x.d), Dual6::fixed(x.dd)))
+    let mut out = Frame::world();
+    fix(frame, &mut out);
+    out
 }

@@ -114,14 +114,14 @@ impl<S: Scalar, const D: usize> BodyOver<S, D> for Floating<D> {
         qdot[frame_coordinates(D)..].copy_from_slice(&v[frame_velocities(D)..]);
     }
 
-    fn motion(&self, q: &[S], v: &[S], vdot: Option<&[S]>, out: &mut [Frame<Taylor<S>, D>]) {
+    fn motion(&self, q: &[S], v: &[S], vdot: Option<&[S]>, first: usize, out: &mut [Frame<Taylor<S>, D>]) {
         let (nq, nv) = (frame_coordinates(D), frame_velocities(D));
         let mut path = [Taylor::fixed(S::zero()); 8];
         let rigid = (&q[..nq], &v[..nv], vdot.map(|vdot| &vdot[..nv]));
         coordinate_path(frame_rate::<S, D>, rigid, &mut path[..nq]);
         let own = frame(&path[..nq]);
         let coordinate = |i: usize| Taylor::new(q[nq + i], v[nv + i], vdot.map_or(S::zero(), |vdot| vdot[nv + i]));
-        for ((out, marker), shape) in out.iter_mut().zip(&self.markers).zip(&self.shapes) {
+        for ((out, marker), shape) in out.iter_mut().zip(&self.markers[first..]).zip(&self.shapes[first..]) {
             *out = point::place(&own, shape, marker, coordinate);
         }
     }

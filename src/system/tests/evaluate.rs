@@ -1,6 +1,6 @@
 //! Poses and closed formulas against frames and kernels over Taylor and dual numbers, which define the equations.
 
-use super::{MechanicalSystem, Mechanism, Need, Scratch, Terms};
+use super::super::{MechanicalSystem, Mechanism, Need, Scratch, Terms};
 use crate::scene::{AnyModel, Model, Scene};
 use serde_json::{Map, Value, json};
 

@@ -1,0 +1,144 @@
+//! Joints that lock translations and rotations of two rigid bodies: derivatives in closed form.
+//!
+//! With frames (r, e_i) of marker A and (r, f_j) of marker B, centres c of their bodies and r = c + a, the rows are
+//! products of two vectors, each fixed in one of the bodies or in the world:
+//!
+//! ```text
+//! translations, all:   x_i . (r_B - r_A)     x_i axes of the world
+//! translations, some:  e_i . (r_B - r_A)
+//! rotations in space:  e_i . f_j             in the plane: turn_B - turn_A, with constant derivatives
+//! ```
+//!
+//! Their generic definition is the kernel of [`Lock`], which tests compare with.
+
+use super::coupling::Block;
+use super::solid::Solid;
+use crate::body::{Frame, Wrench, cross, dot, sub};
+use crate::joint::Lock;
+use crate::math::{Scalar, Taylor};
+use std::array::from_fn;
+
+/// Gradient of row `row` with respect to the body that carries marker `slot`, as a wrench (t, m) about its centre c: a
+/// change of the row is t . dc + m . dtheta. With w held, d(phi', phi'')/dq are its rates along the motion, since
+/// what differs is the motion as a whole, translated or turned.
+pub(super) fn row_gradient<S: Scalar, const D: usize>(
+    lock: &Lock<D>,
+    [a, b]: [&Frame<S, D>; 2],
+    (slot, centre): (usize, &[S; D]),
+    row: usize,
+) -> Wrench<S, D> {
+    let sign = if slot == 0 { -1.0 } else { 1.0 };
+    let mut gradient = Wrench::zero();
+    let all = lock.translation.len();
+    if row < all {
+        let point = if all == D { [a, b][slot].r } else { b.r };
+        match all == D {
+            true => gradient.force[row] = S::constant(sign),
+            false => gradient.force = lock.axis(a, lock.translation[row]).map(|e| e * sign),
+        }
+        gradient.torque = cross(&sub(&point, centre), &gradient.force);
+    } else if D == 2 {
+        gradient.torque[2] = S::constant(sign);
+    } else {
+        let (i, j) = lock.rotation[row - all];
+        gradient.torque = cross(&lock.axis(a, i), &lock.axis(b, j)).map(|m| m * -sign);
+    }
+    gradient
+}
+
+/// d(phi, phi', phi'')/dq along the velocities of the body that carries marker `slot`: `write(row, velocity, ..)`.
+pub(super) fn write_rates<const D: usize>(
+    lock: &Lock<D>,
+    frames: [&Frame<Taylor<f64>, D>; 2],
+    (slot, solid): (usize, &Solid<D>),
+    mut write: impl FnMut(usize, usize, Taylor<f64>),
+) {
+    for row in 0..lock.translation.len() + lock.rotation.len() {
+        let gradient = row_gradient(lock, frames, (slot, &solid.centre), row);
+        solid.translations().for_each(|(i, velocity)| write(row, velocity, gradient.force[i]));
+        solid.rotations().for_each(|(k, velocity)| write(row, velocity, solid.about(k, &gradient.torque)));
+    }
+}
+
+/// The two bodies of a joint, with what K = d(G^T lambda)/dq is added to.
+pub(super) struct Stiffness<'a, const D: usize> {
+    /// The bodies of markers A and B; none: the ground.
+    pub solids: [Option<Solid<D>>; 2],
+    /// The blocks of K, `blocks[row][column]`.
+    pub blocks: [[Option<&'a Block>; 2]; 2],
+    pub k: &'a mut [f64],
+}
+
+const A: Option<usize> = Some(0);
+const B: Option<usize> = Some(1);
+
+impl<const D: usize> Stiffness<'_, D> {
+    /// Adds that of a joint with the multipliers `lambda`.
+    pub fn add(&mut self, lock: &Lock<D>, frames: [&Frame<Taylor<f64>, D>; 2], lambda: &[f64]) {
+        let [a, b] = frames.map(|frame| frame.map(|x| x.x));
+        let (pulls, turns) = lambda.split_at(lock.translation.len());
+        let centre = |slot: usize, r: [f64; D]| self.solids[slot].as_ref().map_or(r, Solid::place);
+        let centres = [centre(0, a.r), centre(1, b.r)];
+        if pulls.len() == D {
+            let force: [f64; D] = from_fn(|i| pulls[i]);
+            self.product((None, force), (B, sub(&b.r, &centres[1])));
+            self.product((None, force.map(|f| -f)), (A, sub(&a.r, &centres[0])));
+        } else if !pulls.is_empty() {
+            // e . (r_B - r_A) = e . a_B + e . (c_B - c_A) - e . a_A, of which the last does not change.
+            let mut force = [0.0; D];
+            for (&lambda, &i) in pulls.iter().zip(lock.translation) {
+                force.iter_mut().zip(lock.axis(&a, i)).for_each(|(force, e)| *force += lambda * e);
+            }
+            self.product((A, force), (B, sub(&b.r, &centres[1])));
+            self.shift(&force, &sub(&centres[1], &centres[0]));
+        }
+        if D == 3 {
+            for (&lambda, &(i, j)) in turns.iter().zip(lock.rotation) {
+                self.product((A, lock.axis(&a, i).map(|e| lambda * e)), (B, lock.axis(&b, j)));
+            }
+        }
+    }
+
+    /// x . y, each of the vectors fixed in a body or in the world. With s = x . y, the blocks of (x's body, y's body) are
+    /// y x^T - s, x y^T - s on the diagonal, and s - y x^T, s - x y^T beside it.
+    fn product(&mut self, (own, x): (Option<usize>, [f64; D]), (other, y): (Option<usize>, [f64; D])) {
+        let (s, minus) = (dot(&x, &y), |v: &[f64; D]| v.map(|x| -x));
+        self.turn((own, own), -s, (&y, &x));
+        self.turn((other, other), -s, (&x, &y));
+        self.turn((own, other), s, (&minus(&y), &x));
+        self.turn((other, own), s, (&minus(&x), &y));
+    }
+
+    /// e . (c_B - c_A) with e fixed in A.
+    fn shift(&mut self, e: &[f64; D], gap: &[f64; D]) {
+        self.turn((A, A), -dot(e, gap), (gap, e));
+        for (slot, sign) in [(0, -1.0), (1, 1.0)] {
+            let [Some(turning), Some(moving)] = [&self.solids[0], &self.solids[slot]] else { continue };
+            let [Some(upper), Some(lower)] = [self.blocks[0][slot], self.blocks[slot][0]] else { continue };
+            for (k, angle) in turning.rotations() {
+                let turned = turning.turned(k, e);
+                for (i, place) in moving.translations() {
+                    self.k[upper.first_entry + angle * upper.width + place] += sign * turned[i];
+                    self.k[lower.first_entry + place * lower.width + angle] += sign * turned[i];
+                }
+            }
+        }
+    }
+
+    /// Adds alpha + p q^T, in axes of the world, to a block of rotations.
+    fn turn(&mut self, (row, column): (Option<usize>, Option<usize>), alpha: f64, (p, q): (&[f64; D], &[f64; D])) {
+        let (Some(row), Some(column)) = (row, column) else { return };
+        let [Some(left), Some(right)] = [&self.solids[row], &self.solids[column]] else { return };
+        let Some(block) = self.blocks[row][column] else { return };
+        for (k, i) in left.rotations() {
+            let along = if D == 2 { 0.0 } else { left.along(k, p) };
+            for (l, j) in right.rotations() {
+                let place = &mut self.k[block.first_entry + i * block.width + j];
+                *place += match D {
+                    2 => alpha,
+                    _ => alpha * dot(left.axis(k), right.axis(l)) + along * right.along(l, q),
+                };
+            }
+        }
+    }
+}
