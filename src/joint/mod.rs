@@ -22,7 +22,6 @@ mod spherical;
 mod universal;
 mod weld;
 
-
 use crate::body::{Build, Dual6, ElementKind, Frame, MOST_MARKERS, MarkerId, mistaken, parse_among, twist_len};
 use crate::error::Result;
 use crate::math::{Dual, Rate, Scalar, Taylor, Time};

@@ -1,7 +1,7 @@
 //! Rigid bodies at a state: derivatives along their velocities, without those of their coordinates.
 
-use super::variation::{SeedDirection, fix};
 use super::mechanism::Mechanism;
+use super::variation::{SeedDirection, fix};
 use crate::body::{Dual6, Frame, Freedom, Wrench, cross, sub};
 use crate::math::{Scalar, Taylor};
 use crate::scene::Part;
