@@ -23,8 +23,8 @@ impl MechanicalSystem for Skate {
     fn evaluate(&self, _: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, _: &mut Scratch) {
         let (sin, cos) = q[2].sin_cos();
         if need.includes(Need::MASS) {
-            let places = self.structure().mass.entries;
-            places.iter().zip(&mut terms.mass).for_each(|((i, j), mass)| *mass = f64::from(u8::from(i == j)));
+            let mass = self.structure().mass;
+            mass.entries.iter().zip(&mut terms.mass).for_each(|((i, j), mass)| *mass = f64::from(u8::from(i == j)));
         }
         terms.f.copy_from_slice(&[GRAVITY, 0.0, 0.0]);
         terms.g.copy_from_slice(&[-sin, cos, 0.0]);

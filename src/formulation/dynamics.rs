@@ -132,7 +132,7 @@ impl<'a> Dynamics<'a> {
         Dynamics {
             system,
             terms: Terms::new(system),
-            kkt: SaddlePoint::new(&structure.mass, &structure.g),
+            kkt: SaddlePoint::sharing(&structure.mass, &structure.g, &structure.analysis),
             dropped: Vec::new(),
             rank_tolerance: TRUNCATED_RANK,
             dense_indicator: 0.0,

@@ -136,7 +136,7 @@ impl Metric {
         let entries: Vec<_> = mass.entries.iter().copied().chain(diagonal.iter().map(|&i| (i, i))).collect();
         let [masses, stiffness] = [0; 2].map(|_| vec![0.0; n.v]);
         let values = Vec::with_capacity(entries.len());
-        Metric { pattern: Pattern { entries, ..*mass }, values, diagonal, moving: n.moving(), masses, stiffness }
+        Metric { pattern: Pattern { entries, ..**mass }, values, diagonal, moving: n.moving(), masses, stiffness }
     }
 
     fn take(&mut self, s: f64, mass: &[f64], (tangent, k): (&Pattern, &[f64])) {

@@ -5,6 +5,7 @@ use crate::error::Result;
 use crate::math::kkt::{Pattern, SaddlePoint};
 use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::system::{MechanicalSystem, Need, Structure, Terms};
+use std::sync::Arc;
 
 /// ```text
 /// (M + G^T a G) v' = f + G^T a c,   c = gamma - 2 xi omega phi' - omega^2 phi,   lambda = a (G v' - c)
@@ -61,7 +62,8 @@ pub(super) struct Penalty {
 
 impl Penalty {
     pub fn new(iterations: usize, spec: &MethodSpec, system: &dyn MechanicalSystem) -> Result<Self> {
-        let (n, Structure { mut mass, mut g, .. }) = (system.dimensions(), system.structure());
+        let (n, structure) = (system.dimensions(), system.structure());
+        let [mut mass, mut g] = [structure.mass, structure.g].map(Arc::unwrap_or_clone);
         mass.entries.extend((n.v..n.v + n.lambda).map(|i| (i, i)));
         g.entries.extend((0..n.lambda).map(|row| (row, n.v + row)));
         (mass.rows, mass.cols, g.cols) = (n.v + n.lambda, n.v + n.lambda, n.v + n.lambda);
@@ -136,7 +138,7 @@ impl Formulation for Penalty {
 
 /// The mean diagonal entry of G diag(M)^-1 G^T, over coordinates with mass; 1 where G is zero.
 pub fn mean_compliance(structure: &Structure, terms: &Terms) -> f64 {
-    let Pattern { rows, cols, entries } = &structure.g;
+    let Pattern { rows, cols, entries } = &*structure.g;
     let mut diagonal = vec![0.0; *cols];
     for (&(i, _), mass) in structure.mass.entries.iter().zip(&terms.mass).filter(|((i, j), _)| i == j) {
         diagonal[i] += mass;

@@ -16,8 +16,9 @@ use crate::error::{Error, Result, short};
 use crate::formulation::{Dynamics, StepError};
 use crate::math::kkt::{Pattern, SaddlePoint};
 use crate::math::largest_in;
-use crate::system::{MechanicalSystem, Need, Scratch, Terms};
+use crate::system::{MechanicalSystem, Need, Scratch, Structure, Terms};
 use crate::tolerances::initial as tolerances;
+use std::sync::Arc;
 
 /// Makes a guess consistent at time `t` by the least change in the mass metric that keeps the coordinates named by
 /// `hold`. Flexible bodies in floating frames add their stiffness to the metric.
@@ -59,8 +60,8 @@ struct Metric<'a> {
     terms: Terms,
     scratch: Scratch,
     kkt: SaddlePoint,
-    mass: Pattern,
-    rows: Pattern,
+    mass: Arc<Pattern>,
+    rows: Arc<Pattern>,
     weights: Vec<f64>,
     values: Vec<f64>,
     scales: Vec<f64>,
@@ -69,19 +70,20 @@ struct Metric<'a> {
 
 impl<'a> Metric<'a> {
     fn new(system: &'a dyn MechanicalSystem, held: Vec<usize>) -> Self {
-        let structure = system.structure();
-        let mut rows = structure.g;
-        for &direction in &held {
-            rows.entries.push((rows.rows, direction));
-            rows.rows += 1;
+        let Structure { mass, g: mut rows, mut analysis, .. } = system.structure();
+        if !held.is_empty() {
+            let all = Arc::make_mut(&mut rows);
+            all.entries.extend(held.iter().enumerate().map(|(i, &direction)| (all.rows + i, direction)));
+            all.rows += held.len();
+            analysis = Arc::default();
         }
         Metric {
             terms: Terms::new(system),
             scratch: Scratch::default(),
-            kkt: SaddlePoint::new(&structure.mass, &rows),
-            weights: vec![0.0; structure.mass.entries.len()],
+            kkt: SaddlePoint::sharing(&mass, &rows, &analysis),
+            weights: vec![0.0; mass.entries.len()],
             values: vec![1.0; rows.entries.len()],
-            mass: structure.mass,
+            mass,
             rows,
             scales: system.scales(),
             held,

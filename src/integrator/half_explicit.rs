@@ -126,8 +126,8 @@ impl HalfExplicit {
         self.rate.iter_mut().zip(&dynamics.terms.phi_dot).for_each(|(rate, phi_dot)| *rate = factor * phi_dot);
         let vdot = &mut self.k[i][n.q..n.q + n.v];
         vdot.copy_from_slice(&self.force);
-        let mass = (&dynamics.structure.mass, &dynamics.terms.mass[..]);
-        let g2 = (&dynamics.structure.g, &dynamics.terms.g[..]);
+        let mass = (&*dynamics.structure.mass, &dynamics.terms.mass[..]);
+        let g2 = (&*dynamics.structure.g, &dynamics.terms.g[..]);
         self.solver.solve(&mut dynamics.kkt, mass, g2, &self.rate, vdot, &mut self.lambda)?;
         is_finite(vdot)
     }

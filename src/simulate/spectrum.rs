@@ -2,7 +2,8 @@
 
 use crate::error::short;
 use crate::formulation::{Dynamics, free_directions, reduce};
-use crate::system::{MechanicalSystem, OperatingPoint, Tangent};
+use crate::math::largest;
+use crate::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
 use crate::tolerances::initial::DENSE_EIGENVALUES;
 use crate::tolerances::simulate as tolerances;
 use serde::Serialize;
@@ -68,6 +69,41 @@ impl Spectrum {
 /// The fastest mode alone, by an approximation that is cheap at any size; `None` as for [`Spectrum::at`].
 pub fn fastest(system: &dyn MechanicalSystem, state: OperatingPoint) -> Option<SpectralMode> {
     Frozen::new(system, state)?.fastest()?.last().copied()
+}
+
+/// A rate that no mode exceeds, 1/s, from sums over rows of K, C and M alone; `None` as for [`Spectrum::at`], and where
+/// M has no dominant diagonal.
+///
+/// With M >= D, diagonal, a mode of velocity x has abs(s)^2 <= c abs(s) + k for the norms k and c of D^-1/2 K D^-1/2 and
+/// D^-1/2 C D^-1/2, which are at most the roots of their largest sums over rows times columns; constraints only take
+/// directions away.
+pub fn bound(system: &dyn MechanicalSystem, state: OperatingPoint) -> Option<f64> {
+    let (structure, mut scratch) = (system.structure(), Scratch::default());
+    let (mut terms, mut tangent) = (Terms::new(system), Tangent::new(&structure.tangent));
+    system.evaluate(state.t, state.q, state.v, Need::MASS, &mut terms, &mut scratch);
+    if !system.tangent(state, &mut tangent, &mut scratch) {
+        return None;
+    }
+    let mut least = vec![0.0; structure.mass.rows];
+    for (&(i, j), &mass) in structure.mass.entries.iter().zip(&terms.mass) {
+        match i == j {
+            true => least[i] += mass,
+            false => [i, j].iter().for_each(|&i| least[i] -= mass.abs()),
+        }
+    }
+    let roots: Vec<f64> = least.iter().map(|mass| mass.sqrt()).collect();
+    let norm = |values: &[f64]| {
+        let (mut rows, mut columns) = (vec![0.0; roots.len()], vec![0.0; roots.len()]);
+        for (&(i, j), value) in structure.tangent.entries.iter().zip(values).filter(|(_, value)| **value != 0.0) {
+            let size = value.abs() / (roots[i] * roots[j]);
+            rows[i] += size;
+            columns[j] += size;
+        }
+        (largest(&rows) * largest(&columns)).sqrt()
+    };
+    let (k, c) = (norm(&tangent.k), norm(&tangent.c));
+    let bound = 0.5 * (c + (c * c + 4.0 * k).sqrt());
+    (least.iter().all(|mass| *mass > 0.0) && bound.is_finite()).then_some(bound)
 }
 
 type Matrix = nalgebra::DMatrix<f64>;
@@ -233,6 +269,9 @@ mod tests {
             (100.0, 50.0, [10.0, 0.0]),
             (-100.0, 0.0, [5.0, 0.0]),
         ] {
+            let system = TwoMass { stiffness, damping };
+            let bound = super::bound(&system, STATE).unwrap_or(0.0);
+            assert!(bound >= fast[0].hypot(fast[1]), "{stiffness} {damping}: {bound}");
             for modes in modes(stiffness, damping) {
                 let modes = modes.unwrap_or_default();
                 let last = modes.last().copied().unwrap_or(SpectralMode { decay: f64::NAN, swing: f64::NAN });

@@ -1,7 +1,7 @@
 //! Test before a run whether stability limits the steps of an explicit method.
 
 use super::automatic::rival;
-use super::spectrum::{SpectralMode, Spectrum, fastest};
+use super::spectrum::{SpectralMode, Spectrum, bound, fastest};
 use super::{Method, Span};
 use crate::error::{Warning, short};
 use crate::integrator::Stability;
@@ -42,12 +42,18 @@ pub fn stiffness(
 ) -> Option<Stiffness> {
     let stability = explicit(system, method)?;
     let duration = span.end - span.start;
-    let rough = fastest(system, state)?;
-    // Far below the limits along its own direction and both axes no mode is critical.
-    let least =
-        [(rough.decay, rough.swing), (1.0, 0.0), (0.0, 1.0)].map(|(decay, swing)| stability.limit(decay, swing));
     let longest = method.step.unwrap_or(duration / tolerances::STEPS_FOR_STABILITY);
-    if least.iter().all(|limit| rough.rate() * longest < tolerances::DOUBTED_MODE * limit) {
+    // Far below the limits along its own direction and both axes no mode is critical.
+    let is_slow = |rate: f64, directions: &[(f64, f64)]| {
+        let limits = directions.iter().map(|&(decay, swing)| stability.limit(decay, swing));
+        limits.into_iter().all(|limit| rate * longest < tolerances::DOUBTED_MODE * limit)
+    };
+    let axes = [(1.0, 0.0), (0.0, 1.0)];
+    if bound(system, state).is_some_and(|rate| is_slow(rate, &axes)) {
+        return None;
+    }
+    let rough = fastest(system, state)?;
+    if is_slow(rough.rate(), &[(rough.decay, rough.swing), axes[0], axes[1]]) {
         return None;
     }
     match method.step {

@@ -62,7 +62,7 @@ impl<const D: usize> Mechanism<D> {
         let length = length_scale(&model);
         let mut tangent = Pattern { rows: v, cols: v, entries: Vec::new() };
         let couplings = Couplings::new(&model, &supports, &mut tangent);
-        let structure = Structure { mass, g, tangent };
+        let structure = Structure::new(mass, g, tangent);
         let (limited, extents) = limits(&model);
         Mechanism { model, dimensions, structure, joints, couplings, masses, rigid, supports, length, limited, extents }
     }

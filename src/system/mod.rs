@@ -136,7 +136,7 @@ pub trait MechanicalSystem: Send + Sync {
     /// Places of the values of M (lower triangle) and G. Default: dense, row by row.
     fn structure(&self) -> Structure {
         let n = self.dimensions();
-        Structure { mass: Pattern::lower(n.v), g: Pattern::dense(n.lambda, n.v), tangent: Pattern::dense(n.v, n.v) }
+        Structure::new(Pattern::lower(n.v), Pattern::dense(n.lambda, n.v), Pattern::dense(n.v, n.v))
     }
 
     /// K and C of r = M v' + G^T lambda - f at a state with its v' and lambda, for implicit methods and linear models.

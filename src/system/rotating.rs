@@ -10,6 +10,7 @@ use crate::math::expression::Switch;
 use crate::math::kkt::Pattern;
 use nalgebra::DMatrix;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// The equations of a system in axes that rotate at a constant speed, at an instant at which these coincide with the
 /// world's: an equilibrium in them is a steady rotation. With v and v' measured in the axes,
@@ -29,7 +30,7 @@ pub struct Rotating<'a> {
     placements: Vec<Placement>,
     structure: Structure,
     /// Pattern of K and C of the inner system, and places in our own by row and column.
-    inner_tangent: Pattern,
+    inner_tangent: Arc<Pattern>,
     places: Places,
     /// Places in the pattern of G, by row and column.
     g_places: Places,
@@ -62,7 +63,7 @@ impl<'a> Rotating<'a> {
                 });
             }
         }
-        structure.tangent.entries = entries;
+        structure.tangent = Arc::new(Pattern { entries, ..*structure.tangent });
         let g_places = placed(&structure.g);
         Some(Rotating { inner, t, spin, placements, structure, inner_tangent, places, g_places })
     }

@@ -1,10 +1,11 @@
 //! The terms of the equations at one state.
 
 use super::MechanicalSystem;
-use crate::math::kkt::Pattern;
+use crate::math::kkt::{Analysis, Pattern};
 use crate::math::{Piece, Regime};
 use std::any::Any;
 use std::ops::BitOr;
+use std::sync::Arc;
 
 /// The set of terms that a caller needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,15 +39,25 @@ impl BitOr for Need {
     }
 }
 
-/// Sparsity patterns of M, G, K and C.
+/// Sparsity patterns of M, G, K and C. Clones share them, and what solvers find out about them.
 #[derive(Clone, Debug)]
 pub struct Structure {
     /// Lower triangle of M, n_v x n_v.
-    pub mass: Pattern,
+    pub mass: Arc<Pattern>,
     /// G, n_c x n_v; L has the same places.
-    pub g: Pattern,
+    pub g: Arc<Pattern>,
     /// K and C, n_v x n_v.
-    pub tangent: Pattern,
+    pub tangent: Arc<Pattern>,
+    /// The order of elimination of [M G^T; G 0].
+    pub(crate) analysis: Arc<Analysis>,
+}
+
+impl Structure {
+    /// M by its lower triangle, G, and the places of K and C.
+    pub fn new(mass: Pattern, g: Pattern, tangent: Pattern) -> Self {
+        let [mass, g, tangent] = [mass, g, tangent].map(Arc::new);
+        Structure { mass, g, tangent, analysis: Arc::default() }
+    }
 }
 
 /// The terms of the equations at one state, as named in the crate's documentation.

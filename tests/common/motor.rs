@@ -36,8 +36,8 @@ impl MechanicalSystem for Motor {
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], _: Need, terms: &mut Terms, _: &mut Scratch) {
         let (&[x, y], &[vx, vy, xi]) = (q, v) else { return };
         let i = self.unit * xi;
-        let places = self.structure().mass.entries;
-        places.iter().zip(&mut terms.mass).for_each(|((i, j), mass)| *mass = f64::from(u8::from(i == j)));
+        let mass = self.structure().mass;
+        mass.entries.iter().zip(&mut terms.mass).for_each(|((i, j), mass)| *mass = f64::from(u8::from(i == j)));
         let w = x * vy - y * vx;
         terms.f.copy_from_slice(&[-K * i * y, K * i * x - GRAVITY, rate(t, w, i) / self.unit]);
         terms.power = K * i * w;

@@ -170,6 +170,6 @@ impl MechanicalSystem for Carrier<'_> {
     fn structure(&self) -> Structure {
         let n = self.dimensions.v;
         let empty = |rows| Pattern { rows, cols: n, entries: Vec::new() };
-        Structure { mass: empty(n), g: empty(0), tangent: empty(n) }
+        Structure::new(empty(n), empty(0), empty(n))
     }
 }

@@ -38,13 +38,13 @@ impl Quadratic {
     /// bracket for each direction.
     pub fn new(variation: &Variation) -> Self {
         let (structure, terms) = (&variation.dynamics.structure, &variation.dynamics.terms);
-        let part = |values: &[f64]| Sparse { pattern: structure.tangent.clone(), values: values.to_vec() };
+        let part = |values: &[f64]| Sparse { pattern: Pattern::clone(&structure.tangent), values: values.to_vec() };
         let mass = Sparse::symmetric(&structure.mass, &terms.mass);
         let (k, c, turn) = (part(&variation.tangent.k), part(&variation.tangent.c), turn(variation));
         Quadratic {
             stiffness: k.plus(c.times(&turn)),
             damping: c.plus(mass.times(&turn)),
-            g: Sparse { pattern: structure.g.clone(), values: terms.g.clone() },
+            g: Sparse { pattern: Pattern::clone(&structure.g), values: terms.g.clone() },
             finite: 2 * degrees_of_freedom(&variation.dynamics),
             mass,
             turn,

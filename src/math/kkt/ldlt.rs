@@ -4,6 +4,7 @@ use super::Pattern;
 use super::blocks::{Blocks, Layout};
 use super::pivot::{Quality, Rule};
 use super::supernodal::Supernodal;
+use std::sync::Arc;
 
 /// Multiplications per entry of L from which faer's blocks win, and the number of products of blocks from which the
 /// memory of their list counts.
@@ -17,7 +18,11 @@ pub(super) enum Ldlt {
 
 impl Ldlt {
     pub fn new(mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
-        let layout = Layout::new(mass, g, late);
+        Self::of(Arc::new(Layout::new(mass, g, late)), mass, g, late)
+    }
+
+    /// With a layout that is known.
+    pub fn of(layout: Arc<Layout>, mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
         let is_filled = layout.operations() > FILL_FOR_FAER * layout.len || layout.targets.len() > LONGEST_LIST;
         let faer = if is_filled { Supernodal::new(mass, g, late) } else { None };
         match faer {

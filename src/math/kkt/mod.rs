@@ -23,6 +23,7 @@
 //! one more sparse factorization for any number of them.
 
 mod alike;
+mod analysis;
 mod blocks;
 mod chart;
 mod condition;
@@ -48,6 +49,7 @@ mod tests;
 mod two_jacobian;
 mod unsymmetric;
 
+pub use analysis::Analysis;
 pub use chart::Chart;
 pub use condition::condition_number;
 pub use dependence::{Dependence, DependentRow, dependent_rows};

@@ -33,7 +33,7 @@ pub(super) struct Nearly {
 
 impl Nearly {
     pub fn new(system: &System) -> Self {
-        let Pattern { rows: m, cols: n, entries } = &system.g;
+        let Pattern { rows: m, cols: n, entries } = &*system.g;
         let beside = (0..*n).map(|i| (i, m + i));
         let entries: Vec<_> = entries.iter().map(|&(row, column)| (column, row)).chain(beside).collect();
         let mut g = vec![1.0; entries.len()];

@@ -82,7 +82,7 @@ impl NullSpace {
     }
 
     fn scale_rows(&mut self, system: &System) {
-        let (mass, g) = ((&system.mass, &system.mass_values[..]), (&system.g, &system.g_values[..]));
+        let (mass, g) = ((&*system.mass, &system.mass_values[..]), (&*system.g, &system.g_values[..]));
         scaled_rows(mass, g, &mut self.scale, &mut self.norms, &mut self.qr.values);
     }
 

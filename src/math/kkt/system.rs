@@ -3,23 +3,24 @@
 use super::Pattern;
 use super::ldlt::Ldlt;
 use crate::math::largest;
+use std::sync::Arc;
 
 /// A copy of the patterns and of the values of the last factorization.
 pub(super) struct System {
-    pub mass: Pattern,
-    pub g: Pattern,
+    pub mass: Arc<Pattern>,
+    pub g: Arc<Pattern>,
     pub mass_values: Vec<f64>,
     pub g_values: Vec<f64>,
 }
 
 impl System {
     pub fn new(mass: &Pattern, g: &Pattern) -> Self {
-        System {
-            mass: mass.clone(),
-            g: g.clone(),
-            mass_values: vec![0.0; mass.entries.len()],
-            g_values: vec![0.0; g.entries.len()],
-        }
+        Self::of(Arc::new(mass.clone()), Arc::new(g.clone()))
+    }
+
+    pub fn of(mass: Arc<Pattern>, g: Arc<Pattern>) -> Self {
+        let zeros = |pattern: &Pattern| vec![0.0; pattern.entries.len()];
+        System { mass_values: zeros(&mass), g_values: zeros(&g), mass, g }
     }
 
     /// Stores values; lengths must be those of the patterns.

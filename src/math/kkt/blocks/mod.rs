@@ -18,10 +18,11 @@ mod layout;
 use super::pivot::{Quality, Rule};
 use kernels::{Elimination, Judge, Solution};
 pub(super) use layout::Layout;
+use std::sync::Arc;
 
 /// The factors, with the memory to make them and to solve.
 pub(super) struct Blocks {
-    layout: Layout,
+    layout: Arc<Layout>,
     /// Number of coordinates.
     n: usize,
     /// D, L_jj and X at the places of the layout.
@@ -58,7 +59,7 @@ macro_rules! by_widths {
 
 impl Blocks {
     /// For M and G of the layout, with `n` coordinates.
-    pub fn new(layout: Layout, n: usize) -> Self {
+    pub fn new(layout: Arc<Layout>, n: usize) -> Self {
         let zeros = || vec![0.0; layout.nodes.len()];
         Blocks { n, work: vec![0.0; layout.len], inverse: zeros(), sizes: zeros(), x: zeros(), layout }
     }

@@ -9,9 +9,10 @@ use super::ldlt::Ldlt;
 use super::null_space::NullSpace;
 use super::redundant_rows::RedundantRowSolve;
 use super::system::{System, add};
-use super::{Pattern, Singular};
+use super::{Analysis, Pattern, Singular};
 use crate::tolerances::math as tolerances;
 use orders::Orders;
+use std::sync::Arc;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Way {
@@ -57,8 +58,13 @@ impl SaddlePoint {
     /// Symbolic factorization: M by its lower triangle (or any one of the two places of an entry), G by its entries.
     /// Coordinates without an entry on the diagonal of M are taken as massless.
     pub fn new(mass: &Pattern, g: &Pattern) -> Self {
+        Self::sharing(&Arc::new(mass.clone()), &Arc::new(g.clone()), &Arc::default())
+    }
+
+    /// Like [`Self::new`], with the order of elimination that others found, which must be that of these patterns.
+    pub fn sharing(mass: &Arc<Pattern>, g: &Arc<Pattern>, analysis: &Arc<Analysis>) -> Self {
         let is_shaped = mass.rows == mass.cols && mass.rows == g.cols && mass.is_inside() && g.is_inside();
-        let empty = Pattern::default();
+        let empty = Arc::default();
         let (mass, g) = if is_shaped { (mass, g) } else { (&empty, &empty) };
         let (n, m) = (mass.rows, g.rows);
         let alike = Alike::new(g);
@@ -67,8 +73,8 @@ impl SaddlePoint {
             n,
             m,
             is_shaped,
-            system: System::new(mass, g),
-            fast: (!alike.is_crowded).then(|| Orders::new(mass, g)),
+            system: System::of(mass.clone(), g.clone()),
+            fast: (!alike.is_crowded).then(|| Orders::new(mass, g, analysis.clone())),
             alike,
             kept: None,
             skipping: None,

@@ -1,9 +1,10 @@
 //! Orders of elimination of the fast path, determined by the values of the mass matrix alone.
 
-use super::super::Pattern;
+use super::super::{Analysis, Pattern};
 use super::super::ldlt::Ldlt;
 use super::super::pivot::{Quality, Rule};
 use super::super::system::System;
+use std::sync::Arc;
 
 /// Factors for one pattern of vanishing masses: the same values get the same order, whatever was factored before.
 pub(super) struct Orders {
@@ -18,11 +19,12 @@ pub(super) struct Orders {
     /// Factors with hubs behind their multipliers, and with hubs ahead, used if a multiplier's pivot collapses in the
     /// first. Coordinates without mass are always behind.
     factors: [Option<Ldlt>; 2],
+    analysis: Arc<Analysis>,
     taken: usize,
 }
 
 impl Orders {
-    pub fn new(mass: &Pattern, g: &Pattern) -> Self {
+    pub fn new(mass: &Pattern, g: &Pattern, analysis: Arc<Analysis>) -> Self {
         let entries = mass.entries.iter().enumerate();
         Orders {
             diagonal: entries.filter(|(_, (i, j))| i == j).map(|(entry, (i, _))| (entry, *i)).collect(),
@@ -30,6 +32,7 @@ impl Orders {
             found: vec![true; g.cols],
             hubs: hubs(g),
             factors: [None, None],
+            analysis,
             taken: 0,
         }
     }
@@ -45,7 +48,8 @@ impl Orders {
         for (order, factors) in self.factors.iter_mut().enumerate() {
             let late = |(massless, hub): (&bool, &bool)| *massless || *hub && order == 0;
             let fast = factors.get_or_insert_with(|| {
-                Ldlt::new(m, j, &self.massless.iter().zip(&self.hubs).map(late).collect::<Vec<_>>())
+                let late: Vec<bool> = self.massless.iter().zip(&self.hubs).map(late).collect();
+                Ldlt::of(self.analysis.layout(m, j, &late), m, j, &late)
             });
             match fast.factor(mass, g, Rule::STRICT, skipped) {
                 Ok(quality) => {

@@ -133,7 +133,7 @@ fn both_ways_of_elimination_agree() {
         let mut results = vec![];
         let layout = Layout::new(&sample.mass, &sample.g, &late);
         for mut fast in [
-            Ldlt::Blocks(Box::new(Blocks::new(layout, n))),
+            Ldlt::Blocks(Box::new(Blocks::new(layout.into(), n))),
             Ldlt::Supernodal(Box::new(Supernodal::new(&sample.mass, &sample.g, &late).unwrap())),
         ] {
             let mut skipped = vec![];
