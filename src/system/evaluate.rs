@@ -96,6 +96,7 @@ impl<const D: usize> Mechanism<D> {
         if !self.rigid.freedoms.iter().all(Option::is_some) && !work.is_at(q, v) {
             // Only some of the frames are placed.
             work.remember([&[]; 2]);
+            work.motion.resize(self.model().marker_count(), Frame::world());
         }
         let Workspace { poses, motion, .. } = work;
         for ((part, freedom), pose) in self.model().bodies.iter().zip(&self.rigid.freedoms).zip(poses) {

@@ -111,6 +111,7 @@ impl<const D: usize> Mechanism<D> {
 
     /// Evaluates all frames at (q, v), with the accelerations `vdot` or, where it is empty, those at v' = 0.
     pub(super) fn place(&self, q: &[f64], v: &[f64], vdot: &[f64], work: &mut Workspace<D>) {
+        work.motion.resize(self.model.marker_count(), Frame::world());
         self.model.bodies.iter().for_each(|part| self.place_body(part, (q, v, vdot), &mut work.motion));
         work.remember(if vdot.is_empty() { [q, v] } else { [&[]; 2] });
     }

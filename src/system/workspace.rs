@@ -7,7 +7,8 @@ use crate::math::Taylor;
 use crate::scene::Model;
 
 pub(super) struct Workspace<const D: usize> {
-    /// Frames of all markers with their velocities, and their accelerations at v' = 0.
+    /// Frames of all markers with their velocities, and their accelerations at v' = 0; those of the ground alone as
+    /// long as rigid bodies make do with poses.
     pub motion: Vec<Frame<Taylor<f64>, D>>,
     /// Poses of the rigid bodies by the index of the body, in an evaluation; the last is that of the ground.
     pub poses: Vec<Pose<D>>,
@@ -22,10 +23,8 @@ pub(super) struct Workspace<const D: usize> {
 impl<const D: usize> Workspace<D> {
     /// The frames of the ground, and memory for those of the bodies.
     pub fn new(model: &Model<D>) -> Self {
-        let mut motion: Vec<_> = model.ground_frames().map(|frame| frame.map(Taylor::fixed)).collect();
-        motion.resize(model.marker_count(), Frame::world());
         Workspace {
-            motion,
+            motion: model.ground_frames().map(|frame| frame.map(Taylor::fixed)).collect(),
             poses: vec![Pose::ground(); model.bodies.len() + 1],
             varied: SeededBody::default(),
             pulled: Vec::new(),

@@ -8,8 +8,6 @@ use std::collections::HashMap;
 /// while a sparse factorization would couple all rows of a group.
 pub(super) struct Alike {
     groups: Vec<Group>,
-    /// True if a group has more rows than coordinates, so that some always depend on others.
-    pub is_crowded: bool,
     /// Scratch: orthonormal rows, one after the other, and a row.
     basis: Vec<f64>,
     row: Vec<f64>,
@@ -48,12 +46,16 @@ impl Alike {
         groups.retain(|group| group.rows.len() > 1);
         let most = |size: fn(&Group) -> usize| groups.iter().map(size).max().unwrap_or(0);
         Alike {
-            is_crowded: groups.iter().any(|group| group.rows.len() > group.columns),
             basis: Vec::with_capacity(most(|group| group.columns * group.columns.min(group.rows.len()))),
             row: Vec::with_capacity(most(|group| group.columns)),
             dependent: Vec::with_capacity(groups.iter().map(|group| group.rows.len()).sum()),
             groups,
         }
+    }
+
+    /// True if a group has more rows than coordinates, so that some always depend on others.
+    pub fn is_crowded(&self) -> bool {
+        self.groups.iter().any(|group| group.rows.len() > group.columns)
     }
 
     /// Rows, in order, whose part orthogonal to earlier rows of their group is below `tolerance` after scaling to

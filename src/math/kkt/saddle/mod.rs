@@ -33,7 +33,7 @@ pub struct SaddlePoint {
     m: usize,
     is_shaped: bool,
     system: System,
-    alike: Alike,
+    alike: Option<Alike>,
     /// `None` if some rows always depend on others.
     fast: Option<Orders>,
     kept: Option<Box<Kept>>,
@@ -74,8 +74,8 @@ impl SaddlePoint {
             m,
             is_shaped,
             system: System::of(mass.clone(), g.clone()),
-            fast: (!alike.is_crowded).then(|| Orders::new(mass, g, analysis.clone())),
-            alike,
+            fast: (!alike.is_crowded()).then(|| Orders::new(mass, g, analysis.clone())),
+            alike: None,
             kept: None,
             skipping: None,
             dense: None,
@@ -141,7 +141,8 @@ impl SaddlePoint {
     /// factored.
     fn drops_rows(&mut self, part: Option<f64>) -> Result<bool, Singular> {
         if !self.drops_rows {
-            let rows = self.alike.dependent(&self.system.g_values, self.rank_tolerance);
+            let alike = self.alike.get_or_insert_with(|| Alike::new(&self.system.g));
+            let rows = alike.dependent(&self.system.g_values, self.rank_tolerance);
             if rows.is_empty() {
                 return Ok(false);
             }

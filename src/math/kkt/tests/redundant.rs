@@ -178,7 +178,7 @@ fn copies_of_a_joint_share_its_force() {
     let mut sample = reduced.clone();
     (0..999).for_each(|_| [2, 3].into_iter().for_each(|row| sample.append(&[(row, 1.0)])));
     let mut alike = Alike::new(&sample.g);
-    assert!(alike.is_crowded && !Alike::new(&reduced.g).is_crowded);
+    assert!(alike.is_crowded() && !Alike::new(&reduced.g).is_crowded());
     assert_eq!(alike.dependent(&sample.g_values, 1e-10), (4..2002).collect::<Vec<usize>>());
     let (r1, mut r2) = (random.vector(6), random.vector(4));
     let (a, lambda, _) = solved(&reduced, &r1, &r2);
