@@ -10,7 +10,7 @@ use crate::method_spec::MethodSpec;
 use crate::plot::Figure;
 use crate::prepared::{Overrides, PreparedScene};
 use crate::report::{Folder, Written};
-use crate::scene::{Automatic, Elements};
+use crate::scene::Automatic;
 use crate::simulate::Span;
 use crate::system::Dimensions;
 use clap::{Args, ValueEnum};
@@ -23,6 +23,9 @@ use std::time::Duration;
 pub struct Common {
     #[command(flatten)]
     pub scene: SceneOptions,
+    /// Start at rest, from the static equilibrium that belongs to the scene's start
+    #[arg(long)]
+    pub equilibrium: bool,
     #[command(flatten)]
     pub spec: AutoOption,
     #[command(flatten)]
@@ -171,7 +174,12 @@ pub fn assignment(text: &str) -> Result<(String, Number), String> {
 impl Common {
     /// Returns the scene with its method.
     pub fn load(&self) -> Result<PreparedScene> {
-        self.talk.load(&self.scene.path, &self.method.overrides(&self.scene, self.spec.method))
+        self.talk.load(&self.scene.path, &self.overrides())
+    }
+
+    /// Returns the changes of the scene's settings.
+    pub fn overrides(&self) -> Overrides {
+        Overrides { equilibrium: self.equilibrium, ..self.method.overrides(&self.scene, self.spec.method) }
     }
 
     /// Returns the time span, with as many rows as fit into memory.
@@ -191,8 +199,8 @@ impl MethodOptions {
         let MethodOptions { rtol, atol, step, until, output_step, .. } = *self;
         let [formulation, integrator, projection] =
             [&self.formulation, &self.integrator, &self.projection].map(Clone::clone);
-        let (elements, set) = (Elements::default(), scene.set.clone());
-        Overrides { elements, set, method, formulation, integrator, projection, rtol, atol, step, until, output_step }
+        let (set, rest) = (scene.set.clone(), Overrides::default());
+        Overrides { set, method, formulation, integrator, projection, rtol, atol, step, until, output_step, ..rest }
     }
 }
 

@@ -56,7 +56,7 @@ fn refuse_stabilization(method: &MethodOptions) -> Result<()> {
 /// Loads the scene; with an integrator of the command line and the first formulation it accepts, since the comparison
 /// does not depend on the scene's own.
 fn load(common: &Common) -> Result<PreparedScene> {
-    let mut overrides = common.method.overrides(&common.scene, common.spec.method);
+    let mut overrides = common.overrides();
     if let Some(entry) = overrides.integrator.as_ref().and_then(|spec| integrator::find(spec).ok()) {
         overrides.formulation = entry.accepts().next().map(MethodSpec::named);
         overrides.projection = Some(MethodSpec::named("none"));

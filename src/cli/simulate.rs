@@ -22,7 +22,7 @@ pub struct Args {
     #[arg(long)]
     check_error: bool,
     /// Go on from the end of another run of this scene, its summary.json, to a later --until
-    #[arg(long, value_name = "FILE", conflicts_with = "check_error")]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["check_error", "equilibrium"])]
     start: Option<PathBuf>,
 }
 

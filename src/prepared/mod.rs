@@ -1,8 +1,10 @@
 //! A scene ready to run: its mechanism, a consistent start, and the method of simulation.
 
 mod doubts;
+mod rest;
 
 use doubts::{doubts, explained, of_scene};
+use rest::at_rest;
 
 use crate::error::{Error, Result, Warning, clock};
 use crate::initial::{self, Assembly};
@@ -51,6 +53,8 @@ pub struct Overrides {
     pub elements: Elements,
     /// Values that replace those of the scene's parameters.
     pub set: Vec<(String, Number)>,
+    /// True to start from the static equilibrium that belongs to the scene's start.
+    pub equilibrium: bool,
     /// Automatic choice in place of the scene's formulation, integrator, projection and step.
     pub method: Option<Automatic>,
     /// Formulation in place of the scene's.
@@ -129,9 +133,14 @@ impl PreparedScene {
         let method = settings.method(is_automatic, length).map_err(|error| settings.place(error))?;
         method.check_options(mechanism.system()).map_err(|error| settings.place(error))?;
         let assembly = initial::assemble(mechanism.system(), start, (&scene.q, &scene.v), &scene.hold);
-        let assembly = assembly.map_err(|error| explained(error, of_scene(&mechanism)))?;
+        let mut assembly = assembly.map_err(|error| explained(error, of_scene(&mechanism)))?;
         check_switches(mechanism.system(), start, (&assembly.q, &assembly.v))?;
-        let doubts = doubts(&mechanism, &scene.q, &assembly);
+        let mut doubts = doubts(&mechanism, &scene.q, &assembly);
+        if overrides.equilibrium {
+            let (rest, warnings) = at_rest(mechanism.system(), start, &assembly)?;
+            assembly = rest;
+            doubts.extend(warnings);
+        }
         Ok(PreparedScene {
             doubts,
             name: scene.name,

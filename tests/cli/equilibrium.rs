@@ -77,3 +77,32 @@ fn none_is_a_failed_run() {
     let text = out(&place.run(&["check", "scene.json", "--static"]));
     assert!(text.contains("no static equilibrium at t = 0 s"), "{text}");
 }
+
+#[test]
+fn a_run_can_start_from_it() {
+    let place = Place::new(PENDULUM);
+    let run: Value = serde_json::from_str(&place.done(&["simulate", "scene.json", "--equilibrium", "--json"])).unwrap();
+    let last = &run["final"];
+    // Round-off of the rest position swings on.
+    assert!((last["q"]["rod.y"].as_f64().unwrap() + 0.5).abs() < 1e-12, "{last}");
+    assert!(last["v"].as_object().unwrap().values().all(|v| v.as_f64().unwrap().abs() < 1e-12), "{last}");
+    assert!((last["outputs"]["pin"].as_f64().unwrap() - 9.81).abs() < 1e-9, "{last}");
+    assert_eq!(run["warnings"], Value::Array(Vec::new()));
+    let both = ["simulate", "scene.json", "--equilibrium", "--start", "out/pendulum/summary.json"];
+    assert_eq!(place.run(&both).status.code(), Some(2));
+    // Upright, Newton's method finds the nearest equilibrium at once.
+    let upright = Place::new(
+        PENDULUM.replace(r#""position": [0.5, 0], "angle": 0"#, r#""position": [0, 0.5], "angle": 1.5707963267948966"#),
+    );
+    let output = upright.run(&["drift", "scene.json", "--equilibrium", "--step", "0.05"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(err(&output).contains("is unstable"), "{}", err(&output));
+    let driven = Place::new(PENDULUM.replace(
+        r#"{ "name": "A", "type": "revolute""#,
+        r#"{ "name": "turn", "type": "driver", "between": ["ground.O", "rod"], "coordinate": "angle", "value": "2*t" },
+           { "name": "A", "type": "revolute""#,
+    ));
+    let output = driven.run(&["simulate", "scene.json", "--equilibrium"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    assert!(err(&output).contains("drives move at the start"), "{}", err(&output));
+}

@@ -1,9 +1,9 @@
 //! Orders of elimination of the fast path, determined by the values of the mass matrix alone.
 
-use super::super::{Analysis, Pattern};
 use super::super::ldlt::Ldlt;
 use super::super::pivot::{Quality, Rule};
 use super::super::system::System;
+use super::super::{Analysis, Pattern};
 use std::sync::Arc;
 
 /// Factors for one pattern of vanishing masses: the same values get the same order, whatever was factored before.
