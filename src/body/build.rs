@@ -2,6 +2,7 @@
 
 use super::{Probe, Signal, Turned, Turning};
 use crate::error::{Error, Result, Warning, nearest, short, suggest};
+use crate::math::Thresholds;
 use crate::math::expression::{Expression, Number, Parameters, Switch, TimeFunction};
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -249,7 +250,7 @@ impl<const D: usize> Build<'_, D> {
     /// gives the side of zero whose law applies within a step: 0 below, 2 above.
     pub fn switch(&self) -> usize {
         let all = &mut self.switches.borrow_mut().all;
-        all.push(Switch { thresholds: vec![0.0], of_time: None });
+        all.push(Switch { thresholds: Thresholds::At(vec![0.0]), of_time: None });
         all.len() - 1
     }
 

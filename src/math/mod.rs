@@ -25,7 +25,7 @@ pub use dual::Rate;
 #[doc(hidden)]
 pub use interval::Interval;
 #[doc(hidden)]
-pub use regime::{Piece, piece_of};
+pub use regime::{Piece, Thresholds, piece_of, piece_of_whole, whole_below};
 pub use regime::{Regime, Time};
 pub use scalar::Scalar;
 #[doc(hidden)]

@@ -25,6 +25,56 @@ pub fn piece_of(argument: f64, count: usize, threshold: impl Fn(usize) -> f64) -
     Some(2 * low as Piece + Piece::from(is_at))
 }
 
+/// The whole numbers that are thresholds are below this.
+const MOST_WHOLE: f64 = (1 << 29) as f64;
+
+/// The piece of an argument among the whole numbers, c_k = k - 2^29; `None` for NaN and beyond 2^29.
+pub fn piece_of_whole(argument: f64) -> Option<Piece> {
+    let below = argument.floor();
+    let is_between = Piece::from(below != argument);
+    (below.abs() < MOST_WHOLE).then(|| 2 * (below + MOST_WHOLE) as Piece + 1 + is_between)
+}
+
+/// The largest whole number that is not above the arguments of a piece.
+pub fn whole_below(piece: Piece) -> f64 {
+    f64::from(piece.saturating_sub(1) / 2) - MOST_WHOLE
+}
+
+/// The arguments at which a function changes its form, c_0 < c_1 < ...
+#[derive(Clone, Debug, PartialEq)]
+pub enum Thresholds {
+    /// These.
+    At(Vec<f64>),
+    /// The whole numbers, see [`piece_of_whole`].
+    Whole,
+}
+
+impl Thresholds {
+    /// c_k; `None` beyond the last one.
+    pub fn get(&self, k: usize) -> Option<f64> {
+        match self {
+            Thresholds::At(all) => all.get(k).copied(),
+            Thresholds::Whole => Some(k as f64 - MOST_WHOLE).filter(|whole| *whole < MOST_WHOLE),
+        }
+    }
+
+    /// The piece of an argument; `None` where it has none, as for NaN.
+    pub fn piece(&self, argument: f64) -> Option<Piece> {
+        match self {
+            Thresholds::At(all) => piece_of(argument, all.len(), |k| all[k]),
+            Thresholds::Whole => piece_of_whole(argument),
+        }
+    }
+
+    /// The number k of the threshold nearest to an argument, and c_k.
+    pub fn nearest(&self, argument: f64) -> Option<(usize, f64)> {
+        let next = self.piece(argument)? as usize / 2;
+        let around = [next.checked_sub(1), Some(next)].into_iter().flatten();
+        let known = around.filter_map(|k| Some((k, self.get(k)?)));
+        known.min_by(|(_, a), (_, b)| (a - argument).abs().total_cmp(&(b - argument).abs()))
+    }
+}
+
 /// Discrete state of an evaluation: the piece of each function of a scene, by the number of its switching function, or
 /// none, and each takes the piece of its argument; and the values of the counted angles in space, rad, by the number of
 /// their
@@ -91,7 +141,7 @@ impl<'a, S: Scalar> Time<'a, S> {
 
 #[cfg(test)]
 mod tests {
-    use super::piece_of;
+    use super::{Thresholds, piece_of, piece_of_whole, whole_below};
 
     #[test]
     fn pieces_are_counted_through_thresholds() {
@@ -99,5 +149,11 @@ mod tests {
         let found = [-1.0, 0.0, -0.0, 0.5, 1.0, 2.0].map(piece);
         assert_eq!(found, [0, 1, 1, 2, 3, 4].map(Some));
         assert_eq!(piece(f64::NAN), None);
+        for x in [-2.5, -2.0, -0.0, 0.0, 0.7, 3.0, 1e8 + 0.5] {
+            assert_eq!(piece_of_whole(x).map(whole_below), Some(x.floor()));
+        }
+        assert_eq!([f64::NAN, 1e9, f64::INFINITY].map(piece_of_whole), [None; 3]);
+        let nearest = |x| Thresholds::Whole.nearest(x).map(|(_, threshold)| threshold);
+        assert_eq!([1.4, 1.6, -2.0].map(nearest), [1.0, 2.0, -2.0].map(Some));
     }
 }

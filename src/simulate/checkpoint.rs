@@ -6,6 +6,7 @@ use super::{Method, Outcome, Run, Sink, Span};
 use crate::error::{Error, Failure, Result};
 use crate::formulation::Statistics;
 use crate::math::Piece;
+use crate::math::expression::Switch;
 use crate::system::{MechanicalSystem, OperatingPoint};
 use serde::{Deserialize, Serialize};
 
@@ -101,7 +102,8 @@ impl Checkpoint {
     /// True if the dimensions agree with those of the system.
     fn fits(&self, system: &dyn MechanicalSystem) -> bool {
         let (n, switches) = (system.dimensions(), system.switches());
-        let are_pieces = self.pieces.iter().zip(switches).all(|(piece, s)| *piece as usize <= 2 * s.thresholds.len());
+        let exists = |piece: usize, s: &Switch| piece < 2 || s.thresholds.get(piece.div_ceil(2) - 1).is_some();
+        let are_pieces = self.pieces.iter().zip(switches).all(|(&piece, switch)| exists(piece as usize, switch));
         let lengths = [self.y.len(), self.turned_at.len(), self.pieces.len(), self.turned.len()];
         let all = n.q + n.v + 1;
         lengths == [all, all, switches.len(), switches.len()]

@@ -18,6 +18,8 @@ fn pushes() -> Vec<(String, f64)> {
         push("max(0, 1 - abs(t - 3.21)/0.0005)*1000", 0.5),
         push("step(t - 3)*step(3.001 - t)*500 + min(t, 2)", 18.5),
         push("smoothstep((t - 3)/1e-4) - smoothstep((t - 3.5)/1e-4)", 0.5),
+        push("if(mod(t, 0.3) < 0.001, 1000, 0)", 34.0),
+        push("floor(t/2)*mod(t, 2)/2", 10.0),
         push("abs(sin(3*t))", 6.0 + (1.0 - (30.0 - 9.0 * PI).cos()) / 3.0),
         push("1000*exp(-((t - 7.77)/0.0012)^2)", gauss(1000.0, 0.0012)),
         push("0.3*t + 1000*exp(-((t - 7.77)/0.0012)^2)", 15.0 + gauss(1000.0, 0.0012)),

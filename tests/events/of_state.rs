@@ -54,6 +54,27 @@ fn a_bouncing_mass_keeps_its_time() {
     }
 }
 
+/// A spring to the middle of each metre, which pulls anew from the other side where the next one begins: it does no work
+/// over a metre, so that each takes the same time.
+#[test]
+fn a_cycle_of_the_state_is_followed() {
+    let scene = parse(
+        r#"{ "name": "stair", "dimension": 2,
+            "bodies": [{ "name": "m", "type": "point_mass", "mass": 1, "initial": { "velocity": [3, 0] } }],
+            "forces": [{ "name": "stair", "type": "applied_force", "at": "m", "force": ["4 - 8*mod(m.x, 1)", 0] }],
+            "simulation": { "t_end": 5 } }"#,
+    );
+    // x - 1/2 = a sin(w t - p) with w^2 = 8, from -1/2 with the speed 3.
+    let w = 8f64.sqrt();
+    let metre = 2.0 * (0.5f64 * w / 3.0).atan() / w;
+    for names in [["index1", "dop853", "none"], ["index1", "radau_iia", "none"], ["index1", "dopri5", "none"]] {
+        let (outcome, _) = attempt(&scene, &method(names, 1e-10), 20.0 * metre);
+        assert_eq!(outcome.failure, None, "{names:?}");
+        // Twenty passages, each with the error of a step.
+        assert!((outcome.q[0] - 20.0).abs() < 1e-7, "{names:?}: {}", outcome.q[0]);
+    }
+}
+
 /// Fixed steps end at the contacts too, and keep their order through them.
 #[test]
 fn the_order_is_kept_through_contacts() {

@@ -18,7 +18,7 @@ pub(super) enum Form {
 }
 
 /// All functions, in the order in which the documentation names them.
-pub(super) const FUNCTIONS: [(&str, Form); 25] = [
+pub(super) const FUNCTIONS: [(&str, Form); 27] = [
     ("sin", Form::One(One::Sin)),
     ("cos", Form::One(One::Cos)),
     ("tan", Form::One(One::Tan)),
@@ -37,6 +37,8 @@ pub(super) const FUNCTIONS: [(&str, Form); 25] = [
     ("sign", Form::One(One::Sign)),
     ("step", Form::One(One::Step)),
     ("smoothstep", Form::One(One::Smoothstep)),
+    ("floor", Form::One(One::Floor)),
+    ("mod", Form::Two(Two::Mod)),
     ("atan2", Form::Two(Two::Atan2)),
     ("pow", Form::Two(Two::Pow)),
     ("min", Form::Many(Two::Min)),
@@ -94,6 +96,7 @@ impl Form {
             Form::If => Some("write `if(condition, a, b)`"),
             Form::Table => Some("write `table(x, x0, y0, x1, y1)`"),
             Form::Two(Two::Atan2) => Some("write `atan2(y, x)`"),
+            Form::Two(Two::Mod) => Some("write `mod(a, b)`"),
             _ => None,
         }
     }

@@ -37,14 +37,16 @@
 //! | `hypot(a, b)`                           | sqrt(a^2 + b^2), with zero derivatives at the origin              |
 //! | `sign(x)`                               | -1, 0, 1                                                          |
 //! | `step(x)`                               | 0 for x < 0, 1 for x >= 0                                         |
+//! | `floor(x)`                              | largest whole number <= x; no value beyond 2^29                   |
+//! | `mod(a, b)`                             | a - b floor(a/b), from 0 to b: a cycle                            |
 //! | `smoothstep(x)`                         | 0 for x <= 0, 1 for x >= 1, 6 x^5 - 15 x^4 + 10 x^3 between: C2   |
 //! | `if(c, a, b)`                           | `a` where `c` is true, otherwise `b`                              |
 //! | `table(x, x0, y0, x1, y1, ...)`         | straight lines through two or more points, `y` constant outside   |
 //!
 //! The points of a table are constants with increasing `x`. At a point the slope is that of the line to its right.
 //!
-//! `abs`, `min`, `max`, `sign`, `step`, `smoothstep`, comparisons and tables change their form where an argument passes
-//! a threshold: see [`Switch`].
+//! `abs`, `min`, `max`, `sign`, `step`, `smoothstep`, `floor`, `mod`, comparisons and tables change their form where an
+//! argument passes a threshold: see [`Switch`].
 //!
 //! `x^n` with a constant whole n takes any x, and `0^0` is 1. Every other power wants x >= 0 and is not a number for
 //! x < 0. Only the chosen one of `if`'s two values counts: the other may be infinite or not a number.

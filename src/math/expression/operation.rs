@@ -8,7 +8,7 @@
 //! a function that has underflowed is constant, and a root of a constant zero is constant. NaN propagates through
 //! every operation, comparisons included (but `x^0` is 1 for any x), so that it is detected where the result is used.
 
-use crate::math::{Piece, Scalar, piece_of};
+use crate::math::{Piece, Scalar, Thresholds, piece_of, piece_of_whole, whole_below};
 
 /// An operation on one number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +37,7 @@ pub(super) enum One {
     Sign,
     Step,
     Smoothstep,
+    Floor,
 }
 
 /// An operation on two numbers.
@@ -59,17 +60,37 @@ pub(super) enum Two {
     Min,
     Max,
     Hypot,
+    /// a - b floor(a/b), of the sign of b.
+    Mod,
 }
 
 impl One {
-    /// Arguments at which the form changes; most operations have none.
+    /// True if the form changes with the argument.
     #[inline]
-    pub fn thresholds(self) -> &'static [f64] {
+    pub fn is_piecewise(self) -> bool {
+        self == One::Floor || !self.changes().is_empty()
+    }
+
+    /// Arguments at which the form changes; most operations have none.
+    pub fn thresholds(self) -> Thresholds {
+        if self == One::Floor { Thresholds::Whole } else { Thresholds::At(self.changes().to_vec()) }
+    }
+
+    /// The thresholds that are listed.
+    #[inline]
+    fn changes(self) -> &'static [f64] {
         match self {
             One::Abs | One::Sign | One::Step => &[0.0],
             One::Smoothstep => &[0.0, 1.0],
             _ => &[],
         }
+    }
+
+    /// The piece of an argument; `None` where it has none, as for NaN.
+    #[inline]
+    pub fn piece(self, x: f64) -> Option<Piece> {
+        let changes = self.changes();
+        if self == One::Floor { piece_of_whole(x) } else { piece_of(x, changes.len(), |k| changes[k]) }
     }
 
     /// The operation on a piece of its form.
@@ -82,6 +103,7 @@ impl One {
             (One::Step, 0) | (One::Smoothstep, 0 | 1) => S::zero(),
             (One::Smoothstep, 2) => smoothstep(x),
             (One::Step | One::Smoothstep, _) => S::one(),
+            (One::Floor, _) => S::constant(whole_below(piece)),
             (smooth, _) => smooth.apply(x),
         }
     }
@@ -89,9 +111,8 @@ impl One {
     #[inline]
     pub fn apply<S: Scalar>(self, x: S) -> S {
         match self {
-            One::Abs | One::Sign | One::Step | One::Smoothstep => {
-                let thresholds = self.thresholds();
-                piece_of(x.value(), thresholds.len(), |k| thresholds[k]).map_or(x, |piece| self.on(piece, x))
+            One::Abs | One::Sign | One::Step | One::Smoothstep | One::Floor => {
+                self.piece(x.value()).map_or(S::constant(f64::NAN), |piece| self.on(piece, x))
             }
             One::Neg => -x,
             One::Not => truth(x.value() == 0.0, x, x),
@@ -117,21 +138,35 @@ impl One {
 }
 
 impl Two {
-    /// True if the form changes where both operands are equal; a - b is then the argument, and zero the threshold.
+    /// True if the form changes with the operands: where both are equal, or for `mod` where a/b is whole.
     #[inline]
-    pub fn compares(self) -> bool {
-        use Two::{AtLeast, AtMost, Equal, Greater, Less, Max, Min, Unequal};
-        matches!(self, Less | AtMost | Greater | AtLeast | Equal | Unequal | Min | Max)
+    pub fn is_piecewise(self) -> bool {
+        use Two::{AtLeast, AtMost, Equal, Greater, Less, Max, Min, Mod, Unequal};
+        matches!(self, Less | AtMost | Greater | AtLeast | Equal | Unequal | Min | Max | Mod)
     }
 
-    /// The piece of a comparing operation; `None` if one operand is NaN.
+    /// The [`argument`](Self::argument)s at which the form changes.
+    pub fn thresholds(self) -> Thresholds {
+        if self == Two::Mod { Thresholds::Whole } else { Thresholds::At(vec![0.0]) }
+    }
+
+    /// The argument of a piecewise operation.
     #[inline]
-    pub fn piece<S: Scalar>(a: S, b: S) -> Option<Piece> {
+    pub fn argument<S: Scalar>(self, a: S, b: S) -> S {
+        if self == Two::Mod { quotient(a, b) } else { a - b }
+    }
+
+    /// The piece of a piecewise operation; `None` if one operand is NaN.
+    #[inline]
+    pub fn piece<S: Scalar>(self, a: S, b: S) -> Option<Piece> {
+        if self == Two::Mod {
+            return piece_of_whole(a.value() / b.value());
+        }
         // Not by the difference, since infinities compare too.
         a.value().partial_cmp(&b.value()).map(|order| (order as i8 + 1) as Piece)
     }
 
-    /// A comparing operation on a given piece: 0 for a < b, 1 for a = b, 2 for a > b.
+    /// A piecewise operation on a given piece: 0 for a < b, 1 for a = b, 2 for a > b, but for `mod`.
     #[inline]
     pub fn on<S: Scalar>(self, piece: Piece, a: S, b: S) -> S {
         let truth = |holds: bool| S::constant(f64::from(u8::from(holds)));
@@ -156,6 +191,7 @@ impl Two {
                     a
                 }
             }
+            Two::Mod => a - b * whole_below(piece),
             smooth => smooth.apply(a, b),
         }
     }
@@ -175,7 +211,7 @@ impl Two {
             // Adding zero makes -0 into 0: the angle of the negative x axis is pi, never -pi.
             Two::Atan2 => S::atan2(a + 0.0, b),
             Two::Hypot => hypot(a, b),
-            compares => Self::piece(a, b).map_or(S::constant(f64::NAN), |piece| compares.on(piece, a, b)),
+            compares => self.piece(a, b).map_or(S::constant(f64::NAN), |piece| compares.on(piece, a, b)),
         }
     }
 }
@@ -300,10 +336,13 @@ mod tests {
             Sign,
             Step,
             Smoothstep,
+            Floor,
         ];
         one.iter().for_each(|f| assert!(f.apply(f64::NAN).is_nan(), "{f:?}"));
-        let two =
-            [Add, Sub, Mul, Div, Pow, Less, AtMost, Greater, AtLeast, Equal, Unequal, And, Or, Atan2, Min, Max, Hypot];
+        let two = [
+            Add, Sub, Mul, Div, Pow, Less, AtMost, Greater, AtLeast, Equal, Unequal, And, Or, Atan2, Min, Max, Hypot,
+            Mod,
+        ];
         for f in two {
             assert!(f.apply(f64::NAN, 0.0).is_nan() && f.apply(1.0, f64::NAN).is_nan(), "{f:?}");
             assert!(f.apply(f64::NAN, 2.0).is_nan() && f.apply(2.0, f64::NAN).is_nan(), "{f:?}");

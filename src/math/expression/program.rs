@@ -150,17 +150,16 @@ impl Program {
             stack[top] = match *op {
                 Op::Constant(value) => S::constant(value),
                 Op::Variable(index) => variables[index],
-                Op::One(function) if OWN || function.thresholds().is_empty() => function.apply(stack[top]),
-                Op::Two(function) if OWN || !function.compares() => function.apply(stack[top], stack[height]),
+                Op::One(function) if OWN || !function.is_piecewise() => function.apply(stack[top]),
+                Op::Two(function) if OWN || !function.is_piecewise() => function.apply(stack[top], stack[height]),
                 Op::Table(index) if OWN => self.tables[index].apply(stack[top]),
                 Op::One(function) => {
-                    let (x, thresholds) = (stack[top], function.thresholds());
-                    let own = piece_of(x.value(), thresholds.len(), |k| thresholds[k]);
-                    chosen(own, x).map_or(x, |piece| function.on(piece, x))
+                    let x = stack[top];
+                    chosen(function.piece(x.value()), x).map_or(S::constant(f64::NAN), |piece| function.on(piece, x))
                 }
                 Op::Two(function) => {
                     let (x, y) = (stack[top], stack[height]);
-                    let piece = chosen(Two::piece(x, y), x - y);
+                    let piece = chosen(function.piece(x, y), function.argument(x, y));
                     piece.map_or(S::constant(f64::NAN), |piece| function.on(piece, x, y))
                 }
                 Op::Table(index) => {

@@ -3,7 +3,7 @@
 use super::Expression;
 use super::operation::{One, Two};
 use super::program::{Op, Program};
-use crate::math::{Regime, Scalar};
+use crate::math::{Regime, Scalar, Thresholds};
 use std::ops::Range;
 
 /// A part of an expression that depends on t alone.
@@ -25,8 +25,8 @@ impl TimeFunction {
 /// the thresholds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Switch {
-    /// Thresholds, increasing.
-    pub thresholds: Vec<f64>,
+    /// Arguments at which the form changes.
+    pub thresholds: Thresholds,
     /// The argument, if it depends on t alone.
     pub of_time: Option<TimeFunction>,
 }
@@ -112,18 +112,19 @@ impl Expression {
 impl Program {
     fn is_switch(&self, op: Op) -> bool {
         match op {
-            Op::One(function) => !function.thresholds().is_empty(),
-            Op::Two(function) => function.compares(),
+            Op::One(function) => function.is_piecewise(),
+            Op::Two(function) => function.is_piecewise(),
             Op::Table(_) => true,
             _ => false,
         }
     }
 
-    fn thresholds(&self, op: Op) -> Vec<f64> {
+    fn thresholds(&self, op: Op) -> Thresholds {
         match op {
-            Op::One(function) => function.thresholds().to_vec(),
-            Op::Table(index) => self.tables[index].thresholds(),
-            _ => vec![0.0],
+            Op::One(function) => function.thresholds(),
+            Op::Two(function) => function.thresholds(),
+            Op::Table(index) => Thresholds::At(self.tables[index].thresholds()),
+            _ => Thresholds::At(Vec::new()),
         }
     }
 
@@ -131,13 +132,14 @@ impl Program {
         self.ops[..end].iter().filter(|op| self.is_switch(**op)).count()
     }
 
-    /// The argument of a piecewise operation: its operand, or the difference of both.
+    /// The argument of a piecewise operation: its operand, or the difference or quotient of both.
     fn argument(&self, op: Op, operands: &[Operand], number: usize) -> Option<TimeFunction> {
         let range = operands.first()?.range.start..operands.last()?.range.end;
         let first = number - self.count_switches(range.end) + self.count_switches(range.start);
         let mut program = self.part(range)?;
-        if let Op::Two(_) = op {
-            program = Program::new([program.ops, vec![Op::Two(Two::Sub)]].concat(), program.tables)?;
+        if let Op::Two(function) = op {
+            let of_both = if function == Two::Mod { Two::Div } else { Two::Sub };
+            program = Program::new([program.ops, vec![Op::Two(of_both)]].concat(), program.tables)?;
         }
         Some(TimeFunction { program, first })
     }

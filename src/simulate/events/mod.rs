@@ -12,7 +12,7 @@ mod watch;
 pub use timetable::Timetable;
 
 use crate::math::expression::Switch;
-use crate::math::{Piece, Rate, piece_of};
+use crate::math::{Piece, Rate};
 use crate::system::{MechanicalSystem, OperatingPoint, Scratch};
 use crate::tolerances::simulate as tolerances;
 use range::{Range, first_out};
@@ -96,8 +96,7 @@ impl<'a> Events<'a> {
             let before = self.pieces.clone();
             self.start_at(at);
             for &number in &self.of_state {
-                let thresholds = &self.switches[number].thresholds;
-                let piece = piece_of(self.start[number].re, thresholds.len(), |k| thresholds[k]);
+                let piece = self.switches[number].thresholds.piece(self.start[number].re);
                 self.pieces[number] = piece.unwrap_or(0);
             }
             if self.pieces == before {

@@ -1,6 +1,6 @@
 //! The range of an argument on one piece of a function, and the point at which it is left.
 
-use crate::math::{Piece, Rate};
+use crate::math::{Piece, Rate, Thresholds};
 
 /// An open interval between two neighbouring thresholds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,10 +11,9 @@ pub struct Range {
 
 impl Range {
     /// Range of a piece; `None` for the piece that is a threshold itself.
-    pub fn of(piece: Piece, thresholds: &[f64]) -> Option<Self> {
+    pub fn of(piece: Piece, thresholds: &Thresholds) -> Option<Self> {
         let next = (piece / 2) as usize;
-        let low = next.checked_sub(1).and_then(|k| thresholds.get(k)).copied();
-        let high = thresholds.get(next).copied();
+        let (low, high) = (next.checked_sub(1).and_then(|k| thresholds.get(k)), thresholds.get(next));
         let range = Range { low: low.unwrap_or(f64::NEG_INFINITY), high: high.unwrap_or(f64::INFINITY) };
         piece.is_multiple_of(2).then_some(range)
     }
@@ -57,15 +56,15 @@ pub fn first_out(mut beyond: impl FnMut(f64) -> f64, mut from: f64, mut to: f64)
 
 #[cfg(test)]
 mod tests {
-    use super::{Range, first_out};
+    use super::{Range, Thresholds, first_out};
 
     #[test]
     fn a_piece_lies_between_its_thresholds() {
-        let infinite = f64::INFINITY;
-        assert_eq!(Range::of(0, &[1.0, 2.0]), Some(Range { low: -infinite, high: 1.0 }));
-        assert_eq!(Range::of(2, &[1.0, 2.0]), Some(Range { low: 1.0, high: 2.0 }));
-        assert_eq!(Range::of(4, &[1.0, 2.0]), Some(Range { low: 2.0, high: infinite }));
-        assert_eq!(Range::of(3, &[1.0, 2.0]), None);
+        let (infinite, two) = (f64::INFINITY, Thresholds::At(vec![1.0, 2.0]));
+        assert_eq!(Range::of(0, &two), Some(Range { low: -infinite, high: 1.0 }));
+        assert_eq!(Range::of(2, &two), Some(Range { low: 1.0, high: 2.0 }));
+        assert_eq!(Range::of(4, &two), Some(Range { low: 2.0, high: infinite }));
+        assert_eq!(Range::of(3, &two), None);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::range::{Range, first_out};
 use super::watch::Watch;
 use crate::math::expression::{Switch, TimeFunction};
-use crate::math::{Interval, Piece, Regime, Taylor, piece_of};
+use crate::math::{Interval, Piece, Regime, Taylor, Thresholds};
 use crate::tolerances::simulate as tolerances;
 
 /// The functions of time of a run: their changes of form, and the steps that resolve them.
@@ -56,22 +56,22 @@ impl<'a> Timetable<'a> {
     }
 
     /// The piece of an argument right after `t`: at a threshold its rate decides.
-    fn piece_from(&self, t: f64, argument: &TimeFunction, thresholds: &[f64], pieces: &[Piece]) -> Piece {
+    fn piece_from(&self, t: f64, argument: &TimeFunction, thresholds: &Thresholds, pieces: &[Piece]) -> Piece {
         let regime = Regime::held(pieces);
         let x: Taylor<f64> = argument.at(Taylor::time(t), regime);
         let round_off = |threshold: f64| 8.0 * f64::EPSILON * (threshold.abs() + (x.d * t).abs());
-        let at = thresholds.iter().position(|&threshold| (x.x - threshold).abs() <= round_off(threshold));
+        let at = thresholds.nearest(x.x).filter(|&(_, threshold)| (x.x - threshold).abs() <= round_off(threshold));
         let side = |slope: f64| if slope > 0.0 { 1 } else { -1 };
         let turn = match at {
-            None => return piece_of(x.x, thresholds.len(), |k| thresholds[k]).unwrap_or(0),
+            None => return thresholds.piece(x.x).unwrap_or(0),
             Some(_) if x.d != 0.0 => side(x.d),
             Some(_) if x.dd != 0.0 => side(x.dd),
-            Some(k) => {
-                let later = argument.at(t + tolerances::LOOKED_AHEAD * (self.end - self.start), regime) - thresholds[k];
+            Some((_, threshold)) => {
+                let later = argument.at(t + tolerances::LOOKED_AHEAD * (self.end - self.start), regime) - threshold;
                 if later == 0.0 { 0 } else { side(later) }
             }
         };
-        (2 * at.unwrap_or(0) as Piece + 1).wrapping_add_signed(turn)
+        (2 * at.map_or(0, |(k, _)| k) as Piece + 1).wrapping_add_signed(turn)
     }
 
     fn find_next(&self, t: f64, pieces: &[Piece]) -> Option<f64> {

@@ -69,6 +69,9 @@ fn derivatives_of_pieces() {
             60.0 * x * (1.0 - x) * (1.0 - 2.0 * x),
         ]
     });
+    check("floor(x)", &wide, |x| [x.floor(), 0.0, 0.0]);
+    check("mod(x^2, 0.3)", &wide, |x| [(x * x).rem_euclid(0.3), 2.0 * x, 2.0]);
+    check("mod(x, -2)", &wide, |x| [x + 2.0 * (x / -2.0).floor(), 1.0, 0.0]);
     check("min(x^2, x)", &wide, |x| if x * x <= x { [x * x, 2.0 * x, 2.0] } else { [x, 1.0, 0.0] });
     check("max(x^2, x)", &wide, |x| if x * x >= x { [x * x, 2.0 * x, 2.0] } else { [x, 1.0, 0.0] });
     check("if(x < 0.3 or x >= 3, x^3, 2*x)", &wide, |x| {

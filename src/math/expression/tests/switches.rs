@@ -1,7 +1,7 @@
 //! Switching functions of expressions, and their values on prescribed pieces.
 
 use super::super::{Expression, Name, Names};
-use crate::math::{Piece, Rate, Regime};
+use crate::math::{Piece, Rate, Regime, Thresholds, piece_of_whole};
 
 /// t is variable 0, x variable 1.
 struct Moving;
@@ -24,8 +24,8 @@ fn numbered(text: &str, first: usize) -> (Expression, Vec<super::super::Switch>)
 #[test]
 fn thresholds_and_what_passes_them() {
     let (_, switches) = numbered("if(t > 2, abs(x), table(t, 0, 1, 3, 4)) + smoothstep(x - t) + min(1, 2*t)", 0);
-    let thresholds: Vec<Vec<f64>> = switches.iter().map(|switch| switch.thresholds.clone()).collect();
-    assert_eq!(thresholds, [vec![0.0], vec![0.0], vec![0.0, 3.0], vec![0.0, 1.0], vec![0.0]]);
+    let thresholds: Vec<Thresholds> = switches.iter().map(|switch| switch.thresholds.clone()).collect();
+    assert_eq!(thresholds, [vec![0.0], vec![0.0], vec![0.0, 3.0], vec![0.0, 1.0], vec![0.0]].map(Thresholds::At));
     let of_time: Vec<bool> = switches.iter().map(|switch| switch.of_time.is_some()).collect();
     assert_eq!(of_time, [true, false, true, false, true]);
     let value = |k: usize| switches[k].of_time.as_ref().map(|argument| argument.at(5.0, Regime::FREE));
@@ -43,6 +43,8 @@ fn a_piece_goes_on_beyond_its_threshold() {
     assert_eq!(held("max(0, x)", &[0], -4.0), -4.0);
     assert_eq!(held("smoothstep(x)", &[0], 0.5), 0.0);
     assert_eq!(held("sign(x)", &[1], 0.5), 0.0);
+    let one = piece_of_whole(1.5).unwrap();
+    assert_eq!([held("floor(x)", &[one], 4.5), held("mod(x, 2)", &[one], 4.5)], [1.0, 2.5]);
     // If the prescribed piece has no value there, that of the argument is used.
     assert_eq!(held("max(0, x)^1.5", &[0], -4.0), 0.0);
     assert_eq!(held("max(0, x)^1.5", &[0], 4.0), 8.0);
