@@ -1,8 +1,7 @@
 //! SVG files.
 //!
-//! Written here rather than with plotters' backend, whose coordinates are whole numbers and which has neither
-//! dashes nor raised text. Text stays text, so it can be searched and edited; fonts of nearly the same widths
-//! are named for viewers without DejaVu Sans.
+//! Text stays text, so it can be searched and edited; fonts of nearly the same widths are named for viewers without
+//! DejaVu Sans.
 
 use super::font;
 use super::shape::{Align, Color, Drawing, Marker, Pt, Shape, Text};

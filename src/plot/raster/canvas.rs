@@ -1,140 +1,142 @@
-//! Shapes drawn by plotters on the large picture.
+//! Shapes drawn with soft edges.
 
+use super::coverage::Coverage;
 use crate::plot::font::{self, DEJAVU, EM};
-use crate::plot::shape::{Color, Marker, Pt, Rect, Shape, Stroke, Text};
-use ab_glyph::{Font, FontRef, GlyphId};
-use plotters::backend::{BitMapBackend, DrawingBackend};
-use plotters::style::{Color as _, RGBAColor, RGBColor};
+use crate::plot::shape::{Color, Drawing, Marker, Pt, Rect, Shape, Stroke, Text};
+use ab_glyph::{Font, FontRef, GlyphId, point};
 
-/// The drawing backend of plotters with nominal coordinates.
-pub(super) struct RasterCanvas<'a> {
-    backend: BitMapBackend<'a>,
-    /// Subpixels per nominal pixel.
+/// A picture.
+#[derive(Clone)]
+pub(super) struct RasterCanvas {
+    /// Red, green and blue, row by row.
+    pub pixels: Vec<u8>,
+    /// Width and height in pixels.
+    pub size: (usize, usize),
+    /// Pixels per nominal pixel.
     scale: f64,
+    coverage: Coverage,
 }
 
-type Drawn = Result<(), String>;
-
-fn reason(error: impl ToString) -> String {
-    error.to_string()
-}
-
-impl<'a> RasterCanvas<'a> {
-    pub fn new(pixels: &'a mut [u8], size: (usize, usize), scale: usize) -> Self {
-        let backend = BitMapBackend::with_buffer(pixels, (size.0 as u32, size.1 as u32));
-        Self { backend, scale: scale as f64 }
+impl RasterCanvas {
+    /// White paper for a drawing.
+    pub fn new(drawing: &Drawing, density: usize) -> Self {
+        let size = (drawing.width.ceil() as usize * density, drawing.height.ceil() as usize * density);
+        Self { pixels: vec![255; 3 * size.0 * size.1], size, scale: density as f64, coverage: Coverage::new(size) }
     }
 
-    pub fn draw(&mut self, shape: &Shape) -> Drawn {
+    pub fn draw(&mut self, shapes: &[Shape]) {
+        shapes.iter().for_each(|shape| self.shape(shape));
+    }
+
+    fn shape(&mut self, shape: &Shape) {
         match shape {
-            Shape::Path { points, stroke } => self.stroke(points, stroke),
-            Shape::Area { points, fill, opacity } => self.polygon(points, style(*fill).mix(*opacity)),
-            Shape::Rects { rects, fill } => rects.iter().try_for_each(|rect| self.rectangle(rect, *fill)),
-            Shape::Marks { at, marker, radius, color } => {
-                at.iter().try_for_each(|center| self.marker(*center, *marker, *radius, *color))
+            Shape::Path { points, stroke } => {
+                self.stroke(points, stroke);
+                self.ink(stroke.color, 1.0);
             }
-            Shape::Text(text) => self.text(text),
+            Shape::Area { points, fill, opacity } => {
+                self.polygon(points);
+                self.ink(*fill, *opacity);
+            }
+            Shape::Rects { rects, fill } => rects.iter().for_each(|rect| self.rectangle(rect, *fill)),
+            Shape::Marks { at, marker, radius, color } => {
+                at.iter().for_each(|center| self.marker(*center, *marker, *radius));
+                self.ink(*color, 1.0);
+            }
+            Shape::Text(text) => {
+                self.text(text);
+                self.ink(text.color, 1.0);
+            }
         }
     }
 
-    fn device(&self, (x, y): Pt) -> (i32, i32) {
-        ((x * self.scale).round() as i32, (y * self.scale).round() as i32)
+    /// Mixes ink into the covered pixels.
+    fn ink(&mut self, Color(red, green, blue): Color, opacity: f64) {
+        let pixels = &mut self.pixels;
+        self.coverage.take(|i, part| {
+            for (value, ink) in pixels[3 * i..3 * i + 3].iter_mut().zip([red, green, blue]) {
+                let paper = f32::from(*value);
+                *value = (paper + opacity as f32 * part * (f32::from(ink) - paper)).round() as u8;
+            }
+        });
     }
 
-    fn rectangle(&mut self, rect: &Rect, fill: Color) -> Drawn {
-        let (from, to) = (self.device((rect.left, rect.top)), self.device((rect.right, rect.bottom)));
-        if from.0 >= to.0 || from.1 >= to.1 {
-            return Ok(());
+    fn device(&self, (x, y): Pt) -> Pt {
+        (x * self.scale, y * self.scale)
+    }
+
+    /// Fills whole pixels, so that cells leave no seam between them.
+    fn rectangle(&mut self, rect: &Rect, Color(red, green, blue): Color) {
+        let place = |value: f64, end: usize| (value * self.scale).round().clamp(0.0, end as f64) as usize;
+        let (left, right) = (place(rect.left, self.size.0), place(rect.right, self.size.0));
+        for y in place(rect.top, self.size.1)..place(rect.bottom, self.size.1) {
+            let row = 3 * (y * self.size.0 + left)..3 * (y * self.size.0 + right.max(left));
+            self.pixels[row].chunks_exact_mut(3).for_each(|pixel| pixel.copy_from_slice(&[red, green, blue]));
         }
-        self.backend.draw_rect(from, to, &style(fill), true).map_err(reason)
     }
 
-    fn polygon(&mut self, corners: &[Pt], fill: RGBAColor) -> Drawn {
-        let corners: Vec<(i32, i32)> = corners.iter().map(|corner| self.device(*corner)).collect();
-        self.backend.fill_polygon(corners, &fill).map_err(reason)
+    fn polygon(&mut self, corners: &[Pt]) {
+        let corners: Vec<Pt> = corners.iter().map(|corner| self.device(*corner)).collect();
+        self.coverage.polygon(&corners);
     }
 
-    fn disc(&mut self, center: Pt, radius: f64, fill: Color) -> Drawn {
-        let pixels = (radius * self.scale).round().max(1.0) as u32;
-        self.backend.draw_circle(self.device(center), pixels, &style(fill), true).map_err(reason)
+    fn disc(&mut self, center: Pt, radius: f64) {
+        self.coverage.disc(self.device(center), radius * self.scale);
     }
 
-    fn marker(&mut self, center: Pt, marker: Marker, radius: f64, color: Color) -> Drawn {
+    fn segment(&mut self, from: Pt, to: Pt, width: f64) {
+        self.coverage.segment(self.device(from), self.device(to), width * self.scale);
+    }
+
+    fn marker(&mut self, center: Pt, marker: Marker, radius: f64) {
         if marker == Marker::Circle {
-            return self.disc(center, radius, color);
+            return self.disc(center, radius);
         }
         let outlines = marker.outlines(center, radius);
         match marker.stroke_width(radius) {
-            Some(width) => outlines.iter().try_for_each(|line| self.stroke(line, &Stroke { color, width, dash: &[] })),
-            None => outlines.iter().try_for_each(|line| self.polygon(&line[..line.len() - 1], style(color).mix(1.0))),
+            Some(width) => outlines.iter().for_each(|line| self.segment(line[0], line[1], width)),
+            None => outlines.iter().for_each(|line| self.polygon(line)),
         }
     }
 
-    fn stroke(&mut self, points: &[Pt], stroke: &Stroke) -> Drawn {
+    /// Covers a line with round joints and square ends.
+    fn stroke(&mut self, points: &[Pt], stroke: &Stroke) {
         for part in dashes(points, stroke.dash) {
-            part.windows(2).try_for_each(|pair| self.segment(pair[0], pair[1], stroke))?;
+            part.windows(2).for_each(|pair| self.segment(pair[0], pair[1], stroke.width));
             let is_closed = part.len() > 2 && part.first() == part.last();
             let joints = part.iter().take(part.len().saturating_sub(1)).skip(usize::from(!is_closed));
-            joints.into_iter().try_for_each(|joint| self.disc(*joint, 0.5 * stroke.width, stroke.color))?;
+            joints.for_each(|joint| self.disc(*joint, 0.5 * stroke.width));
         }
-        Ok(())
     }
 
-    /// Draws a segment with its width and square ends.
-    fn segment(&mut self, from: Pt, to: Pt, stroke: &Stroke) -> Drawn {
-        let (dx, dy) = (to.0 - from.0, to.1 - from.1);
-        let length = dx.hypot(dy);
-        if length < 1e-9 {
-            return Ok(());
-        }
-        let (nx, ny) = (-0.5 * stroke.width * dy / length, 0.5 * stroke.width * dx / length);
-        if dx == 0.0 || dy == 0.0 {
-            let (nx, ny) = (nx.abs(), ny.abs());
-            let (left, right) = (from.0.min(to.0) - nx, from.0.max(to.0) + nx);
-            let (top, bottom) = (from.1.min(to.1) - ny, from.1.max(to.1) + ny);
-            return self.rectangle(&Rect { left, top, right, bottom }, stroke.color);
-        }
-        let side = |p: Pt, sign: f64| (p.0 + sign * nx, p.1 + sign * ny);
-        let corners = [side(from, 1.0), side(to, 1.0), side(to, -1.0), side(from, -1.0)];
-        self.polygon(&corners, style(stroke.color).mix(1.0))
-    }
-
-    fn text(&mut self, text: &Text) -> Drawn {
-        let Some(font) = DEJAVU.as_ref() else { return Ok(()) };
+    fn text(&mut self, text: &Text) {
+        let Some(font) = DEJAVU.as_ref() else { return };
         let mut along = text.start();
         for run in &text.rich.runs {
             let (size, down) = run.level.metrics(text.size);
             let (glyphs, end) = font::glyphs(font, &run.text);
             for (glyph, place) in glyphs {
-                self.glyph(font, glyph, size, (along + place * size, down), text)?;
+                self.glyph(font, glyph, size, (along + place * size, down), text);
             }
             along += end * size;
         }
-        Ok(())
     }
 
-    /// Draws a glyph; its origin is at an offset along the text and below its baseline.
-    fn glyph(&mut self, font: &FontRef, glyph: GlyphId, size: f64, (along, down): Pt, text: &Text) -> Drawn {
+    /// Covers a glyph; its origin is at an offset along the text and below its baseline.
+    fn glyph(&mut self, font: &FontRef, glyph: GlyphId, size: f64, (along, down): Pt, text: &Text) {
         let height = f64::from(font.height_unscaled()) / EM * size * self.scale;
-        let Some(outline) = font.outline_glyph(glyph.with_scale(height as f32)) else { return Ok(()) };
-        let shift = if text.turned { (down, -along) } else { (along, down) };
-        let origin = self.device((text.at.0 + shift.0, text.at.1 + shift.1));
+        // A turned text lies level in a picture that is turned back.
+        let (right, below) = if text.turned { (-text.at.1, text.at.0) } else { text.at };
+        let origin = self.device((right + along, below + down));
+        let place = point(origin.0 as f32, origin.1 as f32);
+        let Some(outline) = font.outline_glyph(glyph.with_scale_and_position(height as f32, place)) else { return };
         let corner = outline.px_bounds().min;
-        let mut drawn = Ok(());
-        outline.draw(|right, below, coverage| {
-            let (right, below) = (corner.x as i32 + right as i32, corner.y as i32 + below as i32);
-            let (x, y) = if text.turned { (below, -right) } else { (right, below) };
-            let ink = style(text.color).mix(f64::from(coverage).min(1.0)).to_backend_color();
-            if let Err(error) = self.backend.draw_pixel((origin.0 + x, origin.1 + y), ink) {
-                drawn = Err(reason(error));
-            }
+        outline.draw(|right, below, part| {
+            let (x, y) = (corner.x as i64 + i64::from(right), corner.y as i64 + i64::from(below));
+            let (x, y) = if text.turned { (y, -x - 1) } else { (x, y) };
+            self.coverage.pixel(x, y, f64::from(part).min(1.0));
         });
-        drawn
     }
-}
-
-fn style(color: Color) -> RGBColor {
-    RGBColor(color.0, color.1, color.2)
 }
 
 /// Returns the drawn parts of a dashed line.

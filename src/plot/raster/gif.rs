@@ -1,6 +1,6 @@
 //! GIF files: one palette for all frames, and of each frame only the difference from the one before.
 
-use super::Sheet;
+use super::canvas::RasterCanvas;
 use crate::plot::shape::{Drawing, Shape};
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use rayon::prelude::*;
@@ -17,9 +17,8 @@ const NEAR: i32 = 14;
 /// Number of frames drawn at once.
 const BATCH: usize = 8;
 
-/// Output pixels per nominal one, and subpixels in each direction.
+/// Output pixels per nominal one.
 const DENSITY: usize = 1;
-const FINENESS: usize = 3;
 
 /// Returns the file of `count` frames; `moving` gives the items of a frame, drawn on the constant `still`, and `done`
 /// is called with the number of frames drawn.
@@ -30,21 +29,25 @@ pub(in crate::plot) fn gif(
     moving: &(impl Fn(usize) -> Vec<Shape> + Sync),
     mut done: impl FnMut(usize),
 ) -> Result<Vec<u8>, String> {
-    let sheet = Sheet::new(still, DENSITY, FINENESS);
-    let (width, height) = sheet.size;
-    let paper = sheet.draw(sheet.blank(), &still.shapes)?;
-    let draw = |k: usize| sheet.draw(paper.clone(), &moving(k)).map(|pixels| sheet.average(&pixels));
+    let mut paper = RasterCanvas::new(still, DENSITY);
+    let (width, height) = paper.size;
+    paper.draw(&still.shapes);
+    let draw = |k: usize| {
+        let mut frame = paper.clone();
+        frame.draw(&moving(k));
+        frame.pixels
+    };
     let side = |pixels: usize| u16::try_from(pixels).map_err(|_| format!("{pixels} pixels are too many for a GIF"));
     let samples: Vec<usize> = (0..SAMPLES.min(count)).map(|k| k * (count - 1) / (SAMPLES - 1).max(1)).collect();
-    let palette = Palette::new(&samples.into_par_iter().map(&draw).collect::<Result<Vec<_>, _>>()?);
+    let palette = Palette::new(&samples.into_par_iter().map(&draw).collect::<Vec<_>>());
     let mut file = Vec::new();
     let mut encoder = Encoder::new(&mut file, side(width)?, side(height)?, &palette.bytes()).map_err(text)?;
     encoder.set_repeat(Repeat::Infinite).map_err(text)?;
     let mut before: Vec<u8> = Vec::new();
     for first in (0..count).step_by(BATCH) {
         let batch: Vec<usize> = (first..count.min(first + BATCH)).collect();
-        let drawn = batch.into_par_iter().map(|k| draw(k).map(|pixels| palette.indices(&pixels)));
-        for (k, indices) in drawn.collect::<Result<Vec<_>, _>>()?.into_iter().enumerate() {
+        let drawn = batch.into_par_iter().map(|k| palette.indices(&draw(k)));
+        for (k, indices) in drawn.collect::<Vec<_>>().into_iter().enumerate() {
             let mut frame = difference(&before, &indices, width);
             frame.delay = delay(first + k, per_second);
             encoder.write_frame(&frame).map_err(text)?;
