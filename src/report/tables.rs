@@ -6,7 +6,6 @@ use crate::sweep::Sweep;
 use crate::system::Names;
 use crate::trajectory::Trajectory;
 use std::fmt;
-use std::io::Write;
 
 /// Returns `t`, coordinates, velocities, multipliers, outputs: one row per output time, at full precision.
 pub fn trajectory_table(trajectory: &Trajectory) -> Result<Vec<u8>> {
@@ -49,32 +48,32 @@ pub fn energy_table(record: &Record) -> Result<Vec<u8>> {
     write(vec!["t", "kinetic", "potential", "work", "error"], rows.iter().map(<[f64; 5]>::as_slice))
 }
 
-/// Returns a number at full precision, with an exponent where zeros alone would fill the cell; empty where there is no
-/// value, such as of an output outside its domain.
+/// Returns a number as [`push`] writes it.
 pub fn cell(value: f64) -> String {
-    Cell(value).to_string()
+    let mut text = Vec::new();
+    push(&mut text, value);
+    text.into_iter().map(char::from).collect()
 }
 
-struct Cell(f64);
-
-impl fmt::Display for Cell {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Cell(value) = self;
-        match value.abs() {
-            _ if !value.is_finite() => Ok(()),
-            0.0 | 1e-5..1e15 => write!(out, "{value}"),
-            _ => write!(out, "{value:e}"),
-        }
+/// Writes a number at full precision with the fewest digits, with an exponent where zeros alone would fill the cell;
+/// nothing where there is no value, such as of an output outside its domain.
+fn push(text: &mut Vec<u8>, value: f64) {
+    if value.is_finite() {
+        let mut buffer = zmij::Buffer::new();
+        let digits = buffer.format_finite(value);
+        text.extend_from_slice(digits.strip_suffix(".0").unwrap_or(digits).as_bytes());
     }
 }
 
-/// Writes numbers under headings, which need no quotation.
+/// Writes numbers under headings.
 fn write<'a>(headings: Vec<&str>, rows: impl Iterator<Item = &'a [f64]>) -> Result<Vec<u8>> {
     let mut all = table(headings.into_iter().map(String::from), std::iter::empty())?;
     for row in rows {
         for (i, value) in row.iter().enumerate() {
-            let before = if i > 0 { "," } else { "" };
-            write!(all, "{before}{}", Cell(*value)).map_err(|error| failed(&error))?;
+            if i > 0 {
+                all.push(b',');
+            }
+            push(&mut all, *value);
         }
         all.push(b'\n');
     }
@@ -93,4 +92,19 @@ pub fn table(headings: impl Iterator<Item = String>, rows: impl Iterator<Item = 
         writer.write_record(row).map_err(|error| failed(&error))?;
     }
     writer.into_inner().map_err(|error| failed(&error))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_come_back() {
+        let texts = [0.0, 1.0, 0.5, -20.0, 1e-3, 1e6, 1.5e-7, 0.1 + 0.2].map(cell);
+        assert_eq!(texts, ["0", "1", "0.5", "-20", "0.001", "1000000", "1.5e-7", "0.30000000000000004"]);
+        assert_eq!([f64::NAN, f64::INFINITY].map(cell), ["", ""]);
+        for value in [f64::MAX, f64::MIN_POSITIVE, 5e-324, 1e16, -1e-5, 1e22, 0.1f64.next_up()] {
+            assert_eq!(cell(value).parse(), Ok(value));
+        }
+    }
 }
