@@ -5,6 +5,7 @@
 
 use super::font;
 use super::shape::{Align, Color, Drawing, Marker, Pt, Shape, Text};
+use std::fmt::Write;
 
 const FONTS: &str = "DejaVu Sans, Bitstream Vera Sans, Verdana, Geneva, sans-serif";
 
@@ -36,32 +37,39 @@ fn shape(out: &mut String, shape: &Shape) {
             let dash =
                 if dash.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{}\"", dash.join(" ")) };
             let joined = if points.len() > 2 { " stroke-linejoin=\"round\"" } else { "" };
-            path(out, &format!("{}{dash}{joined}", line(stroke.color, stroke.width)), &outline(points));
+            path(out, &format!("{}{dash}{joined}", line(stroke.color, stroke.width)), |out| outline(out, points));
         }
         Shape::Area { points, fill, opacity } => {
             let opacity = number(*opacity);
-            path(out, &format!("fill=\"{}\" fill-opacity=\"{opacity}\"", hex(*fill)), &outline(points));
+            path(out, &format!("fill=\"{}\" fill-opacity=\"{opacity}\"", hex(*fill)), |out| outline(out, points));
         }
         Shape::Rects { rects, fill } => {
-            let (data, color): (String, _) = (rects.iter().map(|rect| outline(&rect.outline())).collect(), hex(*fill));
+            let color = hex(*fill);
             // A thin border of the same colour: without it, viewers show bright seams between cells.
-            path(out, &format!("fill=\"{color}\" stroke=\"{color}\" stroke-width=\".4\""), &data);
+            path(out, &format!("fill=\"{color}\" stroke=\"{color}\" stroke-width=\".4\""), |out| {
+                rects.iter().for_each(|rect| outline(out, &rect.outline()))
+            });
         }
         Shape::Marks { at, marker: Marker::Circle, radius, color } => {
-            path(out, &format!("{} stroke-linecap=\"round\"", line(*color, 2.0 * radius)), &dots(at));
+            path(out, &format!("{} stroke-linecap=\"round\"", line(*color, 2.0 * radius)), |out| dots(out, at));
         }
         Shape::Marks { at, marker, radius, color } => {
             let lines = at.iter().flat_map(|center| marker.outlines(*center, *radius));
             let width = marker.stroke_width(*radius);
             let paint = width.map_or_else(|| format!("fill=\"{}\"", hex(*color)), |width| line(*color, width));
-            path(out, &paint, &lines.map(|line| outline(&line)).collect::<String>());
+            path(out, &paint, |out| lines.for_each(|line| outline(out, &line)));
         }
         Shape::Text(line) => text(out, line),
     }
 }
 
-fn path(out: &mut String, paint: &str, data: &str) {
-    *out += &format!("<path {paint} d=\"{data}\"/>\n");
+/// Writes a path; `data` writes its lines.
+fn path(out: &mut String, paint: &str, data: impl FnOnce(&mut String)) {
+    *out += "<path ";
+    *out += paint;
+    *out += " d=\"";
+    data(out);
+    *out += "\"/>\n";
 }
 
 /// Returns the attributes of a line.
@@ -133,58 +141,58 @@ fn spaces(count: usize, size: f64) -> f64 {
     count as f64 * font::width(" ") * size
 }
 
-/// Returns path data: absolute start, then steps in tenths of a pixel that add up without drift.
-fn outline(points: &[Pt]) -> String {
+/// Writes path data: absolute start, then steps in tenths of a pixel that add up without drift.
+fn outline(out: &mut String, points: &[Pt]) {
     let grid = |point: &Pt| (tenths(point.0), tenths(point.1));
-    let Some(first) = points.first() else {
-        return String::new();
-    };
+    let Some(first) = points.first() else { return };
     let mut at = grid(first);
-    let mut data = format!("M{}{}l", tenths_text(at.0, false), tenths_text(at.1, true));
+    out.push('M');
+    step(out, at, false);
+    out.push('l');
     let mut leading = true;
     for point in &points[1..] {
         let next = grid(point);
-        data.push_str(&tenths_text(next.0 - at.0, !leading));
-        data.push_str(&tenths_text(next.1 - at.1, true));
+        step(out, (next.0 - at.0, next.1 - at.1), !leading);
         (at, leading) = (next, false);
     }
     if points.len() > 2 && points.first() == points.last() {
-        data.push('z');
+        out.push('z');
     }
-    data
 }
 
-/// Returns discs as strokes a tenth of a pixel long with round ends: a quarter of the bytes of circles.
-fn dots(at: &[Pt]) -> String {
-    let mut data = String::new();
+/// Writes discs as strokes a tenth of a pixel long with round ends: a quarter of the bytes of circles.
+fn dots(out: &mut String, at: &[Pt]) {
     let mut pen = (0, 0);
     for (x, y) in at {
         let next = (tenths(*x), tenths(*y));
-        let step = (tenths_text(next.0 - pen.0, false), tenths_text(next.1 - pen.1, true));
-        data.push_str(&format!("m{}{}h.1", step.0, step.1));
+        out.push('m');
+        step(out, (next.0 - pen.0, next.1 - pen.1), false);
+        *out += "h.1";
         pen = (next.0 + 1, next.1);
     }
-    data
 }
 
 fn tenths(value: f64) -> i64 {
     (10.0 * value).round() as i64
 }
 
-/// Returns a number of tenths, after a space if it is needed as a separator.
-fn tenths_text(value: i64, follows: bool) -> String {
-    let sign = if value < 0 {
-        "-"
-    } else if follows {
-        " "
-    } else {
-        ""
-    };
-    let (whole, rest) = (value.unsigned_abs() / 10, value.unsigned_abs() % 10);
-    match (whole, rest) {
-        (whole, 0) => format!("{sign}{whole}"),
-        (0, rest) => format!("{sign}.{rest}"),
-        (whole, rest) => format!("{sign}{whole}.{rest}"),
+/// Writes a pair of numbers in tenths, the first after a space if it needs one as a separator.
+fn step(out: &mut String, (x, y): (i64, i64), follows: bool) {
+    for (value, follows) in [(x, follows), (y, true)] {
+        if value < 0 {
+            out.push('-');
+        } else if follows {
+            out.push(' ');
+        }
+        let (whole, rest) = (value.unsigned_abs() / 10, value.unsigned_abs() % 10);
+        if whole > 0 || rest == 0 {
+            // Writing to a string cannot fail.
+            let _ = write!(out, "{whole}");
+        }
+        if rest > 0 {
+            out.push('.');
+            out.push(char::from(b'0' + rest as u8));
+        }
     }
 }
 
@@ -215,7 +223,9 @@ mod tests {
 
     #[test]
     fn paths_are_short() {
-        assert_eq!(outline(&[(1.0, 2.0), (1.5, 1.0), (0.0, 3.25)]), "M1 2l.5-1-1.5 2.3");
+        let mut data = String::new();
+        outline(&mut data, &[(1.0, 2.0), (1.5, 1.0), (0.0, 3.25)]);
+        assert_eq!(data, "M1 2l.5-1-1.5 2.3");
         assert_eq!(number(-0.001), "0");
         assert_eq!(escape("a<b & \u{1}\u{ffff}"), "a&lt;b &amp;  \u{fffd}");
     }

@@ -50,6 +50,9 @@ impl Rich {
     /// Reads a text; superscript and subscript characters become raised and lowered parts, which look the same in every
     /// font, and control characters become spaces.
     pub fn new(text: &str) -> Self {
+        if !text.is_empty() && text.bytes().all(|byte| byte == b' ' || byte.is_ascii_graphic()) {
+            return Self { runs: vec![Run { text: text.to_string(), level: Level::Base }] };
+        }
         let mut rich = Self::default();
         text.chars().for_each(|character| {
             let (level, plain) = classify(character);

@@ -45,19 +45,19 @@ fn straighten(points: &[Pt], tolerance: f64) -> Vec<Pt> {
         (is_kept[first], is_kept[last]) = (true, true);
         let far = |i: usize| (distance(points[i], points[first], points[last]), i);
         match (first + 1..last).map(far).max_by(|a, b| a.0.total_cmp(&b.0)) {
-            Some((distance, i)) if distance > tolerance => open.extend([(first, i), (i, last)]),
+            Some((distance, i)) if distance > tolerance * tolerance => open.extend([(first, i), (i, last)]),
             _ => {}
         }
     }
     points.iter().zip(is_kept).filter(|(_, is_kept)| *is_kept).map(|(point, _)| *point).collect()
 }
 
-/// Returns the distance of a point from the segment between two others.
+/// Returns the square of the distance of a point from the segment between two others.
 fn distance(point: Pt, from: Pt, to: Pt) -> f64 {
     let (along, away) = ((to.0 - from.0, to.1 - from.1), (point.0 - from.0, point.1 - from.1));
     let length = along.0 * along.0 + along.1 * along.1;
     let part = if length > 0.0 { ((along.0 * away.0 + along.1 * away.1) / length).clamp(0.0, 1.0) } else { 0.0 };
-    (away.0 - part * along.0).hypot(away.1 - part * along.1)
+    (away.0 - part * along.0).powi(2) + (away.1 - part * along.1).powi(2)
 }
 
 /// Returns points without those hidden by another one, at most `most`: indices of the kept ones, in order. One is kept
