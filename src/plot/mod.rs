@@ -1,7 +1,7 @@
 //! Figures from data, as SVG or PNG files. This module does not depend on mechanics.
 //!
 //! A [`Figure`] stacks one or several [`Panel`]s. [`Figure::save`] lays them out into a flat list of shapes,
-//! then writes that list as SVG or has plotters draw it as PNG, so that both show the same picture. Text is
+//! then writes that list as SVG or has tiny-skia draw it as PNG, so that both show the same picture. Text is
 //! measured with the embedded DejaVu Sans; no font or library of the system is needed.
 //!
 //! Sizes are in nominal pixels. A figure is 640 of them wide by default and meant to be printed 85 mm wide

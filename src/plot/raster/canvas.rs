@@ -1,27 +1,36 @@
-//! Shapes drawn with soft edges.
+//! Shapes drawn with soft edges by tiny-skia.
 
-use super::coverage::Coverage;
 use crate::plot::font::{self, DEJAVU, EM};
 use crate::plot::shape::{Color, Drawing, Marker, Pt, Rect, Shape, Stroke, Text};
-use ab_glyph::{Font, FontRef, GlyphId, point};
+use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve, Point};
+use tiny_skia::{FillRule, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, StrokeDash, Transform};
 
 /// A picture.
 #[derive(Clone)]
 pub(super) struct RasterCanvas {
-    /// Red, green and blue, row by row.
-    pub pixels: Vec<u8>,
-    /// Width and height in pixels.
-    pub size: (usize, usize),
-    /// Pixels per nominal pixel.
-    scale: f64,
-    coverage: Coverage,
+    pixels: Pixmap,
+    /// Scale from nominal pixels to those of the picture.
+    scale: Transform,
 }
 
 impl RasterCanvas {
-    /// White paper for a drawing.
-    pub fn new(drawing: &Drawing, density: usize) -> Self {
-        let size = (drawing.width.ceil() as usize * density, drawing.height.ceil() as usize * density);
-        Self { pixels: vec![255; 3 * size.0 * size.1], size, scale: density as f64, coverage: Coverage::new(size) }
+    /// Returns white paper for a drawing, or none where it has no pixels.
+    pub fn new(drawing: &Drawing, density: usize) -> Option<Self> {
+        let side = |nominal: f64| nominal.ceil() as u32 * density as u32;
+        let mut pixels = Pixmap::new(side(drawing.width), side(drawing.height))?;
+        pixels.fill(tiny_skia::Color::WHITE);
+        Some(Self { pixels, scale: Transform::from_scale(density as f32, density as f32) })
+    }
+
+    /// Returns width and height in pixels.
+    pub fn size(&self) -> (u32, u32) {
+        (self.pixels.width(), self.pixels.height())
+    }
+
+    /// Returns red, green and blue, row by row; the paper is opaque.
+    pub fn rgb(&self) -> Vec<u8> {
+        let rgb = |pixel: &PremultipliedColorU8| [pixel.red(), pixel.green(), pixel.blue()];
+        self.pixels.pixels().iter().flat_map(rgb).collect()
     }
 
     pub fn draw(&mut self, shapes: &[Shape]) {
@@ -30,148 +39,108 @@ impl RasterCanvas {
 
     fn shape(&mut self, shape: &Shape) {
         match shape {
-            Shape::Path { points, stroke } => {
-                self.stroke(points, stroke);
-                self.ink(stroke.color, 1.0);
-            }
-            Shape::Area { points, fill, opacity } => {
-                self.polygon(points);
-                self.ink(*fill, *opacity);
-            }
-            Shape::Rects { rects, fill } => rects.iter().for_each(|rect| self.rectangle(rect, *fill)),
-            Shape::Marks { at, marker, radius, color } => {
-                at.iter().for_each(|center| self.marker(*center, *marker, *radius));
-                self.ink(*color, 1.0);
-            }
-            Shape::Text(text) => {
-                self.text(text);
-                self.ink(text.color, 1.0);
-            }
+            Shape::Path { points, stroke } => self.stroke(lines([points]), stroke),
+            Shape::Area { points, fill, opacity } => self.fill(lines([points]), &paint(*fill, *opacity)),
+            Shape::Rects { rects, fill } => self.rectangles(rects, *fill),
+            Shape::Marks { at, marker, radius, color } => self.markers(at, *marker, *radius, *color),
+            Shape::Text(text) => self.fill(letters(text), &paint(text.color, 1.0)),
         }
     }
 
-    /// Mixes ink into the covered pixels.
-    fn ink(&mut self, Color(red, green, blue): Color, opacity: f64) {
-        let pixels = &mut self.pixels;
-        self.coverage.take(|i, part| {
-            for (value, ink) in pixels[3 * i..3 * i + 3].iter_mut().zip([red, green, blue]) {
-                let paper = f32::from(*value);
-                *value = (paper + opacity as f32 * part * (f32::from(ink) - paper)).round() as u8;
-            }
-        });
+    fn fill(&mut self, path: PathBuilder, paint: &Paint) {
+        if let Some(path) = path.finish() {
+            self.pixels.fill_path(&path, paint, FillRule::Winding, self.scale, None);
+        }
     }
 
-    fn device(&self, (x, y): Pt) -> Pt {
-        (x * self.scale, y * self.scale)
+    fn stroke(&mut self, path: PathBuilder, stroke: &Stroke) {
+        let dash = StrokeDash::new(stroke.dash.iter().map(|length| *length as f32).collect(), 0.0);
+        let (width, line_join) = (stroke.width as f32, LineJoin::Round);
+        let style = tiny_skia::Stroke { width, line_join, dash, ..tiny_skia::Stroke::default() };
+        if let Some(path) = path.finish() {
+            self.pixels.stroke_path(&path, &paint(stroke.color, 1.0), &style, self.scale, None);
+        }
     }
 
     /// Fills whole pixels, so that cells leave no seam between them.
-    fn rectangle(&mut self, rect: &Rect, Color(red, green, blue): Color) {
-        let place = |value: f64, end: usize| (value * self.scale).round().clamp(0.0, end as f64) as usize;
-        let (left, right) = (place(rect.left, self.size.0), place(rect.right, self.size.0));
-        for y in place(rect.top, self.size.1)..place(rect.bottom, self.size.1) {
-            let row = 3 * (y * self.size.0 + left)..3 * (y * self.size.0 + right.max(left));
-            self.pixels[row].chunks_exact_mut(3).for_each(|pixel| pixel.copy_from_slice(&[red, green, blue]));
-        }
+    fn rectangles(&mut self, rects: &[Rect], fill: Color) {
+        let outlines: Vec<_> = rects.iter().map(Rect::outline).collect();
+        self.fill(lines(&outlines), &Paint { anti_alias: false, ..paint(fill, 1.0) });
     }
 
-    fn polygon(&mut self, corners: &[Pt]) {
-        let corners: Vec<Pt> = corners.iter().map(|corner| self.device(*corner)).collect();
-        self.coverage.polygon(&corners);
-    }
-
-    fn disc(&mut self, center: Pt, radius: f64) {
-        self.coverage.disc(self.device(center), radius * self.scale);
-    }
-
-    fn segment(&mut self, from: Pt, to: Pt, width: f64) {
-        self.coverage.segment(self.device(from), self.device(to), width * self.scale);
-    }
-
-    fn marker(&mut self, center: Pt, marker: Marker, radius: f64) {
+    fn markers(&mut self, at: &[Pt], marker: Marker, radius: f64, color: Color) {
+        let outlines: Vec<_> = at.iter().flat_map(|center| marker.outlines(*center, radius)).collect();
+        let mut path = lines(&outlines);
         if marker == Marker::Circle {
-            return self.disc(center, radius);
+            at.iter().for_each(|(x, y)| path.push_circle(*x as f32, *y as f32, radius as f32));
         }
-        let outlines = marker.outlines(center, radius);
         match marker.stroke_width(radius) {
-            Some(width) => outlines.iter().for_each(|line| self.segment(line[0], line[1], width)),
-            None => outlines.iter().for_each(|line| self.polygon(line)),
+            Some(width) => self.stroke(path, &Stroke { color, width, dash: &[] }),
+            None => self.fill(path, &paint(color, 1.0)),
         }
     }
+}
 
-    /// Covers a line with round joints and square ends.
-    fn stroke(&mut self, points: &[Pt], stroke: &Stroke) {
-        for part in dashes(points, stroke.dash) {
-            part.windows(2).for_each(|pair| self.segment(pair[0], pair[1], stroke.width));
-            let is_closed = part.len() > 2 && part.first() == part.last();
-            let joints = part.iter().take(part.len().saturating_sub(1)).skip(usize::from(!is_closed));
-            joints.for_each(|joint| self.disc(*joint, 0.5 * stroke.width));
+fn paint(Color(red, green, blue): Color, opacity: f64) -> Paint<'static> {
+    let mut paint = Paint::default();
+    paint.set_color_rgba8(red, green, blue, (255.0 * opacity).round() as u8);
+    paint
+}
+
+/// Returns lines through points, closed where they end at their start.
+fn lines<'a>(lines: impl IntoIterator<Item = &'a Vec<Pt>>) -> PathBuilder {
+    let mut path = PathBuilder::new();
+    for points in lines {
+        points.iter().take(1).for_each(|(x, y)| path.move_to(*x as f32, *y as f32));
+        points.iter().skip(1).for_each(|(x, y)| path.line_to(*x as f32, *y as f32));
+        if points.len() > 2 && points.first() == points.last() {
+            path.close();
         }
     }
+    path
+}
 
-    fn text(&mut self, text: &Text) {
-        let Some(font) = DEJAVU.as_ref() else { return };
-        let mut along = text.start();
-        for run in &text.rich.runs {
-            let (size, down) = run.level.metrics(text.size);
-            let (glyphs, end) = font::glyphs(font, &run.text);
-            for (glyph, place) in glyphs {
-                self.glyph(font, glyph, size, (along + place * size, down), text);
+/// Returns the outlines of a text's letters.
+fn letters(text: &Text) -> PathBuilder {
+    let mut path = PathBuilder::new();
+    let Some(font) = DEJAVU.as_ref() else { return path };
+    let mut along = text.start();
+    for run in &text.rich.runs {
+        let (size, down) = run.level.metrics(text.size);
+        let (glyphs, end) = font::glyphs(font, &run.text);
+        for (glyph, start) in glyphs {
+            let place = |point: Point| {
+                let (right, below) =
+                    (along + (start + f64::from(point.x) / EM) * size, down - f64::from(point.y) / EM * size);
+                let (x, y) = if text.turned { (below, -right) } else { (right, below) };
+                ((text.at.0 + x) as f32, (text.at.1 + y) as f32)
+            };
+            letter(&mut path, font, glyph, place);
+        }
+        along += end * size;
+    }
+    path
+}
+
+/// Adds a glyph; `place` returns where a point of the font is in the picture.
+fn letter(path: &mut PathBuilder, font: &FontRef, glyph: GlyphId, place: impl Fn(Point) -> (f32, f32)) {
+    let mut pen = None;
+    for curve in font.outline(glyph).map_or_else(Vec::new, |outline| outline.curves) {
+        let (from, to) = match curve {
+            OutlineCurve::Line(a, b) | OutlineCurve::Quad(a, _, b) | OutlineCurve::Cubic(a, _, _, b) => (a, b),
+        };
+        let (start, end) = (place(from), place(to));
+        if pen != Some(from) {
+            path.move_to(start.0, start.1);
+        }
+        match curve {
+            OutlineCurve::Line(..) => path.line_to(end.0, end.1),
+            OutlineCurve::Quad(_, a, _) => path.quad_to(place(a).0, place(a).1, end.0, end.1),
+            OutlineCurve::Cubic(_, a, b, _) => {
+                let (a, b) = (place(a), place(b));
+                path.cubic_to(a.0, a.1, b.0, b.1, end.0, end.1);
             }
-            along += end * size;
         }
-    }
-
-    /// Covers a glyph; its origin is at an offset along the text and below its baseline.
-    fn glyph(&mut self, font: &FontRef, glyph: GlyphId, size: f64, (along, down): Pt, text: &Text) {
-        let height = f64::from(font.height_unscaled()) / EM * size * self.scale;
-        // A turned text lies level in a picture that is turned back.
-        let (right, below) = if text.turned { (-text.at.1, text.at.0) } else { text.at };
-        let origin = self.device((right + along, below + down));
-        let place = point(origin.0 as f32, origin.1 as f32);
-        let Some(outline) = font.outline_glyph(glyph.with_scale_and_position(height as f32, place)) else { return };
-        let corner = outline.px_bounds().min;
-        outline.draw(|right, below, part| {
-            let (x, y) = (corner.x as i64 + i64::from(right), corner.y as i64 + i64::from(below));
-            let (x, y) = if text.turned { (y, -x - 1) } else { (x, y) };
-            self.coverage.pixel(x, y, f64::from(part).min(1.0));
-        });
-    }
-}
-
-/// Returns the drawn parts of a dashed line.
-fn dashes(points: &[Pt], pattern: &[f64]) -> Vec<Vec<Pt>> {
-    if pattern.is_empty() || pattern.iter().any(|length| *length <= 0.0) {
-        return vec![points.to_vec()];
-    }
-    let (mut parts, mut current) = (Vec::new(), points.first().map_or_else(Vec::new, |first| vec![*first]));
-    let (mut step, mut left) = (0, pattern[0]);
-    for pair in points.windows(2) {
-        let length = (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1);
-        let mut done = 0.0;
-        while length - done > left {
-            done += left;
-            let t = done / length;
-            let at = (pair[0].0 + t * (pair[1].0 - pair[0].0), pair[0].1 + t * (pair[1].1 - pair[0].1));
-            current.push(at);
-            parts.extend((step % 2 == 0).then(|| std::mem::take(&mut current)));
-            step += 1;
-            (current, left) = (vec![at], pattern[step % pattern.len()]);
-        }
-        left -= length - done;
-        current.push(pair[1]);
-    }
-    parts.extend((step % 2 == 0).then_some(current));
-    parts
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn dashes_go_around_corners() {
-        let parts = dashes(&[(0.0, 0.0), (4.0, 0.0), (4.0, 10.0)], &[6.0, 2.0]);
-        assert_eq!(parts, [vec![(0.0, 0.0), (4.0, 0.0), (4.0, 2.0)], vec![(4.0, 4.0), (4.0, 10.0)]]);
+        pen = Some(to);
     }
 }

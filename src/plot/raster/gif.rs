@@ -29,15 +29,15 @@ pub(in crate::plot) fn gif(
     moving: &(impl Fn(usize) -> Vec<Shape> + Sync),
     mut done: impl FnMut(usize),
 ) -> Result<Vec<u8>, String> {
-    let mut paper = RasterCanvas::new(still, DENSITY);
-    let (width, height) = paper.size;
+    let mut paper = RasterCanvas::new(still, DENSITY).ok_or("a figure without pixels")?;
+    let (width, height) = paper.size();
     paper.draw(&still.shapes);
     let draw = |k: usize| {
         let mut frame = paper.clone();
         frame.draw(&moving(k));
-        frame.pixels
+        frame.rgb()
     };
-    let side = |pixels: usize| u16::try_from(pixels).map_err(|_| format!("{pixels} pixels are too many for a GIF"));
+    let side = |pixels: u32| u16::try_from(pixels).map_err(|_| format!("{pixels} pixels are too many for a GIF"));
     let samples: Vec<usize> = (0..SAMPLES.min(count)).map(|k| k * (count - 1) / (SAMPLES - 1).max(1)).collect();
     let palette = Palette::new(&samples.into_par_iter().map(&draw).collect::<Vec<_>>());
     let mut file = Vec::new();
@@ -48,7 +48,7 @@ pub(in crate::plot) fn gif(
         let batch: Vec<usize> = (first..count.min(first + BATCH)).collect();
         let drawn = batch.into_par_iter().map(|k| palette.indices(&draw(k)));
         for (k, indices) in drawn.collect::<Vec<_>>().into_iter().enumerate() {
-            let mut frame = difference(&before, &indices, width);
+            let mut frame = difference(&before, &indices, width as usize);
             frame.delay = delay(first + k, per_second);
             encoder.write_frame(&frame).map_err(text)?;
             before = indices;

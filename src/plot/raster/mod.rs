@@ -1,7 +1,6 @@
 //! Raster pictures.
 
 mod canvas;
-mod coverage;
 mod gif;
 
 pub(super) use gif::gif;
@@ -19,7 +18,7 @@ const COLUMN_METRES: f64 = 0.085;
 /// Returns the bytes of a PNG file, or the reason why there is none.
 pub(super) fn png(drawing: &Drawing) -> Result<Vec<u8>, String> {
     let density = density(drawing)?;
-    let mut canvas = RasterCanvas::new(drawing, density);
+    let mut canvas = RasterCanvas::new(drawing, density).ok_or("a figure without pixels")?;
     canvas.draw(&drawing.shapes);
     encode(&canvas, density).map_err(|error| error.to_string())
 }
@@ -35,9 +34,9 @@ fn density(drawing: &Drawing) -> Result<usize, String> {
 }
 
 fn encode(canvas: &RasterCanvas, density: usize) -> Result<Vec<u8>, png::EncodingError> {
-    let (width, height) = canvas.size;
+    let (width, height) = canvas.size();
     let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, width as u32, height as u32);
+    let mut encoder = png::Encoder::new(&mut file, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     let per_metre = (640.0 * density as f64 / COLUMN_METRES).round() as u32;
@@ -47,7 +46,7 @@ fn encode(canvas: &RasterCanvas, density: usize) -> Result<Vec<u8>, png::Encodin
     encoder.set_filter(png::Filter::NoFilter);
     encoder.set_deflate_compression(png::DeflateCompression::Level(1));
     let mut writer = encoder.write_header()?;
-    writer.write_image_data(&canvas.pixels)?;
+    writer.write_image_data(&canvas.rgb())?;
     writer.finish()?;
     Ok(file)
 }
