@@ -6,7 +6,7 @@ use crate::system::{Column, MechanicalSystem, Names, Scratch};
 /// Rows of t, q, v, lambda and outputs, as they will be written to a file.
 #[derive(Clone, Debug)]
 pub struct Trajectory {
-    /// Names of q, v and lambda.
+    /// Names of q, v and lambda; none where rows have outputs only.
     pub names: Names,
     /// Names and units of the outputs.
     pub outputs: Vec<Column>,
@@ -31,6 +31,12 @@ impl Trajectory {
         Trajectory { names: system.names(), outputs: system.columns(), rows: Vec::new() }
     }
 
+    /// No rows, with time and outputs as the only columns.
+    pub fn of_outputs(system: &dyn MechanicalSystem) -> Self {
+        let names = Names { q: Vec::new(), v: Vec::new(), lambda: Vec::new() };
+        Trajectory { names, outputs: system.columns(), rows: Vec::new() }
+    }
+
     /// Headings of all columns: `t`, coordinates, velocities, multipliers, outputs.
     pub fn headings(&self) -> Vec<&str> {
         let Names { q, v, lambda } = &self.names;
@@ -42,7 +48,9 @@ impl Trajectory {
     pub fn push(&mut self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) {
         let mut outputs = vec![0.0; self.outputs.len()];
         system.outputs(state.loaded(), &mut outputs, scratch);
-        self.rows.push([&[state.t], state.q, state.v, state.lambda, &outputs].concat());
+        let Names { q, v, lambda } = &self.names;
+        let own = [&state.q[..q.len()], &state.v[..v.len()], &state.lambda[..lambda.len()]];
+        self.rows.push([&[state.t], own[0], own[1], own[2], &outputs].concat());
     }
 
     /// Times of the rows, s.

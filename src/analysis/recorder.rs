@@ -12,6 +12,8 @@ use crate::trajectory::Trajectory;
 pub struct Record {
     /// Output rows.
     pub trajectory: Trajectory,
+    /// The last row with q, v and lambda, where `trajectory` has outputs only.
+    pub last: Option<Trajectory>,
     /// Constraint drift.
     pub drift: Drift,
     /// `None` where the system defines no potential.
@@ -49,6 +51,7 @@ impl<'a> Recorder<'a> {
             watch: Watch::new(system),
             record: Record {
                 trajectory: Trajectory::new(system),
+                last: None,
                 drift: Drift::default(),
                 energy: None,
                 singularity: Singularity::default(),
@@ -59,6 +62,13 @@ impl<'a> Recorder<'a> {
             progress: Box::new(|_| {}),
             stop: Box::new(|| None),
         }
+    }
+
+    /// Keeps time and outputs alone of all rows but the last.
+    pub fn with_outputs_only(mut self) -> Self {
+        self.record.trajectory = Trajectory::of_outputs(self.system);
+        self.record.last = Some(Trajectory::new(self.system));
+        self
     }
 
     /// Sets a callback with the time of every accepted step.
@@ -96,6 +106,10 @@ impl Sink for Recorder<'_> {
         self.record.drift_rows.push(levels);
         self.record.ledger_rows.extend(self.meter.ledger(self.system, state, &mut self.scratch));
         self.record.trajectory.push(self.system, state, &mut self.scratch);
+        if let Some(last) = &mut self.record.last {
+            last.rows.clear();
+            last.push(self.system, state, &mut self.scratch);
+        }
     }
 
     fn stops(&self) -> Option<Stop> {

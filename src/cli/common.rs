@@ -182,11 +182,15 @@ impl Common {
         Overrides { equilibrium: self.equilibrium, ..self.method.overrides(&self.scene, self.spec.method) }
     }
 
-    /// Returns the time span, with as many rows as fit into memory.
+    /// Returns the time span, if its rows fit into memory.
     pub fn span(&self, prepared: &PreparedScene) -> Result<Span> {
-        let span = prepared.span().map_err(|error| error.in_file(&self.scene.path))?;
         let Dimensions { q, v, lambda, .. } = prepared.system().dimensions();
-        let columns = 1 + q + v + lambda + prepared.system().columns().len();
+        self.span_with(prepared, 1 + q + v + lambda + prepared.system().columns().len())
+    }
+
+    /// Returns the time span, if its rows with this number of columns fit into memory.
+    pub fn span_with(&self, prepared: &PreparedScene, columns: usize) -> Result<Span> {
+        let span = prepared.span().map_err(|error| error.in_file(&self.scene.path))?;
         refuse_rows((span.end - span.start) / span.output_step + 1.0, columns)
             .map_err(|error| error.under("--output-step").hint("give a larger one, or an earlier end with --until"))?;
         Ok(span)

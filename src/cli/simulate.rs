@@ -4,10 +4,10 @@ use super::common::{Common, Output, tell};
 use super::{interrupt, restart};
 use crate::analysis::{Record, Recorder};
 use crate::compare::check_error;
-use crate::error::{Result, Warning};
+use crate::error::{Error, Result, Warning};
 use crate::prepared::PreparedScene;
 use crate::report::{self, Folder, Summary, summarize};
-use crate::simulate::Start;
+use crate::simulate::{Span, Start};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -18,6 +18,12 @@ pub struct Args {
     common: Common,
     #[command(flatten)]
     output: Output,
+    /// Format of the trajectory: text, arrays of NumPy, or both
+    #[arg(long, value_enum, default_value_t = Format::Csv)]
+    format: Format,
+    /// Leave coordinates, velocities and multipliers out of the trajectory
+    #[arg(long)]
+    outputs_only: bool,
     /// Run again at a tenth of the tolerance, or half the step, and tell by how much each output differs
     #[arg(long)]
     check_error: bool,
@@ -26,9 +32,16 @@ pub struct Args {
     start: Option<PathBuf>,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Format {
+    Csv,
+    Npz,
+    Both,
+}
+
 pub fn run(args: Args) -> Result<ExitCode> {
     let prepared = args.common.load()?;
-    let span = args.common.span(&prepared)?;
+    let span = args.span(&prepared)?;
     let saved = args.start.as_ref().map(|path| restart::read(path, &prepared)).transpose()?;
     let doubt = saved.as_ref().and_then(|saved| restart::doubt(saved, &prepared));
     let mut folder = args.output.folder(&prepared.name)?;
@@ -43,6 +56,9 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let mut recorder = Recorder::new(prepared.system())
         .with_progress(|t| bar.set_position(fraction(t)))
         .with_stop(|| interrupt::stop(&folder));
+    if args.outputs_only {
+        recorder = recorder.with_outputs_only();
+    }
     let clock = Instant::now();
     let (q, v) = prepared.start();
     let start = saved.as_ref().map_or(Start::State(q, v), Start::Saved);
@@ -65,7 +81,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         }
         false => summary,
     };
-    write(&prepared, &record, &summary, &mut folder, &args.output)?;
+    write((&prepared, &record, &summary), &mut folder, &args)?;
     let written = folder.finish()?;
     args.common.talk.print(&summary, || summary.text(&units(&record)))?;
     args.common.talk.tell_files(&written)?;
@@ -73,20 +89,37 @@ pub fn run(args: Args) -> Result<ExitCode> {
     Ok(match &summary.failure {
         None => ExitCode::SUCCESS,
         Some(failure) => {
-            tell(format!("error: {}", crate::error::Error::from(failure.clone())));
+            tell(format!("error: {}", Error::from(failure.clone())));
             ExitCode::from(1)
         }
     })
 }
 
+impl Args {
+    /// Returns the time span, if its rows fit into memory.
+    fn span(&self, prepared: &PreparedScene) -> Result<Span> {
+        if !self.outputs_only {
+            return self.common.span(prepared);
+        }
+        match prepared.system().columns().len() {
+            0 => Err(Error::input("--outputs-only leaves nothing to write: the scene has no outputs")
+                .hint("give it `outputs`, or run without --outputs-only")),
+            outputs => self.common.span_with(prepared, 1 + outputs),
+        }
+    }
+}
+
 fn write(
-    prepared: &PreparedScene,
-    record: &Record,
-    summary: &Summary,
+    (prepared, record, summary): (&PreparedScene, &Record, &Summary),
     folder: &mut Folder,
-    output: &Output,
+    Args { output, format, .. }: &Args,
 ) -> Result<()> {
-    folder.write("trajectory.csv", &report::trajectory_table(&record.trajectory)?)?;
+    if *format != Format::Npz {
+        folder.write("trajectory.csv", &report::trajectory_table(&record.trajectory)?)?;
+    }
+    if *format != Format::Csv {
+        folder.write("trajectory.npz", &report::trajectory_arrays(&record.trajectory)?)?;
+    }
     folder.write("drift.csv", &report::drift_table(record)?)?;
     if record.energy.is_some() {
         folder.write("energy.csv", &report::energy_table(record)?)?;

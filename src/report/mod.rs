@@ -26,5 +26,7 @@ pub use summary::{Summary, summarize};
 pub use sweep::SweepSummary;
 pub use sweep_figure::{SweepLook, sweep_figure};
 pub use table::Table;
+#[cfg(feature = "npz")]
+pub use tables::trajectory_arrays;
 pub use tables::{cell, drift_table, energy_table, sweep_table, table, trajectory_table};
 pub use warnings::uncertain_kinds;

@@ -12,6 +12,17 @@ pub fn trajectory_table(trajectory: &Trajectory) -> Result<Vec<u8>> {
     write(trajectory.headings(), trajectory.rows.iter().map(Vec::as_slice))
 }
 
+/// Returns the same as a file of NumPy: `rows`, a matrix, and the names of its `columns`; NaN where there is no value.
+#[cfg(feature = "npz")]
+pub fn trajectory_arrays(trajectory: &Trajectory) -> Result<Vec<u8>> {
+    use crate::files::{Array, npz};
+    let headings = trajectory.headings();
+    let values = trajectory.rows.iter().flatten().map(|value| if value.is_finite() { *value } else { f64::NAN });
+    let rows = Array::Real { shape: vec![trajectory.rows.len(), headings.len()], values: values.collect() };
+    let columns = Array::Texts(headings.into_iter().map(String::from).collect());
+    npz::write(&[("columns", columns), ("rows", rows)])
+}
+
 /// Returns the parameter by its name, coordinates, multipliers, outputs: one row per value that was reached.
 pub fn sweep_table(sweep: &Sweep) -> Result<Vec<u8>> {
     let Names { q, lambda, .. } = &sweep.names;
@@ -106,5 +117,32 @@ mod tests {
         for value in [f64::MAX, f64::MIN_POSITIVE, 5e-324, 1e16, -1e-5, 1e22, 0.1f64.next_up()] {
             assert_eq!(cell(value).parse(), Ok(value));
         }
+    }
+
+    #[test]
+    #[cfg(feature = "npz")]
+    fn arrays_are_those_of_the_table() {
+        use crate::files::npy::Npy;
+        use crate::system::Column;
+        use std::io::Read;
+        let names = Names { q: vec!["x".into()], v: vec!["x'".into()], lambda: Vec::new() };
+        let outputs = vec![Column { name: "φ".into(), unit: "rad".into() }];
+        let rows = vec![vec![0.0, 1.0, 2.0, f64::INFINITY], vec![0.5, 0.1, -1e-9, 3.0]];
+        let file = trajectory_arrays(&Trajectory { names, outputs, rows }).unwrap();
+        let mut archive = zip::ZipArchive::new(std::io::Cursor::new(file)).unwrap();
+        let mut member = |name: &str| {
+            let mut bytes = Vec::new();
+            archive.by_name(name).unwrap().read_to_end(&mut bytes).unwrap();
+            bytes
+        };
+        assert_eq!(Npy::parse(&member("columns.npy")).unwrap().texts().unwrap(), ["t", "x", "x'", "φ"]);
+        let bytes = member("rows.npy");
+        let rows = Npy::parse(&bytes).unwrap();
+        let values = rows.numbers().unwrap();
+        assert_eq!(
+            (rows.shape, &values[..3], &values[4..]),
+            (vec![2, 4], &[0.0, 1.0, 2.0][..], &[0.5, 0.1, -1e-9, 3.0][..])
+        );
+        assert!(values[3].is_nan());
     }
 }

@@ -335,3 +335,41 @@ fn an_output_without_a_value_leaves_empty_cells() {
         (Some(0), &Value::Null)
     );
 }
+
+#[test]
+fn the_trajectory_is_written_as_text_arrays_or_both() {
+    let place = Place::new(PENDULUM);
+    for (format, file) in [("csv", "trajectory.csv"), ("npz", "trajectory.npz")] {
+        place.done(&["simulate", "scene.json", "-o", format, "--format", format, "--figures", "none", "--quiet"]);
+        assert_eq!(place.files(format), ["drift.csv", "energy.csv", "summary.json", file]);
+    }
+    place.done(&["simulate", "scene.json", "-o", "both", "--format", "both", "--quiet"]);
+    for (format, file) in [("csv", "trajectory.csv"), ("npz", "trajectory.npz")] {
+        let [one, both] = [format, "both"].map(|folder| fs::read(place.path(&format!("{folder}/{file}"))).unwrap());
+        assert_eq!(one, both);
+    }
+}
+
+#[test]
+fn without_coordinates_the_trajectory_has_the_outputs_and_the_summary_the_state() {
+    let place = Place::new(PENDULUM);
+    place.done(&["simulate", "scene.json", "-o", "all", "--quiet"]);
+    place.done(&["simulate", "scene.json", "-o", "few", "--outputs-only", "--quiet", "--check-error"]);
+    let outputs = |folder: &str| -> Vec<String> {
+        let text = place.text(&format!("{folder}/trajectory.csv"));
+        let few = |line: &str| {
+            let cells: Vec<&str> = line.split(',').collect();
+            [cells[0], cells[cells.len() - 2], cells[cells.len() - 1]].join(",")
+        };
+        text.lines().map(few).collect()
+    };
+    assert_eq!(place.text("few/trajectory.csv").lines().collect::<Vec<_>>(), outputs("all"));
+    assert_eq!(place.text("few/outputs.svg"), place.text("all/outputs.svg"));
+    let [all, few] = ["all", "few"].map(|folder| place.json(&format!("{folder}/summary.json")));
+    assert_eq!([&all["final"], &all["restart"]], [&few["final"], &few["restart"]]);
+    assert!(few["check_error"]["outputs"]["theta"]["max"].is_number());
+    let bare = Place::new(parallelogram());
+    let refused = bare.run(&["simulate", "scene.json", "--outputs-only"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(err(&refused).contains("the scene has no outputs"), "{}", err(&refused));
+}
