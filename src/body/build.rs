@@ -183,7 +183,8 @@ impl<const D: usize> Build<'_, D> {
         }
         let mut vector = [0.0; N];
         for (i, (place, number)) in vector.iter_mut().zip(numbers).enumerate() {
-            *place = self.number(&format!("{field}[{i}]"), number)?;
+            let value = number.evaluate(self.parameters);
+            *place = value.map_err(|error| Error::from(error).under(format!("{field}[{i}]")))?;
         }
         Ok(vector)
     }

@@ -4,17 +4,20 @@ use crate::error::{Error, Result, excerpt, suggest};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use serde_path_to_error::{Path, Segment};
+use std::borrow::Borrow;
 
 /// Reads a type from JSON; errors carry the path within it and suggest the nearest key.
-pub fn parse<T: DeserializeOwned>(json: Value) -> Result<T> {
+pub fn parse<T: DeserializeOwned>(json: impl Borrow<Value>) -> Result<T> {
     parse_among(json, &[])
 }
 
 /// Reads a type from an element whose other keys, `shared`, have been removed: a misspelled key may be meant as
 /// one of them.
-pub fn parse_among<T: DeserializeOwned>(json: Value, shared: &[&str]) -> Result<T> {
-    serde_path_to_error::deserialize(&json).map_err(|error| {
-        let found = at(&json, error.path());
+pub fn parse_among<T: DeserializeOwned>(json: impl Borrow<Value>, shared: &[&str]) -> Result<T> {
+    let json = json.borrow();
+    // Following the path takes as long as reading, and is needed for errors alone.
+    T::deserialize(json).or_else(|_| serde_path_to_error::deserialize(json)).map_err(|error| {
+        let found = at(json, error.path());
         let path = error.path().to_string();
         let error = explain(&error.inner().to_string(), found, shared);
         if path == "." || path == "?" { error } else { error.under(path.trim_end_matches(".?")) }

@@ -3,6 +3,7 @@
 use super::locate::line_and_column;
 use crate::error::{Error, Result};
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde_json::map::Entry;
 use serde_json::{Map, Number, Value};
 use std::fmt;
 
@@ -61,11 +62,10 @@ impl<'de> Visitor<'de> for StrictVisitor {
     fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Value, A::Error> {
         let mut map = Map::new();
         while let Some(key) = entries.next_key::<String>()? {
-            if map.contains_key(&key) {
-                return Err(de::Error::custom(format_args!("{TWICE}`{key}`")));
-            }
-            let Strict(value) = entries.next_value()?;
-            map.insert(key, value);
+            match map.entry(key) {
+                Entry::Occupied(known) => return Err(de::Error::custom(format_args!("{TWICE}`{}`", known.key()))),
+                Entry::Vacant(place) => place.insert(entries.next_value::<Strict>()?.0),
+            };
         }
         Ok(Value::Object(map))
     }

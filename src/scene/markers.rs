@@ -16,20 +16,20 @@ pub fn markers<const D: usize>(
 ) -> Result<Vec<(String, Marker<D>)>> {
     let one = |(name, value): (&String, &Value)| {
         super::resolve::check_name(name).map_err(|error| error.under("markers"))?;
-        let mut marker = marker(value.clone(), build).map_err(|error| error.under(name).under("markers"))?;
+        let mut marker = marker(value, build).map_err(|error| error.under(name).under("markers"))?;
         marker.offset = from_fn(|i| marker.offset[i] + origin[i]);
         Ok((name.clone(), marker))
     };
     given.iter().map(one).collect()
 }
 
-fn marker<const D: usize>(value: Value, build: &Build<D>) -> Result<Marker<D>> {
+fn marker<const D: usize>(value: &Value, build: &Build<D>) -> Result<Marker<D>> {
     if value.is_array() {
         let position: Vec<Number> = parse(value)?;
         return Ok(Marker::point(vector(&position, build)?));
     }
     if !value.is_object() {
-        return Err(Error::input(format!("expected a position, found {}", show(&value)))
+        return Err(Error::input(format!("expected a position, found {}", show(value)))
             .hint("write [x, y], [x, y, z] or {\"position\": [...], ...}"));
     }
     let given: OrientedMarker = parse(value)?;
@@ -114,7 +114,7 @@ fn without(v: [f64; 3], along: [f64; 3]) -> [f64; 3] {
 /// Names and values of the parameters, in the order of the scene.
 pub fn parameters(given: &Map<String, Value>) -> Result<Vec<(String, Number)>> {
     let one = |(name, value): (&String, &Value)| {
-        let number = parse::<Number>(value.clone()).map_err(|error| error.under(name).under("parameters"))?;
+        let number = parse::<Number>(value).map_err(|error| error.under(name).under("parameters"))?;
         Ok((name.clone(), number))
     };
     given.iter().map(one).collect()

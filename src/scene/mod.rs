@@ -139,12 +139,15 @@ impl Elements {
         self.resolve(folder, json::read(text)?, overrides)
     }
 
-    fn resolve(&self, folder: &Path, json: Value, overrides: &[(String, Number)]) -> Result<Scene> {
+    fn resolve(&self, folder: &Path, mut json: Value, overrides: &[(String, Number)]) -> Result<Scene> {
         if !json.is_object() {
             return Err(Error::input(format!("a scene is a JSON object, found {}", crate::body::show(&json)))
                 .hint("begin with {\"name\": ..., \"dimension\": 2, ...}"));
         }
-        let file = crate::body::parse::<SceneFile>(json.clone());
+        // The long lists are moved, not copied.
+        let mut taken = |key: &str| json.get_mut(key).and_then(Value::as_array_mut).map(std::mem::take);
+        let [bodies, joints, forces] = ["bodies", "joints", "forces"].map(|key| taken(key).unwrap_or_default());
+        let file = crate::body::parse::<SceneFile>(&json).map(|file| SceneFile { bodies, joints, forces, ..file });
         file.and_then(|file| resolve::build(file, self, overrides, folder)).map_err(|error| name_element(error, &json))
     }
 }
@@ -154,10 +157,10 @@ pub(crate) fn folder(scene: Option<&Path>) -> &Path {
     scene.and_then(Path::parent).unwrap_or(Path::new(""))
 }
 
-/// Adds the name of the element in which the path lies, unless it is known.
+/// Adds the name of the input or output in which the path lies, unless it is known.
 fn name_element(error: Error, json: &Value) -> Error {
     let Error::Input(input) = &error else { return error };
-    let lists = ["bodies", "joints", "forces", "inputs", "outputs"];
+    let lists = ["inputs", "outputs"];
     let name = input.path.split_once('[').filter(|(list, _)| lists.contains(list)).and_then(|(list, rest)| {
         let (index, rest) = rest.split_once(']')?;
         // An error in the name itself quotes it already.

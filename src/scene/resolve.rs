@@ -14,19 +14,20 @@ use crate::joint::{Joint, JointKind};
 use crate::math::expression::{Number, Parameters};
 use serde_json::{Map, Value};
 use std::collections::HashSet;
+use std::mem::take;
 use std::path::Path;
 
 /// Resolves all names and expressions of a scene and checks them.
-pub fn build(file: SceneFile, elements: &Elements, overrides: &[(String, Number)], folder: &Path) -> Result<Scene> {
+pub fn build(mut file: SceneFile, elements: &Elements, overrides: &[(String, Number)], folder: &Path) -> Result<Scene> {
     check_scene_name(&file.name)?;
     let parameters = markers::resolve(&file.parameters, overrides)?;
     let (dimension, (model, q, v)) = match file.dimension {
         Dimension::Two => {
-            let (model, q, v) = model(&file, &elements.planar, &parameters, folder)?;
+            let (model, q, v) = model(&mut file, &elements.planar, &parameters, folder)?;
             (2, (AnyModel::Planar(model), q, v))
         }
         Dimension::Three => {
-            let (model, q, v) = model(&file, &elements.spatial, &parameters, folder)?;
+            let (model, q, v) = model(&mut file, &elements.spatial, &parameters, folder)?;
             (3, (AnyModel::Spatial(model), q, v))
         }
     };
@@ -45,9 +46,9 @@ pub fn build(file: SceneFile, elements: &Elements, overrides: &[(String, Number)
 }
 
 /// The model with its initial q and v. Bodies are read first, so that joints, forces and outputs can name their
-/// markers.
+/// markers; all three lists are taken out of the file.
 fn model<const D: usize>(
-    file: &SceneFile,
+    file: &mut SceneFile,
     kinds: &Kinds<D>,
     parameters: &Parameters,
     folder: &Path,
@@ -76,9 +77,9 @@ struct Links<const D: usize> {
 }
 
 impl<const D: usize> Links<D> {
-    fn read(file: &SceneFile, kinds: &Kinds<D>, parts: &Parts<D>, build: &Build<D>) -> Result<Self> {
-        let joints = joints(&file.joints, &kinds.joints, build)?;
-        let mut forces = forces(&file.forces, &kinds.forces, build)?;
+    fn read(file: &mut SceneFile, kinds: &Kinds<D>, parts: &Parts<D>, build: &Build<D>) -> Result<Self> {
+        let joints = joints(take(&mut file.joints), &kinds.joints, build)?;
+        let mut forces = forces(take(&mut file.forces), &kinds.forces, build)?;
         forces.extend(parts.beams.iter().flat_map(|beam| line_elements(beam, &parts.bodies)));
         let Parts { bodies, beams, .. } = parts;
         let elements = outputs::Elements { bodies, beams, joints: &joints, forces: &forces };
@@ -89,7 +90,7 @@ impl<const D: usize> Links<D> {
 }
 
 fn joints<const D: usize>(
-    given: &[Value],
+    given: Vec<Value>,
     kinds: &[JointKind<D>],
     build: &Build<D>,
 ) -> Result<Vec<Connection<Box<dyn Joint<D>>>>> {
@@ -99,7 +100,7 @@ fn joints<const D: usize>(
 }
 
 fn forces<const D: usize>(
-    given: &[Value],
+    given: Vec<Value>,
     kinds: &[ForceKind<D>],
     build: &Build<D>,
 ) -> Result<Vec<Connection<Box<dyn Force<D>>>>> {
@@ -142,7 +143,7 @@ struct Parts<const D: usize> {
 }
 
 impl<const D: usize> Parts<D> {
-    fn collect(file: &SceneFile, kinds: &[BodyKind<D>], build: &Build<D>) -> Result<Self> {
+    fn collect(file: &mut SceneFile, kinds: &[BodyKind<D>], build: &Build<D>) -> Result<Self> {
         if file.bodies.is_empty() {
             return Err(Error::input("the scene has no body")
                 .under("bodies")
@@ -151,8 +152,8 @@ impl<const D: usize> Parts<D> {
         let ground = markers::markers(&file.ground.markers, &[0.0; D], build).map_err(|error| error.under("ground"))?;
         build.switches.borrow_mut().own("the ground");
         let mut parts = Parts::new(ground, file.forces.len());
-        for (i, json) in file.bodies.iter().enumerate() {
-            parts.add(json.clone(), kinds, build).map_err(|error| error.under(format!("bodies[{i}]")))?;
+        for (i, json) in take(&mut file.bodies).into_iter().enumerate() {
+            parts.add(json, kinds, build).map_err(|error| error.under(format!("bodies[{i}]")))?;
         }
         Ok(parts)
     }
@@ -283,7 +284,7 @@ pub(super) fn start_and_markers(json: &mut Map<String, Value>) -> Result<(Initia
 
 /// Reads joints or forces: `make` gets the JSON without `name` and `type`.
 fn elements<E, Make, const D: usize>(
-    given: &[Value],
+    given: Vec<Value>,
     (list, what): (&str, &str),
     kinds: &[ElementKind<Make>],
     build: &Build<D>,
@@ -291,16 +292,16 @@ fn elements<E, Make, const D: usize>(
 ) -> Result<Vec<Connection<E>>> {
     let mut all: Vec<Connection<E>> = Vec::new();
     let mut names = HashSet::new();
-    for (i, json) in given.iter().enumerate() {
-        let mut read = || {
-            let mut json = object(json.clone())?;
+    for (i, json) in given.into_iter().enumerate() {
+        let read = || {
+            let mut json = object(json)?;
             let name = take_name(&mut json)?;
             if !names.insert(name.clone()) {
                 return Err(Error::input(format!("the name `{name}` is taken"))
                     .under("name")
                     .hint(format!("give each {what} its own")));
             }
-            let kind = take_kind(&mut json, what, kinds)?;
+            let kind = take_kind(&mut json, what, kinds).map_err(|error| error.element(&name))?;
             let made = make(&kind.build, Value::Object(json));
             let (element, markers) = made.map_err(|error| error.element(&name))?;
             build.own(what, &name);

@@ -26,6 +26,7 @@ impl Number {
     /// If the expression cannot be parsed, depends on anything but parameters, or its value is not finite.
     pub fn evaluate(&self, parameters: &Parameters) -> Result<f64, ExpressionError> {
         match self {
+            Number::Value(value) if value.is_finite() => Ok(*value),
             Number::Value(value) => finite(*value, &value.to_string()),
             Number::Text(text) => Expression::parse(text, parameters)?.constant(),
         }
