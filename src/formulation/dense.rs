@@ -1,12 +1,12 @@
-//! Index 1 with another solver of the saddle-point system.
+//! Index 1 with the dense solver of the saddle-point system.
 
 use super::{Dynamics, Formulation, StepError};
-use crate::math::kkt::Solver;
+use crate::math::kkt::Reduced;
 
-/// The vector field of index 1, with accelerations and multipliers from the solver `S`.
-pub(super) struct Dense<S>(pub S);
+/// The vector field of index 1, with accelerations and multipliers from a pivoted QR of G^T.
+pub(super) struct Dense(pub Reduced);
 
-impl<S: Solver + Send> Formulation for Dense<S> {
+impl Formulation for Dense {
     fn derivative(
         &mut self,
         t: f64,
@@ -23,7 +23,7 @@ impl<S: Solver + Send> Formulation for Dense<S> {
         factored.map_err(|singular| dynamics.halt(singular))?;
         dynamics.dense_indicator = self.0.rank_indicator();
         dynamics.is_rank_deficient = self.0.is_rank_deficient();
-        dynamics.rank_indicator = self.0.row_indicator();
+        dynamics.rank_indicator = Some(dynamics.dense_indicator);
         self.0.solve(&mut dynamics.vdot, &mut dynamics.lambda).map_err(|singular| dynamics.halt(singular))?;
         dynamics.finite()?;
         dynamics.system.rate(q, v, qdot);

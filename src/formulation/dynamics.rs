@@ -17,8 +17,6 @@ pub enum StepError {
     Term(String),
     /// The coordinate has neither mass nor constraint along some direction of motion.
     Undetermined(String),
-    /// The coordinate has no mass along some direction, and the formulation needs M^-1.
-    Massless(String),
     /// The equations do not determine the accelerations.
     Singular(Singular),
     /// Newton's method does not find the end of a step.
@@ -64,9 +62,6 @@ impl fmt::Display for StepError {
                 out,
                 "the motion is not determined: `{coordinate}` has neither mass nor constraint in a direction"
             ),
-            StepError::Massless(coordinate) => {
-                write!(out, "`{coordinate}` has no mass in a direction, and the formulation needs the inverse of M")
-            }
             StepError::Singular(singular) => write!(out, "{singular}"),
             StepError::NotConverged => write!(out, "Newton's method does not converge"),
             StepError::Open => write!(out, "the projection does not close the joints: its residual no longer falls"),
@@ -218,7 +213,6 @@ impl<'a> Dynamics<'a> {
     pub(super) fn halt(&self, singular: Singular) -> StepError {
         match singular {
             Singular::Undetermined { coordinate } => StepError::Undetermined(self.coordinate(coordinate)),
-            Singular::Massless { coordinate } => StepError::Massless(self.coordinate(coordinate)),
             Singular::NotFinite => self.infinite_term().map_or(StepError::NotFinite, StepError::Term),
             other => StepError::Singular(other),
         }

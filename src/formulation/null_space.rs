@@ -9,6 +9,7 @@ use crate::math::memory::refuse_dense;
 use crate::math::newton::{Limits, Monitor, relative};
 use crate::system::{MechanicalSystem, Need};
 use crate::tolerances::initial as tolerances;
+use crate::tolerances::math::RANK;
 
 /// With G_b Z = 0 at the start (q_b, v_b) of a step, and Y normal to Z in the metric of diag(M_b),
 ///
@@ -50,7 +51,7 @@ pub const ENTRY: Entry = Entry {
 const COPIES: f64 = 10.0;
 
 struct TangentSpace {
-    field: Dense<Reduced>,
+    field: Dense,
     chart: Chart,
     /// True while states belong to a step, and so to the chart; other states are used as they are.
     is_within: bool,
@@ -79,7 +80,7 @@ impl TangentSpace {
         let (n, structure) = (system.dimensions(), system.structure());
         let zeros = |n: usize| vec![0.0; n];
         Some(TangentSpace {
-            field: Dense(Reduced::new(&structure.mass, &structure.g)?),
+            field: Dense(Reduced::new(&structure.mass, &structure.g, RANK)?),
             chart: Chart::new(&structure.mass, &structure.g),
             is_within: false,
             base: (f64::NAN, zeros(n.q), Vec::new()),

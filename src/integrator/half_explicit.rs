@@ -4,13 +4,26 @@ use super::explicit::Tableau as Explicit;
 use super::hermite::Hermite;
 use super::sums::combine;
 use super::{Control, From, Integrator, Problem, Setup, Stability, Tolerance};
-use crate::formulation::StepError;
-use crate::math::all_finite;
-use crate::math::kkt::TwoJacobianGmres;
+use crate::error::{Error, Result};
+use crate::formulation::{Dynamics, StepError};
+use crate::math::kkt::{Pattern, Singular, Unsymmetric};
+use crate::math::newton::{Limits, Monitor};
+use crate::math::{all_finite, largest};
 use crate::system::Need;
+use crate::tolerances::integrator as tolerances;
 
 /// Order of the rows of the cubic, whose error over a step is O(h^4).
 const CUBIC: usize = 4;
+
+/// Corrections of a stage, relative to its acceleration. Ten cost as much as a factorization; those that leave more than
+/// a tenth would take more.
+const CORRECTIONS: Limits = Limits {
+    most: 10,
+    round_off: f64::EPSILON,
+    stagnation: tolerances::STAGE_STAGNATION,
+    contraction: 0.1,
+    ..Limits::NONE
+};
 
 /// The constants of a half-explicit method.
 pub struct Tableau {
@@ -60,19 +73,25 @@ pub struct HalfExplicit {
     /// phi_t of the stage, and the rate of the constraint that the acceleration must produce.
     phi_t: Vec<f64>,
     rate: Vec<f64>,
+    /// What the acceleration misses of it.
+    missed: Vec<f64>,
     /// Error of q, v and w, and its part in v normal to the manifold.
     error: Vec<f64>,
     off: Vec<f64>,
-    solver: TwoJacobianGmres,
+    matrix: Unsymmetric<f64>,
+    /// G of the stage.
+    g: Vec<f64>,
     control: Control,
     polynomial: Hermite,
 }
 
 impl HalfExplicit {
-    pub fn new(tableau: &'static Tableau, setup: &Setup) -> Self {
-        let (n, len) = (setup.system.dimensions(), setup.len());
+    pub fn new(tableau: &'static Tableau, setup: &Setup) -> Result<Self> {
+        let (n, len, structure) = (setup.system.dimensions(), setup.len(), setup.system.structure());
         let zeros = |n: usize| vec![0.0; n];
-        HalfExplicit {
+        let none = Pattern { rows: n.v, cols: n.v, entries: Vec::new() };
+        let matrix = Unsymmetric::new(&structure.mass, &none, &structure.g);
+        Ok(HalfExplicit {
             tableau,
             control: (tableau.control)(),
             k: vec![zeros(len); tableau.constraint.len() + 1],
@@ -81,11 +100,13 @@ impl HalfExplicit {
             force: zeros(n.v),
             phi_t: zeros(n.lambda),
             rate: zeros(n.lambda),
+            missed: zeros(n.lambda),
             error: zeros(len),
             off: zeros(n.v),
-            solver: TwoJacobianGmres::new(n.v, n.lambda),
+            matrix: matrix.ok_or_else(|| Error::input("there is not enough memory for a matrix of this size"))?,
+            g: zeros(structure.g.entries.len()),
             polynomial: Hermite::new(len, usize::from(tableau.order > CUBIC)),
-        }
+        })
     }
 
     /// k_i = (N V, V', power) of stage `i`.
@@ -102,6 +123,7 @@ impl HalfExplicit {
         self.phi_t.copy_from_slice(&dynamics.terms.phi_t);
         let power = dynamics.terms.power;
         self.lambda.copy_from_slice(&dynamics.terms.gamma);
+        self.g.copy_from_slice(&dynamics.terms.g);
         let (qdot, rest) = self.k[i].split_at_mut(n.q);
         dynamics.system.rate(q, v, qdot);
         // The row of the constraint sums the accelerations before V'_i.
@@ -113,7 +135,8 @@ impl HalfExplicit {
         Ok(())
     }
 
-    /// Solves for V'_i and lambda_i; on entry k_i is N V and zeros, `force` f and `lambda` the guess gamma.
+    /// Solves for V'_i and lambda_i; on entry k_i is N V and zeros, `force` f, `lambda` the guess gamma, and M and G(Q_i)
+    /// are factored.
     fn solve(&mut self, problem: &mut Problem, i: usize, from: From, h: f64) -> Result<(), StepError> {
         let row = self.tableau.constraint[i];
         let n = problem.dynamics.system.dimensions();
@@ -124,12 +147,45 @@ impl HalfExplicit {
         dynamics.evaluate(from.t + self.tableau.nodes[i] * h, q, &v[..n.v], Need::CONSTRAINTS | Need::G);
         let factor = -1.0 / (h * row[i]);
         self.rate.iter_mut().zip(&dynamics.terms.phi_dot).for_each(|(rate, phi_dot)| *rate = factor * phi_dot);
+        if !self.correct(dynamics, i)? {
+            self.factor(dynamics, i).map_err(apart)?;
+        }
+        is_finite(&self.k[i][n.q..n.q + n.v])
+    }
+
+    /// Solves with the factors of M and G(Q_i), and again for what G(P_i) V'_i misses: G(P_i) - G(Q_i) = O(h) of it is
+    /// left each time. False where that does not reach round-off, as in long steps.
+    fn correct(&mut self, dynamics: &mut Dynamics, i: usize) -> Result<bool, Singular> {
+        let n = dynamics.system.dimensions();
         let vdot = &mut self.k[i][n.q..n.q + n.v];
         vdot.copy_from_slice(&self.force);
-        let mass = (&*dynamics.structure.mass, &dynamics.terms.mass[..]);
-        let g2 = (&*dynamics.structure.g, &dynamics.terms.g[..]);
-        self.solver.solve(&mut dynamics.kkt, mass, g2, &self.rate, vdot, &mut self.lambda)?;
-        is_finite(vdot)
+        dynamics.kkt.solve(vdot, &mut self.lambda)?;
+        Monitor::default().solve(CORRECTIONS, |_| {
+            self.missed.fill(0.0);
+            dynamics.structure.g.multiply(&dynamics.terms.g, vdot, &mut self.missed);
+            self.missed.iter_mut().zip(&self.rate).for_each(|(missed, rate)| *missed = rate - *missed);
+            self.off.fill(0.0);
+            dynamics.kkt.solve(&mut self.off, &mut self.missed)?;
+            vdot.iter_mut().zip(&self.off).for_each(|(vdot, off)| *vdot += off);
+            self.lambda.iter_mut().zip(&self.missed).for_each(|(lambda, missed)| *lambda += missed);
+            Ok(largest(&self.off) / largest(vdot).max(f64::MIN_POSITIVE))
+        })
+    }
+
+    /// Solves with a factorization of its own, ten times the work of a solution above; rows that are dependent in M and
+    /// G(Q_i) are dropped.
+    fn factor(&mut self, dynamics: &Dynamics, i: usize) -> Result<(), Singular> {
+        let n = dynamics.system.dimensions();
+        self.matrix.drop_rows(dynamics.kkt.left_out());
+        self.matrix.clear();
+        self.matrix.add_mass(&dynamics.structure.mass, &dynamics.terms.mass);
+        self.matrix.couple(&dynamics.terms.g, |_| 1.0);
+        self.matrix.couple(&self.g, |_| -1.0);
+        self.matrix.factor(&dynamics.structure.g, &self.g)?;
+        let vdot = &mut self.k[i][n.q..n.q + n.v];
+        vdot.copy_from_slice(&self.force);
+        self.lambda.copy_from_slice(&self.rate);
+        self.matrix.solve(vdot, &mut self.lambda)
     }
 
     /// Sets the error to h sum_i e_i k_i, its velocities projected on the tangent space at the new state: the
@@ -146,6 +202,11 @@ impl HalfExplicit {
         dv.iter_mut().zip(&self.off).for_each(|(dv, off)| *dv -= off);
         Ok(())
     }
+}
+
+/// G(Q_i) alone gives a regular matrix.
+fn apart(singular: Singular) -> Singular {
+    if singular == Singular::Collapsed { Singular::Apart } else { singular }
 }
 
 fn is_finite(y: &[f64]) -> Result<(), StepError> {

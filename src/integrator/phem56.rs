@@ -19,7 +19,7 @@ pub const ENTRY: Entry = Entry {
     solves: takes::velocity_rows,
     refuses: refuses::none,
     options: &[],
-    make: |setup| Ok(Box::new(HalfExplicit::new(&TABLEAU, setup))),
+    make: |setup| Ok(Box::new(HalfExplicit::new(&TABLEAU, setup)?)),
 };
 
 static TABLEAU: Tableau = Tableau {

@@ -3,7 +3,7 @@
 use super::entry::{Built, Request};
 use super::{Complex, Kind, Matrix, Mode, Variation};
 use crate::error::{Error, Result, clock};
-use crate::math::eigen::{ComplexMatrix, Deflation, Unsolved, eigen, finite_by, generalized};
+use crate::math::eigen::{ComplexMatrix, Deflation, Unsolved, eigen, finite, generalized};
 use crate::tolerances::linearize as tolerances;
 
 /// Eigenvalues with eigenvectors.
@@ -100,7 +100,7 @@ fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {
         Some("gsvd") => Deflation::Gsvd,
         _ => Deflation::NullSpace,
     };
-    let found = finite_by(&built.a, e, by)?;
+    let found = finite(&built.a, e, by)?;
     if found.deflated.infinite() != built.infinite {
         return Err(Unsolved::Doubtful { gap: found.deflated.gap });
     }

@@ -120,3 +120,8 @@ pub const FARTHEST_LIMIT: f64 = 50.0;
 /// Steps of |z| in which the limits of stability are sought, and then refined.
 /// Unit: `[1]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
 pub const STRIDE_TO_LIMIT: f64 = 0.01;
+
+/// Corrections of a half-explicit stage that no longer fall are round-off up to here.
+/// Unit: `[1]` of the largest acceleration. Why: ten times ROUND_OFF_OF_FACTORS; above, as of accelerations at rest under
+/// load, the stage is factored. Test: `the_velocity_constraint_is_held_to_round_off`.
+pub const STAGE_STAGNATION: f64 = 1e-12;

@@ -147,34 +147,6 @@ pub const REPLACED_MASS: f64 = 1e-7;
 /// Unit: `[sweeps]`. Why: a choice: replaced masses make the contraction slow. Test: none: not tried with other values.
 pub const REFINEMENTS: [usize; 2] = [3, 40];
 
-/// Vectors of GMRES between restarts, of the system whose reactions act at one place and whose constraints hold at
-/// another.
-/// Unit: `[vectors]`. Why: a choice. Test: none: a count of work, not tried.
-pub const GMRES_VECTORS: usize = 24;
-
-/// Restarts at most of that GMRES.
-/// Unit: `[restarts]`. Why: a choice. Test: none: a bound of work, not tried.
-pub const GMRES_RESTARTS: usize = 12;
-
-/// What one cycle of GMRES gains.
-/// Unit: `[1]` of its residual. Why: more would be lost to rounding of its basis. Test: none: not tried with other
-/// values.
-pub const GMRES_GAIN: f64 = 1e-10;
-
-/// Residual at which GMRES ends in any case.
-/// Unit: `[1]` of the rows. Why: half an ulp. Test: none: not tried with other values.
-pub const GMRES_ROUND_OFF: f64 = 1e-16;
-
-/// The largest residual of GMRES that is a solution where rows are independent.
-/// Unit: `[1]` of the rows. Why: a choice: tighter than what tolerances ask of a step, looser than round-off of far
-/// unlike masses. Test: none: not tried with other values.
-pub const GMRES_SOLVED: f64 = 1e-9;
-
-/// The largest residual of GMRES that is a solution where rows depend on others: the best of all a.
-/// Unit: `[1]` of the rows. Why: a drift of the positions by round-off, over the step, makes dependent rows contradict
-/// each other. Test: none: not tried with other values.
-pub const GMRES_CONSISTENT: f64 = 1e-5;
-
 /// Rows of an iteration matrix with fewer entries are not long, which would be eliminated last.
 /// Unit: `[entries]`. Why: a choice of speed: eliminated early, long rows fill the factors. Test: none: time alone
 /// depends on it.

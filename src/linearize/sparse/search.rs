@@ -47,11 +47,11 @@ pub fn find<'a>([equations, adjoint]: [&'a Quadratic; 2], count: usize, shift: C
     Ok(Found { right, left, operator })
 }
 
-/// Runs Krylov-Schur to rounding, with spaces and multiple eigenvalues; or roughly (`is_first`).
+/// Runs Krylov-Schur to rounding, with multiple eigenvalues; or roughly (`is_first`).
 fn run(operator: &mut Shifted, count: usize, is_first: bool) -> Result<Partial, Unsolved> {
     let (tolerance, restarts) = if is_first { (1e-2, 5) } else { (1e-12, 300) };
     let subspace = Some(count + count / 3 + 16);
-    let options = Options { subspace, tolerance, restarts, filter: 2, repeats: !is_first, schur: !is_first };
+    let options = Options { subspace, tolerance, restarts, filter: 2, repeats: !is_first };
     let n = operator.scale.len();
     nearest(n, count, |x, y| operator.apply(x, y), options)
 }
@@ -128,7 +128,7 @@ fn modes(partial: &Partial, cut: usize, sigma: C, shift: C) -> usize {
 /// Returns a real basis of the space of the first `cut` Schur vectors and of their conjugates, which a real shift
 /// (`is_closed`) finds among them.
 fn real(partial: &Partial, cut: usize, is_closed: bool, scale: &[f64]) -> Space {
-    let q = partial.schur.as_ref().map_or(&partial.right, |[vectors, _]| vectors).columns(0, cut);
+    let q = partial.schur[0].columns(0, cut);
     let parts = Matrix::from_fn(q.nrows(), 2 * cut, |i, j| if j < cut { q[(i, j)].re } else { q[(i, j - cut)].im });
     let gram = (parts.transpose() * &parts).symmetric_eigen();
     let mut kept: Vec<usize> = (0..2 * cut).filter(|&j| gram.eigenvalues[j] > tolerances::NEW_MODE).collect();

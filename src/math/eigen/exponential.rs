@@ -26,21 +26,3 @@ pub fn expm(a: &Matrix) -> Result<Matrix, Unsolved> {
     }
     if dense::is_finite(&exponential) { Ok(exponential) } else { Err(Unsolved::Overflow) }
 }
-
-/// (Phi, Gamma) of x(t + h) = Phi x(t) + Gamma u for x' = A x + B u with constant u:
-/// Phi = exp(A h), Gamma = integral from 0 to h of exp(A s) ds B, the blocks of exp([A B; 0 0] h) (Van Loan, 1978), so
-/// for singular A too. A is n x n, B n x k.
-///
-/// # Errors
-/// As [`expm`].
-pub fn expm_with_input(a: &Matrix, b: &Matrix, h: f64) -> Result<(Matrix, Matrix), Unsolved> {
-    let (n, k) = (a.nrows(), b.ncols());
-    if a.ncols() != n || b.nrows() != n {
-        return Err(Unsolved::Shape);
-    }
-    let mut block = Matrix::zeros(n + k, n + k);
-    block.view_mut((0, 0), (n, n)).copy_from(&(a * h));
-    block.view_mut((0, n), (n, k)).copy_from(&(b * h));
-    let exponential = expm(&block)?;
-    Ok((exponential.view((0, 0), (n, n)).into_owned(), exponential.view((0, n), (n, k)).into_owned()))
-}

@@ -3,7 +3,7 @@
 //! - [`eigen`]: A x = lambda x with left and right vectors; [`generalized`]: A x = lambda E x with a singular E, by QZ.
 //! - `deflate`, `finite`: the finite part of such a pencil, by deflation of its infinite eigenvalues.
 //! - [`nearest`]: a few eigenvalues of an operator that is given by its product with a vector.
-//! - [`expm`], [`expm_with_input`]: exp(A h) and its integral. [`assign`]: the assignment problem, for pairing modes.
+//! - [`expm`]: exp(A). [`assign`]: the assignment problem, for pairing modes.
 
 mod assignment;
 mod balance;
@@ -20,9 +20,9 @@ mod tests;
 mod unsolved;
 
 pub use assignment::assign;
-pub use deflate::{Deflated, Deflation, Finite, deflate, finite, finite_by};
+pub use deflate::{Deflated, Deflation, Finite, deflate, finite};
 pub use dense::{pseudo_inverse, singular_values};
-pub use exponential::{expm, expm_with_input};
+pub use exponential::expm;
 pub use krylov::{Options, Partial, nearest};
 pub use pencil::{Generalized, Split, generalized};
 pub use standard::{Eigen, eigen};

@@ -1,8 +1,8 @@
 //! L D L^T by faer, which works on dense blocks: for factors with much fill.
 
 use super::Pattern;
+use super::order::order;
 use super::pivot::{Quality, Rule};
-use super::symbolic::Symbolic;
 use super::system::balance;
 use crate::tolerances::math as tolerances;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
@@ -17,7 +17,9 @@ use faer::{MatMut, Par, Side, Spec};
 /// Supernodal factors of S K S, where S scales the coordinates to unit mass and the rows of G to (G diag(M)^-1 G^T)_jj
 /// = 1, so that the thresholds of the pivots, which faer takes absolute, are relative ones.
 pub(super) struct Supernodal {
-    symbolic: Symbolic,
+    n: usize,
+    /// Coordinate i, or n + row of G, in the order of elimination.
+    order: Vec<usize>,
     /// The upper triangle of S K S in the order of elimination.
     matrix: SymbolicSparseColMat<usize>,
     entries: Vec<f64>,
@@ -39,9 +41,9 @@ pub(super) struct Supernodal {
 impl Supernodal {
     /// `None` if faer cannot allocate.
     pub fn new(mass: &Pattern, g: &Pattern, late: &[bool]) -> Option<Self> {
-        let symbolic = Symbolic::new(mass, g, late);
-        let size = symbolic.size();
-        let places = places(&symbolic, mass, g);
+        let (n, order) = (mass.rows, order(mass, g, late));
+        let size = order.len();
+        let places = places(&order, mass, g);
         let mut pairs = places.clone();
         pairs.sort_unstable();
         pairs.dedup();
@@ -56,7 +58,7 @@ impl Supernodal {
             cholesky.solve_in_place_scratch::<f64>(1, Par::Seq),
         );
         Some(Supernodal {
-            signs: symbolic.signs().collect(),
+            signs: order.iter().map(|&node| if node < n { 1 } else { -1 }).collect(),
             matrix,
             entries: vec![0.0; entries.len()],
             slots,
@@ -69,7 +71,8 @@ impl Supernodal {
             late: late.to_vec(),
             diagonal: vec![0.0; size],
             x: vec![0.0; size],
-            symbolic,
+            n,
+            order,
         })
     }
 
@@ -93,7 +96,7 @@ impl Supernodal {
             Spec::default(),
         );
         if let Err(faer::linalg::cholesky::ldlt::factor::LdltError::ZeroPivot { index }) = result {
-            return Err(self.symbolic.order.get(index.saturating_sub(1)).copied().unwrap_or(0));
+            return Err(self.order.get(index.saturating_sub(1)).copied().unwrap_or(0));
         }
         read_diagonal(&self.cholesky, &self.factor, &mut self.diagonal);
         self.judge(rule, skipped, replaced)
@@ -102,7 +105,7 @@ impl Supernodal {
     /// Writes the scaled matrix; returns true if a coordinate without mass was given some (under a rule that allows
     /// it).
     fn assemble(&mut self, mass: &[f64], g: &[f64], rule: Rule) -> bool {
-        let (n, scale) = (self.symbolic.n, &self.scale);
+        let (n, scale) = (self.n, &self.scale);
         self.entries.fill(0.0);
         let (mass_slots, g_slots) = self.slots.split_at(self.mass.entries.len());
         for ((&(i, j), value), &slot) in self.mass.entries.iter().zip(mass).zip(mass_slots) {
@@ -114,7 +117,7 @@ impl Supernodal {
         let Some(floor) = rule.floor else { return false };
         let mut replaced = false;
         let columns = self.matrix.col_ptr().windows(2);
-        for (columns, &node) in columns.zip(&self.symbolic.order).filter(|(_, node)| **node < n) {
+        for (columns, &node) in columns.zip(&self.order).filter(|(_, node)| **node < n) {
             // The diagonal is the last entry of its column in the upper triangle.
             let own = &mut self.entries[columns[1] - 1];
             if *own <= 0.0 {
@@ -127,11 +130,11 @@ impl Supernodal {
 
     fn judge(&self, rule: Rule, skipped: &mut Vec<usize>, replaced: bool) -> Result<Quality, usize> {
         let mut quality = Quality { replaced, ..Quality::GOOD };
-        for ((&d, &node), &sign) in self.diagonal.iter().zip(&self.symbolic.order).zip(&self.signs) {
+        for ((&d, &node), &sign) in self.diagonal.iter().zip(&self.order).zip(&self.signs) {
             let pivot = d * f64::from(sign);
             let left_out = pivot.abs() >= 1e-3 * tolerances::PLACE_OF_A_VANISHED_ROW || pivot.is_nan();
             if left_out || pivot <= rule.weak {
-                quality.judge((node, self.symbolic.n), (if left_out { 0.0 } else { pivot }, 1.0), rule, skipped)?;
+                quality.judge((node, self.n), (if left_out { 0.0 } else { pivot }, 1.0), rule, skipped)?;
             }
         }
         Ok(quality)
@@ -139,7 +142,7 @@ impl Supernodal {
 
     /// Solves in place; dropped multipliers are zero.
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
-        let (n, nodes) = (self.symbolic.n, &self.symbolic.order);
+        let (n, nodes) = (self.n, &self.order);
         for (x, &node) in self.x.iter_mut().zip(nodes) {
             *x = self.scale[node] * if node < n { top[node] } else { bottom[node - n] };
         }
@@ -168,15 +171,15 @@ impl Supernodal {
 }
 
 /// For each entry of M and G its (column, row) in the upper triangle, by position; and the diagonal behind them.
-fn places(symbolic: &Symbolic, mass: &Pattern, g: &Pattern) -> Vec<(usize, usize)> {
-    let mut position = vec![0; symbolic.size()];
-    for (k, &node) in symbolic.order.iter().enumerate() {
+fn places(order: &[usize], mass: &Pattern, g: &Pattern) -> Vec<(usize, usize)> {
+    let mut position = vec![0; order.len()];
+    for (k, &node) in order.iter().enumerate() {
         position[node] = k;
     }
     let place = |a: usize, b: usize| (position[a].max(position[b]), position[a].min(position[b]));
     let m = mass.entries.iter().map(|&(i, j)| place(i, j));
-    let g = g.entries.iter().map(|&(j, i)| place(symbolic.n + j, i));
-    m.chain(g).chain((0..symbolic.size()).map(|k| (k, k))).collect()
+    let g = g.entries.iter().map(|&(j, i)| place(mass.rows + j, i));
+    m.chain(g).chain((0..order.len()).map(|k| (k, k))).collect()
 }
 
 /// The pivots D, which faer keeps on the diagonal of L.

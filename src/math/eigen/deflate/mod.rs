@@ -126,16 +126,11 @@ pub struct Finite {
     pub deflated: Deflated,
 }
 
-/// The finite eigenvalues of A x = lambda E x by [`deflate`] (null space) and [`eigen`].
+/// The finite eigenvalues of A x = lambda E x by [`deflate`] and [`eigen`].
 ///
 /// # Errors
 /// Those of [`deflate`] and [`eigen`].
-pub fn finite(a: &Matrix, e: &Matrix) -> Result<Finite, Unsolved> {
-    finite_by(a, e, Deflation::NullSpace)
-}
-
-/// [`finite`] with either deflation.
-pub fn finite_by(a: &Matrix, e: &Matrix, by: Deflation) -> Result<Finite, Unsolved> {
+pub fn finite(a: &Matrix, e: &Matrix, by: Deflation) -> Result<Finite, Unsolved> {
     let deflated = deflate(a, e, by, tolerances::RANK_OF_PENCIL)?;
     let inner = eigen(&deflated.rate)?;
     let mut right = dense::complex(&deflated.basis) * inner.right;

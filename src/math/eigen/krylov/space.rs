@@ -1,11 +1,11 @@
 //! Orthonormal bases of Krylov spaces.
 
 use super::super::{ComplexMatrix, Unsolved, dense};
-use super::{C, Ordered, Partial, Ritz};
+use super::{C, Ordered, Partial};
 use crate::tolerances::math as tolerances;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
-use nalgebra::{DVector, DVectorView};
+use nalgebra::DVector;
 
 type Vector = DVector<C>;
 
@@ -22,7 +22,6 @@ pub struct Krylov<F> {
     below: Vec<C>,
     starts: u64,
     filter: usize,
-    applications: usize,
 }
 
 impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
@@ -36,7 +35,6 @@ impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
             below: Vec::new(),
             starts: 0,
             filter,
-            applications: 0,
         };
         space.start(0)?;
         Ok(space)
@@ -64,7 +62,6 @@ impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
     fn image(&mut self, x: &Vector) -> Result<Vector, Unsolved> {
         let mut image = Vector::zeros(x.len());
         (self.apply)(x.as_slice(), image.as_mut_slice())?;
-        self.applications += 1;
         if image.iter().all(|x| x.is_finite()) { Ok(image) } else { Err(Unsolved::NotFinite) }
     }
 
@@ -138,27 +135,11 @@ impl<F: FnMut(&[C], &mut [C]) -> Result<(), Unsolved>> Krylov<F> {
         self.start(kept)
     }
 
-    pub fn finish(mut self, ritz: Ritz, with_schur: bool) -> Result<Partial, Unsolved> {
-        let mut right = self.spanned(self.h.ncols(), &ritz.vectors, ritz.vectors.ncols());
-        dense::normalize(&mut right);
-        let mut residuals = Vec::new();
-        for (x, theta) in right.column_iter().zip(&ritz.values) {
-            residuals.push(self.residual(x, *theta)?);
-        }
-        let schur = if with_schur { Some(self.schur(ritz.values.len())?) } else { None };
-        Ok(Partial { values: ritz.values, right, residuals, schur, applications: self.applications })
-    }
-
-    /// The leading `count` Schur vectors with their part of T.
-    fn schur(&self, count: usize) -> Result<[ComplexMatrix; 2], Unsolved> {
-        let Ordered { q, t } = Ordered::of(&self.h)?;
+    /// The values with as many leading Schur vectors, and their part of T.
+    pub fn finish(self, values: Vec<C>) -> Result<Partial, Unsolved> {
+        let (Ordered { q, t }, count) = (Ordered::of(&self.h)?, values.len());
         let vectors = self.spanned(self.h.ncols(), &q, count);
-        Ok([vectors, t.view((0, 0), (count, count)).clone_owned()])
-    }
-
-    fn residual(&mut self, x: DVectorView<C>, theta: C) -> Result<f64, Unsolved> {
-        let image = self.image(&x.clone_owned())?;
-        let size = if theta == C::ZERO { 1.0 } else { theta.norm() };
-        Ok((image - x * theta).norm() / size)
+        let schur = [vectors, t.view((0, 0), (count, count)).clone_owned()];
+        Ok(Partial { values, schur })
     }
 }

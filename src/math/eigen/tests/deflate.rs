@@ -10,7 +10,7 @@ const FORMS: [Form; 4] = [Form::Index3, Form::Index2, Form::Index1, Form::Ggl];
 fn two_masses_swing_at_five() {
     for form in FORMS {
         let (a, e, ..) = two_mass().pencil(&form);
-        let values = finite(&a, &e).unwrap().values;
+        let values = finite(&a, &e, Deflation::NullSpace).unwrap().values;
         let last = values[values.len() - 1];
         assert!(last.re.abs() < 1e-14 && (last.im - 5.0).abs() < 1e-14, "{last}");
     }
@@ -64,7 +64,7 @@ fn basis_and_left_basis_reproduce_the_pencil() {
 fn lifted_vectors_are_those_of_the_pencil() {
     for form in FORMS {
         let (a, e, ..) = random(8, 3, 4).pencil(&form);
-        let found = finite(&a, &e).unwrap();
+        let found = finite(&a, &e, Deflation::NullSpace).unwrap();
         assert!(residual(&a, &e, &found.values, &found.right) < 1e-13);
         assert!(found.right.column_iter().all(|x| (x.norm() - 1.0).abs() < 1e-14));
         let conjugate: Vec<_> = found.values.iter().map(|value| value.conj()).collect();
@@ -137,7 +137,7 @@ fn chains_finish_fast() {
                 assert!(error < 1e-9 && seconds < 5.0);
             }
             let start = Instant::now();
-            finite(&a, &e).unwrap();
+            finite(&a, &e, Deflation::NullSpace).unwrap();
             eprintln!("finite n = {}: {:.1} ms", a.nrows(), start.elapsed().as_secs_f64() * 1e3);
         }
     }
@@ -146,16 +146,16 @@ fn chains_finish_fast() {
 #[test]
 fn small_cases() {
     let eye = Matrix::identity(2, 2);
-    let none = finite(&Matrix::zeros(0, 0), &Matrix::zeros(0, 0)).unwrap();
+    let none = finite(&Matrix::zeros(0, 0), &Matrix::zeros(0, 0), Deflation::NullSpace).unwrap();
     assert!(none.values.is_empty());
     // Algebraic equations only.
-    let algebraic = finite(&eye, &Matrix::zeros(2, 2)).unwrap();
+    let algebraic = finite(&eye, &Matrix::zeros(2, 2), Deflation::NullSpace).unwrap();
     assert_eq!((algebraic.values.len(), algebraic.deflated.levels), (0, vec![2]));
-    let plain = finite(&(&eye * 3.0), &(&eye * 2.0)).unwrap();
+    let plain = finite(&(&eye * 3.0), &(&eye * 2.0), Deflation::NullSpace).unwrap();
     assert!(plain.values.iter().all(|x| (x - 1.5).norm() < 1e-15) && plain.deflated.levels.is_empty());
     for way in WAYS {
         let nothing = deflate(&Matrix::zeros(2, 2), &Matrix::zeros(2, 2), way, RANK_OF_PENCIL);
         assert_eq!(nothing, Err(Unsolved::SingularPencil { dependent: 2 }));
     }
-    assert_eq!(finite(&eye, &Matrix::zeros(3, 3)), Err(Unsolved::Shape));
+    assert_eq!(finite(&eye, &Matrix::zeros(3, 3), Deflation::NullSpace), Err(Unsolved::Shape));
 }

@@ -3,11 +3,9 @@
 mod findings;
 mod orders;
 
-use super::alike::Alike;
-use super::kept::Kept;
 use super::ldlt::Ldlt;
-use super::null_space::NullSpace;
-use super::redundant_rows::RedundantRowSolve;
+use super::rank_revealing::NullSpace;
+use super::redundant_rows::{Alike, Kept, RedundantRowSolve};
 use super::system::{System, add};
 use super::{Analysis, Pattern, Singular};
 use crate::tolerances::math as tolerances;

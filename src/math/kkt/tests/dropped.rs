@@ -2,7 +2,7 @@
 
 use super::samples::{Random, Sample, distance};
 use super::{reachable, right_side, solved};
-use crate::math::kkt::{Pattern, SaddlePoint};
+use crate::math::kkt::{Pattern, Reduced, SaddlePoint};
 
 /// A mechanism with two more rows: combinations of others, plus a part of size `off` of their own.
 fn redundant(off: f64, random: &mut Random) -> (Sample, Sample) {
@@ -70,6 +70,31 @@ fn released_rows_count_again() {
     let (mut top, mut bottom) = (r1, r2);
     solver.solve(&mut top, &mut bottom).unwrap();
     assert!(solver.is_fast() && distance(&top, &a) < 1e-12 && distance(&bottom, &lambda) < 1e-12);
+}
+
+/// As [`dropped_rows_leave_the_motion_of_the_others`] and [`dropped_rows_share_the_multipliers`].
+#[test]
+fn the_dense_solver_drops_rows_too() {
+    let mut random = Random(24);
+    for off in [1e-2, 1e-6, 0.0] {
+        let (reduced, sample) = redundant(off, &mut random);
+        let r1 = random.vector(21);
+        let r2 = reachable(&sample, &mut random);
+        let (a, _, _) = solved(&reduced, &r1, &r2[..20]);
+        let mut solver = Reduced::new(&sample.mass, &sample.g, 1e-10).unwrap();
+        solver.drop_rows(&[20, 21]);
+        solver.factor(&sample.mass_values, &sample.g_values, 0.0).unwrap();
+        let (mut top, mut lambda) = (r1.clone(), r2.clone());
+        // What dropped rows ask for is not read.
+        lambda[20] += 1.0;
+        solver.solve(&mut top, &mut lambda).unwrap();
+        assert!(solver.is_rank_deficient());
+        assert!(distance(&top, &a) < 1e-11, "{off:e}: {:e}", distance(&top, &a));
+        if off == 0.0 {
+            let least = sample.by_svd(&r1, &r2).1;
+            assert!(distance(&lambda, &least) < 1e-11, "lambda {:e}", distance(&lambda, &least));
+        }
+    }
 }
 
 /// Two rows that become parallel at s = 0: below 1e-4 of the reference value only what both ask for counts.

@@ -2,9 +2,8 @@
 
 use super::samples::{Random, Sample, distance};
 use super::{agrees_with_lu, reachable, solved};
-use crate::math::kkt::alike::Alike;
-use crate::math::kkt::least::Least;
-use crate::math::kkt::null_space::NullSpace;
+use crate::math::kkt::rank_revealing::NullSpace;
+use crate::math::kkt::redundant_rows::{Alike, least::Least};
 use crate::math::kkt::system::System;
 use crate::math::kkt::{Pattern, SaddlePoint};
 

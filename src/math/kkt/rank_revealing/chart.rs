@@ -1,9 +1,9 @@
 //! Corrections along the normal directions of a base state: its tangent space is a chart of the manifold around it.
 
-use super::Pattern;
-use super::null_space::scaled_rows;
+use super::super::Pattern;
+use super::super::system::{add_scaled, dot};
 use super::pivoted::PivotedQr;
-use super::system::{add_scaled, dot};
+use super::scaled_rows;
 use crate::tolerances::math as tolerances;
 
 /// Corrections d = Y c with G d = r at a nearby state, where S = diag(M)^-1/2 and Y = S Q_1 from the pivoted QR of (G
@@ -17,12 +17,10 @@ pub struct Chart {
     /// Sizes of the rows of G S at the base.
     norms: Vec<f64>,
     base: PivotedQr,
-    /// Rows that were independent at the base. The others are dropped at other states too: a choice that changed from
-    /// state to state would follow now one, now another of contradicting rows.
-    has_say: Vec<bool>,
     /// Y by rows.
     normal: Vec<f64>,
-    /// QR factors of (G Y)^T at the current state.
+    /// QR factors of (G Y)^T at the current state. Rows that were dependent at the base are barred: a choice that changed
+    /// from state to state would follow now one, now another of contradicting rows.
     place: PivotedQr,
     x: Vec<f64>,
     c: Vec<f64>,
@@ -39,7 +37,6 @@ impl Chart {
             scale: vec![1.0; n],
             norms: vec![1.0; m],
             base: PivotedQr::new(n, m),
-            has_say: vec![false; m],
             normal: vec![0.0; n * most],
             place: PivotedQr::new(most, m),
             x: vec![0.0; n],
@@ -53,8 +50,8 @@ impl Chart {
         scaled_rows((&self.mass, mass), (&self.g, g), &mut self.scale, &mut self.norms, values);
         self.base.factor(tolerances::RANK);
         let rank = self.base.rank;
-        self.has_say.fill(false);
-        self.base.permutation[..rank].iter().for_each(|row| self.has_say[*row] = true);
+        self.place.bars.fill(true);
+        self.base.permutation[..rank].iter().for_each(|row| self.place.bars[*row] = false);
         for k in 0..rank {
             self.x.fill(0.0);
             self.x[k] = 1.0;
@@ -65,12 +62,12 @@ impl Chart {
         }
     }
 
-    /// Factors (G Y)^T with these values of G; `reference`: see [`Solver::factor`](super::Solver::factor).
+    /// Factors (G Y)^T with these values of G; `reference`: see [`Reduced::factor`](super::Reduced::factor).
     pub fn factor(&mut self, g: &[f64], reference: f64) {
         let rank = self.base.rank;
         self.place.rows = rank;
         self.place.values.fill(0.0);
-        for (&(i, j), value) in self.g.entries.iter().zip(g).filter(|((i, _), _)| self.has_say[*i]) {
+        for (&(i, j), value) in self.g.entries.iter().zip(g) {
             let row = &mut self.place.values[i * rank..(i + 1) * rank];
             add_scaled(value / self.norms[i], &self.normal[j * rank..(j + 1) * rank], row);
         }

@@ -1,16 +1,26 @@
-//! Sparse factorization that drops redundant rows.
+//! Redundant rows of G, by sparse factorizations.
 //!
 //! With all coordinates before all multipliers the elimination of the latter acts on -G M^-1 G^T. A pivot that vanishes
 //! there has a vanishing row, so its multiplier can be dropped (zero) and nothing else changes: the others solve the
-//! system exactly if the right side lies in the range of G, which `Least` makes sure of.
+//! system exactly if the right side lies in the range of G, which `least` makes sure of, and multipliers of least norm
+//! are made of any by the same projection. Rows that are known to be dependent, or are found so among rows over the same
+//! coordinates (`alike`), are not factored at all (`kept`).
+
+mod alike;
+mod kept;
+pub(super) mod least;
+mod nearly;
+
+pub use alike::Alike;
+pub use kept::Kept;
 
 use super::Pattern;
 use super::Singular;
 use super::ldlt::Ldlt;
-use super::least::Least;
 use super::pivot::{Quality, Rule};
 use super::system::{System, add, index_of_largest, iterate};
 use crate::tolerances::math as tolerances;
+use least::Least;
 
 pub(super) struct RedundantRowSolve {
     factor: Ldlt,

@@ -1,11 +1,11 @@
 //! The saddle-point system without some rows of G.
 
+use super::super::system::System;
+use super::super::{Pattern, SaddlePoint, Singular};
 use super::least::Least;
-use super::system::System;
-use super::{Pattern, SaddlePoint, Singular};
 
 /// A separate solver over the rows that are kept, so that dropped rows cost nothing.
-pub(super) struct Kept {
+pub struct Kept {
     pub inner: SaddlePoint,
     /// Rows that are kept. `dropped`: rows that are never factored; `left_out`: all rows without a multiplier at the
     /// last factorization.

@@ -1,9 +1,17 @@
 //! The rank-revealing solve, dense: coordinates split by a pivoted QR of G^T into range and null space.
 
-use super::pivoted::{PivotedCholesky, PivotedQr};
-use super::system::{System, add, add_scaled, dot, index_of_largest};
+mod chart;
+mod pivoted;
+mod reduced;
+
+pub use chart::Chart;
+pub use reduced::Reduced;
+
+use super::orthonormal::{normalize, orthonormalize, project_out};
+use super::system::{System, add, dot, index_of_largest};
 use super::{Pattern, Singular};
 use crate::tolerances::math as tolerances;
+use pivoted::{PivotedCholesky, PivotedQr};
 
 /// With S = diag(M)^-1/2 (massless coordinates: the largest of the others) and rows of G S scaled by D^-1 to unit norm:
 ///
@@ -51,6 +59,12 @@ impl NullSpace {
 
     pub fn is_deficient(&self, tolerance: f64) -> bool {
         self.qr.is_deficient(tolerance)
+    }
+
+    /// Drops these rows, and those that depend on the others, from now on; right sides of these rows are not read.
+    pub fn drop_rows(&mut self, rows: &[usize]) {
+        self.qr.bars.fill(false);
+        rows.iter().filter(|row| **row < self.norms.len()).for_each(|row| self.qr.bars[*row] = true);
     }
 
     /// Dependent rows, which are dropped.
@@ -117,7 +131,7 @@ impl NullSpace {
         Ok(())
     }
 
-    /// Makes N orthonormal, by Gram-Schmidt done twice.
+    /// Makes N orthonormal.
     fn span_null(&mut self) {
         let (m, r) = (self.norms.len(), self.qr.rank);
         self.null.resize(m * (m - r), 0.0);
@@ -132,32 +146,14 @@ impl NullSpace {
             for (&b, &p) in self.bottom.iter().zip(&self.qr.permutation) {
                 own[p] = b / self.norms[p];
             }
-            for _ in 0..2 {
-                let length = dot(own, own).sqrt();
-                own.iter_mut().for_each(|v| *v /= length);
-                for other in done.chunks_exact(m) {
-                    add_scaled(-dot(other, own), other, own);
-                }
-            }
-            let length = dot(own, own).sqrt();
-            own.iter_mut().for_each(|v| *v /= length);
+            normalize(own);
+            orthonormalize(done, own);
         }
-    }
-
-    /// v := (I - N N^T) v; returns the norm of the removed part.
-    fn project(null: &[f64], v: &mut [f64]) -> f64 {
-        let mut square = 0.0;
-        for column in null.chunks_exact(v.len().max(1)) {
-            let part = dot(column, v);
-            add_scaled(-part, column, v);
-            square += part * part;
-        }
-        square.sqrt()
     }
 
     /// Solves in place, with one refinement.
     pub fn solve(&mut self, system: &System, top: &mut [f64], bottom: &mut [f64]) {
-        self.inconsistency = Self::project(&self.null, bottom);
+        self.inconsistency = if self.qr.bars.contains(&true) { 0.0 } else { project_out(&self.null, bottom) };
         let (mut t, mut b) = (std::mem::take(&mut self.top), std::mem::take(&mut self.bottom));
         t.copy_from_slice(top);
         b.copy_from_slice(bottom);
@@ -166,7 +162,7 @@ impl NullSpace {
         self.solve_once(system, top, bottom);
         add(&t, top);
         add(&b, bottom);
-        Self::project(&self.null, bottom);
+        project_out(&self.null, bottom);
         (self.top, self.bottom) = (t, b);
     }
 
@@ -204,7 +200,7 @@ impl NullSpace {
 }
 
 /// S, the sizes of the rows of G S, and (D^-1 G S)^T by columns.
-pub(super) fn scaled_rows(
+fn scaled_rows(
     (mass, mass_values): (&Pattern, &[f64]),
     (g, g_values): (&Pattern, &[f64]),
     scale: &mut [f64],

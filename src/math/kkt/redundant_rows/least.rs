@@ -7,15 +7,16 @@
 //! norm. A few null vectors are made orthonormal once for a factorization; for many, P is applied by conjugate
 //! gradients from `Nearly`, which has it nearly right and is their preconditioner.
 
-use super::Pattern;
+use super::super::Pattern;
+use super::super::orthonormal::{orthonormalize, project_out};
+use super::super::system::{System, add, add_scaled, dot};
 use super::nearly::Nearly;
-use super::system::{System, add, add_scaled, dot};
 use crate::tolerances::math as tolerances;
 
 /// Solves the system without the dropped rows, whose right sides are ignored and whose multipliers are zero.
-pub(super) type Solve<'s> = &'s mut dyn FnMut(&mut [f64], &mut [f64]);
+pub type Solve<'s> = &'s mut dyn FnMut(&mut [f64], &mut [f64]);
 
-pub(super) struct Least {
+pub struct Least {
     nearly: Option<Box<Nearly>>,
     /// Orthonormal null vectors, one after the other, if they are few. `is_current`: these and `nearly` belong to the
     /// last factors.
@@ -71,16 +72,10 @@ impl Least {
         if !self.is_current {
             self.span(system, rows, solve);
         }
-        let mut square = 0.0;
-        for null in self.basis.chunks_exact(v.len()) {
-            let part = dot(null, v);
-            add_scaled(-part, null, v);
-            square += part * part;
-        }
-        square.sqrt()
+        project_out(&self.basis, v)
     }
 
-    /// Makes the orthonormal basis of null vectors, by Gram-Schmidt done twice.
+    /// Makes the orthonormal basis of null vectors.
     fn span(&mut self, system: &System, rows: &[usize], solve: Solve) {
         self.basis.clear();
         for row in rows {
@@ -88,13 +83,7 @@ impl Least {
             self.direction[*row] = 1.0;
             self.null(system, solve);
             self.refine_null(system, solve);
-            for _ in 0..2 {
-                for done in self.basis.chunks_exact(self.image.len()) {
-                    add_scaled(-dot(done, &self.image), done, &mut self.image);
-                }
-                let length = dot(&self.image, &self.image).sqrt();
-                self.image.iter_mut().for_each(|x| *x /= length);
-            }
+            orthonormalize(&self.basis, &mut self.image);
             self.basis.extend_from_slice(&self.image);
         }
         self.is_current = true;

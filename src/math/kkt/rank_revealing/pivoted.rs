@@ -1,14 +1,20 @@
 //! Column-pivoted Householder QR and diagonally pivoted Cholesky on flat column-major slices, without allocation.
+//!
+//! faer's column-pivoted QR, twice as slow at 20 columns and three times as fast at 60, subtracts what it eliminates from
+//! the norms of columns, which hides norms below 1e-8: of 140 columns, four of them dependent and a fifth but for 1.8e-9,
+//! it took one with 7e-17 left before the fifth, and the rank at 1e-10 was one too low.
 
-use super::system::{add_scaled, dot};
+use super::super::system::{add_scaled, dot};
 use crate::tolerances::math as tolerances;
 
 /// A Pi = Q R of a tall or wide `rows` x `cols` matrix, in place: R above, the reflectors (leading 1 not stored) below.
-pub(super) struct PivotedQr {
+pub struct PivotedQr {
     pub rows: usize,
     pub values: Vec<f64>,
     pub permutation: Vec<usize>,
     pub rank: usize,
+    /// True for columns that are never chosen: they count as dependent.
+    pub bars: Vec<bool>,
     /// Norm of the first dropped column's remainder, over the first pivot.
     rest: f64,
     factors: Vec<f64>,
@@ -22,6 +28,7 @@ impl PivotedQr {
             values: vec![0.0; rows * cols],
             permutation: (0..cols).collect(),
             rank: 0,
+            bars: vec![false; cols],
             rest: 0.0,
             factors: vec![0.0; rows.min(cols)],
             squares: vec![0.0; cols],
@@ -29,7 +36,7 @@ impl PivotedQr {
     }
 
     /// Factors `values` up to the first |R_kk| <= tolerance |R_00|. Column norms are recomputed, not downdated, for the
-    /// accuracy of small ones. 3 rows cols^2 operations.
+    /// accuracy of small ones; barred columns have a norm of -1. 3 rows cols^2 operations.
     pub fn factor(&mut self, tolerance: f64) {
         let (rows, cols) = (self.rows, self.permutation.len());
         self.permutation.iter_mut().enumerate().for_each(|(j, p)| *p = j);
@@ -37,8 +44,9 @@ impl PivotedQr {
         if rows == 0 {
             return;
         }
-        for (square, column) in self.squares.iter_mut().zip(self.values.chunks_exact(rows)) {
-            *square = dot(column, column);
+        let columns = self.values.chunks_exact(rows).zip(&self.bars);
+        for (square, (column, is_barred)) in self.squares.iter_mut().zip(columns) {
+            *square = if *is_barred { -1.0 } else { dot(column, column) };
         }
         let mut first = 0.0;
         for k in 0..rows.min(cols) {
@@ -95,7 +103,7 @@ impl PivotedQr {
         column[1..].iter_mut().for_each(|v| *v /= alpha - beta);
         for (other, square) in tail.chunks_exact_mut(rows).zip(&mut self.squares[k + 1..]) {
             // A column orthogonal to the reflector, as many of a sparse matrix, stays unchanged.
-            if reflect(self.factors[k], &column[1..], &mut other[k..]) {
+            if reflect(self.factors[k], &column[1..], &mut other[k..]) && *square >= 0.0 {
                 *square = dot(&other[k + 1..], &other[k + 1..]);
             }
         }
@@ -156,7 +164,7 @@ fn reflect(factor: f64, below: &[f64], x: &mut [f64]) -> bool {
 }
 
 /// P^T H P = L L^T of a symmetric positive semidefinite H (lower triangle given), in place.
-pub(super) struct PivotedCholesky {
+pub struct PivotedCholesky {
     pub size: usize,
     pub values: Vec<f64>,
     permutation: Vec<usize>,
@@ -240,12 +248,6 @@ impl PivotedCholesky {
 
     /// b := H^-1 b.
     pub fn solve(&mut self, b: &mut [f64]) {
-        self.forward(b);
-        self.backward(b);
-    }
-
-    /// b := L^-1 P^T b.
-    pub fn forward(&mut self, b: &mut [f64]) {
         let (size, x) = (self.size, &mut self.x);
         for (x, &p) in x.iter_mut().zip(&self.permutation[..size]) {
             *x = b[p];
@@ -256,13 +258,6 @@ impl PivotedCholesky {
             let value = x[j];
             add_scaled(-value, &column[j + 1..], &mut x[j + 1..size]);
         }
-        b.copy_from_slice(&x[..size]);
-    }
-
-    /// b := P L^-T b.
-    pub fn backward(&mut self, b: &mut [f64]) {
-        let (size, x) = (self.size, &mut self.x);
-        x[..size].copy_from_slice(b);
         for j in (0..size).rev() {
             let column = &self.values[j * size..(j + 1) * size];
             x[j] = (x[j] - dot(&column[j + 1..], &x[j + 1..size])) / column[j];

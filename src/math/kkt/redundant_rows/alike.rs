@@ -1,12 +1,13 @@
 //! Rows of G over the same coordinates: copies of one joint, or more joints between two bodies than these can move.
 
-use super::Pattern;
-use super::system::{add_scaled, dot};
+use super::super::Pattern;
+use super::super::orthonormal::orthogonalize;
+use super::super::system::dot;
 use std::collections::HashMap;
 
 /// Groups of rows over the same coordinates. Finding dependent rows in a group costs rows x coordinates^2 without fill,
 /// while a sparse factorization would couple all rows of a group.
-pub(super) struct Alike {
+pub struct Alike {
     groups: Vec<Group>,
     /// Scratch: orthonormal rows, one after the other, and a row.
     basis: Vec<f64>,
@@ -70,7 +71,7 @@ impl Alike {
                 row.entries.iter().for_each(|&(entry, column)| self.row[column] += values[entry]);
                 let length = dot(&self.row, &self.row).sqrt();
                 self.row.iter_mut().for_each(|x| *x /= length);
-                let left = orthogonalize(&mut self.row, &self.basis);
+                let left = orthogonalize(&self.basis, &mut self.row);
                 // Written so that the NaN of a row of zeros is dependent.
                 if left > tolerance && self.basis.len() < group.columns * group.columns {
                     self.basis.extend(self.row.iter().map(|x| x / left));
@@ -82,12 +83,4 @@ impl Alike {
         self.dependent.sort_unstable();
         &self.dependent
     }
-}
-
-/// Removes the part along a basis, twice for round-off; returns the length of the orthogonal part.
-fn orthogonalize(row: &mut [f64], basis: &[f64]) -> f64 {
-    for _ in 0..2 {
-        basis.chunks_exact(row.len().max(1)).for_each(|known| add_scaled(-dot(known, row), known, row));
-    }
-    dot(row, row).sqrt()
 }

@@ -12,13 +12,13 @@
 //! motion, with the multipliers as coordinates and, for delta D, one more coordinate in each row, and is factored in
 //! the same way.
 
-use super::Pattern;
-use super::ldlt::Ldlt;
-use super::pivot::Rule;
-use super::system::System;
+use super::super::Pattern;
+use super::super::ldlt::Ldlt;
+use super::super::pivot::Rule;
+use super::super::system::System;
 use crate::tolerances::math as tolerances;
 
-pub(super) struct Nearly {
+pub struct Nearly {
     factor: Ldlt,
     /// 1 for the multipliers, 1 / (delta D) for the added coordinates.
     mass: Vec<f64>,
