@@ -1,7 +1,7 @@
 //! Rank and redundancy of the constraints at a state.
 
 use crate::formulation::Dynamics;
-use crate::math::kkt::{Dependence, Pattern, condition_number, dependent_rows};
+use crate::math::kkt::{Dependence, dependent_rows};
 use crate::math::largest;
 use crate::simulate::{SpectralMode, Spectrum};
 use crate::system::{Group, MechanicalSystem, Need, OperatingPoint, Structure, Terms};
@@ -65,30 +65,12 @@ impl Rank {
             rank: dependence.rank,
             nearby,
             redundant: redundant.collect(),
-            condition: condition_without(&rows, structure, terms),
+            condition: dynamics.kkt.condition_number(&terms.mass, &terms.g),
             distance_to_singularity: distance,
             mass_range: mass_range(structure, terms),
             fastest_mode: Spectrum::at(system, state).and_then(|spectrum| spectrum.modes.last().copied()),
         }
     }
-}
-
-fn condition_without(rows: &[usize], structure: &Structure, terms: &Terms) -> f64 {
-    let mut is_left_out = vec![false; structure.g.rows];
-    rows.iter().for_each(|row| is_left_out[*row] = true);
-    let place: Vec<Option<usize>> = is_left_out
-        .iter()
-        .scan(0, |next, is_left_out| {
-            let place = (!is_left_out).then_some(*next);
-            *next += usize::from(place.is_some());
-            Some(place)
-        })
-        .collect();
-    let kept = structure.g.entries.iter().zip(&terms.g);
-    let kept = kept.filter_map(|(&(row, column), value)| Some(((place[row]?, column), *value)));
-    let (entries, values): (Vec<_>, Vec<_>) = kept.unzip();
-    let g = Pattern { rows: structure.g.rows - rows.len(), cols: structure.g.cols, entries };
-    condition_number(&structure.mass, &terms.mass, &g, &values)
 }
 
 fn owner(groups: &[Group], row: usize) -> String {

@@ -112,6 +112,9 @@ type Matrix = nalgebra::DMatrix<f64>;
 struct Frozen<'a> {
     dynamics: Dynamics<'a>,
     tangent: Tangent,
+    /// Row, column and value of the entries of K, and of C, that are not zero.
+    stiffness: Vec<(usize, usize, f64)>,
+    damping: Vec<(usize, usize, f64)>,
 }
 
 impl<'a> Frozen<'a> {
@@ -119,14 +122,19 @@ impl<'a> Frozen<'a> {
         let mut dynamics = Dynamics::new(system);
         dynamics.solve(state.t, state.q, state.v, |_, _| 0.0).ok()?;
         let tangent = Tangent::new(&dynamics.structure.tangent);
-        let mut frozen = Frozen { dynamics, tangent };
+        let mut frozen = Frozen { dynamics, tangent, stiffness: Vec::new(), damping: Vec::new() };
         frozen.fill(state)?;
         Some(frozen)
     }
 
     fn fill(&mut self, state: OperatingPoint) -> Option<()> {
-        let Frozen { dynamics, tangent } = self;
+        let Frozen { dynamics, tangent, .. } = self;
         let known = dynamics.system.tangent(state, tangent, &mut dynamics.scratch);
+        let places = &dynamics.structure.tangent.entries;
+        [self.stiffness, self.damping] = [&tangent.k, &tangent.c].map(|values| {
+            let entries = places.iter().zip(values).filter(|(_, value)| **value != 0.0);
+            entries.map(|(&(i, j), &value)| (i, j, value)).collect()
+        });
         (known && tangent.k.iter().chain(&tangent.c).all(|x| x.is_finite())).then_some(())
     }
 
@@ -142,11 +150,11 @@ impl<'a> Frozen<'a> {
         [&self.tangent.k, &self.tangent.c].map(|values| reduce(&self.dynamics.structure.tangent, values, z))
     }
 
-    /// K x + C v
+    /// K x + C v, by the entries that are not zero.
     fn resistance(&self, x: &[f64], v: &[f64]) -> Vec<f64> {
-        let (pattern, mut sum) = (&self.dynamics.structure.tangent, vec![0.0; v.len()]);
-        pattern.multiply(&self.tangent.k, x, &mut sum);
-        pattern.multiply(&self.tangent.c, v, &mut sum);
+        let mut sum = vec![0.0; v.len()];
+        self.stiffness.iter().for_each(|&(i, j, k)| sum[i] += k * x[j]);
+        self.damping.iter().for_each(|&(i, j, c)| sum[i] += c * v[j]);
         sum
     }
 

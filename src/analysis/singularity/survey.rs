@@ -2,7 +2,7 @@
 
 use super::path::{Path, PathPoint};
 use crate::formulation::Dynamics;
-use crate::math::kkt::{condition_number, dependent_rows};
+use crate::math::kkt::dependent_rows;
 use crate::math::largest;
 use crate::system::Need;
 use crate::tolerances::math::TRUNCATED_RANK;
@@ -172,7 +172,7 @@ impl<'a> Survey<'a> {
         }
         let (t, q) = std::mem::take(&mut self.nearest);
         self.evaluate(t, &q);
-        let (structure, terms) = (&self.dynamics.structure, &self.dynamics.terms);
-        Some(condition_number(&structure.mass, &terms.mass, &structure.g, &terms.g)).filter(|c| c.is_finite())
+        let Dynamics { kkt, terms, .. } = &mut self.dynamics;
+        Some(kkt.condition_number(&terms.mass, &terms.g)).filter(|c| c.is_finite())
     }
 }

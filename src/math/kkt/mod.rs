@@ -20,7 +20,6 @@
 
 mod analysis;
 mod blocks;
-mod condition;
 mod dependence;
 mod ldlt;
 mod order;
@@ -37,7 +36,6 @@ mod tests;
 mod unsymmetric;
 
 pub use analysis::Analysis;
-pub use condition::condition_number;
 pub use dependence::{Dependence, DependentRow, dependent_rows};
 pub use pattern::Pattern;
 pub use rank_revealing::{Chart, Reduced};

@@ -43,6 +43,11 @@ impl Kept {
         }
     }
 
+    /// See [`SaddlePoint::condition_number`]; of the rows that are kept, at the last values.
+    pub fn condition_number(&mut self, mass: &[f64]) -> f64 {
+        self.inner.condition_number(mass, &self.g)
+    }
+
     pub fn is_without(&self, rows: &[usize]) -> bool {
         self.dropped == rows
     }

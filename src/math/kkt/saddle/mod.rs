@@ -1,5 +1,6 @@
 //! Factorization and solution of the saddle-point system, with the choice among fast, redundant-row and dense solve.
 
+mod condition;
 mod findings;
 mod orders;
 

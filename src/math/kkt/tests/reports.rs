@@ -1,7 +1,7 @@
 //! Errors, dependent rows by name, condition numbers.
 
 use super::samples::{Random, Sample};
-use crate::math::kkt::{Pattern, SaddlePoint, Singular, condition_number, dependent_rows};
+use crate::math::kkt::{Pattern, SaddlePoint, Singular, dependent_rows};
 
 #[test]
 fn an_undetermined_motion_is_an_error_that_names_the_coordinate() {
@@ -73,7 +73,7 @@ fn condition_numbers() {
     let mut random = Random(19);
     let sample = Sample::chain(110, &mut random);
     let small = Sample::chain(5, &mut random);
-    let of = |s: &Sample| condition_number(&s.mass, &s.mass_values, &s.g, &s.g_values);
+    let of = |s: &Sample| SaddlePoint::new(&s.mass, &s.g).condition_number(&s.mass_values, &s.g_values);
     assert!(of(&small) > 1.0 && of(&small) < 1e4);
     let mut scaled = small.clone();
     scaled.g_values.iter_mut().for_each(|v| *v *= 1e6);
