@@ -2,10 +2,10 @@
 
 use super::linearized::Linearized;
 use super::{Dae, Dynamics, Residual, Row, StepError};
-use crate::math::kkt::{Field, Pattern, SaddlePoint, Singular, Unsymmetric};
+use crate::math::kkt::{Field, Pattern, Places, SaddlePoint, Singular, Unsymmetric};
 use crate::system::{MechanicalSystem, Structure};
 use faer::c64;
-use std::ops::{Add, Div, DivAssign, Mul, Sub, SubAssign};
+use std::ops::{Add, DivAssign};
 
 /// Derivatives of q and v with respect to a method's unknowns: dv = v da + w dw, dq = q da + w_q dw + u du.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +45,8 @@ pub struct Slopes<T> {
 pub struct Iteration<T> {
     /// The matrix above with its factors.
     pub matrix: Unsymmetric<T>,
+    /// Places in it of M, and of K and C.
+    places: [Places; 2],
     rows: RowSlopes<T>,
     slopes: Slopes<T>,
     /// On entry of a solution the residual, afterwards the change.
@@ -71,16 +73,7 @@ pub struct Change<T> {
 }
 
 /// A real number, or a complex one that represents itself and its conjugate.
-pub trait Number:
-    Field
-    + PartialEq
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + SubAssign
-    + DivAssign
-{
+pub trait Number: Field + PartialEq + Add<Output = Self> + DivAssign {
     /// Number of real parts: 1 or 2.
     const PARTS: usize;
     /// Real (k = 0) or imaginary (k = 1) part.
@@ -170,8 +163,10 @@ impl<T: Number> Iteration<T> {
         let shift = |is_there: bool| if is_there { (zeros(n.v), zeros(n.lambda)) } else { (Vec::new(), Vec::new()) };
         let ((w, eta), (u, mu)) = (shift(dae.eta.is_some()), shift(dae.mu.is_some()));
         let none = Slopes { v: T::ZERO, q: T::ZERO, w: T::ZERO, w_q: T::ZERO, u: T::ZERO };
+        let matrix = Unsymmetric::new(&structure.mass, &structure.tangent, &structure.g)?.for_corrections();
         Some(Iteration {
-            matrix: Unsymmetric::new(&structure.mass, &structure.tangent, &structure.g)?,
+            places: [matrix.places(&structure.mass, true)?, matrix.places(&structure.tangent, false)?],
+            matrix,
             rows: RowSlopes::new(dae, n.holonomic(), &none),
             slopes: none,
             change: Change { a: zeros(n.v), lambda: zeros(n.lambda), w, u, eta, mu },
@@ -190,9 +185,11 @@ impl<T: Number> Iteration<T> {
         self.rescale(slopes);
         self.matrix.drop_rows(&dynamics.dropped);
         self.matrix.clear();
-        self.matrix.add_mass(&structure.mass, &at.mass);
-        self.matrix.add(&structure.tangent, &at.tangent.c, slopes.v, false);
-        self.matrix.add(&structure.tangent, &at.tangent.k, slopes.q, false);
+        let [of_mass, of_tangent] = &self.places;
+        self.matrix.see_mass(&structure.mass, &at.mass);
+        self.matrix.add_at(of_mass, &at.mass, T::real(1.0));
+        self.matrix.add_at(of_tangent, &at.tangent.c, slopes.v);
+        self.matrix.add_at(of_tangent, &at.tangent.k, slopes.q);
         if at.dae.needs_l() {
             let rows = &self.rows;
             let ratio = rows.lambda.map(|RowSlope { a: [g, l], .. }| l / g);
@@ -223,7 +220,7 @@ impl<T: Number> Iteration<T> {
     /// Solves for the changes of the unknowns, in `change`, which contains the residual on entry. One
     /// back-substitution, and for each shift one of its own matrix (two for complex numbers).
     pub fn solve(&mut self, at: &mut Linearized, structure: &Structure) -> Result<(), StepError> {
-        let Iteration { matrix, rows, slopes, change, part, moved: [gw, gu] } = self;
+        let Iteration { matrix, rows, slopes, change, part, moved: [gw, gu], .. } = self;
         let Change { a, lambda, w, u, eta, mu } = change;
         for (i, row) in lambda.iter_mut().enumerate() {
             *row /= rows.lambda[rows.kind(i)].a[0];

@@ -178,7 +178,8 @@ impl HalfExplicit {
         let n = dynamics.system.dimensions();
         self.matrix.drop_rows(dynamics.kkt.left_out());
         self.matrix.clear();
-        self.matrix.add_mass(&dynamics.structure.mass, &dynamics.terms.mass);
+        self.matrix.see_mass(&dynamics.structure.mass, &dynamics.terms.mass);
+        self.matrix.add(&dynamics.structure.mass, &dynamics.terms.mass, 1.0, true);
         self.matrix.couple(&dynamics.terms.g, |_| 1.0);
         self.matrix.couple(&self.g, |_| -1.0);
         self.matrix.factor(&dynamics.structure.g, &self.g)?;

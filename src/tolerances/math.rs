@@ -167,6 +167,12 @@ pub const LAST_CHOICE: f64 = 1e-4;
 /// 17, 149 : 43, 63920 : 400, - : 50,270. Test: none: time alone depends on it.
 pub const DENSE_PART: usize = 3;
 
+/// A diagonal pivot of the matrix of an implicit method up to which partial pivoting takes its place.
+/// Unit: `[1]` of the largest number that it is the difference of. Why: ten digits of a correction are left, and rows
+/// that could be dependent, whose pivots are round-off, stay the matter of partial pivoting. Test:
+/// `a_small_pivot_leads_to_partial_pivoting`.
+pub const UNPIVOTED: f64 = 1e-6;
+
 /// A pivot of the scaled matrix of an implicit method below which it is singular.
 /// Unit: `[1]`. Why: a choice: below ROUND_OFF_OF_FACTORS, since stiffness h^2 over masses makes pivots small where no
 /// rank is lost. Test: `solves_what_it_multiplied`.

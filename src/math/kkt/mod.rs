@@ -40,7 +40,7 @@ pub use dependence::{Dependence, DependentRow, dependent_rows};
 pub use pattern::Pattern;
 pub use rank_revealing::{Chart, Reduced};
 pub use saddle::SaddlePoint;
-pub use unsymmetric::{Field, Unsymmetric};
+pub use unsymmetric::{Field, Places, Unsymmetric};
 
 /// Reason why a saddle-point system cannot be solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

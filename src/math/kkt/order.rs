@@ -40,7 +40,7 @@ fn edges_of(mass: &Pattern, g: &Pattern) -> impl Iterator<Item = (usize, usize)>
 }
 
 /// `nodes` in approximate-minimum-degree order of their subgraph; `total` bounds the node numbers.
-fn ordered(nodes: &[usize], total: usize, edges: impl Iterator<Item = (usize, usize)>) -> Vec<usize> {
+pub(super) fn ordered(nodes: &[usize], total: usize, edges: impl Iterator<Item = (usize, usize)>) -> Vec<usize> {
     let mut local = vec![usize::MAX; total];
     for (k, &node) in nodes.iter().enumerate() {
         local[node] = k;

@@ -2,10 +2,20 @@
 
 use faer::c64;
 use faer::traits::ComplexField;
-use std::ops::{AddAssign, Mul};
+use std::ops::{AddAssign, Div, Mul, Sub, SubAssign};
 
 /// `f64` or `c64`.
-pub trait Field: ComplexField + Copy + Send + AddAssign + Mul<f64, Output = Self> {
+pub trait Field:
+    ComplexField
+    + Copy
+    + Send
+    + AddAssign
+    + SubAssign
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Mul<f64, Output = Self>
+{
     /// Zero of the field.
     const ZERO: Self;
 

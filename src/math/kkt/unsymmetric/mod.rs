@@ -10,6 +10,7 @@ mod redundancy;
 mod sparse;
 #[cfg(test)]
 mod tests;
+mod unpivoted;
 
 pub use field::Field;
 
@@ -20,6 +21,7 @@ use faer::sparse::SymbolicSparseColMat;
 use matrix::Matrix;
 use redundancy::Redundancy;
 use sparse::Sparse;
+use unpivoted::Unpivoted;
 
 /// Factors and solves the system of an implicit step,
 ///
@@ -30,7 +32,8 @@ use sparse::Sparse;
 ///
 /// with A = M + c C + k K, each on its own pattern, and L (zero unless given) on that of G, all real (`T` = `f64`) or
 /// complex (`c64`); G is real. LU with partial pivoting (faer), dense or sparse by the density of the matrix; nothing
-/// allocates once the fill has been seen. Rows and columns are scaled alike so that A and the rows of G are of unit
+/// allocates once the fill has been seen. With [`Unsymmetric::for_corrections`] sparse factors have their pivots on the
+/// diagonal while that is stable, and only else partial pivoting. Rows and columns are scaled alike so that A and the rows of G are of unit
 /// size and pivots are comparable.
 ///
 /// Dropped rows of G have lambda zero, and r2 there is not read: those that [`Unsymmetric::drop_rows`] names,
@@ -48,7 +51,12 @@ pub struct Unsymmetric<T> {
     weight: Vec<f64>,
     is_massless: Vec<bool>,
     factors: Factors<T>,
+    /// Factors of sparse matrices on the frozen order, and whether the present ones are these.
+    unpivoted: Option<Unpivoted<T>>,
+    is_unpivoted: bool,
     g: Pattern,
+    /// Places of G and of G^T in the matrix.
+    g_places: Vec<[u32; 2]>,
     /// Values of b L at the places of G.
     coupling: Vec<T>,
     redundancy: Option<Redundancy>,
@@ -59,6 +67,9 @@ pub struct Unsymmetric<T> {
     state: State,
     fits: bool,
 }
+
+/// Index of a value, and its place in the matrix.
+pub type Places = Vec<(u32, u32)>;
 
 enum Factors<T> {
     Dense(Dense<T>),
@@ -84,7 +95,12 @@ impl<T: Field> Unsymmetric<T> {
         let matrix = Matrix::new(places, is_dense)?;
         let size = matrix.size();
         let border = if is_dense { None } else { DenseRows::of(&matrix, g.cols) };
+        let place = |row: usize, col: usize| matrix.place(row, col).and_then(|place| u32::try_from(place).ok());
+        let of_g = g.entries.iter().map(|&(i, j)| Some([place(g.cols + i, j)?, place(j, g.cols + i)?]));
         Some(Unsymmetric {
+            g_places: of_g.collect::<Option<_>>()?,
+            unpivoted: None,
+            is_unpivoted: false,
             n: g.cols,
             scaled: vec![T::ZERO; matrix.values.len()],
             scale: vec![1.0; size],
@@ -114,6 +130,15 @@ impl<T: Field> Unsymmetric<T> {
         self
     }
 
+    /// For corrections of an iteration, which tolerate more round-off than solutions: pivots below 1e-6 of the numbers
+    /// whose difference they are lead to partial pivoting.
+    pub fn for_corrections(mut self) -> Self {
+        if matches!(self.factors, Factors::Sparse(_)) {
+            self.unpivoted = Unpivoted::new(&self.matrix.places, self.n);
+        }
+        self
+    }
+
     /// Drops these rows of G, and no others, from the next factorization on.
     pub fn drop_rows(&mut self, rows: &[usize]) {
         self.keeps_rows = true;
@@ -129,12 +154,31 @@ impl<T: Field> Unsymmetric<T> {
         self.state = State::Open;
     }
 
-    /// A += M, given by one triangle.
-    pub fn add_mass(&mut self, mass: &Pattern, values: &[f64]) {
+    /// Places of the entries of a part of A, or `None` where one is missing, for [`add_at`](Self::add_at).
+    pub fn places(&self, pattern: &Pattern, is_symmetric: bool) -> Option<Places> {
+        let place = |(row, col)| self.matrix.place(row, col).and_then(|place| u32::try_from(place).ok());
+        let mut places = Vec::with_capacity(pattern.entries.len());
+        for (k, &(i, j)) in pattern.entries.iter().enumerate() {
+            places.push((k as u32, place((i, j))?));
+            if is_symmetric && i != j {
+                places.push((k as u32, place((j, i))?));
+            }
+        }
+        Some(places)
+    }
+
+    /// A += factor B at the [`places`](Self::places) of B.
+    pub fn add_at(&mut self, places: &Places, values: &[f64], factor: T) {
+        for &(value, place) in places {
+            self.matrix.values[place as usize] += factor * values[value as usize];
+        }
+    }
+
+    /// Finds the coordinates without mass, which get another weight.
+    pub fn see_mass(&mut self, mass: &Pattern, values: &[f64]) {
         self.is_massless.fill(true);
         let diagonal = mass.entries.iter().zip(values).filter(|((i, j), value)| i == j && **value != 0.0);
         diagonal.for_each(|((i, _), _)| self.is_massless[*i] = false);
-        self.add(mass, values, T::real(1.0), true);
     }
 
     /// A += factor B, with both triangles of a symmetric B given by one.
@@ -239,19 +283,20 @@ impl<T: Field> Unsymmetric<T> {
             self.scaled[place] = self.matrix.values[place] * (self.rank[row] * self.scale[row] * self.scale[col]);
         }
         let is_out = |row: usize| self.left_out[row];
-        for ((&(i, j), &value), &coupling) in
-            self.g.entries.iter().zip(g).zip(&self.coupling).filter(|((g, _), _)| !is_out(g.0))
-        {
-            let (row, scale) = (self.n + i, self.scale[self.n + i] * self.scale[j]);
-            if let (Some(below), Some(beside)) = (self.matrix.place(row, j), self.matrix.place(j, row)) {
-                self.scaled[below] += T::real(value * scale);
-                self.scaled[below] += coupling * scale;
-                self.scaled[beside] += T::real(value * scale * self.rank[j]);
-            }
+        let entries = self.g.entries.iter().zip(&self.g_places).zip(g.iter().zip(&self.coupling));
+        for ((&(i, j), &[below, beside]), (&value, &coupling)) in entries.filter(|((g, _), _)| !is_out(g.0)) {
+            let scale = self.scale[self.n + i] * self.scale[j];
+            self.scaled[below as usize] += T::real(value * scale);
+            self.scaled[below as usize] += coupling * scale;
+            self.scaled[beside as usize] += T::real(value * scale * self.rank[j]);
         }
         let ones = (0..self.g.rows).filter(|&row| is_out(row)).map(|row| self.n + row);
         for place in ones.filter_map(|k| self.matrix.place(k, k)) {
             self.scaled[place] = T::real(1.0);
+        }
+        self.is_unpivoted = self.unpivoted.as_mut().is_some_and(|factors| factors.factor(&self.scaled));
+        if self.is_unpivoted {
+            return true;
         }
         let smallest = match &mut self.factors {
             Factors::Dense(factors) => factors.factor(&self.scaled),
@@ -275,9 +320,10 @@ impl<T: Field> Unsymmetric<T> {
         self.right.iter_mut().zip(given.zip(scale)).for_each(|(right, (x, scale))| *right = *x * scale);
         let rows = self.right[self.n..].iter_mut().zip(&self.left_out);
         rows.filter(|(_, out)| **out).for_each(|(right, _)| *right = T::ZERO);
-        match &mut self.factors {
-            Factors::Dense(factors) => factors.solve(&mut self.right),
-            Factors::Sparse(factors) => factors.solve(&mut self.right),
+        match (&mut self.factors, &mut self.unpivoted) {
+            (_, Some(factors)) if self.is_unpivoted => factors.solve(&mut self.right),
+            (Factors::Dense(factors), _) => factors.solve(&mut self.right),
+            (Factors::Sparse(factors), _) => factors.solve(&mut self.right),
         }
         let found = top.iter_mut().chain(bottom);
         found.zip(self.right.iter().zip(&self.scale)).for_each(|(x, (right, scale))| *x = *right * *scale);

@@ -168,7 +168,8 @@ fn a_coordinate_without_mass_does_not_make_its_rows_dependent() {
         for stiffness in [0.0, 1e-30, 1e-18, 1e-9, 1.0, 1e3] {
             let mut system =
                 Unsymmetric::<f64>::at(matrix::places(&mass, &tangent, &g).unwrap(), &g, is_dense).unwrap();
-            system.add_mass(&mass, &[1.0, 1.0, 0.0]);
+            system.see_mass(&mass, &[1.0, 1.0, 0.0]);
+            system.add(&mass, &[1.0, 1.0, 0.0], 1.0, true);
             system.add(&tangent, &[1.0], stiffness, false);
             system.factor(&g, &rows).unwrap();
             assert!(!system.left_out().contains(&true));
@@ -189,6 +190,33 @@ fn rows_that_are_held_are_dropped_and_no_others() {
         one.put(&mut system);
         system.drop_rows(&rows);
         assert_eq!(system.factor(&one.g, &one.rows).is_ok(), is_regular, "{rows:?}");
+    }
+}
+
+/// The diagonal alone gives the solution of partial pivoting, also once rows that depend on others are dropped; with an A
+/// that needs partial pivoting the same.
+#[test]
+fn a_small_pivot_leads_to_partial_pivoting() {
+    for (copies, stiffness, is_unpivoted) in [(0, 1.0, true), (0, -999.999_999_99, false), (1, 1.0, true)] {
+        let mut chain = chain(30, copies);
+        let diagonal = chain.tangent.entries.iter().position(|&(i, j)| (i, j) == (0, 0)).unwrap();
+        (chain.stiffness[diagonal], chain.masses[0]) = (stiffness, 500.0);
+        let mut systems = [chain.system::<f64>(false), chain.system::<f64>(false).for_corrections()];
+        let found = systems.each_mut().map(|system| {
+            system.clear();
+            system.add(&chain.mass, &chain.masses, 2.0, true);
+            system.add(&chain.tangent, &chain.stiffness, 1.0, false);
+            system.factor(&chain.g, &chain.rows).unwrap();
+            let (mut top, mut bottom) = (vec![1.0; chain.g.cols], vec![1.0; chain.g.rows]);
+            system.solve(&mut top, &mut bottom).unwrap();
+            [top, bottom].concat()
+        });
+        assert_eq!((systems[0].is_unpivoted, systems[1].is_unpivoted), (false, is_unpivoted), "{copies} {stiffness}");
+        assert_eq!(systems[0].left_out(), systems[1].left_out());
+        let [pivoted, diagonal] = &found;
+        // Ten digits less what the condition of the chain takes.
+        let close = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-9 * (1.0 + a.abs());
+        assert!(pivoted.iter().zip(diagonal).all(close), "{copies} {stiffness}");
     }
 }
 
