@@ -24,6 +24,11 @@ pub const CONTROLLED_ERROR: f64 = 1e-6;
 /// or less the tests of its room pass.
 pub const LEAST_LARGEST_Q: f64 = 1e-10;
 
+/// Changes of v' at the end of a step of generalized_alpha that are small beside its local error.
+/// Unit: `[1]` of the change of a in the step. Why: the local error of v is about h/T of h times that change, with T the
+/// time scale of the motion, and what is left after a correction that small is a hundredth of it or less. Test: `fixed_steps_do_not_see_units`.
+pub const PART_OF_CHANGE: f64 = 1e-6;
+
 /// Corrections at most of a step of generalized_alpha.
 /// Unit: `[iterations]`. Why: as many as far predictions and kinks of forces want. Test: none: a bound of work, not
 /// tried.
@@ -40,6 +45,21 @@ pub const RATTLE_ITERATIONS: usize = 100;
 /// Rate of convergence up to which the matrix of generalized_alpha serves the next step too.
 /// Unit: `[1]`. Why: an iteration more costs far less than K and C. Test: none: time alone depends on it.
 pub const GENERALIZED_ALPHA_MATRIX_KEPT: f64 = 1e-2;
+
+/// Corrections up to which a matrix of a step before serves the next step too.
+/// Unit: `[iterations]`. Why: a matrix costs about four, and a new one converges in three or two. Test:
+/// `generalized_alpha_passes_the_flat_position`.
+pub const CORRECTIONS_WITH_OLD_MATRIX: usize = 4;
+
+/// Corrections of generalized_alpha that no longer fall before an iteration ends by stagnation.
+/// Unit: `[iterations]`. Why: their rate is the mean of two ratios, and one may be smaller by chance. Test: none: time alone
+/// depends on it.
+pub const CORRECTIONS_OF_ROUND_OFF: usize = 3;
+
+/// Rank indicator below which generalized_alpha keeps a matrix of a step before also after long iterations.
+/// Unit: `[1]` of the indicator at regular states. Why: a choice: a matrix from there converges at the singular state too.
+/// Test: `generalized_alpha_passes_the_flat_position`.
+pub const NEARLY_SINGULAR: f64 = 0.1;
 
 /// The matrix of generalized_alpha serves steps up to this factor longer or shorter.
 /// Unit: `[1]`. Why: a choice: M is most of it, and the rate is watched. Test: none: time alone depends on it.

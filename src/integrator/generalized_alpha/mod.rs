@@ -2,6 +2,7 @@
 
 mod motion;
 mod newton;
+mod prediction;
 
 use super::hermite::Hermite;
 use super::memory::Reader;
@@ -124,8 +125,10 @@ impl Integrator for GeneralizedAlpha {
     ) -> Result<Option<f64>, StepError> {
         self.motion.begin(problem, from, h, to)?;
         let mut found = self.newton.converge(problem, &mut self.motion, from, h, to);
-        if self.newton.is_stale && found.as_ref().is_err_and(|halt| !halt.is_fatal()) {
+        let is_first_guess = self.newton.is_stale || self.motion.is_extrapolated();
+        if is_first_guess && found.as_ref().is_err_and(|halt| !halt.is_fatal()) {
             self.newton.restart();
+            self.motion.forget_past();
             self.motion.begin(problem, from, h, to)?;
             found = self.newton.converge(problem, &mut self.motion, from, h, to);
         }

@@ -2,6 +2,7 @@
 
 use super::super::memory::Reader;
 use super::super::{From, Problem};
+use super::prediction::{Carried, Prediction};
 use crate::formulation::{Change, Dae, Slopes, StepError, Unknowns, turn};
 use crate::math::largest;
 use crate::system::Dimensions;
@@ -38,27 +39,13 @@ impl Scheme {
     }
 }
 
-/// The quantities that one step passes on to the next.
-pub(super) struct Carried {
-    /// Step size for which `a` is valid.
-    h: f64,
-    pub a: Vec<f64>,
-    pub vdot: Vec<f64>,
-    pub lambda: Vec<f64>,
-}
-
-impl Carried {
-    fn new(n: Dimensions) -> Self {
-        Carried { h: 1.0, a: vec![0.0; n.v], vdot: vec![0.0; n.v], lambda: vec![0.0; n.lambda] }
-    }
-}
-
 pub(super) struct Motion {
     scheme: Scheme,
     /// True if `start` is known.
     is_started: bool,
     start: Carried,
     pub end: Carried,
+    prediction: Prediction,
     /// a at the start, adapted to the present step size.
     a: Vec<f64>,
     /// The shifts of v and q. Each correction satisfies the equation of the shift, and so does their sum.
@@ -81,6 +68,7 @@ impl Motion {
             is_started: false,
             start: Carried::new(n),
             end: Carried::new(n),
+            prediction: Prediction::new(n),
             a: zeros(n.v),
             w: zeros(n.v),
             u: zeros(n.v),
@@ -92,19 +80,18 @@ impl Motion {
         }
     }
 
-    /// Prepares a step of size `h` from the step before (or from the start), and discards one tried before from here.
-    /// `ahead` is scratch. v' and lambda at the end are predicted by those of the start.
+    /// Prepares a step of size `h` from the step before (or from the start), predicts its end, and discards one tried
+    /// before from here. `ahead` is scratch.
     pub fn begin(&mut self, problem: &mut Problem, from: From, h: f64, ahead: &mut [f64]) -> Result<(), StepError> {
         if !self.is_started {
             self.start(problem, from, h, ahead)?;
         }
         self.end.h = h;
-        let Carried { a, vdot, lambda, h: own } = &self.start;
+        let Carried { a, vdot, h: own, .. } = &self.start;
         for (i, next) in self.a.iter_mut().enumerate() {
             *next = vdot[i] + h / own * (a[i] - vdot[i]);
         }
-        self.end.vdot.copy_from_slice(vdot);
-        self.end.lambda.copy_from_slice(lambda);
+        self.prediction.predict(&self.start, h, &mut self.end);
         [&mut self.w, &mut self.u].into_iter().for_each(|shift| shift.fill(0.0));
         self.predict(problem, from, h);
         Ok(())
@@ -129,15 +116,26 @@ impl Motion {
         Ok(())
     }
 
+    /// True if the end is predicted by more than the start.
+    pub fn is_extrapolated(&self) -> bool {
+        self.prediction.degree() > 0
+    }
+
+    /// Predicts the end by the start alone from now on.
+    pub fn forget_past(&mut self) {
+        self.prediction.restart();
+    }
+
     /// Discards the last step.
     pub fn restart(&mut self) {
         self.is_started = false;
+        self.prediction.restart();
     }
 
-    /// `start` as numbers, for [`Self::recall`].
+    /// `start` and what predicts the end as numbers, for [`Self::recall`].
     pub fn memory(&self) -> Vec<f64> {
         let Carried { h, a, vdot, lambda } = &self.start;
-        [&[f64::from(self.is_started), *h], &a[..], vdot, lambda].concat()
+        [&[f64::from(self.is_started), *h], &a[..], vdot, lambda, &self.prediction.memory()].concat()
     }
 
     /// Restores a [`memory`](Self::memory).
@@ -146,10 +144,12 @@ impl Motion {
         let Carried { h, a, vdot, lambda } = &mut self.start;
         *h = memory.number();
         [a, vdot, lambda].into_iter().for_each(|values| memory.fill(values));
+        self.prediction.recall(memory);
     }
 
     /// Accepts the step: its end becomes the start.
     pub fn accepted(&mut self) {
+        self.prediction.accepted(&self.start, &self.end);
         std::mem::swap(&mut self.start, &mut self.end);
     }
 
@@ -186,6 +186,11 @@ impl Motion {
             *error = factor * (self.end.a[i] - self.a[i]);
         }
         &self.change
+    }
+
+    /// The largest change of a in the step.
+    pub fn largest_change(&self) -> f64 {
+        self.end.a.iter().zip(&self.a).fold(0.0, |largest, (end, start)| largest.max((end - start).abs()))
     }
 
     /// a_1 for the present v'_1.

@@ -36,6 +36,10 @@ pub(super) struct Newton {
     is_linearized: bool,
     /// True if the last iteration began with the matrix of a step before.
     pub is_stale: bool,
+    /// True if the matrix was renewed in the last iteration.
+    is_renewed: bool,
+    /// True if the start of the step is near a singular state.
+    is_nearly_singular: bool,
     /// The step size and the dropped rows for which the matrix is factored.
     factored: Option<f64>,
     dropped: Vec<usize>,
@@ -55,15 +59,20 @@ impl Newton {
             monitor: Monitor::default(),
             is_linearized: false,
             is_stale: false,
+            is_renewed: false,
+            is_nearly_singular: false,
             factored: None,
             dropped: Vec::new(),
             recalled: None,
         })
     }
 
-    /// Keeps the matrix for the next step if the iteration contracted well.
+    /// Keeps the matrix for the next step if the iteration contracted well, and one of a step before if it was short, too.
+    /// Near singular states round-off is divided by the rank indicator of the matrix, and one of a step before is kept.
     pub fn accepted(&mut self) {
-        self.is_linearized &= self.monitor.keeps_matrix();
+        let of_round_off = if self.monitor.has_stagnated { tolerances::CORRECTIONS_OF_ROUND_OFF } else { 0 };
+        let is_short = self.monitor.iterations <= tolerances::CORRECTIONS_WITH_OLD_MATRIX + of_round_off;
+        self.is_linearized &= self.monitor.keeps_matrix() && (is_short || self.is_renewed || self.is_nearly_singular);
     }
 
     /// Discards the matrix where the equations change their form.
@@ -113,6 +122,10 @@ impl Newton {
     ) -> Result<(), StepError> {
         self.renew(problem, motion)?;
         self.is_stale = self.is_linearized;
+        self.is_renewed = false;
+        let kkt = &problem.dynamics.kkt;
+        self.is_nearly_singular =
+            kkt.is_factored() && kkt.rank_indicator() < tolerances::NEARLY_SINGULAR * kkt.rank_reference;
         let mut monitor = std::mem::take(&mut self.monitor);
         let converged = monitor.solve(self.limits, |renews| {
             motion.advance(problem, from, h, to);
@@ -124,6 +137,7 @@ impl Newton {
             let round_off = tolerances::ROUND_OFF * largest(problem.split(to).0);
             let moving = problem.dynamics.system.dimensions().moving();
             let [change, of_states] = motion.correct(&self.iteration.change, moving, h, round_off);
+            let change = if change <= self.negligible(problem, motion, h, to) { 0.0 } else { change };
             let [small, small_state] = self.small(problem, motion, h, to);
             Ok::<_, StepError>(change / small + of_states / small_state)
         });
@@ -158,7 +172,7 @@ impl Newton {
             self.at.weigh(MASS, dynamics)?;
             dynamics.statistics.rhs_evaluations += 1;
             self.residual.of_terms(&self.dae, motion.unknowns(), dynamics);
-            (self.is_linearized, self.factored) = (true, None);
+            (self.is_linearized, self.is_renewed, self.factored) = (true, true, None);
         }
         if self.factored.is_some_and(|own| own / h <= tolerances::MATRIX_BAND && h / own <= tolerances::MATRIX_BAND) {
             self.iteration.rescale(motion.slopes(h));
@@ -170,6 +184,16 @@ impl Newton {
         self.factored = Some(h);
         self.dropped.clone_from(&problem.dynamics.dropped);
         Ok(())
+    }
+
+    /// Size up to which changes of v'_1 count as zero where phi = 0 alone is solved: they move q by less than the
+    /// rounding of the largest coordinate, and v by less than its error of a step.
+    fn negligible(&self, problem: &Problem, motion: &Motion, h: f64, to: &[f64]) -> f64 {
+        if self.dae.velocity_index() < 2 {
+            return 0.0;
+        }
+        let rounding = tolerances::ROUND_OFF * largest(problem.split(to).0) / motion.slopes(h).q;
+        rounding.min(tolerances::PART_OF_CHANGE * motion.largest_change())
     }
 
     /// Stagnation tolerances of the changes of v'_1 and of xi'_1, from the largest a_1 and v_1/h of each.
