@@ -28,7 +28,7 @@ const SWUNG: &str = r#"{
 
 #[test]
 fn an_energy_balance_that_does_not_close_is_a_warning() {
-    let found = warnings(SWUNG, &["--rtol", "2e-3", "--atol", "2e-5"]);
+    let found = warnings(SWUNG, &["--rtol", "1e-3", "--atol", "1e-5"]);
     assert!(found[0].contains("the energy balance does not close") && found[0].contains('%'), "{found:?}");
     let found = warnings(PENDULUM, &["--integrator", "heun", "--step", "0.1"]);
     assert!(found[0].contains("the energy balance does not close"), "{found:?}");

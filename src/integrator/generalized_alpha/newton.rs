@@ -192,7 +192,7 @@ impl Newton {
         if self.dae.velocity_index() < 2 {
             return 0.0;
         }
-        let rounding = tolerances::ROUND_OFF * largest(problem.split(to).0) / motion.slopes(h).q;
+        let rounding = f64::EPSILON * largest(problem.split(to).0) / motion.slopes(h).q;
         rounding.min(tolerances::PART_OF_CHANGE * motion.largest_change())
     }
 
