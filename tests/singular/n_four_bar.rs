@@ -30,8 +30,8 @@ fn generalized_alpha_passes_the_flat_position() {
         let run = scene.run(&fixed(formulation, "generalized_alpha", "none", step), span);
         let exact = scene.run(&fixed("index1", "rk4", "manifold", step), span);
         let error = last(&run, "bar0.angle") - last(&exact, "bar0.angle");
-        // Order two: 18 h^2 with both steps.
-        assert!(error.abs() < 20.0 * step * step, "{formulation} {step}: {error:e}");
+        // Order two: 18 h^2 with ggl and 24 h^2 with index3, with both steps.
+        assert!(error.abs() < 25.0 * step * step, "{formulation} {step}: {error:e}");
         assert!(run.outcome.statistics.newton_iterations < 6 * run.outcome.statistics.steps);
     }
 }

@@ -29,6 +29,8 @@ pub(super) struct Prediction {
     past: [Past; POINTS - 1],
     known: usize,
     degree: usize,
+    /// Number of v' that the degree is chosen by: without those of states, which have units of their own.
+    moving: usize,
 }
 
 struct Past {
@@ -41,7 +43,7 @@ struct Past {
 impl Prediction {
     pub fn new(n: Dimensions) -> Self {
         let past = || Past { age: 0.0, vdot: vec![0.0; n.v], lambda: vec![0.0; n.lambda] };
-        Prediction { past: [past(), past()], known: 0, degree: 0 }
+        Prediction { past: [past(), past()], known: 0, degree: 0, moving: n.moving() }
     }
 
     /// Degree of the present polynomial.
@@ -76,7 +78,7 @@ impl Prediction {
         let error = |degree: usize| {
             let mut error = 0.0_f64;
             let points = [&start.vdot, &self.past[0].vdot, &self.past[1].vdot];
-            extrapolate(self.weights(degree, end.h), points.map(|x| &**x), |i, x| {
+            extrapolate(self.weights(degree, end.h), points.map(|x| &x[..self.moving]), |i, x| {
                 error = error.max((x - end.vdot[i]).abs());
             });
             error
