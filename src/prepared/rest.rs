@@ -26,5 +26,5 @@ pub fn at_rest(system: &dyn MechanicalSystem, t: f64, start: &Assembly) -> Resul
         )
     });
     let warnings = unstable.into_iter().chain(driven).collect();
-    Ok((Assembly { before: start.before.clone(), moves: start.moves.clone(), ..rest }, warnings))
+    Ok((Assembly { before: start.before, moves: start.moves.clone(), ..rest }, warnings))
 }
