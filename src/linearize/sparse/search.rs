@@ -85,7 +85,7 @@ fn slowest(equations: &Quadratic, count: &mut usize) -> Result<(C, f64), Unsolve
         };
         let rates = partial.values.iter().map(|theta| (operator.sigma + theta.inv()).norm());
         let last = rates.fold(0.0, f64::max);
-        if tolerances::SHIFT_OF_SLOWEST * last < tolerances::ROUNDING_OF_K * fastest && *count < equations.finite {
+        if last < tolerances::ROUNDING_OF_K * fastest && *count < equations.finite {
             *count = (2 * *count).min(equations.finite);
             continue;
         }
