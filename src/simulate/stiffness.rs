@@ -45,8 +45,8 @@ pub fn stiffness(
     let longest = method.step.unwrap_or(duration / tolerances::STEPS_FOR_STABILITY);
     // Far below the limits along its own direction and both axes no mode is critical.
     let is_slow = |rate: f64, directions: &[(f64, f64)]| {
-        let limits = directions.iter().map(|&(decay, swing)| stability.limit(decay, swing));
-        limits.into_iter().all(|limit| rate * longest < tolerances::DOUBTED_MODE * limit)
+        let mut limits = directions.iter().map(|&(decay, swing)| stability.limit(decay, swing));
+        limits.all(|limit| rate * longest < tolerances::DOUBTED_MODE * limit)
     };
     let axes = [(1.0, 0.0), (0.0, 1.0)];
     if bound(system, state).is_some_and(|rate| is_slow(rate, &axes)) {

@@ -18,6 +18,7 @@ use std::ops::Range;
 pub(super) struct RigidParts<const D: usize> {
     /// What the velocities of each body are, if it is rigid.
     pub freedoms: Vec<Option<Freedom>>,
+    pub are_all_rigid: bool,
     /// The translations and rotations that each joint locks, if that is all it does.
     pub locks: Vec<Option<Lock<D>>>,
     /// Joints with closed formulas.
@@ -40,6 +41,7 @@ impl<const D: usize> RigidParts<D> {
         let closed: Vec<Option<RigidJoint<D>>> =
             model.joints.iter().zip(rows).map(|(joint, rows)| RigidJoint::new(model, joint, rows)).collect();
         let mut parts = RigidParts {
+            are_all_rigid: model.bodies.iter().all(|part| part.body.freedom().is_some()),
             freedoms: model.bodies.iter().map(|part| part.body.freedom()).collect(),
             locks: model.joints.iter().map(|joint| as_lock(joint.element.closed_form())).collect(),
             general_joints: (0..closed.len()).filter(|&joint| closed[joint].is_none()).collect(),
@@ -93,7 +95,8 @@ impl<const D: usize> Mechanism<D> {
 
     /// Poses of the rigid bodies, and the frames of the markers of all others.
     fn move_bodies(&self, (q, v): (&[f64], &[f64]), work: &mut Workspace<D>) {
-        if !self.rigid.freedoms.iter().all(Option::is_some) && !work.is_at(q, v) {
+        let is_placed = self.rigid.are_all_rigid || work.is_at(q, v);
+        if !is_placed {
             // Only some of the frames are placed.
             work.remember([&[]; 2]);
             work.motion.resize(self.model().marker_count(), Frame::world());
@@ -102,6 +105,7 @@ impl<const D: usize> Mechanism<D> {
         for ((part, freedom), pose) in self.model().bodies.iter().zip(&self.rigid.freedoms).zip(poses) {
             match freedom {
                 Some(_) => *pose = part.body.pose(of(q, part, true), of(v, part, false)),
+                None if is_placed => {}
                 None => self.place_body(part, (q, v, &[]), motion),
             }
         }

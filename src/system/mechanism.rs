@@ -91,9 +91,7 @@ impl<const D: usize> Mechanism<D> {
         see: impl FnOnce(&mut Workspace<D>, Regime) -> R,
     ) -> R {
         self.with_workspace(q, scratch, |work, regime| {
-            if !work.is_at(q, v) {
-                self.place(q, v, &[], work);
-            }
+            self.place_once(q, v, work);
             see(work, regime)
         })
     }
@@ -107,6 +105,13 @@ impl<const D: usize> Mechanism<D> {
     ) -> R {
         let make = || Workspace::new(self.model());
         scratch.with(make, |work, regime| see(work, regime.turned(self.turned(q))))
+    }
+
+    /// Evaluates all frames at (q, v) and v' = 0, unless they are known.
+    fn place_once(&self, q: &[f64], v: &[f64], work: &mut Workspace<D>) {
+        if !work.is_at(q, v) {
+            self.place(q, v, &[], work);
+        }
     }
 
     /// Evaluates all frames at (q, v), with the accelerations `vdot` or, where it is empty, those at v' = 0.
@@ -204,9 +209,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         self.with_workspace(q, scratch, |work, regime| {
             self.write_terms(Time { t, regime }, (q, v), need, work, terms);
             if need.includes(Need::L) {
-                if !work.is_at(q, v) {
-                    self.place(q, v, &[], work);
-                }
+                self.place_once(q, v, work);
                 let (Workspace { motion, varied, .. }, at) = (work, OperatingPoint { t, q, v, vdot: &[], lambda: &[] });
                 let mut write = |place: usize, slope: Taylor<f64>| terms.l[place] = slope.d;
                 self.placed_joints().for_each(|joint| joint.curvature((&at, regime), motion, varied, &mut write));

@@ -122,8 +122,12 @@ impl<const D: usize> Slopes<'_, D> {
             let part = &bodies[carrier.body];
             for directions in carrier.velocities.chunks(6) {
                 let Workspace { varied, motion, .. } = &mut *self.work;
-                varied.vary(along, part, (&self.at, self.mechanism.solid(carrier.body, motion)), directions);
-                varied.vary_state(along, part, &self.at, directions);
+                let solid = self.mechanism.solid(carrier.body, motion);
+                // Energies and elastic coordinates are read from the state itself, which is not varied with a rigid body.
+                if solid.is_some() {
+                    varied.vary_state(along, part, &self.at, directions);
+                }
+                varied.vary(along, part, (&self.at, solid), directions);
                 let value = self.seen(Seed::Body(part), &read);
                 let target = match along {
                     SeedDirection::Coordinates => &mut self.tangent.q,

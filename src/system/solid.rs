@@ -82,7 +82,7 @@ impl<const D: usize> Solid<D> {
         m[0] * self.axes[k][0] + m[1] * self.axes[k][1] + m[2] * self.axes[k][D - 1]
     }
 
-    /// u_k . u_l, p . u_k for axes of two bodies.
+    /// u . p for axis number `k`; zero in the plane.
     #[inline]
     pub fn along(&self, k: usize, p: &[f64; D]) -> f64 {
         (0..D).map(|i| self.axes[k][i] * p[i]).sum()

@@ -35,7 +35,6 @@ pub struct Sparse {
 impl Quadratic {
     /// The equations at the state of `variation`. Cost: linear in the entries of the matrices, and with moving
     /// rotations in space a bracket for each direction.
-    /// bracket for each direction.
     pub fn new(variation: &Variation) -> Self {
         let (structure, terms) = (&variation.dynamics.structure, &variation.dynamics.terms);
         let part = |values: &[f64]| Sparse { pattern: Pattern::clone(&structure.tangent), values: values.to_vec() };

@@ -89,6 +89,7 @@ fn agree<const D: usize>(model: impl Fn() -> Model<D>, case: &str) {
     generic.rigid.joints.clear();
     generic.rigid.general_joints = vec![0, 1];
     generic.rigid.freedoms.fill(None);
+    generic.rigid.are_all_rigid = false;
     let n = closed.dimensions();
     for seed in 0..4 {
         let (q, v) = (numbers(n.q, seed), numbers(n.v, seed + 7));
