@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The equilibrium at the start time from the start.
 fn seek(scene: &Ready) -> Result<Equilibrium, Error> {
-    equilibrium(scene.system(), scene.0.start_time(), &scene.start().q)
+    equilibrium(scene.system(), scene.0.start_time(), scene.0.start())
 }
 
 /// Found, and f - G^T lambda = 0, phi = 0 by the equations themselves, forces over the largest of them.
@@ -22,8 +22,8 @@ fn found(scene: &Ready) -> Equilibrium {
 }
 
 fn left(system: &dyn MechanicalSystem, at: &Equilibrium) -> (f64, f64) {
-    let (mut terms, still) = (Terms::new(system), vec![0.0; system.dimensions().v]);
-    system.evaluate(at.t, &at.q, &still, Need::DYNAMICS, &mut terms, &mut Scratch::default());
+    let (mut terms, still) = (Terms::new(system), &at.v);
+    system.evaluate(at.t, &at.q, still, Need::DYNAMICS, &mut terms, &mut Scratch::default());
     let mut reaction = vec![0.0; still.len()];
     system.structure().g.multiply_transposed(&terms.g, &at.lambda, &mut reaction);
     let largest = |x: &mut dyn Iterator<Item = f64>| x.fold(0.0f64, |largest, x| largest.max(x.abs()));
@@ -73,6 +73,8 @@ fn shipped_scenes_come_to_rest() {
             "n_four_bar" | "spatial_slider_crank" | "slider_crank_singular_2" => continue,
             // The path of growing loads ends with the upper link upright or hanging; round-off decides.
             "robot_arm" => continue,
+            // The oil that is shut in may leak until the boom rests anywhere.
+            "hydraulic_boom" => Stability::Unknown,
             _ => Stability::Stable,
         };
         assert_eq!(found.stability, expected, "{}: {found:?}", scene.0.name);
@@ -233,7 +235,7 @@ fn time_is_held() {
     let text = std::fs::read_to_string(crate::scenes::model("bushing_block")).unwrap();
     let ramp = r#""forces": [ { "name": "ramp", "type": "applied_force", "at": "block", "force": [0, 0, "-10*t"] }, "#;
     let scene = parse(&text.replacen(r#""forces": ["#, ramp, 1));
-    let height = |t: f64| equilibrium(scene.system(), t, &scene.start().q).unwrap().q[2];
+    let height = |t: f64| equilibrium(scene.system(), t, scene.0.start()).unwrap().q[2];
     assert!((height(0.0) - height(2.0) - 20.0 / 2000.0).abs() < 1e-12, "{} {}", height(0.0), height(2.0));
 }
 

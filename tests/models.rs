@@ -85,11 +85,13 @@ fn degrees_of_freedom_are_those_of_the_mechanisms() {
         ("four_bar_spring", 1),
         ("full_axle", 4),
         ("gear_pair", 1),
+        ("hydraulic_boom", 1),
         ("modal_link", 4),
         ("n_four_bar", 1),
         ("parallelogram", 1),
         ("parallelogram_redundant", 1),
         ("pendulum", 1),
+        ("pid_arm", 1),
         ("princeton_beam", 48),
         ("quarter_car", 2),
         ("right_angle_cantilever", 96),
@@ -121,7 +123,7 @@ fn freedom(ready: &Ready) -> usize {
     let mut dense = nalgebra::DMatrix::<f64>::zeros(n.lambda.max(1), n.v);
     g.entries.iter().zip(&terms.g).for_each(|(&place, value)| dense[place] += value);
     // Singular values are of order 0.01 to 1 or round-off.
-    n.v - dense.rank(1e-9)
+    n.moving() - dense.rank(1e-9)
 }
 
 fn speed(v: &[f64]) -> f64 {

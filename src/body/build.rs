@@ -1,6 +1,6 @@
 //! Names, parameters and checks with which an element reads its part of a scene.
 
-use super::{Probe, Signal, Turned, Turning};
+use super::{Probe, Quantity, Signal, Turned, Turning};
 use crate::error::{Error, Result, Warning, nearest, short, suggest};
 use crate::math::Thresholds;
 use crate::math::expression::{Expression, Number, Parameters, Switch, TimeFunction};
@@ -23,6 +23,8 @@ pub struct MarkerTable {
     pub body_names: Vec<String>,
     /// False for point masses, whose markers have no orientation.
     pub oriented: Vec<bool>,
+    /// Names of the states with their markers, which no reference can name.
+    pub states: Vec<(String, MarkerId)>,
     places: HashMap<String, MarkerId>,
 }
 
@@ -35,6 +37,14 @@ impl MarkerTable {
         self.oriented.push(oriented);
     }
 
+    /// Adds the marker of a state, a body of its own.
+    pub fn add_state(&mut self, name: String, body: usize) {
+        self.states.push((name.clone(), self.names.len()));
+        self.names.push(name);
+        self.bodies.push(Some(body));
+        self.oriented.push(false);
+    }
+
     /// True if a marker has this name; that of a body or `ground` names its own frame.
     pub fn has_body(&self, name: &str) -> bool {
         self.places.contains_key(name)
@@ -43,7 +53,8 @@ impl MarkerTable {
     /// Index of the marker with this full name.
     pub fn find(&self, name: &str) -> Result<MarkerId> {
         self.places.get(name).copied().ok_or_else(|| {
-            let names = || self.names.iter().map(String::as_str);
+            let given = self.names.len() - self.states.len();
+            let names = || self.names[..given].iter().map(String::as_str);
             // A body's own frame may be meant; where nothing is near, its markers are listed alone.
             let hint = match nearest(name, names()) {
                 Some(near) => format!("did you mean `{near}`?"),
@@ -270,8 +281,11 @@ impl<const D: usize> Build<'_, D> {
         Signal::parse(&number.to_string(), self, rates).map_err(|error| error.under(field))
     }
 
-    /// A marker quantity such as `crank.C.x` or `crank.angle`.
+    /// A marker quantity such as `crank.C.x` or `crank.angle`, or a state.
     pub fn probe(&self, name: &str) -> Option<Probe> {
-        Probe::parse::<D>(name, self.markers)
+        match self.markers.states.iter().find(|(known, _)| known == name) {
+            Some(&(_, marker)) => Some(Probe { marker, quantity: Quantity::Velocity(0) }),
+            None => Probe::parse::<D>(name, self.markers),
+        }
     }
 }

@@ -16,7 +16,7 @@ impl<K: BodyKernel<D>, S: Scalar, const D: usize> BodyOver<S, D> for K {
     }
 
     fn motion(&self, q: &[S], v: &[S], vdot: Option<&[S]>, first: usize, out: &mut [Frame<Taylor<S>, D>]) {
-        let body = moving_frame(self, (q, v, vdot));
+        let body = BodyKernel::motion(self, q, v, vdot);
         out.iter_mut().zip(&self.markers()[first..]).for_each(|(frame, marker)| *frame = body.at(marker));
     }
 
@@ -29,9 +29,9 @@ impl<K: BodyKernel<D>, S: Scalar, const D: usize> BodyOver<S, D> for K {
     }
 }
 
-/// The frame in which the markers are fixed, along the motion with the accelerations `vdot`, zero if not given.
+/// The frame in which the markers are fixed, over q and its first two derivatives.
 #[inline]
-fn moving_frame<K: BodyKernel<D>, S: Scalar, const D: usize>(
+pub(super) fn motion<K: BodyKernel<D>, S: Scalar, const D: usize>(
     body: &K,
     (q, v, vdot): (&[S], &[S], Option<&[S]>),
 ) -> Frame<Taylor<S>, D> {
@@ -43,7 +43,7 @@ fn moving_frame<K: BodyKernel<D>, S: Scalar, const D: usize>(
 
 /// The pose of the frame in which the markers are fixed.
 pub(super) fn pose<K: BodyKernel<D>, const D: usize>(body: &K, q: &[f64], v: &[f64]) -> Pose<D> {
-    (&moving_frame(body, (q, v, None))).into()
+    (&BodyKernel::motion(body, q, v, None)).into()
 }
 
 /// f += J^T w by the velocities of the body's frame, J e_j, at v = e_j.
@@ -58,7 +58,7 @@ pub(super) fn pull_back<K: BodyKernel<D>, S: Scalar, const D: usize>(
     for (j, f) in f.iter_mut().enumerate() {
         let mut unit = [S::zero(); MOST_COORDINATES];
         unit[j] = S::one();
-        let own = moving_frame(body, (q, &unit[..n], None));
+        let own = BodyKernel::motion(body, q, &unit[..n], None);
         let lever = cross(&sub(&frame.r, &own.r.map(|x| x.x)), &wrench.force);
         let moment: [S; 3] = from_fn(|i| wrench.torque[i] + lever[i]);
         *f += dot(&own.velocity(), &wrench.force) + dot(&own.angular_velocity(), &moment);

@@ -22,6 +22,7 @@ mod probe;
 mod rigid;
 mod rigid_planar;
 mod rigid_spatial;
+mod state;
 mod turning;
 
 pub use build::{Build, MarkerId, MarkerTable, Switches};
@@ -43,6 +44,7 @@ pub use rigid::Initial;
 pub(crate) use rigid::quaternion;
 pub(crate) use rigid_planar::RigidPlanar;
 pub(crate) use rigid_spatial::RigidSpatial;
+pub(crate) use state::State;
 #[doc(hidden)]
 pub use turning::{Turned, Turning};
 
@@ -84,6 +86,16 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
 
     /// The frame in which its markers are fixed; in the plane `turn` is the angle of the axes.
     fn frame<S: Scalar>(&self, q: &[S]) -> Frame<S, D>;
+
+    /// [`frame`](Self::frame) along the motion with the accelerations `vdot`, zero if not given.
+    #[doc(hidden)]
+    #[inline]
+    fn motion<S: Scalar>(&self, q: &[S], v: &[S], vdot: Option<&[S]>) -> Frame<Taylor<S>, D>
+    where
+        Self: Sized,
+    {
+        kernel::motion(self, (q, v, vdot))
+    }
 
     /// f += J^T w for a wrench at the frame of one of the markers. Default: J is the derivative of
     /// [`frame`](Self::frame), one coordinate at a time.

@@ -203,9 +203,10 @@ impl<const D: usize> Names for Scope<'_, D> {
 
     fn known(&self) -> Vec<String> {
         let quantities: &[&str] = if D == 2 { &["x", "y", "angle"] } else { &["x", "y", "z"] };
-        let markers = self.build.markers.names.iter();
+        let table = self.build.markers;
+        let (markers, states) = (table.names.iter(), table.states.iter().map(|(name, _)| name.clone()));
         let probes = markers.flat_map(|marker| quantities.iter().map(move |q| format!("{marker}.{q}")));
-        self.build.parameters.known().into_iter().chain(["t".into()]).chain(probes).collect()
+        self.build.parameters.known().into_iter().chain(["t".into()]).chain(states).chain(probes).collect()
     }
 }
 

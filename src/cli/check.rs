@@ -22,7 +22,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let prepared = args.common.load()?;
     let mut check = report::check(&prepared);
     let t = args.at.unwrap_or(prepared.start_time());
-    let sought = args.is_static.then(|| equilibrium(prepared.system(), t, prepared.start().0));
+    let sought = args.is_static.then(|| equilibrium(prepared.system(), t, prepared.start()));
     // Bad input is an error; a search without success is a result.
     let failure = match sought.transpose() {
         Ok(found) => {

@@ -10,11 +10,13 @@ mod applied;
 mod beam;
 mod bushing;
 mod spring_damper;
+mod state_rate;
 mod torsion_spring;
 mod tyre;
 
 #[doc(hidden)]
 pub use beam::{Beam, Half, Load, Station};
+pub(crate) use state_rate::StateRate;
 
 use crate::body::{Build, Dual6, ElementKind, Frame, MOST_MARKERS, MarkerId, Wrench, mistaken, parse_among};
 use crate::error::Result;

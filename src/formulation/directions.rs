@@ -2,6 +2,7 @@
 
 use super::Dynamics;
 use crate::math::kkt::Pattern;
+use crate::system::Dimensions;
 use crate::tolerances::initial as tolerances;
 use nalgebra::DMatrix;
 
@@ -20,6 +21,22 @@ pub fn degrees_of_freedom(dynamics: &Dynamics) -> usize {
 /// that has few correct digits: then the factor is computed in the metric of the diagonal of M, and made orthonormal in
 /// the metric of M.
 pub fn free_directions(dynamics: &mut Dynamics) -> Option<DMatrix<f64>> {
+    let z = any_directions(dynamics)?;
+    Some(states_last(z, dynamics.system.dimensions()))
+}
+
+/// States have no constraints and a mass of one: their directions are unit vectors.
+fn states_last(mut z: DMatrix<f64>, Dimensions { v, states, .. }: Dimensions) -> DMatrix<f64> {
+    if states > 0 {
+        let moves = |j: &usize| z.view((v - states, *j), (states, 1)).amax() < 0.5;
+        let moving: Vec<usize> = (0..z.ncols()).filter(moves).collect();
+        z = z.select_columns(&moving).resize_horizontally(moving.len() + states, 0.0);
+        z.view_mut((v - states, moving.len()), (states, states)).fill_with_identity();
+    }
+    z
+}
+
+fn any_directions(dynamics: &mut Dynamics) -> Option<DMatrix<f64>> {
     let z = factor_of_solutions(dynamics, &diagonal(dynamics))?;
     if is_identity(&reduced_mass(dynamics, &z)) {
         return Some(z);

@@ -25,7 +25,8 @@ pub fn amplification(
         let mut variation = Variation::new(system, state.t, &state.q, &state.v)?;
         Chart::MassOrthogonal.at(&mut variation)
     };
-    let columns = chart(start)?.changes();
+    let at_start = chart(start)?;
+    let columns = at_start.changes();
     if columns.q.ncols() > 2 * tolerances::AMPLIFIED_FREEDOM {
         return Err(Error::input(format!(
             "more than {} degrees of freedom are too many to carry small changes of",
@@ -43,7 +44,7 @@ pub fn amplification(
     if found.len() < times.len() {
         return Err(Error::input("it was ended"));
     }
-    Ok(least_norm(&found.into_iter().collect::<Result<Vec<Matrix>>>()?))
+    Ok(least_norm(&found.into_iter().collect::<Result<Vec<Matrix>>>()?, at_start.freedom()))
 }
 
 /// Returns the [`amplification`] of a scene's motion.
@@ -73,9 +74,9 @@ pub fn amplified(prepared: &PreparedScene, span: Span, goes_on: impl FnMut(f64) 
 
 /// min over s of the largest norm of diag(1, 1/s) X diag(1, s), and of that of the start, 1. It is convex in log s:
 /// Sezginer, Overton, IEEE Trans. Automatic Control 35 (1990) 229-230.
-fn least_norm(matrices: &[Matrix]) -> f64 {
+fn least_norm(matrices: &[Matrix], k: usize) -> f64 {
     let largest = |power: f64| {
-        let norms = matrices.iter().map(|matrix| scaled(matrix, 10f64.powf(power)).singular_values().max());
+        let norms = matrices.iter().map(|matrix| scaled(matrix, k, 10f64.powf(power)).singular_values().max());
         norms.fold(1.0, f64::max)
     };
     let [mut low, mut high] = tolerances::RATES_SOUGHT;
@@ -89,10 +90,11 @@ fn least_norm(matrices: &[Matrix]) -> f64 {
     largest(0.5 * (low + high))
 }
 
-fn scaled(matrix: &Matrix, rate: f64) -> Matrix {
-    let (mut scaled, k) = (matrix.clone(), matrix.nrows() / 2);
-    scaled.columns_mut(k, k).scale_mut(rate);
-    scaled.rows_mut(k, k).unscale_mut(rate);
+/// The first `k` states are z.
+fn scaled(matrix: &Matrix, k: usize, rate: f64) -> Matrix {
+    let (mut scaled, rest) = (matrix.clone(), matrix.nrows() - k);
+    scaled.columns_mut(k, rest).scale_mut(rate);
+    scaled.rows_mut(k, rest).unscale_mut(rate);
     scaled
 }
 
@@ -111,9 +113,9 @@ mod tests {
     fn only_what_grows_counts() {
         let along = |a: f64| (1..=20).map(|i| at(a, 0.1 * f64::from(i))).collect::<Vec<Matrix>>();
         // An oscillation at 300 rad/s: 1; a saddle: e^(w t).
-        assert!((least_norm(&along(-9e4)) - 1.0).abs() < 1e-2);
-        assert!((least_norm(&along(9.0)) / f64::exp(6.0) - 1.0).abs() < 1e-2);
+        assert!((least_norm(&along(-9e4), 1) - 1.0).abs() < 1e-2);
+        assert!((least_norm(&along(9.0), 1) / f64::exp(6.0) - 1.0).abs() < 1e-2);
         // Free flight: the error that remains comes from the finite range in which s is sought.
-        assert!((least_norm(&[Matrix::from_row_slice(2, 2, &[1.0, 2.0, 0.0, 1.0])]) - 1.0).abs() < 1e-2);
+        assert!((least_norm(&[Matrix::from_row_slice(2, 2, &[1.0, 2.0, 0.0, 1.0])], 1) - 1.0).abs() < 1e-2);
     }
 }

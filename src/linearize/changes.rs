@@ -18,10 +18,11 @@ impl Changes {
         Changes { q: Matrix::zeros(n, 0), v: Matrix::zeros(n, 0) }
     }
 
-    /// A unit change of each direction of q, then of each of v: 2 n columns.
-    pub fn all(n: usize) -> Self {
+    /// A unit change of each direction of q, then of each of n of v; `moving` of them, the first, move q.
+    pub fn all(n: usize, moving: usize) -> Self {
         let (unit, none) = (Matrix::identity(n, n), Matrix::zeros(n, n));
-        Changes { q: beside([&unit, &none]), v: beside([&none, &unit]) }
+        let first = |matrix: &Matrix| matrix.columns(0, moving).clone_owned();
+        Changes { q: beside([&first(&unit), &none]), v: beside([&first(&none), &unit]) }
     }
 }
 
@@ -32,7 +33,7 @@ pub(super) fn beside([left, right]: [&Matrix; 2]) -> Matrix {
     both
 }
 
-/// Names of the changes of q along each velocity direction, and of those of v.
+/// Names of the changes of q along each velocity direction that moves it, and of those of v.
 pub(super) struct Directions {
     pub q: Vec<String>,
     pub v: Vec<String>,
@@ -43,7 +44,8 @@ pub(super) struct Directions {
 pub(super) fn directions(system: &dyn MechanicalSystem, q: &[f64]) -> Directions {
     let names = system.names();
     let (mut unit, mut rate) = (vec![0.0; names.v.len()], vec![0.0; names.q.len()]);
-    let own = names.v.iter().enumerate().map(|(direction, name)| {
+    let moving = &names.v[..system.dimensions().moving()];
+    let own = moving.iter().enumerate().map(|(direction, name)| {
         unit[direction] = 1.0;
         system.rate(q, &unit, &mut rate);
         unit[direction] = 0.0;

@@ -48,7 +48,8 @@ impl Chart {
             Chart::Intrinsic => parallel(variation, z),
             Chart::MassOrthogonal => {
                 let b = variation.mass_times(&z).transpose();
-                constant(variation, "mass_orthogonal", numbered(z.ncols()), (z, b))
+                let names = numbered(variation, z.ncols());
+                constant(variation, "mass_orthogonal", names, (z, b))
             }
             Chart::Independent(names) => independent::coordinates(variation, &z, names),
             Chart::Frozen => Ok(frozen(variation, z)),

@@ -5,44 +5,85 @@ use super::{Changes, LinearizationPoint, Matrix, Variation};
 use crate::error::{Error, Result};
 use crate::system::{LeviCivita, OperatingPoint};
 
-/// The chart at a state, with n directions of v and k degrees of freedom:
+/// The chart at a state, with n directions of v, k degrees of freedom and s states xi:
 ///
 /// ```text
 /// dq = R z,   dv = R y + T z,   z' = y + turn z,   y' = B dv' - drift_z z - drift_y y,   B R = I
 /// ```
+///
+/// where the last s entries of y are the changes of xi, which have no z: R in dq is its first k columns, and y in z' its
+/// first k entries.
 #[derive(Clone, Debug)]
 pub struct Coordinates {
     /// Name of the chart, as on the command line.
     pub name: String,
     /// Names of z, then of y.
     pub states: Vec<String>,
-    /// R: dq of a unit of each z, n x k.
+    /// R: dv of a unit of each y, n x (k + s); dq of a unit of each z.
     pub r: Matrix,
     /// T: dv of a unit of each z at y = 0, n x k, 1/s.
     pub tilt: Matrix,
-    /// B: z = B dq, k x n, with B R = I.
+    /// B: y = B (dv - T z), (k + s) x n, with B R = I.
     pub b: Matrix,
     /// Coefficient of z in z', k x k, 1/s.
     pub turn: Matrix,
-    /// Coefficients of z and y in -y', k x k each.
+    /// Coefficients of z and y in -y', (k + s) x k and (k + s) x (k + s).
     pub drift: [Matrix; 2],
 }
 
+/// The terms of a chart with one z for each y, the states xi among them.
+struct Terms {
+    r: Matrix,
+    b: Matrix,
+    tilt: Matrix,
+    turn: Matrix,
+    drift: [Matrix; 2],
+}
+
+impl Terms {
+    /// The chart without a z for the last `states` directions, whose terms are zero; `name` of z and of y.
+    fn named(self, variation: &Variation, name: &str, names: (Vec<String>, Vec<String>)) -> Coordinates {
+        let Terms { r, b, tilt, turn, drift: [of_z, of_y] } = self;
+        let states = variation.system().dimensions().states;
+        let k = r.ncols() - states;
+        let own = variation.system().names().v.split_off(r.nrows() - states);
+        Coordinates {
+            name: name.to_string(),
+            states: [names.0, names.1, own].concat(),
+            tilt: tilt.columns(0, k).clone_owned(),
+            turn: turn.view((0, 0), (k, k)).clone_owned(),
+            drift: [of_z.columns(0, k).clone_owned(), of_y],
+            r,
+            b,
+        }
+    }
+}
+
 impl Coordinates {
+    /// Returns k, the number of z.
+    pub fn freedom(&self) -> usize {
+        self.tilt.ncols()
+    }
+
     /// Returns (dq, dv) of a unit of each state.
     pub fn changes(&self) -> Changes {
-        let none = Matrix::zeros(self.r.nrows(), self.r.ncols());
-        Changes { q: beside([&self.r, &none]), v: beside([&self.tilt, &self.r]) }
+        let (z, none) =
+            (self.r.columns(0, self.freedom()).clone_owned(), Matrix::zeros(self.r.nrows(), self.r.ncols()));
+        Changes { q: beside([&z, &none]), v: beside([&self.tilt, &self.r]) }
+    }
+
+    /// Returns (dq, dv) of states, a column each.
+    pub fn changes_of(&self, x: &Matrix) -> Changes {
+        let unit = self.changes();
+        Changes { q: unit.q * x, v: unit.v * x }
     }
 
     /// Returns (z, y) of changes that the constraints allow.
     pub fn states_of(&self, changes: &Changes) -> Matrix {
-        let z = &self.b * &changes.q;
+        let z = self.b.rows(0, self.freedom()) * &changes.q;
         let y = &self.b * (&changes.v - &self.tilt * &z);
-        let (k, columns) = z.shape();
-        let mut both = Matrix::zeros(2 * k, columns);
-        both.rows_mut(0, k).copy_from(&z);
-        both.rows_mut(k, k).copy_from(&y);
+        let mut both = z.resize_vertically(self.freedom() + y.nrows(), 0.0);
+        both.rows_mut(self.freedom(), y.nrows()).copy_from(&y);
         both
     }
 }
@@ -55,7 +96,7 @@ impl Coordinates {
 pub(super) fn constant(
     variation: &mut Variation,
     name: &str,
-    states: Vec<String>,
+    names: (Vec<String>, Vec<String>),
     (r, b): (Matrix, Matrix),
 ) -> Result<Coordinates> {
     let correction = variation.correct(&variation.gd_times(&r))?;
@@ -63,7 +104,7 @@ pub(super) fn constant(
     let tilt = &r * (&b * &correction) - correction;
     let turn = -&b * variation.bracket_of(&variation.point.v, &r);
     let none = Matrix::zeros(r.ncols(), r.ncols());
-    Ok(Coordinates { name: name.to_string(), states, r, tilt, b, turn, drift: [none.clone(), none] })
+    Ok(Terms { r, b, tilt, turn, drift: [none.clone(), none] }.named(variation, name, names))
 }
 
 /// The chart dq = Z z with constant Z and no other terms: z' = y.
@@ -72,7 +113,8 @@ pub(super) fn frozen(variation: &Variation, z: Matrix) -> Coordinates {
     let b = variation.mass_times(&z).transpose();
     let none = Matrix::zeros(z.ncols(), z.ncols());
     let drift = [none.clone(), &b * &turned];
-    Coordinates { name: "frozen".to_string(), states: numbered(z.ncols()), tilt: turned, r: z, b, turn: none, drift }
+    let names = numbered(variation, z.ncols());
+    Terms { r: z, b, tilt: turned, turn: none, drift }.named(variation, "frozen", names)
 }
 
 /// The chart dq = N u with N parallel in the mass metric, N^T (M N' + W N) = 0. With Q = -[v, .] and S the least
@@ -108,8 +150,9 @@ pub fn parallel(variation: &mut Variation, n: Matrix) -> Result<Coordinates> {
     let turned_rate = -variation.bracket_of(&variation.point.v, &n_dot);
     let drift = [-bent - &b * (turned_later + turned_rate), &b * (&n_dot * 2.0 - &turned)];
     let none = Matrix::zeros(n.ncols(), n.ncols());
-    let states = numbered(n.ncols());
-    Ok(Coordinates { name: "intrinsic".to_string(), states, tilt: n_dot - turned, r: n, b, turn: none, drift })
+    let names = numbered(variation, n.ncols());
+    let terms = Terms { r: n, b, tilt: n_dot - turned, turn: none, drift };
+    Ok(terms.named(variation, "intrinsic", names))
 }
 
 pub(super) fn levi_civita(variation: &mut Variation, connection: &mut LeviCivita) -> bool {
@@ -118,8 +161,8 @@ pub(super) fn levi_civita(variation: &mut Variation, connection: &mut LeviCivita
     dynamics.system.levi_civita(at, connection, &mut dynamics.scratch)
 }
 
-/// Returns the names u1 .. uk, u1' .. uk'.
-pub(super) fn numbered(k: usize) -> Vec<String> {
-    let names = (1..=k).map(|i| format!("u{i}"));
-    names.clone().chain(names.map(|name| format!("{name}'"))).collect()
+/// Returns the names u1 .. uk and u1' .. uk' of a chart with so many directions, states xi among them.
+pub(super) fn numbered(variation: &Variation, directions: usize) -> (Vec<String>, Vec<String>) {
+    let names = (1..=directions - variation.system().dimensions().states).map(|i| format!("u{i}"));
+    names.map(|name| (name.clone(), format!("{name}'"))).unzip()
 }

@@ -3,6 +3,7 @@
 use super::{Changes, Chart, Matrix, Variation};
 use crate::error::Result;
 use crate::method_spec::{Listed, MethodSpec, OptionDoc};
+use crate::system::Dimensions;
 
 /// The method and the chart of a linear model.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +40,27 @@ pub struct Built {
     pub changes: Changes,
     /// Number of infinite eigenvalues.
     pub infinite: usize,
+}
+
+impl Built {
+    /// A descriptor form in (dq, dv, ..) has a dq for each direction of v. Those of the states xi, their integrals, act
+    /// on nothing and are left out.
+    pub(super) fn without_integrals(mut self, n: Dimensions) -> Self {
+        let (first, count) = (n.moving(), n.states);
+        let square = |matrix: Matrix| matrix.remove_rows(first, count).remove_columns(first, count);
+        self.states.drain(first..first + count);
+        let Changes { q, v } = self.changes;
+        let changes = Changes { q: q.remove_columns(first, count), v: v.remove_columns(first, count) };
+        let (b, c) = (self.b.remove_rows(first, count), self.c.remove_columns(first, count));
+        Built { a: square(self.a), e: self.e.map(square), b, c, changes, ..self }
+    }
+
+    /// The change of q along each velocity direction of a unit of each state; of a state xi, that of xi itself.
+    pub(super) fn shapes(&self, n: Dimensions) -> Matrix {
+        let mut shapes = self.changes.q.clone();
+        shapes.rows_mut(n.moving(), n.states).copy_from(&self.changes.v.rows(n.moving(), n.states));
+        shapes
+    }
 }
 
 /// A method as the command line and the table of methods list it.

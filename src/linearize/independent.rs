@@ -17,7 +17,8 @@ struct Candidate {
 pub(super) fn coordinates(variation: &mut Variation, z: &Matrix, names: &[String]) -> Result<Coordinates> {
     let candidates = candidates(variation);
     let chosen = names.iter().map(|name| find(&candidates, name)).collect::<Result<Vec<&Candidate>>>()?;
-    let degrees = z.ncols();
+    let states = variation.system().dimensions().states;
+    let (n, degrees) = (z.nrows(), z.ncols() - states);
     let best = || best(&candidates, &weighed(variation, z)).join(", ");
     if chosen.len() != degrees {
         let message =
@@ -31,14 +32,15 @@ pub(super) fn coordinates(variation: &mut Variation, z: &Matrix, names: &[String
         let message = format!("{} are not independent at t = {} s", names.join(", "), clock(variation.point.t));
         return Err(Error::input(message).under("--independent").hint(format!("independent here are: {}", best())));
     }
-    let b = Matrix::from_fn(degrees, z.nrows(), |i, j| f64::from(u8::from(chosen[i].direction == j)));
-    let solved = (&b * z).lu().solve(&Matrix::identity(degrees, degrees));
+    let all: Vec<usize> = chosen.iter().map(|chosen| chosen.direction).chain(n - states..n).collect();
+    let b = Matrix::from_fn(all.len(), n, |i, j| f64::from(u8::from(all[i] == j)));
+    let solved = (&b * z).lu().solve(&Matrix::identity(all.len(), all.len()));
     let inverse = solved.ok_or_else(|| Error::input("the coordinates are not independent").under("--independent"))?;
-    let states = chosen.iter().map(|c| c.name.clone()).chain(chosen.iter().map(|c| c.rate.clone())).collect();
-    constant(variation, &names.join(","), states, (z * inverse, b))
+    let own = chosen.iter().map(|c| (c.name.clone(), c.rate.clone())).unzip();
+    constant(variation, &names.join(","), own, (z * inverse, b))
 }
 
-/// Returns every direction of v with the name of its coordinate, or of its rotation.
+/// Returns every direction of v that moves q with the name of its coordinate, or of its rotation.
 fn candidates(variation: &Variation) -> Vec<Candidate> {
     let Directions { q, v } = directions(variation.system(), &variation.point.q);
     q.into_iter().zip(v).enumerate().map(|(direction, (name, rate))| Candidate { name, rate, direction }).collect()
@@ -52,11 +54,12 @@ fn find<'c>(candidates: &'c [Candidate], name: &str) -> Result<&'c Candidate> {
     })
 }
 
-/// Returns Z with each row times the square root of its mass, so that rows of any unit are comparable: no row is longer
+/// Returns Z without the directions of states, with each row times the square root of its mass, so that rows of any unit are comparable: no row is longer
 /// than 1.
 fn weighed(variation: &Variation, z: &Matrix) -> Matrix {
     let mass = variation.mass();
-    Matrix::from_fn(z.nrows(), z.ncols(), |i, j| z[(i, j)] * mass[(i, i)].max(0.0).sqrt())
+    let degrees = z.ncols() - variation.system().dimensions().states;
+    Matrix::from_fn(z.nrows(), degrees, |i, j| z[(i, j)] * mass[(i, i)].max(0.0).sqrt())
 }
 
 /// Returns the coordinates that move most, by pivoted orthogonalization of the rows.

@@ -6,18 +6,18 @@ use super::response::observe;
 use super::{Changes, Chart, Coordinates, Matrix, Response, Variation};
 use crate::error::Result;
 
-/// The model x' = A x + B u, y = C x + D u in the states x = (z, y) of a chart with k degrees of freedom.
+/// The model x' = A x + B u, y = C x + D u in the n_x states x = (z, y) of a chart.
 #[derive(Clone, Debug)]
 pub struct Minimal {
     /// The chart.
     pub coordinates: Coordinates,
     /// (dq, dv) of a unit of each state.
     pub changes: Changes,
-    /// A, 2 k x 2 k.
+    /// A, n_x x n_x.
     pub a: Matrix,
-    /// B, 2 k x n_u.
+    /// B, n_x x n_u.
     pub b: Matrix,
-    /// C, n_y x 2 k.
+    /// C, n_y x n_x.
     pub c: Matrix,
     /// D, n_y x n_u.
     pub d: Matrix,
@@ -60,14 +60,14 @@ pub(super) fn restrict(
     coordinates: Coordinates,
     response: impl FnOnce(&mut Variation, &Changes) -> Result<Response>,
 ) -> Result<Minimal> {
-    let k = coordinates.r.ncols();
+    let (k, n) = (coordinates.freedom(), coordinates.r.ncols());
     let changes = coordinates.changes();
     let response = response(variation, &changes)?;
-    let mut a = Matrix::zeros(2 * k, 2 * k);
+    let mut a = Matrix::zeros(k + n, k + n);
     a.view_mut((0, 0), (k, k)).copy_from(&coordinates.turn);
     a.view_mut((0, k), (k, k)).fill_with_identity();
     let lower = &coordinates.b * &response.vdot - beside([&coordinates.drift[0], &coordinates.drift[1]]);
-    a.view_mut((k, 0), (k, 2 * k)).copy_from(&lower);
+    a.view_mut((k, 0), (n, k + n)).copy_from(&lower);
     let b = (&coordinates.b * &response.driven_vdot).insert_rows(0, k, 0.0);
     let [c, d] = observe(&variation.outputs()?, &changes, &response);
     Ok(Minimal { coordinates, changes, a, b, c, d })

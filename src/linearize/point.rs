@@ -70,7 +70,8 @@ fn is_at_rest(dynamics: &Dynamics, rounding: &[f64], v: &[f64]) -> bool {
     for (&(i, j), g) in structure.g.entries.iter().zip(&terms.g) {
         usual[j] += (g * dynamics.lambda[i]).abs();
     }
-    let heaviness = structure.mass.entries.iter().zip(&terms.mass).filter(|((i, j), _)| i == j);
+    let moving = dynamics.system.dimensions().moving();
+    let heaviness = structure.mass.entries.iter().zip(&terms.mass).filter(|((i, j), _)| i == j && *i < moving);
     let accelerations = heaviness.map(|((i, _), mass)| if *mass > 0.0 { usual[*i] / mass } else { 0.0 });
     let speed = (accelerations.fold(0.0, f64::max) * dynamics.system.length().min(1.0)).sqrt();
     // Without loads there is only rounding: an acceleration of 1 m/s^2 or rad/s^2 is the reference then.
@@ -78,5 +79,5 @@ fn is_at_rest(dynamics: &Dynamics, rounding: &[f64], v: &[f64]) -> bool {
     let heaviest = heaviest.fold(0.0f64, |most, (_, mass)| most.max(*mass));
     let least = tolerances::SAME * largest(&usual).max(heaviest);
     let is_balanced = inertia.iter().zip(rounding).all(|(inertia, rounding)| inertia.abs() <= least.max(*rounding));
-    largest(v) <= tolerances::SAME * speed && is_balanced
+    largest(&v[..moving]) <= tolerances::SAME * speed && is_balanced
 }

@@ -27,18 +27,21 @@ pub(super) struct Spectrum {
 pub(super) fn spectrum(variation: &mut Variation, built: &Built, request: &Request) -> Result<Spectrum> {
     let t = variation.point.t;
     let solved = solve(built, request).map_err(|unsolved| refused(t, &unsolved))?;
-    let shapes = complex(&built.changes.q) * &solved.right;
+    let n = variation.system().dimensions();
+    let shapes = complex(&built.shapes(n)) * &solved.right;
     let weighed = complex(&variation.mass()) * &shapes;
     let (kinds, off_constraints) = kinds(variation, &solved.values, &shapes, &weighed)?;
     let parts =
         |i: usize| solved.participation.as_ref().map_or(Vec::new(), |all| all.column(i).iter().copied().collect());
+    // States xi have no energy.
+    let moving = |i: usize| shapes.column(i).into_iter().zip(weighed.column(i).into_iter()).take(n.moving());
     let mut modes: Vec<Mode> = (0..solved.values.len())
         .map(|i| Mode {
             value: solved.values[i],
             kind: kinds[i],
             shape: normalized(shapes.column(i).iter().copied().collect()),
             participation: parts(i),
-            energy: shares(shapes.column(i).iter().zip(weighed.column(i).iter()).map(|(x, mx)| (x.conj() * mx).re)),
+            energy: shares(moving(i).map(|(x, mx)| (x.conj() * mx).re)),
         })
         .collect();
     modes.sort_by_key(|mode| mode.kind);
@@ -130,7 +133,7 @@ fn kinds(
     weighed: &ComplexMatrix,
 ) -> Result<(Vec<Kind>, Option<[f64; 2]>)> {
     let z = variation.free_directions()?;
-    let physical = 2 * z.ncols();
+    let physical = 2 * z.ncols() - variation.system().dimensions().states;
     if shapes.ncols() <= physical {
         return Ok((vec![Kind::Physical; shapes.ncols()], None));
     }

@@ -51,8 +51,8 @@ pub fn at_rest<'a>(prepared: &'a PreparedScene, state: &State) -> Result<Operati
     let Some(spin) = prepared.system().prescribed_spin(state.t) else { return still(prepared, state) };
     match Rotating::new(prepared.system(), state.t, spin) {
         Some(axes) if is_same_all_around(&axes, prepared, state)? => {
-            let found = equilibrium(&axes, state.t, &state.q)?;
-            let rest = State { t: state.t, v: vec![0.0; state.v.len()], q: found.q };
+            let found = equilibrium(&axes, state.t, (&state.q, &state.v))?;
+            let rest = State { t: state.t, v: found.v, q: found.q };
             Ok(Operating { state: rest, prepared, axes: Some(axes), doubt: None })
         }
         _ => {
@@ -70,8 +70,8 @@ pub fn at_rest<'a>(prepared: &'a PreparedScene, state: &State) -> Result<Operati
 }
 
 fn still<'a>(prepared: &'a PreparedScene, state: &State) -> Result<Operating<'a>> {
-    let found = equilibrium(prepared.system(), state.t, &state.q)?;
-    let rest = State { t: state.t, v: vec![0.0; state.v.len()], q: found.q };
+    let found = equilibrium(prepared.system(), state.t, (&state.q, &state.v))?;
+    let rest = State { t: state.t, v: found.v, q: found.q };
     let operating = Operating::moving(prepared, rest);
     match operating.variation()?.point.is_equilibrium {
         true => Ok(operating),

@@ -5,7 +5,7 @@ use crate::error::{Error, Result, clock};
 use crate::formulation::{Dynamics, StepError, free_directions};
 use crate::math::kkt::Pattern;
 use crate::math::memory::refuse_dense;
-use crate::system::{Column, MechanicalSystem, Need, OperatingPoint, OutputTangent, Tangent, refuse_states};
+use crate::system::{Column, MechanicalSystem, Need, OperatingPoint, OutputTangent, Tangent};
 
 /// Small changes (dq, dv) of a state, dq along the velocity directions, with those of v' and lambda:
 ///
@@ -34,7 +34,6 @@ pub struct Variation<'a> {
 }
 
 const NO_TANGENT: &str = "these equations give no K, C and gradient of phi''";
-const LATER: &str = "simulate a small change of the start, and compare";
 const GIVE_THEM: &str = "implement MechanicalSystem::tangent and acceleration_gradient, or write them as Equations";
 
 impl<'a> Variation<'a> {
@@ -43,7 +42,6 @@ impl<'a> Variation<'a> {
     /// # Errors
     /// A state without determined accelerations; a singular one; equations without derivatives.
     pub fn new(system: &'a dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64]) -> Result<Self> {
-        refuse_states(system, "linear models", LATER)?;
         let dynamics = Dynamics::new(system);
         let tangent = Tangent::new(&dynamics.structure.tangent);
         let (gdd, own) = (vec![0.0; dynamics.structure.g.entries.len()], v.to_vec());
@@ -232,7 +230,7 @@ impl<'a> Variation<'a> {
         Ok(corrections)
     }
 
-    /// Returns Z with G Z = 0 and Z^T M Z = I, n_v x k.
+    /// Returns Z with G Z = 0 and Z^T M Z = I, n_v x k; the last columns are the unit vectors of the states.
     pub(super) fn free_directions(&mut self) -> Result<Matrix> {
         let z = free_directions(&mut self.dynamics).ok_or_else(|| at_state(self.point.t, &StepError::NotFinite))?;
         let correction = self.correct(&self.g_times(&z))?;

@@ -11,15 +11,15 @@ use crate::system::MechanicalSystem;
 /// # Errors
 /// No equilibrium is found: see [`equilibrium`].
 pub fn at_rest(system: &dyn MechanicalSystem, t: f64, start: &Assembly) -> Result<(Assembly, Vec<Warning>)> {
-    let found = equilibrium(system, t, &start.q).map_err(|error| error.under("--equilibrium"))?;
-    let rest = assemble(system, t, (&found.q, &vec![0.0; start.v.len()]), &[])?;
+    let found = equilibrium(system, t, (&start.q, &start.v)).map_err(|error| error.under("--equilibrium"))?;
+    let rest = assemble(system, t, (&found.q, &found.v), &[])?;
     let unstable = (found.stability == Stability::Unstable).then(|| {
         Warning::new(
             "the static equilibrium that belongs to the start is unstable",
             "`holonom check --static` shows it; a start nearer to another one finds that",
         )
     });
-    let driven = (largest(&rest.v) > 0.0).then(|| {
+    let driven = (largest(&rest.v[..system.dimensions().moving()]) > 0.0).then(|| {
         Warning::new(
             "drives move at the start: the equilibrium is that with the drives held where they are",
             "a motion from rest needs a drive that begins slowly, such as by smoothstep",

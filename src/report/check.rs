@@ -24,7 +24,7 @@ pub struct Check {
     pub dimension: usize,
     /// n_q.
     pub coordinates: usize,
-    /// n_v.
+    /// n_v without the states.
     pub velocities: usize,
     /// n_c.
     pub constraints: usize,
@@ -32,7 +32,7 @@ pub struct Check {
     pub rank: usize,
     /// Rank of G at a nearby state: higher where the start is a singular state.
     pub rank_beside: usize,
-    /// n_v less the rank.
+    /// n_v less the rank and the states.
     pub degrees_of_freedom: usize,
     /// Dependent rows of G, with their joints.
     pub redundant: Vec<Redundant>,
@@ -57,6 +57,9 @@ pub struct Check {
     pub joints: Vec<Item>,
     /// Forces.
     pub forces: Vec<Item>,
+    /// States.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub states: Vec<Item>,
     /// Quantities that the scene does not ask for and that are not computed.
     pub left_out: Vec<String>,
     /// The static equilibrium, if requested.
@@ -102,11 +105,11 @@ fn inspect<const D: usize>(prepared: &PreparedScene, model: &Model<D>) -> Check 
         scene: prepared.name.clone(),
         dimension: D,
         coordinates: n.q,
-        velocities: n.v,
+        velocities: n.moving(),
         constraints: n.lambda,
         rank: found.rank,
         rank_beside: found.nearby,
-        degrees_of_freedom: n.v - found.rank,
+        degrees_of_freedom: n.moving() - found.rank,
         redundant: found.redundant,
         assembly: (&prepared.assembly).into(),
         start: Start::of(prepared),
@@ -118,6 +121,7 @@ fn inspect<const D: usize>(prepared: &PreparedScene, model: &Model<D>) -> Check 
         bodies: bodies(model),
         joints: system.groups().iter().map(|group| joint_item(group, &names)).collect(),
         forces: forces(model),
+        states: states(model),
         left_out: left_out(model),
         equilibrium: None,
     }
@@ -132,7 +136,7 @@ fn bodies<const D: usize>(model: &Model<D>) -> Vec<Item> {
         None => Some(body_item(part)),
         Some(beam) => (beam.first_body == i).then(|| beam_item(beam, part)),
     };
-    model.bodies.iter().enumerate().filter_map(item).collect()
+    model.given_bodies().iter().enumerate().filter_map(item).collect()
 }
 
 fn beam_item<const D: usize>(beam: &BeamLine, node: &crate::scene::Part<D>) -> Item {
@@ -146,6 +150,12 @@ fn forces<const D: usize>(model: &Model<D>) -> Vec<Item> {
     let item =
         |force: &Connection<_>| Item { name: force.name.clone(), kind: force.kind.to_string(), detail: String::new() };
     model.given_forces().iter().map(item).collect()
+}
+
+fn states<const D: usize>(model: &Model<D>) -> Vec<Item> {
+    let (kind, detail) = ("state".to_string(), String::new());
+    let item = |(name, _): &(String, usize)| Item { name: name.clone(), kind: kind.clone(), detail: detail.clone() };
+    model.markers.states.iter().map(item).collect()
 }
 
 fn body_item<const D: usize>(part: &crate::scene::Part<D>) -> Item {
@@ -173,7 +183,7 @@ fn joint_item(group: &Group, names: &[String]) -> Item {
 
 fn left_out<const D: usize>(model: &Model<D>) -> Vec<String> {
     let gravity = model.gravity.iter().all(|&g| g == 0.0);
-    let quaternions = model.bodies.iter().all(|part| part.nq == part.nv);
+    let quaternions = model.given_bodies().iter().all(|part| part.nq == part.nv);
     let driven = model.joints.iter().all(|joint| !joint.element.depends_on_time());
     let is_rigid = model.beams.is_empty() && model.bodies.iter().all(|part| part.body.elastic_count() == 0);
     [
@@ -208,9 +218,13 @@ impl Check {
             self.rank,
             count(self.degrees_of_freedom, "degree", "degrees")
         );
-        for (heading, detail, items) in
-            [("body", "coordinates", &self.bodies), ("joint", "rows", &self.joints), ("force", "", &self.forces)]
-        {
+        let elements = [
+            ("body", "coordinates", &self.bodies),
+            ("joint", "rows", &self.joints),
+            ("force", "", &self.forces),
+            ("state", "", &self.states),
+        ];
+        for (heading, detail, items) in elements {
             if !items.is_empty() {
                 let mut table = Table::left(&[heading, "type", detail]);
                 items.iter().for_each(|item| table.row([&item.name, &item.kind, &item.detail].map(String::clone)));
@@ -278,11 +292,12 @@ impl Start {
         let mut values = vec![0.0; columns.len()];
         let at = OperatingPoint { t: prepared.start_time(), q, v, vdot, lambda };
         prepared.system().outputs(at, &mut values, &mut Scratch::default());
-        let (velocity, acceleration) = (largest(v), largest(vdot));
+        let moving = ..prepared.system().dimensions().moving();
+        let (velocity, acceleration) = (largest(&v[moving]), largest(&vdot[moving]));
         Start {
             velocity,
             acceleration,
-            is_equilibrium: velocity == 0.0 && acceleration < tolerances::RESTING_START,
+            is_equilibrium: velocity == 0.0 && largest(vdot) < tolerances::RESTING_START,
             outputs: columns
                 .iter()
                 .map(|column| column.name.clone())

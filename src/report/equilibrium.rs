@@ -30,6 +30,9 @@ pub struct EquilibriumFile {
     pub gap: Option<f64>,
     /// Coordinates by name.
     pub q: Map<String, Value>,
+    /// States by name.
+    #[serde(skip_serializing_if = "Map::is_empty")]
+    pub states: Map<String, Value>,
     /// Multipliers by name.
     pub lambda: Map<String, Value>,
     /// Outputs by name.
@@ -63,6 +66,7 @@ impl EquilibriumFile {
             residual: None,
             gap: None,
             q: Map::new(),
+            states: Map::new(),
             lambda: Map::new(),
             outputs: Map::new(),
             stable: None,
@@ -78,10 +82,12 @@ impl EquilibriumFile {
     pub fn of(prepared: &PreparedScene, found: Equilibrium) -> EquilibriumFile {
         let (system, names) = (prepared.system(), prepared.system().names());
         let columns = system.columns();
-        let (mut outputs, still) = (vec![0.0; columns.len()], vec![0.0; names.v.len()]);
-        let at = OperatingPoint { t: found.t, q: &found.q, v: &still, vdot: &still, lambda: &found.lambda };
+        let (mut outputs, vdot) = (vec![0.0; columns.len()], vec![0.0; names.v.len()]);
+        let at = OperatingPoint { t: found.t, q: &found.q, v: &found.v, vdot: &vdot, lambda: &found.lambda };
         system.outputs(at, &mut outputs, &mut Scratch::default());
-        let pairs = names.q.iter().zip(prepared.start().0.iter().zip(&found.q));
+        let (n, start) = (system.dimensions(), prepared.start());
+        let states = names.v[n.moving()..].iter().zip(start.1.iter().zip(&found.v).skip(n.moving()));
+        let pairs = names.q.iter().zip(start.0.iter().zip(&found.q)).chain(states.clone());
         let moved = pairs.filter(|(_, (from, to))| (*to - *from).abs() > tolerances::SAME * (1.0 + from.abs()));
         let mut moves: Vec<_> = moved.map(|(name, (&from, &to))| (name.clone(), from, to)).collect();
         moves.sort_by(|a, b| (b.2 - b.1).abs().total_cmp(&(a.2 - a.1).abs()));
@@ -93,6 +99,7 @@ impl EquilibriumFile {
             steps: found.steps,
             residual: Some(found.residual),
             gap: Some(found.gap),
+            states: named(states.map(|(name, _)| name.clone()), &found.v[n.moving()..]),
             q: named(names.q, &found.q),
             lambda: named(names.lambda, &found.lambda),
             outputs: named(columns.iter().map(|column| column.name.clone()), &outputs),
@@ -146,7 +153,7 @@ impl EquilibriumFile {
             Stability::Unstable => "UNSTABLE: a start nearer to another one finds that".to_string(),
             Stability::Neutral => format!("neutral: nothing holds {}", self.free.join(", ")),
             Stability::Unknown => {
-                "of unknown stability: too many coordinates, or forces without a potential".to_string()
+                "of unknown stability: too many coordinates, or forces or states without a potential".to_string()
             }
         }
     }

@@ -41,6 +41,8 @@ pub struct SceneFile {
     #[schemars(with = "Vec<ForcePlace>")]
     pub forces: Vec<Value>,
     #[serde(default)]
+    pub states: Vec<StateSpec>,
+    #[serde(default)]
     pub inputs: Vec<InputSpec>,
     #[serde(default)]
     pub outputs: Vec<OutputSpec>,
@@ -108,6 +110,18 @@ pub struct OrientedMarker {
     pub z_axis: Option<Vec<Number>>,
     /// In space, with or without `z_axis`: direction of the x axis, made square to z.
     pub x_axis: Option<Vec<Number>>,
+}
+
+/// A state xi of a controller, filter or actuator, xi' = rate: a number that applied forces and torques, other rates
+/// and outputs use by its name.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StateSpec {
+    pub name: String,
+    /// Value at the start. Default: zero.
+    pub initial: Option<Number>,
+    /// Its rate per second: an expression of t, marker quantities (`arm.angle`, `arm.tip.x'`), named outputs and states.
+    pub rate: Number,
 }
 
 /// Drives a component of an applied force or torque.

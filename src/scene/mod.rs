@@ -20,6 +20,7 @@ mod place;
 mod refine;
 mod resolve;
 mod schema;
+mod states;
 #[doc(hidden)]
 pub mod units;
 
@@ -160,7 +161,7 @@ pub(crate) fn folder(scene: Option<&Path>) -> &Path {
 /// Adds the name of the input or output in which the path lies, unless it is known.
 fn name_element(error: Error, json: &Value) -> Error {
     let Error::Input(input) = &error else { return error };
-    let lists = ["inputs", "outputs"];
+    let lists = ["states", "inputs", "outputs"];
     let name = input.path.split_once('[').filter(|(list, _)| lists.contains(list)).and_then(|(list, rest)| {
         let (index, rest) = rest.split_once(']')?;
         // An error in the name itself quotes it already.

@@ -17,11 +17,11 @@ pub struct Model<const D: usize> {
     pub markers: MarkerTable,
     /// Markers of the ground; the first is the world frame.
     pub ground: Vec<Marker<D>>,
-    /// Bodies in the order of the scene; each node of an absolute beam is one.
+    /// Bodies in the order of the scene; each node of an absolute beam is one, and, after them, each state.
     pub bodies: Vec<Part<D>>,
     /// Joints in the order of the scene.
     pub joints: Vec<Connection<Box<dyn Joint<D>>>>,
-    /// Forces of the scene, then the elements of absolute beams.
+    /// Forces of the scene, then the elements of absolute beams, then the rates of states.
     pub forces: Vec<Connection<Box<dyn Force<D>>>>,
     /// Flexible beams in absolute coordinates.
     pub beams: Vec<BeamLine>,
@@ -31,6 +31,8 @@ pub struct Model<const D: usize> {
     pub cuts: Vec<Cut<D>>,
     /// Inputs u in the order of the scene.
     pub inputs: Vec<ForceInput>,
+    /// Number of the states xi: the last bodies, and their rates the last forces.
+    pub states: usize,
     /// Events at which elements change their form.
     pub switches: Switches,
     /// Angles in space counted through full turns, which stand in q after the coordinates of the bodies.
@@ -321,10 +323,20 @@ impl<const D: usize> Model<D> {
         self.markers.names.len()
     }
 
-    /// The forces of the scene, without the elements of absolute beams.
+    /// The forces of the scene, without the elements of absolute beams and the rates of states.
     pub fn given_forces(&self) -> &[Connection<Box<dyn Force<D>>>] {
-        let count = self.beams.first().map_or(self.forces.len(), |beam| beam.first_force);
+        let count = self.beams.first().map_or(self.forces.len() - self.states, |beam| beam.first_force);
         &self.forces[..count]
+    }
+
+    /// The rates of the states.
+    pub fn rates(&self) -> &[Connection<Box<dyn Force<D>>>] {
+        &self.forces[self.forces.len() - self.states..]
+    }
+
+    /// The bodies without the states.
+    pub fn given_bodies(&self) -> &[Part<D>] {
+        &self.bodies[..self.bodies.len() - self.states]
     }
 
     /// Frames of the ground's markers.

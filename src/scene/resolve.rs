@@ -6,8 +6,10 @@ use super::format::{Dimension, SceneFile};
 use super::model::{BeamLine, Connection, ForceInput, Model, Part, Watched};
 use super::outputs;
 use super::place::Cut;
-use super::{AnyModel, Scene, markers};
-use crate::body::{BodyKind, Build, Built, ElementKind, Initial, Marker, MarkerTable, Switches, Turning, parse, show};
+use super::{AnyModel, Scene, markers, states};
+use crate::body::{
+    BodyKind, Build, Built, ElementKind, Initial, Marker, MarkerId, MarkerTable, Switches, Turning, parse, show,
+};
 use crate::error::{Error, Result, excerpt, suggest};
 use crate::force::{Force, ForceKind};
 use crate::joint::{Joint, JointKind};
@@ -59,8 +61,9 @@ fn model<const D: usize>(
     if let Some(gravity) = &file.gravity {
         build.gravity = build.vector("gravity", gravity)?;
     }
-    let (gravity, parts) = (build.gravity, Parts::collect(file, &kinds.bodies, &build)?);
+    let (gravity, mut parts) = (build.gravity, Parts::collect(file, &kinds.bodies, &build)?);
     outputs::check_names(&file.outputs)?;
+    states::place(&file.states, &file.outputs, &mut parts, &build)?;
     let formulas = outputs::formulas::<D>(&file.outputs);
     let links = Links::read(file, kinds, &parts, &Build { markers: &parts.table, outputs: &formulas, ..build })?;
     Ok(parts.joined(links, gravity, switches.into_inner(), turnings.into_inner()))
@@ -80,6 +83,7 @@ impl<const D: usize> Links<D> {
         let joints = joints(&file.joints, &kinds.joints, build)?;
         let mut forces = forces(&file.forces, &kinds.forces, build)?;
         forces.extend(parts.beams.iter().flat_map(|beam| line_elements(beam, &parts.bodies)));
+        forces.extend(states::rates(&file.states, build)?);
         let Parts { bodies, beams, .. } = parts;
         let elements = outputs::Elements { bodies, beams, joints: &joints, forces: &forces };
         let (outputs, cuts) = outputs::outputs(&file.outputs, elements, build)?;
@@ -130,7 +134,7 @@ fn extent<const D: usize>(bodies: &[Part<D>], q: &[f64]) -> f64 {
 }
 
 /// Bodies read so far, with their initial q and v.
-struct Parts<const D: usize> {
+pub(super) struct Parts<const D: usize> {
     table: MarkerTable,
     ground: Vec<Marker<D>>,
     bodies: Vec<Part<D>>,
@@ -234,6 +238,17 @@ impl<const D: usize> Parts<D> {
         let all = [name.clone()].into_iter().chain(markers);
         all.for_each(|marker| self.table.add(marker, Some(index), oriented));
         self.table.body_names.push(name.clone());
+        self.add_part(name, first_marker, built);
+    }
+
+    /// Adds a state: a body whose marker no reference can name.
+    pub(super) fn place_state(&mut self, name: &str, built: Built<D>) {
+        let first_marker = self.table.names.len();
+        self.table.add_state(name.to_string(), self.bodies.len());
+        self.add_part(name.to_string(), first_marker, built);
+    }
+
+    fn add_part(&mut self, name: String, first_marker: MarkerId, built: Built<D>) {
         let (first_q, first_v) = (self.q.len(), self.v.len());
         let (nq, nv) = (built.q.len(), built.v.len());
         self.bodies.push(Part { name, first_marker, first_q, first_v, nq, nv, body: built.body });
@@ -251,6 +266,7 @@ impl<const D: usize> Parts<D> {
     ) -> (Model<D>, Vec<f64>, Vec<f64>) {
         let Parts { table: markers, ground, bodies, beams, mut q, v, .. } = self;
         let Links { joints, forces, outputs, cuts, inputs } = links;
+        let states = markers.states.len();
         let extent = extent(&bodies, &q);
         q.extend(turnings.iter().map(|turning| turning.start));
         let model = Model {
@@ -264,6 +280,7 @@ impl<const D: usize> Parts<D> {
             outputs,
             cuts,
             inputs,
+            states,
             switches,
             turnings,
             extent,

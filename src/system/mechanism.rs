@@ -58,7 +58,8 @@ impl<const D: usize> Mechanism<D> {
         let joints: Vec<JointRows> =
             model.joints.iter().map(|joint| JointRows::new(&supports, joint, &mut g)).collect();
         let rigid = RigidParts::new(&model, &joints, &masses);
-        let dimensions = Dimensions { q: q + model.turnings.len(), v, lambda: g.rows, nonholonomic: 0, states: 0 };
+        let dimensions =
+            Dimensions { q: q + model.turnings.len(), v, lambda: g.rows, nonholonomic: 0, states: model.states };
         let length = length_scale(&model);
         let mut tangent = Pattern { rows: v, cols: v, entries: Vec::new() };
         let couplings = Couplings::new(&model, &supports, &mut tangent);
@@ -147,6 +148,11 @@ impl<const D: usize> Mechanism<D> {
     }
 }
 
+/// Name of a coordinate or velocity of a body; a state has its own.
+fn full_name<const D: usize>(part: &Part<D>, name: &str) -> String {
+    if name.is_empty() { part.name.clone() } else { format!("{}.{name}", part.name) }
+}
+
 /// The coordinates (`coordinates`) or else the velocities of one body.
 pub(super) fn of<'a, const D: usize>(all: &'a [f64], part: &Part<D>, coordinates: bool) -> &'a [f64] {
     match coordinates {
@@ -175,7 +181,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     fn names(&self) -> Names {
         let all = |names: fn(&Part<D>) -> Vec<String>| {
             let bodies = self.model.bodies.iter();
-            bodies.flat_map(|part| names(part).into_iter().map(|name| format!("{}.{name}", part.name))).collect()
+            bodies.flat_map(|part| names(part).into_iter().map(|name| full_name(part, &name))).collect()
         };
         let joints = self.model.joints.iter();
         Names {
@@ -338,7 +344,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
             for joint in self.placed_joints() {
                 with_frames(&work.motion, &joint.joint.markers, |frames| joint.switching(time, frames, out));
             }
-            for force in self.model.given_forces() {
+            for force in self.model.given_forces().iter().chain(self.model.rates()) {
                 gathered(
                     &force.markers,
                     |marker| work.motion[marker].map(along_motion),

@@ -76,6 +76,7 @@ fn placements<const D: usize>(part: &Part<D>) -> Option<Vec<Placement>> {
     let place = Placement::Place { q: part.first_q, v: part.first_v, count: D };
     let (q, v) = (part.first_q + D, part.first_v + D);
     match (D, own.as_slice()) {
+        (_, []) => Some(Vec::new()),
         (2, ["x", "y", "angle", ..]) => Some(vec![place, Placement::Angle { q, v }]),
         (3, ["x", "y", "z", "qw", ..]) => Some(vec![place, Placement::Axes { q, v }]),
         (2, ["x", "y"]) | (3, ["x", "y", "z"]) if !body.oriented() => Some(vec![place]),

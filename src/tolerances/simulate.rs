@@ -184,10 +184,10 @@ pub const NEAR_THRESHOLD: f64 = 0.2;
 /// Unit: `[places]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
 pub const LOOKS_AT_STEP: usize = 8;
 
-/// Where an argument stays at a threshold with both its rates, it is looked at after this.
-/// Unit: `[1]` of the span. Why: a choice: a tenth of what is never missed. Test: none: with a thousand times more or
-/// less the tests of its room pass.
-pub const LOOKED_AHEAD: f64 = 1e-5;
+/// An argument of time that is so near to a threshold may be there.
+/// Unit: `[1]` of its largest distance from one. Why: cancellation in a smoothstep leaves 15 ulps. Test:
+/// `a_function_that_comes_to_rest_on_a_threshold_passes_it_once`.
+pub const TIME_FUNCTION_ROUND_OFF: f64 = 1e-13;
 
 /// Intervals that a search for a change of form may look at; what is left is judged by its ends.
 /// Unit: `[intervals]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.

@@ -109,7 +109,8 @@ impl Basis {
 
 /// Returns N' of an intrinsic chart, whose tilt is N' + [v, N].
 fn moving(variation: &Variation, chart: &Coordinates) -> Matrix {
-    &chart.tilt - variation.bracket(&variation.point.v) * &chart.r
+    let tilt = chart.tilt.clone().resize_horizontally(chart.r.ncols(), 0.0);
+    tilt - variation.bracket(&variation.point.v) * &chart.r
 }
 
 /// Returns X (X^T M X)^(-1/2), the orthonormal basis nearest to X.

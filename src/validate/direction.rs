@@ -1,7 +1,7 @@
 //! Directions in which a state is perturbed.
 
 use crate::error::{Error, Result, suggest};
-use crate::linearize::{Coordinates, Matrix};
+use crate::linearize::{Changes, Coordinates, Matrix};
 
 /// A direction in the states (z, y) of a chart.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,16 +36,15 @@ impl Direction {
     /// # Errors
     /// The name is not one of the states.
     pub(super) fn state(&self, coordinates: &Coordinates, rate: f64) -> Result<Matrix> {
-        let k = coordinates.r.ncols();
+        let (k, n) = (coordinates.freedom(), coordinates.r.ncols());
         let mut x = match self {
-            Direction::Random(seed) => random(*seed, 2 * k),
+            Direction::Random(seed) => random(*seed, k + n),
             Direction::Named(name) => unit(name, &coordinates.states)?,
         };
         if matches!(self, Direction::Random(_)) {
-            x.rows_mut(k, k).scale_mut(rate);
+            x.rows_mut(k, n).scale_mut(rate);
         }
-        let dq = &coordinates.r * x.rows(0, k);
-        let dv = &coordinates.tilt * x.rows(0, k) + &coordinates.r * x.rows(k, k);
+        let Changes { q: dq, v: dv } = coordinates.changes_of(&x);
         let size = dq.amax().max(dv.amax() / rate);
         Ok(if size > 0.0 { x / size } else { x })
     }

@@ -49,8 +49,9 @@ pub fn frozen(
     let states: Vec<_> = found.iter().zip(&times).map(|((state, _), (_, asked))| (state, *asked)).collect();
     let asked = found.iter().zip(&times).filter(|(_, (_, asked))| *asked).map(|((_, changes), _)| changes);
     for ((changes, chart), h) in asked.zip(carried.along(&states)?).zip(&steps) {
-        let exact = alike(chart.states_of(changes), rate);
-        let predicted = alike(expm(&(a * *h)).map_err(|unsolved| Error::input(unsolved.to_string()))?, rate);
+        let exact = alike(chart.states_of(changes), chart.freedom(), rate);
+        let predicted =
+            alike(expm(&(a * *h)).map_err(|unsolved| Error::input(unsolved.to_string()))?, chart.freedom(), rate);
         errors.push((&exact - predicted).norm() / exact.norm());
     }
     // Fast modes are accurate relative to the fastest rate, not the slow one; and the error of the shortest step counts
@@ -62,10 +63,10 @@ pub fn frozen(
 }
 
 /// Scales the blocks of a state-transition matrix to one unit.
-fn alike(mut x: Matrix, rate: f64) -> Matrix {
-    let k = x.nrows() / 2;
-    x.rows_mut(k, k).unscale_mut(rate);
-    x.columns_mut(k, k).scale_mut(rate);
+fn alike(mut x: Matrix, k: usize, rate: f64) -> Matrix {
+    let rest = x.nrows() - k;
+    x.rows_mut(k, rest).unscale_mut(rate);
+    x.columns_mut(k, rest).scale_mut(rate);
     x
 }
 

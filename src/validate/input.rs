@@ -38,9 +38,7 @@ pub(super) fn check(
     let pulse = Pulse { input, start: start.t, width };
     let lti = response(model, &pulse);
     // A unit pulse may move the mechanism by very much or little: sizes are chosen by its effect.
-    let k = model.coordinates.r.ncols();
-    let dq = &model.coordinates.r * lti.rows(0, k);
-    let dv = &model.coordinates.tilt * lti.rows(0, k) + &model.coordinates.r * lti.rows(k, k);
+    let Changes { q: dq, v: dv } = model.coordinates.changes_of(&lti);
     let size = dq.amax().max(dv.amax() / norm.rate);
     if size == 0.0 {
         return Ok(None);
@@ -72,7 +70,7 @@ pub(super) fn check(
     });
     let errors_ltv: Vec<f64> = errors.collect();
     let reached = chart.states_of(&end.columns);
-    let error_lti = norm.states(&(&lti / size - &reached)) / norm.states(&reached);
+    let error_lti = norm.states(chart, &(&lti / size - &reached)) / norm.states(chart, &reached);
     let columns = norm.size((end.columns.q.as_slice(), end.columns.v.as_slice()));
     let scaled =
         decay(&EPSILONS, &errors_ltv, |eps| tolerances::SECOND_ORDER_RANGE * eps * columns, floor(&errors_ltv));

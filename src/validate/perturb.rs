@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::initial::assemble;
-use crate::linearize::{Coordinates, Matrix, Minimal, State};
+use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State};
 use crate::math::eigen::eigen;
 use crate::system::MechanicalSystem;
 use crate::tolerances::linearize as tolerances;
@@ -19,9 +19,7 @@ pub fn moved(
     x0: &Matrix,
     eps: f64,
 ) -> Option<State> {
-    let k = coordinates.r.ncols();
-    let dq = &coordinates.r * x0.rows(0, k) * eps;
-    let dv = (&coordinates.tilt * x0.rows(0, k) + &coordinates.r * x0.rows(k, k)) * eps;
+    let Changes { q: dq, v: dv } = coordinates.changes_of(&(x0 * eps));
     let mut q = start.q.clone();
     let mut stages = [0; 3].map(|_| vec![0.0; q.len()]);
     crate::formulation::turn(system, &mut stages, &start.q, dq.as_slice(), &mut q);
@@ -38,9 +36,10 @@ pub fn difference(system: &dyn MechanicalSystem, from: &State, to: &State) -> [V
     if from.q.len() == from.v.len() {
         return [change, dv];
     }
+    let moving = system.dimensions().moving();
     let (mut unit, mut rate) = (vec![0.0; from.v.len()], vec![0.0; from.q.len()]);
     let own = rate.len() - system.turning_angles();
-    let dq = (0..from.v.len()).map(|j| {
+    let dq = (0..moving).map(|j| {
         unit[j] = 1.0;
         system.rate(&from.q, &unit, &mut rate);
         unit[j] = 0.0;
@@ -48,7 +47,7 @@ pub fn difference(system: &dyn MechanicalSystem, from: &State, to: &State) -> [V
         let size: f64 = rate[..own].iter().map(|x| x * x).sum();
         rate[..own].iter().zip(&change).map(|(x, change)| x * change).sum::<f64>() / size
     });
-    [dq.collect(), dv]
+    [dq.chain(vec![0.0; from.v.len() - moving]).collect(), dv]
 }
 
 /// Typical and fastest rate of a model, 1/s.
@@ -92,10 +91,9 @@ impl Norm {
         self.size((&rest(dq, cq), &rest(dv, cv)))
     }
 
-    /// Returns the norm of states (z, y).
-    pub fn states(&self, x: &Matrix) -> f64 {
-        let k = x.nrows() / 2;
-        self.size((x.rows(0, k).clone_owned().as_slice(), x.rows(k, k).clone_owned().as_slice()))
+    /// Returns the norm of states (z, y) of a chart.
+    pub fn states(&self, chart: &Coordinates, x: &Matrix) -> f64 {
+        self.size(x.as_slice().split_at(chart.freedom()))
     }
 }
 

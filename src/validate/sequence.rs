@@ -81,10 +81,9 @@ pub(super) fn sequence(
     let followed = follow(system, start, (model, carried, norm), x0, duration)?;
     let ends = followed.snapshots.last().zip(followed.charts.last());
     let Some((end, chart)) = ends else { return Err(Error::input("nothing to follow")) };
-    let all = chart.changes();
     let last = &followed.predicted[ROWS - 1];
     let errors_ltv = followed.errors(end, &end.columns);
-    let errors_lti = followed.errors(end, &Changes { q: all.q * last, v: all.v * last });
+    let errors_lti = followed.errors(end, &chart.changes_of(last));
     let size = norm.size((end.columns.q.as_slice(), end.columns.v.as_slice()));
     let order_ltv =
         decay(&followed.epsilons, &errors_ltv, |eps| tolerances::SECOND_ORDER_RANGE * eps * size, floor(&errors_ltv));
@@ -116,8 +115,7 @@ fn follow<'a>(
     let coordinates = &model.coordinates;
     let perturbed = |&eps: &f64| moved(system, start, coordinates, x0, eps).map(|state| (eps, state));
     let (epsilons, members): (Vec<f64>, Vec<State>) = EPSILONS.iter().filter_map(perturbed).unzip();
-    let unit = coordinates.changes();
-    let columns = Changes { q: unit.q * x0, v: unit.v * x0 };
+    let columns = coordinates.changes_of(x0);
     let bundle = Bundle { columns, members, ..Bundle::of(start) };
     let times: Vec<f64> = (1..=ROWS).map(|i| duration * i as f64 / ROWS as f64).collect();
     let mut snapshots: Vec<Snapshot> = Vec::new();
@@ -150,7 +148,7 @@ impl Followed<'_> {
     fn drift(&self) -> Vec<f64> {
         let error = |((snapshot, chart), lti): ((&Snapshot, &Coordinates), &Matrix)| {
             let ltv = chart.states_of(&snapshot.columns);
-            self.norm.states(&(&ltv - lti)) / self.norm.states(&ltv)
+            self.norm.states(chart, &(&ltv - lti)) / self.norm.states(chart, &ltv)
         };
         self.snapshots.iter().zip(&self.charts).zip(&self.predicted).map(error).collect()
     }
@@ -166,9 +164,7 @@ impl Followed<'_> {
         let pairs = self.snapshots.iter().map(|snapshot| (&snapshot.motion, &snapshot.members[member]));
         let simulated: Vec<Vec<f64>> =
             pairs.map(|(motion, member)| difference(self.system, motion, member)).map(|[dq, _]| dq).collect();
-        let frozen = |direction: usize, chart: &Coordinates, x: &Matrix| {
-            eps * (chart.r.row(direction) * x.rows(0, chart.r.ncols()))[(0, 0)]
-        };
+        let frozen = |direction: usize, chart: &Coordinates, x: &Matrix| eps * chart.changes_of(x).q[(direction, 0)];
         let predicted = || self.charts.iter().zip(&self.predicted);
         let curve = |direction: usize| Curve {
             direction,

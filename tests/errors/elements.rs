@@ -574,3 +574,30 @@ fn outputs_that_grow_without_bound() {
     let scene = pendulum().with("{ 'name': 'theta'", &format!("{}, {last}", outputs.join(", ")));
     scene.refused_with(&["at outputs[0].value (`o0`)", "in a circle, or grow beyond all bounds"]);
 }
+
+/// A pendulum whose state `i` is given by these keys.
+fn with_state(keys: &str) -> super::Scene {
+    pendulum().with("'inputs': []", &format!("'states': [{{ 'name': 'i', {keys} }}], 'inputs': []"))
+}
+
+cases! {
+    state_without_rate:
+        with_state("'initial': 1") => ["at states[0]", "the key `rate` is missing"];
+    state_of_unknown:
+        with_state("'rate': 'rod.angel'") => ["at states[0].rate (`i`)", "unknown name `rod.angel`", "did you mean `rod.angle`?"];
+    state_with_the_name_of_an_output:
+        with_state("'rate': 1").with("'theta'", "'i'") => ["at states[0].name", "`i` is that of an output", "a name of its own"];
+    state_with_the_name_of_a_parameter:
+        with_state("'rate': 1").with("'l': 1.0", "'l': 1.0, 'i': 2") => ["at states[0].name", "`i` is that of a parameter"];
+    state_that_prescribes_a_motion:
+        with_state("'rate': 1").with("'type': 'revolute'", "'type': 'driver', 'coordinate': 'angle', 'value': 'i'") => [
+            "at joints[0].value (`pin`)", "unknown name `i`",
+        ];
+    state_as_a_marker:
+        with_state("'rate': 1").with("'rod.B'", "'i'") => ["at forces[0].between[1] (`spring`)", "there is no marker `i`"];
+    state_over_too_many_markers:
+        with_state("'rate': 'ground.O.x + ground.P.x + rod.A.x + rod.B.x + rod.x + a0.x + a1.x + a2.x + a3.x'")
+            .with("'bodies': [", &format!("'bodies': [{}", (0..4).map(|k| format!("{{ 'name': 'a{k}', 'type': 'point_mass', 'mass': 1 }}, ")).collect::<String>())) => [
+            "at states[0] (`i`)", "uses 10 markers and states", "split it into several states",
+        ];
+}

@@ -77,6 +77,17 @@ fn steps_end_on_knots() {
     }
 }
 
+/// A valve that opens and closes softly: near its end it is zero but for round-off, whose sign changes at every step. 1e-6:
+/// the time for which it is round-off.
+#[test]
+fn a_function_that_comes_to_rest_on_a_threshold_passes_it_once() {
+    let scene = pushed("sign(smoothstep(t/0.1) - smoothstep((t - 0.2)/0.1))");
+    for names in ADAPTIVE {
+        let (outcome, _) = attempt(&scene, &method(names, 1e-8), 1.0);
+        assert!((outcome.v[0] - 0.3).abs() < 1e-6 && outcome.statistics.steps < 5000, "{names:?}: {outcome:?}");
+    }
+}
+
 /// A blow of a millisecond to a pendulum, moved over twenty instants: found each time, and with the same result by methods
 /// that know nothing of each other.
 #[test]

@@ -73,7 +73,8 @@ pub fn place_outputs(dimension: usize, marker: &str) -> String {
 /// The outputs with these names in the equilibrium that belongs to the start.
 pub fn at_rest(ready: &Ready, names: &[&str]) -> Vec<f64> {
     let system = ready.system();
-    let found = equilibrium(system, 0.0, &ready.start().q).unwrap_or_else(|error| panic!("{error}"));
+    let found =
+        equilibrium(system, 0.0, (&ready.start().q, &ready.start().v)).unwrap_or_else(|error| panic!("{error}"));
     let columns = system.columns();
     let (mut out, still) = (vec![0.0; columns.len()], vec![0.0; system.dimensions().v]);
     let at = OperatingPoint { t: found.t, q: &found.q, v: &still, vdot: &still, lambda: &found.lambda };

@@ -74,7 +74,7 @@ fn at_equilibria() {
 fn check_equilibrium(recipe: Recipe) {
     let scene = recipe.scene();
     let system = scene.system();
-    let Ok(found) = equilibrium(system, 0.0, scene.0.start().0) else { return };
+    let Ok(found) = equilibrium(system, 0.0, scene.0.start()) else { return };
     let mut variation = Variation::new(system, 0.0, &found.q, &vec![0.0; system.dimensions().v]).unwrap();
     let exact = model(&mut variation, "mcs", Some(Chart::MassOrthogonal));
     let known = values(&exact, Kind::Physical);

@@ -10,6 +10,7 @@ mod moving;
 mod penalties;
 mod reference;
 mod refused;
+mod scene_states;
 mod shipped;
 mod steps;
 mod systems;

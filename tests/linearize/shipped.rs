@@ -76,7 +76,7 @@ fn equilibria_of_the_squeezer() {
         (&[("beta0", -0.12)], 6.15862162029083, Stability::Unstable),
     ] {
         let scene = shipped("andrews", set);
-        let found = equilibrium(scene.system(), 0.0, scene.0.start().0).unwrap();
+        let found = equilibrium(scene.system(), 0.0, scene.0.start()).unwrap();
         let angle = scene.system().names().q.iter().position(|name| name == "K1.angle").unwrap();
         let turns = (found.q[angle] - beta) / std::f64::consts::TAU;
         assert!((turns - turns.round()).abs() < 1e-12, "{beta}: {}", found.q[angle]);

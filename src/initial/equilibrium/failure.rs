@@ -4,7 +4,7 @@ use super::stability::{named, soft};
 use super::system::{EquilibriumSystem, Place};
 use crate::error::{Error, Failure, short};
 use crate::math::largest;
-use crate::system::Limited;
+use crate::system::{Limited, MechanicalSystem};
 use crate::tolerances::initial as tolerances;
 
 pub(super) fn no_tangent() -> Error {
@@ -41,6 +41,12 @@ const HOLD: &str = "hold it by a joint or a spring, or take the force away";
 const BEGIN_NEARER: &str = "begin nearer to it, or look at the motion with `holonom simulate`: with some damping it comes to \
                             rest where there is an equilibrium";
 
+/// Name of an entry of a place.
+fn name_of(system: &dyn MechanicalSystem, entry: usize) -> Option<String> {
+    let (names, n) = (system.names(), system.dimensions());
+    names.q.into_iter().chain(names.v.into_iter().skip(n.moving())).nth(entry)
+}
+
 /// Error that names what keeps the mechanism moving from the start; `away` is the coordinate of an unbounded descent.
 pub(super) fn none_found(rest: &mut EquilibriumSystem, start: &Place, away: Option<usize>) -> Error {
     let t = rest.t;
@@ -61,7 +67,7 @@ pub(super) fn none_found(rest: &mut EquilibriumSystem, start: &Place, away: Opti
             };
         }
     }
-    if let Some(name) = away.and_then(|coordinate| rest.dynamics.system.names().q.get(coordinate).cloned()) {
+    if let Some(name) = away.and_then(|coordinate| name_of(rest.dynamics.system, coordinate)) {
         return failure(format!("there is no static equilibrium: the forces move `{name}` on and on"), HOLD);
     }
     let worst = (0..balance.force.len()).max_by(|&i, &j| balance.force[i].abs().total_cmp(&balance.force[j].abs()));

@@ -38,7 +38,7 @@ impl Judge {
     pub fn bent(rest: &EquilibriumSystem, q: &[f64]) -> Option<(Limited, f64)> {
         let system = rest.dynamics.system;
         let mut deformations = vec![0.0; system.limited().len()];
-        system.deformations(q, &mut deformations);
+        system.deformations(&q[..rest.coordinates], &mut deformations);
         let mut parts = system.limited().iter().cloned().zip(deformations);
         let is_bent = |(limited, turn): &(Limited, f64)| match limited.theory {
             Theory::Helix { .. } => *turn > tolerances::TOO_FAR_TURNED * limited.theory.most(),

@@ -3,6 +3,8 @@
 //! ```text
 //! f(t, q, 0) - G^T lambda = 0,   phi(q, t) = 0,   t fixed
 //! ```
+//!
+//! States xi take part: their rates r(t, q, 0, xi), which are in f, are zero too.
 
 mod descent;
 mod failure;
@@ -17,7 +19,7 @@ pub use stability::Stability;
 use super::{Metric, position};
 use crate::error::Result;
 use crate::math::largest;
-use crate::system::{Limited, MechanicalSystem, refuse_states};
+use crate::system::{Limited, MechanicalSystem};
 use crate::tolerances::initial as tolerances;
 use descent::End;
 use judge::Judge;
@@ -32,6 +34,8 @@ pub struct Equilibrium {
     pub t: f64,
     /// Coordinates, n_q.
     pub q: Vec<f64>,
+    /// Velocities, n_v: zero but for the states xi.
+    pub v: Vec<f64>,
     /// Multipliers, n_c; of least norm where constraints are redundant.
     pub lambda: Vec<f64>,
     /// The method that found it.
@@ -72,7 +76,7 @@ struct Found {
     free: Vec<String>,
 }
 
-/// The equilibrium at time `t` nearest to a guess:
+/// The equilibrium at time `t` nearest to a guess (q, v), of which only the states count in v:
 ///
 /// 1. that of Newton's method, if its steps contract from the first: then it is the one around the guess, stable or
 ///    not;
@@ -83,11 +87,11 @@ struct Found {
 /// # Errors
 /// Joints that cannot be closed at `t`, a state that cannot be evaluated, equations without K: bad input. No
 /// equilibrium found: a failure that names what moves or the largest residual force.
-pub fn equilibrium(system: &dyn MechanicalSystem, t: f64, guess: &[f64]) -> Result<Equilibrium> {
-    refuse_states(system, "the static equilibrium", "simulate with damping until the motion ends")?;
-    let mut q = guess.to_vec();
+pub fn equilibrium(system: &dyn MechanicalSystem, t: f64, guess: (&[f64], &[f64])) -> Result<Equilibrium> {
+    let mut q = guess.0.to_vec();
     system.normalize(&mut q);
     position::close(&mut Metric::new(system, Vec::new()), t, &mut q)?;
+    q.extend(&guess.1[system.dimensions().moving()..]);
     let mut rest = EquilibriumSystem::new(system, t, &q)?;
     let start = rest.balance(&q).ok_or_else(failure::not_finite)?.place;
     let mut search = Search { best: None, steps: 0, away: None, bent: None, judge: Judge::at(&mut rest, &start) };
@@ -179,5 +183,6 @@ fn finish(mut rest: EquilibriumSystem, found: Found, steps: usize) -> Result<Equ
         return Err(failure::contradiction(rest.t));
     }
     let (t, iterations) = (rest.t, rest.iterations);
-    Ok(Equilibrium { t, q: place.q, lambda: place.lambda, way, iterations, steps, residual, gap, stability, free })
+    let (q, v) = (place.q[..rest.coordinates].to_vec(), rest.still);
+    Ok(Equilibrium { t, q, v, lambda: place.lambda, way, iterations, steps, residual, gap, stability, free })
 }

@@ -2,21 +2,23 @@
 
 use super::system::{EquilibriumSystem, Place};
 use crate::formulation::{free_directions, reduce};
+use crate::math::eigen::eigen;
 use crate::tolerances::initial as tolerances;
-use nalgebra::{DVector, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use serde::Serialize;
 
 /// Stability of an equilibrium, in increasing order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stability {
-    /// K is negative along a direction that the constraints allow.
+    /// K is negative along a direction that the constraints allow, or a small motion grows.
     Unstable,
-    /// There are too many coordinates for the eigenvalues, or forces without a potential.
+    /// There are too many coordinates for the eigenvalues, or forces without a potential or states and motions that
+    /// neither grow nor decay.
     Unknown,
     /// K is zero along a direction, and nowhere negative.
     Neutral,
-    /// K is positive along all directions.
+    /// K is positive along all directions, or all small motions decay.
     Stable,
 }
 
@@ -60,12 +62,32 @@ pub(super) fn judge(rest: &mut EquilibriumSystem, place: &Place) -> (Stability, 
     let Some(soft) = soft(rest, place) else { return (Stability::Unknown, Vec::new()) };
     let free = named(rest, &soft.directions);
     let stability = match soft.directions.is_empty() {
-        _ if !soft.is_symmetric => Stability::Unknown,
+        _ if !soft.is_symmetric => by_modes(rest).unwrap_or(Stability::Unknown),
         true if soft.smallest > 0.0 => Stability::Stable,
         _ if soft.directions.is_empty() => Stability::Unstable,
         _ => Stability::Neutral,
     };
     (stability, free)
+}
+
+/// Stability by the eigenvalues of small motions, at the place of the last factorization: for forces without a potential
+/// and for states, whose columns of K are those of C.
+fn by_modes(rest: &mut EquilibriumSystem) -> Option<Stability> {
+    let z = free_directions(&mut rest.dynamics)?;
+    let [k, c] = [&rest.tangent.k, &rest.tangent.c].map(|values| reduce(&rest.dynamics.structure.tangent, values, &z));
+    let (n, moving) = (z.ncols(), z.ncols() - rest.dynamics.system.dimensions().states);
+    let mut a = DMatrix::zeros(moving + n, moving + n);
+    a.view_mut((0, moving), (moving, moving)).fill_with_identity();
+    a.view_mut((moving, 0), (n, moving)).copy_from(&-k.columns(0, moving));
+    a.view_mut((moving, moving), (n, n)).copy_from(&-c);
+    let values = eigen(&a).ok()?.values;
+    let size = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
+    let growth = values.iter().map(|value| value.re).fold(f64::NEG_INFINITY, f64::max);
+    match growth.abs() > tolerances::SURE_GROWTH * size {
+        true if growth > 0.0 => Some(Stability::Unstable),
+        true => Some(Stability::Stable),
+        false => None,
+    }
 }
 
 /// Names of the coordinates with the largest components in the directions.

@@ -11,6 +11,7 @@ use crate::tolerances::initial as tolerances;
 /// Coordinates and multipliers.
 #[derive(Clone, Debug)]
 pub(super) struct Place {
+    /// Coordinates, then the states xi.
     pub q: Vec<f64>,
     pub lambda: Vec<f64>,
 }
@@ -21,7 +22,7 @@ pub(super) struct Balance {
     pub force: Vec<f64>,
 }
 
-/// A change of q along the directions of v, and of lambda.
+/// A change of q along the directions of v, of xi in its own, and of lambda.
 pub(super) struct Change {
     pub q: Vec<f64>,
     pub lambda: Vec<f64>,
@@ -32,7 +33,7 @@ pub(super) struct Change {
 /// [ G            0   ] [ dlambda ] = [ -phi  ]
 /// ```
 ///
-/// without the rows of phi that depend on others.
+/// without the rows of phi that depend on others; columns of states xi are those of C.
 pub(super) struct EquilibriumSystem<'a> {
     pub dynamics: Dynamics<'a>,
     pub t: f64,
@@ -50,15 +51,19 @@ pub(super) struct EquilibriumSystem<'a> {
     g: Pattern,
     entries: Vec<usize>,
     values: Vec<f64>,
-    still: Vec<f64>,
+    /// Number of coordinates, which come first in a place.
+    pub coordinates: usize,
+    /// v: zero but for the states xi of the present terms.
+    pub still: Vec<f64>,
     stages: [Vec<f64>; 3],
 }
 
 impl<'a> EquilibriumSystem<'a> {
     /// Memory, and the independent rows of phi, found at a place where phi = 0.
-    pub fn new(system: &'a dyn MechanicalSystem, t: f64, q: &[f64]) -> Result<Self> {
+    pub fn new(system: &'a dyn MechanicalSystem, t: f64, place: &[f64]) -> Result<Self> {
         let (n, mut dynamics) = (system.dimensions(), Dynamics::new(system));
-        let still = vec![0.0; n.v];
+        let (q, xi) = place.split_at(n.q);
+        let still = [&vec![0.0; n.moving()], xi].concat();
         let mut tangent = Tangent::new(&dynamics.structure.tangent);
         let at = OperatingPoint { t, q, v: &still, vdot: &still, lambda: &vec![0.0; n.lambda] };
         if !system.tangent(at, &mut tangent, &mut dynamics.scratch) {
@@ -84,6 +89,7 @@ impl<'a> EquilibriumSystem<'a> {
             iterations: 0,
             values: vec![0.0; g.entries.len()],
             stages: [vec![0.0; n.q], vec![0.0; n.q], vec![0.0; n.q]],
+            coordinates: n.q,
             dynamics,
             t,
             rows,
@@ -93,8 +99,11 @@ impl<'a> EquilibriumSystem<'a> {
         })
     }
 
-    /// Evaluates the terms at q.
+    /// Evaluates the terms at a place.
     pub fn evaluate(&mut self, q: &[f64]) {
+        let (q, xi) = q.split_at(self.coordinates);
+        let moving = self.still.len() - xi.len();
+        self.still[moving..].copy_from_slice(xi);
         self.dynamics.evaluate(self.t, q, &self.still, Need::DYNAMICS);
     }
 
@@ -111,7 +120,7 @@ impl<'a> EquilibriumSystem<'a> {
         largest_in(&self.scales, &self.dynamics.terms.phi)
     }
 
-    /// Evaluates the terms at q and finds the multipliers of least residual force.
+    /// Evaluates the terms at a place and finds the multipliers of least residual force.
     pub fn balance(&mut self, q: &[f64]) -> Option<Balance> {
         self.evaluate(q);
         let terms = &self.dynamics.terms;
@@ -140,9 +149,14 @@ impl<'a> EquilibriumSystem<'a> {
 
     /// Factors the matrix at a place whose terms are evaluated; false where it is singular.
     pub fn factor(&mut self, place: &Place, shift: f64) -> bool {
-        let at = OperatingPoint { t: self.t, q: &place.q, v: &self.still, vdot: &self.still, lambda: &place.lambda };
+        let (q, vdot) = (&place.q[..self.coordinates], &vec![0.0; self.still.len()]);
+        let at = OperatingPoint { t: self.t, q, v: &self.still, vdot, lambda: &place.lambda };
         let Dynamics { system, structure, terms, scratch, .. } = &mut self.dynamics;
         system.tangent(at, &mut self.tangent, scratch);
+        let moving = system.dimensions().moving();
+        let Tangent { k, c } = &mut self.tangent;
+        let entries = structure.tangent.entries.iter().zip(k.iter_mut().zip(c));
+        entries.filter(|((_, j), _)| *j >= moving).for_each(|(_, (k, c))| *k = *c);
         self.matrix.clear();
         self.matrix.add(&structure.tangent, &self.tangent.k, 1.0, false);
         (0..self.still.len()).for_each(|i| self.matrix.add_entry(i, i, shift));
@@ -165,7 +179,9 @@ impl<'a> EquilibriumSystem<'a> {
     pub fn moved(&mut self, from: &Place, change: &Change, part: f64) -> Place {
         let dq: Vec<f64> = change.q.iter().map(|dq| part * dq).collect();
         let mut q = from.q.clone();
-        turn(self.dynamics.system, &mut self.stages, &from.q, &dq, &mut q);
+        let ((own, xi), moving) = (q.split_at_mut(self.coordinates), self.dynamics.system.dimensions().moving());
+        turn(self.dynamics.system, &mut self.stages, &from.q[..own.len()], &dq, own);
+        xi.iter_mut().zip(&dq[moving..]).for_each(|(xi, d)| *xi += d);
         let lambda = from.lambda.iter().zip(&change.lambda).map(|(lambda, d)| lambda + part * d).collect();
         Place { q, lambda }
     }

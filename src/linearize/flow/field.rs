@@ -80,6 +80,8 @@ impl<'a> VariationalField<'a> {
         self.changes.v.copy_from_slice(dv);
         let turned = self.variation.bracket_with(&self.changes.q);
         dq_dot.iter_mut().zip(dv.iter().zip(&turned)).for_each(|(rate, (dv, turned))| *rate = dv - turned);
+        let (n, moving) = (self.shape.v.max(1), self.plain.system.dimensions().moving());
+        dq_dot.chunks_exact_mut(n).for_each(|rates| rates[moving..].fill(0.0));
         let mut force = self.variation.force(&self.changes);
         if let Some(push) = push {
             for (mut column, amplitude) in force.column_iter_mut().zip(&self.driven) {

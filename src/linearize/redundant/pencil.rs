@@ -4,7 +4,7 @@ use super::Built;
 use super::rounding::Parts;
 use crate::error::Result;
 use crate::formulation::{Dae, Row};
-use crate::linearize::changes::directions;
+use crate::linearize::changes::{Directions, directions};
 use crate::linearize::{Changes, Matrix, Variation};
 
 /// Returns the number of infinite eigenvalues with `m` independent constraints: m for a row of phi'' whose multiplier
@@ -31,7 +31,7 @@ pub fn build(dae: &Dae, variation: &mut Variation) -> Result<Built> {
         c: variation.c(),
         g: kept_rows(variation.g()),
         gd: kept_rows(variation.gd()),
-        rows: kept_rows(variation.rows(&Changes::all(n), [0.0; 2])),
+        rows: kept_rows(variation.rows(&Changes::all(n, n), [0.0; 2])),
     };
     parts.clean(variation);
     let mut end = 2 * n;
@@ -83,12 +83,15 @@ fn observe(dae: &Dae, variation: &mut Variation, kept: &[usize], (e, a): (Matrix
     }
     let states = states(dae, variation, kept);
     let (chart, infinite) = ("redundant".to_string(), infinite(dae, kept.len()));
-    Ok(Built { chart, states, a, b, c, d, e: Some(e), changes, infinite })
+    let built = Built { chart, states, a, b, c, d, e: Some(e), changes, infinite };
+    Ok(built.without_integrals(variation.system().dimensions()))
 }
 
 fn states(dae: &Dae, variation: &Variation, kept: &[usize]) -> Vec<String> {
     let system = variation.system();
-    let mut states = directions(system, &variation.point.q).states();
+    let Directions { mut q, v } = directions(system, &variation.point.q);
+    q.resize(v.len(), String::new());
+    let mut states = [q, v].concat();
     let multipliers = system.names().lambda;
     for (_, suffix) in
         [(Some(dae.lambda), ""), (dae.eta, " eta"), (dae.mu, " mu")].iter().filter(|kind| kind.0.is_some())

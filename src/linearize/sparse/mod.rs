@@ -12,6 +12,7 @@ use super::spectrum::{modes_of, refused};
 use super::{Changes, Complex, Cost, LinearModel, Matrix, Response, Variation};
 use crate::error::{Error, Result};
 use crate::math::eigen::Unsolved;
+use crate::system::refuse_states;
 use crate::tolerances::linearize as tolerances;
 use quadratic::Quadratic;
 use reduce::Modal;
@@ -45,6 +46,7 @@ type C = Complex<f64>;
 /// # Errors
 /// No mode asked for or none there; eigenvalues that do not converge; outputs without derivatives.
 pub fn modal(variation: &mut Variation, count: usize, shift: Complex<f64>) -> Result<LinearModel> {
+    refuse_states(variation.system(), "a model of a few modes", "leave --modes out")?;
     let clock = Instant::now();
     let equations = Quadratic::new(variation);
     check(&equations, count, shift)?;

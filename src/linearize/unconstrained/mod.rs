@@ -36,12 +36,14 @@ fn build(
         return Ok(restrict(variation, coordinates, response)?.into());
     }
     let n = variation.len();
-    let changes = Changes::all(n);
+    let moving = variation.system().dimensions().moving();
+    let changes = Changes::all(n, moving);
     let response = response(variation, &changes)?;
-    let mut a = Matrix::zeros(2 * n, 2 * n);
-    a.view_mut((0, 0), (n, 2 * n)).copy_from(&(&changes.v - variation.bracket_with(&changes.q)));
-    a.view_mut((n, 0), (n, 2 * n)).copy_from(&response.vdot);
-    let b = response.driven_vdot.clone().insert_rows(0, n, 0.0);
+    let mut a = Matrix::zeros(moving + n, moving + n);
+    let rates = &changes.v - variation.bracket_with(&changes.q);
+    a.rows_mut(0, moving).copy_from(&rates.rows(0, moving));
+    a.rows_mut(moving, n).copy_from(&response.vdot);
+    let b = response.driven_vdot.clone().insert_rows(0, moving, 0.0);
     let [c, d] = observe(&variation.outputs()?, &changes, &response);
     let states = directions(variation.system(), &variation.point.q).states();
     let chart = "redundant".to_string();

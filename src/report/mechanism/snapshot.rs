@@ -132,7 +132,7 @@ fn of<const D: usize>(mechanism: &Mechanism<D>, state: &State) -> Snapshot {
     let joints: Vec<Link> = joints.collect();
     let limb =
         |part: &Part<D>| Limb { line: line(part, &frames[part.first_marker], &state.q), ..limb(part, &poses, &used) };
-    let mut limbs: Vec<Limb> = model.bodies.iter().map(limb).collect();
+    let mut limbs: Vec<Limb> = model.given_bodies().iter().map(limb).collect();
     model.beams.iter().for_each(|beam| join(beam, &mut limbs, |body| frames[model.bodies[body].first_marker]));
     limbs.iter_mut().enumerate().for_each(|(i, limb)| limb.may_spin = D == 3 && may_spin(limb, i, &joints));
     Snapshot { is_planar: D == 2, limbs, joints, forces: forces.collect(), markers: poses }
@@ -164,10 +164,14 @@ fn used<const D: usize>(model: &Model<D>) -> Vec<bool> {
 }
 
 fn link<E, const D: usize>(model: &Model<D>, connection: &Connection<E>, poses: &[Pose]) -> Link {
+    // States that a force reads are nowhere.
+    let is_placed =
+        |marker: &&usize| model.markers.bodies[**marker].is_none_or(|body| body < model.given_bodies().len());
+    let markers = || connection.markers.iter().filter(is_placed);
     Link {
         kind: connection.kind,
-        ends: connection.markers.iter().map(|marker| poses[*marker]).collect(),
-        carriers: connection.markers.iter().map(|marker| model.markers.bodies[*marker]).collect(),
+        ends: markers().map(|marker| poses[*marker]).collect(),
+        carriers: markers().map(|marker| model.markers.bodies[*marker]).collect(),
         axis: None,
         turns: Vec::new(),
         wheel: None,

@@ -18,6 +18,11 @@ impl Range {
         piece.is_multiple_of(2).then_some(range)
     }
 
+    /// The range with a margin on both sides.
+    pub fn widened(&self, margin: f64) -> Self {
+        Range { low: self.low - margin, high: self.high + margin }
+    }
+
     pub fn contains(&self, x: f64) -> bool {
         self.low < x && x < self.high
     }

@@ -9,8 +9,9 @@ use crate::tolerances::simulate as tolerances;
 /// The functions of time of a run: their changes of form, and the steps that resolve them.
 pub struct Timetable<'a> {
     switches: &'a [Switch],
+    /// Round-off of the argument of each function of time; zero for others.
+    round_off: Vec<f64>,
     pub watch: Watch<'a>,
-    start: f64,
     end: f64,
     /// The next change of form.
     next: Option<f64>,
@@ -18,14 +19,15 @@ pub struct Timetable<'a> {
 
 impl<'a> Timetable<'a> {
     pub fn new(switches: &'a [Switch], functions: &'a [TimeFunction], start: f64, end: f64) -> Self {
-        Timetable { switches, watch: Watch::new(functions, end - start), start, end, next: None }
+        let round_off = switches.iter().map(|switch| round_off(switch, start, end)).collect();
+        Timetable { switches, round_off, watch: Watch::new(functions, end - start), end, next: None }
     }
 
     /// Sets all functions of time to their pieces from `t` on.
     pub fn place(&mut self, t: f64, pieces: &mut [Piece]) {
         for (number, switch) in self.switches.iter().enumerate() {
             if let Some(argument) = &switch.of_time {
-                pieces[number] = self.piece_from(t, argument, &switch.thresholds, pieces);
+                pieces[number] = self.piece_from(t, (argument, self.round_off[number]), &switch.thresholds, pieces);
             }
         }
         self.next = self.find_next(t, pieces);
@@ -55,23 +57,24 @@ impl<'a> Timetable<'a> {
         self.watch.resolved((t, h, f64::INFINITY), tolerances::RESOLVED_FINELY, Regime::held(pieces))
     }
 
-    /// The piece of an argument right after `t`: at a threshold its rate decides.
-    fn piece_from(&self, t: f64, argument: &TimeFunction, thresholds: &Thresholds, pieces: &[Piece]) -> Piece {
+    /// The piece of an argument right after `t`: within round-off of a threshold, the side to which it leaves that.
+    fn piece_from(
+        &self,
+        t: f64,
+        (argument, round_off): (&TimeFunction, f64),
+        thresholds: &Thresholds,
+        pieces: &[Piece],
+    ) -> Piece {
         let regime = Regime::held(pieces);
         let x: Taylor<f64> = argument.at(Taylor::time(t), regime);
-        let round_off = |threshold: f64| 8.0 * f64::EPSILON * (threshold.abs() + (x.d * t).abs());
-        let at = thresholds.nearest(x.x).filter(|&(_, threshold)| (x.x - threshold).abs() <= round_off(threshold));
-        let side = |slope: f64| if slope > 0.0 { 1 } else { -1 };
-        let turn = match at {
-            None => return thresholds.piece(x.x).unwrap_or(0),
-            Some(_) if x.d != 0.0 => side(x.d),
-            Some(_) if x.dd != 0.0 => side(x.dd),
-            Some((_, threshold)) => {
-                let later = argument.at(t + tolerances::LOOKED_AHEAD * (self.end - self.start), regime) - threshold;
-                if later == 0.0 { 0 } else { side(later) }
-            }
-        };
-        (2 * at.map_or(0, |(k, _)| k) as Piece + 1).wrapping_add_signed(turn)
+        let margin = |threshold: f64| round_off.max(8.0 * f64::EPSILON * (threshold.abs() + (x.d * t).abs()));
+        let near = thresholds.nearest(x.x).filter(|&(_, threshold)| (x.x - threshold).abs() <= margin(threshold));
+        let Some((k, threshold)) = near else { return thresholds.piece(x.x).unwrap_or(0) };
+        let range = Range { low: threshold, high: threshold }.widened(2.0 * margin(threshold));
+        let left =
+            Search { argument, range, regime }.first_exit(t, self.end, &mut tolerances::LOOKS_FOR_CHANGE.clone());
+        let side = left.map_or(0, |left| if argument.at(left, regime) > threshold { 1 } else { -1 });
+        (2 * k as Piece + 1).wrapping_add_signed(side)
     }
 
     fn find_next(&self, t: f64, pieces: &[Piece]) -> Option<f64> {
@@ -79,13 +82,30 @@ impl<'a> Timetable<'a> {
         for (number, switch) in self.switches.iter().enumerate() {
             let Some(argument) = &switch.of_time else { continue };
             let Some(range) = Range::of(pieces[number], &switch.thresholds) else { continue };
-            let search = Search { argument, range, regime: Regime::held(pieces) };
-            let exit = search.first_exit(t, first.unwrap_or(self.end), &mut tolerances::LOOKS_FOR_CHANGE.clone());
-            first = exit.or(first);
+            let exit = |range: Range, end: f64| {
+                let search = Search { argument, range, regime: Regime::held(pieces) };
+                search.first_exit(t, end, &mut tolerances::LOOKS_FOR_CHANGE.clone())
+            };
+            // A function that comes to rest on a threshold crosses it many times within round-off.
+            let leaves = exit(range.widened(self.round_off[number]), first.unwrap_or(self.end));
+            first = leaves.map(|left| exit(range, left).unwrap_or(left)).or(first);
         }
         first.filter(|first| *first < self.end)
     }
 }
+
+/// What may be round-off of an argument: a part of its largest distance from the nearest threshold, sampled over a run.
+fn round_off(switch: &Switch, start: f64, end: f64) -> f64 {
+    let Some(argument) = &switch.of_time else { return 0.0 };
+    let distance = |i: usize| {
+        let x: f64 = argument.at(start + (end - start) * i as f64 / SAMPLES as f64, Regime::FREE);
+        switch.thresholds.nearest(x).map_or(0.0, |(_, threshold)| (x - threshold).abs())
+    };
+    let size = (0..=SAMPLES).map(distance).filter(|size| size.is_finite()).fold(0.0, f64::max);
+    tolerances::TIME_FUNCTION_ROUND_OFF * size
+}
+
+const SAMPLES: usize = 64;
 
 /// Search for the time at which an argument leaves a range, with the pieces of a regime.
 struct Search<'s> {

@@ -1,0 +1,52 @@
+//! The rate of a state.
+
+use super::{Action, ForceKernel, Instant, Motion};
+use crate::body::{MOST_MARKERS, MarkerId, Probe, Signal, Wrench};
+use crate::error::{Error, Result};
+use crate::math::{Rate, Scalar, Taylor};
+
+/// xi' = r(t, q, v, xi): a force of that size along x on the marker of a state, whose mass is one.
+pub struct StateRate {
+    rate: Signal,
+    markers: Vec<MarkerId>,
+}
+
+impl StateRate {
+    /// The rate of the state at the marker `state`.
+    ///
+    /// # Errors
+    /// An expression over too many markers and states.
+    pub fn new(state: MarkerId, rate: Signal) -> Result<Self> {
+        let others = rate.markers().into_iter().filter(|&marker| marker != state);
+        let markers: Vec<MarkerId> = [state].into_iter().chain(others).collect();
+        match markers.len() <= MOST_MARKERS {
+            true => Ok(StateRate { rate, markers }),
+            false => Err(Error::input(format!("uses {} markers and states", markers.len()))
+                .hint(format!("use at most {MOST_MARKERS} in one rate, or split it into several states"))),
+        }
+    }
+
+    /// The markers whose frames it takes: that of its state, then those that the rate reads.
+    pub fn markers(&self) -> &[MarkerId] {
+        &self.markers
+    }
+
+    fn read<S: Scalar, const D: usize>(&self, probe: &Probe, frames: &Motion<S, D>) -> S {
+        let place = self.markers.iter().position(|&known| known == probe.marker);
+        probe.read(&frames[place.unwrap_or(0)])
+    }
+}
+
+impl<const D: usize> ForceKernel<D> for StateRate {
+    fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
+        let rate = self.rate.evaluate(time.map(|t| t.x), |probe| self.read(probe, frames));
+        out[0].force[0] = rate;
+        // A state has no energy: the power of the wrench that moves it is no work.
+        let power = rate * frames[0].r[0].d;
+        Action { potential: Taylor::new(S::zero(), -power, S::zero()), magnitude: rate }
+    }
+
+    fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
+        self.rate.switching(time.map(|t| t.x), |probe| self.read(probe, frames), out);
+    }
+}
