@@ -20,8 +20,8 @@ pub(super) enum End {
     Equilibrium(Place),
     /// The coordinate moves without bound.
     Away(usize),
-    /// The steps are used up, or none goes down.
-    Stuck,
+    /// The steps are used up, none goes down, or constraints become dependent there, as in a folded arm.
+    Stuck(Place),
 }
 
 /// Pseudo-transient continuation: dq/dtau = f - G^T lambda on phi = 0, by implicit Euler steps of one iteration each
@@ -36,7 +36,7 @@ pub(super) enum End {
 /// predicts; so no potential is needed. Source: Kelley, Keyes, SIAM J. Numer. Anal. 35 (1998) 508-523; Conn, Gould,
 /// Toint, Trust-Region Methods, 2000, chapter 6. Returns the result and the number of steps.
 pub(super) fn descend(rest: &mut EquilibriumSystem, q: &[f64]) -> (End, usize) {
-    let Some(mut at) = rest.balance(q) else { return (End::Stuck, 0) };
+    let Some(mut at) = rest.balance(q) else { return (End::Stuck(Place { q: q.to_vec(), lambda: Vec::new() }), 0) };
     let mut shift = largest(&at.force) / tolerances::DESCENT_FIRST;
     let (most, mut tried) = (tolerances::DESCENT_STIFFEST * shift, length(&at.force));
     for step in 0..tolerances::DESCENT_STEPS {
@@ -69,7 +69,7 @@ pub(super) fn descend(rest: &mut EquilibriumSystem, q: &[f64]) -> (End, usize) {
             break;
         }
     }
-    (End::Stuck, tolerances::DESCENT_STEPS)
+    (End::Stuck(at.place), tolerances::DESCENT_STEPS)
 }
 
 /// The coordinate farthest from the start, if its distance is beyond the limit.

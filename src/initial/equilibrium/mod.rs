@@ -147,9 +147,8 @@ impl Search {
         let (end, steps) = descent::descend(rest, &start.q);
         self.steps += steps;
         match end {
-            End::Equilibrium(place) => _ = self.offer(rest, Some(place), Way::Descent),
+            End::Equilibrium(place) | End::Stuck(place) => _ = self.offer(rest, Some(place), Way::Descent),
             End::Away(coordinate) => self.away = Some(coordinate),
-            End::Stuck => {}
         }
     }
 
