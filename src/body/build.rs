@@ -1,6 +1,6 @@
 //! Names, parameters and checks with which an element reads its part of a scene.
 
-use super::{Probe, Quantity, Signal, Turned, Turning};
+use super::{Formula, Probe, Quantity, Turned, Turning};
 use crate::error::{Error, Result, Warning, nearest, short, suggest};
 use crate::math::Thresholds;
 use crate::math::expression::{Expression, Number, Parameters, Switch, TimeFunction};
@@ -246,15 +246,15 @@ impl<const D: usize> Build<'_, D> {
     /// [`eval_held`](Expression::eval_held)`(&[time.t], time.regime)`, and `switching` of the kernel has to write its
     /// [`arguments`](Expression::arguments).
     pub fn function_of_time(&self, field: &str, number: &Number) -> Result<Expression> {
-        let signal = self.acting(field, number, false)?;
-        signal.function_of_time().map_err(|error| error.under(field))
+        let formula = self.acting(field, number, false)?;
+        formula.function_of_time().map_err(|error| error.under(field))
     }
 
-    /// A [`signal`](Self::signal) in the equations of motion: its switching functions are added to those of the scene.
-    pub fn acting(&self, field: &str, number: &Number, rates: bool) -> Result<Signal> {
-        let mut signal = self.signal(field, number, rates)?;
-        self.switches.borrow_mut().add(&mut signal.expression);
-        Ok(signal)
+    /// A [`formula`](Self::formula) in the equations of motion: its switching functions are added to those of the scene.
+    pub fn acting(&self, field: &str, number: &Number, rates: bool) -> Result<Formula> {
+        let mut formula = self.formula(field, number, rates)?;
+        self.switches.borrow_mut().add(&mut formula.expression);
+        Ok(formula)
     }
 
     /// Number of a switching function that an element has in addition to its expressions; its threshold is zero.
@@ -277,8 +277,8 @@ impl<const D: usize> Build<'_, D> {
     }
 
     /// An expression over t and marker quantities, and their rates if `rates` is true.
-    pub fn signal(&self, field: &str, number: &Number, rates: bool) -> Result<Signal> {
-        Signal::parse(&number.to_string(), self, rates).map_err(|error| error.under(field))
+    pub fn formula(&self, field: &str, number: &Number, rates: bool) -> Result<Formula> {
+        Formula::parse(&number.to_string(), self, rates).map_err(|error| error.under(field))
     }
 
     /// A marker quantity such as `crank.C.x` or `crank.angle`, or a state.

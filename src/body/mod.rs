@@ -37,7 +37,7 @@ pub(crate) use kind::mistaken;
 pub use parse::{parse, parse_among, show};
 #[doc(hidden)]
 pub use pose::{Carried, Freedom, Pose};
-pub use probe::{Probe, Quantity, Signal};
+pub use probe::{Formula, Probe, Quantity};
 #[doc(hidden)]
 pub use probe::{small_rotation, small_rotation_torque};
 pub use rigid::Initial;

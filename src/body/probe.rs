@@ -72,19 +72,19 @@ impl Probe {
 
 /// An expression over t and probes; variable 0 is t, variable i + 1 is probe i.
 #[derive(Clone, Debug)]
-pub struct Signal {
+pub struct Formula {
     /// The expression, its variables numbered as above.
     pub expression: Expression,
     /// Marker quantities in the order of the variables.
     pub probes: Vec<Probe>,
 }
 
-/// The largest number of probes of a signal: they are evaluated on the stack.
+/// The largest number of probes of a formula: they are evaluated on the stack.
 pub const MOST_PROBES: usize = 24;
 
-impl Signal {
+impl Formula {
     /// Parses `text`; names of outputs are replaced by their expressions.
-    pub fn parse<const D: usize>(text: &str, build: &Build<D>, rates: bool) -> Result<Signal> {
+    pub fn parse<const D: usize>(text: &str, build: &Build<D>, rates: bool) -> Result<Formula> {
         let names = Scope { build, rates, probes: Default::default() };
         let expression = Expression::parse(&expand(text, build)?, &names)?;
         if expression.is_constant() {
@@ -95,7 +95,7 @@ impl Signal {
             return Err(Error::input(format!("{} marker quantities in one expression", probes.len()))
                 .hint(format!("use at most {MOST_PROBES}")));
         }
-        Ok(Signal { expression, probes })
+        Ok(Formula { expression, probes })
     }
 
     /// The expression as a function of t alone; an error if it reads a marker.

@@ -1,7 +1,7 @@
 //! Applied force and torque: expressions of time, of marker quantities and of named outputs.
 
 use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion};
-use crate::body::{Build, MOST_MARKERS, MarkerId, Probe, Signal, Wrench, cross, norm};
+use crate::body::{Build, Formula, MOST_MARKERS, MarkerId, Probe, Wrench, cross, norm};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use crate::math::{Rate, Scalar, Time};
@@ -62,9 +62,9 @@ impl ForceSpec for AppliedForce {
                 .under("force")
                 .hint(format!("the scene has \"dimension\": {D}")));
         }
-        let signals = signals("force", &self.force, build)?;
+        let formulas = formulas("force", &self.force, build)?;
         let markers = targets(&self.at, &self.reaction_on, build)?;
-        assemble(Kind::Force, signals, self.axes, markers)
+        assemble(Kind::Force, formulas, self.axes, markers)
     }
 }
 
@@ -72,9 +72,9 @@ impl ForceSpec for AppliedTorque {
     const TYPE: &'static str = "applied_torque";
 
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
-        let signals = match &self.torque {
+        let formulas = match &self.torque {
             OneOrMany::One(torque) if D == 2 => vec![build.acting("torque", torque, true)?],
-            OneOrMany::Many(torque) if D == 3 && torque.len() == 3 => signals("torque", torque, build)?,
+            OneOrMany::Many(torque) if D == 3 && torque.len() == 3 => formulas("torque", torque, build)?,
             _ => {
                 let expected = if D == 2 { "one number" } else { "3 numbers" };
                 return Err(Error::input(format!("expected {expected}"))
@@ -84,11 +84,11 @@ impl ForceSpec for AppliedTorque {
         };
         let markers = targets(&self.at, &self.reaction_on, build)?;
         build.oriented("at", &markers)?;
-        assemble(Kind::Torque, signals, self.axes, markers)
+        assemble(Kind::Torque, formulas, self.axes, markers)
     }
 }
 
-fn signals<const D: usize>(field: &str, numbers: &[Number], build: &Build<D>) -> Result<Vec<Signal>> {
+fn formulas<const D: usize>(field: &str, numbers: &[Number], build: &Build<D>) -> Result<Vec<Formula>> {
     numbers.iter().enumerate().map(|(i, number)| build.acting(&format!("{field}[{i}]"), number, true)).collect()
 }
 
@@ -105,9 +105,14 @@ fn targets<const D: usize>(at: &str, reaction: &Option<String>, build: &Build<D>
 }
 
 /// A force whose first markers are the acting and the reacting one, followed by those that the expressions read.
-fn assemble<const D: usize>(kind: Kind, signals: Vec<Signal>, axes: Axes, targets: Vec<MarkerId>) -> Result<Built<D>> {
+fn assemble<const D: usize>(
+    kind: Kind,
+    formulas: Vec<Formula>,
+    axes: Axes,
+    targets: Vec<MarkerId>,
+) -> Result<Built<D>> {
     let mut markers = targets.clone();
-    for marker in signals.iter().flat_map(Signal::markers) {
+    for marker in formulas.iter().flat_map(Formula::markers) {
         if !markers.contains(&marker) {
             markers.push(marker);
         }
@@ -116,7 +121,7 @@ fn assemble<const D: usize>(kind: Kind, signals: Vec<Signal>, axes: Axes, target
         return Err(Error::input(format!("uses {} markers", markers.len()))
             .hint(format!("use at most {MOST_MARKERS} in one force")));
     }
-    let force = Applied { kind, signals, axes, reacts: targets.len() > 1, markers: markers.clone() };
+    let force = Applied { kind, formulas, axes, reacts: targets.len() > 1, markers: markers.clone() };
     Ok(Built { force: Box::new(force), markers })
 }
 
@@ -128,7 +133,7 @@ enum Kind {
 struct Applied {
     kind: Kind,
     /// One expression for each component; a planar torque has the third only.
-    signals: Vec<Signal>,
+    formulas: Vec<Formula>,
     axes: Axes,
     reacts: bool,
     markers: Vec<MarkerId>,
@@ -141,8 +146,8 @@ impl Applied {
     }
 
     fn components<S: Scalar, const D: usize>(&self, frames: &Motion<S, D>, time: Time<S>) -> [S; 3] {
-        let value = |signal: &Signal| signal.evaluate(time, |probe| self.read(probe, frames));
-        match self.signals.as_slice() {
+        let value = |formula: &Formula| formula.evaluate(time, |probe| self.read(probe, frames));
+        match self.formulas.as_slice() {
             [torque] => [S::zero(), S::zero(), value(torque)],
             all => std::array::from_fn(|i| all.get(i).map_or(S::zero(), value)),
         }
@@ -163,8 +168,8 @@ impl<const D: usize> ForceKernel<D> for Applied {
     }
 
     fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
-        for signal in &self.signals {
-            signal.switching(time.map(|t| t.x), |probe| self.read(probe, frames), out);
+        for formula in &self.formulas {
+            formula.switching(time.map(|t| t.x), |probe| self.read(probe, frames), out);
         }
     }
 
@@ -196,6 +201,6 @@ impl<const D: usize> ForceKernel<D> for Applied {
             out[1].torque = std::array::from_fn(|i| -(out[0].torque[i] + lever[i]));
         }
         // A planar torque keeps its sign.
-        Action::without_potential(if self.signals.len() == 1 { vector[2] } else { norm(&vector) })
+        Action::without_potential(if self.formulas.len() == 1 { vector[2] } else { norm(&vector) })
     }
 }

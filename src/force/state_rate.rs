@@ -1,13 +1,13 @@
 //! The rate of a state.
 
 use super::{Action, ForceKernel, Instant, Motion};
-use crate::body::{MOST_MARKERS, MarkerId, Probe, Signal, Wrench};
+use crate::body::{Formula, MOST_MARKERS, MarkerId, Probe, Wrench};
 use crate::error::{Error, Result};
 use crate::math::{Rate, Scalar, Taylor};
 
 /// xi' = r(t, q, v, xi): a force of that size along x on the marker of a state, whose mass is one.
 pub struct StateRate {
-    rate: Signal,
+    rate: Formula,
     markers: Vec<MarkerId>,
 }
 
@@ -16,7 +16,7 @@ impl StateRate {
     ///
     /// # Errors
     /// An expression over too many markers and states.
-    pub fn new(state: MarkerId, rate: Signal) -> Result<Self> {
+    pub fn new(state: MarkerId, rate: Formula) -> Result<Self> {
         let others = rate.markers().into_iter().filter(|&marker| marker != state);
         let markers: Vec<MarkerId> = [state].into_iter().chain(others).collect();
         match markers.len() <= MOST_MARKERS {

@@ -1,7 +1,7 @@
 //! A constraint given by an expression.
 
 use super::{Built, JointKernel, JointSpec};
-use crate::body::{Build, Frame, MOST_MARKERS, Probe, Signal};
+use crate::body::{Build, Formula, Frame, MOST_MARKERS, Probe};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use crate::math::{Rate, Scalar, Time};
@@ -20,8 +20,8 @@ impl JointSpec for Equation {
     const TYPE: &'static str = "equation";
 
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
-        let signal = build.acting("expression", &self.expression, false)?;
-        let markers = signal.markers();
+        let formula = build.acting("expression", &self.expression, false)?;
+        let markers = formula.markers();
         if markers.iter().all(|&marker| build.markers.bodies[marker].is_none()) {
             return Err(Error::input("the expression names no coordinate of a body")
                 .under("expression")
@@ -32,12 +32,12 @@ impl JointSpec for Equation {
                 .under("expression")
                 .hint(format!("use at most {MOST_MARKERS}")));
         }
-        Ok(Built { joint: Box::new(Given { signal, markers: markers.clone() }), markers })
+        Ok(Built { joint: Box::new(Given { formula, markers: markers.clone() }), markers })
     }
 }
 
 struct Given {
-    signal: Signal,
+    formula: Formula,
     markers: Vec<usize>,
 }
 
@@ -53,14 +53,14 @@ impl<const D: usize> JointKernel<D> for Given {
     }
 
     fn depends_on_time(&self) -> bool {
-        self.signal.expression.depends_on(0)
+        self.formula.expression.depends_on(0)
     }
 
     fn switching(&self, frames: &[Frame<Rate, D>], time: Time<Rate>, out: &mut [Rate]) {
-        self.signal.switching(time, |probe| probe.position(&frames[self.place(probe)]), out);
+        self.formula.switching(time, |probe| probe.position(&frames[self.place(probe)]), out);
     }
 
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]) {
-        out[0] = self.signal.evaluate(time, |probe| probe.position(&frames[self.place(probe)]));
+        out[0] = self.formula.evaluate(time, |probe| probe.position(&frames[self.place(probe)]));
     }
 }

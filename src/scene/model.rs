@@ -3,7 +3,7 @@
 use super::place::{Cut, Place};
 use super::units::Unit;
 use crate::body::flexible::{Profile, Section};
-use crate::body::{Body, Energy, Frame, Marker, MarkerId, MarkerTable, Probe, Quantity, Signal, Switches, Turning};
+use crate::body::{Body, Energy, Formula, Frame, Marker, MarkerId, MarkerTable, Probe, Quantity, Switches, Turning};
 use crate::force::{Beam, Force, Half, Station};
 use crate::joint::Joint;
 use crate::math::{Scalar, Taylor};
@@ -148,7 +148,7 @@ pub struct Watched {
 /// Quantity that an output reads.
 pub enum Measure {
     /// An expression over t and marker quantities.
-    Signal(Signal),
+    Formula(Formula),
     /// A component of a marker's position or velocity relative to another marker, in the axes of the latter.
     Relative {
         /// Marker that is measured.
@@ -217,7 +217,7 @@ impl Measure {
     /// True if the value may depend on velocities.
     pub fn feels_velocity(&self) -> bool {
         match self {
-            Measure::Signal(signal) => signal.probes.iter().any(Probe::is_rate),
+            Measure::Formula(formula) => formula.probes.iter().any(Probe::is_rate),
             Measure::Relative { quantity, .. } => matches!(quantity, Quantity::Velocity(_) | Quantity::Spin(_)),
             Measure::Distance { rate, .. } => *rate,
             Measure::Turn { .. } | Measure::Elastic(_) => false,

@@ -163,7 +163,7 @@ impl<const D: usize> Reader<'_, D> {
             MeasureKind::Expression => {
                 let value = self.spec.value.as_ref();
                 let value = value.ok_or_else(|| missing("value", "give an expression over t and marker quantities"))?;
-                Ok(Measure::Signal(self.build.signal("value", value, true)?))
+                Ok(Measure::Formula(self.build.formula("value", value, true)?))
             }
         }
     }

@@ -57,8 +57,8 @@ impl<const D: usize> Mechanism<D> {
     {
         let model = self.model();
         match measure {
-            Measure::Signal(signal) => {
-                signal.evaluate(view.time().map(S::constant), |probe| probe.read(&view.frame(probe.marker)))
+            Measure::Formula(formula) => {
+                formula.evaluate(view.time().map(S::constant), |probe| probe.read(&view.frame(probe.marker)))
             }
             Measure::Relative { of, to, quantity } => relative(&view.frame(*of), &view.frame(*to), *quantity),
             Measure::Turn { of, to, turning } => {

@@ -184,7 +184,7 @@ impl<const D: usize> Mechanism<D> {
         let on = |markers: &[usize]| Carrier::all(markers, &self.supports);
         let model = self.model();
         match measure {
-            Measure::Signal(signal) => on(&signal.markers()),
+            Measure::Formula(formula) => on(&formula.markers()),
             Measure::Relative { of, to, .. } | Measure::Turn { of, to, .. } => on(&[*of, *to]),
             Measure::Distance { from, to, .. } => on(&[*from, *to]),
             Measure::Reaction { joint, axes, .. } => {
