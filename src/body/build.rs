@@ -262,7 +262,7 @@ impl<const D: usize> Build<'_, D> {
     /// gives the side of zero whose law applies within a step: 0 below, 2 above.
     pub fn switch(&self) -> usize {
         let all = &mut self.switches.borrow_mut().all;
-        all.push(Switch { thresholds: Thresholds::At(vec![0.0]), of_time: None });
+        all.push(Switch { thresholds: Thresholds::At([0.0].into()), of_time: None, signal: None });
         all.len() - 1
     }
 

@@ -4,7 +4,9 @@ use super::frame::{cross, dot};
 use super::{Build, Frame, MarkerId, MarkerTable};
 use crate::error::{Error, Result};
 use crate::math::expression::{Expression, Name, Names};
+use crate::math::signal::Signal;
 use crate::math::{Scalar, Taylor, Time};
+use std::sync::Arc;
 
 /// One scalar of one marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,6 +51,11 @@ impl Probe {
     /// True if the quantity is a velocity or an angular velocity.
     pub fn is_rate(&self) -> bool {
         matches!(self.quantity, Quantity::Velocity(_) | Quantity::Spin(_))
+    }
+
+    /// Place of its marker among those of an element.
+    pub fn place_in(&self, markers: &[MarkerId]) -> usize {
+        markers.iter().position(|&marker| marker == self.marker).unwrap_or(0)
     }
 
     /// Value of a position or angle at a frame; rates need [`Probe::read`].
@@ -102,8 +109,9 @@ impl Formula {
     pub fn function_of_time(self) -> Result<Expression> {
         match self.probes.is_empty() {
             true => Ok(self.expression),
-            false => Err(Error::input("this may depend on t and parameters only, but uses a marker")
-                .hint("markers may stand in an `equation` joint, an applied force or torque, and outputs")),
+            false => Err(Error::input("this may depend on t and parameters only, but uses a marker").hint(
+                "markers may stand in an `equation` joint, an applied force or torque, a tyre's road, and outputs",
+            )),
         }
     }
 
@@ -129,6 +137,9 @@ impl Formula {
     }
 
     fn with<S: Scalar, R>(&self, time: Time<S>, read: impl Fn(&Probe) -> S, see: impl FnOnce(&[S]) -> R) -> R {
+        if self.probes.is_empty() {
+            return see(&[time.t]);
+        }
         let mut variables = [time.t; MOST_PROBES + 1];
         for (place, probe) in variables[1..].iter_mut().zip(&self.probes) {
             *place = read(probe);
@@ -207,6 +218,10 @@ impl<const D: usize> Names for Scope<'_, D> {
         let (markers, states) = (table.names.iter(), table.states.iter().map(|(name, _)| name.clone()));
         let probes = markers.flat_map(|marker| quantities.iter().map(move |q| format!("{marker}.{q}")));
         self.build.parameters.known().into_iter().chain(["t".into()]).chain(states).chain(probes).collect()
+    }
+
+    fn signals(&self) -> &[Arc<Signal>] {
+        self.build.parameters.signals()
     }
 }
 

@@ -141,8 +141,7 @@ struct Applied {
 
 impl Applied {
     fn read<S: Scalar, const D: usize>(&self, probe: &Probe, frames: &Motion<S, D>) -> S {
-        let place = self.markers.iter().position(|&known| known == probe.marker);
-        probe.read(&frames[place.unwrap_or(0)])
+        probe.read(&frames[probe.place_in(&self.markers)])
     }
 
     fn components<S: Scalar, const D: usize>(&self, frames: &Motion<S, D>, time: Time<S>) -> [S; 3] {

@@ -87,7 +87,7 @@ pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
         false
     }
     /// The wheel to be drawn, if it is one.
-    fn wheel(&self, _t: f64) -> Option<Wheel> {
+    fn wheel(&self, _frames: &Motion<f64, D>, _time: Instant<f64>) -> Option<Wheel> {
         None
     }
     /// The beam element whose sections outputs may read, if it is one.
@@ -116,8 +116,8 @@ impl<K: ForceKernel<D>, S: Scalar, const D: usize> ForceOver<S, D> for K {
 
 /// The object-safe form of a force; implemented for every [`ForceKernel`].
 pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Dual6, D> + Send + Sync {
-    /// The wheel at time `t` to be drawn, if it is one.
-    fn wheel(&self, t: f64) -> Option<Wheel>;
+    /// The wheel to be drawn, if it is one.
+    fn wheel(&self, frames: &Motion<f64, D>, time: Instant<f64>) -> Option<Wheel>;
     /// The beam element, if the force is one.
     fn beam(&self) -> Option<&Beam>;
     /// True if the force is valid for small relative rotations alone.
@@ -131,8 +131,8 @@ pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Dual6, D> + Send 
 }
 
 impl<K: ForceKernel<D>, const D: usize> Force<D> for K {
-    fn wheel(&self, t: f64) -> Option<Wheel> {
-        ForceKernel::wheel(self, t)
+    fn wheel(&self, frames: &Motion<f64, D>, time: Instant<f64>) -> Option<Wheel> {
+        ForceKernel::wheel(self, frames, time)
     }
     fn beam(&self) -> Option<&Beam> {
         ForceKernel::beam(self)

@@ -1,14 +1,15 @@
 //! Vertical tyre on a road profile.
 
 use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion, Wheel};
-use crate::body::{Build, Wrench};
-use crate::error::Result;
-use crate::math::expression::{Expression, Number};
+use crate::body::{Build, Formula, MOST_MARKERS, MarkerId, Wrench};
+use crate::error::{Error, Result};
+use crate::math::expression::Number;
 use crate::math::{Rate, Scalar, Taylor};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// Vertical force k (radius - (z - road)) + c (road' - z') at the wheel centre, along y in the plane and z in space.
+/// Vertical force k (radius - (z - road)) + c (road' - z') at the wheel centre, along y in the plane and z in space. A
+/// road over the state does work where it is not level, as one that moves does: no force along it is modelled.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tyre {
@@ -20,7 +21,8 @@ pub struct Tyre {
     pub damping: Option<Number>,
     /// Radius without load, m.
     pub radius: Number,
-    /// Height of the road under the wheel, m, an expression of t. Default: zero.
+    /// Height of the road under the wheel, m, an expression of t and marker positions such as `road(wheel.x)`. Default:
+    /// zero.
     pub road: Option<Number>,
     /// Whether the wheel may leave the road (the force is then never below zero). Default: no.
     #[serde(default)]
@@ -32,14 +34,24 @@ impl ForceSpec for Tyre {
 
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
         let road = self.road.clone().unwrap_or(Number::Value(0.0));
+        let road = build.acting("road", &road, false)?;
+        let mut markers = vec![build.marker("at", &self.at)?];
+        let read = road.markers().into_iter().filter(|marker| *marker != markers[0]).collect::<Vec<_>>();
+        markers.extend(read);
+        if markers.len() > MOST_MARKERS {
+            return Err(Error::input(format!("the tyre and its road use {} markers", markers.len()))
+                .under("road")
+                .hint(format!("use at most {MOST_MARKERS}")));
+        }
         let force = Spring {
             k: build.not_negative("stiffness", &self.stiffness)?,
             c: super::spring_damper::optional_not_negative("damping", &self.damping, build)?,
             radius: build.positive("radius", &self.radius)?,
-            road: build.function_of_time("road", &road)?,
+            road,
+            markers: markers.clone(),
             lift_off: self.lift_off.then(|| [build.switch(), build.switch()]),
         };
-        Ok(Built { force: Box::new(force), markers: vec![build.marker("at", &self.at)?] })
+        Ok(Built { force: Box::new(force), markers })
     }
 }
 
@@ -47,14 +59,21 @@ struct Spring {
     k: f64,
     c: f64,
     radius: f64,
-    road: Expression,
+    road: Formula,
+    /// That of the wheel, then those that the road reads.
+    markers: Vec<MarkerId>,
     /// Numbers of the two switching functions, compression and load, if the wheel may leave the road.
     lift_off: Option<[usize; 2]>,
 }
 
 impl Spring {
+    /// Height of the road, with its rate by the chain rule.
+    fn height<S: Scalar, const D: usize>(&self, frames: &Motion<S, D>, time: Instant<S>) -> Taylor<S> {
+        self.road.evaluate(time, |probe| probe.position(&frames[probe.place_in(&self.markers)]))
+    }
+
     fn squeeze<S: Scalar, const D: usize>(&self, frames: &Motion<S, D>, time: Instant<S>) -> Taylor<S> {
-        self.road.eval_held(&[time.t], time.regime) - frames[0].r[D - 1] + self.radius
+        self.height(frames, time) - frames[0].r[D - 1] + self.radius
     }
 
     fn load<S: Scalar>(&self, squeeze: Taylor<S>) -> S {
@@ -64,15 +83,15 @@ impl Spring {
 
 impl<const D: usize> ForceKernel<D> for Spring {
     fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
-        self.road.arguments(&[time.t.x], time.regime, out);
+        self.road.switching(time.map(|t| t.x), |probe| probe.read(&frames[probe.place_in(&self.markers)]), out);
         if let Some([gap, pull]) = self.lift_off {
             let squeeze = self.squeeze(frames, time);
             (out[gap], out[pull]) = (squeeze.x, self.load(squeeze));
         }
     }
 
-    fn wheel(&self, t: f64) -> Option<Wheel> {
-        Some(Wheel { radius: self.radius, road: self.road.eval(&[t]) })
+    fn wheel(&self, frames: &Motion<f64, D>, time: Instant<f64>) -> Option<Wheel> {
+        Some(Wheel { radius: self.radius, road: self.height(frames, time).x })
     }
 
     fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {

@@ -1,7 +1,7 @@
 //! A constraint given by an expression.
 
 use super::{Built, JointKernel, JointSpec};
-use crate::body::{Build, Formula, Frame, MOST_MARKERS, Probe};
+use crate::body::{Build, Formula, Frame, MOST_MARKERS};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use crate::math::{Rate, Scalar, Time};
@@ -41,12 +41,6 @@ struct Given {
     markers: Vec<usize>,
 }
 
-impl Given {
-    fn place(&self, probe: &Probe) -> usize {
-        self.markers.iter().position(|&marker| marker == probe.marker).unwrap_or(0)
-    }
-}
-
 impl<const D: usize> JointKernel<D> for Given {
     fn row_names(&self) -> Vec<&'static str> {
         vec!["value"]
@@ -57,10 +51,10 @@ impl<const D: usize> JointKernel<D> for Given {
     }
 
     fn switching(&self, frames: &[Frame<Rate, D>], time: Time<Rate>, out: &mut [Rate]) {
-        self.formula.switching(time, |probe| probe.position(&frames[self.place(probe)]), out);
+        self.formula.switching(time, |probe| probe.position(&frames[probe.place_in(&self.markers)]), out);
     }
 
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]) {
-        out[0] = self.formula.evaluate(time, |probe| probe.position(&frames[self.place(probe)]));
+        out[0] = self.formula.evaluate(time, |probe| probe.position(&frames[probe.place_in(&self.markers)]));
     }
 }

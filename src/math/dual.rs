@@ -50,6 +50,11 @@ impl<S: Scalar, const N: usize> Scalar for Dual<S, N> {
         Dual { re, eps: self.eps.map(|e| e * slope) }
     }
     #[inline]
+    fn compose(self, order: usize, derivative: &impl Fn(usize, [f64; 2]) -> [f64; 2]) -> Self {
+        let slope = self.re.compose(order + 1, derivative);
+        Dual { re: self.re.compose(order, derivative), eps: self.eps.map(|e| e * slope) }
+    }
+    #[inline]
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = self.re.sin_cos();
         (Dual { re: sin, eps: self.eps.map(|e| e * cos) }, Dual { re: cos, eps: self.eps.map(|e| -(e * sin)) })

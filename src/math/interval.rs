@@ -92,6 +92,11 @@ impl Scalar for Interval {
         }
     }
 
+    fn compose(self, order: usize, derivative: &impl Fn(usize, [f64; 2]) -> [f64; 2]) -> Self {
+        let [low, high] = derivative(order, self.bounds());
+        Interval::new(low, high)
+    }
+
     fn square(self) -> Self {
         self.abs().rising(|x| x * x)
     }

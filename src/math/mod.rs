@@ -17,6 +17,8 @@ pub mod rotation;
 mod scalar;
 #[doc(hidden)]
 pub mod screw;
+#[doc(hidden)]
+pub mod signal;
 mod taylor;
 
 pub use dual::Dual;

@@ -7,6 +7,7 @@
 
 use super::scalar::Scalar;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// A piece of a function with thresholds c_0 < c_1 < ...: 2k between c_{k-1} and c_k, 2k + 1 at c_k itself.
 pub type Piece = u32;
@@ -40,11 +41,24 @@ pub fn whole_below(piece: Piece) -> f64 {
     f64::from(piece.saturating_sub(1) / 2) - MOST_WHOLE
 }
 
+/// Number of periods of thresholds that repeat below the given ones, and above.
+fn periods_before(knots: &[f64]) -> usize {
+    (MOST_WHOLE as usize / knots.len()).max(1)
+}
+
 /// The arguments at which a function changes its form, c_0 < c_1 < ...
 #[derive(Clone, Debug, PartialEq)]
 pub enum Thresholds {
     /// These.
-    At(Vec<f64>),
+    At(Arc<[f64]>),
+    /// These n, again and again with a period: c_{k+n} = c_k + period, with c_0 as many periods below the first one that
+    /// all pieces are about 2^30.
+    Every {
+        /// The thresholds of one period, which are not empty.
+        knots: Arc<[f64]>,
+        /// Distance of each from its next repetition.
+        period: f64,
+    },
     /// The whole numbers, see [`piece_of_whole`].
     Whole,
 }
@@ -54,6 +68,11 @@ impl Thresholds {
     pub fn get(&self, k: usize) -> Option<f64> {
         match self {
             Thresholds::At(all) => all.get(k).copied(),
+            Thresholds::Every { knots, period } => {
+                let before = periods_before(knots);
+                let cycle = k / knots.len();
+                (cycle < 2 * before).then(|| knots[k % knots.len()] + (cycle as f64 - before as f64) * period)
+            }
             Thresholds::Whole => Some(k as f64 - MOST_WHOLE).filter(|whole| *whole < MOST_WHOLE),
         }
     }
@@ -62,7 +81,40 @@ impl Thresholds {
     pub fn piece(&self, argument: f64) -> Option<Piece> {
         match self {
             Thresholds::At(all) => piece_of(argument, all.len(), |k| all[k]),
+            Thresholds::Every { knots, period } => self.piece_of_period(argument, knots, *period),
             Thresholds::Whole => piece_of_whole(argument),
+        }
+    }
+
+    /// The piece of an argument among thresholds that repeat.
+    fn piece_of_period(&self, argument: f64, knots: &[f64], period: f64) -> Option<Piece> {
+        let (cycle, before) = (((argument - knots[0]) / period).floor(), periods_before(knots));
+        if cycle.is_nan() || cycle.abs() >= before as f64 - 1.0 {
+            return None;
+        }
+        let local = knots.partition_point(|knot| *knot <= argument - cycle * period);
+        let is_passed = |k: usize| self.get(k).is_some_and(|threshold| threshold <= argument);
+        // Number of thresholds at or below the argument; rounding of the period may move it by one.
+        let mut below = (cycle + before as f64) as usize * knots.len() + local;
+        while below > 0 && !is_passed(below - 1) {
+            below -= 1;
+        }
+        while is_passed(below) {
+            below += 1;
+        }
+        let is_at = below > 0 && self.get(below - 1) == Some(argument);
+        Some(2 * below as Piece - Piece::from(is_at))
+    }
+
+    /// Of thresholds that repeat: the index in its period of the threshold at or below the arguments of a piece, and how
+    /// far that period is from the first one.
+    pub fn at_or_below(&self, piece: Piece) -> (usize, f64) {
+        let k = (piece.div_ceil(2) as usize).saturating_sub(1);
+        match self {
+            Thresholds::Every { knots, period } => {
+                (k % knots.len(), ((k / knots.len()) as f64 - periods_before(knots) as f64) * period)
+            }
+            _ => (k, 0.0),
         }
     }
 

@@ -41,6 +41,10 @@ pub trait Scalar:
     /// f(self) by the chain rule over the nested scalar.
     fn unary(self, function: Unary) -> Self;
 
+    /// The derivative of order `order` of a function at `self`: `derivative` gives bounds on those of any order between
+    /// two plain values, which are the same twice but for an [`Interval`](super::Interval).
+    fn compose(self, order: usize, derivative: &impl Fn(usize, [f64; 2]) -> [f64; 2]) -> Self;
+
     /// The constant 0.
     fn zero() -> Self {
         Self::constant(0.0)
@@ -231,6 +235,10 @@ impl Scalar for f64 {
             Unary::Sinh => f64::sinh(self),
             Unary::Cosh => f64::cosh(self),
         }
+    }
+    #[inline]
+    fn compose(self, order: usize, derivative: &impl Fn(usize, [f64; 2]) -> [f64; 2]) -> Self {
+        derivative(order, [self; 2])[0]
     }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {

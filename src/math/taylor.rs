@@ -55,6 +55,11 @@ impl<S: Scalar> Scalar for Taylor<S> {
         Taylor { x, d: slope * self.d, dd: curvature * self.d.square() + slope * self.dd }
     }
     #[inline]
+    fn compose(self, order: usize, derivative: &impl Fn(usize, [f64; 2]) -> [f64; 2]) -> Self {
+        let [x, slope, curvature] = [0, 1, 2].map(|k| self.x.compose(order + k, derivative));
+        Taylor { x, d: slope * self.d, dd: curvature * self.d.square() + slope * self.dd }
+    }
+    #[inline]
     fn sin_cos(self) -> (Self, Self) {
         let ((sin, cos), square) = (self.x.sin_cos(), self.d.square());
         let dd = (cos * self.dd - sin * square, -(sin * self.dd) - cos * square);

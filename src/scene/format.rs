@@ -1,6 +1,7 @@
 //! The scene file as it is typed: what a user may write, before anything is resolved.
 
 use crate::math::expression::Number;
+use crate::math::signal::{Beyond, Interpolation};
 use crate::method_spec::MethodSpec;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer};
@@ -27,6 +28,9 @@ pub struct SceneFile {
     #[serde(default)]
     #[schemars(with = "std::collections::BTreeMap<String, Number>")]
     pub parameters: Map<String, Value>,
+    /// Measured data as functions of one argument.
+    #[serde(default)]
+    pub signals: Vec<SignalSpec>,
     /// m/s^2. Default: none.
     pub gravity: Option<Vec<Number>>,
     #[serde(default)]
@@ -122,6 +126,27 @@ pub struct StateSpec {
     pub initial: Option<Number>,
     /// Its rate per second: an expression of t, marker quantities (`arm.angle`, `arm.tip.x'`), named outputs and states.
     pub rate: Number,
+}
+
+/// Measured data, which expressions use as a function of one argument: `road(t)`, `road(car.x)`. In `parameters` it is
+/// not known.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SignalSpec {
+    /// None of a function, a parameter or an output.
+    pub name: String,
+    /// A table beside the scene: a line of names, then lines of numbers, separated by commas, semicolons or tabs.
+    pub file: Option<String>,
+    /// Names of the columns with the argument, which increases, and the value. Default: the first two.
+    pub columns: Option<[String; 2]>,
+    /// In the place of a file: [x, y] in order of x.
+    pub points: Option<Vec<[Number; 2]>>,
+    /// Between points. Default: cubic.
+    #[serde(default)]
+    pub interpolation: Interpolation,
+    /// Before the first and after the last point. Default: hold.
+    #[serde(default)]
+    pub beyond: Beyond,
 }
 
 /// Drives a component of an applied force or torque.

@@ -20,6 +20,7 @@ mod place;
 mod refine;
 mod resolve;
 mod schema;
+mod signals;
 mod states;
 #[doc(hidden)]
 pub mod units;
@@ -158,10 +159,10 @@ pub(crate) fn folder(scene: Option<&Path>) -> &Path {
     scene.and_then(Path::parent).unwrap_or(Path::new(""))
 }
 
-/// Adds the name of the input or output in which the path lies, unless it is known.
+/// Adds the name of the input, output or signal in which the path lies, unless it is known.
 fn name_element(error: Error, json: &Value) -> Error {
     let Error::Input(input) = &error else { return error };
-    let lists = ["states", "inputs", "outputs"];
+    let lists = ["states", "inputs", "outputs", "signals"];
     let name = input.path.split_once('[').filter(|(list, _)| lists.contains(list)).and_then(|(list, rest)| {
         let (index, rest) = rest.split_once(']')?;
         // An error in the name itself quotes it already.

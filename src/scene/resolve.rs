@@ -6,7 +6,7 @@ use super::format::{Dimension, SceneFile};
 use super::model::{BeamLine, Connection, ForceInput, Model, Part, Watched};
 use super::outputs;
 use super::place::Cut;
-use super::{AnyModel, Scene, markers, states};
+use super::{AnyModel, Scene, markers, signals, states};
 use crate::body::{
     BodyKind, Build, Built, ElementKind, Initial, Marker, MarkerId, MarkerTable, Switches, Turning, parse, show,
 };
@@ -21,7 +21,8 @@ use std::path::Path;
 /// Resolves all names and expressions of a scene and checks them.
 pub fn build(file: SceneFile, elements: &Elements, overrides: &[(String, Number)], folder: &Path) -> Result<Scene> {
     check_scene_name(&file.name)?;
-    let parameters = markers::resolve(&file.parameters, overrides)?;
+    let mut parameters = markers::resolve(&file.parameters, overrides)?;
+    signals::add(&file.signals, &file.outputs, folder, &mut parameters)?;
     let (dimension, (model, q, v)) = match file.dimension {
         Dimension::Two => {
             let (model, q, v) = model(&file, &elements.planar, &parameters, folder)?;

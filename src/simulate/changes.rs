@@ -12,6 +12,8 @@ use crate::tolerances::simulate as tolerances;
 const CONTINUOUS: &str = "write a law that passes through zero steadily, such as `tanh(x/width)` in the place of \
      `sign(x)`, or `smoothstep` in the place of `step` and `if`";
 
+const BEYOND: &str = "give the signal more points, or \"beyond\": \"hold\" or \"repeat\"; or end the run before";
+
 impl Run<'_> {
     /// The first threshold passed in the step just tried. A method that chooses its own steps ends there on its
     /// dense output, since it would not find the same state again.
@@ -115,6 +117,12 @@ impl Run<'_> {
 
     /// Evaluates the present state with the pieces of the events.
     fn enter_form(&mut self) -> Result<(), Failure> {
+        if let Some((number, signal)) = self.events.undefined() {
+            let ([from, to], owner) = (signal.range(), self.events.owner(number));
+            let reason =
+                format!("{owner} leaves the range of the signal `{}`, which goes from {from} to {to}", signal.name());
+            return Err(self.failure(reason, Some(BEYOND)));
+        }
         let old = self.constraints();
         for dynamics in [&mut self.problem.dynamics, &mut self.rows.problem.dynamics] {
             dynamics.scratch.pieces.clone_from(&self.events.pieces);

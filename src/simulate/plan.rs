@@ -76,8 +76,9 @@ impl Run<'_> {
     /// The step, at most `size`, that resolves all functions of time. A fixed step, whose error is not estimated, is
     /// divided into parts so small that the rest is negligible.
     fn resolved(&mut self, size: f64, stop: f64) -> f64 {
-        let (t, Events { timetable, pieces, .. }) = (self.t, &mut self.events);
-        let Some(step) = self.fixed else { return timetable.resolved(t, size, stop, pieces) };
+        let t = self.t;
+        let Some(step) = self.fixed else { return self.events.resolved(t, size, stop) };
+        let Events { timetable, pieces, .. } = &mut self.events;
         if t >= self.divided
             && timetable.resolved(t, size / tolerances::SHOWN_BY_CUBIC, stop, pieces)
                 >= size / tolerances::SHOWN_BY_CUBIC
@@ -92,7 +93,7 @@ impl Run<'_> {
     /// A smaller step, if a method that chose its own step missed a function of time.
     pub fn unresolved(&mut self, stop: f64) -> Option<f64> {
         let seen = self.integrator.seen()?.min(stop - self.t);
-        let resolved = self.events.timetable.resolved(self.t, seen, stop, &self.events.pieces);
+        let resolved = self.events.resolved(self.t, seen, stop);
         (resolved < seen).then_some(resolved)
     }
 

@@ -1,13 +1,15 @@
 //! Builds a program operand by operand, with constant folding.
 
 use super::operation::{One, Two};
-use super::program::{Op, Program, Table};
+use super::program::{Op, Program};
+use crate::math::signal::Signal;
+use std::sync::Arc;
 
 /// The program so far. Operands are named by the index of their first operation.
 #[derive(Default)]
 pub(super) struct Builder {
     ops: Vec<Op>,
-    tables: Vec<Table>,
+    signals: Vec<Arc<Signal>>,
 }
 
 impl Builder {
@@ -77,21 +79,21 @@ impl Builder {
         }
     }
 
-    /// Evaluates `table` at the operand at `start`, and removes the operands from `points` on.
-    pub fn table(&mut self, table: Table, start: usize, points: usize) {
-        self.ops.truncate(points);
-        match self.constant(start, points) {
-            Some(x) => self.replace(start, Op::Constant(table.apply(x))),
+    /// Evaluates `signal` at the operand at `start`, and removes the operands from `end` on.
+    pub fn signal(&mut self, signal: Arc<Signal>, start: usize, end: usize) {
+        self.ops.truncate(end);
+        match self.constant(start, end) {
+            Some(x) => self.replace(start, Op::Constant(signal.apply(x))),
             None => {
-                self.ops.push(Op::Table(self.tables.len()));
-                self.tables.push(table);
+                self.ops.push(Op::Signal(self.signals.len()));
+                self.signals.push(signal);
             }
         }
     }
 
     /// The program; `None` if it needs too deep a stack.
     pub fn finish(self) -> Option<Program> {
-        Program::new(self.ops, self.tables)
+        Program::new(self.ops, self.signals)
     }
 
     fn replace(&mut self, start: usize, op: Op) {

@@ -1,9 +1,11 @@
 //! The functions of the language by name.
 
 use super::operation::{One, Two};
+use crate::math::signal::Signal;
+use std::sync::Arc;
 
 /// Number and use of the arguments of a function.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum Form {
     /// f(x)
     One(One),
@@ -15,6 +17,8 @@ pub(super) enum Form {
     If,
     /// table(x, x0, y0, x1, y1, ...)
     Table,
+    /// A signal of the scene.
+    Signal(Arc<Signal>),
 }
 
 /// All functions, in the order in which the documentation names them.
@@ -55,7 +59,7 @@ pub(super) const CONSTANTS: [(&str, f64); 2] = [("pi", std::f64::consts::PI), ("
 const WORDS: [&str; 4] = ["t", "and", "or", "not"];
 
 pub(super) fn function(name: &str) -> Option<Form> {
-    FUNCTIONS.iter().find(|(known, _)| *known == name).map(|(_, form)| *form)
+    FUNCTIONS.iter().find(|(known, _)| *known == name).map(|(_, form)| form.clone())
 }
 
 pub(super) fn constant(name: &str) -> Option<f64> {
@@ -69,9 +73,9 @@ pub(super) fn is_reserved(name: &str) -> bool {
 
 impl Form {
     /// True if the function can take `count` arguments.
-    pub fn takes(self, count: usize) -> bool {
+    pub fn takes(&self, count: usize) -> bool {
         match self {
-            Form::One(_) => count == 1,
+            Form::One(_) | Form::Signal(_) => count == 1,
             Form::Two(_) => count == 2,
             Form::Many(_) => count >= 2,
             Form::If => count == 3,
@@ -80,9 +84,9 @@ impl Form {
     }
 
     /// Number of its arguments as text.
-    pub fn arity(self) -> &'static str {
+    pub fn arity(&self) -> &'static str {
         match self {
-            Form::One(_) => "1 argument",
+            Form::One(_) | Form::Signal(_) => "1 argument",
             Form::Two(_) => "2 arguments",
             Form::Many(_) => "2 or more arguments",
             Form::If => "3 arguments",
@@ -91,7 +95,7 @@ impl Form {
     }
 
     /// Form of the call as text, if the number of arguments does not determine it.
-    pub fn usage(self) -> Option<&'static str> {
+    pub fn usage(&self) -> Option<&'static str> {
         match self {
             Form::If => Some("write `if(condition, a, b)`"),
             Form::Table => Some("write `table(x, x0, y0, x1, y1)`"),

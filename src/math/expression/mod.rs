@@ -78,10 +78,12 @@ pub use scope::Scope;
 #[doc(hidden)]
 pub use switch::{Switch, TimeFunction};
 
+use super::signal::Signal;
 use super::{Regime, Scalar};
 use error::excerpt;
 use program::{Op, Program};
 use std::fmt;
+use std::sync::Arc;
 
 /// Meaning of a name in an expression.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,6 +103,11 @@ pub trait Names {
 
     /// All known names, for suggestions in error messages.
     fn known(&self) -> Vec<String>;
+
+    /// The signals by whose names the expression may call them. Default: none.
+    fn signals(&self) -> &[Arc<Signal>] {
+        &[]
+    }
 }
 
 /// A compiled formula. Evaluation allocates nothing, does not recurse, and cannot fail.

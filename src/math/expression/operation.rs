@@ -73,7 +73,7 @@ impl One {
 
     /// Arguments at which the form changes; most operations have none.
     pub fn thresholds(self) -> Thresholds {
-        if self == One::Floor { Thresholds::Whole } else { Thresholds::At(self.changes().to_vec()) }
+        if self == One::Floor { Thresholds::Whole } else { Thresholds::At(self.changes().into()) }
     }
 
     /// The thresholds that are listed.
@@ -147,7 +147,7 @@ impl Two {
 
     /// The [`argument`](Self::argument)s at which the form changes.
     pub fn thresholds(self) -> Thresholds {
-        if self == Two::Mod { Thresholds::Whole } else { Thresholds::At(vec![0.0]) }
+        if self == Two::Mod { Thresholds::Whole } else { Thresholds::At([0.0].into()) }
     }
 
     /// The argument of a piecewise operation.

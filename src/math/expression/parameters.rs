@@ -3,14 +3,17 @@
 use super::error::excerpt;
 use super::{ExpressionError, Name, Names, Number, function, lexer};
 use crate::error::{Error, suggest};
+use crate::math::signal::Signal;
 use std::collections::HashMap;
 use std::fmt;
+use std::sync::Arc;
 
-/// Values of all parameters, in the order of the scene.
+/// Values of all parameters, in the order of the scene, and the signals beside them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Parameters {
     values: Vec<(String, f64)>,
     index: HashMap<String, usize>,
+    signals: Vec<Arc<Signal>>,
 }
 
 /// Origin of a parameter's value.
@@ -67,6 +70,30 @@ impl Parameters {
     /// Names and values in the order of the scene.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = (&str, f64)> {
         self.values.iter().map(|(name, value)| (name.as_str(), *value))
+    }
+
+    /// Adds a signal, which expressions may then call by its name.
+    ///
+    /// # Errors
+    /// A name that expressions use themselves, or that is one of a parameter or another signal.
+    pub fn add_signal(&mut self, signal: Signal) -> std::result::Result<(), ExpressionError> {
+        let name = signal.name();
+        let taken = match () {
+            _ if function::is_reserved(name) => "expressions use it themselves",
+            _ if self.get(name).is_some() => "it is the name of a parameter",
+            _ if self.signals.iter().any(|known| known.name() == name) => "it is the name of another signal",
+            _ => {
+                self.signals.push(Arc::new(signal));
+                return Ok(());
+            }
+        };
+        let error = ExpressionError::whole(name, format!("`{}` cannot name a signal: {taken}", excerpt(name)));
+        Err(error.hint(format!("choose another name, such as `{}_1`", excerpt(name))))
+    }
+
+    /// The signals, in the order of the scene.
+    pub fn signals(&self) -> &[Arc<Signal>] {
+        &self.signals
     }
 
     /// The names, with no values yet.
@@ -184,6 +211,9 @@ impl Names for Parameters {
     }
     fn known(&self) -> Vec<String> {
         self.values.iter().map(|(name, _)| name.clone()).collect()
+    }
+    fn signals(&self) -> &[Arc<Signal>] {
+        &self.signals
     }
 }
 

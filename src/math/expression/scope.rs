@@ -1,6 +1,8 @@
 //! Names that an expression may use: parameters and variables.
 
 use super::{Name, Names, Parameters};
+use crate::math::signal::Signal;
+use std::sync::Arc;
 
 /// Parameters as constants, and variables by their index in a list: `&["t"]` for fields that may depend on time.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +21,9 @@ impl<T: AsRef<str>> Names for Scope<'_, T> {
     fn known(&self) -> Vec<String> {
         let variables = self.variables.iter().map(|name| name.as_ref().to_string());
         variables.chain(self.parameters.known()).collect()
+    }
+    fn signals(&self) -> &[Arc<Signal>] {
+        self.parameters.signals()
     }
 }
 

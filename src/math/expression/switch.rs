@@ -3,8 +3,10 @@
 use super::Expression;
 use super::operation::{One, Two};
 use super::program::{Op, Program};
+use crate::math::signal::Signal;
 use crate::math::{Regime, Scalar, Thresholds};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A part of an expression that depends on t alone.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +31,8 @@ pub struct Switch {
     pub thresholds: Thresholds,
     /// The argument, if it depends on t alone.
     pub of_time: Option<TimeFunction>,
+    /// The signal that is evaluated at the argument, if it is one of an expression.
+    pub signal: Option<Arc<Signal>>,
 }
 
 /// The operations of one intermediate result, and its dependence on time and state.
@@ -56,7 +60,7 @@ impl Expression {
                 let of_time = operands.iter().any(|operand| operand.reads_time)
                     && operands.iter().all(|operand| !operand.reads_state);
                 let of_time = of_time.then(|| program.argument(op, operands, first + number)).flatten();
-                switches.push(Switch { thresholds: program.thresholds(op), of_time });
+                switches.push(Switch { thresholds: program.thresholds(op), of_time, signal: program.signal(op) });
             }
         });
         switches
@@ -71,7 +75,7 @@ impl Expression {
             let inverse = is_divisor.then_some(Op::One(One::Power(-1)));
             let part = Program::new(
                 program.ops[operand.range.clone()].iter().copied().chain(inverse).collect(),
-                program.tables.clone(),
+                program.signals.clone(),
             );
             found.extend(part.map(|program| TimeFunction { program, first }));
         };
@@ -114,7 +118,7 @@ impl Program {
         match op {
             Op::One(function) => function.is_piecewise(),
             Op::Two(function) => function.is_piecewise(),
-            Op::Table(_) => true,
+            Op::Signal(_) => true,
             _ => false,
         }
     }
@@ -123,9 +127,13 @@ impl Program {
         match op {
             Op::One(function) => function.thresholds(),
             Op::Two(function) => function.thresholds(),
-            Op::Table(index) => Thresholds::At(self.tables[index].thresholds()),
-            _ => Thresholds::At(Vec::new()),
+            Op::Signal(index) => self.signals[index].thresholds().clone(),
+            _ => Thresholds::At([].into()),
         }
+    }
+
+    fn signal(&self, op: Op) -> Option<Arc<Signal>> {
+        if let Op::Signal(index) = op { self.signals.get(index).cloned() } else { None }
     }
 
     fn count_switches(&self, end: usize) -> usize {
@@ -139,13 +147,13 @@ impl Program {
         let mut program = self.part(range)?;
         if let Op::Two(function) = op {
             let of_both = if function == Two::Mod { Two::Div } else { Two::Sub };
-            program = Program::new([program.ops, vec![Op::Two(of_both)]].concat(), program.tables)?;
+            program = Program::new([program.ops, vec![Op::Two(of_both)]].concat(), program.signals)?;
         }
         Some(TimeFunction { program, first })
     }
 
     /// A range of the operations as a separate program; it may leave several results on its stack.
     fn part(&self, range: Range<usize>) -> Option<Program> {
-        Program::new(self.ops[range].to_vec(), self.tables.clone())
+        Program::new(self.ops[range].to_vec(), self.signals.clone())
     }
 }

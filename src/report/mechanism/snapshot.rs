@@ -126,7 +126,7 @@ fn of<const D: usize>(mechanism: &Mechanism<D>, state: &State) -> Snapshot {
         let mut wrenches = vec![Wrench::<f64, D>::zero(); own.len()];
         force.element.act(&own, time, &mut wrenches);
         let Wrench { force: push, torque } = wrenches.first().copied().unwrap_or(Wrench::zero());
-        let wheel = force.element.wheel(state.t);
+        let wheel = force.element.wheel(&own, time);
         Link { wheel, force: in_space(&push), torque, ..link(model, force, &poses) }
     });
     let joints: Vec<Link> = joints.collect();

@@ -12,6 +12,7 @@ mod watch;
 pub use timetable::Timetable;
 
 use crate::math::expression::Switch;
+use crate::math::signal::Signal;
 use crate::math::{Piece, Rate};
 use crate::system::{MechanicalSystem, OperatingPoint, Scratch};
 use crate::tolerances::simulate as tolerances;
@@ -42,6 +43,8 @@ pub struct Events<'a> {
     switches: &'a [Switch],
     /// Numbers of the switching functions that depend on the state.
     of_state: Vec<usize>,
+    /// Those of signals that steps could miss between two thresholds.
+    signals: Vec<(usize, &'a Signal)>,
     pub timetable: Timetable<'a>,
     /// The pieces on which all functions are fixed.
     pub pieces: Vec<Piece>,
@@ -62,10 +65,13 @@ impl<'a> Events<'a> {
     pub fn new(system: &'a dyn MechanicalSystem, (start, end): (f64, f64)) -> Self {
         let (switches, functions) = (system.switches(), system.time_functions());
         let zeros = || vec![Rate::fixed(0.0); switches.len()];
+        let of_state: Vec<usize> = (0..switches.len()).filter(|&number| switches[number].of_time.is_none()).collect();
+        let signal = |&number: &usize| Some((number, switches[number].signal.as_deref()?));
         Events {
             system,
             switches,
-            of_state: (0..switches.len()).filter(|&number| switches[number].of_time.is_none()).collect(),
+            signals: of_state.iter().filter_map(signal).filter(|(_, signal)| signal.is_watched()).collect(),
+            of_state,
             timetable: Timetable::new(switches, functions, start, end),
             pieces: vec![0; switches.len()],
             scratch: Scratch::default(),
@@ -81,6 +87,22 @@ impl<'a> Events<'a> {
     /// True if any function of the state changes its form.
     pub fn watches_state(&self) -> bool {
         !self.of_state.is_empty()
+    }
+
+    /// The step from `t`, at most `h`, that resolves the functions of time up to `stop` and the signals of the state.
+    pub fn resolved(&mut self, t: f64, h: f64, stop: f64) -> f64 {
+        let Events { timetable, pieces, start, signals, .. } = self;
+        let resolved = timetable.resolved(t, h, stop, pieces);
+        signals.iter().fold(resolved, |h, &(number, signal)| {
+            timetable.watch.resolved_along((t, h), (signal, pieces[number], start[number]))
+        })
+    }
+
+    /// A signal that has no value on its piece, with its number.
+    pub fn undefined(&self) -> Option<(usize, &'a Signal)> {
+        let signal = |(number, switch): (usize, &'a Switch)| Some((number, switch.signal.as_deref()?));
+        let mut signals = self.switches.iter().enumerate().filter_map(signal);
+        signals.find(|&(number, signal)| signal.is_undefined_on(self.pieces[number]))
     }
 
     /// True if the last step ended at a threshold.

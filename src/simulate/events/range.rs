@@ -65,7 +65,7 @@ mod tests {
 
     #[test]
     fn a_piece_lies_between_its_thresholds() {
-        let (infinite, two) = (f64::INFINITY, Thresholds::At(vec![1.0, 2.0]));
+        let (infinite, two) = (f64::INFINITY, Thresholds::At([1.0, 2.0].into()));
         assert_eq!(Range::of(0, &two), Some(Range { low: -infinite, high: 1.0 }));
         assert_eq!(Range::of(2, &two), Some(Range { low: 1.0, high: 2.0 }));
         assert_eq!(Range::of(4, &two), Some(Range { low: 2.0, high: infinite }));

@@ -1,12 +1,14 @@
-//! Step sizes that resolve the functions of t between the stages.
+//! Step sizes that resolve the functions of t between the stages, and signals of the state.
 //!
 //! A window of time is resolved where four cubics, through values and rates of a function at five nodes, represent
 //! the function: each agrees with it in the middle, and neither the function nor its rate exceeds the hull of the two
 //! adjacent nodes by more than the second differences there. The last is proved for every instant, by enclosures of the
 //! function and its rate over whole intervals; where these are too wide it is tested at samples as close as documented.
+//! A signal of the state is looked at as the function of t that it is if its argument goes on at its present rate.
 
 use crate::math::expression::TimeFunction;
-use crate::math::{Interval, Regime, Scalar, Taylor};
+use crate::math::signal::Signal;
+use crate::math::{Interval, Piece, Rate, Regime, Scalar, Taylor};
 use crate::tolerances::simulate as tolerances;
 
 /// The functions of time of a run, and the time up to which they are resolved.
@@ -19,9 +21,24 @@ pub struct Watch<'a> {
 }
 
 struct Watched<'a> {
-    function: &'a TimeFunction,
+    function: Function<'a>,
     /// True if its enclosures are too wide.
     is_loose: bool,
+}
+
+enum Function<'a> {
+    OfTime(&'a TimeFunction),
+    /// A signal on a piece, at an argument with this value and rate at a time.
+    Along(&'a Signal, Piece, Rate, f64),
+}
+
+impl Function<'_> {
+    fn at<S: Scalar>(&self, t: S, regime: Regime) -> S {
+        match *self {
+            Function::OfTime(function) => function.at(t, regime),
+            Function::Along(signal, piece, x, from) => signal.on(piece, (t - from) * x.eps[0] + x.re),
+        }
+    }
 }
 
 /// A quarter of a window, with the bounds of the function and its rate there.
@@ -33,7 +50,8 @@ struct Quarter {
 
 impl<'a> Watch<'a> {
     pub fn new(functions: &'a [TimeFunction], span: f64) -> Self {
-        let functions = functions.iter().map(|function| Watched { function, is_loose: false }).collect();
+        let watched = |function| Watched { function: Function::OfTime(function), is_loose: false };
+        let functions = functions.iter().map(watched).collect();
         Watch { functions, shortest: 0.5 * tolerances::NEVER_MISSED * span, seen: f64::NEG_INFINITY }
     }
 
@@ -61,21 +79,36 @@ impl<'a> Watch<'a> {
             return h;
         }
         let whole = (tolerances::WATCHED_STEPS * h).min(stop - t);
-        let mut window = whole;
-        while window > self.shortest {
-            let shortest = self.shortest;
-            let unseen =
-                self.functions.iter_mut().filter_map(|watched| watched.unseen(regime, (t, window), (shortest, beside)));
-            match unseen.reduce(f64::min) {
-                None => break,
-                // Before the first feature that the nodes do not resolve all may be resolved.
-                Some(from) => window = if from > t + 0.125 * window { from - t } else { 0.5 * window },
-            }
-        }
+        let window = seen_window(&mut self.functions, (t, whole), (self.shortest, beside), regime);
         self.seen = t + window;
         // A step that differs by rounding from one that ends at the stop keeps its size.
         if window == whole { h } else { h.min(window) }
     }
+
+    /// The step from `t`, at most `h`, that resolves a signal on a piece whose argument is `x` at `t`.
+    pub fn resolved_along(&self, (t, h): (f64, f64), (signal, piece, x): (&Signal, Piece, Rate)) -> f64 {
+        let mut watched = [Watched { function: Function::Along(signal, piece, x, t), is_loose: false }];
+        seen_window(&mut watched, (t, h), (self.shortest, tolerances::RESOLVED_ROUGHLY), Regime::FREE)
+    }
+}
+
+/// The part of a window from `t` on that resolves the functions.
+fn seen_window(
+    functions: &mut [Watched],
+    (t, whole): (f64, f64),
+    (shortest, beside): (f64, f64),
+    regime: Regime,
+) -> f64 {
+    let mut window = whole;
+    while window > shortest {
+        let unseen = functions.iter_mut().filter_map(|it| it.unseen(regime, (t, window), (shortest, beside)));
+        match unseen.reduce(f64::min) {
+            None => break,
+            // Before the first feature that the nodes do not resolve all may be resolved.
+            Some(from) => window = if from > t + 0.125 * window { from - t } else { 0.5 * window },
+        }
+    }
+    window
 }
 
 impl Watched<'_> {

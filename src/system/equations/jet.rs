@@ -42,6 +42,10 @@ impl Scalar for Jet {
         self.chain(Taylor::new(x, slope * d, curvature * (d * d) + slope * dd), slope)
     }
     #[inline]
+    fn compose(self, order: usize, derivative: &impl Fn(usize, [f64; 2]) -> [f64; 2]) -> Self {
+        self.chain(self.path.compose(order, derivative), self.path.x.compose(order + 1, derivative))
+    }
+    #[inline]
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = self.path.sin_cos();
         (self.chain(sin, cos.x), self.chain(cos, -sin.x))

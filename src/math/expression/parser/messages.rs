@@ -40,7 +40,7 @@ impl Parser<'_> {
         }
     }
 
-    pub(super) fn wrong_arity(&self, token: Token, form: Form, found: usize) -> ExpressionError {
+    pub(super) fn wrong_arity(&self, token: Token, form: &Form, found: usize) -> ExpressionError {
         let error = self.error(token, format!("{} takes {}, found {found},", self.slice(token), form.arity()), "");
         match form.usage() {
             Some(usage) => error.hint(usage),
@@ -55,7 +55,8 @@ impl Parser<'_> {
             let error = self.error(token, format!("`{shown}` is not a function,"), "");
             return error.hint(format!("a product is written `{shown}*(...)`"));
         }
-        let known = FUNCTIONS.iter().map(|(known, _)| known.to_string()).collect();
+        let signals = self.names.signals().iter().map(|signal| signal.name().to_string());
+        let known = FUNCTIONS.iter().map(|(known, _)| known.to_string()).chain(signals).collect();
         self.error(token, format!("unknown function `{shown}`"), "").hint(nearest(name, known))
     }
 
@@ -63,6 +64,10 @@ impl Parser<'_> {
         let name = self.slice(token);
         if function::function(name).is_some() {
             return self.error_at(token.end, format!("expected '(' after the function `{name}`"), "");
+        }
+        if self.names.signals().iter().any(|signal| signal.name() == name) {
+            let error = self.error_at(token.end, format!("expected '(' after the signal `{}`", excerpt(name)), "");
+            return error.hint(format!("a signal is a function of one argument, such as `{}(t)`", excerpt(name)));
         }
         let error = self.error(token, format!("unknown name `{}`", excerpt(name)), "");
         let held = name.strip_suffix('\'').filter(|held| self.names.resolve(held).is_some());

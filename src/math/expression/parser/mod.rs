@@ -7,8 +7,10 @@ use super::error::ExpressionError;
 use super::function::{self, Form};
 use super::lexer::{Kind, Token, tokens};
 use super::operation::{One, Two};
-use super::program::{MAX_STACK, Op, Program, Table};
+use super::program::{MAX_STACK, Op, Program};
 use super::{Name, Names};
+use crate::math::signal::{Beyond, Interpolation, PointsError, Signal};
+use std::sync::Arc;
 
 /// Largest depth of nested operations; a parenthesis in a sum counts twice.
 const MAX_NESTING: usize = 150;
@@ -163,11 +165,14 @@ impl<'a> Parser<'a> {
     }
 
     fn call(&mut self, token: Token) -> Result<()> {
-        let form = function::function(self.slice(token)).ok_or_else(|| self.unknown_function(token))?;
+        let name = self.slice(token);
+        let signal = self.names.signals().iter().find(|signal| signal.name() == name).cloned();
+        let form = signal.map(Form::Signal).or_else(|| function::function(name));
+        let form = form.ok_or_else(|| self.unknown_function(token))?;
         self.take();
         let arguments = self.arguments()?;
         if !form.takes(arguments.len()) {
-            return Err(self.wrong_arity(token, form, arguments.len()));
+            return Err(self.wrong_arity(token, &form, arguments.len()));
         }
         self.close()?;
         self.apply(form, &arguments)
@@ -198,6 +203,7 @@ impl<'a> Parser<'a> {
                 pairs.for_each(|pair| self.builder.two(function, pair[0].operand, pair[1].operand));
             }
             (Form::If, [condition, yes, no]) => self.builder.select(condition.operand, yes.operand, no.operand),
+            (Form::Signal(signal), [x]) => return self.signal(signal, *x, self.builder.here()),
             (Form::Table, [x, points @ ..]) => return self.table(*x, points),
             // `call` has counted the arguments.
             _ => {}
@@ -215,14 +221,26 @@ impl<'a> Parser<'a> {
             values.push(value);
         }
         let points: Vec<[f64; 2]> = values.chunks_exact(2).map(|point| [point[0], point[1]]).collect();
-        if let Some(i) = points.windows(2).position(|pair| pair[0][0] >= pair[1][0]) {
-            let order = format!("x of a table must increase, found {} after {},", points[i + 1][0], points[i][0]);
-            return Err(self.error_at(arguments[2 * i + 2].start, order, ""));
-        }
-        let table = Table::new(&points).ok_or_else(|| {
-            self.error_at(x.start, "points and slopes of a table must be finite, found otherwise", "")
+        let table = Signal::new("table", &points, Interpolation::Linear, Beyond::Hold);
+        let table = table.map_err(|problem| match problem {
+            PointsError::NotIncreasing(i) => {
+                let order = format!("x of a table must increase, found {} after {},", points[i][0], points[i - 1][0]);
+                self.error_at(arguments[2 * i].start, order, "")
+            }
+            _ => self.error_at(x.start, "points and slopes of a table must be finite, found otherwise", ""),
         })?;
-        self.builder.table(table, x.operand, arguments[0].operand);
+        self.signal(Arc::new(table), x, arguments[0].operand)
+    }
+
+    /// Evaluates a signal at the operand before `end`.
+    fn signal(&mut self, signal: Arc<Signal>, x: Argument, end: usize) -> Result<()> {
+        let undefined = self.builder.constant(x.operand, end).filter(|x| !x.is_nan() && signal.apply(*x).is_nan());
+        if let Some(value) = undefined {
+            let ([from, to], name) = (signal.range(), signal.name());
+            let error = self.error_at(x.start, format!("the signal `{name}` has no value at {value},"), "");
+            return Err(error.hint(format!("it goes from {from} to {to}")));
+        }
+        self.builder.signal(signal, x.operand, end);
         Ok(())
     }
 

@@ -25,7 +25,10 @@ fn numbered(text: &str, first: usize) -> (Expression, Vec<super::super::Switch>)
 fn thresholds_and_what_passes_them() {
     let (_, switches) = numbered("if(t > 2, abs(x), table(t, 0, 1, 3, 4)) + smoothstep(x - t) + min(1, 2*t)", 0);
     let thresholds: Vec<Thresholds> = switches.iter().map(|switch| switch.thresholds.clone()).collect();
-    assert_eq!(thresholds, [vec![0.0], vec![0.0], vec![0.0, 3.0], vec![0.0, 1.0], vec![0.0]].map(Thresholds::At));
+    assert_eq!(
+        thresholds,
+        [vec![0.0], vec![0.0], vec![0.0, 3.0], vec![0.0, 1.0], vec![0.0]].map(|all| Thresholds::At(all.into()))
+    );
     let of_time: Vec<bool> = switches.iter().map(|switch| switch.of_time.is_some()).collect();
     assert_eq!(of_time, [true, false, true, false, true]);
     let value = |k: usize| switches[k].of_time.as_ref().map(|argument| argument.at(5.0, Regime::FREE));

@@ -1,0 +1,296 @@
+//! Signals: measured data as functions of one argument.
+//!
+//! A signal passes through its points, on a cubic between two of them. Steps, kinks and ends are thresholds of its
+//! argument, see [`Thresholds`]: each point of a linear signal and of one that keeps the previous value, both ends of a
+//! cubic one. The inner points of a cubic one are none: there the third derivative jumps alone, which the error
+//! estimate of a step sees like any other derivative of its order; how far a step may go over such points is limited by
+//! [`bounds`](Signal::derivative_bounds) on the signal in the place of events.
+//!
+//! A lookup takes O(1) where points are about equally apart, O(log n) elsewhere, and allocates nothing.
+
+mod cubic;
+mod spline;
+#[cfg(test)]
+mod tests;
+
+use super::regime::{Piece, Thresholds};
+use super::scalar::Scalar;
+use cubic::{BoundsTree, Cubic, bounds, derived, hermite, hull, value};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::sync::Arc;
+
+/// How a signal goes on between its points.
+#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Interpolation {
+    /// A spline with continuous first and second derivatives. Its third derivative is continuous at the second and the
+    /// last but one point ("not-a-knot"), or the spline is periodic where the signal repeats.
+    #[default]
+    Cubic,
+    /// Straight lines.
+    Linear,
+    /// The value of the point before, without slope.
+    Previous,
+}
+
+/// How a signal goes on beyond its points.
+#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Beyond {
+    /// With the value of the first or the last point, without slope.
+    #[default]
+    Hold,
+    /// With the first point in the place of the last one, again and again. A cubic signal then has to end as it begins.
+    Repeat,
+    /// It has no value there, and a run whose motion comes there fails.
+    Error,
+}
+
+/// A fault of the points of a signal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PointsError {
+    /// Fewer than two.
+    TooFew,
+    /// The x of the point with this index is not above that of the one before.
+    NotIncreasing(usize),
+    /// A number, or the slope to the next point, is not finite.
+    NotFinite,
+    /// A cubic signal that repeats begins and ends with different values.
+    EndsDiffer,
+}
+
+/// A function of one argument through given points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Signal {
+    name: String,
+    beyond: Beyond,
+    is_cubic: bool,
+    /// x of the points.
+    knots: Arc<[f64]>,
+    /// Cubics in the distance from the point to the left.
+    cubics: Vec<Cubic>,
+    last: f64,
+    thresholds: Thresholds,
+    /// Bounds on a cubic signal.
+    tree: Option<BoundsTree>,
+}
+
+impl Signal {
+    /// The signal through points (x, y).
+    ///
+    /// # Errors
+    /// See [`PointsError`].
+    pub fn new(
+        name: &str,
+        points: &[[f64; 2]],
+        interpolation: Interpolation,
+        beyond: Beyond,
+    ) -> Result<Self, PointsError> {
+        check(points)?;
+        let is_cubic = interpolation == Interpolation::Cubic;
+        let repeats = beyond == Beyond::Repeat;
+        let [y, last] = [points[0][1], points[points.len() - 1][1]];
+        let size = points.iter().fold(0.0, |size: f64, point| size.max(point[1].abs()));
+        if is_cubic && repeats && (y - last).abs() > 8.0 * f64::EPSILON * size {
+            return Err(PointsError::EndsDiffer);
+        }
+        let cubics = cubics(points, interpolation, repeats);
+        if !cubics.iter().flatten().all(|coefficient| coefficient.is_finite()) {
+            return Err(PointsError::NotFinite);
+        }
+        let knots: Arc<[f64]> = points.iter().map(|point| point[0]).collect();
+        let widths = knots.windows(2).map(|pair| pair[1] - pair[0]);
+        let tree = is_cubic.then(|| BoundsTree::new(cubics.iter().copied().zip(widths.collect::<Vec<_>>())));
+        let thresholds = thresholds(&knots, is_cubic, repeats);
+        Ok(Signal { name: name.to_string(), beyond, is_cubic, knots, cubics, last, thresholds, tree })
+    }
+
+    /// Name in the scene.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// First and last x of its points.
+    pub fn range(&self) -> [f64; 2] {
+        [self.knots[0], self.knots[self.knots.len() - 1]]
+    }
+
+    /// The arguments at which its form changes.
+    pub fn thresholds(&self) -> &Thresholds {
+        &self.thresholds
+    }
+
+    /// True if points of it are no thresholds, and steps have to be short enough to see what is between them.
+    pub fn is_watched(&self) -> bool {
+        self.is_cubic && self.knots.len() > 2
+    }
+
+    /// The piece of an argument; `None` for NaN, and beyond 2^29 points that repeat.
+    #[inline]
+    pub fn piece(&self, x: f64) -> Option<Piece> {
+        self.thresholds.piece(x)
+    }
+
+    /// True if the signal has no value on a piece of its thresholds.
+    pub fn is_undefined_on(&self, piece: Piece) -> bool {
+        self.beyond == Beyond::Error
+            && (piece == 0 || self.thresholds.get(piece as usize / 2).is_none())
+            && piece % 2 == 0
+    }
+
+    /// The value; x itself where it is NaN.
+    #[inline]
+    pub fn apply<S: Scalar>(&self, x: S) -> S {
+        self.piece(x.value()).map_or(x, |piece| self.on(piece, x))
+    }
+
+    /// The value on a piece, whatever the argument. At a threshold the slope is that to its right.
+    #[inline]
+    pub fn on<S: Scalar>(&self, piece: Piece, x: S) -> S {
+        // Number of thresholds at or below.
+        let below = piece.div_ceil(2) as usize;
+        match &self.thresholds {
+            Thresholds::At(all) if !all.is_empty() && (below == 0 || below == all.len()) => self.outside(below == 0, x),
+            _ if self.is_cubic => self.smooth(x),
+            Thresholds::At(_) => self.cubic(below - 1, 0.0, x),
+            repeating => {
+                let (row, shift) = repeating.at_or_below(piece);
+                self.cubic(row, shift, x)
+            }
+        }
+    }
+
+    /// The value beyond the first or the last point.
+    fn outside<S: Scalar>(&self, is_before: bool, x: S) -> S {
+        let [first, last] = self.range();
+        let (end, row, y) = match is_before {
+            true => (first, 0, self.cubics[0][0]),
+            false => (last, self.cubics.len() - 1, self.last),
+        };
+        // Without slope, but for rounding at the end of what is not to be left.
+        let is_near = (x.value() - end).abs() <= 8.0 * f64::EPSILON * end.abs().max(last - first);
+        match self.beyond {
+            Beyond::Error if is_near => self.cubic(row, 0.0, x),
+            Beyond::Error => S::constant(f64::NAN),
+            _ => S::constant(y),
+        }
+    }
+
+    /// The cubic to the right of a point, moved by `shift` along x.
+    #[inline]
+    fn cubic<S: Scalar>(&self, row: usize, shift: f64, x: S) -> S {
+        let (start, cubic) = (self.knots[row] + shift, &self.cubics[row]);
+        x.compose(0, &|order, [low, high]| match low == high {
+            true => [value(&derived(cubic, order), low - start); 2],
+            false => bounds(&derived(cubic, order), [low - start, high - start]),
+        })
+    }
+
+    /// The spline, or the cubic at one of its ends beyond it.
+    #[inline]
+    fn smooth<S: Scalar>(&self, x: S) -> S {
+        let [low, high] = x.bounds();
+        match low == high {
+            true => {
+                let (row, shift) = self.place(low);
+                self.cubic(row, shift, x)
+            }
+            false => x.compose(0, &|order, x| self.derivative_bounds(order, x)),
+        }
+    }
+
+    /// Index of the interval of an argument, and how far its period is from the first one.
+    #[inline]
+    fn place(&self, x: f64) -> (usize, f64) {
+        let shift = self.shift(x);
+        (self.interval(x - shift), shift)
+    }
+
+    /// Whole periods from the points to an argument.
+    #[inline]
+    fn shift(&self, x: f64) -> f64 {
+        let [first, last] = self.range();
+        let repeats = self.beyond == Beyond::Repeat;
+        if repeats { ((x - first) / (last - first)).floor() * (last - first) } else { 0.0 }
+    }
+
+    /// Index of the interval of the points that contains x, or is nearest to it.
+    #[inline]
+    fn interval(&self, x: f64) -> usize {
+        let ([first, last], count) = (self.range(), self.cubics.len());
+        // Where points are about equally apart.
+        let likely = (((x - first) / (last - first) * count as f64) as usize).min(count - 1);
+        if self.knots[likely] <= x && x < self.knots[likely + 1] {
+            return likely;
+        }
+        self.knots.partition_point(|knot| *knot <= x).clamp(1, count) - 1
+    }
+
+    /// Bounds on the derivative of order `order` of a cubic signal between two arguments.
+    fn derivative_bounds(&self, order: usize, [low, high]: [f64; 2]) -> [f64; 2] {
+        let ([first, last], shift) = (self.range(), self.shift(low));
+        let (low, high) = (low - shift, high - shift);
+        match self.beyond == Beyond::Repeat && high > last {
+            true if high - low < last - first => {
+                hull(self.bounds_within(order, [low, last]), self.bounds_within(order, [first, high - (last - first)]))
+            }
+            true => self.bounds_within(order, [first, last]),
+            false => self.bounds_within(order, [low, high]),
+        }
+    }
+
+    fn bounds_within(&self, order: usize, [low, high]: [f64; 2]) -> [f64; 2] {
+        let (from, to) = (self.interval(low), self.interval(high));
+        let part = |row: usize, [low, high]: [f64; 2]| {
+            let start = self.knots[row];
+            bounds(&derived(&self.cubics[row], order), [low - start, high - start])
+        };
+        if from == to {
+            return part(from, [low, high]);
+        }
+        let ends = hull(part(from, [low, self.knots[from + 1]]), part(to, [self.knots[to], high]));
+        self.tree.as_ref().map_or(ends, |tree| hull(ends, tree.over(order, from + 1, to)))
+    }
+}
+
+/// Refuses points that are too few, not finite or not in order.
+fn check(points: &[[f64; 2]]) -> Result<(), PointsError> {
+    if points.len() < 2 {
+        return Err(PointsError::TooFew);
+    }
+    if !points.iter().flatten().all(|number| number.is_finite()) {
+        return Err(PointsError::NotFinite);
+    }
+    match points.windows(2).position(|pair| pair[0][0] >= pair[1][0]) {
+        Some(i) => Err(PointsError::NotIncreasing(i + 1)),
+        None => Ok(()),
+    }
+}
+
+fn cubics(points: &[[f64; 2]], interpolation: Interpolation, repeats: bool) -> Vec<Cubic> {
+    let slopes = match interpolation {
+        Interpolation::Cubic if repeats => spline::periodic(points),
+        Interpolation::Cubic => spline::not_a_knot(points),
+        _ => Vec::new(),
+    };
+    let row = |(i, pair): (usize, &[[f64; 2]])| {
+        let ([x0, y0], [x1, y1]) = (pair[0], pair[1]);
+        match interpolation {
+            Interpolation::Cubic => hermite(x1 - x0, [y0, y1], [slopes[i], slopes[i + 1]]),
+            Interpolation::Linear => [y0, (y1 - y0) / (x1 - x0), 0.0, 0.0],
+            Interpolation::Previous => [y0, 0.0, 0.0, 0.0],
+        }
+    };
+    points.windows(2).enumerate().map(row).collect()
+}
+
+fn thresholds(knots: &Arc<[f64]>, is_cubic: bool, repeats: bool) -> Thresholds {
+    let (first, last) = (knots[0], knots[knots.len() - 1]);
+    match (is_cubic, repeats) {
+        (true, true) => Thresholds::At([].into()),
+        (true, false) => Thresholds::At([first, last].into()),
+        (false, true) => Thresholds::Every { knots: knots[..knots.len() - 1].into(), period: last - first },
+        (false, false) => Thresholds::At(knots.clone()),
+    }
+}
