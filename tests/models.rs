@@ -85,6 +85,7 @@ fn degrees_of_freedom_are_those_of_the_mechanisms() {
         ("four_bar_spring", 1),
         ("full_axle", 4),
         ("gear_pair", 1),
+        ("half_car", 5),
         ("hydraulic_boom", 1),
         ("modal_link", 4),
         ("n_four_bar", 1),

@@ -17,6 +17,7 @@ mod outside;
 mod own_elements;
 mod scenes;
 mod section_forces;
+mod signals;
 mod suspension;
 mod tangent;
 mod turns;

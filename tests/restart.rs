@@ -32,6 +32,7 @@ fn cases() -> Vec<(Ready, f64)> {
         shipped("four_bar_spring", 0.4),
         (parse(EVENTS), 0.8),
         shipped("quarter_car", 0.7),
+        shipped("half_car", 0.5),
         shipped("slider_crank_singular", 1.2),
         shipped("parallelogram_redundant", 0.3),
         shipped("bricard", 0.2),

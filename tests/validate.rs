@@ -62,6 +62,7 @@ fn quick_scenes_follow_their_linear_models() {
         "double_pendulum",
         "four_bar_spring",
         "gear_pair",
+        "half_car",
         "pendulum",
         "quarter_car",
         "robot_arm",

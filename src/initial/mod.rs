@@ -14,9 +14,10 @@ pub use report::{Assembly, Level, Move};
 
 use crate::error::{Error, Result, short};
 use crate::formulation::{Dynamics, StepError};
+use crate::math::expression::Switch;
 use crate::math::kkt::{Pattern, SaddlePoint};
-use crate::math::largest_in;
-use crate::system::{MechanicalSystem, Need, Scratch, Structure, Terms};
+use crate::math::{Rate, largest_in};
+use crate::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Structure, Terms};
 use crate::tolerances::initial as tolerances;
 use std::sync::Arc;
 
@@ -25,8 +26,28 @@ use std::sync::Arc;
 ///
 /// # Errors
 /// Bad input: a name in `hold` that does not exist, joints that cannot all be closed, velocities that contradict the
-/// joints or each other; a start at which the accelerations are not determined.
+/// joints or each other; a start at which the accelerations are not determined, or beyond the range of a signal.
 pub fn assemble(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64]), hold: &[String]) -> Result<Assembly> {
+    consistent(system, t, (q, v), hold).map_err(|error| beyond_signal(system, t, (q, v)).unwrap_or(error))
+}
+
+/// The error for a state at which the argument of a signal is where it has no value.
+fn beyond_signal(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Option<Error> {
+    let switches = system.switches();
+    let mut arguments = vec![Rate::fixed(0.0); switches.len()];
+    let (vdot, mut scratch) = (vec![0.0; v.len()], Scratch::default());
+    system.switching(OperatingPoint { t, q, v, vdot: &vdot, lambda: &[] }, &mut arguments, &mut scratch);
+    let left = |(number, switch): (usize, &Switch)| {
+        let signal = switch.signal.as_ref()?;
+        let piece = signal.piece(arguments[number].re)?;
+        signal.is_undefined_on(piece).then(|| signal.left_by(system.owner_of_switch(number)))
+    };
+    let message = switches.iter().enumerate().find_map(left)?;
+    let error = Error::input(format!("at the start, {message}")).under("signals");
+    Some(error.hint("start within it, or give the signal \"beyond\": \"hold\" or \"repeat\""))
+}
+
+fn consistent(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64]), hold: &[String]) -> Result<Assembly> {
     let mut metric = Metric::new(system, holds::directions(system, hold)?);
     let (mut assembled, mut rates) = (q.to_vec(), v.to_vec());
     system.normalize(&mut assembled);

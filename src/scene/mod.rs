@@ -217,7 +217,7 @@ fn similar(path: &Path) -> Option<String> {
     let mut names: Vec<String> = std::fs::read_dir(folder)
         .ok()?
         .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
-        .filter(|name| name.ends_with(".json"))
+        .filter(|name| name.ends_with(".json") || Path::new(name).extension() == path.extension())
         .collect();
     names.sort();
     let found = path.file_name()?.to_str()?;

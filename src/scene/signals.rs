@@ -50,7 +50,9 @@ struct Points {
 
 fn fault(problem: PointsError, points: &[[f64; 2]], places: &[String], field: &str) -> Error {
     match problem {
-        PointsError::TooFew => Error::input(format!("{} points; a signal takes at least 2", points.len())).under(field),
+        PointsError::TooFew => {
+            Error::input(format!("a signal takes at least 2 points, found {}", points.len())).under(field)
+        }
         PointsError::NotIncreasing(i) => {
             let (now, before) = (points[i][0], points[i - 1][0]);
             Error::input(format!("{}: x must increase, found {now} after {before}", places[i]))

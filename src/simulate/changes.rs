@@ -118,10 +118,7 @@ impl Run<'_> {
     /// Evaluates the present state with the pieces of the events.
     fn enter_form(&mut self) -> Result<(), Failure> {
         if let Some((number, signal)) = self.events.undefined() {
-            let ([from, to], owner) = (signal.range(), self.events.owner(number));
-            let reason =
-                format!("{owner} leaves the range of the signal `{}`, which goes from {from} to {to}", signal.name());
-            return Err(self.failure(reason, Some(BEYOND)));
+            return Err(self.failure(signal.left_by(self.events.owner(number)), Some(BEYOND)));
         }
         let old = self.constraints();
         for dynamics in [&mut self.problem.dynamics, &mut self.rows.problem.dynamics] {

@@ -115,7 +115,7 @@ struct Run<'a> {
     /// The step to try next, and true if it may grow after that.
     h: f64,
     growing: bool,
-    /// The step that ends at the threshold which the last one passed.
+    /// The step that ends at the threshold which the last one passed, or at a point of a signal.
     cut: Option<f64>,
     /// Time since which the steps tried are counted, and their number.
     progress: (f64, usize),

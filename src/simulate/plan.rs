@@ -70,6 +70,11 @@ impl Run<'_> {
             None => (placed, None),
         };
         let resolved = self.resolved(size, stop.t);
+        let chooses = self.fixed.is_none() && self.integrator.own_step().is_none();
+        if let Some(step) = self.events.ends_at_point(self.t, resolved).filter(|_| chooses) {
+            self.cut = Some(step);
+            return (step, None);
+        }
         (resolved, end.filter(|_| resolved == size))
     }
 

@@ -15,6 +15,7 @@ mod elements;
 mod files;
 mod keys;
 mod options;
+mod signals;
 mod start;
 mod text;
 

@@ -43,9 +43,10 @@
 //! | `if(c, a, b)`                           | `a` where `c` is true, otherwise `b`                              |
 //! | `table(x, x0, y0, x1, y1, ...)`         | straight lines through two or more points, `y` constant outside   |
 //!
-//! The points of a table are constants with increasing `x`. At a point the slope is that of the line to its right.
+//! The points of a table are constants with increasing `x`: it is a linear [`Signal`] that holds. At a point the slope
+//! is that of the line to its right. A signal of the scene is a function of one argument by its name.
 //!
-//! `abs`, `min`, `max`, `sign`, `step`, `smoothstep`, `floor`, `mod`, comparisons and tables change their form where an
+//! `abs`, `min`, `max`, `sign`, `step`, `smoothstep`, `floor`, `mod`, comparisons, tables and signals change their form where an
 //! argument passes a threshold: see [`Switch`].
 //!
 //! `x^n` with a constant whole n takes any x, and `0^0` is 1. Every other power wants x >= 0 and is not a number for

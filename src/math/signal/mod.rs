@@ -2,9 +2,9 @@
 //!
 //! A signal passes through its points, on a cubic between two of them. Steps, kinks and ends are thresholds of its
 //! argument, see [`Thresholds`]: each point of a linear signal and of one that keeps the previous value, both ends of a
-//! cubic one. The inner points of a cubic one are none: there the third derivative jumps alone, which the error
-//! estimate of a step sees like any other derivative of its order; how far a step may go over such points is limited by
-//! [`bounds`](Signal::derivative_bounds) on the signal in the place of events.
+//! cubic one. The inner points of a cubic one are none, where the third derivative jumps alone: where steps go over many
+//! the estimate of their error sees to that; where they are about as long as the distance of two points they end on
+//! [them](Signal::point_ahead), since there a method of high order would be refused half of its steps.
 //!
 //! A lookup takes O(1) where points are about equally apart, O(log n) elsewhere, and allocates nothing.
 
@@ -198,6 +198,26 @@ impl Signal {
             }
             false => x.compose(0, &|order, x| self.derivative_bounds(order, x)),
         }
+    }
+
+    /// The next point for an argument that grows, or falls, and the width of the interval before it; `None` beyond the
+    /// points. One that is nearer than `near` of the width counts as passed.
+    pub fn point_ahead(&self, x: f64, grows: bool, near: f64) -> Option<(f64, f64)> {
+        let (row, shift) = self.place(x);
+        let interval = |row: usize| Some([*self.knots.get(row)?, *self.knots.get(row + 1)?].map(|knot| knot + shift));
+        let ahead = |row: usize| {
+            let [low, high] = interval(row)?;
+            let point = if grows { high } else { low };
+            Some((point, high - low)).filter(|_| (point - x).abs() > near * (high - low))
+        };
+        let after = if grows { Some(row + 1) } else { row.checked_sub(1) };
+        ahead(row).or_else(|| ahead(after?)).filter(|_| self.is_watched())
+    }
+
+    /// The message of an element whose argument has left the points.
+    pub fn left_by(&self, owner: &str) -> String {
+        let ([from, to], name) = (self.range(), &self.name);
+        format!("{owner} leaves the range of the signal `{name}`, which goes from {from} to {to}")
     }
 
     /// Index of the interval of an argument, and how far its period is from the first one.

@@ -13,7 +13,7 @@ pub use timetable::Timetable;
 
 use crate::math::expression::Switch;
 use crate::math::signal::Signal;
-use crate::math::{Piece, Rate};
+use crate::math::{Piece, Rate, Regime};
 use crate::system::{MechanicalSystem, OperatingPoint, Scratch};
 use crate::tolerances::simulate as tolerances;
 use range::{Range, first_out};
@@ -43,7 +43,7 @@ pub struct Events<'a> {
     switches: &'a [Switch],
     /// Numbers of the switching functions that depend on the state.
     of_state: Vec<usize>,
-    /// Those of signals that steps could miss between two thresholds.
+    /// Those of signals with points that are no thresholds.
     signals: Vec<(usize, &'a Signal)>,
     pub timetable: Timetable<'a>,
     /// The pieces on which all functions are fixed.
@@ -66,11 +66,12 @@ impl<'a> Events<'a> {
         let (switches, functions) = (system.switches(), system.time_functions());
         let zeros = || vec![Rate::fixed(0.0); switches.len()];
         let of_state: Vec<usize> = (0..switches.len()).filter(|&number| switches[number].of_time.is_none()).collect();
-        let signal = |&number: &usize| Some((number, switches[number].signal.as_deref()?));
+        let signal = |(number, switch): (usize, &'a Switch)| Some((number, switch.signal.as_deref()?));
+        let signals = switches.iter().enumerate().filter_map(signal).filter(|(_, signal)| signal.is_watched());
         Events {
             system,
             switches,
-            signals: of_state.iter().filter_map(signal).filter(|(_, signal)| signal.is_watched()).collect(),
+            signals: signals.collect(),
             of_state,
             timetable: Timetable::new(switches, functions, start, end),
             pieces: vec![0; switches.len()],
@@ -91,11 +92,27 @@ impl<'a> Events<'a> {
 
     /// The step from `t`, at most `h`, that resolves the functions of time up to `stop` and the signals of the state.
     pub fn resolved(&mut self, t: f64, h: f64, stop: f64) -> f64 {
-        let Events { timetable, pieces, start, signals, .. } = self;
+        let Events { timetable, switches, pieces, start, signals, .. } = self;
         let resolved = timetable.resolved(t, h, stop, pieces);
-        signals.iter().fold(resolved, |h, &(number, signal)| {
+        let of_state = signals.iter().filter(|(number, _)| switches[*number].of_time.is_none());
+        of_state.fold(resolved, |h, &(number, signal)| {
             timetable.watch.resolved_along((t, h), (signal, pieces[number], start[number]))
         })
+    }
+
+    /// The step from `t`, shorter than `h`, that ends at a point of a signal, where `h` is not much longer than the
+    /// distance of two points.
+    pub fn ends_at_point(&self, t: f64, h: f64) -> Option<f64> {
+        let regime = Regime::held(&self.pieces);
+        let step = |&(number, signal): &(usize, &Signal)| {
+            let of_time = self.switches[number].of_time.as_ref();
+            let x = of_time.map_or(self.start[number], |argument| argument.at(Rate::seeded(t, 0), regime));
+            let rate = x.eps[0];
+            let (point, width) = signal.point_ahead(x.re, rate > 0.0, tolerances::AT_POINT)?;
+            let step = (point - x.re) / rate;
+            (h * rate.abs() < tolerances::NEAR_POINTS * width && 0.0 < step && step < h).then_some(step)
+        };
+        self.signals.iter().filter_map(step).reduce(f64::min)
     }
 
     /// A signal that has no value on its piece, with its number.
