@@ -70,8 +70,8 @@ impl Run<'_> {
             None => (placed, None),
         };
         let resolved = self.resolved(size, stop.t);
-        let chooses = self.fixed.is_none() && self.integrator.own_step().is_none();
-        if let Some(step) = self.events.ends_at_point(self.t, resolved).filter(|_| chooses) {
+        let adapts = self.fixed.is_none() && self.integrator.own_step().is_none();
+        if let Some(step) = self.events.ends_at_point(self.t, resolved).filter(|_| adapts) {
             self.cut = Some(step);
             return (step, None);
         }

@@ -221,10 +221,10 @@ pub const NO_FUNCTION: f64 = 1e-14;
 /// less the tests of its room pass.
 pub const LOOKS_IN_WINDOW: usize = 100;
 
-/// Steps not longer than so many distances between points of a cubic signal end at its points.
-/// Unit: `[intervals]`. Why: of longer ones the error of a step sees what jumps there, of shorter ones it refuses half
-/// of the steps. Test: `steps_end_at_points_of_a_coarse_spline`.
-pub const NEAR_POINTS: f64 = 3.0;
+/// A step up to so long ends on the next point of a cubic signal.
+/// Unit: `[intervals]`. Why: of steps of dop853 over coarse data half were refused; with 3, radau_iia would take a step
+/// an interval of fine data. Test: `steps_end_at_points_of_a_coarse_spline`.
+pub const NEAR_POINTS: f64 = 1.5;
 
 /// A point of a cubic signal nearer than this counts as reached.
 /// Unit: `[1]` of the interval. Why: what the jump of a third derivative does so late is its cube. Test: none: a choice

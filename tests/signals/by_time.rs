@@ -65,7 +65,7 @@ fn no_pulse_of_a_spline_is_missed() {
     }
 }
 
-/// Steps as long as the distance of two points end on them, and are hardly refused.
+/// Steps of about the distance of two points end on them, and few are refused.
 #[test]
 fn steps_end_at_points_of_a_coarse_spline() {
     let rough = (0..=100).map(|k| f64::from(k)).map(|k| (0.03 * k, (k * k).sin()));

@@ -100,8 +100,8 @@ impl<'a> Events<'a> {
         })
     }
 
-    /// The step from `t`, shorter than `h`, that ends at a point of a signal, where `h` is not much longer than the
-    /// distance of two points.
+    /// The step from `t`, shorter than `h`, that ends at the next point of a cubic signal, where `h` is not much longer
+    /// than the distance of two points.
     pub fn ends_at_point(&self, t: f64, h: f64) -> Option<f64> {
         let regime = Regime::held(&self.pieces);
         let step = |&(number, signal): &(usize, &Signal)| {
