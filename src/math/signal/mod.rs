@@ -9,56 +9,17 @@
 //! A lookup takes O(1) where points are about equally apart, O(log n) elsewhere, and allocates nothing.
 
 mod cubic;
+mod points;
 mod spline;
 #[cfg(test)]
 mod tests;
 
+pub use points::{Beyond, Interpolation, PointsError};
+
 use super::regime::{Piece, Thresholds};
 use super::scalar::Scalar;
-use cubic::{BoundsTree, Cubic, bounds, derived, hermite, hull, value};
-use schemars::JsonSchema;
-use serde::Deserialize;
+use cubic::{BoundsTree, Cubic, bounds, derived, hull, value};
 use std::sync::Arc;
-
-/// How a signal goes on between its points.
-#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub enum Interpolation {
-    /// A spline with continuous first and second derivatives. Its third derivative is continuous at the second and the
-    /// last but one point ("not-a-knot"), or the spline is periodic where the signal repeats.
-    #[default]
-    Cubic,
-    /// Straight lines.
-    Linear,
-    /// The value of the point before, without slope.
-    Previous,
-}
-
-/// How a signal goes on beyond its points.
-#[derive(Deserialize, JsonSchema, Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub enum Beyond {
-    /// With the value of the first or the last point, without slope.
-    #[default]
-    Hold,
-    /// With the first point in the place of the last one, again and again. A cubic signal then has to end as it begins.
-    Repeat,
-    /// It has no value there, and a run whose motion comes there fails.
-    Error,
-}
-
-/// A fault of the points of a signal.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PointsError {
-    /// Fewer than two.
-    TooFew,
-    /// The x of the point with this index is not above that of the one before.
-    NotIncreasing(usize),
-    /// A number, or the slope to the next point, is not finite.
-    NotFinite,
-    /// A cubic signal that repeats begins and ends with different values.
-    EndsDiffer,
-}
 
 /// A function of one argument through given points.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,22 +48,21 @@ impl Signal {
         interpolation: Interpolation,
         beyond: Beyond,
     ) -> Result<Self, PointsError> {
-        check(points)?;
+        points::check(points)?;
         let is_cubic = interpolation == Interpolation::Cubic;
         let repeats = beyond == Beyond::Repeat;
-        let [y, last] = [points[0][1], points[points.len() - 1][1]];
-        let size = points.iter().fold(0.0, |size: f64, point| size.max(point[1].abs()));
-        if is_cubic && repeats && (y - last).abs() > 8.0 * f64::EPSILON * size {
-            return Err(PointsError::EndsDiffer);
+        if is_cubic && repeats {
+            points::check_ends(points)?;
         }
-        let cubics = cubics(points, interpolation, repeats);
+        let cubics = points::cubics(points, interpolation, repeats);
         if !cubics.iter().flatten().all(|coefficient| coefficient.is_finite()) {
             return Err(PointsError::NotFinite);
         }
         let knots: Arc<[f64]> = points.iter().map(|point| point[0]).collect();
         let widths = knots.windows(2).map(|pair| pair[1] - pair[0]);
         let tree = is_cubic.then(|| BoundsTree::new(cubics.iter().copied().zip(widths.collect::<Vec<_>>())));
-        let thresholds = thresholds(&knots, is_cubic, repeats);
+        let thresholds = points::thresholds(&knots, is_cubic, repeats);
+        let last = points[points.len() - 1][1];
         Ok(Signal { name: name.to_string(), beyond, is_cubic, knots, cubics, last, thresholds, tree })
     }
 
@@ -134,9 +94,8 @@ impl Signal {
 
     /// True if the signal has no value on a piece of its thresholds.
     pub fn is_undefined_on(&self, piece: Piece) -> bool {
-        self.beyond == Beyond::Error
-            && (piece == 0 || self.thresholds.get(piece as usize / 2).is_none())
-            && piece % 2 == 0
+        let is_outside = piece == 0 || piece.is_multiple_of(2) && self.thresholds.get(piece as usize / 2).is_none();
+        self.beyond == Beyond::Error && is_outside
     }
 
     /// The value; x itself where it is NaN.
@@ -271,46 +230,5 @@ impl Signal {
         }
         let ends = hull(part(from, [low, self.knots[from + 1]]), part(to, [self.knots[to], high]));
         self.tree.as_ref().map_or(ends, |tree| hull(ends, tree.over(order, from + 1, to)))
-    }
-}
-
-/// Refuses points that are too few, not finite or not in order.
-fn check(points: &[[f64; 2]]) -> Result<(), PointsError> {
-    if points.len() < 2 {
-        return Err(PointsError::TooFew);
-    }
-    if !points.iter().flatten().all(|number| number.is_finite()) {
-        return Err(PointsError::NotFinite);
-    }
-    match points.windows(2).position(|pair| pair[0][0] >= pair[1][0]) {
-        Some(i) => Err(PointsError::NotIncreasing(i + 1)),
-        None => Ok(()),
-    }
-}
-
-fn cubics(points: &[[f64; 2]], interpolation: Interpolation, repeats: bool) -> Vec<Cubic> {
-    let slopes = match interpolation {
-        Interpolation::Cubic if repeats => spline::periodic(points),
-        Interpolation::Cubic => spline::not_a_knot(points),
-        _ => Vec::new(),
-    };
-    let row = |(i, pair): (usize, &[[f64; 2]])| {
-        let ([x0, y0], [x1, y1]) = (pair[0], pair[1]);
-        match interpolation {
-            Interpolation::Cubic => hermite(x1 - x0, [y0, y1], [slopes[i], slopes[i + 1]]),
-            Interpolation::Linear => [y0, (y1 - y0) / (x1 - x0), 0.0, 0.0],
-            Interpolation::Previous => [y0, 0.0, 0.0, 0.0],
-        }
-    };
-    points.windows(2).enumerate().map(row).collect()
-}
-
-fn thresholds(knots: &Arc<[f64]>, is_cubic: bool, repeats: bool) -> Thresholds {
-    let (first, last) = (knots[0], knots[knots.len() - 1]);
-    match (is_cubic, repeats) {
-        (true, true) => Thresholds::At([].into()),
-        (true, false) => Thresholds::At([first, last].into()),
-        (false, true) => Thresholds::Every { knots: knots[..knots.len() - 1].into(), period: last - first },
-        (false, false) => Thresholds::At(knots.clone()),
     }
 }

@@ -131,7 +131,7 @@ fn every_interval_is_found() {
 
 #[test]
 fn enclosures_contain_all_samples_and_are_tight() {
-    let points: Vec<_> = (0..200).map(|k| f64::from(k)).map(|x| [x + 0.3 * x.sin(), (x * x).sin()]).collect();
+    let points: Vec<_> = (0..200).map(f64::from).map(|x| [x + 0.3 * x.sin(), (x * x).sin()]).collect();
     let mut ring = points.clone();
     ring[199][1] = ring[0][1];
     let curves = [(points, Beyond::Hold), (ring, Beyond::Repeat)].map(|(p, b)| signal(&p, Interpolation::Cubic, b));
