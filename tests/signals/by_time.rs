@@ -68,7 +68,7 @@ fn no_pulse_of_a_spline_is_missed() {
 /// Steps of about the distance of two points end on them, and few are refused.
 #[test]
 fn steps_end_at_points_of_a_coarse_spline() {
-    let rough = (0..=100).map(|k| f64::from(k)).map(|k| (0.03 * k, (k * k).sin()));
+    let rough = (0..=100).map(f64::from).map(|k| (0.03 * k, (k * k).sin()));
     let scene = pushed(&signal(rough, r#""interpolation": "cubic""#), 0.0, "f(t) - 100*m.x");
     let statistics = attempt(&scene, &dop853(1e-10), 3.0).statistics;
     assert!(statistics.steps < 260 && statistics.rejected < 130, "{statistics:?}");

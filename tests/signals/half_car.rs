@@ -81,7 +81,7 @@ fn the_car_moves_as_in_coordinates_of_its_own() {
     let run = shipped("half_car", &[]).tight(1e-10, 3.0, h * f64::from(each));
     let columns = ["body.x", "body.y", "body.angle"].map(|name| run.column(name));
     let mut most = 0.0f64;
-    for row in 1..columns[0].len() {
+    for ((x, y), angle) in columns[0].iter().zip(&columns[1]).zip(&columns[2]).skip(1) {
         for _ in 0..each {
             let (v1, a1) = (v, acceleration(&road, &q, &v));
             let (v2, a2) = (v + a1 * (h / 2.0), acceleration(&road, &(q + v1 * (h / 2.0)), &(v + a1 * (h / 2.0))));
@@ -90,7 +90,7 @@ fn the_car_moves_as_in_coordinates_of_its_own() {
             q += (v1 + v2 * 2.0 + v3 * 2.0 + v4) * (h / 6.0);
             v += (a1 + a2 * 2.0 + a3 * 2.0 + a4) * (h / 6.0);
         }
-        (0..3).for_each(|i| most = most.max((columns[i][row] - q[i]).abs()));
+        [x, y, angle].iter().zip(&q).for_each(|(found, own)| most = most.max((*found - own).abs()));
     }
     // RK4 across the points of the spline leaves some 1e-10; the body moves by centimetres.
     assert!(most < 1e-8, "{most:e}");
