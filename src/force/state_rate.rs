@@ -1,7 +1,7 @@
 //! The rate of a state.
 
 use super::{Action, ForceKernel, Instant, Motion};
-use crate::body::{Formula, MOST_MARKERS, MarkerId, Probe, Wrench};
+use crate::body::{Formula, MOST_MARKERS, MarkerId, Wrench};
 use crate::error::{Error, Result};
 use crate::math::{Rate, Scalar, Taylor};
 
@@ -30,16 +30,11 @@ impl StateRate {
     pub fn markers(&self) -> &[MarkerId] {
         &self.markers
     }
-
-    fn read<S: Scalar, const D: usize>(&self, probe: &Probe, frames: &Motion<S, D>) -> S {
-        let place = self.markers.iter().position(|&known| known == probe.marker);
-        probe.read(&frames[place.unwrap_or(0)])
-    }
 }
 
 impl<const D: usize> ForceKernel<D> for StateRate {
     fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
-        let rate = self.rate.evaluate(time.map(|t| t.x), |probe| self.read(probe, frames));
+        let rate = self.rate.evaluate(time.map(|t| t.x), |probe| probe.read(&frames[probe.place_in(&self.markers)]));
         out[0].force[0] = rate;
         // A state has no energy: the power of the wrench that moves it is no work.
         let power = rate * frames[0].r[0].d;
@@ -47,6 +42,6 @@ impl<const D: usize> ForceKernel<D> for StateRate {
     }
 
     fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
-        self.rate.switching(time.map(|t| t.x), |probe| self.read(probe, frames), out);
+        self.rate.switching(time.map(|t| t.x), |probe| probe.read(&frames[probe.place_in(&self.markers)]), out);
     }
 }

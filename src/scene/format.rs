@@ -133,7 +133,7 @@ pub struct StateSpec {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SignalSpec {
-    /// None of a function, a parameter or an output.
+    /// None of a function, a parameter, a state or an output.
     pub name: String,
     /// A table beside the scene: a line of names, then lines of numbers, separated by commas, semicolons or tabs.
     pub file: Option<String>,

@@ -22,7 +22,7 @@ use std::path::Path;
 pub fn build(file: SceneFile, elements: &Elements, overrides: &[(String, Number)], folder: &Path) -> Result<Scene> {
     check_scene_name(&file.name)?;
     let mut parameters = markers::resolve(&file.parameters, overrides)?;
-    signals::add(&file.signals, &file.outputs, folder, &mut parameters)?;
+    signals::add(&file, folder, &mut parameters)?;
     let (dimension, (model, q, v)) = match file.dimension {
         Dimension::Two => {
             let (model, q, v) = model(&file, &elements.planar, &parameters, folder)?;

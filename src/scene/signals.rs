@@ -1,15 +1,15 @@
 //! Signals of a scene: measured data from a table, or points written in it.
 
-use super::format::{OutputSpec, SignalSpec};
+use super::format::{SceneFile, SignalSpec};
 use crate::error::{Error, Result, excerpt, suggest};
 use crate::math::expression::{Number, Parameters};
 use crate::math::signal::{PointsError, Signal};
 use std::path::Path;
 
 /// Adds the signals to the parameters, so that all expressions may call them. Those before are known in the points.
-pub fn add(specs: &[SignalSpec], outputs: &[OutputSpec], folder: &Path, parameters: &mut Parameters) -> Result<()> {
-    for (i, spec) in specs.iter().enumerate() {
-        let signal = read(spec, outputs, folder, parameters);
+pub fn add(file: &SceneFile, folder: &Path, parameters: &mut Parameters) -> Result<()> {
+    for (i, spec) in file.signals.iter().enumerate() {
+        let signal = read(spec, file, folder, parameters);
         let added = signal.and_then(|signal| parameters.add_signal(signal).map_err(|error| under_name(error.into())));
         added.map_err(|error| error.under(format!("signals[{i}]")))?;
     }
@@ -20,10 +20,12 @@ fn under_name(error: Error) -> Error {
     error.under("name")
 }
 
-fn read(spec: &SignalSpec, outputs: &[OutputSpec], folder: &Path, parameters: &Parameters) -> Result<Signal> {
+fn read(spec: &SignalSpec, file: &SceneFile, folder: &Path, parameters: &Parameters) -> Result<Signal> {
     super::resolve::check_name(&spec.name).map_err(under_name)?;
-    if outputs.iter().any(|output| output.name == spec.name) {
-        let error = Error::input(format!("`{}` cannot name a signal: it is the name of an output", spec.name));
+    let outputs = file.outputs.iter().map(|output| (&output.name, "an output"));
+    let mut others = outputs.chain(file.states.iter().map(|state| (&state.name, "a state")));
+    if let Some((name, what)) = others.find(|(name, _)| **name == spec.name) {
+        let error = Error::input(format!("`{name}` cannot name a signal: it is the name of {what}"));
         return Err(under_name(error.hint("rename one of them")));
     }
     let Points { points, places, field } = match (&spec.file, &spec.points) {
