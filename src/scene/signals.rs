@@ -86,7 +86,9 @@ fn given(points: &[[Number; 2]], parameters: &Parameters) -> Result<Points> {
 
 /// Two columns of a table with headings: CSV with commas, semicolons or tabs.
 fn table(folder: &Path, file: &str, columns: Option<&[String; 2]>) -> Result<Points> {
-    let text = crate::files::read_text(&folder.join(file)).map_err(|problem| {
+    let path = folder.join(file);
+    let text = crate::files::read_text(&path).map_err(|problem| {
+        let problem = super::explain(&path, &problem);
         Error::input(format!("{file}: {problem}")).hint("the file is looked for beside the scene")
     })?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
