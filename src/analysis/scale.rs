@@ -49,7 +49,10 @@ impl Sizes {
             Dimension::Angle => self.travel,
             Dimension::Length => self.travel * length,
             Dimension::AngularVelocity => self.speed,
+            Dimension::AngularAcceleration => self.speed * self.speed,
             Dimension::Velocity => self.speed * length,
+            Dimension::Acceleration => self.speed * self.speed * length,
+            Dimension::Power => energy * self.speed,
             Dimension::Energy => energy,
             Dimension::Torque => self.reaction.max(energy),
             Dimension::Force if self.length > 0.0 => self.reaction.max(energy) / self.length,
@@ -62,7 +65,7 @@ impl Sizes {
 ///
 /// - Energies: the range of the kinetic energy, or of the quantity itself. Their zero is arbitrary.
 /// - Forces and torques: the largest of their kind, of the reactions and of the inertia forces that these balance.
-/// - Lengths, angles and speeds: the quantity's own largest value, unless that is below a thousandth of those of the
+/// - Lengths, angles, their rates and powers: the quantity's own largest value, unless that is below a thousandth of those of the
 ///   motion.
 /// - Others: the quantity's own largest value.
 pub fn scales(columns: &[Column], rows: &[Vec<f64>], sizes: &Sizes) -> Vec<f64> {

@@ -1,6 +1,7 @@
 //! Names, parameters and checks with which an element reads its part of a scene.
 
-use super::{Formula, Probe, Quantity, Turned, Turning};
+use super::formula::Locals;
+use super::{Formula, NamedOutputs, Probe, Quantity, Turned, Turning};
 use crate::error::{Error, Result, Warning, nearest, short, suggest};
 use crate::math::Thresholds;
 use crate::math::expression::{Expression, Number, Parameters, Switch, TimeFunction};
@@ -72,8 +73,8 @@ pub struct Build<'a, const D: usize> {
     pub parameters: &'a Parameters,
     /// All markers that joints and forces may name; none yet where a body is made.
     pub markers: &'a MarkerTable,
-    /// Named kinematic outputs that forces may use: name and expression.
-    pub outputs: &'a [(String, String)],
+    /// Outputs that expressions may use by their names.
+    pub outputs: &'a dyn NamedOutputs<D>,
     /// Acceleration of gravity in world axes, m/s^2.
     pub gravity: [f64; D],
     /// Folder from which the files that the scene names are found.
@@ -252,7 +253,14 @@ impl<const D: usize> Build<'_, D> {
 
     /// A [`formula`](Self::formula) in the equations of motion: its switching functions are added to those of the scene.
     pub fn acting(&self, field: &str, number: &Number, rates: bool) -> Result<Formula> {
-        let mut formula = self.formula(field, number, rates)?;
+        self.acting_with(field, number, rates, &[])
+    }
+
+    /// The same with names of its own.
+    pub(crate) fn acting_with(&self, field: &str, number: &Number, rates: bool, locals: Locals) -> Result<Formula> {
+        let order = usize::from(rates);
+        let formula = Formula::parse(&number.to_string(), self, order, locals);
+        let mut formula = formula.map_err(|error| error.under(field))?;
         self.switches.borrow_mut().add(&mut formula.expression);
         Ok(formula)
     }
@@ -276,15 +284,32 @@ impl<const D: usize> Build<'_, D> {
         all.len().saturating_sub(1)
     }
 
-    /// An expression over t and marker quantities, and their rates if `rates` is true.
-    pub fn formula(&self, field: &str, number: &Number, rates: bool) -> Result<Formula> {
-        Formula::parse(&number.to_string(), self, rates).map_err(|error| error.under(field))
+    /// Counted angle of these terms that begins near `start`: one that is there already, or a new one of this `name`.
+    pub(crate) fn turning_named(&self, name: &str, term: Turned, start: f64) -> usize {
+        let known = |turning: &Turning| turning.terms == [term] && turning.start == start;
+        let found = self.turnings.borrow().iter().position(known);
+        found.unwrap_or_else(|| {
+            let turning = self.turning(vec![term], start);
+            self.turnings.borrow_mut().last_mut().into_iter().for_each(|last| last.name = name.to_string());
+            turning
+        })
     }
 
-    /// A marker quantity such as `crank.C.x` or `crank.angle`, or a state.
+    /// An expression over t and marker quantities, and their rates if `rates` is true.
+    pub fn formula(&self, field: &str, number: &Number, rates: bool) -> Result<Formula> {
+        Formula::parse(&number.to_string(), self, usize::from(rates), &[]).map_err(|error| error.under(field))
+    }
+
+    /// An expression of an output, which may read accelerations too and does not act on the motion.
+    pub(crate) fn observing(&self, field: &str, number: &Number) -> Result<Formula> {
+        Formula::parse(&number.to_string(), self, 2, &[]).map_err(|error| error.under(field))
+    }
+
+    /// A marker quantity such as `crank.C.x` or `crank.angle`, or a state, with `'` for its rate.
     pub fn probe(&self, name: &str) -> Option<Probe> {
-        match self.markers.states.iter().find(|(known, _)| known == name) {
-            Some(&(_, marker)) => Some(Probe { marker, quantity: Quantity::Velocity(0) }),
+        let (state, order) = name.strip_suffix('\'').map_or((name, 1), |state| (state, 2));
+        match self.markers.states.iter().find(|(known, _)| known == state) {
+            Some(&(_, of)) => Some(Probe { of, to: None, quantity: Quantity::Position(0), order }),
             None => Probe::parse::<D>(name, self.markers),
         }
     }

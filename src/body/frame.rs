@@ -110,6 +110,20 @@ impl<S: Scalar, const D: usize> Frame<Taylor<S>, D> {
         }
         twice.map(|w| w * 0.5)
     }
+
+    /// Angular velocity w in the world, rad/s, and w' = (sum e x e'')/2, rad/s^2, as its rate.
+    pub fn spin(&self) -> [Taylor<S>; 3] {
+        let mut twice = [S::zero(); 3];
+        for axis in &self.axes {
+            let change = cross(&axis.map(|a| a.x), &axis.map(|a| a.dd));
+            (0..3).for_each(|i| twice[i] += change[i]);
+        }
+        if D == 2 {
+            twice[2] = self.turn.dd * 2.0;
+        }
+        let w = self.angular_velocity();
+        from_fn(|i| Taylor::new(w[i], twice[i] * 0.5, S::zero()))
+    }
 }
 
 impl<S: Scalar, const D: usize> Frame<S, D> {
@@ -166,11 +180,11 @@ impl<S: Scalar, const D: usize> Wrench<S, D> {
     }
 }
 
-impl<const D: usize> Wrench<f64, D> {
+impl<S: Scalar, const D: usize> Wrench<S, D> {
     /// Power of the wrench at a moving frame, f.v + m.w, W.
-    pub fn power(&self, frame: &Frame<Taylor<f64>, D>) -> f64 {
-        let force: f64 = frame.r.iter().zip(self.force).map(|(r, f)| r.d * f).sum();
-        match self.torque == [0.0; 3] {
+    pub fn power(&self, frame: &Frame<Taylor<S>, D>) -> S {
+        let force = frame.r.iter().zip(self.force).fold(S::zero(), |sum, (r, f)| sum + r.d * f);
+        match self.torque == [S::zero(); 3] {
             true => force,
             false => force + dot(&frame.angular_velocity(), &self.torque),
         }
@@ -209,6 +223,14 @@ pub fn sub<S: Scalar, const D: usize>(a: &[S; D], b: &[S; D]) -> [S; D] {
 #[inline]
 pub fn scale<S: Scalar, const D: usize>(a: &[S; D], factor: S) -> [S; D] {
     a.map(|x| x * factor)
+}
+
+/// The vector with these components along axes.
+#[inline]
+pub fn turned<S: Scalar, const D: usize>(axes: &[[S; D]; D], components: &[f64; 3]) -> [S; D] {
+    let mut vector = [S::zero(); D];
+    add_rotated(&mut vector, axes, &from_fn(|i| components[i]));
+    vector
 }
 
 /// A vector of the plane as one of space, with z = 0.

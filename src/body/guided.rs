@@ -29,10 +29,10 @@ const NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 const RATES: [&str; 6] = ["x'", "y'", "z'", "rx'", "ry'", "rz'"];
 
 impl<const D: usize> Guided<D> {
-    /// `rotation[i][j]`: world component i of body axis j; `free`: indices into x, y, z, rx, ry, rz.
+    /// `moment` about the axis of rotation, kg m^2; `rotation[i][j]`: world component i of body axis j; `free`: indices into x, y, z, rx, ry, rz.
     pub fn new(
         mass: f64,
-        inertia: &Matrix3,
+        moment: f64,
         rest: [f64; 3],
         rotation: Matrix3,
         free: &[usize],
@@ -51,10 +51,6 @@ impl<const D: usize> Guided<D> {
                 }
             }
         }
-        let moment = turn.map_or(0.0, |turn| {
-            let axis = rotation[turn.axis];
-            (0..3).map(|i| (0..3).map(|j| axis[i] * inertia[i][j] * axis[j]).sum::<f64>()).sum()
-        });
         let axes = std::array::from_fn(|j| std::array::from_fn(|i| rotation[i][j]));
         Ok(Guided { mass, moment, slots, turn, rest, axes, markers })
     }

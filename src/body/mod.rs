@@ -11,8 +11,10 @@ mod build;
 pub mod flexible;
 #[doc(hidden)]
 pub mod floating;
+mod formula;
 mod frame;
 mod guided;
+mod inertia;
 mod kernel;
 mod kind;
 mod parse;
@@ -26,6 +28,9 @@ mod state;
 mod turning;
 
 pub use build::{Build, MarkerId, MarkerTable, Switches};
+pub(crate) use formula::slot;
+pub use formula::{Formula, NamedOutput, NamedOutputs};
+pub(crate) use frame::turned;
 pub use frame::{Frame, Marker, Wrench, cross, dot, norm, scale, sub};
 #[doc(hidden)]
 pub use frame::{in_space, twist_len, unit_axes};
@@ -37,7 +42,7 @@ pub(crate) use kind::mistaken;
 pub use parse::{parse, parse_among, show};
 #[doc(hidden)]
 pub use pose::{Carried, Freedom, Pose};
-pub use probe::{Formula, Probe, Quantity};
+pub use probe::{Probe, Quantity};
 #[doc(hidden)]
 pub use probe::{small_rotation, small_rotation_torque};
 pub use rigid::Initial;
@@ -46,7 +51,7 @@ pub(crate) use rigid_planar::RigidPlanar;
 pub(crate) use rigid_spatial::RigidSpatial;
 pub(crate) use state::State;
 #[doc(hidden)]
-pub use turning::{Turned, Turning};
+pub use turning::{TurnAxes, Turned, Turning};
 
 use crate::error::Result;
 use crate::math::{Dual, Scalar, Taylor};

@@ -1,5 +1,6 @@
 //! Pose and twist of a body's own frame, and what the velocities of a rigid body are.
 
+use super::frame::turned;
 use super::{Frame, Marker, Wrench, cross, dot, in_space, sub, twist_len, unit_axes};
 use crate::math::Taylor;
 use crate::math::rotation::axes_from_quaternion;
@@ -195,6 +196,11 @@ impl<const D: usize> Carried<'_, D> {
     #[inline]
     pub fn axis(&self, i: usize) -> [f64; D] {
         self.body.rotated(&self.marker.axes[i])
+    }
+
+    /// A direction in its axes, in the world.
+    pub fn direction(&self, components: &[f64; 3]) -> [f64; D] {
+        self.body.rotated(&turned(&self.marker.axes, components))
     }
 
     /// Its angular velocity in the world, rad/s.

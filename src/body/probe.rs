@@ -1,227 +1,181 @@
-//! Scalars read off markers, and expressions over them.
+//! Scalars read off markers.
 
-use super::frame::{cross, dot};
-use super::{Build, Frame, MarkerId, MarkerTable};
-use crate::error::{Error, Result};
-use crate::math::expression::{Expression, Name, Names};
-use crate::math::signal::Signal;
-use crate::math::{Scalar, Taylor, Time};
-use std::sync::Arc;
+use super::frame::{cross, dot, norm, sub, turned};
+use super::turning::TurnAxes;
+use super::{Frame, MarkerId, MarkerTable};
+use crate::math::{Regime, Scalar, Taylor};
+use std::borrow::Borrow;
 
-/// One scalar of one marker.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// One scalar of a marker, or of a marker against another one, or a rate of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Probe {
-    /// Index of the marker.
-    pub marker: MarkerId,
+    /// Marker that is measured.
+    pub of: MarkerId,
+    /// Marker against which and in whose axes it is measured; `None` is the world.
+    pub to: Option<MarkerId>,
     /// Component that is read.
     pub quantity: Quantity,
+    /// Number of time derivatives: 0 for a position, 1 for a velocity, 2 for an acceleration.
+    pub order: usize,
 }
 
-/// Quantity of a marker that a probe reads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Quantity of markers that a probe reads.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Quantity {
-    /// World coordinate of the marker's origin, m.
+    /// Coordinate of the origin of `of` along an axis of `to`, m.
     Position(usize),
-    /// World component of the velocity of the marker's origin, m/s.
-    Velocity(usize),
-    /// Angle of turn in the plane, rad.
+    /// The same along a direction given in the axes of `to`, m.
+    Along([f64; 3]),
+    /// Distance of the origins, m.
+    Distance,
+    /// Angle in the plane, rad.
     Angle,
-    /// World component of the angular velocity, rad/s; in the plane the third.
+    /// Angle in space, rad, counted through full turns.
+    Turn {
+        /// Index of the counted angle, as [`Build::turning`](super::Build::turning) gives it.
+        turning: usize,
+        /// The angle at the start is within half a turn of this, rad.
+        start: f64,
+        /// 1 or -1.
+        factor: f64,
+        /// Axes by which it is measured; `None` for x of `of` in the x-y plane of `to`.
+        axes: Option<TurnAxes>,
+    },
+    /// Component of the angular velocity along an axis of `to`, rad/s, in the plane the third; its order is 1 or 2.
     Spin(usize),
+    /// Value of the scene's output of this number, in SI units; in other outputs alone, which know what it is.
+    Output(usize),
 }
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 impl Probe {
-    /// `body.marker.x`, `body.x`, `body.angle`, with `'` for rates; `body.wx` in space.
+    /// A quantity of `of` against `to`; the marker 0 is the world.
+    pub fn new(of: MarkerId, to: MarkerId, quantity: Quantity, order: usize) -> Self {
+        Probe { of, to: (to != 0).then_some(to), quantity, order }
+    }
+
+    /// `body.marker.x`, `body.x`, `body.angle`, with `'` and `''` for rates; `body.wx` and `body.wx'` in space.
     pub fn parse<const D: usize>(name: &str, markers: &MarkerTable) -> Option<Probe> {
         let (place, quantity) = name.rsplit_once('.')?;
-        let marker = markers.find(place).ok()?;
+        let of = markers.find(place).ok()?;
+        let base = quantity.trim_end_matches('\'');
+        let primes = quantity.len() - base.len();
         let axis = |text: &str| AXES[..D].iter().position(|axis| *axis == text);
-        let quantity = match quantity.strip_suffix('\'') {
-            Some("angle") if D == 2 => Quantity::Spin(2),
-            Some(base) => Quantity::Velocity(axis(base)?),
-            None if quantity == "angle" && D == 2 => Quantity::Angle,
-            None if D == 3 && quantity.starts_with('w') => Quantity::Spin(axis(&quantity[1..])?),
-            None => Quantity::Position(axis(quantity)?),
+        let (quantity, order) = match base.strip_prefix('w') {
+            Some(about) if D == 3 => (Quantity::Spin(axis(about)?), primes + 1),
+            _ if base == "angle" && D == 2 => (Quantity::Angle, primes),
+            _ => (Quantity::Position(axis(base)?), primes),
         };
-        Some(Probe { marker, quantity })
+        (order <= 2).then_some(Probe { of, to: None, quantity, order })
     }
 
-    /// True if the quantity is a velocity or an angular velocity.
-    pub fn is_rate(&self) -> bool {
-        matches!(self.quantity, Quantity::Velocity(_) | Quantity::Spin(_))
+    /// The value of an output.
+    pub fn output(number: usize) -> Self {
+        Probe { of: 0, to: None, quantity: Quantity::Output(number), order: 0 }
     }
 
-    /// Place of its marker among those of an element.
-    pub fn place_in(&self, markers: &[MarkerId]) -> usize {
-        markers.iter().position(|&marker| marker == self.marker).unwrap_or(0)
+    /// True if the value may depend on derivatives of this order.
+    pub fn feels(&self, order: usize) -> bool {
+        self.order >= order || matches!(self.quantity, Quantity::Output(_))
     }
 
-    /// Value of a position or angle at a frame; rates need [`Probe::read`].
-    pub fn position<S: Scalar, const D: usize>(&self, frame: &Frame<S, D>) -> S {
+    /// The rate of the quantity, if it has one.
+    pub fn rate(self) -> Option<Probe> {
+        (self.order < 2).then_some(Probe { order: self.order + 1, ..self })
+    }
+
+    /// The markers that it reads.
+    pub fn markers(&self) -> impl Iterator<Item = MarkerId> {
+        std::iter::once(self.of).chain(self.to)
+    }
+
+    /// Value of a quantity of order zero.
+    pub fn position<S, F, const D: usize>(&self, regime: Regime, frame: impl Fn(MarkerId) -> F) -> S
+    where
+        S: Scalar,
+        F: Borrow<Frame<S, D>>,
+    {
+        let (of, to) = (frame(self.of), self.to.map(&frame));
+        let (of, to) = (of.borrow(), to.as_ref().map(|to| to.borrow()));
+        let gap = || to.map_or(of.r, |to| sub(&of.r, &to.r));
         match self.quantity {
-            Quantity::Position(axis) => frame.r[axis],
-            _ => frame.turn,
+            Quantity::Position(axis) => to.map_or(of.r[axis], |to| dot(&to.axes[axis], &gap())),
+            Quantity::Along(direction) => match to {
+                Some(to) => dot(&turned(&to.axes, &direction), &gap()),
+                None => gap().iter().zip(direction).fold(S::zero(), |sum, (&gap, x)| sum + gap * x),
+            },
+            Quantity::Distance => norm(&gap()),
+            Quantity::Angle => to.map_or(of.turn, |to| of.turn - to.turn),
+            Quantity::Turn { turning, start, factor, axes } => {
+                let axes = axes.unwrap_or(TurnAxes::OWN);
+                let (c, s) = match to {
+                    Some(to) => axes.cos_sin(of, to),
+                    None => axes.cos_sin(of, &Frame::world()),
+                };
+                // The first axis of one is along the third of the other: the angle and its derivative are undefined.
+                let undefined = s.value() == 0.0 && c.value() == 0.0;
+                let angle = if undefined { S::zero() } else { S::atan2(s, c) * factor };
+                regime.angle(turning, angle, start)
+            }
+            Quantity::Spin(_) | Quantity::Output(_) => S::zero(),
         }
     }
 
-    /// Value of the quantity at a moving frame.
-    pub fn read<S: Scalar, const D: usize>(&self, frame: &Frame<Taylor<S>, D>) -> S {
+    /// Value at moving frames.
+    pub fn read<S, F, const D: usize>(&self, regime: Regime, frame: impl Fn(MarkerId) -> F) -> S
+    where
+        S: Scalar,
+        F: Borrow<Frame<Taylor<S>, D>>,
+    {
         match self.quantity {
-            Quantity::Position(axis) => frame.r[axis].x,
-            Quantity::Velocity(axis) => frame.r[axis].d,
-            Quantity::Angle => frame.turn.x,
-            Quantity::Spin(axis) => frame.angular_velocity()[axis],
+            Quantity::Spin(axis) => self.spin(axis, frame),
+            Quantity::Distance if self.order > 0 => self.distance_rate(frame),
+            _ => level(self.position(regime, frame), self.order),
+        }
+    }
+
+    /// Component of the angular velocity, or its rate.
+    fn spin<S, F, const D: usize>(&self, axis: usize, frame: impl Fn(MarkerId) -> F) -> S
+    where
+        S: Scalar,
+        F: Borrow<Frame<Taylor<S>, D>>,
+    {
+        let of = frame(self.of);
+        let Some(to) = self.to.map(frame) else {
+            return match self.order {
+                1 => of.borrow().angular_velocity()[axis],
+                _ => of.borrow().spin()[axis].d,
+            };
+        };
+        let spin = sub(&of.borrow().spin(), &to.borrow().spin());
+        match D {
+            2 => level(spin[2], self.order - 1),
+            _ => level(dot(&to.borrow().axes[axis], &std::array::from_fn(|i| spin[i])), self.order - 1),
+        }
+    }
+
+    /// Rate of the distance: at zero distance, where it has none, the speed of separation.
+    fn distance_rate<S, F, const D: usize>(&self, frame: impl Fn(MarkerId) -> F) -> S
+    where
+        S: Scalar,
+        F: Borrow<Frame<Taylor<S>, D>>,
+    {
+        let of = frame(self.of).borrow().r;
+        let gap = self.to.map_or(of, |to| sub(&of, &frame(to).borrow().r));
+        match norm(&gap.map(|x| x.x)).value() == 0.0 {
+            true if self.order == 1 => norm(&gap.map(|x| x.d)),
+            _ => level(norm(&gap), self.order),
         }
     }
 }
 
-/// An expression over t and probes; variable 0 is t, variable i + 1 is probe i.
-#[derive(Clone, Debug)]
-pub struct Formula {
-    /// The expression, its variables numbered as above.
-    pub expression: Expression,
-    /// Marker quantities in the order of the variables.
-    pub probes: Vec<Probe>,
-}
-
-/// The largest number of probes of a formula: they are evaluated on the stack.
-pub const MOST_PROBES: usize = 24;
-
-impl Formula {
-    /// Parses `text`; names of outputs are replaced by their expressions.
-    pub fn parse<const D: usize>(text: &str, build: &Build<D>, rates: bool) -> Result<Formula> {
-        let names = Scope { build, rates, probes: Default::default() };
-        let expression = Expression::parse(&expand(text, build)?, &names)?;
-        if expression.is_constant() {
-            expression.constant()?;
-        }
-        let probes = names.probes.into_inner();
-        if probes.len() > MOST_PROBES {
-            return Err(Error::input(format!("{} marker quantities in one expression", probes.len()))
-                .hint(format!("use at most {MOST_PROBES}")));
-        }
-        Ok(Formula { expression, probes })
-    }
-
-    /// The expression as a function of t alone; an error if it reads a marker.
-    pub fn function_of_time(self) -> Result<Expression> {
-        match self.probes.is_empty() {
-            true => Ok(self.expression),
-            false => Err(Error::input("this may depend on t and parameters only, but uses a marker").hint(
-                "markers may stand in an `equation` joint, an applied force or torque, a tyre's road, and outputs",
-            )),
-        }
-    }
-
-    /// The markers that it reads, each once, in the order of its probes.
-    pub fn markers(&self) -> Vec<MarkerId> {
-        let mut markers = Vec::new();
-        for probe in &self.probes {
-            if !markers.contains(&probe.marker) {
-                markers.push(probe.marker);
-            }
-        }
-        markers
-    }
-
-    /// Value of the expression, with `read` for the values of the probes.
-    pub fn evaluate<S: Scalar>(&self, time: Time<S>, read: impl Fn(&Probe) -> S) -> S {
-        self.with(time, read, |variables| self.expression.eval_held(variables, time.regime))
-    }
-
-    /// Writes the arguments of its switching functions at their numbers.
-    pub fn switching<S: Scalar>(&self, time: Time<S>, read: impl Fn(&Probe) -> S, out: &mut [S]) {
-        self.with(time, read, |variables| self.expression.arguments(variables, time.regime, out));
-    }
-
-    fn with<S: Scalar, R>(&self, time: Time<S>, read: impl Fn(&Probe) -> S, see: impl FnOnce(&[S]) -> R) -> R {
-        if self.probes.is_empty() {
-            return see(&[time.t]);
-        }
-        let mut variables = [time.t; MOST_PROBES + 1];
-        for (place, probe) in variables[1..].iter_mut().zip(&self.probes) {
-            *place = read(probe);
-        }
-        see(&variables[..=self.probes.len()])
-    }
-}
-
-/// Largest length of an expression with its outputs replaced, bytes.
-const LONGEST: usize = 1_000_000;
-
-/// Replaces names of outputs by their expressions in brackets, as deep as outputs use outputs.
-fn expand<const D: usize>(text: &str, build: &Build<D>) -> Result<String> {
-    let mut text = text.to_string();
-    for _ in 0..=build.outputs.len() {
-        let next = replace_names(&text, build)?;
-        if next == text {
-            return Ok(text);
-        }
-        if next.len() > LONGEST {
-            break;
-        }
-        text = next;
-    }
-    Err(Error::input("outputs refer to each other in a circle, or grow beyond all bounds")
-        .hint("write one of them in terms of markers alone"))
-}
-
-fn replace_names<const D: usize>(text: &str, build: &Build<D>) -> Result<String> {
-    let is_name = |c: char| c.is_alphanumeric() || c == '_' || c == '.' || c == '\'';
-    let mut result = String::with_capacity(text.len());
-    let mut rest = text;
-    while let Some(start) = rest.find(is_name) {
-        let (before, tail) = rest.split_at(start);
-        let (word, after) = tail.split_at(tail.find(|c| !is_name(c)).unwrap_or(tail.len()));
-        result.push_str(before);
-        match build.outputs.iter().find(|(name, _)| name == word) {
-            Some(_) if build.parameters.get(word).is_some() => {
-                let error = Error::input(format!("`{word}` is both a parameter and an output"));
-                return Err(error.hint("rename one of them"));
-            }
-            Some((_, expression)) => result.push_str(&format!("({expression})")),
-            None => result.push_str(word),
-        }
-        rest = after;
-    }
-    Ok(result + rest)
-}
-
-struct Scope<'a, const D: usize> {
-    build: &'a Build<'a, D>,
-    rates: bool,
-    probes: std::cell::RefCell<Vec<Probe>>,
-}
-
-impl<const D: usize> Names for Scope<'_, D> {
-    fn resolve(&self, name: &str) -> Option<Name> {
-        if name == "t" {
-            return Some(Name::Variable(0));
-        }
-        if let Some(value) = self.build.parameters.get(name) {
-            return Some(Name::Constant(value));
-        }
-        let probe = self.build.probe(name).filter(|probe| self.rates || !probe.is_rate())?;
-        let mut probes = self.probes.borrow_mut();
-        let index = probes.iter().position(|known| *known == probe).unwrap_or_else(|| {
-            probes.push(probe);
-            probes.len() - 1
-        });
-        Some(Name::Variable(index + 1))
-    }
-
-    fn known(&self) -> Vec<String> {
-        let quantities: &[&str] = if D == 2 { &["x", "y", "angle"] } else { &["x", "y", "z"] };
-        let table = self.build.markers;
-        let (markers, states) = (table.names.iter(), table.states.iter().map(|(name, _)| name.clone()));
-        let probes = markers.flat_map(|marker| quantities.iter().map(move |q| format!("{marker}.{q}")));
-        self.build.parameters.known().into_iter().chain(["t".into()]).chain(states).chain(probes).collect()
-    }
-
-    fn signals(&self) -> &[Arc<Signal>] {
-        self.build.parameters.signals()
+/// Time derivative of this order.
+fn level<S>(x: Taylor<S>, order: usize) -> S {
+    match order {
+        0 => x.x,
+        1 => x.d,
+        _ => x.dd,
     }
 }
 

@@ -1,13 +1,14 @@
 //! Rigid body: its keys in a scene, and the choice of its coordinates.
 
 use super::guided::Guided;
+use super::inertia::{self, Inertia};
 use super::rigid_planar::RigidPlanar;
 use super::rigid_spatial::RigidSpatial;
 use super::{BodySpec, Build, Built, Marker, cross, norm};
-use crate::error::{Error, Result, short, suggest};
+use crate::error::{Error, Result, suggest};
 use crate::math::expression::Number;
-use crate::math::rotation::{Matrix3, matrix_from_quaternion, quaternion_from_vector};
-use nalgebra::{Matrix3 as Tensor, SymmetricEigen};
+use crate::math::rotation::{matrix_from_quaternion, quaternion_from_vector};
+use crate::tolerances::body as tolerances;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::array::from_fn;
@@ -21,18 +22,13 @@ pub struct Rigid {
     /// kg; zero for a massless link whose motion the joints determine.
     pub mass: Number,
     /// About the centre of mass, kg m^2: one number in the plane; in space 3 numbers (Ixx, Iyy, Izz) or 6 (Ixx, Iyy,
-    /// Izz, Ixy, Ixz, Iyz), which are the entries of the inertia tensor in the body's axes.
-    pub inertia: Inertia,
-    /// Only these coordinates move: of x, y, angle in the plane; in space of x, y, z and one of rx, ry, rz (rotation
-    /// about that world axis). Default: all.
+    /// Izz, Ixy, Ixz, Iyz), which are the entries of the inertia tensor in the body's axes, or, for a body that turns
+    /// about one axis alone, the moment about that. A body that does not turn needs none.
+    pub inertia: Option<Inertia>,
+    /// Only these coordinates of the centre of mass move: of x, y, angle in the plane; in space of x, y, z and one of
+    /// rx, ry, rz (rotation about that world axis through the centre of mass: `["rz"]` is a flywheel). For a body that
+    /// turns about another point take a revolute joint. Default: all.
     pub free: Option<Vec<String>>,
-}
-
-#[derive(Deserialize, JsonSchema)]
-#[serde(untagged, expecting = "expected a number, an expression such as \"m*l^2/12\", or a list of these")]
-pub enum Inertia {
-    Moment(Number),
-    Tensor(Vec<Number>),
 }
 
 /// Where a body starts: a guess, which assembly makes consistent with the joints.
@@ -47,7 +43,7 @@ pub struct Initial {
     pub rotation: Option<Vec<Number>>,
     /// Of the body's origin in the world, m/s.
     pub velocity: Option<Vec<Number>>,
-    /// rad/s: one number in the plane, 3 numbers in the body's axes in space.
+    /// rad/s: one number in the plane; 3 numbers in the body's axes in space, or one about the only axis that is `free`.
     pub angular_velocity: Option<Inertia>,
     /// Of a flexible body in a floating frame: elastic coordinates by name, as `check` lists them. Default: zero.
     pub elastic: Option<BTreeMap<String, Number>>,
@@ -92,6 +88,11 @@ impl Initial {
 
     /// Unit quaternion and angular velocity in the body's axes, rad/s.
     pub fn spatial<const D: usize>(&self, build: &Build<D>) -> Result<([f64; 4], [f64; 3])> {
+        self.spatial_about(None, build)
+    }
+
+    /// The same; `axis` is the only one of the world about which the body turns, if there is one only.
+    fn spatial_about<const D: usize>(&self, axis: Option<usize>, build: &Build<D>) -> Result<([f64; 4], [f64; 3])> {
         if self.angle.is_some() {
             return Err(Error::input("a spatial body needs more than one angle")
                 .under("initial.angle")
@@ -100,6 +101,10 @@ impl Initial {
         let quaternion = quaternion("initial.rotation", self.rotation.as_deref(), build)?;
         let spin = match &self.angular_velocity {
             None => [0.0; 3],
+            Some(Inertia::Moment(rate)) if let Some(axis) = axis => {
+                let rate = build.number("initial.angular_velocity", rate)?;
+                matrix_from_quaternion(&quaternion)[axis].map(|part| rate * part)
+            }
             Some(Inertia::Moment(_)) => {
                 return Err(Error::input("expected 3 numbers, found one")
                     .under("initial.angular_velocity")
@@ -159,14 +164,6 @@ impl Rigid {
         initial: &Initial,
         build: &Build<D>,
     ) -> Result<Built<D>> {
-        let inertia = match &self.inertia {
-            Inertia::Moment(moment) => build.not_negative("inertia", moment)?,
-            Inertia::Tensor(numbers) => {
-                return Err(Error::input(format!("expected one number, found {}", numbers.len()))
-                    .under("inertia")
-                    .hint("a planar body has one moment of inertia, about its centre of mass"));
-            }
-        };
         let (angle, spin) = initial.planar(build)?;
         // From the body's origin to its centre of mass.
         let (s, c) = angle.sin_cos();
@@ -175,6 +172,12 @@ impl Rigid {
         let start = [position[0] - arm[0], position[1] - arm[1], angle];
         let rates = [velocity[0] + spin * arm[1], velocity[1] - spin * arm[0], spin];
         let free = self.free_slots(&["x", "y", "angle"])?;
+        let turns = free.contains(&2) || self.inertia.is_some();
+        let inertia = if turns { inertia::planar(&self.inertia, build)? } else { 0.0 };
+        let kept = |i: usize| if free.contains(&i) { rates[i] } else { 0.0 };
+        let moves = [kept(0) - kept(2) * arm[1], kept(1) + kept(2) * arm[0]];
+        refuse_locked("velocity", &velocity, &moves)?;
+        refuse_locked("angular_velocity", &[spin], &[kept(2)])?;
         let body = RigidPlanar::new(mass, inertia, start, &free, markers);
         let pick = |all: [f64; 3]| free.iter().map(|&i| all[i]).collect();
         Ok(Built { body: Box::new(body), q: pick(start), v: pick(rates) })
@@ -189,9 +192,9 @@ impl Rigid {
         initial: &Initial,
         build: &Build<D>,
     ) -> Result<Built<D>> {
-        let inertia = self.tensor(build)?;
-        let (quaternion, spin) = initial.spatial(build)?;
         let free = self.free_slots(&["x", "y", "z", "rx", "ry", "rz"])?;
+        let axes: Vec<usize> = free.iter().filter_map(|i| i.checked_sub(3)).collect();
+        let (quaternion, spin) = initial.spatial_about(axes.first().copied().filter(|_| axes.len() == 1), build)?;
         // From the body's origin to its centre of mass.
         let rotation = matrix_from_quaternion(&quaternion);
         let turned = |v: [f64; 3]| -> [f64; 3] { from_fn(|i| (0..3).map(|j| rotation[i][j] * v[j]).sum()) };
@@ -199,13 +202,22 @@ impl Rigid {
         let world_spin = turned(spin);
         let lever = cross(&world_spin, &arm);
         let start: [f64; 3] = from_fn(|i| position[i] - arm[i]);
+        let given = velocity;
         let velocity: [f64; 3] = from_fn(|i| velocity[i] - lever[i]);
         if free.len() == 6 {
+            let inertia = inertia::tensor(&self.inertia, build)?;
             let q = [&start[..], &quaternion].concat();
             let v = [&velocity[..], &spin].concat();
             return Ok(Built { body: Box::new(RigidSpatial { mass, inertia, markers }), q, v });
         }
-        let body = Guided::new(mass, &inertia, start, rotation, &free, markers)?;
+        let turns: [f64; 3] = from_fn(|i| if free.contains(&(i + 3)) { world_spin[i] } else { 0.0 });
+        let swept = cross(&turns, &arm);
+        let moves: [f64; 3] = from_fn(|i| swept[i] + if free.contains(&i) { velocity[i] } else { 0.0 });
+        let axis = axes.first().copied().or(self.inertia.as_ref().map(|_| 2));
+        let moment = axis.map_or(Ok(0.0), |axis| inertia::about(&self.inertia, &rotation[axis], build))?;
+        let body = Guided::new(mass, moment, start, rotation, &free, markers)?;
+        refuse_locked("velocity", &given, &moves)?;
+        refuse_locked("angular_velocity", &world_spin, &turns)?;
         let q = free.iter().map(|&i| if i < 3 { start[i] } else { 0.0 }).collect();
         let v = free.iter().map(|&i| if i < 3 { velocity[i] } else { world_spin[i - 3] }).collect();
         Ok(Built { body: Box::new(body), q, v })
@@ -228,51 +240,19 @@ impl Rigid {
         }
         Ok((0..names.len()).filter(|&i| free.iter().any(|name| name == names[i])).collect())
     }
-
-    fn tensor<const D: usize>(&self, build: &Build<D>) -> Result<Matrix3> {
-        let numbers = match &self.inertia {
-            Inertia::Tensor(numbers) if numbers.len() == 3 => {
-                let [x, y, z] = build.vector::<3>("inertia", numbers)?;
-                [x, y, z, 0.0, 0.0, 0.0]
-            }
-            Inertia::Tensor(numbers) if numbers.len() == 6 => build.vector::<6>("inertia", numbers)?,
-            _ => {
-                let found = if let Inertia::Tensor(numbers) = &self.inertia { numbers.len() } else { 1 };
-                return Err(Error::input(format!("expected 3 or 6 numbers, found {found}"))
-                    .under("inertia")
-                    .hint("a spatial body has [Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Ixz, Iyz]"));
-            }
-        };
-        let [xx, yy, zz, xy, xz, yz] = numbers;
-        let tensor = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-        physical(&tensor)?;
-        Ok(tensor)
-    }
 }
 
-/// Refuses an inertia tensor that no mass distribution has: principal moments must be >= 0 and each at most the sum of
-/// the other two.
-fn physical(tensor: &Matrix3) -> Result<()> {
-    let mut moments: Vec<f64> =
-        SymmetricEigen::new(Tensor::from_fn(|i, j| tensor[i][j])).eigenvalues.iter().copied().collect();
-    moments.sort_by(f64::total_cmp);
-    // Data are rounded to a few digits, so a thin rod may miss the bound by rounding.
-    let slack = 1e-6 * moments[2].abs();
-    if moments[0] < -slack {
-        return Err(Error::input(format!(
-            "a principal moment of inertia is {}, but cannot be negative",
-            short(moments[0])
-        ))
-        .under("inertia")
-        .hint("check the signs, and the order Ixx, Iyy, Izz, Ixy, Ixz, Iyz"));
+/// Refuses an initial velocity that is given along what is not free: components that are not zero, and not those with
+/// which the free coordinates move the body's origin.
+fn refuse_locked(field: &str, given: &[f64], moves: &[f64]) -> Result<()> {
+    let scale = given.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let differs = |(x, own): (&f64, &f64)| *x != 0.0 && (x - own).abs() > tolerances::SAME * scale;
+    match given.iter().zip(moves).any(differs) {
+        false => Ok(()),
+        true => Err(Error::input("the body cannot move like that: only the coordinates in `free` move")
+            .under(format!("initial.{field}"))
+            .hint("remove what is along other directions, or add them to \"free\"")),
     }
-    if moments[2] > moments[0] + moments[1] + slack {
-        let [a, b, c] = [moments[0], moments[1], moments[2]].map(short);
-        return Err(Error::input(format!("principal moments {a}, {b}, {c} violate the triangle inequality"))
-            .under("inertia")
-            .hint("no body has one principal moment above the sum of the other two: check units and signs"));
-    }
-    Ok(())
 }
 
 /// Unit quaternion [w, x, y, z] from 4 numbers, or from a rotation vector of 3.

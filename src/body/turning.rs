@@ -5,12 +5,13 @@
 //! quaternions at every accepted state. In between a' is integrated, which gives the number of full turns for steps of
 //! any size.
 
-use super::{Carried, MarkerId, cross, dot, sub};
-use crate::math::Regime;
+use super::frame::turned;
+use super::{Carried, Frame, MarkerId, cross, dot, sub};
+use crate::math::{Regime, Scalar};
 use crate::tolerances::body as tolerances;
 use std::array::from_fn;
 
-/// z times the angle of marker `of` about the z axis of marker `to`.
+/// z times the angle of marker `of` about the z axis of marker `to`, or about another line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turned {
     /// Marker whose angle is counted.
@@ -19,6 +20,29 @@ pub struct Turned {
     pub to: MarkerId,
     /// A whole number, so that the sum is known up to full turns too.
     pub factor: f64,
+    /// Axes by which it is measured; `None` for x of `of` in the x-y plane of `to`.
+    pub axes: Option<TurnAxes>,
+}
+
+/// The axes by which an angle about a line is measured: atan2(e_1 . b, e_0 . b).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TurnAxes {
+    /// b, in the axes of the marker whose angle it is.
+    pub of: [f64; 3],
+    /// e_0 and e_1, square to the line, in the axes of the marker against which it is measured.
+    pub to: [[f64; 3]; 2],
+}
+
+impl TurnAxes {
+    /// The markers' own: the angle about z.
+    pub const OWN: TurnAxes = TurnAxes { of: [1.0, 0.0, 0.0], to: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]] };
+
+    /// e_0 . b and e_1 . b
+    pub fn cos_sin<S: Scalar, const D: usize>(&self, of: &Frame<S, D>, to: &Frame<S, D>) -> (S, S) {
+        let b = turned(&of.axes, &self.of);
+        let [c, s] = self.to.map(|e| dot(&turned(&to.axes, &e), &b));
+        (c, s)
+    }
 }
 
 /// A sum of angles that an element needs counted through full turns.
@@ -38,7 +62,10 @@ impl Turned {
     #[inline]
     fn at<'m, const D: usize>(&self, marker: impl Fn(MarkerId) -> Carried<'m, D>) -> [f64; 3] {
         let (of, to) = (marker(self.of), marker(self.to));
-        let (x, e) = (of.axis(0), [to.axis(0), to.axis(1)]);
+        let (x, e) = match &self.axes {
+            None => (of.axis(0), [to.axis(0), to.axis(1)]),
+            Some(axes) => (of.direction(&axes.of), axes.to.map(|e| to.direction(&e))),
+        };
         let [c, s] = [dot(&e[0], &x), dot(&e[1], &x)];
         let across: [f64; D] = from_fn(|i| c * e[1][i] - s * e[0][i]);
         let spin = sub(&of.spin(), &to.spin());

@@ -13,7 +13,7 @@ const LOCK: &str = ".lock";
 /// Results that become visible only when all of them are complete.
 ///
 /// They are written to a hidden folder in the one where they will be, and [`publish`](Self::publish) renames them one
-/// after another. If the process ends before that, by a full disk or a signal, earlier results stay unchanged. Only
+/// after another. If the process ends before that, by a full disk or a formula, earlier results stay unchanged. Only
 /// during the renames, some microseconds for each file, can old and new ones be mixed. The last file vouches for the
 /// others: its old version goes before the first is renamed, and its new one comes last.
 ///

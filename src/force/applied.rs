@@ -1,10 +1,10 @@
 //! Applied force and torque: expressions of time, of marker quantities and of named outputs.
 
 use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion};
-use crate::body::{Build, Formula, MOST_MARKERS, MarkerId, Probe, Wrench, cross, norm};
+use crate::body::{Build, Formula, MOST_MARKERS, MarkerId, Probe, Wrench, cross, norm, slot};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
-use crate::math::{Rate, Scalar, Time};
+use crate::math::{Rate, Regime, Scalar, Time};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -140,12 +140,12 @@ struct Applied {
 }
 
 impl Applied {
-    fn read<S: Scalar, const D: usize>(&self, probe: &Probe, frames: &Motion<S, D>) -> S {
-        probe.read(&frames[probe.place_in(&self.markers)])
+    fn read<S: Scalar, const D: usize>(&self, probe: &Probe, regime: Regime, frames: &Motion<S, D>) -> S {
+        probe.read(regime, |marker| slot(&self.markers, marker, frames))
     }
 
     fn components<S: Scalar, const D: usize>(&self, frames: &Motion<S, D>, time: Time<S>) -> [S; 3] {
-        let value = |formula: &Formula| formula.evaluate(time, |probe| self.read(probe, frames));
+        let value = |formula: &Formula| formula.evaluate(time, |probe| self.read(probe, time.regime, frames));
         match self.formulas.as_slice() {
             [torque] => [S::zero(), S::zero(), value(torque)],
             all => std::array::from_fn(|i| all.get(i).map_or(S::zero(), value)),
@@ -158,6 +158,10 @@ impl<const D: usize> ForceKernel<D> for Applied {
         true
     }
 
+    fn acted(&self, _markers: usize) -> usize {
+        1 + usize::from(self.reacts)
+    }
+
     fn is_torque(&self) -> bool {
         matches!(self.kind, Kind::Torque)
     }
@@ -168,7 +172,7 @@ impl<const D: usize> ForceKernel<D> for Applied {
 
     fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
         for formula in &self.formulas {
-            formula.switching(time.map(|t| t.x), |probe| self.read(probe, frames), out);
+            formula.switching(time.map(|t| t.x), |probe| self.read(probe, time.regime, frames), out);
         }
     }
 

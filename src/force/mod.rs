@@ -9,6 +9,8 @@
 mod applied;
 mod beam;
 mod bushing;
+mod central_gravity;
+mod law;
 mod spring_damper;
 mod state_rate;
 mod torsion_spring;
@@ -16,6 +18,7 @@ mod tyre;
 
 #[doc(hidden)]
 pub use beam::{Beam, Half, Load, Station};
+pub(crate) use central_gravity::CentralGravity;
 pub(crate) use state_rate::StateRate;
 
 use crate::body::{Build, Dual6, ElementKind, Frame, MOST_MARKERS, MarkerId, Wrench, mistaken, parse_among};
@@ -67,6 +70,10 @@ pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
     /// True if its magnitude, and an input to it, is a torque, N m, and not a force. Default: false.
     fn is_torque(&self) -> bool {
         false
+    }
+    /// Number of its first markers on whose bodies it acts, of `markers` in all; others it reads alone. Default: all.
+    fn acted(&self, markers: usize) -> usize {
+        markers
     }
     /// [`Self::act`] with inputs: `input` adds to its components, N or N m, in its own axes.
     fn driven<S: Scalar>(
@@ -124,6 +131,8 @@ pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Dual6, D> + Send 
     fn takes_small_rotations(&self) -> bool;
     /// True if inputs u may drive its components.
     fn takes_inputs(&self) -> bool;
+    /// Number of its first markers on whose bodies it acts, of `markers` in all.
+    fn acted(&self, markers: usize) -> usize;
     /// True if its magnitude is a torque, N m, in place of a force, N.
     fn is_torque(&self) -> bool;
     /// Writes the arguments of its switching functions, with their rates, at their numbers.
@@ -142,6 +151,9 @@ impl<K: ForceKernel<D>, const D: usize> Force<D> for K {
     }
     fn takes_inputs(&self) -> bool {
         ForceKernel::takes_inputs(self)
+    }
+    fn acted(&self, markers: usize) -> usize {
+        ForceKernel::acted(self, markers)
     }
     fn is_torque(&self) -> bool {
         ForceKernel::is_torque(self)

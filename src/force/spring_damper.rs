@@ -1,15 +1,16 @@
-//! Linear spring and damper along the line between two points.
+//! Spring and damper along the line between two points.
 
+use super::law::Law;
 use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion};
-use crate::body::{Build, Wrench, dot, sub};
+use crate::body::{Build, Probe, Quantity, Wrench, dot, norm, sub};
 use crate::error::Result;
-use crate::math::Scalar;
 use crate::math::expression::Number;
+use crate::math::{Rate, Scalar};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Tension k (l - free_length) + c l' - preload along the line between two markers; its direction is undefined at
-/// l = 0, unless free_length and preload are zero and there is no damping.
+/// l = 0, unless free_length and preload are zero and there is no damping. Or a tension by any law.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpringDamper {
@@ -23,12 +24,19 @@ pub struct SpringDamper {
     pub free_length: Option<Number>,
     /// Force that pushes the markers apart at free_length, N. Default: zero.
     pub preload: Option<Number>,
+    /// Instead of these: the tension, N, positive where it pulls, an expression of `length`, m, its `rate`, m/s, t, marker
+    /// quantities and outputs by name, such as "k*(length - l0)^3 + c*rate". It has no potential in the energy: what it
+    /// stores counts as work that it takes.
+    pub law: Option<Number>,
 }
 
 impl ForceSpec for SpringDamper {
     const TYPE: &'static str = "spring_damper";
 
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+        if let Some(law) = &self.law {
+            return self.by_law(law, build);
+        }
         let force = Spring {
             k: optional_not_negative("stiffness", &self.stiffness, build)?,
             c: optional_not_negative("damping", &self.damping, build)?,
@@ -36,6 +44,22 @@ impl ForceSpec for SpringDamper {
             preload: build.number_or("preload", &self.preload, 0.0)?,
         };
         Ok(Built { force: Box::new(force), markers: build.between(&self.between)? })
+    }
+}
+
+impl SpringDamper {
+    fn by_law<const D: usize>(&self, law: &Number, build: &Build<D>) -> Result<Built<D>> {
+        let given = [
+            ("stiffness", self.stiffness.is_some()),
+            ("damping", self.damping.is_some()),
+            ("free_length", self.free_length.is_some()),
+            ("preload", self.preload.is_some()),
+        ];
+        let ends = build.between(&self.between)?;
+        let length = Probe::new(ends[1], ends[0], Quantity::Distance, 0);
+        let law = Law::read(law, &given, ("length", length), &ends, build)?;
+        let markers = law.markers().to_vec();
+        Ok(Built { force: Box::new(Lawful { law }), markers })
     }
 }
 
@@ -67,5 +91,29 @@ impl<const D: usize> ForceKernel<D> for Spring {
         out[0].force = gap.map(|x| x.x * tension / length.x);
         out[1].force = out[0].force.map(|x| -x);
         Action { potential: stretch.square() * (0.5 * self.k) - stretch * self.preload, magnitude: tension }
+    }
+}
+
+/// A spring whose tension is an expression.
+struct Lawful {
+    law: Law,
+}
+
+impl<const D: usize> ForceKernel<D> for Lawful {
+    fn acted(&self, _markers: usize) -> usize {
+        2
+    }
+
+    fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
+        let gap = sub(&frames[1].r, &frames[0].r).map(|x| x.x);
+        let tension = self.law.value(frames, time);
+        let length = norm(&gap);
+        out[0].force = gap.map(|x| x * tension / length);
+        out[1].force = out[0].force.map(|x| -x);
+        Action::without_potential(tension)
+    }
+
+    fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
+        self.law.switching(frames, time, out);
     }
 }

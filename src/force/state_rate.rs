@@ -1,9 +1,9 @@
 //! The rate of a state.
 
 use super::{Action, ForceKernel, Instant, Motion};
-use crate::body::{Formula, MOST_MARKERS, MarkerId, Wrench};
+use crate::body::{Formula, MOST_MARKERS, MarkerId, Probe, Wrench, slot};
 use crate::error::{Error, Result};
-use crate::math::{Rate, Scalar, Taylor};
+use crate::math::{Rate, Regime, Scalar, Taylor};
 
 /// xi' = r(t, q, v, xi): a force of that size along x on the marker of a state, whose mass is one.
 pub struct StateRate {
@@ -30,11 +30,15 @@ impl StateRate {
     pub fn markers(&self) -> &[MarkerId] {
         &self.markers
     }
+
+    fn read<S: Scalar, const D: usize>(&self, probe: &Probe, regime: Regime, frames: &Motion<S, D>) -> S {
+        probe.read(regime, |marker| slot(&self.markers, marker, frames))
+    }
 }
 
 impl<const D: usize> ForceKernel<D> for StateRate {
     fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
-        let rate = self.rate.evaluate(time.map(|t| t.x), |probe| probe.read(&frames[probe.place_in(&self.markers)]));
+        let rate = self.rate.evaluate(time.map(|t| t.x), |probe| self.read(probe, time.regime, frames));
         out[0].force[0] = rate;
         // A state has no energy: the power of the wrench that moves it is no work.
         let power = rate * frames[0].r[0].d;
@@ -42,6 +46,6 @@ impl<const D: usize> ForceKernel<D> for StateRate {
     }
 
     fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
-        self.rate.switching(time.map(|t| t.x), |probe| probe.read(&frames[probe.place_in(&self.markers)]), out);
+        self.rate.switching(time.map(|t| t.x), |probe| self.read(probe, time.regime, frames), out);
     }
 }

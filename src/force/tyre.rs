@@ -1,7 +1,7 @@
 //! Vertical tyre on a road profile.
 
 use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion, Wheel};
-use crate::body::{Build, Formula, MOST_MARKERS, MarkerId, Wrench};
+use crate::body::{Build, Formula, MOST_MARKERS, MarkerId, Probe, Wrench, slot};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use crate::math::{Rate, Scalar, Taylor};
@@ -69,7 +69,7 @@ struct Spring {
 impl Spring {
     /// Height of the road, with its rate by the chain rule.
     fn height<S: Scalar, const D: usize>(&self, frames: &Motion<S, D>, time: Instant<S>) -> Taylor<S> {
-        self.road.evaluate(time, |probe| probe.position(&frames[probe.place_in(&self.markers)]))
+        self.road.evaluate(time, |probe| probe.position(time.regime, |marker| slot(&self.markers, marker, frames)))
     }
 
     fn squeeze<S: Scalar, const D: usize>(&self, frames: &Motion<S, D>, time: Instant<S>) -> Taylor<S> {
@@ -83,7 +83,8 @@ impl Spring {
 
 impl<const D: usize> ForceKernel<D> for Spring {
     fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
-        self.road.switching(time.map(|t| t.x), |probe| probe.read(&frames[probe.place_in(&self.markers)]), out);
+        let read = |probe: &Probe| probe.read(time.regime, |marker| slot(&self.markers, marker, frames));
+        self.road.switching(time.map(|t| t.x), read, out);
         if let Some([gap, pull]) = self.lift_off {
             let squeeze = self.squeeze(frames, time);
             (out[gap], out[pull]) = (squeeze.x, self.load(squeeze));

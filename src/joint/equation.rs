@@ -1,14 +1,15 @@
 //! A constraint given by an expression.
 
 use super::{Built, JointKernel, JointSpec};
-use crate::body::{Build, Formula, Frame, MOST_MARKERS};
+use crate::body::{Build, Formula, Frame, MOST_MARKERS, slot};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use crate::math::{Rate, Scalar, Time};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// `expression` = 0, over t, parameters and marker coordinates such as `arm.tip.y` or `arm.angle`. 1 row, in the units
+/// `expression` = 0, over t, parameters, marker coordinates such as `arm.tip.y` or `arm.angle`, and outputs that are
+/// positions, distances or angles, by their names; of a joint that stands before this one. 1 row, in the units
 /// of the expression. Its derivatives are exact.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -51,10 +52,16 @@ impl<const D: usize> JointKernel<D> for Given {
     }
 
     fn switching(&self, frames: &[Frame<Rate, D>], time: Time<Rate>, out: &mut [Rate]) {
-        self.formula.switching(time, |probe| probe.position(&frames[probe.place_in(&self.markers)]), out);
+        self.formula.switching(
+            time,
+            |probe| probe.position(time.regime, |marker| slot(&self.markers, marker, frames)),
+            out,
+        );
     }
 
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]) {
-        out[0] = self.formula.evaluate(time, |probe| probe.position(&frames[probe.place_in(&self.markers)]));
+        out[0] = self
+            .formula
+            .evaluate(time, |probe| probe.position(time.regime, |marker| slot(&self.markers, marker, frames)));
     }
 }

@@ -47,7 +47,7 @@ impl JointSpec for Gear {
         build.oriented("between", &markers)?;
         let offset = build.number_or("offset", &self.offset, 0.0)?;
         let teeth = self.teeth.map(f64::from);
-        let wheel = |i: usize| Some(Turned { of: markers[i], to: *markers.get(i + 2)?, factor: teeth[i] });
+        let wheel = |i: usize| Some(Turned { of: markers[i], to: *markers.get(i + 2)?, factor: teeth[i], axes: None });
         let turning = build.turning((0..2).filter_map(wheel).collect(), offset);
         Ok(Built { joint: Box::new(Pair { teeth, offset, turning }), markers })
     }

@@ -182,7 +182,8 @@ fn joint_item(group: &Group, names: &[String]) -> Item {
 }
 
 fn left_out<const D: usize>(model: &Model<D>) -> Vec<String> {
-    let gravity = model.gravity.iter().all(|&g| g == 0.0);
+    let central = model.given_forces().iter().filter(|force| force.kind == "gravity").count();
+    let gravity = model.gravity.iter().all(|&g| g == 0.0) && central == 0;
     let quaternions = model.given_bodies().iter().all(|part| part.nq == part.nv);
     let driven = model.joints.iter().all(|joint| !joint.element.depends_on_time());
     let is_rigid = model.beams.is_empty() && model.bodies.iter().all(|part| part.body.elastic_count() == 0);
@@ -192,7 +193,7 @@ fn left_out<const D: usize>(model: &Model<D>) -> Vec<String> {
         (D == 3 && quaternions, "quaternions: no body turns freely"),
         (model.joints.is_empty(), "constraints: there is no joint"),
         (driven && !model.joints.is_empty(), "moving constraints: no joint depends on t"),
-        (model.given_forces().is_empty(), "forces: none is given"),
+        (model.given_forces().len() == central, "forces: none is given"),
         (is_rigid, "flexibility: every body is rigid"),
         (true, "contact and friction: the scene has none"),
     ]
@@ -248,8 +249,11 @@ impl Check {
             false => String::from("redundant constraints (consistent; multipliers of least norm are computed):\n"),
         };
         for row in &self.redundant {
-            text +=
-                &format!("  joint `{}`, row {}: follows from {}\n", row.joint, row.row, row.follows_from.join(", "));
+            let cause = match row.follows_from.as_slice() {
+                [] => "holds what cannot move: its bodies are on the ground or not `free` there".to_string(),
+                rows => format!("follows from {}", rows.join(", ")),
+            };
+            text += &format!("  joint `{}`, row {}: {cause}\n", row.joint, row.row);
         }
         text + "\n"
     }

@@ -35,7 +35,15 @@ pub fn measure<const D: usize>(
     let massless = || forces[..count].iter().filter_map(|force| Some((force, force.element.beam()?)));
     let names = floating().map(|(_, part, _)| part.name.as_str()).chain(beams.iter().map(|beam| beam.name.as_str()));
     let names: Vec<&str> = massless().map(|(force, _)| force.name.as_str()).chain(names).collect();
-    match massless().nth(find("flexible beam", of, names.into_iter())?) {
+    let found = find("flexible beam", of, names.into_iter()).map_err(|error| {
+        match elements.joints.iter().any(|joint| joint.name == of) {
+            false => error,
+            true => Error::input(format!("`{of}` is a joint, no flexible beam")).under("of").hint(
+                "\"measure\": \"reaction\" gives what a joint exerts: without a component the torque of a driver of an angle",
+            ),
+        }
+    })?;
+    match massless().nth(found) {
         Some((force, beam)) => Ok(Measure::Station(Box::new(on_massless(spec, force, beam, build)?))),
         None => Err(Error::input(format!("`{of}` is no flexible beam")).under("of")),
     }

@@ -31,8 +31,9 @@ pub struct SceneFile {
     /// Measured data as functions of one argument.
     #[serde(default)]
     pub signals: Vec<SignalSpec>,
-    /// m/s^2. Default: none.
-    pub gravity: Option<Vec<Number>>,
+    /// Uniform: a vector, m/s^2; or towards a point of the ground. Default: none.
+    #[schemars(with = "Option<Gravity>")]
+    pub gravity: Option<Value>,
     #[serde(default)]
     pub ground: Ground,
     /// See the types of bodies.
@@ -54,6 +55,26 @@ pub struct SceneFile {
     pub assembly: Assembly,
     #[serde(default)]
     pub simulation: Simulation,
+}
+
+/// Gravity, uniform or towards a point.
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[allow(dead_code)]
+pub enum Gravity {
+    Uniform(Vec<Number>),
+    Central(CentralGravity),
+}
+
+/// Gravity towards a point of the ground: acceleration -mu r/|r|^3 of each body's centre of mass, r from that point. It
+/// has no gravity-gradient torque, and acts on rigid bodies and point masses.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CentralGravity {
+    /// Marker of the ground, such as `ground.Sun`.
+    pub towards: String,
+    /// Gravitational constant times attracting mass, m^3/s^2.
+    pub mu: Number,
 }
 
 /// In how many dimensions the scene moves.
@@ -170,12 +191,18 @@ pub struct OutputSpec {
     pub of: Option<String>,
     /// Two markers, for distances.
     pub between: Option<[String; 2]>,
-    /// Marker or body in whose axes, and against which, it is measured; for reactions the axes alone. Default: the ground.
+    /// Marker or body in whose axes, and against which, it is measured; for reactions and forces the axes alone.
+    /// Default: the ground.
     pub relative_to: Option<String>,
-    /// x, y, z; for reactions also mx, my, mz and, where the joint holds a length, axial: the force in the rod, tension
-    /// positive (default: the size of the force; of a gear, of the torque; of a driver, its force or torque along its own
-    /// coordinate, positive where that grows); kinetic, potential or total for energy.
+    /// x, y, z; for reactions and forces also mx, my, mz, and for reactions, where the joint holds a length, axial: the
+    /// force in the rod, tension positive (default: the size of the force; of a gear, of the torque; of a driver, its
+    /// force or torque along its own coordinate, positive where that grows: so the torque of a motor is the reaction of
+    /// its driver); x or y for the angles of a universal joint; kinetic, potential or total for energy.
     pub component: Option<String>,
+    /// For components of reactions and forces: the body on which they act, that of the first or the second marker of
+    /// `between`, or of `at` and `reaction_on`. Moments are about the origin of that marker. Default: second; of an
+    /// applied force or torque first.
+    pub on: Option<Side>,
     /// On a beam: from its left end, m.
     pub at: Option<Number>,
     /// On a beam, for the strain of a fibre: y, or [y, z] in space, from the centre line, m. Default: zero.
@@ -191,22 +218,34 @@ pub struct OutputSpec {
 #[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq, Debug)]
 #[serde(rename_all = "snake_case")]
 pub enum MeasureKind {
-    /// rad, of a body or marker; in space about the z axis of `relative_to`.
+    /// rad, of a body or marker against `relative_to`, in space about the z axis of that; counted through full turns. Of
+    /// a joint that turns about one axis, or a torsion spring: of its second marker against its first; of a universal
+    /// joint: `component` x, of its cross about x of the first marker, or y, of its second marker about its own y
+    /// against the cross.
     Angle,
-    /// rad/s
+    /// rad/s, of a body or marker along an axis of `relative_to`; of a joint or torsion spring the rate of its angle
     AngularVelocity,
-    /// m
+    /// rad/s^2, the rate of the angular velocity
+    AngularAcceleration,
+    /// m, of a body or marker from `relative_to`, in its axes; of a joint that slides: of its second marker from its
+    /// first, along the free axis
     Position,
-    /// m/s
+    /// m/s, the rate of the position
     Velocity,
-    /// m, `between` two markers
+    /// m/s^2, the rate of the velocity: in the axes of a `relative_to` that moves, as it is seen from there
+    Acceleration,
+    /// m, `between` two markers, or between those of a spring or rod `of`: its length
     Distance,
-    /// m/s, `between` two markers
+    /// m/s, the rate of the distance
     DistanceRate,
-    /// N or N m on the second body of joint `of`, in world axes or those of `relative_to`
+    /// N or N m, of joint `of` on its second body (or `on` the first), in world axes or those of `relative_to`; the
+    /// torque of a motor is that of its driver, without a component
     Reaction,
-    /// Tension of a spring (N), size of another force or torque `of`
+    /// Tension of a spring (N), size of another force or torque `of`; with a `component` that of what it exerts on its
+    /// second body (or `on` the first), in world axes or those of `relative_to`
     Force,
+    /// W, of a force or a driver `of`: what it gives to the bodies, negative where it takes
+    Power,
     /// J, of the whole scene
     Energy,
     /// m, of the centre line of beam `of` `at` a place from where it is at rest, in the beam's own axes
@@ -221,8 +260,19 @@ pub enum MeasureKind {
     Torque,
     /// N m, about z or y of the section; positive where the curvature is
     BendingMoment,
-    /// `value`, over t and marker quantities
+    /// `value`, over t, marker quantities such as `crank.tip.x`, with `'` for velocities and `''` for accelerations, and
+    /// other outputs by their names
     Expression,
+}
+
+/// One of the two bodies that a joint or force is between.
+#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq, Debug)]
+#[serde(rename_all = "snake_case")]
+pub enum Side {
+    /// That of the first marker.
+    First,
+    /// That of the second marker.
+    Second,
 }
 
 /// How the start is made consistent with the joints.

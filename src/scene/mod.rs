@@ -4,14 +4,18 @@
 //! forces from outside the crate.
 
 mod absolute_beam;
+mod actions;
 mod beam_mass;
 mod beam_outputs;
 mod builder;
+mod connections;
 mod elements;
 mod format;
 #[doc(hidden)]
 pub mod generate;
+mod gravity;
 mod json;
+mod kinematics;
 mod locate;
 mod markers;
 mod model;

@@ -3,7 +3,7 @@
 use super::place::{Cut, Place};
 use super::units::Unit;
 use crate::body::flexible::{Profile, Section};
-use crate::body::{Body, Energy, Formula, Frame, Marker, MarkerId, MarkerTable, Probe, Quantity, Switches, Turning};
+use crate::body::{Body, Energy, Formula, Frame, Marker, MarkerId, MarkerTable, Probe, Switches, Turning};
 use crate::force::{Beam, Force, Half, Station};
 use crate::joint::Joint;
 use crate::math::{Scalar, Taylor};
@@ -149,38 +149,15 @@ pub struct Watched {
 pub enum Measure {
     /// An expression over t and marker quantities.
     Formula(Formula),
-    /// A component of a marker's position or velocity relative to another marker, in the axes of the latter.
-    Relative {
-        /// Marker that is measured.
-        of: MarkerId,
-        /// Marker against which and in whose axes it is measured.
-        to: MarkerId,
-        /// Component of position, velocity or angular velocity.
-        quantity: Quantity,
-    },
-    /// Angle about the third axis of `to`, rad, counted through full turns.
-    Turn {
-        /// Marker whose angle is measured.
-        of: MarkerId,
-        /// Marker against which it is measured.
-        to: MarkerId,
-        /// Index of the counted angle, as [`Build::turning`](crate::body::Build::turning) gives it.
-        turning: usize,
-    },
-    /// Distance between two markers, or its rate.
-    Distance {
-        /// First marker.
-        from: MarkerId,
-        /// Second marker.
-        to: MarkerId,
-        /// True for the rate of the distance, m/s, in place of the distance, m.
-        rate: bool,
-    },
-    /// Force (components 0 to 2), torque (3 to 5), [`FORCE_SIZE`] or [`TORQUE_SIZE`] on the second body of a joint, in
-    /// the axes of a marker.
+    /// A scalar of markers, or its rate.
+    Probe(Probe),
+    /// Force (components 0 to 2), torque (3 to 5), [`FORCE_SIZE`] or [`TORQUE_SIZE`] of a joint on the body of one of its
+    /// markers, in the axes of a marker.
     Reaction {
         /// Index of the joint in the model.
         joint: usize,
+        /// Place, among the joint's markers, of that on whose body it acts, and about which the torque is.
+        slot: usize,
         /// 0 to 5, [`FORCE_SIZE`] or [`TORQUE_SIZE`].
         component: usize,
         /// Marker in whose axes the components are.
@@ -209,6 +186,28 @@ pub enum Measure {
     },
     /// Magnitude of the force, or of the torque, with this index.
     Force(usize),
+    /// Force (components 0 to 2) or torque (3 to 5) that a force exerts on the body of one of its markers, in the axes of
+    /// a marker.
+    Load {
+        /// Index of the force in the model.
+        force: usize,
+        /// Place, among the force's markers, of that on whose body it acts, and about which the torque is.
+        slot: usize,
+        /// 0 to 5.
+        component: usize,
+        /// Marker in whose axes the components are.
+        axes: MarkerId,
+    },
+    /// Power of a force on all its bodies, W.
+    Power {
+        /// Index of the force in the model.
+        force: usize,
+    },
+    /// Power of a joint that depends on t, -lambda . G v, W.
+    DrivePower {
+        /// Index of the joint in the model.
+        joint: usize,
+    },
     /// Energy of the whole mechanism, J.
     Energy(EnergyPart),
 }
@@ -217,10 +216,9 @@ impl Measure {
     /// True if the value may depend on velocities.
     pub fn feels_velocity(&self) -> bool {
         match self {
-            Measure::Formula(formula) => formula.probes.iter().any(Probe::is_rate),
-            Measure::Relative { quantity, .. } => matches!(quantity, Quantity::Velocity(_) | Quantity::Spin(_)),
-            Measure::Distance { rate, .. } => *rate,
-            Measure::Turn { .. } | Measure::Elastic(_) => false,
+            Measure::Formula(formula) => formula.probes.iter().any(|probe| probe.feels(1)),
+            Measure::Probe(probe) => probe.feels(1),
+            Measure::Elastic(_) => false,
             Measure::Reaction { .. } | Measure::Push { .. } | Measure::Tension { .. } => false,
             _ => true,
         }
@@ -229,6 +227,8 @@ impl Measure {
     /// True if the value depends on accelerations.
     pub fn feels_acceleration(&self) -> bool {
         match self {
+            Measure::Formula(formula) => formula.probes.iter().any(|probe| probe.feels(2)),
+            Measure::Probe(probe) => probe.feels(2),
             Measure::Station(place) => place.feels_acceleration(),
             Measure::Section { .. } => true,
             _ => false,

@@ -1,51 +1,18 @@
 //! Outputs and inputs of a scene.
 
-use super::beam_outputs;
 use super::format::{InputSpec, MeasureKind, OutputSpec};
-use super::model::{BeamLine, Connection, EnergyPart, FORCE_SIZE, ForceInput, Measure, Part, TORQUE_SIZE, Watched};
+use super::kinematics::Placed;
+use super::model::{BeamLine, Connection, EnergyPart, ForceInput, Measure, Part, TORQUE_SIZE, Watched};
 use super::place::Cut;
 use super::units::{Dimension, Unit};
-use crate::body::{Build, MarkerId, Quantity, Turned};
+use super::{actions, beam_outputs, kinematics};
+use crate::body::Build;
 use crate::error::{Error, Result, suggest};
 use crate::force::Force;
 use crate::joint::Joint;
 
-type Joints<const D: usize> = [Connection<Box<dyn Joint<D>>>];
-type Forces<const D: usize> = [Connection<Box<dyn Force<D>>>];
-
-/// (name, expression) of the kinematic outputs, by which forces may use them.
-pub fn formulas<const D: usize>(specs: &[OutputSpec]) -> Vec<(String, String)> {
-    let formula = |spec: &OutputSpec| {
-        let of = spec.of.as_deref()?;
-        let axis = spec.component.as_deref().unwrap_or("x");
-        if spec.relative_to.is_some() {
-            return None;
-        }
-        match spec.measure {
-            MeasureKind::Position => Some(format!("{of}.{axis}")),
-            MeasureKind::Velocity => Some(format!("{of}.{axis}'")),
-            MeasureKind::Angle if D == 2 => Some(format!("{of}.angle")),
-            MeasureKind::AngularVelocity if D == 2 => Some(format!("{of}.angle'")),
-            MeasureKind::AngularVelocity => Some(format!("{of}.w{}", spec.component.as_deref().unwrap_or("z"))),
-            _ => None,
-        }
-    };
-    let distance = |spec: &OutputSpec| {
-        let [a, b] = spec.between.as_ref()?;
-        let axes = &["x", "y", "z"][..D];
-        let gaps = axes.iter().map(|axis| format!("({b}.{axis} - {a}.{axis})^2")).collect::<Vec<_>>();
-        (spec.measure == MeasureKind::Distance).then(|| format!("sqrt({})", gaps.join(" + ")))
-    };
-    let given = |spec: &OutputSpec| match (&spec.measure, &spec.value) {
-        (MeasureKind::Expression, Some(value)) => Some(value.to_string()),
-        _ => None,
-    };
-    let all = specs.iter().filter_map(|spec| {
-        let text = formula(spec).or_else(|| distance(spec)).or_else(|| given(spec))?;
-        Some((spec.name.clone(), text))
-    });
-    all.collect()
-}
+pub type Joints<const D: usize> = [Connection<Box<dyn Joint<D>>>];
+pub type Forces<const D: usize> = [Connection<Box<dyn Force<D>>>];
 
 /// Refuses names of outputs that are `t`, taken or not valid: they are columns of the trajectory.
 pub fn check_names(specs: &[OutputSpec]) -> Result<()> {
@@ -64,7 +31,7 @@ pub fn check_names(specs: &[OutputSpec]) -> Result<()> {
 /// Refuses keys that a measure would silently ignore.
 fn refuse_idle_keys(spec: &OutputSpec) -> Result<()> {
     use MeasureKind::*;
-    let OutputSpec { of, between, relative_to, component, at, offset, value, .. } = spec;
+    let OutputSpec { of, between, relative_to, component, at, offset, value, on, .. } = spec;
     let given = [
         ("of", of.is_some()),
         ("between", between.is_some()),
@@ -73,15 +40,18 @@ fn refuse_idle_keys(spec: &OutputSpec) -> Result<()> {
         ("at", at.is_some()),
         ("offset", offset.is_some()),
         ("value", value.is_some()),
+        ("on", on.is_some()),
     ];
     let used: &[&str] = match spec.measure {
-        Angle => &["of", "relative_to"],
-        AngularVelocity | Position | Velocity => &["of", "relative_to", "component"],
-        Distance | DistanceRate => &["between"],
+        Angle => &["of", "relative_to", "component"],
+        AngularVelocity | AngularAcceleration | Position | Velocity | Acceleration => {
+            &["of", "relative_to", "component"]
+        }
+        Distance | DistanceRate => &["between", "of"],
         // A size and the force along a rod are the same in all axes.
-        Reaction if matches!(component.as_deref(), None | Some("axial")) => &["of", "component"],
-        Reaction => &["of", "relative_to", "component"],
-        Force => &["of"],
+        Reaction | Force if matches!(component.as_deref(), None | Some("axial")) => &["of", "component"],
+        Reaction | Force => &["of", "relative_to", "component", "on"],
+        Power => &["of"],
         Energy => &["component"],
         Deflection | ShearForce | BendingMoment => &["of", "at", "component"],
         Strain => &["of", "at", "offset"],
@@ -122,6 +92,8 @@ pub struct Elements<'a, const D: usize> {
     pub beams: &'a [BeamLine],
     pub joints: &'a Joints<D>,
     pub forces: &'a Forces<D>,
+    /// Joints and given forces as kinematic outputs see them.
+    pub placed: &'a [Placed<D>],
 }
 
 struct Reader<'a, const D: usize> {
@@ -131,99 +103,30 @@ struct Reader<'a, const D: usize> {
 
 impl<const D: usize> Reader<'_, D> {
     fn measure(&self, elements: Elements<D>, cuts: &mut Vec<Cut<D>>) -> Result<Measure> {
-        let Elements { joints, forces, .. } = elements;
+        if let Some(probe) = kinematics::probe(self.spec, elements.placed, self.build)? {
+            return Ok(Measure::Probe(probe));
+        }
         match self.spec.measure {
-            MeasureKind::Angle => {
-                let (of, to) = (self.marker()?, self.reference()?);
-                self.build.oriented("of", &[of, to])?;
-                let turning = self.build.turning(vec![Turned { of, to, factor: 1.0 }], 0.0);
-                Ok(Measure::Turn { of, to, turning })
-            }
-            MeasureKind::AngularVelocity => self.relative(Quantity::Spin(if D == 2 { 2 } else { self.axis("z")? })),
-            MeasureKind::Position => self.relative(Quantity::Position(self.axis("x")?)),
-            MeasureKind::Velocity => self.relative(Quantity::Velocity(self.axis("x")?)),
-            MeasureKind::Distance => self.distance(false),
-            MeasureKind::DistanceRate => self.distance(true),
-            MeasureKind::Reaction => self.reaction(joints),
-            MeasureKind::Force => {
-                Ok(Measure::Force(find("force", self.of()?, forces.iter().map(|force| force.name.as_str()))?))
-            }
+            MeasureKind::Reaction => actions::reaction(self.spec, self.of()?, elements, self.build),
+            MeasureKind::Force => actions::force(self.spec, self.of()?, elements, self.build),
+            MeasureKind::Power => actions::power(self.of()?, elements),
             MeasureKind::Energy => Ok(Measure::Energy(match self.spec.component.as_deref() {
                 Some("kinetic") => EnergyPart::Kinetic,
                 Some("potential") => EnergyPart::Potential,
                 None | Some("total") => EnergyPart::Total,
                 Some(other) => return Err(wrong_component(other, &["kinetic", "potential", "total"])),
             })),
-            MeasureKind::Deflection
-            | MeasureKind::Strain
-            | MeasureKind::AxialForce
-            | MeasureKind::ShearForce
-            | MeasureKind::Torque
-            | MeasureKind::BendingMoment => beam_outputs::measure(self.spec, self.of()?, elements, cuts, self.build),
             MeasureKind::Expression => {
                 let value = self.spec.value.as_ref();
                 let value = value.ok_or_else(|| missing("value", "give an expression over t and marker quantities"))?;
-                Ok(Measure::Formula(self.build.formula("value", value, true)?))
+                Ok(Measure::Formula(self.build.observing("value", value)?))
             }
+            _ => beam_outputs::measure(self.spec, self.of()?, elements, cuts, self.build),
         }
     }
 
     fn of(&self) -> Result<&str> {
         self.spec.of.as_deref().ok_or_else(|| missing("of", "name what is measured: a body, marker, joint or force"))
-    }
-
-    fn marker(&self) -> Result<MarkerId> {
-        self.build.marker("of", self.of()?)
-    }
-
-    fn reference(&self) -> Result<MarkerId> {
-        self.build.marker("relative_to", self.spec.relative_to.as_deref().unwrap_or("ground"))
-    }
-
-    fn axis(&self, default: &str) -> Result<usize> {
-        let name = self.spec.component.as_deref().unwrap_or(default);
-        let axes = &["x", "y", "z"][..D];
-        axes.iter().position(|axis| *axis == name).ok_or_else(|| wrong_component(name, axes))
-    }
-
-    fn relative(&self, quantity: Quantity) -> Result<Measure> {
-        Ok(Measure::Relative { of: self.marker()?, to: self.reference()?, quantity })
-    }
-
-    fn distance(&self, rate: bool) -> Result<Measure> {
-        let names = self.spec.between.as_ref();
-        let names = names.ok_or_else(|| missing("between", "name two markers"))?;
-        let from = self.build.marker("between[0]", &names[0])?;
-        Ok(Measure::Distance { from, to: self.build.marker("between[1]", &names[1])?, rate })
-    }
-
-    fn reaction(&self, joints: &Joints<D>) -> Result<Measure> {
-        let joint = find("joint", self.of()?, joints.iter().map(|joint| joint.name.as_str()))?;
-        let axes = self.reference()?;
-        self.build.oriented("relative_to", &[axes])?;
-        let Some(name) = self.spec.component.as_deref() else {
-            return Ok(match joints[joint].kind {
-                "driver" => Measure::Push { joint },
-                // A joint that fixes an angle alone has a torque and no force.
-                _ if joints[joint].element.row_names() == ["angle"] => {
-                    Measure::Reaction { joint, component: TORQUE_SIZE, axes }
-                }
-                _ => Measure::Reaction { joint, component: FORCE_SIZE, axes },
-            });
-        };
-        let holds_length = joints[joint].element.row_names() == ["length"];
-        if name == "axial" && holds_length {
-            return Ok(Measure::Tension { joint });
-        }
-        let known: &[(&str, usize)] = match D {
-            2 => &[("x", 0), ("y", 1), ("mz", 5)],
-            _ => &[("x", 0), ("y", 1), ("z", 2), ("mx", 3), ("my", 4), ("mz", 5)],
-        };
-        if let Some((_, component)) = known.iter().find(|(known, _)| *known == name) {
-            return Ok(Measure::Reaction { joint, component: *component, axes });
-        }
-        let axial = holds_length.then_some("axial");
-        Err(wrong_component(name, &known.iter().map(|(name, _)| *name).chain(axial).collect::<Vec<_>>()))
     }
 }
 
@@ -232,6 +135,9 @@ fn dimension<const D: usize>(kind: MeasureKind, measure: &Measure, elements: Ele
     Some(match kind {
         MeasureKind::Angle => Dimension::Angle,
         MeasureKind::AngularVelocity => Dimension::AngularVelocity,
+        MeasureKind::AngularAcceleration => Dimension::AngularAcceleration,
+        MeasureKind::Acceleration => Dimension::Acceleration,
+        MeasureKind::Power => Dimension::Power,
         MeasureKind::Position | MeasureKind::Distance | MeasureKind::Deflection => Dimension::Length,
         MeasureKind::Velocity | MeasureKind::DistanceRate => Dimension::Velocity,
         MeasureKind::Torque | MeasureKind::BendingMoment => Dimension::Torque,
@@ -246,7 +152,9 @@ fn dimension<const D: usize>(kind: MeasureKind, measure: &Measure, elements: Ele
 
 fn is_torque<const D: usize>(measure: &Measure, Elements { joints, forces, .. }: Elements<D>) -> bool {
     match *measure {
-        Measure::Reaction { component, .. } => matches!(component, 3..=5 | TORQUE_SIZE),
+        Measure::Reaction { component, .. } | Measure::Load { component, .. } => {
+            matches!(component, 3..=5 | TORQUE_SIZE)
+        }
         Measure::Push { joint } => joints[joint].element.row_names() == ["angle"],
         Measure::Force(force) => forces[force].element.is_torque(),
         _ => false,

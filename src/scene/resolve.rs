@@ -3,19 +3,19 @@
 use super::absolute_beam::{AbsoluteBeam, is_absolute_beam};
 use super::elements::{Elements, Kinds};
 use super::format::{Dimension, SceneFile};
+use super::kinematics::Named;
 use super::model::{BeamLine, Connection, ForceInput, Model, Part, Watched};
 use super::outputs;
 use super::place::Cut;
-use super::{AnyModel, Scene, markers, signals, states};
+use super::{AnyModel, Scene, connections, gravity, markers, signals, states};
 use crate::body::{
     BodyKind, Build, Built, ElementKind, Initial, Marker, MarkerId, MarkerTable, Switches, Turning, parse, show,
 };
 use crate::error::{Error, Result, excerpt, suggest};
-use crate::force::{Force, ForceKind};
-use crate::joint::{Joint, JointKind};
+use crate::force::Force;
+use crate::joint::Joint;
 use crate::math::expression::{Number, Parameters};
 use serde_json::{Map, Value};
-use std::collections::HashSet;
 use std::path::Path;
 
 /// Resolves all names and expressions of a scene and checks them.
@@ -56,17 +56,22 @@ fn model<const D: usize>(
     folder: &Path,
 ) -> Result<(Model<D>, Vec<f64>, Vec<f64>)> {
     let (markers, switches, turnings) = Default::default();
-    let (gravity, outputs) = ([0.0; D], &[][..]);
-    let mut build =
-        Build { parameters, markers: &markers, outputs, gravity, folder, switches: &switches, turnings: &turnings };
-    if let Some(gravity) = &file.gravity {
-        build.gravity = build.vector("gravity", gravity)?;
-    }
+    let gravity = [0.0; D];
+    let mut build = Build {
+        parameters,
+        markers: &markers,
+        outputs: &(),
+        gravity,
+        folder,
+        switches: &switches,
+        turnings: &turnings,
+    };
+    build.gravity = gravity::uniform(&file.gravity, &build)?;
     let (gravity, mut parts) = (build.gravity, Parts::collect(file, &kinds.bodies, &build)?);
     outputs::check_names(&file.outputs)?;
     states::place(&file.states, &file.outputs, &mut parts, &build)?;
-    let formulas = outputs::formulas::<D>(&file.outputs);
-    let links = Links::read(file, kinds, &parts, &Build { markers: &parts.table, outputs: &formulas, ..build })?;
+    let named = Named { file, elements: Default::default() };
+    let links = Links::read(&named, kinds, &parts, &Build { markers: &parts.table, outputs: &named, ..build })?;
     Ok(parts.joined(links, gravity, switches.into_inner(), turnings.into_inner()))
 }
 
@@ -80,37 +85,20 @@ struct Links<const D: usize> {
 }
 
 impl<const D: usize> Links<D> {
-    fn read(file: &SceneFile, kinds: &Kinds<D>, parts: &Parts<D>, build: &Build<D>) -> Result<Self> {
-        let joints = joints(&file.joints, &kinds.joints, build)?;
-        let mut forces = forces(&file.forces, &kinds.forces, build)?;
+    fn read(named: &Named<D>, kinds: &Kinds<D>, parts: &Parts<D>, build: &Build<D>) -> Result<Self> {
+        let file = named.file;
+        let joints = connections::joints(named, &kinds.joints, build)?;
+        let mut forces = connections::forces(named, &kinds.forces, build)?;
         forces.extend(parts.beams.iter().flat_map(|beam| line_elements(beam, &parts.bodies)));
+        forces.extend(gravity::central(&file.gravity, parts, build)?);
         forces.extend(states::rates(&file.states, build)?);
         let Parts { bodies, beams, .. } = parts;
-        let elements = outputs::Elements { bodies, beams, joints: &joints, forces: &forces };
+        let placed = &named.elements.borrow();
+        let elements = outputs::Elements { bodies, beams, joints: &joints, forces: &forces, placed };
         let (outputs, cuts) = outputs::outputs(&file.outputs, elements, build)?;
         let inputs = outputs::inputs::<D>(&file.inputs, &forces)?;
         Ok(Links { joints, forces, outputs, cuts, inputs })
     }
-}
-
-fn joints<const D: usize>(
-    given: &[Value],
-    kinds: &[JointKind<D>],
-    build: &Build<D>,
-) -> Result<Vec<Connection<Box<dyn Joint<D>>>>> {
-    elements(given, ("joints", "joint"), kinds, build, |make, json| {
-        make(json, build).map(|built| (built.joint, built.markers))
-    })
-}
-
-fn forces<const D: usize>(
-    given: &[Value],
-    kinds: &[ForceKind<D>],
-    build: &Build<D>,
-) -> Result<Vec<Connection<Box<dyn Force<D>>>>> {
-    elements(given, ("forces", "force"), kinds, build, |make, json| {
-        make(json, build).map(|built| (built.force, built.markers))
-    })
 }
 
 /// The elements of an absolute beam, between its nodes.
@@ -137,9 +125,9 @@ fn extent<const D: usize>(bodies: &[Part<D>], q: &[f64]) -> f64 {
 /// Bodies read so far, with their initial q and v.
 pub(super) struct Parts<const D: usize> {
     table: MarkerTable,
-    ground: Vec<Marker<D>>,
-    bodies: Vec<Part<D>>,
-    beams: Vec<BeamLine>,
+    pub ground: Vec<Marker<D>>,
+    pub bodies: Vec<Part<D>>,
+    pub beams: Vec<BeamLine>,
     q: Vec<f64>,
     v: Vec<f64>,
     /// Index of the next absolute beam's first element among the forces.
@@ -301,37 +289,6 @@ pub(super) fn start_and_markers(json: &mut Map<String, Value>) -> Result<(Initia
     Ok((initial, markers))
 }
 
-/// Reads joints or forces: `make` gets the JSON without `name` and `type`.
-fn elements<E, Make, const D: usize>(
-    given: &[Value],
-    (list, what): (&str, &str),
-    kinds: &[ElementKind<Make>],
-    build: &Build<D>,
-    make: impl Fn(&Make, Value) -> Result<(E, Vec<usize>)>,
-) -> Result<Vec<Connection<E>>> {
-    let mut all: Vec<Connection<E>> = Vec::new();
-    let mut names = HashSet::new();
-    for (i, json) in given.iter().enumerate() {
-        let mut read = || {
-            let mut json = object(json.clone())?;
-            let name = take_name(&mut json)?;
-            if !names.insert(name.clone()) {
-                return Err(Error::input(format!("the name `{name}` is taken"))
-                    .under("name")
-                    .hint(format!("give each {what} its own")));
-            }
-            let kind = take_kind(&mut json, what, kinds).map_err(|error| error.element(&name))?;
-            let made = make(&kind.build, Value::Object(json));
-            let (element, markers) = made.map_err(|error| error.element(&name))?;
-            build.own(what, &name);
-            all.push(Connection { name, kind: kind.name, element, markers });
-            Ok(())
-        };
-        read().map_err(|error| error.under(format!("{list}[{i}]")))?;
-    }
-    Ok(all)
-}
-
 pub(super) fn object(json: Value) -> Result<Map<String, Value>> {
     match json {
         Value::Object(map) => Ok(map),
@@ -348,7 +305,7 @@ fn take_text(json: &mut Map<String, Value>, key: &str) -> Result<String> {
 }
 
 /// Removes `type` and finds the kind of that name.
-fn take_kind<'k, Make>(
+pub(super) fn take_kind<'k, Make>(
     json: &mut Map<String, Value>,
     what: &str,
     known: &'k [ElementKind<Make>],
@@ -364,7 +321,7 @@ fn take_kind<'k, Make>(
     })
 }
 
-fn take_name(json: &mut Map<String, Value>) -> Result<String> {
+pub(super) fn take_name(json: &mut Map<String, Value>) -> Result<String> {
     let name = take_text(json, "name")?;
     check_name(&name).map_err(|error| error.under("name"))?;
     Ok(name)

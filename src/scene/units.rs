@@ -10,16 +10,22 @@ pub enum Dimension {
     Angle,
     /// rad/s
     AngularVelocity,
+    /// rad/s^2
+    AngularAcceleration,
     /// m
     Length,
     /// m/s
     Velocity,
+    /// m/s^2
+    Acceleration,
     /// N
     Force,
     /// N m
     Torque,
     /// J
     Energy,
+    /// W
+    Power,
     /// No unit.
     Strain,
 }
@@ -40,7 +46,7 @@ const MILE: f64 = 1609.344;
 /// Names of units with their size in SI units; the first is the SI unit.
 type Sizes = &'static [(&'static str, f64)];
 
-const DIMENSIONS: [(Dimension, &str, Sizes); 8] = [
+const DIMENSIONS: [(Dimension, &str, Sizes); 11] = [
     (
         Dimension::Angle,
         "angle",
@@ -51,6 +57,7 @@ const DIMENSIONS: [(Dimension, &str, Sizes); 8] = [
         "angular velocity",
         &[("rad/s", 1.0), ("deg/s", PI / 180.0), ("rev/s", TAU), ("rpm", TAU / 60.0)],
     ),
+    (Dimension::AngularAcceleration, "angular acceleration", &[("rad/s^2", 1.0), ("deg/s^2", PI / 180.0)]),
     (
         Dimension::Length,
         "position",
@@ -68,6 +75,11 @@ const DIMENSIONS: [(Dimension, &str, Sizes); 8] = [
             ("in/s", INCH),
             ("ft/s", 12.0 * INCH),
         ],
+    ),
+    (
+        Dimension::Acceleration,
+        "acceleration",
+        &[("m/s^2", 1.0), ("mm/s^2", 1e-3), ("g", 9.80665), ("in/s^2", INCH), ("ft/s^2", 12.0 * INCH)],
     ),
     (
         Dimension::Force,
@@ -92,6 +104,11 @@ const DIMENSIONS: [(Dimension, &str, Sizes); 8] = [
         Dimension::Energy,
         "energy",
         &[("J", 1.0), ("mJ", 1e-3), ("kJ", 1e3), ("MJ", 1e6), ("Wh", 3600.0), ("kWh", 3.6e6)],
+    ),
+    (
+        Dimension::Power,
+        "power",
+        &[("W", 1.0), ("mW", 1e-3), ("kW", 1e3), ("MW", 1e6), ("hp", 550.0 * 12.0 * INCH * POUND)],
     ),
     (Dimension::Strain, "strain", &[("", 1.0), ("1", 1.0), ("%", 1e-2), ("mm/m", 1e-3), ("um/m", 1e-6)]),
 ];

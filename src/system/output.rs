@@ -6,7 +6,7 @@ use super::mechanism::Mechanism;
 use super::tangent::OperatingPoint;
 use super::view::{Plain, View, gathered};
 use super::workspace::Workspace;
-use crate::body::{Energy, Frame, MOST_MARKERS, MarkerId, Quantity, Wrench, dot, norm, sub, twist_len};
+use crate::body::{Energy, Frame, MOST_MARKERS, Probe, Quantity, Wrench, norm, twist_len};
 use crate::force::{Action, Force, ForceOver};
 use crate::joint::{Joint, JointOver, MOST_ROWS, markers_per_pass};
 use crate::math::{Regime, Scalar, Taylor};
@@ -58,18 +58,20 @@ impl<const D: usize> Mechanism<D> {
         let model = self.model();
         match measure {
             Measure::Formula(formula) => {
-                formula.evaluate(view.time().map(S::constant), |probe| probe.read(&view.frame(probe.marker)))
+                formula.evaluate(view.time().map(S::constant), |probe| self.probe(probe, view))
             }
-            Measure::Relative { of, to, quantity } => relative(&view.frame(*of), &view.frame(*to), *quantity),
-            Measure::Turn { of, to, turning } => {
-                let angle = turn(&view.frame(*of), &view.frame(*to));
-                if D == 2 { angle } else { view.time().regime.angle(*turning, angle, 0.0) }
+            Measure::Probe(probe) => self.probe(probe, view),
+            Measure::Reaction { joint, slot, component, axes } => {
+                let wrench = Wrench::from_twist_order(&self.reaction_wrench(view, *joint, *slot));
+                component_of(&wrench, *component, &view.frame(*axes))
             }
-            Measure::Distance { from, to, rate } => {
-                let gap = sub(&view.frame(*to).r, &view.frame(*from).r);
-                if *rate { separation_rate(&gap) } else { norm(&gap.map(|x| x.x)) }
+            Measure::Load { force, slot, component, axes } => {
+                let mut wrenches = [Wrench::zero(); MOST_MARKERS];
+                self.act(*force, view, &mut wrenches);
+                component_of(&wrenches[*slot], *component, &view.frame(*axes))
             }
-            Measure::Reaction { joint, component, axes } => self.reaction(view, *joint, (*component, *axes)),
+            Measure::Power { force } => self.power(*force, view),
+            Measure::DrivePower { joint } => self.drive_power(*joint, view),
             // phi is coordinate - value: -G^T lambda acts on the second body along the growing coordinate.
             Measure::Push { joint } => -view.lambda(self.rows_of_joint(*joint).start),
             // phi is l - length: -G^T lambda pulls the second body towards the first.
@@ -80,6 +82,17 @@ impl<const D: usize> Mechanism<D> {
             Measure::Force(force) => self.action(*force, view).magnitude,
             Measure::Energy(part) => part.of(self.energies(view)),
         }
+    }
+
+    fn probe<S: Scalar>(&self, probe: &Probe, view: &impl View<S, D>) -> S
+    where
+        dyn Force<D>: ForceOver<S, D>,
+        dyn Joint<D>: JointOver<S, D>,
+    {
+        if let Quantity::Output(number) = probe.quantity {
+            return self.read(&self.model().outputs[number].measure, view);
+        }
+        probe.read(view.time().regime, |marker| view.frame(marker))
     }
 
     /// Kinetic and potential energy of the whole mechanism.
@@ -156,62 +169,42 @@ impl<const D: usize> Mechanism<D> {
         wrench
     }
 
-    /// A component of -G^T lambda on the joint's second marker, as a wrench in the axes of a marker.
-    fn reaction<S: Scalar>(&self, view: &impl View<S, D>, joint: usize, (component, axes): (usize, MarkerId)) -> S
+    /// Power of a force on all its bodies.
+    fn power<S: Scalar>(&self, force: usize, view: &impl View<S, D>) -> S
+    where
+        dyn Force<D>: ForceOver<S, D>,
+    {
+        let mut wrenches = [Wrench::zero(); MOST_MARKERS];
+        self.act(force, view, &mut wrenches);
+        let markers = self.model().forces[force].markers.iter();
+        markers.zip(&wrenches).fold(S::zero(), |sum, (&marker, wrench)| sum + wrench.power(&view.frame(marker)))
+    }
+
+    /// -lambda . G v of a joint, G v being the rate of phi with t held.
+    fn drive_power<S: Scalar>(&self, joint: usize, view: &impl View<S, D>) -> S
     where
         dyn Joint<D>: JointOver<S, D>,
     {
-        let slot = 1.min(self.model().joints[joint].markers.len() - 1);
-        let wrench = self.reaction_wrench(view, joint, slot);
-        match component {
-            FORCE_SIZE => norm::<S, D>(&std::array::from_fn(|i| wrench[i])),
-            TORQUE_SIZE if D == 2 => wrench[2].abs(),
-            TORQUE_SIZE => norm::<S, 3>(&std::array::from_fn(|i| wrench[3 + i])),
-            5 if D == 2 => wrench[2],
-            component => {
-                let axis = view.frame(axes).axes[component % 3];
-                let part = &wrench[component / 3 * 3..];
-                axis.iter().zip(part).fold(S::zero(), |sum, (axis, &part)| sum + axis.x * part)
-            }
+        let (rows, joint) = (self.rows_of_joint(joint), &self.model().joints[joint]);
+        let mut levels = [Taylor::fixed(S::zero()); MOST_ROWS];
+        let levels = &mut levels[..rows.len()];
+        let (element, time) = (joint.element.as_ref(), view.time().map(|t| Taylor::fixed(S::constant(t))));
+        let rates = |frames: &[_]| JointOver::<S, D>::levels(element, frames, time, levels);
+        gathered(&joint.markers, |marker| view.frame(marker), rates);
+        rows.zip(levels).fold(S::zero(), |sum, (row, level)| sum - view.lambda(row) * level.d)
+    }
+}
+
+/// A component of a wrench in the axes of a frame, or the size of its force or torque.
+fn component_of<S: Scalar, const D: usize>(wrench: &Wrench<S, D>, component: usize, axes: &Frame<Taylor<S>, D>) -> S {
+    match component {
+        FORCE_SIZE => norm(&wrench.force),
+        TORQUE_SIZE if D == 2 => wrench.torque[2].abs(),
+        TORQUE_SIZE => norm::<S, 3>(&wrench.torque),
+        5 if D == 2 => wrench.torque[2],
+        component => {
+            let part = if component < 3 { &wrench.force[..] } else { &wrench.torque[..] };
+            axes.axes[component % 3].iter().zip(part).fold(S::zero(), |sum, (axis, &part)| sum + axis.x * part)
         }
     }
-}
-
-fn separation_rate<S: Scalar, const D: usize>(gap: &[Taylor<S>; D]) -> S {
-    let length = norm(&gap.map(|x| x.x));
-    // At zero distance the rate is the speed of separation.
-    if length.value() == 0.0 {
-        return norm(&gap.map(|x| x.d));
-    }
-    dot(&gap.map(|x| x.x), &gap.map(|x| x.d)) / length
-}
-
-/// Relative position, velocity, angle or angular velocity of two markers, in the axes of `to`.
-fn relative<S: Scalar, const D: usize>(of: &Frame<Taylor<S>, D>, to: &Frame<Taylor<S>, D>, quantity: Quantity) -> S {
-    let gap = sub(&of.r, &to.r);
-    match quantity {
-        Quantity::Position(axis) => dot(&to.axes[axis], &gap).x,
-        Quantity::Velocity(axis) => dot(&to.axes[axis], &gap).d,
-        Quantity::Angle => turn(of, to),
-        Quantity::Spin(axis) => {
-            let spin = sub(&of.angular_velocity(), &to.angular_velocity());
-            if D == 2 {
-                return spin[2];
-            }
-            to.axes[axis].iter().zip(spin).fold(S::zero(), |sum, (axis, spin)| sum + axis.x * spin)
-        }
-    }
-}
-
-/// Angle of `of` relative to `to`; in space about the third axis of `to`, in (-pi, pi].
-fn turn<S: Scalar, const D: usize>(of: &Frame<Taylor<S>, D>, to: &Frame<Taylor<S>, D>) -> S {
-    if D == 2 {
-        return of.turn.x - to.turn.x;
-    }
-    let (s, c) = (dot(&to.axes[1], &of.axes[0]).x, dot(&to.axes[0], &of.axes[0]).x);
-    // The first axis of one is along the third of the other: the angle and its derivative are undefined.
-    if s.value() == 0.0 && c.value() == 0.0 {
-        return S::zero();
-    }
-    S::atan2(s, c)
 }

@@ -6,10 +6,11 @@ use super::tangent::OperatingPoint;
 use super::variation::SeedDirection;
 use super::view::{Seed, SeededView, View};
 use super::workspace::Workspace;
-use crate::body::Dual6;
+use crate::body::{Dual6, Formula, Quantity};
 use crate::math::Regime;
 use crate::scene::{EnergyPart, Measure, Part};
 use nalgebra::DMatrix;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Derivatives of the outputs y(t, q, v, v', lambda, u), a row each.
 #[derive(Clone, Debug, PartialEq)]
@@ -178,15 +179,37 @@ fn whole<const D: usize>(body: usize, part: &Part<D>) -> Carrier {
     Carrier { body, velocities: (part.first_v..part.first_v + part.nv).collect(), markers: Vec::new() }
 }
 
+/// One carrier for each body, with the velocities of all.
+fn merged(all: impl Iterator<Item = Carrier>) -> Vec<Carrier> {
+    let mut bodies: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+    all.for_each(|carrier| bodies.entry(carrier.body).or_default().extend(carrier.velocities));
+    let carrier = |(body, velocities): (_, BTreeSet<usize>)| Carrier {
+        body,
+        velocities: velocities.into_iter().collect(),
+        markers: Vec::new(),
+    };
+    bodies.into_iter().map(carrier).collect()
+}
+
 impl<const D: usize> Mechanism<D> {
+    /// The outputs that an expression reads by their names, beyond scalars of markers.
+    fn outputs_of<'a>(&'a self, formula: &'a Formula) -> impl Iterator<Item = &'a Measure> {
+        formula.probes.iter().filter_map(|probe| match probe.quantity {
+            Quantity::Output(number) => Some(&self.model().outputs[number].measure),
+            _ => None,
+        })
+    }
+
     /// The bodies that an output reads.
     fn carriers(&self, measure: &Measure) -> Vec<Carrier> {
         let on = |markers: &[usize]| Carrier::all(markers, &self.supports);
         let model = self.model();
         match measure {
-            Measure::Formula(formula) => on(&formula.markers()),
-            Measure::Relative { of, to, .. } | Measure::Turn { of, to, .. } => on(&[*of, *to]),
-            Measure::Distance { from, to, .. } => on(&[*from, *to]),
+            Measure::Formula(formula) => {
+                let others = self.outputs_of(formula).flat_map(|measure| self.carriers(measure));
+                merged(on(&formula.markers()).into_iter().chain(others))
+            }
+            Measure::Probe(probe) => on(&probe.markers().collect::<Vec<_>>()),
             Measure::Reaction { joint, axes, .. } => {
                 let markers = model.joints[*joint].markers.iter().chain([axes]);
                 on(&markers.copied().collect::<Vec<_>>())
@@ -200,7 +223,12 @@ impl<const D: usize> Mechanism<D> {
                 carriers.push(whole(cut.body, &model.bodies[cut.body]));
                 carriers
             }
-            Measure::Force(force) => on(&model.forces[*force].markers),
+            Measure::Force(force) | Measure::Power { force } => on(&model.forces[*force].markers),
+            Measure::Load { force, axes, .. } => {
+                let markers = model.forces[*force].markers.iter().chain([axes]);
+                on(&markers.copied().collect::<Vec<_>>())
+            }
+            Measure::DrivePower { joint } => on(&model.joints[*joint].markers),
             Measure::Energy(_) => model.bodies.iter().enumerate().map(|(index, part)| whole(index, part)).collect(),
             Measure::Tension { .. } | Measure::Push { .. } => Vec::new(),
         }
@@ -209,7 +237,11 @@ impl<const D: usize> Mechanism<D> {
     /// The joints whose multipliers an output reads.
     fn joints_of(&self, measure: &Measure) -> Vec<usize> {
         match measure {
-            Measure::Reaction { joint, .. } | Measure::Tension { joint } | Measure::Push { joint } => vec![*joint],
+            Measure::Reaction { joint, .. }
+            | Measure::Tension { joint }
+            | Measure::Push { joint }
+            | Measure::DrivePower { joint } => vec![*joint],
+            Measure::Formula(formula) => self.outputs_of(formula).flat_map(|measure| self.joints_of(measure)).collect(),
             Measure::Section { cut, .. } => self.model().cuts[*cut].joints.iter().map(|&(joint, _)| joint).collect(),
             _ => Vec::new(),
         }
@@ -218,7 +250,8 @@ impl<const D: usize> Mechanism<D> {
     /// The forces that an output reads, whose inputs it depends on.
     fn forces_of(&self, measure: &Measure) -> Vec<usize> {
         match measure {
-            Measure::Force(force) => vec![*force],
+            Measure::Force(force) | Measure::Power { force } | Measure::Load { force, .. } => vec![*force],
+            Measure::Formula(formula) => self.outputs_of(formula).flat_map(|measure| self.forces_of(measure)).collect(),
             Measure::Section { cut, .. } => self.model().cuts[*cut].forces.iter().map(|&(force, _)| force).collect(),
             _ => Vec::new(),
         }

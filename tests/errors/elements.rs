@@ -342,7 +342,8 @@ cases! {
         pendulum()
             .joint("{ 'name': 'p', 'type': 'driver', 'between': ['ground.O', 'rod.A'], 'coordinate': 'x', 'value': 'rod.x' }") => [
             "scene.json:13:100: at joints[0].value (`p`): this may depend on t and parameters only, but uses a marker",
-            "markers may stand in an `equation` joint, an applied force or torque, and outputs",
+            "markers and outputs may stand in an `equation` joint, an applied force or torque, the law of a spring, and \
+             outputs",
         ];
     driver_unknown:
         pendulum()
@@ -377,7 +378,7 @@ cases! {
         ];
     output_marker_unknown:
         pendulum().with("'measure': 'angle', 'of': 'rod'", "'measure': 'angle', 'of': 'rd'") => [
-            "scene.json:19:61: at outputs[0].of (`theta`): there is no marker `rd`",
+            "scene.json:19:61: at outputs[0].of (`theta`): there is no marker, joint or force `rd`",
             "did you mean `rod`?",
         ];
     output_bad_measure:

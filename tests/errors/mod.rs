@@ -14,6 +14,7 @@ mod command;
 mod elements;
 mod files;
 mod keys;
+mod measures;
 mod options;
 mod signals;
 mod start;

@@ -36,7 +36,7 @@ impl<const D: usize> Beam<D> {
         let build = Build {
             parameters: &parameters,
             markers: &markers,
-            outputs: &[],
+            outputs: &(),
             gravity: [0.0; D],
             folder,
             switches: &Default::default(),

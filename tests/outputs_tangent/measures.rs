@@ -89,6 +89,7 @@ fn kinematics() {
             r#""measure": "angle", "of": "c.p""#,
             r#""measure": "angle", "of": "a.p", "relative_to": "ground.w""#,
             r#""measure": "expression", "value": "a.p.x'*sin(b.r.y) + t*c.p.y^2 + sqrt(1 + d.x'^2)""#,
+            r#""measure": "expression", "value": "a.p.x''*b.r.y + d.y''*a.p.x'""#,
             r#""measure": "energy", "component": "kinetic""#,
             r#""measure": "energy", "component": "potential""#,
             r#""measure": "energy""#,
@@ -97,7 +98,7 @@ fn kinematics() {
         .to_vec();
         for axis in axes(dimension) {
             for to in ["ground", "ground.w", "a.r", "b.p"] {
-                for measure in ["position", "velocity"] {
+                for measure in ["position", "velocity", "acceleration"] {
                     outputs.push(format!(
                         r#""measure": "{measure}", "of": "b.r", "relative_to": "{to}", "component": "{axis}""#
                     ));
@@ -105,15 +106,17 @@ fn kinematics() {
                         r#""measure": "{measure}", "of": "d", "relative_to": "{to}", "component": "{axis}""#
                     ));
                 }
-                if dimension == 3 {
+                for measure in ["angular_velocity", "angular_acceleration"].into_iter().filter(|_| dimension == 3) {
                     outputs.push(format!(
-                        r#""measure": "angular_velocity", "of": "b.p", "relative_to": "{to}", "component": "{axis}""#
+                        r#""measure": "{measure}", "of": "b.p", "relative_to": "{to}", "component": "{axis}""#
                     ));
                 }
             }
         }
         if dimension == 2 {
-            outputs.push(r#""measure": "angular_velocity", "of": "b.p", "relative_to": "a""#.to_string());
+            for measure in ["angular_velocity", "angular_acceleration"] {
+                outputs.push(format!(r#""measure": "{measure}", "of": "b.p", "relative_to": "a""#));
+            }
         }
         at_states(
             bodies(dimension, "", &outputs).system(),
@@ -134,15 +137,20 @@ fn reactions_of_every_joint() {
             let components: &[&str] =
                 if dimension == 2 { &["x", "y", "mz"] } else { &["x", "y", "z", "mx", "my", "mz"] };
             let mut outputs = vec![r#""measure": "reaction", "of": "joint""#.to_string()];
+            outputs.push(format!(r#""measure": "expression", "value": "y0_{}*a.r.x'""#, label(&outputs[0])));
             for component in components {
-                for to in ["ground", "a.p", "c.p"] {
+                for (to, on) in [("ground", "second"), ("a.p", "second"), ("c.p", "second"), ("a.p", "first")] {
                     outputs.push(format!(
-                        r#""measure": "reaction", "of": "joint", "component": "{component}", "relative_to": "{to}""#
+                        r#""measure": "reaction", "of": "joint", "component": "{component}", "relative_to": "{to}", "on": "{on}""#
                     ));
                 }
             }
             if joint.kind == "distance" {
                 outputs.push(r#""measure": "reaction", "of": "joint", "component": "axial""#.to_string());
+                outputs.extend(["distance", "distance_rate"].map(|m| format!(r#""measure": "{m}", "of": "joint""#)));
+            }
+            if joint.kind == "driver" {
+                outputs.push(r#""measure": "power", "of": "joint""#.to_string());
             }
             at_states(
                 bodies(dimension, &element, &outputs).system(),
@@ -154,18 +162,58 @@ fn reactions_of_every_joint() {
     }
 }
 
+/// Angles and travels of the joints that have some, with two rates each.
+#[test]
+fn coordinates_of_joints() {
+    for joint in JOINTS {
+        for (dimension, example) in [(2, joint.planar), (3, joint.spatial)] {
+            let (angles, travels): (&[&str], &[&str]) = match (joint.kind, dimension) {
+                ("revolute", _) => (&[""], &[]),
+                ("prismatic", _) => (&[], &[""]),
+                ("cylindrical", _) | ("point_on_line", 2) => (&[""], &[""]),
+                ("point_on_line", _) => (&[], &[r#", "component": "z""#]),
+                ("universal", _) => (&[r#", "component": "x""#, r#", "component": "y""#], &[]),
+                ("planar", _) => (&[""], &[r#", "component": "x""#, r#", "component": "y""#]),
+                _ => continue,
+            };
+            let Some((keys, _)) = example else { continue };
+            let keys = keys.replace("A.", "a.").replace("B.", "b.");
+            let element = format!(r#""joints": [{{ "name": "joint", "type": "{}", {keys} }}],"#, joint.kind);
+            let of = |measure: &str, component: &str| format!(r#""measure": "{measure}", "of": "joint"{component}"#);
+            let turning = ["angle", "angular_velocity", "angular_acceleration"];
+            let sliding = ["position", "velocity", "acceleration"];
+            let turns = angles.iter().flat_map(|component| turning.map(|measure| of(measure, component)));
+            let slides = travels.iter().flat_map(|component| sliding.map(|measure| of(measure, component)));
+            let outputs: Vec<String> = turns.chain(slides).collect();
+            at_states(bodies(dimension, &element, &outputs).system(), 1.0, NEAR, joint.kind);
+        }
+    }
+}
+
 #[test]
 fn magnitudes_and_energies_of_every_force() {
     for force in FORCES {
         for (dimension, keys) in [(2, force.planar), (3, force.spatial)] {
             let keys = keys.replace("A.", "a.").replace("B.", "b.");
             let element = format!(r#""forces": [{{ "name": "force", "type": "{}", {keys} }}],"#, force.kind);
-            let outputs = [
+            let mut outputs: Vec<String> = [
                 r#""measure": "force", "of": "force""#,
+                r#""measure": "power", "of": "force""#,
                 r#""measure": "energy", "component": "potential""#,
                 r#""measure": "energy""#,
-            ];
-            let system = bodies(dimension, &element, &outputs.map(String::from));
+            ]
+            .map(String::from)
+            .to_vec();
+            let [power, energy] = [1, 3].map(|i| format!("y{i}_{}", label(&outputs[i])));
+            outputs.push(format!(r#""measure": "expression", "value": "{power}*sin({energy}) + b.p.y''""#));
+            for component in if dimension == 2 { &["x", "mz"][..] } else { &["y", "z", "mx", "mz"] } {
+                for (to, on) in [("c.p", ""), ("ground", r#", "on": "first""#)] {
+                    outputs.push(format!(
+                        r#""measure": "force", "of": "force", "component": "{component}", "relative_to": "{to}"{on}"#
+                    ));
+                }
+            }
+            let system = bodies(dimension, &element, &outputs);
             at_states(system.system(), 1.0, NEAR, &format!("{} {keys} in {dimension}", force.kind));
         }
     }

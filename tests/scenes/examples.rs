@@ -100,6 +100,18 @@ pub const FORCES: &[Force] = &[
         spatial: r#""between": ["A.p", "B.p"], "stiffness": 30, "damping": 5"#,
     },
     Force {
+        kind: "spring_damper",
+        nature: Nature::Internal,
+        planar: r#""between": ["A.p", "B.p"], "law": "30*(length - 0.4)^3 + 2*rate*A.r.y + sin(t)""#,
+        spatial: r#""between": ["A.p", "B.p"], "law": "30*(length - 0.4)^3 + 2*rate*A.r.y + sin(t)""#,
+    },
+    Force {
+        kind: "torsion_spring",
+        nature: Nature::Internal,
+        planar: r#""between": ["A.p", "B.p"], "law": "8*(angle - 0.3)^3 + 2*rate*A.r.y""#,
+        spatial: r#""between": ["A.p", "B.p"], "law": "8*(angle - 0.3)^3 + 2*rate*A.r.y""#,
+    },
+    Force {
         kind: "torsion_spring",
         nature: Nature::Conservative,
         planar: r#""between": ["A.p", "B.p"], "stiffness": 8, "free_angle": 0.3"#,

@@ -3,7 +3,7 @@
 use super::motion::Motion;
 use super::snapshot::markers;
 use super::view::View;
-use crate::body::{MarkerId, MarkerTable, Quantity};
+use crate::body::{MarkerId, MarkerTable, Probe, Quantity};
 use crate::error::Result;
 use crate::plot::{Series, Style};
 use crate::prepared::AnyMechanism;
@@ -47,8 +47,8 @@ pub fn output_traces(mechanism: &AnyMechanism) -> Vec<Trace> {
     let (table, outputs) = parts(mechanism);
     let mut traces: Vec<Trace> = Vec::new();
     for output in outputs {
-        if let Measure::Relative { of, to, quantity: Quantity::Position(_) } = output.measure
-            && table.bodies[to].is_none()
+        if let Measure::Probe(Probe { of, to, quantity: Quantity::Position(_), order: 0 }) = output.measure
+            && to.is_none_or(|to| table.bodies[to].is_none())
             && table.bodies[of].is_some()
             && traces.iter().all(|known| known.marker != of)
         {

@@ -26,7 +26,7 @@ fn build<const D: usize>(scene: &Value, markers: &[f64]) -> Result<Elastic<D>> {
     let build = Build {
         parameters: &parameters,
         markers: &table,
-        outputs: &[],
+        outputs: &(),
         gravity: [0.0; D],
         folder: std::path::Path::new(""),
         switches: &Default::default(),

@@ -94,7 +94,7 @@ fn read<const D: usize>(body: Value, folder: &Path) -> Result<ModalShapes<D>> {
     body.shapes(&Build {
         parameters: &parameters,
         markers: &table,
-        outputs: &[],
+        outputs: &(),
         gravity: [0.0; D],
         folder,
         switches,

@@ -1,0 +1,59 @@
+//! The law of a spring: an expression of its length or angle, its rate and time.
+
+use super::{Instant, Motion};
+use crate::body::{Build, Formula, MOST_MARKERS, MarkerId, Probe, slot};
+use crate::error::{Error, Result};
+use crate::math::expression::Number;
+use crate::math::{Rate, Scalar, Time};
+
+/// A law over a spring's own scalar and its rate, and over anything that an applied force may read.
+pub struct Law {
+    formula: Formula,
+    markers: Vec<MarkerId>,
+}
+
+impl Law {
+    /// Reads `law`, in which `name` is the scalar `own` and `rate` its rate; `given` are the keys of the linear law,
+    /// which it replaces. The markers of the force begin with `ends`.
+    pub fn read<const D: usize>(
+        law: &Number,
+        given: &[(&str, bool)],
+        (name, own): (&str, Probe),
+        ends: &[MarkerId],
+        build: &Build<D>,
+    ) -> Result<Self> {
+        if let Some((key, _)) = given.iter().find(|(_, given)| *given) {
+            return Err(Error::input(format!("a spring with a `law` has no `{key}`"))
+                .under(key)
+                .hint("write it into the law, or remove the law"));
+        }
+        let locals = [(name, own), ("rate", Probe { order: 1, ..own })];
+        let formula = build.acting_with("law", law, true, &locals)?;
+        let mut markers = ends.to_vec();
+        markers.extend(formula.markers().into_iter().filter(|marker| !ends.contains(marker)));
+        match markers.len() <= MOST_MARKERS {
+            true => Ok(Law { formula, markers }),
+            false => Err(Error::input(format!("the law uses {} markers", markers.len()))
+                .under("law")
+                .hint(format!("use at most {MOST_MARKERS}, those of the spring among them"))),
+        }
+    }
+
+    /// Markers of the force.
+    pub fn markers(&self) -> &[MarkerId] {
+        &self.markers
+    }
+
+    pub fn value<S: Scalar, const D: usize>(&self, frames: &Motion<S, D>, time: Instant<S>) -> S {
+        self.formula.evaluate(time.map(|t| t.x), |probe| self.read_at(probe, time.map(|t| t.x), frames))
+    }
+
+    pub fn switching<const D: usize>(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
+        let time = time.map(|t| t.x);
+        self.formula.switching(time, |probe| self.read_at(probe, time, frames), out);
+    }
+
+    fn read_at<S: Scalar, const D: usize>(&self, probe: &Probe, time: Time<S>, frames: &Motion<S, D>) -> S {
+        probe.read(time.regime, |marker| slot(&self.markers, marker, frames))
+    }
+}

@@ -1,0 +1,115 @@
+//! Outputs of joints and forces: what they exert, and its power.
+
+use super::format::{OutputSpec, Side};
+use super::model::{Connection, FORCE_SIZE, Measure, TORQUE_SIZE};
+use super::outputs::{Elements, find, wrong_component};
+use crate::body::Build;
+use crate::error::{Error, Result};
+use crate::joint::Joint;
+
+/// Components of a force and a torque, with their places in [`Measure::Reaction`].
+fn components(dimension: usize) -> &'static [(&'static str, usize)] {
+    match dimension {
+        2 => &[("x", 0), ("y", 1), ("mz", 5)],
+        _ => &[("x", 0), ("y", 1), ("z", 2), ("mx", 3), ("my", 4), ("mz", 5)],
+    }
+}
+
+fn component<const D: usize>(name: &str, further: Option<&'static str>) -> Result<usize> {
+    let known = components(D);
+    let found = known.iter().find(|(known, _)| *known == name).map(|(_, component)| *component);
+    found.ok_or_else(|| wrong_component(name, &known.iter().map(|(name, _)| *name).chain(further).collect::<Vec<_>>()))
+}
+
+/// Reaction of a joint.
+pub fn reaction<const D: usize>(
+    spec: &OutputSpec,
+    of: &str,
+    elements: Elements<D>,
+    build: &Build<D>,
+) -> Result<Measure> {
+    let names = elements.joints.iter().map(|joint| joint.name.as_str());
+    let joint =
+        find("joint", of, names).map_err(|error| match elements.forces.iter().any(|force| force.name == of) {
+            false => error,
+            true => is_a(of, "force", "joint", "force"),
+        })?;
+    let (given, holds) = (&elements.joints[joint], elements.joints[joint].element.row_names());
+    let axes = build.marker("relative_to", spec.relative_to.as_deref().unwrap_or("ground"))?;
+    build.oriented("relative_to", &[axes])?;
+    let Some(name) = spec.component.as_deref() else {
+        return Ok(match given.kind {
+            "driver" => Measure::Push { joint },
+            // A joint that fixes an angle alone has a torque and no force.
+            _ if holds == ["angle"] => Measure::Reaction { joint, slot: second(given), component: TORQUE_SIZE, axes },
+            _ => Measure::Reaction { joint, slot: second(given), component: FORCE_SIZE, axes },
+        });
+    };
+    let holds_length = holds == ["length"];
+    if name == "axial" && holds_length {
+        return Ok(Measure::Tension { joint });
+    }
+    let component = component::<D>(name, holds_length.then_some("axial"))?;
+    let slot = match spec.on {
+        Some(Side::First) => 0,
+        Some(Side::Second) | None => second(given),
+    };
+    Ok(Measure::Reaction { joint, slot, component, axes })
+}
+
+/// Place of the second marker, or of the only one.
+fn second<E>(element: &Connection<E>) -> usize {
+    1.min(element.markers.len() - 1)
+}
+
+/// Magnitude of a force, or a component of what it exerts on a body.
+pub fn force<const D: usize>(spec: &OutputSpec, of: &str, elements: Elements<D>, build: &Build<D>) -> Result<Measure> {
+    let names = elements.forces.iter().map(|force| force.name.as_str());
+    let force =
+        find("force", of, names).map_err(|error| match elements.joints.iter().any(|joint| joint.name == of) {
+            false => error,
+            true => is_a(of, "joint", "force", "reaction"),
+        })?;
+    let Some(name) = spec.component.as_deref() else { return Ok(Measure::Force(force)) };
+    let component = component::<D>(name, None)?;
+    let axes = build.marker("relative_to", spec.relative_to.as_deref().unwrap_or("ground"))?;
+    build.oriented("relative_to", &[axes])?;
+    let given = &elements.forces[force];
+    let acted = given.element.acted(given.markers.len());
+    let slot = match spec.on {
+        Some(Side::Second) if acted < 2 => {
+            return Err(Error::input(format!("`{of}` acts on one marker alone")).under("on").hint("remove it"));
+        }
+        Some(Side::Second) => 1,
+        Some(Side::First) => 0,
+        // An applied force is given as it acts at its own marker.
+        None if given.element.takes_inputs() => 0,
+        None => 1.min(acted - 1),
+    };
+    Ok(Measure::Load { force, slot, component, axes })
+}
+
+/// Power of a force or a driver.
+pub fn power<const D: usize>(of: &str, elements: Elements<D>) -> Result<Measure> {
+    if let Some(force) = elements.forces.iter().position(|force| force.name == of) {
+        return Ok(Measure::Power { force });
+    }
+    let drives = |joint: &&Connection<Box<dyn Joint<D>>>| joint.element.depends_on_time();
+    if let Some(joint) = elements.joints.iter().position(|joint| joint.name == of) {
+        return match drives(&&elements.joints[joint]) {
+            true => Ok(Measure::DrivePower { joint }),
+            false => Err(Error::input(format!("the {} `{of}` has no power", elements.joints[joint].kind))
+                .under("of")
+                .hint("a joint that does not move by itself takes what it gives: name a driver or a force")),
+        };
+    }
+    let drivers = elements.joints.iter().filter(drives).map(|joint| joint.name.as_str());
+    let known = elements.forces.iter().map(|force| force.name.as_str()).chain(drivers).collect::<Vec<_>>();
+    find("force or driver", of, known.into_iter()).map(|force| Measure::Power { force })
+}
+
+fn is_a(of: &str, found: &str, wanted: &str, measure: &str) -> Error {
+    Error::input(format!("`{of}` is a {found}, not a {wanted}"))
+        .under("of")
+        .hint(format!("\"measure\": \"{measure}\" gives what a {found} exerts"))
+}

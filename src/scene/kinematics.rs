@@ -1,0 +1,251 @@
+//! Outputs that are read off markers: positions, angles and distances with their rates, of joints too.
+
+use super::format::{MeasureKind, OutputSpec, SceneFile};
+use super::model::Connection;
+use super::outputs::{missing, wrong_component};
+use crate::body::{Build, MarkerId, NamedOutput, NamedOutputs, Probe, Quantity, TurnAxes, Turned, in_space};
+use crate::error::{Error, Result, suggest};
+use crate::joint::{ClosedForm, Lock};
+use std::cell::RefCell;
+
+/// A joint or force, as outputs see it.
+pub struct Placed<const D: usize> {
+    /// Name in the scene.
+    pub name: String,
+    /// Its `type`.
+    pub kind: &'static str,
+    /// The two markers that it is between.
+    pub ends: Option<[MarkerId; 2]>,
+    /// The form of a joint, if it is known.
+    pub form: Option<ClosedForm<D>>,
+}
+
+/// The outputs of a scene by name, with the joints and forces that are read so far.
+pub struct Named<'a, const D: usize> {
+    pub file: &'a SceneFile,
+    pub elements: RefCell<Vec<Placed<D>>>,
+}
+
+impl<const D: usize> NamedOutputs<D> for Named<'_, D> {
+    fn find(&self, name: &str, build: &Build<D>) -> Option<Result<NamedOutput>> {
+        let number = self.file.outputs.iter().position(|spec| spec.name == name)?;
+        let spec = &self.file.outputs[number];
+        if let (MeasureKind::Expression, Some(value)) = (spec.measure, &spec.value) {
+            return Some(Ok(NamedOutput::Text(value.to_string())));
+        }
+        let probe = match probe(spec, &self.elements.borrow(), build) {
+            Ok(None) => Ok(NamedOutput::Other(number)),
+            Ok(Some(probe)) => Ok(NamedOutput::Probe(probe)),
+            Err(error) => Err(self.unreadable(spec, error)),
+        };
+        Some(probe)
+    }
+}
+
+impl<const D: usize> Named<'_, D> {
+    /// Adds a joint or force that is read; `between` if its first two markers are those that it is between.
+    pub fn add<E>(&self, element: &Connection<E>, between: bool, form: Option<ClosedForm<D>>) {
+        let Connection { name, kind, markers, .. } = element;
+        let ends = markers.first_chunk::<2>().copied().filter(|_| between);
+        self.elements.borrow_mut().push(Placed { name: name.clone(), kind, ends, form });
+    }
+
+    /// The error of an output that an expression names, with its place in the message.
+    fn unreadable(&self, spec: &OutputSpec, error: Error) -> Error {
+        let Error::Input(input) = error else { return error };
+        let comes_later = |of: &String| {
+            let all = self.file.joints.iter().chain(&self.file.forces);
+            all.into_iter().any(|element| element["name"] == **of)
+                && !self.elements.borrow().iter().any(|e| e.name == *of)
+        };
+        match &spec.of {
+            Some(of) if comes_later(of) => {
+                Error::input(format!("the output `{}` measures `{of}`, which comes after this", spec.name))
+                    .hint(format!("put `{of}` before it in the scene"))
+            }
+            _ => Error::input(format!("the output `{}` cannot be read: {}", spec.name, input.message))
+                .hint(input.hint.unwrap_or_default()),
+        }
+    }
+}
+
+/// The scalar of an output that is read off markers; none of another measure.
+///
+/// # Errors
+/// Names that there are not, and components that the element does not have.
+pub fn probe<const D: usize>(spec: &OutputSpec, elements: &[Placed<D>], build: &Build<D>) -> Result<Option<Probe>> {
+    let reader = Reader { spec, elements, build };
+    Ok(Some(match spec.measure {
+        MeasureKind::Angle => reader.angle(0)?,
+        MeasureKind::AngularVelocity => reader.angle(1)?,
+        MeasureKind::AngularAcceleration => reader.angle(2)?,
+        MeasureKind::Position => reader.position(0)?,
+        MeasureKind::Velocity => reader.position(1)?,
+        MeasureKind::Acceleration => reader.position(2)?,
+        MeasureKind::Distance => reader.distance(0)?,
+        MeasureKind::DistanceRate => reader.distance(1)?,
+        _ => return Ok(None),
+    }))
+}
+
+struct Reader<'a, const D: usize> {
+    spec: &'a OutputSpec,
+    elements: &'a [Placed<D>],
+    build: &'a Build<'a, D>,
+}
+
+/// What `of` names.
+enum Of<'a, const D: usize> {
+    Marker(MarkerId),
+    Element(&'a Placed<D>),
+}
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+impl<const D: usize> Reader<'_, D> {
+    fn of(&self) -> Result<Of<'_, D>> {
+        let name = self.spec.of.as_deref();
+        let name = name.ok_or_else(|| missing("of", "name what is measured: a body, marker, joint or force"))?;
+        if let Ok(marker) = self.build.markers.find(name) {
+            return Ok(Of::Marker(marker));
+        }
+        if let Some(element) = self.elements.iter().find(|element| element.name == name) {
+            if self.spec.relative_to.is_some() {
+                return Err(Error::input("a joint or force is measured between its own markers")
+                    .under("relative_to")
+                    .hint("remove it, or measure a marker"));
+            }
+            return Ok(Of::Element(element));
+        }
+        let names = self.elements.iter().map(|element| element.name.as_str());
+        let table = self.build.markers;
+        let markers = table.names[..table.names.len() - table.states.len()].iter().map(String::as_str);
+        let known = markers.chain(names);
+        Err(Error::input(format!("there is no marker, joint or force `{name}`")).under("of").hint(suggest(name, known)))
+    }
+
+    fn reference(&self) -> Result<MarkerId> {
+        self.build.marker("relative_to", self.spec.relative_to.as_deref().unwrap_or("ground"))
+    }
+
+    fn component(&self, default: &str, known: &[&str]) -> Result<usize> {
+        let name = self.spec.component.as_deref().unwrap_or(default);
+        known.iter().position(|axis| *axis == name).ok_or_else(|| wrong_component(name, known))
+    }
+
+    fn position(&self, order: usize) -> Result<Probe> {
+        match self.of()? {
+            Of::Marker(of) => {
+                let axis = self.component("x", &AXES[..D])?;
+                Ok(Probe::new(of, self.reference()?, Quantity::Position(axis), order))
+            }
+            Of::Element(joint) => {
+                let (Some(ClosedForm::Lock(lock)), Some([a, b])) = (&joint.form, joint.ends) else {
+                    return Err(self.immeasurable(joint, "position"));
+                };
+                let free: Vec<usize> = (0..D).filter(|axis| !lock.translation.contains(axis)).collect();
+                let names: Vec<&str> = free.iter().map(|&axis| AXES[axis]).collect();
+                let Some(first) = names.first() else { return Err(self.immeasurable(joint, "position")) };
+                let axis = free[self.component(first, &names)?];
+                let along = |triad: &[[f64; D]; D]| Quantity::Along(in_space(&triad[axis]));
+                let quantity = lock.triad.as_ref().map_or(Quantity::Position(axis), along);
+                Ok(Probe::new(b, a, quantity, order))
+            }
+        }
+    }
+
+    fn angle(&self, order: usize) -> Result<Probe> {
+        let of = match self.of()? {
+            Of::Marker(of) => of,
+            Of::Element(element) => return self.angle_of(element, order),
+        };
+        let to = self.reference()?;
+        self.build.oriented("of", &[of, to])?;
+        let about = if D == 2 || order == 0 { 2 + self.component("z", &["z"])? } else { self.component("z", &AXES)? };
+        Ok(match (order, D) {
+            (0, 2) => Probe::new(of, to, Quantity::Angle, 0),
+            (0, _) => self.turn(Turned { of, to, factor: 1.0, axes: None }, None, 0),
+            _ => Probe::new(of, to, Quantity::Spin(about), order),
+        })
+    }
+
+    /// Angle of the second marker against the first about the axis of the element.
+    fn angle_of(&self, element: &Placed<D>, order: usize) -> Result<Probe> {
+        let none = || self.immeasurable(element, "angle");
+        let Some([a, b]) = element.ends else { return Err(none()) };
+        if element.kind == "torsion_spring" {
+            return Ok(self.between([a, b], (None, Some(&element.name)), order));
+        }
+        match &element.form {
+            Some(ClosedForm::Lock(Lock { translation: [0, 1, 2], rotation: [(0, 1)], .. })) => {
+                let about = self.spec.component.as_deref();
+                let about = about.ok_or_else(|| missing("component", "x or y: the pin on the first or second body"))?;
+                let pin = ["x", "y"].iter().position(|axis| *axis == about);
+                let term = universal([a, b], pin.ok_or_else(|| wrong_component(about, &["x", "y"]))?);
+                Ok(self.turn(term, None, order))
+            }
+            Some(ClosedForm::Lock(lock)) if lock.rotation.len() == if D == 2 { 0 } else { 2 } => {
+                self.component("z", &["z"])?;
+                self.build.oriented("of", &[a, b])?;
+                let about = |triad: &[[f64; D]; D]| {
+                    let [x, y] = [in_space(&triad[0]), in_space(&triad[1])];
+                    TurnAxes { of: x, to: [x, y] }
+                };
+                Ok(self.between([a, b], (lock.triad.as_ref().map(about), None), order))
+            }
+            _ => Err(none()),
+        }
+    }
+
+    fn between(&self, [a, b]: [MarkerId; 2], (axes, spring): (Option<TurnAxes>, Option<&str>), order: usize) -> Probe {
+        match D {
+            2 => Probe::new(b, a, Quantity::Angle, order),
+            _ => self.turn(Turned { of: b, to: a, factor: 1.0, axes }, spring, order),
+        }
+    }
+
+    /// A counted angle in space: that which force `spring` has of its own, or one of this output's.
+    fn turn(&self, term: Turned, spring: Option<&str>, order: usize) -> Probe {
+        let own = spring.map(|name| format!("force.{name}.turn"));
+        let known = self.build.turnings.borrow().iter().position(|turning| Some(&turning.name) == own.as_ref());
+        let named = || self.build.turning_named(&format!("output.{}.turn", self.spec.name), term, 0.0);
+        let turning = known.unwrap_or_else(named);
+        let start = self.build.turnings.borrow().get(turning).map_or(0.0, |turning| turning.start);
+        let Turned { of, to, factor, axes } = term;
+        Probe::new(of, to, Quantity::Turn { turning, start, factor, axes }, order)
+    }
+
+    fn distance(&self, order: usize) -> Result<Probe> {
+        let ends = match (&self.spec.between, &self.spec.of) {
+            (Some(names), None) => {
+                [self.build.marker("between[0]", &names[0])?, self.build.marker("between[1]", &names[1])?]
+            }
+            (None, Some(name)) => match self.elements.iter().find(|element| element.name == *name) {
+                Some(element) => element.ends.ok_or_else(|| self.immeasurable(element, "length"))?,
+                None => {
+                    let known = self.elements.iter().filter(|element| element.ends.is_some());
+                    let hint = suggest(name, known.map(|element| element.name.as_str()));
+                    return Err(Error::input(format!("there is no joint or force `{name}`")).under("of").hint(hint));
+                }
+            },
+            _ => return Err(missing("between", "name two markers, or a spring or a rod as `of`")),
+        };
+        Ok(Probe::new(ends[1], ends[0], Quantity::Distance, order))
+    }
+
+    fn immeasurable(&self, element: &Placed<D>, what: &str) -> Error {
+        Error::input(format!("the {} `{}` has no {what} of its own", element.kind, element.name))
+            .under("of")
+            .hint("name a joint that leaves it free, or a marker, with `relative_to` another one")
+    }
+}
+
+/// Rotation of the cross of a universal joint about x of the first marker (`pin` 0), or of the second marker against
+/// the cross about its own y (1): the rotation from the first marker to the second is R_x R_y.
+fn universal([a, b]: [MarkerId; 2], pin: usize) -> Turned {
+    let [x, y, z, back] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
+    match pin {
+        0 => Turned { of: b, to: a, factor: 1.0, axes: Some(TurnAxes { of: y, to: [y, z] }) },
+        _ => Turned { of: a, to: b, factor: -1.0, axes: Some(TurnAxes { of: x, to: [x, back] }) },
+    }
+}
