@@ -19,7 +19,7 @@
 //! |---|---|---|---|
 //! | `q, v, vdot` | coordinates, velocities, accelerations | `mass`, `f` | mass matrix; all forces but the reactions |
 //! | `lambda` | multipliers | `phi, g, gamma` | as above |
-//! | `u`, `y` | inputs, which add to f and are zero in a simulation; outputs | | |
+//! | `u`, `y` | inputs, which add to f, to what a driver prescribes or to a road; outputs | | |
 //! | `l` | d(G v + phi_t)/dq along the directions of v | `h, rtol, atol` | step, tolerances |
 //!
 //! # The way of the data

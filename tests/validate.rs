@@ -154,6 +154,9 @@ impl MechanicalSystem for Wrong<'_> {
     fn input_forces(&self, t: f64, q: &[f64], v: &[f64], f: &mut nalgebra::DMatrix<f64>, scratch: &mut Scratch) {
         self.inner.input_forces(t, q, v, f, scratch);
     }
+    fn excitations(&self) -> Vec<holonom::system::Excitation> {
+        self.inner.excitations()
+    }
     fn output_tangent(&self, _: OperatingPoint, _: &mut OutputTangent, _: &mut Scratch) -> bool {
         true
     }

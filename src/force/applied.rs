@@ -1,10 +1,10 @@
 //! Applied force and torque: expressions of time, of marker quantities and of named outputs.
 
-use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion};
+use super::{Action, Built, ForceKernel, ForceSpec, InputKind, Instant, Motion};
 use crate::body::{Build, Formula, MOST_MARKERS, MarkerId, Probe, Wrench, cross, norm, slot};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
-use crate::math::{Rate, Regime, Scalar, Time};
+use crate::math::{Rate, Regime, Scalar, Taylor, Time};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -154,8 +154,8 @@ impl Applied {
 }
 
 impl<const D: usize> ForceKernel<D> for Applied {
-    fn takes_inputs(&self) -> bool {
-        true
+    fn input(&self) -> InputKind {
+        InputKind::Component
     }
 
     fn acted(&self, _markers: usize) -> usize {
@@ -167,10 +167,10 @@ impl<const D: usize> ForceKernel<D> for Applied {
     }
 
     fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
-        self.driven(&[S::zero(); 3], frames, time, out)
+        self.driven(&[Taylor::fixed(S::zero()); 3], frames, time, out)
     }
 
-    fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
+    fn switching(&self, _input: &[Taylor<Rate>; 3], frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
         for formula in &self.formulas {
             formula.switching(time.map(|t| t.x), |probe| self.read(probe, time.regime, frames), out);
         }
@@ -178,13 +178,13 @@ impl<const D: usize> ForceKernel<D> for Applied {
 
     fn driven<S: Scalar>(
         &self,
-        input: &[S; 3],
+        input: &[Taylor<S>; 3],
         frames: &Motion<S, D>,
         time: Instant<S>,
         out: &mut [Wrench<S, D>],
     ) -> Action<S> {
         let own = self.components(frames, time.map(|t| t.x));
-        let local: [S; 3] = std::array::from_fn(|i| own[i] + input[i]);
+        let local: [S; 3] = std::array::from_fn(|i| own[i] + input[i].x);
         let mut vector = local;
         if self.axes == Axes::Marker && !(D == 2 && matches!(self.kind, Kind::Torque)) {
             vector = [S::zero(); 3];

@@ -6,6 +6,7 @@
 //! To add one: a file with a [`ForceSpec`] and a [`ForceKernel`], and a line in [`registry`]; from outside the crate,
 //! the same two and [`Elements::with_force`](crate::scene::Elements::with_force), as in `tests/examples/own_force.rs`.
 
+mod added;
 mod applied;
 mod beam;
 mod bushing;
@@ -16,6 +17,8 @@ mod state_rate;
 mod torsion_spring;
 mod tyre;
 
+#[doc(hidden)]
+pub use added::Added;
 #[doc(hidden)]
 pub use beam::{Beam, Half, Load, Station};
 pub(crate) use central_gravity::CentralGravity;
@@ -48,6 +51,21 @@ impl<S: Scalar> Action<S> {
     }
 }
 
+/// What an input of a scene adds to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InputKind {
+    /// The force takes none.
+    None,
+    /// A component of the force, N, or of the torque, N m.
+    Component,
+    /// A displacement such as the height of a road, m: the first of the three components of
+    /// [`driven`](ForceKernel::driven).
+    Displacement {
+        /// True if the force depends on its rate.
+        rate: bool,
+    },
+}
+
 /// A wheel for drawings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[doc(hidden)]
@@ -63,11 +81,11 @@ pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
     /// Writes the wrench on each marker's body, in world axes; `out` is zero on entry. The energy balance counts its
     /// power plus the rate of the returned potential as work, so a force that stores energy must return it.
     fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S>;
-    /// True if inputs of a scene can add to its components, by [`Self::driven`]. Default: false.
-    fn takes_inputs(&self) -> bool {
-        false
+    /// What inputs of a scene can add to, by [`Self::driven`]. Default: nothing.
+    fn input(&self) -> InputKind {
+        InputKind::None
     }
-    /// True if its magnitude, and an input to it, is a torque, N m, and not a force. Default: false.
+    /// True if its magnitude, and an input to a component, is a torque, N m, and not a force. Default: false.
     fn is_torque(&self) -> bool {
         false
     }
@@ -75,20 +93,28 @@ pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
     fn acted(&self, markers: usize) -> usize {
         markers
     }
-    /// [`Self::act`] with inputs: `input` adds to its components, N or N m, in its own axes.
+    /// [`Self::act`] with inputs, each with its rate: `input` adds to its components, N or N m, in its own axes, or its
+    /// first entry to a displacement, m.
     fn driven<S: Scalar>(
         &self,
-        _input: &[S; 3],
+        _input: &[Taylor<S>; 3],
         frames: &Motion<S, D>,
         time: Instant<S>,
         out: &mut [Wrench<S, D>],
     ) -> Action<S> {
         ForceKernel::act(self, frames, time, out)
     }
-    /// Writes the arguments of its switching functions at the numbers that [`Build::switch`] gave; those of an
-    /// expression by
-    /// [`Expression::arguments`](crate::math::expression::Expression::arguments). Default: it has none.
-    fn switching(&self, _frames: &Motion<Rate, D>, _time: Instant<Rate>, _out: &mut [Rate]) {}
+    /// Writes the arguments of its switching functions with these inputs at the numbers that [`Build::switch`] gave;
+    /// those of an expression by [`Expression::arguments`](crate::math::expression::Expression::arguments). Default: it
+    /// has none.
+    fn switching(
+        &self,
+        _input: &[Taylor<Rate>; 3],
+        _frames: &Motion<Rate, D>,
+        _time: Instant<Rate>,
+        _out: &mut [Rate],
+    ) {
+    }
     /// True if its law assumes a small rotation between its markers. Default: false.
     fn takes_small_rotations(&self) -> bool {
         false
@@ -107,8 +133,14 @@ pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
 pub trait ForceOver<S: Scalar, const D: usize> {
     /// Wrenches with all inputs zero; `out` is zero on entry.
     fn act(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S>;
-    /// Wrenches with inputs that add to its components.
-    fn driven(&self, input: &[S; 3], frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S>;
+    /// Wrenches with inputs, as [`ForceKernel::driven`] takes them.
+    fn driven(
+        &self,
+        input: &[Taylor<S>; 3],
+        frames: &Motion<S, D>,
+        time: Instant<S>,
+        out: &mut [Wrench<S, D>],
+    ) -> Action<S>;
 }
 
 impl<K: ForceKernel<D>, S: Scalar, const D: usize> ForceOver<S, D> for K {
@@ -116,7 +148,13 @@ impl<K: ForceKernel<D>, S: Scalar, const D: usize> ForceOver<S, D> for K {
         ForceKernel::act(self, frames, time, out)
     }
 
-    fn driven(&self, input: &[S; 3], frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
+    fn driven(
+        &self,
+        input: &[Taylor<S>; 3],
+        frames: &Motion<S, D>,
+        time: Instant<S>,
+        out: &mut [Wrench<S, D>],
+    ) -> Action<S> {
         ForceKernel::driven(self, input, frames, time, out)
     }
 }
@@ -129,14 +167,14 @@ pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Dual6, D> + Send 
     fn beam(&self) -> Option<&Beam>;
     /// True if the force is valid for small relative rotations alone.
     fn takes_small_rotations(&self) -> bool;
-    /// True if inputs u may drive its components.
-    fn takes_inputs(&self) -> bool;
     /// Number of its first markers on whose bodies it acts, of `markers` in all.
     fn acted(&self, markers: usize) -> usize;
+    /// What inputs of a scene can add to.
+    fn input(&self) -> InputKind;
     /// True if its magnitude is a torque, N m, in place of a force, N.
     fn is_torque(&self) -> bool;
     /// Writes the arguments of its switching functions, with their rates, at their numbers.
-    fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]);
+    fn switching(&self, input: &[Taylor<Rate>; 3], frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]);
 }
 
 impl<K: ForceKernel<D>, const D: usize> Force<D> for K {
@@ -149,8 +187,8 @@ impl<K: ForceKernel<D>, const D: usize> Force<D> for K {
     fn takes_small_rotations(&self) -> bool {
         ForceKernel::takes_small_rotations(self)
     }
-    fn takes_inputs(&self) -> bool {
-        ForceKernel::takes_inputs(self)
+    fn input(&self) -> InputKind {
+        ForceKernel::input(self)
     }
     fn acted(&self, markers: usize) -> usize {
         ForceKernel::acted(self, markers)
@@ -158,8 +196,8 @@ impl<K: ForceKernel<D>, const D: usize> Force<D> for K {
     fn is_torque(&self) -> bool {
         ForceKernel::is_torque(self)
     }
-    fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
-        ForceKernel::switching(self, frames, time, out);
+    fn switching(&self, input: &[Taylor<Rate>; 3], frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
+        ForceKernel::switching(self, input, frames, time, out);
     }
 }
 

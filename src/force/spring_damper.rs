@@ -5,7 +5,7 @@ use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion};
 use crate::body::{Build, Probe, Quantity, Wrench, dot, norm, sub};
 use crate::error::Result;
 use crate::math::expression::Number;
-use crate::math::{Rate, Scalar};
+use crate::math::{Rate, Scalar, Taylor};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -113,7 +113,7 @@ impl<const D: usize> ForceKernel<D> for Lawful {
         Action::without_potential(tension)
     }
 
-    fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
+    fn switching(&self, _input: &[Taylor<Rate>; 3], frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
         self.law.switching(frames, time, out);
     }
 }

@@ -45,7 +45,7 @@ impl<const D: usize> ForceKernel<D> for StateRate {
         Action { potential: Taylor::new(S::zero(), -power, S::zero()), magnitude: rate }
     }
 
-    fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
+    fn switching(&self, _input: &[Taylor<Rate>; 3], frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
         self.rate.switching(time.map(|t| t.x), |probe| self.read(probe, time.regime, frames), out);
     }
 }

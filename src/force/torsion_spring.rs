@@ -131,7 +131,7 @@ impl<const D: usize> ForceKernel<D> for Lawful {
         Action::without_potential(torque)
     }
 
-    fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
+    fn switching(&self, _input: &[Taylor<Rate>; 3], frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
         self.law.switching(frames, time, out);
     }
 }

@@ -1,6 +1,6 @@
 //! Vertical tyre on a road profile.
 
-use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion, Wheel};
+use super::{Action, Built, ForceKernel, ForceSpec, InputKind, Instant, Motion, Wheel};
 use crate::body::{Build, Formula, MOST_MARKERS, MarkerId, Probe, Wrench, slot};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
@@ -9,7 +9,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Vertical force k (radius - (z - road)) + c (road' - z') at the wheel centre, along y in the plane and z in space. A
-/// road over the state does work where it is not level, as one that moves does: no force along it is modelled.
+/// road over the state does work where it is not level, as one that moves does: no force along it is modelled. An
+/// input of the scene may add to its height.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tyre {
@@ -82,11 +83,11 @@ impl Spring {
 }
 
 impl<const D: usize> ForceKernel<D> for Spring {
-    fn switching(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
+    fn switching(&self, input: &[Taylor<Rate>; 3], frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
         let read = |probe: &Probe| probe.read(time.regime, |marker| slot(&self.markers, marker, frames));
         self.road.switching(time.map(|t| t.x), read, out);
         if let Some([gap, pull]) = self.lift_off {
-            let squeeze = self.squeeze(frames, time);
+            let squeeze = self.squeeze(frames, time) + input[0];
             (out[gap], out[pull]) = (squeeze.x, self.load(squeeze));
         }
     }
@@ -95,8 +96,22 @@ impl<const D: usize> ForceKernel<D> for Spring {
         Some(Wheel { radius: self.radius, road: self.height(frames, time).x })
     }
 
+    fn input(&self) -> InputKind {
+        InputKind::Displacement { rate: self.c > 0.0 }
+    }
+
     fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
-        let squeeze = self.squeeze(frames, time);
+        self.driven(&[Taylor::fixed(S::zero()); 3], frames, time, out)
+    }
+
+    fn driven<S: Scalar>(
+        &self,
+        input: &[Taylor<S>; 3],
+        frames: &Motion<S, D>,
+        time: Instant<S>,
+        out: &mut [Wrench<S, D>],
+    ) -> Action<S> {
+        let squeeze = self.squeeze(frames, time) + input[0];
         let is_below = |number: usize, x: f64| time.regime.piece(number).map_or(x < 0.0, |piece| piece == 0);
         if self.lift_off.is_some_and(|[gap, _]| is_below(gap, squeeze.value())) {
             return Action::without_potential(S::zero());

@@ -10,7 +10,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Prescribes a coordinate of the second marker against the first as a function of t; its rate and acceleration follow
-/// exactly. 1 row, coordinate - value(t). The multiplier is the force or torque that the drive takes up.
+/// exactly. 1 row, coordinate - value(t). The multiplier is the force or torque that the drive takes up. An input of the
+/// scene may add to the value.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Driver {
@@ -91,9 +92,17 @@ impl<const D: usize> JointKernel<D> for Drive<D> {
         self.value.arguments(&[time.t], time.regime, out);
     }
 
+    fn prescribes(&self) -> bool {
+        true
+    }
+
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]) {
+        JointKernel::<D>::driven(self, S::zero(), frames, time, out);
+    }
+
+    fn driven<S: Scalar>(&self, input: S, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]) {
         let [a, b] = [&frames[0], &frames[1]];
-        let value = self.value.eval_held(&[time.t], time.regime);
+        let value = self.value.eval_held(&[time.t], time.regime) + input;
         let gap = sub(&b.r, &a.r);
         out[0] = match self.coordinate {
             Coordinate::X => dot(&a.axes[0], &gap) - value,

@@ -8,6 +8,7 @@
 //! To add one: a file with a [`JointSpec`] and a [`JointKernel`], and a line in [`registry`]; from outside the crate,
 //! the same two and [`Elements::with_joint`](crate::scene::Elements::with_joint), as in `tests/examples/own_joint.rs`.
 
+mod added;
 mod cylindrical;
 mod distance;
 mod driver;
@@ -29,6 +30,8 @@ use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use std::array::from_fn;
 
+#[doc(hidden)]
+pub use added::Added;
 #[doc(hidden)]
 pub use lock::Lock;
 
@@ -69,6 +72,15 @@ pub trait JointKernel<const D: usize>: Send + Sync + 'static {
     /// Writes phi, one value a row, at the frames of the joint's markers, in the order of [`Built::markers`]; zero
     /// where the joint is closed. Derivatives follow from the scalars that are put in.
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]);
+    /// True if its row, the only one, is a coordinate minus a value that it prescribes, m or rad: an input of a scene may
+    /// then add to the value, by [`driven`](Self::driven). Default: false.
+    fn prescribes(&self) -> bool {
+        false
+    }
+    /// [`phi`](Self::phi) with an input that adds to the value that is prescribed: phi - input.
+    fn driven<S: Scalar>(&self, _input: S, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]) {
+        self.phi(frames, time, out);
+    }
     /// Its form if closed formulas between rigid bodies are known, which must give what [`phi`](Self::phi) gives.
     /// Default: none.
     #[doc(hidden)]
@@ -85,6 +97,8 @@ pub trait JointKernel<const D: usize>: Send + Sync + 'static {
 pub trait JointOver<S: Scalar, const D: usize> {
     /// phi, phi' and phi'' along the motion of the frames.
     fn levels(&self, frames: &[Frame<Taylor<S>, D>], time: Time<Taylor<S>>, out: &mut [Taylor<S>]);
+    /// The same with an input and its rates, as [`JointKernel::driven`] takes it.
+    fn driven(&self, input: Taylor<S>, frames: &[Frame<Taylor<S>, D>], time: Time<Taylor<S>>, out: &mut [Taylor<S>]);
     /// d(phi)/d(twist) for the markers of pass `pass`: markers 2 pass and 2 pass + 1 in the plane (three components
     /// each), marker `pass` in space (six components). `out` has one array for each row of phi.
     fn gradient(&self, frames: &[Frame<Taylor<S>, D>], time: Time<S>, pass: usize, out: &mut [[S; 6]]);
@@ -96,6 +110,8 @@ pub trait Joint<const D: usize>: JointOver<f64, D> + JointOver<Dual6, D> + Send 
     fn row_names(&self) -> Vec<&'static str>;
     /// True if phi depends on t explicitly.
     fn depends_on_time(&self) -> bool;
+    /// True if an input may add to the value that its only row prescribes.
+    fn prescribes(&self) -> bool;
     /// Axis of the joint with its first marker at `first`, if it has one.
     fn joint_axis(&self, first: &Frame<f64, D>) -> Option<Axis>;
     /// Its form, if closed formulas between rigid bodies are known.
@@ -114,6 +130,10 @@ pub const fn markers_per_pass(dimension: usize) -> usize {
 impl<K: JointKernel<D>, S: Scalar, const D: usize> JointOver<S, D> for K {
     fn levels(&self, frames: &[Frame<Taylor<S>, D>], time: Time<Taylor<S>>, out: &mut [Taylor<S>]) {
         self.phi(frames, time, out);
+    }
+
+    fn driven(&self, input: Taylor<S>, frames: &[Frame<Taylor<S>, D>], time: Time<Taylor<S>>, out: &mut [Taylor<S>]) {
+        JointKernel::driven(self, input, frames, time, out);
     }
 
     fn gradient(&self, frames: &[Frame<Taylor<S>, D>], time: Time<S>, pass: usize, out: &mut [[S; 6]]) {
@@ -144,6 +164,9 @@ impl<K: JointKernel<D>, const D: usize> Joint<D> for K {
     }
     fn depends_on_time(&self) -> bool {
         JointKernel::depends_on_time(self)
+    }
+    fn prescribes(&self) -> bool {
+        JointKernel::prescribes(self)
     }
     fn joint_axis(&self, first: &Frame<f64, D>) -> Option<Axis> {
         JointKernel::joint_axis(self, first)

@@ -27,7 +27,7 @@ impl Changes {
 }
 
 /// Returns [left right].
-pub(super) fn beside([left, right]: [&Matrix; 2]) -> Matrix {
+pub fn beside([left, right]: [&Matrix; 2]) -> Matrix {
     let mut both = left.clone().resize_horizontally(left.ncols() + right.ncols(), 0.0);
     both.columns_mut(left.ncols(), right.ncols()).copy_from(right);
     both

@@ -52,7 +52,7 @@ impl Chart {
                 constant(variation, "mass_orthogonal", names, (z, b))
             }
             Chart::Independent(names) => independent::coordinates(variation, &z, names),
-            Chart::Frozen => Ok(frozen(variation, z)),
+            Chart::Frozen => frozen(variation, z),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Minimal coordinates of the perturbation at a state.
 
 use super::changes::beside;
-use super::{Changes, LinearizationPoint, Matrix, Variation};
+use super::{Changes, Lift, LinearizationPoint, Matrix, Variation};
 use crate::error::{Error, Result};
 use crate::system::{LeviCivita, OperatingPoint};
 
@@ -29,6 +29,8 @@ pub struct Coordinates {
     pub turn: Matrix,
     /// Coefficients of z and y in -y', (k + s) x k and (k + s) x (k + s).
     pub drift: [Matrix; 2],
+    /// The changes that go with the displacements of inputs.
+    pub lift: Lift,
 }
 
 /// The terms of a chart with one z for each y, the states xi among them.
@@ -38,12 +40,13 @@ struct Terms {
     tilt: Matrix,
     turn: Matrix,
     drift: [Matrix; 2],
+    lift: Lift,
 }
 
 impl Terms {
     /// The chart without a z for the last `states` directions, whose terms are zero; `name` of z and of y.
     fn named(self, variation: &Variation, name: &str, names: (Vec<String>, Vec<String>)) -> Coordinates {
-        let Terms { r, b, tilt, turn, drift: [of_z, of_y] } = self;
+        let Terms { r, b, tilt, turn, drift: [of_z, of_y], lift } = self;
         let states = variation.system().dimensions().states;
         let k = r.ncols() - states;
         let own = variation.system().names().v.split_off(r.nrows() - states);
@@ -55,6 +58,7 @@ impl Terms {
             drift: [of_z.columns(0, k).clone_owned(), of_y],
             r,
             b,
+            lift,
         }
     }
 }
@@ -104,17 +108,19 @@ pub(super) fn constant(
     let tilt = &r * (&b * &correction) - correction;
     let turn = -&b * variation.bracket_of(&variation.point.v, &r);
     let none = Matrix::zeros(r.ncols(), r.ncols());
-    Ok(Terms { r, b, tilt, turn, drift: [none.clone(), none] }.named(variation, name, names))
+    let lift = Lift::constant(variation, (&r, &b))?;
+    Ok(Terms { r, b, tilt, turn, drift: [none.clone(), none], lift }.named(variation, name, names))
 }
 
 /// The chart dq = Z z with constant Z and no other terms: z' = y.
-pub(super) fn frozen(variation: &Variation, z: Matrix) -> Coordinates {
+pub(super) fn frozen(variation: &mut Variation, z: Matrix) -> Result<Coordinates> {
     let turned = variation.bracket_of(&variation.point.v, &z);
     let b = variation.mass_times(&z).transpose();
     let none = Matrix::zeros(z.ncols(), z.ncols());
+    let lift = Lift::frozen(variation, (&z, &b))?;
     let drift = [none.clone(), &b * &turned];
     let names = numbered(variation, z.ncols());
-    Terms { r: z, b, tilt: turned, turn: none, drift }.named(variation, "frozen", names)
+    Ok(Terms { r: z, b, tilt: turned, turn: none, drift, lift }.named(variation, "frozen", names))
 }
 
 /// The chart dq = N u with N parallel in the mass metric, N^T (M N' + W N) = 0. With Q = -[v, .] and S the least
@@ -138,20 +144,21 @@ pub fn parallel(variation: &mut Variation, n: Matrix) -> Result<Coordinates> {
                 "bodies in floating frames have none: take --chart mass_orthogonal, or name independent coordinates",
             ));
     }
-    let LeviCivita { w, w_dot, mass_dot } = connection;
+    let LeviCivita { w, w_dot, mass_dot } = &connection;
     let bracket = |v: &[f64], x: &Matrix| variation.bracket_of(v, x);
     let LinearizationPoint { v, vdot, .. } = &variation.point;
-    let (turned, turned_later, wn) = (-bracket(v, &n), -bracket(vdot, &n), &w * &n);
+    let (turned, turned_later, wn) = (-bracket(v, &n), -bracket(vdot, &n), w * &n);
     let corrected = variation.gd_times(&n) - variation.g_times(&turned);
     let n_dot = -variation.correct(&corrected)? - &n * n.tr_mul(&wn);
     let momenta = variation.mass_times(&n_dot) + &wn;
-    let bent = n_dot.tr_mul(&momenta) + n.tr_mul(&(mass_dot * &n_dot + w_dot * &n + &w * &n_dot));
+    let bent = n_dot.tr_mul(&momenta) + n.tr_mul(&(mass_dot * &n_dot + w_dot * &n + w * &n_dot));
     let b = variation.mass_times(&n).transpose();
     let turned_rate = -variation.bracket_of(&variation.point.v, &n_dot);
     let drift = [-bent - &b * (turned_later + turned_rate), &b * (&n_dot * 2.0 - &turned)];
     let none = Matrix::zeros(n.ncols(), n.ncols());
+    let lift = Lift::parallel(variation, (&n, &b), (&n_dot, &connection))?;
     let names = numbered(variation, n.ncols());
-    let terms = Terms { r: n, b, tilt: n_dot - turned, turn: none, drift };
+    let terms = Terms { r: n, b, tilt: n_dot - turned, turn: none, drift, lift };
     Ok(terms.named(variation, "intrinsic", names))
 }
 

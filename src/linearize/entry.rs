@@ -1,5 +1,6 @@
 //! A method of linearization: its request, its result and its entry in the registry.
 
+use super::input_states::InputStates;
 use super::{Changes, Chart, Matrix, Variation};
 use crate::error::Result;
 use crate::method_spec::{Listed, MethodSpec, OptionDoc};
@@ -20,7 +21,7 @@ impl Request {
     }
 }
 
-/// The matrices of E x' = A x + B u, y = C x + D u.
+/// The matrices of E x' = A x + B u, y = C x + D u, without the states of inputs, whose columns stand apart.
 pub struct Built {
     /// Name of the chart.
     pub chart: String,
@@ -36,6 +37,8 @@ pub struct Built {
     pub d: Matrix,
     /// E, n_x x n_x; none: I.
     pub e: Option<Matrix>,
+    /// Columns of the states of inputs.
+    pub input_states: InputStates,
     /// (dq, dv) of a unit of each state.
     pub changes: Changes,
     /// Number of infinite eigenvalues.
@@ -52,7 +55,9 @@ impl Built {
         let Changes { q, v } = self.changes;
         let changes = Changes { q: q.remove_columns(first, count), v: v.remove_columns(first, count) };
         let (b, c) = (self.b.remove_rows(first, count), self.c.remove_columns(first, count));
-        Built { a: square(self.a), e: self.e.map(square), b, c, changes, ..self }
+        let a = self.input_states.a.remove_rows(first, count);
+        let input_states = InputStates { a, ..self.input_states };
+        Built { a: square(self.a), e: self.e.map(square), b, c, input_states, changes, ..self }
     }
 
     /// The change of q along each velocity direction of a unit of each state; of a state xi, that of xi itself.

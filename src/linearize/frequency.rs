@@ -7,7 +7,9 @@ use nalgebra::linalg::Hessenberg;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
-/// Returns H(i w) = C (i w E - A)^-1 B + D at frequencies in Hz, each n_y x n_u; none at a pole.
+/// Returns H(i w) = (C (i w E - A)^-1 B + D) (i w)^r at frequencies in Hz, each n_y x n_u; none at a pole. Where an input
+/// of the model is the derivative of order r of an input of the system, this is the response to the latter. What is below
+/// round-off of the sum C x is zero.
 ///
 /// Without E, A is brought to Hessenberg form once, and a frequency takes n^2 operations for each input (Laub, IEEE
 /// Trans. Autom. Control 26, 1981); descriptor forms take an LU decomposition each.
@@ -24,25 +26,38 @@ struct Reduced {
     b: Matrix,
     c: ComplexMatrix,
     d: ComplexMatrix,
+    /// r of each input.
+    orders: Vec<usize>,
+    /// Norm of each row of C.
+    sizes: Vec<f64>,
 }
 
 impl Reduced {
     fn new(model: &LinearModel) -> Self {
         let complex = |matrix: &Matrix| matrix.map(Complex::from);
-        let d = complex(&model.d);
+        let (d, orders) = (complex(&model.d), model.orders.clone());
+        let sizes = model.c.row_iter().map(|row| row.norm()).collect();
         if let Some(e) = &model.e {
             // Rows of equations in different units are scaled to one size, since sizes decide on pivots.
             let scale: Vec<f64> = (0..e.nrows()).map(|i| e.row(i).amax().max(model.a.row(i).amax())).collect();
             let scaled = |matrix: &Matrix| {
                 Matrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] / scale[i].max(f64::MIN_POSITIVE))
             };
-            return Reduced { a: scaled(&model.a), e: Some(scaled(e)), b: scaled(&model.b), c: complex(&model.c), d };
+            return Reduced {
+                a: scaled(&model.a),
+                e: Some(scaled(e)),
+                b: scaled(&model.b),
+                c: complex(&model.c),
+                d,
+                orders,
+                sizes,
+            };
         }
         if model.a.nrows() < 3 {
-            return Reduced { a: model.a.clone(), e: None, b: model.b.clone(), c: complex(&model.c), d };
+            return Reduced { a: model.a.clone(), e: None, b: model.b.clone(), c: complex(&model.c), d, orders, sizes };
         }
         let (q, h) = Hessenberg::new(model.a.clone()).unpack();
-        Reduced { a: h, e: None, b: q.transpose() * &model.b, c: complex(&(&model.c * q)), d }
+        Reduced { a: h, e: None, b: q.transpose() * &model.b, c: complex(&(&model.c * q)), d, orders, sizes }
     }
 
     fn at(&self, s: Complex<f64>) -> Option<ComplexMatrix> {
@@ -50,7 +65,14 @@ impl Reduced {
             Some(e) => e.zip_map(&self.a, |e, a| s * e - a).lu().solve(&self.b.map(Complex::from)),
             None => self.hessenberg(s),
         };
-        let response = &self.c * states? + &self.d;
+        let states = states?;
+        let mut response = &self.c * &states + &self.d;
+        for (mut column, x) in response.column_iter_mut().zip(states.column_iter()) {
+            let size = tolerances::ROUND_OFF_OF_FACTORS * x.norm();
+            let entries = column.iter_mut().zip(&self.sizes);
+            entries.filter(|(value, c)| value.norm() < *c * size).for_each(|(value, _)| *value = Complex::ZERO);
+        }
+        response.column_iter_mut().zip(&self.orders).for_each(|(mut column, r)| column *= s.powu(*r as u32));
         response.iter().all(|x| x.re.is_finite() && x.im.is_finite()).then_some(response)
     }
 

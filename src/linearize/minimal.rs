@@ -2,6 +2,8 @@
 
 use super::changes::beside;
 use super::entry::{Built, Entry};
+use super::input_states::InputStates;
+use super::perturbation::{Parts, Perturbation};
 use super::response::observe;
 use super::{Changes, Chart, Coordinates, Matrix, Response, Variation};
 use crate::error::Result;
@@ -15,7 +17,9 @@ pub struct Minimal {
     pub changes: Changes,
     /// A, n_x x n_x.
     pub a: Matrix,
-    /// B, n_x x n_u.
+    /// Columns of the states of inputs.
+    pub input_states: InputStates,
+    /// B, n_x x n_u, of the derivatives that are inputs of the model.
     pub b: Matrix,
     /// C, n_y x n_x.
     pub c: Matrix,
@@ -25,8 +29,8 @@ pub struct Minimal {
 
 impl From<Minimal> for Built {
     fn from(model: Minimal) -> Self {
-        let Minimal { coordinates, changes, a, b, c, d } = model;
-        Built { chart: coordinates.name, states: coordinates.states, a, b, c, d, e: None, changes, infinite: 0 }
+        let Minimal { coordinates: Coordinates { name: chart, states, .. }, changes, a, input_states, b, c, d } = model;
+        Built { chart, states, a, b, c, d, e: None, input_states, changes, infinite: 0 }
     }
 }
 
@@ -58,17 +62,23 @@ pub fn minimal(variation: &mut Variation, chart: &Chart) -> Result<Minimal> {
 pub(super) fn restrict(
     variation: &mut Variation,
     coordinates: Coordinates,
-    response: impl FnOnce(&mut Variation, &Changes) -> Result<Response>,
+    response: impl FnOnce(&mut Variation, &Perturbation) -> Result<Response>,
 ) -> Result<Minimal> {
-    let (k, n) = (coordinates.freedom(), coordinates.r.ncols());
-    let changes = coordinates.changes();
-    let response = response(variation, &changes)?;
+    let Coordinates { r, b, turn, drift, lift, .. } = &coordinates;
+    let (k, n, changes) = (coordinates.freedom(), r.ncols(), coordinates.changes());
+    let perturbation = Perturbation::new(variation, &changes, |i, j| lift.along(i, j));
+    let response = response(variation, &perturbation)?;
+    let Parts { state, input_states, inputs } = perturbation.split(&(b * &response.vdot));
     let mut a = Matrix::zeros(k + n, k + n);
-    a.view_mut((0, 0), (k, k)).copy_from(&coordinates.turn);
+    a.view_mut((0, 0), (k, k)).copy_from(turn);
     a.view_mut((0, k), (k, k)).fill_with_identity();
-    let lower = &coordinates.b * &response.vdot - beside([&coordinates.drift[0], &coordinates.drift[1]]);
-    a.view_mut((k, 0), (n, k + n)).copy_from(&lower);
-    let b = (&coordinates.b * &response.driven_vdot).insert_rows(0, k, 0.0);
-    let [c, d] = observe(&variation.outputs()?, &changes, &response);
-    Ok(Minimal { coordinates, changes, a, b, c, d })
+    a.view_mut((k, 0), (n, k + n)).copy_from(&(state - beside([&drift[0], &drift[1]])));
+    let orders = variation.orders();
+    let [upper, bent] = lift.terms(&orders);
+    let mut driven = (input_states - bent).insert_rows(0, k, 0.0);
+    driven.rows_mut(0, k).copy_from(&upper.rows(0, k));
+    let outputs = observe(&variation.outputs()?, &perturbation, &response);
+    let input_states = InputStates { orders, a: driven, c: outputs.input_states };
+    let (b, c, d) = (inputs.insert_rows(0, k, 0.0), outputs.state, outputs.inputs);
+    Ok(Minimal { coordinates, changes, a, input_states, b, c, d })
 }

@@ -7,16 +7,20 @@ mod chart;
 mod comparison;
 mod coordinates;
 mod entry;
+mod excited;
 mod floquet;
 #[doc(hidden)]
 pub mod flow;
 mod frequency;
 mod independent;
+mod input_states;
+mod lift;
 mod lyapunov;
 mod matching;
 mod method;
 mod minimal;
 mod model;
+mod perturbation;
 mod point;
 mod redundant;
 mod response;
@@ -37,6 +41,7 @@ pub use along::{State, states};
 pub use amplification::{amplification, amplified};
 #[doc(hidden)]
 pub use changes::Changes;
+pub(crate) use changes::beside;
 pub use chart::Chart;
 #[doc(hidden)]
 pub use comparison::{Comparison, compare};
@@ -51,6 +56,8 @@ pub use floquet::{Floquet, floquet};
 #[doc(hidden)]
 pub use frequency::Resonances;
 pub use frequency::frequency_response;
+#[doc(hidden)]
+pub use lift::Lift;
 pub use lyapunov::{Lyapunov, lyapunov};
 #[doc(hidden)]
 pub use method::refuse_large;
@@ -60,6 +67,8 @@ pub use minimal::{Minimal, minimal};
 pub use model::{Complex, Cost, Kind, LinearModel, Matrix, Mode};
 #[doc(hidden)]
 pub use model::{Pair, are_conjugate, damping, frequency, pairs};
+#[doc(hidden)]
+pub use perturbation::Perturbation;
 pub use point::LinearizationPoint;
 pub use response::Response;
 pub use sparse::modal;

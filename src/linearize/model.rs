@@ -23,10 +23,12 @@ pub struct LinearModel {
     /// The coordinates of the perturbation, on which the spectrum depends off equilibrium: `intrinsic`,
     /// `mass_orthogonal`, `crank.angle`, `frozen`.
     pub chart: String,
-    /// Names of the states x.
+    /// Names of the states x. The last ones are those of the inputs: `road` where the input is `road'`.
     pub states: Vec<String>,
-    /// Names of the inputs u.
+    /// Names of the inputs u: an input of the system or the derivative of one, such as `shaker''`.
     pub inputs: Vec<String>,
+    /// Order r of the derivative that each input is: it has r states, which integrate it.
+    pub orders: Vec<usize>,
     /// Names of the outputs y.
     pub outputs: Vec<String>,
     /// A, n_x x n_x.
@@ -39,7 +41,7 @@ pub struct LinearModel {
     pub d: Matrix,
     /// E of a descriptor form, n_x x n_x, singular; none: I.
     pub e: Option<Matrix>,
-    /// All eigenvalues: physical ones first, then uncertain, spurious and infinite ones; each kind from the slowest.
+    /// All eigenvalues but the zeros of the states of inputs: physical ones first, then uncertain, spurious and infinite ones; each kind from the slowest.
     pub modes: Vec<Mode>,
     /// The state that is perturbed.
     pub point: LinearizationPoint,
@@ -74,6 +76,13 @@ impl Kind {
 }
 
 impl LinearModel {
+    /// Returns the names of the inputs of the system, of which the inputs of the model are derivatives.
+    pub fn input_names(&self) -> Vec<String> {
+        let name =
+            |(name, order): (&String, &usize)| name.strip_suffix(&"'".repeat(*order)).unwrap_or(name).to_string();
+        self.inputs.iter().zip(&self.orders).map(name).collect()
+    }
+
     /// True if some eigenvalues are [`Kind::Uncertain`].
     pub fn has_uncertain_kinds(&self) -> bool {
         self.modes.iter().any(|mode| mode.kind == Kind::Uncertain)

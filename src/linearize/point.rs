@@ -18,6 +18,8 @@ pub struct LinearizationPoint {
     pub vdot: Vec<f64>,
     /// Multipliers, n_c.
     pub lambda: Vec<f64>,
+    /// Values of the inputs, n_u.
+    pub u: Vec<f64>,
     /// Largest |phi|, each row over its scale.
     pub phi: f64,
     /// Largest |phi'|, each row over its scale, 1/s.
@@ -41,6 +43,7 @@ impl LinearizationPoint {
             v: v.to_vec(),
             vdot: dynamics.vdot.clone(),
             lambda: dynamics.lambda.clone(),
+            u: Vec::new(),
             phi: worst(&terms.phi),
             phi_dot: worst(&terms.phi_dot),
             is_equilibrium: is_at_rest(dynamics, &rounding(dynamics, k, q), v),

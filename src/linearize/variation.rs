@@ -5,7 +5,7 @@ use crate::error::{Error, Result, clock};
 use crate::formulation::{Dynamics, StepError, free_directions};
 use crate::math::kkt::Pattern;
 use crate::math::memory::refuse_dense;
-use crate::system::{Column, MechanicalSystem, Need, OperatingPoint, OutputTangent, Tangent};
+use crate::system::{Column, Excitation, MechanicalSystem, Need, OperatingPoint, OutputTangent, Tangent};
 
 /// Small changes (dq, dv) of a state, dq along the velocity directions, with those of v' and lambda:
 ///
@@ -29,8 +29,10 @@ pub struct Variation<'a> {
     gdd: Vec<f64>,
     /// Velocity of the state that is evaluated.
     v: Vec<f64>,
-    /// Number of inputs and of outputs.
-    columns: [usize; 2],
+    /// The equation that each input is part of.
+    pub(super) excitations: Vec<Excitation>,
+    /// Number of outputs.
+    outputs: usize,
 }
 
 const NO_TANGENT: &str = "these equations give no K, C and gradient of phi''";
@@ -45,8 +47,9 @@ impl<'a> Variation<'a> {
         let dynamics = Dynamics::new(system);
         let tangent = Tangent::new(&dynamics.structure.tangent);
         let (gdd, own) = (vec![0.0; dynamics.structure.g.entries.len()], v.to_vec());
-        let columns = [system.inputs().len(), system.columns().len()];
-        let mut variation = Variation { dynamics, point: LinearizationPoint::default(), tangent, gdd, v: own, columns };
+        let (excitations, outputs) = (system.excitations(), system.columns().len());
+        let point = LinearizationPoint::default();
+        let mut variation = Variation { dynamics, point, tangent, gdd, v: own, excitations, outputs };
         variation.operate_at(t, q, v)?;
         Ok(variation)
     }
@@ -62,6 +65,7 @@ impl<'a> Variation<'a> {
             return Err(Error::input(NO_TANGENT).hint(GIVE_THEM));
         }
         self.point = LinearizationPoint::new(&self.dynamics, &self.tangent.k, t, q, v);
+        self.point.u = self.input_values();
         if self.point.is_equilibrium {
             // Rounding would give entries of Gdd that no scale tells from small terms.
             self.point.vdot.fill(0.0);
@@ -243,22 +247,14 @@ impl<'a> Variation<'a> {
         (names(self.system().inputs()), names(self.system().columns()))
     }
 
-    /// Returns df/du, n_v x n_u.
-    pub fn inputs(&mut self) -> Matrix {
-        let Dynamics { system, scratch, .. } = &mut self.dynamics;
-        let mut forces = Matrix::zeros(self.point.vdot.len(), self.columns[0]);
-        system.input_forces(self.point.t, &self.point.q, &self.point.v, &mut forces, scratch);
-        forces
-    }
-
     /// Returns the derivatives of the outputs at the operating point.
     ///
     /// # Errors
     /// Equations with outputs but without their derivatives.
     pub fn outputs(&mut self) -> Result<OutputTangent> {
         let system = self.system();
-        let (n, [inputs, outputs]) = (system.dimensions(), self.columns);
-        let mut tangent = OutputTangent::new(outputs, n.v, n.lambda, inputs);
+        let n = system.dimensions();
+        let mut tangent = OutputTangent::new(self.outputs, n.v, n.lambda, self.excitations.len());
         let LinearizationPoint { t, q, v, vdot, lambda, .. } = &self.point;
         let at = OperatingPoint { t: *t, q, v, vdot, lambda };
         match system.output_tangent(at, &mut tangent, &mut self.dynamics.scratch) {

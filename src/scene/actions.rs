@@ -5,6 +5,7 @@ use super::model::{Connection, FORCE_SIZE, Measure, TORQUE_SIZE};
 use super::outputs::{Elements, find, wrong_component};
 use crate::body::Build;
 use crate::error::{Error, Result};
+use crate::force::InputKind;
 use crate::joint::Joint;
 
 /// Components of a force and a torque, with their places in [`Measure::Reaction`].
@@ -83,7 +84,7 @@ pub fn force<const D: usize>(spec: &OutputSpec, of: &str, elements: Elements<D>,
         Some(Side::Second) => 1,
         Some(Side::First) => 0,
         // An applied force is given as it acts at its own marker.
-        None if given.element.takes_inputs() => 0,
+        None if given.element.input() == InputKind::Component => 0,
         None => 1.min(acted - 1),
     };
     Ok(Measure::Load { force, slot, component, axes })

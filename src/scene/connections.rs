@@ -5,7 +5,7 @@ use super::model::Connection;
 use super::resolve::{object, take_kind, take_name};
 use crate::body::{Build, ElementKind};
 use crate::error::{Error, Result};
-use crate::force::{Force, ForceKind};
+use crate::force::{Force, ForceKind, InputKind};
 use crate::joint::{Joint, JointKind};
 use serde_json::Value;
 use std::collections::HashSet;
@@ -32,7 +32,8 @@ pub fn forces<const D: usize>(
     build: &Build<D>,
 ) -> Result<Vec<Connection<Box<dyn Force<D>>>>> {
     let make = |make: &BuildForce<D>, json| make(json, build).map(|built| (built.force, built.markers));
-    let is_between = |element: &dyn Force<D>, markers| element.acted(markers) == 2 && !element.takes_inputs();
+    let is_between =
+        |element: &dyn Force<D>, markers| element.acted(markers) == 2 && element.input() != InputKind::Component;
     let see = |force: &Connection<Box<dyn Force<D>>>| {
         named.add(force, is_between(force.element.as_ref(), force.markers.len()), None);
     };

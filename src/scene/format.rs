@@ -170,15 +170,23 @@ pub struct SignalSpec {
     pub beyond: Beyond,
 }
 
-/// Drives a component of an applied force or torque.
+/// A quantity u that adds to a component of an applied force or torque, to what a driver prescribes, or to the height of
+/// a road: a column of B. Exactly one of `force`, `driver` and `tyre` is given.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InputSpec {
     pub name: String,
     /// Name of an applied force or torque.
-    pub force: String,
-    /// x, y or z. Default: the only one, in the plane, of a torque.
+    pub force: Option<String>,
+    /// Name of a joint of type `driver`: u adds to its value, m or rad.
+    pub driver: Option<String>,
+    /// Name of a force of type `tyre`: u adds to the height of its road, m.
+    pub tyre: Option<String>,
+    /// Of a force: x, y or z. Default: the only one, in the plane, of a torque.
     pub component: Option<String>,
+    /// u in simulations, in N, N m, m or rad: an expression of t, for a force also of marker quantities and named
+    /// outputs; linear models are taken about it. Default: zero.
+    pub value: Option<Number>,
 }
 
 /// What a user watches: a column of the trajectory and a row of C.

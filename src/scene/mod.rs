@@ -14,6 +14,7 @@ mod format;
 #[doc(hidden)]
 pub mod generate;
 mod gravity;
+mod inputs;
 mod json;
 mod kinematics;
 mod locate;
@@ -36,7 +37,7 @@ pub use format::Assembly;
 pub use format::{Automatic, Simulation};
 pub use model::Model;
 #[doc(hidden)]
-pub use model::{BeamLine, Combination, Connection, EnergyPart, ForceInput, Measure, Part, Reading, Watched};
+pub use model::{BeamLine, Combination, Connection, EnergyPart, Input, Measure, Part, Reading, Target, Watched};
 #[doc(hidden)]
 pub use model::{FORCE_SIZE, TORQUE_SIZE};
 #[doc(hidden)]

@@ -30,7 +30,7 @@ pub struct Model<const D: usize> {
     /// Sections of beams in floating frames that outputs watch.
     pub cuts: Vec<Cut<D>>,
     /// Inputs u in the order of the scene.
-    pub inputs: Vec<ForceInput>,
+    pub inputs: Vec<Input>,
     /// Number of the states xi: the last bodies, and their rates the last forces.
     pub states: usize,
     /// Events at which elements change their form.
@@ -305,16 +305,51 @@ impl EnergyPart {
     }
 }
 
-/// A named input: it adds to a component of an applied force or torque.
-pub struct ForceInput {
+/// A named input.
+pub struct Input {
     /// Name of the input in the scene.
     pub name: String,
-    /// Index of the applied force or torque in the model.
-    pub force: usize,
-    /// Component in the axes of the force: 0 to 2 for x to z.
-    pub component: usize,
-    /// `N` or `N m`.
+    /// What it adds to.
+    pub target: Target,
+    /// `N`, `N m`, `m` or `rad`.
     pub unit: &'static str,
+    /// Its value in simulations, which the element contains; none: zero.
+    pub value: Option<Formula>,
+}
+
+/// What an input adds to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// A component of an applied force or torque.
+    Component {
+        /// Index of the force.
+        force: usize,
+        /// 0 to 2 for x to z, in its axes.
+        component: usize,
+    },
+    /// The height of a road.
+    Road {
+        /// Index of the tyre.
+        force: usize,
+        /// True if its force depends on the rate of the height.
+        rate: bool,
+    },
+    /// What a driver prescribes.
+    Driver {
+        /// Index of the joint.
+        joint: usize,
+    },
+}
+
+impl Target {
+    /// The force that it drives, with the component.
+    pub fn force(self) -> Option<(usize, usize)> {
+        match self {
+            Target::Component { force, component } => Some((force, component)),
+            Target::Road { force, .. } => Some((force, 0)),
+            Target::Driver { .. } => None,
+        }
+    }
 }
 
 impl<const D: usize> Model<D> {

@@ -1,8 +1,8 @@
-//! Outputs and inputs of a scene.
+//! Outputs of a scene.
 
-use super::format::{InputSpec, MeasureKind, OutputSpec};
+use super::format::{MeasureKind, OutputSpec};
 use super::kinematics::Placed;
-use super::model::{BeamLine, Connection, EnergyPart, ForceInput, Measure, Part, TORQUE_SIZE, Watched};
+use super::model::{BeamLine, Connection, EnergyPart, Measure, Part, TORQUE_SIZE, Watched};
 use super::place::Cut;
 use super::units::{Dimension, Unit};
 use super::{actions, beam_outputs, kinematics};
@@ -184,44 +184,4 @@ pub(super) fn find<'a>(what: &str, name: &str, mut known: impl Iterator<Item = &
     known
         .position(|known| known == name)
         .ok_or_else(|| Error::input(format!("there is no {what} `{name}`")).under("of").hint(suggest(name, names)))
-}
-
-/// The inputs with the force components that they add to.
-pub fn inputs<const D: usize>(specs: &[InputSpec], forces: &Forces<D>) -> Result<Vec<ForceInput>> {
-    let mut all: Vec<ForceInput> = Vec::new();
-    for (i, spec) in specs.iter().enumerate() {
-        let place = |error: Error| error.element(&spec.name).under(format!("inputs[{i}]"));
-        let named = |error: Error| error.under("name").under(format!("inputs[{i}]"));
-        if all.iter().any(|known| known.name == spec.name) {
-            let taken = Error::input(format!("the name `{}` is taken", spec.name)).hint("give each input its own");
-            return Err(named(taken));
-        }
-        super::resolve::check_name(&spec.name).map_err(named)?;
-        all.push(input::<D>(spec, forces).map_err(place)?);
-    }
-    Ok(all)
-}
-
-fn input<const D: usize>(spec: &InputSpec, forces: &Forces<D>) -> Result<ForceInput> {
-    let force = find("force", &spec.force, forces.iter().map(|force| force.name.as_str())).map_err(|error| {
-        let Error::Input(mut input) = error else { return error };
-        input.path = "force".to_string();
-        Error::Input(input)
-    })?;
-    let (kind, element) = (forces[force].kind, &forces[force].element);
-    if !element.takes_inputs() {
-        return Err(Error::input(format!("`{}` is a {kind}, which an input cannot drive", spec.force))
-            .under("force")
-            .hint("name an applied_force or an applied_torque"));
-    }
-    let axes = &["x", "y", "z"][..D];
-    let component = match spec.component.as_deref() {
-        None if D == 2 && element.is_torque() => 2,
-        None => {
-            return Err(missing("component", &format!("choose one of {}", axes.join(", "))));
-        }
-        Some(name) => axes.iter().position(|axis| *axis == name).ok_or_else(|| wrong_component(name, axes))?,
-    };
-    let unit = if element.is_torque() { "N m" } else { "N" };
-    Ok(ForceInput { name: spec.name.clone(), force, component, unit })
 }

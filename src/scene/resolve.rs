@@ -4,10 +4,10 @@ use super::absolute_beam::{AbsoluteBeam, is_absolute_beam};
 use super::elements::{Elements, Kinds};
 use super::format::{Dimension, SceneFile};
 use super::kinematics::Named;
-use super::model::{BeamLine, Connection, ForceInput, Model, Part, Watched};
+use super::model::{BeamLine, Connection, Input, Model, Part, Watched};
 use super::outputs;
 use super::place::Cut;
-use super::{AnyModel, Scene, connections, gravity, markers, signals, states};
+use super::{AnyModel, Scene, connections, gravity, inputs, markers, signals, states};
 use crate::body::{
     BodyKind, Build, Built, ElementKind, Initial, Marker, MarkerId, MarkerTable, Switches, Turning, parse, show,
 };
@@ -81,22 +81,22 @@ struct Links<const D: usize> {
     forces: Vec<Connection<Box<dyn Force<D>>>>,
     outputs: Vec<Watched>,
     cuts: Vec<Cut<D>>,
-    inputs: Vec<ForceInput>,
+    inputs: Vec<Input>,
 }
 
 impl<const D: usize> Links<D> {
     fn read(named: &Named<D>, kinds: &Kinds<D>, parts: &Parts<D>, build: &Build<D>) -> Result<Self> {
         let file = named.file;
-        let joints = connections::joints(named, &kinds.joints, build)?;
+        let mut joints = connections::joints(named, &kinds.joints, build)?;
         let mut forces = connections::forces(named, &kinds.forces, build)?;
         forces.extend(parts.beams.iter().flat_map(|beam| line_elements(beam, &parts.bodies)));
+        let inputs = inputs::inputs(&file.inputs, (&mut joints, &mut forces), build)?;
         forces.extend(gravity::central(&file.gravity, parts, build)?);
         forces.extend(states::rates(&file.states, build)?);
         let Parts { bodies, beams, .. } = parts;
         let placed = &named.elements.borrow();
         let elements = outputs::Elements { bodies, beams, joints: &joints, forces: &forces, placed };
         let (outputs, cuts) = outputs::outputs(&file.outputs, elements, build)?;
-        let inputs = outputs::inputs::<D>(&file.inputs, &forces)?;
         Ok(Links { joints, forces, outputs, cuts, inputs })
     }
 }

@@ -12,12 +12,14 @@ use super::support::Support;
 use super::tangent::{Evaluation, OperatingPoint, Tangent};
 use super::view::{Plain, along_motion, gathered};
 use super::workspace::Workspace;
-use super::{Column, Dimensions, Energy, Group, Limited, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
+use super::{
+    Column, Dimensions, Energy, Excitation, Group, Limited, MechanicalSystem, Names, Need, Scratch, Structure, Terms,
+};
 use crate::body::{Frame, cross};
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
 use crate::math::{Rate, Regime, Taylor, Time};
-use crate::scene::{Connection, ForceInput, Model, Part, Watched};
+use crate::scene::{Connection, Input, Model, Part, Watched};
 use nalgebra::DMatrix;
 use std::array::from_fn;
 use std::ops::Range;
@@ -317,12 +319,26 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn inputs(&self) -> Vec<Column> {
-        let column = |input: &ForceInput| Column { name: input.name.clone(), unit: input.unit.to_string() };
+        let column = |input: &Input| Column { name: input.name.clone(), unit: input.unit.to_string() };
         self.model.inputs.iter().map(column).collect()
     }
 
     fn input_forces(&self, t: f64, q: &[f64], v: &[f64], f: &mut DMatrix<f64>, scratch: &mut Scratch) {
-        self.at(q, v, scratch, |work, regime| self.write_input_forces(Time { t, regime }, q, work, f));
+        self.at(q, v, scratch, |work, regime| self.write_input_forces(0, (Time { t, regime }, q), work, f));
+    }
+
+    fn input_rate_forces(&self, t: f64, q: &[f64], v: &[f64], f: &mut DMatrix<f64>, scratch: &mut Scratch) {
+        self.at(q, v, scratch, |work, regime| self.write_input_forces(1, (Time { t, regime }, q), work, f));
+    }
+
+    fn excitations(&self) -> Vec<Excitation> {
+        self.model.inputs.iter().map(|input| self.excitation(input.target)).collect()
+    }
+
+    fn input_values(&self, at: OperatingPoint, out: &mut [f64], scratch: &mut Scratch) {
+        self.at(at.q, at.v, scratch, |work, regime| {
+            self.write_input_values(&Plain { at, regime, motion: &work.motion }, out);
+        });
     }
 
     fn switches(&self) -> &[Switch] {
@@ -344,11 +360,12 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
             for joint in self.placed_joints() {
                 with_frames(&work.motion, &joint.joint.markers, |frames| joint.switching(time, frames, out));
             }
+            let still = [Taylor::fixed(Rate::fixed(0.0)); 3];
             for force in self.model.given_forces().iter().chain(self.model.rates()) {
                 gathered(
                     &force.markers,
                     |marker| work.motion[marker].map(along_motion),
-                    |frames| force.element.switching(frames, time.map(Taylor::running), out),
+                    |frames| force.element.switching(&still, frames, time.map(Taylor::running), out),
                 );
             }
         });

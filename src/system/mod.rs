@@ -35,6 +35,7 @@ mod view;
 mod workspace;
 
 pub use equations::Equations;
+pub use input::Excitation;
 #[doc(hidden)]
 pub use levi_civita::LeviCivita;
 #[doc(hidden)]
@@ -235,13 +236,28 @@ pub trait MechanicalSystem: Send + Sync {
         self.columns().is_empty()
     }
 
-    /// The inputs u, zero in a simulation. Default: none.
+    /// The inputs u: changes of what the equations contain, zero in a simulation. Default: none.
     fn inputs(&self) -> Vec<Column> {
         Vec::new()
     }
 
+    /// The equation that each input is part of. Default: f(u).
+    fn excitations(&self) -> Vec<Excitation> {
+        vec![Excitation::Force; self.inputs().len()]
+    }
+
     /// df/du, n_v x n_u: the generalized forces per unit of each input.
     fn input_forces(&self, _t: f64, _q: &[f64], _v: &[f64], _f: &mut DMatrix<f64>, _scratch: &mut Scratch) {}
+
+    /// df/du', n_v x n_u. Default: zero.
+    fn input_rate_forces(&self, _t: f64, _q: &[f64], _v: &[f64], f: &mut DMatrix<f64>, _scratch: &mut Scratch) {
+        f.fill(0.0);
+    }
+
+    /// Writes the values that inputs have in a simulation as part of the equations. Default: zero.
+    fn input_values(&self, _at: OperatingPoint, out: &mut [f64], _scratch: &mut Scratch) {
+        out.fill(0.0);
+    }
 
     /// Switching functions, at whose thresholds the equations change: see [`Regime`](crate::math::Regime). Default:
     /// none.

@@ -1,4 +1,4 @@
-//! Derivatives of the outputs with respect to q, v, v', lambda and u.
+//! Derivatives of the outputs with respect to q, v, v', lambda, u and u'.
 
 use super::coupling::Carrier;
 use super::mechanism::Mechanism;
@@ -12,7 +12,7 @@ use crate::scene::{EnergyPart, Measure, Part};
 use nalgebra::DMatrix;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Derivatives of the outputs y(t, q, v, v', lambda, u), a row each.
+/// Derivatives of the outputs y(t, q, v, v', lambda, u, u'), a row each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutputTangent {
     /// n_y x n_v: along the directions of v, q + N(q) e_j, at fixed v, v', lambda and u.
@@ -25,18 +25,27 @@ pub struct OutputTangent {
     pub lambda: DMatrix<f64>,
     /// dy/du, n_y x n_u: the direct part, such as that of the magnitude of a force with an input.
     pub u: DMatrix<f64>,
+    /// dy/du', n_y x n_u
+    pub udot: DMatrix<f64>,
 }
 
 impl OutputTangent {
     /// All zero, for these dimensions.
     pub fn new(n_y: usize, n_v: usize, n_c: usize, n_u: usize) -> Self {
         let zeros = |columns| DMatrix::zeros(n_y, columns);
-        OutputTangent { q: zeros(n_v), v: zeros(n_v), vdot: zeros(n_v), lambda: zeros(n_c), u: zeros(n_u) }
+        OutputTangent {
+            q: zeros(n_v),
+            v: zeros(n_v),
+            vdot: zeros(n_v),
+            lambda: zeros(n_c),
+            u: zeros(n_u),
+            udot: zeros(n_u),
+        }
     }
 
     /// Sets all matrices to zero.
     pub fn clear(&mut self) {
-        let all = [&mut self.q, &mut self.v, &mut self.vdot, &mut self.lambda, &mut self.u];
+        let all = [&mut self.q, &mut self.v, &mut self.vdot, &mut self.lambda, &mut self.u, &mut self.udot];
         all.into_iter().for_each(|matrix| matrix.as_mut_slice().fill(0.0));
     }
 }
@@ -73,7 +82,7 @@ impl<const D: usize> Slopes<'_, D> {
                         self.along_accelerations(row, measure, scale);
                     }
                     self.along_multipliers(row, measure, scale);
-                    self.along_inputs(row, measure, scale);
+                    self.along_inputs(row, &mechanism.forces_of(measure), |view| mechanism.read(measure, view) * scale);
                 }
             }
         }
@@ -88,7 +97,9 @@ impl<const D: usize> Slopes<'_, D> {
         }
         if part != EnergyPart::Kinetic {
             for (force, coupling) in mechanism.couplings.forces.iter().enumerate() {
-                self.along_bodies(row, &coupling.carriers, |view| mechanism.action(force, view).potential.x * scale);
+                let potential = |view: &SeededView<D>| mechanism.action(force, view).potential.x * scale;
+                self.along_bodies(row, &coupling.carriers, potential);
+                self.along_inputs(row, &[force], potential);
             }
         }
     }
@@ -149,12 +160,15 @@ impl<const D: usize> Slopes<'_, D> {
         }
     }
 
-    fn along_inputs(&mut self, row: usize, measure: &Measure, scale: f64) {
-        let forces = self.mechanism.forces_of(measure);
-        let inputs = self.mechanism.model().inputs.iter().enumerate();
-        for (column, input) in inputs.filter(|(_, input)| forces.contains(&input.force)) {
-            let value = self.seen(Seed::Inputs(input.force), |view| self.mechanism.read(measure, view) * scale);
-            self.tangent.u[(row, column)] = known(value.eps[input.component]);
+    /// Derivatives along the inputs on some forces.
+    fn along_inputs(&mut self, row: usize, forces: &[usize], read: impl Fn(&SeededView<D>) -> Dual6) {
+        for (column, input) in self.mechanism.model().inputs.iter().enumerate() {
+            let Some((force, component)) = input.target.force().filter(|(force, _)| forces.contains(force)) else {
+                continue;
+            };
+            let value = self.seen(Seed::Inputs(force), &read);
+            self.tangent.u[(row, column)] += known(value.eps[component]);
+            self.tangent.udot[(row, column)] += known(value.eps[3 + component]);
         }
     }
 

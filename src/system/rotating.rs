@@ -2,7 +2,7 @@
 
 use super::spin::{Block, Placement, Spin};
 use super::{
-    Column, Dimensions, Energy, Group, LeviCivita, Limited, MechanicalSystem, Names, Need, OperatingPoint,
+    Column, Dimensions, Energy, Excitation, Group, LeviCivita, Limited, MechanicalSystem, Names, Need, OperatingPoint,
     OutputTangent, Scratch, Structure, Tangent, Terms,
 };
 use crate::math::Rate;
@@ -320,6 +320,19 @@ impl MechanicalSystem for Rotating<'_> {
 
     fn input_forces(&self, _t: f64, q: &[f64], v: &[f64], f: &mut DMatrix<f64>, scratch: &mut Scratch) {
         self.inner.input_forces(self.t, q, &self.velocity(q, v), f, scratch);
+    }
+
+    fn excitations(&self) -> Vec<Excitation> {
+        self.inner.excitations()
+    }
+
+    fn input_rate_forces(&self, _t: f64, q: &[f64], v: &[f64], f: &mut DMatrix<f64>, scratch: &mut Scratch) {
+        self.inner.input_rate_forces(self.t, q, &self.velocity(q, v), f, scratch);
+    }
+
+    fn input_values(&self, at: OperatingPoint, out: &mut [f64], scratch: &mut Scratch) {
+        let v = self.velocity(at.q, at.v);
+        self.inner.input_values(OperatingPoint { t: self.t, v: &v, ..at }, out, scratch);
     }
 
     fn switches(&self) -> &[Switch] {

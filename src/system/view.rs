@@ -21,8 +21,8 @@ pub(super) trait View<S: Scalar, const D: usize> {
     /// Energy of a body by itself, without forces.
     fn energy(&self, part: &Part<D>, gravity: &[f64; D]) -> Energy<S>;
     fn lambda(&self, row: usize) -> S;
-    /// Sum of the inputs on the three components of a force; zero for a force without inputs.
-    fn input(&self, force: usize) -> [S; 3];
+    /// Sum of the inputs on the three components of a force, with their rates; zero for a force without inputs.
+    fn input(&self, force: usize) -> [Taylor<S>; 3];
 }
 
 /// The state over floats.
@@ -54,8 +54,8 @@ impl<const D: usize> View<f64, D> for Plain<'_, D> {
     fn lambda(&self, row: usize) -> f64 {
         self.at.lambda[row]
     }
-    fn input(&self, _: usize) -> [f64; 3] {
-        [0.0; 3]
+    fn input(&self, _: usize) -> [Taylor<f64>; 3] {
+        [Taylor::fixed(0.0); 3]
     }
 }
 
@@ -66,7 +66,7 @@ pub(super) enum Seed<'a, const D: usize> {
     Body(&'a Part<D>),
     /// Six multipliers from this row on.
     Multipliers(usize),
-    /// The inputs on the three components of a force.
+    /// The inputs on the three components of a force, then their rates.
     Inputs(usize),
 }
 
@@ -133,10 +133,13 @@ impl<const D: usize> View<Dual6, D> for SeededView<'_, D> {
             _ => Dual6::fixed(self.at.lambda[row]),
         }
     }
-    fn input(&self, force: usize) -> [Dual6; 3] {
+    fn input(&self, force: usize) -> [Taylor<Dual6>; 3] {
         match self.seed {
-            Seed::Inputs(driven) if driven == force => from_fn(|component| Dual6::seeded(0.0, component)),
-            _ => [Dual6::fixed(0.0); 3],
+            Seed::Inputs(driven) if driven == force => from_fn(|component| {
+                let [x, d] = [component, 3 + component].map(|slot| Dual6::seeded(0.0, slot));
+                Taylor::new(x, d, Dual6::fixed(0.0))
+            }),
+            _ => [Taylor::fixed(Dual6::fixed(0.0)); 3],
         }
     }
 }

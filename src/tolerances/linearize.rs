@@ -1,6 +1,6 @@
 //! Linear models, their eigenvalues, and the checks of them.
 
-pub use super::{ROUND_OFF_OF_SUMS, SAME};
+pub use super::{ROUND_OFF_OF_FACTORS, ROUND_OFF_OF_SUMS, SAME};
 
 /// States of a run are integrated at least so well.
 /// Unit: `[1]`, rtol. Why: a choice. Test: none: not tried with other values.
@@ -59,6 +59,10 @@ pub const PEAKS: (f64, f64) = (1e-6, 0.2);
 /// Unit: `[1]`. Why: a choice: half of the digits of the model would be lost. Test: none: with a thousand times more or
 /// less the tests of its room pass.
 pub const INDEPENDENT: f64 = 1e-7;
+
+/// A driver that a change of q moves by a unit less this is held by other constraints.
+/// Unit: `[1]`. Why: a choice, above the square root of rounding. Test: `a_driver_that_is_held_is_refused`.
+pub const PRESCRIBED: f64 = 1e-6;
 
 /// Differences of eigenvalues that are round-off: modes are one, a pair is conjugate, a real part is none.
 /// Unit: `[1]` of the eigenvalue, or of the largest. Why: a choice, above the square root of rounding, by which double

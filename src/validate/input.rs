@@ -5,7 +5,7 @@ use super::perturb::{EPSILONS, Norm, difference, floor};
 use super::{Decay, decay};
 use crate::error::Result;
 use crate::linearize::flow::{Bundle, Pulse, flow};
-use crate::linearize::{Changes, Matrix, Minimal, State};
+use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State, beside};
 use crate::system::MechanicalSystem;
 use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
@@ -17,13 +17,13 @@ pub struct InputCheck {
     pub input: String,
     /// Width of the pulse, s.
     pub width: f64,
-    /// Sizes of the pulse, N or N m.
+    /// Sizes of the pulse, in the unit of the input.
     pub amplitudes: Vec<f64>,
     /// Errors of the variational equations with the input, at the end of the pulse.
     pub errors_ltv: Vec<f64>,
     /// Order of these errors in the size of the pulse.
     pub order_ltv: Decay,
-    /// Relative error of x' = A x + B u at the end of the pulse.
+    /// Relative error of x' = A x + B u at the end of the pulse; of a driver, which the pulse brings back, half-way.
     pub error_lti: f64,
 }
 
@@ -36,11 +36,13 @@ pub(super) fn check(
     width: f64,
 ) -> Result<Option<InputCheck>> {
     let pulse = Pulse { input, start: start.t, width };
-    let lti = response(model, &pulse);
+    let lti = response(model, &pulse, width);
     // A unit pulse may move the mechanism by very much or little: sizes are chosen by its effect.
     let Changes { q: dq, v: dv } = model.coordinates.changes_of(&lti);
-    let size = dq.amax().max(dv.amax() / norm.rate);
-    if size == 0.0 {
+    // A driver may move much and leave little behind.
+    let driven = model.coordinates.lift.p.column(input).amax();
+    let size = dq.amax().max(dv.amax() / norm.rate).max(driven);
+    if size == 0.0 || model.a.nrows() == 0 {
         return Ok(None);
     }
     let n = start.v.len();
@@ -54,22 +56,28 @@ pub(super) fn check(
         pulse: Some(pulse),
         start: start.clone(),
     };
-    let all = carried.times(&[start.t + width])?;
-    let (mut end, mut states) = (None, Vec::new());
+    let half = start.t + 0.5 * width;
+    let all = carried.times(&[half, start.t + width])?;
+    let (mut asked, mut states) = (Vec::new(), Vec::new());
     flow(system, &bundle, &all.iter().map(|(t, _)| *t).collect::<Vec<f64>>(), |snapshot| {
+        if all[states.len()].1 {
+            asked.push(snapshot.clone());
+        }
         states.push(snapshot.motion.clone());
-        end = Some(snapshot.clone());
         true
     })?;
     let states: Vec<_> = states.iter().zip(&all).map(|(state, (_, asked))| (state, *asked)).collect();
     let charts = carried.along(&states)?;
-    let Some((end, chart)) = end.zip(charts.last()) else { return Ok(None) };
+    let ([middle, end], [chart, last]) = (&asked[..], &charts[..]) else { return Ok(None) };
     let errors = end.members.iter().zip(&EPSILONS).map(|(member, eps)| {
         let [dq, dv] = difference(system, &end.motion, member);
         norm.off((&dq, &dv), (end.columns.q.as_slice(), end.columns.v.as_slice()), *eps)
     });
     let errors_ltv: Vec<f64> = errors.collect();
-    let reached = chart.states_of(&end.columns);
+    let (lti, reached) = match model.input_states.orders[input] {
+        2 => (response(model, &pulse, 0.5 * width), lifted(chart, &middle.columns, (input, pulse.jet(half)[0] / size))),
+        _ => (lti, last.states_of(&end.columns)),
+    };
     let error_lti = norm.states(chart, &(&lti / size - &reached)) / norm.states(chart, &reached);
     let columns = norm.size((end.columns.q.as_slice(), end.columns.v.as_slice()));
     let scaled =
@@ -77,12 +85,22 @@ pub(super) fn check(
     Ok(Some(InputCheck { input: name, width, amplitudes, errors_ltv, order_ltv: scaled, error_lti }))
 }
 
-/// Returns the state of x' = A x + B u at the end of a unit pulse from x = 0 (classical Runge-Kutta method).
-fn response(model: &Minimal, pulse: &Pulse) -> Matrix {
-    let b = model.b.columns(pulse.input, 1).clone_owned();
+/// Returns the states (z, y) of changes while a displacement `u` of a driver is in them.
+fn lifted(chart: &Coordinates, changes: &Changes, (input, u): (usize, f64)) -> Matrix {
+    let shift = chart.lift.s.columns(input, 1) * u;
+    chart.states_of(&Changes { q: changes.q.clone(), v: &changes.v - shift })
+}
+
+/// Returns the state of x' = A x + B u at the time `until` of a unit pulse from x = 0 (classical Runge-Kutta method).
+/// Where a derivative of the pulse is the input of the model, its lower ones are the states of the input.
+fn response(model: &Minimal, pulse: &Pulse, until: f64) -> Matrix {
+    let states = &model.input_states;
+    let (order, first) = (states.orders[pulse.input], states.orders[..pulse.input].iter().sum());
+    let b = beside([&states.a.columns(first, order).clone_owned(), &model.b.columns(pulse.input, 1).clone_owned()]);
+    let push = |t: f64| &b * Matrix::from_column_slice(order + 1, 1, &pulse.jet(t)[..=order]);
     let mut x = Matrix::zeros(model.a.nrows(), 1);
-    let h = pulse.width / tolerances::PULSE_STEPS as f64;
-    let slope = |x: &Matrix, s: f64| -> Matrix { &model.a * x + &b * pulse.at(pulse.start + s) };
+    let h = until / tolerances::PULSE_STEPS as f64;
+    let slope = |x: &Matrix, s: f64| -> Matrix { &model.a * x + push(pulse.start + s) };
     for i in 0..tolerances::PULSE_STEPS {
         let s = i as f64 * h;
         let k1 = slope(&x, s);

@@ -7,7 +7,7 @@ use super::sequence::sequence;
 use super::{Decay, Frozen, InputCheck, PerturbationSequence, Settings, input};
 use crate::error::Result;
 use crate::linearize::{Chart, State, Variation, minimal, refuse_large};
-use crate::system::MechanicalSystem;
+use crate::system::{Column, MechanicalSystem};
 use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
 
@@ -28,6 +28,8 @@ pub struct Validation {
     pub frozen: Frozen,
     /// Result for each input; empty if inputs are not checked.
     pub inputs: Vec<InputCheck>,
+    /// Names of inputs that move nothing that the model has states of, and are not checked.
+    pub unchecked: Vec<String>,
     /// Conclusion from the orders.
     pub verdict: Verdict,
 }
@@ -69,12 +71,16 @@ pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Setting
     }
     let longest = followed.min(1.0 / speed.fastest.max(f64::MIN_POSITIVE));
     let frozen = frozen(system, start, &carried, (&model.a, &speed), longest)?;
-    let mut inputs = Vec::new();
-    for (index, column) in system.inputs().into_iter().enumerate().filter(|_| settings.inputs) {
-        inputs.extend(input::check(system, start, (&model, &carried, &norm), (index, column.name), 0.1 * followed)?);
+    let (mut inputs, mut unchecked) = (Vec::new(), Vec::new());
+    for (index, Column { name, .. }) in system.inputs().into_iter().enumerate().filter(|_| settings.inputs) {
+        let pulse = (index, name.clone());
+        match input::check(system, start, (&model, &carried, &norm), pulse, 0.1 * followed)? {
+            Some(found) => inputs.push(found),
+            None => unchecked.push(name),
+        }
     }
     let verdict = judge(&sequences, &frozen, &inputs);
-    Ok(Validation { t: start.t, chart: name, followed, rate: norm.rate, sequences, frozen, inputs, verdict })
+    Ok(Validation { t: start.t, chart: name, followed, rate: norm.rate, sequences, frozen, inputs, unchecked, verdict })
 }
 
 fn judge(sequences: &[PerturbationSequence], frozen: &Frozen, inputs: &[InputCheck]) -> Verdict {

@@ -450,6 +450,42 @@ cases! {
             "scene.json:18:55: at inputs[0].component (`u`): there is no component `z`",
             "choose one of x, y",
         ];
+    input_two_targets:
+        pendulum().with("'inputs': []", "'inputs': [{'name':'u','force':'spring','driver':'O'}]") => [
+            "scene.json:18:52: at inputs[0].driver (`u`): an input drives one element",
+            "give one of `force`, an applied force or torque, `driver`, a joint, and `tyre`, a force",
+        ];
+    input_no_driver:
+        pendulum().with("'inputs': []", "'inputs': [{'name':'u','driver':'O'}]") => [
+            "scene.json:18:35: at inputs[0].driver (`u`): `O` is a revolute, which an input cannot drive",
+            "name a joint of type driver",
+        ];
+    input_unknown_driver:
+        pendulum().with("'inputs': []", "'inputs': [{'name':'u','driver':'P'}]") => [
+            "scene.json:18:35: at inputs[0].driver (`u`): there is no driver `P`",
+        ];
+    input_no_tyre:
+        pendulum().with("'inputs': []", "'inputs': [{'name':'u','tyre':'spring'}]") => [
+            "scene.json:18:33: at inputs[0].tyre (`u`): `spring` is a spring_damper, which an input cannot drive",
+            "name a tyre, or an applied force or torque under `force`",
+        ];
+    input_tyre_as_force:
+        pendulum().with("'inputs': []", "'inputs': [{'name':'u','force':'w'}]")
+            .force("{ 'name': 'w', 'type': 'tyre', 'at': 'rod.B', 'stiffness': 1, 'radius': 1 }") => [
+            "scene.json:18:34: at inputs[0].force (`u`): `w` is a tyre: an input adds to its road",
+            r#"write "tyre": "w""#,
+        ];
+    input_component_of_road:
+        pendulum().with("'inputs': []", "'inputs': [{'name':'u','tyre':'w','component':'y'}]")
+            .force("{ 'name': 'w', 'type': 'tyre', 'at': 'rod.B', 'stiffness': 1, 'radius': 1 }") => [
+            "scene.json:18:49: at inputs[0].component (`u`): there is no component `y`: this input is a displacement",
+            "remove it",
+        ];
+    input_value_of_marker:
+        pendulum().with("'inputs': []", "'inputs': [{'name':'u','tyre':'w','value':'rod.x'}]")
+            .force("{ 'name': 'w', 'type': 'tyre', 'at': 'rod.B', 'stiffness': 1, 'radius': 1 }") => [
+            "scene.json:18:45: at inputs[0].value (`u`): this may depend on t and parameters only, but uses a marker",
+        ];
     input_dup:
         pendulum()
             .with("'inputs': []", "'inputs': [{'name':'u','force':'spring','component':'x'},{'name':'u','force':'spring','component':'y'}]")

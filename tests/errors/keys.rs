@@ -165,6 +165,11 @@ cases! {
             "scene.json:18:14: at inputs[0] (`u`): the key `component` is missing",
             "choose one of x, y",
         ];
+    input_no_target:
+        pendulum().with("'inputs': []", "'inputs': [{'name':'u'}]") => [
+            "scene.json:18:14: at inputs[0] (`u`): the key `force` is missing",
+            "give one of `force`, an applied force or torque, `driver`, a joint, and `tyre`, a force",
+        ];
     force_number:
         pendulum()
             .force("{ 'name': 'spring', 'type': 'applied_force', 'at': 'rod.B', 'force': 5 }") => [

@@ -108,7 +108,12 @@ fn bode_names_units_and_pairs() {
     let one = svg(bode_figure("arm", &frequencies, &[response("theta", "rad")]));
     says(&one, &["frequency (Hz)", "magnitude (rad/(N m))", "phase (deg)", "arm: theta over motor", "−120<", "−90<"]);
     let two = svg(bode_figure("arm", &frequencies, &[response("theta", "rad"), response("tip", "m")]));
-    says(&two, &["theta / motor (rad/(N m))", "tip / motor (m/(N m))", "output per"]);
+    says(&two, &["response to motor", ">theta<", ">tip<", "magnitude (rad/(N m))", "magnitude (m/(N m))"]);
+    let mut none = response("tip", "m");
+    none.values.fill(complex(0.0, 0.0));
+    let rest = svg(bode_figure("arm", &frequencies, &[response("theta", "rad"), none]));
+    says(&rest, &["arm: theta over motor"]);
+    assert!(!rest.contains("tip"));
     assert!(bode_figure("arm", &frequencies, &[]).is_none());
     let mut odd = response("theta", "");
     odd.values[3] = complex(0.0, 0.0);

@@ -3,6 +3,7 @@
 mod agreement;
 mod closed_forms;
 mod equilibria;
+mod inputs;
 mod modal;
 mod models;
 mod motion;

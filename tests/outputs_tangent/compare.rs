@@ -14,8 +14,8 @@ pub fn tangent(system: &dyn MechanicalSystem, at: OperatingPoint) -> OutputTange
     let n = system.dimensions();
     // What was there before does not count.
     let mut tangent = OutputTangent::new(system.columns().len(), n.v, n.lambda, system.inputs().len());
-    let OutputTangent { q, v, vdot, lambda, u } = &mut tangent;
-    [q, v, vdot, lambda, u].into_iter().for_each(|m| m.fill(7.0));
+    let OutputTangent { q, v, vdot, lambda, u, udot } = &mut tangent;
+    [q, v, vdot, lambda, u, udot].into_iter().for_each(|m| m.fill(7.0));
     assert!(system.output_tangent(at, &mut tangent, &mut Scratch::default()));
     tangent
 }

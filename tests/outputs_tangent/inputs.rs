@@ -160,3 +160,35 @@ fn inputs_of_one_force() {
     let direct = crate::outputs_tangent::compare::tangent(system, at).u;
     [0.6, 0.8, 0.8].iter().zip(direct.iter()).for_each(|(expected, found)| assert!((expected - found).abs() < 1e-15));
 }
+
+/// The forces of a road's height and of its rate, and what outputs see of them.
+#[test]
+fn roads_add_with_their_rates() {
+    let wheel = |road: String| {
+        crate::outputs_tangent::measures::mechanism(&format!(
+            r#"{{ "name": "wheel", "dimension": 2,
+            "bodies": [ {{ "name": "d", "type": "point_mass", "mass": 1 }}, {{ "name": "e", "type": "point_mass", "mass": 1 }} ],
+            "forces": [ {{ "name": "tyre", "type": "tyre", "at": "e", "stiffness": 700, "damping": 30, "radius": 0.3, "road": "{road}" }} ],
+            "inputs": [ {{ "name": "road", "tyre": "tyre" }} ],
+            "outputs": [ {{ "name": "load", "measure": "force", "of": "tyre" }}, {{ "name": "energy", "measure": "energy" }} ] }}"#
+        ))
+    };
+    let mechanism = wheel("0.1*t".to_string());
+    let system = mechanism.system();
+    let (q, v) = state(system);
+    let at = OperatingPoint { t: T, q: &q, v: &v, vdot: &v, lambda: &[] };
+    let direct = crate::outputs_tangent::compare::tangent(system, at);
+    let mut found = [0; 2].map(|_| DMatrix::zeros(v.len(), 1));
+    system.input_forces(T, &q, &v, &mut found[0], &mut Scratch::default());
+    system.input_rate_forces(T, &q, &v, &mut found[1], &mut Scratch::default());
+    for (exact, outputs, term) in [(&found[0], &direct.u, "1"), (&found[1], &direct.udot, "(t - 0.3)")] {
+        let slopes = crate::outputs_tangent::compare::slope(|s| {
+            let moved = wheel(format!("0.1*t + ({s})*{term}"));
+            let (f, y) = forces(moved.system());
+            [f, y].concat()
+        });
+        for (exact, difference) in exact.iter().chain(outputs.iter()).zip(&slopes) {
+            assert!((exact - difference).abs() < 1e-7, "{exact} against {difference}");
+        }
+    }
+}

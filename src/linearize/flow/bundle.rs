@@ -3,6 +3,7 @@
 use crate::linearize::{Changes, Matrix, State};
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
+use crate::math::{Scalar, Taylor};
 use crate::system::{Dimensions, MechanicalSystem, Need, Scratch, Structure, Terms};
 
 /// A motion, columns of its variational equations, and perturbed motions.
@@ -50,10 +51,14 @@ pub struct Pulse {
 }
 
 impl Pulse {
-    /// Returns the pulse of amplitude 1 at time t.
-    pub fn at(&self, t: f64) -> f64 {
-        let s = (t - self.start) / self.width;
-        if s > 0.0 && s < 1.0 { (4.0 * s * (1.0 - s)).powi(8) } else { 0.0 }
+    /// Returns the pulse of amplitude 1 at time t, with its first two derivatives.
+    pub fn jet(&self, t: f64) -> [f64; 3] {
+        let s = (Taylor::<f64>::time(t) - self.start) / self.width;
+        if s.x <= 0.0 || s.x >= 1.0 {
+            return [0.0; 3];
+        }
+        let Taylor { x, d, dd } = ((s - s.square()) * 4.0).square().square().square();
+        [x, d, dd]
     }
 }
 

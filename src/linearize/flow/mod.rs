@@ -3,6 +3,7 @@
 mod bundle;
 mod field;
 mod projection;
+mod pushed;
 
 pub use bundle::{Bundle, Pulse, Snapshot};
 
@@ -17,6 +18,7 @@ use crate::tolerances::linearize as tolerances;
 use bundle::Shape;
 use field::VariationalField;
 use projection::Straightening;
+use pushed::Pushed;
 
 const SHORTER: &str = "choose a shorter time";
 
@@ -37,15 +39,22 @@ pub fn flow(
 ) -> Result<()> {
     let shape = Shape::of(system, bundle);
     let carrier = shape.carrier(system);
+    let push = |amplitude: &f64| Pushed::new(system, bundle.pulse?, *amplitude);
+    let pushed: Vec<Pushed> = bundle.pushes.iter().filter_map(push).collect();
+    // Without a pulse one system serves all members.
+    let members: Vec<&dyn MechanicalSystem> = match pushed.is_empty() {
+        true => vec![system],
+        false => pushed.iter().map(|pushed| pushed as &dyn MechanicalSystem).collect(),
+    };
     let start = &bundle.start;
     // Rows that depend on others everywhere need not be found again at each state.
     let (dependent, _) = Dynamics::new(system).dependent_rows(start.t, &start.q, &start.v);
     let problem = || -> Result<Problem> {
-        let field = VariationalField::new(system, &shape, bundle, &dependent)?;
+        let field = VariationalField::new(system, &members, (&shape, bundle), &dependent)?;
         Ok(Problem::new(Dynamics::new(&carrier), Box::new(field)))
     };
     let projection = || -> Result<Option<Box<dyn Projection>>> {
-        Ok(Some(Box::new(Straightening::new(system, &shape, &dependent)?)))
+        Ok(Some(Box::new(Straightening::new(system, &members, (&shape, bundle), &dependent)?)))
     };
     let (integrator, formulation) = (MethodSpec::named("dop853"), MethodSpec::named("index1"));
     let setup = Setup { integrator: &integrator, formulation: &formulation, system: &carrier, is_fixed: false };

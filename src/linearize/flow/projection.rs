@@ -1,27 +1,34 @@
 //! Projection of a bundle after each step.
 
-use super::bundle::Shape;
+use super::bundle::{Bundle, Pulse, Shape};
 use crate::error::Result;
 use crate::formulation::{Dynamics, StepError};
 use crate::method_spec::MethodSpec;
 use crate::projection::{self, Projection};
-use crate::system::{MechanicalSystem, Need};
+use crate::system::{Excitation, MechanicalSystem, Need};
 
 /// Projects the motion and its members onto the constraints, and the columns onto their tangent space there.
 pub struct Straightening<'a> {
     shape: Shape,
-    dynamics: Dynamics<'a>,
-    manifold: Option<Box<dyn Projection>>,
+    /// Of the motion, then of the members, or of all of them.
+    closers: Vec<Closer<'a>>,
+    /// The pulse with the row that it moves and the amplitude of each column.
+    pulse: Option<(Pulse, usize, Vec<f64>)>,
     correction: Vec<f64>,
     rows: Vec<f64>,
 }
 
-impl<'a> Straightening<'a> {
-    pub fn new(system: &'a dyn MechanicalSystem, shape: &Shape, dependent: &[usize]) -> Result<Self> {
-        let (n, mut dynamics) = (system.dimensions(), Dynamics::new(system));
+/// Closes the constraints of a system.
+struct Closer<'a> {
+    dynamics: Dynamics<'a>,
+    manifold: Option<Box<dyn Projection>>,
+}
+
+impl<'a> Closer<'a> {
+    fn new(system: &'a dyn MechanicalSystem, dependent: &[usize]) -> Result<Self> {
+        let mut dynamics = Dynamics::new(system);
         dynamics.drop_rows(dependent);
-        let manifold = projection::make(&MethodSpec::named("manifold"), system)?;
-        Ok(Straightening { shape: *shape, dynamics, manifold, correction: vec![0.0; n.v], rows: vec![0.0; n.lambda] })
+        Ok(Closer { dynamics, manifold: projection::make(&MethodSpec::named("manifold"), system)? })
     }
 
     fn close(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), StepError> {
@@ -31,9 +38,27 @@ impl<'a> Straightening<'a> {
             None => Ok(()),
         }
     }
+}
 
-    /// Removes from each column the part off the constraints at the state (q, v), so that G dq = 0 and G dv + Gd dq =
-    /// 0.
+impl<'a> Straightening<'a> {
+    pub fn new(
+        system: &'a dyn MechanicalSystem,
+        members: &[&'a dyn MechanicalSystem],
+        (shape, bundle): (&Shape, &Bundle),
+        dependent: &[usize],
+    ) -> Result<Self> {
+        let n = system.dimensions();
+        let all = std::iter::once(&system).chain(members);
+        let closers = all.map(|system| Closer::new(*system, dependent)).collect::<Result<_>>()?;
+        let pulse = bundle.pulse.and_then(|pulse| match system.excitations().get(pulse.input)? {
+            Excitation::Constraint(row) if !bundle.driven.is_empty() => Some((pulse, *row, bundle.driven.clone())),
+            _ => None,
+        });
+        Ok(Straightening { shape: *shape, closers, pulse, correction: vec![0.0; n.v], rows: vec![0.0; n.lambda] })
+    }
+
+    /// Removes from each column the part off the constraints at the state (q, v), so that G dq = du and G dv + Gd dq =
+    /// du' in the row that a pulse moves, and zero in all others.
     fn straighten(
         &mut self,
         t: f64,
@@ -41,16 +66,24 @@ impl<'a> Straightening<'a> {
         dq: &mut [f64],
         dv: &mut [f64],
     ) -> Result<(), StepError> {
-        let Straightening { shape, dynamics, correction, rows, .. } = self;
+        let Straightening { shape, closers, pulse, correction, rows } = self;
+        let dynamics = &mut closers[0].dynamics;
         dynamics.evaluate(t, q, v, Need::MASS | Need::CONSTRAINTS | Need::G | Need::L);
         dynamics.factor_truncated()?;
-        for (dq, dv) in dq.chunks_exact_mut(shape.v).zip(dv.chunks_exact_mut(shape.v)) {
+        let columns = dq.chunks_exact_mut(shape.v).zip(dv.chunks_exact_mut(shape.v));
+        for (column, (dq, dv)) in columns.enumerate() {
             let Dynamics { structure, terms, kkt, .. } = dynamics;
-            rows.fill(0.0);
+            let open = |rows: &mut [f64], derivative: usize| {
+                rows.fill(0.0);
+                if let Some((pulse, row, driven)) = &*pulse {
+                    rows[*row] = -driven[column] * pulse.jet(t)[derivative];
+                }
+            };
+            open(rows, 0);
             structure.g.multiply(&terms.g, dq, rows);
             kkt.solve_projection(rows, correction)?;
             dq.iter_mut().zip(correction.iter()).for_each(|(dq, c)| *dq -= c);
-            rows.fill(0.0);
+            open(rows, 1);
             structure.g.multiply(&terms.g, dv, rows);
             structure.g.multiply(&terms.l, dq, rows);
             kkt.solve_projection(rows, correction)?;
@@ -62,16 +95,20 @@ impl<'a> Straightening<'a> {
 
 impl Projection for Straightening<'_> {
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], carrier: &mut Dynamics) -> Result<(), StepError> {
-        self.dynamics.kkt.rank_reference = carrier.kkt.rank_reference;
+        self.closers.iter_mut().for_each(|closer| closer.dynamics.kkt.rank_reference = carrier.kkt.rank_reference);
         let Shape { q: nq, v: nv, columns, members } = self.shape;
         let (q0, q) = q.split_at_mut(nq);
         let (v0, v) = v.split_at_mut(nv);
-        self.close(t, q0, v0)?;
+        self.closers[0].close(t, q0, v0)?;
         let (dq, qs) = q.split_at_mut(nv * columns);
         let (dv, vs) = v.split_at_mut(nv * columns);
         if columns > 0 {
             self.straighten(t, (q0, v0), dq, dv)?;
         }
-        (0..members).try_for_each(|i| self.close(t, &mut qs[i * nq..(i + 1) * nq], &mut vs[i * nv..(i + 1) * nv]))
+        let last = self.closers.len() - 1;
+        (0..members).try_for_each(|i| {
+            let own = (&mut qs[i * nq..(i + 1) * nq], &mut vs[i * nv..(i + 1) * nv]);
+            self.closers[(i + 1).min(last)].close(t, own.0, own.1)
+        })
     }
 }

@@ -5,6 +5,8 @@ use super::rounding::Parts;
 use crate::error::Result;
 use crate::formulation::{Dae, Row};
 use crate::linearize::changes::{Directions, directions};
+use crate::linearize::input_states::InputStates;
+use crate::linearize::perturbation::{Parts as Columns, Perturbation};
 use crate::linearize::{Changes, Matrix, Variation};
 
 /// Returns the number of infinite eigenvalues with `m` independent constraints: m for a row of phi'' whose multiplier
@@ -62,28 +64,45 @@ pub fn build(dae: &Dae, variation: &mut Variation) -> Result<Built> {
         put(&mut e, (at, n), &(g * row.acceleration));
         put(&mut a, (at, 0), &parts.row(row));
     }
-    observe(dae, variation, &kept, (e, a))
+    let perturbation = Perturbation::new(variation, &Changes::none(n), |_, _| None);
+    let [mut driven, mut b] = perturbation.input_forces().map(|forces| forces.resize_vertically(n, 0.0));
+    driven = driven.insert_rows(0, n, 0.0).resize_vertically(end, 0.0);
+    b = b.insert_rows(0, n, 0.0).resize_vertically(end, 0.0);
+    for Kind { row, at } in [Some(lambda), eta, mu].into_iter().flatten() {
+        let [states, inputs] = perturbation.input_rows([row.position, row.velocity, row.acceleration]);
+        put(&mut driven, (at, 0), &kept_rows(states));
+        put(&mut b, (at, 0), &kept_rows(inputs));
+    }
+    observe(dae, variation, (&kept, &perturbation), (e, a, driven, b))
 }
 
-/// Adds the inputs and outputs.
-fn observe(dae: &Dae, variation: &mut Variation, kept: &[usize], (e, a): (Matrix, Matrix)) -> Result<Built> {
+/// Adds the outputs.
+fn observe(
+    dae: &Dae,
+    variation: &mut Variation,
+    (kept, perturbation): (&[usize], &Perturbation),
+    (e, a, driven, b): (Matrix, Matrix, Matrix, Matrix),
+) -> Result<Built> {
     let (n, size) = (variation.len(), a.nrows());
-    let (inputs, outputs) = (variation.inputs(), variation.outputs()?);
-    let (mut b, mut c) = (Matrix::zeros(size, inputs.ncols()), Matrix::zeros(outputs.q.nrows(), size));
-    put(&mut b, (n, 0), &inputs);
+    let outputs = variation.outputs()?;
+    let mut c = Matrix::zeros(outputs.q.nrows(), size);
     put(&mut c, (0, 0), &outputs.q);
     put(&mut c, (0, n), &outputs.v);
     put(&mut c, (0, 2 * n), &outputs.lambda.select_columns(kept));
     let unit = Matrix::identity(size, size);
     let changes = Changes { q: unit.rows(0, n).clone_owned(), v: unit.rows(n, n).clone_owned() };
-    let mut d = outputs.u;
+    let Columns { input_states, inputs, .. } =
+        perturbation.split(&(outputs.u * &perturbation.u[0] + outputs.udot * &perturbation.u[1]));
+    let (mut seen, mut d) = (input_states, inputs);
     if let Some(of_force) = of_outputs(outputs.vdot, variation.mass()) {
         c += &of_force * a.rows(n, n);
-        d += &of_force * inputs;
+        seen += &of_force * driven.rows(n, n);
+        d += &of_force * b.rows(n, n);
     }
     let states = states(dae, variation, kept);
     let (chart, infinite) = ("redundant".to_string(), infinite(dae, kept.len()));
-    let built = Built { chart, states, a, b, c, d, e: Some(e), changes, infinite };
+    let input_states = InputStates { orders: variation.orders(), a: driven, c: seen };
+    let built = Built { chart, states, a, b, c, d, e: Some(e), input_states, changes, infinite };
     Ok(built.without_integrals(variation.system().dimensions()))
 }
 

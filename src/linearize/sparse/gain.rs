@@ -5,21 +5,23 @@ use super::search::{Found, Space};
 use super::shifted::Shifted;
 use super::{C, changes};
 use crate::error::Result;
+use crate::linearize::changes::beside;
 use crate::linearize::entry::Built;
+use crate::linearize::perturbation::Perturbation;
 use crate::linearize::response::observe;
 use crate::linearize::spectrum::refused;
 use crate::linearize::{Matrix, Response, Variation};
 use crate::tolerances::linearize as tolerances;
 
-/// D += H(s) - C (s - A)^-1 B at s = 0, H the transfer function of all modes.
+/// Adds H(s) - C (s - A)^-1 B at s = 0 to the direct part of each column, H the transfer function of all modes. `forces`
+/// are those of a unit of each state of the inputs and of each input.
 pub fn add_residual<'a>(
     variation: &mut Variation,
     equations: &'a Quadratic,
     found: &mut Found<'a>,
-    built: &mut Built,
+    (built, forces): (&mut Built, &Matrix),
 ) -> Result<()> {
-    let inputs = variation.inputs();
-    if inputs.ncols() == 0 || built.c.nrows() == 0 {
+    if forces.ncols() == 0 || built.c.nrows() == 0 {
         return Ok(());
     }
     let t = variation.point.t;
@@ -30,19 +32,23 @@ pub fn add_residual<'a>(
         (None, false) => return Ok(()),
     };
     let s = at.sigma.re;
-    let mut p = Matrix::zeros(equations.len(), inputs.ncols());
-    for (force, mut to) in inputs.column_iter().zip(p.column_iter_mut()) {
+    let mut p = Matrix::zeros(equations.len(), forces.ncols());
+    for (force, mut to) in forces.column_iter().zip(p.column_iter_mut()) {
         let mut answer: Vec<C> = force.iter().map(|f| C::from(*f)).collect();
         at.solve(&mut answer).map_err(|unsolved| refused(t, &unsolved))?;
         to.iter_mut().zip(answer).for_each(|(to, x)| *to = x.re);
     }
     let changes = changes(equations, &Space { u: &p * s, p });
-    let response = Response::exact(variation, &changes)?;
-    let [gain, d] = observe(&variation.outputs()?, &changes, &response);
+    let perturbation = Perturbation::new(variation, &changes, |_, _| None);
+    let response = Response::exact(variation, &perturbation)?;
+    let gain = observe(&variation.outputs()?, &perturbation, &response).state;
     let size = built.a.nrows();
-    let own = (Matrix::identity(size, size) * s - &built.a).lu().solve(&built.b);
-    if let Some(own) = own {
-        built.d = gain + d - &built.c * own;
+    let columns = beside([&built.input_states.a, &built.b]);
+    if let Some(own) = (Matrix::identity(size, size) * s - &built.a).lu().solve(&columns) {
+        let rest = gain - &built.c * own;
+        let states = built.input_states.a.ncols();
+        built.input_states.c += rest.columns(0, states);
+        built.d += rest.columns(states, rest.ncols() - states);
     }
     Ok(())
 }

@@ -6,10 +6,13 @@ mod reduce;
 mod search;
 mod shifted;
 
+use super::changes::beside;
 use super::entry::Built;
+use super::input_states::{self, InputStates};
+use super::perturbation::Perturbation;
 use super::response::observe;
 use super::spectrum::{modes_of, refused};
-use super::{Changes, Complex, Cost, LinearModel, Matrix, Response, Variation};
+use super::{Changes, Complex, Cost, Lift, LinearModel, Matrix, Response, Variation};
 use crate::error::{Error, Result};
 use crate::math::eigen::Unsolved;
 use crate::system::refuse_states;
@@ -64,8 +67,8 @@ pub fn modal(variation: &mut Variation, count: usize, shift: Complex<f64>) -> Re
     let modal = reduce::reduce(&equations, &found, count, shift).map_err(unsolved)?;
     let eigen = clock.elapsed().as_secs_f64();
     let clock = Instant::now();
-    let mut built = build(variation, &equations, modal)?;
-    gain::add_residual(variation, &equations, &mut found, &mut built)?;
+    let (mut built, forces) = build(variation, &equations, modal)?;
+    gain::add_residual(variation, &equations, &mut found, (&mut built, &forces))?;
     let assembly = assembly + clock.elapsed().as_secs_f64();
     finish(variation, &mut found, built, [assembly, eigen])
 }
@@ -96,21 +99,35 @@ fn changes(equations: &Quadratic, space: &Space) -> Changes {
     Changes { q: space.p.clone(), v: &space.u + equations.turn.product(&space.p) }
 }
 
-/// Adds inputs and outputs.
-fn build(variation: &mut Variation, equations: &Quadratic, modal: Modal) -> Result<Built> {
-    let changes = changes(equations, &modal.space);
-    let response = Response::exact(variation, &changes)?;
-    let [c, d] = observe(&variation.outputs()?, &changes, &response);
-    let b = modal.inputs * variation.inputs();
-    let (chart, states) = ("modal".to_string(), modal.states);
-    Ok(Built { chart, states, a: modal.a, b, c, d, e: None, changes, infinite: 0 })
+/// Adds inputs and outputs. Returns also the forces of a unit of each state of the inputs and of each input: with
+/// dq = p + P u for what drivers prescribe, -(M P u'' + C P u' + K P u) is one.
+fn build(variation: &mut Variation, equations: &Quadratic, modal: Modal) -> Result<(Built, Matrix)> {
+    let (n, changes) = (equations.len(), changes(equations, &modal.space));
+    let lift = Lift::frozen(variation, (&Matrix::zeros(n, 0), &Matrix::zeros(0, n)))?;
+    let perturbation = Perturbation::new(variation, &changes, |i, j| lift.along(i, j));
+    let response = Response::exact(variation, &perturbation)?;
+    let outputs = observe(&variation.outputs()?, &perturbation, &response);
+    let [states, inputs] = perturbation.input_forces();
+    let mut forces = beside([&states, &inputs]);
+    if variation.has_drivers() {
+        let parts = [&equations.stiffness, &equations.damping, &equations.mass].into_iter().zip(&perturbation.u);
+        for (part, u) in parts {
+            forces -= part.product(&lift.p) * u.columns_range(changes.q.ncols()..);
+        }
+    }
+    let columns = modal.inputs * &forces;
+    let [driven, b] = [columns.columns(0, states.ncols()), columns.columns_range(states.ncols()..)];
+    let input_states = InputStates { orders: variation.orders(), a: driven.clone_owned(), c: outputs.input_states };
+    let (chart, states, b) = ("modal".to_string(), modal.states, b.clone_owned());
+    let (c, d) = (outputs.state, outputs.inputs);
+    Ok((Built { chart, states, a: modal.a, b, c, d, e: None, input_states, changes, infinite: 0 }, forces))
 }
 
 /// Adds the modes, the residual of each checked.
 fn finish(
     variation: &mut Variation,
     found: &mut Found,
-    built: Built,
+    mut built: Built,
     [assembly_seconds, eigen_seconds]: [f64; 2],
 ) -> Result<LinearModel> {
     let t = variation.point.t;
@@ -126,10 +143,11 @@ fn finish(
     }
     let size = built.a.nrows();
     let cost = Cost { assembly_seconds, eigen_seconds, conditioning, size, off_constraints: None };
-    let Built { chart, states, a, b, c, d, e, .. } = built;
-    let (inputs, outputs) = variation.names();
+    let (mut inputs, outputs) = variation.names();
+    input_states::add(&mut built, &mut inputs);
+    let Built { chart, states, a, b, c, d, e, input_states: InputStates { orders, .. }, .. } = built;
     let (method, point) = ("modal".to_string(), variation.point.clone());
-    Ok(LinearModel { method, chart, states, inputs, outputs, a, b, c, d, e, modes, point, cost })
+    Ok(LinearModel { method, chart, states, inputs, orders, outputs, a, b, c, d, e, modes, point, cost })
 }
 
 /// Returns s dq = dv - [v, dq] of each state.

@@ -24,6 +24,6 @@ pub const BAUMGARTE: Entry = Entry {
         let alpha = request.method.not_negative("alpha", 5.0)?;
         let beta = request.method.not_negative("beta", alpha)?;
         let held = [2.0 * alpha, beta * beta];
-        build(variation, request, |variation, changes| Response::held(variation, changes, held))
+        build(variation, request, |variation, perturbation| Response::held(variation, perturbation, held))
     },
 };

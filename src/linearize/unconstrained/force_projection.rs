@@ -3,7 +3,7 @@
 use super::{PROJECTED, build};
 use crate::error::{Error, Result};
 use crate::linearize::entry::Entry;
-use crate::linearize::{Changes, Matrix, Response, Variation};
+use crate::linearize::{Matrix, Perturbation, Response, Variation};
 use crate::math::eigen::pseudo_inverse;
 use crate::method_spec::OptionDoc;
 
@@ -28,17 +28,17 @@ pub const FORCE_PROJECTION: Entry = Entry {
         let alpha = request.method.not_negative("alpha", 0.0)?;
         let beta = request.method.not_negative("beta", alpha)?;
         let held = [2.0 * alpha, beta * beta];
-        build(variation, request, |variation, changes| response(variation, changes, held))
+        build(variation, request, |variation, perturbation| response(variation, perturbation, held))
     },
 };
 
-fn response(variation: &mut Variation, changes: &Changes, held: [f64; 2]) -> Result<Response> {
+fn response(variation: &mut Variation, perturbation: &Perturbation, held: [f64; 2]) -> Result<Response> {
     let (mass, all) = (variation.mass(), variation.g());
     // Close to the constraints, at a distance of 1e-9 say, dependent rows are not exactly dependent: they would raise
     // the rank.
     let kept = variation.independent_rows();
     let g = all.select_rows(&kept);
-    let rows = variation.rows(changes, held).select_rows(&kept);
+    let rows = perturbation.rows(variation, held).select_rows(&kept);
     let inverse = inverted(&g, kept.len())?;
     let along = &inverse * &g;
     let project = Matrix::identity(g.ncols(), g.ncols()) - &along;
@@ -49,17 +49,11 @@ fn response(variation: &mut Variation, changes: &Changes, held: [f64; 2]) -> Res
             || Error::input("the motion is not determined: a free direction has no mass").hint("give the body mass");
         lu.solve(&right).ok_or_else(error)
     };
-    let (force, inputs) = (variation.force(changes), variation.inputs());
+    let force = perturbation.force(variation);
     let vdot = solve(&project * &force + &inverse * rows * mu)?;
-    let driven_vdot = solve(&project * &inputs)?;
     // Multipliers of least norm, over all rows.
     let reaction = inverted(&all, kept.len())?.transpose();
-    Ok(Response {
-        lambda: &reaction * (force - &mass * &vdot),
-        driven_lambda: reaction * (inputs - mass * &driven_vdot),
-        vdot,
-        driven_vdot,
-    })
+    Ok(Response { lambda: reaction * (force - mass * &vdot), vdot })
 }
 
 fn inverted(g: &Matrix, rank: usize) -> Result<Matrix> {

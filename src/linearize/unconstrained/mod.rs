@@ -12,7 +12,9 @@ pub(super) use penalty::{AUGMENTED_LAGRANGIAN, PENALTY};
 
 use super::changes::directions;
 use super::entry::{Built, Request};
+use super::input_states::InputStates;
 use super::minimal::restrict;
+use super::perturbation::{Parts, Perturbation};
 use super::response::observe;
 use super::{Changes, Matrix, Response, Variation};
 use crate::error::Result;
@@ -29,7 +31,7 @@ const PROJECTED: OptionDoc = OptionDoc {
 fn build(
     variation: &mut Variation,
     request: &Request,
-    response: impl FnOnce(&mut Variation, &Changes) -> Result<Response>,
+    response: impl FnOnce(&mut Variation, &Perturbation) -> Result<Response>,
 ) -> Result<Built> {
     if request.method.one_of("projected", &["no", "yes"])? == "yes" {
         let coordinates = request.chart(variation).at(variation)?;
@@ -38,14 +40,19 @@ fn build(
     let n = variation.len();
     let moving = variation.system().dimensions().moving();
     let changes = Changes::all(n, moving);
-    let response = response(variation, &changes)?;
+    let perturbation = Perturbation::new(variation, &changes, |_, _| None);
+    let response = response(variation, &perturbation)?;
+    let Parts { state, input_states, inputs } = perturbation.split(&response.vdot);
     let mut a = Matrix::zeros(moving + n, moving + n);
     let rates = &changes.v - variation.bracket_with(&changes.q);
     a.rows_mut(0, moving).copy_from(&rates.rows(0, moving));
-    a.rows_mut(moving, n).copy_from(&response.vdot);
-    let b = response.driven_vdot.clone().insert_rows(0, moving, 0.0);
-    let [c, d] = observe(&variation.outputs()?, &changes, &response);
+    a.rows_mut(moving, n).copy_from(&state);
+    let b = inputs.insert_rows(0, moving, 0.0);
+    let outputs = observe(&variation.outputs()?, &perturbation, &response);
+    let driven = input_states.insert_rows(0, moving, 0.0);
+    let input_states = InputStates { orders: variation.orders(), a: driven, c: outputs.input_states };
+    let (c, d) = (outputs.state, outputs.inputs);
     let states = directions(variation.system(), &variation.point.q).states();
     let chart = "redundant".to_string();
-    Ok(Built { chart, states, a, b, c, d, e: None, changes, infinite: 0 })
+    Ok(Built { chart, states, a, b, c, d, e: None, input_states, changes, infinite: 0 })
 }

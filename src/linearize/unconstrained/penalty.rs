@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::formulation::{self, mean_compliance};
 use crate::linearize::entry::Entry;
 use crate::linearize::variation::at_state;
-use crate::linearize::{Changes, Matrix, Response, Variation};
+use crate::linearize::{Matrix, Perturbation, Response, Variation};
 use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::system::OperatingPoint;
 
@@ -36,8 +36,8 @@ pub const PENALTY: Entry = Entry {
                 "penalty: springs push only where a change leaves the constraints, so kind=elastic cannot be projected",
             )
             .hint("take mcs, or kind=inertial")),
-            "elastic" => build(variation, request, |variation, changes| penalty.elastic(variation, changes)),
-            _ => build(variation, request, |variation, changes| penalty.inertial(variation, changes)),
+            "elastic" => build(variation, request, |variation, perturbation| penalty.elastic(variation, perturbation)),
+            _ => build(variation, request, |variation, perturbation| penalty.inertial(variation, perturbation)),
         }
     },
 };
@@ -63,7 +63,7 @@ pub const AUGMENTED_LAGRANGIAN: Entry = Entry {
     build: |variation, request| {
         let iterations = request.method.whole("iterations", 3, 1..=100)?;
         let penalty = Penalty::new(&request.method, iterations, variation)?;
-        build(variation, request, |variation, changes| penalty.inertial(variation, changes))
+        build(variation, request, |variation, perturbation| penalty.inertial(variation, perturbation))
     },
 };
 
@@ -83,7 +83,7 @@ impl Penalty {
         Ok(Penalty { iterations, weight, held: [2.0 * xi * omega, omega * omega] })
     }
 
-    fn inertial(&self, variation: &mut Variation, changes: &Changes) -> Result<Response> {
+    fn inertial(&self, variation: &mut Variation, perturbation: &Perturbation) -> Result<Response> {
         let (g, point) = (variation.g(), variation.point.clone());
         let lu = (variation.mass() + g.transpose() * &g * self.weight).lu();
         let solve = |right: &Matrix| lu.solve(right).ok_or_else(singular);
@@ -92,12 +92,8 @@ impl Penalty {
         let (f, [c1, c0]) = (column(&terms.f), self.held);
         let wanted = column(&terms.gamma) - column(&terms.phi_dot) * c1 - column(&terms.phi) * c0;
         let mut lambda = Matrix::zeros(g.nrows(), 1);
-        let mut response = Response {
-            vdot: Matrix::zeros(0, 0),
-            lambda: Matrix::zeros(g.nrows(), changes.q.ncols()),
-            driven_vdot: Matrix::zeros(0, 0),
-            driven_lambda: Matrix::zeros(g.nrows(), variation.inputs().ncols()),
-        };
+        let none = Matrix::zeros(g.nrows(), perturbation.changes.q.ncols());
+        let mut response = Response { vdot: Matrix::zeros(0, 0), lambda: none };
         for _ in 0..self.iterations {
             let vdot = solve(&(&f - g.transpose() * &lambda + g.transpose() * &wanted * self.weight))?;
             lambda += (&g * &vdot - &wanted) * self.weight;
@@ -109,29 +105,22 @@ impl Penalty {
                 lambda: lambda.as_slice(),
             };
             variation.load(at).map_err(|halt| at_state(point.t, &halt))?;
-            let rows = variation.rows(changes, self.held);
-            let push = variation.force(changes) - g.transpose() * (&response.lambda - &rows * self.weight);
+            let rows = perturbation.rows(variation, self.held);
+            let push = perturbation.force(variation) - g.transpose() * (&response.lambda - &rows * self.weight);
             response.vdot = solve(&push)?;
             response.lambda += (&g * &response.vdot - rows) * self.weight;
-            response.driven_vdot = solve(&(variation.inputs() - g.transpose() * &response.driven_lambda))?;
-            response.driven_lambda += &g * &response.driven_vdot * self.weight;
         }
         variation.load_point()?;
         Ok(response)
     }
 
-    fn elastic(&self, variation: &mut Variation, changes: &Changes) -> Result<Response> {
+    fn elastic(&self, variation: &mut Variation, perturbation: &Perturbation) -> Result<Response> {
         let (g, [c1, c0]) = (variation.g(), self.held);
         let lu = variation.mass().lu();
-        let rate = &g * &changes.v + variation.gd() * &changes.q;
-        let lambda = (&g * &changes.q * c0 + rate * c1) * self.weight;
-        let inputs = variation.inputs();
-        Ok(Response {
-            vdot: lu.solve(&(variation.force(changes) - g.transpose() * &lambda)).ok_or_else(singular)?,
-            driven_lambda: Matrix::zeros(g.nrows(), inputs.ncols()),
-            driven_vdot: lu.solve(&inputs).ok_or_else(singular)?,
-            lambda,
-        })
+        let [gap, rate] = perturbation.residuals(variation);
+        let lambda = (gap * c0 + rate * c1) * self.weight;
+        let vdot = lu.solve(&(perturbation.force(variation) - g.transpose() * &lambda)).ok_or_else(singular)?;
+        Ok(Response { vdot, lambda })
     }
 }
 

@@ -74,6 +74,9 @@ pub struct OperatingPointFile {
     pub vdot: Map<String, Value>,
     /// Multipliers.
     pub lambda: Map<String, Value>,
+    /// Values of the inputs of the scene.
+    #[serde(skip_serializing_if = "Map::is_empty")]
+    pub u: Map<String, Value>,
     /// Largest components.
     pub norms: Norms,
     /// The axes of a steady rotation, in which q and v are expressed.
@@ -146,12 +149,13 @@ impl Linear<'_> {
     }
 
     fn point(&self) -> OperatingPointFile {
-        let point = &self.model.point;
+        let (model, point) = (self.model, &self.model.point);
         OperatingPointFile {
             q: named(&self.names.q, &point.q),
             v: named(&self.names.v, &point.v),
             vdot: named(&self.names.v, &point.vdot),
             lambda: named(&self.names.lambda, &point.lambda),
+            u: named(&model.input_names(), &point.u),
             norms: self.norms(),
             steady_rotation: point.axes.map(|spin| Turn {
                 speed: spin.speed(),
@@ -224,6 +228,7 @@ impl Linear<'_> {
             ("v", Array::vector(&point.v)),
             ("vdot", Array::vector(&point.vdot)),
             ("lambda", Array::vector(&point.lambda)),
+            ("u", Array::vector(&point.u)),
             ("q_names", Array::Texts(self.names.q.clone())),
             ("v_names", Array::Texts(self.names.v.clone())),
             ("lambda_names", Array::Texts(self.names.lambda.clone())),

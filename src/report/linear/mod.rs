@@ -1,5 +1,6 @@
 //! Linear models as files, text and figures.
 
+mod bode_figure;
 mod files;
 mod loci;
 mod loci_figures;
@@ -7,10 +8,11 @@ mod response;
 mod text;
 mod validation;
 
+pub use bode_figure::bode_figure;
 pub use files::{LinearFile, OperatingPointFile, linear_stem};
 pub use loci::{LociFile, LociSummary, loci_table};
 pub use loci_figures::{frequency_figure, loci_figure};
-pub use response::{FrequencyResponse, Response, ResponseFile, bode_figure};
+pub use response::{FrequencyResponse, Response, ResponseFile};
 pub use text::comparison_text;
 pub use validation::{Deviation, ErrorOrder, ValidationFile, sequence_figure, validation_figure};
 

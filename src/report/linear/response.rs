@@ -1,8 +1,8 @@
 //! A frequency response: `bode-T.csv`, `bode-T.json`, its text and its figure.
 
+use super::bode_figure::not_drawn;
 use crate::error::{Result, significant};
 use crate::linearize::Complex;
-use crate::plot::{AxisSpec, Figure, Panel, Series};
 use crate::report::{Table, cell, table};
 use serde::Serialize;
 
@@ -120,8 +120,22 @@ impl FrequencyResponse {
         }
         let at = format!("at {from} Hz");
         let mut lines = Table::new(&["output / input", "unit", &at, "largest", "at (Hz)"]).words(1);
-        self.responses.iter().for_each(|response| lines.row(self.cells(response)));
-        format!("{text}\n{lines}")
+        self.responses.iter().filter(|x| !x.is_zero()).for_each(|response| lines.row(self.cells(response)));
+        format!("{text}\n{lines}{}", self.left_out())
+    }
+
+    /// Names the responses that are zero, and those for which the figure has no room.
+    fn left_out(&self) -> String {
+        let named = |what: &str, all: Vec<&Response>| match all.as_slice() {
+            [] => String::new(),
+            all => {
+                let pairs: Vec<String> = all.iter().map(|response| response.pair()).collect();
+                format!("\n  {what}: {}\n", pairs.join(", "))
+            }
+        };
+        let zero = self.responses.iter().filter(|response| response.is_zero()).collect();
+        let rest = not_drawn(&self.responses);
+        named("zero to round-off", zero) + &named("not in the figure (choose by --input and --output)", rest)
     }
 
     fn cells(&self, response: &Response) -> [String; 5] {
@@ -129,13 +143,7 @@ impl FrequencyResponse {
         let sizes: Vec<(f64, f64)> = sizes.map(|(f, value)| (*f, value.norm())).collect();
         let first = sizes.first().copied().unwrap_or_default();
         let (at, largest) = sizes.iter().copied().fold(first, |most, next| if next.1 > most.1 { next } else { most });
-        [
-            format!("{} / {}", response.output, response.input),
-            response.unit(),
-            significant(first.1, 5),
-            significant(largest, 5),
-            significant(at, 5),
-        ]
+        [response.pair(), response.unit(), significant(first.1, 5), significant(largest, 5), significant(at, 5)]
     }
 }
 
@@ -174,7 +182,17 @@ pub struct Response {
 }
 
 impl Response {
-    fn unit(&self) -> String {
+    /// True if the output does not depend on the input, to round-off.
+    pub(super) fn is_zero(&self) -> bool {
+        self.values.iter().all(|value| *value == Complex::ZERO)
+    }
+
+    fn pair(&self) -> String {
+        format!("{} / {}", self.output, self.input)
+    }
+
+    /// Unit of the output per unit of the input.
+    pub(super) fn unit(&self) -> String {
         let words = [&self.output_unit, &self.input_unit];
         match words.map(|unit| unit.trim()) {
             ["", ""] => String::new(),
@@ -183,70 +201,5 @@ impl Response {
             [output, input] if input.contains(' ') => format!("{output}/({input})"),
             [output, input] => format!("{output}/{input}"),
         }
-    }
-}
-
-/// Draws magnitude and phase over frequencies in Hz. `None` without a response.
-pub fn bode_figure(title: &str, frequencies: &[f64], responses: &[Response]) -> Option<Figure> {
-    let first = responses.first().filter(|_| !frequencies.is_empty())?;
-    let has_one_unit = responses.iter().all(|response| response.unit() == first.unit());
-    let x = AxisSpec::from("frequency (Hz)").log();
-    let magnitude = match (has_one_unit, first.unit().as_str()) {
-        (true, "") => "magnitude".to_string(),
-        (true, unit) => format!("magnitude ({unit})"),
-        (false, _) => "magnitude (output per input)".to_string(),
-    };
-    let is_alone = responses.len() == 1;
-    let title = if is_alone { format!("{title}: {} over {}", first.output, first.input) } else { title.to_string() };
-    let name = |response: &Response| match (is_alone, has_one_unit) {
-        (true, _) => String::new(),
-        (_, true) => format!("{} / {}", response.output, response.input),
-        (_, false) => format!("{} / {} ({})", response.output, response.input, response.unit()),
-    };
-    let lines = |panel: Panel, values: fn(&[Complex<f64>]) -> Vec<f64>| {
-        let line = |response: &Response| {
-            let points = frequencies.iter().copied().zip(values(&response.values)).collect();
-            Series::line(name(response), points)
-        };
-        responses.iter().map(line).fold(panel, Panel::series)
-    };
-    let sizes = lines(Panel::new(x.clone(), AxisSpec::from(magnitude).log()), sizes);
-    let phases = lines(Panel::new(x, AxisSpec::from("phase (deg)").degrees()), phases);
-    Some(Figure::new().title(title).panel(sizes).panel(phases))
-}
-
-/// Returns magnitudes; zero has no place on a logarithmic axis and becomes NaN.
-fn sizes(values: &[Complex<f64>]) -> Vec<f64> {
-    values.iter().map(|value| value.norm()).map(|size| if size > 0.0 { size } else { f64::NAN }).collect()
-}
-
-/// Returns phases in degrees without jumps of 360, the first one above -180 and up to 180.
-fn phases(values: &[Complex<f64>]) -> Vec<f64> {
-    let mut before: Option<f64> = None;
-    let phase = |value: &Complex<f64>| {
-        if value.norm() == 0.0 || value.norm().is_nan() {
-            return f64::NAN;
-        }
-        let angle = value.arg().to_degrees();
-        let near = before.map_or(angle, |before| angle + 360.0 * ((before - angle) / 360.0).round());
-        before = Some(near);
-        near
-    };
-    values.iter().map(phase).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn phases_do_not_jump() {
-        // Three lags in a row: from 0 down to -270 degrees.
-        let lag = |w: f64| Complex::new(1.0, w).powi(-3);
-        let values: Vec<Complex<f64>> = (0..200).map(|k| lag(10f64.powf(-2.0 + 0.03 * f64::from(k)))).collect();
-        let phases = phases(&values);
-        assert!(phases.windows(2).all(|pair| pair[1] < pair[0] && pair[0] - pair[1] < 10.0));
-        assert!((phases[199] + 270.0).abs() < 1.0, "{}", phases[199]);
-        assert!(super::phases(&[Complex::new(0.0, 0.0)])[0].is_nan());
     }
 }

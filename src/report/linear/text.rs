@@ -12,6 +12,16 @@ const MOST_SPURIOUS: usize = 10;
 const PART: f64 = 0.05;
 const MOST_NAMED: usize = 3;
 
+/// Names the states of inputs, where there are some.
+fn input_states(model: &LinearModel) -> String {
+    let count: usize = model.orders.iter().sum();
+    let names = &model.states[model.states.len() - count.min(model.states.len())..];
+    match names {
+        [] => String::new(),
+        names => format!("  the last states belong to inputs, and have no eigenvalue here: {}\n", names.join(", ")),
+    }
+}
+
 impl Linear<'_> {
     /// Returns method, chart and state, then the modes.
     pub fn text(&self) -> String {
@@ -21,12 +31,13 @@ impl Linear<'_> {
         let sizes = sizes.map(|(n, what)| count(n, what)).join(", ");
         let form = if model.e.is_some() { "E x' = A x + B u" } else { "x' = A x + B u" };
         format!(
-            "{} at t = {} s: linear model by {}, {form}, {sizes}\n  {}\n{}\n{}",
+            "{} at t = {} s: linear model by {}, {form}, {sizes}\n  {}\n{}{}\n{}",
             self.scene,
             significant(model.point.t, 9),
             model.method,
             chart(&model.chart, &model.point),
             self.state_text(),
+            input_states(model),
             modes_text(model, &self.bodies())
         )
     }

@@ -40,6 +40,8 @@ pub struct ValidationFile {
     pub frozen: Value,
     /// Results of the inputs.
     pub inputs: Vec<InputCheck>,
+    /// Inputs that move no degree of freedom, and are not checked.
+    pub unchecked_inputs: Vec<String>,
 }
 
 /// Names of the shares of [`PerturbationSequence::horizons`].
@@ -64,6 +66,7 @@ impl ValidationFile {
             directions: found.sequences.iter().map(|sequence| direction(names, sequence)).collect(),
             frozen: json!({ "steps": found.frozen.steps, "errors": found.frozen.errors, "decay": found.frozen.decay }),
             inputs: found.inputs.clone(),
+            unchecked_inputs: found.unchecked.clone(),
         }
     }
 
@@ -97,8 +100,12 @@ impl ValidationFile {
             let name = format!("pulse of {}, {} s", input.input, significant(input.width, 3));
             table.row([name, order(&input.order_ltv), decades(&input.order_ltv), lti, String::new()]);
         }
+        let unchecked = match found.unchecked.as_slice() {
+            [] => String::new(),
+            names => format!("  not checked, since they move no degree of freedom: {}\n", names.join(", ")),
+        };
         format!(
-            "{} at t = {} s: the linear model (chart {}) against simulations over {} s\n\n{table}\n  exp(A h) against the state-transition matrix: order {} in h\n  verdict: {}\n",
+            "{} at t = {} s: the linear model (chart {}) against simulations over {} s\n\n{table}{unchecked}\n  exp(A h) against the state-transition matrix: order {} in h\n  verdict: {}\n",
             self.scene,
             significant(self.t, 9),
             self.chart,

@@ -1,0 +1,128 @@
+//! The figure of a frequency response.
+
+use super::Response;
+use crate::linearize::Complex;
+use crate::plot::{AxisSpec, Figure, Panel, Series};
+use crate::tolerances::report as tolerances;
+
+/// Responses to one input in one unit.
+struct Group<'a> {
+    input: &'a str,
+    unit: String,
+    responses: Vec<&'a Response>,
+}
+
+/// Lines in a panel at most: as many as there are colours.
+const LINES: usize = 7;
+/// Groups in a figure at most.
+const GROUPS: usize = 8;
+/// Width of a figure with two panels side by side, nominal pixels.
+const WIDE: f64 = 1100.0;
+
+/// Returns the responses by input and unit, those that are zero left out.
+fn groups(responses: &[Response]) -> Vec<Group<'_>> {
+    let mut groups: Vec<Group> = Vec::new();
+    for response in responses.iter().filter(|response| !response.is_zero()) {
+        let (input, unit) = (response.input.as_str(), response.unit());
+        match groups.iter_mut().find(|group| group.input == input && group.unit == unit) {
+            Some(group) => group.responses.push(response),
+            None => groups.push(Group { input, unit, responses: vec![response] }),
+        }
+    }
+    groups
+}
+
+/// True for each group that is drawn: the first of each input, then the second of each ...
+fn drawn(groups: &[Group]) -> Vec<bool> {
+    let rank = |place: usize| groups[..place].iter().filter(|group| group.input == groups[place].input).count();
+    let mut order: Vec<usize> = (0..groups.len()).collect();
+    order.sort_by_key(|&place| rank(place));
+    let mut drawn = vec![false; groups.len()];
+    order.into_iter().take(GROUPS).for_each(|place| drawn[place] = true);
+    drawn
+}
+
+/// Returns the responses that are not zero and for which a figure has no room.
+pub fn not_drawn(responses: &[Response]) -> Vec<&Response> {
+    let groups = groups(responses);
+    let drawn = drawn(&groups);
+    let rest = groups.into_iter().zip(drawn);
+    rest.flat_map(|(group, drawn)| group.responses.into_iter().skip(if drawn { LINES } else { 0 })).collect()
+}
+
+/// Draws magnitude and phase over frequencies in Hz, side by side for each input and unit; one response alone in one
+/// column. `None` without a response that is not zero.
+pub fn bode_figure(title: &str, frequencies: &[f64], responses: &[Response]) -> Option<Figure> {
+    let groups = groups(responses);
+    let first = groups.first().filter(|_| !frequencies.is_empty())?;
+    if let ([group], [only]) = (&groups[..], &first.responses[..]) {
+        let [sizes, phases] = panels(group, frequencies, |_| String::new());
+        let title = format!("{title}: {} over {}", only.output, only.input);
+        return Some(Figure::new().title(title).panel(sizes).panel(phases));
+    }
+    let has_one_input = groups.iter().all(|group| group.input == first.input);
+    let title = if has_one_input { format!("{title}: response to {}", first.input) } else { title.to_string() };
+    let figure = Figure::new().title(title).columns(2).width(WIDE);
+    let shown = groups.iter().zip(drawn(&groups)).filter(|(_, drawn)| *drawn);
+    Some(shown.fold(figure, |figure, (group, _)| {
+        let [mut sizes, phases] = panels(group, frequencies, |response| response.output.clone());
+        if !has_one_input {
+            sizes = sizes.title(format!("response to {}", group.input));
+        }
+        figure.panel(sizes).panel(phases)
+    }))
+}
+
+/// Returns the panels of magnitudes and of phases; the first has the names.
+fn panels(group: &Group, frequencies: &[f64], name: impl Fn(&Response) -> String) -> [Panel; 2] {
+    let magnitude = match group.unit.as_str() {
+        "" => "magnitude".to_string(),
+        unit => format!("magnitude ({unit})"),
+    };
+    let lines = |y: AxisSpec, name: &dyn Fn(&Response) -> String, values: fn(&[Complex<f64>]) -> Vec<f64>| {
+        let line = |response: &&Response| {
+            let points = frequencies.iter().copied().zip(values(&response.values)).collect();
+            Series::line(name(response), points)
+        };
+        let panel = Panel::new(AxisSpec::from("frequency (Hz)").log(), y);
+        group.responses.iter().take(LINES).map(line).fold(panel, Panel::series)
+    };
+    let sizes = lines(AxisSpec::from(magnitude).log(), &name, sizes);
+    [sizes, lines(AxisSpec::from("phase (deg)").degrees(), &|_| String::new(), phases)]
+}
+
+/// Returns magnitudes; zero has no place on a logarithmic axis and becomes NaN.
+fn sizes(values: &[Complex<f64>]) -> Vec<f64> {
+    values.iter().map(|value| value.norm()).map(|size| if size > 0.0 { size } else { f64::NAN }).collect()
+}
+
+/// Returns phases in degrees without jumps of 360, the first one above -180 and up to 180.
+fn phases(values: &[Complex<f64>]) -> Vec<f64> {
+    let mut before: Option<f64> = None;
+    let phase = |value: &Complex<f64>| {
+        if value.norm() == 0.0 || value.norm().is_nan() {
+            return f64::NAN;
+        }
+        let angle = Some(value.arg().to_degrees()).filter(|angle| angle.abs() > tolerances::SAME).unwrap_or(0.0);
+        let near = before.map_or(angle, |before| angle + 360.0 * ((before - angle) / 360.0).round());
+        before = Some(near);
+        near
+    };
+    values.iter().map(phase).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn phases_do_not_jump() {
+        // Three lags in a row: from 0 down to -270 degrees.
+        let lag = |w: f64| Complex::new(1.0, w).powi(-3);
+        let values: Vec<Complex<f64>> = (0..200).map(|k| lag(10f64.powf(-2.0 + 0.03 * f64::from(k)))).collect();
+        let phases = phases(&values);
+        assert!(phases.windows(2).all(|pair| pair[1] < pair[0] && pair[0] - pair[1] < 10.0));
+        assert!((phases[199] + 270.0).abs() < 1.0, "{}", phases[199]);
+        assert!(super::phases(&[Complex::new(0.0, 0.0)])[0].is_nan());
+    }
+}
